@@ -1,0 +1,195 @@
+"""Drag between gas and grains.
+
+Every law has one signature, `law(alpha_p, slip, diameter, gas_density, gas_viscosity)`, and returns
+beta/alpha_p [kg/(m3 s)], finite for alpha_p -> 0 and for slip -> 0, so that laws are interchangeable:
+
+    R = beta (v_g - v_p) [N/m3] pulls the grains (and -R the gas),   beta = alpha_p * law(...)
+    acceleration of a grain = law(...)/rho_p (v_g - v_p),            momentum time of a grain = rho_p/law(...)
+
+alpha_p solid volume fraction [-] (below 1), slip = |v_g - v_p| of interstitial velocities [m/s], diameter [m],
+gas_density [kg/m3], gas_viscosity [Pa s]. beta belongs to "model A": the grains also feel -alpha_p grad P.
+Names ending in `_paper` switch the drag coefficient on Re_p, as Chen, Qiang & Gao 2014 print it, not on alpha_g Re_p.
+"""
+
+import math
+
+from sdph.laws.compiled import law
+
+NEWTON_REYNOLDS = 1000.0  # -, Reynolds number from which the drag coefficient is constant (Rowe 1961)
+NEWTON_COEFFICIENT = 0.44  # -, its value there
+WEN_YU_EXPONENT = -2.65  # -, of the gas fraction (Wen & Yu 1966)
+DENSE_GAS_FRACTION = 0.8  # -, below it Ergun holds (Gidaspow 1994)
+
+
+@law
+def particle_reynolds(slip, diameter, gas_density, gas_viscosity):
+    """Re_p = rho_g d s/mu_g [-], of the interstitial slip."""
+    return gas_density * diameter * slip / gas_viscosity
+
+
+@law
+def _viscous_coefficient(x):
+    """C_D x [-] of Schiller & Naumann 1935 below x = 1000: 24 (1 + 0.15 x^0.687). Finite at x = 0."""
+    return 24.0 * (1.0 + 0.15 * x**0.687)
+
+
+@law
+def _coefficient_times_reynolds(x):
+    """C_D x [-], with the switch to C_D = 0.44 at x = 1000 (there C_D x jumps by +0.4 %)."""
+    if x < NEWTON_REYNOLDS:
+        return _viscous_coefficient(x)
+    return NEWTON_COEFFICIENT * x
+
+
+@law
+def schiller_naumann_coefficient(alpha_g, reynolds):
+    """C_D [-] = 24/x (1 + 0.15 x^0.687), x = alpha_g Re_p < 1000, else 0.44.
+
+    Schiller & Naumann 1935, VDI-Z. 77, 318; switch on alpha_g Re_p as Gidaspow 1994, MFIX and OpenFOAM.
+    """
+    x = alpha_g * reynolds
+    return _coefficient_times_reynolds(x) / x
+
+
+@law
+def schiller_naumann_coefficient_paper(alpha_g, reynolds):
+    """C_D [-] as above, but switched on Re_p = 1000: jumps by 5.5 % at alpha_g = 0.85. Chen et al. 2014, Eq. (9)."""
+    if reynolds < NEWTON_REYNOLDS:
+        return _viscous_coefficient(alpha_g * reynolds) / (alpha_g * reynolds)
+    return NEWTON_COEFFICIENT
+
+
+@law
+def stokes(alpha_p, slip, diameter, gas_density, gas_viscosity):
+    """beta/alpha_p = 18 mu_g/d^2. A lone sphere at Re_p << 1. Stokes 1851, Trans. Camb. Phil. Soc. 9, 8."""
+    return 18.0 * gas_viscosity / diameter**2
+
+
+@law
+def schiller_naumann(alpha_p, slip, diameter, gas_density, gas_viscosity):
+    """beta/alpha_p = 3/4 C_D rho_g s/d, C_D(Re_p). A lone sphere, no crowding: alpha_p < 0.01, Re_p < 2e5.
+
+    Schiller & Naumann 1935, VDI-Z. 77, 318.
+    """
+    reynolds = particle_reynolds(slip, diameter, gas_density, gas_viscosity)
+    return 0.75 * _coefficient_times_reynolds(reynolds) * gas_viscosity / diameter**2
+
+
+@law
+def ergun(alpha_p, slip, diameter, gas_density, gas_viscosity):
+    """beta/alpha_p = 150 alpha_p mu_g/(alpha_g d^2) + 1.75 rho_g s/d. Packed grains, alpha_p > 0.2.
+
+    Ergun 1952, Chem. Eng. Prog. 48, 89; as beta: Gidaspow 1994; Chen et al. 2014, Eq. (7).
+    """
+    viscous = 150.0 * alpha_p * gas_viscosity / ((1.0 - alpha_p) * diameter**2)
+    return viscous + 1.75 * gas_density * slip / diameter
+
+
+@law
+def wen_yu(alpha_p, slip, diameter, gas_density, gas_viscosity):
+    """beta/alpha_p = 3/4 C_D alpha_g rho_g s/d alpha_g^-2.65, C_D(alpha_g Re_p). Dilute, alpha_p < 0.2.
+
+    Wen & Yu 1966, Chem. Eng. Prog. Symp. Ser. 62, 100; Gidaspow 1994; Chen et al. 2014, Eq. (8).
+    """
+    alpha_g = 1.0 - alpha_p
+    x = alpha_g * particle_reynolds(slip, diameter, gas_density, gas_viscosity)
+    return 0.75 * _coefficient_times_reynolds(x) * gas_viscosity / diameter**2 * alpha_g**WEN_YU_EXPONENT
+
+
+@law
+def wen_yu_paper(alpha_p, slip, diameter, gas_density, gas_viscosity):
+    """Wen & Yu with the drag coefficient switched on Re_p. Chen et al. 2014, Eqs. (8), (9)."""
+    alpha_g = 1.0 - alpha_p
+    reynolds = particle_reynolds(slip, diameter, gas_density, gas_viscosity)
+    x = alpha_g * reynolds
+    drag = _viscous_coefficient(x) if reynolds < NEWTON_REYNOLDS else NEWTON_COEFFICIENT * x
+    return 0.75 * drag * gas_viscosity / diameter**2 * alpha_g**WEN_YU_EXPONENT
+
+
+@law
+def dilute_weight(alpha_p):
+    """Weight of Wen-Yu [-] = atan(150*1.75 (0.2 - alpha_p))/pi + 1/2: 0.994 dilute, 1/2 at 0.2, 0.003 packed.
+
+    Huilin & Gidaspow 2003, Chem. Eng. Sci. 58, 3777; MFIX; Chen et al. 2014, Eq. (10).
+    """
+    return math.atan(150.0 * 1.75 * (1.0 - DENSE_GAS_FRACTION - alpha_p)) / math.pi + 0.5
+
+
+@law
+def gidaspow(alpha_p, slip, diameter, gas_density, gas_viscosity):
+    """beta/alpha_p = (1 - phi) Ergun + phi Wen-Yu, phi = `dilute_weight`: smooth over all alpha_p.
+
+    Huilin & Gidaspow 2003, Chem. Eng. Sci. 58, 3777; Chen et al. 2014, Eq. (10).
+    """
+    phi = dilute_weight(alpha_p)
+    dense = ergun(alpha_p, slip, diameter, gas_density, gas_viscosity)
+    return (1.0 - phi) * dense + phi * wen_yu(alpha_p, slip, diameter, gas_density, gas_viscosity)
+
+
+@law
+def gidaspow_paper(alpha_p, slip, diameter, gas_density, gas_viscosity):
+    """`gidaspow` with the drag coefficient switched on Re_p. Chen et al. 2014, Eqs. (7)-(10)."""
+    phi = dilute_weight(alpha_p)
+    dense = ergun(alpha_p, slip, diameter, gas_density, gas_viscosity)
+    return (1.0 - phi) * dense + phi * wen_yu_paper(alpha_p, slip, diameter, gas_density, gas_viscosity)
+
+
+@law
+def gidaspow_switch(alpha_p, slip, diameter, gas_density, gas_viscosity):
+    """Ergun for alpha_g < 0.8, else Wen-Yu: jumps at 0.8. Gidaspow 1994, Multiphase Flow and Fluidization, ch. 2."""
+    if 1.0 - alpha_p < DENSE_GAS_FRACTION:
+        return ergun(alpha_p, slip, diameter, gas_density, gas_viscosity)
+    return wen_yu(alpha_p, slip, diameter, gas_density, gas_viscosity)
+
+
+@law
+def _terminal_velocity_ratio(alpha_g, reynolds):
+    """v_r [-], terminal velocity of the suspension over that of a lone sphere.
+
+    Garside & Al-Dibouni 1977, Ind. Eng. Chem. Proc. Des. Dev. 16, 206; exponents of Syamlal & O'Brien 1987.
+    """
+    a = alpha_g**4.14
+    b = 0.8 * alpha_g**1.28 if alpha_g <= 0.85 else alpha_g**2.65
+    x = 0.06 * reynolds
+    return 0.5 * (a - x + math.sqrt(x * x + 2.0 * x * (2.0 * b - a) + a * a))
+
+
+@law
+def syamlal_obrien(alpha_p, slip, diameter, gas_density, gas_viscosity):
+    """beta/alpha_p = 3/4 C_D alpha_g rho_g s/(v_r^2 d), C_D = (0.63 + 4.8 sqrt(v_r/Re_p))^2 (Dalla Valle).
+
+    Fluidised beds of all densities. Syamlal & O'Brien 1987 (as in the MFIX and Fluent theory guides).
+    Its dilute Stokes limit is 17.28 mu/d^2; it jumps by 0.1 % at alpha_g = 0.85.
+    """
+    reynolds = particle_reynolds(slip, diameter, gas_density, gas_viscosity)
+    v_r = _terminal_velocity_ratio(1.0 - alpha_p, reynolds)
+    drag = (0.63 * math.sqrt(reynolds) + 4.8 * math.sqrt(v_r)) ** 2  # C_D Re_p
+    return 0.75 * (1.0 - alpha_p) * drag * gas_viscosity / (v_r * diameter) ** 2
+
+
+@law
+def di_felice(alpha_p, slip, diameter, gas_density, gas_viscosity):
+    """beta/alpha_p = 3/4 C_D rho_g s/d alpha_g^(2-chi), C_D = (0.63 + 4.8/sqrt x)^2, x = alpha_g Re_p,
+    chi = 3.7 - 0.65 exp(-(1.5 - log10 x)^2/2). All alpha_p and Re_p.
+
+    Di Felice 1994, Int. J. Multiphase Flow 20, 153; in model A: Zhou et al. 2010, J. Fluid Mech. 661, 482.
+    """
+    alpha_g = 1.0 - alpha_p
+    x = alpha_g * particle_reynolds(slip, diameter, gas_density, gas_viscosity)
+    chi = 3.7 - 0.65 * math.exp(-0.5 * (1.5 - math.log10(x)) ** 2) if x > 0.0 else 3.7
+    drag = (0.63 * math.sqrt(x) + 4.8) ** 2  # C_D x
+    return 0.75 * drag * gas_viscosity / diameter**2 * alpha_g ** (1.0 - chi)
+
+
+LAWS = {
+    "stokes": stokes,
+    "schiller_naumann": schiller_naumann,
+    "ergun": ergun,
+    "wen_yu": wen_yu,
+    "wen_yu_paper": wen_yu_paper,
+    "gidaspow": gidaspow,
+    "gidaspow_paper": gidaspow_paper,
+    "gidaspow_switch": gidaspow_switch,
+    "syamlal_obrien": syamlal_obrien,
+    "di_felice": di_felice,
+}
