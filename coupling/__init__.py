@@ -1,0 +1,1 @@
+"""Everything between particles and gas: the gas door, kernel transfer, messages, transports, gas solvers."""

@@ -1,0 +1,110 @@
+"""The one door between the particles and any gas solver.
+
+A gas solver owns a finite-volume mesh and the gas fields on it. Once per window it is handed what the
+particles do to it (`SOURCES`), takes one step, and hands back its fields (`FIELDS`) and its `Budget`.
+Cells are numbered 0..C-1; vectors are (C, 3) also in two dimensions; every array is float64.
+Two-dimensional meshes are one cell deep; volumes stay the real ones, and `Mesh.depth` says how deep.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+
+# What the particles hand to the gas. An effect that is off sends nothing, and costs nothing.
+# name -> (unit, components, meaning)
+SOURCES = {
+    "alpha_g": ("1", 1, "gas volume fraction at the end of the window"),
+    "drag": ("kg/m3/s", 1, "implicit drag coefficient beta"),
+    "drag_velocity": ("N/m3", 3, "beta times the velocity of the particles"),
+    "heat": ("W/m3/K", 1, "implicit heat exchange coefficient eps"),
+    "heat_temperature": ("W/m3", 1, "eps times the temperature of the particles"),
+    "heat_source": ("W/m3", 1, "explicit heat, such as that of drag"),
+    "vapour": ("kg/m3/s", 1, "mass of vapour Gamma that enters the gas"),
+    "vapour_momentum": ("N/m3", 3, "momentum that the vapour brings, Gamma v_p"),
+    "vapour_enthalpy": ("W/m3", 1, "sensible enthalpy that the vapour brings, Gamma cp_v T_p"),
+}
+
+# What the gas hands back after a step.
+FIELDS = {
+    "velocity": ("m/s", 3, "interstitial gas velocity"),
+    "pressure": ("Pa", 1, "gas pressure"),
+    "pressure_gradient": ("Pa/m", 3, "gradient of the gas pressure, as the momentum equation saw it"),
+    "temperature": ("K", 1, "gas temperature"),
+    "density": ("kg/m3", 1, "gas density"),
+    "vapour_mass_fraction": ("1", 1, "mass fraction of vapour (only where a vapour is solved for)"),
+}
+
+
+class GasError(RuntimeError):
+    """The gas side failed: what happened, and where its log is."""
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Cells of the gas solver.
+
+    centres (C, 3) [m]; volumes (C,) [m3]; dimensions 2 or 3; depth [m] of a 2-D mesh (1 in 3-D).
+    """
+
+    centres: np.ndarray
+    volumes: np.ndarray
+    dimensions: int
+    depth: float = 1.0
+
+
+@dataclass(frozen=True)
+class Budget:
+    """Totals over the mesh, and what crossed the boundary since the start of the run (in minus out).
+
+    mass [kg], energy [J] (sum of alpha rho cp T V, reference 0 K), vapour [kg], momentum (3,) [kg m/s]
+    of the gas; `*_in` the same through the boundaries. `force` (3,) [N] is that of walls and boundary
+    pressure on the gas in the last step; `courant` the largest Courant number of the last step.
+    `residuals` names the final linear-solver residual of each equation.
+    """
+
+    mass: float
+    energy: float
+    vapour: float
+    momentum: tuple[float, float, float]
+    mass_in: float
+    energy_in: float
+    vapour_in: float
+    courant: float
+    force: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    residuals: dict[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class GasState:
+    """Fields of the gas (name -> array, see `FIELDS`) at `time` [s], and its budget."""
+
+    time: float
+    fields: dict[str, np.ndarray]
+    budget: Budget
+
+
+class Gas(Protocol):
+    """A gas solver. `advance` raises `GasError` when the solver fails or does not answer."""
+
+    mesh: Mesh
+
+    def start(self, alpha_g: np.ndarray | None, sources: tuple[str, ...]) -> GasState:
+        """Initial fields; `alpha_g` is the gas volume fraction at the start (None: 1 everywhere), and
+        `sources` names what every later `advance` brings."""
+
+    def advance(self, dt: float, sources: dict[str, np.ndarray]) -> GasState:
+        """One step of `dt` [s] with the sources held over it, except `alpha_g`, which goes linearly
+        from its last value to the one given."""
+
+    def checkpoint(self, folder: Path) -> None:
+        """Write all that `restore` needs to go on bit for bit into `folder`."""
+
+    def restore(self, folder: Path) -> GasState:
+        """Go back to a checkpoint; instead of `start`."""
+
+    def close(self) -> None:
+        """End the solver; nothing is left running."""

@@ -1,0 +1,268 @@
+"""case.toml -> a frozen `Case` in SI, and back.
+
+A section is a dataclass declared with `sdph.schema`; the section of an effect is declared in the effect's own
+file. An unknown key, a bad value or a section of an effect that is off is a `CaseError`.
+"""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from pathlib import Path
+
+import tomli_w
+
+from sdph import effects
+from sdph.schema import CaseError, choice, flag, quantity, read, record, unknown, vector, whole, words, write
+
+STANDARD_ATMOSPHERE = 101325.0  # Pa, ISO 2533
+
+
+@record
+class Run:
+    end_time: float = quantity("s", above=0.0)
+    output_interval: float = quantity("s", above=0.0)
+    checkpoint_interval: float = quantity("s", 600.0, above=0.0)  # of wall time; our choice
+
+
+@record
+class Domain:
+    """The box from the origin that holds the gas; `gravity` has as many components as the case has dimensions."""
+
+    size: tuple = vector("m")
+    gravity: tuple = vector("m_s2")
+
+
+@record
+class Resolution:
+    spacing: float = quantity("mm", above=0.0)
+    smoothing_ratio: float = quantity("", 1.5, least=1.0, most=3.0)  # paper section 4: h is 1.5 spacings
+    cell: float = quantity("mm", above=0.0)
+
+
+@record
+class GasProperties:
+    density: float = quantity("kg_m3", above=0.0)
+    viscosity: float = quantity("Pa_s", above=0.0)
+    conductivity: float = quantity("W_m_K", above=0.0)
+    heat_capacity: float = quantity("J_kg_K", above=0.0)
+    temperature: float = quantity("K", above=0.0)
+    equation_of_state: str = choice("constant", "operating", "ideal")
+    molar_mass: float = quantity("kg_kmol", 28.96, above=0.0)  # dry air, ISO 2533
+    operating_pressure: float = quantity("Pa", STANDARD_ATMOSPHERE, above=0.0)
+
+
+@record
+class Vapour:
+    """The species that grains or droplets give to the gas."""
+
+    molar_mass: float = quantity("kg_kmol", above=0.0)
+    diffusivity: float = quantity("m2_s", above=0.0)
+    heat_capacity: float = quantity("J_kg_K", above=0.0)
+    conductivity: float = quantity("W_m_K", above=0.0)
+    viscosity: float = quantity("Pa_s", above=0.0)
+
+
+@record
+class Grains:
+    """Grains of one material; each SPH particle carries a log-normal distribution of diameters (by number)."""
+
+    density: float = quantity("kg_m3", above=0.0)
+    diameter: float = quantity("mm", above=0.0)
+    heat_capacity: float = quantity("J_kg_K", above=0.0)
+    conductivity: float = quantity("W_m_K", above=0.0)
+    diameter_std: float = quantity("mm", 0.0, least=0.0)
+
+
+@record
+class Region:
+    """Where particles are at the start: a disc or sphere (centre, radius), or a box (lower, upper)."""
+
+    shape: str = choice("disc", "sphere", "box")
+    volume_fraction: float = quantity("", above=0.0, most=1.0)
+    temperature: float = quantity("K", above=0.0)
+    centre: tuple | None = vector("m", None)
+    radius: float | None = quantity("m", None, above=0.0)
+    lower: tuple | None = vector("m", None)
+    upper: tuple | None = vector("m", None)
+    velocity: tuple | None = vector("m_s", None)
+
+
+@record
+class Boundary:
+    """A patch of the gas mesh: a side (or part of it: `span`), or without a side all that is left over."""
+
+    kind: str = choice("wall", "slip_wall", "velocity_inlet", "pressure_outlet")
+    side: str | None = choice("left", "right", "bottom", "top", "back", "front", default=None)
+    span: tuple | None = vector("m", None)
+    velocity: tuple | None = vector("m_s", None)
+    temperature: float | None = quantity("K", None, above=0.0)
+    vapour_mass_fraction: float | None = quantity("", None, least=0.0, most=1.0)
+    pressure: float | None = quantity("Pa", None)
+
+
+@record
+class Coupling:
+    gas: str = choice("auto", "openfoam", "embedded")
+    transport: str = choice("socket", "file")
+    ranks: int = whole(1, least=1)
+    one_way: bool = flag(False)  # the gas acts on the particles and feels nothing
+    window_tolerance: float = quantity("", 1e-5, above=0.0, most=1.0)  # error of one window / exchange still to come
+    window_largest: float = quantity("s", 1e-2, above=0.0)
+    courant: float = quantity("", 1.0, above=0.0)  # of the gas, in one window
+
+
+@record
+class Case:
+    """All that a run needs, in SI. `parameters[name]` holds the section of each effect that is on."""
+
+    title: str
+    dimensions: int
+    effects: tuple[str, ...]
+    run: Run
+    domain: Domain
+    resolution: Resolution
+    gas: GasProperties
+    grains: Grains
+    particles: dict[str, Region]
+    boundaries: dict[str, Boundary]
+    coupling: Coupling
+    vapour: Vapour | None
+    track: tuple[str, ...]
+    parameters: dict[str, object]
+
+    @property
+    def smoothing_length(self) -> float:
+        return self.resolution.smoothing_ratio * self.resolution.spacing
+
+
+SECTIONS = {"run": Run, "domain": Domain, "resolution": Resolution, "gas": GasProperties, "grains": Grains}
+GROUPS = {"particles": Region, "boundaries": Boundary}
+
+
+def load(path: Path, overrides: tuple[str, ...] = ()) -> Case:
+    """The case of a TOML file, with `key=value` overrides (dotted keys, TOML values)."""
+    try:
+        table = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise CaseError(f"{path} is not TOML: {error}") from None
+    for override in overrides:
+        _override(table, override)
+    return from_table(table)
+
+
+def _override(table: dict, text: str) -> None:
+    key, equals, value = text.partition("=")
+    *sections, last = key.strip().split(".")
+    if not equals or not all([*sections, last]):
+        raise CaseError(f"--set {text}: give it as section.key=value")
+    for section in sections:
+        table = table.setdefault(section, {})
+        if not isinstance(table, dict):
+            raise CaseError(f"--set {text}: {section} is a value, not a section")
+    try:
+        table[last] = tomllib.loads(f"value = {value}")["value"]
+    except tomllib.TOMLDecodeError:
+        table[last] = value
+
+
+def from_table(table: dict) -> Case:
+    """The case of a parsed TOML table."""
+    head = {"title", "dimensions", "effects", "coupling", "vapour", "track"}
+    for key in table:
+        if key not in head | SECTIONS.keys() | GROUPS.keys() | effects.REGISTRY.keys():
+            raise CaseError(unknown(key, head | SECTIONS.keys() | GROUPS.keys() | effects.REGISTRY.keys()))
+    sections = {name: read(cls, table.get(name, {}), name) for name, cls in SECTIONS.items()}
+    groups = {name: _group(cls, table.get(name, {}), name) for name, cls in GROUPS.items()}
+    on = _effects(table)
+    case = Case(
+        title=str(table.get("title", "")),
+        dimensions=_dimensions(table),
+        effects=on,
+        coupling=read(Coupling, table.get("coupling", {}), "coupling"),
+        vapour=read(Vapour, table["vapour"], "vapour") if "vapour" in table else None,
+        track=read(_Track, table.get("track", {}), "track").particles,
+        parameters={name: read(effects.REGISTRY[name].parameters, table.get(name, {}), name) for name in on},
+        **sections,
+        **groups,
+    )
+    _check(case)
+    return case
+
+
+@record
+class _Track:
+    particles: tuple = words(())
+
+
+def _group(cls, table: dict, where: str) -> dict:
+    if not isinstance(table, dict) or not all(isinstance(entry, dict) for entry in table.values()):
+        raise CaseError(f"[{where}] must hold named sections, such as [{where}.some_name]")
+    return {name: read(cls, entry, f"{where}.{name}") for name, entry in table.items()}
+
+
+def _dimensions(table: dict) -> int:
+    if table.get("dimensions") not in (2, 3):
+        raise CaseError(f"dimensions = {table.get('dimensions')!r}; it must be 2 or 3")
+    return table["dimensions"]
+
+
+def _effects(table: dict) -> tuple[str, ...]:
+    on = table.get("effects", [])
+    if not isinstance(on, list) or not all(isinstance(name, str) for name in on):
+        raise CaseError(f"effects = {on!r}; it must be a list of names out of {', '.join(sorted(effects.REGISTRY))}")
+    for name in on:
+        if name not in effects.REGISTRY:
+            raise CaseError(unknown(name, effects.REGISTRY).replace("key", "effect", 1))
+    for name in effects.REGISTRY.keys() & table.keys() - set(on):
+        raise CaseError(f"[{name}] is given, but {name} is not among effects = {list(on)}; add it there or remove the section")
+    return tuple(on)
+
+
+def _check(case: Case) -> None:
+    """What no single key can tell."""
+    vectors = {"domain.size_m": case.domain.size, "domain.gravity_m_s2": case.domain.gravity}
+    for name, region in case.particles.items():
+        _check_region(case, name, region)
+        vectors |= {f"particles.{name}.{key}": getattr(region, key) for key in ("centre", "lower", "upper", "velocity")}
+    for name, boundary in case.boundaries.items():
+        vectors[f"boundaries.{name}.velocity_m_s"] = boundary.velocity
+    for key, value in vectors.items():
+        if value is not None and (len(value) != case.dimensions or any(isinstance(v, tuple) for v in value)):
+            raise CaseError(f"{key} has {len(value)} components; dimensions = {case.dimensions} asks for {case.dimensions}")
+    if min(case.domain.size) <= 0.0:
+        raise CaseError(f"domain.size_m = {list(case.domain.size)}; every length must be above 0")
+
+
+def _check_region(case: Case, name: str, region: Region) -> None:
+    needs = ("lower", "upper") if region.shape == "box" else ("centre", "radius")
+    for key in needs:
+        if getattr(region, key) is None:
+            raise CaseError(f"particles.{name}.{key}_m is missing; a {region.shape} needs {' and '.join(f'{n}_m' for n in needs)}")
+    size = region.radius if region.shape != "box" else min(b - a for a, b in zip(region.lower, region.upper))
+    if case.resolution.spacing > size:
+        spacing = f"resolution.spacing_mm = {case.resolution.spacing * 1e3:g}"
+        raise CaseError(f"{spacing} is larger than particles.{name} ({size * 1e3:g} mm); give a spacing well below that")
+
+
+def to_table(case: Case) -> dict:
+    """The TOML table of a case, every value resolved."""
+    table = {"title": case.title, "dimensions": case.dimensions, "effects": list(case.effects)}
+    table |= {name: write(getattr(case, name)) for name in (*SECTIONS, "coupling")}
+    table |= {group: {name: write(entry) for name, entry in getattr(case, group).items()} for group in GROUPS}
+    table |= {name: write(parameters) for name, parameters in case.parameters.items() if write(parameters)}
+    if case.vapour:
+        table["vapour"] = write(case.vapour)
+    if case.track:
+        table["track"] = {"particles": list(case.track)}
+    return table
+
+
+def dumps(case: Case) -> str:
+    """The resolved case as TOML text."""
+    return tomli_w.dumps(to_table(case))
+
+
+def cells(case: Case) -> tuple[int, ...]:
+    """Number of gas cells along each axis: the lengths over the cell size, rounded."""
+    return tuple(max(1, math.floor(length / case.resolution.cell + 0.5)) for length in case.domain.size)

@@ -1,0 +1,59 @@
+"""Heat conduction from grain to grain, Cleary & Monaghan 1999, paper Eq. 19 with the sign mended."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from numba import njit
+
+from sdph.effects.effect import NO_LIMIT, Effect
+from sdph.laws.exchange import cleary_monaghan
+from sdph.schema import record
+
+SINGULAR = 0.01  # eta^2 / h^2 keeps the pair term finite, Cleary & Monaghan 1999
+STABLE = 0.1  # of rho c h^2 / k, Cleary & Monaghan 1999
+
+
+@record
+class Conduction:
+    """Has no input of its own: the conductivity is that of the grains."""
+
+
+class ConductionP(NamedTuple):
+    """k [W/m/K] and density [kg/m3] of the grains, eta^2 [m2]."""
+
+    conductivity: float
+    grain_density: float
+    eta_squared: float
+
+
+def kernel(case) -> ConductionP:
+    return ConductionP(case.grains.conductivity, case.grains.density, SINGULAR * case.smoothing_length**2)
+
+
+@njit(cache=True, error_model="numpy")
+def pair(p, s, i, j, r_squared, gradient):
+    """Heat per mass and time [W/kg] that i gets from j; `gradient` is (dW/dr)/r [1/m^(d+2)]."""
+    if len(p) == 0:
+        return 0.0
+    k_i = s.density[i] / p.grain_density * p.conductivity  # K = alpha_p k
+    k_j = s.density[j] / p.grain_density * p.conductivity
+    c = cleary_monaghan(s.mass[j], s.density[i], s.density[j], k_i, k_j, r_squared, gradient, p.eta_squared)
+    return c * (s.temperature[i] - s.temperature[j])
+
+
+def dt_limit(p, case, state) -> float:
+    if p.conductivity == 0.0:
+        return NO_LIMIT
+    diffusivity = p.conductivity / (case.grains.density * case.grains.heat_capacity)
+    return STABLE * case.smoothing_length**2 / diffusivity
+
+
+EFFECT = Effect(
+    name="conduction",
+    summary="heat conduction from grain to grain",
+    parameters=Conduction,
+    kernel=kernel,
+    arrays=("temperature",),
+    dt_limit=dt_limit,
+)

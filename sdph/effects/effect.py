@@ -1,0 +1,42 @@
+"""What an effect is: a row of facts about one piece of physics that a case can switch on.
+
+An effect that is off costs nothing: kernels get `OFF` for its parameters and drop its terms when they are compiled
+(`if len(p) == 0` inside the term), its arrays have length zero, its fields are not sent to the gas.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+OFF = ()
+NO_LIMIT = float("inf")
+
+
+@dataclass(frozen=True)
+class Effect:
+    """A registry row.
+
+    name        as in `effects = [...]` of a case, and of its section
+    summary     one line for `sdph explain` and the reference
+    parameters  dataclass of its section (sdph.schema)
+    kernel      case -> the floats that its terms take, as a NamedTuple
+    arrays      arrays of the state that it needs
+    sources     what it hands to the gas (names of coupling.gas.SOURCES)
+    moves       whether particles move by it
+    dt_limit    (kernel parameters, case, state) -> largest stable sub-step [s]
+    """
+
+    name: str
+    summary: str
+    parameters: type
+    kernel: Callable
+    arrays: tuple[str, ...] = ()
+    sources: tuple[str, ...] = ()
+    moves: bool = False
+    dt_limit: Callable = lambda p, case, state: NO_LIMIT
+
+
+def kernel_of(effect: Effect, case):
+    """The effect's parameters for kernels, or OFF where the case does not call for it."""
+    return effect.kernel(case) if effect.name in case.effects else OFF

@@ -1,0 +1,139 @@
+"""The particles: a flat tuple of C-contiguous arrays, one row a particle.
+
+Positions and velocities are separate arrays per axis. `z` and `w` have length zero in two dimensions, and every
+array of an effect that is off has length zero: kernels decide by type or length, never by a flag per particle.
+In two dimensions masses are per metre of depth [kg/m].
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+GRAIN, WALL = 0, 1  # values of `kind`
+
+
+class State(NamedTuple):
+    """All that a particle carries; see `FIELDS` for units."""
+
+    x: np.ndarray
+    y: np.ndarray
+    z: np.ndarray
+    u: np.ndarray
+    v: np.ndarray
+    w: np.ndarray
+    mass: np.ndarray
+    density: np.ndarray
+    ident: np.ndarray
+    kind: np.ndarray
+    temperature: np.ndarray
+    diameter: np.ndarray
+    diameter_variance: np.ndarray
+    theta: np.ndarray
+
+
+# name -> (unit, meaning)
+FIELDS = {
+    "x": ("m", "position"), "y": ("m", "position"), "z": ("m", "position"),
+    "u": ("m/s", "velocity"), "v": ("m/s", "velocity"), "w": ("m/s", "velocity"),
+    "mass": ("kg", "mass, per metre of depth in two dimensions"),
+    "density": ("kg/m3", "alpha_p rho_p, by summation"),
+    "ident": ("1", "number that a particle keeps for life"),
+    "kind": ("1", "0 grain, 1 wall"),
+    "temperature": ("K", "temperature of the grains"),
+    "diameter": ("m", "number mean of the grain diameters"),
+    "diameter_variance": ("m2", "number variance of the grain diameters"),
+    "theta": ("m2/s2", "granular temperature"),
+}  # fmt: skip
+ALWAYS = ("x", "y", "u", "v", "mass", "density", "ident", "kind")
+INTEGERS = {"ident": np.int64, "kind": np.int8}
+
+
+def empty(count: int, names=ALWAYS, dimensions: int = 2) -> State:
+    """A state of `count` particles, zero everywhere; arrays not among `names` have length zero."""
+    present = {*ALWAYS, *names} | ({"z", "w"} if dimensions == 3 else set())
+    return State(*(np.zeros(count if name in present else 0, INTEGERS.get(name, np.float64)) for name in State._fields))
+
+
+def _map(function, *states: State) -> State:
+    return State(*(function(*arrays) if any(len(a) for a in arrays) else arrays[0] for arrays in zip(*states)))
+
+
+def take(state: State, rows: np.ndarray) -> State:
+    """The given rows (indices or mask) of every array: sorting, removing, choosing."""
+    return _map(lambda array: np.ascontiguousarray(array[rows]), state)
+
+
+def join(first: State, second: State) -> State:
+    """Both one after the other."""
+    return _map(lambda a, b: np.concatenate((a, b)), first, second)
+
+
+def axes(state: State) -> tuple[np.ndarray, ...]:
+    """The position arrays of the dimensions that there are."""
+    return (state.x, state.y, state.z) if len(state.z) else (state.x, state.y)
+
+
+def positions(state: State) -> np.ndarray:
+    """(N, 3) positions [m]; z is zero in two dimensions."""
+    return _columns(state.x, state.y, state.z)
+
+
+def velocities(state: State) -> np.ndarray:
+    """(N, 3) velocities [m/s]."""
+    return _columns(state.u, state.v, state.w)
+
+
+def _columns(a, b, c) -> np.ndarray:
+    out = np.zeros((len(a), 3))
+    out[:, 0], out[:, 1] = a, b
+    if len(c):
+        out[:, 2] = c
+    return out
+
+
+def lattice(region, spacing: float, dimensions: int) -> np.ndarray:
+    """(N, dimensions) points of a square or cubic lattice in a region, cell-centred on the region's centre or corner."""
+    if region.shape == "box":
+        counts = [max(1, round((b - a) / spacing)) for a, b in zip(region.lower, region.upper)]
+        ticks = [a + (np.arange(n) + 0.5) * (b - a) / n for a, b, n in zip(region.lower, region.upper, counts)]
+        return _grid(ticks)
+    reach = math.ceil(region.radius / spacing)
+    points = _grid([c + (np.arange(-reach, reach) + 0.5) * spacing for c in region.centre])
+    return points[((points - np.array(region.centre)) ** 2).sum(axis=1) <= region.radius**2]
+
+
+def _grid(ticks: list[np.ndarray]) -> np.ndarray:
+    """Points of a tensor grid, the first axis fastest (row-major numbering of the paper)."""
+    mesh = np.meshgrid(*ticks[::-1], indexing="ij")[::-1]
+    return np.stack([m.ravel() for m in mesh], axis=1)
+
+
+def fill(case, names) -> State:
+    """The particles that a case has at the start, numbered from 0; mass = alpha_p rho_p dx^d."""
+    parts = [_region(case, region, names) for region in case.particles.values()]
+    state = parts[0] if parts else empty(0, names, case.dimensions)
+    for part in parts[1:]:
+        state = join(state, part)
+    state.ident[:] = np.arange(len(state.ident))
+    return state
+
+
+def _region(case, region, names) -> State:
+    points = lattice(region, case.resolution.spacing, case.dimensions)
+    volume = case.resolution.spacing**case.dimensions
+    if region.shape == "box":  # the lattice is fitted to the box, so the volumes are
+        volume = math.prod(b - a for a, b in zip(region.lower, region.upper)) / len(points)
+    state = empty(len(points), names, case.dimensions)
+    for axis, column in zip(axes(state), points.T):
+        axis[:] = column
+    for array, value in zip((state.u, state.v, state.w), region.velocity or ()):
+        array[:] = value
+    state.density[:] = region.volume_fraction * case.grains.density
+    state.mass[:] = state.density * volume
+    for name, value in (("temperature", region.temperature), ("diameter", case.grains.diameter)):
+        getattr(state, name)[:] = value
+    state.diameter_variance[:] = case.grains.diameter_std**2
+    return state

@@ -1,0 +1,177 @@
+"""Dataclasses read from and written to TOML: units in the key names, and errors that help.
+
+A field is declared `spacing: float = quantity("mm", above=0.0)`; in TOML its key is `spacing_mm`, in Python
+the attribute `spacing` holds SI. `choice`, `flag`, `words` and `vector` declare the other kinds of value.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import math
+from typing import Any
+
+# unit as written in a key -> factor to SI
+UNITS = {
+    "": 1.0, "s": 1.0, "ms": 1e-3, "us": 1e-6, "m": 1.0, "mm": 1e-3, "um": 1e-6, "K": 1.0, "Pa": 1.0, "deg": math.pi / 180.0,
+    "kg_m3": 1.0, "Pa_s": 1.0, "W_m_K": 1.0, "J_kg_K": 1.0, "J_kg": 1.0, "m_s": 1.0, "m_s2": 1.0, "m2_s": 1.0,
+    "m2_s2": 1.0, "kg_kmol": 1.0, "kg_s": 1.0, "N_m": 1.0, "rad_s": 1.0, "kg": 1.0, "Hz": 1.0,
+}  # fmt: skip
+
+
+class CaseError(ValueError):
+    """A case that cannot be run: what was given, what is allowed, what to do. One line; the command exits with 2."""
+
+
+record = dataclasses.dataclass(frozen=True, kw_only=True)
+
+
+@dataclasses.dataclass(frozen=True)
+class Kind:
+    """What a field accepts: its unit, its bounds, and how many components (0: a scalar, None: any number)."""
+
+    unit: str = ""
+    above: float = -math.inf
+    least: float = -math.inf
+    most: float = math.inf
+    choices: tuple[str, ...] = ()
+    components: int | None = 0
+    of: type | None = None
+
+    def key(self, name: str) -> str:
+        return f"{name}_{self.unit}" if self.unit else name
+
+
+def _declare(kind: Kind, default: Any) -> Any:
+    return dataclasses.field(default=default, metadata={"kind": kind})
+
+
+REQUIRED = dataclasses.MISSING
+
+
+def quantity(unit="", default=REQUIRED, *, above=-math.inf, least=-math.inf, most=math.inf):
+    """A number with a unit and bounds."""
+    return _declare(Kind(unit, above, least, most), default)
+
+
+def vector(unit="", default=REQUIRED, components=None):
+    """A list of numbers with a unit; nested lists too."""
+    return _declare(Kind(unit, components=components), default)
+
+
+def choice(*allowed, default=REQUIRED):
+    """One word out of a few."""
+    return _declare(Kind(choices=allowed), allowed[0] if default is REQUIRED else default)
+
+
+def flag(default: bool):
+    """true or false."""
+    return _declare(Kind(of=bool), default)
+
+
+def whole(default=REQUIRED, *, least=-math.inf):
+    """A whole number."""
+    return _declare(Kind(least=least, of=int), default)
+
+
+def words(default=REQUIRED):
+    """A text, or a list of texts."""
+    return _declare(Kind(of=str), default)
+
+
+def fields(cls: type) -> dict[str, tuple[str, Kind]]:
+    """TOML key -> (attribute, kind) of a dataclass declared with this module."""
+    return {f.metadata["kind"].key(f.name): (f.name, f.metadata["kind"]) for f in dataclasses.fields(cls) if "kind" in f.metadata}
+
+
+def read(cls: type, table: dict, where: str):
+    """A dataclass from a TOML table; `where` is the section's name, for messages."""
+    if not isinstance(table, dict):
+        raise CaseError(f"{where} is {table!r}; it must be a section, [{where}]")
+    known = fields(cls)
+    values = {}
+    for key, value in table.items():
+        if key not in known:
+            raise CaseError(unknown(f"{where}.{key}" if where else key, known, where))
+        name, kind = known[key]
+        values[name] = _value(kind, value, f"{where}.{key}" if where else key)
+    for f in dataclasses.fields(cls):
+        if f.name not in values and f.default is REQUIRED and f.default_factory is REQUIRED and "kind" in f.metadata:
+            key = f.metadata["kind"].key(f.name)
+            raise CaseError(f"{where}.{key} is missing; it has no default: give it in [{where}]")
+    return cls(**values)
+
+
+def write(record: Any) -> dict:
+    """The TOML table of a dataclass declared with this module; unset (None) fields are left out."""
+    pairs = ((key, kind, getattr(record, name)) for key, (name, kind) in fields(type(record)).items())
+    return {key: _scaled(value, 1.0 / UNITS[kind.unit]) for key, kind, value in pairs if value is not None}
+
+
+def unknown(given: str, known, where: str = "") -> str:
+    """The message for a word that is not known, with the nearest one that is."""
+    prefix = f"{where}." if where else ""
+    near = difflib.get_close_matches(given.rpartition(".")[2], list(known), n=1, cutoff=0.4)
+    hint = f"did you mean {prefix}{near[0]}?" if near else ""
+    return f"unknown key {given}; {hint} known here: {', '.join(sorted(known))}"
+
+
+def _value(kind: Kind, value: Any, key: str) -> Any:
+    if kind.choices:
+        if value not in kind.choices:
+            raise CaseError(f"{key} = {value!r}; allowed: {', '.join(kind.choices)}")
+        return value
+    if kind.of is bool:
+        return _typed(value, bool, key, "true or false")
+    if kind.of is int:
+        return int(_bounded(kind, _typed(value, int, key, "a whole number"), key))
+    if kind.of is str:
+        return _words(value, key)
+    if kind.components == 0:
+        return _bounded(kind, _number(value, key, kind), key) * UNITS[kind.unit]
+    return _vector(kind, value, key)
+
+
+def _typed(value: Any, of: type, key: str, what: str) -> Any:
+    if not isinstance(value, of) or (of is int and isinstance(value, bool)):
+        raise CaseError(f"{key} = {value!r}; it must be {what}")
+    return value
+
+
+def _words(value: Any, key: str) -> Any:
+    if isinstance(value, list) and all(isinstance(v, str) for v in value):
+        return tuple(value)
+    return _typed(value, str, key, "a text")
+
+
+def _number(value: Any, key: str, kind: Kind) -> float:
+    unit = kind.unit.replace("_", " ") or "1"
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise CaseError(f"{key} = {value!r}; it must be a number in {unit}, without the unit")
+    if not math.isfinite(value):
+        raise CaseError(f"{key} = {value}; it must be a finite number in {unit}")
+    return float(value)
+
+
+def _bounded(kind: Kind, value: float, key: str) -> float:
+    if not (value > kind.above and kind.least <= value <= kind.most):
+        low = f"above {kind.above:g}" if kind.above > -math.inf else f"at least {kind.least:g}" if kind.least > -math.inf else ""
+        high = f"at most {kind.most:g}" if kind.most < math.inf else ""
+        raise CaseError(f"{key} = {value:g}; it must be {' and '.join(filter(None, (low, high)))}")
+    return value
+
+
+def _vector(kind: Kind, value: Any, key: str) -> tuple:
+    if not isinstance(value, list) or not value:
+        raise CaseError(f"{key} = {value!r}; it must be a list of numbers in {kind.unit.replace('_', ' ') or '1'}")
+    if kind.components and len(value) != kind.components:
+        raise CaseError(f"{key} has {len(value)} components; it must have {kind.components}")
+    return tuple(_vector(kind, v, key) if isinstance(v, list) else _number(v, key, kind) * UNITS[kind.unit] for v in value)
+
+
+def _scaled(value: Any, factor: float) -> Any:
+    if isinstance(value, tuple):
+        return [_scaled(v, factor) for v in value]
+    if isinstance(value, float) and factor != 1.0:
+        return float(f"{value * factor:.15g}")
+    return value
