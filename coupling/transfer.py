@@ -143,10 +143,15 @@ def _count(bins, centres, smoothing, points):
 @njit(cache=True, parallel=True, error_model="numpy")
 def _fill(bins, centres, smoothing, volumes, points, start, cells, weight):
     for k in prange(len(points)):
-        row, w = cells[start[k] : start[k + 1]], weight[start[k] : start[k + 1]]
-        if _visit(bins, centres, smoothing, points[k], row, w) > 0:
-            w *= volumes[row]
-            w /= w.sum()
+        _row(bins, centres, smoothing, volumes, points[k], cells[start[k] : start[k + 1]], weight[start[k] : start[k + 1]])
+
+
+@njit(cache=True, error_model="numpy")
+def _row(bins, centres, smoothing, volumes, point, cells, weight):
+    """One normalised row; a function of its own, because numba takes `*=` inside a prange for a reduction."""
+    if _visit(bins, centres, smoothing, point, cells, weight) > 0:
+        weight *= volumes[cells]
+        weight /= weight.sum()
 
 
 @njit(cache=True, parallel=True, error_model="numpy")

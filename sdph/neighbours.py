@@ -27,11 +27,28 @@ class Grid(NamedTuple):
 
 
 class Rows(NamedTuple):
-    """Neighbours of particle i: `index[i, :count[i]]`; `period` (3,) [m] of the box."""
+    """Neighbours of particle i: `index[i, :count[i]]`."""
 
     index: np.ndarray
     count: np.ndarray
-    period: np.ndarray
+
+
+class Box(NamedTuple):
+    """Lengths of a periodic box and their inverses, both 0 along an open axis: an image costs no branch."""
+
+    length_x: float
+    length_y: float
+    length_z: float
+    inverse_x: float
+    inverse_y: float
+    inverse_z: float
+
+
+def box_of(period) -> Box | tuple:
+    """The box for kernels; `()` where nothing is periodic, so that its arithmetic is compiled away."""
+    if not any(period):
+        return ()
+    return Box(*map(float, period), *(1.0 / length if length else 0.0 for length in period))
 
 
 class Neighbours:
@@ -40,6 +57,7 @@ class Neighbours:
     def __init__(self, reach: float, period=(OPEN, OPEN, OPEN)):
         self.reach = reach
         self.period = np.array([*period, OPEN][:3])
+        self.box = box_of(self.period)
         self.stride = 32
         self.built = ()  # positions at the last build
 
@@ -82,10 +100,10 @@ class Neighbours:
         while True:
             index = np.empty((len(x), self.stride), np.uint32)
             count = np.empty(len(x), np.int64)
-            _fill(grid, start, x, y, z, (self.reach * (1.0 + SKIN)) ** 2, index, count)
+            _fill(grid, start, x, y, z, self.box, (self.reach * (1.0 + SKIN)) ** 2, index, count)
             most = int(count.max(initial=0))
             if most <= self.stride:
-                return Rows(index, count, self.period)
+                return Rows(index, count)
             self.stride = most + 8  # a few spare, so that a slow compaction does not rebuild each time
 
 
@@ -133,9 +151,14 @@ def _order(cells, total):
 
 
 @njit(cache=True, error_model="numpy")
-def nearest_image(d, period):
-    """A separation along one axis, through the periodic boundary where that is shorter."""
-    return d - period * np.rint(d / period) if period > 0.0 else d
+def nearest_image(box, dx, dy, dz):
+    """A separation, through the periodic boundaries where that is shorter."""
+    if len(box) == 0:
+        return dx, dy, dz
+    dx -= box.length_x * np.rint(dx * box.inverse_x)
+    dy -= box.length_y * np.rint(dy * box.inverse_y)
+    dz -= box.length_z * np.rint(dz * box.inverse_z)
+    return dx, dy, dz
 
 
 @njit(cache=True, error_model="numpy")
@@ -148,7 +171,7 @@ def _span(grid, a, value):
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def _fill(grid, start, x, y, z, cutoff2, index, count):
+def _fill(grid, start, x, y, z, box, cutoff2, index, count):
     """Rows of neighbours; `count` also where a row is too short to hold them (its excess is not written)."""
     stride = index.shape[1]
     for i in prange(len(x)):
@@ -163,9 +186,8 @@ def _fill(grid, start, x, y, z, cutoff2, index, count):
                 for kx in range(x0, x1):
                     cell = row + kx % grid.shape[0]
                     for j in range(start[cell], start[cell + 1]):
-                        dx = nearest_image(x[i] - x[j], grid.period[0])
-                        dy = nearest_image(y[i] - y[j], grid.period[1])
-                        dz = nearest_image(zi - z[j], grid.period[2]) if len(z) else 0.0
+                        dz = zi - z[j] if len(z) else 0.0
+                        dx, dy, dz = nearest_image(box, x[i] - x[j], y[i] - y[j], dz)
                         if j != i and dx * dx + dy * dy + dz * dz < cutoff2:
                             if found < stride:
                                 index[i, found] = j

@@ -1,11 +1,10 @@
 """Constants of nature and of the closures: name, value, unit, source."""
 
 GAS_CONSTANT = 8314.46261815324  # J/(kmol K), 1000 k_B N_A, exact since the SI of 2019 (CODATA 2018)
-STANDARD_GRAVITY = 9.81  # m/s2, as in Chen, Qiang & Gao 2014 (the conventional value is 9.80665)
 ATMOSPHERE = 101325.0  # Pa, standard atmosphere (CGPM 1954)
 
-PACKING_MARGIN = 0.01  # -, closures are evaluated at most this far below close packing (closure sheet, no. 16)
-CLEARY_ETA_SQUARED = 0.01  # -, eta^2/h^2 that keeps coincident pairs finite (Cleary & Monaghan 1999)
+PACKING_MARGIN = 0.01  # -, closures are evaluated at most this far below close packing (1/(1-(a/a_max)^(1/3)) has a pole there)
+SOFTENING = 0.01  # -, eta^2/h^2 in r^2 + eta^2, keeps coincident pairs finite (Monaghan 1992; Cleary & Monaghan 1999)
 
 # Friction of grains: Johnson & Jackson 1987, with the constants of OpenFOAM's tutorials (Johnson-Jackson model)
 FRICTION_FR = 0.05  # Pa

@@ -53,7 +53,7 @@ def schiller_naumann_coefficient(alpha_g, reynolds):
 
 @law
 def schiller_naumann_coefficient_paper(alpha_g, reynolds):
-    """C_D [-] as above, but switched on Re_p = 1000: jumps by 5.5 % at alpha_g = 0.85. Chen et al. 2014, Eq. (9)."""
+    """C_D [-] as above, but switched on Re_p = 1000: jumps by 5.5 % at alpha_g = 0.85. Chen et al. 2014, section 2.1."""
     if reynolds < NEWTON_REYNOLDS:
         return _viscous_coefficient(alpha_g * reynolds) / (alpha_g * reynolds)
     return NEWTON_COEFFICIENT
@@ -79,7 +79,7 @@ def schiller_naumann(alpha_p, slip, diameter, gas_density, gas_viscosity):
 def ergun(alpha_p, slip, diameter, gas_density, gas_viscosity):
     """beta/alpha_p = 150 alpha_p mu_g/(alpha_g d^2) + 1.75 rho_g s/d. Packed grains, alpha_p > 0.2.
 
-    Ergun 1952, Chem. Eng. Prog. 48, 89; as beta: Gidaspow 1994; Chen et al. 2014, Eq. (7).
+    Ergun 1952, Chem. Eng. Prog. 48, 89; as beta: Gidaspow 1994; Chen et al. 2014, section 2.1.
     """
     viscous = 150.0 * alpha_p * gas_viscosity / ((1.0 - alpha_p) * diameter**2)
     return viscous + 1.75 * gas_density * slip / diameter
@@ -89,7 +89,7 @@ def ergun(alpha_p, slip, diameter, gas_density, gas_viscosity):
 def wen_yu(alpha_p, slip, diameter, gas_density, gas_viscosity):
     """beta/alpha_p = 3/4 C_D alpha_g rho_g s/d alpha_g^-2.65, C_D(alpha_g Re_p). Dilute, alpha_p < 0.2.
 
-    Wen & Yu 1966, Chem. Eng. Prog. Symp. Ser. 62, 100; Gidaspow 1994; Chen et al. 2014, Eq. (8).
+    Wen & Yu 1966, Chem. Eng. Prog. Symp. Ser. 62, 100; Gidaspow 1994; Chen et al. 2014, section 2.1.
     """
     alpha_g = 1.0 - alpha_p
     x = alpha_g * particle_reynolds(slip, diameter, gas_density, gas_viscosity)
@@ -98,7 +98,7 @@ def wen_yu(alpha_p, slip, diameter, gas_density, gas_viscosity):
 
 @law
 def wen_yu_paper(alpha_p, slip, diameter, gas_density, gas_viscosity):
-    """Wen & Yu with the drag coefficient switched on Re_p. Chen et al. 2014, Eqs. (8), (9)."""
+    """Wen & Yu with the drag coefficient switched on Re_p. Chen et al. 2014, section 2.1."""
     alpha_g = 1.0 - alpha_p
     reynolds = particle_reynolds(slip, diameter, gas_density, gas_viscosity)
     x = alpha_g * reynolds
@@ -110,7 +110,7 @@ def wen_yu_paper(alpha_p, slip, diameter, gas_density, gas_viscosity):
 def dilute_weight(alpha_p):
     """Weight of Wen-Yu [-] = atan(150*1.75 (0.2 - alpha_p))/pi + 1/2: 0.994 dilute, 1/2 at 0.2, 0.003 packed.
 
-    Huilin & Gidaspow 2003, Chem. Eng. Sci. 58, 3777; MFIX; Chen et al. 2014, Eq. (10).
+    Huilin & Gidaspow 2003, Chem. Eng. Sci. 58, 3777; MFIX; Chen et al. 2014, section 2.1.
     """
     return math.atan(150.0 * 1.75 * (1.0 - DENSE_GAS_FRACTION - alpha_p)) / math.pi + 0.5
 
@@ -119,7 +119,7 @@ def dilute_weight(alpha_p):
 def gidaspow(alpha_p, slip, diameter, gas_density, gas_viscosity):
     """beta/alpha_p = (1 - phi) Ergun + phi Wen-Yu, phi = `dilute_weight`: smooth over all alpha_p.
 
-    Huilin & Gidaspow 2003, Chem. Eng. Sci. 58, 3777; Chen et al. 2014, Eq. (10).
+    Huilin & Gidaspow 2003, Chem. Eng. Sci. 58, 3777; Chen et al. 2014, section 2.1.
     """
     phi = dilute_weight(alpha_p)
     dense = ergun(alpha_p, slip, diameter, gas_density, gas_viscosity)
@@ -128,7 +128,7 @@ def gidaspow(alpha_p, slip, diameter, gas_density, gas_viscosity):
 
 @law
 def gidaspow_paper(alpha_p, slip, diameter, gas_density, gas_viscosity):
-    """`gidaspow` with the drag coefficient switched on Re_p. Chen et al. 2014, Eqs. (7)-(10)."""
+    """`gidaspow` with the drag coefficient switched on Re_p. Chen et al. 2014, section 2.1."""
     phi = dilute_weight(alpha_p)
     dense = ergun(alpha_p, slip, diameter, gas_density, gas_viscosity)
     return (1.0 - phi) * dense + phi * wen_yu_paper(alpha_p, slip, diameter, gas_density, gas_viscosity)

@@ -38,7 +38,7 @@ def cleary_monaghan(mass_j, density_i, density_j, conductivity_i, conductivity_j
     C = 4 m_j/(rho_i rho_j) K_i K_j/(K_i + K_j) r.grad_i W/(r^2 + eta^2), with r.grad_i W = r^2 * `gradient`.
     mass [kg or kg/m], density = SPH density alpha_p rho_p [kg/m3], conductivity = alpha_p k_p [W/(m K)],
     gradient = (dW/dr)/r [1/m^(dims+2)], eta_squared [m2] (0.01 h^2 keeps coincident pairs finite).
-    Cleary & Monaghan 1999 (as above); Chen et al. 2014, energy equation (19), whose sign belongs to r_ij = r_j - r_i.
+    Cleary & Monaghan 1999 (as above); Chen et al. 2014, Eq. (19), whose sign belongs to r_ij = r_j - r_i.
     """
     weight = 2.0 * mass_j / (density_i * density_j) * gradient * r_squared / (r_squared + eta_squared)
     return weight * harmonic_conductivity(conductivity_i, conductivity_j)

@@ -84,7 +84,7 @@ def number_quadrature(mean: float, std: float, n: int) -> tuple[np.ndarray, np.n
 
 
 def mass_quadrature(mean: float, std: float, n: int) -> tuple[np.ndarray, np.ndarray]:
-    """Diameters (n,) [m] and weights (n,): sum w f(d) is the mean of f over mass, such as (Eq. 27) of R'^k."""
+    """Diameters (n,) [m] and weights (n,): sum w f(d) is the mean of f over mass, such as of the drag per mass R'^k."""
     x, w = gauss_hermite(n)
     return np.exp(mass_log_mean(mean, std) + log_std(mean, std) * x), w
 

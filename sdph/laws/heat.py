@@ -34,7 +34,7 @@ def gunn(alpha_g, reynolds, prandtl):
     """Nu [-] = (7 - 10a + 5a^2)(1 + 0.7 x^0.2 Pr^1/3) + (1.33 - 2.4a + 1.2a^2) x^0.7 Pr^1/3, a = alpha_g,
     x = alpha_g Re_p (superficial). 0.35 < alpha_g <= 1, x < 1e5.
 
-    Gunn 1978, Int. J. Heat Mass Transfer 21, 467, doi 10.1016/0017-9310(78)90080-7; Chen et al. 2014, energy equation (5).
+    Gunn 1978, Int. J. Heat Mass Transfer 21, 467, doi 10.1016/0017-9310(78)90080-7; Chen et al. 2014, Eq. (5).
     """
     return gunn_interstitial(alpha_g, alpha_g * reynolds, prandtl)
 
@@ -56,7 +56,7 @@ def exchange_geometric(alpha_g, nusselt, gas_conductivity, diameter):
 
 @law
 def exchange_paper(alpha_g, nusselt, gas_conductivity, diameter):
-    """eps/alpha_p [W/(m3 K)] = alpha_g (6/d) h. Chen et al. 2014, energy equation (4); Fluent 12 Theory Guide, Eq. (16.5-103)."""
+    """eps/alpha_p [W/(m3 K)] = alpha_g (6/d) h. Chen et al. 2014, Eq. (4); Fluent 12 Theory Guide, Eq. (16.5-103)."""
     return alpha_g * exchange_geometric(alpha_g, nusselt, gas_conductivity, diameter)
 
 

@@ -1,0 +1,75 @@
+"""How long the next window is: the least of all limits, each by its cause.
+
+The exchange is first order in the window. Its error over a window is estimated from how much the exchanged heat
+changed since the last one, error = sum |Q_n/dt_n - Q_(n-1)/dt_(n-1)| dt_n^2/(dt_n + dt_(n-1)), and held at
+`coupling.window_tolerance` times the heat that there is to exchange.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+SAFETY, GROWTH, SHRINK = 0.9, 2.0, 0.3  # usual bounds of a step controller (Hairer, Norsett & Wanner, II.4); our choice
+
+
+class Control:
+    """Step control of one exchanged quantity by the change of its rate."""
+
+    def __init__(self, tolerance: float):
+        self.tolerance = tolerance
+        self.rates = None
+        self.scale = 0.0
+        self.error = 0.0
+
+    def begin(self, rate: float, scale: float) -> float:
+        """First window [s] of a relaxation at `rate` [1/s]: backward Euler errs by (rate dt)^2/2 of `scale`."""
+        self.scale = scale
+        return math.sqrt(2.0 * self.tolerance) / rate if rate > 0.0 else math.inf
+
+    def learn(self, dt: float, taken: np.ndarray) -> float:
+        """Next window [s] after one of `dt` [s] in which `taken` (N,) [J] was exchanged."""
+        before, self.rates = self.rates, (dt, taken / dt)
+        self.scale = max(self.scale, float(np.abs(taken).sum()))
+        if before is None or len(before[1]) != len(taken) or self.scale == 0.0:
+            return dt
+        change = float(np.abs(self.rates[1] - before[1]).sum())
+        self.error = change * dt * dt / (dt + before[0]) / self.scale
+        return dt * min(GROWTH, max(SHRINK, SAFETY * math.sqrt(self.tolerance / max(self.error, 1e-300))))
+
+
+class Window:
+    """Chooses windows. `limit` names what ruled the last one."""
+
+    def __init__(self, case):
+        self.courant = case.coupling.courant
+        self.limits = {"largest": case.coupling.window_largest}
+        self.control = Control(case.coupling.window_tolerance)
+        self.landmarks = _landmarks(case.run)
+        self.limit = ""
+        self.errors = 0.0
+
+    def begin(self, rate: float, scale: float) -> None:
+        """Before the first window; see `Control.begin`."""
+        self.limits["heat exchange"] = self.control.begin(rate, scale)
+
+    def choose(self, time: float) -> float:
+        """The time [s] at which the next window ends."""
+        self.limit = min(self.limits, key=self.limits.get)
+        landmark = float(self.landmarks[np.searchsorted(self.landmarks, time, side="right")])
+        windows = math.ceil((landmark - time) / self.limits[self.limit] * (1.0 - 1e-9))
+        return landmark if windows <= 1 else time + (landmark - time) / windows
+
+    def learn(self, dt: float, heat: np.ndarray, courant: float) -> None:
+        """Set the limits from the window just done."""
+        if "heat exchange" in self.limits:
+            self.limits["heat exchange"] = self.control.learn(dt, heat)
+        if courant > 0.0:
+            self.limits["courant"] = dt * min(GROWTH, self.courant / courant)
+
+
+def _landmarks(run) -> np.ndarray:
+    """Times that windows end at: outputs, reports, the end."""
+    outputs = np.arange(1, math.ceil(run.end_time / run.output_interval * (1.0 - 1e-9))) * run.output_interval
+    return np.unique([*outputs, *(t for t in run.report_at if 0.0 < t < run.end_time), run.end_time])

@@ -1,0 +1,45 @@
+"""A gas without flow: one uniform box of square cells that exchanges heat implicitly, each cell by itself."""
+
+import numpy as np
+
+from coupling.gas import Budget, GasState, Mesh
+
+
+class StillGas:
+    """Stands in for a gas solver where only the particle side is under test. Constant density, no conduction."""
+
+    def __init__(self, case, cells):
+        ticks = [(np.arange(n) + 0.5) * length / n for n, length in zip(cells, case.domain.size)]
+        grid = np.meshgrid(*ticks, indexing="ij")
+        centres = np.zeros((grid[0].size, 3))
+        for a, g in enumerate(grid):
+            centres[:, a] = g.ravel()
+        volume = np.prod([length / n for n, length in zip(cells, case.domain.size)])
+        self.case = case
+        self.mesh = Mesh(centres, np.full(len(centres), volume), case.dimensions)
+        self.time = 0.0
+        self.temperature = np.full(len(centres), case.gas.temperature)
+
+    def start(self, alpha_g, sources):
+        self.alpha = np.ones(len(self.temperature)) if alpha_g is None else alpha_g
+        return self._state()
+
+    def advance(self, dt, sources):
+        self.time += dt
+        content = self.alpha * self.case.gas.density * self.case.gas.heat_capacity / dt
+        if sources:
+            gained = content * self.temperature + sources["heat_temperature"]
+            self.temperature = gained / (content + sources["heat"])
+        return self._state()
+
+    def close(self):
+        pass
+
+    def _state(self):
+        zeros = np.zeros((len(self.temperature), 3))
+        gas = self.case.gas
+        mass = float((self.alpha * self.mesh.volumes).sum() * gas.density)
+        energy = float((self.alpha * self.temperature * self.mesh.volumes).sum() * gas.density * gas.heat_capacity)
+        budget = Budget(mass, energy, 0.0, (0.0, 0.0, 0.0), 0.0, 0.0, 0.0, 0.0)
+        fields = {"velocity": zeros, "pressure": zeros[:, 0], "pressure_gradient": zeros, "temperature": self.temperature.copy()}
+        return GasState(self.time, fields | {"density": np.full(len(zeros), gas.density)}, budget)
