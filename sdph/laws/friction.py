@@ -1,0 +1,63 @@
+"""Friction between grains in lasting contact, above the fraction alpha_fr where friction starts.
+
+Frictional viscosities are TOTAL: stress tau = 2 mu dev(D), nothing to multiply by alpha_p (see granular.py).
+"""
+
+import math
+
+from sdph.laws.compiled import law
+
+
+@law
+def johnson_jackson_pressure(alpha_p, alpha_fr, alpha_max, fr, eta, p):
+    """p_fr [Pa] = Fr (alpha_p - alpha_fr)^eta/(alpha_max - alpha_p)^p, 0 below alpha_fr. alpha_p < alpha_max (pole).
+
+    Fr [Pa], eta, p [-], see constants.py. Johnson & Jackson 1987, J. Fluid Mech. 176, 67.
+    """
+    if alpha_p <= alpha_fr:
+        return 0.0
+    return fr * (alpha_p - alpha_fr) ** eta / (alpha_max - alpha_p) ** p
+
+
+@law
+def johnson_jackson_slope(alpha_p, alpha_fr, alpha_max, fr, eta, p):
+    """dp_fr/dalpha_p [Pa] = p_fr (eta/(alpha_p - alpha_fr) + p/(alpha_max - alpha_p)), 0 below alpha_fr."""
+    if alpha_p <= alpha_fr:
+        return 0.0
+    pressure = johnson_jackson_pressure(alpha_p, alpha_fr, alpha_max, fr, eta, p)
+    return pressure * (eta / (alpha_p - alpha_fr) + p / (alpha_max - alpha_p))
+
+
+@law
+def schaeffer_pressure(alpha_p, alpha_fr, scale, power):
+    """p_fr [Pa] = scale (alpha_p - alpha_fr)^power, 0 below alpha_fr; scale 1e24 Pa, power 10 (constants.py).
+
+    Syamlal, Rogers & O'Brien 1993, MFIX theory guide; OpenFOAM's Schaeffer model.
+    """
+    return scale * max(0.0, alpha_p - alpha_fr) ** power
+
+
+@law
+def schaeffer_slope(alpha_p, alpha_fr, scale, power):
+    """dp_fr/dalpha_p [Pa] = scale power (alpha_p - alpha_fr)^(power - 1), 0 below alpha_fr."""
+    return scale * power * max(0.0, alpha_p - alpha_fr) ** (power - 1.0)
+
+
+@law
+def second_invariant(d11, d22, d33, d12, d23, d31):
+    """I2D [1/s2] = dev(D):dev(D)/2 of the rate of strain D [1/s]; (shear rate)^2/4 in simple shear. 2-D: d33 = 0.
+
+    Schaeffer 1987; = [(D11-D22)^2 + (D22-D33)^2 + (D33-D11)^2]/6 + D12^2 + D23^2 + D31^2.
+    """
+    normal = (d11 - d22) ** 2 + (d22 - d33) ** 2 + (d33 - d11) ** 2
+    return normal / 6.0 + d12 * d12 + d23 * d23 + d31 * d31
+
+
+@law
+def schaeffer_viscosity(pressure, sin_angle, shear_squared, least_rate):
+    """Total mu_fr [Pa s] = p_fr sin(phi)/(2 sqrt(I2D + eps^2)): the grains yield at |tau| = p_fr sin(phi).
+
+    pressure p_fr [Pa], sin_angle = sin(phi), shear_squared = I2D [1/s2], least_rate = eps [1/s] keeps grains at rest
+    finite. Schaeffer 1987, J. Differ. Equations 66, 19. Chen et al. 2014 take p_s for p_fr, and alpha_p times this.
+    """
+    return 0.5 * pressure * sin_angle / math.sqrt(shear_squared + least_rate**2)

@@ -1,0 +1,117 @@
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from reference_values import BED, GAS
+
+from sdph.laws import drag, exact
+
+AIR = GAS["rho"], GAS["mu"]
+LAWS = sorted(drag.LAWS)
+DILUTE = [name for name in LAWS if name != "ergun"]  # Ergun's viscous part vanishes with alpha_p
+CROWDING = [name for name in LAWS if name not in ("stokes", "schiller_naumann")]
+
+fractions = st.floats(0.0, 0.63)
+slips = st.floats(0.0, 30.0)
+diameters = st.floats(5e-5, 5e-3)
+
+
+@pytest.mark.parametrize("name", LAWS)
+@given(alpha_p=fractions, slip=slips, d=diameters)
+def test_finite_and_not_negative_everywhere(name, alpha_p, slip, d):
+    value = drag.LAWS[name](alpha_p, slip, d, *AIR)
+    assert math.isfinite(value) and value >= 0.0
+    assert value > 0.0 or (name == "ergun" and alpha_p < 1e-9 and slip < 1e-9)
+
+
+@pytest.mark.parametrize("name", [n for n in LAWS if not n.endswith("_paper")])
+@given(alpha_p=fractions, slip=slips, d=diameters, more=st.floats(1e-3, 10.0))
+def test_force_grows_with_slip(name, alpha_p, slip, d, more):
+    law = drag.LAWS[name]
+    assert law(alpha_p, slip + more, d, *AIR) * (slip + more) > law(alpha_p, slip, d, *AIR) * slip
+
+
+@pytest.mark.parametrize("name", CROWDING)
+@given(alpha_p=st.floats(0.0, 0.55), slip=slips, d=diameters)
+def test_crowding_hinders(name, alpha_p, slip, d):
+    law = drag.LAWS[name]
+    if name == "gidaspow_switch" and alpha_p <= 0.2 < alpha_p + 0.05:
+        return  # jumps there, tested below
+    assert law(alpha_p + 0.05, slip, d, *AIR) > 0.97 * law(alpha_p, slip, d, *AIR)
+
+
+@pytest.mark.parametrize("name", LAWS)
+@given(alpha_p=fractions, slip=st.floats(1e-3, 30.0), scale=st.floats(0.1, 10.0))
+def test_units(name, alpha_p, slip, scale):
+    """law d^2/mu depends on alpha_p and Re_p alone."""
+    law, d = drag.LAWS[name], 1e-3
+    same_reynolds = law(alpha_p, slip * scale, d * scale, AIR[0], AIR[1] * scale**2)
+    assert same_reynolds == pytest.approx(law(alpha_p, slip, d, *AIR), rel=1e-9)
+
+
+@pytest.mark.parametrize("name", DILUTE)
+def test_slow_dilute_limit_is_stokes(name):
+    # Dalla Valle's coefficient has 4.8^2 = 23.04 for 24; the arctan blend keeps 0.6 % of Ergun
+    least = {"syamlal_obrien": 0.96, "di_felice": 0.96, "gidaspow": 0.9939, "gidaspow_paper": 0.9939}.get(name, 1.0)
+    ratio = drag.LAWS[name](0.0, 0.0, 1e-4, *AIR) / drag.stokes(0.0, 0.0, 1e-4, *AIR)
+    assert ratio == pytest.approx(least, rel=1e-4)
+    assert drag.LAWS[name](1e-12, 1e-12, 1e-4, *AIR) == pytest.approx(drag.LAWS[name](0.0, 0.0, 1e-4, *AIR), rel=1e-3)
+
+
+@pytest.mark.parametrize("name", ["gidaspow", "gidaspow_paper", "ergun", "wen_yu", "di_felice"])
+@given(slip=slips)
+def test_continuous_at_the_change_of_regime(name, slip):
+    law = drag.LAWS[name]
+    assert law(0.2 - 1e-9, slip, 3e-4, *AIR) == pytest.approx(law(0.2 + 1e-9, slip, 3e-4, *AIR), rel=1e-6)
+
+
+def test_jumps_are_as_large_as_documented():
+    d, slip = BED["d"], 1.0
+    at_switch = drag.gidaspow_switch(0.2, slip, d, *AIR), drag.gidaspow_switch(0.2 + 1e-12, slip, d, *AIR)
+    assert at_switch == pytest.approx((drag.wen_yu(0.2, slip, d, *AIR), drag.ergun(0.2, slip, d, *AIR)), rel=1e-9)
+    below, above = (drag.schiller_naumann_coefficient(0.85, x / 0.85) for x in (1000.0 - 1e-9, 1000.0 + 1e-9))
+    assert above / below == pytest.approx(1.0039, abs=1e-4)
+    below, above = (drag.schiller_naumann_coefficient_paper(0.85, x) for x in (1000.0 - 1e-9, 1000.0))
+    assert below / above == pytest.approx(1.055, abs=5e-4)
+    slightly = [drag.syamlal_obrien(a, slip, d, *AIR) for a in (0.15 - 1e-9, 0.15 + 1e-9)]
+    assert slightly[0] == pytest.approx(slightly[1], rel=1.5e-3)
+
+
+@given(alpha_p=fractions)
+def test_blend_weight(alpha_p):
+    phi = drag.dilute_weight(alpha_p)
+    assert 0.0 < phi < 1.0 and (phi >= 0.5) == (alpha_p <= 0.2)
+    assert drag.dilute_weight(0.4 - alpha_p) == pytest.approx(1.0 - phi, rel=1e-9)
+
+
+@given(alpha_p=st.floats(0.01, 0.6), slip=st.floats(0.01, 20.0))
+def test_coefficient_and_law_of_wen_yu_agree(alpha_p, slip):
+    alpha_g, d = 1.0 - alpha_p, BED["d"]
+    reynolds = drag.particle_reynolds(slip, d, *AIR)
+    for law, coefficient in (
+        (drag.wen_yu, drag.schiller_naumann_coefficient),
+        (drag.wen_yu_paper, drag.schiller_naumann_coefficient_paper),
+    ):
+        expected = 0.75 * coefficient(alpha_g, reynolds) * alpha_g * AIR[0] * slip / d * alpha_g**-2.65
+        assert law(alpha_p, slip, d, *AIR) == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize("alpha_p", [0.05, 0.14, 0.3, 0.5])
+@pytest.mark.parametrize("d", [1e-4, 1e-3])
+def test_syamlal_obrien_settles_as_garside_and_al_dibouni_measured(alpha_p, d):
+    """(v_r - A)/(B - v_r) = 0.06 Re, v_r the slip of the suspension over that of a lone sphere, Re of the latter."""
+    slip, lone = (exact.settling_slip(drag.syamlal_obrien, a, 2500.0, 9.81, d, *AIR) for a in (alpha_p, 0.0))
+    alpha_g = 1.0 - alpha_p
+    a = alpha_g**4.14
+    b = 0.8 * alpha_g**1.28 if alpha_g <= 0.85 else alpha_g**2.65
+    ratio = slip / lone
+    assert (ratio - a) / (b - ratio) == pytest.approx(0.06 * drag.particle_reynolds(lone, d, *AIR), rel=1e-9)
+
+
+@pytest.mark.parametrize("x, chi", [(0.0, 3.7), (10.0**1.5, 3.05), (1e9, 3.7)])
+def test_exponent_of_di_felice(x, chi):
+    d, alpha_g = 1e-3, 0.6
+    slip = x / alpha_g * AIR[1] / (AIR[0] * d)
+    lone = drag.di_felice(0.0, slip * alpha_g, d, *AIR)  # the same superficial Reynolds number
+    assert math.log(drag.di_felice(0.4, slip, d, *AIR) / lone, alpha_g) == pytest.approx(1.0 - chi, abs=1e-6)

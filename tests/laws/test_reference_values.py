@@ -1,0 +1,389 @@
+"""Every reference value, computed by the laws. A check is a pattern of ids and what the code makes of their inputs."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+from reference_values import BED, CONSTANTS, GAS, JET, VALUES
+
+from sdph.laws import drag, eos, evaporation, exact, exchange, friction, grain_sizes, granular, heat, kernels, riemann, viscosity
+from sdph.laws.constants import GAS_CONSTANT
+
+RHO_G, MU_G, K_G, CP_G = GAS["rho"], GAS["mu"], GAS["k"], GAS["cp"]
+PR = heat.prandtl_number(MU_G, CP_G, K_G)
+GRAVITY = CONSTANTS["g"]
+
+
+# --- drag and heat
+
+COEFFICIENTS = {
+    "Re_p": drag.schiller_naumann_coefficient_paper,
+    "alpha_g*Re_p": drag.schiller_naumann_coefficient,
+}
+
+
+def beta(law, i):
+    gas = i.get("rho_g", RHO_G), i.get("mu_g", MU_G)
+    return i["alpha_p"] * law(i["alpha_p"], i["slip"], i["d_p"], *gas)
+
+
+def gunn(i):
+    law = {"paper": heat.gunn, "fluent": heat.gunn_interstitial}[i["form"]]
+    return law(i["alpha_g"], i["Re_p"], i["Pr"])
+
+
+def exchange_coefficient(closure, alpha_p, diameter, slip):
+    reynolds = drag.particle_reynolds(slip, diameter, RHO_G, MU_G)
+    return alpha_p * closure(1.0 - alpha_p, heat.gunn(1.0 - alpha_p, reynolds, PR), K_G, diameter)
+
+
+# --- the disc of table 1: alpha_p = 0.6, 288 K in gas of 350 K
+
+T_P, T_G = 288.0, 350.0
+C_P = exact.volumetric_heat_capacity(0.6, BED["rho"], BED["cp"])
+C_G = exact.volumetric_heat_capacity(0.4, RHO_G, CP_G)
+CLOSURES = {"paper": heat.exchange_paper, "geom": heat.exchange_geometric}
+
+
+def disc_eps(form):
+    return exchange_coefficient(CLOSURES[form], 0.6, BED["d"], 0.0)
+
+
+def disc_two_way(form, t):
+    return exact.two_way_temperatures(t, T_P, T_G, disc_eps(form), C_P, C_G)
+
+
+def disc_box(i):
+    grains = C_P * i["A_disc"]
+    gas = RHO_G * CP_G * (0.25 - i["A_disc"]) + C_G * i["A_disc"]
+    return exact.equilibrium_temperature(T_P, T_G, grains, gas)
+
+
+def edge_rate_ratio(i):
+    def per_grain(alpha_p):
+        return exchange_coefficient(heat.exchange_paper, alpha_p, BED["d"], 0.0) / alpha_p
+
+    return per_grain(0.3) / per_grain(0.6)
+
+
+# --- the jet of table 3: alpha_p = 0.6, 294 K in gas of 350 K
+
+
+def jet_eps(i):
+    return exchange_coefficient(heat.exchange_paper, 0.6, JET["d"], i["slip"])
+
+
+JET_C_P = exact.volumetric_heat_capacity(0.6, JET["rho"], JET["cp"])
+
+
+def jet_time_to_evaporation(i):
+    t = JET_C_P / jet_eps(i) * math.log(56.0 / 55.7)
+    assert exact.one_way_temperature(t, 294.0, 350.0, jet_eps(i), JET_C_P) == pytest.approx(294.3, rel=1e-12)
+    return t
+
+
+# --- granular temperature
+
+
+def grains(law, i):
+    """A law of granular.py in terms of (alpha_p, theta, e, g0, density, diameter)."""
+    g0 = granular.sinclair_jackson(i["alpha_p"], i["alpha_max"])
+    return law(i["alpha_p"], i["theta"], i["e"], g0, i["rho_p"], i["d_p"])
+
+
+def lun_pressure(i):
+    g0 = granular.sinclair_jackson(i["alpha_p"], i["alpha_max"])
+    return granular.lun_pressure(i["alpha_p"], i["theta"], i["e"], g0, i["rho_p"])
+
+
+def isothermal_sound_speed(i):
+    g0 = granular.sinclair_jackson(i["alpha_p"], i["alpha_max"])
+    slope = granular.sinclair_jackson_slope(i["alpha_p"], i["alpha_max"])
+    pressure_slope = granular.lun_pressure_slope(i["alpha_p"], i["theta"], i["e"], g0, slope, i["rho_p"])
+    return math.sqrt(pressure_slope / i["rho_p"])
+
+
+def isentropic_sound_speed(i):
+    g0 = granular.sinclair_jackson(i["alpha_p"], i["alpha_max"])
+    slope = granular.sinclair_jackson_slope(i["alpha_p"], i["alpha_max"])
+    return math.sqrt(granular.sound_speed_squared(i["alpha_p"], i["theta"], i["e"], g0, slope, i["rho_p"], 0.0))
+
+
+def haff_coefficient(i):
+    g0 = granular.sinclair_jackson(i["alpha_p"], i["alpha_max"])
+    return granular.cooling_coefficient(i["alpha_p"], i["e"], g0, i["d_p"])
+
+
+def haff(i):
+    exactly = exact.haff_cooling(i["t"], i["theta0"], haff_coefficient(i))
+    assert granular.theta_step(i["theta0"], haff_coefficient(i), 0.0, i["t"]) == pytest.approx(exactly, rel=1e-12)
+    return exactly
+
+
+def haff_with_drag(i):
+    damping = granular.damping_rate(i["beta"] / i["alpha_p"], i["rho_p"])
+    exactly = exact.haff_cooling_with_drag(i["t"], i["theta0"], haff_coefficient(i), damping)
+    assert granular.theta_step(i["theta0"], haff_coefficient(i), damping, i["t"]) == pytest.approx(exactly, rel=1e-12)
+    return exactly
+
+
+def shear(i):
+    g0 = granular.sinclair_jackson(i["alpha_p"], i["alpha_max"])
+    return exact.uniform_shear(i["shear"], i["alpha_p"], i["e"], g0, i["rho_p"], i["d_p"])
+
+
+def friction_law(law, i):
+    return law(i["alpha_p"], i["alpha_fr"], i["alpha_max"], i["Fr"], i["eta"], i["p"])
+
+
+# --- fluidisation
+
+
+def gas_of(i):
+    return i["d_p"], i.get("rho_g", RHO_G), i.get("mu_g", MU_G)
+
+
+def settling(law, alpha_p, i):
+    return exact.settling_slip(law, alpha_p, i["rho_p"], i.get("g", GRAVITY), *gas_of(i))
+
+
+# --- evaporation, droplets of table 3
+
+SC = evaporation.schmidt_number(RHO_G, MU_G, JET["D"])
+SURFACE = evaporation.vapour_concentration(JET["psat"], 294.3)
+CLAPEYRON = (JET["psat"], 294.3, JET["hfg"], JET["W"])
+W_GAS = evaporation.mixture_molar_mass(0.3, 31.9988, 28.0134)  # kg/kmol, O2/N2 by mass
+
+
+def jet_reynolds(slip):
+    return drag.particle_reynolds(slip, JET["d"], RHO_G, MU_G)
+
+
+def sherwood(slip):
+    return evaporation.sherwood_ranz_marshall(jet_reynolds(slip), SC)
+
+
+def transfer_coefficient(i):
+    return evaporation.mass_transfer_coefficient(sherwood(i["slip"]), i["D"], i["d_p"])
+
+
+def evaporating_flux(i):
+    surface = evaporation.vapour_concentration(i["psat"], i["T_p"])
+    return evaporation.mass_flux_linear(transfer_coefficient(i), surface, i["C_inf"], i["W"])
+
+
+def regression(i):
+    return evaporation.regression_rate(evaporating_flux(i | {"slip": 0.0}), i["d_p"], i["rho_p"])
+
+
+def surface_mass_fraction(i):
+    return evaporation.vapour_mass_fraction(JET["psat"] / CONSTANTS["p_op"], i["W"], W_GAS)
+
+
+def spalding_regression(i):
+    number = evaporation.spalding_number(surface_mass_fraction({"W": JET["W"]}), 0.0)
+    transfer = evaporation.mass_transfer_coefficient(2.0, JET["D"], JET["d"])
+    flux = evaporation.mass_flux_spalding(transfer, i["rho_g"], number)
+    return evaporation.regression_rate(flux, JET["d"], JET["rho"])
+
+
+def wet_bulb(gas_temperature, saturation, p, ratio=1.0):
+    return exact.wet_bulb_temperature(
+        gas_temperature, lambda T: saturation(T, p), JET["D"], JET["W"], JET["hfg"], K_G, ratio
+    )
+
+
+def wet_bulb_in_wind(i):
+    ratio = sherwood(i["slip"]) / heat.gunn(1.0, jet_reynolds(i["slip"]), PR)
+    return wet_bulb(i["Tg"], evaporation.saturation_constant, (JET["psat"],), ratio)
+
+
+# --- SPH
+
+
+def spline(law, i):
+    return law(i["q"] * i["h"], i["h"], kernels.normalisation("cubic_spline", 2, i["h"]))
+
+
+def conducting_pair(i):
+    gradient = kernels.cubic_spline_gradient(i["r"], i["h"], kernels.normalisation("cubic_spline", 2, i["h"]))
+    r2 = i["r"] ** 2
+    pair = exchange.cleary_monaghan(i["m"], i["rho"], i["rho"], i["k_i"], i["k_j"], r2, gradient, i["eta2"])
+    return pair * (i["Ti"] - i["Tj"]) / i["c"]
+
+
+def artificial_viscosity(i):
+    return viscosity.monaghan(i["vr"], i["dx"] ** 2, i["h"], i["c"], i["rho"], i["a"], i["b"])
+
+
+def cell_exchange(fraction, i):
+    """One cell and its particles, sdph notes section 3: [v_g', v_1', v_2', ...]."""
+    f = np.array([fraction(float(lam)) for lam in i["l"]])
+    m, v = np.array(i["m"]), np.array(i["v"], dtype=float)
+    v_g = (i["mg"] * i["vg"] + np.sum(m * f * v)) / (i["mg"] + np.sum(m * f))
+    return [v_g, *((1.0 - f) * v + f * v_g)]
+
+
+# --- bench problems
+
+
+def dusty_box(i):
+    return exact.dusty_box(i["t"], 0.0, 1.0, i["rho_g"], i["rho_d"], i["K"])
+
+
+def dusty_wave_roots(i):
+    roots = exact.dusty_wave_roots(i["k"], 1.0, 1.0, 1.0, i["K"])
+    return [*roots.real, *roots.imag]
+
+
+def mode_exchange(i):
+    return exact.mode_exchange(i["t"], i["k"], i["eps"], i["Cp"], i["Cg"], i["Dp"], i["Dg"], (0.0, 1.0))
+
+
+BED_DIFFUSIVITY = exact.thermal_diffusivity(BED["k"], BED["rho"], BED["cp"])
+
+
+CHECKS = {
+    r"phi_gp_a[\d.]+": lambda i: drag.dilute_weight(i["alpha_p"]),
+    r"CD_.*": lambda i: COEFFICIENTS[i["switch"]](i["alpha_g"], i["Re_p"]),
+    r"betaErgun_.*": lambda i: beta(drag.ergun, i),
+    r"betaWenYu_.*": lambda i: (beta(drag.wen_yu, i), beta(drag.wen_yu_paper, i)),
+    r"betaBlend_.*(?<!_lit)": lambda i: beta(drag.gidaspow_paper, i),
+    r"betaBlend_.*_lit": lambda i: beta(drag.gidaspow, i),
+    r"betaSwitch_.*": lambda i: beta(drag.gidaspow_switch, i),
+    r"Re_jet_u10": lambda i: drag.particle_reynolds(i["slip"], i["d_p"], RHO_G, MU_G),
+    r"Gunn_.*": gunn,
+    r"RanzMarshall_.*": lambda i: heat.ranz_marshall(1.0, i["Re"], i["Pr"]),
+    r"disc_eps_paper": lambda i: disc_eps("paper"),
+    r"disc_Cg": lambda i: C_G,
+    r"disc_dTdt0_paper": lambda i: i["eps"] * (T_G - T_P) / C_P,
+    r"disc_oneway_Tp_(paper|geom)_.*": lambda i, form: exact.one_way_temperature(
+        i["t"], i["Tp0"], i["Tg"], disc_eps(form), C_P
+    ),
+    r"disc_twoway_rate_(paper)": lambda i, form: exact.exchange_rate(disc_eps(form), C_P, C_G),
+    r"disc_twoway_Tp_(paper|geom)_.*": lambda i, form: disc_two_way(form, i["t"])[0],
+    r"disc_twoway_Tg_(paper|geom)_.*": lambda i, form: disc_two_way(form, i["t"])[1],
+    r"disc_twoway_dTp_(paper|geom)_.*": lambda i, form: exact.two_way_rise(i["t"], T_P, T_G, disc_eps(form), C_P, C_G),
+    r"disc_Teq": lambda i: exact.equilibrium_temperature(T_P, T_G, C_P, C_G),
+    r"disc_box_Tinf": disc_box,
+    r"alphaDiff_g": lambda i: exact.thermal_diffusivity(K_G, RHO_G, CP_G),
+    r"edge_rate_ratio_.*": edge_rate_ratio,
+    r"n_paper_.*": lambda i: grain_sizes.paper_count(i["alpha_p"], i["dx"], i["d_p"]),
+    r"n_2D_.*": lambda i: grain_sizes.disc_count(i["alpha_p"], i["dx"], i["d_p"]),
+    r"n_sphere_.*": lambda i: grain_sizes.sphere_count(i["alpha_p"], i["dx"], 2, i["d_p"]),
+    r"m_sph_(?!paper).*": lambda i: grain_sizes.particle_mass(i["alpha_p"], i["rho_p"], i["dx"], 2),
+    r"m_sph_paper_.*": lambda i: (
+        grain_sizes.paper_count(i["alpha_p"], i["dx"], BED["d"]) * grain_sizes.disc_mass(i["rho_p"], BED["d"], 0.0)
+    ),
+    r"g0_.*": lambda i: granular.sinclair_jackson(i["alpha_p"], i["alpha_max"]),
+    r"dg0_.*": lambda i: granular.sinclair_jackson_slope(i["alpha_p"], i["alpha_max"]),
+    r"ps_.*": lun_pressure,
+    r"muCol_paper_.*": lambda i: grains(granular.gidaspow_collisional_viscosity, i) / i["alpha_p"],
+    r"muKin_paper_.*": lambda i: grains(granular.gidaspow_kinetic_viscosity, i) / i["alpha_p"],
+    r"muColKin_full_.*": lambda i: grains(granular.gidaspow_viscosity, i),
+    r"lambda_paper_.*": lambda i: grains(granular.lun_bulk_viscosity, i) / i["alpha_p"],
+    r"lambda_full_.*": lambda i: grains(granular.lun_bulk_viscosity, i),
+    r"ktheta_.*": lambda i: grains(granular.gidaspow_conductivity, i),
+    r"gamma_lun_.*": lambda i: grains(granular.lun_dissipation, i),
+    r"gamma_asprinted_.*": lambda i: grains(granular.paper_dissipation, i),
+    r"c_iso_.*": isothermal_sound_speed,
+    r"c_isentropic_.*": isentropic_sound_speed,
+    r"phi_gp_theta": lambda i: granular.gidaspow_damping(i["beta"], i["theta"]),
+    r"haff_K_.*": haff_coefficient,
+    r"haff_theta_.*": haff,
+    r"haff_drag_theta": haff_with_drag,
+    r"shear_theta_.*": lambda i: shear(i).theta,
+    r"shear_tau_a.*": lambda i: shear(i).stress,
+    r"shear_tau_over_p_.*": lambda i: shear(i).stress / shear(i).pressure,
+    r"pfJJ_.*": lambda i: friction_law(friction.johnson_jackson_pressure, i),
+    r"dpfJJ_.*": lambda i: friction_law(friction.johnson_jackson_slope, i),
+    r"pfSchaeffer_.*": lambda i: friction.schaeffer_pressure(i["alpha_p"], i["alpha_fr"], 1e24, 10.0),
+    r"I2D": lambda i: friction.second_invariant(i["D11"], i["D22"], 0.0, i["D12"], 0.0, 0.0),
+    r"mu_fr": lambda i: friction.schaeffer_viscosity(i["p"], math.sin(math.radians(i["phi_deg"])), i["I2D"], 0.0),
+    r"umf_ergun_.*": lambda i: exact.minimum_fluidisation(i["alpha_p"], i["rho_p"], i["g"], *gas_of(i)),
+    r"alpha_for_umf_0.08": lambda i: exact.fluidised_fraction(0.08, i["rho_p"], i["g"], *gas_of(i)),
+    r"umf_WenYuCorr": lambda i: exact.wen_yu_minimum_fluidisation(i["rho_p"], i["g"], *gas_of(i)),
+    r"ergun_dpdl_.*": lambda i: exact.ergun_gradient(i["alpha_p"], i["U"], *gas_of(i)),
+    r"bed_dp_total": lambda i: i["H"] * exact.buoyant_weight(i["alpha_p"], i["rho_p"], i["rho_g"], i["g"]),
+    r"vt_jet": lambda i: settling(drag.schiller_naumann, 0.0, i),
+    r"tau_stokes_bed": lambda i: i["rho_p"] / drag.stokes(0.0, 0.0, *gas_of(i)),
+    r"evap_rhovs": lambda i: (
+        i["W"] * evaporation.vapour_concentration(i["psat"], i["T_p"]),
+        eos.ideal_gas_density(i["psat"], i["T_p"], i["W"]),
+    ),
+    r"kc_.*": transfer_coefficient,
+    r"Sh_u1": lambda i: (sherwood(i["slip"]), evaporation.sherwood_ranz_marshall(i["Re"], i["Sc"])),
+    r"N_u10": lambda i: evaporation.molar_flux(transfer_coefficient(i), SURFACE, i["C_inf"]),
+    r"mdot_sphere_.*": lambda i: evaporation.mass_rate(evaporating_flux(i), i["d_p"]),
+    r"mfracrate_sphere_.*": lambda i: evaporation.relative_mass_rate(evaporating_flux(i), i["d_p"], i["rho_p"]),
+    r"ddot_.*": lambda i: evaporation.diameter_rate(evaporating_flux(i), i["rho_p"]),
+    r"Gamma_.*": lambda i: (
+        -i["alpha_p"] * i["rho_p"] * evaporation.relative_mass_rate(evaporating_flux(i), i["d_p"], i["rho_p"])
+    ),
+    r"d2law_life": lambda i: exact.d2_law_life(i["d_p"], regression(i)),
+    r"d2law_d_t100": lambda i: exact.d2_law_diameter(i["t"], i["d_p"], regression(i)),
+    r"d2law_K_spalding": spalding_regression,
+    r"Wg_mass30_70": lambda i: W_GAS,
+    r"X_s": lambda i: evaporation.vapour_mole_fraction(surface_mass_fraction({"W": JET["W"]}), JET["W"], W_GAS),
+    r"Y_s": surface_mass_fraction,
+    r"wetbulb_Re0_psatconst": lambda i: wet_bulb(i["Tg"], evaporation.saturation_constant, (i["psat"],)),
+    r"wetbulb_u10_.*": wet_bulb_in_wind,
+    r"wetbulb_Re0_CC": lambda i: wet_bulb(i["Tg"], evaporation.saturation_clausius_clapeyron, CLAPEYRON),
+    r"psat_CC_350": lambda i: evaporation.saturation_clausius_clapeyron(i["T"], CLAPEYRON),
+    r"jet_Nu_.*": lambda i: heat.gunn(0.4, jet_reynolds(i["slip"]), PR),
+    r"jet_eps_.*": jet_eps,
+    r"jet_dTdt_.*": lambda i: jet_eps(i) * (350.0 - 294.0) / JET_C_P,
+    r"jet_time_to_Tvap_oneway": jet_time_to_evaporation,
+    r"jet_gas_heat_tau_.*": lambda i: exact.volumetric_heat_capacity(0.4, RHO_G, CP_G) / jet_eps(i),
+    r"W_cubic_0_(\d)D": lambda i, dims: kernels.cubic_spline(
+        0.0, i["h"], kernels.normalisation("cubic_spline", int(dims), i["h"])
+    ),
+    r"W2_.*": lambda i: spline(kernels.cubic_spline, i),
+    r"dW2_.*": lambda i: spline(kernels.cubic_spline_gradient, i) * i["q"] * i["h"],
+    r"lattice_divr_2D": lambda i: kernels.lattice_divergence_factor("cubic_spline", 2, 1.5),
+    r"cm_pair": conducting_pair,
+    r"Pi_ij": artificial_viscosity,
+    r"dustybox_vg_.*": lambda i: dusty_box(i)[0],
+    r"dustybox_vd_.*": lambda i: dusty_box(i)[1],
+    r"dustywave_roots_.*": dusty_wave_roots,
+    r"dustywave_K100_.*": lambda i: exact.dusty_wave(i["x"], i["t"], 1e-4, i["k"], 1.0, 1.0, 1.0, i["K"]),
+    r"dusty_ceff": lambda i: exact.dusty_sound_speed(i["cs"], i["rho_g"], i["rho_d"]),
+    r"dustyshock_tight_star": lambda i: riemann.dusty_shock_tube((1.0, 1.0), (0.125, 0.1), i["gamma"], i["chi"]),
+    r"cos_decay": lambda i: exact.cosine_decay(i["t"], math.pi / i["L"], BED_DIFFUSIVITY),
+    r"stefan_lambda_.*": lambda i: exact.stefan_front_coefficient(i["Ste"]),
+    r"exchange_BE": lambda i: cell_exchange(exchange.backward_euler_fraction, i),
+    r"exchange_EXP": lambda i: cell_exchange(exchange.exponential_fraction, i),
+    r"settle_slip_bed_.*": lambda i: settling(drag.gidaspow, i["alpha_p"], i),
+    r"slope_crit_phi30": lambda i: math.degrees(exact.yield_slope(math.radians(i["phi_deg"]))),
+    r"mode_exchange_.*": mode_exchange,
+    r"settle_relax_.*": lambda i: exact.settling_slip_at(i["t"], i["beta"], 0.6, BED["rho"], RHO_G, GRAVITY),
+}
+
+# Values that are no law but the work of a part of the code, whose own tests hold it against them.
+ELSEWHERE = {"N_disc_lattice": "how particles are seeded in a disc"}
+
+
+def matching(name):
+    return [(re.fullmatch(pattern, name), check) for pattern, check in CHECKS.items() if re.fullmatch(pattern, name)]
+
+
+@pytest.mark.parametrize("name", [name for name in VALUES if name not in ELSEWHERE])
+def test_reference_value(name):
+    [(match, check)] = matching(name)
+    value = VALUES[name]
+    computed = np.atleast_1d(check(value["inputs"], *match.groups()))
+    expected = np.broadcast_to(value["expected"], computed.shape)
+    np.testing.assert_allclose(computed, expected, rtol=value["rtol"], atol=0.0)
+
+
+def test_every_value_is_covered_by_exactly_one_check():
+    assert {name: len(matching(name)) for name in VALUES} == {name: int(name not in ELSEWHERE) for name in VALUES}
+
+
+def test_every_check_covers_a_value():
+    assert [p for p in CHECKS if not any(re.fullmatch(p, name) for name in VALUES)] == []
+
+
+def test_gas_constant_is_that_of_the_reference():
+    assert GAS_CONSTANT == CONSTANTS["R_J_per_kmolK"]
