@@ -22,7 +22,7 @@ def prandtl_number(viscosity, heat_capacity, conductivity):
 def gunn_interstitial(alpha_g, reynolds, prandtl):
     """Gunn's Nusselt number with x = Re_p, as Fluent and OpenFOAM evaluate it.
 
-    Larger than `gunn` by up to half at alpha_g = 0.4.
+    Larger than `gunn` by 53 % at alpha_g = 0.4, Re_p = 195.
     """
     a, root = alpha_g, prandtl ** (1.0 / 3.0)
     film = (7.0 - 10.0 * a + 5.0 * a * a) * (1.0 + 0.7 * reynolds**0.2 * root)

@@ -53,7 +53,7 @@ def test_value_falls_with_distance_and_ends_at_the_support(name, q, further):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_cubic_spline_joins_smoothly(name):
+def test_value_is_continuous_at_the_knot(name):
     below, above = profile(name, 2, [np.nextafter(H, 0.0), np.nextafter(H, 1.0)])
     assert below == pytest.approx(above, rel=1e-14)
 
