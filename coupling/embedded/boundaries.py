@@ -1,0 +1,186 @@
+"""From the boundaries of a case to values on the boundary faces of the grid.
+
+A fixed value holds on the boundary itself: the ghost carries it, half a cell from the first centre, and `hold`
+(1: held, 0: free) multiplies the conductance between the two. Elsewhere the ghost copies its neighbour.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from coupling.embedded.grid import Grid, indices
+from sdph.case import CaseError
+
+SIDES = {"left": (0, 0), "right": (0, 1), "bottom": (1, 0), "top": (1, 1), "back": (2, 0), "front": (2, 1)}
+# kind -> whether the gas passes freely, and whether it clings (takes the tangential velocity of the boundary)
+KINDS = {"wall": (False, True), "slip_wall": (False, False), "velocity_inlet": (False, True), "pressure_outlet": (True, False)}
+SNAP = 1e-6  # of a cell: how far the edge of a span may lie from a cell edge
+
+
+@dataclass(frozen=True)
+class Faces:
+    """The boundary faces, (B,) each: padded indices of face, inner cell and ghost; axis; outward sign;
+    `open` and `held` temperature, vapour (bool); and what the boundary says there: velocity (B, d) [m/s],
+    temperature [K], vapour mass fraction, pressure [Pa]. `names[owner]` is the boundary of a face."""
+
+    face: np.ndarray
+    cell: np.ndarray
+    ghost: np.ndarray
+    axis: np.ndarray
+    sign: np.ndarray
+    open: np.ndarray
+    clings: np.ndarray
+    inlet: np.ndarray
+    held: np.ndarray
+    velocity: np.ndarray
+    temperature: np.ndarray
+    vapour: np.ndarray
+    pressure: np.ndarray
+
+
+def boundary_faces(case, grid: Grid) -> Faces:
+    """All boundary faces of `grid`, each with what the case says of it."""
+    parts = [_side(case, grid, axis, upper) for axis in range(grid.dimensions) for upper in (0, 1)]
+    return Faces(**{name: np.concatenate([part[name] for part in parts]) for name in parts[0]})
+
+
+def _side(case, grid: Grid, axis: int, upper: int) -> dict[str, np.ndarray]:
+    """The fields of `Faces` on one side."""
+    first = [0] * grid.dimensions
+    last = list(grid.counts)
+    first[axis] = grid.counts[axis] - 1 if upper else 0
+    last[axis] = first[axis] + 1
+    cell = indices(grid.counts, tuple(first), tuple(last))
+    owner = _owners(case, grid, axis, upper, cell)
+    names = list(case.boundaries)
+    rows = [_row(case, name) for name in names]
+    step = grid.strides[axis] * (1 if upper else -1)
+    each = {key: np.array([row[key] for row in rows])[owner] for key in rows[0]}
+    return each | {
+        "face": cell + grid.strides[axis] * upper, "cell": cell, "ghost": cell + step,
+        "axis": np.full(len(cell), axis), "sign": np.full(len(cell), 2.0 * upper - 1.0),
+    }  # fmt: skip
+
+
+def _row(case, name: str) -> dict:
+    """What one boundary says, with what it leaves out taken from the gas of the case."""
+    boundary = case.boundaries[name]
+    if boundary.kind not in KINDS:
+        raise CaseError(f"boundaries.{name}.kind = {boundary.kind!r}; the embedded gas solver knows {', '.join(KINDS)}")
+    passes, clings = KINDS[boundary.kind]
+    inlet = boundary.kind == "velocity_inlet"
+    if inlet and boundary.velocity is None:
+        raise CaseError(f"boundaries.{name}.velocity_m_s is missing; a velocity_inlet needs it")
+    if boundary.vapour_mass_fraction and case.vapour is None:
+        raise CaseError(f"boundaries.{name}.vapour_mass_fraction is given, but the case has no [vapour]; add it or remove the key")
+    return {
+        "open": passes, "clings": clings, "inlet": inlet,
+        "held": inlet or (not passes and boundary.temperature is not None),
+        "velocity": boundary.velocity or (0.0,) * case.dimensions,
+        "temperature": boundary.temperature or case.gas.temperature,
+        "vapour": boundary.vapour_mass_fraction or 0.0, "pressure": boundary.pressure or 0.0,
+    }  # fmt: skip
+
+
+def _owners(case, grid: Grid, axis: int, upper: int, cell: np.ndarray) -> np.ndarray:
+    """(faces,) which boundary owns each face of a side: a span before a whole side before what is left over."""
+    owner = np.full(len(cell), -1)
+    rank = np.zeros(len(cell), dtype=int)
+    for number, (name, boundary) in enumerate(case.boundaries.items()):
+        if boundary.side is not None and boundary.side not in list(SIDES)[: 2 * grid.dimensions]:
+            raise CaseError(f"boundaries.{name}.side = {boundary.side!r}; a case of {grid.dimensions} dimensions has {', '.join(list(SIDES)[: 2 * grid.dimensions])}")
+        if boundary.side is not None and SIDES[boundary.side] != (axis, upper):
+            continue
+        mine = np.ones(len(cell), dtype=bool) if boundary.span is None else _inside(grid, axis, boundary.span, name)
+        level = 1 if boundary.side is None else 2 if boundary.span is None else 3
+        if np.any(mine & (rank == level)):
+            raise CaseError(f"boundaries.{name} covers faces that another boundary covers too; give them separate spans")
+        mine &= rank < level
+        owner[mine], rank[mine] = number, level
+    if np.any(owner < 0):
+        side = next(name for name, where in SIDES.items() if where == (axis, upper))
+        raise CaseError(f"no boundary covers all of the {side} side; give one, or one without a side for all that is left over")
+    return owner
+
+
+def _inside(grid: Grid, axis: int, span: tuple, name: str) -> np.ndarray:
+    """(faces,) bool: the faces of a side within `span` [m], whose ends must be cell edges."""
+    tangential = [b for b in range(grid.dimensions) if b != axis]
+    pairs = span if isinstance(span[0], (tuple, list)) else (span,)
+    if len(pairs) != len(tangential):
+        raise CaseError(f"boundaries.{name}.span_m has {len(pairs)} ranges; a side here has {len(tangential)}: give [low, high] for each")
+    inside = np.ones(1, dtype=bool)
+    for b, (low, high) in zip(tangential, pairs):
+        edges = grid.edges[b]
+        for end in (low, high):
+            nearest = edges[np.argmin(np.abs(edges - end))]
+            if abs(nearest - end) > SNAP * np.diff(edges).min():
+                raise CaseError(f"boundaries.{name}.span_m ends at {end:g}, which is no edge of a gas cell; the nearest is {nearest:g}")
+        middle = 0.5 * (edges[1:] + edges[:-1])
+        inside = (((middle > low) & (middle < high))[:, None] & inside[None, :]).ravel()
+    return inside
+
+
+class Ghosts(NamedTuple):
+    """How to fill the ghosts of one field: ghost <- value where pinned, else the field at node."""
+
+    ghost: np.ndarray
+    node: np.ndarray
+    pinned: np.ndarray
+    value: np.ndarray
+
+
+def on_faces(grid: Grid, faces: Faces, values: np.ndarray, inside: float) -> np.ndarray:
+    """(d, S) field of faces: `inside`, but `values` (B,) on the boundary."""
+    field = np.full((grid.dimensions, grid.size), inside)
+    field[faces.axis, faces.face] = values
+    return field
+
+
+def component_ghosts(grid: Grid, faces: Faces, axis: int) -> Ghosts:
+    """Ghosts of the velocity along `axis`: beside the walls the tangential velocity of what clings, beyond an
+    opening the velocity of the opening. At the ends of a span two half faces share a node."""
+    along = grid.strides[axis]
+    beside = faces.axis != axis
+    weight = on_faces(grid, faces, faces.clings * 1.0, 0.0) * grid.area
+    moving = on_faces(grid, faces, faces.clings * faces.velocity[:, axis], 0.0) * grid.area
+    ghost, node, pinned, value = [], [], [], []
+    for shift in (0, along):  # a face has a node of this component at its lower and at its upper end
+        face, b = faces.face[beside] + shift, faces.axis[beside]
+        total = weight[b, face] + weight[b, face - along]
+        ghost.append(faces.ghost[beside] + shift)
+        node.append(faces.cell[beside] + shift)
+        pinned.append(total > 0.0)
+        value.append(np.divide(moving[b, face] + moving[b, face - along], total, out=np.zeros(len(total)), where=total > 0.0))
+    own = ~beside
+    ghost.append(faces.face[own] + (along * faces.sign[own]).astype(np.int64))
+    node.append(faces.face[own])
+    pinned.append(np.zeros(own.sum(), dtype=bool))
+    value.append(np.zeros(own.sum()))
+    return Ghosts(*(np.concatenate(part) for part in (ghost, node, pinned, value)))
+
+
+def active_nodes(grid: Grid, faces: Faces) -> np.ndarray:
+    """(d, S) bool: the faces whose velocity is solved for: those inside, and those that are open."""
+    active = np.zeros((grid.dimensions, grid.size), dtype=bool)
+    for axis, count in enumerate(grid.counts):
+        lower = tuple(1 if a == axis else 0 for a in range(grid.dimensions))
+        if count > 1:
+            active[axis, indices(grid.counts, lower, grid.counts)] = True
+    active[faces.axis[faces.open], faces.face[faces.open]] = True
+    return active
+
+
+def ambient_pressure(faces: Faces, grid: Grid, gravity, density: np.ndarray) -> np.ndarray:
+    """(B,) pressure [Pa] outside each open face: the given one holds at the highest of them, and outside stands
+    gas of `density` (B,) [kg/m3] at rest, so that openings at different heights drive no flow by themselves."""
+    position = np.zeros((grid.size, grid.dimensions))
+    position[grid.cells] = grid.centres
+    place = position[faces.cell]
+    for n, axis in enumerate(faces.axis):
+        place[n, axis] = grid.edges[axis][0 if faces.sign[n] < 0 else -1]
+    fall = place @ np.asarray(gravity)
+    return faces.pressure + density * (fall - fall[faces.open].min()) if faces.open.any() else faces.pressure

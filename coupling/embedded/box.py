@@ -1,0 +1,94 @@
+"""What does not change during a run, what every window hands on to the next, and what one window is given."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from coupling.embedded import boundaries
+from coupling.embedded.grid import Grid
+from coupling.embedded.properties import Properties
+from coupling.gas import GasError
+
+
+class Box:
+    """Grid, boundaries and properties of a case; `limited` False takes upwind instead of van Leer."""
+
+    def __init__(self, case, grid: Grid, limited: bool):
+        self.grid, self.limited = grid, limited
+        self.properties = Properties(case)
+        self.faces = boundaries.boundary_faces(case, grid)
+        self.gravity = case.domain.gravity
+        self.temperature = case.gas.temperature
+        self.vapour = case.vapour
+        self.rows = (grid.rows, grid.run)
+        self.wide = (grid.wide_rows, grid.wide_run)
+        self.everywhere = np.zeros(grid.size, dtype=bool)
+        self.everywhere[grid.cells] = True
+
+    @property
+    def closed(self) -> bool:
+        """Whether nothing opens to a given pressure."""
+        return not self.faces.open.any()
+
+    def outward(self, flux: np.ndarray) -> np.ndarray:
+        """(B,) what a face field (d, S) takes out through each boundary face."""
+        return self.faces.sign * flux[self.faces.axis, self.faces.face]
+
+
+@dataclasses.dataclass
+class Flow:
+    """All that the next window needs. Cells (S,): alpha, mass, vapour [kg], temperature [K], pressure [Pa];
+    faces (d, S): velocity [m/s], flux [kg/s]; `ratio` of the density to the equation of state; what came in
+    through the boundary since the start [kg, J, kg]."""
+
+    time: float
+    alpha: np.ndarray
+    mass: np.ndarray
+    vapour: np.ndarray
+    temperature: np.ndarray
+    pressure: np.ndarray
+    velocity: np.ndarray
+    flux: np.ndarray
+    ratio: float = 1.0
+    mass_in: float = 0.0
+    energy_in: float = 0.0
+    vapour_in: float = 0.0
+
+    def fraction(self):
+        """Mass fraction of vapour in the cells, 0 in ghosts."""
+        return np.divide(self.vapour, self.mass, out=np.zeros_like(self.mass), where=self.mass > 0.0)
+
+
+@dataclasses.dataclass(frozen=True)
+class Window:
+    """One window: dt [s], alpha (S,) at its end, and per cell, not per volume, what the particles do:
+    pull (S,) [kg/s] and push (d, S) [N] of drag and vapour, vapour (S,) [kg/s], cling (S,) [W/K], warmth (S,) [W]."""
+
+    dt: float
+    alpha: np.ndarray
+    pull: np.ndarray
+    push: np.ndarray
+    vapour: np.ndarray
+    cling: np.ndarray
+    warmth: np.ndarray
+
+
+def window_of(box: Box, flow: Flow, dt: float, sources: dict[str, np.ndarray]) -> Window:
+    """The window that `sources` (see `coupling.gas.SOURCES`) describe."""
+    grid = box.grid
+
+    def total(*names: str) -> np.ndarray:
+        given = [sources[name] for name in names if name in sources]
+        return grid.padded(sum(given)) * grid.volume if given else grid.zeros()
+
+    push = [sources[name] for name in ("drag_velocity", "vapour_momentum") if name in sources]
+    alpha = grid.extended(grid.padded(sources["alpha_g"])) if "alpha_g" in sources else flow.alpha
+    if not alpha[grid.cells].min() > 0.0:
+        raise GasError(f"alpha_g = {alpha[grid.cells].min():g} in a cell; the gas needs some room: the cell is over-packed")
+    return Window(
+        dt=dt, alpha=alpha, pull=total("drag", "vapour"), vapour=total("vapour"), cling=total("heat"),
+        push=np.stack([grid.padded(sum(p[:, a] for p in push)) * grid.volume for a in range(grid.dimensions)]) if push else grid.zeros(grid.dimensions),
+        warmth=total("heat_temperature", "heat_source", "vapour_enthalpy"),
+    )  # fmt: skip

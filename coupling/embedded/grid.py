@@ -1,0 +1,132 @@
+"""Cartesian staggered grid in two or three dimensions from one source.
+
+Every field is one flat float64 array over the padded box, x fastest, with three ghost layers on each side of
+each axis that exists (three, so that a far-upwind read beyond an opening stays in the array). With `s` the stride of axis a,
+index c names cell c, and for a face field of axis a the face between cells c - s and c. Geometry is zero in
+ghosts (volume, area), so half a control volume at the boundary needs no special case.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+PAD = 3
+
+
+@dataclass(frozen=True)
+class Grid:
+    """counts, strides (d,); rows: first index of every run of `run` cells along x; `wide_rows`, `wide_run`
+    the same with two indices more on each axis, for face fields; `cells` (C,) index of every cell, x fastest.
+    volume (S,) [m3]; width, area, gap, reach (d, S): cell width [m], face area [m2], distance [m] between
+    the two values on either side of a face (the ghost's lies on the boundary), and that from the lower one.
+    """
+
+    edges: tuple[np.ndarray, ...]
+    counts: tuple[int, ...]
+    strides: tuple[int, ...]
+    size: int
+    cells: np.ndarray
+    rows: np.ndarray
+    run: int
+    wide_rows: np.ndarray
+    wide_run: int
+    volume: np.ndarray
+    width: np.ndarray
+    area: np.ndarray
+    gap: np.ndarray
+    reach: np.ndarray
+    centres: np.ndarray
+
+    @property
+    def dimensions(self) -> int:
+        return len(self.counts)
+
+    def zeros(self, *leading: int) -> np.ndarray:
+        return np.zeros((*leading, self.size))
+
+    def padded(self, values: np.ndarray) -> np.ndarray:
+        """(C,) values of the cells as a padded field, zero in ghosts."""
+        field = self.zeros()
+        field[self.cells] = values
+        return field
+
+    def extended(self, field: np.ndarray) -> np.ndarray:
+        """The padded field (S,), in place, with the first ghosts as their neighbours, corners too."""
+        box = field.reshape([n + 2 * PAD for n in reversed(self.counts)])
+        for axis in range(box.ndim):
+            along = np.moveaxis(box, axis, 0)
+            along[PAD - 1], along[-PAD] = along[PAD], along[-PAD - 1]
+        return field
+
+    @property
+    def geometry(self) -> tuple[np.ndarray, ...]:
+        """volume, width, area, gap, as the kernels take them."""
+        return self.volume, self.width, self.area, self.gap
+
+
+def uniform_edges(length: float, count: int, stretch: float = 1.0) -> np.ndarray:
+    """count + 1 edges from 0 to length; `stretch` is last over first cell width, as blockMesh grades."""
+    growth = stretch ** (1.0 / max(count - 1, 1))
+    widths = growth ** np.arange(count)
+    edges = np.concatenate(([0.0], np.cumsum(widths)))
+    return edges * (length / edges[-1])
+
+
+def strides_of(counts: tuple[int, ...]) -> tuple[tuple[int, ...], int]:
+    """Strides of the padded box and its size."""
+    lengths = [n + 2 * PAD for n in counts]
+    return tuple(int(np.prod(lengths[:a])) for a in range(len(counts))), int(np.prod(lengths))
+
+
+def indices(counts: tuple[int, ...], lower: tuple[int, ...], upper: tuple[int, ...]) -> np.ndarray:
+    """Padded indices, x fastest, of the cells lower <= i < upper (i = 0 is the first cell)."""
+    strides, _ = strides_of(counts)
+    index = np.zeros(1, dtype=np.int64)
+    for stride, low, high in zip(strides, lower, upper):
+        along = stride * (np.arange(low, high, dtype=np.int64) + PAD)
+        index = (along[:, None] + index[None, :]).ravel()
+    return index
+
+
+def _spread(values: np.ndarray, axis: int, dimensions: int) -> np.ndarray:
+    """One value per padded index along `axis`, over the whole padded box (z, y, x order)."""
+    shape = [1] * dimensions
+    shape[dimensions - 1 - axis] = len(values)
+    return values.reshape(shape)
+
+
+def build_grid(edges: tuple[np.ndarray, ...]) -> Grid:
+    """The grid between `edges` of each axis [m]; a 2-D grid is 1 m deep."""
+    d = len(edges)
+    counts = tuple(len(e) - 1 for e in edges)
+    strides, size = strides_of(counts)
+    box = np.ones(tuple(n + 2 * PAD for n in reversed(counts)))
+    flat = lambda axis, values: (_spread(values, axis, d) * box).ravel()  # noqa: E731
+    inner = [np.pad(np.diff(e), PAD) for e in edges]                    # widths, zero in ghosts
+    faces = [(np.arange(n + 2 * PAD) >= PAD) * (np.arange(n + 2 * PAD) <= n + PAD) * 1.0 for n in counts]
+    width = np.stack([flat(a, np.where(w > 0, w, 1.0)) for a, w in enumerate(inner)])
+    reach = [0.5 * np.roll(w, 1) for w in inner]
+    gap = [r + 0.5 * w for r, w in zip(reach, inner)]
+    area = [np.prod([flat(b, inner[b]) if b != a else flat(a, faces[a]) for b in range(d)], axis=0) for a in range(d)]
+    start, stop = (0,) * d, counts
+    middle = [0.5 * (e[1:] + e[:-1]) for e in edges]
+    centres = np.stack(np.meshgrid(*reversed(middle), indexing="ij")[::-1], axis=-1).reshape(-1, d)
+    return Grid(
+        edges=edges, counts=counts, strides=strides, size=size,
+        cells=indices(counts, start, stop),
+        rows=indices(counts, start, (1, *stop[1:])), run=counts[0],
+        wide_rows=indices(counts, start, (1, *(n + 2 for n in counts[1:]))), wide_run=counts[0] + 2,
+        volume=np.prod([flat(a, inner[a]) for a in range(d)], axis=0), width=width, area=np.stack(area),
+        gap=np.stack([flat(a, np.where(g > 0, g, 1.0)) for a, g in enumerate(gap)]),
+        reach=np.stack([flat(a, r) for a, r in enumerate(reach)]), centres=centres,
+    )
+
+
+def component_spacing(grid: Grid, axis: int) -> tuple[np.ndarray, np.ndarray]:
+    """gap and reach (d, S) between the velocities of `axis`, which live on its faces."""
+    gap, reach = grid.gap.copy(), grid.reach.copy()
+    gap[axis] = np.roll(grid.width[axis], grid.strides[axis])
+    reach[axis] = 0.5 * gap[axis]
+    return gap, reach

@@ -1,0 +1,139 @@
+"""Momentum of the gas on the faces: convection explicit, viscosity and drag implicit.
+
+Half of what a cell holds (mass, volume, drag) belongs to each of its two faces along an axis. The drag on all
+faces is then sum_f (beta v_p - beta u_f) V_f = sum_c (beta v_p - beta U_c) V_c to round-off if U_c, the velocity
+handed to the particles, is the mean of the two faces. A face that does not move freely (wall, inlet) passes its
+half on to the boundary.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from coupling.embedded.boundaries import active_nodes, component_ghosts, on_faces
+from coupling.embedded.box import Box, Flow, Window
+from coupling.embedded.convection import convect, substeps
+from coupling.embedded.grid import component_spacing
+from coupling.embedded.linear import IMPLICIT, fill, solve_implicit
+from coupling.embedded.pressure import balance
+
+
+@njit(error_model="numpy")
+def corner(values, f, s, t):
+    """Mean of the four cells round the edge between f, f - s, f - t and f - s - t."""
+    return 0.25 * (values[f] + values[f - s] + values[f - t] + values[f - s - t])
+
+
+@njit(cache=True, error_model="numpy")
+def viscous_conductances(rows, run, strides, axis, viscosity, grid, hold, dt, out):
+    """dt alpha mu A/distance [kg] between the velocities along `axis` and their neighbours, into out (d, S)."""
+    volume, width, area, gap = grid
+    s = strides[axis]
+    for b in range(len(strides)):
+        t = strides[b]
+        for row in rows:
+            for f in range(row, row + run):
+                if b == axis:
+                    c = f - s
+                    out[b, f] = dt * viscosity[c] * volume[c] / width[b, c] ** 2
+                else:
+                    held = 0.5 * (hold[b, f - s] * area[b, f - s] + hold[b, f] * area[b, f])
+                    out[b, f] = dt * corner(viscosity, f, s, t) * held / gap[b, f]
+
+
+@njit(error_model="numpy")
+def _normal_stress(strides, axis, viscosity, velocity, width, c):
+    """alpha mu (du/dx - 2/3 div v) in cell c: what the Laplacian leaves out of tau (Eq. 5 of the closure sheet)."""
+    divergence = 0.0
+    for b in range(len(strides)):
+        divergence += (velocity[b, c + strides[b]] - velocity[b, c]) / width[b, c]
+    return viscosity[c] * ((velocity[axis, c + strides[axis]] - velocity[axis, c]) / width[axis, c] - 2.0 / 3.0 * divergence)
+
+
+@njit(error_model="numpy")
+def _shear_force(strides, axis, b, viscosity, velocity, grid, f):
+    """alpha mu dv_b/dx_axis times area, at the edge below f along b."""
+    volume, width, area, gap = grid
+    s, t = strides[axis], strides[b]
+    across = (velocity[b, f] - velocity[b, f - s]) / gap[axis, f]
+    return corner(viscosity, f, s, t) * across * 0.5 * (area[b, f - s] + area[b, f])
+
+
+@njit(cache=True, error_model="numpy")
+def momentum_balance(rows, run, strides, axis, active, grid, alpha, mass, viscosity, velocity, moved, pull, push, gravity, pressure, dt, diagonal, source):
+    """Diagonal [kg] and source [kg m/s] of the implicit equation for the velocity along `axis`.
+
+    moved (S,): the velocity after convection; pull [kg/s], push [N]: drag coefficient and its part of the
+    particles, both per cell. m' u' = m' u + dt (-alpha V grad p + m' g + push - pull u' + div tau).
+    """
+    volume, width, area, gap = grid
+    s = strides[axis]
+    for row in rows:
+        for f in range(row, row + run):
+            diagonal[f] = 1.0
+            if not active[f]:
+                continue
+            m = 0.5 * (mass[f] + mass[f - s])
+            gas = 0.5 * (alpha[f] * volume[f] + alpha[f - s] * volume[f - s])
+            force = m * gravity + 0.5 * (push[f] + push[f - s]) - gas * (pressure[f] - pressure[f - s]) / gap[axis, f]
+            if mass[f] > 0.0 and mass[f - s] > 0.0:
+                force += _normal_stress(strides, axis, viscosity, velocity, width, f) * area[axis, f]
+                force -= _normal_stress(strides, axis, viscosity, velocity, width, f - s) * area[axis, f]
+                for b in range(len(strides)):
+                    if b != axis:
+                        force += _shear_force(strides, axis, b, viscosity, velocity, grid, f + strides[b])
+                        force -= _shear_force(strides, axis, b, viscosity, velocity, grid, f)
+            diagonal[f] = m + dt * 0.5 * (pull[f] + pull[f - s])
+            source[f] = m * moved[f] + dt * force
+
+
+class Momentum:
+    """The momentum predictor of a box."""
+
+    def __init__(self, box: Box):
+        self.box = box
+        grid, faces = box.grid, box.faces
+        self.active = active_nodes(grid, faces)
+        self.ghosts = [component_ghosts(grid, faces, a) for a in range(grid.dimensions)]
+        self.spacing = [component_spacing(grid, a) for a in range(grid.dimensions)]
+        self.hold = on_faces(grid, faces, faces.clings * 1.0, 1.0)
+
+    def predict(self, old: Flow, window: Window, mass: np.ndarray, fraction: np.ndarray):
+        """Velocity (d, S) under the old pressure, the diagonal D (d, S) [kg] of its equation, the viscous force
+        of the walls on the gas (d,) [N] and the largest residual. mass (S,): of the cells, at the end."""
+        grid = self.box.grid
+        viscosity = grid.extended(window.alpha * self.box.properties.mixture("viscosity", fraction) * (grid.volume > 0.0))
+        moved = self.convected(old, window.dt)
+        velocity, diagonal, force, residual = moved.copy(), np.ones_like(moved), [], 0.0
+        for a in range(grid.dimensions):
+            conductance, source = np.zeros_like(moved), grid.zeros()
+            viscous_conductances(*self.box.wide, grid.strides, a, viscosity, grid.geometry, self.hold, window.dt, conductance)
+            balance_of = (old.velocity, moved[a], window.pull, window.push[a], self.box.gravity[a], old.pressure)
+            momentum_balance(*self.box.wide, grid.strides, a, self.active[a], grid.geometry, window.alpha, mass, viscosity, *balance_of, window.dt, diagonal[a], source)
+            fill(velocity[a], self.ghosts[a])
+            given, _, error = solve_implicit(*self.box.wide, grid.strides, self.active[a], conductance, diagonal[a], source, velocity[a], IMPLICIT)
+            force.append(float(self._drag_of_walls(given, a) / window.dt))
+            residual = max(residual, error)
+        return velocity, diagonal, force, residual
+
+    def convected(self, old: Flow, dt: float) -> np.ndarray:
+        """The old velocity (d, S) carried on by the old mass fluxes."""
+        grid, velocity, after = self.box.grid, old.velocity.copy(), old.mass.copy()
+        balance(*self.box.rows, grid.strides, old.flux, grid.zeros(), old.mass, dt, after)
+        parts, _ = substeps(*self.box.rows, grid.strides, old.flux, old.mass, after, dt)
+        for a in range(grid.dimensions if parts else 0):
+            mass = 0.5 * (old.mass + np.roll(old.mass, grid.strides[a]))
+            gap, reach = self.spacing[a]
+            convect(*self.box.wide, *self.box.wide, grid.strides, grid.strides[a], self.active[a], velocity[a], mass, old.flux, gap, reach, self.ghosts[a], dt, parts, self.box.limited)
+        return velocity
+
+    def _drag_of_walls(self, given: np.ndarray, axis: int) -> float:
+        """Momentum [kg m/s] that what clings gave to the velocity along `axis`."""
+        faces, along = self.box.faces, self.box.grid.strides[axis]
+        beside = faces.axis != axis
+        b, face, sign = faces.axis[beside], faces.face[beside], faces.sign[beside]
+        last = face + along
+        total = -(sign * given[b, face]).sum()
+        ends = ~np.isin(last, face)  # the node beyond the last face of each row belongs to no face of its own
+        return total - (sign * given[b, last])[ends].sum()

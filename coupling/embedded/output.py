@@ -1,0 +1,84 @@
+"""What the solver hands back: cell fields and the budget."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from coupling.embedded.box import Box, Flow
+from coupling.gas import Budget
+
+
+def cell_velocity(box: Box, flow: Flow) -> np.ndarray:
+    """(C, 3) mean of the two faces of each cell, which makes the drag on both sides equal (see momentum.py). At an
+    inlet the face counts with the velocity just inside, where the gas has the room of the cell."""
+    grid, faces = box.grid, box.faces
+    inside = flow.velocity.copy()
+    fixed = ~faces.open
+    axis, face, cell = faces.axis[fixed], faces.face[fixed], faces.cell[fixed]
+    inside[axis, face] = flow.flux[axis, face] * grid.volume[cell] / (flow.mass[cell] * grid.area[axis, face])
+    return _cell_vectors(box, lambda a, s: 0.5 * (inside[a, grid.cells] + inside[a, grid.cells + s]))
+
+
+def pressure_gradient(box: Box, active: np.ndarray, flow: Flow) -> np.ndarray:
+    """(C, 3) mean over the faces of each cell where momentum saw a gradient."""
+    grid = box.grid
+    slope = np.zeros_like(flow.velocity)
+    for a, s in enumerate(grid.strides):
+        slope[a] = np.where(active[a], (flow.pressure - np.roll(flow.pressure, s)) / grid.gap[a], 0.0)
+
+    def mean(a, s):
+        free = active[a, grid.cells] * 1.0 + active[a, grid.cells + s]
+        return (slope[a, grid.cells] + slope[a, grid.cells + s]) / np.maximum(free, 1.0)
+
+    return _cell_vectors(box, mean)
+
+
+def _cell_vectors(box: Box, component) -> np.ndarray:
+    vectors = np.zeros((len(box.grid.cells), 3))
+    for a, s in enumerate(box.grid.strides):
+        vectors[:, a] = component(a, s)
+    return vectors
+
+
+def cell_fields(box: Box, active: np.ndarray, flow: Flow) -> dict[str, np.ndarray]:
+    """The fields of `coupling.gas.FIELDS`."""
+    cells = box.grid.cells
+    fields = {
+        "velocity": cell_velocity(box, flow),
+        "pressure": flow.pressure[cells],
+        "pressure_gradient": pressure_gradient(box, active, flow),
+        "temperature": flow.temperature[cells],
+        "density": flow.mass[cells] / (flow.alpha[cells] * box.grid.volume[cells]),
+    }
+    return fields | ({"vapour_mass_fraction": flow.fraction()[cells]} if box.vapour is not None else {})
+
+
+def budget(box: Box, flow: Flow, fields: dict[str, np.ndarray], viscous, courant: float, residuals: dict[str, float]) -> Budget:
+    """Totals of the gas. The force is that of the walls' friction and of the pressure on the whole boundary area,
+    which gas and particles share in the ratio of their volumes."""
+    cells = box.grid.cells
+    capacity = box.properties.gas.heat_capacity * flow.mass[cells]
+    if box.vapour is not None:
+        capacity = capacity + (box.vapour.heat_capacity - box.properties.gas.heat_capacity) * flow.vapour[cells]
+    force = _pressure_force(box, flow, fields["pressure_gradient"])
+    force[: len(viscous)] += viscous
+    return Budget(
+        mass=float(flow.mass[cells].sum()),
+        energy=float((capacity * flow.temperature[cells]).sum()),
+        vapour=float(flow.vapour[cells].sum()),
+        momentum=tuple((flow.mass[cells, None] * fields["velocity"]).sum(axis=0).tolist()),
+        mass_in=flow.mass_in, energy_in=flow.energy_in, vapour_in=flow.vapour_in,
+        courant=courant, force=tuple(force.tolist()), residuals=residuals,
+    )  # fmt: skip
+
+
+def _pressure_force(box: Box, flow: Flow, gradient: np.ndarray) -> np.ndarray:
+    """(3,) [N]; the pressure on a closed face is that of its cell carried on by the gradient."""
+    grid, faces = box.grid, box.faces
+    place = np.zeros(grid.size, dtype=np.int64)
+    place[grid.cells] = np.arange(len(grid.cells))
+    half = 0.5 * grid.width[faces.axis, faces.cell] * faces.sign
+    on_wall = flow.pressure[faces.cell] + gradient[place[faces.cell], faces.axis] * half
+    pressure = np.where(faces.open, flow.pressure[faces.ghost], on_wall)
+    push = -faces.sign * pressure * grid.area[faces.axis, faces.face]
+    return np.bincount(faces.axis, weights=push, minlength=3)

@@ -1,0 +1,122 @@
+"""The pressure that lets every cell hold the mass it should, and the mass fluxes that go with it.
+
+With D the diagonal of momentum (mass and drag), u' = u - dt alpha V/D grad p. What the solver leaves over is not
+lost: the mass that a cell carries on is what the fluxes brought, and the next window aims at the full target.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from coupling.embedded.boundaries import ambient_pressure
+from coupling.embedded.box import Box, Flow, Window
+from coupling.embedded.multigrid import build_levels, solve_pressure
+from coupling.gas import GasError
+
+CONTINUITY = 1e-8  # of a cell's mass: what the solver may leave over in a window; our choice
+
+
+@njit(cache=True, error_model="numpy")
+def face_fluxes(rows, run, strides, active, grid, reach, alpha, density, diagonal, velocity, dt, flux, conductance):
+    """Mass fluxes [kg/s] of the predicted velocity on the active faces, and dt^2 alpha rho A alpha V/(D distance)
+    [kg/Pa]. density (S,): alpha rho, ghosts as their neighbours."""
+    volume, width, area, gap = grid
+    for a in range(len(strides)):
+        s = strides[a]
+        for row in rows:
+            for f in range(row, row + run):
+                conductance[a, f] = 0.0
+                if active[a, f]:
+                    here = density[f - s] + (density[f] - density[f - s]) * reach[a, f] / gap[a, f]
+                    gas = 0.5 * (alpha[f] * volume[f] + alpha[f - s] * volume[f - s])
+                    flux[a, f] = here * area[a, f] * velocity[a, f]
+                    conductance[a, f] = dt * dt * here * area[a, f] * gas / (diagonal[a, f] * gap[a, f])
+
+
+@njit(cache=True, error_model="numpy")
+def balance(rows, run, strides, flux, gained, mass, dt, out):
+    """out (S,) = mass + dt (gained - div flux) of every cell [kg]."""
+    for row in rows:
+        for c in range(row, row + run):
+            change = gained[c]
+            for a in range(len(strides)):
+                change += flux[a, c] - flux[a, c + strides[a]]
+            out[c] = mass[c] + dt * change
+
+
+@njit(cache=True, error_model="numpy")
+def correct(rows, run, strides, active, grid, alpha, diagonal, conductance, correction, dt, velocity, flux):
+    """Velocity and fluxes after the correction of the pressure, in place."""
+    volume, width, area, gap = grid
+    for a in range(len(strides)):
+        s = strides[a]
+        for row in rows:
+            for f in range(row, row + run):
+                if active[a, f]:
+                    gas = 0.5 * (alpha[f] * volume[f] + alpha[f - s] * volume[f - s])
+                    drop = correction[f - s] - correction[f]
+                    velocity[a, f] += dt * gas / (diagonal[a, f] * gap[a, f]) * drop
+                    flux[a, f] += conductance[a, f] * drop / dt
+
+
+class Aim(NamedTuple):
+    """Mass (S,) [kg] that the cells should hold at the end of a window, the ratio of their density to the
+    equation of state, and the mass flux (B,) [kg/s] out of each inlet face (0 elsewhere)."""
+
+    mass: np.ndarray
+    ratio: float
+    outward: np.ndarray
+
+
+class Pressure:
+    """The projection of a box."""
+
+    def __init__(self, box: Box, active: np.ndarray):
+        self.box, self.active = box, active
+        faces, grid = box.faces, box.grid
+        self.levels = build_levels(grid)
+        self.work = np.zeros((grid.dimensions, self.levels.first[-1])), *np.zeros((3, self.levels.first[-1]))
+        self.density = box.properties.density(faces.temperature, faces.vapour)  # of what flows in
+        self.ambient = ambient_pressure(faces, grid, box.gravity, self.density)
+        normal = faces.velocity[np.arange(len(faces.face)), faces.axis]
+        self.inlet = np.where(faces.inlet, normal * faces.sign * grid.area[faces.axis, faces.face], 0.0)  # m3/s outward
+        self.standing = grid.zeros(grid.dimensions)
+        self.standing[faces.axis, faces.face] = np.where(faces.inlet, normal, 0.0)
+
+    def aim(self, old: Flow, window: Window, temperature: np.ndarray, fraction: np.ndarray) -> Aim:
+        """Mass by the equation of state; in a closed box times the one factor that leaves its total right."""
+        cells = self.box.grid.cells
+        mass = self.box.grid.zeros()
+        state = self.box.properties.density(temperature[cells], fraction[cells])
+        mass[cells] = window.alpha[cells] * self.box.grid.volume[cells] * state
+        outward, ratio = self.inlet * self.density * old.ratio, 1.0
+        if self.box.closed:
+            ratio = (old.mass[cells].sum() + window.dt * (window.vapour[cells].sum() - outward.sum())) / mass.sum()
+        return Aim(mass * ratio, ratio, outward)
+
+    def project(self, old: Flow, window: Window, aim: Aim, velocity: np.ndarray, diagonal: np.ndarray):
+        """The flow at the end of the window but for its temperature and vapour, and the residual that is left."""
+        box, grid, faces = self.box, self.box.grid, self.box.faces
+        conductance, *work = self.work
+        fine = conductance[:, : grid.size]
+        flux, mass, correction = grid.zeros(grid.dimensions), grid.zeros(), grid.zeros()
+        flux[faces.axis, faces.face] = faces.sign * aim.outward
+        density = grid.extended(aim.mass / np.where(grid.volume > 0.0, grid.volume, 1.0))
+        face_fluxes(*box.wide, grid.strides, self.active, grid.geometry, grid.reach, window.alpha, density, diagonal, velocity, window.dt, flux, fine)
+        balance(*box.rows, grid.strides, flux, window.vapour, old.mass, window.dt, mass)
+        _, error = solve_pressure(self.levels, self.levels.strides, conductance, *work, mass - aim.mass, aim.mass, correction, CONTINUITY)
+        if not error <= CONTINUITY:
+            raise GasError(f"embedded gas solver: the pressure did not converge at t = {old.time + window.dt:g} s, residual {error:.1e}; shorten the window")
+        if box.closed:
+            correction[grid.cells] -= correction[grid.cells].mean()
+        correct(*box.wide, grid.strides, self.active, grid.geometry, window.alpha, diagonal, fine, correction, window.dt, velocity, flux)
+        balance(*box.rows, grid.strides, flux, window.vapour, old.mass, window.dt, mass)
+        beyond = faces.face + (faces.sign * np.array(grid.strides)[faces.axis]).astype(np.int64)
+        flux[faces.axis, beyond] = flux[faces.axis, faces.face]
+        pressure = old.pressure + correction
+        mass_in = old.mass_in - window.dt * box.outward(flux).sum()
+        return replace(old, time=old.time + window.dt, alpha=window.alpha, mass=mass, pressure=pressure, velocity=velocity, flux=flux, ratio=aim.ratio, mass_in=mass_in), error

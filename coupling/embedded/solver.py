@@ -1,0 +1,151 @@
+"""A small finite-volume gas solver in the process of the particles, behind the door of `coupling.gas`.
+
+Low-Mach equations of a gas of volume fraction alpha on a Cartesian staggered grid:
+
+    ddt(alpha rho)      + div(alpha rho u)      = Gamma
+    ddt(alpha rho u)    + div(alpha rho u u)    = -alpha grad p + div tau + alpha rho g + beta v_p - beta u + Gamma v_p
+    ddt(alpha rho Y)    + div(alpha rho u Y)    = -div J + Gamma,    J = -alpha rho D grad Y
+    ddt(alpha rho cp T) + div(alpha rho u cp T) = div(alpha k grad T) - div((cp_v - cp_g) T J) + eps T_p - eps T + q
+
+First order in time, second in space. Convection is explicit, in as many sub-steps as the window needs, the rest
+implicit: accuracy alone limits a window. Mass, vapour and heat of a cell are what the fluxes brought, so totals
+close to round-off. Laminar; the work dp/dt is dropped, as the closure sheet does (Eq. 30, low Mach).
+
+In a box without opening the mass is given, so its density is the equation of state's times one factor for the
+whole box: with `operating` that is the rise of the operating pressure, with `constant` the gas is squeezed alike
+everywhere. `Budget.residuals["box"]` is the factor less 1. Its pressure has zero mean.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+from pathlib import Path
+
+import numpy as np
+
+from coupling.embedded.box import Box, Flow, window_of
+from coupling.embedded.grid import build_grid, uniform_edges
+from coupling.embedded.momentum import Momentum
+from coupling.embedded.output import budget, cell_fields
+from coupling.embedded.pressure import Pressure
+from coupling.embedded.scalars import Scalars
+from coupling.gas import SOURCES, GasError, GasState, Mesh
+from sdph.case import CaseError, cells
+
+PASSES = 2  # of a window whose density follows temperature (shared/openfoam.md: one if constant, else two)
+CHECKPOINT = "embedded_gas.npz"
+
+
+class EmbeddedGas:
+    """The `Gas` of a case on a Cartesian grid.
+
+    `edges`, one array of cell edges [m] per axis from 0 to the size of the domain, replaces the equal cells of
+    `resolution.cell`; `limited` False takes first-order upwind convection instead of van Leer's.
+    """
+
+    def __init__(self, case, *, edges: tuple[np.ndarray, ...] | None = None, limited: bool = True):
+        self.box = Box(case, build_grid(_edges(case, edges)), limited)
+        self.momentum = Momentum(self.box)
+        self.pressure = Pressure(self.box, self.momentum.active)
+        self.scalars = Scalars(self.box)
+        self.sources: tuple[str, ...] = ()
+        self.flow: Flow | None = None
+        grid = self.box.grid
+        centres = np.zeros((len(grid.cells), 3))
+        centres[:, : grid.dimensions] = grid.centres
+        self.mesh = Mesh(centres, grid.volume[grid.cells], grid.dimensions)
+
+    def start(self, alpha_g: np.ndarray | None, sources: tuple[str, ...]) -> GasState:
+        """Gas at rest at the temperature of the case, without vapour."""
+        self.sources = _known(sources, self.box)
+        box, grid = self.box, self.box.grid
+        alpha = grid.extended(grid.padded(np.ones(len(grid.cells)) if alpha_g is None else alpha_g))
+        temperature = np.full(grid.size, box.temperature)
+        pressure, mass = grid.zeros(), grid.zeros()
+        pressure[box.faces.ghost] = np.where(box.faces.open, self.pressure.ambient, 0.0)
+        mass[grid.cells] = alpha[grid.cells] * grid.volume[grid.cells] * box.properties.density(temperature[grid.cells], 0.0)
+        velocity = self.pressure.standing.copy()
+        self.flow = Flow(0.0, alpha, mass, grid.zeros(), temperature, pressure, velocity, grid.zeros(grid.dimensions))
+        return self._state([0.0] * grid.dimensions, 0.0, {})
+
+    def advance(self, dt: float, sources: dict[str, np.ndarray]) -> GasState:
+        """One window: where should the mass be, what does momentum want, what does pressure allow, what is carried."""
+        self._check(dt, sources)
+        old = new = self.flow
+        window = window_of(self.box, old, dt, sources)
+        for _ in range(PASSES if self.box.properties.varies else 1):
+            aim = self.pressure.aim(old, window, new.temperature, new.fraction())
+            velocity, diagonal, viscous, residual = self.momentum.predict(old, window, aim.mass, new.fraction())
+            new, left = self.pressure.project(old, window, aim, velocity, diagonal)
+            new, courant, residuals = self.scalars.carry(old, window, new)
+        self.flow = new
+        return self._state(viscous, courant, residuals | {"momentum": residual, "pressure": left, "box": new.ratio - 1.0})
+
+    def checkpoint(self, folder: Path) -> None:
+        """Write `Flow` to one file, whole or not at all."""
+        path = Path(folder) / CHECKPOINT
+        path.parent.mkdir(parents=True, exist_ok=True)
+        part = path.with_suffix(".part")
+        with open(part, "wb") as file:
+            np.savez(file, sources=np.array(self.sources, dtype=np.str_), **vars(self.flow))
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(part, path)
+
+    def restore(self, folder: Path) -> GasState:
+        """Go on from what `checkpoint` wrote."""
+        path = Path(folder) / CHECKPOINT
+        try:
+            with np.load(path) as saved:
+                self.sources = tuple(str(name) for name in saved["sources"])
+                values = {f.name: saved[f.name] for f in dataclasses.fields(Flow)}
+        except (OSError, KeyError, ValueError) as error:
+            raise GasError(f"{path} is no checkpoint of the embedded gas solver: {error}") from None
+        if values["mass"].size != self.box.grid.size:
+            raise GasError(f"{path} is of another mesh; restore it with the case that wrote it")
+        self.flow = Flow(**{name: value if value.ndim else float(value) for name, value in values.items()})
+        return self._state([0.0] * self.box.grid.dimensions, 0.0, {})
+
+    def close(self) -> None:
+        """Nothing is left running."""
+
+    def _state(self, viscous, courant: float, residuals: dict[str, float]) -> GasState:
+        fields = cell_fields(self.box, self.momentum.active, self.flow)
+        return GasState(self.flow.time, fields, budget(self.box, self.flow, fields, viscous, courant, residuals))
+
+    def _check(self, dt: float, sources: dict[str, np.ndarray]) -> None:
+        """Sources must be those announced, of the right shape, and finite."""
+        if self.flow is None:
+            raise GasError("the embedded gas solver was not started; call start or restore first")
+        if not (np.isfinite(dt) and dt > 0.0):
+            raise GasError(f"window of {dt} s; it must be above 0")
+        if set(sources) != set(self.sources):
+            raise GasError(f"the window brings {sorted(sources)}, but {sorted(self.sources)} were announced at the start")
+        for name, values in sources.items():
+            shape = (len(self.mesh.volumes), 3)[: 1 + (SOURCES[name][1] == 3)]
+            if np.shape(values) != shape:
+                raise GasError(f"source {name} has shape {np.shape(values)}; it must be {shape}")
+            if not np.isfinite(values).all():
+                raise GasError(f"source {name} is not finite in cell {int(np.argmin(np.isfinite(values).reshape(shape[0], -1).all(axis=1)))}")
+
+
+def _known(sources: tuple[str, ...], box: Box) -> tuple[str, ...]:
+    for name in sources:
+        if name not in SOURCES:
+            raise GasError(f"unknown source {name!r}; a gas solver knows {', '.join(SOURCES)}")
+    if "vapour" in sources and box.vapour is None:
+        raise GasError("the particles give off vapour, but the case has no [vapour]")
+    return tuple(sources)
+
+
+def _edges(case, edges) -> tuple[np.ndarray, ...]:
+    """Cell edges: those given, or equal cells."""
+    if edges is None:
+        return tuple(uniform_edges(length, count) for length, count in zip(case.domain.size, cells(case)))
+    if len(edges) != case.dimensions:
+        raise CaseError(f"cell edges for {len(edges)} axes are given; the case has {case.dimensions}")
+    for axis, (along, length) in enumerate(zip(edges, case.domain.size)):
+        if not (along[0] == 0.0 and np.isclose(along[-1], length, rtol=1e-9) and np.all(np.diff(along) > 0.0)):
+            raise CaseError(f"cell edges of axis {axis} run from {along[0]:g} to {along[-1]:g}; they must rise from 0 to {length:g}")
+    return tuple(np.asarray(along, dtype=float) for along in edges)
