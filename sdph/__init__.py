@@ -1,3 +1,7 @@
 """sdph: flows of grains, droplets and liquids by SPH particles, coupled to a finite-volume gas."""
 
+from sdph import environment
+
 __version__ = "0.1.0"
+
+environment.prepare()

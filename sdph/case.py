@@ -125,6 +125,7 @@ class Case:
     """All that a run needs, in SI. `parameters[name]` holds the section of each effect that is on."""
 
     title: str
+    scene: str
     dimensions: int
     effects: tuple[str, ...]
     run: Run
@@ -177,7 +178,7 @@ def _override(table: dict, text: str) -> None:
 
 def from_table(table: dict) -> Case:
     """The case of a parsed TOML table."""
-    head = {"title", "dimensions", "effects", "coupling", "vapour", "track"}
+    head = {"title", "scene", "dimensions", "effects", "coupling", "vapour", "track"}
     for key in table:
         if key not in head | SECTIONS.keys() | GROUPS.keys() | effects.REGISTRY.keys():
             raise CaseError(unknown(key, head | SECTIONS.keys() | GROUPS.keys() | effects.REGISTRY.keys()))
@@ -186,6 +187,7 @@ def from_table(table: dict) -> Case:
     on = _effects(table)
     case = Case(
         title=str(table.get("title", "")),
+        scene=str(table.get("scene", "")),
         dimensions=_dimensions(table),
         effects=on,
         coupling=read(Coupling, table.get("coupling", {}), "coupling"),
@@ -258,7 +260,7 @@ def _check_region(case: Case, name: str, region: Region) -> None:
 
 def to_table(case: Case) -> dict:
     """The TOML table of a case, every value resolved."""
-    table = {"title": case.title, "dimensions": case.dimensions, "effects": list(case.effects)}
+    table = {"title": case.title, "scene": case.scene, "dimensions": case.dimensions, "effects": list(case.effects)}
     table |= {name: write(getattr(case, name)) for name in (*SECTIONS, "coupling")}
     table |= {group: {name: write(entry) for name, entry in getattr(case, group).items()} for group in GROUPS}
     table |= {name: write(parameters) for name, parameters in case.parameters.items() if write(parameters)}

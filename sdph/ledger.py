@@ -6,13 +6,13 @@ boundary is counted by the gas itself. Two-dimensional amounts are per metre of 
 
 from __future__ import annotations
 
-import csv
 import math
 from pathlib import Path
 
 import numpy as np
 
 from sdph import particles
+from sdph.output import Table
 
 
 class Ledger:
@@ -23,8 +23,7 @@ class Ledger:
         self.heat_exchanged = 0.0  # sum of |heat| over windows [J]
         self.heat_mismatch = 0.0  # largest |particles - gas| of a window [J]
         self.first = self.last = None
-        self.file = open(path, "w", newline="", encoding="utf-8")
-        self.writer = None
+        self.table = Table(path)
 
     def open(self, state, budget) -> None:
         """The row of the start."""
@@ -49,9 +48,6 @@ class Ledger:
             ),
         }
 
-    def finish(self) -> None:
-        self.file.close()
-
     def _drift(self, particle: str, gas: str, inflow: str) -> float:
         change = {key: self.last[key] - self.first[key] for key in (particle, gas, inflow)}
         return abs(math.fsum((change[particle], change[gas], -change[inflow])))
@@ -72,12 +68,8 @@ class Ledger:
         return row | {f"gas_momentum_{a}_kg_m_s": p / self.depth for a, p in zip("xyz", budget.momentum)}
 
     def _write(self, row: dict) -> None:
-        if self.writer is None:
-            self.first = row
-            self.writer = csv.DictWriter(self.file, row.keys())
-            self.writer.writeheader()
-        self.last = row
-        self.writer.writerow(row)
+        self.first, self.last = self.first or row, row
+        self.table.write(row)
 
 
 def _exchanged(to_particles: float, from_gas: float) -> dict[str, float]:

@@ -42,6 +42,7 @@ class Simulation:
         if not one_way:
             self.clock.begin(*self.exchange.pace(self.state, self.weights, self.gas_state))
         self.ledger.open(self.state, self.gas_state.budget)
+        self.initial = {name: self.probe(probe.at)["temperature_K"] for name, probe in self.case.probes.items()}
 
     def window(self) -> None:
         """One window: exchange prepared, gas advanced, reaction taken, particles advanced."""

@@ -46,7 +46,8 @@ class Window:
         self.courant = case.coupling.courant
         self.limits = {"largest": case.coupling.window_largest}
         self.control = Control(case.coupling.window_tolerance)
-        self.landmarks = _landmarks(case.run)
+        self.outputs = _outputs(case.run)
+        self.landmarks = np.union1d(self.outputs, [t for t in case.run.report_at if 0.0 < t < case.run.end_time])
         self.limit = ""
         self.errors = 0.0
 
@@ -69,7 +70,7 @@ class Window:
             self.limits["courant"] = dt * min(GROWTH, self.courant / courant)
 
 
-def _landmarks(run) -> np.ndarray:
-    """Times that windows end at: outputs, reports, the end."""
-    outputs = np.arange(1, math.ceil(run.end_time / run.output_interval * (1.0 - 1e-9))) * run.output_interval
-    return np.unique([*outputs, *(t for t in run.report_at if 0.0 < t < run.end_time), run.end_time])
+def _outputs(run) -> np.ndarray:
+    """Times that fields are written at: every interval, and the end."""
+    count = math.ceil(run.end_time / run.output_interval * (1.0 - 1e-9))
+    return np.append(np.arange(1, count) * run.output_interval, run.end_time)

@@ -1,0 +1,159 @@
+"""The command line. Modules are imported by the command that needs them, so that `sdph --help` is quick."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+from sdph import __version__
+from sdph.schema import CaseError
+
+FINE, CHECK_FAILED, BAD_INPUT, GAS_FAILED, INTERRUPTED = 0, 1, 2, 3, 130
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Entry point; returns the exit code: 0 fine, 1 a check failed, 2 bad input, 3 the gas side failed."""
+    options = _parser().parse_args(arguments)
+    try:
+        return options.command(options)
+    except CaseError as error:
+        return _failed(error, BAD_INPUT)
+    except KeyboardInterrupt:
+        return _failed("interrupted", INTERRUPTED)
+    except RuntimeError as error:
+        if type(error).__name__ != "GasError":
+            raise
+        return _failed(error, GAS_FAILED)
+
+
+def _failed(message, code: int) -> int:
+    print(f"sdph: {' '.join(str(message).split())}", file=sys.stderr)
+    return code
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="sdph", description="Flows of grains, droplets and liquids: SPH particles and a gas.")
+    parser.add_argument("--version", action="version", version=__version__)
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    _command(commands, "list", list_scenes, "the scenes, one line each")
+    init = _command(commands, "init", init_case, "an editable case folder from a scene")
+    init.add_argument("scene")
+    init.add_argument("folder", type=Path)
+    _run_options(_command(commands, "run", run, "run a scene, a case folder or a case file"))
+    compare = _command(commands, "compare", compare_run, "a run against a reference; exit code 1 outside tolerance")
+    compare.add_argument("run", type=Path)
+    compare.add_argument("--against", required=True, choices=("tfm", "dpm", "exact"))
+    compare.add_argument("--json", action="store_true", help="print the checks as JSON")
+    view = _command(commands, "view", view_run, "look at a run")
+    view.add_argument("run", type=Path)
+    view.add_argument("--png", type=Path, help="write the last state to this picture")
+    openfoam = _command(commands, "openfoam", openfoam_setup, "find or install OpenFOAM and compile the gas solver")
+    openfoam.add_argument("action", choices=("setup",))
+    openfoam.add_argument("--install", action="store_true", help="install what is missing with apt")
+    _command(commands, "doctor", doctor, "what is there, what is missing and what mends it")
+    return parser
+
+
+def _command(commands, name: str, function, summary: str):
+    parser = commands.add_parser(name, help=summary, description=summary)
+    parser.set_defaults(command=function)
+    return parser
+
+
+def _run_options(parser) -> None:
+    parser.add_argument("target", help="scene, folder made by `sdph init`, or case.toml")
+    parser.add_argument("--out", type=Path, help="run folder (default: runs/SCENE, numbered)")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override a key of the case")
+    parser.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: openfoam where it is)")
+    parser.add_argument("--transport", choices=("socket", "file"), help="how fields travel to OpenFOAM")
+    parser.add_argument("--np", type=int, help="MPI ranks of the gas solver")
+    parser.add_argument("--until", type=float, metavar="T", help="end time [s]")
+    parser.add_argument("--json", action="store_true", help="print the summary as JSON")
+
+
+def list_scenes(options) -> int:
+    from sdph import scenes
+
+    for name in scenes.names():
+        print(f"{name:20s} {scenes.title(name)}")
+    return FINE
+
+
+def init_case(options) -> int:
+    from sdph import output, paths, scenes
+
+    name, file = scenes.find(options.scene)
+    folder = output.create(options.folder, ())
+    output.write_text(folder / output.MARK, file.read_text(encoding="utf-8"))
+    output.copy_template(paths.data("openfoam_case_templates") / name / "gas", folder / "gas")
+    print(f"{folder}/case.toml and {folder}/gas are yours to edit; run them with: sdph run {folder}")
+    return FINE
+
+
+def run(options) -> int:
+    from sdph import case as cases
+    from sdph import driver, output, scenes
+    from sdph.progress import Reporter
+
+    name, file = scenes.find(options.target)
+    case = cases.load(file, tuple(options.set) + _overrides(options))
+    folder = options.out or output.free_name(Path("runs") / name)
+    own = file.parent / "gas"
+    reporter = Reporter(case.run.end_time, quiet=options.json)
+    try:
+        summary = driver.run(case, name, folder, own if own.is_dir() else None, reporter)
+    finally:
+        reporter.close()
+    print(json.dumps(summary) if options.json else f"{_table(summary)}\nrun folder: {folder}")
+    return FINE
+
+
+def _overrides(options) -> tuple[str, ...]:
+    given = {
+        "coupling.gas": options.gas,
+        "coupling.transport": options.transport,
+        "coupling.ranks": options.np,
+        "run.end_time_s": options.until,
+    }
+    return tuple(f"{key}={json.dumps(value)}" for key, value in given.items() if value is not None)
+
+
+def _table(summary: dict) -> str:
+    return "\n".join(f"{key:40s} {value:.9g}" if isinstance(value, float) else f"{key:40s} {value}" for key, value in summary.items())
+
+
+def compare_run(options) -> int:
+    from sdph import compare
+
+    checks = compare.compare(options.run, options.against)
+    print(json.dumps({"checks": checks}) if options.json else compare.table(checks))
+    return FINE if all(check["ok"] for check in checks) else CHECK_FAILED
+
+
+def view_run(options) -> int:
+    from sdph import view
+
+    view.show(options.run, options.png)
+    return FINE
+
+
+def openfoam_setup(options) -> int:
+    from coupling.openfoam import install
+
+    install.setup(install=options.install)
+    return FINE
+
+
+def doctor(options) -> int:
+    from coupling.openfoam import install
+
+    rows = install.doctor()
+    for row in rows:
+        print(row)
+    return FINE
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,77 @@
+"""`sdph compare`: a run against a reference. What is compared is the scene's own: validation/<scene>/compare.py."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from sdph import case as cases
+from sdph import output, paths, view
+from sdph.schema import CaseError
+
+
+@dataclass(frozen=True)
+class Run:
+    """A finished run: its case, summary and history (name -> column)."""
+
+    folder: Path
+    case: cases.Case
+    summary: dict
+    history: dict[str, np.ndarray]
+
+    def at(self, column: str, time: float) -> float:
+        """A column of the history at `time` [s], linear between windows."""
+        return float(np.interp(time, self.history["time_s"], self.history[column]))
+
+    def fields(self, time: float):
+        """(time, particles, gas) nearest to `time` [s]."""
+        return view.state_at(view.read(self.folder), time)
+
+
+def open_run(folder: Path) -> Run:
+    """Reads a run folder; `CaseError` where it holds no finished run."""
+    summary = output.read_summary(folder)
+    return Run(folder, cases.load(folder / output.MARK), summary, output.read_table(folder / "history.csv"))
+
+
+def check(name: str, value: float, reference: float, tolerance: float, relative: bool = False) -> dict:
+    """One row of a comparison: |value - reference| <= tolerance (times |reference| where relative)."""
+    value, reference = float(value), float(reference)
+    allowed = tolerance * abs(reference) if relative else tolerance
+    return {"name": name, "value": value, "reference": reference, "tolerance": allowed, "ok": bool(abs(value - reference) <= allowed)}
+
+
+def compare(folder: Path, against: str) -> list[dict]:
+    """The checks of a run's scene against `tfm`, `dpm` or `exact`; the figure goes to the run folder."""
+    run = open_run(folder)
+    module = scene_module(run.case.scene)
+    function = getattr(module, against, None)
+    if function is None:
+        known = [name for name in ("exact", "tfm", "dpm") if hasattr(module, name)]
+        raise CaseError(f"--against {against}: {run.case.scene or 'this case'} has no such reference; it has: {', '.join(known) or 'none'}")
+    checks = function(run)
+    output.write_text(folder / f"compare_{against}.json", json.dumps({"checks": checks}, indent=1) + "\n")
+    return checks
+
+
+def scene_module(scene: str):
+    """validation/<scene>/compare.py as a module; None where the scene has none."""
+    file = paths.data("validation") / scene / "compare.py"
+    if not scene or not file.is_file():
+        return None
+    spec = importlib.util.spec_from_file_location(f"sdph_validation_{scene}", file)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def table(checks: list[dict]) -> str:
+    """The checks as text, one line each."""
+    head = f"{'check':52s} {'value':>14s} {'reference':>14s} {'difference':>12s} {'tolerance':>11s}"
+    row = "{name:52s} {value:14.7g} {reference:14.7g} {difference:12.3g} {tolerance:11.3g} {verdict}"
+    lines = [row.format(difference=c["value"] - c["reference"], verdict="ok" if c["ok"] else "FAILED", **c) for c in checks]
+    return "\n".join([head, *lines])

@@ -1,0 +1,11 @@
+"""Where the data that travels with sdph lies: in the wheel, or beside the package in a checkout."""
+
+from pathlib import Path
+
+PACKAGE = Path(__file__).parent
+
+
+def data(name: str) -> Path:
+    """A folder such as `openfoam_case_templates` or `validation`."""
+    inside = PACKAGE / "data" / name
+    return inside if inside.is_dir() else PACKAGE.parent / name

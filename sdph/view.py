@@ -1,0 +1,74 @@
+"""Pictures of a run: particles over gas cells, with scale bars and units."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from sdph.particles import FIELDS
+from sdph.schema import CaseError
+
+WINDOW = (1200, 900)  # pixels
+SHOWN = 0.75  # share of the window that the domain fills
+BAR = {"vertical": True, "position_y": 0.2, "height": 0.6, "width": 0.06, "fmt": "%.6g", "n_labels": 5, "title_font_size": 16, "label_font_size": 14}
+GAS_UNITS = {"temperature": "K", "pressure": "Pa", "alpha_g": "1", "density": "kg/m3", "vapour_mass_fraction": "1"}
+
+
+def read(folder: Path):
+    """The timeline of a run as a pyvista reader."""
+    import pyvista
+
+    if not (folder / "run.pvd").is_file():
+        raise CaseError(f"{folder} holds no fields (no run.pvd); give the folder of a run")
+    return pyvista.get_reader(str(folder / "run.pvd"))
+
+
+def state_at(reader, time: float | None = None):
+    """(time, particles, gas) nearest to `time` [s]; the last without one."""
+    times = reader.time_values
+    chosen = times[-1] if time is None else min(times, key=lambda t: abs(t - time))
+    reader.set_active_time_value(chosen)
+    blocks = reader.read()
+    return chosen, blocks[0], blocks[1]
+
+
+def show(folder: Path, png: Path | None = None, time: float | None = None, field: str = "temperature") -> None:
+    """A window on the last state of a run, or the same as a picture."""
+    chosen, particles, gas = state_at(read(folder), time)
+    plotter = scene(particles, gas, field, f"t = {chosen:g} s", png is not None)
+    if png is None:
+        plotter.show()
+    else:
+        plotter.screenshot(str(png))
+        plotter.close()
+
+
+def scene(particles, gas, field: str, title: str, off_screen: bool):
+    """A plotter with the particles coloured by `field` over the cells of the gas."""
+    import pyvista
+    from vtkmodules.vtkCommonCore import vtkLogger
+
+    if off_screen:  # VTK first tries an X server, complains, and then renders in software
+        vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
+
+    plotter = pyvista.Plotter(off_screen=off_screen, window_size=WINDOW)
+    if field in gas.cell_data:
+        bar = BAR | {"title": f"gas {field}\n[{GAS_UNITS.get(field, '1')}]", "position_x": 0.86}
+        plotter.add_mesh(gas, scalars=field, cmap="Blues", scalar_bar_args=bar, lighting=False)
+    if particles.n_points and field in particles.point_data:
+        bar = BAR | {"title": f"particle {field}\n[{FIELDS[field][0]}]", "position_x": 0.03}
+        plotter.add_mesh(particles, scalars=field, cmap="inferno", point_size=_size(particles, gas), scalar_bar_args=bar, lighting=False)
+    plotter.add_text(title, font_size=12, position="upper_edge")
+    if gas.bounds[4] == gas.bounds[5]:
+        plotter.view_xy()
+        plotter.enable_parallel_projection()
+    plotter.show_bounds(xtitle="x [m]", ytitle="y [m]", ztitle="z [m]", font_size=10, location="outer", fmt="%.3g", n_xlabels=6, n_ylabels=6)
+    plotter.camera.zoom(0.95)
+    return plotter
+
+
+def _size(particles, gas) -> float:
+    """Point size [pixels] at which neighbouring particles just touch."""
+    width, height = gas.bounds[1] - gas.bounds[0], gas.bounds[3] - gas.bounds[2]
+    box = particles.bounds
+    spacing = ((box[1] - box[0]) * (box[3] - box[2]) / particles.n_points) ** 0.5
+    return max(2.0, SHOWN * min(WINDOW[0] / width, WINDOW[1] / height) * spacing)
