@@ -12,6 +12,7 @@ too, and weights stay smooth as a particle crosses from a fine part of a mesh to
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -60,19 +61,20 @@ class Transfer:
 def gather(weights: Weights, field: np.ndarray) -> np.ndarray:
     """Cell values (C,) or (C, m) at the particles: (N,) or (N, m)."""
     out = np.empty((len(weights.start) - 1, *field.shape[1:]))
-    _gather(weights, _columns(field), out.reshape(len(out), -1))
+    _gather(weights, _columns(field), _columns(out))
     return out
 
 
 def deposit(weights: Weights, field: np.ndarray) -> np.ndarray:
     """Extensive particle values (N,) or (N, m) summed into cells: (C,) or (C, m). In order, so that it repeats bit for bit."""
     out = np.zeros((weights.count, *field.shape[1:]))
-    _deposit(weights, _columns(field), out.reshape(weights.count, -1))
+    _deposit(weights, _columns(field), _columns(out))
     return out
 
 
 def _columns(field):
-    return np.ascontiguousarray(field).reshape(len(field), -1)
+    """(n, m) view of a field (n,) or (n, m); n may be 0."""
+    return np.ascontiguousarray(field).reshape(len(field), math.prod(field.shape[1:]))
 
 
 class Bins(NamedTuple):

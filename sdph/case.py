@@ -13,7 +13,7 @@ from pathlib import Path
 import tomli_w
 
 from sdph import effects
-from sdph.schema import CaseError, choice, flag, quantity, read, record, unknown, vector, whole, words, write
+from sdph.schema import CaseError, choice, fields, flag, quantity, read, record, unknown, vector, whole, words, write
 
 STANDARD_ATMOSPHERE = 101325.0  # Pa, ISO 2533
 
@@ -154,7 +154,7 @@ def load(path: Path, overrides: tuple[str, ...] = ()) -> Case:
     """The case of a TOML file, with `key=value` overrides (dotted keys, TOML values)."""
     try:
         table = tomllib.loads(Path(path).read_text(encoding="utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except (ValueError, RecursionError) as error:  # not TOML, not UTF-8, numbers too long, lists too deep
         raise CaseError(f"{path} is not TOML: {error}") from None
     for override in overrides:
         _override(table, override)
@@ -172,7 +172,7 @@ def _override(table: dict, text: str) -> None:
             raise CaseError(f"--set {text}: {section} is a value, not a section")
     try:
         table[last] = tomllib.loads(f"value = {value}")["value"]
-    except tomllib.TOMLDecodeError:
+    except (ValueError, RecursionError):
         table[last] = value
 
 
@@ -192,7 +192,7 @@ def from_table(table: dict) -> Case:
         effects=on,
         coupling=read(Coupling, table.get("coupling", {}), "coupling"),
         vapour=read(Vapour, table["vapour"], "vapour") if "vapour" in table else None,
-        track=read(_Track, table.get("track", {}), "track").particles,
+        track=_track(table),
         parameters={name: read(effects.REGISTRY[name].parameters, table.get(name, {}), name) for name in on},
         **sections,
         **groups,
@@ -206,6 +206,11 @@ class _Track:
     particles: tuple = words(())
 
 
+def _track(table: dict) -> tuple[str, ...]:
+    named = read(_Track, table.get("track", {}), "track").particles
+    return (named,) if isinstance(named, str) else named
+
+
 def _group(cls, table: dict, where: str) -> dict:
     if not isinstance(table, dict) or not all(isinstance(entry, dict) for entry in table.values()):
         raise CaseError(f"[{where}] must hold named sections, such as [{where}.some_name]")
@@ -213,9 +218,10 @@ def _group(cls, table: dict, where: str) -> dict:
 
 
 def _dimensions(table: dict) -> int:
-    if table.get("dimensions") not in (2, 3):
-        raise CaseError(f"dimensions = {table.get('dimensions')!r}; it must be 2 or 3")
-    return table["dimensions"]
+    given = table.get("dimensions")
+    if not isinstance(given, int) or given not in (2, 3):
+        raise CaseError(f"dimensions = {given!r}; it must be 2 or 3")
+    return given
 
 
 def _effects(table: dict) -> tuple[str, ...]:
@@ -225,6 +231,8 @@ def _effects(table: dict) -> tuple[str, ...]:
     for name in on:
         if name not in effects.REGISTRY:
             raise CaseError(unknown(name, effects.REGISTRY).replace("key", "effect", 1))
+    if len(set(on)) < len(on):
+        raise CaseError(f"effects = {on}; each may stand there once")
     for name in effects.REGISTRY.keys() & table.keys() - set(on):
         raise CaseError(f"[{name}] is given, but {name} is not among effects = {list(on)}; add it there or remove the section")
     return tuple(on)
@@ -234,8 +242,7 @@ def _check(case: Case) -> None:
     """What no single key can tell."""
     vectors = {"domain.size_m": case.domain.size, "domain.gravity_m_s2": case.domain.gravity}
     for name, region in case.particles.items():
-        _check_region(case, name, region)
-        vectors |= {f"particles.{name}.{key}": getattr(region, key) for key in ("centre", "lower", "upper", "velocity")}
+        vectors |= {f"particles.{name}.{key}": getattr(region, at) for key, (at, kind) in fields(Region).items() if kind.components is None}
     for name, probe in case.probes.items():
         vectors[f"probes.{name}.at_m"] = probe.at
     for name, boundary in case.boundaries.items():
@@ -245,6 +252,12 @@ def _check(case: Case) -> None:
             raise CaseError(f"{key} has {len(value)} components; dimensions = {case.dimensions} asks for {case.dimensions}")
     if min(case.domain.size) <= 0.0:
         raise CaseError(f"domain.size_m = {list(case.domain.size)}; every length must be above 0")
+    if any(isinstance(t, tuple) or t <= 0.0 for t in case.run.report_at):
+        raise CaseError(f"run.report_at_s = {list(case.run.report_at)}; it must be a list of times above 0")
+    for name, region in case.particles.items():
+        _check_region(case, name, region)
+    for name, probe in case.probes.items():
+        _inside(case, f"probes.{name}", probe.at, probe.at)
 
 
 def _check_region(case: Case, name: str, region: Region) -> None:
@@ -253,9 +266,20 @@ def _check_region(case: Case, name: str, region: Region) -> None:
         if getattr(region, key) is None:
             raise CaseError(f"particles.{name}.{key}_m is missing; a {region.shape} needs {' and '.join(f'{n}_m' for n in needs)}")
     size = region.radius if region.shape != "box" else min(b - a for a, b in zip(region.lower, region.upper))
+    if size <= 0.0:
+        raise CaseError(f"particles.{name}: upper_m = {list(region.upper)} must lie above lower_m = {list(region.lower)} along every axis")
     if case.resolution.spacing > size:
         spacing = f"resolution.spacing_mm = {case.resolution.spacing * 1e3:g}"
         raise CaseError(f"{spacing} is larger than particles.{name} ({size * 1e3:g} mm); give a spacing well below that")
+    box = region.shape == "box"
+    lower = region.lower if box else [c - region.radius for c in region.centre]
+    _inside(case, f"particles.{name}", lower, region.upper if box else [c + region.radius for c in region.centre])
+
+
+def _inside(case: Case, key: str, lower, upper) -> None:
+    slack = 1e-9 * max(case.domain.size)  # round-off of centre plus radius
+    if any(a < -slack or b > length + slack for a, b, length in zip(lower, upper, case.domain.size)):
+        raise CaseError(f"{key} reaches out of the domain, domain.size_m = {list(case.domain.size)}; move it or enlarge the domain")
 
 
 def to_table(case: Case) -> dict:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import dataclasses
 import difflib
 import math
+import sys
 from typing import Any
 
 # unit as written in a key -> factor to SI
@@ -105,7 +106,7 @@ def read(cls: type, table: dict, where: str):
 def write(record: Any) -> dict:
     """The TOML table of a dataclass declared with this module; unset (None) fields are left out."""
     pairs = ((key, kind, getattr(record, name)) for key, (name, kind) in fields(type(record)).items())
-    return {key: _scaled(value, 1.0 / UNITS[kind.unit]) for key, kind, value in pairs if value is not None}
+    return {key: _in_unit(value, UNITS[kind.unit]) for key, kind, value in pairs if value is not None}
 
 
 def unknown(given: str, known, where: str = "") -> str:
@@ -148,8 +149,8 @@ def _number(value: Any, key: str, kind: Kind) -> float:
     unit = kind.unit.replace("_", " ") or "1"
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise CaseError(f"{key} = {value!r}; it must be a number in {unit}, without the unit")
-    if not math.isfinite(value):
-        raise CaseError(f"{key} = {value}; it must be a finite number in {unit}")
+    if not abs(value) <= sys.float_info.max:  # nan, inf, and whole numbers too long for a float
+        raise CaseError(f"{key} = {str(value)[:40]}; it must be a finite number in {unit}")
     return float(value)
 
 
@@ -157,21 +158,24 @@ def _bounded(kind: Kind, value: float, key: str) -> float:
     if not (value > kind.above and kind.least <= value <= kind.most):
         low = f"above {kind.above:g}" if kind.above > -math.inf else f"at least {kind.least:g}" if kind.least > -math.inf else ""
         high = f"at most {kind.most:g}" if kind.most < math.inf else ""
-        raise CaseError(f"{key} = {value:g}; it must be {' and '.join(filter(None, (low, high)))}")
+        raise CaseError(f"{key} = {str(value)[:40]}; it must be {' and '.join(filter(None, (low, high)))}")
     return value
 
 
 def _vector(kind: Kind, value: Any, key: str) -> tuple:
-    if not isinstance(value, list) or not value:
+    if not isinstance(value, list):
         raise CaseError(f"{key} = {value!r}; it must be a list of numbers in {kind.unit.replace('_', ' ') or '1'}")
     if kind.components and len(value) != kind.components:
         raise CaseError(f"{key} has {len(value)} components; it must have {kind.components}")
     return tuple(_vector(kind, v, key) if isinstance(v, list) else _number(v, key, kind) * UNITS[kind.unit] for v in value)
 
 
-def _scaled(value: Any, factor: float) -> Any:
+def _in_unit(value: Any, unit: float) -> Any:
+    """A value in SI as it is written: the shortest number that reads back as the same value, to the last bit."""
     if isinstance(value, tuple):
-        return [_scaled(v, factor) for v in value]
-    if isinstance(value, float) and factor != 1.0:
-        return float(f"{value * factor:.15g}")
-    return value
+        return [_in_unit(v, unit) for v in value]
+    if not isinstance(value, float) or unit == 1.0:
+        return value
+    near = value / unit
+    candidates = float(f"{near:.15g}"), near, math.nextafter(near, math.inf), math.nextafter(near, -math.inf)
+    return next((c for c in candidates if c * unit == value), near)
