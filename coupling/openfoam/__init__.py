@@ -1,0 +1,1 @@
+"""OpenFOAM as the gas: finding and building it, writing its cases, running it."""

@@ -1,0 +1,111 @@
+"""system/blockMeshDict of a box: blocks split where a boundary begins or ends on a side, patches named as in the case."""
+
+from __future__ import annotations
+
+import itertools
+
+from sdph.schema import CaseError
+
+# side -> (axis it is normal to, whether it is the upper one)
+SIDES = {"left": (0, 0), "right": (0, 1), "bottom": (1, 0), "top": (1, 1), "back": (2, 0), "front": (2, 1)}
+# vertices (of the eight of a block, bit k: upper along axis k) of the lower and upper face of each axis, seen from outside
+FACES = {
+    0: ((0, 4, 6, 2), (1, 3, 7, 5)),
+    1: ((0, 1, 5, 4), (2, 6, 7, 3)),
+    2: ((0, 2, 3, 1), (4, 5, 7, 6)),
+}
+BLOCK_ORDER = (0, 1, 3, 2, 4, 5, 7, 6)  # of the same eight, as blockMesh wants them
+CLOSE = 1e-9  # of the size of the box: two edges are the same
+
+
+def block_mesh(case, depth: float) -> str:
+    """The dictionary, less its head; a two-dimensional case is one cell of `depth` [m] deep."""
+    size = [*case.domain.size, *[depth] * (3 - case.dimensions)]
+    edges = [_edges(case, axis, size[axis]) for axis in range(3)]
+    counts = [_counts(case, axis, edges[axis]) for axis in range(3)]
+    blocks = list(itertools.product(*(range(len(e) - 1) for e in edges)))
+    vertices = "".join(f"    ({x!r} {y!r} {z!r})\n" for z, y, x in itertools.product(*reversed(edges)))
+    lines = "".join(_block_line(block, edges, counts) for block in blocks)
+    patches = "".join(_patch(name, kind, faces) for name, (kind, faces) in _patches(case, blocks, edges).items())
+    return f"scale 1;\nvertices\n(\n{vertices});\nblocks\n(\n{lines});\nedges ();\nboundary\n(\n{patches});\nmergePatchPairs ();\n"
+
+
+def _edges(case, axis: int, length: float) -> list[float]:
+    """Where blocks meet along an axis."""
+    found = {0.0, length}
+    for boundary in case.boundaries.values():
+        for along, (low, high) in _spans(boundary, case.dimensions):
+            if along == axis:
+                found |= {low, high}
+    edges = sorted(found)
+    if edges[0] < 0.0 or edges[-1] > length:
+        raise CaseError(f"a boundary's span_m goes from {edges[0]:g} to {edges[-1]:g} m; the box goes from 0 to {length:g} m there")
+    return [a for a, b in zip(edges, edges[1:]) if b - a > CLOSE * length] + [length]
+
+
+def _spans(boundary, dimensions: int) -> list[tuple[int, tuple[float, float]]]:
+    """(axis, (low, high)) of a boundary that is a part of its side."""
+    if boundary.side is None or boundary.span is None:
+        return []
+    axis, _ = SIDES[boundary.side]
+    tangential = [a for a in range(dimensions) if a != axis]
+    spans = boundary.span if isinstance(boundary.span[0], (tuple, list)) else (boundary.span,)
+    if len(spans) != len(tangential) or any(len(s) != 2 or s[0] >= s[1] for s in spans):
+        raise CaseError(f"span_m of the boundary on the {boundary.side} is {boundary.span}; give [low, high] per tangential axis")
+    return list(zip(tangential, spans))
+
+
+def _counts(case, axis: int, edges: list[float]) -> list[int]:
+    """Cells of each block along an axis."""
+    if axis >= case.dimensions:
+        return [1]
+    return [max(1, round((high - low) / case.resolution.cell)) for low, high in zip(edges, edges[1:])]
+
+
+def _vertex(block: tuple[int, ...], corner: int, edges: list[list[float]]) -> int:
+    i, j, k = (block[axis] + (corner >> axis & 1) for axis in range(3))
+    return i + len(edges[0]) * (j + len(edges[1]) * k)
+
+
+def _block_line(block, edges, counts) -> str:
+    corners = " ".join(str(_vertex(block, corner, edges)) for corner in BLOCK_ORDER)
+    cells = " ".join(str(counts[axis][block[axis]]) for axis in range(3))
+    return f"    hex ({corners}) ({cells}) simpleGrading (1 1 1)\n"
+
+
+def _patches(case, blocks, edges) -> dict[str, tuple[str, list[str]]]:
+    """Patch name -> (type, faces)."""
+    patches: dict[str, tuple[str, list[str]]] = {}
+    for block in blocks:
+        for axis, upper in itertools.product(range(3), (0, 1)):
+            if block[axis] != (len(edges[axis]) - 2 if upper else 0):
+                continue
+            name, kind = _owner(case, block, axis, upper, edges)
+            corners = " ".join(str(_vertex(block, corner, edges)) for corner in FACES[axis][upper])
+            patches.setdefault(name, (kind, []))[1].append(f"({corners})")
+    return patches
+
+
+def _owner(case, block, axis: int, upper: int, edges) -> tuple[str, str]:
+    """(name, type) of the patch that a block's outer face belongs to: of a span, else of a side, else of the rest."""
+    if axis >= case.dimensions:
+        return "frontAndBack", "empty"
+    side = next(name for name, place in SIDES.items() if place == (axis, upper))
+    centre = [0.5 * (e[i] + e[i + 1]) for e, i in zip(edges, block)]
+
+    def reach(boundary) -> int | None:
+        if boundary.side is None:
+            return 0
+        inside = all(low < centre[a] < high for a, (low, high) in _spans(boundary, case.dimensions))
+        return (1 if boundary.span is None else 2) if boundary.side == side and inside else None
+
+    claims = [(reach(boundary), name) for name, boundary in case.boundaries.items() if reach(boundary) is not None]
+    best = [name for rank, name in claims if rank == max(claims)[0]]
+    if len(best) != 1:
+        says = f"belongs to {' and '.join(best)}" if best else "belongs to no boundary"
+        raise CaseError(f"a part of the {side} side {says}; it must belong to one: give `side` and `span_m`, or one without a side for the rest")
+    return best[0], "wall" if case.boundaries[best[0]].kind in ("wall", "slip_wall") else "patch"
+
+
+def _patch(name: str, kind: str, faces: list[str]) -> str:
+    return f"    {name} {{ type {kind}; faces ({' '.join(faces)}); }}\n"

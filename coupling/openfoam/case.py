@@ -1,0 +1,122 @@
+"""Writing an OpenFOAM case: a template's files, the numbers of the case as macros, and the mesh.
+
+`constant/sdphCase` holds every value of the resolved case in SI as `<section>_<attribute> value;`, so that
+a template needs nothing but `#include "sdphCase"` and `$gas_density`. `system/blockMeshDict` and
+`system/decomposeParDict` are made unless the folder brings its own.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import gzip
+import re
+import shutil
+from pathlib import Path
+
+from coupling.openfoam.block_mesh import block_mesh
+from sdph.schema import CaseError
+
+HEAD = "FoamFile {{ version 2.0; format ascii; class dictionary; object {name}; }}\n"
+SPATIAL = ("m", "m_s", "m_s2")  # units of what has one component per dimension
+NOT_SPATIAL = ("span",)  # lengths, but along the tangential axes
+DEPTH = 1.0  # m, of the one cell that a two-dimensional mesh is deep
+# what makes OpenFOAM run or load code that a case brings
+CODE = re.compile(r"#\s*(codeStream|calc)\b|\bcoded\w*\b|\bsystemCall\b|\b(functionObjectLibs|libs)\b")
+COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+
+
+def write_case(case, template: Path, folder: Path, ranks: int = 1, allow_code: bool = False) -> None:
+    """Make `folder` the OpenFOAM case of `case`: `template`'s files, macros, and the dictionary of the mesh."""
+    if not (template / "system" / "controlDict").exists():
+        raise CaseError(f"{template} is no OpenFOAM case: it has no system/controlDict")
+    if not allow_code:
+        refuse_code(template)
+    shutil.copytree(template, folder, dirs_exist_ok=True)
+    write_macros(case, folder)
+    if not (folder / "constant" / "polyMesh").exists():
+        write_block_mesh(case, folder)
+    if ranks > 1:
+        write_decomposition(case, folder, ranks)
+
+
+def refuse_code(folder: Path) -> None:
+    """CaseError when a dictionary of the case would run code: OpenFOAM compiles and runs what such entries say."""
+    for path in sorted(p for p in folder.rglob("*") if p.is_file()):
+        if path.parent.name == "polyMesh" and path.name != "boundary":
+            continue
+        data = path.read_bytes()
+        text = (gzip.decompress(data) if path.suffix == ".gz" else data).decode(errors="replace")
+        found = CODE.search(COMMENT.sub("", text))
+        if found:
+            raise CaseError(f"{path} has {found.group()!r}, which runs code of the case; remove it, or allow it if you wrote it yourself")
+
+
+def write_macros(case, folder: Path) -> None:
+    """`constant/sdphCase`."""
+    (folder / "constant").mkdir(exist_ok=True, parents=True)
+    lines = "".join(f"{name} {value};\n" for name, value in macros(case).items())
+    (folder / "constant" / "sdphCase").write_text(f"// Written by sdph from case.toml, in SI units\n{lines}", encoding="utf-8")
+
+
+def macros(case) -> dict[str, str]:
+    """Name -> value, as OpenFOAM reads it, of everything in the case."""
+    found = {"dimensions": str(case.dimensions)}
+    for field in dataclasses.fields(case):
+        _flatten(field.name.removeprefix("parameters"), getattr(case, field.name), case.dimensions, found)
+    if case.dimensions == 2:
+        found["domain_size"] = _list([*case.domain.size, DEPTH])
+    return found
+
+
+def _flatten(prefix: str, value, dimensions: int, found: dict[str, str]) -> None:
+    """The parameters of an effect go under its own name, those of a group under group_name."""
+    if isinstance(value, dict):
+        for name, entry in value.items():
+            _flatten(f"{prefix}_{name}".lstrip("_"), entry, dimensions, found)
+    elif dataclasses.is_dataclass(value):
+        for field in dataclasses.fields(value):
+            entry = getattr(value, field.name)
+            if _is_spatial(field, entry, dimensions):
+                entry = (*entry, *[0.0] * (3 - dimensions))
+            _flatten(f"{prefix}_{field.name}", entry, dimensions, found)
+    elif value is not None:
+        found[prefix] = _entry(value)
+
+
+def _is_spatial(field: dataclasses.Field, value, dimensions: int) -> bool:
+    kind = field.metadata.get("kind")
+    is_vector = isinstance(value, tuple) and len(value) == dimensions and not isinstance(value[0], tuple)
+    return kind is not None and kind.unit in SPATIAL and is_vector and field.name not in NOT_SPATIAL
+
+
+def _entry(value) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (tuple, list)):
+        return _list(value)
+    if isinstance(value, str):
+        return value if re.fullmatch(r"[A-Za-z_]\w*", value) else '"{}"'.format(re.sub(r'["$#;{}\\]', " ", value))
+    return repr(value)
+
+
+def _list(values) -> str:
+    return f"({' '.join(_entry(v) for v in values)})"
+
+
+def write_block_mesh(case, folder: Path) -> None:
+    """`system/blockMeshDict`, unless the folder has one."""
+    path = folder / "system" / "blockMeshDict"
+    if not path.exists():
+        path.write_text(HEAD.format(name="blockMeshDict") + block_mesh(case, DEPTH), encoding="utf-8")
+
+
+def write_decomposition(case, folder: Path, ranks: int) -> None:
+    """`system/decomposeParDict`, unless the folder has one: slabs along the longest side."""
+    path = folder / "system" / "decomposeParDict"
+    if path.exists():
+        return
+    size = case.domain.size
+    longest = size.index(max(size))
+    counts = " ".join(str(ranks) if axis == longest else "1" for axis in range(3))
+    text = f"numberOfSubdomains {ranks};\nmethod simple;\nsimpleCoeffs {{ n ({counts}); delta 0.001; }}\n"
+    path.write_text(HEAD.format(name="decomposeParDict") + text, encoding="utf-8")

@@ -1,0 +1,155 @@
+/*---------------------------------------------------------------------------*\
+sdphGasFoam: the gas phase of sdph. Copyright (C) 2025 the sdph authors.
+This program is free software: you can redistribute it and/or modify it under
+the terms of the GNU General Public License as published by the Free Software
+Foundation, either version 3 of the License, or (at your option) any later
+version. It comes WITHOUT ANY WARRANTY; see <http://www.gnu.org/licenses/>.
+\*---------------------------------------------------------------------------*/
+// sdphGasFoam: the gas between the particles of sdph. It is started by sdph, calls it back at -address, tells it the
+// mesh and then does what it is told: start, advance, checkpoint, restore, close.
+
+#include "channel.H"
+#include "checkpoint.H"
+#include "exchange.H"
+
+using namespace Foam;
+
+namespace
+{
+
+// What the other ranks are told of a message: numbers and texts, and of arrays only that they are there
+List<char> summary(const wire::Message& message)
+{
+    wire::Message small(message.kind);
+    for (const auto& item : message.fields)
+    {
+        if (item.second.shape.empty() || item.second.type == wire::UTF8) small.fields.insert(item);
+        else small.set(item.first, int64_t(0));
+    }
+    const std::string bytes = wire::encode(small);
+    return List<char>(UList<char>(const_cast<char*>(bytes.data()), bytes.size()));
+}
+
+// The next message, on every rank; its arrays on the master only
+wire::Message nextMessage(Channel* channel)
+{
+    wire::Message message(channel ? channel->receive() : wire::Message(wire::CLOSE));
+    if (!Pstream::parRun()) return message;
+    List<char> bytes;
+    if (channel) bytes = summary(message);
+    compat::broadcast(bytes);
+    if (channel) return message;
+    const std::string encoded(bytes.cdata(), bytes.size());
+    return wire::decode(wire::readHeader(encoded, wire::absoluteLimit), encoded.substr(wire::headerSize));
+}
+
+void send(Channel* channel, const wire::Message& message)
+{
+    if (channel) channel->send(message);
+}
+
+void start(const wire::Message& message, GasSolver& solver, const Exchange& exchange)
+{
+    solver.sources.choose(message.text("sources"), solver.mesh);
+    solver.start(exchange.alpha(message, message.has("alpha_g"), solver.alpha.primitiveField()));
+}
+
+void advance(const wire::Message& message, GasSolver& solver, const Exchange& exchange, Time& time)
+{
+    const scalar dt = message.number("dt");
+    if (!(dt > 0 && dt < GREAT)) throw BadValue("dt is " + std::to_string(dt) + " s; it must be positive");
+    exchange.takeSources(message, solver.sources);
+    const scalarField alphaEnd
+    (
+        exchange.alpha(message, solver.sources.has("alpha_g"), solver.alpha.primitiveField())
+    );
+    compat::setDeltaT(time, dt);
+    ++time;
+    Info<< "Time = " << time.value() << " s, dt = " << dt << " s" << endl;
+    solver.advance(alphaEnd);
+    if (message.integer("write")) solver.write();
+}
+
+void serve(Channel* channel, GasSolver& solver, const Exchange& exchange, Time& time)
+{
+    while (true)
+    {
+        const wire::Message message = nextMessage(channel);
+        switch (message.kind)
+        {
+            case wire::START:
+                start(message, solver, exchange);
+                send(channel, exchange.state(solver));
+                break;
+            case wire::ADVANCE:
+                advance(message, solver, exchange, time);
+                send(channel, exchange.state(solver));
+                break;
+            case wire::CHECKPOINT:
+                Checkpoint(solver).write(message.text("folder"));
+                send(channel, wire::Message(wire::DONE));
+                break;
+            case wire::RESTORE:
+                Checkpoint(solver).read(message.text("folder"), time);
+                send(channel, exchange.state(solver));
+                break;
+            case wire::CLOSE:
+                return;
+            default:
+                throw wire::Error("sdph sent a message that only the gas sends");
+        }
+    }
+}
+
+void run(const argList& args, Channel* channel, const std::string& secret)
+{
+    Time time(Time::controlDictName, args);
+    fvMesh mesh(IOobject(fvMesh::defaultRegion, compat::timeName(time), time, IOobject::MUST_READ));
+    const Exchange exchange(mesh);
+    GasSolver solver(mesh);
+    send(channel, exchange.hello(solver, secret));
+    if (channel) channel->limit = 1u << 18 | uint64_t(exchange.cells())*8*32;
+    serve(channel, solver, exchange, time);
+}
+
+// Tell the particles, if they are there to be told, and the log
+void report(Channel* channel, const std::string& secret, const std::string& text)
+{
+    std::cerr << "sdphGasFoam: " << text << std::endl;
+    if (!channel) return;
+    try
+    {
+        wire::Message message(wire::ERROR);
+        message.set("text", text);
+        message.set("secret", secret);
+        channel->send(message);
+    }
+    catch (const wire::Error&) {}
+}
+
+} // namespace
+
+int main(int argc, char* argv[])
+{
+    argList::addOption("address", "address", "where sdph listens: unix:<path>, tcp:<host>:<port> or file:<folder>");
+    argList::addOption("watch", "pid", "end when this process ends");
+    const argList args(argc, argv);
+    if (!args.checkRootCase()) return 1;
+    if (args.found("watch")) endWith(args.get<label>("watch"));
+    const std::string secret = getEnv("SDPH_SECRET");
+    std::unique_ptr<Channel> channel;
+    std::string text;
+    compat::throwErrors();
+    try
+    {
+        if (Pstream::master()) channel = Channel::open(args["address"]);
+        run(args, channel.get(), secret);
+        return 0;
+    }
+    catch (const Foam::error& error) { text = error.message(); }
+    catch (const std::exception& error) { text = error.what(); }
+    report(channel.get(), secret, text);
+    // The other ranks wait for this one inside MPI: end them too
+    if (Pstream::parRun()) Pstream::exit(1);
+    return 1;
+}

@@ -1,0 +1,222 @@
+"""The gas by OpenFOAM: starts sdphGasFoam on a case folder, talks to it, and leaves nothing running."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import signal
+import subprocess
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from coupling.files import FileServer
+from coupling.gas import FIELDS, SOURCES, Budget, GasError, GasState, Mesh
+from coupling.messages import Kind, Message, MessageError, message_limit
+from coupling.openfoam import case as case_files
+from coupling.openfoam import install, programs
+from coupling.openfoam.build import silent
+from coupling.sockets import SocketServer
+from sdph.schema import CaseError
+
+START_TIME = 120.0  # s that the solver may take to read its case
+STEP_TIME = 3600.0  # s that one step may take
+QUIET = 2.0  # s of waiting after which the user is told what is waited for
+END_TIME = 5.0  # s that the solver may take to end by itself
+OUTPUT_SLACK = 1e-9  # of an output interval: round-off of summed time steps
+
+
+class OpenFoamGas:
+    """`coupling.gas.Gas` by sdphGasFoam, in `folder`; its log is `folder/log.sdphGasFoam`.
+
+    `template` is an OpenFOAM case with 0, constant and system. Time folders are written every
+    `case.run.output_interval`.
+    """
+
+    def __init__(self, case, folder: Path, template: Path, *, status: Callable[[str], None] = silent, allow_code: bool = False):
+        self._case, self._folder, self._status = case, Path(folder).resolve(), status
+        self._log = self._folder / "log.sdphGasFoam"
+        self._process = self._connection = None
+        self._time = 0.0
+        program = install.gas_solver(status)
+        case_files.write_case(case, Path(template), self._folder, case.coupling.ranks, allow_code)
+        self._make_mesh()
+        try:
+            self._launch(program)
+        except BaseException:
+            self.close()
+            raise
+
+    def _make_mesh(self) -> None:
+        if not (self._folder / "constant" / "polyMesh").exists():
+            programs.run(["blockMesh"], self._folder, self._folder / "log.blockMesh")
+        if self._case.coupling.ranks > 1:
+            programs.run(["decomposePar", "-force"], self._folder, self._folder / "log.decomposePar")
+
+    def _launch(self, program: Path) -> None:
+        """Start the solver and wait for its greeting."""
+        secret = secrets.token_hex(32)
+        files = self._case.coupling.transport == "file"
+        server = FileServer(secret, self._folder / "exchange") if files else SocketServer(secret)
+        try:
+            self._process = self._start(program, server.address, secret)
+            self._connection, first = self._guard(lambda alive: server.accept(START_TIME, alive), "to start")
+        finally:
+            server.close()
+        hello = self._expect(first, Kind.HELLO)
+        self._check_properties(hello)
+        self.mesh = _mesh(hello)
+        self.solver = f"{hello['solver']}, {hello['openfoam']}, {hello['ranks']} ranks"
+        self._connection.limit = message_limit(len(self.mesh.volumes))
+
+    def _start(self, program: Path, address: str, secret: str) -> subprocess.Popen:
+        ranks = self._case.coupling.ranks
+        command = [str(program), "-case", str(self._folder), "-address", address, "-watch", str(os.getpid())]
+        if ranks > 1:
+            command = [*install.mpirun(ranks), *command, "-parallel"]
+        # a result that is not a number is named and reported by the solver, not trapped by the processor
+        environment = install.environment() | {"SDPH_SECRET": secret, "FOAM_SIGFPE": "false", "FOAM_SETNAN": "false"}
+        with self._log.open("wb") as log:
+            return subprocess.Popen(
+                command, cwd=self._folder, env=environment, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True
+            )
+
+    def start(self, alpha_g: np.ndarray | None, sources: tuple[str, ...]) -> GasState:
+        """See `Gas.start`."""
+        values = {"sources": " ".join(sources)}
+        if alpha_g is not None:
+            values["alpha_g"] = np.asarray(alpha_g, float)
+        return self._ask(Message(Kind.START, values, {"alpha_g": "1"}))
+
+    def advance(self, dt: float, sources: dict[str, np.ndarray]) -> GasState:
+        """See `Gas.advance`."""
+        units = {name: SOURCES[name][0] for name in sources} | {"dt": "s"}
+        return self._ask(Message(Kind.ADVANCE, {"dt": float(dt), "write": self._output_due(dt), **sources}, units))
+
+    def checkpoint(self, folder: Path) -> None:
+        """See `Gas.checkpoint`."""
+        Path(folder).mkdir(parents=True, exist_ok=True)
+        self._request(Message(Kind.CHECKPOINT, {"folder": str(Path(folder).resolve())}), Kind.DONE)
+
+    def restore(self, folder: Path) -> GasState:
+        """See `Gas.restore`."""
+        return self._ask(Message(Kind.RESTORE, {"folder": str(Path(folder).resolve())}))
+
+    def close(self) -> None:
+        """End the solver and all its ranks; a second call does nothing."""
+        if self._connection is not None:
+            self._say_goodbye()
+            self._connection.close()
+            self._connection = None
+        if self._process is not None:
+            end_group(self._process)
+            self._process = None
+
+    def _say_goodbye(self) -> None:
+        try:
+            self._connection.send(Message(Kind.CLOSE))
+            self._process.wait(END_TIME)
+        except (ConnectionError, MessageError, subprocess.TimeoutExpired):
+            pass  # it is ended by force next
+
+    def _ask(self, message: Message) -> GasState:
+        state = _state(self._request(message, Kind.STATE))
+        self._time = state.time
+        return state
+
+    def _request(self, message: Message, answer: Kind) -> Message:
+        if self._connection is None:
+            raise GasError("the gas solver was closed")
+
+        def exchange(alive):
+            self._connection.send(message)
+            return self._connection.receive(STEP_TIME, alive)
+
+        return self._expect(self._guard(exchange, f"for {message.kind.name}"), answer)
+
+    def _guard(self, action: Callable, what: str):
+        """The result of an action that waits for the solver; whatever goes wrong becomes a GasError and ends the solver."""
+        try:
+            return action(self._watch())
+        except (ConnectionError, TimeoutError, MessageError) as error:
+            reason = self._reason(str(error), what)
+            self.close()
+            raise GasError(f"{reason} (log: {self._log})") from None
+
+    def _watch(self) -> Callable[[], bool]:
+        """Says whether the solver runs, and tells the user what is waited for when that takes long."""
+        begin = told = time.monotonic()
+
+        def alive() -> bool:
+            nonlocal told
+            now = time.monotonic()
+            if now - begin >= QUIET and now - told >= 1.0:
+                told = now
+                self._status(f"waiting for sdphGasFoam, {now - begin:.0f} s, log: {self._log}")
+            return self._process.poll() is None
+
+        return alive
+
+    def _reason(self, error: str, what: str) -> str:
+        """Why the solver does not answer: how it ended, with the end of its log, or what was wrong with its answer."""
+        try:
+            code = self._process.wait(1.0)
+        except subprocess.TimeoutExpired:
+            return f"sdphGasFoam, waited {what}: {error}"
+        how = f"was killed by {signal.Signals(-code).name}" if code < 0 else f"ended with code {code}"
+        return f"sdphGasFoam {how}: {programs.reason(self._log)}"
+
+    def _expect(self, message: Message, kind: Kind) -> Message:
+        if message.kind is kind:
+            return message
+        self.close()
+        said = message["text"] if message.kind is Kind.ERROR else f"{message.kind.name} where {kind.name} was expected"
+        raise GasError(f"sdphGasFoam says: {' '.join(said.split())} (log: {self._log})")
+
+    def _check_properties(self, hello: Message) -> None:
+        """The particles and the gas must mean the same gas."""
+        if hello["dimensions"] != self._case.dimensions:
+            raise CaseError(f"the mesh has {hello['dimensions']} dimensions; case.toml says dimensions = {self._case.dimensions}")
+        for name, value in hello.values.items():
+            section, _, key = name.partition("_")
+            if section not in ("gas", "vapour"):
+                continue
+            ours = getattr(getattr(self._case, section), key, None)
+            if ours != value:
+                raise CaseError(f"constant/gasProperties has {name} = {value}; case.toml has {ours}: make them the same")
+
+    def _output_due(self, dt: float) -> bool:
+        """Whether a time folder is to be written at the end of the next step."""
+        interval = self._case.run.output_interval
+        written = int(self._time / interval + OUTPUT_SLACK)
+        return int((self._time + dt) / interval + OUTPUT_SLACK) > written
+
+
+def end_group(process: subprocess.Popen) -> None:
+    """End a process and all that it started; mpirun is asked first, since it ends its ranks itself."""
+    if process.poll() is None:
+        process.terminate()
+        try:
+            process.wait(1.0)
+        except subprocess.TimeoutExpired:
+            pass  # it is killed next
+    try:
+        os.killpg(process.pid, signal.SIGKILL)
+    except ProcessLookupError:
+        pass  # nothing of the group is left
+    process.wait()
+
+
+def _mesh(hello: Message) -> Mesh:
+    return Mesh(hello["centres"], hello["volumes"], int(hello["dimensions"]), float(hello["depth"]))
+
+
+def _state(message: Message) -> GasState:
+    numbers = {name.removeprefix("budget_"): value for name, value in message.values.items() if name.startswith("budget_")}
+    vectors = {name: tuple(numbers.pop(name).tolist()) for name in ("momentum", "force")}
+    residuals = {name.removeprefix("residual_"): float(v) for name, v in message.values.items() if name.startswith("residual_")}
+    budget = Budget(**{name: float(value) for name, value in numbers.items()}, **vectors, residuals=residuals)
+    fields = {name: message.values[name] for name in FIELDS if name in message.values}
+    return GasState(float(message["time"]), fields, budget)
