@@ -26,6 +26,7 @@ from sdph.laws.exchange import exponential_fraction
 
 
 INSTANT = 1e-12  # s, so short that f_k/dt is K_k/C_k
+NEGLIGIBLE = 1e-6  # of the temperature: smaller differences need not be resolved (round-off else rules the window); our choice
 
 
 @dataclass(frozen=True)
@@ -83,8 +84,9 @@ class Exchange:
         gas = self.alpha_g(state, weights) * gas_state.fields["density"] * self.case.gas.heat_capacity
         full = content > 0.0
         rate = eps["heat"][full] * (1.0 / content[full] + 1.0 / gas[full])
-        apart = gas_state.fields["temperature"][full] - eps["heat_temperature"][full] / eps["heat"][full]
-        heat = np.abs(apart) * self.volumes[full] / (1.0 / content[full] + 1.0 / gas[full])
+        temperature = gas_state.fields["temperature"][full]
+        apart = np.abs(temperature - eps["heat_temperature"][full] / eps["heat"][full])
+        heat = np.maximum(apart, NEGLIGIBLE * temperature) * self.volumes[full] / (1.0 / content[full] + 1.0 / gas[full])
         return float(rate.max(initial=0.0)), float(heat.sum())
 
     def take(self, handed: Handed, gas_state) -> Taken:

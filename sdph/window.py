@@ -12,6 +12,7 @@ import math
 import numpy as np
 
 SAFETY, GROWTH, SHRINK = 0.9, 2.0, 0.3  # usual bounds of a step controller (Hairer, Norsett & Wanner, II.4); our choice
+SAME = 1e-9  # of the end time: landmarks nearer to each other than this differ by round-off only
 
 
 class Control:
@@ -47,7 +48,8 @@ class Window:
         self.limits = {"largest": case.coupling.window_largest}
         self.control = Control(case.coupling.window_tolerance)
         self.outputs = _outputs(case.run)
-        self.landmarks = np.union1d(self.outputs, [t for t in case.run.report_at if 0.0 < t < case.run.end_time])
+        apart = [t for t in case.run.report_at if t < case.run.end_time and abs(self.outputs - t).min() > SAME * case.run.end_time]
+        self.landmarks = np.union1d(self.outputs, apart)
         self.limit = ""
         self.errors = 0.0
 
