@@ -33,7 +33,9 @@ class Control:
         """Next window [s] after one of `dt` [s] in which `taken` (N,) [J] was exchanged."""
         before, self.rates = self.rates, (dt, taken / dt)
         self.scale = max(self.scale, float(np.abs(taken).sum()))
-        if before is None or len(before[1]) != len(taken) or self.scale == 0.0:
+        if self.scale == 0.0:  # nothing to exchange, nothing to resolve
+            return dt * GROWTH
+        if before is None or len(before[1]) != len(taken):
             return dt
         change = float(np.abs(self.rates[1] - before[1]).sum())
         self.error = change * dt * dt / (dt + before[0]) / self.scale
