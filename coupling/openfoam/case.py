@@ -1,8 +1,8 @@
 """Writing an OpenFOAM case: a template's files, the numbers of the case as macros, and the mesh.
 
 `constant/sdphCase` holds every value of the resolved case in SI as `<section>_<attribute> value;`, so that
-a template needs nothing but `#include "sdphCase"` and `$gas_density`. `system/blockMeshDict` and
-`system/decomposeParDict` are made unless the folder brings its own.
+a template needs nothing but `#include "sdphCase"` and `$gas_density`. `system/blockMeshDict`,
+`system/decomposeParDict` and the start fields `0/*` are made unless the folder brings its own.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import shutil
 from pathlib import Path
 
 from coupling.openfoam.block_mesh import block_mesh
+from coupling.openfoam.start_fields import start_fields
 from sdph.schema import CaseError
 
 HEAD = "FoamFile {{ version 2.0; format ascii; class dictionary; object {name}; }}\n"
@@ -33,6 +34,7 @@ def write_case(case, template: Path, folder: Path, ranks: int = 1, allow_code: b
         refuse_code(template)
     shutil.copytree(template, folder, dirs_exist_ok=True)
     write_macros(case, folder)
+    write_start_fields(case, folder)
     if not (folder / "constant" / "polyMesh").exists():
         write_block_mesh(case, folder)
     if ranks > 1:
@@ -101,6 +103,14 @@ def _entry(value) -> str:
 
 def _list(values) -> str:
     return f"({' '.join(_entry(v) for v in values)})"
+
+
+def write_start_fields(case, folder: Path) -> None:
+    """`0/*`, those that the folder lacks."""
+    (folder / "0").mkdir(exist_ok=True)
+    for name, text in start_fields(case).items():
+        if not (folder / "0" / name).exists():
+            (folder / "0" / name).write_text(text, encoding="utf-8")
 
 
 def write_block_mesh(case, folder: Path) -> None:

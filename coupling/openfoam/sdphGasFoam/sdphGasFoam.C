@@ -108,7 +108,7 @@ void run(const argList& args, Channel* channel, const std::string& secret)
     const Exchange exchange(mesh);
     GasSolver solver(mesh);
     send(channel, exchange.hello(solver, secret));
-    if (channel) channel->limit = 1u << 18 | uint64_t(exchange.cells())*8*32;
+    if (channel) channel->limit = exchange.messageLimit();
     serve(channel, solver, exchange, time);
 }
 

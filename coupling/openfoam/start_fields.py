@@ -1,0 +1,93 @@
+"""The start fields `0/*` of a box of gas at rest, with the boundaries of case.toml, for templates that have none.
+
+Each kind of boundary is a row: what it asks of every field.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from sdph.schema import CaseError
+
+# field -> (class, dimensions)
+FIELDS = {
+    "alpha_g": ("volScalarField", "[0 0 0 0 0 0 0]"),
+    "U": ("volVectorField", "[0 1 -1 0 0 0 0]"),
+    "p_rgh": ("volScalarField", "[1 -1 -2 0 0 0 0]"),
+    "T": ("volScalarField", "[0 0 0 1 0 0 0]"),
+    "Y": ("volScalarField", "[0 0 0 0 0 0 0]"),
+}
+HEAD = "FoamFile {{ version 2.0; format ascii; class {cls}; object {name}; }}\n"
+ZERO_GRADIENT = "type zeroGradient;"
+GIVEN_FLUX = "type fixedFluxPressure; value uniform 0;"
+
+
+def start_fields(case) -> dict[str, str]:
+    """File name -> text; the mass fraction of vapour only where the case has a vapour."""
+    names = [name for name in FIELDS if name != "Y" or case.vapour is not None]
+    inside = {"alpha_g": "1", "U": "(0 0 0)", "p_rgh": "0", "T": repr(case.gas.temperature), "Y": "0"}
+    return {name: _field(case, name, inside[name]) for name in names}
+
+
+def _field(case, name: str, inside: str) -> str:
+    cls, dimensions = FIELDS[name]
+    patches = "".join(f"    {patch} {{ {KINDS[b.kind](case, b, patch)[name]} }}\n" for patch, b in case.boundaries.items())
+    if case.dimensions == 2:
+        patches += "    frontAndBack { type empty; }\n"
+    head = HEAD.format(cls=cls, name=name)
+    return f"{head}dimensions {dimensions};\ninternalField uniform {inside};\nboundaryField\n{{\n{patches}}}\n"
+
+
+def _fixed(value) -> str:
+    return f"type fixedValue; value uniform {value};"
+
+
+def _vector(case, velocity) -> str:
+    components = [*(velocity or [0.0] * case.dimensions), 0.0][:3]
+    return f"({' '.join(repr(c) for c in components)})"
+
+
+def _wall(case, boundary, name: str) -> dict[str, str]:
+    return {
+        "alpha_g": ZERO_GRADIENT,
+        "U": _fixed(_vector(case, boundary.velocity)),
+        "p_rgh": GIVEN_FLUX,
+        "T": ZERO_GRADIENT if boundary.temperature is None else _fixed(boundary.temperature),
+        "Y": ZERO_GRADIENT,
+    }
+
+
+def _slip_wall(case, boundary, name: str) -> dict[str, str]:
+    return _wall(case, boundary, name) | {"U": "type slip;"}
+
+
+def _velocity_inlet(case, boundary, name: str) -> dict[str, str]:
+    """The velocity is the superficial one: nothing but gas goes through the faces, alpha_g = 1."""
+    if boundary.velocity is None:
+        raise CaseError(f"boundaries.{name}.velocity_m_s is missing; a velocity_inlet needs it")
+    return {
+        "alpha_g": _fixed(1),
+        "U": _fixed(_vector(case, boundary.velocity)),
+        "p_rgh": GIVEN_FLUX,
+        "T": _fixed(boundary.temperature or case.gas.temperature),
+        "Y": _fixed(boundary.vapour_mass_fraction or 0.0),
+    }
+
+
+def _pressure_outlet(case, boundary, name: str) -> dict[str, str]:
+    """What flows back has the given temperature and vapour, and comes in at right angles to the face."""
+    back = {"T": boundary.temperature or case.gas.temperature, "Y": boundary.vapour_mass_fraction or 0.0}
+    return {
+        "alpha_g": ZERO_GRADIENT,
+        "U": "type pressureInletOutletVelocity; value uniform (0 0 0);",
+        "p_rgh": _fixed(boundary.pressure or 0.0),
+        **{field: f"type inletOutlet; inletValue uniform {value}; value uniform {value};" for field, value in back.items()},
+    }
+
+
+KINDS: dict[str, Callable] = {
+    "wall": _wall,
+    "slip_wall": _slip_wall,
+    "velocity_inlet": _velocity_inlet,
+    "pressure_outlet": _pressure_outlet,
+}

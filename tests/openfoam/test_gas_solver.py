@@ -1,0 +1,261 @@
+"""sdphGasFoam on real OpenFOAM, each part of its equations alone, against exact solutions."""
+
+import numpy as np
+import pytest
+from gas_boxes import AIR, box, total
+
+pytestmark = pytest.mark.openfoam
+
+RHO, CP = AIR["density_kg_m3"], AIR["heat_capacity_J_kg_K"]
+COLUMN = {
+    "below": {"kind": "velocity_inlet", "side": "bottom", "velocity_m_s": [0.0, 0.2]},
+    "above": {"kind": "pressure_outlet", "side": "top", "pressure_Pa": 0.0},
+    "walls": {"kind": "slip_wall"},
+}
+OPEN = {"all": {"kind": "pressure_outlet", "pressure_Pa": 0.0}}
+VAPOUR = {
+    "molar_mass_kg_kmol": 142.284, "diffusivity_m2_s": 3.79e-6, "heat_capacity_J_kg_K": 2470.0, "conductivity_W_m_K": 0.0178,
+    "viscosity_Pa_s": 7e-6,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("dt, steps", [(1e-4, 300), (1e-2, 30)])
+def test_ergun_pressure_drop(tmp_path, dt, steps):
+    """Fixed bed, Ergun (Chem. Eng. Prog. 48, 89, 1952); the drag coefficient follows the velocity handed back."""
+    alpha_p, d, mu, speed = 0.6, 0.5e-3, AIR["viscosity_Pa_s"], 0.2
+    with box(tmp_path, (0.04, 0.4), 0.01, boundaries=COLUMN) as gas:
+        alpha = np.full(len(gas.mesh.volumes), 1 - alpha_p)
+        state = gas.start(alpha, ("drag", "drag_velocity"))
+        for _ in range(steps):
+            slip = np.linalg.norm(state.fields["velocity"], axis=1)
+            beta = 150 * alpha_p**2 * mu / (alpha * d**2) + 1.75 * alpha_p * RHO * slip / d
+            state = gas.advance(dt, {"drag": beta, "drag_velocity": np.zeros((len(beta), 3))})
+        y = gas.mesh.centres[:, 1]
+    ergun = 150 * alpha_p**2 * mu * speed / ((1 - alpha_p) ** 3 * d**2) + 1.75 * alpha_p * RHO * speed**2 / ((1 - alpha_p) ** 3 * d)
+    inside = y > 0.05  # the gas comes in as through alpha_g = 1, and speeds up in the first cells
+    slope = np.polyfit(y[inside], state.fields["pressure"][inside], 1)[0]
+    print(f"Ergun {-ergun:.2f} Pa/m, computed {slope:.2f}")
+    assert slope == pytest.approx(-ergun, rel=1e-3)
+    assert state.fields["pressure_gradient"][inside, 1] == pytest.approx(-ergun, rel=1e-3)
+
+
+def test_uniform_heat_source_is_exact(tmp_path):
+    source, dt, steps = 5e4, 2e-3, 10
+    with box(tmp_path, (0.02, 0.02), 0.005) as gas:
+        alpha = np.full(len(gas.mesh.volumes), 0.7)
+        start = gas.start(alpha, ("heat_source",))
+        for _ in range(steps):
+            state = gas.advance(dt, {"heat_source": np.full(len(alpha), source)})
+    rise = source * dt * steps / (0.7 * RHO * CP)
+    assert state.fields["temperature"] == pytest.approx(300.0 + rise, rel=1e-13)
+    assert state.budget.energy - start.budget.energy == pytest.approx(source * dt * steps * gas_volume(gas), rel=1e-11)
+
+
+def gas_volume(gas):
+    return gas.mesh.volumes.sum()
+
+
+def test_two_temperatures_relax(tmp_path):
+    """Grains and gas with one exchange coefficient: each implicit step is the closed form of that step."""
+    eps, dt, grains = 2e5, 1e-3, 280.0
+    content = 0.4 * RHO * CP / dt
+    with box(tmp_path, (0.02, 0.02), 0.005) as gas:
+        n = len(gas.mesh.volumes)
+        state = gas.start(np.full(n, 0.4), ("heat", "heat_temperature"))
+        expected = 300.0
+        for _ in range(20):
+            state = gas.advance(dt, {"heat": np.full(n, eps), "heat_temperature": np.full(n, eps * grains)})
+            expected = (content * expected + eps * grains) / (content + eps)
+    assert state.fields["temperature"] == pytest.approx(expected, rel=1e-13)
+
+
+def test_heat_given_is_heat_gained(tmp_path):
+    """Uneven exchange in still gas with conduction: drift of the energy below 1e-9 of the heat exchanged."""
+    with box(tmp_path, (0.1, 0.1), 0.005) as gas:
+        x, y = gas.mesh.centres[:, 0], gas.mesh.centres[:, 1]
+        heat = np.where(np.hypot(x - 0.05, y - 0.05) < 0.03, 2e4, 0.0)
+        state = gas.start(np.where(heat > 0, 0.4, 1.0), ("heat", "heat_temperature"))
+        first, given = state.budget.energy, 0.0
+        for _ in range(50):
+            state = gas.advance(2e-4, {"heat": heat, "heat_temperature": heat * 280.0})
+            given += 2e-4 * total(gas, heat * (280.0 - state.fields["temperature"]))
+    drift = abs(state.budget.energy - first - given) / abs(given)
+    print(f"energy drift {drift:.1e} of the heat exchanged")
+    assert drift < 1e-9
+
+
+def moving_alpha(gas, t):
+    """A dense blob that goes round in the middle of a box of 0.1 m."""
+    x, y = gas.mesh.centres[:, 0], gas.mesh.centres[:, 1]
+    cx, cy = 0.05 + 0.02 * np.cos(20 * t), 0.05 + 0.02 * np.sin(20 * t)
+    return 1.0 - 0.5 * np.exp(-((x - cx) ** 2 + (y - cy) ** 2) / 0.015**2)
+
+
+@pytest.mark.parametrize("equation", ["constant", "operating", "ideal"])
+def test_moving_alpha_in_a_closed_box(tmp_path, equation):
+    """The room for the gas changes and moves: its mass stays, its energy changes by the heat alone, gas of one temperature keeps it."""
+    dt = 1e-3
+    with box(tmp_path, (0.1, 0.1), 0.005, equation_of_state=equation, molar_mass_kg_kmol=29.5) as gas:
+        state = gas.start(moving_alpha(gas, 0.0), ("alpha_g",))
+        first = state.budget
+        for step in range(1, 21):
+            state = gas.advance(dt, {"alpha_g": moving_alpha(gas, step * dt)})
+    assert state.budget.mass == pytest.approx(first.mass, rel=1e-13)
+    assert state.budget.energy == pytest.approx(first.energy, rel=1e-12)
+    assert state.fields["temperature"] == pytest.approx(300.0, rel=1e-8)
+    assert total(gas, moving_alpha(gas, 20 * dt) * state.fields["density"]) == pytest.approx(first.mass, rel=1e-13)
+    assert np.abs(state.fields["velocity"]).max() < 1.0
+    assert np.abs(state.fields["velocity"]).max() > 0.01
+
+
+def test_moving_alpha_with_heat_conserves_energy(tmp_path):
+    dt = 1e-3
+    with box(tmp_path, (0.1, 0.1), 0.005) as gas:
+        alpha = moving_alpha(gas, 0.0)
+        state = gas.start(alpha, ("alpha_g", "heat", "heat_temperature"))
+        first, given = state.budget, 0.0
+        for step in range(1, 31):
+            alpha = moving_alpha(gas, step * dt)
+            heat = 1e5 * (1 - alpha)
+            state = gas.advance(dt, {"alpha_g": alpha, "heat": heat, "heat_temperature": heat * 290.0})
+            given += dt * total(gas, heat * (290.0 - state.fields["temperature"]))
+    drift = abs(state.budget.energy - first.energy - given) / abs(given)
+    print(f"energy drift {drift:.1e} of the heat exchanged, with flow")
+    assert drift < 1e-9
+
+
+def test_drag_given_is_drag_gained(tmp_path):
+    """Momentum: in a box with slip walls the whole change is drag, but for the pressure on the walls that `force` holds.
+
+    Uniform grains pull the gas along x in a channel without ends (inlet and outlet move with it): dU/dt = beta (v_p - U).
+    """
+    beta, pull, dt = 50.0, 2.0, 1e-3
+    boundaries = {"ends": {"kind": "pressure_outlet", "pressure_Pa": 0.0}, "sides": {"kind": "slip_wall", "side": "bottom"}}
+    boundaries["lid"] = {"kind": "slip_wall", "side": "top"}
+    with box(tmp_path, (0.1, 0.02), 0.005, boundaries=boundaries) as gas:
+        n = len(gas.mesh.volumes)
+        alpha = np.full(n, 0.8)
+        drag, drag_velocity = np.full(n, beta), np.tile([beta * pull, 0.0, 0.0], (n, 1))
+        state = gas.start(alpha, ("drag", "drag_velocity"))
+        speed = 0.0
+        for _ in range(10):
+            state = gas.advance(dt, {"drag": drag, "drag_velocity": drag_velocity})
+            speed = (0.8 * RHO / dt * speed + beta * pull) / (0.8 * RHO / dt + beta)
+    inside = (gas.mesh.centres[:, 0] > 0.03) & (gas.mesh.centres[:, 0] < 0.07)
+    assert state.fields["velocity"][inside, 0] == pytest.approx(speed, rel=1e-6)
+
+
+def test_momentum_budget_closes(tmp_path):
+    """Change of momentum = force + drag as the particles reckon it + weight + the pressure that the particles feel."""
+    dt = 5e-4
+    with box(tmp_path, (0.1, 0.1), 0.005, gravity=(0.0, -9.81)) as gas:
+        alpha = moving_alpha(gas, 0.0)
+        state = gas.start(alpha, ("alpha_g", "drag", "drag_velocity"))
+        for step in range(1, 11):
+            before = np.array(state.budget.momentum)
+            alpha = moving_alpha(gas, step * dt)
+            drag = 300.0 * (1 - alpha)
+            pull = drag[:, None] * [0.5, 0.2, 0.0]
+            state = gas.advance(dt, {"alpha_g": alpha, "drag": drag, "drag_velocity": pull})
+            fields = state.fields
+            known = total(gas, pull - drag[:, None] * fields["velocity"] + (1 - alpha)[:, None] * fields["pressure_gradient"])
+            known += total(gas, (alpha * fields["density"])[:, None] * [0.0, -9.81, 0.0])
+            change = np.array(state.budget.momentum) - before
+            assert change == pytest.approx(dt * (known + state.budget.force), rel=1e-9, abs=1e-15)
+    assert np.abs(state.budget.momentum).max() > 1e-6
+
+
+def test_vapour_mass(tmp_path):
+    """Vapour set free in still gas of a box open all round: what is there and what left is what was given, within 0.01 %."""
+    dt, steps = 1e-3, 40
+    with box(tmp_path, (0.1, 0.1), 0.005, boundaries=OPEN, vapour=VAPOUR) as gas:
+        x, y = gas.mesh.centres[:, 0], gas.mesh.centres[:, 1]
+        vapour = np.exp(-((x - 0.05) ** 2 + (y - 0.05) ** 2) / 0.01**2) * 5.0
+        names = ("vapour", "vapour_momentum", "vapour_enthalpy")
+        start = gas.start(None, names)
+        warm = {"vapour": vapour, "vapour_momentum": np.zeros((len(x), 3)), "vapour_enthalpy": vapour * 2470.0 * 310.0}
+        for _ in range(steps):
+            state = gas.advance(dt, warm)
+    given = dt * steps * total(gas, vapour)
+    held = total(gas, state.fields["density"] * state.fields["vapour_mass_fraction"])
+    assert state.budget.vapour == pytest.approx(held, rel=1e-12)
+    error = (state.budget.vapour - state.budget.vapour_in - given) / given
+    print(f"vapour mass error {error:.1e}")
+    assert abs(error) < 1e-4
+    assert state.budget.mass - start.budget.mass == pytest.approx(state.budget.mass_in + given, rel=1e-10)
+    gained = state.budget.energy - start.budget.energy - state.budget.energy_in
+    assert gained == pytest.approx(given * 2470.0 * 310.0, rel=1e-9)
+    assert 0.0 <= state.fields["vapour_mass_fraction"].min() and state.fields["vapour_mass_fraction"].max() < 1.0
+
+
+def test_vapour_of_the_gas_temperature_changes_no_temperature(tmp_path):
+    """Convection and diffusion of a vapour of another heat capacity: gas and vapour of 300 K stay at 300 K."""
+    with box(tmp_path, (0.1, 0.1), 0.005, boundaries=OPEN, vapour=VAPOUR) as gas:
+        x, y = gas.mesh.centres[:, 0], gas.mesh.centres[:, 1]
+        vapour = np.exp(-((x - 0.05) ** 2 + (y - 0.05) ** 2) / 0.01**2) * 5.0
+        gas.start(None, ("vapour", "vapour_enthalpy"))
+        for _ in range(20):
+            state = gas.advance(1e-3, {"vapour": vapour, "vapour_enthalpy": vapour * 2470.0 * 300.0})
+    assert state.fields["vapour_mass_fraction"].max() > 0.01
+    assert state.fields["temperature"] == pytest.approx(300.0, rel=1e-10)
+
+
+def test_vapour_diffuses(tmp_path):
+    """Slab of vapour spreading in still gas: variance grows by 2 D t."""
+    with box(tmp_path, (0.2, 0.005), 0.0025, vapour=VAPOUR | {"diffusivity_m2_s": 1e-3}) as gas:
+        x = gas.mesh.centres[:, 0]
+        source = np.exp(-((x - 0.1) ** 2) / (2 * 0.01**2)) * 1e-4
+        gas.start(None, ("vapour",))
+        state = gas.advance(1e-4, {"vapour": source})
+        spread = [variance(x, state)]
+        for _ in range(100):
+            state = gas.advance(1e-4, {"vapour": np.zeros_like(x)})
+        spread.append(variance(x, state))
+    assert spread[1] - spread[0] == pytest.approx(2 * 1e-3 * 1e-2, rel=5e-3)
+
+
+def variance(x, state):
+    weight = state.fields["vapour_mass_fraction"]
+    mean = (weight * x).sum() / weight.sum()
+    return (weight * (x - mean) ** 2).sum() / weight.sum()
+
+
+def test_hydrostatic_gas_rests(tmp_path):
+    """Gas alone under gravity between a floor and an outlet: no motion, and the pressure is the weight above."""
+    boundaries = {"above": {"kind": "pressure_outlet", "side": "top", "pressure_Pa": 0.0}, "walls": {"kind": "wall"}}
+    with box(tmp_path, (0.1, 0.2), 0.01, boundaries=boundaries, gravity=(0.0, -9.81)) as gas:
+        alpha = np.full(len(gas.mesh.volumes), 0.9)
+        gas.start(alpha, ("alpha_g",))
+        for _ in range(5):
+            state = gas.advance(1e-3, {"alpha_g": alpha})
+    depth = 0.2 - gas.mesh.centres[:, 1]
+    assert np.abs(state.fields["velocity"]).max() < 1e-12
+    assert state.fields["pressure"] == pytest.approx(RHO * 9.81 * depth, rel=1e-9)
+    assert state.fields["pressure_gradient"][:, 1] == pytest.approx(-RHO * 9.81, rel=1e-9)
+
+
+def test_heated_gas_of_an_open_box_expands(tmp_path):
+    """Ideal gas at operating pressure: density follows the temperature, the rest leaves through the outlet."""
+    with box(tmp_path, (0.05, 0.05), 0.005, boundaries=OPEN, equation_of_state="operating", molar_mass_kg_kmol=28.96) as gas:
+        n = len(gas.mesh.volumes)
+        start = gas.start(None, ("heat_source",))
+        for _ in range(20):
+            state = gas.advance(1e-3, {"heat_source": np.full(n, 1e5)})
+    expected = 101325.0 * 28.96 / (8314.462618 * state.fields["temperature"])
+    assert state.fields["temperature"].min() > 301.0
+    assert state.fields["density"] == pytest.approx(expected, rel=2e-5)
+    assert state.budget.mass - start.budget.mass == pytest.approx(state.budget.mass_in, rel=1e-10)
+    gained = state.budget.energy - start.budget.energy - state.budget.energy_in
+    assert gained == pytest.approx(1e5 * 0.02 * gas_volume(gas), rel=1e-9)
+
+
+def test_closed_box_of_constant_density_takes_the_vapour(tmp_path):
+    """Nothing can leave: the gas gets denser everywhere alike, by just the mass of the vapour."""
+    with box(tmp_path, (0.05, 0.05), 0.005, vapour=VAPOUR) as gas:
+        vapour = np.where(gas.mesh.centres[:, 0] < 0.025, 2.0, 0.0)
+        start = gas.start(None, ("vapour",))
+        for _ in range(10):
+            state = gas.advance(1e-3, {"vapour": vapour})
+    given = 1e-2 * total(gas, vapour)
+    assert state.budget.mass - start.budget.mass == pytest.approx(given, rel=1e-11)
+    assert state.fields["density"] == pytest.approx(RHO + given / gas_volume(gas), rel=1e-6)
