@@ -46,7 +46,7 @@ def read(path: Path, cells: int) -> np.ndarray:
 
 
 def _is_binary(text: bytes) -> bool:
-    head = text[: text.find(b"internalField")]
+    head = text[: text.index(b"}")]
     if b"label=64" in head or b"scalar=32" in head or b"MSB" in head:
         raise FieldError("a binary field of another OpenFOAM build (needs 64-bit floats, little-endian); write it as ascii")
     return re.search(rb"format\s+binary;", head) is not None
@@ -70,6 +70,19 @@ def _numbers(text: bytes) -> np.ndarray:
 
 def _spread(value: np.ndarray, cells: int) -> np.ndarray:
     return np.full(cells, value[0]) if value.size == 1 else np.tile(value, (cells, 1))
+
+
+def read_parcels(path: Path) -> np.ndarray:
+    """An ASCII list of parcels, from after the head: (P,) of a scalar, (P, n) of n numbers a line."""
+    text = Path(path).read_bytes()
+    found = re.search(rb"\}\s*(?://[^\n]*\n\s*)*(\d+)\s*([({])", text)
+    if not found or _is_binary(text):
+        raise FieldError(f"{path} holds no ASCII list of parcels")
+    count = int(found.group(1))
+    if found.group(2) == b"{":  # one value for all: 3{0.5}
+        return np.tile(_numbers(text[found.end() : text.index(b"}", found.end())]), (count, 1)).squeeze(-1)
+    values = _numbers(text[found.end() : text.rindex(b")")])
+    return values if values.size == count else values.reshape(count, -1)
 
 
 def cell_count(folder: Path) -> int:

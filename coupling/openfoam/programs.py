@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import shutil
 import signal
 import subprocess
 import time
@@ -12,47 +11,35 @@ from collections.abc import Callable
 from pathlib import Path
 
 from coupling.gas import GasError
-from coupling.openfoam import case as case_files
 from coupling.openfoam import install
-from sdph.case import Case
 
 LOOK = 0.2  # s between two looks at a running solver
-HEAD = "FoamFile\n{{\n    version     2.0;\n    format      ascii;\n    class       dictionary;\n    object      {name};\n}}\n\n"
+TAIL = 20000  # bytes of a log that are looked through
+
+Progress = Callable[[float, float], None]
 
 
-def write(case: Case, template: Path, folder: Path, macros: dict[str, dict[str, str]]) -> None:
-    """A case folder from a template: the case's macros and mesh, and further macro files in `constant`."""
-    shutil.copytree(template, folder, dirs_exist_ok=True)
-    case_files.write_macros(case, folder)
-    case_files.write_block_mesh(case, folder)
-    for name, entries in macros.items():
-        lines = "".join(f"{key} {text};\n" for key, text in entries.items())
-        (folder / "constant" / name).write_text(HEAD.format(name=name) + lines, encoding="utf-8")
-
-
-def run(command: list[str], folder: Path, log: Path) -> None:
+def run(command: list[str], folder: Path, log: Path, environment: dict[str, str] | None = None) -> None:
     """Run a short program to its end."""
+    variables = environment or install.environment()
     with log.open("wb") as out:
-        process = subprocess.run(command, cwd=folder, env=install.environment(), stdout=out, stderr=subprocess.STDOUT, check=False)
+        process = subprocess.run(command, cwd=folder, env=variables, stdout=out, stderr=subprocess.STDOUT, check=False)
     if process.returncode:
         raise GasError(f"{command[0]} failed: {reason(log)} (log: {log})")
 
 
-def run_solver(solver: str, folder: Path, log: Path, ranks: int, end: float, progress: Callable | None) -> None:
-    """Run a solver, on `ranks` processes; `progress(time, end)` hears of its time [s]."""
+def run_solver(solver: str, folder: Path, log: Path, end: float, progress: Progress | None, environment: dict[str, str], ranks: int) -> None:
+    """Run a solver to its end, on `ranks` processes; `progress(time, end)` [s] hears where it is."""
     if ranks == 1:
-        return _watch([solver], folder, log, end, progress)
-    run(["decomposePar", "-force"], folder, folder / "log.decomposePar")
-    as_root = ["--allow-run-as-root"] if os.geteuid() == 0 else []
-    _watch(["mpirun", *as_root, "--oversubscribe", "-np", str(ranks), solver, "-parallel"], folder, log, end, progress)
-    run(["reconstructPar"], folder, folder / "log.reconstructPar")
+        return _watch([solver], folder, log, end, progress, environment)
+    run(["decomposePar", "-force"], folder, folder / "log.decomposePar", environment)
+    _watch([*install.mpirun(ranks), solver, "-parallel"], folder, log, end, progress, environment)
+    run(["reconstructPar"], folder, folder / "log.reconstructPar", environment)
 
 
-def _watch(command: list[str], folder: Path, log: Path, end: float, progress: Callable | None) -> None:
+def _watch(command, folder: Path, log: Path, end: float, progress: Progress | None, environment: dict[str, str]) -> None:
     with log.open("wb") as out:
-        process = subprocess.Popen(
-            command, cwd=folder, env=install.environment(), stdout=out, stderr=subprocess.STDOUT, start_new_session=True
-        )
+        process = subprocess.Popen(command, cwd=folder, env=environment, stdout=out, stderr=subprocess.STDOUT, start_new_session=True)
     try:
         while process.poll() is None:
             time.sleep(LOOK)
@@ -73,7 +60,7 @@ def _end(process: subprocess.Popen) -> None:
 
 def solver_time(log: Path) -> float:
     """The last time [s] that a solver's log names; 0 before the first."""
-    found = re.findall(rb"^Time = (\S+)", _tail(log), re.MULTILINE)
+    found = re.findall(rb"^Time = (\S+)$", _tail(log), re.MULTILINE)
     return float(found[-1]) if found else 0.0
 
 
@@ -87,8 +74,8 @@ def reason(log: Path) -> str:
     return signalled.group(0) if signalled else (text.strip().splitlines() or ["it wrote no log"])[-1]
 
 
-def _tail(log: Path, size: int = 20000) -> bytes:
+def _tail(log: Path) -> bytes:
     with log.open("rb") as text:
         text.seek(0, os.SEEK_END)
-        text.seek(max(0, text.tell() - size))
+        text.seek(max(0, text.tell() - TAIL))
         return text.read()

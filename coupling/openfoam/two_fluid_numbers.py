@@ -1,7 +1,6 @@
-"""Numbers that the stock OpenFOAM solvers want in another form than a case has them.
+"""Numbers that twoPhaseEulerFoam wants in another form than a case has them, written as `constant/sdphTwoFluid`.
 
-Written beside the case's own macros as `constant/sdphTwoFluid` and `constant/sdphDroplets`: OpenFOAM's dictionaries
-could calculate them only by compiling code at run time.
+OpenFOAM's dictionaries could calculate them only by compiling code at run time.
 """
 
 from __future__ import annotations
@@ -9,6 +8,7 @@ from __future__ import annotations
 import math
 
 from sdph.case import Case
+from sdph.laws import constants, exact
 from sdph.laws import heat as heat_law
 from sdph.schema import CaseError
 
@@ -24,7 +24,7 @@ HEAT_MODELS = {
 }
 
 
-def two_fluid(case: Case) -> dict[str, str]:
+def macros(case: Case) -> dict[str, str]:
     """Macros of the two-fluid templates: name -> text."""
     gas, grains = case.gas, case.grains
     if gas.equation_of_state != "constant":
@@ -35,6 +35,7 @@ def two_fluid(case: Case) -> dict[str, str]:
         "grains_kappa_by_cp": repr(grains.conductivity / grains.heat_capacity),
         "one_way": _switch(case.coupling.one_way),
         **_heat_exchange(case),
+        **_friction(case),
         **_regions(case),
         **_time_steps(case),
     }
@@ -50,6 +51,12 @@ def _heat_exchange(case: Case) -> dict[str, str]:
         raise CaseError("heat.law = 'ranz_marshall' with heat.closure = 'paper'; OpenFOAM's has no alpha_g: give 'geometric'")
     model, reynolds = HEAT_MODELS[heat.law]
     return {"heat_model": model, "heat_reynolds": reynolds, "heat_alpha_gas": _switch(heat.closure == "paper")}
+
+
+def _friction(case: Case) -> dict[str, str]:
+    if "friction" not in case.effects:
+        return {}
+    return {"friction_angle_degrees": repr(math.degrees(case.parameters["friction"].angle)), "friction_margin": repr(constants.PACKING_MARGIN)}
 
 
 def _regions(case: Case) -> dict[str, str]:
@@ -95,7 +102,7 @@ def resting_steps(case: Case) -> list[tuple[float, float]]:
     second_end = last * math.ceil(20.0 * relaxation / last)
     half = 0.5 * fine  # a step is looked up at its start: change between two starts
     steps = [(0.0, fine), (first_end - half, fine), (first_end - 0.9 * half, middle)]
-    return [*steps, (second_end - half, middle), (second_end - 0.9 * half, last), (case.run.end_time, last)]
+    return [*steps, (second_end - half, middle), (second_end - 0.9 * half, last), (case.run.end_time + second_end, last)]
 
 
 def gas_relaxation(case: Case) -> float:
@@ -103,12 +110,12 @@ def gas_relaxation(case: Case) -> float:
     gas, grains, heat = case.gas, case.grains, case.parameters["heat"]
     alpha_p = max(region.volume_fraction for region in case.particles.values())
     prandtl = heat_law.prandtl_number(gas.viscosity, gas.heat_capacity, gas.conductivity)
-    nusselt = heat_law.ranz_marshall(1.0 - alpha_p, 0.0, prandtl) if heat.law == "ranz_marshall" else heat_law.gunn(1.0 - alpha_p, 0.0, prandtl)
+    nusselt = getattr(heat_law, heat.law)(1.0 - alpha_p, 0.0, prandtl)
     exchange = heat_law.exchange_paper if heat.closure == "paper" else heat_law.exchange_geometric
     eps = alpha_p * exchange(1.0 - alpha_p, nusselt, gas.conductivity, grains.diameter)
     of_grains = alpha_p * grains.density * grains.heat_capacity
     of_gas = (1.0 - alpha_p) * gas.density * gas.heat_capacity
-    return 1.0 / (eps * (1.0 / of_grains + 1.0 / of_gas))
+    return 1.0 / exact.exchange_rate(eps, of_grains, of_gas)
 
 
 def round_step(step: float) -> float:
