@@ -174,13 +174,17 @@ def active_nodes(grid: Grid, faces: Faces) -> np.ndarray:
     return active
 
 
-def ambient_pressure(faces: Faces, grid: Grid, gravity, density: np.ndarray) -> np.ndarray:
-    """(B,) pressure [Pa] outside each open face: the given one holds at the highest of them, and outside stands
-    gas of `density` (B,) [kg/m3] at rest, so that openings at different heights drive no flow by themselves."""
-    position = np.zeros((grid.size, grid.dimensions))
-    position[grid.cells] = grid.centres
-    place = position[faces.cell]
-    for n, axis in enumerate(faces.axis):
-        place[n, axis] = grid.edges[axis][0 if faces.sign[n] < 0 else -1]
-    fall = place @ np.asarray(gravity)
-    return faces.pressure + density * (fall - fall[faces.open].min()) if faces.open.any() else faces.pressure
+def resting_pressure(faces: Faces, grid: Grid, gravity, density) -> tuple[np.ndarray, np.ndarray]:
+    """Pressure [Pa] of gas at rest of `density` (a number, or (B,) at the faces): outside each boundary face (B,),
+    and in the cells (C,) for the same number. The given pressure holds at the highest opening, so that openings at
+    different heights drive no flow by themselves; a closed box has zero mean."""
+    place = np.zeros((grid.size, grid.dimensions))
+    place[grid.cells] = grid.centres
+    centre = place[faces.cell]
+    rows = np.arange(len(centre))
+    centre[rows, faces.axis] += 0.5 * faces.sign * grid.width[faces.axis, faces.cell]
+    outside, inside = centre @ np.asarray(gravity), grid.centres @ np.asarray(gravity)
+    if not faces.open.any():
+        return 0.0 * outside, np.mean(density) * (inside - inside.mean())
+    top = np.flatnonzero(faces.open)[np.argmin(outside[faces.open])]
+    return faces.pressure + density * (outside - outside[top]), faces.pressure[top] + np.mean(density) * (inside - outside[top])

@@ -22,8 +22,6 @@ class Box:
         self.gravity = case.domain.gravity
         self.temperature = case.gas.temperature
         self.vapour = case.vapour
-        self.rows = (grid.rows, grid.run)
-        self.wide = (grid.wide_rows, grid.wide_run)
         self.everywhere = np.zeros(grid.size, dtype=bool)
         self.everywhere[grid.cells] = True
 

@@ -26,12 +26,13 @@ def corner(values, f, s, t):
 
 
 @njit(cache=True, error_model="numpy")
-def viscous_conductances(rows, run, strides, axis, viscosity, grid, hold, dt, out):
+def viscous_conductances(wide, axis, viscosity, grid, hold, dt, out):
     """dt alpha mu A/distance [kg] between the velocities along `axis` and their neighbours, into out (d, S)."""
+    rows, run, steps = wide
     volume, width, area, gap = grid
-    s = strides[axis]
-    for b in range(len(strides)):
-        t = strides[b]
+    s = steps[axis]
+    for b in range(len(steps)):
+        t = steps[b]
         for row in rows:
             for f in range(row, row + run):
                 if b == axis:
@@ -43,48 +44,54 @@ def viscous_conductances(rows, run, strides, axis, viscosity, grid, hold, dt, ou
 
 
 @njit(error_model="numpy")
-def _normal_stress(strides, axis, viscosity, velocity, width, c):
+def _normal_stress(steps, axis, viscosity, velocity, width, c):
     """alpha mu (du/dx - 2/3 div v) in cell c: what the Laplacian leaves out of tau (Eq. 5 of the closure sheet)."""
     divergence = 0.0
-    for b in range(len(strides)):
-        divergence += (velocity[b, c + strides[b]] - velocity[b, c]) / width[b, c]
-    return viscosity[c] * ((velocity[axis, c + strides[axis]] - velocity[axis, c]) / width[axis, c] - 2.0 / 3.0 * divergence)
+    for b in range(len(steps)):
+        divergence += (velocity[b, c + steps[b]] - velocity[b, c]) / width[b, c]
+    return viscosity[c] * ((velocity[axis, c + steps[axis]] - velocity[axis, c]) / width[axis, c] - 2.0 / 3.0 * divergence)
 
 
 @njit(error_model="numpy")
-def _shear_force(strides, axis, b, viscosity, velocity, grid, f):
+def _shear_force(steps, axis, b, viscosity, velocity, grid, f):
     """alpha mu dv_b/dx_axis times area, at the edge below f along b."""
     volume, width, area, gap = grid
-    s, t = strides[axis], strides[b]
+    s, t = steps[axis], steps[b]
     across = (velocity[b, f] - velocity[b, f - s]) / gap[axis, f]
     return corner(viscosity, f, s, t) * across * 0.5 * (area[b, f - s] + area[b, f])
 
 
+@njit(error_model="numpy")
+def _stress_force(steps, axis, viscosity, velocity, grid, f):
+    """Force [N] of the stresses that the Laplacian leaves out, on the control volume of face f."""
+    s, area = steps[axis], grid[2]
+    force = _normal_stress(steps, axis, viscosity, velocity, grid[1], f) * area[axis, f]
+    force -= _normal_stress(steps, axis, viscosity, velocity, grid[1], f - s) * area[axis, f]
+    for b in range(len(steps)):
+        if b != axis:
+            force += _shear_force(steps, axis, b, viscosity, velocity, grid, f + steps[b])
+            force -= _shear_force(steps, axis, b, viscosity, velocity, grid, f)
+    return force
+
+
 @njit(cache=True, error_model="numpy")
-def momentum_balance(rows, run, strides, axis, active, grid, alpha, mass, viscosity, velocity, moved, pull, push, gravity, pressure, dt, diagonal, source):
+def momentum_balance(wide, axis, active, grid, alpha, mass, viscosity, velocity, moved, pull, push, gravity, pressure, dt, diagonal, source):
     """Diagonal [kg] and source [kg m/s] of the implicit equation for the velocity along `axis`.
 
     moved (S,): the velocity after convection; pull [kg/s], push [N]: drag coefficient and its part of the
     particles, both per cell. m' u' = m' u + dt (-alpha V grad p + m' g + push - pull u' + div tau).
     """
+    rows, run, steps = wide
     volume, width, area, gap = grid
-    s = strides[axis]
+    s = steps[axis]
     for row in rows:
         for f in range(row, row + run):
-            diagonal[f] = 1.0
-            if not active[f]:
-                continue
             m = 0.5 * (mass[f] + mass[f - s])
             gas = 0.5 * (alpha[f] * volume[f] + alpha[f - s] * volume[f - s])
-            force = m * gravity + 0.5 * (push[f] + push[f - s]) - gas * (pressure[f] - pressure[f - s]) / gap[axis, f]
-            if mass[f] > 0.0 and mass[f - s] > 0.0:
-                force += _normal_stress(strides, axis, viscosity, velocity, width, f) * area[axis, f]
-                force -= _normal_stress(strides, axis, viscosity, velocity, width, f - s) * area[axis, f]
-                for b in range(len(strides)):
-                    if b != axis:
-                        force += _shear_force(strides, axis, b, viscosity, velocity, grid, f + strides[b])
-                        force -= _shear_force(strides, axis, b, viscosity, velocity, grid, f)
-            diagonal[f] = m + dt * 0.5 * (pull[f] + pull[f - s])
+            stress = _stress_force(steps, axis, viscosity, velocity, grid, f)
+            force = stress if mass[f] > 0.0 and mass[f - s] > 0.0 else 0.0
+            force += m * gravity + 0.5 * (push[f] + push[f - s]) - gas * (pressure[f] - pressure[f - s]) / gap[axis, f]
+            diagonal[f] = m + dt * 0.5 * (pull[f] + pull[f - s]) if active[f] else 1.0
             source[f] = m * moved[f] + dt * force
 
 
@@ -97,6 +104,7 @@ class Momentum:
         self.active = active_nodes(grid, faces)
         self.ghosts = [component_ghosts(grid, faces, a) for a in range(grid.dimensions)]
         self.spacing = [component_spacing(grid, a) for a in range(grid.dimensions)]
+        self.clinging = [self._clinging(a) for a in range(grid.dimensions)]
         self.hold = on_faces(grid, faces, faces.clings * 1.0, 1.0)
 
     def predict(self, old: Flow, window: Window, mass: np.ndarray, fraction: np.ndarray):
@@ -108,32 +116,31 @@ class Momentum:
         velocity, diagonal, force, residual = moved.copy(), np.ones_like(moved), [], 0.0
         for a in range(grid.dimensions):
             conductance, source = np.zeros_like(moved), grid.zeros()
-            viscous_conductances(*self.box.wide, grid.strides, a, viscosity, grid.geometry, self.hold, window.dt, conductance)
+            viscous_conductances(grid.wide, a, viscosity, grid.geometry, self.hold, window.dt, conductance)
             balance_of = (old.velocity, moved[a], window.pull, window.push[a], self.box.gravity[a], old.pressure)
-            momentum_balance(*self.box.wide, grid.strides, a, self.active[a], grid.geometry, window.alpha, mass, viscosity, *balance_of, window.dt, diagonal[a], source)
+            momentum_balance(grid.wide, a, self.active[a], grid.geometry, window.alpha, mass, viscosity, *balance_of, window.dt, diagonal[a], source)
             fill(velocity[a], self.ghosts[a])
-            given, _, error = solve_implicit(*self.box.wide, grid.strides, self.active[a], conductance, diagonal[a], source, velocity[a], IMPLICIT)
-            force.append(float(self._drag_of_walls(given, a) / window.dt))
+            given, error = solve_implicit(grid.wide, self.active[a], conductance, diagonal[a], source, velocity[a], IMPLICIT)
+            b, face, sign = self.clinging[a]
+            force.append(-float((sign * given[b, face]).sum()) / window.dt)
             residual = max(residual, error)
         return velocity, diagonal, force, residual
 
     def convected(self, old: Flow, dt: float) -> np.ndarray:
         """The old velocity (d, S) carried on by the old mass fluxes."""
         grid, velocity, after = self.box.grid, old.velocity.copy(), old.mass.copy()
-        balance(*self.box.rows, grid.strides, old.flux, grid.zeros(), old.mass, dt, after)
-        parts, _ = substeps(*self.box.rows, grid.strides, old.flux, old.mass, after, dt)
+        balance(grid.inner, old.flux, grid.zeros(), old.mass, dt, after)
+        parts, _ = substeps(grid.inner, old.flux, old.mass, after, dt)
         for a in range(grid.dimensions if parts else 0):
             mass = 0.5 * (old.mass + np.roll(old.mass, grid.strides[a]))
             gap, reach = self.spacing[a]
-            convect(*self.box.wide, *self.box.wide, grid.strides, grid.strides[a], self.active[a], velocity[a], mass, old.flux, gap, reach, self.ghosts[a], dt, parts, self.box.limited)
+            convect(grid.wide, grid.wide, grid.inner[2][a], self.active[a], velocity[a], mass, old.flux, gap, reach, self.ghosts[a], dt, parts, self.box.limited)
         return velocity
 
-    def _drag_of_walls(self, given: np.ndarray, axis: int) -> float:
-        """Momentum [kg m/s] that what clings gave to the velocity along `axis`."""
+    def _clinging(self, axis: int) -> tuple[np.ndarray, ...]:
+        """Axis, index and outward sign of every boundary face of the control volumes of the velocity along `axis`."""
         faces, along = self.box.faces, self.box.grid.strides[axis]
         beside = faces.axis != axis
         b, face, sign = faces.axis[beside], faces.face[beside], faces.sign[beside]
-        last = face + along
-        total = -(sign * given[b, face]).sum()
-        ends = ~np.isin(last, face)  # the node beyond the last face of each row belongs to no face of its own
-        return total - (sign * given[b, last])[ends].sum()
+        end = ~np.isin(face + along, face)  # one more node at the end of each row
+        return np.append(b, b[end]), np.append(face, face[end] + along), np.append(sign, sign[end])

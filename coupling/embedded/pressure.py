@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from coupling.embedded.boundaries import ambient_pressure
+from coupling.embedded.boundaries import resting_pressure
 from coupling.embedded.box import Box, Flow, Window
 from coupling.embedded.multigrid import build_levels, solve_pressure
 from coupling.gas import GasError
@@ -21,46 +21,46 @@ CONTINUITY = 1e-8  # of a cell's mass: what the solver may leave over in a windo
 
 
 @njit(cache=True, error_model="numpy")
-def face_fluxes(rows, run, strides, active, grid, reach, alpha, density, diagonal, velocity, dt, flux, conductance):
+def face_fluxes(wide, active, grid, reach, alpha, density, diagonal, velocity, dt, flux, conductance):
     """Mass fluxes [kg/s] of the predicted velocity on the active faces, and dt^2 alpha rho A alpha V/(D distance)
     [kg/Pa]. density (S,): alpha rho, ghosts as their neighbours."""
+    rows, run, steps = wide
     volume, width, area, gap = grid
-    for a in range(len(strides)):
-        s = strides[a]
+    for a in range(len(steps)):
+        s = steps[a]
         for row in rows:
             for f in range(row, row + run):
-                conductance[a, f] = 0.0
-                if active[a, f]:
-                    here = density[f - s] + (density[f] - density[f - s]) * reach[a, f] / gap[a, f]
-                    gas = 0.5 * (alpha[f] * volume[f] + alpha[f - s] * volume[f - s])
-                    flux[a, f] = here * area[a, f] * velocity[a, f]
-                    conductance[a, f] = dt * dt * here * area[a, f] * gas / (diagonal[a, f] * gap[a, f])
+                here = density[f - s] + (density[f] - density[f - s]) * reach[a, f] / gap[a, f]
+                gas = 0.5 * (alpha[f] * volume[f] + alpha[f - s] * volume[f - s])
+                flux[a, f] = here * area[a, f] * velocity[a, f] if active[a, f] else flux[a, f]
+                conductance[a, f] = dt * dt * here * area[a, f] * gas / (diagonal[a, f] * gap[a, f]) if active[a, f] else 0.0
 
 
 @njit(cache=True, error_model="numpy")
-def balance(rows, run, strides, flux, gained, mass, dt, out):
+def balance(inner, flux, gained, mass, dt, out):
     """out (S,) = mass + dt (gained - div flux) of every cell [kg]."""
+    rows, run, steps = inner
     for row in rows:
         for c in range(row, row + run):
             change = gained[c]
-            for a in range(len(strides)):
-                change += flux[a, c] - flux[a, c + strides[a]]
+            for a in range(len(steps)):
+                change += flux[a, c] - flux[a, c + steps[a]]
             out[c] = mass[c] + dt * change
 
 
 @njit(cache=True, error_model="numpy")
-def correct(rows, run, strides, active, grid, alpha, diagonal, conductance, correction, dt, velocity, flux):
+def correct(wide, active, grid, alpha, diagonal, conductance, correction, dt, velocity, flux):
     """Velocity and fluxes after the correction of the pressure, in place."""
+    rows, run, steps = wide
     volume, width, area, gap = grid
-    for a in range(len(strides)):
-        s = strides[a]
+    for a in range(len(steps)):
+        s = steps[a]
         for row in rows:
             for f in range(row, row + run):
-                if active[a, f]:
-                    gas = 0.5 * (alpha[f] * volume[f] + alpha[f - s] * volume[f - s])
-                    drop = correction[f - s] - correction[f]
-                    velocity[a, f] += dt * gas / (diagonal[a, f] * gap[a, f]) * drop
-                    flux[a, f] += conductance[a, f] * drop / dt
+                gas = 0.5 * (alpha[f] * volume[f] + alpha[f - s] * volume[f - s])
+                drop = correction[f - s] - correction[f] if active[a, f] else 0.0
+                velocity[a, f] += dt * gas / (diagonal[a, f] * gap[a, f]) * drop
+                flux[a, f] += conductance[a, f] * drop / dt
 
 
 class Aim(NamedTuple):
@@ -81,11 +81,17 @@ class Pressure:
         self.levels = build_levels(grid)
         self.work = np.zeros((grid.dimensions, self.levels.first[-1])), *np.zeros((3, self.levels.first[-1]))
         self.density = box.properties.density(faces.temperature, faces.vapour)  # of what flows in
-        self.ambient = ambient_pressure(faces, grid, box.gravity, self.density)
+        self.ambient, _ = resting_pressure(faces, grid, box.gravity, self.density)
         normal = faces.velocity[np.arange(len(faces.face)), faces.axis]
         self.inlet = np.where(faces.inlet, normal * faces.sign * grid.area[faces.axis, faces.face], 0.0)  # m3/s outward
         self.standing = grid.zeros(grid.dimensions)
         self.standing[faces.axis, faces.face] = np.where(faces.inlet, normal, 0.0)
+
+    def at_start(self, density: float) -> np.ndarray:
+        """(S,) pressure of gas at rest, and that outside the openings, which stays."""
+        pressure = self.box.grid.padded(resting_pressure(self.box.faces, self.box.grid, self.box.gravity, density)[1])
+        pressure[self.box.faces.ghost] = np.where(self.box.faces.open, self.ambient, 0.0)
+        return pressure
 
     def aim(self, old: Flow, window: Window, temperature: np.ndarray, fraction: np.ndarray) -> Aim:
         """Mass by the equation of state; in a closed box times the one factor that leaves its total right."""
@@ -106,15 +112,15 @@ class Pressure:
         flux, mass, correction = grid.zeros(grid.dimensions), grid.zeros(), grid.zeros()
         flux[faces.axis, faces.face] = faces.sign * aim.outward
         density = grid.extended(aim.mass / np.where(grid.volume > 0.0, grid.volume, 1.0))
-        face_fluxes(*box.wide, grid.strides, self.active, grid.geometry, grid.reach, window.alpha, density, diagonal, velocity, window.dt, flux, fine)
-        balance(*box.rows, grid.strides, flux, window.vapour, old.mass, window.dt, mass)
-        _, error = solve_pressure(self.levels, self.levels.strides, conductance, *work, mass - aim.mass, aim.mass, correction, CONTINUITY)
+        face_fluxes(grid.wide, self.active, grid.geometry, grid.reach, window.alpha, density, diagonal, velocity, window.dt, flux, fine)
+        balance(grid.inner, flux, window.vapour, old.mass, window.dt, mass)
+        _, error = solve_pressure(self.levels, grid.inner, conductance, *work, mass - aim.mass, aim.mass, correction, CONTINUITY)
         if not error <= CONTINUITY:
             raise GasError(f"embedded gas solver: the pressure did not converge at t = {old.time + window.dt:g} s, residual {error:.1e}; shorten the window")
         if box.closed:
             correction[grid.cells] -= correction[grid.cells].mean()
-        correct(*box.wide, grid.strides, self.active, grid.geometry, window.alpha, diagonal, fine, correction, window.dt, velocity, flux)
-        balance(*box.rows, grid.strides, flux, window.vapour, old.mass, window.dt, mass)
+        correct(grid.wide, self.active, grid.geometry, window.alpha, diagonal, fine, correction, window.dt, velocity, flux)
+        balance(grid.inner, flux, window.vapour, old.mass, window.dt, mass)
         beyond = faces.face + (faces.sign * np.array(grid.strides)[faces.axis]).astype(np.int64)
         flux[faces.axis, beyond] = flux[faces.axis, faces.face]
         pressure = old.pressure + correction

@@ -12,12 +12,15 @@ from coupling.embedded.box import Box, Flow, Window
 from coupling.embedded.convection import convect, substeps
 from coupling.embedded.linear import IMPLICIT, fill, solve_implicit
 
+NO_SHIFT = np.uint64(0)
+
 
 @njit(cache=True, error_model="numpy")
-def face_conductances(rows, run, strides, cell_value, area, gap, reach, hold, dt, out):
+def face_conductances(wide, cell_value, area, gap, reach, hold, dt, out):
     """dt k A/distance on every face, k linear between the cells (ghosts as their neighbours), into out (d, S)."""
-    for a in range(len(strides)):
-        s = strides[a]
+    rows, run, steps = wide
+    for a in range(len(steps)):
+        s = steps[a]
         for row in rows:
             for f in range(row, row + run):
                 k = cell_value[f - s] + (cell_value[f] - cell_value[f - s]) * reach[a, f] / gap[a, f]
@@ -35,7 +38,7 @@ class Scalars:
     def carry(self, old: Flow, window: Window, flow: Flow):
         """`flow` with its new vapour and temperature, its Courant number and the residuals."""
         box, grid = self.box, self.box.grid
-        parts, courant = substeps(*box.rows, grid.strides, flow.flux, old.mass, flow.mass, window.dt)
+        parts, courant = substeps(grid.inner, flow.flux, old.mass, flow.mass, window.dt)
         residuals = {}
         heat = box.properties.gas.heat_capacity
         content, carrier = heat * old.mass, heat * flow.flux
@@ -44,7 +47,7 @@ class Scalars:
             more = box.vapour.heat_capacity - heat
             flow, through, residuals["vapour"] = self._vapour(old, window, flow, parts)
             content, carrier, after = content + more * old.vapour, carrier + more * through / window.dt, after + more * flow.vapour
-            parts, _ = substeps(*box.rows, grid.strides, carrier, content, after, window.dt)
+            parts, _ = substeps(grid.inner, carrier, content, after, window.dt)
         flow, residuals["heat"] = self._heat(old, window, flow, (content, carrier, after, parts))
         return flow, courant, residuals
 
@@ -76,10 +79,10 @@ class Scalars:
         ghosts = self._ghosts(flow, name)
         through, conductance = grid.zeros(grid.dimensions), grid.zeros(grid.dimensions)
         if parts:
-            through = dt * convect(*box.rows, *box.wide, grid.strides, 0, box.everywhere, field, mass, flux, grid.gap, grid.reach, ghosts, dt, parts, box.limited)
+            through = convect(grid.inner, grid.wide, NO_SHIFT, box.everywhere, field, mass, flux, grid.gap, grid.reach, ghosts, dt, parts, box.limited)
         fill(field, ghosts)
-        face_conductances(*box.wide, grid.strides, grid.extended(diffusivity), grid.area, grid.gap, grid.reach, self.hold[name], dt, conductance)
-        given, _, error = solve_implicit(*box.rows, grid.strides, box.everywhere, conductance, diagonal, mass * field + source, field, IMPLICIT)
+        face_conductances(grid.wide, grid.extended(diffusivity), grid.area, grid.gap, grid.reach, self.hold[name], dt, conductance)
+        given, error = solve_implicit(grid.wide, box.everywhere, conductance, diagonal, mass * field + source, field, IMPLICIT)
         return field, through + given, error
 
     def _ghosts(self, flow: Flow, name: str) -> Ghosts:

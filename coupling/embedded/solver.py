@@ -62,9 +62,9 @@ class EmbeddedGas:
         box, grid = self.box, self.box.grid
         alpha = grid.extended(grid.padded(np.ones(len(grid.cells)) if alpha_g is None else alpha_g))
         temperature = np.full(grid.size, box.temperature)
-        pressure, mass = grid.zeros(), grid.zeros()
-        pressure[box.faces.ghost] = np.where(box.faces.open, self.pressure.ambient, 0.0)
-        mass[grid.cells] = alpha[grid.cells] * grid.volume[grid.cells] * box.properties.density(temperature[grid.cells], 0.0)
+        mass, density = grid.zeros(), box.properties.density(temperature[grid.cells], 0.0)
+        mass[grid.cells] = alpha[grid.cells] * grid.volume[grid.cells] * density
+        pressure = self.pressure.at_start(density[0])
         velocity = self.pressure.standing.copy()
         self.flow = Flow(0.0, alpha, mass, grid.zeros(), temperature, pressure, velocity, grid.zeros(grid.dimensions))
         return self._state([0.0] * grid.dimensions, 0.0, {})

@@ -1,0 +1,98 @@
+"""Temperature and vapour of the embedded gas solver against exact solutions."""
+
+import math
+
+import numpy as np
+import pytest
+from gas_cases import gas_of, norms, orders, set_flow
+
+OIL = {"molar_mass_kg_kmol": 142.0, "diffusivity_m2_s": 2e-2, "heat_capacity_J_kg_K": 1700.0, "conductivity_W_m_K": 0.02, "viscosity_Pa_s": 1e-5}
+
+
+def channel(speed, **more):
+    return {
+        "in": {"kind": "velocity_inlet", "side": "left", "velocity_m_s": [speed, 0.0], "temperature_K": 300.0} | more,
+        "out": {"kind": "pressure_outlet", "side": "right", "pressure_Pa": 0.0},
+        "walls": {"kind": "slip_wall"},
+    }
+
+
+def pulse(n, limited=True, courant=0.4):
+    """A warm Gaussian carried along and spread by conduction: error of its temperature over its height."""
+    speed, end, start, spread = 1.0, 0.3, 0.3, 0.06
+    gas = gas_of((1.0, 4.0 / n), n, boundaries=channel(speed), conductivity_W_m_K=1.2, limited=limited)
+    gas.start(None, ())
+    D = 1.2 / (1.2 * 1000.0)
+    exact = lambda x, t: 300.0 + 10.0 * spread / math.sqrt(spread**2 + 2 * D * t) * np.exp(-((x - start - speed * t) ** 2) / (2 * (spread**2 + 2 * D * t)))  # noqa: E731
+    set_flow(gas, velocity=lambda a, x, y: speed * (a == 0) + 0 * x, temperature=lambda x, y: exact(x, 0.0))
+    steps = math.ceil(end * speed * n / courant)
+    for _ in range(steps):
+        state = gas.advance(end / steps, {})
+    T = state.fields["temperature"]
+    return norms(T - exact(gas.mesh.centres[:, 0], end), gas.mesh.volumes)[0] / 10.0, T.min(), T.max()
+
+
+def test_pulse_is_second_order_and_bounded():
+    results = [pulse(n) for n in (40, 80, 160)]
+    errors = [r[0] for r in results]
+    print("advected pulse: errors", errors, "orders", orders(errors))
+    assert min(orders(errors)) > 1.7
+    assert all(low > 300.0 - 1e-9 and high < 310.0 for _, low, high in results)
+    assert pulse(80, limited=False)[0] > 4.0 * errors[1]
+
+
+def test_window_beyond_courant_one():
+    """Sub-steps keep a window of Courant number 4 bounded and as good as a short one."""
+    error, low, high = pulse(80, courant=4.0)
+    assert low > 300.0 - 1e-9 and high < 310.0
+    assert error < 2.0 * pulse(80)[0]
+
+
+def test_conduction_between_walls_of_given_temperature():
+    boundaries = {"hot": {"kind": "wall", "side": "left", "temperature_K": 400.0}, "cold": {"kind": "wall", "side": "right", "temperature_K": 300.0}, "walls": {"kind": "wall"}}
+    gas = gas_of((0.1, 0.02), 10, boundaries=boundaries)
+    gas.start(None, ())
+    for _ in range(10):
+        before = gas.flow.energy_in
+        state = gas.advance(1e4, {})
+    x = gas.mesh.centres[:, 0]
+    assert np.allclose(state.fields["temperature"], 400.0 - 1000.0 * x, rtol=0, atol=1e-6)
+    assert abs(state.budget.energy_in - before) < 1e-6 * state.budget.energy_in
+
+
+def stefan(equation_of_state, length, low, high):
+    """Flux [kg/m2/s], profile Y(y) and density(Y) of vapour that rises through gas at rest (Bird, Stewart & Lightfoot,
+    Transport Phenomena, 18.2): mass fractions and rho D at constant density, mole fractions and c D for ideal gases."""
+    D, M, Mg = OIL["diffusivity_m2_s"], 142.0, 28.96
+    if equation_of_state == "constant":
+        N = 1.2 * D / length * math.log((1 - high) / (1 - low))
+        return N, lambda y: 1 - (1 - low) * ((1 - high) / (1 - low)) ** (y / length), lambda Y: 1.2 + 0 * Y
+    c = 101325.0 / (8314.462618 * 300.0)
+    moles = lambda Y: (Y / M) / (Y / M + (1 - Y) / Mg)  # noqa: E731
+    mass = lambda X: X * M / (X * M + (1 - X) * Mg)  # noqa: E731
+    share = (1 - moles(high)) / (1 - moles(low))
+    profile = lambda y: mass(1 - (1 - moles(low)) * share ** (y / length))  # noqa: E731
+    return M * c * D / length * math.log(share), profile, lambda Y: c / (Y / M + (1 - Y) / Mg)
+
+
+@pytest.mark.parametrize("equation_of_state", ["constant", "operating"])
+def test_stefan_tube(equation_of_state):
+    """Held mass fractions at both ends and the exact mass flux: the vapour flux must be all of it (no air moves)."""
+    length, low, high = 0.1, 0.6, 0.1
+    flux, profile, density = stefan(equation_of_state, length, low, high)
+    end = lambda Y: {"kind": "velocity_inlet", "velocity_m_s": [0.0, flux / density(Y)], "vapour_mass_fraction": Y, "temperature_K": 300.0}  # noqa: E731
+    boundaries = {"surface": end(low) | {"side": "bottom"}, "mouth": end(high) | {"side": "top"}, "walls": {"kind": "slip_wall"}}
+    gas = gas_of((0.0025, length), 1, boundaries=boundaries, vapour=OIL, equation_of_state=equation_of_state)
+    gas.start(None, ())
+    cells, y = gas.box.grid.cells, gas.mesh.centres[:, 1]
+    flow = gas.flow
+    flow.mass[cells] = density(profile(y)) * gas.mesh.volumes
+    flow.vapour[cells] = flow.mass[cells] * profile(y)
+    for _ in range(1000):
+        before = gas.flow.vapour_in
+        state = gas.advance(2e-3, {})
+    error = np.abs(state.fields["vapour_mass_fraction"] - profile(y)).max()
+    print(equation_of_state, "Stefan tube: largest error of Y", error, "box", state.budget.residuals["box"])
+    assert error < 1e-3
+    assert abs(gas.flow.vapour_in - before) < 1e-6 * flux * 0.0025 * 2e-3
+    assert np.ptp(state.fields["temperature"]) < 1e-9
