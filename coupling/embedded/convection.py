@@ -7,7 +7,7 @@ from numba import njit
 
 from coupling.embedded.linear import fill
 
-OUTFLOW = 0.5  # of a cell's mass that may leave in one sub-step; the scheme is bounded up to 1/2
+TURNOVER = 0.5  # of a cell's mass in one sub-step: up to here the scheme is bounded
 
 
 @njit(error_model="numpy")
@@ -31,20 +31,19 @@ def carried(through, courant, values, gaps, reach, limited):
 
 @njit(cache=True, error_model="numpy")
 def substeps(inner, flux, before, after, dt):
-    """Sub-steps for which no cell loses more than `OUTFLOW` of its mass, and the Courant number of the window."""
+    """Sub-steps in which no cell lets more than `TURNOVER` of its mass out or in, and the Courant number of the window."""
     rows, run, steps = inner
     share, courant = 0.0, 0.0
     for row in rows:
         for c in range(row, row + run):
-            out, through = 0.0, 0.0
+            gained, through = 0.0, 0.0
             for a in range(len(steps)):
-                lower, upper = flux[a, c], flux[a, c + steps[a]]
-                out += (upper if upper > 0.0 else 0.0) - (lower if lower < 0.0 else 0.0)
-                through += abs(lower) + abs(upper)
+                gained += flux[a, c] - flux[a, c + steps[a]]
+                through += abs(flux[a, c]) + abs(flux[a, c + steps[a]])
             mass = before[c] if before[c] < after[c] else after[c]
-            share = max(share, out / mass)
+            share = max(share, 0.5 * (through + abs(gained)) / mass)  # the larger of what goes in and out
             courant = max(courant, 0.5 * through / mass)
-    return int(np.ceil(share * dt / OUTFLOW)), courant * dt
+    return int(np.ceil(share * dt / TURNOVER)), courant * dt
 
 
 @njit(error_model="numpy")
@@ -62,8 +61,8 @@ def _face_flux(wide, a, shift, field, mass, flux, gap, reach, sub, limited, face
 
 
 @njit(error_model="numpy")
-def _update(inner, shift, active, field, mass, flux, face, sub):
-    """Content and mass of every node after a sub-step."""
+def _update(inner, shift, active, field, mass, flux, face, sub, follows):
+    """Field and mass of every node after a sub-step."""
     rows, run, steps = inner
     for row in rows:
         for c in range(row, row + run):
@@ -72,15 +71,18 @@ def _update(inner, shift, active, field, mass, flux, face, sub):
                 s = steps[a]
                 content += sub * (face[a, c] - face[a, c + s])
                 gained += flux[a, c] + flux[a, c - shift] - flux[a, c + s] - flux[a, c + s - shift]
-            mass[c] += 0.5 * sub * gained
+            gained *= 0.5 * sub
+            content -= 0.0 if follows else gained * field[c]
+            mass[c] += gained if follows else 0.0
             field[c] = content / mass[c] if active[c] else field[c]
 
 
 @njit(cache=True, error_model="numpy")
-def convect(inner, wide, shift, active, field, mass, flux, gap, reach, ghosts, dt, parts, limited):
-    """Transport `field` (S,) by mass fluxes (d, S) [kg/s] over dt, in place, with `mass` (S,) [kg] that follows.
+def convect(inner, wide, shift, active, field, mass, flux, gap, reach, ghosts, dt, parts, limited, follows):
+    """Transport `field` (S,) of nodes of `mass` (S,) [kg] by mass fluxes (d, S) [kg/s] over dt, in place.
 
-    `shift` is 0 for cells; for the velocity along axis a it is that axis' stride, and a control volume then
+    `follows`: the mass takes what the fluxes bring, and content is conserved; otherwise it stays, and a uniform
+    field does too, whatever the fluxes. `shift` is 0 for cells; for the velocity along axis a it is that axis' stride, and a control volume then
     takes half of each neighbour's fluxes. Returns what was carried over each face (d, S) in all.
     """
     total, face = np.zeros_like(flux), np.zeros_like(flux)
@@ -89,6 +91,6 @@ def convect(inner, wide, shift, active, field, mass, flux, gap, reach, ghosts, d
         fill(field, ghosts)
         for a in range(flux.shape[0]):
             _face_flux(wide, a, shift, field, mass, flux[a], gap[a], reach[a], sub, limited, face[a])
-        _update(inner, shift, active, field, mass, flux, face, sub)
+        _update(inner, shift, active, field, mass, flux, face, sub, follows)
         total += sub * face
     return total

@@ -16,7 +16,6 @@ from coupling.embedded.box import Box, Flow, Window
 from coupling.embedded.convection import convect, substeps
 from coupling.embedded.grid import component_spacing
 from coupling.embedded.linear import IMPLICIT, fill, solve_implicit
-from coupling.embedded.pressure import balance
 
 
 @njit(error_model="numpy")
@@ -43,39 +42,38 @@ def viscous_conductances(wide, axis, viscosity, grid, hold, dt, out):
                     out[b, f] = dt * corner(viscosity, f, s, t) * held / gap[b, f]
 
 
-@njit(error_model="numpy")
-def _normal_stress(steps, axis, viscosity, velocity, width, c):
-    """alpha mu (du/dx - 2/3 div v) in cell c: what the Laplacian leaves out of tau (Eq. 5 of the closure sheet)."""
-    divergence = 0.0
-    for b in range(len(steps)):
-        divergence += (velocity[b, c + steps[b]] - velocity[b, c]) / width[b, c]
-    return viscosity[c] * ((velocity[axis, c + steps[axis]] - velocity[axis, c]) / width[axis, c] - 2.0 / 3.0 * divergence)
-
-
-@njit(error_model="numpy")
-def _shear_force(steps, axis, b, viscosity, velocity, grid, f):
-    """alpha mu dv_b/dx_axis times area, at the edge below f along b."""
-    volume, width, area, gap = grid
-    s, t = steps[axis], steps[b]
-    across = (velocity[b, f] - velocity[b, f - s]) / gap[axis, f]
-    return corner(viscosity, f, s, t) * across * 0.5 * (area[b, f - s] + area[b, f])
-
-
-@njit(error_model="numpy")
-def _stress_force(steps, axis, viscosity, velocity, grid, f):
-    """Force [N] of the stresses that the Laplacian leaves out, on the control volume of face f."""
-    s, area = steps[axis], grid[2]
-    force = _normal_stress(steps, axis, viscosity, velocity, grid[1], f) * area[axis, f]
-    force -= _normal_stress(steps, axis, viscosity, velocity, grid[1], f - s) * area[axis, f]
-    for b in range(len(steps)):
-        if b != axis:
-            force += _shear_force(steps, axis, b, viscosity, velocity, grid, f + steps[b])
-            force -= _shear_force(steps, axis, b, viscosity, velocity, grid, f)
-    return force
+@njit(cache=True, error_model="numpy")
+def divergence(inner, velocity, width, out):
+    """div v of the cells, into out (S,)."""
+    rows, run, steps = inner
+    for row in rows:
+        for c in range(row, row + run):
+            out[c] = 0.0
+            for a in range(len(steps)):
+                out[c] += (velocity[a, c + steps[a]] - velocity[a, c]) / width[a, c]
 
 
 @njit(cache=True, error_model="numpy")
-def momentum_balance(wide, axis, active, grid, alpha, mass, viscosity, velocity, moved, pull, push, gravity, pressure, dt, diagonal, source):
+def rest_of_stress(wide, axis, viscosity, velocity, spread, grid, out):
+    """What the Laplacian leaves out of tau (Eq. 5 of the closure sheet), times area [N], on the faces of the control
+    volumes of the velocity along `axis`, into out (d, S): alpha mu (dv_b/dx_axis - 2/3 div v on the normal ones)."""
+    rows, run, steps = wide
+    volume, width, area, gap = grid
+    s = steps[axis]
+    for b in range(len(steps)):
+        t = steps[b]
+        for row in rows:
+            for f in range(row, row + run):
+                if b == axis:
+                    slope = (velocity[axis, f] - velocity[axis, f - s]) / width[axis, f - s]
+                    out[b, f] = viscosity[f - s] * (slope - 2.0 / 3.0 * spread[f - s]) * area[axis, f - s]
+                else:
+                    slope = (velocity[b, f] - velocity[b, f - s]) / gap[axis, f]
+                    out[b, f] = corner(viscosity, f, s, t) * slope * 0.5 * (area[b, f - s] + area[b, f])
+
+
+@njit(cache=True, error_model="numpy")
+def momentum_balance(wide, axis, active, grid, alpha, mass, stress, moved, pull, push, gravity, pressure, dt, diagonal, source):
     """Diagonal [kg] and source [kg m/s] of the implicit equation for the velocity along `axis`.
 
     moved (S,): the velocity after convection; pull [kg/s], push [N]: drag coefficient and its part of the
@@ -88,9 +86,11 @@ def momentum_balance(wide, axis, active, grid, alpha, mass, viscosity, velocity,
         for f in range(row, row + run):
             m = 0.5 * (mass[f] + mass[f - s])
             gas = 0.5 * (alpha[f] * volume[f] + alpha[f - s] * volume[f - s])
-            stress = _stress_force(steps, axis, viscosity, velocity, grid, f)
-            force = stress if mass[f] > 0.0 and mass[f - s] > 0.0 else 0.0
-            force += m * gravity + 0.5 * (push[f] + push[f - s]) - gas * (pressure[f] - pressure[f - s]) / gap[axis, f]
+            force = m * gravity + 0.5 * (push[f] + push[f - s]) - gas * (pressure[f] - pressure[f - s]) / gap[axis, f]
+            viscous = 0.0
+            for b in range(len(steps)):
+                viscous += stress[b, f + steps[b]] - stress[b, f]
+            force += viscous if mass[f] > 0.0 and mass[f - s] > 0.0 else 0.0
             diagonal[f] = m + dt * 0.5 * (pull[f] + pull[f - s]) if active[f] else 1.0
             source[f] = m * moved[f] + dt * force
 
@@ -113,12 +113,15 @@ class Momentum:
         grid = self.box.grid
         viscosity = grid.extended(window.alpha * self.box.properties.mixture("viscosity", fraction) * (grid.volume > 0.0))
         moved = self.convected(old, window.dt)
+        spread, stress = grid.zeros(), grid.zeros(grid.dimensions)
+        divergence(grid.inner, old.velocity, grid.width, spread)
         velocity, diagonal, force, residual = moved.copy(), np.ones_like(moved), [], 0.0
         for a in range(grid.dimensions):
             conductance, source = np.zeros_like(moved), grid.zeros()
             viscous_conductances(grid.wide, a, viscosity, grid.geometry, self.hold, window.dt, conductance)
-            balance_of = (old.velocity, moved[a], window.pull, window.push[a], self.box.gravity[a], old.pressure)
-            momentum_balance(grid.wide, a, self.active[a], grid.geometry, window.alpha, mass, viscosity, *balance_of, window.dt, diagonal[a], source)
+            rest_of_stress(grid.wide, a, viscosity, old.velocity, spread, grid.geometry, stress)
+            balance_of = (stress, moved[a], window.pull, window.push[a], self.box.gravity[a], old.pressure)
+            momentum_balance(grid.wide, a, self.active[a], grid.geometry, window.alpha, mass, *balance_of, window.dt, diagonal[a], source)
             fill(velocity[a], self.ghosts[a])
             given, error = solve_implicit(grid.wide, self.active[a], conductance, diagonal[a], source, velocity[a], IMPLICIT)
             b, face, sign = self.clinging[a]
@@ -128,13 +131,12 @@ class Momentum:
 
     def convected(self, old: Flow, dt: float) -> np.ndarray:
         """The old velocity (d, S) carried on by the old mass fluxes."""
-        grid, velocity, after = self.box.grid, old.velocity.copy(), old.mass.copy()
-        balance(grid.inner, old.flux, grid.zeros(), old.mass, dt, after)
-        parts, _ = substeps(grid.inner, old.flux, old.mass, after, dt)
+        grid, velocity = self.box.grid, old.velocity.copy()
+        parts, _ = substeps(grid.inner, old.flux, old.mass, old.mass, dt)
         for a in range(grid.dimensions if parts else 0):
             mass = 0.5 * (old.mass + np.roll(old.mass, grid.strides[a]))
             gap, reach = self.spacing[a]
-            convect(grid.wide, grid.wide, grid.inner[2][a], self.active[a], velocity[a], mass, old.flux, gap, reach, self.ghosts[a], dt, parts, self.box.limited)
+            convect(grid.wide, grid.wide, grid.inner[2][a], self.active[a], velocity[a], mass, old.flux, gap, reach, self.ghosts[a], dt, parts, self.box.limited, False)
         return velocity
 
     def _clinging(self, axis: int) -> tuple[np.ndarray, ...]:

@@ -11,6 +11,7 @@ from coupling.embedded.boundaries import Ghosts, on_faces
 from coupling.embedded.box import Box, Flow, Window
 from coupling.embedded.convection import convect, substeps
 from coupling.embedded.linear import IMPLICIT, fill, solve_implicit
+from coupling.gas import GasError
 
 NO_SHIFT = np.uint64(0)
 
@@ -38,7 +39,10 @@ class Scalars:
     def carry(self, old: Flow, window: Window, flow: Flow):
         """`flow` with its new vapour and temperature, its Courant number and the residuals."""
         box, grid = self.box, self.box.grid
-        parts, courant = substeps(grid.inner, flow.flux, old.mass, flow.mass, window.dt)
+        carried = flow.mass - window.dt * window.vapour  # all but the new vapour
+        if not carried[grid.cells].min() > 0.0:
+            raise GasError("the vapour of one window fills a cell all by itself; shorten the window")
+        parts, courant = substeps(grid.inner, flow.flux, old.mass, carried, window.dt)
         residuals = {}
         heat = box.properties.gas.heat_capacity
         content, carrier = heat * old.mass, heat * flow.flux
@@ -79,7 +83,7 @@ class Scalars:
         ghosts = self._ghosts(flow, name)
         through, conductance = grid.zeros(grid.dimensions), grid.zeros(grid.dimensions)
         if parts:
-            through = convect(grid.inner, grid.wide, NO_SHIFT, box.everywhere, field, mass, flux, grid.gap, grid.reach, ghosts, dt, parts, box.limited)
+            through = convect(grid.inner, grid.wide, NO_SHIFT, box.everywhere, field, mass, flux, grid.gap, grid.reach, ghosts, dt, parts, box.limited, True)
         fill(field, ghosts)
         face_conductances(grid.wide, grid.extended(diffusivity), grid.area, grid.gap, grid.reach, self.hold[name], dt, conductance)
         given, error = solve_implicit(grid.wide, box.everywhere, conductance, diagonal, mass * field + source, field, IMPLICIT)

@@ -26,6 +26,7 @@ import numpy as np
 
 from coupling.embedded.box import Box, Flow, window_of
 from coupling.embedded.grid import build_grid, uniform_edges
+from coupling.embedded.linear import IMPLICIT
 from coupling.embedded.momentum import Momentum
 from coupling.embedded.output import budget, cell_fields
 from coupling.embedded.pressure import Pressure
@@ -79,6 +80,7 @@ class EmbeddedGas:
             velocity, diagonal, viscous, residual = self.momentum.predict(old, window, aim.mass, new.fraction())
             new, left = self.pressure.project(old, window, aim, velocity, diagonal)
             new, courant, residuals = self.scalars.carry(old, window, new)
+        _converged(new.time, residuals | {"momentum": residual})
         self.flow = new
         return self._state(viscous, courant, residuals | {"momentum": residual, "pressure": left, "box": new.ratio - 1.0})
 
@@ -126,8 +128,14 @@ class EmbeddedGas:
             shape = (len(self.mesh.volumes), 3)[: 1 + (SOURCES[name][1] == 3)]
             if np.shape(values) != shape:
                 raise GasError(f"source {name} has shape {np.shape(values)}; it must be {shape}")
-            if not np.isfinite(values).all():
+            if not np.isfinite(np.sum(values)):
                 raise GasError(f"source {name} is not finite in cell {int(np.argmin(np.isfinite(values).reshape(shape[0], -1).all(axis=1)))}")
+
+
+def _converged(time: float, residuals: dict[str, float]) -> None:
+    for name, residual in residuals.items():
+        if not residual <= IMPLICIT:
+            raise GasError(f"embedded gas solver: {name} did not converge at t = {time:g} s, residual {residual:.1e}; shorten the window")
 
 
 def _known(sources: tuple[str, ...], box: Box) -> tuple[str, ...]:
