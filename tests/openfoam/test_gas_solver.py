@@ -39,6 +39,27 @@ def test_ergun_pressure_drop(tmp_path, dt, steps):
     assert state.fields["pressure_gradient"][inside, 1] == pytest.approx(-ergun, rel=1e-3)
 
 
+@pytest.mark.parametrize("dt, steps", [(1e-4, 300), (1e-2, 40)])
+def test_rim_of_a_bed_makes_no_waves(tmp_path, dt, steps):
+    """alpha_g jumps from 1 to 0.4 between two cells: the flux of each cell stays near the one that comes in, whatever the step,
+    and the drag balances the pressure of the whole column, as in the momentum equation of a steady gas of low inertia."""
+    alpha_p, d, mu, speed = 0.6, 0.5e-3, AIR["viscosity_Pa_s"], 0.2
+    with box(tmp_path, (0.02, 0.4), 0.01, boundaries=COLUMN) as gas:
+        y = gas.mesh.centres[:, 1]
+        alpha = np.where((y > 0.1) & (y < 0.3), 1 - alpha_p, 1.0)
+        beta = np.where(alpha < 1, 150 * alpha_p**2 * mu / (0.4 * d**2), 0.0)
+        state = gas.start(alpha, ("drag", "drag_velocity"))
+        for _ in range(steps):
+            state = gas.advance(dt, {"drag": beta, "drag_velocity": np.zeros((len(beta), 3))})
+    flux = alpha * state.fields["velocity"][:, 1] / speed
+    # on the face between the two alpha_g is their mean, 0.7: half of each cell at the rim is filled with that
+    assert flux.min() == pytest.approx(0.5 * (1 + 0.4 / 0.7), rel=1e-2)
+    assert flux.max() == pytest.approx(0.5 * (1 + 1 / 0.7), rel=1e-2)
+    drag = total(gas, beta * state.fields["velocity"][:, 1])
+    pressure = total(gas, alpha * state.fields["pressure_gradient"][:, 1])
+    assert pressure == pytest.approx(-drag, rel=1e-3)
+
+
 def test_uniform_heat_source_is_exact(tmp_path):
     source, dt, steps = 5e4, 2e-3, 10
     with box(tmp_path, (0.02, 0.02), 0.005) as gas:
