@@ -1,0 +1,25 @@
+"""What all tests share: hypothesis without deadlines, and what becomes of tests that need OpenFOAM where it is not."""
+
+import os
+
+import pytest
+from hypothesis import settings
+
+# The first call of a kernel compiles it, which no deadline foresees; the same examples in every run.
+settings.register_profile("sdph", deadline=None, max_examples=60, derandomize=True)
+settings.load_profile("sdph")
+
+
+def pytest_configure(config):
+    config.addinivalue_line("markers", "openfoam: needs OpenFOAM; skipped without it, but fails in CI (CI=true)")
+
+
+@pytest.hookimpl(tryfirst=True)  # before fixtures that would start a solver
+def pytest_runtest_setup(item):
+    if item.get_closest_marker("openfoam") is None:
+        return
+    from coupling.openfoam import install
+
+    if install.find() is None:
+        missing = "OpenFOAM was not found; get it with `sdph openfoam setup --install`"
+        pytest.fail(missing) if os.environ.get("CI") == "true" else pytest.skip(missing)

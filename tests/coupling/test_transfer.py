@@ -1,0 +1,138 @@
+"""Kernel transfer on meshes of every kind: exact for uniform fields, transposed, conservative, smooth, repeatable."""
+
+import numpy as np
+import pytest
+from builders import polar_mesh, tensor_mesh
+from hypothesis import given
+from hypothesis import strategies as st
+
+from coupling.transfer import Transfer, deposit, gather
+
+UNIFORM = tensor_mesh(np.linspace(0.0, 1.0, 21), np.linspace(0.0, 1.0, 21))
+GRADED = tensor_mesh(np.linspace(0.0, 1.0, 18) ** 2, 1.0 - np.linspace(1.0, 0.0, 14) ** 3)  # cells from 1/289 to 1/5 wide
+WEDGE = polar_mesh(12, 9, 1.0, np.pi / 2.0)
+SOLID = tensor_mesh(*3 * [np.linspace(0.0, 1.0, 9) ** 1.5])
+MESHES = {"uniform": UNIFORM, "graded": GRADED, "wedge": WEDGE, "solid": SOLID}
+# h from a hundredth of a cell to five cells, on all of these meshes
+FINE, MIDDLE, WIDE = 5e-4, 0.06, 0.25
+
+rngs = st.integers(0, 2**32 - 1).map(np.random.default_rng)
+meshes = st.sampled_from(sorted(MESHES))
+smoothings = st.sampled_from([FINE, MIDDLE, WIDE])
+
+
+def scattered(rng, count, mesh):
+    """Points in the unit box, a few of them outside; z = 0 in two dimensions."""
+    points = np.zeros((count, 3))
+    points[:, : mesh.dimensions] = rng.uniform(-0.02, 1.02, (count, mesh.dimensions))
+    return points
+
+
+def dense(weights):
+    """The matrix W (N, C)."""
+    matrix = np.zeros((len(weights.start) - 1, weights.count))
+    for k in range(len(matrix)):
+        row = slice(weights.start[k], weights.start[k + 1])
+        np.add.at(matrix[k], weights.cells[row], weights.weight[row])
+    return matrix
+
+
+@given(rng=rngs, name=meshes, h=smoothings, value=st.floats(-1e6, 1e6))
+def test_uniform_field_is_gathered_exactly(rng, name, h, value):
+    mesh = MESHES[name]
+    weights = Transfer(mesh, h).weights(scattered(rng, 50, mesh))
+    np.testing.assert_allclose(gather(weights, np.full(len(mesh.volumes), value)), value, rtol=1e-14)
+
+
+@given(rng=rngs, name=meshes, h=smoothings, columns=st.sampled_from([(), (1,), (3,)]))
+def test_totals_are_kept_and_the_two_ways_are_transposes(rng, name, h, columns):
+    mesh = MESHES[name]
+    weights = Transfer(mesh, h).weights(scattered(rng, 60, mesh))
+    field, amount = rng.normal(size=(len(mesh.volumes), *columns)), rng.normal(size=(60, *columns))
+    down, up = deposit(weights, amount), gather(weights, field)
+    assert down.shape == field.shape and up.shape == amount.shape
+    np.testing.assert_allclose(down.sum(axis=0), amount.sum(axis=0), atol=1e-13 * np.abs(amount).sum())
+    assert (amount * up).sum() == pytest.approx((down * field).sum(), abs=1e-12 * np.abs(amount).sum() * np.abs(field).max())
+    np.testing.assert_allclose(down, dense(weights).T @ amount, atol=1e-12)
+
+
+@given(rng=rngs, name=meshes, h=smoothings)
+def test_weights_are_the_kernel_times_the_cell_volume(rng, name, h):
+    """Against the formula with all cells, cubic spline written out."""
+    mesh = MESHES[name]
+    points = scattered(rng, 40, mesh)
+    transfer = Transfer(mesh, h)
+    matrix = dense(transfer.weights(points))
+    smoothing = np.maximum(h, mesh.volumes ** (1.0 / mesh.dimensions))
+    q = np.linalg.norm(points[:, None] - mesh.centres[None], axis=2) / smoothing
+    spline = np.where(q < 1.0, 1.0 - 1.5 * q**2 + 0.75 * q**3, 0.25 * np.clip(2.0 - q, 0.0, None) ** 3) * mesh.volumes
+    covered = spline.sum(axis=1) > 1e-12 * mesh.volumes.min()
+    np.testing.assert_allclose(matrix[covered], spline[covered] / spline[covered].sum(axis=1, keepdims=True), atol=1e-12)
+    np.testing.assert_array_equal(transfer.outside(points) & covered, False)
+
+
+@given(rng=rngs, name=meshes, h=smoothings)
+def test_repeats_bit_for_bit(rng, name, h):
+    mesh = MESHES[name]
+    points, amount = scattered(rng, 80, mesh), rng.normal(size=(80, 2))
+    first, second = (deposit(Transfer(mesh, h).weights(points), amount) for _ in range(2))
+    np.testing.assert_array_equal(first, second)
+
+
+@pytest.mark.parametrize("name", sorted(MESHES))
+def test_particle_far_outside_goes_to_the_nearest_cell_and_is_told(name):
+    mesh = MESHES[name]
+    points = np.zeros((3, 3))
+    points[:2, : mesh.dimensions] = [[-50.0] * mesh.dimensions, [50.0] * mesh.dimensions]
+    points[2] = mesh.centres[0]
+    transfer = Transfer(mesh, MIDDLE)
+    np.testing.assert_array_equal(transfer.outside(points), [True, True, False])
+    down = deposit(transfer.weights(points[:2]), np.array([1.0, 2.0]))
+    for point, amount in zip(points, (1.0, 2.0)):
+        assert down[np.linalg.norm(mesh.centres - point, axis=1).argmin()] == pytest.approx(amount)
+
+
+@pytest.mark.parametrize("name", ["uniform", "graded", "wedge"])
+@pytest.mark.parametrize("h", [FINE, MIDDLE, WIDE])
+def test_deposit_changes_smoothly_along_a_path(name, h):
+    """No cell jumps as a particle crosses the mesh: a tenth of the step makes a tenth of the largest change."""
+    mesh = MESHES[name]
+    transfer = Transfer(mesh, h)
+
+    def largest_change(steps):
+        points = np.zeros((steps + 1, 3))
+        points[:, 0], points[:, 1] = np.linspace(0.11, 0.71, steps + 1), np.linspace(0.13, 0.66, steps + 1)
+        return np.abs(np.diff(dense(transfer.weights(points)), axis=0)).max()
+
+    assert largest_change(4000) < 0.2 * largest_change(400)
+
+
+def test_nothing_moves_for_a_particle_in_a_mesh_of_one_cell():
+    mesh = tensor_mesh(np.array([0.0, 1.0]), np.array([0.0, 1.0]))
+    weights = Transfer(mesh, 0.01).weights(np.random.default_rng(0).uniform(0.0, 1.0, (20, 3)) * [1, 1, 0])
+    assert deposit(weights, np.ones(20)) == pytest.approx([20.0])
+    np.testing.assert_array_equal(gather(weights, np.array([7.0])), 7.0)
+
+
+def test_no_particles():
+    weights = Transfer(UNIFORM, MIDDLE).weights(np.zeros((0, 3)))
+    np.testing.assert_array_equal(deposit(weights, np.zeros(0)), np.zeros(400))
+    np.testing.assert_array_equal(deposit(weights, np.zeros((0, 3))), np.zeros((400, 3)))
+    assert gather(weights, np.ones(400)).shape == (0,)
+    assert gather(weights, np.ones((400, 3))).shape == (0, 3)
+
+
+def test_depth_of_a_plane_mesh_does_not_matter():
+    """Cells 0.1 m deep have the weights of cells 1 m deep."""
+    thin = type(UNIFORM)(UNIFORM.centres, 0.1 * UNIFORM.volumes, 2, 0.1)
+    points = scattered(np.random.default_rng(5), 30, UNIFORM)
+    np.testing.assert_allclose(dense(Transfer(thin, FINE).weights(points)), dense(Transfer(UNIFORM, FINE).weights(points)), rtol=1e-13)
+
+
+@pytest.mark.parametrize("h", [0.075, 0.1, 0.25])
+def test_linear_field_is_gathered_in_the_middle_of_a_fine_mesh(h):
+    """Symmetric neighbourhoods: a linear field to the lattice error of the kernel, which falls with h/cell."""
+    points = np.zeros((200, 3))
+    points[:, :2] = np.random.default_rng(6).uniform(0.5, 0.55, (200, 2))
+    found = gather(Transfer(UNIFORM, h).weights(points), 3.0 * UNIFORM.centres[:, 0] - UNIFORM.centres[:, 1])
+    np.testing.assert_allclose(found, 3.0 * points[:, 0] - points[:, 1], atol=0.03 * (0.05 / h) ** 2)

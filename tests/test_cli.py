@@ -1,0 +1,121 @@
+"""The command line as a user meets it: exit codes, one line for what is wrong, nothing touched that was there before."""
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+from test_output import snapshot
+
+from sdph import paths, scenes
+
+ENVIRONMENT = os.environ | {"PYTHONPATH": str(paths.PACKAGE.parent)}
+SMALL = ("--gas", "embedded", "--set", "resolution.spacing_mm=20", "--set", "resolution.cell_mm=50", "--set", "run.output_interval_s=0.001", "--until", "0.002")
+
+
+def sdph(*arguments, cwd, code=0):
+    """Run the command in a folder; its exit code must be `code`."""
+    command = [sys.executable, "-m", "sdph.cli", *map(str, arguments)]
+    done = subprocess.run(command, cwd=cwd, env=ENVIRONMENT, capture_output=True, text=True, timeout=240, check=False)
+    assert done.returncode == code, f"exit {done.returncode}\n{done.stdout}\n{done.stderr}"
+    return done
+
+
+def refused(*arguments, cwd):
+    """The one line that a refused command leaves; nothing else is printed, and the folder stays as it is."""
+    before = snapshot(cwd)
+    done = sdph(*arguments, cwd=cwd, code=2)
+    assert done.stdout == ""
+    lines = done.stderr.splitlines()
+    assert len(lines) == 1 and lines[0].startswith("sdph: ")
+    assert snapshot(cwd) == before
+    return lines[0]
+
+
+@pytest.mark.parametrize("arguments", [("--help",), ("run", "--help"), ("--version",), ("list",)])
+def test_asking_is_quick(tmp_path, arguments):
+    """Neither numba nor numpy's heavier friends are imported to print a few lines."""
+    code = (
+        "import sys; from sdph import cli\n"
+        "try: cli.main(sys.argv[1:])\n"
+        "except SystemExit as end: assert not end.code\n"
+        "heavy = {'numba', 'scipy', 'pyvista', 'matplotlib'} & sys.modules.keys()\n"
+        "assert not heavy, heavy"
+    )
+    done = subprocess.run([sys.executable, "-c", code, *arguments], cwd=tmp_path, env=ENVIRONMENT, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout
+
+
+def test_list_names_every_scene(tmp_path):
+    lines = sdph("list", cwd=tmp_path).stdout.splitlines()
+    assert [line.split()[0] for line in lines] == scenes.names()
+    assert all(len(line.split()) > 2 for line in lines)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (("run", "disc_clusster"), ("disc_clusster", "disc_cluster")),
+        (("run", "disc_cluster", "--set", "resolution.spaceing_mm=1"), ("resolution.spaceing_mm", "did you mean resolution.spacing_mm?")),
+        (("run", "disc_cluster", "--set", "resolution.spacing_mm=-1"), ("resolution.spacing_mm", "-1", "above 0")),
+        (("run", "disc_cluster", "--set", "resolution.spacing_mm=nan"), ("resolution.spacing_mm", "nan")),
+        (("run", "disc_cluster", "--set", "resolution.spacing_mm=500"), ("spacing_mm = 500", "larger than particles.disc")),
+        (("run", "disc_cluster", "--set", "grains.density_kg_m3='heavy'"), ("grains.density_kg_m3", "heavy")),
+        (("run", "disc_cluster", "--set", "grains"), ("--set grains", "section.key=value")),
+        (("run", "disc_cluster", "--np", "0"), ("coupling.ranks", "at least 1")),
+        (("run", "disc_cluster", "--until", "nan"), ("run.end_time_s",)),
+        (("run", "disc_cluster", "--until", "-1"), ("run.end_time_s", "-1", "above 0")),
+        (("compare", "nowhere", "--against", "exact"), ("nowhere", "run it first")),
+        (("view", "nowhere", "--png", "a.png"), ("nowhere", "run.pvd")),
+        (("init", "no_such_scene", "folder"), ("no_such_scene",)),
+    ],
+)
+def test_bad_input_is_one_line_and_code_2(tmp_path, arguments, told):
+    line = refused(*arguments, cwd=tmp_path)
+    for part in told:
+        assert part in line
+
+
+@pytest.mark.parametrize("text", ["title = [", "\N{SNOWMAN}", 'dimensions = 2\n"two\\nlines" = 1\n'])
+def test_bad_case_file_is_one_line_and_code_2(tmp_path, text):
+    (tmp_path / "case.toml").write_text(text, encoding="utf-8")
+    refused("run", "case.toml", cwd=tmp_path)
+    refused("run", ".", cwd=tmp_path)
+
+
+@pytest.mark.parametrize("arguments", [(), ("fly",), ("run",), ("run", "disc_cluster", "--np", "two"), ("compare", "x", "--against", "nothing")])
+def test_wrong_usage_is_code_2(tmp_path, arguments):
+    assert "usage: sdph" in sdph(*arguments, cwd=tmp_path, code=2).stderr
+
+
+def test_run_leaves_a_whole_folder_and_is_not_run_over(tmp_path):
+    summary = json.loads(sdph("run", "disc_cluster", *SMALL, "--out", "mine", "--json", cwd=tmp_path).stdout)
+    folder = tmp_path / "mine"
+    assert summary == json.loads((folder / "summary.json").read_text())
+    assert summary["time_s"] == 0.002
+    assert summary["exchange_energy_mismatch_rel"] <= 1e-12
+    for name in ("case.toml", "ledger.csv", "history.csv", "run.pvd"):
+        assert (folder / name).stat().st_size > 0
+    assert len(list((folder / "fields").iterdir())) == 6  # start and two outputs, particles and gas
+    assert not list(folder.rglob("*.part"))
+    assert "another run" in refused("run", "disc_cluster", *SMALL, "--out", "mine", cwd=tmp_path)
+    again = json.loads(sdph("run", "mine", "--out", "again", "--json", cwd=tmp_path).stdout)  # the case it wrote is the case it ran
+    exact = {key: value for key, value in summary.items() if "wall" not in key and "_per_" not in key and "start_to" not in key}
+    assert {key: again[key] for key in exact} == exact
+
+
+def test_init_gives_a_folder_of_ones_own(tmp_path):
+    sdph("init", "disc_cluster", "mine", cwd=tmp_path)
+    assert (tmp_path / "mine" / "case.toml").read_text() == (scenes.HERE / "disc_cluster" / "case.toml").read_text()
+    assert "another run or case" in refused("init", "disc_cluster", "mine", cwd=tmp_path)
+    file = tmp_path / "mine" / "case.toml"
+    file.write_text(file.read_text().replace("spacing_mm = 2.5", "spacing_mm = 250.0"))
+    assert "spacing_mm = 250" in refused("run", "mine", cwd=tmp_path)
+
+
+def test_unnamed_runs_are_numbered(tmp_path):
+    for _ in range(2):
+        sdph("run", "disc_cluster", *SMALL, cwd=tmp_path)
+    assert sorted(path.name for path in (tmp_path / "runs").iterdir()) == ["disc_cluster", "disc_cluster-2"]

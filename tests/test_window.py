@@ -1,0 +1,133 @@
+"""The choice of windows: landmarks are hit exactly, limits rule by name, growth and shrinking are bounded."""
+
+import math
+
+import numpy as np
+import pytest
+from builders import FULL_BOX, disc, simulation
+from hypothesis import given
+from hypothesis import strategies as st
+
+from sdph import window
+
+GROWTH, SHRINK = window.GROWTH, window.SHRINK
+
+
+def clock(*overrides, rate=0.0, scale=0.0):
+    chooser = window.Window(disc(*overrides))
+    chooser.begin(rate, scale)
+    return chooser
+
+
+def times(chooser, end, learn=lambda dt: (dt, np.ones(3) * dt, 0.0)):
+    """All times at which windows end."""
+    found = [0.0]
+    while found[-1] < end:
+        found.append(chooser.choose(found[-1]))
+        chooser.learn(*learn(found[-1] - found[-2]))
+        assert len(found) < 10**5
+    return np.array(found)
+
+
+@given(
+    end=st.floats(1e-6, 1e3),
+    parts=st.floats(0.3, 40.0),
+    reports=st.lists(st.floats(1e-4, 1.5), max_size=4),
+    largest=st.floats(1e-3, 2.0),
+)
+def test_landmarks_are_hit_exactly_and_windows_are_no_longer_than_allowed(end, parts, reports, largest):
+    asked = [share * end for share in reports]
+    chooser = clock(
+        f"run.end_time_s={end!r}", f"run.output_interval_s={end / parts!r}", f"run.report_at_s={asked!r}", f"coupling.window_largest_s={largest * end!r}"
+    )
+    found = times(chooser, end)
+    assert found[-1] == end
+    assert set(chooser.outputs) <= set(found)
+    for time in asked:
+        assert time >= end or np.abs(found - time).min() <= 1e-9 * end
+    steps = np.diff(found)
+    assert (steps > 0.0).all() and steps.max() <= largest * end * (1.0 + 1e-6)
+
+
+def test_outputs_are_every_interval_and_the_end():
+    np.testing.assert_allclose(clock("run.end_time_s=1.0", "run.output_interval_s=0.3").outputs, [0.3, 0.6, 0.9, 1.0], rtol=1e-15)
+    np.testing.assert_allclose(clock("run.end_time_s=0.3", "run.output_interval_s=0.1").outputs, [0.1, 0.2, 0.3], rtol=1e-15)
+    np.testing.assert_array_equal(clock("run.end_time_s=0.1", "run.output_interval_s=5.0").outputs, [0.1])
+
+
+def test_report_time_that_differs_from_an_output_by_round_off_makes_no_window():
+    """3 * 0.1 is not 0.3: a window of 5e-17 s between them would set back the control."""
+    found = times(clock("run.end_time_s=1.0", "run.output_interval_s=0.1", "run.report_at_s=[0.3,0.6,0.7]"), 1.0)
+    assert np.diff(found).min() > 1e-4
+
+
+def test_limits_are_named():
+    largest = ("coupling.window_largest_s=1e-3", "coupling.window_tolerance=1e-2")
+    chooser = clock(*largest, rate=1.0, scale=1.0)
+    chooser.choose(0.0)
+    assert chooser.limit == "largest"
+    chooser = clock(*largest, rate=1e6, scale=1.0)
+    end = chooser.choose(0.0)
+    assert chooser.limit == "heat exchange"
+    assert end <= math.sqrt(2.0 * 1e-2) / 1e6  # backward Euler errs by (rate dt)^2/2
+    chooser = clock(*largest, "coupling.courant=0.5")
+    chooser.learn(1e-4, np.zeros(3), 2.0)
+    end = chooser.choose(0.0)
+    assert chooser.limit == "courant"
+    assert end == pytest.approx(1e-4 * 0.5 / 2.0, rel=0.01)
+
+
+@given(dt=st.floats(1e-9, 1.0), courant=st.floats(1e-6, 1e3))
+def test_courant_limit_grows_no_faster_than_allowed(dt, courant):
+    chooser = clock("coupling.window_largest_s=1e9", "run.end_time_s=1e9", "run.output_interval_s=1e9", "run.report_at_s=[]")
+    chooser.learn(dt, np.zeros(1), courant)
+    assert chooser.choose(0.0) <= dt * min(GROWTH, 1.0 / courant) * (1.0 + 1e-6)
+
+
+@given(tolerance=st.floats(1e-9, 1e-1), dts=st.lists(st.floats(1e-6, 1e-2), min_size=2, max_size=6), seed=st.integers(0, 2**32 - 1))
+def test_control_grows_and_shrinks_within_bounds(tolerance, dts, seed):
+    control, rng = window.Control(tolerance), np.random.default_rng(seed)
+    control.begin(1.0, 10.0)
+    for dt in dts:
+        following = control.learn(dt, rng.normal(size=20) * dt * 10.0 ** rng.uniform(-6, 3))
+        assert SHRINK * dt * (1.0 - 1e-12) <= following <= GROWTH * dt * (1.0 + 1e-12)
+
+
+def test_control_holds_the_error_at_the_tolerance():
+    """A rate that relaxes as exp(-t): the estimated error of every window is near the tolerance, whatever the start."""
+    tolerance = 1e-4
+    control = window.Control(tolerance)
+    dt, time, errors = control.begin(1.0, 1.0), 0.0, []
+    for _ in range(60):
+        taken = np.array([math.exp(-time) - math.exp(-time - dt)])
+        following = control.learn(dt, taken)
+        errors.append(control.error)
+        time, dt = time + dt, following
+    assert max(errors[2:]) < 1.1 * tolerance
+    assert min(errors[5:]) > 0.5 * tolerance
+
+
+def test_steady_exchange_lets_windows_grow():
+    control = window.Control(1e-5)
+    dt = control.begin(100.0, 1.0)
+    control.learn(dt, np.ones(4) * dt)
+    assert control.learn(dt, np.ones(4) * dt) == GROWTH * dt
+
+
+@pytest.mark.parametrize("gas", ["288", "288.00000001"])
+def test_grains_and_gas_in_equilibrium_take_few_windows(tmp_path, gas):
+    """What is left to exchange is round-off, which is not to be resolved."""
+    case = disc(*FULL_BOX, f"gas.temperature_K={gas}", "run.report_at_s=[]")
+    simulated = simulation(case, tmp_path)
+    while simulated.time < case.run.end_time:
+        simulated.window()
+        assert simulated.windows < 200
+
+
+def test_no_exchange_is_no_limit(tmp_path):
+    """Without particles the windows are those of the outputs."""
+    case = disc("particles={}", "run.report_at_s=[]", "coupling.window_largest_s=1.0")
+    simulated = simulation(case, tmp_path)
+    while simulated.time < case.run.end_time:
+        simulated.window()
+    assert simulated.windows <= 12
