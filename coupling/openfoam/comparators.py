@@ -7,6 +7,7 @@ by macros. A finished run is kept in the user's cache, so that it is made once.
 from __future__ import annotations
 
 import os
+import shutil
 import time
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,14 +29,14 @@ CLOUD = "lagrangian/reactingCloud1"
 @dataclass(frozen=True)
 class Solver:
     """A stock solver: its name, the kind of template, the macro file it needs besides the case's, the programs that
-    prepare a run, its fields (file -> name here) and the probes that a template may ask for (name -> files)."""
+    prepare a run, its fields (file -> name here) and the probes that a template may ask for (name -> file -> column)."""
 
     name: str
     kind: str
     macros: str
     prepare: tuple[str, ...]
     fields: dict[str, str]
-    probes: dict[str, tuple[str, ...]]
+    probes: dict[str, dict[str, str]]
 
 
 TWO_FLUID = Solver(
@@ -52,7 +53,7 @@ TWO_FLUID = Solver(
         "Theta.particles": "granular_temperature",
         "p": "pressure",
     },
-    probes={"centre": ("T.particles", "T.gas")},
+    probes={"centre": {"T.particles": "centre_temperature_K", "T.gas": "centre_gas_temperature_K"}},
 )
 DROPLETS = Solver(
     name="reactingParcelFoam",
@@ -85,6 +86,7 @@ def run_droplets(
 
 def _run(solver: Solver, case: Case, folder: Path, ranks: int, files: dict, progress: Progress | None) -> Reference:
     environment = _environment()
+    _clear(folder)
     write_case(case, template(case, solver.kind), folder, ranks, allow_code=True)  # our own template, our own library
     for name, content in files.items():
         (folder / "constant" / name).write_text(HEAD.format(name=name) + _text(content), encoding="utf-8")
@@ -98,6 +100,13 @@ def _run(solver: Solver, case: Case, folder: Path, ranks: int, files: dict, prog
     reference = _read(solver, folder, environment, time.perf_counter() - began)
     keep(reference, kept)
     return reference
+
+
+def _clear(folder: Path) -> None:
+    """Drop what an earlier run left in the folder: its outputs would be taken for this run's."""
+    left = [path for _, path in fields.times(folder)] if folder.is_dir() else []
+    for path in (*left, *folder.glob("processor*"), folder / "postProcessing", folder / "constant" / "polyMesh"):
+        shutil.rmtree(path, ignore_errors=True)
 
 
 def shelf() -> Path:
@@ -137,21 +146,20 @@ def _read(solver: Solver, folder: Path, environment: dict[str, str], wall: float
     return Reference(
         solver=solver.name,
         wall=wall,
-        times=np.array([when for when, _ in outputs]),
         centres=fields.read(folder / "0/C", cells),
         volumes=fields.read(folder / "0/V", cells),
-        fields={name: np.array([fields.read(path / file, cells) for _, path in outputs]) for file, name in present.items()},
+        fields={when: {name: fields.read(path / file, cells) for file, name in present.items()} for when, path in outputs},
         history=_history(solver, folder),
-        parcels=tuple(_parcels(path / CLOUD) for _, path in outputs if (path / CLOUD).is_dir()),
+        parcels={when: _parcels(path / CLOUD) for when, path in outputs if (path / CLOUD).is_dir()},
     )
 
 
 def _history(solver: Solver, folder: Path) -> dict[str, np.ndarray]:
     history = {}
-    for probe, files in solver.probes.items():
-        for file in files if (folder / "postProcessing" / probe).is_dir() else ():
-            history["time"], values = fields.read_probe(folder, probe, file)
-            history[solver.fields[file]] = values[:, 0]
+    for probe, columns in solver.probes.items():
+        for file, column in columns.items() if (folder / "postProcessing" / probe).is_dir() else ():
+            history["time_s"], values = fields.read_probe(folder, probe, file)
+            history[column] = values[:, 0]
     return history
 
 

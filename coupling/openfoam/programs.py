@@ -28,7 +28,9 @@ def run(command: list[str], folder: Path, log: Path, environment: dict[str, str]
         raise GasError(f"{command[0]} failed: {reason(log)} (log: {log})")
 
 
-def run_solver(solver: str, folder: Path, log: Path, end: float, progress: Progress | None, environment: dict[str, str], ranks: int) -> None:
+def run_solver(
+    solver: str, folder: Path, log: Path, end: float, progress: Progress | None, environment: dict[str, str], ranks: int
+) -> None:
     """Run a solver to its end, on `ranks` processes; `progress(time, end)` [s] hears where it is."""
     if ranks == 1:
         return _watch([solver], folder, log, end, progress, environment)
@@ -39,7 +41,9 @@ def run_solver(solver: str, folder: Path, log: Path, end: float, progress: Progr
 
 def _watch(command, folder: Path, log: Path, end: float, progress: Progress | None, environment: dict[str, str]) -> None:
     with log.open("wb") as out:
-        process = subprocess.Popen(command, cwd=folder, env=environment, stdout=out, stderr=subprocess.STDOUT, start_new_session=True)
+        process = subprocess.Popen(
+            command, cwd=folder, env=environment, stdout=out, stderr=subprocess.STDOUT, start_new_session=True
+        )
     try:
         while process.poll() is None:
             time.sleep(LOOK)

@@ -4,35 +4,35 @@ from __future__ import annotations
 
 import hashlib
 import json
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 INPUTS = ("0", "constant", "system")  # folders of an OpenFOAM case
+TIMED = ("fields", "parcels")  # groups of a reference that are given at each output
 
 
 @dataclass(frozen=True)
 class Reference:
-    """What a run gave. C cells, T outputs, N time steps, P parcels.
+    """What a run gave. C cells, N time steps, P parcels.
 
-    times (T,) [s]; centres (C, 3) [m]; volumes (C,) [m3]; fields: name -> (T, C) or (T, C, 3), SI;
-    history: "time" (N,) [s] and name -> (N,) in the middle of the first region of particles;
-    parcels: one dictionary per output, name -> (P,) or (P, 3) (droplets only); wall [s] of the solver.
+    centres (C, 3) [m]; volumes (C,) [m3]; fields: time [s] -> name -> (C,) or (C, 3), SI;
+    history: "time_s" and columns such as "centre_temperature_K", (N,) each;
+    parcels: time [s] -> name -> (P,) or (P, 3) (droplets only); wall [s] of the solver.
     """
 
     solver: str
     wall: float
-    times: np.ndarray
     centres: np.ndarray
     volumes: np.ndarray
-    fields: dict[str, np.ndarray]
+    fields: dict[float, dict[str, np.ndarray]]
     history: dict[str, np.ndarray]
-    parcels: tuple[dict[str, np.ndarray], ...]
+    parcels: dict[float, dict[str, np.ndarray]]
 
-    def at(self, when: float) -> int:
-        """Index of the output nearest to `when` [s]."""
-        return int(np.argmin(np.abs(self.times - when)))
+    def nearest(self, when: float) -> float:
+        """The time [s] of the output nearest to `when` [s]."""
+        return min(self.fields, key=lambda time: abs(time - when))
 
 
 def key(folder: Path, made_with: str) -> str:
@@ -47,13 +47,14 @@ def key(folder: Path, made_with: str) -> str:
 def keep(reference: Reference, path: Path) -> None:
     """Written under another name first: what stands under the final name is whole."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    table = asdict(reference)
-    groups = {group: table.pop(group) for group in ("fields", "history")}
-    groups |= {f"parcels{place:06d}": parcels for place, parcels in enumerate(table.pop("parcels"))}
-    arrays = {f"{group}/{name}": values for group, entries in groups.items() for name, values in entries.items()}
-    plain = {name: table.pop(name) for name in ("solver", "wall")}
+    arrays = {"centres": reference.centres, "volumes": reference.volumes}
+    arrays |= {f"history/{name}": column for name, column in reference.history.items()}
+    for group in TIMED:
+        for time, entries in getattr(reference, group).items():
+            arrays |= {f"{group}/{time!r}/{name}": values for name, values in entries.items()}
+    plain = json.dumps({"solver": reference.solver, "wall": reference.wall})
     partial = path.with_suffix(".partial.npz")
-    np.savez_compressed(partial, plain=json.dumps(plain), **table, **arrays)
+    np.savez_compressed(partial, plain=plain, **arrays)
     partial.replace(path)
 
 
@@ -62,9 +63,9 @@ def load(path: Path) -> Reference:
     with np.load(path) as stored:
         arrays = {name: stored[name] for name in stored.files}
     plain = json.loads(str(arrays.pop("plain")))
-    groups: dict[str, dict[str, np.ndarray]] = {"fields": {}, "history": {}}
+    groups: dict[str, dict] = {"history": {}} | {group: {} for group in TIMED}
     for name in [name for name in arrays if "/" in name]:
-        group, _, entry = name.partition("/")
-        groups.setdefault(group, {})[entry] = arrays.pop(name)
-    parcels = tuple(groups.pop(group) for group in sorted(groups) if group.startswith("parcels"))
-    return Reference(**plain, **arrays, **groups, parcels=parcels)
+        group, *time, entry = name.split("/")
+        target = groups[group].setdefault(float(time[0]), {}) if time else groups[group]
+        target[entry] = arrays.pop(name)
+    return Reference(**plain, **arrays, **groups)

@@ -29,6 +29,8 @@ def macros(case: Case) -> dict[str, str]:
     gas, grains = case.gas, case.grains
     if gas.equation_of_state != "constant":
         raise CaseError(f"gas.equation_of_state = {gas.equation_of_state!r}; the two-fluid reference is laid out for 'constant'")
+    if "heat" not in case.effects:
+        raise CaseError(f"effects = {list(case.effects)}; the two-fluid reference exchanges heat: add 'heat'")
     return {
         "gas_prandtl": repr(heat_law.prandtl_number(gas.viscosity, gas.heat_capacity, gas.conductivity)),
         "gas_enthalpy": repr(gas.heat_capacity * gas.temperature),
@@ -56,7 +58,8 @@ def _heat_exchange(case: Case) -> dict[str, str]:
 def _friction(case: Case) -> dict[str, str]:
     if "friction" not in case.effects:
         return {}
-    return {"friction_angle_degrees": repr(math.degrees(case.parameters["friction"].angle)), "friction_margin": repr(constants.PACKING_MARGIN)}
+    angle = math.degrees(case.parameters["friction"].angle)
+    return {"friction_angle_degrees": repr(angle), "friction_margin": repr(constants.PACKING_MARGIN)}
 
 
 def _regions(case: Case) -> dict[str, str]:
@@ -91,8 +94,8 @@ def divided(interval: float, step: float) -> float:
 
 
 def resting_steps(case: Case) -> list[tuple[float, float]]:
-    """(time, step): fine for ten relaxation times of the gas, five times that for ten more, then a fifth of the output."""
-    last = case.run.output_interval / 5.0
+    """(time, step) [s]: fine for ten relaxation times of the gas, five times that for ten more, then a tenth of the outputs."""
+    last = case.run.output_interval / 10.0
     if case.coupling.one_way:
         return [(0.0, last), (case.run.end_time, last)]
     relaxation = gas_relaxation(case)
@@ -110,9 +113,8 @@ def gas_relaxation(case: Case) -> float:
     gas, grains, heat = case.gas, case.grains, case.parameters["heat"]
     alpha_p = max(region.volume_fraction for region in case.particles.values())
     prandtl = heat_law.prandtl_number(gas.viscosity, gas.heat_capacity, gas.conductivity)
-    nusselt = getattr(heat_law, heat.law)(1.0 - alpha_p, 0.0, prandtl)
-    exchange = heat_law.exchange_paper if heat.closure == "paper" else heat_law.exchange_geometric
-    eps = alpha_p * exchange(1.0 - alpha_p, nusselt, gas.conductivity, grains.diameter)
+    nusselt = heat_law.LAWS[heat.law](1.0 - alpha_p, 0.0, prandtl)
+    eps = alpha_p * heat_law.CLOSURES[heat.closure](1.0 - alpha_p, nusselt, gas.conductivity, grains.diameter)
     of_grains = alpha_p * grains.density * grains.heat_capacity
     of_gas = (1.0 - alpha_p) * gas.density * gas.heat_capacity
     return 1.0 / exact.exchange_rate(eps, of_grains, of_gas)

@@ -94,6 +94,7 @@ def test_two_ranks_give_the_fields_of_one(tmp_path):
 
 def bed(alpha_p, jet, distributor, end, outputs=1):
     """A bed of 0.2 x 0.2 m in the lower half of a box, blown through by a jet and a distributor [m/s]."""
+    inlet = {"kind": "velocity_inlet", "side": "bottom"}
     return cases.from_table({
         "title": "bed", "scene": "bubbling_bed", "dimensions": 2,
         "effects": ["drag", "gravity", "granular_pressure", "friction", "granular_temperature", "heat"],
@@ -105,8 +106,8 @@ def bed(alpha_p, jet, distributor, end, outputs=1):
             "shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.2, 0.2], "volume_fraction": alpha_p, "temperature_K": 288.0,
         }},
         "boundaries": {
-            "jet": {"kind": "velocity_inlet", "side": "bottom", "span_m": [0.09, 0.11], "velocity_m_s": [0.0, jet], "temperature_K": 350.0},
-            "distributor": {"kind": "velocity_inlet", "side": "bottom", "velocity_m_s": [0.0, distributor], "temperature_K": 288.0},
+            "jet": inlet | {"span_m": [0.09, 0.11], "velocity_m_s": [0.0, jet], "temperature_K": 350.0},
+            "distributor": inlet | {"velocity_m_s": [0.0, distributor], "temperature_K": 288.0},
             "outlet": {"kind": "pressure_outlet", "side": "top", "pressure_Pa": 0.0, "temperature_K": 288.0},
             "walls": {"kind": "wall"},
         },
@@ -150,7 +151,8 @@ def test_droplets_come_in_evaporate_and_nothing_is_lost(tmp_path):
             "conductivity_W_m_K": 0.0242, "viscosity_Pa_s": 1.7895e-5,
         },
         "boundaries": {
-            "walls": {"kind": "wall", "side": "left"}, "sides": {"kind": "pressure_outlet", "pressure_Pa": 0.0, "temperature_K": 350.0},
+            "walls": {"kind": "wall", "side": "left"},
+            "sides": {"kind": "pressure_outlet", "pressure_Pa": 0.0, "temperature_K": 350.0},
         },
     })  # fmt: skip
     run = comparators.run_droplets(case, nozzle, liquid, tmp_path / "run")
