@@ -75,7 +75,8 @@ def _row(case, name: str) -> dict:
     if inlet and boundary.velocity is None:
         raise CaseError(f"boundaries.{name}.velocity_m_s is missing; a velocity_inlet needs it")
     if boundary.vapour_mass_fraction and case.vapour is None:
-        raise CaseError(f"boundaries.{name}.vapour_mass_fraction is given, but the case has no [vapour]; add it or remove the key")
+        key = f"boundaries.{name}.vapour_mass_fraction"
+        raise CaseError(f"{key} is given, but the case has no [vapour]; add it or remove the key")
     return {
         "open": passes, "clings": clings, "inlet": inlet,
         "held": inlet or (not passes and boundary.temperature is not None),
@@ -90,8 +91,10 @@ def _owners(case, grid: Grid, axis: int, upper: int, cell: np.ndarray) -> np.nda
     owner = np.full(len(cell), -1)
     rank = np.zeros(len(cell), dtype=int)
     for number, (name, boundary) in enumerate(case.boundaries.items()):
-        if boundary.side is not None and boundary.side not in list(SIDES)[: 2 * grid.dimensions]:
-            raise CaseError(f"boundaries.{name}.side = {boundary.side!r}; a case of {grid.dimensions} dimensions has {', '.join(list(SIDES)[: 2 * grid.dimensions])}")
+        there = list(SIDES)[: 2 * grid.dimensions]
+        if boundary.side is not None and boundary.side not in there:
+            what = f"a case of {grid.dimensions} dimensions has {', '.join(there)}"
+            raise CaseError(f"boundaries.{name}.side = {boundary.side!r}; {what}")
         if boundary.side is not None and SIDES[boundary.side] != (axis, upper):
             continue
         mine = np.ones(len(cell), dtype=bool) if boundary.span is None else _inside(grid, axis, boundary.span, name)
@@ -111,14 +114,15 @@ def _inside(grid: Grid, axis: int, span: tuple, name: str) -> np.ndarray:
     tangential = [b for b in range(grid.dimensions) if b != axis]
     pairs = span if isinstance(span[0], (tuple, list)) else (span,)
     if len(pairs) != len(tangential):
-        raise CaseError(f"boundaries.{name}.span_m has {len(pairs)} ranges; a side here has {len(tangential)}: give [low, high] for each")
+        raise CaseError(f"boundaries.{name}.span_m has {len(pairs)} ranges [low, high]; a side here has {len(tangential)}")
     inside = np.ones(1, dtype=bool)
     for b, (low, high) in zip(tangential, pairs):
         edges = grid.edges[b]
         for end in (low, high):
             nearest = edges[np.argmin(np.abs(edges - end))]
             if abs(nearest - end) > SNAP * np.diff(edges).min():
-                raise CaseError(f"boundaries.{name}.span_m ends at {end:g}, which is no edge of a gas cell; the nearest is {nearest:g}")
+                what = f"no edge of a gas cell; the nearest is {nearest:g}"
+                raise CaseError(f"boundaries.{name}.span_m ends at {end:g}, which is {what}")
         middle = 0.5 * (edges[1:] + edges[:-1])
         inside = (((middle > low) & (middle < high))[:, None] & inside[None, :]).ravel()
     return inside
@@ -145,8 +149,8 @@ def component_ghosts(grid: Grid, faces: Faces, axis: int) -> Ghosts:
     opening the velocity of the opening. At the ends of a span two half faces share a node."""
     along = grid.strides[axis]
     beside = faces.axis != axis
-    weight = on_faces(grid, faces, faces.clings * 1.0, 0.0) * grid.area
-    moving = on_faces(grid, faces, faces.clings * faces.velocity[:, axis], 0.0) * grid.area
+    weight = on_faces(grid, faces, faces.clings * 1.0, 0.0) * grid.geometry.area
+    moving = on_faces(grid, faces, faces.clings * faces.velocity[:, axis], 0.0) * grid.geometry.area
     ghost, node, pinned, value = [], [], [], []
     for shift in (0, along):  # a face has a node of this component at its lower and at its upper end
         face, b = faces.face[beside] + shift, faces.axis[beside]
@@ -182,7 +186,7 @@ def resting_pressure(faces: Faces, grid: Grid, gravity, density) -> tuple[np.nda
     place[grid.cells] = grid.centres
     centre = place[faces.cell]
     rows = np.arange(len(centre))
-    centre[rows, faces.axis] += 0.5 * faces.sign * grid.width[faces.axis, faces.cell]
+    centre[rows, faces.axis] += 0.5 * faces.sign * grid.geometry.width[faces.axis, faces.cell]
     outside, inside = centre @ np.asarray(gravity), grid.centres @ np.asarray(gravity)
     if not faces.open.any():
         return 0.0 * outside, np.mean(density) * (inside - inside.mean())

@@ -75,18 +75,21 @@ class Window:
 
 def window_of(box: Box, flow: Flow, dt: float, sources: dict[str, np.ndarray]) -> Window:
     """The window that `sources` (see `coupling.gas.SOURCES`) describe."""
-    grid = box.grid
+    grid, volume = box.grid, box.grid.geometry.volume
 
     def total(*names: str) -> np.ndarray:
         given = [sources[name] for name in names if name in sources]
-        return grid.padded(sum(given)) * grid.volume if given else grid.zeros()
+        return grid.padded(sum(given)) * volume if given else grid.zeros()
 
-    push = [sources[name] for name in ("drag_velocity", "vapour_momentum") if name in sources]
+    def total_vector(*names: str) -> np.ndarray:
+        given = [sources[name] for name in names if name in sources]
+        each = [grid.padded(sum(v[:, a] for v in given)) * volume for a in range(grid.dimensions)] if given else None
+        return np.stack(each) if given else grid.zeros(grid.dimensions)
+
     alpha = grid.extended(grid.padded(sources["alpha_g"])) if "alpha_g" in sources else flow.alpha
     if not alpha[grid.cells].min() > 0.0:
         raise GasError(f"alpha_g = {alpha[grid.cells].min():g} in a cell; the gas needs some room: the cell is over-packed")
     return Window(
         dt=dt, alpha=alpha, pull=total("drag", "vapour"), vapour=total("vapour"), cling=total("heat"),
-        push=np.stack([grid.padded(sum(p[:, a] for p in push)) * grid.volume for a in range(grid.dimensions)]) if push else grid.zeros(grid.dimensions),
-        warmth=total("heat_temperature", "heat_source", "vapour_enthalpy"),
+        push=total_vector("drag_velocity", "vapour_momentum"), warmth=total("heat_temperature", "heat_source", "vapour_enthalpy"),
     )  # fmt: skip

@@ -2,12 +2,27 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numba import njit
 
 from coupling.embedded.linear import fill
 
 TURNOVER = 0.5  # of a cell's mass in one sub-step: up to here the scheme is bounded
+
+
+class Nodes(NamedTuple):
+    """Where a field lives: rows of its nodes and of the faces between them (see `Grid`); `shift` is 0 for cells, and
+    for the velocity along an axis that axis' stride: a control volume then takes half of each neighbour's fluxes;
+    `active` (S,): nodes that change; gap, reach (d, S) between nodes."""
+
+    inner: tuple
+    wide: tuple
+    shift: np.uint64
+    active: np.ndarray
+    gap: np.ndarray
+    reach: np.ndarray
 
 
 @njit(error_model="numpy")
@@ -47,10 +62,10 @@ def substeps(inner, flux, before, after, dt):
 
 
 @njit(error_model="numpy")
-def _face_flux(wide, a, shift, field, mass, flux, gap, reach, sub, limited, face):
+def _face_flux(nodes, a, field, mass, flux, sub, limited, face):
     """What each face of axis a lets through, into face (S,)."""
-    rows, run, steps = wide
-    s = steps[a]
+    rows, run, steps = nodes.wide
+    s, shift, gap, reach = steps[a], nodes.shift, nodes.gap[a], nodes.reach[a]
     for row in rows:
         for f in range(row, row + run):
             through = 0.5 * (flux[f - shift] + flux[f])
@@ -61,9 +76,10 @@ def _face_flux(wide, a, shift, field, mass, flux, gap, reach, sub, limited, face
 
 
 @njit(error_model="numpy")
-def _update(inner, shift, active, field, mass, flux, face, sub, follows):
+def _update(nodes, field, mass, flux, face, sub, follows):
     """Field and mass of every node after a sub-step."""
-    rows, run, steps = inner
+    rows, run, steps = nodes.inner
+    shift, active = nodes.shift, nodes.active
     for row in rows:
         for c in range(row, row + run):
             content, gained = mass[c] * field[c], 0.0
@@ -78,19 +94,18 @@ def _update(inner, shift, active, field, mass, flux, face, sub, follows):
 
 
 @njit(cache=True, error_model="numpy")
-def convect(inner, wide, shift, active, field, mass, flux, gap, reach, ghosts, dt, parts, limited, follows):
+def convect(nodes, ghosts, field, mass, flux, dt, parts, limited, follows):
     """Transport `field` (S,) of nodes of `mass` (S,) [kg] by mass fluxes (d, S) [kg/s] over dt, in place.
 
     `follows`: the mass takes what the fluxes bring, and content is conserved; otherwise it stays, and a uniform
-    field does too, whatever the fluxes. `shift` is 0 for cells; for the velocity along axis a it is that axis' stride, and a control volume then
-    takes half of each neighbour's fluxes. Returns what was carried over each face (d, S) in all.
+    field does too, whatever the fluxes. Returns what was carried over each face (d, S) in all.
     """
     total, face = np.zeros_like(flux), np.zeros_like(flux)
     sub = dt / parts
     for _ in range(parts):
         fill(field, ghosts)
         for a in range(flux.shape[0]):
-            _face_flux(wide, a, shift, field, mass, flux[a], gap[a], reach[a], sub, limited, face[a])
-        _update(inner, shift, active, field, mass, flux, face, sub, follows)
+            _face_flux(nodes, a, field, mass, flux[a], sub, limited, face[a])
+        _update(nodes, field, mass, flux, face, sub, follows)
         total += sub * face
     return total

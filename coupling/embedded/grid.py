@@ -1,18 +1,30 @@
 """Cartesian staggered grid in two or three dimensions from one source.
 
 Every field is one flat float64 array over the padded box, x fastest, with three ghost layers on each side of
-each axis that exists (three, so that a far-upwind read beyond an opening stays in the array). With `s` the stride of axis a,
-index c names cell c, and for a face field of axis a the face between cells c - s and c. Geometry is zero in
-ghosts (volume, area), so half a control volume at the boundary needs no special case.
+each axis that exists (three, so that a far-upwind read beyond an opening stays in the array). With `s` the stride
+of axis a, index c names cell c, and for a face field of axis a the face between cells c - s and c. Volume and area
+are zero in ghosts, so half a control volume at the boundary needs no special case.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 PAD = 3
+
+
+class Geometry(NamedTuple):
+    """volume (S,) [m3]; width, area, gap, reach (d, S): cell width [m], face area [m2], distance [m] between the
+    two values on either side of a face (a ghost's lies on the boundary), and that from the lower one to the face."""
+
+    volume: np.ndarray
+    width: np.ndarray
+    area: np.ndarray
+    gap: np.ndarray
+    reach: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -21,8 +33,6 @@ class Grid:
     run, steps: the first index of every run of so many cells along x, and the strides; wide has two indices more
     on each axis, for face fields. They are unsigned: numba then needs no check for negative indices, and loops
     become vector code (3.5 to 7 times faster here). A kernel must not mix them with signed integers.
-    volume (S,) [m3]; width, area, gap, reach (d, S): cell width [m], face area [m2], distance [m] between
-    the two values on either side of a face (the ghost's lies on the boundary), and that from the lower one.
     """
 
     edges: tuple[np.ndarray, ...]
@@ -32,11 +42,7 @@ class Grid:
     cells: np.ndarray
     inner: tuple
     wide: tuple
-    volume: np.ndarray
-    width: np.ndarray
-    area: np.ndarray
-    gap: np.ndarray
-    reach: np.ndarray
+    geometry: Geometry
     centres: np.ndarray
 
     @property
@@ -60,10 +66,10 @@ class Grid:
             along[PAD - 1], along[-PAD] = along[PAD], along[-PAD - 1]
         return field
 
-    @property
-    def geometry(self) -> tuple[np.ndarray, ...]:
-        """volume, width, area, gap, as the kernels take them."""
-        return self.volume, self.width, self.area, self.gap
+    def per_volume(self, content: np.ndarray) -> np.ndarray:
+        """(S,) content of the cells over their volume, ghosts as their neighbours."""
+        volume = self.geometry.volume
+        return self.extended(content / np.where(volume > 0.0, volume, 1.0))
 
 
 def uniform_edges(length: float, count: int, stretch: float = 1.0) -> np.ndarray:
@@ -115,7 +121,7 @@ def build_grid(edges: tuple[np.ndarray, ...]) -> Grid:
     width = np.stack([flat(a, np.where(w > 0, w, 1.0)) for a, w in enumerate(inner)])
     reach = [0.5 * np.roll(w, 1) for w in inner]
     gap = [r + 0.5 * w for r, w in zip(reach, inner)]
-    area = [np.prod([flat(b, inner[b]) if b != a else flat(a, faces[a]) for b in range(d)], axis=0) for a in range(d)]
+    area = [np.prod([flat(b, inner[b] if b != a else faces[a]) for b in range(d)], axis=0) for a in range(d)]
     start, stop = (0,) * d, counts
     middle = [0.5 * (e[1:] + e[:-1]) for e in edges]
     centres = np.stack(np.meshgrid(*reversed(middle), indexing="ij")[::-1], axis=-1).reshape(-1, d)
@@ -123,15 +129,18 @@ def build_grid(edges: tuple[np.ndarray, ...]) -> Grid:
         edges=edges, counts=counts, strides=strides, size=size,
         cells=indices(counts, start, stop),
         inner=_rows(counts, 0), wide=_rows(counts, 2),
-        volume=np.prod([flat(a, inner[a]) for a in range(d)], axis=0), width=width, area=np.stack(area),
-        gap=np.stack([flat(a, np.where(g > 0, g, 1.0)) for a, g in enumerate(gap)]),
-        reach=np.stack([flat(a, r) for a, r in enumerate(reach)]), centres=centres,
-    )
+        geometry=Geometry(
+            volume=np.prod([flat(a, inner[a]) for a in range(d)], axis=0), width=width, area=np.stack(area),
+            gap=np.stack([flat(a, np.where(g > 0, g, 1.0)) for a, g in enumerate(gap)]),
+            reach=np.stack([flat(a, r) for a, r in enumerate(reach)]),
+        ),
+        centres=centres,
+    )  # fmt: skip
 
 
 def component_spacing(grid: Grid, axis: int) -> tuple[np.ndarray, np.ndarray]:
     """gap and reach (d, S) between the velocities of `axis`, which live on its faces."""
-    gap, reach = grid.gap.copy(), grid.reach.copy()
-    gap[axis] = np.roll(grid.width[axis], grid.strides[axis])
+    gap, reach = grid.geometry.gap.copy(), grid.geometry.reach.copy()
+    gap[axis] = np.roll(grid.geometry.width[axis], grid.strides[axis])
     reach[axis] = 0.5 * gap[axis]
     return gap, reach

@@ -9,6 +9,11 @@ IMPLICIT = 1e-11  # relative tolerance of velocity, temperature and vapour; our 
 ITERATIONS = 500  # of a solver; our choice: far above what any case of ours needed
 
 
+def not_converged(name: str, time: float, residual: float) -> str:
+    """What to say of an equation whose solver gave up."""
+    return f"embedded gas solver: {name} did not converge at t = {time:g} s, residual {residual:.1e}; shorten the window"
+
+
 @njit(cache=True, error_model="numpy")
 def fill(field, ghosts):
     """Set the ghosts of a field: the value where pinned, else that of the node."""

@@ -13,7 +13,7 @@ from numba import njit
 
 from coupling.embedded.boundaries import active_nodes, component_ghosts, on_faces
 from coupling.embedded.box import Box, Flow, Window
-from coupling.embedded.convection import convect, substeps
+from coupling.embedded.convection import Nodes, convect, substeps
 from coupling.embedded.grid import component_spacing
 from coupling.embedded.linear import IMPLICIT, fill, solve_implicit
 
@@ -28,18 +28,17 @@ def corner(values, f, s, t):
 def viscous_conductances(wide, axis, viscosity, grid, hold, dt, out):
     """dt alpha mu A/distance [kg] between the velocities along `axis` and their neighbours, into out (d, S)."""
     rows, run, steps = wide
-    volume, width, area, gap = grid
-    s = steps[axis]
+    area, s = grid.area, steps[axis]
     for b in range(len(steps)):
         t = steps[b]
         for row in rows:
             for f in range(row, row + run):
                 if b == axis:
                     c = f - s
-                    out[b, f] = dt * viscosity[c] * volume[c] / width[b, c] ** 2
+                    out[b, f] = dt * viscosity[c] * grid.volume[c] / grid.width[b, c] ** 2
                 else:
                     held = 0.5 * (hold[b, f - s] * area[b, f - s] + hold[b, f] * area[b, f])
-                    out[b, f] = dt * corner(viscosity, f, s, t) * held / gap[b, f]
+                    out[b, f] = dt * corner(viscosity, f, s, t) * held / grid.gap[b, f]
 
 
 @njit(cache=True, error_model="numpy")
@@ -58,35 +57,34 @@ def rest_of_stress(wide, axis, viscosity, velocity, spread, grid, out):
     """What the Laplacian leaves out of tau (Eq. 5 of the closure sheet), times area [N], on the faces of the control
     volumes of the velocity along `axis`, into out (d, S): alpha mu (dv_b/dx_axis - 2/3 div v on the normal ones)."""
     rows, run, steps = wide
-    volume, width, area, gap = grid
-    s = steps[axis]
+    area, s = grid.area, steps[axis]
     for b in range(len(steps)):
         t = steps[b]
         for row in rows:
             for f in range(row, row + run):
                 if b == axis:
-                    slope = (velocity[axis, f] - velocity[axis, f - s]) / width[axis, f - s]
+                    slope = (velocity[axis, f] - velocity[axis, f - s]) / grid.width[axis, f - s]
                     out[b, f] = viscosity[f - s] * (slope - 2.0 / 3.0 * spread[f - s]) * area[axis, f - s]
                 else:
-                    slope = (velocity[b, f] - velocity[b, f - s]) / gap[axis, f]
+                    slope = (velocity[b, f] - velocity[b, f - s]) / grid.gap[axis, f]
                     out[b, f] = corner(viscosity, f, s, t) * slope * 0.5 * (area[b, f - s] + area[b, f])
 
 
 @njit(cache=True, error_model="numpy")
-def momentum_balance(wide, axis, active, grid, alpha, mass, stress, moved, pull, push, gravity, pressure, dt, diagonal, source):
+def momentum_balance(wide, axis, active, grid, cells, stress, moved, gravity, dt, diagonal, source):
     """Diagonal [kg] and source [kg m/s] of the implicit equation for the velocity along `axis`.
 
-    moved (S,): the velocity after convection; pull [kg/s], push [N]: drag coefficient and its part of the
-    particles, both per cell. m' u' = m' u + dt (-alpha V grad p + m' g + push - pull u' + div tau).
+    m' u' = m' u + dt (-alpha V grad p + m' g + push - pull u' + div tau), where moved (S,) is u after convection and
+    cells holds alpha, m', p, pull [kg/s] and push [N], each (S,).
     """
     rows, run, steps = wide
-    volume, width, area, gap = grid
-    s = steps[axis]
+    alpha, mass, pressure, pull, push = cells
+    volume, s = grid.volume, steps[axis]
     for row in rows:
         for f in range(row, row + run):
             m = 0.5 * (mass[f] + mass[f - s])
             gas = 0.5 * (alpha[f] * volume[f] + alpha[f - s] * volume[f - s])
-            force = m * gravity + 0.5 * (push[f] + push[f - s]) - gas * (pressure[f] - pressure[f - s]) / gap[axis, f]
+            force = m * gravity + 0.5 * (push[f] + push[f - s]) - gas * (pressure[f] - pressure[f - s]) / grid.gap[axis, f]
             viscous = 0.0
             for b in range(len(steps)):
                 viscous += stress[b, f + steps[b]] - stress[b, f]
@@ -103,7 +101,10 @@ class Momentum:
         grid, faces = box.grid, box.faces
         self.active = active_nodes(grid, faces)
         self.ghosts = [component_ghosts(grid, faces, a) for a in range(grid.dimensions)]
-        self.spacing = [component_spacing(grid, a) for a in range(grid.dimensions)]
+        self.nodes = [
+            Nodes(grid.wide, grid.wide, step, active, *component_spacing(grid, a))
+            for a, (step, active) in enumerate(zip(grid.wide[2], self.active))
+        ]
         self.clinging = [self._clinging(a) for a in range(grid.dimensions)]
         self.hold = on_faces(grid, faces, faces.clings * 1.0, 1.0)
 
@@ -111,19 +112,21 @@ class Momentum:
         """Velocity (d, S) under the old pressure, the diagonal D (d, S) [kg] of its equation, the viscous force
         of the walls on the gas (d,) [N] and the largest residual. mass (S,): of the cells, at the end."""
         grid = self.box.grid
-        viscosity = grid.extended(window.alpha * self.box.properties.mixture("viscosity", fraction) * (grid.volume > 0.0))
+        inside = grid.geometry.volume > 0.0
+        viscosity = grid.extended(window.alpha * self.box.properties.mixture("viscosity", fraction) * inside)
         moved = self.convected(old, window.dt)
         spread, stress = grid.zeros(), grid.zeros(grid.dimensions)
-        divergence(grid.inner, old.velocity, grid.width, spread)
+        divergence(grid.inner, old.velocity, grid.geometry.width, spread)
         velocity, diagonal, force, residual = moved.copy(), np.ones_like(moved), [], 0.0
         for a in range(grid.dimensions):
-            conductance, source = np.zeros_like(moved), grid.zeros()
+            conductance, source, active = np.zeros_like(moved), grid.zeros(), self.active[a]
             viscous_conductances(grid.wide, a, viscosity, grid.geometry, self.hold, window.dt, conductance)
             rest_of_stress(grid.wide, a, viscosity, old.velocity, spread, grid.geometry, stress)
-            balance_of = (stress, moved[a], window.pull, window.push[a], self.box.gravity[a], old.pressure)
-            momentum_balance(grid.wide, a, self.active[a], grid.geometry, window.alpha, mass, *balance_of, window.dt, diagonal[a], source)
+            cells = window.alpha, mass, old.pressure, window.pull, window.push[a]
+            given = grid.geometry, cells, stress, moved[a], self.box.gravity[a], window.dt
+            momentum_balance(grid.wide, a, active, *given, diagonal[a], source)
             fill(velocity[a], self.ghosts[a])
-            given, error = solve_implicit(grid.wide, self.active[a], conductance, diagonal[a], source, velocity[a], IMPLICIT)
+            given, error = solve_implicit(grid.wide, active, conductance, diagonal[a], source, velocity[a], IMPLICIT)
             b, face, sign = self.clinging[a]
             force.append(-float((sign * given[b, face]).sum()) / window.dt)
             residual = max(residual, error)
@@ -135,8 +138,7 @@ class Momentum:
         parts, _ = substeps(grid.inner, old.flux, old.mass, old.mass, dt)
         for a in range(grid.dimensions if parts else 0):
             mass = 0.5 * (old.mass + np.roll(old.mass, grid.strides[a]))
-            gap, reach = self.spacing[a]
-            convect(grid.wide, grid.wide, grid.inner[2][a], self.active[a], velocity[a], mass, old.flux, gap, reach, self.ghosts[a], dt, parts, self.box.limited, False)
+            convect(self.nodes[a], self.ghosts[a], velocity[a], mass, old.flux, dt, parts, self.box.limited, False)
         return velocity
 
     def _clinging(self, axis: int) -> tuple[np.ndarray, ...]:

@@ -87,7 +87,7 @@ def _family(grid, coarse, parent):
     for a in range(d):
         shared = (place[a] == 0) | (parent[a][place[a]] != parent[a][place[a] - 1])
         face = wide[shared]
-        ratio[a, face] = grid.gap[a, face] / coarse.gap[a, into[face]]
+        ratio[a, face] = grid.geometry.gap[a, face] / coarse.geometry.gap[a, into[face]]
     return into, ratio
 
 
@@ -224,12 +224,13 @@ def _iterate(inner, conductance, rho, first, x, r, z, p, q):
 
 
 @njit(cache=True, error_model="numpy")
-def solve_pressure(levels, inner, conductance, inverse, b, z, source, scale, x, tolerance):
+def solve_pressure(levels, inner, work, source, scale, x, tolerance):
     """Solve sum K (x - x_nb) = source on the cells, x (S,) from zero, until |residual| <= tolerance scale on each.
 
-    conductance (d, P) holds K on its finest level; inverse, b, z (P,) are work space. Returns the iterations and
-    the last residual over scale. Without an open boundary x is fixed up to a constant, and source must sum to zero.
+    work: conductance (d, P), which holds K on its finest level, and three arrays (P,). Returns the iterations and the
+    last residual over scale. Without an open boundary x is fixed up to a constant, and source must sum to zero.
     """
+    conductance, inverse, b, z = work
     size = levels.first[1]
     r, p, q = b[:size], np.zeros(size), np.zeros(size)
     r[:], x[:] = source, 0.0

@@ -15,7 +15,7 @@ def cell_velocity(box: Box, flow: Flow) -> np.ndarray:
     inside = flow.velocity.copy()
     fixed = ~faces.open
     axis, face, cell = faces.axis[fixed], faces.face[fixed], faces.cell[fixed]
-    inside[axis, face] = flow.flux[axis, face] * grid.volume[cell] / (flow.mass[cell] * grid.area[axis, face])
+    inside[axis, face] = flow.flux[axis, face] * grid.geometry.volume[cell] / (flow.mass[cell] * grid.geometry.area[axis, face])
     return _cell_vectors(box, lambda a, s: 0.5 * (inside[a, grid.cells] + inside[a, grid.cells + s]))
 
 
@@ -24,7 +24,7 @@ def pressure_gradient(box: Box, active: np.ndarray, flow: Flow) -> np.ndarray:
     grid = box.grid
     slope = np.zeros_like(flow.velocity)
     for a, s in enumerate(grid.strides):
-        slope[a] = np.where(active[a], (flow.pressure - np.roll(flow.pressure, s)) / grid.gap[a], 0.0)
+        slope[a] = np.where(active[a], (flow.pressure - np.roll(flow.pressure, s)) / grid.geometry.gap[a], 0.0)
 
     def mean(a, s):
         free = active[a, grid.cells] * 1.0 + active[a, grid.cells + s]
@@ -48,7 +48,7 @@ def cell_fields(box: Box, active: np.ndarray, flow: Flow) -> dict[str, np.ndarra
         "pressure": flow.pressure[cells],
         "pressure_gradient": pressure_gradient(box, active, flow),
         "temperature": flow.temperature[cells],
-        "density": flow.mass[cells] / (flow.alpha[cells] * box.grid.volume[cells]),
+        "density": flow.mass[cells] / (flow.alpha[cells] * box.grid.geometry.volume[cells]),
     }
     return fields | ({"vapour_mass_fraction": flow.fraction()[cells]} if box.vapour is not None else {})
 
@@ -77,8 +77,8 @@ def _pressure_force(box: Box, flow: Flow, gradient: np.ndarray) -> np.ndarray:
     grid, faces = box.grid, box.faces
     place = np.zeros(grid.size, dtype=np.int64)
     place[grid.cells] = np.arange(len(grid.cells))
-    half = 0.5 * grid.width[faces.axis, faces.cell] * faces.sign
+    half = 0.5 * grid.geometry.width[faces.axis, faces.cell] * faces.sign
     on_wall = flow.pressure[faces.cell] + gradient[place[faces.cell], faces.axis] * half
     pressure = np.where(faces.open, flow.pressure[faces.ghost], on_wall)
-    push = -faces.sign * pressure * grid.area[faces.axis, faces.face]
+    push = -faces.sign * pressure * grid.geometry.area[faces.axis, faces.face]
     return np.bincount(faces.axis, weights=push, minlength=3)

@@ -14,6 +14,7 @@ from numba import njit
 
 from coupling.embedded.boundaries import resting_pressure
 from coupling.embedded.box import Box, Flow, Window
+from coupling.embedded.linear import not_converged
 from coupling.embedded.multigrid import build_levels, solve_pressure
 from coupling.gas import GasError
 
@@ -21,11 +22,11 @@ CONTINUITY = 1e-8  # of a cell's mass: what the solver may leave over in a windo
 
 
 @njit(cache=True, error_model="numpy")
-def face_fluxes(wide, active, grid, reach, alpha, density, diagonal, velocity, dt, flux, conductance):
+def face_fluxes(wide, active, grid, alpha, density, diagonal, velocity, dt, flux, conductance):
     """Mass fluxes [kg/s] of the predicted velocity on the active faces, and dt^2 alpha rho A alpha V/(D distance)
     [kg/Pa]. density (S,): alpha rho, ghosts as their neighbours."""
     rows, run, steps = wide
-    volume, width, area, gap = grid
+    volume, area, gap, reach = grid.volume, grid.area, grid.gap, grid.reach
     for a in range(len(steps)):
         s = steps[a]
         for row in rows:
@@ -33,7 +34,8 @@ def face_fluxes(wide, active, grid, reach, alpha, density, diagonal, velocity, d
                 here = density[f - s] + (density[f] - density[f - s]) * reach[a, f] / gap[a, f]
                 gas = 0.5 * (alpha[f] * volume[f] + alpha[f - s] * volume[f - s])
                 flux[a, f] = here * area[a, f] * velocity[a, f] if active[a, f] else flux[a, f]
-                conductance[a, f] = dt * dt * here * area[a, f] * gas / (diagonal[a, f] * gap[a, f]) if active[a, f] else 0.0
+                ease = dt * dt * here * area[a, f] * gas / (diagonal[a, f] * gap[a, f])
+                conductance[a, f] = ease if active[a, f] else 0.0
 
 
 @njit(cache=True, error_model="numpy")
@@ -52,7 +54,7 @@ def balance(inner, flux, gained, mass, dt, out):
 def correct(wide, active, grid, alpha, diagonal, conductance, correction, dt, velocity, flux):
     """Velocity and fluxes after the correction of the pressure, in place."""
     rows, run, steps = wide
-    volume, width, area, gap = grid
+    volume, gap = grid.volume, grid.gap
     for a in range(len(steps)):
         s = steps[a]
         for row in rows:
@@ -83,7 +85,7 @@ class Pressure:
         self.density = box.properties.density(faces.temperature, faces.vapour)  # of what flows in
         self.ambient, _ = resting_pressure(faces, grid, box.gravity, self.density)
         normal = faces.velocity[np.arange(len(faces.face)), faces.axis]
-        self.inlet = np.where(faces.inlet, normal * faces.sign * grid.area[faces.axis, faces.face], 0.0)  # m3/s outward
+        self.inlet = np.where(faces.inlet, normal * faces.sign * grid.geometry.area[faces.axis, faces.face], 0.0)  # m3/s outward
         self.standing = grid.zeros(grid.dimensions)
         self.standing[faces.axis, faces.face] = np.where(faces.inlet, normal, 0.0)
 
@@ -98,7 +100,7 @@ class Pressure:
         cells = self.box.grid.cells
         mass = self.box.grid.zeros()
         state = self.box.properties.density(temperature[cells], fraction[cells])
-        mass[cells] = window.alpha[cells] * self.box.grid.volume[cells] * state
+        mass[cells] = window.alpha[cells] * self.box.grid.geometry.volume[cells] * state
         outward, ratio = self.inlet * self.density * old.ratio, 1.0
         if self.box.closed:
             ratio = (old.mass[cells].sum() + window.dt * (window.vapour[cells].sum() - outward.sum())) / mass.sum()
@@ -106,23 +108,34 @@ class Pressure:
 
     def project(self, old: Flow, window: Window, aim: Aim, velocity: np.ndarray, diagonal: np.ndarray):
         """The flow at the end of the window but for its temperature and vapour, and the residual that is left."""
-        box, grid, faces = self.box, self.box.grid, self.box.faces
-        conductance, *work = self.work
-        fine = conductance[:, : grid.size]
-        flux, mass, correction = grid.zeros(grid.dimensions), grid.zeros(), grid.zeros()
-        flux[faces.axis, faces.face] = faces.sign * aim.outward
-        density = grid.extended(aim.mass / np.where(grid.volume > 0.0, grid.volume, 1.0))
-        face_fluxes(grid.wide, self.active, grid.geometry, grid.reach, window.alpha, density, diagonal, velocity, window.dt, flux, fine)
-        balance(grid.inner, flux, window.vapour, old.mass, window.dt, mass)
-        _, error = solve_pressure(self.levels, grid.inner, conductance, *work, mass - aim.mass, aim.mass, correction, CONTINUITY)
+        box, grid, dt = self.box, self.box.grid, window.dt
+        fine = self.work[0][:, : grid.size]
+        flux, mass, correction = self._inflow(aim), grid.zeros(), grid.zeros()
+        density = grid.per_volume(aim.mass)
+        setting = grid.wide, self.active, grid.geometry, window.alpha
+        face_fluxes(*setting, density, diagonal, velocity, dt, flux, fine)
+        balance(grid.inner, flux, window.vapour, old.mass, dt, mass)
+        excess = mass - aim.mass
+        _, error = solve_pressure(self.levels, grid.inner, self.work, excess, aim.mass, correction, CONTINUITY)
         if not error <= CONTINUITY:
-            raise GasError(f"embedded gas solver: the pressure did not converge at t = {old.time + window.dt:g} s, residual {error:.1e}; shorten the window")
+            raise GasError(not_converged("pressure", old.time + dt, error))
         if box.closed:
             correction[grid.cells] -= correction[grid.cells].mean()
-        correct(grid.wide, self.active, grid.geometry, window.alpha, diagonal, fine, correction, window.dt, velocity, flux)
-        balance(grid.inner, flux, window.vapour, old.mass, window.dt, mass)
-        beyond = faces.face + (faces.sign * np.array(grid.strides)[faces.axis]).astype(np.int64)
+        correct(*setting, diagonal, fine, correction, dt, velocity, flux)
+        balance(grid.inner, flux, window.vapour, old.mass, dt, mass)
+        self._carry_beyond(flux)
+        new = {"alpha": window.alpha, "mass": mass, "velocity": velocity, "flux": flux, "ratio": aim.ratio}
+        totals = {"time": old.time + dt, "mass_in": old.mass_in - float(dt * box.outward(flux).sum())}
+        return replace(old, pressure=old.pressure + correction, **new, **totals), error
+
+    def _inflow(self, aim: Aim) -> np.ndarray:
+        """(d, S) mass flux of the inlets, nothing elsewhere."""
+        faces, flux = self.box.faces, self.box.grid.zeros(self.box.grid.dimensions)
+        flux[faces.axis, faces.face] = faces.sign * aim.outward
+        return flux
+
+    def _carry_beyond(self, flux: np.ndarray) -> None:
+        """What passes an opening goes on beyond it: half the control volume of the velocity there ends on it."""
+        faces = self.box.faces
+        beyond = faces.face + (faces.sign * np.array(self.box.grid.strides)[faces.axis]).astype(np.int64)
         flux[faces.axis, beyond] = flux[faces.axis, faces.face]
-        pressure = old.pressure + correction
-        mass_in = old.mass_in - window.dt * box.outward(flux).sum()
-        return replace(old, time=old.time + window.dt, alpha=window.alpha, mass=mass, pressure=pressure, velocity=velocity, flux=flux, ratio=aim.ratio, mass_in=mass_in), error

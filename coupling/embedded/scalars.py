@@ -9,7 +9,7 @@ from numba import njit
 
 from coupling.embedded.boundaries import Ghosts, on_faces
 from coupling.embedded.box import Box, Flow, Window
-from coupling.embedded.convection import convect, substeps
+from coupling.embedded.convection import Nodes, convect, substeps
 from coupling.embedded.linear import IMPLICIT, fill, solve_implicit
 from coupling.gas import GasError
 
@@ -17,15 +17,15 @@ NO_SHIFT = np.uint64(0)
 
 
 @njit(cache=True, error_model="numpy")
-def face_conductances(wide, cell_value, area, gap, reach, hold, dt, out):
+def face_conductances(wide, grid, cell_value, hold, dt, out):
     """dt k A/distance on every face, k linear between the cells (ghosts as their neighbours), into out (d, S)."""
     rows, run, steps = wide
     for a in range(len(steps)):
         s = steps[a]
         for row in rows:
             for f in range(row, row + run):
-                k = cell_value[f - s] + (cell_value[f] - cell_value[f - s]) * reach[a, f] / gap[a, f]
-                out[a, f] = dt * hold[a, f] * k * area[a, f] / gap[a, f]
+                k = cell_value[f - s] + (cell_value[f] - cell_value[f - s]) * grid.reach[a, f] / grid.gap[a, f]
+                out[a, f] = dt * hold[a, f] * k * grid.area[a, f] / grid.gap[a, f]
 
 
 class Scalars:
@@ -34,7 +34,9 @@ class Scalars:
     def __init__(self, box: Box):
         self.box = box
         grid, faces = box.grid, box.faces
-        self.hold = {"heat": on_faces(grid, faces, faces.held * 1.0, 1.0), "vapour": on_faces(grid, faces, faces.inlet * 1.0, 1.0)}
+        held = {"heat": faces.held, "vapour": faces.inlet}
+        self.hold = {name: on_faces(grid, faces, where * 1.0, 1.0) for name, where in held.items()}
+        self.nodes = Nodes(grid.inner, grid.wide, NO_SHIFT, box.everywhere, grid.geometry.gap, grid.geometry.reach)
 
     def carry(self, old: Flow, window: Window, flow: Flow):
         """`flow` with its new vapour and temperature, its Courant number and the residuals."""
@@ -50,21 +52,23 @@ class Scalars:
         if box.vapour is not None:
             more = box.vapour.heat_capacity - heat
             flow, through, residuals["vapour"] = self._vapour(old, window, flow, parts)
-            content, carrier, after = content + more * old.vapour, carrier + more * through / window.dt, after + more * flow.vapour
+            content, after = content + more * old.vapour, after + more * flow.vapour
+            carrier = carrier + more * through / window.dt
             parts, _ = substeps(grid.inner, carrier, content, after, window.dt)
         flow, residuals["heat"] = self._heat(old, window, flow, (content, carrier, after, parts))
         return flow, courant, residuals
 
     def _vapour(self, old: Flow, window: Window, flow: Flow, parts: int):
         """The new flow, the vapour (d, S) [kg] through every face, and the residual."""
-        diffusivity = self.box.vapour.diffusivity * flow.mass / np.where(self.box.grid.volume > 0.0, self.box.grid.volume, 1.0)
+        diffusivity = self.box.vapour.diffusivity * self.box.grid.per_volume(flow.mass)
         carried = (old.fraction(), old.mass.copy(), flow.flux, parts)
         exchanged = (flow.mass, window.dt * window.vapour)
         fraction, through, error = self._transport(flow, window.dt, "vapour", carried, diffusivity, exchanged)
         vapour = np.zeros_like(flow.mass)
         cells = self.box.grid.cells
         vapour[cells] = flow.mass[cells] * fraction[cells]
-        return replace(flow, vapour=vapour, vapour_in=flow.vapour_in - self.box.outward(through).sum()), through, error
+        vapour_in = flow.vapour_in - float(self.box.outward(through).sum())
+        return replace(flow, vapour=vapour, vapour_in=vapour_in), through, error
 
     def _heat(self, old: Flow, window: Window, flow: Flow, heat):
         """The new flow and the residual; heat: content [J/K] before, its flux [W/K], content after, sub-steps."""
@@ -73,20 +77,22 @@ class Scalars:
         exchanged = (after + window.dt * window.cling, window.dt * window.warmth)
         carried = (old.temperature.copy(), before.copy(), carrier, parts)
         temperature, through, error = self._transport(flow, window.dt, "heat", carried, conductivity, exchanged)
-        return replace(flow, temperature=temperature, energy_in=flow.energy_in - self.box.outward(through).sum()), error
+        energy_in = flow.energy_in - float(self.box.outward(through).sum())
+        return replace(flow, temperature=temperature, energy_in=energy_in), error
 
     def _transport(self, flow: Flow, dt: float, name: str, carried, diffusivity: np.ndarray, exchanged):
         """One field from the start of the window to its end, and what went through every face."""
-        box, grid, faces = self.box, self.box.grid, self.box.faces
+        box, grid = self.box, self.box.grid
         field, mass, flux, parts = carried
         diagonal, source = exchanged
         ghosts = self._ghosts(flow, name)
         through, conductance = grid.zeros(grid.dimensions), grid.zeros(grid.dimensions)
         if parts:
-            through = convect(grid.inner, grid.wide, NO_SHIFT, box.everywhere, field, mass, flux, grid.gap, grid.reach, ghosts, dt, parts, box.limited, True)
+            through = convect(self.nodes, ghosts, field, mass, flux, dt, parts, box.limited, True)
         fill(field, ghosts)
-        face_conductances(grid.wide, grid.extended(diffusivity), grid.area, grid.gap, grid.reach, self.hold[name], dt, conductance)
-        given, error = solve_implicit(grid.wide, box.everywhere, conductance, diagonal, mass * field + source, field, IMPLICIT)
+        face_conductances(grid.wide, grid.geometry, grid.extended(diffusivity), self.hold[name], dt, conductance)
+        source = mass * field + source
+        given, error = solve_implicit(grid.wide, box.everywhere, conductance, diagonal, source, field, IMPLICIT)
         return field, through + given, error
 
     def _ghosts(self, flow: Flow, name: str) -> Ghosts:

@@ -26,7 +26,7 @@ import numpy as np
 
 from coupling.embedded.box import Box, Flow, window_of
 from coupling.embedded.grid import build_grid, uniform_edges
-from coupling.embedded.linear import IMPLICIT
+from coupling.embedded.linear import IMPLICIT, not_converged
 from coupling.embedded.momentum import Momentum
 from coupling.embedded.output import budget, cell_fields
 from coupling.embedded.pressure import Pressure
@@ -55,7 +55,7 @@ class EmbeddedGas:
         grid = self.box.grid
         centres = np.zeros((len(grid.cells), 3))
         centres[:, : grid.dimensions] = grid.centres
-        self.mesh = Mesh(centres, grid.volume[grid.cells], grid.dimensions)
+        self.mesh = Mesh(centres, grid.geometry.volume[grid.cells], grid.dimensions)
 
     def start(self, alpha_g: np.ndarray | None, sources: tuple[str, ...]) -> GasState:
         """Gas at rest at the temperature of the case, without vapour."""
@@ -64,7 +64,7 @@ class EmbeddedGas:
         alpha = grid.extended(grid.padded(np.ones(len(grid.cells)) if alpha_g is None else alpha_g))
         temperature = np.full(grid.size, box.temperature)
         mass, density = grid.zeros(), box.properties.density(temperature[grid.cells], 0.0)
-        mass[grid.cells] = alpha[grid.cells] * grid.volume[grid.cells] * density
+        mass[grid.cells] = alpha[grid.cells] * grid.geometry.volume[grid.cells] * density
         pressure = self.pressure.at_start(density[0])
         velocity = self.pressure.standing.copy()
         self.flow = Flow(0.0, alpha, mass, grid.zeros(), temperature, pressure, velocity, grid.zeros(grid.dimensions))
@@ -123,19 +123,21 @@ class EmbeddedGas:
         if not (np.isfinite(dt) and dt > 0.0):
             raise GasError(f"window of {dt} s; it must be above 0")
         if set(sources) != set(self.sources):
-            raise GasError(f"the window brings {sorted(sources)}, but {sorted(self.sources)} were announced at the start")
+            announced = ", ".join(self.sources)
+            raise GasError(f"the window brings {', '.join(sources)}, but announced at the start were {announced}")
         for name, values in sources.items():
             shape = (len(self.mesh.volumes), 3)[: 1 + (SOURCES[name][1] == 3)]
             if np.shape(values) != shape:
                 raise GasError(f"source {name} has shape {np.shape(values)}; it must be {shape}")
             if not np.isfinite(np.sum(values)):
-                raise GasError(f"source {name} is not finite in cell {int(np.argmin(np.isfinite(values).reshape(shape[0], -1).all(axis=1)))}")
+                cell = int(np.argmin(np.isfinite(values).reshape(shape[0], -1).all(axis=1)))
+                raise GasError(f"source {name} is not finite in cell {cell}")
 
 
 def _converged(time: float, residuals: dict[str, float]) -> None:
     for name, residual in residuals.items():
         if not residual <= IMPLICIT:
-            raise GasError(f"embedded gas solver: {name} did not converge at t = {time:g} s, residual {residual:.1e}; shorten the window")
+            raise GasError(not_converged(name, time, residual))
 
 
 def _known(sources: tuple[str, ...], box: Box) -> tuple[str, ...]:
@@ -155,5 +157,6 @@ def _edges(case, edges) -> tuple[np.ndarray, ...]:
         raise CaseError(f"cell edges for {len(edges)} axes are given; the case has {case.dimensions}")
     for axis, (along, length) in enumerate(zip(edges, case.domain.size)):
         if not (along[0] == 0.0 and np.isclose(along[-1], length, rtol=1e-9) and np.all(np.diff(along) > 0.0)):
-            raise CaseError(f"cell edges of axis {axis} run from {along[0]:g} to {along[-1]:g}; they must rise from 0 to {length:g}")
+            ends = f"run from {along[0]:g} to {along[-1]:g}"
+            raise CaseError(f"cell edges of axis {axis} {ends}; they must rise from 0 to {length:g}")
     return tuple(np.asarray(along, dtype=float) for along in edges)

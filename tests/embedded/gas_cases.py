@@ -8,7 +8,12 @@ from coupling.embedded import EmbeddedGas
 from sdph.case import from_table
 
 AIR = {
-    "density_kg_m3": 1.2, "viscosity_Pa_s": 1.8e-5, "conductivity_W_m_K": 0.025, "heat_capacity_J_kg_K": 1000.0, "temperature_K": 300.0,
+    "density_kg_m3": 1.2, "viscosity_Pa_s": 1.8e-5, "conductivity_W_m_K": 0.025, "heat_capacity_J_kg_K": 1000.0,
+    "temperature_K": 300.0,
+}  # fmt: skip
+OIL = {
+    "molar_mass_kg_kmol": 142.0, "diffusivity_m2_s": 1e-5, "heat_capacity_J_kg_K": 1700.0, "conductivity_W_m_K": 0.02,
+    "viscosity_Pa_s": 1e-5,
 }  # fmt: skip
 SIDES = ("left", "right", "bottom", "top", "back", "front")
 
@@ -38,13 +43,13 @@ def set_flow(gas, velocity=None, temperature=None, pressure=None):
     new = {}
     if velocity is not None:
         new["velocity"], new["flux"] = flow.velocity.copy(), flow.flux.copy()
-        density = grid.extended(flow.mass / np.where(grid.volume > 0.0, grid.volume, 1.0))
+        density = grid.per_volume(flow.mass)
         for a in range(grid.dimensions):
             face = np.flatnonzero(gas.momentum.active[a])
             place = padded_places(grid, a)[:, face]
             new["velocity"][a, face] = velocity(a, *place)
             here = 0.5 * (density[face] + density[face - grid.strides[a]])
-            new["flux"][a, face] = here * grid.area[a, face] * new["velocity"][a, face]
+            new["flux"][a, face] = here * grid.geometry.area[a, face] * new["velocity"][a, face]
     for name, function in (("temperature", temperature), ("pressure", pressure)):
         if function is not None:
             new[name] = getattr(flow, name).copy()
@@ -56,7 +61,7 @@ def padded_places(grid, axis):
     """(d, S) coordinates of the faces of `axis`."""
     places = np.zeros((grid.dimensions, grid.size))
     places[:, grid.cells] = grid.centres.T
-    places[axis] -= 0.5 * grid.width[axis]
+    places[axis] -= 0.5 * grid.geometry.width[axis]
     return places
 
 

@@ -1,25 +1,26 @@
 """What the embedded gas solver may not lose, and what it says when it cannot go on."""
 
 import dataclasses
+import re
 
 import numpy as np
 import pytest
-from gas_cases import SIDES, gas_case, gas_of
+from gas_cases import OIL, SIDES, gas_case, gas_of
 
 from coupling.embedded import EmbeddedGas
 from coupling.embedded.grid import uniform_edges
-from coupling.gas import Gas, GasError
+from coupling.gas import SOURCES, Gas, GasError
 from sdph.case import CaseError
 
-OIL = {"molar_mass_kg_kmol": 142.0, "diffusivity_m2_s": 1e-5, "heat_capacity_J_kg_K": 1700.0, "conductivity_W_m_K": 0.02, "viscosity_Pa_s": 1e-5}
-ALL = ("alpha_g", "drag", "drag_velocity", "heat", "heat_temperature", "heat_source", "vapour", "vapour_momentum", "vapour_enthalpy")
+ALL = tuple(SOURCES)
 
 
 def open_box(d):
     """Inlets on part of the bottom, an opening on top, a hot wall."""
     span = [[0.1, 0.3]] * (d - 1)
+    jet = {"span_m": span if d == 3 else span[0], "velocity_m_s": [0.0, 2.0, 0.0][:d], "temperature_K": 350.0}
     return {
-        "jet": {"kind": "velocity_inlet", "side": "bottom", "span_m": span if d == 3 else span[0], "velocity_m_s": [0.0, 2.0, 0.0][:d], "temperature_K": 350.0},
+        "jet": {"kind": "velocity_inlet", "side": "bottom"} | jet,
         "hot": {"kind": "wall", "side": "left", "temperature_K": 400.0},
         "out": {"kind": "pressure_outlet", "side": "top", "pressure_Pa": 0.0, "temperature_K": 310.0},
         "walls": {"kind": "wall"},
@@ -35,14 +36,16 @@ def particles(gas, t, rng):
     v = np.stack((0.3 + 0 * r, 1.0 + rng.random(len(r)), 0 * r), axis=1)
     return {
         "alpha_g": 1.0 - alpha_p, "drag": beta, "drag_velocity": beta[:, None] * v, "heat": eps, "heat_temperature": eps * 320.0,
-        "heat_source": 1e3 * alpha_p, "vapour": gamma, "vapour_momentum": gamma[:, None] * v, "vapour_enthalpy": gamma * 1700.0 * 320.0,
+        "heat_source": 1e3 * alpha_p, "vapour": gamma, "vapour_momentum": gamma[:, None] * v,
+        "vapour_enthalpy": gamma * 1700.0 * 320.0,
     }  # fmt: skip
 
 
 def given(gas, dt, sources, state):
     """mass, vapour and energy that the particles gave in a window, from the returned temperature."""
     V = gas.mesh.volumes
-    heat = sources["heat_temperature"] - sources["heat"] * state.fields["temperature"] + sources["heat_source"] + sources["vapour_enthalpy"]
+    heat = sources["heat_temperature"] - sources["heat"] * state.fields["temperature"]
+    heat = heat + sources["heat_source"] + sources["vapour_enthalpy"]
     return dt * (sources["vapour"] * V).sum(), dt * (heat * V).sum()
 
 
@@ -50,7 +53,8 @@ def given(gas, dt, sources, state):
 @pytest.mark.parametrize("dimensions", [2, 3])
 def test_totals_close_with_boundaries_counted(dimensions, equation_of_state):
     size, n = ((0.4, 0.6), 20) if dimensions == 2 else ((0.4, 0.6, 0.4), 8)
-    gas = gas_of(size, n, gravity=[0.0, -9.81, 0.0][:dimensions], boundaries=open_box(dimensions), vapour=OIL, equation_of_state=equation_of_state)
+    options = {"boundaries": open_box(dimensions), "vapour": OIL, "equation_of_state": equation_of_state}
+    gas = gas_of(size, n, gravity=[0.0, -9.81, 0.0][:dimensions], **options)
     rng = np.random.default_rng(1)
     first = state = gas.start(particles(gas, 0.0, rng)["alpha_g"], ALL)
     mass = energy = 0.0
@@ -85,9 +89,10 @@ def test_closed_heated_box(equation_of_state):
     for n in range(50):
         state = gas.advance(1e-3, {"alpha_g": alpha, "heat": eps, "heat_temperature": eps * 350.0})
         heat += 1e-3 * ((eps * 350.0 - eps * state.fields["temperature"]) * gas.mesh.volumes).sum()
-    print(equation_of_state, "drift", state.budget.mass / first.budget.mass - 1, (state.budget.energy - first.budget.energy - heat) / heat, state.budget.residuals)
-    assert state.budget.mass == pytest.approx(first.budget.mass, rel=1e-12)
-    assert state.budget.energy - first.budget.energy == pytest.approx(heat, rel=1e-12 * state.budget.energy / heat)
+    mass, energy = state.budget.mass / first.budget.mass - 1.0, (state.budget.energy - first.budget.energy - heat) / heat
+    print(f"closed heated box, {equation_of_state}: mass drift {mass:.1e}, energy drift over the heat given {energy:.1e}")
+    assert abs(mass) < 1e-12
+    assert abs(energy) < 1e-12
     assert heat > 0.0
     if equation_of_state == "operating":  # p_op rises in proportion to the mean temperature of the gas
         T = state.fields["temperature"]
@@ -109,13 +114,14 @@ def test_drag_acts_alike_on_both_sides():
     V = gas.mesh.volumes[:, None]
     impulse = 1e-3 * ((push - beta[:, None] * state.fields["velocity"]) * V).sum(axis=0)
     active, grid, flow = gas.momentum.active, gas.box.grid, gas.flow
-    pull = grid.padded(beta) * grid.volume
+    pull = grid.padded(beta) * grid.geometry.volume
     for a in range(2):
         f = np.flatnonzero(active[a])
         on_faces = (0.5 * (pull[f] + pull[f - grid.strides[a]]) * flow.velocity[a, f]).sum()
         assert on_faces == pytest.approx((beta * state.fields["velocity"][:, a] * gas.mesh.volumes).sum(), rel=1e-13)
-        held = 0.5 * (flow.alpha[f] * grid.volume[f] + flow.alpha[f - grid.strides[a]] * grid.volume[f - grid.strides[a]])
-        pressed = 1e-3 * (held * (flow.pressure[f] - flow.pressure[f - grid.strides[a]]) / grid.gap[a, f]).sum()
+        room = flow.alpha * grid.geometry.volume
+        held = 0.5 * (room[f] + room[f - grid.strides[a]])
+        pressed = 1e-3 * (held * (flow.pressure[f] - flow.pressure[f - grid.strides[a]]) / grid.geometry.gap[a, f]).sum()
         # the momentum counts the mass that the cells hold, within the tolerance of continuity of what they should
         assert state.budget.momentum[a] == pytest.approx(impulse[a] - pressed, abs=1e-9 * np.abs(impulse).max())
     assert first.budget.momentum == (0.0, 0.0, 0.0)
@@ -145,7 +151,8 @@ def test_closed_box_squeezed_by_particles():
 
 def test_gas_at_rest_stays_at_rest():
     """Weight, uneven voidage and openings at several heights: the pressure carries the gas, and nothing moves."""
-    boundaries = {side: {"kind": "pressure_outlet", "side": side, "pressure_Pa": 0.0} for side in ("right", "top")} | {"walls": {"kind": "wall"}}
+    boundaries = {side: {"kind": "pressure_outlet", "side": side, "pressure_Pa": 0.0} for side in ("right", "top")}
+    boundaries["walls"] = {"kind": "wall"}
     edges = (uniform_edges(0.4, 12, 4.0), uniform_edges(0.6, 15, 0.3))
     gas = gas_of((0.4, 0.6), 12, gravity=[0.0, -9.81], boundaries=boundaries, edges=edges)
     rng = np.random.default_rng(4)
@@ -213,9 +220,9 @@ def with_boundary(**boundary):
         ({"equation_of_state": "ideal"}, "--gas openfoam"),
         ({"boundaries": with_boundary(kind="velocity_inlet", side="left")}, "boundaries.odd.velocity_m_s is missing"),
         ({"boundaries": with_boundary(kind="wall", side="front")}, "has left, right, bottom, top"),
-        ({"boundaries": with_boundary(kind="wall", side="left", span_m=[0.0, 0.13])}, "no edge of a gas cell; the nearest is 0.12"),
+        ({"boundaries": with_boundary(kind="wall", side="left", span_m=[0.0, 0.13])}, "the nearest is 0.12"),
         ({"boundaries": {"odd": {"kind": "wall", "side": "left"}}}, "no boundary covers all of the right side"),
-        ({"boundaries": with_boundary(kind="pressure_outlet", side="left", vapour_mass_fraction=0.5)}, "the case has no [vapour]"),
+        ({"boundaries": with_boundary(kind="wall", side="top", vapour_mass_fraction=0.5)}, "the case has no [vapour]"),
         ({"edges": (np.linspace(0.0, 0.4, 5),)}, "cell edges for 1 axes"),
     ],
 )
@@ -228,7 +235,7 @@ def test_a_case_it_cannot_run(arguments, says):
 @pytest.mark.parametrize(
     ("sources", "says"),
     [
-        ({"heat": np.full(600, 1.0)}, "were announced"),
+        ({"heat": np.full(600, 1.0)}, "announced at the start were alpha_g, heat"),
         ({"heat": np.full(600, np.nan), "alpha_g": np.ones(600)}, "not finite in cell 0"),
         ({"heat": np.ones(5), "alpha_g": np.ones(600)}, "it must be (600,)"),
         ({"heat": np.ones(600), "alpha_g": np.zeros(600)}, "over-packed"),
@@ -237,5 +244,5 @@ def test_a_case_it_cannot_run(arguments, says):
 def test_sources_it_cannot_take(sources, says):
     gas = gas_of((0.4, 0.6), 20, boundaries=open_box(2))
     gas.start(None, ("alpha_g", "heat"))
-    with pytest.raises(GasError, match=says.replace("(", r"\(").replace(")", r"\)")):
+    with pytest.raises(GasError, match=re.escape(says)):
         gas.advance(1e-3, sources)

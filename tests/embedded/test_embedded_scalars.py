@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from gas_cases import gas_of, norms, orders, set_flow
+from gas_cases import OIL, gas_of, norms, orders, set_flow
 
-OIL = {"molar_mass_kg_kmol": 142.0, "diffusivity_m2_s": 2e-2, "heat_capacity_J_kg_K": 1700.0, "conductivity_W_m_K": 0.02, "viscosity_Pa_s": 1e-5}
+VAPOUR = OIL | {"diffusivity_m2_s": 2e-2}
 
 
 def channel(speed, **more):
@@ -23,7 +23,11 @@ def pulse(n, limited=True, courant=0.4):
     gas = gas_of((1.0, 4.0 / n), n, boundaries=channel(speed), conductivity_W_m_K=1.2, limited=limited)
     gas.start(None, ())
     D = 1.2 / (1.2 * 1000.0)
-    exact = lambda x, t: 300.0 + 10.0 * spread / math.sqrt(spread**2 + 2 * D * t) * np.exp(-((x - start - speed * t) ** 2) / (2 * (spread**2 + 2 * D * t)))  # noqa: E731
+
+    def exact(x, t):
+        wide = spread**2 + 2 * D * t
+        return 300.0 + 10.0 * spread / math.sqrt(wide) * np.exp(-((x - start - speed * t) ** 2) / (2 * wide))
+
     set_flow(gas, velocity=lambda a, x, y: speed * (a == 0) + 0 * x, temperature=lambda x, y: exact(x, 0.0))
     steps = math.ceil(end * speed * n / courant)
     for _ in range(steps):
@@ -49,7 +53,8 @@ def test_window_beyond_courant_one():
 
 
 def test_conduction_between_walls_of_given_temperature():
-    boundaries = {"hot": {"kind": "wall", "side": "left", "temperature_K": 400.0}, "cold": {"kind": "wall", "side": "right", "temperature_K": 300.0}, "walls": {"kind": "wall"}}
+    ends = (("left", 400.0), ("right", 300.0))
+    boundaries = {side: {"kind": "wall", "side": side, "temperature_K": T} for side, T in ends} | {"walls": {"kind": "wall"}}
     gas = gas_of((0.1, 0.02), 10, boundaries=boundaries)
     gas.start(None, ())
     for _ in range(10):
@@ -63,7 +68,7 @@ def test_conduction_between_walls_of_given_temperature():
 def stefan(equation_of_state, length, low, high):
     """Flux [kg/m2/s], profile Y(y) and density(Y) of vapour that rises through gas at rest (Bird, Stewart & Lightfoot,
     Transport Phenomena, 18.2): mass fractions and rho D at constant density, mole fractions and c D for ideal gases."""
-    D, M, Mg = OIL["diffusivity_m2_s"], 142.0, 28.96
+    D, M, Mg = VAPOUR["diffusivity_m2_s"], 142.0, 28.96
     if equation_of_state == "constant":
         N = 1.2 * D / length * math.log((1 - high) / (1 - low))
         return N, lambda y: 1 - (1 - low) * ((1 - high) / (1 - low)) ** (y / length), lambda Y: 1.2 + 0 * Y
@@ -80,9 +85,13 @@ def test_stefan_tube(equation_of_state):
     """Held mass fractions at both ends and the exact mass flux: the vapour flux must be all of it (no air moves)."""
     length, low, high = 0.1, 0.6, 0.1
     flux, profile, density = stefan(equation_of_state, length, low, high)
-    end = lambda Y: {"kind": "velocity_inlet", "velocity_m_s": [0.0, flux / density(Y)], "vapour_mass_fraction": Y, "temperature_K": 300.0}  # noqa: E731
-    boundaries = {"surface": end(low) | {"side": "bottom"}, "mouth": end(high) | {"side": "top"}, "walls": {"kind": "slip_wall"}}
-    gas = gas_of((0.0025, length), 1, boundaries=boundaries, vapour=OIL, equation_of_state=equation_of_state)
+
+    def end(side, Y):
+        through = {"velocity_m_s": [0.0, flux / density(Y)], "vapour_mass_fraction": Y, "temperature_K": 300.0}
+        return {"kind": "velocity_inlet", "side": side} | through
+
+    boundaries = {"surface": end("bottom", low), "mouth": end("top", high), "walls": {"kind": "slip_wall"}}
+    gas = gas_of((0.0025, length), 1, boundaries=boundaries, vapour=VAPOUR, equation_of_state=equation_of_state)
     gas.start(None, ())
     cells, y = gas.box.grid.cells, gas.mesh.centres[:, 1]
     flow = gas.flow
