@@ -73,6 +73,9 @@ class Grains:
     heat_capacity: float = quantity("J_kg_K", above=0.0)
     conductivity: float = quantity("W_m_K", above=0.0)
     diameter_std: float = quantity("mm", 0.0, least=0.0)
+    restitution: float = quantity("", 0.9, least=0.0, most=0.9999)  # not in the paper: Fluent's default (sdph-notes, section 2)
+    packing_limit: float = quantity("", 0.63, above=0.0, most=0.74)  # the same
+    granular_temperature: float = quantity("m2_s2", 1e-4, least=0.0)  # at the start; the same
 
 
 @record

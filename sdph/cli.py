@@ -48,7 +48,9 @@ def _parser() -> argparse.ArgumentParser:
     compare.add_argument("--json", action="store_true", help="print the checks as JSON")
     view = _command(commands, "view", view_run, "look at a run")
     view.add_argument("run", type=Path)
-    view.add_argument("--png", type=Path, help="write the last state to this picture")
+    view.add_argument("--png", type=Path, help="write a picture instead of opening a window")
+    view.add_argument("--time", type=float, metavar="T", help="time [s] (default: the last)")
+    view.add_argument("--field", default="temperature", help="what colours the particles and cells (default: temperature)")
     openfoam = _command(commands, "openfoam", openfoam_setup, "find or install OpenFOAM and compile the gas solver")
     openfoam.add_argument("action", choices=("setup",))
     openfoam.add_argument("--install", action="store_true", help="install what is missing with apt")
@@ -135,7 +137,7 @@ def compare_run(options) -> int:
 def view_run(options) -> int:
     from sdph import view
 
-    view.show(options.run, options.png)
+    view.show(options.run, options.png, options.time, options.field)
     return FINE
 
 

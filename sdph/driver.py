@@ -49,16 +49,16 @@ def _coupled(case, gas, folder: Path, reporter, started: float) -> dict:
     """The loop over windows with its outputs."""
     simulation = Simulation(case, gas, Ledger(folder / "ledger.csv", case, gas.mesh.depth))
     simulation.start()
-    fields, history = output.Fields(folder, gas), output.Table(folder / "history.csv")
+    fields, history = output.Fields(folder, gas, case.grains.density), output.Table(folder / "history.csv")
     history.write(_history(simulation))
-    fields.write(0.0, simulation.state, simulation.gas_state)
+    fields.write(0.0, simulation.state, simulation.cell_fields())
     first = None
     while simulation.time < case.run.end_time:
         simulation.window()
         first = first or time.perf_counter() - started
         history.write(_history(simulation))
         if simulation.time in simulation.clock.outputs:
-            fields.write(simulation.time, simulation.state, simulation.gas_state)
+            fields.write(simulation.time, simulation.state, simulation.cell_fields())
         reporter.progress(simulation)
     for table in (history, simulation.ledger.table):
         table.close()
@@ -82,7 +82,7 @@ def _summary(simulation, wall: float, first: float) -> dict:
         "particles": len(simulation.state.x),
         "cells": len(simulation.gas.mesh.volumes),
         "windows": simulation.windows,
-        "sub_steps": simulation.sub_steps,
+        "sub_steps": simulation.stepper.steps,
     }
     for name, probe in case.probes.items():
         summary |= {f"{name}_{key}": value for key, value in simulation.probe(probe.at).items()}
@@ -91,5 +91,5 @@ def _summary(simulation, wall: float, first: float) -> dict:
     summary |= {f"wall_{part}_s": spent for part, spent in simulation.wall.items()}
     summary |= {f"{part}_ms_per_window": 1e3 * spent / simulation.windows for part, spent in simulation.wall.items()}
     stepping = simulation.wall["particles"] or wall
-    summary["particle_steps_per_s"] = len(simulation.state.x) * simulation.sub_steps / stepping
+    summary["particle_steps_per_s"] = len(simulation.state.x) * simulation.stepper.steps / stepping
     return summary | {"start_to_first_window_s": first, "wall_s": wall}

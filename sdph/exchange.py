@@ -15,7 +15,7 @@ the new gas velocity, is known when the window is done: the gas gets it in the n
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numba import njit, prange
@@ -24,8 +24,10 @@ from coupling.transfer import Weights, deposit, gather
 from sdph import effects, particles
 from sdph.effects import drag, heat, sizes
 from sdph.laws.exchange import exponential_fraction
+from sdph.ledger import vector
 
 INSTANT = 1e-12  # s, so short that f_k/dt is K_k/C_k
+NEGLIGIBLE = 1e-6  # of the temperature: smaller differences need not be resolved (round-off else rules the window); our choice
 
 
 @dataclass(frozen=True)
@@ -53,7 +55,13 @@ class Taken:
     heat: np.ndarray
     impulse: np.ndarray
     heat_from_gas: float
-    impulse_from_gas: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    impulse_from_gas: np.ndarray
+
+    def columns(self) -> dict[str, float]:
+        """Both sides of the exchange for the ledger."""
+        heat = {"heat_to_particles_J": float(self.heat.sum()), "heat_to_gas_J": -self.heat_from_gas}
+        own, other = self.impulse.sum(axis=0), -self.impulse_from_gas
+        return heat | vector("impulse_to_particles", own) | vector("impulse_to_gas", other)
 
 
 class Exchange:
@@ -94,18 +102,18 @@ class Exchange:
         return Handed(dt, weights, sources, shared_heat, shared_mass, damping, state.temperature.copy(), own)
 
     def pace(self, state, weights, gas_state) -> tuple[float, float]:
-        """Rate [1/s] of the fastest cell, and the heat [J] that flows until every cell is in equilibrium with itself."""
+        """Rate [1/s] of the fastest cell, and a scale of heat [J]: the gas among the grains, and they, brought to
+        equilibrium through all of the temperatures that the case has."""
         if not self.parameters["heat"]:
             return 0.0, 0.0
         alpha_g = self.alpha_g(state, weights)
-        eps = self.hand(state, weights, gas_state, INSTANT, alpha_g).sources
+        eps = self.hand(state, weights, gas_state, INSTANT, alpha_g).sources["heat"]
         content = self._density(weights, state.mass * self.case.grains.heat_capacity)
         gas = alpha_g * gas_state.fields["density"] * self.case.gas.heat_capacity
-        full = eps["heat"] > 0.0
+        full = content > 0.0
         resistance = 1.0 / content[full] + 1.0 / gas[full]
-        apart = gas_state.fields["temperature"][full] - eps["heat_temperature"][full] / eps["heat"][full]
-        heat_left = np.abs(apart) * self.volumes[full] / resistance
-        return float((eps["heat"][full] * resistance).max(initial=0.0)), float(heat_left.sum())
+        span = _temperature_span(self.case)
+        return float((eps[full] * resistance).max(initial=0.0)), float(span * (self.volumes[full] / resistance).sum())
 
     def take(self, handed: Handed, gas_state) -> Taken:
         """The reaction on the particles, from the new gas state with the old weights, temperatures and velocities."""
@@ -126,6 +134,12 @@ class Exchange:
             self.drag_heat = self._density(handed.weights, (impulse * apart).sum(axis=1) / handed.dt)
         return Taken(taken_heat, impulse, from_gas, impulse_from_gas)
 
+    def drag_heat_of(self, handed: Handed) -> float:
+        """Heat of drag [J] that the gas was handed."""
+        if "heat_source" not in handed.sources:
+            return 0.0
+        return float((handed.sources["heat_source"] * self.volumes).sum() * handed.dt)
+
     def _density(self, weights, amounts) -> np.ndarray:
         """Extensive amounts (N,) or (N, m) of the particles per volume of the cells."""
         deposited = deposit(weights, amounts)
@@ -133,6 +147,13 @@ class Exchange:
 
     def _grains(self):
         return self.case.grains.density, self.case.grains.heat_capacity
+
+
+def _temperature_span(case) -> float:
+    """Hottest less coldest of all that the case gives a temperature [K]."""
+    given = [case.gas.temperature, *(region.temperature for region in case.particles.values())]
+    given += [boundary.temperature for boundary in case.boundaries.values() if boundary.temperature]
+    return max(given) - min(given)
 
 
 @njit(cache=True, parallel=True, error_model="numpy")

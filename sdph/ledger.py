@@ -15,42 +15,61 @@ from sdph import particles
 from sdph.output import Table
 
 
+VECTORS = ("impulse_to_particles", "impulse_to_gas", "impulse_of_body_forces", "impulse_of_walls")
+NOTHING = dict.fromkeys(("heat_to_particles_J", "heat_to_gas_J", "drag_heat_J", "mechanical_heat_J"), 0.0) | {
+    f"{name}_{a}_kg_m_s": 0.0 for name in VECTORS for a in "xyz"
+}
+
+
+def vector(name: str, values) -> dict[str, float]:
+    """Columns of an impulse (3,) [kg m/s]."""
+    return {f"{name}_{a}_kg_m_s": float(value) for a, value in zip("xyz", values)}
+
+
 class Ledger:
     """Keeps the rows of one run and writes each to `ledger.csv` as it comes."""
 
     def __init__(self, path: Path, case, depth: float):
         self.case, self.depth = case, depth
-        self.heat_exchanged = 0.0  # sum of |heat| over windows [J]
-        self.heat_mismatch = 0.0  # largest |particles - gas| of a window [J]
+        self.sums = dict.fromkeys((*NOTHING, "heat_exchanged_J", "impulse_exchanged_kg_m_s"), 0.0)
+        self.heat_mismatch = self.impulse_mismatch = 0.0  # largest |particles - gas| of a window [J], [kg m/s]
         self.first = self.last = None
         self.table = Table(path)
 
     def open(self, state, budget) -> None:
         """The row of the start."""
-        self._write({"time_s": 0.0, "window_s": 0.0, "limit": ""} | self._totals(state, budget) | _exchanged(0.0, 0.0))
+        self._write({"time_s": 0.0, "window_s": 0.0, "limit": ""} | self._totals(state, budget) | NOTHING)
 
-    def close_window(self, time: float, dt: float, limit: str, state, gas_state, taken) -> None:
-        """The row of a window; `taken` is None where nothing was exchanged both ways."""
-        to_particles, from_gas = (float(taken.heat.sum()), -taken.heat_from_gas) if taken else (0.0, 0.0)
-        self.heat_exchanged += abs(to_particles)
-        self.heat_mismatch = max(self.heat_mismatch, abs(to_particles + from_gas))
-        head = {"time_s": time, "window_s": dt, "limit": limit}
-        self._write(head | self._totals(state, gas_state.budget) | _exchanged(to_particles, from_gas))
+    def close_window(self, time: float, dt: float, limit: str, state, gas_state, exchanged: dict) -> None:
+        """The row of a window; `exchanged` has the keys of NOTHING."""
+        self._write({"time_s": time, "window_s": dt, "limit": limit} | self._totals(state, gas_state.budget) | exchanged)
+        for key, value in exchanged.items():
+            self.sums[key] += value
+        self.sums["heat_exchanged_J"] += abs(exchanged["heat_to_particles_J"])
+        self.heat_mismatch = max(self.heat_mismatch, abs(exchanged["heat_to_particles_J"] + exchanged["heat_to_gas_J"]))
+        impulse = [(exchanged[f"impulse_to_particles_{a}_kg_m_s"], exchanged[f"impulse_to_gas_{a}_kg_m_s"]) for a in "xyz"]
+        self.sums["impulse_exchanged_kg_m_s"] += math.hypot(*(own for own, _ in impulse))
+        self.impulse_mismatch = max(self.impulse_mismatch, math.hypot(*(own + other for own, other in impulse)))
 
     def summary(self) -> dict[str, float]:
-        """Closure of the run: relative drifts and mismatches."""
-        return {
-            "heat_exchanged_J": self.heat_exchanged,
-            "exchange_energy_mismatch_rel": _ratio(self.heat_mismatch, self.heat_exchanged),
-            "energy_drift_rel": _ratio(self._drift("particle_energy_J", "gas_energy_J", "gas_energy_in_J"), self.heat_exchanged),
-            "mass_drift_rel": _ratio(
-                self._drift("particle_mass_kg", "gas_mass_kg", "gas_mass_in_kg"), self.first["particle_mass_kg"] + self.first["gas_mass_kg"]
-            ),
+        """Closure of the run: relative drifts and mismatches. Energy is relative to the heat exchanged."""
+        mass = self.first["particle_mass_kg"] + self.first["gas_mass_kg"]
+        made = self.sums["mechanical_heat_J"] + self.sums["drag_heat_J"]
+        energy = self._change("particle_energy_J", 1) + self._change("gas_energy_J", 1) + self._change("gas_energy_in_J", -1)
+        balance = self._change("particle_mass_kg", 1) + self._change("gas_mass_kg", 1) + self._change("gas_mass_in_kg", -1)
+        sums = {key: self.sums[key] for key in ("heat_exchanged_J", "drag_heat_J", "mechanical_heat_J")}
+        mass_drift = {"mass_drift_rel": _ratio(abs(math.fsum(balance)), mass)}
+        if self.case.coupling.one_way:  # the gas feels nothing, so there is no balance of energy to close
+            return sums | mass_drift
+        return sums | mass_drift | {
+            "exchange_energy_mismatch_rel": _ratio(self.heat_mismatch, self.sums["heat_exchanged_J"]),
+            "exchange_momentum_mismatch_rel": _ratio(self.impulse_mismatch, self.sums["impulse_exchanged_kg_m_s"]),
+            "energy_drift_rel": _ratio(abs(math.fsum((*energy, -made))), self.sums["heat_exchanged_J"]),
         }
 
-    def _drift(self, particle: str, gas: str, inflow: str) -> float:
-        change = {key: self.last[key] - self.first[key] for key in (particle, gas, inflow)}
-        return abs(math.fsum((change[particle], change[gas], -change[inflow])))
+    def _change(self, key: str, sign: int) -> tuple[float, float]:
+        """Change of a column over the run, as terms of an exact sum."""
+        return sign * self.last[key], -sign * self.first[key]
 
     def _totals(self, state, budget) -> dict[str, float]:
         velocity = particles.velocities(state)
@@ -70,10 +89,6 @@ class Ledger:
     def _write(self, row: dict) -> None:
         self.first, self.last = self.first or row, row
         self.table.write(row)
-
-
-def _exchanged(to_particles: float, from_gas: float) -> dict[str, float]:
-    return {"heat_to_particles_J": to_particles, "heat_to_gas_J": from_gas}
 
 
 def _ratio(part: float, whole: float) -> float:

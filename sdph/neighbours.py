@@ -15,6 +15,8 @@ from sdph import particles
 
 SKIN = 0.1  # of the reach; our choice: 0.2 h measured best (about 5-8 steps per list), and the reach is 2 h
 OPEN = 0.0  # period of an axis that is not periodic
+CELLS_A_PARTICLE = 16  # memory of the cells stays below that of the rows; our choice
+MOST_CELLS = 2**20  # along an axis, so that their product is an int64
 
 
 class Grid(NamedTuple):
@@ -55,6 +57,8 @@ class Neighbours:
     """Neighbour rows of a state that moves."""
 
     def __init__(self, reach: float, period=(OPEN, OPEN, OPEN)):
+        if any(0.0 < length < 2.0 * reach for length in period):
+            raise ValueError(f"periods {tuple(period)} m: a periodic box must be at least two reaches ({2.0 * reach:g} m) wide, or images are missed")
         self.reach = reach
         self.period = np.array([*period, OPEN][:3])
         self.box = box_of(self.period)
@@ -85,26 +89,42 @@ class Neighbours:
         return bool(moved.max() < (0.5 * SKIN * self.reach) ** 2)
 
     def _grid(self, here) -> Grid:
-        size, origin, shape = np.ones(3), np.zeros(3), np.ones(3, np.int64)
+        """Cells no smaller than the cutoff; larger ones where a few stray particles make the box mostly empty."""
         cutoff = self.reach * (1.0 + SKIN)
+        while (grid := self._cells_of(here, cutoff)).shape.prod() > CELLS_A_PARTICLE * max(64, len(here[0])):
+            cutoff *= 2.0
+        return grid
+
+    def _cells_of(self, here, cutoff: float) -> Grid:
+        size, origin, shape = np.ones(3), np.zeros(3), np.ones(3, np.int64)
         for a, axis in enumerate(here):
             low, high = (0.0, self.period[a]) if self.period[a] else _extent(axis)
-            cells = max(1, int((high - low) / cutoff))
+            cells = max(1, int(min((high - low) / cutoff, MOST_CELLS)))
             origin[a], shape[a] = low, cells
             size[a] = (high - low) / cells if self.period[a] else max(cutoff, (high - low) / cells * (1.0 + 1e-12))
         return Grid(origin, size, shape, self.period)
 
-    def _rows(self, grid: Grid, here) -> Rows:
-        x, y, z = _three(here)
-        start = _starts(_cells(grid, x, y, z), int(grid.shape.prod()))
+    def _rows(self, grid: Grid, here, at=None) -> Rows:
+        """Rows of the points `here`, sorted by cell, for the points `at` (None: for each other)."""
+        own, other = _three(here), _three(at or here)
+        start = _starts(_cells(grid, *own), int(grid.shape.prod()))
         while True:
-            index = np.empty((len(x), self.stride), np.uint32)
-            count = np.empty(len(x), np.int64)
-            _fill(grid, start, x, y, z, self.box, (self.reach * (1.0 + SKIN)) ** 2, index, count)
+            index = np.empty((len(other[0]), self.stride), np.uint32)
+            count = np.empty(len(other[0]), np.int64)
+            _fill(grid, start, *own, *other, at is None, self.box, (self.reach * (1.0 + SKIN)) ** 2, index, count)
             most = int(count.max(initial=0))
             if most <= self.stride:
                 return Rows(index, count)
             self.stride = most + 8  # a few spare, so that a slow compaction does not rebuild each time
+
+    def sort(self, here) -> np.ndarray:
+        """Order in which fixed points have to stand for `seen_from`."""
+        grid = self._grid(here)
+        return _order(_cells(grid, *_three(here)), int(grid.shape.prod()))
+
+    def seen_from(self, here, at) -> Rows:
+        """Rows of fixed points `here`, in the order of `sort`, for the points `at`."""
+        return self._rows(self._grid(here), here, at)
 
 
 def _three(here):
@@ -171,15 +191,18 @@ def _span(grid, a, value):
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def _fill(grid, start, x, y, z, box, cutoff2, index, count):
-    """Rows of neighbours; `count` also where a row is too short to hold them (its excess is not written)."""
+def _fill(grid, start, x, y, z, at_x, at_y, at_z, same, box, cutoff2, index, count):
+    """Rows of neighbours (x, y, z), sorted by cell, of the points at_x, at_y, at_z; with `same` i is not its own.
+
+    `count` also where a row is too short to hold them (its excess is not written).
+    """
     stride = index.shape[1]
-    for i in prange(len(x)):
+    for i in prange(len(at_x)):
         found = 0
-        zi = z[i] if len(z) else 0.0
+        zi = at_z[i] if len(z) else 0.0
         z0, z1 = _span(grid, 2, zi) if len(z) else (0, 1)
-        y0, y1 = _span(grid, 1, y[i])
-        x0, x1 = _span(grid, 0, x[i])
+        y0, y1 = _span(grid, 1, at_y[i])
+        x0, x1 = _span(grid, 0, at_x[i])
         for kz in range(z0, z1):
             for ky in range(y0, y1):
                 row = ((kz % grid.shape[2]) * grid.shape[1] + ky % grid.shape[1]) * grid.shape[0]
@@ -187,8 +210,8 @@ def _fill(grid, start, x, y, z, box, cutoff2, index, count):
                     cell = row + kx % grid.shape[0]
                     for j in range(start[cell], start[cell + 1]):
                         dz = zi - z[j] if len(z) else 0.0
-                        dx, dy, dz = nearest_image(box, x[i] - x[j], y[i] - y[j], dz)
-                        if j != i and dx * dx + dy * dy + dz * dz < cutoff2:
+                        dx, dy, dz = nearest_image(box, at_x[i] - x[j], at_y[i] - y[j], dz)
+                        if (j != i or not same) and dx * dx + dy * dy + dz * dz < cutoff2:
                             if found < stride:
                                 index[i, found] = j
                             found += 1

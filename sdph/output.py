@@ -105,19 +105,19 @@ def _numbers(values: list[str]) -> np.ndarray:
 class Fields:
     """Particles and gas on one timeline: `run.pvd` opens in ParaView and pyvista."""
 
-    def __init__(self, folder: Path, gas):
-        self.folder, self.gas, self.grid = folder, gas, None
+    def __init__(self, folder: Path, gas, grain_density: float):
+        self.folder, self.gas, self.grid, self.grain_density = folder, gas, None, grain_density
         self.entries: list[str] = []
 
-    def write(self, time: float, state, gas_state) -> None:
-        """Both sides at `time` [s], and the timeline up to there."""
+    def write(self, time: float, state, fields: dict) -> None:
+        """Particles and gas fields (name -> (C,) or (C, 3)) at `time` [s], and the timeline up to there."""
         if self.grid is None:
             self.grid = gas_grid(self.gas)
         number = len(self.entries) // 2
         suffix = "vtr" if self.grid[0].GetClassName() == "vtkRectilinearGrid" else "vtu"
         names = f"fields/particles_{number:05d}.vtp", f"fields/gas_{number:05d}.{suffix}"
-        particle_points(state).save(self.folder / names[0])
-        with_fields(*self.grid, gas_state.fields).save(self.folder / names[1])
+        particle_points(state, self.grain_density).save(self.folder / names[0])
+        with_fields(*self.grid, fields).save(self.folder / names[1])
         for part, name in enumerate(names):
             self.entries.append(f'<DataSet timestep="{time:.9g}" part="{part}" file="{name}"/>')
         write_text(self.folder / "run.pvd", PVD.format("\n".join(self.entries)))
@@ -126,12 +126,13 @@ class Fields:
 PVD = '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n<Collection>\n{}\n</Collection>\n</VTKFile>\n'
 
 
-def particle_points(state):
-    """Particles as pyvista points with their arrays."""
+def particle_points(state, grain_density: float):
+    """Particles as pyvista points with their arrays and alpha_p."""
     import pyvista
 
     points = pyvista.PolyData(particles.positions(state))
     points["velocity"] = particles.velocities(state)
+    points["alpha_p"] = state.density / grain_density
     for name in ("ident", "kind", "mass", "density", "temperature", "diameter", "theta"):
         if len(getattr(state, name)):
             points[name] = getattr(state, name)

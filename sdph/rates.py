@@ -1,7 +1,8 @@
 """The equations of the particles: loops over neighbours, one signed term per line.
 
 Each term belongs to an effect (`sdph/effects/`) and takes that effect's parameters first; with `OFF` the compiler
-drops it. Sums are local and written once.
+drops it. Sums are local and written once. Outputs are arguments of their own: numba drops writes to arrays of a
+tuple inside a prange without a word.
 """
 
 from __future__ import annotations
@@ -11,8 +12,9 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit, prange
 
-from sdph.effects import conduction
+from sdph.effects import artificial_viscosity, conduction, friction, granular_pressure, granular_temperature, granular_viscosity, walls
 from sdph.laws import kernels
+from sdph.laws.friction import second_invariant
 from sdph.neighbours import nearest_image
 
 
@@ -30,6 +32,18 @@ def kernel_of(case) -> Kernel:
     return Kernel(case.smoothing_length, sigma / lattice)
 
 
+class Stress(NamedTuple):
+    """Per particle: pressure of agitation and of friction [Pa], shear and bulk viscosity [Pa s], sound speed [m/s],
+    conductivity of theta [kg/m/s]."""
+
+    kinetic_pressure: np.ndarray
+    friction_pressure: np.ndarray
+    shear: np.ndarray
+    bulk: np.ndarray
+    sound: np.ndarray
+    conductivity: np.ndarray
+
+
 @njit(cache=True, error_model="numpy")
 def separation(s, box, i, j):
     """r_i - r_j (3 components; the last 0 in two dimensions) through periodic boundaries, and its square."""
@@ -38,29 +52,124 @@ def separation(s, box, i, j):
     return dx, dy, dz, dx * dx + dy * dy + dz * dz
 
 
-# Outputs are arguments of their own: numba drops writes to arrays of a tuple inside a prange without a word.
+@njit(cache=True, error_model="numpy")
+def approach(s, i, j):
+    """v_i - v_j (3 components)."""
+    dw = s.w[i] - s.w[j] if len(s.w) else 0.0
+    return s.u[i] - s.u[j], s.v[i] - s.v[j], dw
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath={"nsz"})
-def sum_density(kernel, s, rows, box, density):
-    """rho_i = sum m_j W_ij, i itself included (Eq. 25): alpha_p rho_p."""
+def sum_density(kernel, s, rows, box, walls_p, dummies, wall_rows, density):
+    """rho_i = sum m_j W_ij, i itself included (Eq. 25), over the share of the kernel that lies among grains."""
     for i in prange(len(s.x)):
         rho = s.mass[i] * kernels.cubic_spline(0.0, kernel.h, kernel.sigma)
         for k in range(rows.count[i]):
-            j = rows.index[i, k]
-            r2 = separation(s, box, i, j)[3]
-            rho += s.mass[j] * kernels.cubic_spline(np.sqrt(r2), kernel.h, kernel.sigma)
-        density[i] = rho
+            r2 = separation(s, box, i, rows.index[i, k])[3]
+            rho += s.mass[rows.index[i, k]] * kernels.cubic_spline(np.sqrt(r2), kernel.h, kernel.sigma)
+        density[i] = rho / walls.closure(walls_p, dummies, wall_rows, s, i, kernel)
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath={"nsz"})
-def rates(kernel, s, rows, box, conduction_p, heating):
-    """Right-hand sides of all particles: heating (N,) [W/kg]."""
+def strain(kernel, s, rows, box, shear_squared, divergence):
+    """I2D = dev(D):dev(D)/2 [1/s2] and div v [1/s] of the grains; D_ab = sym sum V_j (v_j - v_i)_a dW/dx_b."""
     for i in prange(len(s.x)):
-        heat = 0.0
+        xx = yy = zz = xy = yz = zx = 0.0
         for k in range(rows.count[i]):
             j = rows.index[i, k]
             dx, dy, dz, r2 = separation(s, box, i, j)
+            du, dv, dw = approach(s, i, j)
+            g = -s.mass[j] / s.density[j] * kernels.cubic_spline_gradient(np.sqrt(r2), kernel.h, kernel.sigma)
+            xx += g * du * dx
+            yy += g * dv * dy
+            zz += g * dw * dz
+            xy += 0.5 * g * (du * dy + dv * dx)
+            yz += 0.5 * g * (dv * dz + dw * dy)
+            zx += 0.5 * g * (dw * dx + du * dz)
+        shear_squared[i] = second_invariant(xx, yy, zz, xy, yz, zx)
+        divergence[i] = xx + yy + zz
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
+def sound_speeds(s, grain_density, pressure_p, friction_p, sound):
+    """c [m/s]: agitation and friction together."""
+    for i in prange(len(s.x)):
+        alpha_p = s.density[i] / grain_density
+        theta = s.theta[i] if len(s.theta) else 0.0
+        agitation = granular_pressure.sound_squared(pressure_p, alpha_p, theta)
+        sound[i] = np.sqrt(agitation + friction.pressure(friction_p, alpha_p)[1] / grain_density)
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
+def constitutive(
+    s, grain_density, dt, shear_squared, pressure_p, friction_p, viscosity_p, temperature_p,
+    kinetic_pressure, friction_pressure, shear, bulk, conductivity,
+):  # fmt: skip
+    """Pressures, viscosities and conductivity of every particle from its density, theta and rate of strain."""
+    for i in prange(len(s.x)):
+        alpha_p = s.density[i] / grain_density
+        theta = s.theta[i] if len(s.theta) else 0.0
+        diameter = s.diameter[i] if len(s.diameter) else 0.0
+        kinetic_pressure[i] = granular_pressure.pressure(pressure_p, alpha_p, theta)
+        lasting = friction.pressure(friction_p, alpha_p)[0]
+        friction_pressure[i] = lasting
+        agitated, bulk[i] = granular_viscosity.viscosities(viscosity_p, alpha_p, theta, diameter)
+        shear[i] = agitated + friction.viscosity(friction_p, lasting, s.density[i], shear_squared[i], dt)
+        conductivity[i] = granular_temperature.conductivity(temperature_p, alpha_p, theta, diameter)
+
+
+@njit(cache=True, parallel=True, error_model="numpy", fastmath={"nsz"})
+def conduct(kernel, s, rows, box, conduction_p, heating):
+    """Of grains that do not move: heating (N,) [W/kg]."""
+    for i in prange(len(s.x)):
+        warmth = 0.0
+        for k in range(rows.count[i]):
+            j = rows.index[i, k]
+            r2 = separation(s, box, i, j)[3]
             gradient = kernels.cubic_spline_gradient(np.sqrt(r2), kernel.h, kernel.sigma)
-            heat += conduction.pair(conduction_p, s, i, j, r2, gradient)
-        heating[i] = heat
+            warmth += conduction.pair(conduction_p, s, i, j, r2, gradient)
+        heating[i] = warmth
+
+
+@njit(cache=True, parallel=True, error_model="numpy", fastmath={"nsz"})
+def rates(
+    kernel, s, rows, box, stress, viscous_p, artificial_p, temperature_p, conduction_p,
+    walls_p, dummies, wall_rows, wall_pressure, wall_velocity, pressure, acceleration, agitation, heating,
+):  # fmt: skip
+    """Of grains that move: acceleration (N, 3) [m/s2], agitation (N,) [W/kg] that feeds theta, heating (N,) [W/kg]."""
+    for i in prange(len(s.x)):
+        ax, ay, az = walls.force(walls_p, kernel, dummies, wall_rows, s, i, pressure, stress.shear, wall_pressure, wall_velocity)
+        work = warmth = 0.0
+        rho_i = s.density[i]
+        for k in range(rows.count[i]):
+            j = rows.index[i, k]
+            dx, dy, dz, r2 = separation(s, box, i, j)
+            du, dv, dw = approach(s, i, j)
+            closing = du * dx + dv * dy + dw * dz
+            rho_j, m_j = s.density[j], s.mass[j]
+            gradient = kernels.cubic_spline_gradient(np.sqrt(r2), kernel.h, kernel.sigma)
+            scale = m_j * gradient / (rho_i * rho_j)
+
+            # section 2.1, corrected: -m_j (S_i/rho_i^2 + S_j/rho_j^2 + Pi_ij) grad W, S = p I - tau
+            agitated = m_j * gradient * (stress.kinetic_pressure[i] / rho_i**2 + stress.kinetic_pressure[j] / rho_j**2)
+            lasting = m_j * gradient * (stress.friction_pressure[i] / rho_i**2 + stress.friction_pressure[j] / rho_j**2)
+            ringing = m_j * gradient * artificial_viscosity.pair(
+                artificial_p, closing, r2, stress.sound[i], stress.sound[j], rho_i, rho_j
+            )
+            along, across = granular_viscosity.pair(viscous_p, stress, i, j, r2, closing, scale)
+            push = along - agitated - lasting - ringing
+            ax += push * dx + across * du
+            ay += push * dy + across * dv
+            az += push * dz + across * dw
+
+            viscous_work = -along * closing - across * (du * du + dv * dv + dw * dw)
+            work += granular_temperature.pair(
+                temperature_p, stress, s, i, j, agitated * closing, viscous_work, ringing * closing, scale
+            )
+            warmth += 0.5 * (lasting * closing + granular_temperature.rest(temperature_p, ringing * closing))
+            warmth += conduction.pair(conduction_p, s, i, j, r2, gradient)
+        acceleration[i, 0] = ax
+        acceleration[i, 1] = ay
+        acceleration[i, 2] = az
+        agitation[i] = work
+        heating[i] = warmth

@@ -10,7 +10,8 @@ from sdph.schema import CaseError
 WINDOW = (1200, 900)  # pixels
 SHOWN = 0.75  # share of the window that the domain fills
 BAR = {"vertical": True, "position_y": 0.2, "height": 0.6, "width": 0.06, "fmt": "%.6g", "n_labels": 5, "title_font_size": 16, "label_font_size": 14}
-GAS_UNITS = {"temperature": "K", "pressure": "Pa", "alpha_g": "1", "density": "kg/m3", "vapour_mass_fraction": "1"}
+GAS_UNITS = {"alpha_p": "1", "temperature": "K", "pressure": "Pa", "density": "kg/m3", "vapour_mass_fraction": "1"}
+PARTICLE_UNITS = {name: unit for name, (unit, _) in FIELDS.items()} | {"alpha_p": "1"}
 
 
 def read(folder: Path):
@@ -55,7 +56,7 @@ def scene(particles, gas, field: str, title: str, off_screen: bool):
         bar = BAR | {"title": f"gas {field}\n[{GAS_UNITS.get(field, '1')}]", "position_x": 0.86}
         plotter.add_mesh(gas, scalars=field, cmap="Blues", scalar_bar_args=bar, lighting=False)
     if particles.n_points and field in particles.point_data:
-        bar = BAR | {"title": f"particle {field}\n[{FIELDS[field][0]}]", "position_x": 0.03}
+        bar = BAR | {"title": f"particle {field}\n[{PARTICLE_UNITS[field]}]", "position_x": 0.03}
         plotter.add_mesh(particles, scalars=field, cmap="inferno", point_size=_size(particles, gas), scalar_bar_args=bar, lighting=False)
     plotter.add_text(title, font_size=12, position="upper_edge")
     if gas.bounds[4] == gas.bounds[5]:

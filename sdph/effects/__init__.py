@@ -1,8 +1,33 @@
 """The effects that a case can switch on, one file each, and the registry of them."""
 
-from sdph.effects import conduction, heat
+from sdph.effects import (
+    artificial_viscosity,
+    conduction,
+    drag,
+    friction,
+    gas_pressure,
+    granular_pressure,
+    granular_temperature,
+    granular_viscosity,
+    gravity,
+    heat,
+    walls,
+)
 from sdph.effects.effect import OFF, Effect, kernel_of
 
-REGISTRY: dict[str, Effect] = {row.EFFECT.name: row.EFFECT for row in (heat, conduction)}
+FILES = (
+    drag,
+    gas_pressure,
+    gravity,
+    granular_pressure,
+    friction,
+    granular_viscosity,
+    granular_temperature,
+    artificial_viscosity,
+    walls,
+    heat,
+    conduction,
+)
+REGISTRY: dict[str, Effect] = {file.EFFECT.name: file.EFFECT for file in FILES}
 
 __all__ = ["OFF", "REGISTRY", "Effect", "kernel_of"]

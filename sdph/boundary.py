@@ -1,0 +1,120 @@
+"""Where walls are: dummy particles behind the sides of the domain, and behind any surface mesh."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+
+from sdph.effects.walls import Dummies
+from sdph.neighbours import Neighbours
+from sdph.schema import CaseError
+
+REACH = 2.0  # support of the kernels in smoothing lengths
+LAYERS = 3  # the support of the kernel is 2 h = 3 spacings
+SIDES = {"left": (0, 0), "right": (0, 1), "bottom": (1, 0), "top": (1, 1), "back": (2, 0), "front": (2, 1)}  # axis, end
+
+
+class Boundary:
+    """The dummies of a case and which of them each particle sees."""
+
+    def __init__(self, case):
+        self.search = Neighbours(REACH * case.smoothing_length)
+        self.dummies = _sorted(case, dummies(case), self.search)
+
+    def rows(self, state_axes):
+        """Dummies near each particle; valid as long as the particles' own rows."""
+        return self.search.seen_from(_axes(self.dummies, len(state_axes)), state_axes)
+
+
+def _axes(dummies: Dummies, dimensions: int):
+    return (dummies.x, dummies.y, dummies.z)[:dimensions]
+
+
+def _sorted(case, table: np.ndarray, search: Neighbours) -> Dummies:
+    order = search.sort(tuple(np.ascontiguousarray(column) for column in table[:, : case.dimensions].T))
+    return Dummies(*(np.ascontiguousarray(column) for column in table[order].T))
+
+
+def dummies(case) -> np.ndarray:
+    """(W, 7) place, normal, depth of all dummies of a case."""
+    mesh = case.parameters["walls"].mesh
+    parts = [_box(case)] + ([_mesh(mesh, case.resolution.spacing, case.dimensions)] if mesh else [])
+    return np.concatenate(parts)
+
+
+def _box(case) -> np.ndarray:
+    """Lattice points outside the box that lie behind a closed side, at most LAYERS deep."""
+    d, spacing = case.dimensions, case.resolution.spacing
+    counts = [max(1, round(length / spacing)) for length in case.domain.size]
+    steps = [length / n for length, n in zip(case.domain.size, counts)]
+    ticks = [(np.arange(-LAYERS, n + LAYERS) + 0.5) * step for n, step in zip(counts, steps)]
+    points = np.stack([m.ravel() for m in np.meshgrid(*ticks, indexing="ij")], axis=1)
+    outside = np.stack([(points < 0.0), (points > case.domain.size)], axis=-1)  # (P, d, end)
+    depth = np.maximum(-points, points - case.domain.size)
+    closed = np.stack([_closed(case, points, side) for side in itertools.islice(SIDES, 2 * d)], axis=1).reshape(-1, d, 2)
+    keep = outside.any(axis=(1, 2)) & (~outside | closed).all(axis=(1, 2))
+    table = np.zeros((int(keep.sum()), 7))
+    table[:, :d] = points[keep]
+    single = outside[keep].sum(axis=(1, 2)) == 1
+    table[:, 3 : 3 + d] = np.where(single[:, None], outside[keep, :, 0] * 1.0 - outside[keep, :, 1] * 1.0, 0.0)
+    table[:, 6] = depth[keep].max(axis=1)
+    return table
+
+
+def _closed(case, points, side: str) -> np.ndarray:
+    """Mask of the points in front of which a side holds grains back: all but pressure outlets do."""
+    axis, _ = SIDES[side]
+    mask = np.ones(len(points), bool)
+    for boundary in case.boundaries.values():
+        if boundary.side == side and boundary.kind == "pressure_outlet":
+            mask &= ~_within(points, axis, boundary.span)
+    return mask
+
+
+def _within(points, axis: int, span) -> np.ndarray:
+    """Mask of the points within a span [m] on the tangential axes; everywhere without one."""
+    if span is None:
+        return np.ones(len(points), bool)
+    spans = span if isinstance(span[0], tuple) else (span,)
+    tangential = [a for a in range(points.shape[1]) if a != axis]
+    return np.logical_and.reduce([(points[:, a] >= low) & (points[:, a] <= high) for a, (low, high) in zip(tangential, spans)])
+
+
+def _mesh(path: str, spacing: float, dimensions: int) -> np.ndarray:
+    """Dummies behind a surface mesh: lines in 2-D, triangles in 3-D, normals to the left of a line or by the right hand."""
+    import meshio
+
+    try:
+        mesh = meshio.read(path)
+    except (OSError, SystemExit, meshio.ReadError) as error:
+        raise CaseError(f"walls.mesh = {path!r} cannot be read ({error}); give a surface mesh that meshio reads") from None
+    kind = "line" if dimensions == 2 else "triangle"
+    if kind not in mesh.cells_dict:
+        raise CaseError(f"walls.mesh = {path!r} holds no cells of type {kind}; a wall in {dimensions}-D is made of them")
+    corners = np.asarray(mesh.points, float)[mesh.cells_dict[kind]][:, :, :dimensions]
+    parts = [_facet(facet, spacing) for facet in corners]
+    table = np.zeros((sum(len(points) for points, _ in parts) * LAYERS, 7))
+    surface = np.concatenate([points for points, _ in parts])
+    normal = np.concatenate([np.tile(n, (len(points), 1)) for points, n in parts])
+    for layer in range(LAYERS):
+        rows = slice(layer * len(surface), (layer + 1) * len(surface))
+        depth = (layer + 0.5) * spacing
+        table[rows, :dimensions], table[rows, 3 : 3 + dimensions], table[rows, 6] = surface - depth * normal, normal, depth
+    return table
+
+
+def _facet(corners: np.ndarray, spacing: float) -> tuple[np.ndarray, np.ndarray]:
+    """Points about one spacing apart on a line or triangle, and its unit normal."""
+    edges = corners[1:] - corners[0]
+    if len(edges) == 1:
+        normal = np.array([-edges[0, 1], edges[0, 0]])
+    else:
+        normal = np.cross(*edges)
+    n = max(1, int(np.ceil(np.linalg.norm(edges, axis=1).max() / spacing)))
+    if len(edges) == 1:
+        weights = ((np.arange(n) + 0.5) / n)[:, None]
+    else:
+        a, b = ((m.ravel() + 1.0 / 3.0) / n for m in np.meshgrid(np.arange(n), np.arange(n), indexing="ij"))
+        weights = np.stack((a, b), axis=1)[a + b < 1.0]
+    return corners[0] + weights @ edges, normal / np.linalg.norm(normal)

@@ -1,0 +1,45 @@
+"""Monaghan's artificial viscosity against ringing and interpenetration (paper section 4: 0.1 and 0.2)."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from numba import njit
+
+from sdph.effects.effect import Effect
+from sdph.laws import viscosity
+from sdph.schema import quantity, record
+
+
+@record
+class ArtificialViscosity:
+    alpha: float = quantity("", 0.1, least=0.0)
+    beta: float = quantity("", 0.2, least=0.0)
+
+
+class ArtificialP(NamedTuple):
+    alpha: float
+    beta: float
+    h: float
+
+
+def kernel(case) -> ArtificialP:
+    own = case.parameters["artificial_viscosity"]
+    return ArtificialP(own.alpha, own.beta, case.smoothing_length)
+
+
+@njit(cache=True, error_model="numpy")
+def pair(p, approach, r_squared, c_i, c_j, rho_i, rho_j):
+    """Pi_ij [m5/(kg s2)]; approach = v_ij.r_ij [m2/s]."""
+    if len(p) == 0:
+        return 0.0
+    return viscosity.monaghan(approach, r_squared, p.h, 0.5 * (c_i + c_j), 0.5 * (rho_i + rho_j), p.alpha, p.beta)
+
+
+EFFECT = Effect(
+    name="artificial_viscosity",
+    summary="Monaghan's artificial viscosity",
+    parameters=ArtificialViscosity,
+    kernel=kernel,
+    moves=True,
+)

@@ -1,0 +1,57 @@
+"""Pressure of agitated grains, Lun et al. 1984: p_p = a rho theta + 2 rho (1+e) a^2 g0 theta."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from numba import njit
+
+from sdph.effects.effect import Effect
+from sdph.laws import granular
+from sdph.schema import record
+
+
+@record
+class GranularPressure:
+    """Has no input of its own: restitution and packing limit are those of the grains."""
+
+
+class PressureP(NamedTuple):
+    """Restitution [-], packing limit [-], grain density [kg/m3]."""
+
+    restitution: float
+    packing: float
+    grain_density: float
+
+
+def kernel(case) -> PressureP:
+    return PressureP(case.grains.restitution, case.grains.packing_limit, case.grains.density)
+
+
+@njit(cache=True, error_model="numpy")
+def pressure(p, alpha_p, theta):
+    """p_p [Pa]; the pole of g0 is met at most PACKING_MARGIN below the packing limit."""
+    if len(p) == 0:
+        return 0.0
+    g0 = granular.sinclair_jackson(granular.capped_fraction(alpha_p, p.packing), p.packing)
+    return granular.lun_pressure(alpha_p, theta, p.restitution, g0, p.grain_density)
+
+
+@njit(cache=True, error_model="numpy")
+def sound_squared(p, alpha_p, theta):
+    """c^2 [m2/s2] of the agitated grains, their heating by compression included."""
+    if len(p) == 0:
+        return 0.0
+    a = granular.capped_fraction(alpha_p, p.packing)
+    g0, slope = granular.sinclair_jackson(a, p.packing), granular.sinclair_jackson_slope(a, p.packing)
+    return granular.sound_speed_squared(a, theta, p.restitution, g0, slope, p.grain_density, 0.0)
+
+
+EFFECT = Effect(
+    name="granular_pressure",
+    summary="pressure of agitated grains (Lun)",
+    parameters=GranularPressure,
+    kernel=kernel,
+    arrays=("theta", "diameter"),
+    moves=True,
+)

@@ -1,0 +1,82 @@
+"""Collisional, kinetic and bulk viscosity of agitated grains, Gidaspow 1994 and Lun et al. 1984 (paper section 2.1)."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from sdph.effects.effect import Effect
+from sdph.laws import granular
+from sdph.schema import record
+
+
+@record
+class GranularViscosity:
+    """Has no input of its own."""
+
+
+class ViscosityP(NamedTuple):
+    """Restitution [-], packing limit [-], grain density [kg/m3], smoothing length [m]."""
+
+    restitution: float
+    packing: float
+    grain_density: float
+    h: float
+
+
+def kernel(case) -> ViscosityP:
+    return ViscosityP(case.grains.restitution, case.grains.packing_limit, case.grains.density, case.smoothing_length)
+
+
+class Viscous(NamedTuple):
+    """On where any effect gives a viscosity."""
+
+    dimensions: float
+
+
+@njit(cache=True, error_model="numpy")
+def harmonic(a, b):
+    return 2.0 * a * b / (a + b) if a + b > 0.0 else 0.0
+
+
+@njit(cache=True, error_model="numpy")
+def viscosities(p, alpha_p, theta, diameter):
+    """Total shear and bulk viscosity [Pa s].
+
+    A free path longer than h is not seen: the kinematic viscosity is held at h sqrt(theta) (Knudsen limit, our
+    choice), which Gidaspow's kinetic part passes where grains are few.
+    """
+    if len(p) == 0:
+        return 0.0, 0.0
+    a = granular.capped_fraction(alpha_p, p.packing)
+    g0 = granular.sinclair_jackson(a, p.packing)
+    shear = granular.gidaspow_viscosity(a, theta, p.restitution, g0, p.grain_density, diameter)
+    most = alpha_p * p.grain_density * p.h * np.sqrt(theta)
+    return min(shear, most), granular.lun_bulk_viscosity(a, theta, p.restitution, g0, p.grain_density, diameter)
+
+
+@njit(cache=True, error_model="numpy")
+def pair(viscous, stress, i, j, r_squared, closing, scale):
+    """Viscous force per mass of i by j: `along` r_ij and `across`, along v_ij. Off where `viscous` is ().
+
+    Espanol & Revenga 2003 (Phys. Rev. E 67, 026705) in d = viscous.dimensions: with P = 5/3 mu - lambda and
+    Q = (d+2)(lambda + mu/3) its continuum is mu lap v + (lambda + mu/3) grad div v; it never gives energy.
+    scale = m_j (dW/dr)/r / (rho_i rho_j); closing = v_ij.r_ij.
+    """
+    if len(viscous) == 0:
+        return 0.0, 0.0
+    mu, bulk = harmonic(stress.shear[i], stress.shear[j]), harmonic(stress.bulk[i], stress.bulk[j])
+    along = scale * (viscous.dimensions + 2.0) * (bulk + mu / 3.0) * closing / r_squared if r_squared > 0.0 else 0.0
+    return along, scale * (5.0 / 3.0 * mu - bulk)
+
+
+EFFECT = Effect(
+    name="granular_viscosity",
+    summary="shear and bulk viscosity of agitated grains (Gidaspow, Lun)",
+    parameters=GranularViscosity,
+    kernel=kernel,
+    arrays=("theta", "diameter"),
+    moves=True,
+)

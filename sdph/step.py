@@ -1,0 +1,163 @@
+"""Particles through one window: sub-steps no longer than the effects allow, a force that the exchange holds constant.
+
+A sub-step is symplectic: density, stress and rates from where particles are, then velocities, then places.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from sdph import particles, rates
+from sdph.boundary import Boundary
+from sdph.effects import OFF, REGISTRY, granular_temperature, walls
+from sdph.effects.granular_viscosity import Viscous
+from sdph.neighbours import Neighbours
+from sdph.rates import Stress
+
+ACOUSTIC = 0.25  # of h/(c + v), Monaghan 1992 (sdph-notes, section 3)
+DIFFUSIVE = 0.125  # of h^2/nu, Morris, Fox & Zhu 1997
+REACH = 2.0  # support of the kernels in smoothing lengths
+
+
+class Stepper:
+    """State of the particles, and how it goes forward."""
+
+    def __init__(self, case, parameters, state):
+        self.case, self.parameters, self.state = case, parameters, state
+        self.kernel = rates.kernel_of(case)
+        self.neighbours = Neighbours(REACH * case.smoothing_length)
+        self.boundary = Boundary(case) if parameters["walls"] else None
+        on = parameters["granular_viscosity"] or parameters["friction"]
+        self.viscous = Viscous(float(case.dimensions)) if on else OFF
+        self.steps, self.contacts, self.limit = 0, 0, ""
+        self.mechanical_heat = 0.0  # what motion has given to the temperature of the grains [J]
+        self.bounds_work = 0.0  # what the bounds of theta have added [J]
+
+    def prepare(self) -> None:
+        """Neighbours and density of where the particles are now."""
+        before = self.neighbours.built
+        self.state, self.rows = self.neighbours.update(self.state)
+        if self.boundary and before is not self.neighbours.built:
+            self.wall_rows = self.boundary.rows(particles.axes(self.state))
+        rates.sum_density(self.kernel, self.state, self.rows, self.neighbours.box, *self._walls(), self.state.density)
+
+    def conduct(self, dt: float, heat) -> None:
+        """Grains at rest through `dt` [s]: conduction, and `heat` (N,) [J] from the gas spread evenly."""
+        limit = self._limit_of("conduction")
+        steps = max(1, math.ceil(dt / limit * (1.0 - 1e-9)))
+        heating = np.zeros(len(self.state.x))
+        for _ in range(steps):
+            rates.conduct(self.kernel, self.state, self.rows, self.neighbours.box, self.parameters["conduction"], heating)
+            self._warm(heating * dt / steps + heat / self.state.mass / steps)
+        self.steps += steps
+
+    def move(self, dt: float, heat, body, damping) -> None:
+        """Grains through `dt` [s]: heat (N,) [J] from the gas, body (N, 3) [m/s2] from outside, damping (N,) [1/s] of
+        theta, all held over the window, by `ident` because particles are sorted anew on the way."""
+        held = Held(self.state, heat / dt, body, damping)
+        left = dt
+        while left > 0.0:
+            step = self._sub_step(left)
+            self._advance(step, held.now(self.state))
+            left = 0.0 if step >= left else left - step
+            self.prepare()
+
+    def _sub_step(self, left: float) -> float:
+        """The next sub-step [s]: what is left of the window, in equal parts."""
+        s, p = self.state, self.parameters
+        self.sound = np.empty(len(s.x))
+        rates.sound_speeds(s, self.case.grains.density, p["granular_pressure"], p["friction"], self.sound)
+        speed = np.sqrt(s.u**2 + s.v**2 + (s.w**2 if len(s.w) else 0.0))
+        fastest = float((self.sound + speed).max(initial=0.0))
+        limits = {"sound": ACOUSTIC * self.kernel.h / fastest if fastest else math.inf, "conduction": self._limit_of("conduction")}
+        if len(s.theta) and s.theta.max(initial=0.0) > 0.0:  # viscosity and conductivity are at most h sqrt(theta)
+            limits["agitation"] = DIFFUSIVE * self.kernel.h / math.sqrt(s.theta.max())
+        self.limit = min(limits, key=limits.get)
+        return left / max(1, math.ceil(left / limits[self.limit] * (1.0 - 1e-9)))
+
+    def _advance(self, dt: float, held) -> None:
+        """One sub-step: stress, walls, rates, then theta, heat, velocity, place."""
+        heat, body, damping = held
+        s, p, count = self.state, self.parameters, len(self.state.x)
+        shear_squared, divergence = np.zeros(count), np.zeros(count)
+        if p["friction"] or (p["granular_temperature"] and p["granular_temperature"].model == 1):
+            rates.strain(self.kernel, s, self.rows, self.neighbours.box, shear_squared, divergence)
+        stress = self._stress(dt, shear_squared)
+        pressure = stress.kinetic_pressure + stress.friction_pressure
+        wall_pressure, wall_velocity = self._extrapolate(pressure, body)
+        acceleration, agitation, heating = np.empty((count, 3)), np.empty(count), np.empty(count)
+        rates.rates(
+            self.kernel, s, self.rows, self.neighbours.box, stress, self.viscous, p["artificial_viscosity"],
+            p["granular_temperature"], p["conduction"], *self._walls(), wall_pressure, wall_velocity, pressure,
+            acceleration, agitation, heating,
+        )  # fmt: skip
+        if p["granular_temperature"]:
+            self._agitate(dt, agitation, damping, shear_squared, divergence)
+        if len(s.temperature):
+            self._warm((heating + heat / s.mass) * dt)
+            self.mechanical_heat += float((s.mass * heating).sum() * dt)  # conduction adds up to nothing
+        self._drift(dt, acceleration + body)
+        self.steps += 1
+
+    def _stress(self, dt: float, shear_squared) -> Stress:
+        s, p = self.state, self.parameters
+        fields = [np.empty(len(s.x)) for _ in range(5)]
+        rates.constitutive(
+            s, self.case.grains.density, dt, shear_squared, p["granular_pressure"], p["friction"],
+            p["granular_viscosity"], p["granular_temperature"], *fields,
+        )  # fmt: skip
+        kinetic, lasting, shear, bulk, conductivity = fields
+        return Stress(kinetic, lasting, shear, bulk, self.sound, conductivity)
+
+    def _extrapolate(self, pressure, body):
+        if not self.boundary:
+            return OFF, OFF
+        count = len(self.boundary.dummies.x)
+        weight, wall_pressure, wall_velocity = np.empty(count), np.empty(count), np.empty((count, 3))
+        walls.extrapolate(
+            self.kernel, self.boundary.dummies, self.wall_rows, self.state, pressure, body, weight, wall_pressure, wall_velocity
+        )
+        return wall_pressure, wall_velocity
+
+    def _agitate(self, dt: float, agitation, damping, shear_squared, divergence) -> None:
+        held = np.empty(len(agitation))
+        granular_temperature.advance_all(
+            self.parameters["granular_temperature"], self.state, agitation, damping, shear_squared, divergence, dt, held
+        )
+        self.bounds_work += float(1.5 * (self.state.mass * held).sum())
+
+    def _warm(self, heat) -> None:
+        """Heat per mass (N,) [J/kg] into the temperature."""
+        self.state.temperature[:] += heat / self.case.grains.heat_capacity
+
+    def _drift(self, dt: float, acceleration) -> None:
+        s = self.state
+        for a, (place, velocity) in enumerate(zip((s.x, s.y, s.z), (s.u, s.v, s.w))):
+            if len(place):
+                velocity += acceleration[:, a] * dt
+                place += velocity * dt
+        if self.boundary:
+            self.contacts += walls.contact(self.parameters["walls"], self.boundary.dummies, self.wall_rows, s)
+
+    def _walls(self):
+        """Parameters, dummies and rows of the walls for kernels."""
+        return (self.parameters["walls"], self.boundary.dummies, self.wall_rows) if self.boundary else (OFF, OFF, OFF)
+
+    def _limit_of(self, name: str) -> float:
+        return REGISTRY[name].dt_limit(self.parameters[name], self.case, self.state) if self.parameters[name] else math.inf
+
+
+class Held:
+    """Values of particles that hold over a window, handed out in whatever order the particles stand."""
+
+    def __init__(self, state, *values):
+        self.ident, self.values = state.ident.copy(), values
+        self.sorted = np.argsort(self.ident)
+
+    def now(self, state):
+        if np.array_equal(state.ident, self.ident):
+            return self.values
+        rows = self.sorted[np.searchsorted(self.ident, state.ident, sorter=self.sorted)]
+        return tuple(value[rows] for value in self.values)
