@@ -8,7 +8,7 @@ import sys
 import pytest
 from test_output import snapshot
 
-from sdph import paths, scenes
+from sdph import cli, paths, scenes
 
 ENVIRONMENT = os.environ | {"PYTHONPATH": str(paths.PACKAGE.parent)}
 SMALL = ("--gas", "embedded", "--set", "resolution.spacing_mm=20", "--set", "resolution.cell_mm=50", "--set", "run.output_interval_s=0.001", "--until", "0.002")
@@ -22,15 +22,21 @@ def sdph(*arguments, cwd, code=0):
     return done
 
 
-def refused(*arguments, cwd):
-    """The one line that a refused command leaves; nothing else is printed, and the folder stays as it is."""
-    before = snapshot(cwd)
-    done = sdph(*arguments, cwd=cwd, code=2)
-    assert done.stdout == ""
-    lines = done.stderr.splitlines()
-    assert len(lines) == 1 and lines[0].startswith("sdph: ")
-    assert snapshot(cwd) == before
-    return lines[0]
+@pytest.fixture
+def refused(tmp_path, monkeypatch, capsys):
+    """Runs a command in this process; gives the one line that is left when it is refused and nothing is touched."""
+    monkeypatch.chdir(tmp_path)
+
+    def call(*arguments):
+        before = snapshot(tmp_path)
+        assert cli.main(list(arguments)) == 2
+        said = capsys.readouterr()
+        assert said.out == ""
+        assert len(said.err.splitlines()) == 1 and said.err.startswith("sdph: ")
+        assert snapshot(tmp_path) == before
+        return said.err
+
+    return call
 
 
 @pytest.mark.parametrize("arguments", [("--help",), ("run", "--help"), ("--version",), ("list",)])
@@ -72,25 +78,34 @@ def test_list_names_every_scene(tmp_path):
         (("init", "no_such_scene", "folder"), ("no_such_scene",)),
     ],
 )
-def test_bad_input_is_one_line_and_code_2(tmp_path, arguments, told):
-    line = refused(*arguments, cwd=tmp_path)
+def test_bad_input_is_one_line_and_code_2(refused, arguments, told):
+    line = refused(*arguments)
     for part in told:
         assert part in line
 
 
 @pytest.mark.parametrize("text", ["title = [", "\N{SNOWMAN}", 'dimensions = 2\n"two\\nlines" = 1\n'])
-def test_bad_case_file_is_one_line_and_code_2(tmp_path, text):
+def test_bad_case_file_is_one_line_and_code_2(refused, tmp_path, text):
     (tmp_path / "case.toml").write_text(text, encoding="utf-8")
-    refused("run", "case.toml", cwd=tmp_path)
-    refused("run", ".", cwd=tmp_path)
+    refused("run", "case.toml")
+    refused("run", ".")
+
+
+def test_process_ends_with_code_2_and_one_line(tmp_path):
+    done = sdph("run", "disc_clusster", cwd=tmp_path, code=2)
+    assert (done.stdout, done.stderr.count("\n")) == ("", 1)
+    assert "disc_cluster" in done.stderr
 
 
 @pytest.mark.parametrize("arguments", [(), ("fly",), ("run",), ("run", "disc_cluster", "--np", "two"), ("compare", "x", "--against", "nothing")])
-def test_wrong_usage_is_code_2(tmp_path, arguments):
-    assert "usage: sdph" in sdph(*arguments, cwd=tmp_path, code=2).stderr
+def test_wrong_usage_is_code_2(capsys, arguments):
+    with pytest.raises(SystemExit) as end:
+        cli.main(list(arguments))
+    assert end.value.code == 2
+    assert "usage: sdph" in capsys.readouterr().err
 
 
-def test_run_leaves_a_whole_folder_and_is_not_run_over(tmp_path):
+def test_run_leaves_a_whole_folder_and_is_not_run_over(tmp_path, refused):
     summary = json.loads(sdph("run", "disc_cluster", *SMALL, "--out", "mine", "--json", cwd=tmp_path).stdout)
     folder = tmp_path / "mine"
     assert summary == json.loads((folder / "summary.json").read_text())
@@ -100,22 +115,23 @@ def test_run_leaves_a_whole_folder_and_is_not_run_over(tmp_path):
         assert (folder / name).stat().st_size > 0
     assert len(list((folder / "fields").iterdir())) == 6  # start and two outputs, particles and gas
     assert not list(folder.rglob("*.part"))
-    assert "another run" in refused("run", "disc_cluster", *SMALL, "--out", "mine", cwd=tmp_path)
+    assert "another run" in refused("run", "disc_cluster", *SMALL, "--out", "mine")
     again = json.loads(sdph("run", "mine", "--out", "again", "--json", cwd=tmp_path).stdout)  # the case it wrote is the case it ran
     exact = {key: value for key, value in summary.items() if "wall" not in key and "_per_" not in key and "start_to" not in key}
     assert {key: again[key] for key in exact} == exact
 
 
-def test_init_gives_a_folder_of_ones_own(tmp_path):
+def test_init_gives_a_folder_of_ones_own(tmp_path, refused):
     sdph("init", "disc_cluster", "mine", cwd=tmp_path)
     assert (tmp_path / "mine" / "case.toml").read_text() == (scenes.HERE / "disc_cluster" / "case.toml").read_text()
-    assert "another run or case" in refused("init", "disc_cluster", "mine", cwd=tmp_path)
+    assert "another run or case" in refused("init", "disc_cluster", "mine")
     file = tmp_path / "mine" / "case.toml"
     file.write_text(file.read_text().replace("spacing_mm = 2.5", "spacing_mm = 250.0"))
-    assert "spacing_mm = 250" in refused("run", "mine", cwd=tmp_path)
+    assert "spacing_mm = 250" in refused("run", "mine")
 
 
 def test_unnamed_runs_are_numbered(tmp_path):
-    for _ in range(2):
-        sdph("run", "disc_cluster", *SMALL, cwd=tmp_path)
-    assert sorted(path.name for path in (tmp_path / "runs").iterdir()) == ["disc_cluster", "disc_cluster-2"]
+    (tmp_path / "runs" / "disc_cluster").mkdir(parents=True)
+    sdph("run", "disc_cluster", *SMALL, cwd=tmp_path)
+    assert (tmp_path / "runs" / "disc_cluster-2" / "summary.json").is_file()
+    assert not list((tmp_path / "runs" / "disc_cluster").iterdir())
