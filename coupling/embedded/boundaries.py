@@ -178,17 +178,19 @@ def active_nodes(grid: Grid, faces: Faces) -> np.ndarray:
     return active
 
 
-def resting_pressure(faces: Faces, grid: Grid, gravity, density) -> tuple[np.ndarray, np.ndarray]:
-    """Pressure [Pa] of gas at rest of `density` (a number, or (B,) at the faces): outside each boundary face (B,),
-    and in the cells (C,) for the same number. The given pressure holds at the highest opening, so that openings at
-    different heights drive no flow by themselves; a closed box has zero mean."""
-    place = np.zeros((grid.size, grid.dimensions))
+def resting_pressure(faces: Faces, grid: Grid, gravity, density: float) -> tuple[np.ndarray, np.ndarray]:
+    """Pressure [Pa] of gas of `density` [kg/m3] at rest: outside the boundary faces (B,) and in the cells (C,).
+
+    The given pressure of an opening holds at the centre of all openings, so that openings at different heights drive
+    no flow by themselves; a closed box has zero mean.
+    """
+    place, rows = np.zeros((grid.size, grid.dimensions)), np.arange(len(faces.cell))
     place[grid.cells] = grid.centres
     centre = place[faces.cell]
-    rows = np.arange(len(centre))
     centre[rows, faces.axis] += 0.5 * faces.sign * grid.geometry.width[faces.axis, faces.cell]
     outside, inside = centre @ np.asarray(gravity), grid.centres @ np.asarray(gravity)
     if not faces.open.any():
-        return 0.0 * outside, np.mean(density) * (inside - inside.mean())
-    top = np.flatnonzero(faces.open)[np.argmin(outside[faces.open])]
-    return faces.pressure + density * (outside - outside[top]), faces.pressure[top] + np.mean(density) * (inside - outside[top])
+        return 0.0 * outside, density * (inside - inside.mean())
+    area = grid.geometry.area[faces.axis, faces.face] * faces.open
+    level, given = (np.average(values, weights=area) for values in (outside, faces.pressure))
+    return faces.pressure + density * (outside - level), given + density * (inside - level)

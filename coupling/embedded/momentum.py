@@ -105,19 +105,18 @@ class Momentum:
             Nodes(grid.wide, grid.wide, step, active, *component_spacing(grid, a))
             for a, (step, active) in enumerate(zip(grid.wide[2], self.active))
         ]
-        self.clinging = [self._clinging(a) for a in range(grid.dimensions)]
         self.hold = on_faces(grid, faces, faces.clings * 1.0, 1.0)
 
     def predict(self, old: Flow, window: Window, mass: np.ndarray, fraction: np.ndarray):
-        """Velocity (d, S) under the old pressure, the diagonal D (d, S) [kg] of its equation, the viscous force
-        of the walls on the gas (d,) [N] and the largest residual. mass (S,): of the cells, at the end."""
+        """Velocity (d, S) under the old pressure, the diagonal D (d, S) [kg] of its equation and the largest residual.
+        mass (S,): of the cells, at the end."""
         grid = self.box.grid
         inside = grid.geometry.volume > 0.0
         viscosity = grid.extended(window.alpha * self.box.properties.mixture("viscosity", fraction) * inside)
         moved = self.convected(old, window.dt)
         spread, stress = grid.zeros(), grid.zeros(grid.dimensions)
         divergence(grid.inner, old.velocity, grid.geometry.width, spread)
-        velocity, diagonal, force, residual = moved.copy(), np.ones_like(moved), [], 0.0
+        velocity, diagonal, residual = moved.copy(), np.ones_like(moved), 0.0
         for a in range(grid.dimensions):
             conductance, source, active = np.zeros_like(moved), grid.zeros(), self.active[a]
             viscous_conductances(grid.wide, a, viscosity, grid.geometry, self.hold, window.dt, conductance)
@@ -126,11 +125,9 @@ class Momentum:
             given = grid.geometry, cells, stress, moved[a], self.box.gravity[a], window.dt
             momentum_balance(grid.wide, a, active, *given, diagonal[a], source)
             fill(velocity[a], self.ghosts[a])
-            given, error = solve_implicit(grid.wide, active, conductance, diagonal[a], source, velocity[a], IMPLICIT)
-            b, face, sign = self.clinging[a]
-            force.append(-float((sign * given[b, face]).sum()) / window.dt)
+            _, error = solve_implicit(grid.wide, active, conductance, diagonal[a], source, velocity[a], IMPLICIT)
             residual = max(residual, error)
-        return velocity, diagonal, force, residual
+        return velocity, diagonal, residual
 
     def convected(self, old: Flow, dt: float) -> np.ndarray:
         """The old velocity (d, S) carried on by the old mass fluxes."""
@@ -140,11 +137,3 @@ class Momentum:
             mass = 0.5 * (old.mass + np.roll(old.mass, grid.strides[a]))
             convect(self.nodes[a], self.ghosts[a], velocity[a], mass, old.flux, dt, parts, self.box.limited, False)
         return velocity
-
-    def _clinging(self, axis: int) -> tuple[np.ndarray, ...]:
-        """Axis, index and outward sign of every boundary face of the control volumes of the velocity along `axis`."""
-        faces, along = self.box.faces, self.box.grid.strides[axis]
-        beside = faces.axis != axis
-        b, face, sign = faces.axis[beside], faces.face[beside], faces.sign[beside]
-        end = ~np.isin(face + along, face)  # one more node at the end of each row
-        return np.append(b, b[end]), np.append(face, face[end] + along), np.append(sign, sign[end])

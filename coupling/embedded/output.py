@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from coupling.embedded.box import Box, Flow
+from coupling.embedded.box import Box, Flow, Window
 from coupling.gas import Budget
 
 
@@ -53,32 +53,30 @@ def cell_fields(box: Box, active: np.ndarray, flow: Flow) -> dict[str, np.ndarra
     return fields | ({"vapour_mass_fraction": flow.fraction()[cells]} if box.vapour is not None else {})
 
 
-def budget(box: Box, flow: Flow, fields: dict[str, np.ndarray], viscous, courant: float, residuals: dict[str, float]) -> Budget:
-    """Totals of the gas. The force is that of the walls' friction and of the pressure on the whole boundary area,
-    which gas and particles share in the ratio of their volumes."""
+def force_of_boundary(box: Box, window: Window, before, flow: Flow, fields: dict[str, np.ndarray]) -> tuple[float, ...]:
+    """(3,) [N]: what remains of the change of momentum since `before` (3,) without drag, vapour, weight, and the
+    pressure that the particles feel, their share 1 - alpha of its gradient: walls, pressure at the boundary, momentum
+    convected through it, and what the splitting of velocity and pressure leaves (as in sdphGasFoam)."""
+    cells, d = box.grid.cells, box.grid.dimensions
+    velocity, slope = fields["velocity"][:, :d], fields["pressure_gradient"][:, :d]
+    room = (1.0 - flow.alpha[cells]) * box.grid.geometry.volume[cells]
+    drag = window.push[:, cells].T - (window.pull - window.vapour)[cells, None] * velocity
+    known = drag + flow.mass[cells, None] * np.array(box.gravity) + room[:, None] * slope
+    force = np.zeros(3)
+    force[:d] = ((flow.mass[cells, None] * velocity).sum(axis=0) - before[:d]) / window.dt - known.sum(axis=0)
+    return tuple(force.tolist())
+
+
+def budget(box: Box, flow: Flow, fields: dict[str, np.ndarray]) -> Budget:
+    """Totals of the gas, nothing yet of a window."""
     cells = box.grid.cells
     capacity = box.properties.gas.heat_capacity * flow.mass[cells]
     if box.vapour is not None:
         capacity = capacity + (box.vapour.heat_capacity - box.properties.gas.heat_capacity) * flow.vapour[cells]
-    force = _pressure_force(box, flow, fields["pressure_gradient"])
-    force[: len(viscous)] += viscous
     return Budget(
         mass=float(flow.mass[cells].sum()),
         energy=float((capacity * flow.temperature[cells]).sum()),
         vapour=float(flow.vapour[cells].sum()),
         momentum=tuple((flow.mass[cells, None] * fields["velocity"]).sum(axis=0).tolist()),
-        mass_in=flow.mass_in, energy_in=flow.energy_in, vapour_in=flow.vapour_in,
-        courant=courant, force=tuple(force.tolist()), residuals=residuals,
+        mass_in=flow.mass_in, energy_in=flow.energy_in, vapour_in=flow.vapour_in, courant=0.0,
     )  # fmt: skip
-
-
-def _pressure_force(box: Box, flow: Flow, gradient: np.ndarray) -> np.ndarray:
-    """(3,) [N]; the pressure on a closed face is that of its cell carried on by the gradient."""
-    grid, faces = box.grid, box.faces
-    place = np.zeros(grid.size, dtype=np.int64)
-    place[grid.cells] = np.arange(len(grid.cells))
-    half = 0.5 * grid.geometry.width[faces.axis, faces.cell] * faces.sign
-    on_wall = flow.pressure[faces.cell] + gradient[place[faces.cell], faces.axis] * half
-    pressure = np.where(faces.open, flow.pressure[faces.ghost], on_wall)
-    push = -faces.sign * pressure * grid.geometry.area[faces.axis, faces.face]
-    return np.bincount(faces.axis, weights=push, minlength=3)

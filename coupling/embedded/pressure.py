@@ -83,16 +83,18 @@ class Pressure:
         self.levels = build_levels(grid)
         self.work = np.zeros((grid.dimensions, self.levels.first[-1])), *np.zeros((3, self.levels.first[-1]))
         self.density = box.properties.density(faces.temperature, faces.vapour)  # of what flows in
-        self.ambient, _ = resting_pressure(faces, grid, box.gravity, self.density)
         normal = faces.velocity[np.arange(len(faces.face)), faces.axis]
         self.inlet = np.where(faces.inlet, normal * faces.sign * grid.geometry.area[faces.axis, faces.face], 0.0)  # m3/s outward
         self.standing = grid.zeros(grid.dimensions)
         self.standing[faces.axis, faces.face] = np.where(faces.inlet, normal, 0.0)
 
-    def at_start(self, density: float) -> np.ndarray:
-        """(S,) pressure of gas at rest, and that outside the openings, which stays."""
-        pressure = self.box.grid.padded(resting_pressure(self.box.faces, self.box.grid, self.box.gravity, density)[1])
-        pressure[self.box.faces.ghost] = np.where(self.box.faces.open, self.ambient, 0.0)
+    def at_start(self) -> np.ndarray:
+        """(S,) pressure of the gas of the case at rest, and that outside the openings, which stays."""
+        box = self.box
+        density = float(box.properties.density(np.array([box.temperature]), 0.0)[0])
+        outside, inside = resting_pressure(box.faces, box.grid, box.gravity, density)
+        pressure = box.grid.padded(inside)
+        pressure[box.faces.ghost] = np.where(box.faces.open, outside, 0.0)
         return pressure
 
     def aim(self, old: Flow, window: Window, temperature: np.ndarray, fraction: np.ndarray) -> Aim:

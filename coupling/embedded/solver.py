@@ -28,7 +28,7 @@ from coupling.embedded.box import Box, Flow, window_of
 from coupling.embedded.grid import build_grid, uniform_edges
 from coupling.embedded.linear import IMPLICIT, not_converged
 from coupling.embedded.momentum import Momentum
-from coupling.embedded.output import budget, cell_fields
+from coupling.embedded.output import budget, cell_fields, force_of_boundary
 from coupling.embedded.pressure import Pressure
 from coupling.embedded.scalars import Scalars
 from coupling.gas import SOURCES, GasError, GasState, Mesh
@@ -52,6 +52,7 @@ class EmbeddedGas:
         self.scalars = Scalars(self.box)
         self.sources: tuple[str, ...] = ()
         self.flow: Flow | None = None
+        self.state: GasState | None = None
         grid = self.box.grid
         centres = np.zeros((len(grid.cells), 3))
         centres[:, : grid.dimensions] = grid.centres
@@ -65,10 +66,11 @@ class EmbeddedGas:
         temperature = np.full(grid.size, box.temperature)
         mass, density = grid.zeros(), box.properties.density(temperature[grid.cells], 0.0)
         mass[grid.cells] = alpha[grid.cells] * grid.geometry.volume[grid.cells] * density
-        pressure = self.pressure.at_start(density[0])
+        pressure = self.pressure.at_start()
         velocity = self.pressure.standing.copy()
         self.flow = Flow(0.0, alpha, mass, grid.zeros(), temperature, pressure, velocity, grid.zeros(grid.dimensions))
-        return self._state([0.0] * grid.dimensions, 0.0, {})
+        self.state = self._state()
+        return self.state
 
     def advance(self, dt: float, sources: dict[str, np.ndarray]) -> GasState:
         """One window: where should the mass be, what does momentum want, what does pressure allow, what is carried."""
@@ -77,12 +79,18 @@ class EmbeddedGas:
         window = window_of(self.box, old, dt, sources)
         for _ in range(PASSES if self.box.properties.varies else 1):
             aim = self.pressure.aim(old, window, new.temperature, new.fraction())
-            velocity, diagonal, viscous, residual = self.momentum.predict(old, window, aim.mass, new.fraction())
+            velocity, diagonal, residual = self.momentum.predict(old, window, aim.mass, new.fraction())
             new, left = self.pressure.project(old, window, aim, velocity, diagonal)
             new, courant, residuals = self.scalars.carry(old, window, new)
-        _converged(new.time, residuals | {"momentum": residual})
-        self.flow = new
-        return self._state(viscous, courant, residuals | {"momentum": residual, "pressure": left, "box": new.ratio - 1.0})
+        residuals["momentum"] = residual
+        _converged(new.time, residuals)
+        self.flow, before = new, self.state.budget.momentum
+        found = self._state()
+        force = force_of_boundary(self.box, window, before, new, found.fields)
+        residuals |= {"pressure": left, "box": float(new.ratio - 1.0)}
+        full = dataclasses.replace(found.budget, courant=courant, force=force, residuals=residuals)
+        self.state = dataclasses.replace(found, budget=full)
+        return self.state
 
     def checkpoint(self, folder: Path) -> None:
         """Write `Flow` to one file, whole or not at all."""
@@ -107,14 +115,15 @@ class EmbeddedGas:
         if values["mass"].size != self.box.grid.size:
             raise GasError(f"{path} is of another mesh; restore it with the case that wrote it")
         self.flow = Flow(**{name: value if value.ndim else float(value) for name, value in values.items()})
-        return self._state([0.0] * self.box.grid.dimensions, 0.0, {})
+        self.state = self._state()
+        return self.state
 
     def close(self) -> None:
         """Nothing is left running."""
 
-    def _state(self, viscous, courant: float, residuals: dict[str, float]) -> GasState:
+    def _state(self) -> GasState:
         fields = cell_fields(self.box, self.momentum.active, self.flow)
-        return GasState(self.flow.time, fields, budget(self.box, self.flow, fields, viscous, courant, residuals))
+        return GasState(self.flow.time, fields, budget(self.box, self.flow, fields))
 
     def _check(self, dt: float, sources: dict[str, np.ndarray]) -> None:
         """Sources must be those announced, of the right shape, and finite."""
