@@ -7,6 +7,7 @@ renamed, so that a reader never sees a part of it, and removed by whoever read i
 from __future__ import annotations
 
 import os
+import shutil
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -60,10 +61,9 @@ class FileConnection:
             sleep = min(LONGEST_SLEEP, 1.2 * sleep)
 
     def close(self) -> None:
-        """Remove what nobody read."""
+        """Remove the messages that nobody read; a second call does nothing."""
         for folder in (self._out, self._in):
-            for path in folder.glob("*"):
-                path.unlink(missing_ok=True)
+            shutil.rmtree(folder, ignore_errors=True)
 
 
 class FileServer:

@@ -6,6 +6,7 @@ import os
 import secrets
 import signal
 import subprocess
+import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -26,6 +27,13 @@ STEP_TIME = 3600.0  # s that one step may take
 QUIET = 2.0  # s of waiting after which the user is told what is waited for
 END_TIME = 5.0  # s that the solver may take to end by itself
 OUTPUT_SLACK = 1e-9  # of an output interval: round-off of summed time steps
+
+
+# [coupling] transport -> what waits for the solver of a run in `folder`
+SERVERS = {
+    "socket": lambda secret, folder: SocketServer(secret),
+    "file": lambda secret, folder: FileServer(secret, Path(tempfile.mkdtemp(prefix="exchange-", dir=folder))),
+}
 
 
 class OpenFoamGas:
@@ -58,8 +66,7 @@ class OpenFoamGas:
     def _launch(self, program: Path) -> None:
         """Start the solver and wait for its greeting."""
         secret = secrets.token_hex(32)
-        files = self._case.coupling.transport == "file"
-        server = FileServer(secret, self._folder / "exchange") if files else SocketServer(secret)
+        server = SERVERS[self._case.coupling.transport](secret, self._folder)
         try:
             self._process = self._start(program, server.address, secret)
             self._connection, first = self._guard(lambda alive: server.accept(START_TIME, alive), "to start")

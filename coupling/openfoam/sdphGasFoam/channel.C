@@ -158,7 +158,7 @@ public:
         content << file.rdbuf();
         const std::string bytes = content.str();
         ::unlink(path.c_str());
-        return wire::decode(wire::readHeader(bytes, limit), bytes.substr(wire::headerSize));
+        return wire::decode(bytes, limit);
     }
 };
 

@@ -40,7 +40,7 @@ wire::Message nextMessage(Channel* channel)
     compat::broadcast(bytes);
     if (channel) return message;
     const std::string encoded(bytes.cdata(), bytes.size());
-    return wire::decode(wire::readHeader(encoded, wire::absoluteLimit), encoded.substr(wire::headerSize));
+    return wire::decode(encoded, wire::absoluteLimit);
 }
 
 void send(Channel* channel, const wire::Message& message)
