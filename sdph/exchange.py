@@ -132,11 +132,13 @@ class Exchange:
             given = handed.sources["drag"][:, None] * velocity - handed.sources["drag_velocity"]
             impulse_from_gas = (given * self.volumes[:, None]).sum(axis=0) * handed.dt
             self.drag_heat = self._density(handed.weights, (impulse * apart).sum(axis=1) / handed.dt)
+        if self.case.coupling.one_way:  # the gas feels nothing
+            from_gas, impulse_from_gas = 0.0, np.zeros(3)
         return Taken(taken_heat, impulse, from_gas, impulse_from_gas)
 
     def drag_heat_of(self, handed: Handed) -> float:
         """Heat of drag [J] that the gas was handed."""
-        if "heat_source" not in handed.sources:
+        if "heat_source" not in handed.sources or self.case.coupling.one_way:
             return 0.0
         return float((handed.sources["heat_source"] * self.volumes).sum() * handed.dt)
 
@@ -150,10 +152,10 @@ class Exchange:
 
 
 def _temperature_span(case) -> float:
-    """Hottest less coldest of all that the case gives a temperature [K]."""
+    """Hottest less coldest of all that the case gives a temperature [K], and where they are alike a negligible part of it."""
     given = [case.gas.temperature, *(region.temperature for region in case.particles.values())]
     given += [boundary.temperature for boundary in case.boundaries.values() if boundary.temperature]
-    return max(given) - min(given)
+    return max(max(given) - min(given), NEGLIGIBLE * max(given))
 
 
 @njit(cache=True, parallel=True, error_model="numpy")

@@ -7,7 +7,7 @@ import pytest
 from builders import disc, fixed_windows, run, simulation
 from fakes import StillGas
 
-from sdph import output
+from sdph import ledger, output
 
 SHORT = ("resolution.spacing_mm=10", "resolution.cell_mm=25", "run.end_time_s=0.004", "run.output_interval_s=0.004", "run.report_at_s=[]")
 
@@ -49,6 +49,17 @@ def test_leak_shows(tmp_path):
     lost = done.ledger.first["gas_energy_J"] * 1e-6 * done.windows
     assert done.ledger.summary()["energy_drift_rel"] * done.ledger.summary()["heat_exchanged_J"] == pytest.approx(lost, rel=0.5)
     assert done.ledger.summary()["energy_drift_rel"] > 1e-6
+
+
+def test_unequal_exchange_shows(tmp_path):
+    """One of three windows in which the gas gave a millionth more than the particles took."""
+    run = simulation(disc(*SHORT), tmp_path)
+    for window, given in enumerate((10.0, 10.00001, 10.0)):
+        exchanged = ledger.NOTHING | {"heat_to_particles_J": 10.0, "heat_to_gas_J": -given}
+        run.ledger.close_window(1e-3 * (window + 1), 1e-3, "largest", run.state, run.gas_state, exchanged)
+    summary = run.ledger.summary()
+    assert summary["heat_exchanged_J"] == 30.0
+    assert summary["exchange_energy_mismatch_rel"] == pytest.approx(1e-5 / 30.0, rel=1e-6)
 
 
 def test_what_crosses_the_boundary_is_no_drift(tmp_path):

@@ -89,11 +89,11 @@ def test_fields_read_back(tmp_path):
     case = disc(*SHORT)
     simulated = simulation(case, tmp_path)
     output.create(tmp_path / "run")
-    fields = output.Fields(tmp_path / "run", simulated.gas)
-    fields.write(0.0, simulated.state, simulated.gas_state)
+    fields = output.Fields(tmp_path / "run", simulated.gas, case.grains.density)
+    fields.write(0.0, simulated.state, simulated.cell_fields())
     while simulated.time < case.run.end_time:
         simulated.window()
-    fields.write(simulated.time, simulated.state, simulated.gas_state)
+    fields.write(simulated.time, simulated.state, simulated.cell_fields())
     reader = view.read(tmp_path / "run")
     assert list(reader.time_values) == [0.0, 0.004]
     time, particles, gas = view.state_at(reader)
@@ -103,6 +103,7 @@ def test_fields_read_back(tmp_path):
     np.testing.assert_allclose(particles.points[:, 0], simulated.state.x, rtol=1e-6)
     from scipy.spatial import cKDTree
 
+    np.testing.assert_allclose(particles["alpha_p"], simulated.state.density / 3060.0, rtol=1e-14)
     distance, order = cKDTree(simulated.gas.mesh.centres).query(gas.cell_centers().points)
     assert distance.max() < 1e-9
     np.testing.assert_array_equal(gas["temperature"], simulated.gas.temperature[order])
@@ -115,9 +116,10 @@ def test_folder_without_fields_is_told(tmp_path):
 
 
 def test_picture_of_a_run(tmp_path):
-    simulated = run(disc(*SHORT), tmp_path)
+    case = disc(*SHORT)
+    simulated = run(case, tmp_path)
     output.create(tmp_path / "run")
-    output.Fields(tmp_path / "run", simulated.gas).write(simulated.time, simulated.state, simulated.gas_state)
+    output.Fields(tmp_path / "run", simulated.gas, case.grains.density).write(simulated.time, simulated.state, simulated.cell_fields())
     view.show(tmp_path / "run", tmp_path / "picture.png")
     from matplotlib.image import imread
 
