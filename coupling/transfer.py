@@ -22,12 +22,16 @@ SUPPORT = 2.0  # reach of the cubic spline in smoothing lengths
 
 
 class Weights(NamedTuple):
-    """Weights of N particles: row k is cells[start[k]:start[k+1]] with weight[...]; C cells in all."""
+    """Weights of N particles: row k is cells[k, :count[k]] with weight[k, :count[k]]; of `total` cells.
 
-    start: np.ndarray
+    `outside` names the particles that cover no cell centre and took the nearest cell.
+    """
+
+    count: np.ndarray
     cells: np.ndarray
     weight: np.ndarray
-    count: int
+    total: int
+    outside: np.ndarray
 
 
 class Transfer:
@@ -37,37 +41,35 @@ class Transfer:
         self.volumes = mesh.volumes
         size = (mesh.volumes / mesh.depth) ** (1.0 / mesh.dimensions)
         self.smoothing = np.maximum(smoothing, size)
-        self.centres = np.ascontiguousarray(mesh.centres[:, : mesh.dimensions])
-        self.bins = _bins(self.centres, SUPPORT * self.smoothing.max())
+        self.bins = _bins(mesh.centres[:, : mesh.dimensions], self.smoothing, mesh.volumes)
+        self.stride = 16
 
     def weights(self, positions: np.ndarray) -> Weights:
         """Weights of particles at (N, 3) positions [m]; a particle that covers no cell centre takes the nearest."""
-        points = np.ascontiguousarray(positions[:, : self.centres.shape[1]])
-        count = _count(self.bins, self.centres, self.smoothing, points)
-        start = np.concatenate(([0], np.cumsum(np.maximum(count, 1))))
-        cells, weight = np.empty(start[-1], np.int64), np.empty(start[-1])
-        _fill(self.bins, self.centres, self.smoothing, self.volumes, points, start, cells, weight)
-        for k in np.flatnonzero(count == 0):
-            cells[start[k]] = ((self.centres - points[k]) ** 2).sum(axis=1).argmin()
-            weight[start[k]] = 1.0
-        return Weights(start, cells, weight, len(self.volumes))
-
-    def outside(self, positions: np.ndarray) -> np.ndarray:
-        """Mask of the particles that cover no cell centre."""
-        points = np.ascontiguousarray(positions[:, : self.centres.shape[1]])
-        return _count(self.bins, self.centres, self.smoothing, points) == 0
+        while True:
+            count = np.empty(len(positions), np.int64)
+            cells, weight = np.empty((len(positions), self.stride), np.int64), np.empty((len(positions), self.stride))
+            _fill(self.bins, positions, count, cells, weight)
+            if count.max(initial=0) <= self.stride:
+                break
+            self.stride = int(count.max()) + 2
+        outside = np.flatnonzero(count == 0)
+        for k in outside:
+            cells[k, 0] = self.bins.cell[((self.bins.centres - positions[k]) ** 2).sum(axis=1).argmin()]
+            weight[k, 0] = count[k] = 1
+        return Weights(count, cells, weight, len(self.volumes), outside)
 
 
 def gather(weights: Weights, field: np.ndarray) -> np.ndarray:
     """Cell values (C,) or (C, m) at the particles: (N,) or (N, m)."""
-    out = np.empty((len(weights.start) - 1, *field.shape[1:]))
+    out = np.empty((len(weights.count), *field.shape[1:]))
     _gather(weights, _columns(field), _columns(out))
     return out
 
 
 def deposit(weights: Weights, field: np.ndarray) -> np.ndarray:
     """Extensive particle values (N,) or (N, m) summed into cells: (C,) or (C, m). In order, so that it repeats bit for bit."""
-    out = np.zeros((weights.count, *field.shape[1:]))
+    out = np.zeros((weights.total, *field.shape[1:]))
     _deposit(weights, _columns(field), _columns(out))
     return out
 
@@ -78,23 +80,30 @@ def _columns(field):
 
 
 class Bins(NamedTuple):
-    """Cell centres sorted into square bins of side `size`."""
+    """Cells sorted into square bins of side `size`, each with its centre, smoothing length, volume and number."""
 
     low: np.ndarray
-    size: float
+    size: np.ndarray
     shape: np.ndarray
     start: np.ndarray
-    order: np.ndarray
+    centres: np.ndarray
+    smoothing: np.ndarray
+    volume: np.ndarray
+    cell: np.ndarray
 
 
-def _bins(centres, size) -> Bins:
-    low, high = centres.min(axis=0), centres.max(axis=0)
-    shape = np.maximum(1, np.ceil((high - low) / size).astype(np.int64))
-    place = np.minimum(((centres - low) / size).astype(np.int64), shape - 1)
+def _bins(centres, smoothing, volumes) -> Bins:
+    """`centres` (C, 2) or (C, 3); a missing axis is one bin thick."""
+    points = np.zeros((len(centres), 3))
+    points[:, : centres.shape[1]] = centres
+    low, high = points.min(axis=0), points.max(axis=0)
+    shape = np.maximum(1, ((high - low) / (SUPPORT * smoothing.max())).astype(np.int64))
+    size = np.maximum(SUPPORT * smoothing.max(), (high - low) / shape)
+    place = np.minimum(((points - low) / size).astype(np.int64), shape - 1)
     number = np.ravel_multi_index(tuple(place.T), tuple(shape))
     order = np.argsort(number, kind="stable")
     start = np.concatenate(([0], np.cumsum(np.bincount(number, minlength=int(shape.prod())))))
-    return Bins(low, float(size), shape, start, order)
+    return Bins(low, size, shape, start, points[order], smoothing[order], volumes[order], order)
 
 
 @njit(cache=True, error_model="numpy")
@@ -104,56 +113,41 @@ def _spline(q):
 
 
 @njit(cache=True, error_model="numpy")
-def _visit(bins, centres, smoothing, point, cells, weight):
-    """Cells whose kernel reaches `point`, with weights (not yet volume-weighted); writes while there is room."""
-    found = 0
-    dims = len(point)
-    place = ((point - bins.low) / bins.size).astype(np.int64)
-    first, last = np.maximum(place - 1, 0), np.minimum(place + 2, bins.shape)
-    if dims == 3:
-        z0, z1 = first[2], last[2]
-    else:
-        z0, z1 = 0, 1
-    for bx in range(first[0], last[0]):
-        for by in range(first[1], last[1]):
+def _around(bins, a, value):
+    """First and one past the last bin to look at along an axis."""
+    place = np.int64(np.floor((value - bins.low[a]) / bins.size[a]))
+    return max(place - 1, 0), min(place + 2, bins.shape[a])
+
+
+@njit(cache=True, error_model="numpy")
+def _row(bins, x, y, z, cells, weight):
+    """One normalised row; returns how many cells there are, also when the row is too short for them."""
+    found, total = 0, 0.0
+    x0, x1 = _around(bins, 0, x)
+    y0, y1 = _around(bins, 1, y)
+    z0, z1 = _around(bins, 2, z)
+    for bx in range(x0, x1):
+        for by in range(y0, y1):
             for bz in range(z0, z1):
-                b = bx * bins.shape[1] + by
-                if dims == 3:
-                    b = b * bins.shape[2] + bz
-                for c in bins.order[bins.start[b] : bins.start[b + 1]]:
-                    r2 = 0.0
-                    for a in range(dims):
-                        r2 += (point[a] - centres[c, a]) ** 2
-                    q = np.sqrt(r2) / smoothing[c]
+                b = (bx * bins.shape[1] + by) * bins.shape[2] + bz
+                for c in range(bins.start[b], bins.start[b + 1]):
+                    dx, dy, dz = x - bins.centres[c, 0], y - bins.centres[c, 1], z - bins.centres[c, 2]
+                    q = np.sqrt(dx * dx + dy * dy + dz * dz) / bins.smoothing[c]
                     if q < SUPPORT:
                         if found < len(cells):
-                            cells[found] = c
-                            weight[found] = _spline(q)
+                            cells[found] = bins.cell[c]
+                            weight[found] = bins.volume[c] * _spline(q)
+                            total += weight[found]
                         found += 1
+    for e in range(min(found, len(cells))):
+        weight[e] /= total
     return found
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def _count(bins, centres, smoothing, points):
-    count = np.empty(len(points), np.int64)
-    none, nothing = np.empty(0, np.int64), np.empty(0)
+def _fill(bins, points, count, cells, weight):
     for k in prange(len(points)):
-        count[k] = _visit(bins, centres, smoothing, points[k], none, nothing)
-    return count
-
-
-@njit(cache=True, parallel=True, error_model="numpy")
-def _fill(bins, centres, smoothing, volumes, points, start, cells, weight):
-    for k in prange(len(points)):
-        _row(bins, centres, smoothing, volumes, points[k], cells[start[k] : start[k + 1]], weight[start[k] : start[k + 1]])
-
-
-@njit(cache=True, error_model="numpy")
-def _row(bins, centres, smoothing, volumes, point, cells, weight):
-    """One normalised row; a function of its own, because numba takes `*=` inside a prange for a reduction."""
-    if _visit(bins, centres, smoothing, point, cells, weight) > 0:
-        weight *= volumes[cells]
-        weight /= weight.sum()
+        count[k] = _row(bins, points[k, 0], points[k, 1], points[k, 2], cells[k], weight[k])
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
@@ -161,14 +155,14 @@ def _gather(weights, field, out):
     for k in prange(len(out)):
         for m in range(field.shape[1]):
             total = 0.0
-            for e in range(weights.start[k], weights.start[k + 1]):
-                total += weights.weight[e] * field[weights.cells[e], m]
+            for e in range(weights.count[k]):
+                total += weights.weight[k, e] * field[weights.cells[k, e], m]
             out[k, m] = total
 
 
 @njit(cache=True, error_model="numpy")
 def _deposit(weights, field, out):
     for k in range(len(field)):
-        for e in range(weights.start[k], weights.start[k + 1]):
+        for e in range(weights.count[k]):
             for m in range(field.shape[1]):
-                out[weights.cells[e], m] += weights.weight[e] * field[k, m]
+                out[weights.cells[k, e], m] += weights.weight[k, e] * field[k, m]
