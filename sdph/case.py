@@ -23,6 +23,7 @@ class Run:
     end_time: float = quantity("s", above=0.0)
     output_interval: float = quantity("s", above=0.0)
     report_at: tuple = vector("s", ())  # times that a window ends at, so that history.csv has them
+    metrics: tuple = words(())  # of sdph.metrics, for metrics.csv and the summary
     checkpoint_interval: float = quantity("s", 600.0, above=0.0)  # of wall time; our choice
 
 
@@ -206,12 +207,14 @@ def from_table(table: dict) -> Case:
 
 @record
 class _Track:
-    particles: tuple = words(())
+    particles: tuple = vector("", ())  # numbers, counted from 1
 
 
-def _track(table: dict) -> tuple[str, ...]:
+def _track(table: dict) -> tuple[int, ...]:
     named = read(_Track, table.get("track", {}), "track").particles
-    return (named,) if isinstance(named, str) else named
+    if any(number != int(number) for number in named):
+        raise CaseError(f"track.particles = {list(named)}; they must be whole numbers, counted from 1")
+    return tuple(int(number) for number in named)
 
 
 def _group(cls, table: dict, where: str) -> dict:

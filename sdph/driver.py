@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 
 from sdph import case as cases
-from sdph import output, paths
+from sdph import history, metrics, output, paths
 from sdph.ledger import Ledger
 from sdph.simulation import Simulation
 
@@ -49,32 +49,49 @@ def _coupled(case, gas, folder: Path, reporter, started: float) -> dict:
     """The loop over windows with its outputs."""
     simulation = Simulation(case, gas, Ledger(folder / "ledger.csv", case, gas.mesh.depth))
     simulation.start()
-    fields, history = output.Fields(folder, gas, case.grains.density), output.Table(folder / "history.csv")
-    history.write(_history(simulation))
-    fields.write(0.0, simulation.state, simulation.cell_fields())
+    out = Outputs(folder, simulation)
     first = None
     while simulation.time < case.run.end_time:
         simulation.window()
         first = first or time.perf_counter() - started
-        history.write(_history(simulation))
-        if simulation.time in simulation.clock.outputs:
-            fields.write(simulation.time, simulation.state, simulation.cell_fields())
+        out.window()
         reporter.progress(simulation)
-    for table in (history, simulation.ledger.table):
-        table.close()
-    summary = _summary(simulation, time.perf_counter() - started, first)
+    out.close()
+    summary = _summary(simulation, out) | {"start_to_first_window_s": first, "wall_s": time.perf_counter() - started}
     output.write_summary(folder, summary)
     return summary
 
 
-def _history(simulation) -> dict[str, float]:
-    row = {"time_s": simulation.time}
-    for name, probe in simulation.case.probes.items():
-        row |= {f"{name}_{key}": value for key, value in simulation.probe(probe.at).items()}
-    return row
+class Outputs:
+    """All that a run writes as it goes: history by window, fields and metrics by output interval."""
+
+    def __init__(self, folder: Path, simulation):
+        self.simulation = simulation
+        self.fields = output.Fields(folder, simulation.gas, simulation.case.grains.density)
+        self.history, self.metrics = output.Table(folder / "history.csv"), output.Table(folder / "metrics.csv")
+        self.first, self.last, self.rows = history.row(simulation), {}, []
+        self.history.write(self.first)
+        self._write()
+
+    def window(self) -> None:
+        """After each window."""
+        self.last = history.row(self.simulation)
+        self.history.write(self.last)
+        if self.simulation.time in self.simulation.clock.outputs:
+            self._write()
+
+    def close(self) -> None:
+        for table in (self.history, self.metrics, self.simulation.ledger.table):
+            table.close()
+
+    def _write(self) -> None:
+        self.fields.write(self.simulation.time, self.simulation.state, self.simulation.cell_fields())
+        self.rows.append(metrics.row(self.simulation))
+        self.metrics.write(self.rows[-1])
 
 
-def _summary(simulation, wall: float, first: float) -> dict:
+def _summary(simulation, out: Outputs) -> dict:
+    """summary.json, less the wall time of the whole."""
     case = simulation.case
     summary = {
         "title": case.title,
@@ -83,13 +100,12 @@ def _summary(simulation, wall: float, first: float) -> dict:
         "cells": len(simulation.gas.mesh.volumes),
         "windows": simulation.windows,
         "sub_steps": simulation.stepper.steps,
+        "wall_contacts": simulation.stepper.contacts,
     }
-    for name, probe in case.probes.items():
-        summary |= {f"{name}_{key}": value for key, value in simulation.probe(probe.at).items()}
-        summary[f"{name}_rise_K"] = summary[f"{name}_temperature_K"] - simulation.initial[name]
-    summary |= simulation.ledger.summary()
+    for name in case.probes:
+        own = {key: value for key, value in out.last.items() if key.startswith(f"{name}_")}
+        summary |= own | {f"{name}_rise_K": own[f"{name}_temperature_K"] - out.first[f"{name}_temperature_K"]}
+    summary |= metrics.summary(case, out.rows) | simulation.ledger.summary()
     summary |= {f"wall_{part}_s": spent for part, spent in simulation.wall.items()}
     summary |= {f"{part}_ms_per_window": 1e3 * spent / simulation.windows for part, spent in simulation.wall.items()}
-    stepping = simulation.wall["particles"] or wall
-    summary["particle_steps_per_s"] = len(simulation.state.x) * simulation.stepper.steps / stepping
-    return summary | {"start_to_first_window_s": first, "wall_s": wall}
+    return summary | {"particle_steps_per_s": len(simulation.state.x) * simulation.stepper.steps / simulation.wall["particles"]}

@@ -112,12 +112,12 @@ def _grid(ticks: list[np.ndarray]) -> np.ndarray:
 
 
 def fill(case, names) -> State:
-    """The particles that a case has at the start, numbered from 0; mass = alpha_p rho_p dx^d."""
+    """The particles that a case has at the start, numbered from 1 as in the paper; mass = alpha_p rho_p dx^d."""
     parts = [_region(case, region, names) for region in case.particles.values()]
     state = parts[0] if parts else empty(0, names, case.dimensions)
     for part in parts[1:]:
         state = join(state, part)
-    state.ident[:] = np.arange(len(state.ident))
+    state.ident[:] = np.arange(1, len(state.ident) + 1)
     return state
 
 

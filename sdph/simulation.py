@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time as clock
 
 import numpy as np
@@ -11,7 +10,7 @@ from coupling.transfer import Transfer, gather
 from sdph import effects, particles
 from sdph.exchange import Exchange
 from sdph.ledger import vector
-from sdph.step import REACH, Stepper
+from sdph.step import Held, Stepper
 from sdph.window import Window
 
 
@@ -45,7 +44,7 @@ class Simulation:
         if not one_way:
             self.clock.begin(*self.exchange.pace(self.state, self.weights, self.gas_state))
         self.ledger.open(self.state, self.gas_state.budget)
-        self.initial = {name: self.probe(probe.at)["temperature_K"] for name, probe in self.case.probes.items()}
+        self.received = None  # heat rate [W] of each particle from the gas in the last window
 
     def window(self) -> None:
         """One window: exchange prepared, gas advanced, reaction taken, particles advanced."""
@@ -57,6 +56,7 @@ class Simulation:
         taken = self._timed("exchange", self.exchange.take, handed, self.gas_state)
         body, before, made = self._body(handed), self._momentum(), self.stepper.mechanical_heat
         impulse = body * (self.state.mass[:, None] * dt)
+        self.received = Held(self.state, taken.heat / dt)
         if self.moves:
             drag = taken.impulse / (self.state.mass[:, None] * dt)
             self._timed("particles", self.stepper.move, dt, taken.heat, body + drag, handed.damping)
@@ -72,18 +72,6 @@ class Simulation:
             "mechanical_heat_J": self.stepper.mechanical_heat - made,
         }
         self.ledger.close_window(end, dt, self.clock.limit, self.state, self.gas_state, exchanged)
-
-    def probe(self, point) -> dict[str, float]:
-        """Temperatures [K] of particles and gas at a point, by kernel interpolation; no particles near: nan."""
-        here = np.zeros((1, 3))
-        here[0, : len(point)] = point
-        gas = gather(self.transfer.weights(here), self.gas_state.fields["temperature"])[0]
-        reach = REACH * self.case.smoothing_length
-        r = np.sqrt(((particles.positions(self.state) - here) ** 2).sum(axis=1))
-        near = np.flatnonzero(r < reach)
-        weight = self.state.mass[near] * (1.0 - r[near] / reach) ** 2
-        own = (weight * self.state.temperature[near]).sum() / weight.sum() if len(near) else math.nan
-        return {"temperature_K": float(own), "gas_temperature_K": float(gas)}
 
     def cell_fields(self) -> dict[str, np.ndarray]:
         """Fields of the gas, and alpha_p by cell."""

@@ -64,6 +64,13 @@ class Stepper:
             left = 0.0 if step >= left else left - step
             self.prepare()
 
+    def conduction_rates(self) -> np.ndarray:
+        """Heat [W] that each particle gets from its neighbours now."""
+        heating = np.zeros(len(self.state.x))
+        if self.parameters["conduction"]:
+            rates.conduct(self.kernel, self.state, self.rows, self.neighbours.box, self.parameters["conduction"], heating)
+        return heating * self.state.mass
+
     def _sub_step(self, left: float) -> float:
         """The next sub-step [s]: what is left of the window, in equal parts."""
         s, p = self.state, self.parameters

@@ -1,0 +1,39 @@
+"""What a scene wants to know of itself at every output, by the names in `run.metrics`: rows of metrics.csv."""
+
+from __future__ import annotations
+
+from sdph import bubble
+from sdph.schema import CaseError
+
+
+def bed(simulation) -> dict[str, float]:
+    """The bubble (sdph.bubble), and the densest particle."""
+    mesh, fields = simulation.gas.mesh, simulation.cell_fields()
+    row = bubble.metrics(mesh.centres, mesh.volumes / mesh.depth, fields["alpha_p"], fields["temperature"], fields["pressure"])
+    return row | {"alpha_p_max": float(simulation.state.density.max(initial=0.0) / simulation.case.grains.density)}
+
+
+def bed_in_the_end(rows: list[dict]) -> dict[str, float]:
+    return {"detachment_time_s": bubble.detachment([row["time_s"] for row in rows], rows)}
+
+
+AT_OUTPUTS = {"bubble": bed}
+IN_THE_END = {"bubble": bed_in_the_end}
+
+
+def row(simulation) -> dict[str, float]:
+    """All metrics of the case now."""
+    columns = {"time_s": simulation.time}
+    for name in simulation.case.run.metrics:
+        if name not in AT_OUTPUTS:
+            raise CaseError(f"run.metrics = {name!r}; known: {', '.join(AT_OUTPUTS)}")
+        columns |= AT_OUTPUTS[name](simulation)
+    return columns
+
+
+def summary(case, rows: list[dict]) -> dict[str, float]:
+    """The last row, and what only all of them tell."""
+    if not case.run.metrics:
+        return {}
+    in_the_end = [IN_THE_END[name](rows) for name in case.run.metrics if name in IN_THE_END]
+    return {key: value for part in (rows[-1], *in_the_end) for key, value in part.items() if key != "time_s"}
