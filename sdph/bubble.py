@@ -20,7 +20,7 @@ def metrics(centres, volumes, alpha_p, gas_temperature, pressure) -> dict[str, f
     """
     order, shape = _rows(centres)
     alpha, height = alpha_p[order].reshape(shape), centres[order, 1].reshape(shape)[:, 0]
-    own = _largest_void(alpha)
+    own = largest_void(alpha)
     area = volumes[order].reshape(shape)
     width = (own * area).sum(axis=1) / np.gradient(height)
     total = float((own * area).sum())
@@ -50,7 +50,8 @@ def _rows(centres) -> tuple[np.ndarray, tuple[int, int]]:
     return np.lexsort((x, y)), (len(np.unique(y)), len(np.unique(x)))
 
 
-def _largest_void(alpha) -> np.ndarray:
+def largest_void(alpha) -> np.ndarray:
+    """Mask of the largest connected region alpha_p < VOID that does not reach the last row; alpha (rows, columns)."""
     from scipy.ndimage import label
 
     labels, count = label(alpha < VOID)

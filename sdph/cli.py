@@ -3,33 +3,39 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
+import signal
 import sys
 from pathlib import Path
 
 from sdph import __version__
 from sdph.schema import CaseError
 
-FINE, CHECK_FAILED, BAD_INPUT, GAS_FAILED, INTERRUPTED = 0, 1, 2, 3, 130
+FINE, CHECK_FAILED, BAD_INPUT, GAS_FAILED, CANNOT_WRITE = 0, 1, 2, 3, 4
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Entry point; returns the exit code: 0 fine, 1 a check failed, 2 bad input, 3 the gas side failed."""
+    """Entry point; returns the exit code: 0 fine, 1 a check failed, 2 bad input, 3 the gas side failed,
+    4 the run folder cannot be written, 128 + signal when stopped."""
     options = _parser().parse_args(arguments)
     try:
         return options.command(options)
     except CaseError as error:
         return _failed(error, BAD_INPUT)
-    except KeyboardInterrupt:
-        return _failed("interrupted", INTERRUPTED)
+    except KeyboardInterrupt as stop:
+        return _failed(str(stop) and stop or "interrupted", 128 + getattr(stop, "number", signal.SIGINT))
     except RuntimeError as error:
-        if type(error).__name__ != "GasError":
+        code = {"GasError": GAS_FAILED, "CannotWrite": CANNOT_WRITE}.get(type(error).__name__)
+        if code is None:
             raise
-        return _failed(error, GAS_FAILED)
+        return _failed(error, code)
 
 
 def _failed(message, code: int) -> int:
-    print(f"sdph: {' '.join(str(message).split())}", file=sys.stderr)
+    """One line, with how to go on where that is known."""
+    text = " ".join([str(message), *getattr(message, "__notes__", ())])
+    print(f"sdph: {' '.join(text.split())}", file=sys.stderr)
     return code
 
 
@@ -65,7 +71,9 @@ def _command(commands, name: str, function, summary: str):
 
 
 def _run_options(parser) -> None:
-    parser.add_argument("target", help="scene, folder made by `sdph init`, or case.toml")
+    what = parser.add_mutually_exclusive_group(required=True)
+    what.add_argument("target", nargs="?", help="scene, folder made by `sdph init`, or case.toml")
+    what.add_argument("--resume", type=Path, metavar="RUN", help="go on with a run from its last checkpoint")
     parser.add_argument("--out", type=Path, help="run folder (default: runs/SCENE, numbered)")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override a key of the case")
     parser.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: openfoam where it is)")
@@ -99,15 +107,16 @@ def run(options) -> int:
     from sdph import driver, output, scenes
     from sdph.progress import Reporter
 
-    name, file = scenes.find(options.target)
-    case = cases.load(file, tuple(options.set) + _overrides(options))
-    folder = options.out or output.free_name(Path("runs") / name)
-    own = file.parent / "gas"
-    reporter = Reporter(case.run.end_time, quiet=options.json)
-    try:
-        summary = driver.run(case, name, folder, own if own.is_dir() else None, reporter)
-    finally:
-        reporter.close()
+    overrides = tuple(options.set) + _overrides(options)
+    with contextlib.closing(Reporter(quiet=options.json)) as reporter:
+        if options.resume:
+            folder = options.resume
+            summary = driver.resume(folder, overrides, reporter)
+        else:
+            name, file = scenes.find(options.target)
+            case = cases.load(file, overrides)
+            folder, own = options.out or output.free_name(Path("runs") / name), file.parent / "gas"
+            summary = driver.run(case, name, folder, own if own.is_dir() else None, reporter)
     print(json.dumps(summary) if options.json else f"{_table(summary)}\nrun folder: {folder}")
     return FINE
 
@@ -154,7 +163,7 @@ def doctor(options) -> int:
     rows = install.doctor()
     for row in rows:
         print(row)
-    return FINE
+    return FINE if all(row.found for row in rows) else CHECK_FAILED
 
 
 if __name__ == "__main__":

@@ -1,0 +1,31 @@
+# Two commands: `make demo` sets everything up and runs the main job, `make test` sets up and passes the tests.
+# Nothing is built twice: a second call of either goes straight to the work.
+VENV ?= .venv
+SDPH = $(VENV)/bin/sdph
+PYTHON ?= python3
+RUN = runs/demo
+
+demo: setup
+	rm -rf $(RUN)
+	$(SDPH) run disc_cluster --set heat.closure=paper --out $(RUN)
+	$(SDPH) view $(RUN) --png $(RUN)/disc.png
+	$(SDPH) compare $(RUN) --against exact
+	if $(SDPH) doctor >/dev/null; then $(SDPH) compare $(RUN) --against tfm; fi
+	@echo "pictures: $(RUN)/disc.png $(RUN)/compare_exact.png $(RUN)/compare_tfm.png"
+
+test: setup
+	$(VENV)/bin/python -m pytest
+
+setup: $(VENV)/installed
+	@$(SDPH) openfoam setup --install || echo "OpenFOAM is not to be had here: the embedded gas solver does the gas"
+
+$(VENV)/installed: pyproject.toml
+	.ci/system_packages
+	$(PYTHON) -m venv $(VENV)
+	$(VENV)/bin/pip install --quiet --editable .[test]
+	touch $@
+
+clean:
+	rm -rf $(VENV) runs build dist
+
+.PHONY: demo test setup clean
