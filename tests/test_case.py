@@ -77,9 +77,9 @@ def test_every_unit_reads_back(value, unit):
 
 def test_optional_sections_read_back():
     vapour = "{molar_mass_kg_kmol=142.3, diffusivity_m2_s=3.8e-6, heat_capacity_J_kg_K=2e3, conductivity_W_m_K=0.018, viscosity_Pa_s=7e-6}"
-    case = disc(f"vapour={vapour}", "track.particles='all'", "boundaries.inlet.kind='velocity_inlet'", "boundaries.inlet.velocity_m_s=[0,1]")
+    case = disc(f"vapour={vapour}", "track.particles=[645, 1050]", "boundaries.inlet.kind='velocity_inlet'", "boundaries.inlet.velocity_m_s=[0,1]")
     assert case.vapour.molar_mass == 142.3
-    assert case.track == ("all",)
+    assert case.track == (645, 1050)
     assert read_back(case) == case
 
 
@@ -124,6 +124,8 @@ def test_unknown_key_names_the_nearest(override, named):
         (("domain.size_m=[0.5,0.0]",), ("domain.size_m", "above 0")),
         (("dimensions=4",), ("dimensions", "2 or 3")),
         (("dimensions=2.0",), ("dimensions", "2 or 3")),
+        (("track.particles=[1.5]",), ("track.particles", "1.5", "whole numbers")),
+        (("track.particles='all'",), ("track.particles", "all", "list of numbers")),
         (("run.report_at_s=[-0.1]",), ("run.report_at_s", "above 0")),
         (("effects=['heat','conduction','levitation']",), ("levitation", "heat")),
         (("effects=['heat','heat']",), ("effects", "once")),

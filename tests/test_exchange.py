@@ -10,7 +10,7 @@ from builders import FULL_BOX, PLAIN_EXCHANGE, disc, fixed_windows, run, simulat
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from sdph import particles
+from sdph import history, particles
 from sdph.laws import exact, grain_sizes, heat
 
 REFERENCE = {
@@ -97,7 +97,7 @@ def test_one_way_disc_reaches_the_reference(tmp_path, closure, key):
     """The heart of the disc (r < 0.09 m) is uniform and has the published temperature at 0.1 s; half the resolution."""
     case = disc("resolution.spacing_mm=5", "resolution.cell_mm=10", f"heat.closure={closure!r}", *ONE_WAY)
     done = run(case, tmp_path)
-    assert done.probe((0.25, 0.25))["temperature_K"] == pytest.approx(REFERENCE[key], abs=1e-6)
+    assert history.probe(done, (0.25, 0.25))["temperature_K"] == pytest.approx(REFERENCE[key], abs=1e-6)
     heart = np.hypot(done.state.x - 0.25, done.state.y - 0.25) < 0.06
     assert np.ptp(done.state.temperature[heart]) < 1e-2
 
@@ -152,7 +152,7 @@ def test_two_way_disc_follows_the_lumped_solution_in_its_heart(tmp_path):
         "resolution.cell_mm=10",
     )  # fmt: skip
     done = run(case, tmp_path)
-    centre = done.probe((0.25, 0.25))
+    centre = history.probe(done, (0.25, 0.25))
     assert centre["temperature_K"] - 288.0 == pytest.approx(REFERENCE["disc_twoway_dTp_paper_t1e-3"], rel=0.01)
 
 

@@ -37,7 +37,7 @@ def test_disc_has_the_particles_of_the_reference():
     state = particles.fill(case, ("temperature", "diameter", "diameter_variance"))
     assert len(state.x) == COUNT == 5024
     assert state.mass.sum() == pytest.approx(5024 * 0.011475, rel=1e-12)  # alpha_p rho_p dx^2, reference m_sph_disc
-    np.testing.assert_array_equal(state.ident, np.arange(5024))
+    np.testing.assert_array_equal(state.ident, np.arange(1, 5025))  # the paper counts from 1
     np.testing.assert_array_equal(state.temperature, 288.0)
     np.testing.assert_array_equal(state.diameter, case.grains.diameter)
     assert np.hypot(state.x - 0.25, state.y - 0.25).max() <= 0.1
@@ -85,7 +85,7 @@ def test_regions_are_numbered_through_and_keep_their_own():
         "particles.other.velocity_m_s=[1.0,-2.0]",
     )
     state = particles.fill(disc(*two), ("temperature",))
-    np.testing.assert_array_equal(state.ident, np.arange(5024 + 400))
+    np.testing.assert_array_equal(state.ident, np.arange(1, 5425))
     hot = state.temperature == 400.0
     assert hot.sum() == 400
     np.testing.assert_array_equal(np.unique(state.v[hot]), [-2.0])
