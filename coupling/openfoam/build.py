@@ -51,8 +51,8 @@ def build(source: Path, status: Callable[[str], None] = silent) -> Path:
 
 
 def built(source: Path, installation: Installation) -> Path:
-    """Where the product of `source` is, or will be: the folder is named by OpenFOAM's version and the source's hash."""
-    digest = hashlib.sha256(repr(FLAGS + LINK).encode())
+    """Where the product of `source` is, or will be: the folder is named by OpenFOAM's version and a hash of all that goes in."""
+    digest = hashlib.sha256(repr((FLAGS, LINK, installation.package)).encode())
     for path in sorted(p for p in source.rglob("*") if p.suffix in (".C", ".H") or p.parent.name == "Make"):
         digest.update(f"{path.relative_to(source)}\0".encode() + path.read_bytes())
     kind, name = _product(source)

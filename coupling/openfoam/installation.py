@@ -83,7 +83,7 @@ def _packaged() -> Installation | None:
 
 @functools.cache
 def _sourced(bashrc: Path) -> tuple[tuple[str, str], ...]:
-    """The environment after `source bashrc`."""
-    done = subprocess.run(["bash", "-c", 'source "$1" && env -0', "bash", str(bashrc)], capture_output=True, text=True)
+    """The environment after `source bashrc` (which would read arguments of the shell as files to source too)."""
+    done = subprocess.run(["bash", "-c", 'rc=$1; shift; source "$rc"; env -0', "bash", str(bashrc)], capture_output=True, text=True)
     pairs = (entry.partition("=") for entry in done.stdout.split("\0") if entry)
     return tuple((name, value) for name, _, value in pairs)

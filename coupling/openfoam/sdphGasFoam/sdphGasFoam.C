@@ -12,6 +12,8 @@ version. It comes WITHOUT ANY WARRANTY; see <http://www.gnu.org/licenses/>.
 #include "checkpoint.H"
 #include "exchange.H"
 
+#include <malloc.h>
+
 using namespace Foam;
 
 namespace
@@ -133,16 +135,19 @@ int main(int argc, char* argv[])
 {
     argList::addOption("address", "address", "where sdph listens: unix:<path>, tcp:<host>:<port> or file:<folder>");
     argList::addOption("watch", "pid", "end when this process ends");
+    // Fields come and go in every step: keep their memory rather than have the system give and clear it each time
+    mallopt(M_MMAP_THRESHOLD, 1 << 30);
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
     const argList args(argc, argv);
     if (!args.checkRootCase()) return 1;
-    if (args.found("watch")) endWith(args.get<label>("watch"));
+    if (args.options().found("watch")) endWith(std::stol(args.options()["watch"]));
     const std::string secret = getEnv("SDPH_SECRET");
     std::unique_ptr<Channel> channel;
     std::string text;
     compat::throwErrors();
     try
     {
-        if (Pstream::master()) channel = Channel::open(args["address"]);
+        if (Pstream::master()) channel = Channel::open(args.options()["address"]);
         run(args, channel.get(), secret);
         return 0;
     }
