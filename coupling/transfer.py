@@ -6,6 +6,9 @@ One sparse matrix of weights serves both ways. Row k holds the weights of partic
 * `gather` takes cell values to particles with the rows: a uniform field is reproduced exactly;
 * `deposit` takes extensive particle values to cells with the columns: totals are kept to round-off.
 
+Where the gas fills a box, the kernel is folded at its sides (particles are mirrored there), so that grains spread
+evenly up to a wall are seen evenly by the cells; on other meshes cells along a wall see somewhat more.
+
 The smoothing length of cell c is `h_c = max(h, s_c)` with s_c the cell's own size, so that a coarse cell is seen
 too, and weights stay smooth as a particle crosses from a fine part of a mesh to a coarse one.
 """
@@ -35,12 +38,17 @@ class Weights(NamedTuple):
 
 
 class Transfer:
-    """Weights between particles and one mesh, for particles of smoothing length `smoothing` [m]."""
+    """Weights between particles and one mesh, for particles of smoothing length `smoothing` [m].
 
-    def __init__(self, mesh, smoothing: float):
+    `box` (d,) [m] is that of the domain, from the origin; the kernel is folded at its sides where the mesh fills it.
+    """
+
+    def __init__(self, mesh, smoothing: float, box=()):
         self.volumes = mesh.volumes
         size = (mesh.volumes / mesh.depth) ** (1.0 / mesh.dimensions)
         self.smoothing = np.maximum(smoothing, size)
+        filled = len(box) > 0 and np.isclose(np.prod(box) * mesh.depth, mesh.volumes.sum(), rtol=1e-9)
+        self.sides = np.array([*box, *[np.inf] * (3 - len(box))]) if filled else np.full(3, np.inf)
         self.bins = _bins(mesh.centres[:, : mesh.dimensions], self.smoothing, mesh.volumes)
         self.stride = 16
 
@@ -49,7 +57,7 @@ class Transfer:
         while True:
             count = np.empty(len(positions), np.int64)
             cells, weight = np.empty((len(positions), self.stride), np.int64), np.empty((len(positions), self.stride))
-            _fill(self.bins, positions, count, cells, weight)
+            _fill(self.bins, self.sides, positions, count, cells, weight)
             if count.max(initial=0) <= self.stride:
                 break
             self.stride = int(count.max()) + 2
@@ -80,7 +88,7 @@ def _columns(field):
 
 
 class Bins(NamedTuple):
-    """Cells sorted into square bins of side `size`, each with its centre, smoothing length, volume and number."""
+    """Cells sorted into square bins of side `size`, each with its centre, smoothing length (`widest` of all), volume, number."""
 
     low: np.ndarray
     size: np.ndarray
@@ -90,6 +98,7 @@ class Bins(NamedTuple):
     smoothing: np.ndarray
     volume: np.ndarray
     cell: np.ndarray
+    widest: float
 
 
 def _bins(centres, smoothing, volumes) -> Bins:
@@ -103,7 +112,7 @@ def _bins(centres, smoothing, volumes) -> Bins:
     number = np.ravel_multi_index(tuple(place.T), tuple(shape))
     order = np.argsort(number, kind="stable")
     start = np.concatenate(([0], np.cumsum(np.bincount(number, minlength=int(shape.prod())))))
-    return Bins(low, size, shape, start, points[order], smoothing[order], volumes[order], order)
+    return Bins(low, size, shape, start, points[order], smoothing[order], volumes[order], order, float(smoothing.max()))
 
 
 @njit(cache=True, error_model="numpy")
@@ -120,9 +129,8 @@ def _around(bins, a, value):
 
 
 @njit(cache=True, error_model="numpy")
-def _row(bins, x, y, z, cells, weight):
-    """One normalised row; returns how many cells there are, also when the row is too short for them."""
-    found, total = 0, 0.0
+def _add(bins, x, y, z, cells, weight, found):
+    """Appends the cells that a kernel at (x, y, z) reaches; returns how many there are then, also past the row's end."""
     x0, x1 = _around(bins, 0, x)
     y0, y1 = _around(bins, 1, y)
     z0, z1 = _around(bins, 2, z)
@@ -137,17 +145,45 @@ def _row(bins, x, y, z, cells, weight):
                         if found < len(cells):
                             cells[found] = bins.cell[c]
                             weight[found] = bins.volume[c] * _spline(q)
-                            total += weight[found]
                         found += 1
+    return found
+
+
+@njit(cache=True, error_model="numpy")
+def _image(side, reach, place, which):
+    """A place along one axis (0), or its mirror image at the origin (1) or at `side` (2), where that is near; else nan."""
+    if which == 0:
+        return place
+    if side == np.inf:
+        return np.nan
+    distance = place if which == 1 else side - place
+    if not 0.0 <= distance < reach:
+        return np.nan
+    return -place if which == 1 else 2.0 * side - place
+
+
+@njit(cache=True, error_model="numpy")
+def _row(bins, sides, x, y, z, cells, weight):
+    """One normalised row, mirror images included; returns how many entries there are, also when the row is too short."""
+    found, reach = 0, SUPPORT * bins.widest
+    for a in range(3):
+        image_x = _image(sides[0], reach, x, a)
+        for b in range(3):
+            image_y = _image(sides[1], reach, y, b)
+            for c in range(3):
+                image_z = _image(sides[2], reach, z, c)
+                if image_x == image_x and image_y == image_y and image_z == image_z:  # none is nan
+                    found = _add(bins, image_x, image_y, image_z, cells, weight, found)
+    total = weight[:found].sum()
     for e in range(min(found, len(cells))):
         weight[e] /= total
     return found
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def _fill(bins, points, count, cells, weight):
+def _fill(bins, sides, points, count, cells, weight):
     for k in prange(len(points)):
-        count[k] = _row(bins, points[k, 0], points[k, 1], points[k, 2], cells[k], weight[k])
+        count[k] = _row(bins, sides, points[k, 0], points[k, 1], points[k, 2], cells[k], weight[k])
 
 
 @njit(cache=True, parallel=True, error_model="numpy")

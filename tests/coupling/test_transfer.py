@@ -133,3 +133,12 @@ def test_linear_field_is_gathered_in_the_middle_of_a_fine_mesh(h):
     points[:, :2] = np.random.default_rng(6).uniform(0.5, 0.55, (200, 2))
     found = gather(Transfer(UNIFORM, h).weights(points), 3.0 * UNIFORM.centres[:, 0] - UNIFORM.centres[:, 1])
     np.testing.assert_allclose(found, 3.0 * points[:, 0] - points[:, 1], atol=0.03 * (0.05 / h) ** 2)
+
+
+def test_a_lattice_up_to_the_walls_fills_the_cells_evenly():
+    """Four particles a cell, up to all walls of the box: every cell sees the same."""
+    ticks = (np.arange(40) + 0.5) / 40.0
+    points = np.zeros((1600, 3))
+    points[:, 0], points[:, 1] = (m.ravel() for m in np.meshgrid(ticks, ticks))
+    weights = Transfer(UNIFORM, 1.5 / 40.0, (1.0, 1.0)).weights(points)
+    np.testing.assert_allclose(deposit(weights, np.ones(1600)), 4.0, rtol=1e-12)
