@@ -22,6 +22,7 @@ STANDARD_ATMOSPHERE = 101325.0  # Pa, ISO 2533
 class Run:
     end_time: float = quantity("s", above=0.0)
     output_interval: float = quantity("s", above=0.0)
+    accuracy: float = quantity("", 0.01, above=0.0, most=1.0)  # error that is allowed: decides `effects = "auto"` and warnings
     report_at: tuple = vector("s", ())  # times that a window ends at, so that history.csv has them
     metrics: tuple = words(())  # of sdph.metrics, for metrics.csv and the summary
     checkpoint_interval: float = quantity("s", 600.0, above=0.0)  # of wall time; our choice
@@ -232,6 +233,8 @@ def _dimensions(table: dict) -> int:
 
 def _effects(table: dict) -> tuple[str, ...]:
     on = table.get("effects", [])
+    if on == "auto":
+        return _automatic(table)
     if not isinstance(on, list) or not all(isinstance(name, str) for name in on):
         raise CaseError(f"effects = {on!r}; it must be a list of names out of {', '.join(sorted(effects.REGISTRY))}")
     for name in on:
@@ -242,6 +245,15 @@ def _effects(table: dict) -> tuple[str, ...]:
     for name in effects.REGISTRY.keys() & table.keys() - set(on):
         raise CaseError(f"[{name}] is given, but {name} is not among effects = {list(on)}; add it there or remove the section")
     return tuple(on)
+
+
+def _automatic(table: dict) -> tuple[str, ...]:
+    """The effects that a case calls for, and those that cannot judge themselves but have a section."""
+    from sdph import judge
+
+    given = [name for name in effects.REGISTRY if name in table]
+    called = judge.called_for(from_table(table | {"effects": given}))
+    return tuple(name for name, row in effects.REGISTRY.items() if name in called or (name in given and not row.call))
 
 
 def _check(case: Case) -> None:

@@ -48,6 +48,8 @@ def _parser() -> argparse.ArgumentParser:
     init.add_argument("scene")
     init.add_argument("folder", type=Path)
     _run_options(_command(commands, "run", run, "run a scene, a case folder or a case file"))
+    explain = _command(commands, "explain", explain_case, "what a case calls for, its limits and its cost, before it runs")
+    _case_options(explain)
     compare = _command(commands, "compare", compare_run, "a run against a reference; exit code 1 outside tolerance")
     compare.add_argument("run", type=Path)
     compare.add_argument("--against", required=True, choices=("tfm", "dpm", "exact"))
@@ -68,6 +70,12 @@ def _command(commands, name: str, function, summary: str):
     parser = commands.add_parser(name, help=summary, description=summary)
     parser.set_defaults(command=function)
     return parser
+
+
+def _case_options(parser) -> None:
+    parser.add_argument("target", help="scene, folder made by `sdph init`, or case.toml")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override a key of the case")
+    parser.add_argument("--json", action="store_true", help="print the result as JSON")
 
 
 def _run_options(parser) -> None:
@@ -104,7 +112,7 @@ def init_case(options) -> int:
 
 def run(options) -> int:
     from sdph import case as cases
-    from sdph import driver, output, scenes
+    from sdph import driver, explain, output, scenes
     from sdph.progress import Reporter
 
     overrides = tuple(options.set) + _overrides(options)
@@ -115,6 +123,8 @@ def run(options) -> int:
         else:
             name, file = scenes.find(options.target)
             case = cases.load(file, overrides)
+            for warning in explain.warnings(case):
+                reporter.status(f"warning: {warning}")
             folder, own = options.out or output.free_name(Path("runs") / name), file.parent / "gas"
             summary = driver.run(case, name, folder, own if own.is_dir() else None, reporter)
     print(json.dumps(summary) if options.json else f"{_table(summary)}\nrun folder: {folder}")
@@ -133,6 +143,16 @@ def _overrides(options) -> tuple[str, ...]:
 
 def _table(summary: dict) -> str:
     return "\n".join(f"{key:40s} {value:.9g}" if isinstance(value, float) else f"{key:40s} {value}" for key, value in summary.items())
+
+
+def explain_case(options) -> int:
+    from sdph import case as cases
+    from sdph import explain, scenes
+
+    case = cases.load(scenes.find(options.target)[1], tuple(options.set))
+    parts = explain.explain(case)
+    print(json.dumps(parts) if options.json else f"{case.title}\n\n{explain.text(parts)}")
+    return FINE
 
 
 def compare_run(options) -> int:

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from numba import njit
 
-from sdph.effects.effect import Effect
+from sdph.effects.effect import Effect, Judgement
 from sdph.laws import viscosity
 from sdph.schema import quantity, record
 
@@ -36,10 +36,18 @@ def pair(p, approach, r_squared, c_i, c_j, rho_i, rho_j):
     return viscosity.monaghan(approach, r_squared, p.h, 0.5 * (c_i + c_j), 0.5 * (rho_i + rho_j), p.alpha, p.beta)
 
 
+def call(scales) -> Judgement:
+    """Mach number of the grains: shocks and crossing particles from about 1 on."""
+    mach = scales.speed / scales.sound if scales.sound else 0.0
+    blur = scales.case.smoothing_length / scales.length  # what it does, it does over h
+    return Judgement("speed / sound of the grains", mach, 1.0, "Monaghan 1992, section 4", min(1.0, mach) * min(1.0, blur))
+
+
 EFFECT = Effect(
     name="artificial_viscosity",
     summary="Monaghan's artificial viscosity",
     parameters=ArtificialViscosity,
     kernel=kernel,
     moves=True,
+    call=call,
 )

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 from numba import njit
 
-from sdph.effects.effect import NO_LIMIT, Effect
+from sdph.effects.effect import NO_LIMIT, Effect, Judgement
 from sdph.laws.exchange import cleary_monaghan
 from sdph.schema import record
 
@@ -49,6 +50,14 @@ def dt_limit(p, case, state) -> float:
     return STABLE * case.smoothing_length**2 / diffusivity
 
 
+def call(scales) -> Judgement:
+    """Fourier number of the grains; of it matters the share of the temperatures that reaches the grains."""
+    diffusivity = scales.grains.conductivity / (scales.grains.density * scales.grains.heat_capacity)
+    fourier = diffusivity * scales.end / scales.length**2 if scales.span else 0.0
+    source = "Carslaw & Jaeger 1959: depth sqrt(D t) over the width"
+    return Judgement("Fourier number of the grains", fourier, 0.01, source, -math.expm1(-fourier))
+
+
 EFFECT = Effect(
     name="conduction",
     summary="heat conduction from grain to grain",
@@ -56,4 +65,5 @@ EFFECT = Effect(
     kernel=kernel,
     arrays=("temperature",),
     dt_limit=dt_limit,
+    call=call,
 )

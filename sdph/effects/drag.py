@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 from numba import njit
 
 from sdph.effects import sizes
-from sdph.effects.effect import Effect
+from sdph.effects.effect import Effect, Judgement
 from sdph.laws import drag as law
 from sdph.schema import choice, record
 
@@ -66,6 +67,13 @@ def damping(p, sizes_p, s, i, alpha_p, slip, gas_density):
     return total / p.grain_density
 
 
+def call(scales) -> Judgement:
+    """Time of the run over the time in which drag stops a grain or, sooner, the gas among grains."""
+    felt = scales.end / min(scales.drag_time, scales.gas_drag_time) if scales.slip else 0.0
+    source = "Crowe, Sommerfeld & Tsuji 1998, ch. 2: momentum response time"
+    return Judgement("run / drag response time", felt, 0.01, source, -math.expm1(-felt))
+
+
 EFFECT = Effect(
     name="drag",
     summary="drag between grains and gas, and its heat",
@@ -74,4 +82,5 @@ EFFECT = Effect(
     arrays=("diameter", "diameter_variance"),
     sources=("alpha_g", "drag", "drag_velocity", "heat_source"),
     moves=True,
+    call=call,
 )

@@ -14,6 +14,23 @@ NO_LIMIT = float("inf")
 
 
 @dataclass(frozen=True)
+class Judgement:
+    """Whether a case calls for an effect, told by a number of the case.
+
+    number, name   the dimensionless number, and what it is
+    threshold      from which on it matters at the usual accuracy
+    source         where number and threshold come from
+    error_if_off   error of the answer without the effect, as a share of what there is to compute (0 to 1, an estimate)
+    """
+
+    name: str
+    number: float
+    threshold: float
+    source: str
+    error_if_off: float
+
+
+@dataclass(frozen=True)
 class Effect:
     """A registry row.
 
@@ -25,6 +42,7 @@ class Effect:
     sources     what it hands to the gas (names of coupling.gas.SOURCES)
     moves       whether particles move by it
     dt_limit    (kernel parameters, case, state) -> largest stable sub-step [s]
+    call        scales of a case (sdph.scales) -> Judgement; without it the effect is on where the user says so
     """
 
     name: str
@@ -35,6 +53,7 @@ class Effect:
     sources: tuple[str, ...] = ()
     moves: bool = False
     dt_limit: Callable = lambda p, case, state: NO_LIMIT
+    call: Callable | None = None
 
 
 def kernel_of(effect: Effect, case):

@@ -7,12 +7,13 @@ from typing import NamedTuple
 
 from numba import njit
 
-from sdph.effects.effect import Effect
+from sdph.effects.effect import Effect, Judgement
 from sdph.laws import constants, granular
 from sdph.laws import friction as law
 from sdph.schema import quantity, record
 
 DIFFUSIVE = 0.125  # largest nu dt/h^2 of an explicit step, Morris et al. 1997 (sdph-notes, section 3)
+NEAR = 0.95  # of the onset: grains that close get there when they settle; our choice
 
 
 @record
@@ -60,6 +61,16 @@ def viscosity(p, frictional_pressure, density, shear_squared, dt):
     return law.schaeffer_viscosity(frictional_pressure, p.sine, shear_squared, least_rate)
 
 
+def call(scales) -> Judgement:
+    """Whether grains lie closer than where contacts begin to last, and how much weight there is to bear."""
+    onset = scales.case.parameters["friction"].onset
+    ratio = scales.alpha_p / onset
+    fall = scales.gravity * scales.end
+    weight = fall / (fall + scales.speed) if fall else 0.0
+    source = "Johnson & Jackson 1987: contacts last from the onset on; grains at 95 % of it get there"
+    return Judgement("alpha_p / onset", ratio, NEAR, source, weight if ratio >= NEAR else 0.0)
+
+
 EFFECT = Effect(
     name="friction",
     summary="lasting contacts of grains (Johnson-Jackson pressure, Schaeffer viscosity)",
@@ -67,4 +78,5 @@ EFFECT = Effect(
     kernel=kernel,
     arrays=("theta",),
     moves=True,
+    call=call,
 )

@@ -6,9 +6,11 @@ from typing import NamedTuple
 
 from numba import njit
 
-from sdph.effects.effect import Effect
+from sdph.effects.effect import Effect, Judgement
 from sdph.laws import granular
 from sdph.schema import record
+
+SOURCE = "Elghobashi 1994: collisions matter where a grain meets others within the time looked at"
 
 
 @record
@@ -47,6 +49,17 @@ def sound_squared(p, alpha_p, theta):
     return granular.sound_speed_squared(a, theta, p.restitution, g0, slope, p.grain_density, 0.0)
 
 
+def call(scales) -> Judgement:
+    """Collisions of a grain within the run; what they push with, over the momentum flux of the grains."""
+    collisions = scales.end / scales.collision_time if scales.speed else 0.0
+    if not collisions:
+        return Judgement("collisions of a grain in the run", 0.0, 1.0, SOURCE, 0.0)
+    stiffness = 1.0 + 2.0 * (1.0 + scales.grains.restitution) * scales.alpha_p * scales.g0
+    push = scales.theta * stiffness / scales.speed**2
+    crowding = scales.alpha_p / scales.grains.packing_limit  # without it nothing keeps grains apart
+    return Judgement("collisions of a grain in the run", collisions, 1.0, SOURCE, min(1.0, collisions) * min(1.0, push + crowding**2))
+
+
 EFFECT = Effect(
     name="granular_pressure",
     summary="pressure of agitated grains (Lun)",
@@ -54,4 +67,5 @@ EFFECT = Effect(
     kernel=kernel,
     arrays=("theta", "diameter"),
     moves=True,
+    call=call,
 )

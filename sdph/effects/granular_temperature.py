@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
-from sdph.effects.effect import Effect
+from sdph.effects.effect import Effect, Judgement
 from sdph.laws import granular
 from sdph.schema import choice, flag, quantity, record
 
@@ -108,6 +109,17 @@ def advance_all(p, s, heating, damping, shear_squared, divergence, dt, held):
         )
 
 
+def call(scales) -> Judgement:
+    """How much of theta is made or lost within the run; it acts by way of pressure and viscosity."""
+    cooling = granular.cooling_coefficient(scales.capped, scales.grains.restitution, scales.g0, scales.grains.diameter) if scales.alpha_p else 0.0
+    rate = cooling * math.sqrt(scales.theta) + 2.0 / scales.drag_time
+    changed = -math.expm1(-rate * scales.end) if scales.speed else 0.0
+    stiffness = 1.0 + 2.0 * (1.0 + scales.grains.restitution) * scales.alpha_p * scales.g0
+    push = scales.theta * stiffness / scales.speed**2 if scales.speed else 0.0
+    source = "Haff 1983; Lun et al. 1984"
+    return Judgement("run / decay time of theta", rate * scales.end if scales.speed else 0.0, 0.01, source, changed * min(1.0, push))
+
+
 EFFECT = Effect(
     name="granular_temperature",
     summary="granular temperature: production, diffusion, dissipation, damping by the gas",
@@ -115,4 +127,5 @@ EFFECT = Effect(
     kernel=kernel,
     arrays=("theta", "diameter"),
     moves=True,
+    call=call,
 )

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
-from sdph.effects.effect import Effect
+from sdph.effects.effect import Effect, Judgement
 from sdph.laws import granular
 from sdph.schema import record
+
+SOURCE = "diffusion of momentum, Gidaspow 1994 viscosity"
 
 
 @record
@@ -72,6 +75,16 @@ def pair(viscous, stress, i, j, r_squared, closing, scale):
     return along, scale * (5.0 / 3.0 * mu - bulk)
 
 
+def call(scales) -> Judgement:
+    """Reach of momentum by viscosity within the run over the width of the grains, squared."""
+    if not scales.alpha_p or not scales.speed:
+        return Judgement("nu t/L2", 0.0, 0.01, SOURCE, 0.0)
+    grains = scales.grains
+    mu = granular.gidaspow_viscosity(scales.capped, scales.theta, grains.restitution, scales.g0, grains.density, grains.diameter)
+    spread = mu / (scales.alpha_p * grains.density) * scales.end / scales.length**2
+    return Judgement("nu t/L2", spread, 0.01, SOURCE, -math.expm1(-spread))
+
+
 EFFECT = Effect(
     name="granular_viscosity",
     summary="shear and bulk viscosity of agitated grains (Gidaspow, Lun)",
@@ -79,4 +92,5 @@ EFFECT = Effect(
     kernel=kernel,
     arrays=("theta", "diameter"),
     moves=True,
+    call=call,
 )

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from numba import njit
 
-from sdph.effects.effect import Effect
+from sdph.effects.effect import Effect, Judgement
 from sdph.schema import record
 
 
@@ -34,4 +34,11 @@ def acceleration(p):
     return p.x, p.y, p.z
 
 
-EFFECT = Effect(name="gravity", summary="gravity on the grains", parameters=Gravity, kernel=kernel, moves=True)
+def call(scales) -> Judgement:
+    """Speed of free fall within the run over all speeds: an inverse Froude number."""
+    fall = scales.gravity * scales.end
+    ratio = fall / max(scales.jet, scales.thrown, 1e-300) if fall else 0.0
+    return Judgement("g t/U (1/Froude)", ratio, 0.01, "Froude number of the run", ratio / (1.0 + ratio))
+
+
+EFFECT = Effect(name="gravity", summary="gravity on the grains", parameters=Gravity, kernel=kernel, moves=True, call=call)

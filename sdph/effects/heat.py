@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 from numba import njit
 
 from sdph.effects import sizes
-from sdph.effects.effect import Effect
+from sdph.effects.effect import Effect, Judgement
 from sdph.laws import heat as law
 from sdph.schema import choice, record
 
@@ -65,6 +66,15 @@ def conductance(p, sizes_p, s, i, alpha_p, slip, gas_density):
     return s.mass[i] / p.grain_density * total
 
 
+def call(scales) -> Judgement:
+    """Time of the run over the time in which grains or the gas among them take each other's temperature."""
+    both = not scales.case.coupling.one_way
+    time = min(scales.heat_time, scales.gas_heat_time) if both else scales.heat_time
+    felt = scales.end / time if scales.span and scales.alpha_p else 0.0
+    source = "Crowe, Sommerfeld & Tsuji 1998, ch. 2: thermal response time"
+    return Judgement("run / thermal response time", felt, 0.01, source, -math.expm1(-felt))
+
+
 EFFECT = Effect(
     name="heat",
     summary="heat exchange between grains and gas",
@@ -72,4 +82,5 @@ EFFECT = Effect(
     kernel=kernel,
     arrays=("temperature", "diameter", "diameter_variance"),
     sources=("alpha_g", "heat", "heat_temperature"),
+    call=call,
 )

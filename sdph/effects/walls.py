@@ -8,12 +8,13 @@ closer than `contact` to the surface is stopped there: its normal velocity is re
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
-from sdph.effects.effect import Effect
+from sdph.effects.effect import Effect, Judgement
 from sdph.laws import kernels
 from sdph.schema import choice, quantity, record, words
 
@@ -171,10 +172,17 @@ def contact(p, dummies, rows, s):
     return touched
 
 
+def call(scales) -> Judgement:
+    """How far grains get within the run over their way to the nearest wall."""
+    reach = scales.travelled / max(scales.gap, 0.5 * scales.case.resolution.spacing) if scales.gap < math.inf else 0.0
+    return Judgement("way of the grains / gap to a wall", reach, 1.0, "geometry", min(1.0, reach) if reach >= 1.0 else 0.0)
+
+
 EFFECT = Effect(
     name="walls",
     summary="walls of the domain, or a surface mesh, for the grains",
     parameters=Walls,
     kernel=kernel,
     moves=True,
+    call=call,
 )

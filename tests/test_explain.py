@@ -1,0 +1,111 @@
+"""What a case calls for: judgements against hand-made numbers, limits against the stepper's own, warnings where they belong."""
+
+import math
+
+import pytest
+from builders import DISC, simulation
+
+from sdph import case as cases
+from sdph import effects, estimate, explain, judge, scenes
+from sdph.scales import Scales
+
+BED = scenes.HERE / "bubbling_bed" / "case.toml"
+SMALL_BED = ("resolution.spacing_mm=20", "resolution.cell_mm=50")
+
+
+def rows_by(rows, key):
+    return {row[key]: row for row in rows}
+
+
+def test_scales_of_the_bed_are_those_of_the_notes():
+    """sdph-notes, section 3, slip 10 m/s: a_p rp/beta = 24 ms, a_g rg/beta = 6.5 us."""
+    scales = Scales(cases.load(BED, ("boundaries.jet.velocity_m_s=[0,10]",)))
+    assert scales.drag_time == pytest.approx(24e-3, rel=0.05)
+    assert scales.gas_drag_time == pytest.approx(6.5e-6, rel=0.05)
+    assert scales.loading == pytest.approx(0.6 * 3060.0 / (0.4 * 1.225))
+
+
+def test_heat_time_of_the_disc():
+    """The notes' 2.78 s has the paper's factor alpha_g = 0.4."""
+    assert Scales(cases.load(DISC)).heat_time / 0.4 == pytest.approx(2.78, rel=0.01)
+
+
+def test_a_grain_falls_as_stokes_says():
+    """18 mu/(rho d^2) v = g for grains of 20 um, Re = 0.1: within Schiller-Naumann's 4 %."""
+    case = cases.load(BED, ("grains.diameter_mm=0.02", "boundaries.jet.velocity_m_s=[0,0]"))
+    stokes = (3060.0 - 1.225) * 9.81 * (2e-5) ** 2 / (18.0 * 1.7895e-5)
+    assert Scales(case).falling == pytest.approx(stokes, rel=0.05)
+
+
+def test_nothing_that_moves_is_called_for_by_the_disc():
+    assert set(judge.called_for(cases.load(DISC))) == {"heat"}
+
+
+def test_heat_is_called_for_as_long_as_there_is_time_for_it():
+    short = judge.judgements(cases.load(DISC, ("coupling.one_way=true", "run.end_time_s=0.001")))["heat"]
+    long = judge.judgements(cases.load(DISC, ("coupling.one_way=true",)))["heat"]
+    assert short.number == pytest.approx(0.01 * long.number)
+    assert short.error_if_off < 0.01 < long.error_if_off
+
+
+def test_auto_is_the_effects_called_for():
+    table = cases.to_table(cases.load(BED))
+    case = cases.from_table(table | {"effects": "auto"})
+    assert set(case.effects) == set(judge.called_for(cases.load(BED)))
+    assert cases.to_table(case)["effects"] == list(case.effects)  # the resolved case lists them
+    assert "conduction" not in case.effects
+    hot = table | {"effects": "auto", "grains": table["grains"] | {"conductivity_W_m_K": 5e7}}
+    assert "conduction" in cases.from_table(hot).effects
+
+
+def test_auto_asks_for_more_at_a_smaller_error():
+    loose, fine = (set(cases.load(BED, ("effects='auto'", f"run.accuracy={a}")).effects) for a in (0.3, 1e-5))
+    assert loose < fine
+
+
+def test_a_missing_effect_is_told_with_its_error():
+    (line,) = judge.missing(_disc_without_heat())
+    assert "heat is off" in line and "error of about 1 " in line
+
+
+def _disc_without_heat():
+    table = cases.to_table(cases.load(DISC))
+    del table["heat"]
+    return cases.from_table(table | {"effects": ["conduction"]})
+
+
+def test_cells_far_smaller_than_particles_are_warned_of():
+    assert not estimate.warnings(cases.load(DISC))
+    (line,) = estimate.warnings(cases.load(DISC, ("resolution.cell_mm=0.9",)))
+    assert "cell / h = 0.24" in line and "shrink the windows" in line
+    below_grains = estimate.warnings(cases.load(DISC, ("resolution.cell_mm=0.5",)))
+    assert any("cell / grain" in line for line in below_grains)
+
+
+def test_sub_step_limits_are_the_steppers_own(tmp_path):
+    """Grains at rest in a box without gas flow: the limit by cause, and what the stepper takes."""
+    case = cases.load(DISC, ("resolution.spacing_mm=10", "resolution.cell_mm=25"))
+    own = rows_by(estimate.limits(case, judge.scales_of(case)), "cause")
+    conduction = effects.REGISTRY["conduction"]
+    run = simulation(case, tmp_path)
+    assert own["conduction"]["largest [s]"] == conduction.dt_limit(conduction.kernel(case), case, run.state)
+    assert own["heat exchange"]["largest [s]"] == pytest.approx(run.clock.limits["heat exchange"], rel=0.2)
+
+
+def test_expected_counts_are_those_of_the_case(tmp_path):
+    case = cases.load(DISC, ("resolution.spacing_mm=10", "resolution.cell_mm=25"))
+    own = rows_by(estimate.expected(case, judge.scales_of(case)), "what")
+    run = simulation(case, tmp_path)
+    assert own["particles"]["value"] == len(run.state.x)
+    assert own["gas cells"]["value"] == len(run.gas.mesh.volumes)
+    while run.time < case.run.end_time:
+        run.window()
+    assert own["windows"]["value"] == pytest.approx(run.windows, rel=0.6)
+
+
+def test_explained_as_text_and_numbers():
+    parts = explain.explain(cases.load(BED, SMALL_BED))
+    shown = explain.text(parts)
+    for name in effects.REGISTRY:
+        assert name in shown
+    assert all(math.isfinite(row["value"]) or row["value"] == math.inf for row in parts["numbers"])
