@@ -105,7 +105,7 @@ def init_case(options) -> int:
     name, file = scenes.find(options.scene)
     folder = output.create(options.folder, ())
     output.write_text(folder / output.MARK, file.read_text(encoding="utf-8"))
-    output.copy_template(paths.data("openfoam_case_templates") / name / "gas", folder / "gas")
+    output.copy_template(paths.gas_template(name), folder / "gas")
     print(f"{folder}/case.toml and {folder}/gas are yours to edit; run them with: sdph run {folder}")
     return FINE
 

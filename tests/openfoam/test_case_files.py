@@ -62,7 +62,7 @@ def test_code_in_a_case_is_refused(tmp_path, entry):
     with (tmp_path / "template" / "system" / "controlDict").open("a") as file:
         file.write(f"// {entry}\nnote fine;\n")
     case_files.refuse_code(tmp_path / "template")
-    with (tmp_path / "template" / "0" / "T").open("a") as file:
+    with (tmp_path / "template" / "system" / "fvSchemes").open("a") as file:
         file.write(f"x {{ {entry} }}\n")
     with pytest.raises(CaseError, match="runs code of the case"):
         case_files.write_case(box_case((0.1, 0.1), 0.01), tmp_path / "template", tmp_path / "a")
@@ -83,10 +83,12 @@ def test_a_folder_that_is_no_case_is_refused(tmp_path):
 
 def test_own_files_of_a_template_win(tmp_path):
     shutil.copytree(TEMPLATE, tmp_path / "template")
-    (tmp_path / "template" / "system" / "blockMeshDict").write_text("mine")
+    for own in ("system/blockMeshDict", "0/T"):
+        (tmp_path / "template" / own).parent.mkdir(exist_ok=True)
+        (tmp_path / "template" / own).write_text("mine")
     case_files.write_case(box_case((0.1, 0.1), 0.01), tmp_path / "template", tmp_path / "out", ranks=2)
     assert (tmp_path / "out" / "system" / "blockMeshDict").read_text() == "mine"
-    assert (tmp_path / "out" / "0" / "T").read_text() == (TEMPLATE / "0" / "T").read_text()
+    assert (tmp_path / "out" / "0" / "T").read_text() == "mine"
     assert "numberOfSubdomains 2;" in (tmp_path / "out" / "system" / "decomposeParDict").read_text()
 
 
@@ -104,7 +106,6 @@ def test_boundaries_that_do_not_fit_are_named(boundaries, says):
 def test_an_inlet_needs_a_velocity(tmp_path):
     boundaries = {"in": {"kind": "velocity_inlet", "side": "left"}, "walls": {"kind": "wall"}}
     shutil.copytree(TEMPLATE, tmp_path / "template")
-    shutil.rmtree(tmp_path / "template" / "0")
     with pytest.raises(CaseError, match="boundaries.in.velocity_m_s is missing"):
         case_files.write_case(box_case((0.1, 0.1), 0.01, boundaries=boundaries), tmp_path / "template", tmp_path / "out")
 

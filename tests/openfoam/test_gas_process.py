@@ -243,7 +243,6 @@ def box_template(folder):
     import shutil
 
     shutil.copytree(TEMPLATE, folder)
-    shutil.rmtree(folder / "0")
 
 
 def test_a_case_without_a_field_says_which(tmp_path):
