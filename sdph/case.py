@@ -13,6 +13,8 @@ from pathlib import Path
 import tomli_w
 
 from sdph import effects
+from sdph.effects.inflow import Nozzle
+from sdph.liquid import Liquid, Pool
 from sdph.schema import CaseError, choice, fields, flag, quantity, read, record, unknown, vector, whole, words, write
 
 STANDARD_ATMOSPHERE = 101325.0  # Pa, ISO 2533
@@ -26,6 +28,7 @@ class Run:
     report_at: tuple = vector("s", ())  # times that a window ends at, so that history.csv has them
     metrics: tuple = words(())  # of sdph.metrics, for metrics.csv and the summary
     checkpoint_interval: float = quantity("s", 600.0, above=0.0)  # of wall time; our choice
+    checkpoint_windows: int | None = whole(None, least=1)  # and after so many windows, where it is given
 
 
 @record
@@ -40,7 +43,7 @@ class Domain:
 class Resolution:
     spacing: float = quantity("mm", above=0.0)
     smoothing_ratio: float = quantity("", 1.5, least=1.0, most=3.0)  # paper section 4: h is 1.5 spacings
-    cell: float = quantity("mm", above=0.0)
+    cell: float | None = quantity("mm", None, above=0.0)  # of the gas
 
 
 @record
@@ -136,11 +139,14 @@ class Case:
     run: Run
     domain: Domain
     resolution: Resolution
-    gas: GasProperties
-    grains: Grains
+    gas: GasProperties | None  # None in a case with a liquid
+    grains: Grains | None  # the same
+    liquid: Liquid | None
+    pools: dict[str, Pool]
     particles: dict[str, Region]
     boundaries: dict[str, Boundary]
     probes: dict[str, Probe]
+    nozzles: dict[str, Nozzle]
     coupling: Coupling
     vapour: Vapour | None
     track: tuple[str, ...]
@@ -152,7 +158,7 @@ class Case:
 
 
 SECTIONS = {"run": Run, "domain": Domain, "resolution": Resolution, "gas": GasProperties, "grains": Grains}
-GROUPS = {"particles": Region, "boundaries": Boundary, "probes": Probe}
+GROUPS = {"particles": Region, "pools": Pool, "boundaries": Boundary, "probes": Probe, "nozzles": Nozzle}
 
 
 def load(path: Path, overrides: tuple[str, ...] = ()) -> Case:
@@ -183,11 +189,12 @@ def _override(table: dict, text: str) -> None:
 
 def from_table(table: dict) -> Case:
     """The case of a parsed TOML table."""
-    head = {"title", "scene", "dimensions", "effects", "coupling", "vapour", "track"}
+    head = {"title", "scene", "dimensions", "effects", "coupling", "vapour", "track", "liquid"}
     for key in table:
         if key not in head | SECTIONS.keys() | GROUPS.keys() | effects.REGISTRY.keys():
             raise CaseError(unknown(key, head | SECTIONS.keys() | GROUPS.keys() | effects.REGISTRY.keys()))
-    sections = {name: read(cls, table.get(name, {}), name) for name, cls in SECTIONS.items()}
+    spared = {"gas", "grains"} if "liquid" in table else set()
+    sections = {name: None if name in spared - table.keys() else read(cls, table.get(name, {}), name) for name, cls in SECTIONS.items()}
     groups = {name: _group(cls, table.get(name, {}), name) for name, cls in GROUPS.items()}
     on = _effects(table)
     case = Case(
@@ -196,6 +203,7 @@ def from_table(table: dict) -> Case:
         dimensions=_dimensions(table),
         effects=on,
         coupling=read(Coupling, table.get("coupling", {}), "coupling"),
+        liquid=read(Liquid, table["liquid"], "liquid") if "liquid" in table else None,
         vapour=read(Vapour, table["vapour"], "vapour") if "vapour" in table else None,
         track=_track(table),
         parameters={name: read(effects.REGISTRY[name].parameters, table.get(name, {}), name) for name in on},
@@ -213,7 +221,7 @@ class _Track:
 
 def _track(table: dict) -> tuple[int, ...]:
     named = read(_Track, table.get("track", {}), "track").particles
-    if any(number != int(number) for number in named):
+    if any(isinstance(number, tuple) or number != int(number) for number in named):
         raise CaseError(f"track.particles = {list(named)}; they must be whole numbers, counted from 1")
     return tuple(int(number) for number in named)
 
@@ -258,6 +266,12 @@ def _automatic(table: dict) -> tuple[str, ...]:
 
 def _check(case: Case) -> None:
     """What no single key can tell."""
+    matter = "liquid" if case.liquid else "grains"
+    for name in case.effects:
+        if matter not in effects.REGISTRY[name].matter:
+            raise CaseError(f"effects holds {name}, which does not act on {'a liquid' if case.liquid else 'grains'}; leave it out")
+    if case.resolution.cell is None and not case.liquid:
+        raise CaseError("resolution.cell_mm is missing; it has no default: give it in [resolution]")
     vectors = {"domain.size_m": case.domain.size, "domain.gravity_m_s2": case.domain.gravity}
     for name, region in case.particles.items():
         vectors |= {f"particles.{name}.{key}": getattr(region, at) for key, (at, kind) in fields(Region).items() if kind.components is None}
@@ -303,7 +317,7 @@ def _inside(case: Case, key: str, lower, upper) -> None:
 def to_table(case: Case) -> dict:
     """The TOML table of a case, every value resolved."""
     table = {"title": case.title, "scene": case.scene, "dimensions": case.dimensions, "effects": list(case.effects)}
-    table |= {name: write(getattr(case, name)) for name in (*SECTIONS, "coupling")}
+    table |= {name: write(getattr(case, name)) for name in (*SECTIONS, "coupling", "liquid") if getattr(case, name)}
     table |= {group: {name: write(entry) for name, entry in getattr(case, group).items()} for group in GROUPS}
     table |= {name: write(parameters) for name, parameters in case.parameters.items() if write(parameters)}
     if case.vapour:

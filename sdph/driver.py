@@ -1,13 +1,19 @@
-"""`sdph run`: a run from its case to its summary."""
+"""`sdph run`: a run from its case, or from its last checkpoint, to its summary."""
 
 from __future__ import annotations
 
+import contextlib
+import math
 import time
 from pathlib import Path
 
+import numpy as np
+
 from sdph import case as cases
-from sdph import history, metrics, output, paths
+from sdph import history, metrics, output, paths, restart
+from sdph.interruption import Stopped, listening
 from sdph.ledger import Ledger
+from sdph.schema import CaseError
 from sdph.simulation import Simulation
 
 
@@ -16,18 +22,39 @@ def run(case, name: str, folder: Path, gas_folder: Path | None, reporter) -> dic
 
     `gas_folder` holds the user's own OpenFOAM case (None: the scene's template); `reporter` shows progress.
     """
-    started = time.perf_counter()
-    output.create(folder)
-    output.write_text(folder / output.MARK, cases.dumps(case))
-    gas = open_gas(case, name, folder, gas_folder, reporter.status)
-    try:
-        return _coupled(case, gas, folder, reporter, started)
-    finally:
-        gas.close()
+    if case.liquid:
+        from sdph import liquid_run
+
+        return liquid_run.run(case, folder, reporter)
+    template = gas_folder or paths.gas_template(name)
+    with output.claimed(output.create(folder)):
+        output.write_origin(folder, template.resolve())
+        output.write_text(folder / output.MARK, cases.dumps(case))
+        return _guarded(Run(case, folder, reporter), template, None)
 
 
-def open_gas(case, name: str, folder: Path, gas_folder: Path | None, status):
-    """The gas solver that the case asks for; `auto` takes OpenFOAM where it is built, else the embedded one."""
+def resume(folder: Path, overrides: tuple[str, ...], reporter) -> dict:
+    """Go on with a run from its newest whole checkpoint, or from its start where it has none; its summary."""
+    if not (folder / output.MARK).is_file() or not (folder / output.ORIGIN).is_file():
+        raise CaseError(f"{folder} holds no run to go on with; run it anew")
+    case = cases.load(folder / output.MARK, overrides)
+    with output.claimed(folder):
+        checkpoint = restart.newest(folder, reporter.status)
+        if checkpoint:
+            checkpoint.refuse_other(cases.to_table(case))
+        else:
+            reporter.status(f"{folder} has no checkpoint: it begins again")
+            output.clear(folder)
+        output.write_text(folder / output.MARK, cases.dumps(case))
+        template = None if checkpoint else Path(output.read_origin(folder)["gas_template"])
+        return _guarded(Run(case, folder, reporter), template, checkpoint)
+
+
+def open_gas(case, folder: Path, template: Path | None, status):
+    """The gas solver that the case asks for; `auto` takes OpenFOAM where it is built, else the embedded one.
+
+    `template` None goes on with the OpenFOAM case that is in `folder`.
+    """
     chosen = case.coupling.gas
     if chosen == "auto":
         from coupling.openfoam import install
@@ -41,35 +68,123 @@ def open_gas(case, name: str, folder: Path, gas_folder: Path | None, status):
         return EmbeddedGas(case)
     from coupling.openfoam.solver import OpenFoamGas
 
-    template = gas_folder or paths.data("openfoam_case_templates") / name / "gas"
     return OpenFoamGas(case, folder / "gas", template, status=status)
 
 
-def _coupled(case, gas, folder: Path, reporter, started: float) -> dict:
-    """The loop over windows with its outputs."""
-    simulation = Simulation(case, gas, Ledger(folder / "ledger.csv", case, gas.mesh.depth))
-    simulation.start()
-    out = Outputs(folder, simulation)
-    first = None
-    while simulation.time < case.run.end_time:
-        simulation.window()
-        first = first or time.perf_counter() - started
-        out.window()
-        reporter.progress(simulation)
-    out.close()
-    summary = _summary(simulation, out) | {"start_to_first_window_s": first, "wall_s": time.perf_counter() - started}
-    output.write_summary(folder, summary)
-    return summary
+def _guarded(run: Run, template: Path | None, checkpoint) -> dict:
+    """The summary of a run; where it fails, the folder says why, and the error says how to go on."""
+    (run.folder / output.FAILURE).unlink(missing_ok=True)
+    try:
+        with listening() as wish, contextlib.closing(open_gas(run.case, run.folder, template, run.reporter.status)) as gas:
+            return run.go(gas, checkpoint, wish)
+    except OSError as error:
+        failure = output.CannotWrite(f"{run.folder} cannot be written: {error.strerror or error}; make room or give another folder")
+        raise run.failed(failure) from error
+    except (RuntimeError, CaseError, Stopped) as error:
+        raise run.failed(error)
+
+
+class Run:
+    """A run as it goes: windows, what they leave behind, and checkpoints."""
+
+    KEPT = ("simulation", "out", "spent", "first")  # see sdph.restart
+
+    def __init__(self, case, folder: Path, reporter):
+        self.case, self.folder, self.reporter = case, folder, reporter
+        self.begun = time.perf_counter()
+        self.simulation = None
+        self.elapsed = 0.0  # wall time [s] of the parts of the run before this one
+        self.first = None  # wall time [s] to the end of the first window
+        self.saved_time, self.saved_window = time.monotonic(), 0
+
+    @property
+    def spent(self) -> float:
+        """Wall time [s] of the run."""
+        return self.elapsed + time.perf_counter() - self.begun
+
+    @spent.setter
+    def spent(self, before: float) -> None:
+        self.elapsed = before
+
+    def go(self, gas, checkpoint, wish) -> dict:
+        """From the start, or from a checkpoint, to the summary."""
+        self._begin(gas, checkpoint)
+        wish.patient = True
+        with contextlib.closing(self.out):
+            while self.simulation.time < self.case.run.end_time:
+                self._window()
+                if wish.number is not None or self._due():
+                    self._save()
+                wish.obey()
+            self._save()
+        summary = _summary(self.simulation, self.out) | {"start_to_first_window_s": self.first, "wall_s": self.spent}
+        output.write_summary(self.folder, summary)
+        return summary
+
+    def failed(self, error: BaseException) -> BaseException:
+        """The error with a note on how to go on; failure.json keeps what happened."""
+        checkpoint = restart.newest(self.folder)
+        last = f"last checkpoint: {checkpoint.folder}" if checkpoint else "there is no checkpoint yet"
+        error.add_note(f"({last}; go on with: sdph run --resume {self.folder})")
+        time_s = self.simulation.time if self.simulation else 0.0
+        with contextlib.suppress(OSError):
+            output.write_json(self.folder / output.FAILURE, {"what": str(error), "kind": type(error).__name__, "time_s": time_s})
+        return error
+
+    def _begin(self, gas, checkpoint) -> None:
+        simulation = Simulation(self.case, gas, Ledger(self.folder / "ledger.csv", self.case, gas.mesh.depth))
+        self.simulation, self.out = simulation, Outputs(self.folder, simulation)
+        if checkpoint is None:
+            simulation.start()
+            self.out.start()
+            self._save()
+            return
+        self.reporter.status(f"going on from {checkpoint.folder}")
+        checkpoint.fill(self)
+        simulation.take_up(gas.restore(checkpoint.gas))
+
+    def _window(self) -> None:
+        self.simulation.window()
+        _check_finite(self.simulation)
+        self.first = self.first or self.spent
+        self.out.window()
+        self.reporter.progress(self.simulation)
+
+    def _due(self) -> bool:
+        """Whether it is time for a checkpoint."""
+        windows = self.case.run.checkpoint_windows or math.inf
+        apart = time.monotonic() - self.saved_time
+        return apart >= self.case.run.checkpoint_interval or self.simulation.windows - self.saved_window >= windows
+
+    def _save(self) -> None:
+        restart.write(self.folder, self.simulation.windows, cases.to_table(self.case), self, self.simulation.gas)
+        self.saved_time, self.saved_window = time.monotonic(), self.simulation.windows
+
+
+def _check_finite(simulation) -> None:
+    """CaseError where a value of the particles is no number any more: the run blew up."""
+    for name, values in simulation.state._asdict().items():
+        if not np.isfinite(values.sum()):
+            which = simulation.state.ident[np.argmin(np.isfinite(values))]
+            where = f"particle {which} at {simulation.time:g} s, in window {simulation.windows}"
+            raise CaseError(f"the particles blew up: {name} of {where} is {values[np.argmin(np.isfinite(values))]}; "
+                            "use a finer coupling.window_tolerance or check the numbers of the case")  # fmt: skip
 
 
 class Outputs:
     """All that a run writes as it goes: history by window, fields and metrics by output interval."""
 
+    KEPT = ("fields", "history", "metrics", "first", "last", "rows")  # see sdph.restart
+
     def __init__(self, folder: Path, simulation):
         self.simulation = simulation
         self.fields = output.Fields(folder, simulation.gas, simulation.case.grains.density)
         self.history, self.metrics = output.Table(folder / "history.csv"), output.Table(folder / "metrics.csv")
-        self.first, self.last, self.rows = history.row(simulation), {}, []
+        self.first, self.last, self.rows = {}, {}, []
+
+    def start(self) -> None:
+        """The rows and fields of the start."""
+        self.first = history.row(self.simulation)
         self.history.write(self.first)
         self._write()
 
@@ -85,7 +200,7 @@ class Outputs:
             table.close()
 
     def _write(self) -> None:
-        self.fields.write(self.simulation.time, self.simulation.state, self.simulation.cell_fields())
+        self.fields.write(self.simulation.time, self.simulation.grains, self.simulation.cell_fields())
         self.rows.append(metrics.row(self.simulation))
         self.metrics.write(self.rows[-1])
 
@@ -96,7 +211,7 @@ def _summary(simulation, out: Outputs) -> dict:
     summary = {
         "title": case.title,
         "time_s": simulation.time,
-        "particles": len(simulation.state.x),
+        "particles": len(simulation.grains.x),
         "cells": len(simulation.gas.mesh.volumes),
         "windows": simulation.windows,
         "sub_steps": simulation.stepper.steps,

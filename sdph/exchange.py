@@ -15,57 +15,86 @@ the new gas velocity, is known when the window is done: the gas gets it in the n
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numba import njit, prange
 
 from coupling.transfer import Weights, deposit, gather
 from sdph import effects, particles
-from sdph.effects import drag, heat, sizes
+from sdph.effects import OFF, drag, evaporation, heat, sizes
+from sdph.laws.constants import GAS_CONSTANT
 from sdph.laws.exchange import exponential_fraction
 from sdph.ledger import vector
+from sdph.particles import GRAIN
 
 INSTANT = 1e-12  # s, so short that f_k/dt is K_k/C_k
 NEGLIGIBLE = 1e-6  # of the temperature: smaller differences need not be resolved (round-off else rules the window); our choice
 
 
 @dataclass(frozen=True)
+class Loss:
+    """What evaporates in one window, of each particle: mass [kg], its effect on the sizes (see effects/evaporation.py),
+    and condensation that was refused [kg]."""
+
+    mass: np.ndarray
+    still: np.ndarray
+    moving: np.ndarray
+    refused: np.ndarray
+
+
+@dataclass(frozen=True)
 class Handed:
     """What one window hands over: the sources for the gas, and what the reaction is computed from.
 
-    heat (N,) [W/K] is C_k f_k/dt, drag (N,) [kg/s] is m_k f_k/dt; temperature and velocity are those of the particles
-    when they were computed; damping (N,) [1/s] is beta/(alpha_p rho_p).
+    heat (N,) [W/K] and pull (N,) [W]: the particle takes heat * T'_g - pull; drag (N,) [kg/s] is m_k f_k/dt; temperature
+    and velocity are those of the particles when they were computed; damping (N,) [1/s] is beta/(alpha_p rho_p).
     """
 
     dt: float
     weights: Weights
     sources: dict[str, np.ndarray]
     heat: np.ndarray
+    pull: np.ndarray
     drag: np.ndarray
     damping: np.ndarray
     temperature: np.ndarray
     velocity: np.ndarray
+    loss: Loss | None
 
 
 @dataclass(frozen=True)
 class Taken:
-    """What the particles take in a window: heat (N,) [J], impulse (N, 3) [kg m/s]; and what the gas gave by its own sum."""
+    """What the particles take in a window: heat (N,) [J], impulse (N, 3) [kg m/s]; and what the gas gave by its own sum.
+
+    warming (N,) [J] is the heat less that of evaporation; vapour and vapour_to_gas [kg] what left particles and what the
+    gas got; latent_heat [J] and capacity_heat [J] what evaporation binds, and what the vapour's other heat capacity does.
+    """
 
     heat: np.ndarray
+    warming: np.ndarray
     impulse: np.ndarray
     heat_from_gas: float
     impulse_from_gas: np.ndarray
+    vapour: float = 0.0
+    vapour_to_gas: float = 0.0
+    latent_heat: float = 0.0
+    capacity_heat: float = 0.0
+    refused: float = 0.0
 
     def columns(self) -> dict[str, float]:
         """Both sides of the exchange for the ledger."""
         heat = {"heat_to_particles_J": float(self.heat.sum()), "heat_to_gas_J": -self.heat_from_gas}
+        vapour = {"evaporated_kg": self.vapour, "vapour_to_gas_kg": self.vapour_to_gas, "condensation_refused_kg": self.refused}
+        bound = {"latent_heat_J": self.latent_heat, "capacity_heat_J": self.capacity_heat}
         own, other = self.impulse.sum(axis=0), -self.impulse_from_gas
-        return heat | vector("impulse_to_particles", own) | vector("impulse_to_gas", other)
+        return heat | vapour | bound | vector("impulse_to_particles", own) | vector("impulse_to_gas", other)
 
 
 class Exchange:
     """The effects of a case that reach across to the gas."""
+
+    KEPT = ("drag_heat",)
 
     def __init__(self, case, mesh, parameters):
         self.case = case
@@ -78,28 +107,67 @@ class Exchange:
 
     def alpha_g(self, state, weights) -> np.ndarray:
         """Gas volume fraction of the cells."""
-        return 1.0 - deposit(weights, state.mass / self.case.grains.density) / self.volumes
+        return self._room(weights, state.mass * (state.kind == particles.GRAIN))
 
-    def hand(self, state, weights, gas_state, dt, alpha_g) -> Handed:
-        """Coefficients from the old gas state, and the sources for the gas; `alpha_g` (C,) is that of the window's end."""
-        velocity, density = (gather(weights, gas_state.fields[name]) for name in ("velocity", "density"))
-        own = particles.velocities(state)
-        slip = np.sqrt(((velocity - own) ** 2).sum(axis=1))
-        shared_heat, shared_mass, damping = (np.zeros(len(slip)) for _ in range(3))
+    def hand(self, state, weights, ahead, gas_state, dt) -> Handed:
+        """Coefficients from the old gas state, and the sources for the gas.
+
+        `ahead` are the weights of where the particles will be at the end of the window, and who of them will be inside
+        the box: its gas volume fraction is told to the gas.
+        """
+        seen = Seen(weights, gas_state, state)
+        conductance, loss = np.empty(len(state.x)), None
+        if self.parameters["evaporation"]:
+            conductance, loss = self._evaporate(state, weights, gas_state, seen, dt)
+        kept = state.mass - loss.mass if loss else state.mass
+        heat_share, pull, shared_mass, damping = (np.zeros(len(state.x)) for _ in range(4))
+        latent = self.parameters["evaporation"].latent_heat / dt * loss.mass if loss else OFF
         _coefficients(
-            self.parameters["drag"], self.parameters["heat"], self.sizes_p, state, self._grains(), dt, slip, density,
-            shared_heat, shared_mass, damping,
+            self.parameters["drag"], self.parameters["heat"], self.sizes_p, state, self._grains(), dt, seen.slip, seen.density,
+            kept, conductance, latent, heat_share, pull, shared_mass, damping,
         )  # fmt: skip
-        sources = {"alpha_g": alpha_g} if "alpha_g" in self.sources else {}
+        there, inside = ahead
+        sources = {"alpha_g": self._room(there, kept * inside)} if "alpha_g" in self.sources else {}
+        sources |= self._sources(state, weights, seen, dt, loss, heat_share, pull, shared_mass)
+        sources = {name: np.ascontiguousarray(values) for name, values in sources.items()}
+        return Handed(dt, weights, sources, heat_share, pull, shared_mass, damping, state.temperature.copy(), seen.own, loss)
+
+    def _sources(self, state, weights, seen, dt, loss, heat_share, pull, shared_mass) -> dict[str, np.ndarray]:
+        """All but the volume fraction."""
+        sources = {}
         if self.parameters["heat"]:
-            columns = np.stack((shared_heat, shared_heat * state.temperature), axis=1)
-            sources["heat"], sources["heat_temperature"] = self._density(weights, columns).T
+            sources["heat"], sources["heat_temperature"] = self._density(weights, np.stack((heat_share, pull), axis=1)).T
         if self.parameters["drag"]:
-            columns = np.concatenate((shared_mass[:, None], shared_mass[:, None] * own), axis=1)
+            columns = np.concatenate((shared_mass[:, None], shared_mass[:, None] * seen.own), axis=1)
             columns = self._density(weights, columns)
             sources["drag"], sources["drag_velocity"], sources["heat_source"] = columns[:, 0], columns[:, 1:], self.drag_heat
-        sources = {name: np.ascontiguousarray(values) for name, values in sources.items()}
-        return Handed(dt, weights, sources, shared_heat, shared_mass, damping, state.temperature.copy(), own)
+        if loss:
+            rate = loss.mass[:, None] / dt
+            enthalpy = self.case.vapour.heat_capacity * state.temperature[:, None]
+            columns = self._density(weights, np.concatenate((rate, rate * seen.own, rate * enthalpy), axis=1))
+            sources["vapour"], sources["vapour_momentum"], sources["vapour_enthalpy"] = columns[:, 0], columns[:, 1:4], columns[:, 4]
+        return sources
+
+    def _evaporate(self, state, weights, gas_state, seen, dt) -> tuple[np.ndarray, Loss]:
+        """Mean heat conductance (N,) [W/K] of a window, and what evaporates in it.
+
+        The vapour in each cell is taken as it would be at the window's end if no flow carried it: fast exchange
+        saturates a cell and does not overshoot.
+        """
+        p, count = self.parameters["evaporation"], len(state.x)
+        conductance, flow, surface = (np.empty(count) for _ in range(3))
+        around = seen.slip, seen.density, seen.temperature
+        evaporation.survey(p, self.parameters["heat"], self.sizes_p, state, *around, dt, conductance, flow, surface)
+        cells = _vapour_concentration(p, gas_state)
+        if not self.case.coupling.one_way:
+            exchanged = deposit(weights, np.stack((flow, flow * surface), axis=1)) * dt
+            room = self._room(weights, state.mass * (state.kind == particles.GRAIN)) * self.volumes
+            cells = np.maximum(cells, (room * cells + exchanged[:, 1]) / (room + exchanged[:, 0]))
+        loss = Loss(*(np.empty(count) for _ in range(4)))
+        evaporation.losses(
+            p, self.sizes_p, state, *around, gather(weights, cells), dt, conductance, loss.mass, loss.still, loss.moving, loss.refused
+        )
+        return conductance, loss
 
     def pace(self, state, weights, gas_state) -> tuple[float, float]:
         """Rate [1/s] of the fastest cell, and a scale of heat [J]: the gas among the grains, and they, brought to
@@ -107,8 +175,9 @@ class Exchange:
         if not self.parameters["heat"]:
             return 0.0, 0.0
         alpha_g = self.alpha_g(state, weights)
-        eps = self.hand(state, weights, gas_state, INSTANT, alpha_g).sources["heat"]
-        content = self._density(weights, state.mass * self.case.grains.heat_capacity)
+        here = weights, state.kind == particles.GRAIN
+        eps = self.hand(state, weights, here, gas_state, INSTANT).sources["heat"]
+        content = self._density(weights, state.mass * (state.kind == particles.GRAIN) * self.case.grains.heat_capacity)
         gas = alpha_g * gas_state.fields["density"] * self.case.gas.heat_capacity
         full = content > 0.0
         resistance = 1.0 / content[full] + 1.0 / gas[full]
@@ -122,7 +191,7 @@ class Exchange:
         impulse, impulse_from_gas = np.zeros((count, 3)), np.zeros(3)
         if self.parameters["heat"]:
             temperature = gas_state.fields["temperature"]
-            taken_heat = handed.dt * handed.heat * (gather(handed.weights, temperature) - handed.temperature)
+            taken_heat = handed.dt * (handed.heat * gather(handed.weights, temperature) - handed.pull)
             given = handed.sources["heat"] * temperature - handed.sources["heat_temperature"]
             from_gas = float((given * self.volumes).sum() * handed.dt)
         if self.parameters["drag"]:
@@ -134,13 +203,37 @@ class Exchange:
             self.drag_heat = self._density(handed.weights, (impulse * apart).sum(axis=1) / handed.dt)
         if self.case.coupling.one_way:  # the gas feels nothing
             from_gas, impulse_from_gas = 0.0, np.zeros(3)
-        return Taken(taken_heat, impulse, from_gas, impulse_from_gas)
+        if not handed.loss:
+            return Taken(taken_heat, taken_heat, impulse, from_gas, impulse_from_gas)
+        return self._with_vapour(Taken(taken_heat, taken_heat, impulse, from_gas, impulse_from_gas), handed)
+
+    def _with_vapour(self, taken: Taken, handed: Handed) -> Taken:
+        """The same with what evaporation takes."""
+        mass, latent = handed.loss.mass, self.parameters["evaporation"].latent_heat
+        excess = self.case.grains.heat_capacity - self.case.vapour.heat_capacity
+        given = 0.0 if self.case.coupling.one_way else float((handed.sources["vapour"] * self.volumes).sum() * handed.dt)
+        return replace(
+            taken, warming=taken.heat - latent * mass, vapour=float(mass.sum()), vapour_to_gas=given,
+            latent_heat=latent * float(mass.sum()), capacity_heat=excess * float((mass * handed.temperature).sum()),
+            refused=float(handed.loss.refused.sum()),
+        )  # fmt: skip
+
+    def settle(self, state, handed: Handed) -> None:
+        """Take from the particles what evaporated."""
+        if handed.loss:
+            evaporation.apply(
+                self.parameters["evaporation"], self.sizes_p, state, handed.loss.mass, handed.loss.still, handed.loss.moving
+            )
 
     def drag_heat_of(self, handed: Handed) -> float:
         """Heat of drag [J] that the gas was handed."""
         if "heat_source" not in handed.sources or self.case.coupling.one_way:
             return 0.0
         return float((handed.sources["heat_source"] * self.volumes).sum() * handed.dt)
+
+    def _room(self, weights, mass) -> np.ndarray:
+        """Gas volume fraction of the cells with grains of `mass` (N,) [kg] in them."""
+        return 1.0 - deposit(weights, mass / self.case.grains.density) / self.volumes
 
     def _density(self, weights, amounts) -> np.ndarray:
         """Extensive amounts (N,) or (N, m) of the particles per volume of the cells."""
@@ -151,6 +244,23 @@ class Exchange:
         return self.case.grains.density, self.case.grains.heat_capacity
 
 
+class Seen:
+    """The gas as the particles see it: own velocity (N, 3), slip (N,), density, temperature (N,) of the gas."""
+
+    def __init__(self, weights, gas_state, state):
+        velocity, self.density, self.temperature = (gather(weights, gas_state.fields[name]) for name in ("velocity", "density", "temperature"))
+        self.own = particles.velocities(state)
+        self.slip = np.sqrt(((velocity - self.own) ** 2).sum(axis=1))
+
+
+def _vapour_concentration(p, gas_state) -> np.ndarray:
+    """Vapour in the cells [kmol/m3], Eq. 10."""
+    Y, temperature = gas_state.fields["vapour_mass_fraction"], gas_state.fields["temperature"]
+    moles = Y / p.molar_mass
+    fraction = moles / (moles + (1.0 - Y) / p.gas_molar_mass)
+    return fraction * p.operating_pressure / (GAS_CONSTANT * temperature)
+
+
 def _temperature_span(case) -> float:
     """Hottest less coldest of all that the case gives a temperature [K], and where they are alike a negligible part of it."""
     given = [case.gas.temperature, *(region.temperature for region in case.particles.values())]
@@ -159,14 +269,27 @@ def _temperature_span(case) -> float:
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def _coefficients(drag_p, heat_p, sizes_p, s, grains, dt, slip, gas_density, shared_heat, shared_mass, damping):
-    """C_k f_k/dt [W/K], m_k f_k/dt [kg/s] and beta/(alpha_p rho_p) [1/s] of every particle."""
+def _coefficients(drag_p, heat_p, sizes_p, s, grains, dt, slip, gas_density, kept, mean, latent, heat_share, pull, shared_mass, damping):
+    """Of every particle: heat_share [W/K] and pull [W], m_k f_k/dt [kg/s], beta/(alpha_p rho_p) [1/s].
+
+    With a latent heat flow L held over the window, x = dt K/C and C of the mass that is `kept` [kg],
+    Q/dt = K phi (T'_g - T) + L (1 - phi), phi = (1 - exp(-x))/x; without one K phi = C f/dt. `mean` is K where grains evaporate.
+    """
     density, heat_capacity = grains
     for i in prange(len(s.x)):
-        alpha_p = s.density[i] / density
-        conductance = heat.conductance(heat_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
-        capacity = s.mass[i] * heat_capacity
-        shared_heat[i] = capacity * exponential_fraction(dt * conductance / capacity) / dt
-        rate = drag.damping(drag_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
-        shared_mass[i] = s.mass[i] * exponential_fraction(dt * rate) / dt
-        damping[i] = rate
+        heat_share[i] = pull[i] = shared_mass[i] = damping[i] = 0.0
+        if s.kind[i] == GRAIN:
+            alpha_p = s.density[i] / density
+            capacity = kept[i] * heat_capacity
+            if len(latent) == 0:
+                conductance = heat.conductance(heat_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
+            else:
+                conductance = mean[i]
+            if conductance > 0.0:
+                heat_share[i] = capacity * exponential_fraction(dt * conductance / capacity) / dt if capacity > 0.0 else 0.0
+                pull[i] = heat_share[i] * s.temperature[i]
+                if len(latent) > 0:
+                    pull[i] -= latent[i] * (1.0 - heat_share[i] / conductance)
+            rate = drag.damping(drag_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
+            shared_mass[i] = kept[i] * exponential_fraction(dt * rate) / dt
+            damping[i] = rate

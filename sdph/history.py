@@ -25,7 +25,7 @@ def probe(simulation, point) -> dict[str, float]:
     here[0, : len(point)] = point
     gas = gather(simulation.transfer.weights(here), simulation.gas_state.fields["temperature"])[0]
     reach = REACH * simulation.case.smoothing_length
-    state = simulation.state
+    state = simulation.grains
     r = np.sqrt(((particles.positions(state) - here) ** 2).sum(axis=1))
     near = np.flatnonzero(r < reach)
     weight = state.mass[near] * (1.0 - r[near] / reach) ** 2

@@ -1,22 +1,35 @@
 """The run folder: what a run leaves behind, each file whole or not there.
 
-    case.toml summary.json ledger.csv history.csv run.pvd fields/particles_*.vtp fields/gas_*.vt? gas/ (case and log)
+    case.toml origin.json ledger.csv history.csv metrics.csv run.pvd fields/particles_*.vtp fields/gas_*.vt?
+    checkpoints/ gas/ (case and log); at the end summary.json, or failure.json
 """
 
 from __future__ import annotations
 
 import csv
+import errno
+import fcntl
+import importlib.metadata
 import json
 import os
+import platform
 import shutil
+import sys
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
 
-from sdph import particles
+from sdph import __version__, particles
 from sdph.schema import CaseError
 
-MARK = "case.toml"  # a folder with this file holds a run
+MARK, ORIGIN = "case.toml", "origin.json"  # a folder with these files holds a run
+FAILURE = "failure.json"
+NAMED = ("numpy", "numba", "scipy", "pyvista")  # packages whose versions a run notes
+
+
+class CannotWrite(RuntimeError):
+    """The run folder does not take what is written: why."""
 
 
 def create(folder: Path, inside: tuple[str, ...] = ("fields",)) -> Path:
@@ -30,6 +43,27 @@ def create(folder: Path, inside: tuple[str, ...] = ("fields",)) -> Path:
     except OSError as error:
         raise CaseError(f"{folder} cannot be made: {error.strerror}; give a folder that can be written") from None
     return folder
+
+
+@contextmanager
+def claimed(folder: Path):
+    """Keeps other runs out of a folder. The lock is the system's own and goes with the process, however that ends."""
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        yield
+    except BlockingIOError:
+        raise CaseError(f"{folder} is in use by a run that is going on; wait for it, or give another folder") from None
+    finally:
+        os.close(descriptor)
+
+
+def clear(folder: Path) -> None:
+    """Remove what a run that has no checkpoint has left, all but what says what it was."""
+    for path in folder.iterdir():
+        if path.name not in (MARK, ORIGIN):
+            shutil.rmtree(path) if path.is_dir() else path.unlink()
+    (folder / "fields").mkdir()
 
 
 def free_name(base: Path) -> Path:
@@ -48,8 +82,23 @@ def write_text(path: Path, text: str) -> None:
     os.replace(temporary, path)
 
 
+def write_json(path: Path, table: dict) -> None:
+    write_text(path, json.dumps(table, indent=1) + "\n")
+
+
 def write_summary(folder: Path, summary: dict) -> None:
-    write_text(folder / "summary.json", json.dumps(summary, indent=1) + "\n")
+    write_json(folder / "summary.json", summary)
+
+
+def write_origin(folder: Path, gas_template: Path) -> None:
+    """Where a run comes from: the command, versions, machine, and the OpenFOAM template."""
+    versions = {"sdph": __version__, "python": platform.python_version()} | {name: importlib.metadata.version(name) for name in NAMED}
+    origin = {"command": sys.argv, "versions": versions, "machine": platform.platform(), "cores": os.cpu_count()}
+    write_json(folder / ORIGIN, origin | {"gas_template": str(gas_template)})
+
+
+def read_origin(folder: Path) -> dict:
+    return json.loads((folder / ORIGIN).read_text(encoding="utf-8"))
 
 
 def read_summary(folder: Path) -> dict:
@@ -69,19 +118,31 @@ def copy_template(source: Path, target: Path) -> None:
 class Table:
     """A CSV file that grows by rows of one set of keys."""
 
+    KEPT = ("columns", "place")  # see sdph.restart
+
     def __init__(self, path: Path):
         self.file = open(path, "a", newline="", encoding="utf-8")
-        self.writer = None
+        self.columns: tuple[str, ...] = ()
 
     def write(self, row: dict) -> None:
-        if self.writer is None:
-            self.writer = csv.DictWriter(self.file, row.keys())
-            if self.file.tell() == 0:
-                self.writer.writeheader()
-        self.writer.writerow(row)
+        writer = csv.DictWriter(self.file, self.columns or row.keys())
+        if not self.columns:
+            self.columns = tuple(row)
+            writer.writeheader()
+        writer.writerow(row)
 
-    def flush(self) -> None:
+    @property
+    def place(self) -> int:
+        """Bytes written, all of them on the disk."""
         self.file.flush()
+        os.fsync(self.file.fileno())
+        return os.fstat(self.file.fileno()).st_size
+
+    @place.setter
+    def place(self, length: int) -> None:
+        if self.place < length:
+            raise CaseError(f"{self.file.name} has lost rows that its checkpoint counts on; run anew")
+        os.ftruncate(self.file.fileno(), length)
 
     def close(self) -> None:
         self.file.close()
@@ -105,9 +166,15 @@ def _numbers(values: list[str]) -> np.ndarray:
 class Fields:
     """Particles and gas on one timeline: `run.pvd` opens in ParaView and pyvista."""
 
+    KEPT = ("entries",)  # see sdph.restart
+
     def __init__(self, folder: Path, gas, grain_density: float):
         self.folder, self.gas, self.grid, self.grain_density = folder, gas, None, grain_density
         self.entries: list[str] = []
+
+    def revive(self) -> None:
+        """The timeline up to the checkpoint that was put back."""
+        self._write_timeline()
 
     def write(self, time: float, state, fields: dict) -> None:
         """Particles and gas fields (name -> (C,) or (C, 3)) at `time` [s], and the timeline up to there."""
@@ -116,11 +183,30 @@ class Fields:
         number = len(self.entries) // 2
         suffix = "vtr" if self.grid[0].GetClassName() == "vtkRectilinearGrid" else "vtu"
         names = f"fields/particles_{number:05d}.vtp", f"fields/gas_{number:05d}.{suffix}"
-        particle_points(state, self.grain_density).save(self.folder / names[0])
-        with_fields(*self.grid, fields).save(self.folder / names[1])
+        save(particle_points(state, self.grain_density), self.folder / names[0])
+        save(with_fields(*self.grid, fields), self.folder / names[1])
         for part, name in enumerate(names):
             self.entries.append(f'<DataSet timestep="{time:.9g}" part="{part}" file="{name}"/>')
+        self._write_timeline()
+
+    def _write_timeline(self) -> None:
         write_text(self.folder / "run.pvd", PVD.format("\n".join(self.entries)))
+
+
+def save(mesh, path: Path) -> None:
+    """A VTK file, whole or not at all. VTK tells nobody when the disk is full: its last line does."""
+    draft = path.with_name(f"part-{path.name}")
+    mesh.save(draft)
+    if not draft.exists() or not _ends_with(draft, b"</VTKFile>"):
+        draft.unlink(missing_ok=True)
+        raise OSError(errno.ENOSPC, f"{os.strerror(errno.ENOSPC)} (or another failure of VTK to write {path.name})")
+    os.replace(draft, path)
+
+
+def _ends_with(path: Path, last: bytes) -> bool:
+    with open(path, "rb") as file:
+        file.seek(max(0, path.stat().st_size - len(last) - 2))
+        return file.read().strip().endswith(last)
 
 
 PVD = '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n<Collection>\n{}\n</Collection>\n</VTKFile>\n'
@@ -131,6 +217,8 @@ def particle_points(state, grain_density: float):
     import pyvista
 
     points = pyvista.PolyData(particles.positions(state))
+    if not points.n_points:  # pyvista knows no empty arrays
+        return points
     points["velocity"] = particles.velocities(state)
     points["alpha_p"] = state.density / grain_density
     for name in ("ident", "kind", "mass", "density", "temperature", "diameter", "theta"):

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-GRAIN, WALL = 0, 1  # values of `kind`
+GRAIN, WALL, INFLOW = 0, 1, 2  # values of `kind`; INFLOW: still upstream of its nozzle
 
 
 class State(NamedTuple):
@@ -32,6 +32,12 @@ class State(NamedTuple):
     diameter: np.ndarray
     diameter_variance: np.ndarray
     theta: np.ndarray
+    evaporating: np.ndarray
+    born_mass: np.ndarray
+    born_diameter: np.ndarray
+    born_variance: np.ndarray
+    lost_still: np.ndarray
+    lost_moving: np.ndarray
 
 
 # name -> (unit, meaning)
@@ -41,11 +47,17 @@ FIELDS = {
     "mass": ("kg", "mass, per metre of depth in two dimensions"),
     "density": ("kg/m3", "alpha_p rho_p, by summation"),
     "ident": ("1", "number that a particle keeps for life"),
-    "kind": ("1", "0 grain, 1 wall"),
+    "kind": ("1", "0 grain, 1 wall, 2 upstream of its nozzle"),
     "temperature": ("K", "temperature of the grains"),
     "diameter": ("m", "number mean of the grain diameters"),
     "diameter_variance": ("m2", "number variance of the grain diameters"),
     "theta": ("m2/s2", "granular temperature"),
+    "evaporating": ("1", "1 once evaporation has started"),
+    "born_mass": ("kg", "mass at the start or when it came in"),
+    "born_diameter": ("m", "number mean of the grain diameters then"),
+    "born_variance": ("m2", "number variance of the grain diameters then"),
+    "lost_still": ("m2", "loss of d^2 as in still gas (sdph.laws.grain_loss)"),
+    "lost_moving": ("m^(3/2)", "further loss by the flow around the grains (the same)"),
 }  # fmt: skip
 ALWAYS = ("x", "y", "u", "v", "mass", "density", "ident", "kind")
 INTEGERS = {"ident": np.int64, "kind": np.int8}
@@ -136,4 +148,17 @@ def _region(case, region, names) -> State:
     for name, value in (("temperature", region.temperature), ("diameter", case.grains.diameter), ("theta", case.grains.granular_temperature)):
         getattr(state, name)[:] = value
     state.diameter_variance[:] = case.grains.diameter_std**2
+    return born(state)
+
+
+def born(state: State) -> State:
+    """The same, with mass and sizes at birth set to those of now."""
+    if len(state.born_mass):
+        state.born_mass[:], state.born_diameter[:], state.born_variance[:] = state.mass, state.diameter, state.diameter_variance
     return state
+
+
+def grains(state: State) -> State:
+    """The particles that are in the gas: all but those upstream of a nozzle."""
+    inside = state.kind != INFLOW
+    return state if inside.all() else take(state, inside)

@@ -8,8 +8,11 @@ import numpy as np
 
 from coupling.transfer import Transfer, gather
 from sdph import effects, particles
+from sdph.effects.inflow import Source
+from sdph.effects.outflow import leaving
 from sdph.exchange import Exchange
 from sdph.ledger import vector
+from sdph.particles import GRAIN
 from sdph.step import Held, Stepper
 from sdph.window import Window
 
@@ -17,14 +20,18 @@ from sdph.window import Window
 class Simulation:
     """Particles of a case coupled to a gas; call `window` until `time` is the end."""
 
+    KEPT = ("time", "windows", "wall", "stepper", "exchange", "clock", "ledger", "source")  # see sdph.restart
+
     def __init__(self, case, gas, ledger):
         self.case, self.gas, self.ledger = case, gas, ledger
         rows = [effects.REGISTRY[name] for name in case.effects]
         self.parameters = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
         self.moves = any(row.moves for row in rows)
-        state = particles.fill(case, {name for row in rows for name in row.arrays})
-        self.stepper = Stepper(case, self.parameters, state)
-        self.transfer = Transfer(gas.mesh, case.smoothing_length)
+        names = {name for row in rows for name in row.arrays}
+        state = particles.fill(case, names)
+        self.source = Source(case, names, len(state.x) + 1) if self.parameters["inflow"] else None
+        self.stepper = Stepper(case, self.parameters, state, self.source)
+        self.transfer = Transfer(gas.mesh, case.smoothing_length, case.domain.size)
         self.exchange = Exchange(case, gas.mesh, self.parameters)
         self.clock = Window(case)
         self.time, self.windows = 0.0, 0
@@ -34,17 +41,26 @@ class Simulation:
     def state(self):
         return self.stepper.state
 
+    @property
+    def grains(self):
+        """The particles that are in the gas."""
+        return particles.grains(self.state)
+
     def start(self) -> None:
         """Initial fields of both sides, and the first window."""
-        self.stepper.prepare()
-        self.weights = self.transfer.weights(particles.positions(self.state))
+        self._turn_over(self.case.coupling.window_largest)
         one_way = self.case.coupling.one_way
         alpha_g = None if one_way else self.exchange.alpha_g(self.state, self.weights)
         self.gas_state = self.gas.start(alpha_g, () if one_way else self.exchange.sources)
         if not one_way:
             self.clock.begin(*self.exchange.pace(self.state, self.weights, self.gas_state))
-        self.ledger.open(self.state, self.gas_state.budget)
+        self.ledger.open(self.grains, self.gas_state.budget)
         self.received = None  # heat rate [W] of each particle from the gas in the last window
+
+    def take_up(self, gas_state) -> None:
+        """Go on from a checkpoint that was put back, instead of `start`."""
+        self.gas_state, self.received = gas_state, None
+        self.weights = self.transfer.weights(particles.positions(self.state))
 
     def window(self) -> None:
         """One window: exchange prepared, gas advanced, reaction taken, particles advanced."""
@@ -54,24 +70,23 @@ class Simulation:
         sources = {} if self.case.coupling.one_way else handed.sources
         self.gas_state = self._timed("gas", self.gas.advance, dt, sources)
         taken = self._timed("exchange", self.exchange.take, handed, self.gas_state)
-        body, before, made = self._body(handed), self._momentum(), self.stepper.mechanical_heat
-        impulse = body * (self.state.mass[:, None] * dt)
+        self.exchange.settle(self.state, handed)
         self.received = Held(self.state, taken.heat / dt)
+        flows = Held(self.state, taken.warming, taken.impulse, self._body(handed), handed.damping)
+        self._without_finished()
+        warming, impulse, body, damping = flows.now(self.state)
+        tally, mass = Tally(self), self.state.mass[:, None]
+        weight = (body * mass * dt)[self.state.kind == GRAIN].sum(axis=0)
         if self.moves:
-            drag = taken.impulse / (self.state.mass[:, None] * dt)
-            self._timed("particles", self.stepper.move, dt, taken.heat, body + drag, handed.damping)
-            self.weights = self._timed("exchange", self.transfer.weights, particles.positions(self.state))
+            self._timed("particles", self.stepper.move, dt, warming, body + impulse / (mass * dt), damping)
         else:
-            self._timed("particles", self.stepper.conduct, dt, taken.heat)
+            self._timed("particles", self.stepper.conduct, dt, warming)
         self.time, self.windows = end, self.windows + 1
-        self.clock.learn(dt, taken.heat, self.gas_state.budget.courant)
-        exchanged = taken.columns() | vector("impulse_of_body_forces", impulse.sum(axis=0))
-        rest = self._momentum() - before - impulse.sum(axis=0) - taken.impulse.sum(axis=0)
-        exchanged |= vector("impulse_of_walls", rest) | {
-            "drag_heat_J": self.exchange.drag_heat_of(handed),
-            "mechanical_heat_J": self.stepper.mechanical_heat - made,
-        }
-        self.ledger.close_window(end, dt, self.clock.limit, self.state, self.gas_state, exchanged)
+        self.clock.learn(dt, taken.heat, self.gas_state.budget.courant, self._fastest())
+        exchanged = taken.columns() | tally.columns(self, weight, taken.impulse.sum(axis=0))
+        exchanged |= {"drag_heat_J": self.exchange.drag_heat_of(handed)}
+        exchanged |= self._timed("exchange", self._turn_over, self.clock.longest())
+        self.ledger.close_window(end, dt, self.clock.limit, self.grains, self.gas_state, exchanged)
 
     def cell_fields(self) -> dict[str, np.ndarray]:
         """Fields of the gas, and alpha_p by cell."""
@@ -79,13 +94,39 @@ class Simulation:
 
     def _hand(self, dt: float):
         """The exchange of a window of `dt`; the gas is told where the particles will be at its end."""
-        ahead = self.weights
+        ahead, inside = self.weights, self.state.kind == GRAIN
         if self.moves:
             ahead = self.transfer.weights(particles.positions(self.state) + particles.velocities(self.state) * dt)
-        return self.exchange.hand(self.state, self.weights, self.gas_state, dt, self.exchange.alpha_g(self.state, ahead))
+        if self.source:
+            inside = ~self.source.waiting(self.state, dt)
+        return self.exchange.hand(self.state, self.weights, (ahead, inside), self.gas_state, dt)
 
-    def _momentum(self) -> np.ndarray:
-        return (self.state.mass[:, None] * particles.velocities(self.state)).sum(axis=0)
+    def _without_finished(self) -> None:
+        """Particles that have evaporated are no more."""
+        left = self.state.mass > 0.0
+        if not left.all():
+            self.stepper.replace(particles.take(self.state, left))
+            self.stepper.prepare()
+
+    def _turn_over(self, longest: float) -> dict[str, float]:
+        """Between windows: what has evaporated or left is taken out, what comes in within `longest` [s] is made."""
+        state, count = self.state, len(self.state.x)
+        gone = leaving(self.case, state) if self.parameters["outflow"] else np.zeros(count, bool)
+        left = particles.take(state, gone) if gone.any() else None
+        if left is not None:
+            state = particles.take(state, ~gone)
+        if self.source:
+            state = self.source.fill(state, self.time, longest)
+        if state is not self.stepper.state:
+            self.stepper.replace(state)
+        if self.moves or self.windows == 0 or self.parameters["evaporation"]:
+            self.stepper.prepare()
+            self.weights = self.transfer.weights(particles.positions(self.state))
+        return _of_those_that_left(self.case, left)
+
+    def _fastest(self) -> float:
+        """Speed of the fastest particle [m/s]."""
+        return float(np.sqrt((particles.velocities(self.state) ** 2).sum(axis=1)).max(initial=0.0)) if self.moves else 0.0
 
     def _body(self, handed) -> np.ndarray:
         """Gravity and the gas's pressure gradient, held over the window: (N, 3) [m/s2]."""
@@ -101,3 +142,39 @@ class Simulation:
         result = function(*arguments)
         self.wall[part] += clock.perf_counter() - start
         return result
+
+
+class Tally:
+    """What the grains had before they moved, to tell afterwards what they got from where."""
+
+    def __init__(self, simulation):
+        self.momentum, self.heat = _momentum(simulation.state), simulation.stepper.mechanical_heat
+        self.came = _came_in(simulation)
+
+    def columns(self, simulation, body, exchanged) -> dict[str, float]:
+        """Ledger columns, given the impulses (3,) of body forces and from the gas; the rest is of walls."""
+        mass, energy, momentum = (now - before for now, before in zip(_came_in(simulation), self.came))
+        walls = _momentum(simulation.state) - self.momentum - body - exchanged - momentum
+        columns = {"injected_kg": mass, "injected_J": energy, "mechanical_heat_J": simulation.stepper.mechanical_heat - self.heat}
+        impulses = {"impulse_of_body_forces": body, "impulse_of_walls": walls, "impulse_of_inflow": momentum}
+        return columns | {key: value for name, impulse in impulses.items() for key, value in vector(name, impulse).items()}
+
+
+def _came_in(simulation):
+    """Mass [kg], enthalpy [J] and momentum [kg m/s] through the nozzles since the start."""
+    source = simulation.source
+    return (source.mass, source.energy, source.momentum) if source else (0.0, 0.0, np.zeros(3))
+
+
+def _momentum(state) -> np.ndarray:
+    inside = state.kind == GRAIN
+    return (state.mass[inside, None] * particles.velocities(state)[inside]).sum(axis=0)
+
+
+def _of_those_that_left(case, left) -> dict[str, float]:
+    """Ledger columns of the grains that left."""
+    if left is None:
+        return {"left_kg": 0.0, "left_J": 0.0} | vector("impulse_of_outflow", np.zeros(3))
+    energy = float((left.mass * left.temperature).sum() * case.grains.heat_capacity) if len(left.temperature) else 0.0
+    return {"left_kg": float(left.mass.sum()), "left_J": energy} | vector("impulse_of_outflow", -_momentum(left))
+

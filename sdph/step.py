@@ -14,6 +14,7 @@ from sdph.boundary import Boundary
 from sdph.effects import OFF, REGISTRY, granular_temperature, walls
 from sdph.effects.granular_viscosity import Viscous
 from sdph.neighbours import Neighbours
+from sdph.particles import INFLOW
 from sdph.rates import Stress
 
 ACOUSTIC = 0.25  # of h/(c + v), Monaghan 1992 (sdph-notes, section 3)
@@ -24,8 +25,10 @@ REACH = 2.0  # support of the kernels in smoothing lengths
 class Stepper:
     """State of the particles, and how it goes forward."""
 
-    def __init__(self, case, parameters, state):
-        self.case, self.parameters, self.state = case, parameters, state
+    KEPT = ("state", "neighbours", "steps", "contacts", "limit", "mechanical_heat", "bounds_work")  # see sdph.restart
+
+    def __init__(self, case, parameters, state, source=None):
+        self.case, self.parameters, self.state, self.source = case, parameters, state, source
         self.kernel = rates.kernel_of(case)
         self.neighbours = Neighbours(REACH * case.smoothing_length)
         self.boundary = Boundary(case) if parameters["walls"] else None
@@ -34,6 +37,16 @@ class Stepper:
         self.steps, self.contacts, self.limit = 0, 0, ""
         self.mechanical_heat = 0.0  # what motion has given to the temperature of the grains [J]
         self.bounds_work = 0.0  # what the bounds of theta have added [J]
+
+    def revive(self) -> None:
+        """After a checkpoint was put back."""
+        self.rows = self.neighbours.rows
+        if self.boundary:
+            self.wall_rows = self.boundary.rows(self.neighbours.built)
+
+    def replace(self, state) -> None:
+        """Other particles than before: some are gone, some are new."""
+        self.state, self.neighbours.built = state, ()
 
     def prepare(self) -> None:
         """Neighbours and density of where the particles are now."""
@@ -100,11 +113,13 @@ class Stepper:
             p["granular_temperature"], p["conduction"], *self._walls(), wall_pressure, wall_velocity, pressure,
             acceleration, agitation, heating,
         )  # fmt: skip
+        if self.source:
+            self._hold_back(acceleration, agitation, heating, body)
         if p["granular_temperature"]:
             self._agitate(dt, agitation, damping, shear_squared, divergence)
         if len(s.temperature):
             self._warm((heating + heat / s.mass) * dt)
-            self.mechanical_heat += float((s.mass * heating).sum() * dt)  # conduction adds up to nothing
+            self.mechanical_heat += float((s.mass * heating).sum() * dt)  # conduction adds up to nothing, but for what comes from upstream
         self._drift(dt, acceleration + body)
         self.steps += 1
 
@@ -129,11 +144,19 @@ class Stepper:
         return wall_pressure, wall_velocity
 
     def _agitate(self, dt: float, agitation, damping, shear_squared, divergence) -> None:
-        held = np.empty(len(agitation))
+        held, before = np.empty(len(agitation)), self.state.theta.copy()
         granular_temperature.advance_all(
             self.parameters["granular_temperature"], self.state, agitation, damping, shear_squared, divergence, dt, held
         )
+        waiting = self.state.kind >= INFLOW
+        self.state.theta[waiting], held[waiting] = before[waiting], 0.0
         self.bounds_work += float(1.5 * (self.state.mass * held).sum())
+
+    def _hold_back(self, acceleration, agitation, heating, body) -> None:
+        """Particles upstream of a nozzle feel nothing."""
+        waiting = self.state.kind >= INFLOW
+        acceleration[waiting] = -body[waiting]
+        agitation[waiting] = heating[waiting] = 0.0
 
     def _warm(self, heat) -> None:
         """Heat per mass (N,) [J/kg] into the temperature."""
@@ -145,6 +168,8 @@ class Stepper:
             if len(place):
                 velocity += acceleration[:, a] * dt
                 place += velocity * dt
+        if self.source:
+            self.source.release(s)
         if self.boundary:
             self.contacts += walls.contact(self.parameters["walls"], self.boundary.dummies, self.wall_rows, s)
 

@@ -18,6 +18,8 @@ SAME = 1e-9  # of the end time: landmarks nearer to each other than this differ 
 class Control:
     """Step control of one exchanged quantity by the change of its rate."""
 
+    KEPT = ("rates", "scale", "error")  # see sdph.restart
+
     def __init__(self, tolerance: float):
         self.tolerance = tolerance
         self.rates = None
@@ -45,8 +47,10 @@ class Control:
 class Window:
     """Chooses windows. `limit` names what ruled the last one."""
 
+    KEPT = ("limits", "control", "limit", "errors")  # see sdph.restart
+
     def __init__(self, case):
-        self.courant = case.coupling.courant
+        self.courant, self.cell = case.coupling.courant, case.resolution.cell
         self.limits = {"largest": case.coupling.window_largest}
         self.control = Control(case.coupling.window_tolerance)
         self.outputs = _outputs(case.run)
@@ -66,8 +70,14 @@ class Window:
         windows = math.ceil((landmark - time) / self.limits[self.limit] * (1.0 - 1e-9))
         return landmark if windows <= 1 else time + (landmark - time) / windows
 
-    def learn(self, dt: float, heat: np.ndarray, courant: float) -> None:
-        """Set the limits from the window just done."""
+    def longest(self) -> float:
+        """No window that `choose` picks next is longer [s]."""
+        return min(self.limits.values())
+
+    def learn(self, dt: float, heat: np.ndarray, courant: float, fastest: float = 0.0) -> None:
+        """Set the limits from the window just done: heat (N,) [J], courant of the gas, fastest particle [m/s]."""
+        if fastest > 0.0:
+            self.limits["particles"] = self.courant * self.cell / fastest
         if "heat exchange" in self.limits:
             self.limits["heat exchange"] = self.control.learn(dt, heat)
         if courant > 0.0:

@@ -3,7 +3,10 @@
 from sdph.effects import (
     artificial_viscosity,
     conduction,
+    density_diffusion,
     drag,
+    evaporation,
+    frame,
     friction,
     gas_pressure,
     granular_pressure,
@@ -11,6 +14,12 @@ from sdph.effects import (
     granular_viscosity,
     gravity,
     heat,
+    inflow,
+    laminar_viscosity,
+    liquid_damping,
+    outflow,
+    shifting,
+    tank,
     walls,
 )
 from sdph.effects.effect import OFF, Effect, kernel_of
@@ -27,6 +36,15 @@ FILES = (
     walls,
     heat,
     conduction,
+    density_diffusion,
+    laminar_viscosity,
+    liquid_damping,
+    shifting,
+    tank,
+    frame,
+    evaporation,
+    inflow,
+    outflow,
 )
 REGISTRY: dict[str, Effect] = {file.EFFECT.name: file.EFFECT for file in FILES}
 

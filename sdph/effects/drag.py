@@ -60,11 +60,15 @@ def damping(p, sizes_p, s, i, alpha_p, slip, gas_density):
     """beta/(alpha_p rho_p) [1/s] of particle i: the mass average over its sizes (paper section 2.1, R'^SPH)."""
     if len(p) == 0:
         return 0.0
-    total = 0.0
+    total = whole = 0.0
+    own = sizes.birth(sizes_p, s, i)
     for q in range(sizes.classes(sizes_p)):
-        d = sizes.diameter(sizes_p, s, i, q)
-        total += sizes.share(sizes_p, q) * coefficient(p, alpha_p, slip, d, gas_density)
-    return total / p.grain_density
+        d, mass = sizes.grain(sizes_p, s, i, own, q)
+        if mass == 0.0:  # gone; what comes after is smaller still
+            break
+        total += mass * coefficient(p, alpha_p, slip, d, gas_density)
+        whole += mass
+    return total / whole / p.grain_density
 
 
 def call(scales) -> Judgement:

@@ -54,16 +54,20 @@ def conductance(p, sizes_p, s, i, alpha_p, slip, gas_density):
     """Heat exchanged per kelvin [W/K] by the grains of particle i; `slip` [m/s]. Eq. 20: mass average over sizes."""
     if len(p) == 0:
         return 0.0
-    alpha_g, total = 1.0 - alpha_p, 0.0
+    alpha_g, total, whole = 1.0 - alpha_p, 0.0, 0.0
+    own = sizes.birth(sizes_p, s, i)
     for q in range(sizes.classes(sizes_p)):
-        d = sizes.diameter(sizes_p, s, i, q)
+        d, mass = sizes.grain(sizes_p, s, i, own, q)
+        if mass == 0.0:  # gone; what comes after is smaller still
+            break
         nu = nusselt(p, alpha_g, gas_density * slip * d / p.viscosity)
         if p.closure == 0:
             eps = law.exchange_geometric(alpha_g, nu, p.conductivity, d)
         else:
             eps = law.exchange_paper(alpha_g, nu, p.conductivity, d)
-        total += sizes.share(sizes_p, q) * eps
-    return s.mass[i] / p.grain_density * total
+        total += mass * eps
+        whole += mass
+    return s.mass[i] / p.grain_density * total / whole
 
 
 def call(scales) -> Judgement:

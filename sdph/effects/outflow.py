@@ -1,0 +1,61 @@
+"""Grains that leave the domain through its open sides are taken out and counted."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from sdph import particles
+from sdph.effects.effect import Effect
+from sdph.particles import GRAIN
+from sdph.schema import record
+
+SIDES = (("left", "right"), ("bottom", "top"), ("back", "front"))
+
+
+@record
+class Outflow:
+    """Has no input of its own: grains leave through every pressure_outlet, and where no `walls` hold them."""
+
+
+class OutflowP(NamedTuple):
+    """Whether walls hold grains back at the other sides."""
+
+    walls: int
+
+
+def kernel(case) -> OutflowP:
+    return OutflowP(int("walls" in case.effects))
+
+
+def leaving(case, state) -> np.ndarray:
+    """Mask of the grains that are out of the domain through an open side."""
+    gone = np.zeros(len(state.x), bool)
+    places = particles.axes(state)
+    for axis, (sides, length) in enumerate(zip(SIDES, case.domain.size)):
+        for side, out in zip(sides, (places[axis] < 0.0, places[axis] > length)):
+            if out.any():
+                gone |= out & _open(case, side, axis, places)
+    return gone & (state.kind == GRAIN)
+
+
+def _open(case, side: str, axis: int, places) -> np.ndarray:
+    if "walls" not in case.effects:
+        return np.ones(len(places[0]), bool)
+    tangential = [place for a, place in enumerate(places) if a != axis]
+    found = np.zeros(len(places[0]), bool)
+    for boundary in case.boundaries.values():
+        if boundary.side == side and boundary.kind == "pressure_outlet":
+            spans = _spans(boundary.span, len(tangential))
+            found |= np.logical_and.reduce([(t >= low) & (t <= high) for t, (low, high) in zip(tangential, spans)])
+    return found
+
+
+def _spans(span, count: int):
+    if span is None:
+        return ((-np.inf, np.inf),) * count
+    return span if isinstance(span[0], tuple) else (span,)
+
+
+EFFECT = Effect(name="outflow", summary="grains that leave through open sides", parameters=Outflow, kernel=kernel, moves=True)
