@@ -81,7 +81,7 @@ def test_one_row_a_window_with_what_was_exchanged(tmp_path):
 
 def test_momentum_and_kinetic_energy_of_moving_grains(tmp_path):
     started = simulation(disc(*SHORT, "particles.disc.velocity_m_s=[3.0,-4.0]"), tmp_path)
-    started.ledger.table.flush()
+    started.ledger.table.close()
     table, mass = output.read_table(tmp_path / "ledger.csv"), started.state.mass.sum()
     assert table["particle_momentum_x_kg_m_s"][0] == pytest.approx(3.0 * mass, rel=1e-12)
     assert table["particle_momentum_y_kg_m_s"][0] == pytest.approx(-4.0 * mass, rel=1e-12)

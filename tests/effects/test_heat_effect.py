@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from sdph import effects, particles
 from sdph.effects import OFF, heat, sizes
+from sdph.laws import grain_sizes
 from sdph.laws import heat as law
 
 PRANDTL = law.prandtl_number(1.7895e-5, 1006.43, 0.0242)
@@ -39,19 +40,15 @@ def test_off_is_nothing():
     assert heat.conductance(OFF, OFF, one_grain(), 0, 0.5, 1.0, 1.2) == 0.0
 
 
-def test_sizes_are_off_for_grains_all_alike():
-    assert sizes.kernel(disc()) == OFF
-    assert sizes.classes(OFF) == 1 and sizes.share(OFF, 0) == 1.0
-
-
 @given(std=st.floats(0.001, 0.285))
-def test_size_classes_share_the_mass(std):
-    p = sizes.kernel(disc(f"grains.diameter_std_mm={std!r}"))
-    classes = range(sizes.classes(p))
-    assert sum(sizes.share(p, q) for q in classes) == pytest.approx(1.0, rel=1e-13)
+def test_grains_of_all_sizes_exchange_by_their_surface_and_film(std):
+    """With Nu = 2 exchange goes as 1/d^2, whose mass average over the log-normal law is known in closed form."""
+    alike, spread = (disc(f"grains.diameter_std_mm={each!r}", "heat.law='ranz_marshall'") for each in (0.0, std))
+    assert sizes.kernel(alike) == OFF
     state = one_grain(variance=(std * 1e-3) ** 2)
-    surface = sum(sizes.share(p, q) / sizes.diameter(p, state, 0, q) for q in classes)
-    assert 1.0 / surface == pytest.approx(285e-6 * (1.0 + (std / 0.285) ** 2) ** 2, rel=1e-3)  # Sauter: d_32
+    found = heat.conductance(heat.kernel(spread), sizes.kernel(spread), state, 0, 0.5, 0.0, 1.2)
+    single = heat.conductance(heat.kernel(alike), OFF, state, 0, 0.5, 0.0, 1.2)
+    assert found / single == pytest.approx(grain_sizes.mass_moment(-2.0, 285e-6, std * 1e-3) * 285e-6**2, rel=2e-3)
 
 
 def test_registry_rows_are_whole():
