@@ -124,8 +124,8 @@ class Run:
     def failed(self, error: BaseException) -> BaseException:
         """The error with a note on how to go on; failure.json keeps what happened."""
         checkpoint = restart.newest(self.folder)
-        last = f"last checkpoint: {checkpoint.folder}" if checkpoint else "there is no checkpoint yet"
-        error.add_note(f"({last}; go on with: sdph run --resume {self.folder})")
+        if checkpoint:
+            error.add_note(f"(last checkpoint: {checkpoint.folder}; go on with: sdph run --resume {self.folder})")
         time_s = self.simulation.time if self.simulation else 0.0
         with contextlib.suppress(OSError):
             output.write_json(self.folder / output.FAILURE, {"what": str(error), "kind": type(error).__name__, "time_s": time_s})

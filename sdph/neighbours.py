@@ -56,6 +56,8 @@ def box_of(period) -> Box | tuple:
 class Neighbours:
     """Neighbour rows of a state that moves."""
 
+    KEPT = ("built",)  # see sdph.restart
+
     def __init__(self, reach: float, period=(OPEN, OPEN, OPEN)):
         if any(0.0 < length < 2.0 * reach for length in period):
             raise ValueError(f"periods {tuple(period)} m: a periodic box must be at least two reaches ({2.0 * reach:g} m) wide, or images are missed")
@@ -64,6 +66,10 @@ class Neighbours:
         self.box = box_of(self.period)
         self.stride = 32
         self.built = ()  # positions at the last build
+
+    def revive(self) -> None:
+        """The rows of a checkpoint that was put back: those of the last build."""
+        self.rows = self._rows(self._grid(self.built), self.built)
 
     def update(self, state):
         """The state (reordered where the list had to be rebuilt) and its rows."""

@@ -131,6 +131,9 @@ class Table:
             writer.writeheader()
         writer.writerow(row)
 
+    def flush(self) -> None:
+        self.file.flush()
+
     @property
     def place(self) -> int:
         """Bytes written, all of them on the disk."""

@@ -11,8 +11,8 @@ LINE_INTERVAL = 10.0  # s between plain lines
 class Reporter:
     """Shows where a run is. `status` tells of waiting, `progress` of windows done; all of it goes to stderr."""
 
-    def __init__(self, end_time: float, quiet: bool = False):
-        self.end_time, self.quiet = end_time, quiet
+    def __init__(self, quiet: bool = False):
+        self.quiet = quiet
         self.started = self.shown = time.perf_counter()
         self.bar = None if quiet or not sys.stderr.isatty() else _bar()
 
@@ -24,13 +24,14 @@ class Reporter:
 
     def progress(self, simulation) -> None:
         clock = simulation.clock
+        end = simulation.case.run.end_time
         text = f"t = {simulation.time:.4g} s, window {simulation.windows} ({clock.limit}), {len(simulation.state.x)} particles"
         if self.bar:
-            task = self.bar.task_ids[0] if self.bar.task_ids else self.bar.add_task("", total=self.end_time)
+            task = self.bar.task_ids[0] if self.bar.task_ids else self.bar.add_task("", total=end)
             self.bar.update(task, completed=simulation.time, description=text)
         elif time.perf_counter() - self.shown > LINE_INTERVAL:
             self.shown = time.perf_counter()
-            left = (self.shown - self.started) * (self.end_time / simulation.time - 1.0)
+            left = (self.shown - self.started) * (end / simulation.time - 1.0)
             self.status(f"{text}, {left:.0f} s left")
 
     def close(self) -> None:

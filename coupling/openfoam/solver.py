@@ -39,18 +39,19 @@ SERVERS = {
 class OpenFoamGas:
     """`coupling.gas.Gas` by sdphGasFoam, in `folder`; its log is `folder/log.sdphGasFoam`.
 
-    `template` is an OpenFOAM case with 0, constant and system. Time folders are written every
-    `case.run.output_interval`.
+    `template` is an OpenFOAM case with 0, constant and system; None takes `folder` as an earlier run left it.
+    Time folders are written every `case.run.output_interval`.
     """
 
-    def __init__(self, case, folder: Path, template: Path, *, status: Callable[[str], None] = silent, allow_code: bool = False):
+    def __init__(self, case, folder: Path, template: Path | None, *, status: Callable[[str], None] = silent, allow_code: bool = False):
         self._case, self._folder, self._status = case, Path(folder).resolve(), status
         self._log = self._folder / "log.sdphGasFoam"
         self._process = self._connection = None
         self._time = 0.0
         program = install.gas_solver(status)
-        case_files.write_case(case, Path(template), self._folder, case.coupling.ranks, allow_code)
-        self._make_mesh()
+        if template is not None:
+            case_files.write_case(case, Path(template), self._folder, case.coupling.ranks, allow_code)
+            self._make_mesh()
         try:
             self._launch(program)
         except BaseException:

@@ -1,0 +1,254 @@
+"""A run that was cut and goes on is the run that was not cut; what cannot go on is refused and named."""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+import pyvista
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
+from test_cli import ENVIRONMENT
+
+from sdph import case as cases
+from sdph import driver, output, particles, restart, scenes
+from sdph.schema import CaseError
+
+COARSE = {
+    "disc_cluster": ("resolution.spacing_mm=20", "resolution.cell_mm=50", "run.output_interval_s=0.0002", "run.end_time_s=0.0004"),
+    "bubbling_bed": ("resolution.spacing_mm=20", "resolution.cell_mm=20", "run.output_interval_s=0.001", "run.end_time_s=0.003"),
+}
+SOON = "run.checkpoint_windows=4"
+
+
+class Cut(RuntimeError):
+    pass
+
+
+class Reporter:
+    """Cuts a run after some windows, as a power failure would: nothing is saved on the way out."""
+
+    def __init__(self, cut_after=None):
+        self.cut_after, self.said = cut_after, []
+
+    def status(self, text):
+        self.said.append(text)
+
+    def progress(self, simulation):
+        if simulation.windows == self.cut_after:
+            raise Cut
+
+
+def load(scene, gas, *more):
+    return cases.load(scenes.HERE / scene / "case.toml", (*COARSE[scene], SOON, f"coupling.gas='{gas}'", *more))
+
+
+def start(folder, scene="disc_cluster", gas="embedded", cut_after=None, more=()):
+    return driver.run(load(scene, gas, *more), scene, folder, None, Reporter(cut_after))
+
+
+@pytest.fixture
+def cut(tmp_path):
+    """A run that was cut after its tenth window."""
+    with pytest.raises(Cut):
+        start(tmp_path / "cut", cut_after=10)
+    return tmp_path / "cut"
+
+
+def same_run(one, other):
+    for name in ("ledger.csv", "history.csv", "metrics.csv", "run.pvd"):
+        assert (one / name).read_bytes() == (other / name).read_bytes(), name
+    names = [path.name for path in sorted((one / "fields").iterdir())]
+    assert names == [path.name for path in sorted((other / "fields").iterdir())]
+    for name in names:
+        a, b = pyvista.read(one / "fields" / name), pyvista.read(other / "fields" / name)
+        for x, y in ((a.point_data, b.point_data), (a.cell_data, b.cell_data)):
+            assert all(x[key].tobytes() == y[key].tobytes() for key in x), name
+
+
+@pytest.mark.parametrize(
+    ("scene", "gas", "more"),
+    [
+        ("disc_cluster", "embedded", ()),
+        ("bubbling_bed", "embedded", ()),
+        pytest.param("disc_cluster", "openfoam", (), marks=pytest.mark.openfoam),
+        pytest.param("disc_cluster", "openfoam", ("coupling.ranks=2",), marks=pytest.mark.openfoam),
+    ],
+)
+def test_resumed_run_is_the_uninterrupted_one_bit_for_bit(tmp_path, scene, gas, more):
+    whole = start(tmp_path / "whole", scene, gas, more=more)
+    with pytest.raises(Cut):
+        start(tmp_path / "cut", scene, gas, cut_after=10, more=more)
+    resumed = driver.resume(tmp_path / "cut", (), Reporter())
+    same_run(tmp_path / "whole", tmp_path / "cut")
+    assert {key: resumed[key] for key in whole if "wall" not in key and "_per_" not in key and "start_to" not in key} == {
+        key: whole[key] for key in whole if "wall" not in key and "_per_" not in key and "start_to" not in key
+    }
+
+
+def test_a_run_can_be_made_longer(tmp_path):
+    start(tmp_path / "long", more=("run.end_time_s=0.0006",))
+    start(tmp_path / "short")
+    driver.resume(tmp_path / "short", ("run.end_time_s=0.0006",), Reporter())
+    same_run(tmp_path / "long", tmp_path / "short")
+
+
+@pytest.mark.parametrize("harm", ["truncate", "flip", "remove", "manifest", "draft"])
+def test_a_damaged_checkpoint_is_passed_over(cut, tmp_path, harm):
+    newest = restart.newest(cut).folder
+    file = newest / ("manifest.json" if harm == "manifest" else "arrays.npz")
+    data = file.read_bytes()
+    if harm == "flip":
+        file.write_bytes(data[:500] + bytes([data[500] ^ 1]) + data[501:])
+    elif harm == "remove":
+        file.unlink()
+    elif harm == "draft":
+        os.rename(newest, newest.with_name(f".{newest.name}.part"))
+    else:
+        file.write_bytes(data[: len(data) // 2])
+    reporter = Reporter()
+    driver.resume(cut, (), reporter)
+    assert harm == "draft" or any("is passed over" in line for line in reporter.said)
+    start(tmp_path / "whole")
+    same_run(tmp_path / "whole", cut)
+
+
+def test_without_any_checkpoint_a_run_begins_again(cut, tmp_path):
+    shutil.rmtree(cut / "checkpoints")
+    driver.resume(cut, (), Reporter())
+    start(tmp_path / "whole")
+    same_run(tmp_path / "whole", cut)
+
+
+@pytest.mark.parametrize(
+    ("override", "told"),
+    [("grains.diameter_mm=0.3", "grains.diameter_mm was 0.285 and is 0.3"), ("vapour.molar_mass_kg_kmol=18.0", "vapour")],
+)
+def test_another_case_is_refused_with_the_difference(cut, override, told):
+    with pytest.raises(CaseError, match=told):
+        driver.resume(cut, (override,), Reporter())
+
+
+def test_another_version_is_refused(cut):
+    manifest = restart.newest(cut).folder / "manifest.json"
+    table = json.loads(manifest.read_text()) | {"sdph": "0.0.0"}
+    manifest.write_text(json.dumps(table))
+    with pytest.raises(CaseError, match="written with sdph 0.0.0"):
+        driver.resume(cut, (), Reporter())
+
+
+def test_lost_rows_of_the_ledger_are_noticed(cut):
+    os.truncate(cut / "ledger.csv", 200)
+    with pytest.raises(CaseError, match="lost rows"):
+        driver.resume(cut, (), Reporter())
+
+
+def test_what_is_no_run_is_refused(tmp_path):
+    with pytest.raises(CaseError, match="no run"):
+        driver.resume(tmp_path, (), Reporter())
+
+
+def test_a_folder_in_use_is_refused(cut):
+    with output.claimed(cut), pytest.raises(CaseError, match="in use"):
+        driver.resume(cut, (), Reporter())
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_a_signal_leaves_a_checkpoint(tmp_path, number):
+    overrides = [word for text in (*COARSE["disc_cluster"][:3], "run.end_time_s=1.0", "run.checkpoint_interval_s=1e6") for word in ("--set", text)]
+    command = [sys.executable, "-m", "sdph.cli", "run", "disc_cluster", "--gas", "embedded", *overrides, "--out", "mine"]
+    process = subprocess.Popen(command, cwd=tmp_path, env=ENVIRONMENT, stderr=subprocess.PIPE, text=True)
+    history = tmp_path / "mine" / "fields" / "gas_00001.vtr"
+    while not history.exists():
+        assert process.poll() is None, process.stderr.read()
+        time.sleep(0.05)
+    process.send_signal(number)
+    said = process.communicate(timeout=60)[1]
+    assert process.returncode == 128 + number
+    assert signal.Signals(number).name in said and "--resume mine" in said
+    end = restart.newest(tmp_path / "mine").manifest
+    assert end["case"]["run"]["end_time_s"] == 1.0
+    assert restart.newest(tmp_path / "mine").folder.name != "000000000"
+    assert json.loads((tmp_path / "mine" / "failure.json").read_text())["kind"] == "Stopped"
+
+
+def test_a_run_that_blows_up_says_where(tmp_path, monkeypatch):
+    advance = driver.Simulation.window
+
+    def window(simulation):
+        advance(simulation)
+        if simulation.windows == 5:
+            simulation.state.temperature[simulation.state.ident == 3] = np.nan
+
+    monkeypatch.setattr(driver.Simulation, "window", window)
+    with pytest.raises(CaseError, match="temperature of particle 3 .* in window 5 is nan") as told:
+        start(tmp_path / "run")
+    assert "--resume" in told.value.__notes__[0]
+
+
+class Thing:
+    KEPT = ("value", "inner", "chance")
+
+    def __init__(self, value, inner=None):
+        self.value, self.inner, self.chance = value, inner, np.random.default_rng(1)
+
+
+NUMBERS = st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=5))
+ARRAYS = hnp.arrays(st.sampled_from([np.float64, np.int64, np.int8]), hnp.array_shapes(min_dims=1, max_dims=2, min_side=0, max_side=4))
+VALUES = st.recursive(
+    st.one_of(NUMBERS, ARRAYS),
+    lambda parts: st.one_of(st.lists(parts, max_size=3).map(tuple), st.dictionaries(st.text(max_size=4), parts, max_size=3)),
+    max_leaves=6,
+)
+
+
+def equal(a, b):
+    if isinstance(a, np.ndarray):
+        return a.dtype == b.dtype and a.shape == b.shape and a.tobytes() == b.tobytes()
+    if isinstance(a, dict):
+        return list(a) == list(b) and all(equal(a[key], b[key]) for key in a)
+    if isinstance(a, tuple):
+        return type(a) is type(b) and len(a) == len(b) and all(equal(x, y) for x, y in zip(a, b))
+    return type(a) is type(b) and repr(a) == repr(b)
+
+
+class NoGas:
+    def checkpoint(self, folder):
+        folder.mkdir()
+
+
+@given(VALUES)
+def test_whatever_is_kept_comes_back(tmp_path_factory, value):
+    folder = tmp_path_factory.mktemp("run")
+    before = Thing(value, Thing(particles.empty(3, ("temperature",))))
+    before.chance.random(5)
+    restart.write(folder, 1, {}, before, NoGas())
+    after = Thing(None, Thing(particles.empty(1)))
+    restart.newest(folder).fill(after)
+    assert equal(after.value, value)
+    assert isinstance(after.inner.value, particles.State)
+    assert equal(tuple(after.inner.value), tuple(before.inner.value))
+    assert after.chance.random() == before.chance.random()
+
+
+def test_other_attributes_than_were_kept_are_refused(tmp_path):
+    restart.write(tmp_path, 1, {}, Thing(1.0), NoGas())
+
+    class Other(Thing):
+        KEPT = ("value", "new")
+        new = 0
+
+    with pytest.raises(CaseError, match="another version.*chance, inner, new"):
+        restart.newest(tmp_path).fill(Other(1.0))
+
+
+def test_only_the_last_two_checkpoints_stay(tmp_path):
+    for number in range(5):
+        restart.write(tmp_path, number, {}, Thing(number), NoGas())
+    assert sorted(path.name for path in (tmp_path / "checkpoints").iterdir()) == ["000000003", "000000004"]
