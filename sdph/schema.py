@@ -51,8 +51,9 @@ REQUIRED = dataclasses.MISSING
 
 
 def quantity(unit="", default=REQUIRED, *, above=-math.inf, least=-math.inf, most=math.inf):
-    """A number with a unit and bounds."""
-    return _declare(Kind(unit, above, least, most), default)
+    """A number with a unit and bounds; bounds and default are in that unit too."""
+    in_si = default if default is REQUIRED or default is None else default * UNITS[unit]
+    return _declare(Kind(unit, above, least, most), in_si)
 
 
 def vector(unit="", default=REQUIRED, components=None):

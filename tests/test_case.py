@@ -2,6 +2,7 @@
 
 import copy
 import dataclasses
+import math
 import tomllib
 
 import pytest
@@ -73,6 +74,12 @@ def test_every_unit_reads_back(value, unit):
     key = f"size_{unit}" if unit else "size"
     first = schema.read(record, {key: value}, "section")
     assert schema.read(record, schema.write(first), "section") == first
+
+
+def test_default_is_in_the_unit_of_its_key():
+    record = schema.record(type("Section", (), {"__annotations__": {"angle": float}, "angle": schema.quantity("deg", 30.0, most=60.0)}))
+    assert schema.read(record, {}, "section") == schema.read(record, {"angle_deg": 30.0}, "section")
+    assert schema.read(record, {}, "section").angle == pytest.approx(math.pi / 6.0, rel=1e-15)
 
 
 def test_optional_sections_read_back():
