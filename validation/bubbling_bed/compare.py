@@ -1,0 +1,174 @@
+"""The bubbling bed against OpenFOAM's two-fluid solver, and against what the paper says of it.
+
+Both runs are measured by one function (sdph.bubble) on the same mesh. The paper's own description (section 4.2,
+figures 6 to 10) is checked point by point.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sdph import bubble, view
+from sdph.compare import check
+
+SHOWN = (0.05, 0.10, 0.15, 0.20, 0.24)  # s, the figure's columns
+LARGEST = 0.20  # s, when the paper's bubble is largest and lets go
+AREA = 0.08  # of the two-fluid area
+DETACHMENT = 0.02  # s
+HOTTEST = 3.0  # K
+
+
+def tfm(run) -> list[dict]:
+    """Bubble metrics against twoPhaseEulerFoam with the same closures, mesh and inlet."""
+    from coupling.openfoam.comparators import run_two_fluid
+
+    reference = run_two_fluid(run.case, run.folder / "tfm")
+    times = [t for t in sorted(reference.fields) if t <= run.summary["time_s"] + 1e-9]
+    own, other = [_own(run, t) for t in times], [_other(reference, t) for t in times]
+    _metrics_figure(run, times, own, other)
+    _fields_figure(run, reference, [t for t in SHOWN if t <= times[-1]])
+    return _checks(run, times, own, other)
+
+
+def paper(run) -> list[dict]:
+    """The paper's description of figures 6 to 10, each point with its number."""
+    history = run.history
+    times = [t for t in view.read(run.folder).time_values if t > 0.0]
+    rows = [_own(run, t) for t in times]
+    hottest = max(row["gas_temperature_max_K"] for row in rows)
+    beside, above = (_tracked(history, ident) for ident in (645, 1050))
+    late, now = history["time_s"] > LARGEST, np.searchsorted(history["time_s"], LARGEST)
+    checks = [
+        check("fig. 6: bubble lets go of the floor [s]", bubble.detachment(times, rows), LARGEST, DETACHMENT),
+        _below("fig. 6: equivalent diameter at 0.20 s [m]", _own(run, LARGEST)["bubble_diameter_m"], 0.195),
+        _above("fig. 6: wake at 0.24 s, rise of the underside in its middle [m]", _wake(run, 0.24), run.case.resolution.cell),
+        check("fig. 7: highest gas temperature in the middle at 0.20 s [K]", _own(run, LARGEST)["gas_temperature_max_K"], 345.0, HOTTEST),
+        _below("fig. 7: highest gas temperature ever [K]", hottest, 350.0 + 1e-6),
+        _above("fig. 8: hottest grain above the start [K]", _hottest_grain(run) - 288.0, 0.0),
+        _above("fig. 9: 645 moves outward first [m]", beside["x_m"][0] - beside["x_m"].min(), run.case.resolution.spacing),
+        _above("fig. 9: 645 comes back [m]", beside["x_m"][-1] - beside["x_m"].min(), 0.0),
+        _above("fig. 9: 645 then moves up [m]", beside["y_m"][-1] - beside["y_m"][0], 0.0),
+        _above("fig. 9: 1050 moves up [m]", above["y_m"][-1] - above["y_m"][0], run.case.resolution.spacing),
+        _below("fig. 10: heat to 645 after 0.20 s over its largest [-]", _share(beside["convective_heat_W"], late), 0.1),
+        _above("fig. 10: heat to 1050 after 0.20 s over its mean before [-]", _growth(above["convective_heat_W"], now), 1.0),
+        _below("fig. 10: conduction to 1050 in the end over its largest [-]", _last(above["conductive_heat_W"]), 0.1),
+    ]
+    return checks
+
+
+def _checks(run, times, own, other) -> list[dict]:
+    k = int(np.argmin(np.abs(np.array(times) - LARGEST)))
+    cell = run.case.resolution.cell
+    rows = [
+        check("bubble area at 0.20 s [m2]", own[k]["bubble_area_m2"], other[k]["bubble_area_m2"], AREA, True),
+        check("bubble centroid at 0.20 s [m]", own[k]["bubble_centroid_m"], other[k]["bubble_centroid_m"], cell),
+        check("detachment [s], reference the paper's", bubble.detachment(times, own), LARGEST, DETACHMENT),
+        check("detachment [s], reference two fluids", bubble.detachment(times, own), bubble.detachment(times, other), DETACHMENT),
+        check("bed height at 0.20 s [m]", own[k]["bed_height_m"], other[k]["bed_height_m"], cell),
+        check("pressure drop at 0.20 s [Pa]", own[k]["pressure_drop_Pa"], other[k]["pressure_drop_Pa"], AREA, True),
+        _below("highest gas temperature [K]", max(row["gas_temperature_max_K"] for row in own), 350.0 + 1e-6),
+    ]
+    for t in (0.05, 0.10, 0.15, 0.20):
+        i = int(np.argmin(np.abs(np.array(times) - t)))
+        name = f"highest gas temperature at {t:.2f} s [K]"
+        rows.append(check(name, own[i]["gas_temperature_max_K"], other[i]["gas_temperature_max_K"], HOTTEST))
+    return rows
+
+
+def _own(run, time: float) -> dict:
+    _, _, gas = run.fields(time)
+    sizes = np.asarray(gas.compute_cell_sizes()["Area"])
+    return bubble.metrics(gas.cell_centers().points, sizes, *(np.asarray(gas[name]) for name in ("alpha_p", "temperature", "pressure")))
+
+
+def _other(reference, time: float) -> dict:
+    fields = reference.fields[reference.nearest(time)]
+    return bubble.metrics(reference.centres, reference.volumes, *(fields[name] for name in ("alpha_p", "gas_temperature", "pressure")))
+
+
+def _below(name: str, value: float, limit: float) -> dict:
+    return {"name": name, "value": float(value), "reference": limit, "tolerance": 0.0, "ok": bool(value <= limit)}
+
+
+def _above(name: str, value: float, limit: float) -> dict:
+    return {"name": name, "value": float(value), "reference": limit, "tolerance": 0.0, "ok": bool(value >= limit)}
+
+
+def _tracked(history, ident: int) -> dict[str, np.ndarray]:
+    prefix = f"particle_{ident}_"
+    return {key.removeprefix(prefix): column for key, column in history.items() if key.startswith(prefix)}
+
+
+def _share(values, late) -> float:
+    return float(np.abs(values[late]).mean() / np.abs(values).max())
+
+
+def _growth(values, now: int) -> float:
+    return float(values[now:].mean() / values[1:now].mean())
+
+
+def _last(values) -> float:
+    return float(np.abs(values[-len(values) // 20 :]).mean() / np.abs(values).max())
+
+
+def _hottest_grain(run) -> float:
+    return float(run.fields(LARGEST)[1]["temperature"].max())
+
+
+def _wake(run, time: float) -> float:
+    """How much higher the underside of the bubble lies in its middle than 4 cm beside it [m]."""
+    _, _, gas = run.fields(time)
+    centres = gas.cell_centers().points
+    order, shape = np.lexsort((centres[:, 0], centres[:, 1])), (len(np.unique(centres[:, 1])), -1)
+    void = bubble.largest_void(np.asarray(gas["alpha_p"])[order].reshape(shape))
+    x, y = (centres[order, a].reshape(void.shape) for a in (0, 1))
+    lowest = np.where(void.any(axis=0), np.take_along_axis(y, void.argmax(axis=0)[None], 0)[0], np.nan)
+    offset = np.abs(x[0] - run.case.domain.size[0] / 2)
+    return float(np.nanmean(lowest[offset < 0.01]) - np.nanmean(lowest[np.abs(offset - 0.04) < 0.01]))
+
+
+def _pyplot():
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    return pyplot
+
+
+def _metrics_figure(run, times, own, other) -> None:
+    pyplot = _pyplot()
+    keys = ("bubble_area_m2", "bubble_centroid_m", "neck_width_m", "gas_temperature_max_K", "bed_height_m", "pressure_drop_Pa")
+    figure, axes = pyplot.subplots(2, 3, figsize=(13, 7), constrained_layout=True)
+    for key, axis in zip(keys, axes.ravel()):
+        axis.plot(times, [row[key] for row in own], "o-", ms=3, label="SDPH")
+        axis.plot(times, [row[key] for row in other], "k--", label="two fluids")
+        axis.set(xlabel="time [s]", ylabel=key)
+        axis.legend()
+    figure.savefig(run.folder / "compare_tfm_metrics.png", dpi=100)
+    pyplot.close(figure)
+
+
+def _fields_figure(run, reference, times) -> None:
+    """Voidage, gas temperature and grain temperature side by side; upper row SDPH, lower two fluids."""
+    pyplot = _pyplot()
+    rows = (("alpha_p", "viridis", 0.0, 0.63), ("gas_temperature", "inferno", 288.0, 350.0), ("particle_temperature", "inferno", 288.0, 290.0))
+    figure, axes = pyplot.subplots(6, len(times), figsize=(2.6 * len(times), 24), constrained_layout=True, squeeze=False)
+    for column, t in enumerate(times):
+        _, grains, gas = run.fields(t)
+        fields = reference.fields[reference.nearest(t)]
+        for k, (name, colours, low, high) in enumerate(rows):
+            limits = {"cmap": colours, "vmin": low, "vmax": high}
+            upper, lower = axes[2 * k, column], axes[2 * k + 1, column]
+            if name == "gas_temperature":
+                shown = upper.scatter(*gas.cell_centers().points[:, :2].T, c=gas["temperature"], s=3, marker="s", **limits)
+            else:
+                values = grains["alpha_p" if name == "alpha_p" else "temperature"]
+                shown = upper.scatter(*grains.points[:, :2].T, c=values, s=1, **limits)
+            lower.scatter(*reference.centres[:, :2].T, c=np.where(fields["alpha_p"] > 0.01, fields[name], np.nan) if k == 2 else fields[name], s=3, marker="s", **limits)
+            for axis, who in ((upper, "SDPH"), (lower, "two fluids")):
+                axis.set(xlim=(0, 0.5), ylim=(0, 0.8), aspect="equal", title=f"{who}, {t:g} s")
+            if column == len(times) - 1:
+                figure.colorbar(shown, ax=[upper, lower], label=name)
+    figure.savefig(run.folder / "compare_tfm.png", dpi=80)
+    pyplot.close(figure)
