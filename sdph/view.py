@@ -11,7 +11,7 @@ WINDOW = (1200, 900)  # pixels
 SHOWN = 0.75  # share of the window that the domain fills
 BAR = {"vertical": True, "position_y": 0.2, "height": 0.6, "width": 0.06, "fmt": "%.6g", "n_labels": 5, "title_font_size": 16, "label_font_size": 14}
 GAS_UNITS = {"alpha_p": "1", "temperature": "K", "pressure": "Pa", "density": "kg/m3", "vapour_mass_fraction": "1"}
-PARTICLE_UNITS = {name: unit for name, (unit, _) in FIELDS.items()} | {"alpha_p": "1"}
+PARTICLE_UNITS = {name: unit for name, (unit, _) in FIELDS.items()} | {"alpha_p": "1", "pressure": "Pa", "velocity": "m/s"}
 
 
 def read(folder: Path):
@@ -29,7 +29,7 @@ def state_at(reader, time: float | None = None):
     chosen = times[-1] if time is None else min(times, key=lambda t: abs(t - time))
     reader.set_active_time_value(chosen)
     blocks = reader.read()
-    return chosen, blocks[0], blocks[1]
+    return chosen, blocks[0], blocks[1] if len(blocks) > 1 else None  # a liquid has no gas
 
 
 def show(folder: Path, png: Path | None = None, time: float | None = None, field: str = "temperature") -> None:
@@ -52,14 +52,14 @@ def scene(particles, gas, field: str, title: str, off_screen: bool):
         vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
 
     plotter = pyvista.Plotter(off_screen=off_screen, window_size=WINDOW)
-    if field in gas.cell_data:
+    if gas is not None and field in gas.cell_data:
         bar = BAR | {"title": f"gas {field}\n[{GAS_UNITS.get(field, '1')}]", "position_x": 0.86}
         plotter.add_mesh(gas, scalars=field, cmap="Blues", scalar_bar_args=bar, lighting=False)
     if particles.n_points and field in particles.point_data:
         bar = BAR | {"title": f"particle {field}\n[{PARTICLE_UNITS[field]}]", "position_x": 0.03}
-        plotter.add_mesh(particles, scalars=field, cmap="inferno", point_size=_size(particles, gas), scalar_bar_args=bar, lighting=False)
+        plotter.add_mesh(particles, scalars=field, cmap="inferno", point_size=_size(particles, gas if gas is not None else particles), scalar_bar_args=bar, lighting=False)
     plotter.add_text(title, font_size=12, position="upper_edge")
-    if gas.bounds[4] == gas.bounds[5]:
+    if particles.bounds[4] == particles.bounds[5]:
         plotter.view_xy()
         plotter.enable_parallel_projection()
     plotter.show_bounds(xtitle="x [m]", ytitle="y [m]", ztitle="z [m]", font_size=10, location="outer", fmt="%.3g", n_xlabels=6, n_ylabels=6)

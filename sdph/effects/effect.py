@@ -41,6 +41,7 @@ class Effect:
     arrays      arrays of the state that it needs
     sources     what it hands to the gas (names of coupling.gas.SOURCES)
     moves       whether particles move by it
+    matter      what it acts on: "grains", "liquid"
     dt_limit    (kernel parameters, case, state) -> largest stable sub-step [s]
     call        scales of a case (sdph.scales) -> Judgement; without it the effect is on where the user says so
     """
@@ -52,6 +53,7 @@ class Effect:
     arrays: tuple[str, ...] = ()
     sources: tuple[str, ...] = ()
     moves: bool = False
+    matter: tuple[str, ...] = ("grains",)
     dt_limit: Callable = lambda p, case, state: NO_LIMIT
     call: Callable | None = None
 

@@ -41,4 +41,4 @@ def call(scales) -> Judgement:
     return Judgement("g t/U (1/Froude)", ratio, 0.01, "Froude number of the run", ratio / (1.0 + ratio))
 
 
-EFFECT = Effect(name="gravity", summary="gravity on the grains", parameters=Gravity, kernel=kernel, moves=True, call=call)
+EFFECT = Effect(name="gravity", summary="gravity", parameters=Gravity, kernel=kernel, moves=True, matter=("grains", "liquid"), call=call)

@@ -1,0 +1,55 @@
+"""delta-SPH: density diffuses between neighbours, which quiets the pressure of a weakly compressible liquid.
+
+Written for p/c^2 in place of rho (equal to first order): a hydrostatic pressure is linear in depth to the last bit,
+so the corrected form leaves it alone.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from numba import njit
+
+from sdph.effects.effect import Effect
+from sdph.schema import choice, quantity, record
+
+FORMS = ("antuono", "molteni")
+
+
+@record
+class DensityDiffusion:
+    delta: float = quantity("", 0.1, above=0.0, most=0.5)  # Antuono et al. 2010
+    form: str = choice(*FORMS)
+
+
+class DiffusionP(NamedTuple):
+    """delta h/c [s]; 1 with the gradient correction, 0 without (Molteni & Colagrossi 2009)."""
+
+    strength: float
+    corrected: float
+
+
+def kernel(case) -> DiffusionP:
+    own = case.parameters["density_diffusion"]
+    return DiffusionP(own.delta * case.smoothing_length / case.liquid.sound_speed, 1.0 - FORMS.index(own.form))
+
+
+@njit(cache=True, error_model="numpy")
+def pair(p, rise, along):
+    """Over V_j (dW/dr)/r: rise = p_j - p_i [Pa], along = (grad p_i + grad p_j).r_ij [Pa].
+
+    psi_ij.r_ij of Antuono, Colagrossi, Marrone & Molteni 2010, Comput. Phys. Commun. 181, 532, Eq. 6.
+    """
+    if len(p) == 0:
+        return 0.0
+    return -p.strength * (2.0 * rise + p.corrected * along)
+
+
+EFFECT = Effect(
+    name="density_diffusion",
+    summary="diffusion of density in a liquid (delta-SPH)",
+    parameters=DensityDiffusion,
+    kernel=kernel,
+    moves=True,
+    matter=("liquid",),
+)

@@ -1,0 +1,68 @@
+"""Artificial viscosity of a liquid: alpha c h, or with a limiter the dissipation of a Riemann solver."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from numba import njit
+
+from sdph.effects.effect import Effect
+from sdph.laws.constants import SOFTENING
+from sdph.schema import choice, quantity, record
+
+MODELS = ("linear", "riemann")
+LIMITER = 3.0  # eta of Zhang, Hu & Adams 2017, J. Comput. Phys. 335, 605, Eq. 18
+
+
+@record
+class LiquidDamping:
+    model: str = choice(*MODELS)
+    alpha: float = quantity("", 0.02, least=0.0)  # Marrone et al. 2011; of `linear` alone
+
+
+class LinearP(NamedTuple):
+    """alpha h c rho_0 [Pa s], eta^2 [m2]."""
+
+    strength: float
+    softening: float
+
+
+class RiemannP(NamedTuple):
+    """rho_0 [kg/m3], c_0 [m/s], LIMITER."""
+
+    density: float
+    sound: float
+    limiter: float
+
+
+def kernel(case) -> LinearP | RiemannP:
+    own, liquid = case.parameters["liquid_damping"], case.liquid
+    if own.model == "riemann":
+        return RiemannP(liquid.density, liquid.sound_speed, LIMITER)
+    return LinearP(own.alpha * case.smoothing_length * liquid.sound_speed * liquid.density, SOFTENING * case.smoothing_length**2)
+
+
+@njit(cache=True, error_model="numpy")
+def pair(p, closing, r2, inverse_r):
+    """Pressure [Pa] added to p_i + p_j of a pair; closing = v_ij.r_ij [m2/s].
+
+    linear: -alpha h c rho_0 v.r/r^2, pi_ij of Marrone et al. 2011, CMAME 200, 1526, Eq. 2, on approach and on parting.
+    riemann: rho beta (U_R - U_L), beta = min(eta max(U_L - U_R, 0), c): Zhang, Hu & Adams 2017, Eq. 16-18; P* is the
+    mean of both, so that twice its dissipation is added.
+    """
+    if len(p) == 0:
+        return 0.0
+    if len(p) == 2:
+        return -p.strength * closing / (r2 + p.softening)
+    speed = -closing * inverse_r
+    return p.density * min(p.limiter * max(speed, 0.0), p.sound) * speed
+
+
+EFFECT = Effect(
+    name="liquid_damping",
+    summary="artificial viscosity of a liquid (linear, or of a Riemann solver)",
+    parameters=LiquidDamping,
+    kernel=kernel,
+    moves=True,
+    matter=("liquid",),
+)

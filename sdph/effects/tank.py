@@ -1,0 +1,98 @@
+"""The tank that holds a liquid: its shape, its outlet, and how its walls act (Adami, Hu & Adams 2012)."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from sdph import tank_shapes
+from sdph.boundary import SIDES
+from sdph.effects.effect import Effect
+from sdph.schema import CaseError, choice, quantity, record, vector, words
+
+
+@record
+class Tank:
+    """`open_sides` of a box have no wall. The outlet is a pipe at the lowest point, full of liquid at the start."""
+
+    shape: str = choice("box", "sphere", "cylinder", "capsule", "mesh")
+    lower: tuple | None = vector("m", None)  # of a box; None: the domain
+    upper: tuple | None = vector("m", None)
+    centre: tuple | None = vector("m", None)
+    radius: float | None = quantity("m", None, above=0.0)
+    length: float = quantity("m", 0.0, least=0.0)  # of the cylinder, or of the capsule's straight part
+    mesh: str = words("")
+    open_sides: tuple = words(())
+    slip: str = choice("no_slip", "free_slip")
+    suction: str = choice("none", "full")  # whether a wall can pull, with a pressure below 0
+    outlet_radius: float = quantity("m", 0.0, least=0.0)
+    outlet_length: float = quantity("m", 0.0, least=0.0)
+
+
+class TankP(NamedTuple):
+    """1 for no slip, 0 for free slip; least pressure of a wall [Pa]."""
+
+    stick: float
+    least: float
+
+
+def kernel(case) -> TankP:
+    own = case.parameters["tank"]
+    return TankP(float(own.slip == "no_slip"), 0.0 if own.suction == "none" else -math.inf)
+
+
+def shape_of(case):
+    """The shape (sdph.tank_shapes) of a case's tank."""
+    own, d = case.parameters["tank"], case.dimensions
+    if own.shape == "box":
+        return _box(case, own)
+    if own.shape == "mesh":
+        return tank_shapes.Mesh(own.mesh)
+    if own.centre is None or own.radius is None or len(own.centre) != d:
+        raise CaseError(f"tank: a {own.shape} needs centre_m with {d} components, and radius_m")
+    centre = np.array(own.centre)
+    if d == 2:
+        if own.shape != "sphere":
+            raise CaseError(f"tank.shape = {own.shape!r} needs dimensions = 3; in 2-D there are box and sphere (a disc)")
+        return tank_shapes.Disc(centre, own.radius)
+    reach = layers(case) * case.resolution.spacing
+    if own.shape == "cylinder":
+        if not own.length:
+            raise CaseError("tank.length_m is missing; a cylinder needs it")
+        tank = tank_shapes.Cylinder(centre, own.radius, own.length, reach)
+        bottom = centre[2] - 0.5 * own.length
+    else:
+        tank = tank_shapes.Capsule(centre, own.radius, own.length if own.shape == "capsule" else 0.0)
+        bottom = centre[2] - own.radius - 0.5 * tank.length
+    return _with_outlet(own, tank, bottom, reach)
+
+
+def _with_outlet(own, tank, bottom: float, reach: float):
+    """The tank with its pipe, which reaches up into the tank by as much as the bottom is curved."""
+    if not own.outlet_radius:
+        return tank
+    inside = own.radius - math.sqrt(own.radius**2 - own.outlet_radius**2) if own.shape != "cylinder" else 0.0
+    middle = np.array([*tank.centre[:2], bottom + 0.5 * (inside - own.outlet_length)])
+    pipe = tank_shapes.Cylinder(middle, own.outlet_radius, own.outlet_length + inside, reach, open_top=True)
+    return tank_shapes.Joined(tank, pipe)
+
+
+def _box(case, own):
+    periodic = case.liquid.periodic or (0,) * case.dimensions
+    sides = [own.open_sides] if isinstance(own.open_sides, str) else own.open_sides
+    for side in sides:
+        if side not in SIDES:
+            raise CaseError(f"tank.open_sides holds {side!r}; allowed: {', '.join(SIDES)}")
+    open_ends = {SIDES[side] for side in sides} | {(a, end) for a, on in enumerate(periodic) if on for end in (0, 1)}
+    lower, upper = own.lower or (0.0,) * case.dimensions, own.upper or case.domain.size
+    return tank_shapes.Box(np.array(lower), np.array(upper), tuple(open_ends))
+
+
+def layers(case) -> int:
+    """Layers that fill the support of the kernel."""
+    return math.ceil(2.0 * case.resolution.smoothing_ratio - 1e-9)
+
+
+EFFECT = Effect(name="tank", summary="walls of a tank for a liquid", parameters=Tank, kernel=kernel, moves=True, matter=("liquid",))

@@ -1,0 +1,54 @@
+"""Exact flows of an incompressible liquid, for starts and checks. Plain Python, not compiled."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+TERMS = 99  # odd terms of the series up to this one: 1e-5 of the pressure in the centre
+
+
+def square_patch_pressure(points, side: float, omega: float, density: float) -> np.ndarray:
+    """p (N,) [Pa] of a square of liquid that begins to turn like a solid, free surface all round; points from its corner.
+
+    Colicchio 2004; Le Touze et al. 2013, Int. J. Numer. Methods Fluids 73, 660, Eq. 22:
+    p = rho sum_mn -32 w^2/(m n pi^2 [(n pi/L)^2 + (m pi/L)^2]) sin(m pi x/L) sin(n pi y/L), m, n odd.
+    """
+    odd = np.arange(1, TERMS + 1, 2)
+    sine = [np.sin(np.pi / side * np.outer(points[:, a], odd)) for a in (0, 1)]
+    m, n = odd[:, None], odd[None, :]
+    factor = -32.0 * omega**2 / (m * n * math.pi**2 * ((n * math.pi / side) ** 2 + (m * math.pi / side) ** 2))
+    return density * np.einsum("pm,mn,pn->p", sine[0], factor, sine[1], optimize=True)
+
+
+def taylor_green(points, length: float, speed: float, density: float) -> tuple[np.ndarray, np.ndarray]:
+    """(velocity (N, 2) [m/s], pressure (N,) [Pa]) of vortices of amplitude `speed` in a periodic square."""
+    k = 2.0 * math.pi / length
+    x, y = k * points[:, 0], k * points[:, 1]
+    velocity = speed * np.stack([-np.cos(x) * np.sin(y), np.sin(x) * np.cos(y)], axis=1)
+    return velocity, -0.25 * density * speed**2 * (np.cos(2.0 * x) + np.cos(2.0 * y))
+
+
+def taylor_green_decay(time: float, length: float, viscosity: float) -> float:
+    """Velocity over its start: exp(-2 nu k^2 t), viscosity nu [m2/s]."""
+    return math.exp(-2.0 * viscosity * (2.0 * math.pi / length) ** 2 * time)
+
+
+def poiseuille(y, time: float, height: float, force: float, viscosity: float, terms: int = 50) -> np.ndarray:
+    """u (N,) [m/s] between plates at y = 0 and `height`, driven by `force` [m/s2] from rest; viscosity nu [m2/s].
+
+    Morris, Fox & Zhu 1997, J. Comput. Phys. 136, 214, Eq. 29.
+    """
+    y = np.asarray(y, float)
+    u = force / (2.0 * viscosity) * y * (height - y)
+    for n in range(terms):
+        k = (2 * n + 1) * math.pi / height
+        u -= 4.0 * force / (viscosity * height * k**3) * np.sin(k * y) * math.exp(-viscosity * k**2 * time)
+    return u
+
+
+def box_slosh(length: float, depth: float, gravity: float) -> float:
+    """omega [rad/s] of the first antisymmetric mode in a box: sqrt(g k tanh(k h)), k = pi/L. NASA SP-106."""
+    k = math.pi / length
+    return math.sqrt(gravity * k * math.tanh(k * depth))

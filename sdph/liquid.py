@@ -1,0 +1,44 @@
+"""The sections of a case with a liquid: the liquid itself, and the pools of it that there are at the start."""
+
+from __future__ import annotations
+
+from sdph.schema import choice, quantity, record, vector
+from sdph.smoothing import NAMES
+
+LIQUID, LIGHT = 2, 3  # values of `State.kind`: the liquid, and the lighter fluid of two
+
+
+@record
+class Liquid:
+    """A weakly compressible liquid, p = rho_0 c^2/gamma [(rho/rho_0)^gamma - 1] + background."""
+
+    density: float = quantity("kg_m3", above=0.0)
+    viscosity: float = quantity("Pa_s", 0.0, least=0.0)
+    sound_speed: float = quantity("m_s", above=0.0)  # ten times the fastest speed or more: liquids.md, shared core
+    exponent: float = quantity("", 7.0, least=1.0)
+    background_pressure: float = quantity("Pa", 0.0, least=0.0)
+    kernel: str = choice(*NAMES)
+    courant: float = quantity("", 0.25, above=0.0, most=0.6)  # of h/(c + v): liquids.md
+    history_interval: float | None = quantity("s", None, above=0.0)  # None: a tenth of run.output_interval_s
+    periodic: tuple = vector("", ())  # 1 along periodic axes of the domain, 0 along the others
+
+    @property
+    def fastest(self) -> float:
+        """The speed that the sound speed was chosen for, c/10 [m/s]."""
+        return 0.1 * self.sound_speed
+
+
+@record
+class Pool:
+    """Liquid at the start: box (lower, upper), disc or sphere (centre, radius), or the lowest part of the tank (fill)."""
+
+    shape: str = choice("box", "disc", "sphere", "tank")
+    lower: tuple | None = vector("m", None)
+    upper: tuple | None = vector("m", None)
+    centre: tuple | None = vector("m", None)
+    radius: float | None = quantity("m", None, above=0.0)
+    fill: float | None = quantity("", None, above=0.0, most=1.0)
+    velocity: tuple | None = vector("m_s", None)
+    flow: str = choice("uniform", "rotation", "taylor_green")
+    speed: float = quantity("m_s", 0.0)  # of taylor_green: its amplitude; of rotation: at half the box's side
+    phase: str = choice("liquid", "light")

@@ -1,0 +1,177 @@
+"""The loops over liquids against the sums written out pair by pair, and what the sums must keep."""
+
+import numpy as np
+import pytest
+
+from sdph import case as cases
+from sdph import liquid_rates, smoothing
+from sdph.liquid import LIQUID
+from sdph.liquid_step import LiquidStepper, loads, wall_loads
+from sdph.particles import WALL, positions, velocities
+
+TANK = {
+    2: {"lower_m": [0.0, 0.0], "upper_m": [0.5, 0.4]},
+    3: {"lower_m": [0.0, 0.0, 0.0], "upper_m": [0.4, 0.3, 0.3]},
+}
+
+
+def stepper(dimensions=2, effects=("gravity", "density_diffusion", "liquid_damping", "laminar_viscosity", "tank"), **sections):
+    """A pool at rest in a box, shaken: places and velocities random by a tenth."""
+    gravity = [0.0] * (dimensions - 1) + [-9.81]
+    table = {
+        "dimensions": dimensions,
+        "effects": list(effects),
+        "run": {"end_time_s": 1.0, "output_interval_s": 1.0},
+        "domain": {"size_m": [0.6] * dimensions, "gravity_m_s2": gravity},
+        "resolution": {"spacing_mm": 50.0},
+        "liquid": {"density_kg_m3": 1000.0, "viscosity_Pa_s": 1.0, "sound_speed_m_s": 20.0},
+        "pools": {"water": {"shape": "box", **TANK[dimensions]}},
+    } | sections
+    own = LiquidStepper(cases.from_table(table))
+    random = np.random.default_rng(1)
+    wet = own.state.kind == LIQUID
+    for name, size in (("x", 0.005), ("y", 0.005), ("z", 0.005), ("u", 0.3), ("v", 0.3), ("w", 0.3), ("density", 5.0)):
+        array = getattr(own.state, name)
+        if len(array):
+            array[wet] += size * random.standard_normal(wet.sum())
+    own._forces()
+    return own
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+@pytest.mark.parametrize("kernel", smoothing.NAMES)
+def test_acceleration_is_the_sum_over_all_pairs(dimensions, kernel):
+    own = stepper(dimensions, liquid={"density_kg_m3": 1000.0, "viscosity_Pa_s": 1.0, "sound_speed_m_s": 20.0, "kernel": kernel})
+    s, p = own.state, own.p
+    r, v = positions(s), velocities(s)
+    wet = s.kind == LIQUID
+    volume = np.where(wet, s.mass / s.density, 0.05**dimensions)
+    for i in np.flatnonzero(wet)[::7]:
+        d = r[i] - r
+        distance = np.linalg.norm(d, axis=1)
+        near = (distance < 2.0 * own.kernel.h) & (np.arange(len(r)) != i)
+        expected = np.zeros(3)
+        for j in np.flatnonzero(near):
+            slope = smoothing.slope.py_func(own.kernel, distance[j])
+            closing = (v[i] - v[j]) @ d[j]
+            ringing = -p["liquid_damping"].strength * closing / (distance[j] ** 2 + p["liquid_damping"].softening)
+            expected -= volume[j] * slope * (own.pressure[i] + own.pressure[j] + ringing) * d[j]
+            expected += volume[j] * slope * 2.0 * 1.0 * (v[i] - v[j])
+        expected = expected / s.density[i]
+        expected[dimensions - 1] -= 9.81
+        assert np.allclose(own.acceleration[i], expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_density_rate_is_the_sum_over_all_pairs(dimensions):
+    own = stepper(dimensions)
+    s = own.state
+    liquid_rates.compress(
+        own.kernel, s, own.rows, own.neighbours.box, own.active, own.wall, own.p["density_diffusion"], own.pressure, own.gradient,
+        own.volume, own.rate,
+    )  # fmt: skip
+    r, v = positions(s), velocities(s)
+    wet = s.kind == LIQUID
+    v[~wet] = 0.0
+    strength = own.p["density_diffusion"].strength
+    for i in np.flatnonzero(wet)[::7]:
+        expected = 0.0
+        for j in np.flatnonzero(np.linalg.norm(r - r[i], axis=1) < 2.0 * own.kernel.h):
+            if j == i:
+                continue
+            d = r[i] - r[j]
+            slope = smoothing.slope.py_func(own.kernel, np.linalg.norm(d))
+            expected += s.density[i] * abs(own.volume[j]) * slope * ((v[i] - v[j]) @ d)
+            if wet[j]:
+                psi = 2.0 * (own.pressure[j] - own.pressure[i]) + (own.gradient[i] + own.gradient[j]) @ d
+                expected -= strength * own.volume[j] * slope * psi
+        assert own.rate[i] == pytest.approx(expected, rel=1e-9, abs=1e-6)
+
+
+def test_a_linear_pressure_does_not_diffuse():
+    own = stepper(3)
+    own.pressure[:] = 1e4 + 3e3 * positions(own.state) @ np.array([1.0, -2.0, 0.5])
+    s = own.state
+    liquid_rates.push(
+        own.kernel, s, own.rows, own.neighbours.box, own.active, own.wall, own.p["gravity"], own.frame, own.p["laminar_viscosity"],
+        own.p["liquid_damping"], own.p["density_diffusion"], own.p["shifting"], own.pressure, own.volume, own.least,
+        own.acceleration, own.gradient, own.shift, own.twist,
+    )  # fmt: skip
+    for array in (s.u, s.v, s.w):
+        array[:] = 0.0
+    liquid_rates.compress(
+        own.kernel, s, own.rows, own.neighbours.box, own.active, own.wall, own.p["density_diffusion"], own.pressure, own.gradient,
+        own.volume, own.rate,
+    )  # fmt: skip
+    assert np.allclose(own.gradient[own.active], [3e3, -6e3, 1.5e3], rtol=1e-9)
+    assert np.abs(own.rate[own.active]).max() < 1e-9
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_walls_feel_what_the_liquid_loses(dimensions):
+    own = stepper(dimensions)
+    momentum, walls = loads(own), wall_loads(own)
+    assert np.allclose(momentum[:3], walls[:3], rtol=1e-9, atol=1e-9 * np.abs(walls).max())
+
+
+def test_without_walls_momentum_stays(tmp_path):
+    own = stepper(3, effects=("density_diffusion", "liquid_damping", "laminar_viscosity"))
+    before = (own.state.mass[:, None] * velocities(own.state)).sum(axis=0)
+    scale = (own.state.mass[:, None] * np.abs(velocities(own.state))).sum()
+    for _ in range(20):
+        own.step(1.0)
+    after = (own.state.mass[:, None] * velocities(own.state)).sum(axis=0)
+    assert np.abs(after - before).max() < 1e-12 * scale
+
+
+def test_steps_move_the_particles():
+    own = stepper(2)
+    places, density = positions(own.state).copy(), own.state.density.copy()
+    dt = own.step(1.0)
+    wet = own.state.kind == LIQUID
+    assert dt > 0.0
+    assert (np.abs(positions(own.state) - places)[wet].max(axis=1) > 0.0).all()
+    assert (own.state.density != density)[wet].all()
+    assert np.array_equal(positions(own.state)[~wet], places[~wet])
+
+
+def test_walls_extrapolate_a_hydrostatic_pressure():
+    own = stepper(2)
+    s = own.state
+    s.u[:], s.v[:] = 0.0, 0.0
+    s.density[own.active] = 1000.0
+    own.pressure[own.active] = 1000.0 * 9.81 * (0.4 - s.y[own.active])
+    liquid_rates.extrapolate(
+        own.kernel, s, own.rows, own.neighbours.box, own.walls, own.wall, own.p["gravity"], own.frame, own.volume, own.pressure, s.u, s.v, s.w
+    )
+    below = own.walls[(s.y[own.walls] < 0.0) & (s.y[own.walls] > -0.1) & (s.x[own.walls] > 0.0) & (s.x[own.walls] < 0.5)]
+    assert np.allclose(own.pressure[below], 9810.0 * (0.4 - s.y[below]), rtol=1e-12)
+
+
+def test_eigenvalues():
+    random = np.random.default_rng(2)
+    for _ in range(50):
+        a = random.standard_normal((3, 3))
+        m = a + a.T
+        least = liquid_rates.smallest(m[0, 0], m[1, 1], m[2, 2], m[0, 1], m[1, 2], m[2, 0])
+        assert least == pytest.approx(np.linalg.eigvalsh(m)[0], abs=1e-9)
+
+
+def test_a_rotating_liquid_stays_where_shifting_puts_its_velocity():
+    """Shifting moves particles, not the field: of a linear velocity each particle still has that of its place."""
+    own = stepper(2, effects=("density_diffusion", "shifting"))
+    s = own.state
+    s.u[:], s.v[:], s.density[:] = 3.0 * s.y, -2.0 * s.x, 1000.0
+    own._forces()
+    inside = own.active[own.least[own.active] > 0.75]
+    before = positions(s).copy()
+    own._shift(1e-3)
+    moved = np.abs(positions(s) - before).max(axis=1)[inside]
+    assert len(inside) > 10 and moved.max() > 1e-5
+    assert np.allclose(s.u[inside], 3.0 * s.y[inside], rtol=1e-9)
+    assert np.allclose(s.v[inside], -2.0 * s.x[inside], rtol=1e-9)
+
+
+def test_wall_particles_are_told_by_kind():
+    own = stepper(2)
+    assert (own.state.kind[own.walls] == WALL).all() and (own.volume[own.walls] < 0.0).all() and (own.volume[own.active] > 0.0).all()

@@ -1,0 +1,39 @@
+"""The front of the collapsing column against measurements: front.csv, from the sources that it names.
+
+Times are shifted by a usual 0.175 (in units of sqrt(a/2g)): a gate opens in finite time and friction holds the front back.
+"""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import numpy as np
+
+from sdph.compare import check
+
+OFFSET = 0.175  # of T = t sqrt(2 g/a), see front.csv
+SERIES = ("mm_a1.125in", "mm_a2.25in", "koshizuka_oka_exp", "mm_lethe")
+TIMES = (1.25, 1.5, 2.0, 2.5, 3.0)  # of T
+MARGIN = 0.02  # of Z: what the points were read off with
+
+
+def measured() -> dict[str, np.ndarray]:
+    """series -> (P, 2) T and Z."""
+    with open(Path(__file__).parent / "front.csv", encoding="utf-8") as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    return {name: np.array([[float(r["T"]), float(r["Z"])] for r in rows if r["series"] == name]) for name in SERIES}
+
+
+def exact(run) -> list[dict]:
+    """Within the scatter: no further from the middle of the measured than half their spread."""
+    case, pool = run.case, run.case.pools["column"]
+    width, g = pool.upper[0] - pool.lower[0], -case.domain.gravity[1]
+    T = run.history["time_s"] * np.sqrt(2.0 * g / width) + OFFSET
+    Z = (run.history["largest_x_m"] + 0.5 * case.resolution.spacing) / width
+    checks = []
+    for at in (t for t in TIMES if t <= T[-1]):
+        known = [np.interp(at, *rows.T) for rows in measured().values() if rows[0, 0] <= at <= rows[-1, 0]]
+        middle, spread = 0.5 * (min(known) + max(known)), 0.5 * (max(known) - min(known))
+        checks.append(check(f"front x/a at T = {at:g}", np.interp(at, T, Z), middle, spread + MARGIN))
+    return checks

@@ -1,0 +1,23 @@
+"""Velocity between two plates against the series of Morris, Fox & Zhu 1997, on the way and in the end."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sdph.compare import check
+from sdph.laws import liquids
+
+SHARE = 0.005  # of the largest velocity: liquids.md
+TIMES = (0.5, 1.0, 2.0, 10.0)  # s
+
+
+def exact(run) -> list[dict]:
+    case = run.case
+    nu, height = case.liquid.viscosity / case.liquid.density, case.domain.size[1]
+    checks = []
+    for time in (t for t in TIMES if t <= run.summary["time_s"]):
+        _, liquid, _ = run.fields(time)
+        u = liquids.poiseuille(liquid.points[:, 1], time, height, case.domain.gravity[0], nu)
+        error = np.sqrt(np.mean((liquid["velocity"][:, 0] - u) ** 2)) / u.max()
+        checks.append(check(f"velocity at {time:g} s, L2 over the largest", error, 0.0, SHARE))
+    return checks

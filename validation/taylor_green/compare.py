@@ -1,0 +1,26 @@
+"""Decay of the vortices against the exact exp(-2 nu k^2 t)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sdph.compare import check
+from sdph.laws import liquids
+
+RATE = 0.01  # liquids.md
+
+
+def exact(run) -> list[dict]:
+    case, pool, h = run.case, run.case.pools["square"], run.history
+    nu = case.liquid.viscosity / case.liquid.density
+    length = pool.upper[0] - pool.lower[0]
+    energy = h["kinetic_energy_J"] / h["kinetic_energy_J"][0]
+    later = h["time_s"] > 0.0
+    rate = np.polyfit(h["time_s"], np.log(energy), 1)[0]
+    expected = np.array([liquids.taylor_green_decay(t, length, nu) ** 2 for t in h["time_s"]])
+    worst = np.abs(np.sqrt(energy[later] / expected[later]) - 1.0).max()
+    return [
+        check("rate of the energy's decay [1/s]", rate, -4.0 * nu * (2.0 * np.pi / length) ** 2, RATE, True),
+        check("velocity over the exact, worst", worst, 0.0, RATE),
+        check("momentum over sum m |v|", abs(h["momentum_x_kg_m_s"][-1]), 0.0, 1e-3),
+    ]
