@@ -12,7 +12,9 @@ version. It comes WITHOUT ANY WARRANTY; see <http://www.gnu.org/licenses/>.
 #include "checkpoint.H"
 #include "exchange.H"
 
+#include <chrono>
 #include <malloc.h>
+#include <thread>
 
 using namespace Foam;
 
@@ -32,11 +34,29 @@ List<char> summary(const wire::Message& message)
     return List<char>(UList<char>(const_cast<char*>(bytes.data()), bytes.size()));
 }
 
+// Ranks other than the master wait here for the next message, asleep: MPI itself would spin, on the processors that the
+// particles compute on meanwhile
+void waitForMaster(const bool master)
+{
+    char bell = 0;
+    if (master)
+    {
+        for (label rank = 1; rank < Pstream::nProcs(); ++rank)
+            UOPstream::write(Pstream::commsTypes::scheduled, rank, &bell, 1);
+        return;
+    }
+    const label request = Pstream::nRequests();
+    UIPstream::read(Pstream::commsTypes::nonBlocking, Pstream::masterNo(), &bell, 1);
+    while (!Pstream::finishedRequest(request)) std::this_thread::sleep_for(std::chrono::microseconds(100));
+    Pstream::resetRequests(request);
+}
+
 // The next message, on every rank; its arrays on the master only
 wire::Message nextMessage(Channel* channel)
 {
     wire::Message message(channel ? channel->receive() : wire::Message(wire::CLOSE));
     if (!Pstream::parRun()) return message;
+    waitForMaster(Pstream::master());
     List<char> bytes;
     if (channel) bytes = summary(message);
     compat::broadcast(bytes);
