@@ -54,6 +54,12 @@ def _parser() -> argparse.ArgumentParser:
     compare.add_argument("run", type=Path)
     compare.add_argument("--against", required=True, choices=("tfm", "dpm", "exact"))
     compare.add_argument("--json", action="store_true", help="print the checks as JSON")
+    check = _command(commands, "validate", validate_scene, "run a scene and check it against all its references")
+    check.add_argument("scene", nargs="?", help="default: every scene that has a validation")
+    check.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override a key of the case")
+    check.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: openfoam where it is)")
+    check.add_argument("--out", type=Path, help="keep the runs in this folder")
+    check.add_argument("--json", action="store_true", help="print the checks as JSON")
     view = _command(commands, "view", view_run, "look at a run")
     view.add_argument("run", type=Path)
     view.add_argument("--png", type=Path, help="write a picture instead of opening a window")
@@ -159,6 +165,19 @@ def compare_run(options) -> int:
     from sdph import compare
 
     checks = compare.compare(options.run, options.against)
+    print(json.dumps({"checks": checks}) if options.json else compare.table(checks))
+    return FINE if all(check["ok"] for check in checks) else CHECK_FAILED
+
+
+def validate_scene(options) -> int:
+    from sdph import compare, validate
+    from sdph.progress import Reporter
+
+    overrides = tuple(options.set) + ((f'coupling.gas="{options.gas}"',) if options.gas else ())
+    checks = []
+    with contextlib.closing(Reporter(quiet=options.json)) as reporter:
+        for scene in [options.scene] if options.scene else validate.validated():
+            checks += validate.validate(scene, overrides, reporter, options.out and options.out / scene)
     print(json.dumps({"checks": checks}) if options.json else compare.table(checks))
     return FINE if all(check["ok"] for check in checks) else CHECK_FAILED
 

@@ -71,7 +71,7 @@ def scene_module(scene: str):
 
 def table(checks: list[dict]) -> str:
     """The checks as text, one line each."""
-    head = f"{'check':52s} {'value':>14s} {'reference':>14s} {'difference':>12s} {'tolerance':>11s}"
-    row = "{name:52s} {value:14.7g} {reference:14.7g} {difference:12.3g} {tolerance:11.3g} {verdict}"
+    head = f"{'check':72s} {'value':>14s} {'reference':>14s} {'difference':>12s} {'tolerance':>11s}"
+    row = "{name:72s} {value:14.7g} {reference:14.7g} {difference:12.3g} {tolerance:11.3g} {verdict}"
     lines = [row.format(difference=c["value"] - c["reference"], verdict="ok" if c["ok"] else "FAILED", **c) for c in checks]
     return "\n".join([head, *lines])
