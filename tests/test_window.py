@@ -19,12 +19,20 @@ def clock(*overrides, rate=0.0, scale=0.0):
     return chooser
 
 
-def times(chooser, end, learn=lambda dt: (dt, np.ones(3) * dt, 0.0)):
+IDENT = np.arange(20)
+
+
+def learn(chooser, dt, courant=0.0):
+    """Three particles at rest exchanged 1 W each for `dt`."""
+    chooser.learn(dt, np.ones(3) * dt, IDENT[:3], courant, 0.0)
+
+
+def times(chooser, end):
     """All times at which windows end."""
     found = [0.0]
     while found[-1] < end:
         found.append(chooser.choose(found[-1]))
-        chooser.learn(*learn(found[-1] - found[-2]))
+        learn(chooser, found[-1] - found[-2])
         assert len(found) < 10**5
     return np.array(found)
 
@@ -71,7 +79,7 @@ def test_limits_are_named():
     assert chooser.limit == "heat exchange"
     assert end <= math.sqrt(2.0 * 1e-2) / 1e6  # backward Euler errs by (rate dt)^2/2
     chooser = clock(*largest, "coupling.courant=0.5")
-    chooser.learn(1e-4, np.zeros(3), 2.0)
+    learn(chooser, 1e-4, courant=2.0)
     end = chooser.choose(0.0)
     assert chooser.limit == "courant"
     assert end == pytest.approx(1e-4 * 0.5 / 2.0, rel=0.01)
@@ -80,7 +88,7 @@ def test_limits_are_named():
 @given(dt=st.floats(1e-9, 1.0), courant=st.floats(1e-6, 1e3))
 def test_courant_limit_grows_no_faster_than_allowed(dt, courant):
     chooser = clock("coupling.window_largest_s=1e9", "run.end_time_s=1e9", "run.output_interval_s=1e9", "run.report_at_s=[]")
-    chooser.learn(dt, np.zeros(1), courant)
+    learn(chooser, dt, courant)
     assert chooser.choose(0.0) <= dt * min(GROWTH, 1.0 / courant) * (1.0 + 1e-6)
 
 
@@ -89,7 +97,7 @@ def test_control_grows_and_shrinks_within_bounds(tolerance, dts, seed):
     control, rng = window.Control(tolerance), np.random.default_rng(seed)
     control.begin(1.0, 10.0)
     for dt in dts:
-        following = control.learn(dt, rng.normal(size=20) * dt * 10.0 ** rng.uniform(-6, 3))
+        following = control.learn(dt, rng.normal(size=20) * dt * 10.0 ** rng.uniform(-6, 3), IDENT)
         assert SHRINK * dt * (1.0 - 1e-12) <= following <= GROWTH * dt * (1.0 + 1e-12)
 
 
@@ -100,7 +108,7 @@ def test_control_holds_the_error_at_the_tolerance():
     dt, time, errors = control.begin(1.0, 1.0), 0.0, []
     for _ in range(60):
         taken = np.array([math.exp(-time) - math.exp(-time - dt)])
-        following = control.learn(dt, taken)
+        following = control.learn(dt, taken, IDENT[:1])
         errors.append(control.error)
         time, dt = time + dt, following
     assert max(errors[2:]) < 1.1 * tolerance
@@ -110,8 +118,26 @@ def test_control_holds_the_error_at_the_tolerance():
 def test_steady_exchange_lets_windows_grow():
     control = window.Control(1e-5)
     dt = control.begin(100.0, 1.0)
-    control.learn(dt, np.ones(4) * dt)
-    assert control.learn(dt, np.ones(4) * dt) == GROWTH * dt
+    control.learn(dt, np.ones(4) * dt, IDENT[:4])
+    assert control.learn(dt, np.ones(4) * dt, IDENT[:4]) == GROWTH * dt
+
+
+@given(order=st.permutations(range(8)), gone=st.integers(0, 7))
+def test_control_follows_particles_that_are_sorted_anew_or_leave(order, gone):
+    """Each particle exchanges at its own steady rate, so nothing changes, in whatever order they stand."""
+    control, rates = window.Control(1e-5), np.linspace(1.0, 1e3, 8)
+    control.begin(1.0, 1.0)
+    control.learn(0.1, 0.1 * rates, IDENT[:8])
+    left = np.array([k for k in order if k != gone])
+    assert control.learn(0.1, 0.1 * rates[left], left) == GROWTH * 0.1
+    assert control.error <= 1e-15
+
+
+def test_fast_particles_rule_by_name():
+    chooser = clock("coupling.courant=0.5")
+    chooser.learn(1e-3, np.zeros(3), IDENT[:3], 0.0, 10.0)
+    assert chooser.choose(0.0) <= 0.5 * 5e-3 / 10.0
+    assert chooser.limit == "particles"
 
 
 @pytest.mark.parametrize("gas", ["288", "288.00000001"])
