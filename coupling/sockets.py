@@ -7,6 +7,7 @@ once the solver is in, the listening socket is closed, so that nobody else can c
 from __future__ import annotations
 
 import hmac
+import os
 import shutil
 import socket
 import tempfile
@@ -17,6 +18,7 @@ from pathlib import Path
 from coupling.messages import ABSOLUTE_LIMIT, HEADER, Kind, Message, MessageError, decode_body, encode, read_header
 
 SLICE = 0.2  # s between two looks at whether the peer is alive
+PIECE = 2**20  # bytes of memory taken at first for a message
 GREETING_TIME = 30.0  # s that somebody who connected has to say HELLO
 
 
@@ -54,21 +56,27 @@ class SocketConnection:
         return decode_body(kind, crc, self._read(length, deadline, alive))
 
     def _read(self, length: int, deadline: float, alive: Callable[[], bool]) -> bytearray:
-        data = bytearray(length)
-        view, place = memoryview(data), 0
+        """`length` bytes; memory is taken as they come, not as the peer promises."""
+        data, place = bytearray(min(length, PIECE)), 0
         while place < length:
-            self._socket.settimeout(max(1e-3, min(SLICE, deadline - time.monotonic())))
-            try:
-                got = self._socket.recv_into(view[place:])
-            except TimeoutError:
-                _check_wait(deadline, alive)
-                continue
-            except OSError as error:
-                raise ConnectionError(f"connection lost: {error}") from None
-            if got == 0:
-                raise ConnectionError("the peer closed the connection")
-            place += got
+            if place == len(data):
+                data += bytes(min(len(data), length - place))
+            place += self._read_some(memoryview(data)[place:], deadline, alive)
         return data
+
+    def _read_some(self, room: memoryview, deadline: float, alive: Callable[[], bool]) -> int:
+        """Bytes that came into `room`; 0 when none did for a while, which `alive` and the deadline judge."""
+        self._socket.settimeout(max(1e-3, min(SLICE, deadline - time.monotonic())))
+        try:
+            got = self._socket.recv_into(room)
+        except TimeoutError:
+            _check_wait(deadline, alive)
+            return 0
+        except OSError as error:
+            raise ConnectionError(f"connection lost: {error}") from None
+        if got == 0:
+            raise ConnectionError("the peer closed the connection")
+        return got
 
     def close(self) -> None:
         """Close the connection; a second call does nothing."""
@@ -82,6 +90,14 @@ def _check_wait(deadline: float, alive: Callable[[], bool]) -> None:
         raise TimeoutError("no message in time")
 
 
+def _sweep() -> None:
+    """Remove the folders of sockets whose owners were killed before the solver had called."""
+    for folder in Path(tempfile.gettempdir()).glob("sdph-*-*"):
+        owner = folder.name.split("-")[1]
+        if owner.isdigit() and folder.stat().st_uid == os.getuid() and not Path("/proc", owner).exists():
+            shutil.rmtree(folder, ignore_errors=True)
+
+
 class SocketServer:
     """Waits for the gas solver. `address` is what the solver is told: "unix:<path>" or "tcp:<host>:<port>"."""
 
@@ -92,7 +108,8 @@ class SocketServer:
             self._socket = socket.create_server(("127.0.0.1", 0), backlog=1)
             self.address = "tcp:{}:{}".format(*self._socket.getsockname())
         else:
-            self._folder = Path(tempfile.mkdtemp(prefix="sdph-"))  # made with mode 0700
+            _sweep()
+            self._folder = Path(tempfile.mkdtemp(prefix=f"sdph-{os.getpid()}-"))  # made with mode 0700
             self._socket = socket.socket(socket.AF_UNIX)
             self._socket.bind(str(self._folder / "gas"))
             self._socket.listen(1)

@@ -80,7 +80,7 @@ def write(run_folder: Path, number: int, case_table: dict, thing, gas) -> Path:
     shutil.rmtree(folder, ignore_errors=True)  # of the same window, when a run that had ended goes on
     os.rename(draft, folder)
     _sync(folder.parent)
-    for old in _numbered(run_folder)[LASTING:]:
+    for old in numbered(run_folder)[LASTING:]:
         shutil.rmtree(old, ignore_errors=True)
     return folder
 
@@ -102,7 +102,7 @@ def newest(run_folder: Path, status=lambda text: None) -> Checkpoint | None:
     """The newest whole checkpoint of a run; damaged ones are told of and passed over, drafts of a cut write removed."""
     for draft in (run_folder / FOLDER).glob(".*.part"):
         shutil.rmtree(draft, ignore_errors=True)
-    for folder in _numbered(run_folder):
+    for folder in numbered(run_folder):
         try:
             return _open(folder)
         except Damaged as damage:
@@ -110,7 +110,7 @@ def newest(run_folder: Path, status=lambda text: None) -> Checkpoint | None:
     return None
 
 
-def _numbered(run_folder: Path) -> list[Path]:
+def numbered(run_folder: Path) -> list[Path]:
     """Folders of checkpoints, newest first."""
     return sorted((p for p in (run_folder / FOLDER).glob("*") if p.name.isdigit()), reverse=True)
 

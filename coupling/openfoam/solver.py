@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import secrets
+import shutil
 import signal
 import subprocess
 import tempfile
@@ -48,6 +49,8 @@ class OpenFoamGas:
         self._log = self._folder / "log.sdphGasFoam"
         self._process = self._connection = None
         self._time = 0.0
+        for left in self._folder.glob("exchange-*"):  # of a run that was killed
+            shutil.rmtree(left, ignore_errors=True)
         program = install.gas_solver(status)
         if template is not None:
             case_files.write_case(case, Path(template), self._folder, case.coupling.ranks, allow_code)
