@@ -18,7 +18,7 @@ def metrics(centres, volumes, alpha_p, gas_temperature, pressure) -> dict[str, f
 
     neck_width_m is the least width of the bubble below its widest row; attached is 1 while it touches the floor.
     """
-    order, shape = _rows(centres)
+    order, shape = rows_of(centres)
     alpha, height = alpha_p[order].reshape(shape), centres[order, 1].reshape(shape)[:, 0]
     own = largest_void(alpha)
     area = volumes[order].reshape(shape)
@@ -44,7 +44,7 @@ def detachment(times, rows: list[dict]) -> float:
     return float(free[0]) if free else math.nan
 
 
-def _rows(centres) -> tuple[np.ndarray, tuple[int, int]]:
+def rows_of(centres) -> tuple[np.ndarray, tuple[int, int]]:
     """Order of the cells row by row from the floor, and (rows, columns)."""
     x, y = np.round(centres[:, 0], 9), np.round(centres[:, 1], 9)
     return np.lexsort((x, y)), (len(np.unique(y)), len(np.unique(x)))

@@ -56,7 +56,7 @@ def scene(particles, gas, field: str, title: str, off_screen: bool):
         bar = BAR | {"title": f"gas {field}\n[{GAS_UNITS.get(field, '1')}]", "position_x": 0.86}
         plotter.add_mesh(gas, scalars=field, cmap="Blues", scalar_bar_args=bar, lighting=False)
     if particles.n_points and field in particles.point_data:
-        bar = BAR | {"title": f"particle {field}\n[{PARTICLE_UNITS[field]}]", "position_x": 0.03}
+        bar = BAR | {"title": f"particle {field}\n[{PARTICLE_UNITS[field]}]", "position_x": 0.07}
         plotter.add_mesh(particles, scalars=field, cmap="inferno", point_size=_size(particles, gas if gas is not None else particles), scalar_bar_args=bar, lighting=False)
     plotter.add_text(title, font_size=12, position="upper_edge")
     if particles.bounds[4] == particles.bounds[5]:

@@ -162,6 +162,13 @@ def _metrics_figure(run, times, own, other) -> None:
     pyplot.close(figure)
 
 
+def _image(axis, centres, values, limits):
+    """Cell values of a box mesh as squares."""
+    order, shape = bubble.rows_of(centres)
+    x, y = (centres[order, a].reshape(shape) for a in (0, 1))
+    return axis.pcolormesh(x, y, np.asarray(values)[order].reshape(shape), shading="nearest", **limits)
+
+
 def _fields_figure(run, reference, times) -> None:
     """Voidage, gas temperature and grain temperature side by side; upper row SDPH, lower two fluids."""
     pyplot = _pyplot()
@@ -174,11 +181,12 @@ def _fields_figure(run, reference, times) -> None:
             limits = {"cmap": colours, "vmin": low, "vmax": high}
             upper, lower = axes[2 * k, column], axes[2 * k + 1, column]
             if name == "gas_temperature":
-                shown = upper.scatter(*gas.cell_centers().points[:, :2].T, c=gas["temperature"], s=3, marker="s", **limits)
+                shown = _image(upper, gas.cell_centers().points, gas["temperature"], limits)
             else:
                 values = grains["alpha_p" if name == "alpha_p" else "temperature"]
                 shown = upper.scatter(*grains.points[:, :2].T, c=values, s=1, **limits)
-            lower.scatter(*reference.centres[:, :2].T, c=np.where(fields["alpha_p"] > 0.01, fields[name], np.nan) if k == 2 else fields[name], s=3, marker="s", **limits)
+            empty = name == "particle_temperature"
+            _image(lower, reference.centres, np.where(empty & (fields["alpha_p"] < 0.01), np.nan, fields[name]), limits)
             for axis, who in ((upper, "SDPH"), (lower, "two fluids")):
                 axis.set(xlim=(0, 0.5), ylim=(0, 0.8), aspect="equal", title=f"{who}, {t:g} s")
             if column == len(times) - 1:
