@@ -48,7 +48,8 @@ class Handed:
     """What one window hands over: the sources for the gas, and what the reaction is computed from.
 
     heat (N,) [W/K] and pull (N,) [W]: the particle takes heat * T'_g - pull; drag (N,) [kg/s] is m_k f_k/dt; temperature
-    and velocity are those of the particles when they were computed; damping (N,) [1/s] is beta/(alpha_p rho_p).
+    and velocity are those of the particles when they were computed; damping (N,) [1/s] is beta/(alpha_p rho_p); mass
+    (N,) [kg] what is in the gas at the window's end.
     """
 
     dt: float
@@ -60,6 +61,7 @@ class Handed:
     damping: np.ndarray
     temperature: np.ndarray
     velocity: np.ndarray
+    mass: np.ndarray
     loss: Loss | None
 
 
@@ -107,7 +109,7 @@ class Exchange:
 
     def alpha_g(self, state, weights) -> np.ndarray:
         """Gas volume fraction of the cells."""
-        return self._room(weights, state.mass * (state.kind == particles.GRAIN))
+        return self._room(weights, state.mass * (state.kind == GRAIN))
 
     def hand(self, state, weights, ahead, gas_state, dt) -> Handed:
         """Coefficients from the old gas state, and the sources for the gas.
@@ -130,7 +132,7 @@ class Exchange:
         sources = {"alpha_g": self._room(there, kept * inside)} if "alpha_g" in self.sources else {}
         sources |= self._sources(state, weights, seen, dt, loss, heat_share, pull, shared_mass)
         sources = {name: np.ascontiguousarray(values) for name, values in sources.items()}
-        return Handed(dt, weights, sources, heat_share, pull, shared_mass, damping, state.temperature.copy(), seen.own, loss)
+        return Handed(dt, weights, sources, heat_share, pull, shared_mass, damping, state.temperature.copy(), seen.own, kept * (state.kind == GRAIN), loss)
 
     def _sources(self, state, weights, seen, dt, loss, heat_share, pull, shared_mass) -> dict[str, np.ndarray]:
         """All but the volume fraction."""
@@ -158,31 +160,56 @@ class Exchange:
         conductance, flow, surface = (np.empty(count) for _ in range(3))
         around = seen.slip, seen.density, seen.temperature
         evaporation.survey(p, self.parameters["heat"], self.sizes_p, state, *around, dt, conductance, flow, surface)
-        cells = _vapour_concentration(p, gas_state)
+        concentration = gather(weights, _vapour_concentration(p, gas_state))
         if not self.case.coupling.one_way:
-            exchanged = deposit(weights, np.stack((flow, flow * surface), axis=1)) * dt
-            room = self._room(weights, state.mass * (state.kind == particles.GRAIN)) * self.volumes
-            cells = np.maximum(cells, (room * cells + exchanged[:, 1]) / (room + exchanged[:, 0]))
+            evaporating = surface > concentration
+            after = [self._relaxed(state, weights, gas_state, flow * some * dt, surface) for some in (evaporating, ~evaporating)]
+            concentration = np.where(evaporating, *after)
         loss = Loss(*(np.empty(count) for _ in range(4)))
         evaporation.losses(
-            p, self.sizes_p, state, *around, gather(weights, cells), dt, conductance, loss.mass, loss.still, loss.moving, loss.refused
+            p, self.sizes_p, state, *around, concentration, dt, conductance, loss.mass, loss.still, loss.moving, loss.refused
         )
         return conductance, loss
 
-    def pace(self, state, weights, gas_state) -> tuple[float, float]:
-        """Rate [1/s] of the fastest cell, and a scale of heat [J]: the gas among the grains, and they, brought to
-        equilibrium through all of the temperatures that the case has."""
+    def _relaxed(self, state, weights, gas_state, exchanged, surface) -> np.ndarray:
+        """Vapour around the particles [kmol/m3] once they have exchanged so much gas (N,) [m3] with the cells."""
+        deposited = deposit(weights, np.stack((exchanged, exchanged * surface), axis=1))
+        room = self._room(weights, state.mass * (state.kind == GRAIN)) * self.volumes
+        cells = _vapour_concentration(self.parameters["evaporation"], gas_state)
+        return gather(weights, (room * cells + deposited[:, 1]) / (room + deposited[:, 0]))
+
+    def pace(self, state, weights, gas_state) -> tuple[float, float, float]:
+        """At the start: rate [1/s] at which the fastest cell takes the grains' temperature, `stake` [J], and rate [1/s]
+        at which vapour comes into the fastest cell, over the gas in it."""
+        handed = self.hand(state, weights, (weights, state.kind == GRAIN), gas_state, INSTANT)
+        thickening = self.vapour_share(handed, gas_state) / INSTANT
         if not self.parameters["heat"]:
-            return 0.0, 0.0
-        alpha_g = self.alpha_g(state, weights)
-        here = weights, state.kind == particles.GRAIN
-        eps = self.hand(state, weights, here, gas_state, INSTANT).sources["heat"]
-        content = self._density(weights, state.mass * (state.kind == particles.GRAIN) * self.case.grains.heat_capacity)
-        gas = alpha_g * gas_state.fields["density"] * self.case.gas.heat_capacity
+            return 0.0, 0.0, thickening
+        full, resistance = self._resistance(state, weights, gas_state)
+        rate = float((handed.sources["heat"][full] * resistance).max(initial=0.0))
+        return rate, self.stake(state, weights, gas_state), thickening
+
+    def vapour_share(self, handed: Handed, gas_state) -> float:
+        """Vapour that a window brought into a cell, over the gas in it; the largest of all cells."""
+        if "vapour" not in handed.sources:
+            return 0.0
+        room = self._room(handed.weights, handed.mass)
+        return float((handed.sources["vapour"] * handed.dt / (room * gas_state.fields["density"])).max(initial=0.0))
+
+    def stake(self, state, weights, gas_state) -> float:
+        """A scale of heat [J]: the gas among the grains, and they, brought to equilibrium through all of the
+        temperatures that the case has."""
+        if not self.parameters["heat"]:
+            return 0.0
+        full, resistance = self._resistance(state, weights, gas_state)
+        return float(_temperature_span(self.case) * (self.volumes[full] / resistance).sum())
+
+    def _resistance(self, state, weights, gas_state) -> tuple[np.ndarray, np.ndarray]:
+        """Mask of the cells with grains, and 1/C_p + 1/C_g of these [m3 K/J]."""
+        content = self._density(weights, state.mass * (state.kind == GRAIN) * self.case.grains.heat_capacity)
+        gas = self.alpha_g(state, weights) * gas_state.fields["density"] * self.case.gas.heat_capacity
         full = content > 0.0
-        resistance = 1.0 / content[full] + 1.0 / gas[full]
-        span = _temperature_span(self.case)
-        return float((eps[full] * resistance).max(initial=0.0)), float(span * (self.volumes[full] / resistance).sum())
+        return full, 1.0 / content[full] + 1.0 / gas[full]
 
     def take(self, handed: Handed, gas_state) -> Taken:
         """The reaction on the particles, from the new gas state with the old weights, temperatures and velocities."""
@@ -263,7 +290,7 @@ def _vapour_concentration(p, gas_state) -> np.ndarray:
 
 def _temperature_span(case) -> float:
     """Hottest less coldest of all that the case gives a temperature [K], and where they are alike a negligible part of it."""
-    given = [case.gas.temperature, *(region.temperature for region in case.particles.values())]
+    given = [case.gas.temperature, *(part.temperature for part in (*case.particles.values(), *case.nozzles.values()))]
     given += [boundary.temperature for boundary in case.boundaries.values() if boundary.temperature]
     return max(max(given) - min(given), NEGLIGIBLE * max(given))
 

@@ -44,6 +44,7 @@ def tracked(simulation) -> dict[str, float]:
     fields = {
         "x_m": state.x, "y_m": state.y, "z_m": state.z, "u_m_s": state.u, "v_m_s": state.v, "w_m_s": state.w,
         "temperature_K": state.temperature, "granular_temperature_m2_s2": state.theta,
+        "diameter_m": state.diameter, "mass_kg": state.mass,
         "convective_heat_W": received, "conductive_heat_W": conducted,
     }  # fmt: skip
     for ident in names:

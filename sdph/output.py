@@ -161,7 +161,7 @@ def read_table(path: Path) -> dict[str, np.ndarray]:
 
 def _numbers(values: list[str]) -> np.ndarray:
     try:
-        return np.array(values, float)
+        return np.array([value or "nan" for value in values], float)  # a particle that is gone has none
     except ValueError:
         return np.array(values)
 

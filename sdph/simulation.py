@@ -12,7 +12,7 @@ from sdph.effects.inflow import Source
 from sdph.effects.outflow import leaving
 from sdph.exchange import Exchange
 from sdph.ledger import vector
-from sdph.particles import GRAIN
+from sdph.particles import GRAIN, INFLOW
 from sdph.step import Held, Stepper
 from sdph.window import Window
 
@@ -53,14 +53,16 @@ class Simulation:
         alpha_g = None if one_way else self.exchange.alpha_g(self.state, self.weights)
         self.gas_state = self.gas.start(alpha_g, () if one_way else self.exchange.sources)
         if not one_way:
-            self.clock.begin(*self.exchange.pace(self.state, self.weights, self.gas_state))
+            rate, stake, thickening = self.exchange.pace(self.state, self.weights, self.gas_state)
+            self.clock.begin(rate, stake)
+            self.clock.thicken(1.0, thickening)
         self.ledger.open(self.grains, self.gas_state.budget)
         self.received = None  # heat rate [W] of each particle from the gas in the last window
 
     def take_up(self, gas_state) -> None:
         """Go on from a checkpoint that was put back, instead of `start`."""
         self.gas_state, self.received = gas_state, None
-        self.weights = self.transfer.weights(particles.positions(self.state))
+        self.weights = self._weights()
 
     def window(self) -> None:
         """One window: exchange prepared, gas advanced, reaction taken, particles advanced."""
@@ -71,6 +73,7 @@ class Simulation:
         self.gas_state = self._timed("gas", self.gas.advance, dt, sources)
         taken = self._timed("exchange", self.exchange.take, handed, self.gas_state)
         self.exchange.settle(self.state, handed)
+        inside = self.state.kind == GRAIN
         self.received = Held(self.state, taken.heat / dt)
         flows = Held(self.state, taken.warming, taken.impulse, self._body(handed), handed.damping)
         self._without_finished()
@@ -82,7 +85,8 @@ class Simulation:
         else:
             self._timed("particles", self.stepper.conduct, dt, warming)
         self.time, self.windows = end, self.windows + 1
-        self.clock.learn(dt, taken.heat, self.gas_state.budget.courant, self._fastest())
+        self.clock.learn(dt, taken.heat[inside], self.received.ident[inside], self.gas_state.budget.courant, self._fastest())
+        self.clock.thicken(dt, self.exchange.vapour_share(handed, self.gas_state))
         exchanged = taken.columns() | tally.columns(self, weight, taken.impulse.sum(axis=0))
         exchanged |= {"drag_heat_J": self.exchange.drag_heat_of(handed)}
         exchanged |= self._timed("exchange", self._turn_over, self.clock.longest())
@@ -96,10 +100,20 @@ class Simulation:
         """The exchange of a window of `dt`; the gas is told where the particles will be at its end."""
         ahead, inside = self.weights, self.state.kind == GRAIN
         if self.moves:
-            ahead = self.transfer.weights(particles.positions(self.state) + particles.velocities(self.state) * dt)
+            ahead = self._weights(dt)
         if self.source:
             inside = ~self.source.waiting(self.state, dt)
         return self.exchange.hand(self.state, self.weights, (ahead, inside), self.gas_state, dt)
+
+    def _weights(self, after: float = 0.0):
+        """Transfer weights of where the particles are, or will be `after` [s]. Those upstream of a nozzle exchange
+        nothing; they stand in for the nearest place in the box."""
+        places = particles.positions(self.state) + particles.velocities(self.state) * after
+        if self.source:
+            waiting = self.state.kind >= INFLOW
+            size = (*self.case.domain.size, 0.0)[:3]
+            places[waiting] = np.clip(places[waiting], 0.0, size)
+        return self.transfer.weights(places)
 
     def _without_finished(self) -> None:
         """Particles that have evaporated are no more."""
@@ -121,7 +135,9 @@ class Simulation:
             self.stepper.replace(state)
         if self.moves or self.windows == 0 or self.parameters["evaporation"]:
             self.stepper.prepare()
-            self.weights = self.transfer.weights(particles.positions(self.state))
+            self.weights = self._weights()
+        if self.source and self.windows:
+            self.clock.stake(self.exchange.stake(self.state, self.weights, self.gas_state))
         return _of_those_that_left(self.case, left)
 
     def _fastest(self) -> float:

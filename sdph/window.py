@@ -12,6 +12,7 @@ import math
 import numpy as np
 
 SAFETY, GROWTH, SHRINK = 0.9, 2.0, 0.3  # usual bounds of a step controller (Hairer, Norsett & Wanner, II.4); our choice
+VAPOUR = 0.1  # of the gas in a cell: most vapour that comes into it in a window, so that it is carried away as it comes; our choice
 SAME = 1e-9  # of the end time: landmarks nearer to each other than this differ by round-off only
 
 
@@ -31,17 +32,25 @@ class Control:
         self.scale = scale
         return math.sqrt(2.0 * self.tolerance) / rate if rate > 0.0 else math.inf
 
-    def learn(self, dt: float, taken: np.ndarray) -> float:
-        """Next window [s] after one of `dt` [s] in which `taken` (N,) [J] was exchanged."""
-        before, self.rates = self.rates, (dt, taken / dt)
+    def learn(self, dt: float, taken: np.ndarray, ident: np.ndarray) -> float:
+        """Next window [s] after one of `dt` [s] in which the particles `ident` (N,) exchanged `taken` (N,) [J]."""
+        before, self.rates = self.rates, (dt, taken / dt, ident)
         self.scale = max(self.scale, float(np.abs(taken).sum()))
         if self.scale == 0.0:  # nothing to exchange, nothing to resolve
             return dt * GROWTH
-        if before is None or len(before[1]) != len(taken):
+        if before is None:
             return dt
-        change = float(np.abs(self.rates[1] - before[1]).sum())
+        change = _change(before, self.rates)
         self.error = change * dt * dt / (dt + before[0]) / self.scale
         return dt * min(GROWTH, max(SHRINK, SAFETY * math.sqrt(self.tolerance / max(self.error, 1e-300))))
+
+
+def _change(before, now) -> float:
+    """Sum over the particles that are in both of how much their rate changed [W]."""
+    if np.array_equal(before[2], now[2]):
+        return float(np.abs(now[1] - before[1]).sum())
+    _, old, new = np.intersect1d(before[2], now[2], assume_unique=True, return_indices=True)
+    return float(np.abs(now[1][new] - before[1][old]).sum())
 
 
 class Window:
@@ -74,12 +83,22 @@ class Window:
         """No window that `choose` picks next is longer [s]."""
         return min(self.limits.values())
 
-    def learn(self, dt: float, heat: np.ndarray, courant: float, fastest: float = 0.0) -> None:
-        """Set the limits from the window just done: heat (N,) [J], courant of the gas, fastest particle [m/s]."""
+    def thicken(self, dt: float, share: float) -> None:
+        """In `dt` [s] vapour came into a cell of gas that was `share` of what was there, or would at the rate of now."""
+        if share > 0.0:
+            self.limits["evaporation"] = dt * min(GROWTH, VAPOUR / share)
+
+    def stake(self, heat: float) -> None:
+        """There is `heat` [J] to exchange now."""
+        self.control.scale = max(self.control.scale, heat)
+
+    def learn(self, dt: float, heat: np.ndarray, ident: np.ndarray, courant: float, fastest: float) -> None:
+        """Set the limits from the window just done: heat (N,) [J] of the particles `ident` (N,), courant of the gas,
+        fastest particle [m/s]."""
         if fastest > 0.0:
             self.limits["particles"] = self.courant * self.cell / fastest
         if "heat exchange" in self.limits:
-            self.limits["heat exchange"] = self.control.learn(dt, heat)
+            self.limits["heat exchange"] = self.control.learn(dt, heat, ident)
         if courant > 0.0:
             self.limits["courant"] = dt * min(GROWTH, self.courant / courant)
 
