@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from sdph import case as cases
-from sdph import output, paths, view
+from sdph import output, paths, scenes, view
 from sdph.schema import CaseError
 
 
@@ -61,7 +61,7 @@ def compare(folder: Path, against: str) -> list[dict]:
 def scene_module(scene: str):
     """validation/<scene>/compare.py as a module; None where the scene has none."""
     file = paths.data("validation") / scene / "compare.py"
-    if not scene or not file.is_file():
+    if scene not in scenes.names() or not file.is_file():  # a case.toml may name no other code
         return None
     spec = importlib.util.spec_from_file_location(f"sdph_validation_{scene}", file)
     module = importlib.util.module_from_spec(spec)

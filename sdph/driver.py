@@ -26,7 +26,7 @@ def run(case, name: str, folder: Path, gas_folder: Path | None, reporter) -> dic
         from sdph import liquid_run
 
         return liquid_run.run(case, folder, reporter)
-    template = gas_folder or paths.gas_template(name)
+    template = gas_folder or paths.gas_template(case.scene or name)
     with output.claimed(output.create(folder)):
         output.write_origin(folder, template.resolve())
         output.write_text(folder / output.MARK, cases.dumps(case))

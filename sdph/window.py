@@ -56,7 +56,7 @@ def _change(before, now) -> float:
 class Window:
     """Chooses windows. `limit` names what ruled the last one."""
 
-    KEPT = ("limits", "control", "limit", "errors")  # see sdph.restart
+    KEPT = ("limits", "control", "limit")  # see sdph.restart
 
     def __init__(self, case):
         self.courant, self.cell = case.coupling.courant, case.resolution.cell
@@ -66,7 +66,6 @@ class Window:
         apart = [t for t in case.run.report_at if t < case.run.end_time and abs(self.outputs - t).min() > SAME * case.run.end_time]
         self.landmarks = np.union1d(self.outputs, apart)
         self.limit = ""
-        self.errors = 0.0
 
     def begin(self, rate: float, scale: float) -> None:
         """Before the first window; see `Control.begin`."""
