@@ -27,7 +27,8 @@ def block_mesh(case, depth: float) -> str:
     vertices = "".join(f"    ({x!r} {y!r} {z!r})\n" for z, y, x in itertools.product(*reversed(edges)))
     lines = "".join(_block_line(block, edges, counts) for block in blocks)
     patches = "".join(_patch(name, kind, faces) for name, (kind, faces) in _patches(case, blocks, edges).items())
-    return f"scale 1;\nvertices\n(\n{vertices});\nblocks\n(\n{lines});\nedges ();\nboundary\n(\n{patches});\nmergePatchPairs ();\n"
+    head = f"scale 1;\nvertices\n(\n{vertices});\nblocks\n(\n{lines});\nedges ();\n"
+    return f"{head}boundary\n(\n{patches});\nmergePatchPairs ();\n"
 
 
 def _edges(case, axis: int, length: float) -> list[float]:
@@ -39,7 +40,7 @@ def _edges(case, axis: int, length: float) -> list[float]:
                 found |= {low, high}
     edges = sorted(found)
     if edges[0] < 0.0 or edges[-1] > length:
-        raise CaseError(f"a boundary's span_m goes from {edges[0]:g} to {edges[-1]:g} m; the box goes from 0 to {length:g} m there")
+        raise CaseError(f"a span_m goes from {edges[0]:g} to {edges[-1]:g} m; the box goes from 0 to {length:g} m there")
     return [a for a, b in zip(edges, edges[1:]) if b - a > CLOSE * length] + [length]
 
 
@@ -103,7 +104,7 @@ def _owner(case, block, axis: int, upper: int, edges) -> tuple[str, str]:
     best = [name for rank, name in claims if rank == max(claims)[0]]
     if len(best) != 1:
         says = f"belongs to {' and '.join(best)}" if best else "belongs to no boundary"
-        raise CaseError(f"a part of the {side} side {says}; it must belong to one: give `side` and `span_m`, or one without a side for the rest")
+        raise CaseError(f"a part of the {side} side {says}; give `side` and `span_m`, or one boundary without a side for the rest")
     return best[0], "wall" if case.boundaries[best[0]].kind in ("wall", "slip_wall") else "patch"
 
 

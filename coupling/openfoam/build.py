@@ -22,7 +22,9 @@ from coupling.openfoam import headers
 from coupling.openfoam.installation import Installation, require
 from sdph.schema import CaseError
 
-FLAGS = ("-std=c++14", "-O3", "-fPIC", "-pthread", "-DWM_DP", "-DWM_LABEL_SIZE=32", "-DNoRepository", "-ftemplate-depth-100", "-w")
+FLAGS = (
+    "-std=c++14", "-O3", "-fPIC", "-pthread", "-DWM_DP", "-DWM_LABEL_SIZE=32", "-DNoRepository", "-ftemplate-depth-100", "-w",
+)  # fmt: skip
 # Debian links with --as-needed, which would drop what only a constructor of a library registers
 LINK = ("-Wl,--no-as-needed", "-lOpenFOAM", "-lPstream", "-ldl", "-lm")
 

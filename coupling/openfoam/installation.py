@@ -40,7 +40,7 @@ class Installation:
 
 
 def find() -> Installation | None:
-    """The OpenFOAM to use: $SDPH_OPENFOAM (a folder), the sourced one, Debian's package, or the newest under PACKAGED."""
+    """The OpenFOAM to use: $SDPH_OPENFOAM (its folder), the sourced one, Debian's, or the newest under PACKAGED."""
     wanted = os.environ.get("SDPH_OPENFOAM")
     if wanted is not None:
         return _at(Path(wanted))
@@ -84,6 +84,7 @@ def _packaged() -> Installation | None:
 @functools.cache
 def _sourced(bashrc: Path) -> tuple[tuple[str, str], ...]:
     """The environment after `source bashrc` (which would read arguments of the shell as files to source too)."""
-    done = subprocess.run(["bash", "-c", 'rc=$1; shift; source "$rc"; env -0', "bash", str(bashrc)], capture_output=True, text=True)
+    script = 'rc=$1; shift; source "$rc"; env -0'
+    done = subprocess.run(["bash", "-c", script, "bash", str(bashrc)], capture_output=True, text=True)
     pairs = (entry.partition("=") for entry in done.stdout.split("\0") if entry)
     return tuple((name, value) for name, _, value in pairs)

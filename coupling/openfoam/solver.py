@@ -44,7 +44,9 @@ class OpenFoamGas:
     Time folders are written every `case.run.output_interval`.
     """
 
-    def __init__(self, case, folder: Path, template: Path | None, *, status: Callable[[str], None] = silent, allow_code: bool = False):
+    def __init__(
+        self, case, folder: Path, template: Path | None, *, status: Callable[[str], None] = silent, allow_code: bool = False
+    ):
         self._case, self._folder, self._status = case, Path(folder).resolve(), status
         self._log = self._folder / "log.sdphGasFoam"
         self._process = self._connection = None
@@ -91,7 +93,8 @@ class OpenFoamGas:
         environment = install.environment() | {"SDPH_SECRET": secret, "FOAM_SIGFPE": "false", "FOAM_SETNAN": "false"}
         with self._log.open("wb") as log:
             return subprocess.Popen(
-                command, cwd=self._folder, env=environment, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True
+                command, cwd=self._folder, env=environment,
+                stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True,
             )
 
     def start(self, alpha_g: np.ndarray | None, sources: tuple[str, ...]) -> GasState:

@@ -55,7 +55,8 @@ def test_texts_cannot_break_out_of_their_macro(tmp_path):
 
 
 @pytest.mark.parametrize("entry", [
-    '#calc "1+1"', "#codeStream { code #{ #}; }", "type coded;", "type codedFixedValue;", "type systemCall;", 'libs ("libx.so");',
+    '#calc "1+1"', "#codeStream { code #{ #}; }", "type coded;", "type codedFixedValue;", "type systemCall;",
+    'libs ("libx.so");',
 ])  # fmt: skip
 def test_code_in_a_case_is_refused(tmp_path, entry):
     shutil.copytree(TEMPLATE, tmp_path / "template")
@@ -140,7 +141,8 @@ def test_a_mesh_in_three_dimensions_with_a_window(tmp_path):
     case = box_case((0.1, 0.06, 0.05), 0.01, boundaries=boundaries)
     case_files.write_case(case, TEMPLATE, tmp_path / "out")
     programs.run(["blockMesh"], tmp_path / "out", tmp_path / "log.blockMesh")
-    done = subprocess.run(["checkMesh", "-case", tmp_path / "out", "-time", "0"], env=install.environment(), capture_output=True, text=True)
+    check = ["checkMesh", "-case", tmp_path / "out", "-time", "0"]
+    done = subprocess.run(check, env=install.environment(), capture_output=True, text=True)
     assert "Mesh OK." in done.stdout
     boundary = (tmp_path / "out" / "constant" / "polyMesh" / "boundary").read_text()
     faces = {name: int(boundary.partition(f"    {name}\n")[2].partition("nFaces")[2].partition(";")[0]) for name in boundaries}

@@ -1,4 +1,4 @@
-"""sdphGasFoam as a process: transports and ranks agree, checkpoints go on bit for bit, and every failure is told and leaves nothing."""
+"""sdphGasFoam as a process: transports and ranks agree, checkpoints go on bit for bit, failures are told and leave nothing."""
 
 import os
 import signal
@@ -168,7 +168,8 @@ def test_the_solver_ends_when_the_particles_are_killed(tmp_path, ranks, transpor
         from pathlib import Path
         from gas_boxes import TEMPLATE, box_case
         from coupling.openfoam.solver import OpenFoamGas
-        gas = OpenFoamGas(box_case((0.1, 0.06), 0.005, ranks={ranks}, transport={transport!r}), Path({str(tmp_path)!r}) / "gas", TEMPLATE)
+        case = box_case((0.1, 0.06), 0.005, ranks={ranks}, transport={transport!r})
+        gas = OpenFoamGas(case, Path({str(tmp_path)!r}) / "gas", TEMPLATE)
         gas.start(None, ())
         print("ready", flush=True)
         time.sleep(60)
@@ -296,7 +297,8 @@ def wire_echo(tmp_path_factory):
         }
     """)
     program = folder / "echo"
-    subprocess.run(["g++", "-std=c++14", "-O1", "-Wall", "-Werror", f"-I{install.GAS_SOLVER}", str(folder / "echo.C"), "-o", str(program)], check=True)
+    flags = ["-std=c++14", "-O1", "-Wall", "-Werror", f"-I{install.GAS_SOLVER}"]
+    subprocess.run(["g++", *flags, str(folder / "echo.C"), "-o", str(program)], check=True)
     return lambda data: subprocess.run([program], input=data, capture_output=True)
 
 
