@@ -123,6 +123,7 @@ class Coupling:
     transport: str = choice("socket", "file")
     ranks: int = whole(1, least=1)
     one_way: bool = flag(False)  # the gas acts on the particles and feels nothing
+    voidage: bool = flag(True)  # the gas knows of the volume of the grains; false as in point-particle models
     window_tolerance: float = quantity("", 2e-5, above=0.0)  # error of one window over the heat there is to exchange
     window_largest: float = quantity("s", 1e-2, above=0.0)
     courant: float = quantity("", 1.0, above=0.0)  # of the gas, in one window

@@ -27,6 +27,16 @@ class Run:
         """A column of the history at `time` [s], linear between windows."""
         return float(np.interp(time, self.history["time_s"], self.history[column]))
 
+    @property
+    def ledger(self) -> dict[str, np.ndarray]:
+        """Columns of ledger.csv, a row a window."""
+        return output.read_table(self.folder / "ledger.csv")
+
+    @property
+    def metrics(self) -> dict[str, np.ndarray]:
+        """Columns of metrics.csv, a row an output."""
+        return output.read_table(self.folder / "metrics.csv")
+
     def fields(self, time: float):
         """(time, particles, gas) nearest to `time` [s]."""
         return view.state_at(view.read(self.folder), time)

@@ -104,18 +104,19 @@ class Exchange:
         self.sizes_p = sizes.kernel(case)
         self.volumes = mesh.volumes / mesh.depth
         rows = [effects.REGISTRY[name] for name in case.effects]
-        self.sources = tuple(dict.fromkeys(name for row in rows for name in row.sources))
+        names = dict.fromkeys(name for row in rows for name in row.sources)
+        self.sources = tuple(name for name in names if name != "alpha_g" or case.coupling.voidage)
         self.drag_heat = np.zeros(len(self.volumes))  # [W/m3], for the next window
 
-    def alpha_g(self, state, weights) -> np.ndarray:
-        """Gas volume fraction of the cells."""
-        return self._room(weights, state.mass * (state.kind == GRAIN))
+    def alpha_g(self, state, weights, inside=1.0) -> np.ndarray:
+        """Gas volume fraction of the cells; `inside` (N,) is the share of each particle that is in the gas."""
+        return self._room(weights, state.mass * inside)
 
     def hand(self, state, weights, ahead, gas_state, dt) -> Handed:
         """Coefficients from the old gas state, and the sources for the gas.
 
-        `ahead` are the weights of where the particles will be at the end of the window, and who of them will be inside
-        the box: its gas volume fraction is told to the gas.
+        `ahead` are the weights of where the particles will be at the end of the window, and the share of each (N,) that
+        will be in the gas: the volume fraction then is told to the gas.
         """
         seen = Seen(weights, gas_state, state)
         conductance, loss = np.empty(len(state.x)), None
@@ -207,7 +208,7 @@ class Exchange:
     def _resistance(self, state, weights, gas_state) -> tuple[np.ndarray, np.ndarray]:
         """Mask of the cells with grains, and 1/C_p + 1/C_g of these [m3 K/J]."""
         content = self._density(weights, state.mass * (state.kind == GRAIN) * self.case.grains.heat_capacity)
-        gas = self.alpha_g(state, weights) * gas_state.fields["density"] * self.case.gas.heat_capacity
+        gas = self._room(weights, state.mass * (state.kind == GRAIN)) * gas_state.fields["density"] * self.case.gas.heat_capacity
         full = content > 0.0
         return full, 1.0 / content[full] + 1.0 / gas[full]
 

@@ -50,7 +50,7 @@ class Simulation:
         """Initial fields of both sides, and the first window."""
         self._turn_over(self.case.coupling.window_largest)
         one_way = self.case.coupling.one_way
-        alpha_g = None if one_way else self.exchange.alpha_g(self.state, self.weights)
+        alpha_g = None if one_way or not self.case.coupling.voidage else self.exchange.alpha_g(self.state, self.weights, self._inside())
         self.gas_state = self.gas.start(alpha_g, () if one_way else self.exchange.sources)
         if not one_way:
             rate, stake, thickening = self.exchange.pace(self.state, self.weights, self.gas_state)
@@ -94,16 +94,16 @@ class Simulation:
 
     def cell_fields(self) -> dict[str, np.ndarray]:
         """Fields of the gas, and alpha_p by cell."""
-        return self.gas_state.fields | {"alpha_p": 1.0 - self.exchange.alpha_g(self.state, self.weights)}
+        return self.gas_state.fields | {"alpha_p": 1.0 - self.exchange.alpha_g(self.state, self.weights, self._inside())}
 
     def _hand(self, dt: float):
         """The exchange of a window of `dt`; the gas is told where the particles will be at its end."""
-        ahead, inside = self.weights, self.state.kind == GRAIN
-        if self.moves:
-            ahead = self._weights(dt)
-        if self.source:
-            inside = ~self.source.waiting(self.state, dt)
-        return self.exchange.hand(self.state, self.weights, (ahead, inside), self.gas_state, dt)
+        ahead = self._weights(dt) if self.moves else self.weights
+        return self.exchange.hand(self.state, self.weights, (ahead, self._inside(dt)), self.gas_state, dt)
+
+    def _inside(self, after: float = 0.0) -> np.ndarray:
+        """Share of each particle that is in the gas, or will be `after` [s]."""
+        return self.source.inside(self.state, after) if self.source else np.ones(len(self.state.x))
 
     def _weights(self, after: float = 0.0):
         """Transfer weights of where the particles are, or will be `after` [s]. Those upstream of a nozzle exchange

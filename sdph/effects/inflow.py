@@ -177,6 +177,9 @@ class Source:
         self.case, self.names = case, names
         self.nozzles = list(case.nozzles.values())
         self.streams = [streams_of(case, nozzle) for nozzle in self.nozzles]
+        self.reach = [
+            np.linalg.norm(s.mouth - np.array(n.centre), axis=1).max() + s.pitch for s, n in zip(self.streams, self.nozzles)
+        ]
         self.layers = [np.zeros(len(streams.speed), np.int64) for streams in self.streams]
         self.next_ident = first_ident
         self.mass, self.energy, self.momentum = 0.0, 0.0, np.zeros(3)  # through the mouths [kg], [J], [kg m/s]
@@ -224,17 +227,37 @@ class Source:
         self.next_ident += len(points)
         return particles.born(state)
 
-    def waiting(self, state, after: float = 0.0) -> np.ndarray:
-        """Mask of the particles that will still be upstream of their mouth when `after` [s] has gone."""
+    def waiting(self, state) -> np.ndarray:
+        """Mask of the particles that are upstream of their mouth."""
         mask = np.zeros(len(state.x), bool)
-        if not (state.kind >= INFLOW).any():
-            return mask
-        place, velocity = particles.positions(state)[:, : self.case.dimensions], particles.velocities(state)[:, : self.case.dimensions]
-        for k, streams in enumerate(self.streams):
-            rows = state.kind == INFLOW + k
-            beyond = (place[rows] + after * velocity[rows] - np.array(self.nozzles[k].centre)) @ streams.axis
-            mask[rows] = beyond <= 0.0
+        for k in range(len(self.streams)):
+            rows = np.flatnonzero(state.kind == INFLOW + k)
+            if len(rows):
+                mask[rows] = self._beyond(k, particles.positions(state)[rows])[0] <= 0.0
         return mask
+
+    def inside(self, state, after: float = 0.0) -> np.ndarray:
+        """Share of each particle (N,) that will be through its mouth when `after` [s] has gone.
+
+        A particle stands for a layer one pitch long, which comes in bit by bit: so the gas is displaced at an even
+        rate, and not by a whole layer in the window in which its middle passes.
+        """
+        share = np.ones(len(state.x))
+        places = particles.positions(state) + after * particles.velocities(state)
+        for k, streams in enumerate(self.streams):
+            rows = np.flatnonzero((state.kind == INFLOW + k) | (state.kind == GRAIN))
+            along, aside = self._beyond(k, places[rows])
+            near = (np.abs(along) < 0.5 * streams.pitch) & (aside <= self.reach[k])
+            share[rows[near]] = along[near] / streams.pitch + 0.5
+            behind = (state.kind[rows] >= INFLOW) & (along <= -0.5 * streams.pitch)
+            share[rows[behind]] = 0.0
+        return share
+
+    def _beyond(self, k: int, places) -> tuple[np.ndarray, np.ndarray]:
+        """Distances [m] of places (n, 3) beyond the mouth of nozzle k, and from its axis."""
+        apart = places[:, : self.case.dimensions] - np.array(self.nozzles[k].centre)
+        along = apart @ self.streams[k].axis
+        return along, np.linalg.norm(apart - np.outer(along, self.streams[k].axis), axis=1)
 
     def release(self, state) -> None:
         """Let go of the particles that are through their mouth, with the direction of their stream."""

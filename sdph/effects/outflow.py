@@ -32,6 +32,8 @@ def kernel(case) -> OutflowP:
 def leaving(case, state) -> np.ndarray:
     """Mask of the grains that are out of the domain through an open side."""
     gone = np.zeros(len(state.x), bool)
+    if not len(gone):
+        return gone
     places = particles.axes(state)
     for axis, (sides, length) in enumerate(zip(SIDES, case.domain.size)):
         for side, out in zip(sides, (places[axis] < 0.0, places[axis] > length)):

@@ -1,0 +1,44 @@
+"""What each difference between the two models is worth: the jet with one model switched at a time, and all of them.
+
+    python validation/evaporating_jet/shares.py FOLDER [--gas openfoam]
+
+makes a run of each in FOLDER and prints the evaporated mass, and its change from the case as it is.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from sdph import case as cases
+from sdph import driver, scenes
+from sdph.progress import Reporter
+
+SWITCHES = {
+    "as it is (Gunn, Gidaspow, voidage)": (),
+    "Ranz-Marshall for Gunn": ("heat.law='ranz_marshall'",),
+    "one-sphere drag for Gidaspow": ("drag.law='schiller_naumann'",),
+    "gas that ignores the liquid's volume": ("coupling.voidage=false",),
+    "Spalding's law for the linear one": ("evaporation.law='spalding'",),
+}
+ALIKE = ("heat.law='ranz_marshall'", "drag.law='schiller_naumann'", "coupling.voidage=false")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--gas", choices=("openfoam", "embedded"), default="embedded")
+    parser.add_argument("--until", type=float, default=0.2, metavar="T", help="end time [s]")
+    options = parser.parse_args()
+    base = (f"coupling.gas='{options.gas}'", f"run.end_time_s={options.until}")
+    first = None
+    for number, (name, switched) in enumerate((SWITCHES | {"the first three together": ALIKE}).items()):
+        case = cases.load(scenes.find("evaporating_jet")[1], (*base, *switched))
+        summary = driver.run(case, "evaporating_jet", options.folder / str(number), None, Reporter(quiet=True))
+        first = first or summary["evaporated_kg"]
+        columns = f"{1e3 * summary['evaporated_kg']:8.4f} g  {100 * (summary['evaporated_kg'] / first - 1):+7.2f} %"
+        print(f"{name:40s} {columns}  Y_max {summary['vapour_mass_fraction_max']:.4f}  front {summary['front_m']:.4f} m", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,76 @@
+"""A droplet in still gas against the closed form: wet bulb, d^2 law, life (Godsave 1953, Spalding 1953)."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from sdph.compare import check
+from sdph.laws import evaporation
+from sdph.laws import exact as solution
+
+CONSTANT = 1e-3  # of the d^2 constant and of the evaporation rate (issue 4)
+WET_BULB = 0.1  # K (the same)
+WARM = 1e-3  # of the droplet's temperature above the wet bulb at the start, below which it has warmed up
+GONE = 0.01  # of the mass: the run has to reach it
+
+
+def exact(run) -> list[dict]:
+    """Wet-bulb temperature, d^2 constant, evaporation rate, and the mass that is left."""
+    temperature, constant = closed_form(run.case)
+    h = run.history
+    t, d, T, mass = (h[name] for name in ("time_s", "particle_1_diameter_m", "particle_1_temperature_K", "particle_1_mass_kg"))
+    there = np.isfinite(d)
+    t, d, T, mass = t[there], d[there], T[there], mass[there]
+    steady = np.abs(T - temperature) <= WARM * abs(T[0] - temperature)
+    middle = np.flatnonzero(steady)[len(t[steady]) // 2]
+    slope = -np.polyfit(t[steady], d[steady] ** 2, 1)[0]
+    # dm/dt = pi/4 rho K d by droplet, at the middle of two windows
+    count = mass[0] / (run.case.grains.density * math.pi / 6.0 * d[0] ** 3)
+    rate = (mass[middle - 1] - mass[middle]) / (t[middle] - t[middle - 1])
+    squares = d[middle - 1] ** 2, d[middle] ** 2
+    mean = (squares[0] ** 1.5 - squares[1] ** 1.5) / (1.5 * (squares[0] - squares[1]))  # of d over the window
+    expected = count * 0.25 * math.pi * run.case.grains.density * constant * mean
+    left = mass[-1] / mass[0] if t[-1] >= run.summary["time_s"] * (1.0 - 1e-9) else 0.0
+    _figure(run, t, d, T, temperature, constant)
+    return [
+        check("wet-bulb temperature [K]", T[middle], temperature, WET_BULB),
+        check("d^2 constant [m2/s]", slope, constant, CONSTANT, True),
+        check("evaporation rate [kg/s]", rate, expected, CONSTANT, True),
+        check("share of the mass that is left", left, 0.0, GONE),
+    ]
+
+
+def closed_form(case) -> tuple[float, float]:
+    """Wet-bulb temperature [K] and d^2 constant [m2/s] for Nu = Sh = 2."""
+    own, vapour = case.parameters["evaporation"], case.vapour
+    numbers = own.saturation_pressure, own.saturation_temperature, own.latent_heat, vapour.molar_mass
+
+    def saturation(T):
+        return evaporation.saturation_clausius_clapeyron(T, numbers)
+
+    T = solution.wet_bulb_temperature(
+        case.gas.temperature, saturation, vapour.diffusivity, vapour.molar_mass, own.latent_heat, case.gas.conductivity
+    )
+    surface = vapour.molar_mass * evaporation.vapour_concentration(saturation(T), T)
+    return T, 8.0 * vapour.diffusivity * surface / case.grains.density
+
+
+def _figure(run, t, d, T, temperature, constant) -> None:
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    figure, (left, right) = pyplot.subplots(1, 2, figsize=(11, 4), constrained_layout=True)
+    left.plot(t, 1e6 * d**2, ".", label="SDPH")
+    left.plot(t, 1e6 * (d[len(d) // 2] ** 2 - constant * (t - t[len(d) // 2])), "k-", lw=1, label="d$^2$ law, wet bulb")
+    left.set(xlabel="time [s]", ylabel="d$^2$ [mm$^2$]")
+    right.plot(t, T, ".", label="SDPH")
+    right.axhline(temperature, color="k", lw=1, label="wet bulb")
+    right.set(xlabel="time [s]", ylabel="droplet [K]")
+    for axes in (left, right):
+        axes.legend()
+    figure.savefig(run.folder / "compare_exact.png", dpi=110)
+    pyplot.close(figure)
