@@ -65,6 +65,10 @@ def _parser() -> argparse.ArgumentParser:
     view.add_argument("--png", type=Path, help="write a picture instead of opening a window")
     view.add_argument("--time", type=float, metavar="T", help="time [s] (default: the last)")
     view.add_argument("--field", default="temperature", help="what colours the particles and cells (default: temperature)")
+    view.add_argument("--movie", type=Path, help="write all times as a .gif or .mp4 instead of opening a window")
+    report = _command(commands, "report", report_runs, "one HTML file of one or several runs, side by side; also of failed ones")
+    report.add_argument("runs", nargs="+", type=Path, metavar="RUN")
+    report.add_argument("--out", type=Path, help="the file (default: report.html in the first run's folder)")
     openfoam = _command(commands, "openfoam", openfoam_setup, "find or install OpenFOAM and compile the gas solver")
     openfoam.add_argument("action", choices=("setup",))
     openfoam.add_argument("--install", action="store_true", help="install what is missing with apt")
@@ -93,6 +97,7 @@ def _run_options(parser) -> None:
     parser.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: openfoam where it is)")
     parser.add_argument("--transport", choices=("socket", "file"), help="how fields travel to OpenFOAM")
     parser.add_argument("--np", type=int, help="MPI ranks of the gas solver")
+    parser.add_argument("--allow-code", action="store_true", help="let the OpenFOAM files of your case run code (#codeStream and its like)")
     parser.add_argument("--until", type=float, metavar="T", help="end time [s]")
     parser.add_argument("--json", action="store_true", help="print the summary as JSON")
 
@@ -132,7 +137,7 @@ def run(options) -> int:
             for warning in explain.warnings(case):
                 reporter.status(f"warning: {warning}")
             folder, own = options.out or output.free_name(Path("runs") / name), file.parent / "gas"
-            summary = driver.run(case, name, folder, own if own.is_dir() else None, reporter)
+            summary = driver.run(case, name, folder, own if own.is_dir() else None, reporter, allow_code=options.allow_code)
     print(json.dumps(summary) if options.json else f"{_table(summary)}\nrun folder: {folder}")
     return FINE
 
@@ -185,7 +190,17 @@ def validate_scene(options) -> int:
 def view_run(options) -> int:
     from sdph import view
 
-    view.show(options.run, options.png, options.time, options.field)
+    if options.movie:
+        view.movie(options.run, options.movie, options.field)
+    else:
+        view.show(options.run, options.png, options.time, options.field)
+    return FINE
+
+
+def report_runs(options) -> int:
+    from sdph import report
+
+    print(report.write(options.runs, options.out or options.runs[0] / "report.html"))
     return FINE
 
 

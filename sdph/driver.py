@@ -17,10 +17,11 @@ from sdph.schema import CaseError
 from sdph.simulation import Simulation
 
 
-def run(case, name: str, folder: Path, gas_folder: Path | None, reporter) -> dict:
+def run(case, name: str, folder: Path, gas_folder: Path | None, reporter, *, allow_code: bool = False) -> dict:
     """Run a case into a new folder and return its summary.
 
-    `gas_folder` holds the user's own OpenFOAM case (None: the scene's template); `reporter` shows progress.
+    `gas_folder` holds the user's own OpenFOAM case (None: the scene's template), whose dictionaries may run code only
+    with `allow_code`; `reporter` shows progress.
     """
     if case.liquid:
         from sdph import liquid_run
@@ -28,9 +29,9 @@ def run(case, name: str, folder: Path, gas_folder: Path | None, reporter) -> dic
         return liquid_run.run(case, folder, reporter)
     template = gas_folder or paths.gas_template(case.scene or name)
     with output.claimed(output.create(folder)):
-        output.write_origin(folder, template.resolve())
+        output.write_origin(folder, gas_template=str(template.resolve()), allow_code=allow_code)
         output.write_text(folder / output.MARK, cases.dumps(case))
-        return _guarded(Run(case, folder, reporter), template, None)
+        return _guarded(Run(case, folder, reporter), None, template, allow_code)
 
 
 def resume(folder: Path, overrides: tuple[str, ...], reporter) -> dict:
@@ -46,11 +47,12 @@ def resume(folder: Path, overrides: tuple[str, ...], reporter) -> dict:
             reporter.status(f"{folder} has no checkpoint: it begins again")
             output.clear(folder)
         output.write_text(folder / output.MARK, cases.dumps(case))
-        template = None if checkpoint else Path(output.read_origin(folder)["gas_template"])
-        return _guarded(Run(case, folder, reporter), template, checkpoint)
+        origin = output.read_origin(folder)
+        template = None if checkpoint else Path(origin["gas_template"])
+        return _guarded(Run(case, folder, reporter), checkpoint, template, origin["allow_code"])
 
 
-def open_gas(case, folder: Path, template: Path | None, status):
+def open_gas(case, folder: Path, template: Path | None, status, allow_code: bool = False):
     """The gas solver that the case asks for; `auto` takes OpenFOAM where it is built, else the embedded one.
 
     `template` None goes on with the OpenFOAM case that is in `folder`.
@@ -68,15 +70,16 @@ def open_gas(case, folder: Path, template: Path | None, status):
         return EmbeddedGas(case)
     from coupling.openfoam.solver import OpenFoamGas
 
-    return OpenFoamGas(case, folder / "gas", template, status=status)
+    return OpenFoamGas(case, folder / "gas", template, status=status, allow_code=allow_code)
 
 
-def _guarded(run: Run, template: Path | None, checkpoint) -> dict:
+def _guarded(run: Run, checkpoint, template: Path | None, allow_code: bool) -> dict:
     """The summary of a run; where it fails, the folder says why, and the error says how to go on."""
     (run.folder / output.FAILURE).unlink(missing_ok=True)
     try:
-        with listening() as wish, contextlib.closing(open_gas(run.case, run.folder, template, run.reporter.status)) as gas:
-            return run.go(gas, checkpoint, wish)
+        with listening() as wish:
+            with contextlib.closing(open_gas(run.case, run.folder, template, run.reporter.status, allow_code)) as gas:
+                return run.go(gas, checkpoint, wish)
     except OSError as error:
         failure = output.CannotWrite(f"{run.folder} cannot be written: {error.strerror or error}; make room or give another folder")
         raise run.failed(failure) from error

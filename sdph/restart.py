@@ -24,7 +24,7 @@ from pathlib import Path
 import numpy as np
 
 from sdph import __version__
-from sdph.schema import CaseError
+from sdph.schema import CaseError, flat
 
 FORMAT = 1  # of the files of a checkpoint
 FOLDER = "checkpoints"
@@ -53,7 +53,7 @@ class Checkpoint:
         for what, now in (("sdph", __version__), ("format", FORMAT)):
             if self.manifest[what] != now:
                 raise CaseError(f"{self.folder} was written with {what} {self.manifest[what]}; this is {now}: go on with that one, or run anew")
-        before, now = _flat(self.manifest["case"]), _flat(_plain(case_table))
+        before, now = flat(self.manifest["case"]), flat(_plain(case_table))
         for key in sorted(before.keys() | now.keys()):
             if before.get(key) != now.get(key) and key not in FREE:
                 change = f"{key} was {before.get(key, 'not given')} and is {now.get(key, 'not given')}"
@@ -201,11 +201,3 @@ def _fill(like, saved: dict, arrays, name: str):
 def _plain(table):
     """A table as it comes back from JSON."""
     return json.loads(json.dumps(table))
-
-
-def _flat(table: dict, prefix: str = "") -> dict:
-    """Dotted key -> value."""
-    found = {}
-    for key, value in table.items():
-        found |= _flat(value, f"{prefix}{key}.") if isinstance(value, dict) else {prefix + key: value}
-    return found

@@ -110,6 +110,14 @@ def write(record: Any) -> dict:
     return {key: _in_unit(value, UNITS[kind.unit]) for key, kind, value in pairs if value is not None}
 
 
+def flat(table: dict, prefix: str = "") -> dict:
+    """Dotted key -> value of a TOML table."""
+    found = {}
+    for key, value in table.items():
+        found |= flat(value, f"{prefix}{key}.") if isinstance(value, dict) else {prefix + key: value}
+    return found
+
+
 def unknown(given: str, known, where: str = "") -> str:
     """The message for a word that is not known, with the nearest one that is."""
     prefix = f"{where}." if where else ""

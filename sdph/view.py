@@ -9,6 +9,7 @@ from sdph.schema import CaseError
 
 WINDOW = (1200, 900)  # pixels
 SHOWN = 0.75  # share of the window that the domain fills
+MOVIES = {".gif": {"duration": 100, "loop": 0}, ".mp4": {"fps": 10}}  # ten pictures a second
 BAR = {"vertical": True, "position_y": 0.2, "height": 0.6, "width": 0.06, "fmt": "%.6g", "n_labels": 5, "title_font_size": 16, "label_font_size": 14}
 GAS_UNITS = {"alpha_p": "1", "temperature": "K", "pressure": "Pa", "density": "kg/m3", "vapour_mass_fraction": "1"}
 PARTICLE_UNITS = {name: unit for name, (unit, _) in FIELDS.items()} | {"alpha_p": "1", "pressure": "Pa", "velocity": "m/s"}
@@ -41,6 +42,25 @@ def show(folder: Path, png: Path | None = None, time: float | None = None, field
     else:
         plotter.screenshot(str(png))
         plotter.close()
+
+
+def movie(folder: Path, target: Path, field: str = "temperature") -> None:
+    """All times of a run as a .gif or .mp4."""
+    import imageio.v3 as imageio
+
+    if target.suffix not in MOVIES:
+        raise CaseError(f"--movie {target}: its name must end with {' or '.join(MOVIES)}")
+    reader = read(folder)
+    pictures = []
+    for time in reader.time_values:
+        chosen, particles, gas = state_at(reader, time)
+        plotter = scene(particles, gas, field, f"t = {chosen:g} s", off_screen=True)
+        pictures.append(plotter.screenshot(return_img=True))
+        plotter.close()
+    try:
+        imageio.imwrite(target, pictures, **MOVIES[target.suffix])
+    except OSError as error:
+        raise CaseError(f"{target} cannot be written: {error}") from None
 
 
 def scene(particles, gas, field: str, title: str, off_screen: bool):

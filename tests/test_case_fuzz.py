@@ -1,0 +1,123 @@
+"""Cases harmed at random: each can be run, or is refused with one line that a user can act on."""
+
+import copy
+import json
+import os
+import tomllib
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from test_output import snapshot
+
+from sdph import case as cases
+from sdph import cli, scenes
+from sdph.schema import CaseError
+
+TABLES = {name: tomllib.loads((scenes.HERE / name / "case.toml").read_text(encoding="utf-8")) for name in scenes.names()}
+WORDS = sorted({key for table in TABLES.values() for key in json.dumps(table).split('"')[1::2]})
+ODD = [
+    0, 1, -1, 2, 3, 10**9, 10**400, 0.0, -0.0, 1e-308, 1e308, 5e-324, float("inf"), float("-inf"), float("nan"), True, False, "", "x",
+    "../../etc/passwd", "/tmp/out", "#codeStream { }", "$HOME", "a\nb", "\0", "ä" * 300, [], [[]], [1.0], [1.0, 2.0], [1.0, 2.0, 3.0],
+    [-1.0, 1e9], [["x"]], [None], {}, {"a": 1}, {"shape": "box"}, "1e400",
+]  # fmt: skip
+VALUES = st.one_of(
+    st.sampled_from(ODD), st.floats(allow_nan=True), st.integers(-(2**70), 2**70), st.text(max_size=8), st.sampled_from(WORDS),
+    st.lists(st.floats(-1e3, 1e3), max_size=4),
+)  # fmt: skip
+SMALL = {  # of what a case that passes is really run with: seconds, not hours
+    "disc_cluster": ("resolution.spacing_mm=25", "resolution.cell_mm=100", "run.end_time_s=1e-5", "run.output_interval_s=1e-5"),
+    "bubbling_bed": ("resolution.spacing_mm=50", "resolution.cell_mm=20", "run.end_time_s=1e-5", "run.output_interval_s=1e-5"),
+}
+
+
+def leaves(table, at=()):
+    """Paths of all sections and values."""
+    for key, value in table.items():
+        yield (*at, key)
+        if isinstance(value, dict):
+            yield from leaves(value, (*at, key))
+
+
+@st.composite
+def harmed(draw, names=tuple(TABLES), most=3):
+    """(scene, table) with one to three places changed, removed, or added."""
+    name = draw(st.sampled_from(names))
+    table = copy.deepcopy(TABLES[name])
+    for _ in range(draw(st.integers(1, most))):
+        path = draw(st.sampled_from(sorted(leaves(table))))
+        section = table
+        for key in path[:-1]:
+            section = section[key]
+        what = draw(st.sampled_from(("change", "change", "change", "remove", "add")))
+        if what == "remove":
+            del section[path[-1]]
+        else:
+            section[path[-1] if what == "change" else draw(st.sampled_from(WORDS))] = draw(VALUES)
+        if not table:
+            break
+    return name, table
+
+
+@settings(max_examples=2500)
+@given(harmed())
+def test_a_harmed_case_is_read_or_refused_in_one_line(pair):
+    try:
+        case = cases.from_table(pair[1])
+    except CaseError as error:
+        assert str(error).strip()
+        assert len(str(error)) < 2000
+        return
+    assert cases.from_table(tomllib.loads(cases.dumps(case))) == case  # what a run writes down is the case it runs
+
+
+@settings(max_examples=300)
+@given(st.sampled_from(sorted(TABLES)), st.text(st.characters(codec="utf-8"), max_size=30), st.integers(0, 3000), st.integers(0, 60))
+def test_a_harmed_file_is_read_or_refused_in_one_line(tmp_path_factory, name, text, place, removed):
+    file = tmp_path_factory.mktemp("case") / "case.toml"
+    whole = (scenes.HERE / name / "case.toml").read_text(encoding="utf-8")
+    file.write_text(whole[:place] + text + whole[place + removed :], encoding="utf-8")
+    try:
+        cases.load(file)
+    except CaseError as error:
+        assert str(error).strip()
+
+
+@settings(max_examples=200)
+@given(st.text(max_size=20), st.text(max_size=12))
+def test_a_harmed_override_is_read_or_refused(key, value):
+    try:
+        cases.load(scenes.HERE / "disc_cluster" / "case.toml", (f"{key}={value}",))
+    except CaseError as error:
+        assert str(error).strip()
+
+
+@settings(max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(harmed(("disc_cluster", "bubbling_bed"), 1))
+def test_a_case_that_passes_runs_or_ends_with_one_line(tmp_path_factory, capfd, pair):
+    """The command as a user gives it; nothing outside the run folder is touched."""
+    name, table = pair
+    folder = tmp_path_factory.mktemp("run")
+    try:
+        text = cases.dumps(cases.from_table(table))
+    except CaseError:
+        return
+    (folder / "case.toml").write_text(text, encoding="utf-8")
+    before = snapshot(folder)
+    os.chdir(folder)
+    overrides = [word for override in SMALL[name] for word in ("--set", override)]
+    capfd.readouterr()
+    code = cli.main(["run", "case.toml", "--gas", "embedded", *overrides, "--out", "out", "--json"])
+    said = capfd.readouterr().err
+    assert code in (0, 2, 3), said
+    if code:
+        assert said.startswith("sdph: ") and said.count("\n") == 1
+    after = {path: content for path, content in snapshot(folder).items() if path.parts[0] != "out"}
+    assert after == before
+
+
+@pytest.fixture(autouse=True)
+def _stay():
+    here = os.getcwd()
+    yield
+    os.chdir(here)
