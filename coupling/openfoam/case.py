@@ -50,7 +50,7 @@ def refuse_code(folder: Path) -> None:
         text = (gzip.decompress(data) if path.suffix == ".gz" else data).decode(errors="replace")
         found = CODE.search(COMMENT.sub("", text))
         if found:
-            raise CaseError(f"{path} has {found.group()!r}, which runs code of the case: remove it")
+            raise CaseError(f"{path} has {found.group()!r}, which runs code of the case: remove it, or give --allow-code if it is yours")
 
 
 def write_macros(case, folder: Path) -> None:
