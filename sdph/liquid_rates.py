@@ -14,6 +14,7 @@ from numba import njit, prange
 
 from sdph import smoothing
 from sdph.effects import density_diffusion, frame, gravity, laminar_viscosity, liquid_damping, shifting
+from sdph.liquid import LIQUID
 from sdph.neighbours import nearest_image
 
 # Sums may be reordered and vectorised; nan and inf keep their meaning, so that a run that bursts is noticed.
@@ -64,6 +65,15 @@ def body(gravity_p, frame_p, s, i, still):
     return gx + fx, gy + fy, gz + fz
 
 
+@njit(cache=True, parallel=True, error_model="numpy")
+def near_liquid(kind, rows, walls, wet):
+    """wet (W,): whether a wall particle's row holds liquid; the others need no pressure until rows are made anew."""
+    for n in prange(len(walls)):
+        wet[n] = False
+        for k in range(rows.count[walls[n]]):
+            wet[n] = wet[n] or kind[rows.index[walls[n], k]] >= LIQUID
+
+
 @njit(cache=True, error_model="numpy")
 def apart(s, box, i, j):
     """r_i - r_j (3 components; the last 0 in two dimensions), through periodic boundaries."""
@@ -103,9 +113,9 @@ def extrapolate(kernel, s, rows, box, walls, wall_p, gravity_p, frame_p, volume,
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
 def push(
     kernel, s, rows, box, active, wall_p, gravity_p, frame_p, laminar_p, damping_p, diffusion_p, shifting_p,
-    pressure, volume, least, acceleration, gradient, shift, twist,
+    pressure, volume, least, acceleration, gradient_x, gradient_y, gradient_z, shift, twist,
 ):  # fmt: skip
-    """Acceleration (N, 3) [m/s2] with body forces; corrected pressure gradient (N, 3) [Pa/m]; `least` (N,), smallest
+    """Acceleration (N, 3) [m/s2] with body forces; corrected pressure gradient (N,) x 3 [Pa/m]; `least` (N,), smallest
     eigenvalue of the renormalisation matrix; `shift` (N, 3), sum V_j (1 + R (W/W0)^4) grad W [1/m]; `twist` (N, 9), corrected gradient dv_a/dx_b [1/s], a slowest."""
     for n in prange(len(active)):
         i = active[n]
@@ -165,7 +175,7 @@ def push(
         acceleration[i, 2] = az * inverse + bz
         if len(diffusion_p) or len(shifting_p):
             zz = zz if len(s.z) else 1.0
-            gradient[i, 0], gradient[i, 1], gradient[i, 2] = solved(xx, yy, zz, xy, yz, zx, gx, gy, gz)
+            gradient_x[i], gradient_y[i], gradient_z[i] = solved(xx, yy, zz, xy, yz, zx, gx, gy, gz)
         if len(shifting_p):
             least[i] = smallest(xx, yy, zz, xy, yz, zx)
             shift[i, 0], shift[i, 1], shift[i, 2] = cx, cy, cz
@@ -200,7 +210,7 @@ def smallest(xx, yy, zz, xy, yz, zx):
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
-def compress(kernel, s, rows, box, active, wall_p, diffusion_p, pressure, gradient, volume, rate):
+def compress(kernel, s, rows, box, active, wall_p, diffusion_p, pressure, gradient_x, gradient_y, gradient_z, volume, rate):
     """d rho/dt (N,) [kg/m3/s] = rho_i sum V_j v_ij.grad W + delta h c sum V_j psi_ij.grad W (Antuono et al. 2010)."""
     for n in prange(len(active)):
         i = active[n]
@@ -209,16 +219,16 @@ def compress(kernel, s, rows, box, active, wall_p, diffusion_p, pressure, gradie
         for k in range(rows.count[i]):
             j = rows.index[i, k]
             dx, dy, dz = apart(s, box, i, j)
-            signed = volume[j]
-            liquid = signed > 0.0
-            du = s.u[i] - (s.u[j] if liquid else wall_p.u)
-            dv = s.v[i] - (s.v[j] if liquid else wall_p.v)
-            dw = s.w[i] - (s.w[j] if liquid else wall_p.w) if len(s.w) else 0.0
+            signed, u_j, v_j = volume[j], s.u[j], s.v[j]  # read before they are chosen from: no branch
+            w_j = s.w[j] if len(s.w) else 0.0
+            du = s.u[i] - (u_j if signed > 0.0 else wall_p.u)
+            dv = s.v[i] - (v_j if signed > 0.0 else wall_p.v)
+            dw = s.w[i] - (w_j if signed > 0.0 else wall_p.w) if len(s.w) else 0.0
             slope = smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
             growth += abs(signed) * slope * (du * dx + dv * dy + dw * dz)
             if len(diffusion_p):
-                ramp = (gradient[i, 0] + gradient[j, 0]) * dx + (gradient[i, 1] + gradient[j, 1]) * dy
-                ramp += (gradient[i, 2] + gradient[j, 2]) * dz if len(s.z) else 0.0
+                ramp = (gradient_x[i] + gradient_x[j]) * dx + (gradient_y[i] + gradient_y[j]) * dy
+                ramp += (gradient_z[i] + gradient_z[j]) * dz if len(s.z) else 0.0
                 spread += max(signed, 0.0) * slope * density_diffusion.pair(diffusion_p, pressure[j] - p_i, ramp)
         rate[i] = s.density[i] * growth + spread
 
@@ -275,7 +285,7 @@ def travelled(x, y, z, x0, y0, z0):
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def displace(p, active, least, shift, gradient, twist, inverse_c2, dt, x, y, z, u, v, w, density):
+def displace(p, active, least, shift, gradient_x, gradient_y, gradient_z, twist, inverse_c2, dt, x, y, z, u, v, w, density):
     """r -= dt D sum V_j (1 + R (W/W0)^4) grad W, no faster than the parameters allow, inside the liquid alone.
 
     Velocity and density are taken along their gradients, so that moving a particle does not move the field.
@@ -290,7 +300,7 @@ def displace(p, active, least, shift, gradient, twist, inverse_c2, dt, x, y, z, 
         y[i] += dy
         u[i] += twist[i, 0] * dx + twist[i, 1] * dy + twist[i, 2] * dz
         v[i] += twist[i, 3] * dx + twist[i, 4] * dy + twist[i, 5] * dz
-        density[i] += inverse_c2 * (gradient[i, 0] * dx + gradient[i, 1] * dy + gradient[i, 2] * dz)
+        density[i] += inverse_c2 * (gradient_x[i] * dx + gradient_y[i] * dy + gradient_z[i] * dz)
         if len(z):
             z[i] += dz
             w[i] += twist[i, 6] * dx + twist[i, 7] * dy + twist[i, 8] * dz

@@ -10,7 +10,9 @@ import numpy as np
 
 from sdph import case as cases
 from sdph import output, particles
+from sdph.effects import drain
 from sdph.liquid import LIQUID
+from sdph.liquid_drain import Outlet
 from sdph.liquid_step import LiquidStepper, kinetic_energy, loads, wall_loads
 
 SAMPLES = 10  # rows of history.csv for each output of fields, where the case says nothing
@@ -21,9 +23,11 @@ class LiquidRun:
 
     def __init__(self, case):
         self.case, self.stepper = case, LiquidStepper(case)
-        self.time, self.windows, self.impulse = 0.0, 0, np.zeros(6)
+        self.time, self.windows = 0.0, 0
         self.load = loads(self.stepper)
         self.clock = self
+        self.outlet = Outlet(self.stepper) if "drain" in case.effects else None
+        self.fill = drain.command(case.parameters["drain"], self.outlet.fill) if self.outlet else None
 
     @property
     def state(self):
@@ -39,6 +43,8 @@ class LiquidRun:
         while self.time < end:
             left = end - self.time
             dt = self.stepper.step(left)
+            if self.outlet:
+                self.outlet.command(self.fill(self.time + dt))
             load = loads(self.stepper)
             impulse += 0.5 * dt * (self.load + load)
             self.load = load
@@ -106,6 +112,9 @@ def row(simulation, mean) -> dict[str, float]:
         values[f"centre_{name}_m"] = float((mass * places[:, a]).sum() / mass.sum())
         values[f"momentum_{name}_kg_m_s"] = float((mass * velocities[:, a]).sum())
         values[f"largest_{name}_m"] = float(places[:, a].max())
+    if simulation.outlet:
+        values["drained_kg"] = float(simulation.outlet.gone[0])
+        values["commanded_kg"] = (simulation.outlet.fill - simulation.fill(simulation.time)) * simulation.stepper.capacity
     if "tank" in case.effects:
         for kind, load in (("mean", mean), ("wall", wall_loads(simulation.stepper))):
             for name, value in zip(("force_x_N", "force_y_N", "force_z_N", "moment_x_Nm", "moment_y_Nm", "moment_z_Nm"), load):

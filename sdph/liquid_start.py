@@ -71,7 +71,7 @@ def _in_tank(case, pool) -> np.ndarray:
     shape, spacing = tank.shape_of(case), case.resolution.spacing
     own = shape.tank if isinstance(shape, tank_shapes.Joined) else shape
     corners = own.shell(0.5 * spacing, spacing)
-    lower, upper = corners.min(axis=0), corners.max(axis=0)
+    lower, upper = corners.min(axis=0) + 0.5 * spacing, corners.max(axis=0) - 0.5 * spacing
     points = tank_shapes.lattice_inside(own, spacing, lower, upper, CLEARANCE * spacing)
     count = round(pool.fill * own.volume / spacing**case.dimensions)
     if count > len(points):

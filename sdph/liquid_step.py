@@ -47,9 +47,9 @@ class LiquidStepper:
         self.wall = WallP(*[0.0] * 6, own.least, own.stick) if own else NO_WALL
         self.limits, self.limit, self.steps, self.time = self._limits(), "", 0, 0.0
         self.move = frame.motion(case.parameters["frame"]) if self.p["frame"] else None
-        self._aim(0.0)
+        self.aim(0.0)
         self.least = np.zeros(0)
-        self._forces()
+        self.forces()
 
     def step(self, most: float) -> float:
         """One step, no longer than `most` [s]; returns its length."""
@@ -61,8 +61,8 @@ class LiquidStepper:
         if self.p["shifting"]:
             self._shift(dt)
         self.time += dt
-        self._aim(self.time)
-        self._forces()
+        self.aim(self.time)
+        self.forces()
         self._kick(0.5 * dt)
         self.steps += 1
         return dt
@@ -84,7 +84,7 @@ class LiquidStepper:
         on = [row for row in effects.REGISTRY.values() if self.p[row.name]]
         return {row.name: row.dt_limit(self.p[row.name], self.case, None) for row in on if row.name != "conduction"}
 
-    def _aim(self, time: float) -> None:
+    def aim(self, time: float) -> None:
         """The frame's acceleration and rotation at `time` [s]."""
         self.frame = OFF
         if self.move:
@@ -102,11 +102,11 @@ class LiquidStepper:
     def _densify(self, dt: float) -> None:
         liquid_rates.compress(
             self.kernel, self.state, self.rows, self.neighbours.box, self.active, self.wall, self.p["density_diffusion"],
-            self.pressure, self.gradient, self.volume, self.rate,
+            self.pressure, *self.gradient, self.volume, self.rate,
         )  # fmt: skip
         liquid_rates.densify(self.active, self.rate, dt, self.state.density)
 
-    def _forces(self) -> None:
+    def forces(self) -> None:
         """Neighbours, pressure, walls, accelerations of where the particles are now."""
         built, ident = self.neighbours.built, self.state.ident
         self.state, self.rows = self.neighbours.update(self.state)
@@ -122,30 +122,50 @@ class LiquidStepper:
         liquid_rates.push(
             self.kernel, s, self.rows, self.neighbours.box, self.active, self.wall, p["gravity"], self.frame, p["laminar_viscosity"],
             p["liquid_damping"], p["density_diffusion"], p["shifting"], self.pressure, self.volume, self.least,
-            self.acceleration, self.gradient, self.shift, self.twist,
+            self.acceleration, *self.gradient, self.shift, self.twist,
         )  # fmt: skip
 
     def _allocate(self, before) -> None:
         """Work arrays for the particles in their new order; only `least` outlives a step. before (N,): their old order."""
         s = self.state
         self.active = np.flatnonzero(s.kind >= LIQUID).astype(np.int32)
-        self.walls = np.flatnonzero(s.kind == WALL).astype(np.int32)
+        walls = np.flatnonzero(s.kind == WALL).astype(np.int32)
+        wet = np.empty(len(walls), np.bool_)
+        liquid_rates.near_liquid(s.kind, self.rows, walls, wet)
+        self.walls = walls[wet]
         count = len(s.x)
         self.pressure, self.volume, self.rate = np.zeros(count), np.zeros(count), np.zeros(count)
-        self.volume[self.walls] = -(self.case.resolution.spacing**self.case.dimensions)
-        self.acceleration, self.gradient = np.zeros((count, 3)), np.zeros((count, 3))
+        self.volume[walls] = -(self.case.resolution.spacing**self.case.dimensions)
+        self.acceleration, self.gradient = np.zeros((count, 3)), tuple(np.zeros((3, count)))
         shifted = count if self.p["shifting"] else 0
         known = np.zeros(int(before.max()) + 1)
         known[before[: len(self.least)]] = self.least
         self.least, self.shift, self.twist = known[s.ident[:shifted]], np.zeros((shifted, 3)), np.zeros((shifted, 9))
 
+    @property
+    def capacity(self) -> float:
+        """Mass [kg] of the liquid that would fill the tank, its outlet pipe left out."""
+        return self.case.liquid.density * tank.shape_of(self.case).volume
+
+    def remove(self, i: int) -> None:
+        """Takes particle i out; neighbours and forces are made anew."""
+        keep = np.ones(len(self.state.x), bool)
+        keep[i] = False
+        self.state = particles.take(self.state, keep)
+        self.least = self.least[keep[: len(self.least)]]
+        self.neighbours.built = ()
+        self.forces()
+
     def _shift(self, dt: float) -> None:
         s = self.state
-        liquid_rates.displace(self.p["shifting"], self.active, self.least, self.shift, self.gradient, self.twist, self.case.liquid.sound_speed**-2, dt, s.x, s.y, s.z, s.u, s.v, s.w, s.density)
+        liquid_rates.displace(
+            self.p["shifting"], self.active, self.least, self.shift, *self.gradient, self.twist, self.case.liquid.sound_speed**-2, dt, s.x, s.y, s.z, s.u, s.v, s.w, s.density,
+        )  # fmt: skip
 
 
 def loads(stepper) -> np.ndarray:
-    """(6,) force [N] and moment about the origin [N m] of the liquid on the tank: -d(momentum)/dt of all that is not body force."""
+    """(6,) force [N] and moment about the origin [N m] of the liquid on the tank: what acts on the liquid from outside,
+    less what its momentum gains."""
     load = np.zeros(6)
     liquid_rates.reaction(stepper.state, stepper.active, stepper.p["gravity"], stepper.frame, stepper.acceleration, load)
     return load

@@ -22,7 +22,7 @@ class Frame:
     """Sums of harmonics, or a table; the caller of `sdph.tank.Tank` gives its own in place of both.
 
     The origin's displacement along axis a is sum A sin(w t + phase) of the rows [axis, A, w, phase] of `shake`
-    (m, rad/s, rad); the angular velocity the same of `turn` (rad/s, rad/s, rad). Both begin at `start`.
+    (m, rad/s, rad); the angular velocity the same of `turn` (rad/s, rad/s, rad). Both begin at `start` and cease at `end`.
     """
 
     shake: tuple = vector("", ())
@@ -30,6 +30,7 @@ class Frame:
     spin: tuple = vector("rad_s", (0.0, 0.0, 0.0))  # constant angular velocity
     table: str = words("")  # CSV file with the columns time_s, ax_m_s2 ... and wx_rad_s ...; linear between its rows
     start: float = quantity("s", 0.0, least=0.0)  # at rest before: time for the liquid to settle
+    end: float | None = quantity("s", None, above=0.0)  # neither accelerated nor turning after
 
 
 class FrameP(NamedTuple):
@@ -57,7 +58,7 @@ def motion(own: Frame):
     def at(time: float):
         acceleration, omega, rate = np.zeros(3), np.array(own.spin, float), np.zeros(3)
         t = time - own.start
-        if t < 0.0:
+        if t < 0.0 or (own.end is not None and time > own.end):
             return acceleration, np.zeros(3), rate
         for axis, amplitude, w, phase in own.shake:
             acceleration[int(axis)] -= amplitude * w**2 * np.sin(w * t + phase)

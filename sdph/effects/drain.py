@@ -1,0 +1,57 @@
+"""Liquid that leaves the tank through its outlet, as much as is commanded.
+
+`debt`: the particle nearest to the outlet's end loses mass as it is commanded, and goes when it has none left. Its
+volume, and with it its push on the others, fades as the paper's factor xi does, and the liquid falls after it. The
+mass in the tank is the commanded one at every instant.
+`paper`: whole particles go, as many as have been commanded so far, rounded (paper T, Eq. 12, cumulatively); they go at
+once, where the paper lets each leave within a dynamic step.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from sdph.effects.effect import Effect
+from sdph.schema import choice, quantity, record
+
+FORMS = ("debt", "paper")
+
+
+@record
+class Drain:
+    """The commanded fill falls evenly from that at the start to `fill` between `start` and `end`."""
+
+    form: str = choice(*FORMS)
+    fill: float = quantity("", least=0.0, most=1.0)
+    start: float = quantity("s", 0.0, least=0.0)
+    end: float = quantity("s", above=0.0)
+
+
+class DrainP(NamedTuple):
+    """0: debt, 1: whole particles."""
+
+    form: int
+
+
+def kernel(case) -> DrainP:
+    return DrainP(FORMS.index(case.parameters["drain"].form))
+
+
+def command(own: Drain, first: float):
+    """t -> commanded fill, from `first` at the start."""
+
+    def fill(time: float) -> float:
+        share = min(max((time - own.start) / (own.end - own.start), 0.0), 1.0)
+        return first + share * (own.fill - first)
+
+    return fill
+
+
+EFFECT = Effect(
+    name="drain",
+    summary="commanded outflow of a liquid",
+    parameters=Drain,
+    kernel=kernel,
+    moves=True,
+    matter=("liquid",),
+)
