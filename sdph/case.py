@@ -24,6 +24,7 @@ STANDARD_ATMOSPHERE = 101325.0  # Pa, ISO 2533
 class Run:
     end_time: float = quantity("s", above=0.0)
     output_interval: float = quantity("s", above=0.0)
+    step_factor: float = quantity("", 1.0, above=0.0)  # sub-steps over the largest that the effects allow
     accuracy: float = quantity("", 0.01, above=0.0, most=1.0)  # error that is allowed: decides `effects = "auto"` and warnings
     report_at: tuple = vector("s", ())  # times that a window ends at, so that history.csv has them
     metrics: tuple = words(())  # of sdph.metrics, for metrics.csv and the summary

@@ -12,12 +12,12 @@ from pathlib import Path
 from sdph import __version__
 from sdph.schema import CaseError
 
-FINE, CHECK_FAILED, BAD_INPUT, GAS_FAILED, CANNOT_WRITE = 0, 1, 2, 3, 4
+FINE, CHECK_FAILED, BAD_INPUT, GAS_FAILED, CANNOT_WRITE, WENT_UNSTABLE = 0, 1, 2, 3, 4, 5
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Entry point; returns the exit code: 0 fine, 1 a check failed, 2 bad input, 3 the gas side failed,
-    4 the run folder cannot be written, 128 + signal when stopped."""
+    4 the run folder cannot be written, 5 the run went unstable, 128 + signal when stopped."""
     options = _parser().parse_args(arguments)
     try:
         return options.command(options)
@@ -26,7 +26,7 @@ def main(arguments: list[str] | None = None) -> int:
     except KeyboardInterrupt as stop:
         return _failed(str(stop) and stop or "interrupted", 128 + getattr(stop, "number", signal.SIGINT))
     except RuntimeError as error:
-        code = {"GasError": GAS_FAILED, "CannotWrite": CANNOT_WRITE}.get(type(error).__name__)
+        code = {"GasError": GAS_FAILED, "CannotWrite": CANNOT_WRITE, "Unstable": WENT_UNSTABLE}.get(type(error).__name__)
         if code is None:
             raise
         return _failed(error, code)
@@ -50,6 +50,10 @@ def _parser() -> argparse.ArgumentParser:
     _run_options(_command(commands, "run", run, "run a scene, a case folder or a case file"))
     explain = _command(commands, "explain", explain_case, "what a case calls for, its limits and its cost, before it runs")
     _case_options(explain)
+    stress = _command(commands, "stress", stress_cases, "hard cases that must stay stable; exit code 1 if one does not")
+    stress.add_argument("case", nargs="*", help="hard cases (default: all under validation/stress)")
+    stress.add_argument("--fast", action="store_true", help="only those that CI runs")
+    stress.add_argument("--map", action="store_true", help="measure how far beyond its limits each effect stays stable")
     compare = _command(commands, "compare", compare_run, "a run against a reference; exit code 1 outside tolerance")
     compare.add_argument("run", type=Path)
     compare.add_argument("--against", required=True, choices=("tfm", "dpm", "exact"))
@@ -164,6 +168,17 @@ def explain_case(options) -> int:
     parts = explain.explain(case)
     print(json.dumps(parts) if options.json else f"{case.title}\n\n{explain.text(parts)}")
     return FINE
+
+
+def stress_cases(options) -> int:
+    from sdph import stress, stress_map
+
+    if options.map:
+        print(stress_map.table(Path("stress_map.png")))
+        return FINE
+    fine = [stress.show(stress.run(hard)) for hard in stress.chosen(options.case, options.fast)]
+    print(f"{sum(fine)} of {len(fine)} pass")
+    return FINE if all(fine) else CHECK_FAILED
 
 
 def compare_run(options) -> int:

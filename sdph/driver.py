@@ -7,10 +7,9 @@ import math
 import time
 from pathlib import Path
 
-import numpy as np
-
 from sdph import case as cases
 from sdph import history, metrics, output, paths, restart
+from sdph.guard import Unstable
 from sdph.interruption import Stopped, listening
 from sdph.ledger import Ledger
 from sdph.schema import CaseError
@@ -131,6 +130,9 @@ class Run:
             error.add_note(f"(last checkpoint: {checkpoint.folder}; go on with: sdph run --resume {self.folder})")
         time_s = self.simulation.time if self.simulation else 0.0
         with contextlib.suppress(OSError):
+            if isinstance(error, Unstable):
+                error.leave(self.folder)
+                error.add_note(f"last good state: {self.folder}/last_good.npz and .png")
             output.write_json(self.folder / output.FAILURE, {"what": str(error), "kind": type(error).__name__, "time_s": time_s})
         return error
 
@@ -148,7 +150,6 @@ class Run:
 
     def _window(self) -> None:
         self.simulation.window()
-        _check_finite(self.simulation)
         self.first = self.first or self.spent
         self.out.window()
         self.reporter.progress(self.simulation)
@@ -162,16 +163,6 @@ class Run:
     def _save(self) -> None:
         restart.write(self.folder, self.simulation.windows, cases.to_table(self.case), self, self.simulation.gas)
         self.saved_time, self.saved_window = time.monotonic(), self.simulation.windows
-
-
-def _check_finite(simulation) -> None:
-    """CaseError where a value of the particles is no number any more: the run blew up."""
-    for name, values in simulation.state._asdict().items():
-        if not np.isfinite(values.sum()):
-            which = simulation.state.ident[np.argmin(np.isfinite(values))]
-            where = f"particle {which} at {simulation.time:g} s, in window {simulation.windows}"
-            raise CaseError(f"the particles blew up: {name} of {where} is {values[np.argmin(np.isfinite(values))]}; "
-                            "use a finer coupling.window_tolerance or check the numbers of the case")  # fmt: skip
 
 
 class Outputs:

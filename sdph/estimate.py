@@ -30,16 +30,17 @@ MEASURED = environment.CACHE / "speed.json"  # of this machine, by `sdph explain
 
 
 class Speed(NamedTuple):
-    """Time of one particle and sub-step, moving or at rest, and of one cell and window of the embedded gas [us]."""
+    """Time of one particle and sub-step, moving or at rest or of a liquid, and of one cell and window of the embedded gas [us]."""
 
     moving: float
     resting: float
+    liquid: float
     cell: float
     measured: str
 
 
 # One core of the machine the shipped numbers were made on; `sdph explain --measure` replaces them by yours.
-SHIPPED = Speed(7.0, 1.0, 20.0, "another machine; `sdph explain SCENE --measure` measures this one")
+SHIPPED = Speed(7.0, 1.0, 1.0, 20.0, "another machine; `sdph explain SCENE --measure` measures this one")
 
 
 def speed() -> Speed:
@@ -48,7 +49,9 @@ def speed() -> Speed:
 
 
 def ratios(case) -> list[dict]:
-    """Cells, kernels, spacings and grains against each other, with the range that is safe and why."""
+    """Cells, kernels, spacings and grains against each other, with the range that is safe and why; none for a liquid."""
+    if case.grains is None:
+        return []
     h, spacing, cell, d = case.smoothing_length, case.resolution.spacing, case.resolution.cell, case.grains.diameter
     extent = _extent(case)
     rows = [
@@ -127,19 +130,31 @@ def _state(case):
 
 def expected(case, s) -> list[dict]:
     """Particles, cells, windows, sub-steps, memory and wall time."""
-    count, cells = len(_state(case).x), int(np.prod(cases.cells(case)))
+    start, cells = len(_state(case).x), int(np.prod(cases.cells(case)))
+    end = start + _incoming(case)
+    count = (start + end) // 2
     windows, steps = steps_of(case, s)
     pace = speed()
     particle = 1e-6 * count * steps * (pace.moving if _moves(case) else pace.resting)
     gas = 1e-6 * cells * windows * pace.cell
     return [
-        {"what": "particles", "value": count, "unit": "", "how": "at the start"},
+        {"what": "particles", "value": end, "unit": "", "how": f"{start} at the start" if end > start else "all the time"},
         {"what": "gas cells", "value": cells, "unit": "", "how": ""},
         {"what": "windows", "value": windows, "unit": "", "how": "from the limits above"},
         {"what": "sub-steps", "value": steps, "unit": "", "how": "the same"},
-        {"what": "memory", "value": memory(case, count, cells) / 1e6, "unit": "MB", "how": "state, neighbours, gas fields, program"},
+        {"what": "memory", "value": memory(case, end, cells) / 1e6, "unit": "MB", "how": "state, neighbours, gas fields, program"},
         {"what": "wall time", "value": particle + gas, "unit": "s", "how": f"one core, embedded gas, warm; particles {particle:.2g} s, gas {gas:.2g} s; measured on {pace.measured}"},
     ]  # fmt: skip
+
+
+def _incoming(case) -> int:
+    """Particles that the nozzles bring until the end."""
+    coming = 0.0
+    for nozzle in case.nozzles.values():
+        mouth = (nozzle.width or 2.0 * nozzle.radius) if case.dimensions == 2 else (nozzle.width or 0.0) * (nozzle.length or 0.0) or math.pi * nozzle.radius**2
+        lasting = max(0.0, min(nozzle.end or case.run.end_time, case.run.end_time) - nozzle.start)
+        coming += mouth * nozzle.speed * lasting / case.resolution.spacing**case.dimensions
+    return math.ceil(coming)
 
 
 def steps_of(case, s) -> tuple[int, int]:

@@ -10,6 +10,10 @@ from sdph.laws import heat
 
 def explain(case) -> dict[str, list[dict]]:
     """All parts, each a list of rows (name -> value) of one table."""
+    if case.liquid:
+        from sdph import explain_liquid
+
+        return explain_liquid.explain(case)
     scales = judge.scales_of(case)
     return {
         "numbers": [dict(zip(("number", "value", "threshold", "meaning", "source"), row)) for row in numbers(scales)],
@@ -60,7 +64,7 @@ def effect_rows(case) -> list[dict]:
     """Every effect: on or off, called for or not, why, and the error without it."""
     judged, called = judge.judgements(case), judge.called_for(case)
     rows = []
-    for name, row in effects.REGISTRY.items():
+    for name, row in ((name, row) for name, row in effects.REGISTRY.items() if "grains" in row.matter):
         own = judged.get(name)
         rows.append({
             "effect": name,

@@ -10,15 +10,23 @@ from sdph.scales import Scales
 
 
 def scales_of(case) -> Scales:
-    """Scales of a case as if every effect that can judge itself had its section."""
-    defaults = {name: row.parameters() for name, row in effects.REGISTRY.items() if row.call}
-    return Scales(dataclasses.replace(case, parameters=defaults | case.parameters))
+    """Scales of a case as if every effect that can judge itself and needs no input had its section."""
+    parameters = _defaults() | case.parameters
+    return Scales(dataclasses.replace(case, effects=tuple(parameters), parameters=parameters))
+
+
+def _defaults() -> dict:
+    """Parameters of the effects that need no input."""
+    rows = [row for row in effects.REGISTRY.values() if row.call]
+    return {row.name: row.parameters() for row in rows if all(f.default is not dataclasses.MISSING for f in dataclasses.fields(row.parameters))}
 
 
 def judgements(case) -> dict[str, Judgement]:
-    """Name of the effect -> its judgement, for all that can judge themselves."""
+    """Name of the effect -> its judgement, for all that can judge themselves (effects on grains in a gas)."""
+    if case.grains is None:
+        return {}
     scales = scales_of(case)
-    return {name: row.call(scales) for name, row in effects.REGISTRY.items() if row.call}
+    return {name: row.call(scales) for name, row in effects.REGISTRY.items() if row.call and name in scales.case.parameters}
 
 
 def called_for(case) -> dict[str, Judgement]:
@@ -27,7 +35,8 @@ def called_for(case) -> dict[str, Judgement]:
 
 
 def missing(case) -> list[str]:
-    """One warning for each effect that is called for and off."""
+    """One warning for each effect that is called for and off; where nothing moves, grains are held by intent."""
     text = "effect {} is off, but called for ({} = {:.3g}, matters from {:.3g}): expect an error of about {:.1g} of the answer"
-    off = {name: own for name, own in called_for(case).items() if name not in case.effects}
+    held = not any(effects.REGISTRY[name].moves for name in case.effects)
+    off = {n: own for n, own in called_for(case).items() if n not in case.effects and not (held and effects.REGISTRY[n].moves)}
     return [text.format(name, own.name, own.number, own.threshold, own.error_if_off) for name, own in off.items()]

@@ -69,7 +69,25 @@ class Scales:
     @cached_property
     def slip(self) -> float:
         """Largest velocity between grains and gas [m/s]; 0 where nothing drives either."""
-        return max(self.jet, self.thrown, self.falling) if self.patches else 0.0
+        return max(self.jet, self.thrown, self.falling, self.rush) if self.patches else 0.0
+
+    @cached_property
+    def rush(self) -> float:
+        """Speed [m/s] of gas that rushes in where grains cool it and out where they heat it; none at constant density.
+
+        The change of volume of the patch in the time in which its gas takes the grains' temperature: the most it can be.
+        """
+        if self.gas.equation_of_state == "constant" or not self.alpha_p:
+            return 0.0
+        hottest = max(self.gas.temperature, *(patch.temperature for patch in self.patches))
+        return self.span / hottest * self.length / self.still_heat_time
+
+    @cached_property
+    def still_heat_time(self) -> float:
+        """Time [s] in which still gas among grains takes their temperature."""
+        nusselt = heat.gunn(1.0 - self.alpha_p, 0.0, self.prandtl)
+        eps = 6.0 * nusselt * self.gas.conductivity / self.grains.diameter**2
+        return self.grains.density * self.grains.heat_capacity / eps / self.heat_loading
 
     def _damping(self, alpha_p: float, slip: float) -> float:
         """beta/(alpha_p rho_p) [1/s] by the blended Gidaspow law, whatever law the case has."""
@@ -124,9 +142,18 @@ class Scales:
 
     @cached_property
     def speed(self) -> float:
-        """What the grains reach within the run [m/s]: thrown, dragged along, or falling."""
-        dragged = self.jet * -math.expm1(-self.end / self.drag_time)
-        return max(self.thrown, dragged, self.falling if self.patches else 0.0)
+        """What the grains reach within the run [m/s]: driven or falling."""
+        return max(self.driven, self.falling if self.patches else 0.0)
+
+    @cached_property
+    def driven(self) -> float:
+        """Thrown, or dragged along with no more energy per volume than the gas has [m/s]."""
+        return max(self.thrown, self.jet * -math.expm1(-self.end / self.drag_time) / math.sqrt(1.0 + self.loading))
+
+    @cached_property
+    def lone(self) -> bool:
+        """Whether grains are so few that an SPH particle has no neighbour."""
+        return self.length < 2.0 * self.case.resolution.spacing
 
     @cached_property
     def capped(self) -> float:
@@ -163,10 +190,20 @@ class Scales:
     @cached_property
     def gap(self) -> float:
         """Shortest way [m] from grains to a side that is no pressure outlet."""
+        return self._gap(False)
+
+    @cached_property
+    def way_out(self) -> float:
+        """Shortest way [m] from grains to an open side, or without walls to any."""
+        return min(self._gap(True), math.inf if "walls" in self.case.effects else self.gap)
+
+    def _gap(self, out: bool) -> float:
+        """Shortest way [m] to sides that are open or not, those left aside that grains are thrown away from."""
         gaps = [math.inf]
         for patch, (axis, size) in itertools.product(self.patches, enumerate(self.case.domain.size)):
-            for side, room in zip(SIDES[axis], (patch.lower[axis], size - patch.upper[axis])):
-                if not any(b.side == side and b.kind == "pressure_outlet" and b.span is None for b in self.case.boundaries.values()):
+            for side, room, away in zip(SIDES[axis], (patch.lower[axis], size - patch.upper[axis]), (1.0, -1.0)):
+                opened = any(b.side == side and b.kind == "pressure_outlet" and b.span is None for b in self.case.boundaries.values())
+                if opened == out and patch.velocity[axis] * away <= 0.0:
                     gaps.append(max(room, 0.0))
         return min(gaps)
 

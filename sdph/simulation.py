@@ -68,9 +68,11 @@ class Simulation:
         """One window: exchange prepared, gas advanced, reaction taken, particles advanced."""
         end = self.clock.choose(self.time)
         dt = end - self.time
+        self.stepper.guard.begin(self, dt)
         handed = self._timed("exchange", self._hand, dt)
         sources = {} if self.case.coupling.one_way else handed.sources
         self.gas_state = self._timed("gas", self.gas.advance, dt, sources)
+        self.stepper.guard.gas(self)
         taken = self._timed("exchange", self.exchange.take, handed, self.gas_state)
         self.exchange.settle(self.state, handed)
         inside = self.state.kind == GRAIN

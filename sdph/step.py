@@ -13,6 +13,7 @@ from sdph import particles, rates
 from sdph.boundary import Boundary
 from sdph.effects import OFF, REGISTRY, granular_temperature, walls
 from sdph.effects.granular_viscosity import Viscous
+from sdph.guard import Guard
 from sdph.neighbours import Neighbours
 from sdph.particles import INFLOW
 from sdph.rates import Stress
@@ -29,7 +30,7 @@ class Stepper:
 
     def __init__(self, case, parameters, state, source=None):
         self.case, self.parameters, self.state, self.source = case, parameters, state, source
-        self.kernel = rates.kernel_of(case)
+        self.kernel, self.guard = rates.kernel_of(case), Guard(case)
         self.neighbours = Neighbours(REACH * case.smoothing_length)
         self.boundary = Boundary(case) if parameters["walls"] else None
         on = parameters["granular_viscosity"] or parameters["friction"]
@@ -58,12 +59,13 @@ class Stepper:
 
     def conduct(self, dt: float, heat) -> None:
         """Grains at rest through `dt` [s]: conduction, and `heat` (N,) [J] from the gas spread evenly."""
-        limit = self._limit_of("conduction")
+        limit = self.case.run.step_factor * self._limit_of("conduction")
         steps = max(1, math.ceil(dt / limit * (1.0 - 1e-9)))
         heating = np.zeros(len(self.state.x))
         for _ in range(steps):
             rates.conduct(self.kernel, self.state, self.rows, self.neighbours.box, self.parameters["conduction"], heating)
             self._warm(heating * dt / steps + heat / self.state.mass / steps)
+            self.guard.sub_step(self)
         self.steps += steps
 
     def move(self, dt: float, heat, body, damping) -> None:
@@ -74,6 +76,7 @@ class Stepper:
         while left > 0.0:
             step = self._sub_step(left)
             self._advance(step, held.now(self.state))
+            self.guard.sub_step(self)
             left = 0.0 if step >= left else left - step
             self.prepare()
 
@@ -95,7 +98,7 @@ class Stepper:
         if len(s.theta) and s.theta.max(initial=0.0) > 0.0:  # viscosity and conductivity are at most h sqrt(theta)
             limits["agitation"] = DIFFUSIVE * self.kernel.h / math.sqrt(s.theta.max())
         self.limit = min(limits, key=limits.get)
-        return left / max(1, math.ceil(left / limits[self.limit] * (1.0 - 1e-9)))
+        return left / max(1, math.ceil(left / (self.case.run.step_factor * limits[self.limit]) * (1.0 - 1e-9)))
 
     def _advance(self, dt: float, held) -> None:
         """One sub-step: stress, walls, rates, then theta, heat, velocity, place."""

@@ -53,7 +53,7 @@ def dt_limit(p, case, state) -> float:
 def call(scales) -> Judgement:
     """Fourier number of the grains; of it matters the share of the temperatures that reaches the grains."""
     diffusivity = scales.grains.conductivity / (scales.grains.density * scales.grains.heat_capacity)
-    fourier = diffusivity * scales.end / scales.length**2 if scales.span else 0.0
+    fourier = diffusivity * scales.end / scales.length**2 if not scales.lone and scales.span else 0.0
     source = "Carslaw & Jaeger 1959: depth sqrt(D t) over the width"
     return Judgement("Fourier number of the grains", fourier, 0.01, source, -math.expm1(-fourier))
 

@@ -14,7 +14,7 @@ import numpy as np
 from numba import njit, prange
 
 from sdph.effects import heat, sizes
-from sdph.effects.effect import Effect
+from sdph.effects.effect import Effect, Judgement
 from sdph.laws import evaporation as law
 from sdph.laws import grain_loss
 from sdph.laws.constants import GAS_CONSTANT
@@ -28,6 +28,7 @@ ALWAYS = 1.0  # K, a threshold that every droplet is above
 NEVER = 1e9  # K, a boiling temperature that none reaches
 PROBE = 1e-3  # K, step of the slope of the rate with temperature
 BOILING_MARGIN = 1e-3  # of the pressure: Spalding's ln(1 + B) has a pole at boiling and is evaluated at most this near; our choice
+SOURCE = "d2 law: Spalding 1953; Ranz & Marshall 1952"
 FINISHED = 1e-9  # of the mass at birth, below which a particle has evaporated; our choice
 SHORT = 1e-8  # relaxation times in a window below which the mean rise is its limit
 
@@ -290,6 +291,21 @@ def apply(p, sizes_p, s, loss, still, moving) -> None:
     s.evaporating[:], s.diameter[:], s.diameter_variance[:] = latched, diameter, variance
 
 
+def call(scales) -> Judgement:
+    """Share of the mass that evaporates within the run (d2 law), and of the heat that evaporation takes, the larger."""
+    case, s = scales.case, scales
+    if case.vapour is None or not s.patches:
+        return Judgement("K t/d2", 0.0, 0.01, SOURCE, 0.0)
+    p = kernel(case)
+    coldest = min(patch.temperature for patch in s.patches)
+    surface = p.molar_mass * law.vapour_concentration(saturation_pressure(p, coldest), coldest)  # kg/m3
+    sherwood = law.sherwood_ranz_marshall(s.reynolds, law.schmidt_number(s.gas.density, s.gas.viscosity, p.diffusivity))
+    spent = 4.0 * sherwood * p.diffusivity * surface / s.grains.density * s.end / s.grains.diameter**2
+    warmth = s.nusselt * s.gas.conductivity * s.span
+    cooling = sherwood * p.diffusivity * surface * p.latent_heat / warmth if warmth else 0.0
+    return Judgement("K t/d2", spent, 0.01, SOURCE, min(1.0, max(1.0 - max(0.0, 1.0 - spent) ** 1.5, cooling)))
+
+
 EFFECT = Effect(
     name="evaporation",
     summary="evaporation of droplets into the gas",
@@ -300,4 +316,5 @@ EFFECT = Effect(
         "born_mass", "born_diameter", "born_variance", "lost_still", "lost_moving",
     ),
     sources=("alpha_g", "vapour", "vapour_momentum", "vapour_enthalpy"),
+    call=call,
 )  # fmt: skip

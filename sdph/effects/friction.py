@@ -62,13 +62,14 @@ def viscosity(p, frictional_pressure, density, shear_squared, dt):
 
 
 def call(scales) -> Judgement:
-    """Whether grains lie closer than where contacts begin to last, and how much weight there is to bear."""
+    """Whether grains lie closer than where contacts begin to last, and how much weight there is to bear on a wall."""
     onset = scales.case.parameters["friction"].onset
     ratio = scales.alpha_p / onset
     fall = scales.gravity * scales.end
     weight = fall / (fall + scales.speed) if fall else 0.0
     source = "Johnson & Jackson 1987: contacts last from the onset on; grains at 95 % of it get there"
-    return Judgement("alpha_p / onset", ratio, NEAR, source, weight if ratio >= NEAR else 0.0)
+    rests = ratio >= NEAR and scales.travelled >= scales.gap
+    return Judgement("alpha_p / onset", ratio, NEAR, source, weight if rests else 0.0)
 
 
 EFFECT = Effect(

@@ -77,7 +77,7 @@ def pair(viscous, stress, i, j, r_squared, closing, scale):
 
 def call(scales) -> Judgement:
     """Reach of momentum by viscosity within the run over the width of the grains, squared."""
-    if not scales.alpha_p or not scales.speed:
+    if scales.lone or not scales.alpha_p or not scales.speed:
         return Judgement("nu t/L2", 0.0, 0.01, SOURCE, 0.0)
     grains = scales.grains
     mu = granular.gidaspow_viscosity(scales.capped, scales.theta, grains.restitution, scales.g0, grains.density, grains.diameter)

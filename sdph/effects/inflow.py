@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sdph import particles
-from sdph.effects.effect import Effect
+from sdph.effects.effect import Effect, Judgement
 from sdph.particles import GRAIN, INFLOW
 from sdph.schema import CaseError, choice, quantity, record, vector
 
@@ -281,4 +281,10 @@ class Source:
         self.momentum = self.momentum + (state.mass[through, None] * velocity).sum(axis=0)
 
 
-EFFECT = Effect(name="inflow", summary="grains that come in through nozzles", parameters=Inflow, kernel=kernel, moves=True)
+def call(scales) -> Judgement:
+    """Nozzles that the case has."""
+    count = len(scales.case.nozzles)
+    return Judgement("nozzles", float(count), 1.0, "the case", float(count > 0))
+
+
+EFFECT = Effect(name="inflow", summary="grains that come in through nozzles", parameters=Inflow, kernel=kernel, moves=True, call=call)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sdph import particles
-from sdph.effects.effect import Effect
+from sdph.effects.effect import Effect, Judgement
 from sdph.particles import GRAIN
 from sdph.schema import record
 
@@ -60,4 +60,10 @@ def _spans(span, count: int):
     return span if isinstance(span[0], tuple) else (span,)
 
 
-EFFECT = Effect(name="outflow", summary="grains that leave through open sides", parameters=Outflow, kernel=kernel, moves=True)
+def call(scales) -> Judgement:
+    """How far grains get within the run over their way to the nearest open side: past 1 they are out of the gas."""
+    reach = scales.driven * scales.end / max(scales.way_out, scales.case.resolution.spacing)
+    return Judgement("way of the grains / gap to an open side", reach, 1.0, "geometry", min(1.0, reach) if reach >= 1.0 else 0.0)
+
+
+EFFECT = Effect(name="outflow", summary="grains that leave through open sides", parameters=Outflow, kernel=kernel, moves=True, call=call)

@@ -1,0 +1,125 @@
+"""Catches a run that goes unstable, within a few sub-steps: what grew, which particle, where, when, and what to lower.
+
+Bounds come from the case: no particle can be ten times as fast as everything that drives it taken together, nor much
+hotter or colder than all that the case gives a temperature. The gas solver knows no sound, so that sudden cooling drives
+its gas past the speed of sound for a moment: ten times that is too much.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+
+from sdph import judge, particles
+from sdph.laws.constants import GAS_CONSTANT
+
+RUNAWAY = 10.0  # times what drives the grains, times the speed of sound of the gas; our choice
+LATENT = 0.25  # of the hottest: how far below the coldest evaporation may cool; our choice
+ADIABATIC = 1.4  # cp/cv of a diatomic gas
+
+
+class Unstable(RuntimeError):
+    """A run that was stopped because it went unstable; `last` is the simulation's last good state."""
+
+    def __init__(self, text: str, last: dict):
+        super().__init__(text)
+        self.last = last
+
+    def leave(self, folder: Path) -> None:
+        """The last good state, and a picture of it, into the run's folder."""
+        np.savez(folder / "last_good.npz", **self.last)
+        _picture(self.last, folder / "last_good.png", str(self))
+
+
+class Guard:
+    """Looks at the particles after every sub-step and at the gas after every window."""
+
+    def __init__(self, case):
+        self.case = case
+        scales = judge.scales_of(case)
+        drop = math.sqrt(2.0 * scales.gravity * max(case.domain.size))
+        pressures = [b.pressure for b in case.boundaries.values() if b.pressure is not None]
+        blown = math.sqrt(2.0 * (max(pressures, default=0.0) - min(pressures, default=0.0)) / case.gas.density)
+        agitated = math.sqrt(case.grains.granular_temperature) + scales.sound
+        self.reach = scales.jet + scales.thrown + drop + blown + agitated
+        given = [case.gas.temperature, *(patch.temperature for patch in scales.patches)]
+        given += [b.temperature for b in case.boundaries.values() if b.temperature]
+        slack = scales.span + LATENT * max(given) + self.reach**2 / case.grains.heat_capacity
+        self.coldest, self.hottest = max(0.0, min(given) - slack), max(given) + slack
+        self.sound = math.sqrt(ADIABATIC * GAS_CONSTANT / case.gas.molar_mass * max(given))
+        self.last: dict = {}
+
+    def begin(self, simulation, dt: float) -> None:
+        """Before a window of `dt` [s]: the state to go back to."""
+        self.time, self.window = simulation.time, simulation.windows
+        self.cause, self.length = simulation.clock.limit, dt
+        self.last = {"time": simulation.time, **{name: a.copy() for name, a in simulation.state._asdict().items() if len(a)}}
+
+    def sub_step(self, stepper) -> None:
+        """After a sub-step: NaN, speed, temperature of the particles."""
+        s = stepper.state
+        speed = np.sqrt(s.u**2 + s.v**2 + (s.w**2 if len(s.w) else 0.0))
+        fast = RUNAWAY * self.reach
+        self._hold("speed", speed, 0.0, fast, "m/s", stepper)
+        if len(s.temperature):
+            self._hold("temperature", s.temperature, self.coldest, self.hottest, "K", stepper)
+        self._hold("density", s.density, 0.0, math.inf, "kg/m3", stepper)
+
+    def gas(self, simulation) -> None:
+        """After a window: NaN, speed, temperature of the gas."""
+        fields = simulation.gas_state.fields
+        bounds = {"velocity": (0.0, RUNAWAY * self.sound, "m/s"), "temperature": (self.coldest, self.hottest, "K")}
+        for name, (low, high, unit) in bounds.items():
+            values = fields[name] if fields[name].ndim == 1 else np.sqrt((fields[name] ** 2).sum(axis=1))
+            worst = _outside(values, low, high)
+            if worst is not None:
+                self._stop(f"gas {name}", f"cell {worst}", simulation.gas.mesh.centres[worst], values[worst], (low, high, unit), self._window())
+
+    def _hold(self, name, values, low, high, unit, stepper) -> None:
+        worst = _outside(values, low, high)
+        if worst is not None:
+            s = stepper.state
+            lower = f"run.step_factor (now {self.case.run.step_factor:g}; the sub-step was ruled by {stepper.limit or 'conduction'}), then {self._window()}"
+            self._stop(name, f"particle {s.ident[worst]}", particles.positions(s)[worst], values[worst], (low, high, unit), lower)
+
+    def _window(self) -> str:
+        return f"coupling.window_largest_s below {self.length:.3g} (the window was ruled by {self.cause})"
+
+    def _stop(self, name, which, place, value, bounds, lower) -> None:
+        at = ", ".join(f"{a:.4g}" for a in place[: self.case.dimensions])
+        low, high, unit = bounds
+        allowed = f"this case allows {low:.3g} to {high:.3g} {unit}"
+        raise Unstable(
+            f"the run went unstable at t = {self.time:.6g} s, in window {self.window + 1}: {name} of {which} at ({at}) m is "
+            f"{value:.3g} {unit}, {allowed}; lower {lower}",
+            self.last,
+        )
+
+
+def _outside(values, low: float, high: float):
+    """Index of the worst value that is no number or out of bounds; None if all are fine."""
+    if not len(values) or (low <= values.min() and values.max() <= high):  # false for nan
+        return None
+    if not np.isfinite(values).all():
+        return int(np.argmin(np.isfinite(values)))
+    return int(np.argmax(np.maximum(values - high, low - values)))
+
+
+def _picture(last: dict, file: Path, title: str) -> None:
+    """Where the particles were, coloured by speed."""
+    import textwrap
+
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    figure, axes = pyplot.subplots(figsize=(7, 6), constrained_layout=True)
+    dots = axes.scatter(last["x"], last["y"], s=4, c=np.hypot(last["u"], last["v"]))
+    figure.colorbar(dots, label="speed [m/s]")
+    axes.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
+    axes.set_title("\n".join(textwrap.wrap(f"last good state, t = {last['time']:.6g} s. {title}", 90)), fontsize=7)
+    figure.savefig(file, dpi=110)
+    pyplot.close(figure)

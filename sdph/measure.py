@@ -1,0 +1,66 @@
+"""What a hard case is judged by: extremes over the run, and what the ledger closes to."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from sdph import particles
+
+
+class Measures:
+    """Gathers figures window by window; `values` gives them by name."""
+
+    def __init__(self, case):
+        self.case = case
+        self.high: dict[str, float] = {}
+        self.low: dict[str, float] = {}
+        self.last: dict[str, float] = {}
+        self.lost = 0
+
+    def window(self, simulation) -> None:
+        """After a window."""
+        s, fields, density = simulation.state, simulation.gas_state.fields, self.case.grains.density
+        speed = np.sqrt((particles.velocities(s) ** 2).sum(axis=1))
+        self._take("speed_m_s", speed)
+        self._take("alpha_p", s.density / density)
+        self._take("temperature_K", s.temperature)
+        self._take("theta_m2_s2", s.theta)
+        self._take("gas_speed_m_s", np.sqrt((fields["velocity"] ** 2).sum(axis=1)))
+        self._take("gas_temperature_K", fields["temperature"])
+        self._take("cell_alpha_p", simulation.cell_fields()["alpha_p"])
+        energy = float(0.5 * (s.mass * speed**2).sum())
+        self._take("kinetic_energy_J", np.array([energy]))
+        self._take("momentum_kg_m_s", np.linalg.norm((s.mass[:, None] * particles.velocities(s)).sum(axis=0), keepdims=True))
+        self.last = {"particles": len(s.x), "kinetic_energy_end_J": energy, "speed_end_m_s": float(speed.max(initial=0.0)), "windows": simulation.windows}
+        self.last |= {"particle_mass_kg": float(s.mass.sum())}
+        self.lost = max(self.lost, self._outside(s))
+
+    def finish(self, simulation) -> None:
+        """At the end of a stage: what the ledger says, the worst over all stages."""
+        for name, value in (simulation.ledger.summary() if simulation.ledger.last else {}).items():
+            self._take(name, np.array([value]))
+        self.last["sub_steps"] = simulation.stepper.steps
+
+    def values(self) -> dict[str, float]:
+        """Name -> figure: `X_max` and `X_min` over the run, and the last of what has no extremes."""
+        whole = {name: value for name, value in self.high.items() if name.endswith(("_rel", "_J")) and "kinetic" not in name}
+        extremes = {f"{name}_max": value for name, value in self.high.items()} | {f"{name}_min": value for name, value in self.low.items()}
+        return extremes | whole | self.last | {"lost_through_walls": float(self.lost)}
+
+    def _take(self, name: str, values) -> None:
+        if len(values):
+            self.high[name] = max(self.high.get(name, -math.inf), float(np.max(values)))
+            self.low[name] = min(self.low.get(name, math.inf), float(np.min(values)))
+
+    def _outside(self, s) -> int:
+        """Particles out of the box where walls hold the grains."""
+        if "walls" not in self.case.effects:
+            return 0
+        out = np.zeros(len(s.x), bool)
+        for axis, ends, size in zip(particles.axes(s), (("left", "right"), ("bottom", "top"), ("back", "front")), self.case.domain.size):
+            for side, beyond in zip(ends, (axis < 0.0, axis > size)):
+                if not any(b.side == side and b.kind == "pressure_outlet" for b in self.case.boundaries.values()):
+                    out |= beyond
+        return int(out.sum())
