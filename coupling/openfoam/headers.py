@@ -80,12 +80,14 @@ def _os_release() -> dict[str, str]:
 
 
 def _unpack(archive: Path, tree: Path) -> None:
+    """Regular files only, and none outside `tree` (Debian 12's Python has no extraction filters yet)."""
     with tarfile.open(archive, "r|*") as source:
         for member in source:
-            member.name = member.name.partition("/")[2]
-            wanted = member.name.endswith((".H", ".C")) or "/Make/" in member.name
-            if member.isfile() and wanted and member.name.startswith(NEEDED):
-                source.extract(member, tree, filter="data")
+            name = member.name.partition("/")[2]
+            wanted = name.endswith((".H", ".C")) or "/Make/" in name
+            if member.isfile() and wanted and name.startswith(NEEDED) and ".." not in name.split("/"):
+                (tree / name).parent.mkdir(parents=True, exist_ok=True)
+                (tree / name).write_bytes(source.extractfile(member).read())
 
 
 def _link_includes(tree: Path) -> None:
