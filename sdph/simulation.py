@@ -99,9 +99,10 @@ class Simulation:
         return self.gas_state.fields | {"alpha_p": 1.0 - self.exchange.alpha_g(self.state, self.weights, self._inside())}
 
     def _hand(self, dt: float):
-        """The exchange of a window of `dt`; the gas is told where the particles will be at its end."""
-        ahead = self._weights(dt) if self.moves else self.weights
-        return self.exchange.hand(self.state, self.weights, (ahead, self._inside(dt)), self.gas_state, dt)
+        """The exchange of a window of `dt`, from where the particles are in its middle (second order in their motion);
+        the gas is told where they will be at its end."""
+        middle, ahead = (self._weights(0.5 * dt), self._weights(dt)) if self.moves else (self.weights, self.weights)
+        return self.exchange.hand(self.state, middle, (ahead, self._inside(dt)), self.gas_state, dt)
 
     def _inside(self, after: float = 0.0) -> np.ndarray:
         """Share of each particle that is in the gas, or will be `after` [s]."""

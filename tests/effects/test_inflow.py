@@ -109,7 +109,7 @@ def test_cone_spreads_to_its_angle_and_keeps_its_rate():
 def test_parabolic_profile_has_the_mean_speed_and_the_rate():
     streams = inflow.streams_of(case(SLOT | {"profile": "parabolic"}), case(SLOT | {"profile": "parabolic"}).nozzles["one"])
     assert streams.speed.mean() == pytest.approx(2.0, rel=1e-12)
-    assert streams.speed.max() == pytest.approx(3.0, rel=0.02) and streams.speed.min() < 0.4
+    assert streams.speed.max() == pytest.approx(3.0, rel=0.02) and streams.speed.min() < 0.6  # 3/2 of the mean, 0 at the rim
     assert (streams.mass * streams.speed / streams.pitch).sum() == pytest.approx(0.3 * 700.0 * 0.2 * 2.0, rel=1e-12)
 
 

@@ -1,0 +1,20 @@
+"""Short forms of the scenes' own comparisons with closed forms."""
+
+import pytest
+
+from sdph import case as cases
+from sdph import compare, driver, scenes
+from sdph.progress import Reporter
+
+SHORT = {
+    "single_droplet": (),
+    "stefan_tube": ("run.end_time_s=70.0", "run.output_interval_s=70.0"),
+}
+
+
+@pytest.mark.parametrize("name", SHORT)
+def test_closed_form(tmp_path, name):
+    case = cases.load(scenes.find(name)[1], ("coupling.gas='embedded'", *SHORT[name]))
+    driver.run(case, name, tmp_path / "run", None, Reporter(quiet=True))
+    failed = [check for check in compare.compare(tmp_path / "run", "exact") if not check["ok"]]
+    assert not failed
