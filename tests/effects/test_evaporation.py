@@ -125,8 +125,8 @@ def test_condensation_is_refused_and_counted(tmp_path):
     box = {"shape": "box", "volume_fraction": 1e-2}
     table |= {
         "effects": ["evaporation"],
-        "coupling": {"window_largest_s": 0.02, "window_tolerance": 1e30},
-        "run": {"end_time_s": 1.0, "output_interval_s": 1.0},
+        "coupling": {"window_largest_s": 0.2, "window_tolerance": 1e30},
+        "run": {"end_time_s": 8.0, "output_interval_s": 8.0},
         "evaporation": {"latent_heat_J_kg": 0.0, "saturation": "antoine", "antoine": [9.0, 1500.0, 0.0]},
         "particles": {
             "droplet": box | {"lower_m": [0.015, 0.015], "upper_m": [0.025, 0.025], "temperature_K": 320.0},
