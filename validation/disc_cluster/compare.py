@@ -23,13 +23,7 @@ ONE_WAY = 0.01  # K at the end, issue: 290.189 +- 0.01 K
 RISE = 0.01  # of the rise
 GAS = 0.1  # K
 TWO_FLUID = 0.02  # of the exact change
-TWO_FLUID_VARIANTS = {
-    "two-way, paper": (("heat.closure=paper",), ("exact", "tfm")),
-    "two-way, geometric": ((), ("exact",)),
-    "one-way, paper": (("heat.closure=paper", "coupling.one_way=true"), ("exact", "tfm")),
-    "one-way, geometric": (("coupling.one_way=true",), ("exact",)),
-}
-TIMES = (0.001, 0.005, 0.1)  # s
+TWO_FLUID_TIMES = (0.001, 0.005, 0.1)  # s
 
 
 def exact(run) -> list[dict]:
