@@ -50,6 +50,11 @@ def _parser() -> argparse.ArgumentParser:
     _run_options(_command(commands, "run", run, "run a scene, a case folder or a case file"))
     explain = _command(commands, "explain", explain_case, "what a case calls for, its limits and its cost, before it runs")
     _case_options(explain)
+    cost = _command(commands, "cost", cost_of_accuracy, "what accuracy costs in time: measures a ladder of settings, draws it")
+    cost.add_argument("scene")
+    cost.add_argument("--out", type=Path, help="folder (default: runs/cost/SCENE); goes on with what is there")
+    cost.add_argument("--budget", type=_seconds, default=float("inf"), metavar="TIME", help="such as 90s or 10min: starts nothing new after that")
+    cost.add_argument("--repeats", type=int, default=1, help="runs of each setting; the median counts (default: 1)")
     stress = _command(commands, "stress", stress_cases, "hard cases that must stay stable; exit code 1 if one does not")
     stress.add_argument("case", nargs="*", help="hard cases (default: all under validation/stress)")
     stress.add_argument("--fast", action="store_true", help="only those that CI runs")
@@ -102,8 +107,21 @@ def _run_options(parser) -> None:
     parser.add_argument("--transport", choices=("socket", "file"), help="how fields travel to OpenFOAM")
     parser.add_argument("--np", type=int, help="MPI ranks of the gas solver")
     parser.add_argument("--allow-code", action="store_true", help="let the OpenFOAM files of your case run code (#codeStream and its like)")
+    parser.add_argument("--accuracy", type=_share, metavar="E", help="take the cheapest measured setting that errs by this or less, such as 2%%")
     parser.add_argument("--until", type=float, metavar="T", help="end time [s]")
     parser.add_argument("--json", action="store_true", help="print the summary as JSON")
+
+
+def _share(text: str) -> float:
+    """2% or 0.02."""
+    return float(text[:-1]) / 100.0 if text.endswith("%") else float(text)
+
+
+def _seconds(text: str) -> float:
+    """90, 90s, 10min or 2h."""
+    units = {"min": 60.0, "h": 3600.0, "s": 1.0}
+    unit = next((name for name in units if text.endswith(name)), "")
+    return float(text.removesuffix(unit)) * units.get(unit, 1.0)
 
 
 def list_scenes(options) -> int:
@@ -127,7 +145,7 @@ def init_case(options) -> int:
 
 def run(options) -> int:
     from sdph import case as cases
-    from sdph import driver, explain, output, scenes
+    from sdph import cost, driver, explain, output, scenes
     from sdph.progress import Reporter
 
     overrides = tuple(options.set) + _overrides(options)
@@ -137,6 +155,8 @@ def run(options) -> int:
             summary = driver.resume(folder, overrides, reporter)
         else:
             name, file = scenes.find(options.target)
+            if options.accuracy:
+                overrides = cost.settings_for(name, options.accuracy, reporter.status) + overrides
             case = cases.load(file, overrides)
             for warning in explain.warnings(case):
                 reporter.status(f"warning: {warning}")
@@ -167,6 +187,17 @@ def explain_case(options) -> int:
     case = cases.load(scenes.find(options.target)[1], tuple(options.set))
     parts = explain.explain(case)
     print(json.dumps(parts) if options.json else f"{case.title}\n\n{explain.text(parts)}")
+    return FINE
+
+
+def cost_of_accuracy(options) -> int:
+    from sdph import cost, cost_report
+
+    folder = options.out or Path("runs/cost") / options.scene
+    rows = cost.errors(cost.climb(options.scene, folder / "cost.csv", options.budget, options.repeats, lambda text: print(text, flush=True)))
+    print(f"\n{cost_report.text(options.scene, rows)}")
+    cost_report.draw(options.scene, rows, folder / "cost.png")
+    print(f"{folder}/cost.csv and cost.png")
     return FINE
 
 

@@ -56,8 +56,7 @@ def call(scales) -> Judgement:
         return Judgement("collisions of a grain in the run", 0.0, 1.0, SOURCE, 0.0)
     stiffness = 1.0 + 2.0 * (1.0 + scales.grains.restitution) * scales.alpha_p * scales.g0
     push = scales.theta * stiffness / scales.speed**2
-    crowding = scales.alpha_p / scales.grains.packing_limit  # without it nothing keeps grains apart
-    return Judgement("collisions of a grain in the run", collisions, 1.0, SOURCE, min(1.0, collisions) * min(1.0, push + crowding**2))
+    return Judgement("collisions of a grain in the run", collisions, 1.0, SOURCE, min(1.0, collisions) * min(1.0, push))
 
 
 EFFECT = Effect(

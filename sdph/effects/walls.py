@@ -175,7 +175,8 @@ def contact(p, dummies, rows, s):
 def call(scales) -> Judgement:
     """How far grains get within the run over their way to the nearest wall."""
     reach = scales.travelled / max(scales.gap, 0.5 * scales.case.resolution.spacing) if scales.gap < math.inf else 0.0
-    return Judgement("way of the grains / gap to a wall", reach, 1.0, "geometry", min(1.0, reach) if reach >= 1.0 else 0.0)
+    past = min(1.0, scales.travelled / scales.length)  # how much of them would be through the wall
+    return Judgement("way of the grains / gap to a wall", reach, 1.0, "geometry", past if reach >= 1.0 else 0.0)
 
 
 EFFECT = Effect(

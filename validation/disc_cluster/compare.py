@@ -124,3 +124,11 @@ def _profile(axes, reference, centre, radius) -> None:
     r = np.sqrt(((reference.centres[:, :2] - centre) ** 2).sum(axis=1))
     inside = r < radius
     axes.plot(r[inside] * 1e3, reference.fields[max(reference.fields)]["particle_temperature"][inside], "k.", ms=2, label="tfm cells")
+
+
+def metrics(run) -> dict[str, tuple]:
+    """For `sdph cost`: (value, closed form, scale) at the times of TIMES; rises by themselves, the gas by its whole change."""
+    start, lumped = run.history["centre_temperature_K"][0], _lumped(run.case)
+    span = abs(run.case.gas.temperature - run.case.particles["disc"].temperature)
+    rises = {f"rise at {t:g} s": (run.at("centre_temperature_K", t) - start, lumped(t)[0], lumped(t)[0]) for t in TIMES}
+    return rises | {f"gas at {t:g} s": (run.at("centre_gas_temperature_K", t), lumped(t)[1], span) for t in TIMES}
