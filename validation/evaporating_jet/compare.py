@@ -6,10 +6,12 @@ differently stands in README.md; `shares.py` beside this file measures the share
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
 import numpy as np
 
+from sdph.case import Coupling
 from sdph.compare import check
 
 ALIKE = 0.15  # of the evaporated mass, with the closures made alike (issue 4)
@@ -125,7 +127,13 @@ def _reference(run):
     nozzle, own = run.case.nozzles["jet"], run.case.parameters["evaporation"]
     slot = Slot(nozzle.centre[1], nozzle.width, nozzle.speed, nozzle.temperature, nozzle.volume_fraction)
     liquid = Liquid(own.onset_temperature, own.saturation_pressure, own.latent_heat)
-    return run_droplets(run.case, slot, liquid, run.folder / "dpm")
+    return run_droplets(_for_droplets(run.case), slot, liquid, run.folder / "dpm")
+
+
+def _for_droplets(case):
+    """The case less what the droplet solver knows nothing of, so that one run of it serves all of ours."""
+    ours = {"effects": (), "parameters": {}, "probes": {}, "track": (), "title": "", "coupling": Coupling()}
+    return dataclasses.replace(case, **ours, run=dataclasses.replace(case.run, metrics=(), report_at=()))
 
 
 def _figure(run, reference, number: int, what: str, label: str, times) -> None:
