@@ -50,6 +50,7 @@ def _parser() -> argparse.ArgumentParser:
     _run_options(_command(commands, "run", run, "run a scene, a case folder or a case file"))
     explain = _command(commands, "explain", explain_case, "what a case calls for, its limits and its cost, before it runs")
     _case_options(explain)
+    explain.add_argument("--measure", action="store_true", help="measure what each effect costs on this machine; minutes the first time")
     cost = _command(commands, "cost", cost_of_accuracy, "what accuracy costs in time: measures a ladder of settings, draws it")
     cost.add_argument("scene")
     cost.add_argument("--out", type=Path, help="folder (default: runs/cost/SCENE); goes on with what is there")
@@ -185,7 +186,12 @@ def explain_case(options) -> int:
     from sdph import explain, scenes
 
     case = cases.load(scenes.find(options.target)[1], tuple(options.set))
-    parts = explain.explain(case)
+    parts = {}
+    if options.measure:
+        from sdph import effect_costs
+
+        parts["cost of effects, bubbling bed"] = effect_costs.table(lambda text: print(text, file=sys.stderr, flush=True))
+    parts |= explain.explain(case)
     print(json.dumps(parts) if options.json else f"{case.title}\n\n{explain.text(parts)}")
     return FINE
 

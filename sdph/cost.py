@@ -183,7 +183,7 @@ def orders(own: Ladder, rows: list[dict]) -> dict[str, float]:
 def _distance(a: dict, b: dict) -> float:
     """Largest difference of two rows' metrics over their scale."""
     one, other = json.loads(a["metrics"]), json.loads(b["metrics"])
-    return max(abs(one[name][0] - other[name][0]) / abs(one[name][2]) for name in one)
+    return max(abs(one[name][0] - other[name][0]) / abs(one[name][2]) for name in one.keys() & other.keys())
 
 
 def cheapest(rows: list[dict], accuracy: float) -> dict | None:

@@ -40,7 +40,7 @@ class Speed(NamedTuple):
 
 
 # One core of the machine the shipped numbers were made on; `sdph explain --measure` replaces them by yours.
-SHIPPED = Speed(7.0, 1.0, 1.0, 20.0, "another machine; `sdph explain SCENE --measure` measures this one")
+SHIPPED = Speed(2.5, 0.4, 1.0, 2.0, "another machine; `sdph explain SCENE --measure` measures this one")
 
 
 def speed() -> Speed:

@@ -1,0 +1,30 @@
+"""An effect that is off leaves nothing behind: no parameters, no array, no field on the wire."""
+
+import pytest
+from builders import DISC
+
+from coupling.gas import SOURCES
+from sdph import case as cases
+from sdph import effect_costs, effects, particles, scenes
+from sdph.exchange import Exchange
+
+BED = cases.load(scenes.HERE / "bubbling_bed" / "case.toml", effect_costs.BED)
+
+
+@pytest.mark.parametrize("name", BED.effects)
+def test_off_leaves_nothing(name):
+    off = effect_costs._without(BED, name)
+    assert effects.kernel_of(effects.REGISTRY[name], off) == effects.OFF
+    needed = {array for other in off.effects for array in effects.REGISTRY[other].arrays}
+    state = particles.fill(off, needed)
+    for array in effects.REGISTRY[name].arrays:
+        assert bool(len(getattr(state, array))) == (array in needed)
+    sent = Exchange(off, effect_costs.Still(off).mesh, {row: () for row in effects.REGISTRY}).sources
+    for source in effects.REGISTRY[name].sources:
+        assert (source in sent) == any(source in effects.REGISTRY[other].sources for other in off.effects)
+
+
+def test_heat_alone_sends_no_momentum():
+    case = cases.load(DISC)
+    sent = Exchange(case, effect_costs.Still(case).mesh, {row: () for row in effects.REGISTRY}).sources
+    assert set(sent) == {"alpha_g", "heat", "heat_temperature"} <= SOURCES.keys()
