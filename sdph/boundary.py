@@ -19,7 +19,7 @@ class Boundary:
     """The dummies of a case and which of them each particle sees."""
 
     def __init__(self, case):
-        self.search = Neighbours(REACH * case.smoothing_length)
+        self.search = Neighbours(REACH * case.smoothing_length, case.domain.period)
         self.dummies = _sorted(case, dummies(case), self.search)
 
     def rows(self, state_axes):
@@ -37,7 +37,7 @@ def _sorted(case, table: np.ndarray, search: Neighbours) -> Dummies:
 
 
 def dummies(case) -> np.ndarray:
-    """(W, 7) place, normal, depth of all dummies of a case."""
+    """(W, 8) place, normal, depth, stick of all dummies of a case."""
     mesh = case.parameters["walls"].mesh
     parts = [_box(case)] + ([_mesh(mesh, case.resolution.spacing, case.dimensions)] if mesh else [])
     return np.concatenate(parts)
@@ -48,27 +48,37 @@ def _box(case) -> np.ndarray:
     d, spacing = case.dimensions, case.resolution.spacing
     counts = [max(1, round(length / spacing)) for length in case.domain.size]
     steps = [length / n for length, n in zip(case.domain.size, counts)]
-    ticks = [(np.arange(-LAYERS, n + LAYERS) + 0.5) * step for n, step in zip(counts, steps)]
+    layers = [0 if period else LAYERS for period in case.domain.period]
+    ticks = [(np.arange(-more, n + more) + 0.5) * step for n, step, more in zip(counts, steps, layers)]
     points = np.stack([m.ravel() for m in np.meshgrid(*ticks, indexing="ij")], axis=1)
     outside = np.stack([(points < 0.0), (points > case.domain.size)], axis=-1)  # (P, d, end)
     depth = np.maximum(-points, points - case.domain.size)
     closed = np.stack([_closed(case, points, side) for side in itertools.islice(SIDES, 2 * d)], axis=1).reshape(-1, d, 2)
     keep = outside.any(axis=(1, 2)) & (~outside | closed).all(axis=(1, 2))
-    table = np.zeros((int(keep.sum()), 7))
+    table = np.zeros((int(keep.sum()), 8))
     table[:, :d] = points[keep]
     single = outside[keep].sum(axis=(1, 2)) == 1
     table[:, 3 : 3 + d] = np.where(single[:, None], outside[keep, :, 0] * 1.0 - outside[keep, :, 1] * 1.0, 0.0)
     table[:, 6] = depth[keep].max(axis=1)
+    slips = np.stack([_behind(case, points, side, "slip_wall") for side in itertools.islice(SIDES, 2 * d)], axis=1).reshape(-1, d, 2)
+    table[:, 7] = (outside & ~slips)[keep].any(axis=(1, 2))  # in a corner the side that grips rules
     return table
 
 
 def _closed(case, points, side: str) -> np.ndarray:
     """Mask of the points in front of which a side holds grains back: all but pressure outlets do."""
+    return ~_behind(case, points, side, "pressure_outlet")
+
+
+def _behind(case, points, side: str, kind: str) -> np.ndarray:
+    """Mask of the points in front of which a side is a boundary of `kind`."""
     axis, _ = SIDES[side]
-    mask = np.ones(len(points), bool)
-    for boundary in case.boundaries.values():
-        if boundary.side == side and boundary.kind == "pressure_outlet":
-            mask &= ~_within(points, axis, boundary.span)
+    mask, rank = np.zeros(len(points), bool), np.zeros(len(points), int)
+    for boundary in case.boundaries.values():  # a span before a whole side before what is left over
+        if boundary.side in (side, None):
+            level = 1 if boundary.side is None else 2 if boundary.span is None else 3
+            own = _within(points, axis, boundary.span) & (rank < level)
+            mask[own], rank[own] = boundary.kind == kind, level
     return mask
 
 
@@ -94,7 +104,8 @@ def _mesh(path: str, spacing: float, dimensions: int) -> np.ndarray:
         raise CaseError(f"walls.mesh = {path!r} holds no cells of type {kind}; a wall in {dimensions}-D is made of them")
     corners = np.asarray(mesh.points, float)[mesh.cells_dict[kind]][:, :, :dimensions]
     parts = [_facet(facet, spacing) for facet in corners]
-    table = np.zeros((sum(len(points) for points, _ in parts) * LAYERS, 7))
+    table = np.zeros((sum(len(points) for points, _ in parts) * LAYERS, 8))
+    table[:, 7] = 1.0
     surface = np.concatenate([points for points, _ in parts])
     normal = np.concatenate([np.tile(n, (len(points), 1)) for points, n in parts])
     for layer in range(LAYERS):

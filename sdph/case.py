@@ -34,10 +34,19 @@ class Run:
 
 @record
 class Domain:
-    """The box from the origin that holds the gas; `gravity` has as many components as the case has dimensions."""
+    """The box from the origin that holds the gas; `gravity` has as many components as the case has dimensions.
+
+    Grains that leave through a `periodic` side come in again on the other one. No gas solver does that.
+    """
 
     size: tuple = vector("m")
     gravity: tuple = vector("m_s2")
+    periodic: tuple = words(())  # axes: "x", "y", "z"
+
+    @property
+    def period(self) -> tuple[float, float, float]:
+        """Length [m] along the periodic axes, 0 along the others."""
+        return tuple(length if axis in self.periodic else 0.0 for axis, length in zip("xyz", (*self.size, 0.0)))
 
 
 @record
@@ -286,12 +295,22 @@ def _check(case: Case) -> None:
             raise CaseError(f"{key} has {len(value)} components; dimensions = {case.dimensions} asks for {case.dimensions}")
     if min(case.domain.size) <= 0.0:
         raise CaseError(f"domain.size_m = {list(case.domain.size)}; every length must be above 0")
+    _check_period(case)
     if any(isinstance(t, tuple) or t <= 0.0 for t in case.run.report_at):
         raise CaseError(f"run.report_at_s = {list(case.run.report_at)}; it must be a list of times above 0")
     for name, region in case.particles.items():
         _check_region(case, name, region)
     for name, probe in case.probes.items():
         _inside(case, f"probes.{name}", probe.at, probe.at)
+
+
+def _check_period(case: Case) -> None:
+    axes, least = "xyz"[: case.dimensions], 4.0 * case.smoothing_length  # two reaches, or an image would be missed
+    for axis in case.domain.periodic:
+        if axis not in axes:
+            raise CaseError(f"domain.periodic holds {axis!r}; allowed: {', '.join(axes)}")
+        if case.domain.period[axes.index(axis)] < least:
+            raise CaseError(f"domain.size_m is below {least:g} m along {axis}, which is periodic; lengthen it or take finer grains")
 
 
 def _check_region(case: Case, name: str, region: Region) -> None:

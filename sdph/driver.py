@@ -56,6 +56,8 @@ def open_gas(case, folder: Path, template: Path | None, status, allow_code: bool
 
     `template` None goes on with the OpenFOAM case that is in `folder`.
     """
+    if case.domain.periodic:
+        raise CaseError(f"domain.periodic = {list(case.domain.periodic)}, but no gas solver has periodic sides; leave it out")
     chosen = case.coupling.gas
     if chosen == "auto":
         from coupling.openfoam import install

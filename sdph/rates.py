@@ -71,14 +71,14 @@ def sum_density(kernel, s, rows, box, walls_p, dummies, wall_rows, density):
         for k in range(rows.count[i]):
             r2 = separation(s, box, i, rows.index[i, k])[3]
             rho += s.mass[rows.index[i, k]] * kernels.cubic_spline(np.sqrt(r2), kernel.h, kernel.sigma)
-        density[i] = rho / walls.closure(walls_p, dummies, wall_rows, s, i, kernel)
+        density[i] = rho / walls.closure(walls_p, box, dummies, wall_rows, s, i, kernel)
 
 
 @loop
-def strain(kernel, s, rows, box, shear_squared, divergence):
+def strain(kernel, s, rows, box, walls_p, dummies, wall_rows, shear_squared, divergence):
     """I2D = dev(D):dev(D)/2 [1/s2] and div v [1/s] of the grains; D_ab = sym sum V_j (v_j - v_i)_a dW/dx_b."""
     for i in prange(len(s.x)):
-        xx = yy = zz = xy = yz = zx = 0.0
+        xx, yy, zz, xy, yz, zx = walls.strain(walls_p, kernel, box, dummies, wall_rows, s, i)
         for k in range(rows.count[i]):
             j = rows.index[i, k]
             dx, dy, dz, r2 = separation(s, box, i, j)
@@ -142,7 +142,7 @@ def rates(
 ):  # fmt: skip
     """Of grains that move: acceleration (N, 3) [m/s2], agitation (N,) [W/kg] that feeds theta, heating (N,) [W/kg]."""
     for i in prange(len(s.x)):
-        ax, ay, az = walls.force(walls_p, kernel, dummies, wall_rows, s, i, pressure, stress.shear, wall_pressure, wall_velocity)
+        ax, ay, az = walls.force(walls_p, kernel, box, dummies, wall_rows, s, i, pressure, stress.shear, wall_pressure, wall_velocity)
         work = warmth = 0.0
         rho_i = s.density[i]
         for k in range(rows.count[i]):

@@ -31,7 +31,7 @@ class Stepper:
     def __init__(self, case, parameters, state, source=None):
         self.case, self.parameters, self.state, self.source = case, parameters, state, source
         self.kernel, self.guard = rates.kernel_of(case), Guard(case)
-        self.neighbours = Neighbours(REACH * case.smoothing_length)
+        self.neighbours = Neighbours(REACH * case.smoothing_length, case.domain.period)
         self.boundary = Boundary(case) if parameters["walls"] else None
         on = parameters["granular_viscosity"] or parameters["friction"]
         self.viscous = Viscous(float(case.dimensions)) if on else OFF
@@ -41,8 +41,6 @@ class Stepper:
 
     def revive(self) -> None:
         """After a checkpoint was put back."""
-        if not self.neighbours.built:  # particles came or went: the next step begins with new rows
-            return
         self.rows = self.neighbours.rows
         if self.boundary:
             self.wall_rows = self.boundary.rows(self.neighbours.built)
@@ -108,7 +106,7 @@ class Stepper:
         s, p, count = self.state, self.parameters, len(self.state.x)
         shear_squared, divergence = np.zeros(count), np.zeros(count)
         if p["friction"] or (p["granular_temperature"] and p["granular_temperature"].model == 1):
-            rates.strain(self.kernel, s, self.rows, self.neighbours.box, shear_squared, divergence)
+            rates.strain(self.kernel, s, self.rows, self.neighbours.box, *self._walls(), shear_squared, divergence)
         stress = self._stress(dt, shear_squared)
         pressure = stress.kinetic_pressure + stress.friction_pressure
         wall_pressure, wall_velocity = self._extrapolate(pressure, body)
@@ -144,7 +142,7 @@ class Stepper:
         count = len(self.boundary.dummies.x)
         weight, wall_pressure, wall_velocity = np.empty(count), np.empty(count), np.empty((count, 3))
         walls.extrapolate(
-            self.kernel, self.boundary.dummies, self.wall_rows, self.state, pressure, body, weight, wall_pressure, wall_velocity
+            self.kernel, self.neighbours.box, self.boundary.dummies, self.wall_rows, self.state, pressure, body, weight, wall_pressure, wall_velocity
         )
         return wall_pressure, wall_velocity
 
@@ -176,7 +174,7 @@ class Stepper:
         if self.source:
             self.source.release(s)
         if self.boundary:
-            self.contacts += walls.contact(self.parameters["walls"], self.boundary.dummies, self.wall_rows, s)
+            self.contacts += walls.contact(self.parameters["walls"], self.neighbours.box, self.boundary.dummies, self.wall_rows, s)
 
     def _walls(self):
         """Parameters, dummies and rows of the walls for kernels."""

@@ -1,9 +1,10 @@
 """Walls for the grains: dummy particles (Adami, Hu & Adams 2012), contact, and the paper's penalty force.
 
 Dummies stand in three layers behind the surface. They close the kernel in the density, push back with a pressure
-extrapolated from the grains in front of them, and drag with a mirrored velocity (no slip), a share of it
-(specularity, Johnson & Jackson 1987) or not at all. Pressure vanishes where grains are few, so a grain that comes
-closer than `contact` to the surface is stopped there: its normal velocity is reversed with `restitution`.
+extrapolated from the grains in front of them, and drag with a mirrored velocity (no slip), with as much of it as
+leaves the stress of Johnson & Jackson 1987 at the wall, or not at all (`specularity` 0, or a side of the domain that is
+a slip_wall). Pressure vanishes where grains are few, so a grain that comes closer than `contact` to the surface is
+stopped there: its normal velocity is reversed with `restitution`.
 """
 
 from __future__ import annotations
@@ -15,35 +16,42 @@ import numpy as np
 from numba import njit
 
 from sdph.effects.effect import Effect, Judgement
-from sdph.laws import kernels
+from sdph.laws import granular, kernels
+from sdph.neighbours import nearest_image
 from sdph.schema import choice, quantity, record, words
 
 MODELS = ("dummy", "paper")
+NO_SLIP = -1.0
 CONTACT = 0.25  # spacings between a particle and the surface at which they touch; our choice, half of the start's
 
 
 @record
 class Walls:
     model: str = choice(*MODELS)
-    specularity: float = quantity("", 1.0, least=0.0, most=1.0)  # 1 no slip, 0 free slip
+    specularity: float | None = quantity("", None, least=0.0, most=1.0)  # share of collisions that are diffuse; None: no slip
     restitution: float = quantity("", 0.0, least=0.0, most=1.0)  # of a contact; SPH particles are many grains: no bounce
     penalty: float = quantity("", 1.0, above=0.0)  # eps of the paper's force in grain densities times sqrt(g h)/h; not given there
     mesh: str = words("")  # surface mesh that meshio reads, in metres, normals towards the grains
 
 
 class WallsP(NamedTuple):
-    """Specularity, restitution, contact distance [m], volume of a dummy [m^d], penalty [1/s], 1 for the paper's force."""
+    """Specularity (-1: no slip), restitution, contact distance and spacing [m], volume of a dummy [m^d], penalty [1/s],
+    1 for the paper's force, packing limit, grain density [kg/m3]."""
 
     specularity: float
     restitution: float
     contact: float
+    spacing: float
     volume: float
     penalty: float
     paper: int
+    packing: float
+    grain_density: float
 
 
 class Dummies(NamedTuple):
-    """W dummies: place [m], unit normal (0 in corners, where two walls meet), depth behind the surface [m]."""
+    """W dummies: place [m], unit normal (0 in corners, where two walls meet), depth behind the surface [m], 0 where
+    the surface lets grains slip and else 1."""
 
     x: np.ndarray
     y: np.ndarray
@@ -52,42 +60,71 @@ class Dummies(NamedTuple):
     normal_y: np.ndarray
     normal_z: np.ndarray
     depth: np.ndarray
+    stick: np.ndarray
 
 
 def kernel(case) -> WallsP:
     own, spacing = case.parameters["walls"], case.resolution.spacing
     gravity = float(np.linalg.norm(case.domain.gravity)) or 1.0
     penalty = own.penalty * np.sqrt(gravity / case.smoothing_length)
-    paper = MODELS.index(own.model)
-    return WallsP(own.specularity, own.restitution, CONTACT * spacing, spacing**case.dimensions, penalty, paper)
+    specularity = NO_SLIP if own.specularity is None else own.specularity
+    return WallsP(
+        specularity, own.restitution, CONTACT * spacing, spacing, spacing**case.dimensions, penalty, MODELS.index(own.model),
+        case.grains.packing_limit, case.grains.density,
+    )  # fmt: skip
 
 
 @njit(cache=True, error_model="numpy")
-def closure(p, dummies, rows, s, i, kernel):
+def closure(p, box, dummies, rows, s, i, kernel):
     """Share of the kernel of particle i that lies among grains: 1 - sum V W over dummies."""
     if len(p) == 0:
         return 1.0
     share = 1.0
     for k in range(rows.count[i]):
-        share -= p.volume * kernels.cubic_spline(distance(dummies, rows.index[i, k], s, i), kernel.h, kernel.sigma)
+        share -= p.volume * kernels.cubic_spline(distance(box, dummies, rows.index[i, k], s, i), kernel.h, kernel.sigma)
     return share
 
 
 @njit(cache=True, error_model="numpy")
-def offset(dummies, w, s, i):
-    """r_i - r_w, three components."""
+def offset(box, dummies, w, s, i):
+    """r_i - r_w, three components, through periodic boundaries."""
     dz = s.z[i] - dummies.z[w] if len(s.z) else 0.0
-    return s.x[i] - dummies.x[w], s.y[i] - dummies.y[w], dz
+    return nearest_image(box, s.x[i] - dummies.x[w], s.y[i] - dummies.y[w], dz)
 
 
 @njit(cache=True, error_model="numpy")
-def distance(dummies, w, s, i):
-    dx, dy, dz = offset(dummies, w, s, i)
+def distance(box, dummies, w, s, i):
+    dx, dy, dz = offset(box, dummies, w, s, i)
     return np.sqrt(dx * dx + dy * dy + dz * dz)
 
 
 @njit(cache=True, error_model="numpy")
-def extrapolate(kernel, dummies, rows, s, pressure, body, weight, wall_pressure, wall_velocity):
+def strain(p, kernel, box, dummies, rows, s, i):
+    """What walls that grip add to the rate of strain (xx, yy, zz, xy, yz, zx) [1/s] of particle i: dummies that move
+    against it as fast along the wall. So friction yields at a wall as it does inside."""
+    xx = yy = zz = xy = yz = zx = 0.0
+    if len(p) == 0 or p.specularity == 0.0:
+        return xx, yy, zz, xy, yz, zx
+    for k in range(rows.count[i]):
+        w = rows.index[i, k]
+        dx, dy, dz = offset(box, dummies, w, s, i)
+        nx, ny, nz = dummies.normal_x[w], dummies.normal_y[w], dummies.normal_z[w]
+        vz = s.w[i] if len(s.z) else 0.0
+        towards = s.u[i] * nx + s.v[i] * ny + vz * nz
+        du, dv, dw = 2.0 * (s.u[i] - towards * nx), 2.0 * (s.v[i] - towards * ny), 2.0 * (vz - towards * nz)
+        r = np.sqrt(dx * dx + dy * dy + dz * dz)
+        g = -p.volume * dummies.stick[w] * kernels.cubic_spline_gradient(r, kernel.h, kernel.sigma)
+        xx += g * du * dx
+        yy += g * dv * dy
+        zz += g * dw * dz
+        xy += 0.5 * g * (du * dy + dv * dx)
+        yz += 0.5 * g * (dv * dz + dw * dy)
+        zx += 0.5 * g * (dw * dx + du * dz)
+    return xx, yy, zz, xy, yz, zx
+
+
+@njit(cache=True, error_model="numpy")
+def extrapolate(kernel, box, dummies, rows, s, pressure, body, weight, wall_pressure, wall_velocity):
     """Pressure and mean velocity of the grains at the dummies: Adami et al. 2012, Eq. 23 and 27.
 
     body (N, 3) [m/s2] is what acts on the grains from outside. A pressure below zero is taken as zero: grains do not
@@ -97,7 +134,7 @@ def extrapolate(kernel, dummies, rows, s, pressure, body, weight, wall_pressure,
     for i in range(len(s.x)):
         for k in range(rows.count[i]):
             w = rows.index[i, k]
-            dx, dy, dz = offset(dummies, w, s, i)
+            dx, dy, dz = offset(box, dummies, w, s, i)
             value = kernels.cubic_spline(np.sqrt(dx * dx + dy * dy + dz * dz), kernel.h, kernel.sigma)
             weight[w] += value
             hydrostatic = -(body[i, 0] * dx + body[i, 1] * dy + body[i, 2] * dz) * s.density[i]
@@ -113,14 +150,29 @@ def extrapolate(kernel, dummies, rows, s, pressure, body, weight, wall_pressure,
 
 
 @njit(cache=True, error_model="numpy")
-def force(p, kernel, dummies, rows, s, i, pressure, shear, wall_pressure, wall_velocity):
+def grip(p, dummies, w, s, i, dx, dy, dz, shear):
+    """Share of the no-slip stress: y/(y + b) at the distance y from the wall, with the slip length b = mu/k of
+
+    tau = k v, k = phi pi rho_p alpha_p g0 sqrt(3 theta)/(6 alpha_max). Johnson & Jackson 1987, J. Fluid Mech. 176, 67.
+    """
+    if p.specularity < 0.0 or dummies.stick[w] == 0.0 or len(s.theta) == 0:
+        return dummies.stick[w] * (p.specularity != 0.0)
+    y = max(dx * dummies.normal_x[w] + dy * dummies.normal_y[w] + dz * dummies.normal_z[w] - dummies.depth[w], p.contact)
+    a = granular.capped_fraction(s.density[i] / p.grain_density, p.packing)
+    g0 = granular.sinclair_jackson(a, p.packing)
+    k = p.specularity * np.pi * p.grain_density * a * g0 * np.sqrt(3.0 * s.theta[i]) / (6.0 * p.packing)
+    return k * y / (k * y + shear) if k > 0.0 else 0.0
+
+
+@njit(cache=True, error_model="numpy")
+def force(p, kernel, box, dummies, rows, s, i, pressure, shear, wall_pressure, wall_velocity):
     """Acceleration [m/s2] of particle i by the wall."""
     ax, ay, az = 0.0, 0.0, 0.0
     if len(p) == 0:
         return ax, ay, az
     for k in range(rows.count[i]):
         w = rows.index[i, k]
-        dx, dy, dz = offset(dummies, w, s, i)
+        dx, dy, dz = offset(box, dummies, w, s, i)
         r = np.sqrt(dx * dx + dy * dy + dz * dz)
         vz = s.w[i] if len(s.z) else 0.0
         if p.paper == 1:  # f/rho = -eps 2h sum (v.n) W A n / r, where v.n < 0; A = dx^(d-1), eps = penalty rho
@@ -134,15 +186,18 @@ def force(p, kernel, dummies, rows, s, i, pressure, shear, wall_pressure, wall_v
             gradient = kernels.cubic_spline_gradient(r, kernel.h, kernel.sigma)
             push = -p.volume / s.density[i] * (pressure[i] + wall_pressure[w]) * gradient
             # mirrored velocity 2 v_wall - <v>: against a wall at rest v_i + <v>; Morris' form of the viscous force
-            stick = 2.0 * p.specularity * p.volume / s.density[i] * shear[i] * gradient
-            ax += push * dx + stick * (s.u[i] + wall_velocity[w, 0])
-            ay += push * dy + stick * (s.v[i] + wall_velocity[w, 1])
-            az += push * dz + stick * (vz + wall_velocity[w, 2])
+            stick = 2.0 * grip(p, dummies, w, s, i, dx, dy, dz, shear[i]) * p.volume / s.density[i] * shear[i] * gradient
+            nx, ny, nz = dummies.normal_x[w], dummies.normal_y[w], dummies.normal_z[w]
+            along = push * (dx * nx + dy * ny + dz * nz)  # pressure acts along the normal: a row of dummies is no row of teeth
+            corner = push * (1.0 - (nx * nx + ny * ny + nz * nz))
+            ax += along * nx + corner * dx + stick * (s.u[i] + wall_velocity[w, 0])
+            ay += along * ny + corner * dy + stick * (s.v[i] + wall_velocity[w, 1])
+            az += along * nz + corner * dz + stick * (vz + wall_velocity[w, 2])
     return ax, ay, az
 
 
 @njit(cache=True, error_model="numpy")
-def contact(p, dummies, rows, s):
+def contact(p, box, dummies, rows, s):
     """Stops particles that came closer than `contact` to a surface; returns how many did.
 
     The place is put back to the contact distance, the normal velocity reversed with the restitution.
@@ -152,10 +207,12 @@ def contact(p, dummies, rows, s):
         before = touched
         for k in range(rows.count[i]):
             w = rows.index[i, k]
-            dx, dy, dz = offset(dummies, w, s, i)
+            dx, dy, dz = offset(box, dummies, w, s, i)
             nx, ny, nz = dummies.normal_x[w], dummies.normal_y[w], dummies.normal_z[w]
-            inside = p.contact - (dx * nx + dy * ny + dz * nz - dummies.depth[w])
-            if inside <= 0.0 or nx * nx + ny * ny + nz * nz == 0.0:
+            height = dx * nx + dy * ny + dz * nz
+            aside = dx * dx + dy * dy + dz * dz - height * height
+            inside = p.contact - (height - dummies.depth[w])
+            if inside <= 0.0 or aside > p.spacing * p.spacing or nx * nx + ny * ny + nz * nz == 0.0:
                 continue
             s.x[i] += inside * nx
             s.y[i] += inside * ny

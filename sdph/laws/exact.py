@@ -89,6 +89,15 @@ def dusty_box(t: float, v_g: float, v_d: float, rho_g: float, rho_d: float, K: f
     return mean - rho_d / (rho_g + rho_d) * slip, mean + rho_g / (rho_g + rho_d) * slip
 
 
+def quadratic_slip(t: float, slip: float, linear: float, quadratic: float) -> float:
+    """s(t) [m/s] of ds/dt = -(A + B s) s: the dusty box under Ergun's drag; A [1/s], B [1/m], either may be 0.
+
+    1/s(t) = exp(A t)/s_0 + B (exp(A t) - 1)/A. Laibe & Price 2011 (DUSTYBOX, non-linear drag).
+    """
+    stretch = math.expm1(linear * t) / linear if linear > 0.0 else t
+    return slip / (math.exp(linear * t) + quadratic * slip * stretch)
+
+
 def dusty_wave_roots(wavenumber: float, c: float, rho_g: float, rho_d: float, K: float) -> np.ndarray:
     """The three s (3,) [1/s], by imaginary part, of sound exp(st + ikx) in dusty gas; c [m/s] of the gas alone.
 
