@@ -246,6 +246,17 @@ class Exchange:
             refused=float(handed.loss.refused.sum()),
         )  # fmt: skip
 
+    def grip(self, state, handed: Handed) -> float:
+        """Rate [1/s] at which gas that cannot give way stops grains that move as one, mean by mass.
+
+        With alpha_g v_g + alpha_p v_p given, drag and pressure gradient together are beta/alpha_g^2 v_p: the rate is
+        beta/(alpha_g^2 alpha_p rho_p). 0 where the gas does not feel the volume of the grains.
+        """
+        if not self.parameters["gas_pressure"] or self.case.coupling.one_way or len(state.x) == 0:
+            return 0.0
+        alpha_p = np.minimum(state.density / self.case.grains.density, self.case.grains.packing_limit)
+        return float(np.average(handed.damping / (1.0 - alpha_p) ** 2, weights=state.mass))
+
     def settle(self, state, handed: Handed) -> None:
         """Take from the particles what evaporated."""
         if handed.loss:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sdph import bubble, jet
+from sdph import bubble, column, jet
 from sdph.schema import CaseError
 
 
@@ -17,7 +17,7 @@ def bed_in_the_end(rows: list[dict]) -> dict[str, float]:
     return {"detachment_time_s": bubble.detachment([row["time_s"] for row in rows], rows)}
 
 
-AT_OUTPUTS = {"bubble": bed, "jet": jet.metrics}
+AT_OUTPUTS = {"bubble": bed, "column": column.metrics, "jet": jet.metrics}
 IN_THE_END = {"bubble": bed_in_the_end}
 
 

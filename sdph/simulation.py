@@ -10,7 +10,7 @@ from coupling.transfer import Transfer, gather
 from sdph import effects, particles
 from sdph.effects.inflow import Source
 from sdph.effects.outflow import leaving
-from sdph.exchange import Exchange
+from sdph.exchange import INSTANT, Exchange
 from sdph.ledger import vector
 from sdph.particles import GRAIN, INFLOW
 from sdph.step import Held, Stepper
@@ -56,6 +56,7 @@ class Simulation:
             rate, stake, thickening = self.exchange.pace(self.state, self.weights, self.gas_state)
             self.clock.begin(rate, stake)
             self.clock.thicken(1.0, thickening)
+            self.clock.hold(self.exchange.grip(self.state, self._hand(INSTANT)))
         self.ledger.open(self.grains, self.gas_state.budget)
         self.received = None  # heat rate [W] of each particle from the gas in the last window
 
@@ -74,6 +75,7 @@ class Simulation:
         self.gas_state = self._timed("gas", self.gas.advance, dt, sources)
         self.stepper.guard.gas(self)
         taken = self._timed("exchange", self.exchange.take, handed, self.gas_state)
+        self.clock.hold(self.exchange.grip(self.state, handed))
         self.exchange.settle(self.state, handed)
         inside = self.state.kind == GRAIN
         self.received = Held(self.state, taken.heat / dt)

@@ -13,6 +13,7 @@ import numpy as np
 
 SAFETY, GROWTH, SHRINK = 0.9, 2.0, 0.3  # usual bounds of a step controller (Hairer, Norsett & Wanner, II.4); our choice
 VAPOUR = 0.1  # of the gas in a cell: most vapour that comes into it in a window, so that it is carried away as it comes; our choice
+GRIP = 0.1  # of the time in which gas stops a bed, most that its force may be held: a held force drives the bed's oscillations; our choice
 SAME = 1e-9  # of the end time: landmarks nearer to each other than this differ by round-off only
 
 
@@ -86,6 +87,11 @@ class Window:
         """In `dt` [s] vapour came into a cell of gas that was `share` of what was there, or would at the rate of now."""
         if share > 0.0:
             self.limits["evaporation"] = dt * min(GROWTH, VAPOUR / share)
+
+    def hold(self, grip: float) -> None:
+        """Gas that cannot give way stops grains that move as one at the rate `grip` [1/s]."""
+        if grip > 0.0:
+            self.limits["grip"] = GRIP / grip
 
     def stake(self, heat: float) -> None:
         """There is `heat` [J] to exchange now."""
