@@ -59,6 +59,7 @@ def _parser() -> argparse.ArgumentParser:
     stress = _command(commands, "stress", stress_cases, "hard cases that must stay stable; exit code 1 if one does not")
     stress.add_argument("case", nargs="*", help="hard cases (default: all under validation/stress)")
     stress.add_argument("--fast", action="store_true", help="only those that CI runs")
+    stress.add_argument("--faults", type=int, nargs="?", const=50, metavar="N", help="kill, starve and stop runs at N random moments (50)")
     stress.add_argument("--map", action="store_true", help="measure how far beyond its limits each effect stays stable")
     compare = _command(commands, "compare", compare_run, "a run against a reference; exit code 1 outside tolerance")
     compare.add_argument("run", type=Path)
@@ -208,6 +209,10 @@ def cost_of_accuracy(options) -> int:
 
 
 def stress_cases(options) -> int:
+    if options.faults is not None:
+        from sdph import faults
+
+        return FINE if all(check["ok"] for check in faults.run(options.faults)) else CHECK_FAILED
     from sdph import stress, stress_map
 
     if options.map:

@@ -68,15 +68,14 @@ class Site:
         return subprocess.Popen(self.command(*words), env=variables, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
 
-def run(moments: int, as_json: bool = False) -> list[dict]:
+def run(moments: int) -> list[dict]:
     """`moments` random kills and every other fault once; rows as `sdph stress` prints them."""
     with tempfile.TemporaryDirectory(prefix="sf-") as scratch:
         site = _site(Path(scratch))
         chance = random.Random(1)
         checks = [_killed(site, chance, number) for number in range(moments)]
         checks += [fault(site) for fault in (_terminated, _interrupted, _second_run, _full_disk, _read_only, _clock_back)]
-    if not as_json:
-        print("\n".join(f"{'ok' if c['ok'] else 'FAILED':8s}{c['name']:44s}{c['detail']}" for c in checks))
+    print("\n".join(f"{'ok' if c['ok'] else 'FAILED':8s}{c['name']:44s}{c['detail']}" for c in checks))
     return checks
 
 
