@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import math
+import shutil
 import time
 from pathlib import Path
 
@@ -14,6 +15,9 @@ from sdph.interruption import Stopped, listening
 from sdph.ledger import Ledger
 from sdph.schema import CaseError
 from sdph.simulation import Simulation
+
+
+FULL = 2**16  # bytes: with less, programs that do not say why they failed have failed for lack of room
 
 
 def run(case, name: str, folder: Path, gas_folder: Path | None, reporter, *, allow_code: bool = False) -> dict:
@@ -128,6 +132,8 @@ class Run:
     def failed(self, error: BaseException) -> BaseException:
         """The error with a note on how to go on; failure.json keeps what happened."""
         checkpoint = restart.newest(self.folder)
+        if shutil.disk_usage(self.folder).free < FULL:
+            error.add_note(f"(No space left on the disk of {self.folder})")
         if checkpoint:
             error.add_note(f"(last checkpoint: {checkpoint.folder}; go on with: sdph run --resume {self.folder})")
         time_s = self.simulation.time if self.simulation else 0.0
