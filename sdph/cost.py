@@ -139,7 +139,7 @@ def read(file: Path) -> list[dict]:
 def _append(file: Path, row: dict) -> None:
     file.parent.mkdir(parents=True, exist_ok=True)
     with open(file, "a", newline="", encoding="utf-8") as opened:
-        writer = csv.DictWriter(opened, row.keys())
+        writer = csv.DictWriter(opened, row.keys(), lineterminator="\n")
         if file.stat().st_size == 0:
             writer.writeheader()
         writer.writerow(row)
