@@ -30,7 +30,7 @@ def run(end: float, spacing: float, window: float) -> dict[str, float]:
     overrides = (
         f"run.end_time_s={end}", f"run.output_interval_s={end}", "track.particles=[]",
         f"resolution.spacing_mm={spacing}", f"resolution.cell_mm={2.0 * spacing}",
-        "boundaries.jet.span_m=[0.2,0.28]", "boundaries.jet.velocity_m_s=[0.0,1.875]",
+        "domain.size_m=[0.48,0.96]", "particles.bed.upper_m=[0.48,0.48]", "boundaries.jet.span_m=[0.2,0.28]", "boundaries.jet.velocity_m_s=[0.0,1.875]",
         f"coupling.window_largest_s={window}", "coupling.window_tolerance=1e30", "coupling.courant=1e30",
     )  # fmt: skip
     case = cases.load(scenes.HERE / "bubbling_bed" / "case.toml", overrides)
