@@ -69,7 +69,8 @@ class Neighbours:
 
     def revive(self) -> None:
         """The rows of a checkpoint that was put back: those of the last build."""
-        self.rows = self._rows(self._grid(self.built), self.built)
+        if self.built:
+            self.rows = self._rows(self._grid(self.built), self.built)
 
     def update(self, state):
         """The state (reordered where the list had to be rebuilt) and its rows."""
