@@ -41,6 +41,8 @@ class Stepper:
 
     def revive(self) -> None:
         """After a checkpoint was put back."""
+        if not self.neighbours.built:  # particles came or went: the next step begins with new rows
+            return
         self.rows = self.neighbours.rows
         if self.boundary:
             self.wall_rows = self.boundary.rows(self.neighbours.built)
