@@ -142,8 +142,10 @@ def _second_run(site: Site) -> dict:
     folder = site.scratch / "second"
     first = site.start(folder)
     _wait_for(first, folder / "history.csv")
+    first.send_signal(signal.SIGSTOP)  # so that it is not done before the others have come
     others = [site.start(folder), site.start(folder, resume=True)]
     said = [other.communicate(timeout=PATIENCE)[1] for other in others]
+    first.send_signal(signal.SIGCONT)
     first.communicate(timeout=PATIENCE)
     named = first.returncode == 0 and [o.returncode for o in others] == [2, 2] and "another run" in said[0] and "in use" in said[1]
     return _verdict(site, folder, "a second run in the same folder", named, " | ".join(said))
