@@ -1,0 +1,46 @@
+"""Sphere that drains while it is shaken: mass against the command, moment against r_c x F, force against a linear estimate."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import numpy as np
+
+from sdph.compare import check
+
+LINEAR = 0.3  # of the peak: what the estimate (one mode, small waves) is good for, its source says
+AXES = ("x", "y", "z")
+
+
+def exact(run) -> list[dict]:
+    h, own = run.history, run.case.parameters["tank"]
+    particle = run.case.liquid.density * run.case.resolution.spacing**3
+    force = np.stack([h[f"mean_force_{a}_N"] for a in AXES], axis=1)
+    moment = np.stack([h[f"mean_moment_{a}_Nm"] for a in AXES], axis=1)
+    shaken = h["time_s"] > run.case.parameters["frame"].start
+    lever = np.cross(np.array(own.centre), force)[shaken]
+    miss = np.sqrt(((moment[shaken] - lever) ** 2).sum(axis=1).mean() / (lever**2).sum(axis=1).mean())
+    checks = [
+        check("drained less commanded, largest, over a particle", np.abs(h["drained_kg"] - h["commanded_kg"]).max() / particle, 0.0, 1e-6),
+        check("moment less r_c x F, rms over rms", miss, 0.0, 0.01),
+    ]
+    linear = _linear()
+    time = h["time_s"][shaken] - run.case.parameters["frame"].start
+    own_x = _smooth(force[shaken, 0], 0.2 / np.diff(time).mean())
+    peak = np.abs(np.interp(time, linear["t"], linear["Fx_N"])).max()
+    checks.append(check("peak of F_x, filtered over 0.2 s [N]", np.abs(own_x).max(), peak, LINEAR, True))
+    weight = np.interp(time, linear["t"], linear["Fz_static_N"])
+    checks.append(check("mean F_z over the weight", force[shaken, 2].mean() / weight.mean(), 1.0, 0.05))
+    return checks
+
+
+def _linear() -> dict[str, np.ndarray]:
+    with open(Path(__file__).parent / "linear_force.csv", encoding="utf-8") as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    return {key: np.array([float(row[key]) for row in rows]) for key in rows[0]}
+
+
+def _smooth(values, width: float):
+    count = max(1, round(width))
+    return np.convolve(values, np.ones(count) / count, mode="same")
