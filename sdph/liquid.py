@@ -5,7 +5,7 @@ from __future__ import annotations
 from sdph.schema import choice, quantity, record, vector
 from sdph.smoothing import NAMES
 
-LIQUID, LIGHT = 2, 3  # values of `State.kind`: the liquid, and the lighter fluid of two
+LIQUID = 2  # value of `State.kind`
 
 
 @record
@@ -41,4 +41,3 @@ class Pool:
     velocity: tuple | None = vector("m_s", None)
     flow: str = choice("uniform", "rotation", "taylor_green")
     speed: float = quantity("m_s", 0.0)  # of taylor_green: its amplitude; of rotation: at half the box's side
-    phase: str = choice("liquid", "light")

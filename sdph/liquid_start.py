@@ -10,7 +10,7 @@ from sdph import particles, tank_shapes
 from sdph.effects import tank
 from sdph.laws import eos
 from sdph.laws.liquids import square_patch_pressure, taylor_green
-from sdph.liquid import LIGHT, LIQUID
+from sdph.liquid import LIQUID
 from sdph.particles import WALL
 from sdph.schema import CaseError
 
@@ -54,7 +54,7 @@ def _pool(case, pool) -> particles.State:
     if pool.shape == "box":  # the lattice is fitted to the box
         volume = math.prod(b - a for a, b in zip(pool.lower, pool.upper)) / len(points)
     state = _placed(case, points)
-    state.kind[:] = LIGHT if pool.phase == "light" else LIQUID
+    state.kind[:] = LIQUID
     pressure = _pressure(case, pool, points) + case.liquid.background_pressure
     liquid = case.liquid
     state.density[:] = eos.tait_density(pressure, liquid.density, liquid.sound_speed, liquid.exponent, liquid.background_pressure)
