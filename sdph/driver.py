@@ -27,9 +27,9 @@ def run(case, name: str, folder: Path, gas_folder: Path | None, reporter, *, all
     with `allow_code`; `reporter` shows progress.
     """
     if case.liquid:
-        from sdph import liquid_run
+        from sdph.liquid import run as liquid
 
-        return liquid_run.run(case, folder, reporter)
+        return liquid.run(case, folder, reporter)
     template = gas_folder or paths.gas_template(case.scene or name)
     with output.claimed(output.create(folder)):
         output.write_origin(folder, gas_template=str(template.resolve()), allow_code=allow_code)

@@ -11,9 +11,9 @@ from sdph.laws import heat
 def explain(case) -> dict[str, list[dict]]:
     """All parts, each a list of rows (name -> value) of one table."""
     if case.liquid:
-        from sdph import explain_liquid
+        from sdph.liquid import explain as liquid
 
-        return explain_liquid.explain(case)
+        return liquid.explain(case)
     scales = judge.scales_of(case)
     return {
         "numbers": [dict(zip(("number", "value", "threshold", "meaning", "source"), row)) for row in numbers(scales)],

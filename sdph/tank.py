@@ -14,8 +14,8 @@ from scipy.spatial.transform import Rotation
 
 from sdph import particles
 from sdph.liquid import LIQUID
-from sdph.liquid_drain import Outlet
-from sdph.liquid_step import LiquidStepper, loads
+from sdph.liquid.outlet import Outlet
+from sdph.liquid.step import LiquidStepper, loads
 from sdph.schema import CaseError
 
 REST = (0.0, 0.0, 0.0)

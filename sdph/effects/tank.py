@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sdph import tank_shapes
 from sdph.boundary import SIDES
 from sdph.effects.effect import Effect
+from sdph.liquid import shapes
 from sdph.schema import CaseError, choice, quantity, record, vector, words
 
 
@@ -44,27 +44,27 @@ def kernel(case) -> TankP:
 
 
 def shape_of(case):
-    """The shape (sdph.tank_shapes) of a case's tank."""
+    """The shape (sdph.liquid.shapes) of a case's tank."""
     own, d = case.parameters["tank"], case.dimensions
     if own.shape == "box":
         return _box(case, own)
     if own.shape == "mesh":
-        return tank_shapes.Mesh(own.mesh)
+        return shapes.Mesh(own.mesh)
     if own.centre is None or own.radius is None or len(own.centre) != d:
         raise CaseError(f"tank: a {own.shape} needs centre_m with {d} components, and radius_m")
     centre = np.array(own.centre)
     if d == 2:
         if own.shape != "sphere":
             raise CaseError(f"tank.shape = {own.shape!r} needs dimensions = 3; in 2-D there are box and sphere (a disc)")
-        return tank_shapes.Disc(centre, own.radius)
+        return shapes.Disc(centre, own.radius)
     reach = layers(case) * case.resolution.spacing
     if own.shape == "cylinder":
         if not own.length:
             raise CaseError("tank.length_m is missing; a cylinder needs it")
-        tank = tank_shapes.Cylinder(centre, own.radius, own.length, reach)
+        tank = shapes.Cylinder(centre, own.radius, own.length, reach)
         bottom = centre[2] - 0.5 * own.length
     else:
-        tank = tank_shapes.Capsule(centre, own.radius, own.length if own.shape == "capsule" else 0.0)
+        tank = shapes.Capsule(centre, own.radius, own.length if own.shape == "capsule" else 0.0)
         bottom = centre[2] - own.radius - 0.5 * tank.length
     return _with_outlet(own, tank, bottom, reach)
 
@@ -75,8 +75,8 @@ def _with_outlet(own, tank, bottom: float, reach: float):
         return tank
     inside = own.radius - math.sqrt(own.radius**2 - own.outlet_radius**2) if own.shape != "cylinder" else 0.0
     middle = np.array([*tank.centre[:2], bottom + 0.5 * (inside - own.outlet_length)])
-    pipe = tank_shapes.Cylinder(middle, own.outlet_radius, own.outlet_length + inside, reach, open_top=True)
-    return tank_shapes.Joined(tank, pipe)
+    pipe = shapes.Cylinder(middle, own.outlet_radius, own.outlet_length + inside, reach, open_top=True)
+    return shapes.Joined(tank, pipe)
 
 
 def _box(case, own):
@@ -87,7 +87,7 @@ def _box(case, own):
             raise CaseError(f"tank.open_sides holds {side!r}; allowed: {', '.join(SIDES)}")
     open_ends = {SIDES[side] for side in sides} | {(a, end) for a, on in enumerate(periodic) if on for end in (0, 1)}
     lower, upper = own.lower or (0.0,) * case.dimensions, own.upper or case.domain.size
-    return tank_shapes.Box(np.array(lower), np.array(upper), tuple(open_ends))
+    return shapes.Box(np.array(lower), np.array(upper), tuple(open_ends))
 
 
 def layers(case) -> int:

@@ -9,10 +9,10 @@ import math
 
 import numpy as np
 
-from sdph import effects, liquid_rates, liquid_start, particles, smoothing
+from sdph import effects, particles, smoothing
 from sdph.effects import OFF, frame, tank
-from sdph.liquid import LIQUID
-from sdph.liquid_rates import WallP
+from sdph.liquid import LIQUID, rates, start
+from sdph.liquid.rates import WallP
 from sdph.neighbours import SKIN, Neighbours
 from sdph.particles import WALL
 
@@ -28,7 +28,7 @@ class Rows(Neighbours):
         if len(here) != len(self.built) or len(here[0]) != len(self.built[0]):
             return False
         z, z0 = (here[2], self.built[2]) if len(here) == 3 else (np.zeros(0), np.zeros(0))
-        moved = liquid_rates.travelled(here[0], here[1], z, self.built[0], self.built[1], z0)
+        moved = rates.travelled(here[0], here[1], z, self.built[0], self.built[1], z0)
         return bool(moved < (0.5 * SKIN * self.reach) ** 2)
 
 
@@ -42,7 +42,7 @@ class LiquidStepper:
         periodic = case.liquid.periodic or (0.0,) * d
         self.neighbours = Rows(2.0 * SLACK * self.kernel.h, tuple(length * bool(on) for length, on in zip(case.domain.size, periodic)))
         self.fluids = fluids(case)
-        self.state = liquid_start.fill(case)
+        self.state = start.fill(case)
         own = self.p["tank"]
         self.wall = WallP(*[0.0] * 6, own.least, own.stick) if own else NO_WALL
         self.limits, self.limit, self.steps, self.time = self._limits(), "", 0, 0.0
@@ -69,7 +69,7 @@ class LiquidStepper:
 
     def next_step(self, left: float) -> float:
         """What is left [s] in equal parts no longer than the shortest limit; `limit` names it."""
-        speed, force = liquid_rates.fastest(self.state, self.active, self.acceleration)
+        speed, force = rates.fastest(self.state, self.active, self.acceleration)
         if not math.isfinite(speed + force):
             raise FloatingPointError(f"the liquid burst at t = {self.time:g} s: a velocity is no longer finite")
         h, c = self.kernel.h, self.case.liquid.sound_speed
@@ -93,18 +93,18 @@ class LiquidStepper:
 
     def _kick(self, dt: float) -> None:
         s = self.state
-        liquid_rates.kick(self.active, self.acceleration, dt, s.u, s.v, s.w)
+        rates.kick(self.active, self.acceleration, dt, s.u, s.v, s.w)
 
     def _drift(self, dt: float) -> None:
         s = self.state
-        liquid_rates.drift(self.active, s.u, s.v, s.w, dt, s.x, s.y, s.z)
+        rates.drift(self.active, s.u, s.v, s.w, dt, s.x, s.y, s.z)
 
     def _densify(self, dt: float) -> None:
-        liquid_rates.compress(
+        rates.compress(
             self.kernel, self.state, self.rows, self.neighbours.box, self.active, self.wall, self.p["density_diffusion"],
             self.pressure, *self.gradient, self.volume, self.rate,
         )  # fmt: skip
-        liquid_rates.densify(self.active, self.rate, dt, self.state.density)
+        rates.densify(self.active, self.rate, dt, self.state.density)
 
     def forces(self) -> None:
         """Neighbours, pressure, walls, accelerations of where the particles are now."""
@@ -113,13 +113,13 @@ class LiquidStepper:
         if built is not self.neighbours.built:
             self._allocate(ident)
         s, p = self.state, self.p
-        liquid_rates.state_of(self.fluids, s, self.active, self.pressure, self.volume)
+        rates.state_of(self.fluids, s, self.active, self.pressure, self.volume)
         if len(self.walls):
-            liquid_rates.extrapolate(
+            rates.extrapolate(
                 self.kernel, s, self.rows, self.neighbours.box, self.walls, self.wall, p["gravity"], self.frame, self.volume,
                 self.pressure, s.u, s.v, s.w,
             )  # fmt: skip
-        liquid_rates.push(
+        rates.push(
             self.kernel, s, self.rows, self.neighbours.box, self.active, self.wall, p["gravity"], self.frame, p["laminar_viscosity"],
             p["liquid_damping"], p["density_diffusion"], p["shifting"], self.pressure, self.volume, self.least,
             self.acceleration, *self.gradient, self.shift, self.twist,
@@ -131,7 +131,7 @@ class LiquidStepper:
         self.active = np.flatnonzero(s.kind >= LIQUID).astype(np.int32)
         walls = np.flatnonzero(s.kind == WALL).astype(np.int32)
         wet = np.empty(len(walls), np.bool_)
-        liquid_rates.near_liquid(s.kind, self.rows, walls, wet)
+        rates.near_liquid(s.kind, self.rows, walls, wet)
         self.walls = walls[wet]
         count = len(s.x)
         self.pressure, self.volume, self.rate = np.zeros(count), np.zeros(count), np.zeros(count)
@@ -158,7 +158,7 @@ class LiquidStepper:
 
     def _shift(self, dt: float) -> None:
         s = self.state
-        liquid_rates.displace(
+        rates.displace(
             self.p["shifting"], self.active, self.least, self.shift, *self.gradient, self.twist, self.case.liquid.sound_speed**-2, dt, s.x, s.y, s.z, s.u, s.v, s.w, s.density,
         )  # fmt: skip
 
@@ -167,7 +167,7 @@ def loads(stepper) -> np.ndarray:
     """(6,) force [N] and moment about the origin [N m] of the liquid on the tank: what acts on the liquid from outside,
     less what its momentum gains."""
     load = np.zeros(6)
-    liquid_rates.reaction(stepper.state, stepper.active, stepper.p["gravity"], stepper.frame, stepper.acceleration, load)
+    rates.reaction(stepper.state, stepper.active, stepper.p["gravity"], stepper.frame, stepper.acceleration, load)
     return load
 
 
@@ -175,7 +175,7 @@ def wall_loads(stepper) -> np.ndarray:
     """(6,) the same, from what each wall particle feels of pressure and friction."""
     force = np.zeros((len(stepper.walls), 3))
     p = stepper.p
-    liquid_rates.wall_force(
+    rates.wall_force(
         stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, stepper.walls, stepper.wall, p["laminar_viscosity"],
         p["liquid_damping"], p["shifting"], stepper.least, stepper.pressure, stepper.volume, force,
     )  # fmt: skip
@@ -184,7 +184,7 @@ def wall_loads(stepper) -> np.ndarray:
 
 
 def fluids(case) -> np.ndarray:
-    """(4, K) rho_0, stiffness, exponent and background by kind, as `liquid_rates.state_of` takes them."""
+    """(4, K) rho_0, stiffness, exponent and background by kind, as `rates.state_of` takes them."""
     liquid = case.liquid
     table = np.ones((4, LIQUID + 2))
     table[:, LIQUID] = liquid.density, liquid.density * liquid.sound_speed**2 / liquid.exponent, liquid.exponent, liquid.background_pressure

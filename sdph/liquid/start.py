@@ -6,11 +6,11 @@ import math
 
 import numpy as np
 
-from sdph import particles, tank_shapes
+from sdph import particles
 from sdph.effects import tank
 from sdph.laws import eos
 from sdph.laws.liquids import square_patch_pressure, taylor_green
-from sdph.liquid import LIQUID
+from sdph.liquid import LIQUID, shapes
 from sdph.particles import WALL
 from sdph.schema import CaseError
 
@@ -32,7 +32,7 @@ def fill(case) -> particles.State:
 
 
 def _walls(case) -> particles.State:
-    points = tank_shapes.wall_points(tank.shape_of(case), case.resolution.spacing, tank.layers(case))
+    points = shapes.wall_points(tank.shape_of(case), case.resolution.spacing, tank.layers(case))
     state = _placed(case, points)
     state.kind[:] = WALL
     state.density[:] = case.liquid.density
@@ -69,10 +69,10 @@ def _in_tank(case, pool) -> np.ndarray:
     if "tank" not in case.effects or pool.fill is None:
         raise CaseError("pools: shape = \"tank\" needs the effect tank, and fill")
     shape, spacing = tank.shape_of(case), case.resolution.spacing
-    own = shape.tank if isinstance(shape, tank_shapes.Joined) else shape
+    own = shape.tank if isinstance(shape, shapes.Joined) else shape
     corners = own.shell(0.5 * spacing, spacing)
     lower, upper = corners.min(axis=0) + 0.5 * spacing, corners.max(axis=0) - 0.5 * spacing
-    points = tank_shapes.lattice_inside(own, spacing, lower, upper, CLEARANCE * spacing)
+    points = shapes.lattice_inside(own, spacing, lower, upper, CLEARANCE * spacing)
     count = round(pool.fill * own.volume / spacing**case.dimensions)
     if count > len(points):
         raise CaseError(f"pools: fill = {pool.fill:g} asks for {count} particles, the tank holds {len(points)} at this spacing; fill it less")
@@ -82,7 +82,7 @@ def _in_tank(case, pool) -> np.ndarray:
     pipe = shape.pipe
     low, high = pipe.centre - pipe.radius, pipe.centre + pipe.radius
     low[2], high[2] = pipe.centre[2] - 0.5 * pipe.length, pipe.centre[2] + 0.5 * pipe.length
-    buffer = tank_shapes.lattice_inside(pipe, spacing, low, high, CLEARANCE * spacing * 0.999)
+    buffer = shapes.lattice_inside(pipe, spacing, low, high, CLEARANCE * spacing * 0.999)
     free = np.array([((points - p) ** 2).sum(axis=1).min() > (0.9 * spacing) ** 2 for p in buffer])
     return np.concatenate((buffer[free & (own.distance(buffer) > -CLEARANCE * spacing)], points))
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from sdph import case as cases
-from sdph import liquid_rates, smoothing
-from sdph.liquid import LIQUID
-from sdph.liquid_step import LiquidStepper, loads, wall_loads
+from sdph import smoothing
+from sdph.liquid import LIQUID, rates
+from sdph.liquid.step import LiquidStepper, loads, wall_loads
 from sdph.particles import WALL, positions, velocities
 
 TANK = {
@@ -66,7 +66,7 @@ def test_acceleration_is_the_sum_over_all_pairs(dimensions, kernel):
 def test_density_rate_is_the_sum_over_all_pairs(dimensions):
     own = stepper(dimensions)
     s = own.state
-    liquid_rates.compress(
+    rates.compress(
         own.kernel, s, own.rows, own.neighbours.box, own.active, own.wall, own.p["density_diffusion"], own.pressure, *own.gradient,
         own.volume, own.rate,
     )  # fmt: skip
@@ -92,14 +92,14 @@ def test_a_linear_pressure_does_not_diffuse():
     own = stepper(3)
     own.pressure[:] = 1e4 + 3e3 * positions(own.state) @ np.array([1.0, -2.0, 0.5])
     s = own.state
-    liquid_rates.push(
+    rates.push(
         own.kernel, s, own.rows, own.neighbours.box, own.active, own.wall, own.p["gravity"], own.frame, own.p["laminar_viscosity"],
         own.p["liquid_damping"], own.p["density_diffusion"], own.p["shifting"], own.pressure, own.volume, own.least,
         own.acceleration, *own.gradient, own.shift, own.twist,
     )  # fmt: skip
     for array in (s.u, s.v, s.w):
         array[:] = 0.0
-    liquid_rates.compress(
+    rates.compress(
         own.kernel, s, own.rows, own.neighbours.box, own.active, own.wall, own.p["density_diffusion"], own.pressure, *own.gradient,
         own.volume, own.rate,
     )  # fmt: skip
@@ -141,7 +141,7 @@ def test_walls_extrapolate_a_hydrostatic_pressure():
     s.u[:], s.v[:] = 0.0, 0.0
     s.density[own.active] = 1000.0
     own.pressure[own.active] = 1000.0 * 9.81 * (0.4 - s.y[own.active])
-    liquid_rates.extrapolate(
+    rates.extrapolate(
         own.kernel, s, own.rows, own.neighbours.box, own.walls, own.wall, own.p["gravity"], own.frame, own.volume, own.pressure, s.u, s.v, s.w
     )
     below = own.walls[(s.y[own.walls] < 0.0) & (s.y[own.walls] > -0.1) & (s.x[own.walls] > 0.0) & (s.x[own.walls] < 0.5)]
@@ -153,7 +153,7 @@ def test_eigenvalues():
     for _ in range(50):
         a = random.standard_normal((3, 3))
         m = a + a.T
-        least = liquid_rates.smallest(m[0, 0], m[1, 1], m[2, 2], m[0, 1], m[1, 2], m[2, 0])
+        least = rates.smallest(m[0, 0], m[1, 1], m[2, 2], m[0, 1], m[1, 2], m[2, 0])
         assert least == pytest.approx(np.linalg.eigvalsh(m)[0], abs=1e-9)
 
 

@@ -6,15 +6,15 @@ import math
 
 import numpy as np
 
-from sdph import effects, estimate, liquid_start
+from sdph import effects, estimate
 from sdph.effects import kernel_of
-from sdph.liquid import LIQUID
-from sdph.liquid_step import FORCE
+from sdph.liquid import LIQUID, start
+from sdph.liquid.step import FORCE
 
 
 def explain(case) -> dict[str, list[dict]]:
     """All parts, each a list of rows of one table."""
-    state = liquid_start.fill(case)
+    state = start.fill(case)
     wet = state.kind >= LIQUID
     length = min(float(np.ptp(axis[wet])) for axis in (state.x, state.y))
     speed, gravity = case.liquid.fastest, math.hypot(*case.domain.gravity)

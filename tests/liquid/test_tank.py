@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from sdph import case as cases
-from sdph import tank_shapes
+from sdph.liquid import shapes
 from sdph.tank import Tank
 
 GRAVITY = np.array([0.0, 0.0, -9.8])
@@ -73,18 +73,18 @@ def test_a_closed_loop_keeps_momentum(monkeypatch):
 @pytest.mark.parametrize(
     "shape",
     [
-        tank_shapes.Capsule(np.zeros(3), 0.5),
-        tank_shapes.Capsule(np.zeros(3), 0.4, 0.3),
-        tank_shapes.Cylinder(np.zeros(3), 0.4, 0.6, 0.15),
-        tank_shapes.Box(np.array([-0.4, -0.3, -0.5]), np.array([0.4, 0.3, 0.5])),
+        shapes.Capsule(np.zeros(3), 0.5),
+        shapes.Capsule(np.zeros(3), 0.4, 0.3),
+        shapes.Cylinder(np.zeros(3), 0.4, 0.6, 0.15),
+        shapes.Box(np.array([-0.4, -0.3, -0.5]), np.array([0.4, 0.3, 0.5])),
     ],
 )
 def test_walls_fill_what_lies_behind_the_surface(shape):
     """Wall and lattice particles around the surface fill the kernel: the sum of V W is 1 within a few per cent."""
     spacing, h = 0.05, 0.065
-    walls = tank_shapes.wall_points(shape, spacing, 3)
+    walls = shapes.wall_points(shape, spacing, 3)
     first = shape.shell(0.5 * spacing, spacing)
-    inside = tank_shapes.lattice_inside(shape, spacing, first.min(axis=0) + 0.025, first.max(axis=0) - 0.025, 0.499 * spacing)
+    inside = shapes.lattice_inside(shape, spacing, first.min(axis=0) + 0.025, first.max(axis=0) - 0.025, 0.499 * spacing)
     assert (shape.distance(walls) > 0.49 * spacing).all()
     assert len(inside) * spacing**3 == pytest.approx(shape.volume, rel=0.25)  # centres stay half a spacing off a round wall
     everything = np.concatenate([inside, walls])

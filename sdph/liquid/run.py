@@ -12,8 +12,8 @@ from sdph import case as cases
 from sdph import output, particles
 from sdph.effects import drain
 from sdph.liquid import LIQUID
-from sdph.liquid_drain import Outlet
-from sdph.liquid_step import LiquidStepper, kinetic_energy, loads, wall_loads
+from sdph.liquid.outlet import Outlet
+from sdph.liquid.step import LiquidStepper, kinetic_energy, loads, wall_loads
 
 SAMPLES = 10  # rows of history.csv for each output of fields, where the case says nothing
 
