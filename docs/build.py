@@ -66,10 +66,11 @@ def effects() -> str:
 
 def reference() -> str:
     """Sections of a case from its dataclasses."""
-    from sdph import case as cases
     from sdph import effects as all_effects
+    from sdph import sections as declared
 
-    sections = dict(cases.SECTIONS) | {f"{name}.NAME": cls for name, cls in cases.GROUPS.items()} | {"coupling": cases.Coupling, "vapour": cases.Vapour}
+    sections = declared.SECTIONS | {f"{name}.NAME": cls for name, cls in declared.GROUPS.items()}
+    sections |= {"coupling": declared.Coupling, "vapour": declared.Vapour, "liquid": declared.Liquid}
     sections |= {name: row.parameters for name, row in all_effects.REGISTRY.items()}
     return "\n".join(_keys(name, cls) for name, cls in sections.items())
 

@@ -19,7 +19,7 @@ from coupling.openfoam.case import HEAD, write_case
 from coupling.openfoam.programs import Progress
 from coupling.openfoam.reference import Reference, keep, key, load
 from sdph import paths
-from sdph.case import Case
+from sdph.sections import Case
 from sdph.schema import CaseError
 
 PARCEL_FILES = {"d": "diameter", "T": "temperature", "nParticle": "count", "rho": "density", "U": "velocity"}

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from coupling.openfoam.two_fluid_numbers import divided
-from sdph.case import Case
+from sdph.sections import Case
 from sdph.laws import heat as heat_law
 
 COURANT = 0.04  # of the droplets; 2e-4 s in the paper's jet, where OpenFOAM was checked

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 
-from sdph.case import Case
+from sdph.sections import Case
 from sdph.laws import constants, exact
 from sdph.laws import heat as heat_law
 from sdph.schema import CaseError

@@ -11,8 +11,8 @@ import math
 
 import numpy as np
 
-from sdph.case import Coupling
 from sdph.compare import check
+from sdph.sections import Coupling
 
 ALIKE = 0.15  # of the evaporated mass, with the closures made alike (issue 4)
 DIFFERENT = 1.0  # the same with closures that differ by design: the order of magnitude (README.md has each one's share)
