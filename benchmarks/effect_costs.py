@@ -15,10 +15,10 @@ from pathlib import Path
 
 import numpy as np
 
-from sdph import effect_costs, rates
 from sdph import case as cases
-from sdph import scenes
-from sdph.explain import table
+from sdph import rates, scenes
+from sdph.explain import effect_costs
+from sdph.explain.tables import table
 
 TERMS = {"conduction": {"pair": 1}, "artificial_viscosity": {"pair": 1}}  # functions in the loop, and how many numbers each returns
 ROUNDS = 60

@@ -114,7 +114,7 @@ def _effects(table: dict) -> tuple[str, ...]:
 
 def _automatic(table: dict) -> tuple[str, ...]:
     """The effects that a case calls for, and those that cannot judge themselves but have a section."""
-    from sdph import judge
+    from sdph.explain import judge
 
     given = [name for name in effects.REGISTRY if name in table]
     called = judge.called_for(from_table(table | {"effects": given}))

@@ -147,7 +147,9 @@ def init_case(options) -> int:
 
 def run(options) -> int:
     from sdph import case as cases
-    from sdph import cost, driver, explain, output, scenes
+    from sdph import driver, output, scenes
+    from sdph.cost import ladder
+    from sdph.explain import tables
     from sdph.progress import Reporter
 
     overrides = tuple(options.set) + _overrides(options)
@@ -158,9 +160,9 @@ def run(options) -> int:
         else:
             name, file = scenes.find(options.target)
             if options.accuracy:
-                overrides = cost.settings_for(name, options.accuracy, reporter.status) + overrides
+                overrides = ladder.settings_for(name, options.accuracy, reporter.status) + overrides
             case = cases.load(file, overrides)
-            for warning in explain.warnings(case):
+            for warning in tables.warnings(case):
                 reporter.status(f"warning: {warning}")
             folder, own = options.out or output.free_name(Path("runs") / name), file.parent / "gas"
             summary = driver.run(case, name, folder, own if own.is_dir() else None, reporter, allow_code=options.allow_code)
@@ -184,41 +186,42 @@ def _table(summary: dict) -> str:
 
 def explain_case(options) -> int:
     from sdph import case as cases
-    from sdph import explain, scenes
+    from sdph import scenes
+    from sdph.explain import tables
 
     case = cases.load(scenes.find(options.target)[1], tuple(options.set))
     parts = {}
     if options.measure:
-        from sdph import effect_costs
+        from sdph.explain import effect_costs
 
         parts["cost of effects, bubbling bed"] = effect_costs.table(lambda text: print(text, file=sys.stderr, flush=True))
-    parts |= explain.explain(case)
-    print(json.dumps(parts) if options.json else f"{case.title}\n\n{explain.text(parts)}")
+    parts |= tables.explain(case)
+    print(json.dumps(parts) if options.json else f"{case.title}\n\n{tables.text(parts)}")
     return FINE
 
 
 def cost_of_accuracy(options) -> int:
-    from sdph import cost, cost_report
+    from sdph.cost import ladder, report
 
     folder = options.out or Path("runs/cost") / options.scene
-    rows = cost.errors(cost.climb(options.scene, folder / "cost.csv", options.budget, options.repeats, lambda text: print(text, flush=True)))
-    print(f"\n{cost_report.text(options.scene, rows)}")
-    cost_report.draw(options.scene, rows, folder / "cost.png")
+    rows = ladder.errors(ladder.climb(options.scene, folder / "cost.csv", options.budget, options.repeats, lambda text: print(text, flush=True)))
+    print(f"\n{report.text(options.scene, rows)}")
+    report.draw(options.scene, rows, folder / "cost.png")
     print(f"{folder}/cost.csv and cost.png")
     return FINE
 
 
 def stress_cases(options) -> int:
     if options.faults is not None:
-        from sdph import faults
+        from sdph.stress import faults
 
         return FINE if all(check["ok"] for check in faults.run(options.faults)) else CHECK_FAILED
-    from sdph import stress, stress_map
+    from sdph.stress import boundaries, suite
 
     if options.map:
-        print(stress_map.table(Path("stress_map.png")))
+        print(boundaries.table(Path("stress_map.png")))
         return FINE
-    fine = [stress.show(stress.run(hard)) for hard in stress.chosen(options.case, options.fast)]
+    fine = [suite.show(suite.run(hard)) for hard in suite.chosen(options.case, options.fast)]
     print(f"{sum(fine)} of {len(fine)} pass")
     return FINE if all(fine) else CHECK_FAILED
 

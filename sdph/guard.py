@@ -12,7 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
-from sdph import judge, particles
+from sdph import particles
+from sdph.explain import judge
 from sdph.laws.constants import GAS_CONSTANT
 
 RUNAWAY = 10.0  # times what drives the grains, times the speed of sound of the gas; our choice

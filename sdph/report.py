@@ -89,12 +89,12 @@ def _side_by_side(runs: list[Shown], tables: list[dict]) -> str:
 
 def _what(runs: list[Shown]) -> str:
     """State of each run, and its effects with the reasons for them."""
-    from sdph import explain
+    from sdph.explain import tables
 
     parts = []
     for run in runs:
         parts.append(f"<p><b>{html.escape(run.name)}</b>: {_state(run)}</p>")
-        rows = [] if run.case.liquid else [r for r in explain.effect_rows(run.case) if r["effect"] in run.case.effects or r["called for"] == "yes"]
+        rows = [] if run.case.liquid else [r for r in tables.effect_rows(run.case) if r["effect"] in run.case.effects or r["called for"] == "yes"]
         rows = rows or [{"effect": name, "what": effects.REGISTRY[name].summary} for name in run.case.effects]
         parts.append(_table(list(rows[0]), [list(row.values()) for row in rows]) if rows else "")
     return _section("What was run", "".join(parts))

@@ -43,7 +43,7 @@ class Effect:
     moves       whether particles move by it
     matter      what it acts on: "grains", "liquid"
     dt_limit    (kernel parameters, case, state) -> largest stable sub-step [s]
-    call        scales of a case (sdph.scales) -> Judgement; without it the effect is on where the user says so
+    call        scales of a case (sdph.explain.scales) -> Judgement; without it the effect is on where the user says so
     """
 
     name: str

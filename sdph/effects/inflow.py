@@ -50,8 +50,8 @@ class Inflow:
     """Has no input of its own: see [nozzles]."""
 
     def patches(self, case) -> list:
-        """What comes in, for `sdph.scales`."""
-        from sdph.scales import Patch
+        """What comes in, for `sdph.explain.scales`."""
+        from sdph.explain.scales import Patch
 
         return [_patch(case, nozzle, Patch) for nozzle in case.nozzles.values()]
 

@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 
-from sdph import effects, estimate
+from sdph import effects
+from sdph.explain import estimate
 from sdph.effects import kernel_of
 from sdph.liquid import LIQUID, start
 from sdph.liquid.step import FORCE

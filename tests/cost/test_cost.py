@@ -4,10 +4,11 @@ import json
 
 import pytest
 
-from sdph import cli, cost, cost_report, scenes
+from sdph import cli, scenes
+from sdph.cost import ladder, report
 from sdph.schema import CaseError
 
-SMALL = cost.Ladder(
+SMALL = ladder.Ladder(
     reference="none",
     base=["coupling.gas='embedded'", "run.end_time_s=0.002", "run.output_interval_s=0.001", "run.report_at_s=[]"],
     knobs={"resolution.spacing_mm": [20.0, 10.0], "resolution.cell_mm": [50.0, 25.0]},
@@ -15,80 +16,80 @@ SMALL = cost.Ladder(
 )
 
 
-def row(label="all 1/1", wall=1.0, value=0.0, reference=None, without=cost.ALL, **settings):
+def row(label="all 1/1", wall=1.0, value=0.0, reference=None, without=ladder.ALL, **settings):
     return {"label": label, "wall_s": wall, "without": without, "load": 0.0, "metrics": json.dumps({"a": (value, reference, 2.0)})} | settings
 
 
 def test_error_is_of_the_scale_against_the_reference():
-    assert [r["error"] for r in cost.errors([row(value=1.3, reference=1.0)])] == [pytest.approx(0.15)]
+    assert [r["error"] for r in ladder.errors([row(value=1.3, reference=1.0)])] == [pytest.approx(0.15)]
 
 
 def test_richardson_finds_the_limit_of_a_sequence_of_any_order():
     """a + b q^n: three levels give a."""
     levels = [row(f"all {n + 1}/3", value=5.0 + 3.0 * 0.37**n) for n in range(3)]
-    assert cost._richardson([json.loads(r["metrics"]) for r in levels])["a"] == pytest.approx(5.0)
-    assert cost.errors(levels)[0]["error"] == pytest.approx(1.5)
+    assert ladder._richardson([json.loads(r["metrics"]) for r in levels])["a"] == pytest.approx(5.0)
+    assert ladder.errors(levels)[0]["error"] == pytest.approx(1.5)
 
 
 def test_a_sequence_without_order_is_taken_at_its_finest():
     levels = [row(f"all {n + 1}/3", value=v) for n, v in enumerate((1.0, 3.0, 2.0))]
-    assert cost._richardson([json.loads(r["metrics"]) for r in levels])["a"] == 2.0
+    assert ladder._richardson([json.loads(r["metrics"]) for r in levels])["a"] == 2.0
 
 
 def test_observed_order_of_second_order_rows():
-    own = cost.Ladder(reference="", base=[], knobs={"x": [4.0, 2.0, 1.0]})
+    own = ladder.Ladder(reference="", base=[], knobs={"x": [4.0, 2.0, 1.0]})
     rows = [row(value=7.0 + 0.1 * x**2, x=x) for x in (4.0, 2.0, 1.0)]
-    assert cost.orders(own, rows)["x"] == pytest.approx(2.0)
+    assert ladder.orders(own, rows)["x"] == pytest.approx(2.0)
 
 
 def test_cheapest_holds_the_error_with_all_effects():
     rows = [row(wall=9.0) | {"error": 0.001}, row(wall=3.0) | {"error": 0.015}, row(wall=1.0, without="drag") | {"error": 0.0}, row(wall=0.5) | {"error": 0.3}]
-    assert cost.cheapest(rows, 0.02)["wall_s"] == 3.0
-    assert cost.cheapest(rows, 0.01)["wall_s"] == 9.0
-    assert cost.cheapest(rows, 1e-4) is None
-    assert [r["wall_s"] for r in cost_report.front(rows)] == [0.5, 3.0, 9.0]
+    assert ladder.cheapest(rows, 0.02)["wall_s"] == 3.0
+    assert ladder.cheapest(rows, 0.01)["wall_s"] == 9.0
+    assert ladder.cheapest(rows, 1e-4) is None
+    assert [r["wall_s"] for r in report.front(rows)] == [0.5, 3.0, 9.0]
 
 
 def test_rungs_are_levels_single_knobs_and_effects_off():
-    own = cost.Ladder(reference="", base=[], knobs={"x": [3, 2, 1], "y": [6, 5, 4]}, drop=["drag"])
-    found = cost.rungs(own)
+    own = ladder.Ladder(reference="", base=[], knobs={"x": [3, 2, 1], "y": [6, 5, 4]}, drop=["drag"])
+    found = ladder.rungs(own)
     assert [label for label, _ in found] == ["all 1/3", "all 2/3", "all 3/3", "x", "x", "y", "y", "without drag"]
-    assert found[3][1] == {"x": 3, "y": 5, "without": cost.ALL}
+    assert found[3][1] == {"x": 3, "y": 5, "without": ladder.ALL}
     assert found[-1][1] == {"x": 2, "y": 5, "without": "drag"}
 
 
 def test_ladder_is_measured_within_its_budget_and_resumed(tmp_path, monkeypatch):
-    monkeypatch.setattr(cost, "ladder", lambda scene: SMALL)
+    monkeypatch.setattr(ladder, "declared", lambda scene: SMALL)
     file, said = tmp_path / "cost.csv", []
-    assert cost.climb("disc_cluster", file, 0.0, 1, said.append) == []
+    assert ladder.climb("disc_cluster", file, 0.0, 1, said.append) == []
     assert "budget is spent before all 1/2" in said[-1]
-    rows = cost.climb("disc_cluster", file, 1e9, 1, said.append)
+    rows = ladder.climb("disc_cluster", file, 1e9, 1, said.append)
     before = file.read_bytes()
-    assert len(rows) == len(cost.rungs(SMALL)) == 4
+    assert len(rows) == len(ladder.rungs(SMALL)) == 4
     assert all(r["wall_s"] > 0.0 and r["particles"] > 50 for r in rows)
     said.clear()
-    again = cost.climb("disc_cluster", file, 1e9, 1, said.append)
+    again = ladder.climb("disc_cluster", file, 1e9, 1, said.append)
     assert file.read_bytes() == before
     assert all("measured before" in line for line in said) and len(said) == 4
-    assert "all 2/2" in cost_report.text("disc_cluster", cost.errors(again))
-    cost_report.draw("disc_cluster", cost.errors(again), tmp_path / "cost.png")
+    assert "all 2/2" in report.text("disc_cluster", ladder.errors(again))
+    report.draw("disc_cluster", ladder.errors(again), tmp_path / "cost.png")
     assert (tmp_path / "cost.png").stat().st_size > 10_000
 
 
 def test_accuracy_takes_what_was_measured_and_says_so(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(cost, "ladder", lambda scene: SMALL)
+    monkeypatch.setattr(ladder, "declared", lambda scene: SMALL)
     coarse, fine = {"resolution.spacing_mm": 20.0, "resolution.cell_mm": 50.0}, {"resolution.spacing_mm": 10.0, "resolution.cell_mm": 25.0}
     for settings, wall, value in ((coarse, 1.0, 1.2), (fine, 4.0, 1.02)):
-        cost._append(tmp_path / "runs/cost/some/cost.csv", row("x", wall, value, 1.0, **settings))
+        ladder._append(tmp_path / "runs/cost/some/cost.csv", row("x", wall, value, 1.0, **settings))
     said = []
-    assert "resolution.spacing_mm=20.0" in cost.settings_for("some", 0.1, said.append)
-    assert "resolution.spacing_mm=10.0" in cost.settings_for("some", 0.05, said.append)
+    assert "resolution.spacing_mm=20.0" in ladder.settings_for("some", 0.1, said.append)
+    assert "resolution.spacing_mm=10.0" in ladder.settings_for("some", 0.05, said.append)
     assert "measured error 0.01" in said[-1] and "4 s" in said[-1]
     with pytest.raises(CaseError, match="the best: 0.01"):
-        cost.settings_for("some", 1e-3, said.append)
+        ladder.settings_for("some", 1e-3, said.append)
     with pytest.raises(CaseError, match="sdph cost other"):
-        cost.settings_for("other", 0.02, said.append)
+        ladder.settings_for("other", 0.02, said.append)
 
 
 @pytest.mark.parametrize(("text", "seconds"), [("90", 90.0), ("90s", 90.0), ("10min", 600.0), ("2h", 7200.0)])
@@ -97,10 +98,10 @@ def test_budget_is_read_with_its_unit(text, seconds):
 
 
 def test_declared_ladders_name_keys_that_the_scene_has():
-    declared = [name for name in scenes.names() if (cost.paths.data("validation") / name / "cost.toml").is_file()]
+    declared = [name for name in scenes.names() if (ladder.paths.data("validation") / name / "cost.toml").is_file()]
     assert declared
     for name in declared:
-        own = cost.ladder(name)
+        own = ladder.declared(name)
         assert len({len(values) for values in own.knobs.values()}) == 1
-        for _, settings in cost.rungs(own):
-            assert cost._case(name, own, settings)
+        for _, settings in ladder.rungs(own):
+            assert ladder._case(name, own, settings)

@@ -45,7 +45,7 @@ class Ladder:
     metrics: dict = field(default_factory=dict)
 
 
-def ladder(scene: str) -> Ladder:
+def declared(scene: str) -> Ladder:
     """The ladder that a scene declares."""
     file = paths.data("validation") / scene / "cost.toml"
     if not file.is_file():
@@ -70,7 +70,7 @@ def _level(own: Ladder, n: int) -> dict:
 
 def climb(scene: str, file: Path, budget: float, repeats: int, report) -> list[dict]:
     """Measures the rungs that `file` lacks, cheapest first as they stand, until `budget` [s] is spent; all rows."""
-    own, started = ladder(scene), time.perf_counter()
+    own, started = declared(scene), time.perf_counter()
     rows = read(file)
     _warm(scene, own)
     for label, settings in rungs(own):
@@ -207,7 +207,7 @@ def settings_for(scene: str, accuracy: float, report) -> tuple[str, ...]:
     if best is None:
         least = min(row["error"] for row in rows)
         raise CaseError(f"no measured setting of {scene} errs by {accuracy:g} or less (the best: {least:.2g}, {file}); ask for more, or refine its ladder")
-    own = ladder(scene)
+    own = declared(scene)
     chosen = overrides({key: best[key] for key in own.knobs})
     report(f"--accuracy {accuracy:g}: {' '.join(chosen)}; measured error {best['error']:.2g} against {own.reference}, {best['wall_s']:.3g} s ({file})")
     return (*own.base, *chosen)

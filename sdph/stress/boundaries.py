@@ -10,7 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from sdph import explain, stress
+from sdph.explain import tables
+from sdph.stress import suite
 
 CAREFUL = 5.0  # times: a limit that could be more than that larger is too careful (issue)
 
@@ -38,7 +39,7 @@ class Boundary:
 def boundaries(report=print) -> list[Boundary]:
     """Runs all maps."""
     found = []
-    for hard in (hard for hard in map(stress.load, stress.files()) if hard.map):
+    for hard in (hard for hard in map(suite.load, suite.files()) if hard.map):
         found.append(_boundary(hard))
         report(f"{found[-1].effect}: {found[-1].verdict}", flush=True)
     return found
@@ -48,7 +49,7 @@ def _boundary(hard) -> Boundary:
     stable, unstable = [], []
     for value in hard.map["values"]:
         section, key = hard.map["knob"].split(".")
-        (stable if stress.run(hard, {section: {key: value}}).ok else unstable).append(value)
+        (stable if suite.run(hard, {section: {key: value}}).ok else unstable).append(value)
         if unstable:
             break
     return Boundary(hard.map["effect"], hard.map["knob"], hard.map.get("limit", 0.0), stable, unstable)
@@ -58,7 +59,7 @@ def table(picture: Path) -> str:
     """The boundaries as a table; drawn into `picture`."""
     found = boundaries()
     draw(found, picture)
-    return explain.table([
+    return tables.table([
         {"effect": b.effect, "knob": b.knob, "limit": b.limit or "none", "largest stable": max(b.stable, default=0.0),
          "smallest unstable": min(b.unstable, default="-"), "": b.verdict}
         for b in found

@@ -66,7 +66,7 @@ def ratios(case) -> list[dict]:
 
 
 def _extent(case) -> float:
-    from sdph.judge import scales_of
+    from sdph.explain.judge import scales_of
 
     return scales_of(case).length
 

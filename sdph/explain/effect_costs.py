@@ -13,7 +13,8 @@ import numpy as np
 
 from coupling.gas import Mesh
 from sdph import case as cases
-from sdph import estimate, scenes
+from sdph import scenes
+from sdph.explain import estimate
 from sdph.simulation import Simulation
 
 ROUNDS = 7  # the least of so many counts

@@ -1,10 +1,11 @@
-"""`sdph explain`: what a case calls for and what it will cost, before it runs. Each part is a list of rows."""
+"""All that `sdph explain` shows: each part is a list of rows."""
 
 from __future__ import annotations
 
 import math
 
-from sdph import effects, estimate, judge
+from sdph import effects
+from sdph.explain import estimate, judge
 from sdph.laws import heat
 
 

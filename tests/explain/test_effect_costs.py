@@ -5,8 +5,9 @@ from builders import DISC
 
 from coupling.gas import SOURCES
 from sdph import case as cases
-from sdph import effect_costs, effects, particles, scenes
+from sdph import effects, particles, scenes
 from sdph.exchange import Exchange
+from sdph.explain import effect_costs
 
 BED = cases.load(scenes.HERE / "bubbling_bed" / "case.toml", effect_costs.BED)
 

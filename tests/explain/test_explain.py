@@ -4,8 +4,9 @@ import pytest
 from builders import DISC, simulation
 
 from sdph import case as cases
-from sdph import effects, estimate, explain, judge, scenes
-from sdph.scales import Scales
+from sdph import effects, scenes
+from sdph.explain import estimate, judge, tables
+from sdph.explain.scales import Scales
 
 BED = scenes.HERE / "bubbling_bed" / "case.toml"
 SMALL_BED = ("resolution.spacing_mm=20", "resolution.cell_mm=50")
@@ -102,8 +103,8 @@ def test_expected_counts_are_those_of_the_case(tmp_path):
 
 
 def test_explained_as_text_and_numbers():
-    parts = explain.explain(cases.load(BED, SMALL_BED))
-    shown = explain.text(parts)
+    parts = tables.explain(cases.load(BED, SMALL_BED))
+    shown = tables.text(parts)
     for name in (name for name, row in effects.REGISTRY.items() if "grains" in row.matter):
         assert name in shown
 
@@ -111,6 +112,6 @@ def test_explained_as_text_and_numbers():
 def test_shipped_scenes_have_all_that_they_call_for():
     for name in ("disc_cluster", "bubbling_bed", "evaporating_jet"):
         case = cases.load(scenes.HERE / name / "case.toml")
-        assert explain.text(explain.explain(case))
-        assert not explain.warnings(case), name
+        assert tables.text(tables.explain(case))
+        assert not tables.warnings(case), name
 

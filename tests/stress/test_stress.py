@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 from builders import disc, simulation
 
-from sdph import cli, stress
+from sdph import cli
 from sdph.guard import Guard, Unstable
 from sdph.schema import CaseError
+from sdph.stress import suite
 
-FAST = [hard.name for hard in stress.chosen([], True)]
+FAST = [hard.name for hard in suite.chosen([], True)]
 PAST_LIMIT = (
     "resolution.spacing_mm=10", "resolution.cell_mm=25", "grains.conductivity_W_m_K=5e6", "run.step_factor=60.0",
     "coupling.window_tolerance=1e30", "coupling.window_largest_s=0.01",
@@ -16,28 +17,28 @@ PAST_LIMIT = (
 
 
 def test_there_are_enough_hard_cases():
-    assert len(stress.files()) >= 30
+    assert len(suite.files()) >= 30
     assert len(FAST) >= 8
 
 
 @pytest.mark.parametrize("name", FAST)
 def test_hard_case(name):
-    verdict = stress.run(*stress.chosen([name], True))
-    assert verdict.ok, stress.line(verdict)
+    verdict = suite.run(*suite.chosen([name], True))
+    assert verdict.ok, suite.line(verdict)
 
 
 def test_a_criterion_that_is_missed_fails():
-    hard = stress.load(next(file for file in stress.files() if file.stem == "fast_conduction"))
-    broken = stress.Hard(**{**vars(hard), "at_most": {"temperature_K_max": 280.0}})
-    verdict = stress.run(broken)
+    hard = suite.load(next(file for file in suite.files() if file.stem == "fast_conduction"))
+    broken = suite.Hard(**{**vars(hard), "at_most": {"temperature_K_max": 280.0}})
+    verdict = suite.run(broken)
     assert not verdict.ok
-    assert "FAIL" in stress.line(verdict) and "temperature_K_max" in stress.line(verdict)
+    assert "FAIL" in suite.line(verdict) and "temperature_K_max" in suite.line(verdict)
 
 
 def test_an_unknown_measure_is_told(tmp_path):
-    hard = stress.load(next(file for file in stress.files() if file.stem == "fast_conduction"))
+    hard = suite.load(next(file for file in suite.files() if file.stem == "fast_conduction"))
     with pytest.raises(CaseError, match="temperature_K_maxx"):
-        stress.run(stress.Hard(**{**vars(hard), "at_most": {"temperature_K_maxx": 280.0}}))
+        suite.run(suite.Hard(**{**vars(hard), "at_most": {"temperature_K_maxx": 280.0}}))
 
 
 def test_conduction_past_its_limit_is_caught_within_20_sub_steps(tmp_path):

@@ -9,7 +9,7 @@ A file names a scene to start from and changes it:
     shear_1_s = [[...]]      adds the velocity gradient times (place - middle of the grains)
     [case...]                tables that replace those of the scene, key by key; false removes a table
     [[then]]                 such tables again: the run goes on from its last state with them (windows, case)
-    [at_most] [at_least]     measures (see `sdph.measure`) and their bounds, besides those that hold for every case
+    [at_most] [at_least]     measures (see `sdph.stress.measures`) and their bounds, besides those that hold for every case
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from sdph import case as cases
 from sdph import paths, scenes
 from sdph.guard import Unstable
 from sdph.ledger import Ledger
-from sdph.measure import Measures
+from sdph.stress.measures import Measures
 from sdph.schema import CaseError, unknown
 from sdph.simulation import Simulation
 

@@ -6,7 +6,7 @@ import dataclasses
 
 from sdph import effects
 from sdph.effects.effect import Judgement
-from sdph.scales import Scales
+from sdph.explain.scales import Scales
 
 
 def scales_of(case) -> Scales:
