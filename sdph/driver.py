@@ -1,4 +1,12 @@
-"""`sdph run`: a run from its case, or from its last checkpoint, to its summary."""
+"""`sdph run`: a run from its case, or from its last checkpoint, to its summary.
+
+What is run is a `Simulation` of grains in a gas or a `LiquidRun`. The driver knows of both only what both have:
+
+    start()  take_up(folder of the gas's checkpoint)  window()         how it goes
+    time  windows  at_row  clock.outputs  clock.limit                  where it is
+    row()  meshes()  ledger  wall  summary(out)  warnings()            what it has to show
+    KEPT  gas                                                          what a checkpoint holds
+"""
 
 from __future__ import annotations
 
@@ -9,7 +17,7 @@ import time
 from pathlib import Path
 
 from sdph import case as cases
-from sdph import history, metrics, output, paths, restart
+from sdph import metrics, output, paths, restart
 from sdph.guard import Unstable
 from sdph.interruption import Stopped, listening
 from sdph.ledger import Ledger
@@ -26,10 +34,6 @@ def run(case, name: str, folder: Path, gas_folder: Path | None, reporter, *, all
     `gas_folder` holds the user's own OpenFOAM case (None: the scene's template), whose dictionaries may run code only
     with `allow_code`; `reporter` shows progress.
     """
-    if case.liquid:
-        from sdph.liquid import run as liquid
-
-        return liquid.run(case, folder, reporter)
     template = gas_folder or paths.gas_template(case.scene or name)
     with output.claimed(output.create(folder)):
         output.write_origin(folder, gas_template=str(template.resolve()), allow_code=allow_code)
@@ -78,18 +82,34 @@ def open_gas(case, folder: Path, template: Path | None, status, allow_code: bool
     return OpenFoamGas(case, folder / "gas", template, status=status, allow_code=allow_code)
 
 
+def simulation_of(case, gas, ledger: Path):
+    """What runs a case: a liquid (`gas` is None), or grains in a gas; its ledger goes to a new file."""
+    if case.liquid:
+        from sdph.liquid.run import LiquidRun
+
+        return LiquidRun(case, ledger)
+    return Simulation(case, gas, Ledger(ledger, case, gas.mesh.depth))
+
+
 def _guarded(run: Run, checkpoint, template: Path | None, allow_code: bool) -> dict:
     """The summary of a run; where it fails, the folder says why, and the error says how to go on."""
     (run.folder / output.FAILURE).unlink(missing_ok=True)
     try:
         with listening() as wish:
-            with contextlib.closing(open_gas(run.case, run.folder, template, run.reporter.status, allow_code)) as gas:
+            with _gas_of(run, template, allow_code) as gas:
                 return run.go(gas, checkpoint, wish)
     except OSError as error:
         failure = output.CannotWrite(f"{run.folder} cannot be written: {error.strerror or error}; make room or give another folder")
         raise run.failed(failure) from error
     except (RuntimeError, CaseError, Stopped) as error:
         raise run.failed(error)
+
+
+def _gas_of(run: Run, template: Path | None, allow_code: bool):
+    """A context with the gas of a run, closed in the end; None where there is none."""
+    if run.case.liquid:
+        return contextlib.nullcontext()
+    return contextlib.closing(open_gas(run.case, run.folder, template, run.reporter.status, allow_code))
 
 
 class Run:
@@ -115,7 +135,7 @@ class Run:
         self.elapsed = before
 
     def go(self, gas, checkpoint, wish) -> dict:
-        """From the start, or from a checkpoint, to the summary."""
+        """From the start, or from a checkpoint, to the summary; `gas` None for a liquid."""
         self._begin(gas, checkpoint)
         wish.patient = True
         with contextlib.closing(self.out):
@@ -127,6 +147,8 @@ class Run:
             self._save()
         summary = _summary(self.simulation, self.out) | {"start_to_first_window_s": self.first, "wall_s": self.spent}
         output.write_summary(self.folder, summary)
+        for warning in self.simulation.warnings():
+            self.reporter.status(f"warning: {warning}")
         return summary
 
     def failed(self, error: BaseException) -> BaseException:
@@ -145,7 +167,7 @@ class Run:
         return error
 
     def _begin(self, gas, checkpoint) -> None:
-        simulation = Simulation(self.case, gas, Ledger(self.folder / "ledger.csv", self.case, gas.mesh.depth))
+        simulation = simulation_of(self.case, gas, self.folder / "ledger.csv")
         self.simulation, self.out = simulation, Outputs(self.folder, simulation)
         if checkpoint is None:
             simulation.start()
@@ -154,7 +176,7 @@ class Run:
             return
         self.reporter.status(f"going on from {checkpoint.folder}")
         checkpoint.fill(self)
-        simulation.take_up(gas.restore(checkpoint.gas))
+        simulation.take_up(checkpoint.gas)
 
     def _window(self) -> None:
         self.simulation.window()
@@ -174,26 +196,26 @@ class Run:
 
 
 class Outputs:
-    """All that a run writes as it goes: history by window, fields and metrics by output interval."""
+    """All that a run writes as it goes: history by row, fields and metrics by output interval."""
 
     KEPT = ("fields", "history", "metrics", "first", "last", "rows")  # see sdph.restart
 
     def __init__(self, folder: Path, simulation):
-        self.simulation = simulation
-        self.fields = output.Fields(folder, simulation.gas, simulation.case.grains.density)
+        self.simulation, self.fields = simulation, output.Fields(folder)
         self.history, self.metrics = output.Table(folder / "history.csv"), output.Table(folder / "metrics.csv")
         self.first, self.last, self.rows = {}, {}, []
 
     def start(self) -> None:
         """The rows and fields of the start."""
-        self.first = history.row(self.simulation)
+        self.first = self.simulation.row()
         self.history.write(self.first)
         self._write()
 
     def window(self) -> None:
         """After each window."""
-        self.last = history.row(self.simulation)
-        self.history.write(self.last)
+        if self.simulation.at_row:
+            self.last = self.simulation.row()
+            self.history.write(self.last)
         if self.simulation.time in self.simulation.clock.outputs:
             self._write()
 
@@ -202,27 +224,16 @@ class Outputs:
             table.close()
 
     def _write(self) -> None:
-        self.fields.write(self.simulation.time, self.simulation.grains, self.simulation.cell_fields())
+        self.fields.write(self.simulation.time, self.simulation.meshes())
         self.rows.append(metrics.row(self.simulation))
         self.metrics.write(self.rows[-1])
 
 
 def _summary(simulation, out: Outputs) -> dict:
     """summary.json, less the wall time of the whole."""
-    case = simulation.case
-    summary = {
-        "title": case.title,
-        "time_s": simulation.time,
-        "particles": len(simulation.grains.x),
-        "cells": len(simulation.gas.mesh.volumes),
-        "windows": simulation.windows,
-        "sub_steps": simulation.stepper.steps,
-        "wall_contacts": simulation.stepper.contacts,
-    }
-    for name in case.probes:
-        own = {key: value for key, value in out.last.items() if key.startswith(f"{name}_")}
-        summary |= own | {f"{name}_rise_K": own[f"{name}_temperature_K"] - out.first[f"{name}_temperature_K"]}
-    summary |= metrics.summary(case, out.rows) | simulation.ledger.summary()
+    case, count = simulation.case, len(simulation.state.x)
+    summary = {"title": case.title, "time_s": simulation.time, "particles": count, "windows": simulation.windows}
+    summary |= simulation.summary(out) | metrics.summary(case, out.rows) | simulation.ledger.summary()
     summary |= {f"wall_{part}_s": spent for part, spent in simulation.wall.items()}
     summary |= {f"{part}_ms_per_window": 1e3 * spent / simulation.windows for part, spent in simulation.wall.items()}
-    return summary | {"particle_steps_per_s": len(simulation.state.x) * simulation.stepper.steps / simulation.wall["particles"]}
+    return summary | {"particle_steps_per_s": count * simulation.stepper.steps / simulation.wall["particles"]}

@@ -34,11 +34,40 @@ class Unstable(RuntimeError):
         _picture(self.last, folder / "last_good.png", str(self))
 
 
-class Guard:
-    """Looks at the particles after every sub-step and at the gas after every window."""
+class Watch:
+    """What every guard does: it keeps the last good state, and stops the run where a value is out of its bounds."""
 
     def __init__(self, case):
-        self.case = case
+        self.case, self.last = case, {}
+        self.time, self.window = 0.0, 0
+
+    def begin(self, simulation) -> None:
+        """Before a window: the state to go back to."""
+        self.time, self.window = simulation.time, simulation.windows
+        self.last = {"time": simulation.time, **{name: a.copy() for name, a in simulation.state._asdict().items() if len(a)}}
+
+    def hold(self, name, values, bounds, state, lower: str) -> None:
+        """Unstable where a value (N,) of the particles is out of bounds (low, high, unit); `lower`: what is to be lowered."""
+        worst = _outside(values, *bounds[:2])
+        if worst is not None:
+            self.stop(name, f"particle {state.ident[worst]}", particles.positions(state)[worst], values[worst], bounds, lower)
+
+    def stop(self, name, which, place, value, bounds, lower: str) -> None:
+        at = ", ".join(f"{a:.4g}" for a in place[: self.case.dimensions])
+        low, high, unit = bounds
+        allowed = f"this case allows {low:.3g} to {high:.3g} {unit}"
+        raise Unstable(
+            f"the run went unstable at t = {self.time:.6g} s, in window {self.window + 1}: {name} of {which} at ({at}) m is "
+            f"{value:.3g} {unit}, {allowed}; lower {lower}",
+            self.last,
+        )
+
+
+class Guard(Watch):
+    """Looks at the grains after every sub-step and at the gas after every window."""
+
+    def __init__(self, case):
+        super().__init__(case)
         scales = judge.scales_of(case)
         drop = math.sqrt(2.0 * scales.gravity * max(case.domain.size))
         pressures = [b.pressure for b in case.boundaries.values() if b.pressure is not None]
@@ -50,53 +79,34 @@ class Guard:
         slack = scales.span + LATENT * max(given) + self.reach**2 / case.grains.heat_capacity
         self.coldest, self.hottest = max(0.0, min(given) - slack), max(given) + slack
         self.sound = math.sqrt(ADIABATIC * GAS_CONSTANT / case.gas.molar_mass * max(given))
-        self.last: dict = {}
 
     def begin(self, simulation, dt: float) -> None:
-        """Before a window of `dt` [s]: the state to go back to."""
-        self.time, self.window = simulation.time, simulation.windows
+        """Before a window of `dt` [s]."""
+        super().begin(simulation)
         self.cause, self.length = simulation.clock.limit, dt
-        self.last = {"time": simulation.time, **{name: a.copy() for name, a in simulation.state._asdict().items() if len(a)}}
 
     def sub_step(self, stepper) -> None:
         """After a sub-step: NaN, speed, temperature of the particles."""
         s = stepper.state
+        lower = f"run.step_factor (now {self.case.run.step_factor:g}; the sub-step was ruled by {stepper.limit or 'conduction'}), then {self._shorter()}"
         speed = np.sqrt(s.u**2 + s.v**2 + (s.w**2 if len(s.w) else 0.0))
-        fast = RUNAWAY * self.reach
-        self._hold("speed", speed, 0.0, fast, "m/s", stepper)
+        self.hold("speed", speed, (0.0, RUNAWAY * self.reach, "m/s"), s, lower)
         if len(s.temperature):
-            self._hold("temperature", s.temperature, self.coldest, self.hottest, "K", stepper)
-        self._hold("density", s.density, 0.0, math.inf, "kg/m3", stepper)
+            self.hold("temperature", s.temperature, (self.coldest, self.hottest, "K"), s, lower)
+        self.hold("density", s.density, (0.0, math.inf, "kg/m3"), s, lower)
 
     def gas(self, simulation) -> None:
         """After a window: NaN, speed, temperature of the gas."""
         fields = simulation.gas_state.fields
         bounds = {"velocity": (0.0, RUNAWAY * self.sound, "m/s"), "temperature": (self.coldest, self.hottest, "K")}
-        for name, (low, high, unit) in bounds.items():
+        for name, bound in bounds.items():
             values = fields[name] if fields[name].ndim == 1 else np.sqrt((fields[name] ** 2).sum(axis=1))
-            worst = _outside(values, low, high)
+            worst = _outside(values, *bound[:2])
             if worst is not None:
-                self._stop(f"gas {name}", f"cell {worst}", simulation.gas.mesh.centres[worst], values[worst], (low, high, unit), self._window())
+                self.stop(f"gas {name}", f"cell {worst}", simulation.gas.mesh.centres[worst], values[worst], bound, self._shorter())
 
-    def _hold(self, name, values, low, high, unit, stepper) -> None:
-        worst = _outside(values, low, high)
-        if worst is not None:
-            s = stepper.state
-            lower = f"run.step_factor (now {self.case.run.step_factor:g}; the sub-step was ruled by {stepper.limit or 'conduction'}), then {self._window()}"
-            self._stop(name, f"particle {s.ident[worst]}", particles.positions(s)[worst], values[worst], (low, high, unit), lower)
-
-    def _window(self) -> str:
+    def _shorter(self) -> str:
         return f"coupling.window_largest_s below {self.length:.3g} (the window was ruled by {self.cause})"
-
-    def _stop(self, name, which, place, value, bounds, lower) -> None:
-        at = ", ".join(f"{a:.4g}" for a in place[: self.case.dimensions])
-        low, high, unit = bounds
-        allowed = f"this case allows {low:.3g} to {high:.3g} {unit}"
-        raise Unstable(
-            f"the run went unstable at t = {self.time:.6g} s, in window {self.window + 1}: {name} of {which} at ({at}) m is "
-            f"{value:.3g} {unit}, {allowed}; lower {lower}",
-            self.last,
-        )
 
 
 def _outside(values, low: float, high: float):

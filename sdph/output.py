@@ -166,30 +166,29 @@ def _numbers(values: list[str]) -> np.ndarray:
         return np.array(values)
 
 
+SUFFIXES = {"vtkPolyData": "vtp", "vtkRectilinearGrid": "vtr", "vtkUnstructuredGrid": "vtu"}
+
+
 class Fields:
-    """Particles and gas on one timeline: `run.pvd` opens in ParaView and pyvista."""
+    """Particles, and gas where there is any, on one timeline: `run.pvd` opens in ParaView and pyvista."""
 
     KEPT = ("entries",)  # see sdph.restart
 
-    def __init__(self, folder: Path, gas, grain_density: float):
-        self.folder, self.gas, self.grid, self.grain_density = folder, gas, None, grain_density
+    def __init__(self, folder: Path):
+        self.folder = folder
         self.entries: list[str] = []
 
     def revive(self) -> None:
         """The timeline up to the checkpoint that was put back."""
         self._write_timeline()
 
-    def write(self, time: float, state, fields: dict) -> None:
-        """Particles and gas fields (name -> (C,) or (C, 3)) at `time` [s], and the timeline up to there."""
-        if self.grid is None:
-            self.grid = gas_grid(self.gas)
-        number = len(self.entries) // 2
-        suffix = "vtr" if self.grid[0].GetClassName() == "vtkRectilinearGrid" else "vtu"
-        names = f"fields/particles_{number:05d}.vtp", f"fields/gas_{number:05d}.{suffix}"
-        save(particle_points(state, self.grain_density), self.folder / names[0])
-        save(with_fields(*self.grid, fields), self.folder / names[1])
-        for part, name in enumerate(names):
-            self.entries.append(f'<DataSet timestep="{time:.9g}" part="{part}" file="{name}"/>')
+    def write(self, time: float, meshes: dict) -> None:
+        """`meshes` (name -> pyvista mesh, the same names each time) at `time` [s], and the timeline up to there."""
+        number = len(self.entries) // len(meshes)
+        files = {f"fields/{name}_{number:05d}.{SUFFIXES[mesh.GetClassName()]}": mesh for name, mesh in meshes.items()}
+        for name, mesh in files.items():
+            save(mesh, self.folder / name)
+        self.entries += [f'<DataSet timestep="{time:.9g}" part="{part}" file="{name}"/>' for part, name in enumerate(files)]
         self._write_timeline()
 
     def _write_timeline(self) -> None:

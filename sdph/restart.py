@@ -67,7 +67,7 @@ class Checkpoint:
 
 
 def write(run_folder: Path, number: int, case_table: dict, thing, gas) -> Path:
-    """Checkpoint `number` of a run: `thing` (has KEPT) and the gas. Older ones than the last two go."""
+    """Checkpoint `number` of a run: `thing` (has KEPT) and the gas, if there is one. Older ones than the last two go."""
     folder = run_folder / FOLDER / f"{number:09d}"
     draft = folder.with_name(f".{folder.name}.part")
     shutil.rmtree(draft, ignore_errors=True)
@@ -87,7 +87,8 @@ def write(run_folder: Path, number: int, case_table: dict, thing, gas) -> Path:
 
 def _write_all(draft: Path, case_table: dict, thing, gas) -> None:
     """The files of a checkpoint, on the disk when this returns."""
-    gas.checkpoint(draft / GAS)
+    if gas:
+        gas.checkpoint(draft / GAS)
     arrays: dict[str, np.ndarray] = {}
     (draft / NUMBERS).write_text(json.dumps(_pack(thing, "run", arrays)), encoding="utf-8")
     np.savez(draft / ARRAYS, **arrays)

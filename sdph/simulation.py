@@ -7,7 +7,7 @@ import time as clock
 import numpy as np
 
 from coupling.transfer import Transfer, gather
-from sdph import effects, particles
+from sdph import effects, history, output, particles
 from sdph.effects.inflow import Source
 from sdph.effects.outflow import leaving
 from sdph.exchange import INSTANT, Exchange
@@ -20,6 +20,7 @@ from sdph.window import Window
 class Simulation:
     """Particles of a case coupled to a gas; call `window` until `time` is the end."""
 
+    at_row = True  # the history has a row of every window
     KEPT = ("time", "windows", "wall", "stepper", "exchange", "clock", "ledger", "source")  # see sdph.restart
 
     def __init__(self, case, gas, ledger):
@@ -34,7 +35,7 @@ class Simulation:
         self.transfer = Transfer(gas.mesh, case.smoothing_length, case.domain.size)
         self.exchange = Exchange(case, gas.mesh, self.parameters)
         self.clock = Window(case)
-        self.time, self.windows = 0.0, 0
+        self.time, self.windows, self.grid = 0.0, 0, None
         self.wall = {"particles": 0.0, "exchange": 0.0, "gas": 0.0}
 
     @property
@@ -60,9 +61,9 @@ class Simulation:
         self.ledger.open(self.grains, self.gas_state.budget)
         self.received = None  # heat rate [W] of each particle from the gas in the last window
 
-    def take_up(self, gas_state) -> None:
-        """Go on from a checkpoint that was put back, instead of `start`."""
-        self.gas_state, self.received = gas_state, None
+    def take_up(self, folder) -> None:
+        """Go on from a checkpoint that was put back, the gas's in `folder`, instead of `start`."""
+        self.gas_state, self.received = self.gas.restore(folder), None
         self.weights = self._weights()
 
     def window(self) -> None:
@@ -95,6 +96,27 @@ class Simulation:
         exchanged |= {"drag_heat_J": self.exchange.drag_heat_of(handed)}
         exchanged |= self._timed("exchange", self._turn_over, self.clock.longest())
         self.ledger.close_window(end, dt, self.clock.limit, self.grains, self.gas_state, exchanged)
+
+    def row(self) -> dict[str, float]:
+        """What history.csv holds."""
+        return history.row(self)
+
+    def meshes(self) -> dict:
+        """Particles and gas for the timeline."""
+        self.grid = self.grid or output.gas_grid(self.gas)
+        return {"particles": output.particle_points(self.grains, self.case.grains.density), "gas": output.with_fields(*self.grid, self.cell_fields())}
+
+    def summary(self, out) -> dict[str, float]:
+        """summary.json, its own part; what probes rose by is told from the first and the last row of the history."""
+        own = {"cells": len(self.gas.mesh.volumes), "sub_steps": self.stepper.steps, "wall_contacts": self.stepper.contacts}
+        for name in self.case.probes:
+            own |= {key: value for key, value in out.last.items() if key.startswith(f"{name}_")}
+            own[f"{name}_rise_K"] = out.last[f"{name}_temperature_K"] - out.first[f"{name}_temperature_K"]
+        return own
+
+    def warnings(self) -> list[str]:
+        """What the run has to say of itself in the end: nothing that its ledger does not."""
+        return []
 
     def cell_fields(self) -> dict[str, np.ndarray]:
         """Fields of the gas, and alpha_p by cell."""

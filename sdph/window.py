@@ -63,9 +63,8 @@ class Window:
         self.courant, self.cell = case.coupling.courant, case.resolution.cell
         self.limits = {"largest": case.coupling.window_largest}
         self.control = Control(case.coupling.window_tolerance)
-        self.outputs = _outputs(case.run)
-        apart = [t for t in case.run.report_at if t < case.run.end_time and abs(self.outputs - t).min() > SAME * case.run.end_time]
-        self.landmarks = np.union1d(self.outputs, apart)
+        self.outputs = every(case.run.output_interval, case.run.end_time)
+        self.landmarks = with_others(self.outputs, case.run.report_at)
         self.limit = ""
 
     def begin(self, rate: float, scale: float) -> None:
@@ -108,7 +107,13 @@ class Window:
             self.limits["courant"] = dt * min(GROWTH, self.courant / courant)
 
 
-def _outputs(run) -> np.ndarray:
-    """Times that fields are written at: every interval, and the end."""
-    count = math.ceil(run.end_time / run.output_interval * (1.0 - 1e-9))
-    return np.append(np.arange(1, count) * run.output_interval, run.end_time)
+def every(interval: float, end: float) -> np.ndarray:
+    """Multiples of the interval [s] up to the end, and the end."""
+    count = math.ceil(end / interval * (1.0 - 1e-9))
+    return np.append(np.arange(1, count) * interval, end)
+
+
+def with_others(times: np.ndarray, others) -> np.ndarray:
+    """The times [s], and those of the others before their end that are not the same but for round-off."""
+    apart = [t for t in others if t < times[-1] and abs(times - t).min() > SAME * times[-1]]
+    return np.union1d(times, apart)

@@ -89,11 +89,11 @@ def test_fields_read_back(tmp_path):
     case = disc(*SHORT)
     simulated = simulation(case, tmp_path)
     output.create(tmp_path / "run")
-    fields = output.Fields(tmp_path / "run", simulated.gas, case.grains.density)
-    fields.write(0.0, simulated.state, simulated.cell_fields())
+    fields = output.Fields(tmp_path / "run")
+    fields.write(0.0, simulated.meshes())
     while simulated.time < case.run.end_time:
         simulated.window()
-    fields.write(simulated.time, simulated.state, simulated.cell_fields())
+    fields.write(simulated.time, simulated.meshes())
     reader = view.read(tmp_path / "run")
     assert list(reader.time_values) == [0.0, 0.004]
     time, particles, gas = view.state_at(reader)
@@ -119,7 +119,7 @@ def test_picture_of_a_run(tmp_path):
     case = disc(*SHORT)
     simulated = run(case, tmp_path)
     output.create(tmp_path / "run")
-    output.Fields(tmp_path / "run", simulated.gas, case.grains.density).write(simulated.time, simulated.state, simulated.cell_fields())
+    output.Fields(tmp_path / "run").write(simulated.time, simulated.meshes())
     view.show(tmp_path / "run", tmp_path / "picture.png")
     from matplotlib.image import imread
 

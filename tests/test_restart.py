@@ -160,12 +160,22 @@ def test_a_folder_in_use_is_refused(cut):
         driver.resume(cut, (), Reporter())
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
-def test_a_signal_leaves_a_checkpoint(tmp_path, number):
-    overrides = [word for text in (*COARSE["disc_cluster"][:3], "run.end_time_s=1.0", "run.checkpoint_interval_s=1e6") for word in ("--set", text)]
-    command = [sys.executable, "-m", "sdph.cli", "run", "disc_cluster", "--gas", "embedded", *overrides, "--out", "mine"]
+COARSE_DAM = ("resolution.spacing_mm=4", "domain.gravity_m_s2=[0.0,-0.1]", "run.output_interval_s=0.01")
+
+
+@pytest.mark.parametrize(
+    ("number", "scene", "coarse"),
+    [
+        (signal.SIGTERM, "disc_cluster", COARSE["disc_cluster"][:3]),
+        (signal.SIGINT, "disc_cluster", COARSE["disc_cluster"][:3]),
+        (signal.SIGTERM, "dam_break", COARSE_DAM),
+    ],
+)
+def test_a_signal_leaves_a_checkpoint(tmp_path, number, scene, coarse):
+    overrides = [word for text in (*coarse, "run.end_time_s=1.0", "run.checkpoint_interval_s=1e6") for word in ("--set", text)]
+    command = [sys.executable, "-m", "sdph.cli", "run", scene, "--gas", "embedded", *overrides, "--out", "mine"]
     process = subprocess.Popen(command, cwd=tmp_path, env=ENVIRONMENT, stderr=subprocess.PIPE, text=True)
-    history = tmp_path / "mine" / "fields" / "gas_00001.vtr"
+    history = tmp_path / "mine" / "fields" / "particles_00001.vtp"
     while not history.exists():
         assert process.poll() is None, process.stderr.read()
         time.sleep(0.05)

@@ -13,6 +13,8 @@ ROUND_OFF = 1e-12  # of a particle's mass: less than that is nothing
 class Outlet:
     """Takes from a stepper's liquid what is commanded; sums up what has gone: mass, momentum, angular momentum."""
 
+    KEPT = ("place", "gone")  # see sdph.restart
+
     def __init__(self, stepper):
         case = stepper.case
         self.stepper, self.form = stepper, drain.FORMS[stepper.p["drain"].form] if stepper.p["drain"] else drain.FORMS[0]

@@ -275,6 +275,18 @@ def fastest(s, active, acceleration):
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
+def momentum(s, active):
+    """Momentum of the liquid [kg m/s], three components."""
+    x = y = z = 0.0
+    for n in prange(len(active)):
+        i = active[n]
+        x += s.mass[i] * s.u[i]
+        y += s.mass[i] * s.v[i]
+        z += s.mass[i] * s.w[i] if len(s.w) else 0.0
+    return x, y, z
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
 def travelled(x, y, z, x0, y0, z0):
     """Largest squared distance [m2] between two sets of places."""
     most = 0.0
@@ -308,7 +320,8 @@ def displace(p, active, least, shift, gradient_x, gradient_y, gradient_z, twist,
 
 @njit(cache=True, error_model="numpy")
 def reaction(s, active, gravity_p, frame_p, acceleration, load):
-    """load (6,): force [N] and moment [N m] of the liquid on its walls, -sum m (a - body), -sum r x m (a - body)."""
+    """load (10,): force [N] and moment [N m] of the liquid on its walls, -sum m (a - body), -sum r x m (a - body); body
+    force, sum m body [N], and its power, sum m v.body [W]."""
     for i in active:
         bx, by, bz = body(gravity_p, frame_p, s, i, False)
         fx = s.mass[i] * (bx - acceleration[i, 0])
@@ -321,6 +334,10 @@ def reaction(s, active, gravity_p, frame_p, acceleration, load):
         load[3] += s.y[i] * fz - z * fy
         load[4] += z * fx - s.x[i] * fz
         load[5] += s.x[i] * fy - s.y[i] * fx
+        load[6] += s.mass[i] * bx
+        load[7] += s.mass[i] * by
+        load[8] += s.mass[i] * bz
+        load[9] += s.mass[i] * (s.u[i] * bx + s.v[i] * by + (s.w[i] * bz if len(s.w) else 0.0))
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)

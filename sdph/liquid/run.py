@@ -1,4 +1,4 @@
-"""`sdph run` of a case with a liquid: no gas, no windows; the same run folder."""
+"""A liquid on its way, as `sdph.driver` runs it: the same calls as `sdph.simulation.Simulation` has, without a gas."""
 
 from __future__ import annotations
 
@@ -8,159 +8,182 @@ from pathlib import Path
 
 import numpy as np
 
-from sdph import case as cases
-from sdph import output, particles
+from sdph import particles, window
 from sdph.effects import drain
-from sdph.liquid import LIQUID
+from sdph.liquid.ledger import IMPULSES, LiquidLedger, energies
 from sdph.liquid.outlet import Outlet
-from sdph.liquid.step import LiquidStepper, kinetic_energy, loads, wall_loads
+from sdph.liquid.step import LiquidStepper, balance, kinetic_energy, wall_loads
 
 SAMPLES = 10  # rows of history.csv for each output of fields, where the case says nothing
+STRIDE = 20  # steps in a window at most: a liquid that goes unstable is caught within these (our choice)
+SLOW = 0.2  # of the speed of sound: a liquid that is faster is compressed by 4 % (u2/c2); the rule is 0.1, twice that is told of
+
+
+class Moments:
+    """When fields are written and rows of the history; `limit` names what ruled the last step."""
+
+    KEPT = ("limit",)  # see sdph.restart
+
+    def __init__(self, case):
+        run = case.run
+        interval = case.liquid.history_interval or run.output_interval / SAMPLES
+        self.outputs = window.every(run.output_interval, run.end_time)
+        self.landmarks = window.with_others(self.outputs, (*window.every(interval, run.end_time), *run.report_at))
+        self.limit = ""
+
+    def after(self, time: float) -> float:
+        """The next row [s]."""
+        return float(self.landmarks[np.searchsorted(self.landmarks, time, side="right")])
 
 
 class LiquidRun:
-    """A liquid between its outputs; `progress.Reporter` reads it as it does a `Simulation`."""
+    """A liquid in its tank; call `window` until `time` is the end."""
 
-    def __init__(self, case):
-        self.case, self.stepper = case, LiquidStepper(case)
-        self.time, self.windows = 0.0, 0
-        self.load = loads(self.stepper)
-        self.clock = self
+    KEPT = ("windows", "wall", "stepper", "outlet", "clock", "ledger", "impulse", "since")  # see sdph.restart
+
+    def __init__(self, case, ledger: Path):
+        self.case, self.gas, self.stepper = case, None, LiquidStepper(case)
+        self.ledger, self.clock = LiquidLedger(ledger), Moments(case)
         self.outlet = Outlet(self.stepper) if "drain" in case.effects else None
         self.fill = drain.command(case.parameters["drain"], self.outlet.fill) if self.outlet else None
+        self.windows, self.wall = 0, {"particles": 0.0}
+        self.impulse, self.since = np.zeros(6), 0.0  # force and moment on the tank since the last row, and its time [s]
 
     @property
     def state(self):
         return self.stepper.state
 
     @property
-    def limit(self) -> str:
-        return self.stepper.limit
+    def time(self) -> float:
+        return self.stepper.time
 
-    def advance(self, end: float) -> np.ndarray:
-        """To `end` [s]; returns the mean force and moment (6,) on the tank on the way, from the momentum theorem."""
-        start, impulse = self.time, np.zeros(6)
-        while self.time < end:
-            left = end - self.time
-            dt = self.stepper.step(left)
-            if self.outlet:
-                self.outlet.command(self.fill(self.time + dt))
-            load = loads(self.stepper)
-            impulse += 0.5 * dt * (self.load + load)
-            self.load = load
-            self.time = end if dt >= left else self.time + dt
+    @property
+    def at_row(self) -> bool:
+        """Whether the history has a row of now."""
+        return self.time in self.clock.landmarks
+
+    def start(self) -> None:
+        self.ledger.open(self.stepper)
+
+    def take_up(self, folder: Path) -> None:
+        """Go on from a checkpoint that was put back: it was all there is."""
+
+    def window(self) -> None:
+        """Some steps, to the next row of the history at most."""
+        begun, before = clock.perf_counter(), self.time
+        self.stepper.guard.begin(self)
+        if self.at_row:
+            self.impulse, self.since = np.zeros(6), self.time
+        end, tally = self.clock.after(self.time), Tally(self)
+        for _ in range(STRIDE):
+            tally.step(end)
+            if self.time == end:
+                break
         self.windows += 1
-        return impulse / (end - start) if end > start else self.load
+        self.stepper.guard.look(self.stepper)
+        self.impulse = self.impulse + tally.load[:6]
+        self.clock.limit = self.stepper.limit
+        self.ledger.close_window(self.stepper, self.time - before, *tally.amounts())
+        self.wall["particles"] += clock.perf_counter() - begun
+
+    def row(self) -> dict[str, float]:
+        """What history.csv holds: sums over the liquid, and loads on the tank."""
+        stepper, case = self.stepper, self.case
+        wet = stepper.active
+        mass, pressure = self.state.mass[wet], stepper.pressure[wet]
+        places, velocities = particles.positions(self.state)[wet], particles.velocities(self.state)[wet]
+        values = {
+            "time_s": self.time,
+            "mass_kg": float(mass.sum()),
+            "kinetic_energy_J": kinetic_energy(self.state),
+            "potential_energy_J": -float((mass * (places[:, : case.dimensions] @ np.array(case.domain.gravity))).sum()),
+            "fastest_m_s": float(np.sqrt((velocities**2).sum(axis=1)).max(initial=0.0)),
+            "pressure_largest_Pa": float(pressure.max(initial=0.0)),
+            "centre_pressure_Pa": _in_the_middle(places, pressure, case.resolution.spacing),
+        }
+        for a, name in enumerate("xyz"[: case.dimensions]):
+            values[f"centre_{name}_m"] = float((mass * places[:, a]).sum() / mass.sum()) if len(mass) else math.nan
+            values[f"momentum_{name}_kg_m_s"] = float((mass * velocities[:, a]).sum())
+            values[f"largest_{name}_m"] = float(places[:, a].max()) if len(mass) else math.nan
+        return values | self._drained() | self._loads()
+
+    def _drained(self) -> dict[str, float]:
+        if not self.outlet:
+            return {}
+        commanded = (self.outlet.fill - self.fill(self.time)) * self.stepper.capacity
+        return {"drained_kg": float(self.outlet.gone[0]), "commanded_kg": commanded}
+
+    def _loads(self) -> dict[str, float]:
+        """On the tank: the mean since the last row by the momentum theorem, and what the walls feel now."""
+        if "tank" not in self.case.effects:
+            return {}
+        mean = self.impulse / (self.time - self.since) if self.time > self.since else balance(self.stepper)[:6]
+        names = ("force_x_N", "force_y_N", "force_z_N", "moment_x_Nm", "moment_y_Nm", "moment_z_Nm")
+        loads = (("mean", mean), ("wall", wall_loads(self.stepper)))
+        return {f"{kind}_{name}": float(value) for kind, load in loads for name, value in zip(names, load)}
+
+    def meshes(self) -> dict:
+        """Liquid particles as pyvista points."""
+        import pyvista
+
+        wet = self.stepper.active
+        cloud = pyvista.PolyData(particles.positions(self.state)[wet])
+        if len(wet):  # pyvista knows no empty arrays
+            cloud["velocity"] = particles.velocities(self.state)[wet]
+            cloud["pressure"] = self.stepper.pressure[wet]
+            for name in ("ident", "kind", "mass", "density"):
+                cloud[name] = getattr(self.state, name)[wet]
+        return {"particles": cloud}
+
+    def summary(self, out) -> dict[str, float]:
+        """summary.json, its own part."""
+        return {"liquid_particles": len(self.stepper.active), "sub_steps": self.stepper.steps, "kinetic_energy_J": kinetic_energy(self.state)}
+
+    def warnings(self) -> list[str]:
+        """What the run has to say of itself in the end."""
+        mach, c = self.ledger.mach, self.case.liquid.sound_speed
+        text = "the liquid reached {:.2g} of its speed of sound and was compressed by about {:.0f} %: raise liquid.sound_speed_m_s from {:g} to {:.3g}"
+        return [text.format(mach, 100.0 * mach**2, c, 10.0 * mach * c)] if mach > SLOW else []
 
 
-def run(case, folder: Path, reporter) -> dict:
-    """Run a liquid case into a new folder and return its summary."""
-    started = clock.perf_counter()
-    with output.claimed(output.create(folder)):
-        output.write_text(folder / output.MARK, cases.dumps(case))
-        return _run(case, folder, reporter, started)
+class Tally:
+    """What a liquid got from where in one window."""
+
+    def __init__(self, run: LiquidRun):
+        self.run, self.stepper = run, run.stepper
+        self.load = np.zeros(10)  # integral of sdph.liquid.step.balance [N s, N m s, J]
+        self.shifted = self.stepper.shifted
+        self.gone = run.outlet.gone.copy() if run.outlet else np.zeros(7)
+        self.drained = 0.0
+        self.before = balance(self.stepper)
+
+    def step(self, end: float) -> None:
+        """One step, to `end` [s] at most."""
+        left = end - self.stepper.time
+        dt = self.stepper.step(left)
+        if dt >= left:
+            self.stepper.time = end
+        now = balance(self.stepper)
+        self.load += 0.5 * dt * (self.before + now)
+        self.before = self._drain(now)
+
+    def _drain(self, now):
+        """What the drain is commanded to take; the balance after it."""
+        if not self.run.outlet:
+            return now
+        energy = sum(energies(self.stepper))
+        self.run.outlet.command(self.run.fill(self.stepper.time))
+        self.drained += energy - sum(energies(self.stepper))
+        return balance(self.stepper)
+
+    def amounts(self) -> tuple[dict, dict]:
+        """Impulses and amounts for the ledger."""
+        gone = (self.run.outlet.gone if self.run.outlet else np.zeros(7)) - self.gone
+        given = (self.load[6:9], -self.load[:3], self.stepper.shifted - self.shifted, -gone[1:4])
+        return dict(zip(IMPULSES, given)), {"drained_kg": float(gone[0]), "drained_J": self.drained, "work_of_body_forces_J": float(self.load[9])}
 
 
-def _run(case, folder: Path, reporter, started: float) -> dict:
-    simulation = LiquidRun(case)
-    history, fields = output.Table(folder / "history.csv"), Timeline(folder)
-    fields.write(0.0, simulation.stepper)
-    history.write(row(simulation, simulation.load))
-    first = clock.perf_counter()
-    for end, write in _moments(case):
-        mean = simulation.advance(end)
-        history.write(row(simulation, mean))
-        if write:
-            fields.write(end, simulation.stepper)
-        reporter.progress(simulation)
-    history.close()
-    summary = _summary(simulation, started, first)
-    output.write_summary(folder, summary)
-    return summary
-
-
-def _moments(case):
-    """(time, whether fields are written) of every row of the history after the first."""
-    every = case.run.output_interval
-    interval = case.liquid.history_interval or every / SAMPLES
-    outputs = {round(n * every, 12) for n in range(1, math.ceil(case.run.end_time / every))} | {case.run.end_time}
-    rows = {round(n * interval, 12) for n in range(1, math.ceil(case.run.end_time / interval))}
-    ends = sorted(rows | outputs | set(case.run.report_at))
-    kept = [t for t, after in zip(ends, [*ends[1:], math.inf]) if after - t > 1e-9 * case.run.end_time or t in outputs]
-    return [(t, t in outputs) for t in kept if t <= case.run.end_time]
-
-
-def row(simulation, mean) -> dict[str, float]:
-    """What history.csv holds: sums over the liquid, and loads on the tank."""
-    s, case = simulation.state, simulation.case
-    wet = s.kind >= LIQUID
-    mass = s.mass[wet]
-    places, velocities = particles.positions(s)[wet], particles.velocities(s)[wet]
-    speed = np.sqrt((velocities**2).sum(axis=1))
-    values = {
-        "time_s": simulation.time,
-        "mass_kg": float(mass.sum()),
-        "kinetic_energy_J": kinetic_energy(s),
-        "potential_energy_J": -float((mass * (places[:, : case.dimensions] @ np.array(case.domain.gravity))).sum()),
-        "fastest_m_s": float(speed.max(initial=0.0)),
-        "pressure_largest_Pa": float(simulation.stepper.pressure[wet].max(initial=0.0)),
-    }
-    middle = places.mean(axis=0)
-    near = ((places - middle) ** 2).sum(axis=1) < (2.0 * case.resolution.spacing) ** 2
-    values["centre_pressure_Pa"] = float(simulation.stepper.pressure[wet][near].mean()) if near.any() else math.nan
-    for a, name in enumerate("xyz"[: case.dimensions]):
-        values[f"centre_{name}_m"] = float((mass * places[:, a]).sum() / mass.sum())
-        values[f"momentum_{name}_kg_m_s"] = float((mass * velocities[:, a]).sum())
-        values[f"largest_{name}_m"] = float(places[:, a].max())
-    if simulation.outlet:
-        values["drained_kg"] = float(simulation.outlet.gone[0])
-        values["commanded_kg"] = (simulation.outlet.fill - simulation.fill(simulation.time)) * simulation.stepper.capacity
-    if "tank" in case.effects:
-        for kind, load in (("mean", mean), ("wall", wall_loads(simulation.stepper))):
-            for name, value in zip(("force_x_N", "force_y_N", "force_z_N", "moment_x_Nm", "moment_y_Nm", "moment_z_Nm"), load):
-                values[f"{kind}_{name}"] = float(value)
-    return values
-
-
-def _summary(simulation, started: float, first: float) -> dict:
-    case, stepper = simulation.case, simulation.stepper
-    spent = clock.perf_counter() - first
-    count = len(simulation.state.x)
-    return {
-        "title": case.title,
-        "time_s": simulation.time,
-        "particles": count,
-        "liquid_particles": len(stepper.active),
-        "steps": stepper.steps,
-        "kinetic_energy_J": kinetic_energy(simulation.state),
-        "particle_steps_per_s": count * stepper.steps / spent,
-        "start_to_first_step_s": first - started,
-        "wall_s": clock.perf_counter() - started,
-    }
-
-
-class Timeline:
-    """Liquid particles by time: `run.pvd` opens in ParaView and pyvista."""
-
-    def __init__(self, folder: Path):
-        self.folder, self.entries = folder, []
-
-    def write(self, time: float, stepper) -> None:
-        name = f"fields/particles_{len(self.entries):05d}.vtp"
-        points(stepper).save(self.folder / name)
-        self.entries.append(f'<DataSet timestep="{time:.9g}" part="0" file="{name}"/>')
-        output.write_text(self.folder / "run.pvd", output.PVD.format("\n".join(self.entries)))
-
-
-def points(stepper):
-    """Liquid particles as pyvista points."""
-    import pyvista
-
-    s = stepper.state
-    wet = np.flatnonzero(s.kind >= LIQUID)
-    cloud = pyvista.PolyData(particles.positions(s)[wet])
-    cloud["velocity"] = particles.velocities(s)[wet]
-    cloud["pressure"] = stepper.pressure[wet]
-    for name in ("ident", "kind", "mass", "density"):
-        cloud[name] = getattr(s, name)[wet]
-    return cloud
+def _in_the_middle(places, pressure, spacing: float) -> float:
+    """Mean pressure [Pa] within two spacings of the middle of the liquid; nan where there is none."""
+    near = ((places - places.mean(axis=0)) ** 2).sum(axis=1) < (2.0 * spacing) ** 2 if len(places) else np.zeros(0, bool)
+    return float(pressure[near].mean()) if near.any() else math.nan

@@ -83,7 +83,7 @@ def _in_tank(case, pool) -> np.ndarray:
     low, high = pipe.centre - pipe.radius, pipe.centre + pipe.radius
     low[2], high[2] = pipe.centre[2] - 0.5 * pipe.length, pipe.centre[2] + 0.5 * pipe.length
     buffer = shapes.lattice_inside(pipe, spacing, low, high, CLEARANCE * spacing * 0.999)
-    free = np.array([((points - p) ** 2).sum(axis=1).min() > (0.9 * spacing) ** 2 for p in buffer])
+    free = np.array([((points - p) ** 2).sum(axis=1).min() > (0.9 * spacing) ** 2 for p in buffer], bool)
     return np.concatenate((buffer[free & (own.distance(buffer) > -CLEARANCE * spacing)], points))
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from sdph import effects, particles, smoothing
 from sdph.effects import OFF, frame, tank
 from sdph.liquid import LIQUID, rates, start
+from sdph.liquid.guard import LiquidGuard
 from sdph.liquid.rates import WallP
 from sdph.neighbours import SKIN, Neighbours
 from sdph.particles import WALL
@@ -35,8 +36,12 @@ class Rows(Neighbours):
 class LiquidStepper:
     """Liquid and wall particles of a case, and how they go forward."""
 
+    KEPT = (
+        "state", "neighbours", "time", "steps", "limit", "shifted", "pressure", "volume", "acceleration", "gradient", "least", "shift", "twist",
+    )  # fmt: skip  (see sdph.restart)
+
     def __init__(self, case):
-        self.case, d = case, case.dimensions
+        self.case, self.guard, d = case, LiquidGuard(case), case.dimensions
         self.p = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
         self.kernel = smoothing.smoothing(case.liquid.kernel, d, case.smoothing_length)
         periodic = case.liquid.periodic or (0.0,) * d
@@ -46,10 +51,17 @@ class LiquidStepper:
         own = self.p["tank"]
         self.wall = WallP(*[0.0] * 6, own.least, own.stick) if own else NO_WALL
         self.limits, self.limit, self.steps, self.time = self._limits(), "", 0, 0.0
+        self.shifted = np.zeros(3)  # momentum that shifting has given [kg m/s]
         self.move = frame.motion(case.parameters["frame"]) if self.p["frame"] else None
         self.aim(0.0)
         self.least = np.zeros(0)
         self.forces()
+
+    def revive(self) -> None:
+        """After a checkpoint was put back."""
+        self.rows = self.neighbours.rows
+        self._tell_apart()
+        self.aim(self.time)
 
     def step(self, most: float) -> float:
         """One step, no longer than `most` [s]; returns its length."""
@@ -70,14 +82,14 @@ class LiquidStepper:
     def next_step(self, left: float) -> float:
         """What is left [s] in equal parts no longer than the shortest limit; `limit` names it."""
         speed, force = rates.fastest(self.state, self.active, self.acceleration)
-        if not math.isfinite(speed + force):
-            raise FloatingPointError(f"the liquid burst at t = {self.time:g} s: a velocity is no longer finite")
         h, c = self.kernel.h, self.case.liquid.sound_speed
+        if not speed + 0.0 * force <= c * c:  # or one of them is no number
+            self.guard.look(self)
         limits = self.limits | {"sound": self.case.liquid.courant * h / (c + math.sqrt(speed))}
         if force:
             limits["force"] = FORCE * math.sqrt(h / math.sqrt(force))
         self.limit = min(limits, key=limits.get)
-        return left / max(1, math.ceil(left / limits[self.limit] * (1.0 - 1e-9)))
+        return left / max(1, math.ceil(left / (self.case.run.step_factor * limits[self.limit]) * (1.0 - 1e-9)))
 
     def _limits(self) -> dict[str, float]:
         """Limits that stay through the run."""
@@ -128,19 +140,24 @@ class LiquidStepper:
     def _allocate(self, before) -> None:
         """Work arrays for the particles in their new order; only `least` outlives a step. before (N,): their old order."""
         s = self.state
-        self.active = np.flatnonzero(s.kind >= LIQUID).astype(np.int32)
-        walls = np.flatnonzero(s.kind == WALL).astype(np.int32)
-        wet = np.empty(len(walls), np.bool_)
-        rates.near_liquid(s.kind, self.rows, walls, wet)
-        self.walls = walls[wet]
+        self._tell_apart()
         count = len(s.x)
-        self.pressure, self.volume, self.rate = np.zeros(count), np.zeros(count), np.zeros(count)
-        self.volume[walls] = -(self.case.resolution.spacing**self.case.dimensions)
+        self.pressure, self.volume = np.zeros(count), np.zeros(count)
+        self.volume[s.kind == WALL] = -(self.case.resolution.spacing**self.case.dimensions)
         self.acceleration, self.gradient = np.zeros((count, 3)), tuple(np.zeros((3, count)))
         shifted = count if self.p["shifting"] else 0
         known = np.zeros(int(before.max()) + 1)
         known[before[: len(self.least)]] = self.least
         self.least, self.shift, self.twist = known[s.ident[:shifted]], np.zeros((shifted, 3)), np.zeros((shifted, 9))
+
+    def _tell_apart(self) -> None:
+        """Liquid particles, and those of the walls that liquid is near."""
+        s = self.state
+        self.active = np.flatnonzero(s.kind >= LIQUID).astype(np.int32)
+        walls = np.flatnonzero(s.kind == WALL).astype(np.int32)
+        wet = np.empty(len(walls), np.bool_)
+        rates.near_liquid(s.kind, self.rows, walls, wet)
+        self.walls, self.rate = walls[wet], np.zeros(len(s.x))
 
     @property
     def capacity(self) -> float:
@@ -157,16 +174,22 @@ class LiquidStepper:
         self.forces()
 
     def _shift(self, dt: float) -> None:
-        s = self.state
+        s, before = self.state, np.array(rates.momentum(self.state, self.active))
         rates.displace(
             self.p["shifting"], self.active, self.least, self.shift, *self.gradient, self.twist, self.case.liquid.sound_speed**-2, dt, s.x, s.y, s.z, s.u, s.v, s.w, s.density,
         )  # fmt: skip
+        self.shifted = self.shifted + rates.momentum(s, self.active) - before
 
 
 def loads(stepper) -> np.ndarray:
     """(6,) force [N] and moment about the origin [N m] of the liquid on the tank: what acts on the liquid from outside,
     less what its momentum gains."""
-    load = np.zeros(6)
+    return balance(stepper)[:6]
+
+
+def balance(stepper) -> np.ndarray:
+    """(10,) the same, then the force (3) [N] and the power [W] of gravity and of the frame's motion."""
+    load = np.zeros(10)
     rates.reaction(stepper.state, stepper.active, stepper.p["gravity"], stepper.frame, stepper.acceleration, load)
     return load
 

@@ -1,0 +1,33 @@
+"""Catches a liquid that goes unstable, within the steps of one window.
+
+Weakly compressible means slow: sound is chosen ten times as fast as the liquid (liquids.md, shared core), so that a
+particle as fast as sound is past all that the case foresaw.
+"""
+
+from __future__ import annotations
+
+import sys
+
+import numpy as np
+
+from sdph import particles
+from sdph.guard import Watch
+
+
+class LiquidGuard(Watch):
+    """Looks at all particles after every window, and at once when the fastest outruns sound."""
+
+    def look(self, stepper) -> None:
+        """NaN, speed, density, acceleration."""
+        s, own = stepper.state, self.case
+        self.time = stepper.time
+        lower = (
+            f"run.step_factor (now {own.run.step_factor:g}; the step was ruled by {stepper.limit or 'sound'}); where the liquid is meant "
+            f"to be so fast, raise liquid.sound_speed_m_s (now {own.liquid.sound_speed:g}) to ten times its speed"
+        )
+        speed = np.sqrt((particles.velocities(s)[stepper.active] ** 2).sum(axis=1))
+        wet = particles.take(s, stepper.active)
+        self.hold("speed", speed, (0.0, own.liquid.sound_speed, "m/s"), wet, lower)
+        self.hold("density", wet.density, (sys.float_info.min, sys.float_info.max, "kg/m3"), wet, lower)
+        size = np.sqrt((stepper.acceleration[stepper.active] ** 2).sum(axis=1))
+        self.hold("acceleration", size, (0.0, sys.float_info.max, "m/s2"), wet, lower)

@@ -1,0 +1,102 @@
+"""The ledger of a liquid: mass, momentum and energy, and who gave and took them, one row a window.
+
+Momentum comes from body forces, walls and shifting, and goes through the drain; the walls' part is that which the pairs of
+particles do not give back to each other, so that it is nothing where there are no walls. Energy is kinetic and elastic
+(of compression); body forces work on it, the drain takes its share, and what is missing then has been dissipated: by
+viscosity, artificial or not, by diffusion of density, by shifting. A scheme that makes energy shows in `energy_made_rel`.
+Two-dimensional amounts are per metre of depth.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+
+from sdph import particles
+from sdph.ledger import vector
+from sdph.output import Table
+
+IMPULSES = ("body_forces", "walls", "shifting", "drain")
+
+
+class LiquidLedger:
+    """Keeps the sums of one run and writes each row to `ledger.csv` as it comes."""
+
+    KEPT = ("sums", "impulses", "scale", "made", "mach", "first", "last", "table")  # see sdph.restart
+
+    def __init__(self, path: Path):
+        self.sums = dict.fromkeys(("drained_kg", "drained_J", "work_of_body_forces_J"), 0.0)
+        self.impulses = np.zeros((len(IMPULSES), 3))  # since the start [kg m/s]
+        self.scale = {"kg_m_s": 0.0, "J": 0.0}  # of momentum and energy that there were
+        self.made = self.mach = 0.0  # most energy [J] that there was beyond what came in; largest speed over sound's
+        self.first = self.last = None
+        self.table = Table(path)
+
+    def open(self, stepper) -> None:
+        """The row of the start."""
+        nothing = dict.fromkeys(IMPULSES, np.zeros(3))
+        self._write(stepper, 0.0, self._totals(stepper), nothing, dict.fromkeys((*self.sums, "dissipated_J"), 0.0))
+
+    def close_window(self, stepper, dt: float, impulses: dict, amounts: dict) -> None:
+        """The row of a window of `dt` [s]: impulses (3,) by the names of IMPULSES, amounts by the keys of `sums`."""
+        for key, value in amounts.items():
+            self.sums[key] += value
+        self.impulses += np.array([impulses[name] for name in IMPULSES])
+        self.scale["kg_m_s"] += sum(float(np.linalg.norm(value)) for value in impulses.values())
+        self.scale["J"] += abs(amounts["work_of_body_forces_J"])
+        now = self._totals(stepper)
+        lost = amounts["work_of_body_forces_J"] - amounts["drained_J"] - (_energy(now) - _energy(self.last))
+        self._write(stepper, dt, now, impulses, amounts | {"dissipated_J": lost})
+        self.made = max(self.made, _energy(now) - _energy(self.first) - self.sums["work_of_body_forces_J"] + self.sums["drained_J"])
+
+    def summary(self) -> dict[str, float]:
+        """Closure of the run, relative to what there was of mass, momentum and energy; the largest Mach number."""
+        change = np.array([self.last[f"momentum_{a}_kg_m_s"] - self.first[f"momentum_{a}_kg_m_s"] for a in "xyz"])
+        inertia = math.sqrt(2.0 * self.first["mass_kg"] * self.scale["J"])  # of that mass with all the energy that there was
+        mass = self.last["mass_kg"] - self.first["mass_kg"] + self.sums["drained_kg"]
+        return self.sums | {
+            "mass_drift_rel": abs(mass) / self.first["mass_kg"],
+            "momentum_drift_rel": _ratio(float(np.linalg.norm(change - self.impulses.sum(axis=0))), self.scale["kg_m_s"] + inertia),
+            "energy_made_rel": _ratio(self.made, self.scale["J"]),
+            "fastest_over_sound": self.mach,
+        }
+
+    def _totals(self, stepper) -> dict[str, float]:
+        s, own = stepper.state, stepper.active
+        velocity, (kinetic, elastic) = particles.velocities(s)[own], energies(stepper)
+        speed = math.sqrt(float((velocity**2).sum(axis=1).max(initial=0.0)))
+        row = {"particles": len(own), "mass_kg": float(s.mass[own].sum())} | vector("momentum", s.mass[own] @ velocity)
+        return row | {"kinetic_energy_J": kinetic, "elastic_energy_J": elastic, "fastest_m_s": speed}
+
+    def _write(self, stepper, dt: float, totals: dict, impulses: dict, amounts: dict) -> None:
+        row = {"time_s": stepper.time, "window_s": dt, "limit": stepper.limit} | totals
+        for name, impulse in impulses.items():
+            row |= vector(f"impulse_of_{name}", impulse)
+        self.mach = max(self.mach, totals["fastest_m_s"] / stepper.case.liquid.sound_speed)
+        self.scale["J"] = max(self.scale["J"], _energy(totals))
+        self.first, self.last = self.first or row, row | amounts
+        self.table.write(self.last)
+
+
+def _energy(row: dict) -> float:
+    return row["kinetic_energy_J"] + row["elastic_energy_J"]
+
+
+def energies(stepper) -> tuple[float, float]:
+    """Kinetic and elastic energy [J] of the liquid.
+
+    Elastic: integral of p/rho^2 of Tait's law from rho_0 on, per mass, background included.
+    """
+    s, own = stepper.state, stepper.active
+    rho_0, stiffness, gamma, background = stepper.fluids[:, s.kind[own]]
+    x = s.density[own] / rho_0
+    power = np.where(gamma == 1.0, np.log(x), (x ** (gamma - 1.0) - 1.0) / np.where(gamma == 1.0, 1.0, gamma - 1.0))
+    elastic = stiffness / rho_0 * (power + 1.0 / x - 1.0) + background / rho_0 * (1.0 - 1.0 / x)
+    kinetic = 0.5 * (particles.velocities(s)[own] ** 2).sum(axis=1)
+    return float(s.mass[own] @ kinetic), float(s.mass[own] @ elastic)
+
+
+def _ratio(part: float, whole: float) -> float:
+    return part / whole if whole else 0.0
