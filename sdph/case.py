@@ -13,7 +13,7 @@ from pathlib import Path
 import tomli_w
 
 from sdph import effects
-from sdph.liquid import Liquid
+from sdph.liquid import GasPhase, Liquid
 from sdph.schema import CaseError, fields, read, record, unknown, vector, write
 from sdph.sections import GROUPS, SECTIONS, Case, Coupling, Region, Vapour
 
@@ -46,7 +46,7 @@ def _override(table: dict, text: str) -> None:
 
 def from_table(table: dict) -> Case:
     """The case of a parsed TOML table."""
-    head = {"title", "scene", "dimensions", "effects", "coupling", "vapour", "track", "liquid"}
+    head = {"title", "scene", "dimensions", "effects", "coupling", "vapour", "track", "liquid", "gas_phase"}
     for key in table:
         if key not in head | SECTIONS.keys() | GROUPS.keys() | effects.REGISTRY.keys():
             raise CaseError(unknown(key, head | SECTIONS.keys() | GROUPS.keys() | effects.REGISTRY.keys()))
@@ -61,6 +61,7 @@ def from_table(table: dict) -> Case:
         effects=on,
         coupling=read(Coupling, table.get("coupling", {}), "coupling"),
         liquid=read(Liquid, table["liquid"], "liquid") if "liquid" in table else None,
+        gas_phase=read(GasPhase, table["gas_phase"], "gas_phase") if "gas_phase" in table else None,
         vapour=read(Vapour, table["vapour"], "vapour") if "vapour" in table else None,
         track=_track(table),
         parameters={name: read(effects.REGISTRY[name].parameters, table.get(name, {}), name) for name in on},
@@ -127,6 +128,7 @@ def _check(case: Case) -> None:
     for name in case.effects:
         if matter not in effects.REGISTRY[name].matter:
             raise CaseError(f"effects holds {name}, which does not act on {'a liquid' if case.liquid else 'grains'}; leave it out")
+    _check_phases(case)
     if case.resolution.cell is None and not case.liquid:
         raise CaseError("resolution.cell_mm is missing; it has no default: give it in [resolution]")
     vectors = {"domain.size_m": case.domain.size, "domain.gravity_m_s2": case.domain.gravity}
@@ -148,6 +150,21 @@ def _check(case: Case) -> None:
         _check_region(case, name, region)
     for name, probe in case.probes.items():
         _inside(case, f"probes.{name}", probe.at, probe.at)
+
+
+def _check_phases(case: Case) -> None:
+    if case.gas_phase is None:
+        two = [f"pools.{name}.phase = \"gas\"" for name, pool in case.pools.items() if pool.phase == "gas"]
+        two += [name for name in case.effects if effects.REGISTRY[name].two_phases]
+        if two:
+            raise CaseError(f"{two[0]} needs a second phase; give its properties in [gas_phase]")
+        return
+    if case.liquid is None:
+        raise CaseError("[gas_phase] is given without [liquid]; a gas around grains goes into [gas]")
+    if "drain" in case.effects:
+        raise CaseError("effects holds drain, which knows one phase; leave it or [gas_phase] out")
+    if case.gas_phase.density_by == "summation" and "density_diffusion" in case.effects:
+        raise CaseError("effects holds density_diffusion, but with gas_phase.density_by = \"summation\" no density is advanced; leave one out")
 
 
 def _check_period(case: Case) -> None:
@@ -184,7 +201,7 @@ def _inside(case: Case, key: str, lower, upper) -> None:
 def to_table(case: Case) -> dict:
     """The TOML table of a case, every value resolved."""
     table = {"title": case.title, "scene": case.scene, "dimensions": case.dimensions, "effects": list(case.effects)}
-    table |= {name: write(getattr(case, name)) for name in (*SECTIONS, "coupling", "liquid") if getattr(case, name)}
+    table |= {name: write(getattr(case, name)) for name in (*SECTIONS, "coupling", "liquid", "gas_phase") if getattr(case, name)}
     table |= {group: {name: write(entry) for name, entry in getattr(case, group).items()} for group in GROUPS}
     table |= {name: write(parameters) for name, parameters in case.parameters.items() if write(parameters)}
     if case.vapour:

@@ -16,7 +16,7 @@ from typing import Any
 UNITS = {
     "": 1.0, "s": 1.0, "ms": 1e-3, "us": 1e-6, "m": 1.0, "mm": 1e-3, "um": 1e-6, "K": 1.0, "Pa": 1.0, "deg": math.pi / 180.0,
     "kg_m3": 1.0, "Pa_s": 1.0, "W_m_K": 1.0, "J_kg_K": 1.0, "J_kg": 1.0, "m_s": 1.0, "m_s2": 1.0, "m2_s": 1.0,
-    "m2_s2": 1.0, "kg_kmol": 1.0, "kg_s": 1.0, "N_m": 1.0, "rad_s": 1.0, "kg": 1.0, "Hz": 1.0,
+    "m2_s2": 1.0, "kg_kmol": 1.0, "kg_s": 1.0, "N_m": 1.0, "Pa_m6_kg2": 1.0, "rad_s": 1.0, "kg": 1.0, "Hz": 1.0,
 }  # fmt: skip
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from sdph.effects.inflow import Nozzle
-from sdph.liquid import Liquid, Pool
+from sdph.liquid import GasPhase, Liquid, Pool
 from sdph.schema import choice, flag, quantity, record, vector, whole, words
 
 STANDARD_ATMOSPHERE = 101325.0  # Pa, ISO 2533
@@ -142,6 +142,7 @@ class Case:
     gas: GasProperties | None  # None in a case with a liquid
     grains: Grains | None  # the same
     liquid: Liquid | None
+    gas_phase: GasPhase | None
     pools: dict[str, Pool]
     particles: dict[str, Region]
     boundaries: dict[str, Boundary]

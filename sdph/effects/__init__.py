@@ -20,6 +20,7 @@ from sdph.effects import (
     liquid_damping,
     outflow,
     shifting,
+    surface_tension,
     tank,
     walls,
 )
@@ -41,6 +42,7 @@ FILES = (
     laminar_viscosity,
     liquid_damping,
     shifting,
+    surface_tension,
     tank,
     frame,
     drain,

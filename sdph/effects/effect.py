@@ -43,6 +43,7 @@ class Effect:
     moves       whether particles move by it
     matter      what it acts on: "grains", "liquid"
     dt_limit    (kernel parameters, case, state) -> largest stable sub-step [s]
+    two_phases  whether it needs a second phase
     call        scales of a case (sdph.explain.scales) -> Judgement; without it the effect is on where the user says so
     """
 
@@ -55,6 +56,7 @@ class Effect:
     moves: bool = False
     matter: tuple[str, ...] = ("grains",)
     dt_limit: Callable = lambda p, case, state: NO_LIMIT
+    two_phases: bool = False
     call: Callable | None = None
 
 

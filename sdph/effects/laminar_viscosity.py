@@ -7,6 +7,7 @@ from typing import NamedTuple
 from numba import njit
 
 from sdph.effects.effect import NO_LIMIT, Effect
+from sdph.liquid import LIQUID
 from sdph.schema import record
 
 DIFFUSIVE = 0.125  # of h^2/nu, Morris, Fox & Zhu 1997, J. Comput. Phys. 136, 214, Eq. 21
@@ -23,25 +24,44 @@ class LaminarP(NamedTuple):
     twice: float
 
 
-def kernel(case) -> LaminarP:
-    return LaminarP(2.0 * case.liquid.viscosity)
+class LaminarOfTwoP(NamedTuple):
+    """Twice the viscosity [Pa s]: of the liquid, of the gas, and between both."""
+
+    liquid: float
+    gas: float
+    between: float
+
+
+def kernel(case) -> LaminarP | LaminarOfTwoP:
+    mu = case.liquid.viscosity
+    if case.gas_phase is None:
+        return LaminarP(2.0 * mu)
+    other = case.gas_phase.viscosity
+    between = 2.0 * mu * other / (mu + other) if mu + other else 0.0
+    return LaminarOfTwoP(2.0 * mu, 2.0 * other, 2.0 * between)
 
 
 def dt_limit(p, case, state) -> float:
-    nu = case.liquid.viscosity / case.liquid.density
+    phases = [case.liquid, case.gas_phase] if case.gas_phase else [case.liquid]
+    nu = max(phase.viscosity / phase.density for phase in phases)
     return DIFFUSIVE * case.smoothing_length**2 / nu if nu else NO_LIMIT
 
 
 @njit(cache=True, error_model="numpy")
-def pair(p):
+def pair(p, kind_i, kind_j):
     """Over V_j (dW/dr)/r v_ij/rho_i: 2 mu [Pa s]. Morris, Fox & Zhu 1997, Eq. 22; of equal densities the form of
-    Lo & Shao 2002, Appl. Ocean Res. 24, 275, which the sloshing paper takes (Eq. 8).
+    Lo & Shao 2002, Appl. Ocean Res. 24, 275, which the sloshing paper takes (Eq. 8). Between phases the harmonic mean
+    of mu: Hu & Adams 2006, J. Comput. Phys. 213, 844, Eq. 20.
 
     Without their eta^2 in r^2 + eta^2: (dW/dr)/r is finite at r = 0, and eta = 0.1 h takes 2 % off the viscosity.
     """
     if len(p) == 0:
         return 0.0
-    return p.twice
+    if len(p) == 1:
+        return p.twice
+    if kind_i != kind_j:
+        return p.between
+    return p.liquid if kind_i == LIQUID else p.gas
 
 
 EFFECT = Effect(

@@ -12,36 +12,55 @@ from numba import njit
 
 from sdph import smoothing
 from sdph.effects.effect import Effect
-from sdph.schema import flag, quantity, record
+from sdph.liquid import GAS, LIQUID
+from sdph.schema import choice, flag, quantity, record
 
 CROWDING, POWER_OF = 0.2, 4  # R and n of the term that separates pairs, Monaghan 2000, J. Comput. Phys. 159, 290
 INTERIOR = 0.75  # of the smallest eigenvalue of the renormalisation matrix, Sun et al. 2017
 SPRAY = 0.4  # the same, Sun et al. 2017: below it a particle is not shifted
 
 
+FORMS = ("concentration", "transport_velocity")
+
+
 @record
 class Shifting:
+    """`tension_control` acts in a single phase; two phases have liquid.background_pressure_Pa against tension.
+
+    transport_velocity: the shift by a background pressure rho c^2 times `strength`, for two phases that fill the space.
+    """
+
+    form: str = choice(*FORMS)
     strength: float = quantity("", 3.0, above=0.0)  # of the cited; with h = 1.5 dx 1 is too weak: Taylor-Green's vortices fall apart
     tension_control: bool = flag(True)
+    phases: str = choice("both", "gas")  # which are shifted
 
 
 class ShiftingP(NamedTuple):
     """Displacement for a gradient of concentration of 1/m and a second [m2/s]; largest speed of a shift [m/s]; 1/W(dx);
-    1 with tension control."""
+    1 with tension control; smallest `State.kind` that is shifted."""
 
     strength: float
     largest: float
     inverse: float
     tension: float
+    lightest: float
 
 
 def kernel(case) -> ShiftingP:
-    """-Ma CFL (2h)^2 sum ... V_j/2 a step, Sun et al. 2017, CMAME 315, 25, Eq. 8, as a speed: CFL h/c = dt, Ma c = v_max."""
+    """-Ma CFL (2h)^2 sum ... V_j/2 a step, Sun et al. 2017, CMAME 315, 25, Eq. 8, as a speed: CFL h/c = dt, Ma c = v_max.
+
+    transport_velocity: dt 2 p_b/rho sum V_j grad W of Adami, Hu & Adams 2013, J. Comput. Phys. 241, 292, Eq. 8, with the
+    dt of the sound limit and p_b = strength rho c^2.
+    """
     own, h = case.parameters["shifting"], case.smoothing_length
+    lightest = float(GAS if own.phases == "gas" else LIQUID)
+    if own.form == "transport_velocity":
+        return ShiftingP(2.0 * own.strength * case.liquid.courant * h * case.liquid.sound_speed, case.liquid.fastest, 0.0, 0.0, lightest)
     kernel_ = smoothing.smoothing(case.liquid.kernel, case.dimensions, h)
     speed = case.liquid.fastest
     peak = smoothing.value.py_func(kernel_, case.resolution.spacing)
-    return ShiftingP(own.strength * 2.0 * h * speed, 0.5 * speed, 1.0 / peak, float(own.tension_control))
+    return ShiftingP(own.strength * 2.0 * h * speed, 0.5 * speed, 1.0 / peak, float(own.tension_control and case.gas_phase is None), lightest)
 
 
 @njit(cache=True, error_model="numpy")

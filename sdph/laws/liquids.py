@@ -48,6 +48,27 @@ def poiseuille(y, time: float, height: float, force: float, viscosity: float, te
     return u
 
 
+def quadrupole(points, radius: float, speed: float) -> np.ndarray:
+    """(N, 2) velocity [m/s] of a disc about the origin that begins to become an ellipse, and of what is around it.
+
+    Potential flow of r^2 cos 2 theta inside and r^-2 cos 2 theta outside; `speed` is the radial one at the rim on the
+    x axis. Lamb 1932, Hydrodynamics, section 275.
+    """
+    r2 = np.maximum((points**2).sum(axis=1), 1e-300)
+    inside = r2 <= radius**2
+    double = np.where(inside, 0.0, 2.0 * np.arctan2(points[:, 1], points[:, 0]))
+    fall = np.where(inside, 0.0, (radius**2 / r2) ** 1.5)
+    radial, turning = fall * np.cos(double), fall * np.sin(double)
+    direction = points / np.sqrt(r2)[:, None]
+    outside = np.stack([radial * direction[:, 0] - turning * direction[:, 1], radial * direction[:, 1] + turning * direction[:, 0]], axis=1)
+    return speed * np.where(inside[:, None], points / radius * np.array([1.0, -1.0]), outside)
+
+
+def disc_frequency(order: int, radius: float, tension: float, density: float, around: float = 0.0) -> float:
+    """omega [rad/s] of a disc of liquid in another one: sqrt(n (n^2 - 1) sigma/((rho + rho_around) R^3)). Lamb 1932, section 273."""
+    return math.sqrt(order * (order**2 - 1) * tension / ((density + around) * radius**3))
+
+
 def box_slosh(length: float, depth: float, gravity: float) -> float:
     """omega [rad/s] of the first antisymmetric mode in a box: sqrt(g k tanh(k h)), k = pi/L. NASA SP-106."""
     k = math.pi / length

@@ -5,7 +5,7 @@ from __future__ import annotations
 from sdph.schema import choice, quantity, record, vector
 from sdph.smoothing import NAMES
 
-LIQUID = 2  # value of `State.kind`
+LIQUID, GAS = 2, 3  # values of `State.kind`; kinds from LIQUID on move by the equations of liquids
 
 
 @record
@@ -29,9 +29,34 @@ class Liquid:
 
 
 @record
-class Pool:
-    """Liquid at the start: box (lower, upper), disc or sphere (centre, radius), or the lowest part of the tank (fill)."""
+class GasPhase:
+    """A second phase, lighter than the liquid: p = rho_0 c^2/gamma [(rho/rho_0)^gamma - 1] + background - cohesion rho^2.
 
+    `interaction`: riemann (sdph.liquid.phases) or plain, p_i + p_j. `density_by`: the continuity equation, or a sum
+    over neighbours, of both phases, where the two fill a closed space.
+    """
+
+    density: float = quantity("kg_m3", above=0.0)
+    viscosity: float = quantity("Pa_s", 0.0, least=0.0)
+    sound_speed: float | None = quantity("m_s", None, above=0.0)  # None: that of the liquid (Rezavand, Zhang & Hu 2020)
+    exponent: float = quantity("", 1.4, least=1.0)  # of air
+    cohesion: float = quantity("Pa_m6_kg2", 0.0, least=0.0)  # of Van der Waals' gas: liquids.md, part L
+    interaction: str = choice("riemann", "plain")
+    density_by: str = choice("continuity", "summation")
+
+    def speed_of_sound(self, liquid: Liquid) -> float:
+        """c [m/s]."""
+        return self.sound_speed or liquid.sound_speed
+
+
+@record
+class Pool:
+    """A phase at the start: box (lower, upper), disc or sphere (centre, radius), or the lowest part of the tank (fill).
+
+    Where pools overlap, the one that is named first has the place.
+    """
+
+    phase: str = choice("liquid", "gas")
     shape: str = choice("box", "disc", "sphere", "tank")
     lower: tuple | None = vector("m", None)
     upper: tuple | None = vector("m", None)
@@ -39,5 +64,5 @@ class Pool:
     radius: float | None = quantity("m", None, above=0.0)
     fill: float | None = quantity("", None, above=0.0, most=1.0)
     velocity: tuple | None = vector("m_s", None)
-    flow: str = choice("uniform", "rotation", "taylor_green")
-    speed: float = quantity("m_s", 0.0)  # of taylor_green: its amplitude; of rotation: at half the box's side
+    flow: str = choice("uniform", "rotation", "taylor_green", "quadrupole")
+    speed: float = quantity("m_s", 0.0)  # of taylor_green: its amplitude; of rotation: at half the box's side; of quadrupole: at the disc's rim

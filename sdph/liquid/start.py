@@ -9,17 +9,18 @@ import numpy as np
 from sdph import particles
 from sdph.effects import tank
 from sdph.laws import eos
-from sdph.laws.liquids import square_patch_pressure, taylor_green
-from sdph.liquid import LIQUID, shapes
+from sdph.laws.liquids import quadrupole, square_patch_pressure, taylor_green
+from sdph.liquid import GAS, LIQUID, shapes
 from sdph.particles import WALL
 from sdph.schema import CaseError
 
+ROUNDS = 50  # of the inversion of Van der Waals' equation; each takes off nine tenths of the error or more
 CLEARANCE = 0.5  # spacings between the first particles and the surface of a round tank
 
 
 def fill(case) -> particles.State:
     """All liquid and wall particles of a case, numbered from 0, liquid first."""
-    parts = [_pool(case, pool) for pool in case.pools.values()]
+    parts = [_pool(case, number) for number in range(len(case.pools))]
     if not parts:
         raise CaseError("no liquid: give it in a section such as [pools.column]")
     if "tank" in case.effects:
@@ -47,21 +48,50 @@ def _placed(case, points) -> particles.State:
     return state
 
 
-def _pool(case, pool) -> particles.State:
-    d, spacing = case.dimensions, case.resolution.spacing
+def _pool(case, number: int) -> particles.State:
+    """The particles of pool `number`, less those that lie in the pools before it."""
+    pools, d, spacing = list(case.pools.values()), case.dimensions, case.resolution.spacing
+    pool = pools[number]
     points = _in_tank(case, pool) if pool.shape == "tank" else particles.lattice(pool, spacing, d)
     volume = spacing**d
     if pool.shape == "box":  # the lattice is fitted to the box
         volume = math.prod(b - a for a, b in zip(pool.lower, pool.upper)) / len(points)
+    for earlier in pools[:number]:
+        points = points[~_holds(earlier, points)]
     state = _placed(case, points)
-    state.kind[:] = LIQUID
-    pressure = _pressure(case, pool, points) + case.liquid.background_pressure
-    liquid = case.liquid
-    state.density[:] = eos.tait_density(pressure, liquid.density, liquid.sound_speed, liquid.exponent, liquid.background_pressure)
-    state.mass[:] = liquid.density * volume
+    state.kind[:] = GAS if pool.phase == "gas" else LIQUID
+    density = phase_of(case, pool).density
+    state.density[:] = _density(case, pool, _pressure(case, pool, points))
+    state.mass[:] = (state.density if case.gas_phase else density) * volume  # two phases fill their space from the start
     for array, value in zip((state.u, state.v, state.w), _velocity(pool, points, d).T):
         array[:] = value
     return state
+
+
+def phase_of(case, pool):
+    """The section of a pool's phase."""
+    return case.gas_phase if pool.phase == "gas" else case.liquid
+
+
+def _holds(pool, points) -> np.ndarray:
+    """(N,) whether points lie in a pool."""
+    if pool.shape == "tank":
+        raise CaseError("pools: shape = \"tank\" holds the lowest points of a tank; name it last")
+    if pool.shape == "box":
+        return ((points >= np.array(pool.lower)) & (points <= np.array(pool.upper))).all(axis=1)
+    return ((points - np.array(pool.centre)) ** 2).sum(axis=1) <= pool.radius**2
+
+
+def _density(case, pool, pressure) -> np.ndarray:
+    """rho (N,) [kg/m3] at a pressure [Pa] over that at rho_0 without gravity."""
+    phase, background = phase_of(case, pool), case.liquid.background_pressure
+    sound = case.gas_phase.speed_of_sound(case.liquid) if pool.phase == "gas" else case.liquid.sound_speed
+    cohesion = phase.cohesion if pool.phase == "gas" else 0.0
+    total = pressure + background
+    density = eos.tait_density(total, phase.density, sound, phase.exponent, background)
+    for _ in range(ROUNDS if cohesion else 0):
+        density = eos.tait_density(total + cohesion * density**2, phase.density, sound, phase.exponent, background)
+    return density
 
 
 def _in_tank(case, pool) -> np.ndarray:
@@ -95,13 +125,37 @@ def _pressure(case, pool, points) -> np.ndarray:
         return square_patch_pressure(points - np.array(pool.lower), side, omega, case.liquid.density)
     if pool.flow == "taylor_green":
         return taylor_green(points, pool.upper[0] - pool.lower[0], pool.speed, case.liquid.density)[1]
+    return _hydrostatic(case, pool, points) + _laplace(case, pool)
+
+
+def _hydrostatic(case, pool, points) -> np.ndarray:
+    """rho g depth below the pool's top, where it has the pressure that the last pool would have there; a disc or sphere
+    has in its middle what the last pool would have there."""
     if "gravity" not in case.effects:
         return np.zeros(len(points))
+    around = list(case.pools.values())[-1]
     walled = 1.0 - np.array(case.liquid.periodic or [0.0] * case.dimensions)  # along a periodic axis gravity drives a flow
     along = np.array(case.domain.gravity) * walled
-    height = points @ along  # rises downwards
-    size = float(np.linalg.norm(along))
-    return case.liquid.density * (height - height.min() + 0.5 * case.resolution.spacing * size)
+    height, outside = points @ along, 0.0  # rises downwards [m2/s2]
+    top = height.min() - 0.5 * case.resolution.spacing * float(np.linalg.norm(along))
+    if pool is not around:
+        top = top if pool.shape == "box" else float(np.array(pool.centre) @ along)
+        outside = phase_of(case, around).density * (top - _top(around, along))
+    return phase_of(case, pool).density * (height - top) + outside
+
+
+def _top(pool, along) -> float:
+    """g.r [m2/s2] at the highest corner of a box."""
+    if pool.shape != "box":
+        raise CaseError(f"pools: the last one fills what the others leave; give it shape = \"box\" instead of {pool.shape!r}")
+    return float(np.minimum(np.array(pool.lower) * along, np.array(pool.upper) * along).sum())
+
+
+def _laplace(case, pool) -> float:
+    """Pressure of surface tension in a disc, sigma/R, or in a sphere, 2 sigma/R [Pa]."""
+    if "surface_tension" not in case.effects or pool.shape not in ("disc", "sphere"):
+        return 0.0
+    return case.parameters["surface_tension"].coefficient * (case.dimensions - 1) / pool.radius
 
 
 def _velocity(pool, points, dimensions: int) -> np.ndarray:
@@ -115,4 +169,8 @@ def _velocity(pool, points, dimensions: int) -> np.ndarray:
         velocity[:, 1] -= omega * (points - middle)[:, 0]
     if pool.flow == "taylor_green":
         velocity += taylor_green(points, pool.upper[0] - pool.lower[0], pool.speed, 1.0)[0]
+    if pool.flow == "quadrupole":
+        if pool.centre is None or pool.radius is None:
+            raise CaseError("pools: flow = \"quadrupole\" needs centre_m and radius_m of the disc, in a box too")
+        velocity += quadrupole(points - np.array(pool.centre), pool.radius, pool.speed)
     return velocity

@@ -11,9 +11,10 @@ import numpy as np
 
 from sdph import effects, particles, smoothing
 from sdph.effects import OFF, frame, tank
-from sdph.liquid import LIQUID, rates, start
+from sdph.laws import kernels
+from sdph.liquid import GAS, LIQUID, interface, motion, phases, rates, shift, start, walls
 from sdph.liquid.guard import LiquidGuard
-from sdph.liquid.rates import WallP
+from sdph.liquid.walls import WallP
 from sdph.neighbours import SKIN, Neighbours
 from sdph.particles import WALL
 
@@ -29,7 +30,7 @@ class Rows(Neighbours):
         if len(here) != len(self.built) or len(here[0]) != len(self.built[0]):
             return False
         z, z0 = (here[2], self.built[2]) if len(here) == 3 else (np.zeros(0), np.zeros(0))
-        moved = rates.travelled(here[0], here[1], z, self.built[0], self.built[1], z0)
+        moved = motion.travelled(here[0], here[1], z, self.built[0], self.built[1], z0)
         return bool(moved < (0.5 * SKIN * self.reach) ** 2)
 
 
@@ -46,12 +47,15 @@ class LiquidStepper:
         self.kernel = smoothing.smoothing(case.liquid.kernel, d, case.smoothing_length)
         periodic = case.liquid.periodic or (0.0,) * d
         self.neighbours = Rows(2.0 * SLACK * self.kernel.h, tuple(length * bool(on) for length, on in zip(case.domain.size, periodic)))
-        self.fluids = fluids(case)
+        self.fluids, self.phases = fluids(case), phases.kernel(case)
         self.state = start.fill(case)
         own = self.p["tank"]
         self.wall = WallP(*[0.0] * 6, own.least, own.stick) if own else NO_WALL
+        self.summed = case.gas_phase is not None and case.gas_phase.density_by == "summation"
+        self.lattice = kernels.lattice_factor(case.liquid.kernel, d, case.resolution.smoothing_ratio)
         self.limits, self.limit, self.steps, self.time = self._limits(), "", 0, 0.0
         self.shifted = np.zeros(3)  # momentum that shifting has given [kg m/s]
+        self.compliance = np.array([self._compliance(kind) for kind in range(GAS + 1)])
         self.move = frame.motion(case.parameters["frame"]) if self.p["frame"] else None
         self.aim(0.0)
         self.least = np.zeros(0)
@@ -68,7 +72,8 @@ class LiquidStepper:
         dt = self.next_step(most)
         self._kick(0.5 * dt)
         self._drift(0.5 * dt)
-        self._densify(dt)
+        if not self.summed:
+            self._densify(dt)
         self._drift(0.5 * dt)
         if self.p["shifting"]:
             self._shift(dt)
@@ -81,8 +86,8 @@ class LiquidStepper:
 
     def next_step(self, left: float) -> float:
         """What is left [s] in equal parts no longer than the shortest limit; `limit` names it."""
-        speed, force = rates.fastest(self.state, self.active, self.acceleration)
-        h, c = self.kernel.h, self.case.liquid.sound_speed
+        speed, force = motion.fastest(self.state, self.active, self.acceleration)
+        h, c = self.kernel.h, fastest_sound(self.case)
         if not speed + 0.0 * force <= c * c:  # or one of them is no number
             self.guard.look(self)
         limits = self.limits | {"sound": self.case.liquid.courant * h / (c + math.sqrt(speed))}
@@ -96,6 +101,11 @@ class LiquidStepper:
         on = [row for row in effects.REGISTRY.values() if self.p[row.name]]
         return {row.name: row.dt_limit(self.p[row.name], self.case, None) for row in on if row.name != "conduction"}
 
+    def _compliance(self, kind: int) -> float:
+        """d rho/dp = 1/c^2 [s2/m2] of a kind, by which shifting carries density along the pressure gradient."""
+        gas = self.case.gas_phase
+        return (gas.speed_of_sound(self.case.liquid) if gas and kind == GAS else self.case.liquid.sound_speed) ** -2
+
     def aim(self, time: float) -> None:
         """The frame's acceleration and rotation at `time` [s]."""
         self.frame = OFF
@@ -105,18 +115,18 @@ class LiquidStepper:
 
     def _kick(self, dt: float) -> None:
         s = self.state
-        rates.kick(self.active, self.acceleration, dt, s.u, s.v, s.w)
+        motion.kick(self.active, self.acceleration, dt, s.u, s.v, s.w)
 
     def _drift(self, dt: float) -> None:
         s = self.state
-        rates.drift(self.active, s.u, s.v, s.w, dt, s.x, s.y, s.z)
+        motion.drift(self.active, s.u, s.v, s.w, dt, s.x, s.y, s.z)
 
     def _densify(self, dt: float) -> None:
         rates.compress(
-            self.kernel, self.state, self.rows, self.neighbours.box, self.active, self.wall, self.p["density_diffusion"],
+            self.kernel, self.state, self.rows, self.neighbours.box, self.active, self.wall, self.p["density_diffusion"], self.phases,
             self.pressure, *self.gradient, self.volume, self.rate,
         )  # fmt: skip
-        rates.densify(self.active, self.rate, dt, self.state.density)
+        motion.densify(self.active, self.rate, dt, self.state.density)
 
     def forces(self) -> None:
         """Neighbours, pressure, walls, accelerations of where the particles are now."""
@@ -125,17 +135,32 @@ class LiquidStepper:
         if built is not self.neighbours.built:
             self._allocate(ident)
         s, p = self.state, self.p
+        if self.summed:
+            rates.sum_up(self.kernel, s, self.rows, self.neighbours.box, self.active, self.lattice, s.density)
         rates.state_of(self.fluids, s, self.active, self.pressure, self.volume)
         if len(self.walls):
-            rates.extrapolate(
+            walls.extrapolate(
                 self.kernel, s, self.rows, self.neighbours.box, self.walls, self.wall, p["gravity"], self.frame, self.volume,
                 self.pressure, s.u, s.v, s.w,
             )  # fmt: skip
         rates.push(
             self.kernel, s, self.rows, self.neighbours.box, self.active, self.wall, p["gravity"], self.frame, p["laminar_viscosity"],
-            p["liquid_damping"], p["density_diffusion"], p["shifting"], self.pressure, self.volume, self.least,
-            self.acceleration, *self.gradient, self.shift, self.twist,
+            p["liquid_damping"], p["density_diffusion"], p["shifting"], self.phases, self.pressure, self.volume, self.least,
+            self.acceleration, *self.gradient,
         )  # fmt: skip
+        if p["surface_tension"]:
+            self._tighten()
+        if p["shifting"]:
+            shift.surround(
+                self.kernel, s, self.rows, self.neighbours.box, self.active, p["shifting"], self.phases, self.volume, self.least, self.shift, self.twist
+            )
+
+    def _tighten(self) -> None:
+        """Adds surface tension to the accelerations."""
+        own, s = self.p["surface_tension"], self.state
+        interface.orient(self.kernel, s, self.rows, self.neighbours.box, self.active, own, self.volume, self.colour, self.normal)
+        interface.bend(self.kernel, s, self.rows, self.neighbours.box, self.active, own, self.volume, self.normal, self.curvature)
+        interface.pull(s, self.active, own, self.colour, self.curvature, self.acceleration)
 
     def _allocate(self, before) -> None:
         """Work arrays for the particles in their new order; only `least` outlives a step. before (N,): their old order."""
@@ -151,13 +176,15 @@ class LiquidStepper:
         self.least, self.shift, self.twist = known[s.ident[:shifted]], np.zeros((shifted, 3)), np.zeros((shifted, 9))
 
     def _tell_apart(self) -> None:
-        """Liquid particles, and those of the walls that liquid is near."""
+        """Liquid particles, those of the walls that liquid is near, and arrays that no step takes from the last."""
         s = self.state
         self.active = np.flatnonzero(s.kind >= LIQUID).astype(np.int32)
-        walls = np.flatnonzero(s.kind == WALL).astype(np.int32)
-        wet = np.empty(len(walls), np.bool_)
-        rates.near_liquid(s.kind, self.rows, walls, wet)
-        self.walls, self.rate = walls[wet], np.zeros(len(s.x))
+        solid = np.flatnonzero(s.kind == WALL).astype(np.int32)
+        wet = np.empty(len(solid), np.bool_)
+        walls.near_liquid(s.kind, self.rows, solid, wet)
+        self.walls, self.rate = solid[wet], np.zeros(len(s.x))
+        near = len(s.x) if self.p["surface_tension"] else 0
+        self.colour, self.normal, self.curvature = np.zeros((near, 3)), np.zeros((near, 3)), np.zeros(near)
 
     @property
     def capacity(self) -> float:
@@ -174,11 +201,12 @@ class LiquidStepper:
         self.forces()
 
     def _shift(self, dt: float) -> None:
-        s, before = self.state, np.array(rates.momentum(self.state, self.active))
-        rates.displace(
-            self.p["shifting"], self.active, self.least, self.shift, *self.gradient, self.twist, self.case.liquid.sound_speed**-2, dt, s.x, s.y, s.z, s.u, s.v, s.w, s.density,
+        s, before = self.state, np.array(motion.momentum(self.state, self.active))
+        shift.displace(
+            self.p["shifting"], self.active, s.kind, self.least, self.shift, *self.gradient, self.twist, self.compliance, dt,
+            s.x, s.y, s.z, s.u, s.v, s.w, s.density,
         )  # fmt: skip
-        self.shifted = self.shifted + rates.momentum(s, self.active) - before
+        self.shifted = self.shifted + motion.momentum(s, self.active) - before
 
 
 def loads(stepper) -> np.ndarray:
@@ -190,7 +218,7 @@ def loads(stepper) -> np.ndarray:
 def balance(stepper) -> np.ndarray:
     """(10,) the same, then the force (3) [N] and the power [W] of gravity and of the frame's motion."""
     load = np.zeros(10)
-    rates.reaction(stepper.state, stepper.active, stepper.p["gravity"], stepper.frame, stepper.acceleration, load)
+    walls.reaction(stepper.state, stepper.active, stepper.p["gravity"], stepper.frame, stepper.acceleration, load)
     return load
 
 
@@ -198,20 +226,28 @@ def wall_loads(stepper) -> np.ndarray:
     """(6,) the same, from what each wall particle feels of pressure and friction."""
     force = np.zeros((len(stepper.walls), 3))
     p = stepper.p
-    rates.wall_force(
+    walls.wall_force(
         stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, stepper.walls, stepper.wall, p["laminar_viscosity"],
-        p["liquid_damping"], p["shifting"], stepper.least, stepper.pressure, stepper.volume, force,
+        p["liquid_damping"], p["shifting"], stepper.phases, p["gravity"], stepper.frame, stepper.least, stepper.pressure, stepper.volume, force,
     )  # fmt: skip
     places = particles.positions(stepper.state)[stepper.walls]
     return np.concatenate([force.sum(axis=0), np.cross(places, force).sum(axis=0)])
 
 
 def fluids(case) -> np.ndarray:
-    """(4, K) rho_0, stiffness, exponent and background by kind, as `rates.state_of` takes them."""
-    liquid = case.liquid
-    table = np.ones((4, LIQUID + 2))
-    table[:, LIQUID] = liquid.density, liquid.density * liquid.sound_speed**2 / liquid.exponent, liquid.exponent, liquid.background_pressure
+    """(5, K) rho_0, stiffness, exponent, background and cohesion by kind, as `rates.state_of` takes them."""
+    liquid, gas = case.liquid, case.gas_phase
+    table = np.ones((5, GAS + 1))
+    table[:, LIQUID] = liquid.density, liquid.density * liquid.sound_speed**2 / liquid.exponent, liquid.exponent, liquid.background_pressure, 0.0
+    if gas:
+        stiffness = gas.density * gas.speed_of_sound(liquid) ** 2 / gas.exponent
+        table[:, GAS] = gas.density, stiffness, gas.exponent, liquid.background_pressure, gas.cohesion
     return table
+
+
+def fastest_sound(case) -> float:
+    """The larger sound speed of the phases [m/s]."""
+    return max(case.liquid.sound_speed, case.gas_phase.speed_of_sound(case.liquid) if case.gas_phase else 0.0)
 
 
 def kinetic_energy(state) -> float:

@@ -5,7 +5,7 @@ import pytest
 
 from sdph import case as cases
 from sdph import smoothing
-from sdph.liquid import LIQUID, rates
+from sdph.liquid import LIQUID, pairs, rates, walls
 from sdph.liquid.step import LiquidStepper, loads, wall_loads
 from sdph.particles import WALL, positions, velocities
 
@@ -67,8 +67,8 @@ def test_density_rate_is_the_sum_over_all_pairs(dimensions):
     own = stepper(dimensions)
     s = own.state
     rates.compress(
-        own.kernel, s, own.rows, own.neighbours.box, own.active, own.wall, own.p["density_diffusion"], own.pressure, *own.gradient,
-        own.volume, own.rate,
+        own.kernel, s, own.rows, own.neighbours.box, own.active, own.wall, own.p["density_diffusion"], own.phases, own.pressure,
+        *own.gradient, own.volume, own.rate,
     )  # fmt: skip
     r, v = positions(s), velocities(s)
     wet = s.kind == LIQUID
@@ -94,14 +94,14 @@ def test_a_linear_pressure_does_not_diffuse():
     s = own.state
     rates.push(
         own.kernel, s, own.rows, own.neighbours.box, own.active, own.wall, own.p["gravity"], own.frame, own.p["laminar_viscosity"],
-        own.p["liquid_damping"], own.p["density_diffusion"], own.p["shifting"], own.pressure, own.volume, own.least,
-        own.acceleration, *own.gradient, own.shift, own.twist,
+        own.p["liquid_damping"], own.p["density_diffusion"], own.p["shifting"], own.phases, own.pressure, own.volume,
+        own.least, own.acceleration, *own.gradient,
     )  # fmt: skip
     for array in (s.u, s.v, s.w):
         array[:] = 0.0
     rates.compress(
-        own.kernel, s, own.rows, own.neighbours.box, own.active, own.wall, own.p["density_diffusion"], own.pressure, *own.gradient,
-        own.volume, own.rate,
+        own.kernel, s, own.rows, own.neighbours.box, own.active, own.wall, own.p["density_diffusion"], own.phases, own.pressure,
+        *own.gradient, own.volume, own.rate,
     )  # fmt: skip
     assert np.allclose(np.stack(own.gradient, axis=1)[own.active], [3e3, -6e3, 1.5e3], rtol=1e-9)
     assert np.abs(own.rate[own.active]).max() < 1e-9
@@ -110,8 +110,8 @@ def test_a_linear_pressure_does_not_diffuse():
 @pytest.mark.parametrize("dimensions", [2, 3])
 def test_walls_feel_what_the_liquid_loses(dimensions):
     own = stepper(dimensions)
-    momentum, walls = loads(own), wall_loads(own)
-    assert np.allclose(momentum[:3], walls[:3], rtol=1e-9, atol=1e-9 * np.abs(walls).max())
+    momentum, felt = loads(own), wall_loads(own)
+    assert np.allclose(momentum[:3], felt[:3], rtol=1e-9, atol=1e-9 * np.abs(felt).max())
 
 
 def test_without_walls_momentum_stays(tmp_path):
@@ -141,7 +141,7 @@ def test_walls_extrapolate_a_hydrostatic_pressure():
     s.u[:], s.v[:] = 0.0, 0.0
     s.density[own.active] = 1000.0
     own.pressure[own.active] = 1000.0 * 9.81 * (0.4 - s.y[own.active])
-    rates.extrapolate(
+    walls.extrapolate(
         own.kernel, s, own.rows, own.neighbours.box, own.walls, own.wall, own.p["gravity"], own.frame, own.volume, own.pressure, s.u, s.v, s.w
     )
     below = own.walls[(s.y[own.walls] < 0.0) & (s.y[own.walls] > -0.1) & (s.x[own.walls] > 0.0) & (s.x[own.walls] < 0.5)]
@@ -153,7 +153,7 @@ def test_eigenvalues():
     for _ in range(50):
         a = random.standard_normal((3, 3))
         m = a + a.T
-        least = rates.smallest(m[0, 0], m[1, 1], m[2, 2], m[0, 1], m[1, 2], m[2, 0])
+        least = pairs.smallest(m[0, 0], m[1, 1], m[2, 2], m[0, 1], m[1, 2], m[2, 0])
         assert least == pytest.approx(np.linalg.eigvalsh(m)[0], abs=1e-9)
 
 

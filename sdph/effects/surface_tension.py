@@ -1,0 +1,52 @@
+"""Surface tension between two phases, as a continuum surface force (Brackbill, Kothe & Zemach 1992).
+
+The gradient of colour takes the inter-particle average of Adami, Hu & Adams 2010, J. Comput. Phys. 229, 5011, which
+is that of the pressure: with one curvature everywhere the force is balanced to round-off. Walls take no part in it.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from sdph.effects.effect import Effect
+from sdph.schema import quantity, record
+
+CAPILLARY = 0.25  # of sqrt(rho h^3/(2 pi sigma)), liquids.md, shared core; rho is the mean of both phases
+
+
+@record
+class SurfaceTension:
+    coefficient: float = quantity("N_m", above=0.0)
+
+
+class TensionP(NamedTuple):
+    """sigma [N/m]; |grad c| below which a particle is off the interface [1/m]; dimensions."""
+
+    coefficient: float
+    least: float
+    dimensions: float
+
+
+FAINT = 0.01  # of 1/h: Morris 2000, Int. J. Numer. Methods Fluids 33, 333, Eq. 20
+
+
+def kernel(case) -> TensionP:
+    return TensionP(case.parameters["surface_tension"].coefficient, FAINT / case.smoothing_length, float(case.dimensions))
+
+
+def dt_limit(p, case, state) -> float:
+    rho = 0.5 * (case.liquid.density + case.gas_phase.density)
+    return CAPILLARY * math.sqrt(rho * case.smoothing_length**3 / (2.0 * math.pi * p.coefficient))
+
+
+EFFECT = Effect(
+    name="surface_tension",
+    summary="surface tension between a liquid and a gas (continuum surface force)",
+    parameters=SurfaceTension,
+    kernel=kernel,
+    moves=True,
+    matter=("liquid",),
+    dt_limit=dt_limit,
+    two_phases=True,
+)

@@ -1,0 +1,79 @@
+"""Particle shifting: how particles lie around each other, and the shift that evens it out."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit, prange
+
+from sdph import smoothing
+from sdph.effects import shifting
+from sdph.liquid import phases
+from sdph.liquid.pairs import FAST, apart, faster, smallest, solved
+
+
+@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+def surround(kernel, s, rows, box, active, shifting_p, phases_p, volume, least, shift, twist):
+    """How neighbours lie around each particle, and how fast they go.
+
+    least (N,), smallest eigenvalue of the renormalisation matrix (1 among two phases: they leave no free surface);
+    shift (N, 3), sum V_j (1 + R (W/W0)^4) grad W [1/m]; twist (N, 9), corrected gradient dv_a/dx_b [1/s], a slowest.
+    """
+    for n in prange(len(active)):
+        i = active[n]
+        cx = cy = cz = xx = yy = zz = xy = yz = zx = 0.0
+        ux = uy = uz = vx = vy = vz = wx = wy = wz = 0.0
+        for k in range(rows.count[i]):
+            j = rows.index[i, k]
+            dx, dy, dz = apart(s, box, i, j)
+            du, dv, dw = faster(s, i, j)
+            r = np.sqrt(dx * dx + dy * dy + dz * dz)
+            slope = smoothing.slope(kernel, r)
+            share = max(volume[j], 0.0) * slope * phases.like(phases_p, s.kind[i], s.kind[j])
+            xx -= share * dx * dx
+            yy -= share * dy * dy
+            zz -= share * dz * dz
+            xy -= share * dx * dy
+            yz -= share * dy * dz
+            zx -= share * dz * dx
+            ux -= share * du * dx
+            uy -= share * du * dy
+            uz -= share * du * dz
+            vx -= share * dv * dx
+            vy -= share * dv * dy
+            vz -= share * dv * dz
+            wx -= share * dw * dx
+            wy -= share * dw * dy
+            wz -= share * dw * dz
+            crowd = abs(volume[j]) * slope * shifting.weight(shifting_p, smoothing.value(kernel, r))
+            cx += crowd * dx
+            cy += crowd * dy
+            cz += crowd * dz
+        zz = zz if len(s.z) else 1.0
+        least[i] = 1.0 if len(phases_p) else smallest(xx, yy, zz, xy, yz, zx)
+        shift[i, 0], shift[i, 1], shift[i, 2] = cx, cy, cz
+        twist[i, 0], twist[i, 1], twist[i, 2] = solved(xx, yy, zz, xy, yz, zx, ux, uy, uz)
+        twist[i, 3], twist[i, 4], twist[i, 5] = solved(xx, yy, zz, xy, yz, zx, vx, vy, vz)
+        twist[i, 6], twist[i, 7], twist[i, 8] = solved(xx, yy, zz, xy, yz, zx, wx, wy, wz)
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
+def displace(p, active, kind, least, shift, gradient_x, gradient_y, gradient_z, twist, compliance, dt, x, y, z, u, v, w, density):
+    """r -= dt D sum V_j (1 + R (W/W0)^4) grad W, no faster than the parameters allow, inside the liquid alone.
+
+    Velocity and density are taken along their gradients, so that moving a particle does not move the field; compliance (K,) is
+    d rho/dp [s2/m2] by kind.
+    """
+    for n in prange(len(active)):
+        i = active[n]
+        dx, dy, dz = -p.strength * shift[i, 0], -p.strength * shift[i, 1], -p.strength * shift[i, 2]
+        speed = np.sqrt(dx * dx + dy * dy + dz * dz)
+        scale = dt * min(1.0, p.largest / speed) if speed > 0.0 and least[i] > shifting.INTERIOR and kind[i] >= p.lightest else 0.0
+        dx, dy, dz = scale * dx, scale * dy, scale * dz
+        x[i] += dx
+        y[i] += dy
+        u[i] += twist[i, 0] * dx + twist[i, 1] * dy + twist[i, 2] * dz
+        v[i] += twist[i, 3] * dx + twist[i, 4] * dy + twist[i, 5] * dz
+        density[i] += compliance[kind[i]] * (gradient_x[i] * dx + gradient_y[i] * dy + gradient_z[i] * dz)
+        if len(z):
+            z[i] += dz
+            w[i] += twist[i, 6] * dx + twist[i, 7] * dy + twist[i, 8] * dz
