@@ -87,13 +87,13 @@ def _energy(row: dict) -> float:
 def energies(stepper) -> tuple[float, float]:
     """Kinetic and elastic energy [J] of the liquid.
 
-    Elastic: integral of p/rho^2 of Tait's law from rho_0 on, per mass, background included.
+    Elastic: integral of p/rho^2 of Tait's law from rho_0 on, per mass, background and cohesion included.
     """
     s, own = stepper.state, stepper.active
-    rho_0, stiffness, gamma, background = stepper.fluids[:, s.kind[own]]
+    rho_0, stiffness, gamma, background, cohesion = stepper.fluids[:, s.kind[own]]
     x = s.density[own] / rho_0
     power = np.where(gamma == 1.0, np.log(x), (x ** (gamma - 1.0) - 1.0) / np.where(gamma == 1.0, 1.0, gamma - 1.0))
-    elastic = stiffness / rho_0 * (power + 1.0 / x - 1.0) + background / rho_0 * (1.0 - 1.0 / x)
+    elastic = stiffness / rho_0 * (power + 1.0 / x - 1.0) + background / rho_0 * (1.0 - 1.0 / x) - cohesion * rho_0 * (x - 1.0)
     kinetic = 0.5 * (particles.velocities(s)[own] ** 2).sum(axis=1)
     return float(s.mass[own] @ kinetic), float(s.mass[own] @ elastic)
 
