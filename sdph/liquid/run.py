@@ -12,7 +12,7 @@ from sdph import particles, window
 from sdph.effects import drain
 from sdph.liquid.ledger import IMPULSES, LiquidLedger, energies
 from sdph.liquid.outlet import Outlet
-from sdph.liquid.step import LiquidStepper, balance, kinetic_energy, wall_loads
+from sdph.liquid.step import LiquidStepper, balance, kinetic_energy, pipe_loads, wall_loads
 
 SAMPLES = 10  # rows of history.csv for each output of fields, where the case says nothing
 STRIDE = 20  # steps in a window at most: a liquid that goes unstable is caught within these (our choice)
@@ -119,8 +119,10 @@ class LiquidRun:
             return {}
         mean = self.impulse / (self.time - self.since) if self.time > self.since else balance(self.stepper)[:6]
         names = ("force_x_N", "force_y_N", "force_z_N", "moment_x_Nm", "moment_y_Nm", "moment_z_Nm")
-        loads = (("mean", mean), ("wall", wall_loads(self.stepper)))
-        return {f"{kind}_{name}": float(value) for kind, load in loads for name, value in zip(names, load)}
+        loads = {"mean": mean, "wall": wall_loads(self.stepper)}
+        if self.case.parameters["tank"].outlet_radius:
+            loads["pipe"] = pipe_loads(self.stepper)  # the part of "wall" that the outlet pipe feels
+        return {f"{kind}_{name}": float(value) for kind, load in loads.items() for name, value in zip(names, load)}
 
     def meshes(self) -> dict:
         """Liquid particles as pyvista points."""

@@ -214,15 +214,24 @@ class Joined:
 
 
 def wall_points(shape, spacing: float, layers: int) -> np.ndarray:
-    """(W, d) wall particles in `layers`, the first half a spacing behind the surface."""
-    parts = []
+    """(W, d) wall particles in `layers`, the first half a spacing behind the surface; those of an outlet pipe come last."""
+    own = _behind(shape.tank if isinstance(shape, Joined) else shape, shape, spacing, layers)
+    return np.concatenate([own, pipe_points(shape, spacing, layers)])
+
+
+def pipe_points(shape, spacing: float, layers: int) -> np.ndarray:
+    """(W, d) of `wall_points`, those of the outlet pipe; none where there is no pipe."""
+    return _behind(shape.pipe, shape, spacing, layers) if isinstance(shape, Joined) else shape.shell(0.5 * spacing, spacing)[:0]
+
+
+def _behind(part, whole, spacing: float, layers: int) -> np.ndarray:
+    """Layers of `part`; of two shapes that meet, what lies in or too near to the other is left out."""
+    points = []
     for layer in range(layers):
         depth = (layer + 0.5) * spacing
-        points = shape.shell(depth, spacing)
-        if isinstance(shape, Joined):  # of two shapes that meet, what lies in or too near to the other is left out
-            points = points[shape.distance(points) > depth - 0.25 * spacing]
-        parts.append(points)
-    return np.concatenate(parts)
+        shell = part.shell(depth, spacing)
+        points.append(shell if part is whole else shell[whole.distance(shell) > depth - 0.25 * spacing])
+    return np.concatenate(points)
 
 
 def lattice_inside(shape, spacing: float, lower, upper, clearance: float) -> np.ndarray:

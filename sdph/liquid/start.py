@@ -41,6 +41,11 @@ def _walls(case) -> particles.State:
     return state
 
 
+def pipe_walls(case) -> int:
+    """How many wall particles an outlet pipe has; they come last."""
+    return len(shapes.pipe_points(tank.shape_of(case), case.resolution.spacing, tank.layers(case))) if "tank" in case.effects else 0
+
+
 def _placed(case, points) -> particles.State:
     state = particles.empty(len(points), (), case.dimensions)
     for axis, column in zip(particles.axes(state), points.T):

@@ -49,6 +49,7 @@ class LiquidStepper:
         self.neighbours = Rows(2.0 * SLACK * self.kernel.h, tuple(length * bool(on) for length, on in zip(case.domain.size, periodic)))
         self.fluids, self.phases = fluids(case), phases.kernel(case)
         self.state = start.fill(case)
+        self.first_of_pipe = len(self.state.x) - start.pipe_walls(case)  # numbers from here on: walls of the outlet pipe
         own = self.p["tank"]
         self.wall = WallP(*[0.0] * 6, own.least, own.stick) if own else NO_WALL
         self.summed = case.gas_phase is not None and case.gas_phase.density_by == "summation"
@@ -222,16 +223,22 @@ def balance(stepper) -> np.ndarray:
     return load
 
 
-def wall_loads(stepper) -> np.ndarray:
-    """(6,) the same, from what each wall particle feels of pressure and friction."""
-    force = np.zeros((len(stepper.walls), 3))
+def wall_loads(stepper, chosen=None) -> np.ndarray:
+    """(6,) the same, from what each wall particle feels of pressure and friction; of the wall particles `chosen` alone, if given."""
+    chosen = stepper.walls if chosen is None else chosen
+    force = np.zeros((len(chosen), 3))
     p = stepper.p
     walls.wall_force(
-        stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, stepper.walls, stepper.wall, p["laminar_viscosity"],
+        stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, chosen, stepper.wall, p["laminar_viscosity"],
         p["liquid_damping"], p["shifting"], stepper.phases, p["gravity"], stepper.frame, stepper.least, stepper.pressure, stepper.volume, force,
     )  # fmt: skip
-    places = particles.positions(stepper.state)[stepper.walls]
+    places = particles.positions(stepper.state)[chosen]
     return np.concatenate([force.sum(axis=0), np.cross(places, force).sum(axis=0)])
+
+
+def pipe_loads(stepper) -> np.ndarray:
+    """(6,) the same on the outlet pipe."""
+    return wall_loads(stepper, stepper.walls[stepper.state.ident[stepper.walls] >= stepper.first_of_pipe])
 
 
 def fluids(case) -> np.ndarray:
