@@ -131,7 +131,7 @@ def _check(case: Case) -> None:
     _check_phases(case)
     if case.resolution.cell is None and not case.liquid:
         raise CaseError("resolution.cell_mm is missing; it has no default: give it in [resolution]")
-    vectors = {"domain.size_m": case.domain.size, "domain.gravity_m_s2": case.domain.gravity}
+    vectors = {"domain.size_m": case.domain.size, "domain.gravity_m_s2": case.domain.gravity, "resolution.stretch": case.resolution.stretch}
     for name, region in case.particles.items():
         vectors |= {f"particles.{name}.{key}": getattr(region, at) for key, (at, kind) in fields(Region).items() if kind.components is None}
     for name, probe in case.probes.items():
@@ -141,6 +141,8 @@ def _check(case: Case) -> None:
     for key, value in vectors.items():
         if value is not None and (len(value) != case.dimensions or any(isinstance(v, tuple) for v in value)):
             raise CaseError(f"{key} has {len(value)} components; dimensions = {case.dimensions} asks for {case.dimensions}")
+    if case.resolution.stretch and min(case.resolution.stretch) <= 0.0:
+        raise CaseError(f"resolution.stretch = {list(case.resolution.stretch)}; every ratio must be above 0: 1 for equal cells")
     if min(case.domain.size) <= 0.0:
         raise CaseError(f"domain.size_m = {list(case.domain.size)}; every length must be above 0")
     _check_period(case)

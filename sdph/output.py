@@ -234,19 +234,19 @@ def gas_grid(gas):
     import pyvista
 
     centres, axes = gas.mesh.centres, range(gas.mesh.dimensions)
-    ticks = [np.unique(np.round(centres[:, a], 12)) for a in axes]
+    ticks, places = zip(*(np.unique(np.round(centres[:, a], 12), return_inverse=True) for a in axes))
     if np.prod([len(t) for t in ticks]) == len(centres):
-        edges = [_edges(t) for t in ticks] + [np.zeros(1)] * (3 - len(ticks))
+        edges = [_edges(t, np.bincount(p, gas.mesh.volumes)) for t, p in zip(ticks, places)] + [np.zeros(1)] * (3 - len(ticks))
         return pyvista.RectilinearGrid(*edges), np.lexsort(tuple(np.round(centres[:, a], 12) for a in axes))
     return _polyhedra(gas)
 
 
-def _edges(ticks: np.ndarray) -> np.ndarray:
-    """Cell faces from centres, counted up from the first face; exact where they are uniform."""
+def _edges(ticks: np.ndarray, layers: np.ndarray) -> np.ndarray:
+    """Cell faces along an axis, from the centres of the layers of cells there and their volumes."""
     if len(ticks) == 1:
         return np.array([0.0, 2.0 * ticks[0]])
-    middle = 0.5 * (ticks[1:] + ticks[:-1])
-    return np.concatenate(([2.0 * ticks[0] - middle[0]], middle, [2.0 * ticks[-1] - middle[-1]]))
+    widths = layers * ((ticks[-1] - ticks[0]) / (layers.sum() - 0.5 * (layers[0] + layers[-1])))
+    return np.concatenate(([0.0], np.cumsum(widths))) + (ticks[0] - 0.5 * widths[0])
 
 
 def _polyhedra(gas):

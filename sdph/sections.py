@@ -42,7 +42,8 @@ class Domain:
 class Resolution:
     spacing: float = quantity("mm", above=0.0)
     smoothing_ratio: float = quantity("", 1.5, least=1.0, most=3.0)  # paper section 4: h is 1.5 spacings
-    cell: float | None = quantity("mm", None, above=0.0)  # of the gas
+    cell: float | None = quantity("mm", None, above=0.0)  # of the gas; the mean along an axis that is stretched
+    stretch: tuple | None = vector("", None)  # along each axis: width of the last gas cell over the first (blockMesh's simpleGrading)
 
 
 @record

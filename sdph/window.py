@@ -11,6 +11,8 @@ import math
 
 import numpy as np
 
+from sdph.gas_cells import cell_edges
+
 SAFETY, GROWTH, SHRINK = 0.9, 2.0, 0.3  # usual bounds of a step controller (Hairer, Norsett & Wanner, II.4); our choice
 VAPOUR = 0.1  # of the gas in a cell: most vapour that comes into it in a window, so that it is carried away as it comes; our choice
 GRIP = 0.1  # of the time in which gas stops a bed, most that its force may be held: a held force drives the bed's oscillations; our choice
@@ -60,7 +62,7 @@ class Window:
     KEPT = ("limits", "control", "limit")  # see sdph.restart
 
     def __init__(self, case):
-        self.courant, self.cell = case.coupling.courant, case.resolution.cell
+        self.courant, self.cell = case.coupling.courant, min(float(np.diff(edges).min()) for edges in cell_edges(case))
         self.limits = {"largest": case.coupling.window_largest}
         self.control = Control(case.coupling.window_tolerance)
         self.outputs = every(case.run.output_interval, case.run.end_time)

@@ -12,12 +12,12 @@ from typing import NamedTuple
 import numpy as np
 
 from coupling.embedded.grid import Grid, indices
-from sdph.case import CaseError
+from sdph.gas_cells import nearest_edge
+from sdph.schema import CaseError
 
 SIDES = {"left": (0, 0), "right": (0, 1), "bottom": (1, 0), "top": (1, 1), "back": (2, 0), "front": (2, 1)}
 # kind -> whether the gas passes freely, and whether it clings (takes the tangential velocity of the boundary)
 KINDS = {"wall": (False, True), "slip_wall": (False, False), "velocity_inlet": (False, True), "pressure_outlet": (True, False)}
-SNAP = 1e-6  # of a cell: how far the edge of a span may lie from a cell edge
 
 
 @dataclass(frozen=True)
@@ -118,13 +118,9 @@ def _inside(grid: Grid, axis: int, span: tuple, name: str) -> np.ndarray:
     inside = np.ones(1, dtype=bool)
     for b, (low, high) in zip(tangential, pairs):
         edges = grid.edges[b]
-        for end in (low, high):
-            nearest = edges[np.argmin(np.abs(edges - end))]
-            if abs(nearest - end) > SNAP * np.diff(edges).min():
-                what = f"no edge of a gas cell; the nearest is {nearest:g}"
-                raise CaseError(f"boundaries.{name}.span_m ends at {end:g}, which is {what}")
-        middle = 0.5 * (edges[1:] + edges[:-1])
-        inside = (((middle > low) & (middle < high))[:, None] & inside[None, :]).ravel()
+        first, last = (nearest_edge(edges, end, f"boundaries.{name}.span_m") for end in (low, high))
+        along = np.arange(len(edges) - 1)
+        inside = (((along >= first) & (along < last))[:, None] & inside[None, :]).ravel()
     return inside
 
 

@@ -72,14 +72,6 @@ class Grid:
         return self.extended(content / np.where(volume > 0.0, volume, 1.0))
 
 
-def uniform_edges(length: float, count: int, stretch: float = 1.0) -> np.ndarray:
-    """count + 1 edges from 0 to length; `stretch` is last over first cell width, as blockMesh grades."""
-    growth = stretch ** (1.0 / max(count - 1, 1))
-    widths = growth ** np.arange(count)
-    edges = np.concatenate(([0.0], np.cumsum(widths)))
-    return edges * (length / edges[-1])
-
-
 def strides_of(counts: tuple[int, ...]) -> tuple[tuple[int, ...], int]:
     """Strides of the padded box and its size."""
     lengths = [n + 2 * PAD for n in counts]

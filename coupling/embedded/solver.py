@@ -25,28 +25,24 @@ from pathlib import Path
 import numpy as np
 
 from coupling.embedded.box import Box, Flow, window_of
-from coupling.embedded.grid import build_grid, uniform_edges
+from coupling.embedded.grid import build_grid
 from coupling.embedded.linear import IMPLICIT, not_converged
 from coupling.embedded.momentum import Momentum
 from coupling.embedded.output import budget, cell_fields, force_of_boundary
 from coupling.embedded.pressure import Pressure
 from coupling.embedded.scalars import Scalars
 from coupling.gas import SOURCES, GasError, GasState, Mesh
-from sdph.case import CaseError, cells
+from sdph.gas_cells import cell_edges
 
 PASSES = 2  # of a window whose density follows temperature (shared/openfoam.md: one if constant, else two)
 CHECKPOINT = "embedded_gas.npz"
 
 
 class EmbeddedGas:
-    """The `Gas` of a case on a Cartesian grid.
+    """The `Gas` of a case on a Cartesian grid; `limited` False takes first-order upwind convection instead of van Leer's."""
 
-    `edges`, one array of cell edges [m] per axis from 0 to the size of the domain, replaces the equal cells of
-    `resolution.cell`; `limited` False takes first-order upwind convection instead of van Leer's.
-    """
-
-    def __init__(self, case, *, edges: tuple[np.ndarray, ...] | None = None, limited: bool = True):
-        self.box = Box(case, build_grid(_edges(case, edges)), limited)
+    def __init__(self, case, *, limited: bool = True):
+        self.box = Box(case, build_grid(cell_edges(case)), limited)
         self.momentum = Momentum(self.box)
         self.pressure = Pressure(self.box, self.momentum.active)
         self.scalars = Scalars(self.box)
@@ -156,16 +152,3 @@ def _known(sources: tuple[str, ...], box: Box) -> tuple[str, ...]:
     if "vapour" in sources and box.vapour is None:
         raise GasError("the particles give off vapour, but the case has no [vapour]")
     return tuple(sources)
-
-
-def _edges(case, edges) -> tuple[np.ndarray, ...]:
-    """Cell edges: those given, or equal cells."""
-    if edges is None:
-        return tuple(uniform_edges(length, count) for length, count in zip(case.domain.size, cells(case)))
-    if len(edges) != case.dimensions:
-        raise CaseError(f"cell edges for {len(edges)} axes are given; the case has {case.dimensions}")
-    for axis, (along, length) in enumerate(zip(edges, case.domain.size)):
-        if not (along[0] == 0.0 and np.isclose(along[-1], length, rtol=1e-9) and np.all(np.diff(along) > 0.0)):
-            ends = f"run from {along[0]:g} to {along[-1]:g}"
-            raise CaseError(f"cell edges of axis {axis} {ends}; they must rise from 0 to {length:g}")
-    return tuple(np.asarray(along, dtype=float) for along in edges)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 
+from sdph.gas_cells import cell_edges, nearest_edge
 from sdph.schema import CaseError
 
 # side -> (axis it is normal to, whether it is the upper one)
@@ -22,10 +23,10 @@ def block_mesh(case, depth: float) -> str:
     """The dictionary, less its head; a two-dimensional case is one cell of `depth` [m] deep."""
     size = [*case.domain.size, *[depth] * (3 - case.dimensions)]
     edges = [_edges(case, axis, size[axis]) for axis in range(3)]
-    counts = [_counts(case, axis, edges[axis]) for axis in range(3)]
+    cells = [_cells(case, axis, edges[axis]) for axis in range(3)]
     blocks = list(itertools.product(*(range(len(e) - 1) for e in edges)))
     vertices = "".join(f"    ({x!r} {y!r} {z!r})\n" for z, y, x in itertools.product(*reversed(edges)))
-    lines = "".join(_block_line(block, edges, counts) for block in blocks)
+    lines = "".join(_block_line(block, edges, cells) for block in blocks)
     patches = "".join(_patch(name, kind, faces) for name, (kind, faces) in _patches(case, blocks, edges).items())
     head = f"scale 1;\nvertices\n(\n{vertices});\nblocks\n(\n{lines});\nedges ();\n"
     return f"{head}boundary\n(\n{patches});\nmergePatchPairs ();\n"
@@ -56,11 +57,16 @@ def _spans(boundary, dimensions: int) -> list[tuple[int, tuple[float, float]]]:
     return list(zip(tangential, spans))
 
 
-def _counts(case, axis: int, edges: list[float]) -> list[int]:
-    """Cells of each block along an axis."""
+def _cells(case, axis: int, edges: list[float]) -> list[tuple[int, float]]:
+    """Of each block along an axis: number of cells, and last width over first."""
     if axis >= case.dimensions:
-        return [1]
-    return [max(1, round((high - low) / case.resolution.cell)) for low, high in zip(edges, edges[1:])]
+        return [(1, 1.0)]
+    if not case.resolution.stretch:
+        return [(max(1, round((high - low) / case.resolution.cell)), 1.0) for low, high in zip(edges, edges[1:])]
+    whole = cell_edges(case)[axis]
+    ends = [nearest_edge(whole, end, "a span_m") for end in edges]
+    growth = case.resolution.stretch[axis] ** (1.0 / max(len(whole) - 2, 1))
+    return [(high - low, float(growth ** (high - low - 1))) for low, high in zip(ends, ends[1:])]
 
 
 def _vertex(block: tuple[int, ...], corner: int, edges: list[list[float]]) -> int:
@@ -68,10 +74,10 @@ def _vertex(block: tuple[int, ...], corner: int, edges: list[list[float]]) -> in
     return i + len(edges[0]) * (j + len(edges[1]) * k)
 
 
-def _block_line(block, edges, counts) -> str:
+def _block_line(block, edges, cells) -> str:
     corners = " ".join(str(_vertex(block, corner, edges)) for corner in BLOCK_ORDER)
-    cells = " ".join(str(counts[axis][block[axis]]) for axis in range(3))
-    return f"    hex ({corners}) ({cells}) simpleGrading (1 1 1)\n"
+    counts, ratios = zip(*(cells[axis][block[axis]] for axis in range(3)))
+    return f"    hex ({corners}) ({' '.join(map(str, counts))}) simpleGrading ({' '.join(f'{r:.17g}' for r in ratios)})\n"
 
 
 def _patches(case, blocks, edges) -> dict[str, tuple[str, list[str]]]:

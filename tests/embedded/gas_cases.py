@@ -18,14 +18,14 @@ OIL = {
 SIDES = ("left", "right", "bottom", "top", "back", "front")
 
 
-def gas_case(size, cells, *, gravity=None, boundaries=None, vapour=None, **gas):
-    """A case of gas alone: `size` [m] with `cells` along x (equal cells), `gas` overriding AIR."""
+def gas_case(size, cells, *, gravity=None, boundaries=None, vapour=None, stretch=None, **gas):
+    """A case of gas alone: `size` [m] with `cells` along x, `gas` overriding AIR."""
     d = len(size)
     table = {
         "title": "gas alone", "dimensions": d, "effects": [],
         "run": {"end_time_s": 1.0, "output_interval_s": 1.0},
         "domain": {"size_m": [float(s) for s in size], "gravity_m_s2": [float(g) for g in gravity or [0.0] * d]},
-        "resolution": {"spacing_mm": size[0] / cells * 1e3, "cell_mm": size[0] / cells * 1e3},
+        "resolution": {"spacing_mm": size[0] / cells * 1e3, "cell_mm": size[0] / cells * 1e3, "stretch": list(stretch or [1.0] * d)},
         "gas": AIR | gas,
         "grains": {"density_kg_m3": 2500.0, "diameter_mm": 0.5, "heat_capacity_J_kg_K": 800.0, "conductivity_W_m_K": 1.0},
         "boundaries": boundaries or {"walls": {"kind": "wall"}},
@@ -33,8 +33,8 @@ def gas_case(size, cells, *, gravity=None, boundaries=None, vapour=None, **gas):
     return from_table(table | ({"vapour": vapour} if vapour else {}))
 
 
-def gas_of(*args, edges=None, limited=True, **kwargs):
-    return EmbeddedGas(gas_case(*args, **kwargs), edges=edges, limited=limited)
+def gas_of(*args, limited=True, **kwargs):
+    return EmbeddedGas(gas_case(*args, **kwargs), limited=limited)
 
 
 def set_flow(gas, velocity=None, temperature=None, pressure=None):

@@ -8,7 +8,6 @@ import pytest
 from gas_cases import OIL, SIDES, gas_case, gas_of
 
 from coupling.embedded import EmbeddedGas
-from coupling.embedded.grid import uniform_edges
 from coupling.gas import SOURCES, Gas, GasError
 from sdph.case import CaseError
 
@@ -153,10 +152,9 @@ def test_gas_at_rest_stays_at_rest():
     """Weight, uneven voidage and openings at several heights: the pressure carries the gas, and nothing moves."""
     boundaries = {side: {"kind": "pressure_outlet", "side": side, "pressure_Pa": 0.0} for side in ("right", "top")}
     boundaries["walls"] = {"kind": "wall"}
-    edges = (uniform_edges(0.4, 12, 4.0), uniform_edges(0.6, 15, 0.3))
-    gas = gas_of((0.4, 0.6), 12, gravity=[0.0, -9.81], boundaries=boundaries, edges=edges)
+    gas = gas_of((0.4, 0.6), 12, gravity=[0.0, -9.81], boundaries=boundaries, stretch=(4.0, 0.3))
     rng = np.random.default_rng(4)
-    gas.start(0.4 + 0.6 * rng.random(180), ())
+    gas.start(0.4 + 0.6 * rng.random(len(gas.mesh.volumes)), ())
     for _ in range(20):
         state = gas.advance(1e-2, {})
     assert np.abs(state.fields["velocity"]).max() < 1e-6
@@ -224,7 +222,9 @@ def with_boundary(**boundary):
         ({"boundaries": with_boundary(kind="wall", side="left", span_m=[0.0, 0.13])}, "the nearest is 0.12"),
         ({"boundaries": {"odd": {"kind": "wall", "side": "left"}}}, "no boundary covers all of the right side"),
         ({"boundaries": with_boundary(kind="wall", side="top", vapour_mass_fraction=0.5)}, "the case has no [vapour]"),
-        ({"edges": (np.linspace(0.0, 0.4, 5),)}, "cell edges for 1 axes"),
+        ({"stretch": (2.0,)}, "resolution.stretch has 1 components; dimensions = 2 asks for 2"),
+        ({"stretch": (2.0, 0.0)}, "resolution.stretch = [2.0, 0.0]; every ratio must be above 0"),
+        ({"stretch": (1.0, 3.0), "boundaries": with_boundary(kind="wall", side="left", span_m=[0.0, 0.12])}, "is no edge of a gas cell"),
     ],
 )
 def test_a_case_it_cannot_run(arguments, says):

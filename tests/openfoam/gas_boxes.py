@@ -15,14 +15,14 @@ AIR = {
 WALLS = {"walls": {"kind": "wall"}}
 
 
-def box_case(size, cell, *, boundaries=WALLS, gravity=None, vapour=None, ranks=1, transport="socket", **gas):
+def box_case(size, cell, *, boundaries=WALLS, gravity=None, vapour=None, ranks=1, transport="socket", stretch=None, **gas):
     """A case of gas alone: `size` [m], cubes of `cell` [m], `gas` overriding AIR."""
     d = len(size)
     table = {
         "title": "gas alone", "dimensions": d, "effects": [],
         "run": {"end_time_s": 1.0, "output_interval_s": 1.0},
         "domain": {"size_m": [float(s) for s in size], "gravity_m_s2": [float(g) for g in gravity or [0.0] * d]},
-        "resolution": {"spacing_mm": cell * 1e3, "cell_mm": cell * 1e3},
+        "resolution": {"spacing_mm": cell * 1e3, "cell_mm": cell * 1e3} | ({"stretch": stretch} if stretch else {}),
         "gas": AIR | gas,
         "grains": {"density_kg_m3": 2500.0, "diameter_mm": 0.5, "heat_capacity_J_kg_K": 800.0, "conductivity_W_m_K": 1.0},
         "boundaries": boundaries,
