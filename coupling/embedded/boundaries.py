@@ -175,7 +175,7 @@ def active_nodes(grid: Grid, faces: Faces) -> np.ndarray:
 
 
 def resting_pressure(faces: Faces, grid: Grid, gravity, density: float) -> tuple[np.ndarray, np.ndarray]:
-    """Pressure [Pa] of gas of `density` [kg/m3] at rest: outside the boundary faces (B,) and in the cells (C,).
+    """Pressure [Pa] of gas of `density` [kg/m3] at rest: on the boundary faces (B,) and in the cells (C,).
 
     The given pressure of an opening holds at the centre of all openings, so that openings at different heights drive
     no flow by themselves; a closed box has zero mean.
@@ -186,7 +186,7 @@ def resting_pressure(faces: Faces, grid: Grid, gravity, density: float) -> tuple
     centre[rows, faces.axis] += 0.5 * faces.sign * grid.geometry.width[faces.axis, faces.cell]
     outside, inside = centre @ np.asarray(gravity), grid.centres @ np.asarray(gravity)
     if not faces.open.any():
-        return 0.0 * outside, density * (inside - inside.mean())
+        return density * (outside - inside.mean()), density * (inside - inside.mean())
     area = grid.geometry.area[faces.axis, faces.face] * faces.open
     level, given = (np.average(values, weights=area) for values in (outside, faces.pressure))
-    return faces.pressure + density * (outside - level), given + density * (inside - level)
+    return np.where(faces.open, faces.pressure, given) + density * (outside - level), given + density * (inside - level)

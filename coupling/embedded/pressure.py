@@ -89,12 +89,12 @@ class Pressure:
         self.standing[faces.axis, faces.face] = np.where(faces.inlet, normal, 0.0)
 
     def at_start(self) -> np.ndarray:
-        """(S,) pressure of the gas of the case at rest, and that outside the openings, which stays."""
+        """(S,) pressure of the gas of the case at rest; on the boundary it is in the ghosts, and in openings it stays."""
         box = self.box
         density = float(box.properties.density(np.array([box.temperature]), 0.0)[0])
         outside, inside = resting_pressure(box.faces, box.grid, box.gravity, density)
         pressure = box.grid.padded(inside)
-        pressure[box.faces.ghost] = np.where(box.faces.open, outside, 0.0)
+        pressure[box.faces.ghost] = outside
         return pressure
 
     def aim(self, old: Flow, window: Window, temperature: np.ndarray, fraction: np.ndarray) -> Aim:
@@ -126,9 +126,11 @@ class Pressure:
         correct(*setting, diagonal, fine, correction, dt, velocity, flux)
         balance(grid.inner, flux, window.vapour, old.mass, dt, mass)
         self._carry_beyond(flux)
+        pressure = old.pressure + correction
+        self._lean(window, mass, velocity, pressure)
         new = {"alpha": window.alpha, "mass": mass, "velocity": velocity, "flux": flux, "ratio": aim.ratio}
         totals = {"time": old.time + dt, "mass_in": old.mass_in - float(dt * box.outward(flux).sum())}
-        return replace(old, pressure=old.pressure + correction, **new, **totals), error
+        return replace(old, pressure=pressure, **new, **totals), error
 
     def _inflow(self, aim: Aim) -> np.ndarray:
         """(d, S) mass flux of the inlets, nothing elsewhere."""
@@ -141,3 +143,12 @@ class Pressure:
         faces = self.box.faces
         beyond = faces.face + (faces.sign * np.array(self.box.grid.strides)[faces.axis]).astype(np.int64)
         flux[faces.axis, beyond] = flux[faces.axis, faces.face]
+
+    def _lean(self, window: Window, mass: np.ndarray, velocity: np.ndarray, pressure: np.ndarray) -> None:
+        """Where the boundary gives the velocity, its pressure (in the ghosts) holds the gas there against weight and particles."""
+        faces, grid = self.box.faces, self.box.grid
+        fixed = np.flatnonzero(~faces.open)
+        axis, cell, face = faces.axis[fixed], faces.cell[fixed], faces.face[fixed]
+        force = mass[cell] * np.array(self.box.gravity)[axis] + window.push[axis, cell] - window.pull[cell] * velocity[axis, face]
+        slope = force / (window.alpha[cell] * grid.geometry.volume[cell])
+        pressure[faces.ghost[fixed]] = pressure[cell] + faces.sign[fixed] * grid.geometry.gap[axis, face] * slope

@@ -118,7 +118,7 @@ class EmbeddedGas:
         """Nothing is left running."""
 
     def _state(self) -> GasState:
-        fields = cell_fields(self.box, self.momentum.active, self.flow)
+        fields = cell_fields(self.box, self.flow)
         return GasState(self.flow.time, fields, budget(self.box, self.flow, fields))
 
     def _check(self, dt: float, sources: dict[str, np.ndarray]) -> None:
