@@ -93,19 +93,29 @@ def _update(nodes, field, mass, flux, face, sub, follows):
             field[c] = content / mass[c] if active[c] else field[c]
 
 
+@njit(error_model="numpy")
+def _ahead(field, exchange):
+    """What faces carry: the field half a window's exchange on, with the (share kept, gain) of every node."""
+    if len(exchange) == 0:
+        return field
+    return exchange[0] * field + exchange[1]
+
+
 @njit(cache=True, error_model="numpy")
-def convect(nodes, ghosts, field, mass, flux, dt, parts, limited, follows):
+def convect(nodes, ghosts, field, mass, flux, dt, parts, limited, follows, exchange):
     """Transport `field` (S,) of nodes of `mass` (S,) [kg] by mass fluxes (d, S) [kg/s] over dt, in place.
 
     `follows`: the mass takes what the fluxes bring, and content is conserved; otherwise it stays, and a uniform
-    field does too, whatever the fluxes. Returns what was carried over each face (d, S) in all.
+    field does too, whatever the fluxes. `exchange`, see `_ahead`, or (): with it transport and the exchange after it
+    are second order in time together, as each of them is alone. Returns what was carried over each face (d, S) in all.
     """
     total, face = np.zeros_like(flux), np.zeros_like(flux)
     sub = dt / parts
     for _ in range(parts):
-        fill(field, ghosts)
+        ahead = _ahead(field, exchange)
+        fill(ahead, ghosts)
         for a in range(flux.shape[0]):
-            _face_flux(nodes, a, field, mass, flux[a], sub, limited, face[a])
+            _face_flux(nodes, a, ahead, mass, flux[a], sub, limited, face[a])
         _update(nodes, field, mass, flux, face, sub, follows)
         total += sub * face
     return total

@@ -135,5 +135,5 @@ class Momentum:
         parts, _ = substeps(grid.inner, old.flux, old.mass, old.mass, dt)
         for a in range(grid.dimensions if parts else 0):
             mass = 0.5 * (old.mass + np.roll(old.mass, grid.strides[a]))
-            convect(self.nodes[a], self.ghosts[a], velocity[a], mass, old.flux, dt, parts, self.box.limited, False)
+            convect(self.nodes[a], self.ghosts[a], velocity[a], mass, old.flux, dt, parts, self.box.limited, False, ())
         return velocity

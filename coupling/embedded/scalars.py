@@ -62,7 +62,7 @@ class Scalars:
         """The new flow, the vapour (d, S) [kg] through every face, and the residual."""
         diffusivity = self.box.vapour.diffusivity * self.box.grid.per_volume(flow.mass)
         carried = (old.fraction(), old.mass.copy(), flow.flux, parts)
-        exchanged = (flow.mass, window.dt * window.vapour)
+        exchanged = (flow.mass, window.dt * window.vapour, window.dt * window.vapour)
         fraction, through, error = self._transport(flow, window.dt, "vapour", carried, diffusivity, exchanged)
         vapour = np.zeros_like(flow.mass)
         cells = self.box.grid.cells
@@ -74,7 +74,8 @@ class Scalars:
         """The new flow and the residual; heat: content [J/K] before, its flux [W/K], content after, sub-steps."""
         before, carrier, after, parts = heat
         conductivity = window.alpha * self.box.properties.mixture("conductivity", flow.fraction())
-        exchanged = (after + window.dt * window.cling, window.dt * window.warmth)
+        grown = window.dt * (window.cling if self.box.vapour is None else window.cling + self.box.vapour.heat_capacity * window.vapour)
+        exchanged = (after + window.dt * window.cling, grown, window.dt * window.warmth)
         carried = (old.temperature.copy(), before.copy(), carrier, parts)
         temperature, through, error = self._transport(flow, window.dt, "heat", carried, conductivity, exchanged)
         energy_in = flow.energy_in - float(self.box.outward(through).sum())
@@ -84,16 +85,26 @@ class Scalars:
         """One field from the start of the window to its end, and what went through every face."""
         box, grid = self.box, self.box.grid
         field, mass, flux, parts = carried
-        diagonal, source = exchanged
+        diagonal, grown, source = exchanged
         ghosts = self._ghosts(flow, name)
         through, conductance = grid.zeros(grid.dimensions), grid.zeros(grid.dimensions)
         if parts:
-            through = convect(self.nodes, ghosts, field, mass, flux, dt, parts, box.limited, True)
+            half = self._half(mass, grown, source)
+            through = convect(self.nodes, ghosts, field, mass, flux, dt, parts, box.limited, True, half)
         fill(field, ghosts)
         face_conductances(grid.wide, grid.geometry, grid.extended(diffusivity), self.hold[name], dt, conductance)
         source = mass * field + source
         given, error = solve_implicit(grid.wide, box.everywhere, conductance, diagonal, source, field, IMPLICIT)
         return field, through + given, error
+
+    def _half(self, content: np.ndarray, grown: np.ndarray, source: np.ndarray):
+        """(share kept, gain), (S,) each, of the implicit exchange of half a window: `grown` is what a whole one adds to the
+        diagonal, `source` what it adds to the content."""
+        cells = self.box.grid.cells
+        keep, gain = self.box.grid.zeros(2)
+        after = content[cells] + 0.5 * grown[cells]
+        keep[cells], gain[cells] = content[cells] / after, 0.5 * source[cells] / after
+        return keep, gain
 
     def _ghosts(self, flow: Flow, name: str) -> Ghosts:
         """The boundary value where it is held or where gas flows in, else that of the neighbour."""

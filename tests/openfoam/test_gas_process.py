@@ -232,7 +232,7 @@ def test_fatal_errors_of_openfoam_are_told(tmp_path):
     template = tmp_path / "template"
     box_template(template)
     schemes = (template / "system" / "fvSchemes").read_text()
-    (template / "system" / "fvSchemes").write_text(schemes.replace("limitedLinear 1", "noSuchScheme"))
+    (template / "system" / "fvSchemes").write_text(schemes.replace("vanLeer", "noSuchScheme"))
     gas = OpenFoamGas(box_case((0.1, 0.06), 0.005, boundaries=INLET), tmp_path / "gas", template)
     with pytest.raises(GasError, match="noSuchScheme.*log: "):
         busy(started(gas), 1)
