@@ -111,6 +111,7 @@ def _run_options(parser) -> None:
     parser.add_argument("--allow-code", action="store_true", help="let the OpenFOAM files of your case run code (#codeStream and its like)")
     parser.add_argument("--accuracy", type=_share, metavar="E", help="take the cheapest measured setting that errs by this or less, such as 2%%")
     parser.add_argument("--until", type=float, metavar="T", help="end time [s]")
+    parser.add_argument("--watch", action="store_true", help="keep a page of the run as it goes in its folder: watch.html")
     parser.add_argument("--json", action="store_true", help="print the summary as JSON")
 
 
@@ -147,7 +148,7 @@ def init_case(options) -> int:
 
 def run(options) -> int:
     from sdph import case as cases
-    from sdph import driver, output, scenes
+    from sdph import driver, output, room, scenes, watch
     from sdph.cost import ladder
     from sdph.explain import tables
     from sdph.progress import Reporter
@@ -156,15 +157,18 @@ def run(options) -> int:
     with contextlib.closing(Reporter(quiet=options.json)) as reporter:
         if options.resume:
             folder = options.resume
+            reporter.page = watch.Page(folder) if options.watch else None
             summary = driver.resume(folder, overrides, reporter)
         else:
             name, file = scenes.find(options.target)
             if options.accuracy:
                 overrides = ladder.settings_for(name, options.accuracy, reporter.status) + overrides
             case = cases.load(file, overrides)
+            room.refuse_too_large(case)
             for warning in tables.warnings(case):
                 reporter.status(f"warning: {warning}")
             folder, own = options.out or output.free_name(Path("runs") / name), file.parent / "gas"
+            reporter.page = watch.Page(folder) if options.watch else None
             summary = driver.run(case, name, folder, own if own.is_dir() else None, reporter, allow_code=options.allow_code)
     print(json.dumps(summary) if options.json else f"{_table(summary)}\nrun folder: {folder}")
     return FINE

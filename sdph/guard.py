@@ -17,6 +17,7 @@ from sdph.explain import judge
 from sdph.laws.constants import GAS_CONSTANT
 
 RUNAWAY = 10.0  # times what drives the grains, times the speed of sound of the gas; our choice
+COLLAPSE = 1e3  # times what drives the grains: sound that is faster shrinks the sub-steps until a run gets nowhere; our choice
 LATENT = 0.25  # of the hottest: how far below the coldest evaporation may cool; our choice
 ADIABATIC = 1.4  # cp/cv of a diatomic gas
 
@@ -64,7 +65,7 @@ class Watch:
 
 
 class Guard(Watch):
-    """Looks at the grains after every sub-step and at the gas after every window."""
+    """Looks at the grains after every sub-step, at its length too, and at the gas after every window."""
 
     def __init__(self, case):
         super().__init__(case)
@@ -94,6 +95,8 @@ class Guard(Watch):
         if len(s.temperature):
             self.hold("temperature", s.temperature, (self.coldest, self.hottest, "K"), s, lower)
         self.hold("density", s.density, (0.0, math.inf, "kg/m3"), s, lower)
+        collapse = f"what packs the grains: the sub-step has fallen to {stepper.length:.2g} s"
+        self.hold("speed of sound", stepper.sound, (0.0, COLLAPSE * self.reach, "m/s"), s, collapse)
 
     def gas(self, simulation) -> None:
         """After a window: NaN, speed, temperature of the gas."""

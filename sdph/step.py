@@ -36,6 +36,7 @@ class Stepper:
         on = parameters["granular_viscosity"] or parameters["friction"]
         self.viscous = Viscous(float(case.dimensions)) if on else OFF
         self.steps, self.contacts, self.limit = 0, 0, ""
+        self.sound, self.length = np.empty(0), 0.0  # of the particles in the last sub-step [m/s], and what that was limited to [s]
         self.mechanical_heat = 0.0  # what motion has given to the temperature of the grains [J]
         self.bounds_work = 0.0  # what the bounds of theta have added [J]
 
@@ -100,7 +101,8 @@ class Stepper:
         if len(s.theta) and s.theta.max(initial=0.0) > 0.0:  # viscosity and conductivity are at most h sqrt(theta)
             limits["agitation"] = DIFFUSIVE * self.kernel.h / math.sqrt(s.theta.max())
         self.limit = min(limits, key=limits.get)
-        return left / max(1, math.ceil(left / (self.case.run.step_factor * limits[self.limit]) * (1.0 - 1e-9)))
+        self.length = self.case.run.step_factor * limits[self.limit]
+        return left / max(1, math.ceil(left / self.length * (1.0 - 1e-9)))
 
     def _advance(self, dt: float, held) -> None:
         """One sub-step: stress, walls, rates, then theta, heat, velocity, place."""
