@@ -24,19 +24,20 @@ IMPULSES = ("body_forces", "walls", "shifting", "drain")
 class LiquidLedger:
     """Keeps the sums of one run and writes each row to `ledger.csv` as it comes."""
 
-    KEPT = ("sums", "impulses", "scale", "made", "mach", "first", "last", "table")  # see sdph.restart
+    KEPT = ("sums", "impulses", "scale", "most", "made", "mach", "first", "last", "table")  # see sdph.restart
 
     def __init__(self, path: Path):
         self.sums = dict.fromkeys(("drained_kg", "drained_J", "work_of_body_forces_J"), 0.0)
         self.impulses = np.zeros((len(IMPULSES), 3))  # since the start [kg m/s]
-        self.scale = {"kg_m_s": 0.0, "J": 0.0}  # of momentum and energy that there were
-        self.made = self.mach = 0.0  # most energy [J] that there was beyond what came in; largest speed over sound's
+        self.scale = {"kg_m_s": 0.0, "J": 0.0}  # impulses, and energy that could fall and work that was done
+        self.most = self.made = self.mach = 0.0  # most energy [J] that there was; most energy [J] that there was beyond what came in; largest speed over sound's
         self.first = self.last = None
         self.table = Table(path)
 
     def open(self, stepper) -> None:
         """The row of the start."""
         nothing = dict.fromkeys(IMPULSES, np.zeros(3))
+        self.scale["J"] = _falling(stepper)
         self._write(stepper, 0.0, self._totals(stepper), nothing, dict.fromkeys((*self.sums, "dissipated_J"), 0.0))
 
     def close_window(self, stepper, dt: float, impulses: dict, amounts: dict) -> None:
@@ -54,12 +55,13 @@ class LiquidLedger:
     def summary(self) -> dict[str, float]:
         """Closure of the run, relative to what there was of mass, momentum and energy; the largest Mach number."""
         change = np.array([self.last[f"momentum_{a}_kg_m_s"] - self.first[f"momentum_{a}_kg_m_s"] for a in "xyz"])
-        inertia = math.sqrt(2.0 * self.first["mass_kg"] * self.scale["J"])  # of that mass with all the energy that there was
+        energy = self.scale["J"] + self.most
+        inertia = math.sqrt(2.0 * self.first["mass_kg"] * energy)  # momentum of that mass with all that energy
         mass = self.last["mass_kg"] - self.first["mass_kg"] + self.sums["drained_kg"]
         return self.sums | {
             "mass_drift_rel": abs(mass) / self.first["mass_kg"],
             "momentum_drift_rel": _ratio(float(np.linalg.norm(change - self.impulses.sum(axis=0))), self.scale["kg_m_s"] + inertia),
-            "energy_made_rel": _ratio(self.made, self.scale["J"]),
+            "energy_made_rel": _ratio(self.made, energy),
             "fastest_over_sound": self.mach,
         }
 
@@ -75,9 +77,16 @@ class LiquidLedger:
         for name, impulse in impulses.items():
             row |= vector(f"impulse_of_{name}", impulse)
         self.mach = max(self.mach, totals["fastest_m_s"] / stepper.case.liquid.sound_speed)
-        self.scale["J"] = max(self.scale["J"], _energy(totals))
+        self.most = max(self.most, _energy(totals))
         self.first, self.last = self.first or row, row | amounts
         self.table.write(self.last)
+
+
+def _falling(stepper) -> float:
+    """Energy [J] that the liquid would set free if it fell to its lowest place."""
+    gravity = np.array(stepper.p["gravity"] or (0.0, 0.0, 0.0))
+    depth = -(particles.positions(stepper.state)[stepper.active] @ gravity)
+    return float(stepper.state.mass[stepper.active] @ (depth - depth.min(initial=math.inf))) if len(depth) else 0.0
 
 
 def _energy(row: dict) -> float:

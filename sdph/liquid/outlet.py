@@ -24,11 +24,11 @@ class Outlet:
         self.gone = np.zeros(7)  # mass [kg], momentum (3) [kg m/s], angular momentum (3) [kg m2/s], in the frame
 
     def command(self, fill: float) -> None:
-        """Takes out what is left of the command that the tank be filled to `fill`."""
+        """Takes out what is left of the command that the tank be filled to `fill`, as far as there is liquid."""
         owed = (self.fill - fill) * self.stepper.capacity - self.gone[0]
         if self.form == "paper":
             owed = self.particle * np.floor(owed / self.particle + 0.5)
-        while owed > ROUND_OFF * self.particle:
+        while owed > ROUND_OFF * self.particle and len(self.stepper.active):
             owed -= self._take(owed)
 
     def _take(self, owed: float) -> float:

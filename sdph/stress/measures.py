@@ -9,7 +9,7 @@ import numpy as np
 from sdph import particles
 
 
-class Measures:
+class Extremes:
     """Gathers figures window by window; `values` gives them by name."""
 
     def __init__(self, case):
@@ -18,6 +18,27 @@ class Measures:
         self.low: dict[str, float] = {}
         self.last: dict[str, float] = {}
         self.lost = 0
+
+    def finish(self, simulation) -> None:
+        """At the end of a stage: what the ledger says, the worst over all stages."""
+        for name, value in (simulation.ledger.summary() if simulation.ledger.last else {}).items():
+            self._take(name, np.array([value]))
+        self.last |= {"sub_steps": simulation.stepper.steps, "warnings": len(simulation.warnings())}
+
+    def values(self) -> dict[str, float]:
+        """Name -> figure: `X_max` and `X_min` over the run, and the last of what has no extremes."""
+        whole = {name: value for name, value in self.high.items() if name.endswith(("_rel", "_J")) and "kinetic" not in name}
+        extremes = {f"{name}_max": value for name, value in self.high.items()} | {f"{name}_min": value for name, value in self.low.items()}
+        return extremes | whole | self.last | {"lost_through_walls": float(self.lost)}
+
+    def _take(self, name: str, values) -> None:
+        if len(values):
+            self.high[name] = max(self.high.get(name, -math.inf), float(np.max(values)))
+            self.low[name] = min(self.low.get(name, math.inf), float(np.min(values)))
+
+
+class Measures(Extremes):
+    """Of grains and their gas."""
 
     def window(self, simulation) -> None:
         """After a window."""
@@ -36,23 +57,6 @@ class Measures:
         self.last = {"particles": len(s.x), "kinetic_energy_end_J": energy, "speed_end_m_s": float(speed.max(initial=0.0)), "windows": simulation.windows}
         self.last |= {"particle_mass_kg": float(s.mass.sum())}
         self.lost = max(self.lost, self._outside(s))
-
-    def finish(self, simulation) -> None:
-        """At the end of a stage: what the ledger says, the worst over all stages."""
-        for name, value in (simulation.ledger.summary() if simulation.ledger.last else {}).items():
-            self._take(name, np.array([value]))
-        self.last["sub_steps"] = simulation.stepper.steps
-
-    def values(self) -> dict[str, float]:
-        """Name -> figure: `X_max` and `X_min` over the run, and the last of what has no extremes."""
-        whole = {name: value for name, value in self.high.items() if name.endswith(("_rel", "_J")) and "kinetic" not in name}
-        extremes = {f"{name}_max": value for name, value in self.high.items()} | {f"{name}_min": value for name, value in self.low.items()}
-        return extremes | whole | self.last | {"lost_through_walls": float(self.lost)}
-
-    def _take(self, name: str, values) -> None:
-        if len(values):
-            self.high[name] = max(self.high.get(name, -math.inf), float(np.max(values)))
-            self.low[name] = min(self.low.get(name, math.inf), float(np.min(values)))
 
     def _outside(self, s) -> int:
         """Particles out of the box where walls hold the grains."""
