@@ -12,6 +12,7 @@ import numpy as np
 
 from sdph import particles
 from sdph.guard import Watch
+from sdph.liquid.phases import fastest_sound
 
 
 class LiquidGuard(Watch):
@@ -25,9 +26,9 @@ class LiquidGuard(Watch):
             f"run.step_factor (now {own.run.step_factor:g}; the step was ruled by {stepper.limit or 'sound'}); where the liquid is meant "
             f"to be so fast, raise liquid.sound_speed_m_s (now {own.liquid.sound_speed:g}) to ten times its speed"
         )
-        speed = np.sqrt((particles.velocities(s)[stepper.active] ** 2).sum(axis=1))
         wet = particles.take(s, stepper.active)
-        self.hold("speed", speed, (0.0, own.liquid.sound_speed, "m/s"), wet, lower)
+        speed, sound = np.sqrt((particles.velocities(wet) ** 2).sum(axis=1)), fastest_sound(own)
+        self.hold("speed", speed, (0.0, sound, "m/s"), wet, lower)
         self.hold("density", wet.density, (sys.float_info.min, sys.float_info.max, "kg/m3"), wet, lower)
         size = np.sqrt((stepper.acceleration[stepper.active] ** 2).sum(axis=1))
         self.hold("acceleration", size, (0.0, sys.float_info.max, "m/s2"), wet, lower)

@@ -1,8 +1,8 @@
 """The ledger of a liquid: mass, momentum and energy, and who gave and took them, one row a window.
 
 Momentum comes from body forces, walls and shifting, and goes through the drain; the walls' part is that which the pairs of
-particles do not give back to each other, so that it is nothing where there are no walls. Energy is kinetic and elastic
-(of compression); body forces work on it, the drain takes its share, and what is missing then has been dissipated: by
+particles do not give back to each other (with what surface tension does not), so that it is nothing where there are no walls. Energy is
+kinetic and elastic (of compression); body forces and surface tension work on it, the drain takes its share, and what is missing then has been dissipated: by
 viscosity, artificial or not, by diffusion of density, by shifting. A scheme that makes energy shows in `energy_made_rel`.
 Two-dimensional amounts are per metre of depth.
 """
@@ -24,10 +24,11 @@ IMPULSES = ("body_forces", "walls", "shifting", "drain")
 class LiquidLedger:
     """Keeps the sums of one run and writes each row to `ledger.csv` as it comes."""
 
+    WORKS = ("work_of_body_forces_J", "work_of_surface_tension_J")
     KEPT = ("sums", "impulses", "scale", "most", "made", "mach", "first", "last", "table")  # see sdph.restart
 
     def __init__(self, path: Path):
-        self.sums = dict.fromkeys(("drained_kg", "drained_J", "work_of_body_forces_J"), 0.0)
+        self.sums = dict.fromkeys(("drained_kg", "drained_J", *self.WORKS), 0.0)
         self.impulses = np.zeros((len(IMPULSES), 3))  # since the start [kg m/s]
         self.scale = {"kg_m_s": 0.0, "J": 0.0}  # impulses, and energy that could fall and work that was done
         self.most = self.made = self.mach = 0.0  # most energy [J] that there was; most energy [J] that there was beyond what came in; largest speed over sound's
@@ -46,11 +47,15 @@ class LiquidLedger:
             self.sums[key] += value
         self.impulses += np.array([impulses[name] for name in IMPULSES])
         self.scale["kg_m_s"] += sum(float(np.linalg.norm(value)) for value in impulses.values())
-        self.scale["J"] += abs(amounts["work_of_body_forces_J"])
+        self.scale["J"] += sum(abs(amounts[name]) for name in self.WORKS)
         now = self._totals(stepper)
-        lost = amounts["work_of_body_forces_J"] - amounts["drained_J"] - (_energy(now) - _energy(self.last))
+        lost = self._given(amounts) - (_energy(now) - _energy(self.last))
         self._write(stepper, dt, now, impulses, amounts | {"dissipated_J": lost})
-        self.made = max(self.made, _energy(now) - _energy(self.first) - self.sums["work_of_body_forces_J"] + self.sums["drained_J"])
+        self.made = max(self.made, _energy(now) - _energy(self.first) - self._given(self.sums))
+
+    def _given(self, amounts: dict) -> float:
+        """Energy [J] that came from outside."""
+        return sum(amounts[name] for name in self.WORKS) - amounts["drained_J"]
 
     def summary(self) -> dict[str, float]:
         """Closure of the run, relative to what there was of mass, momentum and energy; the largest Mach number."""
@@ -76,7 +81,7 @@ class LiquidLedger:
         row = {"time_s": stepper.time, "window_s": dt, "limit": stepper.limit} | totals
         for name, impulse in impulses.items():
             row |= vector(f"impulse_of_{name}", impulse)
-        self.mach = max(self.mach, totals["fastest_m_s"] / stepper.case.liquid.sound_speed)
+        self.mach = max(self.mach, mach(stepper))
         self.most = max(self.most, _energy(totals))
         self.first, self.last = self.first or row, row | amounts
         self.table.write(self.last)
@@ -105,6 +110,13 @@ def energies(stepper) -> tuple[float, float]:
     elastic = stiffness / rho_0 * (power + 1.0 / x - 1.0) + background / rho_0 * (1.0 - 1.0 / x) - cohesion * rho_0 * (x - 1.0)
     kinetic = 0.5 * (particles.velocities(s)[own] ** 2).sum(axis=1)
     return float(s.mass[own] @ kinetic), float(s.mass[own] @ elastic)
+
+
+def mach(stepper) -> float:
+    """Largest speed over the speed of sound of the particle's phase, c^2 = gamma stiffness/rho_0 (Tait)."""
+    s, own = stepper.state, stepper.active
+    rho_0, stiffness, gamma = stepper.fluids[:3, s.kind[own]]
+    return math.sqrt(float(((particles.velocities(s)[own] ** 2).sum(axis=1) * rho_0 / (gamma * stiffness)).max(initial=0.0)))
 
 
 def _ratio(part: float, whole: float) -> float:

@@ -31,6 +31,11 @@ def kernel(case) -> PhasesP | tuple:
     return PhasesP(float(gas.interaction == "riemann"), liquid.density, liquid.sound_speed / gas.speed_of_sound(liquid))
 
 
+def fastest_sound(case) -> float:
+    """The larger sound speed of the phases [m/s]."""
+    return max(case.liquid.sound_speed, case.gas_phase.speed_of_sound(case.liquid) if case.gas_phase else 0.0)
+
+
 @njit(cache=True, error_model="numpy")
 def pressure(p, p_i, p_j, rho_i, rho_j):
     """Twice the pressure [Pa] between two particles: p_i + p_j, or 2 (rho_j p_i + rho_i p_j)/(rho_i + rho_j)."""

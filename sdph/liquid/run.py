@@ -144,7 +144,7 @@ class LiquidRun:
     def warnings(self) -> list[str]:
         """What the run has to say of itself in the end."""
         mach, c = self.ledger.mach, self.case.liquid.sound_speed
-        text = "the liquid reached {:.2g} of its speed of sound and was compressed by about {:.0f} %: raise liquid.sound_speed_m_s from {:g} to {:.3g}"
+        text = "particles reached {:.2g} of their speed of sound and were compressed by about {:.0f} %: raise liquid.sound_speed_m_s from {:g} to {:.3g}"
         return [text.format(mach, 100.0 * mach**2, c, 10.0 * mach * c)] if mach > SLOW else []
 
 
@@ -156,17 +156,18 @@ class Tally:
         self.load = np.zeros(10)  # integral of sdph.liquid.step.balance [N s, N m s, J]
         self.shifted = self.stepper.shifted
         self.gone = run.outlet.gone.copy() if run.outlet else np.zeros(7)
-        self.drained = 0.0
+        self.drained = self.tension = 0.0  # energy that left, work of surface tension [J]
         self.before = balance(self.stepper)
 
     def step(self, end: float) -> None:
         """One step, to `end` [s] at most."""
-        left = end - self.stepper.time
+        left, tightening = end - self.stepper.time, self.stepper.tightening
         dt = self.stepper.step(left)
         if dt >= left:
             self.stepper.time = end
         now = balance(self.stepper)
         self.load += 0.5 * dt * (self.before + now)
+        self.tension += 0.5 * dt * (tightening + self.stepper.tightening)
         self.before = self._drain(now)
 
     def _drain(self, now):
@@ -182,7 +183,8 @@ class Tally:
         """Impulses and amounts for the ledger."""
         gone = (self.run.outlet.gone if self.run.outlet else np.zeros(7)) - self.gone
         given = (self.load[6:9], -self.load[:3], self.stepper.shifted - self.shifted, -gone[1:4])
-        return dict(zip(IMPULSES, given)), {"drained_kg": float(gone[0]), "drained_J": self.drained, "work_of_body_forces_J": float(self.load[9])}
+        works = {"work_of_body_forces_J": float(self.load[9]), "work_of_surface_tension_J": self.tension}
+        return dict(zip(IMPULSES, given)), {"drained_kg": float(gone[0]), "drained_J": self.drained} | works
 
 
 def _in_the_middle(places, pressure, spacing: float) -> float:

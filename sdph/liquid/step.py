@@ -38,7 +38,7 @@ class LiquidStepper:
     """Liquid and wall particles of a case, and how they go forward."""
 
     KEPT = (
-        "state", "neighbours", "time", "steps", "limit", "shifted", "pressure", "volume", "acceleration", "gradient", "least", "shift", "twist",
+        "state", "neighbours", "time", "steps", "limit", "shifted", "tightening", "pressure", "volume", "acceleration", "gradient", "least", "shift", "twist",
     )  # fmt: skip  (see sdph.restart)
 
     def __init__(self, case):
@@ -56,6 +56,7 @@ class LiquidStepper:
         self.lattice = kernels.lattice_factor(case.liquid.kernel, d, case.resolution.smoothing_ratio)
         self.limits, self.limit, self.steps, self.time = self._limits(), "", 0, 0.0
         self.shifted = np.zeros(3)  # momentum that shifting has given [kg m/s]
+        self.tightening = 0.0  # power of surface tension on the particles [W]
         self.compliance = np.array([self._compliance(kind) for kind in range(GAS + 1)])
         self.move = frame.motion(case.parameters["frame"]) if self.p["frame"] else None
         self.aim(0.0)
@@ -88,7 +89,7 @@ class LiquidStepper:
     def next_step(self, left: float) -> float:
         """What is left [s] in equal parts no longer than the shortest limit; `limit` names it."""
         speed, force = motion.fastest(self.state, self.active, self.acceleration)
-        h, c = self.kernel.h, fastest_sound(self.case)
+        h, c = self.kernel.h, phases.fastest_sound(self.case)
         if not speed + 0.0 * force <= c * c:  # or one of them is no number
             self.guard.look(self)
         limits = self.limits | {"sound": self.case.liquid.courant * h / (c + math.sqrt(speed))}
@@ -162,6 +163,8 @@ class LiquidStepper:
         interface.orient(self.kernel, s, self.rows, self.neighbours.box, self.active, own, self.volume, self.colour, self.normal)
         interface.bend(self.kernel, s, self.rows, self.neighbours.box, self.active, own, self.volume, self.normal, self.curvature)
         interface.pull(s, self.active, own, self.colour, self.curvature, self.acceleration)
+        along = (particles.velocities(s) * self.colour).sum(axis=1)
+        self.tightening = -own.coefficient * float((s.mass / s.density * self.curvature * along)[self.active].sum())
 
     def _allocate(self, before) -> None:
         """Work arrays for the particles in their new order; only `least` outlives a step. before (N,): their old order."""
@@ -250,11 +253,6 @@ def fluids(case) -> np.ndarray:
         stiffness = gas.density * gas.speed_of_sound(liquid) ** 2 / gas.exponent
         table[:, GAS] = gas.density, stiffness, gas.exponent, liquid.background_pressure, gas.cohesion
     return table
-
-
-def fastest_sound(case) -> float:
-    """The larger sound speed of the phases [m/s]."""
-    return max(case.liquid.sound_speed, case.gas_phase.speed_of_sound(case.liquid) if case.gas_phase else 0.0)
 
 
 def kinetic_energy(state) -> float:
