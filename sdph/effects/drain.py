@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from sdph.effects.effect import Effect
+from sdph.effects.effect import Effect, Judgement
 from sdph.schema import choice, quantity, record
 
 FORMS = ("debt", "paper")
@@ -47,6 +47,14 @@ def command(own: Drain, first: float):
     return fill
 
 
+def call(scales) -> Judgement:
+    """How much of the liquid is to leave within the run."""
+    own = scales.case.parameters["drain"]
+    first = next((pool.fill for pool in scales.case.pools.values() if pool.fill), 1.0)
+    share = 1.0 - command(own, first)(scales.end) / first
+    return Judgement("share that is drained", share, 0.01, "the command", share)
+
+
 EFFECT = Effect(
     name="drain",
     summary="commanded outflow of a liquid",
@@ -54,4 +62,5 @@ EFFECT = Effect(
     kernel=kernel,
     moves=True,
     matter=("liquid",),
+    call=call,
 )

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from sdph.effects.effect import Effect
+from sdph.effects.effect import Effect, Judgement
 from sdph.schema import CaseError, quantity, record, vector, words
 
 COLUMNS = ("time_s", "ax_m_s2", "ay_m_s2", "az_m_s2", "wx_rad_s", "wy_rad_s", "wz_rad_s")
@@ -108,4 +108,18 @@ def kernel(case) -> FrameP:
     return FrameP(*[0.0] * 9)
 
 
-EFFECT = Effect(name="frame", summary="a tank that moves: acceleration, rotation, Coriolis", parameters=Frame, kernel=kernel, moves=True, matter=("liquid",))
+def call(scales) -> Judgement:
+    """What the frame's motion can do to the liquid's speed within the run."""
+    ratio = scales.shaken * scales.end / scales.speed if scales.speed else 0.0
+    return Judgement("a_frame t/U", ratio, 0.01, "Froude number of the frame", min(1.0, ratio))
+
+
+EFFECT = Effect(
+    name="frame",
+    summary="a tank that moves: acceleration, rotation, Coriolis",
+    parameters=Frame,
+    kernel=kernel,
+    moves=True,
+    matter=("liquid",),
+    call=call,
+)

@@ -36,9 +36,9 @@ def acceleration(p):
 
 def call(scales) -> Judgement:
     """Speed of free fall within the run over all speeds: an inverse Froude number."""
-    fall = scales.gravity * scales.end
-    ratio = fall / max(scales.jet, scales.thrown, 1e-300) if fall else 0.0
-    return Judgement("g t/U (1/Froude)", ratio, 0.01, "Froude number of the run", ratio / (1.0 + ratio))
+    fall, other = scales.gravity * scales.end, max(scales.jet, scales.thrown)
+    share = fall / (fall + other) if fall else 0.0
+    return Judgement("g t/(g t + U), of the Froude number", share, 0.01, "Froude number of the run", share)
 
 
 EFFECT = Effect(name="gravity", summary="gravity", parameters=Gravity, kernel=kernel, moves=True, matter=("grains", "liquid"), call=call)

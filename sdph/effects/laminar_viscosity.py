@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 from numba import njit
 
-from sdph.effects.effect import NO_LIMIT, Effect
+from sdph.effects.effect import NO_LIMIT, Effect, Judgement
 from sdph.liquid import LIQUID
 from sdph.schema import record
 
@@ -64,6 +65,15 @@ def pair(p, kind_i, kind_j):
     return p.liquid if kind_i == LIQUID else p.gas
 
 
+def call(scales) -> Judgement:
+    """Decay of the largest vortex within the run, nu (2 pi/L)^2 t; where there are walls, at least their layer's share."""
+    decay = scales.viscosity * scales.end * (2.0 * math.pi / scales.length) ** 2
+    own = scales.case.parameters.get("tank") if "tank" in scales.case.effects else None
+    share = scales.layer if own and own.slip == "no_slip" else 0.0
+    error = max(-math.expm1(-decay), min(1.0, share))
+    return Judgement("nu (2 pi/L)^2 t", decay, 0.01, "Landau & Lifshitz, Fluid Mechanics, section 24", error)
+
+
 EFFECT = Effect(
     name="laminar_viscosity",
     summary="viscosity of a liquid (Morris)",
@@ -72,4 +82,5 @@ EFFECT = Effect(
     moves=True,
     matter=("liquid",),
     dt_limit=dt_limit,
+    call=call,
 )

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 from numba import njit
 
-from sdph.effects.effect import Effect
+from sdph.effects.effect import Effect, Judgement
 from sdph.laws.constants import SOFTENING
 from sdph.schema import choice, quantity, record
 
@@ -58,6 +59,16 @@ def pair(p, closing, r2, inverse_r):
     return p.density * min(p.limiter * max(speed, 0.0), p.sound) * speed
 
 
+SCATTER = 0.05  # of the answer, where nothing damps the motion of single particles; measured, see validation/<scene>/cost.csv
+
+
+def call(scales) -> Judgement:
+    """Reynolds number of the spacing of particles: above 1 viscosity does not hold them together. Walls and free fall drive them."""
+    h, driven = scales.case.smoothing_length, scales.pull[0] + scales.shaken
+    cell = scales.speed * h / scales.viscosity if scales.viscosity else math.inf
+    return Judgement("U h/nu, of the particles", cell if driven else 0.0, 1.0, "Monaghan 1992", SCATTER if driven and cell > 1.0 else 0.0)
+
+
 EFFECT = Effect(
     name="liquid_damping",
     summary="artificial viscosity of a liquid (linear, or of a Riemann solver)",
@@ -65,4 +76,5 @@ EFFECT = Effect(
     kernel=kernel,
     moves=True,
     matter=("liquid",),
+    call=call,
 )

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from sdph.effects.effect import Effect
+from sdph.effects.effect import Effect, Judgement
 from sdph.schema import quantity, record
 
 CAPILLARY = 0.25  # of sqrt(rho h^3/(2 pi sigma)), liquids.md, shared core; rho is the mean of both phases
@@ -40,6 +40,13 @@ def dt_limit(p, case, state) -> float:
     return CAPILLARY * math.sqrt(rho * case.smoothing_length**3 / (2.0 * math.pi * p.coefficient))
 
 
+def call(scales) -> Judgement:
+    """Capillary against dynamic and hydrostatic pressure: 1 over the larger of the Weber and Bond numbers."""
+    weber, bond = scales.capillary(scales.case.parameters["surface_tension"].coefficient)
+    ratio = 1.0 / max(weber, bond, 1e-300)
+    return Judgement("1/max(Weber, Bond)", ratio, 0.01, "by their definitions", min(1.0, ratio))
+
+
 EFFECT = Effect(
     name="surface_tension",
     summary="surface tension between a liquid and a gas (continuum surface force)",
@@ -48,5 +55,6 @@ EFFECT = Effect(
     moves=True,
     matter=("liquid",),
     dt_limit=dt_limit,
+    call=call,
     two_phases=True,
 )

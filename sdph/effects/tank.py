@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sdph.boundary import SIDES
-from sdph.effects.effect import Effect
+from sdph.effects.effect import Effect, Judgement
 from sdph.liquid import shapes
 from sdph.schema import CaseError, choice, quantity, record, vector, words
 
@@ -95,4 +95,12 @@ def layers(case) -> int:
     return math.ceil(2.0 * case.resolution.smoothing_ratio - 1e-9)
 
 
-EFFECT = Effect(name="tank", summary="walls of a tank for a liquid", parameters=Tank, kernel=kernel, moves=True, matter=("liquid",))
+def call(scales) -> Judgement:
+    """How far the liquid gets within the run when nothing holds it, or how deep the friction of walls along a channel."""
+    across, along = scales.pull
+    way = 0.5 * (across + scales.shaken) * scales.end**2 / scales.length
+    reach = max(way, scales.layer if along else 0.0)
+    return Judgement("way of the liquid within the run / its width", reach, 0.01, "geometry", min(1.0, reach))
+
+
+EFFECT = Effect(name="tank", summary="walls of a tank for a liquid", parameters=Tank, kernel=kernel, moves=True, matter=("liquid",), call=call)

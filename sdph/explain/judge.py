@@ -11,22 +11,29 @@ from sdph.explain.scales import Scales
 
 def scales_of(case) -> Scales:
     """Scales of a case as if every effect that can judge itself and needs no input had its section."""
-    parameters = _defaults() | case.parameters
+    parameters = _defaults(_matter(case)) | case.parameters
+    if case.liquid:
+        from sdph.liquid.scales import LiquidScales
+
+        return LiquidScales(dataclasses.replace(case, parameters=parameters))
     return Scales(dataclasses.replace(case, effects=tuple(parameters), parameters=parameters))
 
 
-def _defaults() -> dict:
+def _matter(case) -> str:
+    return "liquid" if case.liquid else "grains"
+
+
+def _defaults(matter: str) -> dict:
     """Parameters of the effects that need no input."""
-    rows = [row for row in effects.REGISTRY.values() if row.call]
+    rows = [row for row in effects.REGISTRY.values() if row.call and matter in row.matter]
     return {row.name: row.parameters() for row in rows if all(f.default is not dataclasses.MISSING for f in dataclasses.fields(row.parameters))}
 
 
 def judgements(case) -> dict[str, Judgement]:
-    """Name of the effect -> its judgement, for all that can judge themselves (effects on grains in a gas)."""
-    if case.grains is None:
-        return {}
+    """Name of the effect -> its judgement, for all that act on what the case is of and can judge themselves."""
     scales = scales_of(case)
-    return {name: row.call(scales) for name, row in effects.REGISTRY.items() if row.call and name in scales.case.parameters}
+    own = {name: row for name, row in effects.REGISTRY.items() if row.call and _matter(case) in row.matter}
+    return {name: row.call(scales) for name, row in own.items() if name in scales.case.parameters}
 
 
 def called_for(case) -> dict[str, Judgement]:

@@ -28,6 +28,10 @@ def explain(case) -> dict[str, list[dict]]:
 
 def warnings(case) -> list[str]:
     """What `run` says before it starts: effects that are missing, ratios that are not safe."""
+    if case.liquid:
+        from sdph.liquid import explain as liquid
+
+        return [*judge.missing(case), *liquid.warnings(judge.scales_of(case))]
     return [*judge.missing(case), *estimate.warnings(case)]
 
 
@@ -64,14 +68,14 @@ def numbers(s) -> list[tuple]:
 def effect_rows(case) -> list[dict]:
     """Every effect: on or off, called for or not, why, and the error without it."""
     judged, called = judge.judgements(case), judge.called_for(case)
-    rows = []
-    for name, row in ((name, row) for name, row in effects.REGISTRY.items() if "grains" in row.matter):
+    rows, matter = [], "liquid" if case.liquid else "grains"
+    for name, row in ((name, row) for name, row in effects.REGISTRY.items() if matter in row.matter):
         own = judged.get(name)
         rows.append({
             "effect": name,
             "in the case": "on" if name in case.effects else "off",
             "called for": ("yes" if name in called else "no") if own else "not judged",
-            "why": f"{own.name} = {own.number:.3g} (matters from {own.threshold:.3g})" if own else row.summary,
+            "why": f"{own.name} = {own.number:.3g} (matters from {own.threshold:.3g})" if own else f"needs [{name}] to be judged" if row.call else row.summary,
             "error if off": own.error_if_off if own else math.nan,
             "source": own.source if own else "",
         })  # fmt: skip
