@@ -25,15 +25,25 @@ def measured() -> dict[str, np.ndarray]:
     return {name: np.array([[float(r["T"]), float(r["Z"])] for r in rows if r["series"] == name]) for name in SERIES}
 
 
-def exact(run) -> list[dict]:
-    """Within the scatter: no further from the middle of the measured than half their spread."""
+def fronts(run) -> dict[float, tuple[float, float, float]]:
+    """T -> x/a of the run, middle of the measured, half their spread."""
     case, pool = run.case, run.case.pools["column"]
     width, g = pool.upper[0] - pool.lower[0], -case.domain.gravity[1]
     T = run.history["time_s"] * np.sqrt(2.0 * g / width) + OFFSET
     Z = (run.history["largest_x_m"] + 0.5 * case.resolution.spacing) / width
-    checks = []
+    found = {}
     for at in (t for t in TIMES if t <= T[-1]):
         known = [np.interp(at, *rows.T) for rows in measured().values() if rows[0, 0] <= at <= rows[-1, 0]]
         middle, spread = 0.5 * (min(known) + max(known)), 0.5 * (max(known) - min(known))
-        checks.append(check(f"front x/a at T = {at:g}", np.interp(at, T, Z), middle, spread + MARGIN))
-    return checks
+        found[at] = float(np.interp(at, T, Z)), middle, spread
+    return found
+
+
+def metrics(run) -> dict:
+    """What `sdph cost` takes: (value, reference, scale)."""
+    return {f"front at T = {at:g}": (value, middle, middle) for at, (value, middle, _) in fronts(run).items()}
+
+
+def exact(run) -> list[dict]:
+    """Within the scatter: no further from the middle of the measured than half their spread."""
+    return [check(f"front x/a at T = {at:g}", value, middle, spread + MARGIN) for at, (value, middle, spread) in fronts(run).items()]
