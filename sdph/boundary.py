@@ -6,6 +6,7 @@ import itertools
 
 import numpy as np
 
+from sdph import sides
 from sdph.effects.walls import Dummies
 from sdph.neighbours import Neighbours
 from sdph.schema import CaseError
@@ -16,30 +17,38 @@ SIDES = {"left": (0, 0), "right": (0, 1), "bottom": (1, 0), "top": (1, 1), "back
 
 
 class Boundary:
-    """The dummies of a case and which of them each particle sees."""
+    """The dummies of a case and which of them each particle sees: none of a mesh that it stands behind."""
 
     def __init__(self, case):
-        self.search = Neighbours(REACH * case.smoothing_length, case.domain.period)
-        self.dummies = _sorted(case, dummies(case), self.search)
+        self.search = Neighbours(REACH * case.smoothing_length, case.domain.period, case.resolution.neighbour_skin)
+        table, self.spacing = dummies(case), case.resolution.spacing
+        order = self.search.sort(tuple(np.ascontiguousarray(column) for column in table[:, : case.dimensions].T))
+        self.dummies = Dummies(*(np.ascontiguousarray(column) for column in table[order, :8].T))
+        self.of_mesh = table[order, 8] > 0.0
 
     def rows(self, state_axes):
         """Dummies near each particle; valid as long as the particles' own rows."""
-        return self.search.seen_from(_axes(self.dummies, len(state_axes)), state_axes)
+        rows = self.search.seen_from(_axes(self.dummies, len(state_axes)), state_axes)
+        if self.of_mesh.any():
+            sides.keep_in_front(self.dummies, self.of_mesh, sides.three(state_axes), rows)
+        return rows
+
+    def part(self, rows, wall_rows, state_axes) -> None:
+        """Take the pairs out of the particles' rows that a mesh lies between."""
+        if self.of_mesh.any():
+            sides.part(self.dummies, self.of_mesh, self.spacing, sides.three(state_axes), wall_rows, rows)
 
 
 def _axes(dummies: Dummies, dimensions: int):
     return (dummies.x, dummies.y, dummies.z)[:dimensions]
 
 
-def _sorted(case, table: np.ndarray, search: Neighbours) -> Dummies:
-    order = search.sort(tuple(np.ascontiguousarray(column) for column in table[:, : case.dimensions].T))
-    return Dummies(*(np.ascontiguousarray(column) for column in table[order].T))
-
-
 def dummies(case) -> np.ndarray:
-    """(W, 8) place, normal, depth, stick of all dummies of a case."""
+    """(W, 9) place, normal, depth, stick of all dummies of a case; 1 for those of a mesh."""
     mesh = case.parameters["walls"].mesh
-    parts = [_box(case)] + ([_mesh(mesh, case.resolution.spacing, case.dimensions)] if mesh else [])
+    parts = [np.pad(_box(case), ((0, 0), (0, 1)))]
+    if mesh:
+        parts.append(np.pad(_mesh(mesh, case.resolution.spacing, case.dimensions), ((0, 0), (0, 1)), constant_values=1.0))
     return np.concatenate(parts)
 
 

@@ -149,7 +149,7 @@ def init_case(options) -> int:
 def run(options) -> int:
     from sdph import case as cases
     from sdph import driver, output, room, scenes, watch
-    from sdph.cost import ladder
+    from sdph.cost import choice
     from sdph.explain import tables
     from sdph.progress import Reporter
 
@@ -162,7 +162,7 @@ def run(options) -> int:
         else:
             name, file = scenes.find(options.target)
             if options.accuracy:
-                overrides = ladder.settings_for(name, options.accuracy, reporter.status) + overrides
+                overrides = choice.settings_for(name, options.accuracy, reporter.status) + overrides
             case = cases.load(file, overrides)
             room.refuse_too_large(case)
             for warning in tables.warnings(case):
@@ -205,12 +205,12 @@ def explain_case(options) -> int:
 
 
 def cost_of_accuracy(options) -> int:
-    from sdph.cost import ladder, report
+    from sdph.cost import climb, report, rows
 
     folder = options.out or Path("runs/cost") / options.scene
-    rows = ladder.errors(ladder.climb(options.scene, folder / "cost.csv", options.budget, options.repeats, lambda text: print(text, flush=True)))
-    print(f"\n{report.text(options.scene, rows)}")
-    report.draw(options.scene, rows, folder / "cost.png")
+    found = rows.errors(climb.climb(options.scene, folder / "cost.csv", options.budget, options.repeats, lambda text: print(text, flush=True)))
+    print(f"\n{report.text(options.scene, found)}")
+    report.draw(options.scene, found, folder / "cost.png")
     print(f"{folder}/cost.csv and cost.png")
     return FINE
 

@@ -1,7 +1,7 @@
 """Neighbours by a cell-linked list: counting sort into cells, particles reordered, fixed-stride rows with a skin.
 
 `Neighbours.update` reorders the particles so that those of one cell lie together, and lists for each particle all
-others within `reach * (1 + SKIN)`; the rows hold until some particle has moved half the skin.
+others within `reach * (1 + skin)`; the rows hold until some particle has moved half the skin.
 """
 
 from __future__ import annotations
@@ -58,10 +58,10 @@ class Neighbours:
 
     KEPT = ("built",)  # see sdph.restart
 
-    def __init__(self, reach: float, period=(OPEN, OPEN, OPEN)):
+    def __init__(self, reach: float, period=(OPEN, OPEN, OPEN), skin: float = SKIN):
         if any(0.0 < length < 2.0 * reach for length in period):
             raise ValueError(f"periods {tuple(period)} m: a periodic box must be at least two reaches ({2.0 * reach:g} m) wide, or images are missed")
-        self.reach = reach
+        self.reach, self.skin = reach, skin
         self.period = np.array([*period, OPEN][:3])
         self.box = box_of(self.period)
         self.stride = 32
@@ -93,11 +93,11 @@ class Neighbours:
         if len(here[0]) == 0:
             return True
         moved = sum((a - b) ** 2 for a, b in zip(here, self.built))
-        return bool(moved.max() < (0.5 * SKIN * self.reach) ** 2)
+        return bool(moved.max() < (0.5 * self.skin * self.reach) ** 2)
 
     def _grid(self, here) -> Grid:
         """Cells no smaller than the cutoff; larger ones where a few stray particles make the box mostly empty."""
-        cutoff = self.reach * (1.0 + SKIN)
+        cutoff = self.reach * (1.0 + self.skin)
         while (grid := self._cells_of(here, cutoff)).shape.prod() > CELLS_A_PARTICLE * max(64, len(here[0])):
             cutoff *= 2.0
         return grid
@@ -118,7 +118,7 @@ class Neighbours:
         while True:
             index = np.empty((len(other[0]), self.stride), np.uint32)
             count = np.empty(len(other[0]), np.int64)
-            _fill(grid, start, *own, *other, at is None, self.box, (self.reach * (1.0 + SKIN)) ** 2, index, count)
+            _fill(grid, start, *own, *other, at is None, self.box, (self.reach * (1.0 + self.skin)) ** 2, index, count)
             most = int(count.max(initial=0))
             if most <= self.stride:
                 return Rows(index, count)

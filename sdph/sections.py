@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from sdph.effects.inflow import Nozzle
 from sdph.liquid import GasPhase, Liquid, Pool
+from sdph.neighbours import SKIN
 from sdph.schema import choice, flag, quantity, record, vector, whole, words
 
 STANDARD_ATMOSPHERE = 101325.0  # Pa, ISO 2533
@@ -44,6 +45,7 @@ class Resolution:
     smoothing_ratio: float = quantity("", 1.5, least=1.0, most=3.0)  # paper section 4: h is 1.5 spacings
     cell: float | None = quantity("mm", None, above=0.0)  # of the gas; the mean along an axis that is stretched
     stretch: tuple | None = vector("", None)  # along each axis: width of the last gas cell over the first (blockMesh's simpleGrading)
+    neighbour_skin: float = quantity("", SKIN, least=0.0, most=1.0)  # of the kernel's reach: how far neighbour rows look beyond it
 
 
 @record
@@ -80,6 +82,7 @@ class Grains:
     diameter_std: float = quantity("mm", 0.0, least=0.0)
     restitution: float = quantity("", 0.9, least=0.0, most=0.9999)  # not in the paper: Fluent's default (sdph-notes, section 2)
     packing_limit: float = quantity("", 0.63, above=0.0, most=0.74)  # the same
+    surface_tension: float | None = quantity("N_m", None, above=0.0)  # of droplets: for Weber and Bond numbers of `sdph explain`
     granular_temperature: float = quantity("m2_s2", 1e-4, least=0.0)  # at the start; the same
 
 
@@ -127,6 +130,7 @@ class Coupling:
     window_tolerance: float = quantity("", 2e-5, above=0.0)  # error of one window over the heat there is to exchange
     window_largest: float = quantity("s", 1e-2, above=0.0)
     courant: float = quantity("", 1.0, above=0.0)  # of the gas, in one window
+    gas_tolerance: float = quantity("", 1e-11, above=0.0, most=1e-4)  # relative, of the embedded solver; pressure: 1000 times that; our choice
 
 
 @record

@@ -31,7 +31,7 @@ class Stepper:
     def __init__(self, case, parameters, state, source=None):
         self.case, self.parameters, self.state, self.source = case, parameters, state, source
         self.kernel, self.guard = rates.kernel_of(case), Guard(case)
-        self.neighbours = Neighbours(REACH * case.smoothing_length, case.domain.period)
+        self.neighbours = Neighbours(REACH * case.smoothing_length, case.domain.period, case.resolution.neighbour_skin)
         self.boundary = Boundary(case) if parameters["walls"] else None
         on = parameters["granular_viscosity"] or parameters["friction"]
         self.viscous = Viscous(float(case.dimensions)) if on else OFF
@@ -45,8 +45,7 @@ class Stepper:
         if not self.neighbours.built:  # particles came or went: the next step begins with new rows
             return
         self.rows = self.neighbours.rows
-        if self.boundary:
-            self.wall_rows = self.boundary.rows(self.neighbours.built)
+        self._see_walls(self.neighbours.built)
 
     def replace(self, state) -> None:
         """Other particles than before: some are gone, some are new."""
@@ -56,9 +55,15 @@ class Stepper:
         """Neighbours and density of where the particles are now."""
         before = self.neighbours.built
         self.state, self.rows = self.neighbours.update(self.state)
-        if self.boundary and before is not self.neighbours.built:
-            self.wall_rows = self.boundary.rows(particles.axes(self.state))
+        if before is not self.neighbours.built:
+            self._see_walls(particles.axes(self.state))
         rates.sum_density(self.kernel, self.state, self.rows, self.neighbours.box, *self._walls(), self.state.density)
+
+    def _see_walls(self, axes) -> None:
+        """Rows of walls for particles at `axes`, whose own rows are new."""
+        if self.boundary:
+            self.wall_rows = self.boundary.rows(axes)
+            self.boundary.part(self.rows, self.wall_rows, axes)
 
     def conduct(self, dt: float, heat) -> None:
         """Grains at rest through `dt` [s]: conduction, and `heat` (N,) [J] from the gas spread evenly."""

@@ -20,6 +20,7 @@ class Box:
         self.properties = Properties(case)
         self.faces = boundaries.boundary_faces(case, grid)
         self.gravity = case.domain.gravity
+        self.tolerance = case.coupling.gas_tolerance
         self.temperature = case.gas.temperature
         self.vapour = case.vapour
         self.everywhere = np.zeros(grid.size, dtype=bool)

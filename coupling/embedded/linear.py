@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-IMPLICIT = 1e-11  # relative tolerance of velocity, temperature and vapour; our choice
 ITERATIONS = 500  # of a solver; our choice: far above what any case of ours needed
 
 

@@ -15,7 +15,7 @@ from coupling.embedded.boundaries import active_nodes, component_ghosts, on_face
 from coupling.embedded.box import Box, Flow, Window
 from coupling.embedded.convection import Nodes, convect, substeps
 from coupling.embedded.grid import component_spacing
-from coupling.embedded.linear import IMPLICIT, fill, solve_implicit
+from coupling.embedded.linear import fill, solve_implicit
 
 
 @njit(error_model="numpy")
@@ -125,7 +125,7 @@ class Momentum:
             given = grid.geometry, cells, stress, moved[a], self.box.gravity[a], window.dt
             momentum_balance(grid.wide, a, active, *given, diagonal[a], source)
             fill(velocity[a], self.ghosts[a])
-            _, error = solve_implicit(grid.wide, active, conductance, diagonal[a], source, velocity[a], IMPLICIT)
+            _, error = solve_implicit(grid.wide, active, conductance, diagonal[a], source, velocity[a], self.box.tolerance)
             residual = max(residual, error)
         return velocity, diagonal, residual
 

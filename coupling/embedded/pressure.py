@@ -18,7 +18,7 @@ from coupling.embedded.linear import not_converged
 from coupling.embedded.multigrid import build_levels, solve_pressure
 from coupling.gas import GasError
 
-CONTINUITY = 1e-8  # of a cell's mass: what the solver may leave over in a window; our choice
+CONTINUITY = 1e3  # tolerances: what of a cell's mass the solver may leave over in a window; our choice
 
 
 @njit(cache=True, error_model="numpy")
@@ -118,8 +118,9 @@ class Pressure:
         face_fluxes(*setting, density, diagonal, velocity, dt, flux, fine)
         balance(grid.inner, flux, window.vapour, old.mass, dt, mass)
         excess = mass - aim.mass
-        _, error = solve_pressure(self.levels, grid.inner, self.work, excess, aim.mass, correction, CONTINUITY)
-        if not error <= CONTINUITY:
+        tolerance = CONTINUITY * box.tolerance
+        _, error = solve_pressure(self.levels, grid.inner, self.work, excess, aim.mass, correction, tolerance)
+        if not error <= tolerance:
             raise GasError(not_converged("pressure", old.time + dt, error))
         if box.closed:
             correction[grid.cells] -= correction[grid.cells].mean()

@@ -10,7 +10,7 @@ from numba import njit
 from coupling.embedded.boundaries import Ghosts, on_faces
 from coupling.embedded.box import Box, Flow, Window
 from coupling.embedded.convection import Nodes, convect, substeps
-from coupling.embedded.linear import IMPLICIT, fill, solve_implicit
+from coupling.embedded.linear import fill, solve_implicit
 from coupling.gas import GasError
 
 NO_SHIFT = np.uint64(0)
@@ -94,7 +94,7 @@ class Scalars:
         fill(field, ghosts)
         face_conductances(grid.wide, grid.geometry, grid.extended(diffusivity), self.hold[name], dt, conductance)
         source = mass * field + source
-        given, error = solve_implicit(grid.wide, box.everywhere, conductance, diagonal, source, field, IMPLICIT)
+        given, error = solve_implicit(grid.wide, box.everywhere, conductance, diagonal, source, field, box.tolerance)
         return field, through + given, error
 
     def _half(self, content: np.ndarray, grown: np.ndarray, source: np.ndarray):

@@ -26,7 +26,7 @@ import numpy as np
 
 from coupling.embedded.box import Box, Flow, window_of
 from coupling.embedded.grid import build_grid
-from coupling.embedded.linear import IMPLICIT, not_converged
+from coupling.embedded.linear import not_converged
 from coupling.embedded.momentum import Momentum
 from coupling.embedded.output import budget, cell_fields, force_of_boundary
 from coupling.embedded.pressure import Pressure
@@ -79,7 +79,7 @@ class EmbeddedGas:
             new, left = self.pressure.project(old, window, aim, velocity, diagonal)
             new, courant, residuals = self.scalars.carry(old, window, new)
         residuals["momentum"] = residual
-        _converged(new.time, residuals)
+        _converged(new.time, residuals, self.box.tolerance)
         self.flow, before = new, self.state.budget.momentum
         found = self._state()
         force = force_of_boundary(self.box, window, before, new, found.fields)
@@ -139,9 +139,9 @@ class EmbeddedGas:
                 raise GasError(f"source {name} is not finite in cell {cell}")
 
 
-def _converged(time: float, residuals: dict[str, float]) -> None:
+def _converged(time: float, residuals: dict[str, float], tolerance: float) -> None:
     for name, residual in residuals.items():
-        if not residual <= IMPLICIT:
+        if not residual <= tolerance:
             raise GasError(not_converged(name, time, residual))
 
 

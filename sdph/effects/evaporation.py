@@ -291,19 +291,42 @@ def apply(p, sizes_p, s, loss, still, moving) -> None:
     s.evaporating[:], s.diameter[:], s.diameter_variance[:] = latched, diameter, variance
 
 
+def at_surface(s) -> float:
+    """Density of the vapour [kg/m3] at the coldest droplets."""
+    p, coldest = kernel(s.case), min(patch.temperature for patch in s.patches)
+    return p.molar_mass * law.vapour_concentration(saturation_pressure(p, coldest), coldest)
+
+
+def shrinking(s, surface: float) -> tuple[float, float]:
+    """Sherwood number, and the run over the time in which a droplet evaporates (d2 law)."""
+    diffusivity = s.case.vapour.diffusivity
+    sherwood = law.sherwood_ranz_marshall(s.reynolds, law.schmidt_number(s.gas.density, s.gas.viscosity, diffusivity))
+    return sherwood, 4.0 * sherwood * diffusivity * surface / s.grains.density * s.end / s.grains.diameter**2
+
+
+def spalding_numbers(s) -> tuple[float, float, float]:
+    """B of mass (Y_s - Y)/(1 - Y_s) in gas without vapour, B of heat c_pv (T - T_s)/L, and the run over the evaporation time."""
+    surface, own = at_surface(s), s.case.parameters["evaporation"]
+    coldest = min(patch.temperature for patch in s.patches)
+    vapour_mole = surface / s.case.vapour.molar_mass * GAS_CONSTANT * coldest / s.gas.operating_pressure
+    fraction = law.vapour_mass_fraction(min(vapour_mole, 1.0 - BOILING_MARGIN), s.case.vapour.molar_mass, s.gas.molar_mass)
+    heat_number = s.case.vapour.heat_capacity * (s.gas.temperature - coldest) / own.latent_heat if own.latent_heat else math.inf
+    return law.spalding_number(fraction, 0.0), heat_number, shrinking(s, surface)[1]
+
+
 def call(scales) -> Judgement:
-    """Share of the mass that evaporates within the run (d2 law), and of the heat that evaporation takes, the larger."""
+    """Share of the mass that evaporates within the run (d2 law), of the heat that evaporation takes, and of the vapour that the
+    gas among the droplets can take up, the largest."""
     case, s = scales.case, scales
     if case.vapour is None or not s.patches:
         return Judgement("K t/d2", 0.0, 0.01, SOURCE, 0.0)
-    p = kernel(case)
-    coldest = min(patch.temperature for patch in s.patches)
-    surface = p.molar_mass * law.vapour_concentration(saturation_pressure(p, coldest), coldest)  # kg/m3
-    sherwood = law.sherwood_ranz_marshall(s.reynolds, law.schmidt_number(s.gas.density, s.gas.viscosity, p.diffusivity))
-    spent = 4.0 * sherwood * p.diffusivity * surface / s.grains.density * s.end / s.grains.diameter**2
+    p, surface = kernel(case), at_surface(s)
+    sherwood, spent = shrinking(s, surface)
     warmth = s.nusselt * s.gas.conductivity * s.span
     cooling = sherwood * p.diffusivity * surface * p.latent_heat / warmth if warmth else 0.0
-    return Judgement("K t/d2", spent, 0.01, SOURCE, min(1.0, max(1.0 - max(0.0, 1.0 - spent) ** 1.5, cooling)))
+    filling = 6.0 * s.alpha_p / (1.0 - s.alpha_p) * sherwood * p.diffusivity / s.grains.diameter**2  # 1/s
+    filled = 0.0 if case.coupling.one_way else -math.expm1(-filling * s.end)
+    return Judgement("K t/d2", spent, 0.01, SOURCE, min(1.0, max(1.0 - max(0.0, 1.0 - spent) ** 1.5, cooling, filled)))
 
 
 EFFECT = Effect(

@@ -62,14 +62,15 @@ def viscosity(p, frictional_pressure, density, shear_squared, dt):
 
 
 def call(scales) -> Judgement:
-    """Whether grains lie closer than where contacts begin to last, and how much weight there is to bear on a wall."""
+    """Whether grains lie closer than where contacts begin to last, and what presses them on each other: their weight on a
+    wall, or the gas that holds up the foremost."""
     onset = scales.case.parameters["friction"].onset
     ratio = scales.alpha_p / onset
     fall = scales.gravity * scales.end
-    weight = fall / (fall + scales.speed) if fall else 0.0
+    weight = fall / (fall + scales.speed) if fall and scales.to_walls.over_gap >= 1.0 else 0.0
+    held_up = scales.rim * -math.expm1(-scales.end / scales.drag_time) if scales.thrown else 0.0
     source = "Johnson & Jackson 1987: contacts last from the onset on; grains at 95 % of it get there"
-    rests = ratio >= NEAR and scales.travelled >= scales.gap
-    return Judgement("alpha_p / onset", ratio, NEAR, source, weight if rests else 0.0)
+    return Judgement("alpha_p / onset", ratio, NEAR, source, max(weight, held_up) if ratio >= NEAR else 0.0)
 
 
 EFFECT = Effect(

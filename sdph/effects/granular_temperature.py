@@ -113,7 +113,7 @@ def call(scales) -> Judgement:
     """How much of theta is made or lost within the run; it acts by way of pressure and viscosity."""
     cooling = granular.cooling_coefficient(scales.capped, scales.grains.restitution, scales.g0, scales.grains.diameter) if scales.alpha_p else 0.0
     rate = cooling * math.sqrt(scales.theta) + 2.0 / scales.drag_time
-    changed = -math.expm1(-rate * scales.end) if scales.speed and not scales.lone else 0.0
+    changed = -math.expm1(-rate * scales.end) if scales.speed and scales.collides else 0.0
     stiffness = 1.0 + 2.0 * (1.0 + scales.grains.restitution) * scales.alpha_p * scales.g0
     push = scales.theta * stiffness / scales.speed**2 if scales.speed else 0.0
     source = "Haff 1983; Lun et al. 1984"

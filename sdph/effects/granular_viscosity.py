@@ -76,12 +76,12 @@ def pair(viscous, stress, i, j, r_squared, closing, scale):
 
 
 def call(scales) -> Judgement:
-    """Reach of momentum by viscosity within the run over the width of the grains, squared."""
-    if scales.lone or not scales.alpha_p or not scales.speed:
+    """Reach of momentum by viscosity within the run over the width of the shear, squared."""
+    if not scales.collides or not scales.speed:
         return Judgement("nu t/L2", 0.0, 0.01, SOURCE, 0.0)
     grains = scales.grains
     mu = granular.gidaspow_viscosity(scales.capped, scales.theta, grains.restitution, scales.g0, grains.density, grains.diameter)
-    spread = mu / (scales.alpha_p * grains.density) * scales.end / scales.length**2
+    spread = mu / (scales.alpha_p * grains.density) * scales.end / scales.shear_length**2
     return Judgement("nu t/L2", spread, 0.01, SOURCE, -math.expm1(-spread))
 
 

@@ -35,10 +35,10 @@ def acceleration(p):
 
 
 def call(scales) -> Judgement:
-    """Speed of free fall within the run over all speeds: an inverse Froude number."""
-    fall, other = scales.gravity * scales.end, max(scales.jet, scales.thrown)
+    """Way of free fall within the run over that way and that of jet or throw, g t^2/2 and U t: of the inverse Froude number."""
+    fall, other = 0.5 * scales.gravity * scales.end, max(scales.jet, scales.thrown)
     share = fall / (fall + other) if fall else 0.0
-    return Judgement("g t/(g t + U), of the Froude number", share, 0.01, "Froude number of the run", share)
+    return Judgement("g t/(g t + 2 U), of the Froude number", share, 0.01, "Froude number of the run", share)
 
 
 EFFECT = Effect(name="gravity", summary="gravity", parameters=Gravity, kernel=kernel, moves=True, matter=("grains", "liquid"), call=call)

@@ -60,7 +60,7 @@ def _patch(case, nozzle, patch):
     half = 0.5 * (nozzle.width or 2.0 * (nozzle.radius or 0.0))
     velocity = tuple(nozzle.speed * a for a in unit(nozzle.direction))
     lower, upper = (tuple(c + sign * half for c in nozzle.centre) for sign in (-1.0, 1.0))
-    return patch(streams_of(case, nozzle).alpha_p, nozzle.temperature, velocity, lower, upper)
+    return patch(streams_of(case, nozzle).alpha_p, nozzle.temperature, velocity, lower, upper, nozzle.half_angle)
 
 
 class InflowP(NamedTuple):

@@ -62,8 +62,8 @@ def _spans(span, count: int):
 
 def call(scales) -> Judgement:
     """How far grains get within the run over their way to the nearest open side: past 1 they are out of the gas."""
-    reach = scales.driven * scales.end / max(scales.way_out, scales.case.resolution.spacing)
-    return Judgement("way of the grains / gap to an open side", reach, 1.0, "geometry", min(1.0, reach) if reach >= 1.0 else 0.0)
+    over_gap = scales.to_outlets.over_gap
+    return Judgement("way of the grains / gap to an open side", over_gap, 1.0, "geometry", 1.0 if over_gap >= 1.0 else 0.0)
 
 
 EFFECT = Effect(name="outflow", summary="grains that leave through open sides", parameters=Outflow, kernel=kernel, moves=True, call=call)

@@ -231,9 +231,9 @@ def contact(p, box, dummies, rows, s):
 
 def call(scales) -> Judgement:
     """How far grains get within the run over their way to the nearest wall."""
-    reach = scales.travelled / max(scales.gap, 0.5 * scales.case.resolution.spacing) if scales.gap < math.inf else 0.0
-    past = min(1.0, scales.travelled / scales.length)  # how much of them would be through the wall
-    return Judgement("way of the grains / gap to a wall", reach, 1.0, "geometry", past if reach >= 1.0 else 0.0)
+    way, over_gap = scales.to_walls
+    past = min(1.0, way / scales.length)  # how much of them would be through the wall
+    return Judgement("way of the grains / gap to a wall", over_gap, 1.0, "geometry", past if over_gap >= 1.0 else 0.0)
 
 
 EFFECT = Effect(

@@ -6,26 +6,29 @@ effect that brings grains in (an inlet) have a method `patches(case)`.
 
 from __future__ import annotations
 
-import itertools
 import math
 from dataclasses import dataclass
 from functools import cached_property
 
-from sdph.laws import drag, granular, heat
+from sdph.explain import ways
+from sdph.laws import drag, exact, granular, heat
 
 SHEAR = 0.5  # sqrt(I2D) over the rate of a simple shear: D_xy is half of it
-SIDES = (("left", "right"), ("bottom", "top"), ("back", "front"))
+DILUTE = 1e-3  # alpha_p below which grains do not meet often enough to matter, Elghobashi 1994
+SETTLED = 0.95  # of the onset of lasting contacts, from which on grains lie on each other; our choice
 
 
 @dataclass(frozen=True)
 class Patch:
-    """Grains that are there at the start, or come in: volume fraction, temperature, velocity, corners of their box."""
+    """Grains that are there at the start, or come in: volume fraction, temperature, velocity, corners of their box; angle
+    [rad] that their paths spread up to on each side."""
 
     alpha_p: float
     temperature: float
     velocity: tuple
     lower: tuple
     upper: tuple
+    half_angle: float = 0.0
 
 
 class Scales:
@@ -49,8 +52,9 @@ class Scales:
 
     @cached_property
     def jet(self) -> float:
-        """Fastest gas that enters [m/s]."""
-        return max((math.hypot(*b.velocity) for b in self.case.boundaries.values() if b.velocity), default=0.0)
+        """Fastest gas that enters [m/s], as fast as it still is where it meets grains."""
+        fed = [b for b in self.case.boundaries.values() if b.velocity]
+        return max((math.hypot(*b.velocity) * ways.strength(self.case, b, self.patches) for b in fed), default=0.0)
 
     @cached_property
     def thrown(self) -> float:
@@ -142,13 +146,64 @@ class Scales:
 
     @cached_property
     def speed(self) -> float:
-        """What the grains reach within the run [m/s]: driven or falling."""
-        return max(self.driven, self.falling if self.patches else 0.0)
+        """What the grains reach within the run [m/s]: thrown, blown along or falling; 0 in a bed at rest."""
+        return 0.0 if self.resting else max(self.thrown, self.blown, self.falling if self.patches else 0.0)
 
     @cached_property
-    def driven(self) -> float:
-        """Thrown, or dragged along with no more energy per volume than the gas has [m/s]."""
-        return max(self.thrown, self.jet * -math.expm1(-self.end / self.drag_time) / math.sqrt(1.0 + self.loading))
+    def blown(self) -> float:
+        """Dragged along by the gas that is let in, with no more energy per volume than it has [m/s]."""
+        return 0.0 if self.resting else self.jet * -math.expm1(-self.end / self.drag_time) / math.sqrt(1.0 + self.loading)
+
+    @cached_property
+    def coasting(self) -> float:
+        """Way of thrown grains over their speed [s]: gas and grains take up one speed, that of their common momentum."""
+        kept, stop = self.loading / (1.0 + self.loading), self.drag_time / (1.0 + self.loading)
+        return kept * self.end - (1.0 - kept) * stop * math.expm1(-self.end / stop)
+
+    @cached_property
+    def minimum_fluidisation(self) -> float:
+        """U_mf [m/s] of the patch by Ergun 1952; nan without grains or gravity."""
+        if not self.alpha_p or not self.gravity:
+            return math.nan
+        grains, gas = self.grains, self.gas
+        return exact.minimum_fluidisation(self.capped, grains.density, self.gravity, grains.diameter, gas.density, gas.viscosity)
+
+    @cached_property
+    def resting(self) -> bool:
+        """Whether grains lie packed on the floor and the gas that is let in cannot lift them."""
+        onset = self.case.parameters["friction"].onset if "friction" in self.case.parameters else self.grains.packing_limit
+        packed = self.alpha_p >= SETTLED * onset and not self.thrown and self.gravity > 0.0
+        return packed and self.jet < self.minimum_fluidisation and ways.lie(self.case, self.patches)
+
+    @cached_property
+    def rim(self) -> float:
+        """Share of the grains that outside gas slips past: all where gas is blown through them; of those thrown, that of a
+        rim as thick as the gas takes to follow them, or as the kernel resolves."""
+        if self.jet or not self.thrown:
+            return 1.0
+        return min(1.0, 2.0 * max(self.thrown * self.gas_drag_time, self.case.smoothing_length) / self.length)
+
+    @cached_property
+    def shear_length(self) -> float:
+        """Over which the motion of grains changes [m]: their narrowest extent, or the width of a jet that is let in."""
+        widths = [b.span[1] - b.span[0] for b in self.case.boundaries.values() if b.velocity and b.span and not isinstance(b.span[0], tuple)]
+        widths += [min(high - low for low, high in b.span) for b in self.case.boundaries.values() if b.velocity and b.span and isinstance(b.span[0], tuple)]
+        return max(min([self.length, *widths]), self.case.smoothing_length)
+
+    @cached_property
+    def to_walls(self) -> ways.Reach:
+        """How near grains come to a side that is no pressure outlet."""
+        return ways.reach(self, False)
+
+    @cached_property
+    def to_outlets(self) -> ways.Reach:
+        """How near they come to a pressure outlet."""
+        return ways.reach(self, True)
+
+    @cached_property
+    def collides(self) -> bool:
+        """Whether grains meet each other often enough to matter, and SPH particles have neighbours."""
+        return self.alpha_p >= DILUTE and not self.lone
 
     @cached_property
     def lone(self) -> bool:
@@ -165,8 +220,8 @@ class Scales:
 
     @cached_property
     def theta(self) -> float:
-        """Granular temperature [m2/s2]: the start's, or that which shear speed/length keeps up, the larger."""
-        if not self.alpha_p:
+        """Granular temperature [m2/s2]: the start's, or that which shear speed/length keeps up by collisions, the larger."""
+        if not self.collides:
             return self.grains.granular_temperature
         beta = self.alpha_p * self.grains.density / self.drag_time
         grains, shear = self.grains, (SHEAR * self.speed / self.length) ** 2
@@ -186,31 +241,6 @@ class Scales:
             return 0.0
         grains, slope = self.grains, granular.sinclair_jackson_slope(self.capped, self.grains.packing_limit)
         return math.sqrt(granular.sound_speed_squared(self.capped, self.theta, grains.restitution, self.g0, slope, grains.density, 0.0))
-
-    @cached_property
-    def gap(self) -> float:
-        """Shortest way [m] from grains to a side that is no pressure outlet."""
-        return self._gap(False)
-
-    @cached_property
-    def way_out(self) -> float:
-        """Shortest way [m] from grains to an open side, or without walls to any."""
-        return min(self._gap(True), math.inf if "walls" in self.case.effects else self.gap)
-
-    def _gap(self, out: bool) -> float:
-        """Shortest way [m] to sides that are open or not, those left aside that grains are thrown away from."""
-        gaps = [math.inf]
-        for patch, (axis, size) in itertools.product(self.patches, enumerate(self.case.domain.size)):
-            for side, room, away in zip(SIDES[axis], (patch.lower[axis], size - patch.upper[axis]), (1.0, -1.0)):
-                opened = any(b.side == side and b.kind == "pressure_outlet" and b.span is None for b in self.case.boundaries.values())
-                if opened == out and patch.velocity[axis] * away <= 0.0:
-                    gaps.append(max(room, 0.0))
-        return min(gaps)
-
-    @cached_property
-    def travelled(self) -> float:
-        """How far grains get within the run [m]."""
-        return self.speed * self.end
 
 
 def _patch(case, region) -> Patch:

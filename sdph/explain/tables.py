@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from sdph import effects
+from sdph.effects import evaporation
 from sdph.explain import estimate, judge
 from sdph.laws import heat
 
@@ -44,10 +45,12 @@ def numbers(s) -> list[tuple]:
     free_path = grains.diameter / (6.0 * math.sqrt(2.0) * s.alpha_p * s.g0) if s.alpha_p else math.inf
     diffusivity = grains.conductivity / (grains.density * grains.heat_capacity)
     peclet = s.speed * s.length / diffusivity if diffusivity else math.inf
+    fed = s.jet / s.minimum_fluidisation if s.jet else 0.0
     rows = [
         ("particle Re", s.reynolds, 1.0, "drag is no longer Stokes'", "Clift, Grace & Weber 1978"),
         ("Stokes", s.drag_time * s.slip / s.length, 0.1, "grains leave the gas's path", "Crowe et al. 1998, ch. 2"),
         ("Archimedes", archimedes, 88.5, "grains of Geldart's group B: bubbles from the onset on", "Goossens 1998"),
+        ("U/U_mf", fed, 1.0, "gas that is let in lifts packed grains", "Ergun 1952"),
         ("Biot", biot, 0.1, "grains are not of one temperature inside", "Incropera, ch. 5.1"),
         ("Mach of the gas", s.slip / sound, 0.3, "gas is compressed by its own motion", "Anderson 2003"),
         ("1/Froude, g t/U", s.gravity * end / s.slip if s.slip else 0.0, 0.01, "gravity matters", "by its definition"),
@@ -62,6 +65,22 @@ def numbers(s) -> list[tuple]:
         ("run / gas's heat time", end / s.gas_heat_time, 1.0, "gas takes the grains' temperature", "sdph-notes, section 3"),
         ("run / collision time", end / s.collision_time, 1.0, "every grain has collided", "Gidaspow 1994"),
     ]
+    return rows + _of_droplets(s)
+
+
+def _of_droplets(s) -> list[tuple]:
+    """Numbers of what has a surface tension, and of what evaporates."""
+    rows, grains, gas = [], s.grains, s.gas
+    if grains.surface_tension:
+        pull = grains.surface_tension / grains.diameter
+        weight = abs(grains.density - gas.density) * s.gravity * grains.diameter
+        rows.append(("Weber", gas.density * s.slip**2 / pull, 12.0, "droplets break up: no effect of sdph does that", "Pilch & Erdman 1987"))
+        rows.append(("Bond", weight / pull, 0.4, "droplets are no spheres", "Clift, Grace & Weber 1978, fig. 2.5"))
+    if "evaporation" in s.case.parameters and s.case.vapour and s.patches:
+        mass, heat_number, spent = evaporation.spalding_numbers(s)
+        rows.append(("Spalding B of mass", mass, 0.1, "the vapour's own outflow slows evaporation", "Spalding 1953"))
+        rows.append(("Spalding B of heat", heat_number, 0.1, "vapour carries off some of the heat on its way", "Spalding 1953"))
+        rows.append(("run / evaporation time", spent, 1.0, "droplets are gone", "d2 law, Spalding 1953"))
     return rows
 
 

@@ -15,7 +15,7 @@ from sdph.laws import kernels
 from sdph.liquid import GAS, LIQUID, interface, motion, phases, rates, shift, start, walls
 from sdph.liquid.guard import LiquidGuard
 from sdph.liquid.walls import WallP
-from sdph.neighbours import SKIN, Neighbours
+from sdph.neighbours import Neighbours
 from sdph.particles import WALL
 
 SLACK = 1.0125  # reach over 2 h: a particle may move 0.025 h, half a step, after the rows were found to hold
@@ -31,7 +31,7 @@ class Rows(Neighbours):
             return False
         z, z0 = (here[2], self.built[2]) if len(here) == 3 else (np.zeros(0), np.zeros(0))
         moved = motion.travelled(here[0], here[1], z, self.built[0], self.built[1], z0)
-        return bool(moved < (0.5 * SKIN * self.reach) ** 2)
+        return bool(moved < (0.5 * self.skin * self.reach) ** 2)
 
 
 class LiquidStepper:
@@ -46,7 +46,8 @@ class LiquidStepper:
         self.p = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
         self.kernel = smoothing.smoothing(case.liquid.kernel, d, case.smoothing_length)
         periodic = case.liquid.periodic or (0.0,) * d
-        self.neighbours = Rows(2.0 * SLACK * self.kernel.h, tuple(length * bool(on) for length, on in zip(case.domain.size, periodic)))
+        period = tuple(length * bool(on) for length, on in zip(case.domain.size, periodic))
+        self.neighbours = Rows(2.0 * SLACK * self.kernel.h, period, case.resolution.neighbour_skin)
         self.fluids, self.phases = fluids(case), phases.kernel(case)
         self.state = start.fill(case)
         self.first_of_pipe = len(self.state.x) - start.pipe_walls(case)  # numbers from here on: walls of the outlet pipe

@@ -18,6 +18,7 @@ class Extremes:
         self.low: dict[str, float] = {}
         self.last: dict[str, float] = {}
         self.lost = 0
+        self.regions: dict[str, np.ndarray] = {}
 
     def finish(self, simulation) -> None:
         """At the end of a stage: what the ledger says, the worst over all stages."""
@@ -41,7 +42,7 @@ class Measures(Extremes):
     """Of grains and their gas."""
 
     def window(self, simulation) -> None:
-        """After a window."""
+        """After a window. The box around the grains that each region began with is kept as NAME_x_m and so on."""
         s, fields, density = simulation.state, simulation.gas_state.fields, self.case.grains.density
         speed = np.sqrt((particles.velocities(s) ** 2).sum(axis=1))
         self._take("speed_m_s", speed)
@@ -57,6 +58,16 @@ class Measures(Extremes):
         self.last = {"particles": len(s.x), "kinetic_energy_end_J": energy, "speed_end_m_s": float(speed.max(initial=0.0)), "windows": simulation.windows}
         self.last |= {"particle_mass_kg": float(s.mass.sum())}
         self.lost = max(self.lost, self._outside(s))
+        self.regions = self.regions or self._regions(s)
+        for name, idents in self.regions.items() if len(self.regions) > 1 else ():
+            for letter, axis in zip("xyz", particles.axes(s)):
+                self._take(f"{name}_{letter}_m", axis[np.isin(s.ident, idents)])
+
+    def _regions(self, s) -> dict[str, np.ndarray]:
+        """Name of each box of grains -> identities of those in it now."""
+        places = np.stack(particles.axes(s), axis=1)
+        boxes = {name: region for name, region in self.case.particles.items() if region.shape == "box"}
+        return {name: s.ident[((places >= box.lower) & (places <= box.upper)).all(axis=1)] for name, box in boxes.items()}
 
     def _outside(self, s) -> int:
         """Particles out of the box where walls hold the grains."""

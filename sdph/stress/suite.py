@@ -7,7 +7,7 @@ A file names a scene to start from and changes it:
     windows = 50             windows at most (default: to the end of the case)
     expect = "stable"        or "caught" (the guard must stop it), or "either"
     shear_1_s = [[...]]      adds the velocity gradient times (place - middle of the grains)
-    [case...]                tables that replace those of the scene, key by key; false removes a table
+    [case...]                tables that replace those of the scene, key by key; false removes a table; walls.mesh lies here
     [[then]]                 such tables again: the run goes on from its last state with them (windows, case)
     [at_most] [at_least]     measures (see `sdph.stress.measures`) and their bounds, besides those that hold for every case
 """
@@ -108,6 +108,8 @@ def case_of(hard: Hard, *changes: dict) -> cases.Case:
     table = tomllib.loads(scenes.find(hard.base)[1].read_text(encoding="utf-8"))
     for change in (hard.case, *changes):
         table = merged(table, change)
+    if "mesh" in table.get("walls", {}):
+        table["walls"]["mesh"] = str(paths.data(FOLDER) / "stress" / table["walls"]["mesh"])
     return cases.from_table(table)
 
 

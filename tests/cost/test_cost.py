@@ -4,92 +4,110 @@ import json
 
 import pytest
 
+from sdph import case as cases
 from sdph import cli, scenes
-from sdph.cost import ladder, report
+from sdph.cost import choice, climb, ladder, report, rows
 from sdph.schema import CaseError
 
 SMALL = ladder.Ladder(
     reference="none",
-    base=["coupling.gas='embedded'", "run.end_time_s=0.002", "run.output_interval_s=0.001", "run.report_at_s=[]"],
+    settings=["coupling.gas='embedded'"],
+    excerpt=["run.end_time_s=0.002", "run.output_interval_s=0.001", "run.report_at_s=[]"],
     knobs={"resolution.spacing_mm": [20.0, 10.0], "resolution.cell_mm": [50.0, 25.0]},
-    metrics={"centre_rise_K": {"scale": 1.0}},
+    metrics=["centre_rise_K"],
 )
 
 
-def row(label="all 1/1", wall=1.0, value=0.0, reference=None, without=ladder.ALL, **settings):
-    return {"label": label, "wall_s": wall, "without": without, "load": 0.0, "metrics": json.dumps({"a": (value, reference, 2.0)})} | settings
+def row(label="all 1/1", wall=1.0, value=0.0, reference=None, without=ladder.ALL, solver=rows.OWN, **settings):
+    made = {"label": label, "solver": solver, "wall_s": wall, "without": without, "load": 0.0}
+    return made | {"metrics": json.dumps({"a": (value, reference, 2.0)})} | settings
 
 
 def test_error_is_of_the_scale_against_the_reference():
-    assert [r["error"] for r in ladder.errors([row(value=1.3, reference=1.0)])] == [pytest.approx(0.15)]
+    assert [r["error"] for r in rows.errors([row(value=1.3, reference=1.0)])] == [pytest.approx(0.15)]
 
 
 def test_richardson_finds_the_limit_of_a_sequence_of_any_order():
     """a + b q^n: three levels give a."""
     levels = [row(f"all {n + 1}/3", value=5.0 + 3.0 * 0.37**n) for n in range(3)]
-    assert ladder._richardson([json.loads(r["metrics"]) for r in levels])["a"] == pytest.approx(5.0)
-    assert ladder.errors(levels)[0]["error"] == pytest.approx(1.5)
+    assert rows.richardson([rows.found(r) for r in levels])["a"] == pytest.approx(5.0)
+    assert rows.errors(levels)[0]["error"] == pytest.approx(1.5)
 
 
 def test_a_sequence_without_order_is_taken_at_its_finest():
     levels = [row(f"all {n + 1}/3", value=v) for n, v in enumerate((1.0, 3.0, 2.0))]
-    assert ladder._richardson([json.loads(r["metrics"]) for r in levels])["a"] == 2.0
+    assert rows.richardson([rows.found(r) for r in levels])["a"] == 2.0
 
 
 def test_observed_order_of_second_order_rows():
-    own = ladder.Ladder(reference="", base=[], knobs={"x": [4.0, 2.0, 1.0]})
-    rows = [row(value=7.0 + 0.1 * x**2, x=x) for x in (4.0, 2.0, 1.0)]
-    assert ladder.orders(own, rows)["x"] == pytest.approx(2.0)
+    own = ladder.Ladder(reference="", knobs={"x": [4.0, 2.0, 1.0]})
+    made = [row(value=7.0 + 0.1 * x**2, x=x) for x in (4.0, 2.0, 1.0)]
+    assert rows.orders(own, made)["x"] == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize("p", [0.5, 1.0, 2.3])
+def test_observed_order_of_steps_in_no_one_ratio(p):
+    """Changes of c x^p between 5, 3 and 1."""
+    assert rows.order(5.0, 3.0, 1.0, 5.0**p - 3.0**p, 3.0**p - 1.0) == pytest.approx(p)
 
 
 def test_cheapest_holds_the_error_with_all_effects():
-    rows = [row(wall=9.0) | {"error": 0.001}, row(wall=3.0) | {"error": 0.015}, row(wall=1.0, without="drag") | {"error": 0.0}, row(wall=0.5) | {"error": 0.3}]
-    assert ladder.cheapest(rows, 0.02)["wall_s"] == 3.0
-    assert ladder.cheapest(rows, 0.01)["wall_s"] == 9.0
-    assert ladder.cheapest(rows, 1e-4) is None
-    assert [r["wall_s"] for r in report.front(rows)] == [0.5, 3.0, 9.0]
+    made = [row(wall=9.0) | {"error": 0.001}, row(wall=3.0) | {"error": 0.015}, row(wall=0.5) | {"error": 0.3}]
+    made += [row(wall=1.0, without="drag") | {"error": 0.0}, row(wall=0.1, solver="twoPhaseEulerFoam") | {"error": 0.0}]
+    assert rows.cheapest(made, 0.02)["wall_s"] == 3.0
+    assert rows.cheapest(made, 0.01)["wall_s"] == 9.0
+    assert rows.cheapest(made, 1e-4) is None
+    assert [r["wall_s"] for r in rows.front(made)] == [0.5, 3.0, 9.0]
+
+
+def test_each_solver_has_its_own_limit():
+    made = [row(f"all {n + 1}/3", value=limit + 0.5**n, solver=who) for who, limit in ((rows.OWN, 5.0), ("other", 7.0)) for n in range(3)]
+    assert [r["error"] for r in rows.errors(made)] == pytest.approx([0.5, 0.25, 0.125] * 2)
 
 
 def test_rungs_are_levels_single_knobs_and_effects_off():
-    own = ladder.Ladder(reference="", base=[], knobs={"x": [3, 2, 1], "y": [6, 5, 4]}, drop=["drag"])
+    own = ladder.Ladder(reference="", knobs={"x": [3, 2, 1], "y": [6, 5, 4]}, alone={"z": [8]}, usual={"z": 9}, drop=["drag"])
     found = ladder.rungs(own)
-    assert [label for label, _ in found] == ["all 1/3", "all 2/3", "all 3/3", "x", "x", "y", "y", "without drag"]
-    assert found[3][1] == {"x": 3, "y": 5, "without": ladder.ALL}
-    assert found[-1][1] == {"x": 2, "y": 5, "without": "drag"}
+    assert [label for label, _ in found] == ["all 1/3", "all 2/3", "all 3/3", "x", "x", "y", "y", "z", "without drag"]
+    assert found[3][1] == {"x": 3, "y": 5, "z": 9, "without": ladder.ALL}
+    assert found[-2][1] == {"x": 2, "y": 5, "z": 8, "without": ladder.ALL}
+    assert found[-1][1] == {"x": 2, "y": 5, "z": 9, "without": "drag"}
 
 
 def test_ladder_is_measured_within_its_budget_and_resumed(tmp_path, monkeypatch):
-    monkeypatch.setattr(ladder, "declared", lambda scene: SMALL)
+    for module in (climb, report):
+        monkeypatch.setattr(module, "declared", lambda scene: SMALL)
     file, said = tmp_path / "cost.csv", []
-    assert ladder.climb("disc_cluster", file, 0.0, 1, said.append) == []
+    assert climb.climb("disc_cluster", file, 0.0, 1, said.append) == []
     assert "budget is spent before all 1/2" in said[-1]
-    rows = ladder.climb("disc_cluster", file, 1e9, 1, said.append)
+    first = climb.climb("disc_cluster", file, 1e9, 1, said.append)
     before = file.read_bytes()
-    assert len(rows) == len(ladder.rungs(SMALL)) == 4
-    assert all(r["wall_s"] > 0.0 and r["particles"] > 50 for r in rows)
+    assert len(first) == len(ladder.rungs(SMALL)) == 4
+    assert all(r["wall_s"] > 0.0 and r["particles"] > 50 for r in first)
     said.clear()
-    again = ladder.climb("disc_cluster", file, 1e9, 1, said.append)
+    again = climb.climb("disc_cluster", file, 1e9, 1, said.append)
     assert file.read_bytes() == before
     assert all("measured before" in line for line in said) and len(said) == 4
-    assert "all 2/2" in report.text("disc_cluster", ladder.errors(again))
-    report.draw("disc_cluster", ladder.errors(again), tmp_path / "cost.png")
+    assert "all 2/2" in report.text("disc_cluster", rows.errors(again))
+    report.draw("disc_cluster", rows.errors(again), tmp_path / "cost.png")
     assert (tmp_path / "cost.png").stat().st_size > 10_000
 
 
 def test_accuracy_takes_what_was_measured_and_says_so(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(ladder, "declared", lambda scene: SMALL)
+    monkeypatch.setattr(choice, "declared", lambda scene: SMALL)
     coarse, fine = {"resolution.spacing_mm": 20.0, "resolution.cell_mm": 50.0}, {"resolution.spacing_mm": 10.0, "resolution.cell_mm": 25.0}
     for settings, wall, value in ((coarse, 1.0, 1.2), (fine, 4.0, 1.02)):
-        ladder._append(tmp_path / "runs/cost/some/cost.csv", row("x", wall, value, 1.0, **settings))
+        climb._keep(tmp_path / "runs/cost/some/cost.csv", row("x", wall, value, 1.0, **settings))
     said = []
-    assert "resolution.spacing_mm=20.0" in ladder.settings_for("some", 0.1, said.append)
-    assert "resolution.spacing_mm=10.0" in ladder.settings_for("some", 0.05, said.append)
-    assert "measured error 0.01" in said[-1] and "4 s" in said[-1]
+    assert not any("end_time" in setting for setting in choice.settings_for("some", 0.1, said.append))
+    assert "resolution.spacing_mm=20.0" in choice.settings_for("some", 0.1, said.append)
+    assert "resolution.spacing_mm=10.0" in choice.settings_for("some", 0.05, said.append)
+    assert "error 0.01 against none" in said[-1] and "4 s" in said[-1]
     with pytest.raises(CaseError, match="the best: 0.01"):
-        ladder.settings_for("some", 1e-3, said.append)
+        choice.settings_for("some", 1e-3, said.append)
     with pytest.raises(CaseError, match="sdph cost other"):
-        ladder.settings_for("other", 0.02, said.append)
+        choice.settings_for("other", 0.02, said.append)
 
 
 @pytest.mark.parametrize(("text", "seconds"), [("90", 90.0), ("90s", 90.0), ("10min", 600.0), ("2h", 7200.0)])
@@ -98,10 +116,25 @@ def test_budget_is_read_with_its_unit(text, seconds):
 
 
 def test_declared_ladders_name_keys_that_the_scene_has():
-    declared = [name for name in scenes.names() if (ladder.paths.data("validation") / name / "cost.toml").is_file()]
-    assert declared
-    for name in declared:
+    assert ladder.with_ladder()
+    for name in ladder.with_ladder():
         own = ladder.declared(name)
         assert len({len(values) for values in own.knobs.values()}) == 1
         for _, settings in ladder.rungs(own):
-            assert ladder._case(name, own, settings)
+            assert ladder.case_of(name, own, settings)
+
+
+def test_accuracy_leaves_what_is_simulated_as_it_is():
+    """The ladder may look at an excerpt of a scene; the setting that it finds must not."""
+    for name in ladder.with_ladder():
+        own, case = ladder.declared(name), cases.load(scenes.find(name)[1])
+        for _, settings in ladder.rungs(own):
+            chosen = cases.load(scenes.find(name)[1], (*own.settings, *ladder.overrides(settings)))
+            assert chosen.run.end_time == case.run.end_time and chosen.domain == case.domain
+            assert chosen.effects == case.effects and chosen.nozzles == case.nozzles and chosen.boundaries == case.boundaries
+
+
+def test_a_table_of_another_version_is_told(tmp_path):
+    (tmp_path / "cost.csv").write_text("label,wall_s\nall 1/1,1.0\n")
+    with pytest.raises(CaseError, match="remove it"):
+        rows.read(tmp_path / "cost.csv")

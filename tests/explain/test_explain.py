@@ -115,3 +115,61 @@ def test_shipped_scenes_have_all_that_they_call_for():
         assert tables.text(tables.explain(case))
         assert not tables.warnings(case), name
 
+
+
+def scales(scene, *overrides):
+    return judge.scales_of(cases.load(scenes.find(scene)[1], overrides))
+
+
+def test_a_bed_rests_as_long_as_the_gas_cannot_lift_it():
+    """Ergun's U_mf of the column is 0.085 m/s (case.toml)."""
+    still, blown = scales("fluidised_column"), scales("fluidised_column", "boundaries.distributor.velocity_m_s=[0,0.1]")
+    assert still.minimum_fluidisation == pytest.approx(0.085, rel=0.02)
+    assert still.resting and still.speed == 0.0
+    assert not blown.resting and blown.speed > 0.0
+    calm = judge.called_for(still.case)
+    assert {"drag", "gravity", "friction", "walls"} <= set(calm) and "granular_viscosity" not in calm
+    assert not scales("fluidised_column", "domain.gravity_m_s2=[0,9.81]").resting  # it falls up, to an open side
+
+
+def test_gas_that_streams_past_grains_at_a_distance_does_not_move_them():
+    """The wind over the mouth of Stefan's tube, 18 widths above the liquid."""
+    assert scales("stefan_tube").jet == 0.0
+    assert set(judge.called_for(scales("stefan_tube").case)) == {"evaporation"}
+    near = scales("stefan_tube", "particles.film.lower_m=[0,0.09]", "particles.film.upper_m=[0.005,0.095]")
+    assert near.jet == pytest.approx(0.2)
+
+
+def test_droplets_coast_until_they_share_their_momentum_with_the_gas():
+    heavy, light = scales("evaporating_jet"), scales("spray_cone")
+    assert heavy.coasting == pytest.approx(heavy.end, rel=2e-3)  # 857 times the mass of the gas among them
+    share = light.loading / (1.0 + light.loading)
+    assert share * light.end < light.coasting < share * light.end + light.drag_time
+
+
+def test_grains_are_walled_in_where_they_get_to_a_wall():
+    assert "walls" not in judge.called_for(scales("evaporating_jet").case)  # it flies away from its one wall
+    assert "walls" in judge.called_for(scales("bubbling_bed").case)
+    assert "outflow" not in judge.called_for(scales("evaporating_jet").case)  # 2 m of 6 m
+    assert "outflow" in judge.called_for(scales("evaporating_jet", "run.end_time_s=0.7").case)
+
+
+def test_numbers_of_droplets_by_hand():
+    """Table 3 of the paper, sigma = 23.8 mN/m, 10 m/s: We = rho U2 d/sigma, Bo = (rho_l - rho) g d2/sigma, B_T = c (T - T_l)/L."""
+    rows = rows_by(tables.explain(cases.load(scenes.find("evaporating_jet")[1]))["numbers"], "number")
+    assert rows["Weber"]["value"] == pytest.approx(1.225 * 100.0 * 3e-3 / 0.0238, rel=1e-6)
+    assert rows["Bond"]["value"] == pytest.approx((700.0 - 1.225) * 9.81 * 9e-6 / 0.0238, rel=1e-6)
+    assert rows["Spalding B of heat"]["value"] == pytest.approx(2470.0 * 56.0 / 277000.0, rel=1e-6)
+    fraction = 1329.0 / 101325.0 * 142.284 / (1329.0 / 101325.0 * 142.284 + (1.0 - 1329.0 / 101325.0) * 28.96)
+    assert rows["Spalding B of mass"]["value"] == pytest.approx(fraction / (1.0 - fraction), rel=1e-3)
+    assert not any(name.startswith("Spalding") for name in rows_by(tables.explain(cases.load(BED))["numbers"], "number"))
+
+
+@pytest.mark.parametrize("scene", ["bubbling_bed", "bubbling_bed_3d", "disc_cluster", "fluidised_column", "single_droplet", "spray_cone", "stefan_tube"])
+def test_auto_holds_what_the_scenes_were_given_by_hand(scene):
+    """All that is called for is on; what is on besides is told to matter less than the accuracy asked for."""
+    case = cases.load(scenes.find(scene)[1])
+    auto = cases.load(scenes.find(scene)[1], ("effects='auto'",))
+    judged = judge.judgements(case)
+    assert set(auto.effects) <= set(case.effects)
+    assert all(judged[name].error_if_off <= case.run.accuracy for name in set(case.effects) - set(auto.effects))

@@ -18,6 +18,8 @@ LARGEST = 0.20  # s, when the paper's bubble is largest and lets go
 AREA = 0.08  # of the two-fluid area
 DETACHMENT = 0.02  # s
 HOTTEST = 3.0  # K
+TWO_FLUIDS = {"bubble_diameter_m": 0.1268, "bubble_centroid_m": 0.0463}  # at 0.1 s, limit of cells of 20, 10 and 5 mm (README.md)
+COMPARED_CELLS = (0.02, 0.01, 0.005)  # m, of the two-fluid runs that `sdph cost` draws
 FADED = 0.2  # of what was: the paper says "tends to zero"; our reading
 
 
@@ -67,6 +69,34 @@ def paper(run) -> list[dict]:
         _below("fig. 10: conduction to 1050 at 0.22 s over its largest before 0.20 s [-]", _left(history, above["conductive_heat_W"], 0.22), FADED),
     ]
     return checks
+
+
+def metrics(run) -> dict[str, tuple]:
+    """For `sdph cost`: the bubble at the end of the excerpt against the limit of two fluids, the heat against that of the ladder."""
+    return _metrics(run.summary, run.summary["heat_exchanged_J"])
+
+
+def _metrics(bubble_at_end: dict, heat: float) -> dict[str, tuple]:
+    own = {name: (bubble_at_end[name], limit, None) for name, limit in TWO_FLUIDS.items()}
+    return own | {"heat to the grains [J]": (heat, None, None)}
+
+
+def others(case, folder):
+    """For `sdph cost`: (label, solver, wall time [s], metrics) of two fluids on finer and finer cells."""
+    from coupling.openfoam.comparators import run_two_fluid
+
+    for number, cell in enumerate(COMPARED_CELLS):
+        refined = dataclasses.replace(case, resolution=dataclasses.replace(case.resolution, cell=cell))
+        reference = run_two_fluid(refined, folder / f"tfm_{number}")
+        at_end = _other(reference, case.run.end_time)
+        yield f"all {number + 1}/{len(COMPARED_CELLS)}, {1e3 * cell:g} mm", reference.solver, reference.wall, _metrics(at_end, _heat(reference, case))
+
+
+def _heat(reference, case) -> float:
+    """What the grains of a two-fluid run have taken up [J], per metre of depth."""
+    fields = reference.fields[reference.nearest(case.run.end_time)]
+    warmth = fields["alpha_p"] * (fields["particle_temperature"] - case.particles["bed"].temperature)
+    return float((warmth * reference.volumes).sum() * case.grains.density * case.grains.heat_capacity)
 
 
 def _checks(run, times, own, other) -> list[dict]:

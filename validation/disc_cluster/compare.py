@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from sdph import case as cases
+from sdph import scenes
 from sdph.compare import check
 from sdph.laws import exact as solution
 from sdph.laws import heat
@@ -128,7 +130,7 @@ def _profile(axes, reference, centre, radius) -> None:
 
 def metrics(run) -> dict[str, tuple]:
     """For `sdph cost`: (value, closed form, scale) at the times of TIMES; rises by themselves, the gas by its whole change."""
-    start, lumped = run.history["centre_temperature_K"][0], _lumped(run.case)
+    start, lumped = run.history["centre_temperature_K"][0], _lumped(cases.load(scenes.find("disc_cluster")[1]))  # all effects on
     span = abs(run.case.gas.temperature - run.case.particles["disc"].temperature)
     rises = {f"rise at {t:g} s": (run.at("centre_temperature_K", t) - start, lumped(t)[0], lumped(t)[0]) for t in TIMES}
     return rises | {f"gas at {t:g} s": (run.at("centre_gas_temperature_K", t), lumped(t)[1], span) for t in TIMES}

@@ -19,6 +19,7 @@ DIFFERENT = 1.0  # the same with closures that differ by design: the order of ma
 HEAT = 0.1  # of what the droplets took up, with the closures made alike
 FRONT = 0.05  # of the front's place
 TIMES = (0.05, 0.1, 0.15, 0.2)  # s
+COMPARED_CELLS = (0.2, 0.1, 0.05)  # m, of the droplet runs that `sdph cost` draws
 DROP = {"drag": "schiller_naumann", "heat": "ranz_marshall"}  # closures of the droplet solver
 FIGURES = {  # number -> (what, unit, times [s])
     12: ("temperature", "droplets [K]", (0.1, 0.2)),
@@ -47,6 +48,17 @@ def dpm(run) -> list[dict]:
     for number, figure in FIGURES.items():
         _figure(run, reference, number, *figure)
     return checks
+
+
+def others(case, folder):
+    """For `sdph cost`: (label, solver, wall time [s], metrics) of the droplet solver on finer and finer cells, and with them steps."""
+    for number, cell in enumerate(COMPARED_CELLS):
+        refined = dataclasses.replace(case, resolution=dataclasses.replace(case.resolution, cell=cell))
+        reference, end = _droplet_run(refined, folder / f"dpm_{number}"), case.run.end_time
+        front = float(reference.parcels[nearest(reference, end)]["position"][:, 0].max())
+        values = {"evaporated_kg": evaporated_by(reference, case, end), "front_m": front, "heat_exchanged_J": heat_of(reference, case, end)}
+        label = f"all {number + 1}/{len(COMPARED_CELLS)}, {1e3 * cell:g} mm"
+        yield label, reference.solver, reference.wall, {name: (value, None, None) for name, value in values.items()}
 
 
 def exact(run) -> list[dict]:
@@ -120,14 +132,18 @@ def nearest(reference, time: float) -> float:
 
 
 def _reference(run):
+    return _droplet_run(run.case, run.folder / "dpm")
+
+
+def _droplet_run(case, folder):
     from coupling.openfoam.comparators import run_droplets
     from coupling.openfoam.droplet_numbers import Liquid
     from coupling.openfoam.droplet_numbers import Nozzle as Slot
 
-    nozzle, own = run.case.nozzles["jet"], run.case.parameters["evaporation"]
+    nozzle, own = case.nozzles["jet"], case.parameters["evaporation"]
     slot = Slot(nozzle.centre[1], nozzle.width, nozzle.speed, nozzle.temperature, nozzle.volume_fraction)
     liquid = Liquid(own.onset_temperature, own.saturation_pressure, own.latent_heat)
-    return run_droplets(_for_droplets(run.case), slot, liquid, run.folder / "dpm")
+    return run_droplets(_for_droplets(case), slot, liquid, folder)
 
 
 def _for_droplets(case):

@@ -107,3 +107,12 @@ def crossing(packed, weight: float) -> float:
 
 def _below(name: str, value: float, limit: float) -> dict:
     return {"name": name, "value": float(value), "reference": limit, "tolerance": 0.0, "ok": bool(value <= limit)}
+
+
+def metrics(run) -> dict[str, tuple]:
+    """For `sdph cost`: at the end, the pressure drop against Ergun's row by row, the gradient inside the bed against
+    Ergun's at the alpha_p there."""
+    last = run.summary
+    inside = float(column.ergun(run.case, [last["alpha_p_inside"]], last["superficial_velocity_m_s"])[0])
+    drop, gradient = (last["pressure_drop_Pa"], last["ergun_Pa"]), (last["gradient_Pa_m"], inside)
+    return {"pressure drop [Pa]": (*drop, None), "gradient inside [Pa/m]": (*gradient, None)}

@@ -6,6 +6,8 @@ import math
 
 import numpy as np
 
+from sdph import case as cases
+from sdph import scenes
 from sdph.compare import check
 from sdph.laws import evaporation
 from sdph.laws import exact as solution
@@ -19,10 +21,7 @@ GONE = 0.01  # of the mass: the run has to reach it
 def exact(run) -> list[dict]:
     """Wet-bulb temperature, d^2 constant, evaporation rate, and the mass that is left."""
     temperature, constant = closed_form(run.case)
-    h = run.history
-    t, d, T, mass = (h[name] for name in ("time_s", "particle_1_diameter_m", "particle_1_temperature_K", "particle_1_mass_kg"))
-    there = np.isfinite(d)
-    t, d, T, mass = t[there], d[there], T[there], mass[there]
+    t, d, T, mass = _droplet(run)
     steady = np.abs(T - temperature) <= WARM * abs(T[0] - temperature)
     middle = np.flatnonzero(steady)[len(t[steady]) // 2]
     slope = -np.polyfit(t[steady], d[steady] ** 2, 1)[0]
@@ -40,6 +39,25 @@ def exact(run) -> list[dict]:
         check("evaporation rate [kg/s]", rate, expected, CONSTANT, True),
         check("share of the mass that is left", left, 0.0, GONE),
     ]
+
+
+def _droplet(run):
+    """Times, diameter, temperature and mass of the droplet as long as it is there."""
+    h = run.history
+    columns = [h[name] for name in ("time_s", "particle_1_diameter_m", "particle_1_temperature_K", "particle_1_mass_kg")]
+    return [column[np.isfinite(columns[1])] for column in columns]
+
+
+def metrics(run) -> dict[str, tuple]:
+    """For `sdph cost`: temperature when half of the surface is gone, against the wet bulb, of what it has to warm; the d^2
+    constant between 90 and 50 % of the surface."""
+    temperature, constant = closed_form(cases.load(scenes.find("single_droplet")[1]))  # all effects on
+    t, d, T, _ = _droplet(run)
+    share = (d / d[0]) ** 2
+    part = (share <= 0.9) & (share >= 0.5)
+    slope = -np.polyfit(t[part], d[part] ** 2, 1)[0] if part.sum() > 1 else 0.0
+    half = T[np.argmin(np.abs(share - 0.5))]
+    return {"wet bulb [K]": (float(half), temperature, abs(temperature - T[0])), "d2 constant [m2/s]": (float(slope), constant, None)}
 
 
 def closed_form(case) -> tuple[float, float]:

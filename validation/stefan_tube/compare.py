@@ -35,6 +35,13 @@ def exact(run) -> list[dict]:
     ]
 
 
+def metrics(run) -> dict[str, tuple]:
+    """For `sdph cost`: flux, and the mole fraction in the middle relative to that at the liquid, against Stefan."""
+    rate, middle, _ = exact(run)
+    top = saturated(run.case)
+    return {"flux": (rate["value"], rate["reference"], None), "mole fraction in the middle": (middle["value"], middle["reference"], top)}
+
+
 def profile(run) -> tuple[np.ndarray, np.ndarray]:
     """Height [m] and mole fraction of vapour of the cells, from below."""
     _, _, gas = run.fields(run.summary["time_s"])

@@ -1,0 +1,68 @@
+"""Where grains and gas get to within a run: which inlet's gas meets the grains, how far grains come towards each side."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from typing import NamedTuple
+
+CAVITY = 4.2  # a stream past a cavity of width w fades in it as exp(-4.2 y/w): Moffatt 1964, J. Fluid Mech. 18, 1
+FADED = 1e-3  # of an inlet's speed, below which gas is at rest; our choice
+SIDES = (("left", "right"), ("bottom", "top"), ("back", "front"))
+
+
+class Reach(NamedTuple):
+    """The side that grains come nearest to: their way towards it [m], and that over the gap between them and it."""
+
+    way: float
+    over_gap: float
+
+
+def strength(case, boundary, patches) -> float:
+    """Share of an inlet's speed that its gas has at the grains: 1 where they lie in its stream or no span tells, less aside."""
+    if boundary.span is None or boundary.side is None:
+        return 1.0
+    axis = next(a for a, pair in enumerate(SIDES) if boundary.side in pair)
+    spans = boundary.span if isinstance(boundary.span[0], tuple) else (boundary.span,)
+    tangential = [a for a in range(case.dimensions) if a != axis]
+    asides = [max(_aside(patch, a, span) for a, span in zip(tangential, spans)) for patch in patches]
+    share = math.exp(-CAVITY * min(asides, default=0.0) / case.domain.size[axis])
+    return share if share > FADED else 0.0
+
+
+def _aside(patch, axis: int, span) -> float:
+    """Distance [m] between grains and a span along an axis; 0 where they overlap."""
+    return max(patch.lower[axis] - span[1], span[0] - patch.upper[axis], 0.0)
+
+
+def reach(s, out: bool) -> Reach:
+    """The farthest that grains get, relative to the gap, towards sides that are open (`out`) or closed; `s`: scales."""
+    found = [Reach(0.0, 0.0)]
+    for patch, (axis, size) in itertools.product(s.patches, enumerate(s.case.domain.size)):
+        rooms = patch.lower[axis], size - patch.upper[axis]
+        for side, room, outward in zip(SIDES[axis], rooms, (-1.0, 1.0)):
+            if opened(s.case, side) == out:
+                way = towards(s, patch, axis, outward)
+                found.append(Reach(way, way / max(room, 0.5 * s.case.resolution.spacing)))
+    return max(found, key=lambda row: row.over_gap)
+
+
+def lie(case, patches) -> bool:
+    """Whether grains lie on a closed side that gravity points to."""
+    axis = max(range(case.dimensions), key=lambda a: abs(case.domain.gravity[a]))
+    end = int(case.domain.gravity[axis] > 0.0)
+    rooms = [case.domain.size[axis] - patch.upper[axis] if end else patch.lower[axis] for patch in patches]
+    return not opened(case, SIDES[axis][end]) and min(rooms, default=math.inf) < case.resolution.spacing
+
+
+def opened(case, side: str) -> bool:
+    """Whether the whole of a side is a pressure outlet."""
+    return any(b.side == side and b.kind == "pressure_outlet" and b.span is None for b in case.boundaries.values())
+
+
+def towards(s, patch, axis: int, outward: float) -> float:
+    """How far [m] grains of a patch get along an axis within the run: thrown, spread, fallen, or blown along by the gas."""
+    thrown = outward * patch.velocity[axis] * s.coasting
+    spread = math.hypot(*patch.velocity) * math.sin(patch.half_angle) * s.coasting if not patch.velocity[axis] else 0.0
+    fallen = s.falling * s.end if outward * s.case.domain.gravity[axis] > 0.0 else 0.0
+    return max(0.0, thrown + spread + fallen + s.blown * s.end)
