@@ -55,7 +55,7 @@ def built_without(effect: str):
 def compared(effect: str) -> dict:
     """Time of the loop with the effect off over that of the loop built without it; whether they agree to the last bit."""
     whole = cases.load(scenes.HERE / "bubbling_bed" / "case.toml", effect_costs.BED)
-    off = effect_costs.prepared(effect_costs._without(whole, effect))
+    off = effect_costs.prepared(effect_costs.without(whole, effect))
     arguments, results = captured(off), []
     loops = [rates.rates, built_without(effect).rates]
     for loop in loops:

@@ -14,6 +14,7 @@ from collections import defaultdict
 from pathlib import Path
 
 from coupling.gas import GasError
+from coupling.openfoam import install
 from sdph import compare, driver
 from sdph.cost import rows as measured_rows
 from sdph.cost.ladder import ALL, Ladder, case_of, declared, rungs
@@ -28,16 +29,18 @@ def climb(scene: str, file: Path, budget: float, repeats: int, report) -> list[d
     """Measures the rungs that `file` lacks, in their order, until `budget` [s] is spent; all rows."""
     own, started = declared(scene), time.perf_counter()
     rows = measured_rows.read(file)
+    if budget > 0.0:
+        rows += _others(scene, own, file, rows, report)
     for label, settings in rungs(own):
         if any(measured_rows.has(row, settings) for row in rows):
             report(f"{label}: measured before")
             continue
         if time.perf_counter() - started > budget:
             report(f"the budget is spent before {label}; go on with the same command")
-            return rows
+            break
         rows.append(_keep(file, {"label": label, "solver": measured_rows.OWN, **settings, **measure(scene, own, settings, repeats)}))
         report(f"{label}: {rows[-1]['wall_s']:.3g} s")
-    return rows + _others(scene, own, file, rows, report)
+    return rows
 
 
 def measure(scene: str, own: Ladder, settings: dict, repeats: int) -> dict:
@@ -72,9 +75,12 @@ def metrics(scene: str, own: Ladder, folder: Path, without: str) -> dict:
 
 
 def _others(scene: str, own: Ladder, file: Path, rows: list[dict], report) -> list[dict]:
-    """Rows of other solvers on the same scene that `file` lacks; none where the scene has none."""
+    """Rows of other solvers on the same scene that `file` lacks; none where the scene has none, or they are not installed."""
     module, found = compare.scene_module(scene), []
     if not hasattr(module, "others") or any(row["solver"] != measured_rows.OWN for row in rows):
+        return found
+    if not install.find():
+        report("other solvers are left out: OpenFOAM was not found (sdph openfoam setup --install)")
         return found
     case, blank = case_of(scene, own, own.middle), dict.fromkeys([*own.keys, "without", *KEPT], ALL)
     with tempfile.TemporaryDirectory() as folder:

@@ -65,7 +65,7 @@ def table(report=print) -> list[dict]:
     whole = cases.load(scenes.HERE / "bubbling_bed" / "case.toml", BED)
     rows, dt = [], 1e-7
     for name in whole.effects:
-        on, off = prepared(whole), prepared(_without(whole, name))
+        on, off = prepared(whole), prepared(without(whole, name))
         pairs = [(step(on, dt), step(off, dt)) for _ in range(ROUNDS + 1)][1:]
         best_on, best_off = (1e6 * min(column) / len(on.state.x) for column in zip(*pairs))
         rows.append({"effect": name, "with all [us]": best_on, "without it [us]": best_off, "costs [us]": best_on - best_off} | _leaves(on, off))
@@ -74,7 +74,7 @@ def table(report=print) -> list[dict]:
     return rows
 
 
-def _without(case, name: str):
+def without(case, name: str):
     table = cases.to_table(case)
     table["effects"] = [other for other in table["effects"] if other != name]
     table.pop(name, None)

@@ -14,7 +14,7 @@ BED = cases.load(scenes.HERE / "bubbling_bed" / "case.toml", effect_costs.BED)
 
 @pytest.mark.parametrize("name", BED.effects)
 def test_off_leaves_nothing(name):
-    off = effect_costs._without(BED, name)
+    off = effect_costs.without(BED, name)
     assert effects.kernel_of(effects.REGISTRY[name], off) == effects.OFF
     needed = {array for other in off.effects for array in effects.REGISTRY[other].arrays}
     state = particles.fill(off, needed)

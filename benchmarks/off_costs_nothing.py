@@ -1,0 +1,114 @@
+"""An effect that is off leaves no code behind: the machine code of the loops is that of loops built without its terms.
+
+    python benchmarks/off_costs_nothing.py [effect ...]
+
+For each effect that has terms in the loops over particles (sdph/rates.py), these are compiled for a bubbling bed with the
+effect off, once from the source and once from the source in which every call of a function of the effect's file is
+replaced by what that function gives when it is off. Identical instructions take the same time on any machine and under
+any load, which no timing can show. Serial builds are compared: threads share out the same body.
+"""
+
+import ast
+import importlib.util
+import inspect
+import re
+import sys
+import tempfile
+from pathlib import Path
+
+from numba import njit
+
+from sdph import case as cases
+from sdph import effects, rates, scenes
+from sdph.effects.effect import OFF
+from sdph.explain import effect_costs
+from sdph.explain.tables import table
+
+LOOPS = ("sum_density", "strain", "sound_speeds", "constitutive", "rates")
+FLAGS = {"reassoc", "nsz", "arcp", "contract", "afn"}  # as in sdph/rates.py
+NAME = re.compile(r"[.$\w@]*[A-Za-z_][.$\w@]*")
+
+
+class Strip(ast.NodeTransformer):
+    """Replaces the calls of an effect's functions by what they give when it is off; counts them."""
+
+    def __init__(self, effect: str):
+        self.effect, self.module, self.count = effect, importlib.import_module(f"sdph.effects.{effect}"), 0
+
+    def visit_Call(self, node):
+        self.generic_visit(node)
+        of = node.func
+        if not (isinstance(of, ast.Attribute) and isinstance(of.value, ast.Name) and of.value.id == self.effect):
+            return node
+        self.count += 1
+        function = getattr(self.module, of.attr).py_func
+        given = function(OFF, *[None] * (len(inspect.signature(function).parameters) - 1))
+        return ast.parse(repr(given), mode="eval").body
+
+
+def built_without(effect: str):
+    """sdph.rates without the terms of an effect, as a module of its own, and how many calls that took out."""
+    strip = Strip(effect)
+    tree = ast.fix_missing_locations(strip.visit(ast.parse(Path(rates.__file__).read_text(encoding="utf-8"))))
+    file = Path(tempfile.mkdtemp()) / f"rates_without_{effect}.py"
+    file.write_text(ast.unparse(tree), encoding="utf-8")
+    spec = importlib.util.spec_from_file_location(file.stem, file)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[file.stem] = module
+    spec.loader.exec_module(module)
+    return module, strip.count
+
+
+def arguments(simulation) -> dict[str, tuple]:
+    """Name of each loop -> its arguments in one sub-step."""
+    kept, own = {}, {name: getattr(rates, name) for name in LOOPS}
+    for name, loop in own.items():
+        setattr(rates, name, lambda *given, name=name, loop=loop: (kept.update({name: given}), loop(*given))[1])
+    try:
+        effect_costs.step(simulation, 1e-7)
+    finally:
+        for name, loop in own.items():
+            setattr(rates, name, loop)
+    return kept
+
+
+def instructions(loop, given: tuple) -> list[str]:
+    """Machine code of a loop for the types of its arguments, with symbols by the order in which they come up."""
+    serial = njit(error_model="numpy", fastmath=FLAGS)(loop.py_func)
+    serial(*(a.copy() if hasattr(a, "copy") else a for a in given))
+    (text,) = serial.inspect_asm().values()
+    seen: dict[str, str] = {}
+    lines = (line.split("#")[0].strip() for line in text.splitlines())
+    code = [line for line in lines if line and not line.startswith((".", "_", "\t.")) or line.startswith(".L")]
+    return [NAME.sub(lambda m: _symbol(m[0], seen), line) for line in code]
+
+
+def _symbol(word: str, seen: dict) -> str:
+    """Names made by the compiler, which hold the module's name and running numbers, become s0, s1, ...; others stay."""
+    made = word.startswith((".L", "_Z", "__")) or "numba" in word or "$" in word
+    return seen.setdefault(word, f"s{len(seen)}") if made else word
+
+
+def compared(effect: str) -> list[dict]:
+    """A row for each loop that has terms of the effect."""
+    whole = cases.load(scenes.HERE / "bubbling_bed" / "case.toml", effect_costs.BED)
+    given = arguments(effect_costs.prepared(effect_costs.without(whole, effect)))
+    other, count = built_without(effect)
+    rows = []
+    for name in given:
+        if inspect.getsource(getattr(rates, name).py_func).count(f"{effect}."):
+            own, bare = instructions(getattr(rates, name), given[name]), instructions(getattr(other, name), given[name])
+            rows.append({"effect off": effect, "loop": name, "instructions": len(own), "built without": len(bare), "identical": own == bare})
+    return rows
+
+
+def with_terms() -> list[str]:
+    """Effects whose functions the loops call."""
+    source = Path(rates.__file__).read_text(encoding="utf-8")
+    return [name for name in effects.REGISTRY if f"{name}." in source.split("loop = njit", 1)[1]]
+
+
+if __name__ == "__main__":
+    found = [row for effect in sys.argv[1:] or with_terms() for row in compared(effect)]
+    print(table(found))
+    sys.exit(0 if all(row["identical"] for row in found) else 1)
