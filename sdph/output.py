@@ -25,6 +25,7 @@ from sdph.schema import CaseError
 
 MARK, ORIGIN = "case.toml", "origin.json"  # a folder with these files holds a run
 FAILURE = "failure.json"
+SAME = 1e-9  # of the size of a mesh: centres nearer to each other along an axis lie in one layer of cells (OpenFOAM writes ten digits)
 NAMED = ("numpy", "numba", "scipy", "pyvista")  # packages whose versions a run notes
 
 
@@ -233,11 +234,13 @@ def gas_grid(gas):
     """(grid, order): pyvista cells of the gas mesh; cell i of the grid is cell order[i] of the gas."""
     import pyvista
 
-    centres, axes = gas.mesh.centres, range(gas.mesh.dimensions)
-    ticks, places = zip(*(np.unique(np.round(centres[:, a], 12), return_inverse=True) for a in axes))
-    if np.prod([len(t) for t in ticks]) == len(centres):
+    centres = gas.mesh.centres[:, : gas.mesh.dimensions]
+    unit = SAME * np.ptp(centres, axis=0).max()
+    places = [np.unique(np.round(along / unit), return_inverse=True)[1] for along in centres.T]
+    if np.prod([p.max() + 1 for p in places]) == len(centres):
+        ticks = [np.bincount(p, along) / np.bincount(p) for p, along in zip(places, centres.T)]
         edges = [_edges(t, np.bincount(p, gas.mesh.volumes)) for t, p in zip(ticks, places)] + [np.zeros(1)] * (3 - len(ticks))
-        return pyvista.RectilinearGrid(*edges), np.lexsort(tuple(np.round(centres[:, a], 12) for a in axes))
+        return pyvista.RectilinearGrid(*edges), np.lexsort(places)
     return _polyhedra(gas)
 
 
@@ -250,16 +253,19 @@ def _edges(ticks: np.ndarray, layers: np.ndarray) -> np.ndarray:
 
 
 def _polyhedra(gas):
-    """Any OpenFOAM mesh, read from its case; cells matched by their centres."""
+    """Any OpenFOAM mesh, read from its case, a plane one as a cut through its middle; cells matched by their centres."""
     import pyvista
     from scipy.spatial import cKDTree
 
-    reader = pyvista.POpenFOAMReader(str(gas.case_folder / "case.foam"))
+    reader, d = pyvista.POpenFOAMReader(str(gas.case_folder / "case.foam")), gas.mesh.dimensions
     reader.case_type = "decomposed" if gas.ranks > 1 else "reconstructed"
     grid = reader.read()["internalMesh"]
-    distance, order = cKDTree(gas.mesh.centres).query(grid.cell_centers().points)
-    if len(np.unique(order)) != len(gas.mesh.centres):
-        raise RuntimeError(f"{len(grid.cell_centers().points)} cells were read for output, the solver has {len(gas.mesh.centres)}")
+    if d == 2:
+        grid = grid.slice(normal="z").translate((0.0, 0.0, -grid.center[2]))
+    grid.clear_data()
+    _, order = cKDTree(gas.mesh.centres[:, :d]).query(grid.cell_centers().points[:, :d])
+    if len(order) != len(gas.mesh.centres) or len(np.unique(order)) != len(order):
+        raise RuntimeError(f"{len(order)} cells were read for output, the solver has {len(gas.mesh.centres)}")
     return grid, order
 
 

@@ -41,14 +41,14 @@ class OpenFoamGas:
     """`coupling.gas.Gas` by sdphGasFoam, in `folder`; its log is `folder/log.sdphGasFoam`.
 
     `template` is an OpenFOAM case with 0, constant and system; None takes `folder` as an earlier run left it.
-    Time folders are written every `case.run.output_interval`.
+    Time folders are written every `case.run.output_interval`; `case_folder/case.foam` opens them, of `ranks` ranks, in ParaView.
     """
 
     def __init__(
         self, case, folder: Path, template: Path | None, *, status: Callable[[str], None] = silent, allow_code: bool = False
     ):
         self._case, self._folder, self._status = case, Path(folder).resolve(), status
-        self._log = self._folder / "log.sdphGasFoam"
+        self._log, self.case_folder, self.ranks = self._folder / "log.sdphGasFoam", self._folder, case.coupling.ranks
         self._process = self._connection = None
         self._time = 0.0
         for left in self._folder.glob("exchange-*"):  # of a run that was killed
@@ -68,6 +68,7 @@ class OpenFoamGas:
             programs.run(["blockMesh"], self._folder, self._folder / "log.blockMesh")
         if self._case.coupling.ranks > 1:
             programs.run(["decomposePar", "-force"], self._folder, self._folder / "log.decomposePar")
+        (self._folder / "case.foam").touch()
 
     def _launch(self, program: Path) -> None:
         """Start the solver and wait for its greeting."""
