@@ -24,7 +24,12 @@ from sdph.schema import CaseError
 COARSE = {
     "disc_cluster": ("resolution.spacing_mm=20", "resolution.cell_mm=50", "run.output_interval_s=0.0002", "run.end_time_s=0.0004"),
     "bubbling_bed": ("resolution.spacing_mm=20", "resolution.cell_mm=20", "run.output_interval_s=0.001", "run.end_time_s=0.003"),
-}
+    "evaporating_jet": (  # droplets come in, evaporate, and leave from the 25th window on
+        "resolution.spacing_mm=100", "resolution.cell_mm=200", "domain.size_m=[1.2,2.0]", "nozzles.jet.centre_m=[0.0,1.0]",
+        "nozzles.jet.speed_m_s=30.0", "evaporation.onset_temperature_K=294.001", "coupling.window_largest_s=2e-3",
+        "coupling.window_tolerance=1e-2", "run.output_interval_s=0.02", "run.end_time_s=0.06",
+    ),
+}  # fmt: skip
 SOON = "run.checkpoint_windows=4"
 
 
@@ -74,18 +79,21 @@ def same_run(one, other):
 
 
 @pytest.mark.parametrize(
-    ("scene", "gas", "more"),
+    ("scene", "gas", "after", "more"),
     [
-        ("disc_cluster", "embedded", ()),
-        ("bubbling_bed", "embedded", ()),
-        pytest.param("disc_cluster", "openfoam", (), marks=pytest.mark.openfoam),
-        pytest.param("disc_cluster", "openfoam", ("coupling.ranks=2",), marks=pytest.mark.openfoam),
+        ("disc_cluster", "embedded", 10, ()),
+        ("bubbling_bed", "embedded", 10, ()),
+        ("evaporating_jet", "embedded", 29, ()),
+        pytest.param("disc_cluster", "openfoam", 10, (), marks=pytest.mark.openfoam),
+        pytest.param("disc_cluster", "openfoam", 10, ("coupling.ranks=2",), marks=pytest.mark.openfoam),
+        pytest.param("bubbling_bed", "openfoam", 10, (), marks=pytest.mark.openfoam),
+        pytest.param("evaporating_jet", "openfoam", 29, (), marks=pytest.mark.openfoam),
     ],
 )
-def test_resumed_run_is_the_uninterrupted_one_bit_for_bit(tmp_path, scene, gas, more):
+def test_resumed_run_is_the_uninterrupted_one_bit_for_bit(tmp_path, scene, gas, after, more):
     whole = start(tmp_path / "whole", scene, gas, more=more)
     with pytest.raises(Cut):
-        start(tmp_path / "cut", scene, gas, cut_after=10, more=more)
+        start(tmp_path / "cut", scene, gas, cut_after=after, more=more)
     resumed = driver.resume(tmp_path / "cut", (), Reporter())
     same_run(tmp_path / "whole", tmp_path / "cut")
     assert {key: resumed[key] for key in whole if "wall" not in key and "_per_" not in key and "start_to" not in key} == {
