@@ -1,11 +1,25 @@
-"""Time per window of the embedded gas solver in a bed with a rising bubble: python benchmarks/embedded_gas.py [cells ...]"""
+"""Time per window in a bed with a rising bubble: the embedded gas solver against OpenFOAM, and its multigrid against others.
 
+    python benchmarks/embedded_gas.py [cells ...]
+
+Both solvers get the same sources. The pressure equation of the last window is then solved again to the same tolerance by what is
+there to be had: `pyamg` (if it is installed) and scipy, setup included, because the drag changes the matrix every window.
+"""
+
+import contextlib
 import sys
+import tempfile
 import time
+from pathlib import Path
 
 import numpy as np
+from scipy import sparse
+from scipy.sparse import linalg
 
-from coupling.embedded import EmbeddedGas
+from coupling.embedded import EmbeddedGas, pressure
+from coupling.openfoam import install
+from coupling.openfoam.solver import OpenFoamGas
+from sdph import paths
 from sdph.case import from_table
 
 SIZE = (0.5, 1.0)  # m
@@ -45,9 +59,8 @@ def sources(centres: np.ndarray, speed: np.ndarray, t: float) -> dict[str, np.nd
     }  # fmt: skip
 
 
-def windows(cells: int, dt: float) -> tuple[int, np.ndarray]:
-    """Number of cells, and the time [ms] of each of many windows of dt [s]."""
-    gas = EmbeddedGas(bed(cells))
+def windows(gas, dt: float) -> np.ndarray:
+    """Time [ms] of each of many windows of dt [s]."""
     centres = gas.mesh.centres
     first = sources(centres, np.zeros(len(centres)), 0.0)
     state, taken = gas.start(first["alpha_g"], tuple(first)), []
@@ -56,11 +69,97 @@ def windows(cells: int, dt: float) -> tuple[int, np.ndarray]:
         start = time.perf_counter()
         state = gas.advance(dt, given)
         taken.append(1e3 * (time.perf_counter() - start))
-    return len(centres), np.array(taken[5:])
+    return np.array(taken[5:])
+
+
+@contextlib.contextmanager
+def solvers(cells: int):
+    """Name -> gas solver of the bed, OpenFOAM where it is."""
+    with tempfile.TemporaryDirectory() as folder, contextlib.ExitStack() as stack:
+        found = {"embedded": EmbeddedGas(bed(cells))}
+        if install.find():
+            other = OpenFoamGas(bed(cells), Path(folder) / "gas", paths.gas_template(""))
+            found["OpenFOAM"] = stack.enter_context(contextlib.closing(other))
+        yield found
+
+
+@contextlib.contextmanager
+def recorded():
+    """The arguments of the last pressure solve, in a list of one."""
+    last, solve = [None], pressure.solve_pressure
+
+    def record(*arguments):
+        last[0] = (*arguments[:2], tuple(w.copy() for w in arguments[2]), *(a.copy() for a in arguments[3:6]), arguments[6])
+        return solve(*arguments)
+
+    pressure.solve_pressure = record
+    try:
+        yield last
+    finally:
+        pressure.solve_pressure = solve
+
+
+def matrix(grid, conductance: np.ndarray):
+    """The pressure equation of the cells as a sparse matrix."""
+    number = np.full(grid.size, -1)
+    number[grid.cells] = np.arange(len(grid.cells))
+    diagonal, rows, columns, values = np.zeros(len(grid.cells)), [], [], []
+    for a, s in enumerate(grid.strides):
+        for neighbour, k in ((grid.cells - s, conductance[a, grid.cells]), (grid.cells + s, conductance[a, grid.cells + s])):
+            inside = number[neighbour] >= 0
+            diagonal += k
+            rows.append(np.flatnonzero(inside))
+            columns.append(number[neighbour][inside])
+            values.append(-k[inside])
+    off = sparse.coo_matrix((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), (len(diagonal),) * 2)
+    return (off + sparse.diags(diagonal)).tocsr()
+
+
+def others(A, b: np.ndarray, scale: np.ndarray):
+    """Name -> call that solves A x = b from nothing until the mean square residual is what the multigrid leaves at most on any cell."""
+    loose = pressure.CONTINUITY * scale.min() * np.sqrt(len(b)) / np.linalg.norm(b)
+    jacobi = sparse.diags(1.0 / A.diagonal())
+    found = {
+        "scipy, sparse LU": lambda: linalg.splu(A.tocsc()).solve(b),
+        "scipy, conjugate gradients with the diagonal": lambda: linalg.cg(A, b, rtol=loose, atol=0.0, M=jacobi, maxiter=20000),
+    }
+    with contextlib.suppress(ImportError):
+        import pyamg
+
+        found["pyamg, smoothed aggregation"] = lambda: pyamg.smoothed_aggregation_solver(A).solve(b, tol=loose, accel="cg", maxiter=200)
+        found["pyamg, Ruge-Stuben"] = lambda: pyamg.ruge_stuben_solver(A).solve(b, tol=loose, accel="cg", maxiter=200)
+    return found
+
+
+def fastest(call, rounds: int = 5) -> float:
+    """Least time [ms] of some calls."""
+    return min(_timed(call) for _ in range(rounds))
+
+
+def _timed(call) -> float:
+    start = time.perf_counter()
+    call()
+    return 1e3 * (time.perf_counter() - start)
+
+
+def compare(cells: int, dt: float) -> None:
+    """Prints one table."""
+    with solvers(cells) as gases, recorded() as last:
+        taken = {name: np.median(windows(gas, dt)) for name, gas in gases.items()}
+        grid, count = gases["embedded"].box.grid, len(gases["embedded"].mesh.volumes)
+    print(f"{count} cells, window {dt:g} s")
+    for name, median in taken.items():
+        print(f"  {name:52s}{median:9.2f} ms a window {median / taken['embedded']:9.1f} x")
+    levels, inner, work, source, scale, x, tolerance = last[0]
+    own = fastest(lambda: pressure.solve_pressure(levels, inner, work, source, scale, x, tolerance))
+    print(f"  {'pressure alone: own multigrid':52s}{own:9.2f} ms          {1.0:9.1f} x")
+    A = matrix(grid, work[0][:, : grid.size])
+    for name, call in others(A, source[grid.cells], scale[grid.cells]).items():
+        other = fastest(call)
+        print(f"  {name:52s}{other:9.2f} ms          {other / own:9.1f} x")
 
 
 if __name__ == "__main__":
-    for wanted in [int(a) for a in sys.argv[1:]] or [5000, 20000, 80000]:
+    for wanted in [int(a) for a in sys.argv[1:]] or [5000, 20000]:
         for dt in (1e-4, 1e-3):
-            cells, taken = windows(wanted, dt)
-            print(f"{cells} cells, window {dt:g} s: median {np.median(taken):.2f} ms, fastest {taken.min():.2f} ms")
+            compare(wanted, dt)
