@@ -34,63 +34,54 @@ def coupled(conductance, steps, x, c):
 
 
 @njit(error_model="numpy")
-def _begin(wide, active, conductance, diagonal, source, x, inverse, r, p):
-    """Inverse diagonal, residual and first direction; returns r.p and the largest |x|."""
-    rows, run, steps = wide
-    largest, rho = 0.0, 0.0
+def worst(nodes, r, scale):
+    """Largest |r| over scale."""
+    rows, run, _ = nodes
+    found = 0.0
     for row in rows:
         for c in range(row, row + run):
-            total, weighted = coupled(conductance, steps, x, c)
-            inverse[c] = 1.0 / (diagonal[c] + total) if active[c] else 0.0
-            r[c] = source[c] + weighted - (diagonal[c] + total) * x[c] if active[c] else 0.0
-            p[c] = inverse[c] * r[c]
-        for c in range(row, row + run):
-            rho += r[c] * p[c]
-            largest = max(largest, abs(x[c] + p[c]))
-    return rho, largest
+            found = max(found, abs(r[c]) / scale[c])
+    return found
 
 
 @njit(error_model="numpy")
-def _worst(wide, active, r, diagonal):
-    """Largest change that `_settle` would make."""
-    rows, run, _ = wide
-    worst = 0.0
+def iterate(nodes, conductance, diagonal, rho, first, x, r, z, p, q):
+    """One step of preconditioned conjugate gradients on x (S,), z (S,) being about A^-1 r, 0 on nodes that are given; returns r.z."""
+    rows, run, steps = nodes
+    new, curvature = 0.0, 0.0
     for row in rows:
         for c in range(row, row + run):
-            change = abs(r[c]) / diagonal[c] if active[c] else 0.0
-            worst = max(worst, change)
-    return worst
-
-
-@njit(error_model="numpy")
-def _apply(wide, active, conductance, diagonal, p, q):
-    """q = A p, and p.q."""
-    rows, run, steps = wide
-    curvature = 0.0
+            new += r[c] * z[c]
+    share = 0.0 if first else new / rho
+    for row in rows:
+        for c in range(row, row + run):
+            p[c] = z[c] + share * p[c]
     for row in rows:
         for c in range(row, row + run):
             total, weighted = coupled(conductance, steps, p, c)
-            q[c] = (diagonal[c] + total) * p[c] - weighted if active[c] else 0.0
+            q[c] = (diagonal[c] + total) * p[c] - weighted
         for c in range(row, row + run):
             curvature += p[c] * q[c]
-    return curvature
-
-
-@njit(error_model="numpy")
-def _iterate(wide, active, conductance, diagonal, rho, x, inverse, r, p, q):
-    """One step of conjugate gradients with the diagonal as preconditioner; returns r.z."""
-    rows, run, _ = wide
-    step, new = rho / _apply(wide, active, conductance, diagonal, p, q), 0.0
+    step = new / curvature
     for row in rows:
         for c in range(row, row + run):
             x[c] += step * p[c]
             r[c] -= step * q[c]
-        for c in range(row, row + run):
-            new += r[c] * r[c] * inverse[c]
+    return new
+
+
+@njit(error_model="numpy")
+def _begin(nodes, active, conductance, diagonal, source, x, inverse, r):
+    """Inverse diagonal, 0 on given nodes, and residual; returns the largest |x|."""
+    rows, run, steps = nodes
+    largest = 0.0
     for row in rows:
         for c in range(row, row + run):
-            p[c] = inverse[c] * r[c] + new / rho * p[c]
-    return new
+            total, weighted = coupled(conductance, steps, x, c)
+            inverse[c] = 1.0 / (diagonal[c] + total) if active[c] else 0.0
+            r[c] = source[c] + weighted - (diagonal[c] + total) * x[c]
+            largest = max(largest, abs(x[c] + inverse[c] * r[c]))
+    return largest
 
 
 @njit(error_model="numpy")
@@ -119,14 +110,15 @@ def solve_implicit(wide, active, conductance, diagonal, source, x, tolerance):
     The last act writes x = (source + sum K (x*_nb - x*))/D, x* being the iterate: what neighbours give each other
     then cancels to round-off whatever the tolerance, and so does what D x exchanges with particles.
     """
-    inverse, r, p, q = np.zeros_like(x), np.zeros_like(x), np.zeros_like(x), np.zeros_like(x)
-    through = np.zeros_like(conductance)
-    rho, largest = _begin(wide, active, conductance, diagonal, source, x, inverse, r, p)
-    worst = _worst(wide, active, r, diagonal)
-    for _ in range(ITERATIONS):
-        if not worst > tolerance * largest:
+    inverse, r, z, p, q = np.zeros_like(x), np.zeros_like(x), np.zeros_like(x), np.zeros_like(x), np.zeros_like(x)
+    through, scale, rho = np.zeros_like(conductance), np.where(active, diagonal, np.inf), 0.0
+    largest = _begin(wide, active, conductance, diagonal, source, x, inverse, r)
+    error = worst(wide, r, scale)
+    for iteration in range(ITERATIONS):
+        if not error > tolerance * largest:
             break
-        rho = _iterate(wide, active, conductance, diagonal, rho, x, inverse, r, p, q)
-        worst = _worst(wide, active, r, diagonal)
+        z[:] = inverse * r
+        rho = iterate(wide, conductance, diagonal, rho, iteration == 0, x, r, z, p, q)
+        error = worst(wide, r, scale)
     _settle(wide, active, conductance, diagonal, source, x, through)
-    return through, worst / largest if largest > 0.0 else 0.0
+    return through, error / largest if largest > 0.0 else 0.0

@@ -16,7 +16,7 @@ from numba import njit
 from numba.cpython.unsafe.tuple import tuple_setitem
 
 from coupling.embedded.grid import build_grid, indices
-from coupling.embedded.linear import ITERATIONS, coupled
+from coupling.embedded.linear import ITERATIONS, coupled, iterate, worst
 
 ELONGATED = 1.5  # an axis waits while its cells are this much longer than the shortest; our choice
 TWO, BLACK, RED = np.uint64(2), np.uint64(1), np.uint64(0)
@@ -187,42 +187,6 @@ def _cycle(levels, steps, conductance, inverse, b, x):
         _smooth(levels, l, s, RED, k, *mine)
 
 
-@njit(error_model="numpy")
-def _worst(inner, r, scale):
-    rows, run, _ = inner
-    worst = 0.0
-    for row in rows:
-        for c in range(row, row + run):
-            worst = max(worst, abs(r[c]) / scale[c])
-    return worst
-
-
-@njit(error_model="numpy")
-def _iterate(inner, conductance, rho, first, x, r, z, p, q):
-    """One step of conjugate gradients; returns r.z."""
-    rows, run, steps = inner
-    new, curvature = 0.0, 0.0
-    for row in rows:
-        for c in range(row, row + run):
-            new += r[c] * z[c]
-    share = 0.0 if first else new / rho
-    for row in rows:
-        for c in range(row, row + run):
-            p[c] = z[c] + share * p[c]
-    for row in rows:
-        for c in range(row, row + run):
-            total, weighted = coupled(conductance, steps, p, c)
-            q[c] = total * p[c] - weighted
-        for c in range(row, row + run):
-            curvature += p[c] * q[c]
-    step = new / curvature
-    for row in rows:
-        for c in range(row, row + run):
-            x[c] += step * p[c]
-            r[c] -= step * q[c]
-    return new
-
-
 @njit(cache=True, error_model="numpy")
 def solve_pressure(levels, inner, work, source, scale, x, tolerance):
     """Solve sum K (x - x_nb) = source on the cells, x (S,) from zero, until |residual| <= tolerance scale on each.
@@ -232,15 +196,15 @@ def solve_pressure(levels, inner, work, source, scale, x, tolerance):
     """
     conductance, inverse, b, z = work
     size = levels.first[1]
-    r, p, q = b[:size], np.zeros(size), np.zeros(size)
+    r, p, q, nothing = b[:size], np.zeros(size), np.zeros(size), np.zeros(size)
     r[:], x[:] = source, 0.0
-    error, rho = _worst(inner, r, scale), 0.0
+    error, rho = worst(inner, r, scale), 0.0
     if error > tolerance:
         _prepare(levels, inner[2], conductance, inverse)
     for iteration in range(ITERATIONS):
         if not error > tolerance:
             return iteration, error
         _cycle(levels, inner[2], conductance, inverse, b, z)
-        rho = _iterate(inner, conductance[:, :size], rho, iteration == 0, x, r, z[:size], p, q)
-        error = _worst(inner, r, scale)
+        rho = iterate(inner, conductance[:, :size], nothing, rho, iteration == 0, x, r, z[:size], p, q)
+        error = worst(inner, r, scale)
     return ITERATIONS, error
