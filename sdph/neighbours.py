@@ -16,6 +16,7 @@ from sdph import particles
 SKIN = 0.1  # of the reach; our choice: 0.2 h measured best (about 5-8 steps per list), and the reach is 2 h
 OPEN = 0.0  # period of an axis that is not periodic
 CELLS_A_PARTICLE = 16  # memory of the cells stays below that of the rows; our choice
+LANES = 4  # doubles of a vector register of 256 bit, as wide as pays on today's x86
 MOST_CELLS = 2**20  # along an axis, so that their product is an int64
 
 
@@ -29,14 +30,23 @@ class Grid(NamedTuple):
 
 
 class Rows(NamedTuple):
-    """Neighbours of particle i: `index[i, :count[i]]`."""
+    """Neighbours of particle i: `index[i, :count[i]]`, filled up to a multiple of LANES with i itself."""
 
     index: np.ndarray
     count: np.ndarray
 
 
-class Box(NamedTuple):
-    """Lengths of a periodic box and their inverses, both 0 along an open axis: an image costs no branch."""
+class Plane(NamedTuple):
+    """Lengths of a periodic box in two dimensions and their inverses, both 0 along an open axis: an image costs no branch."""
+
+    length_x: float
+    length_y: float
+    inverse_x: float
+    inverse_y: float
+
+
+class Space(NamedTuple):
+    """The same in three dimensions."""
 
     length_x: float
     length_y: float
@@ -46,11 +56,16 @@ class Box(NamedTuple):
     inverse_z: float
 
 
-def box_of(period) -> Box | tuple:
-    """The box for kernels; `()` where nothing is periodic, so that its arithmetic is compiled away."""
-    if not any(period):
-        return ()
-    return Box(*map(float, period), *(1.0 / length if length else 0.0 for length in period))
+OPEN_PLANE, OPEN_SPACE = (), (0.0,)  # boxes in which nothing is periodic
+
+
+def box_of(period, dimensions: int) -> tuple:
+    """The box for kernels. They tell the four kinds apart by length when they are compiled, so that neither a third
+    dimension that is not there costs anything nor images where nothing is periodic."""
+    lengths = [float(length) for length in period][:dimensions]
+    if not any(lengths):
+        return OPEN_PLANE if dimensions == 2 else OPEN_SPACE
+    return (Plane if dimensions == 2 else Space)(*lengths, *(1.0 / length if length else 0.0 for length in lengths))
 
 
 class Neighbours:
@@ -63,7 +78,7 @@ class Neighbours:
             raise ValueError(f"periods {tuple(period)} m: a periodic box must be at least two reaches ({2.0 * reach:g} m) wide, or images are missed")
         self.reach, self.skin = reach, skin
         self.period = np.array([*period, OPEN][:3])
-        self.box = box_of(self.period)
+        self.box = OPEN_PLANE  # of the particles that rows were last made for
         self.stride = 32
         self.built = ()  # positions at the last build
 
@@ -114,6 +129,7 @@ class Neighbours:
     def _rows(self, grid: Grid, here, at=None) -> Rows:
         """Rows of the points `here`, sorted by cell, for the points `at` (None: for each other)."""
         own, other = _three(here), _three(at or here)
+        self.box = box_of(self.period, len(here))
         start = _starts(_cells(grid, *own), int(grid.shape.prod()))
         while True:
             index = np.empty((len(other[0]), self.stride), np.uint32)
@@ -122,7 +138,7 @@ class Neighbours:
             most = int(count.max(initial=0))
             if most <= self.stride:
                 return Rows(index, count)
-            self.stride = most + 8  # a few spare, so that a slow compaction does not rebuild each time
+            self.stride = (most + 8) // LANES * LANES  # a few spare, so that a slow compaction does not rebuild each time
 
     def sort(self, here) -> np.ndarray:
         """Order in which fixed points have to stand for `seen_from`."""
@@ -178,14 +194,35 @@ def _order(cells, total):
 
 
 @njit(cache=True, error_model="numpy")
+def fill_up(index, i, count):
+    """Puts i itself behind the `count` neighbours in its row, as far as `length` goes."""
+    for k in range(count, min((count + LANES - 1) // LANES * LANES, index.shape[1])):
+        index[i, k] = i
+
+
+@njit(cache=True, error_model="numpy")
+def length(rows, i):
+    """Entries to loop over in row i, a multiple of LANES: a loop of pairs then runs in whole vectors. The last ones may be i
+    itself, whose separation from i, and so every pair term, is 0."""
+    return (rows.count[i] + LANES - 1) // LANES * LANES
+
+
+@njit(cache=True, error_model="numpy")
+def deep(box):
+    """Whether a box has three dimensions."""
+    return len(box) == 1 or len(box) == 6
+
+
+@njit(cache=True, error_model="numpy")
 def nearest_image(box, dx, dy, dz):
     """A separation, through the periodic boundaries where that is shorter."""
-    if len(box) == 0:
+    if len(box) < 2:
         return dx, dy, dz
     dx -= box.length_x * np.rint(dx * box.inverse_x)
     dy -= box.length_y * np.rint(dy * box.inverse_y)
-    dz -= box.length_z * np.rint(dz * box.inverse_z)
-    return dx, dy, dz
+    if len(box) == 4:
+        return dx, dy, dz
+    return dx, dy, dz - box.length_z * np.rint(dz * box.inverse_z)
 
 
 @njit(cache=True, error_model="numpy")
@@ -222,4 +259,6 @@ def _fill(grid, start, x, y, z, at_x, at_y, at_z, same, box, cutoff2, index, cou
                             if found < stride:
                                 index[i, found] = j
                             found += 1
+        if same:
+            fill_up(index, i, found)
         count[i] = found

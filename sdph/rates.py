@@ -15,7 +15,7 @@ from numba import njit, prange
 from sdph.effects import artificial_viscosity, conduction, friction, granular_pressure, granular_temperature, granular_viscosity, walls
 from sdph.laws import kernels
 from sdph.laws.friction import second_invariant
-from sdph.neighbours import nearest_image
+from sdph.neighbours import deep, length, nearest_image
 
 
 # Sums may be reordered and divisions shared (2.3 times as fast as none of it); NaN and infinity keep their meaning.
@@ -51,39 +51,47 @@ class Stress(NamedTuple):
 @njit(cache=True, error_model="numpy")
 def separation(s, box, i, j):
     """r_i - r_j (3 components; the last 0 in two dimensions) through periodic boundaries, and its square."""
-    dz = s.z[i] - s.z[j] if len(s.z) else 0.0
+    dz = s.z[i] - s.z[j] if deep(box) else 0.0
     dx, dy, dz = nearest_image(box, s.x[i] - s.x[j], s.y[i] - s.y[j], dz)
     return dx, dy, dz, dx * dx + dy * dy + dz * dz
 
 
 @njit(cache=True, error_model="numpy")
-def approach(s, i, j):
+def approach(s, box, i, j):
     """v_i - v_j (3 components)."""
-    dw = s.w[i] - s.w[j] if len(s.w) else 0.0
+    dw = s.w[i] - s.w[j] if deep(box) else 0.0
     return s.u[i] - s.u[j], s.v[i] - s.v[j], dw
 
 
 @loop
-def sum_density(kernel, s, rows, box, walls_p, dummies, wall_rows, density):
-    """rho_i = sum m_j W_ij, i itself included (Eq. 25), over the share of the kernel that lies among grains."""
+def sum_density(kernel, s, rows, box, walls_p, dummies, wall_rows, density, slope):
+    """rho_i = sum m_j W_ij, i itself included (Eq. 25), over the share of the kernel that lies among grains.
+
+    slope (N, stride) [1/m^(d+2)] is (dW/dr)/r of every entry of the rows, for the other loops.
+    """
     for i in prange(len(s.x)):
-        rho = s.mass[i] * kernels.cubic_spline(0.0, kernel.h, kernel.sigma)
-        for k in range(rows.count[i]):
-            r2 = separation(s, box, i, rows.index[i, k])[3]
-            rho += s.mass[rows.index[i, k]] * kernels.cubic_spline(np.sqrt(r2), kernel.h, kernel.sigma)
-        density[i] = rho / walls.closure(walls_p, box, dummies, wall_rows, s, i, kernel)
+        entries = length(rows, i)
+        rho = s.mass[i] * kernels.cubic_spline(0.0, kernel.h, kernel.sigma) * (1.0 + rows.count[i] - entries)
+        for k in range(entries):
+            r = np.sqrt(separation(s, box, i, rows.index[i, k])[3])
+            rho += s.mass[rows.index[i, k]] * kernels.cubic_spline(r, kernel.h, kernel.sigma)
+            slope[i, k] = kernels.cubic_spline_gradient(r, kernel.h, kernel.sigma)
+        share = walls.closure(walls_p, box, dummies, wall_rows, s, i, kernel) if walls.near(walls_p, wall_rows, i) else 1.0
+        density[i] = rho / share
 
 
 @loop
-def strain(kernel, s, rows, box, walls_p, dummies, wall_rows, shear_squared, divergence):
+def strain(kernel, s, rows, box, slope, walls_p, dummies, wall_rows, shear_squared, divergence):
     """I2D = dev(D):dev(D)/2 [1/s2] and div v [1/s] of the grains; D_ab = sym sum V_j (v_j - v_i)_a dW/dx_b."""
     for i in prange(len(s.x)):
-        xx, yy, zz, xy, yz, zx = walls.strain(walls_p, kernel, box, dummies, wall_rows, s, i)
-        for k in range(rows.count[i]):
+        xx = yy = zz = xy = yz = zx = 0.0
+        if walls.near(walls_p, wall_rows, i):
+            xx, yy, zz, xy, yz, zx = walls.strain(walls_p, kernel, box, dummies, wall_rows, s, i)
+        for k in range(length(rows, i)):
             j = rows.index[i, k]
-            dx, dy, dz, r2 = separation(s, box, i, j)
-            du, dv, dw = approach(s, i, j)
-            g = -s.mass[j] / s.density[j] * kernels.cubic_spline_gradient(np.sqrt(r2), kernel.h, kernel.sigma)
+            dx, dy, dz, _ = separation(s, box, i, j)
+            du, dv, dw = approach(s, box, i, j)
+            g = -s.mass[j] / s.density[j] * slope[i, k]
             xx += g * du * dx
             yy += g * dv * dy
             zz += g * dw * dz
@@ -123,35 +131,34 @@ def constitutive(
 
 
 @loop
-def conduct(kernel, s, rows, box, conduction_p, heating):
+def conduct(s, rows, box, slope, conduction_p, heating):
     """Of grains that do not move: heating (N,) [W/kg]."""
     for i in prange(len(s.x)):
         warmth = 0.0
-        for k in range(rows.count[i]):
+        for k in range(length(rows, i)):
             j = rows.index[i, k]
-            r2 = separation(s, box, i, j)[3]
-            gradient = kernels.cubic_spline_gradient(np.sqrt(r2), kernel.h, kernel.sigma)
-            warmth += conduction.pair(conduction_p, s, i, j, r2, gradient)
+            warmth += conduction.pair(conduction_p, s, i, j, separation(s, box, i, j)[3], slope[i, k])
         heating[i] = warmth
 
 
 @loop
 def rates(
-    kernel, s, rows, box, stress, viscous_p, artificial_p, temperature_p, conduction_p,
+    kernel, s, rows, box, slope, stress, viscous_p, artificial_p, temperature_p, conduction_p,
     walls_p, dummies, wall_rows, wall_pressure, wall_velocity, pressure, acceleration, agitation, heating,
 ):  # fmt: skip
     """Of grains that move: acceleration (N, 3) [m/s2], agitation (N,) [W/kg] that feeds theta, heating (N,) [W/kg]."""
     for i in prange(len(s.x)):
-        ax, ay, az = walls.force(walls_p, kernel, box, dummies, wall_rows, s, i, pressure, stress.shear, wall_pressure, wall_velocity)
-        work = warmth = 0.0
+        ax = ay = az = work = warmth = 0.0
+        if walls.near(walls_p, wall_rows, i):
+            ax, ay, az = walls.force(walls_p, kernel, box, dummies, wall_rows, s, i, pressure, stress.shear, wall_pressure, wall_velocity)
         rho_i = s.density[i]
-        for k in range(rows.count[i]):
+        for k in range(length(rows, i)):
             j = rows.index[i, k]
             dx, dy, dz, r2 = separation(s, box, i, j)
-            du, dv, dw = approach(s, i, j)
+            du, dv, dw = approach(s, box, i, j)
             closing = du * dx + dv * dy + dw * dz
             rho_j, m_j = s.density[j], s.mass[j]
-            gradient = kernels.cubic_spline_gradient(np.sqrt(r2), kernel.h, kernel.sigma)
+            gradient = slope[i, k]
             scale = m_j * gradient / (rho_i * rho_j)
 
             # section 2.1, corrected: -m_j (S_i/rho_i^2 + S_j/rho_j^2 + Pi_ij) grad W, S = p I - tau

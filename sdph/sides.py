@@ -10,6 +10,8 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
+from sdph.neighbours import fill_up
+
 AROUND = 0.75  # spacings about a surface point that count as its own: points stand one spacing apart or closer
 
 
@@ -49,6 +51,7 @@ def part(dummies, of_mesh, spacing, places, wall_rows, rows):
             if not (parted(dummies, of_mesh, spacing, places, wall_rows, i, j) or parted(dummies, of_mesh, spacing, places, wall_rows, j, i)):
                 rows.index[i, kept] = j
                 kept += 1
+        fill_up(rows.index, i, kept)
         rows.count[i] = kept
 
 

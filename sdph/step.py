@@ -44,8 +44,8 @@ class Stepper:
         """After a checkpoint was put back."""
         if not self.neighbours.built:  # particles came or went: the next step begins with new rows
             return
-        self.rows = self.neighbours.rows
-        self._see_walls(self.neighbours.built)
+        self._look_around()
+        self._sum(np.empty(len(self.state.x)))
 
     def replace(self, state) -> None:
         """Other particles than before: some are gone, some are new."""
@@ -54,16 +54,21 @@ class Stepper:
     def prepare(self) -> None:
         """Neighbours and density of where the particles are now."""
         before = self.neighbours.built
-        self.state, self.rows = self.neighbours.update(self.state)
+        self.state, _ = self.neighbours.update(self.state)
         if before is not self.neighbours.built:
-            self._see_walls(particles.axes(self.state))
-        rates.sum_density(self.kernel, self.state, self.rows, self.neighbours.box, *self._walls(), self.state.density)
+            self._look_around()
+        self._sum(self.state.density)
 
-    def _see_walls(self, axes) -> None:
-        """Rows of walls for particles at `axes`, whose own rows are new."""
+    def _look_around(self) -> None:
+        """What belongs to neighbour rows just made."""
+        self.rows, built = self.neighbours.rows, self.neighbours.built
+        self.slope = np.empty(self.rows.index.shape)
         if self.boundary:
-            self.wall_rows = self.boundary.rows(axes)
-            self.boundary.part(self.rows, self.wall_rows, axes)
+            self.wall_rows = self.boundary.rows(built)
+            self.boundary.part(self.rows, self.wall_rows, built)
+
+    def _sum(self, density) -> None:
+        rates.sum_density(self.kernel, self.state, self.rows, self.neighbours.box, *self._walls(), density, self.slope)
 
     def conduct(self, dt: float, heat) -> None:
         """Grains at rest through `dt` [s]: conduction, and `heat` (N,) [J] from the gas spread evenly."""
@@ -71,7 +76,7 @@ class Stepper:
         steps = max(1, math.ceil(dt / limit * (1.0 - 1e-9)))
         heating = np.zeros(len(self.state.x))
         for _ in range(steps):
-            rates.conduct(self.kernel, self.state, self.rows, self.neighbours.box, self.parameters["conduction"], heating)
+            rates.conduct(self.state, self.rows, self.neighbours.box, self.slope, self.parameters["conduction"], heating)
             self._warm(heating * dt / steps + heat / self.state.mass / steps)
             self.guard.sub_step(self)
         self.steps += steps
@@ -92,7 +97,7 @@ class Stepper:
         """Heat [W] that each particle gets from its neighbours now."""
         heating = np.zeros(len(self.state.x))
         if self.parameters["conduction"]:
-            rates.conduct(self.kernel, self.state, self.rows, self.neighbours.box, self.parameters["conduction"], heating)
+            rates.conduct(self.state, self.rows, self.neighbours.box, self.slope, self.parameters["conduction"], heating)
         return heating * self.state.mass
 
     def _sub_step(self, left: float) -> float:
@@ -115,13 +120,13 @@ class Stepper:
         s, p, count = self.state, self.parameters, len(self.state.x)
         shear_squared, divergence = np.zeros(count), np.zeros(count)
         if p["friction"] or (p["granular_temperature"] and p["granular_temperature"].model == 1):
-            rates.strain(self.kernel, s, self.rows, self.neighbours.box, *self._walls(), shear_squared, divergence)
+            rates.strain(self.kernel, s, self.rows, self.neighbours.box, self.slope, *self._walls(), shear_squared, divergence)
         stress = self._stress(dt, shear_squared)
         pressure = stress.kinetic_pressure + stress.friction_pressure
         wall_pressure, wall_velocity = self._extrapolate(pressure, body)
         acceleration, agitation, heating = np.empty((count, 3)), np.empty(count), np.empty(count)
         rates.rates(
-            self.kernel, s, self.rows, self.neighbours.box, stress, self.viscous, p["artificial_viscosity"],
+            self.kernel, s, self.rows, self.neighbours.box, self.slope, stress, self.viscous, p["artificial_viscosity"],
             p["granular_temperature"], p["conduction"], *self._walls(), wall_pressure, wall_velocity, pressure,
             acceleration, agitation, heating,
         )  # fmt: skip

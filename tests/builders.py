@@ -90,17 +90,22 @@ def polar_mesh(rings: int, sectors: int, radius: float, angle: float) -> Mesh:
 OPEN = (0.0, 0.0, 0.0)
 
 
+def dimensions_of(state) -> int:
+    return 3 if len(state.z) else 2
+
+
 def summed_density(kernel, state, period=OPEN):
     """(state as sorted, density) by the code's own loop."""
     state, rows = Neighbours(kernels.SUPPORT * kernel.h, period).update(state)
     density = np.full(len(state.x), np.nan)
-    rates.sum_density(kernel, state, rows, box_of(period), OFF, OFF, OFF, density)
+    rates.sum_density(kernel, state, rows, box_of(period, dimensions_of(state)), OFF, OFF, OFF, density, np.empty(rows.index.shape))
     return state, density
 
 
 def conduction_heating(kernel, state, conduction_p, period=OPEN):
     """(state as sorted, heating [W/kg]) by the code's own loop."""
     state, rows = Neighbours(kernels.SUPPORT * kernel.h, period).update(state)
-    heating = np.full(len(state.x), np.nan)
-    rates.conduct(kernel, state, rows, box_of(period), conduction_p, heating)
+    box, slope, heating = box_of(period, dimensions_of(state)), np.empty(rows.index.shape), np.full(len(state.x), np.nan)
+    rates.sum_density(kernel, state, rows, box, OFF, OFF, OFF, np.empty(len(state.x)), slope)
+    rates.conduct(state, rows, box, slope, conduction_p, heating)
     return state, heating

@@ -49,7 +49,7 @@ def test_strain_of_a_uniform_flow_in_space(tmp_path):
     for own, column in zip((state.u, state.v, state.w), velocity.T):
         own[:] = column
     shear, divergence = np.empty(len(state.x)), np.empty(len(state.x))
-    rates.strain(stepper.kernel, state, stepper.rows, stepper.neighbours.box, OFF, OFF, OFF, shear, divergence)
+    rates.strain(stepper.kernel, state, stepper.rows, stepper.neighbours.box, stepper.slope, OFF, OFF, OFF, shear, divergence)
     inside = (np.abs(particles.positions(state) - 0.03) < 0.011).all(axis=1)
     D = 0.5 * (gradient + gradient.T)
     deviator = D - np.trace(D) / 3.0 * np.eye(3)

@@ -162,9 +162,11 @@ def by_hand(h, sigma, s, rows, box, conductivity, grain_density, eta_squared, on
 def test_effect_set_is_the_loop_written_by_hand(on):
     """To the rounding of a sum in another order (`rates.loop` lets the compiler choose it); off is nothing at all."""
     state, rows = Neighbours(2.0 * H, PERIOD[2]).update(random_cloud(np.random.default_rng(4), 400, 2))
-    box, kernel = box_of(PERIOD[2]), rates.Kernel(H, SIGMA[2])
+    box, kernel = box_of(PERIOD[2], 2), rates.Kernel(H, SIGMA[2])
     ours, theirs = np.full(400, np.nan), np.full(400, np.nan)
-    rates.conduct(kernel, state, rows, box, GRAINS if on else OFF, ours)
+    slope = np.empty(rows.index.shape)
+    rates.sum_density(kernel, state, rows, box, OFF, OFF, OFF, np.empty(400), slope)
+    rates.conduct(state, rows, box, slope, GRAINS if on else OFF, ours)
     by_hand(H, SIGMA[2], state, rows, box, *GRAINS, on, theirs)
     np.testing.assert_allclose(ours, theirs, rtol=1e-13, atol=1e-14 * np.abs(theirs).max())
     assert ours.any() == on

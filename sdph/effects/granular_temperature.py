@@ -10,6 +10,7 @@ from numba import njit
 
 from sdph.effects.effect import Effect, Judgement
 from sdph.laws import granular
+from sdph.laws.constants import TINY
 from sdph.schema import choice, flag, quantity, record
 
 MODELS = ("transport", "algebraic")
@@ -65,7 +66,7 @@ def pair(p, stress, s, i, j, squeeze_work, viscous_work, artificial_work, scale)
     if len(p) == 0:
         return 0.0
     k_i, k_j = stress.conductivity[i], stress.conductivity[j]
-    k = 2.0 * k_i * k_j / (k_i + k_j) if k_i + k_j > 0.0 else 0.0
+    k = 2.0 * k_i * k_j / max(k_i + k_j, TINY)
     made = 0.5 * (squeeze_work + viscous_work + p.artificial * artificial_work)
     return made + 2.0 * k * (s.theta[i] - s.theta[j]) * scale
 

@@ -10,6 +10,7 @@ from numba import njit
 
 from sdph.effects.effect import Effect, Judgement
 from sdph.laws import granular
+from sdph.laws.constants import TINY
 from sdph.schema import record
 
 SOURCE = "diffusion of momentum, Gidaspow 1994 viscosity"
@@ -41,7 +42,7 @@ class Viscous(NamedTuple):
 
 @njit(cache=True, error_model="numpy")
 def harmonic(a, b):
-    return 2.0 * a * b / (a + b) if a + b > 0.0 else 0.0
+    return 2.0 * a * b / max(a + b, TINY)
 
 
 @njit(cache=True, error_model="numpy")
@@ -71,7 +72,7 @@ def pair(viscous, stress, i, j, r_squared, closing, scale):
     if len(viscous) == 0:
         return 0.0, 0.0
     mu, bulk = harmonic(stress.shear[i], stress.shear[j]), harmonic(stress.bulk[i], stress.bulk[j])
-    along = scale * (viscous.dimensions + 2.0) * (bulk + mu / 3.0) * closing / r_squared if r_squared > 0.0 else 0.0
+    along = scale * (viscous.dimensions + 2.0) * (bulk + mu / 3.0) * closing / max(r_squared, TINY)
     return along, scale * (5.0 / 3.0 * mu - bulk)
 
 

@@ -75,6 +75,14 @@ def kernel(case) -> WallsP:
 
 
 @njit(cache=True, error_model="numpy")
+def near(p, rows, i):
+    """Whether particle i sees dummies. Few do; to call what follows for the others too would cost as much as the pairs."""
+    if len(p) == 0:
+        return False
+    return rows.count[i] > 0
+
+
+@njit(cache=True, error_model="numpy")
 def closure(p, box, dummies, rows, s, i, kernel):
     """Share of the kernel of particle i that lies among grains: 1 - sum V W over dummies."""
     if len(p) == 0:

@@ -12,3 +12,5 @@ FRICTION_ETA = 2.0  # -
 FRICTION_P = 5.0  # -
 FRICTION_SCHAEFFER = 1e24  # Pa, frictional pressure of MFIX (Syamlal et al. 1993, 1e25 dyn/cm2) and OpenFOAM
 FRICTION_SCHAEFFER_POWER = 10.0  # -
+
+TINY = 1e-300  # keeps a quotient finite whose numerator vanishes with its denominator, without a branch; our choice

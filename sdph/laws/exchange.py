@@ -7,6 +7,7 @@ lam = dt beta/(alpha_p rho_p) for momentum, dt eps/(alpha_p rho_p c_p) for heat 
 import math
 
 from sdph.laws.compiled import law
+from sdph.laws.constants import TINY
 
 
 @law
@@ -27,8 +28,7 @@ def harmonic_conductivity(conductivity_i, conductivity_j):
 
     Cleary & Monaghan 1999, J. Comput. Phys. 148, 227, doi 10.1006/jcph.1998.6118.
     """
-    total = conductivity_i + conductivity_j
-    return 2.0 * conductivity_i * conductivity_j / total if total > 0.0 else 0.0
+    return 2.0 * conductivity_i * conductivity_j / max(conductivity_i + conductivity_j, TINY)
 
 
 @law

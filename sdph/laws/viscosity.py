@@ -12,7 +12,5 @@ def monaghan(approach, r_squared, h, sound_speed, density, alpha, beta):
     alpha, beta [-] (0.1, 0.2 in the paper). Force on i: -m_i m_j Pi_ij grad_i W. Monaghan 1992, Annu. Rev. Astron.
     Astrophys. 30, 543, section 4.1.
     """
-    if approach >= 0.0:
-        return 0.0
-    mu = h * approach / (r_squared + SOFTENING * h * h)
+    mu = h * min(approach, 0.0) / (r_squared + SOFTENING * h * h)
     return (beta * mu - alpha * sound_speed) * mu / density
