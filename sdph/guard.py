@@ -80,6 +80,7 @@ class Guard(Watch):
         slack = scales.span + LATENT * max(given) + self.reach**2 / case.grains.heat_capacity
         self.coldest, self.hottest = max(0.0, min(given) - slack), max(given) + slack
         self.sound = math.sqrt(ADIABATIC * GAS_CONSTANT / case.gas.molar_mass * max(given))
+        self.cause, self.length = "largest", case.coupling.window_largest  # until the first window begins
 
     def begin(self, simulation, dt: float) -> None:
         """Before a window of `dt` [s]."""
