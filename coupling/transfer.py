@@ -136,17 +136,22 @@ def _add(bins, x, y, z, cells, weight, found):
     z0, z1 = _around(bins, 2, z)
     for bx in range(x0, x1):
         for by in range(y0, y1):
-            for bz in range(z0, z1):
-                b = (bx * bins.shape[1] + by) * bins.shape[2] + bz
-                for c in range(bins.start[b], bins.start[b + 1]):
-                    dx, dy, dz = x - bins.centres[c, 0], y - bins.centres[c, 1], z - bins.centres[c, 2]
-                    q = np.sqrt(dx * dx + dy * dy + dz * dz) / bins.smoothing[c]
-                    if q < SUPPORT:
-                        if found < len(cells):
-                            cells[found] = bins.cell[c]
-                            weight[found] = bins.volume[c] * _spline(q)
-                        found += 1
+            row = (bx * bins.shape[1] + by) * bins.shape[2]
+            for c in range(bins.start[row + z0], bins.start[row + z1]):
+                dx, dy, dz = x - bins.centres[c, 0], y - bins.centres[c, 1], z - bins.centres[c, 2]
+                r2, h = dx * dx + dy * dy + dz * dz, bins.smoothing[c]
+                if r2 < SUPPORT * SUPPORT * h * h:
+                    if found < len(cells):
+                        cells[found] = bins.cell[c]
+                        weight[found] = bins.volume[c] * _spline(np.sqrt(r2) / h)
+                    found += 1
     return found
+
+
+@njit(cache=True, error_model="numpy")
+def _inside(side, reach, place):
+    """Whether a place is so far from both ends of an axis that none mirrors it."""
+    return side == np.inf or reach <= place <= side - reach
 
 
 @njit(cache=True, error_model="numpy")
@@ -166,6 +171,8 @@ def _image(side, reach, place, which):
 def _row(bins, sides, x, y, z, cells, weight):
     """One normalised row, mirror images included; returns how many entries there are, also when the row is too short."""
     found, reach = 0, SUPPORT * bins.widest
+    if _inside(sides[0], reach, x) and _inside(sides[1], reach, y) and _inside(sides[2], reach, z):
+        return _normalised(weight, _add(bins, x, y, z, cells, weight, found))
     for a in range(3):
         image_x = _image(sides[0], reach, x, a)
         for b in range(3):
@@ -174,9 +181,15 @@ def _row(bins, sides, x, y, z, cells, weight):
                 image_z = _image(sides[2], reach, z, c)
                 if image_x == image_x and image_y == image_y and image_z == image_z:  # none is nan
                     found = _add(bins, image_x, image_y, image_z, cells, weight, found)
-    total = weight[:found].sum()
-    for e in range(min(found, len(cells))):
-        weight[e] /= total
+    return _normalised(weight, found)
+
+
+@njit(cache=True, error_model="numpy")
+def _normalised(weight, found):
+    """`found`, with weights that sum to 1."""
+    scale = 1.0 / weight[:found].sum()
+    for e in range(min(found, len(weight))):
+        weight[e] *= scale
     return found
 
 
