@@ -187,9 +187,9 @@ def _row(bins, sides, x, y, z, cells, weight):
 @njit(cache=True, error_model="numpy")
 def _normalised(weight, found):
     """`found`, with weights that sum to 1."""
-    scale = 1.0 / weight[:found].sum()
+    total = weight[:found].sum()
     for e in range(min(found, len(weight))):
-        weight[e] *= scale
+        weight[e] /= total
     return found
 
 

@@ -52,6 +52,7 @@ def sheared(folder, model="transport"):
         stepper.move(2e-4, zeros, np.zeros((len(zeros), 3)), zeros)
         assert stepper.state is state  # not sorted anew
         state.x[:], state.y[:] = start
+        stepper.prepare()
     return stepper
 
 

@@ -33,6 +33,7 @@ def channel(folder, push, end, kind="wall", held=True, **walls):
         stepper.move(dt, zeros, np.tile((push, 0.0, 0.0), (len(zeros), 1)), zeros)
         assert stepper.state is state  # not sorted anew
         state.x[:], state.y[:] = start
+        stepper.prepare()
     return state.y, state.u
 
 
