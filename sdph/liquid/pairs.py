@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit
 
 from sdph.effects import frame, gravity
-from sdph.neighbours import nearest_image
+from sdph.neighbours import deep, nearest_image
 
 # Sums may be reordered and vectorised; nan and inf keep their meaning, so that a run that bursts is noticed.
 FAST = {"reassoc", "nsz", "arcp", "contract", "afn"}
@@ -16,14 +16,14 @@ SINGULAR = 1e-3  # determinant of a renormalisation matrix; 1 inside, 0.1-0.5 at
 @njit(cache=True, error_model="numpy")
 def apart(s, box, i, j):
     """r_i - r_j (3 components; the last 0 in two dimensions), through periodic boundaries."""
-    dz = s.z[i] - s.z[j] if len(s.z) else 0.0
+    dz = s.z[i] - s.z[j] if deep(box) else 0.0
     return nearest_image(box, s.x[i] - s.x[j], s.y[i] - s.y[j], dz)
 
 
 @njit(cache=True, error_model="numpy")
-def faster(s, i, j):
+def faster(s, box, i, j):
     """v_i - v_j (3 components; the last 0 in two dimensions)."""
-    return s.u[i] - s.u[j], s.v[i] - s.v[j], s.w[i] - s.w[j] if len(s.w) else 0.0
+    return s.u[i] - s.u[j], s.v[i] - s.v[j], s.w[i] - s.w[j] if deep(box) else 0.0
 
 
 @njit(cache=True, error_model="numpy")

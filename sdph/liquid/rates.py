@@ -14,6 +14,7 @@ from sdph import smoothing
 from sdph.effects import density_diffusion, laminar_viscosity, liquid_damping, shifting
 from sdph.liquid import phases
 from sdph.liquid.pairs import FAST, apart, body, faster, solved
+from sdph.neighbours import deep, length
 
 
 @njit(cache=True, error_model="numpy")
@@ -50,10 +51,10 @@ def push(
         bx, by, bz = body(gravity_p, frame_p, s, i, False)
         ax = ay = az = gx = gy = gz = 0.0
         xx = yy = zz = xy = yz = zx = 0.0
-        for k in range(rows.count[i]):
+        for k in range(length(rows, i)):
             j = rows.index[i, k]
             dx, dy, dz = apart(s, box, i, j)
-            du, dv, dw = faster(s, i, j)
+            du, dv, dw = faster(s, box, i, j)
             r2 = dx * dx + dy * dy + dz * dz
             r = np.sqrt(r2)
             slope = smoothing.slope(kernel, r)
@@ -109,20 +110,20 @@ def compress(kernel, s, rows, box, active, wall_p, diffusion_p, phases_p, pressu
         i = active[n]
         p_i, rho_i = pressure[i], s.density[i]
         growth = spread = 0.0
-        for k in range(rows.count[i]):
+        for k in range(length(rows, i)):
             j = rows.index[i, k]
             dx, dy, dz = apart(s, box, i, j)
             signed, u_j, v_j = volume[j], s.u[j], s.v[j]  # read before they are chosen from: no branch
-            w_j = s.w[j] if len(s.w) else 0.0
+            w_j = s.w[j] if deep(box) else 0.0
             du = s.u[i] - (u_j if signed > 0.0 else wall_p.u)
             dv = s.v[i] - (v_j if signed > 0.0 else wall_p.v)
-            dw = s.w[i] - (w_j if signed > 0.0 else wall_p.w) if len(s.w) else 0.0
+            dw = s.w[i] - (w_j if signed > 0.0 else wall_p.w) if deep(box) else 0.0
             slope = smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
             rho_j = phases.density(phases_p, signed, rho_i, s.density[j])
             growth += abs(signed) * slope * phases.share(phases_p, rho_i, rho_j) * (du * dx + dv * dy + dw * dz)
             if len(diffusion_p):
                 ramp = (gradient_x[i] + gradient_x[j]) * dx + (gradient_y[i] + gradient_y[j]) * dy
-                ramp += (gradient_z[i] + gradient_z[j]) * dz if len(s.z) else 0.0
+                ramp += (gradient_z[i] + gradient_z[j]) * dz if deep(box) else 0.0
                 same = max(signed, 0.0) * phases.like(phases_p, s.kind[i], s.kind[j])
                 spread += same * slope * density_diffusion.pair(diffusion_p, pressure[j] - p_i, ramp)
         rate[i] = rho_i * growth + spread * phases.slowness(phases_p, s.kind[i])

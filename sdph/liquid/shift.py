@@ -9,6 +9,7 @@ from sdph import smoothing
 from sdph.effects import shifting
 from sdph.liquid import phases
 from sdph.liquid.pairs import FAST, apart, faster, smallest, solved
+from sdph.neighbours import length
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
@@ -22,10 +23,10 @@ def surround(kernel, s, rows, box, active, shifting_p, phases_p, volume, least, 
         i = active[n]
         cx = cy = cz = xx = yy = zz = xy = yz = zx = 0.0
         ux = uy = uz = vx = vy = vz = wx = wy = wz = 0.0
-        for k in range(rows.count[i]):
+        for k in range(length(rows, i)):
             j = rows.index[i, k]
             dx, dy, dz = apart(s, box, i, j)
-            du, dv, dw = faster(s, i, j)
+            du, dv, dw = faster(s, box, i, j)
             r = np.sqrt(dx * dx + dy * dy + dz * dz)
             slope = smoothing.slope(kernel, r)
             share = max(volume[j], 0.0) * slope * phases.like(phases_p, s.kind[i], s.kind[j])

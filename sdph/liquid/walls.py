@@ -76,7 +76,7 @@ def wall_force(kernel, s, rows, box, walls, wall_p, laminar_p, damping_p, shifti
         for k in range(rows.count[i]):
             j = rows.index[i, k]
             dx, dy, dz = apart(s, box, i, j)
-            du, dv, dw = faster(s, i, j)
+            du, dv, dw = faster(s, box, i, j)
             r2 = dx * dx + dy * dy + dz * dz
             r = np.sqrt(r2)
             V = max(volume[j], 0.0) * abs(volume[i]) * smoothing.slope(kernel, r)
