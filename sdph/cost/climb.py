@@ -45,7 +45,7 @@ def climb(scene: str, file: Path, budget: float, repeats: int, report) -> list[d
 
 def measure(scene: str, own: Ladder, settings: dict, repeats: int) -> dict:
     """One rung: the median wall time of its repeats, its metrics as JSON, the machine and its load. Kernels are warm.
-    A run that is stopped, as one without an effect that it needs may be, has no metrics."""
+    A run that is stopped, as one without an effect that it needs may be, has no metrics; a liquid has no gas to tell of."""
     with tempfile.TemporaryDirectory() as folder:
         try:
             _run(case_of(scene, own, settings, *SHORT), scene, Path(folder) / "warm")
@@ -54,7 +54,7 @@ def measure(scene: str, own: Ladder, settings: dict, repeats: int) -> dict:
         except (GasError, Unstable):
             made, found = [dict.fromkeys(KEPT, math.nan)], {}
     wall = statistics.median(summary["wall_s"] for summary in made)
-    return {name: made[0][name] for name in KEPT} | {"wall_s": wall, "metrics": json.dumps(found)} | _machine(repeats)
+    return {name: made[0].get(name, ALL) for name in KEPT} | {"wall_s": wall, "metrics": json.dumps(found)} | _machine(repeats)
 
 
 def _run(case, scene: str, folder: Path) -> dict:

@@ -4,7 +4,7 @@
     settings = ["..."]  `key=value` that go with every rung, and with `sdph run --accuracy`
     excerpt = ["..."]   `key=value` of the ladder alone: how much of the scene a rung computes
     drop = ["..."]      effects that are switched off, one at a time
-    [knobs]             key of the case -> values, coarse to fine, all of one length
+    [knobs]             key of the case -> values, coarse to fine, all of one length, in one ratio where the limit is asked for
     [alone]             key of the case -> values that are tried by themselves, all else in the middle
     metrics = ["..."]   keys of summary.json, against the limit of the ladder by Richardson, relative to it
 

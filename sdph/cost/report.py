@@ -84,4 +84,6 @@ def draw(scene: str, rows: list[dict], picture: Path) -> None:
 def _point(axes, row: dict) -> None:
     place = row["wall_s"], max(row["error"], LEAST)
     axes.plot(*place, "o" if row["without"] == ALL else "x", color="tab:gray", ms=4)
-    axes.annotate(str(row["label"]), place, fontsize=6, xytext=(3, 3), textcoords="offset points")
+    label = str(row["label"])
+    named = f"{label.rpartition('.')[2]}={row[label]}" if label in row else label
+    axes.annotate(named, place, fontsize=6, xytext=(3, 3), textcoords="offset points")

@@ -31,7 +31,7 @@ def has(row: dict, settings: dict) -> bool:
 
 def errors(rows: list[dict]) -> list[dict]:
     """The rows with `error`: the largest of |value - reference|/scale. Where a metric has no reference it is the limit of
-    the same solver's own ladder."""
+    the same solver's own ladder, and no error is smaller than the doubt about that limit."""
     levels = {solver: [found(row) for row in rows if row["solver"] == solver and _level(row)] for solver in {row["solver"] for row in rows}}
     limits = {solver: richardson(values) for solver, values in levels.items()}
     return [row | {"error": max(_errors(found(row), limits[row["solver"]]).values(), default=math.inf)} for row in rows]
@@ -49,21 +49,24 @@ def _level(row: dict) -> bool:
 def _errors(values: dict, limits: dict) -> dict:
     found = {}
     for name, (value, given, scale) in values.items():
-        reference = limits[name] if given is None else given
-        found[name] = abs(value - reference) / abs(reference if scale is None else scale)
+        reference, doubt = limits[name] if given is None else (given, 0.0)
+        found[name] = max(abs(value - reference), doubt) / abs(reference if scale is None else scale)
     return found
 
 
-def richardson(levels: list[dict]) -> dict:
-    """Limit of each metric as all knobs are refined together, by its observed order; the finest where there is none."""
-    limits = {}
-    for name in levels[-1] if levels else ():
-        values = [level[name][0] for level in levels[-3:]]
-        limits[name] = values[-1]
-        if len(values) == 3 and (values[1] - values[0]) * (values[2] - values[1]) > 0.0:
-            ratio = (values[1] - values[0]) / (values[2] - values[1])
-            limits[name] += (values[2] - values[1]) / (ratio - 1.0) if ratio > 1.0 else 0.0
-    return limits
+def richardson(levels: list[dict]) -> dict[str, tuple[float, float]]:
+    """Limit of each metric as all knobs are refined together in one ratio, and the doubt about it: by the observed order, in
+    doubt by what that adds to the finest; where there is no order the finest itself, in doubt by its last change."""
+    return {name: _limit([level[name][0] for level in levels[-3:]]) for name in (levels[-1] if levels else ())}
+
+
+def _limit(values: list[float]) -> tuple[float, float]:
+    if len(values) == 3 and (values[1] - values[0]) * (values[2] - values[1]) > 0.0:
+        ratio = (values[1] - values[0]) / (values[2] - values[1])
+        if ratio > 1.0:
+            more = (values[2] - values[1]) / (ratio - 1.0)
+            return values[2] + more, abs(more)
+    return values[-1], abs(values[-1] - values[max(-2, -len(values))])
 
 
 def orders(own: Ladder, rows: list[dict]) -> dict[str, float]:
@@ -76,7 +79,7 @@ def orders(own: Ladder, rows: list[dict]) -> dict[str, float]:
             changes = [distance(a, b) for a, b in zip(line, line[1:])]
             if min(changes) > FLOOR:
                 orders[key] = order(*values[-3:], *changes)
-    return orders
+    return {key: found for key, found in orders.items() if not math.isnan(found)}
 
 
 def order(coarse: float, middle: float, fine: float, first: float, second: float) -> float:

@@ -29,3 +29,12 @@ def test_heat_alone_sends_no_momentum():
     case = cases.load(DISC)
     sent = Exchange(case, effect_costs.Still(case).mesh, {row: () for row in effects.REGISTRY}).sources
     assert set(sent) == {"alpha_g", "heat", "heat_temperature"} <= SOURCES.keys()
+
+
+def test_a_sub_step_is_timed_and_moves_the_grains():
+    table = cases.to_table(BED) | {"effects": ["gravity"]}
+    simulation = effect_costs.prepared(cases.from_table({key: value for key, value in table.items() if key not in effects.REGISTRY}))
+    before = simulation.stepper.steps
+    assert effect_costs.step(simulation, 1e-3) > 0.0
+    assert simulation.stepper.steps == before + 1
+    assert simulation.state.v == pytest.approx(-9.81e-3)

@@ -50,11 +50,11 @@ def _droplet(run):
 
 def metrics(run) -> dict[str, tuple]:
     """For `sdph cost`: temperature when half of the surface is gone, against the wet bulb, of what it has to warm; the d^2
-    constant between 90 and 50 % of the surface."""
+    constant between 60 and 20 % of the surface, when it has long warmed up."""
     temperature, constant = closed_form(cases.load(scenes.find("single_droplet")[1]))  # all effects on
     t, d, T, _ = _droplet(run)
     share = (d / d[0]) ** 2
-    part = (share <= 0.9) & (share >= 0.5)
+    part = (share <= 0.6) & (share >= 0.2)
     slope = -np.polyfit(t[part], d[part] ** 2, 1)[0] if part.sum() > 1 else 0.0
     half = T[np.argmin(np.abs(share - 0.5))]
     return {"wet bulb [K]": (float(half), temperature, abs(temperature - T[0])), "d2 constant [m2/s]": (float(slope), constant, None)}
