@@ -21,18 +21,17 @@ class SurfaceTension:
 
 
 class TensionP(NamedTuple):
-    """sigma [N/m]; |grad c| below which a particle is off the interface [1/m]; dimensions."""
+    """sigma [N/m]; |grad c| below which a particle is off the interface [1/m]."""
 
     coefficient: float
     least: float
-    dimensions: float
 
 
 FAINT = 0.01  # of 1/h: Morris 2000, Int. J. Numer. Methods Fluids 33, 333, Eq. 20
 
 
 def kernel(case) -> TensionP:
-    return TensionP(case.parameters["surface_tension"].coefficient, FAINT / case.smoothing_length, float(case.dimensions))
+    return TensionP(case.parameters["surface_tension"].coefficient, FAINT / case.smoothing_length)
 
 
 def dt_limit(p, case, state) -> float:

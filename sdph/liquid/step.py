@@ -161,11 +161,11 @@ class LiquidStepper:
     def _tighten(self) -> None:
         """Adds surface tension to the accelerations."""
         own, s = self.p["surface_tension"], self.state
-        interface.orient(self.kernel, s, self.rows, self.neighbours.box, self.active, own, self.volume, self.colour, self.normal)
-        interface.bend(self.kernel, s, self.rows, self.neighbours.box, self.active, own, self.volume, self.normal, self.curvature)
-        interface.pull(s, self.active, own, self.colour, self.curvature, self.acceleration)
-        along = (particles.velocities(s) * self.colour).sum(axis=1)
-        self.tightening = -own.coefficient * float((s.mass / s.density * self.curvature * along)[self.active].sum())
+        common, before = (self.kernel, s, self.rows, self.neighbours.box, self.active), self.acceleration.copy()
+        interface.orient(*common, own, self.volume, self.normal)
+        interface.bend(*common, self.volume, self.normal, self.curvature)
+        interface.pull(*common, own, self.volume, self.normal, self.curvature, self.acceleration)
+        self.tightening = float(s.mass @ (particles.velocities(s) * (self.acceleration - before)).sum(axis=1))
 
     def _allocate(self, before) -> None:
         """Work arrays for the particles in their new order; only `least` outlives a step. before (N,): their old order."""
@@ -189,7 +189,7 @@ class LiquidStepper:
         walls.near_liquid(s.kind, self.rows, solid, wet)
         self.walls, self.rate = solid[wet], np.zeros(len(s.x))
         near = len(s.x) if self.p["surface_tension"] else 0
-        self.colour, self.normal, self.curvature = np.zeros((near, 3)), np.zeros((near, 3)), np.zeros(near)
+        self.normal, self.curvature = np.zeros((near, 3)), np.zeros(near)
 
     @property
     def capacity(self) -> float:
