@@ -70,7 +70,7 @@ def reference() -> str:
     from sdph import sections as declared
 
     sections = declared.SECTIONS | {f"{name}.NAME": cls for name, cls in declared.GROUPS.items()}
-    sections |= {"coupling": declared.Coupling, "vapour": declared.Vapour, "liquid": declared.Liquid}
+    sections |= {"coupling": declared.Coupling, "vapour": declared.Vapour, "liquid": declared.Liquid, "gas_phase": declared.GasPhase}
     sections |= {name: row.parameters for name, row in all_effects.REGISTRY.items()}
     return "\n".join(_keys(name, cls) for name, cls in sections.items())
 

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from numba import njit
 
+from sdph import smoothing
 from sdph.effects.effect import NO_LIMIT, Effect, Judgement
 from sdph.liquid import LIQUID
 from sdph.schema import record
@@ -26,7 +27,7 @@ class LaminarP(NamedTuple):
 
 
 class LaminarOfTwoP(NamedTuple):
-    """Twice the viscosity [Pa s]: of the liquid, of the gas, and between both."""
+    """2 (d + 2) times the viscosity [Pa s]: of the liquid, of the gas, and between both."""
 
     liquid: float
     gas: float
@@ -39,7 +40,8 @@ def kernel(case) -> LaminarP | LaminarOfTwoP:
         return LaminarP(2.0 * mu)
     other = case.gas_phase.viscosity
     between = 2.0 * mu * other / (mu + other) if mu + other else 0.0
-    return LaminarOfTwoP(2.0 * mu, 2.0 * other, 2.0 * between)
+    factor = 2.0 * (case.dimensions + 2.0)
+    return LaminarOfTwoP(factor * mu, factor * other, factor * between)
 
 
 def dt_limit(p, case, state) -> float:
@@ -49,20 +51,27 @@ def dt_limit(p, case, state) -> float:
 
 
 @njit(cache=True, error_model="numpy")
-def pair(p, kind_i, kind_j):
+def pair(p):
     """Over V_j (dW/dr)/r v_ij/rho_i: 2 mu [Pa s]. Morris, Fox & Zhu 1997, Eq. 22; of equal densities the form of
-    Lo & Shao 2002, Appl. Ocean Res. 24, 275, which the sloshing paper takes (Eq. 8). Between phases the harmonic mean
-    of mu: Hu & Adams 2006, J. Comput. Phys. 213, 844, Eq. 20.
+    Lo & Shao 2002, Appl. Ocean Res. 24, 275, which the sloshing paper takes (Eq. 8).
 
     Without their eta^2 in r^2 + eta^2: (dW/dr)/r is finite at r = 0, and eta = 0.1 h takes 2 % off the viscosity.
     """
-    if len(p) == 0:
+    return p.twice if len(p) == 1 else 0.0
+
+
+@njit(cache=True, error_model="numpy")
+def central(p, kind_i, kind_j, closing, r2):
+    """Pressure [Pa] added to p_i + p_j of a pair of two phases; closing = v_ij.r_ij [m2/s].
+
+    2 (d + 2) mu v.r/r^2 sums up to div mu (grad v + grad v^T) also where mu jumps, of which Morris' form has the first
+    half alone: a bubble would slip through the liquid too easily. Monaghan 2005, Rep. Prog. Phys. 68, 1703, section 4;
+    between phases the harmonic mean of mu: Hu & Adams 2006, J. Comput. Phys. 213, 844, Eq. 20.
+    """
+    if len(p) != 3:
         return 0.0
-    if len(p) == 1:
-        return p.twice
-    if kind_i != kind_j:
-        return p.between
-    return p.liquid if kind_i == LIQUID else p.gas
+    strength = (p.liquid if kind_i == LIQUID else p.gas) if kind_i == kind_j else p.between
+    return -strength * closing / (r2 + smoothing.TINY)
 
 
 def call(scales) -> Judgement:

@@ -64,11 +64,12 @@ def push(
             closing = du * dx + dv * dy + dw * dz
             kind_j, rho_j = phases.kind(phases_p, signed, s.kind[i], s.kind[j]), phases.density(phases_p, signed, rho_i, s.density[j])
             p_j = phases.behind(phases_p, signed, pressure[j], p_i - rho_i * (bx * dx + by * dy + bz * dz))
-            ringing = stick * liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY)) * phases.harmonic(phases_p, rho_i, rho_j)
+            ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY)) * phases.harmonic(phases_p, rho_i, rho_j)
+            friction = laminar_viscosity.central(laminar_p, s.kind[i], kind_j, closing, r2)
 
             # rho_i dv_i/dt = -sum V_j (p_i + p_j) grad W + sum V_j 2 mu r.grad W/(r^2 + eta^2) v_ij
-            along = -V * slope * (phases.pressure(phases_p, sign_i * p_i, p_j, rho_i, rho_j) + ringing)
-            across = V * slope * stick * laminar_viscosity.pair(laminar_p, s.kind[i], kind_j)
+            along = -V * slope * (phases.pressure(phases_p, sign_i * p_i, p_j, rho_i, rho_j) + stick * (ringing + friction))
+            across = V * slope * stick * laminar_viscosity.pair(laminar_p)
             ax += along * dx + across * du
             ay += along * dy + across * dv
             az += along * dz + across * dw

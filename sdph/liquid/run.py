@@ -10,6 +10,7 @@ import numpy as np
 
 from sdph import particles, window
 from sdph.effects import drain
+from sdph.liquid import by_phase
 from sdph.liquid.ledger import IMPULSES, LiquidLedger, energies
 from sdph.liquid.outlet import Outlet
 from sdph.liquid.step import LiquidStepper, balance, kinetic_energy, pipe_loads, wall_loads
@@ -105,7 +106,7 @@ class LiquidRun:
             values[f"centre_{name}_m"] = float((mass * places[:, a]).sum() / mass.sum()) if len(mass) else math.nan
             values[f"momentum_{name}_kg_m_s"] = float((mass * velocities[:, a]).sum())
             values[f"largest_{name}_m"] = float(places[:, a].max()) if len(mass) else math.nan
-        return values | self._drained() | self._loads()
+        return values | by_phase.columns(stepper) | self._drained() | self._loads()
 
     def _drained(self) -> dict[str, float]:
         if not self.outlet:

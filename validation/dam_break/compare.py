@@ -25,12 +25,12 @@ def measured() -> dict[str, np.ndarray]:
     return {name: np.array([[float(r["T"]), float(r["Z"])] for r in rows if r["series"] == name]) for name in SERIES}
 
 
-def fronts(run) -> dict[float, tuple[float, float, float]]:
+def fronts(run, column: str = "largest_x_m") -> dict[float, tuple[float, float, float]]:
     """T -> x/a of the run, middle of the measured, half their spread."""
     case, pool = run.case, run.case.pools["column"]
     width, g = pool.upper[0] - pool.lower[0], -case.domain.gravity[1]
     T = run.history["time_s"] * np.sqrt(2.0 * g / width) + OFFSET
-    Z = (run.history["largest_x_m"] + 0.5 * case.resolution.spacing) / width
+    Z = (run.history[column] + 0.5 * case.resolution.spacing) / width
     found = {}
     for at in (t for t in TIMES if t <= T[-1]):
         known = [np.interp(at, *rows.T) for rows in measured().values() if rows[0, 0] <= at <= rows[-1, 0]]
@@ -45,5 +45,9 @@ def metrics(run) -> dict:
 
 
 def exact(run) -> list[dict]:
-    """Within the scatter: no further from the middle of the measured than half their spread."""
-    return [check(f"front x/a at T = {at:g}", value, middle, spread + MARGIN) for at, (value, middle, spread) in fronts(run).items()]
+    return within_scatter(fronts(run))
+
+
+def within_scatter(found: dict) -> list[dict]:
+    """No further from the middle of the measured than half their spread; found: what `fronts` gives."""
+    return [check(f"front x/a at T = {at:g}", value, middle, spread + MARGIN) for at, (value, middle, spread) in found.items()]

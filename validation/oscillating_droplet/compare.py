@@ -1,0 +1,63 @@
+"""The droplet against Lamb's frequency and Laplace's pressure, sigma/R."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.optimize import curve_fit
+
+from sdph.compare import check
+from sdph.laws import liquids
+from sdph.liquid import GAS, LIQUID
+
+PERIOD, PRESSURE = 0.02, 0.02  # liquids.md
+CORE, FAR = 0.6, 1.5  # of R: inside and outside of it no kernel reaches the interface
+QUIET = 0.5  # of the run: from then on pressures are averaged, over what sound does in the box
+AT_REST = ("pools.drop.speed_m_s=0.0", "pools.air.speed_m_s=0.0")
+VARIANTS = {"oscillating_droplet": ((), ["exact"]), "at_rest": (AT_REST, ["exact"])}
+
+
+def exact(run) -> list[dict]:
+    """The period where the droplet was set in motion, Laplace's pressure where it was not."""
+    pool = run.case.pools["drop"]
+    return period(run) if pool.speed else laplace(run)
+
+
+def radius(run) -> float:
+    """Of a disc with the variance of the droplet at the start [m]."""
+    spread = run.history["liquid_spread_x_m2"][0] + run.history["liquid_spread_y_m2"][0]  # R^2/2 of a disc
+    return float(np.sqrt(2.0 * spread))
+
+
+def period(run) -> list[dict]:
+    """Of a damped sine that is fitted to the difference of the droplet's two variances."""
+    case, h = run.case, run.history
+    time, stretch = h["time_s"], h["liquid_spread_x_m2"] - h["liquid_spread_y_m2"]
+    omega = liquids.disc_frequency(2, radius(run), case.parameters["surface_tension"].coefficient, case.liquid.density, case.gas_phase.density)
+
+    def damped(t, size, rate, w, phase):
+        return size * np.exp(-rate * t) * np.sin(w * t + phase)
+
+    (size, rate, w, _), _ = curve_fit(damped, time, stretch, (stretch.max(), 0.05 * omega, omega, 0.0))
+    centre = np.hypot(h["liquid_centre_x_m"] - h["liquid_centre_x_m"][0], h["liquid_centre_y_m"] - h["liquid_centre_y_m"][0]).max()
+    return [
+        check("period [s]", 2.0 * np.pi / w, 2.0 * np.pi / omega, PERIOD, True),
+        check("damping over omega", rate / omega, 0.0, 0.1),
+        check("drift of the droplet over its radius", centre / radius(run), 0.0, 0.01),
+    ]
+
+
+def laplace(run) -> list[dict]:
+    """The mean difference of pressure over the later part of the run."""
+    case, jumps = run.case, []
+    centre, size = np.array(case.pools["drop"].centre), radius(run)
+    for time in np.arange(QUIET * case.run.end_time, case.run.end_time, case.run.output_interval):
+        _, points, _ = run.fields(time)
+        distance = np.linalg.norm(points.points[:, :2] - centre, axis=1) / size
+        inside = points["pressure"][(points["kind"] == LIQUID) & (distance < CORE)].mean()
+        jumps.append(inside - points["pressure"][(points["kind"] == GAS) & (distance > FAR)].mean())
+    h, sigma = run.history, case.parameters["surface_tension"].coefficient
+    fastest = h["liquid_fastest_m_s"][-1] / np.sqrt(sigma / (case.liquid.density * size))
+    return [
+        check("pressure inside over outside [Pa]", np.mean(jumps), sigma / size, PRESSURE, True),
+        check("parasitic speed over sqrt(sigma/(rho R))", fastest, 0.0, 0.1),
+    ]
