@@ -23,6 +23,7 @@ from sdph.effects import (
     surface_tension,
     tank,
     walls,
+    xsph,
 )
 from sdph.effects.effect import OFF, Effect, kernel_of
 
@@ -43,6 +44,7 @@ FILES = (
     liquid_damping,
     shifting,
     surface_tension,
+    xsph,
     tank,
     frame,
     drain,

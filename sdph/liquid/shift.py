@@ -1,4 +1,4 @@
-"""Particle shifting: how particles lie around each other, and the shift that evens it out."""
+"""What moves particles other than their own velocity: XSPH, and shifting with how particles lie around each other."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit, prange
 
 from sdph import smoothing
-from sdph.effects import shifting
+from sdph.effects import shifting, xsph
 from sdph.liquid import phases
 from sdph.liquid.pairs import FAST, apart, faster, smallest, solved
 from sdph.neighbours import length
@@ -55,6 +55,36 @@ def surround(kernel, s, rows, box, active, shifting_p, phases_p, volume, least, 
         twist[i, 0], twist[i, 1], twist[i, 2] = solved(xx, yy, zz, xy, yz, zx, ux, uy, uz)
         twist[i, 3], twist[i, 4], twist[i, 5] = solved(xx, yy, zz, xy, yz, zx, vx, vy, vz)
         twist[i, 6], twist[i, 7], twist[i, 8] = solved(xx, yy, zz, xy, yz, zx, wx, wy, wz)
+
+
+@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+def mingle(kernel, s, rows, box, active, xsph_p, phases_p, volume, extra):
+    """extra (N, 3) [m/s]: mean velocity of the own phase around each particle over its own, weighted (XSPH)."""
+    for n in prange(len(active)):
+        i = active[n]
+        u = v = w = 0.0
+        for k in range(rows.count[i]):
+            j = rows.index[i, k]
+            dx, dy, dz = apart(s, box, i, j)
+            du, dv, dw = faster(s, i, j)
+            value = smoothing.value(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
+            near = xsph.share(xsph_p, s.mass[j], s.density[i], s.density[j], value) * phases.like(phases_p, s.kind[i], s.kind[j])
+            near = near if volume[j] > 0.0 else 0.0
+            u -= near * du
+            v -= near * dv
+            w -= near * dw
+        extra[i, 0], extra[i, 1], extra[i, 2] = u, v, w
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
+def carry(active, extra, dt, x, y, z):
+    """r += extra dt."""
+    for n in prange(len(active)):
+        i = active[n]
+        x[i] += dt * extra[i, 0]
+        y[i] += dt * extra[i, 1]
+        if len(z):
+            z[i] += dt * extra[i, 2]
 
 
 @njit(cache=True, parallel=True, error_model="numpy")

@@ -38,7 +38,8 @@ class LiquidStepper:
     """Liquid and wall particles of a case, and how they go forward."""
 
     KEPT = (
-        "state", "neighbours", "time", "steps", "limit", "shifted", "tightening", "pressure", "volume", "acceleration", "gradient", "least", "shift", "twist",
+        "state", "neighbours", "time", "steps", "limit", "shifted", "tightening", "pressure", "volume", "acceleration", "gradient", "least", "shift",
+        "twist", "extra",
     )  # fmt: skip  (see sdph.restart)
 
     def __init__(self, case):
@@ -123,6 +124,8 @@ class LiquidStepper:
     def _drift(self, dt: float) -> None:
         s = self.state
         motion.drift(self.active, s.u, s.v, s.w, dt, s.x, s.y, s.z)
+        if self.p["xsph"]:
+            shift.carry(self.active, self.extra, dt, s.x, s.y, s.z)
 
     def _densify(self, dt: float) -> None:
         rates.compress(
@@ -153,6 +156,8 @@ class LiquidStepper:
         )  # fmt: skip
         if p["surface_tension"]:
             self._tighten()
+        if p["xsph"]:
+            shift.mingle(self.kernel, s, self.rows, self.neighbours.box, self.active, p["xsph"], self.phases, self.volume, self.extra)
         if p["shifting"]:
             shift.surround(
                 self.kernel, s, self.rows, self.neighbours.box, self.active, p["shifting"], self.phases, self.volume, self.least, self.shift, self.twist
@@ -176,6 +181,7 @@ class LiquidStepper:
         self.volume[s.kind == WALL] = -(self.case.resolution.spacing**self.case.dimensions)
         self.acceleration, self.gradient = np.zeros((count, 3)), tuple(np.zeros((3, count)))
         shifted = count if self.p["shifting"] else 0
+        self.extra = np.zeros((count if self.p["xsph"] else 0, 3))
         known = np.zeros(int(before.max()) + 1)
         known[before[: len(self.least)]] = self.least
         self.least, self.shift, self.twist = known[s.ident[:shifted]], np.zeros((shifted, 3)), np.zeros((shifted, 9))

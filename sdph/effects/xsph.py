@@ -1,0 +1,34 @@
+"""XSPH: particles of one phase move with the mean velocity around them, which keeps phases from mingling."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from numba import njit
+
+from sdph.effects.effect import Effect
+from sdph.schema import quantity, record
+
+
+@record
+class Xsph:
+    strength: float = quantity("", 0.5, above=0.0, most=1.0)  # epsilon of Monaghan 1992; of the gas-liquid paper too: liquids.md, part L
+
+
+class XsphP(NamedTuple):
+    """epsilon [-]."""
+
+    strength: float
+
+
+def kernel(case) -> XsphP:
+    return XsphP(case.parameters["xsph"].strength)
+
+
+@njit(cache=True, error_model="numpy")
+def share(p, m_j, rho_i, rho_j, value):
+    """Of v_j - v_i, what particle i moves with: eps m_j W/rho_ij, rho_ij the mean. Monaghan 1992, Annu. Rev. Astron. Astrophys. 30, 543, Eq. 2.12."""
+    return p.strength * m_j * value / (0.5 * (rho_i + rho_j))
+
+
+EFFECT = Effect(name="xsph", summary="a liquid's particles move with the mean velocity around them (XSPH)", parameters=Xsph, kernel=kernel, moves=True, matter=("liquid",))
