@@ -6,13 +6,16 @@ from typing import NamedTuple
 
 from numba import njit
 
-from sdph.effects.effect import Effect
+from sdph.effects.effect import Effect, Judgement
 from sdph.schema import quantity, record
 
 
 @record
 class Xsph:
     strength: float = quantity("", 0.5, above=0.0, most=1.0)  # epsilon of Monaghan 1992; of the gas-liquid paper too: liquids.md, part L
+
+
+JUMP, MINGLED = 10.0, 0.1  # of densities; share of the liquid that mingles with the gas without: our estimate
 
 
 class XsphP(NamedTuple):
@@ -31,4 +34,19 @@ def share(p, m_j, rho_i, rho_j, value):
     return p.strength * m_j * value / (0.5 * (rho_i + rho_j))
 
 
-EFFECT = Effect(name="xsph", summary="a liquid's particles move with the mean velocity around them (XSPH)", parameters=Xsph, kernel=kernel, moves=True, matter=("liquid",))
+def call(scales) -> Judgement:
+    """Phases mingle where nothing but p_i + p_j holds them apart; the Riemann form needs no XSPH."""
+    gas = scales.case.gas_phase
+    jump = scales.liquid.density / gas.density if gas and gas.interaction == "plain" else 0.0
+    return Judgement("rho/rho_gas of plain pairs", jump, JUMP, "Colagrossi & Landrini 2003, J. Comput. Phys. 191, 448", MINGLED if jump >= JUMP else 0.0)
+
+
+EFFECT = Effect(
+    name="xsph",
+    summary="a liquid's particles move with the mean velocity around them (XSPH)",
+    parameters=Xsph,
+    kernel=kernel,
+    moves=True,
+    matter=("liquid",),
+    call=call,
+)

@@ -22,7 +22,7 @@ class LiquidScales:
     def __init__(self, case):
         self.case, self.liquid, self.end = case, case.liquid, case.run.end_time
         self.state = start.fill(case)
-        self.wet = self.state.kind >= LIQUID
+        self.wet = self.state.kind == LIQUID  # not the second phase
         self.gravity = math.hypot(*case.domain.gravity)
         self.periodic = np.array(self.liquid.periodic or [0.0] * case.dimensions) > 0.0
         self.viscosity = self.liquid.viscosity / self.liquid.density  # kinematic [m2/s]

@@ -66,7 +66,7 @@ def mingle(kernel, s, rows, box, active, xsph_p, phases_p, volume, extra):
         for k in range(rows.count[i]):
             j = rows.index[i, k]
             dx, dy, dz = apart(s, box, i, j)
-            du, dv, dw = faster(s, i, j)
+            du, dv, dw = faster(s, box, i, j)
             value = smoothing.value(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
             near = xsph.share(xsph_p, s.mass[j], s.density[i], s.density[j], value) * phases.like(phases_p, s.kind[i], s.kind[j])
             near = near if volume[j] > 0.0 else 0.0
