@@ -81,6 +81,7 @@ class Neighbours:
         self.box = OPEN_PLANE  # of the particles that rows were last made for
         self.stride = 32
         self.built = ()  # positions at the last build
+        self.room = np.empty((0, 0), np.uint32)
 
     def revive(self) -> None:
         """The rows of a checkpoint that was put back: those of the last build."""
@@ -132,13 +133,20 @@ class Neighbours:
         self.box = box_of(self.period, len(here))
         start = _starts(_cells(grid, *own), int(grid.shape.prod()))
         while True:
-            index = np.empty((len(other[0]), self.stride), np.uint32)
+            index = self._room(len(other[0]))
             count = np.empty(len(other[0]), np.int64)
             _fill(grid, start, *own, *other, at is None, self.box, (self.reach * (1.0 + self.skin)) ** 2, index, count)
             most = int(count.max(initial=0))
             if most <= self.stride:
                 return Rows(index, count)
             self.stride = (most + 8) // LANES * LANES  # a few spare, so that a slow compaction does not rebuild each time
+
+    def _room(self, count: int) -> np.ndarray:
+        """Rows for `count` points; those of the last time where they fit, which nobody needs any more."""
+        if self.room.shape != (count, self.stride):
+            self.room = np.empty((0, 0), np.uint32)  # given back before more is taken
+            self.room = np.empty((count, self.stride), np.uint32)
+        return self.room
 
     def sort(self, here) -> np.ndarray:
         """Order in which fixed points have to stand for `seen_from`."""

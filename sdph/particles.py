@@ -11,6 +11,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from numba import njit, prange
 
 GRAIN, WALL, INFLOW = 0, 1, 2  # values of `kind`; INFLOW: still upstream of its nozzle
 
@@ -75,7 +76,17 @@ def _map(function, *states: State) -> State:
 
 def take(state: State, rows: np.ndarray) -> State:
     """The given rows (indices or mask) of every array: sorting, removing, choosing."""
-    return _map(lambda array: np.ascontiguousarray(array[rows]), state)
+    rows = np.flatnonzero(rows) if rows.dtype == bool else rows
+    return _map(lambda array: _taken(array, rows), state)
+
+
+@njit(cache=True, parallel=True)
+def _taken(array, rows):
+    """array[rows]."""
+    out = np.empty(len(rows), array.dtype)
+    for i in prange(len(rows)):
+        out[i] = array[rows[i]]
+    return out
 
 
 def join(first: State, second: State) -> State:

@@ -36,11 +36,19 @@ class Simulation:
         self.exchange = Exchange(case, gas.mesh, self.parameters)
         self.clock = Window(case)
         self.time, self.windows, self.grid = 0.0, 0, None
+        self._weights_now = None
         self.wall = {"particles": 0.0, "exchange": 0.0, "gas": 0.0}
 
     @property
     def state(self):
         return self.stepper.state
+
+    @property
+    def weights(self):
+        """Transfer weights of where the particles are between windows, made when somebody asks."""
+        if self._weights_now is None:
+            self._weights_now = self._weights()
+        return self._weights_now
 
     @property
     def grains(self):
@@ -64,7 +72,6 @@ class Simulation:
     def take_up(self, folder) -> None:
         """Go on from a checkpoint that was put back, the gas's in `folder`, instead of `start`."""
         self.gas_state, self.received = self.gas.restore(folder), None
-        self.weights = self._weights()
 
     def window(self) -> None:
         """One window: exchange prepared, gas advanced, reaction taken, particles advanced."""
@@ -162,7 +169,7 @@ class Simulation:
             self.stepper.replace(state)
         if self.moves or self.windows == 0 or self.parameters["evaporation"]:
             self.stepper.prepare()
-            self.weights = self._weights()
+            self._weights_now = None
         if self.source and self.windows:
             self.clock.stake(self.exchange.stake(self.state, self.weights, self.gas_state))
         return _of_those_that_left(self.case, left)

@@ -161,12 +161,12 @@ class Stepper:
         return wall_pressure, wall_velocity
 
     def _agitate(self, dt: float, agitation, damping, shear_squared, divergence) -> None:
-        held, before = np.empty(len(agitation)), self.state.theta.copy()
+        theta, held = np.empty(len(agitation)), np.empty(len(agitation))
         granular_temperature.advance_all(
-            self.parameters["granular_temperature"], self.state, agitation, damping, shear_squared, divergence, dt, held
+            self.parameters["granular_temperature"], self.state, agitation, damping, shear_squared, divergence, dt, theta, held
         )
-        waiting = self.state.kind >= INFLOW
-        self.state.theta[waiting], held[waiting] = before[waiting], 0.0
+        moving = self.state.kind < INFLOW
+        self.state.theta[moving], held[~moving] = theta[moving], 0.0
         self.bounds_work += float(1.5 * (self.state.mass * held).sum())
 
     def _hold_back(self, acceleration, agitation, heating, body) -> None:
@@ -204,9 +204,10 @@ class Held:
     def __init__(self, state, *values):
         self.ident, self.values = state.ident.copy(), values
         self.sorted = np.argsort(self.ident)
+        self.order, self.given = state.ident, values  # as handed out last, and in which order
 
     def now(self, state):
-        if np.array_equal(state.ident, self.ident):
-            return self.values
-        rows = self.sorted[np.searchsorted(self.ident, state.ident, sorter=self.sorted)]
-        return tuple(value[rows] for value in self.values)
+        if state.ident is not self.order:  # sorting makes a new array
+            rows = self.sorted[np.searchsorted(self.ident, state.ident, sorter=self.sorted)]
+            self.order, self.given = state.ident, tuple(value[rows] for value in self.values)
+        return self.given

@@ -6,7 +6,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
+from numba import njit, prange
 
 from sdph.effects.effect import Effect, Judgement
 from sdph.laws import granular
@@ -100,12 +100,12 @@ def advance(p, alpha_p, theta, heating, damping, diameter, shear_squared, diverg
     return held, held - free
 
 
-@njit(cache=True, error_model="numpy")
-def advance_all(p, s, heating, damping, shear_squared, divergence, dt, held):
-    """theta of all particles after dt; held (N,) [m2/s2] is what the bounds changed."""
-    for i in range(len(s.x)):
+@njit(cache=True, parallel=True, error_model="numpy")
+def advance_all(p, s, heating, damping, shear_squared, divergence, dt, theta, held):
+    """theta (N,) [m2/s2] of all particles after dt; held (N,) [m2/s2] is what the bounds changed."""
+    for i in prange(len(s.x)):
         alpha_p = s.density[i] / p.grain_density
-        s.theta[i], held[i] = advance(
+        theta[i], held[i] = advance(
             p, alpha_p, s.theta[i], heating[i], damping[i], s.diameter[i], shear_squared[i], divergence[i], dt
         )
 
