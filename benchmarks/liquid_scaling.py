@@ -1,0 +1,75 @@
+"""Dam break at growing numbers of particles: time per particle and step, threads, memory.
+
+    python benchmarks/liquid_scaling.py [DIMENSIONS:PARTICLES ...]
+
+Each in a process of its own; walls count as particles. Memory is the largest the process held less what it held before
+it had a case. 3-D is the same column, as deep as it is wide.
+"""
+
+import math
+import subprocess
+import sys
+import time
+
+import numba
+import numpy as np
+
+from sdph import case as cases
+from sdph import scenes
+from sdph.liquid.step import LiquidStepper
+
+WIDTH = 0.05715  # m, of the column; twice as high
+DEFAULT = ("2:1e4", "2:1e5", "3:1e5")
+WARM, STEPS = 8, 24
+DEEP = (
+    "dimensions=3", f"domain.size_m=[{5 * WIDTH}, {3 * WIDTH}, {WIDTH}]", "domain.gravity_m_s2=[0.0, -9.81, 0.0]",
+    "pools.column.lower_m=[0.0, 0.0, 0.0]", f"pools.column.upper_m=[{WIDTH}, {2 * WIDTH}, {WIDTH}]",
+)  # fmt: skip
+
+
+def held(what: str) -> float:
+    """VmRSS or VmHWM of this process [bytes], as Linux tells."""
+    with open("/proc/self/status", encoding="ascii") as status:
+        return next(1024.0 * float(line.split()[1]) for line in status if line.startswith(what))
+
+
+def tank(dimensions: int, count: float) -> LiquidStepper:
+    """A dam break of about `count` particles, a third of them walls in 2-D, more in 3-D."""
+    spacing = (2.0 * WIDTH**dimensions / count) ** (1.0 / dimensions) * 1e3
+    given = (f"resolution.spacing_mm={spacing}", *(DEEP if dimensions == 3 else ()))
+    return LiquidStepper(cases.load(scenes.HERE / "dam_break" / "case.toml", given))
+
+
+def step_time(stepper) -> float:
+    """Mean wall time [s] of a step, rebuilding of rows included."""
+    started = time.perf_counter()
+    for _ in range(STEPS):
+        stepper.step(1.0)
+    return (time.perf_counter() - started) / STEPS
+
+
+def measured(dimensions: int, count: float) -> str:
+    tank(dimensions, 2000).step(1.0)  # kernels compiled or loaded
+    before = held("VmRSS")
+    stepper = tank(dimensions, count)
+    for _ in range(WARM):
+        stepper.step(1.0)
+    particles, spent = len(stepper.state.x), {}
+    memory = (held("VmHWM") - before) / particles
+    for _ in range(3):
+        for threads in range(1, numba.config.NUMBA_NUM_THREADS + 1):
+            numba.set_num_threads(threads)
+            spent[threads] = min(spent.get(threads, math.inf), step_time(stepper))
+    times = ", ".join(f"{threads}: {1e6 * t / particles:.3f}" for threads, t in spent.items())
+    near = float(np.mean(stepper.rows.count[stepper.active]))
+    return f"{dimensions}-D, {particles} particles, {near:.0f} in a row: us per particle and step by threads {times}; speed-up {spent[1] / min(spent.values()):.2f}; {memory:.0f} bytes a particle"
+
+
+if __name__ == "__main__":
+    wanted = sys.argv[1:] or DEFAULT
+    if len(wanted) == 1:
+        dimensions, count = wanted[0].split(":")
+        print(measured(int(dimensions), float(count)))
+    else:
+        for one in wanted:
+            subprocess.run([sys.executable, __file__, one], check=True)
