@@ -176,6 +176,17 @@ def _check_period(case: Case) -> None:
             raise CaseError(f"domain.periodic holds {axis!r}; allowed: {', '.join(axes)}")
         if case.domain.period[axes.index(axis)] < least:
             raise CaseError(f"domain.size_m is below {least:g} m along {axis}, which is periodic; lengthen it or take finer grains")
+    if case.liquid:
+        _check_period_of_liquid(case)
+
+
+def _check_period_of_liquid(case: Case) -> None:
+    given, least = case.liquid.periodic, 4.1 * case.smoothing_length  # two reaches of the neighbour rows
+    if given and (len(given) != case.dimensions or any(on not in (0.0, 1.0) for on in given)):
+        raise CaseError(f"liquid.periodic = {list(given)}; it must be {case.dimensions} numbers, 1 along periodic axes and 0 along the others")
+    for axis, length, on in zip("xyz", case.domain.size, given):
+        if on and length < least:
+            raise CaseError(f"domain.size_m is below {least:g} m along {axis}, which is periodic; lengthen it or take a finer spacing")
 
 
 def _check_region(case: Case, name: str, region: Region) -> None:

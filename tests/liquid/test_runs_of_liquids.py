@@ -149,6 +149,12 @@ def test_a_liquid_too_fast_for_its_sound_is_told(tmp_path):
     assert any("raise liquid.sound_speed_m_s from 2.5 to" in line for line in reporter.said)
 
 
+@pytest.mark.parametrize(("override", "told"), [("resolution.spacing_mm=100", "along x, which is periodic"), ("liquid.periodic=[1]", "2 numbers")])
+def test_a_periodic_box_that_is_too_narrow_is_refused(override, told):
+    with pytest.raises(CaseError, match=told):
+        cases.load(scenes.HERE / "poiseuille" / "case.toml", (override,))
+
+
 def test_metrics_of_grains_are_refused(tmp_path):
     with pytest.raises(CaseError, match="for liquids: none"):
         start(tmp_path / "run", more=("run.metrics='bubble'",))
