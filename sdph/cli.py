@@ -75,7 +75,7 @@ def _parser() -> argparse.ArgumentParser:
     view.add_argument("run", type=Path)
     view.add_argument("--png", type=Path, help="write a picture instead of opening a window")
     view.add_argument("--time", type=float, metavar="T", help="time [s] (default: the last)")
-    view.add_argument("--field", default="temperature", help="what colours the particles and cells (default: temperature)")
+    view.add_argument("--field", help="what colours the particles and cells (default: temperature, of a liquid velocity)")
     view.add_argument("--movie", type=Path, help="write all times as a .gif or .mp4 instead of opening a window")
     report = _command(commands, "report", report_runs, "one HTML file of one or several runs, side by side; also of failed ones")
     report.add_argument("runs", nargs="+", type=Path, metavar="RUN")

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from sdph import case as cases
-from sdph import effects, frames, output
+from sdph import frames, output
 from sdph.schema import CaseError, flat
 
 STYLE = """
@@ -22,7 +22,7 @@ td.number { text-align: right; font-variant-numeric: tabular-nums } .failed { co
 canvas { border: 1px solid #ccc; touch-action: none }
 """
 PAGE = '<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>{style}</style></head><body>{body}</body></html>\n'
-CLOSURE = ("mass_drift_rel", "energy_drift_rel", "exchange_energy_mismatch_rel", "exchange_momentum_mismatch_rel")
+CLOSURE = ("mass_drift_rel", "energy_drift_rel", "exchange_energy_mismatch_rel", "exchange_momentum_mismatch_rel", "momentum_drift_rel", "energy_made_rel")
 PLOTS = 6  # curves in one figure
 
 
@@ -94,8 +94,7 @@ def _what(runs: list[Shown]) -> str:
     parts = []
     for run in runs:
         parts.append(f"<p><b>{html.escape(run.name)}</b>: {_state(run)}</p>")
-        rows = [] if run.case.liquid else [r for r in tables.effect_rows(run.case) if r["effect"] in run.case.effects or r["called for"] == "yes"]
-        rows = rows or [{"effect": name, "what": effects.REGISTRY[name].summary} for name in run.case.effects]
+        rows = [r for r in tables.effect_rows(run.case) if r["effect"] in run.case.effects or r["called for"] == "yes"]
         parts.append(_table(list(rows[0]), [list(row.values()) for row in rows]) if rows else "")
     return _section("What was run", "".join(parts))
 

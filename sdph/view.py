@@ -33,7 +33,7 @@ def state_at(reader, time: float | None = None):
     return chosen, blocks[0], blocks[1] if len(blocks) > 1 else None  # a liquid has no gas
 
 
-def show(folder: Path, png: Path | None = None, time: float | None = None, field: str = "temperature") -> None:
+def show(folder: Path, png: Path | None = None, time: float | None = None, field: str | None = None) -> None:
     """A window on the last state of a run, or the same as a picture."""
     chosen, particles, gas = state_at(read(folder), time)
     plotter = scene(particles, gas, field, f"t = {chosen:g} s", png is not None)
@@ -44,7 +44,7 @@ def show(folder: Path, png: Path | None = None, time: float | None = None, field
         plotter.close()
 
 
-def movie(folder: Path, target: Path, field: str = "temperature") -> None:
+def movie(folder: Path, target: Path, field: str | None = None) -> None:
     """All times of a run as a .gif or .mp4."""
     import imageio.v3 as imageio
 
@@ -63,8 +63,9 @@ def movie(folder: Path, target: Path, field: str = "temperature") -> None:
         raise CaseError(f"{target} cannot be written: {error}") from None
 
 
-def scene(particles, gas, field: str, title: str, off_screen: bool):
-    """A plotter with the particles coloured by `field` over the cells of the gas."""
+def scene(particles, gas, field: str | None, title: str, off_screen: bool):
+    """A plotter with the particles coloured by `field` (None: temperature, speed where there is none) over the cells of the gas."""
+    field = field or ("velocity" if gas is None else "temperature")
     import pyvista
     from vtkmodules.vtkCommonCore import vtkLogger
 
