@@ -3,6 +3,7 @@
 import numpy as np
 from builders import simulation
 
+from sdph.neighbours import length
 from sdph.stress import suite
 
 
@@ -14,6 +15,7 @@ def test_no_pair_and_no_dummy_reaches_through_a_plate(tmp_path):
     for i, own in enumerate(left):
         near = stepper.rows.index[i, : stepper.rows.count[i]]
         assert len(near) and np.all(left[near] == own)
+        assert np.all(stepper.rows.index[i, len(near) : length(stepper.rows, i)] == i)
         seen = stepper.wall_rows.index[i, : stepper.wall_rows.count[i]]
         facing = dummies.normal_x[seen[stepper.boundary.of_mesh[seen]]]
         assert np.all(facing == (-1.0 if own else 1.0))

@@ -304,16 +304,6 @@ def shrinking(s, surface: float) -> tuple[float, float]:
     return sherwood, 4.0 * sherwood * diffusivity * surface / s.grains.density * s.end / s.grains.diameter**2
 
 
-def spalding_numbers(s) -> tuple[float, float, float]:
-    """B of mass (Y_s - Y)/(1 - Y_s) in gas without vapour, B of heat c_pv (T - T_s)/L, and the run over the evaporation time."""
-    surface, own = at_surface(s), s.case.parameters["evaporation"]
-    coldest = min(patch.temperature for patch in s.patches)
-    vapour_mole = surface / s.case.vapour.molar_mass * GAS_CONSTANT * coldest / s.gas.operating_pressure
-    fraction = law.vapour_mass_fraction(min(vapour_mole, 1.0 - BOILING_MARGIN), s.case.vapour.molar_mass, s.gas.molar_mass)
-    heat_number = s.case.vapour.heat_capacity * (s.gas.temperature - coldest) / own.latent_heat if own.latent_heat else math.inf
-    return law.spalding_number(fraction, 0.0), heat_number, shrinking(s, surface)[1]
-
-
 def call(scales) -> Judgement:
     """Share of the mass that evaporates within the run (d2 law), of the heat that evaporation takes, and of the vapour that the
     gas among the droplets can take up, the largest."""

@@ -186,8 +186,7 @@ class Scales:
     @cached_property
     def shear_length(self) -> float:
         """Over which the motion of grains changes [m]: their narrowest extent, or the width of a jet that is let in."""
-        widths = [b.span[1] - b.span[0] for b in self.case.boundaries.values() if b.velocity and b.span and not isinstance(b.span[0], tuple)]
-        widths += [min(high - low for low, high in b.span) for b in self.case.boundaries.values() if b.velocity and b.span and isinstance(b.span[0], tuple)]
+        widths = [high - low for b in self.case.boundaries.values() if b.velocity for low, high in ways.spans_of(b)]
         return max(min([self.length, *widths]), self.case.smoothing_length)
 
     @cached_property

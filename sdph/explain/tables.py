@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 
 from sdph import effects
-from sdph.effects import evaporation
-from sdph.explain import estimate, judge
+from sdph.explain import droplets, estimate, judge
 from sdph.laws import heat
 
 
@@ -65,23 +64,7 @@ def numbers(s) -> list[tuple]:
         ("run / gas's heat time", end / s.gas_heat_time, 1.0, "gas takes the grains' temperature", "sdph-notes, section 3"),
         ("run / collision time", end / s.collision_time, 1.0, "every grain has collided", "Gidaspow 1994"),
     ]
-    return rows + _of_droplets(s)
-
-
-def _of_droplets(s) -> list[tuple]:
-    """Numbers of what has a surface tension, and of what evaporates."""
-    rows, grains, gas = [], s.grains, s.gas
-    if grains.surface_tension:
-        pull = grains.surface_tension / grains.diameter
-        weight = abs(grains.density - gas.density) * s.gravity * grains.diameter
-        rows.append(("Weber", gas.density * s.slip**2 / pull, 12.0, "droplets break up: no effect of sdph does that", "Pilch & Erdman 1987"))
-        rows.append(("Bond", weight / pull, 0.4, "droplets are no spheres", "Clift, Grace & Weber 1978, fig. 2.5"))
-    if "evaporation" in s.case.parameters and s.case.vapour and s.patches:
-        mass, heat_number, spent = evaporation.spalding_numbers(s)
-        rows.append(("Spalding B of mass", mass, 0.1, "the vapour's own outflow slows evaporation", "Spalding 1953"))
-        rows.append(("Spalding B of heat", heat_number, 0.1, "vapour carries off some of the heat on its way", "Spalding 1953"))
-        rows.append(("run / evaporation time", spent, 1.0, "droplets are gone", "d2 law, Spalding 1953"))
-    return rows
+    return rows + droplets.numbers(s)
 
 
 def effect_rows(case) -> list[dict]:

@@ -23,11 +23,18 @@ def strength(case, boundary, patches) -> float:
     if boundary.span is None or boundary.side is None:
         return 1.0
     axis = next(a for a, pair in enumerate(SIDES) if boundary.side in pair)
-    spans = boundary.span if isinstance(boundary.span[0], tuple) else (boundary.span,)
+    spans = spans_of(boundary)
     tangential = [a for a in range(case.dimensions) if a != axis]
     asides = [max(_aside(patch, a, span) for a, span in zip(tangential, spans)) for patch in patches]
     share = math.exp(-CAVITY * min(asides, default=0.0) / case.domain.size[axis])
     return share if share > FADED else 0.0
+
+
+def spans_of(boundary) -> tuple:
+    """(low, high) [m] of a boundary along each tangential axis of its side; none where it is the whole side."""
+    if boundary.span is None:
+        return ()
+    return boundary.span if isinstance(boundary.span[0], tuple) else (boundary.span,)
 
 
 def _aside(patch, axis: int, span) -> float:
