@@ -164,6 +164,24 @@ def test_van_der_waals_gas_begins_at_the_pressure_of_the_case():
     assert np.allclose(own.pressure[own.state.kind == GAS], 100.0, rtol=1e-9)
 
 
+def test_paper_and_default_let_the_column_fall_alike():
+    """XSPH and Van der Waals' gas as the paper has them (p_i + p_j, c_a = 14.1 c_w), and the Riemann form: fronts within a spacing."""
+    fronts = []
+    for paper in (False, True):
+        table = cases.to_table(cases.load(scenes.find("dam_break_gas")[1], ("resolution.spacing_mm=7.14375",)))
+        if paper:
+            table["effects"] = [*(name for name in table["effects"] if name != "shifting"), "xsph"]
+            del table["shifting"]
+            table["gas_phase"] |= {"interaction": "plain", "exponent": 1.4, "sound_speed_m_s": 299.0, "cohesion_Pa_m6_kg2": 1682.0}
+            table["liquid"] |= {"exponent": 7.0}
+        own = LiquidStepper(cases.from_table(table))
+        while own.time < 0.03:
+            own.step(0.03 - own.time)
+        fronts.append(own.state.x[own.state.kind == LIQUID].max())
+    assert fronts[0] > 0.0572
+    assert fronts[1] == pytest.approx(fronts[0], abs=0.00714375)
+
+
 def test_one_phase_is_off():
     case = cases.from_table({key: value for key, value in BASE.items() if key != "gas_phase"} | {"pools": {"water": BASE["pools"]["water"]}})
     assert phases.kernel(case) == OFF
