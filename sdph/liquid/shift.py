@@ -58,8 +58,8 @@ def surround(kernel, s, rows, box, active, shifting_p, phases_p, volume, least, 
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
-def mingle(kernel, s, rows, box, active, xsph_p, phases_p, volume, extra):
-    """extra (N, 3) [m/s]: mean velocity of the own phase around each particle over its own, weighted (XSPH)."""
+def mingle(kernel, s, rows, box, active, xsph_p, phases_p, volume, extra_u, extra_v, extra_w):
+    """extra (N,) x 3 [m/s]: mean velocity of the own phase around each particle over its own, weighted (XSPH)."""
     for n in prange(len(active)):
         i = active[n]
         u = v = w = 0.0
@@ -73,18 +73,9 @@ def mingle(kernel, s, rows, box, active, xsph_p, phases_p, volume, extra):
             u -= near * du
             v -= near * dv
             w -= near * dw
-        extra[i, 0], extra[i, 1], extra[i, 2] = u, v, w
-
-
-@njit(cache=True, parallel=True, error_model="numpy")
-def carry(active, extra, dt, x, y, z):
-    """r += extra dt."""
-    for n in prange(len(active)):
-        i = active[n]
-        x[i] += dt * extra[i, 0]
-        y[i] += dt * extra[i, 1]
-        if len(z):
-            z[i] += dt * extra[i, 2]
+        extra_u[i], extra_v[i] = u, v
+        if len(extra_w):
+            extra_w[i] = w
 
 
 @njit(cache=True, parallel=True, error_model="numpy")

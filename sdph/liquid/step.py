@@ -125,7 +125,7 @@ class LiquidStepper:
         s = self.state
         motion.drift(self.active, s.u, s.v, s.w, dt, s.x, s.y, s.z)
         if self.p["xsph"]:
-            shift.carry(self.active, self.extra, dt, s.x, s.y, s.z)
+            motion.drift(self.active, *self.extra, dt, s.x, s.y, s.z)
 
     def _densify(self, dt: float) -> None:
         rates.compress(
@@ -157,7 +157,7 @@ class LiquidStepper:
         if p["surface_tension"]:
             self._tighten()
         if p["xsph"]:
-            shift.mingle(self.kernel, s, self.rows, self.neighbours.box, self.active, p["xsph"], self.phases, self.volume, self.extra)
+            shift.mingle(self.kernel, s, self.rows, self.neighbours.box, self.active, p["xsph"], self.phases, self.volume, *self.extra)
         if p["shifting"]:
             shift.surround(
                 self.kernel, s, self.rows, self.neighbours.box, self.active, p["shifting"], self.phases, self.volume, self.least, self.shift, self.twist
@@ -181,7 +181,7 @@ class LiquidStepper:
         self.volume[s.kind == WALL] = -(self.case.resolution.spacing**self.case.dimensions)
         self.acceleration, self.gradient = np.zeros((count, 3)), tuple(np.zeros((3, count)))
         shifted = count if self.p["shifting"] else 0
-        self.extra = np.zeros((count if self.p["xsph"] else 0, 3))
+        self.extra = tuple(np.zeros(count if self.p["xsph"] and len(axis) else 0) for axis in (s.x, s.y, s.z))
         known = np.zeros(int(before.max()) + 1)
         known[before[: len(self.least)]] = self.least
         self.least, self.shift, self.twist = known[s.ident[:shifted]], np.zeros((shifted, 3)), np.zeros((shifted, 9))

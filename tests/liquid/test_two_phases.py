@@ -105,11 +105,11 @@ def test_xsph_moves_each_phase_with_its_own_and_as_a_whole_not_at_all():
     own = stepper(effects=["xsph"], liquid=BASE["liquid"] | {"periodic": [1.0, 1.0]})
     s = own.state
     s.u[s.kind == GAS], s.u[s.kind == LIQUID] = 5.0, -2.0
-    shift.mingle(own.kernel, s, own.rows, own.neighbours.box, own.active, own.p["xsph"], own.phases, own.volume, own.extra)
-    assert np.abs(own.extra[:, 0]).max() < 1e-12
-    assert np.abs(own.extra[:, 1]).max() > 1e-3
+    shift.mingle(own.kernel, s, own.rows, own.neighbours.box, own.active, own.p["xsph"], own.phases, own.volume, *own.extra)
+    assert np.abs(own.extra[0]).max() < 1e-12
+    assert np.abs(own.extra[1]).max() > 1e-3
     for kind in (LIQUID, GAS):
-        assert abs((s.mass @ np.where(s.kind == kind, own.extra[:, 1], 0.0))) < 1e-12 * s.mass.sum()
+        assert abs((s.mass @ np.where(s.kind == kind, own.extra[1], 0.0))) < 1e-12 * s.mass.sum()
 
 
 def test_water_under_air_stays_at_rest():
