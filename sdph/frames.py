@@ -38,16 +38,24 @@ def viewer(folder: Path, case) -> str:
 def _frame(time: float, particles, gas) -> dict:
     frame = {"time": time}
     if particles is not None and particles.n_points:
-        frame["particles"] = _points(particles.points, particles.point_data)
+        frame["particles"] = _points(particles.points, particles.point_data, {})
     if gas is not None and gas.n_cells:
-        frame["gas"] = _points(gas.cell_centers().points, gas.cell_data)
+        frame["gas"] = _points(gas.cell_centers().points, gas.cell_data, _sizes(gas))
     return frame
 
 
-def _points(places, arrays) -> dict:
-    """Name -> values of every n-th point, of vectors their length; `x` the places."""
+def _sizes(gas) -> dict:
+    """Width and height (C, 2) of the cells of a grid of boxes; of other meshes nothing, their cells are drawn as the case's."""
+    if gas.GetClassName() != "vtkRectilinearGrid":
+        return {}
+    steps = np.meshgrid(*(np.diff(ticks) if len(ticks) > 1 else np.zeros(1) for ticks in (gas.z, gas.y, gas.x)), indexing="ij")
+    return {"size": np.stack((steps[2].ravel(), steps[1].ravel()), axis=1)}
+
+
+def _points(places, arrays, shapes) -> dict:
+    """Name -> values of every n-th point, of vectors their length; `x` the places; `shapes` as they are."""
     every = slice(None, None, -(-len(places) // POINTS))
-    found = {"x": np.asarray(places)[every]}
+    found = {name: np.asarray(values)[every] for name, values in ({"x": places} | shapes).items()}
     for name in MAP:
         if name in arrays:
             values = np.asarray(arrays[name])[every]
@@ -57,7 +65,7 @@ def _points(places, arrays) -> dict:
 
 def _ranges(parts: list[dict]) -> dict[str, list[float]]:
     """Least and greatest value over all instants."""
-    names = [name for name in (parts[0] if parts else ()) if name != "x"]
+    names = [name for name in (parts[0] if parts else ()) if name not in ("x", "size")]
     return {name: [float(min(p[name].min() for p in parts)), float(max(p[name].max() for p in parts))] for name in names}
 
 

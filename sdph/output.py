@@ -249,7 +249,8 @@ def _edges(ticks: np.ndarray, layers: np.ndarray) -> np.ndarray:
     if len(ticks) == 1:
         return np.array([0.0, 2.0 * ticks[0]])
     widths = layers * ((ticks[-1] - ticks[0]) / (layers.sum() - 0.5 * (layers[0] + layers[-1])))
-    return np.concatenate(([0.0], np.cumsum(widths))) + (ticks[0] - 0.5 * widths[0])
+    first = ticks[0] - 0.5 * widths[0]
+    return np.concatenate(([0.0], np.cumsum(widths))) + (first if abs(first) > SAME * widths[0] else 0.0)
 
 
 def _polyhedra(gas):

@@ -36,6 +36,7 @@ class Scalars:
         grid, faces = box.grid, box.faces
         held = {"heat": faces.held, "vapour": faces.inlet}
         self.hold = {name: on_faces(grid, faces, where * 1.0, 1.0) for name, where in held.items()}
+        self.beyond = 1.0 - box.everywhere  # ghosts hold nothing: divide by one there
         self.nodes = Nodes(grid.inner, grid.wide, NO_SHIFT, box.everywhere, grid.geometry.gap, grid.geometry.reach)
 
     def carry(self, old: Flow, window: Window, flow: Flow):
@@ -100,11 +101,8 @@ class Scalars:
     def _half(self, content: np.ndarray, grown: np.ndarray, source: np.ndarray):
         """(share kept, gain), (S,) each, of the implicit exchange of half a window: `grown` is what a whole one adds to the
         diagonal, `source` what it adds to the content."""
-        cells = self.box.grid.cells
-        keep, gain = self.box.grid.zeros(2)
-        after = content[cells] + 0.5 * grown[cells]
-        keep[cells], gain[cells] = content[cells] / after, 0.5 * source[cells] / after
-        return keep, gain
+        after = content + 0.5 * grown + self.beyond
+        return content / after, 0.5 * source / after
 
     def _ghosts(self, flow: Flow, name: str) -> Ghosts:
         """The boundary value where it is held or where gas flows in, else that of the neighbour."""
