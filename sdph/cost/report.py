@@ -75,7 +75,7 @@ def draw(scene: str, rows: list[dict], picture: Path) -> None:
         axes.plot([row["wall_s"] for row in line], [max(row["error"], LEAST) for row in line], "s--", color=colour, label=solver)
     loads = [float(row["load"]) for row in rows]
     axes.set(xscale="log", yscale="log", xlabel="wall time [s]", ylabel="error of the worst metric")
-    axes.set_title(f"{scene}; reference: {declared(scene).reference}\nload of the machine {min(loads):g} to {max(loads):g} on {rows[0]['cores']} cores", fontsize=8, wrap=True)
+    axes.set_title(f"{scene}; reference: {declared(scene).reference}\nload of the machine {min(loads):g} to {max(loads):g} on {int(rows[0]['cores'])} cores", fontsize=8, wrap=True)
     axes.legend(fontsize=8)
     figure.savefig(picture, dpi=110)
     pyplot.close(figure)
