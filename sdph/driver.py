@@ -17,7 +17,7 @@ import time
 from pathlib import Path
 
 from sdph import case as cases
-from sdph import metrics, output, paths, restart
+from sdph import environment, metrics, output, paths, restart
 from sdph.guard import Unstable
 from sdph.interruption import Stopped, listening
 from sdph.ledger import Ledger
@@ -147,7 +147,7 @@ class Run:
             self._save()
         summary = _summary(self.simulation, self.out) | {"start_to_first_window_s": self.first, "wall_s": self.spent}
         output.write_summary(self.folder, summary)
-        for warning in self.simulation.warnings():
+        for warning in (*environment.warnings(), *self.simulation.warnings()):
             self.reporter.status(f"warning: {warning}")
         return summary
 
