@@ -77,14 +77,16 @@ def metrics(scene: str, own: Ladder, folder: Path, without: str) -> dict:
 def _others(scene: str, own: Ladder, file: Path, rows: list[dict], report) -> list[dict]:
     """Rows of other solvers on the same scene that `file` lacks; none where the scene has none, or they are not installed."""
     module, found = compare.scene_module(scene), []
-    if not hasattr(module, "others") or any(row["solver"] != measured_rows.OWN for row in rows):
+    if not hasattr(module, "others"):
         return found
     if not install.find():
         report("other solvers are left out: OpenFOAM was not found (sdph openfoam setup --install)")
         return found
     case, blank = case_of(scene, own, own.middle), dict.fromkeys([*own.keys, "without", *KEPT], ALL)
     with tempfile.TemporaryDirectory() as folder:
-        for label, solver, wall, values in module.others(case, Path(folder)):
+        for label, solver, wall, values in module.others(case, Path(folder)):  # those that were run before come from the cache
+            if any((row["solver"], row["label"]) == (solver, label) for row in rows):
+                continue
             row = {"label": label, "solver": solver} | blank | {"wall_s": wall, "metrics": json.dumps(values)} | _machine(1)
             found.append(_keep(file, row))
             report(f"{solver}, {label}: {wall:.3g} s")

@@ -50,8 +50,13 @@ def _errors(values: dict, limits: dict) -> dict:
     found = {}
     for name, (value, given, scale) in values.items():
         reference, doubt = limits[name] if given is None else (given, 0.0)
-        found[name] = max(abs(value - reference), doubt) / abs(reference if scale is None else scale)
+        found[name] = _share(max(abs(value - reference), doubt), reference if scale is None else scale)
     return found
+
+
+def _share(change: float, scale: float) -> float:
+    """A change of what is 0 itself is a whole one without bound."""
+    return change / abs(scale) if scale else math.inf if change else 0.0
 
 
 def richardson(levels: list[dict]) -> dict[str, tuple[float, float]]:
@@ -102,7 +107,8 @@ def distance(a: dict, b: dict) -> float:
     """Largest difference of two rows' metrics over their scale, or without one over the first's; a run that was stopped
     shares nothing with one that was not."""
     one, other = found(a), found(b)
-    return max((abs(one[name][0] - other[name][0]) / abs(one[name][2] or one[name][0]) for name in one.keys() & other.keys()), default=1.0)
+    pairs = ((one[name], other[name][0]) for name in one.keys() & other.keys())
+    return max((_share(abs(value - changed), scale or value or changed) for (value, _, scale), changed in pairs), default=1.0)
 
 
 def whole(rows: list[dict]) -> list[dict]:

@@ -139,3 +139,11 @@ def test_a_table_of_another_version_is_told(tmp_path):
     (tmp_path / "cost.csv").write_text("label,wall_s\nall 1/1,1.0\n")
     with pytest.raises(CaseError, match="remove it"):
         rows.read(tmp_path / "cost.csv")
+
+
+def test_what_is_nothing_in_one_of_two_rows_has_changed_wholly():
+    nothing, some = row(value=0.0), row(value=3.0)
+    for made in (nothing, some):
+        made["metrics"] = made["metrics"].replace("2.0]", "null]")
+    assert rows.distance(nothing, some) == rows.distance(some, nothing) == 1.0
+    assert rows.distance(nothing, nothing) == 0.0
