@@ -9,6 +9,8 @@ import math
 
 import numpy as np
 
+from sdph.gas_cells import layers
+
 VOID = 0.15  # alpha_p below which a cell belongs to a bubble (issue: state it; Kuipers et al. 1991)
 SURFACE = 0.3  # alpha_p, mean over the width, at the top of the bed: half of a packed bed's
 
@@ -46,8 +48,8 @@ def detachment(times, rows: list[dict]) -> float:
 
 def rows_of(centres) -> tuple[np.ndarray, tuple[int, int]]:
     """Order of the cells row by row from the floor, and (rows, columns)."""
-    x, y = np.round(centres[:, 0], 9), np.round(centres[:, 1], 9)
-    return np.lexsort((x, y)), (len(np.unique(y)), len(np.unique(x)))
+    x, y = layers(centres[:, 0]), layers(centres[:, 1])
+    return np.lexsort((x, y)), (int(y.max()) + 1, int(x.max()) + 1)
 
 
 def largest_void(alpha) -> np.ndarray:

@@ -7,6 +7,7 @@ import numpy as np
 from sdph.case import cells
 from sdph.schema import CaseError
 
+SAME = 1e-8  # of the size of a mesh: centres nearer to each other along an axis lie in one layer of cells (OpenFOAM writes ten digits)
 SNAP = 1e-6  # of a cell: how far from a cell edge a span may end; our choice
 
 
@@ -28,3 +29,11 @@ def nearest_edge(edges: np.ndarray, place: float, key: str) -> int:
     if abs(edges[nearest] - place) > SNAP * np.diff(edges).min():
         raise CaseError(f"{key} ends at {place:g}, which is no edge of a gas cell; the nearest is {edges[nearest]:g}")
     return nearest
+
+
+def layers(along: np.ndarray) -> np.ndarray:
+    """(C,) number of the layer of cells that each centre lies in; `along` (C,) [m] are the centres along an axis."""
+    order = np.argsort(along, kind="stable")
+    number = np.empty(len(along), dtype=np.int64)
+    number[order] = np.concatenate(([0], np.cumsum(np.diff(along[order]) > SAME * np.ptp(along))))
+    return number

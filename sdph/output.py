@@ -21,11 +21,11 @@ from pathlib import Path
 import numpy as np
 
 from sdph import __version__, particles
+from sdph.gas_cells import SAME, layers
 from sdph.schema import CaseError
 
 MARK, ORIGIN = "case.toml", "origin.json"  # a folder with these files holds a run
 FAILURE = "failure.json"
-SAME = 1e-9  # of the size of a mesh: centres nearer to each other along an axis lie in one layer of cells (OpenFOAM writes ten digits)
 NAMED = ("numpy", "numba", "scipy", "pyvista")  # packages whose versions a run notes
 
 
@@ -235,8 +235,7 @@ def gas_grid(gas):
     import pyvista
 
     centres = gas.mesh.centres[:, : gas.mesh.dimensions]
-    unit = SAME * np.ptp(centres, axis=0).max()
-    places = [np.unique(np.round(along / unit), return_inverse=True)[1] for along in centres.T]
+    places = [layers(along) for along in centres.T]
     if np.prod([p.max() + 1 for p in places]) == len(centres):
         ticks = [np.bincount(p, along) / np.bincount(p) for p, along in zip(places, centres.T)]
         edges = [_edges(t, np.bincount(p, gas.mesh.volumes)) for t, p in zip(ticks, places)] + [np.zeros(1)] * (3 - len(ticks))
