@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sdph import particles
-from sdph.neighbours import SKIN, Neighbours, box_of, nearest_image
+from sdph.neighbours import LANES, SKIN, Neighbours, box_of, length, nearest_image
 
 REACH = 0.2
 
@@ -156,6 +156,16 @@ def test_rows_are_symmetric(count, rng):
     state, rows = Neighbours(REACH).update(cloud(rng.uniform(0.0, 1.0, (count, 2))))
     pairs = listed(state, rows)
     assert {(b, a) for a, b in pairs} == pairs
+
+
+@given(count=st.integers(1, 60), rng=clouds)
+def test_rows_end_in_the_particle_itself(count, rng):
+    """Up to whole vectors: what loops of pairs run over beyond the neighbours adds nothing."""
+    _, rows = Neighbours(REACH).update(cloud(rng.uniform(0.0, 1.0, (count, 2))))
+    for i in range(count):
+        last = length.py_func(rows, i)
+        assert last % LANES == 0 and 0 <= last - rows.count[i] < LANES
+        assert (rows.index[i, rows.count[i] : last] == i).all()
 
 
 @given(apart=st.lists(st.floats(-3.0, 3.0), min_size=3, max_size=3), period=st.lists(st.sampled_from([0.0, 1.0, 2.5]), min_size=3, max_size=3))
