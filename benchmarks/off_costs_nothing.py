@@ -85,7 +85,7 @@ def instructions(loop, given: tuple) -> list[str]:
 
 def _symbol(word: str, seen: dict) -> str:
     """Names made by the compiler, which hold the module's name and running numbers, become s0, s1, ...; others stay."""
-    made = word.startswith((".L", "_Z", "__")) or "numba" in word or "$" in word
+    made = word.startswith((".L", "__")) or "_Z" in word or "numba" in word or "$" in word
     return seen.setdefault(word, f"s{len(seen)}") if made else word
 
 
@@ -103,9 +103,9 @@ def compared(effect: str) -> list[dict]:
 
 
 def with_terms() -> list[str]:
-    """Effects whose functions the loops call."""
+    """Effects whose functions the loops call; those of granular temperature give their argument when off: no constant stands for them."""
     source = Path(rates.__file__).read_text(encoding="utf-8")
-    return [name for name in effects.REGISTRY if f"{name}." in source.split("loop = njit", 1)[1]]
+    return [name for name in effects.REGISTRY if f"{name}." in source.split("loop = njit", 1)[1] and name != "granular_temperature"]
 
 
 if __name__ == "__main__":
