@@ -69,7 +69,8 @@ def warnings(s) -> list[str]:
     unsafe = [f"{r['ratio']} = {r['value']:.3g}, safe from {r['least']:g} to {r['most']:g}: {r['why']}" for r in ratios(s) if r["safe"] == "NO"]
     c = s.liquid.sound_speed
     if s.speed > SLOW * c:
-        unsafe.append(f"the liquid may reach {s.speed:.3g} m/s, {s.speed / c:.2g} of its speed of sound: raise liquid.sound_speed_m_s from {c:g} to {10.0 * s.speed:.3g}")
+        fast = f"the liquid may reach {s.speed:.3g} m/s, {s.speed / c:.2g} of its speed of sound"
+        unsafe.append(f"{fast}: raise liquid.sound_speed_m_s from {c:g} to {10.0 * s.speed:.3g}")
     return unsafe
 
 

@@ -1,9 +1,10 @@
 """The ledger of a liquid: mass, momentum and energy, and who gave and took them, one row a window.
 
 Momentum comes from body forces, walls and shifting, and goes through the drain; the walls' part is that which the pairs of
-particles do not give back to each other (with what surface tension does not), so that it is nothing where there are no walls. Energy is
-kinetic and elastic (of compression); body forces and surface tension work on it, the drain takes its share, and what is missing then has been dissipated: by
-viscosity, artificial or not, by diffusion of density, by shifting. A scheme that makes energy shows in `energy_made_rel`.
+particles do not give back to each other (with what surface tension does not), so that it is nothing where there are no
+walls. Energy is kinetic and elastic (of compression); body forces and surface tension work on it, the drain takes its
+share, and what is missing then has been dissipated: by viscosity, artificial or not, by diffusion of density, by shifting.
+A scheme that makes energy shows in `energy_made_rel`.
 Two-dimensional amounts are per metre of depth.
 """
 
@@ -31,7 +32,8 @@ class LiquidLedger:
         self.sums = dict.fromkeys(("drained_kg", "drained_J", *self.WORKS), 0.0)
         self.impulses = np.zeros((len(IMPULSES), 3))  # since the start [kg m/s]
         self.scale = {"kg_m_s": 0.0, "J": 0.0}  # impulses, and energy that could fall and work that was done
-        self.most = self.made = self.mach = 0.0  # most energy [J] that there was; most energy [J] that there was beyond what came in; largest speed over sound's
+        self.most = self.made = 0.0  # most energy [J] that there was, and that there was beyond what came in
+        self.mach = 0.0  # largest speed over the speed of sound
         self.first = self.last = None
         self.table = Table(path)
 

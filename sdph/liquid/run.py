@@ -145,8 +145,8 @@ class LiquidRun:
     def warnings(self) -> list[str]:
         """What the run has to say of itself in the end."""
         mach, c = self.ledger.mach, self.case.liquid.sound_speed
-        text = "particles reached {:.2g} of their speed of sound and were compressed by about {:.0f} %: raise liquid.sound_speed_m_s from {:g} to {:.3g}"
-        return [text.format(mach, 100.0 * mach**2, c, 10.0 * mach * c)] if mach > SLOW else []
+        reached = f"particles reached {mach:.2g} of their speed of sound and were compressed by about {100.0 * mach**2:.0f} %"
+        return [f"{reached}: raise liquid.sound_speed_m_s from {c:g} to {10.0 * mach * c:.3g}"] if mach > SLOW else []
 
 
 class Tally:
