@@ -113,8 +113,8 @@ def test_xsph_moves_each_phase_with_its_own_and_as_a_whole_not_at_all():
 
 
 def test_water_under_air_stays_at_rest():
-    """The scene, half as fine and for a third of its time, when what its start stirred up has settled."""
-    own = LiquidStepper(cases.load(scenes.find("water_under_air")[1], ("resolution.spacing_mm=50.0",)))
+    """The scene for a third of its time, when what its start stirred up has settled."""
+    own = LiquidStepper(cases.load(scenes.find("water_under_air")[1]))
     s, speed = own.state, np.sqrt(9.81 * 0.5)
     heights = {kind: s.y[s.kind == kind].mean() for kind in (LIQUID, GAS)}
     while own.time < 3.0:
