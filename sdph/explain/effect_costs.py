@@ -56,8 +56,8 @@ def step(simulation, dt: float) -> float:
     """Wall time [s] of one sub-step of `dt` [s], its exchange included."""
     simulation.stepper.guard.begin(simulation, dt)
     count, started = len(simulation.state.x), time.perf_counter()
-    simulation._hand(dt)
-    simulation.stepper.move(dt, np.zeros(count), np.zeros((count, 3)), np.zeros(count))
+    body = simulation._body(simulation._hand(dt))
+    simulation.stepper.move(dt, np.zeros(count), body, np.zeros(count))
     return time.perf_counter() - started
 
 
