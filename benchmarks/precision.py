@@ -18,7 +18,7 @@ from sdph.explain.tables import table
 from off_costs_nothing import arguments
 
 ROUNDS = 30
-OUTPUTS = {"sum_density": 1, "strain": 2, "rates": 3}
+OUTPUTS = {"sum_density": 2, "strain": 2, "rates": 3}
 
 
 def single(value):
