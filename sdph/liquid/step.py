@@ -84,6 +84,8 @@ class LiquidStepper:
         self.time += dt
         self.aim(self.time)
         self.forces()
+        if self.frame:
+            motion.turn(self.active, self.frame, dt, self.acceleration)
         self._kick(0.5 * dt)
         self.steps += 1
         return dt
@@ -162,6 +164,8 @@ class LiquidStepper:
             shift.surround(
                 self.kernel, s, self.rows, self.neighbours.box, self.active, p["shifting"], self.phases, self.volume, self.least, self.shift, self.twist
             )
+            if not self.phases:
+                shift.along_surface(self.kernel, s, self.rows, self.neighbours.box, self.active, self.volume, self.least, self.shift)
 
     def _tighten(self) -> None:
         """Adds surface tension to the accelerations."""
@@ -214,7 +218,7 @@ class LiquidStepper:
     def _shift(self, dt: float) -> None:
         s, before = self.state, np.array(motion.momentum(self.state, self.active))
         shift.displace(
-            self.p["shifting"], self.active, s.kind, self.least, self.shift, *self.gradient, self.twist, self.compliance, dt,
+            self.p["shifting"], self.active, s.kind, self.shift, *self.gradient, self.twist, self.compliance, dt,
             s.x, s.y, s.z, s.u, s.v, s.w, s.density,
         )  # fmt: skip
         self.shifted = self.shifted + motion.momentum(s, self.active) - before

@@ -1,0 +1,142 @@
+"""Speed of liquids, on one dam break: against PySPH on the same particles, by number of particles and of threads.
+
+    python benchmarks/against_pysph.py [peer] [size] [threads]
+
+peer     time of one force evaluation, neighbours included, delta-SPH, cubic spline, h = 1.3 dx, both in turn in one
+         run. sdph's is a whole step (one evaluation and the integration); PySPH's (Debian's python3-pysph, OpenMP,
+         neighbours cached) leaves the integration out.
+size     microseconds per particle-step and bytes per particle in 3-D, from 1e5 particles to 4e6.
+threads  one thread over two at 1e5 particles.
+Without a word all three. Medians of rounds; walls count as particles. Threads: NUMBA_NUM_THREADS, 2 unless set.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+THREADS = os.environ.setdefault("NUMBA_NUM_THREADS", "2")
+
+import numpy as np  # noqa: E402
+
+from sdph import case as cases  # noqa: E402
+
+SYSTEM_PYTHON = "/usr/bin/python3"
+ROUNDS, RATIO = 5, 1.3
+PEERS = {"2-D 10k": (2, 1.0e4), "2-D 100k": (2, 1.0e5), "3-D 100k": (3, 1.0e5)}
+SIZES = (1.0e5, 4.0e5, 1.0e6, 4.0e6)
+
+
+def stepper(dimensions: int, count: float):
+    """A dam break of about `count` particles, walls included, on its way."""
+    from sdph.liquid.step import LiquidStepper
+
+    column, size = ([1.0, 2.0], [4.0, 2.5]) if dimensions == 2 else ([1.0, 1.0, 1.0], [1.6, 1.2, 1.0])
+    gravity = [0.0, -9.81, 0.0][:dimensions]
+    spacing = (np.prod(column) / count) ** (1.0 / dimensions)
+    for _ in range(20):  # walls take their share of the particles: to the spacing that gives `count` in all
+        walls = 3.0 * (sum(size) + size[1] if dimensions == 2 else size[0] * size[2] + 2.0 * size[1] * (size[0] + size[2]))
+        spacing *= ((np.prod(column) / spacing**dimensions + walls / spacing ** (dimensions - 1)) / count) ** (1.0 / dimensions)
+    own = LiquidStepper(cases.from_table({
+        "dimensions": dimensions, "effects": ["gravity", "density_diffusion", "liquid_damping", "tank"],
+        "run": {"end_time_s": 1.0, "output_interval_s": 1.0}, "domain": {"size_m": size, "gravity_m_s2": gravity},
+        "resolution": {"spacing_mm": 1e3 * spacing, "smoothing_ratio": RATIO},
+        "liquid": {"density_kg_m3": 1000.0, "sound_speed_m_s": 60.0, "kernel": "cubic_spline"},
+        "tank": {"open_sides": ["top"]}, "pools": {"column": {"shape": "box", "lower_m": [0.0] * dimensions, "upper_m": column}},
+    }))  # fmt: skip
+    go(own, 20)
+    return own
+
+
+def go(own, steps: int) -> float:
+    """Seconds per step."""
+    begun = time.perf_counter()
+    for _ in range(steps):
+        own.step(1.0)
+    return (time.perf_counter() - begun) / steps
+
+
+def export(own, file: Path) -> None:
+    """The particles as PySPH takes them."""
+    from sdph.liquid import LIQUID
+
+    s, case = own.state, own.case
+    z, w = (s.z, s.w) if len(s.z) else (np.zeros(len(s.x)), np.zeros(len(s.x)))
+    np.savez(
+        file, x=s.x, y=s.y, z=z, u=s.u, v=s.v, w=w, m=s.mass, rho=s.density, wet=s.kind >= LIQUID, dimensions=case.dimensions,
+        h=case.smoothing_length, spacing=case.resolution.spacing, rho_0=case.liquid.density, c_0=case.liquid.sound_speed,
+    )  # fmt: skip
+
+
+def peer() -> None:
+    print(f"{'':10s} {'particles':>10s} {'sdph [ms]':>10s} {'PySPH [ms]':>11s} {'ratio':>6s}   ({THREADS} threads)")
+    for name, (dimensions, count) in PEERS.items():
+        own = stepper(dimensions, count)
+        with tempfile.TemporaryDirectory() as folder:
+            export(own, Path(folder) / "particles.npz")
+            ours, theirs = in_turn(own, Path(folder) / "particles.npz", max(4, int(4e5 / count)))
+        print(f"{name:10s} {len(own.state.x):10d} {1e3 * ours:10.2f} {1e3 * theirs:11.2f} {theirs / ours:6.2f}", flush=True)
+
+
+def in_turn(own, file: Path, steps: int) -> tuple[float, float]:
+    """Medians [s] of one step and of one evaluation of PySPH, measured in turn."""
+    environment = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "VIRTUAL_ENV")} | {"OMP_NUM_THREADS": THREADS}
+    command = [SYSTEM_PYTHON, str(Path(__file__).with_name("pysph_side.py")), str(file)]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=environment) as other:
+        line = other.stdout.readline()
+        while line and line.strip() != "ready":  # PySPH tells of its compilation
+            line = other.stdout.readline()
+        if not line:
+            raise SystemExit("PySPH did not start; on Debian: apt-get install --no-install-recommends python3-pysph")
+        ours, theirs = [], []
+        for _ in range(ROUNDS):
+            ours.append(go(own, steps))
+            few = max(1, steps // 8)
+            other.stdin.write(f"{few}\n")
+            other.stdin.flush()
+            theirs.append(float(other.stdout.readline()) / few)
+        other.stdin.close()
+    return float(np.median(ours)), float(np.median(theirs))
+
+
+def size() -> None:
+    print(f"{'particles':>10s} {'us per particle-step':>21s} {'bytes per particle':>19s}   (3-D, {THREADS} threads)")
+    for count in SIZES:
+        own = stepper(3, count)
+        taken = np.median([go(own, max(2, int(6e5 / count))) for _ in range(ROUNDS)])
+        n = len(own.state.x)
+        print(f"{n:10d} {1e6 * taken / n:21.4f} {held(own) / n:19.0f}", flush=True)
+
+
+def held(own) -> int:
+    """Bytes of all arrays that a stepper keeps."""
+    found, queue = {}, [own.__dict__, own.neighbours.__dict__]
+    while queue:
+        part = queue.pop()
+        if isinstance(part, np.ndarray):
+            found[id(part)] = part.nbytes
+        elif isinstance(part, (tuple, dict)):
+            queue += list(part.values() if isinstance(part, dict) else part)
+    return sum(found.values())
+
+
+def threads() -> None:
+    import numba
+
+    own, taken = stepper(3, 1.0e5), {1: [], 2: []}
+    for _ in range(ROUNDS):
+        for number in taken:
+            numba.set_num_threads(number)
+            go(own, 2)
+            taken[number].append(go(own, 8))
+    one, two = (float(np.median(values)) for values in taken.values())
+    print(f"1 -> 2 threads at {len(own.state.x)} particles: {1e3 * one:.1f} -> {1e3 * two:.1f} ms a step, {one / two:.2f} times as fast")
+
+
+if __name__ == "__main__":
+    for part in sys.argv[1:] or ("peer", "size", "threads"):
+        {"peer": peer, "size": size, "threads": threads}[part]()
