@@ -197,3 +197,11 @@ def test_at_a_surface_particles_are_shifted_along_it():
         normal = (own.volume * slope * (least - least[i])) @ d
         normal /= np.linalg.norm(normal)
         assert np.allclose(along[i], full[i] - (full[i] @ normal) * normal, atol=1e-9 * np.abs(full).max())
+
+
+def test_what_is_no_number_is_not_lost():
+    """The flags of the loops let sums be reordered, but nan stays nan: else a run that bursts would go on."""
+    own = stepper(2)
+    own.state.density[own.active[0]] = np.nan
+    own.forces()
+    assert np.isnan(own.acceleration[own.active[0]]).any() and np.isnan(own.acceleration[own.active]).any(axis=1).sum() > 3
