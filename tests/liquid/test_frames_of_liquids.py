@@ -81,6 +81,7 @@ def test_free_liquid_flies_the_same_way_seen_from_a_turning_frame(turn):
     omega, end = np.array(turn), 0.2
     for axis, column in zip((turned.state.u, turned.state.v, turned.state.w), np.cross(omega, particles.positions(turned.state)).T):
         axis -= column
+    turned.forces()
     for own in (still, turned):
         while own.time < end:
             own.step(min(5e-4, end - own.time))

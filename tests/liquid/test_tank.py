@@ -62,7 +62,8 @@ def test_a_particle_that_leaves_fades():
     own = tank("paper")
     start, count, stepper = own.mass, len(own.stepper.state.x), own.stepper
     own.outlet.interval = 10.0
-    own.advance(0.01, -GRAVITY, fill=0.5 - 0.6 * own.outlet.particle / stepper.capacity)
+    for _ in range(2):
+        own.advance(0.01, -GRAVITY, fill=0.5 - 0.6 * own.outlet.particle / stepper.capacity)
     assert start - own.mass == pytest.approx(own.outlet.particle)
     (number, way, begun, mass), walls = own.outlet.leaving[0], stepper.own_walls
     assert len(own.outlet.leaving) == 1 and 0 <= number < walls.start and 0.0 < way < 0.2
