@@ -1,21 +1,16 @@
-"""Speed of liquids, on one dam break: against PySPH on the same particles, by number of particles and of threads.
+"""Time of one force evaluation of a liquid against PySPH: python benchmarks/against_pysph.py
 
-    python benchmarks/against_pysph.py [peer] [size] [threads]
-
-peer     time of one force evaluation, neighbours included, delta-SPH, cubic spline, h = 1.3 dx, both in turn in one
-         run. sdph's is a whole step (one evaluation and the integration); PySPH's (Debian's python3-pysph, OpenMP,
-         neighbours cached) leaves the integration out.
-size     microseconds per particle-step and bytes per particle in 3-D, from 1e5 particles to 4e6.
-threads  one thread over two at 1e5 particles.
-Without a word all three. Medians of rounds; walls count as particles. sdph makes its neighbour rows anew every 6 steps here,
-which is what a liquid on its way needs (5 to 8); PySPH at every evaluation. Threads: NUMBA_NUM_THREADS, 2 unless set.
+One dam break, the same particles, delta-SPH, cubic spline, h = 1.3 dx, f64, the same threads, both in turn in one run;
+walls count as particles; medians of rounds. sdph's is a whole step (one evaluation and the integration), its neighbour
+rows made anew every 6 steps, which is what a liquid on its way needs (5 to 8). PySPH's (Debian's python3-pysph, OpenMP,
+neighbours cached) leaves the integration out; it looks for neighbours at every evaluation. Threads: NUMBA_NUM_THREADS,
+2 unless set. Growth with the number of particles and threads: liquid_scaling.py.
 """
 
 from __future__ import annotations
 
 import os
 import subprocess
-import sys
 import tempfile
 import time
 from pathlib import Path
@@ -29,7 +24,6 @@ from sdph import case as cases  # noqa: E402
 SYSTEM_PYTHON = "/usr/bin/python3"
 ROUNDS, RATIO, REBUILD = 5, 1.3, 6
 PEERS = {"2-D 10k": (2, 1.0e4), "2-D 100k": (2, 1.0e5), "3-D 100k": (3, 1.0e5)}
-SIZES = (1.0e5, 4.0e5, 1.0e6, 4.0e6)
 
 
 def stepper(dimensions: int, count: float):
@@ -106,39 +100,5 @@ def in_turn(own, file: Path, steps: int) -> tuple[float, float]:
     return float(np.median(ours)), float(np.median(theirs))
 
 
-def size() -> None:
-    print(f"{'particles':>10s} {'us per particle-step':>21s} {'bytes per particle':>19s}   (3-D, {THREADS} threads)")
-    for count in SIZES:
-        own = stepper(3, count)
-        taken = np.median([go(own, REBUILD) for _ in range(max(1, int(ROUNDS * 1e5 / count)))])
-        n = len(own.state.x)
-        print(f"{n:10d} {1e6 * taken / n:21.4f} {held(own) / n:19.0f}", flush=True)
-
-
-def held(own) -> int:
-    """Bytes of all arrays that a stepper keeps."""
-    found, queue = {}, [own.__dict__, own.neighbours.__dict__]
-    while queue:
-        part = queue.pop()
-        if isinstance(part, np.ndarray):
-            found[id(part)] = part.nbytes
-        elif isinstance(part, (tuple, dict)):
-            queue += list(part.values() if isinstance(part, dict) else part)
-    return sum(found.values())
-
-
-def threads() -> None:
-    import numba
-
-    own, taken = stepper(3, 1.0e5), {1: [], 2: []}
-    for _ in range(ROUNDS):
-        for number in taken:
-            numba.set_num_threads(number)
-            taken[number].append(go(own, REBUILD))
-    one, two = (float(np.median(values)) for values in taken.values())
-    print(f"1 -> 2 threads at {len(own.state.x)} particles: {1e3 * one:.1f} -> {1e3 * two:.1f} ms a step, {one / two:.2f} times as fast")
-
-
 if __name__ == "__main__":
-    for part in sys.argv[1:] or ("peer", "size", "threads"):
-        {"peer": peer, "size": size, "threads": threads}[part]()
+    peer()
