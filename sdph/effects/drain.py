@@ -1,10 +1,10 @@
 """Liquid that leaves the tank through its outlet, as much as is commanded.
 
-`debt`: the particle nearest to the outlet's end loses mass as it is commanded, and goes when it has none left. Its
-volume, and with it its push on the others, fades as the paper's factor xi does, and the liquid falls after it. The
-mass in the tank is the commanded one at every instant.
-`paper`: whole particles go, as many as have been commanded so far, rounded (paper T, Eq. 12, cumulatively); they go at
-once, where the paper lets each leave within a dynamic step.
+`debt`: the lowest particle loses mass as it is commanded, its volume with it, and goes when it has none left. The mass
+in the tank is the commanded one at every instant.
+`paper`: whole particles go, as many as have been commanded so far, rounded (paper T, Eq. 12, cumulatively). Each goes to the
+outlet's end within `interval` at an even speed (Eq. 13), with the pressure of a wall, and its push on the others fades
+(Eq. 14). Its speed, an outcome of the interval, is left out of what the others feel.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ class Drain:
     """The commanded fill falls evenly from that at the start to `fill` between `start` and `end`."""
 
     form: str = choice(*FORMS)
+    interval: float = quantity("s", 0.01, above=0.0)  # of `paper`: in which a particle leaves, the paper's dynamic step
     fill: float = quantity("", least=0.0, most=1.0)
     start: float = quantity("s", 0.0, least=0.0)
     end: float = quantity("s", above=0.0)

@@ -17,6 +17,20 @@ def kick(active, acceleration, dt, u, v, w):
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
+def turn(active, frame_p, dt, acceleration):
+    """a -= 2 omega x (a dt/2): Coriolis' acceleration of the velocity that the kick by dt/2 to come leads to.
+
+    Taken of the velocity before that kick, it would add energy: a turning frame would be of first order in time.
+    """
+    for n in prange(len(active)):
+        i = active[n]
+        ax, ay, az = acceleration[i, 0], acceleration[i, 1], acceleration[i, 2]
+        acceleration[i, 0] -= dt * (frame_p.wy * az - frame_p.wz * ay)
+        acceleration[i, 1] -= dt * (frame_p.wz * ax - frame_p.wx * az)
+        acceleration[i, 2] -= dt * (frame_p.wx * ay - frame_p.wy * ax)
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
 def drift(active, u, v, w, dt, x, y, z):
     """r += v dt."""
     for n in prange(len(active)):

@@ -78,9 +78,35 @@ def mingle(kernel, s, rows, box, active, xsph_p, phases_p, volume, extra_u, extr
             extra_w[i] = w
 
 
+@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+def along_surface(kernel, s, rows, box, active, volume, least, shift):
+    """Takes out of the shift (N, 3) of particles at a surface what leads through it; spray is not shifted at all.
+
+    The normal is the gradient of the smallest eigenvalue `least` (N,): Sun et al. 2017, CMAME 315, 25, Eq. 10 and 12.
+    """
+    for n in prange(len(active)):
+        i = active[n]
+        if least[i] > shifting.INTERIOR:
+            continue
+        nx = ny = nz = 0.0
+        for k in range(rows.count[i]):
+            j = rows.index[i, k]
+            dx, dy, dz = apart(s, box, i, j)
+            share = max(volume[j], 0.0) * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz)) * (least[j] - least[i])
+            nx += share * dx
+            ny += share * dy
+            nz += share * dz
+        n2 = nx * nx + ny * ny + nz * nz
+        through = (shift[i, 0] * nx + shift[i, 1] * ny + shift[i, 2] * nz) / n2 if n2 > 0.0 else 0.0
+        kept = 1.0 if least[i] > shifting.SPRAY else 0.0
+        shift[i, 0] = kept * (shift[i, 0] - through * nx)
+        shift[i, 1] = kept * (shift[i, 1] - through * ny)
+        shift[i, 2] = kept * (shift[i, 2] - through * nz)
+
+
 @njit(cache=True, parallel=True, error_model="numpy")
-def displace(p, active, kind, least, shift, gradient_x, gradient_y, gradient_z, twist, compliance, dt, x, y, z, u, v, w, density):
-    """r -= dt D sum V_j (1 + R (W/W0)^4) grad W, no faster than the parameters allow, inside the liquid alone.
+def displace(p, active, kind, shift, gradient_x, gradient_y, gradient_z, twist, compliance, dt, x, y, z, u, v, w, density):
+    """r -= dt D sum V_j (1 + R (W/W0)^4) grad W, no faster than the parameters allow.
 
     Velocity and density are taken along their gradients, so that moving a particle does not move the field; compliance (K,) is
     d rho/dp [s2/m2] by kind.
@@ -89,7 +115,7 @@ def displace(p, active, kind, least, shift, gradient_x, gradient_y, gradient_z, 
         i = active[n]
         dx, dy, dz = -p.strength * shift[i, 0], -p.strength * shift[i, 1], -p.strength * shift[i, 2]
         speed = np.sqrt(dx * dx + dy * dy + dz * dz)
-        scale = dt * min(1.0, p.largest / speed) if speed > 0.0 and least[i] > shifting.INTERIOR and kind[i] >= p.lightest else 0.0
+        scale = dt * min(1.0, p.largest / speed) if speed > 0.0 and kind[i] >= p.lightest else 0.0
         dx, dy, dz = scale * dx, scale * dy, scale * dz
         x[i] += dx
         y[i] += dy

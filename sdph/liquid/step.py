@@ -51,7 +51,8 @@ class LiquidStepper:
         self.neighbours = Rows(2.0 * SLACK * self.kernel.h, period, case.resolution.neighbour_skin)
         self.fluids, self.phases = fluids(case), phases.kernel(case)
         self.state = start.fill(case)
-        self.first_of_pipe = len(self.state.x) - start.pipe_walls(case)  # numbers from here on: walls of the outlet pipe
+        first_of_pipe = len(self.state.x) - start.pipe_walls(case)  # walls follow the liquid, those of the outlet pipe come last
+        self.own_walls = range(int((self.state.kind != WALL).sum()), first_of_pipe)  # numbers of the tank's own
         own = self.p["tank"]
         self.wall = WallP(*[0.0] * 6, own.least, own.stick) if own else NO_WALL
         self.summed = case.gas_phase is not None and case.gas_phase.density_by == "summation"
@@ -84,6 +85,8 @@ class LiquidStepper:
         self.time += dt
         self.aim(self.time)
         self.forces()
+        if self.frame:
+            motion.turn(self.active, self.frame, dt, self.acceleration)
         self._kick(0.5 * dt)
         self.steps += 1
         return dt
@@ -162,6 +165,8 @@ class LiquidStepper:
             shift.surround(
                 self.kernel, s, self.rows, self.neighbours.box, self.active, p["shifting"], self.phases, self.volume, self.least, self.shift, self.twist
             )
+            if not self.phases:
+                shift.along_surface(self.kernel, s, self.rows, self.neighbours.box, self.active, self.volume, self.least, self.shift)
 
     def _tighten(self) -> None:
         """Adds surface tension to the accelerations."""
@@ -178,7 +183,8 @@ class LiquidStepper:
         self._tell_apart()
         count = len(s.x)
         self.pressure, self.volume = np.zeros(count), np.zeros(count)
-        self.volume[s.kind == WALL] = -(self.case.resolution.spacing**self.case.dimensions)
+        solid = s.kind == WALL
+        self.volume[solid] = -s.mass[solid] / s.density[solid]
         self.acceleration, self.gradient = np.zeros((count, 3)), tuple(np.zeros((3, count)))
         shifted = count if self.p["shifting"] else 0
         self.extra = tuple(np.zeros(count if self.p["xsph"] and len(axis) else 0) for axis in (s.x, s.y, s.z))
@@ -214,7 +220,7 @@ class LiquidStepper:
     def _shift(self, dt: float) -> None:
         s, before = self.state, np.array(motion.momentum(self.state, self.active))
         shift.displace(
-            self.p["shifting"], self.active, s.kind, self.least, self.shift, *self.gradient, self.twist, self.compliance, dt,
+            self.p["shifting"], self.active, s.kind, self.shift, *self.gradient, self.twist, self.compliance, dt,
             s.x, s.y, s.z, s.u, s.v, s.w, s.density,
         )  # fmt: skip
         self.shifted = self.shifted + motion.momentum(s, self.active) - before
@@ -247,8 +253,9 @@ def wall_loads(stepper, chosen=None) -> np.ndarray:
 
 
 def pipe_loads(stepper) -> np.ndarray:
-    """(6,) the same on the outlet pipe."""
-    return wall_loads(stepper, stepper.walls[stepper.state.ident[stepper.walls] >= stepper.first_of_pipe])
+    """(6,) the same on the outlet pipe, and on what leaves through it."""
+    number, own = stepper.state.ident[stepper.walls], stepper.own_walls
+    return wall_loads(stepper, stepper.walls[(number < own.start) | (number >= own.stop)])
 
 
 def fluids(case) -> np.ndarray:

@@ -5,7 +5,8 @@ import pytest
 
 from sdph import case as cases
 from sdph import smoothing
-from sdph.liquid import LIQUID, pairs, rates, walls
+from sdph.effects import shifting
+from sdph.liquid import LIQUID, pairs, rates, shift, walls
 from sdph.liquid.step import LiquidStepper, loads, wall_loads
 from sdph.particles import WALL, positions, velocities
 
@@ -175,3 +176,32 @@ def test_a_rotating_liquid_stays_where_shifting_puts_its_velocity():
 def test_wall_particles_are_told_by_kind():
     own = stepper(2)
     assert (own.state.kind[own.walls] == WALL).all() and (own.volume[own.walls] < 0.0).all() and (own.volume[own.active] > 0.0).all()
+
+
+def test_at_a_surface_particles_are_shifted_along_it():
+    """Of the shift nothing leads along the gradient of the smallest eigenvalue; spray stays; inside nothing changes."""
+    own = stepper(2, effects=("density_diffusion", "shifting"))
+    s, least = own.state, own.least
+    along = own.shift.copy()
+    own.shift[:] = 0.0
+    shift.surround(own.kernel, s, own.rows, own.neighbours.box, own.active, own.p["shifting"], own.phases, own.volume, least, own.shift, own.twist)
+    full, r = own.shift, positions(s)
+    inside = least > shifting.INTERIOR
+    assert inside.any() and np.array_equal(along[inside], full[inside])
+    assert (along[least <= shifting.SPRAY] == 0.0).all()
+    edge = np.flatnonzero(~inside & (least > shifting.SPRAY))
+    assert len(edge) > 5
+    for i in edge:
+        d = r[i] - r
+        slope = np.array([smoothing.slope.py_func(own.kernel, q) for q in np.linalg.norm(d, axis=1)])
+        normal = (own.volume * slope * (least - least[i])) @ d
+        normal /= np.linalg.norm(normal)
+        assert np.allclose(along[i], full[i] - (full[i] @ normal) * normal, atol=1e-9 * np.abs(full).max())
+
+
+def test_what_is_no_number_is_not_lost():
+    """The flags of the loops let sums be reordered, but nan stays nan: else a run that bursts would go on."""
+    own = stepper(2)
+    own.state.density[own.active[0]] = np.nan
+    own.forces()
+    assert np.isnan(own.acceleration[own.active[0]]).any() and np.isnan(own.acceleration[own.active]).any(axis=1).sum() > 3

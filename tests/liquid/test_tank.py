@@ -57,6 +57,26 @@ def test_what_leaves_is_what_is_commanded(form):
     assert np.isfinite(own.stepper.state.density).all()
 
 
+def test_a_particle_that_leaves_fades():
+    """As a piece of wall, over the interval, by xi (paper T, Eq. 14); what has been chosen counts as drained."""
+    own = tank("paper")
+    start, count, stepper = own.mass, len(own.stepper.state.x), own.stepper
+    own.outlet.interval = 10.0
+    for _ in range(2):
+        own.advance(0.01, -GRAVITY, fill=0.5 - 0.6 * own.outlet.particle / stepper.capacity)
+    assert start - own.mass == pytest.approx(own.outlet.particle)
+    (number, way, begun, mass), walls = own.outlet.leaving[0], stepper.own_walls
+    assert len(own.outlet.leaving) == 1 and 0 <= number < walls.start and 0.0 < way < 0.2
+    own.outlet.interval = 2.0 * (stepper.time - begun)
+    own.outlet._fade()  # halfway
+    i = np.flatnonzero(stepper.state.ident == number)[0]
+    assert -stepper.volume[i] * stepper.state.density[i] == pytest.approx(mass * (np.exp(0.5) - 1.0) / (np.e - 1.0))
+    assert stepper.state.z[i] - own.outlet.end == pytest.approx(0.5 * way)
+    own.outlet.interval = stepper.time - begun
+    own.outlet._fade()
+    assert len(own.outlet.leaving) == 0 and len(stepper.state.x) == count - 1
+
+
 def test_a_closed_loop_keeps_momentum(monkeypatch):
     file = Path(__file__).parents[2] / "examples" / "rigid_craft.py"
     spec = importlib.util.spec_from_file_location("rigid_craft", file)

@@ -1,0 +1,9 @@
+"""The front of the column in a channel against the measurements of the scene dam_break."""
+
+from __future__ import annotations
+
+from sdph.compare import scene_module
+
+
+def exact(run) -> list[dict]:
+    return scene_module("dam_break").exact(run)
