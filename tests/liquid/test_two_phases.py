@@ -124,7 +124,7 @@ def test_water_under_air_stays_at_rest():
     assert np.hypot(s.u, s.v)[s.kind == GAS].max() < 1e-2 * speed
     for kind in (LIQUID, GAS):
         assert s.y[s.kind == kind].mean() == pytest.approx(heights[kind], abs=1e-3 * 0.5)
-    assert s.y[s.kind == GAS].min() - s.y[s.kind == LIQUID].max() > 0.8 * 0.05
+    assert s.y[s.kind == GAS].min() - s.y[s.kind == LIQUID].max() > 0.8 * own.case.resolution.spacing
 
 
 def test_curvature_of_a_disc():
