@@ -104,7 +104,9 @@ def _killed(site: Site, chance: random.Random, number: int) -> dict:
     time.sleep(moment)
     hit = _kill(process, folder, victim)
     said = process.communicate(timeout=PATIENCE)[1]
-    named = not hit or victim == "python" or (process.returncode == 3 and "sdphGasFoam" in said)
+    told = process.returncode == 3 and "sdphGasFoam" in said
+    too_late = process.returncode == 0 and (folder / "ledger.csv").read_bytes() == site.ledger  # the gas had no more to do
+    named = not hit or victim == "python" or told or too_late
     return _verdict(site, folder, f"kill -9 {victim} at {moment:.2f} s", named, said)
 
 
