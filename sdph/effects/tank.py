@@ -9,7 +9,7 @@ import numpy as np
 
 from sdph.boundary import SIDES
 from sdph.effects.effect import Effect, Judgement
-from sdph.liquid import shapes
+from sdph.liquid import phases, shapes
 from sdph.schema import CaseError, choice, quantity, record, vector, words
 
 
@@ -32,15 +32,20 @@ class Tank:
 
 
 class TankP(NamedTuple):
-    """1 for no slip, 0 for free slip; least pressure of a wall [Pa]."""
+    """1 for no slip, 0 for free slip; least pressure of a wall [Pa]; inverse of the distance from a wall particle at which
+    it begins to hold liquid off [1/m]; c^2 [m2/s2]."""
 
     stick: float
     least: float
+    near: float
+    stiffness: float
 
 
 def kernel(case) -> TankP:
-    own = case.parameters["tank"]
-    return TankP(float(own.slip == "no_slip"), 0.0 if own.suction == "none" else -math.inf)
+    own, c = case.parameters["tank"], phases.fastest_sound(case)
+    least = 0.0 if own.suction == "none" else -math.inf
+    near = 0.5 * math.sqrt(case.dimensions) * case.resolution.spacing  # of the surface, no place is further from the wall's lattice
+    return TankP(float(own.slip == "no_slip"), least, 1.0 / near, c * c)
 
 
 def shape_of(case):

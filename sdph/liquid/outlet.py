@@ -36,7 +36,7 @@ class Outlet:
         owed = (self.fill - fill) * self.stepper.capacity - self.gone[0]
         if self.form == "paper":
             owed = self.particle * np.floor(owed / self.particle + 0.5)
-        while owed > ROUND_OFF * self.particle:
+        while owed > ROUND_OFF * self.particle and len(self.stepper.active):  # a tank of whole particles may hold half a one less
             owed -= self._take(owed)
 
     def _take(self, owed: float) -> float:

@@ -13,7 +13,7 @@ from numba import njit, prange
 from sdph import smoothing
 from sdph.effects import density_diffusion, laminar_viscosity, liquid_damping, shifting
 from sdph.liquid import phases
-from sdph.liquid.pairs import FAST, apart, body, faster, solved
+from sdph.liquid.pairs import FAST, apart, body, faster, held_off, solved
 from sdph.neighbours import deep, length
 
 
@@ -68,7 +68,7 @@ def push(
             friction = laminar_viscosity.central(laminar_p, s.kind[i], kind_j, closing, r2)
 
             # rho_i dv_i/dt = -sum V_j (p_i + p_j) grad W + sum V_j 2 mu r.grad W/(r^2 + eta^2) v_ij
-            along = -V * slope * (phases.pressure(phases_p, sign_i * p_i, p_j, rho_i, rho_j) + stick * (ringing + friction))
+            along = -V * slope * (phases.pressure(phases_p, sign_i * p_i, p_j, rho_i, rho_j) + stick * (ringing + friction) + held_off(wall_p, signed, rho_i, r))
             across = V * slope * stick * laminar_viscosity.pair(laminar_p)
             ax += along * dx + across * du
             ay += along * dy + across * dv

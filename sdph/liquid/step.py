@@ -20,7 +20,7 @@ from sdph.particles import WALL
 
 SLACK = 1.0125  # reach over 2 h: a particle may move 0.025 h, half a step, after the rows were found to hold
 FORCE = 0.25  # of sqrt(h/|a|), liquids.md, shared core
-NO_WALL = WallP(*[0.0] * 8)
+NO_WALL = WallP(*[0.0] * 10)
 
 
 class Rows(Neighbours):
@@ -54,7 +54,7 @@ class LiquidStepper:
         first_of_pipe = len(self.state.x) - start.pipe_walls(case)  # walls follow the liquid, those of the outlet pipe come last
         self.own_walls = range(int((self.state.kind != WALL).sum()), first_of_pipe)  # numbers of the tank's own
         own = self.p["tank"]
-        self.wall = WallP(*[0.0] * 6, own.least, own.stick) if own else NO_WALL
+        self.wall = WallP(*[0.0] * 6, *own) if own else NO_WALL
         self.summed = case.gas_phase is not None and case.gas_phase.density_by == "summation"
         self.lattice = kernels.lattice_factor(case.liquid.kernel, d, case.resolution.smoothing_ratio)
         self.limits, self.limit, self.steps, self.time = self._limits(), "", 0, 0.0

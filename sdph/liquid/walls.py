@@ -13,11 +13,11 @@ from numba import njit, prange
 from sdph import smoothing
 from sdph.effects import laminar_viscosity, liquid_damping, shifting
 from sdph.liquid import LIQUID, phases
-from sdph.liquid.pairs import FAST, apart, body, faster
+from sdph.liquid.pairs import FAST, apart, body, faster, held_off
 
 
 class WallP(NamedTuple):
-    """Velocity [m/s] and acceleration [m/s2] of the walls in the frame; least pressure [Pa]; 1 for no slip, 0 for free slip."""
+    """Velocity [m/s] and acceleration [m/s2] of the walls in the frame; the rest as in sdph.effects.tank.TankP."""
 
     u: float
     v: float
@@ -25,8 +25,10 @@ class WallP(NamedTuple):
     ax: float
     ay: float
     az: float
-    least: float
     stick: float
+    least: float
+    near: float
+    stiffness: float
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
@@ -87,7 +89,7 @@ def wall_force(kernel, s, rows, box, walls, wall_p, laminar_p, damping_p, shifti
             ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY)) * phases.harmonic(phases_p, rho_j, rho_j)
             bx, by, bz = body(gravity_p, frame_p, s, j, False)
             p_i = phases.behind(phases_p, -1.0, pressure[i], pressure[j] + rho_j * (bx * dx + by * dy + bz * dz))
-            along = -V * (p_i + sign_j * pressure[j] + wall_p.stick * (ringing + friction))
+            along = -V * (p_i + sign_j * pressure[j] + wall_p.stick * (ringing + friction) + held_off(wall_p, -1.0, rho_j, r))
             across = V * wall_p.stick * laminar_viscosity.pair(laminar_p)
             fx += along * dx + across * du
             fy += along * dy + across * dv

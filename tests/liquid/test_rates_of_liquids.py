@@ -16,8 +16,8 @@ TANK = {
 }
 
 
-def stepper(dimensions=2, effects=("gravity", "density_diffusion", "liquid_damping", "laminar_viscosity", "tank"), **sections):
-    """A pool at rest in a box, shaken: places and velocities random by a tenth."""
+def stepper(dimensions=2, effects=("gravity", "density_diffusion", "liquid_damping", "laminar_viscosity", "tank"), pressed=False, **sections):
+    """A pool at rest in a box, shaken: places and velocities random by a tenth; `pressed`: one particle right at the floor."""
     gravity = [0.0] * (dimensions - 1) + [-9.81]
     table = {
         "dimensions": dimensions,
@@ -35,6 +35,10 @@ def stepper(dimensions=2, effects=("gravity", "density_diffusion", "liquid_dampi
         array = getattr(own.state, name)
         if len(array):
             array[wet] += size * random.standard_normal(wet.sum())
+    if pressed:
+        height = positions(own.state)[:, dimensions - 1]
+        low = np.flatnonzero(wet)[np.argmin(height[wet])]
+        (own.state.y if dimensions == 2 else own.state.z)[low] = 0.0
     own.forces()
     return own
 
@@ -42,12 +46,13 @@ def stepper(dimensions=2, effects=("gravity", "density_diffusion", "liquid_dampi
 @pytest.mark.parametrize("dimensions", [2, 3])
 @pytest.mark.parametrize("kernel", smoothing.NAMES)
 def test_acceleration_is_the_sum_over_all_pairs(dimensions, kernel):
-    own = stepper(dimensions, liquid={"density_kg_m3": 1000.0, "viscosity_Pa_s": 1.0, "sound_speed_m_s": 20.0, "kernel": kernel})
+    own = stepper(dimensions, pressed=True, liquid={"density_kg_m3": 1000.0, "viscosity_Pa_s": 1.0, "sound_speed_m_s": 20.0, "kernel": kernel})
     s, p = own.state, own.p
     r, v = positions(s), velocities(s)
     wet = s.kind == LIQUID
     volume = np.where(wet, s.mass / s.density, 0.05**dimensions)
-    for i in np.flatnonzero(wet)[::7]:
+    lowest = np.flatnonzero(wet)[np.argmin(r[wet, dimensions - 1])]
+    for i in [lowest, *np.flatnonzero(wet)[::7]]:
         d = r[i] - r
         distance = np.linalg.norm(d, axis=1)
         near = (distance < 2.0 * own.kernel.h) & (np.arange(len(r)) != i)
@@ -56,7 +61,8 @@ def test_acceleration_is_the_sum_over_all_pairs(dimensions, kernel):
             slope = smoothing.slope.py_func(own.kernel, distance[j])
             closing = (v[i] - v[j]) @ d[j]
             ringing = -p["liquid_damping"].strength * closing / (distance[j] ** 2 + p["liquid_damping"].softening)
-            expected -= volume[j] * slope * (own.pressure[i] + own.pressure[j] + ringing) * d[j]
+            held_off = 0.0 if wet[j] else s.density[i] * 20.0**2 * max(0.0, 1.0 - distance[j] / (0.025 * dimensions**0.5))
+            expected -= volume[j] * slope * (own.pressure[i] + own.pressure[j] + ringing + held_off) * d[j]
             expected += volume[j] * slope * 2.0 * 1.0 * (v[i] - v[j])
         expected = expected / s.density[i]
         expected[dimensions - 1] -= 9.81
@@ -110,9 +116,28 @@ def test_a_linear_pressure_does_not_diffuse():
 
 @pytest.mark.parametrize("dimensions", [2, 3])
 def test_walls_feel_what_the_liquid_loses(dimensions):
-    own = stepper(dimensions)
+    own = stepper(dimensions, pressed=True)
     momentum, felt = loads(own), wall_loads(own)
     assert np.allclose(momentum[:3], felt[:3], rtol=1e-9, atol=1e-9 * np.abs(felt).max())
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_a_particle_among_those_of_a_wall_is_pushed_out(dimensions):
+    """At rest, without pressure, between the particles of the first layer: nothing else would move it."""
+    lower = [0.25] * (dimensions - 1) + [0.0]
+    pools = {"water": {"shape": "box", "lower_m": lower, "upper_m": [x + 0.05 for x in lower]}}
+    own = stepper(dimensions, ("density_diffusion", "liquid_damping", "tank"), pools=pools)
+    i, s = own.active[0], own.state
+    for axis in (s.x, s.y, s.z)[:dimensions]:
+        axis[i] = 0.3
+    for velocity in (s.u, s.v, s.w)[:dimensions]:
+        velocity[i] = 0.0
+    s.density[i] = 1000.0
+    for depth in (0.002, 0.01, 0.02):
+        (s.y if dimensions == 2 else s.z)[i] = -depth
+        own.forces()
+        i, s = own.active[0], own.state
+        assert own.acceleration[i, dimensions - 1] > 9.81
 
 
 def test_without_walls_momentum_stays(tmp_path):

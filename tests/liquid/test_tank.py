@@ -57,6 +57,17 @@ def test_what_leaves_is_what_is_commanded(form):
     assert np.isfinite(own.stepper.state.density).all()
 
 
+def test_a_tank_drains_to_the_last_particle():
+    """It held 26 particles for a fill of 26.2: the command ends where the liquid does."""
+    shape = {"shape": "sphere", "centre_m": [0.0, 0.0, 0.0], "radius_m": 0.5}
+    drained = {"effects": [*TABLE["effects"], "drain"], "drain": {"fill": 0.0, "end_s": 1.0}}
+    own = Tank(cases.from_table(TABLE | drained | {"tank": shape, "pools": {"water": {"shape": "tank", "fill": 0.05}}}))
+    start = own.mass
+    own.advance(0.005, -GRAVITY, fill=0.0)
+    assert own.mass == 0.0 and own.outlet.gone[0] == pytest.approx(start)
+    assert 0.0 < 0.05 * own.stepper.capacity - start < 0.5 * own.outlet.particle
+
+
 def test_a_particle_that_leaves_fades():
     """As a piece of wall, over the interval, by xi (paper T, Eq. 14); what has been chosen counts as drained."""
     own = tank("paper")
