@@ -97,11 +97,18 @@ class Neighbours:
             if period:
                 np.mod(axis, period, out=axis)
         grid = self._grid(here)
-        state = particles.take(state, _order(_cells(grid, *_three(here)), int(grid.shape.prod())))
-        here = particles.axes(state)
-        self.rows = self._rows(grid, here)
-        self.built = tuple(axis.copy() for axis in here)
+        state = self._sorted(grid, state)
+        self.rows = self._listed(grid, state)
+        self.built = tuple(axis.copy() for axis in particles.axes(state))
         return state, self.rows
+
+    def _sorted(self, grid: Grid, state):
+        """The state in the order of its cells."""
+        return particles.take(state, order(cells(grid, *three(particles.axes(state))), int(grid.shape.prod())))
+
+    def _listed(self, grid: Grid, state) -> Rows:
+        """Rows of a state in that order."""
+        return self._rows(grid, particles.axes(state))
 
     def _holds(self, here) -> bool:
         if len(here) != len(self.built) or len(here[0]) != len(self.built[0]):
@@ -129,9 +136,9 @@ class Neighbours:
 
     def _rows(self, grid: Grid, here, at=None) -> Rows:
         """Rows of the points `here`, sorted by cell, for the points `at` (None: for each other)."""
-        own, other = _three(here), _three(at or here)
+        own, other = three(here), three(at or here)
         self.box = box_of(self.period, len(here))
-        start = _starts(_cells(grid, *own), int(grid.shape.prod()))
+        start = starts(cells(grid, *own), int(grid.shape.prod()))
         while True:
             index = self._room(len(other[0]))
             count = np.empty(len(other[0]), np.int64)
@@ -151,14 +158,15 @@ class Neighbours:
     def sort(self, here) -> np.ndarray:
         """Order in which fixed points have to stand for `seen_from`."""
         grid = self._grid(here)
-        return _order(_cells(grid, *_three(here)), int(grid.shape.prod()))
+        return order(cells(grid, *three(here)), int(grid.shape.prod()))
 
     def seen_from(self, here, at) -> Rows:
         """Rows of fixed points `here`, in the order of `sort`, for the points `at`."""
         return self._rows(self._grid(here), here, at)
 
 
-def _three(here):
+def three(here):
+    """Positions in three arrays; the last without length in two dimensions."""
     return here if len(here) == 3 else (*here, np.zeros(0))
 
 
@@ -173,32 +181,33 @@ def _place(grid, a, value):
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def _cells(grid, x, y, z):
+def cells(grid, x, y, z):
     """Cell number of each particle, x fastest."""
-    cells = np.empty(len(x), np.int64)
+    number = np.empty(len(x), np.int64)
     for i in prange(len(x)):
         layer = _place(grid, 2, z[i]) if len(z) else 0
-        cells[i] = (layer * grid.shape[1] + _place(grid, 1, y[i])) * grid.shape[0] + _place(grid, 0, x[i])
-    return cells
+        number[i] = (layer * grid.shape[1] + _place(grid, 1, y[i])) * grid.shape[0] + _place(grid, 0, x[i])
+    return number
 
 
 @njit(cache=True, error_model="numpy")
-def _starts(cells, total):
+def starts(number, total):
+    """Where the particles of each cell begin, (total + 1,), from their cell numbers."""
     start = np.zeros(total + 1, np.int64)
-    for cell in cells:
+    for cell in number:
         start[cell + 1] += 1
     return np.cumsum(start)
 
 
 @njit(cache=True, error_model="numpy")
-def _order(cells, total):
+def order(number, total):
     """Row of each particle after a stable counting sort by cell."""
-    start = _starts(cells, total)
-    order = np.empty(len(cells), np.int64)
-    for i, cell in enumerate(cells):
-        order[start[cell]] = i
+    start = starts(number, total)
+    rows = np.empty(len(number), np.int64)
+    for i, cell in enumerate(number):
+        rows[start[cell]] = i
         start[cell] += 1
-    return order
+    return rows
 
 
 @njit(cache=True, error_model="numpy")
@@ -234,7 +243,7 @@ def nearest_image(box, dx, dy, dz):
 
 
 @njit(cache=True, error_model="numpy")
-def _span(grid, a, value):
+def span(grid, a, value):
     """First and one past the last cell to look at along an axis; beyond the ends on a periodic one."""
     cell = _place(grid, a, value)
     if grid.period[a] > 0.0:
@@ -252,9 +261,9 @@ def _fill(grid, start, x, y, z, at_x, at_y, at_z, same, box, cutoff2, index, cou
     for i in prange(len(at_x)):
         found = 0
         zi = at_z[i] if len(z) else 0.0
-        z0, z1 = _span(grid, 2, zi) if len(z) else (0, 1)
-        y0, y1 = _span(grid, 1, at_y[i])
-        x0, x1 = _span(grid, 0, at_x[i])
+        z0, z1 = span(grid, 2, zi) if len(z) else (0, 1)
+        y0, y1 = span(grid, 1, at_y[i])
+        x0, x1 = span(grid, 0, at_x[i])
         for kz in range(z0, z1):
             for ky in range(y0, y1):
                 row = ((kz % grid.shape[2]) * grid.shape[1] + ky % grid.shape[1]) * grid.shape[0]

@@ -23,7 +23,7 @@ def orient(kernel, s, rows, box, active, tension_p, volume, normal):
         i = active[n]
         gx = gy = gz = 0.0
         for k in range(rows.count[i]):
-            j = rows.index[i, k]
+            j = rows.index[rows.start[i] + k]
             dx, dy, dz = apart(s, box, i, j)
             unlike = max(volume[j], 0.0) if s.kind[i] != s.kind[j] else 0.0
             steep = unlike * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
@@ -53,7 +53,7 @@ def bend(kernel, s, rows, box, active, volume, normal, curvature):
         xx = yy = zz = xy = yz = zx = 0.0
         ux = uy = uz = vx = vy = vz = wx = wy = wz = 0.0
         for k in range(rows.count[i]):
-            j = rows.index[i, k]
+            j = rows.index[rows.start[i] + k]
             dx, dy, dz = apart(s, box, i, j)
             weight = max(volume[j], 0.0) if on_interface(normal, j) else 0.0
             share = weight * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
@@ -91,7 +91,7 @@ def pull(kernel, s, rows, box, active, tension_p, volume, normal, curvature, acc
         outwards = 1.0 if s.kind[i] == LIQUID else -1.0
         ax = ay = az = 0.0
         for k in range(rows.count[i]):
-            j = rows.index[i, k]
+            j = rows.index[rows.start[i] + k]
             dx, dy, dz = apart(s, box, i, j)
             unlike = max(volume[j], 0.0) if s.kind[i] != s.kind[j] else 0.0
             steep = unlike * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz)) * 2.0 / (s.density[i] + s.density[j])

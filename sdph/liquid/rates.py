@@ -52,7 +52,7 @@ def push(
         ax = ay = az = gx = gy = gz = 0.0
         xx = yy = zz = xy = yz = zx = 0.0
         for k in range(length(rows, i)):
-            j = rows.index[i, k]
+            j = rows.index[rows.start[i] + k]
             dx, dy, dz = apart(s, box, i, j)
             du, dv, dw = faster(s, box, i, j)
             r2 = dx * dx + dy * dy + dz * dz
@@ -99,7 +99,7 @@ def sum_up(kernel, s, rows, box, active, lattice, density):
         i = active[n]
         number = smoothing.value(kernel, 0.0)
         for k in range(rows.count[i]):
-            dx, dy, dz = apart(s, box, i, rows.index[i, k])
+            dx, dy, dz = apart(s, box, i, rows.index[rows.start[i] + k])
             number += smoothing.value(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
         density[i] = s.mass[i] * number / lattice
 
@@ -112,7 +112,7 @@ def compress(kernel, s, rows, box, active, wall_p, diffusion_p, phases_p, pressu
         p_i, rho_i = pressure[i], s.density[i]
         growth = spread = 0.0
         for k in range(length(rows, i)):
-            j = rows.index[i, k]
+            j = rows.index[rows.start[i] + k]
             dx, dy, dz = apart(s, box, i, j)
             signed, u_j, v_j = volume[j], s.u[j], s.v[j]  # read before they are chosen from: no branch
             w_j = s.w[j] if deep(box) else 0.0

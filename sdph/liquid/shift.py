@@ -24,7 +24,7 @@ def surround(kernel, s, rows, box, active, shifting_p, phases_p, volume, least, 
         cx = cy = cz = xx = yy = zz = xy = yz = zx = 0.0
         ux = uy = uz = vx = vy = vz = wx = wy = wz = 0.0
         for k in range(length(rows, i)):
-            j = rows.index[i, k]
+            j = rows.index[rows.start[i] + k]
             dx, dy, dz = apart(s, box, i, j)
             du, dv, dw = faster(s, box, i, j)
             r = np.sqrt(dx * dx + dy * dy + dz * dz)
@@ -64,7 +64,7 @@ def mingle(kernel, s, rows, box, active, xsph_p, phases_p, volume, extra_u, extr
         i = active[n]
         u = v = w = 0.0
         for k in range(rows.count[i]):
-            j = rows.index[i, k]
+            j = rows.index[rows.start[i] + k]
             dx, dy, dz = apart(s, box, i, j)
             du, dv, dw = faster(s, box, i, j)
             value = smoothing.value(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
@@ -90,7 +90,7 @@ def along_surface(kernel, s, rows, box, active, volume, least, shift):
             continue
         nx = ny = nz = 0.0
         for k in range(rows.count[i]):
-            j = rows.index[i, k]
+            j = rows.index[rows.start[i] + k]
             dx, dy, dz = apart(s, box, i, j)
             share = max(volume[j], 0.0) * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz)) * (least[j] - least[i])
             nx += share * dx

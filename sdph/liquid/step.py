@@ -14,24 +14,13 @@ from sdph.effects import OFF, frame, tank
 from sdph.laws import kernels
 from sdph.liquid import GAS, LIQUID, interface, motion, phases, rates, shift, start, walls
 from sdph.liquid.guard import LiquidGuard
+from sdph.liquid.rows import LiquidNeighbours
 from sdph.liquid.walls import WallP
-from sdph.neighbours import Neighbours
 from sdph.particles import WALL
 
 SLACK = 1.0125  # reach over 2 h: a particle may move 0.025 h, half a step, after the rows were found to hold
 FORCE = 0.25  # of sqrt(h/|a|), liquids.md, shared core
 NO_WALL = WallP(*[0.0] * 10)
-
-
-class Rows(Neighbours):
-    """Neighbour rows that hold until some particle has moved half the skin; the distance is measured in parallel."""
-
-    def _holds(self, here) -> bool:
-        if len(here) != len(self.built) or len(here[0]) != len(self.built[0]):
-            return False
-        z, z0 = (here[2], self.built[2]) if len(here) == 3 else (np.zeros(0), np.zeros(0))
-        moved = motion.travelled(here[0], here[1], z, self.built[0], self.built[1], z0)
-        return bool(moved < (0.5 * self.skin * self.reach) ** 2)
 
 
 class LiquidStepper:
@@ -48,7 +37,7 @@ class LiquidStepper:
         self.kernel = smoothing.smoothing(case.liquid.kernel, d, case.smoothing_length)
         periodic = case.liquid.periodic or (0.0,) * d
         period = tuple(length * bool(on) for length, on in zip(case.domain.size, periodic))
-        self.neighbours = Rows(2.0 * SLACK * self.kernel.h, period, case.resolution.neighbour_skin)
+        self.neighbours = LiquidNeighbours(2.0 * SLACK * self.kernel.h, period, case.resolution.neighbour_skin)
         self.fluids, self.phases = fluids(case), phases.kernel(case)
         self.state = start.fill(case)
         first_of_pipe = len(self.state.x) - start.pipe_walls(case)  # walls follow the liquid, those of the outlet pipe come last
@@ -68,7 +57,7 @@ class LiquidStepper:
 
     def revive(self) -> None:
         """After a checkpoint was put back."""
-        self.rows = self.neighbours.rows
+        self.rows = self.neighbours.relist(self.state.kind)
         self._tell_apart()
         self.aim(self.time)
 
@@ -196,10 +185,8 @@ class LiquidStepper:
         """Liquid particles, those of the walls that liquid is near, and arrays that no step takes from the last."""
         s = self.state
         self.active = np.flatnonzero(s.kind >= LIQUID).astype(np.int32)
-        solid = np.flatnonzero(s.kind == WALL).astype(np.int32)
-        wet = np.empty(len(solid), np.bool_)
-        walls.near_liquid(s.kind, self.rows, solid, wet)
-        self.walls, self.rate = solid[wet], np.zeros(len(s.x))
+        self.walls = np.flatnonzero((s.kind == WALL) & (self.rows.count > 0)).astype(np.int32)
+        self.rate = np.zeros(len(s.x))
         near = len(s.x) if self.p["surface_tension"] else 0
         self.normal, self.curvature = np.zeros((near, 3)), np.zeros(near)
 

@@ -12,7 +12,7 @@ from numba import njit, prange
 
 from sdph import smoothing
 from sdph.effects import laminar_viscosity, liquid_damping, shifting
-from sdph.liquid import LIQUID, phases
+from sdph.liquid import phases
 from sdph.liquid.pairs import FAST, apart, body, faster, held_off
 
 
@@ -31,15 +31,6 @@ class WallP(NamedTuple):
     stiffness: float
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
-def near_liquid(kind, rows, walls, wet):
-    """wet (W,): whether a wall particle's row holds liquid; the others need no pressure until rows are made anew."""
-    for n in prange(len(walls)):
-        wet[n] = False
-        for k in range(rows.count[walls[n]]):
-            wet[n] = wet[n] or kind[rows.index[walls[n], k]] >= LIQUID
-
-
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
 def extrapolate(kernel, s, rows, box, walls, wall_p, gravity_p, frame_p, volume, pressure, wall_u, wall_v, wall_w):
     """Pressure and velocity of wall particles: Adami et al. 2012, Eq. 23 and 27; without liquid near, both are 0.
@@ -52,7 +43,7 @@ def extrapolate(kernel, s, rows, box, walls, wall_p, gravity_p, frame_p, volume,
         bx, by, bz = bx - wall_p.ax, by - wall_p.ay, bz - wall_p.az
         weight = push = u = v = w = 0.0
         for k in range(rows.count[i]):
-            j = rows.index[i, k]
+            j = rows.index[rows.start[i] + k]
             dx, dy, dz = apart(s, box, i, j)
             value = smoothing.value(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
             value = value if volume[j] > 0.0 else 0.0
@@ -76,7 +67,7 @@ def wall_force(kernel, s, rows, box, walls, wall_p, laminar_p, damping_p, shifti
         i = walls[n]
         fx = fy = fz = 0.0
         for k in range(rows.count[i]):
-            j = rows.index[i, k]
+            j = rows.index[rows.start[i] + k]
             dx, dy, dz = apart(s, box, i, j)
             du, dv, dw = faster(s, box, i, j)
             r2 = dx * dx + dy * dy + dz * dz
