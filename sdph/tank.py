@@ -79,7 +79,7 @@ class Tank:
 
     def _left(self, gone, rotation, omega, gained) -> np.ndarray:
         """(6,) momentum that the mass `gone` (its momenta relative to the tank) took along, at the middle of the step."""
-        mass, momentum, angular = gone[0], gone[1:4], gone[4:]
+        mass, momentum, angular = gone[0], gone[1:4], gone[4:7]
         if mass == 0.0:
             return np.zeros(6)
         place = self.outlet.place

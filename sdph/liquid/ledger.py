@@ -101,17 +101,23 @@ def _energy(row: dict) -> float:
 
 
 def energies(stepper) -> tuple[float, float]:
-    """Kinetic and elastic energy [J] of the liquid.
+    """Kinetic and elastic energy [J] of the liquid."""
+    mass, (kinetic, elastic) = stepper.state.mass[stepper.active], specific_energies(stepper, stepper.active)
+    return float(mass @ kinetic), float(mass @ elastic)
 
-    Elastic: integral of p/rho^2 of Tait's law from rho_0 on, per mass, background and cohesion included.
+
+def specific_energies(stepper, own) -> tuple[np.ndarray, np.ndarray]:
+    """Kinetic and elastic energy (P,) [J/kg] of the particles `own`.
+
+    Elastic: integral of p/rho^2 of Tait's law from rho_0 on, background and cohesion included.
     """
-    s, own = stepper.state, stepper.active
+    s = stepper.state
     rho_0, stiffness, gamma, background, cohesion = stepper.fluids[:, s.kind[own]]
     x = s.density[own] / rho_0
     power = np.where(gamma == 1.0, np.log(x), (x ** (gamma - 1.0) - 1.0) / np.where(gamma == 1.0, 1.0, gamma - 1.0))
     elastic = stiffness / rho_0 * (power + 1.0 / x - 1.0) + background / rho_0 * (1.0 - 1.0 / x) - cohesion * rho_0 * (x - 1.0)
-    kinetic = 0.5 * (particles.velocities(s)[own] ** 2).sum(axis=1)
-    return float(s.mass[own] @ kinetic), float(s.mass[own] @ elastic)
+    w2 = s.w[own] ** 2 if len(s.w) else 0.0
+    return 0.5 * (s.u[own] ** 2 + s.v[own] ** 2 + w2), elastic
 
 
 def mach(stepper) -> float:

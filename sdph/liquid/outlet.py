@@ -8,13 +8,14 @@ import numpy as np
 
 from sdph import particles
 from sdph.effects import drain, tank
+from sdph.liquid.ledger import specific_energies
 from sdph.particles import WALL
 
 ROUND_OFF = 1e-12  # of a particle's mass: less than that is nothing
 
 
 class Outlet:
-    """Takes from a stepper's liquid what is commanded; sums up what has gone: mass, momentum, angular momentum."""
+    """Takes from a stepper's liquid what is commanded; sums up what has gone: mass, momentum, angular momentum, energy."""
 
     KEPT = ("place", "gone", "leaving")  # see sdph.restart
 
@@ -27,7 +28,7 @@ class Outlet:
         lowest = particles.axes(stepper.state)[-1].min()
         self.end = lowest + (tank.layers(case) - 0.5) * case.resolution.spacing  # height of the outlet's end [m]
         self.place = np.zeros(3)  # where the last of it went [m]
-        self.gone = np.zeros(7)  # mass [kg], momentum (3) [kg m/s], angular momentum (3) [kg m2/s], in the frame
+        self.gone = np.zeros(8)  # mass [kg], momentum (3) [kg m/s], angular momentum (3) [kg m2/s], energy [J], in the frame
         self.leaving = np.zeros((0, 4))  # particles on their way out: number; way to go [m], time [s], mass [kg] when chosen
 
     def command(self, fill: float) -> None:
@@ -47,7 +48,8 @@ class Outlet:
         taken = min(owed, float(s.mass[i]))
         velocity, place = particles.velocities(s)[i], particles.positions(s)[i]
         self.place = place
-        self.gone += np.concatenate(([taken], taken * velocity, taken * np.cross(place, velocity)))
+        energy = sum(specific_energies(st, [i]))
+        self.gone += taken * np.concatenate(([1.0], velocity, np.cross(place, velocity), energy))
         if s.mass[i] - taken > ROUND_OFF * self.particle:
             s.mass[i] -= taken
         elif self.form == "paper":

@@ -11,7 +11,7 @@ import numpy as np
 from sdph import particles, window
 from sdph.effects import drain
 from sdph.liquid import by_phase
-from sdph.liquid.ledger import IMPULSES, LiquidLedger, energies
+from sdph.liquid.ledger import IMPULSES, LiquidLedger
 from sdph.liquid.outlet import Outlet
 from sdph.liquid.step import LiquidStepper, balance, kinetic_energy, pipe_loads, wall_loads
 
@@ -156,8 +156,8 @@ class Tally:
         self.run, self.stepper = run, run.stepper
         self.load = np.zeros(10)  # integral of sdph.liquid.step.balance [N s, N m s, J]
         self.shifted = self.stepper.shifted
-        self.gone = run.outlet.gone.copy() if run.outlet else np.zeros(7)
-        self.drained = self.tension = 0.0  # energy that left, work of surface tension [J]
+        self.gone = run.outlet.gone.copy() if run.outlet else np.zeros(8)
+        self.tension = 0.0  # work of surface tension [J]
         self.before = balance(self.stepper)
 
     def step(self, end: float) -> None:
@@ -175,17 +175,15 @@ class Tally:
         """What the drain is commanded to take; the balance after it."""
         if not self.run.outlet:
             return now
-        energy = sum(energies(self.stepper))
         self.run.outlet.command(self.run.fill(self.stepper.time))
-        self.drained += energy - sum(energies(self.stepper))
         return balance(self.stepper)
 
     def amounts(self) -> tuple[dict, dict]:
         """Impulses and amounts for the ledger."""
-        gone = (self.run.outlet.gone if self.run.outlet else np.zeros(7)) - self.gone
+        gone = (self.run.outlet.gone if self.run.outlet else np.zeros(8)) - self.gone
         given = (self.load[6:9], -self.load[:3], self.stepper.shifted - self.shifted, -gone[1:4])
         works = {"work_of_body_forces_J": float(self.load[9]), "work_of_surface_tension_J": self.tension}
-        return dict(zip(IMPULSES, given)), {"drained_kg": float(gone[0]), "drained_J": self.drained} | works
+        return dict(zip(IMPULSES, given)), {"drained_kg": float(gone[0]), "drained_J": float(gone[7])} | works
 
 
 def _in_the_middle(places, pressure, spacing: float) -> float:
