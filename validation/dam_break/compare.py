@@ -39,9 +39,9 @@ def fronts(run, column: str = "largest_x_m") -> dict[float, tuple[float, float, 
     return found
 
 
-def metrics(run) -> dict:
+def metrics(run, column: str = "largest_x_m") -> dict:
     """What `sdph cost` takes: (value, reference, scale)."""
-    return {f"front at T = {at:g}": (value, middle, middle) for at, (value, middle, _) in fronts(run).items()}
+    return {f"front at T = {at:g}": (value, middle, middle) for at, (value, middle, _) in fronts(run, column).items()}
 
 
 def exact(run) -> list[dict]:

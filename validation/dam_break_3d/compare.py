@@ -5,5 +5,10 @@ from __future__ import annotations
 from sdph.compare import scene_module
 
 
+def metrics(run) -> dict:
+    """What `sdph cost` takes: (value, reference, scale)."""
+    return scene_module("dam_break").metrics(run)
+
+
 def exact(run) -> list[dict]:
     return scene_module("dam_break").exact(run)

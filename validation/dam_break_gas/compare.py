@@ -9,6 +9,14 @@ from sdph.compare import check
 from sdph.liquid import GAS
 
 
+FRONT = "liquid_largest_x_m"  # column of the history
+
+
+def metrics(run) -> dict:
+    """What `sdph cost` takes: (value, reference, scale)."""
+    return compare.scene_module("dam_break").metrics(run, FRONT)
+
+
 def exact(run) -> list[dict]:
     dry = compare.scene_module("dam_break")
     spacing, size = run.case.resolution.spacing, np.array(run.case.domain.size)
@@ -17,7 +25,7 @@ def exact(run) -> list[dict]:
     outside = ((places < 0.0) | (places > size)).any(axis=1).sum()
     density = points["density"][gas] / run.case.gas_phase.density
     return [
-        *dry.within_scatter(dry.fronts(run, "liquid_largest_x_m")),
+        *dry.within_scatter(dry.fronts(run, FRONT)),
         check("particles that have left the channel", outside, 0.0, 0.0),
         check("density of the air over that at rest, least", density.min(), 1.0, 0.1),
         check("voids: largest distance to the next particle, spacings", _widest(places, size, spacing), 1.0, 1.0),
