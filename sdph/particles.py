@@ -33,6 +33,11 @@ class State(NamedTuple):
     diameter: np.ndarray
     diameter_variance: np.ndarray
     theta: np.ndarray
+    contact_xx: np.ndarray
+    contact_yy: np.ndarray
+    contact_xy: np.ndarray
+    contact_yz: np.ndarray
+    contact_zx: np.ndarray
     evaporating: np.ndarray
     born_mass: np.ndarray
     born_diameter: np.ndarray
@@ -53,6 +58,7 @@ FIELDS = {
     "diameter": ("m", "number mean of the grain diameters"),
     "diameter_variance": ("m2", "number variance of the grain diameters"),
     "theta": ("m2/s2", "granular temperature"),
+    **{f"contact_{ab}": ("Pa", f"deviator of the stress of lasting contacts, {ab}") for ab in ("xx", "yy", "xy", "yz", "zx")},
     "evaporating": ("1", "1 once evaporation has started"),
     "born_mass": ("kg", "mass at the start or when it came in"),
     "born_diameter": ("m", "number mean of the grain diameters then"),
@@ -61,12 +67,13 @@ FIELDS = {
     "lost_moving": ("m^(3/2)", "further loss by the flow around the grains (the same)"),
 }  # fmt: skip
 ALWAYS = ("x", "y", "u", "v", "mass", "density", "ident", "kind")
+IN_SPACE = {"z", "w", "contact_yz", "contact_zx"}  # of length zero in two dimensions
 INTEGERS = {"ident": np.int64, "kind": np.int8}
 
 
 def empty(count: int, names=ALWAYS, dimensions: int = 2) -> State:
     """A state of `count` particles, zero everywhere; arrays not among `names` have length zero."""
-    present = {*ALWAYS, *names} | ({"z", "w"} if dimensions == 3 else set())
+    present = {*ALWAYS, *names, "z", "w"} - (set() if dimensions == 3 else IN_SPACE)
     return State(*(np.zeros(count if name in present else 0, INTEGERS.get(name, np.float64)) for name in State._fields))
 
 

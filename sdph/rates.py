@@ -14,7 +14,6 @@ from numba import njit, prange
 
 from sdph.effects import artificial_viscosity, conduction, friction, granular_pressure, granular_temperature, granular_viscosity, walls
 from sdph.laws import kernels
-from sdph.laws.friction import second_invariant
 from sdph.neighbours import deep, length, nearest_image
 
 
@@ -37,8 +36,8 @@ def kernel_of(case) -> Kernel:
 
 
 class Stress(NamedTuple):
-    """Per particle: pressure of agitation and of friction [Pa], shear and bulk viscosity [Pa s], sound speed [m/s],
-    conductivity of theta [kg/m/s]."""
+    """Per particle: pressure of agitation and of friction [Pa], shear and bulk viscosity of agitation [Pa s], sound speed
+    [m/s], conductivity of theta [kg/m/s]."""
 
     kinetic_pressure: np.ndarray
     friction_pressure: np.ndarray
@@ -80,28 +79,6 @@ def sum_density(kernel, s, rows, box, walls_p, dummies, wall_rows, density, slop
         density[i] = rho / share
 
 
-@loop
-def strain(kernel, s, rows, box, slope, walls_p, dummies, wall_rows, shear_squared, divergence):
-    """I2D = dev(D):dev(D)/2 [1/s2] and div v [1/s] of the grains; D_ab = sym sum V_j (v_j - v_i)_a dW/dx_b."""
-    for i in prange(len(s.x)):
-        xx = yy = zz = xy = yz = zx = 0.0
-        if walls.near(walls_p, wall_rows, i):
-            xx, yy, zz, xy, yz, zx = walls.strain(walls_p, kernel, box, dummies, wall_rows, s, i)
-        for k in range(length(rows, i)):
-            j = rows.index[i, k]
-            dx, dy, dz, _ = separation(s, box, i, j)
-            du, dv, dw = approach(s, box, i, j)
-            g = -s.mass[j] / s.density[j] * slope[i, k]
-            xx += g * du * dx
-            yy += g * dv * dy
-            zz += g * dw * dz
-            xy += 0.5 * g * (du * dy + dv * dx)
-            yz += 0.5 * g * (dv * dz + dw * dy)
-            zx += 0.5 * g * (dw * dx + du * dz)
-        shear_squared[i] = second_invariant(xx, yy, zz, xy, yz, zx)
-        divergence[i] = xx + yy + zz
-
-
 @njit(cache=True, parallel=True, error_model="numpy")
 def sound_speeds(s, grain_density, pressure_p, friction_p, sound):
     """c [m/s]: agitation and friction together."""
@@ -109,24 +86,22 @@ def sound_speeds(s, grain_density, pressure_p, friction_p, sound):
         alpha_p = s.density[i] / grain_density
         theta = s.theta[i] if len(s.theta) else 0.0
         agitation = granular_pressure.sound_squared(pressure_p, alpha_p, theta)
-        sound[i] = np.sqrt(agitation + friction.pressure(friction_p, alpha_p)[1] / grain_density)
+        sound[i] = np.sqrt(agitation + friction.sound_squared(friction_p, alpha_p))
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
 def constitutive(
-    s, grain_density, dt, shear_squared, pressure_p, friction_p, viscosity_p, temperature_p,
+    s, grain_density, pressure_p, friction_p, viscosity_p, temperature_p,
     kinetic_pressure, friction_pressure, shear, bulk, conductivity,
 ):  # fmt: skip
-    """Pressures, viscosities and conductivity of every particle from its density, theta and rate of strain."""
+    """Pressures, viscosities and conductivity of every particle from its density and theta."""
     for i in prange(len(s.x)):
         alpha_p = s.density[i] / grain_density
         theta = s.theta[i] if len(s.theta) else 0.0
         diameter = s.diameter[i] if len(s.diameter) else 0.0
         kinetic_pressure[i] = granular_pressure.pressure(pressure_p, alpha_p, theta)
-        lasting = friction.pressure(friction_p, alpha_p)[0]
-        friction_pressure[i] = lasting
-        agitated, bulk[i] = granular_viscosity.viscosities(viscosity_p, alpha_p, theta, diameter)
-        shear[i] = agitated + friction.viscosity(friction_p, lasting, s.density[i], shear_squared[i], dt)
+        friction_pressure[i] = friction.pressure(friction_p, alpha_p)[0]
+        shear[i], bulk[i] = granular_viscosity.viscosities(viscosity_p, alpha_p, theta, diameter)
         conductivity[i] = granular_temperature.conductivity(temperature_p, alpha_p, theta, diameter)
 
 
@@ -143,14 +118,15 @@ def conduct(s, rows, box, slope, conduction_p, heating):
 
 @loop
 def rates(
-    kernel, s, rows, box, slope, stress, viscous_p, artificial_p, temperature_p, conduction_p,
+    kernel, s, rows, box, slope, stress, viscous_p, tau, traction, rubbing, contact_work, artificial_p, temperature_p, conduction_p,
     walls_p, dummies, wall_rows, wall_pressure, wall_velocity, pressure, acceleration, agitation, heating,
 ):  # fmt: skip
     """Of grains that move: acceleration (N, 3) [m/s2], agitation (N,) [W/kg] that feeds theta, heating (N,) [W/kg]."""
     for i in prange(len(s.x)):
-        ax = ay = az = work = warmth = 0.0
+        ax = ay = az = work = 0.0
+        warmth = contact_work[i]
         if walls.near(walls_p, wall_rows, i):
-            ax, ay, az = walls.force(walls_p, kernel, box, dummies, wall_rows, s, i, pressure, stress.shear, wall_pressure, wall_velocity)
+            ax, ay, az = walls.force(walls_p, kernel, box, dummies, wall_rows, s, i, pressure, stress.shear, traction, wall_pressure, wall_velocity)
         rho_i = s.density[i]
         for k in range(length(rows, i)):
             j = rows.index[i, k]
@@ -168,16 +144,19 @@ def rates(
                 artificial_p, closing, r2, stress.sound[i], stress.sound[j], rho_i, rho_j
             )
             along, across = granular_viscosity.pair(viscous_p, stress, i, j, r2, closing, scale)
-            push = along - agitated - lasting - ringing
-            ax += push * dx + across * du
-            ay += push * dy + across * dv
-            az += push * dz + across * dw
+            rub_along, rub_across = friction.pair(viscous_p, rubbing, i, j, r2, closing, scale)
+            fx, fy, fz = friction.elastic(tau, box, i, j, dx, dy, dz)
+            push = along + rub_along - agitated - lasting - ringing
+            ax += push * dx + (across + rub_across) * du + m_j * gradient * fx
+            ay += push * dy + (across + rub_across) * dv + m_j * gradient * fy
+            az += push * dz + (across + rub_across) * dw + m_j * gradient * fz
 
-            viscous_work = -along * closing - across * (du * du + dv * dv + dw * dw)
+            v2 = du * du + dv * dv + dw * dw
             work += granular_temperature.pair(
-                temperature_p, stress, s, i, j, agitated * closing, viscous_work, ringing * closing, scale
+                temperature_p, stress, s, i, j, agitated * closing, -along * closing - across * v2, ringing * closing, scale
             )
-            warmth += 0.5 * (lasting * closing + granular_temperature.rest(temperature_p, ringing * closing))
+            rubbed = lasting * closing - rub_along * closing - rub_across * v2
+            warmth += 0.5 * (rubbed + granular_temperature.rest(temperature_p, ringing * closing))
             warmth += conduction.pair(conduction_p, s, i, j, r2, gradient)
         acceleration[i, 0] = ax
         acceleration[i, 1] = ay

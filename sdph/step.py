@@ -9,9 +9,9 @@ import math
 
 import numpy as np
 
-from sdph import particles, rates
+from sdph import particles, rates, shearing
 from sdph.boundary import Boundary
-from sdph.effects import OFF, REGISTRY, granular_temperature, walls
+from sdph.effects import OFF, REGISTRY, friction, grain_shifting, granular_temperature, walls
 from sdph.effects.granular_viscosity import Viscous
 from sdph.guard import Guard
 from sdph.neighbours import Neighbours
@@ -33,8 +33,9 @@ class Stepper:
         self.kernel, self.guard = rates.kernel_of(case), Guard(case)
         self.neighbours = Neighbours(REACH * case.smoothing_length, case.domain.period, case.resolution.neighbour_skin)
         self.boundary = Boundary(case) if parameters["walls"] else None
-        on = parameters["granular_viscosity"] or parameters["friction"]
-        self.viscous = Viscous(float(case.dimensions)) if on else OFF
+        self.viscous = Viscous(float(case.dimensions)) if parameters["granular_viscosity"] or parameters["friction"] else OFF
+        algebraic = parameters["granular_temperature"] and parameters["granular_temperature"].model == 1
+        self.shears = bool(parameters["friction"] or algebraic)
         self.steps, self.contacts, self.limit = 0, 0, ""
         self.sound, self.length = np.empty(0), 0.0  # of the particles in the last sub-step [m/s], and what that was limited to [s]
         self.mechanical_heat = 0.0  # what motion has given to the temperature of the grains [J]
@@ -118,37 +119,47 @@ class Stepper:
         """One sub-step: stress, walls, rates, then theta, heat, velocity, place."""
         heat, body, damping = held
         s, p, count = self.state, self.parameters, len(self.state.x)
-        shear_squared, divergence = np.zeros(count), np.zeros(count)
-        if p["friction"] or (p["granular_temperature"] and p["granular_temperature"].model == 1):
-            rates.strain(self.kernel, s, self.rows, self.neighbours.box, self.slope, *self._walls(), shear_squared, divergence)
-        stress = self._stress(dt, shear_squared)
+        sheared = self._shear(dt)
+        stress = self._stress()
         pressure = stress.kinetic_pressure + stress.friction_pressure
         wall_pressure, wall_velocity = self._extrapolate(pressure, body)
         acceleration, agitation, heating = np.empty((count, 3)), np.empty(count), np.empty(count)
         rates.rates(
-            self.kernel, s, self.rows, self.neighbours.box, self.slope, stress, self.viscous, p["artificial_viscosity"],
+            self.kernel, s, self.rows, self.neighbours.box, self.slope, stress, self.viscous, *sheared[:4], p["artificial_viscosity"],
             p["granular_temperature"], p["conduction"], *self._walls(), wall_pressure, wall_velocity, pressure,
             acceleration, agitation, heating,
         )  # fmt: skip
         if self.source:
             self._hold_back(acceleration, agitation, heating, body)
         if p["granular_temperature"]:
-            self._agitate(dt, agitation, damping, shear_squared, divergence)
+            self._agitate(dt, agitation, damping, sheared)
         if len(s.temperature):
             self._warm((heating + heat / s.mass) * dt)
             self.mechanical_heat += float((s.mass * heating).sum() * dt)  # conduction adds up to nothing, but for what comes from upstream
         self._drift(dt, acceleration + body)
         self.steps += 1
 
-    def _stress(self, dt: float, shear_squared) -> Stress:
+    def _stress(self) -> Stress:
         s, p = self.state, self.parameters
         fields = [np.empty(len(s.x)) for _ in range(5)]
         rates.constitutive(
-            s, self.case.grains.density, dt, shear_squared, p["granular_pressure"], p["friction"],
+            s, self.case.grains.density, p["granular_pressure"], p["friction"],
             p["granular_viscosity"], p["granular_temperature"], *fields,
         )  # fmt: skip
         kinetic, lasting, shear, bulk, conductivity = fields
         return Stress(kinetic, lasting, shear, bulk, self.sound, conductivity)
+
+    def _shear(self, dt: float) -> shearing.Shearing:
+        """Strain and the stress of contacts after `dt` [s], which they keep."""
+        s, p = self.state, self.parameters
+        if not self.shears:
+            return shearing.nothing(len(s.x))
+        out = shearing.empty(len(s.x), bool(p["friction"]))
+        shearing.shear(self.kernel, s, self.rows, self.neighbours.box, self.slope, *self._walls(), p["friction"], dt, *out)
+        if p["friction"]:
+            for name, column in zip(friction.ARRAYS, (0, 1, 3, 4, 5) if len(s.z) else (0, 1, 3)):
+                getattr(s, name)[:] = out.tau[:, column] * s.density**2
+        return out
 
     def _extrapolate(self, pressure, body):
         if not self.boundary:
@@ -160,10 +171,10 @@ class Stepper:
         )
         return wall_pressure, wall_velocity
 
-    def _agitate(self, dt: float, agitation, damping, shear_squared, divergence) -> None:
+    def _agitate(self, dt: float, agitation, damping, sheared) -> None:
         theta, held = np.empty(len(agitation)), np.empty(len(agitation))
         granular_temperature.advance_all(
-            self.parameters["granular_temperature"], self.state, agitation, damping, shear_squared, divergence, dt, theta, held
+            self.parameters["granular_temperature"], self.state, agitation, damping, sheared.shear_squared, sheared.divergence, dt, theta, held
         )
         moving = self.state.kind < INFLOW
         self.state.theta[moving], held[~moving] = theta[moving], 0.0
@@ -185,10 +196,21 @@ class Stepper:
             if len(place):
                 velocity += acceleration[:, a] * dt
                 place += velocity * dt
+        if self.parameters["grain_shifting"]:
+            self._shift(dt)
         if self.source:
             self.source.release(s)
         if self.boundary:
             self.contacts += walls.contact(self.parameters["walls"], self.neighbours.box, self.boundary.dummies, self.wall_rows, s)
+
+    def _shift(self, dt: float) -> None:
+        s = self.state
+        moved = np.empty((len(s.x), 3))
+        grain_shifting.shift(self.parameters["grain_shifting"], s, self.rows, self.neighbours.box, dt, moved)
+        moved[s.kind >= INFLOW] = 0.0
+        for a, place in enumerate((s.x, s.y, s.z)):
+            if len(place):
+                place += moved[:, a]
 
     def _walls(self):
         """Parameters, dummies and rows of the walls for kernels."""

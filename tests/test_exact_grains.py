@@ -70,9 +70,10 @@ def pair_rates(stepper):
     """acceleration, agitation, heating of all pairs as they stand now."""
     s, p, count = stepper.state, stepper.parameters, len(stepper.state.x)
     stepper._sub_step(1e-4)
-    stress = stepper._stress(1e-4, np.full(count, RATE**2 / 4.0))
+    sheared = stepper._shear(1e-4)
+    stress = stepper._stress()
     out = np.empty((count, 3)), np.empty(count), np.empty(count)
-    rates.rates(stepper.kernel, s, stepper.rows, stepper.neighbours.box, stepper.slope, stress, stepper.viscous, p["artificial_viscosity"],
+    rates.rates(stepper.kernel, s, stepper.rows, stepper.neighbours.box, stepper.slope, stress, stepper.viscous, *sheared[:4], p["artificial_viscosity"],
                 p["granular_temperature"], p["conduction"], (), (), (), (), (), stress.kinetic_pressure, *out)  # fmt: skip
     return out
 

@@ -1,4 +1,10 @@
-"""Lasting contacts: Johnson-Jackson frictional pressure and Schaeffer's frictional viscosity."""
+"""Lasting contacts: Johnson-Jackson frictional pressure, and Schaeffer's friction, which yields at |tau| = p_fr sin(phi).
+
+Schaeffer's viscosity p_fr sin(phi)/(2 sqrt(I2D)) is infinite at rest. A bound on it makes a bed creep, and one that
+holds a bed takes steps far below those of sound. Here the contacts are elastic below yield (Bui, Fukagawa, Sako & Ohno
+2008, Int. J. Numer. Anal. Methods Geomech. 32, 1537, with Johnson and Jackson's bulk modulus): grains that do not yield
+are at rest, grains that yield have Schaeffer's stress, and the step is that of sound.
+"""
 
 from __future__ import annotations
 
@@ -8,11 +14,13 @@ from typing import NamedTuple
 from numba import njit
 
 from sdph.effects.effect import Effect, Judgement
-from sdph.laws import constants, granular
+from sdph.laws import constants, granular, viscosity
 from sdph.laws import friction as law
+from sdph.neighbours import deep
 from sdph.schema import quantity, record
 
 DIFFUSIVE = 0.125  # largest nu dt/h^2 of an explicit step, Morris et al. 1997 (sdph-notes, section 3)
+ARRAYS = ("contact_xx", "contact_yy", "contact_xy", "contact_yz", "contact_zx")  # of the state [Pa]
 NEAR = 0.95  # of the onset: grains that close get there when they settle; our choice
 
 
@@ -21,23 +29,26 @@ class Friction:
     onset: float = quantity("", 0.60, above=0.0, most=1.0)  # alpha_p where contacts begin to last (sdph-notes, section 2)
     angle: float = quantity("deg", 28.5, least=0.0, most=60.0)  # OpenFOAM tutorials
     fr: float = quantity("Pa", constants.FRICTION_FR, least=0.0)  # Johnson & Jackson 1987, OpenFOAM tutorials
+    poisson_ratio: float = quantity("", 0.4, above=0.0, most=0.49)  # of contacts that do not yield; loose sand has 0.2 to 0.4
 
 
 class FrictionP(NamedTuple):
-    """Onset [-], packing limit [-], Fr [Pa], sine of the friction angle, grain density [kg/m3], h [m]."""
+    """Onset [-], packing limit [-], Fr [Pa], sine of the friction angle, grain density [kg/m3], shear over bulk modulus [-],
+    h [m]."""
 
     onset: float
     packing: float
     fr: float
     sine: float
     grain_density: float
+    stiffness: float
     h: float
 
 
 def kernel(case) -> FrictionP:
     chosen = case.parameters["friction"]
     packing, density = case.grains.packing_limit, case.grains.density
-    return FrictionP(chosen.onset, packing, chosen.fr, math.sin(chosen.angle), density, case.smoothing_length)
+    return FrictionP(chosen.onset, packing, chosen.fr, math.sin(chosen.angle), density, law.shear_over_bulk(chosen.poisson_ratio), case.smoothing_length)
 
 
 @njit(cache=True, error_model="numpy")
@@ -52,13 +63,75 @@ def pressure(p, alpha_p):
 
 
 @njit(cache=True, error_model="numpy")
-def viscosity(p, frictional_pressure, density, shear_squared, dt):
-    """mu_fr [Pa s], regularised so that at rest it is the largest that an explicit step of `dt` bears."""
-    if len(p) == 0 or frictional_pressure == 0.0:
+def sound_squared(p, alpha_p):
+    """c^2 [m2/s2] of a wave along which contacts are strained elastically: bulk modulus and 4/3 of the shear modulus."""
+    if len(p) == 0:
         return 0.0
-    largest = DIFFUSIVE * p.h * p.h / dt * density
-    least_rate = 0.5 * frictional_pressure * p.sine / largest
-    return law.schaeffer_viscosity(frictional_pressure, p.sine, shear_squared, least_rate)
+    return pressure(p, alpha_p)[1] / p.grain_density * (1.0 + 4.0 / 3.0 * p.stiffness)
+
+
+@njit(cache=True, error_model="numpy")
+def pair(viscous, rubbing, i, j, r_squared, closing, scale):
+    """Viscous force of contacts, as granular_viscosity.pair; the mean viscosity, so that the surface, where the kernel sees
+    too little for a pressure, is held by what lies below it."""
+    if len(viscous) == 0 or len(rubbing) == 0:
+        return 0.0, 0.0
+    return viscosity.espanol_revenga(viscous.dimensions, 0.5 * (rubbing[i] + rubbing[j]), 0.0, r_squared, closing, scale)
+
+
+@njit(cache=True, error_model="numpy")
+def elastic(tau, box, i, j, dx, dy, dz):
+    """(tau_i/rho_i^2 + tau_j/rho_j^2).r_ij; tau (N, 6) [Pa m6/kg2] is that of sdph.shearing, () without contacts."""
+    if len(tau) == 0:
+        return 0.0, 0.0, 0.0
+    xx, yy, xy = tau[i, 0] + tau[j, 0], tau[i, 1] + tau[j, 1], tau[i, 3] + tau[j, 3]
+    if not deep(box):
+        return xx * dx + xy * dy, xy * dx + yy * dy, 0.0
+    zz, yz, zx = tau[i, 2] + tau[j, 2], tau[i, 4] + tau[j, 4], tau[i, 5] + tau[j, 5]
+    return xx * dx + xy * dy + zx * dz, xy * dx + yy * dy + yz * dz, zx * dx + yz * dy + zz * dz
+
+
+@njit(cache=True, error_model="numpy")
+def stress(p, s, i, D, spin, dt):
+    """Deviator of the elastic stress of contacts [Pa] after dt (xx, yy, zz, xy, yz, zx), and their viscosity [Pa s].
+
+    D (6) is the deviator of the rate of strain [1/s], spin (xy, yz, zx) its antisymmetric part: the stress turns with
+    the grains (Jaumann), grows by 2 G D dt, and is joined by 2 mu D with the largest mu that an explicit step bears, so
+    that contacts come to rest; both are cut down together where their sum is past yield.
+    """
+    alpha_p = s.density[i] / p.grain_density
+    frictional_pressure, slope = pressure(p, alpha_p)
+    if frictional_pressure == 0.0:
+        return (0.0, 0.0, 0.0, 0.0, 0.0, 0.0), 0.0
+    xx, yy, zz, xy, yz, zx = trial(s, i, D, spin, 2.0 * p.stiffness * alpha_p * slope, dt)
+    mu = DIFFUSIVE * p.h * p.h / dt * s.density[i]
+    m = 2.0 * mu
+    squared = law.second_invariant(xx + m * D[0], yy + m * D[1], zz + m * D[2], xy + m * D[3], yz + m * D[4], zx + m * D[5])
+    share = law.yield_share(frictional_pressure, p.sine, squared)
+    return (share * xx, share * yy, share * zz, share * xy, share * yz, share * zx), share * mu
+
+
+@njit(cache=True, error_model="numpy")
+def trial(s, i, D, spin, modulus, dt):
+    """Stress of contacts [Pa] after dt if none yields; modulus = 2 G [Pa]."""
+    xx, yy, xy = s.contact_xx[i], s.contact_yy[i], s.contact_xy[i]
+    yz, zx = (s.contact_yz[i], s.contact_zx[i]) if len(s.z) else (0.0, 0.0)
+    zz, strain = -xx - yy, modulus * dt
+    a, b, c = spin[0] * dt, spin[1] * dt, spin[2] * dt
+    return (
+        xx + 2.0 * (a * xy - c * zx) + strain * D[0],
+        yy + 2.0 * (b * yz - a * xy) + strain * D[1],
+        zz + 2.0 * (c * zx - b * yz) + strain * D[2],
+        xy + a * (yy - xx) + b * zx - c * yz + strain * D[3],
+        yz + b * (zz - yy) + c * xy - a * zx + strain * D[4],
+        zx + c * (xx - zz) + a * yz - b * xy + strain * D[5],
+    )
+
+
+@njit(cache=True, error_model="numpy")
+def power(tau, D):
+    """tau:D [W/m3]."""
+    return tau[0] * D[0] + tau[1] * D[1] + tau[2] * D[2] + 2.0 * (tau[3] * D[3] + tau[4] * D[4] + tau[5] * D[5])
 
 
 def call(scales) -> Judgement:
@@ -75,10 +148,10 @@ def call(scales) -> Judgement:
 
 EFFECT = Effect(
     name="friction",
-    summary="lasting contacts of grains (Johnson-Jackson pressure, Schaeffer viscosity)",
+    summary="lasting contacts of grains (Johnson-Jackson pressure, Schaeffer friction)",
     parameters=Friction,
     kernel=kernel,
-    arrays=("theta",),
+    arrays=("theta", *ARRAYS),
     moves=True,
     call=call,
 )

@@ -9,7 +9,7 @@ import numpy as np
 from numba import njit
 
 from sdph.effects.effect import Effect, Judgement
-from sdph.laws import granular
+from sdph.laws import granular, viscosity
 from sdph.laws.constants import TINY
 from sdph.schema import record
 
@@ -65,15 +65,12 @@ def viscosities(p, alpha_p, theta, diameter):
 def pair(viscous, stress, i, j, r_squared, closing, scale):
     """Viscous force per mass of i by j: `along` r_ij and `across`, along v_ij. Off where `viscous` is ().
 
-    Espanol & Revenga 2003 (Phys. Rev. E 67, 026705) in d = viscous.dimensions: with P = 5/3 mu - lambda and
-    Q = (d+2)(lambda + mu/3) its continuum is mu lap v + (lambda + mu/3) grad div v; it never gives energy.
     scale = m_j (dW/dr)/r / (rho_i rho_j); closing = v_ij.r_ij.
     """
     if len(viscous) == 0:
         return 0.0, 0.0
     mu, bulk = harmonic(stress.shear[i], stress.shear[j]), harmonic(stress.bulk[i], stress.bulk[j])
-    along = scale * (viscous.dimensions + 2.0) * (bulk + mu / 3.0) * closing / max(r_squared, TINY)
-    return along, scale * (5.0 / 3.0 * mu - bulk)
+    return viscosity.espanol_revenga(viscous.dimensions, mu, bulk, r_squared, closing, scale)
 
 
 def call(scales) -> Judgement:

@@ -107,28 +107,45 @@ def distance(box, dummies, w, s, i):
 
 
 @njit(cache=True, error_model="numpy")
-def strain(p, kernel, box, dummies, rows, s, i):
-    """What walls that grip add to the rate of strain (xx, yy, zz, xy, yz, zx) [1/s] of particle i: dummies that move
-    against it as fast along the wall. So friction yields at a wall as it does inside."""
-    xx = yy = zz = xy = yz = zx = 0.0
-    if len(p) == 0 or p.specularity == 0.0:
-        return xx, yy, zz, xy, yz, zx
+def normal_part(dummies, w, dx, dy, dz):
+    """The part of a vector along the normal of a wall, or all of it in a corner, where none is known."""
+    nx, ny, nz = dummies.normal_x[w], dummies.normal_y[w], dummies.normal_z[w]
+    along, corner = dx * nx + dy * ny + dz * nz, 1.0 - (nx * nx + ny * ny + nz * nz)
+    return along * nx + corner * dx, along * ny + corner * dy, along * nz + corner * dz
+
+
+@njit(cache=True, error_model="numpy")
+def held(p, dummies, w, x, y, z):
+    """What of a vector (velocity or traction of contacts) a wall takes hold of: all of it where it grips, else the normal part."""
+    nx, ny, nz = normal_part(dummies, w, x, y, z)
+    grips = dummies.stick[w] if p.specularity != 0.0 else 0.0
+    return nx + grips * (x - nx), ny + grips * (y - ny), nz + grips * (z - nz)
+
+
+@njit(cache=True, error_model="numpy")
+def gradient(p, kernel, box, dummies, rows, s, i):
+    """What walls add to the velocity gradient (xx, xy, xz, yx, yy, yz, zx, zy, zz) [1/s] of particle i: mirrored velocities
+    behind them. The adjoint of the traction of contacts in `force`, so that elastic contacts neither gain nor lose."""
+    xx = xy = xz = yx = yy = yz = zx = zy = zz = 0.0
+    if len(p) == 0:
+        return xx, xy, xz, yx, yy, yz, zx, zy, zz
     for k in range(rows.count[i]):
         w = rows.index[i, k]
         dx, dy, dz = offset(box, dummies, w, s, i)
-        nx, ny, nz = dummies.normal_x[w], dummies.normal_y[w], dummies.normal_z[w]
-        vz = s.w[i] if len(s.z) else 0.0
-        towards = s.u[i] * nx + s.v[i] * ny + vz * nz
-        du, dv, dw = 2.0 * (s.u[i] - towards * nx), 2.0 * (s.v[i] - towards * ny), 2.0 * (vz - towards * nz)
         r = np.sqrt(dx * dx + dy * dy + dz * dz)
-        g = -p.volume * dummies.stick[w] * kernels.cubic_spline_gradient(r, kernel.h, kernel.sigma)
+        g = -2.0 * p.volume * kernels.cubic_spline_gradient(r, kernel.h, kernel.sigma)
+        du, dv, dw = held(p, dummies, w, s.u[i], s.v[i], s.w[i] if len(s.z) else 0.0)
+        dx, dy, dz = normal_part(dummies, w, dx, dy, dz)
         xx += g * du * dx
+        xy += g * du * dy
+        xz += g * du * dz
+        yx += g * dv * dx
         yy += g * dv * dy
+        yz += g * dv * dz
+        zx += g * dw * dx
+        zy += g * dw * dy
         zz += g * dw * dz
-        xy += 0.5 * g * (du * dy + dv * dx)
-        yz += 0.5 * g * (dv * dz + dw * dy)
-        zx += 0.5 * g * (dw * dx + du * dz)
-    return xx, yy, zz, xy, yz, zx
+    return xx, xy, xz, yx, yy, yz, zx, zy, zz
 
 
 @njit(cache=True, error_model="numpy")
@@ -173,8 +190,8 @@ def grip(p, dummies, w, s, i, dx, dy, dz, shear):
 
 
 @njit(cache=True, error_model="numpy")
-def force(p, kernel, box, dummies, rows, s, i, pressure, shear, wall_pressure, wall_velocity):
-    """Acceleration [m/s2] of particle i by the wall."""
+def force(p, kernel, box, dummies, rows, s, i, pressure, shear, tau, wall_pressure, wall_velocity):
+    """Acceleration [m/s2] of particle i by the wall; contacts, with their traction tau (N, 6) of sdph.shearing, bear on it as they do on grains."""
     ax, ay, az = 0.0, 0.0, 0.0
     if len(p) == 0:
         return ax, ay, az
@@ -201,7 +218,23 @@ def force(p, kernel, box, dummies, rows, s, i, pressure, shear, wall_pressure, w
             ax += along * nx + corner * dx + stick * (s.u[i] + wall_velocity[w, 0])
             ay += along * ny + corner * dy + stick * (s.v[i] + wall_velocity[w, 1])
             az += along * nz + corner * dz + stick * (vz + wall_velocity[w, 2])
+            if len(tau):
+                rub = 2.0 * p.volume * s.density[i] * gradient
+                fx, fy, fz = rubbing(p, dummies, w, tau, i, dx, dy, dz)
+                ax += rub * fx
+                ay += rub * fy
+                az += rub * fz
     return ax, ay, az
+
+
+@njit(cache=True, error_model="numpy")
+def rubbing(p, dummies, w, tau, i, dx, dy, dz):
+    """tau_i.r of contacts, r taken along the normal; of a smooth wall its normal part."""
+    dx, dy, dz = normal_part(dummies, w, dx, dy, dz)
+    fx = tau[i, 0] * dx + tau[i, 3] * dy + tau[i, 5] * dz
+    fy = tau[i, 3] * dx + tau[i, 1] * dy + tau[i, 4] * dz
+    fz = tau[i, 5] * dx + tau[i, 4] * dy + tau[i, 2] * dz
+    return held(p, dummies, w, fx, fy, fz)
 
 
 @njit(cache=True, error_model="numpy")

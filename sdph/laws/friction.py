@@ -61,3 +61,20 @@ def schaeffer_viscosity(pressure, sin_angle, shear_squared, least_rate):
     finite. Schaeffer 1987, J. Differ. Equations 66, 19. Chen et al. 2014 take p_s for p_fr, and alpha_p times this.
     """
     return 0.5 * pressure * sin_angle / math.sqrt(shear_squared + least_rate**2)
+
+
+@law
+def yield_share(pressure, sin_angle, stress_squared):
+    """Share [-] of a deviatoric stress that contacts bear: sqrt(J2) is at most p_fr sin(phi).
+
+    pressure p_fr [Pa], sin_angle = sin(phi), stress_squared = J2 = tau:tau/2 [Pa2]. Schaeffer 1987: while grains yield, tau
+    = 2 mu_fr dev(D) with the viscosity above at least_rate = 0.
+    """
+    most = pressure * sin_angle
+    return most / math.sqrt(stress_squared) if stress_squared > most * most else 1.0
+
+
+@law
+def shear_over_bulk(poisson_ratio):
+    """G/K [-] = 3 (1 - 2 nu)/(2 (1 + nu)) of an isotropic elastic solid, 0 < nu < 0.5."""
+    return 1.5 * (1.0 - 2.0 * poisson_ratio) / (1.0 + poisson_ratio)
