@@ -6,7 +6,7 @@ from grain_boxes import box, started
 
 from coupling.embedded import EmbeddedGas
 from sdph import case as cases
-from sdph import particles, rates, scenes
+from sdph import particles, scenes, shearing
 from sdph.effects import OFF
 from sdph.ledger import Ledger
 from sdph.simulation import Simulation
@@ -48,8 +48,9 @@ def test_strain_of_a_uniform_flow_in_space(tmp_path):
     velocity = particles.positions(state) @ gradient.T
     for own, column in zip((state.u, state.v, state.w), velocity.T):
         own[:] = column
-    shear, divergence = np.empty(len(state.x)), np.empty(len(state.x))
-    rates.strain(stepper.kernel, state, stepper.rows, stepper.neighbours.box, stepper.slope, OFF, OFF, OFF, shear, divergence)
+    sheared = shearing.empty(len(state.x), contacts=False)
+    shearing.shear(stepper.kernel, state, stepper.rows, stepper.neighbours.box, stepper.slope, OFF, OFF, OFF, OFF, 1e-4, *sheared)
+    shear, divergence = sheared.shear_squared, sheared.divergence
     inside = (np.abs(particles.positions(state) - 0.03) < 0.011).all(axis=1)
     D = 0.5 * (gradient + gradient.T)
     deviator = D - np.trace(D) / 3.0 * np.eye(3)

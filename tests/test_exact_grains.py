@@ -139,17 +139,15 @@ def test_slope_slides_with_what_friction_leaves(tmp_path):
     _, acceleration = slid(tmp_path, math.radians(45.0))
     expected = exact.slope_acceleration(math.radians(45.0), PHI, 9.81)
     print(f"slope of 45 degrees: {acceleration:.3f} m/s2, exact {expected:.3f}")
-    assert acceleration == pytest.approx(expected, rel=0.13)
+    assert acceleration == pytest.approx(expected, rel=0.06)
 
 
-def test_slope_below_the_angle_of_yield_only_creeps(tmp_path):
-    """At 20 degrees, below atan(sin phi) = 25.5: friction is a viscosity no larger than an explicit step bears, so that
-    grains which should rest creep, at a rate of strain of about p sin(phi)/(2 mu_max), 3/s here."""
-    speed, acceleration = slid(tmp_path, math.radians(20.0), 0.6)
-    free = 9.81 * math.sin(math.radians(20.0))
-    print(f"slope of 20 degrees: creeps at {speed:.3f} m/s, {acceleration:.3f} m/s2; without friction {free:.2f} m/s2")
-    assert speed < 0.2 * free * 0.6
-    assert acceleration < 0.15 * free
+def test_slope_below_the_angle_of_yield_rests(tmp_path):
+    """At 20 degrees, below atan(sin phi) = 25.5: contacts bear the layer elastically, whatever the step."""
+    speed, acceleration = slid(tmp_path, math.radians(20.0))
+    print(f"slope of 20 degrees: {speed:.1e} m/s, {acceleration:.1e} m/s2; without friction {9.81 * math.sin(math.radians(20.0)):.2f} m/s2")
+    assert abs(speed) < 1e-3
+    assert abs(acceleration) < 0.01
 
 
 def collapsed(folder, aspect, width=0.04):

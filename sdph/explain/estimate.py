@@ -114,7 +114,7 @@ def _moves(case) -> bool:
 
 def _sound(case, s) -> float:
     """c [m/s] of agitation and friction where grains lie closest at the start."""
-    lasting = friction.pressure(friction.kernel(case), s.alpha_p)[1] / case.grains.density if "friction" in case.effects else 0.0
+    lasting = friction.sound_squared(friction.kernel(case), s.alpha_p) if "friction" in case.effects else 0.0
     return math.sqrt(s.sound**2 + lasting)
 
 
