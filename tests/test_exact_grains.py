@@ -150,8 +150,10 @@ def test_slope_below_the_angle_of_yield_rests(tmp_path):
     assert abs(acceleration) < 0.01
 
 
-def collapsed(folder, aspect, width=0.04):
-    """(run-out over the first width, height over it) of a column `aspect` times as high as wide, fallen over a rough floor."""
+def collapsed(folder, aspect, width=0.08):
+    """(run-out over the first width, height over it) of a column `aspect` times as high as wide, fallen over a rough floor.
+
+    With 8 particles across, the rim, where alpha_p is below the onset of contacts, is half of the column and flows like water."""
     height = aspect * width
     end = 4.0 * math.sqrt(height / 9.81)
     case = box(["gravity", "friction", "granular_pressure", "artificial_viscosity", "walls"], size=(width * (2.0 + 3.0 * aspect), 1.2 * height),
