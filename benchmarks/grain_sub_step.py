@@ -9,12 +9,12 @@ import time
 import numba
 
 from sdph import case as cases
-from sdph import rates, scenes
+from sdph import rates, scenes, shearing
 from sdph.effects import granular_temperature, walls
 from sdph.simulation import Simulation
 
 WINDOWS = 12
-LOOPS = {rates: ("sum_density", "strain", "sound_speeds", "constitutive", "rates"), walls: ("extrapolate", "contact"), granular_temperature: ("advance_all",)}
+LOOPS = {shearing: ("shear",), rates: ("sum_density", "sound_speeds", "constitutive", "rates"), walls: ("extrapolate", "contact"), granular_temperature: ("advance_all",)}
 
 
 class NoLedger:

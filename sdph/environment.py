@@ -1,9 +1,10 @@
-"""What has to be set before numba is imported: where kernels are cached, and how threads wait."""
+"""What has to be set before kernels are compiled: where kernels are cached, and how threads wait."""
 
 from __future__ import annotations
 
 import hashlib
 import os
+import sys
 from pathlib import Path
 
 CACHE = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "sdph"
@@ -25,6 +26,8 @@ def prepare() -> None:
     os.environ.setdefault("NUMBA_THREADING_LAYER_PRIORITY", "omp tbb workqueue")
     os.environ.setdefault("NUMBA_CACHE_DIR", str(CACHE / "kernels" / _sources()))
     os.environ.setdefault("OMP_WAIT_POLICY", "passive")
+    if "numba" in sys.modules:  # who imports numba before sdph would else share kernels between versions
+        sys.modules["numba"].config.reload_config()
 
 
 def warnings() -> list[str]:

@@ -118,7 +118,7 @@ def conduct(s, rows, box, slope, conduction_p, heating):
 
 @loop
 def rates(
-    kernel, s, rows, box, slope, stress, viscous_p, tau, traction, rubbing, contact_work, artificial_p, temperature_p, conduction_p,
+    kernel, s, rows, box, slope, stress, viscous_p, friction_p, traction, rubbing, contact_work, artificial_p, temperature_p, conduction_p,
     walls_p, dummies, wall_rows, wall_pressure, wall_velocity, pressure, acceleration, agitation, heating,
 ):  # fmt: skip
     """Of grains that move: acceleration (N, 3) [m/s2], agitation (N,) [W/kg] that feeds theta, heating (N,) [W/kg]."""
@@ -144,8 +144,8 @@ def rates(
                 artificial_p, closing, r2, stress.sound[i], stress.sound[j], rho_i, rho_j
             )
             along, across = granular_viscosity.pair(viscous_p, stress, i, j, r2, closing, scale)
-            rub_along, rub_across = friction.pair(viscous_p, rubbing, i, j, r2, closing, scale)
-            fx, fy, fz = friction.elastic(tau, box, i, j, dx, dy, dz)
+            rub_along, rub_across = friction.pair(friction_p, rubbing, i, j, r2, closing, scale)
+            fx, fy, fz = friction.elastic(friction_p, s, box, i, j, dx, dy, dz)
             push = along + rub_along - agitated - lasting - ringing
             ax += push * dx + (across + rub_across) * du + m_j * gradient * fx
             ay += push * dy + (across + rub_across) * dv + m_j * gradient * fy

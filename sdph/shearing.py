@@ -19,11 +19,10 @@ from sdph.rates import approach, loop, separation
 
 
 class Shearing(NamedTuple):
-    """Per particle: elastic stress of contacts over density squared (N, 6) [Pa m6/kg2], xx, yy, zz, xy, yz, zx; the same
-    with their viscous stress; viscosity of contacts (N,) [Pa s], all () without contacts; work of the elastic stress (N,)
-    [W/kg]; I2D = dev(D):dev(D)/2 (N,) [1/s2] and div v (N,) [1/s]."""
+    """Per particle: stress of contacts, elastic and viscous, over density squared (N, 6) [Pa m6/kg2], xx, yy, zz, xy, yz, zx;
+    viscosity of contacts (N,) [Pa s], both () without contacts; work of the elastic stress (N,) [W/kg];
+    I2D = dev(D):dev(D)/2 (N,) [1/s2] and div v (N,) [1/s]."""
 
-    tau: np.ndarray
     traction: np.ndarray
     rubbing: np.ndarray
     contact_work: np.ndarray
@@ -33,11 +32,11 @@ class Shearing(NamedTuple):
 
 def nothing(count: int) -> Shearing:
     """Of grains whose shear nobody asks for."""
-    return Shearing((), (), (), *(np.zeros(count) for _ in range(3)))
+    return Shearing((), (), *(np.zeros(count) for _ in range(3)))
 
 
 def empty(count: int, contacts: bool) -> Shearing:
-    tensors = (np.empty((count, 6)), np.empty((count, 6)), np.empty(count)) if contacts else ((), (), ())
+    tensors = (np.empty((count, 6)), np.empty(count)) if contacts else ((), ())
     return Shearing(*tensors, *(np.empty(count) for _ in range(3)))
 
 
@@ -67,9 +66,9 @@ def gradient(s, rows, box, slope, i):
 @loop
 def shear(
     kernel, s, rows, box, slope, walls_p, dummies, wall_rows, friction_p, dt,
-    tau, traction, rubbing, contact_work, shear_squared, divergence,
+    held_xx, held_yy, held_xy, held_yz, held_zx, traction, rubbing, contact_work, shear_squared, divergence,
 ):  # fmt: skip
-    """The fields of `Shearing`, from velocities as they are; contacts are strained over dt [s] from the stress that they have."""
+    """The fields of `Shearing`, from velocities as they are; contacts are strained over dt [s]: `held` is the state's own stress."""
     for i in prange(len(s.x)):
         xx, xy, xz, yx, yy, yz, zx, zy, zz = gradient(s, rows, box, slope, i)
         if walls.near(walls_p, wall_rows, i):
@@ -82,10 +81,12 @@ def shear(
         shear_squared[i] = second_invariant(*D)
         divergence[i] = 3.0 * third
         contact_work[i] = 0.0
-        if len(tau):
+        if len(friction_p):
             spin = 0.5 * (xy - yx), 0.5 * (yz - zy), 0.5 * (zx - xz)
-            held, rubbing[i] = friction.stress(friction_p, s, i, D, spin, dt)
+            tau, rubbing[i] = friction.stress(friction_p, s, i, D, spin, dt)
+            held_xx[i], held_yy[i], held_xy[i] = tau[0], tau[1], tau[3]
+            if deep(box):
+                held_yz[i], held_zx[i] = tau[4], tau[5]
             for a in range(6):
-                tau[i, a] = held[a] / s.density[i] ** 2
-                traction[i, a] = (held[a] + 2.0 * rubbing[i] * D[a]) / s.density[i] ** 2
-            contact_work[i] = friction.power(held, D) / s.density[i]
+                traction[i, a] = (tau[a] + 2.0 * rubbing[i] * D[a]) / s.density[i] ** 2
+            contact_work[i] = friction.power(tau, D) / s.density[i]

@@ -33,7 +33,7 @@ class Stepper:
         self.kernel, self.guard = rates.kernel_of(case), Guard(case)
         self.neighbours = Neighbours(REACH * case.smoothing_length, case.domain.period, case.resolution.neighbour_skin)
         self.boundary = Boundary(case) if parameters["walls"] else None
-        self.viscous = Viscous(float(case.dimensions)) if parameters["granular_viscosity"] or parameters["friction"] else OFF
+        self.viscous = Viscous(float(case.dimensions)) if parameters["granular_viscosity"] else OFF
         algebraic = parameters["granular_temperature"] and parameters["granular_temperature"].model == 1
         self.shears = bool(parameters["friction"] or algebraic)
         self.steps, self.contacts, self.limit = 0, 0, ""
@@ -125,7 +125,7 @@ class Stepper:
         wall_pressure, wall_velocity = self._extrapolate(pressure, body)
         acceleration, agitation, heating = np.empty((count, 3)), np.empty(count), np.empty(count)
         rates.rates(
-            self.kernel, s, self.rows, self.neighbours.box, self.slope, stress, self.viscous, *sheared[:4], p["artificial_viscosity"],
+            self.kernel, s, self.rows, self.neighbours.box, self.slope, stress, self.viscous, p["friction"], *sheared[:3], p["artificial_viscosity"],
             p["granular_temperature"], p["conduction"], *self._walls(), wall_pressure, wall_velocity, pressure,
             acceleration, agitation, heating,
         )  # fmt: skip
@@ -150,15 +150,12 @@ class Stepper:
         return Stress(kinetic, lasting, shear, bulk, self.sound, conductivity)
 
     def _shear(self, dt: float) -> shearing.Shearing:
-        """Strain and the stress of contacts after `dt` [s], which they keep."""
+        """Strain, and contacts strained over `dt` [s]."""
         s, p = self.state, self.parameters
         if not self.shears:
             return shearing.nothing(len(s.x))
-        out = shearing.empty(len(s.x), bool(p["friction"]))
-        shearing.shear(self.kernel, s, self.rows, self.neighbours.box, self.slope, *self._walls(), p["friction"], dt, *out)
-        if p["friction"]:
-            for name, column in zip(friction.ARRAYS, (0, 1, 3, 4, 5) if len(s.z) else (0, 1, 3)):
-                getattr(s, name)[:] = out.tau[:, column] * s.density**2
+        out, held = shearing.empty(len(s.x), bool(p["friction"])), (getattr(s, name) for name in friction.ARRAYS)
+        shearing.shear(self.kernel, s, self.rows, self.neighbours.box, self.slope, *self._walls(), p["friction"], dt, *held, *out)
         return out
 
     def _extrapolate(self, pressure, body):

@@ -117,3 +117,10 @@ def test_an_edited_law_gets_kernels_of_its_own(monkeypatch, tmp_path):
     before = environment._sources()
     (package / "law.py").write_text("@law\ndef drag(): return 2\n")
     assert environment._sources() != before
+
+
+def test_numba_imported_first_caches_by_the_sources_too():
+    told = "import numba, sdph; from sdph import environment; print(numba.config.CACHE_DIR.endswith(environment._sources()))"
+    variables = {name: value for name, value in os.environ.items() if name != "NUMBA_CACHE_DIR"}
+    found = subprocess.run([sys.executable, "-c", told], capture_output=True, text=True, check=True, env=variables)
+    assert found.stdout.split() == ["True"]

@@ -34,7 +34,7 @@ class Friction:
 
 class FrictionP(NamedTuple):
     """Onset [-], packing limit [-], Fr [Pa], sine of the friction angle, grain density [kg/m3], shear over bulk modulus [-],
-    h [m]."""
+    h [m], dimensions."""
 
     onset: float
     packing: float
@@ -43,12 +43,16 @@ class FrictionP(NamedTuple):
     grain_density: float
     stiffness: float
     h: float
+    dimensions: float
 
 
 def kernel(case) -> FrictionP:
     chosen = case.parameters["friction"]
     packing, density = case.grains.packing_limit, case.grains.density
-    return FrictionP(chosen.onset, packing, chosen.fr, math.sin(chosen.angle), density, law.shear_over_bulk(chosen.poisson_ratio), case.smoothing_length)
+    stiffness = law.shear_over_bulk(chosen.poisson_ratio)
+    return FrictionP(
+        chosen.onset, packing, chosen.fr, math.sin(chosen.angle), density, stiffness, case.smoothing_length, float(case.dimensions)
+    )
 
 
 @njit(cache=True, error_model="numpy")
@@ -71,24 +75,28 @@ def sound_squared(p, alpha_p):
 
 
 @njit(cache=True, error_model="numpy")
-def pair(viscous, rubbing, i, j, r_squared, closing, scale):
+def pair(p, rubbing, i, j, r_squared, closing, scale):
     """Viscous force of contacts, as granular_viscosity.pair; the mean viscosity, so that the surface, where the kernel sees
     too little for a pressure, is held by what lies below it."""
-    if len(viscous) == 0 or len(rubbing) == 0:
+    if len(p) == 0:
         return 0.0, 0.0
-    return viscosity.espanol_revenga(viscous.dimensions, 0.5 * (rubbing[i] + rubbing[j]), 0.0, r_squared, closing, scale)
+    return viscosity.espanol_revenga(p.dimensions, 0.5 * (rubbing[i] + rubbing[j]), 0.0, r_squared, closing, scale)
 
 
 @njit(cache=True, error_model="numpy")
-def elastic(tau, box, i, j, dx, dy, dz):
-    """(tau_i/rho_i^2 + tau_j/rho_j^2).r_ij; tau (N, 6) [Pa m6/kg2] is that of sdph.shearing, () without contacts."""
-    if len(tau) == 0:
+def elastic(p, s, box, i, j, dx, dy, dz):
+    """(tau_i/rho_i^2 + tau_j/rho_j^2).r_ij of the elastic stress of contacts."""
+    if len(p) == 0:
         return 0.0, 0.0, 0.0
-    xx, yy, xy = tau[i, 0] + tau[j, 0], tau[i, 1] + tau[j, 1], tau[i, 3] + tau[j, 3]
+    own, other = 1.0 / s.density[i] ** 2, 1.0 / s.density[j] ** 2
+    xx = s.contact_xx[i] * own + s.contact_xx[j] * other
+    yy = s.contact_yy[i] * own + s.contact_yy[j] * other
+    xy = s.contact_xy[i] * own + s.contact_xy[j] * other
     if not deep(box):
         return xx * dx + xy * dy, xy * dx + yy * dy, 0.0
-    zz, yz, zx = tau[i, 2] + tau[j, 2], tau[i, 4] + tau[j, 4], tau[i, 5] + tau[j, 5]
-    return xx * dx + xy * dy + zx * dz, xy * dx + yy * dy + yz * dz, zx * dx + yz * dy + zz * dz
+    yz = s.contact_yz[i] * own + s.contact_yz[j] * other
+    zx = s.contact_zx[i] * own + s.contact_zx[j] * other
+    return xx * dx + xy * dy + zx * dz, xy * dx + yy * dy + yz * dz, zx * dx + yz * dy - (xx + yy) * dz
 
 
 @njit(cache=True, error_model="numpy")
