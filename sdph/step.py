@@ -18,7 +18,9 @@ from sdph.neighbours import Neighbours
 from sdph.particles import INFLOW
 from sdph.rates import Stress
 
-ACOUSTIC = 0.25  # of h/(c + v), Monaghan 1992 (sdph-notes, section 3)
+# Of h/(c + v). A lattice of the cubic spline with summed density and p up to rho c^2/2 bears 1.15 h/c in these steps (von
+# Neumann; tests/test_rates.py); Monaghan 1992 takes 0.25. Ours, by what the hard cases and the bed's accuracy allow.
+ACOUSTIC = 0.5
 DIFFUSIVE = 0.125  # of h^2/nu, Morris, Fox & Zhu 1997
 REACH = 2.0  # support of the kernels in smoothing lengths
 

@@ -14,6 +14,7 @@ from sdph.effects import OFF, conduction
 from sdph.laws import exact, kernels
 from sdph.laws.exchange import cleary_monaghan
 from sdph.neighbours import Neighbours, box_of
+from sdph.step import ACOUSTIC
 
 H = 0.1
 SIGMA = {dims: kernels.normalisation("cubic_spline", dims, H) for dims in (2, 3)}
@@ -178,3 +179,20 @@ def test_every_output_is_written():
     for found in (summed_density(rates.Kernel(H, SIGMA[2]), state), conduction_heating(rates.Kernel(H, SIGMA[2]), state, GRAINS)):
         assert np.isfinite(found[1]).all()
         assert np.abs(found[1]).max() > 0.0
+
+
+def test_sound_is_stable_at_twice_its_limit():
+    """von Neumann: waves on a lattice with h = 1.5 dx, summed density, pressure up to rho c^2/2; these steps bear omega dt = 2."""
+    dx = H / 1.5
+    place = dx * np.stack(np.meshgrid(*[np.arange(-4, 5)] * 2), axis=-1).reshape(-1, 2)
+    place = place[place.any(axis=1)]
+    x, r = place[:, 0], np.linalg.norm(place, axis=1)
+    pull = dx**2 * spline(r, 2)[1] / r  # V (dW/dr)/r
+    shifted = 1e-6 * H * np.array([1.0, 0.0])
+    ahead, behind = (np.linalg.norm(place + side * shifted, axis=1) for side in (1.0, -1.0))
+    bent = dx**2 * (spline(ahead, 2)[1] / ahead * (x + shifted[0]) - spline(behind, 2)[1] / behind * (x - shifted[0])) / (2.0 * shifted[0])
+    waves = np.linspace(0.01, 1.0, 200)[:, None] * np.pi / dx * x
+    compression, push = (pull * x * np.sin(waves)).sum(axis=1) ** 2, (bent * (1.0 - np.cos(waves))).sum(axis=1)
+    borne = [2.0 / np.sqrt((compression + 2.0 * p * push).max()) / H for p in (0.0, 0.5)]  # of h/c
+    print(f"a lattice bears {borne[0]:.2f} and, under rho c^2/2, {borne[1]:.2f} h/c")
+    assert min(borne) > 2.0 * ACOUSTIC

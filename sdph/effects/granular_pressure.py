@@ -19,15 +19,17 @@ class GranularPressure:
 
 
 class PressureP(NamedTuple):
-    """Restitution [-], packing limit [-], grain density [kg/m3]."""
+    """Restitution [-], packing limit [-], grain density [kg/m3], 1 where compression heats the grains and 0 where theta stands."""
 
     restitution: float
     packing: float
     grain_density: float
+    isentropic: float
 
 
 def kernel(case) -> PressureP:
-    return PressureP(case.grains.restitution, case.grains.packing_limit, case.grains.density)
+    isentropic = float("granular_temperature" in case.effects)
+    return PressureP(case.grains.restitution, case.grains.packing_limit, case.grains.density, isentropic)
 
 
 @njit(cache=True, error_model="numpy")
@@ -41,11 +43,13 @@ def pressure(p, alpha_p, theta):
 
 @njit(cache=True, error_model="numpy")
 def sound_squared(p, alpha_p, theta):
-    """c^2 [m2/s2] of the agitated grains, their heating by compression included."""
+    """c^2 [m2/s2] of the agitated grains, their heating by compression included where theta follows it."""
     if len(p) == 0:
         return 0.0
     a = granular.capped_fraction(alpha_p, p.packing)
     g0, slope = granular.sinclair_jackson(a, p.packing), granular.sinclair_jackson_slope(a, p.packing)
+    if p.isentropic == 0.0:
+        return granular.lun_pressure_slope(a, theta, p.restitution, g0, slope, p.grain_density) / p.grain_density
     return granular.sound_speed_squared(a, theta, p.restitution, g0, slope, p.grain_density, 0.0)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from sdph import case as cases
 from sdph import effects, environment, particles
-from sdph.effects import friction
+from sdph.effects import friction, granular_pressure
 from sdph.laws import kernels
 from sdph.step import ACOUSTIC, DIFFUSIVE
 
@@ -102,7 +102,7 @@ def _sub_steps(case, s) -> list[tuple]:
     if _moves(case):
         fastest = _sound(case, s) + s.speed
         if fastest:
-            rows.append(("sub-step", "sound", ACOUSTIC * h / fastest, f"0.25 h/(c + v), c = {_sound(case, s):.3g} m/s"))
+            rows.append(("sub-step", "sound", ACOUSTIC * h / fastest, f"{ACOUSTIC:g} h/(c + v), c = {_sound(case, s):.3g} m/s"))
         if s.theta:
             rows.append(("sub-step", "agitation", DIFFUSIVE * h / math.sqrt(s.theta), "0.125 h/sqrt(theta)"))
     return rows or [("sub-step", "window", case.coupling.window_largest, "nothing else limits it")]
@@ -114,8 +114,9 @@ def _moves(case) -> bool:
 
 def _sound(case, s) -> float:
     """c [m/s] of agitation and friction where grains lie closest at the start."""
+    agitated = granular_pressure.sound_squared(granular_pressure.kernel(case), s.alpha_p, s.theta) if "granular_pressure" in case.effects else 0.0
     lasting = friction.sound_squared(friction.kernel(case), s.alpha_p) if "friction" in case.effects else 0.0
-    return math.sqrt(s.sound**2 + lasting)
+    return math.sqrt(agitated + lasting)
 
 
 def _own_limit(case, name: str) -> float:

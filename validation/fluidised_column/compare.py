@@ -19,9 +19,9 @@ from sdph.laws import exact as laws
 from sdph.ledger import Ledger
 from sdph.simulation import Simulation
 
-RAMP = (0.04, 0.06, 0.075, 0.10, 0.12, 0.10, 0.075, 0.04, 0.03, 0.02)  # m/s, up and down
-FIXED = 0.5  # of the weight; a bed that the gas carries less of lies packed on its way down; our choice
-STAGE = 0.8  # s at each velocity; means are over the latter half
+RAMP = (0.04, 0.06, 0.075, 0.10, 0.12, 0.10, 0.075, 0.06, 0.04, 0.02)  # m/s, up and down
+FIXED = 0.9  # of the weight; a bed that the gas carries less of lies packed on its way down; our choice
+STAGE = 1.6  # s at each velocity; means are over the latter half: a bed that settles takes 0.5 s
 PACKED, CARRIED, ONSET = 0.01, 0.02, 0.03  # of Ergun's pressure drop, of the weight, of U_mf
 STILL, QUIET = 5e-3, 0.01  # m/s; of the weight
 
