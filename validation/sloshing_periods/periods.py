@@ -1,6 +1,6 @@
 """First sloshing periods of box, cylinder and sphere against linear theory.
 
-    python validation/sloshing_periods/periods.py [box,cylinder,sphere] [0.15,0.25,0.5] [spacings in a radius: 12] [h/dx: 1.5]
+    python validation/sloshing_periods/periods.py [box,cylinder,sphere] [0.15,0.25,0.5] [spacings in a radius: 12] [h/dx: 1.5] [shake in mm: 10]
 
 A tank at rest is shaken for two periods of the linear frequency and let go; the period is that of the damped harmonic
 fitted to the liquid's centre of mass over four further ones. The box is two-dimensional, its half length the radius; box
@@ -24,7 +24,6 @@ from sdph.periods import ringing
 
 G = 9.81  # m/s2
 RADIUS = 0.5  # m
-SHAKE = 0.01  # m, the waves are then 5 to 7 % of a radius
 SHAKEN, FREE = 2, 4  # periods
 FIRST_ROOT = 1.8412  # of J_1', NASA SP-106
 BARS = {12: 0.03, 25: 0.01}  # liquids.md
@@ -44,8 +43,8 @@ def linear(shape: str, fill: float) -> tuple[float, float]:
     return math.sqrt(float(row["omega1_sq_R_over_g"]) * G / RADIUS), RADIUS * float(row["depth_over_R"])
 
 
-def tank(shape: str, fill: float, across: int, ratio: float):
-    """The case, and the linear frequency."""
+def tank(shape: str, fill: float, across: int, ratio: float, shake: float):
+    """The case, shaken by `shake` [m], and the linear frequency."""
     omega, depth = linear(shape, fill)
     period, d = 2.0 * math.pi / omega, 2 if shape == "box" else 3
     middle = {"centre_m": [RADIUS] * 3, "radius_m": RADIUS} | ({"length_m": 2.0 * RADIUS} if shape == "cylinder" else {})
@@ -57,15 +56,30 @@ def tank(shape: str, fill: float, across: int, ratio: float):
         "domain": {"size_m": [2.0 * RADIUS] * d, "gravity_m_s2": [0.0] * (d - 1) + [-G]},
         "resolution": {"spacing_mm": 1e3 * RADIUS / across, "smoothing_ratio": ratio},
         "liquid": {"density_kg_m3": 1000.0, "sound_speed_m_s": 10.0 * math.sqrt(G * depth), "history_interval_s": period / 50.0},
-        "frame": {"shake": [[0, SHAKE, omega, 0.0]], "end_s": SHAKEN * period},
+        "frame": {"shake": [[0, shake, omega, 0.0]], "end_s": SHAKEN * period},
         "tank": {"shape": shape, "slip": "free_slip"} | ({"open_sides": ["top"]} if shape == "box" else middle),
         "pools": {"water": box if shape == "box" else {"shape": "tank", "fill": fill}},
     }  # fmt: skip
     return cases.from_table(table), omega
 
 
-def measure(shape: str, fill: float, across: int, ratio: float) -> dict:
-    case, omega = tank(shape, fill, across, ratio)
+def finite(fill: float, amplitude: float, damping: float, time: float) -> float:
+    """Period over the linear of a standing wave in the box whose centre of mass moves by `amplitude` [m] at first, and by
+    exp(-damping t) of it later; of the mean square over `time` [s].
+
+    omega = omega_0 + (k a)^2 omega_2/2 in units of sqrt(g k), omega_0^2 = tanh k h: Tadjbakhsh & Keller 1960, J. Fluid Mech. 8, 442.
+    """
+    length, depth = 2.0 * RADIUS, 2.0 * RADIUS * fill
+    k = math.pi / length
+    height = amplitude * math.pi**2 * depth / (2.0 * length)  # a of a cos(k x), whose centre of mass moves by 2 a L/(pi^2 h)
+    mean = -math.expm1(-2.0 * damping * time) / (2.0 * damping * time)
+    w = math.sqrt(math.tanh(k * depth))
+    omega_2 = (9.0 * w**-7 - 12.0 * w**-3 - 3.0 * w - 2.0 * w**5) / 32.0
+    return w / (w + 0.5 * (k * height) ** 2 * mean * omega_2)
+
+
+def measure(shape: str, fill: float, across: int, ratio: float, shake: float) -> dict:
+    case, omega = tank(shape, fill, across, ratio, shake)
     with tempfile.TemporaryDirectory() as folder:
         run, rows = LiquidRun(case, Path(folder) / "ledger.csv"), []
         run.start()
@@ -76,7 +90,10 @@ def measure(shape: str, fill: float, across: int, ratio: float) -> dict:
     h = {key: np.array([row[key] for row in rows]) for key in rows[0]}
     free = h["time_s"] > 1.05 * case.parameters["frame"].end
     found, damping = ringing(h["time_s"][free], h["centre_x_m"][free], omega)
-    values = {"liquid": len(run.stepper.active), "ratio": omega / found, "damping": damping / found, "amplitude": 0.5 * np.ptp(h["centre_x_m"][free]) / RADIUS}
+    amplitude = 0.5 * np.ptp(h["centre_x_m"][free])
+    values = {"liquid": len(run.stepper.active), "ratio": omega / found, "damping": damping / found, "amplitude": amplitude / RADIUS}
+    if shape == "box":
+        values["finite"] = finite(fill, amplitude, damping, FREE * 2.0 * math.pi / omega)
     if shape == "sphere":
         force, moment = (np.stack([h[f"wall_{name}"] for name in names], axis=1) for names in (
             ("force_x_N", "force_y_N", "force_z_N"), ("moment_x_Nm", "moment_y_Nm", "moment_z_Nm")))  # fmt: skip
@@ -85,17 +102,18 @@ def measure(shape: str, fill: float, across: int, ratio: float) -> dict:
     return values
 
 
-def main(shapes: str = "box,cylinder,sphere", fills: str = "0.15,0.25,0.5", across: str = "12", ratio: str = "1.5") -> None:
-    print("| tank | fill | R/dx | h/dx | liquid particles | period over the linear | bar | damping | centre moves by [R] | M less r_c x F |")
-    print("|--|--|--|--|--|--|--|--|--|--|", flush=True)
+def main(shapes: str = "box,cylinder,sphere", fills: str = "0.15,0.25,0.5", across: str = "12", ratio: str = "1.5", shake: str = "10") -> None:
+    print("| tank | fill | R/dx | h/dx | liquid particles | period over the linear | bar | damping | centre moves by [R] | waves so high: | M less r_c x F |")
+    print("|--|--|--|--|--|--|--|--|--|--|--|", flush=True)
     for shape in shapes.split(","):
         for fill in map(float, fills.split(",")):
-            found = measure(shape, fill, int(across), float(ratio))
+            found = measure(shape, fill, int(across), float(ratio), 1e-3 * float(shake))
+            waves = f"{found['finite']:.4f}" if "finite" in found else ""
             lever = f"{100.0 * found['lever']:.2f} %" if "lever" in found else ""
             bar = BARS.get(int(across), math.nan)
             verdict = "" if abs(found["ratio"] - 1.0) <= bar else " (missed)"
             print(f"| {shape} | {fill:g} | {across} | {ratio} | {found['liquid']} | {found['ratio']:.4f}{verdict} | {100 * bar:g} % | "
-                  f"{found['damping']:.4f} | {found['amplitude']:.3f} | {lever} |", flush=True)  # fmt: skip
+                  f"{found['damping']:.4f} | {found['amplitude']:.3f} | {waves} | {lever} |", flush=True)  # fmt: skip
 
 
 if __name__ == "__main__":
