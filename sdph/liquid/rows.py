@@ -50,7 +50,7 @@ class LiquidNeighbours(neighbours.Neighbours):
 
     def _rows_of(self, grid, here, kind) -> Rows:
         places, self.box = neighbours.three(here), neighbours.box_of(self.period, len(here))
-        halves = neighbours.starts(_halves(neighbours.cells(grid, *places), kind), 2 * int(grid.shape.prod())).view(np.uint64)  # see _count
+        halves = neighbours.starts(_halves(neighbours.cells(grid, *places), kind), 2 * int(grid.shape.prod())).view(np.uint64)  # see _runs
         near = (grid, halves, *places, kind, self.box, (self.reach * (1.0 + self.skin)) ** 2)
         count, start = np.empty(len(kind), np.int32), np.zeros(len(kind) + 1, np.int64)
         _count(*near, count)
@@ -91,25 +91,31 @@ def _within(x, y, z, box, i, j, cutoff2):
 
 
 @njit(cache=True, error_model="numpy")
-def _around(grid, x, y, z, i):
-    """First and one past the last cell to look at, along z, y and x."""
-    return (span(grid, 2, z[i]) if len(z) else (0, 1)), span(grid, 1, y[i]), span(grid, 0, x[i])
+def _runs(grid, halves, x, y, z, kind, i):
+    """(C, 2) first and one past the last particle that i may meet in each cell around it. They are unsigned: of an index that
+    might be negative numba asks so each time, and nothing is done in whole vectors."""
+    layers, lines, cells = span(grid, 2, z[i]) if len(z) else (0, 1), span(grid, 1, y[i]), span(grid, 0, x[i])
+    runs = np.empty(((layers[1] - layers[0]) * (lines[1] - lines[0]) * (cells[1] - cells[0]), 2), np.uint64)
+    found, last = 0, 1 if kind[i] == WALL else 2
+    for kz in range(layers[0], layers[1]):
+        for ky in range(lines[0], lines[1]):
+            line = ((kz % grid.shape[2]) * grid.shape[1] + ky % grid.shape[1]) * grid.shape[0]
+            for kx in range(cells[0], cells[1]):
+                cell = 2 * (line + kx % grid.shape[0])
+                runs[found, 0], runs[found, 1] = halves[cell], halves[cell + last]
+                found += 1
+    return runs
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
 def _count(grid, halves, x, y, z, kind, box, cutoff2, count):
     """count (N,) of neighbours; a particle is not its own."""
     for i in prange(len(x)):
-        last = 1 if kind[i] == WALL else 2
-        layers, lines, cells = _around(grid, x, y, z, i)
-        found = 1 - last  # a liquid particle finds itself
-        for kz in range(layers[0], layers[1]):
-            for ky in range(lines[0], lines[1]):
-                line = ((kz % grid.shape[2]) * grid.shape[1] + ky % grid.shape[1]) * grid.shape[0]
-                for kx in range(cells[0], cells[1]):
-                    cell = 2 * (line + kx % grid.shape[0])
-                    for j in range(halves[cell], halves[cell + last]):
-                        found += 1 if _within(x, y, z, box, i, j, cutoff2) else 0
+        found = 0 if kind[i] == WALL else -1  # a liquid particle finds itself
+        runs = _runs(grid, halves, x, y, z, kind, i)
+        for n in range(len(runs)):
+            for j in range(runs[n, 0], runs[n, 1]):
+                found += 1 if _within(x, y, z, box, i, j, cutoff2) else 0
         count[i] = found
 
 
@@ -117,16 +123,11 @@ def _count(grid, halves, x, y, z, kind, box, cutoff2, count):
 def _fill(grid, halves, x, y, z, kind, box, cutoff2, start, count, index):
     """index: the rows, each from its start on. An entry is written before it is known to count, which saves a branch."""
     for i in prange(len(x)):
-        last = 1 if kind[i] == WALL else 2
-        layers, lines, cells = _around(grid, x, y, z, i)
         end = start[i]
-        for kz in range(layers[0], layers[1]):
-            for ky in range(lines[0], lines[1]):
-                line = ((kz % grid.shape[2]) * grid.shape[1] + ky % grid.shape[1]) * grid.shape[0]
-                for kx in range(cells[0], cells[1]):
-                    cell = 2 * (line + kx % grid.shape[0])
-                    for j in range(halves[cell], halves[cell + last]):
-                        index[end] = j
-                        end += 1 if j != i and _within(x, y, z, box, i, j, cutoff2) else 0
-        for k in range(end, start[i + 1]):
-            index[k] = i
+        runs = _runs(grid, halves, x, y, z, kind, i)
+        for n in range(len(runs) if count[i] else 0):
+            for j in range(runs[n, 0], runs[n, 1]):
+                index[end] = j
+                end += 1 if j != i and _within(x, y, z, box, i, j, cutoff2) else 0
+        for e in range(end, start[i + 1]):
+            index[e] = i
