@@ -22,7 +22,7 @@ from sdph.liquid.step import LiquidStepper
 
 WIDTH = 0.05715  # m, of the column; twice as high
 DEFAULT = ("2:1e4", "2:1e5", "3:1e5")
-STEPS, ROUNDS = 6, 2  # steps between two lists of neighbours; the best of both rounds counts
+STEPS = 6  # between two lists of neighbours
 DEEP = (
     "dimensions=3", f"domain.size_m=[{5 * WIDTH}, {3 * WIDTH}, {WIDTH}]", "domain.gravity_m_s2=[0.0, -9.81, 0.0]",
     "pools.column.lower_m=[0.0, 0.0, 0.0]", f"pools.column.upper_m=[{WIDTH}, {2 * WIDTH}, {WIDTH}]",
@@ -58,7 +58,7 @@ def measured(dimensions: int, count: float) -> str:
     step_time(stepper)
     particles, liquid, spent = len(stepper.state.x), len(stepper.active), {}
     memory = (held("VmHWM") - before) / particles
-    for _ in range(ROUNDS):
+    for _ in range(max(2, int(2e6 / count))):  # the best of the rounds counts
         for threads in range(1, numba.config.NUMBA_NUM_THREADS + 1):
             numba.set_num_threads(threads)
             spent[threads] = min(spent.get(threads, math.inf), step_time(stepper))
