@@ -2,7 +2,7 @@
 
     python benchmarks/off_costs_nothing.py [effect ...]
 
-For each effect that has terms in the loops over particles (sdph/rates.py), these are compiled for a bubbling bed with the
+For each effect that has terms in the loops over particles (sdph/rates.py, sdph/shearing.py), these are compiled for a bubbling bed with the
 effect off, once from the source and once from the source in which every call of a function of the effect's file is
 replaced by what that function gives when it is off. Identical instructions take the same time on any machine and under
 any load, which no timing can show. Serial builds are compared: threads share out the same body.
@@ -19,56 +19,57 @@ from pathlib import Path
 from numba import njit
 
 from sdph import case as cases
-from sdph import effects, rates, scenes
+from sdph import effects, rates, scenes, shearing
 from sdph.effects.effect import OFF
 from sdph.explain import effect_costs
 from sdph.explain.tables import table
 
-LOOPS = ("sum_density", "strain", "sound_speeds", "constitutive", "rates")
+LOOPS = {"sum_density": rates, "shear": shearing, "sound_speeds": rates, "constitutive": rates, "rates": rates}
 FLAGS = {"reassoc", "nsz", "arcp", "contract", "afn"}  # as in sdph/rates.py
 NAME = re.compile(r"[.$\w@]*[A-Za-z_][.$\w@]*")
 
 
 class Strip(ast.NodeTransformer):
-    """Replaces the calls of an effect's functions by what they give when it is off; counts them."""
+    """Replaces the calls of an effect's functions by what they give when it is off."""
 
     def __init__(self, effect: str):
-        self.effect, self.module, self.count = effect, importlib.import_module(f"sdph.effects.{effect}"), 0
+        self.effect, self.module = effect, importlib.import_module(f"sdph.effects.{effect}")
 
     def visit_Call(self, node):
         self.generic_visit(node)
         of = node.func
         if not (isinstance(of, ast.Attribute) and isinstance(of.value, ast.Name) and of.value.id == self.effect):
             return node
-        self.count += 1
         function = getattr(self.module, of.attr).py_func
-        given = function(OFF, *[None] * (len(inspect.signature(function).parameters) - 1))
+        try:
+            given = function(OFF, *[None] * (len(inspect.signature(function).parameters) - 1))
+        except (AttributeError, IndexError):  # it is never called when off: it stands behind `if len(p)`
+            return node
         return ast.parse(repr(given), mode="eval").body
 
 
-def built_without(effect: str):
-    """sdph.rates without the terms of an effect, as a module of its own, and how many calls that took out."""
-    strip = Strip(effect)
-    tree = ast.fix_missing_locations(strip.visit(ast.parse(Path(rates.__file__).read_text(encoding="utf-8"))))
-    file = Path(tempfile.mkdtemp()) / f"rates_without_{effect}.py"
+def built_without(effect: str, whole):
+    """A module of loops without the terms of an effect, as one of its own."""
+    tree = ast.fix_missing_locations(Strip(effect).visit(ast.parse(Path(whole.__file__).read_text(encoding="utf-8"))))
+    file = Path(tempfile.mkdtemp()) / f"{whole.__name__.split('.')[-1]}_without_{effect}.py"
     file.write_text(ast.unparse(tree), encoding="utf-8")
     spec = importlib.util.spec_from_file_location(file.stem, file)
     module = importlib.util.module_from_spec(spec)
     sys.modules[file.stem] = module
     spec.loader.exec_module(module)
-    return module, strip.count
+    return module
 
 
 def arguments(simulation) -> dict[str, tuple]:
     """Name of each loop -> its arguments in one sub-step."""
-    kept, own = {}, {name: getattr(rates, name) for name in LOOPS}
+    kept, own = {}, {name: getattr(module, name) for name, module in LOOPS.items()}
     for name, loop in own.items():
-        setattr(rates, name, lambda *given, name=name, loop=loop: (kept.update({name: given}), loop(*given))[1])
+        setattr(LOOPS[name], name, lambda *given, name=name, loop=loop: (kept.update({name: given}), loop(*given))[1])
     try:
         effect_costs.step(simulation, 1e-7)
     finally:
         for name, loop in own.items():
-            setattr(rates, name, loop)
+            setattr(LOOPS[name], name, loop)
     return kept
 
 
@@ -93,19 +94,19 @@ def compared(effect: str) -> list[dict]:
     """A row for each loop that has terms of the effect."""
     whole = cases.load(scenes.HERE / "bubbling_bed" / "case.toml", effect_costs.BED)
     given = arguments(effect_costs.prepared(effect_costs.without(whole, effect)))
-    other, count = built_without(effect)
-    rows = []
+    other, rows = {module: built_without(effect, module) for module in set(LOOPS.values())}, []
     for name in given:
-        if inspect.getsource(getattr(rates, name).py_func).count(f"{effect}."):
-            own, bare = instructions(getattr(rates, name), given[name]), instructions(getattr(other, name), given[name])
+        loop = getattr(LOOPS[name], name)
+        if inspect.getsource(loop.py_func).count(f"{effect}."):
+            own, bare = instructions(loop, given[name]), instructions(getattr(other[LOOPS[name]], name), given[name])
             rows.append({"effect off": effect, "loop": name, "instructions": len(own), "built without": len(bare), "identical": own == bare})
     return rows
 
 
 def with_terms() -> list[str]:
     """Effects whose functions the loops call; those of granular temperature give their argument when off: no constant stands for them."""
-    source = Path(rates.__file__).read_text(encoding="utf-8")
-    return [name for name in effects.REGISTRY if f"{name}." in source.split("loop = njit", 1)[1] and name != "granular_temperature"]
+    source = "".join(inspect.getsource(getattr(module, name).py_func) for name, module in LOOPS.items())
+    return [name for name in effects.REGISTRY if f"{name}." in source and name != "granular_temperature"]
 
 
 if __name__ == "__main__":
