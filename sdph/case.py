@@ -200,6 +200,9 @@ def _check_region(case: Case, name: str, region: Region) -> None:
     if case.resolution.spacing > size:
         spacing = f"resolution.spacing_mm = {case.resolution.spacing * 1e3:g}"
         raise CaseError(f"{spacing} is larger than particles.{name} ({size * 1e3:g} mm); give a spacing well below that")
+    if region.volume_fraction > case.grains.packing_limit:
+        given = f"particles.{name}.volume_fraction = {region.volume_fraction:g}"
+        raise CaseError(f"{given}; grains pack to grains.packing_limit = {case.grains.packing_limit:g} at most: lower the one or raise the other")
     box = region.shape == "box"
     lower = region.lower if box else [c - region.radius for c in region.centre]
     _inside(case, f"particles.{name}", lower, region.upper if box else [c + region.radius for c in region.centre])

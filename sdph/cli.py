@@ -23,6 +23,10 @@ def main(arguments: list[str] | None = None) -> int:
         return options.command(options)
     except CaseError as error:
         return _failed(error, BAD_INPUT)
+    except json.JSONDecodeError as error:
+        return _failed(f"a file of the run is damaged (no JSON: {error}); run it again", BAD_INPUT)
+    except OSError as error:
+        return _failed(f"{error.filename or 'a file'}: {error.strerror or error}; give a place that is there and can be written", CANNOT_WRITE)
     except KeyboardInterrupt as stop:
         return _failed(str(stop) and stop or "interrupted", 128 + getattr(stop, "number", signal.SIGINT))
     except RuntimeError as error:
@@ -39,8 +43,15 @@ def _failed(message, code: int) -> int:
     return code
 
 
+class _Parser(argparse.ArgumentParser):
+    """Says what is wrong in one line."""
+
+    def error(self, message):
+        sys.exit(_failed(f"{message}; see {self.prog} --help", BAD_INPUT))
+
+
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="sdph", description="Flows of grains, droplets and liquids: SPH particles and a gas.")
+    parser = _Parser(prog="sdph", description="Flows of grains, droplets and liquids: SPH particles and a gas.")
     parser.add_argument("--version", action="version", version=__version__)
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     _command(commands, "list", list_scenes, "the scenes, one line each")
@@ -55,11 +66,12 @@ def _parser() -> argparse.ArgumentParser:
     cost.add_argument("scene")
     cost.add_argument("--out", type=Path, help="folder (default: runs/cost/SCENE); goes on with what is there")
     cost.add_argument("--budget", type=_seconds, default=float("inf"), metavar="TIME", help="such as 90s or 10min: starts nothing new after that")
-    cost.add_argument("--repeats", type=int, default=1, help="runs of each setting; the median counts (default: 1)")
+    cost.add_argument("--repeats", type=_count, default=1, help="runs of each setting; the median counts (default: 1)")
     stress = _command(commands, "stress", stress_cases, "hard cases that must stay stable; exit code 1 if one does not")
     stress.add_argument("case", nargs="*", help="hard cases (default: all under validation/stress)")
     stress.add_argument("--fast", action="store_true", help="only those that CI runs")
-    stress.add_argument("--faults", type=int, nargs="?", const=50, metavar="N", help="kill, starve and stop runs at N random moments (50)")
+    stress.add_argument("--faults", type=_count, nargs="?", const=50, metavar="N", help="kill, starve and stop runs at N random moments (50)")
+    stress.add_argument("--json", action="store_true", help="print the checks as JSON")
     stress.add_argument("--map", action="store_true", help="measure how far beyond its limits each effect stays stable")
     compare = _command(commands, "compare", compare_run, "a run against a reference; exit code 1 outside tolerance")
     compare.add_argument("run", type=Path)
@@ -117,14 +129,28 @@ def _run_options(parser) -> None:
 
 def _share(text: str) -> float:
     """2% or 0.02."""
-    return float(text[:-1]) / 100.0 if text.endswith("%") else float(text)
+    return _above_zero(text.removesuffix("%"), "2% or 0.02") / (100.0 if text.endswith("%") else 1.0)
 
 
 def _seconds(text: str) -> float:
     """90, 90s, 10min or 2h."""
     units = {"min": 60.0, "h": 3600.0, "s": 1.0}
     unit = next((name for name in units if text.endswith(name)), "")
-    return float(text.removesuffix(unit)) * units.get(unit, 1.0)
+    return _above_zero(text.removesuffix(unit), "90s, 10min or 2h") * units.get(unit, 1.0)
+
+
+def _count(text: str) -> int:
+    if not text.isdigit() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text}; it must be a whole number, at least 1")
+    return int(text)
+
+
+def _above_zero(text: str, allowed: str) -> float:
+    """A finite number above 0; `ArgumentTypeError` says what is allowed."""
+    with contextlib.suppress(ValueError):
+        if 0.0 < float(text) < float("inf"):
+            return float(text)
+    raise argparse.ArgumentTypeError(f"{text}; it must be above 0, such as {allowed}")
 
 
 def list_scenes(options) -> int:
@@ -157,21 +183,33 @@ def run(options) -> int:
     with contextlib.closing(Reporter(quiet=options.json)) as reporter:
         if options.resume:
             folder = options.resume
+            _refuse(options, ("out", "accuracy", "allow_code"), "--resume goes on with a run as it was begun")
             reporter.page = watch.Page(folder) if options.watch else None
             summary = driver.resume(folder, overrides, reporter)
         else:
             name, file = scenes.find(options.target)
             if options.accuracy:
-                overrides = choice.settings_for(name, options.accuracy, reporter.status) + overrides
+                overrides = choice.with_settings(name, options.accuracy, overrides, reporter.status)
             case = cases.load(file, overrides)
+            if case.liquid:
+                _refuse(options, ("gas", "transport", "np"), f"{name} is a liquid and has no gas solver")
+            elif options.gas == "embedded":
+                _refuse(options, ("transport", "np"), "the embedded gas solver runs in this process")
             room.refuse_too_large(case)
             for warning in tables.warnings(case):
                 reporter.status(f"warning: {warning}")
             folder, own = options.out or output.free_name(Path("runs") / name), file.parent / "gas"
             reporter.page = watch.Page(folder) if options.watch else None
             summary = driver.run(case, name, folder, own if own.is_dir() else None, reporter, allow_code=options.allow_code)
-    print(json.dumps(summary) if options.json else f"{_table(summary)}\nrun folder: {folder}")
+    print(output.strict_json(summary) if options.json else f"{_table(summary)}\nrun folder: {folder}")
     return FINE
+
+
+def _refuse(options, names, why: str) -> None:
+    """Options that would do nothing are not taken in silence."""
+    for name in names:
+        if getattr(options, name):
+            raise CaseError(f"--{name.replace('_', '-')} {getattr(options, name)}: {why}; leave it out")
 
 
 def _overrides(options) -> tuple[str, ...]:
@@ -190,7 +228,7 @@ def _table(summary: dict) -> str:
 
 def explain_case(options) -> int:
     from sdph import case as cases
-    from sdph import scenes
+    from sdph import output, scenes
     from sdph.explain import tables
 
     case = cases.load(scenes.find(options.target)[1], tuple(options.set))
@@ -200,7 +238,7 @@ def explain_case(options) -> int:
 
         parts["cost of effects, bubbling bed"] = effect_costs.table(lambda text: print(text, file=sys.stderr, flush=True))
     parts |= tables.explain(case)
-    print(json.dumps(parts) if options.json else f"{case.title}\n\n{tables.text(parts)}")
+    print(output.strict_json(parts) if options.json else f"{case.title}\n\n{tables.text(parts)}")
     return FINE
 
 
@@ -220,26 +258,32 @@ def stress_cases(options) -> int:
         from sdph.stress import faults
 
         return FINE if all(check["ok"] for check in faults.run(options.faults)) else CHECK_FAILED
+    from sdph import output
     from sdph.stress import boundaries, suite
 
     if options.map:
         print(boundaries.table(Path("stress_map.png")))
         return FINE
-    fine = [suite.show(suite.run(hard)) for hard in suite.chosen(options.case, options.fast)]
-    print(f"{sum(fine)} of {len(fine)} pass")
+    verdicts = []
+    for hard in suite.chosen(options.case, options.fast):
+        verdicts.append(suite.run(hard))
+        if not options.json:
+            suite.show(verdicts[-1])
+    fine = [verdict.ok for verdict in verdicts]
+    print(output.strict_json({"checks": [check for verdict in verdicts for check in verdict.checks]}) if options.json else f"{sum(fine)} of {len(fine)} pass")
     return FINE if all(fine) else CHECK_FAILED
 
 
 def compare_run(options) -> int:
-    from sdph import compare
+    from sdph import compare, output
 
     checks = compare.compare(options.run, options.against)
-    print(json.dumps({"checks": checks}) if options.json else compare.table(checks))
+    print(output.strict_json({"checks": checks}) if options.json else compare.table(checks))
     return FINE if all(check["ok"] for check in checks) else CHECK_FAILED
 
 
 def validate_scene(options) -> int:
-    from sdph import compare, validate
+    from sdph import compare, output, validate
     from sdph.progress import Reporter
 
     overrides = tuple(options.set) + ((f'coupling.gas="{options.gas}"',) if options.gas else ())
@@ -247,7 +291,7 @@ def validate_scene(options) -> int:
     with contextlib.closing(Reporter(quiet=options.json)) as reporter:
         for scene in [options.scene] if options.scene else validate.validated():
             checks += validate.validate(scene, overrides, reporter, options.out and options.out / scene)
-    print(json.dumps({"checks": checks}) if options.json else compare.table(checks))
+    print(output.strict_json({"checks": checks}) if options.json else compare.table(checks))
     return FINE if all(check["ok"] for check in checks) else CHECK_FAILED
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib.util
-import json
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -64,7 +63,9 @@ def compare(folder: Path, against: str) -> list[dict]:
         known = [name for name in ("exact", "tfm", "dpm") if hasattr(module, name)]
         raise CaseError(f"--against {against}: {run.case.scene or 'this case'} has no such reference; it has: {', '.join(known) or 'none'}")
     checks = function(run)
-    output.write_text(folder / f"compare_{against}.json", json.dumps({"checks": checks}, indent=1) + "\n")
+    if not checks:
+        raise CaseError(f"the run ends at {run.summary['time_s']:g} s, before the first time that its reference tells of; go on with: sdph run --resume {folder} --until T")
+    output.write_json(folder / f"compare_{against}.json", {"checks": checks})
     return checks
 
 

@@ -11,6 +11,7 @@ import errno
 import fcntl
 import importlib.metadata
 import json
+import math
 import os
 import platform
 import shutil
@@ -84,7 +85,20 @@ def write_text(path: Path, text: str) -> None:
 
 
 def write_json(path: Path, table: dict) -> None:
-    write_text(path, json.dumps(table, indent=1) + "\n")
+    write_text(path, strict_json(table, indent=1) + "\n")
+
+
+def strict_json(value, **layout) -> str:
+    """JSON as its standard has it: null for numbers that are none or infinite."""
+    return json.dumps(_finite(value), allow_nan=False, **layout)
+
+
+def _finite(value):
+    if isinstance(value, dict):
+        return {key: _finite(entry) for key, entry in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_finite(entry) for entry in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def write_summary(folder: Path, summary: dict) -> None:
@@ -105,8 +119,9 @@ def read_origin(folder: Path) -> dict:
 def read_summary(folder: Path) -> dict:
     """The summary of a run; `CaseError` where there is none."""
     try:
-        return json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-    except FileNotFoundError:
+        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+        return {key: math.nan if value is None else value for key, value in summary.items()}
+    except (FileNotFoundError, NotADirectoryError):
         raise CaseError(f"{folder} holds no finished run (no summary.json); run it first with: sdph run ... --out {folder}") from None
 
 

@@ -54,7 +54,8 @@ def write(folders: list[Path], target: Path) -> Path:
 def _open(folder: Path) -> Shown:
     if not (folder / output.MARK).is_file():
         raise CaseError(f"{folder} holds no run (no {output.MARK}); give the folder of a run")
-    summary, failure, origin = (_json(folder / name) for name in ("summary.json", output.FAILURE, output.ORIGIN))
+    summary = output.read_summary(folder) if (folder / "summary.json").is_file() else {}
+    failure, origin = (_json(folder / name) for name in (output.FAILURE, output.ORIGIN))
     return Shown(folder, cases.load(folder / output.MARK), summary, failure, origin)
 
 

@@ -6,6 +6,7 @@ name in VARIANTS what else is to be run: name -> (overrides, references to check
 
 from __future__ import annotations
 
+import re
 import tempfile
 from pathlib import Path
 
@@ -29,8 +30,9 @@ def validate(scene: str, overrides: tuple[str, ...], reporter, folder: Path | No
     for name, (own, references) in getattr(module, "VARIANTS", whole).items():
         _, file = scenes.find(scene)
         case = cases.load(file, (*own, *overrides))
-        driver.run(case, scene, folder / name, None, reporter)
-        run = compare.open_run(folder / name)
+        own_folder = folder / re.sub(r"[^\w.-]+", "-", name)
+        driver.run(case, scene, own_folder, None, reporter)
+        run = compare.open_run(own_folder)
         for reference in references:
             checks += [check | {"name": f"{name}, {reference}: {check['name']}"} for check in getattr(module, reference)(run)]
     return checks

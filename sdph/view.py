@@ -40,8 +40,12 @@ def show(folder: Path, png: Path | None = None, time: float | None = None, field
     if png is None:
         plotter.show()
     else:
-        plotter.screenshot(str(png))
-        plotter.close()
+        try:
+            plotter.screenshot(str(png))
+        except (OSError, ValueError) as error:
+            raise CaseError(f"--png {png} cannot be written: {error}") from None
+        finally:
+            plotter.close()
 
 
 def movie(folder: Path, target: Path, field: str | None = None) -> None:
@@ -65,17 +69,20 @@ def movie(folder: Path, target: Path, field: str | None = None) -> None:
 
 def scene(particles, gas, field: str | None, title: str, off_screen: bool):
     """A plotter with the particles coloured by `field` (None: temperature, speed where there is none) over the cells of the gas."""
-    field = field or ("velocity" if gas is None else "temperature")
     import pyvista
     from vtkmodules.vtkCommonCore import vtkLogger
 
     if off_screen:  # VTK first tries an X server, complains, and then renders in software
         vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
 
+    given, field = field, field or ("velocity" if gas is None else "temperature")
+    known = sorted({*particles.point_data, *(gas.cell_data if gas is not None else ())} & {*GAS_UNITS, *PARTICLE_UNITS, "velocity"})
+    if given and given not in known:
+        raise CaseError(f"--field {given}: this run has {', '.join(known)}")
     plotter = pyvista.Plotter(off_screen=off_screen, window_size=WINDOW)
     if gas is not None and field in gas.cell_data:
         bar = BAR | {"title": f"gas {field}\n[{GAS_UNITS.get(field, '1')}]", "position_x": 0.86}
-        plotter.add_mesh(gas, scalars=field, cmap="Blues", scalar_bar_args=bar, lighting=False)
+        plotter.add_mesh(gas, scalars=field, cmap="YlOrRd", scalar_bar_args=bar, lighting=False)
     if particles.n_points and field in particles.point_data:
         bar = BAR | {"title": f"particle {field}\n[{PARTICLE_UNITS[field]}]", "position_x": 0.07}
         plotter.add_mesh(particles, scalars=field, cmap="inferno", point_size=_size(particles, gas if gas is not None else particles), scalar_bar_args=bar, lighting=False)

@@ -20,6 +20,7 @@ from sdph.schema import CaseError
 HEAD = "FoamFile {{ version 2.0; format ascii; class dictionary; object {name}; }}\n"
 SPATIAL = ("m", "m_s", "m_s2")  # units of what has one component per dimension
 NOT_SPATIAL = ("span",)  # lengths, but along the tangential axes
+REFUSED = " \t\"'"  # OpenFOAM's fileName takes none of these
 DEPTH = 1.0  # m, of the one cell that a two-dimensional mesh is deep
 # what makes OpenFOAM run or load code that a case brings
 CODE = re.compile(r"#\s*(codeStream|calc)\b|\bcoded\w*\b|\bsystemCall\b|\b(functionObjectLibs|libs)\b")
@@ -28,6 +29,8 @@ COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 
 def write_case(case, template: Path, folder: Path, ranks: int = 1, allow_code: bool = False) -> None:
     """Make `folder` the OpenFOAM case of `case`: `template`'s files, macros, and the dictionary of the mesh."""
+    if set(str(folder.absolute())) & set(REFUSED):
+        raise CaseError(f"{folder.absolute()}: OpenFOAM takes no blanks and quotes in a path; give another --out, or --gas embedded")
     if not (template / "system" / "controlDict").exists():
         raise CaseError(f"{template} is no OpenFOAM case: it has no system/controlDict")
     if not allow_code:

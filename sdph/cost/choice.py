@@ -31,3 +31,13 @@ def settings_for(scene: str, accuracy: float, report) -> tuple[str, ...]:
     over = f", measured with {' '.join(own.excerpt)}" if own.excerpt else ""
     report(f"--accuracy {accuracy:g}: {' '.join(chosen)}; error {best['error']:.2g} against {own.reference}{over}, {best['wall_s']:.3g} s ({file})")
     return chosen
+
+
+def with_settings(scene: str, accuracy: float, given: tuple[str, ...], report) -> tuple[str, ...]:
+    """`given` overrides after those of `settings_for`, which may not be among them: the promise would not hold."""
+    chosen = settings_for(scene, accuracy, report)
+    own = {text.split("=")[0].strip() for text in chosen} - {"coupling.gas"}
+    for text in given:
+        if text.split("=")[0].strip() in own:
+            raise CaseError(f"--set {text}: --accuracy {accuracy:g} chooses that key itself; leave one of them out")
+    return (*chosen, *given)

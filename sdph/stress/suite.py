@@ -76,6 +76,14 @@ class Verdict:
     def ok(self) -> bool:
         return all(row[3] for row in self.rows)
 
+    @property
+    def checks(self) -> list[dict]:
+        """The rows as `sdph compare` has them: the bound is the reference, and there is no tolerance."""
+        return [
+            {"name": f"{self.name}: {name} {bound[:2]}", "value": value, "reference": float(bound[3:]), "tolerance": 0.0, "ok": bool(ok)}
+            for name, value, bound, ok in self.rows
+        ]
+
 
 def files() -> list[Path]:
     return sorted((paths.data(FOLDER) / "stress").glob("*.toml"))
@@ -230,7 +238,6 @@ def line(verdict: Verdict) -> str:
     return f"{'pass' if verdict.ok else 'FAIL'}  {verdict.name:28s} {verdict.wall:6.1f} s  {figures}" + (f"\n      {verdict.stopped}" if verdict.stopped else "")
 
 
-def show(verdict: Verdict) -> bool:
-    """Prints the line as soon as it is known; whether the case passed."""
+def show(verdict: Verdict) -> None:
+    """Prints the line as soon as it is known."""
     print(line(verdict), flush=True)
-    return verdict.ok

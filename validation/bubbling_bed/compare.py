@@ -12,6 +12,7 @@ import numpy as np
 
 from sdph import bubble, view
 from sdph.compare import check
+from sdph.schema import CaseError
 
 SHOWN = (0.05, 0.10, 0.15, 0.20, 0.24)  # s, the figure's columns
 LARGEST = 0.20  # s, when the paper's bubble is largest and lets go
@@ -29,6 +30,7 @@ def tfm(run) -> list[dict]:
     """Bubble metrics against twoPhaseEulerFoam with the same closures, mesh and inlet."""
     from coupling.openfoam.comparators import run_two_fluid
 
+    _reaches(run, LARGEST)
     reference = run_two_fluid(run.case, run.folder / "tfm")
     times = [t for t in sorted(reference.fields) if t <= run.summary["time_s"] + 1e-9]
     own, other = [_own(run, t) for t in times], [_other(reference, t) for t in times]
@@ -50,6 +52,7 @@ def _finer(run) -> dict:
 
 def paper(run) -> list[dict]:
     """The paper's description of figures 6 to 10, each point with its number."""
+    _reaches(run, SHOWN[-1])
     history = run.history
     times = [t for t in view.read(run.folder).time_values if t > 0.0]
     rows = [_own(run, t) for t in times]
@@ -71,6 +74,11 @@ def paper(run) -> list[dict]:
         _below("fig. 10: conduction to 1050 at 0.22 s over its largest before 0.20 s [-]", _left(history, above["conductive_heat_W"], 0.22), FADED),
     ]
     return checks
+
+
+def _reaches(run, time: float) -> None:
+    if run.summary["time_s"] < time * (1.0 - ROUND_OFF):
+        raise CaseError(f"the run ends at {run.summary['time_s']:g} s and is compared until {time:g} s; go on with: sdph run --resume {run.folder} --until {time:g}")
 
 
 def metrics(run) -> dict[str, tuple]:
