@@ -11,6 +11,12 @@ SMOOTHED = 5.0  # s: the walls' force is a sample of an instant in each row, the
 LAST = 20.0  # s, mean over the end of a part of the run: some sloshing periods (4.7 s)
 
 
+def metrics(run) -> dict:
+    """What `sdph cost` takes: (value, reference, scale)."""
+    _, weight, apart, lever, *_ = (row["value"] for row in exact(run))
+    return {"mean force over the weight": (weight, 1.0, 1.0), "forces of both sides apart": (apart, 0.0, 1.0), "moment off r_c x F": (lever, 0.0, 1.0)}
+
+
 def exact(run) -> list[dict]:
     h, own = run.history, run.case
     particle = own.liquid.density * own.resolution.spacing**3
