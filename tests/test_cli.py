@@ -98,11 +98,24 @@ def test_process_ends_with_code_2_and_one_line(tmp_path):
 
 
 @pytest.mark.parametrize("arguments", [(), ("fly",), ("run",), ("run", "disc_cluster", "--np", "two"), ("compare", "x", "--against", "nothing")])
-def test_wrong_usage_is_code_2(capsys, arguments):
+def test_wrong_usage_is_code_2_and_one_line(capsys, arguments):
     with pytest.raises(SystemExit) as end:
         cli.main(list(arguments))
     assert end.value.code == 2
-    assert "usage: sdph" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert said.startswith("sdph: ") and said.count("\n") == 1 and "--help" in said
+
+
+@pytest.mark.parametrize("arguments", [
+    ("run", "dam_break", "--gas", "embedded"),
+    ("run", "disc_cluster", "--gas", "embedded", "--np", "2"),
+    ("run", "--resume", "nowhere", "--out", "x"),
+    ("run", "disc_cluster", "--accuracy", "2%", "--set", "resolution.cell_mm=20"),
+    ("run", "disc_cluster", "--set", "particles.disc.volume_fraction=0.9"),
+    ("run", "bubbling_bed", "--gas", "embedded", "--set", "resolution.cell_mm=40", "--set", "resolution.spacing_mm=20", "--out", "bed"),
+])  # fmt: skip
+def test_what_would_do_nothing_or_cannot_be_is_refused_and_leaves_no_folder(refused, arguments):
+    refused(*arguments)
 
 
 def test_run_leaves_a_whole_folder_and_is_not_run_over(tmp_path, refused):

@@ -35,9 +35,7 @@ def settings_for(scene: str, accuracy: float, report) -> tuple[str, ...]:
 
 def with_settings(scene: str, accuracy: float, given: tuple[str, ...], report) -> tuple[str, ...]:
     """`given` overrides after those of `settings_for`, which may not be among them: the promise would not hold."""
-    chosen = settings_for(scene, accuracy, report)
-    own = {text.split("=")[0].strip() for text in chosen} - {"coupling.gas"}
     for text in given:
-        if text.split("=")[0].strip() in own:
+        if text.split("=")[0].strip() in declared(scene).keys:
             raise CaseError(f"--set {text}: --accuracy {accuracy:g} chooses that key itself; leave one of them out")
-    return (*chosen, *given)
+    return (*settings_for(scene, accuracy, report), *given)
