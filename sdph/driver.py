@@ -36,13 +36,12 @@ def run(case, name: str, folder: Path, gas_folder: Path | None, reporter, *, all
     """
     template = gas_folder or paths.gas_template(case.scene or name)
     with output.claimed(output.create(folder)):
-        own = Run(case, folder, reporter)
         try:
             output.write_origin(folder, gas_template=str(template.resolve()), allow_code=allow_code)
             output.write_text(folder / output.MARK, cases.dumps(case))
-            return _guarded(own, None, template, allow_code)
+            return _guarded(Run(case, folder, reporter), None, template, allow_code)
         except CaseError:
-            if own.first is None:  # the case cannot be run: as if it had not been tried
+            if not restart.newest(folder):  # the case cannot be run: as if it had not been tried
                 shutil.rmtree(folder)
             raise
 

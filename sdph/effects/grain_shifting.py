@@ -1,4 +1,4 @@
-"""Grains that come closer than they lie when packed are moved apart, so that shear leaves neither clumps nor rows.
+"""Grains that come closer than they lie when packed are moved apart, so that shear leaves fewer clumps.
 
 Where particles stream past each other, summation of pressures lets them pair up, and their lattice bears a stress that
 no grain has. A pair nearer than the spacing L of packed grains is parted in the time in which it passes:
