@@ -165,6 +165,8 @@ def _check_phases(case: Case) -> None:
         raise CaseError("[gas_phase] is given without [liquid]; a gas around grains goes into [gas]")
     if "drain" in case.effects:
         raise CaseError("effects holds drain, which knows one phase; leave it or [gas_phase] out")
+    if case.liquid.pressure_gradient != "plain":
+        raise CaseError(f"liquid.pressure_gradient = {case.liquid.pressure_gradient!r} is for one phase; leave it or [gas_phase] out")
     if case.gas_phase.density_by == "summation" and "density_diffusion" in case.effects:
         raise CaseError("effects holds density_diffusion, but with gas_phase.density_by = \"summation\" no density is advanced; leave one out")
 

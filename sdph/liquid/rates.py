@@ -12,7 +12,7 @@ from numba import njit, prange
 
 from sdph import smoothing
 from sdph.effects import density_diffusion, laminar_viscosity, liquid_damping, shifting
-from sdph.liquid import phases
+from sdph.liquid import correction, phases
 from sdph.liquid.pairs import FAST, apart, body, faster, held_off, solved
 from sdph.neighbours import deep, length
 
@@ -41,7 +41,7 @@ def state_of(fluids, s, active, pressure, volume):
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
 def push(
     kernel, s, rows, box, active, wall_p, gravity_p, frame_p, laminar_p, damping_p, diffusion_p, shifting_p, phases_p,
-    pressure, volume, least, acceleration, gradient_x, gradient_y, gradient_z,
+    pressure, volume, least, excess, acceleration, gradient_x, gradient_y, gradient_z,
 ):  # fmt: skip
     """Acceleration (N, 3) [m/s2] with body forces; corrected pressure gradient (N,) x 3 [Pa/m], where something needs it."""
     for n in prange(len(active)):
@@ -73,6 +73,11 @@ def push(
             ax += along * dx + across * du
             ay += along * dy + across * dv
             az += along * dz + across * dw
+            if len(excess):  # B of a wall is that of the liquid in front
+                ex, ey, ez = correction.extra(excess, i, j if signed > 0.0 else i, sign_i * p_i, p_j, dx, dy, dz)
+                ax -= V * slope * ex
+                ay -= V * slope * ey
+                az -= V * slope * ez
 
             share = wet * slope * phases.like(phases_p, s.kind[i], kind_j)
             rise = share * (p_j - p_i)

@@ -13,7 +13,7 @@ from sdph.effects import drain
 from sdph.liquid import by_phase
 from sdph.liquid.ledger import IMPULSES, LiquidLedger
 from sdph.liquid.outlet import Outlet
-from sdph.liquid.step import LiquidStepper, balance, kinetic_energy, pipe_loads, wall_loads
+from sdph.liquid.step import LiquidStepper, balance, kinetic_energy, pipe_energy, pipe_loads, wall_loads
 
 SAMPLES = 10  # rows of history.csv for each output of fields, where the case says nothing
 STRIDE = 20  # steps in a window at most: a liquid that goes unstable is caught within these (our choice)
@@ -112,7 +112,7 @@ class LiquidRun:
         if not self.outlet:
             return {}
         commanded = (self.outlet.fill - self.fill(self.time)) * self.stepper.capacity
-        return {"drained_kg": float(self.outlet.gone[0]), "commanded_kg": commanded}
+        return {"drained_kg": float(self.outlet.gone[0]), "commanded_kg": commanded, "pipe_kinetic_energy_J": pipe_energy(self.stepper)}
 
     def _loads(self) -> dict[str, float]:
         """On the tank: the mean since the last row by the momentum theorem, and what the walls feel now."""

@@ -12,7 +12,7 @@ import numpy as np
 from sdph import effects, particles, smoothing
 from sdph.effects import OFF, frame, tank
 from sdph.laws import kernels
-from sdph.liquid import GAS, LIQUID, interface, motion, phases, rates, shift, start, walls
+from sdph.liquid import GAS, LIQUID, correction, interface, motion, phases, rates, shapes, shift, start, walls
 from sdph.liquid.guard import LiquidGuard
 from sdph.liquid.rows import LiquidNeighbours
 from sdph.liquid.walls import WallP
@@ -28,7 +28,7 @@ class LiquidStepper:
 
     KEPT = (
         "state", "neighbours", "time", "steps", "limit", "shifted", "tightening", "pressure", "volume", "acceleration", "gradient", "least", "shift",
-        "twist", "extra",
+        "twist", "extra", "excess",
     )  # fmt: skip  (see sdph.restart)
 
     def __init__(self, case):
@@ -141,9 +141,11 @@ class LiquidStepper:
                 self.kernel, s, self.rows, self.neighbours.box, self.walls, self.wall, p["gravity"], self.frame, self.volume,
                 self.pressure, s.u, s.v, s.w,
             )  # fmt: skip
+        if self.excess:
+            correction.surround(self.kernel, s, self.rows, self.neighbours.box, self.active, self.volume, *self.excess)
         rates.push(
             self.kernel, s, self.rows, self.neighbours.box, self.active, self.wall, p["gravity"], self.frame, p["laminar_viscosity"],
-            p["liquid_damping"], p["density_diffusion"], p["shifting"], self.phases, self.pressure, self.volume, self.least,
+            p["liquid_damping"], p["density_diffusion"], p["shifting"], self.phases, self.pressure, self.volume, self.least, self.excess,
             self.acceleration, *self.gradient,
         )  # fmt: skip
         if p["surface_tension"]:
@@ -175,6 +177,7 @@ class LiquidStepper:
         solid = s.kind == WALL
         self.volume[solid] = -s.mass[solid] / s.density[solid]
         self.acceleration, self.gradient = np.zeros((count, 3)), tuple(np.zeros((3, count)))
+        self.excess = tuple(np.zeros((6, count))) if self.case.liquid.pressure_gradient == "corrected" else ()
         shifted = count if self.p["shifting"] else 0
         self.extra = tuple(np.zeros(count if self.p["xsph"] and len(axis) else 0) for axis in (s.x, s.y, s.z))
         known = np.zeros(int(before.max()) + 1)
@@ -233,7 +236,8 @@ def wall_loads(stepper, chosen=None) -> np.ndarray:
     p = stepper.p
     walls.wall_force(
         stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, chosen, stepper.wall, p["laminar_viscosity"],
-        p["liquid_damping"], p["shifting"], stepper.phases, p["gravity"], stepper.frame, stepper.least, stepper.pressure, stepper.volume, force,
+        p["liquid_damping"], p["shifting"], stepper.phases, p["gravity"], stepper.frame, stepper.least, stepper.pressure, stepper.volume,
+        stepper.excess, force,
     )  # fmt: skip
     places = particles.positions(stepper.state)[chosen]
     return np.concatenate([force.sum(axis=0), np.cross(places, force).sum(axis=0)])
@@ -243,6 +247,15 @@ def pipe_loads(stepper) -> np.ndarray:
     """(6,) the same on the outlet pipe, and on what leaves through it."""
     number, own = stepper.state.ident[stepper.walls], stepper.own_walls
     return wall_loads(stepper, stepper.walls[(number < own.start) | (number >= own.stop)])
+
+
+def pipe_energy(stepper) -> float:
+    """Kinetic energy [J] of the liquid in the outlet pipe; 0 where there is none."""
+    shape = tank.shape_of(stepper.case)
+    if not isinstance(shape, shapes.Joined):
+        return 0.0
+    wet = particles.take(stepper.state, stepper.active)
+    return kinetic_energy(particles.take(wet, shape.tank.distance(particles.positions(wet)) > 0.0))
 
 
 def fluids(case) -> np.ndarray:

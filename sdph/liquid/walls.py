@@ -12,7 +12,7 @@ from numba import njit, prange
 
 from sdph import smoothing
 from sdph.effects import laminar_viscosity, liquid_damping, shifting
-from sdph.liquid import phases
+from sdph.liquid import correction, phases
 from sdph.liquid.pairs import FAST, apart, body, faster, held_off
 
 
@@ -61,7 +61,7 @@ def extrapolate(kernel, s, rows, box, walls, wall_p, gravity_p, frame_p, volume,
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
-def wall_force(kernel, s, rows, box, walls, wall_p, laminar_p, damping_p, shifting_p, phases_p, gravity_p, frame_p, least, pressure, volume, force):
+def wall_force(kernel, s, rows, box, walls, wall_p, laminar_p, damping_p, shifting_p, phases_p, gravity_p, frame_p, least, pressure, volume, excess, force):
     """force (W, 3) [N] on each wall particle: what `push` gives the liquid in front of it, with the sign turned."""
     for n in prange(len(walls)):
         i = walls[n]
@@ -85,6 +85,11 @@ def wall_force(kernel, s, rows, box, walls, wall_p, laminar_p, damping_p, shifti
             fx += along * dx + across * du
             fy += along * dy + across * dv
             fz += along * dz + across * dw
+            if len(excess):
+                ex, ey, ez = correction.extra(excess, j, j, p_i, sign_j * pressure[j], dx, dy, dz)
+                fx -= V * ex
+                fy -= V * ey
+                fz -= V * ez
         force[n, 0] = fx
         force[n, 1] = fy
         force[n, 2] = fz

@@ -206,6 +206,7 @@ def test_frequencies_of_discs():
     "change, word",
     [
         ({"gas_phase": None}, "gas_phase"),
+        ({"liquid": {"density_kg_m3": 1000.0, "sound_speed_m_s": 20.0, "pressure_gradient": "corrected"}}, "pressure_gradient"),
         ({"gas_phase": {"density_kg_m3": 1.0, "density_by": "summation"}}, "density_diffusion"),
         ({"pools": {"a": {"phase": "gas", "shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.5, 0.8], "flow": "quadrupole"}}}, "quadrupole"),
     ],
