@@ -24,7 +24,7 @@ from sdph.effects.effect import OFF
 from sdph.explain import effect_costs
 from sdph.explain.tables import table
 
-LOOPS = {"sum_density": rates, "shear": shearing, "sound_speeds": rates, "constitutive": rates, "rates": rates}
+LOOPS = {"sum_density": rates, "shear": shearing, "constitutive": rates, "rates": rates}
 FLAGS = {"reassoc", "nsz", "arcp", "contract", "afn"}  # as in sdph/rates.py
 NAME = re.compile(r"[.$\w@]*[A-Za-z_][.$\w@]*")
 

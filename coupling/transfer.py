@@ -58,7 +58,7 @@ class Transfer:
             count = np.empty(len(positions), np.int64)
             cells, weight = np.empty((len(positions), self.stride), np.int64), np.empty((len(positions), self.stride))
             _fill(self.bins, self.sides, positions, count, cells, weight)
-            if count.max(initial=0) <= self.stride:
+            if count.max(initial=0) < self.stride:
                 break
             self.stride = int(count.max()) + 2
         outside = np.flatnonzero(count == 0)
@@ -109,7 +109,7 @@ def _bins(centres, smoothing, volumes) -> Bins:
     shape = np.maximum(1, ((high - low) / (SUPPORT * smoothing.max())).astype(np.int64))
     size = np.maximum(SUPPORT * smoothing.max(), (high - low) / shape)
     place = np.minimum(((points - low) / size).astype(np.int64), shape - 1)
-    number = np.ravel_multi_index(tuple(place.T), tuple(shape))
+    number = np.ravel_multi_index(tuple(place.T), tuple(shape), order="F")  # x fastest
     order = np.argsort(number, kind="stable")
     start = np.concatenate(([0], np.cumsum(np.bincount(number, minlength=int(shape.prod())))))
     return Bins(low, size, shape, start, points[order], smoothing[order], volumes[order], order, float(smoothing.max()))
@@ -118,7 +118,8 @@ def _bins(centres, smoothing, volumes) -> Bins:
 @njit(cache=True, error_model="numpy")
 def _spline(q):
     """Cubic spline (M4) without its normalisation, which the rows' own takes over."""
-    return 0.25 * (2.0 - q) ** 3 if q > 1.0 else 1.0 - 1.5 * q * q + 0.75 * q * q * q
+    a, b = max(0.0, SUPPORT - q), max(0.0, 1.0 - q)
+    return 0.25 * a * a * a - b * b * b
 
 
 @njit(cache=True, error_model="numpy")
@@ -130,21 +131,22 @@ def _around(bins, a, value):
 
 @njit(cache=True, error_model="numpy")
 def _add(bins, x, y, z, cells, weight, found):
-    """Appends the cells that a kernel at (x, y, z) reaches; returns how many there are then, also past the row's end."""
+    """Appends the cells that a kernel at (x, y, z) reaches, by their place in the bins, and (r/h)^2 of each; returns how many
+    there are then. An entry is written before it is known to count, which saves a branch: a row that they fill was too short.
+    Indices are unsigned: of one that might be negative numba asks so each time."""
     x0, x1 = _around(bins, 0, x)
     y0, y1 = _around(bins, 1, y)
     z0, z1 = _around(bins, 2, z)
-    for bx in range(x0, x1):
+    room = np.uint64(len(cells) - 1)
+    for bz in range(z0, z1):
         for by in range(y0, y1):
-            row = (bx * bins.shape[1] + by) * bins.shape[2]
-            for c in range(bins.start[row + z0], bins.start[row + z1]):
+            row = (bz * bins.shape[1] + by) * bins.shape[0]
+            for c in range(np.uint64(bins.start[row + x0]), np.uint64(bins.start[row + x1])):
                 dx, dy, dz = x - bins.centres[c, 0], y - bins.centres[c, 1], z - bins.centres[c, 2]
-                r2, h = dx * dx + dy * dy + dz * dz, bins.smoothing[c]
-                if r2 < SUPPORT * SUPPORT * h * h:
-                    if found < len(cells):
-                        cells[found] = bins.cell[c]
-                        weight[found] = bins.volume[c] * _spline(np.sqrt(r2) / h)
-                    found += 1
+                e, h = min(found, room), bins.smoothing[c]
+                square = (dx * dx + dy * dy + dz * dz) / (h * h)
+                cells[e], weight[e] = c, square
+                found += np.uint64(square < SUPPORT * SUPPORT)
     return found
 
 
@@ -170,9 +172,9 @@ def _image(side, reach, place, which):
 @njit(cache=True, error_model="numpy")
 def _row(bins, sides, x, y, z, cells, weight):
     """One normalised row, mirror images included; returns how many entries there are, also when the row is too short."""
-    found, reach = 0, SUPPORT * bins.widest
+    found, reach = np.uint64(0), SUPPORT * bins.widest
     if _inside(sides[0], reach, x) and _inside(sides[1], reach, y) and _inside(sides[2], reach, z):
-        return _normalised(weight, _add(bins, x, y, z, cells, weight, found))
+        return _weighed(bins, cells, weight, _add(bins, x, y, z, cells, weight, found))
     for a in range(3):
         image_x = _image(sides[0], reach, x, a)
         for b in range(3):
@@ -181,16 +183,20 @@ def _row(bins, sides, x, y, z, cells, weight):
                 image_z = _image(sides[2], reach, z, c)
                 if image_x == image_x and image_y == image_y and image_z == image_z:  # none is nan
                     found = _add(bins, image_x, image_y, image_z, cells, weight, found)
-    return _normalised(weight, found)
+    return _weighed(bins, cells, weight, found)
 
 
 @njit(cache=True, error_model="numpy")
-def _normalised(weight, found):
-    """`found`, with weights that sum to 1."""
-    total = weight[:found].sum()
-    for e in range(min(found, len(weight))):
+def _weighed(bins, cells, weight, found):
+    """`found`, with cells by their number and weights that sum to 1."""
+    total, entries = 0.0, min(found, np.uint64(len(cells)))
+    for e in range(entries):
+        c = cells[e]
+        cells[e], weight[e] = bins.cell[c], bins.volume[c] * _spline(np.sqrt(weight[e]))
+        total += weight[e]
+    for e in range(entries):
         weight[e] /= total
-    return found
+    return np.int64(found)
 
 
 @njit(cache=True, parallel=True, error_model="numpy")

@@ -97,7 +97,7 @@ class Guard(Watch):
             self.hold("temperature", s.temperature, (self.coldest, self.hottest, "K"), s, lower)
         self.hold("density", s.density, (0.0, math.inf, "kg/m3"), s, lower)
         collapse = f"what packs the grains: the sub-step has fallen to {stepper.length:.2g} s"
-        self.hold("speed of sound", stepper.sound, (0.0, COLLAPSE * self.reach, "m/s"), s, collapse)
+        self.hold("speed of sound", stepper.stress.sound, (0.0, COLLAPSE * self.reach, "m/s"), s, collapse)
 
     def gas(self, simulation) -> None:
         """After a window: NaN, speed, temperature of the gas."""

@@ -144,7 +144,7 @@ class Neighbours:
             count = np.empty(len(other[0]), np.int64)
             _fill(grid, start, *own, *other, at is None, self.box, (self.reach * (1.0 + self.skin)) ** 2, index, count)
             most = int(count.max(initial=0))
-            if most <= self.stride:
+            if most < self.stride:
                 return Rows(index, count)
             self.stride = (most + 8) // LANES * LANES  # a few spare, so that a slow compaction does not rebuild each time
 
@@ -251,31 +251,37 @@ def span(grid, a, value):
     return max(cell - 1, 0), min(cell + 2, grid.shape[a])
 
 
+@njit(cache=True, error_model="numpy")
+def _run(start, row, shape, x0, x1):
+    """First and one past the last particle in the cells x0 to x1 of a row of `shape` cells; none where x1 <= x0. They are
+    unsigned: of an index that might be negative numba asks so each time."""
+    x0, x1 = max(x0, 0), min(x1, shape)
+    return (np.uint64(start[row + x0]), np.uint64(start[row + x1])) if x0 < x1 else (np.uint64(0), np.uint64(0))
+
+
 @njit(cache=True, parallel=True, error_model="numpy")
 def _fill(grid, start, x, y, z, at_x, at_y, at_z, same, box, cutoff2, index, count):
     """Rows of neighbours (x, y, z), sorted by cell, of the points at_x, at_y, at_z; with `same` i is not its own.
 
-    `count` also where a row is too short to hold them (its excess is not written).
+    An entry is written before it is known to count, which saves a branch: a row that `count` fills was too short.
     """
-    stride = index.shape[1]
+    shape, room = grid.shape[0], np.uint64(index.shape[1] - 1)
     for i in prange(len(at_x)):
-        found = 0
-        zi = at_z[i] if len(z) else 0.0
+        found, own = np.uint64(0), np.uint64(i if same else len(x))
+        xi, yi, zi = at_x[i], at_y[i], at_z[i] if len(z) else 0.0
         z0, z1 = span(grid, 2, zi) if len(z) else (0, 1)
-        y0, y1 = span(grid, 1, at_y[i])
-        x0, x1 = span(grid, 0, at_x[i])
+        y0, y1 = span(grid, 1, yi)
+        x0, x1 = span(grid, 0, xi)
         for kz in range(z0, z1):
             for ky in range(y0, y1):
-                row = ((kz % grid.shape[2]) * grid.shape[1] + ky % grid.shape[1]) * grid.shape[0]
-                for kx in range(x0, x1):
-                    cell = row + kx % grid.shape[0]
-                    for j in range(start[cell], start[cell + 1]):
+                row = ((kz % grid.shape[2]) * grid.shape[1] + ky % grid.shape[1]) * shape
+                for turn in range(-1, 2):  # through the ends of a periodic box
+                    first, last = _run(start, row, shape, x0 + turn * shape, x1 + turn * shape)
+                    for j in range(first, last):
                         dz = zi - z[j] if len(z) else 0.0
-                        dx, dy, dz = nearest_image(box, at_x[i] - x[j], at_y[i] - y[j], dz)
-                        if (j != i or not same) and dx * dx + dy * dy + dz * dz < cutoff2:
-                            if found < stride:
-                                index[i, found] = j
-                            found += 1
+                        dx, dy, dz = nearest_image(box, xi - x[j], yi - y[j], dz)
+                        index[i, min(found, room)] = j
+                        found += np.uint64((j != own) & (dx * dx + dy * dy + dz * dz < cutoff2))
         if same:
-            fill_up(index, i, found)
+            fill_up(index, i, np.int64(found))
         count[i] = found

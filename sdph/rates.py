@@ -36,15 +36,18 @@ def kernel_of(case) -> Kernel:
 
 
 class Stress(NamedTuple):
-    """Per particle: pressure of agitation and of friction [Pa], shear and bulk viscosity of agitation [Pa s], sound speed
-    [m/s], conductivity of theta [kg/m/s]."""
+    """Per particle: pressure [Pa], its parts by agitation and by lasting contacts over density squared [Pa m6/kg2], slope of
+    the latter's pressure against alpha_p [Pa], shear and bulk viscosity of agitation [Pa s], conductivity of theta [kg/m/s],
+    sound speed [m/s]."""
 
-    kinetic_pressure: np.ndarray
-    friction_pressure: np.ndarray
+    pressure: np.ndarray
+    agitated: np.ndarray
+    lasting: np.ndarray
+    stiffness: np.ndarray
     shear: np.ndarray
     bulk: np.ndarray
-    sound: np.ndarray
     conductivity: np.ndarray
+    sound: np.ndarray
 
 
 @njit(cache=True, error_model="numpy")
@@ -63,93 +66,82 @@ def approach(s, box, i, j):
 
 
 @loop
-def sum_density(kernel, s, rows, box, walls_p, dummies, wall_rows, density, slope):
+def sum_density(kernel, s, rows, box, walls_p, dummies, wall_rows, density, pull):
     """rho_i = sum m_j W_ij, i itself included (Eq. 25), over the share of the kernel that lies among grains.
 
-    slope (N, stride) [1/m^(d+2)] is (dW/dr)/r of every entry of the rows, for the other loops.
+    pull (N, stride) [kg/m^(d+2)] is m_j (dW/dr)/r of every entry of the rows, for the other loops.
     """
     for i in prange(len(s.x)):
         entries = length(rows, i)
         rho = s.mass[i] * kernels.cubic_spline(0.0, kernel.h, kernel.sigma) * (1.0 + rows.count[i] - entries)
         for k in range(entries):
-            r = np.sqrt(separation(s, box, i, rows.index[i, k])[3])
-            rho += s.mass[rows.index[i, k]] * kernels.cubic_spline(r, kernel.h, kernel.sigma)
-            slope[i, k] = kernels.cubic_spline_gradient(r, kernel.h, kernel.sigma)
+            r, m_j = np.sqrt(separation(s, box, i, rows.index[i, k])[3]), s.mass[rows.index[i, k]]
+            rho += m_j * kernels.cubic_spline(r, kernel.h, kernel.sigma)
+            pull[i, k] = m_j * kernels.cubic_spline_gradient(r, kernel.h, kernel.sigma)
         share = walls.closure(walls_p, box, dummies, wall_rows, s, i, kernel) if walls.near(walls_p, wall_rows, i) else 1.0
         density[i] = rho / share
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def sound_speeds(s, grain_density, pressure_p, friction_p, sound):
-    """c [m/s]: agitation and friction together."""
-    for i in prange(len(s.x)):
-        alpha_p = s.density[i] / grain_density
-        theta = s.theta[i] if len(s.theta) else 0.0
-        agitation = granular_pressure.sound_squared(pressure_p, alpha_p, theta)
-        sound[i] = np.sqrt(agitation + friction.sound_squared(friction_p, alpha_p))
-
-
-@njit(cache=True, parallel=True, error_model="numpy")
 def constitutive(
     s, grain_density, pressure_p, friction_p, viscosity_p, temperature_p,
-    kinetic_pressure, friction_pressure, shear, bulk, conductivity,
+    pressure, agitated, lasting, stiffness, shear, bulk, conductivity, sound,
 ):  # fmt: skip
-    """Pressures, viscosities and conductivity of every particle from its density and theta."""
+    """The fields of `Stress`, of every particle from its density and theta."""
     for i in prange(len(s.x)):
         alpha_p = s.density[i] / grain_density
         theta = s.theta[i] if len(s.theta) else 0.0
         diameter = s.diameter[i] if len(s.diameter) else 0.0
-        kinetic_pressure[i] = granular_pressure.pressure(pressure_p, alpha_p, theta)
-        friction_pressure[i] = friction.pressure(friction_p, alpha_p)[0]
+        kinetic, (frictional, stiffness[i]) = granular_pressure.pressure(pressure_p, alpha_p, theta), friction.pressure(friction_p, alpha_p)
+        pressure[i] = kinetic + frictional
+        agitated[i], lasting[i] = kinetic / s.density[i] ** 2, frictional / s.density[i] ** 2
+        sound[i] = np.sqrt(granular_pressure.sound_squared(pressure_p, alpha_p, theta) + friction.sound_squared(friction_p, stiffness[i]))
         shear[i], bulk[i] = granular_viscosity.viscosities(viscosity_p, alpha_p, theta, diameter)
         conductivity[i] = granular_temperature.conductivity(temperature_p, alpha_p, theta, diameter)
 
 
 @loop
-def conduct(s, rows, box, slope, conduction_p, heating):
+def conduct(kernel, s, rows, box, pull, conduction_p, heating):
     """Of grains that do not move: heating (N,) [W/kg]."""
     for i in prange(len(s.x)):
         warmth = 0.0
         for k in range(length(rows, i)):
             j = rows.index[i, k]
-            warmth += conduction.pair(conduction_p, s, i, j, separation(s, box, i, j)[3], slope[i, k])
+            warmth += conduction.pair(conduction_p, kernel.h, s, i, j, separation(s, box, i, j)[3], pull[i, k])
         heating[i] = warmth
 
 
 @loop
 def rates(
-    kernel, s, rows, box, slope, stress, viscous_p, friction_p, traction, rubbing, contact_work, artificial_p, temperature_p, conduction_p,
-    walls_p, dummies, wall_rows, wall_pressure, wall_velocity, pressure, acceleration, agitation, heating,
+    kernel, s, rows, box, pull, stress, viscous_p, friction_p, traction, rubbing, contact_work, artificial_p, temperature_p, conduction_p,
+    walls_p, dummies, wall_rows, wall_pressure, wall_velocity, acceleration, agitation, heating,
 ):  # fmt: skip
     """Of grains that move: acceleration (N, 3) [m/s2], agitation (N,) [W/kg] that feeds theta, heating (N,) [W/kg]."""
     for i in prange(len(s.x)):
         ax = ay = az = work = 0.0
         warmth = contact_work[i]
         if walls.near(walls_p, wall_rows, i):
-            ax, ay, az = walls.force(walls_p, kernel, box, dummies, wall_rows, s, i, pressure, stress.shear, traction, wall_pressure, wall_velocity)
-        rho_i = s.density[i]
+            ax, ay, az = walls.force(walls_p, kernel, box, dummies, wall_rows, s, i, stress.pressure, stress.shear, traction, wall_pressure, wall_velocity)
+        rho_i, per_i = s.density[i], 1.0 / s.density[i]
         for k in range(length(rows, i)):
             j = rows.index[i, k]
             dx, dy, dz, r2 = separation(s, box, i, j)
             du, dv, dw = approach(s, box, i, j)
             closing = du * dx + dv * dy + dw * dz
-            rho_j, m_j = s.density[j], s.mass[j]
-            gradient = slope[i, k]
-            scale = m_j * gradient / (rho_i * rho_j)
+            rho_j, per_j, pull_ij = s.density[j], 1.0 / s.density[j], pull[i, k]
+            scale = pull_ij * per_i * per_j
 
             # section 2.1, corrected: -m_j (S_i/rho_i^2 + S_j/rho_j^2 + Pi_ij) grad W, S = p I - tau
-            agitated = m_j * gradient * (stress.kinetic_pressure[i] / rho_i**2 + stress.kinetic_pressure[j] / rho_j**2)
-            lasting = m_j * gradient * (stress.friction_pressure[i] / rho_i**2 + stress.friction_pressure[j] / rho_j**2)
-            ringing = m_j * gradient * artificial_viscosity.pair(
-                artificial_p, closing, r2, stress.sound[i], stress.sound[j], rho_i, rho_j
-            )
+            agitated = pull_ij * (stress.agitated[i] + stress.agitated[j])
+            lasting = pull_ij * (stress.lasting[i] + stress.lasting[j])
+            ringing = pull_ij * artificial_viscosity.pair(artificial_p, kernel.h, closing, r2, stress.sound[i], stress.sound[j], rho_i, rho_j)
             along, across = granular_viscosity.pair(viscous_p, stress, i, j, r2, closing, scale)
             rub_along, rub_across = friction.pair(friction_p, rubbing, i, j, r2, closing, scale)
-            fx, fy, fz = friction.elastic(friction_p, s, box, i, j, dx, dy, dz)
+            fx, fy, fz = friction.elastic(friction_p, s, box, i, j, per_i, per_j, dx, dy, dz)
             push = along + rub_along - agitated - lasting - ringing
-            ax += push * dx + (across + rub_across) * du + m_j * gradient * fx
-            ay += push * dy + (across + rub_across) * dv + m_j * gradient * fy
-            az += push * dz + (across + rub_across) * dw + m_j * gradient * fz
+            ax += push * dx + (across + rub_across) * du + pull_ij * fx
+            ay += push * dy + (across + rub_across) * dv + pull_ij * fy
+            az += push * dz + (across + rub_across) * dw + pull_ij * fz
 
             v2 = du * du + dv * dv + dw * dw
             work += granular_temperature.pair(
@@ -157,7 +149,7 @@ def rates(
             )
             rubbed = lasting * closing - rub_along * closing - rub_across * v2
             warmth += 0.5 * (rubbed + granular_temperature.rest(temperature_p, ringing * closing))
-            warmth += conduction.pair(conduction_p, s, i, j, r2, gradient)
+            warmth += conduction.pair(conduction_p, kernel.h, s, i, j, r2, pull_ij)
         acceleration[i, 0] = ax
         acceleration[i, 1] = ay
         acceleration[i, 2] = az

@@ -41,14 +41,14 @@ def empty(count: int, contacts: bool) -> Shearing:
 
 
 @njit(cache=True, error_model="numpy")
-def gradient(s, rows, box, slope, i):
+def gradient(s, rows, box, pull, i):
     """(1/rho_i) sum m_j (v_j - v_i)_a dW/dx_b [1/s]: xx, xy, xz, yx, yy, yz, zx, zy, zz."""
     xx = xy = xz = yx = yy = yz = zx = zy = zz = 0.0
     for k in range(length(rows, i)):
         j = rows.index[i, k]
         dx, dy, dz, _ = separation(s, box, i, j)
         du, dv, dw = approach(s, box, i, j)
-        g = -s.mass[j] * slope[i, k]
+        g = -pull[i, k]
         xx += g * du * dx
         xy += g * du * dy
         yx += g * dv * dx
@@ -65,12 +65,12 @@ def gradient(s, rows, box, slope, i):
 
 @loop
 def shear(
-    kernel, s, rows, box, slope, walls_p, dummies, wall_rows, friction_p, dt,
+    kernel, s, rows, box, pull, stress, walls_p, dummies, wall_rows, friction_p, dt,
     held_xx, held_yy, held_xy, held_yz, held_zx, traction, rubbing, contact_work, shear_squared, divergence,
 ):  # fmt: skip
     """The fields of `Shearing`, from velocities as they are; contacts are strained over dt [s]: `held` is the state's own stress."""
     for i in prange(len(s.x)):
-        xx, xy, xz, yx, yy, yz, zx, zy, zz = gradient(s, rows, box, slope, i)
+        xx, xy, xz, yx, yy, yz, zx, zy, zz = gradient(s, rows, box, pull, i)
         if walls.near(walls_p, wall_rows, i):
             behind = walls.gradient(walls_p, kernel, box, dummies, wall_rows, s, i)
             xx, xy, xz = xx + behind[0], xy + behind[1], xz + behind[2]
@@ -83,7 +83,7 @@ def shear(
         contact_work[i] = 0.0
         if len(friction_p):
             spin = 0.5 * (xy - yx), 0.5 * (yz - zy), 0.5 * (zx - xz)
-            tau, rubbing[i] = friction.stress(friction_p, s, i, D, spin, dt)
+            tau, rubbing[i] = friction.stress(friction_p, stress, s, i, D, spin, dt)
             held_xx[i], held_yy[i], held_xy[i] = tau[0], tau[1], tau[3]
             if deep(box):
                 held_yz[i], held_zx[i] = tau[4], tau[5]

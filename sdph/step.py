@@ -39,7 +39,7 @@ class Stepper:
         algebraic = parameters["granular_temperature"] and parameters["granular_temperature"].model == 1
         self.shears = bool(parameters["friction"] or algebraic)
         self.steps, self.contacts, self.limit = 0, 0, ""
-        self.sound, self.length = np.empty(0), 0.0  # of the particles in the last sub-step [m/s], and what that was limited to [s]
+        self.stress, self.length = Stress(*[np.empty(0)] * len(Stress._fields)), 0.0  # of the last sub-step, and what that was limited to [s]
         self.mechanical_heat = 0.0  # what motion has given to the temperature of the grains [J]
         self.bounds_work = 0.0  # what the bounds of theta have added [J]
 
@@ -65,13 +65,13 @@ class Stepper:
     def _look_around(self) -> None:
         """What belongs to neighbour rows just made."""
         self.rows, built = self.neighbours.rows, self.neighbours.built
-        self.slope = np.empty(self.rows.index.shape)
+        self.pull = np.empty(self.rows.index.shape)
         if self.boundary:
             self.wall_rows = self.boundary.rows(built)
             self.boundary.part(self.rows, self.wall_rows, built)
 
     def _sum(self, density) -> None:
-        rates.sum_density(self.kernel, self.state, self.rows, self.neighbours.box, *self._walls(), density, self.slope)
+        rates.sum_density(self.kernel, self.state, self.rows, self.neighbours.box, *self._walls(), density, self.pull)
 
     def conduct(self, dt: float, heat) -> None:
         """Grains at rest through `dt` [s]: conduction, and `heat` (N,) [J] from the gas spread evenly."""
@@ -79,7 +79,7 @@ class Stepper:
         steps = max(1, math.ceil(dt / limit * (1.0 - 1e-9)))
         heating = np.zeros(len(self.state.x))
         for _ in range(steps):
-            rates.conduct(self.state, self.rows, self.neighbours.box, self.slope, self.parameters["conduction"], heating)
+            rates.conduct(self.kernel, self.state, self.rows, self.neighbours.box, self.pull, self.parameters["conduction"], heating)
             self._warm(heating * dt / steps + heat / self.state.mass / steps)
             self.guard.sub_step(self)
         self.steps += steps
@@ -100,16 +100,15 @@ class Stepper:
         """Heat [W] that each particle gets from its neighbours now."""
         heating = np.zeros(len(self.state.x))
         if self.parameters["conduction"]:
-            rates.conduct(self.state, self.rows, self.neighbours.box, self.slope, self.parameters["conduction"], heating)
+            rates.conduct(self.kernel, self.state, self.rows, self.neighbours.box, self.pull, self.parameters["conduction"], heating)
         return heating * self.state.mass
 
     def _sub_step(self, left: float) -> float:
         """The next sub-step [s]: what is left of the window, in equal parts."""
         s, p = self.state, self.parameters
-        self.sound = np.empty(len(s.x))
-        rates.sound_speeds(s, self.case.grains.density, p["granular_pressure"], p["friction"], self.sound)
+        self.stress = self._stress()
         speed = np.sqrt(s.u**2 + s.v**2 + (s.w**2 if len(s.w) else 0.0))
-        fastest = float((self.sound + speed).max(initial=0.0))
+        fastest = float((self.stress.sound + speed).max(initial=0.0))
         limits = {"sound": ACOUSTIC * self.kernel.h / fastest if fastest else math.inf, "conduction": self._limit_of("conduction")}
         if len(s.theta) and s.theta.max(initial=0.0) > 0.0:  # viscosity and conductivity are at most h sqrt(theta)
             limits["agitation"] = DIFFUSIVE * self.kernel.h / math.sqrt(s.theta.max())
@@ -122,13 +121,11 @@ class Stepper:
         heat, body, damping = held
         s, p, count = self.state, self.parameters, len(self.state.x)
         sheared = self._shear(dt)
-        stress = self._stress()
-        pressure = stress.kinetic_pressure + stress.friction_pressure
-        wall_pressure, wall_velocity = self._extrapolate(pressure, body)
+        wall_pressure, wall_velocity = self._extrapolate(self.stress.pressure, body)
         acceleration, agitation, heating = np.empty((count, 3)), np.empty(count), np.empty(count)
         rates.rates(
-            self.kernel, s, self.rows, self.neighbours.box, self.slope, stress, self.viscous, p["friction"], *sheared[:3], p["artificial_viscosity"],
-            p["granular_temperature"], p["conduction"], *self._walls(), wall_pressure, wall_velocity, pressure,
+            self.kernel, s, self.rows, self.neighbours.box, self.pull, self.stress, self.viscous, p["friction"], *sheared[:3], p["artificial_viscosity"],
+            p["granular_temperature"], p["conduction"], *self._walls(), wall_pressure, wall_velocity,
             acceleration, agitation, heating,
         )  # fmt: skip
         if self.source:
@@ -143,13 +140,12 @@ class Stepper:
 
     def _stress(self) -> Stress:
         s, p = self.state, self.parameters
-        fields = [np.empty(len(s.x)) for _ in range(5)]
+        stress = Stress(*(np.empty(len(s.x)) for _ in Stress._fields))
         rates.constitutive(
             s, self.case.grains.density, p["granular_pressure"], p["friction"],
-            p["granular_viscosity"], p["granular_temperature"], *fields,
+            p["granular_viscosity"], p["granular_temperature"], *stress,
         )  # fmt: skip
-        kinetic, lasting, shear, bulk, conductivity = fields
-        return Stress(kinetic, lasting, shear, bulk, self.sound, conductivity)
+        return stress
 
     def _shear(self, dt: float) -> shearing.Shearing:
         """Strain, and contacts strained over `dt` [s]."""
@@ -157,7 +153,7 @@ class Stepper:
         if not self.shears:
             return shearing.nothing(len(s.x))
         out, held = shearing.empty(len(s.x), bool(p["friction"])), (getattr(s, name) for name in friction.ARRAYS)
-        shearing.shear(self.kernel, s, self.rows, self.neighbours.box, self.slope, *self._walls(), p["friction"], dt, *held, *out)
+        shearing.shear(self.kernel, s, self.rows, self.neighbours.box, self.pull, self.stress, *self._walls(), p["friction"], dt, *held, *out)
         return out
 
     def _extrapolate(self, pressure, body):

@@ -71,10 +71,9 @@ def pair_rates(stepper):
     s, p, count = stepper.state, stepper.parameters, len(stepper.state.x)
     stepper._sub_step(1e-4)
     sheared = stepper._shear(1e-4)
-    stress = stepper._stress()
     out = np.empty((count, 3)), np.empty(count), np.empty(count)
-    rates.rates(stepper.kernel, s, stepper.rows, stepper.neighbours.box, stepper.slope, stress, stepper.viscous, p["friction"], *sheared[:3],
-                p["artificial_viscosity"], p["granular_temperature"], p["conduction"], (), (), (), (), (), stress.kinetic_pressure, *out)  # fmt: skip
+    rates.rates(stepper.kernel, s, stepper.rows, stepper.neighbours.box, stepper.pull, stepper.stress, stepper.viscous, p["friction"], *sheared[:3],
+                p["artificial_viscosity"], p["granular_temperature"], p["conduction"], (), (), (), (), (), *out)  # fmt: skip
     return out
 
 

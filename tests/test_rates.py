@@ -12,13 +12,14 @@ from numba import prange
 from sdph import particles, rates
 from sdph.effects import OFF, conduction
 from sdph.laws import exact, kernels
+from sdph.laws.constants import SOFTENING
 from sdph.laws.exchange import cleary_monaghan
 from sdph.neighbours import Neighbours, box_of
 from sdph.step import ACOUSTIC
 
 H = 0.1
 SIGMA = {dims: kernels.normalisation("cubic_spline", dims, H) for dims in (2, 3)}
-GRAINS = conduction.ConductionP(500.0, 3060.0, 0.01 * H**2)
+GRAINS = conduction.ConductionP(500.0, 3060.0)
 PERIOD = {2: (0.9, 0.7, 0.0), 3: (0.5, 0.0, 0.6)}
 
 rngs = st.integers(0, 2**32 - 1).map(np.random.default_rng)
@@ -126,22 +127,22 @@ def test_cosine_decays_by_conduction(mode, bias):
         state.temperature[:] += heating * dt / 2470.0
     amplitude = 2.0 * np.mean((state.temperature - 300.0) * np.cos(k * state.x))
     rate = -math.log(amplitude) / (1000 * dt)
-    explicit = -math.log1p(-1e-3 * lattice_rate(kernel, dx, k, parameters)) / 1e-3
+    explicit = -math.log1p(-1e-3 * lattice_rate(kernel, dx, k)) / 1e-3
     assert rate == pytest.approx(explicit * diffusivity * k**2, rel=1e-9)
     assert amplitude == pytest.approx(exact.cosine_decay(1000 * dt, k, diffusivity), rel=bias)
 
 
-def lattice_rate(kernel, dx, k, p):
+def lattice_rate(kernel, dx, k):
     """Decay rate of cos(kx) over D k^2 by the pair sum on the lattice, without the code's loops."""
     reach = math.ceil(2.0 * kernel.h / dx)
     x, y = (a.ravel() * dx for a in np.meshgrid(*2 * [np.arange(-reach, reach + 1.0)]))
     r = np.hypot(x, y)
     slope = np.array([kernels.cubic_spline_gradient(d, kernel.h, kernel.sigma) for d in r])
-    return -2.0 * dx**2 * (slope * r**2 / (r**2 + p.eta_squared) * (1.0 - np.cos(k * x))).sum() / k**2
+    return -2.0 * dx**2 * (slope * r**2 / (r**2 + SOFTENING * kernel.h**2) * (1.0 - np.cos(k * x))).sum() / k**2
 
 
 @rates.loop
-def by_hand(h, sigma, s, rows, box, conductivity, grain_density, eta_squared, on, heating):
+def by_hand(h, sigma, s, rows, box, conductivity, grain_density, on, heating):
     """The loop with conduction written in, and nothing else."""
     for i in prange(len(s.x)):
         heat = 0.0
@@ -154,7 +155,7 @@ def by_hand(h, sigma, s, rows, box, conductivity, grain_density, eta_squared, on
                 r2 = dx * dx + dy * dy + 0.0
                 gradient = kernels.cubic_spline_gradient(np.sqrt(r2), h, sigma)
                 k_i, k_j = s.density[i] / grain_density * conductivity, s.density[j] / grain_density * conductivity
-                c = cleary_monaghan(s.mass[j], s.density[i], s.density[j], k_i, k_j, r2, gradient, eta_squared)
+                c = cleary_monaghan(s.mass[j], s.density[i], s.density[j], k_i, k_j, r2, gradient, SOFTENING * h**2)
                 heat += c * (s.temperature[i] - s.temperature[j])
         heating[i] = heat
 
@@ -165,9 +166,9 @@ def test_effect_set_is_the_loop_written_by_hand(on):
     state, rows = Neighbours(2.0 * H, PERIOD[2]).update(random_cloud(np.random.default_rng(4), 400, 2))
     box, kernel = box_of(PERIOD[2], 2), rates.Kernel(H, SIGMA[2])
     ours, theirs = np.full(400, np.nan), np.full(400, np.nan)
-    slope = np.empty(rows.index.shape)
-    rates.sum_density(kernel, state, rows, box, OFF, OFF, OFF, np.empty(400), slope)
-    rates.conduct(state, rows, box, slope, GRAINS if on else OFF, ours)
+    pull = np.empty(rows.index.shape)
+    rates.sum_density(kernel, state, rows, box, OFF, OFF, OFF, np.empty(400), pull)
+    rates.conduct(kernel, state, rows, box, pull, GRAINS if on else OFF, ours)
     by_hand(H, SIGMA[2], state, rows, box, *GRAINS, on, theirs)
     np.testing.assert_allclose(ours, theirs, rtol=1e-13, atol=1e-14 * np.abs(theirs).max())
     assert ours.any() == on

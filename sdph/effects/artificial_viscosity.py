@@ -20,20 +20,19 @@ class ArtificialViscosity:
 class ArtificialP(NamedTuple):
     alpha: float
     beta: float
-    h: float
 
 
 def kernel(case) -> ArtificialP:
     own = case.parameters["artificial_viscosity"]
-    return ArtificialP(own.alpha, own.beta, case.smoothing_length)
+    return ArtificialP(own.alpha, own.beta)
 
 
 @njit(cache=True, error_model="numpy")
-def pair(p, approach, r_squared, c_i, c_j, rho_i, rho_j):
+def pair(p, h, approach, r_squared, c_i, c_j, rho_i, rho_j):
     """Pi_ij [m5/(kg s2)]; approach = v_ij.r_ij [m2/s]."""
     if len(p) == 0:
         return 0.0
-    return viscosity.monaghan(approach, r_squared, p.h, 0.5 * (c_i + c_j), 0.5 * (rho_i + rho_j), p.alpha, p.beta)
+    return viscosity.monaghan(approach, r_squared, h, 0.5 * (c_i + c_j), 0.5 * (rho_i + rho_j), p.alpha, p.beta)
 
 
 def call(scales) -> Judgement:

@@ -8,10 +8,9 @@ from typing import NamedTuple
 from numba import njit
 
 from sdph.effects.effect import NO_LIMIT, Effect, Judgement
-from sdph.laws.exchange import cleary_monaghan
+from sdph.laws.constants import SOFTENING
 from sdph.schema import record
 
-SINGULAR = 0.01  # eta^2 / h^2 keeps the pair term finite, Cleary & Monaghan 1999
 STABLE = 0.1  # of rho c h^2 / k, Cleary & Monaghan 1999
 
 
@@ -21,26 +20,27 @@ class Conduction:
 
 
 class ConductionP(NamedTuple):
-    """k [W/m/K] and density [kg/m3] of the grains, eta^2 [m2]."""
+    """k [W/m/K] and density [kg/m3] of the grains."""
 
     conductivity: float
     grain_density: float
-    eta_squared: float
 
 
 def kernel(case) -> ConductionP:
-    return ConductionP(case.grains.conductivity, case.grains.density, SINGULAR * case.smoothing_length**2)
+    return ConductionP(case.grains.conductivity, case.grains.density)
 
 
 @njit(cache=True, error_model="numpy")
-def pair(p, s, i, j, r_squared, gradient):
-    """Heat per mass and time [W/kg] that i gets from j; `gradient` is (dW/dr)/r [1/m^(d+2)]."""
+def pair(p, h, s, i, j, r_squared, pull):
+    """Heat per mass and time [W/kg] that i gets from j; `pull` is m_j (dW/dr)/r [kg/m^(d+2)].
+
+    The law `cleary_monaghan` with K = alpha_p k, where K_i K_j/(rho_i rho_j) leaves k/(alpha_p rho_p) of the mean.
+    """
     if len(p) == 0:
         return 0.0
-    k_i = s.density[i] / p.grain_density * p.conductivity  # K = alpha_p k
-    k_j = s.density[j] / p.grain_density * p.conductivity
-    c = cleary_monaghan(s.mass[j], s.density[i], s.density[j], k_i, k_j, r_squared, gradient, p.eta_squared)
-    return c * (s.temperature[i] - s.temperature[j])
+    weight = pull * r_squared / (r_squared + SOFTENING * h * h)
+    mean = 0.5 * (s.density[i] + s.density[j])
+    return 2.0 * p.conductivity / p.grain_density * weight / mean * (s.temperature[i] - s.temperature[j])
 
 
 def dt_limit(p, case, state) -> float:

@@ -67,11 +67,12 @@ def pressure(p, alpha_p):
 
 
 @njit(cache=True, error_model="numpy")
-def sound_squared(p, alpha_p):
-    """c^2 [m2/s2] of a wave along which contacts are strained elastically: bulk modulus and 4/3 of the shear modulus."""
+def sound_squared(p, slope):
+    """c^2 [m2/s2] of a wave along which contacts are strained elastically: bulk modulus, by the slope of their pressure
+    [Pa], and 4/3 of the shear modulus."""
     if len(p) == 0:
         return 0.0
-    return pressure(p, alpha_p)[1] / p.grain_density * (1.0 + 4.0 / 3.0 * p.stiffness)
+    return slope / p.grain_density * (1.0 + 4.0 / 3.0 * p.stiffness)
 
 
 @njit(cache=True, error_model="numpy")
@@ -84,11 +85,11 @@ def pair(p, rubbing, i, j, r_squared, closing, scale):
 
 
 @njit(cache=True, error_model="numpy")
-def elastic(p, s, box, i, j, dx, dy, dz):
-    """(tau_i/rho_i^2 + tau_j/rho_j^2).r_ij of the elastic stress of contacts."""
+def elastic(p, s, box, i, j, per_i, per_j, dx, dy, dz):
+    """(tau_i/rho_i^2 + tau_j/rho_j^2).r_ij of the elastic stress of contacts; per_i = 1/rho_i [m3/kg]."""
     if len(p) == 0:
         return 0.0, 0.0, 0.0
-    own, other = 1.0 / s.density[i] ** 2, 1.0 / s.density[j] ** 2
+    own, other = per_i * per_i, per_j * per_j
     xx = s.contact_xx[i] * own + s.contact_xx[j] * other
     yy = s.contact_yy[i] * own + s.contact_yy[j] * other
     xy = s.contact_xy[i] * own + s.contact_xy[j] * other
@@ -100,18 +101,18 @@ def elastic(p, s, box, i, j, dx, dy, dz):
 
 
 @njit(cache=True, error_model="numpy")
-def stress(p, s, i, D, spin, dt):
+def stress(p, pressures, s, i, D, spin, dt):
     """Deviator of the elastic stress of contacts [Pa] after dt (xx, yy, zz, xy, yz, zx), and their viscosity [Pa s].
 
-    D (6) is the deviator of the rate of strain [1/s], spin (xy, yz, zx) its antisymmetric part: the stress turns with
-    the grains (Jaumann), grows by 2 G D dt, and is joined by 2 mu D with the largest mu that an explicit step bears, so
+    `pressures` is a sdph.rates.Stress, D (6) the deviator of the rate of strain [1/s], spin (xy, yz, zx) its antisymmetric
+    part: the stress turns with the grains (Jaumann), grows by 2 G D dt, and is joined by 2 mu D with the largest mu that an explicit step bears, so
     that contacts come to rest; both are cut down together where their sum is past yield.
     """
-    alpha_p = s.density[i] / p.grain_density
-    frictional_pressure, slope = pressure(p, alpha_p)
+    frictional_pressure = pressures.lasting[i] * s.density[i] ** 2
     if frictional_pressure == 0.0:
         return (0.0, 0.0, 0.0, 0.0, 0.0, 0.0), 0.0
-    xx, yy, zz, xy, yz, zx = trial(s, i, D, spin, 2.0 * p.stiffness * alpha_p * slope, dt)
+    bulk = s.density[i] / p.grain_density * pressures.stiffness[i]
+    xx, yy, zz, xy, yz, zx = trial(s, i, D, spin, 2.0 * p.stiffness * bulk, dt)
     mu = DIFFUSIVE * p.h * p.h / dt * s.density[i]
     m = 2.0 * mu
     squared = law.second_invariant(xx + m * D[0], yy + m * D[1], zz + m * D[2], xy + m * D[3], yz + m * D[4], zx + m * D[5])

@@ -115,7 +115,7 @@ def _moves(case) -> bool:
 def _sound(case, s) -> float:
     """c [m/s] of agitation and friction where grains lie closest at the start."""
     agitated = granular_pressure.sound_squared(granular_pressure.kernel(case), s.alpha_p, s.theta) if "granular_pressure" in case.effects else 0.0
-    lasting = friction.sound_squared(friction.kernel(case), s.alpha_p) if "friction" in case.effects else 0.0
+    lasting = friction.sound_squared(p := friction.kernel(case), friction.pressure(p, s.alpha_p)[1]) if "friction" in case.effects else 0.0
     return math.sqrt(agitated + lasting)
 
 

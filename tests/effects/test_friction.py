@@ -29,6 +29,7 @@ def loaded(stepper, times):
     for name in friction.ARRAYS[:3]:
         getattr(s, name)[:] = 0.0
     for _ in range(times):
+        stepper._sub_step(DT)
         out = stepper._shear(DT)
     return s, np.abs(s.y - 0.05) < 0.03, out
 
@@ -70,7 +71,7 @@ def test_work_of_contacts_is_what_their_force_takes(block):
         for k in range(block.rows.count[i]):
             j = block.rows.index[i, k]
             dx, dy, dz, r2 = separation(s, block.neighbours.box, i, j)
-            pull = friction.elastic(block.parameters["friction"], s, block.neighbours.box, i, j, dx, dy, dz)
+            pull = friction.elastic(block.parameters["friction"], s, block.neighbours.box, i, j, 1.0 / s.density[i], 1.0 / s.density[j], dx, dy, dz)
             g = s.mass[i] * s.mass[j] * kernels.cubic_spline_gradient(math.sqrt(r2), block.kernel.h, block.kernel.sigma)
             power += g * (pull[0] * s.u[i] + pull[1] * s.v[i])
     work = (s.mass * out.contact_work).sum()
