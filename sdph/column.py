@@ -21,7 +21,7 @@ def metrics(simulation) -> dict[str, float]:
     flux = rows.mean((1.0 - fields["alpha_p"]) * fields["velocity"][:, 1])
     height = 2.0 * float((simulation.state.y * simulation.state.mass).sum() / simulation.state.mass.sum())
     inside = (rows.place > INSIDE[0] * height) & (rows.place < INSIDE[1] * height)
-    speed = np.sqrt((particles.velocities(simulation.state) ** 2).sum(axis=1))
+    speed = particles.lengths(particles.velocities(simulation.state))
     fraction = simulation.state.density / case.grains.density
     return {
         "superficial_velocity_m_s": float(flux[0]),

@@ -89,7 +89,7 @@ class Taken:
         heat = {"heat_to_particles_J": float(self.heat.sum()), "heat_to_gas_J": -self.heat_from_gas}
         vapour = {"evaporated_kg": self.vapour, "vapour_to_gas_kg": self.vapour_to_gas, "condensation_refused_kg": self.refused}
         bound = {"latent_heat_J": self.latent_heat, "capacity_heat_J": self.capacity_heat}
-        own, other = self.impulse.sum(axis=0), -self.impulse_from_gas
+        own, other = np.einsum("ij->j", self.impulse), -self.impulse_from_gas
         return heat | vapour | bound | vector("impulse_to_particles", own) | vector("impulse_to_gas", other)
 
 
@@ -227,8 +227,8 @@ class Exchange:
             apart = gather(handed.weights, velocity) - handed.velocity
             impulse = handed.dt * handed.drag[:, None] * apart
             given = handed.sources["drag"][:, None] * velocity - handed.sources["drag_velocity"]
-            impulse_from_gas = (given * self.volumes[:, None]).sum(axis=0) * handed.dt
-            self.drag_heat = self._density(handed.weights, (impulse * apart).sum(axis=1) / handed.dt)
+            impulse_from_gas = np.einsum("ij,i->j", given, self.volumes) * handed.dt
+            self.drag_heat = self._density(handed.weights, np.einsum("ij,ij->i", impulse, apart) / handed.dt)
         if self.case.coupling.one_way:  # the gas feels nothing
             from_gas, impulse_from_gas = 0.0, np.zeros(3)
         if not handed.loss:
@@ -289,7 +289,7 @@ class Seen:
     def __init__(self, weights, gas_state, state):
         velocity, self.density, self.temperature = (gather(weights, gas_state.fields[name]) for name in ("velocity", "density", "temperature"))
         self.own = particles.velocities(state)
-        self.slip = np.sqrt(((velocity - self.own) ** 2).sum(axis=1))
+        self.slip = particles.lengths(velocity - self.own)
 
 
 def _vapour_concentration(p, gas_state) -> np.ndarray:

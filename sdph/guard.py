@@ -104,7 +104,7 @@ class Guard(Watch):
         fields = simulation.gas_state.fields
         bounds = {"velocity": (0.0, RUNAWAY * self.sound, "m/s"), "temperature": (self.coldest, self.hottest, "K")}
         for name, bound in bounds.items():
-            values = fields[name] if fields[name].ndim == 1 else np.sqrt((fields[name] ** 2).sum(axis=1))
+            values = fields[name] if fields[name].ndim == 1 else particles.lengths(fields[name])
             worst = _outside(values, *bound[:2])
             if worst is not None:
                 self.stop(f"gas {name}", f"cell {worst}", simulation.gas.mesh.centres[worst], values[worst], bound, self._shorter())

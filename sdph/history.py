@@ -26,7 +26,7 @@ def probe(simulation, point) -> dict[str, float]:
     gas = gather(simulation.transfer.weights(here), simulation.gas_state.fields["temperature"])[0]
     reach = REACH * simulation.case.smoothing_length
     state = simulation.grains
-    r = np.sqrt(((particles.positions(state) - here) ** 2).sum(axis=1))
+    r = particles.lengths(particles.positions(state) - here)
     near = np.flatnonzero(r < reach)
     weight = state.mass[near] * (1.0 - r[near] / reach) ** 2
     own = (weight * state.temperature[near]).sum() / weight.sum() if len(near) else math.nan
@@ -40,7 +40,10 @@ def tracked(simulation) -> dict[str, float]:
         return {}
     state, columns = simulation.state, {}
     conducted = simulation.stepper.conduction_rates()
-    received = simulation.received.now(state)[0] if simulation.received else np.zeros(len(state.x))
+    received = np.zeros(len(state.x))
+    if simulation.received:
+        known = np.isin(state.ident, simulation.received.ident)  # not what has come in since
+        received[known] = simulation.received.now(particles.take(state, known))[0]
     fields = {
         "x_m": state.x, "y_m": state.y, "z_m": state.z, "u_m_s": state.u, "v_m_s": state.v, "w_m_s": state.w,
         "temperature_K": state.temperature, "granular_temperature_m2_s2": state.theta,

@@ -108,13 +108,13 @@ class Ledger:
 
     def _totals(self, state, budget) -> dict[str, float]:
         velocity = particles.velocities(state)
-        momentum = (state.mass[:, None] * velocity).sum(axis=0)
+        momentum = np.einsum("i,ij->j", state.mass, velocity)
         enthalpy = state.mass * state.temperature * self.case.grains.heat_capacity if len(state.temperature) else np.zeros(1)
         row = {
             "particles": len(state.x),
             "particle_mass_kg": float(state.mass.sum()),
-            "particle_energy_J": math.fsum(enthalpy),
-            "particle_kinetic_energy_J": float(0.5 * (state.mass * (velocity**2).sum(axis=1)).sum()),
+            "particle_energy_J": math.fsum(enthalpy.tolist()),
+            "particle_kinetic_energy_J": float(0.5 * np.einsum("i,ij,ij->", state.mass, velocity, velocity)),
         }
         row |= {f"particle_momentum_{a}_kg_m_s": float(p) for a, p in zip("xyz", momentum)}
         scalars = {"mass": "kg", "energy": "J", "vapour": "kg", "mass_in": "kg", "energy_in": "J", "vapour_in": "kg"}

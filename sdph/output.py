@@ -214,7 +214,7 @@ class Fields:
 def save(mesh, path: Path) -> None:
     """A VTK file, whole or not at all. VTK tells nobody when the disk is full: its last line does."""
     draft = path.with_name(f"part-{path.name}")
-    mesh.save(draft)
+    mesh.save(draft, compression="lz4")  # a fifth of zlib's time for a tenth more room
     if not draft.exists() or not _ends_with(draft, b"</VTKFile>"):
         draft.unlink(missing_ok=True)
         raise OSError(errno.ENOSPC, f"{os.strerror(errno.ENOSPC)} (or another failure of VTK to write {path.name})")

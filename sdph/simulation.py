@@ -91,7 +91,7 @@ class Simulation:
         self._without_finished()
         warming, impulse, body, damping = flows.now(self.state)
         tally, mass = Tally(self), self.state.mass[:, None]
-        weight = (body * mass * dt)[self.state.kind == GRAIN].sum(axis=0)
+        weight = np.einsum("i,ij->j", self.state.mass * (self.state.kind == GRAIN) * dt, body)
         if self.moves:
             self._timed("particles", self.stepper.move, dt, warming, body + impulse / (mass * dt), damping)
         else:
@@ -99,7 +99,7 @@ class Simulation:
         self.time, self.windows = end, self.windows + 1
         self.clock.learn(dt, taken.heat[inside], self.received.ident[inside], self.gas_state.budget.courant, self._fastest())
         self.clock.thicken(dt, self.exchange.vapour_share(handed, self.gas_state))
-        exchanged = taken.columns() | tally.columns(self, weight, taken.impulse.sum(axis=0))
+        exchanged = taken.columns() | tally.columns(self, weight, np.einsum("ij->j", taken.impulse))
         exchanged |= {"drag_heat_J": self.exchange.drag_heat_of(handed)}
         exchanged |= self._timed("exchange", self._turn_over, self.clock.longest())
         self.ledger.close_window(end, dt, self.clock.limit, self.grains, self.gas_state, exchanged)
@@ -176,7 +176,7 @@ class Simulation:
 
     def _fastest(self) -> float:
         """Speed of the fastest particle [m/s]."""
-        return float(np.sqrt((particles.velocities(self.state) ** 2).sum(axis=1)).max(initial=0.0)) if self.moves else 0.0
+        return float(particles.lengths(particles.velocities(self.state)).max(initial=0.0)) if self.moves else 0.0
 
     def _body(self, handed) -> np.ndarray:
         """Gravity and the gas's pressure gradient, held over the window: (N, 3) [m/s2]."""
@@ -217,8 +217,7 @@ def _came_in(simulation):
 
 
 def _momentum(state) -> np.ndarray:
-    inside = state.kind == GRAIN
-    return (state.mass[inside, None] * particles.velocities(state)[inside]).sum(axis=0)
+    return np.einsum("i,ij->j", state.mass * (state.kind == GRAIN), particles.velocities(state))
 
 
 def _of_those_that_left(case, left) -> dict[str, float]:

@@ -220,11 +220,12 @@ class Held:
 
     def __init__(self, state, *values):
         self.ident, self.values = state.ident.copy(), values
-        self.sorted = np.argsort(self.ident)
+        self.place = np.empty(int(state.ident.max(initial=0)) + 1, np.int64)  # of each ident
+        self.place[self.ident] = np.arange(len(self.ident))
         self.order, self.given = state.ident, values  # as handed out last, and in which order
 
     def now(self, state):
         if state.ident is not self.order:  # sorting makes a new array
-            rows = self.sorted[np.searchsorted(self.ident, state.ident, sorter=self.sorted)]
+            rows = self.place[state.ident]
             self.order, self.given = state.ident, tuple(value[rows] for value in self.values)
         return self.given

@@ -50,10 +50,11 @@ class Control:
 
 def _change(before, now) -> float:
     """Sum over the particles that are in both of how much their rate changed [W]."""
-    if np.array_equal(before[2], now[2]):
-        return float(np.abs(now[1] - before[1]).sum())
-    _, old, new = np.intersect1d(before[2], now[2], assume_unique=True, return_indices=True)
-    return float(np.abs(now[1][new] - before[1][old]).sum())
+    place = np.full(1 + max(before[2].max(initial=0), now[2].max(initial=0)), -1)  # of each ident before
+    place[before[2]] = np.arange(len(before[2]))
+    old = place[now[2]]
+    stayed = old >= 0
+    return float(np.abs(now[1][stayed] - before[1][old[stayed]]).sum())
 
 
 class Window:

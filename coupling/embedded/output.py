@@ -56,7 +56,7 @@ def force_of_boundary(box: Box, window: Window, before, flow: Flow, fields: dict
     drag = window.push[:, cells].T - (window.pull - window.vapour)[cells, None] * velocity
     known = drag + flow.mass[cells, None] * np.array(box.gravity) + room[:, None] * slope
     force = np.zeros(3)
-    force[:d] = ((flow.mass[cells, None] * velocity).sum(axis=0) - before[:d]) / window.dt - known.sum(axis=0)
+    force[:d] = (np.einsum("i,ij->j", flow.mass[cells], velocity) - before[:d]) / window.dt - np.einsum("ij->j", known)
     return tuple(force.tolist())
 
 
@@ -70,6 +70,6 @@ def budget(box: Box, flow: Flow, fields: dict[str, np.ndarray]) -> Budget:
         mass=float(flow.mass[cells].sum()),
         energy=float((capacity * flow.temperature[cells]).sum()),
         vapour=float(flow.vapour[cells].sum()),
-        momentum=tuple((flow.mass[cells, None] * fields["velocity"]).sum(axis=0).tolist()),
+        momentum=tuple(np.einsum("i,ij->j", flow.mass[cells], fields["velocity"]).tolist()),
         mass_in=flow.mass_in, energy_in=flow.energy_in, vapour_in=flow.vapour_in, courant=0.0,
     )  # fmt: skip

@@ -10,13 +10,16 @@ import math
 from typing import Callable, NamedTuple
 
 import numpy as np
-from scipy.linalg import expm
-from scipy.optimize import brentq
 
 from sdph.laws import evaporation, friction, granular
 from sdph.laws.constants import GAS_CONSTANT
 
-ROOT = {"xtol": 1e-15, "rtol": 1e-15}  # to round-off
+
+def _root(function: Callable[[float], float], low: float, high: float) -> float:
+    """Where a function changes its sign, to round-off."""
+    from scipy.optimize import brentq  # takes longer to import than a run needs to begin
+
+    return brentq(function, low, high, xtol=1e-15, rtol=1e-15)
 
 
 # --- heat ---------------------------------------------------------------------------------------------------------
@@ -67,6 +70,8 @@ def mode_exchange(t, wavenumber, eps, C_p, C_g, D_p, D_g, start) -> np.ndarray:
     """Amplitudes (2,) [K] of cos(kx) in T_p and T_g at t, from `start` (2,), under conduction and exchange."""
     k2 = wavenumber**2
     rates = np.array([[-D_p * k2 - eps / C_p, eps / C_p], [eps / C_g, -D_g * k2 - eps / C_g]])
+    from scipy.linalg import expm
+
     return expm(rates * t) @ np.asarray(start, dtype=float)
 
 
@@ -76,7 +81,7 @@ def stefan_front_coefficient(stefan_number: float) -> float:
     def excess(x):
         return x * math.exp(x * x) * math.erf(x) - stefan_number / math.sqrt(math.pi)
 
-    return brentq(excess, 0.0, 1.0 + math.sqrt(math.log1p(stefan_number)), **ROOT)
+    return _root(excess, 0.0, 1.0 + math.sqrt(math.log1p(stefan_number)))
 
 
 # --- momentum -----------------------------------------------------------------------------------------------------
@@ -115,6 +120,8 @@ def dusty_wave(x, t, amplitude, wavenumber, c, rho_g, rho_d, K) -> np.ndarray:
     rates[0, 1] = rates[2, 3] = -ik
     rates[1] = [-ik * c**2, -K / rho_g, 0.0, K / rho_g]
     rates[3] = [0.0, K / rho_d, 0.0, -K / rho_d]
+    from scipy.linalg import expm
+
     return (expm(rates * t) @ np.full(4, amplitude + 0j) * np.exp(ik * x)).imag
 
 
@@ -152,7 +159,7 @@ def fluidised_fraction(
     def excess(alpha_p):
         return minimum_fluidisation(alpha_p, density, gravity, diameter, gas_density, gas_viscosity) - velocity
 
-    return brentq(excess, 1e-6, 1.0 - 1e-6, **ROOT)
+    return _root(excess, 1e-6, 1.0 - 1e-6)
 
 
 def wen_yu_minimum_fluidisation(
@@ -179,7 +186,7 @@ def settling_slip(
     upper = 1.0
     while excess(upper) < 0.0:
         upper *= 2.0
-    return brentq(excess, 0.0, upper, **ROOT)
+    return _root(excess, 0.0, upper)
 
 
 def settling_slip_at(t, beta, alpha_p, density, gas_density, gravity) -> float:
@@ -268,4 +275,4 @@ def wet_bulb_temperature(
 
     if cooling(0.5 * gas_temperature) > 0.0:
         raise ValueError(f"no wet-bulb temperature above half of {gas_temperature} K: evaporation cools too strongly")
-    return brentq(cooling, 0.5 * gas_temperature, gas_temperature, **ROOT)
+    return _root(cooling, 0.5 * gas_temperature, gas_temperature)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from scipy.optimize import brentq
 
 
 class Shock(NamedTuple):
@@ -38,6 +37,8 @@ def dusty_shock_tube(left: tuple[float, float], right: tuple[float, float], gamm
 
     def jump(p):
         return _wave_velocity(p, rho_l * mass, p_l, gamma) + _wave_velocity(p, rho_r * mass, p_r, gamma)
+
+    from scipy.optimize import brentq  # takes longer to import than most of what calls this file
 
     p = brentq(jump, p_r, p_l, xtol=1e-15, rtol=1e-15)
     ratio, mu2 = p / p_r, (gamma - 1.0) / (gamma + 1.0)

@@ -93,6 +93,15 @@ def test_no_seam_at_the_mouth(tmp_path, nozzle, dimensions):
     np.testing.assert_allclose(done.state.density[heart], streams.alpha_p * 700.0, rtol=0.02)
 
 
+def test_what_came_in_just_now_is_tracked_too(tmp_path):
+    """The heat rates of a row are those of the last window, in which a newcomer had none."""
+    done = simulation(case(SLOT, track={"particles": [1]}), tmp_path, cells=(4, 4))
+    first = int(done.state.ident.max(initial=0))
+    while done.state.ident.max() == first:
+        done.window()
+    assert done.row()["particle_1_convective_heat_W"] == 0.0  # no heat exchange here
+
+
 def test_cone_spreads_to_its_angle_and_keeps_its_rate():
     chosen = case(CONE, 3)
     made, state = drift(chosen, 0.1, 0.004)
