@@ -88,14 +88,14 @@ def _columns(field):
 
 
 class Bins(NamedTuple):
-    """Cells sorted into square bins of side `size`, each with its centre, smoothing length (`widest` of all), volume, number."""
+    """Cells sorted into square bins of side `size`, each with its centre, 1/h^2 of its smoothing length (h `widest` of all), volume, number."""
 
     low: np.ndarray
     size: np.ndarray
     shape: np.ndarray
     start: np.ndarray
     centres: np.ndarray
-    smoothing: np.ndarray
+    inverse_square: np.ndarray
     volume: np.ndarray
     cell: np.ndarray
     widest: float
@@ -112,7 +112,7 @@ def _bins(centres, smoothing, volumes) -> Bins:
     number = np.ravel_multi_index(tuple(place.T), tuple(shape), order="F")  # x fastest
     order = np.argsort(number, kind="stable")
     start = np.concatenate(([0], np.cumsum(np.bincount(number, minlength=int(shape.prod())))))
-    return Bins(low, size, shape, start, points[order], smoothing[order], volumes[order], order, float(smoothing.max()))
+    return Bins(low, size, shape, start, points[order], smoothing[order] ** -2.0, volumes[order], order, float(smoothing.max()))
 
 
 @njit(cache=True, error_model="numpy")
@@ -143,8 +143,7 @@ def _add(bins, x, y, z, cells, weight, found):
             row = (bz * bins.shape[1] + by) * bins.shape[0]
             for c in range(np.uint64(bins.start[row + x0]), np.uint64(bins.start[row + x1])):
                 dx, dy, dz = x - bins.centres[c, 0], y - bins.centres[c, 1], z - bins.centres[c, 2]
-                e, h = min(found, room), bins.smoothing[c]
-                square = (dx * dx + dy * dy + dz * dz) / (h * h)
+                e, square = min(found, room), (dx * dx + dy * dy + dz * dz) * bins.inverse_square[c]
                 cells[e], weight[e] = c, square
                 found += np.uint64(square < SUPPORT * SUPPORT)
     return found
@@ -191,11 +190,12 @@ def _weighed(bins, cells, weight, found):
     """`found`, with cells by their number and weights that sum to 1."""
     total, entries = 0.0, min(found, np.uint64(len(cells)))
     for e in range(entries):
-        c = cells[e]
-        cells[e], weight[e] = bins.cell[c], bins.volume[c] * _spline(np.sqrt(weight[e]))
+        weight[e] = _spline(np.sqrt(weight[e]))
+    for e in range(entries):
+        weight[e] *= bins.volume[cells[e]]
         total += weight[e]
     for e in range(entries):
-        weight[e] /= total
+        cells[e], weight[e] = bins.cell[cells[e]], weight[e] / total
     return np.int64(found)
 
 
