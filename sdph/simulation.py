@@ -165,10 +165,13 @@ class Simulation:
             state = particles.take(state, ~gone)
         if self.source:
             state = self.source.fill(state, self.time, longest)
-        if state is not self.stepper.state:
+        replaced = state is not self.stepper.state
+        if replaced:
             self.stepper.replace(state)
-        if self.moves or self.windows == 0 or self.parameters["evaporation"]:
+        changed = replaced or self.parameters["evaporation"]
+        if changed or self.windows == 0:  # those that moved are prepared
             self.stepper.prepare()
+        if changed or self.moves:
             self._weights_now = None
         if self.source and self.windows:
             self.clock.stake(self.exchange.stake(self.state, self.weights, self.gas_state))

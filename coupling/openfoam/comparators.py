@@ -65,12 +65,15 @@ DROPLETS = Solver(
 )
 
 
-def run_two_fluid(case: Case, folder: Path, ranks: int = 1, progress: Progress | None = None) -> Reference:
+def run_two_fluid(
+    case: Case, folder: Path, ranks: int = 1, progress: Progress | None = None, courant: float = two_fluid_numbers.COURANT
+) -> Reference:
     """Run twoPhaseEulerFoam on the case in `folder`, or take what it gave from the cache.
 
-    `progress(time, end)` [s] hears where the run is. `GasError` when OpenFOAM fails.
+    `progress(time, end)` [s] hears where the run is; `courant` is the largest Courant number of an inlet. `GasError` when
+    OpenFOAM fails.
     """
-    return _run(TWO_FLUID, case, folder, ranks, {TWO_FLUID.macros: two_fluid_numbers.macros(case)}, progress)
+    return _run(TWO_FLUID, case, folder, ranks, {TWO_FLUID.macros: two_fluid_numbers.macros(case, courant)}, progress)
 
 
 def run_droplets(

@@ -24,7 +24,7 @@ HEAT_MODELS = {
 }
 
 
-def macros(case: Case) -> dict[str, str]:
+def macros(case: Case, courant: float = COURANT) -> dict[str, str]:
     """Macros of the two-fluid templates: name -> text."""
     gas, grains = case.gas, case.grains
     if gas.equation_of_state != "constant":
@@ -39,7 +39,7 @@ def macros(case: Case) -> dict[str, str]:
         **_heat_exchange(case),
         **_friction(case),
         **_regions(case),
-        **_time_steps(case),
+        **_time_steps(case, courant),
     }
 
 
@@ -79,11 +79,11 @@ def _point(place, z: float) -> str:
     return f"({x[0]!r} {x[1]!r} {x[2]!r})"
 
 
-def _time_steps(case: Case) -> dict[str, str]:
+def _time_steps(case: Case, courant: float) -> dict[str, str]:
     """`first_time_step` and `time_steps`, a table of steps against time, for a case that rests; else `time_step`."""
     speeds = [math.hypot(*boundary.velocity) for boundary in case.boundaries.values() if boundary.velocity]
     if speeds:
-        return {"time_step": repr(divided(case.run.output_interval, COURANT * case.resolution.cell / max(speeds)))}
+        return {"time_step": repr(divided(case.run.output_interval, courant * case.resolution.cell / max(speeds)))}
     table = resting_steps(case)
     return {"first_time_step": repr(table[0][1]), "time_steps": "(" + " ".join(f"({t!r} {dt!r})" for t, dt in table) + ")"}
 
