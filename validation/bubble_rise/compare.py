@@ -17,7 +17,8 @@ from sdph.compare import check
 from sdph.liquid import GAS
 
 SPEED, CENTRE, ROUND = 0.02, 0.02, 0.01  # liquids.md
-FINE = 2  # grid points of the colour a spacing: the contour is as smooth as the kernel
+FINE = 2  # grid points of the colour a spacing
+NODES = 1024  # of the contour, evenly spaced
 
 
 def reference() -> np.ndarray:
@@ -26,7 +27,10 @@ def reference() -> np.ndarray:
 
 
 def circularity(points, case) -> tuple[float, float]:
-    """(perimeter of the disc of the same area over that of the bubble, area [m2]) of the half contour of its colour."""
+    """(perimeter of the disc of the same area over that of the bubble, area [m2]) of the half contour of its colour.
+
+    Waves shorter than the kernel is wide, 4 h, are single particles and are taken out.
+    """
     spacing = case.resolution.spacing
     h = case.smoothing_length
     places, gas = points.points[:, :2], (points["kind"] == GAS).astype(float)
@@ -39,10 +43,20 @@ def circularity(points, case) -> tuple[float, float]:
     total = np.bincount(pairs.row, weight, len(nodes))
     colour = np.bincount(pairs.row, weight * gas[pairs.col], len(nodes)) / np.maximum(total, 1e-300)
     lines = contourpy.contour_generator(*ticks, colour.reshape(len(ticks[1]), len(ticks[0]))).lines(0.5)
-    x, y = max(lines, key=len).T
+    x, y = _smooth(max(lines, key=len), 4.0 * h).T
     perimeter = np.hypot(np.diff(x), np.diff(y)).sum()
     area = 0.5 * abs(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]))
     return 2.0 * np.sqrt(np.pi * area) / perimeter, area
+
+
+def _smooth(line, shortest: float) -> np.ndarray:
+    """(P, 2) closed line (P, 2) [m] without its waves shorter than `shortest` [m]."""
+    along = np.concatenate([[0.0], np.hypot(*np.diff(line, axis=0).T).cumsum()])
+    even = np.arange(NODES) * along[-1] / NODES
+    waves = np.fft.fft(np.interp(even, along, line[:, 0]) + 1j * np.interp(even, along, line[:, 1]))
+    waves[np.abs(np.fft.fftfreq(NODES, 1.0 / NODES)) > along[-1] / shortest] = 0.0
+    kept = np.fft.ifft(waves)
+    return np.stack([kept.real, kept.imag], axis=1)[np.arange(NODES + 1) % NODES]
 
 
 def metrics(run) -> dict:
