@@ -1,12 +1,13 @@
 """First sloshing periods of box, cylinder and sphere against linear theory.
 
     python validation/sloshing_periods/periods.py [box,cylinder,sphere] [0.15,0.25,0.5] [spacings in a radius: 12] [h/dx: 1.5] \\
-        [shake in mm: 4] [pressure gradient: corrected]
+        [shake in mm] [pressure gradient: corrected]
 
 A tank at rest is shaken for two periods of the linear frequency and let go; the period is that of the damped harmonic
 fitted to the liquid's centre of mass over four further ones. The box is two-dimensional, its half length the radius; box
-and cylinder are as high as they are wide, so that a fill of 0.5 is a depth of one radius. Shaken by 4 mm, the waves of the
-shallowest box are a tenth of its depth high: linear theory is of small waves.
+and cylinder are as high as they are wide, so that a fill of 0.5 is a depth of one radius. It is shaken by 4 mm, or by a
+sixtieth of the depth where that is less: waves are then a tenth of the depth high at most in the box, a sixth in the cylinder, and
+linear theory is of small ones.
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ G = 9.81  # m/s2
 RADIUS = 0.5  # m
 SHAKEN, FREE = 2, 4  # periods
 COURANT = 0.5  # twice the default
+SHAKE, OF_DEPTH = 4e-3, 1.0 / 60.0  # m; see above
 FIRST_ROOT = 1.8412  # of J_1', NASA SP-106
 BARS = {12: 0.03, 25: 0.01}  # liquids.md
 
@@ -107,7 +109,7 @@ def measure(shape: str, fill: float, across: int, ratio: float, shake: float, gr
 
 
 def main(
-    shapes: str = "box,cylinder,sphere", fills: str = "0.15,0.25,0.5", across: str = "12", ratio: str = "1.5", shake: str = "4",
+    shapes: str = "box,cylinder,sphere", fills: str = "0.15,0.25,0.5", across: str = "12", ratio: str = "1.5", shake: str = "",
     gradient: str = "corrected",
 ) -> None:  # fmt: skip
     print("| tank | fill | R/dx | h/dx | shaken by [mm] | gradient | liquid particles | period over the linear | bar | damping | "
@@ -115,12 +117,13 @@ def main(
     print("|--|--|--|--|--|--|--|--|--|--|--|--|--|", flush=True)
     for shape in shapes.split(","):
         for fill in map(float, fills.split(",")):
-            found = measure(shape, fill, int(across), float(ratio), 1e-3 * float(shake), gradient)
+            by = 1e-3 * float(shake) if shake else min(SHAKE, OF_DEPTH * linear(shape, fill)[1])
+            found = measure(shape, fill, int(across), float(ratio), by, gradient)
             waves = f"{found['finite']:.4f}" if "finite" in found else ""
             lever = f"{100.0 * found['lever']:.2f} %" if "lever" in found else ""
             bar = BARS.get(int(across), math.nan)
             verdict = "" if abs(found["ratio"] - 1.0) <= bar else " (missed)"
-            print(f"| {shape} | {fill:g} | {across} | {ratio} | {shake} | {gradient} | {found['liquid']} | {found['ratio']:.4f}{verdict} | "
+            print(f"| {shape} | {fill:g} | {across} | {ratio} | {1e3 * by:g} | {gradient} | {found['liquid']} | {found['ratio']:.4f}{verdict} | "
                   f"{100 * bar:g} % | {found['damping']:.4f} | {found['amplitude']:.3f} | {waves} | {lever} |", flush=True)  # fmt: skip
 
 
