@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+
 from sdph.particles import FIELDS
 from sdph.schema import CaseError
 
 WINDOW = (1200, 900)  # pixels
 SHOWN = 0.75  # share of the window that the domain fills
+SLAB = 0.25  # of the next longer side: a box so thin is looked at across
+OFF_FACES = 1e-6  # of its lengths: a cut through the middle of a box is no face of its cells
 MOVIES = {".gif": {"duration": 100, "loop": 0}, ".mp4": {"fps": 10}}  # ten pictures a second
 BAR = {"vertical": True, "position_y": 0.2, "height": 0.6, "width": 0.06, "fmt": "%.6g", "n_labels": 5, "title_font_size": 16, "label_font_size": 14}
 GAS_UNITS = {"alpha_p": "1", "temperature": "K", "pressure": "Pa", "density": "kg/m3", "vapour_mass_fraction": "1"}
@@ -55,10 +59,10 @@ def movie(folder: Path, target: Path, field: str | None = None) -> None:
     if target.suffix not in MOVIES:
         raise CaseError(f"--movie {target}: its name must end with {' or '.join(MOVIES)}")
     reader = read(folder)
-    pictures = []
-    for time in reader.time_values:
-        chosen, particles, gas = state_at(reader, time)
-        plotter = scene(particles, gas, field, f"t = {chosen:g} s", off_screen=True)
+    states, pictures = [state_at(reader, time) for time in reader.time_values], []
+    ranges = [_range([state[part] for state in states], field or _usual(states[0][2])) for part in (1, 2)]
+    for time, particles, gas in states:
+        plotter = scene(particles, gas, field, f"t = {time:g} s", off_screen=True, ranges=ranges)
         pictures.append(plotter.screenshot(return_img=True))
         plotter.close()
     try:
@@ -67,37 +71,68 @@ def movie(folder: Path, target: Path, field: str | None = None) -> None:
         raise CaseError(f"{target} cannot be written: {error}") from None
 
 
-def scene(particles, gas, field: str | None, title: str, off_screen: bool):
-    """A plotter with the particles coloured by `field` (None: temperature, speed where there is none) over the cells of the gas."""
+def _usual(gas) -> str:
+    """The field that is shown unasked."""
+    return "velocity" if gas is None else "temperature"
+
+
+def _range(meshes, field: str):
+    """Least and largest of a field over all of the meshes, of a vector its length; None where none has it."""
+    arrays = [np.asarray(mesh[field]) for mesh in meshes if mesh is not None and field in mesh.array_names]
+    values = [array if array.ndim == 1 else np.linalg.norm(array, axis=1) for array in arrays if len(array)]
+    return (min(v.min() for v in values), max(v.max() for v in values)) if values else None
+
+
+def scene(particles, gas, field: str | None, title: str, off_screen: bool, ranges=(None, None)):
+    """A plotter with the particles coloured by `field` (None: temperature, speed where there is none) over the cells of the gas;
+    `ranges` of the colours of both (None: those of the picture)."""
     import pyvista
     from vtkmodules.vtkCommonCore import vtkLogger
 
     if off_screen:  # VTK first tries an X server, complains, and then renders in software
         vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
 
-    given, field = field, field or ("velocity" if gas is None else "temperature")
+    given, field = field, field or _usual(gas)
     known = sorted({*particles.point_data, *(gas.cell_data if gas is not None else ())} & {*GAS_UNITS, *PARTICLE_UNITS, "velocity"})
     if given and given not in known:
         raise CaseError(f"--field {given}: this run has {', '.join(known)}")
     plotter = pyvista.Plotter(off_screen=off_screen, window_size=WINDOW)
+    whole = gas if gas is not None else particles
+    gas, across = _cut(gas) if gas is not None else (None, None)
     if gas is not None and field in gas.cell_data:
         bar = BAR | {"title": f"gas {field}\n[{GAS_UNITS.get(field, '1')}]", "position_x": 0.86}
-        plotter.add_mesh(gas, scalars=field, cmap="YlOrRd", scalar_bar_args=bar, lighting=False)
+        plotter.add_mesh(gas, scalars=field, cmap="YlOrRd", clim=ranges[1], scalar_bar_args=bar, lighting=False)
     if particles.n_points and field in particles.point_data:
         bar = BAR | {"title": f"particle {field}\n[{PARTICLE_UNITS[field]}]", "position_x": 0.07}
-        plotter.add_mesh(particles, scalars=field, cmap="inferno", point_size=_size(particles, gas if gas is not None else particles), scalar_bar_args=bar, lighting=False)
+        plotter.add_mesh(particles, scalars=field, cmap="inferno", clim=ranges[0], point_size=_size(particles, whole), scalar_bar_args=bar, lighting=False)
     plotter.add_text(title, font_size=12, position="upper_edge")
-    if particles.bounds[4] == particles.bounds[5]:
-        plotter.view_xy()
+    if whole.bounds[4] == whole.bounds[5]:
+        across = 2
+    if across is not None:
+        plotter.view_vector([float(a == across) for a in range(3)], viewup=(0.0, 1.0, 0.0) if across == 2 else (0.0, 0.0, 1.0))
         plotter.enable_parallel_projection()
     plotter.show_bounds(xtitle="x [m]", ytitle="y [m]", ztitle="z [m]", font_size=10, location="outer", fmt="%.3g", n_xlabels=6, n_ylabels=6)
     plotter.camera.zoom(0.95)
     return plotter
 
 
-def _size(particles, gas) -> float:
+def _cut(gas):
+    """The gas, in space by the plane through the middle of its thinnest side; and that axis where it is a slab, else None."""
+    lengths = _lengths(gas)
+    if not lengths[2]:
+        return gas, None
+    across = int(np.argmin(lengths))
+    beside = np.array(gas.center) + OFF_FACES * lengths
+    return gas.slice("xyz"[across], origin=beside), across if lengths[across] < SLAB * np.median(lengths) else None
+
+
+def _lengths(mesh) -> np.ndarray:
+    """Of the box around it, along each axis."""
+    return np.diff(np.reshape(mesh.bounds, (3, 2)))[:, 0]
+
+
+def _size(particles, whole) -> float:
     """Point size [pixels] at which neighbouring particles just touch."""
-    width, height = gas.bounds[1] - gas.bounds[0], gas.bounds[3] - gas.bounds[2]
-    box = particles.bounds
-    spacing = ((box[1] - box[0]) * (box[3] - box[2]) / particles.n_points) ** 0.5
-    return max(2.0, SHOWN * min(WINDOW[0] / width, WINDOW[1] / height) * spacing)
+    box, lengths = _lengths(whole), _lengths(particles)
+    spacing = (lengths[lengths > 0.0].prod() / particles.n_points) ** (1.0 / max(1, (lengths > 0.0).sum()))
+    return max(2.0, SHOWN * min(WINDOW[0] / box[0], WINDOW[1] / box[1]) * spacing)

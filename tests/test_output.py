@@ -136,3 +136,15 @@ def test_mesh_that_is_no_tensor_grid_is_not_drawn_as_one():
 
     with pytest.raises(AttributeError, match="case_folder"):  # it goes on to the OpenFOAM case of the solver
         output.gas_grid(Wedge())
+
+
+@pytest.mark.parametrize(("edges", "across"), [((5, 9, 1), 2), ((1, 9, 5), 0), ((5, 9, 8), None)])
+def test_gas_in_space_is_cut_through_its_middle(edges, across):
+    """The whole of it would hide the grains; a slab is looked at across."""
+    import pyvista
+
+    gas = pyvista.RectilinearGrid(*(np.linspace(0.0, length, 5) for length in edges))
+    gas.cell_data["temperature"] = gas.cell_centers().points[:, edges.index(min(edges))]
+    cut, found = view._cut(gas)
+    assert found == across
+    assert cut.n_cells >= 16 and np.ptp(cut.cell_data["temperature"]) == 0.0  # one layer of cells
