@@ -39,6 +39,14 @@ def metrics(centres, volumes, alpha_p, gas_temperature, pressure) -> dict[str, f
     }
 
 
+def through_depth(depth: float, centres, volumes, *fields) -> tuple:
+    """Centres, volumes and fields of a plane mesh 1 m deep: those of a slab, `depth` [m] along z, averaged through it."""
+    place = layers(centres[:, 1]) * len(centres) + layers(centres[:, 0])
+    _, first, column = np.unique(place, return_index=True, return_inverse=True)
+    whole = np.bincount(column, volumes)
+    return centres[first], whole / depth, *(np.bincount(column, volumes * field) / whole for field in fields)
+
+
 def detachment(times, rows: list[dict]) -> float:
     """First time [s] at which a bubble that touched the floor does so no more; nan if it never let go."""
     touched = np.array([row["attached"] for row in rows], bool)

@@ -9,7 +9,8 @@ from sdph.schema import CaseError
 def bed(simulation) -> dict[str, float]:
     """The bubble (sdph.bubble), and the densest particle."""
     mesh, fields = simulation.gas.mesh, simulation.cell_fields()
-    row = bubble.metrics(mesh.centres, mesh.volumes / mesh.depth, fields["alpha_p"], fields["temperature"], fields["pressure"])
+    cells = (mesh.centres, mesh.volumes / mesh.depth, fields["alpha_p"], fields["temperature"], fields["pressure"])
+    row = bubble.metrics(*(bubble.through_depth(simulation.case.domain.size[2], *cells) if mesh.dimensions == 3 else cells))
     return row | {"alpha_p_max": float(simulation.state.density.max(initial=0.0) / simulation.case.grains.density)}
 
 
