@@ -254,6 +254,8 @@ def cost_of_accuracy(options) -> int:
 
 
 def stress_cases(options) -> int:
+    if options.json and (options.map or options.faults is not None):
+        raise CaseError("--json is of the hard cases; --map and --faults print their own tables: leave it out")
     if options.faults is not None:
         from sdph.stress import faults
 

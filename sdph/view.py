@@ -12,6 +12,7 @@ from sdph.schema import CaseError
 WINDOW = (1200, 900)  # pixels
 SHOWN = 0.75  # share of the window that the domain fills
 SLAB = 0.25  # of the next longer side: a box so thin is looked at across
+SAME = 1e-6  # of the last time: how far past it a time may lie, by the digits it was written with
 OFF_FACES = 1e-6  # of its lengths: a cut through the middle of a box is no face of its cells
 MOVIES = {".gif": {"duration": 100, "loop": 0}, ".mp4": {"fps": 10}}  # ten pictures a second
 BAR = {"vertical": True, "position_y": 0.2, "height": 0.6, "width": 0.06, "fmt": "%.6g", "n_labels": 5, "title_font_size": 16, "label_font_size": 14}
@@ -32,6 +33,8 @@ def state_at(reader, time: float | None = None):
     """(time, particles, gas) nearest to `time` [s]; the last without one."""
     times = reader.time_values
     chosen = times[-1] if time is None else min(times, key=lambda t: abs(t - time))
+    if time is not None and not times[0] <= time <= times[-1] and abs(time - chosen) > SAME * times[-1]:
+        raise CaseError(f"--time {time:g}: this run has fields from {times[0]:g} to {times[-1]:g} s")
     reader.set_active_time_value(chosen)
     blocks = reader.read()
     return chosen, blocks[0], blocks[1] if len(blocks) > 1 else None  # a liquid has no gas

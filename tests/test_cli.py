@@ -76,6 +76,7 @@ def test_list_names_every_scene(tmp_path):
         (("compare", "nowhere", "--against", "exact"), ("nowhere", "run it first")),
         (("view", "nowhere", "--png", "a.png"), ("nowhere", "run.pvd")),
         (("init", "no_such_scene", "folder"), ("no_such_scene",)),
+        (("stress", "--map", "--json"), ("--json", "--map")),
     ],
 )
 def test_bad_input_is_one_line_and_code_2(refused, arguments, told):
