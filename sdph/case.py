@@ -12,7 +12,7 @@ from pathlib import Path
 
 import tomli_w
 
-from sdph import effects
+from sdph import effects, scenes
 from sdph.liquid import GasPhase, Liquid
 from sdph.schema import CaseError, fields, read, record, unknown, vector, write
 from sdph.sections import GROUPS, SECTIONS, Case, Coupling, Region, Vapour
@@ -124,6 +124,8 @@ def _automatic(table: dict) -> tuple[str, ...]:
 
 def _check(case: Case) -> None:
     """What no single key can tell."""
+    if case.scene and case.scene not in scenes.names():
+        raise CaseError(f"{unknown(case.scene, scenes.names()).replace('unknown key', 'scene =', 1)}; or leave it out")
     matter = "liquid" if case.liquid else "grains"
     for name in case.effects:
         if matter not in effects.REGISTRY[name].matter:
@@ -165,8 +167,6 @@ def _check_phases(case: Case) -> None:
         raise CaseError("[gas_phase] is given without [liquid]; a gas around grains goes into [gas]")
     if "drain" in case.effects:
         raise CaseError("effects holds drain, which knows one phase; leave it or [gas_phase] out")
-    if case.liquid.pressure_gradient != "plain":
-        raise CaseError(f"liquid.pressure_gradient = {case.liquid.pressure_gradient!r} is for one phase; leave it or [gas_phase] out")
     if case.gas_phase.density_by == "summation" and "density_diffusion" in case.effects:
         raise CaseError("effects holds density_diffusion, but with gas_phase.density_by = \"summation\" no density is advanced; leave one out")
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -44,6 +46,8 @@ def state_at(reader, time: float | None = None):
 def show(folder: Path, png: Path | None = None, time: float | None = None, field: str | None = None) -> None:
     """A window on the last state of a run, or the same as a picture."""
     chosen, particles, gas = state_at(read(folder), time)
+    if png is None and sys.platform == "linux" and not {"DISPLAY", "WAYLAND_DISPLAY"} & os.environ.keys():
+        raise CaseError("there is no display to open a window on; write a picture with --png FILE, or a movie with --movie FILE")
     plotter = scene(particles, gas, field, f"t = {chosen:g} s", png is not None)
     if png is None:
         plotter.show()

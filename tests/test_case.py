@@ -110,6 +110,7 @@ def test_unknown_key_names_the_nearest(override, named):
 @pytest.mark.parametrize(
     ("overrides", "told"),
     [
+        (("scene='disc_clutser'",), ("scene = disc_clutser", "did you mean disc_cluster?")),
         (("gas.density_kg_m3=-1.2",), ("gas.density_kg_m3", "-1.2", "above 0")),
         (("grains.diameter_std_mm=-0.1",), ("grains.diameter_std_mm", "at least 0")),
         (("particles.disc.volume_fraction=1.5",), ("particles.disc.volume_fraction", "at most 1")),

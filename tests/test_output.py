@@ -115,7 +115,7 @@ def test_folder_without_fields_is_told(tmp_path):
         view.read(tmp_path)
 
 
-def test_picture_of_a_run(tmp_path):
+def test_picture_of_a_run(tmp_path, monkeypatch):
     case = disc(*SHORT)
     simulated = run(case, tmp_path)
     output.create(tmp_path / "run")
@@ -128,6 +128,10 @@ def test_picture_of_a_run(tmp_path):
     assert len(np.unique(picture.reshape(-1, picture.shape[2]), axis=0)) > 100
     with pytest.raises(CaseError, match="--time 1: this run has fields from 0.004 to 0.004 s"):
         view.show(tmp_path / "run", tmp_path / "other.png", time=1.0)
+    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+        monkeypatch.delenv(name, raising=False)
+    with pytest.raises(CaseError, match="no display .* --png"):
+        view.show(tmp_path / "run")
 
 
 def test_mesh_that_is_no_tensor_grid_is_not_drawn_as_one():

@@ -15,6 +15,7 @@ from pathlib import Path
 
 from coupling.openfoam.block_mesh import block_mesh
 from coupling.openfoam.start_fields import start_fields
+from sdph.case import cells
 from sdph.schema import CaseError
 
 HEAD = "FoamFile {{ version 2.0; format ascii; class dictionary; object {name}; }}\n"
@@ -130,6 +131,9 @@ def write_decomposition(case, folder: Path, ranks: int) -> None:
         return
     size = case.domain.size
     longest = size.index(max(size))
+    most = cells(case)[longest]
+    if ranks > most:
+        raise CaseError(f"coupling.ranks = {ranks}; the gas is cut along its longest side, which has {most} cells: give that many at most")
     counts = " ".join(str(ranks) if axis == longest else "1" for axis in range(3))
     text = f"numberOfSubdomains {ranks};\nmethod simple;\nsimpleCoeffs {{ n ({counts}); delta 0.001; }}\n"
     path.write_text(HEAD.format(name="decomposeParDict") + text, encoding="utf-8")

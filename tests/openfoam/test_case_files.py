@@ -111,6 +111,11 @@ def test_an_inlet_needs_a_velocity(tmp_path):
         case_files.write_case(box_case((0.1, 0.1), 0.01, boundaries=boundaries), tmp_path / "template", tmp_path / "out")
 
 
+def test_more_ranks_than_slabs_are_refused(tmp_path):
+    with pytest.raises(CaseError, match="coupling.ranks = 21; .* has 20 cells"):
+        case_files.write_decomposition(box_case((0.1, 0.2), 0.01), tmp_path, 21)
+
+
 @pytest.mark.openfoam
 def test_flux_through_a_slot_is_the_superficial_one(tmp_path):
     with box(tmp_path, (0.1, 0.2), 0.01, boundaries=SLOT) as gas:
