@@ -74,7 +74,8 @@ def push(
             ay += along * dy + across * dv
             az += along * dz + across * dw
             if len(excess):  # B of a wall is that of the liquid in front
-                ex, ey, ez = correction.extra(excess, i, j if signed > 0.0 else i, sign_i * p_i, p_j, dx, dy, dz)
+                own, other = phases.share(phases_p, rho_i, rho_j) * sign_i * p_i, phases.share(phases_p, rho_j, rho_i) * p_j
+                ex, ey, ez = correction.extra(excess, i, j if signed > 0.0 else i, own, other, dx, dy, dz)
                 ax -= V * slope * ex
                 ay -= V * slope * ey
                 az -= V * slope * ez

@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
+from matrices import corrections
 
 from sdph import case as cases
 from sdph import smoothing
 from sdph.effects import shifting
 from sdph.laws import eos
-from sdph.liquid import LIQUID, correction, pairs, rates, shift, walls
+from sdph.liquid import LIQUID, pairs, rates, shift, walls
 from sdph.liquid.step import LiquidStepper, loads, wall_loads
 from sdph.particles import WALL, positions, velocities
 
@@ -43,20 +44,6 @@ def stepper(dimensions=2, effects=("gravity", "density_diffusion", "liquid_dampi
         (own.state.y if dimensions == 2 else own.state.z)[low] = 0.0
     own.forces()
     return own
-
-
-def corrections(own):
-    """B (N, 3, 3) of every particle that is not at the surface, 1 of the others; nothing of the walls."""
-    r, B = positions(own.state), np.full((len(own.state.x), 3, 3), np.nan)
-    for i in own.active:
-        d = r[i] - r
-        d = np.delete(d, i, axis=0)
-        share = np.delete(np.abs(own.volume), i) * np.array([smoothing.slope.py_func(own.kernel, q) for q in np.linalg.norm(d, axis=1)])
-        M = -np.einsum("j,ja,jb->ab", share, d, d)
-        if own.case.dimensions == 2:
-            M[2, 2] = 1.0
-        B[i] = np.linalg.inv(M) if np.linalg.det(M) > correction.SURFACE else np.eye(3)
-    return B
 
 
 @pytest.mark.parametrize("dimensions", [2, 3])
