@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
-import argparse
 import contextlib
 import json
 import signal
 import sys
 from pathlib import Path
 
-from sdph import __version__
+from sdph.arguments import parser
 from sdph.schema import CaseError
 
 FINE, CHECK_FAILED, BAD_INPUT, GAS_FAILED, CANNOT_WRITE, WENT_UNSTABLE = 0, 1, 2, 3, 4, 5
 
 
-def main(arguments: list[str] | None = None) -> int:
+def main(given: list[str] | None = None) -> int:
     """Entry point; returns the exit code: 0 fine, 1 a check failed, 2 bad input, 3 the gas side failed,
     4 the run folder cannot be written, 5 the run went unstable, 128 + signal when stopped."""
-    options = _parser().parse_args(arguments)
     try:
-        return options.command(options)
+        options = parser().parse_args(given)
+        return COMMANDS[options.command](options)
     except CaseError as error:
         return _failed(error, BAD_INPUT)
     except json.JSONDecodeError as error:
@@ -41,116 +40,6 @@ def _failed(message, code: int) -> int:
     text = " ".join([str(message), *getattr(message, "__notes__", ())])
     print(f"sdph: {' '.join(text.split())}", file=sys.stderr)
     return code
-
-
-class _Parser(argparse.ArgumentParser):
-    """Says what is wrong in one line."""
-
-    def error(self, message):
-        sys.exit(_failed(f"{message}; see {self.prog} --help", BAD_INPUT))
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = _Parser(prog="sdph", description="Flows of grains, droplets and liquids: SPH particles and a gas.")
-    parser.add_argument("--version", action="version", version=__version__)
-    commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    _command(commands, "list", list_scenes, "the scenes, one line each")
-    init = _command(commands, "init", init_case, "an editable case folder from a scene")
-    init.add_argument("scene")
-    init.add_argument("folder", type=Path)
-    _run_options(_command(commands, "run", run, "run a scene, a case folder or a case file"))
-    explain = _command(commands, "explain", explain_case, "what a case calls for, its limits and its cost, before it runs")
-    _case_options(explain)
-    explain.add_argument("--measure", action="store_true", help="measure what each effect costs on this machine; minutes the first time")
-    cost = _command(commands, "cost", cost_of_accuracy, "what accuracy costs in time: measures a ladder of settings, draws it")
-    cost.add_argument("scene")
-    cost.add_argument("--out", type=Path, help="folder (default: runs/cost/SCENE); goes on with what is there")
-    cost.add_argument("--budget", type=_seconds, default=float("inf"), metavar="TIME", help="such as 90s or 10min: starts nothing new after that")
-    cost.add_argument("--repeats", type=_count, default=1, help="runs of each setting; the median counts (default: 1)")
-    stress = _command(commands, "stress", stress_cases, "hard cases that must stay stable; exit code 1 if one does not")
-    stress.add_argument("case", nargs="*", help="hard cases (default: all under validation/stress)")
-    stress.add_argument("--fast", action="store_true", help="only those that CI runs")
-    stress.add_argument("--faults", type=_count, nargs="?", const=50, metavar="N", help="kill, starve and stop runs at N random moments (50)")
-    stress.add_argument("--json", action="store_true", help="print the checks as JSON")
-    stress.add_argument("--map", action="store_true", help="measure how far beyond its limits each effect stays stable")
-    compare = _command(commands, "compare", compare_run, "a run against a reference; exit code 1 outside tolerance")
-    compare.add_argument("run", type=Path)
-    compare.add_argument("--against", required=True, choices=("tfm", "dpm", "exact"))
-    compare.add_argument("--json", action="store_true", help="print the checks as JSON")
-    check = _command(commands, "validate", validate_scene, "run a scene and check it against all its references")
-    check.add_argument("scene", nargs="?", help="default: every scene that has a validation")
-    check.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override a key of the case")
-    check.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: openfoam where it is)")
-    check.add_argument("--out", type=Path, help="keep the runs in this folder")
-    check.add_argument("--json", action="store_true", help="print the checks as JSON")
-    view = _command(commands, "view", view_run, "look at a run")
-    view.add_argument("run", type=Path)
-    view.add_argument("--png", type=Path, help="write a picture instead of opening a window")
-    view.add_argument("--time", type=float, metavar="T", help="time [s] (default: the last)")
-    view.add_argument("--field", help="what colours the particles and cells (default: temperature, of a liquid velocity)")
-    view.add_argument("--movie", type=Path, help="write all times as a .gif or .mp4 instead of opening a window")
-    report = _command(commands, "report", report_runs, "one HTML file of one or several runs, side by side; also of failed ones")
-    report.add_argument("runs", nargs="+", type=Path, metavar="RUN")
-    report.add_argument("--out", type=Path, help="the file (default: report.html in the first run's folder)")
-    openfoam = _command(commands, "openfoam", openfoam_setup, "find or install OpenFOAM and compile the gas solver")
-    openfoam.add_argument("action", choices=("setup",))
-    openfoam.add_argument("--install", action="store_true", help="install what is missing with apt")
-    _command(commands, "doctor", doctor, "what is there, what is missing and what mends it")
-    return parser
-
-
-def _command(commands, name: str, function, summary: str):
-    parser = commands.add_parser(name, help=summary, description=summary)
-    parser.set_defaults(command=function)
-    return parser
-
-
-def _case_options(parser) -> None:
-    parser.add_argument("target", help="scene, folder made by `sdph init`, or case.toml")
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override a key of the case")
-    parser.add_argument("--json", action="store_true", help="print the result as JSON")
-
-
-def _run_options(parser) -> None:
-    what = parser.add_mutually_exclusive_group(required=True)
-    what.add_argument("target", nargs="?", help="scene, folder made by `sdph init`, or case.toml")
-    what.add_argument("--resume", type=Path, metavar="RUN", help="go on with a run from its last checkpoint")
-    parser.add_argument("--out", type=Path, help="run folder (default: runs/SCENE, numbered)")
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override a key of the case")
-    parser.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: openfoam where it is)")
-    parser.add_argument("--transport", choices=("socket", "file"), help="how fields travel to OpenFOAM")
-    parser.add_argument("--np", type=int, help="MPI ranks of the gas solver")
-    parser.add_argument("--allow-code", action="store_true", help="let the OpenFOAM files of your case run code (#codeStream and its like)")
-    parser.add_argument("--accuracy", type=_share, metavar="E", help="take the cheapest measured setting that errs by this or less, such as 2%%")
-    parser.add_argument("--until", type=float, metavar="T", help="end time [s]")
-    parser.add_argument("--watch", action="store_true", help="keep a page of the run as it goes in its folder: watch.html")
-    parser.add_argument("--json", action="store_true", help="print the summary as JSON")
-
-
-def _share(text: str) -> float:
-    """2% or 0.02."""
-    return _above_zero(text.removesuffix("%"), "2% or 0.02") / (100.0 if text.endswith("%") else 1.0)
-
-
-def _seconds(text: str) -> float:
-    """90, 90s, 10min or 2h."""
-    units = {"min": 60.0, "h": 3600.0, "s": 1.0}
-    unit = next((name for name in units if text.endswith(name)), "")
-    return _above_zero(text.removesuffix(unit), "90s, 10min or 2h") * units.get(unit, 1.0)
-
-
-def _count(text: str) -> int:
-    if not text.isdigit() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"{text}; it must be a whole number, at least 1")
-    return int(text)
-
-
-def _above_zero(text: str, allowed: str) -> float:
-    """A finite number above 0; `ArgumentTypeError` says what is allowed."""
-    with contextlib.suppress(ValueError):
-        if 0.0 < float(text) < float("inf"):
-            return float(text)
-    raise argparse.ArgumentTypeError(f"{text}; it must be above 0, such as {allowed}")
 
 
 def list_scenes(options) -> int:
@@ -328,6 +217,22 @@ def doctor(options) -> int:
     for row in rows:
         print(row)
     return FINE if all(row.found for row in rows) else CHECK_FAILED
+
+
+COMMANDS = {
+    "list": list_scenes,
+    "init": init_case,
+    "run": run,
+    "explain": explain_case,
+    "cost": cost_of_accuracy,
+    "stress": stress_cases,
+    "compare": compare_run,
+    "validate": validate_scene,
+    "view": view_run,
+    "report": report_runs,
+    "openfoam": openfoam_setup,
+    "doctor": doctor,
+}
 
 
 if __name__ == "__main__":

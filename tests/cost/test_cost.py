@@ -5,7 +5,7 @@ import json
 import pytest
 
 from sdph import case as cases
-from sdph import cli, scenes
+from sdph import arguments, scenes
 from sdph.cost import choice, climb, ladder, report, rows
 from sdph.schema import CaseError
 
@@ -113,7 +113,7 @@ def test_accuracy_takes_what_was_measured_and_says_so(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize(("text", "seconds"), [("90", 90.0), ("90s", 90.0), ("10min", 600.0), ("2h", 7200.0)])
 def test_budget_is_read_with_its_unit(text, seconds):
-    assert cli._seconds(text) == seconds
+    assert arguments.seconds(text) == seconds
 
 
 def test_declared_ladders_name_keys_that_the_scene_has():

@@ -1,0 +1,119 @@
+"""The options of the command line."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+from pathlib import Path
+
+from sdph import __version__
+from sdph.schema import CaseError
+
+
+class _Parser(argparse.ArgumentParser):
+    """Says what is wrong as any other bad input is told."""
+
+    def error(self, message):
+        raise CaseError(f"{message}; see {self.prog} --help")
+
+
+def parser() -> argparse.ArgumentParser:
+    """What it parses has the name of the command as `command`."""
+    whole = _Parser(prog="sdph", description="Flows of grains, droplets and liquids: SPH particles and a gas.")
+    whole.add_argument("--version", action="version", version=__version__)
+    commands = whole.add_subparsers(required=True, dest="command", metavar="COMMAND")
+    _command(commands, "list", "the scenes, one line each")
+    init = _command(commands, "init", "an editable case folder from a scene")
+    init.add_argument("scene")
+    init.add_argument("folder", type=Path)
+    _run_options(_command(commands, "run", "run a scene, a case folder or a case file"))
+    explain = _command(commands, "explain", "what a case calls for, its limits and its cost, before it runs")
+    _case_options(explain)
+    explain.add_argument("--measure", action="store_true", help="measure what each effect costs on this machine; minutes the first time")
+    cost = _command(commands, "cost", "what accuracy costs in time: measures a ladder of settings, draws it")
+    cost.add_argument("scene")
+    cost.add_argument("--out", type=Path, help="folder (default: runs/cost/SCENE); goes on with what is there")
+    cost.add_argument("--budget", type=seconds, default=float("inf"), metavar="TIME", help="such as 90s or 10min: starts nothing new after that")
+    cost.add_argument("--repeats", type=count, default=1, help="runs of each setting; the median counts (default: 1)")
+    stress = _command(commands, "stress", "hard cases that must stay stable; exit code 1 if one does not")
+    stress.add_argument("case", nargs="*", help="hard cases (default: all under validation/stress)")
+    stress.add_argument("--fast", action="store_true", help="only those that CI runs")
+    stress.add_argument("--faults", type=count, nargs="?", const=50, metavar="N", help="kill, starve and stop runs at N random moments (50)")
+    stress.add_argument("--json", action="store_true", help="print the checks as JSON")
+    stress.add_argument("--map", action="store_true", help="measure how far beyond its limits each effect stays stable")
+    compare = _command(commands, "compare", "a run against a reference; exit code 1 outside tolerance")
+    compare.add_argument("run", type=Path)
+    compare.add_argument("--against", required=True, choices=("tfm", "dpm", "exact"))
+    compare.add_argument("--json", action="store_true", help="print the checks as JSON")
+    check = _command(commands, "validate", "run a scene and check it against all its references")
+    check.add_argument("scene", nargs="?", help="default: every scene that has a validation")
+    check.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override a key of the case")
+    check.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: openfoam where it is)")
+    check.add_argument("--out", type=Path, help="keep the runs in this folder")
+    check.add_argument("--json", action="store_true", help="print the checks as JSON")
+    view = _command(commands, "view", "look at a run")
+    view.add_argument("run", type=Path)
+    view.add_argument("--png", type=Path, help="write a picture instead of opening a window")
+    view.add_argument("--time", type=float, metavar="T", help="time [s] (default: the last)")
+    view.add_argument("--field", help="what colours the particles and cells (default: temperature, of a liquid velocity)")
+    view.add_argument("--movie", type=Path, help="write all times as a .gif or .mp4 instead of opening a window")
+    report = _command(commands, "report", "one HTML file of one or several runs, side by side; also of failed ones")
+    report.add_argument("runs", nargs="+", type=Path, metavar="RUN")
+    report.add_argument("--out", type=Path, help="the file (default: report.html in the first run's folder)")
+    openfoam = _command(commands, "openfoam", "find or install OpenFOAM and compile the gas solver")
+    openfoam.add_argument("action", choices=("setup",))
+    openfoam.add_argument("--install", action="store_true", help="install what is missing with apt")
+    _command(commands, "doctor", "what is there, what is missing and what mends it")
+    return whole
+
+
+def _command(commands, name: str, summary: str):
+    return commands.add_parser(name, help=summary, description=summary)
+
+
+def _case_options(parser) -> None:
+    parser.add_argument("target", help="scene, folder made by `sdph init`, or case.toml")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override a key of the case")
+    parser.add_argument("--json", action="store_true", help="print the result as JSON")
+
+
+def _run_options(parser) -> None:
+    what = parser.add_mutually_exclusive_group(required=True)
+    what.add_argument("target", nargs="?", help="scene, folder made by `sdph init`, or case.toml")
+    what.add_argument("--resume", type=Path, metavar="RUN", help="go on with a run from its last checkpoint")
+    parser.add_argument("--out", type=Path, help="run folder (default: runs/SCENE, numbered)")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override a key of the case")
+    parser.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: openfoam where it is)")
+    parser.add_argument("--transport", choices=("socket", "file"), help="how fields travel to OpenFOAM")
+    parser.add_argument("--np", type=int, help="MPI ranks of the gas solver")
+    parser.add_argument("--allow-code", action="store_true", help="let the OpenFOAM files of your case run code (#codeStream and its like)")
+    parser.add_argument("--accuracy", type=share, metavar="E", help="take the cheapest measured setting that errs by this or less, such as 2%%")
+    parser.add_argument("--until", type=float, metavar="T", help="end time [s]")
+    parser.add_argument("--watch", action="store_true", help="keep a page of the run as it goes in its folder: watch.html")
+    parser.add_argument("--json", action="store_true", help="print the summary as JSON")
+
+
+def share(text: str) -> float:
+    """2% or 0.02."""
+    return _above_zero(text.removesuffix("%"), "2% or 0.02") / (100.0 if text.endswith("%") else 1.0)
+
+
+def seconds(text: str) -> float:
+    """90, 90s, 10min or 2h."""
+    units = {"min": 60.0, "h": 3600.0, "s": 1.0}
+    unit = next((name for name in units if text.endswith(name)), "")
+    return _above_zero(text.removesuffix(unit), "90s, 10min or 2h") * units.get(unit, 1.0)
+
+
+def count(text: str) -> int:
+    if not text.isdigit() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text}; it must be a whole number, at least 1")
+    return int(text)
+
+
+def _above_zero(text: str, allowed: str) -> float:
+    """A finite number above 0; `ArgumentTypeError` says what is allowed."""
+    with contextlib.suppress(ValueError):
+        if 0.0 < float(text) < float("inf"):
+            return float(text)
+    raise argparse.ArgumentTypeError(f"{text}; it must be above 0, such as {allowed}")
