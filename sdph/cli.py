@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import os
 import signal
 import sys
 from pathlib import Path
@@ -19,11 +20,16 @@ def main(given: list[str] | None = None) -> int:
     4 the run folder cannot be written, 5 the run went unstable, 128 + signal when stopped."""
     try:
         options = parser().parse_args(given)
-        return COMMANDS[options.command](options)
+        code = COMMANDS[options.command](options)
+        sys.stdout.flush()
+        return code
     except CaseError as error:
         return _failed(error, BAD_INPUT)
     except json.JSONDecodeError as error:
         return _failed(f"a file of the run is damaged (no JSON: {error}); run it again", BAD_INPUT)
+    except BrokenPipeError:  # whoever read the output has read enough; what is left of it is dropped
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 128 + signal.SIGPIPE
     except OSError as error:
         return _failed(f"{error.filename or 'a file'}: {error.strerror or error}; give a place that is there and can be written", CANNOT_WRITE)
     except KeyboardInterrupt as stop:

@@ -92,6 +92,16 @@ def test_bad_case_file_is_one_line_and_code_2(refused, tmp_path, text):
     refused("run", ".")
 
 
+def test_a_reader_that_has_read_enough_is_no_error(tmp_path):
+    code = "import sys; from sdph import cli; [cli.main(['list']) for _ in range(100)]"
+    told = subprocess.Popen([sys.executable, "-c", code], cwd=tmp_path, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    told.stdout.readline()
+    told.stdout.close()
+    assert told.stderr.read() == b""
+    assert told.wait() == 0
+    told.stderr.close()
+
+
 def test_process_ends_with_code_2_and_one_line(tmp_path):
     done = sdph("run", "disc_clusster", cwd=tmp_path, code=2)
     assert (done.stdout, done.stderr.count("\n")) == ("", 1)

@@ -11,28 +11,30 @@ from sdph.laws import heat
 
 def explain(case) -> dict[str, list[dict]]:
     """All parts, each a list of rows (name -> value) of one table."""
-    if case.liquid:
-        from sdph.liquid import explain as liquid
-
-        return liquid.explain(case)
     scales = judge.scales_of(case)
+    found = _of_liquid().explain(scales) if case.liquid else _of_grains(case, scales)
     return {
-        "numbers": [dict(zip(("number", "value", "threshold", "meaning", "source"), row)) for row in numbers(scales)],
+        "numbers": [dict(zip(("number", "value", "threshold", "meaning", "source"), row)) for row in found.pop("numbers")],
         "effects": effect_rows(case),
-        "ratios": estimate.ratios(case),
-        "limits": estimate.limits(case, scales),
-        "expected": estimate.expected(case, scales),
+        **found,
         "warnings": [{"warning": text} for text in warnings(case)],
     }
 
 
+def _of_liquid():
+    from sdph.liquid import explain
+
+    return explain
+
+
+def _of_grains(case, scales) -> dict[str, list]:
+    limits, expected = estimate.limits(case, scales), estimate.expected(case, scales)
+    return {"numbers": numbers(scales), "ratios": estimate.ratios(case), "limits": limits, "expected": expected}
+
+
 def warnings(case) -> list[str]:
     """What `run` says before it starts: effects that are missing, ratios that are not safe."""
-    if case.liquid:
-        from sdph.liquid import explain as liquid
-
-        return [*judge.missing(case), *liquid.warnings(judge.scales_of(case))]
-    return [*judge.missing(case), *estimate.warnings(case)]
+    return [*judge.missing(case), *(_of_liquid().warnings(judge.scales_of(case)) if case.liquid else estimate.warnings(case))]
 
 
 def numbers(s) -> list[tuple]:

@@ -6,7 +6,7 @@ import math
 
 from sdph import effects
 from sdph.effects import kernel_of
-from sdph.explain import estimate, judge, tables
+from sdph.explain import estimate
 from sdph.liquid.phases import fastest_sound
 from sdph.liquid.run import SLOW
 from sdph.liquid.step import FORCE
@@ -14,19 +14,10 @@ from sdph.liquid.step import FORCE
 WATER = 0.0728  # N/m, of water in air at 20 C (IAPWS R1-76): for the Weber and Bond numbers of a case that gives none
 
 
-def explain(case) -> dict[str, list[dict]]:
-    """All parts, each a list of rows of one table."""
-    scales = judge.scales_of(case)
-    rows = [dict(zip(("number", "value", "threshold", "meaning", "source"), row)) for row in numbers(scales)]
-    steps = limits(scales)
-    return {
-        "numbers": rows,
-        "effects": tables.effect_rows(case),
-        "ratios": ratios(scales),
-        "limits": steps,
-        "expected": expected(scales, steps),
-        "warnings": [{"warning": text} for text in tables.warnings(case)],
-    }
+def explain(s) -> dict[str, list]:
+    """Numbers that decide, ratios, limits of the step, and what to expect: rows of a table each."""
+    steps = limits(s)
+    return {"numbers": numbers(s), "ratios": ratios(s), "limits": steps, "expected": expected(s, steps)}
 
 
 def numbers(s) -> list[tuple]:
