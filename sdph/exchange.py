@@ -15,82 +15,21 @@ the new gas velocity, is known when the window is done: the gas gets it in the n
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numba import njit, prange
 
-from coupling.transfer import Weights, deposit, gather
-from sdph import effects, particles
-from sdph.effects import OFF, drag, evaporation, heat, sizes
+from coupling.transfer import deposit, gather
+from sdph import droplet_loss, effects, particles
+from sdph.effects import OFF, drag, heat, sizes
+from sdph.handed import Handed, Loss, Taken
 from sdph.laws.constants import GAS_CONSTANT
 from sdph.laws.exchange import exponential_fraction
-from sdph.ledger import vector
 from sdph.particles import GRAIN
 
 INSTANT = 1e-12  # s, so short that f_k/dt is K_k/C_k
 NEGLIGIBLE = 1e-6  # of the temperature: smaller differences need not be resolved (round-off else rules the window); our choice
-
-
-@dataclass(frozen=True)
-class Loss:
-    """What evaporates in one window, of each particle: mass [kg], its effect on the sizes (see effects/evaporation.py),
-    and condensation that was refused [kg]."""
-
-    mass: np.ndarray
-    still: np.ndarray
-    moving: np.ndarray
-    refused: np.ndarray
-
-
-@dataclass(frozen=True)
-class Handed:
-    """What one window hands over: the sources for the gas, and what the reaction is computed from.
-
-    heat (N,) [W/K] and pull (N,) [W]: the particle takes heat * T'_g - pull; drag (N,) [kg/s] is m_k f_k/dt; temperature
-    and velocity are those of the particles when they were computed; damping (N,) [1/s] is beta/(alpha_p rho_p); mass
-    (N,) [kg] what is in the gas at the window's end.
-    """
-
-    dt: float
-    weights: Weights
-    sources: dict[str, np.ndarray]
-    heat: np.ndarray
-    pull: np.ndarray
-    drag: np.ndarray
-    damping: np.ndarray
-    temperature: np.ndarray
-    velocity: np.ndarray
-    mass: np.ndarray
-    loss: Loss | None
-
-
-@dataclass(frozen=True)
-class Taken:
-    """What the particles take in a window: heat (N,) [J], impulse (N, 3) [kg m/s]; and what the gas gave by its own sum.
-
-    warming (N,) [J] is the heat less that of evaporation; vapour and vapour_to_gas [kg] what left particles and what the
-    gas got; latent_heat [J] and capacity_heat [J] what evaporation binds, and what the vapour's other heat capacity does.
-    """
-
-    heat: np.ndarray
-    warming: np.ndarray
-    impulse: np.ndarray
-    heat_from_gas: float
-    impulse_from_gas: np.ndarray
-    vapour: float = 0.0
-    vapour_to_gas: float = 0.0
-    latent_heat: float = 0.0
-    capacity_heat: float = 0.0
-    refused: float = 0.0
-
-    def columns(self) -> dict[str, float]:
-        """Both sides of the exchange for the ledger."""
-        heat = {"heat_to_particles_J": float(self.heat.sum()), "heat_to_gas_J": -self.heat_from_gas}
-        vapour = {"evaporated_kg": self.vapour, "vapour_to_gas_kg": self.vapour_to_gas, "condensation_refused_kg": self.refused}
-        bound = {"latent_heat_J": self.latent_heat, "capacity_heat_J": self.capacity_heat}
-        own, other = np.einsum("ij->j", self.impulse), -self.impulse_from_gas
-        return heat | vapour | bound | vector("impulse_to_particles", own) | vector("impulse_to_gas", other)
 
 
 class Exchange:
@@ -160,14 +99,14 @@ class Exchange:
         p, count = self.parameters["evaporation"], len(state.x)
         conductance, flow, surface = (np.empty(count) for _ in range(3))
         around = seen.slip, seen.density, seen.temperature
-        evaporation.survey(p, self.parameters["heat"], self.sizes_p, state, *around, dt, conductance, flow, surface)
+        droplet_loss.survey(p, self.parameters["heat"], self.sizes_p, state, *around, dt, conductance, flow, surface)
         concentration = gather(weights, _vapour_concentration(p, gas_state))
         if not self.case.coupling.one_way:
             evaporating = surface > concentration
             after = [self._relaxed(state, weights, gas_state, flow * some * dt, surface) for some in (evaporating, ~evaporating)]
             concentration = np.where(evaporating, *after)
         loss = Loss(*(np.empty(count) for _ in range(4)))
-        evaporation.losses(
+        droplet_loss.losses(
             p, self.sizes_p, state, *around, concentration, dt, conductance, loss.mass, loss.still, loss.moving, loss.refused
         )
         return conductance, loss
@@ -260,7 +199,7 @@ class Exchange:
     def settle(self, state, handed: Handed) -> None:
         """Take from the particles what evaporated."""
         if handed.loss:
-            evaporation.apply(
+            droplet_loss.apply(
                 self.parameters["evaporation"], self.sizes_p, state, handed.loss.mass, handed.loss.still, handed.loss.moving
             )
 

@@ -6,7 +6,6 @@ import math
 
 from sdph import effects
 from sdph.explain import droplets, estimate, judge
-from sdph.laws import heat
 
 
 def explain(case) -> dict[str, list[dict]]:

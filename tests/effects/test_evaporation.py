@@ -9,7 +9,7 @@ from builders import fixed_windows, simulation
 
 from coupling.embedded import EmbeddedGas
 from sdph import case as cases
-from sdph import particles, scenes
+from sdph import droplet_loss, particles, scenes
 from sdph.effects import evaporation, heat, sizes
 from sdph.effects.effect import OFF
 from sdph.laws import exact
@@ -90,8 +90,8 @@ def one(temperature, latched=0.0):
 def test_onset(onset, latched, expected):
     """Below the onset a droplet evaporates only where it is latched and has begun before."""
     p = evaporation.kernel(droplet(f"evaporation.onset='{onset}'", "evaporation.onset_temperature_K=300.0"))
-    assert (evaporation.active_time(p, one(295.0, latched), 0, 0.0, 295.0, 1.0) > 0.0) == expected
-    assert evaporation.active_time(p, one(301.0), 0, 0.0, 301.0, 1.0) == 1.0
+    assert (droplet_loss.active_time(p, one(295.0, latched), 0, 0.0, 295.0, 1.0) > 0.0) == expected
+    assert droplet_loss.active_time(p, one(301.0), 0, 0.0, 301.0, 1.0) == 1.0
 
 
 def test_onset_within_a_window():
@@ -99,7 +99,7 @@ def test_onset_within_a_window():
     p = evaporation.kernel(droplet("evaporation.onset_temperature_K=300.0"))
     state = one(290.0)
     conductance = 2.0 * state.mass[0] * p.grain_heat_capacity
-    active = evaporation.active_time(p, state, 0, conductance, 350.0, 1.0)
+    active = droplet_loss.active_time(p, state, 0, conductance, 350.0, 1.0)
     warm = 350.0 - 60.0 * math.exp(-2.0 * (1.0 - active))
     assert warm == pytest.approx(300.0, rel=1e-12)
 
@@ -149,8 +149,8 @@ def test_rate_is_ranz_and_marshall_in_a_stream():
     p, heat_p, state = evaporation.kernel(case), heat.kernel(case), one(330.0)
     slip, density, gas = np.full(1, 3.0), np.full(1, 1.225), np.full(1, 350.0)
     out = [np.empty(1) for _ in range(7)]
-    evaporation.survey(p, heat_p, OFF, state, slip, density, gas, 1e-6, *out[:3])
-    evaporation.losses(p, OFF, state, slip, density, gas, np.zeros(1), 1e-6, out[0], *out[3:])
+    droplet_loss.survey(p, heat_p, OFF, state, slip, density, gas, 1e-6, *out[:3])
+    droplet_loss.losses(p, OFF, state, slip, density, gas, np.zeros(1), 1e-6, out[0], *out[3:])
     reynolds = 1.225 * 3.0 * 1e-3 / case.gas.viscosity
     sherwood = law.sherwood_ranz_marshall(reynolds, law.schmidt_number(1.225, case.gas.viscosity, 3.79e-6))
     surface = law.vapour_concentration(law.saturation_clausius_clapeyron(330.0, CLAPEYRON), 330.0)
