@@ -18,7 +18,7 @@ class Liquid:
     exponent: float = quantity("", 7.0, least=1.0)
     background_pressure: float = quantity("Pa", 0.0, least=0.0)
     kernel: str = choice(*NAMES)
-    pressure_gradient: str = choice("plain", "corrected")  # for how neighbours lie (sdph.liquid.correction): shallow liquids under gravity
+    pressure_gradient: str = choice("plain", "corrected")  # for how neighbours lie (sdph.liquid.correction): shallow liquids, bubbles
     courant: float = quantity("", 0.25, above=0.0, most=0.6)  # of h/(c + v): liquids.md
     history_interval: float | None = quantity("s", None, above=0.0)  # None: a tenth of run.output_interval_s
     periodic: tuple = vector("", ())  # 1 along periodic axes of the domain, 0 along the others
