@@ -43,7 +43,7 @@ def tracked(simulation) -> dict[str, float]:
     received = np.zeros(len(state.x))
     if simulation.received:
         known = np.isin(state.ident, simulation.received.ident)  # not what has come in since
-        received[known] = simulation.received.now(particles.take(state, known))[0]
+        received[known] = simulation.received.now(state.ident[known])[0]
     fields = {
         "x_m": state.x, "y_m": state.y, "z_m": state.z, "u_m_s": state.u, "v_m_s": state.v, "w_m_s": state.w,
         "temperature_K": state.temperature, "granular_temperature_m2_s2": state.theta,

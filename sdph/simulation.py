@@ -89,7 +89,7 @@ class Simulation:
         self.received = Held(self.state, taken.heat / dt)
         flows = Held(self.state, taken.warming, taken.impulse, self._body(handed), handed.damping)
         self._without_finished()
-        warming, impulse, body, damping = flows.now(self.state)
+        warming, impulse, body, damping = flows.now(self.state.ident)
         tally, mass = Tally(self), self.state.mass[:, None]
         weight = np.einsum("i,ij->j", self.state.mass * (self.state.kind == GRAIN) * dt, body)
         if self.moves:

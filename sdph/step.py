@@ -91,7 +91,7 @@ class Stepper:
         left = dt
         while left > 0.0:
             step = self._sub_step(left)
-            self._advance(step, held.now(self.state))
+            self._advance(step, held.now(self.state.ident))
             self.guard.sub_step(self)
             left = 0.0 if step >= left else left - step
             self.prepare()
@@ -224,8 +224,8 @@ class Held:
         self.place[self.ident] = np.arange(len(self.ident))
         self.order, self.given = state.ident, values  # as handed out last, and in which order
 
-    def now(self, state):
-        if state.ident is not self.order:  # sorting makes a new array
-            rows = self.place[state.ident]
-            self.order, self.given = state.ident, tuple(value[rows] for value in self.values)
+    def now(self, ident):
+        if ident is not self.order:  # sorting makes a new array
+            rows = self.place[ident]
+            self.order, self.given = ident, tuple(value[rows] for value in self.values)
         return self.given
