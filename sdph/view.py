@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import sys
 from pathlib import Path
@@ -122,7 +123,8 @@ def scene(particles, gas, field: str | None, title: str, off_screen: bool, range
     if across is not None:
         plotter.view_vector([float(a == across) for a in range(3)], viewup=(0.0, 1.0, 0.0) if across == 2 else (0.0, 0.0, 1.0))
         plotter.enable_parallel_projection()
-    plotter.show_bounds(xtitle="x [m]", ytitle="y [m]", ztitle="z [m]", font_size=10, location="outer", fmt="%.3g", n_xlabels=6, n_ylabels=6)
+    axes = {"xtitle": "x [m]", "ytitle": "y [m]", "ztitle": "z [m]", "n_xlabels": 6, "n_ylabels": 6, "font_size": 10, "fmt": "%.3g"}
+    plotter.show_bounds(bounds=_rounded(whole.bounds), location="outer", **axes)
     plotter.camera.zoom(0.95)
     return plotter
 
@@ -135,6 +137,15 @@ def _cut(gas):
     across = int(np.argmin(lengths))
     beside = np.array(gas.center) + OFF_FACES * lengths
     return gas.slice("xyz"[across], origin=beside), across if lengths[across] < SLAB * np.median(lengths) else None
+
+
+def _rounded(bounds) -> np.ndarray:
+    """(6,) bounds [m] moved outwards to two digits of the longest side, for the numbers along the axes."""
+    low, high = np.reshape(bounds, (3, 2)).T
+    unit = 10.0 ** (math.floor(math.log10(max(high - low) or 1.0)) - 1.0)
+    flat, slack = low == high, 1e-6  # of a unit: what is round already stays
+    outer = np.floor(low / unit + slack) * unit, np.ceil(high / unit - slack) * unit
+    return np.where(flat, (low, high), outer).T.ravel()
 
 
 def _lengths(mesh) -> np.ndarray:

@@ -154,3 +154,9 @@ def test_gas_in_space_is_cut_through_its_middle(edges, across):
     cut, found = view._cut(gas)
     assert found == across
     assert cut.n_cells >= 16 and np.ptp(cut.cell_data["temperature"]) == 0.0  # one layer of cells
+
+
+def test_axes_end_on_round_numbers():
+    assert view._rounded((0.00665, 0.992, 0.0103, 1.99, 0.5, 0.5)) == pytest.approx([0.0, 1.0, 0.0, 2.0, 0.5, 0.5])
+    assert view._rounded((0.0, 0.5, 0.0, 1.0, -0.012, 0.02)) == pytest.approx([0.0, 0.5, 0.0, 1.0, -0.1, 0.1])
+    assert view._rounded((0.1, 0.1, 0.2, 0.2, 0.0, 0.0)) == pytest.approx([0.1, 0.1, 0.2, 0.2, 0.0, 0.0])
