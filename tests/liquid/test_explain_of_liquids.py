@@ -49,7 +49,7 @@ def test_every_effect_on_liquids_judges_itself():
 
 @pytest.mark.parametrize(
     ("scene", "off"),
-    [("dam_break", "gravity"), ("dam_break", "tank"), ("taylor_green", "laminar_viscosity"), ("taylor_green", "shifting"), ("poiseuille", "tank")],
+    [("dam_break", "gravity"), ("dam_break", "tank"), ("taylor_green", "laminar_viscosity"), ("taylor_green", "shifting"), ("bubble_rise", "shifting"), ("poiseuille", "tank")],
 )
 def test_a_missing_effect_is_told(scene, off):
     table = cases.to_table(load(scene))
