@@ -94,8 +94,11 @@ def _run_options(parser) -> None:
 
 
 def share(text: str) -> float:
-    """2% or 0.02."""
-    return _above_zero(text.removesuffix("%"), "2% or 0.02") / (100.0 if text.endswith("%") else 1.0)
+    """2% or 0.02; no more than 1."""
+    found = _above_zero(text.removesuffix("%"), "2% or 0.02") / (100.0 if text.endswith("%") else 1.0)
+    if found > 1.0:
+        raise argparse.ArgumentTypeError(f"{text}; it must be at most 1, or 100%: did you mean {text.removesuffix('%')}%?")
+    return found
 
 
 def seconds(text: str) -> float:

@@ -17,6 +17,10 @@ from sdph.liquid import GasPhase, Liquid
 from sdph.schema import CaseError, fields, read, record, unknown, vector, write
 from sdph.sections import GROUPS, SECTIONS, Case, Coupling, Region, Vapour
 
+MOST_OUTPUTS = 1e5  # of fields, and of history rows of a liquid as it sets them; our choice
+STRETCH = 100.0  # of the last cell of a row over its first, at most, either way; our choice
+SAME = 1e-9  # of a length: round-off
+
 
 def load(path: Path, overrides: tuple[str, ...] = ()) -> Case:
     """The case of a TOML file, with `key=value` overrides (dotted keys, TOML values)."""
@@ -143,17 +147,51 @@ def _check(case: Case) -> None:
     for key, value in vectors.items():
         if value is not None and (len(value) != case.dimensions or any(isinstance(v, tuple) for v in value)):
             raise CaseError(f"{key} has {len(value)} components; dimensions = {case.dimensions} asks for {case.dimensions}")
-    if case.resolution.stretch and min(case.resolution.stretch) <= 0.0:
-        raise CaseError(f"resolution.stretch = {list(case.resolution.stretch)}; every ratio must be above 0: 1 for equal cells")
+    if any(not 1.0 / STRETCH <= ratio <= STRETCH for ratio in case.resolution.stretch or ()):
+        given = f"resolution.stretch = {list(case.resolution.stretch)}"
+        raise CaseError(f"{given}; every ratio must be from {1.0 / STRETCH:g} to {STRETCH:g}: 1 for equal cells")
     if min(case.domain.size) <= 0.0:
         raise CaseError(f"domain.size_m = {list(case.domain.size)}; every length must be above 0")
     _check_period(case)
     if any(isinstance(t, tuple) or t <= 0.0 for t in case.run.report_at):
         raise CaseError(f"run.report_at_s = {list(case.run.report_at)}; it must be a list of times above 0")
+    _check_outputs(case)
+    for name, pool in case.pools.items():
+        _check_pool(case, name, pool)
     for name, region in case.particles.items():
         _check_region(case, name, region)
     for name, probe in case.probes.items():
         _inside(case, f"probes.{name}", probe.at, probe.at)
+
+
+def _check_outputs(case: Case) -> None:
+    intervals = {"run.output_interval_s": case.run.output_interval}
+    if case.liquid:
+        intervals["liquid.history_interval_s"] = case.liquid.history_interval
+    for key, interval in intervals.items():
+        if interval and case.run.end_time > MOST_OUTPUTS * interval:
+            given = f"{key} = {interval:g} up to run.end_time_s = {case.run.end_time:g}"
+            raise CaseError(f"{given} makes {case.run.end_time / interval:.3g} outputs; {MOST_OUTPUTS:.0e} are allowed: lengthen the one or shorten the other")
+
+
+def _check_pool(case: Case, name: str, pool) -> None:
+    if pool.shape == "tank":
+        return
+    needs = ("lower", "upper") if pool.shape == "box" else ("centre", "radius")
+    for key in needs:
+        if getattr(pool, key) is None:
+            raise CaseError(f"pools.{name}.{key}_m is missing; a {pool.shape} needs {' and '.join(f'{n}_m' for n in needs)}")
+    _check_size(case, f"pools.{name}", pool)
+
+
+def _check_size(case: Case, where: str, part) -> None:
+    """A region or a pool is a box of which upper lies above lower, or round, and no narrower than the spacing."""
+    size = part.radius if part.shape != "box" else min(b - a for a, b in zip(part.lower, part.upper))
+    if size <= 0.0:
+        raise CaseError(f"{where}: upper_m = {list(part.upper)} must lie above lower_m = {list(part.lower)} along every axis")
+    if case.resolution.spacing > size * (1.0 + SAME):
+        spacing = f"resolution.spacing_mm = {case.resolution.spacing * 1e3:g}"
+        raise CaseError(f"{spacing} is larger than {where} ({size * 1e3:g} mm); give a spacing well below that")
 
 
 def _check_phases(case: Case) -> None:
@@ -196,12 +234,7 @@ def _check_region(case: Case, name: str, region: Region) -> None:
     for key in needs:
         if getattr(region, key) is None:
             raise CaseError(f"particles.{name}.{key}_m is missing; a {region.shape} needs {' and '.join(f'{n}_m' for n in needs)}")
-    size = region.radius if region.shape != "box" else min(b - a for a, b in zip(region.lower, region.upper))
-    if size <= 0.0:
-        raise CaseError(f"particles.{name}: upper_m = {list(region.upper)} must lie above lower_m = {list(region.lower)} along every axis")
-    if case.resolution.spacing > size:
-        spacing = f"resolution.spacing_mm = {case.resolution.spacing * 1e3:g}"
-        raise CaseError(f"{spacing} is larger than particles.{name} ({size * 1e3:g} mm); give a spacing well below that")
+    _check_size(case, f"particles.{name}", region)
     if region.volume_fraction > case.grains.packing_limit:
         given = f"particles.{name}.volume_fraction = {region.volume_fraction:g}"
         raise CaseError(f"{given}; grains pack to grains.packing_limit = {case.grains.packing_limit:g} at most: lower the one or raise the other")
@@ -211,7 +244,7 @@ def _check_region(case: Case, name: str, region: Region) -> None:
 
 
 def _inside(case: Case, key: str, lower, upper) -> None:
-    slack = 1e-9 * max(case.domain.size)  # round-off of centre plus radius
+    slack = SAME * max(case.domain.size)  # of centre plus radius
     if any(a < -slack or b > length + slack for a, b, length in zip(lower, upper, case.domain.size)):
         raise CaseError(f"{key} reaches out of the domain, domain.size_m = {list(case.domain.size)}; move it or enlarge the domain")
 

@@ -25,8 +25,6 @@ def main(given: list[str] | None = None) -> int:
         return code
     except CaseError as error:
         return _failed(error, BAD_INPUT)
-    except json.JSONDecodeError as error:
-        return _failed(f"a file of the run is damaged (no JSON: {error}); run it again", BAD_INPUT)
     except BrokenPipeError:  # whoever read the output has read enough; what is left of it is dropped
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 128 + signal.SIGPIPE

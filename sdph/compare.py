@@ -44,7 +44,13 @@ class Run:
 def open_run(folder: Path) -> Run:
     """Reads a run folder; `CaseError` where it holds no finished run."""
     summary = output.read_summary(folder)
-    return Run(folder, cases.load(folder / output.MARK), summary, output.read_table(folder / "history.csv"))
+    for name in (output.MARK, "history.csv"):
+        if not (folder / name).is_file():
+            raise CaseError(f"{folder} has lost its {name}; run it again")
+    history = output.read_table(folder / "history.csv")
+    if "time_s" not in history:
+        raise CaseError(f"{folder}/history.csv is damaged (no column time_s); run it again")
+    return Run(folder, cases.load(folder / output.MARK), summary, history)
 
 
 def check(name: str, value: float, reference: float, tolerance: float, relative: bool = False) -> dict:

@@ -58,7 +58,6 @@ def resume(folder: Path, overrides: tuple[str, ...], reporter) -> dict:
         else:
             reporter.status(f"{folder} has no checkpoint: it begins again")
             output.clear(folder)
-        output.write_text(folder / output.MARK, cases.dumps(case))
         origin = output.read_origin(folder)
         template = None if checkpoint else Path(origin["gas_template"])
         return _guarded(Run(case, folder, reporter), checkpoint, template, origin["allow_code"])
@@ -98,7 +97,6 @@ def simulation_of(case, gas, ledger: Path):
 
 def _guarded(run: Run, checkpoint, template: Path | None, allow_code: bool) -> dict:
     """The summary of a run; where it fails, the folder says why, and the error says how to go on."""
-    (run.folder / output.FAILURE).unlink(missing_ok=True)
     try:
         with listening() as wish:
             with _gas_of(run, template, allow_code) as gas:
@@ -124,7 +122,7 @@ class Run:
 
     def __init__(self, case, folder: Path, reporter):
         self.case, self.folder, self.reporter = case, folder, reporter
-        self.begun = time.perf_counter()
+        self.begun, self.goes = time.perf_counter(), False
         self.simulation = None
         self.elapsed = 0.0  # wall time [s] of the parts of the run before this one
         self.first = None  # wall time [s] to the end of the first window
@@ -142,7 +140,9 @@ class Run:
     def go(self, gas, checkpoint, wish) -> dict:
         """From the start, or from a checkpoint, to the summary; `gas` None for a liquid."""
         self._begin(gas, checkpoint)
-        wish.patient = True
+        output.write_text(self.folder / output.MARK, cases.dumps(self.case))
+        (self.folder / output.FAILURE).unlink(missing_ok=True)
+        self.goes = wish.patient = True
         with contextlib.closing(self.out):
             while self.simulation.time < self.case.run.end_time:
                 self._window()
@@ -157,7 +157,9 @@ class Run:
         return summary
 
     def failed(self, error: BaseException) -> BaseException:
-        """The error with a note on how to go on; failure.json keeps what happened."""
+        """The error with a note on how to go on; failure.json keeps what happened. A run that was refused is as it was."""
+        if isinstance(error, CaseError) and not self.goes:
+            return error
         checkpoint = restart.newest(self.folder)
         if shutil.disk_usage(self.folder).free < FULL:
             error.add_note(f"(No space left on the disk of {self.folder})")
@@ -196,7 +198,7 @@ class Run:
         return apart >= self.case.run.checkpoint_interval or self.simulation.windows - self.saved_window >= windows
 
     def _save(self) -> None:
-        restart.write(self.folder, self.simulation.windows, cases.to_table(self.case), self, self.simulation.gas)
+        restart.write(self.folder, self.simulation.windows, self.simulation.time, cases.to_table(self.case), self, self.simulation.gas)
         self.saved_time, self.saved_window = time.monotonic(), self.simulation.windows
 
 

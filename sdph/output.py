@@ -27,6 +27,10 @@ from sdph.schema import CaseError
 
 MARK, ORIGIN = "case.toml", "origin.json"  # a folder with these files holds a run
 FAILURE = "failure.json"
+LEFT = (  # by a run, as patterns; what else is in its folder is the user's
+    "ledger.csv", "history.csv", "metrics.csv", "run.pvd", "summary.json", FAILURE, "compare_*.json", "last_good.*", "checkpoints", "gas",
+    "fields/particles_*.vt?", "fields/gas_*.vt?", "fields/part-*.vt?",
+)  # fmt: skip
 NAMED = ("numpy", "numba", "scipy", "pyvista")  # packages whose versions a run notes
 
 
@@ -43,7 +47,7 @@ def create(folder: Path, inside: tuple[str, ...] = ("fields",)) -> Path:
         for name in ("", *inside):
             (folder / name).mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise CaseError(f"{folder} cannot be made: {error.strerror}; give a folder that can be written") from None
+        raise CannotWrite(f"{folder} cannot be made: {error.strerror}; give a folder that can be written") from None
     return folder
 
 
@@ -61,11 +65,10 @@ def claimed(folder: Path):
 
 
 def clear(folder: Path) -> None:
-    """Remove what a run that has no checkpoint has left, all but what says what it was."""
-    for path in folder.iterdir():
-        if path.name not in (MARK, ORIGIN):
-            shutil.rmtree(path) if path.is_dir() else path.unlink()
-    (folder / "fields").mkdir()
+    """Remove what a run that has no checkpoint has left, all but what says what it was, and nothing of the user's."""
+    for path in (path for pattern in LEFT for path in folder.glob(pattern)):
+        shutil.rmtree(path) if path.is_dir() else path.unlink()
+    (folder / "fields").mkdir(exist_ok=True)
 
 
 def free_name(base: Path) -> Path:
@@ -113,14 +116,24 @@ def write_origin(folder: Path, **more) -> None:
 
 
 def read_origin(folder: Path) -> dict:
-    return json.loads((folder / ORIGIN).read_text(encoding="utf-8"))
+    return read_json(folder / ORIGIN)
+
+
+def read_json(path: Path) -> dict:
+    """A JSON table; `CaseError` where it is damaged."""
+    try:
+        table = json.loads(path.read_text(encoding="utf-8"))
+    except ValueError as error:
+        raise CaseError(f"{path} is damaged (no JSON: {error}); run it again") from None
+    if not isinstance(table, dict):
+        raise CaseError(f"{path} is damaged (it holds no table); run it again")
+    return table
 
 
 def read_summary(folder: Path) -> dict:
     """The summary of a run; `CaseError` where there is none."""
     try:
-        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-        return {key: math.nan if value is None else value for key, value in summary.items()}
+        return {key: math.nan if value is None else value for key, value in read_json(folder / "summary.json").items()}
     except (FileNotFoundError, NotADirectoryError):
         raise CaseError(f"{folder} holds no finished run (no summary.json); run it first with: sdph run ... --out {folder}") from None
 
@@ -182,6 +195,7 @@ def _numbers(values: list[str]) -> np.ndarray:
         return np.array(values)
 
 
+LAST = b"</VTKFile>"
 SUFFIXES = {"vtkPolyData": "vtp", "vtkRectilinearGrid": "vtr", "vtkUnstructuredGrid": "vtu"}
 
 
@@ -215,16 +229,19 @@ def save(mesh, path: Path) -> None:
     """A VTK file, whole or not at all. VTK tells nobody when the disk is full: its last line does."""
     draft = path.with_name(f"part-{path.name}")
     mesh.save(draft, compression="lz4")  # a fifth of zlib's time for a tenth more room
-    if not draft.exists() or not _ends_with(draft, b"</VTKFile>"):
+    if not whole(draft):
         draft.unlink(missing_ok=True)
         raise OSError(errno.ENOSPC, f"{os.strerror(errno.ENOSPC)} (or another failure of VTK to write {path.name})")
     os.replace(draft, path)
 
 
-def _ends_with(path: Path, last: bytes) -> bool:
+def whole(path: Path) -> bool:
+    """Whether a VTK file is there, with its last line."""
+    if not path.is_file():
+        return False
     with open(path, "rb") as file:
-        file.seek(max(0, path.stat().st_size - len(last) - 2))
-        return file.read().strip().endswith(last)
+        file.seek(max(0, path.stat().st_size - 2 * len(LAST)))
+        return file.read().strip().endswith(LAST)
 
 
 PVD = '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n<Collection>\n{}\n</Collection>\n</VTKFile>\n'

@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import html
 import io
-import json
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -60,7 +59,7 @@ def _open(folder: Path) -> Shown:
 
 
 def _json(path: Path) -> dict:
-    return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+    return output.read_json(path) if path.is_file() else {}
 
 
 def _section(title: str, body: str) -> str:

@@ -26,7 +26,7 @@ import numpy as np
 from sdph import __version__
 from sdph.schema import CaseError, flat
 
-FORMAT = 1  # of the files of a checkpoint
+FORMAT = 2  # of the files of a checkpoint
 FOLDER = "checkpoints"
 LASTING = 2  # checkpoints that are kept, so that there is one when the newest is damaged
 FREE = ("run.end_time_s", "run.checkpoint_interval_s", "run.checkpoint_windows")  # keys that may change between the parts of a run
@@ -49,7 +49,7 @@ class Checkpoint:
         return self.folder / GAS
 
     def refuse_other(self, case_table: dict) -> None:
-        """CaseError when another version or another case wrote it, with the difference."""
+        """CaseError when another version or another case wrote it, with the difference, or where the case ends before it."""
         for what, now in (("sdph", __version__), ("format", FORMAT)):
             if self.manifest[what] != now:
                 raise CaseError(f"{self.folder} was written with {what} {self.manifest[what]}; this is {now}: go on with that one, or run anew")
@@ -58,6 +58,9 @@ class Checkpoint:
             if before.get(key) != now.get(key) and key not in FREE:
                 change = f"{key} was {before.get(key, 'not given')} and is {now.get(key, 'not given')}"
                 raise CaseError(f"{self.folder} is of another case: {change}; put it back, or run anew")
+        reached, end = self.manifest["time_s"], now["run.end_time_s"]
+        if reached > end:
+            raise CaseError(f"{self.folder} has reached {reached:g} s, run.end_time_s = {end:g} lies before that; give a later --until")
 
     def fill(self, thing) -> None:
         """Put what was kept back into `thing`."""
@@ -66,14 +69,14 @@ class Checkpoint:
             _unpack(thing, numbers, arrays, "run")
 
 
-def write(run_folder: Path, number: int, case_table: dict, thing, gas) -> Path:
-    """Checkpoint `number` of a run: `thing` (has KEPT) and the gas, if there is one. Older ones than the last two go."""
+def write(run_folder: Path, number: int, time: float, case_table: dict, thing, gas) -> Path:
+    """Checkpoint `number` of a run at `time` [s]: `thing` (has KEPT) and the gas, if there is one. Older ones than the last two go."""
     folder = run_folder / FOLDER / f"{number:09d}"
     draft = folder.with_name(f".{folder.name}.part")
     shutil.rmtree(draft, ignore_errors=True)
     try:
         draft.mkdir(parents=True)
-        _write_all(draft, case_table, thing, gas)
+        _write_all(draft, time, case_table, thing, gas)
     except BaseException:
         shutil.rmtree(draft, ignore_errors=True)
         raise
@@ -85,7 +88,7 @@ def write(run_folder: Path, number: int, case_table: dict, thing, gas) -> Path:
     return folder
 
 
-def _write_all(draft: Path, case_table: dict, thing, gas) -> None:
+def _write_all(draft: Path, time: float, case_table: dict, thing, gas) -> None:
     """The files of a checkpoint, on the disk when this returns."""
     if gas:
         gas.checkpoint(draft / GAS)
@@ -93,7 +96,7 @@ def _write_all(draft: Path, case_table: dict, thing, gas) -> None:
     (draft / NUMBERS).write_text(json.dumps(_pack(thing, "run", arrays)), encoding="utf-8")
     np.savez(draft / ARRAYS, **arrays)
     sums = {str(path.relative_to(draft)): _sum(path) for path in sorted(draft.rglob("*")) if path.is_file()}
-    manifest = {"sdph": __version__, "format": FORMAT, "case": case_table, "files": sums}
+    manifest = {"sdph": __version__, "format": FORMAT, "time_s": time, "case": case_table, "files": sums}
     (draft / MANIFEST).write_text(json.dumps(manifest, indent=1), encoding="utf-8")
     for path in (*draft.rglob("*"), draft):
         _sync(path)

@@ -9,16 +9,20 @@ from pathlib import Path
 
 import numpy as np
 
+from sdph import output
+from sdph.liquid import GAS
 from sdph.particles import FIELDS
 from sdph.schema import CaseError
 
 WINDOW = (1200, 900)  # pixels
 SHOWN = 0.75  # share of the window that the domain fills
 ASLANT = 0.6  # of that size where a box is seen aslant and neighbours stand closer; our choice, by eye
+LIGHT = 0.4  # of the point size of a liquid: that of gas beside it, so that the interface shows; our choice
+BESIDE_BARS = 0.85  # of the window that a wide domain fills: the colour bars need the rest
 SLAB = 0.25  # of the next longer side: a box so thin is looked at across
 SAME = 1e-6  # of the last time: how far past it a time may lie, by the digits it was written with
 OFF_FACES = 1e-6  # of its lengths: a cut through the middle of a box is no face of its cells
-MOVIES = {".gif": {"duration": 100, "loop": 0}, ".mp4": {"fps": 10}}  # ten pictures a second
+MOVIES = {".gif": {"duration": 100, "loop": 0}, ".mp4": {"fps": 10, "macro_block_size": 2}}  # ten pictures a second
 BAR = {"vertical": True, "position_y": 0.2, "height": 0.6, "width": 0.06, "fmt": "%.6g", "n_labels": 5, "title_font_size": 16, "label_font_size": 14}
 GAS_UNITS = {"alpha_p": "1", "temperature": "K", "pressure": "Pa", "density": "kg/m3", "vapour_mass_fraction": "1"}
 PARTICLE_UNITS = {name: unit for name, (unit, _) in FIELDS.items()} | {"alpha_p": "1", "pressure": "Pa", "velocity": "m/s"}
@@ -30,15 +34,21 @@ def read(folder: Path):
 
     if not (folder / "run.pvd").is_file():
         raise CaseError(f"{folder} holds no fields (no run.pvd); give the folder of a run")
-    return pyvista.get_reader(str(folder / "run.pvd"))
+    try:
+        return pyvista.get_reader(str(folder / "run.pvd"))
+    except (SyntaxError, AttributeError, FileNotFoundError) as error:  # no XML, none of a timeline, or not all there
+        raise CaseError(f"{folder}/run.pvd is damaged ({error}); run it again") from None
 
 
 def state_at(reader, time: float | None = None):
     """(time, particles, gas) nearest to `time` [s]; the last without one."""
     times = reader.time_values
     chosen = times[-1] if time is None else min(times, key=lambda t: abs(t - time))
-    if time is not None and not times[0] <= time <= times[-1] and abs(time - chosen) > SAME * times[-1]:
+    if time is not None and not times[0] <= time <= times[-1] and not abs(time - chosen) <= SAME * times[-1]:
         raise CaseError(f"--time {time:g}: this run has fields from {times[0]:g} to {times[-1]:g} s")
+    for part in reader.datasets:
+        if part.time == chosen and not output.whole(file := Path(reader.path).parent / part.path):
+            raise CaseError(f"{file} is damaged or missing; run it again")
     reader.set_active_time_value(chosen)
     blocks = reader.read()
     return chosen, blocks[0], blocks[1] if len(blocks) > 1 else None  # a liquid has no gas
@@ -70,8 +80,9 @@ def movie(folder: Path, target: Path, field: str | None = None) -> None:
     reader = read(folder)
     states, pictures = [state_at(reader, time) for time in reader.time_values], []
     ranges = [_range([state[part] for state in states], field or _usual(states[0][2])) for part in (1, 2)]
+    box = _around([particles if gas is None else gas for _, particles, gas in states])
     for time, particles, gas in states:
-        plotter = scene(particles, gas, field, f"t = {time:g} s", off_screen=True, ranges=ranges)
+        plotter = scene(particles, gas, field, f"t = {time:g} s", off_screen=True, ranges=ranges, box=box)
         pictures.append(plotter.screenshot(return_img=True))
         plotter.close()
     try:
@@ -92,9 +103,16 @@ def _range(meshes, field: str):
     return (min(v.min() for v in values), max(v.max() for v in values)) if values else None
 
 
-def scene(particles, gas, field: str | None, title: str, off_screen: bool, ranges=(None, None)):
+def _around(meshes) -> np.ndarray:
+    """(6,) bounds [m] of all of them, x0, x1, y0, y1, z0, z1, as pyvista has them."""
+    bounds = np.array([mesh.bounds for mesh in meshes if mesh.n_points] or [np.zeros(6)]).reshape(-1, 3, 2)
+    return np.stack((bounds[:, :, 0].min(axis=0), bounds[:, :, 1].max(axis=0)), axis=1).ravel()
+
+
+def scene(particles, gas, field: str | None, title: str, off_screen: bool, ranges=(None, None), box=None):
     """A plotter with the particles coloured by `field` (None: temperature, speed where there is none) over the cells of the gas;
-    `ranges` of the colours of both (None: those of the picture)."""
+    `ranges` of the colours of both, and `box` that is shown (6,) [m] (None: those of the picture). Of two phases of
+    particles the gas is drawn small."""
     import pyvista
     from vtkmodules.vtkCommonCore import vtkLogger
 
@@ -106,32 +124,36 @@ def scene(particles, gas, field: str | None, title: str, off_screen: bool, range
     if given and given not in known:
         raise CaseError(f"--field {given}: this run has {', '.join(known)}")
     plotter = pyvista.Plotter(off_screen=off_screen, window_size=WINDOW)
-    whole = gas if gas is not None else particles
+    box = _around([gas if gas is not None else particles]) if box is None else box
     gas, across = _cut(gas) if gas is not None else (None, None)
     if gas is not None and field in gas.cell_data:
         bar = BAR | {"title": f"gas {field}\n[{GAS_UNITS.get(field, '1')}]", "position_x": 0.86}
         plotter.add_mesh(gas, scalars=field, cmap="YlOrRd", clim=ranges[1], scalar_bar_args=bar, lighting=False)
     if particles.n_points and field in particles.point_data:
         bar = BAR | {"title": f"particle {field}\n[{PARTICLE_UNITS[field]}]", "position_x": 0.07}
-        look = {"lighting": False, "point_size": _size(particles, whole)}
-        if _lengths(whole)[2] and across is None:  # seen aslant they are balls, which show depth by their shading
-            look = {"render_points_as_spheres": True, "point_size": ASLANT * look["point_size"]}
-        plotter.add_mesh(particles, scalars=field, cmap="inferno", clim=ranges[0], scalar_bar_args=bar, **look)
+        size, look = _size(particles, box), {"lighting": False}
+        if _lengths(box)[2] and across is None:  # seen aslant they are balls, which show depth by their shading
+            size, look = ASLANT * size, {"render_points_as_spheres": True}
+        for part, share in _phases(particles):
+            colours = ranges[0] or _range([particles], field)
+            plotter.add_mesh(part, scalars=field, cmap="inferno", clim=colours, scalar_bar_args=bar, point_size=share * size, **look)
     plotter.add_text(title, font_size=12, position="upper_edge")
-    if whole.bounds[4] == whole.bounds[5]:
+    if box[4] == box[5]:
         across = 2
     if across is not None:
         plotter.view_vector([float(a == across) for a in range(3)], viewup=(0.0, 1.0, 0.0) if across == 2 else (0.0, 0.0, 1.0))
         plotter.enable_parallel_projection()
     axes = {"xtitle": "x [m]", "ytitle": "y [m]", "ztitle": "z [m]", "n_xlabels": 6, "n_ylabels": 6, "font_size": 10, "fmt": "%.3g"}
-    plotter.show_bounds(bounds=_rounded(whole.bounds), location="outer", **axes)
-    plotter.camera.zoom(0.95)
+    plotter.show_bounds(bounds=_rounded(box), location="outer", **axes)
+    plotter.reset_camera(bounds=_rounded(box))
+    wide = box[1] - box[0] > box[3] - box[2]
+    plotter.camera.zoom(BESIDE_BARS if wide else 0.95)
     return plotter
 
 
 def _cut(gas):
     """The gas, in space by the plane through the middle of its thinnest side; and that axis where it is a slab, else None."""
-    lengths = _lengths(gas)
+    lengths = _lengths(gas.bounds)
     if not lengths[2]:
         return gas, None
     across = int(np.argmin(lengths))
@@ -148,13 +170,21 @@ def _rounded(bounds) -> np.ndarray:
     return np.where(flat, (low, high), outer).T.ravel()
 
 
-def _lengths(mesh) -> np.ndarray:
-    """Of the box around it, along each axis."""
-    return np.diff(np.reshape(mesh.bounds, (3, 2)))[:, 0]
+def _lengths(bounds) -> np.ndarray:
+    """Of a box, along each axis."""
+    return np.diff(np.reshape(bounds, (3, 2)))[:, 0]
 
 
-def _size(particles, whole) -> float:
+def _phases(particles) -> list[tuple]:
+    """(particles, share of the point size) of each phase."""
+    light = particles["kind"] == GAS if "kind" in particles.point_data else np.zeros(particles.n_points, bool)
+    if light.all() or not light.any():
+        return [(particles, 1.0)]
+    return [(particles.extract_points(own, include_cells=False), share) for own, share in ((~light, 1.0), (light, LIGHT))]
+
+
+def _size(particles, bounds) -> float:
     """Point size [pixels] at which neighbouring particles just touch."""
-    box, lengths = _lengths(whole), _lengths(particles)
+    box, lengths = _lengths(bounds), _lengths(particles.bounds)
     spacing = (lengths[lengths > 0.0].prod() / particles.n_points) ** (1.0 / max(1, (lengths > 0.0).sum()))
     return max(2.0, SHOWN * min(WINDOW[0] / box[0], WINDOW[1] / box[1]) * spacing)

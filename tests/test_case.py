@@ -130,6 +130,8 @@ def test_unknown_key_names_the_nearest(override, named):
         (("probes.centre.at_m=[0.1,0.1,0.1]",), ("probes.centre.at_m", "3 components", "2")),
         (("probes.centre.at_m=[0.1,0.7]",), ("probes.centre", "out of the domain")),
         (("domain.size_m=[0.5,0.0]",), ("domain.size_m", "above 0")),
+        (("resolution.stretch=[1.0,1e9]",), ("resolution.stretch", "from 0.01 to 100")),
+        (("run.output_interval_s=1e-12",), ("run.output_interval_s = 1e-12", "outputs; 1e+05 are allowed")),
         (("dimensions=4",), ("dimensions", "2 or 3")),
         (("dimensions=2.0",), ("dimensions", "2 or 3")),
         (("track.particles=[1.5]",), ("track.particles", "1.5", "whole numbers")),

@@ -5,6 +5,7 @@ import os
 
 import numpy as np
 import pytest
+import pyvista
 from builders import disc, polar_mesh, run, simulation
 from hypothesis import given
 from hypothesis import strategies as st
@@ -37,8 +38,8 @@ def test_folder_in_use_is_refused_and_left_as_it_is(tmp_path, name, told):
 def test_file_in_the_way_is_refused(tmp_path):
     file = tmp_path / "file"
     file.write_text("mine")
-    for folder in (file, file / "run"):
-        with pytest.raises(CaseError):
+    for folder, refusal in ((file, CaseError), (file / "run", output.CannotWrite)):
+        with pytest.raises(refusal):
             output.create(folder)
     assert file.read_text() == "mine"
 
@@ -154,6 +155,38 @@ def test_gas_in_space_is_cut_through_its_middle(edges, across):
     cut, found = view._cut(gas)
     assert found == across
     assert cut.n_cells >= 16 and np.ptp(cut.cell_data["temperature"]) == 0.0  # one layer of cells
+
+
+@pytest.fixture
+def drawn(tmp_path):
+    """A run folder with one instant."""
+    simulated = run(disc(*SHORT), tmp_path)
+    output.create(tmp_path / "run")
+    output.Fields(tmp_path / "run").write(simulated.time, simulated.meshes())
+    return tmp_path / "run"
+
+
+@pytest.mark.parametrize("harm", ["no timeline", "cut", "gone"])
+def test_damaged_fields_are_told(drawn, harm):
+    file = drawn / ("run.pvd" if harm == "no timeline" else "fields/gas_00000.vtr")
+    file.write_bytes(b"" if harm == "no timeline" else file.read_bytes()[:-20])
+    if harm == "gone":
+        file.unlink()
+    with pytest.raises(CaseError, match=f"{file.name} is damaged|is damaged .*{file.name}"):
+        view.show(drawn, drawn / "a.png")
+
+
+def test_gas_among_a_liquid_is_drawn_small():
+    points = pyvista.PolyData(np.random.default_rng(1).random((5, 3)))
+    points["kind"] = np.array([2, 3, 2, 3, 3])
+    (liquid, whole), (gas, small) = view._phases(points)
+    assert (liquid.n_points, gas.n_points) == (2, 3) and whole > small
+    assert [share for _, share in view._phases(liquid)] == [1.0]
+
+
+def test_a_movie_is_of_all_that_it_shows():
+    meshes = [pyvista.PolyData(np.array([[x, 0.0, 0.0], [1.0, x, 0.0]])) for x in (-1.0, 0.5, 3.0)]
+    assert view._around(meshes) == pytest.approx([-1.0, 3.0, -1.0, 3.0, 0.0, 0.0])
 
 
 def test_axes_end_on_round_numbers():

@@ -135,6 +135,24 @@ def test_without_any_checkpoint_a_run_begins_again(cut, tmp_path):
     same_run(tmp_path / "whole", cut)
 
 
+def test_what_the_user_has_put_into_the_folder_stays(cut):
+    shutil.rmtree(cut / "checkpoints")
+    (cut / "mine").mkdir()
+    own = [cut / "notes.txt", cut / "disc.png", cut / "mine" / "a", cut / "fields" / "b.txt"]
+    for path in own:
+        path.write_text("mine")
+    driver.resume(cut, (), Reporter())
+    assert all(path.read_text() == "mine" for path in own)
+
+
+@pytest.mark.parametrize(("override", "told"), [("run.end_time_s=1e-6", "has reached .* lies before that"), ("grains.diameter_mm=0.3", "diameter")])
+def test_a_refused_resume_changes_nothing(cut, override, told):
+    before = {path: path.read_bytes() for path in cut.rglob("*") if path.is_file()}
+    with pytest.raises(CaseError, match=told):
+        driver.resume(cut, (override,), Reporter())
+    assert {path: path.read_bytes() for path in cut.rglob("*") if path.is_file()} == before
+
+
 @pytest.mark.parametrize(
     ("override", "told"),
     [("grains.diameter_mm=0.3", "grains.diameter_mm was 0.285 and is 0.3"), ("vapour.molar_mass_kg_kmol=18.0", "vapour")],
@@ -248,7 +266,7 @@ def test_whatever_is_kept_comes_back(tmp_path_factory, value):
     folder = tmp_path_factory.mktemp("run")
     before = Thing(value, Thing(particles.empty(3, ("temperature",))))
     before.chance.random(5)
-    restart.write(folder, 1, {}, before, NoGas())
+    restart.write(folder, 1, 0.0, {}, before, NoGas())
     after = Thing(None, Thing(particles.empty(1)))
     restart.newest(folder).fill(after)
     assert equal(after.value, value)
@@ -258,7 +276,7 @@ def test_whatever_is_kept_comes_back(tmp_path_factory, value):
 
 
 def test_other_attributes_than_were_kept_are_refused(tmp_path):
-    restart.write(tmp_path, 1, {}, Thing(1.0), NoGas())
+    restart.write(tmp_path, 1, 0.0, {}, Thing(1.0), NoGas())
 
     class Other(Thing):
         KEPT = ("value", "new")
@@ -270,5 +288,5 @@ def test_other_attributes_than_were_kept_are_refused(tmp_path):
 
 def test_only_the_last_two_checkpoints_stay(tmp_path):
     for number in range(5):
-        restart.write(tmp_path, number, {}, Thing(number), NoGas())
+        restart.write(tmp_path, number, 0.0, {}, Thing(number), NoGas())
     assert sorted(path.name for path in (tmp_path / "checkpoints").iterdir()) == ["000000003", "000000004"]

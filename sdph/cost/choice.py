@@ -25,7 +25,7 @@ def settings_for(scene: str, accuracy: float, report) -> tuple[str, ...]:
     best = measured_rows.cheapest(rows, accuracy)
     if best is None:
         least = min(row["error"] for row in measured_rows.whole(rows))
-        raise CaseError(f"no measured setting of {scene} errs by {accuracy:g} or less (the best: {least:.2g}, {file}); ask for more, or refine its ladder")
+        raise CaseError(f"no measured setting of {scene} errs by {accuracy:g} or less (the best: {least:.2g}, {file}); allow a larger error, or refine its ladder")
     own = declared(scene)
     chosen = (*own.settings, *overrides({key: best[key] for key in own.keys}))
     over = f", measured with {' '.join(own.excerpt)}" if own.excerpt else ""

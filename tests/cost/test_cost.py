@@ -1,11 +1,12 @@
 """The ladder of accuracy: errors, orders, limits and choices on made rows; measuring, budget and resuming on a small disc."""
 
+import argparse
 import json
 
 import pytest
 
-from sdph import case as cases
 from sdph import arguments, scenes
+from sdph import case as cases
 from sdph.cost import choice, climb, ladder, report, rows
 from sdph.schema import CaseError
 
@@ -114,6 +115,16 @@ def test_accuracy_takes_what_was_measured_and_says_so(tmp_path, monkeypatch):
 @pytest.mark.parametrize(("text", "seconds"), [("90", 90.0), ("90s", 90.0), ("10min", 600.0), ("2h", 7200.0)])
 def test_budget_is_read_with_its_unit(text, seconds):
     assert arguments.seconds(text) == seconds
+
+
+@pytest.mark.parametrize(("text", "found"), [("2%", 0.02), ("0.02", 0.02), ("100%", 1.0)])
+def test_accuracy_is_a_share(text, found):
+    assert arguments.share(text) == found
+
+
+def test_an_accuracy_above_all_is_refused():
+    with pytest.raises(argparse.ArgumentTypeError, match="did you mean 2%"):
+        arguments.share("2")
 
 
 def test_declared_ladders_name_keys_that_the_scene_has():

@@ -209,6 +209,9 @@ def test_frequencies_of_discs():
 @pytest.mark.parametrize(
     "change, word",
     [
+        ({"pools": {"a": {"shape": "box", "lower_m": [0.0, 0.5], "upper_m": [0.5, 0.4]}}}, "must lie above lower_m"),
+        ({"pools": {"a": {"shape": "disc", "centre_m": [0.2, 0.2]}}}, "pools.a.radius_m is missing"),
+        ({"resolution": {"spacing_mm": 1e12}}, "larger than pools.water"),
         ({"gas_phase": None}, "gas_phase"),
         ({"gas_phase": {"density_kg_m3": 1.0, "density_by": "summation"}}, "density_diffusion"),
         ({"pools": {"a": {"phase": "gas", "shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.5, 0.8], "flow": "quadrupole"}}}, "quadrupole"),

@@ -1,0 +1,35 @@
+"""Signals: asked once, asked twice, and while a kernel is compiled."""
+
+import os
+import signal
+import time
+
+import pytest
+
+from sdph import interruption
+from sdph.interruption import Stopped, listening
+
+
+def test_impatient_it_stops_at_once_and_patient_it_waits():
+    with listening() as wish:
+        with pytest.raises(Stopped):
+            os.kill(os.getpid(), signal.SIGTERM)
+            time.sleep(1.0)
+        wish.patient = True
+        os.kill(os.getpid(), signal.SIGTERM)
+        assert wish.number == signal.SIGTERM
+        with pytest.raises(Stopped):
+            wish.obey()
+
+
+def test_where_it_would_be_lost_it_comes_again():
+    """What is raised in a callback of the compiler is lost."""
+
+    def _raw_object_cache_notify():
+        os.kill(os.getpid(), signal.SIGTERM)
+        return "done"
+
+    assert _raw_object_cache_notify.__name__ == interruption.CALLBACK
+    with listening(), pytest.raises(Stopped):
+        assert _raw_object_cache_notify() == "done"
+        time.sleep(10.0 * interruption.LATER)
