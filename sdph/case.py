@@ -13,7 +13,7 @@ from pathlib import Path
 import tomli_w
 
 from sdph import effects, scenes
-from sdph.liquid import GasPhase, Liquid
+from sdph.liquid import GasPhase, Liquid, Pool
 from sdph.schema import CaseError, fields, read, record, unknown, vector, write
 from sdph.sections import GROUPS, SECTIONS, Case, Coupling, Region, Vapour
 
@@ -138,8 +138,9 @@ def _check(case: Case) -> None:
     if case.resolution.cell is None and not case.liquid:
         raise CaseError("resolution.cell_mm is missing; it has no default: give it in [resolution]")
     vectors = {"domain.size_m": case.domain.size, "domain.gravity_m_s2": case.domain.gravity, "resolution.stretch": case.resolution.stretch}
-    for name, region in case.particles.items():
-        vectors |= {f"particles.{name}.{key}": getattr(region, at) for key, (at, kind) in fields(Region).items() if kind.components is None}
+    for group, places, cls in (("particles", case.particles, Region), ("pools", case.pools, Pool)):
+        for name, place in places.items():
+            vectors |= {f"{group}.{name}.{key}": getattr(place, at) for key, (at, kind) in fields(cls).items() if kind.components is None}
     for name, probe in case.probes.items():
         vectors[f"probes.{name}.at_m"] = probe.at
     for name, boundary in case.boundaries.items():
@@ -157,7 +158,8 @@ def _check(case: Case) -> None:
         raise CaseError(f"run.report_at_s = {list(case.run.report_at)}; it must be a list of times above 0")
     _check_outputs(case)
     for name, pool in case.pools.items():
-        _check_pool(case, name, pool)
+        if pool.shape != "tank":
+            _check_place(case, f"pools.{name}", pool)
     for name, region in case.particles.items():
         _check_region(case, name, region)
     for name, probe in case.probes.items():
@@ -174,18 +176,12 @@ def _check_outputs(case: Case) -> None:
             raise CaseError(f"{given} makes {case.run.end_time / interval:.3g} outputs; {MOST_OUTPUTS:.0e} are allowed: lengthen the one or shorten the other")
 
 
-def _check_pool(case: Case, name: str, pool) -> None:
-    if pool.shape == "tank":
-        return
-    needs = ("lower", "upper") if pool.shape == "box" else ("centre", "radius")
+def _check_place(case: Case, where: str, part) -> None:
+    """A region or a pool has what its shape needs, is no box upside down, and no narrower than the spacing."""
+    needs = ("lower", "upper") if part.shape == "box" else ("centre", "radius")
     for key in needs:
-        if getattr(pool, key) is None:
-            raise CaseError(f"pools.{name}.{key}_m is missing; a {pool.shape} needs {' and '.join(f'{n}_m' for n in needs)}")
-    _check_size(case, f"pools.{name}", pool)
-
-
-def _check_size(case: Case, where: str, part) -> None:
-    """A region or a pool is a box of which upper lies above lower, or round, and no narrower than the spacing."""
+        if getattr(part, key) is None:
+            raise CaseError(f"{where}.{key}_m is missing; a {part.shape} needs {' and '.join(f'{n}_m' for n in needs)}")
     size = part.radius if part.shape != "box" else min(b - a for a, b in zip(part.lower, part.upper))
     if size <= 0.0:
         raise CaseError(f"{where}: upper_m = {list(part.upper)} must lie above lower_m = {list(part.lower)} along every axis")
@@ -230,11 +226,7 @@ def _check_period_of_liquid(case: Case) -> None:
 
 
 def _check_region(case: Case, name: str, region: Region) -> None:
-    needs = ("lower", "upper") if region.shape == "box" else ("centre", "radius")
-    for key in needs:
-        if getattr(region, key) is None:
-            raise CaseError(f"particles.{name}.{key}_m is missing; a {region.shape} needs {' and '.join(f'{n}_m' for n in needs)}")
-    _check_size(case, f"particles.{name}", region)
+    _check_place(case, f"particles.{name}", region)
     if region.volume_fraction > case.grains.packing_limit:
         given = f"particles.{name}.volume_fraction = {region.volume_fraction:g}"
         raise CaseError(f"{given}; grains pack to grains.packing_limit = {case.grains.packing_limit:g} at most: lower the one or raise the other")
