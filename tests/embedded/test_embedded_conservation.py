@@ -223,7 +223,7 @@ def with_boundary(**boundary):
         ({"boundaries": {"odd": {"kind": "wall", "side": "left"}}}, "no boundary covers all of the right side"),
         ({"boundaries": with_boundary(kind="wall", side="top", vapour_mass_fraction=0.5)}, "the case has no [vapour]"),
         ({"stretch": (2.0,)}, "resolution.stretch has 1 components; dimensions = 2 asks for 2"),
-        ({"stretch": (2.0, 0.0)}, "resolution.stretch = [2.0, 0.0]; every ratio must be above 0"),
+        ({"stretch": (2.0, 0.0)}, "resolution.stretch = [2.0, 0.0]; every ratio must be from 0.01 to 100"),
         ({"stretch": (1.0, 3.0), "boundaries": with_boundary(kind="wall", side="left", span_m=[0.0, 0.12])}, "is no edge of a gas cell"),
     ],
 )
