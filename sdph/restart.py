@@ -93,7 +93,7 @@ def _write_all(draft: Path, time: float, case_table: dict, thing, gas) -> None:
     if gas:
         gas.checkpoint(draft / GAS)
     arrays: dict[str, np.ndarray] = {}
-    (draft / NUMBERS).write_text(json.dumps(_pack(thing, "run", arrays)), encoding="utf-8")
+    (draft / NUMBERS).write_text(json.dumps(_pack(thing, arrays)), encoding="utf-8")
     np.savez(draft / ARRAYS, **arrays)
     sums = {str(path.relative_to(draft)): _sum(path) for path in sorted(draft.rglob("*")) if path.is_file()}
     manifest = {"sdph": __version__, "format": FORMAT, "time_s": time, "case": case_table, "files": sums}
@@ -143,10 +143,10 @@ def _sync(path: Path) -> None:
         os.close(descriptor)
 
 
-def _pack(value, name: str, arrays: dict):
-    """A value as JSON can hold it; arrays go to `arrays` under their name."""
+def _pack(value, arrays: dict):
+    """A value as JSON can hold it; arrays go to `arrays`, numbered: a key may be a text that a file cannot be called."""
     if isinstance(value, np.ndarray):
-        arrays[name] = value
+        arrays[name := str(len(arrays))] = value
         return {"array": name}
     if isinstance(value, np.random.Generator):
         return value.bit_generator.state
@@ -154,9 +154,9 @@ def _pack(value, name: str, arrays: dict):
         return value.item()
     parts = _parts(value)
     if parts is not None:
-        return {key: _pack(part, f"{name}.{key}", arrays) for key, part in parts.items()}
+        return {key: _pack(part, arrays) for key, part in parts.items()}
     if isinstance(value, (list, tuple)):
-        return [_pack(part, f"{name}.{i}", arrays) for i, part in enumerate(value)]
+        return [_pack(part, arrays) for part in value]
     return value
 
 

@@ -11,7 +11,7 @@ import time
 import numpy as np
 import pytest
 import pyvista
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 from test_cli import ENVIRONMENT
@@ -262,6 +262,7 @@ class NoGas:
 
 
 @given(VALUES)
+@example({"\x00": np.zeros(0), "a/b": np.ones(2), "": np.ones(1)})
 def test_whatever_is_kept_comes_back(tmp_path_factory, value):
     folder = tmp_path_factory.mktemp("run")
     before = Thing(value, Thing(particles.empty(3, ("temperature",))))
