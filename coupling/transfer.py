@@ -124,9 +124,10 @@ def _spline(q):
 
 @njit(cache=True, error_model="numpy")
 def _around(bins, a, value):
-    """First and one past the last bin to look at along an axis."""
+    """First and one past the last bin to look at along an axis, both from 0 to the number of bins, however far `value` is."""
     place = np.int64(np.floor((value - bins.low[a]) / bins.size[a]))
-    return max(place - 1, 0), min(place + 2, bins.shape[a])
+    first = min(max(place - 1, 0), bins.shape[a])
+    return first, max(min(place + 2, bins.shape[a]), first)
 
 
 @njit(cache=True, error_model="numpy")

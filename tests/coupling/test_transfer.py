@@ -88,6 +88,17 @@ def test_particle_far_outside_goes_to_the_nearest_cell_and_is_told(name):
         assert down[np.linalg.norm(mesh.centres - point, axis=1).argmin()] == pytest.approx(amount)
 
 
+@given(rng=rngs, name=meshes, axis=st.integers(0, 1), away=st.integers(1, 150), sign=st.sampled_from([-1.0, 1.0]))
+def test_particle_beside_the_mesh_covers_none_of_it_however_far_it_is(rng, name, axis, away, sign):
+    """Beyond one end of an axis, abreast of cells along the others: no bin that is not there is read."""
+    mesh = MESHES[name]
+    points = mesh.centres[rng.integers(0, len(mesh.centres), 2000)]
+    points[:, axis] = sign * 10.0**away
+    found = Transfer(mesh, MIDDLE).weights(points)
+    np.testing.assert_array_equal(found.outside, np.arange(len(points)))
+    np.testing.assert_array_equal(gather(found, np.ones(mesh.volumes.shape)), 1.0)
+
+
 @pytest.mark.parametrize("name", ["uniform", "graded", "wedge"])
 @pytest.mark.parametrize("h", [FINE, MIDDLE, WIDE])
 def test_deposit_changes_smoothly_along_a_path(name, h):
