@@ -100,8 +100,17 @@ def _within(points, axis: int, span) -> np.ndarray:
     return np.logical_and.reduce([(points[:, a] >= low) & (points[:, a] <= high) for a, (low, high) in zip(tangential, spans)])
 
 
-def _mesh(path: str, spacing: float, dimensions: int) -> np.ndarray:
-    """Dummies behind a surface mesh: lines in 2-D, triangles in 3-D, normals to the left of a line or by the right hand."""
+def surface(path: str, dimensions: int):
+    """A surface mesh of walls as pyvista has it."""
+    import pyvista
+
+    places, facets = _read(path, dimensions)
+    cells = np.insert(facets, 0, facets.shape[1], axis=1).ravel()
+    return pyvista.PolyData(places, lines=cells) if dimensions == 2 else pyvista.PolyData(places, faces=cells)
+
+
+def _read(path: str, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
+    """Points (P, 3) [m] of a surface mesh and its facets: lines in 2-D, triangles in 3-D."""
     import meshio
 
     try:
@@ -111,7 +120,15 @@ def _mesh(path: str, spacing: float, dimensions: int) -> np.ndarray:
     kind = "line" if dimensions == 2 else "triangle"
     if kind not in mesh.cells_dict:
         raise CaseError(f"walls.mesh = {path!r} holds no cells of type {kind}; a wall in {dimensions}-D is made of them")
-    corners = np.asarray(mesh.points, float)[mesh.cells_dict[kind]][:, :, :dimensions]
+    places = np.zeros((len(mesh.points), 3))
+    places[:, : mesh.points.shape[1]] = mesh.points
+    return places, mesh.cells_dict[kind]
+
+
+def _mesh(path: str, spacing: float, dimensions: int) -> np.ndarray:
+    """Dummies behind a surface mesh, normals to the left of a line or by the right hand."""
+    places, facets = _read(path, dimensions)
+    corners = places[facets][:, :, :dimensions]
     parts = [_facet(facet, spacing) for facet in corners]
     table = np.zeros((sum(len(points) for points, _ in parts) * LAYERS, 8))
     table[:, 7] = 1.0

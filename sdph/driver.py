@@ -4,7 +4,7 @@ What is run is a `Simulation` of grains in a gas or a `LiquidRun`. The driver kn
 
     start()  take_up(folder of the gas's checkpoint)  window()         how it goes
     time  windows  at_row  clock.outputs  clock.limit                  where it is
-    row()  meshes()  ledger  wall  summary(out)  warnings()            what it has to show
+    row()  meshes()  walls()  ledger  wall  summary(out)  warnings()   what it has to show
     KEPT  gas                                                          what a checkpoint holds
 """
 
@@ -23,7 +23,6 @@ from sdph.interruption import Stopped, listening
 from sdph.ledger import Ledger
 from sdph.schema import CaseError
 from sdph.simulation import Simulation
-
 
 FULL = 2**16  # bytes: with less, programs that do not say why they failed have failed for lack of room
 
@@ -213,7 +212,8 @@ class Outputs:
         self.first, self.last, self.rows = {}, {}, []
 
     def start(self) -> None:
-        """The rows and fields of the start."""
+        """The rows and fields of the start, and the walls, which stay as they are."""
+        self.fields.write_walls(self.simulation.walls())
         self.first = self.simulation.row()
         self.history.write(self.first)
         self._write()

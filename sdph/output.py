@@ -1,7 +1,7 @@
 """The run folder: what a run leaves behind, each file whole or not there.
 
     case.toml origin.json ledger.csv history.csv metrics.csv run.pvd fields/particles_*.vtp fields/gas_*.vt?
-    checkpoints/ gas/ (case and log); at the end summary.json, or failure.json
+    fields/walls.vtp (of a tank or of a surface mesh) checkpoints/ gas/ (case and log); at the end summary.json, or failure.json
 """
 
 from __future__ import annotations
@@ -27,9 +27,10 @@ from sdph.schema import CaseError
 
 MARK, ORIGIN = "case.toml", "origin.json"  # a folder with these files holds a run
 FAILURE = "failure.json"
+WALLS = "fields/walls.vtp"
 LEFT = (  # by a run, as patterns; what else is in its folder is the user's
     "ledger.csv", "history.csv", "metrics.csv", "run.pvd", "summary.json", FAILURE, "compare_*.json", "last_good.*", "checkpoints", "gas",
-    "fields/particles_*.vt?", "fields/gas_*.vt?", "fields/part-*.vt?",
+    WALLS, "fields/particles_*.vt?", "fields/gas_*.vt?", "fields/part-*.vt?",
 )  # fmt: skip
 NAMED = ("numpy", "numba", "scipy", "pyvista")  # packages whose versions a run notes
 
@@ -220,6 +221,11 @@ class Fields:
             save(mesh, self.folder / name)
         self.entries += [f'<DataSet timestep="{time:.9g}" part="{part}" file="{name}"/>' for part, name in enumerate(files)]
         self._write_timeline()
+
+    def write_walls(self, walls) -> None:
+        """A pyvista surface that holds for all times; nothing where it is None."""
+        if walls is not None:
+            save(walls, self.folder / WALLS)
 
     def _write_timeline(self) -> None:
         write_text(self.folder / "run.pvd", PVD.format("\n".join(self.entries)))

@@ -7,7 +7,7 @@ import time as clock
 import numpy as np
 
 from coupling.transfer import Transfer, gather
-from sdph import effects, history, output, particles
+from sdph import boundary, effects, history, output, particles
 from sdph.effects.inflow import Source
 from sdph.effects.outflow import leaving
 from sdph.exchange import INSTANT, Exchange
@@ -112,6 +112,11 @@ class Simulation:
         """Particles and gas for the timeline."""
         self.grid = self.grid or output.gas_grid(self.gas)
         return {"particles": output.particle_points(self.grains, self.case.grains.density), "gas": output.with_fields(*self.grid, self.cell_fields())}
+
+    def walls(self):
+        """Those of a surface mesh, for pictures (pyvista); None where there is none: the sides of the domain are seen anyway."""
+        mesh = self.case.parameters["walls"].mesh if self.parameters["walls"] else ""
+        return boundary.surface(mesh, self.case.dimensions) if mesh else None
 
     def summary(self, out) -> dict[str, float]:
         """summary.json, its own part; what probes rose by is told from the first and the last row of the history."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 import sys
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +20,8 @@ SHOWN = 0.75  # share of the window that the domain fills
 ASLANT = 0.6  # of that size where a box is seen aslant and neighbours stand closer; our choice, by eye
 LIGHT = 0.4  # of the point size of a liquid: that of gas beside it, so that the interface shows; our choice
 BESIDE_BARS = 0.85  # of the window that a wide domain fills: the colour bars need the rest
+WALL, CLEAR = "grey", 0.2  # colour and opacity of walls; our choice
+LABELS = 6  # along the longest axis
 SLAB = 0.25  # of the next longer side: a box so thin is looked at across
 SAME = 1e-6  # of the last time: how far past it a time may lie, by the digits it was written with
 OFF_FACES = 1e-6  # of its lengths: a cut through the middle of a box is no face of its cells
@@ -59,7 +62,7 @@ def show(folder: Path, png: Path | None = None, time: float | None = None, field
     chosen, particles, gas = state_at(read(folder), time)
     if png is None and sys.platform == "linux" and not {"DISPLAY", "WAYLAND_DISPLAY"} & os.environ.keys():
         raise CaseError("there is no display to open a window on; write a picture with --png FILE, or a movie with --movie FILE")
-    plotter = scene(particles, gas, field, f"t = {chosen:g} s", png is not None)
+    plotter = scene(particles, gas, field, f"t = {chosen:g} s", png is not None, walls=_walls(folder), up=_up(folder))
     if png is None:
         plotter.show()
     else:
@@ -80,15 +83,41 @@ def movie(folder: Path, target: Path, field: str | None = None) -> None:
     reader = read(folder)
     states, pictures = [state_at(reader, time) for time in reader.time_values], []
     ranges = [_range([state[part] for state in states], field or _usual(states[0][2])) for part in (1, 2)]
-    box = _around([particles if gas is None else gas for _, particles, gas in states])
+    walls = _walls(folder)
+    box = _around([*(particles if gas is None else gas for _, particles, gas in states), *([walls] if walls else [])])
     for time, particles, gas in states:
-        plotter = scene(particles, gas, field, f"t = {time:g} s", off_screen=True, ranges=ranges, box=box)
+        plotter = scene(particles, gas, field, f"t = {time:g} s", off_screen=True, ranges=ranges, box=box, walls=walls, up=_up(folder))
         pictures.append(plotter.screenshot(return_img=True))
         plotter.close()
     try:
         imageio.imwrite(target, pictures, **MOVIES[target.suffix])
     except OSError as error:
         raise CaseError(f"{target} cannot be written: {error}") from None
+
+
+def _walls(folder: Path):
+    """Walls of a tank or of a surface mesh; None where a run has none."""
+    import pyvista
+
+    file = folder / output.WALLS
+    if not file.exists():
+        return None
+    if not output.whole(file):
+        raise CaseError(f"{file} is damaged; run it again")
+    return pyvista.read(file)
+
+
+def _up(folder: Path) -> tuple:
+    """The axis, as a vector, that points up most; z where nothing falls."""
+    case = folder / output.MARK
+    gravity = tomllib.loads(case.read_text(encoding="utf-8"))["domain"]["gravity_m_s2"] if case.exists() else []
+    return upwards(gravity)
+
+
+def upwards(gravity) -> tuple:
+    """The axis, as a vector (3,), against which gravity (d,) [m/s2] pulls most; z in two dimensions and where nothing falls."""
+    falls = len(gravity) == 3 and min(gravity) < 0.0
+    return tuple(float(a == (np.argmin(gravity) if falls else 2)) for a in range(3))
 
 
 def _usual(gas) -> str:
@@ -109,10 +138,10 @@ def _around(meshes) -> np.ndarray:
     return np.stack((bounds[:, :, 0].min(axis=0), bounds[:, :, 1].max(axis=0)), axis=1).ravel()
 
 
-def scene(particles, gas, field: str | None, title: str, off_screen: bool, ranges=(None, None), box=None):
-    """A plotter with the particles coloured by `field` (None: temperature, speed where there is none) over the cells of the gas;
-    `ranges` of the colours of both, and `box` that is shown (6,) [m] (None: those of the picture). Of two phases of
-    particles the gas is drawn small."""
+def scene(particles, gas, field: str | None, title: str, off_screen: bool, ranges=(None, None), box=None, walls=None, up=(0.0, 0.0, 1.0)):
+    """A plotter with the particles coloured by `field` (None: temperature, speed where there is none) over the cells of the gas,
+    in `walls`, `up` (3,) being upwards in space; `ranges` of the colours of both, and `box` that is shown (6,) [m] (None: those of the picture). Of two phases
+    of particles the gas is drawn small."""
     import pyvista
     from vtkmodules.vtkCommonCore import vtkLogger
 
@@ -124,7 +153,7 @@ def scene(particles, gas, field: str | None, title: str, off_screen: bool, range
     if given and given not in known:
         raise CaseError(f"--field {given}: this run has {', '.join(known)}")
     plotter = pyvista.Plotter(off_screen=off_screen, window_size=WINDOW)
-    box = _around([gas if gas is not None else particles]) if box is None else box
+    box = _around([gas if gas is not None else particles, *([walls] if walls else [])]) if box is None else box
     gas, across = _cut(gas) if gas is not None else (None, None)
     if gas is not None and field in gas.cell_data:
         bar = BAR | {"title": f"gas {field}\n[{GAS_UNITS.get(field, '1')}]", "position_x": 0.86}
@@ -137,13 +166,18 @@ def scene(particles, gas, field: str | None, title: str, off_screen: bool, range
         for part, share in _phases(particles):
             colours = ranges[0] or _range([particles], field)
             plotter.add_mesh(part, scalars=field, cmap="inferno", clim=colours, scalar_bar_args=bar, point_size=share * size, **look)
+    if walls:
+        plotter.add_mesh(walls, color=WALL, opacity=CLEAR, lighting=False, line_width=2)
     plotter.add_text(title, font_size=12, position="upper_edge")
     if box[4] == box[5]:
         across = 2
     if across is not None:
-        plotter.view_vector([float(a == across) for a in range(3)], viewup=(0.0, 1.0, 0.0) if across == 2 else (0.0, 0.0, 1.0))
+        plotter.view_vector([float(a == across) for a in range(3)], viewup=(0.0, 1.0, 0.0) if up[across] else up)
         plotter.enable_parallel_projection()
-    axes = {"xtitle": "x [m]", "ytitle": "y [m]", "ztitle": "z [m]", "n_xlabels": 6, "n_ylabels": 6, "font_size": 10, "fmt": "%.3g"}
+    else:
+        plotter.view_vector((1.0, 1.0, 1.0), viewup=up)
+    axes = {"xtitle": "x [m]", "ytitle": "y [m]", "ztitle": "z [m]", "font_size": 10, "fmt": "%.3g"}
+    axes |= {f"n_{a}labels": max(2, round(LABELS * length / _lengths(box).max())) for a, length in zip("xyz", _lengths(box))}
     plotter.show_bounds(bounds=_rounded(box), location="outer", **axes)
     plotter.reset_camera(bounds=_rounded(box))
     wide = box[1] - box[0] > box[3] - box[2]

@@ -44,7 +44,8 @@ def _draw(simulation, file: Path) -> None:
     meshes = simulation.meshes()
     particles = meshes["particles"]
     field = next((name for name in SHOWN if name in particles.point_data), SHOWN[0])
-    plotter = view.scene(particles, meshes.get("gas"), field, f"t = {simulation.time:g} s", off_screen=True)
+    walls, up = simulation.walls(), view.upwards(simulation.case.domain.gravity)
+    plotter = view.scene(particles, meshes.get("gas"), field, f"t = {simulation.time:g} s", off_screen=True, walls=walls, up=up)
     image = plotter.screenshot(return_img=True)
     plotter.close()
     import imageio.v3 as imageio

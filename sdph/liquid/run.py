@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from sdph import particles, window
-from sdph.effects import drain
+from sdph.effects import drain, tank
 from sdph.liquid import by_phase
 from sdph.liquid.ledger import IMPULSES, LiquidLedger
 from sdph.liquid.outlet import Outlet
@@ -137,6 +137,10 @@ class LiquidRun:
             for name in ("ident", "kind", "mass", "density"):
                 cloud[name] = getattr(self.state, name)[wet]
         return {"particles": cloud}
+
+    def walls(self):
+        """Those of the tank as a pyvista surface; None where there are none."""
+        return tank.shape_of(self.case).surface() if "tank" in self.case.effects else None
 
     def summary(self, out) -> dict[str, float]:
         """summary.json, its own part."""

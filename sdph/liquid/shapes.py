@@ -1,11 +1,13 @@
 """Tanks: how far a point lies inside, where wall particles stand, and what the tank holds.
 
 A shape has `distance(points)` [m], negative inside, `shell(depth, spacing)` the points of the surface moved outwards
-by `depth`, about one spacing apart, and `volume` [m^d]. The axis of a round tank is the last one of the case.
+by `depth`, about one spacing apart, `surface()` of its walls for pictures (pyvista, lines in two dimensions), and
+`volume` [m^d]. The axis of a round tank is the last one of the case.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
 
@@ -13,6 +15,7 @@ import numpy as np
 
 from sdph.schema import CaseError
 
+UP = (0.0, 0.0, 1.0)  # axis of a round tank in space
 GOLDEN = math.pi * (3.0 - math.sqrt(5.0))  # rad, turn from ring to ring, so that rings do not line up
 
 
@@ -67,6 +70,13 @@ class Capsule:
             parts = [_arc(radius, 0.0, 0.0, math.pi, spacing)]
         return _rings(np.concatenate(parts), spacing) + self.centre
 
+    def surface(self):
+        import pyvista
+
+        if self.length:
+            return pyvista.Capsule(center=self.centre, direction=UP, radius=self.radius, cylinder_length=self.length)
+        return pyvista.Sphere(radius=self.radius, center=self.centre)
+
     @property
     def volume(self):
         return math.pi * self.radius**2 * (4.0 / 3.0 * self.radius + self.length)
@@ -95,6 +105,11 @@ class Cylinder:
             ends.append(_disc(self.radius, half + depth, spacing))
         return _rings(np.concatenate([side, *ends]), spacing) + self.centre
 
+    def surface(self):
+        import pyvista
+
+        return pyvista.Cylinder(center=self.centre, direction=UP, radius=self.radius, height=self.length, capping=not self.open_top)
+
     @property
     def volume(self):
         return math.pi * self.radius**2 * self.length
@@ -115,6 +130,11 @@ class Disc:
         count = round(2.0 * math.pi * radius / spacing)
         angle = 2.0 * math.pi * np.arange(count) / count
         return radius * np.stack([np.cos(angle), np.sin(angle)], axis=1) + self.centre
+
+    def surface(self):
+        import pyvista
+
+        return pyvista.Circle(radius=self.radius).translate((*self.centre, 0.0)).extract_feature_edges()
 
     @property
     def volume(self):
@@ -144,6 +164,19 @@ class Box:
         for axis, end in self.open:
             behind &= places[:, axis] < counts[axis] if end else places[:, axis] >= 0
         return self.lower + (places[behind] + 0.5) * steps
+
+    def surface(self):
+        import pyvista
+
+        d, sides = len(self.lower), []
+        for axis, end in itertools.product(range(d), (0, 1)):
+            if (axis, end) not in self.open:
+                corners = np.zeros((3, 3))  # of the side: two opposite ones, and one between
+                corners[:, :d] = self.lower, self.lower, self.upper
+                corners[:, axis] = (self.lower, self.upper)[end][axis]
+                corners[1, (axis + 1) % d] = self.upper[(axis + 1) % d]
+                sides.append(pyvista.Rectangle(corners) if d == 3 else pyvista.Line(corners[0], corners[2]))
+        return pyvista.merge(sides) if sides else None
 
     @property
     def volume(self):
@@ -190,6 +223,9 @@ class Mesh:
         _, closest = surface.find_closest_cell(points, return_closest_point=True)
         return closest + (points - closest) * (depth / away)[:, None]
 
+    def surface(self):
+        return self._read()
+
     @property
     def volume(self):
         return float(self._read().volume)
@@ -207,6 +243,9 @@ class Joined:
 
     def shell(self, depth, spacing):
         return np.concatenate([self.tank.shell(depth, spacing), self.pipe.shell(depth, spacing)])
+
+    def surface(self):
+        return self.tank.surface() + self.pipe.surface()
 
     @property
     def volume(self):

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from grain_boxes import DENSITY, DIAMETER, box, go, started, windows
 
+from sdph import boundary
 from sdph.laws import granular
 
 ALPHA_P, THETA, HEIGHT = 0.5, 1.0, 0.06
@@ -131,6 +132,13 @@ def test_nothing_leaks_from_a_box(tmp_path):
 def test_nothing_leaks_through_a_mesh(tmp_path):
     path, corners = wedge(tmp_path, np.zeros(2), np.full(2, 0.16))
     assert storm(tmp_path, stormy((0.16, 0.16), mesh=str(path)), 500_000, corners) == 0
+
+
+def test_a_mesh_is_drawn_as_it_is(tmp_path):
+    path, corners = wedge(tmp_path, np.zeros(2), np.full(2, 0.16))
+    drawn = boundary.surface(str(path), 2)
+    np.testing.assert_allclose(drawn.points[:, :2], corners)
+    assert drawn.n_lines == len(corners)
 
 
 @pytest.mark.parametrize("restitution", [0.0, 0.9])

@@ -7,7 +7,7 @@ import pytest
 from test_restart import Cut, Reporter, same_run
 
 from sdph import case as cases
-from sdph import cli, driver, output, restart, scenes
+from sdph import cli, driver, output, restart, scenes, view
 from sdph.guard import Unstable
 from sdph.liquid import ledger
 from sdph.liquid.run import STRIDE, LiquidRun
@@ -158,3 +158,22 @@ def test_a_periodic_box_that_is_too_narrow_is_refused(override, told):
 def test_metrics_of_grains_are_refused(tmp_path):
     with pytest.raises(CaseError, match="for liquids: none"):
         start(tmp_path / "run", more=("run.metrics='bubble'",))
+
+
+def test_its_tank_is_drawn_around_it(tmp_path):
+    """Walls lie beside the fields, the picture is of all of the tank, and what falls falls downwards."""
+    start(tmp_path / "run")
+    walls = view._walls(tmp_path / "run")
+    assert walls.bounds == pytest.approx((0.0, 0.28575, 0.0, 0.17145, 0.0, 0.0))
+    _, liquid, _ = view.state_at(view.read(tmp_path / "run"))
+    shown = view.scene(liquid, None, None, "", True, walls=walls)
+    assert shown.bounds[1] > 0.28
+    shown.close()
+    (tmp_path / "run" / output.WALLS).write_bytes(b"<VTKFile")
+    with pytest.raises(CaseError, match="walls.vtp is damaged"):
+        view.show(tmp_path / "run", tmp_path / "a.png")
+
+
+def test_up_is_against_gravity():
+    assert view.upwards((0.0, -9.81, 0.0)) == (0.0, 1.0, 0.0)
+    assert view.upwards((0.0, 0.0, -0.5)) == view.upwards((0.8, 0.0, 0.0)) == view.upwards((0.0, -9.81)) == (0.0, 0.0, 1.0)

@@ -7,6 +7,7 @@ import pytest
 
 from sdph import case as cases
 from sdph import particles
+from sdph.liquid import shapes
 from sdph.liquid.step import LiquidStepper, loads, wall_loads
 from sdph.schema import CaseError
 
@@ -90,3 +91,32 @@ def test_a_mesh_that_cannot_be_a_tank_is_refused(tmp_path):
         settled({"shape": "mesh", "mesh": str(path)}, 0.1, 0.0)
     with pytest.raises(CaseError, match="cannot be read"):
         settled({"shape": "mesh", "mesh": str(tmp_path / "none.stl")}, 0.1, 0.0)
+
+
+MIDDLE = np.array([0.5, 0.5, 0.5])
+PIPE = shapes.Cylinder(MIDDLE - [0.0, 0.0, RADIUS], 0.05, 0.1, 0.1, open_top=True)
+DRAWN = {
+    "sphere": shapes.Capsule(MIDDLE, RADIUS),
+    "capsule": shapes.Capsule(MIDDLE, RADIUS, 0.4),
+    "cylinder": shapes.Cylinder(MIDDLE, RADIUS, 0.8, 0.1),
+    "open box": shapes.Box(np.zeros(3), np.array([0.8, 0.6, 0.4]), ((1, 1),)),
+    "channel": shapes.Box(np.zeros(2), np.array([0.8, 0.6]), ((0, 0), (0, 1))),
+    "disc": shapes.Disc(MIDDLE[:2], RADIUS),
+}
+
+
+@pytest.mark.parametrize("name", DRAWN)
+def test_a_tank_is_drawn_where_its_walls_are(name):
+    shape = DRAWN[name]
+    drawn = shape.surface()
+    away = np.abs(shape.distance(drawn.points[:, : 2 if name in ("channel", "disc") else 3].astype(float)))
+    assert away.max() < 1e-6
+    size = drawn.area or drawn.compute_cell_sizes()["Length"].sum()
+    exact = {"sphere": math.pi, "capsule": 1.4 * math.pi, "cylinder": 1.3 * math.pi, "open box": 1.76, "channel": 1.6, "disc": math.pi}
+    assert size == pytest.approx(exact[name], rel=0.02)  # round ones are drawn by facets
+
+
+def test_a_pipe_is_drawn_with_its_tank():
+    drawn = shapes.Joined(DRAWN["sphere"], PIPE).surface()
+    assert drawn.area == pytest.approx(DRAWN["sphere"].surface().area + PIPE.surface().area)
+    assert drawn.bounds[4] == pytest.approx(-0.05)
