@@ -19,7 +19,7 @@ WINDOW = (1200, 900)  # pixels
 SHOWN = 0.75  # share of the window that the domain fills
 ASLANT = 0.6  # of that size where a box is seen aslant and neighbours stand closer; our choice, by eye
 LIGHT = 0.4  # of the point size of a liquid: that of gas beside it, so that the interface shows; our choice
-BESIDE_BARS = 0.85  # of the window that a wide domain fills: the colour bars need the rest
+BESIDE_BARS = 0.85  # of the window that a wide domain fills, or one seen aslant: colour bars and axes need the rest
 WALL, CLEAR = "grey", 0.2  # colour and opacity of walls; our choice
 LABELS = 6  # along the longest axis
 SLAB = 0.25  # of the next longer side: a box so thin is looked at across
@@ -181,7 +181,7 @@ def scene(particles, gas, field: str | None, title: str, off_screen: bool, range
     plotter.show_bounds(bounds=_rounded(box), location="outer", **axes)
     plotter.reset_camera(bounds=_rounded(box))
     wide = box[1] - box[0] > box[3] - box[2]
-    plotter.camera.zoom(BESIDE_BARS if wide else 0.95)
+    plotter.camera.zoom(BESIDE_BARS if wide or across is None else 0.95)
     return plotter
 
 
