@@ -55,7 +55,7 @@ def coefficient(p, alpha_p, slip, d, gas_density):
     return law.stokes(alpha_p, slip, d, gas_density, mu)
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, error_model="numpy", forceinline=True)
 def damping(p, sizes_p, s, i, alpha_p, slip, gas_density):
     """beta/(alpha_p rho_p) [1/s] of particle i: the mass average over its sizes (paper section 2.1, R'^SPH)."""
     if len(p) == 0:

@@ -49,7 +49,7 @@ def nusselt(p, alpha_g, reynolds):
     return law.ranz_marshall(alpha_g, reynolds, p.prandtl)
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, error_model="numpy", forceinline=True)
 def conductance(p, sizes_p, s, i, alpha_p, slip, gas_density):
     """Heat exchanged per kelvin [W/K] by the grains of particle i; `slip` [m/s]. Eq. 20: mass average over sizes."""
     if len(p) == 0:
