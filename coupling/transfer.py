@@ -209,16 +209,18 @@ def _fill(bins, sides, points, count, cells, weight):
 @njit(cache=True, parallel=True, error_model="numpy")
 def _gather(weights, field, out):
     for k in prange(len(out)):
+        entries = np.uint64(weights.count[k])
         for m in range(field.shape[1]):
             total = 0.0
-            for e in range(weights.count[k]):
-                total += weights.weight[k, e] * field[weights.cells[k, e], m]
+            for e in range(entries):
+                total += weights.weight[k, e] * field[np.uint64(weights.cells[k, e]), m]
             out[k, m] = total
 
 
 @njit(cache=True, error_model="numpy")
 def _deposit(weights, field, out):
     for k in range(len(field)):
-        for e in range(weights.count[k]):
+        for e in range(np.uint64(weights.count[k])):
+            cell, weight = np.uint64(weights.cells[k, e]), weights.weight[k, e]
             for m in range(field.shape[1]):
-                out[weights.cells[k, e], m] += weights.weight[k, e] * field[k, m]
+                out[cell, m] += weight * field[k, m]
