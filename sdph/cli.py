@@ -73,7 +73,7 @@ def run(options) -> int:
     from sdph.progress import Reporter
 
     overrides = tuple(options.set) + _overrides(options)
-    with contextlib.closing(Reporter(line=not options.json)) as reporter:
+    with contextlib.closing(Reporter(quiet=options.json)) as reporter:
         if options.resume:
             folder = options.resume
             _refuse(options, ("out", "accuracy", "allow_code"), "--resume goes on with a run as it was begun")
@@ -183,7 +183,7 @@ def validate_scene(options) -> int:
 
     overrides = tuple(options.set) + ((f'coupling.gas="{options.gas}"',) if options.gas else ())
     checks = []
-    with contextlib.closing(Reporter(line=not options.json)) as reporter:
+    with contextlib.closing(Reporter(quiet=options.json)) as reporter:
         for scene in [options.scene] if options.scene else validate.validated():
             checks += validate.validate(scene, overrides, reporter, options.out and options.out / scene)
     print(output.strict_json({"checks": checks}) if options.json else compare.table(checks))
