@@ -6,6 +6,7 @@ read, and `sdph run --resume` ends with the same ledger, byte by byte, as a run 
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import random
@@ -163,9 +164,10 @@ def _read_only(site: Site) -> dict:
     def lock(folder: Path, process: subprocess.Popen) -> list[Path]:
         _wait_for(process, folder / "checkpoints" / "000000005")
         locked = [folder / "fields", folder / "checkpoints"]
-        for path in locked:
-            subprocess.run(["mount", "--bind", path, path], check=True)
-            subprocess.run(["mount", "-o", "remount,bind,ro", path], check=True)
+        with _held(folder):  # who writes into a mount keeps it from being made read-only
+            for path in locked:
+                subprocess.run(["mount", "--bind", path, path], check=True)
+                subprocess.run(["mount", "-o", "remount,bind,ro", path], check=True)
         return locked
 
     return _on_small_disk(site, "run folder made read-only", lock, ("Read-only file system", "cannot"), LARGE_DISK)
@@ -243,6 +245,23 @@ def _processes(folder: Path) -> list[tuple[int, str]]:
         if any(word == str(folder) or word.startswith(f"{folder}/") for word in words):
             found.append((int(path.name), Path(words[0]).name))
     return sorted(found)
+
+
+@contextlib.contextmanager
+def _held(folder: Path):
+    """The processes of a run stand still."""
+    pids = [pid for pid, _ in _processes(folder)]
+    _signal(pids, signal.SIGSTOP)
+    try:
+        yield
+    finally:
+        _signal(pids, signal.SIGCONT)
+
+
+def _signal(pids: list[int], number: signal.Signals) -> None:
+    for pid in pids:
+        with contextlib.suppress(ProcessLookupError):  # it has ended meanwhile
+            os.kill(pid, number)
 
 
 def _unreadable(folder: Path) -> list[str]:
