@@ -43,6 +43,10 @@ class GasError(RuntimeError):
     """The gas side failed: what happened, and where its log is."""
 
 
+class Unfinished(GasError):
+    """A window that the gas could not finish: not a number, out of bounds, not converged. `Gas.retreat` goes back before it."""
+
+
 @dataclass(frozen=True)
 class Mesh:
     """Cells of the gas solver.
@@ -87,8 +91,15 @@ class GasState:
     budget: Budget
 
 
+def refuse_full_cells(alpha_g: np.ndarray) -> None:
+    """`Unfinished` where the voidage (C,) leaves the gas no room."""
+    if not alpha_g.min() > 0.0:
+        cell = int(np.argmin(alpha_g))
+        raise Unfinished(f"alpha_g = {alpha_g[cell]:g} in cell {cell}; the gas needs some room: the cell is over-packed")
+
+
 class Gas(Protocol):
-    """A gas solver. `advance` raises `GasError` when the solver fails or does not answer."""
+    """A gas solver. `advance` raises `GasError` when the solver fails or does not answer, `Unfinished` where a shorter step may do."""
 
     mesh: Mesh
 
@@ -99,6 +110,9 @@ class Gas(Protocol):
     def advance(self, dt: float, sources: dict[str, np.ndarray]) -> GasState:
         """One step of `dt` [s] with the sources held over it, except `alpha_g`, which goes linearly
         from its last value to the one given."""
+
+    def retreat(self) -> GasState:
+        """Go back to where the last `advance` began, finished or not; bit for bit."""
 
     def checkpoint(self, folder: Path) -> None:
         """Write all that `restore` needs to go on bit for bit into `folder`."""

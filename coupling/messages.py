@@ -50,6 +50,8 @@ class Kind(IntEnum):
     DONE = 7  # gas -> sdph: a checkpoint is written
     ERROR = 8  # either way: text
     CLOSE = 9  # sdph -> gas: end
+    UNFINISHED = 10  # gas -> sdph: why it could not finish a step; it can retreat
+    RETREAT = 11  # sdph -> gas: go back to where the last step began
 
 
 @dataclass(frozen=True)

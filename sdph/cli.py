@@ -33,7 +33,7 @@ def main(given: list[str] | None = None) -> int:
     except KeyboardInterrupt as stop:
         return _failed(str(stop) and stop or "interrupted", 128 + getattr(stop, "number", signal.SIGINT))
     except RuntimeError as error:
-        code = {"GasError": GAS_FAILED, "CannotWrite": CANNOT_WRITE, "Unstable": WENT_UNSTABLE}.get(type(error).__name__)
+        code = {"GasError": GAS_FAILED, "CannotWrite": CANNOT_WRITE, "Unstable": WENT_UNSTABLE, "Stalled": WENT_UNSTABLE}.get(type(error).__name__)
         if code is None:
             raise
         return _failed(error, code)

@@ -3,8 +3,8 @@
 What is run is a `Simulation` of grains in a gas or a `LiquidRun`. The driver knows of both only what both have:
 
     start()  take_up(folder of the gas's checkpoint)  window()         how it goes
-    time  windows  at_row  clock.outputs  clock.limit                  where it is
-    row()  meshes()  walls()  ledger  wall  summary(out)  warnings()   what it has to show
+    time  windows  at_row  clock (sdph.engine.clock)                    where it is
+    row()  meshes()  walls()  ledger  wall  summary(out)  warnings()  notices   what it has to show
     KEPT  gas                                                          what a checkpoint holds
 """
 
@@ -143,7 +143,7 @@ class Run:
         (self.folder / output.FAILURE).unlink(missing_ok=True)
         self.goes = wish.patient = True
         with contextlib.closing(self.out):
-            while self.simulation.time < self.case.run.end_time:
+            while not self.simulation.clock.over(self.simulation.time):
                 self._window()
                 if wish.number is not None or self._due():
                     self._save()
@@ -186,9 +186,16 @@ class Run:
 
     def _window(self) -> None:
         self.simulation.window()
+        self._pass_on()
         self.first = self.first or self.spent
         self.out.window()
         self.reporter.progress(self.simulation)
+
+    def _pass_on(self) -> None:
+        """Tell the user what the simulation has to say."""
+        for notice in self.simulation.notices:
+            self.reporter.status(notice)
+        self.simulation.notices.clear()
 
     def _due(self) -> bool:
         """Whether it is time for a checkpoint."""
@@ -223,7 +230,7 @@ class Outputs:
         if self.simulation.at_row:
             self.last = self.simulation.row()
             self.history.write(self.last)
-        if self.simulation.time in self.simulation.clock.outputs:
+        if self.simulation.clock.writes(self.simulation.time):
             self._write()
 
     def close(self) -> None:

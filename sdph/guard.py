@@ -54,14 +54,14 @@ class Watch:
             self.stop(name, f"particle {state.ident[worst]}", particles.positions(state)[worst], values[worst], bounds, lower)
 
     def stop(self, name, which, place, value, bounds, lower: str) -> None:
+        found = self._told(name, which, place, value, bounds)
+        raise Unstable(f"the run went unstable at t = {self.time:.6g} s, in window {self.window + 1}: {found}; lower {lower}", self.last)
+
+    def _told(self, name, which, place, value, bounds) -> str:
+        """Name a value that is out of bounds (low, high, unit), its place [m], and what is allowed."""
         at = ", ".join(f"{a:.4g}" for a in place[: self.case.dimensions])
         low, high, unit = bounds
-        allowed = f"this case allows {low:.3g} to {high:.3g} {unit}"
-        raise Unstable(
-            f"the run went unstable at t = {self.time:.6g} s, in window {self.window + 1}: {name} of {which} at ({at}) m is "
-            f"{value:.3g} {unit}, {allowed}; lower {lower}",
-            self.last,
-        )
+        return f"{name} of {which} at ({at}) m is {value:.3g} {unit}, this case allows {low:.3g} to {high:.3g} {unit}"
 
 
 class Guard(Watch):
@@ -99,15 +99,16 @@ class Guard(Watch):
         collapse = f"what packs the grains: the sub-step has fallen to {stepper.length:.2g} s"
         self.hold("speed of sound", stepper.stress.sound, (0.0, COLLAPSE * self.reach, "m/s"), s, collapse)
 
-    def gas(self, simulation) -> None:
-        """After a window: NaN, speed, temperature of the gas."""
+    def gas(self, simulation) -> str | None:
+        """Name what is out of bounds in the gas after a window, NaN, speed or temperature; None where nothing is."""
         fields = simulation.gas_state.fields
         bounds = {"velocity": (0.0, RUNAWAY * self.sound, "m/s"), "temperature": (self.coldest, self.hottest, "K")}
         for name, bound in bounds.items():
             values = fields[name] if fields[name].ndim == 1 else particles.lengths(fields[name])
             worst = _outside(values, *bound[:2])
             if worst is not None:
-                self.stop(f"gas {name}", f"cell {worst}", simulation.gas.mesh.centres[worst], values[worst], bound, self._shorter())
+                return self._told(f"gas {name}", f"cell {worst}", simulation.gas.mesh.centres[worst], values[worst], bound)
+        return None
 
     def _shorter(self) -> str:
         return f"coupling.window_largest_s below {self.length:.3g} (the window was ruled by {self.cause})"

@@ -9,6 +9,7 @@ from contextlib import contextmanager
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 CALLBACK = "_raw_object_cache_notify"  # of llvmlite, called by LLVM while a kernel is compiled: what is raised in it is lost
+PATIENCE = 3.0  # s that a window and its checkpoint may still take once the run was asked to stop: a gas that hangs takes for ever; our choice
 LATER = 0.05  # s until a signal that came there is sent again; our choice
 
 
@@ -21,15 +22,17 @@ class Stopped(KeyboardInterrupt):
 
 
 class Wish:
-    """Whether somebody wants the run to stop. While it is `patient` the first signal only sets `number`; else, and the
-    second time, it raises `Stopped` at once."""
+    """Whether somebody wants the run to stop. While it is `patient` the first signal only sets `number`; else, the second
+    time, and where nobody has obeyed for `PATIENCE`, it raises `Stopped` at once."""
 
     def __init__(self):
-        self.number, self.patient = None, False
+        self.number, self.patient, self.timer = None, False, None
 
     def __call__(self, number: int, frame) -> None:
         if self.number is None and self.patient:
-            self.number = number
+            self.number, self.timer = number, threading.Timer(PATIENCE, os.kill, (os.getpid(), number))
+            self.timer.daemon = True
+            self.timer.start()
         elif _called_from(CALLBACK, frame):
             threading.Timer(LATER, os.kill, (os.getpid(), number)).start()
         else:
@@ -39,6 +42,11 @@ class Wish:
         """Raise `Stopped` where it was asked for."""
         if self.number is not None:
             raise Stopped(self.number)
+
+    def rest(self) -> None:
+        """Send nothing any more."""
+        if self.timer:
+            self.timer.cancel()
 
 
 def _called_from(name: str, frame) -> bool:
@@ -59,5 +67,6 @@ def listening():
     try:
         yield wish
     finally:
+        wish.rest()
         for number, handler in before.items():
             signal.signal(number, handler)

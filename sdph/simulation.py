@@ -6,6 +6,7 @@ import time as clock
 
 import numpy as np
 
+from coupling.gas import GasError, Unfinished
 from coupling.transfer import Transfer, gather
 from sdph import boundary, effects, history, output, particles
 from sdph.effects.inflow import Source
@@ -16,26 +17,30 @@ from sdph.particles import GRAIN, INFLOW
 from sdph.step import Held, Stepper
 from sdph.window import Window
 
+PART = 4.0  # a window that the gas cannot finish is taken again, so much shorter (our choice),
+REPEATS = 4  # so often at most: down to 1/256
+
 
 class Simulation:
     """Particles of a case coupled to a gas; call `window` until `time` is the end."""
 
     at_row = True  # the history has a row of every window
-    KEPT = ("time", "windows", "wall", "stepper", "exchange", "clock", "ledger", "source")  # see sdph.restart
+    KEPT = ("time", "windows", "repeated", "wall", "stepper", "exchange", "clock", "ledger", "source")  # see sdph.restart
 
     def __init__(self, case, gas, ledger):
         self.case, self.gas, self.ledger = case, gas, ledger
         rows = [effects.REGISTRY[name] for name in case.effects]
         self.parameters = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
-        self.moves = any(row.moves for row in rows)
+        self.moves = effects.moving(case)
         names = {name for row in rows for name in row.arrays}
         state = particles.fill(case, names)
         self.source = Source(case, names, len(state.x) + 1) if self.parameters["inflow"] else None
-        self.stepper = Stepper(case, self.parameters, state, self.source)
+        self.clock = Window(case)
+        self.stepper = Stepper(case, self.parameters, state, self.source, self.clock.shortest)
         self.transfer = Transfer(gas.mesh, case.smoothing_length, case.domain.size)
         self.exchange = Exchange(case, gas.mesh, self.parameters)
-        self.clock = Window(case)
-        self.time, self.windows, self.grid = 0.0, 0, None
+        self.time, self.windows, self.repeated, self.grid = 0.0, 0, 0, None
+        self.notices: list[str] = []  # for the user, until somebody has passed them on
         self._weights_now = None
         self.wall = {"particles": 0.0, "exchange": 0.0, "gas": 0.0}
 
@@ -75,13 +80,8 @@ class Simulation:
 
     def window(self) -> None:
         """One window: exchange prepared, gas advanced, reaction taken, particles advanced."""
-        end = self.clock.choose(self.time)
+        end, handed = self._with_gas(self.clock.choose(self.time))
         dt = end - self.time
-        self.stepper.guard.begin(self, dt)
-        handed = self._timed("exchange", self._hand, dt)
-        sources = {} if self.case.coupling.one_way else handed.sources
-        self.gas_state = self._timed("gas", self.gas.advance, dt, sources)
-        self.stepper.guard.gas(self)
         taken = self._timed("exchange", self.exchange.take, handed, self.gas_state)
         self.clock.hold(self.exchange.grip(self.state, handed))
         self.exchange.settle(self.state, handed)
@@ -104,6 +104,31 @@ class Simulation:
         exchanged |= self._timed("exchange", self._turn_over, self.clock.longest())
         self.ledger.close_window(end, dt, self.clock.limit, self.grains, self.gas_state, exchanged)
 
+    def _with_gas(self, end: float):
+        """Gas through the window to `end` [s], or through the part of it that it can finish: where that ends, and what was handed."""
+        for _ in range(REPEATS + 1):
+            self.stepper.guard.begin(self, end - self.time)
+            handed = self._timed("exchange", self._hand, end - self.time)
+            failure = self._timed("gas", self._advance_gas, handed)
+            if failure is None:
+                return end, handed
+            self.gas_state, tried = self.gas.retreat(), end - self.time
+            end, self.repeated = self.time + tried / PART, self.repeated + 1
+            self.notices.append(f"window {self.windows + 1}, t = {self.time:.6g} s: taken again, a quarter of {tried:.3g} s long, because {failure}")
+        keys = f"coupling.window_largest_s below {tried:.2g} or coupling.courant (now {self.case.coupling.courant:g})"
+        raise GasError(
+            f"the gas cannot finish window {self.windows + 1} at t = {self.time:.6g} s, not even {tried:.3g} s of it: {failure}; lower {keys}, "
+            "or look at what enters there ([boundaries], [nozzles]) and at resolution.cell_mm"
+        )
+
+    def _advance_gas(self, handed) -> str | None:
+        """Take the gas through a window; why that cannot count, or None."""
+        try:
+            self.gas_state = self.gas.advance(handed.dt, {} if self.case.coupling.one_way else handed.sources)
+        except Unfinished as failure:
+            return str(failure)
+        return self.stepper.guard.gas(self)
+
     def row(self) -> dict[str, float]:
         """What history.csv holds."""
         return history.row(self)
@@ -121,6 +146,7 @@ class Simulation:
     def summary(self, out) -> dict[str, float]:
         """summary.json, its own part; what probes rose by is told from the first and the last row of the history."""
         own = {"cells": len(self.gas.mesh.volumes), "sub_steps": self.stepper.steps, "wall_contacts": self.stepper.contacts}
+        own["windows_repeated"] = self.repeated
         for name in self.case.probes:
             own |= {key: value for key, value in out.last.items() if key.startswith(f"{name}_")}
             own[f"{name}_rise_K"] = out.last[f"{name}_temperature_K"] - out.first[f"{name}_temperature_K"]

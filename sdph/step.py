@@ -13,6 +13,7 @@ from sdph import particles, rates, shearing
 from sdph.boundary import Boundary
 from sdph.effects import OFF, REGISTRY, friction, grain_shifting, granular_temperature, walls
 from sdph.effects.granular_viscosity import Viscous
+from sdph.engine.clock import count_of_parts
 from sdph.guard import Guard
 from sdph.neighbours import Neighbours
 from sdph.particles import INFLOW
@@ -30,7 +31,7 @@ class Stepper:
 
     KEPT = ("state", "neighbours", "steps", "contacts", "limit", "mechanical_heat", "bounds_work")  # see sdph.restart
 
-    def __init__(self, case, parameters, state, source=None):
+    def __init__(self, case, parameters, state, source=None, shortest=0.0):
         self.case, self.parameters, self.state, self.source = case, parameters, state, source
         self.kernel, self.guard = rates.kernel_of(case), Guard(case)
         self.neighbours = Neighbours(REACH * case.smoothing_length, case.domain.period, case.resolution.neighbour_skin)
@@ -39,6 +40,7 @@ class Stepper:
         algebraic = parameters["granular_temperature"] and parameters["granular_temperature"].model == 1
         self.shears = bool(parameters["friction"] or algebraic)
         self.steps, self.contacts, self.limit = 0, 0, ""
+        self.shortest = shortest  # sub-step [s] below which the run gets nowhere
         self.stress, self.length = Stress(*[np.empty(0)] * len(Stress._fields)), 0.0  # of the last sub-step, and what that was limited to [s]
         self.mechanical_heat = 0.0  # what motion has given to the temperature of the grains [J]
         self.bounds_work = 0.0  # what the bounds of theta have added [J]
@@ -75,8 +77,7 @@ class Stepper:
 
     def conduct(self, dt: float, heat) -> None:
         """Grains at rest through `dt` [s]: conduction, and `heat` (N,) [J] from the gas spread evenly."""
-        limit = self.case.run.step_factor * self._limit_of("conduction")
-        steps = max(1, math.ceil(dt / limit * (1.0 - 1e-9)))
+        steps = self._parts(dt, self._limit_of("conduction"), "conduction")
         heating = np.zeros(len(self.state.x))
         for _ in range(steps):
             rates.conduct(self.kernel, self.state, self.rows, self.neighbours.box, self.pull, self.parameters["conduction"], heating)
@@ -114,7 +115,11 @@ class Stepper:
             limits["agitation"] = DIFFUSIVE * self.kernel.h / math.sqrt(s.theta.max())
         self.limit = min(limits, key=limits.get)
         self.length = self.case.run.step_factor * limits[self.limit]
-        return left / max(1, math.ceil(left / self.length * (1.0 - 1e-9)))
+        return left / self._parts(left, limits[self.limit], self.limit)
+
+    def _parts(self, left: float, limit: float, cause: str) -> int:
+        """Number of equal sub-steps in which `left` [s] is taken, none longer than `limit` [s] times run.step_factor."""
+        return count_of_parts(left, self.case.run.step_factor * limit, self.shortest, f"the sub-step's limit {cause!r} (times run.step_factor)")
 
     def _advance(self, dt: float, held) -> None:
         """One sub-step: stress, walls, rates, then theta, heat, velocity, place."""

@@ -11,12 +11,19 @@ import math
 
 import numpy as np
 
+from sdph import effects
+from sdph.effects.inflow import streams_of
+from sdph.engine.clock import Clock
 from sdph.gas_cells import cell_edges
 
 SAFETY, GROWTH, SHRINK = 0.9, 2.0, 0.3  # usual bounds of a step controller (Hairer, Norsett & Wanner, II.4); our choice
 VAPOUR = 0.1  # of the gas in a cell: most vapour that comes into it in a window, so that it is carried away as it comes; our choice
 GRIP = 0.1  # of the time in which gas stops a bed, most that its force may be held: a held force drives the bed's oscillations; our choice
-SAME = 1e-9  # of the end time: landmarks nearer to each other than this differ by round-off only
+# limit -> what a user can change about it
+KEYS = {
+    "largest": "coupling.window_largest_s", "heat exchange": "coupling.window_tolerance", "courant": "coupling.courant", "particles": "coupling.courant",
+    "evaporation": "the rate of evaporation", "grip": "the drag on packed grains",
+}  # fmt: skip
 
 
 class Control:
@@ -57,18 +64,16 @@ def _change(before, now) -> float:
     return float(np.abs(now[1][stayed] - before[1][old[stayed]]).sum())
 
 
-class Window:
-    """Chooses windows. `limit` names what ruled the last one."""
+class Window(Clock):
+    """Chooses windows: what is told of each limit decides how long the next one is."""
 
     KEPT = ("limits", "control", "limit")  # see sdph.restart
 
     def __init__(self, case):
-        self.courant, self.cell = case.coupling.courant, min(float(np.diff(edges).min()) for edges in cell_edges(case))
-        self.limits = {"largest": case.coupling.window_largest}
+        super().__init__(case.run)
+        self.courant, self.cell = case.coupling.courant, smallest_cell(case)
+        self.limits = {"largest": case.coupling.window_largest} | opening(case)
         self.control = Control(case.coupling.window_tolerance)
-        self.outputs = every(case.run.output_interval, case.run.end_time)
-        self.landmarks = with_others(self.outputs, case.run.report_at)
-        self.limit = ""
 
     def begin(self, rate: float, scale: float) -> None:
         """Before the first window; see `Control.begin`."""
@@ -77,9 +82,7 @@ class Window:
     def choose(self, time: float) -> float:
         """The time [s] at which the next window ends."""
         self.limit = min(self.limits, key=self.limits.get)
-        landmark = float(self.landmarks[np.searchsorted(self.landmarks, time, side="right")])
-        windows = math.ceil((landmark - time) / self.limits[self.limit] * (1.0 - 1e-9))
-        return landmark if windows <= 1 else time + (landmark - time) / windows
+        return self.part(time, self.limits[self.limit], f"the window's limit {self.limit!r} ({KEYS[self.limit]})")
 
     def longest(self) -> float:
         """No window that `choose` picks next is longer [s]."""
@@ -110,13 +113,18 @@ class Window:
             self.limits["courant"] = dt * min(GROWTH, self.courant / courant)
 
 
-def every(interval: float, end: float) -> np.ndarray:
-    """Multiples of the interval [s] up to the end, and the end."""
-    count = math.ceil(end / interval * (1.0 - 1e-9))
-    return np.append(np.arange(1, count) * interval, end)
+def smallest_cell(case) -> float:
+    """Least width [m] of a gas cell."""
+    return min(float(np.diff(edges).min()) for edges in cell_edges(case))
 
 
-def with_others(times: np.ndarray, others) -> np.ndarray:
-    """The times [s], and those of the others before their end that are not the same but for round-off."""
-    apart = [t for t in others if t < times[-1] and abs(times - t).min() > SAME * times[-1]]
-    return np.union1d(times, apart)
+def opening(case) -> dict[str, float]:
+    """Limits [s] of the first window from the speeds that the case gives: gas that is let in, as fast as it is between the
+    grains, and grains that are thrown at the start or by a nozzle. Later windows are told what moves how fast."""
+    packed = max((region.volume_fraction for region in case.particles.values()), default=0.0)
+    let_in = max((math.hypot(*b.velocity) for b in case.boundaries.values() if b.velocity), default=0.0) / (1.0 - packed)
+    thrown = [math.hypot(*region.velocity) for region in case.particles.values() if region.velocity] if effects.moving(case) else []
+    if "inflow" in case.effects:
+        thrown += [float(np.linalg.norm(streams_of(case, nozzle).velocity, axis=1).max()) for nozzle in case.nozzles.values()]
+    reach = case.coupling.courant * smallest_cell(case)
+    return {cause: reach / speed for cause, speed in (("courant", let_in), ("particles", max(thrown, default=0.0))) if speed}

@@ -25,11 +25,16 @@ class StillGas:
         return self._state()
 
     def advance(self, dt, sources):
+        self.before = self.time, self.temperature
         self.time += dt
         content = self.alpha * self.case.gas.density * self.case.gas.heat_capacity / dt
         if sources:
             gained = content * self.temperature + sources["heat_temperature"]
             self.temperature = gained / (content + sources["heat"])
+        return self._state()
+
+    def retreat(self):
+        self.time, self.temperature = self.before
         return self._state()
 
     def close(self):

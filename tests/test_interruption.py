@@ -22,6 +22,27 @@ def test_impatient_it_stops_at_once_and_patient_it_waits():
             wish.obey()
 
 
+def test_whoever_does_not_obey_is_stopped_all_the_same(monkeypatch):
+    """A gas that hangs lets no window end."""
+    monkeypatch.setattr(interruption, "PATIENCE", 0.2)
+    with listening() as wish, pytest.raises(Stopped):
+        wish.patient = True
+        os.kill(os.getpid(), signal.SIGTERM)
+        time.sleep(30.0)
+
+
+def test_whoever_obeys_hears_no_more(monkeypatch):
+    monkeypatch.setattr(interruption, "PATIENCE", 0.2)
+    heard = []
+    before = signal.signal(signal.SIGTERM, lambda number, frame: heard.append(number))
+    with listening() as wish:
+        wish.patient = True
+        os.kill(os.getpid(), signal.SIGTERM)
+    time.sleep(0.5)
+    signal.signal(signal.SIGTERM, before)
+    assert not heard
+
+
 def test_where_it_would_be_lost_it_comes_again():
     """What is raised in a callback of the compiler is lost."""
 

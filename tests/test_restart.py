@@ -18,6 +18,7 @@ from test_cli import ENVIRONMENT
 
 from sdph import case as cases
 from sdph import driver, output, particles, restart, scenes
+from sdph.engine.clock import Stalled
 from coupling.gas import GasError
 from sdph.schema import CaseError
 
@@ -106,6 +107,35 @@ def test_a_run_can_be_made_longer(tmp_path):
     start(tmp_path / "short")
     driver.resume(tmp_path / "short", ("run.end_time_s=0.0006",), Reporter())
     same_run(tmp_path / "long", tmp_path / "short")
+
+
+@pytest.mark.parametrize("gas", ["embedded", pytest.param("openfoam", marks=pytest.mark.openfoam)])
+@pytest.mark.parametrize(("count", "interval"), [(12, 0.05), (3, 0.1), (7, 0.01)])
+def test_a_run_goes_on_past_an_end_that_is_a_landmark_but_for_round_off(tmp_path, gas, count, interval):
+    """12 x 0.05 is more than 0.6 in floating point; a window of 1e-16 s used to end the run."""
+    end, later = float(f"{count * interval:.6g}"), float(f"{(count + 0.4) * interval:.6g}")
+    quick = ("resolution.spacing_mm=50", "resolution.cell_mm=100", "coupling.window_tolerance=1e-1", "run.report_at_s=[]", f"run.output_interval_s={interval}")
+    whole = start(tmp_path / "whole", gas=gas, more=(*quick, f"run.end_time_s={later}"))
+    start(tmp_path / "cut", gas=gas, more=(*quick, f"run.end_time_s={end}"))
+    resumed = driver.resume(tmp_path / "cut", (f"run.end_time_s={later}",), Reporter())
+    same_run(tmp_path / "whole", tmp_path / "cut")
+    assert resumed["windows"] == whole["windows"] and resumed["time_s"] == later
+    instants = [entry.split('"')[1] for entry in (tmp_path / "cut" / "run.pvd").read_text().split("timestep=")[1:]]
+    assert len(set(instants)) == len(instants) / 2 == count + 2  # particles and gas; the start and the end too
+
+
+def test_the_output_interval_may_change_when_a_run_goes_on(tmp_path):
+    start(tmp_path / "run")
+    driver.resume(tmp_path / "run", ("run.end_time_s=0.0006", "run.output_interval_s=0.00005"), Reporter())
+    instants = sorted({float(entry.split('"')[1]) for entry in (tmp_path / "run" / "run.pvd").read_text().split("timestep=")[1:]})
+    np.testing.assert_allclose(instants, [0.0, 2e-4, 4e-4, 4.5e-4, 5e-4, 5.5e-4, 6e-4], rtol=1e-12)
+
+
+@pytest.mark.parametrize("absurd", ["coupling.window_largest_s=1e-30", "run.step_factor=1e-30", "coupling.window_tolerance=1e-60"])
+def test_an_absurd_limit_ends_with_its_name(tmp_path, absurd):
+    with pytest.raises(Stalled, match=absurd.partition("=")[0].split(".")[1]):
+        start(tmp_path / "run", more=(absurd,))
+    assert json.loads((tmp_path / "run" / "failure.json").read_text())["kind"] == "Stalled"
 
 
 @pytest.mark.parametrize("harm", ["truncate", "flip", "remove", "manifest", "draft"])

@@ -4,11 +4,14 @@ import math
 
 import numpy as np
 import pytest
-from builders import FULL_BOX, disc, simulation
+from builders import FULL_BOX, disc, fixed_windows, simulation
+from fakes import StillGas
 from hypothesis import given
 from hypothesis import strategies as st
 
+from coupling.gas import GasError, Unfinished
 from sdph import window
+from sdph.explain import estimate, judge
 
 GROWTH, SHRINK = window.GROWTH, window.SHRINK
 
@@ -85,9 +88,9 @@ def test_limits_are_named():
     assert end == pytest.approx(1e-4 * 0.5 / 2.0, rel=0.01)
 
 
-@given(dt=st.floats(1e-9, 1.0), courant=st.floats(1e-6, 1e3))
+@given(dt=st.floats(1e-5, 1.0), courant=st.floats(1e-6, 1e3))
 def test_courant_limit_grows_no_faster_than_allowed(dt, courant):
-    chooser = clock("coupling.window_largest_s=1e9", "run.end_time_s=1e9", "run.output_interval_s=1e9", "run.report_at_s=[]")
+    chooser = clock("coupling.window_largest_s=10", "run.end_time_s=10", "run.output_interval_s=10", "run.report_at_s=[]")
     learn(chooser, dt, courant)
     assert chooser.choose(0.0) <= dt * min(GROWTH, 1.0 / courant) * (1.0 + 1e-6)
 
@@ -157,3 +160,57 @@ def test_no_exchange_is_no_limit(tmp_path):
     while simulated.time < case.run.end_time:
         simulated.window()
     assert simulated.windows <= 12
+
+
+BLOWN = (
+    "boundaries.jet.kind='velocity_inlet'", "boundaries.jet.side='left'", "boundaries.jet.velocity_m_s=[3.0,4.0]",
+    "particles.disc.velocity_m_s=[0.0,20.0]", "particles.disc.volume_fraction=0.5",
+)  # fmt: skip
+
+
+def test_the_first_window_obeys_what_enters_and_what_is_thrown():
+    """Gas of 5 m/s is twice as fast between grains of 0.5; grains that nothing moves do not count, whatever speed they are given."""
+    resting = disc(*BLOWN, "resolution.cell_mm=10", "coupling.courant=0.5")
+    assert window.opening(resting) == pytest.approx({"courant": 0.5 * 0.01 / 10.0})
+    moving = disc(*BLOWN, "resolution.cell_mm=10", "effects=['gravity','heat','conduction']")
+    assert window.opening(moving) == pytest.approx({"courant": 1e-3, "particles": 0.01 / 20.0})
+    assert window.Window(moving).choose(0.0) <= 0.01 / 20.0
+
+
+def test_explain_shows_what_the_first_window_obeys():
+    case = disc(*BLOWN, "effects=['gravity','heat','conduction']")
+    rows = {row["cause"]: row["largest [s]"] for row in estimate.limits(case, judge.scales_of(case)) if row["of"] == "window"}
+    assert window.opening(case).items() <= rows.items()
+
+
+class Fragile(StillGas):
+    """A gas that cannot finish windows longer than `most` [s]."""
+
+    most = 1e-6
+
+    def advance(self, dt, sources):
+        state = super().advance(dt, sources)
+        if dt > self.most:
+            raise Unfinished("the gas is fragile")
+        return state
+
+
+def test_a_window_that_the_gas_cannot_finish_is_taken_again_and_counted(tmp_path):
+    (tmp_path / "short").mkdir()
+    case = disc(*FULL_BOX, *fixed_windows(2e-5), "run.report_at_s=[]", "run.end_time_s=1e-4")
+    run = simulation(case, tmp_path, gas=Fragile)
+    short = simulation(disc(*FULL_BOX, *fixed_windows(2e-5 / 64.0), "run.report_at_s=[]", "run.end_time_s=3.125e-7"), tmp_path / "short")
+    run.window()
+    short.window()
+    assert run.time == run.gas.time == short.time == 2e-5 / 64.0
+    assert run.gas.temperature.tobytes() == short.gas.temperature.tobytes()
+    assert run.state.temperature.tobytes() == short.state.temperature.tobytes()
+    assert run.repeated == len(run.notices) == 3
+    assert "window 1, t = 0 s: taken again, a quarter of 2e-05 s long, because the gas is fragile" in run.notices[0]
+
+
+def test_a_gas_that_finishes_nothing_ends_the_run_with_the_keys_to_change(tmp_path):
+    case = disc(*FULL_BOX, "coupling.window_largest_s=1e-3", "coupling.window_tolerance=1e30", "run.report_at_s=[]")
+    run = simulation(case, tmp_path, gas=Fragile)
+    with pytest.raises(GasError, match="cannot finish window 1 at t = 0 s, not even 3.91e-06 s of it: the gas is fragile; lower coupling.window_largest_s"):
+        run.window()

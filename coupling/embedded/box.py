@@ -9,7 +9,7 @@ import numpy as np
 from coupling.embedded import boundaries
 from coupling.embedded.grid import Grid
 from coupling.embedded.properties import Properties
-from coupling.gas import GasError
+from coupling.gas import refuse_full_cells
 
 
 class Box:
@@ -88,8 +88,7 @@ def window_of(box: Box, flow: Flow, dt: float, sources: dict[str, np.ndarray]) -
         return np.stack(each) if given else grid.zeros(grid.dimensions)
 
     alpha = grid.extended(grid.padded(sources["alpha_g"])) if "alpha_g" in sources else flow.alpha
-    if not alpha[grid.cells].min() > 0.0:
-        raise GasError(f"alpha_g = {alpha[grid.cells].min():g} in a cell; the gas needs some room: the cell is over-packed")
+    refuse_full_cells(alpha[grid.cells])
     return Window(
         dt=dt, alpha=alpha, pull=total("drag", "vapour"), vapour=total("vapour"), cling=total("heat"),
         push=total_vector("drag_velocity", "vapour_momentum"), warmth=total("heat_temperature", "heat_source", "vapour_enthalpy"),

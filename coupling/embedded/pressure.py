@@ -16,7 +16,7 @@ from coupling.embedded.boundaries import resting_pressure
 from coupling.embedded.box import Box, Flow, Window
 from coupling.embedded.linear import not_converged
 from coupling.embedded.multigrid import build_levels, solve_pressure
-from coupling.gas import GasError
+from coupling.gas import Unfinished
 
 CONTINUITY = 1e3  # tolerances: what of a cell's mass the solver may leave over in a window; our choice
 
@@ -121,7 +121,7 @@ class Pressure:
         tolerance = CONTINUITY * box.tolerance
         _, error = solve_pressure(self.levels, grid.inner, self.work, excess, aim.mass, correction, tolerance)
         if not error <= tolerance:
-            raise GasError(not_converged("pressure", old.time + dt, error))
+            raise Unfinished(not_converged("pressure", old.time + dt, error))
         if box.closed:
             correction[grid.cells] -= correction[grid.cells].mean()
         correct(*setting, diagonal, fine, correction, dt, velocity, flux)

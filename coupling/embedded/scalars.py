@@ -11,7 +11,7 @@ from coupling.embedded.boundaries import Ghosts, on_faces
 from coupling.embedded.box import Box, Flow, Window
 from coupling.embedded.convection import Nodes, convect, substeps
 from coupling.embedded.linear import fill, solve_implicit
-from coupling.gas import GasError
+from coupling.gas import Unfinished
 
 NO_SHIFT = np.uint64(0)
 
@@ -44,7 +44,7 @@ class Scalars:
         box, grid = self.box, self.box.grid
         carried = flow.mass - window.dt * window.vapour  # all but the new vapour
         if not carried[grid.cells].min() > 0.0:
-            raise GasError("the vapour of one window fills a cell all by itself; shorten the window")
+            raise Unfinished("the vapour of one window fills a cell all by itself; shorten the window")
         parts, courant = substeps(grid.inner, flow.flux, old.mass, carried, window.dt)
         residuals = {}
         heat = box.properties.gas.heat_capacity

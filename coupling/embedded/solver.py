@@ -31,7 +31,7 @@ from coupling.embedded.momentum import Momentum
 from coupling.embedded.output import budget, cell_fields, force_of_boundary
 from coupling.embedded.pressure import Pressure
 from coupling.embedded.scalars import Scalars
-from coupling.gas import SOURCES, GasError, GasState, Mesh
+from coupling.gas import SOURCES, GasError, GasState, Mesh, Unfinished
 from sdph.gas_cells import cell_edges
 
 PASSES = 2  # of a window whose density follows temperature (shared/openfoam.md: one if constant, else two)
@@ -71,6 +71,7 @@ class EmbeddedGas:
     def advance(self, dt: float, sources: dict[str, np.ndarray]) -> GasState:
         """One window: where should the mass be, what does momentum want, what does pressure allow, what is carried."""
         self._check(dt, sources)
+        self.before = self.flow, self.state
         old = new = self.flow
         window = window_of(self.box, old, dt, sources)
         for _ in range(PASSES if self.box.properties.varies else 1):
@@ -86,6 +87,11 @@ class EmbeddedGas:
         residuals |= {"pressure": left, "box": float(new.ratio - 1.0)}
         full = dataclasses.replace(found.budget, courant=courant, force=force, residuals=residuals)
         self.state = dataclasses.replace(found, budget=full)
+        return self.state
+
+    def retreat(self) -> GasState:
+        """Go back to where the last window began: no window changes the arrays of the one before."""
+        self.flow, self.state = self.before
         return self.state
 
     def checkpoint(self, folder: Path) -> None:
@@ -142,7 +148,7 @@ class EmbeddedGas:
 def _converged(time: float, residuals: dict[str, float], tolerance: float) -> None:
     for name, residual in residuals.items():
         if not residual <= tolerance:
-            raise GasError(not_converged(name, time, residual))
+            raise Unfinished(not_converged(name, time, residual))
 
 
 def _known(sources: tuple[str, ...], box: Box) -> tuple[str, ...]:

@@ -15,19 +15,19 @@ from pathlib import Path
 import numpy as np
 
 from coupling.files import FileServer
-from coupling.gas import FIELDS, SOURCES, Budget, GasError, GasState, Mesh
+from coupling.gas import FIELDS, SOURCES, Budget, GasError, GasState, Mesh, Unfinished, refuse_full_cells
 from coupling.messages import Kind, Message, MessageError, message_limit
 from coupling.openfoam import case as case_files
 from coupling.openfoam import install, programs
 from coupling.openfoam.build import silent
 from coupling.sockets import SocketServer
+from sdph.engine.clock import Clock
 from sdph.schema import CaseError
 
 START_TIME = 120.0  # s that the solver may take to read its case
 STEP_TIME = 3600.0  # s that one step may take
 QUIET = 2.0  # s of waiting after which the user is told what is waited for
 END_TIME = 5.0  # s that the solver may take to end by itself
-OUTPUT_SLACK = 1e-9  # of an output interval: round-off of summed time steps
 
 
 # [coupling] transport -> what waits for the solver of a run in `folder`
@@ -41,7 +41,7 @@ class OpenFoamGas:
     """`coupling.gas.Gas` by sdphGasFoam, in `folder`; its log is `folder/log.sdphGasFoam`.
 
     `template` is an OpenFOAM case with 0, constant and system; None takes `folder` as an earlier run left it.
-    Time folders are written every `case.run.output_interval`; `case_folder/case.foam` opens them, of `ranks` ranks, in ParaView.
+    Time folders are written at the outputs of the case; `case_folder/case.foam` opens them, of `ranks` ranks, in ParaView.
     """
 
     def __init__(
@@ -49,8 +49,8 @@ class OpenFoamGas:
     ):
         self._case, self._folder, self._status = case, Path(folder).resolve(), status
         self._log, self.case_folder, self.ranks = self._folder / "log.sdphGasFoam", self._folder, case.coupling.ranks
-        self._process = self._connection = None
-        self._time = 0.0
+        self._process, self._connection, self._asking = None, None, False
+        self._time, self._clock = 0.0, Clock(case.run)
         for left in self._folder.glob("exchange-*"):  # of a run that was killed
             shutil.rmtree(left, ignore_errors=True)
         program = install.gas_solver(status)
@@ -107,8 +107,14 @@ class OpenFoamGas:
 
     def advance(self, dt: float, sources: dict[str, np.ndarray]) -> GasState:
         """See `Gas.advance`."""
+        if "alpha_g" in sources:
+            refuse_full_cells(sources["alpha_g"])
         units = {name: SOURCES[name][0] for name in sources} | {"dt": "s"}
-        return self._ask(Message(Kind.ADVANCE, {"dt": float(dt), "write": self._output_due(dt), **sources}, units))
+        return self._ask(Message(Kind.ADVANCE, {"dt": float(dt), "write": self._clock.writes(self._time + dt), **sources}, units))
+
+    def retreat(self) -> GasState:
+        """See `Gas.retreat`."""
+        return self._ask(Message(Kind.RETREAT))
 
     def checkpoint(self, folder: Path) -> None:
         """See `Gas.checkpoint`."""
@@ -130,6 +136,8 @@ class OpenFoamGas:
             self._process = None
 
     def _say_goodbye(self) -> None:
+        if self._asking:  # it has not answered yet, so that it would not hear
+            return
         try:
             self._connection.send(Message(Kind.CLOSE))
             self._process.wait(END_TIME)
@@ -146,8 +154,11 @@ class OpenFoamGas:
             raise GasError("the gas solver was closed")
 
         def exchange(alive):
+            self._asking = True
             self._connection.send(message)
-            return self._connection.receive(STEP_TIME, alive)
+            answer = self._connection.receive(STEP_TIME, alive)
+            self._asking = False
+            return answer
 
         return self._expect(self._guard(exchange, f"for {message.kind.name}"), answer)
 
@@ -186,6 +197,8 @@ class OpenFoamGas:
     def _expect(self, message: Message, kind: Kind) -> Message:
         if message.kind is kind:
             return message
+        if message.kind is Kind.UNFINISHED:
+            raise Unfinished(f"sdphGasFoam says: {message['text']} (log: {self._log})")
         self.close()
         said = message["text"] if message.kind is Kind.ERROR else f"{message.kind.name} where {kind.name} was expected"
         raise GasError(f"sdphGasFoam says: {' '.join(said.split())} (log: {self._log})")
@@ -201,12 +214,6 @@ class OpenFoamGas:
             ours = getattr(getattr(self._case, section), key, None)
             if ours != value:
                 raise CaseError(f"constant/gasProperties has {name} = {value}; case.toml has {ours}: make them the same")
-
-    def _output_due(self, dt: float) -> bool:
-        """Whether a time folder is to be written at the end of the next step."""
-        interval = self._case.run.output_interval
-        written = int(self._time / interval + OUTPUT_SLACK)
-        return int((self._time + dt) / interval + OUTPUT_SLACK) > written
 
 
 def end_group(process: subprocess.Popen) -> None:

@@ -56,4 +56,10 @@ FILES = (
 )
 REGISTRY: dict[str, Effect] = {file.EFFECT.name: file.EFFECT for file in FILES}
 
-__all__ = ["OFF", "REGISTRY", "Effect", "kernel_of"]
+
+def moving(case) -> bool:
+    """Tell whether an effect that is on moves grains."""
+    return any(REGISTRY[name].moves for name in case.effects)
+
+
+__all__ = ["OFF", "REGISTRY", "Effect", "kernel_of", "moving"]

@@ -13,6 +13,7 @@ from sdph import effects, environment, particles
 from sdph.effects import friction, granular_pressure
 from sdph.laws import kernels
 from sdph.step import ACOUSTIC, DIFFUSIVE
+from sdph.window import opening, smallest_cell
 
 # Windows of a relaxation that is resolved to the tolerance e: integral of dt/sqrt(2 e) over rate = 2/sqrt(2 e), and half as
 # many again for the safety of the controller and its way back (measured: 504 for e = 2e-5, where 2/sqrt(2 e) = 316).
@@ -88,8 +89,11 @@ def limits(case, scales) -> list[dict]:
 def _windows(case, s) -> list[tuple]:
     own = case.coupling
     rows = [("window", "largest", own.window_largest, "coupling.window_largest_s"), ("window", "output", case.run.output_interval, "run.output_interval_s")]
-    if s.jet or s.slip:
-        rows.append(("window", "courant", own.courant * case.resolution.cell / max(s.jet, s.slip), "courant cell/U; the gas takes sub-steps of its own"))
+    start = opening(case)
+    rows += [("window", cause, value, "coupling.courant cell/U of what enters or is thrown: the first window obeys it") for cause, value in start.items()]
+    later = own.courant * smallest_cell(case) / s.slip if s.slip else math.inf
+    if later < min(start.values(), default=math.inf):
+        rows.append(("window", "motion", later, "coupling.courant cell/U of what falls or rushes later: an estimate"))
     if "heat" in case.effects and s.span and not own.one_way:
         rate = 1.0 / s.heat_time + 1.0 / s.gas_heat_time
         rows.append(("window", "heat exchange", math.sqrt(2.0 * own.window_tolerance) / rate, "sqrt(2 tolerance)/rate: the first one, it grows with the rest to exchange"))
@@ -99,17 +103,13 @@ def _windows(case, s) -> list[tuple]:
 def _sub_steps(case, s) -> list[tuple]:
     h = case.smoothing_length
     rows = [("sub-step", name, _own_limit(case, name), "the effect's own dt_limit") for name in case.effects if _own_limit(case, name) < math.inf]
-    if _moves(case):
+    if effects.moving(case):
         fastest = _sound(case, s) + s.speed
         if fastest:
             rows.append(("sub-step", "sound", ACOUSTIC * h / fastest, f"{ACOUSTIC:g} h/(c + v), c = {_sound(case, s):.3g} m/s"))
         if s.theta:
             rows.append(("sub-step", "agitation", DIFFUSIVE * h / math.sqrt(s.theta), "0.125 h/sqrt(theta)"))
     return rows or [("sub-step", "window", case.coupling.window_largest, "nothing else limits it")]
-
-
-def _moves(case) -> bool:
-    return any(effects.REGISTRY[name].moves for name in case.effects)
 
 
 def _sound(case, s) -> float:
@@ -136,7 +136,7 @@ def expected(case, s) -> list[dict]:
     count = (start + end) // 2
     windows, steps = steps_of(case, s)
     pace = speed()
-    particle = 1e-6 * count * steps * (pace.moving if _moves(case) else pace.resting)
+    particle = 1e-6 * count * steps * (pace.moving if effects.moving(case) else pace.resting)
     gas = 1e-6 * cells * windows * pace.cell
     return [
         {"what": "particles", "value": end, "unit": "", "how": f"{start} at the start" if end > start else "all the time"},

@@ -44,6 +44,6 @@ def called_for(case) -> dict[str, Judgement]:
 def missing(case) -> list[str]:
     """One warning for each effect that is called for and off; where nothing moves, grains are held by intent."""
     text = "effect {} is off, but called for ({} = {:.3g}, matters from {:.3g}): expect an error of about {:.1g} of the answer"
-    held = not any(effects.REGISTRY[name].moves for name in case.effects)
+    held = not effects.moving(case)
     off = {n: own for n, own in called_for(case).items() if n not in case.effects and not (held and effects.REGISTRY[n].moves)}
     return [text.format(name, own.name, own.number, own.threshold, own.error_if_off) for name, own in off.items()]

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from sdph import particles, window
+from sdph import particles
 from sdph.effects import drain, tank
+from sdph.engine.clock import Clock
 from sdph.liquid import by_phase
 from sdph.liquid.ledger import IMPULSES, LiquidLedger
 from sdph.liquid.outlet import Outlet
@@ -20,34 +21,17 @@ STRIDE = 20  # steps in a window at most: a liquid that goes unstable is caught 
 SLOW = 0.2  # of the speed of sound: a liquid that is faster is compressed by 4 % (u2/c2); the rule is 0.1, twice that is told of
 
 
-class Moments:
-    """When fields are written and rows of the history; `limit` names what ruled the last step."""
-
-    KEPT = ("limit",)  # see sdph.restart
-
-    def __init__(self, case):
-        run = case.run
-        interval = case.liquid.history_interval or run.output_interval / SAMPLES
-        self.outputs = window.every(run.output_interval, run.end_time)
-        self.landmarks = window.with_others(self.outputs, (*window.every(interval, run.end_time), *run.report_at))
-        self.limit = ""
-
-    def after(self, time: float) -> float:
-        """The next row [s]."""
-        return float(self.landmarks[np.searchsorted(self.landmarks, time, side="right")])
-
-
 class LiquidRun:
     """A liquid in its tank; call `window` until `time` is the end."""
 
     KEPT = ("windows", "wall", "stepper", "outlet", "clock", "ledger", "impulse", "since")  # see sdph.restart
 
     def __init__(self, case, ledger: Path):
-        self.case, self.gas, self.stepper = case, None, LiquidStepper(case)
-        self.ledger, self.clock = LiquidLedger(ledger), Moments(case)
+        self.case, self.gas, self.clock = case, None, Clock(case.run, case.liquid.history_interval or case.run.output_interval / SAMPLES)
+        self.stepper, self.ledger = LiquidStepper(case, self.clock.shortest), LiquidLedger(ledger)
         self.outlet = Outlet(self.stepper) if "drain" in case.effects else None
         self.fill = drain.command(case.parameters["drain"], self.outlet.fill) if self.outlet else None
-        self.windows, self.wall = 0, {"particles": 0.0}
+        self.windows, self.wall, self.notices = 0, {"particles": 0.0}, []
         self.impulse, self.since = np.zeros(6), 0.0  # force and moment on the tank since the last row, and its time [s]
 
     @property
@@ -61,7 +45,7 @@ class LiquidRun:
     @property
     def at_row(self) -> bool:
         """Whether the history has a row of now."""
-        return self.time in self.clock.landmarks
+        return self.clock.rows_at(self.time)
 
     def start(self) -> None:
         self.ledger.open(self.stepper)
@@ -75,7 +59,7 @@ class LiquidRun:
         self.stepper.guard.begin(self)
         if self.at_row:
             self.impulse, self.since = np.zeros(6), self.time
-        end, tally = self.clock.after(self.time), Tally(self)
+        end, tally = self.clock.next(self.time), Tally(self)
         for _ in range(STRIDE):
             tally.step(end)
             if self.time == end:

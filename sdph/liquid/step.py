@@ -11,6 +11,7 @@ import numpy as np
 
 from sdph import effects, particles, smoothing
 from sdph.effects import OFF, frame, tank
+from sdph.engine.clock import count_of_parts
 from sdph.laws import kernels
 from sdph.liquid import GAS, LIQUID, correction, interface, motion, phases, rates, shapes, shift, start, walls
 from sdph.liquid.guard import LiquidGuard
@@ -31,8 +32,9 @@ class LiquidStepper:
         "twist", "extra", "excess",
     )  # fmt: skip  (see sdph.restart)
 
-    def __init__(self, case):
+    def __init__(self, case, shortest: float = 0.0):
         self.case, self.guard, d = case, LiquidGuard(case), case.dimensions
+        self.shortest = shortest  # step [s] below which the run gets nowhere
         self.p = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
         self.kernel = smoothing.smoothing(case.liquid.kernel, d, case.smoothing_length)
         periodic = case.liquid.periodic or (0.0,) * d
@@ -90,7 +92,8 @@ class LiquidStepper:
         if force:
             limits["force"] = FORCE * math.sqrt(h / math.sqrt(force))
         self.limit = min(limits, key=limits.get)
-        return left / max(1, math.ceil(left / (self.case.run.step_factor * limits[self.limit]) * (1.0 - 1e-9)))
+        longest = self.case.run.step_factor * limits[self.limit]
+        return left / count_of_parts(left, longest, self.shortest, f"the step's limit {self.limit!r} (times run.step_factor)")
 
     def _limits(self) -> dict[str, float]:
         """Limits that stay through the run."""

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from gas_boxes import TEMPLATE, WALLS, box, box_case, total
 
-from coupling.gas import GasError
+from coupling.gas import GasError, Unfinished
 from coupling.openfoam import install
 from coupling.openfoam.build import header_folder
 from coupling.openfoam.solver import OpenFoamGas
@@ -90,6 +90,26 @@ def test_ranks_and_files_conserve_energy_too(tmp_path, ranks):
 
 
 @pytest.mark.parametrize("ranks, equation", [(1, "constant"), (2, "constant"), (1, "ideal")])
+def test_a_retreat_goes_back_bit_for_bit(tmp_path, ranks, equation):
+    """After a step that could be finished, and after one that could not: as if neither had been tried."""
+    options = {"boundaries": INLET, "ranks": ranks, "equation_of_state": equation}
+    with box(tmp_path / "a", (0.1, 0.06), 0.005, **options) as gas:
+        expected = busy(started(gas), 6)
+    with box(tmp_path / "b", (0.1, 0.06), 0.005, **options) as gas:
+        began = busy(started(gas), 3)
+        gas.advance(5e-3, busy_sources(gas, 9))
+        back = gas.retreat()
+        assert back.time == began[-1].time
+        assert all(back.fields[name].tobytes() == began[-1].fields[name].tobytes() for name in back.fields)
+        frozen = busy_sources(gas, 4) | {"heat_temperature": np.full(len(gas.mesh.volumes), -1e12)}
+        with pytest.raises(Unfinished, match="temperature is .* in cell|residual of T is not a number"):
+            gas.advance(1e-3, frozen)
+        gas.retreat()
+        after = busy(gas, 3, begin=3)
+    assert all(same(a, b) for a, b in zip(after, expected[3:], strict=True))
+
+
+@pytest.mark.parametrize("ranks, equation", [(1, "constant"), (2, "constant"), (1, "ideal")])
 def test_a_checkpoint_goes_on_bit_for_bit(tmp_path, ranks, equation):
     options = {"boundaries": INLET, "ranks": ranks, "equation_of_state": equation}
     with box(tmp_path / "a", (0.1, 0.06), 0.005, **options) as gas:
@@ -158,6 +178,25 @@ def solver_processes(gas):
     found = subprocess.run(["pgrep", "-f", f"sdphGasFoam -case {gas._folder} "], capture_output=True, text=True)
     pids = [int(pid) for pid in found.stdout.split()]
     return [pid for pid in pids if Path(f"/proc/{pid}/comm").read_text().strip() == "sdphGasFoam"]
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_one_sigterm_ends_a_run_whose_gas_hangs(tmp_path, ranks):
+    """Within 10 s, with the exit code of the signal; nothing stays behind."""
+    quick = ["--set", "resolution.spacing_mm=20", "--set", "resolution.cell_mm=50", "--set", f"coupling.ranks={ranks}"]
+    command = [sys.executable, "-m", "sdph.cli", "run", "disc_cluster", "--gas", "openfoam", "--out", str(tmp_path / "run"), *quick]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    while not (tmp_path / "run" / "ledger.csv").is_file() or len((tmp_path / "run" / "ledger.csv").read_bytes()) < 500:
+        time.sleep(0.1)
+        assert process.poll() is None
+    found = subprocess.run(["pgrep", "-f", f"sdphGasFoam -case {tmp_path}/run/gas "], capture_output=True, text=True)
+    pids = [int(pid) for pid in found.stdout.split()]
+    for pid in pids:
+        os.kill(pid, signal.SIGSTOP)
+    process.send_signal(signal.SIGTERM)
+    _, said = process.communicate(timeout=10.0)
+    assert process.returncode == 128 + signal.SIGTERM and "stopped by SIGTERM" in said.splitlines()[-1]
+    assert not wait_for_end(pids)
 
 
 @pytest.mark.parametrize("ranks, transport", [(1, "socket"), (2, "file")])

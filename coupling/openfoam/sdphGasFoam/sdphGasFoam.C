@@ -6,7 +6,7 @@ Foundation, either version 3 of the License, or (at your option) any later
 version. It comes WITHOUT ANY WARRANTY; see <http://www.gnu.org/licenses/>.
 \*---------------------------------------------------------------------------*/
 // sdphGasFoam: the gas between the particles of sdph. It is started by sdph, calls it back at -address, tells it the
-// mesh and then does what it is told: start, advance, checkpoint, restore, close.
+// mesh and then does what it is told: start, advance, retreat, checkpoint, restore, close.
 
 #include "channel.H"
 #include "checkpoint.H"
@@ -76,7 +76,7 @@ void start(const wire::Message& message, GasSolver& solver, const Exchange& exch
     solver.start(exchange.alpha(message, message.has("alpha_g"), solver.alpha.primitiveField()));
 }
 
-void advance(const wire::Message& message, GasSolver& solver, const Exchange& exchange, Time& time)
+wire::Message advance(const wire::Message& message, GasSolver& solver, const Exchange& exchange, Time& time)
 {
     const scalar dt = message.number("dt");
     if (!(dt > 0 && dt < GREAT)) throw BadValue("dt is " + std::to_string(dt) + " s; it must be positive");
@@ -88,12 +88,18 @@ void advance(const wire::Message& message, GasSolver& solver, const Exchange& ex
     compat::setDeltaT(time, dt);
     ++time;
     Info<< "Time = " << time.value() << " s, dt = " << dt << " s" << endl;
-    solver.advance(alphaEnd);
-    if (message.integer("write")) solver.write();
+    try { solver.advance(alphaEnd); }
+    catch (const NotFinite& why) { return Exchange::unfinished(why.what()); }
+    const wire::Message state(exchange.state(solver));
+    bool fine = state.kind == wire::STATE;
+    reduce(fine, andOp<bool>());  // the master alone has looked
+    if (fine && message.integer("write")) solver.write();
+    return state;
 }
 
 void serve(Channel* channel, GasSolver& solver, const Exchange& exchange, Time& time)
 {
+    wire::Message before(wire::CHECKPOINT);
     while (true)
     {
         const wire::Message message = nextMessage(channel);
@@ -104,7 +110,11 @@ void serve(Channel* channel, GasSolver& solver, const Exchange& exchange, Time& 
                 send(channel, exchange.state(solver));
                 break;
             case wire::ADVANCE:
-                advance(message, solver, exchange, time);
+                before = Checkpoint(solver).kept();
+                send(channel, advance(message, solver, exchange, time));
+                break;
+            case wire::RETREAT:
+                Checkpoint(solver).putBack(before, time);
                 send(channel, exchange.state(solver));
                 break;
             case wire::CHECKPOINT:
