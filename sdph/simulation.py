@@ -10,7 +10,7 @@ from coupling.gas import GasError, Unfinished
 from coupling.transfer import Transfer, gather
 from sdph import boundary, effects, history, output, particles
 from sdph.effects.inflow import Source
-from sdph.effects.outflow import leaving
+from sdph.effects.outflow import leaving, refuse_to_leave
 from sdph.exchange import INSTANT, Exchange
 from sdph.ledger import vector
 from sdph.particles import GRAIN, INFLOW
@@ -190,7 +190,9 @@ class Simulation:
     def _turn_over(self, longest: float) -> dict[str, float]:
         """Between windows: what has evaporated or left is taken out, what comes in within `longest` [s] is made."""
         state, count = self.state, len(self.state.x)
-        gone = leaving(self.case, state) if self.parameters["outflow"] else np.zeros(count, bool)
+        gone = leaving(self.case, state) if self.moves else np.zeros(count, bool)
+        if gone.any() and not self.parameters["outflow"]:
+            refuse_to_leave(self.case, state, gone, self.time)
         left = particles.take(state, gone) if gone.any() else None
         if left is not None:
             state = particles.take(state, ~gone)

@@ -9,7 +9,7 @@ import numpy as np
 from sdph import particles
 from sdph.effects.effect import Effect, Judgement
 from sdph.particles import GRAIN
-from sdph.schema import record
+from sdph.schema import CaseError, record
 
 SIDES = (("left", "right"), ("bottom", "top"), ("back", "front"))
 
@@ -40,6 +40,16 @@ def leaving(case, state) -> np.ndarray:
             if out.any():
                 gone |= out & _open(case, side, axis, places)
     return gone & (state.kind == GRAIN)
+
+
+def refuse_to_leave(case, state, gone, time: float) -> None:
+    """CaseError where grains left, mask (N,), at `time` [s] in a case without this effect: there is no gas outside."""
+    first = int(np.flatnonzero(gone)[0])
+    place = ", ".join(f"{axis[first]:.4g}" for axis in particles.axes(state))
+    raise CaseError(
+        f"{int(gone.sum())} particles have left the domain through an open side at t = {time:.6g} s, the first is {state.ident[first]} at ({place}) m; "
+        f"add outflow to effects = {list(case.effects)}, or enlarge domain.size_m = {list(case.domain.size)}"
+    )
 
 
 def _open(case, side: str, axis: int, places) -> np.ndarray:
