@@ -17,7 +17,7 @@ import time
 from pathlib import Path
 
 from sdph import case as cases
-from sdph import environment, metrics, output, paths, restart
+from sdph import environment, metrics, output, particles, paths, restart
 from sdph.guard import Unstable
 from sdph.interruption import Stopped, listening
 from sdph.ledger import Ledger
@@ -238,7 +238,7 @@ class Outputs:
 
 def _summary(simulation, out: Outputs) -> dict:
     """summary.json, less the wall time of the whole."""
-    case, count = simulation.case, len(simulation.state.x)
+    case, count = simulation.case, particles.count(simulation.state)
     summary = {"title": case.title, "time_s": simulation.time, "particles": count, "windows": simulation.windows}
     summary |= simulation.summary(out) | metrics.summary(case, out.rows) | simulation.ledger.summary()
     summary |= {f"wall_{part}_s": spent for part, spent in simulation.wall.items()}
