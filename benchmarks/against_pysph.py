@@ -59,12 +59,12 @@ def go(own, steps: int) -> float:
 
 def export(own, file: Path) -> None:
     """The particles as PySPH takes them."""
-    from sdph.liquid import LIQUID
+    from sdph import particles
 
     s, case = own.state, own.case
     z, w = (s.z, s.w) if len(s.z) else (np.zeros(len(s.x)), np.zeros(len(s.x)))
     np.savez(
-        file, x=s.x, y=s.y, z=z, u=s.u, v=s.v, w=w, m=s.mass, rho=s.density, wet=s.kind >= LIQUID, dimensions=case.dimensions,
+        file, x=s.x, y=s.y, z=z, u=s.u, v=s.v, w=w, m=s.mass, rho=s.density, wet=particles.wet(s), dimensions=case.dimensions,
         h=case.smoothing_length, spacing=case.resolution.spacing, rho_0=case.liquid.density, c_0=case.liquid.sound_speed,
     )  # fmt: skip
 

@@ -101,7 +101,7 @@ def _allowed(kind) -> str:
         return ", ".join(kind.choices)
     low = f"above {kind.above:g}" if kind.above > float("-inf") else f"at least {kind.least:g}" if kind.least > float("-inf") else ""
     high = f"at most {kind.most:g}" if kind.most < float("inf") else ""
-    what = {bool: "true or false", int: "a whole number", str: "a text"}.get(kind.of, "numbers" if kind.components is None else "a number")
+    what = {bool: "true or false", int: "a whole number", str: "a text", Path: "the path of a file, from the folder of the case file"}.get(kind.of, "numbers" if kind.components is None else "a number")
     return f"{what} {' and '.join(filter(None, (low, high)))}"
 
 

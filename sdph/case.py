@@ -7,6 +7,7 @@ unknown key, a bad value or a section of an effect that is off is a `CaseError`.
 from __future__ import annotations
 
 import math
+import os
 import tomllib
 from pathlib import Path
 
@@ -20,17 +21,31 @@ from sdph.sections import GROUPS, SECTIONS, Case, Coupling, Region, Vapour
 MOST_OUTPUTS = 1e5  # of fields, and of history rows of a liquid as it sets them; our choice
 STRETCH = 100.0  # of the last cell of a row over its first, at most, either way; our choice
 SAME = 1e-9  # of a length: round-off
+FILES = [(name, key) for name, row in effects.REGISTRY.items() for key, (_, kind) in fields(row.parameters).items() if kind.of is Path]
 
 
 def load(path: Path, overrides: tuple[str, ...] = ()) -> Case:
-    """The case of a TOML file, with `key=value` overrides (dotted keys, TOML values)."""
+    """The case of a TOML file, with `key=value` overrides (dotted keys, TOML values).
+
+    Files that the case names lie where they do from its own folder, those of the overrides from the working directory.
+    """
     try:
         table = tomllib.loads(Path(path).read_text(encoding="utf-8"))
     except (ValueError, RecursionError) as error:  # not TOML, not UTF-8, numbers too long, lists too deep
         raise CaseError(f"{path} is not TOML: {error}") from None
+    _locate(table, Path(path).parent)
     for override in overrides:
         _override(table, override)
+    _locate(table, Path())
     return from_table(table)
+
+
+def _locate(table: dict, folder: Path) -> None:
+    """Make the paths of files absolute, from `folder`."""
+    for section, key in FILES:
+        entries = table.get(section)
+        if isinstance(entries, dict) and isinstance(entries.get(key), str) and entries[key]:
+            entries[key] = os.path.abspath(folder / entries[key])
 
 
 def _override(table: dict, text: str) -> None:

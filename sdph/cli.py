@@ -55,12 +55,15 @@ def list_scenes(options) -> int:
 
 
 def init_case(options) -> int:
+    from sdph import case as cases
     from sdph import output, paths, scenes
+    from sdph.running import inputs
 
     name, file = scenes.find(options.scene)
-    folder = output.create(options.folder, ())
-    output.write_text(folder / output.MARK, file.read_text(encoding="utf-8"))
-    output.copy_template(paths.gas_template(name), folder / "gas")
+    inputs.check(cases.load(file))
+    own, folder = file.parent / "gas", output.create(options.folder, ())
+    inputs.copy_case(file, folder)
+    output.copy_template(own if own.is_dir() else paths.gas_template(name), folder / "gas")
     print(f"{folder}/case.toml and {folder}/gas are yours to edit; run them with: sdph run {folder}")
     return FINE
 
@@ -71,6 +74,7 @@ def run(options) -> int:
     from sdph.cost import choice
     from sdph.explain import tables
     from sdph.progress import Reporter
+    from sdph.running import inputs
 
     overrides = tuple(options.set) + _overrides(options)
     with contextlib.closing(Reporter(quiet=options.json)) as reporter:
@@ -84,6 +88,7 @@ def run(options) -> int:
             if options.accuracy:
                 overrides = choice.with_settings(name, options.accuracy, overrides, reporter.status)
             case = cases.load(file, overrides)
+            inputs.check(case)  # what follows reads some of them
             if case.liquid:
                 _refuse(options, ("gas", "transport", "np"), f"{name} is a liquid and has no gas solver")
             elif options.gas == "embedded":
@@ -123,8 +128,10 @@ def explain_case(options) -> int:
     from sdph import case as cases
     from sdph import output, scenes
     from sdph.explain import tables
+    from sdph.running import inputs
 
     case = cases.load(scenes.find(options.target)[1], tuple(options.set))
+    inputs.check(case)
     parts = {}
     if options.measure:
         from sdph.explain import effect_costs

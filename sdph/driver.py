@@ -17,10 +17,11 @@ import time
 from pathlib import Path
 
 from sdph import case as cases
-from sdph import environment, metrics, output, paths, restart
+from sdph import environment, metrics, output, particles, paths, restart
 from sdph.guard import Unstable
 from sdph.interruption import Stopped, listening
 from sdph.ledger import Ledger
+from sdph.running import inputs
 from sdph.schema import CaseError
 from sdph.simulation import Simulation
 
@@ -34,11 +35,15 @@ def run(case, name: str, folder: Path, gas_folder: Path | None, reporter, *, all
     with `allow_code`; `reporter` shows progress.
     """
     template = gas_folder or paths.gas_template(case.scene or name)
+    inputs.check(case)
     with output.claimed(output.create(folder)):
         try:
+            case = inputs.keep(case, folder)
+            if not case.liquid and case.coupling.gas != "embedded":
+                inputs.keep_gas(template, folder)
             output.write_origin(folder, gas_template=str(template.resolve()), allow_code=allow_code)
-            output.write_text(folder / output.MARK, cases.dumps(case))
-            return _guarded(Run(case, folder, reporter), None, template, allow_code)
+            output.write_text(folder / output.MARK, cases.dumps(inputs.seen_from(case, folder)))
+            return _guarded(Run(case, folder, reporter), None, inputs.gas_of(folder), allow_code)
         except CaseError:
             if not restart.newest(folder):  # the case cannot be run: as if it had not been tried
                 shutil.rmtree(folder)
@@ -50,15 +55,17 @@ def resume(folder: Path, overrides: tuple[str, ...], reporter) -> dict:
     if not (folder / output.MARK).is_file() or not (folder / output.ORIGIN).is_file():
         raise CaseError(f"{folder} holds no run to go on with; run it anew")
     case = cases.load(folder / output.MARK, overrides)
+    inputs.check(case)
     with output.claimed(folder):
         checkpoint = restart.newest(folder, reporter.status)
         if checkpoint:
-            checkpoint.refuse_other(cases.to_table(case))
+            checkpoint.refuse_other(cases.to_table(inputs.seen_from(case, folder)))
         else:
             reporter.status(f"{folder} has no checkpoint: it begins again")
             output.clear(folder)
+            case = inputs.keep(case, folder)
         origin = output.read_origin(folder)
-        template = None if checkpoint else Path(origin["gas_template"])
+        template = None if checkpoint else inputs.gas_of(folder)
         return _guarded(Run(case, folder, reporter), checkpoint, template, origin["allow_code"])
 
 
@@ -139,7 +146,7 @@ class Run:
     def go(self, gas, checkpoint, wish) -> dict:
         """From the start, or from a checkpoint, to the summary; `gas` None for a liquid."""
         self._begin(gas, checkpoint)
-        output.write_text(self.folder / output.MARK, cases.dumps(self.case))
+        output.write_text(self.folder / output.MARK, cases.dumps(inputs.seen_from(self.case, self.folder)))
         (self.folder / output.FAILURE).unlink(missing_ok=True)
         self.goes = wish.patient = True
         with contextlib.closing(self.out):
@@ -204,7 +211,8 @@ class Run:
         return apart >= self.case.run.checkpoint_interval or self.simulation.windows - self.saved_window >= windows
 
     def _save(self) -> None:
-        restart.write(self.folder, self.simulation.windows, self.simulation.time, cases.to_table(self.case), self, self.simulation.gas)
+        table = cases.to_table(inputs.seen_from(self.case, self.folder))
+        restart.write(self.folder, self.simulation.windows, self.simulation.time, table, self, self.simulation.gas)
         self.saved_time, self.saved_window = time.monotonic(), self.simulation.windows
 
 
@@ -245,7 +253,7 @@ class Outputs:
 
 def _summary(simulation, out: Outputs) -> dict:
     """summary.json, less the wall time of the whole."""
-    case, count = simulation.case, len(simulation.state.x)
+    case, count = simulation.case, particles.count(simulation.state)
     summary = {"title": case.title, "time_s": simulation.time, "particles": count, "windows": simulation.windows}
     summary |= simulation.summary(out) | metrics.summary(case, out.rows) | simulation.ledger.summary()
     summary |= {f"wall_{part}_s": spent for part, spent in simulation.wall.items()}

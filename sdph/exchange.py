@@ -191,10 +191,11 @@ class Exchange:
         With alpha_g v_g + alpha_p v_p given, drag and pressure gradient together are beta/alpha_g^2 v_p: the rate is
         beta/(alpha_g^2 alpha_p rho_p). 0 where the gas does not feel the volume of the grains.
         """
-        if not self.parameters["gas_pressure"] or self.case.coupling.one_way or len(state.x) == 0:
+        mass = state.mass * (state.kind == GRAIN)
+        if not self.parameters["gas_pressure"] or self.case.coupling.one_way or not mass.any():
             return 0.0
         alpha_p = np.minimum(state.density / self.case.grains.density, self.case.grains.packing_limit)
-        return float(np.average(handed.damping / (1.0 - alpha_p) ** 2, weights=state.mass))
+        return float(np.average(handed.damping / (1.0 - alpha_p) ** 2, weights=mass))
 
     def settle(self, state, handed: Handed) -> None:
         """Take from the particles what evaporated."""

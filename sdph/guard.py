@@ -133,7 +133,8 @@ def _picture(last: dict, file: Path, title: str) -> None:
     from matplotlib import pyplot
 
     figure, axes = pyplot.subplots(figsize=(7, 6), constrained_layout=True)
-    dots = axes.scatter(last["x"], last["y"], s=4, c=np.hypot(last["u"], last["v"]))
+    x, y, u, v = (last[name][last["kind"] != particles.INFLOW] for name in "xyuv")
+    dots = axes.scatter(x, y, s=4, c=np.hypot(u, v))
     figure.colorbar(dots, label="speed [m/s]")
     axes.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
     axes.set_title("\n".join(textwrap.wrap(f"last good state, t = {last['time']:.6g} s. {title}", 90)), fontsize=7)

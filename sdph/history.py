@@ -34,7 +34,8 @@ def probe(simulation, point) -> dict[str, float]:
 
 
 def tracked(simulation) -> dict[str, float]:
-    """Place, velocity, temperatures and heat rates of the tracked particles (paper, figures 9 and 10); nan once gone."""
+    """Place, velocity, temperatures and heat rates of the tracked particles (paper, figures 9 and 10); nan before they come
+    in and once they are gone."""
     names = simulation.case.track
     if not names:
         return {}
@@ -51,7 +52,7 @@ def tracked(simulation) -> dict[str, float]:
         "convective_heat_W": received, "conductive_heat_W": conducted,
     }  # fmt: skip
     for ident in names:
-        place = np.flatnonzero(state.ident == ident)
+        place = np.flatnonzero((state.ident == ident) & (state.kind != particles.INFLOW))
         columns |= {
             f"particle_{ident}_{key}": float(values[place[0]]) if len(place) else math.nan
             for key, values in fields.items()

@@ -1,4 +1,4 @@
-"""What a jet of grains looks like, from the first nozzle of its case: how far it is, how it sags, how warm its core is."""
+"""What the jets of grains look like, each from its nozzle: how far it is, how it sags, how warm its core is."""
 
 from __future__ import annotations
 
@@ -7,23 +7,38 @@ import math
 import numpy as np
 
 from sdph import particles
-from sdph.effects.inflow import streams_of, unit
+from sdph.effects.streams import streams_of, unit
+from sdph.schema import CaseError
 
 HEAD = 2.0  # smoothing lengths: grains no further behind the front are the head
 CORE = 0.9  # of the nozzle's volume fraction: denser grains are the core
+TOLD = (  # of each jet
+    "front_m", "sag_m", "alpha_p_max", "core_temperature_K", "grain_temperature_min_K", "grain_temperature_max_K", "speed_max_m_s",
+)  # fmt: skip
 
 
 def metrics(simulation) -> dict[str, float]:
     """front_m along the nozzle's direction; sag_m of the head below its axis along gravity; temperatures [K] of grains and
-    core; vapour_mass_fraction_max; gas_temperature_K the coldest and hottest; diameter_m the smallest mean."""
+    core; vapour_mass_fraction_max; gas_temperature_K the coldest and hottest.
+
+    Of several nozzles, what is told of one jet has the nozzle's name in front: left_front_m.
+    """
     case, state = simulation.case, simulation.grains
+    if "inflow" not in case.effects:
+        raise CaseError("run.metrics holds 'jet', which tells of nozzles; add inflow to effects and a nozzle, or leave it out")
     row = {"grains": len(state.x)} | _gas(simulation.gas_state.fields)
-    none = dict.fromkeys(("front_m", "sag_m", "alpha_p_max", "core_temperature_K", "grain_temperature_min_K", "grain_temperature_max_K", "speed_max_m_s"), math.nan)
-    return row | (_grains(case, state) if len(state.x) else none)
+    for number, (name, nozzle) in enumerate(case.nozzles.items(), 1):
+        own = _jet(case, nozzle, particles.take(state, state.nozzle == number))
+        row |= own if len(case.nozzles) == 1 else {f"{name}_{key}": value for key, value in own.items()}
+    return row
 
 
-def _grains(case, state) -> dict[str, float]:
-    nozzle = next(iter(case.nozzles.values()))
+def _jet(case, nozzle, state) -> dict[str, float]:
+    """Of the grains that came from one nozzle; nan where there are none."""
+    return _grains(case, nozzle, state) if len(state.x) else dict.fromkeys(TOLD, math.nan)
+
+
+def _grains(case, nozzle, state) -> dict[str, float]:
     place = particles.positions(state)[:, : case.dimensions] - np.array(nozzle.centre)
     along = place @ unit(nozzle.direction)
     head = along >= along.max() - HEAD * case.smoothing_length

@@ -11,7 +11,7 @@ def bed(simulation) -> dict[str, float]:
     mesh, fields = simulation.gas.mesh, simulation.cell_fields()
     cells = (mesh.centres, mesh.volumes / mesh.depth, fields["alpha_p"], fields["temperature"], fields["pressure"])
     row = bubble.metrics(*(bubble.through_depth(simulation.case.domain.size[2], *cells) if mesh.dimensions == 3 else cells))
-    return row | {"alpha_p_max": float(simulation.state.density.max(initial=0.0) / simulation.case.grains.density)}
+    return row | {"alpha_p_max": float(simulation.grains.density.max(initial=0.0) / simulation.case.grains.density)}
 
 
 def bed_in_the_end(rows: list[dict]) -> dict[str, float]:

@@ -1,7 +1,8 @@
 """The run folder: what a run leaves behind, each file whole or not there.
 
-    case.toml origin.json ledger.csv history.csv metrics.csv run.pvd fields/particles_*.vtp fields/gas_*.vt?
-    fields/walls.vtp (of a tank or of a surface mesh) checkpoints/ gas/ (case and log); at the end summary.json, or failure.json
+    case.toml inputs/ (files that the case names: sdph.running.inputs) origin.json ledger.csv history.csv metrics.csv
+    run.pvd fields/particles_*.vtp fields/gas_*.vt? fields/walls.vtp (of a tank or of a surface mesh) checkpoints/
+    gas/ (case and log); at the end summary.json, or failure.json
 """
 
 from __future__ import annotations

@@ -13,7 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit, prange
 
-GRAIN, WALL, INFLOW = 0, 1, 2  # values of `kind`; INFLOW: still upstream of its nozzle
+# values of `kind`, of grains and liquids alike; INFLOW: still upstream of its nozzle. Files hold them: a new one is a new number
+GRAIN, WALL, LIQUID, GAS, INFLOW = range(5)
 
 
 class State(NamedTuple):
@@ -29,6 +30,8 @@ class State(NamedTuple):
     density: np.ndarray
     ident: np.ndarray
     kind: np.ndarray
+    nozzle: np.ndarray
+    entering: np.ndarray
     temperature: np.ndarray
     diameter: np.ndarray
     diameter_variance: np.ndarray
@@ -53,7 +56,9 @@ FIELDS = {
     "mass": ("kg", "mass, per metre of depth in two dimensions"),
     "density": ("kg/m3", "alpha_p rho_p, by summation"),
     "ident": ("1", "number that a particle keeps for life"),
-    "kind": ("1", "0 grain, 1 wall, 2 upstream of its nozzle"),
+    "kind": ("1", "0 grain, 1 wall, 2 liquid, 3 gas beside a liquid, 4 grain upstream of its nozzle"),
+    "nozzle": ("1", "number of the nozzle that it comes from, counted from 1; 0: of none"),
+    "entering": ("1", "1 until it is half a layer through its nozzle, then 0"),
     "temperature": ("K", "temperature of the grains"),
     "diameter": ("m", "number mean of the grain diameters"),
     "diameter_variance": ("m2", "number variance of the grain diameters"),
@@ -68,7 +73,7 @@ FIELDS = {
 }  # fmt: skip
 ALWAYS = ("x", "y", "u", "v", "mass", "density", "ident", "kind")
 IN_SPACE = {"z", "w", "contact_yz", "contact_zx"}  # of length zero in two dimensions
-INTEGERS = {"ident": np.int64, "kind": np.int8}
+INTEGERS = {"ident": np.int64, "kind": np.int8, "nozzle": np.int32, "entering": np.int8}
 
 
 def empty(count: int, names=ALWAYS, dimensions: int = 2) -> State:
@@ -179,6 +184,16 @@ def born(state: State) -> State:
     if len(state.born_mass):
         state.born_mass[:], state.born_diameter[:], state.born_variance[:] = state.mass, state.diameter, state.diameter_variance
     return state
+
+
+def wet(state: State) -> np.ndarray:
+    """Mask of the particles that move by the equations of liquids."""
+    return (state.kind == LIQUID) | (state.kind == GAS)
+
+
+def count(state: State) -> int:
+    """Particles that there are, less those upstream of a nozzle."""
+    return int((state.kind != INFLOW).sum())
 
 
 def grains(state: State) -> State:

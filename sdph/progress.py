@@ -5,6 +5,8 @@ from __future__ import annotations
 import sys
 import time
 
+from sdph import particles
+
 LINE_INTERVAL = 10.0  # s between plain lines
 REFRESH = 0.2  # s between changes of the line on a terminal
 
@@ -47,7 +49,7 @@ class Reporter:
         began, at = self.begun
         ledger, gas = simulation.ledger, simulation.gas and simulation.gas_state.budget.residuals
         parts = [f"t = {simulation.time:.4g} s", f"dt = {ledger.last['window_s']:.2e} s ({simulation.clock.limit})"]
-        parts.append(f"{len(simulation.state.x)} particles")
+        parts.append(f"{particles.count(simulation.state)} particles")
         if gas:
             parts.append("residual {1:.0e} ({0})".format(*max((item for item in gas.items() if item[0] != "box"), key=lambda item: item[1])))
         closure = {key: value for key, value in ledger.summary().items() if key.endswith(("drift_rel", "mismatch_rel"))}

@@ -1,7 +1,7 @@
 """Dataclasses read from and written to TOML: units in the key names, and errors that help.
 
 A field is declared `spacing: float = quantity("mm", above=0.0)`; in TOML its key is `spacing_mm`, in Python
-the attribute `spacing` holds SI. `choice`, `flag`, `words` and `vector` declare the other kinds of value.
+the attribute `spacing` holds SI. `choice`, `flag`, `words`, `file` and `vector` declare the other kinds of value.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ import dataclasses
 import difflib
 import math
 import sys
+from pathlib import Path
 from typing import Any
 
 # unit as written in a key -> factor to SI
@@ -76,6 +77,11 @@ def whole(default=REQUIRED, *, least=-math.inf):
     return _declare(Kind(least=least, of=int), default)
 
 
+def file(default=""):
+    """The path of a file, from the folder of the case file; none where it is empty."""
+    return _declare(Kind(of=Path), default)
+
+
 def words(default=REQUIRED):
     """A text, or a list of texts."""
     return _declare(Kind(of=str), default)
@@ -137,6 +143,8 @@ def _value(kind: Kind, value: Any, key: str) -> Any:
         return int(_bounded(kind, _typed(value, int, key, "a whole number"), key))
     if kind.of is str:
         return _words(value, key)
+    if kind.of is Path:
+        return _typed(value, str, key, "the path of a file, as a text")
     if kind.components == 0:
         return _bounded(kind, _number(value, key, kind), key) * UNITS[kind.unit]
     return _vector(kind, value, key)

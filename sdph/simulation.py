@@ -175,7 +175,7 @@ class Simulation:
         nothing; they stand in for the nearest place in the box."""
         places = particles.positions(self.state) + particles.velocities(self.state) * after
         if self.source:
-            waiting = self.state.kind >= INFLOW
+            waiting = self.state.kind == INFLOW
             size = (*self.case.domain.size, 0.0)[:3]
             places[waiting] = np.clip(places[waiting], 0.0, size)
         return self.transfer.weights(places)

@@ -176,13 +176,13 @@ class Stepper:
         granular_temperature.advance_all(
             self.parameters["granular_temperature"], self.state, agitation, damping, sheared.shear_squared, sheared.divergence, dt, theta, held
         )
-        moving = self.state.kind < INFLOW
+        moving = self.state.kind != INFLOW
         self.state.theta[moving], held[~moving] = theta[moving], 0.0
         self.bounds_work += float(1.5 * (self.state.mass * held).sum())
 
     def _hold_back(self, acceleration, agitation, heating, body) -> None:
         """Particles upstream of a nozzle feel nothing."""
-        waiting = self.state.kind >= INFLOW
+        waiting = self.state.kind == INFLOW
         acceleration[waiting] = -body[waiting]
         agitation[waiting] = heating[waiting] = 0.0
 
@@ -207,7 +207,7 @@ class Stepper:
         s = self.state
         moved = np.empty((len(s.x), 3))
         grain_shifting.shift(self.parameters["grain_shifting"], s, self.rows, self.neighbours.box, dt, moved)
-        moved[s.kind >= INFLOW] = 0.0
+        moved[s.kind == INFLOW] = 0.0
         for a, place in enumerate((s.x, s.y, s.z)):
             if len(place):
                 place += moved[:, a]

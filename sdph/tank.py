@@ -13,7 +13,6 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from sdph import particles
-from sdph.liquid import LIQUID
 from sdph.liquid.outlet import Outlet
 from sdph.liquid.step import LiquidStepper, loads
 from sdph.schema import CaseError
@@ -72,7 +71,7 @@ class Tank:
     def _momentum(self, rotation, omega, velocity, moved) -> np.ndarray:
         """(6,) of the liquid in the axes at the start, `rotation` (3, 3) from the tank's, which has `velocity` and has `moved`."""
         s = self.stepper.state
-        wet = s.kind >= LIQUID
+        wet = particles.wet(s)
         r, v, m = particles.positions(s)[wet], particles.velocities(s)[wet], s.mass[wet, None]
         p = m * ((v + np.cross(omega, r)) @ rotation.T + velocity)
         return np.concatenate([p.sum(axis=0), np.cross(r @ rotation.T + moved, p).sum(axis=0)])
@@ -90,14 +89,14 @@ class Tank:
         """(6,) force and moment of gravity on the liquid, where the case has any."""
         gravity = np.array(self.stepper.p["gravity"] or (0.0, 0.0, 0.0))
         s = self.stepper.state
-        wet = s.kind >= LIQUID
+        wet = particles.wet(s)
         return np.concatenate([self.mass * gravity, np.cross(s.mass[wet] @ particles.positions(s)[wet], gravity)])
 
     @property
     def mass(self) -> float:
         """Of the liquid [kg]."""
         s = self.stepper.state
-        return float(s.mass[s.kind >= LIQUID].sum())
+        return float(s.mass[particles.wet(s)].sum())
 
     def momentum(self, rotation, omega, velocity, place) -> np.ndarray:
         """(6,) momentum and angular momentum of the liquid in inertial axes, about their origin: `rotation` (3, 3) from the

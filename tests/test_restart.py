@@ -32,6 +32,10 @@ COARSE = {
     ),
 }  # fmt: skip
 SOON = "run.checkpoint_windows=4"
+SECOND = (  # faces the first, opens and closes on the way
+    "nozzles.second={shape='slot', centre_m=[1.0,1.3], width_m=0.3, direction=[-1.0,0.1], speed_m_s=20.0, volume_fraction=0.1, "
+    "temperature_K=300.0, start_s=0.01, end_s=0.05}",
+)  # fmt: skip
 
 
 class Cut(RuntimeError):
@@ -85,10 +89,12 @@ def same_run(one, other):
         ("disc_cluster", "embedded", 10, ()),
         ("bubbling_bed", "embedded", 10, ()),
         ("evaporating_jet", "embedded", 29, ()),
+        ("evaporating_jet", "embedded", 29, SECOND),
         pytest.param("disc_cluster", "openfoam", 10, (), marks=pytest.mark.openfoam),
         pytest.param("disc_cluster", "openfoam", 10, ("coupling.ranks=2",), marks=pytest.mark.openfoam),
         pytest.param("bubbling_bed", "openfoam", 10, (), marks=pytest.mark.openfoam),
         pytest.param("evaporating_jet", "openfoam", 29, (), marks=pytest.mark.openfoam),
+        pytest.param("evaporating_jet", "openfoam", 29, SECOND, marks=pytest.mark.openfoam),
     ],
 )
 def test_resumed_run_is_the_uninterrupted_one_bit_for_bit(tmp_path, scene, gas, after, more):
@@ -192,11 +198,11 @@ def test_another_case_is_refused_with_the_difference(cut, override, told):
         driver.resume(cut, (override,), Reporter())
 
 
-def test_another_version_is_refused(cut):
+@pytest.mark.parametrize(("change", "told"), [({"sdph": "0.0.0"}, "written with sdph 0.0.0"), ({"format": 2}, "written with format 2; this is 3")])
+def test_another_version_is_refused(cut, change, told):
     manifest = restart.newest(cut).folder / "manifest.json"
-    table = json.loads(manifest.read_text()) | {"sdph": "0.0.0"}
-    manifest.write_text(json.dumps(table))
-    with pytest.raises(CaseError, match="written with sdph 0.0.0"):
+    manifest.write_text(json.dumps(json.loads(manifest.read_text()) | change))
+    with pytest.raises(CaseError, match=told):
         driver.resume(cut, (), Reporter())
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit
 
 from sdph.effects.effect import Effect, Judgement
-from sdph.schema import CaseError, quantity, record, vector, words
+from sdph.schema import CaseError, file, quantity, record, vector
 
 COLUMNS = ("time_s", "ax_m_s2", "ay_m_s2", "az_m_s2", "wx_rad_s", "wy_rad_s", "wz_rad_s")
 
@@ -28,7 +28,7 @@ class Frame:
     shake: tuple = vector("", ())
     turn: tuple = vector("", ())
     spin: tuple = vector("rad_s", (0.0, 0.0, 0.0))  # constant angular velocity
-    table: str = words("")  # CSV file with the columns time_s, ax_m_s2 ... and wx_rad_s ...; linear between its rows
+    table: str = file()  # CSV file with the columns time_s, ax_m_s2 ... and wx_rad_s ...; linear between its rows
     start: float = quantity("s", 0.0, least=0.0)  # at rest before: time for the liquid to settle
     end: float | None = quantity("s", None, above=0.0)  # neither accelerated nor turning after
 

@@ -1,25 +1,28 @@
 """Grains that come in through nozzles: streams of particles that move at the nozzle's speed until they are through it.
 
-Upstream of each nozzle a few layers of particles wait on a lattice that ends at the mouth (`kind` INFLOW and up). They
-press and warm like others but feel nothing, so that the density at the mouth is that of the stream. Layer n of a stream
-is half a pitch further back than the last, `(n + 1/2) pitch` behind the mouth at the start: the mass that came in is
-the rate times time to within half a layer, whatever the steps.
+Upstream of each nozzle a few layers of particles wait on a lattice that ends at the mouth (`kind` INFLOW). They press
+and warm like others but feel nothing, so that the density at the mouth is that of the stream. Layer n of a stream is a
+pitch further back than the last, `(n + 1/2) pitch` behind the mouth at the start: the mass that came in is the rate
+times time to within half a layer, whatever the steps. `nozzle` says where a particle comes from, `entering` that it is
+not yet half a layer through the mouth: what other nozzles are near does not matter to it.
 """
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from sdph import particles
 from sdph.effects.effect import Effect, Judgement
+from sdph.effects.streams import Streams, layers_of, streams_of, unit
 from sdph.particles import GRAIN, INFLOW
 from sdph.schema import CaseError, choice, quantity, record, vector
 
 DEPTH = 4.0  # smoothing lengths of particles upstream: the density of those that the first grain sees is whole too
 ROUND_OFF = 1e-9  # of a layer
+ARRAYS = ("nozzle", "entering")
 
 
 @record
@@ -92,193 +95,149 @@ def _check(case, name: str, nozzle: Nozzle) -> None:
             raise CaseError(f"{where}.{key}_m is missing; a {nozzle.shape} in {case.dimensions} dimensions needs it")
     if nozzle.half_angle and nozzle.shape != "cone":
         raise CaseError(f"{where}.half_angle_deg is of a cone; shape = {nozzle.shape!r}")
-    alpha_p = streams_of(case, nozzle).alpha_p
+    streams = streams_of(case, nozzle)
+    _check_times(case, where, nozzle, streams)
+    alpha_p = streams.alpha_p
     if alpha_p > case.grains.packing_limit:
         raise CaseError(f"{where} makes a volume fraction of {alpha_p:.3g}, above grains.packing_limit = {case.grains.packing_limit}; slow down or widen it")
 
 
-def unit(vector_) -> np.ndarray:
-    """A vector of length 1."""
-    a = np.asarray(vector_, float)
-    return a / np.linalg.norm(a)
-
-
-class Streams(NamedTuple):
-    """S streams of one nozzle: places in the mouth (S, d) [m], axis (d,), speed along it (S,) [m/s], velocity at the mouth
-    (S, d), mass of a particle [kg], layer pitch [m], volume fraction."""
-
-    mouth: np.ndarray
-    axis: np.ndarray
-    speed: np.ndarray
-    velocity: np.ndarray
-    mass: float
-    pitch: float
-    alpha_p: float
-
-
-def streams_of(case, nozzle: Nozzle) -> Streams:
-    """The streams of a nozzle, on a lattice of the case's spacing that is fitted to the area of the mouth."""
-    spacing, axis = case.resolution.spacing, unit(nozzle.direction)
-    offsets, area, reach = _mouth(case, nozzle, axis)
-    distance = np.linalg.norm(offsets, axis=1)
-    speed = np.full(len(offsets), nozzle.speed)
-    if nozzle.profile == "parabolic":
-        along = np.abs(offsets @ _tangents(nozzle, axis)[0]) if nozzle.shape == "slot" else distance
-        speed = 1.0 - (along / reach) ** 2
-        speed *= nozzle.speed / speed.mean()
-    angle = nozzle.half_angle * distance / reach
-    outward = offsets / np.maximum(distance, 1e-300)[:, None]
-    velocity = speed[:, None] * (np.cos(angle)[:, None] * axis + np.sin(angle)[:, None] * outward)
-    speed = speed * np.cos(angle)
-    alpha_p = nozzle.volume_fraction or nozzle.rate / (case.grains.density * area * speed.mean())
-    mass = alpha_p * case.grains.density * area / len(offsets) * spacing
-    return Streams(np.array(nozzle.centre) + offsets, axis, speed, velocity, mass, spacing, alpha_p)
-
-
-def _tangents(nozzle: Nozzle, axis) -> list[np.ndarray]:
-    """Unit vectors in the plane of the mouth; the first along the width."""
-    if len(axis) == 2:
-        return [np.array([-axis[1], axis[0]])]
-    given = nozzle.across or np.eye(3)[np.argmin(np.abs(axis))]
-    first = unit(given - (np.asarray(given) @ axis) * axis)
-    return [first, np.cross(axis, first)]
-
-
-def _mouth(case, nozzle: Nozzle, axis) -> tuple[np.ndarray, float, float]:
-    """Offsets (S, d) [m] of the streams from the centre, area of the mouth [m2 or m], distance of its rim [m]."""
-    spacing, tangents = case.resolution.spacing, _tangents(nozzle, axis)
-    if nozzle.shape == "slot" or case.dimensions == 2:
-        sizes = (nozzle.width, nozzle.length) if nozzle.shape == "slot" else (2.0 * nozzle.radius,)
-        sizes = sizes[: len(tangents)]
-        ticks = [_ticks(size, spacing) for size in sizes]
-        grid = np.stack([m.ravel() for m in np.meshgrid(*ticks, indexing="ij")], axis=1)
-        return grid @ np.stack(tangents), math.prod(sizes), 0.5 * sizes[0]
-    n = math.ceil(nozzle.radius / spacing) + 1
-    ticks = (np.arange(-n, n) + 0.5) * spacing
-    grid = np.stack([m.ravel() for m in np.meshgrid(ticks, ticks, indexing="ij")], axis=1)
-    grid = grid[(grid**2).sum(axis=1) <= nozzle.radius**2]
-    if not len(grid):
-        raise CaseError(f"resolution.spacing_mm = {spacing * 1e3:g} is too coarse for a nozzle of radius {nozzle.radius * 1e3:g} mm; give it less")
-    area = math.pi * nozzle.radius**2
-    return grid * math.sqrt(area / len(grid)) / spacing @ np.stack(tangents), area, nozzle.radius
-
-
-def _ticks(size: float, spacing: float) -> np.ndarray:
-    count = max(1, round(size / spacing))
-    return size * ((np.arange(count) + 0.5) / count - 0.5)
+def _check_times(case, where: str, nozzle: Nozzle, streams: Streams) -> None:
+    """What a nozzle gives in the time in which it is open must be a layer of particles at least."""
+    if nozzle.end is None:
+        return
+    given = f"{where} is open from start_s = {nozzle.start:g} to end_s = {nozzle.end:g}"
+    if nozzle.end <= nozzle.start:
+        raise CaseError(f"{given}; its end must come after its start")
+    if not layers_of(nozzle, streams).any():
+        way = (nozzle.end - nozzle.start) * streams.speed.max()
+        least = f"less than half of resolution.spacing_mm = {case.resolution.spacing * 1e3:g}"
+        raise CaseError(f"{given}: its grains go {way * 1e3:.3g} mm, {least}; open it longer or take a finer spacing")
 
 
 class Source:
-    """The nozzles of a case as they run: how many layers each stream has made, and what came in so far."""
+    """The nozzles of a case as they run: how many layers each stream has made, and what came in so far.
+
+    Streams of all nozzles stand one after the other, S of them; `of` (S,) is the nozzle of each, counted from 0.
+    """
 
     KEPT = ("layers", "next_ident", "mass", "energy", "momentum")  # see sdph.restart
 
     def __init__(self, case, names, first_ident: int):
-        self.case, self.names = case, names
+        self.case, self.names, self.pitch = case, {*names, *ARRAYS}, case.resolution.spacing
         self.nozzles = list(case.nozzles.values())
         self.streams = [streams_of(case, nozzle) for nozzle in self.nozzles]
-        self.reach = [
-            np.linalg.norm(s.mouth - np.array(n.centre), axis=1).max() + s.pitch for s, n in zip(self.streams, self.nozzles)
-        ]
-        self.layers = [np.zeros(len(streams.speed), np.int64) for streams in self.streams]
-        self.next_ident = first_ident
+        self.of = np.repeat(np.arange(len(self.streams)), [len(s.speed) for s in self.streams])
+        self.mouth = np.concatenate([s.mouth for s in self.streams])
+        self.speed = np.concatenate([s.speed for s in self.streams])
+        self.most = np.concatenate([layers_of(n, s) for n, s in zip(self.nozzles, self.streams)])
+        self.centre, self.start = np.array([n.centre for n in self.nozzles]), np.array([n.start for n in self.nozzles])
+        self.axis = np.stack([s.axis for s in self.streams])
+        widths = [np.linalg.norm(s.mouth - n.centre, axis=1).max() for n, s in zip(self.nozzles, self.streams)]
+        self.reach = np.array(widths) + self.pitch
+        self.values = {name: np.array(column) for name, column in self._columns().items()}
+        self.trees = [cKDTree(s.mouth) for s in self.streams]
+        self.layers, self.next_ident = np.zeros(len(self.of), np.int64), first_ident
         self.mass, self.energy, self.momentum = 0.0, 0.0, np.zeros(3)  # through the mouths [kg], [J], [kg m/s]
+
+    def _columns(self) -> dict[str, list]:
+        """Array of the state -> what a particle of each nozzle has there."""
+        grains = self.case.grains
+        spread = [grains.diameter_std if n.diameter_std is None else n.diameter_std for n in self.nozzles]
+        return {
+            "mass": [s.mass for s in self.streams],
+            "density": [s.alpha_p * grains.density for s in self.streams],
+            "nozzle": list(range(1, len(self.nozzles) + 1)),
+            "temperature": [n.temperature for n in self.nozzles],
+            "diameter": [n.diameter or grains.diameter for n in self.nozzles],
+            "diameter_variance": [std**2 for std in spread],
+        }
 
     def fill(self, state, time: float, dt: float):
         """The state with the layers that the window from `time` of `dt` [s] needs."""
-        for k in range(len(self.nozzles)):
-            fresh = self._fresh(k, time, dt)
-            state = particles.join(state, fresh) if len(fresh.x) else state
-        return state
-
-    def _fresh(self, k: int, time: float, dt: float):
-        nozzle, streams = self.nozzles[k], self.streams[k]
-        gone = streams.speed * (time - nozzle.start)
-        depth = DEPTH * self.case.smoothing_length + streams.speed * dt
-        wanted = np.floor((depth + gone) / streams.pitch - 0.5 + ROUND_OFF).astype(np.int64) + 1
-        if nozzle.end is not None:
-            wanted = np.minimum(wanted, np.round(streams.speed * (nozzle.end - nozzle.start) / streams.pitch).astype(np.int64))
-        made, more = self.layers[k], np.maximum(0, wanted - self.layers[k])
+        gone = self.speed * (time - self.start[self.of])
+        depth = DEPTH * self.case.smoothing_length + self.speed * dt
+        wanted = np.floor((depth + gone) / self.pitch - 0.5 + ROUND_OFF).astype(np.int64) + 1
+        more = np.maximum(0, np.minimum(wanted, self.most) - self.layers)
+        if not more.any():
+            return state
         stream = np.repeat(np.arange(len(more)), more)
-        layer = np.concatenate([np.arange(a, a + n) for a, n in zip(made, more)]) if more.sum() else np.zeros(0)
-        self.layers[k] = made + more
-        place = gone[stream] - (layer + 0.5) * streams.pitch
-        return self._particles(k, streams.mouth[stream] + place[:, None] * streams.axis, streams.speed[stream, None] * streams.axis)
+        layer = np.arange(len(stream)) - (np.cumsum(more) - more - self.layers)[stream]
+        self.layers = self.layers + more
+        place = gone[stream] - (layer + 0.5) * self.pitch
+        axis = self.axis[self.of[stream]]
+        points = self.mouth[stream] + place[:, None] * axis
+        return particles.join(state, self._particles(self.of[stream], points, self.speed[stream, None] * axis))
 
-    def _particles(self, k: int, points, velocity):
-        nozzle, grains, d = self.nozzles[k], self.case.grains, self.case.dimensions
-        state = particles.empty(len(points), self.names, d)
+    def _particles(self, nozzle, points, velocity):
+        """Particles (n,) of the nozzles (n,), counted from 0."""
+        state = particles.empty(len(points), self.names, self.case.dimensions)
         for array, column in zip(particles.axes(state), points.T):
             array[:] = column
-        for array, column in zip((state.u, state.v, state.w)[:d], velocity.T):
+        for array, column in zip((state.u, state.v, state.w), velocity.T):
             array[:] = column
-        values = {
-            "mass": self.streams[k].mass,
-            "density": self.streams[k].alpha_p * grains.density,
-            "kind": INFLOW + k,
-            "temperature": nozzle.temperature,
-            "diameter": nozzle.diameter or grains.diameter,
-            "diameter_variance": (grains.diameter_std if nozzle.diameter_std is None else nozzle.diameter_std) ** 2,
-            "theta": grains.granular_temperature,
-        }
-        for name, value in values.items():
-            getattr(state, name)[:] = value
+        for name, values in self.values.items():
+            if len(getattr(state, name)):
+                getattr(state, name)[:] = values[nozzle]
+        state.kind[:], state.entering[:], state.theta[:] = INFLOW, 1, self.case.grains.granular_temperature
         state.ident[:] = np.arange(self.next_ident, self.next_ident + len(points))
         self.next_ident += len(points)
         return particles.born(state)
-
-    def waiting(self, state) -> np.ndarray:
-        """Mask of the particles that are upstream of their mouth."""
-        mask = np.zeros(len(state.x), bool)
-        for k in range(len(self.streams)):
-            rows = np.flatnonzero(state.kind == INFLOW + k)
-            if len(rows):
-                mask[rows] = self._beyond(k, particles.positions(state)[rows])[0] <= 0.0
-        return mask
 
     def inside(self, state, after: float = 0.0) -> np.ndarray:
         """Share of each particle (N,) that will be through its mouth when `after` [s] has gone.
 
         A particle stands for a layer one pitch long, which comes in bit by bit: so the gas is displaced at an even
-        rate, and not by a whole layer in the window in which its middle passes.
+        rate, and not by a whole layer in the window in which its middle passes. A grain that has come in stays half in
+        at least.
         """
-        share = np.ones(len(state.x))
-        places = particles.positions(state) + after * particles.velocities(state)
-        for k, streams in enumerate(self.streams):
-            rows = np.flatnonzero((state.kind == INFLOW + k) | (state.kind == GRAIN))
-            along, aside = self._beyond(k, places[rows])
-            near = (np.abs(along) < 0.5 * streams.pitch) & (aside <= self.reach[k])
-            share[rows[near]] = along[near] / streams.pitch + 0.5
-            behind = (state.kind[rows] >= INFLOW) & (along <= -0.5 * streams.pitch)
-            share[rows[behind]] = 0.0
+        share, rows = np.ones(len(state.x)), np.flatnonzero(state.entering)
+        along, _ = self._beyond(state.nozzle[rows] - 1, _places(state, rows, after))
+        share[rows] = np.clip(along / self.pitch + 0.5, np.where(state.kind[rows] == INFLOW, 0.0, 0.5), 1.0)
         return share
 
-    def _beyond(self, k: int, places) -> tuple[np.ndarray, np.ndarray]:
-        """Distances [m] of places (n, 3) beyond the mouth of nozzle k, and from its axis."""
-        apart = places[:, : self.case.dimensions] - np.array(self.nozzles[k].centre)
-        along = apart @ self.streams[k].axis
-        return along, np.linalg.norm(apart - np.outer(along, self.streams[k].axis), axis=1)
+    def _beyond(self, nozzle, places) -> tuple[np.ndarray, np.ndarray]:
+        """Distances [m] of places (n, 3) beyond the mouths of their nozzles (n,) or of one, counted from 0, and from its
+        axis."""
+        apart, axis = places[:, : self.case.dimensions] - self.centre[nozzle], self.axis[nozzle]
+        along = (apart * axis).sum(axis=1)
+        return along, np.linalg.norm(apart - along[:, None] * axis, axis=1)
 
     def release(self, state) -> None:
-        """Let go of the particles that are through their mouth, with the direction of their stream."""
-        through = (state.kind >= INFLOW) & ~self.waiting(state)
-        if not through.any():
+        """Let go of the particles that are through their mouth, with the velocity of their stream.
+
+        Those that are half a layer away from it have entered, whatever they do later.
+        """
+        rows = np.flatnonzero(state.entering)
+        places = _places(state, rows)
+        along, aside = self._beyond(state.nozzle[rows] - 1, places)
+        through = (state.kind[rows] == INFLOW) & (along > 0.0)
+        self._let_go(state, rows[through], places[through, : self.case.dimensions])
+        away = (np.abs(along) >= 0.5 * self.pitch) | (aside > self.reach[state.nozzle[rows] - 1])
+        state.entering[rows[away & (state.kind[rows] == GRAIN)]] = 0
+
+    def _let_go(self, state, rows, places) -> None:
+        """Make grains of particles (n,) that are at places (n, d), and count them."""
+        if not len(rows):
             return
-        d = self.case.dimensions
-        for k in np.unique(state.kind[through]) - INFLOW:
-            rows = np.flatnonzero(through & (state.kind == INFLOW + k))
-            streams = self.streams[k]
-            offset = particles.positions(state)[rows, :d] - np.array(self.nozzles[k].centre)
-            offset -= np.outer(offset @ streams.axis, streams.axis)
-            nearest = ((offset[:, None] + np.array(self.nozzles[k].centre) - streams.mouth[None]) ** 2).sum(axis=2).argmin(axis=1)
-            for array, column in zip((state.u, state.v, state.w)[:d], streams.velocity[nearest].T):
-                array[rows] = column
-        state.kind[through] = GRAIN
-        velocity = particles.velocities(state)[through]
-        self.mass += float(state.mass[through].sum())
-        if len(state.temperature):
-            self.energy += float((state.mass[through] * state.temperature[through]).sum() * self.case.grains.heat_capacity)
-        self.momentum = self.momentum + (state.mass[through, None] * velocity).sum(axis=0)
+        nozzle = state.nozzle[rows] - 1
+        for k in np.unique(nozzle):
+            own = nozzle == k
+            velocity = self.streams[k].velocity[self.trees[k].query(places[own])[1]]
+            for array, column in zip((state.u, state.v, state.w), velocity.T):
+                array[rows[own]] = column
+        state.kind[rows] = GRAIN
+        out = particles.take(state, rows)
+        self.mass += float(out.mass.sum())
+        if len(out.temperature):
+            self.energy += float((out.mass * out.temperature).sum() * self.case.grains.heat_capacity)
+        self.momentum = self.momentum + (out.mass[:, None] * particles.velocities(out)).sum(axis=0)
+
+
+def _places(state, rows, after: float = 0.0) -> np.ndarray:
+    """(n, d) positions [m] of some particles when `after` [s] has gone."""
+    moving = zip(particles.axes(state), (state.u, state.v, state.w))
+    return np.stack([place[rows] + after * speed[rows] for place, speed in moving], axis=1)
 
 
 def call(scales) -> Judgement:
@@ -287,4 +246,4 @@ def call(scales) -> Judgement:
     return Judgement("nozzles", float(count), 1.0, "the case", float(count > 0))
 
 
-EFFECT = Effect(name="inflow", summary="grains that come in through nozzles", parameters=Inflow, kernel=kernel, moves=True, call=call)
+EFFECT = Effect(name="inflow", summary="grains that come in through nozzles", parameters=Inflow, kernel=kernel, arrays=ARRAYS, moves=True, call=call)

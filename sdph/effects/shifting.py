@@ -13,7 +13,6 @@ from numba import njit
 
 from sdph import smoothing
 from sdph.effects.effect import Effect, Judgement
-from sdph.liquid import GAS, LIQUID
 from sdph.schema import choice, flag, quantity, record
 
 CROWDING, POWER_OF = 0.2, 4  # R and n of the term that separates pairs, Monaghan 2000, J. Comput. Phys. 159, 290
@@ -41,13 +40,13 @@ class Shifting:
 
 class ShiftingP(NamedTuple):
     """Displacement for a gradient of concentration of 1/m and a second [m2/s]; largest speed of a shift [m/s]; 1/W(dx);
-    1 with tension control; smallest `State.kind` that is shifted."""
+    1 with tension control; 1 where the liquid is shifted too, 0 where the gas alone is."""
 
     strength: float
     largest: float
     inverse: float
     tension: float
-    lightest: float
+    liquid: float
 
 
 def kernel(case) -> ShiftingP:
@@ -57,13 +56,13 @@ def kernel(case) -> ShiftingP:
     dt of the sound limit and p_b = strength rho c^2.
     """
     own, h = case.parameters["shifting"], case.smoothing_length
-    lightest = float(GAS if own.phases == "gas" else LIQUID)
+    liquid = float(own.phases == "both")
     if own.form == "transport_velocity":
-        return ShiftingP(2.0 * own.strength * case.liquid.courant * h * case.liquid.sound_speed, case.liquid.fastest, 0.0, 0.0, lightest)
+        return ShiftingP(2.0 * own.strength * case.liquid.courant * h * case.liquid.sound_speed, case.liquid.fastest, 0.0, 0.0, liquid)
     kernel_ = smoothing.smoothing(case.liquid.kernel, case.dimensions, h)
     speed = case.liquid.fastest
     peak = smoothing.value.py_func(kernel_, case.resolution.spacing)
-    return ShiftingP(own.strength * 2.0 * h * speed, 0.5 * speed, 1.0 / peak, float(own.tension_control and case.gas_phase is None), lightest)
+    return ShiftingP(own.strength * 2.0 * h * speed, 0.5 * speed, 1.0 / peak, float(own.tension_control and case.gas_phase is None), liquid)
 
 
 @njit(cache=True, error_model="numpy")

@@ -10,7 +10,7 @@ import numpy as np
 from sdph.boundary import SIDES
 from sdph.effects.effect import Effect, Judgement
 from sdph.liquid import phases, shapes
-from sdph.schema import CaseError, choice, quantity, record, vector, words
+from sdph.schema import CaseError, choice, file, quantity, record, vector, words
 
 
 @record
@@ -23,7 +23,7 @@ class Tank:
     centre: tuple | None = vector("m", None)
     radius: float | None = quantity("m", None, above=0.0)
     length: float = quantity("m", 0.0, least=0.0)  # of the cylinder, or of the capsule's straight part
-    mesh: str = words("")
+    mesh: str = file()
     open_sides: tuple = words(())
     slip: str = choice("no_slip", "free_slip")
     suction: str = choice("none", "full")  # whether a wall can pull, with a pressure below 0

@@ -18,7 +18,7 @@ from numba import njit
 from sdph.effects.effect import Effect, Judgement
 from sdph.laws import granular, kernels
 from sdph.neighbours import nearest_image
-from sdph.schema import choice, quantity, record, words
+from sdph.schema import choice, file, quantity, record
 
 MODELS = ("dummy", "paper")
 NO_SLIP = -1.0
@@ -31,7 +31,7 @@ class Walls:
     specularity: float | None = quantity("", None, least=0.0, most=1.0)  # share of collisions that are diffuse; None: no slip
     restitution: float = quantity("", 0.0, least=0.0, most=1.0)  # of a contact; SPH particles are many grains: no bounce
     penalty: float = quantity("", 1.0, above=0.0)  # eps of the paper's force in grain densities times sqrt(g h)/h; not given there
-    mesh: str = words("")  # surface mesh that meshio reads, in metres, normals towards the grains
+    mesh: str = file()  # surface mesh that meshio reads, in metres, normals towards the grains
 
 
 class WallsP(NamedTuple):

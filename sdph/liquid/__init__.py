@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from sdph.particles import GAS, LIQUID
 from sdph.schema import choice, quantity, record, vector
 from sdph.smoothing import NAMES
 
-LIQUID, GAS = 2, 3  # values of `State.kind`; kinds from LIQUID on move by the equations of liquids
+__all__ = ["GAS", "LIQUID", "GasPhase", "Liquid", "Pool"]
 
 
 @record

@@ -7,7 +7,7 @@ from numba import njit, prange
 
 from sdph import smoothing
 from sdph.effects import shifting, xsph
-from sdph.liquid import phases
+from sdph.liquid import GAS, phases
 from sdph.liquid.pairs import FAST, apart, faster, smallest, solved
 from sdph.neighbours import length
 
@@ -115,7 +115,7 @@ def displace(p, active, kind, shift, gradient_x, gradient_y, gradient_z, twist, 
         i = active[n]
         dx, dy, dz = -p.strength * shift[i, 0], -p.strength * shift[i, 1], -p.strength * shift[i, 2]
         speed = np.sqrt(dx * dx + dy * dy + dz * dz)
-        scale = dt * min(1.0, p.largest / speed) if speed > 0.0 and kind[i] >= p.lightest else 0.0
+        scale = dt * min(1.0, p.largest / speed) if speed > 0.0 and (p.liquid > 0.0 or kind[i] == GAS) else 0.0
         dx, dy, dz = scale * dx, scale * dy, scale * dz
         x[i] += dx
         y[i] += dy

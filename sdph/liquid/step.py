@@ -190,7 +190,7 @@ class LiquidStepper:
     def _tell_apart(self) -> None:
         """Liquid particles, those of the walls that liquid is near, and arrays that no step takes from the last."""
         s = self.state
-        self.active = np.flatnonzero(s.kind >= LIQUID).astype(np.int32)
+        self.active = np.flatnonzero(particles.wet(s)).astype(np.int32)
         self.walls = np.flatnonzero((s.kind == WALL) & (self.rows.count > 0)).astype(np.int32)
         self.rate = np.zeros(len(s.x))
         near = len(s.x) if self.p["surface_tension"] else 0
@@ -275,4 +275,4 @@ def fluids(case) -> np.ndarray:
 def kinetic_energy(state) -> float:
     """Of the liquid [J], per metre of depth in two dimensions."""
     speed2 = (particles.velocities(state) ** 2).sum(axis=1)
-    return float(0.5 * (state.mass * speed2)[state.kind >= LIQUID].sum())
+    return float(0.5 * (state.mass * speed2)[particles.wet(state)].sum())

@@ -43,7 +43,7 @@ class Measures(Extremes):
 
     def window(self, simulation) -> None:
         """After a window. The box around the grains that each region began with is kept as NAME_x_m and so on."""
-        s, fields, density = simulation.state, simulation.gas_state.fields, self.case.grains.density
+        s, fields, density = simulation.grains, simulation.gas_state.fields, self.case.grains.density
         speed = np.sqrt((particles.velocities(s) ** 2).sum(axis=1))
         self._take("speed_m_s", speed)
         self._take("alpha_p", s.density / density)

@@ -1,0 +1,131 @@
+"""Files that a case names: looked at before a run begins, and kept in its folder, so that it needs nothing else.
+
+    RUN/inputs/walls.mesh/plate.stl   a file, under its key
+    RUN/inputs/gas/                   the OpenFOAM case that the gas began with
+
+In a case file a path is taken from the folder of that file, after --set from the working directory (`case.load`). A
+`Case` holds absolute paths; RUN/case.toml and the checkpoints name the copies by their way from RUN.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+import io
+import os
+import shutil
+import tomllib
+import warnings
+from pathlib import Path
+
+import tomli_w
+
+from sdph import case as cases
+from sdph import boundary, output
+from sdph.effects import frame, tank
+from sdph.schema import CaseError
+
+FOLDER = "inputs"
+FROM = "in a case file a path is taken from the folder of that file, after --set from the working directory"
+READERS = {  # key -> what the run makes of its file
+    "walls.mesh": lambda case: boundary.surface(case.parameters["walls"].mesh, case.dimensions),
+    "tank.mesh": lambda case: tank.shape_of(case).surface(),
+    "frame.table": lambda case: frame.motion(case.parameters["frame"]),
+}
+
+
+def named(case) -> dict[str, str]:
+    """Key -> path of the files that a case names."""
+    found = {}
+    for section, key in cases.FILES:
+        path = getattr(case.parameters.get(section), key, "")
+        found |= {f"{section}.{key}": path} if path else {}
+    return found
+
+
+def check(case) -> None:
+    """CaseError where a file that a case names is missing or cannot be read."""
+    for key, path in named(case).items():
+        if not os.path.isfile(path):
+            raise CaseError(f"{key} = {path!r}: there is no such file; {FROM}")
+        try:
+            with _silence():
+                READERS[key](case)
+        except CaseError:
+            raise
+        except Exception as error:  # whatever the parsers of meshio stumble on
+            told = " ".join(str(error).split())
+            raise CaseError(f"{key} = {path!r} cannot be read ({told}); give a file that is whole") from None
+
+
+@contextlib.contextmanager
+def _silence():
+    """Keeps what meshio prints and warns of from the terminal: the error says it."""
+    nowhere = io.StringIO()
+    with warnings.catch_warnings(), contextlib.redirect_stdout(nowhere), contextlib.redirect_stderr(nowhere):
+        warnings.simplefilter("ignore")
+        yield
+
+
+def keep(case, folder: Path):
+    """The case with copies of its files in a run folder in place of what it names."""
+    return _with_paths(case, {key: _copied(key, Path(path), folder) for key, path in named(case).items()})
+
+
+def _copied(key: str, source: Path, folder: Path) -> str:
+    target = Path(os.path.abspath(folder / _place(key, source)))
+    target.parent.mkdir(parents=True, exist_ok=True)
+    if not (target.exists() and target.samefile(source)):
+        shutil.copyfile(source, target)
+    return str(target)
+
+
+def _place(key: str, source: Path) -> str:
+    """Where a file is kept, from the run folder."""
+    return f"{FOLDER}/{key}/{source.name}"
+
+
+def seen_from(case, folder: Path):
+    """The case with files in a run folder named by their way from there, as it is written down."""
+    base = os.path.abspath(folder)
+    inside = {key: path for key, path in named(case).items() if Path(path).is_relative_to(base)}
+    return _with_paths(case, {key: Path(path).relative_to(base).as_posix() for key, path in inside.items()})
+
+
+def _with_paths(case, paths_: dict[str, str]):
+    """The case with other paths, key -> path."""
+    parameters = dict(case.parameters)
+    for key, path in paths_.items():
+        section, name = key.split(".")
+        parameters[section] = dataclasses.replace(parameters[section], **{name: path})
+    return dataclasses.replace(case, parameters=parameters)
+
+
+def gas_of(folder: Path) -> Path:
+    """The OpenFOAM case that the gas of a run began with: one that was cut at its start begins again from there."""
+    return folder / FOLDER / "gas"
+
+
+def keep_gas(template: Path, folder: Path) -> None:
+    """Copy the OpenFOAM case of the gas into a run folder."""
+    try:
+        shutil.copytree(template, gas_of(folder))
+    except shutil.Error as error:  # of several files, each with its reason
+        source, _, reason = error.args[0][0]
+        raise CaseError(f"{source} cannot be copied ({reason}); mend the OpenFOAM case {template}") from None
+
+
+def copy_case(file: Path, folder: Path) -> None:
+    """case.toml in a new folder, with copies of the files that it names."""
+    text = file.read_text(encoding="utf-8")
+    table = tomllib.loads(text)
+    for section, key in cases.FILES:
+        value = table.get(section, {}).get(key)
+        if value:
+            source = file.parent / value
+            table[section][key] = _place(f"{section}.{key}", source)
+            text = text.replace(f'"{value}"', f'"{table[section][key]}"')
+            _copied(f"{section}.{key}", source, folder)
+    if tomllib.loads(text) != table:  # a value written in another way: comments are lost
+        text = tomli_w.dumps(table)
+    output.write_text(folder / output.MARK, text)

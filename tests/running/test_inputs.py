@@ -1,0 +1,158 @@
+"""A run folder holds all that its run needs: it can be moved, looked at and gone on with where its case is no more."""
+
+import json
+import shutil
+
+import meshio
+import numpy as np
+import pytest
+import tomli_w
+from test_cli import refused  # noqa: F401  (`refused` is a fixture)
+from test_restart import Cut, Reporter
+
+from sdph import case as cases
+from sdph import cli, driver
+from sdph.schema import CaseError
+
+AIR = {"density_kg_m3": 1.2, "viscosity_Pa_s": 1.8e-5, "conductivity_W_m_K": 0.025, "heat_capacity_J_kg_K": 1006.0, "temperature_K": 300.0}
+SAND = {"density_kg_m3": 2500.0, "diameter_mm": 1.0, "heat_capacity_J_kg_K": 800.0, "conductivity_W_m_K": 1.0}
+GRAINS = {
+    "title": "grains fall on a plate", "dimensions": 2, "effects": ["gravity", "drag", "walls", "granular_pressure"],
+    "run": {"end_time_s": 0.004, "output_interval_s": 0.002}, "coupling": {"window_largest_s": 0.001},
+    "domain": {"size_m": [0.2, 0.2], "gravity_m_s2": [0.0, -9.81]}, "resolution": {"spacing_mm": 10.0, "cell_mm": 50.0},
+    "gas": AIR, "grains": SAND, "boundaries": {"sides": {"kind": "slip_wall"}}, "walls": {"mesh": "shapes/plate.vtk"},
+    "particles": {"cloud": {"shape": "box", "lower_m": [0.05, 0.11], "upper_m": [0.15, 0.16], "volume_fraction": 0.2, "temperature_K": 300.0}},
+}  # fmt: skip
+LIQUID = {
+    "title": "a tank that is shaken", "dimensions": 2, "effects": ["gravity", "frame", "tank"],
+    "run": {"end_time_s": 0.004, "output_interval_s": 0.002}, "domain": {"size_m": [0.2, 0.2], "gravity_m_s2": [0.0, -9.81]},
+    "resolution": {"spacing_mm": 20.0}, "liquid": {"density_kg_m3": 1000.0, "viscosity_Pa_s": 0.001, "sound_speed_m_s": 20.0},
+    "pools": {"water": {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.2, 0.1]}},
+    "tank": {"shape": "box"}, "frame": {"table": "shapes/motion.csv"},
+}  # fmt: skip
+MOTION = "time_s,ax_m_s2,ay_m_s2,az_m_s2,wx_rad_s,wy_rad_s,wz_rad_s\n0,0,0,0,0,0,0\n0.1,1,0,0,0,0,0\n"
+EMBEDDED = ("--gas", "embedded")
+
+
+def write_case(folder, table, **more):
+    """A case folder with a plate and a motion in shapes/."""
+    (folder / "shapes").mkdir(parents=True)
+    places = np.array([[0.02, 0.1, 0.0], [0.18, 0.1, 0.0]])
+    meshio.write_points_cells(folder / "shapes" / "plate.vtk", places[::-1], [("line", np.array([[0, 1]]))])
+    (folder / "shapes" / "motion.csv").write_text(MOTION)
+    (folder / "case.toml").write_text(tomli_w.dumps(table | more))
+    return folder
+
+
+@pytest.mark.parametrize(("table", "gas", "kept"), [
+    (GRAINS, EMBEDDED, "inputs/walls.mesh/plate.vtk"),
+    (LIQUID, (), "inputs/frame.table/motion.csv"),
+    pytest.param(GRAINS, ("--gas", "openfoam"), "inputs/walls.mesh/plate.vtk", marks=pytest.mark.openfoam),
+])  # fmt: skip
+def test_a_run_folder_can_go_anywhere(tmp_path, monkeypatch, table, gas, kept):
+    """Run from elsewhere, move it, take its case away: report, view and resume work, as if it had not been moved."""
+    own, (one, other) = write_case(tmp_path / "mine", table), [tmp_path / name for name in ("here", "there")]
+    one.mkdir(), other.mkdir()
+    if "openfoam" in gas:
+        shutil.copytree(driver.paths.gas_template(""), own / "gas")
+    monkeypatch.chdir(one)
+    assert cli.main(["run", "../mine", *gas, "--out", "whole", "--json"]) == 0
+    assert cli.main(["run", "../mine", *gas, "--out", "part", "--json", "--until", "0.002"]) == 0
+    shutil.rmtree(own)
+    (one / "part").rename(other / "moved")
+    text = (other / "moved" / "case.toml").read_text()
+    assert kept in text and str(own) not in text and (other / "moved" / kept).is_file()
+    monkeypatch.chdir(tmp_path)
+    assert cli.main(["report", "there/moved"]) == 0
+    assert cli.main(["view", "there/moved", "--png", "moved.png"]) == 0
+    assert cli.main(["run", "--resume", "there/moved", "--json", "--until", "0.004"]) == 0
+    for name in ("ledger.csv", "history.csv"):
+        assert (other / "moved" / name).read_bytes() == (one / "whole" / name).read_bytes()
+
+
+@pytest.mark.openfoam
+def test_a_run_that_was_cut_at_its_start_begins_again_without_its_case(tmp_path):
+    """With its own OpenFOAM case, not that of the template."""
+    own = write_case(tmp_path / "mine", GRAINS, coupling={"gas": "openfoam", "window_largest_s": 0.001})
+    shutil.copytree(driver.paths.gas_template(""), own / "gas")
+    (own / "gas" / "system" / "mine").write_text("// mine\n")
+    with pytest.raises(Cut):
+        driver.run(cases.load(own / "case.toml"), "mine", tmp_path / "cut", own / "gas", Reporter(1))
+    shutil.rmtree(own)
+    shutil.rmtree(tmp_path / "cut" / "checkpoints")
+    (tmp_path / "cut").rename(tmp_path / "moved")
+    driver.resume(tmp_path / "moved", (), Reporter())
+    assert (tmp_path / "moved" / "gas" / "system" / "mine").is_file()
+    assert json.loads((tmp_path / "moved" / "summary.json").read_text())["time_s"] == 0.004
+
+
+def test_a_file_after_set_is_taken_from_the_working_directory(tmp_path, monkeypatch):
+    own = write_case(tmp_path / "mine", GRAINS)
+    other = write_case(tmp_path / "other", GRAINS)
+    monkeypatch.chdir(other)
+    assert cases.load("../mine/case.toml").parameters["walls"].mesh == str(own / "shapes" / "plate.vtk")
+    chosen = cases.load("../mine/case.toml", ("walls.mesh=shapes/plate.vtk",))
+    assert chosen.parameters["walls"].mesh == str(other / "shapes" / "plate.vtk")
+
+
+def test_another_file_is_another_case(tmp_path):
+    own = write_case(tmp_path / "mine", GRAINS)
+    case = cases.load(own / "case.toml", ("coupling.gas='embedded'", "run.end_time_s=0.001"))
+    driver.run(case, "mine", tmp_path / "run", None, Reporter())
+    with pytest.raises(CaseError, match="walls.mesh was inputs/walls.mesh/plate.vtk and is /.*mine/shapes/plate.vtk"):
+        driver.resume(tmp_path / "run", (f"walls.mesh={own}/shapes/plate.vtk", "run.end_time_s=0.002"), Reporter())
+
+
+HARM = [
+    ("missing", None, "no such file"),
+    ("folder", None, "no such file"),
+    ("empty", b"", "plate.vtk"),
+    ("noise", bytes(range(256)) * 4, "plate.vtk"),
+    ("another", b"# vtk DataFile Version 3.0\n", "plate.vtk"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("harm", "data", "told"), HARM)
+@pytest.mark.parametrize("command", [("run",), ("explain",)])
+def test_a_bad_file_is_one_line_and_leaves_no_folder(refused, tmp_path, command, harm, data, told):  # noqa: F811
+    file = write_case(tmp_path / "mine", GRAINS) / "shapes" / "plate.vtk"
+    file.unlink()
+    if harm == "folder":
+        file.mkdir()
+    elif data is not None:
+        file.write_bytes(data)
+    line = refused(*command, "mine", *(EMBEDDED if command == ("run",) else ()))
+    assert "walls.mesh" in line and told in line
+    assert refused("init", "mine", "copy") == line
+
+
+@pytest.mark.parametrize(("text", "told"), [(None, "no such file"), ("a,b\n1,2\n", "cannot be read"), (MOTION[:-20], "two at least")])
+def test_a_bad_table_is_one_line_and_leaves_no_folder(refused, tmp_path, text, told):  # noqa: F811
+    file = write_case(tmp_path / "mine", LIQUID) / "shapes" / "motion.csv"
+    file.unlink() if text is None else file.write_text(text if told != "two at least" else MOTION.splitlines()[0])
+    line = refused("run", "mine")
+    assert "frame.table" in line and told in line
+
+
+def test_a_path_is_a_text(tmp_path):
+    with pytest.raises(CaseError, match="walls.mesh = .*must be the path of a file"):
+        cases.from_table(GRAINS | {"walls": {"mesh": ["a", "b"]}})
+
+
+@pytest.mark.parametrize("quote", ['"{}"', "'{}'"])
+@pytest.mark.parametrize("far", [False, True])
+def test_init_takes_files_and_gas_along(tmp_path, monkeypatch, capsys, quote, far):
+    """Of a case of one's own: the copy stands alone, and keeps its comments."""
+    own = write_case(tmp_path / "mine", GRAINS)
+    path = str(own / "shapes" / "plate.vtk") if far else "shapes/plate.vtk"
+    text = (own / "case.toml").read_text().replace('"shapes/plate.vtk"', quote.format(path)) + "# mine\n"
+    (own / "case.toml").write_text(text)
+    shutil.copytree(driver.paths.gas_template(""), own / "gas")
+    (own / "gas" / "mine").write_text("mine")
+    monkeypatch.chdir(tmp_path)
+    assert cli.main(["init", "mine", "copy"]) == 0
+    shutil.rmtree(own)
+    mesh = cases.load("copy/case.toml").parameters["walls"].mesh
+    assert mesh == str(tmp_path / "copy" / "inputs" / "walls.mesh" / "plate.vtk")
+    assert len(meshio.read(mesh).points) == 2 and (tmp_path / "copy" / "gas" / "mine").is_file()
+    assert quote != '"{}"' or "# mine" in (tmp_path / "copy" / "case.toml").read_text()
