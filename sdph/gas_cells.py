@@ -49,9 +49,9 @@ def upwards(case, metric: str) -> np.ndarray:
 
 
 class Rows:
-    """Cells of a vessel of one cross-section sorted by height along `up` (3,): `own` (C,) is the row of each cell; place over
-    the floor and height (R,) [m] of each row, which may differ; `floor` and `top` [m], the place of the floor along `up` and
-    the height of the vessel."""
+    """Cells of any mesh sorted by height along `up` (3,): `own` (C,) is the row of each cell, `above` (C,) [m] its height over
+    the floor; place over the floor and height (R,) [m] of each row, which may differ; `floor` and `top` [m], the place of
+    the floor along `up` and the height of the vessel. Two rows that touch are taken to be equally wide."""
 
     def __init__(self, mesh, up):
         along = mesh.centres @ np.asarray(up)
@@ -59,10 +59,11 @@ class Rows:
         whole = np.bincount(self.own, self.volumes)
         if len(whole) < 2:
             raise CaseError("run.metrics asks for what changes with height, but the gas has one row of cells; make them smaller, or leave it out")
-        place, share = self.mean(along), whole / whole.sum()
-        self.top = float((place[-1] - place[0]) / (1.0 - 0.5 * (share[0] + share[-1])))
-        self.height = self.top * share
+        place = self.mean(along)
+        apart = 2.0 * np.diff(place) / (whole[1:] + whole[:-1])  # height over volume of the two rows
+        self.height = whole * np.concatenate((apart[:1], 0.5 * (apart[1:] + apart[:-1]), apart[-1:]))
         self.floor = float(place[0] - 0.5 * self.height[0])
+        self.top = float(place[-1] + 0.5 * self.height[-1]) - self.floor
         self.place, self.above = place - self.floor, along - self.floor
 
     def at_ends(self, values) -> tuple[float, float]:
