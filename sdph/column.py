@@ -15,8 +15,8 @@ INSIDE = (0.15, 0.75)  # of the bed's height: away from floor and surface
 
 def metrics(simulation) -> dict[str, float]:
     """pressure_drop_Pa from floor to top; ergun_Pa, what Ergun says of every row at the gas flux of now; weight_Pa of
-    the grains in gas over the floor; gradient_Pa_m of the pressure inside the bed, and alpha_p there; speeds [m/s] of
-    the grains; their fractions."""
+    the grains in gas over the floor; gradient_Pa_m of the pressure inside the bed, and alpha_p there (nan where fewer than
+    two rows lie inside); speeds [m/s] of the grains; their fractions."""
     case, mesh, fields = simulation.case, simulation.gas.mesh, simulation.cell_fields()
     up = upwards(case, "column")
     rows, mass = Rows(mesh, up), simulation.state.mass
@@ -25,6 +25,7 @@ def metrics(simulation) -> dict[str, float]:
     flux = rows.mean((1.0 - fields["alpha_p"]) * (fields["velocity"] @ up))
     height = 2.0 * float(mass @ (particles.positions(simulation.state) @ up - rows.floor) / mass.sum())
     inside = (rows.place > INSIDE[0] * height) & (rows.place < INSIDE[1] * height)
+    seen = np.count_nonzero(inside) > 1
     speed = particles.lengths(particles.velocities(simulation.state))
     fraction = simulation.state.density / case.grains.density
     return {
@@ -32,8 +33,8 @@ def metrics(simulation) -> dict[str, float]:
         "pressure_drop_Pa": floor - lid,
         "ergun_Pa": float((ergun(case, alpha_p, flux[0]) * rows.height).sum()),
         "weight_Pa": weight(case, float(mass.sum()), float(mesh.volumes.sum()) / mesh.depth / rows.top),
-        "gradient_Pa_m": float(-np.polyfit(rows.place[inside], pressure[inside], 1)[0]),
-        "alpha_p_inside": float(alpha_p[inside].mean()),
+        "gradient_Pa_m": float(-np.polyfit(rows.place[inside], pressure[inside], 1)[0]) if seen else math.nan,
+        "alpha_p_inside": float(alpha_p[inside].mean()) if seen else math.nan,
         "speed_max_m_s": float(speed.max()),
         "speed_rms_m_s": float(np.sqrt((speed**2).mean())),
         "alpha_p_mean": float(fraction @ mass / mass.sum()),

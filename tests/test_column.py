@@ -62,6 +62,13 @@ def test_up_is_against_gravity(tmp_path):
         assert other == pytest.approx(upright, rel=1e-3), (axis, sense)
 
 
+def test_a_bed_of_one_row_has_no_gradient(tmp_path):
+    case = cases.from_table(cases.to_table(vessel(1, 1)) | {"resolution": {"spacing_mm": 10.0, "cell_mm": 80.0}})
+    found, _ = measured(case, tmp_path / "coarse")
+    assert np.isnan(found["gradient_Pa_m"]) and np.isnan(found["alpha_p_inside"])
+    assert found["weight_Pa"] > 0.0
+
+
 def test_without_gravity_nothing_is_up(tmp_path):
     case = vessel(1, 1)
     case = dataclasses.replace(case, domain=dataclasses.replace(case.domain, gravity=(0.0, 0.0, 0.0)))

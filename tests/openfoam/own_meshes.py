@@ -1,4 +1,4 @@
-"""Meshes that a user brings: an O-grid cylinder and a sheared box for blockMesh, and tetrahedra as a polyMesh folder."""
+"""Meshes that a user brings: an O-grid cylinder, a sheared box and a plane taper for blockMesh, and tetrahedra as a polyMesh folder."""
 
 import itertools
 from math import cos, pi, sin
@@ -6,6 +6,7 @@ from math import cos, pi, sin
 import numpy as np
 
 HEAD = "FoamFile {{ version 2.0; format ascii; class {cls}; object {name}; }}\n"
+TYPES = {"wall": "wall", "frontAndBack": "empty"}
 BOX = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3))  # of a box, bit k: upper along axis k
 
 
@@ -41,10 +42,19 @@ def sheared_box(size: float, cells: int) -> str:
     return _block_mesh(points, hexes, {"all": BOX}, "")
 
 
+def taper(floor: float, lid: float, height: float, across: int, along: int) -> str:
+    """blockMeshDict of a plane vessel, `floor` [m] wide below and `lid` above; patches inlet, outlet and wall."""
+    widths = [0.5 * (lid - floor), 0.5 * (lid + floor), 0.0, lid]
+    points = [(x, y, z) for z in (0.0, 1.0) for x, y in zip(widths, (0.0, 0.0, height, height))]
+    hexes = f"    hex (0 1 3 2 4 5 7 6) ({across} {along} 1) simpleGrading (1 1 1)\n"
+    faces = {"frontAndBack": BOX[:2], "wall": BOX[2:4], "inlet": BOX[4:5], "outlet": BOX[5:]}
+    return _block_mesh(points, hexes, faces, "")
+
+
 def _block_mesh(points, hexes: str, patches, edges: str) -> str:
     vertices = "".join(f"    ({_words(map(float, point))})\n" for point in points)
     boundary = "".join(
-        f"    {name} {{ type {'wall' if name == 'wall' else 'patch'}; faces ({' '.join(f'({_words(f)})' for f in faces)}); }}\n"
+        f"    {name} {{ type {TYPES.get(name, 'patch')}; faces ({' '.join(f'({_words(f)})' for f in faces)}); }}\n"
         for name, faces in patches.items()
     )
     head = HEAD.format(cls="dictionary", name="blockMeshDict")
