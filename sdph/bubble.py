@@ -9,40 +9,44 @@ import math
 
 import numpy as np
 
-from sdph.gas_cells import layers
+from coupling.gas import Mesh
+from sdph.gas_cells import SAME, Rows, layers
+from sdph.schema import CaseError
 
 VOID = 0.15  # alpha_p below which a cell belongs to a bubble (issue: state it; Kuipers et al. 1991)
+UP = (0.0, 1.0, 0.0)  # of a bed whose gravity is not told: along y
 SURFACE = 0.3  # alpha_p, mean over the width, at the top of the bed: half of a packed bed's
 
 
-def metrics(centres, volumes, alpha_p, gas_temperature, pressure) -> dict[str, float]:
-    """Keys of one instant; centres (C, 3) [m], volumes (C,) [m3] and fields (C,) of a plane mesh 1 m deep.
+def metrics(centres, volumes, alpha_p, gas_temperature, pressure, up=UP) -> dict[str, float]:
+    """Keys of one instant; centres (C, 3) [m], volumes (C,) [m3] and fields (C,) of a plane mesh 1 m deep, of any cells.
 
-    neck_width_m is the least width of the bubble below its widest row; attached is 1 while it touches the floor.
+    Heights are over the floor, along `up` (3,); neck_width_m is the least width of the bubble below its widest row;
+    attached is 1 while it touches the floor.
     """
-    order, shape = rows_of(centres)
-    alpha, height = alpha_p[order].reshape(shape), centres[order, 1].reshape(shape)[:, 0]
-    own = largest_void(alpha)
-    area = volumes[order].reshape(shape)
-    width = (own * area).sum(axis=1) / np.gradient(height)
-    total = float((own * area).sum())
+    rows = Rows(Mesh(centres, volumes, 2), up)
+    own = largest_void(centres, rows, alpha_p)
+    width = np.bincount(rows.own, own * volumes) / rows.height
+    total, profile = float(volumes[own].sum()), rows.mean(pressure)
     return {
         "bubble_area_m2": total,
         "bubble_diameter_m": math.sqrt(4.0 * total / math.pi),
-        "bubble_centroid_m": float((own * area * height[:, None]).sum() / total) if total else 0.0,
+        "bubble_centroid_m": float(volumes[own] @ rows.above[own] / total) if total else 0.0,
         "neck_width_m": _neck(width),
-        "attached": float(own[0].any()),
+        "attached": float(own[rows.own == 0].any()),
         "gas_temperature_max_K": float(gas_temperature.max()),
-        "bed_height_m": _surface(alpha.mean(axis=1), height),
-        "pressure_drop_Pa": float(pressure[order[: shape[1]]].mean() - pressure[order[-shape[1] :]].mean()),
+        "bed_height_m": _surface(rows.mean(alpha_p), rows.place),
+        "pressure_drop_Pa": float(profile[0] - profile[-1]),
         "alpha_p_cell_max": float(alpha_p.max()),
     }
 
 
-def through_depth(depth: float, centres, volumes, *fields) -> tuple:
+def through_depth(depth: float, centres, volumes, *fields, up=UP) -> tuple:
     """Centres, volumes and fields of a plane mesh 1 m deep: those of a slab, `depth` [m] along z, averaged through it."""
     place = layers(centres[:, 1]) * len(centres) + layers(centres[:, 0])
-    _, first, column = np.unique(place, return_index=True, return_inverse=True)
+    _, first, column, deep = np.unique(place, return_index=True, return_inverse=True, return_counts=True)
+    if deep.min() != layers(centres[:, 2]).max() + 1 or abs(up[2]) > SAME:
+        raise CaseError("run.metrics holds bubble, which is of a plane bed: in 2-D, or a slab with cells in columns along z and gravity across them; leave it out")
     whole = np.bincount(column, volumes)
     return centres[first], whole / depth, *(np.bincount(column, volumes * field) / whole for field in fields)
 
@@ -60,14 +64,38 @@ def rows_of(centres) -> tuple[np.ndarray, tuple[int, int]]:
     return np.lexsort((x, y)), (int(y.max()) + 1, int(x.max()) + 1)
 
 
-def largest_void(alpha) -> np.ndarray:
-    """Mask of the largest connected region alpha_p < VOID that does not reach the last row; alpha (rows, columns)."""
-    from scipy.ndimage import label
+def largest_void(centres, rows: Rows, alpha_p) -> np.ndarray:
+    """Mask (C,) of the largest connected region alpha_p < VOID that does not reach the last of the rows."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
 
-    labels, count = label(alpha < VOID)
-    top = set(np.unique(labels[-1]))
-    sizes = {n: int((labels == n).sum()) for n in range(1, count + 1) if n not in top}
-    return labels == max(sizes, key=sizes.get) if sizes else np.zeros(alpha.shape, bool)
+    void = alpha_p < VOID
+    one, other = (ends := neighbours(centres))[(void[ends]).all(axis=1)].T
+    graph = coo_matrix((np.ones(len(one), bool), (one, other)), (len(void), len(void)))
+    _, region = connected_components(graph, directed=False)
+    sizes = np.bincount(region, void * rows.volumes)
+    sizes[region[void & (rows.own == len(rows.place) - 1)]] = 0.0
+    return void & (region == sizes.argmax()) & (sizes.max() > 0.0)
+
+
+def neighbours(centres) -> np.ndarray:
+    """(P, 2) cells of a plane mesh that lie side by side.
+
+    On a grid they share a face. Of other cells only the centres are known: two are neighbours where no third centre lies
+    in the circle between them (graph of Gabriel & Sokal, Syst. Zool. 18, 259, 1969), which on a grid is the same.
+    """
+    order, shape = rows_of(centres)
+    if math.prod(shape) == len(centres):
+        grid = order.reshape(shape)
+        return np.concatenate([np.stack((a.ravel(), b.ravel()), axis=1) for a, b in ((grid[1:], grid[:-1]), (grid[:, 1:], grid[:, :-1]))])
+    from scipy.spatial import Delaunay, cKDTree
+
+    plane = centres[:, :2]
+    ends = Delaunay(plane).simplices[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
+    ends = np.unique(np.sort(ends, axis=1), axis=0)
+    half = 0.5 * np.linalg.norm(plane[ends[:, 0]] - plane[ends[:, 1]], axis=1)
+    third = cKDTree(plane).query(plane[ends].mean(axis=1), k=3)[0][:, 2]
+    return ends[third > (1.0 + SAME) * half]
 
 
 def _neck(width) -> float:

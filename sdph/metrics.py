@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from sdph import bubble, column, jet
+from sdph.gas_cells import upwards
 from sdph.schema import CaseError
 
 
 def bed(simulation) -> dict[str, float]:
     """The bubble (sdph.bubble), and the densest particle."""
-    mesh, fields = simulation.gas.mesh, simulation.cell_fields()
+    mesh, fields, up = simulation.gas.mesh, simulation.cell_fields(), upwards(simulation.case, "bubble")
     cells = (mesh.centres, mesh.volumes / mesh.depth, fields["alpha_p"], fields["temperature"], fields["pressure"])
-    row = bubble.metrics(*(bubble.through_depth(simulation.case.domain.size[2], *cells) if mesh.dimensions == 3 else cells))
+    if mesh.dimensions == 3:
+        cells = bubble.through_depth(simulation.case.domain.size[2], *cells, up=up)
+    row = bubble.metrics(*cells, up)
     return row | {"alpha_p_max": float(simulation.grains.density.max(initial=0.0) / simulation.case.grains.density)}
 
 

@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from sdph import effects
-from sdph.effects.inflow import streams_of
+from sdph.effects.streams import streams_of
 from sdph.engine.clock import Clock
 from sdph.gas_cells import cell_edges
 

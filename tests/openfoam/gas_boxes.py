@@ -31,15 +31,19 @@ def box_case(size, cell, *, boundaries=WALLS, gravity=None, vapour=None, ranks=1
     return from_table(table | ({"vapour": vapour} if vapour else {}))
 
 
+def template(folder):
+    """A case for sdphGasFoam without start fields and mesh, in `folder`/template."""
+    for part in ("constant", "system"):
+        (folder / "template" / part).mkdir(parents=True, exist_ok=True)
+        for path in (TEMPLATE / part).iterdir():
+            (folder / "template" / part / path.name).write_bytes(path.read_bytes())
+    return folder / "template"
+
+
 @contextlib.contextmanager
 def box(folder, *args, **kwargs):
-    """A running gas solver on a case of `box_case`, without the disc's own start fields."""
-    template = folder / "template"
-    for part in ("constant", "system"):
-        (template / part).mkdir(parents=True, exist_ok=True)
-        for path in (TEMPLATE / part).iterdir():
-            (template / part / path.name).write_bytes(path.read_bytes())
-    gas = OpenFoamGas(box_case(*args, **kwargs), folder / "gas", template)
+    """A running gas solver on a case of `box_case`."""
+    gas = OpenFoamGas(box_case(*args, **kwargs), folder / "gas", template(folder))
     try:
         yield gas
     finally:

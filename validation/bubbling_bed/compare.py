@@ -10,8 +10,10 @@ import dataclasses
 
 import numpy as np
 
+from coupling.gas import Mesh
 from sdph import bubble, view
 from sdph.compare import check
+from sdph.gas_cells import Rows
 from sdph.schema import CaseError
 
 SHOWN = (0.05, 0.10, 0.15, 0.20, 0.24)  # s, the figure's columns
@@ -173,9 +175,10 @@ def _hottest_grain(run) -> float:
 def _wake(run, time: float) -> float:
     """How much higher the underside of the bubble lies in its middle than 4 cm beside it [m]."""
     _, _, gas = run.fields(time)
-    centres = gas.cell_centers().points
-    order, shape = np.lexsort((centres[:, 0], centres[:, 1])), (len(np.unique(centres[:, 1])), -1)
-    void = bubble.largest_void(np.asarray(gas["alpha_p"])[order].reshape(shape))
+    centres, sizes = gas.cell_centers().points, np.asarray(gas.compute_cell_sizes()["Area"])
+    order, shape = bubble.rows_of(centres)
+    rows = Rows(Mesh(centres, sizes, 2), bubble.UP)
+    void = bubble.largest_void(centres, rows, np.asarray(gas["alpha_p"]))[order].reshape(shape)
     x, y = (centres[order, a].reshape(void.shape) for a in (0, 1))
     lowest = np.where(void.any(axis=0), np.take_along_axis(y, void.argmax(axis=0)[None], 0)[0], np.nan)
     offset = np.abs(x[0] - run.case.domain.size[0] / 2)
