@@ -8,12 +8,12 @@ import numpy as np
 
 from sdph import sides
 from sdph.effects.walls import Dummies
+from sdph.engine.geometry import SIDES
 from sdph.neighbours import Neighbours
 from sdph.schema import CaseError
 
 REACH = 2.0  # support of the kernels in smoothing lengths
 LAYERS = 3  # the support of the kernel is 2 h = 3 spacings
-SIDES = {"left": (0, 0), "right": (0, 1), "bottom": (1, 0), "top": (1, 1), "back": (2, 0), "front": (2, 1)}  # axis, end
 
 
 class Boundary:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from sdph.effects.inflow import Nozzle
+from sdph.engine.geometry import SIDES
 from sdph.liquid import GasPhase, Liquid, Pool
 from sdph.neighbours import SKIN
 from sdph.schema import choice, flag, quantity, record, vector, whole, words
@@ -105,7 +106,7 @@ class Boundary:
     """A patch of the gas mesh: a side (or part of it: `span`), or without a side all that is left over."""
 
     kind: str = choice("wall", "slip_wall", "velocity_inlet", "pressure_outlet")
-    side: str | None = choice("left", "right", "bottom", "top", "back", "front", default=None)
+    side: str | None = choice(*SIDES, default=None)
     span: tuple | None = vector("m", None)
     velocity: tuple | None = vector("m_s", None)
     temperature: float | None = quantity("K", None, above=0.0)

@@ -12,10 +12,10 @@ from typing import NamedTuple
 import numpy as np
 
 from coupling.embedded.grid import Grid, indices
+from sdph.engine.geometry import SIDES
 from sdph.gas_cells import nearest_edge
 from sdph.schema import CaseError
 
-SIDES = {"left": (0, 0), "right": (0, 1), "bottom": (1, 0), "top": (1, 1), "back": (2, 0), "front": (2, 1)}
 # kind -> whether the gas passes freely, and whether it clings (takes the tangential velocity of the boundary)
 KINDS = {"wall": (False, True), "slip_wall": (False, False), "velocity_inlet": (False, True), "pressure_outlet": (True, False)}
 

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import itertools
 
+from sdph.engine.geometry import SIDES
 from sdph.gas_cells import cell_edges, nearest_edge
 from sdph.schema import CaseError
 
-# side -> (axis it is normal to, whether it is the upper one)
-SIDES = {"left": (0, 0), "right": (0, 1), "bottom": (1, 0), "top": (1, 1), "back": (2, 0), "front": (2, 1)}
 # vertices (of the eight of a block, bit k: upper along axis k) of the lower and upper face of each axis, seen from outside
 FACES = {
     0: ((0, 4, 6, 2), (1, 3, 7, 5)),

@@ -8,10 +8,9 @@ import numpy as np
 
 from sdph import particles
 from sdph.effects.effect import Effect, Judgement
+from sdph.engine.geometry import PAIRS
 from sdph.particles import GRAIN
 from sdph.schema import CaseError, record
-
-SIDES = (("left", "right"), ("bottom", "top"), ("back", "front"))
 
 
 @record
@@ -35,7 +34,7 @@ def leaving(case, state) -> np.ndarray:
     if not len(gone):
         return gone
     places = particles.axes(state)
-    for axis, (sides, length) in enumerate(zip(SIDES, case.domain.size)):
+    for axis, (sides, length) in enumerate(zip(PAIRS, case.domain.size)):
         for side, out in zip(sides, (places[axis] < 0.0, places[axis] > length)):
             if out.any():
                 gone |= out & _open(case, side, axis, places)

@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sdph.boundary import SIDES
 from sdph.effects.effect import Effect, Judgement
+from sdph.engine.geometry import SIDES
 from sdph.liquid import phases, shapes
 from sdph.schema import CaseError, choice, file, quantity, record, vector, words
 

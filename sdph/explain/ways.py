@@ -6,9 +6,10 @@ import itertools
 import math
 from typing import NamedTuple
 
+from sdph.engine.geometry import PAIRS
+
 CAVITY = 4.2  # a stream past a cavity of width w fades in it as exp(-4.2 y/w): Moffatt 1964, J. Fluid Mech. 18, 1
 FADED = 1e-3  # of an inlet's speed, below which gas is at rest; our choice
-SIDES = (("left", "right"), ("bottom", "top"), ("back", "front"))
 
 
 class Reach(NamedTuple):
@@ -22,7 +23,7 @@ def strength(case, boundary, patches) -> float:
     """Share of an inlet's speed that its gas has at the grains: 1 where they lie in its stream or no span tells, less aside."""
     if boundary.span is None or boundary.side is None:
         return 1.0
-    axis = next(a for a, pair in enumerate(SIDES) if boundary.side in pair)
+    axis = next(a for a, pair in enumerate(PAIRS) if boundary.side in pair)
     spans = spans_of(boundary)
     tangential = [a for a in range(case.dimensions) if a != axis]
     asides = [max(_aside(patch, a, span) for a, span in zip(tangential, spans)) for patch in patches]
@@ -47,7 +48,7 @@ def reach(s, out: bool) -> Reach:
     found = [Reach(0.0, 0.0)]
     for patch, (axis, size) in itertools.product(s.patches, enumerate(s.case.domain.size)):
         rooms = patch.lower[axis], size - patch.upper[axis]
-        for side, room, outward in zip(SIDES[axis], rooms, (-1.0, 1.0)):
+        for side, room, outward in zip(PAIRS[axis], rooms, (-1.0, 1.0)):
             if opened(s.case, side) == out:
                 way = towards(s, patch, axis, outward)
                 found.append(Reach(way, way / max(room, 0.5 * s.case.resolution.spacing)))
@@ -59,7 +60,7 @@ def lie(case, patches) -> bool:
     axis = max(range(case.dimensions), key=lambda a: abs(case.domain.gravity[a]))
     end = int(case.domain.gravity[axis] > 0.0)
     rooms = [case.domain.size[axis] - patch.upper[axis] if end else patch.lower[axis] for patch in patches]
-    return not opened(case, SIDES[axis][end]) and min(rooms, default=math.inf) < case.resolution.spacing
+    return not opened(case, PAIRS[axis][end]) and min(rooms, default=math.inf) < case.resolution.spacing
 
 
 def opened(case, side: str) -> bool:
