@@ -43,6 +43,10 @@ class GasError(RuntimeError):
     """The gas side failed: what happened, and where its log is."""
 
 
+class CheckpointError(GasError):
+    """A checkpoint that a gas solver cannot go on from: what is wrong with it."""
+
+
 @dataclass(frozen=True)
 class Mesh:
     """Cells of the gas solver.

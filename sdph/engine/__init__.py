@@ -1,0 +1,1 @@
+"""The engine: what knows no case, no effect and no method."""
