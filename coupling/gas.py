@@ -47,6 +47,10 @@ class Unfinished(GasError):
     """A window that the gas could not finish: not a number, out of bounds, not converged. `Gas.retreat` goes back before it."""
 
 
+class CheckpointError(GasError):
+    """A checkpoint that a gas solver cannot go on from: what is wrong with it."""
+
+
 @dataclass(frozen=True)
 class Mesh:
     """Cells of the gas solver.

@@ -11,6 +11,7 @@ does not fit raises `MessageError` with one line that says what; nothing receive
 
 from __future__ import annotations
 
+import hmac
 import math
 import struct
 import zlib
@@ -22,11 +23,12 @@ import numpy as np
 from coupling.gas import FIELDS, SOURCES
 
 MAGIC = b"SDPH"
-VERSION = 1
+VERSION = 2
 HEADER = struct.Struct("<4sHHQII")
 
 ABSOLUTE_LIMIT = 2**31  # bytes of one message, whatever the mesh
 FIXED_PART = 2**18  # bytes of names, units, budget and texts that do not grow with the mesh
+GREETING_LIMIT = 2**12  # bytes of the first message, which is read before anybody knows who sends it
 MAX_FIELDS = 256
 MAX_DIMENSIONS = 4
 
@@ -41,7 +43,7 @@ class MessageError(RuntimeError):
 class Kind(IntEnum):
     """What a message asks or tells."""
 
-    HELLO = 1  # gas -> sdph: secret, mesh, properties
+    HELLO = 1  # gas -> sdph, first of all: secret
     START = 2  # sdph -> gas: sources to come, initial alpha_g
     STATE = 3  # gas -> sdph: time, fields, budget
     ADVANCE = 4  # sdph -> gas: dt, sources
@@ -50,8 +52,9 @@ class Kind(IntEnum):
     DONE = 7  # gas -> sdph: a checkpoint is written
     ERROR = 8  # either way: text
     CLOSE = 9  # sdph -> gas: end
-    UNFINISHED = 10  # gas -> sdph: why it could not finish a step; it can retreat
-    RETREAT = 11  # sdph -> gas: go back to where the last step began
+    MESH = 10  # gas -> sdph, after HELLO: mesh, properties
+    UNFINISHED = 11  # gas -> sdph: why it could not finish a step; it can retreat
+    RETREAT = 12  # sdph -> gas: go back to where the last step began
 
 
 @dataclass(frozen=True)
@@ -66,6 +69,29 @@ class Message:
         if name not in self.values:
             raise MessageError(f"{self.kind.name} lacks the field {name!r}; it has {', '.join(self.values) or 'none'}")
         return self.values[name]
+
+    def text(self, name: str) -> str:
+        """A field that has to be a text."""
+        if not isinstance(self[name], str):
+            raise MessageError(f"{self.kind.name}: field {name!r} is no text")
+        return self[name]
+
+    def number(self, name: str) -> float:
+        """A field that has to be one number."""
+        return self.array(name).item()
+
+    def array(self, name: str, *shape: int | None) -> np.ndarray:
+        """A field that has to be numbers of this shape; None where any extent will do."""
+        value = np.asarray(self[name])
+        if value.dtype.kind not in "fi" or len(value.shape) != len(shape) or any(b not in (a, None) for a, b in zip(value.shape, shape)):
+            raise MessageError(f"{self.kind.name}: field {name!r} is of type {value.dtype} and shape {value.shape}; numbers of shape {shape} were expected")
+        return value
+
+
+def secret_fits(first: Message, secret: str) -> bool:
+    """Whether the first message carries the secret of the run, compared in constant time."""
+    given = first.values.get("secret")
+    return isinstance(given, str) and hmac.compare_digest(given.encode(), secret.encode())
 
 
 def message_limit(cells: int) -> int:
@@ -192,4 +218,6 @@ class _Reader:
         if dtype == UTF8:
             return name, unit, self.text(math.prod(shape))
         data = self.take(8 * math.prod(shape))
+        if math.prod(max(1, extent) for extent in shape) > ABSOLUTE_LIMIT // 8:  # an extent of 0 hides the others
+            raise MessageError(f"{self.kind.name}: field {name!r} has the impossible shape {tuple(shape)}")
         return name, unit, np.frombuffer(data, NUMBERS[dtype]).reshape(shape)

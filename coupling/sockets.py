@@ -1,36 +1,28 @@
 """Messages over a socket: a Unix socket in a private folder, or TCP on the loopback.
 
-The particles listen and the gas solver calls. Whoever does not know the secret of the run is turned away;
-once the solver is in, the listening socket is closed, so that nobody else can connect.
+The particles listen and the gas solver calls, its first message being HELLO with the secret of the run. Whoever does not
+know that is turned away; once the solver is in, the listening socket is closed, so that nobody else can connect.
 """
 
 from __future__ import annotations
 
-import hmac
+import contextlib
 import os
-import shutil
 import socket
 import tempfile
 import time
 from collections.abc import Callable
-from pathlib import Path
 
-from coupling.messages import ABSOLUTE_LIMIT, HEADER, Kind, Message, MessageError, decode_body, encode, read_header
+from coupling.messages import ABSOLUTE_LIMIT, HEADER, Message, decode_body, encode, read_header
+from coupling.transport.callers import MOST, Callers
+from coupling.transport.folders import OwnFolder, sweep
+from coupling.transport.waiting import SLICE, always, check_wait
 
-SLICE = 0.2  # s between two looks at whether the peer is alive
 PIECE = 2**20  # bytes of memory taken at first for a message
-GREETING_TIME = 30.0  # s that somebody who connected has to say HELLO
-
-
-def always() -> bool:
-    """A peer that nobody watches."""
-    return True
-
-
-def secret_fits(first: Message, secret: str) -> bool:
-    """Whether the first message (HELLO, or ERROR) carries the secret of the run, compared in constant time."""
-    given = first.values.get("secret")
-    return isinstance(given, str) and hmac.compare_digest(given.encode(), secret.encode())
+SENDING_TIME = 30.0  # s in which a peer has to take a message
+PREFIX, NAME = "sdph-gas", "gas"  # of the folder of a socket, and the socket in it
+LONGEST_PATH = 107  # bytes of the path of a Unix socket (unix(7): sun_path)
+SHARED = "/tmp"  # where a socket can be when the user's own place for temporary files has too long a path
 
 
 class SocketConnection:
@@ -43,7 +35,7 @@ class SocketConnection:
     def send(self, message: Message) -> None:
         """Hand over the whole message."""
         data = encode(message, self.limit)
-        self._socket.settimeout(GREETING_TIME)
+        self._socket.settimeout(SENDING_TIME)
         try:
             self._socket.sendall(data)
         except OSError as error:
@@ -70,12 +62,13 @@ class SocketConnection:
         try:
             got = self._socket.recv_into(room)
         except TimeoutError:
-            _check_wait(deadline, alive)
+            check_wait(deadline, alive)
             return 0
         except OSError as error:
             raise ConnectionError(f"connection lost: {error}") from None
         if got == 0:
             raise ConnectionError("the peer closed the connection")
+        check_wait(deadline, always)  # one who sends byte by byte has no more time than others
         return got
 
     def close(self) -> None:
@@ -83,78 +76,56 @@ class SocketConnection:
         self._socket.close()
 
 
-def _check_wait(deadline: float, alive: Callable[[], bool]) -> None:
-    if not alive():
-        raise ConnectionError("the peer has ended")
-    if time.monotonic() >= deadline:
-        raise TimeoutError("no message in time")
+def _own_folder() -> OwnFolder | None:
+    """A folder for a socket, where the path is short enough for one; None where there is no such place. Those of dead owners go."""
+    for where in _places():
+        sweep(where, PREFIX, {NAME})
+        try:
+            folder = OwnFolder(where, PREFIX)
+        except OSError:
+            continue  # nothing can be made there
+        if len(os.fsencode(folder.path / NAME)) <= LONGEST_PATH:
+            return folder
+        folder.close()
+    return None
 
 
-def _sweep() -> None:
-    """Remove the folders of sockets whose owners were killed before the solver had called."""
-    for folder in Path(tempfile.gettempdir()).glob("sdph-*-*"):
-        owner = folder.name.split("-")[1]
-        if owner.isdigit() and folder.stat().st_uid == os.getuid() and not Path("/proc", owner).exists():
-            shutil.rmtree(folder, ignore_errors=True)
+def _places() -> list[str]:
+    try:
+        return list(dict.fromkeys((tempfile.gettempdir(), SHARED)))
+    except OSError:  # there is no place for temporary files
+        return []
 
 
 class SocketServer:
-    """Waits for the gas solver. `address` is what the solver is told: "unix:<path>" or "tcp:<host>:<port>"."""
+    """Waits for the gas solver. `address` is what the solver is told: "unix:<path>" or "tcp:<host>:<port>".
+
+    TCP on the loopback is taken where it is asked for, and where no folder can hold a Unix socket.
+    """
 
     def __init__(self, secret: str, tcp: bool = False):
-        self._secret = secret
-        self._folder = None
-        if tcp:
-            self._socket = socket.create_server(("127.0.0.1", 0), backlog=1)
+        self._secret, self._folder = secret, None if tcp else _own_folder()
+        if self._folder is None:
+            self._socket = socket.create_server(("127.0.0.1", 0), backlog=MOST)
             self.address = "tcp:{}:{}".format(*self._socket.getsockname())
         else:
-            _sweep()
-            self._folder = Path(tempfile.mkdtemp(prefix=f"sdph-{os.getpid()}-"))  # made with mode 0700
+            path = str(self._folder.path / NAME)
             self._socket = socket.socket(socket.AF_UNIX)
-            self._socket.bind(str(self._folder / "gas"))
-            self._socket.listen(1)
-            self.address = f"unix:{self._folder / 'gas'}"
+            self._socket.bind(path)
+            self._socket.listen(MOST)
+            self.address = f"unix:{path}"
 
     def accept(self, timeout: float, alive: Callable[[], bool] = always, limit: int = ABSOLUTE_LIMIT):
-        """(connection, first message) of the first caller who knows the secret; then nobody else can call.
-
-        The message is HELLO, or ERROR when the solver could not start.
-        """
-        deadline = time.monotonic() + timeout
-        while True:
-            connection = SocketConnection(self._call(deadline, alive), limit)
-            first = self._greeting(connection, deadline, alive)
-            if first is not None:
-                self.close()
-                return connection, first
-            connection.close()
-
-    def _call(self, deadline: float, alive: Callable[[], bool]) -> socket.socket:
-        while True:
-            self._socket.settimeout(SLICE)
-            try:
-                connection, _ = self._socket.accept()
-            except TimeoutError:
-                _check_wait(deadline, alive)
-                continue
-            if connection.family != socket.AF_UNIX:
-                connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-            return connection
-
-    def _greeting(self, connection: SocketConnection, deadline: float, alive: Callable[[], bool]) -> Message | None:
-        """The first message of the solver; None when the caller is a stranger, who is told so."""
-        left = deadline - time.monotonic()
-        try:
-            first = connection.receive(min(left, GREETING_TIME), alive)
-            if secret_fits(first, self._secret):
-                return first
-            connection.send(Message(Kind.ERROR, {"text": "refused: you are not the solver of this run"}))
-        except (MessageError, ConnectionError, TimeoutError):
-            _check_wait(deadline, alive)
-        return None
+        """(connection, first message) of the first caller who knows the secret; then nobody else can call."""
+        with contextlib.closing(Callers(self._socket, self._secret)) as callers:
+            connection, first = callers.find(time.monotonic() + timeout, alive)
+        self.close()
+        if connection.family != socket.AF_UNIX:
+            connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        return SocketConnection(connection, limit), first
 
     def close(self) -> None:
         """Stop listening and remove the folder of the socket; a second call does nothing."""
         self._socket.close()
         if self._folder is not None:
-            shutil.rmtree(self._folder, ignore_errors=True)
+            self._folder.close()

@@ -16,6 +16,9 @@ from coupling.openfoam import install
 LOOK = 0.2  # s between two looks at a running solver
 TAIL = 20000  # bytes of a log that are looked through
 
+CHATTER = re.compile(r"residual|continuity errors|^(Time = |ExecutionTime|Courant|PIMPLE|//)|^\W*$")  # lines of a solver that goes on well
+MEMORY = " (by somebody, or by the system because memory ran out)"
+
 Progress = Callable[[float, float], None]
 
 
@@ -25,7 +28,7 @@ def run(command: list[str], folder: Path, log: Path, environment: dict[str, str]
     with log.open("wb") as out:
         process = subprocess.run(command, cwd=folder, env=variables, stdout=out, stderr=subprocess.STDOUT, check=False)
     if process.returncode:
-        raise GasError(f"{command[0]} failed: {reason(log)} (log: {log})")
+        raise GasError(f"{command[0]} {ending(process.returncode)}: {reason(log)} (log: {log})")
 
 
 def run_solver(
@@ -52,7 +55,7 @@ def _watch(command, folder: Path, log: Path, end: float, progress: Progress | No
     finally:
         _end(process)
     if process.returncode:
-        raise GasError(f"{command[0]} failed at {solver_time(log):g} s: {reason(log)} (log: {log})")
+        raise GasError(f"{command[0]} {ending(process.returncode)} at {solver_time(log):g} s: {reason(log)} (log: {log})")
 
 
 def _end(process: subprocess.Popen) -> None:
@@ -64,18 +67,37 @@ def _end(process: subprocess.Popen) -> None:
 
 def solver_time(log: Path) -> float:
     """The last time [s] that a solver's log names; 0 before the first."""
-    found = re.findall(rb"^Time = (\S+)$", _tail(log), re.MULTILINE)
+    found = re.findall(rb"^Time = (\d[\d.e+-]*)", _tail(log), re.MULTILINE)
     return float(found[-1]) if found else 0.0
 
 
+def ending(code: int) -> str:
+    """The end of a program, from its return code; mpirun gives 128 + signal of its rank."""
+    number = -code if code < 0 else code - 128
+    if number not in signal.valid_signals():
+        return f"ended with code {code}"
+    return f"was killed by {signal.Signals(number).name}{MEMORY if number == signal.SIGKILL else ''}"
+
+
 def reason(log: Path) -> str:
-    """The lines of a log that say why a program ended, in one."""
+    """Why a program ended, in one line: the cause that its log names, else its last line, unless that is of a solver that goes on well."""
+    last = (_tail(log).decode(errors="replace").strip().splitlines() or ["it wrote no log"])[-1]
+    return cause(log) or (f"its log breaks off at {solver_time(log):g} s without a cause" if CHATTER.search(last) else last)
+
+
+def cause(log: Path) -> str:
+    """The cause of a program's end that its log names, in one line; empty where it names none."""
     text = _tail(log).decode(errors="replace")
     fatal = re.search(r"FOAM FATAL (?:IO )?ERROR:?\s*(.*?)(?:\n\n|\n\s*From |\Z)", text, re.DOTALL)
     if fatal:
         return " ".join(fatal.group(1).split())
-    signalled = re.search(r"sigFpe|sigSegv|Floating point exception|Segmentation fault", text)
-    return signalled.group(0) if signalled else (text.strip().splitlines() or ["it wrote no log"])[-1]
+    if told := re.findall(r"^sdphGasFoam: (.+)$", text, re.MULTILINE):
+        return told[-1]
+    if signalled := re.search(r"sigFpe|sigSegv|Floating point exception|Segmentation fault", text):
+        return signalled.group(0)
+    if rank := re.search(r"mpirun noticed that process (rank \d+) .* exited on (signal \d+ \(.*\))", text):
+        return f"{rank.group(1)} exited on {rank.group(2)}"
+    return "one of its processes was killed or failed without a word" if "returned\na non-zero exit code" in text else ""
 
 
 def _tail(log: Path) -> bytes:

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
+import dataclasses
 import os
 import secrets
-import shutil
 import signal
 import subprocess
-import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 
-from coupling.files import FileServer
-from coupling.gas import FIELDS, SOURCES, Budget, GasError, GasState, Mesh, Unfinished, refuse_full_cells
+from coupling import files
+from coupling.gas import FIELDS, SOURCES, Budget, CheckpointError, GasError, GasState, Mesh, Unfinished, refuse_full_cells
 from coupling.messages import Kind, Message, MessageError, message_limit
 from coupling.openfoam import case as case_files
 from coupling.openfoam import install, programs
@@ -33,7 +32,7 @@ END_TIME = 5.0  # s that the solver may take to end by itself
 # [coupling] transport -> what waits for the solver of a run in `folder`
 SERVERS = {
     "socket": lambda secret, folder: SocketServer(secret),
-    "file": lambda secret, folder: FileServer(secret, Path(tempfile.mkdtemp(prefix="exchange-", dir=folder))),
+    "file": files.FileServer.inside,
 }
 
 
@@ -51,8 +50,7 @@ class OpenFoamGas:
         self._log, self.case_folder, self.ranks = self._folder / "log.sdphGasFoam", self._folder, case.coupling.ranks
         self._process, self._connection, self._asking = None, None, False
         self._time, self._clock = 0.0, Clock(case.run)
-        for left in self._folder.glob("exchange-*"):  # of a run that was killed
-            shutil.rmtree(left, ignore_errors=True)
+        files.sweep(self._folder)
         program = install.gas_solver(status)
         if template is not None:
             case_files.write_case(case, Path(template), self._folder, case.coupling.ranks, allow_code)
@@ -79,11 +77,16 @@ class OpenFoamGas:
             self._connection, first = self._guard(lambda alive: server.accept(START_TIME, alive), "to start")
         finally:
             server.close()
-        hello = self._expect(first, Kind.HELLO)
-        self._check_properties(hello)
-        self.mesh = _mesh(hello)
-        self.solver = f"{hello['solver']}, {hello['openfoam']}, {hello['ranks']} ranks"
+        self._expect(first, Kind.HELLO)
+        told = self._expect(self._guard(lambda alive: self._connection.receive(START_TIME, alive), "to start"), Kind.MESH)
+        self._guard(lambda alive: self._meet(told), "to start")
         self._connection.limit = message_limit(len(self.mesh.volumes))
+
+    def _meet(self, told: Message) -> None:
+        """Take what the solver tells of itself and its mesh."""
+        self._check_properties(told)
+        self.mesh = _mesh(told)
+        self.solver = f"{told.text('solver')}, {told.text('openfoam')}, {told.number('ranks')} ranks"
 
     def _start(self, program: Path, address: str, secret: str) -> subprocess.Popen:
         ranks = self._case.coupling.ranks
@@ -145,7 +148,8 @@ class OpenFoamGas:
             pass  # it is ended by force next
 
     def _ask(self, message: Message) -> GasState:
-        state = _state(self._request(message, Kind.STATE))
+        answer = self._request(message, Kind.STATE)
+        state = self._guard(lambda alive: _state(answer, len(self.mesh.volumes), self._case.vapour is not None), f"for {message.kind.name}")
         self._time = state.time
         return state
 
@@ -160,7 +164,8 @@ class OpenFoamGas:
             self._asking = False
             return answer
 
-        return self._expect(self._guard(exchange, f"for {message.kind.name}"), answer)
+        refused = CheckpointError if message.kind is Kind.RESTORE else GasError
+        return self._expect(self._guard(exchange, f"for {message.kind.name}"), answer, refused)
 
     def _guard(self, action: Callable, what: str):
         """The result of an action that waits for the solver; whatever goes wrong becomes a GasError and ends the solver."""
@@ -188,30 +193,29 @@ class OpenFoamGas:
     def _reason(self, error: str, what: str) -> str:
         """Why the solver does not answer: how it ended, with the end of its log, or what was wrong with its answer."""
         try:
-            code = self._process.wait(1.0)
+            return f"sdphGasFoam {programs.ending(self._process.wait(1.0))}: {programs.reason(self._log)}"
         except subprocess.TimeoutExpired:
-            return f"sdphGasFoam, waited {what}: {error}"
-        how = f"was killed by {signal.Signals(-code).name}" if code < 0 else f"ended with code {code}"
-        return f"sdphGasFoam {how}: {programs.reason(self._log)}"
+            return f"sdphGasFoam, waited {what}: {programs.cause(self._log) or error}"
 
-    def _expect(self, message: Message, kind: Kind) -> Message:
+    def _expect(self, message: Message, kind: Kind, refused: type[GasError] = GasError) -> Message:
         if message.kind is kind:
             return message
         if message.kind is Kind.UNFINISHED:
-            raise Unfinished(f"sdphGasFoam says: {message['text']} (log: {self._log})")
+            raise Unfinished(f"sdphGasFoam says: {message.values.get('text')} (log: {self._log})")
         self.close()
-        said = message["text"] if message.kind is Kind.ERROR else f"{message.kind.name} where {kind.name} was expected"
-        raise GasError(f"sdphGasFoam says: {' '.join(said.split())} (log: {self._log})")
+        said = message.values.get("text") if message.kind is Kind.ERROR else f"{message.kind.name} where {kind.name} was expected"
+        raise refused(f"sdphGasFoam says: {' '.join(str(said).split())} (log: {self._log})")
 
-    def _check_properties(self, hello: Message) -> None:
+    def _check_properties(self, told: Message) -> None:
         """The particles and the gas must mean the same gas."""
-        if hello["dimensions"] != self._case.dimensions:
-            raise CaseError(f"the mesh has {hello['dimensions']} dimensions; case.toml says dimensions = {self._case.dimensions}")
-        for name, value in hello.values.items():
+        if told.number("dimensions") != self._case.dimensions:
+            raise CaseError(f"the mesh has {told.number('dimensions')} dimensions; case.toml says dimensions = {self._case.dimensions}")
+        for name in told.values:
             section, _, key = name.partition("_")
             if section not in ("gas", "vapour"):
                 continue
             ours = getattr(getattr(self._case, section), key, None)
+            value = told[name] if isinstance(told[name], str) else told.number(name)
             if ours != value:
                 raise CaseError(f"constant/gasProperties has {name} = {value}; case.toml has {ours}: make them the same")
 
@@ -231,14 +235,17 @@ def end_group(process: subprocess.Popen) -> None:
     process.wait()
 
 
-def _mesh(hello: Message) -> Mesh:
-    return Mesh(hello["centres"], hello["volumes"], int(hello["dimensions"]), float(hello["depth"]))
+def _mesh(told: Message) -> Mesh:
+    centres = told.array("centres", None, 3)
+    return Mesh(centres, told.array("volumes", len(centres)), int(told.number("dimensions")), float(told.number("depth")))
 
 
-def _state(message: Message) -> GasState:
-    numbers = {name.removeprefix("budget_"): value for name, value in message.values.items() if name.startswith("budget_")}
-    vectors = {name: tuple(numbers.pop(name).tolist()) for name in ("momentum", "force")}
-    residuals = {name.removeprefix("residual_"): float(v) for name, v in message.values.items() if name.startswith("residual_")}
-    budget = Budget(**{name: float(value) for name, value in numbers.items()}, **vectors, residuals=residuals)
-    fields = {name: message.values[name] for name in FIELDS if name in message.values}
-    return GasState(float(message["time"]), fields, budget)
+def _state(message: Message, cells: int, vapour: bool) -> GasState:
+    """The state in a message, of a mesh of `cells` cells."""
+    totals = {f.name for f in dataclasses.fields(Budget)} - {"residuals"}
+    vectors = {name: tuple(message.array(f"budget_{name}", 3).tolist()) for name in ("momentum", "force")}
+    numbers = {name: float(message.number(f"budget_{name}")) for name in totals - vectors.keys()}
+    residuals = {name.removeprefix("residual_"): float(message.number(name)) for name in message.values if name.startswith("residual_")}
+    shapes = {name: (cells, 3)[: 1 + (row[1] == 3)] for name, row in FIELDS.items() if vapour or name != "vapour_mass_fraction"}
+    fields = {name: message.array(name, *shape) for name, shape in shapes.items()}
+    return GasState(float(message.number("time")), fields, Budget(**numbers, **vectors, residuals=residuals))

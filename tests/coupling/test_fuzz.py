@@ -1,20 +1,24 @@
-"""Ten thousand messages that were harmed on purpose, to each side: every one is read or refused, in bounded time and memory."""
+"""Ten thousand messages (more with SDPH_FUZZ) that were harmed on purpose, to each side: every one is read or refused, in bounded time and memory."""
 
+import os
 import socket
 import struct
 import subprocess
+import threading
 import time
 import tracemalloc
 import zlib
 
 import numpy as np
 import pytest
+from fuzzing import FACTOR, SEED
 
 from coupling.files import FileConnection
-from coupling.messages import HEADER, MAGIC, VERSION, Kind, Message, MessageError, encode
-from coupling.sockets import SocketConnection
+from coupling.messages import GREETING_LIMIT, HEADER, MAGIC, VERSION, Kind, Message, MessageError, encode
+from coupling.openfoam.solver import _mesh, _state
+from coupling.sockets import SocketConnection, SocketServer
 
-COUNT = 10_000
+COUNT = 10_000 * FACTOR
 LIMIT = 2**16  # bytes of a message
 WHOLE = [
     Message(Kind.ADVANCE, {"dt": 1e-3, "write": 1, "drag": np.arange(24.0).reshape(8, 3)}, {"dt": "s"}),
@@ -62,12 +66,20 @@ def other_body(rng, data):
     return HEADER.pack(MAGIC, VERSION, data[6], len(body), zlib.crc32(body), 0) + bytes(body)
 
 
-HARMS = (flipped, truncated, longer, other_length, garbage, other_body, other_body, other_body)
+def other_shape(rng, data):
+    """A body of one field without data, whose extents are 0 and beyond all bounds."""
+    extents = [(0, 1, 3, 2**16, 2**31, 2**32 - 1)[k] for k in rng.integers(6, size=rng.integers(5))]
+    head = struct.pack("<IB1sB", 1, 1, b"T", 0) + struct.pack("<BB", rng.integers(3), len(extents)) + struct.pack(f"<{len(extents)}I", *extents)
+    body = head + bytes(-len(head) % 8) + bytes(8 * int(rng.integers(3)))
+    return HEADER.pack(MAGIC, VERSION, data[6], len(body), zlib.crc32(body), 0) + body
+
+
+HARMS = (flipped, truncated, longer, other_length, garbage, other_shape, other_body, other_body, other_body)
 
 
 def harmed(count, seed=11):
     """(count) messages in bytes."""
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng(seed + SEED)
     whole = [encode(message) for message in WHOLE]
     return [HARMS[rng.integers(len(HARMS))](rng, whole[rng.integers(len(whole))]) for _ in range(count)]
 
@@ -93,13 +105,96 @@ def test_the_particles_read_or_refuse_each(tmp_path):
 
 
 def test_files_are_read_or_refused_each(tmp_path):
-    for number, data in enumerate(harmed(1000, 12)):
+    for number, data in enumerate(harmed(1000 * FACTOR, 12)):
         connection = FileConnection(tmp_path / str(number), limit=LIMIT)
         (tmp_path / str(number) / "to_sdph" / "0").write_bytes(data)
         try:
             connection.receive(5.0)
         except (MessageError, ConnectionError):
             pass
+
+
+@pytest.mark.parametrize("make", [os.mkfifo, os.mkdir, lambda path: os.symlink("/dev/zero", path), lambda path: os.symlink("/etc/hostname", path)])
+def test_what_is_no_plain_file_is_refused(tmp_path, make):
+    connection = FileConnection(tmp_path, limit=LIMIT)
+    make(tmp_path / "to_sdph" / "0")
+    with pytest.raises(MessageError, match="message 0"):
+        connection.receive(5.0)
+
+
+def test_a_large_file_is_refused_unread(tmp_path):
+    connection = FileConnection(tmp_path, limit=LIMIT)
+    with open(tmp_path / "to_sdph" / "0", "wb") as file:
+        file.truncate(2**40)
+    with pytest.raises(MessageError, match="at most"):
+        connection.receive(5.0)
+
+
+@pytest.mark.parametrize("tcp", [False, True], ids=["unix", "tcp"])
+def test_whatever_calls_the_solver_gets_in(tcp):
+    """Harmed first messages at the door, all at once and left open; none gets more than the few bytes of a greeting."""
+    server, callers = SocketServer("b" * 64, tcp), []
+    result, waiting = run_in_background(lambda: server.accept(30.0))
+    for data in harmed(200 * FACTOR, 14):
+        caller = connected(server.address)
+        callers.append(caller)
+        try:
+            caller.sendall(data)
+        except OSError:  # turned away in the middle of it
+            continue
+    solver = connected(server.address)
+    solver.sendall(encode(Message(Kind.HELLO, {"secret": "b" * 64})))
+    waiting.join(15.0)
+    ours, first = result[0]
+    assert first.kind is Kind.HELLO
+    for end in (ours, solver, *callers):
+        end.close()
+
+
+def connected(address):
+    if address.startswith("unix:"):
+        caller = socket.socket(socket.AF_UNIX)
+        caller.connect(address.removeprefix("unix:"))
+        caller.settimeout(5.0)
+        return caller
+    _, host, port = address.split(":")
+    return socket.create_connection((host, int(port)), 5.0)
+
+
+def run_in_background(function):
+    result = []
+    thread = threading.Thread(target=lambda: result.append(function()), daemon=True)
+    thread.start()
+    return result, thread
+
+
+def test_what_has_the_form_of_a_message_but_not_its_content_is_refused():
+    """States and meshes of which fields are missing, or are of another type or shape."""
+    rng, cells = np.random.default_rng(15 + SEED), 4
+    vectors, scalars = ("velocity", "pressure_gradient"), ("pressure", "temperature", "density")
+    budget = {f"budget_{name}": 1.0 for name in ("mass", "energy", "vapour", "mass_in", "energy_in", "vapour_in", "courant")}
+    state = {"time": 1.0, "residual_T": 1e-9, "budget_momentum": np.zeros(3), "budget_force": np.zeros(3)} | budget
+    state |= {name: np.ones((cells, 3)) for name in vectors} | {name: np.ones(cells) for name in scalars}
+    mesh = {"centres": np.ones((cells, 3)), "volumes": np.ones(cells), "dimensions": 2, "depth": 1.0}
+    others = ("text", "", 7, 2.5, np.zeros(0), np.zeros((cells, 2)), np.zeros((3, cells)), np.zeros((1, 1, 1)), np.zeros(cells, int))
+    _state(Message(Kind.STATE, state), cells, False)
+    _mesh(Message(Kind.MESH, mesh))
+    for read, whole in ((lambda m: _state(m, cells, False), state), (_mesh, mesh)):
+        for _ in range(300 * FACTOR):
+            values, name = dict(whole), list(whole)[rng.integers(len(whole))]
+            values[name] = others[rng.integers(len(others))]
+            if rng.random() < 0.3:
+                del values[name]
+            try:
+                read(Message(Kind.STATE, values))
+            except MessageError as error:
+                assert "\n" not in str(error)
+
+
+def test_the_first_message_is_short():
+    with pytest.raises(MessageError, match="at most"):
+        encode(WHOLE[2], 64)
+    assert len(encode(Message(Kind.HELLO, {"secret": "a" * 64}))) < GREETING_LIMIT
 
 
 def test_a_promise_of_much_takes_no_memory():

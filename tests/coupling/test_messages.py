@@ -81,7 +81,7 @@ def header(magic=MAGIC, version=VERSION, kind=Kind.DONE, length=4, crc=None, zer
 
 @pytest.mark.parametrize("wrong, says", [
     ({"magic": b"HTTP"}, "not a message"),
-    ({"version": 2}, "protocol version 2"),
+    ({"version": VERSION + 1}, f"protocol version {VERSION + 1}"),
     ({"kind": 77}, "unknown kind"),
     ({"length": 2**40}, "at most"),
     ({"crc": 1}, "checksum"),
@@ -102,6 +102,14 @@ def test_a_huge_shape_is_refused_before_memory_is_taken():
     field = b"\x01T\x00" + struct.pack("<BB4I", 0, 4, *[2**32 - 1] * 4)
     with pytest.raises(MessageError, match="ends in the middle"):
         decode(body_of(field))
+
+
+@pytest.mark.parametrize("extents", [(0, 2**32 - 1, 2**32 - 1, 2**32 - 1), (2**32 - 1, 2**32 - 1, 0), (2**31, 0, 3)])
+@pytest.mark.parametrize("dtype", [0, 1])
+def test_an_extent_of_0_does_not_hide_the_others(extents, dtype):
+    field = b"\x01T\x00" + struct.pack(f"<BB{len(extents)}I", dtype, len(extents), *extents)
+    with pytest.raises(MessageError, match="impossible shape"):
+        decode(body_of(field + bytes(-(4 + len(field)) % 8)))
 
 
 def test_unknown_types_double_names_and_bad_text_are_refused():
@@ -133,6 +141,15 @@ def test_limits_grow_with_the_mesh():
     cells = 1000
     everything = {name: np.zeros((cells, 3)) for name in "abcd"}
     assert len(encode(Message(Kind.ADVANCE, everything), message_limit(cells))) > 8 * 12 * cells
+
+
+def test_fields_are_asked_for_with_their_form():
+    message = decode(PLAIN)
+    assert message.text("note") == "warm" and message.number("time") == 0.5
+    assert message.array("T", None, 3).shape == (2, 3)
+    for wrong in (lambda: message.text("T"), lambda: message.number("T"), lambda: message.number("note"), lambda: message.array("T", 3, 2)):
+        with pytest.raises(MessageError, match="STATE: field '(T|note)' is"):
+            wrong()
 
 
 def test_a_missing_field_is_named():

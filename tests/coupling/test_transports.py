@@ -1,9 +1,11 @@
 """Both transports: the same messages bit for bit, strangers refused, dead and silent peers noticed."""
 
+import contextlib
 import os
 import socket
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 from pathlib import Path
@@ -11,9 +13,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from coupling import sockets
 from coupling.files import FileConnection, FileServer
-from coupling.messages import HEADER, Kind, Message, MessageError, encode
+from coupling.messages import HEADER, MAGIC, VERSION, Kind, Message, MessageError, encode
 from coupling.sockets import SocketConnection, SocketServer
+from coupling.transport import callers
+from coupling.transport.callers import MOST
 
 SECRET = "a" * 64
 RNG = np.random.default_rng(7)
@@ -132,12 +137,125 @@ def test_strangers_are_turned_away_and_the_solver_still_gets_in(make, tmp_path):
         end.close()
 
 
+@pytest.mark.parametrize("make", [unix, tcp])
+def test_slow_callers_keep_nobody_waiting(make, tmp_path):
+    """Some say nothing, some half a greeting, more than are listened to at once; the solver comes last."""
+    server, connect = make(tmp_path)
+    result = []
+    waiting = threading.Thread(target=lambda: result.append(server.accept(60.0)))
+    waiting.start()
+    slow = [connect(server.address) for _ in range(MOST + 10)]
+    for caller in slow[-2 * (MOST // 4) :: 2]:  # the first have been turned away by now
+        caller._socket.sendall(encode(hello())[:-1])
+    solver = connect(server.address)
+    solver.send(hello())
+    begin = time.monotonic()
+    waiting.join(15.0)
+    assert time.monotonic() - begin < 10.0
+    ours, _ = result[0]
+    solver.send(Message(Kind.DONE))
+    assert ours.receive(5.0).kind is Kind.DONE
+    for end in (ours, solver, *slow):
+        end.close()
+
+
+@pytest.mark.parametrize("make", [unix, tcp])
+def test_who_does_not_tell_the_secret_is_turned_away_in_time(make, tmp_path, monkeypatch):
+    monkeypatch.setattr(callers, "GREETING_TIME", 0.5)
+    server, connect = make(tmp_path)
+    caller = connect(server.address)
+    with pytest.raises(TimeoutError):
+        server.accept(2.0)
+    assert caller.receive(5.0).kind is Kind.ERROR
+    with pytest.raises(ConnectionError):
+        caller.receive(5.0)
+    server.close()
+
+
+@pytest.mark.parametrize("make", [unix, tcp])
+def test_little_is_read_before_the_secret_is_known(make, tmp_path):
+    server, connect = make(tmp_path)
+    waiting = threading.Thread(target=lambda: _accept(server), daemon=True)
+    waiting.start()
+    stranger = connect(server.address)
+    stranger._socket.settimeout(5.0)
+    with pytest.raises(OSError):  # the door is shut after the header
+        stranger._socket.sendall(HEADER.pack(MAGIC, VERSION, Kind.HELLO, 700 * 2**20, 0, 0))
+        for _ in range(700):
+            stranger._socket.sendall(bytes(2**20))
+    waiting.join(15.0)
+    server.close()
+
+
+def _accept(server):
+    """Wait for a solver that does not come."""
+    try:
+        server.accept(3.0)
+    except TimeoutError:
+        return
+
+
+def test_one_who_sends_byte_by_byte_has_no_more_time_than_others():
+    left, right = socket.socketpair()
+    ours, stop = SocketConnection(left), threading.Event()
+
+    def drip():
+        while not stop.is_set():
+            right.sendall(b"x")
+
+    right.sendall(HEADER.pack(MAGIC, VERSION, Kind.STATE, 2**31, 0, 0))
+    dripping = threading.Thread(target=drip)
+    dripping.start()
+    begin = time.monotonic()
+    try:
+        with pytest.raises(TimeoutError):
+            ours.receive(0.5)
+    finally:
+        stop.set()
+        left.close()
+    assert time.monotonic() - begin < 5.0
+    right.close()
+    dripping.join()
+
+
+def test_a_place_for_temporary_files_with_a_long_path_is_no_hindrance(tmp_path, monkeypatch):
+    """A Unix socket elsewhere, and TCP where there is no such place."""
+    deep = tmp_path / ("d" * 60) / ("e" * 60)
+    deep.mkdir(parents=True)
+    monkeypatch.setattr(tempfile, "tempdir", str(deep))
+    for shared, kind in (("/tmp", "unix:"), (str(deep), "tcp:127.0.0.1:")):
+        monkeypatch.setattr(sockets, "SHARED", shared)
+        server = SocketServer(SECRET)
+        assert server.address.startswith(kind)
+        peer = call(server.address)
+        peer.send(hello())
+        ours, _ = server.accept(5.0)
+        for end in (ours, peer, server):
+            end.close()
+        assert not list(deep.iterdir())
+
+
 def test_socket_lies_in_a_private_folder_that_goes_away():
     server = SocketServer(SECRET)
     folder = Path(server.address.removeprefix("unix:")).parent
     assert folder.stat().st_mode & 0o777 == 0o700
     server.close()
     assert not folder.exists()
+
+
+def test_nothing_of_an_exchange_stays(tmp_path):
+    with contextlib.closing(FileServer.inside(SECRET, tmp_path)) as server:  # nobody comes
+        assert len(list(tmp_path.iterdir())) == 1
+        with pytest.raises(TimeoutError):
+            server.accept(0.1)
+    assert not list(tmp_path.iterdir())
+    server = FileServer.inside(SECRET, tmp_path)
+    FileConnection(Path(server.address.removeprefix("file:")), "to_sdph", "to_gas").send(hello())
+    ours, _ = server.accept(5.0)
+    server.close()
+    ours.send(BIG)
+    ours.close()
+    assert not list(tmp_path.iterdir())
 
 
 def test_file_exchange_refuses_a_used_folder_and_a_wrong_secret(tmp_path):

@@ -131,6 +131,7 @@ class FileChannel : public Channel
             std::this_thread::sleep_for(sleep);
             sleep = std::min(std::chrono::microseconds(2000), sleep*6/5);
         }
+        if (!S_ISREG(found.st_mode)) throw wire::Error(path + " is no plain file");
         if (uint64_t(found.st_size) > limit + wire::headerSize)
             throw wire::Error("a message is longer than this mesh allows");
     }

@@ -5,8 +5,8 @@ the terms of the GNU General Public License as published by the Free Software
 Foundation, either version 3 of the License, or (at your option) any later
 version. It comes WITHOUT ANY WARRANTY; see <http://www.gnu.org/licenses/>.
 \*---------------------------------------------------------------------------*/
-// sdphGasFoam: the gas between the particles of sdph. It is started by sdph, calls it back at -address, tells it the
-// mesh and then does what it is told: start, advance, retreat, checkpoint, restore, close.
+// sdphGasFoam: the gas between the particles of sdph. It is started by sdph, calls it back at -address with the secret of
+// the run, tells it the mesh and then does what it is told: start, advance, retreat, checkpoint, restore, close.
 
 #include "channel.H"
 #include "checkpoint.H"
@@ -133,19 +133,27 @@ void serve(Channel* channel, GasSolver& solver, const Exchange& exchange, Time& 
     }
 }
 
-void run(const argList& args, Channel* channel, const std::string& secret)
+// The first message: who knows the secret is let in
+void greet(Channel* channel, const std::string& secret)
+{
+    wire::Message message(wire::HELLO);
+    message.set("secret", secret);
+    send(channel, message);
+}
+
+void run(const argList& args, Channel* channel)
 {
     Time time(Time::controlDictName, args);
     fvMesh mesh(IOobject(fvMesh::defaultRegion, compat::timeName(time), time, IOobject::MUST_READ));
     const Exchange exchange(mesh);
     GasSolver solver(mesh);
-    send(channel, exchange.hello(solver, secret));
+    send(channel, exchange.told(solver));
     if (channel) channel->limit = exchange.messageLimit();
     serve(channel, solver, exchange, time);
 }
 
 // Tell the particles, if they are there to be told, and the log
-void report(Channel* channel, const std::string& secret, const std::string& text)
+void report(Channel* channel, const std::string& text)
 {
     std::cerr << "sdphGasFoam: " << text << std::endl;
     if (!channel) return;
@@ -153,7 +161,6 @@ void report(Channel* channel, const std::string& secret, const std::string& text
     {
         wire::Message message(wire::ERROR);
         message.set("text", text);
-        message.set("secret", secret);
         channel->send(message);
     }
     catch (const wire::Error&) {}
@@ -171,19 +178,19 @@ int main(int argc, char* argv[])
     const argList args(argc, argv);
     if (!args.checkRootCase()) return 1;
     if (args.options().found("watch")) endWith(std::stol(args.options()["watch"]));
-    const std::string secret = getEnv("SDPH_SECRET");
     std::unique_ptr<Channel> channel;
     std::string text;
     compat::throwErrors();
     try
     {
         if (Pstream::master()) channel = Channel::open(args.options()["address"]);
-        run(args, channel.get(), secret);
+        greet(channel.get(), getEnv("SDPH_SECRET"));
+        run(args, channel.get());
         return 0;
     }
     catch (const Foam::error& error) { text = error.message(); }
     catch (const std::exception& error) { text = error.what(); }
-    report(channel.get(), secret, text);
+    report(channel.get(), text);
     // The other ranks wait for this one inside MPI: end them too
     if (Pstream::parRun()) Pstream::exit(1);
     return 1;

@@ -1,0 +1,1 @@
+"""What both transports of messages stand on."""
