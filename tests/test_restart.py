@@ -137,10 +137,9 @@ def test_the_output_interval_may_change_when_a_run_goes_on(tmp_path):
     np.testing.assert_allclose(instants, [0.0, 2e-4, 4e-4, 4.5e-4, 5e-4, 5.5e-4, 6e-4], rtol=1e-12)
 
 
-@pytest.mark.parametrize("absurd", ["coupling.window_largest_s=1e-30", "run.step_factor=1e-30", "coupling.window_tolerance=1e-60"])
-def test_an_absurd_limit_ends_with_its_name(tmp_path, absurd):
-    with pytest.raises(Stalled, match=absurd.partition("=")[0].split(".")[1]):
-        start(tmp_path / "run", more=(absurd,))
+def test_an_absurd_limit_ends_with_its_name(tmp_path):
+    with pytest.raises(Stalled, match="window_largest_s"):
+        start(tmp_path / "run", more=("coupling.window_largest_s=1e-30",))
     assert json.loads((tmp_path / "run" / "failure.json").read_text())["kind"] == "Stalled"
 
 

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from coupling.gas import GasError, Unfinished
 from sdph import window
+from sdph.engine.clock import Stalled
 from sdph.explain import estimate, judge
 
 GROWTH, SHRINK = window.GROWTH, window.SHRINK
@@ -213,4 +214,11 @@ def test_a_gas_that_finishes_nothing_ends_the_run_with_the_keys_to_change(tmp_pa
     case = disc(*FULL_BOX, "coupling.window_largest_s=1e-3", "coupling.window_tolerance=1e30", "run.report_at_s=[]")
     run = simulation(case, tmp_path, gas=Fragile)
     with pytest.raises(GasError, match="cannot finish window 1 at t = 0 s, not even 3.91e-06 s of it: the gas is fragile; lower coupling.window_largest_s"):
+        run.window()
+
+
+def test_sub_steps_that_get_nowhere_end_the_run(tmp_path):
+    run = simulation(disc(*FULL_BOX), tmp_path)
+    run.stepper.shortest = 1e3
+    with pytest.raises(Stalled, match="sub-step's limit 'conduction' .times run.step_factor"):
         run.window()

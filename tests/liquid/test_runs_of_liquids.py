@@ -8,6 +8,7 @@ from test_restart import Cut, Reporter, same_run
 
 from sdph import case as cases
 from sdph import cli, driver, output, restart, scenes, view
+from sdph.engine.clock import Stalled
 from sdph.guard import Unstable
 from sdph.liquid import ledger
 from sdph.liquid.run import STRIDE, LiquidRun
@@ -61,6 +62,26 @@ def test_a_run_can_be_made_longer(tmp_path):
     start(tmp_path / "short")
     driver.resume(tmp_path / "short", ("run.end_time_s=0.08",), Reporter())
     same_run(tmp_path / "long", tmp_path / "short")
+
+
+@pytest.mark.parametrize(("count", "interval"), [(12, 0.05), (3, 0.1), (7, 0.01)])
+def test_a_run_goes_on_past_an_end_that_is_a_landmark_but_for_round_off(tmp_path, count, interval):
+    """3 x 0.1 is more than 0.3 in floating point: the instant stood twice in run.pvd."""
+    end, later = float(f"{count * interval:.6g}"), float(f"{(count + 0.4) * interval:.6g}")
+    coarse = ("resolution.spacing_mm=14.2875", f"run.output_interval_s={interval}", "run.report_at_s=[]")
+    whole = start(tmp_path / "whole", more=(*coarse, f"run.end_time_s={later}"))
+    start(tmp_path / "cut", more=(*coarse, f"run.end_time_s={end}"))
+    resumed = driver.resume(tmp_path / "cut", (f"run.end_time_s={later}",), Reporter())
+    same_run(tmp_path / "whole", tmp_path / "cut")
+    assert resumed["windows"] == whole["windows"] and resumed["time_s"] == later
+    instants = [entry.split('"')[1] for entry in (tmp_path / "cut" / "run.pvd").read_text().split("timestep=")[1:]]
+    assert len(set(instants)) == len(instants) == count + 2
+
+
+@pytest.mark.parametrize("absurd", ["run.step_factor=1e-6", "liquid.courant=1e-12"])
+def test_an_absurd_limit_ends_with_its_name(tmp_path, absurd):
+    with pytest.raises(Stalled, match="the step's limit 'sound'"):
+        start(tmp_path / "run", more=(absurd, "liquid.sound_speed_m_s=1e5"))
 
 
 @pytest.mark.parametrize("scene", COARSE)

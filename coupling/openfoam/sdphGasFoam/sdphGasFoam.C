@@ -114,7 +114,7 @@ void serve(Channel* channel, GasSolver& solver, const Exchange& exchange, Time& 
                 send(channel, advance(message, solver, exchange, time));
                 break;
             case wire::RETREAT:
-                Checkpoint(solver).putBack(before, time);
+                Checkpoint(solver).retreat(before, time);
                 send(channel, exchange.state(solver));
                 break;
             case wire::CHECKPOINT:
