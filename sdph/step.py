@@ -36,6 +36,7 @@ class Stepper:
         self.kernel, self.guard = rates.kernel_of(case), Guard(case)
         self.neighbours = Neighbours(REACH * case.smoothing_length, case.domain.period, case.resolution.neighbour_skin)
         self.boundary = Boundary(case) if parameters["walls"] else None
+        self.mouths = source.mouths(self.boundary.dummies) if source and self.boundary else None  # nozzle of each dummy
         self.viscous = Viscous(float(case.dimensions)) if parameters["granular_viscosity"] else OFF
         algebraic = parameters["granular_temperature"] and parameters["granular_temperature"].model == 1
         self.shears = bool(parameters["friction"] or algebraic)
@@ -70,6 +71,8 @@ class Stepper:
         self.pull = np.empty(self.rows.index.shape)
         if self.boundary:
             self.wall_rows = self.boundary.rows(built)
+            if self.source:
+                self.source.open(self.state, self.mouths, self.wall_rows)
             self.boundary.part(self.rows, self.wall_rows, built)
 
     def _sum(self, density) -> None:

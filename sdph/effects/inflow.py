@@ -16,12 +16,11 @@ from scipy.spatial import cKDTree
 
 from sdph import particles
 from sdph.effects.effect import Effect, Judgement
-from sdph.effects.streams import Streams, layers_of, streams_of, unit
+from sdph.effects.streams import ROUND_OFF, Streams, cell_radius, layers_of, streams_of, unit, without
 from sdph.particles import GRAIN, INFLOW
 from sdph.schema import CaseError, choice, quantity, record, vector
 
 DEPTH = 4.0  # smoothing lengths of particles upstream: the density of those that the first grain sees is whole too
-ROUND_OFF = 1e-9  # of a layer
 ARRAYS = ("nozzle", "entering")
 
 
@@ -183,6 +182,24 @@ class Source:
         state.ident[:] = np.arange(self.next_ident, self.next_ident + len(points))
         self.next_ident += len(points)
         return particles.born(state)
+
+    def mouths(self, dummies) -> np.ndarray:
+        """Number of the nozzle in whose mouth each dummy of the walls (W,) stands, or upstream of it, from 1; 0: none."""
+        places = np.stack((dummies.x, dummies.y, dummies.z)[: self.case.dimensions], axis=1)
+        found, wide = np.zeros(len(places), np.int64), cell_radius(self.pitch, self.case.dimensions)
+        for k, own in enumerate(self.streams):
+            along, aside = self._beyond(k, places)
+            rows = np.flatnonzero((along <= 0.0) & (aside <= self.reach[k]))
+            apart, _ = self.trees[k].query(places[rows] - along[rows, None] * own.axis)
+            found[rows[apart <= wide]] = k + 1
+        return found
+
+    def open(self, state, mouths, rows) -> None:
+        """Take the dummies in mouths that give something now out of the rows of particles; `mouths` (W,) as above."""
+        giving = np.zeros(len(self.nozzles) + 1, bool)
+        giving[state.nozzle[state.kind == INFLOW]] = True
+        if giving.any():
+            without(giving[mouths], rows.index, rows.count)
 
     def inside(self, state, after: float = 0.0) -> np.ndarray:
         """Share of each particle (N,) that will be through its mouth when `after` [s] has gone.

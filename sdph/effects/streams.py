@@ -6,8 +6,11 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from numba import njit
 
 from sdph.schema import CaseError
+
+ROUND_OFF = 1e-9  # of a spacing
 
 
 def unit(vector_) -> np.ndarray:
@@ -86,3 +89,20 @@ def _mouth(case, nozzle, axis) -> tuple[np.ndarray, float, float]:
 def _ticks(size: float, spacing: float) -> np.ndarray:
     count = max(1, round(size / spacing))
     return size * ((np.arange(count) + 0.5) / count - 0.5)
+
+
+def cell_radius(pitch: float, dimensions: int) -> float:
+    """How far [m] from a stream its part of the mouth reaches: of a circle as large as a cell of the lattice in space."""
+    return 0.5 * pitch * (1.0 + ROUND_OFF) if dimensions == 2 else pitch / math.sqrt(math.pi)
+
+
+@njit(cache=True, error_model="numpy")
+def without(gone, index, count):
+    """Take the entries that are `gone` (W,) out of rows."""
+    for i in range(len(count)):
+        kept = 0
+        for k in range(count[i]):
+            if not gone[index[i, k]]:
+                index[i, kept] = index[i, k]
+                kept += 1
+        count[i] = kept

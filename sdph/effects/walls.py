@@ -241,11 +241,14 @@ def rubbing(p, dummies, w, tau, i, dx, dy, dz):
 def contact(p, box, dummies, rows, s):
     """Stops particles that came closer than `contact` to a surface; returns how many did.
 
-    The place is put back to the contact distance, the normal velocity reversed with the restitution.
+    The place is put back to the contact distance, the normal velocity reversed with the restitution. Those that come
+    through a nozzle pass.
     """
     touched = 0
     for i in range(len(s.x)):
         before = touched
+        if len(s.entering) > 0 and s.entering[i] > 0:
+            continue
         for k in range(rows.count[i]):
             w = rows.index[i, k]
             dx, dy, dz = offset(box, dummies, w, s, i)
