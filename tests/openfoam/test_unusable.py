@@ -1,9 +1,16 @@
-"""OpenFOAM that is found but cannot be used: `auto` takes the embedded gas and says why in one line, `openfoam` is an error."""
+"""OpenFOAM that is found but cannot be used: `auto` takes the embedded gas and says why in one line, `openfoam` is an error.
 
+A comparator that cannot run is one line too, and no reason for `make demo` to fail.
+"""
+
+import os
 import shutil
+import subprocess
+from pathlib import Path
 
 import pytest
 
+from coupling.openfoam import comparators
 from sdph.cli import main
 
 pytestmark = pytest.mark.openfoam
@@ -90,3 +97,31 @@ def test_a_program_that_is_missing_is_named(tmp_path, tools, capsys):
     (tools / "decomposePar").symlink_to("/usr/bin/decomposePar")
     assert main([*SHORT, "--gas", "openfoam", "--np", "2", "--out", str(tmp_path / "out")]) == 3
     assert "mpirun cannot be started: No such file or directory" in said(capsys)[-1]
+
+
+def test_a_comparator_that_aborts(tmp_path, monkeypatch, capsys):
+    assert main([*SHORT[:2], "--until", "1e-3", "--gas", "embedded", "--out", str(tmp_path / "run")]) == 0
+    said(capsys)
+    (tmp_path / "bin").mkdir()
+    (tmp_path / "bin" / "twoPhaseEulerFoam").touch()
+    replace(tmp_path / "bin" / "twoPhaseEulerFoam", "echo 'error in IOstream sha1'; kill -ABRT $$")
+    monkeypatch.setenv("PATH", f"{tmp_path / 'bin'}{os.pathsep}{os.environ['PATH']}")
+    monkeypatch.setattr(comparators, "shelf", lambda: tmp_path / "references")
+    assert main(["compare", str(tmp_path / "run"), "--against", "tfm"]) == 3
+    lines = said(capsys)
+    assert len(lines) == 1 and lines[0].startswith("sdph: twoPhaseEulerFoam") and "error in IOstream sha1" in lines[0]
+
+
+@pytest.mark.parametrize("code, fine", [(0, True), (3, True), (1, False), (2, False)])
+def test_demo_goes_on_without_a_comparator(tmp_path, code, fine):
+    """The recipe of the Makefile, with a program in place of sdph that ends as `compare` does where the two fluids do not run."""
+    venv = tmp_path / "venv"
+    (venv / "bin").mkdir(parents=True)
+    (venv / "bin" / "sdph").touch()
+    replace(venv / "bin" / "sdph", f'case "$*" in *tfm) echo "sdph: aborted" >&2; exit {code};; esac')
+    (venv / "installed").touch()
+    (tmp_path / "demo").mkdir()
+    make = ["make", "-C", str(Path(__file__).parents[2]), "demo", f"VENV={venv}", f"RUN={tmp_path / 'demo'}"]
+    done = subprocess.run(make, capture_output=True, text=True)
+    assert (done.returncode == 0) is fine, done.stderr
+    assert "sdph: aborted" in done.stderr
