@@ -1,5 +1,6 @@
 # Two commands: `make demo` sets everything up and runs the main job, `make test` sets up and passes the tests.
-# Nothing is built twice: a second call of either goes straight to the work.
+# Nothing is built twice: a second call of either goes straight to the work. A comparator that does not run here says so
+# in one line (exit code 3) and is left out of the demo.
 VENV ?= .venv
 SDPH = $(VENV)/bin/sdph
 PYTHON ?= python3
@@ -10,8 +11,8 @@ demo: setup
 	$(SDPH) run disc_cluster --set heat.closure=paper --out $(RUN)
 	$(SDPH) view $(RUN) --png $(RUN)/disc.png
 	$(SDPH) compare $(RUN) --against exact
-	if $(SDPH) doctor >/dev/null; then $(SDPH) compare $(RUN) --against tfm; fi
-	@echo "pictures: $(RUN)/disc.png $(RUN)/compare_exact.png $(RUN)/compare_tfm.png"
+	if $(SDPH) doctor >/dev/null; then $(SDPH) compare $(RUN) --against tfm || test $$? -eq 3; fi
+	@echo pictures: $(RUN)/*.png
 
 test: setup
 	$(VENV)/bin/python -m pytest

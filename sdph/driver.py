@@ -16,6 +16,7 @@ import shutil
 import time
 from pathlib import Path
 
+from coupling.choice import open_gas
 from sdph import case as cases
 from sdph import environment, metrics, output, particles, paths, restart
 from sdph.guard import Unstable
@@ -67,29 +68,6 @@ def resume(folder: Path, overrides: tuple[str, ...], reporter) -> dict:
         origin = output.read_origin(folder)
         template = None if checkpoint else inputs.gas_of(folder)
         return _guarded(Run(case, folder, reporter), checkpoint, template, origin["allow_code"])
-
-
-def open_gas(case, folder: Path, template: Path | None, status, allow_code: bool = False):
-    """The gas solver that the case asks for; `auto` takes OpenFOAM where it is built, else the embedded one.
-
-    `template` None goes on with the OpenFOAM case that is in `folder`.
-    """
-    if case.domain.periodic:
-        raise CaseError(f"domain.periodic = {list(case.domain.periodic)}, but no gas solver has periodic sides; leave it out")
-    chosen = case.coupling.gas
-    if chosen == "auto":
-        from coupling.openfoam import install
-
-        chosen = "openfoam" if install.find() else "embedded"
-        if chosen == "embedded":
-            status("OpenFOAM was not found: the gas is solved by the embedded solver (sdph openfoam setup --install gets it)")
-    if chosen == "embedded":
-        from coupling.embedded import EmbeddedGas
-
-        return EmbeddedGas(case)
-    from coupling.openfoam.solver import OpenFoamGas
-
-    return OpenFoamGas(case, folder / "gas", template, status=status, allow_code=allow_code)
 
 
 def simulation_of(case, gas, ledger: Path):

@@ -47,8 +47,9 @@ def _download(scratch: Path) -> Path:
         "Dir::Cache": scratch / "cache", "APT::Sandbox::User": "",
     }  # fmt: skip
     apt = ["apt-get", *(f"-o{key}={value}" for key, value in options.items())]
+    # the archive alone: mirrors have been seen without the .dsc beside it
     _run([*apt, "update"], scratch)
-    _run([*apt, "source", "--download-only", f"openfoam={_source_version()}"], scratch)
+    _run([*apt, "source", "--download-only", "--tar-only", f"openfoam={_source_version()}"], scratch)
     archives = list(scratch.glob("openfoam_*.orig.tar.*"))
     if len(archives) != 1:
         raise GasError("apt-get source gave no archive of OpenFOAM's source")
@@ -106,5 +107,6 @@ def _run(command: list[str], folder: Path) -> subprocess.CompletedProcess:
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
     if done.returncode != 0:
         last = (done.stderr.strip() or done.stdout.strip()).splitlines()[-1:]
-        raise GasError(f"{' '.join(command[:1] + command[-2:])} failed: {''.join(last)}")
+        words = [word for word in command if not word.startswith("-")]
+        raise GasError(f"{' '.join(words)} failed: {''.join(last)}")
     return done

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 import signal
 import subprocess
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from coupling.gas import GasError
@@ -25,10 +26,19 @@ Progress = Callable[[float, float], None]
 def run(command: list[str], folder: Path, log: Path, environment: dict[str, str] | None = None) -> None:
     """Run a short program to its end."""
     variables = environment or install.environment()
-    with log.open("wb") as out:
+    with log.open("wb") as out, starting(command[0]):
         process = subprocess.run(command, cwd=folder, env=variables, stdout=out, stderr=subprocess.STDOUT, check=False)
     if process.returncode:
         raise GasError(f"{command[0]} {ending(process.returncode)}: {reason(log)} (log: {log})")
+
+
+@contextlib.contextmanager
+def starting(program: str) -> Iterator[None]:
+    """A program that is not there, or not for this machine, is a `GasError`."""
+    try:
+        yield
+    except OSError as error:
+        raise GasError(f"{program} cannot be started: {error.strerror}; sdph doctor says what is missing") from None
 
 
 def run_solver(
@@ -43,7 +53,7 @@ def run_solver(
 
 
 def _watch(command, folder: Path, log: Path, end: float, progress: Progress | None, environment: dict[str, str]) -> None:
-    with log.open("wb") as out:
+    with log.open("wb") as out, starting(command[0]):
         process = subprocess.Popen(
             command, cwd=folder, env=environment, stdout=out, stderr=subprocess.STDOUT, start_new_session=True
         )

@@ -95,7 +95,7 @@ class OpenFoamGas:
             command = [*install.mpirun(ranks), *command, "-parallel"]
         # a result that is not a number is named and reported by the solver, not trapped by the processor
         environment = install.environment() | {"SDPH_SECRET": secret, "FOAM_SIGFPE": "false", "FOAM_SETNAN": "false"}
-        with self._log.open("wb") as log:
+        with self._log.open("wb") as log, programs.starting(command[0]):
             return subprocess.Popen(
                 command, cwd=self._folder, env=environment,
                 stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True,

@@ -1,0 +1,40 @@
+"""Headers from the source package of the distribution, by apt as it is here, from an archive made up."""
+
+import hashlib
+import io
+import shutil
+import subprocess
+import tarfile
+
+import pytest
+
+from coupling.openfoam import headers
+
+pytestmark = pytest.mark.openfoam
+
+
+def mirror(folder) -> str:
+    """A source package of the version that is installed, of which the mirror has nothing but the archive; its line for apt."""
+    version = subprocess.run(["dpkg-query", "-W", "-f", "${source:Version}", "openfoam"], capture_output=True, text=True).stdout
+    folder.mkdir()
+    archive = folder / f"openfoam_{version.rpartition('-')[0]}.orig.tar.gz"
+    with tarfile.open(archive, "w:gz") as made:
+        for name in ("src/OpenFOAM/Make/files", "src/OpenFOAM/label.H", "src/other/none.H", "src/OpenFOAM/../../out.H"):
+            made.addfile(tarfile.TarInfo(f"openfoam-{version}/{name}"), io.BytesIO())
+    missing = [archive.name.replace(".orig.tar.gz", end) for end in (".debian.tar.xz", ".dsc")]
+    rows = [(hashlib.sha256(archive.read_bytes()).hexdigest(), archive.stat().st_size, archive.name), *(("0" * 64, 1, m) for m in missing)]
+    sums = "".join(f" {digest} {size} {name}\n" for digest, size, name in rows)
+    files = sums.replace(rows[0][0], hashlib.md5(archive.read_bytes()).hexdigest()).replace("0" * 64, "0" * 32)
+    head = f"Package: openfoam\nBinary: openfoam\nVersion: {version}\nArchitecture: any\nFormat: 3.0 (quilt)\nDirectory: .\n"
+    (folder / "Sources").write_text(f"{head}Files:\n{files}Checksums-Sha256:\n{sums}\n")
+    return f"deb-src [trusted=yes] copy:{folder} ./"
+
+
+@pytest.mark.skipif(shutil.which("apt-get") is None, reason="apt-get is not here")
+def test_a_mirror_without_the_description(tmp_path, monkeypatch):
+    line = mirror(tmp_path / "mirror")
+    monkeypatch.setattr(headers, "_source_lines", lambda: [line])
+    headers.fetch(tmp_path / "tree", lambda _: None)
+    found = sorted(str(path.relative_to(tmp_path / "tree")) for path in (tmp_path / "tree").rglob("*") if not path.is_dir())
+    assert found == ["src/OpenFOAM/Make/files", "src/OpenFOAM/label.H", "src/OpenFOAM/lnInclude/label.H"]
+    assert not (tmp_path / "out.H").exists()
