@@ -36,7 +36,7 @@ def run(case, name: str, folder: Path, gas_folder: Path | None, reporter, *, all
     template = gas_folder or paths.gas_template(case.scene or name)
     with output.claimed(output.create(folder)):
         try:
-            output.write_origin(folder, gas_template=str(template.resolve()), allow_code=allow_code)
+            output.write_origin(folder, gas_template=str(template.resolve()))
             output.write_text(folder / output.MARK, cases.dumps(case))
             return _guarded(Run(case, folder, reporter), None, template, allow_code)
         except CaseError:
@@ -45,8 +45,11 @@ def run(case, name: str, folder: Path, gas_folder: Path | None, reporter, *, all
             raise
 
 
-def resume(folder: Path, overrides: tuple[str, ...], reporter) -> dict:
-    """Go on with a run from its newest whole checkpoint, or from its start where it has none; its summary."""
+def resume(folder: Path, overrides: tuple[str, ...], reporter, *, allow_code: bool = False) -> dict:
+    """Go on with a run from its newest whole checkpoint, or from its start where it has none; its summary.
+
+    The run folder may come from elsewhere: the OpenFOAM case in it may run code only with `allow_code`, given anew.
+    """
     if not (folder / output.MARK).is_file() or not (folder / output.ORIGIN).is_file():
         raise CaseError(f"{folder} holds no run to go on with; run it anew")
     case = cases.load(folder / output.MARK, overrides)
@@ -59,7 +62,7 @@ def resume(folder: Path, overrides: tuple[str, ...], reporter) -> dict:
             output.clear(folder)
         origin = output.read_origin(folder)
         template = None if checkpoint else Path(origin["gas_template"])
-        return _guarded(Run(case, folder, reporter), checkpoint, template, origin["allow_code"])
+        return _guarded(Run(case, folder, reporter), checkpoint, template, allow_code)
 
 
 def open_gas(case, folder: Path, template: Path | None, status, allow_code: bool = False):
