@@ -22,6 +22,7 @@ HEAD = "FoamFile {{ version 2.0; format ascii; class dictionary; object {name}; 
 SPATIAL = ("m", "m_s", "m_s2")  # units of what has one component per dimension
 NOT_SPATIAL = ("span",)  # lengths, but along the tangential axes
 REFUSED = " \t\"'"  # OpenFOAM's fileName takes none of these
+NAME = re.compile(r"[\w.+-]+")  # of what a case names: no more than a word of OpenFOAM
 DEPTH = 1.0  # m, of the one cell that a two-dimensional mesh is deep
 
 
@@ -36,6 +37,9 @@ def write_case(
         raise CaseError(f"{folder.absolute()}: OpenFOAM takes no blanks and quotes in a path; give another --out, or --gas embedded")
     if not (template / "system" / "controlDict").exists():
         raise CaseError(f"{template} is no OpenFOAM case: it has no system/controlDict")
+    for name in case.boundaries:
+        if not NAME.fullmatch(name):
+            raise CaseError(f"boundaries.{name!r}: OpenFOAM takes letters, digits and _ . + - in a name; rename it, or give --gas embedded")
     if not allow_code:
         refuse_code(template, known)
     shutil.copytree(template, folder, dirs_exist_ok=True)
@@ -68,7 +72,7 @@ def _flatten(prefix: str, value, dimensions: int, found: dict[str, str]) -> None
     """The parameters of an effect go under its own name, those of a group under group_name."""
     if isinstance(value, dict):
         for name, entry in value.items():
-            _flatten(f"{prefix}_{name}".lstrip("_"), entry, dimensions, found)
+            _flatten(f"{prefix}_{''.join(NAME.findall(name))}".lstrip("_"), entry, dimensions, found)
     elif dataclasses.is_dataclass(value):
         for field in dataclasses.fields(value):
             entry = getattr(value, field.name)

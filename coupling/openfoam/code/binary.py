@@ -12,8 +12,7 @@ WIDTHS = {  # bytes of an entry of List<...>
     b"complexVector": 48, b"tensor": 72,
 }  # fmt: skip
 FILES = {  # class of a file that is nothing but lists -> bytes of an entry of each
-    b"labelList": (4,), b"scalarField": (8,), b"vectorField": (24,), b"faceCompactList": (4, 4), b"cellSet": (4,), b"faceSet": (4,),
-    b"pointSet": (4,),
+    b"labelList": (4,), b"scalarField": (8,), b"vectorField": (24,), b"faceCompactList": (4, 4),
 }  # fmt: skip
 LIST = re.compile(rb"List<(\w+)>")
 COUNT = re.compile(rb"\d{1,12}")
