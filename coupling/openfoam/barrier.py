@@ -1,8 +1,8 @@
-"""The second barrier against code in OpenFOAM cases, in the programs: they run no command and load no library of a case.
+"""The second barrier against code in OpenFOAM cases, in the programs: they run no command and load no library.
 
-OpenFOAM takes its switches from the control dictionaries of its installation, the site and the user, which it merges. Their
-text with ours behind it goes to the programs by FOAM_CONTROLDICT, which OpenFOAM takes instead of all these files; a case
-cannot change that switch any more. Libraries are beyond it: codeGuard, loaded before the program, stops them.
+OpenFOAM takes its switches from the control dictionaries of its installation, the site and the user, which it merges.
+Their text with ours behind it goes to the programs by FOAM_CONTROLDICT, which OpenFOAM takes instead of these files; a
+case cannot change that switch any more. Libraries are beyond it: codeGuard, loaded before the program, stops them.
 """
 
 from __future__ import annotations
@@ -16,16 +16,16 @@ from coupling.openfoam.installation import Installation
 
 SWITCHES = "InfoSwitches { allowSystemOperations 0; }"
 VARIABLES = {"controlDict": "FOAM_CONTROLDICT", "configDict": "FOAM_CONFIGDICT"}  # the latter of openfoam.org after 12
-SPARED = re.compile(r'("(?:[^"\\]|\\.)*")|//[^\n]*|/\*.*?\*/|\s+', re.DOTALL)  # comments and blanks: a variable has little room
+SPARED = re.compile(r'("(?:[^"\\]|\\.)*")|//[^\n]*|/\*.*?\*/|\s+', re.DOTALL)  # blanks: a variable has little room
 
 
 def environment(libraries: bool = False) -> dict[str, str]:
-    """Environment of OpenFOAM's programs in which a case runs no code; `libraries` lets it load some, for cases of our own."""
+    """Environment of OpenFOAM's programs in which a case runs no code; `libraries` lets cases of our own load some."""
     installation = install.require()
     variables = installation.environment()
     for name, variable in VARIABLES.items():
-        texts = [path.read_text("utf-8", "surrogateescape") for path in _dictionaries(installation, name) if path.is_file()]
-        if texts:
+        files = (path for path in _dictionaries(installation, name) if path.is_file())
+        if texts := [path.read_text("utf-8", "surrogateescape") for path in files]:
             variables[variable] = _short("\n".join([variables.get(variable) or "\n".join(texts), SWITCHES]))
     for name in variables.keys() & {"PATH", "LD_LIBRARY_PATH"}:
         variables[name] = _without_here(variables[name])
@@ -34,8 +34,8 @@ def environment(libraries: bool = False) -> dict[str, str]:
 
 def _guarded(variables: dict[str, str]) -> dict[str, str]:
     guard = install.code_guard()
-    ahead = {"LD_PRELOAD": guard.name, "LD_LIBRARY_PATH": str(guard.parent)}
-    return variables | {name: os.pathsep.join(filter(None, [first, variables.get(name)])) for name, first in ahead.items()}
+    first = {"LD_PRELOAD": guard.name, "LD_LIBRARY_PATH": str(guard.parent)}
+    return variables | {name: os.pathsep.join(filter(None, [first[name], variables.get(name)])) for name in first}
 
 
 def _dictionaries(installation: Installation, name: str) -> list[Path]:

@@ -27,8 +27,9 @@ DEPTH = 1.0  # m, of the one cell that a two-dimensional mesh is deep
 
 
 def write_case(
-    case, template: Path, folder: Path, ranks: int = 1, allow_code: bool = False, known: dict[Path, Findings] | None = None
-) -> None:
+    case, template: Path, folder: Path, ranks: int = 1, allow_code: bool = False,
+    known: dict[Path, Findings] | None = None,
+) -> None:  # fmt: skip
     """Make `folder` the OpenFOAM case of `case`: `template`'s files, macros, and the dictionary of the mesh.
 
     `known` keeps what was read of the template, for who reads the copy (see `refuse_code`).
@@ -39,7 +40,8 @@ def write_case(
         raise CaseError(f"{template} is no OpenFOAM case: it has no system/controlDict")
     for name in case.boundaries:
         if not NAME.fullmatch(name):
-            raise CaseError(f"boundaries.{name!r}: OpenFOAM takes letters, digits and _ . + - in a name; rename it, or give --gas embedded")
+            what = f"boundaries.{name!r}: OpenFOAM takes letters, digits and _ . + - in a name"
+            raise CaseError(f"{what}; rename it, or give --gas embedded")
     if not allow_code:
         refuse_code(template, known)
     shutil.copytree(template, folder, dirs_exist_ok=True)

@@ -25,7 +25,8 @@ from sdph.schema import CaseError
 
 PARCEL_FILES = {"d": "diameter", "T": "temperature", "nParticle": "count", "rho": "density", "U": "velocity"}
 CLOUD = "lagrangian/reactingCloud1"
-OPENFOAM = re.compile(r"system|constant|dynamicCode|postProcessing|processor.*|[-+.\d].*|inf.*|nan.*")  # folders of a case; numbers are times
+# folders of a case; numbers are times
+OPENFOAM = re.compile(r"system|constant|dynamicCode|postProcessing|processor.*|[-+.\d].*|inf.*|nan.*")
 
 
 @dataclass(frozen=True)

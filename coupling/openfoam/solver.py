@@ -17,8 +17,8 @@ import numpy as np
 from coupling.files import FileServer
 from coupling.gas import FIELDS, SOURCES, Budget, GasError, GasState, Mesh
 from coupling.messages import Kind, Message, MessageError, message_limit
-from coupling.openfoam import case as case_files
 from coupling.openfoam import barrier, install, programs
+from coupling.openfoam import case as case_files
 from coupling.openfoam.build import silent
 from coupling.sockets import SocketServer
 from sdph.schema import CaseError

@@ -1,4 +1,4 @@
-"""What a case cannot do even where its files were not read: run commands and load libraries in programs that sdph starts."""
+"""What a case cannot do even where its files were not read: run commands and load libraries."""
 
 import os
 import shutil
@@ -97,7 +97,8 @@ def as_nobody(command, folder, environment):
         become = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
         subprocess.run(["chown", "-R", "65534", folder], check=True)
     more = {"PATH": os.pathsep.join([str(folder), environment["PATH"]]), "WM_OPTIONS": "any"}
-    return subprocess.run([*become, *command], cwd=folder / "gas", env=environment | more, capture_output=True, text=True, check=False)
+    settings = {"cwd": folder / "gas", "env": environment | more, "capture_output": True, "text": True}
+    return subprocess.run([*become, *command], **settings, check=False)
 
 
 def test_programs_compile_nothing_for_a_case_whatever_it_switches(of_nobody):
@@ -107,7 +108,7 @@ def test_programs_compile_nothing_for_a_case_whatever_it_switches(of_nobody):
     as_nobody(["blockMesh"], of_nobody, install.environment())
     assert (of_nobody / "marker").exists()  # it would
     (of_nobody / "marker").unlink()
-    done = as_nobody(["blockMesh"], of_nobody, barrier.environment(libraries=True))  # nobody cannot read root's cache, where the guard is
+    done = as_nobody(["blockMesh"], of_nobody, barrier.environment(libraries=True))  # the guard lies in root's cache
     assert "case-supplied code may have been disabled" in done.stderr
     assert not (of_nobody / "marker").exists()
 

@@ -1,4 +1,4 @@
-"""Cases that try to run code of their own, as a user meets them: `sdph run` refuses, in one line, and nothing of them has run.
+"""Cases that try to run code of their own: `sdph run` refuses them in one line, and nothing of them has run.
 
 Each plants a library that leaves a marker file when it is loaded.
 """
@@ -15,13 +15,14 @@ from sdph import paths
 
 pytestmark = pytest.mark.openfoam
 
-SMALL = ("--gas", "openfoam", "--set", "resolution.spacing_mm=20", "--set", "resolution.cell_mm=50", "--set", "run.output_interval_s=0.001")
+COARSE = ("resolution.spacing_mm=20", "resolution.cell_mm=50", "run.output_interval_s=0.001")
+SMALL = ("--gas", "openfoam", *(word for key in COARSE for word in ("--set", key)))
 SOURCE = '#include <cstdio>\nstatic const auto run = std::fopen("{marker}", "w");\n'
 COMPILER = '#!/bin/sh\ntouch "{marker}"\nexit 1\n'  # wmake, which #calc calls
 
 
 class Trap:
-    """A case of the disc with its own gas folder, a library and a compiler that leave `marker`, and a folder outside."""
+    """A case with its own gas folder, a library and a compiler that leave `marker`, and a folder outside."""
 
     def __init__(self, root):
         self.root, self.case, self.outside, self.marker = root, root / "case", root / "outside", root / "marker"
@@ -48,7 +49,8 @@ class Trap:
         command = [sys.executable, "-m", "sdph.cli", "run", *map(str, arguments)]
         path = os.pathsep.join([str(self.root / "bin"), os.environ["PATH"]])
         more = {"PYTHONPATH": str(paths.PACKAGE.parent), "PATH": path, "WM_OPTIONS": "any"}
-        return subprocess.run(command, cwd=self.outside, env=os.environ | more, capture_output=True, text=True, timeout=240, check=False)
+        settings = {"cwd": self.outside, "env": os.environ | more, "capture_output": True, "text": True, "timeout": 240}
+        return subprocess.run(command, **settings, check=False)
 
     def is_refused(self, *arguments):
         done = self.sdph(*arguments)
@@ -99,7 +101,8 @@ def in_the_mesh(trap):
 
 
 def in_a_header_of_the_mesh(trap):
-    trap.add('FoamFile { version 2.0; format ascii; class vectorField; object points; a #calc "1 + 1"; }\n0()', "constant/polyMesh/points")
+    header = 'version 2.0; format ascii; class vectorField; object points; a #calc "1 + 1";'
+    trap.add(f"FoamFile {{ {header} }}\n0()", "constant/polyMesh/points")
 
 
 def under_an_expression(trap):
@@ -121,9 +124,10 @@ def compressed_in_name_alone(trap):
 
 
 @pytest.mark.parametrize("plant", [
-    include_outside, include_above, linked_system, linked_file, behind_an_address, between_quoted_comments, in_the_mesh, in_a_header_of_the_mesh,
+    include_outside, include_above, linked_system, linked_file, behind_an_address, between_quoted_comments,
+    in_the_mesh, in_a_header_of_the_mesh,
     under_an_expression, under_a_scoped_key, by_a_renamed_folder, compressed_in_name_alone,
-], ids=lambda plant: plant.__name__)  # fmt: skip
+], ids=lambda plant: plant.__name__)
 def test_a_case_that_brings_code_is_refused(trap, plant):
     plant(trap)
     trap.is_refused(trap.case, "--out", trap.root / "run", *SMALL, "--until", "0.001")
@@ -145,7 +149,8 @@ def elsewhere(finished, tmp_path):
     trap, run = finished
     trap.marker.unlink(missing_ok=True)
     shutil.copytree(run, tmp_path / "run")
-    origin = json.loads((run / "origin.json").read_text()) | {"allow_code": True, "gas_template": str(tmp_path / "run" / "gas")}
+    brought = {"allow_code": True, "gas_template": str(tmp_path / "run" / "gas")}
+    origin = json.loads((run / "origin.json").read_text()) | brought
     (tmp_path / "run" / "origin.json").write_text(json.dumps(origin))
     return trap, tmp_path / "run"
 

@@ -8,8 +8,8 @@ from coupling.openfoam.code.tokens import BLANKS, Doubt
 
 ARCHITECTURE = b"LSB;label=32;scalar=64"  # what most builds write; the widths below are of it
 WIDTHS = {  # bytes of an entry of List<...>
-    b"bool": 1, b"label": 4, b"scalar": 8, b"sphericalTensor": 8, b"edge": 8, b"complex": 16, b"vector": 24, b"symmTensor": 48,
-    b"complexVector": 48, b"tensor": 72,
+    b"bool": 1, b"label": 4, b"scalar": 8, b"sphericalTensor": 8, b"edge": 8, b"complex": 16, b"vector": 24,
+    b"symmTensor": 48, b"complexVector": 48, b"tensor": 72,
 }  # fmt: skip
 FILES = {  # class of a file that is nothing but lists -> bytes of an entry of each
     b"labelList": (4,), b"scalarField": (8,), b"vectorField": (24,), b"faceCompactList": (4, 4),

@@ -15,7 +15,8 @@ LEFT = rb"()"
 EVALUATED = rb"[ \t]*+(?:\"[^\"\\\n]*+\"|\{(?:[^{}\"#/\\\n]|/(?![/*]))*+\})()"
 ARGUMENTS = {  # what stands behind a directive, in its line
     b"#include": PATH, b"#sinclude": PATH, b"#includeIfPresent": PATH, b"#includeEtc": PATH, b"#sincludeEtc": PATH,
-    b"#includeFunc": FUNCTION, b"#inputMode": rb"[ \t]*+\w++()", b"#remove": rb"(?:[ \t]*+\"[^\"\\\n]*+\"|())", b"#eval": EVALUATED,
+    b"#includeFunc": FUNCTION, b"#inputMode": rb"[ \t]*+\w++()", b"#eval": EVALUATED,
+    b"#remove": rb"(?:[ \t]*+\"[^\"\\\n]*+\"|())",
     b"#if": LEFT, b"#ifeq": LEFT, b"#elif": LEFT, b"#else": LEFT, b"#endif": LEFT,
 }  # fmt: skip
 # The rest of the line is passed over unread where entries are skipped: nothing may begin in it that ends behind it
@@ -27,7 +28,7 @@ WRITTEN = re.compile(r"log\..*|exchange-.*|postProcessing")  # by programs as th
 
 
 def follow(token: Token, tokens: Tokens, file: Path) -> set[Path]:
-    """Step over what is behind a directive of `file` (its place in the case), and give the files that it reads, by their places."""
+    """Step over what is behind a directive of `file`, and give the files that it reads, by their places in the case."""
     if CODE.match(token.text):
         raise Doubt(f"{shown(token.text)} runs code of the case", token.start)
     if token.text not in ARGUMENTS:
@@ -46,7 +47,7 @@ def _read_by(token: Token, given: str, file: Path) -> set[Path]:
     if token.text == b"#includeFunc":
         return {Path("system", given)}
     if token.text.endswith(b"Etc"):
-        _require_inside(given, os.path.normpath(given), token)
+        _require_inside(given, ".." if ".." in given.split("/") else given, token)
         return set()
     if not token.text.startswith((b"#include", b"#sinclude")):
         return set()
@@ -70,7 +71,7 @@ def _place(given: str, parent: Path, token: Token) -> Path:
 
 
 def _require_inside(given: str, place: str, token: Token) -> None:
-    if given.startswith(("/", "~")) or place.split("/")[0] in ("..", ".") or ".." in given.split("/") and token.text.endswith(b"Etc"):
+    if given.startswith(("/", "~")) or place.split("/")[0] in ("..", "."):
         raise Doubt(f"{shown(token.text)} {given!r} leads out of the case", token.start)
     if not CERTAIN.fullmatch(given):
         raise Doubt(f"where {shown(token.text)} {given!r} leads cannot be said", token.start)
@@ -87,4 +88,3 @@ def require_plain_line(token: Token, tokens: Tokens) -> None:
     begin = token.end
     if tokens.data.find(b"\n", token.start, begin) >= 0 or not PLAIN.match(tokens.data, begin):
         raise Doubt(f"the line of {shown(token.text)} cannot be judged", token.start)
-

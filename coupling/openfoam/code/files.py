@@ -18,13 +18,15 @@ from coupling.openfoam.code.words import Words, has_header
 from sdph.schema import CaseError
 
 COLLATED = re.compile(r"processors.*")  # ranks that share files, which hold files
-SURFACES = re.compile(r"constant/(triSurface|geometry|extendedFeatureEdgeMesh)/.*\.(stlb?|obj|off|vt[kp]|gts|nas|ac|tri|ply|csv)(\.gz)?")
+SURFACES = re.compile(  # that are no dictionaries
+    r"constant/(triSurface|geometry|extendedFeatureEdgeMesh)/.*\.(stlb?|obj|off|vt[kp]|gts|nas|ac|tri|ply|csv)(\.gz)?"
+)
 LARGEST = 2**31  # bytes that a compressed file may unpack to (our choice)
 
 
 @dataclass(frozen=True)
 class Findings:
-    """A file that was read: its size and time then, the files that it includes, whether it is binary, and how it was read."""
+    """What a file was when it was read: its size and time, what it includes, whether binary, whether read as strictly."""
 
     stamp: tuple[int, int]
     included: frozenset[Path]
@@ -33,7 +35,7 @@ class Findings:
 
 
 def refuse_code(folder: Path, known: dict[Path, Findings] | None = None) -> None:
-    """CaseError when a file of the case would run code, or may do so; `known` keeps what was found (by place) for another call."""
+    """CaseError when a file of the case would run code, or may do so; `known` keeps what was found for another call."""
     known = {} if known is None else known
     if folder.is_symlink():
         raise _refusal(folder, "it is a link, and leads out of the case")

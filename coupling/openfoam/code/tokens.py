@@ -57,7 +57,7 @@ class Token(NamedTuple):
 
 
 class Tokens:
-    """Tokens of `data` from `position` on; who reads bytes in another way moves `position`. `Doubt` where there is none."""
+    """Tokens of `data` from `position` on, which others may move; `Doubt` where something has no end."""
 
     def __init__(self, data: bytes, position: int = 0):
         self.data, self.position = data, position

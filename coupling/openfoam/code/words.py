@@ -23,7 +23,7 @@ IN_HEADER = (Kind.WORD, Kind.STRING, Kind.MARK)
 
 
 class Words:
-    """A file as it is read: `file` is its place in the case, `strict` says that directives which are not known count."""
+    """A file as it is read: `file` is its place in the case, `strict` counts directives that are not known."""
 
     def __init__(self, data: bytes, file: Path, strict: bool):
         self.data, self.file, self.tokens = data, file, Tokens(data)
@@ -89,7 +89,7 @@ class Words:
             raise Doubt(f"{shown(token.text)} cannot be judged", token.start)
 
     def hash(self, token: Token) -> None:
-        """A directive; in a file that is no dictionary (# begins a comment of a table) one that is not known does nothing."""
+        """A directive; one that is not known is a comment in a file that is no dictionary, such as a table."""
         if self.strict or directives.names_one(token.text):
             self.included |= directives.follow(token, self.tokens, self.file)
 
