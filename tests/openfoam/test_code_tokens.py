@@ -56,7 +56,7 @@ PIECES = {  # text -> what is found in it
     b"#include": (HASH, b"#include"),
     b";": (MARK, b";"), b"{": (MARK, b"{"), b"}": (MARK, b"}"), b"(": (MARK, b"("), b",": (MARK, b","),
 }
-COMMENTS = [b" // \" /* #{\n", b"/* // \" #{ */ ", b" /***/ "]
+COMMENTS = [b" // \" /* #{\n", b" /* // \" #{ */ ", b" /***/ "]
 GAPS = st.sampled_from([b" ", b"\n", b"\t", b" 1.5e-3 ", b" (0 0 1) ", *COMMENTS])
 
 
