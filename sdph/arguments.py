@@ -86,7 +86,7 @@ def _run_options(parser) -> None:
     parser.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: openfoam where it is)")
     parser.add_argument("--transport", choices=("socket", "file"), help="how fields travel to OpenFOAM")
     parser.add_argument("--np", type=int, help="MPI ranks of the gas solver")
-    parser.add_argument("--allow-code", action="store_true", help="let the OpenFOAM files of your case run code (#codeStream and its like)")
+    parser.add_argument("--allow-code", action="store_true", help="let the OpenFOAM files of your case, or of RUN, run code (#codeStream, libs and their like)")
     parser.add_argument("--accuracy", type=share, metavar="E", help="take the cheapest measured setting that errs by this or less, such as 2%%")
     parser.add_argument("--until", type=float, metavar="T", help="end time [s]")
     parser.add_argument("--watch", action="store_true", help="keep a page of the run as it goes in its folder: watch.html")

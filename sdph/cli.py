@@ -80,9 +80,9 @@ def run(options) -> int:
     with contextlib.closing(Reporter(quiet=options.json)) as reporter:
         if options.resume:
             folder = options.resume
-            _refuse(options, ("out", "accuracy", "allow_code"), "--resume goes on with a run as it was begun")
+            _refuse(options, ("out", "accuracy"), "--resume goes on with a run as it was begun")
             reporter.page = watch.Page(folder) if options.watch else None
-            summary = driver.resume(folder, overrides, reporter)
+            summary = driver.resume(folder, overrides, reporter, allow_code=options.allow_code)
         else:
             name, file = scenes.find(options.target)
             if options.accuracy:

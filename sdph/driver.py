@@ -41,8 +41,8 @@ def run(case, name: str, folder: Path, gas_folder: Path | None, reporter, *, all
         try:
             case = inputs.keep(case, folder)
             if not case.liquid and case.coupling.gas != "embedded":
-                inputs.keep_gas(template, folder)
-            output.write_origin(folder, gas_template=str(template.resolve()), allow_code=allow_code)
+                inputs.keep_gas(template, folder, allow_code)
+            output.write_origin(folder)
             output.write_text(folder / output.MARK, cases.dumps(inputs.seen_from(case, folder)))
             return _guarded(Run(case, folder, reporter), None, inputs.gas_of(folder), allow_code)
         except CaseError:
@@ -51,8 +51,11 @@ def run(case, name: str, folder: Path, gas_folder: Path | None, reporter, *, all
             raise
 
 
-def resume(folder: Path, overrides: tuple[str, ...], reporter) -> dict:
-    """Go on with a run from its newest whole checkpoint, or from its start where it has none; its summary."""
+def resume(folder: Path, overrides: tuple[str, ...], reporter, *, allow_code: bool = False) -> dict:
+    """Go on with a run from its newest whole checkpoint, or from its start where it has none; its summary.
+
+    The run folder may come from elsewhere: the OpenFOAM case in it may run code only with `allow_code`, given anew.
+    """
     if not (folder / output.MARK).is_file() or not (folder / output.ORIGIN).is_file():
         raise CaseError(f"{folder} holds no run to go on with; run it anew")
     case = cases.load(folder / output.MARK, overrides)
@@ -65,9 +68,8 @@ def resume(folder: Path, overrides: tuple[str, ...], reporter) -> dict:
             reporter.status(f"{folder} has no checkpoint: it begins again")
             output.clear(folder)
             case = inputs.keep(case, folder)
-        origin = output.read_origin(folder)
         template = None if checkpoint else inputs.gas_of(folder)
-        return _guarded(Run(case, folder, reporter), checkpoint, template, origin["allow_code"])
+        return _guarded(Run(case, folder, reporter), checkpoint, template, allow_code)
 
 
 def simulation_of(case, gas, ledger: Path):

@@ -110,15 +110,11 @@ def write_summary(folder: Path, summary: dict) -> None:
     write_json(folder / "summary.json", summary)
 
 
-def write_origin(folder: Path, **more) -> None:
-    """Where a run comes from: the command, versions, machine, and `more` that is needed to begin it again."""
+def write_origin(folder: Path) -> None:
+    """Where a run comes from: the command, versions, machine. Nothing is taken from it: a folder may come from anywhere."""
     versions = {"sdph": __version__, "python": platform.python_version()} | {name: importlib.metadata.version(name) for name in NAMED}
     origin = {"command": sys.argv, "versions": versions, "machine": platform.platform(), "cores": os.cpu_count()}
-    write_json(folder / ORIGIN, origin | more)
-
-
-def read_origin(folder: Path) -> dict:
-    return read_json(folder / ORIGIN)
+    write_json(folder / ORIGIN, origin)
 
 
 def read_json(path: Path) -> dict:

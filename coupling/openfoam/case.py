@@ -8,12 +8,12 @@ a template needs nothing but `#include "sdphCase"` and `$gas_density`. `system/b
 from __future__ import annotations
 
 import dataclasses
-import gzip
 import re
 import shutil
 from pathlib import Path
 
 from coupling.openfoam.block_mesh import block_mesh
+from coupling.openfoam.code import Findings, refuse_code
 from coupling.openfoam.start_fields import start_fields
 from sdph.case import cells
 from sdph.schema import CaseError
@@ -22,20 +22,28 @@ HEAD = "FoamFile {{ version 2.0; format ascii; class dictionary; object {name}; 
 SPATIAL = ("m", "m_s", "m_s2")  # units of what has one component per dimension
 NOT_SPATIAL = ("span",)  # lengths, but along the tangential axes
 REFUSED = " \t\"'"  # OpenFOAM's fileName takes none of these
+NAME = re.compile(r"[\w.+-]+")  # of what a case names: no more than a word of OpenFOAM
 DEPTH = 1.0  # m, of the one cell that a two-dimensional mesh is deep
-# what makes OpenFOAM run or load code that a case brings
-CODE = re.compile(r"#\s*(codeStream|calc)\b|\bcoded\w*\b|\bsystemCall\b|\b(functionObjectLibs|libs)\b")
-COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 
 
-def write_case(case, template: Path, folder: Path, ranks: int = 1, allow_code: bool = False) -> None:
-    """Make `folder` the OpenFOAM case of `case`: `template`'s files, macros, and the dictionary of the mesh."""
+def write_case(
+    case, template: Path, folder: Path, ranks: int = 1, allow_code: bool = False,
+    known: dict[Path, Findings] | None = None,
+) -> None:  # fmt: skip
+    """Make `folder` the OpenFOAM case of `case`: `template`'s files, macros, and the dictionary of the mesh.
+
+    `known` keeps what was read of the template, for who reads the copy (see `refuse_code`).
+    """
     if set(str(folder.absolute())) & set(REFUSED):
         raise CaseError(f"{folder.absolute()}: OpenFOAM takes no blanks and quotes in a path; give another --out, or --gas embedded")
     if not (template / "system" / "controlDict").exists():
         raise CaseError(f"{template} is no OpenFOAM case: it has no system/controlDict")
+    for name in case.boundaries:
+        if not NAME.fullmatch(name):
+            what = f"boundaries.{name!r}: OpenFOAM takes letters, digits and _ . + - in a name"
+            raise CaseError(f"{what}; rename it, or give --gas embedded")
     if not allow_code:
-        refuse_code(template)
+        refuse_code(template, known)
     shutil.copytree(template, folder, dirs_exist_ok=True)
     write_macros(case, folder)
     write_start_fields(case, folder)
@@ -43,18 +51,6 @@ def write_case(case, template: Path, folder: Path, ranks: int = 1, allow_code: b
         write_block_mesh(case, folder)
     if ranks > 1:
         write_decomposition(case, folder, ranks)
-
-
-def refuse_code(folder: Path) -> None:
-    """CaseError when a dictionary of the case would run code: OpenFOAM compiles and runs what such entries say."""
-    for path in sorted(p for p in folder.rglob("*") if p.is_file()):
-        if path.parent.name == "polyMesh" and path.name != "boundary":
-            continue
-        data = path.read_bytes()
-        text = (gzip.decompress(data) if path.suffix == ".gz" else data).decode(errors="replace")
-        found = CODE.search(COMMENT.sub("", text))
-        if found:
-            raise CaseError(f"{path} has {found.group()!r}, which runs code of the case: remove it, or give --allow-code if it is yours")
 
 
 def write_macros(case, folder: Path) -> None:
@@ -78,7 +74,7 @@ def _flatten(prefix: str, value, dimensions: int, found: dict[str, str]) -> None
     """The parameters of an effect go under its own name, those of a group under group_name."""
     if isinstance(value, dict):
         for name, entry in value.items():
-            _flatten(f"{prefix}_{name}".lstrip("_"), entry, dimensions, found)
+            _flatten(f"{prefix}_{''.join(NAME.findall(name))}".lstrip("_"), entry, dimensions, found)
     elif dataclasses.is_dataclass(value):
         for field in dataclasses.fields(value):
             entry = getattr(value, field.name)

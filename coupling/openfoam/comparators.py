@@ -7,6 +7,7 @@ by macros. A finished run is kept in the user's cache, so that it is made once.
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import time
 from dataclasses import dataclass
@@ -14,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from coupling.openfoam import build, droplet_numbers, fields, install, programs, two_fluid_numbers
+from coupling.openfoam import barrier, build, droplet_numbers, fields, install, programs, two_fluid_numbers
 from coupling.openfoam.case import HEAD, write_case
 from coupling.openfoam.programs import Progress
 from coupling.openfoam.reference import Reference, keep, key, load
@@ -24,6 +25,8 @@ from sdph.schema import CaseError
 
 PARCEL_FILES = {"d": "diameter", "T": "temperature", "nParticle": "count", "rho": "density", "U": "velocity"}
 CLOUD = "lagrangian/reactingCloud1"
+# folders of a case; numbers are times
+OPENFOAM = re.compile(r"system|constant|dynamicCode|postProcessing|processor.*|[-+.\d].*|inf.*|nan.*")
 
 
 @dataclass(frozen=True)
@@ -106,10 +109,14 @@ def _run(solver: Solver, case: Case, folder: Path, ranks: int, files: dict, prog
 
 
 def _clear(folder: Path) -> None:
-    """Drop what an earlier run left in the folder: its outputs would be taken for this run's."""
-    left = [path for _, path in fields.times(folder)] if folder.is_dir() else []
-    for path in (*left, *folder.glob("processor*"), folder / "postProcessing", folder / "constant" / "polyMesh"):
-        shutil.rmtree(path, ignore_errors=True)
+    """Drop what OpenFOAM reads in the folder: of an earlier run, or of whoever made the run folder that it is in."""
+    if folder.is_symlink():
+        raise CaseError(f"{folder} is a link, and leads out of the run folder; remove it")
+    for path in folder.iterdir() if folder.is_dir() else ():
+        if path.is_symlink():
+            path.unlink()
+        elif path.is_dir() and OPENFOAM.fullmatch(path.name):
+            shutil.rmtree(path)
 
 
 def shelf() -> Path:
@@ -131,7 +138,7 @@ def _text(content: dict[str, str] | str) -> str:
 
 def _environment() -> dict[str, str]:
     """Environment of OpenFOAM's programs, in which they find the closures library."""
-    variables = install.environment()
+    variables = barrier.environment(libraries=True)
     places = [str(install.two_fluid_closures().parent), *filter(None, [variables.get("LD_LIBRARY_PATH")])]
     return variables | {"LD_LIBRARY_PATH": os.pathsep.join(places)}
 

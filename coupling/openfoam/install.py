@@ -16,8 +16,9 @@ from coupling.openfoam.installation import INSTALL_LINE, Installation, find, req
 HERE = Path(__file__).parent
 GAS_SOLVER = HERE / "sdphGasFoam"
 TWO_FLUID_CLOSURES = HERE / "twoFluidClosures"
+CODE_GUARD = HERE / "codeGuard"
 
-__all__ = ["Row", "build", "doctor", "environment", "find", "gas_solver", "mpirun", "require", "setup", "two_fluid_closures"]
+__all__ = ["Row", "build", "code_guard", "doctor", "environment", "find", "gas_solver", "mpirun", "require", "setup", "two_fluid_closures"]
 
 
 def gas_solver(status: Callable[[str], None] = silent) -> Path:
@@ -28,6 +29,11 @@ def gas_solver(status: Callable[[str], None] = silent) -> Path:
 def two_fluid_closures(status: Callable[[str], None] = silent) -> Path:
     """The library of closures for twoPhaseEulerFoam, compiled if it must be."""
     return build(TWO_FLUID_CLOSURES, status)
+
+
+def code_guard(status: Callable[[str], None] = silent) -> Path:
+    """The library that keeps programs from loading libraries of a case, compiled if it must be."""
+    return build(CODE_GUARD, status)
 
 
 def environment() -> dict[str, str]:
@@ -47,7 +53,7 @@ def setup(install: bool = False, status: Callable[[str], None] = print) -> None:
         _apt_install(status)
     found = require()
     status(f"OpenFOAM {found.version} in {found.project}")
-    for product in (gas_solver(status), two_fluid_closures(status)):
+    for product in (gas_solver(status), two_fluid_closures(status), code_guard(status)):
         status(f"{product.name} is ready: {product}")
 
 
@@ -82,7 +88,7 @@ def doctor() -> list[Row]:
     rows = [Row("OpenFOAM", found is not None, f"{found.version} in {found.project}" if found else "", get)]
     rows += [_program(name, get) for name in ("blockMesh", "mpirun")]
     rows.append(_compiler(found, get))
-    rows += [_product(source, found) for source in (GAS_SOLVER, TWO_FLUID_CLOSURES)]
+    rows += [_product(source, found) for source in (GAS_SOLVER, TWO_FLUID_CLOSURES, CODE_GUARD)]
     return rows
 
 

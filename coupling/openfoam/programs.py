@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from coupling.gas import GasError
-from coupling.openfoam import install
+from coupling.openfoam import barrier, install
 
 LOOK = 0.2  # s between two looks at a running solver
 TAIL = 20000  # bytes of a log that are looked through
@@ -24,8 +24,8 @@ Progress = Callable[[float, float], None]
 
 
 def run(command: list[str], folder: Path, log: Path, environment: dict[str, str] | None = None) -> None:
-    """Run a short program to its end."""
-    variables = environment or install.environment()
+    """Run a short program to its end, with no code of the case unless `environment` lets it."""
+    variables = environment or barrier.environment()
     with log.open("wb") as out, starting(command[0]):
         process = subprocess.run(command, cwd=folder, env=variables, stdout=out, stderr=subprocess.STDOUT, check=False)
     if process.returncode:

@@ -16,8 +16,8 @@ import numpy as np
 from coupling import files
 from coupling.gas import FIELDS, SOURCES, Budget, CheckpointError, GasError, GasState, Mesh, Unfinished, refuse_full_cells
 from coupling.messages import Kind, Message, MessageError, message_limit
+from coupling.openfoam import barrier, install, programs
 from coupling.openfoam import case as case_files
-from coupling.openfoam import install, programs
 from coupling.openfoam.build import silent
 from coupling.sockets import SocketServer
 from sdph.engine.clock import Clock
@@ -39,7 +39,8 @@ SERVERS = {
 class OpenFoamGas:
     """`coupling.gas.Gas` by sdphGasFoam, in `folder`; its log is `folder/log.sdphGasFoam`.
 
-    `template` is an OpenFOAM case with 0, constant and system; None takes `folder` as an earlier run left it.
+    `template` is an OpenFOAM case with 0, constant and system; None takes `folder` as an earlier run left it. Code in either
+    is refused, and kept from running, unless `allow_code`.
     Time folders are written at the outputs of the case; `case_folder/case.foam` opens them, of `ranks` ranks, in ParaView.
     """
 
@@ -50,10 +51,13 @@ class OpenFoamGas:
         self._log, self.case_folder, self.ranks = self._folder / "log.sdphGasFoam", self._folder, case.coupling.ranks
         self._process, self._connection, self._asking = None, None, False
         self._time, self._clock = 0.0, Clock(case.run)
+        self._allow_code, self._known = allow_code, {}
+        if template is None:
+            self._refuse_code(Path(folder))
         files.sweep(self._folder)
         program = install.gas_solver(status)
         if template is not None:
-            case_files.write_case(case, Path(template), self._folder, case.coupling.ranks, allow_code)
+            case_files.write_case(case, Path(template), self._folder, case.coupling.ranks, allow_code, self._known)
             self._make_mesh()
         try:
             self._launch(program)
@@ -63,13 +67,26 @@ class OpenFoamGas:
 
     def _make_mesh(self) -> None:
         if not (self._folder / "constant" / "polyMesh").exists():
-            programs.run(["blockMesh"], self._folder, self._folder / "log.blockMesh")
+            self._run("blockMesh")
         if self._case.coupling.ranks > 1:
-            programs.run(["decomposePar", "-force"], self._folder, self._folder / "log.decomposePar")
+            self._run("decomposePar", "-force")
         (self._folder / "case.foam").touch()
+
+    def _run(self, program: str, *options: str) -> None:
+        """A program of OpenFOAM, which finds no code in what the one before it has written."""
+        self._refuse_code(self._folder)
+        programs.run([program, *options], self._folder, self._folder / f"log.{program}", self._environment())
+
+    def _refuse_code(self, folder: Path) -> None:
+        if not self._allow_code:
+            case_files.refuse_code(folder, self._known)
+
+    def _environment(self) -> dict[str, str]:
+        return install.environment() if self._allow_code else barrier.environment()
 
     def _launch(self, program: Path) -> None:
         """Start the solver and wait for its greeting."""
+        self._refuse_code(self._folder)
         secret = secrets.token_hex(32)
         server = SERVERS[self._case.coupling.transport](secret, self._folder)
         try:
@@ -94,7 +111,7 @@ class OpenFoamGas:
         if ranks > 1:
             command = [*install.mpirun(ranks), *command, "-parallel"]
         # a result that is not a number is named and reported by the solver, not trapped by the processor
-        environment = install.environment() | {"SDPH_SECRET": secret, "FOAM_SIGFPE": "false", "FOAM_SETNAN": "false"}
+        environment = self._environment() | {"SDPH_SECRET": secret, "FOAM_SIGFPE": "false", "FOAM_SETNAN": "false"}
         with self._log.open("wb") as log, programs.starting(command[0]):
             return subprocess.Popen(
                 command, cwd=self._folder, env=environment,

@@ -20,6 +20,7 @@ from pathlib import Path
 
 import tomli_w
 
+from coupling.openfoam.code import refuse_code
 from sdph import case as cases
 from sdph import boundary, output
 from sdph.effects import frame, tank
@@ -106,8 +107,10 @@ def gas_of(folder: Path) -> Path:
     return folder / FOLDER / "gas"
 
 
-def keep_gas(template: Path, folder: Path) -> None:
-    """Copy the OpenFOAM case of the gas into a run folder."""
+def keep_gas(template: Path, folder: Path, allow_code: bool) -> None:
+    """Copy the OpenFOAM case of the gas into a run folder. What it links to would be copied too: code is looked for before."""
+    if not allow_code:
+        refuse_code(template)
     try:
         shutil.copytree(template, gas_of(folder))
     except shutil.Error as error:  # of several files, each with its reason

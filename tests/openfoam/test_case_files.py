@@ -1,8 +1,10 @@
 """OpenFOAM case files made from case.toml: macros, meshes, boundaries, and what is refused."""
 
 import gzip
+import re
 import shutil
 import subprocess
+import tomllib
 
 import numpy as np
 import pytest
@@ -52,6 +54,20 @@ def test_texts_cannot_break_out_of_their_macro(tmp_path):
     title = case_files.macros(case)["title"]
     assert title.startswith('"') and title.endswith('"')
     assert not set('"$#;\\{') & set(title[1:-1])
+
+
+def test_names_cannot_break_out_of_their_macro():
+    evil = 'a 1; libs ("x.so"); #calc'
+    text = (scenes.HERE / "disc_cluster" / "case.toml").read_text()
+    found = case_files.macros(cases.from_table(tomllib.loads(text) | {"probes": {evil: {"at_m": [0.1, 0.1]}}}))
+    assert found["probes_a1libsx.socalc_at"] == "(0.1 0.1 0.0)"
+    assert all(re.fullmatch(r"[\w.]+", name) for name in found)
+
+
+def test_a_boundary_that_openfoam_could_not_call_so_is_refused(tmp_path):
+    case = box_case((0.1, 0.1), 0.01, boundaries={"walls; #calc": {"kind": "wall"}})
+    with pytest.raises(CaseError, match="boundaries.'walls; #calc': OpenFOAM takes letters"):
+        case_files.write_case(case, TEMPLATE, tmp_path / "out")
 
 
 @pytest.mark.parametrize("entry", [

@@ -367,7 +367,7 @@ def test_both_languages_mean_the_same_format(wire_echo):
 def test_nothing_is_built_twice():
     installation = install.require()
     assert installation.wmake or (header_folder(installation) / "src" / "finiteVolume" / "lnInclude" / "fvMesh.H").exists()
-    products = [install.gas_solver(), install.two_fluid_closures()]
+    products = [install.gas_solver(), install.two_fluid_closures(), install.code_guard()]
     before = [path.stat().st_mtime_ns for path in products]
     said = []
     install.setup(status=said.append)
