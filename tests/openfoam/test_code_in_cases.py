@@ -125,8 +125,9 @@ def test_files_of_all_places_are_read(case, name):
 
 @pytest.mark.parametrize("header", [
     'FoamFile #calc "1"', 'FoamFile version 2.0; format ascii; libs (x);', "/* */ FoamFile // \n { format $x; }",
-    'FoamFile { "form.*" binary; }', "FoamFile { format ascii; format binary; }", "FoamFile { format ascii; x } ; format binary; }",
-    "FoamFile { 1 (format binary;) }", "FoamFile { format binary ascii; }", 'FoamFile { #include "extra" }', "FoamFile { a { } }",
+    'FoamFile { "form.*" binary; }', "FoamFile { format ascii; format binary; }", "FoamFile { 1 (format binary;) }",
+    "FoamFile { format ascii; x } ; format binary; }", "FoamFile { format binary ascii; }", "FoamFile { a { } }",
+    'FoamFile { #include "extra" }',
 ])  # fmt: skip
 def test_headers_are_plain(case, header):
     put(case, "constant/polyMesh/points", header)
