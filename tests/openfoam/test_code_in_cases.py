@@ -61,7 +61,8 @@ def refused(case, told=None):
     "FoamFile { #x /* \n } libs (x); /* */ }", 'a "b', "a /* b",
     'FoamFile { #inputMode merge /* \n } libs ("x.so"); /* */', "#eval { 1 // }; libs (x);\n}",
     "#if 1 /* \n libs (x); */", "${{ 1 }} /* libs */",
-    "decomposedBlockData", "#nonsense 1", "a ${libs};", "#remove (a\n\"li.*\" (\"x.so\");",
+    "decomposedBlockData", "#nonsense 1", "a ${libs};", "a ${x}/* b */;",
+    'FoamFile { "#x" /* \n } libs ("x.so"); /* */', "#remove (a\n\"li.*\" (\"x.so\");",
 ])  # fmt: skip
 def test_code_is_found(case, entry):
     put(case, "constant/extra", f"{DICTIONARY}{entry}\n")
@@ -124,12 +125,19 @@ def test_files_of_all_places_are_read(case, name):
 
 @pytest.mark.parametrize("header", [
     'FoamFile #calc "1"', 'FoamFile version 2.0; format ascii; libs (x);', "/* */ FoamFile // \n { format $x; }",
-    'FoamFile { "form.*" binary; }',
-    "FoamFile { format ascii; format binary; }", 'FoamFile { #include "extra" }', "FoamFile { a { } }",
+    'FoamFile { "form.*" binary; }', "FoamFile { format ascii; format binary; }", "FoamFile { 1 (format binary;) }",
+    "FoamFile { format ascii; x } ; format binary; }", "FoamFile { format binary ascii; }", "FoamFile { a { } }",
+    'FoamFile { #include "extra" }',
 ])  # fmt: skip
 def test_headers_are_plain(case, header):
     put(case, "constant/polyMesh/points", header)
     refused(case)
+
+
+@pytest.mark.parametrize("name", ["system/a", "constant/a", "0/a", "nan/a", "other/a", "processor0/a"])
+def test_files_without_a_header_are_read_in_all_folders(case, name):
+    put(case, name, "libs (x);")
+    refused(case, "'libs'")
 
 
 def test_files_that_no_program_opens_are_read_where_they_are_included(case):
@@ -281,6 +289,10 @@ def test_expressions_that_match_a_key_are_known(key, data):
     head, tail = key[:cut], key[cut:]
     form = data.draw(st.sampled_from(MATCHING))
     assert may_be_key(form.format(head, tail, key.upper()).encode())
+
+
+def test_expressions_that_take_for_ever_are_not_tried():
+    assert may_be_key(b"(.+)*x") and may_be_key(b"(.+)+(.+)+x")
 
 
 @pytest.mark.parametrize("pattern", ["inlet.*", "(U|k|epsilon)", "div\\(.*\\)", "lib", "libs", ".*Wall"])

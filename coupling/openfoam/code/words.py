@@ -19,7 +19,6 @@ WORD = re.compile(rb"[\w:.<>-]+")
 INVALID = re.compile(rb"[\s\"';{}]")  # in words: dropped from keys such as "of/li bs"
 FOAM_CASE = b"FOAM_CASE"  # includes would take an entry of that name for the variable
 HEADER = b"FoamFile"
-IN_HEADER = (Kind.WORD, Kind.STRING, Kind.MARK)
 
 
 class Words:
@@ -48,14 +47,14 @@ class Words:
         self.tokens.next()
         for count, token in enumerate(self.tokens):
             CHECKS[token.kind](self, token)
-            if token.is_mark(b"}"):
+            if token.is_mark(b"}") and not entry:
                 return found
             if token.is_mark(b";"):
                 _keep(entry, found)
                 entry = []
-            elif token.kind in (Kind.WORD, Kind.STRING):
+            elif token.kind in (Kind.WORD, Kind.STRING) and count > 0:
                 entry.append(token)
-            if token.is_mark(b"{") != (count == 0) or token.kind not in IN_HEADER:
+            elif not (token.is_mark(b"{") and count == 0):
                 break
         raise Doubt("a FoamFile header that is more than words and texts cannot be judged", 0)
 
@@ -114,7 +113,7 @@ def _keep(entry: list[Token], found: dict[bytes, bytes]) -> None:
     if not entry:
         return
     key, *values = entry
-    if key.kind is not Kind.WORD or key.text in found:
+    if key.kind is not Kind.WORD or key.text in found or len(values) > 1:
         raise Doubt(f"{shown(key.text)} in a FoamFile header cannot be judged", key.start)
     found[key.text] = b" ".join(value.text for value in values)
 
