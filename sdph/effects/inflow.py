@@ -15,6 +15,7 @@ import numpy as np
 
 from sdph import particles
 from sdph.effects.effect import Effect, Judgement
+from sdph.engine.kept import Unfit
 from sdph.particles import GRAIN, INFLOW
 from sdph.schema import CaseError, choice, quantity, record, vector
 
@@ -171,15 +172,14 @@ def _ticks(size: float, spacing: float) -> np.ndarray:
 class Source:
     """The nozzles of a case as they run: how many layers each stream has made, and what came in so far."""
 
-    KEPT = ("layers", "next_ident", "mass", "energy", "momentum")  # see sdph.restart
+    KEPT = ("layers", "next_ident", "mass", "energy", "momentum")  # see sdph.engine.kept
 
     def __init__(self, case, names, first_ident: int):
         self.case, self.names = case, names
         self.nozzles = list(case.nozzles.values())
         self.streams = [streams_of(case, nozzle) for nozzle in self.nozzles]
-        self.reach = [
-            np.linalg.norm(s.mouth - np.array(n.centre), axis=1).max() + s.pitch for s, n in zip(self.streams, self.nozzles)
-        ]
+        rims = [np.linalg.norm(s.mouth - np.array(n.centre), axis=1) for s, n in zip(self.streams, self.nozzles)]
+        self.reach = [rim.max() + s.pitch for rim, s in zip(rims, self.streams)]
         self.layers = [np.zeros(len(streams.speed), np.int64) for streams in self.streams]
         self.next_ident = first_ident
         self.mass, self.energy, self.momentum = 0.0, 0.0, np.zeros(3)  # through the mouths [kg], [J], [kg m/s]
@@ -192,18 +192,30 @@ class Source:
         return state
 
     def _fresh(self, k: int, time: float, dt: float):
-        nozzle, streams = self.nozzles[k], self.streams[k]
-        gone = streams.speed * (time - nozzle.start)
-        depth = DEPTH * self.case.smoothing_length + streams.speed * dt
-        wanted = np.floor((depth + gone) / streams.pitch - 0.5 + ROUND_OFF).astype(np.int64) + 1
-        if nozzle.end is not None:
-            wanted = np.minimum(wanted, np.round(streams.speed * (nozzle.end - nozzle.start) / streams.pitch).astype(np.int64))
-        made, more = self.layers[k], np.maximum(0, wanted - self.layers[k])
+        streams = self.streams[k]
+        gone = streams.speed * (time - self.nozzles[k].start)
+        made, more = self.layers[k], np.maximum(0, self._wanted(k, time, dt) - self.layers[k])
         stream = np.repeat(np.arange(len(more)), more)
         layer = np.concatenate([np.arange(a, a + n) for a, n in zip(made, more)]) if more.sum() else np.zeros(0)
         self.layers[k] = made + more
         place = gone[stream] - (layer + 0.5) * streams.pitch
         return self._particles(k, streams.mouth[stream] + place[:, None] * streams.axis, streams.speed[stream, None] * streams.axis)
+
+    def _wanted(self, k: int, time: float, dt: float):
+        """(S,) layers of the streams of nozzle k for the window from `time` of `dt` [s]."""
+        nozzle, streams = self.nozzles[k], self.streams[k]
+        way = DEPTH * self.case.smoothing_length + streams.speed * dt + streams.speed * (time - nozzle.start)
+        last = math.inf if nozzle.end is None else np.round(streams.speed * (nozzle.end - nozzle.start) / streams.pitch)
+        return np.clip(np.floor(way / streams.pitch - 0.5 + ROUND_OFF) + 1, 0, last).astype(np.int64)
+
+    def admit_at(self, time: float, kept: dict) -> None:
+        """Unfit where not the layers were made that are needed at `time` [s], or other particles than these hold."""
+        fits = kept["next_ident"] == self.next_ident + sum(int(layers.sum()) for layers in kept["layers"])
+        for k, layers in enumerate(kept["layers"]):
+            least, most = self._wanted(k, time, 0.0), self._wanted(k, time, 2.0 * self.case.coupling.window_largest) + 1
+            fits = fits and bool(((layers >= least) & (layers <= most)).all())
+        if not fits:
+            raise Unfit(f"the nozzles cannot have made and numbered what they have made at {time:g} s")
 
     def _particles(self, k: int, points, velocity):
         nozzle, grains, d = self.nozzles[k], self.case.grains, self.case.dimensions
