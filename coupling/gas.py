@@ -121,8 +121,9 @@ class Gas(Protocol):
     def checkpoint(self, folder: Path) -> None:
         """Write all that `restore` needs to go on bit for bit into `folder`."""
 
-    def restore(self, folder: Path) -> GasState:
-        """Go back to a checkpoint; instead of `start`."""
+    def restore(self, folder: Path, sources: tuple[str, ...] | None = None) -> GasState:
+        """Go back to a checkpoint, instead of `start`; `sources` as there (None: those of the checkpoint).
+        `CheckpointError` where it is not whole, or of another mesh or other sources."""
 
     def close(self) -> None:
         """End the solver; nothing is left running."""

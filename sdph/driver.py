@@ -2,8 +2,8 @@
 
 What is run is a `Simulation` of grains in a gas or a `LiquidRun`. The driver knows of both only what both have:
 
-    start()  take_up(folder of the gas's checkpoint)  window()         how it goes
-    time  windows  at_row  clock (sdph.engine.clock)                    where it is
+    start()  take_up(checkpoint)  window()                             how it goes
+    time  windows  at_row  clock (sdph.engine.clock)                   where it is
     row()  meshes()  walls()  ledger  wall  summary(out)  warnings()  notices   what it has to show
     KEPT  gas                                                          what a checkpoint holds
 """
@@ -17,8 +17,10 @@ import time
 from pathlib import Path
 
 from coupling.choice import open_gas
+from coupling.gas import CheckpointError
 from sdph import case as cases
 from sdph import environment, metrics, output, particles, paths, restart
+from sdph.engine.kept import ROW, Many, Maybe, Unfit
 from sdph.guard import Unstable
 from sdph.interruption import Stopped, listening
 from sdph.ledger import Ledger
@@ -61,9 +63,12 @@ def resume(folder: Path, overrides: tuple[str, ...], reporter, *, allow_code: bo
     case = cases.load(folder / output.MARK, overrides)
     inputs.check(case)
     with output.claimed(folder):
+        restart.prepare(folder)
         checkpoint = restart.newest(folder, reporter.status)
         if checkpoint:
             checkpoint.refuse_other(cases.to_table(inputs.seen_from(case, folder)))
+        elif restart.numbered(folder):
+            raise CaseError(f"{folder} has no whole checkpoint; to begin again remove {folder / restart.FOLDER}, or run anew")
         else:
             reporter.status(f"{folder} has no checkpoint: it begins again")
             output.clear(folder)
@@ -104,7 +109,7 @@ def _gas_of(run: Run, template: Path | None, allow_code: bool):
 class Run:
     """A run as it goes: windows, what they leave behind, and checkpoints."""
 
-    KEPT = ("simulation", "out", "spent", "first")  # see sdph.restart
+    KEPT, FORMS = ("simulation", "out", "spent", "first"), {"first": Maybe(0.0)}  # see sdph.engine.kept
 
     def __init__(self, case, folder: Path, reporter):
         self.case, self.folder, self.reporter = case, folder, reporter
@@ -168,8 +173,25 @@ class Run:
             self._save()
             return
         self.reporter.status(f"going on from {checkpoint.folder}")
-        checkpoint.fill(self)
-        simulation.take_up(checkpoint.gas)
+        checkpoint.fill(self, lambda kept: self._take_up(checkpoint, kept["simulation"]))
+
+    def admit(self, kept: dict) -> None:
+        """Unfit where time, windows or wall times are not those of a run."""
+        run = kept["simulation"]
+        windows, time_s, wall = run["windows"], run["ledger"]["last"]["time_s"], run["wall"]
+        if windows < 0 or time_s < 0.0 or (windows == 0) != (time_s == 0.0) or min(kept["spent"], *wall.values()) < 0.0:
+            raise Unfit("its windows, time and wall time are not those of a run")
+        if windows and not wall["particles"] > 0.0:
+            raise Unfit("its particles took no time")
+
+    def _take_up(self, checkpoint, kept: dict) -> None:
+        """The gas goes back first: where that fails, the run is as it was."""
+        if (kept["windows"], kept["ledger"]["last"]["time_s"]) != (checkpoint.number, checkpoint.time):
+            raise Unfit("its windows and time are not those that its name and manifest tell")
+        try:
+            self.simulation.take_up(checkpoint)
+        except CheckpointError as error:
+            raise checkpoint.refuse(error) from None
 
     def _window(self) -> None:
         self.simulation.window()
@@ -199,12 +221,21 @@ class Run:
 class Outputs:
     """All that a run writes as it goes: history by row, fields and metrics by output interval."""
 
-    KEPT = ("fields", "history", "metrics", "first", "last", "rows")  # see sdph.restart
+    KEPT = ("fields", "history", "metrics", "first", "last", "rows")  # see sdph.engine.kept
+    FORMS = {"first": ROW, "last": ROW, "rows": Many(ROW)}
 
     def __init__(self, folder: Path, simulation):
         self.simulation, self.fields = simulation, output.Fields(folder)
         self.history, self.metrics = output.Table(folder / "history.csv"), output.Table(folder / "metrics.csv")
         self.first, self.last, self.rows = {}, {}, []
+
+    def admit(self, kept: dict) -> None:
+        """Unfit where a kept row is not of the columns of its table, or holds what is no number."""
+        first, last, rows = kept["first"], kept["last"], kept["rows"]
+        own, metric = kept["history"]["columns"], kept["metrics"]["columns"]
+        for row, columns in ((first, own), (last or first, own), *((row, metric) for row in rows)):
+            if not row.keys() <= set(columns) or any(isinstance(value, str) for value in row.values()):
+                raise Unfit("a row of the history or of the metrics is not of the columns of its table")
 
     def start(self) -> None:
         """The rows and fields of the start, and the walls, which stay as they are."""

@@ -8,17 +8,21 @@ its gas past the speed of sound for a moment: ten times that is too much.
 from __future__ import annotations
 
 import math
+import sys
 from pathlib import Path
 
 import numpy as np
 
 from sdph import particles
+from sdph.engine.kept import Unfit
 from sdph.explain import judge
 from sdph.laws.constants import GAS_CONSTANT
 
 RUNAWAY = 10.0  # times what drives the grains, times the speed of sound of the gas; our choice
 COLLAPSE = 1e3  # times what drives the grains: sound that is faster shrinks the sub-steps until a run gets nowhere; our choice
 LATENT = 0.25  # of the hottest: how far below the coldest evaporation may cool; our choice
+FAR, DENSE = 1e3, 1e3  # times the domain and the density of the grains: no particle is further or denser; our choice
+TINY = sys.float_info.min
 ADIABATIC = 1.4  # cp/cv of a diatomic gas
 
 
@@ -46,6 +50,22 @@ class Watch:
         """Before a window: the state to go back to."""
         self.time, self.window = simulation.time, simulation.windows
         self.last = {"time": simulation.time, **{name: a.copy() for name, a in simulation.state._asdict().items() if len(a)}}
+
+    def admit(self, state: dict, names, bounds: dict) -> None:
+        """Unfit where the arrays of a kept State, those `names` of effects among them, are not one row a particle each, or
+        values are out of `bounds`, name -> (low, high)."""
+        count, fresh = len(state["x"]), particles.empty(1, names, self.case.dimensions)
+        for name, like in fresh._asdict().items():
+            if len(state[name]) != count * len(like):
+                raise Unfit(f"{name} has {len(state[name])} values where {count * len(like)} belong to {count} particles")
+        if len(np.unique(state["ident"])) < count:
+            raise Unfit("two particles have one number")
+        far = FAR * max(self.case.domain.size)
+        for name, (low, high) in (dict.fromkeys("xyz", (-far, far)) | bounds).items():
+            worst = _outside(state[name], low, high)
+            if worst is not None:
+                which = f"{name} of particle {state['ident'][worst]} is {state[name][worst]:.3g}"
+                raise Unfit(f"{which}; this case allows {low:.3g} to {high:.3g}")
 
     def hold(self, name, values, bounds, state, lower: str) -> None:
         """Unstable where a value (N,) of the particles is out of bounds (low, high, unit); `lower`: what is to be lowered."""
@@ -87,6 +107,26 @@ class Guard(Watch):
         super().begin(simulation)
         self.cause, self.length = simulation.clock.limit, dt
 
+    def admit_grains(self, state: dict, names, heaviest: float) -> None:
+        """`admit` of grains, none of more than `heaviest` [kg]."""
+        speed, positive, zero_on = (-RUNAWAY * self.reach, RUNAWAY * self.reach), (TINY, math.inf), (0.0, math.inf)
+        bounds = dict.fromkeys("uvw", speed) | dict.fromkeys(("diameter", "born_mass", "born_diameter"), positive)
+        bounds |= dict.fromkeys(("diameter_variance", "born_variance", "lost_still", "lost_moving"), zero_on)
+        bounds |= {"mass": (TINY, heaviest), "density": (0.0, DENSE * self.case.grains.density), "evaporating": (0.0, 1.0)}
+        bounds |= {"temperature": (self.coldest, self.hottest), "theta": (0.0, (COLLAPSE * self.reach) ** 2)}
+        kinds = [particles.GRAIN, *range(particles.INFLOW, particles.INFLOW + len(self.case.nozzles))]
+        self.admit(state, names, bounds)
+        if not np.isin(state["kind"], kinds).all():
+            raise Unfit("a particle is neither a grain nor of a nozzle")
+
+    def admit_gas(self, fields: dict) -> None:
+        """Unfit where gas that comes from a checkpoint is faster, hotter or colder than this case allows."""
+        for name, values, bounds in self._of_gas(fields):
+            worst = _outside(values, *bounds[:2])
+            if worst is not None:
+                low, high, unit = bounds
+                raise Unfit(f"gas {name} of cell {worst} is {values[worst]:.3g} {unit}; this case allows {low:.3g} to {high:.3g}")
+
     def sub_step(self, stepper) -> None:
         """After a sub-step: NaN, speed, temperature of the particles."""
         s = stepper.state
@@ -101,14 +141,17 @@ class Guard(Watch):
 
     def gas(self, simulation) -> str | None:
         """Name what is out of bounds in the gas after a window, NaN, speed or temperature; None where nothing is."""
-        fields = simulation.gas_state.fields
-        bounds = {"velocity": (0.0, RUNAWAY * self.sound, "m/s"), "temperature": (self.coldest, self.hottest, "K")}
-        for name, bound in bounds.items():
-            values = fields[name] if fields[name].ndim == 1 else particles.lengths(fields[name])
+        for name, values, bound in self._of_gas(simulation.gas_state.fields):
             worst = _outside(values, *bound[:2])
             if worst is not None:
                 return self._told(f"gas {name}", f"cell {worst}", simulation.gas.mesh.centres[worst], values[worst], bound)
         return None
+
+    def _of_gas(self, fields: dict):
+        """(name, values (C,), bounds) of what is looked at."""
+        bounds = {"velocity": (0.0, RUNAWAY * self.sound, "m/s"), "temperature": (self.coldest, self.hottest, "K")}
+        for name, bound in bounds.items():
+            yield name, fields[name] if fields[name].ndim == 1 else particles.lengths(fields[name]), bound
 
     def _shorter(self) -> str:
         return f"coupling.window_largest_s below {self.length:.3g} (the window was ruled by {self.cause})"

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from sdph import particles
+from sdph.engine.kept import ROW, Maybe, Unfit
 from sdph.output import Table
 
 
@@ -35,7 +36,8 @@ def vector(name: str, values) -> dict[str, float]:
 class Ledger:
     """Keeps the rows of one run and writes each to `ledger.csv` as it comes."""
 
-    KEPT = ("sums", "heat_mismatch", "impulse_mismatch", "mass_mismatch", "first", "last", "table")  # see sdph.restart
+    KEPT = ("sums", "heat_mismatch", "impulse_mismatch", "mass_mismatch", "first", "last", "table")  # see sdph.engine.kept
+    FORMS = {"first": Maybe(ROW), "last": Maybe(ROW)}
 
     def __init__(self, path: Path, case, depth: float):
         self.case, self.depth = case, depth
@@ -43,6 +45,9 @@ class Ledger:
         self.heat_mismatch = self.impulse_mismatch = self.mass_mismatch = 0.0  # largest |particles - gas| of a window [J], [kg m/s], [kg]
         self.first = self.last = None
         self.table = Table(path)
+
+    def admit(self, kept: dict) -> None:
+        refuse_rows(kept)
 
     def open(self, state, budget) -> None:
         """The row of the start."""
@@ -124,6 +129,19 @@ class Ledger:
     def _write(self, row: dict) -> None:
         self.first, self.last = self.first or row, row
         self.table.write(row)
+
+
+def refuse_rows(kept: dict) -> None:
+    """Unfit where the first or the last row of a kept ledger is not of its columns, or holds what is no number."""
+    for row in (kept["first"], kept["last"]):
+        if not row or set(row) != set(kept["table"]["columns"]) or not all(key == "limit" or _finite(value) for key, value in row.items()):
+            raise Unfit("the first or the last row of the ledger is not of its columns")
+        if not isinstance(row["limit"], str):
+            raise Unfit("limit in a row of the ledger is no text")
+
+
+def _finite(value) -> bool:
+    return not isinstance(value, str) and math.isfinite(value)
 
 
 def _ratio(part: float, whole: float) -> float:

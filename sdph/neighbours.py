@@ -12,6 +12,7 @@ import numpy as np
 from numba import njit, prange
 
 from sdph import particles
+from sdph.engine.kept import Many
 
 SKIN = 0.1  # of the reach; our choice: 0.2 h measured best (about 5-8 steps per list), and the reach is 2 h
 OPEN = 0.0  # period of an axis that is not periodic
@@ -71,7 +72,7 @@ def box_of(period, dimensions: int) -> tuple:
 class Neighbours:
     """Neighbour rows of a state that moves."""
 
-    KEPT = ("built",)  # see sdph.restart
+    KEPT, FORMS = ("built",), {"built": Many(np.zeros(0))}  # see sdph.engine.kept
 
     def __init__(self, reach: float, period=(OPEN, OPEN, OPEN), skin: float = SKIN):
         if any(0.0 < length < 2.0 * reach for length in period):

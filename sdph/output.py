@@ -15,6 +15,7 @@ import json
 import math
 import os
 import platform
+import re
 import shutil
 import sys
 from contextlib import contextmanager
@@ -23,6 +24,7 @@ from pathlib import Path
 import numpy as np
 
 from sdph import __version__, particles
+from sdph.engine.kept import Many, Unfit, short
 from sdph.gas_cells import SAME, layers
 from sdph.schema import CaseError
 
@@ -69,7 +71,7 @@ def claimed(folder: Path):
 def clear(folder: Path) -> None:
     """Remove what a run that has no checkpoint has left, all but what says what it was, and nothing of the user's."""
     for path in (path for pattern in LEFT for path in folder.glob(pattern)):
-        shutil.rmtree(path) if path.is_dir() else path.unlink()
+        shutil.rmtree(path) if path.is_dir() and not path.is_symlink() else path.unlink()
     (folder / "fields").mkdir(exist_ok=True)
 
 
@@ -145,11 +147,21 @@ def copy_template(source: Path, target: Path) -> None:
 class Table:
     """A CSV file that grows by rows of one set of keys."""
 
-    KEPT = ("columns", "place")  # see sdph.restart
+    KEPT, FORMS = ("columns", "place"), {"columns": Many("")}  # see sdph.engine.kept
 
     def __init__(self, path: Path):
         self.file = open(path, "a", newline="", encoding="utf-8")
         self.columns: tuple[str, ...] = ()
+
+    def admit(self, kept: dict) -> None:
+        """CaseError where the file is shorter than it was, Unfit where it is another."""
+        name, length = self.file.name, kept["place"]
+        if self.place < length:
+            raise CaseError(f"{name} has lost rows that its checkpoint counts on; run anew")
+        with open(name, newline="", encoding="utf-8", errors="replace") as file:
+            columns = next(csv.reader([file.readline(LONGEST)]), []) if length > 0 else []
+        if length < 0 or columns != kept["columns"]:
+            raise Unfit(f"{Path(name).name} does not begin with its columns, or is cut to {length} bytes")
 
     def write(self, row: dict) -> None:
         writer = csv.DictWriter(self.file, self.columns or row.keys())
@@ -170,8 +182,6 @@ class Table:
 
     @place.setter
     def place(self, length: int) -> None:
-        if self.place < length:
-            raise CaseError(f"{self.file.name} has lost rows that its checkpoint counts on; run anew")
         os.ftruncate(self.file.fileno(), length)
 
     def close(self) -> None:
@@ -193,18 +203,26 @@ def _numbers(values: list[str]) -> np.ndarray:
         return np.array(values)
 
 
+LONGEST = 2**20  # characters of the first line of a table; our choice
 LAST = b"</VTKFile>"
+ENTRY = re.compile(r'<DataSet timestep="[\d.e+-]+" part="\d+" file="fields/(particles|gas)_\d{5,}\.(vtp|vtr|vtu)"/>')
 SUFFIXES = {"vtkPolyData": "vtp", "vtkRectilinearGrid": "vtr", "vtkUnstructuredGrid": "vtu"}
 
 
 class Fields:
     """Particles, and gas where there is any, on one timeline: `run.pvd` opens in ParaView and pyvista."""
 
-    KEPT = ("entries",)  # see sdph.restart
+    KEPT, FORMS = ("entries",), {"entries": Many("")}  # see sdph.engine.kept
 
     def __init__(self, folder: Path):
         self.folder = folder
         self.entries: list[str] = []
+
+    def admit(self, kept: dict) -> None:
+        """Unfit where an entry is not as `write` makes it."""
+        for entry in kept["entries"]:
+            if not ENTRY.fullmatch(entry):
+                raise Unfit(f"{short(entry)} is no entry of run.pvd")
 
     def revive(self) -> None:
         """The timeline up to the checkpoint that was put back."""

@@ -11,6 +11,7 @@ from coupling.transfer import Transfer, gather
 from sdph import boundary, effects, history, output, particles
 from sdph.effects.inflow import Source
 from sdph.effects.outflow import leaving, refuse_to_leave
+from sdph.engine.kept import Unfit
 from sdph.exchange import INSTANT, Exchange
 from sdph.ledger import vector
 from sdph.particles import GRAIN, INFLOW
@@ -19,13 +20,14 @@ from sdph.window import Window
 
 PART = 4.0  # a window that the gas cannot finish is taken again, so much shorter (our choice),
 REPEATS = 4  # so often at most: down to 1/256
+SAME_TIME = 1e-6  # of the end time: the gas sums up its windows with round-off; our choice
 
 
 class Simulation:
     """Particles of a case coupled to a gas; call `window` until `time` is the end."""
 
     at_row = True  # the history has a row of every window
-    KEPT = ("time", "windows", "repeated", "wall", "stepper", "exchange", "clock", "ledger", "source")  # see sdph.restart
+    KEPT = ("time", "windows", "repeated", "wall", "stepper", "exchange", "clock", "ledger", "source")  # see sdph.engine.kept
 
     def __init__(self, case, gas, ledger):
         self.case, self.gas, self.ledger = case, gas, ledger
@@ -74,9 +76,24 @@ class Simulation:
         self.ledger.open(self.grains, self.gas_state.budget)
         self.received = None  # heat rate [W] of each particle from the gas in the last window
 
-    def take_up(self, folder) -> None:
-        """Go on from a checkpoint that was put back, the gas's in `folder`, instead of `start`."""
-        self.gas_state, self.received = self.gas.restore(folder), None
+    def admit(self, kept: dict) -> None:
+        """Unfit where time is not that of the ledger, or particles have numbers that nobody gave."""
+        if kept["time"] != kept["ledger"]["last"]["time_s"]:
+            raise Unfit("its time is not that of the ledger")
+        if self.source:
+            self.source.admit_at(kept["time"], kept["source"])
+        given = kept["source"]["next_ident"] if self.source else len(self.state.x) + 1
+        for ident in (kept["stepper"]["state"]["ident"], (kept["clock"]["control"]["rates"] or (0.0, 0.0, np.zeros(0, np.int64)))[2]):
+            if ident.min(initial=1) < 1 or ident.max(initial=1) > max(1, given - 1):
+                raise Unfit(f"a particle has a number that is not among 1 to {given - 1}")
+
+    def take_up(self, checkpoint) -> None:
+        """Go back to the gas of a checkpoint, instead of `start`; what else was kept is put back next."""
+        sources = () if self.case.coupling.one_way else self.exchange.sources
+        self.gas_state, self.received = self.gas.restore(checkpoint.gas, sources), None
+        self.stepper.guard.admit_gas(self.gas_state.fields)
+        if abs(self.gas_state.time - checkpoint.time) > SAME_TIME * self.case.run.end_time:
+            raise Unfit(f"its gas is at {self.gas_state.time:g} s, its particles are at {checkpoint.time:g} s")
 
     def window(self) -> None:
         """One window: exchange prepared, gas advanced, reaction taken, particles advanced."""

@@ -9,11 +9,12 @@ import math
 
 import numpy as np
 
-from sdph import particles, rates, shearing
+from sdph import rates, shearing
 from sdph.boundary import Boundary
 from sdph.effects import OFF, REGISTRY, friction, grain_shifting, granular_temperature, walls
 from sdph.effects.granular_viscosity import Viscous
 from sdph.engine.clock import count_of_parts
+from sdph.engine.kept import GROWING, Unfit
 from sdph.guard import Guard
 from sdph.neighbours import Neighbours
 from sdph.particles import INFLOW
@@ -23,13 +24,15 @@ from sdph.rates import Stress
 # (tests/test_rates.py). Monaghan 1992 takes 0.25; the bed's heat to the grains is then 0.07 % different.
 ACOUSTIC = 0.5
 DIFFUSIVE = 0.125  # of h^2/nu, Morris, Fox & Zhu 1997
+SAME_DENSITY = 1e-6  # of a density: what is summed twice differs by round-off at most; our choice
 REACH = 2.0  # support of the kernels in smoothing lengths
 
 
 class Stepper:
     """State of the particles, and how it goes forward."""
 
-    KEPT = ("state", "neighbours", "steps", "contacts", "limit", "mechanical_heat", "bounds_work")  # see sdph.restart
+    KEPT = ("state", "neighbours", "steps", "contacts", "limit", "mechanical_heat", "bounds_work")  # see sdph.engine.kept
+    FORMS = {"state": GROWING}
 
     def __init__(self, case, parameters, state, source=None, shortest=0.0):
         self.case, self.parameters, self.state, self.source = case, parameters, state, source
@@ -51,7 +54,23 @@ class Stepper:
         if not self.neighbours.built:  # particles came or went: the next step begins with new rows
             return
         self._look_around()
-        self._sum(np.empty(len(self.state.x)))
+        density = np.empty(len(self.state.x))
+        self._sum(density)
+        if not np.allclose(density, self.state.density, rtol=SAME_DENSITY, atol=0.0):
+            raise Unfit("the density of the particles is not that of where they are")
+
+    def admit(self, kept: dict) -> None:
+        """Unfit where the particles cannot be of this case, or their rows were not made near to where they are."""
+        state, built = kept["state"], kept["neighbours"]["built"]
+        names = {name for effect in self.case.effects for name in REGISTRY[effect].arrays}
+        born = [streams.mass for streams in self.source.streams] if self.source else []
+        self.guard.admit_grains(state, names, max(self.state.mass.max(initial=0.0), *born, 0.0))
+        here = [state[axis] for axis in "xyz"[: self.case.dimensions]]
+        if built and [len(axis) for axis in built] != [len(axis) for axis in here]:
+            raise Unfit("rows of neighbours are of other particles")
+        apart = sum((a - b) ** 2 for a, b in zip(here, built)) if built else np.zeros(0)
+        if not apart.max(initial=0.0) < (self.neighbours.skin * self.neighbours.reach) ** 2:
+            raise Unfit("rows of neighbours were made for other places of the particles")
 
     def replace(self, state) -> None:
         """Other particles than before: some are gone, some are new."""
@@ -109,7 +128,7 @@ class Stepper:
 
     def _sub_step(self, left: float) -> float:
         """The next sub-step [s]: what is left of the window, in equal parts."""
-        s, p = self.state, self.parameters
+        s = self.state
         self.stress = self._stress()
         speed = np.sqrt(s.u**2 + s.v**2 + (s.w**2 if len(s.w) else 0.0))
         fastest = float((self.stress.sound + speed).max(initial=0.0))

@@ -14,6 +14,7 @@ import numpy as np
 from sdph import effects
 from sdph.effects.streams import streams_of
 from sdph.engine.clock import Clock
+from sdph.engine.kept import POSITIVE, Maybe, Named, Unfit
 from sdph.gas_cells import cell_edges
 
 SAFETY, GROWTH, SHRINK = 0.9, 2.0, 0.3  # usual bounds of a step controller (Hairer, Norsett & Wanner, II.4); our choice
@@ -29,13 +30,20 @@ KEYS = {
 class Control:
     """Step control of one exchanged quantity by the change of its rate."""
 
-    KEPT = ("rates", "scale", "error")  # see sdph.restart
+    KEPT = ("rates", "scale", "error")  # see sdph.engine.kept
+    FORMS = {"rates": Maybe((0.0, np.zeros(0), np.zeros(0, np.int64)))}
 
     def __init__(self, tolerance: float):
         self.tolerance = tolerance
         self.rates = None
         self.scale = 0.0
         self.error = 0.0
+
+    def admit(self, kept: dict) -> None:
+        """Unfit where the rates of the last window are not of its particles."""
+        dt, rates, ident = kept["rates"] or (1.0, (), ())
+        if not dt > 0.0 or len(rates) != len(ident) or min(kept["scale"], kept["error"]) < 0.0:
+            raise Unfit("the control of the window has no rates that belong to particles")
 
     def begin(self, rate: float, scale: float) -> float:
         """First window [s] of a relaxation at `rate` [1/s]: backward Euler errs by (rate dt)^2/2 of `scale`."""
@@ -67,13 +75,19 @@ def _change(before, now) -> float:
 class Window(Clock):
     """Chooses windows: what is told of each limit decides how long the next one is."""
 
-    KEPT = ("limits", "control", "limit")  # see sdph.restart
+    KEPT, FORMS = ("limits", "control", "limit"), {"limits": Named(POSITIVE)}  # see sdph.engine.kept
 
     def __init__(self, case):
         super().__init__(case.run)
         self.courant, self.cell = case.coupling.courant, smallest_cell(case)
         self.limits = {"largest": case.coupling.window_largest} | opening(case)
         self.control = Control(case.coupling.window_tolerance)
+
+    def admit(self, kept: dict) -> None:
+        """Unfit where a limit would never let the run come to its end."""
+        limits = kept["limits"]
+        if limits.get("largest") != self.limits["largest"] or min(limits.values()) < self.shortest:
+            raise Unfit(f"the limits of the window are not those of this case, or one is below {self.shortest:.2g} s")
 
     def begin(self, rate: float, scale: float) -> None:
         """Before the first window; see `Control.begin`."""

@@ -272,8 +272,10 @@ class Thing:
         self.value, self.inner, self.chance = value, inner, np.random.default_rng(1)
 
 
-NUMBERS = st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=5))
-ARRAYS = hnp.arrays(st.sampled_from([np.float64, np.int64, np.int8]), hnp.array_shapes(min_dims=1, max_dims=2, min_side=0, max_side=4))
+FINITE = st.floats(allow_nan=False, allow_infinity=False)
+NUMBERS = st.one_of(st.none(), st.booleans(), st.integers(-(2**63), 2**63 - 1), FINITE, st.text(max_size=5))
+SHAPES = hnp.array_shapes(min_dims=1, max_dims=2, min_side=0, max_side=4)
+ARRAYS = st.one_of(hnp.arrays(np.float64, SHAPES, elements=FINITE), *(hnp.arrays(dtype, SHAPES) for dtype in (np.int64, np.int8)))
 VALUES = st.recursive(
     st.one_of(NUMBERS, ARRAYS),
     lambda parts: st.one_of(st.lists(parts, max_size=3).map(tuple), st.dictionaries(st.text(max_size=4), parts, max_size=3)),
@@ -291,6 +293,17 @@ def equal(a, b):
     return type(a) is type(b) and repr(a) == repr(b)
 
 
+def blank(value):
+    """Something of the same form."""
+    if isinstance(value, np.ndarray):
+        return np.zeros_like(value)
+    if isinstance(value, dict):
+        return {key: blank(part) for key, part in value.items()}
+    if isinstance(value, tuple):
+        return tuple(map(blank, value))
+    return value if value is None else type(value)()
+
+
 class NoGas:
     def checkpoint(self, folder):
         folder.mkdir()
@@ -300,10 +313,10 @@ class NoGas:
 @example({"\x00": np.zeros(0), "a/b": np.ones(2), "": np.ones(1)})
 def test_whatever_is_kept_comes_back(tmp_path_factory, value):
     folder = tmp_path_factory.mktemp("run")
-    before = Thing(value, Thing(particles.empty(3, ("temperature",))))
+    before = Thing(value, Thing(particles.empty(3, ("temperature",))._replace(x=np.arange(3.0))))
     before.chance.random(5)
     restart.write(folder, 1, 0.0, {}, before, NoGas())
-    after = Thing(None, Thing(particles.empty(1)))
+    after = Thing(blank(value), Thing(particles.empty(3, ("temperature",))))
     restart.newest(folder).fill(after)
     assert equal(after.value, value)
     assert isinstance(after.inner.value, particles.State)

@@ -11,6 +11,8 @@ from coupling.embedded.grid import Grid
 from coupling.embedded.properties import Properties
 from coupling.gas import refuse_full_cells
 
+ROUND_OFF = 1e-9  # of a volume fraction
+
 
 class Box:
     """Grid, boundaries and properties of a case; `limited` False takes upwind instead of van Leer."""
@@ -58,6 +60,26 @@ class Flow:
     def fraction(self):
         """Mass fraction of vapour in the cells, 0 in ghosts."""
         return np.divide(self.vapour, self.mass, out=np.zeros_like(self.mass), where=self.mass > 0.0)
+
+
+def restored(box: Box, saved: dict[str, np.ndarray]) -> Flow:
+    """The flow from its saved attributes (name -> array); ValueError where they are not of this box or no gas is like that."""
+    cells, faces = (box.grid.size,), (box.grid.dimensions, box.grid.size)
+    for field in dataclasses.fields(Flow):
+        value = saved[field.name]
+        shape = () if field.type == "float" else faces if field.name in ("velocity", "flux") else cells
+        if value.dtype != np.float64 or value.shape != shape:
+            raise ValueError(f"{field.name} is {value.dtype} of shape {value.shape}; this mesh has float64 of shape {shape}")
+        if not np.isfinite(value).all():
+            raise ValueError(f"{field.name} is not finite everywhere")
+    flow = Flow(**{field.name: value if (value := saved[field.name]).ndim else float(value) for field in dataclasses.fields(Flow)})
+    inside = box.grid.cells
+    for name in ("alpha", "mass", "temperature"):
+        if not (getattr(flow, name)[inside] > 0.0).all():
+            raise ValueError(f"{name} is not above 0 everywhere")
+    if flow.alpha[inside].max() > 1.0 + ROUND_OFF or not flow.ratio > 0.0 or flow.time < 0.0:
+        raise ValueError("its volume fraction, the ratio of its density or its time cannot be")
+    return flow
 
 
 @dataclasses.dataclass(frozen=True)

@@ -24,18 +24,20 @@ from pathlib import Path
 
 import numpy as np
 
-from coupling.embedded.box import Box, Flow, window_of
+from coupling.embedded.box import Box, Flow, restored, window_of
 from coupling.embedded.grid import build_grid
 from coupling.embedded.linear import not_converged
 from coupling.embedded.momentum import Momentum
 from coupling.embedded.output import budget, cell_fields, force_of_boundary
 from coupling.embedded.pressure import Pressure
 from coupling.embedded.scalars import Scalars
-from coupling.gas import SOURCES, GasError, GasState, Mesh, Unfinished
+from coupling.gas import SOURCES, CheckpointError, GasError, GasState, Mesh, Unfinished
+from sdph.engine.reading import Unreadable, read_arrays
 from sdph.gas_cells import cell_edges
 
 PASSES = 2  # of a window whose density follows temperature (shared/openfoam.md: one if constant, else two)
 CHECKPOINT = "embedded_gas.npz"
+MOST_HEADERS = 2**16  # bytes of a checkpoint that are not of arrays; our choice
 
 
 class EmbeddedGas:
@@ -105,18 +107,19 @@ class EmbeddedGas:
             os.fsync(file.fileno())
         os.replace(part, path)
 
-    def restore(self, folder: Path) -> GasState:
-        """Go on from what `checkpoint` wrote."""
-        path = Path(folder) / CHECKPOINT
+    def restore(self, folder: Path, sources: tuple[str, ...] | None = None) -> GasState:
+        """Go on from what `checkpoint` wrote; `sources` are those that will come (None: those of the checkpoint)."""
+        path, grid = Path(folder) / CHECKPOINT, self.box.grid
         try:
-            with np.load(path) as saved:
-                self.sources = tuple(str(name) for name in saved["sources"])
-                values = {f.name: saved[f.name] for f in dataclasses.fields(Flow)}
-        except (OSError, KeyError, ValueError) as error:
-            raise GasError(f"{path} is no checkpoint of the embedded gas solver: {error}") from None
-        if values["mass"].size != self.box.grid.size:
-            raise GasError(f"{path} is of another mesh; restore it with the case that wrote it")
-        self.flow = Flow(**{name: value if value.ndim else float(value) for name, value in values.items()})
+            saved = read_arrays(path, MOST_HEADERS + 8 * grid.size * len(dataclasses.fields(Flow)) * (1 + grid.dimensions))
+            self.sources = _known(tuple(str(name) for name in np.atleast_1d(saved.pop("sources"))), self.box)
+            self.flow = restored(self.box, saved)
+        except KeyError as missing:
+            raise CheckpointError(f"{path} lacks {missing}") from None
+        except (Unreadable, GasError, ValueError) as error:
+            raise CheckpointError(f"{path} is no checkpoint of this gas: {error}") from None
+        if sources is not None and sources != self.sources:
+            raise CheckpointError(f"{path} is of the sources {', '.join(self.sources)}; to come are {', '.join(sources)}")
         self.state = self._state()
         return self.state
 

@@ -141,9 +141,10 @@ class OpenFoamGas:
         Path(folder).mkdir(parents=True, exist_ok=True)
         self._request(Message(Kind.CHECKPOINT, {"folder": str(Path(folder).resolve())}), Kind.DONE)
 
-    def restore(self, folder: Path) -> GasState:
+    def restore(self, folder: Path, sources: tuple[str, ...] | None = None) -> GasState:
         """See `Gas.restore`."""
-        return self._ask(Message(Kind.RESTORE, {"folder": str(Path(folder).resolve())}))
+        known = {} if sources is None else {"sources": " ".join(sources)}
+        return self._ask(Message(Kind.RESTORE, {"folder": str(Path(folder).resolve())} | known))
 
     def close(self) -> None:
         """End the solver and all its ranks; a second call does nothing."""

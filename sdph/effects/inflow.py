@@ -17,6 +17,7 @@ from scipy.spatial import cKDTree
 from sdph import particles
 from sdph.effects.effect import Effect, Judgement
 from sdph.effects.streams import ROUND_OFF, Streams, cell_radius, layers_of, streams_of, unit, without
+from sdph.engine.kept import Unfit
 from sdph.particles import GRAIN, INFLOW
 from sdph.schema import CaseError, choice, quantity, record, vector
 
@@ -120,7 +121,7 @@ class Source:
     Streams of all nozzles stand one after the other, S of them; `of` (S,) is the nozzle of each, counted from 0.
     """
 
-    KEPT = ("layers", "next_ident", "mass", "energy", "momentum")  # see sdph.restart
+    KEPT = ("layers", "next_ident", "mass", "energy", "momentum")  # see sdph.engine.kept
 
     def __init__(self, case, names, first_ident: int):
         self.case, self.names, self.pitch = case, {*names, *ARRAYS}, case.resolution.spacing
@@ -154,12 +155,10 @@ class Source:
 
     def fill(self, state, time: float, dt: float):
         """The state with the layers that the window from `time` of `dt` [s] needs."""
-        gone = self.speed * (time - self.start[self.of])
-        depth = DEPTH * self.case.smoothing_length + self.speed * dt
-        wanted = np.floor((depth + gone) / self.pitch - 0.5 + ROUND_OFF).astype(np.int64) + 1
-        more = np.maximum(0, np.minimum(wanted, self.most) - self.layers)
+        more = np.maximum(0, self._wanted(time, dt) - self.layers)
         if not more.any():
             return state
+        gone = self.speed * (time - self.start[self.of])
         stream = np.repeat(np.arange(len(more)), more)
         layer = np.arange(len(stream)) - (np.cumsum(more) - more - self.layers)[stream]
         self.layers = self.layers + more
@@ -167,6 +166,20 @@ class Source:
         axis = self.axis[self.of[stream]]
         points = self.mouth[stream] + place[:, None] * axis
         return particles.join(state, self._particles(self.of[stream], points, self.speed[stream, None] * axis))
+
+    def _wanted(self, time: float, dt: float) -> np.ndarray:
+        """(S,) layers that the streams make for the window from `time` of `dt` [s]."""
+        gone = self.speed * (time - self.start[self.of])
+        depth = DEPTH * self.case.smoothing_length + self.speed * dt
+        wanted = np.floor((depth + gone) / self.pitch - 0.5 + ROUND_OFF).astype(np.int64) + 1
+        return np.maximum(0, np.minimum(wanted, self.most))
+
+    def admit_at(self, time: float, kept: dict) -> None:
+        """Unfit where not the layers were made that are needed at `time` [s], or other particles than these hold."""
+        layers = kept["layers"]
+        least, most = self._wanted(time, 0.0), self._wanted(time, 2.0 * self.case.coupling.window_largest) + 1
+        if kept["next_ident"] != self.next_ident + int(layers.sum()) or not ((layers >= least) & (layers <= most)).all():
+            raise Unfit(f"the nozzles cannot have made and numbered what they have made at {time:g} s")
 
     def _particles(self, nozzle, points, velocity):
         """Particles (n,) of the nozzles (n,), counted from 0."""

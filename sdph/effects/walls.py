@@ -9,7 +9,6 @@ stopped there: its normal velocity is reversed with `restitution`.
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np

@@ -11,12 +11,21 @@ import sys
 import numpy as np
 
 from sdph import particles
-from sdph.guard import Watch
+from sdph.engine.kept import Unfit
+from sdph.guard import DENSE, RUNAWAY, TINY, Watch
 from sdph.liquid.phases import fastest_sound
 
 
 class LiquidGuard(Watch):
     """Looks at all particles after every window, and at once when the fastest outruns sound."""
+
+    def admit_liquid(self, state: dict, fresh, kinds) -> None:
+        """`admit` of a liquid and its walls that began as the State `fresh`; `kinds` that there are."""
+        fast = RUNAWAY * fastest_sound(self.case)
+        bounds = dict.fromkeys("uvw", (-fast, fast)) | {"mass": (TINY, fresh.mass.max()), "ident": (0, len(fresh.x) - 1)}
+        self.admit(state, (), bounds | {"density": (fresh.density.min() / DENSE, fresh.density.max() * DENSE)})
+        if not np.isin(state["kind"], kinds).all():
+            raise Unfit("a particle is of no phase and of no wall")
 
     def look(self, stepper) -> None:
         """NaN, speed, density, acceleration."""

@@ -16,7 +16,8 @@ from pathlib import Path
 import numpy as np
 
 from sdph import particles
-from sdph.ledger import vector
+from sdph.engine.kept import ROW, Maybe
+from sdph.ledger import refuse_rows, vector
 from sdph.output import Table
 
 IMPULSES = ("body_forces", "walls", "shifting", "drain")
@@ -26,7 +27,8 @@ class LiquidLedger:
     """Keeps the sums of one run and writes each row to `ledger.csv` as it comes."""
 
     WORKS = ("work_of_body_forces_J", "work_of_surface_tension_J")
-    KEPT = ("sums", "impulses", "scale", "most", "made", "mach", "first", "last", "table")  # see sdph.restart
+    KEPT = ("sums", "impulses", "scale", "most", "made", "mach", "first", "last", "table")  # see sdph.engine.kept
+    FORMS = {"first": Maybe(ROW), "last": Maybe(ROW)}
 
     def __init__(self, path: Path):
         self.sums = dict.fromkeys(("drained_kg", "drained_J", *self.WORKS), 0.0)
@@ -36,6 +38,9 @@ class LiquidLedger:
         self.mach = 0.0  # largest speed over the speed of sound
         self.first = self.last = None
         self.table = Table(path)
+
+    def admit(self, kept: dict) -> None:
+        refuse_rows(kept)
 
     def open(self, stepper) -> None:
         """The row of the start."""

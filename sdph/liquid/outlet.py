@@ -8,6 +8,7 @@ import numpy as np
 
 from sdph import particles
 from sdph.effects import drain, tank
+from sdph.engine.kept import GROWING, Unfit
 from sdph.liquid.ledger import specific_energies
 from sdph.particles import WALL
 
@@ -17,7 +18,7 @@ ROUND_OFF = 1e-12  # of a particle's mass: less than that is nothing
 class Outlet:
     """Takes from a stepper's liquid what is commanded; sums up what has gone: mass, momentum, angular momentum, energy."""
 
-    KEPT = ("place", "gone", "leaving")  # see sdph.restart
+    KEPT, FORMS = ("place", "gone", "leaving"), {"leaving": GROWING}  # see sdph.engine.kept
 
     def __init__(self, stepper):
         case = stepper.case
@@ -30,6 +31,14 @@ class Outlet:
         self.place = np.zeros(3)  # where the last of it went [m]
         self.gone = np.zeros(8)  # mass [kg], momentum (3) [kg m/s], angular momentum (3) [kg m2/s], energy [J], in the frame
         self.leaving = np.zeros((0, 4))  # particles on their way out: number; way to go [m], time [s], mass [kg] when chosen
+
+    def admit_at(self, time: float, kept: dict, state: dict) -> None:
+        """Unfit where more has gone at `time` [s] than there was, or who leaves is not among the pieces of wall."""
+        number, _, begun, mass = kept["leaving"].T
+        walls = state["ident"][state["kind"] == WALL]
+        on_the_way = np.isin(number, walls) & (begun >= 0.0) & (begun <= time) & (mass > 0.0) & (mass <= self.particle)
+        if not on_the_way.all() or not 0.0 <= kept["gone"][0] <= self.stepper.state.mass.sum():
+            raise Unfit("what has left through the outlet, or is about to, was never there")
 
     def command(self, fill: float) -> None:
         """Takes out what is left of the command that the tank be filled to `fill`."""

@@ -11,6 +11,7 @@ import numpy as np
 from sdph import particles
 from sdph.effects import drain, tank
 from sdph.engine.clock import Clock
+from sdph.engine.kept import Unfit
 from sdph.liquid import by_phase
 from sdph.liquid.ledger import IMPULSES, LiquidLedger
 from sdph.liquid.outlet import Outlet
@@ -24,7 +25,7 @@ SLOW = 0.2  # of the speed of sound: a liquid that is faster is compressed by 4 
 class LiquidRun:
     """A liquid in its tank; call `window` until `time` is the end."""
 
-    KEPT = ("windows", "wall", "stepper", "outlet", "clock", "ledger", "impulse", "since")  # see sdph.restart
+    KEPT = ("windows", "wall", "stepper", "outlet", "clock", "ledger", "impulse", "since")  # see sdph.engine.kept
 
     def __init__(self, case, ledger: Path):
         self.case, self.gas, self.clock = case, None, Clock(case.run, case.liquid.history_interval or case.run.output_interval / SAMPLES)
@@ -50,8 +51,16 @@ class LiquidRun:
     def start(self) -> None:
         self.ledger.open(self.stepper)
 
-    def take_up(self, folder: Path) -> None:
-        """Go on from a checkpoint that was put back: it was all there is."""
+    def admit(self, kept: dict) -> None:
+        """Unfit where time is not that of the ledger, or the outlet's memory does not fit to the particles."""
+        time = kept["stepper"]["time"]
+        if time != kept["ledger"]["last"]["time_s"] or not 0.0 <= kept["since"] <= time:
+            raise Unfit("its time is not that of the ledger")
+        if self.outlet:
+            self.outlet.admit_at(time, kept["outlet"], kept["stepper"]["state"])
+
+    def take_up(self, checkpoint) -> None:
+        """Nothing: a liquid has no gas, and what was kept is put back next."""
 
     def window(self) -> None:
         """Some steps, to the next row of the history at most."""

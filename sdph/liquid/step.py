@@ -12,6 +12,8 @@ import numpy as np
 from sdph import effects, particles, smoothing
 from sdph.effects import OFF, frame, tank
 from sdph.engine.clock import count_of_parts
+from sdph.engine.kept import GROWING, Unfit
+from sdph.guard import FAR
 from sdph.laws import kernels
 from sdph.liquid import GAS, LIQUID, correction, interface, motion, phases, rates, shapes, shift, start, walls
 from sdph.liquid.guard import LiquidGuard
@@ -30,7 +32,9 @@ class LiquidStepper:
     KEPT = (
         "state", "neighbours", "time", "steps", "limit", "shifted", "tightening", "pressure", "volume", "acceleration", "gradient", "least", "shift",
         "twist", "extra", "excess",
-    )  # fmt: skip  (see sdph.restart)
+    )  # fmt: skip  (see sdph.engine.kept)
+    ROWS = ("pressure", "volume", "acceleration", "gradient", "least", "shift", "twist", "extra", "excess")  # of the particles
+    FORMS = dict.fromkeys(("state", *ROWS), GROWING)
 
     def __init__(self, case, shortest: float = 0.0):
         self.case, self.guard, d = case, LiquidGuard(case), case.dimensions
@@ -62,6 +66,23 @@ class LiquidStepper:
         self.rows = self.neighbours.relist(self.state.kind)
         self._tell_apart()
         self.aim(self.time)
+
+    def admit(self, kept: dict) -> None:
+        """Unfit where the particles cannot be of this case, or other arrays are not one row a particle each."""
+        state, built, kinds = kept["state"], kept["neighbours"]["built"], (WALL, LIQUID, *((GAS,) if self.case.gas_phase else ()))
+        self.guard.admit_liquid(state, self.state, kinds)
+        count = len(state["x"])
+        if [len(axis) for axis in built] != [count] * self.case.dimensions:
+            raise Unfit("rows of neighbours are of other particles")
+        for name in self.ROWS:
+            one = isinstance(fresh := getattr(self, name), np.ndarray)  # else several
+            for array, like in zip([kept[name]], [fresh]) if one else zip(kept[name], fresh):
+                if len(array) != (count if len(like) else 0):
+                    raise Unfit(f"{name} has {len(array)} values for {count} particles")
+        far, wild = FAR * max(self.case.domain.size), FAR * phases.fastest_sound(self.case) ** 2 / self.kernel.h
+        for name, values, most in (("acceleration", kept["acceleration"], wild), *(("a place at the last rows", axis, far) for axis in built)):
+            if np.abs(values).max(initial=0.0) > most:
+                raise Unfit(f"{name} is beyond {most:.3g}")
 
     def step(self, most: float) -> float:
         """One step, no longer than `most` [s]; returns its length."""

@@ -122,7 +122,7 @@ void serve(Channel* channel, GasSolver& solver, const Exchange& exchange, Time& 
                 send(channel, wire::Message(wire::DONE));
                 break;
             case wire::RESTORE:
-                Checkpoint(solver).read(message.text("folder"), time);
+                Checkpoint(solver).read(message, time);
                 send(channel, exchange.state(solver));
                 break;
             case wire::CLOSE:
