@@ -131,13 +131,15 @@ class Ledger:
         self.table.write(row)
 
 
-def refuse_rows(kept: dict) -> None:
-    """Unfit where the first or the last row of a kept ledger is not of its columns, or holds what is no number."""
-    for row in (kept["first"], kept["last"]):
-        if not row or set(row) != set(kept["table"]["columns"]) or not all(key == "limit" or _finite(value) for key, value in row.items()):
+def refuse_rows(kept: dict, not_first=()) -> None:
+    """Unfit where the first row of a kept ledger, which lacks `not_first`, or the last is not of its columns, or where a
+    value is no number."""
+    columns = set(kept["table"]["columns"])
+    for row, expected in ((kept["first"], columns - set(not_first)), (kept["last"], columns)):
+        if not row or set(row) != expected or not isinstance(row.get("limit"), str):
             raise Unfit("the first or the last row of the ledger is not of its columns")
-        if not isinstance(row["limit"], str):
-            raise Unfit("limit in a row of the ledger is no text")
+        if not all(key == "limit" or _finite(value) for key, value in row.items()):
+            raise Unfit("a value in the first or the last row of the ledger is no finite number")
 
 
 def _finite(value) -> bool:

@@ -40,7 +40,7 @@ class LiquidLedger:
         self.table = Table(path)
 
     def admit(self, kept: dict) -> None:
-        refuse_rows(kept)
+        refuse_rows(kept, (*self.sums, "dissipated_J"))
 
     def open(self, stepper) -> None:
         """The row of the start."""
