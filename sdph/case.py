@@ -14,7 +14,7 @@ import tomli_w
 
 from sdph import effects, scenes
 from sdph.liquid import GasPhase, Liquid, Pool
-from sdph.schema import CaseError, fields, read, record, unknown, vector, write
+from sdph.schema import CaseError, fields, plausible, read, record, unknown, vector, write
 from sdph.sections import GROUPS, SECTIONS, Case, Coupling, Region, Vapour
 
 MOST_OUTPUTS = 1e5  # of fields, and of history rows of a liquid as it sets them; our choice
@@ -24,13 +24,18 @@ SAME = 1e-9  # of a length: round-off
 
 def load(path: Path, overrides: tuple[str, ...] = ()) -> Case:
     """The case of a TOML file, with `key=value` overrides (dotted keys, TOML values)."""
+    given = parsed(path)
+    for override in overrides:
+        _override(given, override)
+    return from_table(given)
+
+
+def parsed(path: Path) -> dict:
+    """What a TOML file holds; some editors put a byte order mark before it."""
     try:
-        table = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+        return tomllib.loads(Path(path).read_text(encoding="utf-8-sig"))
     except (ValueError, RecursionError) as error:  # not TOML, not UTF-8, numbers too long, lists too deep
         raise CaseError(f"{path} is not TOML: {error}") from None
-    for override in overrides:
-        _override(table, override)
-    return from_table(table)
 
 
 def _override(table: dict, text: str) -> None:
@@ -55,25 +60,36 @@ def from_table(table: dict) -> Case:
         if key not in head | SECTIONS.keys() | GROUPS.keys() | effects.REGISTRY.keys():
             raise CaseError(unknown(key, head | SECTIONS.keys() | GROUPS.keys() | effects.REGISTRY.keys()))
     spared = {"gas", "grains"} if "liquid" in table else set()
-    sections = {name: None if name in spared - table.keys() else read(cls, table.get(name, {}), name) for name, cls in SECTIONS.items()}
+    sections = {name: None if name in spared - table.keys() else _section(cls, table.get(name, {}), name) for name, cls in SECTIONS.items()}
     groups = {name: _group(cls, table.get(name, {}), name) for name, cls in GROUPS.items()}
     on = _effects(table)
     case = Case(
-        title=str(table.get("title", "")),
-        scene=str(table.get("scene", "")),
+        title=_text(table, "title"),
+        scene=_text(table, "scene"),
         dimensions=_dimensions(table),
         effects=on,
-        coupling=read(Coupling, table.get("coupling", {}), "coupling"),
-        liquid=read(Liquid, table["liquid"], "liquid") if "liquid" in table else None,
-        gas_phase=read(GasPhase, table["gas_phase"], "gas_phase") if "gas_phase" in table else None,
-        vapour=read(Vapour, table["vapour"], "vapour") if "vapour" in table else None,
+        coupling=_section(Coupling, table.get("coupling", {}), "coupling"),
+        liquid=_section(Liquid, table["liquid"], "liquid") if "liquid" in table else None,
+        gas_phase=_section(GasPhase, table["gas_phase"], "gas_phase") if "gas_phase" in table else None,
+        vapour=_section(Vapour, table["vapour"], "vapour") if "vapour" in table else None,
         track=_track(table),
-        parameters={name: read(effects.REGISTRY[name].parameters, table.get(name, {}), name) for name in on},
+        parameters={name: _section(effects.REGISTRY[name].parameters, table.get(name, {}), name) for name in on},
         **sections,
         **groups,
     )
     _check(case)
     return case
+
+
+def _section(cls, table, where: str):
+    return plausible(read(cls, table, where), where)
+
+
+def _text(table: dict, key: str) -> str:
+    given = table.get(key, "")
+    if not isinstance(given, str):
+        raise CaseError(f"{key} = {str(given)[:80]}; it must be a text, in quotes")
+    return given
 
 
 @record
@@ -82,7 +98,7 @@ class _Track:
 
 
 def _track(table: dict) -> tuple[int, ...]:
-    named = read(_Track, table.get("track", {}), "track").particles
+    named = _section(_Track, table.get("track", {}), "track").particles
     if any(isinstance(number, tuple) or number != int(number) for number in named):
         raise CaseError(f"track.particles = {list(named)}; they must be whole numbers, counted from 1")
     return tuple(int(number) for number in named)
@@ -91,7 +107,7 @@ def _track(table: dict) -> tuple[int, ...]:
 def _group(cls, table: dict, where: str) -> dict:
     if not isinstance(table, dict) or not all(isinstance(entry, dict) for entry in table.values()):
         raise CaseError(f"[{where}] must hold named sections, such as [{where}.some_name]")
-    return {name: read(cls, entry, f"{where}.{name}") for name, entry in table.items()}
+    return {name: _section(cls, entry, f"{where}.{name}") for name, entry in table.items()}
 
 
 def _dimensions(table: dict) -> int:

@@ -1,0 +1,1 @@
+"""Runs: how they go, and what they leave behind."""
