@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import tomllib
+from collections import Counter
 from pathlib import Path
 
 import tomli_w
@@ -19,6 +20,7 @@ from sdph.sections import GROUPS, SECTIONS, Case, Coupling, Region, Vapour
 
 MOST_OUTPUTS = 1e5  # of fields, and of history rows of a liquid as it sets them; our choice
 STRETCH = 100.0  # of the last cell of a row over its first, at most, either way; our choice
+LONGEST = 100  # letters of a name; our choice
 SAME = 1e-9  # of a length: round-off
 
 
@@ -107,6 +109,9 @@ def _track(table: dict) -> tuple[int, ...]:
 def _group(cls, table: dict, where: str) -> dict:
     if not isinstance(table, dict) or not all(isinstance(entry, dict) for entry in table.values()):
         raise CaseError(f"[{where}] must hold named sections, such as [{where}.some_name]")
+    for name in table:
+        if not name.isprintable() or not name.strip() or len(name) > LONGEST:
+            raise CaseError(f"{where} holds the name {name[:LONGEST]!r}; give one of 1 to {LONGEST} letters that can be printed")
     return {name: _section(cls, entry, f"{where}.{name}") for name, entry in table.items()}
 
 
@@ -180,6 +185,16 @@ def _check(case: Case) -> None:
         _check_region(case, name, region)
     for name, probe in case.probes.items():
         _inside(case, f"probes.{name}", probe.at, probe.at)
+    _check_columns(case)
+
+
+def _check_columns(case: Case) -> None:
+    """No two columns of history.csv have one name."""
+    columns = [f"{name}_{key}" for name in case.probes for key in ("temperature_K", "gas_temperature_K")]
+    columns += [f"particle_{ident}_temperature_K" for ident in case.track]
+    twice = [name for name, count in Counter(columns).items() if count > 1]
+    if twice:
+        raise CaseError(f"probes or track.particles give history.csv two columns {twice[0]}; rename a probe, or name a particle once")
 
 
 def _check_outputs(case: Case) -> None:

@@ -163,8 +163,8 @@ def _histories(runs: list[Shown]) -> str:
 
 
 def _plain(text: str) -> str:
-    """A text that matplotlib does not take for a formula."""
-    return text.replace("$", r"\$")
+    """A text that matplotlib takes for no formula, and as a label does not leave out for its first letter."""
+    return (" " if text.startswith("_") else "") + text.replace("$", r"\$")
 
 
 def _views(runs: list[Shown]) -> str:

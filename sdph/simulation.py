@@ -122,8 +122,9 @@ class Simulation:
         """summary.json, its own part; what probes rose by is told from the first and the last row of the history."""
         own = {"cells": len(self.gas.mesh.volumes), "sub_steps": self.stepper.steps, "wall_contacts": self.stepper.contacts}
         for name in self.case.probes:
-            own |= {key: value for key, value in out.last.items() if key.startswith(f"{name}_")}
-            own[f"{name}_rise_K"] = out.last[f"{name}_temperature_K"] - out.first[f"{name}_temperature_K"]
+            own |= {key: out.last[key] for key in (f"{name}_{probed}" for probed in history.PROBED) if key in out.last}
+            if (key := f"{name}_temperature_K") in out.last:
+                own[f"{name}_rise_K"] = out.last[key] - out.first[key]
         return own
 
     def warnings(self) -> list[str]:

@@ -25,6 +25,7 @@ REFUSED = " \t\"'"  # OpenFOAM's fileName takes none of these
 DEPTH = 1.0  # m, of the one cell that a two-dimensional mesh is deep
 # what makes OpenFOAM run or load code that a case brings
 CODE = re.compile(r"#\s*(codeStream|calc)\b|\bcoded\w*\b|\bsystemCall\b|\b(functionObjectLibs|libs)\b")
+WORD = re.compile(r"[A-Za-z_][\w.+-]*", re.ASCII)  # what OpenFOAM takes for a name wherever it stands
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 
 
@@ -36,6 +37,7 @@ def write_case(case, template: Path, folder: Path, ranks: int = 1, allow_code: b
         raise CaseError(f"{template} is no OpenFOAM case: it has no system/controlDict")
     if not allow_code:
         refuse_code(template)
+    refuse_names(case)
     shutil.copytree(template, folder, dirs_exist_ok=True)
     write_macros(case, folder)
     write_start_fields(case, folder)
@@ -57,6 +59,13 @@ def refuse_code(folder: Path) -> None:
             raise CaseError(f"{path} has {found.group()!r}, which runs code of the case: remove it, or give --allow-code if it is yours")
 
 
+def refuse_names(case) -> None:
+    """CaseError where a boundary cannot be called in OpenFOAM as it is here: its name stands in dictionaries, as the name of a patch."""
+    for name in case.boundaries:
+        if not WORD.fullmatch(name):
+            raise CaseError(f"boundaries.{name}: OpenFOAM takes letters, digits and _ . + - in the name of a patch; rename it, or give --gas embedded")
+
+
 def write_macros(case, folder: Path) -> None:
     """`constant/sdphCase`."""
     (folder / "constant").mkdir(exist_ok=True, parents=True)
@@ -71,7 +80,7 @@ def macros(case) -> dict[str, str]:
         _flatten(field.name.removeprefix("parameters"), getattr(case, field.name), case.dimensions, found)
     if case.dimensions == 2:
         found["domain_size"] = _list([*case.domain.size, DEPTH])
-    return found
+    return {name: value for name, value in found.items() if WORD.fullmatch(name)}  # probes and the like may have any name
 
 
 def _flatten(prefix: str, value, dimensions: int, found: dict[str, str]) -> None:

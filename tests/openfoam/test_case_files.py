@@ -14,6 +14,7 @@ from coupling.openfoam.block_mesh import block_mesh
 from sdph import case as cases
 from sdph import scenes
 from sdph.schema import CaseError
+from sdph.sections import Probe
 
 SLOT = {
     "slot": {"kind": "velocity_inlet", "side": "bottom", "span_m": [0.04, 0.06], "velocity_m_s": [0.0, 7.5], "temperature_K": 350.0},
@@ -52,6 +53,20 @@ def test_texts_cannot_break_out_of_their_macro(tmp_path):
     title = case_files.macros(case)["title"]
     assert title.startswith('"') and title.endswith('"')
     assert not set('"$#;\\{') & set(title[1:-1])
+
+
+def test_names_cannot_break_out_of_their_dictionaries(tmp_path):
+    """A probe may have any name, and gives no macro then; a boundary is refused."""
+    import dataclasses
+
+    case, name = box_case((0.1, 0.1), 0.01), 'a 1; #calc "1+1"; b'
+    probed = dataclasses.replace(case, probes={name: Probe(at=(0.05, 0.05)), "low": Probe(at=(0.05, 0.05))})
+    found = case_files.macros(probed)
+    assert "probes_low_at" in found and not [key for key in found if "calc" in key]
+    named = dataclasses.replace(case, boundaries={name: next(iter(case.boundaries.values()))})
+    with pytest.raises(CaseError, match="rename it"):
+        case_files.write_case(named, TEMPLATE, tmp_path / "gas")
+    assert not (tmp_path / "gas").exists()
 
 
 @pytest.mark.parametrize("entry", [
