@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import math
 import tomllib
-from collections import Counter
 from pathlib import Path
 
 import tomli_w
 
-from sdph import effects, scenes
+from sdph import checks, effects, scenes
+from sdph.checks import SAME
 from sdph.liquid import GasPhase, Liquid, Pool
 from sdph.schema import CaseError, fields, plausible, read, record, unknown, vector, write
 from sdph.sections import GROUPS, SECTIONS, Case, Coupling, Region, Vapour
@@ -21,7 +21,6 @@ from sdph.sections import GROUPS, SECTIONS, Case, Coupling, Region, Vapour
 MOST_OUTPUTS = 1e5  # of fields, and of history rows of a liquid as it sets them; our choice
 STRETCH = 100.0  # of the last cell of a row over its first, at most, either way; our choice
 LONGEST = 100  # letters of a name; our choice
-SAME = 1e-9  # of a length: round-off
 
 
 def load(path: Path, overrides: tuple[str, ...] = ()) -> Case:
@@ -166,6 +165,10 @@ def _check(case: Case) -> None:
         vectors[f"probes.{name}.at_m"] = probe.at
     for name, boundary in case.boundaries.items():
         vectors[f"boundaries.{name}.velocity_m_s"] = boundary.velocity
+    for name, nozzle in case.nozzles.items():
+        vectors |= {f"nozzles.{name}.centre_m": nozzle.centre, f"nozzles.{name}.direction": nozzle.direction, f"nozzles.{name}.across": nozzle.across}
+    if own := case.parameters.get("tank"):
+        vectors |= {"tank.lower_m": own.lower, "tank.upper_m": own.upper, "tank.centre_m": own.centre}
     for key, value in vectors.items():
         if value is not None and (len(value) != case.dimensions or any(isinstance(v, tuple) for v in value)):
             raise CaseError(f"{key} has {len(value)} components; dimensions = {case.dimensions} asks for {case.dimensions}")
@@ -181,20 +184,14 @@ def _check(case: Case) -> None:
     for name, pool in case.pools.items():
         if pool.shape != "tank":
             _check_place(case, f"pools.{name}", pool)
+        checks.flow(case, f"pools.{name}", pool)
+    for name, boundary in case.boundaries.items():
+        checks.side(case, f"boundaries.{name}", boundary)
     for name, region in case.particles.items():
         _check_region(case, name, region)
     for name, probe in case.probes.items():
         _inside(case, f"probes.{name}", probe.at, probe.at)
-    _check_columns(case)
-
-
-def _check_columns(case: Case) -> None:
-    """No two columns of history.csv have one name."""
-    columns = [f"{name}_{key}" for name in case.probes for key in ("temperature_K", "gas_temperature_K")]
-    columns += [f"particle_{ident}_temperature_K" for ident in case.track]
-    twice = [name for name, count in Counter(columns).items() if count > 1]
-    if twice:
-        raise CaseError(f"probes or track.particles give history.csv two columns {twice[0]}; rename a probe, or name a particle once")
+    checks.columns_of_history(case)
 
 
 def _check_outputs(case: Case) -> None:

@@ -33,7 +33,7 @@ def run(case, name: str, folder: Path, gas_folder: Path | None, reporter, *, all
     `gas_folder` holds the user's own OpenFOAM case (None: the scene's template), whose dictionaries may run code only
     with `allow_code`; `reporter` shows progress.
     """
-    template = gas_folder or paths.gas_template(case.scene or name)
+    template = gas_folder or template_of(case, name)
     with output.claimed(output.create(folder)):
         try:
             output.write_origin(folder, gas_template=str(template.resolve()), allow_code=allow_code)
@@ -43,6 +43,12 @@ def run(case, name: str, folder: Path, gas_folder: Path | None, reporter, *, all
             if not restart.newest(folder):  # the case cannot be run: as if it had not been tried
                 shutil.rmtree(folder)
             raise
+
+
+def template_of(case, name: str, file: Path | None = None) -> Path:
+    """The OpenFOAM case of a case: what lies beside its `file` as `gas`, else the template of its scene, or of `name`."""
+    own = file and file.parent / "gas"
+    return own if own and own.is_dir() else paths.gas_template(case.scene or name)
 
 
 def resume(folder: Path, overrides: tuple[str, ...], reporter) -> dict:
@@ -67,22 +73,27 @@ def open_gas(case, folder: Path, template: Path | None, status, allow_code: bool
 
     `template` None goes on with the OpenFOAM case that is in `folder`.
     """
-    if case.domain.periodic:
-        raise CaseError(f"domain.periodic = {list(case.domain.periodic)}, but no gas solver has periodic sides; leave it out")
-    chosen = case.coupling.gas
-    if chosen == "auto":
-        from coupling.openfoam import install
-
-        chosen = "openfoam" if install.find() else "embedded"
-        if chosen == "embedded":
-            status("OpenFOAM was not found: the gas is solved by the embedded solver (sdph openfoam setup --install gets it)")
-    if chosen == "embedded":
+    if chosen_gas(case, status) == "embedded":
         from coupling.embedded import EmbeddedGas
 
         return EmbeddedGas(case)
     from coupling.openfoam.solver import OpenFoamGas
 
     return OpenFoamGas(case, folder / "gas", template, status=status, allow_code=allow_code)
+
+
+def chosen_gas(case, status) -> str:
+    """"openfoam" or "embedded": what solves the gas of a case on this machine."""
+    if case.domain.periodic:
+        raise CaseError(f"domain.periodic = {list(case.domain.periodic)}, but no gas solver has periodic sides; leave it out")
+    if case.coupling.gas != "auto":
+        return case.coupling.gas
+    from coupling.openfoam import install
+
+    if install.find():
+        return "openfoam"
+    status("OpenFOAM was not found: the gas is solved by the embedded solver (sdph openfoam setup --install gets it)")
+    return "embedded"
 
 
 def simulation_of(case, gas, ledger: Path):

@@ -107,8 +107,8 @@ def whole(default=REQUIRED, *, least=-math.inf):
 
 
 def words(default=REQUIRED):
-    """A text, or a list of texts."""
-    return _declare(Kind(of=str), default)
+    """A text, or a list of texts; one text alone where the default is one."""
+    return _declare(Kind(of=str, components=0 if isinstance(default, str) else None), default)
 
 
 def fields(cls: type) -> dict[str, tuple[str, Kind]]:
@@ -166,7 +166,7 @@ def _value(kind: Kind, value: Any, key: str) -> Any:
     if kind.of is int:
         return int(_bounded(kind, _typed(value, int, key, "a whole number"), key))
     if kind.of is str:
-        return _words(value, key)
+        return _typed(value, str, key, "a text") if kind.components == 0 else _words(value, key)
     if kind.components == 0:
         return _bounded(kind, _number(value, key, kind), key) * UNITS[kind.unit]
     return _vector(kind, value, key)
@@ -230,8 +230,8 @@ def _numbers_of(value: Any) -> list[float]:
 def _vector(kind: Kind, value: Any, key: str) -> tuple:
     if not isinstance(value, list):
         raise CaseError(f"{key} = {value!r}; it must be a list of numbers in {kind.unit.replace('_', ' ') or '1'}")
-    if kind.components and len(value) != kind.components:
-        raise CaseError(f"{key} has {len(value)} components; it must have {kind.components}")
+    if kind.components and (len(value) != kind.components or any(isinstance(v, list) for v in value)):
+        raise CaseError(f"{key} = {str(value)[:80]}; it must have {kind.components} components")
     return tuple(_vector(kind, v, key) if isinstance(v, list) else _number(v, key, kind) * UNITS[kind.unit] for v in value)
 
 

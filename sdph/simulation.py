@@ -25,13 +25,8 @@ class Simulation:
 
     def __init__(self, case, gas, ledger):
         self.case, self.gas, self.ledger = case, gas, ledger
-        rows = [effects.REGISTRY[name] for name in case.effects]
-        self.parameters = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
-        self.moves = any(row.moves for row in rows)
-        names = {name for row in rows for name in row.arrays}
-        state = particles.fill(case, names)
-        self.source = Source(case, names, len(state.x) + 1) if self.parameters["inflow"] else None
-        self.stepper = Stepper(case, self.parameters, state, self.source)
+        self.parameters, self.source, self.stepper = parts_of(case)
+        self.moves = any(effects.REGISTRY[name].moves for name in case.effects)
         self.transfer = Transfer(gas.mesh, case.smoothing_length, case.domain.size)
         self.exchange = Exchange(case, gas.mesh, self.parameters)
         self.clock = Window(case)
@@ -201,6 +196,16 @@ class Simulation:
         result = function(*arguments)
         self.wall[part] += clock.perf_counter() - start
         return result
+
+
+def parts_of(case) -> tuple[dict, Source | None, Stepper]:
+    """Kernel parameters by effect, nozzles and stepper of a case: all that a run begins with beside the gas."""
+    rows = [effects.REGISTRY[name] for name in case.effects]
+    parameters = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
+    names = {name for row in rows for name in row.arrays}
+    state = particles.fill(case, names)
+    source = Source(case, names, len(state.x) + 1) if parameters["inflow"] else None
+    return parameters, source, Stepper(case, parameters, state, source)
 
 
 class Tally:

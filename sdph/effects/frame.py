@@ -28,7 +28,7 @@ class Frame:
 
     shake: tuple = vector("", ())
     turn: tuple = vector("", ())
-    spin: tuple = vector("rad_s", (0.0, 0.0, 0.0))  # constant angular velocity
+    spin: tuple = vector("rad_s", (0.0, 0.0, 0.0), components=3)  # constant angular velocity
     table: str = words("")  # CSV file with the columns time_s, ax_m_s2 ... and wx_rad_s ...; linear between its rows
     start: float = quantity("s", 0.0, least=0.0)  # at rest before: time for the liquid to settle
     end: float | None = quantity("s", None, above=0.0)  # neither accelerated nor turning after
@@ -53,7 +53,7 @@ def motion(own: Frame):
     if own.table:
         return _tabulated(own)
     for row in (*own.shake, *own.turn):
-        if not isinstance(row, tuple) or len(row) != 4 or row[0] not in (0, 1, 2):
+        if not isinstance(row, tuple) or len(row) != 4 or row[0] not in (0, 1, 2) or any(isinstance(value, tuple) for value in row):
             raise CaseError(f"frame.shake or frame.turn holds {row}; a row is [axis 0, 1 or 2, amplitude, rad/s, phase]")
 
     def at(time: float):

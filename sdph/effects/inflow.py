@@ -19,7 +19,7 @@ from sdph.particles import GRAIN, INFLOW
 from sdph.schema import CaseError, choice, quantity, record, vector
 
 DEPTH = 4.0  # smoothing lengths of particles upstream: the density of those that the first grain sees is whole too
-ROUND_OFF = 1e-9  # of a layer
+ROUND_OFF = 1e-9  # of a layer, or of a length
 
 
 @record
@@ -53,6 +53,8 @@ class Inflow:
         """What comes in, for `sdph.explain.scales`."""
         from sdph.explain.scales import Patch
 
+        for name, nozzle in case.nozzles.items():
+            _check(case, name, nozzle)
         return [_patch(case, nozzle, Patch) for nozzle in case.nozzles.values()]
 
 
@@ -92,9 +94,20 @@ def _check(case, name: str, nozzle: Nozzle) -> None:
             raise CaseError(f"{where}.{key}_m is missing; a {nozzle.shape} in {case.dimensions} dimensions needs it")
     if nozzle.half_angle and nozzle.shape != "cone":
         raise CaseError(f"{where}.half_angle_deg is of a cone; shape = {nozzle.shape!r}")
+    if not np.linalg.norm(nozzle.direction) > 0.0:
+        raise CaseError(f"{where}.direction = {list(nozzle.direction)}; it must point somewhere")
+    if nozzle.across and case.dimensions == 3 and _parallel(nozzle.across, nozzle.direction):
+        raise CaseError(f"{where}.across = {list(nozzle.across)}; it must point aside of direction = {list(nozzle.direction)}")
+    if nozzle.end is not None and nozzle.end <= nozzle.start:
+        raise CaseError(f"{where}.end_s = {nozzle.end:g} must come after start_s = {nozzle.start:g}")
     alpha_p = streams_of(case, nozzle).alpha_p
     if alpha_p > case.grains.packing_limit:
         raise CaseError(f"{where} makes a volume fraction of {alpha_p:.3g}, above grains.packing_limit = {case.grains.packing_limit}; slow down or widen it")
+
+
+def _parallel(a, b) -> bool:
+    """Whether two vectors of space span no plane."""
+    return bool(np.linalg.norm(np.cross(a, b)) <= ROUND_OFF * np.linalg.norm(a) * np.linalg.norm(b))
 
 
 def unit(vector_) -> np.ndarray:
