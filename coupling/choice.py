@@ -22,14 +22,28 @@ def open_gas(case, folder: Path, template: Path | None, status, allow_code: bool
 
     `template` None goes on with what is in `folder`. `status` hears what is done.
     """
-    if case.domain.periodic:
-        raise CaseError(f"domain.periodic = {list(case.domain.periodic)}, but no gas solver has periodic sides; leave it out")
+    _refuse_periodic(case)
     chosen = case.coupling.gas
     if chosen == "auto" and template is not None:
         return _automatic(case, folder, template, status, allow_code)
     if chosen == "openfoam" or (chosen == "auto" and (folder / "gas" / "case.foam").exists()):
         return _openfoam(case, folder, template, status, allow_code)
     return _embedded(case)
+
+
+def expected(case) -> str:
+    """"openfoam" or "embedded": which solver a case gets if what is there can be used, which is not tried."""
+    _refuse_periodic(case)
+    if case.coupling.gas != "auto":
+        return case.coupling.gas
+    from coupling.openfoam import install
+
+    return "openfoam" if install.find() else "embedded"
+
+
+def _refuse_periodic(case) -> None:
+    if case.domain.periodic:
+        raise CaseError(f"domain.periodic = {list(case.domain.periodic)}, but no gas solver has periodic sides; leave it out")
 
 
 def _openfoam(case, folder: Path, template: Path | None, status, allow_code: bool):

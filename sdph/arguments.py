@@ -29,6 +29,7 @@ def parser() -> argparse.ArgumentParser:
     _run_options(_command(commands, "run", "run a scene, a case folder or a case file"))
     explain = _command(commands, "explain", "what a case calls for, its limits and its cost, before it runs")
     _case_options(explain)
+    _code_option(explain)
     explain.add_argument("--measure", action="store_true", help="measure what each effect costs on this machine; minutes the first time")
     cost = _command(commands, "cost", "what accuracy costs in time: measures a ladder of settings, draws it")
     cost.add_argument("scene")
@@ -77,6 +78,10 @@ def _case_options(parser) -> None:
     parser.add_argument("--json", action="store_true", help="print the result as JSON")
 
 
+def _code_option(parser) -> None:
+    parser.add_argument("--allow-code", action="store_true", help="let the OpenFOAM files of your case run code (#codeStream and its like)")
+
+
 def _run_options(parser) -> None:
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("target", nargs="?", help="scene, folder made by `sdph init`, or case.toml")
@@ -86,7 +91,7 @@ def _run_options(parser) -> None:
     parser.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: openfoam where it is)")
     parser.add_argument("--transport", choices=("socket", "file"), help="how fields travel to OpenFOAM")
     parser.add_argument("--np", type=int, help="MPI ranks of the gas solver")
-    parser.add_argument("--allow-code", action="store_true", help="let the OpenFOAM files of your case, or of RUN, run code (#codeStream, libs and their like)")
+    _code_option(parser)
     parser.add_argument("--accuracy", type=share, metavar="E", help="take the cheapest measured setting that errs by this or less, such as 2%%")
     parser.add_argument("--until", type=float, metavar="T", help="end time [s]")
     parser.add_argument("--watch", action="store_true", help="keep a page of the run as it goes in its folder: watch.html")

@@ -9,6 +9,7 @@ import numpy as np
 from sdph import sides
 from sdph.effects.walls import Dummies
 from sdph.engine.geometry import SIDES
+from sdph.engine.surface import read
 from sdph.neighbours import Neighbours
 from sdph.schema import CaseError
 
@@ -111,12 +112,7 @@ def surface(path: str, dimensions: int):
 
 def _read(path: str, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
     """Points (P, 3) [m] of a surface mesh and its facets: lines in 2-D, triangles in 3-D."""
-    import meshio
-
-    try:
-        mesh = meshio.read(path)
-    except (OSError, SystemExit, meshio.ReadError) as error:
-        raise CaseError(f"walls.mesh = {path!r} cannot be read ({error}); give a surface mesh that meshio reads") from None
+    mesh = read(path, "walls.mesh")
     kind = "line" if dimensions == 2 else "triangle"
     if kind not in mesh.cells_dict:
         raise CaseError(f"walls.mesh = {path!r} holds no cells of type {kind}; a wall in {dimensions}-D is made of them")

@@ -13,14 +13,15 @@ from pathlib import Path
 
 import tomli_w
 
-from sdph import effects, scenes
+from sdph import checks, effects, scenes
+from sdph.checks import SAME
 from sdph.liquid import GasPhase, Liquid, Pool
-from sdph.schema import CaseError, fields, read, record, unknown, vector, write
+from sdph.schema import CaseError, fields, plausible, read, record, unknown, vector, write
 from sdph.sections import GROUPS, SECTIONS, Case, Coupling, Region, Vapour
 
 MOST_OUTPUTS = 1e5  # of fields, and of history rows of a liquid as it sets them; our choice
 STRETCH = 100.0  # of the last cell of a row over its first, at most, either way; our choice
-SAME = 1e-9  # of a length: round-off
+LONGEST = 100  # letters of a name; our choice
 FILES = [(name, key) for name, row in effects.REGISTRY.items() for key, (_, kind) in fields(row.parameters).items() if kind.of is Path]
 
 
@@ -29,15 +30,20 @@ def load(path: Path, overrides: tuple[str, ...] = ()) -> Case:
 
     Files that the case names lie where they do from its own folder, those of the overrides from the working directory.
     """
+    given = parsed(path)
+    _locate(given, Path(path).parent)
+    for override in overrides:
+        _override(given, override)
+    _locate(given, Path())
+    return from_table(given)
+
+
+def parsed(path: Path) -> dict:
+    """What a TOML file holds; some editors put a byte order mark before it."""
     try:
-        table = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+        return tomllib.loads(Path(path).read_text(encoding="utf-8-sig"))
     except (ValueError, RecursionError) as error:  # not TOML, not UTF-8, numbers too long, lists too deep
         raise CaseError(f"{path} is not TOML: {error}") from None
-    _locate(table, Path(path).parent)
-    for override in overrides:
-        _override(table, override)
-    _locate(table, Path())
-    return from_table(table)
 
 
 def _locate(table: dict, folder: Path) -> None:
@@ -70,25 +76,36 @@ def from_table(table: dict) -> Case:
         if key not in head | SECTIONS.keys() | GROUPS.keys() | effects.REGISTRY.keys():
             raise CaseError(unknown(key, head | SECTIONS.keys() | GROUPS.keys() | effects.REGISTRY.keys()))
     spared = {"gas", "grains"} if "liquid" in table else set()
-    sections = {name: None if name in spared - table.keys() else read(cls, table.get(name, {}), name) for name, cls in SECTIONS.items()}
+    sections = {name: None if name in spared - table.keys() else _section(cls, table.get(name, {}), name) for name, cls in SECTIONS.items()}
     groups = {name: _group(cls, table.get(name, {}), name) for name, cls in GROUPS.items()}
     on = _effects(table)
     case = Case(
-        title=str(table.get("title", "")),
-        scene=str(table.get("scene", "")),
+        title=_text(table, "title"),
+        scene=_text(table, "scene"),
         dimensions=_dimensions(table),
         effects=on,
-        coupling=read(Coupling, table.get("coupling", {}), "coupling"),
-        liquid=read(Liquid, table["liquid"], "liquid") if "liquid" in table else None,
-        gas_phase=read(GasPhase, table["gas_phase"], "gas_phase") if "gas_phase" in table else None,
-        vapour=read(Vapour, table["vapour"], "vapour") if "vapour" in table else None,
+        coupling=_section(Coupling, table.get("coupling", {}), "coupling"),
+        liquid=_section(Liquid, table["liquid"], "liquid") if "liquid" in table else None,
+        gas_phase=_section(GasPhase, table["gas_phase"], "gas_phase") if "gas_phase" in table else None,
+        vapour=_section(Vapour, table["vapour"], "vapour") if "vapour" in table else None,
         track=_track(table),
-        parameters={name: read(effects.REGISTRY[name].parameters, table.get(name, {}), name) for name in on},
+        parameters={name: _section(effects.REGISTRY[name].parameters, table.get(name, {}), name) for name in on},
         **sections,
         **groups,
     )
     _check(case)
     return case
+
+
+def _section(cls, table, where: str):
+    return plausible(read(cls, table, where), where)
+
+
+def _text(table: dict, key: str) -> str:
+    given = table.get(key, "")
+    if not isinstance(given, str):
+        raise CaseError(f"{key} = {str(given)[:80]}; it must be a text, in quotes")
+    return given
 
 
 @record
@@ -97,7 +114,7 @@ class _Track:
 
 
 def _track(table: dict) -> tuple[int, ...]:
-    named = read(_Track, table.get("track", {}), "track").particles
+    named = _section(_Track, table.get("track", {}), "track").particles
     if any(isinstance(number, tuple) or number != int(number) for number in named):
         raise CaseError(f"track.particles = {list(named)}; they must be whole numbers, counted from 1")
     return tuple(int(number) for number in named)
@@ -106,7 +123,10 @@ def _track(table: dict) -> tuple[int, ...]:
 def _group(cls, table: dict, where: str) -> dict:
     if not isinstance(table, dict) or not all(isinstance(entry, dict) for entry in table.values()):
         raise CaseError(f"[{where}] must hold named sections, such as [{where}.some_name]")
-    return {name: read(cls, entry, f"{where}.{name}") for name, entry in table.items()}
+    for name in table:
+        if not name.isprintable() or not name.strip() or len(name) > LONGEST:
+            raise CaseError(f"{where} holds the name {name[:LONGEST]!r}; give one of 1 to {LONGEST} letters that can be printed")
+    return {name: _section(cls, entry, f"{where}.{name}") for name, entry in table.items()}
 
 
 def _dimensions(table: dict) -> int:
@@ -160,6 +180,10 @@ def _check(case: Case) -> None:
         vectors[f"probes.{name}.at_m"] = probe.at
     for name, boundary in case.boundaries.items():
         vectors[f"boundaries.{name}.velocity_m_s"] = boundary.velocity
+    for name, nozzle in case.nozzles.items():
+        vectors |= {f"nozzles.{name}.centre_m": nozzle.centre, f"nozzles.{name}.direction": nozzle.direction, f"nozzles.{name}.across": nozzle.across}
+    if own := case.parameters.get("tank"):
+        vectors |= {"tank.lower_m": own.lower, "tank.upper_m": own.upper, "tank.centre_m": own.centre}
     for key, value in vectors.items():
         if value is not None and (len(value) != case.dimensions or any(isinstance(v, tuple) for v in value)):
             raise CaseError(f"{key} has {len(value)} components; dimensions = {case.dimensions} asks for {case.dimensions}")
@@ -175,10 +199,14 @@ def _check(case: Case) -> None:
     for name, pool in case.pools.items():
         if pool.shape != "tank":
             _check_place(case, f"pools.{name}", pool)
+        checks.flow(case, f"pools.{name}", pool)
+    for name, boundary in case.boundaries.items():
+        checks.side(case, f"boundaries.{name}", boundary)
     for name, region in case.particles.items():
         _check_region(case, name, region)
     for name, probe in case.probes.items():
         _inside(case, f"probes.{name}", probe.at, probe.at)
+    checks.columns_of_history(case)
 
 
 def _check_outputs(case: Case) -> None:

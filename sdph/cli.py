@@ -77,7 +77,7 @@ def run(options) -> int:
     from sdph.running import inputs
 
     overrides = tuple(options.set) + _overrides(options)
-    with contextlib.closing(Reporter(quiet=options.json)) as reporter:
+    with contextlib.closing(Reporter(line=not options.json)) as reporter:
         if options.resume:
             folder = options.resume
             _refuse(options, ("out", "accuracy"), "--resume goes on with a run as it was begun")
@@ -93,12 +93,13 @@ def run(options) -> int:
                 _refuse(options, ("gas", "transport", "np"), f"{name} is a liquid and has no gas solver")
             elif options.gas == "embedded":
                 _refuse(options, ("transport", "np"), "the embedded gas solver runs in this process")
+            template = driver.template_of(case, name, file)
             room.refuse_too_large(case)
             for warning in tables.warnings(case):
                 reporter.status(f"warning: {warning}")
-            folder, own = options.out or output.free_name(Path("runs") / name), file.parent / "gas"
+            folder = options.out or output.free_name(Path("runs") / name)
             reporter.page = watch.Page(folder) if options.watch else None
-            summary = driver.run(case, name, folder, own if own.is_dir() else None, reporter, allow_code=options.allow_code)
+            summary = driver.run(case, name, folder, template, reporter, allow_code=options.allow_code)
     print(output.strict_json(summary) if options.json else f"{_table(summary)}\nrun folder: {folder}")
     return FINE
 
@@ -126,20 +127,25 @@ def _table(summary: dict) -> str:
 
 def explain_case(options) -> int:
     from sdph import case as cases
-    from sdph import output, scenes
+    from sdph import driver, output, scenes
     from sdph.explain import tables
-    from sdph.running import inputs
+    from sdph.running import rehearsal
 
-    case = cases.load(scenes.find(options.target)[1], tuple(options.set))
-    inputs.check(case)
+    name, file = scenes.find(options.target)
+    case = cases.load(file, tuple(options.set))
+    rehearsal.rehearse(case, driver.template_of(case, name, file), allow_code=options.allow_code)
     parts = {}
     if options.measure:
         from sdph.explain import effect_costs
 
-        parts["cost of effects, bubbling bed"] = effect_costs.table(lambda text: print(text, file=sys.stderr, flush=True))
+        parts["cost of effects, bubbling bed"] = effect_costs.table(_say)
     parts |= tables.explain(case)
     print(output.strict_json(parts) if options.json else f"{case.title}\n\n{tables.text(parts)}")
     return FINE
+
+
+def _say(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)
 
 
 def cost_of_accuracy(options) -> int:
@@ -190,7 +196,7 @@ def validate_scene(options) -> int:
 
     overrides = tuple(options.set) + ((f'coupling.gas="{options.gas}"',) if options.gas else ())
     checks = []
-    with contextlib.closing(Reporter(quiet=options.json)) as reporter:
+    with contextlib.closing(Reporter(line=not options.json)) as reporter:
         for scene in [options.scene] if options.scene else validate.validated():
             checks += validate.validate(scene, overrides, reporter, options.out and options.out / scene)
     print(output.strict_json({"checks": checks}) if options.json else compare.table(checks))

@@ -29,12 +29,12 @@ class Run:
     @property
     def ledger(self) -> dict[str, np.ndarray]:
         """Columns of ledger.csv, a row a window."""
-        return output.read_table(self.folder / "ledger.csv")
+        return _table(self.folder / "ledger.csv")
 
     @property
     def metrics(self) -> dict[str, np.ndarray]:
         """Columns of metrics.csv, a row an output."""
-        return output.read_table(self.folder / "metrics.csv")
+        return _table(self.folder / "metrics.csv")
 
     def fields(self, time: float):
         """(time, particles, gas) nearest to `time` [s]."""
@@ -47,10 +47,16 @@ def open_run(folder: Path) -> Run:
     for name in (output.MARK, "history.csv"):
         if not (folder / name).is_file():
             raise CaseError(f"{folder} has lost its {name}; run it again")
-    history = output.read_table(folder / "history.csv")
-    if "time_s" not in history:
-        raise CaseError(f"{folder}/history.csv is damaged (no column time_s); run it again")
-    return Run(folder, cases.load(folder / output.MARK), summary, history)
+    return Run(folder, cases.load(folder / output.MARK), summary, _table(folder / "history.csv"))
+
+
+def _table(file: Path) -> dict[str, np.ndarray]:
+    """Columns of a table of a run; its times never fall, and it has a row at least."""
+    columns = output.read_table(file, output.TEXTS)
+    times = columns["time_s"]
+    if not len(times) or not (np.diff(times) >= 0.0).all():
+        raise CaseError(f"{file} is damaged ({'its times fall' if len(times) else 'it has no row'}); run it again")
+    return columns
 
 
 def check(name: str, value: float, reference: float, tolerance: float, relative: bool = False) -> dict:
@@ -68,7 +74,10 @@ def compare(folder: Path, against: str) -> list[dict]:
     if function is None:
         known = [name for name in ("exact", "tfm", "dpm") if hasattr(module, name)]
         raise CaseError(f"--against {against}: {run.case.scene or 'this case'} has no such reference; it has: {', '.join(known) or 'none'}")
-    checks = function(run)
+    try:
+        checks = function(run)
+    except KeyError as error:  # regions, effects and arrays go by the names that the scene gives them
+        raise CaseError(f"{folder} cannot be compared as {run.case.scene}: it has no {error}; compare a run of the scene as it is") from None
     if not checks:
         raise CaseError(f"the run ends at {run.summary['time_s']:g} s, before the first time that its reference tells of; go on with: sdph run --resume {folder} --until T")
     output.write_json(folder / f"compare_{against}.json", {"checks": checks})

@@ -37,7 +37,7 @@ def run(case, name: str, folder: Path, gas_folder: Path | None, reporter, *, all
     `gas_folder` holds the user's own OpenFOAM case (None: the scene's template), whose dictionaries may run code only
     with `allow_code`; `reporter` shows progress.
     """
-    template = gas_folder or paths.gas_template(case.scene or name)
+    template = gas_folder or template_of(case, name)
     inputs.check(case)
     with output.claimed(output.create(folder)):
         try:
@@ -51,6 +51,12 @@ def run(case, name: str, folder: Path, gas_folder: Path | None, reporter, *, all
             if not restart.newest(folder):  # the case cannot be run: as if it had not been tried
                 shutil.rmtree(folder)
             raise
+
+
+def template_of(case, name: str, file: Path | None = None) -> Path:
+    """The OpenFOAM case of a case: what lies beside its `file` as `gas`, else the template of its scene, or of `name`."""
+    own = file and file.parent / "gas"
+    return own if own and own.is_dir() else paths.gas_template(case.scene or name)
 
 
 def resume(folder: Path, overrides: tuple[str, ...], reporter, *, allow_code: bool = False) -> dict:

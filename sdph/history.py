@@ -8,7 +8,14 @@ import numpy as np
 
 from coupling.transfer import gather
 from sdph import particles
+from sdph.effects import REGISTRY
 from sdph.step import REACH
+
+TRACKED = {
+    "x_m": "x", "y_m": "y", "z_m": "z", "u_m_s": "u", "v_m_s": "v", "w_m_s": "w", "temperature_K": "temperature",
+    "granular_temperature_m2_s2": "theta", "diameter_m": "diameter", "mass_kg": "mass",
+}  # fmt: skip
+PROBED = ("temperature_K", "gas_temperature_K")  # of particles and gas
 
 
 def row(simulation) -> dict[str, float]:
@@ -20,12 +27,14 @@ def row(simulation) -> dict[str, float]:
 
 
 def probe(simulation, point) -> dict[str, float]:
-    """Temperatures [K] of particles and gas at a point, by kernel interpolation; no particles near: nan."""
+    """What is PROBED at a point, by kernel interpolation: of particles where they have a temperature, nan where none are near."""
     here = np.zeros((1, 3))
     here[0, : len(point)] = point
     gas = gather(simulation.transfer.weights(here), simulation.gas_state.fields["temperature"])[0]
-    reach = REACH * simulation.case.smoothing_length
     state = simulation.grains
+    if "temperature" not in carried(simulation.case):
+        return {"gas_temperature_K": float(gas)}
+    reach = REACH * simulation.case.smoothing_length
     r = particles.lengths(particles.positions(state) - here)
     near = np.flatnonzero(r < reach)
     weight = state.mass[near] * (1.0 - r[near] / reach) ** 2
@@ -45,17 +54,16 @@ def tracked(simulation) -> dict[str, float]:
     if simulation.received:
         known = np.isin(state.ident, simulation.received.ident)  # not what has come in since
         received[known] = simulation.received.now(state.ident[known])[0]
-    fields = {
-        "x_m": state.x, "y_m": state.y, "z_m": state.z, "u_m_s": state.u, "v_m_s": state.v, "w_m_s": state.w,
-        "temperature_K": state.temperature, "granular_temperature_m2_s2": state.theta,
-        "diameter_m": state.diameter, "mass_kg": state.mass,
-        "convective_heat_W": received, "conductive_heat_W": conducted,
-    }  # fmt: skip
+    arrays = carried(simulation.case)
+    fields = {key: getattr(state, name) for key, name in TRACKED.items() if name in arrays}
+    fields |= {"convective_heat_W": received, "conductive_heat_W": conducted}
     for ident in names:
         place = np.flatnonzero((state.ident == ident) & (state.kind != particles.INFLOW))
-        columns |= {
-            f"particle_{ident}_{key}": float(values[place[0]]) if len(place) else math.nan
-            for key, values in fields.items()
-            if len(values)
-        }
+        columns |= {f"particle_{ident}_{key}": float(values[place[0]]) if len(place) else math.nan for key, values in fields.items()}
     return columns
+
+
+def carried(case) -> set[str]:
+    """Names of the arrays that particles of a case have, whether there are any yet or not: every row has the same columns."""
+    names = {name for effect in case.effects for name in REGISTRY[effect].arrays}
+    return {name for name, values in particles.empty(1, names, case.dimensions)._asdict().items() if len(values)}

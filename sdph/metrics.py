@@ -27,12 +27,20 @@ IN_THE_END = {"bubble": bed_in_the_end}
 
 def row(simulation) -> dict[str, float]:
     """All metrics of the case now."""
+    refuse_unknown(simulation.case)
     columns = {"time_s": simulation.time}
     for name in simulation.case.run.metrics:
-        if name not in AT_OUTPUTS or simulation.case.liquid:
-            raise CaseError(f"run.metrics = {name!r}; known for grains: {', '.join(AT_OUTPUTS)}, for liquids: none")
         columns |= AT_OUTPUTS[name](simulation)
     return columns
+
+
+def refuse_unknown(case) -> None:
+    """CaseError where a case asks for metrics that it cannot have."""
+    for name in case.run.metrics:
+        if name not in AT_OUTPUTS or case.liquid:
+            raise CaseError(f"run.metrics = {name!r}; known for grains: {', '.join(AT_OUTPUTS)}, for liquids: none")
+    if "jet" in case.run.metrics and not case.nozzles:
+        raise CaseError("run.metrics holds jet, but the case has no nozzle; leave it out, or give one in [nozzles.some_name]")
 
 
 def summary(case, rows: list[dict]) -> dict[str, float]:

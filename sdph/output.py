@@ -25,6 +25,7 @@ import numpy as np
 
 from sdph import __version__, particles
 from sdph.engine.kept import Many, Unfit, short
+from sdph.engine.table import Found, column, read_cells
 from sdph.gas_cells import SAME, layers
 from sdph.schema import CaseError
 
@@ -35,6 +36,7 @@ LEFT = (  # by a run, as patterns; what else is in its folder is the user's
     "ledger.csv", "history.csv", "metrics.csv", "run.pvd", "summary.json", FAILURE, "compare_*.json", "last_good.*", "checkpoints", "gas",
     WALLS, "fields/particles_*.vt?", "fields/gas_*.vt?", "fields/part-*.vt?",
 )  # fmt: skip
+TEXTS = ("limit",)  # columns of the tables of a run that hold no numbers
 NAMED = ("numpy", "numba", "scipy", "pyvista")  # packages whose versions a run notes
 
 
@@ -123,7 +125,7 @@ def read_json(path: Path) -> dict:
     """A JSON table; `CaseError` where it is damaged."""
     try:
         table = json.loads(path.read_text(encoding="utf-8"))
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise CaseError(f"{path} is damaged (no JSON: {error}); run it again") from None
     if not isinstance(table, dict):
         raise CaseError(f"{path} is damaged (it holds no table); run it again")
@@ -132,10 +134,20 @@ def read_json(path: Path) -> dict:
 
 def read_summary(folder: Path) -> dict:
     """The summary of a run; `CaseError` where there is none."""
+    path = folder / "summary.json"
     try:
-        return {key: math.nan if value is None else value for key, value in read_json(folder / "summary.json").items()}
+        found = read_json(path)
     except (FileNotFoundError, NotADirectoryError):
         raise CaseError(f"{folder} holds no finished run (no summary.json); run it first with: sdph run ... --out {folder}") from None
+    for key, value in found.items():
+        if key != "title" and not _short_number(value):
+            raise CaseError(f"{path} is damaged ({key} = {str(value)[:40]!r} is no number); run it again")
+    return Found(path, {key: math.nan if value is None else value for key, value in found.items()})
+
+
+def _short_number(value) -> bool:
+    """Whether a value of JSON is a number that a float can hold, or none at all."""
+    return value is None or isinstance(value, float) or (isinstance(value, int) and abs(value) <= sys.float_info.max)
 
 
 def copy_template(source: Path, target: Path) -> None:
@@ -188,19 +200,19 @@ class Table:
         self.file.close()
 
 
-def read_table(path: Path) -> dict[str, np.ndarray]:
-    """Columns of a CSV file; numbers where they are."""
-    with open(path, newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    columns = {key: [row[key] for row in rows] for key in (rows[0] if rows else ())}
-    return {key: _numbers(values) for key, values in columns.items()}
+def read_table(path: Path, texts: tuple[str, ...] | None = None, mend: str = "run it again") -> Found:
+    """Columns of a CSV file that a run has left, or is still writing: a last line that is not ended is not there yet.
 
-
-def _numbers(values: list[str]) -> np.ndarray:
+    All columns but `texts` must hold numbers; with None those do that can. `mend` is what helps where it is damaged.
+    """
     try:
-        return np.array([value or "nan" for value in values], float)  # a particle that is gone has none
-    except ValueError:
-        return np.array(values)
+        cells = read_cells(path)
+        if not cells.ended and cells.rows:
+            cells.rows.pop()
+        cells.whole()
+        return Found(path, {name: column(cells, name, texts) for name in cells.head})
+    except ValueError as error:
+        raise CaseError(f"{path} is damaged ({error}); {mend}") from None
 
 
 LONGEST = 2**20  # characters of the first line of a table; our choice

@@ -12,12 +12,13 @@ REFRESH = 0.2  # s between changes of the line on a terminal
 
 
 class Reporter:
-    """Shows where a run is. `status` tells of waiting, `progress` of windows done, both on stderr; `page` draws them."""
+    """Shows where a run is. `status` tells of waiting and warns, `progress` of windows done, both on stderr and not where `quiet`;
+    without `line` the windows are not told of. `page` draws them."""
 
-    def __init__(self, quiet: bool = False, page=None):
-        self.quiet, self.page = quiet, page
+    def __init__(self, quiet: bool = False, line: bool = True, page=None):
+        self.quiet, self.line, self.page = quiet, line, page
         self.shown, self.begun = time.perf_counter(), None
-        self.bar = None if quiet or not sys.stderr.isatty() else _bar()
+        self.bar = None if quiet or not line or not sys.stderr.isatty() else _bar()
 
     def status(self, text: str) -> None:
         if self.bar:
@@ -31,7 +32,7 @@ class Reporter:
         self.begun = self.begun or (now, simulation.time)
         if self.page:
             self.page.show(simulation, self._line(simulation, now))
-        if now - self.shown < (REFRESH if self.bar else LINE_INTERVAL):
+        if not self.line or now - self.shown < (REFRESH if self.bar else LINE_INTERVAL):
             return
         self.shown = now
         if not self.bar:

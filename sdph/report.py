@@ -22,6 +22,7 @@ canvas { border: 1px solid #ccc; touch-action: none }
 """
 PAGE = '<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>{style}</style></head><body>{body}</body></html>\n'
 CLOSURE = ("mass_drift_rel", "energy_drift_rel", "exchange_energy_mismatch_rel", "exchange_momentum_mismatch_rel", "momentum_drift_rel", "energy_made_rel")
+CHECK = ("name", "value", "reference", "tolerance")  # of a comparison
 PLOTS = 6  # curves in one figure
 
 
@@ -54,12 +55,18 @@ def _open(folder: Path) -> Shown:
     if not (folder / output.MARK).is_file():
         raise CaseError(f"{folder} holds no run (no {output.MARK}); give the folder of a run")
     summary = output.read_summary(folder) if (folder / "summary.json").is_file() else {}
-    failure, origin = (_json(folder / name) for name in (output.FAILURE, output.ORIGIN))
+    failure = _json(folder / output.FAILURE, {"what": str, "time_s": (int, float)})
+    origin = _json(folder / output.ORIGIN, {"command": list, "versions": dict})
     return Shown(folder, cases.load(folder / output.MARK), summary, failure, origin)
 
 
-def _json(path: Path) -> dict:
-    return output.read_json(path) if path.is_file() else {}
+def _json(path: Path, needs: dict) -> dict:
+    """A JSON table in which `needs` (key -> type) are as they must be; empty where there is no such file."""
+    table = output.read_json(path) if path.is_file() else {}
+    for key, kind in needs.items() if table else ():
+        if not isinstance(table.get(key), kind):
+            raise CaseError(f"{path} is damaged ({key} = {str(table.get(key))[:40]!r}); run it again")
+    return table
 
 
 def _section(title: str, body: str) -> str:
@@ -113,16 +120,16 @@ def _results(runs: list[Shown]) -> str:
     body = _side_by_side(runs, numbers)
     for run in runs:
         for path in sorted(run.folder.glob("compare_*.json")):
-            rows = [[*(c[k] for k in ("name", "value", "reference", "tolerance")), "ok" if c["ok"] else "FAILED"] for c in _json(path)["checks"]]
+            rows = [[*(c.get(k) for k in CHECK), "ok" if c.get("ok") else "FAILED"] for c in _json(path, {"checks": list})["checks"] if isinstance(c, dict)]
             body += f"<h3>{html.escape(run.name)} against {path.stem.removeprefix('compare_')}</h3>"
-            body += _table(["check", "value", "reference", "tolerance", ""], rows)
+            body += _table(["check", *CHECK[1:], ""], rows)
     return _section("Results", body)
 
 
 def _figures(runs: list[Shown]) -> str:
     """Histories of all runs together, and the pictures that comparisons left."""
     pictures = [_histories(runs)]
-    pictures += [_picture(path.read_bytes(), path.name) for run in runs for path in sorted(run.folder.glob("*.png"))]
+    pictures += [_picture(path.read_bytes(), path.name) for run in runs for path in sorted(run.folder.glob("*.png")) if path.is_file()]
     return _section("Figures", "".join(pictures))
 
 
@@ -131,8 +138,9 @@ def _picture(data: bytes, name: str) -> str:
 
 
 def _histories(runs: list[Shown]) -> str:
-    tables = [output.read_table(run.folder / "history.csv") for run in runs if (run.folder / "history.csv").is_file()]
-    columns = [key for key in (tables[0] if tables else ()) if key != "time_s" and tables[0][key].dtype.kind == "f"][:PLOTS]
+    files = [(run.name, run.folder / "history.csv") for run in runs]
+    tables = [(name, output.read_table(file, output.TEXTS)) for name, file in files if file.is_file() and file.stat().st_size]  # begun
+    columns = [key for key in (tables[0][1] if tables else ()) if key != "time_s" and tables[0][1][key].dtype.kind == "f"][:PLOTS]
     if not columns:
         return ""
     import matplotlib
@@ -142,16 +150,21 @@ def _histories(runs: list[Shown]) -> str:
 
     figure, axes = pyplot.subplots(len(columns), 1, figsize=(9.0, 2.2 * len(columns)), sharex=True, squeeze=False, layout="constrained")
     for axis, column in zip(axes[:, 0], columns):
-        for run, table in zip(runs, tables):
+        for name, table in tables:
             if column in table:
-                axis.plot(table["time_s"], table[column], label=run.name)
-        axis.set_ylabel(column, fontsize=8)
+                axis.plot(table["time_s"], table[column], label=_plain(name))
+        axis.set_ylabel(_plain(column), fontsize=8)
     axes[0, 0].legend(fontsize=8)
     axes[-1, 0].set_xlabel("time [s]")
     picture = io.BytesIO()
     figure.savefig(picture, dpi=90, format="png")
     pyplot.close(figure)
     return _picture(picture.getvalue(), "history")
+
+
+def _plain(text: str) -> str:
+    """A text that matplotlib takes for no formula, and as a label does not leave out for its first letter."""
+    return (" " if text.startswith("_") else "") + text.replace("$", r"\$")
 
 
 def _views(runs: list[Shown]) -> str:

@@ -19,6 +19,34 @@ UNITS = {
     "kg_m3": 1.0, "Pa_s": 1.0, "W_m_K": 1.0, "J_kg_K": 1.0, "J_kg": 1.0, "m_s": 1.0, "m_s2": 1.0, "m2_s": 1.0,
     "m2_s2": 1.0, "kg_kmol": 1.0, "kg_s": 1.0, "N_m": 1.0, "Pa_m6_kg2": 1.0, "rad_s": 1.0, "kg": 1.0, "Hz": 1.0,
 }  # fmt: skip
+SAME_AS = {"ms": "s", "us": "s", "mm": "m", "um": "m"}  # unit -> the one that its bounds stand under
+
+# Unit -> least (of what must be above 0) and most in SI, and what lies there. They are our choice, and so wide that they catch
+# slips of the exponent or the unit and nothing that anybody means: beyond them sums of squares lose all digits or overflow.
+PLAUSIBLE = {
+    "": (1e-15, 1e30, "less than round-off, or no number to compute with"),
+    "deg": (0.0, math.tau, "a full turn"),
+    "s": (0.0, 1e12, "30 000 years"),
+    "Hz": (0.0, 1e18, "X-rays"),
+    "rad_s": (0.0, 1e12, "faster than anything turns"),
+    "m": (1e-16, 1e10, "from inside a nucleus to beyond the largest planet"),
+    "m_s": (1e-15, 299792458.0, "the speed of light"),
+    "m_s2": (0.0, 1e12, "the surface of a neutron star"),
+    "m2_s": (1e-18, 1e6, "from diffusion in a solid to that in a star"),
+    "m2_s2": (1e-18, 1e12, "a speed of 1000 km/s, squared"),
+    "kg": (1e-27, 1e27, "from an atom to a planet"),
+    "kg_s": (1e-27, 1e15, "from an atom a second to a mountain a second"),
+    "kg_m3": (1e-20, 1e6, "from the space between planets to 40 times osmium"),
+    "kg_kmol": (0.1, 1e9, "from a tenth of hydrogen to a strand of DNA"),
+    "K": (1e-6, 1e8, "from the coldest gas of a laboratory to the middle of a star"),
+    "Pa": (1e-15, 1e18, "from the best vacuum to the middle of a star"),
+    "Pa_s": (1e-15, 1e25, "from a gas all but without friction to the Earth's mantle"),
+    "Pa_m6_kg2": (0.0, 1e9, "a million times that of water"),
+    "N_m": (1e-12, 1e6, "from interfaces at their critical point to a million times water"),
+    "W_m_K": (1e-9, 1e9, "from a ten-thousandth of the best insulator to a million times copper"),
+    "J_kg": (0.0, 1e15, "nuclear fuel"),
+    "J_kg_K": (1e-6, 1e12, "from a metal near 0 K to a bath that nothing warms"),
+}
 
 
 class CaseError(ValueError):
@@ -39,6 +67,7 @@ class Kind:
     choices: tuple[str, ...] = ()
     components: int | None = 0
     of: type | None = None
+    tiny: bool = False
 
     def key(self, name: str) -> str:
         return f"{name}_{self.unit}" if self.unit else name
@@ -51,10 +80,11 @@ def _declare(kind: Kind, default: Any) -> Any:
 REQUIRED = dataclasses.MISSING
 
 
-def quantity(unit="", default=REQUIRED, *, above=-math.inf, least=-math.inf, most=math.inf):
-    """A number with a unit and bounds; bounds and default are in that unit too."""
+def quantity(unit="", default=REQUIRED, *, above=-math.inf, least=-math.inf, most=math.inf, tiny=False):
+    """A number with a unit and bounds; bounds and default are in that unit too. Where it must be above 0 it must also be of
+    a plausible size, unless `tiny` values stand for 0 itself."""
     in_si = default if default is REQUIRED or default is None else default * UNITS[unit]
-    return _declare(Kind(unit, above, least, most), in_si)
+    return _declare(Kind(unit, above, least, most, tiny=tiny), in_si)
 
 
 def vector(unit="", default=REQUIRED, components=None):
@@ -83,8 +113,8 @@ def file(default=""):
 
 
 def words(default=REQUIRED):
-    """A text, or a list of texts."""
-    return _declare(Kind(of=str), default)
+    """A text, or a list of texts; one text alone where the default is one."""
+    return _declare(Kind(of=str, components=0 if isinstance(default, str) else None), default)
 
 
 def fields(cls: type) -> dict[str, tuple[str, Kind]]:
@@ -142,7 +172,7 @@ def _value(kind: Kind, value: Any, key: str) -> Any:
     if kind.of is int:
         return int(_bounded(kind, _typed(value, int, key, "a whole number"), key))
     if kind.of is str:
-        return _words(value, key)
+        return _typed(value, str, key, "a text") if kind.components == 0 else _words(value, key)
     if kind.of is Path:
         return _typed(value, str, key, "the path of a file, as a text")
     if kind.components == 0:
@@ -179,11 +209,37 @@ def _bounded(kind: Kind, value: float, key: str) -> float:
     return value
 
 
+def plausible(record: Any, where: str):
+    """The record as it is; `CaseError` where a quantity of it is of no size that makes sense (see PLAUSIBLE)."""
+    for key, (name, kind) in fields(type(record)).items():
+        for value in _numbers_of(getattr(record, name)):
+            refuse_implausible(value, kind.unit, f"{where}.{key}", kind.above == 0.0 and not kind.tiny)
+    return record
+
+
+def refuse_implausible(value: float, unit: str, key: str, positive: bool = False) -> None:
+    """`CaseError` where a value [SI] is larger than makes sense, or must be above 0 and is smaller; `unit` is that of its key."""
+    least, most, what = PLAUSIBLE[SAME_AS.get(unit, unit)]
+    if abs(value) <= most and not (positive and abs(value) < least):
+        return
+    given, low, high = (number / UNITS[unit] for number in (value, least, most))
+    bounds = f"from {low:g} to {high:g}" if positive else f"at most {high:g} in size"
+    sense = f"what makes sense here is {bounds} {unit.replace('_', ' ')}".rstrip()
+    raise CaseError(f"{key} = {given:g}; {sense} ({what}): look at the unit and the exponent")
+
+
+def _numbers_of(value: Any) -> list[float]:
+    """The floats in a value, whether they stand alone or in lists."""
+    if isinstance(value, tuple):
+        return [number for part in value for number in _numbers_of(part)]
+    return [value] if isinstance(value, float) else []
+
+
 def _vector(kind: Kind, value: Any, key: str) -> tuple:
     if not isinstance(value, list):
         raise CaseError(f"{key} = {value!r}; it must be a list of numbers in {kind.unit.replace('_', ' ') or '1'}")
-    if kind.components and len(value) != kind.components:
-        raise CaseError(f"{key} has {len(value)} components; it must have {kind.components}")
+    if kind.components and (len(value) != kind.components or any(isinstance(v, list) for v in value)):
+        raise CaseError(f"{key} = {str(value)[:80]}; it must have {kind.components} components")
     return tuple(_vector(kind, v, key) if isinstance(v, list) else _number(v, key, kind) * UNITS[kind.unit] for v in value)
 
 

@@ -15,7 +15,7 @@ STANDARD_ATMOSPHERE = 101325.0  # Pa, ISO 2533
 class Run:
     end_time: float = quantity("s", above=0.0)
     output_interval: float = quantity("s", above=0.0)
-    step_factor: float = quantity("", 1.0, above=0.0)  # sub-steps over the largest that the effects allow
+    step_factor: float = quantity("", 1.0, least=1e-6, most=1e3)  # sub-steps over the largest that the effects allow
     accuracy: float = quantity("", 0.01, above=0.0, most=1.0)  # error that is allowed: decides `effects = "auto"` and warnings
     report_at: tuple = vector("s", ())  # times that a window ends at, so that history.csv has them
     metrics: tuple = words(())  # of sdph.metrics, for metrics.csv and the summary
@@ -79,7 +79,7 @@ class Grains:
     density: float = quantity("kg_m3", above=0.0)
     diameter: float = quantity("mm", above=0.0)
     heat_capacity: float = quantity("J_kg_K", above=0.0)
-    conductivity: float = quantity("W_m_K", above=0.0)
+    conductivity: float = quantity("W_m_K", above=0.0, tiny=True)  # grains may insulate
     diameter_std: float = quantity("mm", 0.0, least=0.0)
     restitution: float = quantity("", 0.9, least=0.0, most=0.9999)  # not in the paper: Fluent's default (sdph-notes, section 2)
     packing_limit: float = quantity("", 0.63, above=0.0, most=0.74)  # the same
@@ -130,7 +130,7 @@ class Coupling:
     voidage: bool = flag(True)  # the gas knows of the volume of the grains; false as in point-particle models
     window_tolerance: float = quantity("", 2e-5, above=0.0)  # error of one window over the heat there is to exchange
     window_largest: float = quantity("s", 1e-2, above=0.0)
-    courant: float = quantity("", 1.0, above=0.0)  # of the gas, in one window
+    courant: float = quantity("", 1.0, least=1e-6)  # of the gas, in one window
     gas_tolerance: float = quantity("", 1e-11, above=0.0, most=1e-4)  # relative, of the embedded solver; pressure: 1000 times that; our choice
 
 

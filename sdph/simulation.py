@@ -31,14 +31,8 @@ class Simulation:
 
     def __init__(self, case, gas, ledger):
         self.case, self.gas, self.ledger = case, gas, ledger
-        rows = [effects.REGISTRY[name] for name in case.effects]
-        self.parameters = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
+        self.parameters, self.source, self.stepper, self.clock = parts_of(case)
         self.moves = effects.moving(case)
-        names = {name for row in rows for name in row.arrays}
-        state = particles.fill(case, names)
-        self.source = Source(case, names, len(state.x) + 1) if self.parameters["inflow"] else None
-        self.clock = Window(case)
-        self.stepper = Stepper(case, self.parameters, state, self.source, self.clock.shortest)
         self.transfer = Transfer(gas.mesh, case.smoothing_length, case.domain.size)
         self.exchange = Exchange(case, gas.mesh, self.parameters)
         self.time, self.windows, self.repeated, self.grid = 0.0, 0, 0, None
@@ -165,8 +159,9 @@ class Simulation:
         own = {"cells": len(self.gas.mesh.volumes), "sub_steps": self.stepper.steps, "wall_contacts": self.stepper.contacts}
         own["windows_repeated"] = self.repeated
         for name in self.case.probes:
-            own |= {key: value for key, value in out.last.items() if key.startswith(f"{name}_")}
-            own[f"{name}_rise_K"] = out.last[f"{name}_temperature_K"] - out.first[f"{name}_temperature_K"]
+            own |= {key: out.last[key] for key in (f"{name}_{probed}" for probed in history.PROBED) if key in out.last}
+            if (key := f"{name}_temperature_K") in out.last:
+                own[f"{name}_rise_K"] = out.last[key] - out.first[key]
         return own
 
     def warnings(self) -> list[str]:
@@ -245,6 +240,17 @@ class Simulation:
         result = function(*arguments)
         self.wall[part] += clock.perf_counter() - start
         return result
+
+
+def parts_of(case) -> tuple[dict, Source | None, Stepper, Window]:
+    """Kernel parameters by effect, nozzles, stepper and clock of a case: all that a run begins with beside the gas."""
+    rows = [effects.REGISTRY[name] for name in case.effects]
+    parameters = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
+    names = {name for row in rows for name in row.arrays}
+    state = particles.fill(case, names)
+    source = Source(case, names, len(state.x) + 1) if parameters["inflow"] else None
+    clock = Window(case)
+    return parameters, source, Stepper(case, parameters, state, source, clock.shortest), clock
 
 
 class Tally:

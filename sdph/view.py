@@ -5,15 +5,19 @@ from __future__ import annotations
 import math
 import os
 import sys
-import tomllib
+from dataclasses import dataclass
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 
-from sdph import output
+from sdph import case as cases
+from sdph import output, schema
 from sdph.liquid import GAS
 from sdph.particles import FIELDS
+from sdph.running import fields
 from sdph.schema import CaseError
+from sdph.sections import Domain
 
 WINDOW = (1200, 900)  # pixels
 SHOWN = 0.75  # share of the window that the domain fills
@@ -27,34 +31,60 @@ SAME = 1e-6  # of the last time: how far past it a time may lie, by the digits i
 OFF_FACES = 1e-6  # of its lengths: a cut through the middle of a box is no face of its cells
 MOVIES = {".gif": {"duration": 100, "loop": 0}, ".mp4": {"fps": 10, "macro_block_size": 2}}  # ten pictures a second
 BAR = {"vertical": True, "position_y": 0.2, "height": 0.6, "width": 0.06, "fmt": "%.6g", "n_labels": 5, "title_font_size": 16, "label_font_size": 14}
+PARTICLES = ("velocity", "ident", "kind", "mass", "density")  # arrays that all particles have, of grains and of liquids
+GAS_CELLS = ("velocity", "pressure", "temperature", "density", "alpha_p")
 GAS_UNITS = {"alpha_p": "1", "temperature": "K", "pressure": "Pa", "density": "kg/m3", "vapour_mass_fraction": "1"}
 PARTICLE_UNITS = {name: unit for name, (unit, _) in FIELDS.items()} | {"alpha_p": "1", "pressure": "Pa", "velocity": "m/s"}
 
 
-def read(folder: Path):
-    """The timeline of a run as a pyvista reader."""
-    import pyvista
+@dataclass(frozen=True)
+class Timeline:
+    """Instant [s] -> number of the part -> file: particles are part 0, gas is part 1 where there is any."""
 
-    if not (folder / "run.pvd").is_file():
+    files: dict[float, dict[int, Path]]
+
+    @property
+    def time_values(self) -> list[float]:
+        return sorted(self.files)
+
+
+def read(folder: Path) -> Timeline:
+    """The timeline of a run."""
+    file, files = folder / "run.pvd", {}
+    if not file.is_file():
         raise CaseError(f"{folder} holds no fields (no run.pvd); give the folder of a run")
     try:
-        return pyvista.get_reader(str(folder / "run.pvd"))
-    except (SyntaxError, AttributeError, FileNotFoundError) as error:  # no XML, none of a timeline, or not all there
-        raise CaseError(f"{folder}/run.pvd is damaged ({error}); run it again") from None
+        for row in ElementTree.parse(file).getroot().iter("DataSet"):
+            files.setdefault(_instant(row.attrib), {})[int(row.attrib["part"])] = folder / _inside(row.attrib["file"])
+        if not files or not all(0 in parts for parts in files.values()):
+            raise ValueError("it names no particles")
+    except (SyntaxError, ValueError, KeyError) as error:  # no XML, or none of a timeline
+        raise CaseError(f"{file} is damaged ({error}); run it again") from None
+    return Timeline(files)
 
 
-def state_at(reader, time: float | None = None):
+def _instant(row: dict) -> float:
+    if not math.isfinite(time := float(row["timestep"])):
+        raise ValueError(f"timestep = {time}")
+    return time
+
+
+def _inside(name: str) -> str:
+    """The name of a file of fields in the run folder."""
+    path = Path(name)
+    if path.is_absolute() or ".." in path.parts or path.suffix not in fields.READERS:
+        raise ValueError(f"{name[:80]!r} is no file of fields in this folder")
+    return name
+
+
+def state_at(timeline: Timeline, time: float | None = None):
     """(time, particles, gas) nearest to `time` [s]; the last without one."""
-    times = reader.time_values
+    times = timeline.time_values
     chosen = times[-1] if time is None else min(times, key=lambda t: abs(t - time))
     if time is not None and not times[0] <= time <= times[-1] and not abs(time - chosen) <= SAME * times[-1]:
         raise CaseError(f"--time {time:g}: this run has fields from {times[0]:g} to {times[-1]:g} s")
-    for part in reader.datasets:
-        if part.time == chosen and not output.whole(file := Path(reader.path).parent / part.path):
-            raise CaseError(f"{file} is damaged or missing; run it again")
-    reader.set_active_time_value(chosen)
-    blocks = reader.read()
-    return chosen, blocks[0], blocks[1] if len(blocks) > 1 else None  # a liquid has no gas
+    parts = timeline.files[chosen]
+    return chosen, fields.load(parts[0], PARTICLES), fields.load(parts[1], GAS_CELLS) if 1 in parts else None  # a liquid has no gas
 
 
 def show(folder: Path, png: Path | None = None, time: float | None = None, field: str | None = None) -> None:
@@ -97,21 +127,14 @@ def movie(folder: Path, target: Path, field: str | None = None) -> None:
 
 def _walls(folder: Path):
     """Walls of a tank or of a surface mesh; None where a run has none."""
-    import pyvista
-
     file = folder / output.WALLS
-    if not file.exists():
-        return None
-    if not output.whole(file):
-        raise CaseError(f"{file} is damaged; run it again")
-    return pyvista.read(file)
+    return fields.load(file) if file.exists() else None
 
 
 def _up(folder: Path) -> tuple:
     """The axis, as a vector, that points up most; z where nothing falls."""
     case = folder / output.MARK
-    gravity = tomllib.loads(case.read_text(encoding="utf-8"))["domain"]["gravity_m_s2"] if case.exists() else []
-    return upwards(gravity)
+    return upwards(schema.read(Domain, cases.parsed(case).get("domain", {}), "domain").gravity if case.exists() else ())
 
 
 def upwards(gravity) -> tuple:
@@ -129,7 +152,8 @@ def _range(meshes, field: str):
     """Least and largest of a field over all of the meshes, of a vector its length; None where none has it."""
     arrays = [np.asarray(mesh[field]) for mesh in meshes if mesh is not None and field in mesh.array_names]
     values = [array if array.ndim == 1 else np.linalg.norm(array, axis=1) for array in arrays if len(array)]
-    return (min(v.min() for v in values), max(v.max() for v in values)) if values else None
+    finite = [own for own in (array[np.isfinite(array)] for array in values) if len(own)]
+    return (min(v.min() for v in finite), max(v.max() for v in finite)) if finite else None
 
 
 def _around(meshes) -> np.ndarray:

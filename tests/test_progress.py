@@ -1,5 +1,6 @@
 """What a run says of itself while it goes: the line, the page, and what is refused or stopped because it would get nowhere."""
 
+import json
 import re
 import sys
 
@@ -40,6 +41,13 @@ def test_the_line_on_a_terminal_says_all(tmp_path, monkeypatch):
     driver.run(load("disc_cluster", "embedded"), "disc_cluster", tmp_path / "run", None, reporter)
     reporter.close()
     assert LINE.search("".join(terminal)), "".join(terminal)[-500:]
+
+
+def test_json_hides_no_warning(tmp_path):
+    """What is printed is JSON alone; the warning stands beside it, and no progress does."""
+    done = sdph("run", "disc_cluster", *SMALL, "--set", "resolution.cell_mm=100", "--json", "--out", "mine", cwd=tmp_path)
+    assert json.loads(done.stdout)["time_s"] == 0.002
+    assert "warning: domain / cell = 5, safe from 10" in done.stderr and "t = " not in done.stderr
 
 
 def test_the_page_shows_the_run(tmp_path):

@@ -13,8 +13,8 @@ from sdph.schema import quantity, record
 
 @record
 class ArtificialViscosity:
-    alpha: float = quantity("", 0.1, least=0.0)
-    beta: float = quantity("", 0.2, least=0.0)
+    alpha: float = quantity("", 0.1, least=0.0, most=1e3)
+    beta: float = quantity("", 0.2, least=0.0, most=1e3)
 
 
 class ArtificialP(NamedTuple):

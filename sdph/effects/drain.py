@@ -12,7 +12,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from sdph.effects.effect import Effect, Judgement
-from sdph.schema import choice, quantity, record
+from sdph.schema import CaseError, choice, quantity, record
 
 FORMS = ("debt", "paper")
 
@@ -35,11 +35,15 @@ class DrainP(NamedTuple):
 
 
 def kernel(case) -> DrainP:
-    return DrainP(FORMS.index(case.parameters["drain"].form))
+    own = case.parameters["drain"]
+    command(own, 1.0)
+    return DrainP(FORMS.index(own.form))
 
 
 def command(own: Drain, first: float):
     """t -> commanded fill, from `first` at the start."""
+    if own.end <= own.start:
+        raise CaseError(f"drain.end_s = {own.end:g} must come after drain.start_s = {own.start:g}")
 
     def fill(time: float) -> float:
         share = min(max((time - own.start) / (own.end - own.start), 0.0), 1.0)

@@ -5,14 +5,15 @@ Paper T, Eq. 15: f = -[dV0/dt + beta x r + omega x (omega x r) + 2 omega x v], r
 
 from __future__ import annotations
 
-import csv
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from sdph.effects.effect import Effect, Judgement
-from sdph.schema import CaseError, file, quantity, record, vector
+from sdph.engine import table
+from sdph.schema import CaseError, file, quantity, record, refuse_implausible, vector
 
 COLUMNS = ("time_s", "ax_m_s2", "ay_m_s2", "az_m_s2", "wx_rad_s", "wy_rad_s", "wz_rad_s")
 
@@ -27,7 +28,7 @@ class Frame:
 
     shake: tuple = vector("", ())
     turn: tuple = vector("", ())
-    spin: tuple = vector("rad_s", (0.0, 0.0, 0.0))  # constant angular velocity
+    spin: tuple = vector("rad_s", (0.0, 0.0, 0.0), components=3)  # constant angular velocity
     table: str = file()  # CSV file with the columns time_s, ax_m_s2 ... and wx_rad_s ...; linear between its rows
     start: float = quantity("s", 0.0, least=0.0)  # at rest before: time for the liquid to settle
     end: float | None = quantity("s", None, above=0.0)  # neither accelerated nor turning after
@@ -52,7 +53,7 @@ def motion(own: Frame):
     if own.table:
         return _tabulated(own)
     for row in (*own.shake, *own.turn):
-        if not isinstance(row, tuple) or len(row) != 4 or row[0] not in (0, 1, 2):
+        if not isinstance(row, tuple) or len(row) != 4 or row[0] not in (0, 1, 2) or any(isinstance(value, tuple) for value in row):
             raise CaseError(f"frame.shake or frame.turn holds {row}; a row is [axis 0, 1 or 2, amplitude, rad/s, phase]")
 
     def at(time: float):
@@ -72,14 +73,11 @@ def motion(own: Frame):
 
 def _tabulated(own: Frame):
     try:
-        with open(own.table, newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
-        columns = {name: np.array([float(row[name]) for row in rows]) for name in COLUMNS}
-    except (OSError, KeyError, ValueError) as error:
-        raise CaseError(f"frame.table = {own.table!r} cannot be read ({error}); give a CSV file with the columns {', '.join(COLUMNS)}") from None
+        lines, columns = table.numbers(Path(own.table), COLUMNS)
+        _check_rows(lines, columns)
+    except ValueError as error:
+        raise CaseError(f"frame.table = {own.table!r}: {error}; give a CSV file with the columns {', '.join(COLUMNS)}") from None
     times, values = columns["time_s"], np.array([columns[name] for name in COLUMNS[1:]])
-    if len(times) < 2 or (np.diff(times) <= 0.0).any():
-        raise CaseError(f"frame.table = {own.table!r}; its times must rise, and there must be two at least")
     slopes = np.diff(values, axis=1) / np.diff(times)
 
     def at(time: float):
@@ -90,6 +88,19 @@ def _tabulated(own: Frame):
         return now[:3], now[3:], slopes[3:, k] if inside else np.zeros(3)
 
     return at
+
+
+def _check_rows(lines, columns) -> None:
+    """ValueError where times do not rise, or a number is of no plausible size."""
+    for name, values in columns.items():
+        for line, value in zip(lines, values):
+            refuse_implausible(value, name.partition("_")[2], f"line {line}: {name}")
+    times = columns["time_s"]
+    for line, before, now in zip(lines[1:], times, times[1:]):
+        if now <= before:
+            raise ValueError(f"line {line}: time_s = {now:g} is not after {before:g}, as times must be")
+    if len(times) < 2:
+        raise ValueError("there must be two rows at least")
 
 
 @njit(cache=True, error_model="numpy")

@@ -27,7 +27,7 @@ WORTH = 0.006  # of the heat to the grains: what it changed in the bubbling bed
 
 @record
 class GrainShifting:
-    strength: float = quantity("", 1.0, above=0.0)
+    strength: float = quantity("", 1.0, above=0.0, most=1e3)
 
 
 class ShiftingP(NamedTuple):

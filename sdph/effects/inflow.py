@@ -56,6 +56,8 @@ class Inflow:
         """What comes in, for `sdph.explain.scales`."""
         from sdph.explain.scales import Patch
 
+        for name, nozzle in case.nozzles.items():
+            _check(case, name, nozzle)
         return [_patch(case, nozzle, Patch) for nozzle in case.nozzles.values()]
 
 
@@ -95,6 +97,10 @@ def _check(case, name: str, nozzle: Nozzle) -> None:
             raise CaseError(f"{where}.{key}_m is missing; a {nozzle.shape} in {case.dimensions} dimensions needs it")
     if nozzle.half_angle and nozzle.shape != "cone":
         raise CaseError(f"{where}.half_angle_deg is of a cone; shape = {nozzle.shape!r}")
+    if not np.linalg.norm(nozzle.direction) > 0.0:
+        raise CaseError(f"{where}.direction = {list(nozzle.direction)}; it must point somewhere")
+    if nozzle.across and case.dimensions == 3 and _parallel(nozzle.across, nozzle.direction):
+        raise CaseError(f"{where}.across = {list(nozzle.across)}; it must point aside of direction = {list(nozzle.direction)}")
     streams = streams_of(case, nozzle)
     _check_times(case, where, nozzle, streams)
     alpha_p = streams.alpha_p
@@ -113,6 +119,11 @@ def _check_times(case, where: str, nozzle: Nozzle, streams: Streams) -> None:
         way = (nozzle.end - nozzle.start) * streams.speed.max()
         least = f"less than half of resolution.spacing_mm = {case.resolution.spacing * 1e3:g}"
         raise CaseError(f"{given}: its grains go {way * 1e3:.3g} mm, {least}; open it longer or take a finer spacing")
+
+
+def _parallel(a, b) -> bool:
+    """Whether two vectors of space span no plane."""
+    return bool(np.linalg.norm(np.cross(a, b)) <= ROUND_OFF * np.linalg.norm(a) * np.linalg.norm(b))
 
 
 class Source:

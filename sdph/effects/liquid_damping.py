@@ -18,7 +18,7 @@ LIMITER = 3.0  # eta of Zhang, Hu & Adams 2017, J. Comput. Phys. 335, 605, Eq. 1
 @record
 class LiquidDamping:
     model: str = choice(*MODELS)
-    alpha: float = quantity("", 0.02, least=0.0)  # Marrone et al. 2011; of `linear` alone
+    alpha: float = quantity("", 0.02, least=0.0, most=1e3)  # Marrone et al. 2011; of `linear` alone
 
 
 class LinearP(NamedTuple):

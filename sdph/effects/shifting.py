@@ -33,7 +33,7 @@ class Shifting:
     """
 
     form: str = choice(*FORMS)
-    strength: float = quantity("", 3.0, above=0.0)  # of the cited; with h = 1.5 dx 1 is too weak: Taylor-Green's vortices fall apart
+    strength: float = quantity("", 3.0, above=0.0, most=1e3)  # of the cited; with h = 1.5 dx 1 is too weak: Taylor-Green's vortices fall apart
     tension_control: bool = flag(True)
     phases: str = choice("both", "gas")  # which are shifted
 

@@ -51,16 +51,18 @@ def kernel(case) -> TankP:
 def shape_of(case):
     """The shape (sdph.liquid.shapes) of a case's tank."""
     own, d = case.parameters["tank"], case.dimensions
+    if own.outlet_radius and (own.shape in ("box", "mesh") or d == 2 or own.outlet_radius >= (own.radius or math.inf)):
+        raise CaseError(f"tank.outlet_radius_m = {own.outlet_radius:g}; an outlet is narrower than its tank, a sphere, cylinder or capsule in 3-D")
     if own.shape == "box":
         return _box(case, own)
-    if own.shape == "mesh":
+    if own.shape == "mesh" and d == 3:
         return shapes.Mesh(own.mesh)
+    if d == 2 and own.shape != "sphere":
+        raise CaseError(f"tank.shape = {own.shape!r} needs dimensions = 3; in 2-D there are box and sphere (a disc)")
     if own.centre is None or own.radius is None or len(own.centre) != d:
         raise CaseError(f"tank: a {own.shape} needs centre_m with {d} components, and radius_m")
     centre = np.array(own.centre)
     if d == 2:
-        if own.shape != "sphere":
-            raise CaseError(f"tank.shape = {own.shape!r} needs dimensions = 3; in 2-D there are box and sphere (a disc)")
         return shapes.Disc(centre, own.radius)
     reach = layers(case) * case.resolution.spacing
     if own.shape == "cylinder":
@@ -92,6 +94,8 @@ def _box(case, own):
             raise CaseError(f"tank.open_sides holds {side!r}; allowed: {', '.join(SIDES)}")
     open_ends = {SIDES[side] for side in sides} | {(a, end) for a, on in enumerate(periodic) if on for end in (0, 1)}
     lower, upper = own.lower or (0.0,) * case.dimensions, own.upper or case.domain.size
+    if any(high - low < case.resolution.spacing * (1.0 - 1e-9) for low, high in zip(lower, upper)):
+        raise CaseError(f"tank: from lower_m = {list(lower)} to upper_m = {list(upper)} it is narrower than resolution.spacing_mm along an axis; widen it")
     return shapes.Box(np.array(lower), np.array(upper), tuple(open_ends))
 
 

@@ -29,7 +29,7 @@ class Walls:
     model: str = choice(*MODELS)
     specularity: float | None = quantity("", None, least=0.0, most=1.0)  # share of collisions that are diffuse; None: no slip
     restitution: float = quantity("", 0.0, least=0.0, most=1.0)  # of a contact; SPH particles are many grains: no bounce
-    penalty: float = quantity("", 1.0, above=0.0)  # eps of the paper's force in grain densities times sqrt(g h)/h; not given there
+    penalty: float = quantity("", 1.0, above=0.0, most=1e6)  # eps of the paper's force in grain densities times sqrt(g h)/h; not given there
     mesh: str = file()  # surface mesh that meshio reads, in metres, normals towards the grains
 
 

@@ -102,7 +102,9 @@ def _windows(case, s) -> list[tuple]:
 
 def _sub_steps(case, s) -> list[tuple]:
     h = case.smoothing_length
-    rows = [("sub-step", name, _own_limit(case, name), "the effect's own dt_limit") for name in case.effects if _own_limit(case, name) < math.inf]
+    own, state = [effects.REGISTRY[name] for name in case.effects], _state(case)
+    found = {row.name: row.dt_limit(row.kernel(case), case, state) for row in own}
+    rows = [("sub-step", name, limit, "the effect's own dt_limit") for name, limit in found.items() if limit < math.inf]
     if effects.moving(case):
         fastest = _sound(case, s) + s.speed
         if fastest:
@@ -117,11 +119,6 @@ def _sound(case, s) -> float:
     agitated = granular_pressure.sound_squared(granular_pressure.kernel(case), s.alpha_p, s.theta) if "granular_pressure" in case.effects else 0.0
     lasting = friction.sound_squared(p := friction.kernel(case), friction.pressure(p, s.alpha_p)[1]) if "friction" in case.effects else 0.0
     return math.sqrt(agitated + lasting)
-
-
-def _own_limit(case, name: str) -> float:
-    row = effects.REGISTRY[name]
-    return row.dt_limit(row.kernel(case), case, _state(case))
 
 
 def _state(case):
@@ -152,10 +149,17 @@ def _incoming(case) -> int:
     """Particles that the nozzles bring until the end."""
     coming = 0.0
     for nozzle in case.nozzles.values():
-        mouth = (nozzle.width or 2.0 * nozzle.radius) if case.dimensions == 2 else (nozzle.width or 0.0) * (nozzle.length or 0.0) or math.pi * nozzle.radius**2
         lasting = max(0.0, min(nozzle.end or case.run.end_time, case.run.end_time) - nozzle.start)
-        coming += mouth * nozzle.speed * lasting / case.resolution.spacing**case.dimensions
+        coming += mouth(case, nozzle) * nozzle.speed * lasting / case.resolution.spacing**case.dimensions
     return math.ceil(coming)
+
+
+def mouth(case, nozzle) -> float:
+    """[m] or [m2] that a nozzle is wide."""
+    radius = nozzle.radius or 0.0
+    if nozzle.shape == "slot":
+        return math.prod((nozzle.width or 0.0, nozzle.length or 0.0)[: case.dimensions - 1])
+    return 2.0 * radius if case.dimensions == 2 else math.pi * radius**2
 
 
 def steps_of(case, s) -> tuple[int, int]:

@@ -14,9 +14,9 @@ def explain(case) -> dict[str, list[dict]]:
     found = _of_liquid().explain(scales) if case.liquid else _of_grains(case, scales)
     return {
         "numbers": [dict(zip(("number", "value", "threshold", "meaning", "source"), row)) for row in found.pop("numbers")],
-        "effects": effect_rows(case),
+        "effects": effect_rows(case, scales),
         **found,
-        "warnings": [{"warning": text} for text in warnings(case)],
+        "warnings": [{"warning": text} for text in warnings(case, scales)],
     }
 
 
@@ -31,9 +31,10 @@ def _of_grains(case, scales) -> dict[str, list]:
     return {"numbers": numbers(scales), "ratios": estimate.ratios(case), "limits": limits, "expected": expected}
 
 
-def warnings(case) -> list[str]:
-    """What `run` says before it starts: effects that are missing, ratios that are not safe."""
-    return [*judge.missing(case), *(_of_liquid().warnings(judge.scales_of(case)) if case.liquid else estimate.warnings(case))]
+def warnings(case, scales=None) -> list[str]:
+    """What `run` says before it starts: effects that are missing, ratios that are not safe; `scales` as in `judge.judgements`."""
+    scales = scales or judge.scales_of(case)
+    return [*judge.missing(case, scales), *(_of_liquid().warnings(scales) if case.liquid else estimate.warnings(case))]
 
 
 def numbers(s) -> list[tuple]:
@@ -68,9 +69,10 @@ def numbers(s) -> list[tuple]:
     return rows + droplets.numbers(s)
 
 
-def effect_rows(case) -> list[dict]:
-    """Every effect: on or off, called for or not, why, and the error without it."""
-    judged, called = judge.judgements(case), judge.called_for(case)
+def effect_rows(case, scales=None) -> list[dict]:
+    """Every effect: on or off, called for or not, why, and the error without it; `scales` as in `judge.judgements`."""
+    scales = scales or judge.scales_of(case)
+    judged, called = judge.judgements(case, scales), judge.called_for(case, scales)
     rows, matter = [], "liquid" if case.liquid else "grains"
     for name, row in ((name, row) for name, row in effects.REGISTRY.items() if matter in row.matter):
         own = judged.get(name)

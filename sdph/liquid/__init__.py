@@ -16,11 +16,11 @@ class Liquid:
     density: float = quantity("kg_m3", above=0.0)
     viscosity: float = quantity("Pa_s", 0.0, least=0.0)
     sound_speed: float = quantity("m_s", above=0.0)  # ten times the fastest speed or more: liquids.md, shared core
-    exponent: float = quantity("", 7.0, least=1.0)
+    exponent: float = quantity("", 7.0, least=1.0, most=100.0)
     background_pressure: float = quantity("Pa", 0.0, least=0.0)
     kernel: str = choice(*NAMES)
     pressure_gradient: str = choice("plain", "corrected")  # for how neighbours lie (sdph.liquid.correction): shallow liquids, bubbles
-    courant: float = quantity("", 0.25, above=0.0, most=0.6)  # of h/(c + v): liquids.md
+    courant: float = quantity("", 0.25, least=1e-6, most=0.6)  # of h/(c + v): liquids.md
     history_interval: float | None = quantity("s", None, above=0.0)  # None: a tenth of run.output_interval_s
     periodic: tuple = vector("", ())  # 1 along periodic axes of the domain, 0 along the others
 
@@ -41,7 +41,7 @@ class GasPhase:
     density: float = quantity("kg_m3", above=0.0)
     viscosity: float = quantity("Pa_s", 0.0, least=0.0)
     sound_speed: float | None = quantity("m_s", None, above=0.0)  # None: that of the liquid (Rezavand, Zhang & Hu 2020)
-    exponent: float = quantity("", 1.4, least=1.0)  # of air
+    exponent: float = quantity("", 1.4, least=1.0, most=100.0)  # of air
     cohesion: float = quantity("Pa_m6_kg2", 0.0, least=0.0)  # of Van der Waals' gas: liquids.md, part L
     interaction: str = choice("riemann", "plain")
     density_by: str = choice("continuity", "summation")

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from sdph.engine.surface import read
 from sdph.schema import CaseError
 
 UP = (0.0, 0.0, 1.0)  # axis of a round tank in space
@@ -190,13 +191,9 @@ class Mesh:
     path: str
 
     def _read(self):
-        import meshio
         import pyvista
 
-        try:
-            mesh = meshio.read(self.path)
-        except (OSError, SystemExit, meshio.ReadError) as error:
-            raise CaseError(f"tank.mesh = {self.path!r} cannot be read ({error}); give a surface mesh that meshio reads") from None
+        mesh = read(self.path, "tank.mesh")
         if "triangle" not in mesh.cells_dict:
             raise CaseError(f"tank.mesh = {self.path!r} holds no triangles; a tank is made of them")
         faces = mesh.cells_dict["triangle"]

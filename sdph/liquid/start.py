@@ -28,6 +28,8 @@ def fill(case) -> particles.State:
     state = parts[0]
     for part in parts[1:]:
         state = particles.join(state, part)
+    if not (state.kind == LIQUID).any():
+        raise CaseError("pools hold no particle of liquid; enlarge one, or give a finer resolution.spacing_mm")
     state.ident[:] = np.arange(len(state.ident))
     return state
 
@@ -63,6 +65,8 @@ def _pool(case, number: int) -> particles.State:
         volume = math.prod(b - a for a, b in zip(pool.lower, pool.upper)) / len(points)
     for earlier in pools[:number]:
         points = points[~_holds(earlier, points)]
+    if not len(points):
+        raise CaseError(f"pools.{list(case.pools)[number]} holds no particle; enlarge it, give a finer resolution.spacing_mm, or name it before the others")
     state = _placed(case, points)
     state.kind[:] = GAS if pool.phase == "gas" else LIQUID
     density = phase_of(case, pool).density
@@ -109,6 +113,8 @@ def _in_tank(case, pool) -> np.ndarray:
     lower, upper = corners.min(axis=0) + 0.5 * spacing, corners.max(axis=0) - 0.5 * spacing
     points = shapes.lattice_inside(own, spacing, lower, upper, CLEARANCE * spacing)
     count = round(pool.fill * own.volume / spacing**case.dimensions)
+    if count < 1:
+        raise CaseError(f"pools: fill = {pool.fill:g} is less than a particle; fill it more, or give a finer resolution.spacing_mm")
     if count > len(points):
         raise CaseError(f"pools: fill = {pool.fill:g} asks for {count} particles, the tank holds {len(points)} at this spacing; fill it less")
     points = points[:count]

@@ -39,13 +39,12 @@ class LiquidStepper:
     def __init__(self, case, shortest: float = 0.0):
         self.case, self.guard, d = case, LiquidGuard(case), case.dimensions
         self.shortest = shortest  # step [s] below which the run gets nowhere
-        self.p = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
+        self.p, self.state, self.move = parts_of(case)
         self.kernel = smoothing.smoothing(case.liquid.kernel, d, case.smoothing_length)
         periodic = case.liquid.periodic or (0.0,) * d
         period = tuple(length * bool(on) for length, on in zip(case.domain.size, periodic))
         self.neighbours = LiquidNeighbours(2.0 * SLACK * self.kernel.h, period, case.resolution.neighbour_skin)
         self.fluids, self.phases = fluids(case), phases.kernel(case)
-        self.state = start.fill(case)
         first_of_pipe = len(self.state.x) - start.pipe_walls(case)  # walls follow the liquid, those of the outlet pipe come last
         self.own_walls = range(int((self.state.kind != WALL).sum()), first_of_pipe)  # numbers of the tank's own
         own = self.p["tank"]
@@ -56,7 +55,6 @@ class LiquidStepper:
         self.shifted = np.zeros(3)  # momentum that shifting has given [kg m/s]
         self.tightening = 0.0  # power of surface tension on the particles [W]
         self.compliance = np.array([self._compliance(kind) for kind in range(GAS + 1)])
-        self.move = frame.motion(case.parameters["frame"]) if self.p["frame"] else None
         self.aim(0.0)
         self.least = np.zeros(0)
         self.forces()
@@ -280,6 +278,12 @@ def pipe_energy(stepper) -> float:
         return 0.0
     wet = particles.take(stepper.state, stepper.active)
     return kinetic_energy(particles.take(wet, shape.tank.distance(particles.positions(wet)) > 0.0))
+
+
+def parts_of(case):
+    """Kernel parameters by effect, particles, and motion of the frame (None without one) of a case: all that a run begins with."""
+    parameters = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
+    return parameters, start.fill(case), frame.motion(case.parameters["frame"]) if parameters["frame"] else None
 
 
 def fluids(case) -> np.ndarray:

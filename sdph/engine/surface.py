@@ -1,0 +1,33 @@
+"""Surface meshes from files of any kind that meshio reads."""
+
+from __future__ import annotations
+
+import io
+import warnings
+from contextlib import redirect_stderr, redirect_stdout
+from pathlib import Path
+
+import numpy as np
+
+from sdph.schema import CaseError
+
+
+def read(path: str, key: str):
+    """What meshio makes of a file, its points finite; `CaseError`, which names the key of the case, where it is no mesh."""
+    import meshio
+
+    try:
+        if not Path(path).is_file():  # nor a pipe or a device, which may have no end
+            raise ValueError("there is no such file")
+        with warnings.catch_warnings(), redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):  # it prints what it also raises
+            warnings.simplefilter("ignore")
+            mesh = meshio.read(path)
+        if not np.isfinite(mesh.points).all():
+            raise ValueError("one of its points is no number")
+    except (Exception, SystemExit) as error:  # meshio's readers trip over damaged files in ways of their own
+        raise CaseError(f"{key} = {path!r} cannot be read ({_short(error)}); give a surface mesh that meshio reads") from None
+    return mesh
+
+
+def _short(error: BaseException) -> str:
+    return " ".join(str(error).split())[:200] or type(error).__name__

@@ -1,0 +1,113 @@
+"""Tables in CSV files, read with every cell looked at; a `ValueError` says what is wrong, and where."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from sdph.schema import CaseError
+
+SEPARATORS = ",;\t"  # that spreadsheets write between cells; of these the most frequent one of the first line holds
+
+
+@dataclass(frozen=True)
+class Cells:
+    """Names of the columns; (line of the file, cells) of every row; `ended` is false where the last line is not."""
+
+    head: list[str]
+    rows: list[tuple[int, list[str]]]
+    ended: bool
+
+    def whole(self) -> Cells:
+        """The same, where every row is as long as the first line."""
+        for line, row in self.rows:
+            if len(row) != len(self.head):
+                raise ValueError(f"line {line} has {len(row)} cells, the first line names {len(self.head)} columns")
+        return self
+
+    def column(self, name: str) -> list[tuple[int, str]]:
+        """(line, cell) of every row."""
+        place = self.head.index(name)
+        return [(line, row[place]) for line, row in self.rows]
+
+
+def read_cells(path: Path) -> Cells:
+    """A CSV file in UTF-8; empty lines are passed over."""
+    text = _text(path)
+    first, _, _ = text.partition("\n")
+    reader = csv.reader(io.StringIO(text, newline=""), delimiter=max(SEPARATORS, key=first.count))
+    try:
+        rows = [(reader.line_num, row) for row in reader if row]
+    except csv.Error as error:
+        raise ValueError(f"line {reader.line_num}: {error}") from None
+    if not rows:
+        raise ValueError("it is empty")
+    head = [name.strip() for name in rows.pop(0)[1]]
+    if len(set(head)) < len(head):
+        raise ValueError(f"two columns have the same name in its first line, {_short(','.join(head))}")
+    return Cells(head, rows, text.endswith("\n"))
+
+
+def _text(path: Path) -> str:
+    if not path.is_file():  # nor a pipe or a device, which may have no end
+        raise ValueError("there is no such file")
+    try:
+        with open(path, newline="", encoding="utf-8-sig") as file:  # with or without a byte order mark
+            return file.read()
+    except UnicodeDecodeError as error:
+        raise ValueError(f"it is no text in UTF-8, by byte {error.start}") from None
+
+
+def numbers(path: Path, names: tuple[str, ...]) -> tuple[list[int], dict[str, np.ndarray]]:
+    """Line of the file of each row, and the columns `names` (rows,), all finite; other columns may be there."""
+    cells = read_cells(path)
+    for name in names:
+        if name not in cells.head:
+            raise ValueError(f"it has no column {name}; its first line is {_short(','.join(cells.head))}")
+    cells.whole()
+    return [line for line, _ in cells.rows], {name: np.array([_finite(*cell, name) for cell in cells.column(name)]) for name in names}
+
+
+def _finite(line: int, cell: str, name: str) -> float:
+    value = number(line, cell, name)
+    if not math.isfinite(value):
+        raise ValueError(f"line {line}: {name} = {cell.strip()}; it must be finite")
+    return value
+
+
+def number(line: int, cell: str, name: str) -> float:
+    """The number that a cell holds."""
+    try:
+        return float(cell)
+    except ValueError:
+        raise ValueError(f"line {line}: {name} = {_short(cell)}; it must be a number, with a point for its decimals") from None
+
+
+def column(cells: Cells, name: str, texts: tuple[str, ...] | None) -> np.ndarray:
+    """(rows,) of a column: numbers, nan where a cell is empty; texts where it is one of `texts`, or with None where it must be."""
+    try:
+        return np.array([number(line, cell or "nan", name) for line, cell in cells.column(name)])
+    except ValueError:
+        if texts is not None and name not in texts:
+            raise
+        return np.array([cell for _, cell in cells.column(name)])
+
+
+class Found(dict):
+    """Values by name, of a file that a run has left; `CaseError` where it has no such name."""
+
+    def __init__(self, path: Path, values):
+        super().__init__(values)
+        self.path = path
+
+    def __missing__(self, name: str):
+        raise CaseError(f"{self.path} has no {name}: it is damaged, or of a case that has none; run it again")
+
+
+def _short(text: str) -> str:
+    return repr(text[:60])[:60]

@@ -1,0 +1,39 @@
+"""What `sdph run` makes of a case before its first window, made without a gas and without a file: what cannot be is refused."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+
+from coupling.choice import expected
+from sdph import metrics, room
+from sdph.gas_cells import cell_edges
+from sdph.liquid.step import parts_of as parts_of_liquid
+from sdph.running import inputs
+from sdph.simulation import parts_of
+
+
+def rehearse(case, template: Path, *, allow_code: bool = False) -> None:
+    """CaseError where `sdph run` would end with one; `template` and `allow_code` as in `coupling.choice.open_gas`."""
+    inputs.check(case)
+    room.refuse_too_large(case)
+    metrics.refuse_unknown(case)
+    if case.liquid:
+        parts_of_liquid(case)
+        return
+    parts_of(case)
+    _gas(case, template, expected(case), allow_code)
+
+
+def _gas(case, template: Path, chosen: str, allow_code: bool) -> None:
+    """What each gas solver makes of the case before it starts."""
+    if chosen == "embedded":
+        from coupling.embedded.box import Box
+        from coupling.embedded.grid import build_grid
+
+        Box(case, build_grid(cell_edges(case)), limited=True)
+        return
+    from coupling.openfoam.case import write_case
+
+    with tempfile.TemporaryDirectory(prefix="sdph-explain-") as folder:
+        write_case(case, template, Path(folder) / "gas", case.coupling.ranks, allow_code)

@@ -1,0 +1,69 @@
+"""What `sdph run` refuses, `sdph explain` refuses too, in the same words, before anything is made."""
+
+import pytest
+from test_cli import refused  # noqa: F401  (a fixture)
+
+EMBEDDED = "coupling.gas='embedded'"
+BOX = ("tank.shape='box'", "tank.lower_m=[0,0,0]", "tank.upper_m=[1,1,1]")
+
+
+@pytest.mark.parametrize(
+    ("scene", "overrides", "told"),
+    [
+        ("disc_cluster", ("boundaries.walls.kind='velocity_inlet'", EMBEDDED), "boundaries.walls.velocity_m_s is missing"),
+        ("disc_cluster", ("boundaries.walls.kind='velocity_inlet'", "coupling.gas='openfoam'"), "boundaries.walls.velocity_m_s is missing"),
+        ("disc_cluster", ("boundaries.walls.side='left'", EMBEDDED), "no boundary covers all of the right side"),
+        ("disc_cluster", ("boundaries.walls.side='left'", "coupling.gas='openfoam'"), "belongs to no boundary"),
+        ("disc_cluster", ("boundaries.walls.side='front'",), "a case of 2 dimensions has left, right, bottom, top"),
+        ("disc_cluster", ("boundaries.walls.span_m=[0.0,0.1]",), "without a side"),
+        ("disc_cluster", ("boundaries.low.kind='wall'", "boundaries.low.side='bottom'", "boundaries.low.span_m=[]"), "give [low, high]"),
+        ("disc_cluster", ("domain.periodic=['x']",), "no gas solver has periodic sides"),
+        ("disc_cluster", ("gas.equation_of_state='ideal'", EMBEDDED), "the embedded gas solver has constant and operating"),
+        ("disc_cluster", ("run.metrics=['nothing']",), "run.metrics = 'nothing'; known for grains"),
+        ("disc_cluster", ("run.metrics=['jet']",), "the case has no nozzle"),
+        ("disc_cluster", ("resolution.cell_mm=1e-4",), "GB are free here"),
+        ("disc_cluster", ("coupling.ranks=1000", "coupling.gas='openfoam'"), "has 100 cells"),
+        ("bubbling_bed", ("boundaries.jet.span_m=[0.123,0.3]", EMBEDDED), "no edge of a gas cell"),
+        ("bubbling_bed", ("walls.mesh='none.stl'",), "walls.mesh = "),
+        ("bubbling_bed", ("domain.size_m=[1e9,1e9]", "resolution.cell_mm=1e12"), "GB are free here"),
+        ("evaporating_jet", ("nozzles.jet.rate_kg_s=1.0",), "either volume_fraction or rate_kg_s"),
+        ("evaporating_jet", ("nozzles.jet.volume_fraction=0.9",), "above grains.packing_limit"),
+        ("evaporating_jet", ("nozzles.jet.direction=[0,0]",), "it must point somewhere"),
+        ("evaporating_jet", ("nozzles.jet.speed_m_s=1e8", "coupling.window_largest_s=1.0"), "GB are free here"),
+        ("evaporating_jet", ("evaporation.saturation='antoine'",), "evaporation.antoine is missing"),
+        ("spray_cone", ("nozzles.cone.across=[0,0,1]", "nozzles.cone.direction=[0,0,2]"), "it must point aside"),
+        ("sloshing_box", ("frame.table='none.csv'",), "frame.table = "),
+        ("sloshing_box", ("frame.shake=[[0,[1.0],1.0,0.0]]",), "a row is [axis"),
+        ("sloshing_box", ("run.metrics=['bubble']",), "for liquids: none"),
+        ("sloshing_cassini", ("tank.outlet_radius_m=1.0",), "an outlet is narrower"),
+        ("sloshing_cassini", BOX, "an outlet is narrower"),
+        ("sloshing_cassini", ("drain.end_s=1.0", "drain.start_s=2.0"), "drain.end_s = 1 must come after"),
+        ("sloshing_cassini", ("pools.propellant.fill=1e-9",), "less than a particle"),
+        ("sloshing_cassini", ("tank.shape='mesh'", "tank.mesh='none.stl'", "tank.outlet_radius_m=0"), "tank.mesh = "),
+        ("sloshing_cassini", ("tank.length_m=1e9",), "GB are free here"),
+        ("sloshing_cassini", ("tank.outlet_length_m=1e9",), "GB are free here"),
+        ("dam_break", ("tank.shape='mesh'",), "needs dimensions = 3"),
+        ("dam_break", ("tank.upper_m=[-1,1]",), "narrower than resolution.spacing_mm"),
+        ("dam_break", ("pools.column.phase='gas'", "gas_phase.density_kg_m3=1.2"), "no particle of liquid"),
+        ("oscillating_droplet", ("pools.drop.flow='rotation'",), "is that of a box"),
+        ("dam_break_3d", ("pools.column.flow='taylor_green'",), "is known in two dimensions"),
+    ],
+)
+def test_explain_and_run_refuse_alike(refused, scene, overrides, told):  # noqa: F811
+    options = [word for override in overrides for word in ("--set", override)]
+    said = refused("explain", scene, *options)
+    assert told in said
+    assert refused("run", scene, *options) == said
+
+
+def test_a_template_that_cannot_be_run_is_refused_by_both(refused, tmp_path):  # noqa: F811
+    (tmp_path / "mine" / "gas" / "system").mkdir(parents=True)
+    case = tmp_path / "mine" / "case.toml"
+    from sdph import scenes
+
+    case.write_text((scenes.HERE / "disc_cluster" / "case.toml").read_text())
+    openfoam = ("--set", "coupling.gas='openfoam'")
+    assert refused("explain", "mine", *openfoam) == refused("run", "mine", *openfoam)
+    (tmp_path / "mine" / "gas" / "system" / "controlDict").write_text('libs ("mine.so");\n')
+    said = refused("explain", "mine", *openfoam)
+    assert said == refused("run", "mine", *openfoam) and "--allow-code" in said
