@@ -70,11 +70,11 @@ def init_case(options) -> int:
 
 def run(options) -> int:
     from sdph import case as cases
-    from sdph import driver, output, room, scenes, watch
+    from sdph import driver, output, scenes, watch
     from sdph.cost import choice
     from sdph.explain import tables
     from sdph.progress import Reporter
-    from sdph.running import inputs
+    from sdph.running import inputs, rehearsal
 
     overrides = tuple(options.set) + _overrides(options)
     with contextlib.closing(Reporter(line=not options.json)) as reporter:
@@ -94,7 +94,7 @@ def run(options) -> int:
             elif options.gas == "embedded":
                 _refuse(options, ("transport", "np"), "the embedded gas solver runs in this process")
             template = driver.template_of(case, name, file)
-            room.refuse_too_large(case)
+            rehearsal.look(case, template, allow_code=options.allow_code)
             for warning in tables.warnings(case):
                 reporter.status(f"warning: {warning}")
             folder = options.out or output.free_name(Path("runs") / name)

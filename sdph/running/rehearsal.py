@@ -15,14 +15,17 @@ from sdph.simulation import parts_of
 
 def rehearse(case, template: Path, *, allow_code: bool = False) -> None:
     """CaseError where `sdph run` would end with one; `template` and `allow_code` as in `coupling.choice.open_gas`."""
+    look(case, template, allow_code=allow_code)
+    (parts_of_liquid if case.liquid else parts_of)(case)
+
+
+def look(case, template: Path, *, allow_code: bool = False) -> None:
+    """The same without particles, which a run makes next: where this passes they decide."""
     inputs.check(case)
     room.refuse_too_large(case)
     metrics.refuse_unknown(case)
-    if case.liquid:
-        parts_of_liquid(case)
-        return
-    parts_of(case)
-    _gas(case, template, expected(case), allow_code)
+    if not case.liquid:
+        _gas(case, template, expected(case), allow_code)
 
 
 def _gas(case, template: Path, chosen: str, allow_code: bool) -> None:
