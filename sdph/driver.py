@@ -11,13 +11,15 @@ What is run is a `Simulation` of grains in a gas or a `LiquidRun`. The driver kn
 from __future__ import annotations
 
 import contextlib
+import errno
 import math
+import os
 import shutil
 import time
 from pathlib import Path
 
 from coupling.choice import open_gas
-from coupling.gas import CheckpointError
+from coupling.gas import CheckpointError, GasError
 from sdph import case as cases
 from sdph import environment, metrics, output, particles, paths, restart
 from sdph.engine.kept import ROW, Many, Maybe, Unfit
@@ -28,6 +30,7 @@ from sdph.running import inputs
 from sdph.schema import CaseError
 from sdph.simulation import Simulation
 
+NO_ROOM = [os.strerror(code) for code in (errno.ENOSPC, errno.EDQUOT, errno.EROFS)]  # as the gas solver says it too
 FULL = 2**16  # bytes: with less, programs that do not say why they failed have failed for lack of room
 
 
@@ -158,7 +161,10 @@ class Run:
         if isinstance(error, CaseError) and not self.goes:
             return error
         checkpoint = restart.newest(self.folder)
-        if shutil.disk_usage(self.folder).free < FULL:
+        full = shutil.disk_usage(self.folder).free < FULL
+        if isinstance(error, GasError) and (full or any(why in str(error) for why in NO_ROOM)):
+            error = output.CannotWrite(f"{error}; make room or give another folder")
+        if full:
             error.add_note(f"(No space left on the disk of {self.folder})")
         if checkpoint:
             error.add_note(f"(last checkpoint: {checkpoint.folder}; go on with: sdph run --resume {self.folder})")

@@ -186,7 +186,7 @@ def _on_small_disk(site: Site, name: str, harm, words, size: str) -> dict:
         for mount in mounts:
             subprocess.run(["umount", mount], check=True)
         subprocess.run(["mount", "-o", f"remount,size={LARGE_DISK}", disk], check=True)
-        named = process.returncode in (3, 4) and any(word in said for word in words) and "Traceback" not in said
+        named = process.returncode == 4 and any(word in said for word in words) and "Traceback" not in said
         return _verdict(site, disk / "run", name, named, said)
     finally:
         subprocess.run(["umount", "-R", disk], check=False)

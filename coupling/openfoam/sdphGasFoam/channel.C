@@ -11,6 +11,7 @@ version. It comes WITHOUT ANY WARRANTY; see <http://www.gnu.org/licenses/>.
 #include <chrono>
 #include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <netinet/tcp.h>
 #include <poll.h>
@@ -142,12 +143,15 @@ public:
 
     void send(const wire::Message& message) override
     {
-        const std::string draft = out_ + "draft", path = out_ + std::to_string(sent_++);
+        const std::string draft = out_ + "draft", path = out_ + std::to_string(sent_);
         const std::string bytes = wire::encode(message);
+        errno = 0;
         std::ofstream file(draft, std::ios::binary);
         file.write(bytes.data(), bytes.size());
         file.close();
-        if (!file || std::rename(draft.c_str(), path.c_str())) throw wire::Error("cannot write " + path);
+        if (!file || std::rename(draft.c_str(), path.c_str()))
+            throw wire::Error("cannot write " + path + ": " + std::strerror(errno ? errno : EIO));
+        ++sent_;
     }
 
     wire::Message receive() override

@@ -193,5 +193,5 @@ int main(int argc, char* argv[])
     report(channel.get(), text);
     // The other ranks wait for this one inside MPI: end them too
     if (Pstream::parRun()) Pstream::exit(1);
-    return 1;
+    std::exit(1);  // a return destroys `args`, which in openfoam.com v1912 ends the program with 0
 }
