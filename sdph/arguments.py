@@ -9,6 +9,8 @@ from pathlib import Path
 from sdph import __version__
 from sdph.schema import CaseError
 
+SET = "override a key of the case; the path of a file is taken from the working directory"
+
 
 class _Parser(argparse.ArgumentParser):
     """Says what is wrong as any other bad input is told."""
@@ -74,7 +76,7 @@ def _command(commands, name: str, summary: str):
 
 def _case_options(parser) -> None:
     parser.add_argument("target", help="scene, folder made by `sdph init`, or case.toml")
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override a key of the case; the path of a file is taken from the working directory")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help=SET)
     parser.add_argument("--json", action="store_true", help="print the result as JSON")
 
 
@@ -87,7 +89,7 @@ def _run_options(parser) -> None:
     what.add_argument("target", nargs="?", help="scene, folder made by `sdph init`, or case.toml")
     what.add_argument("--resume", type=Path, metavar="RUN", help="go on with a run from its last checkpoint")
     parser.add_argument("--out", type=Path, help="run folder (default: runs/SCENE, numbered)")
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override a key of the case; the path of a file is taken from the working directory")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help=SET)
     parser.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: openfoam where it is)")
     parser.add_argument("--transport", choices=("socket", "file"), help="how fields travel to OpenFOAM")
     parser.add_argument("--np", type=int, help="MPI ranks of the gas solver")

@@ -22,7 +22,9 @@ from sdph.sections import GROUPS, SECTIONS, Case, Coupling, Region, Vapour
 MOST_OUTPUTS = 1e5  # of fields, and of history rows of a liquid as it sets them; our choice
 STRETCH = 100.0  # of the last cell of a row over its first, at most, either way; our choice
 LONGEST = 100  # letters of a name; our choice
-FILES = [(name, key) for name, row in effects.REGISTRY.items() for key, (_, kind) in fields(row.parameters).items() if kind.of is Path]
+FILES = [  # (section, key) of all that name a file
+    (name, key) for name, row in effects.REGISTRY.items() for key, (_, kind) in fields(row.parameters).items() if kind.of is Path
+]
 
 
 def load(path: Path, overrides: tuple[str, ...] = ()) -> Case:

@@ -13,7 +13,8 @@ from sdph.schema import CaseError
 HEAD = 2.0  # smoothing lengths: grains no further behind the front are the head
 CORE = 0.9  # of the nozzle's volume fraction: denser grains are the core
 TOLD = (  # of each jet
-    "front_m", "sag_m", "alpha_p_max", "core_temperature_K", "grain_temperature_min_K", "grain_temperature_max_K", "speed_max_m_s",
+    "front_m", "sag_m", "alpha_p_max", "core_temperature_K", "grain_temperature_min_K", "grain_temperature_max_K",
+    "speed_max_m_s",
 )  # fmt: skip
 
 
@@ -25,7 +26,8 @@ def metrics(simulation) -> dict[str, float]:
     """
     case, state = simulation.case, simulation.grains
     if "inflow" not in case.effects:
-        raise CaseError("run.metrics holds 'jet', which tells of nozzles; add inflow to effects and a nozzle, or leave it out")
+        told = "run.metrics holds 'jet', which tells of nozzles"
+        raise CaseError(f"{told}; add inflow to effects and a nozzle, or leave it out")
     row = {"grains": len(state.x)} | _gas(simulation.gas_state.fields)
     for number, (name, nozzle) in enumerate(case.nozzles.items(), 1):
         own = _jet(case, nozzle, particles.take(state, state.nozzle == number))

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit, prange
 
-# values of `kind`, of grains and liquids alike; INFLOW: still upstream of its nozzle. Files hold them: a new one is a new number
+# values of `kind`, of grains and liquids alike; INFLOW: still upstream of its nozzle. Files hold them: they stay as they are
 GRAIN, WALL, LIQUID, GAS, INFLOW = range(5)
 
 

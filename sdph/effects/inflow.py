@@ -208,7 +208,7 @@ class Source:
         return particles.born(state)
 
     def mouths(self, dummies) -> np.ndarray:
-        """Number of the nozzle in whose mouth each dummy of the walls (W,) stands, or upstream of it, from 1; 0: none."""
+        """Number, from 1, of the nozzle in whose mouth or upstream of it each dummy of the walls (W,) stands; 0: none."""
         places = np.stack((dummies.x, dummies.y, dummies.z)[: self.case.dimensions], axis=1)
         found, wide = np.zeros(len(places), np.int64), cell_radius(self.pitch, self.case.dimensions)
         for k, own in enumerate(self.streams):
@@ -238,8 +238,7 @@ class Source:
         return share
 
     def _beyond(self, nozzle, places) -> tuple[np.ndarray, np.ndarray]:
-        """Distances [m] of places (n, 3) beyond the mouths of their nozzles (n,) or of one, counted from 0, and from its
-        axis."""
+        """Distances [m] of places (n, 3) beyond the mouths of their nozzles (n,), or of one, from 0; and from the axis."""
         apart, axis = places[:, : self.case.dimensions] - self.centre[nozzle], self.axis[nozzle]
         along = (apart * axis).sum(axis=1)
         return along, np.linalg.norm(apart - along[:, None] * axis, axis=1)
