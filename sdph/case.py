@@ -37,6 +37,8 @@ def parsed(path: Path) -> dict:
         return tomllib.loads(Path(path).read_text(encoding="utf-8-sig"))
     except (ValueError, RecursionError) as error:  # not TOML, not UTF-8, numbers too long, lists too deep
         raise CaseError(f"{path} is not TOML: {error}") from None
+    except OSError as error:
+        raise CaseError(f"{path} cannot be read: {error.strerror}; give a case.toml that can") from None
 
 
 def _override(table: dict, text: str) -> None:

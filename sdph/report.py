@@ -42,7 +42,9 @@ class Shown:
 
 
 def write(folders: list[Path], target: Path) -> Path:
-    """The report of one or several runs."""
+    """The report of one or several runs; `target` is a new file, or one that is written over."""
+    if target.exists() and not target.is_file():  # a folder, or a device, which would be replaced
+        raise CaseError(f"{target} is no file that a report could be written to; give another --out")
     runs = [_open(Path(folder)) for folder in folders]
     title = " and ".join(dict.fromkeys(run.case.title or run.name for run in runs))
     parts = [f"<h1>{html.escape(title)}</h1>", _what(runs), _results(runs), _figures(runs), _views(runs)]

@@ -61,6 +61,8 @@ def _text(path: Path) -> str:
             return file.read()
     except UnicodeDecodeError as error:
         raise ValueError(f"it is no text in UTF-8, by byte {error.start}") from None
+    except OSError as error:
+        raise ValueError(error.strerror) from None
 
 
 def numbers(path: Path, names: tuple[str, ...]) -> tuple[list[int], dict[str, np.ndarray]]:
