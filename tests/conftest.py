@@ -1,4 +1,4 @@
-"""What all tests share: hypothesis without deadlines, how long fuzz tests are (SDPH_LONG=25 pytest tests/...), and what becomes of tests that need OpenFOAM where it is not."""
+"""What all tests share: hypothesis without deadlines, how long fuzz tests are, and what becomes of tests that need OpenFOAM where it is not."""
 
 import os
 

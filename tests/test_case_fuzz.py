@@ -66,7 +66,7 @@ def harmed(draw, names=tuple(TABLES), most=3):
     return name, table
 
 
-@settings(max_examples=2500 * LONG)
+@settings(max_examples=2500)
 @given(harmed())
 def test_a_harmed_case_is_read_or_refused_in_one_line(pair):
     try:

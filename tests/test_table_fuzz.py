@@ -13,7 +13,29 @@ from sdph.effects import frame
 from sdph.schema import CaseError
 
 HEAD = ",".join(frame.COLUMNS)
-CELLS = ["", " ", "0", "-1", "1e999", "nan", "inf", "-inf", "1e400", "0x10", "1_0", "1,5", "1;5", '"', '""', "'", "\t", "\0", "\ufeff", "ä", "x" * 200_000]
+CELLS = [
+    "",
+    " ",
+    "0",
+    "-1",
+    "1e999",
+    "nan",
+    "inf",
+    "-inf",
+    "1e400",
+    "0x10",
+    "1_0",
+    "1,5",
+    "1;5",
+    '"',
+    '""',
+    "'",
+    "\t",
+    "\0",
+    "\ufeff",
+    "ä",
+    "x" * 200_000,
+]
 WHOLE = "\n".join([HEAD, *(f"{0.1 * n:.1f},{n},0,0,0,0,{0.2 * n:.1f}" for n in range(6))]) + "\n"
 
 
@@ -25,7 +47,9 @@ def harmed(draw) -> bytes:
         row = rows[draw(st.integers(0, len(rows) - 1))]
         what = draw(st.sampled_from(["cell", "cell", "cell", "shorter", "longer", "line away", "line again"]))
         if what == "cell" and row:
-            row[draw(st.integers(0, len(row) - 1))] = draw(st.sampled_from(CELLS) | st.text(max_size=5) | st.floats().map(str))
+            row[draw(st.integers(0, len(row) - 1))] = draw(
+                st.sampled_from(CELLS) | st.text(max_size=5) | st.floats().map(str)
+            )
         elif what == "shorter" and row:
             row.pop()
         elif what == "longer":
@@ -34,10 +58,16 @@ def harmed(draw) -> bytes:
             rows.remove(row)
         else:
             rows.append(row)
-    text = draw(st.sampled_from(["\n", "\r\n", "\r", ""])).join(draw(st.sampled_from([",", ",", ";", "\t", " ", "|"])).join(row) for row in rows)
+    text = draw(st.sampled_from(["\n", "\r\n", "\r", ""])).join(
+        draw(st.sampled_from([",", ",", ";", "\t", " ", "|"])).join(row) for row in rows
+    )
     data = text.encode(draw(st.sampled_from(["utf-8", "utf-8", "utf-8-sig", "utf-16", "utf-32"])), "surrogatepass")
     place = draw(st.integers(0, len(data)))
-    return data[:place] + draw(st.binary(max_size=4)) + data[place + draw(st.integers(0, 20)) :] if draw(st.booleans()) else data
+    return (
+        data[:place] + draw(st.binary(max_size=4)) + data[place + draw(st.integers(0, 20)) :]
+        if draw(st.booleans())
+        else data
+    )
 
 
 @settings(max_examples=100 * LONG)

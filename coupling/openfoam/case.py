@@ -60,10 +60,11 @@ def refuse_code(folder: Path) -> None:
 
 
 def refuse_names(case) -> None:
-    """CaseError where a boundary cannot be called in OpenFOAM as it is here: its name stands in dictionaries, as the name of a patch."""
+    """CaseError where the name of a boundary cannot be that of a patch, which stands in dictionaries."""
     for name in case.boundaries:
         if not WORD.fullmatch(name):
-            raise CaseError(f"boundaries.{name}: OpenFOAM takes letters, digits and _ . + - in the name of a patch; rename it, or give --gas embedded")
+            allowed = "OpenFOAM takes letters, digits and _ . + - in the name of a patch"
+            raise CaseError(f"boundaries.{name}: {allowed}; rename it, or give --gas embedded")
 
 
 def write_macros(case, folder: Path) -> None:
@@ -80,7 +81,7 @@ def macros(case) -> dict[str, str]:
         _flatten(field.name.removeprefix("parameters"), getattr(case, field.name), case.dimensions, found)
     if case.dimensions == 2:
         found["domain_size"] = _list([*case.domain.size, DEPTH])
-    return {name: value for name, value in found.items() if WORD.fullmatch(name)}  # probes and the like may have any name
+    return {name: value for name, value in found.items() if WORD.fullmatch(name)}  # a probe may have any
 
 
 def _flatten(prefix: str, value, dimensions: int, found: dict[str, str]) -> None:

@@ -24,7 +24,7 @@ def read(file: Path) -> list[dict]:
     rows = [dict(zip(table, values)) for values in zip(*table.values())]
     for number, row in enumerate(rows, 1):
         if not _measured(row):
-            raise CaseError(f"{file} is damaged (row {number} has no wall time or no metrics); remove it and measure again")
+            raise CaseError(f"{file} is damaged (row {number} lacks wall time or metrics); remove it and measure again")
     return rows
 
 
