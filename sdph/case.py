@@ -46,6 +46,8 @@ def parsed(path: Path) -> dict:
         return tomllib.loads(Path(path).read_text(encoding="utf-8-sig"))
     except (ValueError, RecursionError) as error:  # not TOML, not UTF-8, numbers too long, lists too deep
         raise CaseError(f"{path} is not TOML: {error}") from None
+    except OSError as error:
+        raise CaseError(f"{path} cannot be read: {error.strerror}; give a case.toml that can") from None
 
 
 def _locate(table: dict, folder: Path) -> None:
@@ -78,7 +80,8 @@ def from_table(table: dict) -> Case:
         if key not in head | SECTIONS.keys() | GROUPS.keys() | effects.REGISTRY.keys():
             raise CaseError(unknown(key, head | SECTIONS.keys() | GROUPS.keys() | effects.REGISTRY.keys()))
     spared = {"gas", "grains"} if "liquid" in table else set()
-    sections = {name: None if name in spared - table.keys() else _section(cls, table.get(name, {}), name) for name, cls in SECTIONS.items()}
+    given = {name: cls for name, cls in SECTIONS.items() if name not in spared - table.keys()}
+    sections = dict.fromkeys(SECTIONS) | {name: _section(cls, table.get(name, {}), name) for name, cls in given.items()}
     groups = {name: _group(cls, table.get(name, {}), name) for name, cls in GROUPS.items()}
     on = _effects(table)
     case = Case(
@@ -127,7 +130,8 @@ def _group(cls, table: dict, where: str) -> dict:
         raise CaseError(f"[{where}] must hold named sections, such as [{where}.some_name]")
     for name in table:
         if not name.isprintable() or not name.strip() or len(name) > LONGEST:
-            raise CaseError(f"{where} holds the name {name[:LONGEST]!r}; give one of 1 to {LONGEST} letters that can be printed")
+            allowed = f"give one of 1 to {LONGEST} letters that can be printed"
+            raise CaseError(f"{where} holds the name {name[:LONGEST]!r}; {allowed}")
     return {name: _section(cls, entry, f"{where}.{name}") for name, entry in table.items()}
 
 
@@ -183,7 +187,8 @@ def _check(case: Case) -> None:
     for name, boundary in case.boundaries.items():
         vectors[f"boundaries.{name}.velocity_m_s"] = boundary.velocity
     for name, nozzle in case.nozzles.items():
-        vectors |= {f"nozzles.{name}.centre_m": nozzle.centre, f"nozzles.{name}.direction": nozzle.direction, f"nozzles.{name}.across": nozzle.across}
+        own = {"centre_m": nozzle.centre, "direction": nozzle.direction, "across": nozzle.across}
+        vectors |= {f"nozzles.{name}.{key}": value for key, value in own.items()}
     if own := case.parameters.get("tank"):
         vectors |= {"tank.lower_m": own.lower, "tank.upper_m": own.upper, "tank.centre_m": own.centre}
     for key, value in vectors.items():

@@ -1,4 +1,4 @@
-"""Checks of a case that several of its keys decide together; each raises a CaseError with what was given and what is allowed."""
+"""Checks of a case that several keys decide together; each raises a CaseError: what was given, and what is allowed."""
 
 from __future__ import annotations
 
@@ -17,7 +17,10 @@ def columns_of_history(case) -> None:
     columns += [f"particle_{ident}_temperature_K" for ident in case.track]
     twice = [name for name, count in Counter(columns).items() if count > 1]
     if twice:
-        raise CaseError(f"probes or track.particles give history.csv two columns {twice[0]}; rename a probe, or name a particle once")
+        raise CaseError(
+            f"probes or track.particles give history.csv two columns {twice[0]}; "
+            "rename a probe, or name a particle once"
+        )
 
 
 def flow(case, where: str, pool) -> None:
@@ -29,10 +32,12 @@ def flow(case, where: str, pool) -> None:
 
 
 def side(case, where: str, boundary) -> None:
-    """A boundary lies on a side that the domain has; its span is [low, high] on each axis along that side, and on it."""
+    """A boundary lies on a side that the domain has, and its span, [low, high] on each axis along it, on that side."""
     if boundary.side and SIDES[boundary.side][0] >= case.dimensions:
         there = list(SIDES)[: 2 * case.dimensions]
-        raise CaseError(f"{where}.side = {boundary.side!r}; a case of {case.dimensions} dimensions has {', '.join(there)}")
+        raise CaseError(
+            f"{where}.side = {boundary.side!r}; a case of {case.dimensions} dimensions has {', '.join(there)}"
+        )
     if boundary.span is None:
         return
     if boundary.side is None:
@@ -40,16 +45,25 @@ def side(case, where: str, boundary) -> None:
     lengths = [length for axis, length in enumerate(case.domain.size) if axis != SIDES[boundary.side][0]]
     for (low, high), length in zip(_pairs(where, boundary.span, len(lengths)), lengths):
         if low < -SAME * length or high > length * (1.0 + SAME):
-            raise CaseError(f"{where}.span_m goes from {low:g} to {high:g} m; the box goes from 0 to {length:g} m there")
+            raise CaseError(
+                f"{where}.span_m goes from {low:g} to {high:g} m; the box goes from 0 to {length:g} m there"
+            )
 
 
 def _pairs(where: str, span: tuple, count: int) -> tuple:
     """(low, high) on each of `count` axes."""
     pairs = span if any(isinstance(part, tuple) for part in span) else (span,)
     if len(pairs) != count or not all(map(_is_pair, pairs)):
-        raise CaseError(f"{where}.span_m = {list(span)}; give [low, high] on each axis along its side, of which there are {count}")
+        raise CaseError(
+            f"{where}.span_m = {list(span)}; give [low, high] on each axis along its side, of which there are {count}"
+        )
     return pairs
 
 
 def _is_pair(part) -> bool:
-    return isinstance(part, tuple) and len(part) == 2 and not any(isinstance(end, tuple) for end in part) and part[0] < part[1]
+    return (
+        isinstance(part, tuple)
+        and len(part) == 2
+        and not any(isinstance(end, tuple) for end in part)
+        and part[0] < part[1]
+    )

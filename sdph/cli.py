@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import json
 import os
 import signal
@@ -29,6 +30,8 @@ def main(given: list[str] | None = None) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 128 + signal.SIGPIPE
     except OSError as error:
+        if error.errno == errno.ENAMETOOLONG:
+            return _failed(f"{str(error.filename)[:80]}...: {error.strerror}; give a shorter one", BAD_INPUT)
         return _failed(f"{error.filename or 'a file'}: {error.strerror or error}; give a place that is there and can be written", CANNOT_WRITE)
     except KeyboardInterrupt as stop:
         return _failed(str(stop) and stop or "interrupted", 128 + getattr(stop, "number", signal.SIGINT))
@@ -197,7 +200,7 @@ def validate_scene(options) -> int:
     overrides = tuple(options.set) + ((f'coupling.gas="{options.gas}"',) if options.gas else ())
     checks = []
     with contextlib.closing(Reporter(line=not options.json)) as reporter:
-        for scene in [options.scene] if options.scene else validate.validated():
+        for scene in validate.validated() if options.scene is None else [options.scene]:
             checks += validate.validate(scene, overrides, reporter, options.out and options.out / scene)
     print(output.strict_json({"checks": checks}) if options.json else compare.table(checks))
     return FINE if all(check["ok"] for check in checks) else CHECK_FAILED

@@ -77,7 +77,8 @@ def compare(folder: Path, against: str) -> list[dict]:
     try:
         checks = function(run)
     except KeyError as error:  # regions, effects and arrays go by the names that the scene gives them
-        raise CaseError(f"{folder} cannot be compared as {run.case.scene}: it has no {error}; compare a run of the scene as it is") from None
+        lacks = f"{folder} cannot be compared as {run.case.scene}: it has no {error}"
+        raise CaseError(f"{lacks}; compare a run of the scene as it is") from None
     if not checks:
         raise CaseError(f"the run ends at {run.summary['time_s']:g} s, before the first time that its reference tells of; go on with: sdph run --resume {folder} --until T")
     output.write_json(folder / f"compare_{against}.json", {"checks": checks})

@@ -57,7 +57,7 @@ def run(case, name: str, folder: Path, gas_folder: Path | None, reporter, *, all
 
 
 def template_of(case, name: str, file: Path | None = None) -> Path:
-    """The OpenFOAM case of a case: what lies beside its `file` as `gas`, else the template of its scene, or of `name`."""
+    """The OpenFOAM case of a case: the folder gas beside its `file`, else the template of its scene, or of `name`."""
     own = file and file.parent / "gas"
     return own if own and own.is_dir() else paths.gas_template(case.scene or name)
 

@@ -27,7 +27,7 @@ def row(simulation) -> dict[str, float]:
 
 
 def probe(simulation, point) -> dict[str, float]:
-    """What is PROBED at a point, by kernel interpolation: of particles where they have a temperature, nan where none are near."""
+    """What is PROBED at a point, by kernel interpolation: of particles where they have it, nan if none are near."""
     here = np.zeros((1, 3))
     here[0, : len(point)] = point
     gas = gather(simulation.transfer.weights(here), simulation.gas_state.fields["temperature"])[0]
@@ -59,11 +59,12 @@ def tracked(simulation) -> dict[str, float]:
     fields |= {"convective_heat_W": received, "conductive_heat_W": conducted}
     for ident in names:
         place = np.flatnonzero((state.ident == ident) & (state.kind != particles.INFLOW))
-        columns |= {f"particle_{ident}_{key}": float(values[place[0]]) if len(place) else math.nan for key, values in fields.items()}
+        found = {key: float(values[place[0]]) if len(place) else math.nan for key, values in fields.items()}
+        columns |= {f"particle_{ident}_{key}": value for key, value in found.items()}
     return columns
 
 
 def carried(case) -> set[str]:
-    """Names of the arrays that particles of a case have, whether there are any yet or not: every row has the same columns."""
+    """Names of the arrays that particles of a case have, were there any: so that every row has the same columns."""
     names = {name for effect in case.effects for name in REGISTRY[effect].arrays}
     return {name for name, values in particles.empty(1, names, case.dimensions)._asdict().items() if len(values)}

@@ -40,7 +40,8 @@ def refuse_unknown(case) -> None:
         if name not in AT_OUTPUTS or case.liquid:
             raise CaseError(f"run.metrics = {name!r}; known for grains: {', '.join(AT_OUTPUTS)}, for liquids: none")
     if "jet" in case.run.metrics and not case.nozzles:
-        raise CaseError("run.metrics holds jet, but the case has no nozzle; leave it out, or give one in [nozzles.some_name]")
+        mend = "leave it out, or give one in [nozzles.some_name]"
+        raise CaseError(f"run.metrics holds jet, but the case has no nozzle; {mend}")
 
 
 def summary(case, rows: list[dict]) -> dict[str, float]:

@@ -12,8 +12,10 @@ REFRESH = 0.2  # s between changes of the line on a terminal
 
 
 class Reporter:
-    """Shows where a run is. `status` tells of waiting and warns, `progress` of windows done, both on stderr and not where `quiet`;
-    without `line` the windows are not told of. `page` draws them."""
+    """Shows where a run is: `status` tells of waiting and warns, `progress` of windows done; `page` draws them.
+
+    Both speak on stderr, not at all where `quiet`, and without `line` not of windows.
+    """
 
     def __init__(self, quiet: bool = False, line: bool = True, page=None):
         self.quiet, self.line, self.page = quiet, line, page

@@ -42,7 +42,9 @@ class Shown:
 
 
 def write(folders: list[Path], target: Path) -> Path:
-    """The report of one or several runs."""
+    """The report of one or several runs; `target` is a new file, or one that is written over."""
+    if target.exists() and not target.is_file():  # a folder, or a device, which would be replaced
+        raise CaseError(f"{target} is no file that a report could be written to; give another --out")
     runs = [_open(Path(folder)) for folder in folders]
     title = " and ".join(dict.fromkeys(run.case.title or run.name for run in runs))
     parts = [f"<h1>{html.escape(title)}</h1>", _what(runs), _results(runs), _figures(runs), _views(runs)]
@@ -120,7 +122,8 @@ def _results(runs: list[Shown]) -> str:
     body = _side_by_side(runs, numbers)
     for run in runs:
         for path in sorted(run.folder.glob("compare_*.json")):
-            rows = [[*(c.get(k) for k in CHECK), "ok" if c.get("ok") else "FAILED"] for c in _json(path, {"checks": list})["checks"] if isinstance(c, dict)]
+            checks = [check for check in _json(path, {"checks": list})["checks"] if isinstance(check, dict)]
+            rows = [[*map(check.get, CHECK), "ok" if check.get("ok") else "FAILED"] for check in checks]
             body += f"<h3>{html.escape(run.name)} against {path.stem.removeprefix('compare_')}</h3>"
             body += _table(["check", *CHECK[1:], ""], rows)
     return _section("Results", body)
@@ -129,7 +132,8 @@ def _results(runs: list[Shown]) -> str:
 def _figures(runs: list[Shown]) -> str:
     """Histories of all runs together, and the pictures that comparisons left."""
     pictures = [_histories(runs)]
-    pictures += [_picture(path.read_bytes(), path.name) for run in runs for path in sorted(run.folder.glob("*.png")) if path.is_file()]
+    files = [path for run in runs for path in sorted(run.folder.glob("*.png")) if path.is_file()]
+    pictures += [_picture(path.read_bytes(), path.name) for path in files]
     return _section("Figures", "".join(pictures))
 
 
@@ -139,8 +143,10 @@ def _picture(data: bytes, name: str) -> str:
 
 def _histories(runs: list[Shown]) -> str:
     files = [(run.name, run.folder / "history.csv") for run in runs]
-    tables = [(name, output.read_table(file, output.TEXTS)) for name, file in files if file.is_file() and file.stat().st_size]  # begun
-    columns = [key for key in (tables[0][1] if tables else ()) if key != "time_s" and tables[0][1][key].dtype.kind == "f"][:PLOTS]
+    begun = [(name, file) for name, file in files if file.is_file() and file.stat().st_size]
+    tables = [(name, output.read_table(file, output.TEXTS)) for name, file in begun]
+    first = tables[0][1] if tables else {}
+    columns = [key for key in first if key != "time_s" and first[key].dtype.kind == "f"][:PLOTS]
     if not columns:
         return ""
     import matplotlib

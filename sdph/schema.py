@@ -21,8 +21,8 @@ UNITS = {
 }  # fmt: skip
 SAME_AS = {"ms": "s", "us": "s", "mm": "m", "um": "m"}  # unit -> the one that its bounds stand under
 
-# Unit -> least (of what must be above 0) and most in SI, and what lies there. They are our choice, and so wide that they catch
-# slips of the exponent or the unit and nothing that anybody means: beyond them sums of squares lose all digits or overflow.
+# Unit -> least (of what must be above 0) and most in SI, and what lies there. Our choice, so wide that they catch slips
+# of the exponent or the unit and nothing that anybody means: beyond them sums of squares lose all digits or overflow.
 PLAUSIBLE = {
     "": (1e-15, 1e30, "less than round-off, or no number to compute with"),
     "deg": (0.0, math.tau, "a full turn"),
@@ -81,8 +81,10 @@ REQUIRED = dataclasses.MISSING
 
 
 def quantity(unit="", default=REQUIRED, *, above=-math.inf, least=-math.inf, most=math.inf, tiny=False):
-    """A number with a unit and bounds; bounds and default are in that unit too. Where it must be above 0 it must also be of
-    a plausible size, unless `tiny` values stand for 0 itself."""
+    """A number with a unit and bounds; bounds and default are in that unit too.
+
+    What must be above 0 must also be of a plausible size, unless `tiny` values stand for 0 itself.
+    """
     in_si = default if default is REQUIRED or default is None else default * UNITS[unit]
     return _declare(Kind(unit, above, least, most, tiny=tiny), in_si)
 
@@ -218,7 +220,7 @@ def plausible(record: Any, where: str):
 
 
 def refuse_implausible(value: float, unit: str, key: str, positive: bool = False) -> None:
-    """`CaseError` where a value [SI] is larger than makes sense, or must be above 0 and is smaller; `unit` is that of its key."""
+    """`CaseError` where a value [SI] is larger than makes sense, or smaller though above 0; `unit` is that of its key."""
     least, most, what = PLAUSIBLE[SAME_AS.get(unit, unit)]
     if abs(value) <= most and not (positive and abs(value) < least):
         return

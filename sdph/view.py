@@ -84,7 +84,8 @@ def state_at(timeline: Timeline, time: float | None = None):
     if time is not None and not times[0] <= time <= times[-1] and not abs(time - chosen) <= SAME * times[-1]:
         raise CaseError(f"--time {time:g}: this run has fields from {times[0]:g} to {times[-1]:g} s")
     parts = timeline.files[chosen]
-    return chosen, fields.load(parts[0], PARTICLES), fields.load(parts[1], GAS_CELLS) if 1 in parts else None  # a liquid has no gas
+    gas = fields.load(parts[1], GAS_CELLS) if 1 in parts else None  # a liquid has none
+    return chosen, fields.load(parts[0], PARTICLES), gas
 
 
 def show(folder: Path, png: Path | None = None, time: float | None = None, field: str | None = None) -> None:

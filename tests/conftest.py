@@ -1,4 +1,4 @@
-"""What all tests share: hypothesis without deadlines, and what becomes of tests that need OpenFOAM where it is not."""
+"""What all tests share: hypothesis without deadlines, how long fuzz tests are, and what becomes of tests that need OpenFOAM where it is not."""
 
 import os
 
@@ -8,6 +8,9 @@ from hypothesis import settings
 # The first call of a kernel compiles it, which no deadline foresees; the same examples in every run.
 settings.register_profile("sdph", deadline=None, max_examples=60, derandomize=True)
 settings.load_profile("sdph")
+
+
+LONG = int(os.environ.get("SDPH_LONG", "1"))  # times as many examples of the fuzz tests
 
 
 def pytest_configure(config):

@@ -3,15 +3,22 @@
 import copy
 import json
 import os
+import time
 import tomllib
+import warnings
+from unittest import mock
 
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from conftest import LONG
 from test_output import snapshot
 
 from sdph import case as cases
-from sdph import cli, scenes
+from sdph import cli, driver, room, scenes
+from sdph.effects import REGISTRY
+from sdph.explain import tables
+from sdph.running import rehearsal
 from sdph.schema import CaseError
 
 TABLES = {name: tomllib.loads((scenes.HERE / name / "case.toml").read_text(encoding="utf-8")) for name in scenes.names()}
@@ -71,6 +78,55 @@ def test_a_harmed_case_is_read_or_refused_in_one_line(pair):
     assert cases.from_table(tomllib.loads(cases.dumps(case))) == case  # what a run writes down is the case it runs
 
 
+@st.composite
+def bent(draw):
+    """(scene, table) with one to four of its numbers, words or effects replaced by others of their kind."""
+    name = draw(st.sampled_from(tuple(TABLES)))
+    table = copy.deepcopy(TABLES[name])
+    for _ in range(draw(st.integers(1, 4))):
+        path = draw(st.sampled_from(sorted(path for path in leaves(table) if path not in (("title",), ("scene",)))))
+        section = table
+        for key in path[:-1]:
+            section = section[key]
+        section[path[-1]] = draw(others(section[path[-1]]))
+    return name, table
+
+
+FACTORS = st.one_of(st.floats(-3.0, 3.0).map(lambda x: 10.0**x), st.sampled_from([-1.0, 0.0, 1e-9, 1e9]))
+SPECIES = {matter: sorted(name for name, row in REGISTRY.items() if matter in row.matter) for matter in ("grains", "liquid")}
+
+
+def others(value):
+    """Values of the kind of one that a case has."""
+    if isinstance(value, bool):
+        return st.just(not value)
+    if isinstance(value, (int, float)):
+        return FACTORS.map(lambda factor: type(value)(value * factor))
+    if isinstance(value, list) and value and isinstance(value[0], str):
+        return st.lists(st.sampled_from(SPECIES["liquid" if set(value) <= set(SPECIES["liquid"]) else "grains"]), unique=True)
+    if isinstance(value, list):
+        return st.tuples(*map(others, value)).map(list)
+    return st.sampled_from(WORDS) if isinstance(value, str) else st.just(value)
+
+
+@settings(max_examples=100 * LONG)
+@given(bent())
+def test_a_bent_case_is_explained_or_refused_in_one_line(pair):
+    """On a small machine, so that what is large is refused; no traceback, and no more than 10 s of the processor."""
+    name, table = pair
+    begun = time.process_time()
+    with mock.patch.object(room, "available", lambda: 5e8), warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            case = cases.from_table(table)
+            rehearsal.rehearse(case, driver.template_of(case, name), lambda text: None)
+        except CaseError as error:
+            assert str(error).strip() and len(str(error)) < 2000
+        else:
+            tables.text(tables.explain(case))  # refuses nothing more
+    assert time.process_time() - begun < 10.0
+
+
 @settings(max_examples=300)
 @given(st.sampled_from(sorted(TABLES)), st.text(st.characters(codec="utf-8"), max_size=30), st.integers(0, 3000), st.integers(0, 60))
 def test_a_harmed_file_is_read_or_refused_in_one_line(tmp_path_factory, name, text, place, removed):
@@ -106,12 +162,14 @@ def test_a_case_that_passes_runs_or_ends_with_one_line(tmp_path_factory, capfd, 
     before = snapshot(folder)
     os.chdir(folder)
     overrides = [word for override in SMALL[name] for word in ("--set", override)]
+    explained = cli.main(["explain", "case.toml", "--set", "coupling.gas='embedded'", *overrides, "--json"])
     capfd.readouterr()
     code = cli.main(["run", "case.toml", "--gas", "embedded", *overrides, "--out", "out", "--json"])
-    said = capfd.readouterr().err
+    *before_it, said = capfd.readouterr().err.splitlines() or [""]
     assert code in (0, 2, 3), said
+    assert (code == 2) == (explained == 2), said
     if code:
-        assert said.startswith("sdph: ") and said.count("\n") == 1
+        assert said.startswith("sdph: ") and all(line.startswith("warning: ") for line in before_it)
     after = {path: content for path, content in snapshot(folder).items() if path.parts[0] != "out"}
     assert after == before
 

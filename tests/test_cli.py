@@ -92,6 +92,49 @@ def test_bad_case_file_is_one_line_and_code_2(refused, tmp_path, text):
     refused("run", ".")
 
 
+COMMANDS = {
+    "run": ("run", "@", "--until", "1e-6", "--out", "new"),
+    "run --resume": ("run", "--resume", "@"),
+    "run --accuracy": ("run", "@", "--accuracy", "2%"),
+    "init": ("init", "@", "new"),
+    "explain": ("explain", "@"),
+    "view --png": ("view", "@", "--png", "new.png"),
+    "view --movie": ("view", "@", "--movie", "new.gif"),
+    "report": ("report", "@", "--out", "new.html"),
+    "compare": ("compare", "@", "--against", "exact"),
+    "validate": ("validate", "@"),
+    "cost": ("cost", "@", "--out", "new", "--budget", "1s"),
+    "stress": ("stress", "@"),
+}
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize(
+    "target", ["nowhere", "empty", "empty.toml", "junk.toml", "junk", "pipe", "dangling", "of_junk", "of_folder", "case.toml/deep", "", "..", "x" * 3000]
+)
+def test_what_is_no_case_and_no_run_is_refused_by_every_command(refused, tmp_path, command, target):
+    junk = bytes(range(256)) * 8
+    for name, content in (("empty.toml", b""), ("junk.toml", junk), ("junk", junk), ("case.toml", b"title = 'not whole'\n")):
+        (tmp_path / name).write_bytes(content)
+    for name in ("empty", "of_junk", "of_folder/case.toml"):
+        (tmp_path / name).mkdir(parents=True)
+    for name in ("case.toml", "summary.json", "history.csv", "run.pvd", "origin.json"):
+        (tmp_path / "of_junk" / name).write_bytes(junk)
+    os.mkfifo(tmp_path / "pipe")
+    (tmp_path / "dangling").symlink_to("gone")
+    refused(*(target if word == "@" else word for word in COMMANDS[command]))
+
+
+@pytest.mark.parametrize("target", ["folder", "pipe", "."])
+def test_a_report_replaces_nothing_but_a_file(tmp_path, refused, target):
+    """Not a folder, and not a device, which a user who may do all would lose."""
+    sdph("run", "disc_cluster", *SMALL, "--out", "mine", cwd=tmp_path)
+    (tmp_path / "folder").mkdir()
+    os.mkfifo(tmp_path / "pipe")
+    assert "no file that a report could be written to" in refused("report", "mine", "--out", target)
+    assert (tmp_path / "pipe").is_fifo()
+
+
 def test_a_reader_that_has_read_enough_is_no_error(tmp_path):
     code = "import sys; from sdph import cli; [cli.main(['list']) for _ in range(100)]"
     told = subprocess.Popen([sys.executable, "-c", code], cwd=tmp_path, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE)

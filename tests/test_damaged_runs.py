@@ -1,4 +1,4 @@
-"""Run folders that were damaged, or filled with what is not theirs: every command that reads one says so in one line."""
+"""Run folders that were damaged, or hold what is not theirs: every command that reads one says so in one line."""
 
 import json
 import random
@@ -23,8 +23,14 @@ JUNK = random.Random(1).randbytes(4000)
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory):
     folder = tmp_path_factory.mktemp("whole") / "run"
-    more = ("run.end_time_s=0.002", "run.output_interval_s=0.001", "run.report_at_s=[0.001]")  # long enough to be compared
-    driver.run(load("disc_cluster", "embedded", "heat.closure='paper'", *more), "disc_cluster", folder, None, Reporter())
+    more = (
+        "run.end_time_s=0.002",
+        "run.output_interval_s=0.001",
+        "run.report_at_s=[0.001]",
+    )  # long enough to be compared
+    driver.run(
+        load("disc_cluster", "embedded", "heat.closure='paper'", *more), "disc_cluster", folder, None, Reporter()
+    )
     return folder
 
 
@@ -126,7 +132,9 @@ TIMELINES = {
     "not there": PVD.format(ENTRY.format("0", 0, "fields/gone.vtp")),
     "a folder": PVD.format(ENTRY.format("0", 0, "fields/folder.vtp")),
     "gas for particles": PVD.format(ENTRY.format("0", 0, "fields/gas_00000.vtr")),
-    "particles for gas": PVD.format(ENTRY.format("0", 0, "fields/particles_00000.vtp") + ENTRY.format("0", 1, "fields/particles_00000.vtp")),
+    "particles for gas": PVD.format(
+        ENTRY.format("0", 0, "fields/particles_00000.vtp") + ENTRY.format("0", 1, "fields/particles_00000.vtp")
+    ),
 }
 
 
@@ -145,7 +153,9 @@ FIELDS = {
     "junk": JUNK + b"</VTKFile>",
     "of another kind": lambda data: data.replace(b"PolyData", b"ImageData").replace(b"RectilinearGrid", b"ImageData"),
     "an array gone": lambda data: data.replace(b'Name="density"', b'Name="destiny"'),
-    "more than memory": lambda data: data.replace(b'NumberOfPoints="', b'NumberOfPoints="99999999').replace(b'xtent="0 ', b'xtent="0 9999999'),
+    "more than memory": lambda data: data.replace(b'NumberOfPoints="', b'NumberOfPoints="99999999').replace(
+        b'xtent="0 ', b'xtent="0 9999999'
+    ),
     "blocks of no size": lambda data: data.replace(b"AQAAAACAAA", b"AQAAAAAAAA"),
 }
 
@@ -206,13 +216,16 @@ def test_a_case_that_was_changed_too_far_to_be_compared_is_told(read):
 
 
 def test_a_history_without_the_column_that_is_compared_is_told(read):
-    code, said = read("compare", "history.csv", lambda data: data.replace(b"centre_temperature_K", b"middle_temperature_K"))
+    code, said = read(
+        "compare", "history.csv", lambda data: data.replace(b"centre_temperature_K", b"middle_temperature_K")
+    )
     assert (code, said.count("\n")) == (2, 1) and "history.csv has no centre_temperature_K" in said
 
 
 def test_the_curves_of_a_report_bear_the_name_of_their_run(whole, tmp_path):
     """One of two runs has no history: the curve is the other's."""
     from matplotlib import pyplot
+
     from sdph import report
 
     for name in ("without", "with"):

@@ -34,14 +34,25 @@ def test_a_probe_where_there_is_heat_tells_of_both():
 
 def test_every_row_has_the_same_columns(tmp_path):
     """Of a jet too whose first grains are still to come."""
-    case = cases.load(scenes.HERE / "evaporating_jet" / "case.toml", ("nozzles.jet.start_s=1.0", "track.particles=[1]", "probes.p.at_m=[1.0,1.0]"))
+    case = cases.load(
+        scenes.HERE / "evaporating_jet" / "case.toml",
+        ("nozzles.jet.start_s=1.0", "track.particles=[1]", "probes.p.at_m=[1.0,1.0]"),
+    )
     row = history.row(prepared(case))
-    assert {"p_temperature_K", "p_gas_temperature_K", "particle_1_temperature_K", "particle_1_x_m", "particle_1_convective_heat_W"} <= row.keys()
+    assert {
+        "p_temperature_K",
+        "p_gas_temperature_K",
+        "particle_1_temperature_K",
+        "particle_1_x_m",
+        "particle_1_convective_heat_W",
+    } <= row.keys()
     assert "particle_1_z_m" not in row
 
 
 def test_the_summary_keeps_probes_apart_whose_names_begin_alike():
-    simulation = prepared(disc("resolution.spacing_mm=20", "resolution.cell_mm=50", "probes.centre_low.at_m=[0.25,0.2]"))
+    simulation = prepared(
+        disc("resolution.spacing_mm=20", "resolution.cell_mm=50", "probes.centre_low.at_m=[0.25,0.2]")
+    )
     row = history.row(simulation)
     told = summary(simulation, row)
     assert [key for key in told if key.startswith("centre")] == [

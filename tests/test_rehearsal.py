@@ -10,15 +10,31 @@ BOX = ("tank.shape='box'", "tank.lower_m=[0,0,0]", "tank.upper_m=[1,1,1]")
 @pytest.mark.parametrize(
     ("scene", "overrides", "told"),
     [
-        ("disc_cluster", ("boundaries.walls.kind='velocity_inlet'", EMBEDDED), "boundaries.walls.velocity_m_s is missing"),
-        ("disc_cluster", ("boundaries.walls.kind='velocity_inlet'", "coupling.gas='openfoam'"), "boundaries.walls.velocity_m_s is missing"),
+        (
+            "disc_cluster",
+            ("boundaries.walls.kind='velocity_inlet'", EMBEDDED),
+            "boundaries.walls.velocity_m_s is missing",
+        ),
+        (
+            "disc_cluster",
+            ("boundaries.walls.kind='velocity_inlet'", "coupling.gas='openfoam'"),
+            "boundaries.walls.velocity_m_s is missing",
+        ),
         ("disc_cluster", ("boundaries.walls.side='left'", EMBEDDED), "no boundary covers all of the right side"),
         ("disc_cluster", ("boundaries.walls.side='left'", "coupling.gas='openfoam'"), "belongs to no boundary"),
         ("disc_cluster", ("boundaries.walls.side='front'",), "a case of 2 dimensions has left, right, bottom, top"),
         ("disc_cluster", ("boundaries.walls.span_m=[0.0,0.1]",), "without a side"),
-        ("disc_cluster", ("boundaries.low.kind='wall'", "boundaries.low.side='bottom'", "boundaries.low.span_m=[]"), "give [low, high]"),
+        (
+            "disc_cluster",
+            ("boundaries.low.kind='wall'", "boundaries.low.side='bottom'", "boundaries.low.span_m=[]"),
+            "give [low, high]",
+        ),
         ("disc_cluster", ("domain.periodic=['x']",), "no gas solver has periodic sides"),
-        ("disc_cluster", ("gas.equation_of_state='ideal'", EMBEDDED), "the embedded gas solver has constant and operating"),
+        (
+            "disc_cluster",
+            ("gas.equation_of_state='ideal'", EMBEDDED),
+            "the embedded gas solver has constant and operating",
+        ),
         ("disc_cluster", ("run.metrics=['nothing']",), "run.metrics = 'nothing'; known for grains"),
         ("disc_cluster", ("run.metrics=['jet']",), "the case has no nozzle"),
         ("disc_cluster", ("resolution.cell_mm=1e-4",), "GB are free here"),

@@ -60,7 +60,7 @@ class Ladder:
 def declared(scene: str) -> Ladder:
     """The ladder that a scene declares."""
     file = paths.data("validation") / scene / "cost.toml"
-    if not file.is_file():
+    if scene not in scenes.names() or not file.is_file():
         raise CaseError(f"{scene} declares no ladder (validation/{scene}/cost.toml); scenes that do: {', '.join(with_ladder())}")
     table = tomllib.loads(file.read_text(encoding="utf-8"))
     resolved = flat(cases.to_table(cases.load(scenes.find(scene)[1], tuple(table.get("settings", ())))))

@@ -18,10 +18,23 @@ def read(file: Path) -> list[dict]:
     """Rows measured so far; `CaseError` where another version of sdph wrote the table."""
     if not file.is_file():
         return []
-    table = output.read_table(file)
+    table = output.read_table(file, mend="remove it and measure again")
     if lacks := {"solver", "without", "metrics", "wall_s"} - table.keys():
         raise CaseError(f"{file} lacks the columns {', '.join(sorted(lacks))}: another version of sdph wrote it; remove it and measure again")
-    return [dict(zip(table, values)) for values in zip(*table.values())]
+    rows = [dict(zip(table, values)) for values in zip(*table.values())]
+    for number, row in enumerate(rows, 1):
+        if not _measured(row):
+            raise CaseError(f"{file} is damaged (row {number} lacks wall time or metrics); remove it and measure again")
+    return rows
+
+
+def _measured(row: dict) -> bool:
+    """Whether a row has a wall time, and metrics as `found` takes them."""
+    try:
+        float(row["wall_s"])
+        return all(len(value) == 3 for value in found(row).values())
+    except (ValueError, TypeError, AttributeError):
+        return False
 
 
 def has(row: dict, settings: dict) -> bool:

@@ -53,7 +53,8 @@ def motion(own: Frame):
     if own.table:
         return _tabulated(own)
     for row in (*own.shake, *own.turn):
-        if not isinstance(row, tuple) or len(row) != 4 or row[0] not in (0, 1, 2) or any(isinstance(value, tuple) for value in row):
+        flat = isinstance(row, tuple) and not any(isinstance(value, tuple) for value in row)
+        if not flat or len(row) != 4 or row[0] not in (0, 1, 2):
             raise CaseError(f"frame.shake or frame.turn holds {row}; a row is [axis 0, 1 or 2, amplitude, rad/s, phase]")
 
     def at(time: float):
@@ -76,7 +77,8 @@ def _tabulated(own: Frame):
         lines, columns = table.numbers(Path(own.table), COLUMNS)
         _check_rows(lines, columns)
     except ValueError as error:
-        raise CaseError(f"frame.table = {own.table!r}: {error}; give a CSV file with the columns {', '.join(COLUMNS)}") from None
+        needed = f"give a CSV file with the columns {', '.join(COLUMNS)}"
+        raise CaseError(f"frame.table = {own.table!r}: {error}; {needed}") from None
     times, values = columns["time_s"], np.array([columns[name] for name in COLUMNS[1:]])
     slopes = np.diff(values, axis=1) / np.diff(times)
 

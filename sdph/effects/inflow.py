@@ -100,7 +100,8 @@ def _check(case, name: str, nozzle: Nozzle) -> None:
     if not np.linalg.norm(nozzle.direction) > 0.0:
         raise CaseError(f"{where}.direction = {list(nozzle.direction)}; it must point somewhere")
     if nozzle.across and case.dimensions == 3 and _parallel(nozzle.across, nozzle.direction):
-        raise CaseError(f"{where}.across = {list(nozzle.across)}; it must point aside of direction = {list(nozzle.direction)}")
+        aside = f"it must point aside of direction = {list(nozzle.direction)}"
+        raise CaseError(f"{where}.across = {list(nozzle.across)}; {aside}")
     streams = streams_of(case, nozzle)
     _check_times(case, where, nozzle, streams)
     alpha_p = streams.alpha_p

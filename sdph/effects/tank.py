@@ -52,7 +52,8 @@ def shape_of(case):
     """The shape (sdph.liquid.shapes) of a case's tank."""
     own, d = case.parameters["tank"], case.dimensions
     if own.outlet_radius and (own.shape in ("box", "mesh") or d == 2 or own.outlet_radius >= (own.radius or math.inf)):
-        raise CaseError(f"tank.outlet_radius_m = {own.outlet_radius:g}; an outlet is narrower than its tank, a sphere, cylinder or capsule in 3-D")
+        allowed = "an outlet is narrower than its tank, a sphere, cylinder or capsule in 3-D"
+        raise CaseError(f"tank.outlet_radius_m = {own.outlet_radius:g}; {allowed}")
     if own.shape == "box":
         return _box(case, own)
     if own.shape == "mesh" and d == 3:
@@ -95,7 +96,8 @@ def _box(case, own):
     open_ends = {SIDES[side] for side in sides} | {(a, end) for a, on in enumerate(periodic) if on for end in (0, 1)}
     lower, upper = own.lower or (0.0,) * case.dimensions, own.upper or case.domain.size
     if any(high - low < case.resolution.spacing * (1.0 - 1e-9) for low, high in zip(lower, upper)):
-        raise CaseError(f"tank: from lower_m = {list(lower)} to upper_m = {list(upper)} it is narrower than resolution.spacing_mm along an axis; widen it")
+        given = f"tank: from lower_m = {list(lower)} to upper_m = {list(upper)}"
+        raise CaseError(f"{given} it is narrower than resolution.spacing_mm along an axis; widen it")
     return shapes.Box(np.array(lower), np.array(upper), tuple(open_ends))
 
 

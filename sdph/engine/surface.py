@@ -13,19 +13,25 @@ from sdph.schema import CaseError
 
 
 def read(path: str, key: str):
-    """What meshio makes of a file, its points finite; `CaseError`, which names the key of the case, where it is no mesh."""
+    """What meshio makes of a file, its points finite; a `CaseError` with the key of the case where it is no mesh."""
     import meshio
 
     try:
         if not Path(path).is_file():  # nor a pipe or a device, which may have no end
             raise ValueError("there is no such file")
-        with warnings.catch_warnings(), redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):  # it prints what it also raises
+        with (
+            warnings.catch_warnings(),
+            redirect_stdout(io.StringIO()),
+            redirect_stderr(io.StringIO()),
+        ):  # it prints what it also raises
             warnings.simplefilter("ignore")
             mesh = meshio.read(path)
         if not np.isfinite(mesh.points).all():
             raise ValueError("one of its points is no number")
     except (Exception, SystemExit) as error:  # meshio's readers trip over damaged files in ways of their own
-        raise CaseError(f"{key} = {path!r} cannot be read ({_short(error)}); give a surface mesh that meshio reads") from None
+        raise CaseError(
+            f"{key} = {path!r} cannot be read ({_short(error)}); give a surface mesh that meshio reads"
+        ) from None
     return mesh
 
 

@@ -61,6 +61,8 @@ def _text(path: Path) -> str:
             return file.read()
     except UnicodeDecodeError as error:
         raise ValueError(f"it is no text in UTF-8, by byte {error.start}") from None
+    except OSError as error:
+        raise ValueError(error.strerror) from None
 
 
 def numbers(path: Path, names: tuple[str, ...]) -> tuple[list[int], dict[str, np.ndarray]]:
@@ -70,7 +72,9 @@ def numbers(path: Path, names: tuple[str, ...]) -> tuple[list[int], dict[str, np
         if name not in cells.head:
             raise ValueError(f"it has no column {name}; its first line is {_short(','.join(cells.head))}")
     cells.whole()
-    return [line for line, _ in cells.rows], {name: np.array([_finite(*cell, name) for cell in cells.column(name)]) for name in names}
+    return [line for line, _ in cells.rows], {
+        name: np.array([_finite(*cell, name) for cell in cells.column(name)]) for name in names
+    }
 
 
 def _finite(line: int, cell: str, name: str) -> float:
@@ -85,11 +89,13 @@ def number(line: int, cell: str, name: str) -> float:
     try:
         return float(cell)
     except ValueError:
-        raise ValueError(f"line {line}: {name} = {_short(cell)}; it must be a number, with a point for its decimals") from None
+        raise ValueError(
+            f"line {line}: {name} = {_short(cell)}; it must be a number, with a point for its decimals"
+        ) from None
 
 
 def column(cells: Cells, name: str, texts: tuple[str, ...] | None) -> np.ndarray:
-    """(rows,) of a column: numbers, nan where a cell is empty; texts where it is one of `texts`, or with None where it must be."""
+    """(rows,) numbers, nan where a cell is empty; texts in a column of `texts`, or with None where they must be."""
     try:
         return np.array([number(line, cell or "nan", name) for line, cell in cells.column(name)])
     except ValueError:

@@ -30,8 +30,10 @@ def _defaults(matter: str) -> dict:
 
 
 def judgements(case, scales=None) -> dict[str, Judgement]:
-    """Name of the effect -> its judgement, for all that act on what the case is of and can judge themselves; `scales` are those
-    of the case, where they are known."""
+    """Name of the effect -> its judgement, for all that act on what the case is of and can judge themselves.
+
+    `scales` are those of the case, where they are known.
+    """
     scales = scales or scales_of(case)
     own = {name: row for name, row in effects.REGISTRY.items() if row.call and _matter(case) in row.matter}
     return {name: row.call(scales) for name, row in own.items() if name in scales.case.parameters}

@@ -32,7 +32,7 @@ def _of_grains(case, scales) -> dict[str, list]:
 
 
 def warnings(case, scales=None) -> list[str]:
-    """What `run` says before it starts: effects that are missing, ratios that are not safe; `scales` as in `judge.judgements`."""
+    """What `run` says before it starts: effects that are missing, ratios that are not safe; `scales` of the case."""
     scales = scales or judge.scales_of(case)
     return [*judge.missing(case, scales), *(_of_liquid().warnings(scales) if case.liquid else estimate.warnings(case))]
 
@@ -70,7 +70,7 @@ def numbers(s) -> list[tuple]:
 
 
 def effect_rows(case, scales=None) -> list[dict]:
-    """Every effect: on or off, called for or not, why, and the error without it; `scales` as in `judge.judgements`."""
+    """Every effect: on or off, called for or not, why, and the error without it; `scales` of the case, if known."""
     scales = scales or judge.scales_of(case)
     judged, called = judge.judgements(case, scales), judge.called_for(case, scales)
     rows, matter = [], "liquid" if case.liquid else "grains"

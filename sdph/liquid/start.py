@@ -66,7 +66,8 @@ def _pool(case, number: int) -> particles.State:
     for earlier in pools[:number]:
         points = points[~_holds(earlier, points)]
     if not len(points):
-        raise CaseError(f"pools.{list(case.pools)[number]} holds no particle; enlarge it, give a finer resolution.spacing_mm, or name it before the others")
+        mend = "enlarge it, give a finer resolution.spacing_mm, or name it before the others"
+        raise CaseError(f"pools.{list(case.pools)[number]} holds no particle; {mend}")
     state = _placed(case, points)
     state.kind[:] = GAS if pool.phase == "gas" else LIQUID
     density = phase_of(case, pool).density
@@ -114,7 +115,7 @@ def _in_tank(case, pool) -> np.ndarray:
     points = shapes.lattice_inside(own, spacing, lower, upper, CLEARANCE * spacing)
     count = round(pool.fill * own.volume / spacing**case.dimensions)
     if count < 1:
-        raise CaseError(f"pools: fill = {pool.fill:g} is less than a particle; fill it more, or give a finer resolution.spacing_mm")
+        raise CaseError(f"pools: fill = {pool.fill:g} is less than a particle; fill it more, or take a finer spacing")
     if count > len(points):
         raise CaseError(f"pools: fill = {pool.fill:g} asks for {count} particles, the tank holds {len(points)} at this spacing; fill it less")
     points = points[:count]

@@ -12,7 +12,11 @@ import numpy as np
 from sdph import output
 from sdph.schema import CaseError
 
-READERS = {".vtp": "vtkXMLPolyDataReader", ".vtr": "vtkXMLRectilinearGridReader", ".vtu": "vtkXMLUnstructuredGridReader"}
+READERS = {
+    ".vtp": "vtkXMLPolyDataReader",
+    ".vtr": "vtkXMLRectilinearGridReader",
+    ".vtu": "vtkXMLUnstructuredGridReader",
+}
 DENSEST = 255  # times: how much LZ4 can press together at most
 
 
@@ -49,7 +53,7 @@ def _decoded(path: Path):
 
 
 def _check(data: bytes) -> None:
-    """ValueError where a VTK file claims to have more than can be in it, or compressed blocks of no size: VTK then ends the process."""
+    """ValueError where a file claims more than can be in it, or blocks of no size: VTK then ends the process."""
     numbers = [int(found) for found in re.findall(rb'\bNumberOf\w+="\s*(\d+)', data)]
     extents = [list(map(int, found.split())) for found in re.findall(rb'Extent="([\d\s-]+)"', data)]
     numbers += [math.prod(abs(b - a) + 1 for a, b in zip(e[::2], e[1::2])) for e in extents]
@@ -61,7 +65,7 @@ def _check(data: bytes) -> None:
 
 
 def _unpacked(text: bytes, header) -> int:
-    """Bytes of an array that base64 holds as compressed blocks: their number, size, that of the last, and what each takes."""
+    """Bytes of an array in compressed blocks, whose number and size base64 begins with."""
     width = np.dtype(header).itemsize
     count, size, last = np.frombuffer(base64.b64decode(text[: 4 * width], validate=True), header, 3).tolist()
     if count and not size or last > size or count > len(text):

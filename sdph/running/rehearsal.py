@@ -1,4 +1,4 @@
-"""What `sdph run` makes of a case before its first window, made without a gas and without a file: what cannot be is refused."""
+"""What `sdph run` makes of a case before its first window, made without a gas: what cannot be is refused."""
 
 from __future__ import annotations
 

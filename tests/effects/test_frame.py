@@ -21,7 +21,9 @@ def table(*rows, head=HEAD) -> str:
     return "\n".join([head, *rows]) + "\n"
 
 
-@pytest.mark.parametrize("form", ["plain", "crlf", "bom", "semicolons", "tabs", "spaces", "more columns", "no last newline", "empty lines"])
+@pytest.mark.parametrize(
+    "form", ["plain", "crlf", "bom", "semicolons", "tabs", "spaces", "more columns", "no last newline", "empty lines"]
+)
 def test_a_table_is_read_as_spreadsheets_write_it(tmp_path, form):
     text = table(*ROWS)
     content = {
@@ -55,7 +57,10 @@ def test_a_table_is_read_as_spreadsheets_write_it(tmp_path, form):
         (table(ROWS[0], "0.5,1e999,0,0,0,0,0"), "ax_m_s2 = 1e999; it must be finite"),
         (table(ROWS[0], "0.5,,0,0,0,0,0"), "line 3: ax_m_s2 = ''; it must be a number"),
         (table(ROWS[0], "0.5,fast,0,0,0,0,0"), "line 3: ax_m_s2 = 'fast'; it must be a number"),
-        (table(ROWS[0], "0,5;1;0;0;0;0;0").replace(",", ";").replace("0;5", "0,5"), "time_s = '0,5'; it must be a number, with a point"),
+        (
+            table(ROWS[0], "0,5;1;0;0;0;0;0").replace(",", ";").replace("0;5", "0,5"),
+            "time_s = '0,5'; it must be a number, with a point",
+        ),
         (table(*reversed(ROWS)), "line 3: time_s = 0.5 is not after 1"),
         (table(ROWS[0], ROWS[0]), "line 3: time_s = 0 is not after 0"),
         (table(ROWS[0], "0.5,1e30,0,0,0,0,0"), "line 3: ax_m_s2 = 1e+30"),
