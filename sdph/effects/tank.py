@@ -15,7 +15,7 @@ from sdph.schema import CaseError, choice, quantity, record, vector, words
 
 @record
 class Tank:
-    """`open_sides` of a box have no wall. The outlet is a pipe at the lowest point, full of liquid at the start."""
+    """`open_sides` of a box have no wall. The outlet is a pipe at the lowest point, as full at the start as the tank is."""
 
     shape: str = choice("box", "sphere", "cylinder", "capsule", "mesh")
     lower: tuple | None = vector("m", None)  # of a box; None: the domain
@@ -93,6 +93,12 @@ def _box(case, own):
     open_ends = {SIDES[side] for side in sides} | {(a, end) for a, on in enumerate(periodic) if on for end in (0, 1)}
     lower, upper = own.lower or (0.0,) * case.dimensions, own.upper or case.domain.size
     return shapes.Box(np.array(lower), np.array(upper), tuple(open_ends))
+
+
+def wall_volume(case) -> float:
+    """Volume [m^d] that a wall particle stands for; those of a box have a lattice that is fitted to its sides."""
+    shape, spacing = shape_of(case), case.resolution.spacing
+    return float(np.prod(shape.steps(spacing)[1])) if isinstance(shape, shapes.Box) else spacing**case.dimensions
 
 
 def layers(case) -> int:
