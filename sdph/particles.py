@@ -139,13 +139,13 @@ def lattice(region, spacing: float, dimensions: int) -> np.ndarray:
     if region.shape == "box":
         counts = [max(1, round((b - a) / spacing)) for a, b in zip(region.lower, region.upper)]
         ticks = [a + (np.arange(n) + 0.5) * (b - a) / n for a, b, n in zip(region.lower, region.upper, counts)]
-        return _grid(ticks)
+        return grid(ticks)
     reach = math.ceil(region.radius / spacing)
-    points = _grid([c + (np.arange(-reach, reach) + 0.5) * spacing for c in region.centre])
+    points = grid([c + (np.arange(-reach, reach) + 0.5) * spacing for c in region.centre])
     return points[((points - np.array(region.centre)) ** 2).sum(axis=1) <= region.radius**2]
 
 
-def _grid(ticks: list[np.ndarray]) -> np.ndarray:
+def grid(ticks: list[np.ndarray]) -> np.ndarray:
     """Points of a tensor grid, the first axis fastest (row-major numbering of the paper)."""
     mesh = np.meshgrid(*ticks[::-1], indexing="ij")[::-1]
     return np.stack([m.ravel() for m in mesh], axis=1)

@@ -15,7 +15,7 @@ from sdph.schema import CaseError, choice, file, quantity, record, vector, words
 
 @record
 class Tank:
-    """`open_sides` of a box have no wall. The outlet is a pipe at the lowest point, full of liquid at the start."""
+    """`open_sides` of a box have no wall. The outlet is a pipe at the lowest point, as full at the start as the tank is."""
 
     shape: str = choice("box", "sphere", "cylinder", "capsule", "mesh")
     lower: tuple | None = vector("m", None)  # of a box; None: the domain
@@ -99,6 +99,12 @@ def _box(case, own):
         given = f"tank: from lower_m = {list(lower)} to upper_m = {list(upper)}"
         raise CaseError(f"{given} it is narrower than resolution.spacing_mm along an axis; widen it")
     return shapes.Box(np.array(lower), np.array(upper), tuple(open_ends))
+
+
+def wall_volume(case) -> float:
+    """Volume [m^d] that a wall particle stands for; those of a box have a lattice that is fitted to its sides."""
+    shape, spacing = shape_of(case), case.resolution.spacing
+    return float(np.prod(shape.steps(spacing)[1])) if isinstance(shape, shapes.Box) else spacing**case.dimensions
 
 
 def layers(case) -> int:

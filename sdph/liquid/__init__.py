@@ -55,7 +55,8 @@ class GasPhase:
 class Pool:
     """A phase at the start: box (lower, upper), disc or sphere (centre, radius), or the lowest part of the tank (fill).
 
-    Where pools overlap, the one that is named first has the place.
+    Where pools overlap, the one that is named first has the place: of two pools of the tank, a second one of gas and fill = 1 is what
+    the first leaves. The level lies across gravity, or across the last axis where there is none.
     """
 
     phase: str = choice("liquid", "gas")

@@ -2,11 +2,12 @@
 
 A shape has `distance(points)` [m], negative inside, `shell(depth, spacing)` the points of the surface moved outwards
 by `depth`, about one spacing apart, `surface()` of its walls for pictures (pyvista, lines in two dimensions), and
-`volume` [m^d]. The axis of a round tank is the last one of the case.
+`volume` [m^d], and `furthest(direction)` [m], the most of r.direction in it. The axis of a round tank is the last one of the case.
 """
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
 from dataclasses import dataclass
@@ -14,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sdph.engine.surface import read
+from sdph.liquid import surface_points
 from sdph.schema import CaseError
 
 UP = (0.0, 0.0, 1.0)  # axis of a round tank in space
@@ -21,32 +23,32 @@ GOLDEN = math.pi * (3.0 - math.sqrt(5.0))  # rad, turn from ring to ring, so tha
 
 
 def _rings(profile: np.ndarray, spacing: float) -> np.ndarray:
-    """(N, 3) points on rings about the last axis; profile (P, 2) radius and height [m]."""
+    """(N, 3) points on rings about the last axis, as many as their area asks for; profile (P, 3) radius, height and width [m]."""
     points = []
-    for k, (radius, height) in enumerate(profile):
-        count = max(1, round(2.0 * math.pi * radius / spacing))
+    for k, (radius, height, width) in enumerate(profile):
+        count = max(1, round(2.0 * math.pi * radius * width / spacing**2))
         angle = 2.0 * math.pi * np.arange(count) / count + k * GOLDEN
         points.append(np.stack([radius * np.cos(angle), radius * np.sin(angle), np.full(count, height)], axis=1))
     return np.concatenate(points)
 
 
 def _arc(radius: float, height: float, first: float, last: float, spacing: float) -> np.ndarray:
-    """(P, 2) of a circle about (0, height), polar angle from the top between `first` and `last`, cell-centred."""
+    """(P, 3) of a circle about (0, height), polar angle from the top between `first` and `last`, cell-centred."""
     count = max(1, round(radius * (last - first) / spacing))
     angle = first + (np.arange(count) + 0.5) * (last - first) / count
-    return np.stack([radius * np.sin(angle), height + radius * np.cos(angle)], axis=1)
+    return np.stack([radius * np.sin(angle), height + radius * np.cos(angle), np.full(count, radius * (last - first) / count)], axis=1)
 
 
 def _line(radius: float, low: float, high: float, spacing: float) -> np.ndarray:
     count = max(1, round((high - low) / spacing))
     heights = low + (np.arange(count) + 0.5) * (high - low) / count
-    return np.stack([np.full(count, radius), heights], axis=1)
+    return np.stack([np.full(count, radius), heights, np.full(count, (high - low) / count)], axis=1)
 
 
 def _disc(radius: float, height: float, spacing: float) -> np.ndarray:
     count = max(1, round(radius / spacing))
     radii = (np.arange(count) + 0.5) * radius / count
-    return np.stack([radii, np.full(count, height)], axis=1)
+    return np.stack([radii, np.full(count, height), np.full(count, radius / count)], axis=1)
 
 
 @dataclass(frozen=True)
@@ -77,6 +79,9 @@ class Capsule:
         if self.length:
             return pyvista.Capsule(center=self.centre, direction=UP, radius=self.radius, cylinder_length=self.length)
         return pyvista.Sphere(radius=self.radius, center=self.centre)
+
+    def furthest(self, direction):
+        return float(self.centre @ direction + self.radius + 0.5 * self.length * abs(direction[2]))
 
     @property
     def volume(self):
@@ -111,6 +116,9 @@ class Cylinder:
 
         return pyvista.Cylinder(center=self.centre, direction=UP, radius=self.radius, height=self.length, capping=not self.open_top)
 
+    def furthest(self, direction):
+        return float(self.centre @ direction + self.radius * np.hypot(*direction[:2]) + 0.5 * self.length * abs(direction[2]))
+
     @property
     def volume(self):
         return math.pi * self.radius**2 * self.length
@@ -137,6 +145,9 @@ class Disc:
 
         return pyvista.Circle(radius=self.radius).translate((*self.centre, 0.0)).extract_feature_edges()
 
+    def furthest(self, direction):
+        return float(self.centre @ direction + self.radius)
+
     @property
     def volume(self):
         return math.pi * self.radius**2
@@ -154,14 +165,18 @@ class Box:
         out = np.maximum(self.lower - points, points - self.upper)
         return np.minimum(out.max(axis=1), 0.0) + np.linalg.norm(np.maximum(out, 0.0), axis=1)
 
+    def steps(self, spacing):
+        """How many cells fit its sides, and their lengths (d,) [m]."""
+        counts = np.array([max(1, round(length / spacing)) for length in self.upper - self.lower])
+        return counts, (self.upper - self.lower) / counts
+
     def shell(self, depth, spacing):
         """The lattice points whose greatest depth behind a side is `depth`, in front of no open side."""
         layers = round(depth / spacing + 0.5)
-        counts = [max(1, round(length / spacing)) for length in self.upper - self.lower]
-        steps = (self.upper - self.lower) / counts
+        counts, steps = self.steps(spacing)
         ticks = [np.arange(-layers, n + layers) for n in counts]
         places = np.stack([m.ravel() for m in np.meshgrid(*ticks, indexing="ij")], axis=1)
-        behind = np.maximum(-places, places - (np.array(counts) - 1)).max(axis=1) == layers
+        behind = np.maximum(-places, places - (counts - 1)).max(axis=1) == layers
         for axis, end in self.open:
             behind &= places[:, axis] < counts[axis] if end else places[:, axis] >= 0
         return self.lower + (places[behind] + 0.5) * steps
@@ -179,6 +194,9 @@ class Box:
                 sides.append(pyvista.Rectangle(corners) if d == 3 else pyvista.Line(corners[0], corners[2]))
         return pyvista.merge(sides) if sides else None
 
+    def furthest(self, direction):
+        return float(np.maximum(self.lower * direction, self.upper * direction).sum())
+
     @property
     def volume(self):
         return float(np.prod(self.upper - self.lower))
@@ -190,7 +208,9 @@ class Mesh:
 
     path: str
 
-    def _read(self):
+    @functools.cached_property
+    def triangles(self):
+        """The surface as pyvista has it, read once."""
         import pyvista
 
         mesh = read(self.path, "tank.mesh")
@@ -205,27 +225,30 @@ class Mesh:
     def distance(self, points):
         import pyvista
 
-        return np.asarray(pyvista.PolyData(points).compute_implicit_distance(self._read())["implicit_distance"])
+        return np.asarray(pyvista.PolyData(points).compute_implicit_distance(self.triangles)["implicit_distance"])
 
     def shell(self, depth, spacing):
-        """Lattice points between half a spacing less and half a spacing more than `depth` outside, moved onto it."""
-        surface = self._read()
-        bounds = np.array(surface.bounds).reshape(3, 2)
-        around = depth + spacing
+        """Lattice points between half a spacing less and half a spacing more than `depth` outside, moved onto it, evened out."""
+        bounds, around = np.array(self.triangles.bounds).reshape(3, 2), depth + spacing
         ticks = [np.arange(low - around, high + around, spacing) for low, high in bounds]
         points = np.stack([m.ravel() for m in np.meshgrid(*ticks, indexing="ij")], axis=1)
-        away = self.distance(points)
-        near = np.abs(away - depth) <= 0.5 * spacing
-        points, away = points[near], away[near]
-        _, closest = surface.find_closest_cell(points, return_closest_point=True)
-        return closest + (points - closest) * (depth / away)[:, None]
+        points = points[np.abs(self.distance(points) - depth) <= 0.5 * spacing]
+        return surface_points.even_out(self._onto(points, depth), spacing, lambda moved: self._onto(moved, depth))
+
+    def _onto(self, points, depth):
+        """Points moved to where they are `depth` outside."""
+        _, closest = self.triangles.find_closest_cell(points, return_closest_point=True)
+        return closest + (points - closest) * (depth / self.distance(points))[:, None]
 
     def surface(self):
-        return self._read()
+        return self.triangles
+
+    def furthest(self, direction):
+        return float((self.triangles.points @ direction).max())
 
     @property
     def volume(self):
-        return float(self._read().volume)
+        return float(self.triangles.volume)
 
 
 @dataclass(frozen=True)
@@ -243,6 +266,9 @@ class Joined:
 
     def surface(self):
         return self.tank.surface() + self.pipe.surface()
+
+    def furthest(self, direction):
+        return max(self.tank.furthest(direction), self.pipe.furthest(direction))
 
     @property
     def volume(self):
@@ -268,12 +294,3 @@ def _behind(part, whole, spacing: float, layers: int) -> np.ndarray:
         shell = part.shell(depth, spacing)
         points.append(shell if part is whole else shell[whole.distance(shell) > depth - 0.25 * spacing])
     return np.concatenate(points)
-
-
-def lattice_inside(shape, spacing: float, lower, upper, clearance: float) -> np.ndarray:
-    """(N, d) lattice points at least `clearance` [m] inside, lowest first (last axis)."""
-    counts = [math.ceil((b - a) / spacing - 1e-9) for a, b in zip(lower, upper)]
-    ticks = [0.5 * (a + b) + (np.arange(n) - 0.5 * (n - 1)) * spacing for a, b, n in zip(lower, upper, counts)]
-    points = np.stack([m.ravel() for m in np.meshgrid(*ticks, indexing="ij")], axis=1)
-    points = points[shape.distance(points) <= -clearance]
-    return points[np.argsort(points[:, -1], kind="stable")]

@@ -10,19 +10,19 @@ from sdph import particles
 from sdph.effects import tank
 from sdph.laws import eos
 from sdph.laws.liquids import quadrupole, square_patch_pressure, taylor_green
-from sdph.liquid import GAS, LIQUID, shapes
+from sdph.liquid import GAS, LIQUID, filling, shapes
 from sdph.particles import WALL
 from sdph.schema import CaseError
 
 ROUNDS = 50  # of the inversion of Van der Waals' equation; each takes off nine tenths of the error or more
-CLEARANCE = 0.5  # spacings between the first particles and the surface of a round tank
 
 
 def fill(case) -> particles.State:
     """All liquid and wall particles of a case, numbered from 0, liquid first."""
-    parts = [_pool(case, number) for number in range(len(case.pools))]
-    if not parts:
+    if not case.pools:
         raise CaseError("no liquid: give it in a section such as [pools.column]")
+    pools = filling.pools(case)
+    parts = [_pool(case, pools, number) for number in range(len(pools))]
     if "tank" in case.effects:
         parts.append(_walls(case))
     state = parts[0]
@@ -35,11 +35,10 @@ def fill(case) -> particles.State:
 
 
 def _walls(case) -> particles.State:
-    points = shapes.wall_points(tank.shape_of(case), case.resolution.spacing, tank.layers(case))
-    state = _placed(case, points)
+    state = _placed(case, shapes.wall_points(tank.shape_of(case), case.resolution.spacing, tank.layers(case)))
     state.kind[:] = WALL
     state.density[:] = case.liquid.density
-    state.mass[:] = case.liquid.density * case.resolution.spacing**case.dimensions
+    state.mass[:] = case.liquid.density * tank.wall_volume(case)
     return state
 
 
@@ -55,11 +54,10 @@ def _placed(case, points) -> particles.State:
     return state
 
 
-def _pool(case, number: int) -> particles.State:
+def _pool(case, pools: list, number: int) -> particles.State:
     """The particles of pool `number`, less those that lie in the pools before it."""
-    pools, d, spacing = list(case.pools.values()), case.dimensions, case.resolution.spacing
-    pool = pools[number]
-    points = _in_tank(case, pool) if pool.shape == "tank" else particles.lattice(pool, spacing, d)
+    pool, d, spacing = pools[number], case.dimensions, case.resolution.spacing
+    points = filling.fill(case, pool) if pool.shape == "tank" else particles.lattice(pool, spacing, d)
     volume = spacing**d
     if pool.shape == "box":  # the lattice is fitted to the box
         volume = math.prod(b - a for a, b in zip(pool.lower, pool.upper)) / len(points)
@@ -71,7 +69,7 @@ def _pool(case, number: int) -> particles.State:
     state = _placed(case, points)
     state.kind[:] = GAS if pool.phase == "gas" else LIQUID
     density = phase_of(case, pool).density
-    state.density[:] = _density(case, pool, _pressure(case, pool, points))
+    state.density[:] = _density(case, pool, _pressure(case, pool, pools[-1], points))
     state.mass[:] = (state.density if case.gas_phase else density) * volume  # two phases fill their space from the start
     for array, value in zip((state.u, state.v, state.w), _velocity(pool, points, d).T):
         array[:] = value
@@ -86,7 +84,7 @@ def phase_of(case, pool):
 def _holds(pool, points) -> np.ndarray:
     """(N,) whether points lie in a pool."""
     if pool.shape == "tank":
-        raise CaseError("pools: shape = \"tank\" holds the lowest points of a tank; name it last")
+        return pool.holds(points)
     if pool.shape == "box":
         return ((points >= np.array(pool.lower)) & (points <= np.array(pool.upper))).all(axis=1)
     return ((points - np.array(pool.centre)) ** 2).sum(axis=1) <= pool.radius**2
@@ -104,32 +102,7 @@ def _density(case, pool, pressure) -> np.ndarray:
     return density
 
 
-def _in_tank(case, pool) -> np.ndarray:
-    """The lowest lattice points of the tank that hold `fill` of its volume, and all of its outlet pipe."""
-    if "tank" not in case.effects or pool.fill is None:
-        raise CaseError("pools: shape = \"tank\" needs the effect tank, and fill")
-    shape, spacing = tank.shape_of(case), case.resolution.spacing
-    own = shape.tank if isinstance(shape, shapes.Joined) else shape
-    corners = own.shell(0.5 * spacing, spacing)
-    lower, upper = corners.min(axis=0) + 0.5 * spacing, corners.max(axis=0) - 0.5 * spacing
-    points = shapes.lattice_inside(own, spacing, lower, upper, CLEARANCE * spacing)
-    count = round(pool.fill * own.volume / spacing**case.dimensions)
-    if count < 1:
-        raise CaseError(f"pools: fill = {pool.fill:g} is less than a particle; fill it more, or take a finer spacing")
-    if count > len(points):
-        raise CaseError(f"pools: fill = {pool.fill:g} asks for {count} particles, the tank holds {len(points)} at this spacing; fill it less")
-    points = points[:count]
-    if own is shape:
-        return points
-    pipe = shape.pipe
-    low, high = pipe.centre - pipe.radius, pipe.centre + pipe.radius
-    low[2], high[2] = pipe.centre[2] - 0.5 * pipe.length, pipe.centre[2] + 0.5 * pipe.length
-    buffer = shapes.lattice_inside(pipe, spacing, low, high, CLEARANCE * spacing * 0.999)
-    free = np.array([((points - p) ** 2).sum(axis=1).min() > (0.9 * spacing) ** 2 for p in buffer], bool)
-    return np.concatenate((buffer[free & (own.distance(buffer) > -CLEARANCE * spacing)], points))
-
-
-def _pressure(case, pool, points) -> np.ndarray:
+def _pressure(case, pool, around, points) -> np.ndarray:
     """At the start: hydrostatic below the pool's top under gravity, of a rotating patch or vortices what is known exactly."""
     if pool.flow == "rotation":
         side = pool.upper[0] - pool.lower[0]
@@ -137,29 +110,27 @@ def _pressure(case, pool, points) -> np.ndarray:
         return square_patch_pressure(points - np.array(pool.lower), side, omega, case.liquid.density)
     if pool.flow == "taylor_green":
         return taylor_green(points, pool.upper[0] - pool.lower[0], pool.speed, case.liquid.density)[1]
-    return _hydrostatic(case, pool, points) + _laplace(case, pool)
+    return _hydrostatic(case, pool, around, points) + _laplace(case, pool)
 
 
-def _hydrostatic(case, pool, points) -> np.ndarray:
-    """rho g depth below the pool's top, where it has the pressure that the last pool would have there; a disc or sphere
-    has in its middle what the last pool would have there."""
-    if "gravity" not in case.effects:
-        return np.zeros(len(points))
-    around = list(case.pools.values())[-1]
-    walled = 1.0 - np.array(case.liquid.periodic or [0.0] * case.dimensions)  # along a periodic axis gravity drives a flow
-    along = np.array(case.domain.gravity) * walled
-    height, outside = points @ along, 0.0  # rises downwards [m2/s2]
-    top = height.min() - 0.5 * case.resolution.spacing * float(np.linalg.norm(along))
-    if pool is not around:
-        top = top if pool.shape == "box" else float(np.array(pool.centre) @ along)
+def _hydrostatic(case, pool, around, points) -> np.ndarray:
+    """rho g depth below the pool's top, where it has the pressure that the last pool, `around`, would have there; a disc or
+    sphere has in its middle what the last pool would have there."""
+    along, outside = filling.pull(case), 0.0
+    height = points @ along  # rises downwards [m2/s2]
+    top = _top(pool, along) if pool.shape == "tank" else height.min() - 0.5 * case.resolution.spacing * float(np.linalg.norm(along))
+    if pool is not around and along.any():
+        top = float(np.array(pool.centre) @ along) if pool.shape in ("disc", "sphere") else top
         outside = phase_of(case, around).density * (top - _top(around, along))
     return phase_of(case, pool).density * (height - top) + outside
 
 
 def _top(pool, along) -> float:
-    """g.r [m2/s2] at the highest corner of a box."""
+    """g.r [m2/s2] at the highest corner of a box, or at the level up to which a tank is filled."""
+    if pool.shape == "tank":
+        return -pool.slab.high * float(np.linalg.norm(along))
     if pool.shape != "box":
-        raise CaseError(f"pools: the last one fills what the others leave; give it shape = \"box\" instead of {pool.shape!r}")
+        raise CaseError(f"pools: the last one fills what the others leave; give it shape = \"box\" or \"tank\" instead of {pool.shape!r}")
     return float(np.minimum(np.array(pool.lower) * along, np.array(pool.upper) * along).sum())
 
 

@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 from sdph import case as cases
-from sdph.liquid import shapes
+from sdph import particles
+from sdph.effects import tank as tank_effect
+from sdph.liquid import LIQUID, start
 from sdph.tank import Tank
 
 GRAVITY = np.array([0.0, 0.0, -9.8])
@@ -104,21 +106,21 @@ def test_a_closed_loop_keeps_momentum(monkeypatch):
 @pytest.mark.parametrize(
     "shape",
     [
-        shapes.Capsule(np.zeros(3), 0.5),
-        shapes.Capsule(np.zeros(3), 0.4, 0.3),
-        shapes.Cylinder(np.zeros(3), 0.4, 0.6, 0.15),
-        shapes.Box(np.array([-0.4, -0.3, -0.5]), np.array([0.4, 0.3, 0.5])),
+        {"shape": "sphere", "centre_m": [0.0, 0.0, 0.0], "radius_m": 0.5},
+        {"shape": "capsule", "centre_m": [0.0, 0.0, 0.0], "radius_m": 0.4, "length_m": 0.3},
+        {"shape": "cylinder", "centre_m": [0.0, 0.0, 0.0], "radius_m": 0.4, "length_m": 0.6},
+        {"shape": "box", "lower_m": [-0.4, -0.3, -0.5], "upper_m": [0.4, 0.3, 0.5]},
     ],
 )
 def test_walls_fill_what_lies_behind_the_surface(shape):
-    """Wall and lattice particles around the surface fill the kernel: the sum of V W is 1 within a few per cent."""
+    """Wall and liquid particles around the surface fill the kernel: the sum of V W is 1 within a few per cent."""
     spacing, h = 0.05, 0.065
-    walls = shapes.wall_points(shape, spacing, 3)
-    first = shape.shell(0.5 * spacing, spacing)
-    inside = shapes.lattice_inside(shape, spacing, first.min(axis=0) + 0.025, first.max(axis=0) - 0.025, 0.499 * spacing)
-    assert (shape.distance(walls) > 0.49 * spacing).all()
-    assert len(inside) * spacing**3 == pytest.approx(shape.volume, rel=0.25)  # centres stay half a spacing off a round wall
-    everything = np.concatenate([inside, walls])
+    case = cases.from_table(TABLE | {"resolution": {"spacing_mm": 50.0, "smoothing_ratio": 1.3}, "tank": shape, "pools": {"all": {"shape": "tank", "fill": 1.0}}})
+    state = start.fill(case)
+    everything = particles.positions(state)
+    inside, walls = everything[state.kind == LIQUID], everything[state.kind == particles.WALL]
+    assert (tank_effect.shape_of(case).distance(walls) > 0.49 * spacing).all()
+    assert len(inside) * spacing**3 == pytest.approx(tank_effect.shape_of(case).volume, abs=0.5 * spacing**3)
     sums = []
     for point in inside[:: max(1, len(inside) // 60)]:
         r = np.linalg.norm(everything - point, axis=1) / h

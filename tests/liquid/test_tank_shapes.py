@@ -42,11 +42,11 @@ def settled(tank: dict, spacing: float, seconds: float, **sections) -> LiquidSte
     return own
 
 
-def mesh_of_a_ball(folder) -> str:
+def mesh_of_a_ball(folder, centre=(0.5, 0.5, 0.5)) -> str:
     import meshio
     import pyvista
 
-    ball = pyvista.Icosphere(radius=RADIUS, center=(0.5, 0.5, 0.5), nsub=4)
+    ball = pyvista.Icosphere(radius=RADIUS, center=centre, nsub=4)
     path = str(folder / "ball.stl")
     meshio.write_points_cells(path, ball.points, [("triangle", ball.faces.reshape(-1, 4)[:, 1:])])
     return path
