@@ -95,7 +95,7 @@ def run(options) -> int:
             elif options.gas == "embedded":
                 _refuse(options, ("transport", "np"), "the embedded gas solver runs in this process")
             template = driver.template_of(case, name, file)
-            rehearsal.rehearse(case, template, lambda text: None, allow_code=options.allow_code)
+            rehearsal.rehearse(case, template, allow_code=options.allow_code)
             for warning in tables.warnings(case):
                 reporter.status(f"warning: {warning}")
             folder = options.out or output.free_name(Path("runs") / name)
@@ -134,7 +134,7 @@ def explain_case(options) -> int:
 
     name, file = scenes.find(options.target)
     case = cases.load(file, tuple(options.set))
-    rehearsal.rehearse(case, driver.template_of(case, name, file), _say, allow_code=options.allow_code)
+    rehearsal.rehearse(case, driver.template_of(case, name, file), allow_code=options.allow_code)
     parts = {}
     if options.measure:
         from sdph.explain import effect_costs

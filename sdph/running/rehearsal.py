@@ -5,6 +5,7 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
+from coupling.openfoam.build import silent
 from sdph import driver, metrics, room
 from sdph.gas_cells import cell_edges
 from sdph.liquid.run import Moments
@@ -13,8 +14,8 @@ from sdph.simulation import parts_of
 from sdph.window import Window
 
 
-def rehearse(case, template: Path, status, *, allow_code: bool = False) -> None:
-    """CaseError where `sdph run` would end with one; `template`, `status` and `allow_code` as in `driver.open_gas`."""
+def rehearse(case, template: Path, *, allow_code: bool = False) -> None:
+    """CaseError where `sdph run` would end with one; `template` and `allow_code` as in `driver.open_gas`."""
     room.refuse_too_large(case)
     metrics.refuse_unknown(case)
     if case.liquid:
@@ -23,18 +24,20 @@ def rehearse(case, template: Path, status, *, allow_code: bool = False) -> None:
         return
     parts_of(case)
     Window(case)
-    _gas(case, template, driver.chosen_gas(case, status), allow_code)
+    _gas(case, template, allow_code)
 
 
-def _gas(case, template: Path, chosen: str, allow_code: bool) -> None:
+def _gas(case, template: Path, allow_code: bool) -> None:
     """What each gas solver makes of the case before it starts."""
-    if chosen == "embedded":
+    if driver.chosen_gas(case, silent) == "embedded":
         from coupling.embedded.box import Box
         from coupling.embedded.grid import build_grid
 
         Box(case, build_grid(cell_edges(case)), limited=True)
         return
     from coupling.openfoam.case import write_case
+    from coupling.openfoam.installation import require
 
+    require()
     with tempfile.TemporaryDirectory(prefix="sdph-explain-") as folder:
         write_case(case, template, Path(folder) / "gas", case.coupling.ranks, allow_code)
