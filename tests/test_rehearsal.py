@@ -3,7 +3,10 @@
 import pytest
 from test_cli import refused  # noqa: F401  (a fixture)
 
+from sdph import scenes
+
 EMBEDDED = "coupling.gas='embedded'"
+OPENFOAM = ("--set", "coupling.gas='openfoam'")
 BOX = ("tank.shape='box'", "tank.lower_m=[0,0,0]", "tank.upper_m=[1,1,1]")
 
 
@@ -15,13 +18,7 @@ BOX = ("tank.shape='box'", "tank.lower_m=[0,0,0]", "tank.upper_m=[1,1,1]")
             ("boundaries.walls.kind='velocity_inlet'", EMBEDDED),
             "boundaries.walls.velocity_m_s is missing",
         ),
-        (
-            "disc_cluster",
-            ("boundaries.walls.kind='velocity_inlet'", "coupling.gas='openfoam'"),
-            "boundaries.walls.velocity_m_s is missing",
-        ),
         ("disc_cluster", ("boundaries.walls.side='left'", EMBEDDED), "no boundary covers all of the right side"),
-        ("disc_cluster", ("boundaries.walls.side='left'", "coupling.gas='openfoam'"), "belongs to no boundary"),
         ("disc_cluster", ("boundaries.walls.side='front'",), "a case of 2 dimensions has left, right, bottom, top"),
         ("disc_cluster", ("boundaries.walls.span_m=[0.0,0.1]",), "without a side"),
         (
@@ -38,7 +35,6 @@ BOX = ("tank.shape='box'", "tank.lower_m=[0,0,0]", "tank.upper_m=[1,1,1]")
         ("disc_cluster", ("run.metrics=['nothing']",), "run.metrics = 'nothing'; known for grains"),
         ("disc_cluster", ("run.metrics=['jet']",), "the case has no nozzle"),
         ("disc_cluster", ("resolution.cell_mm=1e-4",), "GB are free here"),
-        ("disc_cluster", ("coupling.ranks=1000", "coupling.gas='openfoam'"), "has 100 cells"),
         ("bubbling_bed", ("boundaries.jet.span_m=[0.123,0.3]", EMBEDDED), "no edge of a gas cell"),
         ("bubbling_bed", ("walls.mesh='none.stl'",), "walls.mesh = "),
         ("bubbling_bed", ("domain.size_m=[1e9,1e9]", "resolution.cell_mm=1e12"), "GB are free here"),
@@ -72,14 +68,36 @@ def test_explain_and_run_refuse_alike(refused, scene, overrides, told):  # noqa:
     assert refused("run", scene, *options) == said
 
 
+@pytest.mark.openfoam
+@pytest.mark.parametrize(
+    ("override", "told"),
+    [
+        ("boundaries.walls.kind='velocity_inlet'", "boundaries.walls.velocity_m_s is missing"),
+        ("boundaries.walls.side='left'", "belongs to no boundary"),
+        ("coupling.ranks=1000", "has 100 cells"),
+    ],
+)
+def test_explain_and_run_on_openfoam_refuse_alike(refused, override, told):  # noqa: F811
+    options = ("disc_cluster", "--set", override, *OPENFOAM)
+    said = refused("explain", *options)
+    assert told in said
+    assert refused("run", *options) == said
+
+
+def test_openfoam_that_is_not_there_is_told_by_both(refused, monkeypatch):  # noqa: F811
+    monkeypatch.setenv("SDPH_OPENFOAM", "/nowhere")
+    said = refused("explain", "disc_cluster", *OPENFOAM)
+    assert "OpenFOAM was not found" in said
+    assert refused("run", "disc_cluster", *OPENFOAM) == said
+
+
+@pytest.mark.openfoam
 def test_a_template_that_cannot_be_run_is_refused_by_both(refused, tmp_path):  # noqa: F811
     (tmp_path / "mine" / "gas" / "system").mkdir(parents=True)
     case = tmp_path / "mine" / "case.toml"
-    from sdph import scenes
 
     case.write_text((scenes.HERE / "disc_cluster" / "case.toml").read_text())
-    openfoam = ("--set", "coupling.gas='openfoam'")
-    assert refused("explain", "mine", *openfoam) == refused("run", "mine", *openfoam)
+    assert refused("explain", "mine", *OPENFOAM) == refused("run", "mine", *OPENFOAM)
     (tmp_path / "mine" / "gas" / "system" / "controlDict").write_text('libs ("mine.so");\n')
-    said = refused("explain", "mine", *openfoam)
-    assert said == refused("run", "mine", *openfoam) and "--allow-code" in said
+    said = refused("explain", "mine", *OPENFOAM)
+    assert said == refused("run", "mine", *OPENFOAM) and "--allow-code" in said
