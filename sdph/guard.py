@@ -92,6 +92,7 @@ class Guard(Watch):
         scales = judge.scales_of(case)
         drop = math.sqrt(2.0 * scales.gravity * max(case.domain.size))
         pressures = [b.pressure for b in case.boundaries.values() if b.pressure is not None]
+        self.pressure = max(map(abs, pressures), default=0.0)
         blown = math.sqrt(2.0 * (max(pressures, default=0.0) - min(pressures, default=0.0)) / case.gas.density)
         agitated = math.sqrt(case.grains.granular_temperature) + scales.sound
         self.reach = scales.jet + scales.thrown + drop + blown + agitated
@@ -120,8 +121,9 @@ class Guard(Watch):
             raise Unfit("a particle is neither a grain nor of a nozzle")
 
     def admit_gas(self, fields: dict) -> None:
-        """Unfit where gas that comes from a checkpoint is faster, hotter or colder than this case allows."""
-        for name, values, bounds in self._of_gas(fields):
+        """Unfit where gas that comes from a checkpoint is faster, hotter, colder or under more pressure than this case allows."""
+        most = self.case.gas.density * (RUNAWAY * self.sound) ** 2 + self.pressure
+        for name, values, bounds in (*self._of_gas(fields), ("pressure", fields["pressure"], (-most, most, "Pa"))):
             worst = _outside(values, *bounds[:2])
             if worst is not None:
                 low, high, unit = bounds

@@ -9,6 +9,8 @@ import zipfile
 
 import numpy as np
 
+from coupling.messages import Message, decode, encode
+
 NASTY = (
     None, True, False, 0, 1, -1, 7, 2**31, 2**63, 10**400, 0.0, -0.5, 1e-300, 1e300, -1e300, float("nan"), float("inf"), -float("inf"), "", "text",
     "\ud800", "\x1b[2J\n", "../../x", [], {}, [1, "a"], {"a": 1}, {"array": "0"}, {"array": "999"}, {"array": 5}, {"array": ["0"]},
@@ -177,12 +179,29 @@ def harm_stored(rng, run):
         certify(folder)
 
 
+def harm_message(rng, path):
+    """A field of a message in a file is another, is gone, or is of another form; its checksum fits."""
+    message = decode(path.read_bytes())
+    values, name = dict(message.values), list(message.values)[rng.integers(len(message.values))]
+    if rng.random() < 0.2:
+        del values[name]
+    elif isinstance(values[name], str) or rng.random() < 0.2:
+        values[name] = ("", "drag drag", "heat", 7, np.zeros(3), np.zeros((2, 2)), 2.5)[rng.integers(7)]
+    else:
+        with np.errstate(all="ignore"):
+            harmed = ARRAY_HARMS[rng.integers(6)](rng, np.asarray(values[name]))
+        values[name] = harmed if harmed.dtype.kind in "fi" else 1
+    path.write_bytes(encode(Message(message.kind, values, message.units)))
+
+
 def harm_gas(rng, run):
     """The gas's file: arrays of the embedded gas, bytes of OpenFOAM's."""
     folder = checkpoints(run)[-1]
     for path in (folder / "gas").glob("*"):
         if path.suffix == ".npz" and rng.random() < 0.9:
             harm_arrays(rng, path)
+        elif path.suffix != ".npz" and rng.random() < 0.7:
+            harm_message(rng, path)
         elif rng.random() < 0.3:
             path.unlink()
         else:

@@ -12,6 +12,7 @@ from coupling.embedded.properties import Properties
 from coupling.gas import refuse_full_cells
 
 ROUND_OFF = 1e-9  # of a volume fraction
+MOST = 1e4  # times its usual density that a gas may have; our choice
 
 
 class Box:
@@ -73,12 +74,15 @@ def restored(box: Box, saved: dict[str, np.ndarray]) -> Flow:
         if not np.isfinite(value).all():
             raise ValueError(f"{field.name} is not finite everywhere")
     flow = Flow(**{field.name: value if (value := saved[field.name]).ndim else float(value) for field in dataclasses.fields(Flow)})
-    inside = box.grid.cells
+    inside, usual = box.grid.cells, box.properties.density(box.temperature, 0.0)
     for name in ("alpha", "mass", "temperature"):
         if not (getattr(flow, name)[inside] > 0.0).all():
             raise ValueError(f"{name} is not above 0 everywhere")
-    if flow.alpha[inside].max() > 1.0 + ROUND_OFF or not flow.ratio > 0.0 or flow.time < 0.0:
-        raise ValueError("its volume fraction, the ratio of its density or its time cannot be")
+    times = flow.mass[inside] / (flow.alpha[inside] * box.grid.geometry.volume[inside] * usual)
+    if not (1.0 / MOST < times.min() and times.max() < MOST and 1.0 / MOST < flow.ratio < MOST):
+        raise ValueError(f"its density is not within {MOST:g} times that of this case")
+    if flow.alpha[inside].max() > 1.0 + ROUND_OFF or np.abs(flow.vapour).max() > flow.mass.max() or flow.time < 0.0:
+        raise ValueError("its volume fraction, its vapour or its time cannot be")
     return flow
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-JSON_BYTES, JSON_MEMORY, JSON_DEPTH = 2**29, 2**30, 64  # of a file, of what becomes of it, of lists in lists; our choice
+JSON_BYTES, JSON_MEMORY, JSON_DEPTH = 2**28, 2**28, 64  # of a file, of what becomes of it, of lists in lists; our choice
 ENTRY = 100  # bytes of memory that a value of JSON takes at most, its text left out
 DIRECTORY = 2**22  # bytes of the list of arrays in a file, some 40 000; our choice
 END, END_64, LOCATOR = struct.Struct("<4s8xL6x"), struct.Struct("<4s36xQ8x"), 20  # of a zip file (APPNOTE.TXT 4.3): signature, bytes of the list

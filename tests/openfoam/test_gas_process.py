@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 from gas_boxes import TEMPLATE, WALLS, box, box_case, total
 
-from coupling.gas import GasError, Unfinished
+from coupling.gas import CheckpointError, GasError, Unfinished
+from coupling.messages import Message, decode, encode
 from coupling.openfoam import install
 from coupling.openfoam.build import header_folder
 from coupling.openfoam.solver import OpenFoamGas
@@ -128,6 +129,47 @@ def test_a_checkpoint_of_other_ranks_is_refused(tmp_path):
         gas.checkpoint(tmp_path / "checkpoint")
     with box(tmp_path / "b", (0.1, 0.06), 0.005, ranks=2) as gas, pytest.raises(GasError, match="of 1 ranks"):
         gas.restore(tmp_path / "checkpoint")
+
+
+@pytest.mark.parametrize("rank", [0, 1])
+def test_a_damaged_file_of_one_rank_is_told_by_all(tmp_path, rank):
+    with box(tmp_path / "a", (0.1, 0.06), 0.005, ranks=2) as gas:
+        gas.start(None, ())
+        gas.checkpoint(tmp_path / "checkpoint")
+    path = tmp_path / "checkpoint" / f"gas.{rank}"
+    path.write_bytes(path.read_bytes()[:-1])
+    with box(tmp_path / "b", (0.1, 0.06), 0.005, ranks=2) as gas, pytest.raises(CheckpointError, match=f"gas.{rank}: .*damaged"):
+        gas.restore(tmp_path / "checkpoint")
+
+
+@pytest.mark.parametrize(
+    ("harm", "says"),
+    [
+        ({"T": lambda a: a * np.nan}, "T is nan"),
+        ({"alpha_g": lambda a: a - 1.0}, "alpha_g is 0"),
+        ({"U": lambda a: a + 1e300}, "U is 1e?"),
+        ({"p_rgh": lambda a: a[:-1]}, "p_rgh does not have the shape"),
+        ({"numbers": lambda a: a - 1.0}, "time -1"),
+    ],
+)
+def test_values_that_no_gas_has_are_refused(tmp_path, harm, says):
+    with box(tmp_path / "a", (0.1, 0.06), 0.005) as gas:
+        gas.start(None, ())
+        gas.checkpoint(tmp_path / "checkpoint")
+    path = tmp_path / "checkpoint" / "gas.0"
+    message = decode(path.read_bytes())
+    values = dict(message.values) | {name: change(message[name]) for name, change in harm.items()}
+    path.write_bytes(encode(Message(message.kind, values, message.units)))
+    with box(tmp_path / "b", (0.1, 0.06), 0.005) as gas, pytest.raises(CheckpointError, match=says):
+        gas.restore(tmp_path / "checkpoint")
+
+
+def test_a_checkpoint_of_other_sources_is_refused(tmp_path):
+    with box(tmp_path / "a", (0.1, 0.06), 0.005) as gas:
+        gas.start(None, ("heat_source",))
+        gas.checkpoint(tmp_path / "checkpoint")
+    with box(tmp_path / "b", (0.1, 0.06), 0.005) as gas, pytest.raises(CheckpointError, match="of the sources 'heat_source'"):
+        gas.restore(tmp_path / "checkpoint", SOURCES)
 
 
 def test_time_folders_are_written_at_the_output_interval(tmp_path):
@@ -344,7 +386,7 @@ def wire_echo(tmp_path_factory):
 
 
 def test_both_languages_mean_the_same_format(wire_echo):
-    from coupling.messages import Kind, Message, decode, encode
+    from coupling.messages import Kind
 
     message = Message(
         Kind.STATE,
