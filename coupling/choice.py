@@ -23,7 +23,8 @@ def open_gas(case, folder: Path, template: Path | None, status, allow_code: bool
     `template` None goes on with what is in `folder`. `status` hears what is done.
     """
     if case.domain.periodic:
-        raise CaseError(f"domain.periodic = {list(case.domain.periodic)}, but no gas solver has periodic sides; leave it out")
+        given = f"domain.periodic = {list(case.domain.periodic)}"
+        raise CaseError(f"{given}, but no gas solver has periodic sides; leave it out")
     chosen = case.coupling.gas
     if chosen == "auto" and template is not None:
         return _automatic(case, folder, template, status, allow_code)
