@@ -43,7 +43,8 @@ def expected(case) -> str:
 
 def _refuse_periodic(case) -> None:
     if case.domain.periodic:
-        raise CaseError(f"domain.periodic = {list(case.domain.periodic)}, but no gas solver has periodic sides; leave it out")
+        given = f"domain.periodic = {list(case.domain.periodic)}"
+        raise CaseError(f"{given}, but no gas solver has periodic sides; leave it out")
 
 
 def _openfoam(case, folder: Path, template: Path | None, status, allow_code: bool):

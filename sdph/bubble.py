@@ -46,7 +46,8 @@ def through_depth(depth: float, centres, volumes, *fields, up=UP) -> tuple:
     place = layers(centres[:, 1]) * len(centres) + layers(centres[:, 0])
     _, first, column, deep = np.unique(place, return_index=True, return_inverse=True, return_counts=True)
     if deep.min() != layers(centres[:, 2]).max() + 1 or abs(up[2]) > SAME:
-        raise CaseError("run.metrics holds bubble, which is of a plane bed: in 2-D, or a slab with cells in columns along z and gravity across them; leave it out")
+        plane = "in 2-D, or a slab with cells in columns along z and gravity across them"
+        raise CaseError(f"run.metrics holds bubble, which is of a plane bed: {plane}; leave it out")
     whole = np.bincount(column, volumes)
     return centres[first], whole / depth, *(np.bincount(column, volumes * field) / whole for field in fields)
 
@@ -81,13 +82,14 @@ def largest_void(centres, rows: Rows, alpha_p) -> np.ndarray:
 def neighbours(centres) -> np.ndarray:
     """(P, 2) cells of a plane mesh that lie side by side.
 
-    On a grid they share a face. Of other cells only the centres are known: two are neighbours where no third centre lies
-    in the circle between them (graph of Gabriel & Sokal, Syst. Zool. 18, 259, 1969), which on a grid is the same.
+    On a grid they share a face. Of other cells only the centres are known: two are neighbours where no third centre
+    lies in the circle between them (graph of Gabriel & Sokal, Syst. Zool. 18, 259, 1969), which on a grid is the same.
     """
     order, shape = rows_of(centres)
     if math.prod(shape) == len(centres):
         grid = order.reshape(shape)
-        return np.concatenate([np.stack((a.ravel(), b.ravel()), axis=1) for a, b in ((grid[1:], grid[:-1]), (grid[:, 1:], grid[:, :-1]))])
+        pairs = ((grid[1:], grid[:-1]), (grid[:, 1:], grid[:, :-1]))
+        return np.concatenate([np.stack((a.ravel(), b.ravel()), axis=1) for a, b in pairs])
     from scipy.spatial import Delaunay, cKDTree
 
     plane = centres[:, :2]

@@ -1,4 +1,7 @@
-"""What a column of grains that gas blows through evenly is like: pressure drop, Ergun's, weight, motion. Up is against gravity."""
+"""Metrics of a column of grains that gas blows through evenly: pressure drop, Ergun's, weight, motion.
+
+Up is against gravity.
+"""
 
 from __future__ import annotations
 
@@ -15,8 +18,8 @@ INSIDE = (0.15, 0.75)  # of the bed's height: away from floor and surface
 
 def metrics(simulation) -> dict[str, float]:
     """pressure_drop_Pa from floor to top; ergun_Pa, what Ergun says of every row at the gas flux of now; weight_Pa of
-    the grains in gas over the floor; gradient_Pa_m of the pressure inside the bed, and alpha_p there (nan where fewer than
-    two rows lie inside); speeds [m/s] of the grains; their fractions."""
+    the grains in gas over the floor; gradient_Pa_m of the pressure inside the bed, and alpha_p there (nan where fewer
+    than two rows lie inside); speeds [m/s] of the grains; their fractions."""
     case, mesh, fields = simulation.case, simulation.gas.mesh, simulation.cell_fields()
     up = upwards(case, "column")
     rows, mass = Rows(mesh, up), simulation.state.mass

@@ -44,21 +44,23 @@ def upwards(case, metric: str) -> np.ndarray:
     """(3,) unit vector against gravity, for a metric that asks what is up."""
     gravity = np.array([*case.domain.gravity, 0.0][:3])
     if not gravity.any():
-        raise CaseError(f"run.metrics holds {metric}, but domain.gravity_m_s2 = {list(case.domain.gravity)} tells of no way up; give gravity, or leave {metric} out")
+        given = f"domain.gravity_m_s2 = {list(case.domain.gravity)}"
+        raise CaseError(f"run.metrics holds {metric}, but {given} tells of no way up; give gravity, or leave {metric} out")
     return -gravity / np.linalg.norm(gravity)
 
 
 class Rows:
-    """Cells of any mesh sorted by height along `up` (3,): `own` (C,) is the row of each cell, `above` (C,) [m] its height over
-    the floor; place over the floor and height (R,) [m] of each row, which may differ; `floor` and `top` [m], the place of
-    the floor along `up` and the height of the vessel. Two rows that touch are taken to be equally wide."""
+    """Cells of any mesh sorted by height along `up` (3,): `own` (C,) is the row of each cell, `above` (C,) [m] its height
+    over the floor; place over the floor and height (R,) [m] of each row, which may differ; `floor` and `top` [m], the
+    place of the floor along `up` and the height of the vessel. Two rows that touch are taken to be equally wide."""
 
     def __init__(self, mesh, up):
         along = mesh.centres @ np.asarray(up)
         self.own, self.volumes = _rows(along, mesh), mesh.volumes
         whole = np.bincount(self.own, self.volumes)
         if len(whole) < 2:
-            raise CaseError("run.metrics asks for what changes with height, but the gas has one row of cells; make them smaller, or leave it out")
+            what = "run.metrics asks for what changes with height"
+            raise CaseError(f"{what}, but the gas has one row of cells; make them smaller, or leave it out")
         place = self.mean(along)
         apart = 2.0 * np.diff(place) / (whole[1:] + whole[:-1])  # height over volume of the two rows
         self.height = whole * np.concatenate((apart[:1], 0.5 * (apart[1:] + apart[:-1]), apart[-1:]))

@@ -49,14 +49,15 @@ def test_a_slab_has_the_bubble_of_its_mean():
 
 
 def tapered(middle, radius, cut):
-    """The bed of `bed` in a vessel that is 0.3 m wide below and 0.5 m above, its cells cut into two triangles where `cut`."""
+    """The bed of `bed` in a vessel 0.3 m wide below and 0.5 m above, its cells cut into two triangles where `cut`."""
     ticks = [np.arange(round(length / CELL) + 1) * CELL for length in SIZE]
     x, y = np.meshgrid(*ticks, indexing="ij")
     corners = np.stack((0.25 + (x - 0.25) * (0.6 + 0.4 * y), y), axis=2)
     a, b, c, d = corners[:-1, :-1], corners[1:, :-1], corners[1:, 1:], corners[:-1, 1:]
     shapes = [(a, b, c), (a, c, d)] if cut else [(a, b, c, d)]
     centres = np.concatenate([np.mean(shape, axis=0).reshape(-1, 2) for shape in shapes])
-    area = np.concatenate([0.5 * abs(sum(np.linalg.det(np.stack(e, axis=-1)) for e in zip(s, s[1:] + s[:1]))).ravel() for s in shapes])
+    rings = [list(zip(shape, shape[1:] + shape[:1])) for shape in shapes]
+    area = np.concatenate([0.5 * abs(sum(np.linalg.det(np.stack(edge, axis=-1)) for edge in ring)).ravel() for ring in rings])
     inside = np.hypot(centres[:, 0] - middle[0], centres[:, 1] - middle[1]) < radius
     alpha_p = np.where(inside | (centres[:, 1] > 0.6), 0.0, 0.6)
     return np.pad(centres, ((0, 0), (0, 1))), area, alpha_p, 288.0 + 50.0 * inside, 9e3 * (1.0 - centres[:, 1])
@@ -66,7 +67,7 @@ def tapered(middle, radius, cut):
 def test_any_cells_have_a_bubble(cut):
     found = bubble.metrics(*tapered((0.25, 0.3), 0.1, cut))
     assert found["bubble_area_m2"] == pytest.approx(np.pi * 0.01, rel=0.02)
-    assert found["bubble_centroid_m"] == pytest.approx(0.3, abs=0.2 * CELL)  # centres alone do not tell where the floor is
+    assert found["bubble_centroid_m"] == pytest.approx(0.3, abs=0.2 * CELL)  # centres do not tell where the floor is
     assert found["attached"] == 0.0
     assert found["bed_height_m"] == pytest.approx(0.6, abs=CELL)
     assert found["pressure_drop_Pa"] == pytest.approx(9e3 * (SIZE[1] - CELL), rel=0.01)
@@ -81,13 +82,15 @@ def test_two_voids_that_touch_at_a_corner_are_two():
     holed = np.ones(len(centres), bool)
     holed[-1] = False  # a grid with a hole is none, and takes the other way
     found = bubble.neighbours(centres[holed])
-    assert {frozenset(pair) for pair in found.tolist()} == {frozenset(pair) for pair in grid.tolist() if len(centres) - 1 not in pair}
+    expected = {frozenset(pair) for pair in grid.tolist() if len(centres) - 1 not in pair}
+    assert {frozenset(pair) for pair in found.tolist()} == expected
 
 
 def test_up_is_not_always_y():
     upright = bubble.metrics(*bed((0.25, 0.3), 0.1))
     centres, *rest = bed((0.25, 0.3), 0.1)
-    assert bubble.metrics(centres[:, [1, 0, 2]] * [-1, 1, 1], *rest, up=(-1.0, 0.0, 0.0)) == pytest.approx(upright, rel=1e-9)
+    turned = bubble.metrics(centres[:, [1, 0, 2]] * [-1, 1, 1], *rest, up=(-1.0, 0.0, 0.0))
+    assert turned == pytest.approx(upright, rel=1e-9)
 
 
 def test_a_vessel_that_is_no_slab_is_refused():

@@ -27,12 +27,12 @@ def vessel(axis, sense):
     table = tomllib.loads((scenes.HERE / "bubbling_bed_3d" / "case.toml").read_text())
     lower, upper = (0.0, BED) if sense > 0 else (LENGTH - BED, LENGTH)
     floor, lid = SIDES[axis][::sense]
-    bed = {"shape": "box", "lower_m": along(lower), "upper_m": along(upper, WIDTH), "volume_fraction": 0.6, "temperature_K": 288.0}
+    bed = {"shape": "box", "lower_m": along(lower), "upper_m": along(upper, WIDTH)}
     return cases.from_table(table | {
         "run": {"end_time_s": 1e-3, "output_interval_s": 1e-3},
         "domain": {"size_m": along(LENGTH, WIDTH), "gravity_m_s2": along(-sense * GRAVITY)},
         "resolution": {"spacing_mm": 10.0, "cell_mm": 20.0},
-        "particles": {"bed": bed},
+        "particles": {"bed": bed | {"volume_fraction": 0.6, "temperature_K": 288.0}},
         "boundaries": {
             "inlet": {"kind": "velocity_inlet", "side": floor, "velocity_m_s": along(sense * SPEED)},
             "outlet": {"kind": "pressure_outlet", "side": lid, "pressure_Pa": 0.0},

@@ -1,4 +1,4 @@
-"""Meshes that a user brings: an O-grid cylinder, a sheared box and a plane taper for blockMesh, and tetrahedra as a polyMesh folder."""
+"""Meshes that a user brings: cylinder, sheared box and plane taper for blockMesh, tetrahedra as a polyMesh folder."""
 
 import itertools
 from math import cos, pi, sin
@@ -7,18 +7,19 @@ import numpy as np
 
 HEAD = "FoamFile {{ version 2.0; format ascii; class {cls}; object {name}; }}\n"
 TYPES = {"wall": "wall", "frontAndBack": "empty"}
-BOX = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3))  # of a box, bit k: upper along axis k
+# faces of a box, bit k of a corner: upper along axis k
+BOX = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3))
 
 
 def cylinder(radius: float, height: float, across: int, along: int) -> str:
-    """blockMeshDict of a cylinder that stands along z on (radius, radius, 0): a square core of `across` x `across` cells and
-    four blocks around it; patches inlet (below), outlet (above) and wall. 16 degrees off orthogonal."""
+    """blockMeshDict of a cylinder that stands along z on (radius, radius, 0): a square core of `across` x `across` cells
+    and four blocks around it; patches inlet (below), outlet (above) and wall. 16 degrees off orthogonal."""
     ring = [(r * cos(a), r * sin(a)) for r in (0.55 * radius, radius) for a in pi * np.array([0.25, 0.75, 1.25, 1.75])]
     points = [(radius + x, radius + y, z) for z in (0.0, height) for x, y in ring]
     quads = [(0, 1, 2, 3), *((4 + k, 4 + (k + 1) % 4, (k + 1) % 4, k) for k in range(4))]
     around = max(2, across // 2)
     counts = [(across, across, along), *[(across, around, along)] * 4]
-    hexes = "".join(f"    hex ({_words([*q, *(8 + v for v in q)])}) ({_words(c)}) simpleGrading (1 1 1)\n" for q, c in zip(quads, counts))
+    hexes = "".join(_hex([*quad, *(8 + v for v in quad)], count) for quad, count in zip(quads, counts))
     arcs = "".join(_arc(z, k, radius) for z in (0, 1) for k in range(4))
     faces = {
         "inlet": [tuple(reversed(quad)) for quad in quads],
@@ -38,7 +39,7 @@ def _arc(upper: int, k: int, radius: float) -> str:
 def sheared_box(size: float, cells: int) -> str:
     """blockMeshDict of a cube that is pushed over along x and y; one patch, `all`."""
     points = [(size * (x + 0.4 * y + 0.3 * z), size * (y + 0.2 * z), size * z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
-    hexes = f"    hex (0 1 3 2 4 5 7 6) ({cells} {cells} {cells}) simpleGrading (1 1 1)\n"
+    hexes = _hex((0, 1, 3, 2, 4, 5, 7, 6), [cells] * 3)
     return _block_mesh(points, hexes, {"all": BOX}, "")
 
 
@@ -46,7 +47,7 @@ def taper(floor: float, lid: float, height: float, across: int, along: int) -> s
     """blockMeshDict of a plane vessel, `floor` [m] wide below and `lid` above; patches inlet, outlet and wall."""
     widths = [0.5 * (lid - floor), 0.5 * (lid + floor), 0.0, lid]
     points = [(x, y, z) for z in (0.0, 1.0) for x, y in zip(widths, (0.0, 0.0, height, height))]
-    hexes = f"    hex (0 1 3 2 4 5 7 6) ({across} {along} 1) simpleGrading (1 1 1)\n"
+    hexes = _hex((0, 1, 3, 2, 4, 5, 7, 6), (across, along, 1))
     faces = {"frontAndBack": BOX[:2], "wall": BOX[2:4], "inlet": BOX[4:5], "outlet": BOX[5:]}
     return _block_mesh(points, hexes, faces, "")
 
@@ -61,13 +62,17 @@ def _block_mesh(points, hexes: str, patches, edges: str) -> str:
     return f"{head}scale 1;\nvertices\n(\n{vertices});\nblocks\n(\n{hexes});\nedges\n(\n{edges});\nboundary\n(\n{boundary});\n"
 
 
+def _hex(corners, counts) -> str:
+    return f"    hex ({_words(corners)}) ({_words(counts)}) simpleGrading (1 1 1)\n"
+
+
 def _words(values) -> str:
     return " ".join(repr(value) if isinstance(value, float) else str(value) for value in values)
 
 
 def write_tetrahedra(folder, size: float, cells: int) -> None:
-    """constant/polyMesh of a cube of cells^3 cubes, each cut into six tetrahedra; points off the sides are moved at random.
-    One patch, `all`."""
+    """constant/polyMesh of a cube of cells^3 cubes, each cut into six tetrahedra; points off the sides are moved at
+    random. One patch, `all`."""
     grid = np.linspace(0.0, 1.0, cells + 1)
     points = np.stack(np.meshgrid(grid, grid, grid, indexing="ij"), axis=-1).reshape(-1, 3)
     inner = ((points > 0.0) & (points < 1.0)).all(axis=1)

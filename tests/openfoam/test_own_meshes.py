@@ -35,7 +35,7 @@ def put_tetrahedra(folder):
 
 @pytest.mark.parametrize("put_mesh", [put_cylinder, put_sheared_box, put_tetrahedra])
 def test_uniform_flow_stays_uniform(tmp_path, put_mesh):
-    """Cells get their velocity back from the fluxes through their faces: of a uniform flow to round-off, whatever their shape."""
+    """Cells get their velocity back from the fluxes of their faces: of a uniform flow to round-off, whatever their shape."""
     own = template(tmp_path)
     patches, volume = put_mesh(own)
     put_velocity(own, {name: fixed(VELOCITY) for name in patches}, VELOCITY)
@@ -58,8 +58,9 @@ def put_velocity(folder, patches, inside) -> None:
     """The start field 0/U: `patches` name -> boundary condition."""
     (folder / "0").mkdir()
     rows = "".join(f"    {name} {{ {condition} }}\n" for name, condition in patches.items())
-    field = f"dimensions [0 1 -1 0 0 0 0];\ninternalField uniform ({' '.join(map(str, inside))});\nboundaryField\n{{\n{rows}}}\n"
-    (folder / "0" / "U").write_text(own_meshes.HEAD.format(cls="volVectorField", name="U") + field)
+    head = own_meshes.HEAD.format(cls="volVectorField", name="U") + "dimensions [0 1 -1 0 0 0 0];\n"
+    value = f"uniform ({' '.join(map(str, inside))})"
+    (folder / "0" / "U").write_text(f"{head}internalField {value};\nboundaryField\n{{\n{rows}}}\n")
 
 
 def round_vessel(folder, metrics):
@@ -72,10 +73,11 @@ def round_vessel(folder, metrics):
     case["run"] = {"end_time_s": 0.01, "output_interval_s": 0.01, "metrics": metrics}
     case["domain"] = {"size_m": [0.2, 0.2, 0.4], "gravity_m_s2": [0.0, 0.0, -9.81]}
     case["resolution"] = {"spacing_mm": 10.0, "cell_mm": 20.0}
-    bed = {"shape": "box", "lower_m": [0.06, 0.06, 0.0], "upper_m": [0.14, 0.14, 0.06], "volume_fraction": 0.6}
-    case["particles"] = {"bed": bed | {"temperature_K": 350.0}}
+    place = {"shape": "box", "lower_m": [0.06, 0.06, 0.0], "upper_m": [0.14, 0.14, 0.06]}
+    case["particles"] = {"bed": place | {"volume_fraction": 0.6, "temperature_K": 350.0}}
     inlet = {"kind": "velocity_inlet", "side": "back", "velocity_m_s": [0.0, 0.0, 0.3]}
-    case["boundaries"] = {"inlet": inlet, "outlet": {"kind": "pressure_outlet", "side": "front"}, "wall": {"kind": "wall"}}
+    outlet = {"kind": "pressure_outlet", "side": "front"}
+    case["boundaries"] = {"inlet": inlet, "outlet": outlet, "wall": {"kind": "wall"}}
     (folder / "case.toml").write_text(tomli_w.dumps(case))
     return folder
 
@@ -89,7 +91,7 @@ def test_bed_in_a_round_vessel(tmp_path, capsys):
     assert len(drifts) >= 5 and max(drifts.values()) < 1e-8, drifts
     assert summary["heat_exchanged_J"] > 1.0
     _, _, gas = view.state_at(view.read(out), 0.01)
-    assert 0.3 < np.linalg.norm(gas.cell_data["velocity"], axis=1).max() < 3.0  # comes in with 0.3 m/s, through half of the floor
+    assert 0.3 < np.linalg.norm(gas.cell_data["velocity"], axis=1).max() < 3.0  # comes in with 0.3 m/s, round the bed
     mass = 0.6 * 3060.0 * 0.08 * 0.08 * 0.06
     weight = mass * (1.0 - 1.225 / 3060.0) * 9.81 / (np.pi * 0.1**2)
     assert summary["weight_Pa"] == pytest.approx(weight, rel=0.03)  # chords for the arcs
@@ -116,7 +118,8 @@ def test_bubble_in_a_tapered_vessel(tmp_path, capsys):
     case["particles"]["bed"] |= {"lower_m": [0.1, 0.0], "upper_m": [0.3, 0.2]}
     case["probes"], case["track"] = {}, {}
     inlet = {"kind": "velocity_inlet", "side": "bottom", "velocity_m_s": [0.0, 0.3]}
-    case["boundaries"] = {"inlet": inlet, "outlet": {"kind": "pressure_outlet", "side": "top"}, "wall": {"kind": "wall"}}
+    outlet = {"kind": "pressure_outlet", "side": "top"}
+    case["boundaries"] = {"inlet": inlet, "outlet": outlet, "wall": {"kind": "wall"}}
     (vessel / "case.toml").write_text(tomli_w.dumps(case))
     assert main(["run", str(vessel), "--gas", "openfoam", "--out", str(out)]) == 0, capsys.readouterr().err
     summary = json.loads((out / "summary.json").read_text())

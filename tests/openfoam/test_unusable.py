@@ -1,4 +1,4 @@
-"""OpenFOAM that is found but cannot be used: `auto` takes the embedded gas and says why in one line, `openfoam` is an error.
+"""OpenFOAM that is found but cannot be used: `auto` takes the embedded gas in one line, `openfoam` is an error.
 
 A comparator that cannot run is one line too, and no reason for `make demo` to fail.
 """
@@ -66,27 +66,30 @@ def test_programs_that_abort(tmp_path, tools, capsys):
     replace(tools / "blockMesh", "echo 'error in IOstream sha1'; kill -ABRT $$")
     assert main([*SHORT, "--out", str(tmp_path / "auto")]) == 0
     lines = said(capsys)
-    assert len(lines) == 1 and "OpenFOAM cannot be used: blockMesh" in lines[0] and "IOstream sha1" in lines[0] and INSTEAD in lines[0]
+    assert len(lines) == 1 and "OpenFOAM cannot be used: blockMesh" in lines[0]
+    assert "IOstream sha1" in lines[0] and INSTEAD in lines[0]
     assert main([*SHORT, "--gas", "openfoam", "--out", str(tmp_path / "openfoam")]) == 3
     assert "IOstream sha1" in said(capsys)[-1]
     assert main(["run", "--resume", str(tmp_path / "auto"), "--until", "2e-4"]) == 0  # by the solver that it began with
 
 
-def own_case(folder, block_mesh: str):
+def own_case(folder, more: str = ""):
+    """The command that runs a case with a blockMeshDict of its own, which is none."""
     assert main(["init", "disc_cluster", str(folder)]) == 0
-    (folder / "gas" / "system" / "blockMeshDict").write_text(block_mesh)
+    head = "FoamFile { version 2.0; format ascii; class dictionary; object blockMeshDict; }"
+    (folder / "gas" / "system" / "blockMeshDict").write_text(f"{head}{more}")
     return ("run", str(folder), "--until", "1e-4")
 
 
 def test_a_mesh_that_only_openfoam_reads_is_not_left_out(tmp_path, tools, capsys):
-    case = own_case(tmp_path / "case", "FoamFile { version 2.0; format ascii; class dictionary; object blockMeshDict; }")
+    case = own_case(tmp_path / "case")
     replace(tools / "blockMesh", "exit 1")
     assert main([*case, "--out", str(tmp_path / "out")]) == 3
     assert "is a mesh that only OpenFOAM reads" in said(capsys)[-1]
 
 
 def test_a_case_that_is_wrong_is_not_taken_for_openfoam_that_is(tmp_path, tools, capsys):
-    case = own_case(tmp_path / "case", "FoamFile { version 2.0; format ascii; class dictionary; object blockMeshDict; } vertices 5;")
+    case = own_case(tmp_path / "case", " vertices 5;")
     assert main([*case, "--out", str(tmp_path / "out")]) == 3
     lines = said(capsys)
     assert lines[-1].startswith("sdph: blockMesh failed") and not any(INSTEAD in line for line in lines)
@@ -114,7 +117,7 @@ def test_a_comparator_that_aborts(tmp_path, monkeypatch, capsys):
 
 @pytest.mark.parametrize("code, fine", [(0, True), (3, True), (1, False), (2, False)])
 def test_demo_goes_on_without_a_comparator(tmp_path, code, fine):
-    """The recipe of the Makefile, with a program in place of sdph that ends as `compare` does where the two fluids do not run."""
+    """The recipe of the Makefile, with a program in place of sdph that ends as `compare` does where no two fluids run."""
     venv = tmp_path / "venv"
     (venv / "bin").mkdir(parents=True)
     (venv / "bin" / "sdph").touch()
