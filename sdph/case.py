@@ -212,7 +212,9 @@ def _check(case: Case) -> None:
     for name, region in case.particles.items():
         _check_region(case, name, region)
     for name, probe in case.probes.items():
-        _inside(case, f"probes.{name}", probe.at, probe.at)
+        checks.probe(case, f"probes.{name}", probe)
+    for name, nozzle in case.nozzles.items():
+        checks.mouth(case, f"nozzles.{name}", nozzle)
     checks.columns_of_history(case)
 
 
@@ -282,13 +284,7 @@ def _check_region(case: Case, name: str, region: Region) -> None:
         raise CaseError(f"{given}; grains pack to grains.packing_limit = {case.grains.packing_limit:g} at most: lower the one or raise the other")
     box = region.shape == "box"
     lower = region.lower if box else [c - region.radius for c in region.centre]
-    _inside(case, f"particles.{name}", lower, region.upper if box else [c + region.radius for c in region.centre])
-
-
-def _inside(case: Case, key: str, lower, upper) -> None:
-    slack = SAME * max(case.domain.size)  # of centre plus radius
-    if any(a < -slack or b > length + slack for a, b, length in zip(lower, upper, case.domain.size)):
-        raise CaseError(f"{key} reaches out of the domain, domain.size_m = {list(case.domain.size)}; move it or enlarge the domain")
+    checks.inside(case, f"particles.{name}", lower, region.upper if box else [c + region.radius for c in region.centre])
 
 
 def to_table(case: Case) -> dict:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 
 from sdph.engine.geometry import SIDES
@@ -29,6 +30,30 @@ def flow(case, where: str, pool) -> None:
         raise CaseError(f"{where}.flow = {pool.flow!r} is that of a box; shape = {pool.shape!r}")
     if pool.flow in OF_PLANE and case.dimensions != 2:
         raise CaseError(f"{where}.flow = {pool.flow!r} is known in two dimensions; dimensions = {case.dimensions}")
+
+
+def probe(case, where: str, own) -> None:
+    """A probe lies in the domain, and in a gas: a liquid has no temperature to follow."""
+    if case.liquid:
+        raise CaseError(f"[{where}] follows temperatures of grains and gas, and the case is of a liquid; leave it out")
+    inside(case, where, own.at, own.at)
+
+
+def mouth(case, where: str, nozzle) -> None:
+    """The middle of a nozzle's mouth lies in the domain, and so does what lies half a spacing ahead of it."""
+    if len(nozzle.centre) != case.dimensions or len(nozzle.direction) != case.dimensions:
+        return  # the effect says so
+    inside(case, f"{where}.centre_m = {list(nozzle.centre)}", nozzle.centre, nozzle.centre)
+    length = max(math.hypot(*nozzle.direction), math.ulp(0.0))
+    ahead = [c + 0.5 * case.resolution.spacing * a / length for c, a in zip(nozzle.centre, nozzle.direction)]
+    inside(case, f"{where}.direction = {list(nozzle.direction)} at centre_m = {list(nozzle.centre)}", ahead, ahead)
+
+
+def inside(case, key: str, lower, upper) -> None:
+    """What a key places between two corners lies in the domain."""
+    slack = SAME * max(case.domain.size)  # of centre plus radius
+    if any(a < -slack or b > length + slack for a, b, length in zip(lower, upper, case.domain.size)):
+        raise CaseError(f"{key} reaches out of the domain, domain.size_m = {list(case.domain.size)}; move it or enlarge the domain")
 
 
 def side(case, where: str, boundary) -> None:

@@ -74,6 +74,8 @@ def _filled(case, name: str, pool, below: float):
         raise CaseError(f"pools.{name}.fill = {pool.fill:g}; the pools before it fill the tank up to {below:g}: give it more, or name it first")
     shape, along = tank.shape_of(case), pull(case)
     inside = shape.tank if isinstance(shape, shapes.Joined) else shape
+    if (pool.fill - below) * inside.volume < 0.5 * case.resolution.spacing**case.dimensions:
+        raise CaseError(f"pools: fill = {pool.fill:g} is less than half a particle of the tank; fill it more, or give a smaller spacing_mm")
     up = -along / np.linalg.norm(along) if along.any() else np.eye(case.dimensions)[-1]
     low, high = levels(inside, up, (below, pool.fill), case.resolution.spacing)
     if isinstance(inside, shapes.Box) and np.abs(up).max() == 1.0:
@@ -136,8 +138,6 @@ def fill(case, pool: Filled) -> np.ndarray:
     points, layer = lattice(shape, pool.inside, slab, spacing, reach)
     from_tank, from_slab = pool.inside.distance(points), slab.beyond(points)
     wet = _deepest(np.maximum(from_tank, from_slab), (slab.fill - slab.below) * pool.inside.volume, spacing, len(slab.up))
-    if not len(wet):
-        raise CaseError(f"pools: fill = {slab.fill:g} is less than half a particle of the tank; fill it more, or give a smaller spacing_mm")
     if isinstance(shape, shapes.Joined) and not slab.below:
         outside = np.maximum(np.maximum(shape.pipe.distance(points), -from_tank), from_slab)
         outside[wet] = np.inf

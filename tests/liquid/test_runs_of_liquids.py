@@ -78,10 +78,9 @@ def test_a_run_goes_on_past_an_end_that_is_a_landmark_but_for_round_off(tmp_path
     assert len(set(instants)) == len(instants) == count + 2
 
 
-@pytest.mark.parametrize("absurd", ["run.step_factor=1e-6", "liquid.courant=1e-12"])
-def test_an_absurd_limit_ends_with_its_name(tmp_path, absurd):
+def test_an_absurd_limit_ends_with_its_name(tmp_path):
     with pytest.raises(Stalled, match="the step's limit 'sound'"):
-        start(tmp_path / "run", more=(absurd, "liquid.sound_speed_m_s=1e5"))
+        start(tmp_path / "run", more=("run.step_factor=1e-6", "liquid.courant=1e-6"))
 
 
 @pytest.mark.parametrize("scene", COARSE)
