@@ -95,11 +95,12 @@ class GasState:
     budget: Budget
 
 
-def refuse_full_cells(alpha_g: np.ndarray) -> None:
-    """`Unfinished` where the voidage (C,) leaves the gas no room."""
+def refuse_full_cells(alpha_g: np.ndarray, centres: np.ndarray) -> None:
+    """`Unfinished` where the voidage (C,) leaves the gas no room; `centres` (C, d) [m] of the cells."""
     if not alpha_g.min() > 0.0:
         cell = int(np.argmin(alpha_g))
-        raise Unfinished(f"alpha_g = {alpha_g[cell]:g} in cell {cell}; the gas needs some room: the cell is over-packed")
+        place = ", ".join(f"{a:.4g}" for a in centres[cell])
+        raise Unfinished(f"alpha_g is {alpha_g[cell]:g} in cell {cell} at ({place}) m; the gas needs some room: the cell is over-packed")
 
 
 class Gas(Protocol):

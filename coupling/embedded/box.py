@@ -114,7 +114,7 @@ def window_of(box: Box, flow: Flow, dt: float, sources: dict[str, np.ndarray]) -
         return np.stack(each) if given else grid.zeros(grid.dimensions)
 
     alpha = grid.extended(grid.padded(sources["alpha_g"])) if "alpha_g" in sources else flow.alpha
-    refuse_full_cells(alpha[grid.cells])
+    refuse_full_cells(alpha[grid.cells], grid.centres)
     return Window(
         dt=dt, alpha=alpha, pull=total("drag", "vapour"), vapour=total("vapour"), cling=total("heat"),
         push=total_vector("drag_velocity", "vapour_momentum"), warmth=total("heat_temperature", "heat_source", "vapour_enthalpy"),

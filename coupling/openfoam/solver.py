@@ -128,7 +128,7 @@ class OpenFoamGas:
     def advance(self, dt: float, sources: dict[str, np.ndarray]) -> GasState:
         """See `Gas.advance`."""
         if "alpha_g" in sources:
-            refuse_full_cells(sources["alpha_g"])
+            refuse_full_cells(sources["alpha_g"], self.mesh.centres)
         units = {name: SOURCES[name][0] for name in sources} | {"dt": "s"}
         return self._ask(Message(Kind.ADVANCE, {"dt": float(dt), "write": self._clock.writes(self._time + dt), **sources}, units))
 

@@ -171,7 +171,7 @@ def test_what_cannot_be_run_says_so(tmp_path):
     with pytest.raises(CaseError, match="no OpenFOAM reference of kind 'dpm'"):
         comparators.template(disc(), "dpm")
     (tmp_path / "empty").mkdir()
-    with pytest.raises(GasError, match="blockMesh failed.*log"):
+    with pytest.raises(GasError, match="blockMesh ended with code 1.*log"):
         programs.run(["blockMesh"], tmp_path / "empty", tmp_path / "log.blockMesh")
 
 
