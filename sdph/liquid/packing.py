@@ -3,8 +3,8 @@
 dv/dt = -2 sum V_j grad W is what one pressure rho c^2 everywhere does to them where c = 1: it vanishes where the kernel's sums are
 even (Colagrossi, Bouscasse, Antuono & Marrone 2012, Comput. Phys. Commun. 183, 1641). When they begin to go against it they are
 stopped (kinetic damping, Cundall 1976), which needs no coefficient. They have the kernel and the Courant number of the run, go on
-until sound has crossed them, stay in the tank, and keep off the particles of its walls as far as those hold liquid off in the run
-(`held_off` in sdph.liquid.pairs).
+until sound has crossed them, and keep off the particles of walls as far as those hold liquid off in the run (`held_off` in
+sdph.liquid.pairs).
 """
 
 from __future__ import annotations
@@ -23,16 +23,12 @@ from sdph.neighbours import length
 from sdph.particles import WALL
 
 
-SMALL = 1e-3  # of a spacing: over which the direction towards a wall is measured; our choice
-
-
 def pack(case, points, walls, lid, slab) -> np.ndarray:
     """(N, d) where `points` (N, d) come to lie within a slab, among walls and a lid of more of the same, which stand still."""
     kernel = smoothing.smoothing(case.liquid.kernel, case.dimensions, case.smoothing_length)
-    shape, near = tank.shape_of(case), 1.0 / tank.kernel(case).near
     period = [length * bool(on) for length, on in zip(case.domain.size, case.liquid.periodic or (0.0,) * case.dimensions)]
     neighbours = LiquidNeighbours(2.0 * kernel.h, period, case.resolution.neighbour_skin)
-    state, dt = _state(case, points, walls, lid), case.liquid.courant * kernel.h
+    state, dt, near = _state(case, points, walls, lid), case.liquid.courant * kernel.h, 1.0 / tank.kernel(case).near
     for _ in range(math.ceil(np.ptp(points, axis=0).max() / dt)):
         state, rows = neighbours.update(state)
         active = np.flatnonzero(state.kind == LIQUID).astype(np.int32)
@@ -40,10 +36,8 @@ def pack(case, points, walls, lid, slab) -> np.ndarray:
         spread(kernel, state, rows, neighbours.box, active, acceleration)
         _go(state, active, acceleration, dt)
         _move(state, active, slab.back(_places(state)[active]))
-        least = np.full(len(state.x), np.inf)
-        clear(state, rows, neighbours.box, active, near, way, least)
+        clear(state, rows, neighbours.box, active, near, way)
         _move(state, active, way[active])
-        _return(state, np.flatnonzero(least < case.resolution.spacing), shape, SMALL * case.resolution.spacing)
     return _places(state)[np.argsort(state.ident)[: len(points)]]
 
 
@@ -66,23 +60,21 @@ def spread(kernel, s, rows, box, active, acceleration):
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def clear(s, rows, box, active, near, way, least):
-    """way (N, 3) [m] of particles to where they are `near` [m] away from the wall particles that are nearer; least distance (N,) [m]."""
+def clear(s, rows, box, active, near, way):
+    """way (N, 3) [m] of particles to where they are `near` [m] away from the wall particles that are nearer."""
     for n in prange(len(active)):
         i = active[n]
-        px, py, pz, closest = 0.0, 0.0, 0.0, np.inf
+        px = py = pz = 0.0
         for k in range(rows.count[i]):
             j = rows.index[rows.start[i] + k]
             if s.kind[j] == WALL:
                 dx, dy, dz = apart(s, box, i, j)
                 r = np.sqrt(dx * dx + dy * dy + dz * dz)
-                closest = min(closest, r)
                 share = max(near / (r + smoothing.TINY) - 1.0, 0.0)
                 px += share * dx
                 py += share * dy
                 pz += share * dz
         way[i, 0], way[i, 1], way[i, 2] = px, py, pz
-        least[i] = closest
 
 
 def _state(case, points, walls, lid) -> particles.State:
@@ -115,14 +107,3 @@ def _move(state, rows, way) -> None:
     """Adds way (R, d or 3) [m] to the places of some particles."""
     for axis, part in zip(particles.axes(state), way.T):
         axis[rows] += part
-
-
-def _return(state, near, shape, step: float) -> None:
-    """Puts those of the particles `near` the walls that have left a shape back onto its surface."""
-    places = _places(state)[near]
-    beyond = shape.distance(places) if len(near) else np.zeros(0)
-    gone, beyond = near[beyond > 0.0], beyond[beyond > 0.0]
-    if len(gone):
-        sides = [shape.distance(_places(state)[gone] + shift) for shift in np.concatenate([np.eye(places.shape[1]), -np.eye(places.shape[1])]) * step]
-        slope = (np.array(sides[: places.shape[1]]) - np.array(sides[places.shape[1] :])).T / (2.0 * step)
-        _move(state, gone, -beyond[:, None] * slope)

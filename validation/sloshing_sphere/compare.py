@@ -36,7 +36,7 @@ def exact(run) -> list[dict]:
     own_x = _smooth(force[shaken, 0], 0.2 / np.diff(time).mean())
     peak = np.abs(np.interp(time, linear["t"], linear["Fx_N"])).max()
     checks.append(check("peak of F_x, filtered over 0.2 s [N]", np.abs(own_x).max(), peak, LINEAR, True))
-    weight = np.interp(time, linear["t"], linear["Fz_static_N"])
+    weight = h["mass_kg"][shaken] * run.case.domain.gravity[2]  # with that in the pipe, 6.5 kg of 156 at the start, which the estimate leaves out
     checks.append(check("mean F_z over the weight", force[shaken, 2].mean() / weight.mean(), 1.0, 0.05))
     return checks
 
