@@ -115,7 +115,8 @@ class Guard(Watch):
         bounds |= dict.fromkeys(("diameter_variance", "born_variance", "lost_still", "lost_moving"), zero_on)
         bounds |= {"mass": (TINY, heaviest), "density": (0.0, DENSE * self.case.grains.density), "evaporating": (0.0, 1.0)}
         bounds |= {"temperature": (self.coldest, self.hottest), "theta": (0.0, (COLLAPSE * self.reach) ** 2)}
-        kinds = [particles.GRAIN, *range(particles.INFLOW, particles.INFLOW + len(self.case.nozzles))]
+        bounds |= {"nozzle": (0, len(self.case.nozzles)), "entering": (0, 1)}
+        kinds = [particles.GRAIN, particles.INFLOW]
         self.admit(state, names, bounds)
         if not np.isin(state["kind"], kinds).all():
             raise Unfit("a particle is neither a grain nor of a nozzle")
