@@ -46,7 +46,7 @@ BOX = ("tank.shape='box'", "tank.lower_m=[0,0,0]", "tank.upper_m=[1,1,1]")
         ("dam_break", ("probes.p.at_m=[0.01,0.01]",), "[probes.p] follows temperatures of grains and gas"),
         ("evaporating_jet", ("nozzles.jet.speed_m_s=1e8", "coupling.window_largest_s=1.0"), "GB are free here"),
         ("evaporating_jet", ("evaporation.saturation='antoine'",), "evaporation.antoine is missing"),
-        ("spray_cone", ("nozzles.cone.across=[0,0,1]", "nozzles.cone.direction=[0,0,2]"), "it must point aside"),
+        ("spray_cone", ("nozzles.cone.across=[0,0,1]", "nozzles.cone.direction=[0,0,-2]"), "it must point aside"),
         ("sloshing_box", ("frame.table='none.csv'",), "frame.table = "),
         ("sloshing_box", ("frame.shake=[[0,[1.0],1.0,0.0]]",), "a row is [axis"),
         ("sloshing_box", ("run.metrics=['bubble']",), "for liquids: none"),

@@ -37,6 +37,8 @@ def _gas(case, template: Path, chosen: str, allow_code: bool) -> None:
         Box(case, build_grid(cell_edges(case)), limited=True)
         return
     from coupling.openfoam.case import write_case
+    from coupling.openfoam.installation import require
 
+    require()
     with tempfile.TemporaryDirectory(prefix="sdph-explain-") as folder:
         write_case(case, template, Path(folder) / "gas", case.coupling.ranks, allow_code)

@@ -92,7 +92,7 @@ def test_a_case_that_is_wrong_is_not_taken_for_openfoam_that_is(tmp_path, tools,
     case = own_case(tmp_path / "case", " vertices 5;")
     assert main([*case, "--out", str(tmp_path / "out")]) == 3
     lines = said(capsys)
-    assert lines[-1].startswith("sdph: blockMesh failed") and not any(INSTEAD in line for line in lines)
+    assert lines[-1].startswith("sdph: blockMesh ended with code 1") and not any(INSTEAD in line for line in lines)
 
 
 def test_a_program_that_is_missing_is_named(tmp_path, tools, capsys):
