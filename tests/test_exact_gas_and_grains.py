@@ -39,7 +39,7 @@ def rates_of(law, viscosity=VISCOSITY):
     return at[0] * both, (at[1] - at[0]) * both
 
 
-CASES = {"linear": ("stokes", drag.stokes, VISCOSITY), "quadratic": ("ergun", drag.ergun, 1e-30), "ergun": ("ergun", drag.ergun, VISCOSITY)}
+CASES = {"linear": ("stokes", drag.stokes, VISCOSITY), "quadratic": ("ergun", drag.ergun, 1e-15), "ergun": ("ergun", drag.ergun, VISCOSITY)}
 
 
 @pytest.mark.parametrize("name", CASES)
