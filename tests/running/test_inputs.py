@@ -127,7 +127,7 @@ def test_a_bad_file_is_one_line_and_leaves_no_folder(refused, tmp_path, command,
 
 
 @pytest.mark.parametrize(
-    ("text", "told"), [(None, "no such file"), ("a,b\n1,2\n", "cannot be read"), (MOTION.splitlines()[0], "two at least")]
+    ("text", "told"), [(None, "no such file"), ("a,b\n1,2\n", "has no column"), (MOTION.splitlines()[0], "two rows at least")]
 )
 def test_a_bad_table_is_one_line_and_leaves_no_folder(refused, tmp_path, text, told):  # noqa: F811
     file = write_case(tmp_path / "mine", LIQUID) / "shapes" / "motion.csv"
