@@ -99,7 +99,7 @@ def test_another_file_is_another_case(tmp_path):
     own = write_case(tmp_path / "mine", GRAINS)
     case = cases.load(own / "case.toml", ("coupling.gas='embedded'", "run.end_time_s=0.001"))
     driver.run(case, "mine", tmp_path / "run", None, Reporter())
-    with pytest.raises(CaseError, match="walls.mesh was inputs/walls.mesh/plate.vtk and is /.*mine/shapes/plate.vtk"):
+    with pytest.raises(CaseError, match="walls.mesh was 'inputs/walls.mesh/plate.vtk' and is '/"):
         driver.resume(tmp_path / "run", (f"walls.mesh={own}/shapes/plate.vtk", "run.end_time_s=0.002"), Reporter())
 
 
