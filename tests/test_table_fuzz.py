@@ -76,7 +76,7 @@ def test_a_harmed_table_of_a_case_is_read_or_refused(tmp_path_factory, data):
     file, begun = tmp_path_factory.getbasetemp() / "motion.csv", time.process_time()
     file.write_bytes(data)
     try:
-        found = frame.motion(frame.Frame(table=str(file)))
+        found = frame.motion(frame.Frame(table=str(file)), 0.0)
     except CaseError as error:
         assert "frame.table" in str(error) and len(str(error).splitlines()) == 1 and len(str(error)) < 600
     else:
@@ -101,5 +101,5 @@ def test_a_harmed_table_of_a_run_is_read_or_refused(tmp_path_factory, data):
 
 def test_the_whole_table_is_read(tmp_path):
     (tmp_path / "motion.csv").write_text(WHOLE)
-    acceleration, omega, _ = frame.motion(frame.Frame(table=str(tmp_path / "motion.csv")))(0.25)
+    acceleration, omega, _ = frame.motion(frame.Frame(table=str(tmp_path / "motion.csv")), 0.5)(0.25)
     assert math.isclose(acceleration[0], 2.5) and math.isclose(omega[2], 0.5)

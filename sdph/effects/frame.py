@@ -13,6 +13,7 @@ from numba import njit
 
 from sdph.effects.effect import Effect, Judgement
 from sdph.engine import table
+from sdph.engine.clock import SAME
 from sdph.schema import CaseError, file, quantity, record, refuse_implausible, vector
 
 COLUMNS = ("time_s", "ax_m_s2", "ay_m_s2", "az_m_s2", "wx_rad_s", "wy_rad_s", "wz_rad_s")
@@ -29,7 +30,7 @@ class Frame:
     shake: tuple = vector("", ())
     turn: tuple = vector("", ())
     spin: tuple = vector("rad_s", (0.0, 0.0, 0.0), components=3)  # constant angular velocity
-    table: str = file()  # CSV file with the columns time_s, ax_m_s2 ... and wx_rad_s ...; linear between its rows
+    table: str = file()  # CSV file: time_s after `start`, ax_m_s2 ... of the origin, wx_rad_s ...; linear between rows, at rest before the first
     start: float = quantity("s", 0.0, least=0.0)  # at rest before: time for the liquid to settle
     end: float | None = quantity("s", None, above=0.0)  # neither accelerated nor turning after
 
@@ -48,10 +49,10 @@ class FrameP(NamedTuple):
     bz: float
 
 
-def motion(own: Frame):
-    """t -> (acceleration (3,), omega (3,), omega_dot (3,)) of the frame, gravity left out."""
+def motion(own: Frame, until: float):
+    """t -> (acceleration (3,), omega (3,), omega_dot (3,)) of the frame, gravity left out, for t to `until` [s] at least."""
     if own.table:
-        return _tabulated(own)
+        return _tabulated(own, until)
     for row in (*own.shake, *own.turn):
         flat = isinstance(row, tuple) and not any(isinstance(value, tuple) for value in row)
         if not flat or len(row) != 4 or row[0] not in (0, 1, 2):
@@ -72,7 +73,7 @@ def motion(own: Frame):
     return at
 
 
-def _tabulated(own: Frame):
+def _tabulated(own: Frame, until: float):
     try:
         lines, columns = table.numbers(Path(own.table), COLUMNS)
         _check_rows(lines, columns)
@@ -81,13 +82,18 @@ def _tabulated(own: Frame):
         raise CaseError(f"frame.table = {own.table!r}: {error}; {needed}") from None
     times, values = columns["time_s"], np.array([columns[name] for name in COLUMNS[1:]])
     slopes = np.diff(values, axis=1) / np.diff(times)
+    last, needed = own.start + times[-1], until if own.end is None else min(until, own.end)
+    if last < needed * (1.0 - SAME):
+        ends = f"frame.table = {own.table!r} ends at {last:g} s and the run at {until:g} s"
+        raise CaseError(f"{ends}; add rows, lower run.end_time_s, or set frame.end_s, from which on the frame is at rest")
 
     def at(time: float):
         t = time - own.start
+        if t < times[0] or (own.end is not None and time > own.end):
+            return np.zeros(3), np.zeros(3), np.zeros(3)
         now = np.array([np.interp(t, times, row) for row in values])
         k = int(np.clip(np.searchsorted(times, t) - 1, 0, len(times) - 2))
-        inside = times[0] <= t <= times[-1]
-        return now[:3], now[3:], slopes[3:, k] if inside else np.zeros(3)
+        return now[:3], now[3:], slopes[3:, k]
 
     return at
 

@@ -47,7 +47,7 @@ class LiquidScales:
         """Largest acceleration [m/s2] by the frame: of its origin, of its rotation and its rate at the far end of the domain."""
         if "frame" not in self.case.effects:
             return 0.0
-        move, arm = frame.motion(self.case.parameters["frame"]), math.hypot(*self.case.domain.size)
+        move, arm = frame.motion(self.case.parameters["frame"], self.end), math.hypot(*self.case.domain.size)
         found = [move(time) for time in np.linspace(0.0, self.end, INSTANTS)]
         return max(float(np.linalg.norm(a) + arm * (omega @ omega + np.linalg.norm(rate))) for a, omega, rate in found)
 

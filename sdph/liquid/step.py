@@ -283,7 +283,7 @@ def pipe_energy(stepper) -> float:
 def parts_of(case):
     """Kernel parameters by effect, particles, and motion of the frame (or None): all that a run begins with."""
     parameters = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
-    return parameters, start.fill(case), frame.motion(case.parameters["frame"]) if parameters["frame"] else None
+    return parameters, start.fill(case), frame.motion(case.parameters["frame"], case.run.end_time) if parameters["frame"] else None
 
 
 def fluids(case) -> np.ndarray:

@@ -31,7 +31,7 @@ FROM = "in a case file a path is taken from the folder of that file, after --set
 READERS = {  # key -> what the run makes of its file
     "walls.mesh": lambda case: boundary.surface(case.parameters["walls"].mesh, case.dimensions),
     "tank.mesh": lambda case: tank.shape_of(case).surface(),
-    "frame.table": lambda case: frame.motion(case.parameters["frame"]),
+    "frame.table": lambda case: frame.motion(case.parameters["frame"], case.run.end_time),
 }
 
 

@@ -10,11 +10,11 @@ HEAD = ",".join(frame.COLUMNS)
 ROWS = ("0.0,0,0,0,0,0,0", "0.5,1,0,0,0,0,0.2", "1.0,3,0,0,0,0,0.6")
 
 
-def motion(folder, content):
+def motion(folder, content, until=1.0, **keys):
     """The motion by a table with this content, a text or bytes."""
     file = folder / "motion.csv"
     file.write_bytes(content if isinstance(content, bytes) else content.encode())
-    return frame.motion(frame.Frame(table=str(file)))
+    return frame.motion(frame.Frame(table=str(file), **keys), until)
 
 
 def table(*rows, head=HEAD) -> str:
@@ -84,4 +84,19 @@ def test_a_table_that_is_none_is_refused_in_one_line(tmp_path, content, told):
 @pytest.mark.parametrize("name", ["", "none.csv", "/dev/zero"])
 def test_what_is_no_file_is_refused(tmp_path, name):
     with pytest.raises(CaseError, match="there is no such file"):
-        frame.motion(frame.Frame(table=str(tmp_path / name)))
+        frame.motion(frame.Frame(table=str(tmp_path / name)), 1.0)
+
+
+def test_the_frame_is_at_rest_before_its_table_and_after_its_end(tmp_path):
+    move = motion(tmp_path, table(*ROWS[1:]), until=9.0, start=2.0, end=2.8)
+    for time in (0.0, 1.9, 2.4, 2.81, 9.0):
+        assert not np.any(move(time))
+    np.testing.assert_allclose(move(2.75)[0], [2.0, 0.0, 0.0])
+
+
+def test_a_table_that_ends_before_the_run_is_refused(tmp_path):
+    with pytest.raises(CaseError, match=r"ends at 3 s and the run at 3\.5 s; add rows.*frame\.end_s"):
+        motion(tmp_path, table(*ROWS), until=3.5, start=2.0)
+    with pytest.raises(CaseError, match="ends at 3 s"):
+        motion(tmp_path, table(*ROWS), until=3.5, start=2.0, end=3.2)
+    assert np.any(motion(tmp_path, table(*ROWS), until=3.0, start=2.0)(3.0))
