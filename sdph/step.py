@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from sdph import rates, shearing
+from sdph import effects, rates, shearing
 from sdph.boundary import Boundary
 from sdph.effects import OFF, REGISTRY, friction, grain_shifting, granular_temperature, walls
 from sdph.effects.granular_viscosity import Viscous
@@ -23,7 +23,6 @@ from sdph.rates import Stress
 # Of h/(c + v); our choice. By von Neumann a lattice with summed density bears 1.86 h/c in these steps, under p = rho c^2/2 1.15
 # (tests/test_rates.py). Monaghan 1992 takes 0.25; the bed's heat to the grains is then 0.07 % different.
 ACOUSTIC = 0.5
-DIFFUSIVE = 0.125  # of h^2/nu, Morris, Fox & Zhu 1997
 SAME_DENSITY = 1e-6  # of a density: what is summed twice differs by round-off at most; our choice
 REACH = 2.0  # support of the kernels in smoothing lengths
 
@@ -99,7 +98,7 @@ class Stepper:
 
     def conduct(self, dt: float, heat) -> None:
         """Grains at rest through `dt` [s]: conduction, and `heat` (N,) [J] from the gas spread evenly."""
-        steps = self._parts(dt, self._limit_of("conduction"), "conduction")
+        steps = self._parts(dt)
         heating = np.zeros(len(self.state.x))
         for _ in range(steps):
             rates.conduct(self.kernel, self.state, self.rows, self.neighbours.box, self.pull, self.parameters["conduction"], heating)
@@ -132,16 +131,14 @@ class Stepper:
         self.stress = self._stress()
         speed = np.sqrt(s.u**2 + s.v**2 + (s.w**2 if len(s.w) else 0.0))
         fastest = float((self.stress.sound + speed).max(initial=0.0))
-        limits = {"sound": ACOUSTIC * self.kernel.h / fastest if fastest else math.inf, "conduction": self._limit_of("conduction")}
-        if len(s.theta) and s.theta.max(initial=0.0) > 0.0:  # viscosity and conductivity are at most h sqrt(theta)
-            limits["agitation"] = DIFFUSIVE * self.kernel.h / math.sqrt(s.theta.max())
-        self.limit = min(limits, key=limits.get)
-        self.length = self.case.run.step_factor * limits[self.limit]
-        return left / self._parts(left, limits[self.limit], self.limit)
+        return left / self._parts(left, fastest)
 
-    def _parts(self, left: float, limit: float, cause: str) -> int:
-        """Number of equal sub-steps in which `left` [s] is taken, none longer than `limit` [s] times run.step_factor."""
-        return count_of_parts(left, self.case.run.step_factor * limit, self.shortest, f"the sub-step's limit {cause!r} (times run.step_factor)")
+    def _parts(self, left: float, fastest: float = 0.0) -> int:
+        """Number of equal sub-steps in which `left` [s] is taken, none longer than the shortest limit times run.step_factor."""
+        found = limits(self.case, self.parameters, self.state, fastest)
+        self.limit = min(found, key=found.get, default="")
+        self.length = self.case.run.step_factor * found.get(self.limit, math.inf)
+        return count_of_parts(left, self.length, self.shortest, f"the sub-step's limit {self.limit!r} (times run.step_factor)")
 
     def _advance(self, dt: float, held) -> None:
         """One sub-step: stress, walls, rates, then theta, heat, velocity, place."""
@@ -238,8 +235,11 @@ class Stepper:
         """Parameters, dummies and rows of the walls for kernels."""
         return (self.parameters["walls"], self.boundary.dummies, self.wall_rows) if self.boundary else (OFF, OFF, OFF)
 
-    def _limit_of(self, name: str) -> float:
-        return REGISTRY[name].dt_limit(self.parameters[name], self.case, self.state) if self.parameters[name] else math.inf
+
+def limits(case, parameters, state, fastest: float) -> dict[str, float]:
+    """Longest sub-steps [s] by cause: what each effect bears, and sound, `fastest` [m/s] being that of c + v."""
+    sound = {"sound": ACOUSTIC * case.smoothing_length / fastest} if fastest else {}
+    return sound | effects.limits(parameters, case, state)
 
 
 class Held:

@@ -26,7 +26,7 @@ from sdph.effects import (
     walls,
     xsph,
 )
-from sdph.effects.effect import OFF, Effect, kernel_of
+from sdph.effects.effect import NO_LIMIT, OFF, Effect, kernel_of
 
 FILES = (
     drag,
@@ -62,4 +62,10 @@ def moving(case) -> bool:
     return any(REGISTRY[name].moves for name in case.effects)
 
 
-__all__ = ["OFF", "REGISTRY", "Effect", "kernel_of", "moving"]
+def limits(parameters, case, state) -> dict[str, float]:
+    """Longest sub-step [s] that each effect that is on bears with the particles as they are; those without a limit left out."""
+    found = {name: REGISTRY[name].dt_limit(parameters[name], case, state) for name in case.effects}
+    return {name: limit for name, limit in found.items() if limit != NO_LIMIT}
+
+
+__all__ = ["OFF", "REGISTRY", "Effect", "kernel_of", "limits", "moving"]

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 OFF = ()
 NO_LIMIT = float("inf")
+DIFFUSIVE = 0.125  # of h^2/nu, Morris, Fox & Zhu 1997, J. Comput. Phys. 136, 214, Eq. 21
 
 
 @dataclass(frozen=True)
@@ -42,7 +43,7 @@ class Effect:
     sources     what it hands to the gas (names of coupling.gas.SOURCES)
     moves       whether particles move by it
     matter      what it acts on: "grains", "liquid"
-    dt_limit    (kernel parameters, case, state) -> largest stable sub-step [s]
+    dt_limit    (kernel parameters, case, state as it is) -> largest stable sub-step [s]; asked before every sub-step
     two_phases  whether it needs a second phase
     call        scales of a case (sdph.explain.scales) -> Judgement; without it the effect is on where the user says so
     """
@@ -58,6 +59,11 @@ class Effect:
     dt_limit: Callable = lambda p, case, state: NO_LIMIT
     two_phases: bool = False
     call: Callable | None = None
+
+
+def diffusive_limit(h: float, diffusivity: float) -> float:
+    """Longest stable step [s] of what spreads with a diffusivity [m2/s] over kernels of h [m]."""
+    return DIFFUSIVE * h**2 / diffusivity if diffusivity else NO_LIMIT
 
 
 def kernel_of(effect: Effect, case):

@@ -13,13 +13,12 @@ from typing import NamedTuple
 
 from numba import njit
 
-from sdph.effects.effect import Effect, Judgement
+from sdph.effects.effect import DIFFUSIVE, Effect, Judgement
 from sdph.laws import constants, granular, viscosity
 from sdph.laws import friction as law
 from sdph.neighbours import deep
 from sdph.schema import quantity, record
 
-DIFFUSIVE = 0.125  # largest nu dt/h^2 of an explicit step, Morris et al. 1997 (sdph-notes, section 3)
 ARRAYS = ("contact_xx", "contact_yy", "contact_xy", "contact_yz", "contact_zx")  # of the state [Pa]
 NEAR = 0.95  # of the onset: grains that close get there when they settle; our choice
 

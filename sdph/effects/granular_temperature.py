@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit, prange
 
-from sdph.effects.effect import Effect, Judgement
+from sdph.effects.effect import NO_LIMIT, Effect, Judgement, diffusive_limit
 from sdph.laws import granular
 from sdph.laws.constants import TINY
 from sdph.schema import choice, flag, quantity, record
@@ -110,6 +110,11 @@ def advance_all(p, s, heating, damping, shear_squared, divergence, dt, theta, he
         )
 
 
+def dt_limit(p, case, state) -> float:
+    """theta spreads with h sqrt(theta) at most; where it is algebraic it does not spread."""
+    return diffusive_limit(p.h, p.h * math.sqrt(state.theta.max(initial=0.0))) if p.model == 0 else NO_LIMIT
+
+
 def call(scales) -> Judgement:
     """How much of theta is made or lost within the run; it acts by way of pressure and viscosity."""
     cooling = granular.cooling_coefficient(scales.capped, scales.grains.restitution, scales.g0, scales.grains.diameter) if scales.alpha_p else 0.0
@@ -128,5 +133,6 @@ EFFECT = Effect(
     kernel=kernel,
     arrays=("theta", "diameter"),
     moves=True,
+    dt_limit=dt_limit,
     call=call,
 )

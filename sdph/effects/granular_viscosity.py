@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from sdph.effects.effect import Effect, Judgement
+from sdph.effects.effect import Effect, Judgement, diffusive_limit
 from sdph.laws import granular, viscosity
 from sdph.laws.constants import TINY
 from sdph.schema import record
@@ -73,6 +73,11 @@ def pair(viscous, stress, i, j, r_squared, closing, scale):
     return viscosity.espanol_revenga(viscous.dimensions, mu, bulk, r_squared, closing, scale)
 
 
+def dt_limit(p, case, state) -> float:
+    """The viscosity is at most h sqrt(theta)."""
+    return diffusive_limit(p.h, p.h * math.sqrt(state.theta.max(initial=0.0)))
+
+
 def call(scales) -> Judgement:
     """Reach of momentum by viscosity within the run over the width of the shear, squared."""
     if not scales.collides or not scales.speed:
@@ -90,5 +95,6 @@ EFFECT = Effect(
     kernel=kernel,
     arrays=("theta", "diameter"),
     moves=True,
+    dt_limit=dt_limit,
     call=call,
 )

@@ -8,11 +8,9 @@ from typing import NamedTuple
 from numba import njit
 
 from sdph import smoothing
-from sdph.effects.effect import NO_LIMIT, Effect, Judgement
+from sdph.effects.effect import Effect, Judgement, diffusive_limit
 from sdph.liquid import LIQUID
 from sdph.schema import record
-
-DIFFUSIVE = 0.125  # of h^2/nu, Morris, Fox & Zhu 1997, J. Comput. Phys. 136, 214, Eq. 21
 
 
 @record
@@ -47,7 +45,7 @@ def kernel(case) -> LaminarP | LaminarOfTwoP:
 def dt_limit(p, case, state) -> float:
     phases = [case.liquid, case.gas_phase] if case.gas_phase else [case.liquid]
     nu = max(phase.viscosity / phase.density for phase in phases)
-    return DIFFUSIVE * case.smoothing_length**2 / nu if nu else NO_LIMIT
+    return diffusive_limit(case.smoothing_length, nu)
 
 
 @njit(cache=True, error_model="numpy")

@@ -12,7 +12,8 @@ from sdph import case as cases
 from sdph import effects, environment, particles
 from sdph.effects import friction, granular_pressure
 from sdph.laws import kernels
-from sdph.step import ACOUSTIC, DIFFUSIVE
+from sdph.step import ACOUSTIC
+from sdph.step import limits as limits_of_step
 from sdph.window import opening, smallest_cell
 
 # Windows of a relaxation that is resolved to the tolerance e: integral of dt/sqrt(2 e) over rate = 2/sqrt(2 e), and half as
@@ -101,16 +102,12 @@ def _windows(case, s) -> list[tuple]:
 
 
 def _sub_steps(case, s) -> list[tuple]:
-    h = case.smoothing_length
-    own, state = [effects.REGISTRY[name] for name in case.effects], _state(case)
-    found = {row.name: row.dt_limit(row.kernel(case), case, state) for row in own}
-    rows = [("sub-step", name, limit, "the effect's own dt_limit") for name, limit in found.items() if limit < math.inf]
-    if effects.moving(case):
-        fastest = _sound(case, s) + s.speed
-        if fastest:
-            rows.append(("sub-step", "sound", ACOUSTIC * h / fastest, f"{ACOUSTIC:g} h/(c + v), c = {_sound(case, s):.3g} m/s"))
-        if s.theta:
-            rows.append(("sub-step", "agitation", DIFFUSIVE * h / math.sqrt(s.theta), "0.125 h/sqrt(theta)"))
+    sound = _sound(case, s) if effects.moving(case) else 0.0
+    fastest = sound + s.speed if effects.moving(case) else 0.0
+    parameters = {name: effects.kernel_of(effects.REGISTRY[name], case) for name in case.effects}
+    how = {"sound": f"{ACOUSTIC:g} h/(c + v), c = {sound:.3g} m/s"}
+    found = limits_of_step(case, parameters, _state(case), fastest)
+    rows = [("sub-step", name, limit, how.get(name, "the effect's own dt_limit")) for name, limit in found.items()]
     return rows or [("sub-step", "window", case.coupling.window_largest, "nothing else limits it")]
 
 

@@ -5,11 +5,9 @@ from __future__ import annotations
 import math
 
 from sdph import effects
-from sdph.effects import kernel_of
 from sdph.explain import estimate
-from sdph.liquid.phases import fastest_sound
 from sdph.liquid.run import SLOW
-from sdph.liquid.step import FORCE
+from sdph.liquid.step import limits as limits_of_step
 
 WATER = 0.0728  # N/m, of water in air at 20 C (IAPWS R1-76): for the Weber and Bond numbers of a case that gives none
 
@@ -67,16 +65,10 @@ def warnings(s) -> list[str]:
 
 def limits(s) -> list[dict]:
     """Largest step [s] by cause, before run.step_factor."""
-    case, h = s.case, s.case.smoothing_length
-    found = {"sound": case.liquid.courant * h / (fastest_sound(case) + s.speed)}
-    pull = sum(s.pull) + s.shaken
-    if pull:
-        found["force"] = FORCE * math.sqrt(h / pull)
-    for name in case.effects:
-        row = effects.REGISTRY[name]
-        found[name] = row.dt_limit(kernel_of(row, case), case, None)
+    parameters = {name: effects.kernel_of(effects.REGISTRY[name], s.case) for name in s.case.effects}
+    found = limits_of_step(s.case, parameters, s.state, s.speed, sum(s.pull) + s.shaken)
     least = min(found.values())
-    return [{"cause": k, "largest [s]": v, "rules": "<-" if v == least else ""} for k, v in found.items() if v < math.inf]
+    return [{"cause": k, "largest [s]": v, "rules": "<-" if v == least else ""} for k, v in found.items()]
 
 
 def expected(s, steps: list[dict]) -> list[dict]:

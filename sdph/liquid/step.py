@@ -51,7 +51,7 @@ class LiquidStepper:
         self.wall = WallP(*[0.0] * 6, *own) if own else NO_WALL
         self.summed = case.gas_phase is not None and case.gas_phase.density_by == "summation"
         self.lattice = kernels.lattice_factor(case.liquid.kernel, d, case.resolution.smoothing_ratio)
-        self.limits, self.limit, self.steps, self.time = self._limits(), "", 0, 0.0
+        self.limit, self.steps, self.time = "", 0, 0.0
         self.shifted = np.zeros(3)  # momentum that shifting has given [kg m/s]
         self.tightening = 0.0  # power of surface tension on the particles [W]
         self.compliance = np.array([self._compliance(kind) for kind in range(GAS + 1)])
@@ -104,20 +104,13 @@ class LiquidStepper:
     def next_step(self, left: float) -> float:
         """What is left [s] in equal parts no longer than the shortest limit; `limit` names it."""
         speed, force = motion.fastest(self.state, self.active, self.acceleration)
-        h, c = self.kernel.h, phases.fastest_sound(self.case)
+        c = phases.fastest_sound(self.case)
         if not speed + 0.0 * force <= c * c:  # or one of them is no number
             self.guard.look(self)
-        limits = self.limits | {"sound": self.case.liquid.courant * h / (c + math.sqrt(speed))}
-        if force:
-            limits["force"] = FORCE * math.sqrt(h / math.sqrt(force))
-        self.limit = min(limits, key=limits.get)
-        longest = self.case.run.step_factor * limits[self.limit]
+        found = limits(self.case, self.p, self.state, math.sqrt(speed), math.sqrt(force))
+        self.limit = min(found, key=found.get)
+        longest = self.case.run.step_factor * found[self.limit]
         return left / count_of_parts(left, longest, self.shortest, f"the step's limit {self.limit!r} (times run.step_factor)")
-
-    def _limits(self) -> dict[str, float]:
-        """Limits that stay through the run."""
-        on = [row for row in effects.REGISTRY.values() if self.p[row.name]]
-        return {row.name: row.dt_limit(self.p[row.name], self.case, None) for row in on if row.name != "conduction"}
 
     def _compliance(self, kind: int) -> float:
         """d rho/dp = 1/c^2 [s2/m2] of a kind, by which shifting carries density along the pressure gradient."""
@@ -236,6 +229,15 @@ class LiquidStepper:
             s.x, s.y, s.z, s.u, s.v, s.w, s.density,
         )  # fmt: skip
         self.shifted = self.shifted + motion.momentum(s, self.active) - before
+
+
+def limits(case, parameters, state, speed: float, acceleration: float) -> dict[str, float]:
+    """Longest steps [s] by cause: what each effect bears, sound, and force; of the fastest [m/s] and most pushed [m/s2] particle."""
+    h = case.smoothing_length
+    own = {"sound": case.liquid.courant * h / (phases.fastest_sound(case) + speed)}
+    if acceleration:
+        own["force"] = FORCE * math.sqrt(h / acceleration)
+    return own | effects.limits(parameters, case, state)
 
 
 def loads(stepper) -> np.ndarray:

@@ -1,0 +1,94 @@
+"""Every effect that is on is asked for its limit before every sub-step, obeyed and named; `explain` prints what the run obeys."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from sdph import case as cases
+from sdph import effects, scenes
+from sdph.explain import tables
+from sdph.liquid.step import LiquidStepper
+from sdph.simulation import parts_of
+
+COARSE = {
+    "disc_cluster": ("resolution.spacing_mm=20", "resolution.cell_mm=50"),
+    "bubbling_bed": ("resolution.spacing_mm=20", "resolution.cell_mm=50"),
+    "evaporating_jet": ("resolution.spacing_mm=50", "resolution.cell_mm=100"),
+    "bubble_rise": ("resolution.spacing_mm=100",),
+    "sloshing_sphere": ("resolution.spacing_mm=100",),
+    "taylor_green": ("resolution.spacing_mm=100",),
+}
+TINY = 1e-7  # s, far below all other limits
+
+
+def load(scene):
+    return cases.load(scenes.HERE / scene / "case.toml", COARSE[scene])
+
+
+PAIRS = [(scene, name) for scene in COARSE for name in load(scene).effects]
+
+
+def explained(case) -> dict[str, float]:
+    return {row["cause"]: row["largest [s]"] for row in tables.explain(case)["limits"] if row.get("of") != "window"}
+
+
+def grains(case):
+    """Grains of a case, and what its nozzles let in within a window."""
+    _, source, stepper, _ = parts_of(case)
+    if source:
+        stepper.replace(source.fill(stepper.state, 0.0, case.coupling.window_largest))
+    stepper.prepare()
+    return stepper
+
+
+def advance(case, stepper, dt):
+    """Grains that fall through a window in which the gas does nothing."""
+    count = len(stepper.state.x)
+    if effects.moving(case):
+        stepper.move(dt, np.zeros(count), np.full((count, 3), -9.81), np.zeros(count))
+    else:
+        stepper.conduct(dt, np.zeros(count))
+
+
+def shorten(monkeypatch, name, limit):
+    monkeypatch.setitem(effects.REGISTRY, name, replace(effects.REGISTRY[name], dt_limit=limit))
+
+
+def test_every_effect_is_among_those_asked():
+    known = {name for _, name in PAIRS}
+    assert effects.REGISTRY.keys() - known <= {"grain_shifting", "xsph", "artificial_viscosity"}
+
+
+@pytest.mark.parametrize(("scene", "name"), PAIRS)
+def test_a_limit_is_obeyed_and_named(monkeypatch, scene, name):
+    case = load(scene)
+    shorten(monkeypatch, name, lambda p, case, state: TINY)
+    assert explained(case)[name] == TINY == min(explained(case).values())
+    if case.liquid:
+        stepper = LiquidStepper(case)
+        taken = stepper.next_step(5.5 * TINY)
+    else:
+        stepper = grains(case)
+        advance(case, stepper, 5.5 * TINY)
+        taken = 5.5 * TINY / stepper.steps
+    assert stepper.limit == name and taken == pytest.approx(5.5 * TINY / 6)
+
+
+@pytest.mark.parametrize(("scene", "name"), [("bubbling_bed", "granular_viscosity"), ("taylor_green", "laminar_viscosity")])
+def test_a_limit_is_that_of_the_state_as_it_is(monkeypatch, scene, name):
+    case, seen = load(scene), []
+
+    def limit(p, case, state):
+        seen.append(float((state.v**2).sum()))
+        return 1e-4
+
+    shorten(monkeypatch, name, limit)
+    if case.liquid:
+        stepper = LiquidStepper(case)
+        for _ in range(3):
+            stepper.step(1e-3)
+        assert len(set(seen)) == 3
+    else:
+        advance(case, grains(case), 3e-4)
+        assert len(set(seen)) == 3
