@@ -14,18 +14,16 @@ from typing import Protocol
 
 import numpy as np
 
-# What the particles hand to the gas. An effect that is off sends nothing, and costs nothing.
+# What the particles hand to the gas, by quantity, whatever effects it comes from: into the gas go `momentum` -
+# `momentum_coefficient` u and `heat` - `heat_coefficient` T. What no effect sends costs nothing.
 # name -> (unit, components, meaning)
 SOURCES = {
     "alpha_g": ("1", 1, "gas volume fraction at the end of the window"),
-    "drag": ("kg/m3/s", 1, "implicit drag coefficient beta"),
-    "drag_velocity": ("N/m3", 3, "beta times the velocity of the particles"),
-    "heat": ("W/m3/K", 1, "implicit heat exchange coefficient eps"),
-    "heat_temperature": ("W/m3", 1, "eps times the temperature of the particles"),
-    "heat_source": ("W/m3", 1, "explicit heat, such as that of drag"),
+    "momentum": ("N/m3", 3, "momentum that enters the gas: beta v_p of drag, Gamma v_p of vapour"),
+    "momentum_coefficient": ("kg/m3/s", 1, "beta, taken times the new velocity of the gas from that"),
+    "heat": ("W/m3", 1, "heat that enters the gas: eps T_p, heat of drag, enthalpy Gamma cp_v T_p of vapour"),
+    "heat_coefficient": ("W/m3/K", 1, "eps, taken times the new temperature of the gas from that"),
     "vapour": ("kg/m3/s", 1, "mass of vapour Gamma that enters the gas"),
-    "vapour_momentum": ("N/m3", 3, "momentum that the vapour brings, Gamma v_p"),
-    "vapour_enthalpy": ("W/m3", 1, "sensible enthalpy that the vapour brings, Gamma cp_v T_p"),
 }
 
 # What the gas hands back after a step.

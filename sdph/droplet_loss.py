@@ -13,7 +13,7 @@ import math
 import numpy as np
 from numba import njit, prange
 
-from sdph.effects import heat, sizes
+from sdph.effects import sizes
 from sdph.effects.evaporation import driving_force, saturation_pressure, ventilation
 from sdph.laws import evaporation as law
 from sdph.laws import grain_loss
@@ -73,14 +73,12 @@ def active_time(p, s, i, conductance, gas_temperature, dt):
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def survey(p, heat_p, sizes_p, s, slip, gas_density, gas_temperature, dt, conductance, flow, surface):
-    """Before the rates: heat conductance [W/K]; gas [m3/s] that the particle exchanges vapour with, averaged over the
-    window, and vapour concentration at its surface [kmol/m3]."""
+def survey(p, sizes_p, s, slip, gas_density, gas_temperature, dt, conductance, flow, surface):
+    """Before the losses: gas [m3/s] that the particle exchanges vapour with, averaged over the window, and vapour concentration
+    at its surface [kmol/m3]; conductance (N,) [W/K] of heat."""
     for i in prange(len(s.x)):
-        conductance[i] = flow[i] = surface[i] = 0.0
+        flow[i] = surface[i] = 0.0
         if s.kind[i] == GRAIN:
-            alpha_p = s.density[i] / p.grain_density
-            conductance[i] = heat.conductance(heat_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
             time = active_time(p, s, i, conductance[i], gas_temperature[i], dt)
             flow[i] = transfer(p, sizes_p, s, i, ventilation(p, slip[i], gas_density[i])) * time / dt
             surface[i] = law.vapour_concentration(saturation_pressure(p, s.temperature[i]), s.temperature[i])
@@ -106,6 +104,16 @@ def losses(p, sizes_p, s, slip, gas_density, gas_temperature, concentration, dt,
             loss[i] = s.mass[i] - (left if left > FINISHED * s.born_mass[i] else 0.0)
             if force > 0.0:
                 conductance[i] *= shrinkage(loss[i], rate * force * time)
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
+def rates(p, sizes_p, s, slip, gas_density, gas_temperature, concentration, rate):
+    """rate (N,) [kg/s] at which each particle evaporates now."""
+    for i in prange(len(s.x)):
+        rate[i] = 0.0
+        if s.kind[i] == GRAIN and active_time(p, s, i, 0.0, gas_temperature[i], 1.0) > 0.0:
+            force = driving_force(p, s.temperature[i], concentration[i], gas_temperature[i], gas_density[i])
+            rate[i] = max(0.0, force) * transfer(p, sizes_p, s, i, ventilation(p, slip[i], gas_density[i]))
 
 
 @njit(cache=True, error_model="numpy")

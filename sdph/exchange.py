@@ -11,6 +11,8 @@ and from the temperature T'_c that it answers with, particle k takes exactly wha
 
 Momentum goes the same way with m_k for C_k and the drag coefficient for K_k. The heat of drag, force times slip with
 the new gas velocity, is known when the window is done: the gas gets it in the next one.
+
+The gas is told by quantity (`coupling.gas.SOURCES`): what each effect gives stands in the effect's own file (`to_gas`).
 """
 
 from __future__ import annotations
@@ -28,7 +30,6 @@ from sdph.laws.constants import GAS_CONSTANT
 from sdph.laws.exchange import exponential_fraction
 from sdph.particles import GRAIN
 
-INSTANT = 1e-12  # s, so short that f_k/dt is K_k/C_k
 NEGLIGIBLE = 1e-6  # of the temperature: smaller differences need not be resolved (round-off else rules the window); our choice
 
 
@@ -45,6 +46,7 @@ class Exchange:
         rows = [effects.REGISTRY[name] for name in case.effects]
         names = dict.fromkeys(name for row in rows for name in row.sources)
         self.sources = tuple(name for name in names if name != "alpha_g" or case.coupling.voidage)
+        self.to_gas = {row.name: row.to_gas for row in rows if row.to_gas}
         self.drag_heat = np.zeros(len(self.volumes))  # [W/m3], for the next window
 
     def alpha_g(self, state, weights, inside=1.0) -> np.ndarray:
@@ -58,48 +60,48 @@ class Exchange:
         will be in the gas: the volume fraction then is told to the gas.
         """
         seen = Seen(weights, gas_state, state)
-        conductance, loss = np.empty(len(state.x)), None
-        if self.parameters["evaporation"]:
-            conductance, loss = self._evaporate(state, weights, gas_state, seen, dt)
+        conductance, damping = self._rates(state, seen)
+        loss = self._evaporate(state, weights, gas_state, seen, conductance, dt) if self.parameters["evaporation"] else None
         kept = state.mass - loss.mass if loss else state.mass
-        heat_share, pull, shared_mass, damping = (np.zeros(len(state.x)) for _ in range(4))
-        latent = self.parameters["evaporation"].latent_heat / dt * loss.mass if loss else OFF
-        _coefficients(
-            self.parameters["drag"], self.parameters["heat"], self.sizes_p, state, self._grains(), dt, seen.slip, seen.density,
-            kept, conductance, latent, heat_share, pull, shared_mass, damping,
-        )  # fmt: skip
+        power = self.parameters["evaporation"].latent_heat / -dt * loss.mass if loss else OFF
+        heat_share, pull, shared_mass = (np.empty(len(state.x)) for _ in range(3))
+        shares(state, self.case.grains.heat_capacity, dt, conductance, damping, kept, power, heat_share, pull, shared_mass)
         there, inside = ahead
-        sources = {"alpha_g": self._room(there, kept * inside)} if "alpha_g" in self.sources else {}
-        sources |= self._sources(state, weights, seen, dt, loss, heat_share, pull, shared_mass)
-        sources = {name: np.ascontiguousarray(values) for name, values in sources.items()}
-        return Handed(dt, weights, sources, heat_share, pull, shared_mass, damping, state.temperature.copy(), seen.own, kept * (state.kind == GRAIN), loss)
+        handed = Handed(
+            dt, weights, heat_share, pull, shared_mass, damping, state.temperature.copy(), seen.own, kept * (state.kind == GRAIN), loss
+        )
+        return replace(handed, terms=self._terms(handed), alpha_g=self._room(there, kept * inside) if "alpha_g" in self.sources else None)
 
-    def _sources(self, state, weights, seen, dt, loss, heat_share, pull, shared_mass) -> dict[str, np.ndarray]:
-        """All but the volume fraction."""
-        sources = {}
-        if self.parameters["heat"]:
-            sources["heat"], sources["heat_temperature"] = self._density(weights, np.stack((heat_share, pull), axis=1)).T
-        if self.parameters["drag"]:
-            columns = np.concatenate((shared_mass[:, None], shared_mass[:, None] * seen.own), axis=1)
-            columns = self._density(weights, columns)
-            sources["drag"], sources["drag_velocity"], sources["heat_source"] = columns[:, 0], columns[:, 1:], self.drag_heat
-        if loss:
-            rate = loss.mass[:, None] / dt
-            enthalpy = self.case.vapour.heat_capacity * state.temperature[:, None]
-            columns = self._density(weights, np.concatenate((rate, rate * seen.own, rate * enthalpy), axis=1))
-            sources["vapour"], sources["vapour_momentum"], sources["vapour_enthalpy"] = columns[:, 0], columns[:, 1:4], columns[:, 4]
-        return sources
+    def _rates(self, state, seen) -> tuple[np.ndarray, np.ndarray]:
+        """Of every particle now: heat conductance to the gas [W/K], and beta/(alpha_p rho_p) [1/s]."""
+        conductance, damping = np.empty(len(state.x)), np.empty(len(state.x))
+        rates(
+            self.parameters["drag"], self.parameters["heat"], self.sizes_p, state, self.case.grains.density, seen.slip, seen.density,
+            conductance, damping,
+        )  # fmt: skip
+        return conductance, damping
 
-    def _evaporate(self, state, weights, gas_state, seen, dt) -> tuple[np.ndarray, Loss]:
-        """Mean heat conductance (N,) [W/K] of a window, and what evaporates in it.
+    def _terms(self, handed: Handed) -> dict[tuple[str, str], np.ndarray]:
+        """(quantity, effect) -> what the effect gives to the gas, per volume of the cells."""
+        given = {(quantity, name): own for name, to_gas in self.to_gas.items() for quantity, own in to_gas(handed, self.case).items()}
+        if not given:
+            return {}
+        columns = [own[:, None] if own.ndim == 1 else own for own in given.values()]
+        ends = np.cumsum([column.shape[1] for column in columns])
+        cells = np.split(self._density(handed.weights, np.concatenate(columns, axis=1)), ends[:-1], axis=1)
+        terms = {key: cell[:, 0] if own.ndim == 1 else cell for (key, own), cell in zip(given.items(), cells)}
+        return terms | ({("heat", "friction"): self.drag_heat} if self.parameters["drag"] else {})
+
+    def _evaporate(self, state, weights, gas_state, seen, conductance, dt) -> Loss:
+        """What evaporates in a window; the heat conductance (N,) [W/K] becomes the mean over it.
 
         The vapour in each cell is taken as it would be at the window's end if no flow carried it: fast exchange
         saturates a cell and does not overshoot.
         """
         p, count = self.parameters["evaporation"], len(state.x)
-        conductance, flow, surface = (np.empty(count) for _ in range(3))
+        flow, surface = np.empty(count), np.empty(count)
         around = seen.slip, seen.density, seen.temperature
-        droplet_loss.survey(p, self.parameters["heat"], self.sizes_p, state, *around, dt, conductance, flow, surface)
+        droplet_loss.survey(p, self.sizes_p, state, *around, dt, conductance, flow, surface)
         concentration = gather(weights, _vapour_concentration(p, gas_state))
         if not self.case.coupling.one_way:
             evaporating = surface > concentration
@@ -109,7 +111,7 @@ class Exchange:
         droplet_loss.losses(
             p, self.sizes_p, state, *around, concentration, dt, conductance, loss.mass, loss.still, loss.moving, loss.refused
         )
-        return conductance, loss
+        return loss
 
     def _relaxed(self, state, weights, gas_state, exchanged, surface) -> np.ndarray:
         """Vapour around the particles [kmol/m3] once they have exchanged so much gas (N,) [m3] with the cells."""
@@ -118,23 +120,30 @@ class Exchange:
         cells = _vapour_concentration(self.parameters["evaporation"], gas_state)
         return gather(weights, (room * cells + deposited[:, 1]) / (room + deposited[:, 0]))
 
-    def pace(self, state, weights, gas_state) -> tuple[float, float, float]:
-        """At the start: rate [1/s] at which the fastest cell takes the grains' temperature, `stake` [J], and rate [1/s]
-        at which vapour comes into the fastest cell, over the gas in it."""
-        handed = self.hand(state, weights, (weights, state.kind == GRAIN), gas_state, INSTANT)
-        thickening = self.vapour_share(handed, gas_state) / INSTANT
-        if not self.parameters["heat"]:
-            return 0.0, 0.0, thickening
+    def pace(self, state, weights, gas_state) -> tuple[float, float, float, float]:
+        """At the start: rate [1/s] at which the fastest cell takes the grains' temperature, `stake` [J], rate [1/s] at which
+        vapour comes into the fastest cell, over the gas in it, and `grip` [1/s]."""
+        seen = Seen(weights, gas_state, state)
+        conductance, damping = self._rates(state, seen)
         full, resistance = self._resistance(state, weights, gas_state)
-        rate = float((handed.sources["heat"][full] * resistance).max(initial=0.0))
-        return rate, self.stake(state, weights, gas_state), thickening
+        rate = float((self._density(weights, conductance)[full] * resistance).max(initial=0.0)) if self.parameters["heat"] else 0.0
+        thickening = self._thickening(state, weights, gas_state, seen) if self.parameters["evaporation"] else 0.0
+        return rate, self.stake(state, weights, gas_state), thickening, self.grip(state, damping)
+
+    def _thickening(self, state, weights, gas_state, seen) -> float:
+        """Vapour that comes into a cell now, over the gas in it [1/s]; the largest of all cells."""
+        p, rate = self.parameters["evaporation"], np.empty(len(state.x))
+        concentration = gather(weights, _vapour_concentration(p, gas_state))
+        droplet_loss.rates(p, self.sizes_p, state, seen.slip, seen.density, seen.temperature, concentration, rate)
+        room = self._room(weights, state.mass * (state.kind == GRAIN))
+        return float((self._density(weights, rate) / (room * gas_state.fields["density"])).max(initial=0.0))
 
     def vapour_share(self, handed: Handed, gas_state) -> float:
         """Vapour that a window brought into a cell, over the gas in it; the largest of all cells."""
-        if "vapour" not in handed.sources:
+        if not handed.loss:
             return 0.0
         room = self._room(handed.weights, handed.mass)
-        return float((handed.sources["vapour"] * handed.dt / (room * gas_state.fields["density"])).max(initial=0.0))
+        return float((handed.terms["vapour", "evaporation"] * handed.dt / (room * gas_state.fields["density"])).max(initial=0.0))
 
     def stake(self, state, weights, gas_state) -> float:
         """A scale of heat [J]: the gas among the grains, and they, brought to equilibrium through all of the
@@ -153,19 +162,18 @@ class Exchange:
 
     def take(self, handed: Handed, gas_state) -> Taken:
         """The reaction on the particles, from the new gas state with the old weights, temperatures and velocities."""
-        count = len(handed.heat)
-        taken_heat, from_gas = np.zeros(count), 0.0
-        impulse, impulse_from_gas = np.zeros((count, 3)), np.zeros(3)
-        if self.parameters["heat"]:
+        taken_heat, from_gas = np.zeros(len(handed.heat)), 0.0
+        impulse, impulse_from_gas = np.zeros((len(handed.heat), 3)), np.zeros(3)
+        if ("heat", "heat") in handed.terms:
             temperature = gas_state.fields["temperature"]
             taken_heat = handed.dt * (handed.heat * gather(handed.weights, temperature) - handed.pull)
-            given = handed.sources["heat"] * temperature - handed.sources["heat_temperature"]
+            given = handed.terms["heat_coefficient", "heat"] * temperature - handed.terms["heat", "heat"]
             from_gas = float((given * self.volumes).sum() * handed.dt)
-        if self.parameters["drag"]:
+        if ("momentum", "drag") in handed.terms:
             velocity = gas_state.fields["velocity"]
             apart = gather(handed.weights, velocity) - handed.velocity
             impulse = handed.dt * handed.drag[:, None] * apart
-            given = handed.sources["drag"][:, None] * velocity - handed.sources["drag_velocity"]
+            given = handed.terms["momentum_coefficient", "drag"][:, None] * velocity - handed.terms["momentum", "drag"]
             impulse_from_gas = np.einsum("ij,i->j", given, self.volumes) * handed.dt
             self.drag_heat = self._density(handed.weights, np.einsum("ij,ij->i", impulse, apart) / handed.dt)
         if self.case.coupling.one_way:  # the gas feels nothing
@@ -178,15 +186,15 @@ class Exchange:
         """The same with what evaporation takes."""
         mass, latent = handed.loss.mass, self.parameters["evaporation"].latent_heat
         excess = self.case.grains.heat_capacity - self.case.vapour.heat_capacity
-        given = 0.0 if self.case.coupling.one_way else float((handed.sources["vapour"] * self.volumes).sum() * handed.dt)
+        given = 0.0 if self.case.coupling.one_way else float((handed.terms["vapour", "evaporation"] * self.volumes).sum() * handed.dt)
         return replace(
             taken, warming=taken.heat - latent * mass, vapour=float(mass.sum()), vapour_to_gas=given,
             latent_heat=latent * float(mass.sum()), capacity_heat=excess * float((mass * handed.temperature).sum()),
             refused=float(handed.loss.refused.sum()),
         )  # fmt: skip
 
-    def grip(self, state, handed: Handed) -> float:
-        """Rate [1/s] at which gas that cannot give way stops grains that move as one, mean by mass.
+    def grip(self, state, damping) -> float:
+        """Rate [1/s] at which gas that cannot give way stops grains that move as one, mean by mass; damping (N,) [1/s].
 
         With alpha_g v_g + alpha_p v_p given, drag and pressure gradient together are beta/alpha_g^2 v_p: the rate is
         beta/(alpha_g^2 alpha_p rho_p). 0 where the gas does not feel the volume of the grains.
@@ -195,7 +203,7 @@ class Exchange:
         if not self.parameters["gas_pressure"] or self.case.coupling.one_way or not mass.any():
             return 0.0
         alpha_p = np.minimum(state.density / self.case.grains.density, self.case.grains.packing_limit)
-        return float(np.average(handed.damping / (1.0 - alpha_p) ** 2, weights=mass))
+        return float(np.average(damping / (1.0 - alpha_p) ** 2, weights=mass))
 
     def settle(self, state, handed: Handed) -> None:
         """Take from the particles what evaporated."""
@@ -206,9 +214,9 @@ class Exchange:
 
     def drag_heat_of(self, handed: Handed) -> float:
         """Heat of drag [J] that the gas was handed."""
-        if "heat_source" not in handed.sources or self.case.coupling.one_way:
+        if ("heat", "friction") not in handed.terms or self.case.coupling.one_way:
             return 0.0
-        return float((handed.sources["heat_source"] * self.volumes).sum() * handed.dt)
+        return float((handed.terms["heat", "friction"] * self.volumes).sum() * handed.dt)
 
     def _room(self, weights, mass) -> np.ndarray:
         """Gas volume fraction of the cells with grains of `mass` (N,) [kg] in them."""
@@ -218,9 +226,6 @@ class Exchange:
         """Extensive amounts (N,) or (N, m) of the particles per volume of the cells."""
         deposited = deposit(weights, amounts)
         return deposited / (self.volumes if deposited.ndim == 1 else self.volumes[:, None])
-
-    def _grains(self):
-        return self.case.grains.density, self.case.grains.heat_capacity
 
 
 class Seen:
@@ -248,27 +253,29 @@ def _temperature_span(case) -> float:
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def _coefficients(drag_p, heat_p, sizes_p, s, grains, dt, slip, gas_density, kept, mean, latent, heat_share, pull, shared_mass, damping):
-    """Of every particle: heat_share [W/K] and pull [W], m_k f_k/dt [kg/s], beta/(alpha_p rho_p) [1/s].
-
-    With a latent heat flow L held over the window, x = dt K/C and C of the mass that is `kept` [kg],
-    Q/dt = K phi (T'_g - T) + L (1 - phi), phi = (1 - exp(-x))/x; without one K phi = C f/dt. `mean` is K where grains evaporate.
-    """
-    density, heat_capacity = grains
+def rates(drag_p, heat_p, sizes_p, s, grain_density, slip, gas_density, conductance, damping):
+    """Of every particle as it is: heat to the gas per kelvin [W/K], and beta/(alpha_p rho_p) [1/s]."""
     for i in prange(len(s.x)):
-        heat_share[i] = pull[i] = shared_mass[i] = damping[i] = 0.0
+        conductance[i] = damping[i] = 0.0
         if s.kind[i] == GRAIN:
-            alpha_p = s.density[i] / density
-            capacity = kept[i] * heat_capacity
-            if len(latent) == 0:
-                conductance = heat.conductance(heat_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
-            else:
-                conductance = mean[i]
-            if conductance > 0.0:
-                heat_share[i] = capacity * exponential_fraction(dt * conductance / capacity) / dt if capacity > 0.0 else 0.0
-                pull[i] = heat_share[i] * s.temperature[i]
-                if len(latent) > 0:
-                    pull[i] -= latent[i] * (1.0 - heat_share[i] / conductance)
-            rate = drag.damping(drag_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
-            shared_mass[i] = kept[i] * exponential_fraction(dt * rate) / dt
-            damping[i] = rate
+            alpha_p = s.density[i] / grain_density
+            conductance[i] = heat.conductance(heat_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
+            damping[i] = drag.damping(drag_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
+def shares(s, heat_capacity, dt, conductance, damping, kept, power, heat_share, pull, shared_mass):
+    """What meets the gas in a window: heat_share [W/K] and pull [W] of heat, m_k f_k/dt [kg/s] of momentum.
+
+    With a `power` P [W] from elsewhere held over the window, x = dt K/C and C of the mass that is `kept` [kg],
+    Q/dt = K phi (T'_g - T) - P (1 - phi), phi = (1 - exp(-x))/x; without one K phi = C f/dt.
+    """
+    for i in prange(len(s.x)):
+        heat_share[i] = pull[i] = 0.0
+        capacity = kept[i] * heat_capacity
+        if conductance[i] > 0.0:
+            heat_share[i] = capacity * exponential_fraction(dt * conductance[i] / capacity) / dt if capacity > 0.0 else 0.0
+            pull[i] = heat_share[i] * s.temperature[i]
+            if len(power) > 0:
+                pull[i] += power[i] * (1.0 - heat_share[i] / conductance[i])
+        shared_mass[i] = kept[i] * exponential_fraction(dt * damping[i]) / dt

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -23,16 +23,16 @@ class Loss:
 
 @dataclass(frozen=True)
 class Handed:
-    """What one window hands over: the sources for the gas, and what the reaction is computed from.
+    """What one window hands over: what the gas is told, and what the reaction is computed from.
 
     heat (N,) [W/K] and pull (N,) [W]: the particle takes heat * T'_g - pull; drag (N,) [kg/s] is m_k f_k/dt; temperature
     and velocity are those of the particles when they were computed; damping (N,) [1/s] is beta/(alpha_p rho_p); mass
-    (N,) [kg] what is in the gas at the window's end.
+    (N,) [kg] what is in the gas at the window's end. terms (C,) or (C, 3) per volume of the cells, by quantity and effect;
+    alpha_g (C,) at the window's end, where the gas is told.
     """
 
     dt: float
     weights: Weights
-    sources: dict[str, np.ndarray]
     heat: np.ndarray
     pull: np.ndarray
     drag: np.ndarray
@@ -41,6 +41,16 @@ class Handed:
     velocity: np.ndarray
     mass: np.ndarray
     loss: Loss | None
+    terms: dict[tuple[str, str], np.ndarray] = field(default_factory=dict)
+    alpha_g: np.ndarray | None = None
+
+    @property
+    def sources(self) -> dict[str, np.ndarray]:
+        """What the gas is told: each quantity is the sum of what the effects give to it."""
+        told = {} if self.alpha_g is None else {"alpha_g": self.alpha_g}
+        for (quantity, _), values in self.terms.items():
+            told[quantity] = told[quantity] + values if quantity in told else values
+        return {name: np.ascontiguousarray(values) for name, values in told.items()}
 
 
 @dataclass(frozen=True)

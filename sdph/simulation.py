@@ -12,7 +12,7 @@ from sdph import boundary, effects, history, output, particles
 from sdph.effects.inflow import Source
 from sdph.effects.outflow import leaving, refuse_to_leave
 from sdph.engine.kept import Unfit
-from sdph.exchange import INSTANT, Exchange
+from sdph.exchange import Exchange
 from sdph.ledger import vector
 from sdph.particles import GRAIN, INFLOW
 from sdph.step import Held, Stepper
@@ -63,10 +63,10 @@ class Simulation:
         alpha_g = None if one_way or not self.case.coupling.voidage else self.exchange.alpha_g(self.state, self.weights, self._inside())
         self.gas_state = self.gas.start(alpha_g, () if one_way else self.exchange.sources)
         if not one_way:
-            rate, stake, thickening = self.exchange.pace(self.state, self.weights, self.gas_state)
+            rate, stake, thickening, grip = self.exchange.pace(self.state, self.weights, self.gas_state)
             self.clock.begin(rate, stake)
             self.clock.thicken(1.0, thickening)
-            self.clock.hold(self.exchange.grip(self.state, self._hand(INSTANT)))
+            self.clock.hold(grip)
         self.ledger.open(self.grains, self.gas_state.budget)
         self.received = None  # heat rate [W] of each particle from the gas in the last window
 
@@ -94,7 +94,7 @@ class Simulation:
         end, handed = self._with_gas(self.clock.choose(self.time))
         dt = end - self.time
         taken = self._timed("exchange", self.exchange.take, handed, self.gas_state)
-        self.clock.hold(self.exchange.grip(self.state, handed))
+        self.clock.hold(self.exchange.grip(self.state, handed.damping))
         self.exchange.settle(self.state, handed)
         inside = self.state.kind == GRAIN
         self.received = Held(self.state, taken.heat / dt)

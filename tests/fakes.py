@@ -29,8 +29,8 @@ class StillGas:
         self.time += dt
         content = self.alpha * self.case.gas.density * self.case.gas.heat_capacity / dt
         if sources:
-            gained = content * self.temperature + sources["heat_temperature"]
-            self.temperature = gained / (content + sources["heat"])
+            gained = content * self.temperature + sources["heat"]
+            self.temperature = gained / (content + sources["heat_coefficient"])
         return self._state()
 
     def retreat(self):

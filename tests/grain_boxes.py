@@ -68,7 +68,7 @@ class Row:
         push = np.zeros_like(self.velocity)
         push[:, 0] = -self.c**2 * self._slope(self.rise)
         push += np.array((*self.case.domain.gravity, 0.0)[:3]) - self.alpha * self.gradient / self.mass
-        drag, pull = sources.get("drag", np.zeros(len(push)))[:, None], sources.get("drag_velocity", 0.0)
+        drag, pull = sources.get("momentum_coefficient", np.zeros(len(push)))[:, None], sources.get("momentum", 0.0)
         self.velocity = (self.mass * (self.velocity + dt * push) + dt * pull) / (self.mass + dt * drag)
         self.rise = self.rise - dt * self._slope(self.velocity[:, 0])
         return self._state()

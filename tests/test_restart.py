@@ -260,7 +260,7 @@ def test_a_run_that_blows_up_says_where(tmp_path, monkeypatch):
             simulation.state.temperature[simulation.state.ident == 3] = np.nan
 
     monkeypatch.setattr(driver.Simulation, "window", window)
-    with pytest.raises(GasError, match="heat_temperature is not finite in cell") as told:
+    with pytest.raises(GasError, match="heat is not finite in cell") as told:
         start(tmp_path / "run")
     assert "--resume" in told.value.__notes__[0]
 

@@ -89,7 +89,7 @@ def restored(box: Box, saved: dict[str, np.ndarray]) -> Flow:
 @dataclasses.dataclass(frozen=True)
 class Window:
     """One window: dt [s], alpha (S,) at its end, and per cell, not per volume, what the particles do:
-    pull (S,) [kg/s] and push (d, S) [N] of drag and vapour, vapour (S,) [kg/s], cling (S,) [W/K], warmth (S,) [W]."""
+    pull (S,) [kg/s] and push (d, S) [N], vapour (S,) [kg/s], cling (S,) [W/K], warmth (S,) [W]."""
 
     dt: float
     alpha: np.ndarray
@@ -108,14 +108,14 @@ def window_of(box: Box, flow: Flow, dt: float, sources: dict[str, np.ndarray]) -
         given = [sources[name] for name in names if name in sources]
         return grid.padded(sum(given)) * volume if given else grid.zeros()
 
-    def total_vector(*names: str) -> np.ndarray:
-        given = [sources[name] for name in names if name in sources]
-        each = [grid.padded(sum(v[:, a] for v in given)) * volume for a in range(grid.dimensions)] if given else None
-        return np.stack(each) if given else grid.zeros(grid.dimensions)
+    def push() -> np.ndarray:
+        if "momentum" not in sources:
+            return grid.zeros(grid.dimensions)
+        return np.stack([grid.padded(sources["momentum"][:, a]) * volume for a in range(grid.dimensions)])
 
     alpha = grid.extended(grid.padded(sources["alpha_g"])) if "alpha_g" in sources else flow.alpha
     refuse_full_cells(alpha[grid.cells], grid.centres)
     return Window(
-        dt=dt, alpha=alpha, pull=total("drag", "vapour"), vapour=total("vapour"), cling=total("heat"),
-        push=total_vector("drag_velocity", "vapour_momentum"), warmth=total("heat_temperature", "heat_source", "vapour_enthalpy"),
+        dt=dt, alpha=alpha, pull=total("momentum_coefficient", "vapour"), vapour=total("vapour"),
+        cling=total("heat_coefficient"), push=push(), warmth=total("heat"),
     )  # fmt: skip

@@ -40,7 +40,8 @@ class Effect:
     parameters  dataclass of its section (sdph.schema)
     kernel      case -> the floats that its terms take, as a NamedTuple
     arrays      arrays of the state that it needs
-    sources     what it hands to the gas (names of coupling.gas.SOURCES)
+    sources     quantities by which it acts on the gas (names of coupling.gas.SOURCES)
+    to_gas      (window's exchange, sdph.handed.Handed; case) -> quantity -> what each particle gives of it, (N,) or (N, 3)
     moves       whether particles move by it
     matter      what it acts on: "grains", "liquid"
     dt_limit    (kernel parameters, case, state as it is) -> largest stable sub-step [s]; asked before every sub-step
@@ -58,6 +59,7 @@ class Effect:
     matter: tuple[str, ...] = ("grains",)
     dt_limit: Callable = lambda p, case, state: NO_LIMIT
     two_phases: bool = False
+    to_gas: Callable | None = None
     call: Callable | None = None
 
 

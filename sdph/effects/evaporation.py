@@ -146,6 +146,12 @@ def shrinking(s, surface: float) -> tuple[float, float]:
     return sherwood, 4.0 * sherwood * diffusivity * surface / s.grains.density * s.end / s.grains.diameter**2
 
 
+def to_gas(handed, case) -> dict:
+    """Vapour, with the velocity and the temperature of its droplet."""
+    rate = handed.loss.mass / handed.dt
+    return {"vapour": rate, "momentum": rate[:, None] * handed.velocity, "heat": rate * case.vapour.heat_capacity * handed.temperature}
+
+
 def call(scales) -> Judgement:
     """Share of the mass that evaporates within the run (d2 law), of the heat that evaporation takes, and of the vapour that the
     gas among the droplets can take up, the largest."""
@@ -170,6 +176,7 @@ EFFECT = Effect(
         "temperature", "diameter", "diameter_variance", "evaporating",
         "born_mass", "born_diameter", "born_variance", "lost_still", "lost_moving",
     ),
-    sources=("alpha_g", "vapour", "vapour_momentum", "vapour_enthalpy"),
+    sources=("alpha_g", "vapour", "momentum", "heat"),
+    to_gas=to_gas,
     call=call,
 )  # fmt: skip

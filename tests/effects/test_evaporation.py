@@ -9,7 +9,7 @@ from builders import fixed_windows, simulation
 
 from coupling.embedded import EmbeddedGas
 from sdph import case as cases
-from sdph import droplet_loss, particles, scenes
+from sdph import droplet_loss, exchange, particles, scenes
 from sdph.effects import evaporation, heat, sizes
 from sdph.effects.effect import OFF
 from sdph.laws import exact
@@ -60,9 +60,9 @@ def test_momentum_of_the_vapour_is_that_of_the_droplet(tmp_path):
     handed = run._hand(0.01)
     volumes = run.exchange.volumes
     mass = (handed.sources["vapour"] * volumes).sum()
-    momentum = (handed.sources["vapour_momentum"] * volumes[:, None]).sum(axis=0)
+    momentum = (handed.terms["momentum", "evaporation"] * volumes[:, None]).sum(axis=0)
     np.testing.assert_allclose(momentum, mass * np.array([0.3, -0.2, 0.0]), rtol=1e-12, atol=1e-30)
-    enthalpy = (handed.sources["vapour_enthalpy"] * volumes).sum()
+    enthalpy = (handed.terms["heat", "evaporation"] * volumes).sum()
     assert enthalpy == pytest.approx(mass * case.vapour.heat_capacity * 294.0, rel=1e-12)
     assert mass * 0.01 == pytest.approx(handed.loss.mass.sum(), rel=1e-12)
 
@@ -146,17 +146,19 @@ def test_condensation_is_refused_and_counted(tmp_path):
 def test_rate_is_ranz_and_marshall_in_a_stream():
     """Mass lost in a short time by a droplet in a stream, against the law by itself."""
     case = droplet()
-    p, heat_p, state = evaporation.kernel(case), heat.kernel(case), one(330.0)
-    slip, density, gas = np.full(1, 3.0), np.full(1, 1.225), np.full(1, 350.0)
-    out = [np.empty(1) for _ in range(7)]
-    droplet_loss.survey(p, heat_p, OFF, state, slip, density, gas, 1e-6, *out[:3])
-    droplet_loss.losses(p, OFF, state, slip, density, gas, np.zeros(1), 1e-6, out[0], *out[3:])
+    p, state, dry = evaporation.kernel(case), one(330.0), np.zeros(1)
+    around = np.full(1, 3.0), np.full(1, 1.225), np.full(1, 350.0)
+    conductance, damping = np.empty(1), np.empty(1)
+    exchange.rates(OFF, heat.kernel(case), OFF, state, 700.0, *around[:2], conductance, damping)
+    loss, rate, *others = (np.empty(1) for _ in range(5))
+    droplet_loss.losses(p, OFF, state, *around, dry, 1e-6, conductance, loss, *others)
+    droplet_loss.rates(p, OFF, state, *around, dry, rate)
     reynolds = 1.225 * 3.0 * 1e-3 / case.gas.viscosity
     sherwood = law.sherwood_ranz_marshall(reynolds, law.schmidt_number(1.225, case.gas.viscosity, 3.79e-6))
     surface = law.vapour_concentration(law.saturation_clausius_clapeyron(330.0, CLAPEYRON), 330.0)
     flux = law.mass_flux_linear(law.mass_transfer_coefficient(sherwood, 3.79e-6, 1e-3), surface, 0.0, 142.284)
     expected = -law.relative_mass_rate(flux, 1e-3, 700.0) * 1e-9 * 1e-6
-    assert out[3][0] == pytest.approx(expected, rel=1e-4)
+    assert loss[0] == pytest.approx(expected, rel=1e-4) and 1e-6 * rate[0] == pytest.approx(expected, rel=1e-4)
 
 
 def test_wet_bulb_in_a_stream_of_windows(tmp_path):

@@ -30,11 +30,11 @@ def test_ergun_column():
     }
     gas = gas_of((0.04, 0.4), 4, boundaries=boundaries)
     alpha = np.full(len(gas.mesh.volumes), 1.0 - alpha_p)
-    state = gas.start(alpha, ("alpha_g", "drag", "drag_velocity"))
+    state = gas.start(alpha, ("alpha_g", "momentum_coefficient", "momentum"))
     for _ in range(20):
         slip = np.linalg.norm(state.fields["velocity"], axis=1)
         beta = 150 * alpha_p**2 * mu / (alpha * d**2) + 1.75 * alpha_p * rho * slip / d
-        state = gas.advance(1e-3, {"alpha_g": alpha, "drag": beta, "drag_velocity": np.zeros((len(beta), 3))})
+        state = gas.advance(1e-3, {"alpha_g": alpha, "momentum_coefficient": beta, "momentum": np.zeros((len(beta), 3))})
     ergun = (150 * alpha_p**2 * mu * speed / d**2 + 1.75 * alpha_p * rho * speed**2 / d) / (1 - alpha_p) ** 3
     y, p = gas.mesh.centres[:, 1], state.fields["pressure"]
     inside = y > 0.02  # the gas enters with the velocity of alpha_g = 1 and speeds up in the first cell
@@ -133,11 +133,11 @@ def manufactured(n, stretch=1.0):
     gas = gas_of((1.0, 1.0), n, density_kg_m3=exact.rho, viscosity_Pa_s=exact.mu, stretch=(stretch, 1.0 / stretch))
     x, y, _ = gas.mesh.centres.T
     alpha = exact.alpha(x, y)
-    state = gas.start(alpha, ("alpha_g", "drag", "drag_velocity"))
+    state = gas.start(alpha, ("alpha_g", "momentum_coefficient", "momentum"))
     set_flow(gas, velocity=exact.velocity, pressure=exact.pressure)
     force = np.stack((exact.force(0, x, y), exact.force(1, x, y), 0 * x), axis=1)
     for _ in range(round(1.0 / dt)):
-        state = gas.advance(dt, {"alpha_g": alpha, "drag": 0 * x, "drag_velocity": force})
+        state = gas.advance(dt, {"alpha_g": alpha, "momentum_coefficient": 0 * x, "momentum": force})
     p = state.fields["pressure"] - np.average(state.fields["pressure"], weights=gas.mesh.volumes)
     errors = state.fields["velocity"][:, 0] - exact.velocity(0, x, y), p - exact.pressure(x, y)
     return [norms(error, gas.mesh.volumes)[0] for error in errors]

@@ -28,7 +28,7 @@ def test_off_leaves_nothing(name):
 def test_heat_alone_sends_no_momentum():
     case = cases.load(DISC)
     sent = Exchange(case, effect_costs.Still(case).mesh, {row: () for row in effects.REGISTRY}).sources
-    assert set(sent) == {"alpha_g", "heat", "heat_temperature"} <= SOURCES.keys()
+    assert set(sent) == {"alpha_g", "heat_coefficient", "heat"} <= SOURCES.keys()
 
 
 def test_a_sub_step_is_timed_and_moves_the_grains():

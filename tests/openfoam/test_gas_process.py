@@ -21,7 +21,7 @@ from sdph.schema import CaseError
 
 pytestmark = pytest.mark.openfoam
 
-SOURCES = ("alpha_g", "drag", "drag_velocity", "heat", "heat_temperature")
+SOURCES = ("alpha_g", "momentum_coefficient", "momentum", "heat_coefficient", "heat")
 INLET = {
     "inlet": {"kind": "velocity_inlet", "side": "left", "velocity_m_s": [0.5, 0.0], "temperature_K": 320.0},
     "outlet": {"kind": "pressure_outlet", "side": "right", "pressure_Pa": 0.0},
@@ -34,7 +34,7 @@ def busy_sources(gas, step):
     alpha = 1.0 - 0.4 * np.exp(-((x - 0.04 - 0.001 * step) ** 2 + (y - 0.03) ** 2) / 0.01**2)
     drag, heat = 200.0 * (1 - alpha), 1e5 * (1 - alpha)
     pull = drag[:, None] * [0.3, 0.1, 0.0]
-    return {"alpha_g": alpha, "drag": drag, "drag_velocity": pull, "heat": heat, "heat_temperature": heat * 290.0}
+    return {"alpha_g": alpha, "momentum_coefficient": drag, "momentum": pull, "heat_coefficient": heat, "heat": heat * 290.0}
 
 
 def busy(gas, steps, begin=0):
@@ -85,7 +85,7 @@ def test_ranks_and_files_conserve_energy_too(tmp_path, ranks):
         for step in range(2, 20):
             sources = busy_sources(gas, step)
             state = gas.advance(1e-3, sources)
-            given += 1e-3 * total(gas, sources["heat_temperature"] - sources["heat"] * state.fields["temperature"])
+            given += 1e-3 * total(gas, sources["heat"] - sources["heat_coefficient"] * state.fields["temperature"])
     change = state.budget.energy - first.energy - (state.budget.energy_in - first.energy_in)
     assert abs(change - given) < 1e-9 * abs(given)
 
@@ -102,7 +102,7 @@ def test_a_retreat_goes_back_bit_for_bit(tmp_path, ranks, equation):
         back = gas.retreat()
         assert back.time == began[-1].time
         assert all(back.fields[name].tobytes() == began[-1].fields[name].tobytes() for name in back.fields)
-        frozen = busy_sources(gas, 4) | {"heat_temperature": np.full(len(gas.mesh.volumes), -1e12)}
+        frozen = busy_sources(gas, 4) | {"heat": np.full(len(gas.mesh.volumes), -1e12)}
         with pytest.raises(Unfinished, match="temperature is .* in cell|residual of T is not a number"):
             gas.advance(1e-3, frozen)
         gas.retreat()
@@ -166,9 +166,9 @@ def test_values_that_no_gas_has_are_refused(tmp_path, harm, says):
 
 def test_a_checkpoint_of_other_sources_is_refused(tmp_path):
     with box(tmp_path / "a", (0.1, 0.06), 0.005) as gas:
-        gas.start(None, ("heat_source",))
+        gas.start(None, ("heat",))
         gas.checkpoint(tmp_path / "checkpoint")
-    with box(tmp_path / "b", (0.1, 0.06), 0.005) as gas, pytest.raises(CheckpointError, match="of the sources 'heat_source'"):
+    with box(tmp_path / "b", (0.1, 0.06), 0.005) as gas, pytest.raises(CheckpointError, match="of the sources 'heat'"):
         gas.restore(tmp_path / "checkpoint", SOURCES)
 
 
@@ -281,10 +281,10 @@ def test_close_leaves_nothing(tmp_path):
 
 
 @pytest.mark.parametrize("name, value, says", [
-    ("heat", np.nan, "heat is nan in cell 7 at"),
-    ("drag", -1.0, "drag is -1 in cell 7 at"),
+    ("heat_coefficient", np.nan, "heat_coefficient is nan in cell 7 at"),
+    ("momentum_coefficient", -1.0, "momentum_coefficient is -1 in cell 7 at"),
     ("alpha_g", 0.0, "alpha_g is 0 in cell 7 at"),
-    ("drag_velocity", np.inf, "drag_velocity is inf in cell 7 at"),
+    ("momentum", np.inf, "momentum is inf in cell 7 at"),
 ])  # fmt: skip
 def test_an_impossible_source_is_named_with_its_cell(tmp_path, name, value, says):
     with box(tmp_path, (0.1, 0.06), 0.005) as gas:
@@ -297,18 +297,18 @@ def test_an_impossible_source_is_named_with_its_cell(tmp_path, name, value, says
 
 def test_a_source_of_the_wrong_shape_or_name_is_refused(tmp_path):
     with box(tmp_path / "a", (0.1, 0.06), 0.005) as gas:
-        gas.start(None, ("heat_source",))
-        with pytest.raises(GasError, match="heat_source does not have the shape of the mesh"):
-            gas.advance(1e-3, {"heat_source": np.zeros(3)})
+        gas.start(None, ("heat",))
+        with pytest.raises(GasError, match="heat does not have the shape of the mesh"):
+            gas.advance(1e-3, {"heat": np.zeros(3)})
     with box(tmp_path / "b", (0.1, 0.06), 0.005) as gas, pytest.raises(GasError, match="unknown source heaat"):
         gas.start(None, ("heaat",))
 
 
 def test_a_field_that_blows_up_is_named(tmp_path):
     with box(tmp_path, (0.1, 0.06), 0.005) as gas:
-        gas.start(None, ("heat_source",))
+        gas.start(None, ("heat",))
         with pytest.raises(GasError, match="temperature is .* in cell"):
-            gas.advance(1.0, {"heat_source": np.full(len(gas.mesh.volumes), -1e9)})
+            gas.advance(1.0, {"heat": np.full(len(gas.mesh.volumes), -1e9)})
 
 
 def test_fatal_errors_of_openfoam_are_told(tmp_path):

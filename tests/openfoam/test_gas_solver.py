@@ -25,11 +25,11 @@ def test_ergun_pressure_drop(tmp_path, dt, steps):
     alpha_p, d, mu, speed = 0.6, 0.5e-3, AIR["viscosity_Pa_s"], 0.2
     with box(tmp_path, (0.04, 0.4), 0.01, boundaries=COLUMN) as gas:
         alpha = np.full(len(gas.mesh.volumes), 1 - alpha_p)
-        state = gas.start(alpha, ("drag", "drag_velocity"))
+        state = gas.start(alpha, ("momentum_coefficient", "momentum"))
         for _ in range(steps):
             slip = np.linalg.norm(state.fields["velocity"], axis=1)
             beta = 150 * alpha_p**2 * mu / (alpha * d**2) + 1.75 * alpha_p * RHO * slip / d
-            state = gas.advance(dt, {"drag": beta, "drag_velocity": np.zeros((len(beta), 3))})
+            state = gas.advance(dt, {"momentum_coefficient": beta, "momentum": np.zeros((len(beta), 3))})
         y = gas.mesh.centres[:, 1]
     ergun = (150 * alpha_p**2 * mu * speed / d**2 + 1.75 * alpha_p * RHO * speed**2 / d) / (1 - alpha_p) ** 3
     inside = y > 0.05  # the gas comes in as through alpha_g = 1, and speeds up in the first cells
@@ -48,9 +48,9 @@ def test_rim_of_a_bed_makes_no_waves(tmp_path, dt, steps):
         y = gas.mesh.centres[:, 1]
         alpha = np.where((y > 0.1) & (y < 0.3), 1 - alpha_p, 1.0)
         beta = np.where(alpha < 1, 150 * alpha_p**2 * mu / (0.4 * d**2), 0.0)
-        state = gas.start(alpha, ("drag", "drag_velocity"))
+        state = gas.start(alpha, ("momentum_coefficient", "momentum"))
         for _ in range(steps):
-            state = gas.advance(dt, {"drag": beta, "drag_velocity": np.zeros((len(beta), 3))})
+            state = gas.advance(dt, {"momentum_coefficient": beta, "momentum": np.zeros((len(beta), 3))})
     flux = alpha * state.fields["velocity"][:, 1] / speed
     # on the face between the two alpha_g is their mean, 0.7: half of each cell at the rim is filled with that
     assert flux.min() == pytest.approx(0.5 * (1 + 0.4 / 0.7), rel=1e-2)
@@ -64,9 +64,9 @@ def test_uniform_heat_source_is_exact(tmp_path):
     source, dt, steps = 5e4, 2e-3, 10
     with box(tmp_path, (0.02, 0.02), 0.005) as gas:
         alpha = np.full(len(gas.mesh.volumes), 0.7)
-        start = gas.start(alpha, ("heat_source",))
+        start = gas.start(alpha, ("heat",))
         for _ in range(steps):
-            state = gas.advance(dt, {"heat_source": np.full(len(alpha), source)})
+            state = gas.advance(dt, {"heat": np.full(len(alpha), source)})
     rise = source * dt * steps / (0.7 * RHO * CP)
     assert state.fields["temperature"] == pytest.approx(300.0 + rise, rel=1e-13)
     assert state.budget.energy - start.budget.energy == pytest.approx(source * dt * steps * gas_volume(gas), rel=1e-11)
@@ -82,10 +82,10 @@ def test_two_temperatures_relax(tmp_path):
     content = 0.4 * RHO * CP / dt
     with box(tmp_path, (0.02, 0.02), 0.005) as gas:
         n = len(gas.mesh.volumes)
-        state = gas.start(np.full(n, 0.4), ("heat", "heat_temperature"))
+        state = gas.start(np.full(n, 0.4), ("heat_coefficient", "heat"))
         expected = 300.0
         for _ in range(20):
-            state = gas.advance(dt, {"heat": np.full(n, eps), "heat_temperature": np.full(n, eps * grains)})
+            state = gas.advance(dt, {"heat_coefficient": np.full(n, eps), "heat": np.full(n, eps * grains)})
             expected = (content * expected + eps * grains) / (content + eps)
     assert state.fields["temperature"] == pytest.approx(expected, rel=1e-13)
 
@@ -95,10 +95,10 @@ def test_heat_given_is_heat_gained(tmp_path):
     with box(tmp_path, (0.1, 0.1), 0.005) as gas:
         x, y = gas.mesh.centres[:, 0], gas.mesh.centres[:, 1]
         heat = np.where(np.hypot(x - 0.05, y - 0.05) < 0.03, 2e4, 0.0)
-        state = gas.start(np.where(heat > 0, 0.4, 1.0), ("heat", "heat_temperature"))
+        state = gas.start(np.where(heat > 0, 0.4, 1.0), ("heat_coefficient", "heat"))
         first, given = state.budget.energy, 0.0
         for _ in range(50):
-            state = gas.advance(2e-4, {"heat": heat, "heat_temperature": heat * 280.0})
+            state = gas.advance(2e-4, {"heat_coefficient": heat, "heat": heat * 280.0})
             given += 2e-4 * total(gas, heat * (280.0 - state.fields["temperature"]))
     drift = abs(state.budget.energy - first - given) / abs(given)
     print(f"energy drift {drift:.1e} of the heat exchanged")
@@ -133,12 +133,12 @@ def test_moving_alpha_with_heat_conserves_energy(tmp_path):
     dt = 1e-3
     with box(tmp_path, (0.1, 0.1), 0.005) as gas:
         alpha = moving_alpha(gas, 0.0)
-        state = gas.start(alpha, ("alpha_g", "heat", "heat_temperature"))
+        state = gas.start(alpha, ("alpha_g", "heat_coefficient", "heat"))
         first, given = state.budget, 0.0
         for step in range(1, 31):
             alpha = moving_alpha(gas, step * dt)
             heat = 1e5 * (1 - alpha)
-            state = gas.advance(dt, {"alpha_g": alpha, "heat": heat, "heat_temperature": heat * 290.0})
+            state = gas.advance(dt, {"alpha_g": alpha, "heat_coefficient": heat, "heat": heat * 290.0})
             given += dt * total(gas, heat * (290.0 - state.fields["temperature"]))
     drift = abs(state.budget.energy - first.energy - given) / abs(given)
     print(f"energy drift {drift:.1e} of the heat exchanged, with flow")
@@ -157,10 +157,10 @@ def test_drag_given_is_drag_gained(tmp_path):
         n = len(gas.mesh.volumes)
         alpha = np.full(n, 0.8)
         drag, drag_velocity = np.full(n, beta), np.tile([beta * pull, 0.0, 0.0], (n, 1))
-        state = gas.start(alpha, ("drag", "drag_velocity"))
+        state = gas.start(alpha, ("momentum_coefficient", "momentum"))
         speed = 0.0
         for _ in range(10):
-            state = gas.advance(dt, {"drag": drag, "drag_velocity": drag_velocity})
+            state = gas.advance(dt, {"momentum_coefficient": drag, "momentum": drag_velocity})
             speed = (0.8 * RHO / dt * speed + beta * pull) / (0.8 * RHO / dt + beta)
     inside = (gas.mesh.centres[:, 0] > 0.03) & (gas.mesh.centres[:, 0] < 0.07)
     assert state.fields["velocity"][inside, 0] == pytest.approx(speed, rel=1e-6)
@@ -171,13 +171,13 @@ def test_momentum_budget_closes(tmp_path):
     dt = 5e-4
     with box(tmp_path, (0.1, 0.1), 0.005, gravity=(0.0, -9.81)) as gas:
         alpha = moving_alpha(gas, 0.0)
-        state = gas.start(alpha, ("alpha_g", "drag", "drag_velocity"))
+        state = gas.start(alpha, ("alpha_g", "momentum_coefficient", "momentum"))
         for step in range(1, 11):
             before = np.array(state.budget.momentum)
             alpha = moving_alpha(gas, step * dt)
             drag = 300.0 * (1 - alpha)
             pull = drag[:, None] * [0.5, 0.2, 0.0]
-            state = gas.advance(dt, {"alpha_g": alpha, "drag": drag, "drag_velocity": pull})
+            state = gas.advance(dt, {"alpha_g": alpha, "momentum_coefficient": drag, "momentum": pull})
             fields = state.fields
             known = total(gas, pull - drag[:, None] * fields["velocity"] + (1 - alpha)[:, None] * fields["pressure_gradient"])
             known += total(gas, (alpha * fields["density"])[:, None] * [0.0, -9.81, 0.0])
@@ -192,9 +192,9 @@ def test_vapour_mass(tmp_path):
     with box(tmp_path, (0.1, 0.1), 0.005, boundaries=OPEN, vapour=VAPOUR) as gas:
         x, y = gas.mesh.centres[:, 0], gas.mesh.centres[:, 1]
         vapour = np.exp(-((x - 0.05) ** 2 + (y - 0.05) ** 2) / 0.01**2) * 5.0
-        names = ("vapour", "vapour_momentum", "vapour_enthalpy")
+        names = ("vapour", "momentum", "heat")
         start = gas.start(None, names)
-        warm = {"vapour": vapour, "vapour_momentum": np.zeros((len(x), 3)), "vapour_enthalpy": vapour * 2470.0 * 310.0}
+        warm = {"vapour": vapour, "momentum": np.zeros((len(x), 3)), "heat": vapour * 2470.0 * 310.0}
         for _ in range(steps):
             state = gas.advance(dt, warm)
     given = dt * steps * total(gas, vapour)
@@ -214,9 +214,9 @@ def test_vapour_of_the_gas_temperature_changes_no_temperature(tmp_path):
     with box(tmp_path, (0.1, 0.1), 0.005, boundaries=OPEN, vapour=VAPOUR) as gas:
         x, y = gas.mesh.centres[:, 0], gas.mesh.centres[:, 1]
         vapour = np.exp(-((x - 0.05) ** 2 + (y - 0.05) ** 2) / 0.01**2) * 5.0
-        gas.start(None, ("vapour", "vapour_enthalpy"))
+        gas.start(None, ("vapour", "heat"))
         for _ in range(20):
-            state = gas.advance(1e-3, {"vapour": vapour, "vapour_enthalpy": vapour * 2470.0 * 300.0})
+            state = gas.advance(1e-3, {"vapour": vapour, "heat": vapour * 2470.0 * 300.0})
     assert state.fields["vapour_mass_fraction"].max() > 0.01
     assert state.fields["temperature"] == pytest.approx(300.0, rel=1e-10)
 
@@ -259,9 +259,9 @@ def test_heated_gas_of_an_open_box_expands(tmp_path):
     """Ideal gas at operating pressure: density follows the temperature, the rest leaves through the outlet."""
     with box(tmp_path, (0.05, 0.05), 0.005, boundaries=OPEN, equation_of_state="operating", molar_mass_kg_kmol=28.96) as gas:
         n = len(gas.mesh.volumes)
-        start = gas.start(None, ("heat_source",))
+        start = gas.start(None, ("heat",))
         for _ in range(20):
-            state = gas.advance(1e-3, {"heat_source": np.full(n, 1e5)})
+            state = gas.advance(1e-3, {"heat": np.full(n, 1e5)})
     expected = 101325.0 * 28.96 / (8314.462618 * state.fields["temperature"])
     assert state.fields["temperature"].min() > 301.0
     assert state.fields["density"] == pytest.approx(expected, rel=2e-5)

@@ -38,9 +38,9 @@ SIZE, STRETCH = (0.1, 0.2), [3.0, 0.25]
 def through_a_slot(gas):
     """Centres (C, 2), volumes (C,) and fields of gas driven through a slot into a body that drags, in one order for both solvers."""
     cells = len(gas.mesh.volumes)
-    gas.start(None, ("drag", "drag_velocity"))
+    gas.start(None, ("momentum_coefficient", "momentum"))
     for _ in range(5):
-        state = gas.advance(1e-2, {"drag": np.full(cells, 1e3), "drag_velocity": np.zeros((cells, 3))})
+        state = gas.advance(1e-2, {"momentum_coefficient": np.full(cells, 1e3), "momentum": np.zeros((cells, 3))})
     order = np.lexsort(np.round(gas.mesh.centres[:, :2], 9).T)
     fields = state.fields
     return gas.mesh.centres[order, :2], gas.mesh.volumes[order], fields["velocity"][order, :2], fields["pressure"][order]
