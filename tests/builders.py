@@ -4,13 +4,15 @@ import numpy as np
 from fakes import StillGas
 
 from coupling.gas import Mesh
-from sdph import case as cases
-from sdph import particles, rates, scenes
+from sdph import scenes
+from sdph.case import read as cases
 from sdph.effects import OFF
+from sdph.engine import state as particles
+from sdph.engine.ledger import Ledger
+from sdph.engine.rows import Neighbours, box_of
 from sdph.laws import kernels
-from sdph.ledger import Ledger
-from sdph.neighbours import Neighbours, box_of
-from sdph.simulation import Simulation
+from sdph.methods.grains import equations as rates
+from sdph.running.simulation import Simulation
 
 DISC = scenes.HERE / "disc_cluster" / "case.toml"
 # A square full of grains: no rim, and with one cell of gas the two-temperature problem itself.

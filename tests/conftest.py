@@ -21,7 +21,7 @@ def pytest_configure(config):
 def pytest_runtest_setup(item):
     if item.get_closest_marker("openfoam") is None:
         return
-    from coupling.openfoam import install
+    from coupling.openfoam.programs import install
 
     if install.find() is None:
         missing = "OpenFOAM was not found; get it with `sdph openfoam setup --install`"

@@ -5,11 +5,13 @@ import pytest
 from grain_boxes import box, started
 
 from coupling.embedded import EmbeddedGas
-from sdph import case as cases
-from sdph import particles, scenes, shearing
+from sdph import scenes
+from sdph.case import read as cases
 from sdph.effects import OFF
-from sdph.ledger import Ledger
-from sdph.simulation import Simulation
+from sdph.engine import state as particles
+from sdph.engine.ledger import Ledger
+from sdph.methods.grains import contacts as shearing
+from sdph.running.simulation import Simulation
 
 COARSE = (
     "resolution.spacing_mm=10.0", "resolution.cell_mm=20.0", "domain.size_m=[0.12,0.2,0.08]",

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sdph import bubble
+from sdph.running.metrics import bubble
 from sdph.schema import CaseError
 
 CELL, SIZE = 0.01, (0.5, 1.0)  # m

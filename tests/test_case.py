@@ -10,9 +10,10 @@ from builders import DISC, disc
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sdph import case as cases
-from sdph import effects, scenes, schema, sections
-from sdph.liquid import GasPhase, Liquid
+from sdph import effects, scenes, schema
+from sdph.case import read as cases
+from sdph.case import sections
+from sdph.methods.liquids.sections import GasPhase, Liquid
 from sdph.schema import CaseError
 
 TABLE = tomllib.loads(DISC.read_text(encoding="utf-8"))

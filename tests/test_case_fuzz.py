@@ -9,17 +9,19 @@ import warnings
 from unittest import mock
 
 import pytest
+from conftest import LONG
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from conftest import LONG
 from test_output import snapshot
 
-from sdph import case as cases
-from sdph import cli, driver, room, scenes
+from sdph import cli, scenes
+from sdph.case import read as cases
 from sdph.effects import REGISTRY
-from sdph.explain import tables
-from sdph.running import rehearsal
+from sdph.running import driver
 from sdph.schema import CaseError
+from sdph.study import memory as room
+from sdph.study import rehearsal
+from sdph.study.explain import tables
 
 TABLES = {name: tomllib.loads((scenes.HERE / name / "case.toml").read_text(encoding="utf-8")) for name in scenes.names()}
 WORDS = sorted({key for table in TABLES.values() for key in json.dumps(table).split('"')[1::2]})

@@ -14,8 +14,9 @@ from checkpoint_harm import FILE_HARMS, HARMS, TEXTS, certify, checkpoints, harm
 from fuzzing import FACTOR, SEED
 from test_restart import COARSE, Cut, Reporter
 
-from sdph import case as cases
-from sdph import cli, driver, scenes
+from sdph import cli, scenes
+from sdph.case import read as cases
+from sdph.running import driver
 
 COUNT = 40 * FACTOR
 WORK, PATIENCE = 10.0, 60.0  # s of processor and of waiting, on a machine that others use too

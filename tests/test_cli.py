@@ -8,7 +8,8 @@ import sys
 import pytest
 from test_output import snapshot
 
-from sdph import cli, paths, scenes
+from sdph import cli, scenes
+from sdph.scenes import paths
 
 ENVIRONMENT = os.environ | {"PYTHONPATH": str(paths.PACKAGE.parent)}
 SMALL = ("--gas", "embedded", "--set", "resolution.spacing_mm=20", "--set", "resolution.cell_mm=50", "--set", "run.output_interval_s=0.001", "--until", "0.002")

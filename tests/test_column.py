@@ -9,9 +9,10 @@ from grain_boxes import started
 
 from coupling.embedded import EmbeddedGas
 from coupling.gas import Mesh
-from sdph import case as cases
-from sdph import column, scenes
-from sdph.gas_cells import Rows
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.case.gas_cells import Rows
+from sdph.running.metrics import column
 from sdph.schema import CaseError
 
 LENGTH, WIDTH, BED, SPEED, GRAVITY = 0.2, (0.06, 0.08), 0.1, 0.04, 9.81

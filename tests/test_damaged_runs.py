@@ -7,7 +7,8 @@ import shutil
 import pytest
 from test_restart import Reporter, load
 
-from sdph import cli, driver
+from sdph import cli
+from sdph.running import driver
 
 READERS = {
     "report": ("report", "run", "--out", "report.html"),
@@ -93,8 +94,8 @@ def test_a_damaged_history_is_told_by_report(read, harm):
 @pytest.mark.parametrize("name", ["ledger", "metrics"])
 @pytest.mark.parametrize("harm", TABLES)
 def test_other_damaged_tables_are_told_when_they_are_read(whole, tmp_path, name, harm):
-    from sdph import compare
     from sdph.schema import CaseError
+    from sdph.study import compare
 
     shutil.copytree(whole, tmp_path / "run")
     file, content = tmp_path / "run" / f"{name}.csv", TABLES[harm]
@@ -226,7 +227,7 @@ def test_the_curves_of_a_report_bear_the_name_of_their_run(whole, tmp_path):
     """One of two runs has no history: the curve is the other's."""
     from matplotlib import pyplot
 
-    from sdph import report
+    from sdph.study import report
 
     for name in ("without", "with"):
         shutil.copytree(whole, tmp_path / name)

@@ -9,7 +9,8 @@ import sys
 import numba
 import pytest
 
-from sdph import environment, paths
+from sdph.engine import device as environment
+from sdph.scenes import paths
 
 SOURCES = [file for folder in ("sdph", "coupling") for file in sorted((paths.PACKAGE.parent / folder).rglob("*.py"))]
 NO_NANS = {"fast", "nnan", "ninf"}  # flags by which a run that bursts is not noticed
@@ -111,16 +112,16 @@ def test_what_the_user_has_set_stays(monkeypatch):
 def test_an_edited_law_gets_kernels_of_its_own(monkeypatch, tmp_path):
     """numba itself does not notice that a callee in another file was edited."""
     package = tmp_path / "sdph"
-    package.mkdir()
+    (package / "engine").mkdir(parents=True)
     (package / "law.py").write_text("@law\ndef drag(): return 1\n")
-    monkeypatch.setattr(environment, "__file__", str(package / "environment.py"))
+    monkeypatch.setattr(environment, "__file__", str(package / "engine" / "device.py"))
     before = environment._sources()
     (package / "law.py").write_text("@law\ndef drag(): return 2\n")
     assert environment._sources() != before
 
 
 def test_numba_imported_first_caches_by_the_sources_too():
-    told = "import numba, sdph; from sdph import environment; print(numba.config.CACHE_DIR.endswith(environment._sources()))"
+    told = "import numba, sdph; from sdph.engine import device as environment; print(numba.config.CACHE_DIR.endswith(environment._sources()))"
     variables = {name: value for name, value in os.environ.items() if name != "NUMBA_CACHE_DIR"}
     found = subprocess.run([sys.executable, "-c", told], capture_output=True, text=True, check=True, env=variables)
     assert found.stdout.split() == ["True"]

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from grain_boxes import DENSITY, DIAMETER, VISCOSITY, box, go, started, windows
 
-from sdph import particles, rates
+from sdph.engine import state as particles
 from sdph.laws import drag, exact, granular
+from sdph.methods.grains import equations as rates
 
 ALPHA_P, THETA, E = 0.5, 1e-4, 0.9
 G0 = granular.sinclair_jackson(ALPHA_P, 0.63)

@@ -10,8 +10,9 @@ from builders import FULL_BOX, PLAIN_EXCHANGE, disc, fixed_windows, run, simulat
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from sdph import history, particles
+from sdph.engine import state as particles
 from sdph.laws import exact, grain_sizes, heat
+from sdph.running import history
 
 REFERENCE = {
     value["id"]: value["expected"]

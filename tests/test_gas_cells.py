@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from coupling.gas import Mesh
-from sdph.gas_cells import Rows, graded_edges, layers, nearest_edge
+from sdph.case.gas_cells import Rows, graded_edges, layers, nearest_edge
 from sdph.schema import CaseError
 
 

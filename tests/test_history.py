@@ -5,10 +5,11 @@ from types import SimpleNamespace
 import pytest
 from builders import disc
 
-from sdph import case as cases
-from sdph import history, scenes
-from sdph.explain.effect_costs import prepared
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.running import history
 from sdph.schema import CaseError
+from sdph.study.explain.effect_costs import prepared
 
 COLUMN = scenes.HERE / "fluidised_column" / "case.toml"  # whose grains have no temperature
 

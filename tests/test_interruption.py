@@ -6,8 +6,8 @@ import time
 
 import pytest
 
-from sdph import interruption
-from sdph.interruption import Stopped, listening
+from sdph.running import interruption
+from sdph.running.interruption import Stopped, listening
 
 
 def test_impatient_it_stops_at_once_and_patient_it_waits():

@@ -7,7 +7,8 @@ import pytest
 from builders import disc, fixed_windows, run, simulation
 from fakes import StillGas
 
-from sdph import ledger, output
+from sdph.engine import ledger
+from sdph.running import output
 
 SHORT = ("resolution.spacing_mm=10", "resolution.cell_mm=25", "run.end_time_s=0.004", "run.output_interval_s=0.004", "run.report_at_s=[]")
 

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from test_restart import load
 
-from sdph import effects, particles
-from sdph.step import Stepper
+from sdph import effects
+from sdph.engine import state as particles
+from sdph.methods.grains.method import Stepper
 
 WARM, STEPS = 2000, int(os.environ.get("SDPH_LONG_STEPS", "20000"))  # 1e6 outside CI
 

@@ -6,8 +6,8 @@ from builders import cloud
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sdph import particles
-from sdph.neighbours import LANES, SKIN, Neighbours, box_of, length, nearest_image
+from sdph.engine import state as particles
+from sdph.engine.rows import LANES, SKIN, Neighbours, box_of, length, nearest_image
 
 REACH = 0.2
 

@@ -10,8 +10,9 @@ from builders import disc, polar_mesh, run, simulation
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sdph import output, view
+from sdph.running import output
 from sdph.schema import CaseError
+from sdph.show import view
 
 SHORT = ("resolution.spacing_mm=10", "resolution.cell_mm=25", "run.end_time_s=0.004", "run.output_interval_s=0.002", "run.report_at_s=[]")
 

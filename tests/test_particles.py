@@ -11,7 +11,7 @@ from builders import FULL_BOX, disc
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sdph import particles
+from sdph.engine import state as particles
 
 REFERENCE = json.loads((Path(__file__).parent / "data" / "sdph_reference_values.json").read_text())["values"]
 COUNT = next(int(v["expected"]) for v in REFERENCE if v["id"] == "N_disc_lattice")

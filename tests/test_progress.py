@@ -9,11 +9,14 @@ import pytest
 from test_cli import SMALL, refused, sdph  # noqa: F401  (`refused` is a fixture)
 from test_restart import load
 
-from sdph import cli, driver, room, watch
-from sdph.guard import COLLAPSE
-from sdph.progress import Reporter
+from sdph import cli
+from sdph.engine.guard import COLLAPSE
+from sdph.methods.grains.method import Stepper
+from sdph.running import driver
+from sdph.running.progress import Reporter
 from sdph.schema import CaseError
-from sdph.step import Stepper
+from sdph.show import watch
+from sdph.study import memory as room
 
 
 class Terminal(list):
@@ -36,7 +39,7 @@ def test_the_line_on_a_terminal_says_all(tmp_path, monkeypatch):
     terminal = Terminal()
     monkeypatch.setattr(sys, "stderr", terminal)
     monkeypatch.setenv("COLUMNS", "300")
-    monkeypatch.setattr("sdph.progress.REFRESH", 0.0)
+    monkeypatch.setattr("sdph.running.progress.REFRESH", 0.0)
     reporter = Reporter()
     driver.run(load("disc_cluster", "embedded"), "disc_cluster", tmp_path / "run", None, reporter)
     reporter.close()

@@ -9,13 +9,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numba import prange
 
-from sdph import particles, rates
-from sdph.effects import OFF, conduction
+from sdph.effects import OFF
+from sdph.effects.grains import conduction
+from sdph.engine import state as particles
+from sdph.engine.rows import Neighbours, box_of
 from sdph.laws import exact, kernels
 from sdph.laws.constants import SOFTENING
 from sdph.laws.exchange import cleary_monaghan
-from sdph.neighbours import Neighbours, box_of
-from sdph.step import ACOUSTIC
+from sdph.methods.grains import equations as rates
+from sdph.methods.grains.method import ACOUSTIC
 
 H = 0.1
 SIGMA = {dims: kernels.normalisation("cubic_spline", dims, H) for dims in (2, 3)}

@@ -9,8 +9,11 @@ import imageio.v3 as imageio
 import pytest
 from test_restart import Cut, Reporter, load
 
-from sdph import cli, driver, report, view
+from sdph import cli
+from sdph.running import driver
 from sdph.schema import CaseError
+from sdph.show import view
+from sdph.study import report
 
 PROBE = """
 <script>

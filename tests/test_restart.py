@@ -16,10 +16,13 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 from test_cli import ENVIRONMENT
 
-from sdph import case as cases
-from sdph import driver, output, particles, restart, scenes
-from sdph.engine.clock import Stalled
 from coupling.gas import GasError
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.engine import restart
+from sdph.engine import state as particles
+from sdph.engine.clock import Stalled
+from sdph.running import driver, output
 from sdph.schema import CaseError
 
 COARSE = {

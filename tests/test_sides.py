@@ -3,8 +3,8 @@
 import numpy as np
 from builders import simulation
 
-from sdph.neighbours import length
-from sdph.stress import suite
+from sdph.engine.rows import length
+from sdph.study.stress import suite
 
 
 def test_no_pair_and_no_dummy_reaches_through_a_plate(tmp_path):

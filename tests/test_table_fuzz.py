@@ -8,8 +8,8 @@ from conftest import LONG
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sdph import output
-from sdph.effects import frame
+from sdph.effects.around import frame
+from sdph.running import output
 from sdph.schema import CaseError
 
 HEAD = ",".join(frame.COLUMNS)

@@ -10,9 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from coupling.gas import GasError, Unfinished
-from sdph import window
+from sdph.case import judge
 from sdph.engine.clock import Stalled
-from sdph.explain import estimate, judge
+from sdph.exchange import window
+from sdph.study.explain import estimate
 
 GROWTH, SHRINK = window.GROWTH, window.SHRINK
 

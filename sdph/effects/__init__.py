@@ -1,32 +1,18 @@
 """The effects that a case can switch on, one file each, and the registry of them."""
 
-from sdph.effects import (
+from sdph.effects.around import drain, frame, gravity, inflow, outflow, tank, walls
+from sdph.effects.effect import OFF, Effect, kernel_of
+from sdph.effects.gas import drag, evaporation, gas_pressure, heat
+from sdph.effects.grains import (
     artificial_viscosity,
     conduction,
-    density_diffusion,
-    drag,
-    drain,
-    evaporation,
-    frame,
     friction,
-    gas_pressure,
     grain_shifting,
     granular_pressure,
     granular_temperature,
     granular_viscosity,
-    gravity,
-    heat,
-    inflow,
-    laminar_viscosity,
-    liquid_damping,
-    outflow,
-    shifting,
-    surface_tension,
-    tank,
-    walls,
-    xsph,
 )
-from sdph.effects.effect import OFF, Effect, kernel_of
+from sdph.effects.liquids import density_diffusion, laminar_viscosity, liquid_damping, shifting, surface_tension, xsph
 
 FILES = (
     drag,

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from sdph import output
+from sdph.running import output
 from sdph.schema import CaseError
 
 READERS = {

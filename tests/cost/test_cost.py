@@ -5,10 +5,11 @@ import json
 
 import pytest
 
-from sdph import arguments, scenes
-from sdph import case as cases
-from sdph.cost import choice, climb, ladder, report, rows
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.cli import arguments
 from sdph.schema import CaseError
+from sdph.study.cost import choice, climb, ladder, report, rows
 
 SMALL = ladder.Ladder(
     reference="none",

@@ -13,10 +13,10 @@ import numpy as np
 import pytest
 from fuzzing import FACTOR, SEED
 
-from coupling.files import FileConnection
-from coupling.messages import GREETING_LIMIT, HEADER, MAGIC, VERSION, Kind, Message, MessageError, encode
 from coupling.openfoam.solver import _mesh, _state
-from coupling.sockets import SocketConnection, SocketServer
+from coupling.transport.files import FileConnection
+from coupling.transport.messages import GREETING_LIMIT, HEADER, MAGIC, VERSION, Kind, Message, MessageError, encode
+from coupling.transport.sockets import SocketConnection, SocketServer
 
 COUNT = 10_000 * FACTOR
 LIMIT = 2**16  # bytes of a message
@@ -213,7 +213,7 @@ def test_a_promise_of_much_takes_no_memory():
 @pytest.mark.openfoam
 def test_the_gas_reads_or_refuses_each(tmp_path):
     """The C++ reader of the wire format under the sanitizers of memory and of undefined behaviour."""
-    from coupling.openfoam import install
+    from coupling.openfoam.programs import install
 
     (tmp_path / "fuzz.C").write_text("""
         #include "wire.H"

@@ -9,8 +9,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from coupling.messages import (
-    ABSOLUTE_LIMIT, HEADER, MAGIC, VERSION, Kind, Message, MessageError, decode, encode, message_limit,
+from coupling.transport.messages import (
+    ABSOLUTE_LIMIT,
+    HEADER,
+    MAGIC,
+    VERSION,
+    Kind,
+    Message,
+    MessageError,
+    decode,
+    encode,
+    message_limit,
 )  # fmt: skip
 
 NAMES = st.text(st.characters(codec="utf-8"), min_size=1, max_size=40).filter(lambda s: len(s.encode()) < 256)

@@ -13,12 +13,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from coupling import sockets
-from coupling.files import FileConnection, FileServer
-from coupling.messages import HEADER, MAGIC, VERSION, Kind, Message, MessageError, encode
-from coupling.sockets import SocketConnection, SocketServer
-from coupling.transport import callers
+from coupling.transport import callers, sockets
 from coupling.transport.callers import MOST
+from coupling.transport.files import FileConnection, FileServer
+from coupling.transport.messages import HEADER, MAGIC, VERSION, Kind, Message, MessageError, encode
+from coupling.transport.sockets import SocketConnection, SocketServer
 
 SECRET = "a" * 64
 RNG = np.random.default_rng(7)

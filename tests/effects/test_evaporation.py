@@ -8,12 +8,14 @@ import pytest
 from builders import fixed_windows, simulation
 
 from coupling.embedded import EmbeddedGas
-from sdph import case as cases
-from sdph import droplet_loss, particles, scenes
-from sdph.effects import evaporation, heat, sizes
+from sdph import scenes
+from sdph.case import read as cases
 from sdph.effects.effect import OFF
-from sdph.laws import exact
+from sdph.effects.gas import evaporation, heat, sizes
+from sdph.engine import state as particles
+from sdph.exchange import droplets as droplet_loss
 from sdph.laws import evaporation as law
+from sdph.laws import exact
 from sdph.schema import CaseError
 
 DROPLET = scenes.HERE / "single_droplet" / "case.toml"

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sdph.effects import frame
+from sdph.effects.around import frame
 from sdph.schema import CaseError
 
 HEAD = ",".join(frame.COLUMNS)

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from grain_boxes import box, started
 
-from sdph.effects import friction
+from sdph.effects.grains import friction
 from sdph.laws import kernels
 from sdph.laws.friction import second_invariant
-from sdph.rates import separation
+from sdph.methods.grains.equations import separation
 
 RATE, DT = 20.0, 1e-5  # 1/s, s
 

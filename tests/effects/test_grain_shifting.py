@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from grain_boxes import box, started
 
-from sdph.effects import grain_shifting
+from sdph.effects.grains import grain_shifting
 
 
 @pytest.fixture

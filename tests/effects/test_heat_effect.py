@@ -6,8 +6,10 @@ from builders import disc
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sdph import effects, particles
-from sdph.effects import OFF, heat, sizes
+from sdph import effects
+from sdph.effects import OFF
+from sdph.effects.gas import heat, sizes
+from sdph.engine import state as particles
 from sdph.laws import grain_sizes
 from sdph.laws import heat as law
 

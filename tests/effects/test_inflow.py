@@ -8,10 +8,10 @@ from builders import simulation
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sdph import case as cases
-from sdph import particles
-from sdph.effects import inflow
-from sdph.particles import GRAIN, INFLOW
+from sdph.case import read as cases
+from sdph.effects.around import inflow
+from sdph.engine import state as particles
+from sdph.engine.state import GRAIN, INFLOW
 from sdph.schema import CaseError
 
 AIR = {"density_kg_m3": 1.2, "viscosity_Pa_s": 1.8e-5, "conductivity_W_m_K": 0.025, "heat_capacity_J_kg_K": 1006.0, "temperature_K": 300.0}

@@ -8,11 +8,13 @@ import pyvista
 from test_inflow import AIR, SAND
 
 from coupling.embedded import EmbeddedGas
-from sdph import case as cases
-from sdph import driver, jet, output, particles
-from sdph.effects import inflow
-from sdph.particles import GRAIN, INFLOW
-from sdph.progress import Reporter
+from sdph.case import read as cases
+from sdph.effects.around import inflow
+from sdph.engine import state as particles
+from sdph.engine.state import GRAIN, INFLOW
+from sdph.running import driver, output
+from sdph.running.metrics import jet
+from sdph.running.progress import Reporter
 from sdph.schema import CaseError
 
 ROUND_OFF = 1e-10

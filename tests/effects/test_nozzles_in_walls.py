@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from test_many_nozzles import begun, case, slot
 
-from sdph import particles
-from sdph.particles import GRAIN, INFLOW
+from sdph.engine import state as particles
+from sdph.engine.state import GRAIN, INFLOW
 
 CLOSED = {"walls": {"kind": "wall"}}
 EFFECTS = ["inflow", "walls", "drag", "granular_pressure"]

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from sdph.effects import sizes
+from sdph.effects.gas import sizes
 from sdph.laws import grain_loss, grain_sizes
 
 MEAN = 3e-4  # m

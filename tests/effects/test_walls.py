@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from grain_boxes import DENSITY, DIAMETER, box, go, started, windows
 
-from sdph import boundary
+from sdph.engine.walls import sides as boundary
 from sdph.laws import granular
 
 ALPHA_P, THETA, HEIGHT = 0.5, 1.0, 0.06

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 
 from coupling.embedded import EmbeddedGas
-from sdph.case import from_table
+from sdph.case.read import from_table
 
 AIR = {
     "density_kg_m3": 1.2, "viscosity_Pa_s": 1.8e-5, "conductivity_W_m_K": 0.025, "heat_capacity_J_kg_K": 1000.0,

@@ -9,7 +9,7 @@ from gas_cases import OIL, SIDES, gas_case, gas_of
 
 from coupling.embedded import EmbeddedGas
 from coupling.gas import SOURCES, Gas, GasError
-from sdph.case import CaseError
+from sdph.case.read import CaseError
 
 ALL = tuple(SOURCES)
 

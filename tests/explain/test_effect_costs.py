@@ -4,10 +4,11 @@ import pytest
 from builders import DISC
 
 from coupling.gas import SOURCES
-from sdph import case as cases
-from sdph import effects, particles, scenes
-from sdph.exchange import Exchange
-from sdph.explain import effect_costs
+from sdph import effects, scenes
+from sdph.case import read as cases
+from sdph.engine import state as particles
+from sdph.exchange.exchange import Exchange
+from sdph.study.explain import effect_costs
 
 BED = cases.load(scenes.HERE / "bubbling_bed" / "case.toml", effect_costs.BED)
 

@@ -3,10 +3,11 @@
 import pytest
 from builders import DISC, simulation
 
-from sdph import case as cases
 from sdph import effects, scenes
-from sdph.explain import estimate, judge, tables
-from sdph.explain.scales import Scales
+from sdph.case import judge
+from sdph.case import read as cases
+from sdph.methods.grains.scales import Scales
+from sdph.study.explain import estimate, tables
 
 BED = scenes.HERE / "bubbling_bed" / "case.toml"
 SMALL_BED = ("resolution.spacing_mm=20", "resolution.cell_mm=50")

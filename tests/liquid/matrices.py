@@ -1,10 +1,10 @@
-"""The matrices of `sdph.liquid.correction`, particle by particle."""
+"""The matrices of `sdph.methods.liquids.correction`, particle by particle."""
 
 import numpy as np
 
-from sdph import smoothing
-from sdph.liquid import correction
-from sdph.particles import positions
+from sdph.engine import kernels as smoothing
+from sdph.engine.state import positions
+from sdph.methods.liquids import correction
 
 
 def corrections(own):

@@ -4,10 +4,11 @@ import math
 
 import pytest
 
-from sdph import case as cases
 from sdph import effects, scenes
-from sdph.explain import judge, tables
-from sdph.liquid.step import LiquidStepper
+from sdph.case import judge
+from sdph.case import read as cases
+from sdph.methods.liquids.method import LiquidStepper
+from sdph.study.explain import tables
 
 LIQUIDS = [name for name in scenes.names() if cases.load(scenes.HERE / name / "case.toml").liquid]
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from sdph import case as cases
-from sdph import particles
-from sdph.liquid.step import LiquidStepper, loads
-from sdph.liquid.walls import WallP
+from sdph.case import read as cases
+from sdph.engine import state as particles
+from sdph.methods.liquids.method import LiquidStepper, loads
+from sdph.methods.liquids.walls import WallP
 
 G = 9.81  # m/s2
 SHAKE, OMEGA = 0.02, 5.0  # m, rad/s

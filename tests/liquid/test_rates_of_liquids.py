@@ -4,13 +4,16 @@ import numpy as np
 import pytest
 from matrices import corrections
 
-from sdph import case as cases
-from sdph import smoothing
-from sdph.effects import shifting
+from sdph.case import read as cases
+from sdph.effects.liquids import shifting
+from sdph.engine import kernels as smoothing
+from sdph.engine.state import WALL, positions, velocities
 from sdph.laws import eos
-from sdph.liquid import LIQUID, pairs, rates, shift, walls
-from sdph.liquid.step import LiquidStepper, loads, wall_loads
-from sdph.particles import WALL, positions, velocities
+from sdph.methods.liquids import equations as rates
+from sdph.methods.liquids import forces as pairs
+from sdph.methods.liquids import shift, walls
+from sdph.methods.liquids.method import LiquidStepper, loads, wall_loads
+from sdph.methods.liquids.sections import LIQUID
 
 LIQUID_OF_TANK = {"density_kg_m3": 1000.0, "viscosity_Pa_s": 1.0, "sound_speed_m_s": 20.0}
 TANK = {

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from sdph import particles
-from sdph.liquid import LIQUID
-from sdph.liquid.rows import LiquidNeighbours
-from sdph.neighbours import LANES
-from sdph.particles import WALL
+from sdph.engine import state as particles
+from sdph.engine.liquid_rows import LiquidNeighbours
+from sdph.engine.rows import LANES
+from sdph.engine.state import WALL
+from sdph.methods.liquids.sections import LIQUID
 
 REACH, SKIN = 0.12, 0.1
 

@@ -6,13 +6,16 @@ import numpy as np
 import pytest
 from test_restart import Cut, Reporter, same_run
 
-from sdph import case as cases
-from sdph import cli, driver, output, restart, scenes, view
+from sdph import cli, scenes
+from sdph.case import read as cases
+from sdph.engine import restart
 from sdph.engine.clock import Stalled
-from sdph.guard import Unstable
-from sdph.liquid import ledger
-from sdph.liquid.run import STRIDE, LiquidRun
+from sdph.engine.guard import Unstable
+from sdph.methods.liquids import totals as ledger
+from sdph.running import driver, output
+from sdph.running.liquid_run import STRIDE, LiquidRun
 from sdph.schema import CaseError
+from sdph.show import view
 
 COARSE = {
     "dam_break": ("resolution.spacing_mm=8", "run.end_time_s=0.06"),

@@ -7,11 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from sdph import case as cases
-from sdph import particles
-from sdph.effects import tank as tank_effect
-from sdph.liquid import LIQUID, start
-from sdph.tank import Tank
+from sdph.case import read as cases
+from sdph.effects.around import tank as tank_effect
+from sdph.engine import state as particles
+from sdph.methods.liquids import start
+from sdph.methods.liquids.sections import LIQUID
+from sdph.running.tank import Tank
 
 GRAVITY = np.array([0.0, 0.0, -9.8])
 TABLE = {

@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from sdph import case as cases
-from sdph import particles
-from sdph.liquid import shapes
-from sdph.liquid.step import LiquidStepper, loads, wall_loads
+from sdph.case import read as cases
+from sdph.engine import state as particles
+from sdph.engine.walls import shapes
+from sdph.methods.liquids.method import LiquidStepper, loads, wall_loads
 from sdph.schema import CaseError
 
 G = 9.81  # m/s2

@@ -4,13 +4,15 @@ import numpy as np
 import pytest
 from matrices import corrections
 
-from sdph import case as cases
-from sdph import scenes, smoothing
+from sdph import scenes
+from sdph.case import read as cases
 from sdph.effects import OFF
+from sdph.engine import kernels as smoothing
+from sdph.engine.state import positions, velocities
 from sdph.laws import liquids
-from sdph.liquid import GAS, LIQUID, interface, phases, shift
-from sdph.liquid.step import LiquidStepper, loads, wall_loads
-from sdph.particles import positions, velocities
+from sdph.methods.liquids import interface, phases, shift
+from sdph.methods.liquids.method import LiquidStepper, loads, wall_loads
+from sdph.methods.liquids.sections import GAS, LIQUID
 from sdph.schema import CaseError
 
 BASE = {

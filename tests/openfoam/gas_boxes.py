@@ -5,8 +5,8 @@ import contextlib
 import numpy as np
 
 from coupling.openfoam.solver import OpenFoamGas
-from sdph import paths
-from sdph.case import from_table
+from sdph.case.read import from_table
+from sdph.scenes import paths
 
 TEMPLATE = paths.data("openfoam_case_templates") / "disc_cluster" / "gas"
 AIR = {

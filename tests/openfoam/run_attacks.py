@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from attack_places import Place
 
-from sdph import paths
+from sdph.scenes import paths
 
 RESUMED: dict[str, Callable[[Place], None]] = {}
 

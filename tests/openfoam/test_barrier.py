@@ -10,11 +10,13 @@ import pytest
 from gas_boxes import TEMPLATE, box_case
 
 from coupling.gas import GasError
-from coupling.openfoam import barrier, comparators, install, programs
 from coupling.openfoam import case as case_files
+from coupling.openfoam.comparators import run as comparators
+from coupling.openfoam.programs import barrier, install
+from coupling.openfoam.programs import run as programs
 from coupling.openfoam.solver import OpenFoamGas
-from sdph import case as cases
 from sdph import scenes
+from sdph.case import read as cases
 from sdph.schema import CaseError
 
 pytestmark = pytest.mark.openfoam

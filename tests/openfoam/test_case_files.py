@@ -11,10 +11,11 @@ import pytest
 from gas_boxes import AIR, TEMPLATE, box, box_case
 
 from coupling.openfoam import case as case_files
-from coupling.openfoam import install, programs
 from coupling.openfoam.block_mesh import block_mesh
-from sdph import case as cases
+from coupling.openfoam.programs import install
+from coupling.openfoam.programs import run as programs
 from sdph import scenes
+from sdph.case import read as cases
 from sdph.schema import CaseError
 
 SLOT = {

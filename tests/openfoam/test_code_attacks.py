@@ -13,7 +13,7 @@ from attack_places import CUT, MESH, build_library, make_place
 from code_attacks import ATTACKS, FUNCTION, PROBE, WM_OPTIONS
 from run_attacks import RESUMED
 
-from coupling.openfoam import install
+from coupling.openfoam.programs import install
 from sdph import cli
 
 pytestmark = pytest.mark.openfoam
@@ -26,7 +26,7 @@ LONGEST = 120.0  # s that a command may take
 
 # Imported once, before it is forked for each command: what takes the time of a command that is refused
 SERVER = multiprocessing.get_context("forkserver")
-USED = ("sdph.cli", "sdph.driver", "sdph.watch", "sdph.cost.choice", "sdph.explain.tables", "coupling.openfoam.solver")
+USED = ("sdph.cli", "sdph.running.driver", "sdph.show.watch", "sdph.study.cost.choice", "sdph.study.explain.tables", "coupling.openfoam.solver")
 SERVER.set_forkserver_preload(list(USED))
 
 

@@ -11,7 +11,7 @@ import sys
 
 import pytest
 
-from sdph import paths
+from sdph.scenes import paths
 
 pytestmark = pytest.mark.openfoam
 

@@ -11,11 +11,12 @@ from gas_boxes import TEMPLATE, box_case
 from hypothesis import given
 from hypothesis import strategies as st
 
-from coupling.openfoam import barrier, programs
 from coupling.openfoam import case as case_files
 from coupling.openfoam.code import refuse_code
 from coupling.openfoam.code.patterns import may_be_key
-from sdph import paths
+from coupling.openfoam.programs import barrier
+from coupling.openfoam.programs import run as programs
+from sdph.scenes import paths
 from sdph.schema import CaseError
 
 HEADER = "FoamFile {{ version 2.0; format {}; class {}; object x; arch \"LSB;label=32;scalar=64\"; }}\n"

@@ -4,10 +4,14 @@ import numpy as np
 import pytest
 
 from coupling.gas import GasError
-from coupling.openfoam import comparators, fields, install, programs, reference
-from coupling.openfoam.droplet_numbers import Liquid, Nozzle, flow
-from sdph import case as cases
+from coupling.openfoam import fields
+from coupling.openfoam.comparators import reference
+from coupling.openfoam.comparators import run as comparators
+from coupling.openfoam.comparators.droplet_numbers import Liquid, Nozzle, flow
+from coupling.openfoam.programs import install
+from coupling.openfoam.programs import run as programs
 from sdph import scenes
+from sdph.case import read as cases
 from sdph.laws import drag, exact, heat
 from sdph.schema import CaseError
 

@@ -7,7 +7,8 @@ import pytest
 from gas_boxes import TEMPLATE
 from test_restart import Reporter, load
 
-from sdph import driver, view
+from sdph.running import driver
+from sdph.show import view
 
 pytestmark = pytest.mark.openfoam
 

@@ -4,7 +4,7 @@ import subprocess
 
 import pytest
 
-from coupling.openfoam import install
+from coupling.openfoam.programs import install
 from sdph.cli import main
 
 pytestmark = pytest.mark.openfoam

@@ -13,10 +13,10 @@ import pytest
 from gas_boxes import TEMPLATE, WALLS, box, box_case, total
 
 from coupling.gas import CheckpointError, GasError, Unfinished
-from coupling.messages import Message, decode, encode
-from coupling.openfoam import install
-from coupling.openfoam.build import header_folder
+from coupling.openfoam.programs import install
+from coupling.openfoam.programs.build import header_folder
 from coupling.openfoam.solver import OpenFoamGas
+from coupling.transport.messages import Message, decode, encode
 from sdph.schema import CaseError
 
 pytestmark = pytest.mark.openfoam
@@ -386,7 +386,7 @@ def wire_echo(tmp_path_factory):
 
 
 def test_both_languages_mean_the_same_format(wire_echo):
-    from coupling.messages import Kind
+    from coupling.transport.messages import Kind
 
     message = Message(
         Kind.STATE,

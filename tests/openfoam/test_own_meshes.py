@@ -10,8 +10,8 @@ import tomli_w
 from gas_boxes import box_case, template
 
 from coupling.openfoam.solver import OpenFoamGas
-from sdph import view
 from sdph.cli import main
+from sdph.show import view
 
 pytestmark = pytest.mark.openfoam
 

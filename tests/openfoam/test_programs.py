@@ -4,7 +4,7 @@ import signal
 
 import pytest
 
-from coupling.openfoam import programs
+from coupling.openfoam.programs import run as programs
 
 RESIDUAL = "smoothSolver:  Solving for T, Initial residual = 1.6e-14, Final residual = 1.6e-14, No Iterations 0\n"
 GOING_ON = "Time = 0.001 s, dt = 0.001 s\n" + RESIDUAL

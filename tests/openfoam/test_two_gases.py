@@ -5,10 +5,11 @@ import pytest
 from gas_boxes import box, box_case
 
 from coupling.embedded import EmbeddedGas
-from sdph import case as cases
-from sdph import driver, scenes
-from sdph.gas_cells import cell_edges
-from sdph.progress import Reporter
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.case.gas_cells import cell_edges
+from sdph.running import driver
+from sdph.running.progress import Reporter
 
 # scene -> (overrides, key of summary.json -> relative difference allowed)
 SHORT = {

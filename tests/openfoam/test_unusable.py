@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from coupling.openfoam import comparators
+from coupling.openfoam.comparators import run as comparators
 from sdph.cli import main
 
 pytestmark = pytest.mark.openfoam

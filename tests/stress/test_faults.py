@@ -1,6 +1,6 @@
 """The short form of `sdph stress --faults`: a few kills, and each other fault once."""
 
-from sdph.stress import faults
+from sdph.study.stress import faults
 
 
 def test_faults_are_named_leave_nothing_and_are_made_good():

@@ -6,10 +6,10 @@ from builders import disc, simulation
 
 from coupling.gas import GasError
 from sdph import cli
-from sdph import simulation as running
-from sdph.guard import Guard, Unstable
+from sdph.engine.guard import Guard, Unstable
+from sdph.running import simulation as running
 from sdph.schema import CaseError
-from sdph.stress import suite
+from sdph.study.stress import suite
 
 FAST = [hard.name for hard in suite.chosen([], True)]
 PAST_LIMIT = (
