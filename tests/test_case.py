@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sdph import effects, scenes, schema
+from sdph.case import gas_cells, sections
 from sdph.case import read as cases
-from sdph.case import sections
 from sdph.methods.liquids.sections import GasPhase, Liquid
 from sdph.schema import CaseError
 
@@ -47,7 +47,7 @@ def test_disc_in_si():
     assert case.grains.diameter == pytest.approx(285e-6, rel=1e-15)
     assert (case.gas.viscosity, case.domain.size, case.dimensions) == (1.7895e-5, (0.5, 0.5), 2)
     assert case.parameters["heat"].closure == "geometric"
-    assert cases.cells(case) == (100, 100)
+    assert gas_cells.cells(case) == (100, 100)
 
 
 def test_case_cannot_be_changed():
@@ -273,4 +273,4 @@ def test_mutated_case_loads_or_is_refused(changes):
         assert str(error).strip()
         return
     assert read_back(case) == case
-    assert len(cases.cells(case)) == case.dimensions
+    assert len(gas_cells.cells(case)) == case.dimensions

@@ -10,7 +10,7 @@ import pytest
 from test_restart import load
 
 from sdph import effects
-from sdph.engine import state as particles
+from sdph.methods.grains import start
 from sdph.methods.grains.method import Stepper
 
 WARM, STEPS = 2000, int(os.environ.get("SDPH_LONG_STEPS", "20000"))  # 1e6 outside CI
@@ -29,7 +29,7 @@ def test_neither_memory_nor_files_grow():
     case = load("bubbling_bed", "embedded", "resolution.spacing_mm=50", "particles.bed.upper_m=[0.5,0.25]")
     parameters = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
     names = {name for effect in case.effects for name in effects.REGISTRY[effect].arrays}
-    stepper = Stepper(case, parameters, particles.fill(case, names))
+    stepper = Stepper(case, parameters, start.fill(case, names))
     stepper.prepare()
     count = len(stepper.state.x)
     gravity = np.tile([0.0, -9.81, 0.0], (count, 1))

@@ -7,7 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sdph.engine import state as particles
-from sdph.engine.rows import LANES, SKIN, Neighbours, box_of, length, nearest_image
+from sdph.engine.geometry import box_of, nearest_image
+from sdph.engine.rows import LANES, SKIN, Neighbours, length
 
 REACH = 0.2
 

@@ -10,7 +10,9 @@ from builders import disc, polar_mesh, run, simulation
 from hypothesis import given
 from hypothesis import strategies as st
 
+from sdph.engine.table import Table
 from sdph.running import output
+from sdph.running.fields import Fields
 from sdph.schema import CaseError
 from sdph.show import view
 
@@ -76,7 +78,7 @@ def test_summary_reads_back_and_a_missing_one_is_told(tmp_path):
 @given(rows=st.lists(st.tuples(st.floats(allow_nan=False), st.integers(-(2**53), 2**53), st.sampled_from(["a", "courant", 'x, "y"'])), min_size=1))
 def test_table_reads_back_to_the_last_bit(tmp_path_factory, rows):
     file = tmp_path_factory.mktemp("table") / "t.csv"
-    table = output.Table(file)
+    table = Table(file)
     for a, b, c in rows:
         table.write({"a_K": a, "b": b, "limit": c})
     table.close()
@@ -91,7 +93,7 @@ def test_fields_read_back(tmp_path):
     case = disc(*SHORT)
     simulated = simulation(case, tmp_path)
     output.create(tmp_path / "run")
-    fields = output.Fields(tmp_path / "run")
+    fields = Fields(tmp_path / "run")
     fields.write(0.0, simulated.meshes())
     while simulated.time < case.run.end_time:
         simulated.window()
@@ -121,7 +123,7 @@ def test_picture_of_a_run(tmp_path, monkeypatch):
     case = disc(*SHORT)
     simulated = run(case, tmp_path)
     output.create(tmp_path / "run")
-    output.Fields(tmp_path / "run").write(simulated.time, simulated.meshes())
+    Fields(tmp_path / "run").write(simulated.time, simulated.meshes())
     view.show(tmp_path / "run", tmp_path / "picture.png")
     from matplotlib.image import imread
 
@@ -163,7 +165,7 @@ def drawn(tmp_path):
     """A run folder with one instant."""
     simulated = run(disc(*SHORT), tmp_path)
     output.create(tmp_path / "run")
-    output.Fields(tmp_path / "run").write(simulated.time, simulated.meshes())
+    Fields(tmp_path / "run").write(simulated.time, simulated.meshes())
     return tmp_path / "run"
 
 

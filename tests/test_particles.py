@@ -11,7 +11,9 @@ from builders import FULL_BOX, disc
 from hypothesis import given
 from hypothesis import strategies as st
 
+from sdph.engine import lattice
 from sdph.engine import state as particles
+from sdph.methods.grains import start
 
 REFERENCE = json.loads((Path(__file__).parent / "data" / "sdph_reference_values.json").read_text())["values"]
 COUNT = next(int(v["expected"]) for v in REFERENCE if v["id"] == "N_disc_lattice")
@@ -34,7 +36,7 @@ def rows_of(state):
 
 def test_disc_has_the_particles_of_the_reference():
     case = disc()
-    state = particles.fill(case, ("temperature", "diameter", "diameter_variance"))
+    state = start.fill(case, ("temperature", "diameter", "diameter_variance"))
     assert len(state.x) == COUNT == 5024
     assert state.mass.sum() == pytest.approx(5024 * 0.011475, rel=1e-12)  # alpha_p rho_p dx^2, reference m_sph_disc
     np.testing.assert_array_equal(state.ident, np.arange(1, 5025))  # the paper counts from 1
@@ -46,7 +48,7 @@ def test_disc_has_the_particles_of_the_reference():
 
 @given(spacing=st.floats(1.0, 20.0))
 def test_disc_is_symmetric_whatever_the_spacing(spacing):
-    state = particles.fill(disc(f"resolution.spacing_mm={spacing!r}"), ())
+    state = start.fill(disc(f"resolution.spacing_mm={spacing!r}"), ())
     assert state.x.mean() == pytest.approx(0.25, abs=1e-12)
     assert state.y.mean() == pytest.approx(0.25, abs=1e-12)
     area = len(state.x) * (spacing * 1e-3) ** 2
@@ -55,20 +57,20 @@ def test_disc_is_symmetric_whatever_the_spacing(spacing):
 
 @given(spacing=st.floats(0.4, 30.0), alpha=st.floats(0.01, 0.63))
 def test_box_holds_its_mass_at_any_spacing(spacing, alpha):
-    state = particles.fill(disc(*FULL_BOX, f"resolution.spacing_mm={spacing!r}", f"particles.disc.volume_fraction={alpha!r}"), ())
+    state = start.fill(disc(*FULL_BOX, f"resolution.spacing_mm={spacing!r}", f"particles.disc.volume_fraction={alpha!r}"), ())
     assert state.mass.sum() == pytest.approx(alpha * 3060.0 * 0.05**2, rel=1e-12)
     assert 0.0 < state.x.min() < state.x.max() < 0.05 or len(state.x) == 1
 
 
 def test_numbering_is_row_major():
-    state = particles.fill(disc(*FULL_BOX, "resolution.spacing_mm=10"), ())
+    state = start.fill(disc(*FULL_BOX, "resolution.spacing_mm=10"), ())
     np.testing.assert_allclose(state.x[:6], [0.005, 0.015, 0.025, 0.035, 0.045, 0.005])
     np.testing.assert_allclose(state.y[:6], [0.005] * 5 + [0.015])
 
 
 def test_sphere_in_three_dimensions():
     region = SimpleNamespace(shape="sphere", centre=(1.0, 2.0, 3.0), radius=0.5)
-    points = particles.lattice(region, 0.05, 3)
+    points = lattice.lattice(region, 0.05, 3)
     assert points.shape[1] == 3
     np.testing.assert_allclose(points.mean(axis=0), region.centre, atol=1e-12)
     assert len(points) * 0.05**3 == pytest.approx(4.0 / 3.0 * math.pi * 0.5**3, rel=0.02)
@@ -84,7 +86,7 @@ def test_regions_are_numbered_through_and_keep_their_own():
         "particles.other.temperature_K=400.0",
         "particles.other.velocity_m_s=[1.0,-2.0]",
     )
-    state = particles.fill(disc(*two), ("temperature",))
+    state = start.fill(disc(*two), ("temperature",))
     np.testing.assert_array_equal(state.ident, np.arange(1, 5425))
     hot = state.temperature == 400.0
     assert hot.sum() == 400
@@ -94,7 +96,7 @@ def test_regions_are_numbered_through_and_keep_their_own():
 
 
 def test_case_without_particles_is_an_empty_state():
-    state = particles.fill(disc("particles={}"), ("temperature",))
+    state = start.fill(disc("particles={}"), ("temperature",))
     assert all(len(array) == 0 for array in state)
 
 

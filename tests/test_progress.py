@@ -10,7 +10,7 @@ from test_cli import SMALL, refused, sdph  # noqa: F401  (`refused` is a fixture
 from test_restart import load
 
 from sdph import cli
-from sdph.engine.guard import COLLAPSE
+from sdph.methods.grains.bounds import COLLAPSE
 from sdph.methods.grains.method import Stepper
 from sdph.running import driver
 from sdph.running.progress import Reporter

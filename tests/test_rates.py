@@ -12,7 +12,8 @@ from numba import prange
 from sdph.effects import OFF
 from sdph.effects.grains import conduction
 from sdph.engine import state as particles
-from sdph.engine.rows import Neighbours, box_of
+from sdph.engine.geometry import box_of
+from sdph.engine.rows import Neighbours
 from sdph.laws import exact, kernels
 from sdph.laws.constants import SOFTENING
 from sdph.laws.exchange import cleary_monaghan

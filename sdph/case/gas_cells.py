@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
-from sdph.case.read import cells
+from sdph.case.sections import Case
 from sdph.schema import CaseError
 
 SAME = 1e-8  # of the size of a mesh: centres nearer to each other along an axis lie in one layer of cells (OpenFOAM writes ten digits)
@@ -86,3 +88,8 @@ def _rows(along, mesh) -> np.ndarray:
         return own
     slabs = np.floor((along - along.min()) / (extent * (1.0 + SAME)) * max(2, round(extent / size)))
     return np.unique(slabs, return_inverse=True)[1]
+
+
+def cells(case: Case) -> tuple[int, ...]:
+    """Number of gas cells along each axis: the lengths over the cell size, rounded."""
+    return tuple(max(1, math.floor(length / case.resolution.cell + 0.5)) for length in case.domain.size)

@@ -2,31 +2,19 @@
 
 from __future__ import annotations
 
-import dataclasses
-
 from sdph import effects
 from sdph.effects.effect import Judgement
-from sdph.methods.grains.scales import Scales
+from sdph.methods.grains import scales as grains
+from sdph.methods.liquids import scales as liquids
 
 
-def scales_of(case) -> Scales:
+def scales_of(case):
     """Scales of a case as if every effect that can judge itself and needs no input had its section."""
-    parameters = _defaults(_matter(case)) | case.parameters
-    if case.liquid:
-        from sdph.methods.liquids.scales import LiquidScales
-
-        return LiquidScales(dataclasses.replace(case, parameters=parameters))
-    return Scales(dataclasses.replace(case, effects=tuple(parameters), parameters=parameters))
+    return liquids.scales_of(case) if case.liquid else grains.scales_of(case)
 
 
 def _matter(case) -> str:
     return "liquid" if case.liquid else "grains"
-
-
-def _defaults(matter: str) -> dict:
-    """Parameters of the effects that need no input."""
-    rows = [row for row in effects.REGISTRY.values() if row.call and matter in row.matter]
-    return {row.name: row.parameters() for row in rows if all(f.default is not dataclasses.MISSING for f in dataclasses.fields(row.parameters))}
 
 
 def judgements(case, scales=None) -> dict[str, Judgement]:

@@ -163,6 +163,11 @@ class Case:
     def smoothing_length(self) -> float:
         return self.resolution.smoothing_ratio * self.resolution.spacing
 
+    @property
+    def fastest_sound(self) -> float:
+        """The larger sound speed of the phases of a liquid [m/s]."""
+        return max(self.liquid.sound_speed, self.gas_phase.speed_of_sound(self.liquid) if self.gas_phase else 0.0)
+
 
 SECTIONS = {"run": Run, "domain": Domain, "resolution": Resolution, "gas": GasProperties, "grains": Grains}
 GROUPS = {"particles": Region, "pools": Pool, "boundaries": Boundary, "probes": Probe, "nozzles": Nozzle}

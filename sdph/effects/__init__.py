@@ -1,5 +1,7 @@
 """The effects that a case can switch on, one file each, and the registry of them."""
 
+import dataclasses
+
 from sdph.effects.around import drain, frame, gravity, inflow, outflow, tank, walls
 from sdph.effects.effect import OFF, Effect, kernel_of
 from sdph.effects.gas import drag, evaporation, gas_pressure, heat
@@ -48,4 +50,14 @@ def moving(case) -> bool:
     return any(REGISTRY[name].moves for name in case.effects)
 
 
-__all__ = ["OFF", "REGISTRY", "Effect", "kernel_of", "moving"]
+def without_input(matter: str) -> dict:
+    """Parameters of the effects on grains or a liquid that can judge themselves and need no input."""
+    rows = [row for row in REGISTRY.values() if row.call and matter in row.matter]
+    return {
+        row.name: row.parameters()
+        for row in rows
+        if all(f.default is not dataclasses.MISSING for f in dataclasses.fields(row.parameters))
+    }
+
+
+__all__ = ["OFF", "REGISTRY", "Effect", "kernel_of", "moving", "without_input"]

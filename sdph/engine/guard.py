@@ -7,23 +7,17 @@ its gas past the speed of sound for a moment: ten times that is too much.
 
 from __future__ import annotations
 
-import math
 import sys
 from pathlib import Path
 
 import numpy as np
 
-from sdph.case import judge
 from sdph.engine import state as particles
 from sdph.engine.kept import Unfit
-from sdph.laws.constants import GAS_CONSTANT
 
-RUNAWAY = 10.0  # times what drives the grains, times the speed of sound of the gas; our choice
-COLLAPSE = 1e3  # times what drives the grains: sound that is faster shrinks the sub-steps until a run gets nowhere; our choice
-LATENT = 0.25  # of the hottest: how far below the coldest evaporation may cool; our choice
+RUNAWAY = 10.0  # times the fastest that a case foresees, sound of a gas or a liquid among it; our choice
 FAR, DENSE = 1e3, 1e3  # times the domain and the density of the grains: no particle is further or denser; our choice
 TINY = sys.float_info.min
-ADIABATIC = 1.4  # cp/cv of a diatomic gas
 
 
 class Unstable(RuntimeError):
@@ -62,14 +56,14 @@ class Watch:
             raise Unfit("two particles have one number")
         far = FAR * max(self.case.domain.size)
         for name, (low, high) in (dict.fromkeys("xyz", (-far, far)) | bounds).items():
-            worst = _outside(state[name], low, high)
+            worst = outside(state[name], low, high)
             if worst is not None:
                 which = f"{name} of particle {state['ident'][worst]} is {state[name][worst]:.3g}"
                 raise Unfit(f"{which}; this case allows {low:.3g} to {high:.3g}")
 
     def hold(self, name, values, bounds, state, lower: str) -> None:
         """Unstable where a value (N,) of the particles is out of bounds (low, high, unit); `lower`: what is to be lowered."""
-        worst = _outside(values, *bounds[:2])
+        worst = outside(values, *bounds[:2])
         if worst is not None:
             self.stop(name, f"particle {state.ident[worst]}", particles.positions(state)[worst], values[worst], bounds, lower)
 
@@ -84,83 +78,7 @@ class Watch:
         return f"{name} of {which} at ({at}) m is {value:.3g} {unit}, this case allows {low:.3g} to {high:.3g} {unit}"
 
 
-class Guard(Watch):
-    """Looks at the grains after every sub-step, at its length too, and at the gas after every window."""
-
-    def __init__(self, case):
-        super().__init__(case)
-        scales = judge.scales_of(case)
-        drop = math.sqrt(2.0 * scales.gravity * max(case.domain.size))
-        pressures = [b.pressure for b in case.boundaries.values() if b.pressure is not None]
-        self.pressure = max(map(abs, pressures), default=0.0)
-        blown = math.sqrt(2.0 * (max(pressures, default=0.0) - min(pressures, default=0.0)) / case.gas.density)
-        agitated = math.sqrt(case.grains.granular_temperature) + scales.sound
-        self.reach = scales.jet + scales.thrown + drop + blown + agitated
-        given = [case.gas.temperature, *(patch.temperature for patch in scales.patches)]
-        given += [b.temperature for b in case.boundaries.values() if b.temperature]
-        slack = scales.span + LATENT * max(given) + self.reach**2 / case.grains.heat_capacity
-        self.coldest, self.hottest = max(0.0, min(given) - slack), max(given) + slack
-        self.sound = math.sqrt(ADIABATIC * GAS_CONSTANT / case.gas.molar_mass * max(given))
-        self.cause, self.length = "largest", case.coupling.window_largest  # until the first window begins
-
-    def begin(self, simulation, dt: float) -> None:
-        """Before a window of `dt` [s]."""
-        super().begin(simulation)
-        self.cause, self.length = simulation.clock.limit, dt
-
-    def admit_grains(self, state: dict, names, heaviest: float) -> None:
-        """`admit` of grains, none of more than `heaviest` [kg]."""
-        speed, positive, zero_on = (-RUNAWAY * self.reach, RUNAWAY * self.reach), (TINY, math.inf), (0.0, math.inf)
-        bounds = dict.fromkeys("uvw", speed) | dict.fromkeys(("diameter", "born_mass", "born_diameter"), positive)
-        bounds |= dict.fromkeys(("diameter_variance", "born_variance", "lost_still", "lost_moving"), zero_on)
-        bounds |= {"mass": (TINY, heaviest), "density": (0.0, DENSE * self.case.grains.density), "evaporating": (0.0, 1.0)}
-        bounds |= {"temperature": (self.coldest, self.hottest), "theta": (0.0, (COLLAPSE * self.reach) ** 2)}
-        bounds |= {"nozzle": (0, len(self.case.nozzles)), "entering": (0, 1)}
-        kinds = [particles.GRAIN, particles.INFLOW]
-        self.admit(state, names, bounds)
-        if not np.isin(state["kind"], kinds).all():
-            raise Unfit("a particle is neither a grain nor of a nozzle")
-
-    def admit_gas(self, fields: dict) -> None:
-        """Unfit where gas that comes from a checkpoint is faster, hotter, colder or under more pressure than this case allows."""
-        most = self.case.gas.density * (RUNAWAY * self.sound) ** 2 + self.pressure
-        for name, values, bounds in (*self._of_gas(fields), ("pressure", fields["pressure"], (-most, most, "Pa"))):
-            worst = _outside(values, *bounds[:2])
-            if worst is not None:
-                low, high, unit = bounds
-                raise Unfit(f"gas {name} of cell {worst} is {values[worst]:.3g} {unit}; this case allows {low:.3g} to {high:.3g}")
-
-    def sub_step(self, stepper) -> None:
-        """After a sub-step: NaN, speed, temperature of the particles."""
-        s = stepper.state
-        lower = f"run.step_factor (now {self.case.run.step_factor:g}; the sub-step was ruled by {stepper.limit or 'conduction'}), then {self._shorter()}"
-        speed = np.sqrt(s.u**2 + s.v**2 + (s.w**2 if len(s.w) else 0.0))
-        self.hold("speed", speed, (0.0, RUNAWAY * self.reach, "m/s"), s, lower)
-        if len(s.temperature):
-            self.hold("temperature", s.temperature, (self.coldest, self.hottest, "K"), s, lower)
-        self.hold("density", s.density, (0.0, math.inf, "kg/m3"), s, lower)
-        collapse = f"what packs the grains: the sub-step has fallen to {stepper.length:.2g} s"
-        self.hold("speed of sound", stepper.stress.sound, (0.0, COLLAPSE * self.reach, "m/s"), s, collapse)
-
-    def gas(self, simulation) -> str | None:
-        """Name what is out of bounds in the gas after a window, NaN, speed or temperature; None where nothing is."""
-        for name, values, bound in self._of_gas(simulation.gas_state.fields):
-            worst = _outside(values, *bound[:2])
-            if worst is not None:
-                return self._told(f"gas {name}", f"cell {worst}", simulation.gas.mesh.centres[worst], values[worst], bound)
-        return None
-
-    def _of_gas(self, fields: dict):
-        """(name, values (C,), bounds) of what is looked at."""
-        bounds = {"velocity": (0.0, RUNAWAY * self.sound, "m/s"), "temperature": (self.coldest, self.hottest, "K")}
-        for name, bound in bounds.items():
-            yield name, fields[name] if fields[name].ndim == 1 else particles.lengths(fields[name]), bound
-
-    def _shorter(self) -> str:
-        return f"coupling.window_largest_s below {self.length:.3g} (the window was ruled by {self.cause})"
-
-
-def _outside(values, low: float, high: float):
+def outside(values, low: float, high: float):
     """Index of the worst value that is no number or out of bounds; None if all are fine."""
     if not len(values) or (low <= values.min() and values.max() <= high):  # false for nan
         return None

@@ -13,7 +13,7 @@ import numpy as np
 
 from sdph.engine import state as particles
 from sdph.engine.kept import ROW, Maybe, Unfit
-from sdph.running.output import Table
+from sdph.engine.table import Table
 
 VECTORS = (
     "impulse_to_particles", "impulse_to_gas", "impulse_of_body_forces", "impulse_of_walls", "impulse_of_inflow", "impulse_of_outflow",

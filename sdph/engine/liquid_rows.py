@@ -11,10 +11,11 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit, prange
 
-from sdph.engine import motion
+from sdph.engine import geometry, motion
 from sdph.engine import rows as neighbours
 from sdph.engine import state as particles
-from sdph.engine.rows import LANES, nearest_image, span
+from sdph.engine.geometry import nearest_image
+from sdph.engine.rows import LANES, span
 from sdph.engine.state import WALL
 
 
@@ -50,7 +51,7 @@ class LiquidNeighbours(neighbours.Neighbours):
         return self._rows_of(grid, particles.axes(state), state.kind)
 
     def _rows_of(self, grid, here, kind) -> Rows:
-        places, self.box = neighbours.three(here), neighbours.box_of(self.period, len(here))
+        places, self.box = neighbours.three(here), geometry.box_of(self.period, len(here))
         halves = neighbours.starts(_halves(neighbours.cells(grid, *places), kind), 2 * int(grid.shape.prod())).view(np.uint64)  # see _runs
         near = (grid, halves, *places, kind, self.box, (self.reach * (1.0 + self.skin)) ** 2)
         count, start = np.empty(len(kind), np.int32), np.zeros(len(kind) + 1, np.int64)

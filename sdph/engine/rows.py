@@ -12,10 +12,10 @@ import numpy as np
 from numba import njit, prange
 
 from sdph.engine import state as particles
+from sdph.engine.geometry import OPEN, OPEN_PLANE, box_of, nearest_image
 from sdph.engine.kept import Many
 
 SKIN = 0.1  # of the reach; our choice: 0.2 h measured best (about 5-8 steps per list), and the reach is 2 h
-OPEN = 0.0  # period of an axis that is not periodic
 CELLS_A_PARTICLE = 16  # memory of the cells stays below that of the rows; our choice
 LANES = 4  # doubles of a vector register of 256 bit, as wide as pays on today's x86
 MOST_CELLS = 2**20  # along an axis, so that their product is an int64
@@ -35,38 +35,6 @@ class Rows(NamedTuple):
 
     index: np.ndarray
     count: np.ndarray
-
-
-class Plane(NamedTuple):
-    """Lengths of a periodic box in two dimensions and their inverses, both 0 along an open axis: an image costs no branch."""
-
-    length_x: float
-    length_y: float
-    inverse_x: float
-    inverse_y: float
-
-
-class Space(NamedTuple):
-    """The same in three dimensions."""
-
-    length_x: float
-    length_y: float
-    length_z: float
-    inverse_x: float
-    inverse_y: float
-    inverse_z: float
-
-
-OPEN_PLANE, OPEN_SPACE = (), (0.0,)  # boxes in which nothing is periodic
-
-
-def box_of(period, dimensions: int) -> tuple:
-    """The box for kernels. They tell the four kinds apart by length when they are compiled, so that neither a third
-    dimension that is not there costs anything nor images where nothing is periodic."""
-    lengths = [float(length) for length in period][:dimensions]
-    if not any(lengths):
-        return OPEN_PLANE if dimensions == 2 else OPEN_SPACE
-    return (Plane if dimensions == 2 else Space)(*lengths, *(1.0 / length if length else 0.0 for length in lengths))
 
 
 class Neighbours:
@@ -223,24 +191,6 @@ def length(rows, i):
     """Entries to loop over in row i, a multiple of LANES: a loop of pairs then runs in whole vectors. The last ones may be i
     itself, whose separation from i, and so every pair term, is 0."""
     return (rows.count[i] + LANES - 1) // LANES * LANES
-
-
-@njit(cache=True, error_model="numpy")
-def deep(box):
-    """Whether a box has three dimensions."""
-    return len(box) == 1 or len(box) == 6
-
-
-@njit(cache=True, error_model="numpy")
-def nearest_image(box, dx, dy, dz):
-    """A separation, through the periodic boundaries where that is shorter."""
-    if len(box) < 2:
-        return dx, dy, dz
-    dx -= box.length_x * np.rint(dx * box.inverse_x)
-    dy -= box.length_y * np.rint(dy * box.inverse_y)
-    if len(box) == 4:
-        return dx, dy, dz
-    return dx, dy, dz - box.length_z * np.rint(dz * box.inverse_z)
 
 
 @njit(cache=True, error_model="numpy")

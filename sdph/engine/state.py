@@ -7,7 +7,6 @@ In two dimensions masses are per metre of depth [kg/m].
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
@@ -132,51 +131,6 @@ def _columns(a, b, c) -> np.ndarray:
     if len(c):
         out[:, 2] = c
     return out
-
-
-def lattice(region, spacing: float, dimensions: int) -> np.ndarray:
-    """(N, dimensions) points of a square or cubic lattice in a region, cell-centred on the region's centre or corner."""
-    if region.shape == "box":
-        counts = [max(1, round((b - a) / spacing)) for a, b in zip(region.lower, region.upper)]
-        ticks = [a + (np.arange(n) + 0.5) * (b - a) / n for a, b, n in zip(region.lower, region.upper, counts)]
-        return grid(ticks)
-    reach = math.ceil(region.radius / spacing)
-    points = grid([c + (np.arange(-reach, reach) + 0.5) * spacing for c in region.centre])
-    return points[((points - np.array(region.centre)) ** 2).sum(axis=1) <= region.radius**2]
-
-
-def grid(ticks: list[np.ndarray]) -> np.ndarray:
-    """Points of a tensor grid, the first axis fastest (row-major numbering of the paper)."""
-    mesh = np.meshgrid(*ticks[::-1], indexing="ij")[::-1]
-    return np.stack([m.ravel() for m in mesh], axis=1)
-
-
-def fill(case, names) -> State:
-    """The particles that a case has at the start, numbered from 1 as in the paper; mass = alpha_p rho_p dx^d."""
-    parts = [_region(case, region, names) for region in case.particles.values()]
-    state = parts[0] if parts else empty(0, names, case.dimensions)
-    for part in parts[1:]:
-        state = join(state, part)
-    state.ident[:] = np.arange(1, len(state.ident) + 1)
-    return state
-
-
-def _region(case, region, names) -> State:
-    points = lattice(region, case.resolution.spacing, case.dimensions)
-    volume = case.resolution.spacing**case.dimensions
-    if region.shape == "box":  # the lattice is fitted to the box, so the volumes are
-        volume = math.prod(b - a for a, b in zip(region.lower, region.upper)) / len(points)
-    state = empty(len(points), names, case.dimensions)
-    for axis, column in zip(axes(state), points.T):
-        axis[:] = column
-    for array, value in zip((state.u, state.v, state.w), region.velocity or ()):
-        array[:] = value
-    state.density[:] = region.volume_fraction * case.grains.density
-    state.mass[:] = state.density * volume
-    for name, value in (("temperature", region.temperature), ("diameter", case.grains.diameter), ("theta", case.grains.granular_temperature)):
-        getattr(state, name)[:] = value
-    state.diameter_variance[:] = case.grains.diameter_std**2
-    return born(state)
 
 
 def born(state: State) -> State:

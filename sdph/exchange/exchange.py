@@ -18,21 +18,17 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numba import njit, prange
 
 from coupling.transfer import deposit, gather
 from sdph import effects
 from sdph.effects import OFF
-from sdph.effects.gas import drag, heat, sizes
-from sdph.engine import state as particles
+from sdph.effects.gas import sizes
 from sdph.engine.state import GRAIN
 from sdph.exchange import droplets as droplet_loss
 from sdph.exchange.amounts import Handed, Loss, Taken
-from sdph.laws.constants import GAS_CONSTANT
-from sdph.laws.exchange import exponential_fraction
+from sdph.exchange.equations import Seen, coefficients, temperature_span, vapour_concentration
 
 INSTANT = 1e-12  # s, so short that f_k/dt is K_k/C_k
-NEGLIGIBLE = 1e-6  # of the temperature: smaller differences need not be resolved (round-off else rules the window); our choice
 
 
 class Exchange:
@@ -67,7 +63,7 @@ class Exchange:
         kept = state.mass - loss.mass if loss else state.mass
         heat_share, pull, shared_mass, damping = (np.zeros(len(state.x)) for _ in range(4))
         latent = self.parameters["evaporation"].latent_heat / dt * loss.mass if loss else OFF
-        _coefficients(
+        coefficients(
             self.parameters["drag"], self.parameters["heat"], self.sizes_p, state, self._grains(), dt, seen.slip, seen.density,
             kept, conductance, latent, heat_share, pull, shared_mass, damping,
         )  # fmt: skip
@@ -103,7 +99,7 @@ class Exchange:
         conductance, flow, surface = (np.empty(count) for _ in range(3))
         around = seen.slip, seen.density, seen.temperature
         droplet_loss.survey(p, self.parameters["heat"], self.sizes_p, state, *around, dt, conductance, flow, surface)
-        concentration = gather(weights, _vapour_concentration(p, gas_state))
+        concentration = gather(weights, vapour_concentration(p, gas_state))
         if not self.case.coupling.one_way:
             evaporating = surface > concentration
             after = [self._relaxed(state, weights, gas_state, flow * some * dt, surface) for some in (evaporating, ~evaporating)]
@@ -118,7 +114,7 @@ class Exchange:
         """Vapour around the particles [kmol/m3] once they have exchanged so much gas (N,) [m3] with the cells."""
         deposited = deposit(weights, np.stack((exchanged, exchanged * surface), axis=1))
         room = self._room(weights, state.mass * (state.kind == GRAIN)) * self.volumes
-        cells = _vapour_concentration(self.parameters["evaporation"], gas_state)
+        cells = vapour_concentration(self.parameters["evaporation"], gas_state)
         return gather(weights, (room * cells + deposited[:, 1]) / (room + deposited[:, 0]))
 
     def pace(self, state, weights, gas_state) -> tuple[float, float, float]:
@@ -145,7 +141,7 @@ class Exchange:
         if not self.parameters["heat"]:
             return 0.0
         full, resistance = self._resistance(state, weights, gas_state)
-        return float(_temperature_span(self.case) * (self.volumes[full] / resistance).sum())
+        return float(temperature_span(self.case) * (self.volumes[full] / resistance).sum())
 
     def _resistance(self, state, weights, gas_state) -> tuple[np.ndarray, np.ndarray]:
         """Mask of the cells with grains, and 1/C_p + 1/C_g of these [m3 K/J]."""
@@ -224,54 +220,3 @@ class Exchange:
 
     def _grains(self):
         return self.case.grains.density, self.case.grains.heat_capacity
-
-
-class Seen:
-    """The gas as the particles see it: own velocity (N, 3), slip (N,), density, temperature (N,) of the gas."""
-
-    def __init__(self, weights, gas_state, state):
-        velocity, self.density, self.temperature = (gather(weights, gas_state.fields[name]) for name in ("velocity", "density", "temperature"))
-        self.own = particles.velocities(state)
-        self.slip = particles.lengths(velocity - self.own)
-
-
-def _vapour_concentration(p, gas_state) -> np.ndarray:
-    """Vapour in the cells [kmol/m3], Eq. 10."""
-    Y, temperature = gas_state.fields["vapour_mass_fraction"], gas_state.fields["temperature"]
-    moles = Y / p.molar_mass
-    fraction = moles / (moles + (1.0 - Y) / p.gas_molar_mass)
-    return fraction * p.operating_pressure / (GAS_CONSTANT * temperature)
-
-
-def _temperature_span(case) -> float:
-    """Hottest less coldest of all that the case gives a temperature [K], and where they are alike a negligible part of it."""
-    given = [case.gas.temperature, *(part.temperature for part in (*case.particles.values(), *case.nozzles.values()))]
-    given += [boundary.temperature for boundary in case.boundaries.values() if boundary.temperature]
-    return max(max(given) - min(given), NEGLIGIBLE * max(given))
-
-
-@njit(cache=True, parallel=True, error_model="numpy")
-def _coefficients(drag_p, heat_p, sizes_p, s, grains, dt, slip, gas_density, kept, mean, latent, heat_share, pull, shared_mass, damping):
-    """Of every particle: heat_share [W/K] and pull [W], m_k f_k/dt [kg/s], beta/(alpha_p rho_p) [1/s].
-
-    With a latent heat flow L held over the window, x = dt K/C and C of the mass that is `kept` [kg],
-    Q/dt = K phi (T'_g - T) + L (1 - phi), phi = (1 - exp(-x))/x; without one K phi = C f/dt. `mean` is K where grains evaporate.
-    """
-    density, heat_capacity = grains
-    for i in prange(len(s.x)):
-        heat_share[i] = pull[i] = shared_mass[i] = damping[i] = 0.0
-        if s.kind[i] == GRAIN:
-            alpha_p = s.density[i] / density
-            capacity = kept[i] * heat_capacity
-            if len(latent) == 0:
-                conductance = heat.conductance(heat_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
-            else:
-                conductance = mean[i]
-            if conductance > 0.0:
-                heat_share[i] = capacity * exponential_fraction(dt * conductance / capacity) / dt if capacity > 0.0 else 0.0
-                pull[i] = heat_share[i] * s.temperature[i]
-                if len(latent) > 0:
-                    pull[i] -= latent[i] * (1.0 - heat_share[i] / conductance)
-            rate = drag.damping(drag_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
-            shared_mass[i] = kept[i] * exponential_fraction(dt * rate) / dt
-            damping[i] = rate

@@ -27,8 +27,11 @@ from sdph.engine import state as particles
 from sdph.engine.guard import Unstable
 from sdph.engine.kept import ROW, Many, Maybe, Unfit
 from sdph.engine.ledger import Ledger
+from sdph.engine.table import Table
 from sdph.running import inputs, metrics, output
+from sdph.running.fields import Fields
 from sdph.running.interruption import Stopped, listening
+from sdph.running.liquid_run import LiquidRun
 from sdph.running.simulation import Simulation
 from sdph.scenes import paths
 from sdph.schema import CaseError
@@ -92,8 +95,6 @@ def resume(folder: Path, overrides: tuple[str, ...], reporter, *, allow_code: bo
 def simulation_of(case, gas, ledger: Path):
     """What runs a case: a liquid (`gas` is None), or grains in a gas; its ledger goes to a new file."""
     if case.liquid:
-        from sdph.running.liquid_run import LiquidRun
-
         return LiquidRun(case, ledger)
     return Simulation(case, gas, Ledger(ledger, case, gas.mesh.depth))
 
@@ -240,8 +241,8 @@ class Outputs:
     FORMS = {"first": ROW, "last": ROW, "rows": Many(ROW)}
 
     def __init__(self, folder: Path, simulation):
-        self.simulation, self.fields = simulation, output.Fields(folder)
-        self.history, self.metrics = output.Table(folder / "history.csv"), output.Table(folder / "metrics.csv")
+        self.simulation, self.fields = simulation, Fields(folder)
+        self.history, self.metrics = Table(folder / "history.csv"), Table(folder / "metrics.csv")
         self.first, self.last, self.rows = {}, {}, []
 
     def admit(self, kept: dict) -> None:

@@ -7,15 +7,12 @@
 
 from __future__ import annotations
 
-import csv
-import errno
 import fcntl
 import importlib.metadata
 import json
 import math
 import os
 import platform
-import re
 import shutil
 import sys
 from contextlib import contextmanager
@@ -26,7 +23,6 @@ import numpy as np
 from sdph import __version__
 from sdph.case.gas_cells import SAME, layers
 from sdph.engine import state as particles
-from sdph.engine.kept import Many, Unfit, short
 from sdph.engine.table import Found, column, read_cells
 from sdph.schema import CaseError
 
@@ -157,50 +153,6 @@ def copy_template(source: Path, target: Path) -> None:
         shutil.copytree(source, target)
 
 
-class Table:
-    """A CSV file that grows by rows of one set of keys."""
-
-    KEPT, FORMS = ("columns", "place"), {"columns": Many("")}  # see sdph.engine.kept
-
-    def __init__(self, path: Path):
-        self.file = open(path, "a", newline="", encoding="utf-8")
-        self.columns: tuple[str, ...] = ()
-
-    def admit(self, kept: dict) -> None:
-        """CaseError where the file is shorter than it was, Unfit where it is another."""
-        name, length = self.file.name, kept["place"]
-        if self.place < length:
-            raise CaseError(f"{name} has lost rows that its checkpoint counts on; run anew")
-        with open(name, newline="", encoding="utf-8", errors="replace") as file:
-            columns = next(csv.reader([file.readline(LONGEST)]), []) if length > 0 else []
-        if length < 0 or columns != kept["columns"]:
-            raise Unfit(f"{Path(name).name} does not begin with its columns, or is cut to {length} bytes")
-
-    def write(self, row: dict) -> None:
-        writer = csv.DictWriter(self.file, self.columns or row.keys())
-        if not self.columns:
-            self.columns = tuple(row)
-            writer.writeheader()
-        writer.writerow(row)
-
-    def flush(self) -> None:
-        self.file.flush()
-
-    @property
-    def place(self) -> int:
-        """Bytes written, all of them on the disk."""
-        self.file.flush()
-        os.fsync(self.file.fileno())
-        return os.fstat(self.file.fileno()).st_size
-
-    @place.setter
-    def place(self, length: int) -> None:
-        os.ftruncate(self.file.fileno(), length)
-
-    def close(self) -> None:
-        self.file.close()
-
-
 def read_table(path: Path, texts: tuple[str, ...] | None = None, mend: str = "run it again") -> Found:
     """Columns of a CSV file that a run has left, or is still writing: a last line that is not ended is not there yet.
 
@@ -214,71 +166,6 @@ def read_table(path: Path, texts: tuple[str, ...] | None = None, mend: str = "ru
         return Found(path, {name: column(cells, name, texts) for name in cells.head})
     except ValueError as error:
         raise CaseError(f"{path} is damaged ({error}); {mend}") from None
-
-
-LONGEST = 2**20  # characters of the first line of a table; our choice
-LAST = b"</VTKFile>"
-ENTRY = re.compile(r'<DataSet timestep="[\d.e+-]+" part="\d+" file="fields/(particles|gas)_\d{5,}\.(vtp|vtr|vtu)"/>')
-SUFFIXES = {"vtkPolyData": "vtp", "vtkRectilinearGrid": "vtr", "vtkUnstructuredGrid": "vtu"}
-
-
-class Fields:
-    """Particles, and gas where there is any, on one timeline: `run.pvd` opens in ParaView and pyvista."""
-
-    KEPT, FORMS = ("entries",), {"entries": Many("")}  # see sdph.engine.kept
-
-    def __init__(self, folder: Path):
-        self.folder = folder
-        self.entries: list[str] = []
-
-    def admit(self, kept: dict) -> None:
-        """Unfit where an entry is not as `write` makes it."""
-        for entry in kept["entries"]:
-            if not ENTRY.fullmatch(entry):
-                raise Unfit(f"{short(entry)} is no entry of run.pvd")
-
-    def revive(self) -> None:
-        """The timeline up to the checkpoint that was put back."""
-        self._write_timeline()
-
-    def write(self, time: float, meshes: dict) -> None:
-        """`meshes` (name -> pyvista mesh, the same names each time) at `time` [s], and the timeline up to there."""
-        number = len(self.entries) // len(meshes)
-        files = {f"fields/{name}_{number:05d}.{SUFFIXES[mesh.GetClassName()]}": mesh for name, mesh in meshes.items()}
-        for name, mesh in files.items():
-            save(mesh, self.folder / name)
-        self.entries += [f'<DataSet timestep="{time:.9g}" part="{part}" file="{name}"/>' for part, name in enumerate(files)]
-        self._write_timeline()
-
-    def write_walls(self, walls) -> None:
-        """A pyvista surface that holds for all times; nothing where it is None."""
-        if walls is not None:
-            save(walls, self.folder / WALLS)
-
-    def _write_timeline(self) -> None:
-        write_text(self.folder / "run.pvd", PVD.format("\n".join(self.entries)))
-
-
-def save(mesh, path: Path) -> None:
-    """A VTK file, whole or not at all. VTK tells nobody when the disk is full: its last line does."""
-    draft = path.with_name(f"part-{path.name}")
-    mesh.save(draft, compression="lz4")  # a fifth of zlib's time for a tenth more room
-    if not whole(draft):
-        draft.unlink(missing_ok=True)
-        raise OSError(errno.ENOSPC, f"{os.strerror(errno.ENOSPC)} (or another failure of VTK to write {path.name})")
-    os.replace(draft, path)
-
-
-def whole(path: Path) -> bool:
-    """Whether a VTK file is there, with its last line."""
-    if not path.is_file():
-        return False
-    with open(path, "rb") as file:
-        file.seek(max(0, path.stat().st_size - 2 * len(LAST)))
-        return file.read().strip().endswith(LAST)
-
-
-PVD = '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n<Collection>\n{}\n</Collection>\n</VTKFile>\n'
 
 
 def particle_points(state, grain_density: float):

@@ -18,6 +18,7 @@ from sdph.engine.state import GRAIN, INFLOW
 from sdph.engine.walls import sides as boundary
 from sdph.exchange.exchange import INSTANT, Exchange
 from sdph.exchange.window import Window
+from sdph.methods.grains import start
 from sdph.methods.grains.method import Held, Stepper
 from sdph.running import history, output
 
@@ -250,7 +251,7 @@ def parts_of(case) -> tuple[dict, Source | None, Stepper, Window]:
     rows = [effects.REGISTRY[name] for name in case.effects]
     parameters = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
     names = {name for row in rows for name in row.arrays}
-    state = particles.fill(case, names)
+    state = start.fill(case, names)
     source = Source(case, names, len(state.x) + 1) if parameters["inflow"] else None
     clock = Window(case)
     return parameters, source, Stepper(case, parameters, state, source, clock.shortest), clock

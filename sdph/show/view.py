@@ -14,8 +14,7 @@ import numpy as np
 from sdph import schema
 from sdph.case import read as cases
 from sdph.case.sections import Domain
-from sdph.engine.state import FIELDS
-from sdph.methods.liquids.sections import GAS
+from sdph.engine.state import FIELDS, GAS
 from sdph.running import fields, output
 from sdph.schema import CaseError
 

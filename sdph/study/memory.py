@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-from sdph.case import read as cases
+from sdph.case import gas_cells
 from sdph.effects.around import tank
 from sdph.effects.around.inflow import DEPTH
 from sdph.engine.walls import sides as boundary
 from sdph.engine.walls.sides import LAYERS
 from sdph.schema import CaseError
+from sdph.study.explain import estimate
 
 MEMINFO, CGROUP = Path("/proc/meminfo"), Path("/sys/fs/cgroup/memory.max")
 POINT = 200.0  # bytes of a lattice point that is looked at: place, distances, copies; our choice
@@ -19,11 +20,9 @@ ROUND = {2: math.pi, 3: 4.0 / 3.0 * math.pi}  # of a disc and a sphere over radi
 
 def refuse_too_large(case) -> None:
     """CaseError where the case needs more memory than is free."""
-    from sdph.study.explain import estimate
-
     count = sum(_volume(case, part) for part in (*case.particles.values(), *case.pools.values())) / case.resolution.spacing**case.dimensions
     count += sum(_waiting(case, nozzle) for nozzle in case.nozzles.values())
-    cells = 0 if case.liquid else math.prod(cases.cells(case))
+    cells = 0 if case.liquid else math.prod(gas_cells.cells(case))
     needed, free = estimate.memory(case, count, cells) + POINT * _looked_at(case), available()
     if needed > free:
         raise CaseError(
@@ -54,8 +53,6 @@ def _volume(case, part) -> float:
 
 def _waiting(case, nozzle) -> float:
     """Particles upstream of a nozzle, made for the longest window there can be."""
-    from sdph.study.explain import estimate
-
     depth = DEPTH * case.smoothing_length + nozzle.speed * case.coupling.window_largest
     return estimate.mouth(case, nozzle) * depth / case.resolution.spacing**case.dimensions
 

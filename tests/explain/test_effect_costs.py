@@ -6,8 +6,8 @@ from builders import DISC
 from coupling.gas import SOURCES
 from sdph import effects, scenes
 from sdph.case import read as cases
-from sdph.engine import state as particles
 from sdph.exchange.exchange import Exchange
+from sdph.methods.grains import start
 from sdph.study.explain import effect_costs
 
 BED = cases.load(scenes.HERE / "bubbling_bed" / "case.toml", effect_costs.BED)
@@ -18,7 +18,7 @@ def test_off_leaves_nothing(name):
     off = effect_costs.without(BED, name)
     assert effects.kernel_of(effects.REGISTRY[name], off) == effects.OFF
     needed = {array for other in off.effects for array in effects.REGISTRY[other].arrays}
-    state = particles.fill(off, needed)
+    state = start.fill(off, needed)
     for array in effects.REGISTRY[name].arrays:
         assert bool(len(getattr(state, array))) == (array in needed)
     sent = Exchange(off, effect_costs.Still(off).mesh, {row: () for row in effects.REGISTRY}).sources

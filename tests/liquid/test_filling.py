@@ -9,11 +9,10 @@ from test_tank_shapes import mesh_of_a_ball
 from sdph.case import read as cases
 from sdph.effects.around import tank
 from sdph.engine import state as particles
-from sdph.engine.state import WALL
+from sdph.engine.state import GAS, LIQUID, WALL
 from sdph.engine.walls import shapes
 from sdph.methods.liquids import filling
 from sdph.methods.liquids.method import LiquidStepper
-from sdph.methods.liquids.sections import GAS, LIQUID
 from sdph.schema import CaseError
 
 G, RADIUS, RHO = 9.81, 0.5, 1000.0  # m/s2, m, kg/m3

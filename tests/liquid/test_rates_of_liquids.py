@@ -7,13 +7,11 @@ from matrices import corrections
 from sdph.case import read as cases
 from sdph.effects.liquids import shifting
 from sdph.engine import kernels as smoothing
-from sdph.engine.state import WALL, positions, velocities
-from sdph.laws import eos
+from sdph.engine.state import LIQUID, WALL, positions, velocities
+from sdph.laws import eos, matrices
 from sdph.methods.liquids import equations as rates
-from sdph.methods.liquids import forces as pairs
 from sdph.methods.liquids import shift, walls
 from sdph.methods.liquids.method import LiquidStepper, loads, wall_loads
-from sdph.methods.liquids.sections import LIQUID
 
 LIQUID_OF_TANK = {"density_kg_m3": 1000.0, "viscosity_Pa_s": 1.0, "sound_speed_m_s": 20.0}
 TANK = {
@@ -212,7 +210,7 @@ def test_eigenvalues():
     for _ in range(50):
         a = random.standard_normal((3, 3))
         m = a + a.T
-        least = pairs.smallest(m[0, 0], m[1, 1], m[2, 2], m[0, 1], m[1, 2], m[2, 0])
+        least = matrices.smallest(m[0, 0], m[1, 1], m[2, 2], m[0, 1], m[1, 2], m[2, 0])
         assert least == pytest.approx(np.linalg.eigvalsh(m)[0], abs=1e-9)
 
 

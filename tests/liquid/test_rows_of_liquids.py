@@ -6,8 +6,7 @@ import pytest
 from sdph.engine import state as particles
 from sdph.engine.liquid_rows import LiquidNeighbours
 from sdph.engine.rows import LANES
-from sdph.engine.state import WALL
-from sdph.methods.liquids.sections import LIQUID
+from sdph.engine.state import LIQUID, WALL
 
 REACH, SKIN = 0.12, 0.1
 

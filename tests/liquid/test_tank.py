@@ -10,8 +10,8 @@ import pytest
 from sdph.case import read as cases
 from sdph.effects.around import tank as tank_effect
 from sdph.engine import state as particles
+from sdph.engine.state import LIQUID
 from sdph.methods.liquids import start
-from sdph.methods.liquids.sections import LIQUID
 from sdph.running.tank import Tank
 
 GRAVITY = np.array([0.0, 0.0, -9.8])

@@ -8,11 +8,10 @@ from sdph import scenes
 from sdph.case import read as cases
 from sdph.effects import OFF
 from sdph.engine import kernels as smoothing
-from sdph.engine.state import positions, velocities
+from sdph.engine.state import GAS, LIQUID, positions, velocities
 from sdph.laws import liquids
 from sdph.methods.liquids import interface, phases, shift
 from sdph.methods.liquids.method import LiquidStepper, loads, wall_loads
-from sdph.methods.liquids.sections import GAS, LIQUID
 from sdph.schema import CaseError
 
 BASE = {

@@ -6,7 +6,8 @@ from builders import disc, simulation
 
 from coupling.gas import GasError
 from sdph import cli
-from sdph.engine.guard import Guard, Unstable
+from sdph.engine.guard import Unstable
+from sdph.methods.grains.bounds import Guard
 from sdph.running import simulation as running
 from sdph.schema import CaseError
 from sdph.study.stress import suite

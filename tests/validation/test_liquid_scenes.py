@@ -7,7 +7,7 @@ import pytest
 
 from sdph import scenes
 from sdph.case import read as cases
-from sdph.methods.liquids.sections import GAS, LIQUID
+from sdph.engine.state import GAS, LIQUID
 from sdph.study import compare
 
 RADIUS, SPACING = 0.25, 0.025  # m

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.spatial import cKDTree
 
-from sdph.methods.liquids.sections import GAS
+from sdph.engine.state import GAS
 from sdph.study.compare import check
 
 SPEED, CENTRE, ROUND = 0.02, 0.02, 0.01  # liquids.md

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from sdph.methods.liquids.sections import GAS
+from sdph.engine.state import GAS
 from sdph.study import compare
 from sdph.study.compare import check
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.optimize import curve_fit
 
+from sdph.engine.state import GAS, LIQUID
 from sdph.laws import liquids
-from sdph.methods.liquids.sections import GAS, LIQUID
 from sdph.study.compare import check
 
 PERIOD, PRESSURE = 0.02, 0.02  # liquids.md

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from sdph.methods.liquids.sections import GAS, LIQUID
+from sdph.engine.state import GAS, LIQUID
 from sdph.study.compare import check
 
 SPEED, PRESSURE = 1e-3, 0.01  # of sqrt(g H), of rho g H in L2: liquids.md, hydrostatics

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial import cKDTree
 
-from sdph.effects.around.streams import ROUND_OFF, Streams, cell_radius, layers_of, streams_of, unit, without
+from sdph.effects.around.streams import ROUND_OFF, Patch, Streams, cell_radius, layers_of, streams_of, unit, without
 from sdph.effects.effect import Effect, Judgement
 from sdph.engine import state as particles
 from sdph.engine.kept import Unfit
@@ -54,18 +54,16 @@ class Inflow:
 
     def patches(self, case) -> list:
         """What comes in, for `sdph.methods.grains.scales`."""
-        from sdph.methods.grains.scales import Patch
-
         for name, nozzle in case.nozzles.items():
             _check(case, name, nozzle)
-        return [_patch(case, nozzle, Patch) for nozzle in case.nozzles.values()]
+        return [_patch(case, nozzle) for nozzle in case.nozzles.values()]
 
 
-def _patch(case, nozzle, patch):
+def _patch(case, nozzle) -> Patch:
     half = 0.5 * (nozzle.width or 2.0 * (nozzle.radius or 0.0))
     velocity = tuple(nozzle.speed * a for a in unit(nozzle.direction))
     lower, upper = (tuple(c + sign * half for c in nozzle.centre) for sign in (-1.0, 1.0))
-    return patch(streams_of(case, nozzle).alpha_p, nozzle.temperature, velocity, lower, upper, nozzle.half_angle)
+    return Patch(streams_of(case, nozzle).alpha_p, nozzle.temperature, velocity, lower, upper, nozzle.half_angle)
 
 
 class InflowP(NamedTuple):

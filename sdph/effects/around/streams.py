@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -106,3 +107,16 @@ def without(gone, index, count):
                 index[i, kept] = index[i, k]
                 kept += 1
         count[i] = kept
+
+
+@dataclass(frozen=True)
+class Patch:
+    """Grains that are there at the start, or come in: volume fraction, temperature, velocity, corners of their box; angle
+    [rad] that their paths spread up to on each side."""
+
+    alpha_p: float
+    temperature: float
+    velocity: tuple
+    lower: tuple
+    upper: tuple
+    half_angle: float = 0.0

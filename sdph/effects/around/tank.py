@@ -10,7 +10,6 @@ import numpy as np
 from sdph.effects.effect import Effect, Judgement
 from sdph.engine.geometry import SIDES
 from sdph.engine.walls import shapes
-from sdph.methods.liquids import phases
 from sdph.schema import CaseError, choice, file, quantity, record, vector, words
 
 
@@ -43,7 +42,7 @@ class TankP(NamedTuple):
 
 
 def kernel(case) -> TankP:
-    own, c = case.parameters["tank"], phases.fastest_sound(case)
+    own, c = case.parameters["tank"], case.fastest_sound
     least = 0.0 if own.suction == "none" else -math.inf
     near = 0.5 * math.sqrt(case.dimensions) * case.resolution.spacing  # of the surface, no place is further from the wall's lattice
     return TankP(float(own.slip == "no_slip"), least, 1.0 / near, c * c)

@@ -14,7 +14,7 @@ from typing import NamedTuple
 from numba import njit
 
 from sdph.effects.effect import Effect, Judgement
-from sdph.engine.rows import deep
+from sdph.engine.geometry import deep
 from sdph.laws import constants, granular, viscosity
 from sdph.laws import friction as law
 from sdph.schema import quantity, record

@@ -19,7 +19,7 @@ from typing import NamedTuple
 from numba import njit, prange
 
 from sdph.effects.effect import Effect, Judgement
-from sdph.engine.rows import nearest_image
+from sdph.engine.geometry import nearest_image
 from sdph.schema import quantity, record
 
 WORTH = 0.006  # of the heat to the grains: what it changed in the bubbling bed

@@ -9,7 +9,7 @@ from numba import njit
 
 from sdph.effects.effect import NO_LIMIT, Effect, Judgement
 from sdph.engine import kernels as smoothing
-from sdph.methods.liquids.sections import LIQUID
+from sdph.engine.state import LIQUID
 from sdph.schema import record
 
 DIFFUSIVE = 0.125  # of h^2/nu, Morris, Fox & Zhu 1997, J. Comput. Phys. 136, 214, Eq. 21

@@ -6,11 +6,11 @@ import itertools
 
 import numpy as np
 
-from sdph.effects.around.walls import Dummies
 from sdph.engine.geometry import SIDES
 from sdph.engine.rows import Neighbours
 from sdph.engine.surface import read
 from sdph.engine.walls import mesh as sides
+from sdph.engine.walls.dummies import Dummies
 from sdph.schema import CaseError
 
 REACH = 2.0  # support of the kernels in smoothing lengths

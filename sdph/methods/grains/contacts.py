@@ -14,7 +14,8 @@ from numba import njit, prange
 
 from sdph.effects.around import walls
 from sdph.effects.grains import friction
-from sdph.engine.rows import deep, length
+from sdph.engine.geometry import deep
+from sdph.engine.rows import length
 from sdph.laws.friction import second_invariant
 from sdph.methods.grains.equations import approach, loop, separation
 

@@ -21,7 +21,8 @@ from sdph.effects.grains import (
     granular_temperature,
     granular_viscosity,
 )
-from sdph.engine.rows import deep, length, nearest_image
+from sdph.engine.geometry import deep, nearest_image
+from sdph.engine.rows import length
 from sdph.laws import kernels
 
 # Sums may be reordered and divisions shared (2.3 times as fast as none of it); NaN and infinity keep their meaning.

@@ -14,13 +14,13 @@ from sdph.effects.around import walls
 from sdph.effects.grains import friction, grain_shifting, granular_temperature
 from sdph.effects.grains.granular_viscosity import Viscous
 from sdph.engine.clock import count_of_parts
-from sdph.engine.guard import Guard
 from sdph.engine.kept import GROWING, Unfit
 from sdph.engine.rows import Neighbours
 from sdph.engine.state import INFLOW
 from sdph.engine.walls.sides import Boundary
 from sdph.methods.grains import contacts as shearing
 from sdph.methods.grains import equations as rates
+from sdph.methods.grains.bounds import Guard
 from sdph.methods.grains.equations import Stress
 
 # Of h/(c + v); our choice. By von Neumann a lattice with summed density bears 1.86 h/c in these steps, under p = rho c^2/2 1.15

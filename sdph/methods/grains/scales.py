@@ -6,29 +6,18 @@ effect that brings grains in (an inlet) have a method `patches(case)`.
 
 from __future__ import annotations
 
+import dataclasses
 import math
-from dataclasses import dataclass
 from functools import cached_property
 
+from sdph import effects
+from sdph.effects.around.streams import Patch
 from sdph.laws import drag, exact, granular, heat
 from sdph.methods.grains import ways
 
 SHEAR = 0.5  # sqrt(I2D) over the rate of a simple shear: D_xy is half of it
 DILUTE = 1e-3  # alpha_p below which grains do not meet often enough to matter, Elghobashi 1994
 SETTLED = 0.95  # of the onset of lasting contacts, from which on grains lie on each other; our choice
-
-
-@dataclass(frozen=True)
-class Patch:
-    """Grains that are there at the start, or come in: volume fraction, temperature, velocity, corners of their box; angle
-    [rad] that their paths spread up to on each side."""
-
-    alpha_p: float
-    temperature: float
-    velocity: tuple
-    lower: tuple
-    upper: tuple
-    half_angle: float = 0.0
 
 
 class Scales:
@@ -240,6 +229,12 @@ class Scales:
             return 0.0
         grains, slope = self.grains, granular.sinclair_jackson_slope(self.capped, self.grains.packing_limit)
         return math.sqrt(granular.sound_speed_squared(self.capped, self.theta, grains.restitution, self.g0, slope, grains.density, 0.0))
+
+
+def scales_of(case) -> Scales:
+    """Scales of a case as if every effect that can judge itself and needs no input had its section."""
+    parameters = effects.without_input("grains") | case.parameters
+    return Scales(dataclasses.replace(case, effects=tuple(parameters), parameters=parameters))
 
 
 def _patch(case, region) -> Patch:

@@ -13,7 +13,6 @@ import numpy as np
 from sdph.engine import state as particles
 from sdph.engine.guard import DENSE, RUNAWAY, TINY, Watch
 from sdph.engine.kept import Unfit
-from sdph.methods.liquids.phases import fastest_sound
 
 
 class LiquidGuard(Watch):
@@ -21,7 +20,7 @@ class LiquidGuard(Watch):
 
     def admit_liquid(self, state: dict, fresh, kinds) -> None:
         """`admit` of a liquid and its walls that began as the State `fresh`; `kinds` that there are."""
-        fast = RUNAWAY * fastest_sound(self.case)
+        fast = RUNAWAY * self.case.fastest_sound
         bounds = dict.fromkeys("uvw", (-fast, fast)) | {"mass": (TINY, fresh.mass.max()), "ident": (0, len(fresh.x) - 1)}
         self.admit(state, (), bounds | {"density": (fresh.density.min() / DENSE, fresh.density.max() * DENSE)})
         if not np.isin(state["kind"], kinds).all():
@@ -36,7 +35,7 @@ class LiquidGuard(Watch):
             f"to be so fast, raise liquid.sound_speed_m_s (now {own.liquid.sound_speed:g}) to ten times its speed"
         )
         wet = particles.take(s, stepper.active)
-        speed, sound = np.sqrt((particles.velocities(wet) ** 2).sum(axis=1)), fastest_sound(own)
+        speed, sound = np.sqrt((particles.velocities(wet) ** 2).sum(axis=1)), own.fastest_sound
         self.hold("speed", speed, (0.0, sound, "m/s"), wet, lower)
         self.hold("density", wet.density, (sys.float_info.min, sys.float_info.max, "kg/m3"), wet, lower)
         size = np.sqrt((stepper.acceleration[stepper.active] ** 2).sum(axis=1))

@@ -15,8 +15,8 @@ import numpy as np
 from numba import njit, prange
 
 from sdph.engine import kernels as smoothing
+from sdph.engine.geometry import FAST, apart
 from sdph.engine.rows import length
-from sdph.methods.liquids.forces import FAST, apart
 
 SURFACE = 0.5  # of det M, 1 inside: below it a particle is left as it is. In a lattice 0.34 to 0.37 in the first layer at a
 # free surface, 0.65 (h = 2 dx) or 0.82 (1.5 dx) in the second; our choice, made with the periods of boxes in view: at h = 2 dx 0.75

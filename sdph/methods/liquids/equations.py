@@ -12,9 +12,11 @@ from numba import njit, prange
 
 from sdph.effects.liquids import density_diffusion, laminar_viscosity, liquid_damping, shifting
 from sdph.engine import kernels as smoothing
-from sdph.engine.rows import deep, length
+from sdph.engine.geometry import FAST, apart, deep, faster
+from sdph.engine.rows import length
+from sdph.laws.matrices import solved
 from sdph.methods.liquids import correction, phases
-from sdph.methods.liquids.forces import FAST, apart, body, faster, held_off, solved
+from sdph.methods.liquids.forces import body, held_off
 
 
 @njit(cache=True, error_model="numpy")

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sdph.effects.around import tank
-from sdph.engine import state as particles
+from sdph.engine.lattice import grid
 from sdph.engine.walls import shapes
 from sdph.methods.liquids import packing
 from sdph.methods.liquids.sections import Pool
@@ -113,7 +113,7 @@ def _cells(low, high, spacing: float) -> tuple[np.ndarray, np.ndarray]:
     """(N, d) middles of equal cells between two corners, and their sides (d,) [m], no longer than `spacing`."""
     counts = np.ceil((high - low) / spacing - SAME).astype(int)
     steps = (high - low) / counts
-    return particles.grid([a + (np.arange(n) + 0.5) * step for a, n, step in zip(low, counts, steps)]), steps
+    return grid([a + (np.arange(n) + 0.5) * step for a, n, step in zip(low, counts, steps)]), steps
 
 
 def _shares(shape, middles, steps) -> np.ndarray:
@@ -166,7 +166,7 @@ def lattice(shape, inside, slab: Slab, spacing: float, reach: float) -> tuple[np
     origin[k] = bottom
     ends = np.floor((first - origin) / steps).astype(int) - 1, np.ceil((last - origin) / steps).astype(int) + 1
     ticks = [start + (np.arange(a, b) + 0.5) * step for start, a, b, step in zip(origin, *ends, steps)]
-    return particles.grid(ticks) @ axes, layer
+    return grid(ticks) @ axes, layer
 
 
 def _buffer(shape, slab: Slab, spacing: float) -> float:

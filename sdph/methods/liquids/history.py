@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from sdph.engine import state as particles
-from sdph.methods.liquids.sections import GAS, LIQUID
+from sdph.engine.state import GAS, LIQUID
 
 
 def columns(stepper) -> dict[str, float]:

@@ -12,8 +12,9 @@ import numpy as np
 from numba import njit, prange
 
 from sdph.engine import kernels as smoothing
-from sdph.methods.liquids.forces import FAST, apart, solved
-from sdph.methods.liquids.sections import LIQUID
+from sdph.engine.geometry import FAST, apart
+from sdph.engine.state import LIQUID
+from sdph.laws.matrices import solved
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)

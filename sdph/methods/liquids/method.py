@@ -19,13 +19,12 @@ from sdph.engine.clock import count_of_parts
 from sdph.engine.guard import FAR
 from sdph.engine.kept import GROWING, Unfit
 from sdph.engine.liquid_rows import LiquidNeighbours
-from sdph.engine.state import WALL
+from sdph.engine.state import GAS, LIQUID, WALL
 from sdph.engine.walls import shapes
 from sdph.laws import kernels
 from sdph.methods.liquids import correction, interface, phases, shift, start, walls
 from sdph.methods.liquids import equations as rates
 from sdph.methods.liquids.bounds import LiquidGuard
-from sdph.methods.liquids.sections import GAS, LIQUID
 from sdph.methods.liquids.walls import WallP
 
 SLACK = 1.0125  # reach over 2 h: a particle may move 0.025 h, half a step, after the rows were found to hold
@@ -84,7 +83,7 @@ class LiquidStepper:
             for array, like in zip([kept[name]], [fresh]) if one else zip(kept[name], fresh):
                 if len(array) != (count if len(like) else 0):
                     raise Unfit(f"{name} has {len(array)} values for {count} particles")
-        far, wild = FAR * max(self.case.domain.size), FAR * phases.fastest_sound(self.case) ** 2 / self.kernel.h
+        far, wild = FAR * max(self.case.domain.size), FAR * self.case.fastest_sound ** 2 / self.kernel.h
         for name, values, most in (("acceleration", kept["acceleration"], wild), *(("a place at the last rows", axis, far) for axis in built)):
             if np.abs(values).max(initial=0.0) > most:
                 raise Unfit(f"{name} is beyond {most:.3g}")
@@ -111,7 +110,7 @@ class LiquidStepper:
     def next_step(self, left: float) -> float:
         """What is left [s] in equal parts no longer than the shortest limit; `limit` names it."""
         speed, force = motion.fastest(self.state, self.active, self.acceleration)
-        h, c = self.kernel.h, phases.fastest_sound(self.case)
+        h, c = self.kernel.h, self.case.fastest_sound
         if not speed + 0.0 * force <= c * c:  # or one of them is no number
             self.guard.look(self)
         limits = self.limits | {"sound": self.case.liquid.courant * h / (c + math.sqrt(speed))}

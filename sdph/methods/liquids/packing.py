@@ -18,11 +18,10 @@ from sdph.effects.around import tank
 from sdph.engine import kernels as smoothing
 from sdph.engine import motion
 from sdph.engine import state as particles
+from sdph.engine.geometry import FAST, apart
 from sdph.engine.liquid_rows import LiquidNeighbours
 from sdph.engine.rows import length
-from sdph.engine.state import WALL
-from sdph.methods.liquids.forces import FAST, apart
-from sdph.methods.liquids.sections import LIQUID
+from sdph.engine.state import LIQUID, WALL
 
 
 def pack(case, points, walls, lid, slab) -> np.ndarray:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from numba import njit
 
 from sdph.effects.effect import OFF
-from sdph.methods.liquids.sections import LIQUID
+from sdph.engine.state import LIQUID
 
 
 class PhasesP(NamedTuple):
@@ -29,11 +29,6 @@ def kernel(case) -> PhasesP | tuple:
     if gas is None:
         return OFF
     return PhasesP(float(gas.interaction == "riemann"), liquid.density, liquid.sound_speed / gas.speed_of_sound(liquid))
-
-
-def fastest_sound(case) -> float:
-    """The larger sound speed of the phases [m/s]."""
-    return max(case.liquid.sound_speed, case.gas_phase.speed_of_sound(case.liquid) if case.gas_phase else 0.0)
 
 
 @njit(cache=True, error_model="numpy")

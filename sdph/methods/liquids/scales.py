@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from functools import cached_property
 
 import numpy as np
 
+from sdph import effects
 from sdph.effects.around import frame
 from sdph.engine import state as particles
+from sdph.engine.state import LIQUID
 from sdph.methods.liquids import start
-from sdph.methods.liquids.sections import LIQUID
 
 INSTANTS = 400  # at which the motion of the frame is looked at; our choice
 
@@ -81,3 +83,9 @@ class LiquidScales:
     def layer(self) -> float:
         """sqrt(nu t)/L: how far the momentum of a wall gets into the liquid."""
         return math.sqrt(self.viscosity * self.end) / self.length
+
+
+def scales_of(case) -> LiquidScales:
+    """Scales of a case as if every effect that can judge itself and needs no input had its section."""
+    parameters = effects.without_input("liquid") | case.parameters
+    return LiquidScales(dataclasses.replace(case, parameters=parameters))

@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 from sdph.engine.kernels import NAMES
-from sdph.engine.state import GAS, LIQUID
 from sdph.schema import choice, quantity, record, vector
-
-__all__ = ["GAS", "LIQUID", "GasPhase", "Liquid", "Pool"]
 
 
 @record

@@ -7,10 +7,11 @@ from numba import njit, prange
 
 from sdph.effects.liquids import shifting, xsph
 from sdph.engine import kernels as smoothing
+from sdph.engine.geometry import FAST, apart, faster
 from sdph.engine.rows import length
+from sdph.engine.state import GAS
+from sdph.laws.matrices import smallest, solved
 from sdph.methods.liquids import phases
-from sdph.methods.liquids.forces import FAST, apart, faster, smallest, solved
-from sdph.methods.liquids.sections import GAS
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)

@@ -7,13 +7,13 @@ import math
 import numpy as np
 
 from sdph.effects.around import tank
+from sdph.engine import lattice
 from sdph.engine import state as particles
-from sdph.engine.state import WALL
+from sdph.engine.state import GAS, LIQUID, WALL
 from sdph.engine.walls import shapes
 from sdph.laws import eos
 from sdph.laws.liquids import quadrupole, square_patch_pressure, taylor_green
 from sdph.methods.liquids import filling
-from sdph.methods.liquids.sections import GAS, LIQUID
 from sdph.schema import CaseError
 
 ROUNDS = 50  # of the inversion of Van der Waals' equation; each takes off nine tenths of the error or more
@@ -59,7 +59,7 @@ def _placed(case, points) -> particles.State:
 def _pool(case, pools: list, number: int) -> particles.State:
     """The particles of pool `number`, less those that lie in the pools before it."""
     pool, d, spacing = pools[number], case.dimensions, case.resolution.spacing
-    points = filling.fill(case, pool) if pool.shape == "tank" else particles.lattice(pool, spacing, d)
+    points = filling.fill(case, pool) if pool.shape == "tank" else lattice.lattice(pool, spacing, d)
     volume = spacing**d
     if pool.shape == "box":  # the lattice is fitted to the box
         volume = math.prod(b - a for a, b in zip(pool.lower, pool.upper)) / len(points)

@@ -18,7 +18,7 @@ import numpy as np
 from sdph.engine import state as particles
 from sdph.engine.kept import ROW, Maybe
 from sdph.engine.ledger import refuse_rows, vector
-from sdph.running.output import Table
+from sdph.engine.table import Table
 
 IMPULSES = ("body_forces", "walls", "shifting", "drain")
 

@@ -12,8 +12,9 @@ from numba import njit, prange
 
 from sdph.effects.liquids import laminar_viscosity, liquid_damping, shifting
 from sdph.engine import kernels as smoothing
+from sdph.engine.geometry import FAST, apart, faster
 from sdph.methods.liquids import correction, phases
-from sdph.methods.liquids.forces import FAST, apart, body, faster, held_off
+from sdph.methods.liquids.forces import body, held_off
 
 
 class WallP(NamedTuple):

@@ -13,6 +13,7 @@ import numpy as np
 
 from coupling.gas import Mesh
 from sdph import scenes
+from sdph.case import gas_cells
 from sdph.case import read as cases
 from sdph.running.simulation import Simulation
 from sdph.study.explain import estimate
@@ -25,7 +26,7 @@ class Still:
     """A gas at rest on the case's cells: enough for particles and exchange to do their whole work."""
 
     def __init__(self, case):
-        counts = cases.cells(case)
+        counts = gas_cells.cells(case)
         ticks = [(np.arange(n) + 0.5) * length / n for n, length in zip(counts, case.domain.size)]
         grid = np.meshgrid(*ticks, indexing="ij")
         centres = np.stack([g.ravel() for g in grid] + [np.zeros(grid[0].size)] * (3 - len(grid)), axis=1)

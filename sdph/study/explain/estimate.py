@@ -9,12 +9,14 @@ from typing import NamedTuple
 import numpy as np
 
 from sdph import effects
-from sdph.case import read as cases
+from sdph.case import gas_cells
+from sdph.case.judge import scales_of
 from sdph.effects.grains import friction, granular_pressure
 from sdph.engine import device as environment
 from sdph.engine import state as particles
 from sdph.exchange.window import opening, smallest_cell
 from sdph.laws import kernels
+from sdph.methods.grains import start
 from sdph.methods.grains.method import ACOUSTIC, DIFFUSIVE
 
 # Windows of a relaxation that is resolved to the tolerance e: integral of dt/sqrt(2 e) over rate = 2/sqrt(2 e), and half as
@@ -69,8 +71,6 @@ def ratios(case) -> list[dict]:
 
 
 def _extent(case) -> float:
-    from sdph.case.judge import scales_of
-
     return scales_of(case).length
 
 
@@ -125,12 +125,12 @@ def _sound(case, s) -> float:
 
 def _state(case):
     rows = [effects.REGISTRY[name] for name in case.effects]
-    return particles.fill(case, {name for row in rows for name in row.arrays})
+    return start.fill(case, {name for row in rows for name in row.arrays})
 
 
 def expected(case, s) -> list[dict]:
     """Particles, cells, windows, sub-steps, memory and wall time."""
-    start, cells = len(_state(case).x), int(np.prod(cases.cells(case)))
+    start, cells = len(_state(case).x), int(np.prod(gas_cells.cells(case)))
     end = start + _incoming(case)
     count = (start + end) // 2
     windows, steps = steps_of(case, s)

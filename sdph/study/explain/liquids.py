@@ -7,7 +7,6 @@ import math
 from sdph import effects
 from sdph.effects import kernel_of
 from sdph.methods.liquids.method import FORCE
-from sdph.methods.liquids.phases import fastest_sound
 from sdph.running.liquid_run import SLOW
 from sdph.study.explain import estimate
 
@@ -68,7 +67,7 @@ def warnings(s) -> list[str]:
 def limits(s) -> list[dict]:
     """Largest step [s] by cause, before run.step_factor."""
     case, h = s.case, s.case.smoothing_length
-    found = {"sound": case.liquid.courant * h / (fastest_sound(case) + s.speed)}
+    found = {"sound": case.liquid.courant * h / (case.fastest_sound + s.speed)}
     pull = sum(s.pull) + s.shaken
     if pull:
         found["force"] = FORCE * math.sqrt(h / pull)

@@ -6,25 +6,19 @@ import math
 
 from sdph import effects
 from sdph.case import judge
-from sdph.study.explain import droplets, estimate
+from sdph.study.explain import droplets, estimate, liquids
 
 
 def explain(case) -> dict[str, list[dict]]:
     """All parts, each a list of rows (name -> value) of one table."""
     scales = judge.scales_of(case)
-    found = _of_liquid().explain(scales) if case.liquid else _of_grains(case, scales)
+    found = liquids.explain(scales) if case.liquid else _of_grains(case, scales)
     return {
         "numbers": [dict(zip(("number", "value", "threshold", "meaning", "source"), row)) for row in found.pop("numbers")],
         "effects": effect_rows(case, scales),
         **found,
         "warnings": [{"warning": text} for text in warnings(case, scales)],
     }
-
-
-def _of_liquid():
-    from sdph.study.explain import liquids as explain
-
-    return explain
 
 
 def _of_grains(case, scales) -> dict[str, list]:
@@ -35,7 +29,7 @@ def _of_grains(case, scales) -> dict[str, list]:
 def warnings(case, scales=None) -> list[str]:
     """What `run` says before it starts: effects that are missing, ratios that are not safe; `scales` of the case."""
     scales = scales or judge.scales_of(case)
-    return [*judge.missing(case, scales), *(_of_liquid().warnings(scales) if case.liquid else estimate.warnings(case))]
+    return [*judge.missing(case, scales), *(liquids.warnings(scales) if case.liquid else estimate.warnings(case))]
 
 
 def numbers(s) -> list[tuple]:

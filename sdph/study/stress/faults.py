@@ -19,6 +19,7 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+from sdph.engine import restart
 from sdph.scenes import paths
 
 CASE = (
@@ -267,8 +268,6 @@ def _signal(pids: list[int], number: signal.Signals) -> None:
 def _unreadable(folder: Path) -> list[str]:
     """Outputs and checkpoints that are named but not whole."""
     import pyvista
-
-    from sdph.engine import restart
 
     wrong = []
     for path in (folder / "fields").glob("[pg]as_*.vt?") if (folder / "fields").is_dir() else ():

@@ -31,6 +31,7 @@ from sdph.engine.state import WALL
 from sdph.running.driver import simulation_of
 from sdph.scenes import paths
 from sdph.schema import CaseError, unknown
+from sdph.study.stress.liquid_measures import LiquidMeasures
 from sdph.study.stress.measures import Measures
 
 FOLDER = "validation"
@@ -181,8 +182,6 @@ class TakenOver:
 
 def _measures(case):
     if case.liquid:
-        from sdph.study.stress.liquid_measures import LiquidMeasures
-
         return LiquidMeasures(case)
     return Measures(case)
 
