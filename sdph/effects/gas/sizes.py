@@ -19,7 +19,7 @@ from numba import njit
 from sdph.effects.effect import OFF
 from sdph.laws import grain_loss, grain_sizes
 
-CLASSES = 16  # points of the rule: mass to 1e-6, mean diameter to 3e-4 (tests/effects/test_sizes.py)
+CLASSES = 16  # points of the rule: mass to 1e-6, mean diameter to 3e-4 (tests/effects/gas/test_sizes.py)
 STEP = 1.0  # of u between them
 TAIL = 5.0  # standard deviations of the mass distribution beyond which nothing is summed
 FAR = 12.0  # standard deviations below the median where an untouched distribution starts

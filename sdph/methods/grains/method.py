@@ -24,7 +24,7 @@ from sdph.methods.grains.bounds import Guard
 from sdph.methods.grains.equations import Stress
 
 # Of h/(c + v); our choice. By von Neumann a lattice with summed density bears 1.86 h/c in these steps, under p = rho c^2/2 1.15
-# (tests/test_rates.py). Monaghan 1992 takes 0.25; the bed's heat to the grains is then 0.07 % different.
+# (tests/methods/grains/test_rates.py). Monaghan 1992 takes 0.25; the bed's heat to the grains is then 0.07 % different.
 ACOUSTIC = 0.5
 DIFFUSIVE = 0.125  # of h^2/nu, Morris, Fox & Zhu 1997
 SAME_DENSITY = 1e-6  # of a density: what is summed twice differs by round-off at most; our choice

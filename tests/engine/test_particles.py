@@ -15,7 +15,7 @@ from sdph.engine import lattice
 from sdph.engine import state as particles
 from sdph.methods.grains import start
 
-REFERENCE = json.loads((Path(__file__).parent / "data" / "sdph_reference_values.json").read_text())["values"]
+REFERENCE = json.loads((Path(__file__).parents[1] / "data" / "sdph_reference_values.json").read_text())["values"]
 COUNT = next(int(v["expected"]) for v in REFERENCE if v["id"] == "N_disc_lattice")
 ALL = ("temperature", "diameter", "diameter_variance", "theta")
 

@@ -16,7 +16,7 @@ from sdph.running import history
 
 REFERENCE = {
     value["id"]: value["expected"]
-    for value in json.loads((Path(__file__).parent / "data" / "sdph_reference_values.json").read_text())["values"]
+    for value in json.loads((Path(__file__).parents[1] / "data" / "sdph_reference_values.json").read_text())["values"]
 }
 ONE_WAY = ("coupling.one_way=true",)
 CHAINS = settings(max_examples=12, suppress_health_check=[HealthCheck.function_scoped_fixture])

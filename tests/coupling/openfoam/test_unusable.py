@@ -124,7 +124,7 @@ def test_demo_goes_on_without_a_comparator(tmp_path, code, fine):
     replace(venv / "bin" / "sdph", f'case "$*" in *tfm) echo "sdph: aborted" >&2; exit {code};; esac')
     (venv / "installed").touch()
     (tmp_path / "demo").mkdir()
-    make = ["make", "-C", str(Path(__file__).parents[2]), "demo", f"VENV={venv}", f"RUN={tmp_path / 'demo'}"]
+    make = ["make", "-C", str(Path(__file__).parents[3]), "demo", f"VENV={venv}", f"RUN={tmp_path / 'demo'}"]
     done = subprocess.run(make, capture_output=True, text=True)
     assert (done.returncode == 0) is fine, done.stderr
     assert "sdph: aborted" in done.stderr
