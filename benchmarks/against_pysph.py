@@ -19,7 +19,7 @@ THREADS = os.environ.setdefault("NUMBA_NUM_THREADS", "2")
 
 import numpy as np  # noqa: E402
 
-from sdph import case as cases  # noqa: E402
+from sdph.case import read as cases  # noqa: E402
 
 SYSTEM_PYTHON = "/usr/bin/python3"
 ROUNDS, RATIO, REBUILD = 5, 1.3, 6
@@ -28,7 +28,7 @@ PEERS = {"2-D 10k": (2, 1.0e4), "2-D 100k": (2, 1.0e5), "3-D 100k": (3, 1.0e5)}
 
 def stepper(dimensions: int, count: float):
     """A dam break of about `count` particles, walls included, on its way."""
-    from sdph.liquid.step import LiquidStepper
+    from sdph.methods.liquids.method import LiquidStepper
 
     column, size = ([1.0, 2.0], [4.0, 2.5]) if dimensions == 2 else ([1.0, 1.0, 1.0], [1.6, 1.2, 1.0])
     gravity = [0.0, -9.81, 0.0][:dimensions]
@@ -59,7 +59,7 @@ def go(own, steps: int) -> float:
 
 def export(own, file: Path) -> None:
     """The particles as PySPH takes them."""
-    from sdph import particles
+    from sdph.engine import state as particles
 
     s, case = own.state, own.case
     z, w = (s.z, s.w) if len(s.z) else (np.zeros(len(s.x)), np.zeros(len(s.x)))

@@ -16,9 +16,9 @@ from pathlib import Path
 
 import numpy as np
 
-from coupling.openfoam import comparators
-from sdph import case as cases
+from coupling.openfoam.comparators import run as comparators
 from sdph import scenes
+from sdph.case import read as cases
 
 ROUNDS, GAS = int((sys.argv[1:2] or ["3"])[0]), (sys.argv[2:3] or ["embedded"])[0]
 

@@ -2,7 +2,7 @@
 
     python benchmarks/effect_costs.py [effect ...]
 
-The loop without an effect is made from the source of sdph/rates.py: every call of a function of the effect's file is
+The loop without an effect is made from the source of sdph/methods/grains/equations.py: every call of a function of the effect's file is
 replaced by the zeros that it would return. Both are timed in turns; the least of each counts.
 """
 
@@ -15,10 +15,11 @@ from pathlib import Path
 
 import numpy as np
 
-from sdph import case as cases
-from sdph import rates, scenes
-from sdph.explain import effect_costs
-from sdph.explain.tables import table
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.methods.grains import equations as rates
+from sdph.study.explain import effect_costs
+from sdph.study.explain.tables import table
 
 TERMS = {"conduction": {"pair": 1}, "artificial_viscosity": {"pair": 1}}  # functions in the loop, and how many numbers each returns
 ROUNDS = 60
@@ -41,7 +42,7 @@ class Strip(ast.NodeTransformer):
 
 
 def built_without(effect: str):
-    """sdph.rates without the terms of an effect, as a module of its own."""
+    """sdph.methods.grains.equations without the terms of an effect, as a module of its own."""
     tree = ast.fix_missing_locations(Strip(effect).visit(ast.parse(Path(rates.__file__).read_text(encoding="utf-8"))))
     file = Path(tempfile.mkdtemp()) / f"rates_without_{effect}.py"
     file.write_text(ast.unparse(tree), encoding="utf-8")

@@ -17,10 +17,10 @@ from scipy import sparse
 from scipy.sparse import linalg
 
 from coupling.embedded import EmbeddedGas, pressure
-from coupling.openfoam import install
+from coupling.openfoam.programs import install
 from coupling.openfoam.solver import OpenFoamGas
-from sdph import paths
-from sdph.case import from_table
+from sdph.case.read import from_table
+from sdph.scenes import paths
 
 SIZE = (0.5, 1.0)  # m
 GRAIN = 0.5e-3  # m

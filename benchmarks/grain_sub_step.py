@@ -8,10 +8,13 @@ import time
 
 import numba
 
-from sdph import case as cases
-from sdph import rates, scenes, shearing
-from sdph.effects import granular_temperature, walls
-from sdph.simulation import Simulation
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.effects.around import walls
+from sdph.effects.grains import granular_temperature
+from sdph.methods.grains import contacts as shearing
+from sdph.methods.grains import equations as rates
+from sdph.running.simulation import Simulation
 
 WINDOWS = 12
 LOOPS = {shearing: ("shear",), rates: ("sum_density", "constitutive", "rates"), walls: ("extrapolate", "contact"), granular_temperature: ("advance_all",)}

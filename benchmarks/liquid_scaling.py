@@ -16,9 +16,9 @@ import time
 import numba
 import numpy as np
 
-from sdph import case as cases
 from sdph import scenes
-from sdph.liquid.step import LiquidStepper
+from sdph.case import read as cases
+from sdph.methods.liquids.method import LiquidStepper
 
 WIDTH = 0.05715  # m, of the column; twice as high
 DEFAULT = ("2:1e4", "2:1e5", "3:1e5")

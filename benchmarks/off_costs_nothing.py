@@ -2,7 +2,7 @@
 
     python benchmarks/off_costs_nothing.py [effect ...]
 
-For each effect that has terms in the loops over particles (sdph/rates.py, sdph/shearing.py), these are compiled for a bubbling bed with the
+For each effect that has terms in the loops over particles (sdph/methods/grains/equations.py, sdph/methods/grains/contacts.py), these are compiled for a bubbling bed with the
 effect off, once from the source and once from the source in which every call of a function of the effect's file is
 replaced by what that function gives when it is off. Identical instructions take the same time on any machine and under
 any load, which no timing can show. Serial builds are compared: threads share out the same body.
@@ -18,14 +18,16 @@ from pathlib import Path
 
 from numba import njit
 
-from sdph import case as cases
-from sdph import effects, rates, scenes, shearing
+from sdph import effects, scenes
+from sdph.case import read as cases
 from sdph.effects.effect import OFF
-from sdph.explain import effect_costs
-from sdph.explain.tables import table
+from sdph.methods.grains import contacts as shearing
+from sdph.methods.grains import equations as rates
+from sdph.study.explain import effect_costs
+from sdph.study.explain.tables import table
 
 LOOPS = {"sum_density": rates, "shear": shearing, "constitutive": rates, "rates": rates}
-FLAGS = {"reassoc", "nsz", "arcp", "contract", "afn"}  # as in sdph/rates.py
+FLAGS = {"reassoc", "nsz", "arcp", "contract", "afn"}  # as in sdph/methods/grains/equations.py
 NAME = re.compile(r"[.$\w@]*[A-Za-z_][.$\w@]*")
 
 
@@ -33,7 +35,7 @@ class Strip(ast.NodeTransformer):
     """Replaces the calls of an effect's functions by what they give when it is off."""
 
     def __init__(self, effect: str):
-        self.effect, self.module = effect, importlib.import_module(f"sdph.effects.{effect}")
+        self.effect, self.module = effect, getattr(effects, effect)
 
     def visit_Call(self, node):
         self.generic_visit(node)

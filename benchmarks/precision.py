@@ -9,13 +9,12 @@ largest. Positions in 32 bits resolve 6e-8 of the domain: the last row says what
 import time
 
 import numpy as np
-
-from sdph import case as cases
-from sdph import scenes
-from sdph.explain import effect_costs
-from sdph.explain.tables import table
-
 from off_costs_nothing import LOOPS, arguments
+
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.study.explain import effect_costs
+from sdph.study.explain.tables import table
 
 ROUNDS = 30
 OUTPUTS = {"sum_density": 2, "shear": 3, "rates": 3}

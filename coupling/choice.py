@@ -9,9 +9,10 @@ import tempfile
 from pathlib import Path
 
 from coupling.gas import GasError
-from coupling.openfoam.build import silent
-from sdph import case as cases
-from sdph import paths, scenes
+from coupling.openfoam.programs.build import silent
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.scenes import paths
 from sdph.schema import CaseError
 
 OWN_MESH = ("constant/polyMesh", "system/blockMeshDict")
@@ -36,7 +37,7 @@ def expected(case) -> str:
     _refuse_periodic(case)
     if case.coupling.gas != "auto":
         return case.coupling.gas
-    from coupling.openfoam import install
+    from coupling.openfoam.programs import install
 
     return "openfoam" if install.find() else "embedded"
 
@@ -79,7 +80,7 @@ def _automatic(case, folder: Path, template: Path, status, allow_code: bool):
 
 def _not_ready(status) -> str | None:
     """Why there is no sdphGasFoam to run, in one line; None where there is."""
-    from coupling.openfoam import install
+    from coupling.openfoam.programs import install
 
     if install.find() is None:
         return "OpenFOAM was not found"

@@ -67,7 +67,7 @@ def effects() -> str:
 def reference() -> str:
     """Sections of a case from its dataclasses."""
     from sdph import effects as all_effects
-    from sdph import sections as declared
+    from sdph.case import sections as declared
 
     sections = declared.SECTIONS | {f"{name}.NAME": cls for name, cls in declared.GROUPS.items()}
     sections |= {"coupling": declared.Coupling, "vapour": declared.Vapour, "liquid": declared.Liquid, "gas_phase": declared.GasPhase}

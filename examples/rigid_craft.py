@@ -13,8 +13,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from sdph import case as cases
-from sdph.tank import Tank
+from sdph.case import read as cases
+from sdph.running.tank import Tank
 
 CASE = {
     "title": "Tank of a rigid craft",

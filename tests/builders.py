@@ -4,13 +4,17 @@ import numpy as np
 from fakes import StillGas
 
 from coupling.gas import Mesh
-from sdph import case as cases
-from sdph import particles, rates, scenes
+from sdph import scenes
+from sdph.case import gas_cells
+from sdph.case import read as cases
 from sdph.effects import OFF
+from sdph.engine import state as particles
+from sdph.engine.geometry import box_of
+from sdph.engine.ledger import Ledger
+from sdph.engine.rows import Neighbours
 from sdph.laws import kernels
-from sdph.ledger import Ledger
-from sdph.neighbours import Neighbours, box_of
-from sdph.simulation import Simulation
+from sdph.methods.grains import equations as rates
+from sdph.running.simulation import Simulation
 
 DISC = scenes.HERE / "disc_cluster" / "case.toml"
 # A square full of grains: no rim, and with one cell of gas the two-temperature problem itself.
@@ -37,7 +41,7 @@ def fixed_windows(dt: float) -> tuple[str, ...]:
 
 def simulation(case, folder, cells=None, gas=StillGas) -> Simulation:
     """A started simulation on a gas without flow; its ledger is in `folder`."""
-    stand_in = gas(case, cells or cases.cells(case))
+    stand_in = gas(case, cells or gas_cells.cells(case))
     run = Simulation(case, stand_in, Ledger(folder / "ledger.csv", case, stand_in.mesh.depth))
     run.start()
     return run

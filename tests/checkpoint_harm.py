@@ -9,7 +9,7 @@ import zipfile
 
 import numpy as np
 
-from coupling.messages import Message, decode, encode
+from coupling.transport.messages import Message, decode, encode
 
 NASTY = (
     None, True, False, 0, 1, -1, 7, 2**31, 2**63, 10**400, 0.0, -0.5, 1e-300, 1e300, -1e300, float("nan"), float("inf"), -float("inf"), "", "text",

@@ -1,6 +1,8 @@
 """What all tests share: hypothesis without deadlines, how long fuzz tests are, and what becomes of tests that need OpenFOAM where it is not."""
 
 import os
+import sys
+from pathlib import Path
 
 import pytest
 from hypothesis import settings
@@ -9,6 +11,9 @@ from hypothesis import settings
 settings.register_profile("sdph", deadline=None, max_examples=60, derandomize=True)
 settings.load_profile("sdph")
 
+
+# Tests take helpers and fixtures from each other by bare names, whatever folder these are in: every file has a name of its own.
+sys.path += sorted(str(folder) for folder in Path(__file__).parent.rglob("*/") if folder.name != "__pycache__")
 
 LONG = int(os.environ.get("SDPH_LONG", "1"))  # times as many examples of the fuzz tests
 
@@ -21,7 +26,7 @@ def pytest_configure(config):
 def pytest_runtest_setup(item):
     if item.get_closest_marker("openfoam") is None:
         return
-    from coupling.openfoam import install
+    from coupling.openfoam.programs import install
 
     if install.find() is None:
         missing = "OpenFOAM was not found; get it with `sdph openfoam setup --install`"

@@ -5,9 +5,9 @@ import math
 import numpy as np
 
 from coupling.gas import Budget, GasState, Mesh
-from sdph import case as cases
-from sdph.ledger import Ledger
-from sdph.simulation import Simulation
+from sdph.case import read as cases
+from sdph.engine.ledger import Ledger
+from sdph.running.simulation import Simulation
 
 DENSITY, DIAMETER, VISCOSITY = 3060.0, 285e-6, 1.7895e-5
 SPACING = 5e-3

@@ -6,7 +6,8 @@ import shlex
 
 import pytest
 
-from sdph import cli, paths
+from sdph import cli
+from sdph.scenes import paths
 
 DOCS = paths.PACKAGE.parent / "docs"
 FENCE = re.compile(r"`(?P<file>[\w/.]+)`:\n\n```toml\n(?P<text>.*?)```|```sh\n(?P<commands>.*?)```", re.DOTALL)

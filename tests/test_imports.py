@@ -4,7 +4,7 @@ import ast
 import subprocess
 import sys
 
-from sdph import paths
+from sdph.scenes import paths
 
 ROOT = paths.PACKAGE.parent
 # Each argument, names of modules, in a process of its own, forked from one that knows all but sdph and coupling.
@@ -63,7 +63,7 @@ def test_any_module_can_be_imported_first():
     known = modules()
     graph = {name: imported(name, file, known.keys()) for name, file in known.items()}
     assert len(graph) > 150 and all(graph[name] for name in graph if "." in name)
-    tried = [*on_circles(graph), "sdph.boundary", "sdph.simulation", " ".join(graph)]
+    tried = [*on_circles(graph), "sdph.engine.walls.sides", "sdph.running.simulation", " ".join(graph)]
     done = subprocess.run(
         [sys.executable, "-c", FIRST, *tried], cwd=ROOT, capture_output=True, text=True, timeout=240, check=True
     )

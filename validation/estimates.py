@@ -10,10 +10,10 @@ from __future__ import annotations
 import dataclasses
 import sys
 
-from sdph import case as cases
 from sdph import scenes
-from sdph.cost import climb, ladder, report, rows
-from sdph.explain import judge
+from sdph.case import judge
+from sdph.case import read as cases
+from sdph.study.cost import climb, ladder, report, rows
 
 VARIANTS = {  # name -> scene, what is changed
     "column, fluidised": ("fluidised_column", ("boundaries.distributor.velocity_m_s=[0.0,0.15]",)),

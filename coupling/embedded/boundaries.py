@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from coupling.embedded.grid import Grid, indices
+from sdph.case.gas_cells import nearest_edge
 from sdph.engine.geometry import SIDES
-from sdph.gas_cells import nearest_edge
 from sdph.schema import CaseError
 
 # kind -> whether the gas passes freely, and whether it clings (takes the tangential velocity of the boundary)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from sdph.case import CaseError
+from sdph.case.read import CaseError
 
 GAS_CONSTANT = 8314.462618  # J/kmol/K, CODATA 2018
 

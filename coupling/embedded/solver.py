@@ -32,8 +32,8 @@ from coupling.embedded.output import budget, cell_fields, force_of_boundary
 from coupling.embedded.pressure import Pressure
 from coupling.embedded.scalars import Scalars
 from coupling.gas import SOURCES, CheckpointError, GasError, GasState, Mesh, Unfinished
+from sdph.case.gas_cells import cell_edges
 from sdph.engine.reading import Unreadable, read_arrays
-from sdph.gas_cells import cell_edges
 
 PASSES = 2  # of a window whose density follows temperature (shared/openfoam.md: one if constant, else two)
 CHECKPOINT = "embedded_gas.npz"

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import itertools
 
+from sdph.case.gas_cells import cell_edges, nearest_edge
 from sdph.engine.geometry import SIDES
-from sdph.gas_cells import cell_edges, nearest_edge
 from sdph.schema import CaseError
 
 # vertices (of the eight of a block, bit k: upper along axis k) of the lower and upper face of each axis, seen from outside

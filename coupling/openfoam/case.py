@@ -15,7 +15,7 @@ from pathlib import Path
 from coupling.openfoam.block_mesh import block_mesh
 from coupling.openfoam.code import Findings, refuse_code
 from coupling.openfoam.start_fields import start_fields
-from sdph.case import cells
+from sdph.case.gas_cells import cells
 from sdph.schema import CaseError
 
 HEAD = "FoamFile {{ version 2.0; format ascii; class dictionary; object {name}; }}\n"

@@ -13,13 +13,24 @@ from pathlib import Path
 
 import numpy as np
 
-from coupling import files
-from coupling.gas import FIELDS, SOURCES, Budget, CheckpointError, GasError, GasState, Mesh, Unfinished, refuse_full_cells
-from coupling.messages import Kind, Message, MessageError, message_limit
-from coupling.openfoam import barrier, install, programs
+from coupling.gas import (
+    FIELDS,
+    SOURCES,
+    Budget,
+    CheckpointError,
+    GasError,
+    GasState,
+    Mesh,
+    Unfinished,
+    refuse_full_cells,
+)
 from coupling.openfoam import case as case_files
-from coupling.openfoam.build import silent
-from coupling.sockets import SocketServer
+from coupling.openfoam.programs import barrier, install
+from coupling.openfoam.programs import run as programs
+from coupling.openfoam.programs.build import silent
+from coupling.transport import files
+from coupling.transport.messages import Kind, Message, MessageError, message_limit
+from coupling.transport.sockets import SocketServer
 from sdph.engine.clock import Clock
 from sdph.schema import CaseError
 

@@ -8,7 +8,17 @@ import socket
 import time
 from collections.abc import Callable
 
-from coupling.messages import GREETING_LIMIT, HEADER, Kind, Message, MessageError, decode, encode, read_header, secret_fits
+from coupling.transport.messages import (
+    GREETING_LIMIT,
+    HEADER,
+    Kind,
+    Message,
+    MessageError,
+    decode,
+    encode,
+    read_header,
+    secret_fits,
+)
 from coupling.transport.waiting import SLICE, always, check_wait
 
 GREETING_TIME = 5.0  # s that a caller has to tell the secret, which the solver does at once; our choice

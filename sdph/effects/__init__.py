@@ -1,32 +1,20 @@
 """The effects that a case can switch on, one file each, and the registry of them."""
 
-from sdph.effects import (
+import dataclasses
+
+from sdph.effects.around import drain, frame, gravity, inflow, outflow, tank, walls
+from sdph.effects.effect import NO_LIMIT, OFF, Effect, kernel_of
+from sdph.effects.gas import drag, evaporation, gas_pressure, heat
+from sdph.effects.grains import (
     artificial_viscosity,
     conduction,
-    density_diffusion,
-    drag,
-    drain,
-    evaporation,
-    frame,
     friction,
-    gas_pressure,
     grain_shifting,
     granular_pressure,
     granular_temperature,
     granular_viscosity,
-    gravity,
-    heat,
-    inflow,
-    laminar_viscosity,
-    liquid_damping,
-    outflow,
-    shifting,
-    surface_tension,
-    tank,
-    walls,
-    xsph,
 )
-from sdph.effects.effect import NO_LIMIT, OFF, Effect, kernel_of
+from sdph.effects.liquids import density_diffusion, laminar_viscosity, liquid_damping, shifting, surface_tension, xsph
 
 FILES = (
     drag,
@@ -68,4 +56,14 @@ def limits(parameters, case, state) -> dict[str, float]:
     return {name: limit for name, limit in found.items() if limit != NO_LIMIT}
 
 
-__all__ = ["OFF", "REGISTRY", "Effect", "kernel_of", "limits", "moving"]
+def without_input(matter: str) -> dict:
+    """Parameters of the effects on grains or a liquid that can judge themselves and need no input."""
+    rows = [row for row in REGISTRY.values() if row.call and matter in row.matter]
+    return {
+        row.name: row.parameters()
+        for row in rows
+        if all(f.default is not dataclasses.MISSING for f in dataclasses.fields(row.parameters))
+    }
+
+
+__all__ = ["OFF", "REGISTRY", "Effect", "kernel_of", "limits", "moving", "without_input"]

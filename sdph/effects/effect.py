@@ -46,7 +46,7 @@ class Effect:
     matter      what it acts on: "grains", "liquid"
     dt_limit    (kernel parameters, case, state as it is) -> largest stable sub-step [s]; asked before every sub-step
     two_phases  whether it needs a second phase
-    call        scales of a case (sdph.explain.scales) -> Judgement; without it the effect is on where the user says so
+    call        scales of a case (sdph.methods.grains.scales) -> Judgement; without it the effect is on where the user says so
     """
 
     name: str

@@ -22,7 +22,7 @@ class Clock:
     what ruled the last one.
     """
 
-    KEPT = ("limit",)  # see sdph.restart
+    KEPT = ("limit",)  # see sdph.engine.restart
 
     def __init__(self, run, rows: float | None = None):
         self.limit, self.end = "", run.end_time

@@ -5,14 +5,17 @@ from __future__ import annotations
 import csv
 import io
 import math
+import os
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from sdph.engine.kept import Many, Unfit
 from sdph.schema import CaseError
 
 SEPARATORS = ",;\t"  # that spreadsheets write between cells; of these the most frequent one of the first line holds
+LONGEST = 2**20  # characters of the first line of a table; our choice
 
 
 @dataclass(frozen=True)
@@ -117,3 +120,47 @@ class Found(dict):
 
 def _short(text: str) -> str:
     return repr(text[:60])[:60]
+
+
+class Table:
+    """A CSV file that grows by rows of one set of keys."""
+
+    KEPT, FORMS = ("columns", "place"), {"columns": Many("")}  # see sdph.engine.kept
+
+    def __init__(self, path: Path):
+        self.file = open(path, "a", newline="", encoding="utf-8")
+        self.columns: tuple[str, ...] = ()
+
+    def admit(self, kept: dict) -> None:
+        """CaseError where the file is shorter than it was, Unfit where it is another."""
+        name, length = self.file.name, kept["place"]
+        if self.place < length:
+            raise CaseError(f"{name} has lost rows that its checkpoint counts on; run anew")
+        with open(name, newline="", encoding="utf-8", errors="replace") as file:
+            columns = next(csv.reader([file.readline(LONGEST)]), []) if length > 0 else []
+        if length < 0 or columns != kept["columns"]:
+            raise Unfit(f"{Path(name).name} does not begin with its columns, or is cut to {length} bytes")
+
+    def write(self, row: dict) -> None:
+        writer = csv.DictWriter(self.file, self.columns or row.keys())
+        if not self.columns:
+            self.columns = tuple(row)
+            writer.writeheader()
+        writer.writerow(row)
+
+    def flush(self) -> None:
+        self.file.flush()
+
+    @property
+    def place(self) -> int:
+        """Bytes written, all of them on the disk."""
+        self.file.flush()
+        os.fsync(self.file.fileno())
+        return os.fstat(self.file.fileno()).st_size
+
+    @place.setter
+    def place(self, length: int) -> None:
+        os.ftruncate(self.file.fileno(), length)
+
+    def close(self) -> None:
+        self.file.close()

@@ -6,7 +6,6 @@ import math
 from typing import NamedTuple
 
 
-
 class Shock(NamedTuple):
     """Between the waves: pressure [Pa], velocity [m/s], gas densities left and right of the contact [kg/m3]; the
     speed of the right shock [m/s]."""

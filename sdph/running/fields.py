@@ -1,15 +1,18 @@
-"""Fields of a run, read back from its VTK files."""
+"""Fields of a run in VTK files: written as it goes, and read back."""
 
 from __future__ import annotations
 
 import base64
+import errno
 import math
+import os
 import re
 from pathlib import Path
 
 import numpy as np
 
-from sdph import output
+from sdph.engine.kept import Many, Unfit, short
+from sdph.running.output import WALLS, write_text
 from sdph.schema import CaseError
 
 READERS = {
@@ -17,13 +20,17 @@ READERS = {
     ".vtr": "vtkXMLRectilinearGridReader",
     ".vtu": "vtkXMLUnstructuredGridReader",
 }
+LAST = b"</VTKFile>"
+ENTRY = re.compile(r'<DataSet timestep="[\d.e+-]+" part="\d+" file="fields/(particles|gas)_\d{5,}\.(vtp|vtr|vtu)"/>')
+SUFFIXES = {"vtkPolyData": "vtp", "vtkRectilinearGrid": "vtr", "vtkUnstructuredGrid": "vtu"}
+PVD = '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n<Collection>\n{}\n</Collection>\n</VTKFile>\n'
 DENSEST = 255  # times: how much LZ4 can press together at most
 
 
 def load(path: Path, arrays: tuple[str, ...] = ()):
     """A pyvista mesh of a VTK file; `CaseError` where it is damaged, or is not empty and lacks one of `arrays`."""
     try:
-        if not output.whole(path):
+        if not whole(path):
             raise ValueError("not all of it is there")
         _check(path.read_bytes())
         mesh = _decoded(path)
@@ -71,3 +78,59 @@ def _unpacked(text: bytes, header) -> int:
     if count and not size or last > size or count > len(text):
         raise ValueError("its blocks have no size")
     return count * size
+
+
+class Fields:
+    """Particles, and gas where there is any, on one timeline: `run.pvd` opens in ParaView and pyvista."""
+
+    KEPT, FORMS = ("entries",), {"entries": Many("")}  # see sdph.engine.kept
+
+    def __init__(self, folder: Path):
+        self.folder = folder
+        self.entries: list[str] = []
+
+    def admit(self, kept: dict) -> None:
+        """Unfit where an entry is not as `write` makes it."""
+        for entry in kept["entries"]:
+            if not ENTRY.fullmatch(entry):
+                raise Unfit(f"{short(entry)} is no entry of run.pvd")
+
+    def revive(self) -> None:
+        """The timeline up to the checkpoint that was put back."""
+        self._write_timeline()
+
+    def write(self, time: float, meshes: dict) -> None:
+        """`meshes` (name -> pyvista mesh, the same names each time) at `time` [s], and the timeline up to there."""
+        number = len(self.entries) // len(meshes)
+        files = {f"fields/{name}_{number:05d}.{SUFFIXES[mesh.GetClassName()]}": mesh for name, mesh in meshes.items()}
+        for name, mesh in files.items():
+            save(mesh, self.folder / name)
+        self.entries += [f'<DataSet timestep="{time:.9g}" part="{part}" file="{name}"/>' for part, name in enumerate(files)]
+        self._write_timeline()
+
+    def write_walls(self, walls) -> None:
+        """A pyvista surface that holds for all times; nothing where it is None."""
+        if walls is not None:
+            save(walls, self.folder / WALLS)
+
+    def _write_timeline(self) -> None:
+        write_text(self.folder / "run.pvd", PVD.format("\n".join(self.entries)))
+
+
+def save(mesh, path: Path) -> None:
+    """A VTK file, whole or not at all. VTK tells nobody when the disk is full: its last line does."""
+    draft = path.with_name(f"part-{path.name}")
+    mesh.save(draft, compression="lz4")  # a fifth of zlib's time for a tenth more room
+    if not whole(draft):
+        draft.unlink(missing_ok=True)
+        raise OSError(errno.ENOSPC, f"{os.strerror(errno.ENOSPC)} (or another failure of VTK to write {path.name})")
+    os.replace(draft, path)
+
+
+def whole(path: Path) -> bool:
+    """Whether a VTK file is there, with its last line."""
+    if not path.is_file():
+        return False
+    with open(path, "rb") as file:
+        file.seek(max(0, path.stat().st_size - 2 * len(LAST)))
+        return file.read().strip().endswith(LAST)

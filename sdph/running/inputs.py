@@ -21,9 +21,10 @@ from pathlib import Path
 import tomli_w
 
 from coupling.openfoam.code import refuse_code
-from sdph import case as cases
-from sdph import boundary, output
-from sdph.effects import frame, tank
+from sdph.case import read as cases
+from sdph.effects.around import frame, tank
+from sdph.engine.walls import sides as boundary
+from sdph.running import output
 from sdph.schema import CaseError
 
 FOLDER = "inputs"

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from sdph import case as cases
 from sdph import effects, scenes
-from sdph.explain import tables
-from sdph.liquid.step import LiquidStepper
-from sdph.simulation import parts_of
+from sdph.case import read as cases
+from sdph.methods.liquids.method import LiquidStepper
+from sdph.running.simulation import parts_of
+from sdph.study.explain import tables
 
 COARSE = {
     "disc_cluster": ("resolution.spacing_mm=20", "resolution.cell_mm=50"),

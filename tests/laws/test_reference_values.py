@@ -7,7 +7,20 @@ import numpy as np
 import pytest
 from reference_values import BED, CONSTANTS, GAS, JET, VALUES
 
-from sdph.laws import drag, eos, evaporation, exact, exchange, friction, grain_sizes, granular, heat, kernels, riemann, viscosity
+from sdph.laws import (
+    drag,
+    eos,
+    evaporation,
+    exact,
+    exchange,
+    friction,
+    grain_sizes,
+    granular,
+    heat,
+    kernels,
+    riemann,
+    viscosity,
+)
 from sdph.laws.constants import GAS_CONSTANT
 
 RHO_G, MU_G, K_G, CP_G = GAS["rho"], GAS["mu"], GAS["k"], GAS["cp"]

@@ -10,8 +10,9 @@ import tomli_w
 from test_cli import refused  # noqa: F401  (`refused` is a fixture)
 from test_restart import Cut, Reporter
 
-from sdph import case as cases
-from sdph import cli, driver
+from sdph import cli
+from sdph.case import read as cases
+from sdph.running import driver
 from sdph.schema import CaseError
 
 AIR = {"density_kg_m3": 1.2, "viscosity_Pa_s": 1.8e-5, "conductivity_W_m_K": 0.025, "heat_capacity_J_kg_K": 1006.0, "temperature_K": 300.0}

@@ -2,9 +2,11 @@
 
 import pytest
 
-from sdph import case as cases
-from sdph import compare, driver, scenes
-from sdph.progress import Reporter
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.running import driver
+from sdph.running.progress import Reporter
+from sdph.study import compare
 
 SHORT = {
     "single_droplet": (),

@@ -5,9 +5,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from sdph import case as cases
-from sdph import compare, scenes
-from sdph.liquid import GAS, LIQUID
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.engine.state import GAS, LIQUID
+from sdph.study import compare
 
 RADIUS, SPACING = 0.25, 0.025  # m
 

@@ -13,8 +13,8 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.spatial import cKDTree
 
-from sdph.compare import check
-from sdph.liquid import GAS
+from sdph.engine.state import GAS
+from sdph.study.compare import check
 
 SPEED, CENTRE, ROUND = 0.02, 0.02, 0.01  # liquids.md
 FINE = 2  # grid points of the colour a spacing

@@ -1,6 +1,6 @@
 """The bubbling bed against OpenFOAM's two-fluid solver, and against what the paper says of it.
 
-Both runs are measured by one function (sdph.bubble) on the same mesh. The paper's own description (section 4.2,
+Both runs are measured by one function (sdph.running.metrics.bubble) on the same mesh. The paper's own description (section 4.2,
 figures 6 to 10) is checked point by point.
 """
 
@@ -11,10 +11,11 @@ import dataclasses
 import numpy as np
 
 from coupling.gas import Mesh
-from sdph import bubble, view
-from sdph.compare import check
-from sdph.gas_cells import Rows
+from sdph.case.gas_cells import Rows
+from sdph.running.metrics import bubble
 from sdph.schema import CaseError
+from sdph.show import view
+from sdph.study.compare import check
 
 SHOWN = (0.05, 0.10, 0.15, 0.20, 0.24)  # s, the figure's columns
 LARGEST = 0.20  # s, when the paper's bubble is largest and lets go
@@ -31,7 +32,7 @@ FADED = 0.2  # of what was: the paper says "tends to zero"; our reading
 
 def tfm(run) -> list[dict]:
     """Bubble metrics against twoPhaseEulerFoam with the same closures, mesh and inlet."""
-    from coupling.openfoam.comparators import run_two_fluid
+    from coupling.openfoam.comparators.run import run_two_fluid
 
     _reaches(run, LARGEST)
     reference = run_two_fluid(run.case, run.folder / "tfm", courant=RESOLVED)
@@ -44,7 +45,7 @@ def tfm(run) -> list[dict]:
 
 def _finer(run) -> dict:
     """The bubble against two fluids on cells of half the size, whose interface is as thin as that of the particles."""
-    from coupling.openfoam.comparators import run_two_fluid
+    from coupling.openfoam.comparators.run import run_two_fluid
 
     half = dataclasses.replace(run.case.resolution, cell=run.case.resolution.cell / 2)
     case = dataclasses.replace(run.case, resolution=half, run=dataclasses.replace(run.case.run, end_time=LARGEST))
@@ -96,7 +97,7 @@ def _metrics(bubble_at_end: dict, heat: float) -> dict[str, tuple]:
 
 def others(case, folder):
     """For `sdph cost`: (label, solver, wall time [s], metrics) of two fluids on finer and finer cells."""
-    from coupling.openfoam.comparators import run_two_fluid
+    from coupling.openfoam.comparators.run import run_two_fluid
 
     for number, cell in enumerate(COMPARED_CELLS):
         refined = dataclasses.replace(case, resolution=dataclasses.replace(case.resolution, cell=cell))

@@ -14,10 +14,10 @@ import tempfile
 from pathlib import Path
 
 from coupling.embedded import EmbeddedGas
-from sdph import case as cases
 from sdph import scenes
-from sdph.ledger import Ledger
-from sdph.simulation import Simulation
+from sdph.case import read as cases
+from sdph.engine.ledger import Ledger
+from sdph.running.simulation import Simulation
 
 END = 0.05  # s, when the bubble has begun to grow
 SPACINGS = (20.0, 10.0, 5.0)  # mm

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from sdph.compare import check
+from sdph.study.compare import check
 
 OFFSET = 0.175  # of T = t sqrt(2 g/a), see front.csv
 SERIES = ("mm_a1.125in", "mm_a2.25in", "koshizuka_oka_exp", "mm_lethe")

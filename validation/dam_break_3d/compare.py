@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sdph.compare import scene_module
+from sdph.study.compare import scene_module
 
 
 def metrics(run) -> dict:

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from sdph import compare
-from sdph.compare import check
-from sdph.liquid import GAS
-
+from sdph.engine.state import GAS
+from sdph.study import compare
+from sdph.study.compare import check
 
 FRONT = "liquid_largest_x_m"  # column of the history
 

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from sdph import case as cases
 from sdph import scenes
-from sdph.compare import check
+from sdph.case import read as cases
 from sdph.laws import exact as solution
 from sdph.laws import heat
+from sdph.study.compare import check
 
 VARIANTS = {
     "two-way, paper": (("heat.closure=paper",), ("exact", "tfm")),
@@ -40,7 +40,7 @@ def exact(run) -> list[dict]:
 
 def tfm(run) -> list[dict]:
     """Centre temperatures against twoPhaseEulerFoam with the same closures; tolerance of the exact change."""
-    from coupling.openfoam.comparators import run_two_fluid
+    from coupling.openfoam.comparators.run import run_two_fluid
 
     reference = run_two_fluid(run.case, run.folder / "tfm")
     lumped = _lumped(run.case)

@@ -11,8 +11,8 @@ import math
 
 import numpy as np
 
-from sdph.compare import check
-from sdph.sections import Coupling
+from sdph.case.sections import Coupling
+from sdph.study.compare import check
 
 ALIKE = 0.15  # of the evaporated mass, with the closures made alike (issue 4)
 DIFFERENT = 1.0  # the same with closures that differ by design: the order of magnitude (README.md has each one's share)
@@ -136,9 +136,9 @@ def _reference(run):
 
 
 def _droplet_run(case, folder):
-    from coupling.openfoam.comparators import run_droplets
-    from coupling.openfoam.droplet_numbers import Liquid
-    from coupling.openfoam.droplet_numbers import Nozzle as Slot
+    from coupling.openfoam.comparators.droplet_numbers import Liquid
+    from coupling.openfoam.comparators.droplet_numbers import Nozzle as Slot
+    from coupling.openfoam.comparators.run import run_droplets
 
     nozzle, own = case.nozzles["jet"], case.parameters["evaporation"]
     slot = Slot(nozzle.centre[1], nozzle.width, nozzle.speed, nozzle.temperature, nozzle.volume_fraction)

@@ -10,9 +10,10 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from sdph import case as cases
-from sdph import driver, scenes
-from sdph.progress import Reporter
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.running import driver
+from sdph.running.progress import Reporter
 
 SWITCHES = {
     "as it is (Gunn, Gidaspow, voidage)": (),

@@ -13,11 +13,11 @@ from pathlib import Path
 import numpy as np
 
 from coupling.embedded import EmbeddedGas
-from sdph import column
-from sdph.compare import check
+from sdph.engine.ledger import Ledger
 from sdph.laws import exact as laws
-from sdph.ledger import Ledger
-from sdph.simulation import Simulation
+from sdph.running.metrics import column
+from sdph.running.simulation import Simulation
+from sdph.study.compare import check
 
 RAMP = (0.04, 0.06, 0.075, 0.10, 0.12, 0.10, 0.075, 0.06, 0.04, 0.02)  # m/s, up and down
 FIXED = 0.9  # of the weight; a bed that the gas carries less of lies packed on its way down; our choice

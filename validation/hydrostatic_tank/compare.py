@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from sdph.compare import check
+from sdph.study.compare import check
 
 PRESSURE, SPEED = 0.01, 1e-3  # of rho g H in L2; of sqrt(g H): liquids.md
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from scipy.optimize import curve_fit
 
-from sdph.compare import check
+from sdph.engine.state import GAS, LIQUID
 from sdph.laws import liquids
-from sdph.liquid import GAS, LIQUID
+from sdph.study.compare import check
 
 PERIOD, PRESSURE = 0.02, 0.02  # liquids.md
 CORE, FAR = 0.6, 1.5  # of R: inside and outside of it no kernel reaches the interface

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from sdph.compare import check
 from sdph.laws import liquids
+from sdph.study.compare import check
 
 SHARE = 0.005  # of the largest velocity: liquids.md
 TIMES = (0.5, 1.0, 2.0, 10.0)  # s

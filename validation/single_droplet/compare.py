@@ -6,11 +6,11 @@ import math
 
 import numpy as np
 
-from sdph import case as cases
 from sdph import scenes
-from sdph.compare import check
+from sdph.case import read as cases
 from sdph.laws import evaporation
 from sdph.laws import exact as solution
+from sdph.study.compare import check
 
 CONSTANT = 1e-3  # of the d^2 constant and of the evaporation rate (issue 4)
 WET_BULB = 0.1  # K (the same)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from sdph.compare import check
 from sdph.laws import liquids
-from sdph.periods import ringing
+from sdph.running.metrics.periods import ringing
+from sdph.study.compare import check
 
 PERIOD = 0.01  # at half a length of 25 spacings: issue
 

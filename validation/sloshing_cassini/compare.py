@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from sdph.compare import check
+from sdph.study.compare import check
 
 AXES = ("x", "y", "z")
 SMOOTHED = 5.0  # s: the walls' force is a sample of an instant in each row, the momentum's a mean since the last row

@@ -20,10 +20,10 @@ from pathlib import Path
 
 import numpy as np
 
-from sdph import case as cases
+from sdph.case import read as cases
 from sdph.laws import liquids
-from sdph.liquid.run import LiquidRun
-from sdph.periods import ringing
+from sdph.running.liquid_run import LiquidRun
+from sdph.running.metrics.periods import ringing
 
 G = 9.81  # m/s2
 RADIUS = 0.5  # m

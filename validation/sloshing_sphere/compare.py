@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from sdph.compare import check
+from sdph.study.compare import check
 
 LINEAR = 0.3  # of the peak: what the estimate (one mode, small waves) is good for, its source says
 AXES = ("x", "y", "z")

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from sdph.compare import check
 from sdph.laws import liquids
+from sdph.study.compare import check
 
 PRESSURE, LOSS = 0.02, 0.02  # liquids.md
 START = 0.1  # in units of 1/omega: the patch has turned by 6 degrees, sound has crossed it 0.7 times

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from sdph.compare import check
 from sdph.laws import evaporation
 from sdph.laws import exact as solution
+from sdph.study.compare import check
 
 FLUX = 0.01  # of the flux
 PROFILE = 0.005  # of the mole fraction at the liquid

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from sdph.compare import check
 from sdph.laws import liquids
+from sdph.study.compare import check
 
 RATE = 0.01  # liquids.md
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from sdph.compare import check
-from sdph.liquid import GAS, LIQUID
+from sdph.engine.state import GAS, LIQUID
+from sdph.study.compare import check
 
 SPEED, PRESSURE = 1e-3, 0.01  # of sqrt(g H), of rho g H in L2: liquids.md, hydrostatics
 AIR = 5e-3  # of sqrt(g H): our choice; air at 1/1000 of the density feels every pascal

@@ -1,0 +1,1 @@
+"""OpenFOAM's own solvers as references: two fluids, and droplets."""

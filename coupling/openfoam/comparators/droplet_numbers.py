@@ -1,0 +1,79 @@
+"""Numbers that reactingParcelFoam wants in another form than a case has them: `constant/sdphDroplets`, `constant/nozzle`."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from coupling.openfoam.comparators.two_fluid_numbers import divided
+from sdph.case.sections import Case
+from sdph.laws import heat as heat_law
+
+COURANT = 0.04  # of the droplets; 2e-4 s in the paper's jet, where OpenFOAM was checked
+API_DIFFUSION = 3.6059e-3  # OpenFOAM's APIdiffCoefFunc: D = 3.6059e-3 (1.8 T)^1.75 alpha/(p beta), with alpha = 1 here
+
+
+@dataclass(frozen=True)
+class Nozzle:
+    """A slot in the left wall that droplets come from: middle and width along y [m], speed [m/s] along x,
+    temperature [K], volume fraction of liquid [-]."""
+
+    middle: float
+    width: float
+    speed: float
+    temperature: float
+    volume_fraction: float
+
+
+@dataclass(frozen=True)
+class Liquid:
+    """What the droplets evaporate by: onset temperature [K], saturation pressure [Pa], latent heat [J/kg]."""
+
+    onset_temperature: float
+    saturation_pressure: float
+    latent_heat: float
+
+
+def macros(case: Case, nozzle: Nozzle, liquid: Liquid) -> dict[str, str]:
+    """Macros of the droplet templates: name -> text."""
+    gas, vapour, dt = case.gas, case.vapour, time_step(case, nozzle)
+    return {
+        "gas_prandtl": repr(heat_law.prandtl_number(gas.viscosity, gas.heat_capacity, gas.conductivity)),
+        "vapour_prandtl": repr(heat_law.prandtl_number(vapour.viscosity, vapour.heat_capacity, vapour.conductivity)),
+        "liquid_onset_temperature": repr(liquid.onset_temperature),
+        "liquid_log_saturation_pressure": repr(math.log(liquid.saturation_pressure)),
+        "liquid_latent_heat": repr(liquid.latent_heat),
+        "liquid_diffusion_volume": repr(diffusion_volume(case, liquid)),
+        "nozzle_temperature": repr(nozzle.temperature),
+        "nozzle_mass": repr(flow(case, nozzle) * case.run.end_time),
+        "nozzle_rows_per_second": repr((1.0 + 1e-9) / dt),  # one row a step: its number is rounded down
+        "time_step": repr(dt),
+    }
+
+
+def time_step(case: Case, nozzle: Nozzle) -> float:
+    """Time step [s]."""
+    return divided(case.run.output_interval, COURANT * case.resolution.cell / nozzle.speed)
+
+
+def flow(case: Case, nozzle: Nozzle) -> float:
+    """Liquid [kg/s] that the nozzle gives, per metre of depth."""
+    return nozzle.volume_fraction * case.grains.density * nozzle.speed * nozzle.width
+
+
+def diffusion_volume(case: Case, liquid: Liquid) -> float:
+    """The two volumes a = b of OpenFOAM's D with which it is the case's at the film temperature where evaporation starts."""
+    film = (2.0 * liquid.onset_temperature + case.gas.temperature) / 3.0  # OpenFOAM's surface values: T + (T_gas - T)/3
+    beta = API_DIFFUSION * (1.8 * film) ** 1.75 / (case.gas.operating_pressure * case.vapour.diffusivity)
+    return (beta / 4.0) ** 1.5  # beta = (a^(1/3) + b^(1/3))^2
+
+
+def nozzle_rows(case: Case, nozzle: Nozzle) -> str:
+    """OpenFOAM's table of injectors: one per particle spacing across the slot, just inside the wall."""
+    count = round(nozzle.width / case.resolution.spacing)
+    grains = case.grains
+    each = flow(case, nozzle) / count
+    places = [nozzle.middle + nozzle.width * ((i + 0.5) / count - 0.5) for i in range(count)]
+    tail = f"{grains.diameter!r} {grains.density!r} {each!r} {nozzle.temperature!r} {grains.heat_capacity!r} (0 1 0) () (1) ()"
+    rows = "".join(f"(1e-6 {y!r} 0.5) ({nozzle.speed!r} 0 0) {tail}\n" for y in places)
+    return f"(\n{rows})\n"

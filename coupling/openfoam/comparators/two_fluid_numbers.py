@@ -1,0 +1,126 @@
+"""Numbers that twoPhaseEulerFoam wants in another form than a case has them, written as `constant/sdphTwoFluid`.
+
+OpenFOAM's dictionaries could calculate them only by compiling code at run time.
+"""
+
+from __future__ import annotations
+
+import math
+
+from sdph.case.sections import Case
+from sdph.laws import constants, exact
+from sdph.laws import heat as heat_law
+from sdph.schema import CaseError
+
+OUTSIDE = 1.0  # m; how far selections reach past the domain, so that round-off at its faces decides nothing
+COURANT = 0.75  # largest Courant number of an inlet in the two-fluid run; stable with 3 outer iterations
+STEPS_PER_RELAXATION = 15  # second-order steps: 0.03 % of the rise at 1 ms (validation/disc_cluster)
+
+# heat.law -> OpenFOAM's model, and the slip velocity in gunn's Reynolds number (RanzMarshall does not read it)
+HEAT_MODELS = {
+    "gunn": ("gunn", "superficial"),
+    "gunn_interstitial": ("gunn", "interstitial"),
+    "ranz_marshall": ("RanzMarshall", "interstitial"),
+}
+
+
+def macros(case: Case, courant: float = COURANT) -> dict[str, str]:
+    """Macros of the two-fluid templates: name -> text."""
+    gas, grains = case.gas, case.grains
+    if gas.equation_of_state != "constant":
+        raise CaseError(f"gas.equation_of_state = {gas.equation_of_state!r}; the two-fluid reference is laid out for 'constant'")
+    if "heat" not in case.effects:
+        raise CaseError(f"effects = {list(case.effects)}; the two-fluid reference exchanges heat: add 'heat'")
+    return {
+        "gas_prandtl": repr(heat_law.prandtl_number(gas.viscosity, gas.heat_capacity, gas.conductivity)),
+        "gas_enthalpy": repr(gas.heat_capacity * gas.temperature),
+        "grains_kappa_by_cp": repr(grains.conductivity / grains.heat_capacity),
+        "one_way": _switch(case.coupling.one_way),
+        **_heat_exchange(case),
+        **_friction(case),
+        **_regions(case),
+        **_time_steps(case, courant),
+    }
+
+
+def _switch(on: bool) -> str:
+    return "yes" if on else "no"
+
+
+def _heat_exchange(case: Case) -> dict[str, str]:
+    heat = case.parameters["heat"]
+    if heat.law == "ranz_marshall" and heat.closure == "paper":
+        raise CaseError("heat.law = 'ranz_marshall' with heat.closure = 'paper'; OpenFOAM's has no alpha_g: give 'geometric'")
+    model, reynolds = HEAT_MODELS[heat.law]
+    return {"heat_model": model, "heat_reynolds": reynolds, "heat_alpha_gas": _switch(heat.closure == "paper")}
+
+
+def _friction(case: Case) -> dict[str, str]:
+    if "friction" not in case.effects:
+        return {}
+    angle = math.degrees(case.parameters["friction"].angle)
+    return {"friction_angle_degrees": repr(angle), "friction_margin": repr(constants.PACKING_MARGIN)}
+
+
+def _regions(case: Case) -> dict[str, str]:
+    """For each region two points (and the middle) that reach past the two sides without cells of a 2-D mesh."""
+    points = {}
+    for name, region in case.particles.items():
+        lower, upper = (region.lower, region.upper) if region.shape == "box" else (region.centre, region.centre)
+        middle = [0.5 * (a + b) for a, b in zip(lower, upper)]
+        points[f"particles_{name}_front"] = _point(lower, -OUTSIDE)
+        points[f"particles_{name}_middle"] = _point(middle, 0.5)
+        points[f"particles_{name}_back"] = _point(upper, 1.0 + OUTSIDE)
+    return points
+
+
+def _point(place, z: float) -> str:
+    x = [*place, z][:3]
+    return f"({x[0]!r} {x[1]!r} {x[2]!r})"
+
+
+def _time_steps(case: Case, courant: float) -> dict[str, str]:
+    """`first_time_step` and `time_steps`, a table of steps against time, for a case that rests; else `time_step`."""
+    speeds = [math.hypot(*boundary.velocity) for boundary in case.boundaries.values() if boundary.velocity]
+    if speeds:
+        return {"time_step": repr(divided(case.run.output_interval, courant * case.resolution.cell / max(speeds)))}
+    table = resting_steps(case)
+    return {"first_time_step": repr(table[0][1]), "time_steps": "(" + " ".join(f"({t!r} {dt!r})" for t, dt in table) + ")"}
+
+
+def divided(interval: float, step: float) -> float:
+    """The largest step of at most `step` that divides `interval`."""
+    return interval / math.ceil(interval / step * (1.0 - 1e-9))
+
+
+def resting_steps(case: Case) -> list[tuple[float, float]]:
+    """(time, step) [s]: fine for ten relaxation times of the gas, five times that for ten more, then a tenth of the outputs."""
+    last = case.run.output_interval / 10.0
+    if case.coupling.one_way:
+        return [(0.0, last), (case.run.end_time, last)]
+    relaxation = gas_relaxation(case)
+    fine = round_step(relaxation / STEPS_PER_RELAXATION)
+    middle = 5.0 * fine
+    first_end = middle * math.ceil(10.0 * relaxation / middle)
+    second_end = last * math.ceil(20.0 * relaxation / last)
+    half = 0.5 * fine  # a step is looked up at its start: change between two starts
+    steps = [(0.0, fine), (first_end - half, fine), (first_end - 0.9 * half, middle)]
+    return [*steps, (second_end - half, middle), (second_end - 0.9 * half, last), (case.run.end_time + second_end, last)]
+
+
+def gas_relaxation(case: Case) -> float:
+    """Time [s] in which the gas at rest takes on the temperature of the grains, in the densest region."""
+    gas, grains, heat = case.gas, case.grains, case.parameters["heat"]
+    alpha_p = max(region.volume_fraction for region in case.particles.values())
+    prandtl = heat_law.prandtl_number(gas.viscosity, gas.heat_capacity, gas.conductivity)
+    nusselt = heat_law.LAWS[heat.law](1.0 - alpha_p, 0.0, prandtl)
+    eps = alpha_p * heat_law.CLOSURES[heat.closure](1.0 - alpha_p, nusselt, gas.conductivity, grains.diameter)
+    of_grains = alpha_p * grains.density * grains.heat_capacity
+    of_gas = (1.0 - alpha_p) * gas.density * gas.heat_capacity
+    return 1.0 / exact.exchange_rate(eps, of_grains, of_gas)
+
+
+def round_step(step: float) -> float:
+    """The largest of 1, 2, 5 times a power of ten that is at most `step`."""
+    power = math.floor(math.log10(step))
+    return float(f"{max(m for m in (1, 2, 5) if m * 10.0**power <= step * (1 + 1e-12))}e{power}")

@@ -1,0 +1,1 @@
+"""OpenFOAM's programs: where they are, how they are installed, compiled and run."""

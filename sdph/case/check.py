@@ -1,0 +1,219 @@
+"""Checks of a case that several keys decide together; each raises a CaseError: what was given, and what is allowed."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+
+from sdph import effects, scenes
+from sdph.case.sections import Case, Region
+from sdph.engine.geometry import SIDES
+from sdph.methods.liquids.sections import Pool
+from sdph.schema import CaseError, fields, unknown
+
+SAME = 1e-9  # of a length: round-off
+MOST_OUTPUTS = 1e5  # of fields, and of history rows of a liquid as it sets them; our choice
+STRETCH = 100.0  # of the last cell of a row over its first, at most, either way; our choice
+OF_BOX, OF_PLANE = ("rotation", "taylor_green"), ("taylor_green", "quadrupole")  # flows of a pool at the start
+
+
+def columns_of_history(case) -> None:
+    """No two columns of history.csv have one name."""
+    columns = [f"{name}_{key}" for name in case.probes for key in ("temperature_K", "gas_temperature_K")]
+    columns += [f"particle_{ident}_temperature_K" for ident in case.track]
+    twice = [name for name, count in Counter(columns).items() if count > 1]
+    if twice:
+        raise CaseError(
+            f"probes or track.particles give history.csv two columns {twice[0]}; "
+            "rename a probe, or name a particle once"
+        )
+
+
+def flow(case, where: str, pool) -> None:
+    """A pool has the shape and the case the dimensions that a flow at the start is known for."""
+    if pool.flow in OF_BOX and pool.shape != "box":
+        raise CaseError(f"{where}.flow = {pool.flow!r} is that of a box; shape = {pool.shape!r}")
+    if pool.flow in OF_PLANE and case.dimensions != 2:
+        raise CaseError(f"{where}.flow = {pool.flow!r} is known in two dimensions; dimensions = {case.dimensions}")
+
+
+def probe(case, where: str, own) -> None:
+    """A probe lies in the domain, and in a gas: a liquid has no temperature to follow."""
+    if case.liquid:
+        raise CaseError(f"[{where}] follows temperatures of grains and gas, and the case is of a liquid; leave it out")
+    inside(case, where, own.at, own.at)
+
+
+def mouth(case, where: str, nozzle) -> None:
+    """The middle of a nozzle's mouth lies in the domain, and so does what lies half a spacing ahead of it."""
+    if len(nozzle.centre) != case.dimensions or len(nozzle.direction) != case.dimensions:
+        return  # the effect says so
+    inside(case, f"{where}.centre_m = {list(nozzle.centre)}", nozzle.centre, nozzle.centre)
+    length = max(math.hypot(*nozzle.direction), math.ulp(0.0))
+    ahead = [c + 0.5 * case.resolution.spacing * a / length for c, a in zip(nozzle.centre, nozzle.direction)]
+    inside(case, f"{where}.direction = {list(nozzle.direction)} at centre_m = {list(nozzle.centre)}", ahead, ahead)
+
+
+def inside(case, key: str, lower, upper) -> None:
+    """What a key places between two corners lies in the domain."""
+    slack = SAME * max(case.domain.size)  # of centre plus radius
+    if any(a < -slack or b > length + slack for a, b, length in zip(lower, upper, case.domain.size)):
+        raise CaseError(f"{key} reaches out of the domain, domain.size_m = {list(case.domain.size)}; move it or enlarge the domain")
+
+
+def side(case, where: str, boundary) -> None:
+    """A boundary lies on a side that the domain has, and its span, [low, high] on each axis along it, on that side."""
+    if boundary.side and SIDES[boundary.side][0] >= case.dimensions:
+        there = list(SIDES)[: 2 * case.dimensions]
+        raise CaseError(
+            f"{where}.side = {boundary.side!r}; a case of {case.dimensions} dimensions has {', '.join(there)}"
+        )
+    if boundary.span is None:
+        return
+    if boundary.side is None:
+        raise CaseError(f"{where}.span_m is given without a side; add it, or remove the span")
+    lengths = [length for axis, length in enumerate(case.domain.size) if axis != SIDES[boundary.side][0]]
+    for (low, high), length in zip(_pairs(where, boundary.span, len(lengths)), lengths):
+        if low < -SAME * length or high > length * (1.0 + SAME):
+            raise CaseError(
+                f"{where}.span_m goes from {low:g} to {high:g} m; the box goes from 0 to {length:g} m there"
+            )
+
+
+def _pairs(where: str, span: tuple, count: int) -> tuple:
+    """(low, high) on each of `count` axes."""
+    pairs = span if any(isinstance(part, tuple) for part in span) else (span,)
+    if len(pairs) != count or not all(map(_is_pair, pairs)):
+        raise CaseError(
+            f"{where}.span_m = {list(span)}; give [low, high] on each axis along its side, of which there are {count}"
+        )
+    return pairs
+
+
+def _is_pair(part) -> bool:
+    return (
+        isinstance(part, tuple)
+        and len(part) == 2
+        and not any(isinstance(end, tuple) for end in part)
+        and part[0] < part[1]
+    )
+
+
+def check(case: Case) -> None:
+    """What no single key can tell."""
+    if case.scene and case.scene not in scenes.names():
+        raise CaseError(f"{unknown(case.scene, scenes.names()).replace('unknown key', 'scene =', 1)}; or leave it out")
+    matter = "liquid" if case.liquid else "grains"
+    for name in case.effects:
+        if matter not in effects.REGISTRY[name].matter:
+            raise CaseError(f"effects holds {name}, which does not act on {'a liquid' if case.liquid else 'grains'}; leave it out")
+    _check_phases(case)
+    if case.resolution.cell is None and not case.liquid:
+        raise CaseError("resolution.cell_mm is missing; it has no default: give it in [resolution]")
+    vectors = {"domain.size_m": case.domain.size, "domain.gravity_m_s2": case.domain.gravity, "resolution.stretch": case.resolution.stretch}
+    for group, places, cls in (("particles", case.particles, Region), ("pools", case.pools, Pool)):
+        for name, place in places.items():
+            vectors |= {f"{group}.{name}.{key}": getattr(place, at) for key, (at, kind) in fields(cls).items() if kind.components is None}
+    for name, point in case.probes.items():
+        vectors[f"probes.{name}.at_m"] = point.at
+    for name, boundary in case.boundaries.items():
+        vectors[f"boundaries.{name}.velocity_m_s"] = boundary.velocity
+    for name, nozzle in case.nozzles.items():
+        own = {"centre_m": nozzle.centre, "direction": nozzle.direction, "across": nozzle.across}
+        vectors |= {f"nozzles.{name}.{key}": value for key, value in own.items()}
+    if own := case.parameters.get("tank"):
+        vectors |= {"tank.lower_m": own.lower, "tank.upper_m": own.upper, "tank.centre_m": own.centre}
+    for key, value in vectors.items():
+        if value is not None and (len(value) != case.dimensions or any(isinstance(v, tuple) for v in value)):
+            raise CaseError(f"{key} has {len(value)} components; dimensions = {case.dimensions} asks for {case.dimensions}")
+    if any(not 1.0 / STRETCH <= ratio <= STRETCH for ratio in case.resolution.stretch or ()):
+        given = f"resolution.stretch = {list(case.resolution.stretch)}"
+        raise CaseError(f"{given}; every ratio must be from {1.0 / STRETCH:g} to {STRETCH:g}: 1 for equal cells")
+    if min(case.domain.size) <= 0.0:
+        raise CaseError(f"domain.size_m = {list(case.domain.size)}; every length must be above 0")
+    _check_period(case)
+    if any(isinstance(t, tuple) or t <= 0.0 for t in case.run.report_at):
+        raise CaseError(f"run.report_at_s = {list(case.run.report_at)}; it must be a list of times above 0")
+    _check_outputs(case)
+    for name, pool in case.pools.items():
+        if pool.shape != "tank":
+            _check_place(case, f"pools.{name}", pool)
+        flow(case, f"pools.{name}", pool)
+    for name, boundary in case.boundaries.items():
+        side(case, f"boundaries.{name}", boundary)
+    for name, region in case.particles.items():
+        _check_region(case, name, region)
+    for name, point in case.probes.items():
+        probe(case, f"probes.{name}", point)
+    for name, nozzle in case.nozzles.items():
+        mouth(case, f"nozzles.{name}", nozzle)
+    columns_of_history(case)
+
+
+def _check_outputs(case: Case) -> None:
+    intervals = {"run.output_interval_s": case.run.output_interval}
+    if case.liquid:
+        intervals["liquid.history_interval_s"] = case.liquid.history_interval
+    for key, interval in intervals.items():
+        if interval and case.run.end_time > MOST_OUTPUTS * interval:
+            given = f"{key} = {interval:g} up to run.end_time_s = {case.run.end_time:g}"
+            raise CaseError(f"{given} makes {case.run.end_time / interval:.3g} outputs; {MOST_OUTPUTS:.0e} are allowed: lengthen the one or shorten the other")
+
+
+def _check_place(case: Case, where: str, part) -> None:
+    """A region or a pool has what its shape needs, is no box upside down, and no narrower than the spacing."""
+    needs = ("lower", "upper") if part.shape == "box" else ("centre", "radius")
+    for key in needs:
+        if getattr(part, key) is None:
+            raise CaseError(f"{where}.{key}_m is missing; a {part.shape} needs {' and '.join(f'{n}_m' for n in needs)}")
+    size = part.radius if part.shape != "box" else min(b - a for a, b in zip(part.lower, part.upper))
+    if size <= 0.0:
+        raise CaseError(f"{where}: upper_m = {list(part.upper)} must lie above lower_m = {list(part.lower)} along every axis")
+    if case.resolution.spacing > size * (1.0 + SAME):
+        spacing = f"resolution.spacing_mm = {case.resolution.spacing * 1e3:g}"
+        raise CaseError(f"{spacing} is larger than {where} ({size * 1e3:g} mm); give a spacing well below that")
+
+
+def _check_phases(case: Case) -> None:
+    if case.gas_phase is None:
+        two = [f"pools.{name}.phase = \"gas\"" for name, pool in case.pools.items() if pool.phase == "gas"]
+        two += [name for name in case.effects if effects.REGISTRY[name].two_phases]
+        if two:
+            raise CaseError(f"{two[0]} needs a second phase; give its properties in [gas_phase]")
+        return
+    if case.liquid is None:
+        raise CaseError("[gas_phase] is given without [liquid]; a gas around grains goes into [gas]")
+    if "drain" in case.effects:
+        raise CaseError("effects holds drain, which knows one phase; leave it or [gas_phase] out")
+    if case.gas_phase.density_by == "summation" and "density_diffusion" in case.effects:
+        raise CaseError("effects holds density_diffusion, but with gas_phase.density_by = \"summation\" no density is advanced; leave one out")
+
+
+def _check_period(case: Case) -> None:
+    axes, least = "xyz"[: case.dimensions], 4.0 * case.smoothing_length  # two reaches, or an image would be missed
+    for axis in case.domain.periodic:
+        if axis not in axes:
+            raise CaseError(f"domain.periodic holds {axis!r}; allowed: {', '.join(axes)}")
+        if case.domain.period[axes.index(axis)] < least:
+            raise CaseError(f"domain.size_m is below {least:g} m along {axis}, which is periodic; lengthen it or take finer grains")
+    if case.liquid:
+        _check_period_of_liquid(case)
+
+
+def _check_period_of_liquid(case: Case) -> None:
+    given, least = case.liquid.periodic, 4.1 * case.smoothing_length  # two reaches of the neighbour rows
+    if given and (len(given) != case.dimensions or any(on not in (0.0, 1.0) for on in given)):
+        raise CaseError(f"liquid.periodic = {list(given)}; it must be {case.dimensions} numbers, 1 along periodic axes and 0 along the others")
+    for axis, length, on in zip("xyz", case.domain.size, given):
+        if on and length < least:
+            raise CaseError(f"domain.size_m is below {least:g} m along {axis}, which is periodic; lengthen it or take a finer spacing")
+
+
+def _check_region(case: Case, name: str, region: Region) -> None:
+    _check_place(case, f"particles.{name}", region)
+    if region.volume_fraction > case.grains.packing_limit:
+        given = f"particles.{name}.volume_fraction = {region.volume_fraction:g}"
+        raise CaseError(f"{given}; grains pack to grains.packing_limit = {case.grains.packing_limit:g} at most: lower the one or raise the other")
+    box = region.shape == "box"
+    lower = region.lower if box else [c - region.radius for c in region.centre]
+    inside(case, f"particles.{name}", lower, region.upper if box else [c + region.radius for c in region.centre])

@@ -1,0 +1,181 @@
+"""case.toml -> a frozen `Case` in SI, and back.
+
+Sections are declared in `sdph.case.sections`; the section of an effect is declared in the effect's own file. An
+unknown key, a bad value or a section of an effect that is off is a `CaseError`.
+"""
+
+from __future__ import annotations
+
+import os
+import tomllib
+from pathlib import Path
+
+import tomli_w
+
+from sdph import effects
+from sdph.case import judge
+from sdph.case.check import check
+from sdph.case.sections import GROUPS, SECTIONS, Case, Coupling, Vapour
+from sdph.methods.liquids.sections import GasPhase, Liquid
+from sdph.schema import CaseError, fields, plausible, read, record, unknown, vector, write
+
+LONGEST = 100  # letters of a name; our choice
+FILES = [  # (section, key) of all that name a file
+    (name, key) for name, row in effects.REGISTRY.items() for key, (_, kind) in fields(row.parameters).items() if kind.of is Path
+]
+
+
+def load(path: Path, overrides: tuple[str, ...] = ()) -> Case:
+    """The case of a TOML file, with `key=value` overrides (dotted keys, TOML values).
+
+    Files that the case names lie where they do from its own folder, those of the overrides from the working directory.
+    """
+    given = parsed(path)
+    _locate(given, Path(path).parent)
+    for override in overrides:
+        _override(given, override)
+    _locate(given, Path())
+    return from_table(given)
+
+
+def parsed(path: Path) -> dict:
+    """What a TOML file holds; some editors put a byte order mark before it."""
+    try:
+        return tomllib.loads(Path(path).read_text(encoding="utf-8-sig"))
+    except (ValueError, RecursionError) as error:  # not TOML, not UTF-8, numbers too long, lists too deep
+        raise CaseError(f"{path} is not TOML: {error}") from None
+    except OSError as error:
+        raise CaseError(f"{path} cannot be read: {error.strerror}; give a case.toml that can") from None
+
+
+def _locate(table: dict, folder: Path) -> None:
+    """Make the paths of files absolute, from `folder`."""
+    for section, key in FILES:
+        entries = table.get(section)
+        if isinstance(entries, dict) and isinstance(entries.get(key), str) and entries[key]:
+            entries[key] = os.path.abspath(folder / entries[key])
+
+
+def _override(table: dict, text: str) -> None:
+    key, equals, value = text.partition("=")
+    *sections, last = key.strip().split(".")
+    if not equals or not all([*sections, last]):
+        raise CaseError(f"--set {text}: give it as section.key=value")
+    for section in sections:
+        table = table.setdefault(section, {})
+        if not isinstance(table, dict):
+            raise CaseError(f"--set {text}: {section} is a value, not a section")
+    try:
+        table[last] = tomllib.loads(f"value = {value}")["value"]
+    except (ValueError, RecursionError):
+        table[last] = value
+
+
+def from_table(table: dict) -> Case:
+    """The case of a parsed TOML table."""
+    head = {"title", "scene", "dimensions", "effects", "coupling", "vapour", "track", "liquid", "gas_phase"}
+    for key in table:
+        if key not in head | SECTIONS.keys() | GROUPS.keys() | effects.REGISTRY.keys():
+            raise CaseError(unknown(key, head | SECTIONS.keys() | GROUPS.keys() | effects.REGISTRY.keys()))
+    spared = {"gas", "grains"} if "liquid" in table else set()
+    given = {name: cls for name, cls in SECTIONS.items() if name not in spared - table.keys()}
+    sections = dict.fromkeys(SECTIONS) | {name: _section(cls, table.get(name, {}), name) for name, cls in given.items()}
+    groups = {name: _group(cls, table.get(name, {}), name) for name, cls in GROUPS.items()}
+    on = _effects(table)
+    case = Case(
+        title=_text(table, "title"),
+        scene=_text(table, "scene"),
+        dimensions=_dimensions(table),
+        effects=on,
+        coupling=_section(Coupling, table.get("coupling", {}), "coupling"),
+        liquid=_section(Liquid, table["liquid"], "liquid") if "liquid" in table else None,
+        gas_phase=_section(GasPhase, table["gas_phase"], "gas_phase") if "gas_phase" in table else None,
+        vapour=_section(Vapour, table["vapour"], "vapour") if "vapour" in table else None,
+        track=_track(table),
+        parameters={name: _section(effects.REGISTRY[name].parameters, table.get(name, {}), name) for name in on},
+        **sections,
+        **groups,
+    )
+    check(case)
+    return case
+
+
+def _section(cls, table, where: str):
+    return plausible(read(cls, table, where), where)
+
+
+def _text(table: dict, key: str) -> str:
+    given = table.get(key, "")
+    if not isinstance(given, str):
+        raise CaseError(f"{key} = {str(given)[:80]}; it must be a text, in quotes")
+    return given
+
+
+@record
+class _Track:
+    particles: tuple = vector("", ())  # numbers, counted from 1
+
+
+def _track(table: dict) -> tuple[int, ...]:
+    named = _section(_Track, table.get("track", {}), "track").particles
+    if any(isinstance(number, tuple) or number != int(number) for number in named):
+        raise CaseError(f"track.particles = {list(named)}; they must be whole numbers, counted from 1")
+    return tuple(int(number) for number in named)
+
+
+def _group(cls, table: dict, where: str) -> dict:
+    if not isinstance(table, dict) or not all(isinstance(entry, dict) for entry in table.values()):
+        raise CaseError(f"[{where}] must hold named sections, such as [{where}.some_name]")
+    for name in table:
+        if not name.isprintable() or not name.strip() or len(name) > LONGEST:
+            allowed = f"give one of 1 to {LONGEST} letters that can be printed"
+            raise CaseError(f"{where} holds the name {name[:LONGEST]!r}; {allowed}")
+    return {name: _section(cls, entry, f"{where}.{name}") for name, entry in table.items()}
+
+
+def _dimensions(table: dict) -> int:
+    given = table.get("dimensions")
+    if not isinstance(given, int) or given not in (2, 3):
+        raise CaseError(f"dimensions = {given!r}; it must be 2 or 3")
+    return given
+
+
+def _effects(table: dict) -> tuple[str, ...]:
+    on = table.get("effects", [])
+    if on == "auto":
+        return _automatic(table)
+    if not isinstance(on, list) or not all(isinstance(name, str) for name in on):
+        raise CaseError(f"effects = {on!r}; it must be a list of names out of {', '.join(sorted(effects.REGISTRY))}")
+    for name in on:
+        if name not in effects.REGISTRY:
+            raise CaseError(unknown(name, effects.REGISTRY).replace("key", "effect", 1))
+    if len(set(on)) < len(on):
+        raise CaseError(f"effects = {on}; each may stand there once")
+    for name in effects.REGISTRY.keys() & table.keys() - set(on):
+        raise CaseError(f"[{name}] is given, but {name} is not among effects = {list(on)}; add it there or remove the section")
+    return tuple(on)
+
+
+def _automatic(table: dict) -> tuple[str, ...]:
+    """The effects that a case calls for, and those that cannot judge themselves but have a section."""
+    given = [name for name in effects.REGISTRY if name in table]
+    called = judge.called_for(from_table(table | {"effects": given}))
+    return tuple(name for name, row in effects.REGISTRY.items() if name in called or (name in given and not row.call))
+
+
+def to_table(case: Case) -> dict:
+    """The TOML table of a case, every value resolved."""
+    table = {"title": case.title, "scene": case.scene, "dimensions": case.dimensions, "effects": list(case.effects)}
+    table |= {name: write(getattr(case, name)) for name in (*SECTIONS, "coupling", "liquid", "gas_phase") if getattr(case, name)}
+    table |= {group: {name: write(entry) for name, entry in getattr(case, group).items()} for group in GROUPS}
+    table |= {name: write(parameters) for name, parameters in case.parameters.items() if write(parameters)}
+    if case.vapour:
+        table["vapour"] = write(case.vapour)
+    if case.track:
+        table["track"] = {"particles": list(case.track)}
+    return table
+
+
+def dumps(case: Case) -> str:
+    """The resolved case as TOML text."""
+    return tomli_w.dumps(to_table(case))

@@ -1,0 +1,173 @@
+"""The sections that a case is made of, and `Case`, all of them together."""
+
+from __future__ import annotations
+
+from sdph.effects.around.inflow import Nozzle
+from sdph.engine.geometry import SIDES
+from sdph.engine.rows import SKIN
+from sdph.methods.liquids.sections import GasPhase, Liquid, Pool
+from sdph.schema import choice, flag, quantity, record, vector, whole, words
+
+STANDARD_ATMOSPHERE = 101325.0  # Pa, ISO 2533
+
+
+@record
+class Run:
+    end_time: float = quantity("s", above=0.0)
+    output_interval: float = quantity("s", above=0.0)
+    step_factor: float = quantity("", 1.0, least=1e-6, most=1e3)  # sub-steps over the largest that the effects allow
+    accuracy: float = quantity("", 0.01, above=0.0, most=1.0)  # error that is allowed: decides `effects = "auto"` and warnings
+    report_at: tuple = vector("s", ())  # times that a window ends at, so that history.csv has them
+    metrics: tuple = words(())  # of sdph.running.metrics, for metrics.csv and the summary
+    checkpoint_interval: float = quantity("s", 600.0, above=0.0)  # of wall time; our choice
+    checkpoint_windows: int | None = whole(None, least=1)  # and after so many windows, where it is given
+
+
+@record
+class Domain:
+    """The box from the origin that holds the gas; `gravity` has as many components as the case has dimensions.
+
+    Grains that leave through a `periodic` side come in again on the other one. No gas solver does that.
+    """
+
+    size: tuple = vector("m")
+    gravity: tuple = vector("m_s2")
+    periodic: tuple = words(())  # axes: "x", "y", "z"
+
+    @property
+    def period(self) -> tuple[float, float, float]:
+        """Length [m] along the periodic axes, 0 along the others."""
+        return tuple(length if axis in self.periodic else 0.0 for axis, length in zip("xyz", (*self.size, 0.0)))
+
+
+@record
+class Resolution:
+    spacing: float = quantity("mm", above=0.0)
+    smoothing_ratio: float = quantity("", 1.5, least=1.0, most=3.0)  # paper section 4: h is 1.5 spacings
+    cell: float | None = quantity("mm", None, above=0.0)  # of the gas; the mean along an axis that is stretched
+    stretch: tuple | None = vector("", None)  # along each axis: width of the last gas cell over the first (blockMesh's simpleGrading)
+    neighbour_skin: float = quantity("", SKIN, least=0.0, most=1.0)  # of the kernel's reach: how far neighbour rows look beyond it
+
+
+@record
+class GasProperties:
+    density: float = quantity("kg_m3", above=0.0)
+    viscosity: float = quantity("Pa_s", above=0.0)
+    conductivity: float = quantity("W_m_K", above=0.0)
+    heat_capacity: float = quantity("J_kg_K", above=0.0)
+    temperature: float = quantity("K", above=0.0)
+    equation_of_state: str = choice("constant", "operating", "ideal")
+    molar_mass: float = quantity("kg_kmol", 28.96, above=0.0)  # dry air, ISO 2533
+    operating_pressure: float = quantity("Pa", STANDARD_ATMOSPHERE, above=0.0)
+
+
+@record
+class Vapour:
+    """The species that grains or droplets give to the gas."""
+
+    molar_mass: float = quantity("kg_kmol", above=0.0)
+    diffusivity: float = quantity("m2_s", above=0.0)
+    heat_capacity: float = quantity("J_kg_K", above=0.0)
+    conductivity: float = quantity("W_m_K", above=0.0)
+    viscosity: float = quantity("Pa_s", above=0.0)
+
+
+@record
+class Grains:
+    """Grains of one material; each SPH particle carries a log-normal distribution of diameters (by number)."""
+
+    density: float = quantity("kg_m3", above=0.0)
+    diameter: float = quantity("mm", above=0.0)
+    heat_capacity: float = quantity("J_kg_K", above=0.0)
+    conductivity: float = quantity("W_m_K", above=0.0, tiny=True)  # grains may insulate
+    diameter_std: float = quantity("mm", 0.0, least=0.0)
+    restitution: float = quantity("", 0.9, least=0.0, most=0.9999)  # not in the paper: Fluent's default (sdph-notes, section 2)
+    packing_limit: float = quantity("", 0.63, above=0.0, most=0.74)  # the same
+    surface_tension: float | None = quantity("N_m", None, above=0.0)  # of droplets: for Weber and Bond numbers of `sdph explain`
+    granular_temperature: float = quantity("m2_s2", 1e-4, least=0.0)  # at the start; the same
+
+
+@record
+class Region:
+    """Where particles are at the start: a disc or sphere (centre, radius), or a box (lower, upper)."""
+
+    shape: str = choice("disc", "sphere", "box")
+    volume_fraction: float = quantity("", above=0.0, most=1.0)
+    temperature: float = quantity("K", above=0.0)
+    centre: tuple | None = vector("m", None)
+    radius: float | None = quantity("m", None, above=0.0)
+    lower: tuple | None = vector("m", None)
+    upper: tuple | None = vector("m", None)
+    velocity: tuple | None = vector("m_s", None)
+
+
+@record
+class Boundary:
+    """A patch of the gas mesh: a side (or part of it: `span`), or without a side all that is left over."""
+
+    kind: str = choice("wall", "slip_wall", "velocity_inlet", "pressure_outlet")
+    side: str | None = choice(*SIDES, default=None)
+    span: tuple | None = vector("m", None)
+    velocity: tuple | None = vector("m_s", None)
+    temperature: float | None = quantity("K", None, above=0.0)
+    vapour_mass_fraction: float | None = quantity("", None, least=0.0, most=1.0)
+    pressure: float | None = quantity("Pa", None)
+
+
+@record
+class Probe:
+    """A point whose temperatures `history.csv` follows."""
+
+    at: tuple = vector("m")
+
+
+@record
+class Coupling:
+    gas: str = choice("auto", "openfoam", "embedded")
+    transport: str = choice("socket", "file")
+    ranks: int = whole(1, least=1)
+    one_way: bool = flag(False)  # the gas acts on the particles and feels nothing
+    voidage: bool = flag(True)  # the gas knows of the volume of the grains; false as in point-particle models
+    window_tolerance: float = quantity("", 2e-5, above=0.0)  # error of one window over the heat there is to exchange
+    window_largest: float = quantity("s", 1e-2, above=0.0)
+    courant: float = quantity("", 1.0, least=1e-6)  # of the gas, in one window
+    gas_tolerance: float = quantity("", 1e-11, above=0.0, most=1e-4)  # relative, of the embedded solver; pressure: 1000 times that; our choice
+
+
+@record
+class Case:
+    """All that a run needs, in SI. `parameters[name]` holds the section of each effect that is on."""
+
+    title: str
+    scene: str
+    dimensions: int
+    effects: tuple[str, ...]
+    run: Run
+    domain: Domain
+    resolution: Resolution
+    gas: GasProperties | None  # None in a case with a liquid
+    grains: Grains | None  # the same
+    liquid: Liquid | None
+    gas_phase: GasPhase | None
+    pools: dict[str, Pool]
+    particles: dict[str, Region]
+    boundaries: dict[str, Boundary]
+    probes: dict[str, Probe]
+    nozzles: dict[str, Nozzle]
+    coupling: Coupling
+    vapour: Vapour | None
+    track: tuple[str, ...]
+    parameters: dict[str, object]
+
+    @property
+    def smoothing_length(self) -> float:
+        return self.resolution.smoothing_ratio * self.resolution.spacing
+
+    @property
+    def fastest_sound(self) -> float:
+        """The larger sound speed of the phases of a liquid [m/s]."""
+        return max(self.liquid.sound_speed, self.gas_phase.speed_of_sound(self.liquid) if self.gas_phase else 0.0)
+
+
+SECTIONS = {"run": Run, "domain": Domain, "resolution": Resolution, "gas": GasProperties, "grains": Grains}
+GROUPS = {"particles": Region, "pools": Pool, "boundaries": Boundary, "probes": Probe, "nozzles": Nozzle}

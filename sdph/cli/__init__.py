@@ -1,0 +1,261 @@
+"""The command line. Modules are imported by the command that needs them, so that `sdph --help` is quick."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import json
+import os
+import signal
+import sys
+from pathlib import Path
+
+from sdph.cli.arguments import parser
+from sdph.schema import CaseError
+
+FINE, CHECK_FAILED, BAD_INPUT, GAS_FAILED, CANNOT_WRITE, WENT_UNSTABLE = 0, 1, 2, 3, 4, 5
+
+
+def main(given: list[str] | None = None) -> int:
+    """Entry point; returns the exit code: 0 fine, 1 a check failed, 2 bad input, 3 the gas side failed,
+    4 the run folder cannot be written, 5 the run went unstable, 128 + signal when stopped."""
+    try:
+        options = parser().parse_args(given)
+        code = COMMANDS[options.command](options)
+        sys.stdout.flush()
+        return code
+    except CaseError as error:
+        return _failed(error, BAD_INPUT)
+    except BrokenPipeError:  # whoever read the output has read enough; what is left of it is dropped
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 128 + signal.SIGPIPE
+    except OSError as error:
+        if error.errno == errno.ENAMETOOLONG:
+            return _failed(f"{str(error.filename)[:80]}...: {error.strerror}; give a shorter one", BAD_INPUT)
+        return _failed(f"{error.filename or 'a file'}: {error.strerror or error}; give a place that is there and can be written", CANNOT_WRITE)
+    except KeyboardInterrupt as stop:
+        return _failed(str(stop) and stop or "interrupted", 128 + getattr(stop, "number", signal.SIGINT))
+    except RuntimeError as error:
+        code = {"GasError": GAS_FAILED, "CannotWrite": CANNOT_WRITE, "Unstable": WENT_UNSTABLE, "Stalled": WENT_UNSTABLE}.get(type(error).__name__)
+        if code is None:
+            raise
+        return _failed(error, code)
+
+
+def _failed(message, code: int) -> int:
+    """One line, with how to go on where that is known."""
+    text = " ".join([str(message), *getattr(message, "__notes__", ())])
+    print(f"sdph: {' '.join(text.split())}", file=sys.stderr)
+    return code
+
+
+def list_scenes(options) -> int:
+    from sdph import scenes
+
+    for name in scenes.names():
+        print(f"{name:20s} {scenes.title(name)}")
+    return FINE
+
+
+def init_case(options) -> int:
+    from sdph import scenes
+    from sdph.case import read as cases
+    from sdph.running import inputs, output
+    from sdph.scenes import paths
+
+    name, file = scenes.find(options.scene)
+    inputs.check(cases.load(file))
+    own, folder = file.parent / "gas", output.create(options.folder, ())
+    inputs.copy_case(file, folder)
+    output.copy_template(own if own.is_dir() else paths.gas_template(name), folder / "gas")
+    print(f"{folder}/case.toml and {folder}/gas are yours to edit; run them with: sdph run {folder}")
+    return FINE
+
+
+def run(options) -> int:
+    from sdph import scenes
+    from sdph.case import read as cases
+    from sdph.running import driver, inputs, output
+    from sdph.running.progress import Reporter
+    from sdph.show import watch
+    from sdph.study import rehearsal
+    from sdph.study.cost import choice
+    from sdph.study.explain import tables
+
+    overrides = tuple(options.set) + _overrides(options)
+    with contextlib.closing(Reporter(line=not options.json)) as reporter:
+        if options.resume:
+            folder = options.resume
+            _refuse(options, ("out", "accuracy"), "--resume goes on with a run as it was begun")
+            reporter.page = watch.Page(folder) if options.watch else None
+            summary = driver.resume(folder, overrides, reporter, allow_code=options.allow_code)
+        else:
+            name, file = scenes.find(options.target)
+            if options.accuracy:
+                overrides = choice.with_settings(name, options.accuracy, overrides, reporter.status)
+            case = cases.load(file, overrides)
+            inputs.check(case)  # what follows reads some of them
+            if case.liquid:
+                _refuse(options, ("gas", "transport", "np"), f"{name} is a liquid and has no gas solver")
+            elif options.gas == "embedded":
+                _refuse(options, ("transport", "np"), "the embedded gas solver runs in this process")
+            template = driver.template_of(case, name, file)
+            rehearsal.look(case, template, allow_code=options.allow_code)
+            for warning in tables.warnings(case):
+                reporter.status(f"warning: {warning}")
+            folder = options.out or output.free_name(Path("runs") / name)
+            reporter.page = watch.Page(folder) if options.watch else None
+            summary = driver.run(case, name, folder, template, reporter, allow_code=options.allow_code)
+    print(output.strict_json(summary) if options.json else f"{_table(summary)}\nrun folder: {folder}")
+    return FINE
+
+
+def _refuse(options, names, why: str) -> None:
+    """Options that would do nothing are not taken in silence."""
+    for name in names:
+        if getattr(options, name):
+            raise CaseError(f"--{name.replace('_', '-')} {getattr(options, name)}: {why}; leave it out")
+
+
+def _overrides(options) -> tuple[str, ...]:
+    given = {
+        "coupling.gas": options.gas,
+        "coupling.transport": options.transport,
+        "coupling.ranks": options.np,
+        "run.end_time_s": options.until,
+    }
+    return tuple(f"{key}={json.dumps(value)}" for key, value in given.items() if value is not None)
+
+
+def _table(summary: dict) -> str:
+    return "\n".join(f"{key:40s} {value:.9g}" if isinstance(value, float) else f"{key:40s} {value}" for key, value in summary.items())
+
+
+def explain_case(options) -> int:
+    from sdph import scenes
+    from sdph.case import read as cases
+    from sdph.running import driver, output
+    from sdph.study import rehearsal
+    from sdph.study.explain import tables
+
+    name, file = scenes.find(options.target)
+    case = cases.load(file, tuple(options.set))
+    rehearsal.rehearse(case, driver.template_of(case, name, file), allow_code=options.allow_code)
+    parts = {}
+    if options.measure:
+        from sdph.study.explain import effect_costs
+
+        parts["cost of effects, bubbling bed"] = effect_costs.table(_say)
+    parts |= tables.explain(case)
+    print(output.strict_json(parts) if options.json else f"{case.title}\n\n{tables.text(parts)}")
+    return FINE
+
+
+def _say(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)
+
+
+def cost_of_accuracy(options) -> int:
+    from sdph.study.cost import climb, report, rows
+
+    folder = options.out or Path("runs/cost") / options.scene
+    found = rows.errors(climb.climb(options.scene, folder / "cost.csv", options.budget, options.repeats, lambda text: print(text, flush=True)))
+    print(f"\n{report.text(options.scene, found)}")
+    report.draw(options.scene, found, folder / "cost.png")
+    print(f"{folder}/cost.csv and cost.png")
+    return FINE
+
+
+def stress_cases(options) -> int:
+    if options.json and (options.map or options.faults is not None):
+        raise CaseError("--json is of the hard cases; --map and --faults print their own tables: leave it out")
+    if options.faults is not None:
+        from sdph.study.stress import faults
+
+        return FINE if all(check["ok"] for check in faults.run(options.faults)) else CHECK_FAILED
+    from sdph.running import output
+    from sdph.study.stress import boundaries, suite
+
+    if options.map:
+        print(boundaries.table(Path("stress_map.png")))
+        return FINE
+    verdicts = []
+    for hard in suite.chosen(options.case, options.fast):
+        verdicts.append(suite.run(hard))
+        if not options.json:
+            suite.show(verdicts[-1])
+    fine = [verdict.ok for verdict in verdicts]
+    print(output.strict_json({"checks": [check for verdict in verdicts for check in verdict.checks]}) if options.json else f"{sum(fine)} of {len(fine)} pass")
+    return FINE if all(fine) else CHECK_FAILED
+
+
+def compare_run(options) -> int:
+    from sdph.running import output
+    from sdph.study import compare
+
+    checks = compare.compare(options.run, options.against)
+    print(output.strict_json({"checks": checks}) if options.json else compare.table(checks))
+    return FINE if all(check["ok"] for check in checks) else CHECK_FAILED
+
+
+def validate_scene(options) -> int:
+    from sdph.running import output
+    from sdph.running.progress import Reporter
+    from sdph.study import compare, validate
+
+    overrides = tuple(options.set) + ((f'coupling.gas="{options.gas}"',) if options.gas else ())
+    checks = []
+    with contextlib.closing(Reporter(line=not options.json)) as reporter:
+        for scene in validate.validated() if options.scene is None else [options.scene]:
+            checks += validate.validate(scene, overrides, reporter, options.out and options.out / scene)
+    print(output.strict_json({"checks": checks}) if options.json else compare.table(checks))
+    return FINE if all(check["ok"] for check in checks) else CHECK_FAILED
+
+
+def view_run(options) -> int:
+    from sdph.show import view
+
+    if options.movie:
+        view.movie(options.run, options.movie, options.field)
+    else:
+        view.show(options.run, options.png, options.time, options.field)
+    return FINE
+
+
+def report_runs(options) -> int:
+    from sdph.study import report
+
+    print(report.write(options.runs, options.out or options.runs[0] / "report.html"))
+    return FINE
+
+
+def openfoam_setup(options) -> int:
+    from coupling.openfoam.programs import install
+
+    install.setup(install=options.install)
+    return FINE
+
+
+def doctor(options) -> int:
+    from coupling.openfoam.programs import install
+
+    rows = install.doctor()
+    for row in rows:
+        print(row)
+    return FINE if all(row.found for row in rows) else CHECK_FAILED
+
+
+COMMANDS = {
+    "list": list_scenes,
+    "init": init_case,
+    "run": run,
+    "explain": explain_case,
+    "cost": cost_of_accuracy,
+    "stress": stress_cases,
+    "compare": compare_run,
+    "validate": validate_scene,
+    "view": view_run,
+    "report": report_runs,
+    "openfoam": openfoam_setup,
+    "doctor": doctor,
+}

@@ -1,0 +1,1 @@
+"""Effects of what is around the particles: walls, tank, inflow, outflow, drain, frame, gravity."""

@@ -1,0 +1,123 @@
+"""The tank that holds a liquid: its shape, its outlet, and how its walls act (Adami, Hu & Adams 2012)."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from sdph.effects.effect import Effect, Judgement
+from sdph.engine.geometry import SIDES
+from sdph.engine.walls import shapes
+from sdph.schema import CaseError, choice, file, quantity, record, vector, words
+
+
+@record
+class Tank:
+    """`open_sides` of a box have no wall. The outlet is a pipe at the lowest point, as full at the start as the tank is."""
+
+    shape: str = choice("box", "sphere", "cylinder", "capsule", "mesh")
+    lower: tuple | None = vector("m", None)  # of a box; None: the domain
+    upper: tuple | None = vector("m", None)
+    centre: tuple | None = vector("m", None)
+    radius: float | None = quantity("m", None, above=0.0)
+    length: float = quantity("m", 0.0, least=0.0)  # of the cylinder, or of the capsule's straight part
+    mesh: str = file()
+    open_sides: tuple = words(())
+    slip: str = choice("no_slip", "free_slip")
+    suction: str = choice("none", "full")  # whether a wall can pull, with a pressure below 0
+    outlet_radius: float = quantity("m", 0.0, least=0.0)
+    outlet_length: float = quantity("m", 0.0, least=0.0)
+
+
+class TankP(NamedTuple):
+    """1 for no slip, 0 for free slip; least pressure of a wall [Pa]; inverse of the distance from a wall particle at which
+    it begins to hold liquid off [1/m]; c^2 [m2/s2]."""
+
+    stick: float
+    least: float
+    near: float
+    stiffness: float
+
+
+def kernel(case) -> TankP:
+    own, c = case.parameters["tank"], case.fastest_sound
+    least = 0.0 if own.suction == "none" else -math.inf
+    near = 0.5 * math.sqrt(case.dimensions) * case.resolution.spacing  # of the surface, no place is further from the wall's lattice
+    return TankP(float(own.slip == "no_slip"), least, 1.0 / near, c * c)
+
+
+def shape_of(case):
+    """The shape (sdph.engine.walls.shapes) of a case's tank."""
+    own, d = case.parameters["tank"], case.dimensions
+    if own.outlet_radius and (own.shape in ("box", "mesh") or d == 2 or own.outlet_radius >= (own.radius or math.inf)):
+        allowed = "an outlet is narrower than its tank, a sphere, cylinder or capsule in 3-D"
+        raise CaseError(f"tank.outlet_radius_m = {own.outlet_radius:g}; {allowed}")
+    if own.shape == "box":
+        return _box(case, own)
+    if own.shape == "mesh" and d == 3:
+        return shapes.Mesh(own.mesh)
+    if d == 2 and own.shape != "sphere":
+        raise CaseError(f"tank.shape = {own.shape!r} needs dimensions = 3; in 2-D there are box and sphere (a disc)")
+    if own.centre is None or own.radius is None or len(own.centre) != d:
+        raise CaseError(f"tank: a {own.shape} needs centre_m with {d} components, and radius_m")
+    centre = np.array(own.centre)
+    if d == 2:
+        return shapes.Disc(centre, own.radius)
+    reach = layers(case) * case.resolution.spacing
+    if own.shape == "cylinder":
+        if not own.length:
+            raise CaseError("tank.length_m is missing; a cylinder needs it")
+        tank = shapes.Cylinder(centre, own.radius, own.length, reach)
+        bottom = centre[2] - 0.5 * own.length
+    else:
+        tank = shapes.Capsule(centre, own.radius, own.length if own.shape == "capsule" else 0.0)
+        bottom = centre[2] - own.radius - 0.5 * tank.length
+    return _with_outlet(own, tank, bottom, reach)
+
+
+def _with_outlet(own, tank, bottom: float, reach: float):
+    """The tank with its pipe, which reaches up into the tank by as much as the bottom is curved."""
+    if not own.outlet_radius:
+        return tank
+    inside = own.radius - math.sqrt(own.radius**2 - own.outlet_radius**2) if own.shape != "cylinder" else 0.0
+    middle = np.array([*tank.centre[:2], bottom + 0.5 * (inside - own.outlet_length)])
+    pipe = shapes.Cylinder(middle, own.outlet_radius, own.outlet_length + inside, reach, open_top=True)
+    return shapes.Joined(tank, pipe)
+
+
+def _box(case, own):
+    periodic = case.liquid.periodic or (0,) * case.dimensions
+    sides = [own.open_sides] if isinstance(own.open_sides, str) else own.open_sides
+    for side in sides:
+        if side not in SIDES:
+            raise CaseError(f"tank.open_sides holds {side!r}; allowed: {', '.join(SIDES)}")
+    open_ends = {SIDES[side] for side in sides} | {(a, end) for a, on in enumerate(periodic) if on for end in (0, 1)}
+    lower, upper = own.lower or (0.0,) * case.dimensions, own.upper or case.domain.size
+    if any(high - low < case.resolution.spacing * (1.0 - 1e-9) for low, high in zip(lower, upper)):
+        given = f"tank: from lower_m = {list(lower)} to upper_m = {list(upper)}"
+        raise CaseError(f"{given} it is narrower than resolution.spacing_mm along an axis; widen it")
+    return shapes.Box(np.array(lower), np.array(upper), tuple(open_ends))
+
+
+def wall_volume(case) -> float:
+    """Volume [m^d] that a wall particle stands for; those of a box have a lattice that is fitted to its sides."""
+    shape, spacing = shape_of(case), case.resolution.spacing
+    return float(np.prod(shape.steps(spacing)[1])) if isinstance(shape, shapes.Box) else spacing**case.dimensions
+
+
+def layers(case) -> int:
+    """Layers that fill the support of the kernel."""
+    return math.ceil(2.0 * case.resolution.smoothing_ratio - 1e-9)
+
+
+def call(scales) -> Judgement:
+    """How far the liquid gets within the run when nothing holds it, or how deep the friction of walls along a channel."""
+    across, along = scales.pull
+    way = 0.5 * (across + scales.shaken) * scales.end**2 / scales.length
+    reach = max(way, scales.layer if along else 0.0)
+    return Judgement("way of the liquid within the run / its width", reach, 0.01, "geometry", min(1.0, reach))
+
+
+EFFECT = Effect(name="tank", summary="walls of a tank for a liquid", parameters=Tank, kernel=kernel, moves=True, matter=("liquid",), call=call)

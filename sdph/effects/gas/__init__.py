@@ -1,0 +1,1 @@
+"""Effects of a gas on grains and droplets, and of these on it."""

@@ -1,0 +1,96 @@
+"""Drag between grains and gas, beta (v_g - v_p), and the heat it makes."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from numba import njit
+
+from sdph.effects.effect import Effect, Judgement
+from sdph.effects.gas import sizes
+from sdph.laws import drag as law
+from sdph.schema import choice, record
+
+LAWS = ("gidaspow", "ergun", "wen_yu", "gidaspow_paper", "gidaspow_switch", "syamlal_obrien", "di_felice", "schiller_naumann", "stokes")
+
+
+@record
+class Drag:
+    law: str = choice(*LAWS)
+
+
+class DragP(NamedTuple):
+    """Law as a place in LAWS; gas viscosity [Pa s]; grain density [kg/m3]."""
+
+    law: int
+    viscosity: float
+    grain_density: float
+
+
+def kernel(case) -> DragP:
+    return DragP(LAWS.index(case.parameters["drag"].law), case.gas.viscosity, case.grains.density)
+
+
+@njit(cache=True, error_model="numpy")
+def coefficient(p, alpha_p, slip, d, gas_density):
+    """beta/alpha_p [kg/m3/s] of the law chosen."""
+    mu = p.viscosity
+    if p.law == 0:
+        return law.gidaspow(alpha_p, slip, d, gas_density, mu)
+    if p.law == 1:
+        return law.ergun(alpha_p, slip, d, gas_density, mu)
+    if p.law == 2:
+        return law.wen_yu(alpha_p, slip, d, gas_density, mu)
+    if p.law == 3:
+        return law.gidaspow_paper(alpha_p, slip, d, gas_density, mu)
+    if p.law == 4:
+        return law.gidaspow_switch(alpha_p, slip, d, gas_density, mu)
+    if p.law == 5:
+        return law.syamlal_obrien(alpha_p, slip, d, gas_density, mu)
+    if p.law == 6:
+        return law.di_felice(alpha_p, slip, d, gas_density, mu)
+    if p.law == 7:
+        return law.schiller_naumann(alpha_p, slip, d, gas_density, mu)
+    return law.stokes(alpha_p, slip, d, gas_density, mu)
+
+
+@njit(cache=True, error_model="numpy", forceinline=True)
+def damping(p, sizes_p, s, i, alpha_p, slip, gas_density):
+    """beta/(alpha_p rho_p) [1/s] of particle i: the mass average over its sizes (paper section 2.1, R'^SPH)."""
+    if len(p) == 0:
+        return 0.0
+    total = whole = 0.0
+    own = sizes.birth(sizes_p, s, i)
+    for q in range(sizes.classes(sizes_p)):
+        d, mass = sizes.grain(sizes_p, s, i, own, q)
+        if mass == 0.0:  # gone; what comes after is smaller still
+            break
+        total += mass * coefficient(p, alpha_p, slip, d, gas_density)
+        whole += mass
+    return total / whole / p.grain_density
+
+
+def to_gas(handed, case) -> dict:
+    """beta and beta v_p; the heat of drag is known a window later and comes from the exchange."""
+    return {"momentum_coefficient": handed.drag, "momentum": handed.drag[:, None] * handed.velocity}
+
+
+def call(scales) -> Judgement:
+    """Time of the run over the time in which drag stops a grain or, sooner, the gas among grains."""
+    felt = scales.end / min(scales.drag_time, scales.gas_drag_time) if scales.slip else 0.0
+    source = "Crowe, Sommerfeld & Tsuji 1998, ch. 2: momentum response time"
+    return Judgement("run / drag response time", felt, 0.01, source, -math.expm1(-felt))
+
+
+EFFECT = Effect(
+    name="drag",
+    summary="drag between grains and gas, and its heat",
+    parameters=Drag,
+    kernel=kernel,
+    arrays=("diameter", "diameter_variance"),
+    sources=("alpha_g", "momentum", "momentum_coefficient", "heat"),
+    to_gas=to_gas,
+    moves=True,
+    call=call,
+)

@@ -1,0 +1,182 @@
+"""Evaporation of droplets: the vapour that a droplet's surface has, and what drives it off. What a window takes from each
+particle follows in `sdph.exchange.droplets`."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from numba import njit
+
+from sdph.effects.effect import Effect, Judgement
+from sdph.laws import evaporation as law
+from sdph.laws import grain_loss
+from sdph.laws.constants import GAS_CONSTANT
+from sdph.schema import CaseError, choice, quantity, record, vector
+
+LAWS = ("linear", "spalding")
+ONSETS = ("latched", "paper")
+SATURATIONS = ("constant", "antoine", "clausius_clapeyron")
+ALWAYS = 1.0  # K, a threshold that every droplet is above
+NEVER = 1e9  # K, a boiling temperature that none reaches
+BOILING_MARGIN = 1e-3  # of the pressure: Spalding's ln(1 + B) has a pole at boiling and is evaluated at most this near; our choice
+SOURCE = "d2 law: Spalding 1953; Ranz & Marshall 1952"
+
+
+@record
+class Evaporation:
+    latent_heat: float = quantity("J_kg", least=0.0)
+    law: str = choice(*LAWS)
+    onset: str = choice(*ONSETS)  # "latched": once started it goes on below the onset (Fluent); "paper": above it only (Eq. 7)
+    onset_temperature: float | None = quantity("K", None, above=0.0)  # none: at any temperature
+    boiling_temperature: float | None = quantity("K", None, above=0.0)  # none: from the saturation law; a constant one never boils
+    saturation: str = choice(*SATURATIONS)
+    saturation_pressure: float | None = quantity("Pa", None, above=0.0)  # constant; or at saturation_temperature
+    saturation_temperature: float | None = quantity("K", None, above=0.0)
+    antoine: tuple | None = vector("", None, components=3)  # A, B, C of log10(p/Pa) = A - B/(C + T/K)
+
+
+class EvaporationP(NamedTuple):
+    """law, onset and saturation by their places; temperatures [K]; latent heat [J/kg]; vapour; gas; grains; feedback.
+
+    first to fourth: the numbers of the saturation law, as sdph.laws.evaporation takes them.
+    """
+
+    law: int
+    onset: int
+    saturation: int
+    first: float
+    second: float
+    third: float
+    fourth: float
+    onset_temperature: float
+    boiling_temperature: float
+    latent_heat: float
+    molar_mass: float
+    diffusivity: float
+    gas_molar_mass: float
+    gas_viscosity: float
+    operating_pressure: float
+    grain_density: float
+    grain_heat_capacity: float
+
+
+def kernel(case) -> EvaporationP:
+    own, gas, vapour, grains = case.parameters["evaporation"], case.gas, case.vapour, case.grains
+    if vapour is None:
+        raise CaseError("the effect evaporation needs [vapour]: molar_mass_kg_kmol, diffusivity_m2_s, ...; add it")
+    if own.latent_heat > 0.0 and "heat" not in case.effects:
+        raise CaseError("evaporation.latent_heat_J_kg is above 0, but no heat comes from the gas; add heat to effects, or set it to 0")
+    p = _saturation(own, vapour)
+    places = LAWS.index(own.law), ONSETS.index(own.onset), SATURATIONS.index(own.saturation)
+    boiling = own.boiling_temperature or _boiling(own, p, gas.operating_pressure)
+    return EvaporationP(
+        *places, *p, own.onset_temperature or ALWAYS, boiling, own.latent_heat, vapour.molar_mass, vapour.diffusivity,
+        gas.molar_mass, gas.viscosity, gas.operating_pressure, grains.density, grains.heat_capacity,
+    )  # fmt: skip
+
+
+def _saturation(own, vapour) -> tuple:
+    """Four numbers for the saturation law that was chosen."""
+    needs = {
+        "constant": ("saturation_pressure",),
+        "antoine": ("antoine",),
+        "clausius_clapeyron": ("saturation_pressure", "saturation_temperature"),
+    }[own.saturation]
+    for name in needs:
+        if getattr(own, name) is None:
+            units = {"saturation_pressure": "_Pa", "saturation_temperature": "_K", "antoine": ""}
+            raise CaseError(f"evaporation.{name}{units[name]} is missing; saturation = {own.saturation!r} needs it")
+    if own.saturation == "antoine":
+        return (*own.antoine, 0.0)
+    if own.saturation == "constant":
+        return own.saturation_pressure, 0.0, 0.0, 0.0
+    return own.saturation_pressure, own.saturation_temperature, own.latent_heat, vapour.molar_mass
+
+
+def _boiling(own, p, pressure: float) -> float:
+    if own.saturation == "constant":
+        return NEVER
+    if own.saturation == "antoine":
+        return p[1] / (p[0] - math.log10(pressure)) - p[2]
+    return law.boiling_temperature(pressure, p)
+
+
+@njit(cache=True, error_model="numpy")
+def saturation_pressure(p, temperature):
+    """p_sat [Pa]."""
+    own = (p.first, p.second, p.third, p.fourth)
+    if p.saturation == 0:
+        return law.saturation_constant(temperature, own)
+    if p.saturation == 1:
+        return law.saturation_antoine(temperature, own)
+    return law.saturation_clausius_clapeyron(temperature, own)
+
+
+@njit(cache=True, error_model="numpy")
+def driving_force(p, temperature, concentration, gas_temperature, gas_density):
+    """Mass flux over k_c [kg/m3], negative where vapour would condense; concentration [kmol/m3] in the gas."""
+    pressure = saturation_pressure(p, temperature)
+    if p.law == 0:
+        return p.molar_mass * (law.vapour_concentration(pressure, temperature) - concentration)
+    surface = min(pressure / p.operating_pressure, 1.0 - BOILING_MARGIN)
+    y_s = law.vapour_mass_fraction(surface, p.molar_mass, p.gas_molar_mass)
+    mole_fraction = concentration * GAS_CONSTANT * gas_temperature / p.operating_pressure
+    y_g = law.vapour_mass_fraction(mole_fraction, p.molar_mass, p.gas_molar_mass)
+    return gas_density * math.log1p(law.spalding_number(y_s, y_g))
+
+
+@njit(cache=True, error_model="numpy")
+def ventilation(p, slip, gas_density):
+    """c [m^-1/2] of sdph.laws.grain_loss."""
+    schmidt = law.schmidt_number(gas_density, p.gas_viscosity, p.diffusivity)
+    return grain_loss.ventilation(gas_density * slip / p.gas_viscosity, schmidt)
+
+
+def at_surface(s) -> float:
+    """Density of the vapour [kg/m3] at the coldest droplets."""
+    p, coldest = kernel(s.case), min(patch.temperature for patch in s.patches)
+    return p.molar_mass * law.vapour_concentration(saturation_pressure(p, coldest), coldest)
+
+
+def shrinking(s, surface: float) -> tuple[float, float]:
+    """Sherwood number, and the run over the time in which a droplet evaporates (d2 law)."""
+    diffusivity = s.case.vapour.diffusivity
+    sherwood = law.sherwood_ranz_marshall(s.reynolds, law.schmidt_number(s.gas.density, s.gas.viscosity, diffusivity))
+    return sherwood, 4.0 * sherwood * diffusivity * surface / s.grains.density * s.end / s.grains.diameter**2
+
+
+def to_gas(handed, case) -> dict:
+    """Vapour, with the velocity and the temperature of its droplet."""
+    rate = handed.loss.mass / handed.dt
+    return {"vapour": rate, "momentum": rate[:, None] * handed.velocity, "heat": rate * case.vapour.heat_capacity * handed.temperature}
+
+
+def call(scales) -> Judgement:
+    """Share of the mass that evaporates within the run (d2 law), of the heat that evaporation takes, and of the vapour that the
+    gas among the droplets can take up, the largest."""
+    case, s = scales.case, scales
+    if case.vapour is None or not s.patches:
+        return Judgement("K t/d2", 0.0, 0.01, SOURCE, 0.0)
+    p, surface = kernel(case), at_surface(s)
+    sherwood, spent = shrinking(s, surface)
+    warmth = s.nusselt * s.gas.conductivity * s.span
+    cooling = sherwood * p.diffusivity * surface * p.latent_heat / warmth if warmth else 0.0
+    filling = 6.0 * s.alpha_p / (1.0 - s.alpha_p) * sherwood * p.diffusivity / s.grains.diameter**2  # 1/s
+    filled = 0.0 if case.coupling.one_way else -math.expm1(-filling * s.end)
+    return Judgement("K t/d2", spent, 0.01, SOURCE, min(1.0, max(1.0 - max(0.0, 1.0 - spent) ** 1.5, cooling, filled)))
+
+
+EFFECT = Effect(
+    name="evaporation",
+    summary="evaporation of droplets into the gas",
+    parameters=Evaporation,
+    kernel=kernel,
+    arrays=(
+        "temperature", "diameter", "diameter_variance", "evaporating",
+        "born_mass", "born_diameter", "born_variance", "lost_still", "lost_moving",
+    ),
+    sources=("alpha_g", "vapour", "momentum", "heat"),
+    to_gas=to_gas,
+    call=call,
+)  # fmt: skip

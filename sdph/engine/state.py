@@ -1,0 +1,156 @@
+"""The particles: a flat tuple of C-contiguous arrays, one row a particle.
+
+Positions and velocities are separate arrays per axis. `z` and `w` have length zero in two dimensions, and every
+array of an effect that is off has length zero: kernels decide by type or length, never by a flag per particle.
+In two dimensions masses are per metre of depth [kg/m].
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit, prange
+
+# values of `kind`, of grains and liquids alike; INFLOW: still upstream of its nozzle. Files hold them: they stay as they are
+GRAIN, WALL, LIQUID, GAS, INFLOW = range(5)
+
+
+class State(NamedTuple):
+    """All that a particle carries; see `FIELDS` for units."""
+
+    x: np.ndarray
+    y: np.ndarray
+    z: np.ndarray
+    u: np.ndarray
+    v: np.ndarray
+    w: np.ndarray
+    mass: np.ndarray
+    density: np.ndarray
+    ident: np.ndarray
+    kind: np.ndarray
+    nozzle: np.ndarray
+    entering: np.ndarray
+    temperature: np.ndarray
+    diameter: np.ndarray
+    diameter_variance: np.ndarray
+    theta: np.ndarray
+    contact_xx: np.ndarray
+    contact_yy: np.ndarray
+    contact_xy: np.ndarray
+    contact_yz: np.ndarray
+    contact_zx: np.ndarray
+    evaporating: np.ndarray
+    born_mass: np.ndarray
+    born_diameter: np.ndarray
+    born_variance: np.ndarray
+    lost_still: np.ndarray
+    lost_moving: np.ndarray
+
+
+# name -> (unit, meaning)
+FIELDS = {
+    "x": ("m", "position"), "y": ("m", "position"), "z": ("m", "position"),
+    "u": ("m/s", "velocity"), "v": ("m/s", "velocity"), "w": ("m/s", "velocity"),
+    "mass": ("kg", "mass, per metre of depth in two dimensions"),
+    "density": ("kg/m3", "alpha_p rho_p, by summation"),
+    "ident": ("1", "number that a particle keeps for life"),
+    "kind": ("1", "0 grain, 1 wall, 2 liquid, 3 gas beside a liquid, 4 grain upstream of its nozzle"),
+    "nozzle": ("1", "number of the nozzle that it comes from, counted from 1; 0: of none"),
+    "entering": ("1", "1 until it is half a layer through its nozzle, then 0"),
+    "temperature": ("K", "temperature of the grains"),
+    "diameter": ("m", "number mean of the grain diameters"),
+    "diameter_variance": ("m2", "number variance of the grain diameters"),
+    "theta": ("m2/s2", "granular temperature"),
+    **{f"contact_{ab}": ("Pa", f"deviator of the stress of lasting contacts, {ab}") for ab in ("xx", "yy", "xy", "yz", "zx")},
+    "evaporating": ("1", "1 once evaporation has started"),
+    "born_mass": ("kg", "mass at the start or when it came in"),
+    "born_diameter": ("m", "number mean of the grain diameters then"),
+    "born_variance": ("m2", "number variance of the grain diameters then"),
+    "lost_still": ("m2", "loss of d^2 as in still gas (sdph.laws.grain_loss)"),
+    "lost_moving": ("m^(3/2)", "further loss by the flow around the grains (the same)"),
+}  # fmt: skip
+ALWAYS = ("x", "y", "u", "v", "mass", "density", "ident", "kind")
+IN_SPACE = {"z", "w", "contact_yz", "contact_zx"}  # of length zero in two dimensions
+INTEGERS = {"ident": np.int64, "kind": np.int8, "nozzle": np.int32, "entering": np.int8}
+
+
+def empty(count: int, names=ALWAYS, dimensions: int = 2) -> State:
+    """A state of `count` particles, zero everywhere; arrays not among `names` have length zero."""
+    present = {*ALWAYS, *names, "z", "w"} - (set() if dimensions == 3 else IN_SPACE)
+    return State(*(np.zeros(count if name in present else 0, INTEGERS.get(name, np.float64)) for name in State._fields))
+
+
+def _map(function, *states: State) -> State:
+    return State(*(function(*arrays) if any(len(a) for a in arrays) else arrays[0] for arrays in zip(*states)))
+
+
+def take(state: State, rows: np.ndarray) -> State:
+    """The given rows (indices or mask) of every array: sorting, removing, choosing."""
+    rows = np.flatnonzero(rows) if rows.dtype == bool else rows
+    return _map(lambda array: _taken(array, rows), state)
+
+
+@njit(cache=True, parallel=True)
+def _taken(array, rows):
+    """array[rows]."""
+    out = np.empty(len(rows), array.dtype)
+    for i in prange(len(rows)):
+        out[i] = array[rows[i]]
+    return out
+
+
+def join(first: State, second: State) -> State:
+    """Both one after the other."""
+    return _map(lambda a, b: np.concatenate((a, b)), first, second)
+
+
+def axes(state: State) -> tuple[np.ndarray, ...]:
+    """The position arrays of the dimensions that there are."""
+    return (state.x, state.y, state.z) if len(state.z) else (state.x, state.y)
+
+
+def positions(state: State) -> np.ndarray:
+    """(N, 3) positions [m]; z is zero in two dimensions."""
+    return _columns(state.x, state.y, state.z)
+
+
+def velocities(state: State) -> np.ndarray:
+    """(N, 3) velocities [m/s]."""
+    return _columns(state.u, state.v, state.w)
+
+
+def lengths(vectors: np.ndarray) -> np.ndarray:
+    """(N,) of (N, 3), four times as fast as a sum along the last axis."""
+    return np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+
+
+def _columns(a, b, c) -> np.ndarray:
+    out = np.zeros((len(a), 3))
+    out[:, 0], out[:, 1] = a, b
+    if len(c):
+        out[:, 2] = c
+    return out
+
+
+def born(state: State) -> State:
+    """The same, with mass and sizes at birth set to those of now."""
+    if len(state.born_mass):
+        state.born_mass[:], state.born_diameter[:], state.born_variance[:] = state.mass, state.diameter, state.diameter_variance
+    return state
+
+
+def wet(state: State) -> np.ndarray:
+    """Mask of the particles that move by the equations of liquids."""
+    return (state.kind == LIQUID) | (state.kind == GAS)
+
+
+def count(state: State) -> int:
+    """Particles that there are, less those upstream of a nozzle."""
+    return int((state.kind != INFLOW).sum())
+
+
+def grains(state: State) -> State:
+    """The particles that are in the gas: all but those upstream of a nozzle."""
+    inside = state.kind != INFLOW
+    return state if inside.all() else take(state, inside)

@@ -1,0 +1,1 @@
+"""Walls as particles: shapes, surface meshes, sides of the domain."""

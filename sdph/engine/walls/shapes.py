@@ -1,0 +1,296 @@
+"""Tanks: how far a point lies inside, where wall particles stand, and what the tank holds.
+
+A shape has `distance(points)` [m], negative inside, `shell(depth, spacing)` the points of the surface moved outwards
+by `depth`, about one spacing apart, `surface()` of its walls for pictures (pyvista, lines in two dimensions), and
+`volume` [m^d], and `furthest(direction)` [m], the most of r.direction in it. The axis of a round tank is the last one of the case.
+"""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from sdph.engine.surface import read
+from sdph.engine.walls import surface_points
+from sdph.schema import CaseError
+
+UP = (0.0, 0.0, 1.0)  # axis of a round tank in space
+GOLDEN = math.pi * (3.0 - math.sqrt(5.0))  # rad, turn from ring to ring, so that rings do not line up
+
+
+def _rings(profile: np.ndarray, spacing: float) -> np.ndarray:
+    """(N, 3) points on rings about the last axis, as many as their area asks for; profile (P, 3) radius, height and width [m]."""
+    points = []
+    for k, (radius, height, width) in enumerate(profile):
+        count = max(1, round(2.0 * math.pi * radius * width / spacing**2))
+        angle = 2.0 * math.pi * np.arange(count) / count + k * GOLDEN
+        points.append(np.stack([radius * np.cos(angle), radius * np.sin(angle), np.full(count, height)], axis=1))
+    return np.concatenate(points)
+
+
+def _arc(radius: float, height: float, first: float, last: float, spacing: float) -> np.ndarray:
+    """(P, 3) of a circle about (0, height), polar angle from the top between `first` and `last`, cell-centred."""
+    count = max(1, round(radius * (last - first) / spacing))
+    angle = first + (np.arange(count) + 0.5) * (last - first) / count
+    return np.stack([radius * np.sin(angle), height + radius * np.cos(angle), np.full(count, radius * (last - first) / count)], axis=1)
+
+
+def _line(radius: float, low: float, high: float, spacing: float) -> np.ndarray:
+    count = max(1, round((high - low) / spacing))
+    heights = low + (np.arange(count) + 0.5) * (high - low) / count
+    return np.stack([np.full(count, radius), heights, np.full(count, (high - low) / count)], axis=1)
+
+
+def _disc(radius: float, height: float, spacing: float) -> np.ndarray:
+    count = max(1, round(radius / spacing))
+    radii = (np.arange(count) + 0.5) * radius / count
+    return np.stack([radii, np.full(count, height), np.full(count, radius / count)], axis=1)
+
+
+@dataclass(frozen=True)
+class Capsule:
+    """Half spheres of `radius` over a cylinder of `length` (0: a sphere), about `centre` (3,)."""
+
+    centre: np.ndarray
+    radius: float
+    length: float = 0.0
+
+    def distance(self, points):
+        r = points - self.centre
+        height = r[:, 2] - np.clip(r[:, 2], -0.5 * self.length, 0.5 * self.length)
+        return np.sqrt(r[:, 0] ** 2 + r[:, 1] ** 2 + height**2) - self.radius
+
+    def shell(self, depth, spacing):
+        radius, half = self.radius + depth, 0.5 * self.length
+        parts = [_arc(radius, half, 0.0, 0.5 * math.pi, spacing), _arc(radius, -half, 0.5 * math.pi, math.pi, spacing)]
+        if self.length:
+            parts.append(_line(radius, -half, half, spacing))
+        else:
+            parts = [_arc(radius, 0.0, 0.0, math.pi, spacing)]
+        return _rings(np.concatenate(parts), spacing) + self.centre
+
+    def surface(self):
+        import pyvista
+
+        if self.length:
+            return pyvista.Capsule(center=self.centre, direction=UP, radius=self.radius, cylinder_length=self.length)
+        return pyvista.Sphere(radius=self.radius, center=self.centre)
+
+    def furthest(self, direction):
+        return float(self.centre @ direction + self.radius + 0.5 * self.length * abs(direction[2]))
+
+    @property
+    def volume(self):
+        return math.pi * self.radius**2 * (4.0 / 3.0 * self.radius + self.length)
+
+
+@dataclass(frozen=True)
+class Cylinder:
+    """Upright, flat ends; `centre` (3,) of its middle. An end that is `open` has no wall (a pipe's mouth)."""
+
+    centre: np.ndarray
+    radius: float
+    length: float
+    reach: float
+    open_top: bool = False
+
+    def distance(self, points):
+        r = points - self.centre
+        out = np.stack([np.hypot(r[:, 0], r[:, 1]) - self.radius, np.abs(r[:, 2]) - 0.5 * self.length], axis=1)
+        return np.minimum(out.max(axis=1), 0.0) + np.linalg.norm(np.maximum(out, 0.0), axis=1)
+
+    def shell(self, depth, spacing):
+        half, beyond = 0.5 * self.length, self.reach
+        side = _line(self.radius + depth, -half - beyond, half + (0.0 if self.open_top else beyond), spacing)
+        ends = [_disc(self.radius, -half - depth, spacing)]
+        if not self.open_top:
+            ends.append(_disc(self.radius, half + depth, spacing))
+        return _rings(np.concatenate([side, *ends]), spacing) + self.centre
+
+    def surface(self):
+        import pyvista
+
+        return pyvista.Cylinder(center=self.centre, direction=UP, radius=self.radius, height=self.length, capping=not self.open_top)
+
+    def furthest(self, direction):
+        return float(self.centre @ direction + self.radius * np.hypot(*direction[:2]) + 0.5 * self.length * abs(direction[2]))
+
+    @property
+    def volume(self):
+        return math.pi * self.radius**2 * self.length
+
+
+@dataclass(frozen=True)
+class Disc:
+    """A round tank in two dimensions."""
+
+    centre: np.ndarray
+    radius: float
+
+    def distance(self, points):
+        return np.linalg.norm(points - self.centre, axis=1) - self.radius
+
+    def shell(self, depth, spacing):
+        radius = self.radius + depth
+        count = round(2.0 * math.pi * radius / spacing)
+        angle = 2.0 * math.pi * np.arange(count) / count
+        return radius * np.stack([np.cos(angle), np.sin(angle)], axis=1) + self.centre
+
+    def surface(self):
+        import pyvista
+
+        return pyvista.Circle(radius=self.radius).translate((*self.centre, 0.0)).extract_feature_edges()
+
+    def furthest(self, direction):
+        return float(self.centre @ direction + self.radius)
+
+    @property
+    def volume(self):
+        return math.pi * self.radius**2
+
+
+@dataclass(frozen=True)
+class Box:
+    """Between `lower` and `upper` (d,); sides in `open` (axis, end) have no wall."""
+
+    lower: np.ndarray
+    upper: np.ndarray
+    open: tuple[tuple[int, int], ...] = ()
+
+    def distance(self, points):
+        out = np.maximum(self.lower - points, points - self.upper)
+        return np.minimum(out.max(axis=1), 0.0) + np.linalg.norm(np.maximum(out, 0.0), axis=1)
+
+    def steps(self, spacing):
+        """How many cells fit its sides, and their lengths (d,) [m]."""
+        counts = np.array([max(1, round(length / spacing)) for length in self.upper - self.lower])
+        return counts, (self.upper - self.lower) / counts
+
+    def shell(self, depth, spacing):
+        """The lattice points whose greatest depth behind a side is `depth`, in front of no open side."""
+        layers = round(depth / spacing + 0.5)
+        counts, steps = self.steps(spacing)
+        ticks = [np.arange(-layers, n + layers) for n in counts]
+        places = np.stack([m.ravel() for m in np.meshgrid(*ticks, indexing="ij")], axis=1)
+        behind = np.maximum(-places, places - (counts - 1)).max(axis=1) == layers
+        for axis, end in self.open:
+            behind &= places[:, axis] < counts[axis] if end else places[:, axis] >= 0
+        return self.lower + (places[behind] + 0.5) * steps
+
+    def surface(self):
+        import pyvista
+
+        d, sides = len(self.lower), []
+        for axis, end in itertools.product(range(d), (0, 1)):
+            if (axis, end) not in self.open:
+                corners = np.zeros((3, 3))  # of the side: two opposite ones, and one between
+                corners[:, :d] = self.lower, self.lower, self.upper
+                corners[:, axis] = (self.lower, self.upper)[end][axis]
+                corners[1, (axis + 1) % d] = self.upper[(axis + 1) % d]
+                sides.append(pyvista.Rectangle(corners) if d == 3 else pyvista.Line(corners[0], corners[2]))
+        return pyvista.merge(sides) if sides else None
+
+    def furthest(self, direction):
+        return float(np.maximum(self.lower * direction, self.upper * direction).sum())
+
+    @property
+    def volume(self):
+        return float(np.prod(self.upper - self.lower))
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Inside of a closed surface mesh of triangles that meshio reads, in metres, normals outwards."""
+
+    path: str
+
+    @functools.cached_property
+    def triangles(self):
+        """The surface as pyvista has it, read once."""
+        import pyvista
+
+        mesh = read(self.path, "tank.mesh")
+        if "triangle" not in mesh.cells_dict:
+            raise CaseError(f"tank.mesh = {self.path!r} holds no triangles; a tank is made of them")
+        faces = mesh.cells_dict["triangle"]
+        surface = pyvista.PolyData(np.asarray(mesh.points, float), np.insert(faces, 0, 3, axis=1).ravel()).clean()
+        if surface.n_open_edges:
+            raise CaseError(f"tank.mesh = {self.path!r} has {surface.n_open_edges} open edges; a tank must be closed")
+        return surface
+
+    def distance(self, points):
+        import pyvista
+
+        return np.asarray(pyvista.PolyData(points).compute_implicit_distance(self.triangles)["implicit_distance"])
+
+    def shell(self, depth, spacing):
+        """Lattice points between half a spacing less and half a spacing more than `depth` outside, moved onto it, evened out."""
+        bounds, around = np.array(self.triangles.bounds).reshape(3, 2), depth + spacing
+        ticks = [np.arange(low - around, high + around, spacing) for low, high in bounds]
+        points = np.stack([m.ravel() for m in np.meshgrid(*ticks, indexing="ij")], axis=1)
+        points = points[np.abs(self.distance(points) - depth) <= 0.5 * spacing]
+        return surface_points.even_out(self._onto(points, depth), spacing, lambda moved: self._onto(moved, depth))
+
+    def _onto(self, points, depth):
+        """Points moved to where they are `depth` outside."""
+        _, closest = self.triangles.find_closest_cell(points, return_closest_point=True)
+        return closest + (points - closest) * (depth / self.distance(points))[:, None]
+
+    def surface(self):
+        return self.triangles
+
+    def furthest(self, direction):
+        return float((self.triangles.points @ direction).max())
+
+    @property
+    def volume(self):
+        return float(self.triangles.volume)
+
+
+@dataclass(frozen=True)
+class Joined:
+    """A tank and the pipe at its bottom; the pipe counts as buffer, not as volume."""
+
+    tank: object
+    pipe: Cylinder
+
+    def distance(self, points):
+        return np.minimum(self.tank.distance(points), self.pipe.distance(points))
+
+    def shell(self, depth, spacing):
+        return np.concatenate([self.tank.shell(depth, spacing), self.pipe.shell(depth, spacing)])
+
+    def surface(self):
+        return self.tank.surface() + self.pipe.surface()
+
+    def furthest(self, direction):
+        return max(self.tank.furthest(direction), self.pipe.furthest(direction))
+
+    @property
+    def volume(self):
+        return self.tank.volume
+
+
+def wall_points(shape, spacing: float, layers: int) -> np.ndarray:
+    """(W, d) wall particles in `layers`, the first half a spacing behind the surface; those of an outlet pipe come last."""
+    own = _behind(shape.tank if isinstance(shape, Joined) else shape, shape, spacing, layers)
+    return np.concatenate([own, pipe_points(shape, spacing, layers)])
+
+
+def pipe_points(shape, spacing: float, layers: int) -> np.ndarray:
+    """(W, d) of `wall_points`, those of the outlet pipe; none where there is no pipe."""
+    return _behind(shape.pipe, shape, spacing, layers) if isinstance(shape, Joined) else shape.shell(0.5 * spacing, spacing)[:0]
+
+
+def _behind(part, whole, spacing: float, layers: int) -> np.ndarray:
+    """Layers of `part`; of two shapes that meet, what lies in or too near to the other is left out."""
+    points = []
+    for layer in range(layers):
+        depth = (layer + 0.5) * spacing
+        shell = part.shell(depth, spacing)
+        points.append(shell if part is whole else shell[whole.distance(shell) > depth - 0.25 * spacing])
+    return np.concatenate(points)

@@ -1,0 +1,153 @@
+"""Where walls are: dummy particles behind the sides of the domain, and behind any surface mesh."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+
+from sdph.engine.geometry import SIDES
+from sdph.engine.rows import Neighbours
+from sdph.engine.surface import read
+from sdph.engine.walls import mesh as sides
+from sdph.engine.walls.dummies import Dummies
+from sdph.schema import CaseError
+
+REACH = 2.0  # support of the kernels in smoothing lengths
+LAYERS = 3  # the support of the kernel is 2 h = 3 spacings
+
+
+class Boundary:
+    """The dummies of a case and which of them each particle sees: none of a mesh that it stands behind."""
+
+    def __init__(self, case):
+        self.search = Neighbours(REACH * case.smoothing_length, case.domain.period, case.resolution.neighbour_skin)
+        table, self.spacing = dummies(case), case.resolution.spacing
+        order = self.search.sort(tuple(np.ascontiguousarray(column) for column in table[:, : case.dimensions].T))
+        self.dummies = Dummies(*(np.ascontiguousarray(column) for column in table[order, :8].T))
+        self.of_mesh = table[order, 8] > 0.0
+
+    def rows(self, state_axes):
+        """Dummies near each particle; valid as long as the particles' own rows."""
+        rows = self.search.seen_from(_axes(self.dummies, len(state_axes)), state_axes)
+        if self.of_mesh.any():
+            sides.keep_in_front(self.dummies, self.of_mesh, sides.three(state_axes), rows)
+        return rows
+
+    def part(self, rows, wall_rows, state_axes) -> None:
+        """Take the pairs out of the particles' rows that a mesh lies between."""
+        if self.of_mesh.any():
+            sides.part(self.dummies, self.of_mesh, self.spacing, sides.three(state_axes), wall_rows, rows)
+
+
+def _axes(dummies: Dummies, dimensions: int):
+    return (dummies.x, dummies.y, dummies.z)[:dimensions]
+
+
+def dummies(case) -> np.ndarray:
+    """(W, 9) place, normal, depth, stick of all dummies of a case; 1 for those of a mesh."""
+    mesh = case.parameters["walls"].mesh
+    parts = [np.pad(_box(case), ((0, 0), (0, 1)))]
+    if mesh:
+        parts.append(np.pad(_mesh(mesh, case.resolution.spacing, case.dimensions), ((0, 0), (0, 1)), constant_values=1.0))
+    return np.concatenate(parts)
+
+
+def _box(case) -> np.ndarray:
+    """Lattice points outside the box that lie behind a closed side, at most LAYERS deep."""
+    d, spacing = case.dimensions, case.resolution.spacing
+    counts = [max(1, round(length / spacing)) for length in case.domain.size]
+    steps = [length / n for length, n in zip(case.domain.size, counts)]
+    layers = [0 if period else LAYERS for period in case.domain.period]
+    ticks = [(np.arange(-more, n + more) + 0.5) * step for n, step, more in zip(counts, steps, layers)]
+    points = np.stack([m.ravel() for m in np.meshgrid(*ticks, indexing="ij")], axis=1)
+    outside = np.stack([(points < 0.0), (points > case.domain.size)], axis=-1)  # (P, d, end)
+    depth = np.maximum(-points, points - case.domain.size)
+    closed = np.stack([_closed(case, points, side) for side in itertools.islice(SIDES, 2 * d)], axis=1).reshape(-1, d, 2)
+    keep = outside.any(axis=(1, 2)) & (~outside | closed).all(axis=(1, 2))
+    table = np.zeros((int(keep.sum()), 8))
+    table[:, :d] = points[keep]
+    single = outside[keep].sum(axis=(1, 2)) == 1
+    table[:, 3 : 3 + d] = np.where(single[:, None], outside[keep, :, 0] * 1.0 - outside[keep, :, 1] * 1.0, 0.0)
+    table[:, 6] = depth[keep].max(axis=1)
+    slips = np.stack([_behind(case, points, side, "slip_wall") for side in itertools.islice(SIDES, 2 * d)], axis=1).reshape(-1, d, 2)
+    table[:, 7] = (outside & ~slips)[keep].any(axis=(1, 2))  # in a corner the side that grips rules
+    return table
+
+
+def _closed(case, points, side: str) -> np.ndarray:
+    """Mask of the points in front of which a side holds grains back: all but pressure outlets do."""
+    return ~_behind(case, points, side, "pressure_outlet")
+
+
+def _behind(case, points, side: str, kind: str) -> np.ndarray:
+    """Mask of the points in front of which a side is a boundary of `kind`."""
+    axis, _ = SIDES[side]
+    mask, rank = np.zeros(len(points), bool), np.zeros(len(points), int)
+    for boundary in case.boundaries.values():  # a span before a whole side before what is left over
+        if boundary.side in (side, None):
+            level = 1 if boundary.side is None else 2 if boundary.span is None else 3
+            own = _within(points, axis, boundary.span) & (rank < level)
+            mask[own], rank[own] = boundary.kind == kind, level
+    return mask
+
+
+def _within(points, axis: int, span) -> np.ndarray:
+    """Mask of the points within a span [m] on the tangential axes; everywhere without one."""
+    if span is None:
+        return np.ones(len(points), bool)
+    spans = span if isinstance(span[0], tuple) else (span,)
+    tangential = [a for a in range(points.shape[1]) if a != axis]
+    return np.logical_and.reduce([(points[:, a] >= low) & (points[:, a] <= high) for a, (low, high) in zip(tangential, spans)])
+
+
+def surface(path: str, dimensions: int):
+    """A surface mesh of walls as pyvista has it."""
+    import pyvista
+
+    places, facets = _read(path, dimensions)
+    cells = np.insert(facets, 0, facets.shape[1], axis=1).ravel()
+    return pyvista.PolyData(places, lines=cells) if dimensions == 2 else pyvista.PolyData(places, faces=cells)
+
+
+def _read(path: str, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
+    """Points (P, 3) [m] of a surface mesh and its facets: lines in 2-D, triangles in 3-D."""
+    mesh = read(path, "walls.mesh")
+    kind = "line" if dimensions == 2 else "triangle"
+    if kind not in mesh.cells_dict:
+        raise CaseError(f"walls.mesh = {path!r} holds no cells of type {kind}; a wall in {dimensions}-D is made of them")
+    places = np.zeros((len(mesh.points), 3))
+    places[:, : mesh.points.shape[1]] = mesh.points
+    return places, mesh.cells_dict[kind]
+
+
+def _mesh(path: str, spacing: float, dimensions: int) -> np.ndarray:
+    """Dummies behind a surface mesh, normals to the left of a line or by the right hand."""
+    places, facets = _read(path, dimensions)
+    corners = places[facets][:, :, :dimensions]
+    parts = [_facet(facet, spacing) for facet in corners]
+    table = np.zeros((sum(len(points) for points, _ in parts) * LAYERS, 8))
+    table[:, 7] = 1.0
+    surface = np.concatenate([points for points, _ in parts])
+    normal = np.concatenate([np.tile(n, (len(points), 1)) for points, n in parts])
+    for layer in range(LAYERS):
+        rows = slice(layer * len(surface), (layer + 1) * len(surface))
+        depth = (layer + 0.5) * spacing
+        table[rows, :dimensions], table[rows, 3 : 3 + dimensions], table[rows, 6] = surface - depth * normal, normal, depth
+    return table
+
+
+def _facet(corners: np.ndarray, spacing: float) -> tuple[np.ndarray, np.ndarray]:
+    """Points about one spacing apart on a line or triangle, and its unit normal."""
+    edges = corners[1:] - corners[0]
+    if len(edges) == 1:
+        normal = np.array([-edges[0, 1], edges[0, 0]])
+    else:
+        normal = np.cross(*edges)
+    n = max(1, int(np.ceil(np.linalg.norm(edges, axis=1).max() / spacing)))
+    if len(edges) == 1:
+        weights = ((np.arange(n) + 0.5) / n)[:, None]
+    else:
+        a, b = ((m.ravel() + 1.0 / 3.0) / n for m in np.meshgrid(np.arange(n), np.arange(n), indexing="ij"))
+        weights = np.stack((a, b), axis=1)[a + b < 1.0]
+    return corners[0] + weights @ edges, normal / np.linalg.norm(normal)

@@ -1,0 +1,1 @@
+"""Exchange of heat, momentum and mass between particles and a gas."""

@@ -1,0 +1,81 @@
+"""What particles and gas hand each other in a window of `sdph.exchange.exchange`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from coupling.transfer import Weights
+from sdph.engine.ledger import vector
+
+
+@dataclass(frozen=True)
+class Loss:
+    """What evaporates in one window, of each particle: mass [kg], its effect on the sizes (see sdph.exchange.droplets),
+    and condensation that was refused [kg]."""
+
+    mass: np.ndarray
+    still: np.ndarray
+    moving: np.ndarray
+    refused: np.ndarray
+
+
+@dataclass(frozen=True)
+class Handed:
+    """What one window hands over: what the gas is told, and what the reaction is computed from.
+
+    heat (N,) [W/K] and pull (N,) [W]: the particle takes heat * T'_g - pull; drag (N,) [kg/s] is m_k f_k/dt; temperature
+    and velocity are those of the particles when they were computed; damping (N,) [1/s] is beta/(alpha_p rho_p); mass
+    (N,) [kg] what is in the gas at the window's end. terms (C,) or (C, 3) per volume of the cells, by quantity and effect;
+    alpha_g (C,) at the window's end, where the gas is told.
+    """
+
+    dt: float
+    weights: Weights
+    heat: np.ndarray
+    pull: np.ndarray
+    drag: np.ndarray
+    damping: np.ndarray
+    temperature: np.ndarray
+    velocity: np.ndarray
+    mass: np.ndarray
+    loss: Loss | None
+    terms: dict[tuple[str, str], np.ndarray] = field(default_factory=dict)
+    alpha_g: np.ndarray | None = None
+
+    @property
+    def sources(self) -> dict[str, np.ndarray]:
+        """What the gas is told: each quantity is the sum of what the effects give to it."""
+        told = {} if self.alpha_g is None else {"alpha_g": self.alpha_g}
+        for (quantity, _), values in self.terms.items():
+            told[quantity] = told[quantity] + values if quantity in told else values
+        return {name: np.ascontiguousarray(values) for name, values in told.items()}
+
+
+@dataclass(frozen=True)
+class Taken:
+    """What the particles take in a window: heat (N,) [J], impulse (N, 3) [kg m/s]; and what the gas gave by its own sum.
+
+    warming (N,) [J] is the heat less that of evaporation; vapour and vapour_to_gas [kg] what left particles and what the
+    gas got; latent_heat [J] and capacity_heat [J] what evaporation binds, and what the vapour's other heat capacity does.
+    """
+
+    heat: np.ndarray
+    warming: np.ndarray
+    impulse: np.ndarray
+    heat_from_gas: float
+    impulse_from_gas: np.ndarray
+    vapour: float = 0.0
+    vapour_to_gas: float = 0.0
+    latent_heat: float = 0.0
+    capacity_heat: float = 0.0
+    refused: float = 0.0
+
+    def columns(self) -> dict[str, float]:
+        """Both sides of the exchange for the ledger."""
+        heat = {"heat_to_particles_J": float(self.heat.sum()), "heat_to_gas_J": -self.heat_from_gas}
+        vapour = {"evaporated_kg": self.vapour, "vapour_to_gas_kg": self.vapour_to_gas, "condensation_refused_kg": self.refused}
+        bound = {"latent_heat_J": self.latent_heat, "capacity_heat_J": self.capacity_heat}
+        own, other = np.einsum("ij->j", self.impulse), -self.impulse_from_gas
+        return heat | vapour | bound | vector("impulse_to_particles", own) | vector("impulse_to_gas", other)

@@ -1,0 +1,180 @@
+"""What droplets lose by evaporation in a window, and what becomes of them.
+
+Over a window the heat of evaporation L is held, so that heat exchange integrates in closed form (`exchange.py`). The
+rate is that of the mean temperature in the window, from the linearised balance of heat with the gas as it is; grains
+shrink exactly by their law (sdph.laws.grain_loss). So a window may be longer than a droplet lives. `p` is the
+`EvaporationP` of sdph.effects.gas.evaporation.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit, prange
+
+from sdph.effects.gas import sizes
+from sdph.effects.gas.evaporation import driving_force, saturation_pressure, ventilation
+from sdph.engine.state import GRAIN
+from sdph.laws import evaporation as law
+from sdph.laws import grain_loss
+
+PROBE = 1e-3  # K, step of the slope of the rate with temperature
+FINISHED = 1e-9  # of the mass at birth, below which a particle has evaporated; our choice
+SHORT = 1e-8  # relaxation times in a window below which the mean rise is its limit
+
+
+@njit(cache=True, error_model="numpy")
+def transfer(p, sizes_p, s, i, c):
+    """k_c A of all grains [m3/s]: flow of gas that they exchange. 6 k_c/d per volume of grains, k_c = Sh D/d (Eq. 11)."""
+    total = whole = 0.0
+    own = sizes.birth(sizes_p, s, i)
+    for q in range(sizes.classes(sizes_p)):
+        d, mass = sizes.grain(sizes_p, s, i, own, q)
+        if mass == 0.0:  # gone; what comes after is smaller still
+            break
+        total += mass * 12.0 * (1.0 + c * math.sqrt(d)) * p.diffusivity / (d * d)
+        whole += mass
+    return s.mass[i] / p.grain_density * total / whole
+
+
+@njit(cache=True, error_model="numpy")
+def kept_share(sizes_p, s, i, still, moving):
+    """Share of its mass that particle i keeps when `still` = integral of a dt [m2], `moving` of a c dt [m^3/2] are lost."""
+    if still <= 0.0:
+        return 1.0
+    if len(sizes_p) == 0:
+        square = s.diameter[i] ** 2
+        return (grain_loss.square_after(square, still, moving / still) / square) ** 1.5
+    before = sizes.remaining(sizes.birth(sizes_p, s, i))[0]
+    lost = s.lost_still[i] + still, s.lost_moving[i] + moving
+    return sizes.remaining(sizes.birth_of(s.born_diameter[i], s.born_variance[i], *lost))[0] / before
+
+
+@njit(cache=True, error_model="numpy")
+def mean_rise(power, conductance, capacity, dt):
+    """Mean over dt [s] of the rise [K] of a body of `capacity` [J/K] heated with power - conductance * rise [W]."""
+    if conductance * dt <= SHORT * capacity:
+        return 0.5 * power * dt / capacity if capacity > 0.0 else 0.0
+    x = conductance * dt / capacity
+    return power / conductance * (1.0 + math.expm1(-x) / x)
+
+
+@njit(cache=True, error_model="numpy")
+def active_time(p, s, i, conductance, gas_temperature, dt):
+    """Time [s] of the window in which particle i evaporates: from when it reaches the onset, as it warms up."""
+    if s.temperature[i] >= p.onset_temperature or (p.onset == 0 and s.evaporating[i] > 0.0):
+        return dt
+    if gas_temperature <= p.onset_temperature or conductance == 0.0:
+        return 0.0
+    capacity = s.mass[i] * p.grain_heat_capacity
+    missing = (gas_temperature - s.temperature[i]) / (gas_temperature - p.onset_temperature)
+    return max(0.0, dt - capacity / conductance * math.log(missing))
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
+def survey(p, sizes_p, s, slip, gas_density, gas_temperature, dt, conductance, flow, surface):
+    """Before the losses: gas [m3/s] that the particle exchanges vapour with, averaged over the window, and vapour concentration
+    at its surface [kmol/m3]; conductance (N,) [W/K] of heat."""
+    for i in prange(len(s.x)):
+        flow[i] = surface[i] = 0.0
+        if s.kind[i] == GRAIN:
+            time = active_time(p, s, i, conductance[i], gas_temperature[i], dt)
+            flow[i] = transfer(p, sizes_p, s, i, ventilation(p, slip[i], gas_density[i])) * time / dt
+            surface[i] = law.vapour_concentration(saturation_pressure(p, s.temperature[i]), s.temperature[i])
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
+def losses(p, sizes_p, s, slip, gas_density, gas_temperature, concentration, dt, conductance, loss, still, moving, refused):
+    """Of each particle in dt: mass lost [kg]; its integrals of a dt [m2], a c dt [m^3/2]; condensation refused [kg].
+
+    `conductance` becomes the mean over the window: it shrinks with the grains as evaporation does.
+    """
+    for i in prange(len(s.x)):
+        loss[i] = still[i] = moving[i] = refused[i] = 0.0
+        time = active_time(p, s, i, conductance[i], gas_temperature[i], dt) if s.kind[i] == GRAIN else 0.0
+        if time > 0.0:
+            c = ventilation(p, slip[i], gas_density[i])
+            rate = transfer(p, sizes_p, s, i, c)
+            force = window_force(p, sizes_p, s, i, rate, c, gas_density[i], gas_temperature[i], concentration[i], time, dt, conductance[i])
+            refused[i] = max(0.0, -force) * rate * time
+            still[i] = 8.0 * p.diffusivity * max(0.0, force) / p.grain_density * time  # d(d^2)/dt = -4 Sh D force/rho_p
+            moving[i] = c * still[i]
+            left = s.mass[i] * kept_share(sizes_p, s, i, still[i], moving[i])
+            loss[i] = s.mass[i] - (left if left > FINISHED * s.born_mass[i] else 0.0)
+            if force > 0.0:
+                conductance[i] *= shrinkage(loss[i], rate * force * time)
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
+def rates(p, sizes_p, s, slip, gas_density, gas_temperature, concentration, rate):
+    """rate (N,) [kg/s] at which each particle evaporates now."""
+    for i in prange(len(s.x)):
+        rate[i] = 0.0
+        if s.kind[i] == GRAIN and active_time(p, s, i, 0.0, gas_temperature[i], 1.0) > 0.0:
+            force = driving_force(p, s.temperature[i], concentration[i], gas_temperature[i], gas_density[i])
+            rate[i] = max(0.0, force) * transfer(p, sizes_p, s, i, ventilation(p, slip[i], gas_density[i]))
+
+
+@njit(cache=True, error_model="numpy")
+def shrinkage(loss, unshrunk):
+    """Mean over the window of the grains' exchange over that at its start: what was lost over what the start would lose."""
+    return min(1.0, loss / unshrunk)
+
+
+@njit(cache=True, error_model="numpy")
+def window_force(p, sizes_p, s, i, rate, c, gas_density, gas_temperature, concentration, time, dt, conductance):
+    """Driving force [kg/m3] at the mean temperature of the window; at boiling what the heat that comes in evaporates."""
+    temperature = s.temperature[i]
+    now = driving_force(p, temperature, concentration, gas_temperature, gas_density)
+    below = driving_force(p, temperature - PROBE, concentration, gas_temperature, gas_density)
+    slope = max(0.0, (now - below) / PROBE)
+    still = 8.0 * p.diffusivity * max(0.0, now) / p.grain_density * time
+    kept = kept_share(sizes_p, s, i, still, c * still)
+    share = shrinkage(s.mass[i] * (1.0 - kept), rate * now * time) if now > 0.0 else 1.0
+    capacity = s.mass[i] * kept * p.grain_heat_capacity
+    latent = p.latent_heat * rate * share * time / dt  # W per unit of force
+    warmth = conductance * share
+    rise = mean_rise(warmth * (gas_temperature - temperature) - latent * max(0.0, now), warmth + latent * slope, capacity, dt)
+    force = now + slope * rise
+    return max(force, boiling_force(p, temperature, gas_temperature, warmth, capacity, latent, force, dt))
+
+
+@njit(cache=True, error_model="numpy")
+def boiling_force(p, temperature, gas_temperature, warmth, capacity, latent, force, dt):
+    """Driving force [kg/m3] that holds the end of the window at the boiling temperature; `force` if it stays below."""
+    if warmth == 0.0 or latent == 0.0 or gas_temperature <= p.boiling_temperature:
+        return force
+    fraction = -math.expm1(-warmth * dt / capacity)
+    cooling = latent * max(0.0, force) / warmth
+    end = temperature + (gas_temperature - temperature - cooling) * fraction
+    if end <= p.boiling_temperature:
+        return force
+    return warmth / latent * (gas_temperature - temperature - (p.boiling_temperature - temperature) / fraction)
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
+def shrink(p, sizes_p, s, still, moving, latched, diameter, variance):
+    """What the sizes of each particle are after its loss: latch, mean [m] and variance [m2] of the diameters left."""
+    for i in prange(len(s.x)):
+        latched[i] = max(s.evaporating[i], 1.0 * (still[i] > 0.0))
+        if still[i] > 0.0:
+            if len(sizes_p) == 0:
+                square = grain_loss.square_after(s.diameter[i] ** 2, still[i], moving[i] / still[i])
+                diameter[i], variance[i] = math.sqrt(square), 0.0
+            else:
+                lost = s.lost_still[i] + still[i], s.lost_moving[i] + moving[i]
+                left = sizes.remaining(sizes.birth_of(s.born_diameter[i], s.born_variance[i], *lost))
+                diameter[i], variance[i] = left[1], left[2]
+        else:
+            diameter[i], variance[i] = s.diameter[i], s.diameter_variance[i]
+
+
+def apply(p, sizes_p, s, loss, still, moving) -> None:
+    """Take the losses from the state."""
+    latched, diameter, variance = (np.empty(len(s.x)) for _ in range(3))
+    shrink(p, sizes_p, s, still, moving, latched, diameter, variance)
+    s.mass[:] -= loss
+    s.lost_still[:] += still
+    s.lost_moving[:] += moving
+    s.evaporating[:], s.diameter[:], s.diameter_variance[:] = latched, diameter, variance

@@ -1,0 +1,68 @@
+"""Terms of the exchange: what each particle sees of the gas, its coefficients, the vapour in the cells."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit, prange
+
+from coupling.transfer import gather
+from sdph.effects.gas import drag, heat
+from sdph.engine import state as particles
+from sdph.engine.state import GRAIN
+from sdph.laws.constants import GAS_CONSTANT
+from sdph.laws.exchange import exponential_fraction
+
+NEGLIGIBLE = 1e-6  # of the temperature: smaller differences need not be resolved (round-off else rules the window); our choice
+
+
+class Seen:
+    """The gas as the particles see it: own velocity (N, 3), slip (N,), density, temperature (N,) of the gas."""
+
+    def __init__(self, weights, gas_state, state):
+        velocity, self.density, self.temperature = (gather(weights, gas_state.fields[name]) for name in ("velocity", "density", "temperature"))
+        self.own = particles.velocities(state)
+        self.slip = particles.lengths(velocity - self.own)
+
+
+def vapour_concentration(p, gas_state) -> np.ndarray:
+    """Vapour in the cells [kmol/m3], Eq. 10."""
+    Y, temperature = gas_state.fields["vapour_mass_fraction"], gas_state.fields["temperature"]
+    moles = Y / p.molar_mass
+    fraction = moles / (moles + (1.0 - Y) / p.gas_molar_mass)
+    return fraction * p.operating_pressure / (GAS_CONSTANT * temperature)
+
+
+def temperature_span(case) -> float:
+    """Hottest less coldest of all that the case gives a temperature [K], and where they are alike a negligible part of it."""
+    given = [case.gas.temperature, *(part.temperature for part in (*case.particles.values(), *case.nozzles.values()))]
+    given += [boundary.temperature for boundary in case.boundaries.values() if boundary.temperature]
+    return max(max(given) - min(given), NEGLIGIBLE * max(given))
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
+def rates(drag_p, heat_p, sizes_p, s, grain_density, slip, gas_density, conductance, damping):
+    """Of every particle as it is: heat to the gas per kelvin [W/K], and beta/(alpha_p rho_p) [1/s]."""
+    for i in prange(len(s.x)):
+        conductance[i] = damping[i] = 0.0
+        if s.kind[i] == GRAIN:
+            alpha_p = s.density[i] / grain_density
+            conductance[i] = heat.conductance(heat_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
+            damping[i] = drag.damping(drag_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
+def shares(s, heat_capacity, dt, conductance, damping, kept, power, heat_share, pull, shared_mass):
+    """What meets the gas in a window: heat_share [W/K] and pull [W] of heat, m_k f_k/dt [kg/s] of momentum.
+
+    With a `power` P [W] from elsewhere held over the window, x = dt K/C and C of the mass that is `kept` [kg],
+    Q/dt = K phi (T'_g - T) - P (1 - phi), phi = (1 - exp(-x))/x; without one K phi = C f/dt.
+    """
+    for i in prange(len(s.x)):
+        heat_share[i] = pull[i] = 0.0
+        capacity = kept[i] * heat_capacity
+        if conductance[i] > 0.0:
+            heat_share[i] = capacity * exponential_fraction(dt * conductance[i] / capacity) / dt if capacity > 0.0 else 0.0
+            pull[i] = heat_share[i] * s.temperature[i]
+            if len(power) > 0:
+                pull[i] += power[i] * (1.0 - heat_share[i] / conductance[i])
+        shared_mass[i] = kept[i] * exponential_fraction(dt * damping[i]) / dt

@@ -1,0 +1,229 @@
+"""Exchange between particles and gas over one window: unconditionally stable, and equal on both sides.
+
+For particle k with heat capacity C_k = m_k c, the share f_k = 1 - exp(-dt K_k/C_k) of it meets the gas, cell by
+cell with the transfer weights w_kc (sdph-notes, section 3). The gas is handed, as implicit coefficient and source,
+
+    eps_c V_c = sum_k w_kc C_k f_k/dt,      eps T_p V_c = sum_k w_kc C_k f_k/dt T_k
+
+and from the temperature T'_c that it answers with, particle k takes exactly what the cells gave:
+
+    Q_k = C_k f_k sum_c w_kc (T'_c - T_k)   [J].
+
+Momentum goes the same way with m_k for C_k and the drag coefficient for K_k. The heat of drag, force times slip with
+the new gas velocity, is known when the window is done: the gas gets it in the next one.
+
+The gas is told by quantity (`coupling.gas.SOURCES`): what each effect gives stands in the effect's own file (`to_gas`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from coupling.transfer import deposit, gather
+from sdph import effects
+from sdph.effects import OFF
+from sdph.effects.gas import sizes
+from sdph.engine.state import GRAIN
+from sdph.exchange import droplets as droplet_loss
+from sdph.exchange import equations
+from sdph.exchange.amounts import Handed, Loss, Taken
+from sdph.exchange.equations import Seen, temperature_span, vapour_concentration
+
+
+
+class Exchange:
+    """The effects of a case that reach across to the gas."""
+
+    KEPT = ("drag_heat",)
+
+    def __init__(self, case, mesh, parameters):
+        self.case = case
+        self.parameters = parameters
+        self.sizes_p = sizes.kernel(case)
+        self.volumes = mesh.volumes / mesh.depth
+        rows = [effects.REGISTRY[name] for name in case.effects]
+        names = dict.fromkeys(name for row in rows for name in row.sources)
+        self.sources = tuple(name for name in names if name != "alpha_g" or case.coupling.voidage)
+        self.to_gas = {row.name: row.to_gas for row in rows if row.to_gas}
+        self.drag_heat = np.zeros(len(self.volumes))  # [W/m3], for the next window
+
+    def alpha_g(self, state, weights, inside=1.0) -> np.ndarray:
+        """Gas volume fraction of the cells; `inside` (N,) is the share of each particle that is in the gas."""
+        return self._room(weights, state.mass * inside)
+
+    def hand(self, state, weights, ahead, gas_state, dt) -> Handed:
+        """Coefficients from the old gas state, and the sources for the gas.
+
+        `ahead` are the weights of where the particles will be at the end of the window, and the share of each (N,) that
+        will be in the gas: the volume fraction then is told to the gas.
+        """
+        seen = Seen(weights, gas_state, state)
+        conductance, damping = self._rates(state, seen)
+        loss = self._evaporate(state, weights, gas_state, seen, conductance, dt) if self.parameters["evaporation"] else None
+        kept = state.mass - loss.mass if loss else state.mass
+        power = self.parameters["evaporation"].latent_heat / -dt * loss.mass if loss else OFF
+        heat_share, pull, shared_mass = (np.empty(len(state.x)) for _ in range(3))
+        equations.shares(state, self.case.grains.heat_capacity, dt, conductance, damping, kept, power, heat_share, pull, shared_mass)
+        there, inside = ahead
+        handed = Handed(
+            dt, weights, heat_share, pull, shared_mass, damping, state.temperature.copy(), seen.own, kept * (state.kind == GRAIN), loss
+        )
+        return replace(handed, terms=self._terms(handed), alpha_g=self._room(there, kept * inside) if "alpha_g" in self.sources else None)
+
+    def _rates(self, state, seen) -> tuple[np.ndarray, np.ndarray]:
+        """Of every particle now: heat conductance to the gas [W/K], and beta/(alpha_p rho_p) [1/s]."""
+        conductance, damping = np.empty(len(state.x)), np.empty(len(state.x))
+        equations.rates(
+            self.parameters["drag"], self.parameters["heat"], self.sizes_p, state, self.case.grains.density, seen.slip, seen.density,
+            conductance, damping,
+        )  # fmt: skip
+        return conductance, damping
+
+    def _terms(self, handed: Handed) -> dict[tuple[str, str], np.ndarray]:
+        """(quantity, effect) -> what the effect gives to the gas, per volume of the cells."""
+        given = {(quantity, name): own for name, to_gas in self.to_gas.items() for quantity, own in to_gas(handed, self.case).items()}
+        if not given:
+            return {}
+        columns = [own[:, None] if own.ndim == 1 else own for own in given.values()]
+        ends = np.cumsum([column.shape[1] for column in columns])
+        cells = np.split(self._density(handed.weights, np.concatenate(columns, axis=1)), ends[:-1], axis=1)
+        terms = {key: cell[:, 0] if own.ndim == 1 else cell for (key, own), cell in zip(given.items(), cells)}
+        return terms | ({("heat", "friction"): self.drag_heat} if self.parameters["drag"] else {})
+
+    def _evaporate(self, state, weights, gas_state, seen, conductance, dt) -> Loss:
+        """What evaporates in a window; the heat conductance (N,) [W/K] becomes the mean over it.
+
+        The vapour in each cell is taken as it would be at the window's end if no flow carried it: fast exchange
+        saturates a cell and does not overshoot.
+        """
+        p, count = self.parameters["evaporation"], len(state.x)
+        flow, surface = np.empty(count), np.empty(count)
+        around = seen.slip, seen.density, seen.temperature
+        droplet_loss.survey(p, self.sizes_p, state, *around, dt, conductance, flow, surface)
+        concentration = gather(weights, vapour_concentration(p, gas_state))
+        if not self.case.coupling.one_way:
+            evaporating = surface > concentration
+            after = [self._relaxed(state, weights, gas_state, flow * some * dt, surface) for some in (evaporating, ~evaporating)]
+            concentration = np.where(evaporating, *after)
+        loss = Loss(*(np.empty(count) for _ in range(4)))
+        droplet_loss.losses(
+            p, self.sizes_p, state, *around, concentration, dt, conductance, loss.mass, loss.still, loss.moving, loss.refused
+        )
+        return loss
+
+    def _relaxed(self, state, weights, gas_state, exchanged, surface) -> np.ndarray:
+        """Vapour around the particles [kmol/m3] once they have exchanged so much gas (N,) [m3] with the cells."""
+        deposited = deposit(weights, np.stack((exchanged, exchanged * surface), axis=1))
+        room = self._room(weights, state.mass * (state.kind == GRAIN)) * self.volumes
+        cells = vapour_concentration(self.parameters["evaporation"], gas_state)
+        return gather(weights, (room * cells + deposited[:, 1]) / (room + deposited[:, 0]))
+
+    def pace(self, state, weights, gas_state) -> tuple[float, float, float, float]:
+        """At the start: rate [1/s] at which the fastest cell takes the grains' temperature, `stake` [J], rate [1/s] at which
+        vapour comes into the fastest cell, over the gas in it, and `grip` [1/s]."""
+        seen = Seen(weights, gas_state, state)
+        conductance, damping = self._rates(state, seen)
+        full, resistance = self._resistance(state, weights, gas_state)
+        rate = float((self._density(weights, conductance)[full] * resistance).max(initial=0.0)) if self.parameters["heat"] else 0.0
+        thickening = self._thickening(state, weights, gas_state, seen) if self.parameters["evaporation"] else 0.0
+        return rate, self.stake(state, weights, gas_state), thickening, self.grip(state, damping)
+
+    def _thickening(self, state, weights, gas_state, seen) -> float:
+        """Vapour that comes into a cell now, over the gas in it [1/s]; the largest of all cells."""
+        p, rate = self.parameters["evaporation"], np.empty(len(state.x))
+        concentration = gather(weights, vapour_concentration(p, gas_state))
+        droplet_loss.rates(p, self.sizes_p, state, seen.slip, seen.density, seen.temperature, concentration, rate)
+        room = self._room(weights, state.mass * (state.kind == GRAIN))
+        return float((self._density(weights, rate) / (room * gas_state.fields["density"])).max(initial=0.0))
+
+    def vapour_share(self, handed: Handed, gas_state) -> float:
+        """Vapour that a window brought into a cell, over the gas in it; the largest of all cells."""
+        if not handed.loss:
+            return 0.0
+        room = self._room(handed.weights, handed.mass)
+        return float((handed.terms["vapour", "evaporation"] * handed.dt / (room * gas_state.fields["density"])).max(initial=0.0))
+
+    def stake(self, state, weights, gas_state) -> float:
+        """A scale of heat [J]: the gas among the grains, and they, brought to equilibrium through all of the
+        temperatures that the case has."""
+        if not self.parameters["heat"]:
+            return 0.0
+        full, resistance = self._resistance(state, weights, gas_state)
+        return float(temperature_span(self.case) * (self.volumes[full] / resistance).sum())
+
+    def _resistance(self, state, weights, gas_state) -> tuple[np.ndarray, np.ndarray]:
+        """Mask of the cells with grains, and 1/C_p + 1/C_g of these [m3 K/J]."""
+        content = self._density(weights, state.mass * (state.kind == GRAIN) * self.case.grains.heat_capacity)
+        gas = self._room(weights, state.mass * (state.kind == GRAIN)) * gas_state.fields["density"] * self.case.gas.heat_capacity
+        full = content > 0.0
+        return full, 1.0 / content[full] + 1.0 / gas[full]
+
+    def take(self, handed: Handed, gas_state) -> Taken:
+        """The reaction on the particles, from the new gas state with the old weights, temperatures and velocities."""
+        taken_heat, from_gas = np.zeros(len(handed.heat)), 0.0
+        impulse, impulse_from_gas = np.zeros((len(handed.heat), 3)), np.zeros(3)
+        if ("heat", "heat") in handed.terms:
+            temperature = gas_state.fields["temperature"]
+            taken_heat = handed.dt * (handed.heat * gather(handed.weights, temperature) - handed.pull)
+            given = handed.terms["heat_coefficient", "heat"] * temperature - handed.terms["heat", "heat"]
+            from_gas = float((given * self.volumes).sum() * handed.dt)
+        if ("momentum", "drag") in handed.terms:
+            velocity = gas_state.fields["velocity"]
+            apart = gather(handed.weights, velocity) - handed.velocity
+            impulse = handed.dt * handed.drag[:, None] * apart
+            given = handed.terms["momentum_coefficient", "drag"][:, None] * velocity - handed.terms["momentum", "drag"]
+            impulse_from_gas = np.einsum("ij,i->j", given, self.volumes) * handed.dt
+            self.drag_heat = self._density(handed.weights, np.einsum("ij,ij->i", impulse, apart) / handed.dt)
+        if self.case.coupling.one_way:  # the gas feels nothing
+            from_gas, impulse_from_gas = 0.0, np.zeros(3)
+        if not handed.loss:
+            return Taken(taken_heat, taken_heat, impulse, from_gas, impulse_from_gas)
+        return self._with_vapour(Taken(taken_heat, taken_heat, impulse, from_gas, impulse_from_gas), handed)
+
+    def _with_vapour(self, taken: Taken, handed: Handed) -> Taken:
+        """The same with what evaporation takes."""
+        mass, latent = handed.loss.mass, self.parameters["evaporation"].latent_heat
+        excess = self.case.grains.heat_capacity - self.case.vapour.heat_capacity
+        given = 0.0 if self.case.coupling.one_way else float((handed.terms["vapour", "evaporation"] * self.volumes).sum() * handed.dt)
+        return replace(
+            taken, warming=taken.heat - latent * mass, vapour=float(mass.sum()), vapour_to_gas=given,
+            latent_heat=latent * float(mass.sum()), capacity_heat=excess * float((mass * handed.temperature).sum()),
+            refused=float(handed.loss.refused.sum()),
+        )  # fmt: skip
+
+    def grip(self, state, damping) -> float:
+        """Rate [1/s] at which gas that cannot give way stops grains that move as one, mean by mass; damping (N,) [1/s].
+
+        With alpha_g v_g + alpha_p v_p given, drag and pressure gradient together are beta/alpha_g^2 v_p: the rate is
+        beta/(alpha_g^2 alpha_p rho_p). 0 where the gas does not feel the volume of the grains.
+        """
+        mass = state.mass * (state.kind == GRAIN)
+        if not self.parameters["gas_pressure"] or self.case.coupling.one_way or not mass.any():
+            return 0.0
+        alpha_p = np.minimum(state.density / self.case.grains.density, self.case.grains.packing_limit)
+        return float(np.average(damping / (1.0 - alpha_p) ** 2, weights=mass))
+
+    def settle(self, state, handed: Handed) -> None:
+        """Take from the particles what evaporated."""
+        if handed.loss:
+            droplet_loss.apply(
+                self.parameters["evaporation"], self.sizes_p, state, handed.loss.mass, handed.loss.still, handed.loss.moving
+            )
+
+    def drag_heat_of(self, handed: Handed) -> float:
+        """Heat of drag [J] that the gas was handed."""
+        if ("heat", "friction") not in handed.terms or self.case.coupling.one_way:
+            return 0.0
+        return float((handed.terms["heat", "friction"] * self.volumes).sum() * handed.dt)
+
+    def _room(self, weights, mass) -> np.ndarray:
+        """Gas volume fraction of the cells with grains of `mass` (N,) [kg] in them."""
+        return 1.0 - deposit(weights, mass / self.case.grains.density) / self.volumes
+
+    def _density(self, weights, amounts) -> np.ndarray:
+        """Extensive amounts (N,) or (N, m) of the particles per volume of the cells."""
+        deposited = deposit(weights, amounts)
+        return deposited / (self.volumes if deposited.ndim == 1 else self.volumes[:, None])
+

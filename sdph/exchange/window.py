@@ -1,0 +1,144 @@
+"""How long the next window is: the least of all limits, each by its cause.
+
+The exchange is first order in the window. Its error over a window is estimated from how much the exchanged heat
+changed since the last one, error = sum |Q_n/dt_n - Q_(n-1)/dt_(n-1)| dt_n^2/(dt_n + dt_(n-1)), and held at
+`coupling.window_tolerance` times the heat that there is to exchange.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from sdph import effects
+from sdph.case.gas_cells import cell_edges
+from sdph.effects.around.streams import streams_of
+from sdph.engine.clock import Clock
+from sdph.engine.kept import POSITIVE, Maybe, Named, Unfit
+
+SAFETY, GROWTH, SHRINK = 0.9, 2.0, 0.3  # usual bounds of a step controller (Hairer, Norsett & Wanner, II.4); our choice
+VAPOUR = 0.1  # of the gas in a cell: most vapour that comes into it in a window, so that it is carried away as it comes; our choice
+GRIP = 0.1  # of the time in which gas stops a bed, most that its force may be held: a held force drives the bed's oscillations; our choice
+# limit -> what a user can change about it
+KEYS = {
+    "largest": "coupling.window_largest_s", "heat exchange": "coupling.window_tolerance", "courant": "coupling.courant", "particles": "coupling.courant",
+    "evaporation": "the rate of evaporation", "grip": "the drag on packed grains",
+}  # fmt: skip
+
+
+class Control:
+    """Step control of one exchanged quantity by the change of its rate."""
+
+    KEPT = ("rates", "scale", "error")  # see sdph.engine.kept
+    FORMS = {"rates": Maybe((0.0, np.zeros(0), np.zeros(0, np.int64)))}
+
+    def __init__(self, tolerance: float):
+        self.tolerance = tolerance
+        self.rates = None
+        self.scale = 0.0
+        self.error = 0.0
+
+    def admit(self, kept: dict) -> None:
+        """Unfit where the rates of the last window are not of its particles."""
+        dt, rates, ident = kept["rates"] or (1.0, (), ())
+        if not dt > 0.0 or len(rates) != len(ident) or min(kept["scale"], kept["error"]) < 0.0:
+            raise Unfit("the control of the window has no rates that belong to particles")
+
+    def begin(self, rate: float, scale: float) -> float:
+        """First window [s] of a relaxation at `rate` [1/s]: backward Euler errs by (rate dt)^2/2 of `scale`."""
+        self.scale = scale
+        return math.sqrt(2.0 * self.tolerance) / rate if rate > 0.0 else math.inf
+
+    def learn(self, dt: float, taken: np.ndarray, ident: np.ndarray) -> float:
+        """Next window [s] after one of `dt` [s] in which the particles `ident` (N,) exchanged `taken` (N,) [J]."""
+        before, self.rates = self.rates, (dt, taken / dt, ident)
+        self.scale = max(self.scale, float(np.abs(taken).sum()))
+        if self.scale == 0.0:  # nothing to exchange, nothing to resolve
+            return dt * GROWTH
+        if before is None:
+            return dt
+        change = _change(before, self.rates)
+        self.error = change * dt * dt / (dt + before[0]) / self.scale
+        return dt * min(GROWTH, max(SHRINK, SAFETY * math.sqrt(self.tolerance / max(self.error, 1e-300))))
+
+
+def _change(before, now) -> float:
+    """Sum over the particles that are in both of how much their rate changed [W]."""
+    place = np.full(1 + max(before[2].max(initial=0), now[2].max(initial=0)), -1)  # of each ident before
+    place[before[2]] = np.arange(len(before[2]))
+    old = place[now[2]]
+    stayed = old >= 0
+    return float(np.abs(now[1][stayed] - before[1][old[stayed]]).sum())
+
+
+class Window(Clock):
+    """Chooses windows: what is told of each limit decides how long the next one is."""
+
+    KEPT, FORMS = ("limits", "control", "limit"), {"limits": Named(POSITIVE)}  # see sdph.engine.kept
+
+    def __init__(self, case):
+        super().__init__(case.run)
+        self.courant, self.cell = case.coupling.courant, smallest_cell(case)
+        self.limits = {"largest": case.coupling.window_largest} | opening(case)
+        self.control = Control(case.coupling.window_tolerance)
+
+    def admit(self, kept: dict) -> None:
+        """Unfit where a limit would never let the run come to its end."""
+        limits = kept["limits"]
+        if limits.get("largest") != self.limits["largest"] or min(limits.values()) < self.shortest:
+            raise Unfit(f"the limits of the window are not those of this case, or one is below {self.shortest:.2g} s")
+
+    def begin(self, rate: float, scale: float) -> None:
+        """Before the first window; see `Control.begin`."""
+        self.limits["heat exchange"] = self.control.begin(rate, scale)
+
+    def choose(self, time: float) -> float:
+        """The time [s] at which the next window ends."""
+        self.limit = min(self.limits, key=self.limits.get)
+        return self.part(time, self.limits[self.limit], f"the window's limit {self.limit!r} ({KEYS[self.limit]})")
+
+    def longest(self) -> float:
+        """No window that `choose` picks next is longer [s]."""
+        return min(self.limits.values())
+
+    def thicken(self, dt: float, share: float) -> None:
+        """In `dt` [s] vapour came into a cell of gas that was `share` of what was there, or would at the rate of now."""
+        if share > 0.0:
+            self.limits["evaporation"] = dt * min(GROWTH, VAPOUR / share)
+
+    def hold(self, grip: float) -> None:
+        """Gas that cannot give way stops grains that move as one at the rate `grip` [1/s]."""
+        if grip > 0.0:
+            self.limits["grip"] = GRIP / grip
+
+    def stake(self, heat: float) -> None:
+        """There is `heat` [J] to exchange now."""
+        self.control.scale = max(self.control.scale, heat)
+
+    def learn(self, dt: float, heat: np.ndarray, ident: np.ndarray, courant: float, fastest: float) -> None:
+        """Set the limits from the window just done: heat (N,) [J] of the particles `ident` (N,), courant of the gas,
+        fastest particle [m/s]."""
+        if fastest > 0.0:
+            self.limits["particles"] = self.courant * self.cell / fastest
+        if "heat exchange" in self.limits:
+            self.limits["heat exchange"] = self.control.learn(dt, heat, ident)
+        if courant > 0.0:
+            self.limits["courant"] = dt * min(GROWTH, self.courant / courant)
+
+
+def smallest_cell(case) -> float:
+    """Least width [m] of a gas cell."""
+    return min(float(np.diff(edges).min()) for edges in cell_edges(case))
+
+
+def opening(case) -> dict[str, float]:
+    """Limits [s] of the first window from the speeds that the case gives: gas that is let in, as fast as it is between the
+    grains, and grains that are thrown at the start or by a nozzle. Later windows are told what moves how fast."""
+    packed = max((region.volume_fraction for region in case.particles.values()), default=0.0)
+    let_in = max((math.hypot(*b.velocity) for b in case.boundaries.values() if b.velocity), default=0.0) / (1.0 - packed)
+    thrown = [math.hypot(*region.velocity) for region in case.particles.values() if region.velocity] if effects.moving(case) else []
+    if "inflow" in case.effects:
+        thrown += [float(np.linalg.norm(streams_of(case, nozzle).velocity, axis=1).max()) for nozzle in case.nozzles.values()]
+    reach = case.coupling.courant * smallest_cell(case)
+    return {cause: reach / speed for cause, speed in (("courant", let_in), ("particles", max(thrown, default=0.0))) if speed}

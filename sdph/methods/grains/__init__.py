@@ -1,0 +1,1 @@
+"""Grains and droplets in a gas."""

@@ -1,0 +1,93 @@
+"""Bounds of grains and their gas, past which a run has gone unstable."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from sdph.engine import state as particles
+from sdph.engine.guard import DENSE, RUNAWAY, TINY, Watch, outside
+from sdph.engine.kept import Unfit
+from sdph.laws.constants import GAS_CONSTANT
+from sdph.methods.grains.scales import scales_of
+
+COLLAPSE = 1e3  # times what drives the grains: sound that is faster shrinks the sub-steps until a run gets nowhere; our choice
+LATENT = 0.25  # of the hottest: how far below the coldest evaporation may cool; our choice
+ADIABATIC = 1.4  # cp/cv of a diatomic gas
+
+
+class Guard(Watch):
+    """Looks at the grains after every sub-step, at its length too, and at the gas after every window."""
+
+    def __init__(self, case):
+        super().__init__(case)
+        scales = scales_of(case)
+        drop = math.sqrt(2.0 * scales.gravity * max(case.domain.size))
+        pressures = [b.pressure for b in case.boundaries.values() if b.pressure is not None]
+        self.pressure = max(map(abs, pressures), default=0.0)
+        blown = math.sqrt(2.0 * (max(pressures, default=0.0) - min(pressures, default=0.0)) / case.gas.density)
+        agitated = math.sqrt(case.grains.granular_temperature) + scales.sound
+        self.reach = scales.jet + scales.thrown + drop + blown + agitated
+        given = [case.gas.temperature, *(patch.temperature for patch in scales.patches)]
+        given += [b.temperature for b in case.boundaries.values() if b.temperature]
+        slack = scales.span + LATENT * max(given) + self.reach**2 / case.grains.heat_capacity
+        self.coldest, self.hottest = max(0.0, min(given) - slack), max(given) + slack
+        self.sound = math.sqrt(ADIABATIC * GAS_CONSTANT / case.gas.molar_mass * max(given))
+        self.cause, self.length = "largest", case.coupling.window_largest  # until the first window begins
+
+    def begin(self, simulation, dt: float) -> None:
+        """Before a window of `dt` [s]."""
+        super().begin(simulation)
+        self.cause, self.length = simulation.clock.limit, dt
+
+    def admit_grains(self, state: dict, names, heaviest: float) -> None:
+        """`admit` of grains, none of more than `heaviest` [kg]."""
+        speed, positive, zero_on = (-RUNAWAY * self.reach, RUNAWAY * self.reach), (TINY, math.inf), (0.0, math.inf)
+        bounds = dict.fromkeys("uvw", speed) | dict.fromkeys(("diameter", "born_mass", "born_diameter"), positive)
+        bounds |= dict.fromkeys(("diameter_variance", "born_variance", "lost_still", "lost_moving"), zero_on)
+        bounds |= {"mass": (TINY, heaviest), "density": (0.0, DENSE * self.case.grains.density), "evaporating": (0.0, 1.0)}
+        bounds |= {"temperature": (self.coldest, self.hottest), "theta": (0.0, (COLLAPSE * self.reach) ** 2)}
+        bounds |= {"nozzle": (0, len(self.case.nozzles)), "entering": (0, 1)}
+        kinds = [particles.GRAIN, particles.INFLOW]
+        self.admit(state, names, bounds)
+        if not np.isin(state["kind"], kinds).all():
+            raise Unfit("a particle is neither a grain nor of a nozzle")
+
+    def admit_gas(self, fields: dict) -> None:
+        """Unfit where gas that comes from a checkpoint is faster, hotter, colder or under more pressure than this case allows."""
+        most = self.case.gas.density * (RUNAWAY * self.sound) ** 2 + self.pressure
+        for name, values, bounds in (*self._of_gas(fields), ("pressure", fields["pressure"], (-most, most, "Pa"))):
+            worst = outside(values, *bounds[:2])
+            if worst is not None:
+                low, high, unit = bounds
+                raise Unfit(f"gas {name} of cell {worst} is {values[worst]:.3g} {unit}; this case allows {low:.3g} to {high:.3g}")
+
+    def sub_step(self, stepper) -> None:
+        """After a sub-step: NaN, speed, temperature of the particles."""
+        s = stepper.state
+        lower = f"run.step_factor (now {self.case.run.step_factor:g}; the sub-step was ruled by {stepper.limit or 'conduction'}), then {self._shorter()}"
+        speed = np.sqrt(s.u**2 + s.v**2 + (s.w**2 if len(s.w) else 0.0))
+        self.hold("speed", speed, (0.0, RUNAWAY * self.reach, "m/s"), s, lower)
+        if len(s.temperature):
+            self.hold("temperature", s.temperature, (self.coldest, self.hottest, "K"), s, lower)
+        self.hold("density", s.density, (0.0, math.inf, "kg/m3"), s, lower)
+        collapse = f"what packs the grains: the sub-step has fallen to {stepper.length:.2g} s"
+        self.hold("speed of sound", stepper.stress.sound, (0.0, COLLAPSE * self.reach, "m/s"), s, collapse)
+
+    def gas(self, simulation) -> str | None:
+        """Name what is out of bounds in the gas after a window, NaN, speed or temperature; None where nothing is."""
+        for name, values, bound in self._of_gas(simulation.gas_state.fields):
+            worst = outside(values, *bound[:2])
+            if worst is not None:
+                return self._told(f"gas {name}", f"cell {worst}", simulation.gas.mesh.centres[worst], values[worst], bound)
+        return None
+
+    def _of_gas(self, fields: dict):
+        """(name, values (C,), bounds) of what is looked at."""
+        bounds = {"velocity": (0.0, RUNAWAY * self.sound, "m/s"), "temperature": (self.coldest, self.hottest, "K")}
+        for name, bound in bounds.items():
+            yield name, fields[name] if fields[name].ndim == 1 else particles.lengths(fields[name]), bound
+
+    def _shorter(self) -> str:
+        return f"coupling.window_largest_s below {self.length:.3g} (the window was ruled by {self.cause})"

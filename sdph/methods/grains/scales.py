@@ -1,0 +1,245 @@
+"""Orders of magnitude of a case, from the case alone: what the judgements of effects and `sdph explain` start from.
+
+One dense patch of grains (that with the largest volume fraction) meets the fastest gas of the case. Parameters of an
+effect that brings grains in (an inlet) have a method `patches(case)`.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from functools import cached_property
+
+from sdph import effects
+from sdph.effects.around.streams import Patch
+from sdph.laws import drag, exact, granular, heat
+from sdph.methods.grains import ways
+
+SHEAR = 0.5  # sqrt(I2D) over the rate of a simple shear: D_xy is half of it
+DILUTE = 1e-3  # alpha_p below which grains do not meet often enough to matter, Elghobashi 1994
+SETTLED = 0.95  # of the onset of lasting contacts, from which on grains lie on each other; our choice
+
+
+class Scales:
+    """Scales of a case. SI; see the properties for meaning."""
+
+    def __init__(self, case):
+        self.case, self.gas, self.grains = case, case.gas, case.grains
+        self.end = case.run.end_time
+        self.patches = [_patch(case, region) for region in case.particles.values()]
+        self.patches += [patch for own in case.parameters.values() if hasattr(own, "patches") for patch in own.patches(case)]
+        self.gravity = math.hypot(*case.domain.gravity)
+
+    @cached_property
+    def alpha_p(self) -> float:
+        return max((patch.alpha_p for patch in self.patches), default=0.0)
+
+    @cached_property
+    def length(self) -> float:
+        """Narrowest extent [m] of the grains."""
+        return min((b - a for patch in self.patches for a, b in zip(patch.lower, patch.upper)), default=min(self.case.domain.size))
+
+    @cached_property
+    def jet(self) -> float:
+        """Fastest gas that enters [m/s], as fast as it still is where it meets grains."""
+        fed = [b for b in self.case.boundaries.values() if b.velocity]
+        return max((math.hypot(*b.velocity) * ways.strength(self.case, b, self.patches) for b in fed), default=0.0)
+
+    @cached_property
+    def thrown(self) -> float:
+        """Fastest grains at the start or at an inlet [m/s]."""
+        return max((math.hypot(*patch.velocity) for patch in self.patches), default=0.0)
+
+    @cached_property
+    def falling(self) -> float:
+        """Speed [m/s] at which a lone grain settles, by the gas's drag; within the run."""
+        weight = self.gravity * max(0.0, 1.0 - self.gas.density / self.grains.density)
+        slip = weight * self.end
+        for _ in range(50):  # fixed point, damped: drag grows with slip
+            slip = 0.5 * (slip + weight / max(self._damping(0.0, slip), weight / max(slip, 1e-300)))
+        return slip
+
+    @cached_property
+    def slip(self) -> float:
+        """Largest velocity between grains and gas [m/s]; 0 where nothing drives either."""
+        return max(self.jet, self.thrown, self.falling, self.rush) if self.patches else 0.0
+
+    @cached_property
+    def rush(self) -> float:
+        """Speed [m/s] of gas that rushes in where grains cool it and out where they heat it; none at constant density.
+
+        The change of volume of the patch in the time in which its gas takes the grains' temperature: the most it can be.
+        """
+        if self.gas.equation_of_state == "constant" or not self.alpha_p:
+            return 0.0
+        hottest = max(self.gas.temperature, *(patch.temperature for patch in self.patches))
+        return self.span / hottest * self.length / self.still_heat_time
+
+    @cached_property
+    def still_heat_time(self) -> float:
+        """Time [s] in which still gas among grains takes their temperature."""
+        nusselt = heat.gunn(1.0 - self.alpha_p, 0.0, self.prandtl)
+        eps = 6.0 * nusselt * self.gas.conductivity / self.grains.diameter**2
+        return self.grains.density * self.grains.heat_capacity / eps / self.heat_loading
+
+    def _damping(self, alpha_p: float, slip: float) -> float:
+        """beta/(alpha_p rho_p) [1/s] by the blended Gidaspow law, whatever law the case has."""
+        return drag.gidaspow(alpha_p, slip, self.grains.diameter, self.gas.density, self.gas.viscosity) / self.grains.density
+
+    @cached_property
+    def drag_time(self) -> float:
+        """a_p rp/beta [s] (sdph-notes, section 3)."""
+        return 1.0 / self._damping(self.alpha_p, self.slip)
+
+    @cached_property
+    def loading(self) -> float:
+        """Mass of grains over mass of gas, in the patch."""
+        return self.alpha_p * self.grains.density / ((1.0 - self.alpha_p) * self.gas.density)
+
+    @cached_property
+    def gas_drag_time(self) -> float:
+        return self.drag_time / self.loading if self.loading else math.inf
+
+    @cached_property
+    def reynolds(self) -> float:
+        return drag.particle_reynolds(self.slip, self.grains.diameter, self.gas.density, self.gas.viscosity)
+
+    @cached_property
+    def prandtl(self) -> float:
+        return heat.prandtl_number(self.gas.viscosity, self.gas.heat_capacity, self.gas.conductivity)
+
+    @cached_property
+    def nusselt(self) -> float:
+        return heat.gunn(1.0 - self.alpha_p, self.reynolds, self.prandtl)
+
+    @cached_property
+    def heat_time(self) -> float:
+        """a_p rp cp/eps [s]."""
+        eps = 6.0 * self.nusselt * self.gas.conductivity / self.grains.diameter**2
+        return self.grains.density * self.grains.heat_capacity / eps
+
+    @cached_property
+    def heat_loading(self) -> float:
+        return self.loading * self.grains.heat_capacity / self.gas.heat_capacity
+
+    @cached_property
+    def gas_heat_time(self) -> float:
+        return self.heat_time / self.heat_loading if self.heat_loading else math.inf
+
+    @cached_property
+    def span(self) -> float:
+        """Between the hottest and the coldest of the case [K]."""
+        given = [self.gas.temperature, *(patch.temperature for patch in self.patches)]
+        given += [b.temperature for b in self.case.boundaries.values() if b.temperature]
+        return max(given) - min(given)
+
+    @cached_property
+    def speed(self) -> float:
+        """What the grains reach within the run [m/s]: thrown, blown along or falling; 0 in a bed at rest."""
+        return 0.0 if self.resting else max(self.thrown, self.blown, self.falling if self.patches else 0.0)
+
+    @cached_property
+    def blown(self) -> float:
+        """Dragged along by the gas that is let in, with no more energy per volume than it has [m/s]."""
+        return 0.0 if self.resting else self.jet * -math.expm1(-self.end / self.drag_time) / math.sqrt(1.0 + self.loading)
+
+    @cached_property
+    def coasting(self) -> float:
+        """Way of thrown grains over their speed [s]: gas and grains take up one speed, that of their common momentum."""
+        kept, stop = self.loading / (1.0 + self.loading), self.drag_time / (1.0 + self.loading)
+        return kept * self.end - (1.0 - kept) * stop * math.expm1(-self.end / stop)
+
+    @cached_property
+    def minimum_fluidisation(self) -> float:
+        """U_mf [m/s] of the patch by Ergun 1952; nan without grains or gravity."""
+        if not self.alpha_p or not self.gravity:
+            return math.nan
+        grains, gas = self.grains, self.gas
+        return exact.minimum_fluidisation(self.capped, grains.density, self.gravity, grains.diameter, gas.density, gas.viscosity)
+
+    @cached_property
+    def resting(self) -> bool:
+        """Whether grains lie packed on the floor and the gas that is let in cannot lift them."""
+        onset = self.case.parameters["friction"].onset if "friction" in self.case.parameters else self.grains.packing_limit
+        packed = self.alpha_p >= SETTLED * onset and not self.thrown and self.gravity > 0.0
+        return packed and self.jet < self.minimum_fluidisation and ways.lie(self.case, self.patches)
+
+    @cached_property
+    def rim(self) -> float:
+        """Share of the grains that outside gas slips past: all where gas is blown through them; of those thrown, that of a
+        rim as thick as the gas takes to follow them, or as the kernel resolves."""
+        if self.jet or not self.thrown:
+            return 1.0
+        return min(1.0, 2.0 * max(self.thrown * self.gas_drag_time, self.case.smoothing_length) / self.length)
+
+    @cached_property
+    def shear_length(self) -> float:
+        """Over which the motion of grains changes [m]: their narrowest extent, or the width of a jet that is let in."""
+        widths = [high - low for b in self.case.boundaries.values() if b.velocity for low, high in ways.spans_of(b)]
+        return max(min([self.length, *widths]), self.case.smoothing_length)
+
+    @cached_property
+    def to_walls(self) -> ways.Reach:
+        """How near grains come to a side that is no pressure outlet."""
+        return ways.reach(self, False)
+
+    @cached_property
+    def to_outlets(self) -> ways.Reach:
+        """How near they come to a pressure outlet."""
+        return ways.reach(self, True)
+
+    @cached_property
+    def collides(self) -> bool:
+        """Whether grains meet each other often enough to matter, and SPH particles have neighbours."""
+        return self.alpha_p >= DILUTE and not self.lone
+
+    @cached_property
+    def lone(self) -> bool:
+        """Whether grains are so few that an SPH particle has no neighbour."""
+        return self.length < 2.0 * self.case.resolution.spacing
+
+    @cached_property
+    def capped(self) -> float:
+        return granular.capped_fraction(self.alpha_p, self.grains.packing_limit)
+
+    @cached_property
+    def g0(self) -> float:
+        return granular.sinclair_jackson(self.capped, self.grains.packing_limit)
+
+    @cached_property
+    def theta(self) -> float:
+        """Granular temperature [m2/s2]: the start's, or that which shear speed/length keeps up by collisions, the larger."""
+        if not self.collides:
+            return self.grains.granular_temperature
+        beta = self.alpha_p * self.grains.density / self.drag_time
+        grains, shear = self.grains, (SHEAR * self.speed / self.length) ** 2
+        kept = granular.equilibrium_theta(self.capped, grains.restitution, self.g0, grains.density, grains.diameter, shear, 0.0, beta)
+        return max(grains.granular_temperature, kept)
+
+    @cached_property
+    def collision_time(self) -> float:
+        """d sqrt(pi)/(24 a_p g0 sqrt(theta)) [s], kinetic theory (Gidaspow 1994, ch. 9)."""
+        rate = 24.0 * self.alpha_p * self.g0 * math.sqrt(self.theta / math.pi) / self.grains.diameter
+        return 1.0 / rate if rate else math.inf
+
+    @cached_property
+    def sound(self) -> float:
+        """c [m/s] of the agitated grains."""
+        if not self.alpha_p or not self.theta:
+            return 0.0
+        grains, slope = self.grains, granular.sinclair_jackson_slope(self.capped, self.grains.packing_limit)
+        return math.sqrt(granular.sound_speed_squared(self.capped, self.theta, grains.restitution, self.g0, slope, grains.density, 0.0))
+
+
+def scales_of(case) -> Scales:
+    """Scales of a case as if every effect that can judge itself and needs no input had its section."""
+    parameters = effects.without_input("grains") | case.parameters
+    return Scales(dataclasses.replace(case, effects=tuple(parameters), parameters=parameters))
+
+
+def _patch(case, region) -> Patch:
+    lower, upper = region.lower, region.upper
+    if region.shape != "box":
+        lower = tuple(c - region.radius for c in region.centre)
+        upper = tuple(c + region.radius for c in region.centre)
+    return Patch(region.volume_fraction, region.temperature, region.velocity or (0.0,) * case.dimensions, lower, upper)

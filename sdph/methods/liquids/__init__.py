@@ -1,0 +1,1 @@
+"""Weakly compressible liquids, with a second phase or without."""

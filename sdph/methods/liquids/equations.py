@@ -1,0 +1,138 @@
+"""The equations of liquids: loops over neighbours, one signed term per line.
+
+Wall particles stand among the others. `volume` is negative for them, which tells them apart without a branch; their
+`pressure` and velocity are extrapolated from the liquid in front (sdph.methods.liquids.walls).
+Outputs are arguments of their own: numba drops writes to arrays of a tuple inside a prange without a word.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit, prange
+
+from sdph.effects.liquids import density_diffusion, laminar_viscosity, liquid_damping, shifting
+from sdph.engine import kernels as smoothing
+from sdph.engine.geometry import FAST, apart, deep, faster
+from sdph.engine.rows import length
+from sdph.laws.matrices import solved
+from sdph.methods.liquids import correction, phases
+from sdph.methods.liquids.forces import body, held_off
+
+
+@njit(cache=True, error_model="numpy")
+def tait(compression, stiffness, exponent, background):
+    """p [Pa]; the powers 7 and 1 without `pow`, which costs more than a pair."""
+    if exponent == 7.0:
+        cubed = compression * compression * compression
+        return stiffness * (cubed * cubed * compression - 1.0) + background
+    return stiffness * (compression**exponent - 1.0) + background
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
+def state_of(fluids, s, active, pressure, volume):
+    """Pressure [Pa] and volume [m^d] of liquid particles; `fluids` (5, K): rho_0, stiffness, exponent, background,
+    cohesion by kind."""
+    for n in prange(len(active)):
+        i = active[n]
+        kind, rho = s.kind[i], s.density[i]
+        tension = fluids[4, kind] * rho * rho  # of Van der Waals
+        pressure[i] = tait(rho / fluids[0, kind], fluids[1, kind], fluids[2, kind], fluids[3, kind]) - tension
+        volume[i] = s.mass[i] / s.density[i]
+
+
+@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+def push(
+    kernel, s, rows, box, active, wall_p, gravity_p, frame_p, laminar_p, damping_p, diffusion_p, shifting_p, phases_p,
+    pressure, volume, least, excess, acceleration, gradient_x, gradient_y, gradient_z,
+):  # fmt: skip
+    """Acceleration (N, 3) [m/s2] with body forces; corrected pressure gradient (N,) x 3 [Pa/m], where something needs it."""
+    for n in prange(len(active)):
+        i = active[n]
+        p_i, rho_i = pressure[i], s.density[i]
+        sign_i = shifting.sign(shifting_p, p_i, least[i] if len(least) else 1.0)
+        bx, by, bz = body(gravity_p, frame_p, s, i, False)
+        ax = ay = az = gx = gy = gz = 0.0
+        xx = yy = zz = xy = yz = zx = 0.0
+        for k in range(length(rows, i)):
+            j = rows.index[rows.start[i] + k]
+            dx, dy, dz = apart(s, box, i, j)
+            du, dv, dw = faster(s, box, i, j)
+            r2 = dx * dx + dy * dy + dz * dz
+            r = np.sqrt(r2)
+            slope = smoothing.slope(kernel, r)
+            signed = volume[j]
+            wet, V = max(signed, 0.0), abs(signed)
+            stick = 1.0 if signed > 0.0 else wall_p.stick
+            closing = du * dx + dv * dy + dw * dz
+            kind_j, rho_j = phases.kind(phases_p, signed, s.kind[i], s.kind[j]), phases.density(phases_p, signed, rho_i, s.density[j])
+            p_j = phases.behind(phases_p, signed, pressure[j], p_i - rho_i * (bx * dx + by * dy + bz * dz))
+            ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY)) * phases.harmonic(phases_p, rho_i, rho_j)
+            friction = laminar_viscosity.central(laminar_p, s.kind[i], kind_j, closing, r2)
+
+            # rho_i dv_i/dt = -sum V_j (p_i + p_j) grad W + sum V_j 2 mu r.grad W/(r^2 + eta^2) v_ij
+            along = -V * slope * (phases.pressure(phases_p, sign_i * p_i, p_j, rho_i, rho_j) + stick * (ringing + friction) + held_off(wall_p, signed, rho_i, r))
+            across = V * slope * stick * laminar_viscosity.pair(laminar_p)
+            ax += along * dx + across * du
+            ay += along * dy + across * dv
+            az += along * dz + across * dw
+            if len(excess):  # B of a wall is that of the liquid in front
+                own, other = phases.share(phases_p, rho_i, rho_j) * sign_i * p_i, phases.share(phases_p, rho_j, rho_i) * p_j
+                ex, ey, ez = correction.extra(excess, i, j if signed > 0.0 else i, own, other, dx, dy, dz)
+                ax -= V * slope * ex
+                ay -= V * slope * ey
+                az -= V * slope * ez
+
+            share = wet * slope * phases.like(phases_p, s.kind[i], kind_j)
+            rise = share * (p_j - p_i)
+            gx += rise * dx
+            gy += rise * dy
+            gz += rise * dz
+            xx -= share * dx * dx
+            yy -= share * dy * dy
+            zz -= share * dz * dz
+            xy -= share * dx * dy
+            yz -= share * dy * dz
+            zx -= share * dz * dx
+        acceleration[i, 0] = ax / rho_i + bx
+        acceleration[i, 1] = ay / rho_i + by
+        acceleration[i, 2] = az / rho_i + bz
+        if len(diffusion_p) or len(shifting_p):
+            gradient_x[i], gradient_y[i], gradient_z[i] = solved(xx, yy, zz if len(s.z) else 1.0, xy, yz, zx, gx, gy, gz)
+
+
+@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+def sum_up(kernel, s, rows, box, active, lattice, density):
+    """rho (N,) [kg/m3] = m sum W, walls included, over what the sum is on a lattice: Hu & Adams 2006, Eq. 7."""
+    for n in prange(len(active)):
+        i = active[n]
+        number = smoothing.value(kernel, 0.0)
+        for k in range(rows.count[i]):
+            dx, dy, dz = apart(s, box, i, rows.index[rows.start[i] + k])
+            number += smoothing.value(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
+        density[i] = s.mass[i] * number / lattice
+
+
+@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+def compress(kernel, s, rows, box, active, wall_p, diffusion_p, phases_p, pressure, gradient_x, gradient_y, gradient_z, volume, rate):
+    """d rho/dt (N,) [kg/m3/s] = rho_i sum V_j v_ij.grad W + delta h c sum V_j psi_ij.grad W (Antuono et al. 2010)."""
+    for n in prange(len(active)):
+        i = active[n]
+        p_i, rho_i = pressure[i], s.density[i]
+        growth = spread = 0.0
+        for k in range(length(rows, i)):
+            j = rows.index[rows.start[i] + k]
+            dx, dy, dz = apart(s, box, i, j)
+            signed, u_j, v_j = volume[j], s.u[j], s.v[j]  # read before they are chosen from: no branch
+            w_j = s.w[j] if deep(box) else 0.0
+            du = s.u[i] - (u_j if signed > 0.0 else wall_p.u)
+            dv = s.v[i] - (v_j if signed > 0.0 else wall_p.v)
+            dw = s.w[i] - (w_j if signed > 0.0 else wall_p.w) if deep(box) else 0.0
+            slope = smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
+            rho_j = phases.density(phases_p, signed, rho_i, s.density[j])
+            growth += abs(signed) * slope * phases.share(phases_p, rho_i, rho_j) * (du * dx + dv * dy + dw * dz)
+            if len(diffusion_p):
+                ramp = (gradient_x[i] + gradient_x[j]) * dx + (gradient_y[i] + gradient_y[j]) * dy
+                ramp += (gradient_z[i] + gradient_z[j]) * dz if deep(box) else 0.0
+                same = max(signed, 0.0) * phases.like(phases_p, s.kind[i], s.kind[j])
+                spread += same * slope * density_diffusion.pair(diffusion_p, pressure[j] - p_i, ramp)
+        rate[i] = rho_i * growth + spread * phases.slowness(phases_p, s.kind[i])

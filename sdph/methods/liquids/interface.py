@@ -1,0 +1,106 @@
+"""The interface of two phases: its normals, its curvature and the force of surface tension.
+
+Adami, Hu & Adams 2010, J. Comput. Phys. 229, 5011, but for two things. The divergence of normals is corrected by the
+renormalisation matrix, because the particles that have normals are a band, wider along the interface than across. And
+a pair across the interface feels the mean of its two curvatures, which is that of the interface between them; of a
+disc with R = 20 dx a particle's own is off by 3 %.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit, prange
+
+from sdph.engine import kernels as smoothing
+from sdph.engine.geometry import FAST, apart
+from sdph.engine.state import LIQUID
+from sdph.laws.matrices import solved
+
+
+@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+def orient(kernel, s, rows, box, active, tension_p, volume, normal):
+    """normal (N, 3): direction of sum V_j grad W over the particles of the other phase, out of the own; 0 off the interface."""
+    for n in prange(len(active)):
+        i = active[n]
+        gx = gy = gz = 0.0
+        for k in range(rows.count[i]):
+            j = rows.index[rows.start[i] + k]
+            dx, dy, dz = apart(s, box, i, j)
+            unlike = max(volume[j], 0.0) if s.kind[i] != s.kind[j] else 0.0
+            steep = unlike * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
+            gx += steep * dx
+            gy += steep * dy
+            gz += steep * dz
+        size = np.sqrt(gx * gx + gy * gy + gz * gz)
+        inverse = 1.0 / size if size > tension_p.least else 0.0
+        normal[i, 0], normal[i, 1], normal[i, 2] = inverse * gx, inverse * gy, inverse * gz
+
+
+@njit(cache=True, error_model="numpy")
+def on_interface(normal, i):
+    """Whether particle i has a normal."""
+    return normal[i, 0] != 0.0 or normal[i, 1] != 0.0 or normal[i, 2] != 0.0
+
+
+@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+def bend(kernel, s, rows, box, active, volume, normal, curvature):
+    """curvature (N,) [1/m]: div n, above 0 around a drop on both sides; over particles with normals, those of the other
+    phase turned (Eq. 20)."""
+    for n in prange(len(active)):
+        i = active[n]
+        curvature[i] = 0.0
+        if not on_interface(normal, i):
+            continue
+        xx = yy = zz = xy = yz = zx = 0.0
+        ux = uy = uz = vx = vy = vz = wx = wy = wz = 0.0
+        for k in range(rows.count[i]):
+            j = rows.index[rows.start[i] + k]
+            dx, dy, dz = apart(s, box, i, j)
+            weight = max(volume[j], 0.0) if on_interface(normal, j) else 0.0
+            share = weight * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
+            turn = 1.0 if s.kind[i] == s.kind[j] else -1.0
+            du, dv, dw = normal[i, 0] - turn * normal[j, 0], normal[i, 1] - turn * normal[j, 1], normal[i, 2] - turn * normal[j, 2]
+            xx -= share * dx * dx
+            yy -= share * dy * dy
+            zz -= share * dz * dz
+            xy -= share * dx * dy
+            yz -= share * dy * dz
+            zx -= share * dz * dx
+            ux -= share * du * dx
+            uy -= share * du * dy
+            uz -= share * du * dz
+            vx -= share * dv * dx
+            vy -= share * dv * dy
+            vz -= share * dv * dz
+            wx -= share * dw * dx
+            wy -= share * dw * dy
+            wz -= share * dw * dz
+        zz = zz if len(s.z) else 1.0
+        u_x = solved(xx, yy, zz, xy, yz, zx, ux, uy, uz)[0]
+        v_y = solved(xx, yy, zz, xy, yz, zx, vx, vy, vz)[1]
+        w_z = solved(xx, yy, zz, xy, yz, zx, wx, wy, wz)[2]
+        curvature[i] = (u_x + v_y + w_z) * (1.0 if s.kind[i] == LIQUID else -1.0)
+
+
+@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+def pull(kernel, s, rows, box, active, tension_p, volume, normal, curvature, acceleration):
+    """a -= sigma kappa grad c/rho (Eq. 14), grad c with the inter-particle average of the pressure (Eq. 13)."""
+    for n in prange(len(active)):
+        i = active[n]
+        if not on_interface(normal, i):
+            continue
+        outwards = 1.0 if s.kind[i] == LIQUID else -1.0
+        ax = ay = az = 0.0
+        for k in range(rows.count[i]):
+            j = rows.index[rows.start[i] + k]
+            dx, dy, dz = apart(s, box, i, j)
+            unlike = max(volume[j], 0.0) if s.kind[i] != s.kind[j] else 0.0
+            steep = unlike * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz)) * 2.0 / (s.density[i] + s.density[j])
+            bent = 0.5 * (curvature[i] + curvature[j]) if on_interface(normal, j) else curvature[i]
+            strength = tension_p.coefficient * bent * outwards * steep
+            ax += strength * dx
+            ay += strength * dy
+            az += strength * dz
+        acceleration[i, 0] -= ax
+        acceleration[i, 1] -= ay
+        acceleration[i, 2] -= az

@@ -1,0 +1,311 @@
+"""A liquid through one step: kick, drift, density in the middle, drift, pressure and forces, kick.
+
+Second order and symmetric in time, with one evaluation of the forces a step (Adami, Hu & Adams 2012, section 2.6).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from sdph import effects
+from sdph.effects import OFF
+from sdph.effects.around import frame, tank
+from sdph.engine import kernels as smoothing
+from sdph.engine import motion
+from sdph.engine import state as particles
+from sdph.engine.clock import count_of_parts
+from sdph.engine.guard import FAR
+from sdph.engine.kept import GROWING, Unfit
+from sdph.engine.liquid_rows import LiquidNeighbours
+from sdph.engine.state import GAS, LIQUID, WALL
+from sdph.engine.walls import shapes
+from sdph.laws import kernels
+from sdph.methods.liquids import correction, interface, phases, shift, start, walls
+from sdph.methods.liquids import equations as rates
+from sdph.methods.liquids.bounds import LiquidGuard
+from sdph.methods.liquids.walls import WallP
+
+SLACK = 1.0125  # reach over 2 h: a particle may move 0.025 h, half a step, after the rows were found to hold
+FORCE = 0.25  # of sqrt(h/|a|), liquids.md, shared core
+NO_WALL = WallP(*[0.0] * 10)
+
+
+class LiquidStepper:
+    """Liquid and wall particles of a case, and how they go forward."""
+
+    KEPT = (
+        "state", "neighbours", "time", "steps", "limit", "shifted", "tightening", "pressure", "volume", "acceleration", "gradient", "least", "shift",
+        "twist", "extra", "excess",
+    )  # fmt: skip  (see sdph.engine.kept)
+    ROWS = ("pressure", "volume", "acceleration", "gradient", "least", "shift", "twist", "extra", "excess")  # of the particles
+    FORMS = dict.fromkeys(("state", *ROWS), GROWING)
+
+    def __init__(self, case, shortest: float = 0.0):
+        self.case, self.guard, d = case, LiquidGuard(case), case.dimensions
+        self.shortest = shortest  # step [s] below which the run gets nowhere
+        self.p, self.state, self.move = parts_of(case)
+        self.kernel = smoothing.smoothing(case.liquid.kernel, d, case.smoothing_length)
+        periodic = case.liquid.periodic or (0.0,) * d
+        period = tuple(length * bool(on) for length, on in zip(case.domain.size, periodic))
+        self.neighbours = LiquidNeighbours(2.0 * SLACK * self.kernel.h, period, case.resolution.neighbour_skin)
+        self.fluids, self.phases = fluids(case), phases.kernel(case)
+        first_of_pipe = len(self.state.x) - start.pipe_walls(case)  # walls follow the liquid, those of the outlet pipe come last
+        self.own_walls = range(int((self.state.kind != WALL).sum()), first_of_pipe)  # numbers of the tank's own
+        own = self.p["tank"]
+        self.wall = WallP(*[0.0] * 6, *own) if own else NO_WALL
+        self.summed = case.gas_phase is not None and case.gas_phase.density_by == "summation"
+        self.lattice = kernels.lattice_factor(case.liquid.kernel, d, case.resolution.smoothing_ratio)
+        self.limit, self.steps, self.time = "", 0, 0.0
+        self.shifted = np.zeros(3)  # momentum that shifting has given [kg m/s]
+        self.tightening = 0.0  # power of surface tension on the particles [W]
+        self.compliance = np.array([self._compliance(kind) for kind in range(GAS + 1)])
+        self.aim(0.0)
+        self.least = np.zeros(0)
+        self.forces()
+
+    def revive(self) -> None:
+        """After a checkpoint was put back."""
+        self.rows = self.neighbours.relist(self.state.kind)
+        self._tell_apart()
+        self.aim(self.time)
+
+    def admit(self, kept: dict) -> None:
+        """Unfit where the particles cannot be of this case, or other arrays are not one row a particle each."""
+        state, built, kinds = kept["state"], kept["neighbours"]["built"], (WALL, LIQUID, *((GAS,) if self.case.gas_phase else ()))
+        self.guard.admit_liquid(state, self.state, kinds)
+        count = len(state["x"])
+        if [len(axis) for axis in built] != [count] * self.case.dimensions:
+            raise Unfit("rows of neighbours are of other particles")
+        for name in self.ROWS:
+            one = isinstance(fresh := getattr(self, name), np.ndarray)  # else several
+            for array, like in zip([kept[name]], [fresh]) if one else zip(kept[name], fresh):
+                if len(array) != (count if len(like) else 0):
+                    raise Unfit(f"{name} has {len(array)} values for {count} particles")
+        far, wild = FAR * max(self.case.domain.size), FAR * self.case.fastest_sound ** 2 / self.kernel.h
+        for name, values, most in (("acceleration", kept["acceleration"], wild), *(("a place at the last rows", axis, far) for axis in built)):
+            if np.abs(values).max(initial=0.0) > most:
+                raise Unfit(f"{name} is beyond {most:.3g}")
+
+    def step(self, most: float) -> float:
+        """One step, no longer than `most` [s]; returns its length."""
+        dt = self.next_step(most)
+        self._kick(0.5 * dt)
+        self._drift(0.5 * dt)
+        if not self.summed:
+            self._densify(dt)
+        self._drift(0.5 * dt)
+        if self.p["shifting"]:
+            self._shift(dt)
+        self.time += dt
+        self.aim(self.time)
+        self.forces()
+        if self.frame:
+            motion.turn(self.active, self.frame, dt, self.acceleration)
+        self._kick(0.5 * dt)
+        self.steps += 1
+        return dt
+
+    def next_step(self, left: float) -> float:
+        """What is left [s] in equal parts no longer than the shortest limit; `limit` names it."""
+        speed, force = motion.fastest(self.state, self.active, self.acceleration)
+        c = self.case.fastest_sound
+        if not speed + 0.0 * force <= c * c:  # or one of them is no number
+            self.guard.look(self)
+        found = limits(self.case, self.p, self.state, math.sqrt(speed), math.sqrt(force))
+        self.limit = min(found, key=found.get)
+        longest = self.case.run.step_factor * found[self.limit]
+        return left / count_of_parts(left, longest, self.shortest, f"the step's limit {self.limit!r} (times run.step_factor)")
+
+    def _compliance(self, kind: int) -> float:
+        """d rho/dp = 1/c^2 [s2/m2] of a kind, by which shifting carries density along the pressure gradient."""
+        gas = self.case.gas_phase
+        return (gas.speed_of_sound(self.case.liquid) if gas and kind == GAS else self.case.liquid.sound_speed) ** -2
+
+    def aim(self, time: float) -> None:
+        """The frame's acceleration and rotation at `time` [s]."""
+        self.frame = OFF
+        if self.move:
+            acceleration, omega, rate = self.move(time)
+            self.frame = frame.FrameP(*map(float, (*acceleration, *omega, *rate)))
+
+    def _kick(self, dt: float) -> None:
+        s = self.state
+        motion.kick(self.active, self.acceleration, dt, s.u, s.v, s.w)
+
+    def _drift(self, dt: float) -> None:
+        s = self.state
+        motion.drift(self.active, s.u, s.v, s.w, dt, s.x, s.y, s.z)
+        if self.p["xsph"]:
+            motion.drift(self.active, *self.extra, dt, s.x, s.y, s.z)
+
+    def _densify(self, dt: float) -> None:
+        rates.compress(
+            self.kernel, self.state, self.rows, self.neighbours.box, self.active, self.wall, self.p["density_diffusion"], self.phases,
+            self.pressure, *self.gradient, self.volume, self.rate,
+        )  # fmt: skip
+        motion.densify(self.active, self.rate, dt, self.state.density)
+
+    def forces(self) -> None:
+        """Neighbours, pressure, walls, accelerations of where the particles are now."""
+        built, ident = self.neighbours.built, self.state.ident
+        self.state, self.rows = self.neighbours.update(self.state)
+        if built is not self.neighbours.built:
+            self._allocate(ident)
+        s, p = self.state, self.p
+        if self.summed:
+            rates.sum_up(self.kernel, s, self.rows, self.neighbours.box, self.active, self.lattice, s.density)
+        rates.state_of(self.fluids, s, self.active, self.pressure, self.volume)
+        if len(self.walls):
+            walls.extrapolate(
+                self.kernel, s, self.rows, self.neighbours.box, self.walls, self.wall, p["gravity"], self.frame, self.volume,
+                self.pressure, s.u, s.v, s.w,
+            )  # fmt: skip
+        if self.excess:
+            correction.surround(self.kernel, s, self.rows, self.neighbours.box, self.active, self.volume, *self.excess)
+        rates.push(
+            self.kernel, s, self.rows, self.neighbours.box, self.active, self.wall, p["gravity"], self.frame, p["laminar_viscosity"],
+            p["liquid_damping"], p["density_diffusion"], p["shifting"], self.phases, self.pressure, self.volume, self.least, self.excess,
+            self.acceleration, *self.gradient,
+        )  # fmt: skip
+        if p["surface_tension"]:
+            self._tighten()
+        if p["xsph"]:
+            shift.mingle(self.kernel, s, self.rows, self.neighbours.box, self.active, p["xsph"], self.phases, self.volume, *self.extra)
+        if p["shifting"]:
+            shift.surround(
+                self.kernel, s, self.rows, self.neighbours.box, self.active, p["shifting"], self.phases, self.volume, self.least, self.shift, self.twist
+            )
+            if not self.phases:
+                shift.along_surface(self.kernel, s, self.rows, self.neighbours.box, self.active, self.volume, self.least, self.shift)
+
+    def _tighten(self) -> None:
+        """Adds surface tension to the accelerations."""
+        own, s = self.p["surface_tension"], self.state
+        common, before = (self.kernel, s, self.rows, self.neighbours.box, self.active), self.acceleration.copy()
+        interface.orient(*common, own, self.volume, self.normal)
+        interface.bend(*common, self.volume, self.normal, self.curvature)
+        interface.pull(*common, own, self.volume, self.normal, self.curvature, self.acceleration)
+        self.tightening = float(s.mass @ (particles.velocities(s) * (self.acceleration - before)).sum(axis=1))
+
+    def _allocate(self, before) -> None:
+        """Work arrays for the particles in their new order; only `least` outlives a step. before (N,): their old order."""
+        s = self.state
+        self._tell_apart()
+        count = len(s.x)
+        self.pressure, self.volume = np.zeros(count), np.zeros(count)
+        solid = s.kind == WALL
+        self.volume[solid] = -s.mass[solid] / s.density[solid]
+        self.acceleration, self.gradient = np.zeros((count, 3)), tuple(np.zeros((3, count)))
+        self.excess = tuple(np.zeros((6, count))) if self.case.liquid.pressure_gradient == "corrected" else ()
+        shifted = count if self.p["shifting"] else 0
+        self.extra = tuple(np.zeros(count if self.p["xsph"] and len(axis) else 0) for axis in (s.x, s.y, s.z))
+        known = np.zeros(int(before.max()) + 1)
+        known[before[: len(self.least)]] = self.least
+        self.least, self.shift, self.twist = known[s.ident[:shifted]], np.zeros((shifted, 3)), np.zeros((shifted, 9))
+
+    def _tell_apart(self) -> None:
+        """Liquid particles, those of the walls that liquid is near, and arrays that no step takes from the last."""
+        s = self.state
+        self.active = np.flatnonzero(particles.wet(s)).astype(np.int32)
+        self.walls = np.flatnonzero((s.kind == WALL) & (self.rows.count > 0)).astype(np.int32)
+        self.rate = np.zeros(len(s.x))
+        near = len(s.x) if self.p["surface_tension"] else 0
+        self.normal, self.curvature = np.zeros((near, 3)), np.zeros(near)
+
+    @property
+    def capacity(self) -> float:
+        """Mass [kg] of the liquid that would fill the tank, its outlet pipe left out."""
+        return self.case.liquid.density * tank.shape_of(self.case).volume
+
+    def remove(self, i: int) -> None:
+        """Takes particle i out; neighbours and forces are made anew."""
+        keep = np.ones(len(self.state.x), bool)
+        keep[i] = False
+        self.state = particles.take(self.state, keep)
+        self.least = self.least[keep[: len(self.least)]]
+        self.neighbours.built = ()
+        self.forces()
+
+    def _shift(self, dt: float) -> None:
+        s, before = self.state, np.array(motion.momentum(self.state, self.active))
+        shift.displace(
+            self.p["shifting"], self.active, s.kind, self.shift, *self.gradient, self.twist, self.compliance, dt,
+            s.x, s.y, s.z, s.u, s.v, s.w, s.density,
+        )  # fmt: skip
+        self.shifted = self.shifted + motion.momentum(s, self.active) - before
+
+
+def limits(case, parameters, state, speed: float, acceleration: float) -> dict[str, float]:
+    """Longest steps [s] by cause: what each effect bears, sound, and force; of the fastest [m/s] and most pushed [m/s2] particle."""
+    h = case.smoothing_length
+    own = {"sound": case.liquid.courant * h / (case.fastest_sound + speed)}
+    if acceleration:
+        own["force"] = FORCE * math.sqrt(h / acceleration)
+    return own | effects.limits(parameters, case, state)
+
+
+def loads(stepper) -> np.ndarray:
+    """(6,) force [N] and moment about the origin [N m] of the liquid on the tank: what acts on the liquid from outside,
+    less what its momentum gains."""
+    return balance(stepper)[:6]
+
+
+def balance(stepper) -> np.ndarray:
+    """(10,) the same, then the force (3) [N] and the power [W] of gravity and of the frame's motion."""
+    load = np.zeros(10)
+    walls.reaction(stepper.state, stepper.active, stepper.p["gravity"], stepper.frame, stepper.acceleration, load)
+    return load
+
+
+def wall_loads(stepper, chosen=None) -> np.ndarray:
+    """(6,) the same, from what each wall particle feels of pressure and friction; of the wall particles `chosen` alone, if given."""
+    chosen = stepper.walls if chosen is None else chosen
+    force = np.zeros((len(chosen), 3))
+    p = stepper.p
+    walls.wall_force(
+        stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, chosen, stepper.wall, p["laminar_viscosity"],
+        p["liquid_damping"], p["shifting"], stepper.phases, p["gravity"], stepper.frame, stepper.least, stepper.pressure, stepper.volume,
+        stepper.excess, force,
+    )  # fmt: skip
+    places = particles.positions(stepper.state)[chosen]
+    return np.concatenate([force.sum(axis=0), np.cross(places, force).sum(axis=0)])
+
+
+def pipe_loads(stepper) -> np.ndarray:
+    """(6,) the same on the outlet pipe, and on what leaves through it."""
+    number, own = stepper.state.ident[stepper.walls], stepper.own_walls
+    return wall_loads(stepper, stepper.walls[(number < own.start) | (number >= own.stop)])
+
+
+def pipe_energy(stepper) -> float:
+    """Kinetic energy [J] of the liquid in the outlet pipe; 0 where there is none."""
+    shape = tank.shape_of(stepper.case)
+    if not isinstance(shape, shapes.Joined):
+        return 0.0
+    wet = particles.take(stepper.state, stepper.active)
+    return kinetic_energy(particles.take(wet, shape.tank.distance(particles.positions(wet)) > 0.0))
+
+
+def parts_of(case):
+    """Kernel parameters by effect, particles, and motion of the frame (or None): all that a run begins with."""
+    parameters = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
+    return parameters, start.fill(case), frame.motion(case.parameters["frame"], case.run.end_time) if parameters["frame"] else None
+
+
+def fluids(case) -> np.ndarray:
+    """(5, K) rho_0, stiffness, exponent, background and cohesion by kind, as `rates.state_of` takes them."""
+    liquid, gas = case.liquid, case.gas_phase
+    table = np.ones((5, GAS + 1))
+    table[:, LIQUID] = liquid.density, liquid.density * liquid.sound_speed**2 / liquid.exponent, liquid.exponent, liquid.background_pressure, 0.0
+    if gas:
+        stiffness = gas.density * gas.speed_of_sound(liquid) ** 2 / gas.exponent
+        table[:, GAS] = gas.density, stiffness, gas.exponent, liquid.background_pressure, gas.cohesion
+    return table
+
+
+def kinetic_energy(state) -> float:
+    """Of the liquid [J], per metre of depth in two dimensions."""
+    speed2 = (particles.velocities(state) ** 2).sum(axis=1)
+    return float(0.5 * (state.mass * speed2)[particles.wet(state)].sum())

@@ -1,0 +1,110 @@
+"""Particles moved until they lie evenly between walls of any form, as under one pressure everywhere.
+
+dv/dt = -2 sum V_j grad W is what one pressure rho c^2 everywhere does to them where c = 1: it vanishes where the kernel's sums are
+even (Colagrossi, Bouscasse, Antuono & Marrone 2012, Comput. Phys. Commun. 183, 1641). When they begin to go against it they are
+stopped (kinetic damping, Cundall 1976), which needs no coefficient. They have the kernel and the Courant number of the run, go on
+until sound has crossed them, and keep off the particles of walls as far as those hold liquid off in the run (`held_off` in
+sdph.methods.liquids.forces).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit, prange
+
+from sdph.effects.around import tank
+from sdph.engine import kernels as smoothing
+from sdph.engine import motion
+from sdph.engine import state as particles
+from sdph.engine.geometry import FAST, apart
+from sdph.engine.liquid_rows import LiquidNeighbours
+from sdph.engine.rows import length
+from sdph.engine.state import LIQUID, WALL
+
+
+def pack(case, points, walls, lid, slab) -> np.ndarray:
+    """(N, d) where `points` (N, d) come to lie within a slab, among walls and a lid of more of the same, which stand still."""
+    kernel = smoothing.smoothing(case.liquid.kernel, case.dimensions, case.smoothing_length)
+    period = [length * bool(on) for length, on in zip(case.domain.size, case.liquid.periodic or (0.0,) * case.dimensions)]
+    neighbours = LiquidNeighbours(2.0 * kernel.h, period, case.resolution.neighbour_skin)
+    state, dt, near = _state(case, points, walls, lid), case.liquid.courant * kernel.h, 1.0 / tank.kernel(case).near
+    for _ in range(math.ceil(np.ptp(points, axis=0).max() / dt)):
+        state, rows = neighbours.update(state)
+        active = np.flatnonzero(state.kind == LIQUID).astype(np.int32)
+        acceleration, way = np.zeros((2, len(state.x), 3))
+        spread(kernel, state, rows, neighbours.box, active, acceleration)
+        _go(state, active, acceleration, dt)
+        _move(state, active, slab.back(_places(state)[active]))
+        clear(state, rows, neighbours.box, active, near, way)
+        _move(state, active, way[active])
+    return _places(state)[np.argsort(state.ident)[: len(points)]]
+
+
+@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+def spread(kernel, s, rows, box, active, acceleration):
+    """acceleration (N, 3) [1/m] = -2 sum V grad W, away from where particles and walls are dense; V is their mass."""
+    for n in prange(len(active)):
+        i = active[n]
+        ax = ay = az = 0.0
+        for k in range(length(rows, i)):
+            j = rows.index[rows.start[i] + k]
+            dx, dy, dz = apart(s, box, i, j)
+            slope = s.mass[j] * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
+            ax -= slope * dx
+            ay -= slope * dy
+            az -= slope * dz
+        acceleration[i, 0] = 2.0 * ax
+        acceleration[i, 1] = 2.0 * ay
+        acceleration[i, 2] = 2.0 * az
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
+def clear(s, rows, box, active, near, way):
+    """way (N, 3) [m] of particles to where they are `near` [m] away from the wall particles that are nearer."""
+    for n in prange(len(active)):
+        i = active[n]
+        px = py = pz = 0.0
+        for k in range(rows.count[i]):
+            j = rows.index[rows.start[i] + k]
+            if s.kind[j] == WALL:
+                dx, dy, dz = apart(s, box, i, j)
+                r = np.sqrt(dx * dx + dy * dy + dz * dz)
+                share = max(near / (r + smoothing.TINY) - 1.0, 0.0)
+                px += share * dx
+                py += share * dy
+                pz += share * dz
+        way[i, 0], way[i, 1], way[i, 2] = px, py, pz
+
+
+def _state(case, points, walls, lid) -> particles.State:
+    """All of them, of density 1."""
+    state = particles.empty(len(points) + len(walls) + len(lid), (), points.shape[1])
+    for axis, column in zip(particles.axes(state), np.concatenate([points, walls, lid]).T):
+        axis[:] = column
+    state.kind[: len(points)], state.kind[len(points) :] = LIQUID, WALL
+    state.mass[:] = case.resolution.spacing**case.dimensions
+    state.mass[len(points) : len(points) + len(walls)] = tank.wall_volume(case)
+    state.ident[:] = np.arange(len(state.x))
+    return state
+
+
+def _places(state) -> np.ndarray:
+    """(N, d) positions."""
+    return np.stack(particles.axes(state), axis=1)
+
+
+def _go(state, active, acceleration, dt: float) -> None:
+    """A kick and a drift; from rest, if they went against the acceleration."""
+    if np.vdot(particles.velocities(state), acceleration) < 0.0:
+        for axis in (state.u, state.v, state.w):
+            axis[:] = 0.0
+    motion.kick(active, acceleration, dt, state.u, state.v, state.w)
+    motion.drift(active, state.u, state.v, state.w, dt, state.x, state.y, state.z)
+
+
+def _move(state, rows, way) -> None:
+    """Adds way (R, d or 3) [m] to the places of some particles."""
+    for axis, part in zip(particles.axes(state), way.T):
+        axis[rows] += part

@@ -1,0 +1,129 @@
+"""What moves particles other than their own velocity: XSPH, and shifting with how particles lie around each other."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit, prange
+
+from sdph.effects.liquids import shifting, xsph
+from sdph.engine import kernels as smoothing
+from sdph.engine.geometry import FAST, apart, faster
+from sdph.engine.rows import length
+from sdph.engine.state import GAS
+from sdph.laws.matrices import smallest, solved
+from sdph.methods.liquids import phases
+
+
+@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+def surround(kernel, s, rows, box, active, shifting_p, phases_p, volume, least, shift, twist):
+    """How neighbours lie around each particle, and how fast they go.
+
+    least (N,), smallest eigenvalue of the renormalisation matrix (1 among two phases: they leave no free surface);
+    shift (N, 3), sum V_j (1 + R (W/W0)^4) grad W [1/m]; twist (N, 9), corrected gradient dv_a/dx_b [1/s], a slowest.
+    """
+    for n in prange(len(active)):
+        i = active[n]
+        cx = cy = cz = xx = yy = zz = xy = yz = zx = 0.0
+        ux = uy = uz = vx = vy = vz = wx = wy = wz = 0.0
+        for k in range(length(rows, i)):
+            j = rows.index[rows.start[i] + k]
+            dx, dy, dz = apart(s, box, i, j)
+            du, dv, dw = faster(s, box, i, j)
+            r = np.sqrt(dx * dx + dy * dy + dz * dz)
+            slope = smoothing.slope(kernel, r)
+            share = max(volume[j], 0.0) * slope * phases.like(phases_p, s.kind[i], s.kind[j])
+            xx -= share * dx * dx
+            yy -= share * dy * dy
+            zz -= share * dz * dz
+            xy -= share * dx * dy
+            yz -= share * dy * dz
+            zx -= share * dz * dx
+            ux -= share * du * dx
+            uy -= share * du * dy
+            uz -= share * du * dz
+            vx -= share * dv * dx
+            vy -= share * dv * dy
+            vz -= share * dv * dz
+            wx -= share * dw * dx
+            wy -= share * dw * dy
+            wz -= share * dw * dz
+            crowd = abs(volume[j]) * slope * shifting.weight(shifting_p, smoothing.value(kernel, r))
+            cx += crowd * dx
+            cy += crowd * dy
+            cz += crowd * dz
+        zz = zz if len(s.z) else 1.0
+        least[i] = 1.0 if len(phases_p) else smallest(xx, yy, zz, xy, yz, zx)
+        shift[i, 0], shift[i, 1], shift[i, 2] = cx, cy, cz
+        twist[i, 0], twist[i, 1], twist[i, 2] = solved(xx, yy, zz, xy, yz, zx, ux, uy, uz)
+        twist[i, 3], twist[i, 4], twist[i, 5] = solved(xx, yy, zz, xy, yz, zx, vx, vy, vz)
+        twist[i, 6], twist[i, 7], twist[i, 8] = solved(xx, yy, zz, xy, yz, zx, wx, wy, wz)
+
+
+@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+def mingle(kernel, s, rows, box, active, xsph_p, phases_p, volume, extra_u, extra_v, extra_w):
+    """extra (N,) x 3 [m/s]: mean velocity of the own phase around each particle over its own, weighted (XSPH)."""
+    for n in prange(len(active)):
+        i = active[n]
+        u = v = w = 0.0
+        for k in range(rows.count[i]):
+            j = rows.index[rows.start[i] + k]
+            dx, dy, dz = apart(s, box, i, j)
+            du, dv, dw = faster(s, box, i, j)
+            value = smoothing.value(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
+            near = xsph.share(xsph_p, s.mass[j], s.density[i], s.density[j], value) * phases.like(phases_p, s.kind[i], s.kind[j])
+            near = near if volume[j] > 0.0 else 0.0
+            u -= near * du
+            v -= near * dv
+            w -= near * dw
+        extra_u[i], extra_v[i] = u, v
+        if len(extra_w):
+            extra_w[i] = w
+
+
+@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+def along_surface(kernel, s, rows, box, active, volume, least, shift):
+    """Takes out of the shift (N, 3) of particles at a surface what leads through it; spray is not shifted at all.
+
+    The normal is the gradient of the smallest eigenvalue `least` (N,): Sun et al. 2017, CMAME 315, 25, Eq. 10 and 12.
+    """
+    for n in prange(len(active)):
+        i = active[n]
+        if least[i] > shifting.INTERIOR:
+            continue
+        nx = ny = nz = 0.0
+        for k in range(rows.count[i]):
+            j = rows.index[rows.start[i] + k]
+            dx, dy, dz = apart(s, box, i, j)
+            share = max(volume[j], 0.0) * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz)) * (least[j] - least[i])
+            nx += share * dx
+            ny += share * dy
+            nz += share * dz
+        n2 = nx * nx + ny * ny + nz * nz
+        through = (shift[i, 0] * nx + shift[i, 1] * ny + shift[i, 2] * nz) / n2 if n2 > 0.0 else 0.0
+        kept = 1.0 if least[i] > shifting.SPRAY else 0.0
+        shift[i, 0] = kept * (shift[i, 0] - through * nx)
+        shift[i, 1] = kept * (shift[i, 1] - through * ny)
+        shift[i, 2] = kept * (shift[i, 2] - through * nz)
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
+def displace(p, active, kind, shift, gradient_x, gradient_y, gradient_z, twist, compliance, dt, x, y, z, u, v, w, density):
+    """r -= dt D sum V_j (1 + R (W/W0)^4) grad W, no faster than the parameters allow.
+
+    Velocity and density are taken along their gradients, so that moving a particle does not move the field; compliance (K,) is
+    d rho/dp [s2/m2] by kind.
+    """
+    for n in prange(len(active)):
+        i = active[n]
+        dx, dy, dz = -p.strength * shift[i, 0], -p.strength * shift[i, 1], -p.strength * shift[i, 2]
+        speed = np.sqrt(dx * dx + dy * dy + dz * dz)
+        scale = dt * min(1.0, p.largest / speed) if speed > 0.0 and (p.liquid > 0.0 or kind[i] == GAS) else 0.0
+        dx, dy, dz = scale * dx, scale * dy, scale * dz
+        x[i] += dx
+        y[i] += dy
+        u[i] += twist[i, 0] * dx + twist[i, 1] * dy + twist[i, 2] * dz
+        v[i] += twist[i, 3] * dx + twist[i, 4] * dy + twist[i, 5] * dz
+        density[i] += compliance[kind[i]] * (gradient_x[i] * dx + gradient_y[i] * dy + gradient_z[i] * dz)
+        if len(z):
+            z[i] += dz
+            w[i] += twist[i, 6] * dx + twist[i, 7] * dy + twist[i, 8] * dz

@@ -1,0 +1,136 @@
+"""The ledger of a liquid: mass, momentum and energy, and who gave and took them, one row a window.
+
+Momentum comes from body forces, walls and shifting, and goes through the drain; the walls' part is that which the pairs of
+particles do not give back to each other (with what surface tension does not), so that it is nothing where there are no
+walls. Energy is kinetic and elastic (of compression); body forces and surface tension work on it, the drain takes its
+share, and what is missing then has been dissipated: by viscosity, artificial or not, by diffusion of density, by shifting.
+A scheme that makes energy shows in `energy_made_rel`.
+Two-dimensional amounts are per metre of depth.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+
+from sdph.engine import state as particles
+from sdph.engine.kept import ROW, Maybe
+from sdph.engine.ledger import refuse_rows, vector
+from sdph.engine.table import Table
+
+IMPULSES = ("body_forces", "walls", "shifting", "drain")
+
+
+class LiquidLedger:
+    """Keeps the sums of one run and writes each row to `ledger.csv` as it comes."""
+
+    WORKS = ("work_of_body_forces_J", "work_of_surface_tension_J")
+    KEPT = ("sums", "impulses", "scale", "most", "made", "mach", "first", "last", "table")  # see sdph.engine.kept
+    FORMS = {"first": Maybe(ROW), "last": Maybe(ROW)}
+
+    def __init__(self, path: Path):
+        self.sums = dict.fromkeys(("drained_kg", "drained_J", *self.WORKS), 0.0)
+        self.impulses = np.zeros((len(IMPULSES), 3))  # since the start [kg m/s]
+        self.scale = {"kg_m_s": 0.0, "J": 0.0}  # impulses, and energy that could fall and work that was done
+        self.most = self.made = 0.0  # most energy [J] that there was, and that there was beyond what came in
+        self.mach = 0.0  # largest speed over the speed of sound
+        self.first = self.last = None
+        self.table = Table(path)
+
+    def admit(self, kept: dict) -> None:
+        refuse_rows(kept, (*self.sums, "dissipated_J"))
+
+    def open(self, stepper) -> None:
+        """The row of the start."""
+        nothing = dict.fromkeys(IMPULSES, np.zeros(3))
+        self.scale["J"] = _falling(stepper)
+        self._write(stepper, 0.0, self._totals(stepper), nothing, dict.fromkeys((*self.sums, "dissipated_J"), 0.0))
+
+    def close_window(self, stepper, dt: float, impulses: dict, amounts: dict) -> None:
+        """The row of a window of `dt` [s]: impulses (3,) by the names of IMPULSES, amounts by the keys of `sums`."""
+        for key, value in amounts.items():
+            self.sums[key] += value
+        self.impulses += np.array([impulses[name] for name in IMPULSES])
+        self.scale["kg_m_s"] += sum(float(np.linalg.norm(value)) for value in impulses.values())
+        self.scale["J"] += sum(abs(amounts[name]) for name in self.WORKS)
+        now = self._totals(stepper)
+        lost = self._given(amounts) - (_energy(now) - _energy(self.last))
+        self._write(stepper, dt, now, impulses, amounts | {"dissipated_J": lost})
+        self.made = max(self.made, _energy(now) - _energy(self.first) - self._given(self.sums))
+
+    def _given(self, amounts: dict) -> float:
+        """Energy [J] that came from outside."""
+        return sum(amounts[name] for name in self.WORKS) - amounts["drained_J"]
+
+    def summary(self) -> dict[str, float]:
+        """Closure of the run, relative to what there was of mass, momentum and energy; the largest Mach number."""
+        change = np.array([self.last[f"momentum_{a}_kg_m_s"] - self.first[f"momentum_{a}_kg_m_s"] for a in "xyz"])
+        energy = self.scale["J"] + self.most
+        inertia = math.sqrt(2.0 * self.first["mass_kg"] * energy)  # momentum of that mass with all that energy
+        mass = self.last["mass_kg"] - self.first["mass_kg"] + self.sums["drained_kg"]
+        return self.sums | {
+            "mass_drift_rel": abs(mass) / self.first["mass_kg"],
+            "momentum_drift_rel": _ratio(float(np.linalg.norm(change - self.impulses.sum(axis=0))), self.scale["kg_m_s"] + inertia),
+            "energy_made_rel": _ratio(self.made, energy),
+            "fastest_over_sound": self.mach,
+        }
+
+    def _totals(self, stepper) -> dict[str, float]:
+        s, own = stepper.state, stepper.active
+        velocity, (kinetic, elastic) = particles.velocities(s)[own], energies(stepper)
+        speed = math.sqrt(float((velocity**2).sum(axis=1).max(initial=0.0)))
+        row = {"particles": len(own), "mass_kg": float(s.mass[own].sum())} | vector("momentum", s.mass[own] @ velocity)
+        return row | {"kinetic_energy_J": kinetic, "elastic_energy_J": elastic, "fastest_m_s": speed}
+
+    def _write(self, stepper, dt: float, totals: dict, impulses: dict, amounts: dict) -> None:
+        row = {"time_s": stepper.time, "window_s": dt, "limit": stepper.limit} | totals
+        for name, impulse in impulses.items():
+            row |= vector(f"impulse_of_{name}", impulse)
+        self.mach = max(self.mach, mach(stepper))
+        self.most = max(self.most, _energy(totals))
+        self.first, self.last = self.first or row, row | amounts
+        self.table.write(self.last)
+
+
+def _falling(stepper) -> float:
+    """Energy [J] that the liquid would set free if it fell to its lowest place."""
+    gravity = np.array(stepper.p["gravity"] or (0.0, 0.0, 0.0))
+    depth = -(particles.positions(stepper.state)[stepper.active] @ gravity)
+    return float(stepper.state.mass[stepper.active] @ (depth - depth.min(initial=math.inf))) if len(depth) else 0.0
+
+
+def _energy(row: dict) -> float:
+    return row["kinetic_energy_J"] + row["elastic_energy_J"]
+
+
+def energies(stepper) -> tuple[float, float]:
+    """Kinetic and elastic energy [J] of the liquid."""
+    mass, (kinetic, elastic) = stepper.state.mass[stepper.active], specific_energies(stepper, stepper.active)
+    return float(mass @ kinetic), float(mass @ elastic)
+
+
+def specific_energies(stepper, own) -> tuple[np.ndarray, np.ndarray]:
+    """Kinetic and elastic energy (P,) [J/kg] of the particles `own`.
+
+    Elastic: integral of p/rho^2 of Tait's law from rho_0 on, background and cohesion included.
+    """
+    s = stepper.state
+    rho_0, stiffness, gamma, background, cohesion = stepper.fluids[:, s.kind[own]]
+    x = s.density[own] / rho_0
+    power = np.where(gamma == 1.0, np.log(x), (x ** (gamma - 1.0) - 1.0) / np.where(gamma == 1.0, 1.0, gamma - 1.0))
+    elastic = stiffness / rho_0 * (power + 1.0 / x - 1.0) + background / rho_0 * (1.0 - 1.0 / x) - cohesion * rho_0 * (x - 1.0)
+    w2 = s.w[own] ** 2 if len(s.w) else 0.0
+    return 0.5 * (s.u[own] ** 2 + s.v[own] ** 2 + w2), elastic
+
+
+def mach(stepper) -> float:
+    """Largest speed over the speed of sound of the particle's phase, c^2 = gamma stiffness/rho_0 (Tait)."""
+    s, own = stepper.state, stepper.active
+    rho_0, stiffness, gamma = stepper.fluids[:3, s.kind[own]]
+    return math.sqrt(float(((particles.velocities(s)[own] ** 2).sum(axis=1) * rho_0 / (gamma * stiffness)).max(initial=0.0)))
+
+
+def _ratio(part: float, whole: float) -> float:
+    return part / whole if whole else 0.0

@@ -1,0 +1,288 @@
+"""`sdph run`: a run from its case, or from its last checkpoint, to its summary.
+
+What is run is a `Simulation` of grains in a gas or a `LiquidRun`. The driver knows of both only what both have:
+
+    start()  take_up(checkpoint)  window()                             how it goes
+    time  windows  at_row  clock (sdph.engine.clock)                   where it is
+    row()  meshes()  walls()  ledger  wall  summary(out)  warnings()  notices   what it has to show
+    KEPT  gas                                                          what a checkpoint holds
+"""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import math
+import os
+import shutil
+import time
+from pathlib import Path
+
+from coupling.choice import open_gas
+from coupling.gas import CheckpointError, GasError
+from sdph.case import read as cases
+from sdph.engine import device as environment
+from sdph.engine import restart
+from sdph.engine import state as particles
+from sdph.engine.guard import Unstable
+from sdph.engine.kept import ROW, Many, Maybe, Unfit
+from sdph.engine.ledger import Ledger
+from sdph.engine.table import Table
+from sdph.running import inputs, metrics, output
+from sdph.running.fields import Fields
+from sdph.running.interruption import Stopped, listening
+from sdph.running.liquid_run import LiquidRun
+from sdph.running.simulation import Simulation
+from sdph.scenes import paths
+from sdph.schema import CaseError
+
+NO_ROOM = [os.strerror(code) for code in (errno.ENOSPC, errno.EDQUOT, errno.EROFS)]  # as the gas solver says it too
+FULL = 2**16  # bytes: with less, programs that do not say why they failed have failed for lack of room
+
+
+def run(case, name: str, folder: Path, gas_folder: Path | None, reporter, *, allow_code: bool = False) -> dict:
+    """Run a case into a new folder and return its summary.
+
+    `gas_folder` holds the user's own OpenFOAM case (None: the scene's template), whose dictionaries may run code only
+    with `allow_code`; `reporter` shows progress.
+    """
+    template = gas_folder or template_of(case, name)
+    inputs.check(case)
+    with output.claimed(output.create(folder)):
+        try:
+            case = inputs.keep(case, folder)
+            if not case.liquid and case.coupling.gas != "embedded":
+                inputs.keep_gas(template, folder, allow_code)
+            output.write_origin(folder)
+            output.write_text(folder / output.MARK, cases.dumps(inputs.seen_from(case, folder)))
+            return _guarded(Run(case, folder, reporter), None, inputs.gas_of(folder), allow_code)
+        except CaseError:
+            if not restart.newest(folder):  # the case cannot be run: as if it had not been tried
+                shutil.rmtree(folder)
+            raise
+
+
+def template_of(case, name: str, file: Path | None = None) -> Path:
+    """The OpenFOAM case of a case: the folder gas beside its `file`, else the template of its scene, or of `name`."""
+    own = file and file.parent / "gas"
+    return own if own and own.is_dir() else paths.gas_template(case.scene or name)
+
+
+def resume(folder: Path, overrides: tuple[str, ...], reporter, *, allow_code: bool = False) -> dict:
+    """Go on with a run from its newest whole checkpoint, or from its start where it has none; its summary.
+
+    The run folder may come from elsewhere: the OpenFOAM case in it may run code only with `allow_code`, given anew.
+    """
+    if not (folder / output.MARK).is_file() or not (folder / output.ORIGIN).is_file():
+        raise CaseError(f"{folder} holds no run to go on with; run it anew")
+    case = cases.load(folder / output.MARK, overrides)
+    inputs.check(case)
+    with output.claimed(folder):
+        restart.prepare(folder)
+        checkpoint = restart.newest(folder, reporter.status)
+        if checkpoint:
+            checkpoint.refuse_other(cases.to_table(inputs.seen_from(case, folder)))
+        elif restart.numbered(folder):
+            raise CaseError(f"{folder} has no whole checkpoint; to begin again remove {folder / restart.FOLDER}, or run anew")
+        else:
+            reporter.status(f"{folder} has no checkpoint: it begins again")
+            output.clear(folder)
+            case = inputs.keep(case, folder)
+        template = None if checkpoint else inputs.gas_of(folder)
+        return _guarded(Run(case, folder, reporter), checkpoint, template, allow_code)
+
+
+def simulation_of(case, gas, ledger: Path):
+    """What runs a case: a liquid (`gas` is None), or grains in a gas; its ledger goes to a new file."""
+    if case.liquid:
+        return LiquidRun(case, ledger)
+    return Simulation(case, gas, Ledger(ledger, case, gas.mesh.depth))
+
+
+def _guarded(run: Run, checkpoint, template: Path | None, allow_code: bool) -> dict:
+    """The summary of a run; where it fails, the folder says why, and the error says how to go on."""
+    try:
+        with listening() as wish:
+            with _gas_of(run, template, allow_code) as gas:
+                return run.go(gas, checkpoint, wish)
+    except OSError as error:
+        failure = output.CannotWrite(f"{run.folder} cannot be written: {error.strerror or error}; make room or give another folder")
+        raise run.failed(failure) from error
+    except (RuntimeError, CaseError, Stopped) as error:
+        raise run.failed(error)
+
+
+def _gas_of(run: Run, template: Path | None, allow_code: bool):
+    """A context with the gas of a run, closed in the end; None where there is none."""
+    if run.case.liquid:
+        return contextlib.nullcontext()
+    return contextlib.closing(open_gas(run.case, run.folder, template, run.reporter.status, allow_code))
+
+
+class Run:
+    """A run as it goes: windows, what they leave behind, and checkpoints."""
+
+    KEPT, FORMS = ("simulation", "out", "spent", "first"), {"first": Maybe(0.0)}  # see sdph.engine.kept
+
+    def __init__(self, case, folder: Path, reporter):
+        self.case, self.folder, self.reporter = case, folder, reporter
+        self.begun, self.goes = time.perf_counter(), False
+        self.simulation = None
+        self.elapsed = 0.0  # wall time [s] of the parts of the run before this one
+        self.first = None  # wall time [s] to the end of the first window
+        self.saved_time, self.saved_window = time.monotonic(), 0
+
+    @property
+    def spent(self) -> float:
+        """Wall time [s] of the run."""
+        return self.elapsed + time.perf_counter() - self.begun
+
+    @spent.setter
+    def spent(self, before: float) -> None:
+        self.elapsed = before
+
+    def go(self, gas, checkpoint, wish) -> dict:
+        """From the start, or from a checkpoint, to the summary; `gas` None for a liquid."""
+        self._begin(gas, checkpoint)
+        output.write_text(self.folder / output.MARK, cases.dumps(inputs.seen_from(self.case, self.folder)))
+        (self.folder / output.FAILURE).unlink(missing_ok=True)
+        self.goes = wish.patient = True
+        with contextlib.closing(self.out):
+            while not self.simulation.clock.over(self.simulation.time):
+                self._window()
+                if wish.number is not None or self._due():
+                    self._save()
+                wish.obey()
+            self._save()
+        summary = _summary(self.simulation, self.out) | {"start_to_first_window_s": self.first, "wall_s": self.spent}
+        output.write_summary(self.folder, summary)
+        for warning in (*environment.warnings(), *self.simulation.warnings()):
+            self.reporter.status(f"warning: {warning}")
+        return summary
+
+    def failed(self, error: BaseException) -> BaseException:
+        """The error with a note on how to go on; failure.json keeps what happened. A run that was refused is as it was."""
+        if isinstance(error, CaseError) and not self.goes:
+            return error
+        checkpoint = restart.newest(self.folder)
+        full = shutil.disk_usage(self.folder).free < FULL
+        if isinstance(error, GasError) and (full or any(why in str(error) for why in NO_ROOM)):
+            error = output.CannotWrite(f"{error}; make room or give another folder")
+        if full:
+            error.add_note(f"(No space left on the disk of {self.folder})")
+        if checkpoint:
+            error.add_note(f"(last checkpoint: {checkpoint.folder}; go on with: sdph run --resume {self.folder})")
+        time_s = self.simulation.time if self.simulation else 0.0
+        with contextlib.suppress(OSError):
+            if isinstance(error, Unstable):
+                error.leave(self.folder)
+                error.add_note(f"last good state: {self.folder}/last_good.npz and .png")
+            output.write_json(self.folder / output.FAILURE, {"what": str(error), "kind": type(error).__name__, "time_s": time_s})
+        return error
+
+    def _begin(self, gas, checkpoint) -> None:
+        simulation = simulation_of(self.case, gas, self.folder / "ledger.csv")
+        self.simulation, self.out = simulation, Outputs(self.folder, simulation)
+        if checkpoint is None:
+            simulation.start()
+            self.out.start()
+            self._save()
+            return
+        self.reporter.status(f"going on from {checkpoint.folder}")
+        checkpoint.fill(self, lambda kept: self._take_up(checkpoint, kept["simulation"]))
+
+    def admit(self, kept: dict) -> None:
+        """Unfit where time, windows or wall times are not those of a run."""
+        run = kept["simulation"]
+        windows, time_s, wall = run["windows"], run["ledger"]["last"]["time_s"], run["wall"]
+        if windows < 0 or time_s < 0.0 or (windows == 0) != (time_s == 0.0) or min(kept["spent"], *wall.values()) < 0.0:
+            raise Unfit("its windows, time and wall time are not those of a run")
+        if windows and not wall["particles"] > 0.0:
+            raise Unfit("its particles took no time")
+
+    def _take_up(self, checkpoint, kept: dict) -> None:
+        """The gas goes back first: where that fails, the run is as it was."""
+        if (kept["windows"], kept["ledger"]["last"]["time_s"]) != (checkpoint.number, checkpoint.time):
+            raise Unfit("its windows and time are not those that its name and manifest tell")
+        try:
+            self.simulation.take_up(checkpoint)
+        except CheckpointError as error:
+            raise checkpoint.refuse(error) from None
+
+    def _window(self) -> None:
+        self.simulation.window()
+        self._pass_on()
+        self.first = self.first or self.spent
+        self.out.window()
+        self.reporter.progress(self.simulation)
+
+    def _pass_on(self) -> None:
+        """Tell the user what the simulation has to say."""
+        for notice in self.simulation.notices:
+            self.reporter.status(notice)
+        self.simulation.notices.clear()
+
+    def _due(self) -> bool:
+        """Whether it is time for a checkpoint."""
+        windows = self.case.run.checkpoint_windows or math.inf
+        apart = time.monotonic() - self.saved_time
+        return apart >= self.case.run.checkpoint_interval or self.simulation.windows - self.saved_window >= windows
+
+    def _save(self) -> None:
+        table = cases.to_table(inputs.seen_from(self.case, self.folder))
+        restart.write(self.folder, self.simulation.windows, self.simulation.time, table, self, self.simulation.gas)
+        self.saved_time, self.saved_window = time.monotonic(), self.simulation.windows
+
+
+class Outputs:
+    """All that a run writes as it goes: history by row, fields and metrics by output interval."""
+
+    KEPT = ("fields", "history", "metrics", "first", "last", "rows")  # see sdph.engine.kept
+    FORMS = {"first": ROW, "last": ROW, "rows": Many(ROW)}
+
+    def __init__(self, folder: Path, simulation):
+        self.simulation, self.fields = simulation, Fields(folder)
+        self.history, self.metrics = Table(folder / "history.csv"), Table(folder / "metrics.csv")
+        self.first, self.last, self.rows = {}, {}, []
+
+    def admit(self, kept: dict) -> None:
+        """Unfit where a kept row is not of the columns of its table, or holds what is no number."""
+        first, last, rows = kept["first"], kept["last"], kept["rows"]
+        own, metric = kept["history"]["columns"], kept["metrics"]["columns"]
+        for row, columns in ((first, own), (last or first, own), *((row, metric) for row in rows)):
+            if not row.keys() <= set(columns) or any(isinstance(value, str) for value in row.values()):
+                raise Unfit("a row of the history or of the metrics is not of the columns of its table")
+
+    def start(self) -> None:
+        """The rows and fields of the start, and the walls, which stay as they are."""
+        self.fields.write_walls(self.simulation.walls())
+        self.first = self.simulation.row()
+        self.history.write(self.first)
+        self._write()
+
+    def window(self) -> None:
+        """After each window."""
+        if self.simulation.at_row:
+            self.last = self.simulation.row()
+            self.history.write(self.last)
+        if self.simulation.clock.writes(self.simulation.time):
+            self._write()
+
+    def close(self) -> None:
+        for table in (self.history, self.metrics, self.simulation.ledger.table):
+            table.close()
+
+    def _write(self) -> None:
+        self.fields.write(self.simulation.time, self.simulation.meshes())
+        self.rows.append(metrics.row(self.simulation))
+        self.metrics.write(self.rows[-1])
+
+
+def _summary(simulation, out: Outputs) -> dict:
+    """summary.json, less the wall time of the whole."""
+    case, count = simulation.case, particles.count(simulation.state)
+    summary = {"title": case.title, "time_s": simulation.time, "particles": count, "windows": simulation.windows}
+    summary |= simulation.summary(out) | metrics.summary(case, out.rows) | simulation.ledger.summary()
+    summary |= {f"wall_{part}_s": spent for part, spent in simulation.wall.items()}
+    summary |= {f"{part}_ms_per_window": 1e3 * spent / simulation.windows for part, spent in simulation.wall.items()}
+    return summary | {"particle_steps_per_s": count * simulation.stepper.steps / simulation.wall["particles"]}

@@ -1,0 +1,52 @@
+"""What a scene wants to know of itself at every output, by the names in `run.metrics`: rows of metrics.csv."""
+
+from __future__ import annotations
+
+from sdph.case.gas_cells import upwards
+from sdph.running.metrics import bubble, column, jet
+from sdph.schema import CaseError
+
+
+def bed(simulation) -> dict[str, float]:
+    """The bubble (sdph.running.metrics.bubble), and the densest particle."""
+    mesh, fields, up = simulation.gas.mesh, simulation.cell_fields(), upwards(simulation.case, "bubble")
+    cells = (mesh.centres, mesh.volumes / mesh.depth, fields["alpha_p"], fields["temperature"], fields["pressure"])
+    if mesh.dimensions == 3:
+        cells = bubble.through_depth(simulation.case.domain.size[2], *cells, up=up)
+    row = bubble.metrics(*cells, up)
+    return row | {"alpha_p_max": float(simulation.grains.density.max(initial=0.0) / simulation.case.grains.density)}
+
+
+def bed_in_the_end(rows: list[dict]) -> dict[str, float]:
+    return {"detachment_time_s": bubble.detachment([row["time_s"] for row in rows], rows)}
+
+
+AT_OUTPUTS = {"bubble": bed, "column": column.metrics, "jet": jet.metrics}
+IN_THE_END = {"bubble": bed_in_the_end}
+
+
+def row(simulation) -> dict[str, float]:
+    """All metrics of the case now."""
+    refuse_unknown(simulation.case)
+    columns = {"time_s": simulation.time}
+    for name in simulation.case.run.metrics:
+        columns |= AT_OUTPUTS[name](simulation)
+    return columns
+
+
+def refuse_unknown(case) -> None:
+    """CaseError where a case asks for metrics that it cannot have."""
+    for name in case.run.metrics:
+        if name not in AT_OUTPUTS or case.liquid:
+            raise CaseError(f"run.metrics = {name!r}; known for grains: {', '.join(AT_OUTPUTS)}, for liquids: none")
+    if "jet" in case.run.metrics and not case.nozzles:
+        mend = "leave it out, or give one in [nozzles.some_name]"
+        raise CaseError(f"run.metrics holds jet, but the case has no nozzle; {mend}")
+
+
+def summary(case, rows: list[dict]) -> dict[str, float]:
+    """The last row, and what only all of them tell."""
+    if not case.run.metrics:
+        return {}
+    in_the_end = [IN_THE_END[name](rows) for name in case.run.metrics if name in IN_THE_END]
+    return {key: value for part in (rows[-1], *in_the_end) for key, value in part.items() if key != "time_s"}

@@ -1,0 +1,71 @@
+"""Where a run is: one line that is rewritten on a terminal, plain lines elsewhere, and a page of it with `--watch`."""
+
+from __future__ import annotations
+
+import sys
+import time
+
+from sdph.engine import state as particles
+
+LINE_INTERVAL = 10.0  # s between plain lines
+REFRESH = 0.2  # s between changes of the line on a terminal
+
+
+class Reporter:
+    """Shows where a run is: `status` tells of waiting and warns, `progress` of windows done; `page` draws them.
+
+    Both speak on stderr, not at all where `quiet`, and without `line` not of windows.
+    """
+
+    def __init__(self, quiet: bool = False, line: bool = True, page=None):
+        self.quiet, self.line, self.page = quiet, line, page
+        self.shown, self.begun = time.perf_counter(), None
+        self.bar = None if quiet or not line or not sys.stderr.isatty() else _bar()
+
+    def status(self, text: str) -> None:
+        if self.bar:
+            self.bar.console.print(text)
+        elif not self.quiet:
+            print(text, file=sys.stderr, flush=True)
+
+    def progress(self, simulation) -> None:
+        """After a window."""
+        now = time.perf_counter()
+        self.begun = self.begun or (now, simulation.time)
+        if self.page:
+            self.page.show(simulation, self._line(simulation, now))
+        if not self.line or now - self.shown < (REFRESH if self.bar else LINE_INTERVAL):
+            return
+        self.shown = now
+        if not self.bar:
+            self.status(self._line(simulation, now))
+            return
+        task = self.bar.task_ids[0] if self.bar.task_ids else self.bar.add_task("", total=simulation.case.run.end_time)
+        self.bar.update(task, completed=simulation.time, description=self._line(simulation, now))
+
+    def close(self) -> None:
+        if self.bar:
+            self.bar.stop()
+
+    def _line(self, simulation, now: float) -> str:
+        """Time, window and what rules it, particles, residual, closure of the ledger, time left."""
+        began, at = self.begun
+        ledger, gas = simulation.ledger, simulation.gas and simulation.gas_state.budget.residuals
+        parts = [f"t = {simulation.time:.4g} s", f"dt = {ledger.last['window_s']:.2e} s ({simulation.clock.limit})"]
+        parts.append(f"{particles.count(simulation.state)} particles")
+        if gas:
+            parts.append("residual {1:.0e} ({0})".format(*max((item for item in gas.items() if item[0] != "box"), key=lambda item: item[1])))
+        closure = {key: value for key, value in ledger.summary().items() if key.endswith(("drift_rel", "mismatch_rel"))}
+        parts.append("closure {:.0e} ({})".format(*max((value, key.removesuffix("_rel")) for key, value in closure.items())))
+        if simulation.time > at:
+            parts.append(f"{(now - began) * (simulation.case.run.end_time - simulation.time) / (simulation.time - at):.0f} s left")
+        return ", ".join(parts)
+
+
+def _bar():
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn
+
+    bar = Progress(TextColumn("{task.description}"), BarColumn(bar_width=20), console=Console(stderr=True))
+    bar.start()
+    return bar

@@ -1,0 +1,107 @@
+"""`sdph compare`: a run against a reference. What is compared is the scene's own: validation/<scene>/compare.py."""
+
+from __future__ import annotations
+
+import importlib.util
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.running import output
+from sdph.scenes import paths
+from sdph.schema import CaseError
+from sdph.show import view
+
+
+@dataclass(frozen=True)
+class Run:
+    """A finished run: its case, summary and history (name -> column)."""
+
+    folder: Path
+    case: cases.Case
+    summary: dict
+    history: dict[str, np.ndarray]
+
+    def at(self, column: str, time: float) -> float:
+        """A column of the history at `time` [s], linear between windows."""
+        return float(np.interp(time, self.history["time_s"], self.history[column]))
+
+    @property
+    def ledger(self) -> dict[str, np.ndarray]:
+        """Columns of ledger.csv, a row a window."""
+        return _table(self.folder / "ledger.csv")
+
+    @property
+    def metrics(self) -> dict[str, np.ndarray]:
+        """Columns of metrics.csv, a row an output."""
+        return _table(self.folder / "metrics.csv")
+
+    def fields(self, time: float):
+        """(time, particles, gas) nearest to `time` [s]."""
+        return view.state_at(view.read(self.folder), time)
+
+
+def open_run(folder: Path) -> Run:
+    """Reads a run folder; `CaseError` where it holds no finished run."""
+    summary = output.read_summary(folder)
+    for name in (output.MARK, "history.csv"):
+        if not (folder / name).is_file():
+            raise CaseError(f"{folder} has lost its {name}; run it again")
+    return Run(folder, cases.load(folder / output.MARK), summary, _table(folder / "history.csv"))
+
+
+def _table(file: Path) -> dict[str, np.ndarray]:
+    """Columns of a table of a run; its times never fall, and it has a row at least."""
+    columns = output.read_table(file, output.TEXTS)
+    times = columns["time_s"]
+    if not len(times) or not (np.diff(times) >= 0.0).all():
+        raise CaseError(f"{file} is damaged ({'its times fall' if len(times) else 'it has no row'}); run it again")
+    return columns
+
+
+def check(name: str, value: float, reference: float, tolerance: float, relative: bool = False) -> dict:
+    """One row of a comparison: |value - reference| <= tolerance (times |reference| where relative)."""
+    value, reference = float(value), float(reference)
+    allowed = tolerance * abs(reference) if relative else tolerance
+    return {"name": name, "value": value, "reference": reference, "tolerance": allowed, "ok": bool(abs(value - reference) <= allowed)}
+
+
+def compare(folder: Path, against: str) -> list[dict]:
+    """The checks of a run's scene against `tfm`, `dpm` or `exact`; the figure goes to the run folder."""
+    run = open_run(folder)
+    module = scene_module(run.case.scene)
+    function = getattr(module, against, None)
+    if function is None:
+        known = [name for name in ("exact", "tfm", "dpm") if hasattr(module, name)]
+        raise CaseError(f"--against {against}: {run.case.scene or 'this case'} has no such reference; it has: {', '.join(known) or 'none'}")
+    try:
+        checks = function(run)
+    except KeyError as error:  # regions, effects and arrays go by the names that the scene gives them
+        lacks = f"{folder} cannot be compared as {run.case.scene}: it has no {error}"
+        raise CaseError(f"{lacks}; compare a run of the scene as it is") from None
+    if not checks:
+        raise CaseError(f"the run ends at {run.summary['time_s']:g} s, before the first time that its reference tells of; go on with: sdph run --resume {folder} --until T")
+    output.write_json(folder / f"compare_{against}.json", {"checks": checks})
+    return checks
+
+
+def scene_module(scene: str):
+    """validation/<scene>/compare.py as a module; None where the scene has none."""
+    file = paths.data("validation") / scene / "compare.py"
+    if scene not in scenes.names() or not file.is_file():  # a case.toml may name no other code
+        return None
+    spec = importlib.util.spec_from_file_location(f"sdph_validation_{scene}", file)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def table(checks: list[dict]) -> str:
+    """The checks as text, one line each."""
+    head = f"{'check':72s} {'value':>14s} {'reference':>14s} {'difference':>12s} {'tolerance':>11s}"
+    row = "{name:72s} {value:14.7g} {reference:14.7g} {difference:12.3g} {tolerance:11.3g} {verdict}"
+    lines = [row.format(difference=c["value"] - c["reference"], verdict="ok" if c["ok"] else "FAILED", **c) for c in checks]
+    return "\n".join([head, *lines])

@@ -1,0 +1,95 @@
+"""The settings that a scene is measured with. validation/<scene>/cost.toml declares them:
+
+    reference = "..."   what errors are taken against
+    settings = ["..."]  `key=value` that go with every rung, and with `sdph run --accuracy`
+    excerpt = ["..."]   `key=value` of the ladder alone: how much of the scene a rung computes
+    drop = ["..."]      effects that are switched off, one at a time
+    [knobs]             key of the case -> values, coarse to fine, all of one length, in one ratio where the limit is asked for
+    [alone]             key of the case -> values that are tried by themselves, all else in the middle
+    metrics = ["..."]   keys of summary.json, against the limit of the ladder by Richardson, relative to it
+
+In place of metrics, validation/<scene>/compare.py may have `metrics(run) -> {name: (value, reference, scale)}`, where a
+reference of None is the limit of the ladder and a scale of None the reference itself; its `others(case, folder)` yields
+(label, solver, wall time [s], metrics) of other solvers on the same scene.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass, field
+
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.scenes import paths
+from sdph.schema import CaseError, flat
+
+ALL = "-"  # in the column `without`: no effect is left out
+
+
+@dataclass(frozen=True)
+class Ladder:
+    """What validation/<scene>/cost.toml says; `usual`: what the scene has for the keys of `alone`."""
+
+    reference: str
+    knobs: dict
+    settings: list = field(default_factory=list)
+    excerpt: list = field(default_factory=list)
+    drop: list = field(default_factory=list)
+    alone: dict = field(default_factory=dict)
+    metrics: list = field(default_factory=list)
+    usual: dict = field(default_factory=dict)
+
+    @property
+    def count(self) -> int:
+        """Levels of the knobs."""
+        return len(next(iter(self.knobs.values())))
+
+    @property
+    def middle(self) -> dict:
+        return self.level(self.count // 2)
+
+    @property
+    def keys(self) -> list[str]:
+        """Keys of the case that a rung sets."""
+        return [*self.knobs, *self.alone]
+
+    def level(self, n: int) -> dict:
+        """Settings of all knobs at level n, all else as usual."""
+        return {key: values[n] for key, values in self.knobs.items()} | {key: self.usual[key] for key in self.alone} | {"without": ALL}
+
+
+def declared(scene: str) -> Ladder:
+    """The ladder that a scene declares."""
+    file = paths.data("validation") / scene / "cost.toml"
+    if scene not in scenes.names() or not file.is_file():
+        raise CaseError(f"{scene} declares no ladder (validation/{scene}/cost.toml); scenes that do: {', '.join(with_ladder())}")
+    table = tomllib.loads(file.read_text(encoding="utf-8"))
+    resolved = flat(cases.to_table(cases.load(scenes.find(scene)[1], tuple(table.get("settings", ())))))
+    return Ladder(**table, usual={key: resolved[key] for key in table.get("alone", ())})
+
+
+def with_ladder() -> list[str]:
+    """Scenes that declare one."""
+    return [name for name in scenes.names() if (paths.data("validation") / name / "cost.toml").is_file()]
+
+
+def rungs(own: Ladder) -> list[tuple[str, dict]]:
+    """(label, settings): all knobs together from coarse to fine, then one at a time from the middle, then effects off."""
+    found = [(f"all {n + 1}/{own.count}", own.level(n)) for n in range(own.count)]
+    for key, values in (own.knobs | own.alone).items():
+        found += [(key, own.middle | {key: value}) for value in values if value != own.middle[key]]
+    return found + [(f"without {name}", own.middle | {"without": name}) for name in own.drop]
+
+
+def overrides(settings: dict) -> tuple[str, ...]:
+    """`--set` arguments of a rung."""
+    return tuple(f"{key}={value}" for key, value in settings.items() if key != "without")
+
+
+def case_of(scene: str, own: Ladder, settings: dict, *more: str) -> cases.Case:
+    """The case of a rung."""
+    table = cases.to_table(cases.load(scenes.find(scene)[1], (*own.settings, *own.excerpt, *overrides(settings), *more)))
+    if settings["without"] != ALL:
+        table["effects"] = [name for name in table["effects"] if name != settings["without"]]
+        table.pop(settings["without"], None)
+    return cases.from_table(table)

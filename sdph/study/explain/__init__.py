@@ -1,0 +1,8 @@
+"""`sdph explain`: what a case calls for, what limits its steps, and what it will cost, before it runs.
+
+estimate       limits, steps, memory and time
+droplets       numbers of droplets
+liquids        those of a liquid
+tables         all of it as tables
+effect_costs   time of each effect on this machine
+"""

@@ -1,0 +1,85 @@
+"""`sdph explain` of a case with a liquid: its numbers, its effects, what limits its step and what it will cost."""
+
+from __future__ import annotations
+
+import math
+
+from sdph import effects
+from sdph.methods.liquids.method import limits as limits_of_step
+from sdph.running.liquid_run import SLOW
+from sdph.study.explain import estimate
+
+WATER = 0.0728  # N/m, of water in air at 20 C (IAPWS R1-76): for the Weber and Bond numbers of a case that gives none
+
+
+def explain(s) -> dict[str, list]:
+    """Numbers that decide, ratios, limits of the step, and what to expect: rows of a table each."""
+    steps = limits(s)
+    return {"numbers": numbers(s), "ratios": ratios(s), "limits": steps, "expected": expected(s, steps)}
+
+
+def numbers(s) -> list[tuple]:
+    """(name, value, threshold, what lies above it, source)."""
+    own, (across, _) = s.liquid, s.pull
+    froude = s.speed / math.sqrt((across + s.shaken) * s.length) if across + s.shaken else math.inf
+    tension = s.case.parameters.get("surface_tension")
+    sigma = tension.coefficient if tension and hasattr(tension, "coefficient") else WATER
+    weber, bond = s.capillary(sigma)
+    where = "by its definition" if sigma is not WATER else "by its definition; surface tension of water, for want of one"
+    cell = s.speed * s.case.smoothing_length / s.viscosity if s.viscosity else math.inf
+    rows = [
+        ("Reynolds, U L/nu", s.speed * s.length / s.viscosity if s.viscosity else math.inf, 2000.0, "the flow may become turbulent", "Reynolds 1883"),
+        ("Reynolds of the particles, U h/nu", cell, 1.0, "viscosity does not damp the motion of single particles", "Monaghan 1992"),
+        ("Froude, U/sqrt(g L)", froude, 1.0, "inertia beats gravity", "by its definition"),
+        ("Mach, U/c", s.speed / own.sound_speed, SLOW, "the liquid is compressed by more than 4 %; usual is 0.1", "Monaghan 1994"),
+        ("Weber, rho U2 L/sigma", weber, 1.0, "inertia beats surface tension", where),
+        ("Bond, rho g L2/sigma", bond, 1.0, "gravity beats surface tension", where),
+        ("run / (L/U)", s.turns, 1.0, "the flow has time to turn over", "by its definition"),
+        ("boundary layer, sqrt(nu t)/L", s.layer, 0.01, "walls slow the liquid", "Schlichting 1979, ch. 5"),
+        ("crossings of sound, c t/L", own.sound_speed * s.end / s.length, 1.0, "noise has time to go to and fro", "Marrone et al. 2011"),
+    ]
+    if s.case.gas_phase:
+        rows.append(("density ratio", own.density / s.case.gas_phase.density, 1.0, "the gas yields to the liquid", "by its definition"))
+    return rows
+
+
+def ratios(s) -> list[dict]:
+    """Kernel, spacing and liquid against each other, with the range that is safe and why."""
+    h, spacing = s.case.smoothing_length, s.case.resolution.spacing
+    rows = [
+        ("h / spacing", h / spacing, 1.2, 2.0, "fewer neighbours make noise, more blur"),
+        ("liquid's width / h", s.length / h, 6.0, math.inf, "less than three kernels across is all rim"),
+    ]
+    return [{"ratio": n, "value": v, "least": low, "most": high, "safe": "yes" if low <= v <= high else "NO", "why": w} for n, v, low, high, w in rows]
+
+
+def warnings(s) -> list[str]:
+    """Ratios that are not safe, and sound that is too slow."""
+    unsafe = [f"{r['ratio']} = {r['value']:.3g}, safe from {r['least']:g} to {r['most']:g}: {r['why']}" for r in ratios(s) if r["safe"] == "NO"]
+    c = s.liquid.sound_speed
+    if s.speed > SLOW * c:
+        fast = f"the liquid may reach {s.speed:.3g} m/s, {s.speed / c:.2g} of its speed of sound"
+        unsafe.append(f"{fast}: raise liquid.sound_speed_m_s from {c:g} to {10.0 * s.speed:.3g}")
+    return unsafe
+
+
+def limits(s) -> list[dict]:
+    """Largest step [s] by cause, before run.step_factor."""
+    parameters = {name: effects.kernel_of(effects.REGISTRY[name], s.case) for name in s.case.effects}
+    found = limits_of_step(s.case, parameters, s.state, s.speed, sum(s.pull) + s.shaken)
+    least = min(found.values())
+    return [{"cause": k, "largest [s]": v, "rules": "<-" if v == least else ""} for k, v in found.items()]
+
+
+def expected(s, steps: list[dict]) -> list[dict]:
+    """Particles, steps, memory, wall time."""
+    count = len(s.state.x)
+    number = math.ceil(s.end / (s.case.run.step_factor * min(row["largest [s]"] for row in steps)))
+    wall = 1e-6 * estimate.speed().liquid * count * number
+    return [
+        {"what": "liquid particles", "value": int(s.wet.sum()), "unit": ""},
+        {"what": "particles, walls included", "value": count, "unit": ""},
+        {"what": "steps", "value": number, "unit": ""},
+        {"what": "memory", "value": estimate.memory(s.case, count, 0) / 1e6, "unit": "MB"},
+        {"what": "wall time", "value": wall, "unit": f"s (measured on {estimate.speed().measured})"},
+    ]

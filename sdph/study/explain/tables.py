@@ -1,0 +1,100 @@
+"""All that `sdph explain` shows: each part is a list of rows."""
+
+from __future__ import annotations
+
+import math
+
+from sdph import effects
+from sdph.case import judge
+from sdph.study.explain import droplets, estimate, liquids
+
+
+def explain(case) -> dict[str, list[dict]]:
+    """All parts, each a list of rows (name -> value) of one table."""
+    scales = judge.scales_of(case)
+    found = liquids.explain(scales) if case.liquid else _of_grains(case, scales)
+    return {
+        "numbers": [dict(zip(("number", "value", "threshold", "meaning", "source"), row)) for row in found.pop("numbers")],
+        "effects": effect_rows(case, scales),
+        **found,
+        "warnings": [{"warning": text} for text in warnings(case, scales)],
+    }
+
+
+def _of_grains(case, scales) -> dict[str, list]:
+    limits, expected = estimate.limits(case, scales), estimate.expected(case, scales)
+    return {"numbers": numbers(scales), "ratios": estimate.ratios(case), "limits": limits, "expected": expected}
+
+
+def warnings(case, scales=None) -> list[str]:
+    """What `run` says before it starts: effects that are missing, ratios that are not safe; `scales` of the case."""
+    scales = scales or judge.scales_of(case)
+    return [*judge.missing(case, scales), *(liquids.warnings(scales) if case.liquid else estimate.warnings(case))]
+
+
+def numbers(s) -> list[tuple]:
+    """(name, value, threshold, what lies above the threshold, source) of the numbers that decide."""
+    grains, gas, end = s.grains, s.gas, s.end
+    biot = s.nusselt * gas.conductivity / (6.0 * grains.conductivity) if grains.conductivity else math.inf
+    archimedes = gas.density * (grains.density - gas.density) * s.gravity * grains.diameter**3 / gas.viscosity**2
+    sound = math.sqrt(1.4 * 8314.46 / gas.molar_mass * gas.temperature)  # of a diatomic gas
+    free_path = grains.diameter / (6.0 * math.sqrt(2.0) * s.alpha_p * s.g0) if s.alpha_p else math.inf
+    diffusivity = grains.conductivity / (grains.density * grains.heat_capacity)
+    peclet = s.speed * s.length / diffusivity if diffusivity else math.inf
+    fed = s.jet / s.minimum_fluidisation if s.jet else 0.0
+    rows = [
+        ("particle Re", s.reynolds, 1.0, "drag is no longer Stokes'", "Clift, Grace & Weber 1978"),
+        ("Stokes", s.drag_time * s.slip / s.length, 0.1, "grains leave the gas's path", "Crowe et al. 1998, ch. 2"),
+        ("Archimedes", archimedes, 88.5, "grains of Geldart's group B: bubbles from the onset on", "Goossens 1998"),
+        ("U/U_mf", fed, 1.0, "gas that is let in lifts packed grains", "Ergun 1952"),
+        ("Biot", biot, 0.1, "grains are not of one temperature inside", "Incropera, ch. 5.1"),
+        ("Mach of the gas", s.slip / sound, 0.3, "gas is compressed by its own motion", "Anderson 2003"),
+        ("1/Froude, g t/U", s.gravity * end / s.slip if s.slip else 0.0, 0.01, "gravity matters", "by its definition"),
+        ("Knudsen of the grains, path/h", free_path / s.case.smoothing_length, 0.1, "grains fly further than h between collisions", "Bird 1994, ch. 1"),
+        ("alpha_p", s.alpha_p, 1e-3, "grains collide", "Elghobashi 1994"),
+        ("mass loading", s.loading, 0.1, "grains move the gas", "Elghobashi 1994; Crowe et al. 1998"),
+        ("heat loading", s.heat_loading, 0.1, "grains heat or cool the gas", "Crowe et al. 1998"),
+        ("Peclet of conduction", peclet, 1.0, "heat is carried rather than conducted by grains", "by its definition"),
+        ("run / drag time", end / s.drag_time, 1.0, "grains follow the gas", "sdph-notes, section 3"),
+        ("run / gas's drag time", end / s.gas_drag_time, 1.0, "gas follows the grains", "sdph-notes, section 3"),
+        ("run / heat time", end / s.heat_time, 1.0, "grains take the gas's temperature", "sdph-notes, section 3"),
+        ("run / gas's heat time", end / s.gas_heat_time, 1.0, "gas takes the grains' temperature", "sdph-notes, section 3"),
+        ("run / collision time", end / s.collision_time, 1.0, "every grain has collided", "Gidaspow 1994"),
+    ]
+    return rows + droplets.numbers(s)
+
+
+def effect_rows(case, scales=None) -> list[dict]:
+    """Every effect: on or off, called for or not, why, and the error without it; `scales` of the case, if known."""
+    scales = scales or judge.scales_of(case)
+    judged, called = judge.judgements(case, scales), judge.called_for(case, scales)
+    rows, matter = [], "liquid" if case.liquid else "grains"
+    for name, row in ((name, row) for name, row in effects.REGISTRY.items() if matter in row.matter):
+        own = judged.get(name)
+        rows.append({
+            "effect": name,
+            "in the case": "on" if name in case.effects else "off",
+            "called for": ("yes" if name in called else "no") if own else "not judged",
+            "why": f"{own.name} = {own.number:.3g} (matters from {own.threshold:.3g})" if own else f"needs [{name}] to be judged" if row.call else row.summary,
+            "error if off": own.error_if_off if own else math.nan,
+            "source": own.source if own else "",
+        })  # fmt: skip
+    return rows
+
+
+def text(parts: dict[str, list[dict]]) -> str:
+    """All parts as tables."""
+    return "\n\n".join(f"{title.upper()}\n{table(rows)}" for title, rows in parts.items() if rows)
+
+
+def table(rows: list[dict]) -> str:
+    """Rows of equal keys in columns; numbers to three digits."""
+    cells = [[key for key in rows[0]], *([_shown(value) for value in row.values()] for row in rows)]
+    widths = [max(len(row[c]) for row in cells) for c in range(len(rows[0]))]
+    return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in cells)
+
+
+def _shown(value) -> str:
+    if isinstance(value, float):
+        return "-" if math.isnan(value) else f"{value:.3g}"
+    return str(value)

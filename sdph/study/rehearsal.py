@@ -1,0 +1,44 @@
+"""What `sdph run` makes of a case before its first window, made without a gas: what cannot be is refused."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+
+from coupling.choice import expected
+from sdph.case.gas_cells import cell_edges
+from sdph.methods.liquids.method import parts_of as parts_of_liquid
+from sdph.running import inputs, metrics
+from sdph.running.simulation import parts_of
+from sdph.study import memory as room
+
+
+def rehearse(case, template: Path, *, allow_code: bool = False) -> None:
+    """CaseError where `sdph run` would end with one; `template` and `allow_code` as in `coupling.choice.open_gas`."""
+    look(case, template, allow_code=allow_code)
+    (parts_of_liquid if case.liquid else parts_of)(case)
+
+
+def look(case, template: Path, *, allow_code: bool = False) -> None:
+    """The same without particles, which a run makes next: where this passes they decide."""
+    inputs.check(case)
+    room.refuse_too_large(case)
+    metrics.refuse_unknown(case)
+    if not case.liquid:
+        _gas(case, template, expected(case), allow_code)
+
+
+def _gas(case, template: Path, chosen: str, allow_code: bool) -> None:
+    """What each gas solver makes of the case before it starts."""
+    if chosen == "embedded":
+        from coupling.embedded.box import Box
+        from coupling.embedded.grid import build_grid
+
+        Box(case, build_grid(cell_edges(case)), limited=True)
+        return
+    from coupling.openfoam.case import write_case
+    from coupling.openfoam.programs.installation import require
+
+    require()
+    with tempfile.TemporaryDirectory(prefix="sdph-explain-") as folder:
+        write_case(case, template, Path(folder) / "gas", case.coupling.ranks, allow_code)

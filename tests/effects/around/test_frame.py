@@ -1,0 +1,102 @@
+"""A tank's own motion from a table: read from what spreadsheets write, or refused in one line that names the place."""
+
+import numpy as np
+import pytest
+
+from sdph.effects.around import frame
+from sdph.schema import CaseError
+
+HEAD = ",".join(frame.COLUMNS)
+ROWS = ("0.0,0,0,0,0,0,0", "0.5,1,0,0,0,0,0.2", "1.0,3,0,0,0,0,0.6")
+
+
+def motion(folder, content, until=1.0, **keys):
+    """The motion by a table with this content, a text or bytes."""
+    file = folder / "motion.csv"
+    file.write_bytes(content if isinstance(content, bytes) else content.encode())
+    return frame.motion(frame.Frame(table=str(file), **keys), until)
+
+
+def table(*rows, head=HEAD) -> str:
+    return "\n".join([head, *rows]) + "\n"
+
+
+@pytest.mark.parametrize(
+    "form", ["plain", "crlf", "bom", "semicolons", "tabs", "spaces", "more columns", "no last newline", "empty lines"]
+)
+def test_a_table_is_read_as_spreadsheets_write_it(tmp_path, form):
+    text = table(*ROWS)
+    content = {
+        "plain": text,
+        "crlf": text.replace("\n", "\r\n"),
+        "bom": b"\xef\xbb\xbf" + text.encode(),
+        "semicolons": text.replace(",", ";"),
+        "tabs": text.replace(",", "\t"),
+        "spaces": text.replace(",", " , "),
+        "more columns": "\n".join(f"{line},note {n}" for n, line in enumerate(text.splitlines())) + "\n",
+        "no last newline": text.rstrip("\n"),
+        "empty lines": text.replace("\n", "\n\n"),
+    }[form]
+    acceleration, omega, rate = motion(tmp_path, content)(0.25)
+    np.testing.assert_allclose(acceleration, [0.5, 0.0, 0.0])
+    np.testing.assert_allclose(omega, [0.0, 0.0, 0.1])
+    np.testing.assert_allclose(rate, [0.0, 0.0, 0.4])
+
+
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        (b"", "it is empty"),
+        (b"\n\n", "it is empty"),
+        (table(), "two rows at least"),
+        (table(ROWS[0]), "two rows at least"),
+        (table(ROWS[0], "0.5,1,0"), "line 3 has 3 cells, the first line names 7 columns"),
+        (table(ROWS[0], ROWS[1] + ",9"), "line 3 has 8 cells"),
+        (table(ROWS[0], "0.5,inf,0,0,0,0,0"), "line 3: ax_m_s2 = inf; it must be finite"),
+        (table(ROWS[0], "0.5,nan,0,0,0,0,0"), "line 3: ax_m_s2 = nan; it must be finite"),
+        (table(ROWS[0], "0.5,1e999,0,0,0,0,0"), "ax_m_s2 = 1e999; it must be finite"),
+        (table(ROWS[0], "0.5,,0,0,0,0,0"), "line 3: ax_m_s2 = ''; it must be a number"),
+        (table(ROWS[0], "0.5,fast,0,0,0,0,0"), "line 3: ax_m_s2 = 'fast'; it must be a number"),
+        (
+            table(ROWS[0], "0,5;1;0;0;0;0;0").replace(",", ";").replace("0;5", "0,5"),
+            "time_s = '0,5'; it must be a number, with a point",
+        ),
+        (table(*reversed(ROWS)), "line 3: time_s = 0.5 is not after 1"),
+        (table(ROWS[0], ROWS[0]), "line 3: time_s = 0 is not after 0"),
+        (table(ROWS[0], "0.5,1e30,0,0,0,0,0"), "line 3: ax_m_s2 = 1e+30"),
+        (table(*ROWS, head=HEAD.replace("az_m_s2", "az")), "no column az_m_s2"),
+        (table(*ROWS, head=HEAD.replace("az_m_s2", "ay_m_s2")), "two columns have the same name"),
+        ("sep=;\n" + table(*ROWS), "no column time_s"),
+        (bytes(range(256)) * 8, "no text in UTF-8"),
+        (table(*ROWS).encode("utf-16"), "no text in UTF-8"),
+        ("\0" * 4000, "no column time_s"),
+        (HEAD + "\n" + '"' + "x" * 200_000, "line "),
+    ],
+)
+def test_a_table_that_is_none_is_refused_in_one_line(tmp_path, content, told):
+    with pytest.raises(CaseError) as caught:
+        motion(tmp_path, content)
+    message = str(caught.value)
+    assert told in message and "frame.table" in message and "motion.csv" in message
+    assert len(message.splitlines()) == 1 and len(message) < 400
+
+
+@pytest.mark.parametrize("name", ["", "none.csv", "/dev/zero"])
+def test_what_is_no_file_is_refused(tmp_path, name):
+    with pytest.raises(CaseError, match="there is no such file"):
+        frame.motion(frame.Frame(table=str(tmp_path / name)), 1.0)
+
+
+def test_the_frame_is_at_rest_before_its_table_and_after_its_end(tmp_path):
+    move = motion(tmp_path, table(*ROWS[1:]), until=9.0, start=2.0, end=2.8)
+    for time in (0.0, 1.9, 2.4, 2.81, 9.0):
+        assert not np.any(move(time))
+    np.testing.assert_allclose(move(2.75)[0], [2.0, 0.0, 0.0])
+
+
+def test_a_table_that_ends_before_the_run_is_refused(tmp_path):
+    with pytest.raises(CaseError, match=r"ends at 3 s and the run at 3\.5 s; add rows.*frame\.end_s"):
+        motion(tmp_path, table(*ROWS), until=3.5, start=2.0)
+    with pytest.raises(CaseError, match="ends at 3 s"):
+        motion(tmp_path, table(*ROWS), until=3.5, start=2.0, end=3.2)
+    assert np.any(motion(tmp_path, table(*ROWS), until=3.0, start=2.0)(3.0))

@@ -1,0 +1,53 @@
+"""Nozzles in the walls that hold the grains: a mouth lets its stream through, and is a wall while nothing comes."""
+
+import math
+
+import numpy as np
+import pytest
+from test_many_nozzles import begun, case, slot
+
+from sdph.engine import state as particles
+from sdph.engine.state import GRAIN, INFLOW
+
+CLOSED = {"walls": {"kind": "wall"}}
+EFFECTS = ["inflow", "walls", "drag", "granular_pressure"]
+ALPHA = 0.05
+
+
+def until(done, time):
+    while done.time < time:
+        done.window()
+    return done
+
+
+@pytest.mark.parametrize(("nozzles", "dimensions"), [
+    ({"left": slot([0.0, 0.5], [1.0, 0.0], width_m=0.2), "below": slot([0.5, 0.0], [0.0, 1.0], width_m=0.2)}, 2),
+    ({"left": slot([0.0, 0.5, 0.5], [1.0, 0.0, 0.0], width_m=0.3, length_m=0.3)}, 3),
+])  # fmt: skip
+def test_a_stream_comes_through_a_wall_as_it_comes_through_none(tmp_path, nozzles, dimensions):
+    """Mass as rate times time, and no seam in the density: not as if the wall stood in the mouth too."""
+    done = until(begun(case(nozzles, dimensions, effects=EFFECTS, boundaries=CLOSED), tmp_path), 0.04)
+    layer = sum(s.mass * len(s.speed) for s in done.source.streams)
+    came = sum(s.mass * (s.speed / s.pitch).sum() for s in done.source.streams) * done.time
+    assert abs(done.source.mass - came) <= 0.5 * layer * (1.0 + 1e-9)
+    state, streams = done.state, done.source.streams[0]
+    along, aside = done.source._beyond(0, particles.positions(state))
+    heart = (state.nozzle == 1) & (np.abs(along) < 1.2 * streams.pitch) & (aside < 1.2 * streams.pitch)
+    assert (along[heart] > 0.0).any() and (along[heart] < 0.0).any()
+    np.testing.assert_allclose(state.density[heart], ALPHA * 700.0, rtol=0.1)
+
+
+def test_a_mouth_that_gives_nothing_holds_grains_like_a_wall(tmp_path):
+    """Before it opens and after it has closed."""
+    nozzle = slot([0.5, 0.0], [0.0, 1.0], width_m=0.2, start_s=0.2, end_s=0.24)
+    bed = {"shape": "box", "lower_m": [0.3, 0.02], "upper_m": [0.7, 0.06], "volume_fraction": ALPHA, "temperature_K": 300.0, "velocity_m_s": [0.0, -0.5]}
+    chosen = case(
+        {"below": nozzle}, effects=EFFECTS, boundaries=CLOSED, particles={"bed": bed},
+        run={"end_time_s": 1.0, "output_interval_s": 1.0},
+    )  # fmt: skip
+    done = until(begun(chosen, tmp_path), 0.15)
+    assert (done.state.kind == GRAIN).all() and done.state.y.min() > 0.0
+    until(done, 0.3)
+    assert done.source.mass > 0.0 and not (done.state.kind == INFLOW).any()
+    assert done.state.y.min() > 0.0
+    assert math.fsum(done.state.mass) == pytest.approx(ALPHA * 700.0 * 0.4 * 0.04 + done.source.mass, rel=1e-12)

@@ -1,0 +1,127 @@
+"""Guards against what numba does without a word: slow thread layers, stale caches, dropped writes, lost nans."""
+
+import ast
+import importlib.util
+import os
+import subprocess
+import sys
+
+import numba
+import pytest
+
+from sdph.engine import device as environment
+from sdph.scenes import paths
+
+SOURCES = [file for folder in ("sdph", "coupling") for file in sorted((paths.PACKAGE.parent / folder).rglob("*.py"))]
+NO_NANS = {"fast", "nnan", "ninf"}  # flags by which a run that bursts is not noticed
+PROBE = """
+import sdph, numba
+@numba.njit(parallel=True)
+def total(n):
+    t = 0
+    for i in numba.prange(n):
+        t += i
+    return t
+total(10)
+print(numba.threading_layer())
+"""
+
+
+def kernels():
+    """(file, function, decorator) of every function that is compiled."""
+    for file in SOURCES:
+        tree = ast.parse(file.read_text(encoding="utf-8"))
+        for function in (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)):
+            for decorator in function.decorator_list:
+                if isinstance(decorator, ast.Call) and getattr(decorator.func, "id", "") == "njit":
+                    yield file, function, {word.arg: word.value for word in decorator.keywords}
+
+
+def test_there_are_kernels():
+    assert sum("parallel" in words for _, _, words in kernels()) > 20
+
+
+def test_threads_are_launched_by_openmp():
+    if importlib.util.find_spec("numba.np.ufunc.omppool") is None:
+        pytest.skip("this numba has no OpenMP")
+    found = subprocess.run([sys.executable, "-c", PROBE], capture_output=True, text=True, check=True)
+    assert found.stdout.split() == ["omp"]
+
+
+def written(function):
+    """What stands before the [...] of each place that a function writes to."""
+    for node in ast.walk(function):
+        targets = node.targets if isinstance(node, ast.Assign) else [node.target] if isinstance(node, ast.AugAssign) else []
+        for target in (t for target in targets for t in (target.elts if isinstance(target, ast.Tuple) else [target])):
+            if isinstance(target, ast.Subscript):
+                yield target.value
+
+
+def test_no_parallel_loop_writes_to_unpacked_arguments():
+    """`X, Y = outputs` drops what a prange writes to X and Y; the outputs must be arguments of their own."""
+    for file, function, words in kernels():
+        if "parallel" in words:
+            unpacked = {
+                name.id for node in ast.walk(function) if isinstance(node, ast.Assign) and isinstance(node.value, ast.Name)
+                for target in node.targets if isinstance(target, ast.Tuple) for name in target.elts
+            }  # fmt: skip
+            names = {place.id for place in written(function) if isinstance(place, ast.Name)}
+            assert not unpacked & names, f"{file.name}: {function.name}"
+
+
+def test_no_parallel_loop_writes_to_a_field_of_an_argument():
+    """`s.x[i] = ...` of a NamedTuple s is dropped in a prange."""
+    for file, function, words in kernels():
+        if "parallel" in words:
+            assert not any(isinstance(place, ast.Attribute) for place in written(function)), f"{file.name}: {function.name}"
+
+
+def test_fast_arithmetic_keeps_nans():
+    for file, function, words in kernels():
+        flags = words.get("fastmath")
+        named = {node.value for node in ast.walk(flags) if isinstance(node, ast.Constant)} if flags else set()
+        assert not named & NO_NANS and True not in named, f"{file.name}: {function.name}"
+
+
+def test_loops_are_not_cut_into_chunks():
+    """set_parallel_chunksize(1) costs 2 to 4 times as much."""
+    assert not [file.name for file in SOURCES if "set_parallel_chunksize" in file.read_text(encoding="utf-8")]
+
+
+@pytest.mark.parametrize(("layer", "count"), [("omp", 0), ("workqueue", 1)])
+def test_the_work_queue_is_told(monkeypatch, layer, count):
+    monkeypatch.setattr(numba, "threading_layer", lambda: layer)
+    assert len(environment.warnings()) == count
+
+
+def test_before_any_parallel_loop_there_is_nothing_to_tell(monkeypatch):
+    def unknown():
+        raise ValueError("Threading layer is not initialized.")
+
+    monkeypatch.setattr(numba, "threading_layer", unknown)
+    assert environment.warnings() == []
+
+
+def test_what_the_user_has_set_stays(monkeypatch):
+    monkeypatch.setenv("NUMBA_CPU_FEATURES", "+sse2")
+    monkeypatch.setenv("NUMBA_THREADING_LAYER_PRIORITY", "workqueue")
+    environment.prepare()
+    assert (os.environ["NUMBA_CPU_FEATURES"], os.environ["NUMBA_THREADING_LAYER_PRIORITY"]) == ("+sse2", "workqueue")
+
+
+def test_an_edited_law_gets_kernels_of_its_own(monkeypatch, tmp_path):
+    """numba itself does not notice that a callee in another file was edited."""
+    package = tmp_path / "sdph"
+    (package / "engine").mkdir(parents=True)
+    (package / "law.py").write_text("@law\ndef drag(): return 1\n")
+    monkeypatch.setattr(environment, "__file__", str(package / "engine" / "device.py"))
+    before = environment._sources()
+    (package / "law.py").write_text("@law\ndef drag(): return 2\n")
+    assert environment._sources() != before
+
+
+def test_numba_imported_first_caches_by_the_sources_too():
+    told = "import numba, sdph; from sdph.engine import device as environment; print(numba.config.CACHE_DIR.endswith(environment._sources()))"
+    variables = {name: value for name, value in os.environ.items() if name != "NUMBA_CACHE_DIR"}
+    found = subprocess.run([sys.executable, "-c", told], capture_output=True, text=True, check=True, env=variables)
+    assert found.stdout.split() == ["True"]

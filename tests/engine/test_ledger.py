@@ -1,0 +1,97 @@
+"""The ledger: its rows, and that it tells a leak from a closed budget."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from builders import disc, fixed_windows, run, simulation
+from fakes import StillGas
+
+from sdph.engine import ledger
+from sdph.running import output
+
+SHORT = ("resolution.spacing_mm=10", "resolution.cell_mm=25", "run.end_time_s=0.004", "run.output_interval_s=0.004", "run.report_at_s=[]")
+
+
+class LeakyGas(StillGas):
+    """Loses a millionth of its temperature in every step."""
+
+    def advance(self, dt, sources):
+        self.temperature *= 1.0 - 1e-6
+        return super().advance(dt, sources)
+
+
+class HeatedGas(StillGas):
+    """Gets 1 J per step through its boundary, and says so."""
+
+    crossed = 0.0
+
+    def advance(self, dt, sources):
+        self.temperature += 1.0 / (self.alpha * self.mesh.volumes).sum() / self.case.gas.density / self.case.gas.heat_capacity
+        self.crossed += 1.0
+        return super().advance(dt, sources)
+
+    def _state(self):
+        state = super()._state()
+        return dataclasses.replace(state, budget=dataclasses.replace(state.budget, energy_in=self.crossed))
+
+
+def test_closed_box_is_closed(tmp_path):
+    done = run(disc(*SHORT), tmp_path)
+    summary = done.ledger.summary()
+    assert summary["heat_exchanged_J"] > 1.0
+    assert summary["exchange_energy_mismatch_rel"] <= 1e-12
+    assert summary["energy_drift_rel"] <= 1e-9
+    assert summary["mass_drift_rel"] == 0.0
+
+
+def test_leak_shows(tmp_path):
+    done = run(disc(*SHORT), tmp_path, gas=LeakyGas)
+    lost = done.ledger.first["gas_energy_J"] * 1e-6 * done.windows
+    assert done.ledger.summary()["energy_drift_rel"] * done.ledger.summary()["heat_exchanged_J"] == pytest.approx(lost, rel=0.5)
+    assert done.ledger.summary()["energy_drift_rel"] > 1e-6
+
+
+def test_unequal_exchange_shows(tmp_path):
+    """One of three windows in which the gas gave a millionth more than the particles took."""
+    run = simulation(disc(*SHORT), tmp_path)
+    for window, given in enumerate((10.0, 10.00001, 10.0)):
+        exchanged = ledger.NOTHING | {"heat_to_particles_J": 10.0, "heat_to_gas_J": -given}
+        run.ledger.close_window(1e-3 * (window + 1), 1e-3, "largest", run.state, run.gas_state, exchanged)
+    summary = run.ledger.summary()
+    assert summary["heat_exchanged_J"] == 30.0
+    assert summary["exchange_energy_mismatch_rel"] == pytest.approx(1e-5 / 30.0, rel=1e-6)
+
+
+def test_what_crosses_the_boundary_is_no_drift(tmp_path):
+    done = run(disc(*SHORT), tmp_path, gas=HeatedGas)
+    assert done.ledger.last["gas_energy_in_J"] == done.windows
+    assert done.ledger.summary()["energy_drift_rel"] <= 1e-9
+
+
+def test_one_row_a_window_with_what_was_exchanged(tmp_path):
+    done = run(disc(*SHORT, *fixed_windows(0.001)), tmp_path)
+    table = output.read_table(tmp_path / "ledger.csv")
+    assert len(table["time_s"]) == done.windows + 1 == 5
+    np.testing.assert_allclose(np.diff(table["time_s"]), table["window_s"][1:], rtol=1e-12)
+    np.testing.assert_allclose(np.diff(table["particle_energy_J"]), table["heat_to_particles_J"][1:], rtol=1e-6)
+    np.testing.assert_allclose(table["heat_to_particles_J"], -table["heat_to_gas_J"], rtol=1e-12)
+    assert table["particle_mass_kg"][0] == pytest.approx(done.state.mass.sum(), rel=1e-15)
+    assert set(table["limit"][1:]) == {"largest"}
+
+
+def test_momentum_and_kinetic_energy_of_moving_grains(tmp_path):
+    started = simulation(disc(*SHORT, "particles.disc.velocity_m_s=[3.0,-4.0]"), tmp_path)
+    started.ledger.table.close()
+    table, mass = output.read_table(tmp_path / "ledger.csv"), started.state.mass.sum()
+    assert table["particle_momentum_x_kg_m_s"][0] == pytest.approx(3.0 * mass, rel=1e-12)
+    assert table["particle_momentum_y_kg_m_s"][0] == pytest.approx(-4.0 * mass, rel=1e-12)
+    assert table["particle_kinetic_energy_J"][0] == pytest.approx(12.5 * mass, rel=1e-12)
+
+
+def test_one_way_exchanges_nothing_with_the_gas(tmp_path):
+    done = run(disc(*SHORT, "coupling.one_way=true"), tmp_path)
+    table = output.read_table(tmp_path / "ledger.csv")
+    np.testing.assert_array_equal(table["heat_to_gas_J"], 0.0)
+    assert done.ledger.last["gas_energy_J"] == done.ledger.first["gas_energy_J"]
+    assert done.state.temperature.mean() > 288.0

@@ -1,0 +1,224 @@
+"""Two phases: sums written out pair by pair, what they must keep, and that fluids at rest stay there."""
+
+import numpy as np
+import pytest
+from matrices import corrections
+
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.effects import OFF
+from sdph.engine import kernels as smoothing
+from sdph.engine.state import GAS, LIQUID, positions, velocities
+from sdph.laws import liquids
+from sdph.methods.liquids import interface, phases, shift
+from sdph.methods.liquids.method import LiquidStepper, loads, wall_loads
+from sdph.schema import CaseError
+
+BASE = {
+    "dimensions": 2,
+    "effects": ["gravity", "density_diffusion", "liquid_damping", "laminar_viscosity", "tank"],
+    "run": {"end_time_s": 1.0, "output_interval_s": 1.0},
+    "domain": {"size_m": [0.5, 0.8], "gravity_m_s2": [0.0, -9.81]},
+    "resolution": {"spacing_mm": 50.0},
+    "liquid": {"density_kg_m3": 1000.0, "viscosity_Pa_s": 1.0, "sound_speed_m_s": 20.0, "exponent": 1.0, "background_pressure_Pa": 100.0},
+    "gas_phase": {"density_kg_m3": 1.0, "viscosity_Pa_s": 0.02, "exponent": 1.0},
+    "tank": {"suction": "full"},
+    "pools": {
+        "water": {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.5, 0.4]},
+        "air": {"phase": "gas", "shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.5, 0.8]},
+    },
+}
+DROP = {
+    "effects": ["surface_tension"],
+    "domain": {"size_m": [3.0, 3.0], "gravity_m_s2": [0.0, 0.0]},
+    "resolution": {"spacing_mm": 50.0, "smoothing_ratio": 1.5},
+    "liquid": BASE["liquid"] | {"periodic": [1.0, 1.0]},
+    "surface_tension": {"coefficient_N_m": 0.5},
+    "pools": {
+        "drop": {"shape": "disc", "centre_m": [1.5, 1.5], "radius_m": 1.0},
+        "air": {"phase": "gas", "shape": "box", "lower_m": [0.0, 0.0], "upper_m": [3.0, 3.0]},
+    },
+}
+
+
+def stepper(shaken=True, **sections):
+    table = BASE | sections
+    own = LiquidStepper(cases.from_table({key: value for key, value in table.items() if key != "tank" or "tank" in table["effects"]}))
+    if shaken:
+        random, s = np.random.default_rng(1), own.state
+        wet = s.kind >= LIQUID
+        for name, size in (("x", 0.005), ("y", 0.005), ("u", 0.3), ("v", 0.3)):
+            getattr(s, name)[wet] += size * random.standard_normal(wet.sum())
+        own.forces()
+    return own
+
+
+def expected_acceleration(own, i, weighted, B):
+    s, p = own.state, own.p
+    r, v, gravity = positions(s), velocities(s), np.array([0.0, -9.81, 0.0])
+    mu = {(LIQUID, LIQUID): 1.0, (GAS, GAS): 0.02, (LIQUID, GAS): 2.0 * 0.02 / 1.02, (GAS, LIQUID): 2.0 * 0.02 / 1.02}
+    total = np.zeros(3)
+    for j in np.flatnonzero(np.linalg.norm(r - r[i], axis=1) < 2.0 * own.kernel.h):
+        if j == i:
+            continue
+        d, wet = r[i] - r[j], s.kind[j] >= LIQUID
+        distance, closing = np.linalg.norm(d), (v[i] - v[j]) @ d
+        rho_i, rho_j = s.density[i], s.density[j] if wet else s.density[i]
+        kind_j = s.kind[j] if wet else s.kind[i]
+        p_i, p_j = own.pressure[i], own.pressure[j] if wet else own.pressure[i] - rho_i * gravity @ d
+        first, second = (2.0 * rho_j / (rho_i + rho_j), 2.0 * rho_i / (rho_i + rho_j)) if weighted else (1.0, 1.0)
+        pair = first * p_i * B[i] + second * p_j * B[j if wet else i]
+        damping = -p["liquid_damping"].strength * closing / (distance**2 + p["liquid_damping"].softening)
+        along = damping * 2.0 * rho_i * rho_j / (rho_i + rho_j) / 1000.0 - 8.0 * mu[s.kind[i], kind_j] * closing / distance**2
+        volume = s.mass[j] / s.density[j] if wet else 0.05**2
+        total -= volume * smoothing.slope.py_func(own.kernel, distance) * (pair @ d + along * d)
+    return total / s.density[i] + gravity
+
+
+@pytest.mark.parametrize(("interaction", "gradient"), [("riemann", "plain"), ("plain", "plain"), ("riemann", "corrected"), ("plain", "corrected")])
+def test_acceleration_is_the_sum_over_all_pairs(interaction, gradient):
+    own = stepper(gas_phase=BASE["gas_phase"] | {"interaction": interaction}, liquid=BASE["liquid"] | {"pressure_gradient": gradient})
+    B = corrections(own) if gradient == "corrected" else np.zeros((len(own.state.x), 3, 3)) + np.eye(3)
+    chosen = np.concatenate([np.flatnonzero(own.state.kind == kind)[::5] for kind in (LIQUID, GAS)])
+    for i in chosen:
+        expected = expected_acceleration(own, i, interaction == "riemann", B)
+        assert np.allclose(own.acceleration[i], expected, rtol=1e-8, atol=1e-8 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("gradient", ["plain", "corrected"])
+def test_walls_feel_what_both_phases_lose(gradient):
+    own = stepper(liquid=BASE["liquid"] | {"pressure_gradient": gradient})
+    momentum, felt = loads(own), wall_loads(own)
+    assert np.allclose(momentum[:3], felt[:3], rtol=1e-9, atol=1e-9 * np.abs(felt).max())
+
+
+@pytest.mark.parametrize(("interaction", "gradient"), [("riemann", "plain"), ("plain", "plain"), ("riemann", "corrected")])
+def test_pair_forces_keep_momentum(interaction, gradient):
+    effects = ["density_diffusion", "liquid_damping", "laminar_viscosity", "xsph"]
+    own = stepper(
+        effects=effects, liquid=BASE["liquid"] | {"periodic": [1.0, 1.0], "pressure_gradient": gradient},
+        gas_phase=BASE["gas_phase"] | {"density_kg_m3": 100.0, "interaction": interaction}, domain={"size_m": [0.5, 0.8], "gravity_m_s2": [0.0, 0.0]},
+    )  # fmt: skip
+    scale = (own.state.mass[:, None] * np.abs(velocities(own.state))).sum()
+    before = own.state.mass @ velocities(own.state)
+    for _ in range(20):
+        own.step(1.0)
+    assert np.abs(own.state.mass @ velocities(own.state) - before).max() < 1e-12 * scale
+
+
+def test_xsph_moves_each_phase_with_its_own_and_as_a_whole_not_at_all():
+    own = stepper(effects=["xsph"], liquid=BASE["liquid"] | {"periodic": [1.0, 1.0]})
+    s = own.state
+    s.u[s.kind == GAS], s.u[s.kind == LIQUID] = 5.0, -2.0
+    shift.mingle(own.kernel, s, own.rows, own.neighbours.box, own.active, own.p["xsph"], own.phases, own.volume, *own.extra)
+    assert np.abs(own.extra[0]).max() < 1e-12
+    assert np.abs(own.extra[1]).max() > 1e-3
+    for kind in (LIQUID, GAS):
+        assert abs((s.mass @ np.where(s.kind == kind, own.extra[1], 0.0))) < 1e-12 * s.mass.sum()
+
+
+def test_water_under_air_stays_at_rest():
+    """The scene for a third of its time, when what its start stirred up has settled."""
+    own = LiquidStepper(cases.load(scenes.find("water_under_air")[1]))
+    s, speed = own.state, np.sqrt(9.81 * 0.5)
+    heights = {kind: s.y[s.kind == kind].mean() for kind in (LIQUID, GAS)}
+    while own.time < 3.0:
+        own.step(3.0 - own.time)
+    s = own.state
+    assert np.hypot(s.u, s.v)[s.kind == LIQUID].max() < 1e-3 * speed
+    assert np.hypot(s.u, s.v)[s.kind == GAS].max() < 1e-2 * speed
+    for kind in (LIQUID, GAS):
+        assert s.y[s.kind == kind].mean() == pytest.approx(heights[kind], abs=1e-3 * 0.5)
+    assert s.y[s.kind == GAS].min() - s.y[s.kind == LIQUID].max() > 0.8 * own.case.resolution.spacing
+
+
+def test_curvature_of_a_disc():
+    own = stepper(shaken=False, **DROP)
+    across = own.curvature[own.curvature != 0.0]
+    assert np.mean(across) == pytest.approx(1.0, rel=0.02)
+
+
+def test_tension_of_one_curvature_is_balanced_by_its_pressure():
+    """Whatever the disorder: with p = sigma kappa in the disc and 0 around it, force and pressure differ by no more than
+    what one pressure everywhere gives."""
+    own = stepper(**DROP)
+    s, sigma = own.state, 0.5
+    own.curvature[:] = np.where(own.normal.any(axis=1), 2.0, 0.0)
+    tension = np.zeros((len(s.x), 3))
+    interface.pull(own.kernel, s, own.rows, own.neighbours.box, own.active, own.p["surface_tension"], own.volume, own.normal, own.curvature, tension)
+    r, h = positions(s), own.kernel.h
+    for i in np.flatnonzero(own.normal.any(axis=1))[::25]:
+        jump = np.zeros(3)
+        for j in np.flatnonzero((np.linalg.norm(r - r[i], axis=1) < 2.0 * h) & (s.kind != s.kind[i])):
+            d, inside = r[i] - r[j], 2.0 * sigma * (s.kind[j] == LIQUID) - 2.0 * sigma * (s.kind[i] == LIQUID)
+            pair = 2.0 * s.density[i] * inside / (s.density[i] + s.density[j])
+            jump -= s.mass[j] / s.density[j] * smoothing.slope.py_func(own.kernel, np.linalg.norm(d)) * pair * d / s.density[i]
+        assert np.allclose(tension[i], -jump, rtol=1e-9, atol=1e-12 * np.abs(jump).max())
+
+
+def test_summed_density_of_a_lattice_is_that_of_rest():
+    own = stepper(
+        shaken=False, effects=["tank"], gas_phase=BASE["gas_phase"] | {"density_by": "summation"}, domain={"size_m": [0.5, 0.8], "gravity_m_s2": [0.0, 0.0]}
+    )
+    assert np.allclose(own.state.density[own.state.kind == LIQUID], 1000.0, rtol=1e-9)
+    assert np.allclose(own.state.density[own.state.kind == GAS], 1.0, rtol=1e-9)
+
+
+def test_van_der_waals_gas_begins_at_the_pressure_of_the_case():
+    own = stepper(shaken=False, effects=["tank"], gas_phase=BASE["gas_phase"] | {"cohesion_Pa_m6_kg2": 20.0})
+    assert np.allclose(own.pressure[own.state.kind == GAS], 100.0, rtol=1e-9)
+
+
+def test_paper_and_default_let_the_column_fall_alike():
+    """XSPH and Van der Waals' gas as the paper has them (p_i + p_j, c_a = 14.1 c_w), and the Riemann form: fronts within a spacing."""
+    fronts = []
+    for paper in (False, True):
+        table = cases.to_table(cases.load(scenes.find("dam_break_gas")[1], ("resolution.spacing_mm=7.14375",)))
+        if paper:
+            table["effects"] = [*(name for name in table["effects"] if name != "shifting"), "xsph"]
+            del table["shifting"]
+            table["gas_phase"] |= {"interaction": "plain", "exponent": 1.4, "sound_speed_m_s": 299.0, "cohesion_Pa_m6_kg2": 1682.0}
+            table["liquid"] |= {"exponent": 7.0}
+        own = LiquidStepper(cases.from_table(table))
+        while own.time < 0.03:
+            own.step(0.03 - own.time)
+        fronts.append(own.state.x[own.state.kind == LIQUID].max())
+    assert fronts[0] > 0.0572
+    assert fronts[1] == pytest.approx(fronts[0], abs=0.00714375)
+
+
+def test_one_phase_is_off():
+    case = cases.from_table({key: value for key, value in BASE.items() if key != "gas_phase"} | {"pools": {"water": BASE["pools"]["water"]}})
+    assert phases.kernel(case) == OFF
+
+
+def test_quadrupole_is_continuous_across_the_rim_along_its_normal():
+    angle = np.linspace(0.0, 2.0 * np.pi, 17)
+    normal = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    inside, outside = (liquids.quadrupole(r * normal, 2.0, 0.3) for r in (2.0 - 1e-9, 2.0 + 1e-9))
+    assert np.allclose((inside * normal).sum(axis=1), 0.3 * np.cos(2.0 * angle), atol=1e-8)
+    assert np.allclose((outside * normal).sum(axis=1), 0.3 * np.cos(2.0 * angle), atol=1e-8)
+
+
+def test_frequencies_of_discs():
+    """Closed forms of Lamb 1932 in units of sqrt(sigma/(rho R^3)), n = 2 and 3."""
+    assert liquids.disc_frequency(2, 1.0, 1.0, 1.0) == pytest.approx(2.44949, rel=1e-5)
+    assert liquids.disc_frequency(3, 1.0, 1.0, 1.0) == pytest.approx(4.89898, rel=1e-5)
+    assert liquids.disc_frequency(2, 1.0, 1.0, 1.0, 1.0) == pytest.approx(1.73205, rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    "change, word",
+    [
+        ({"pools": {"a": {"shape": "box", "lower_m": [0.0, 0.5], "upper_m": [0.5, 0.4]}}}, "must lie above lower_m"),
+        ({"pools": {"a": {"shape": "disc", "centre_m": [0.2, 0.2]}}}, "pools.a.radius_m is missing"),
+        ({"resolution": {"spacing_mm": 1e12}}, "larger than pools.water"),
+        ({"gas_phase": None}, "gas_phase"),
+        ({"gas_phase": {"density_kg_m3": 1.0, "density_by": "summation"}}, "density_diffusion"),
+        ({"pools": {"a": {"phase": "gas", "shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.5, 0.8], "flow": "quadrupole"}}}, "quadrupole"),
+    ],
+)
+def test_what_two_phases_cannot_be_is_told(change, word):
+    table = {key: value for key, value in (BASE | change).items() if value is not None}
+    with pytest.raises(CaseError, match=word):
+        LiquidStepper(cases.from_table(table))

@@ -1,0 +1,86 @@
+"""What is up in a column is what gravity says: the same vessel along another axis has the same metrics."""
+
+import dataclasses
+import tomllib
+
+import numpy as np
+import pytest
+from grain_boxes import started
+
+from coupling.embedded import EmbeddedGas
+from coupling.gas import Mesh
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.case.gas_cells import Rows
+from sdph.running.metrics import column
+from sdph.schema import CaseError
+
+LENGTH, WIDTH, BED, SPEED, GRAVITY = 0.2, (0.06, 0.08), 0.1, 0.04, 9.81
+SIDES = (("left", "right"), ("bottom", "top"), ("back", "front"))
+
+
+def vessel(axis, sense):
+    """A bed blown through along `axis`, upwards along it for `sense` 1, down for -1."""
+
+    def along(length, across=(0.0, 0.0)):
+        return [*across[:axis], length, *across[axis:]]
+
+    table = tomllib.loads((scenes.HERE / "bubbling_bed_3d" / "case.toml").read_text())
+    lower, upper = (0.0, BED) if sense > 0 else (LENGTH - BED, LENGTH)
+    floor, lid = SIDES[axis][::sense]
+    bed = {"shape": "box", "lower_m": along(lower), "upper_m": along(upper, WIDTH)}
+    return cases.from_table(table | {
+        "run": {"end_time_s": 1e-3, "output_interval_s": 1e-3},
+        "domain": {"size_m": along(LENGTH, WIDTH), "gravity_m_s2": along(-sense * GRAVITY)},
+        "resolution": {"spacing_mm": 10.0, "cell_mm": 20.0},
+        "particles": {"bed": bed | {"volume_fraction": 0.6, "temperature_K": 288.0}},
+        "boundaries": {
+            "inlet": {"kind": "velocity_inlet", "side": floor, "velocity_m_s": along(sense * SPEED)},
+            "outlet": {"kind": "pressure_outlet", "side": lid, "pressure_Pa": 0.0},
+            "walls": {"kind": "slip_wall"},
+        },
+    })  # fmt: skip
+
+
+def measured(case, folder):
+    """Metrics of the column at 1 ms, and the mass of its grains [kg]."""
+    folder.mkdir()
+    simulation = started(case, folder, EmbeddedGas(case))
+    while simulation.time < case.run.end_time:
+        simulation.window()
+    simulation.ledger.table.close()
+    return column.metrics(simulation), simulation.state.mass.sum()
+
+
+def test_up_is_against_gravity(tmp_path):
+    upright, mass = measured(vessel(1, 1), tmp_path / "y")
+    share = 1.0 - 1.225 / 3060.0
+    assert upright["weight_Pa"] == pytest.approx(mass * share * GRAVITY / np.prod(WIDTH), rel=1e-12)
+    assert upright["bed_height_m"] == pytest.approx(BED, rel=0.01)
+    assert upright["superficial_velocity_m_s"] == pytest.approx(SPEED, rel=0.05)
+    for axis, sense in ((0, 1), (2, 1), (2, -1)):
+        other, _ = measured(vessel(axis, sense), tmp_path / f"{axis}{sense}")
+        assert other == pytest.approx(upright, rel=1e-3), (axis, sense)
+
+
+def test_a_bed_of_one_row_has_no_gradient(tmp_path):
+    case = cases.from_table(cases.to_table(vessel(1, 1)) | {"resolution": {"spacing_mm": 10.0, "cell_mm": 80.0}})
+    found, _ = measured(case, tmp_path / "coarse")
+    assert np.isnan(found["gradient_Pa_m"]) and np.isnan(found["alpha_p_inside"])
+    assert found["weight_Pa"] > 0.0
+
+
+def test_without_gravity_nothing_is_up(tmp_path):
+    case = vessel(1, 1)
+    case = dataclasses.replace(case, domain=dataclasses.replace(case.domain, gravity=(0.0, 0.0, 0.0)))
+    with pytest.raises(CaseError, match="run.metrics holds column, but domain.gravity_m_s2 = .* tells of no way up"):
+        column.metrics(started(case, tmp_path, EmbeddedGas(case)))
+
+
+def test_rows_of_cells_in_no_layers():
+    """Cells at random, as tetrahedra have their centres: slabs, from which a pressure that falls straight does so."""
+    centres = np.random.default_rng(3).uniform(0.0, 1.0, (4000, 3)) * [0.1, 0.1, 0.4]
+    rows = Rows(Mesh(centres, np.full(4000, 1e-6), 3), (0.0, 0.0, 1.0))
+    assert len(rows.place) == 40
+    assert (rows.floor, rows.top) == pytest.approx((0.0, 0.4), abs=2e-3)
+    assert rows.at_ends(rows.mean(5.0 - 10.0 * centres[:, 2])) == pytest.approx((5.0, 1.0), abs=0.02)

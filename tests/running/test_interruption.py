@@ -1,0 +1,56 @@
+"""Signals: asked once, asked twice, and while a kernel is compiled."""
+
+import os
+import signal
+import time
+
+import pytest
+
+from sdph.running import interruption
+from sdph.running.interruption import Stopped, listening
+
+
+def test_impatient_it_stops_at_once_and_patient_it_waits():
+    with listening() as wish:
+        with pytest.raises(Stopped):
+            os.kill(os.getpid(), signal.SIGTERM)
+            time.sleep(1.0)
+        wish.patient = True
+        os.kill(os.getpid(), signal.SIGTERM)
+        assert wish.number == signal.SIGTERM
+        with pytest.raises(Stopped):
+            wish.obey()
+
+
+def test_whoever_does_not_obey_is_stopped_all_the_same(monkeypatch):
+    """A gas that hangs lets no window end."""
+    monkeypatch.setattr(interruption, "PATIENCE", 0.2)
+    with listening() as wish, pytest.raises(Stopped):
+        wish.patient = True
+        os.kill(os.getpid(), signal.SIGTERM)
+        time.sleep(30.0)
+
+
+def test_whoever_obeys_hears_no_more(monkeypatch):
+    monkeypatch.setattr(interruption, "PATIENCE", 0.2)
+    heard = []
+    before = signal.signal(signal.SIGTERM, lambda number, frame: heard.append(number))
+    with listening() as wish:
+        wish.patient = True
+        os.kill(os.getpid(), signal.SIGTERM)
+    time.sleep(0.5)
+    signal.signal(signal.SIGTERM, before)
+    assert not heard
+
+
+def test_where_it_would_be_lost_it_comes_again():
+    """What is raised in a callback of the compiler is lost."""
+
+    def _raw_object_cache_notify():
+        os.kill(os.getpid(), signal.SIGTERM)
+        return "done"
+
+    assert _raw_object_cache_notify.__name__ == interruption.CALLBACK
+    with listening(), pytest.raises(Stopped):
+        assert _raw_object_cache_notify() == "done"
+        time.sleep(10.0 * interruption.LATER)

@@ -1,0 +1,198 @@
+"""The run folder: refused or made whole, and read back as it was written."""
+
+import json
+import os
+
+import numpy as np
+import pytest
+import pyvista
+from builders import disc, polar_mesh, run, simulation
+from hypothesis import given
+from hypothesis import strategies as st
+
+from sdph.engine.table import Table
+from sdph.running import output
+from sdph.running.fields import Fields
+from sdph.schema import CaseError
+from sdph.show import view
+
+SHORT = ("resolution.spacing_mm=10", "resolution.cell_mm=25", "run.end_time_s=0.004", "run.output_interval_s=0.002", "run.report_at_s=[]")
+
+
+def snapshot(folder):
+    return {path.relative_to(folder): path.read_bytes() if path.is_file() else None for path in folder.rglob("*")}
+
+
+def test_new_folder_is_made_with_what_it_needs(tmp_path):
+    folder = output.create(tmp_path / "deep" / "run")
+    assert (folder / "fields").is_dir()
+    assert output.create(tmp_path / "deep" / "other", ()).is_dir()
+
+
+@pytest.mark.parametrize(("name", "told"), [("case.toml", "another run or case"), ("notes.txt", "not an empty folder")])
+def test_folder_in_use_is_refused_and_left_as_it_is(tmp_path, name, told):
+    (tmp_path / name).write_text("mine")
+    before = snapshot(tmp_path)
+    with pytest.raises(CaseError, match=told):
+        output.create(tmp_path)
+    assert snapshot(tmp_path) == before
+
+
+def test_file_in_the_way_is_refused(tmp_path):
+    file = tmp_path / "file"
+    file.write_text("mine")
+    for folder, refusal in ((file, CaseError), (file / "run", output.CannotWrite)):
+        with pytest.raises(refusal):
+            output.create(folder)
+    assert file.read_text() == "mine"
+
+
+def test_free_name_is_the_first_that_is_not_there(tmp_path):
+    base = tmp_path / "disc"
+    assert output.free_name(base) == base
+    base.mkdir()
+    (tmp_path / "disc-2").mkdir()
+    assert output.free_name(base) == tmp_path / "disc-3"
+
+
+def test_text_is_whole_or_not_there(tmp_path, monkeypatch):
+    file = tmp_path / "summary.json"
+    output.write_text(file, "first")
+
+    def full_disk(descriptor):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full_disk)
+    with pytest.raises(OSError):
+        output.write_text(file, "second, longer")
+    assert file.read_text() == "first"
+
+
+def test_summary_reads_back_and_a_missing_one_is_told(tmp_path):
+    with pytest.raises(CaseError, match="no summary.json"):
+        output.read_summary(tmp_path)
+    output.write_summary(tmp_path, {"particles": 5024, "drift": 1.5e-13})
+    assert output.read_summary(tmp_path) == json.loads((tmp_path / "summary.json").read_text()) == {"particles": 5024, "drift": 1.5e-13}
+
+
+@given(rows=st.lists(st.tuples(st.floats(allow_nan=False), st.integers(-(2**53), 2**53), st.sampled_from(["a", "courant", 'x, "y"'])), min_size=1))
+def test_table_reads_back_to_the_last_bit(tmp_path_factory, rows):
+    file = tmp_path_factory.mktemp("table") / "t.csv"
+    table = Table(file)
+    for a, b, c in rows:
+        table.write({"a_K": a, "b": b, "limit": c})
+    table.close()
+    columns = output.read_table(file)
+    np.testing.assert_array_equal(columns["a_K"], [row[0] for row in rows])
+    np.testing.assert_array_equal(columns["b"], [row[1] for row in rows])
+    assert columns["limit"].tolist() == [row[2] for row in rows]
+
+
+def test_fields_read_back(tmp_path):
+    """Particles and gas of every output on one timeline, each gas cell with its own value."""
+    case = disc(*SHORT)
+    simulated = simulation(case, tmp_path)
+    output.create(tmp_path / "run")
+    fields = Fields(tmp_path / "run")
+    fields.write(0.0, simulated.meshes())
+    while simulated.time < case.run.end_time:
+        simulated.window()
+    fields.write(simulated.time, simulated.meshes())
+    reader = view.read(tmp_path / "run")
+    assert list(reader.time_values) == [0.0, 0.004]
+    time, particles, gas = view.state_at(reader)
+    assert time == 0.004
+    np.testing.assert_array_equal(particles["temperature"], simulated.state.temperature)
+    np.testing.assert_array_equal(particles["ident"], simulated.state.ident)
+    np.testing.assert_allclose(particles.points[:, 0], simulated.state.x, rtol=1e-6)
+    from scipy.spatial import cKDTree
+
+    np.testing.assert_allclose(particles["alpha_p"], simulated.state.density / 3060.0, rtol=1e-14)
+    distance, order = cKDTree(simulated.gas.mesh.centres).query(gas.cell_centers().points)
+    assert distance.max() < 1e-9
+    np.testing.assert_array_equal(gas["temperature"], simulated.gas.temperature[order])
+    assert gas.bounds[:4] == pytest.approx((0.0, 0.5, 0.0, 0.5))
+
+
+def test_folder_without_fields_is_told(tmp_path):
+    with pytest.raises(CaseError, match="run.pvd"):
+        view.read(tmp_path)
+
+
+def test_picture_of_a_run(tmp_path, monkeypatch):
+    case = disc(*SHORT)
+    simulated = run(case, tmp_path)
+    output.create(tmp_path / "run")
+    Fields(tmp_path / "run").write(simulated.time, simulated.meshes())
+    view.show(tmp_path / "run", tmp_path / "picture.png")
+    from matplotlib.image import imread
+
+    picture = imread(tmp_path / "picture.png")
+    assert picture.shape[:2] == (900, 1200)
+    assert len(np.unique(picture.reshape(-1, picture.shape[2]), axis=0)) > 100
+    with pytest.raises(CaseError, match="--time 1: this run has fields from 0.004 to 0.004 s"):
+        view.show(tmp_path / "run", tmp_path / "other.png", time=1.0)
+    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+        monkeypatch.delenv(name, raising=False)
+    with pytest.raises(CaseError, match="no display .* --png"):
+        view.show(tmp_path / "run")
+
+
+def test_mesh_that_is_no_tensor_grid_is_not_drawn_as_one():
+    """Centres of a wedge are not the nodes of a grid of their coordinates, so the boxes are not to be used."""
+
+    class Wedge:
+        mesh = polar_mesh(3, 4, 1.0, 1.0)
+
+    with pytest.raises(AttributeError, match="case_folder"):  # it goes on to the OpenFOAM case of the solver
+        output.gas_grid(Wedge())
+
+
+@pytest.mark.parametrize(("edges", "across"), [((5, 9, 1), 2), ((1, 9, 5), 0), ((5, 9, 8), None)])
+def test_gas_in_space_is_cut_through_its_middle(edges, across):
+    """The whole of it would hide the grains; a slab is looked at across."""
+    import pyvista
+
+    gas = pyvista.RectilinearGrid(*(np.linspace(0.0, length, 5) for length in edges))
+    gas.cell_data["temperature"] = gas.cell_centers().points[:, edges.index(min(edges))]
+    cut, found = view._cut(gas)
+    assert found == across
+    assert cut.n_cells >= 16 and np.ptp(cut.cell_data["temperature"]) == 0.0  # one layer of cells
+
+
+@pytest.fixture
+def drawn(tmp_path):
+    """A run folder with one instant."""
+    simulated = run(disc(*SHORT), tmp_path)
+    output.create(tmp_path / "run")
+    Fields(tmp_path / "run").write(simulated.time, simulated.meshes())
+    return tmp_path / "run"
+
+
+@pytest.mark.parametrize("harm", ["no timeline", "cut", "gone"])
+def test_damaged_fields_are_told(drawn, harm):
+    file = drawn / ("run.pvd" if harm == "no timeline" else "fields/gas_00000.vtr")
+    file.write_bytes(b"" if harm == "no timeline" else file.read_bytes()[:-20])
+    if harm == "gone":
+        file.unlink()
+    with pytest.raises(CaseError, match=f"{file.name} is damaged|is damaged .*{file.name}"):
+        view.show(drawn, drawn / "a.png")
+
+
+def test_gas_among_a_liquid_is_drawn_small():
+    points = pyvista.PolyData(np.random.default_rng(1).random((5, 3)))
+    points["kind"] = np.array([2, 3, 2, 3, 3])
+    (liquid, whole), (gas, small) = view._phases(points)
+    assert (liquid.n_points, gas.n_points) == (2, 3) and whole > small
+    assert [share for _, share in view._phases(liquid)] == [1.0]
+
+
+def test_a_movie_is_of_all_that_it_shows():
+    meshes = [pyvista.PolyData(np.array([[x, 0.0, 0.0], [1.0, x, 0.0]])) for x in (-1.0, 0.5, 3.0)]
+    assert view._around(meshes) == pytest.approx([-1.0, 3.0, -1.0, 3.0, 0.0, 0.0])
+
+
+def test_axes_end_on_round_numbers():
+    assert view._rounded((0.00665, 0.992, 0.0103, 1.99, 0.5, 0.5)) == pytest.approx([0.0, 1.0, 0.0, 2.0, 0.5, 0.5])
+    assert view._rounded((0.0, 0.5, 0.0, 1.0, -0.012, 0.02)) == pytest.approx([0.0, 0.5, 0.0, 1.0, -0.1, 0.1])
+    assert view._rounded((0.1, 0.1, 0.2, 0.2, 0.0, 0.0)) == pytest.approx([0.1, 0.1, 0.2, 0.2, 0.0, 0.0])

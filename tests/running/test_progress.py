@@ -1,0 +1,102 @@
+"""What a run says of itself while it goes: the line, the page, and what is refused or stopped because it would get nowhere."""
+
+import json
+import re
+import sys
+
+import numpy as np
+import pytest
+from test_cli import SMALL, refused, sdph  # noqa: F401  (`refused` is a fixture)
+from test_restart import load
+
+from sdph import cli
+from sdph.methods.grains.bounds import COLLAPSE
+from sdph.methods.grains.method import Stepper
+from sdph.running import driver
+from sdph.running.progress import Reporter
+from sdph.schema import CaseError
+from sdph.show import watch
+from sdph.study import memory as room
+
+
+class Terminal(list):
+    """A stderr that is a terminal."""
+
+    def write(self, text):
+        self.append(text)
+
+    def flush(self):
+        pass
+
+    def isatty(self):
+        return True
+
+
+LINE = re.compile(r"t = 0\.0004 s, dt = \d.*e-\d\d s \(.+\), 80 particles, residual \d.*\(\w+\), closure \d.* \(\w+\), 0 s left")
+
+
+def test_the_line_on_a_terminal_says_all(tmp_path, monkeypatch):
+    terminal = Terminal()
+    monkeypatch.setattr(sys, "stderr", terminal)
+    monkeypatch.setenv("COLUMNS", "300")
+    monkeypatch.setattr("sdph.running.progress.REFRESH", 0.0)
+    reporter = Reporter()
+    driver.run(load("disc_cluster", "embedded"), "disc_cluster", tmp_path / "run", None, reporter)
+    reporter.close()
+    assert LINE.search("".join(terminal)), "".join(terminal)[-500:]
+
+
+def test_json_hides_no_warning(tmp_path):
+    """What is printed is JSON alone; the warning stands beside it, and no progress does."""
+    done = sdph("run", "disc_cluster", *SMALL, "--set", "resolution.cell_mm=100", "--json", "--out", "mine", cwd=tmp_path)
+    assert json.loads(done.stdout)["time_s"] == 0.002
+    assert "warning: domain / cell = 5, safe from 10" in done.stderr and "t = " not in done.stderr
+
+
+def test_the_page_shows_the_run(tmp_path):
+    reporter = Reporter(quiet=True, page=watch.Page(tmp_path / "run"))
+    driver.run(load("disc_cluster", "embedded"), "disc_cluster", tmp_path / "run", None, reporter)
+    page = (tmp_path / "run" / watch.NAME).read_text()
+    assert LINE.search(page) and 'http-equiv="refresh"' in page and "Heated disc" in page
+    from matplotlib.image import imread
+
+    picture = imread(tmp_path / "run" / watch.PICTURE)
+    assert len(np.unique(picture.reshape(-1, picture.shape[2]), axis=0)) > 100
+    assert not list((tmp_path / "run").glob(".*"))
+
+
+def test_watch_is_a_word_of_the_command(tmp_path):
+    sdph("run", "disc_cluster", *SMALL, "--watch", "--out", "mine", cwd=tmp_path)
+    assert (tmp_path / "mine" / watch.NAME).exists() and (tmp_path / "mine" / watch.PICTURE).exists()
+
+
+@pytest.mark.parametrize("key", ["resolution.spacing_mm=1e-4", "resolution.cell_mm=1e-4"])
+def test_a_case_larger_than_the_machine_is_refused(refused, key):  # noqa: F811
+    said = refused("run", "disc_cluster", "--set", key)
+    assert "GB are free here" in said and "resolution.spacing_mm" in said
+
+
+def test_memory_is_told_and_a_case_that_fits_is_not_refused(monkeypatch):
+    assert 1e6 < room.available() < 1e15
+    room.refuse_too_large(load("bubbling_bed", "embedded"))
+    monkeypatch.setattr(room, "available", lambda: 1e6)
+    with pytest.raises(CaseError, match="0.001 GB are free"):
+        room.refuse_too_large(load("bubbling_bed", "embedded"))
+
+
+def test_a_run_whose_sub_steps_collapse_is_stopped(tmp_path, monkeypatch, capsys):
+    """Sound that nothing in the case can account for: exit code 5, and the sub-step, the particle and the place are named."""
+    measure = Stepper._sub_step
+
+    def sub_step(stepper, left):
+        step = measure(stepper, left)
+        if stepper.steps == 10:
+            stepper.stress.sound[7] = 2.0 * COLLAPSE * stepper.guard.reach
+        return step
+
+    monkeypatch.setattr(Stepper, "_sub_step", sub_step)
+    overrides = [word for text in ("resolution.spacing_mm=20", "resolution.cell_mm=20", "run.end_time_s=0.01") for word in ("--set", text)]
+    assert cli.main(["run", "bubbling_bed", "--gas", "embedded", *overrides, "--out", str(tmp_path / "run")]) == cli.WENT_UNSTABLE
+    said = capsys.readouterr().err
+    assert "speed of sound of particle" in said and "the sub-step has fallen to" in said and len(said.splitlines()[-1:]) == 1
+    assert (tmp_path / "run" / "last_good.npz").exists()

@@ -1,0 +1,161 @@
+"""The ladder of accuracy: errors, orders, limits and choices on made rows; measuring, budget and resuming on a small disc."""
+
+import argparse
+import json
+
+import pytest
+
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.cli import arguments
+from sdph.schema import CaseError
+from sdph.study.cost import choice, climb, ladder, report, rows
+
+SMALL = ladder.Ladder(
+    reference="none",
+    settings=["coupling.gas='embedded'"],
+    excerpt=["run.end_time_s=0.002", "run.output_interval_s=0.001", "run.report_at_s=[]"],
+    knobs={"resolution.spacing_mm": [20.0, 10.0], "resolution.cell_mm": [50.0, 25.0]},
+    metrics=["centre_rise_K"],
+)
+
+
+def row(label="all 1/1", wall=1.0, value=0.0, reference=None, without=ladder.ALL, solver=rows.OWN, **settings):
+    made = {"label": label, "solver": solver, "wall_s": wall, "without": without, "load": 0.0}
+    return made | {"metrics": json.dumps({"a": (value, reference, 2.0)})} | settings
+
+
+def test_error_is_of_the_scale_against_the_reference():
+    assert [r["error"] for r in rows.errors([row(value=1.3, reference=1.0)])] == [pytest.approx(0.15)]
+
+
+def test_richardson_finds_the_limit_of_a_sequence_of_any_order():
+    """a + b q^n: three levels give a."""
+    levels = [row(f"all {n + 1}/3", value=5.0 + 3.0 * 0.37**n) for n in range(3)]
+    assert rows.richardson([rows.found(r) for r in levels])["a"] == pytest.approx((5.0, 3.0 * 0.37**2))
+    assert rows.errors(levels)[0]["error"] == pytest.approx(1.5)
+
+
+def test_a_sequence_without_order_is_taken_at_its_finest():
+    levels = [row(f"all {n + 1}/3", value=v) for n, v in enumerate((1.0, 3.0, 2.0))]
+    assert rows.richardson([rows.found(r) for r in levels])["a"] == (2.0, 1.0)
+    assert [r["error"] for r in rows.errors(levels)] == [0.5, 0.5, 0.5]  # none is told to be better than what is known of the limit
+
+
+def test_observed_order_of_second_order_rows():
+    own = ladder.Ladder(reference="", knobs={"x": [4.0, 2.0, 1.0]})
+    made = [row(value=7.0 + 0.1 * x**2, x=x) for x in (4.0, 2.0, 1.0)]
+    assert rows.orders(own, made)["x"] == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize("p", [0.5, 1.0, 2.3])
+def test_observed_order_of_steps_in_no_one_ratio(p):
+    """Changes of c x^p between 5, 3 and 1."""
+    assert rows.order(5.0, 3.0, 1.0, 5.0**p - 3.0**p, 3.0**p - 1.0) == pytest.approx(p)
+
+
+def test_cheapest_holds_the_error_with_all_effects():
+    made = [row(wall=9.0) | {"error": 0.001}, row(wall=3.0) | {"error": 0.015}, row(wall=0.5) | {"error": 0.3}]
+    made += [row(wall=1.0, without="drag") | {"error": 0.0}, row(wall=0.1, solver="twoPhaseEulerFoam") | {"error": 0.0}]
+    assert rows.cheapest(made, 0.02)["wall_s"] == 3.0
+    assert rows.cheapest(made, 0.01)["wall_s"] == 9.0
+    assert rows.cheapest(made, 1e-4) is None
+    assert [r["wall_s"] for r in rows.front(made)] == [0.5, 3.0, 9.0]
+
+
+def test_each_solver_has_its_own_limit():
+    made = [row(f"all {n + 1}/3", value=limit + 0.5**n, solver=who) for who, limit in ((rows.OWN, 5.0), ("other", 7.0)) for n in range(3)]
+    assert [r["error"] for r in rows.errors(made)] == pytest.approx([0.5, 0.25, 0.125] * 2)
+
+
+def test_rungs_are_levels_single_knobs_and_effects_off():
+    own = ladder.Ladder(reference="", knobs={"x": [3, 2, 1], "y": [6, 5, 4]}, alone={"z": [8]}, usual={"z": 9}, drop=["drag"])
+    found = ladder.rungs(own)
+    assert [label for label, _ in found] == ["all 1/3", "all 2/3", "all 3/3", "x", "x", "y", "y", "z", "without drag"]
+    assert found[3][1] == {"x": 3, "y": 5, "z": 9, "without": ladder.ALL}
+    assert found[-2][1] == {"x": 2, "y": 5, "z": 8, "without": ladder.ALL}
+    assert found[-1][1] == {"x": 2, "y": 5, "z": 9, "without": "drag"}
+
+
+def test_ladder_is_measured_within_its_budget_and_resumed(tmp_path, monkeypatch):
+    for module in (climb, report):
+        monkeypatch.setattr(module, "declared", lambda scene: SMALL)
+    file, said = tmp_path / "cost.csv", []
+    assert climb.climb("disc_cluster", file, 0.0, 1, said.append) == []
+    assert "budget is spent before all 1/2" in said[-1]
+    first = climb.climb("disc_cluster", file, 1e9, 1, said.append)
+    before = file.read_bytes()
+    assert len(first) == len(ladder.rungs(SMALL)) == 4
+    assert all(r["wall_s"] > 0.0 and r["particles"] > 50 for r in first)
+    said.clear()
+    again = climb.climb("disc_cluster", file, 1e9, 1, said.append)
+    assert file.read_bytes() == before
+    assert all("measured before" in line for line in said) and len(said) == 4
+    assert "all 2/2" in report.text("disc_cluster", rows.errors(again))
+    report.draw("disc_cluster", rows.errors(again), tmp_path / "cost.png")
+    assert (tmp_path / "cost.png").stat().st_size > 10_000
+
+
+def test_accuracy_takes_what_was_measured_and_says_so(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(choice, "declared", lambda scene: SMALL)
+    coarse, fine = {"resolution.spacing_mm": 20.0, "resolution.cell_mm": 50.0}, {"resolution.spacing_mm": 10.0, "resolution.cell_mm": 25.0}
+    for settings, wall, value in ((coarse, 1.0, 1.2), (fine, 4.0, 1.02)):
+        climb._keep(tmp_path / "runs/cost/some/cost.csv", row("x", wall, value, 1.0, **settings))
+    said = []
+    assert not any("end_time" in setting for setting in choice.settings_for("some", 0.1, said.append))
+    assert "resolution.spacing_mm=20.0" in choice.settings_for("some", 0.1, said.append)
+    assert "resolution.spacing_mm=10.0" in choice.settings_for("some", 0.05, said.append)
+    assert "error 0.01 against none" in said[-1] and "4 s" in said[-1]
+    with pytest.raises(CaseError, match="the best: 0.01"):
+        choice.settings_for("some", 1e-3, said.append)
+    with pytest.raises(CaseError, match="sdph cost other"):
+        choice.settings_for("other", 0.02, said.append)
+
+
+@pytest.mark.parametrize(("text", "seconds"), [("90", 90.0), ("90s", 90.0), ("10min", 600.0), ("2h", 7200.0)])
+def test_budget_is_read_with_its_unit(text, seconds):
+    assert arguments.seconds(text) == seconds
+
+
+@pytest.mark.parametrize(("text", "found"), [("2%", 0.02), ("0.02", 0.02), ("100%", 1.0)])
+def test_accuracy_is_a_share(text, found):
+    assert arguments.share(text) == found
+
+
+def test_an_accuracy_above_all_is_refused():
+    with pytest.raises(argparse.ArgumentTypeError, match="did you mean 2%"):
+        arguments.share("2")
+
+
+def test_declared_ladders_name_keys_that_the_scene_has():
+    assert ladder.with_ladder()
+    for name in ladder.with_ladder():
+        own = ladder.declared(name)
+        assert len({len(values) for values in own.knobs.values()}) == 1
+        for _, settings in ladder.rungs(own):
+            assert ladder.case_of(name, own, settings)
+
+
+def test_accuracy_leaves_what_is_simulated_as_it_is():
+    """The ladder may look at an excerpt of a scene; the setting that it finds must not."""
+    for name in ladder.with_ladder():
+        own, case = ladder.declared(name), cases.load(scenes.find(name)[1])
+        for _, settings in ladder.rungs(own):
+            chosen = cases.load(scenes.find(name)[1], (*own.settings, *ladder.overrides(settings)))
+            assert chosen.run.end_time == case.run.end_time and chosen.domain == case.domain
+            assert chosen.effects == case.effects and chosen.nozzles == case.nozzles and chosen.boundaries == case.boundaries
+
+
+def test_a_table_of_another_version_is_told(tmp_path):
+    (tmp_path / "cost.csv").write_text("label,wall_s\nall 1/1,1.0\n")
+    with pytest.raises(CaseError, match="remove it"):
+        rows.read(tmp_path / "cost.csv")
+
+
+def test_what_is_nothing_in_one_of_two_rows_has_changed_wholly():
+    nothing, some = row(value=0.0), row(value=3.0)
+    for made in (nothing, some):
+        made["metrics"] = made["metrics"].replace("2.0]", "null]")
+    assert rows.distance(nothing, some) == rows.distance(some, nothing) == 1.0
+    assert rows.distance(nothing, nothing) == 0.0

@@ -1,0 +1,78 @@
+"""What a case with a liquid calls for: its numbers by hand, its effects, and what is told when something is missing."""
+
+import math
+
+import pytest
+
+from sdph import effects, scenes
+from sdph.case import judge
+from sdph.case import read as cases
+from sdph.methods.liquids.method import LiquidStepper
+from sdph.study.explain import tables
+
+LIQUIDS = [name for name in scenes.names() if cases.load(scenes.HERE / name / "case.toml").liquid]
+
+
+def load(scene, *more):
+    return cases.load(scenes.HERE / scene / "case.toml", more)
+
+
+def numbers(case):
+    return {row["number"].split(",")[0]: row["value"] for row in tables.explain(case)["numbers"]}
+
+
+def test_numbers_of_the_channel():
+    """g = 8 nu U/H2 for U = 1 m/s, H = 1 m, nu = 0.1 m2/s."""
+    own = numbers(load("poiseuille"))
+    assert own["Reynolds"] == pytest.approx(10.0)
+    assert own["Mach"] == pytest.approx(0.1)
+
+
+def test_numbers_of_the_dam():
+    """U = sqrt(2 g H), H = 0.1143 m; L = 57.15 mm."""
+    own, speed = numbers(load("dam_break")), math.sqrt(2.0 * 9.81 * 0.1143)
+    assert own["Froude"] == pytest.approx(speed / math.sqrt(9.81 * 0.05715), rel=0.01)
+    assert own["Weber"] == pytest.approx(1000.0 * speed**2 * 0.05715 / 0.0728, rel=0.01)
+    assert own["Bond"] == pytest.approx(1000.0 * 9.81 * 0.05715**2 / 0.0728, rel=0.01)
+    assert own["Mach"] == pytest.approx(speed / 21.2, rel=0.01)
+
+
+@pytest.mark.parametrize("scene", LIQUIDS)
+def test_shipped_scenes_have_all_that_they_call_for(scene):
+    case = load(scene)
+    assert tables.text(tables.explain(case))
+    assert not tables.warnings(case)
+
+
+def test_every_effect_on_liquids_judges_itself():
+    assert [name for name, row in effects.REGISTRY.items() if "liquid" in row.matter and not row.call] == []
+
+
+@pytest.mark.parametrize(
+    ("scene", "off"),
+    [("dam_break", "gravity"), ("dam_break", "tank"), ("taylor_green", "laminar_viscosity"), ("taylor_green", "shifting"), ("bubble_rise", "shifting"), ("poiseuille", "tank")],
+)
+def test_a_missing_effect_is_told(scene, off):
+    table = cases.to_table(load(scene))
+    table["effects"].remove(off)
+    table.pop(off, None)
+    assert any(line.startswith(f"effect {off} is off") for line in judge.missing(cases.from_table(table)))
+
+
+def test_what_a_scene_does_not_call_for_is_not_judged_missing():
+    judged = judge.called_for(load("hydrostatic_tank"))
+    assert not {"laminar_viscosity", "frame", "shifting"} & judged.keys()
+    assert "surface_tension" not in judged
+
+
+def test_slow_sound_is_told():
+    assert any("raise liquid.sound_speed_m_s from 5 to" in line for line in tables.warnings(load("dam_break", "liquid.sound_speed_m_s=5")))
+
+
+def test_limits_are_the_steppers_own():
+    case = load("poiseuille", "liquid.viscosity_Pa_s=10.0", "resolution.spacing_mm=50")
+    own = {row["cause"]: row["largest [s]"] for row in tables.explain(case)["limits"]}
+    stepper = LiquidStepper(case)
+    dt = stepper.next_step(1e9)
+    assert stepper.limit == "laminar_viscosity" == min(own, key=own.get)
+    assert dt == pytest.approx(own["laminar_viscosity"], rel=1e-6)

@@ -1,0 +1,100 @@
+"""Hard cases (the fast ones), and that a run which goes unstable is caught in time and leaves what is needed."""
+
+import numpy as np
+import pytest
+from builders import disc, simulation
+
+from coupling.gas import GasError
+from sdph import cli
+from sdph.engine.guard import Unstable
+from sdph.methods.grains.bounds import Guard
+from sdph.running import simulation as running
+from sdph.schema import CaseError
+from sdph.study.stress import suite
+
+FAST = [hard.name for hard in suite.chosen([], True)]
+PAST_LIMIT = (
+    "resolution.spacing_mm=10", "resolution.cell_mm=25", "grains.conductivity_W_m_K=5e6", "run.step_factor=60.0",
+    "coupling.window_tolerance=1e30", "coupling.window_largest_s=0.01",
+)  # fmt: skip
+
+
+def test_there_are_enough_hard_cases():
+    assert len(suite.files()) >= 30
+    assert len(FAST) >= 8
+
+
+@pytest.mark.parametrize("name", FAST)
+def test_hard_case(name):
+    verdict = suite.run(*suite.chosen([name], True))
+    assert verdict.ok, suite.line(verdict)
+
+
+def test_a_criterion_that_is_missed_fails():
+    hard = suite.load(next(file for file in suite.files() if file.stem == "fast_conduction"))
+    broken = suite.Hard(**{**vars(hard), "at_most": {"temperature_K_max": 280.0}})
+    verdict = suite.run(broken)
+    assert not verdict.ok
+    assert "FAIL" in suite.line(verdict) and "temperature_K_max" in suite.line(verdict)
+
+
+def test_an_unknown_measure_is_told(tmp_path):
+    hard = suite.load(next(file for file in suite.files() if file.stem == "fast_conduction"))
+    with pytest.raises(CaseError, match="temperature_K_maxx"):
+        suite.run(suite.Hard(**{**vars(hard), "at_most": {"temperature_K_maxx": 280.0}}))
+
+
+def test_conduction_past_its_limit_is_caught_within_20_sub_steps(tmp_path):
+    """From the first sub-step that leaves the temperatures of the case (288 to 350 K) to the stop."""
+    run = simulation(disc(*PAST_LIMIT), tmp_path)
+    seen = []
+    looked = run.stepper.guard.sub_step
+
+    def watch(stepper):
+        seen.append((stepper.state.temperature.min(), stepper.state.temperature.max()))
+        looked(stepper)
+
+    run.stepper.guard.sub_step = watch
+    with pytest.raises(Unstable) as caught:
+        while run.time < run.case.run.end_time:
+            run.window()
+    beyond = [low < 287.9 or high > 350.1 for low, high in seen]
+    assert 1 <= len(seen) - beyond.index(True) <= 20
+    for part in ("temperature of particle", "t = ", " m is ", "lower run.step_factor", "coupling.window_largest_s"):
+        assert part in str(caught.value)
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, 1e6])
+def test_a_bad_velocity_is_caught_at_once(tmp_path, value):
+    run = simulation(disc("resolution.spacing_mm=10", "resolution.cell_mm=25"), tmp_path)
+    run.window()
+    run.state.u[7] = value
+    with pytest.raises(Unstable, match=f"speed of particle {run.state.ident[7]} "):
+        run.window()
+
+
+def test_bad_gas_is_caught(tmp_path):
+    run = simulation(disc("resolution.spacing_mm=10", "resolution.cell_mm=25"), tmp_path)
+    run.gas.temperature[3] = -5000.0
+    with pytest.raises(GasError, match="cannot finish window 1 .*gas temperature of cell 3 .*lower coupling.window_largest_s"):
+        run.window()
+    assert run.repeated == len(run.notices) == running.REPEATS + 1
+
+
+def test_nothing_is_caught_in_a_sound_run(tmp_path):
+    run = simulation(disc("resolution.spacing_mm=10", "resolution.cell_mm=25"), tmp_path)
+    for _ in range(50):
+        run.window()
+    assert Guard(run.case).coldest < run.state.temperature.min()
+
+
+def test_an_unstable_run_leaves_its_last_good_state(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    options = [part for override in PAST_LIMIT for part in ("--set", override)]
+    assert cli.main(["run", "disc_cluster", "--gas", "embedded", "--out", "burst", *options]) == 5
+    said = capsys.readouterr().err.splitlines()[-1]
+    assert "went unstable" in said and "last_good" in said
+    with np.load(tmp_path / "burst" / "last_good.npz") as last:
+        assert np.isfinite(last["temperature"]).all() and len(last["x"]) > 300
+        assert 280.0 < last["temperature"].min()
+    assert (tmp_path / "burst" / "last_good.png").stat().st_size > 10_000

@@ -1,0 +1,94 @@
+"""The report: whole in one file, true for runs that failed too, and its view is drawn and follows its slider in a browser."""
+
+import json
+import re
+import shutil
+import subprocess
+
+import imageio.v3 as imageio
+import pytest
+from test_restart import Cut, Reporter, load
+
+from sdph import cli
+from sdph.running import driver
+from sdph.schema import CaseError
+from sdph.show import view
+from sdph.study import report
+
+PROBE = """
+<script>
+const canvas = document.querySelector('canvas'), slider = document.querySelector('.viewer input');
+const colours = () => new Set(new Uint32Array(canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data.buffer)).size;
+const seen = [];
+for (const place of [slider.max, 0]) {
+  slider.value = place;
+  slider.dispatchEvent(new Event('input'));
+  seen.push({colours: colours(), picture: canvas.toDataURL(), label: document.querySelector('output').value});
+}
+document.body.setAttribute('data-seen', JSON.stringify({colours: seen.map(s => s.colours), labels: seen.map(s => s.label), changed: seen[0].picture !== seen[1].picture}));
+</script>
+"""
+
+
+@pytest.fixture(scope="module")
+def runs(tmp_path_factory):
+    """Two whole runs and one that failed."""
+    folder = tmp_path_factory.mktemp("runs")
+    for name, more in (("paper", ("heat.closure='paper'",)), ("plain", ())):
+        driver.run(load("disc_cluster", "embedded", *more), "disc_cluster", folder / name, None, Reporter())
+    with pytest.raises(Cut):
+        driver.run(load("disc_cluster", "embedded"), "disc_cluster", folder / "cut", None, Reporter(5))
+    return folder
+
+
+def test_runs_stand_side_by_side_in_one_file(runs):
+    text = report.write([runs / "paper", runs / "plain"], runs / "both.html").read_text()
+    assert not re.findall(r'(?:src|href)="(?!data:)', text)
+    for part in ("What was run", "Results", "Figures", "Fields", "Ledger", "Where the time went", "Settings", "Versions"):
+        assert f"<h2>{part}</h2>" in text
+    row = re.search(r"<tr><td>heat.closure</td>(.*?)</tr>", text).group(1)
+    assert re.findall(r"<td>(\w+)</td>", row) == ["paper", "geometric"]
+    summary = json.loads((runs / "plain" / "summary.json").read_text())
+    assert f'{summary["centre_temperature_K"]:.6g}</td>' in text
+
+
+def test_a_failed_run_says_what_went_wrong(runs, capsys):
+    (runs / "cut" / "failure.json").write_text(json.dumps({"what": "the <gas> was killed", "kind": "GasError", "time_s": 1e-4}))
+    assert cli.main(["report", str(runs / "cut")]) == 0
+    text = (runs / "cut" / "report.html").read_text()
+    assert capsys.readouterr().out.strip() == str(runs / "cut" / "report.html")
+    assert "failed at t = 0.0001 s: the &lt;gas&gt; was killed" in text
+
+
+def test_what_is_no_run_is_refused(tmp_path):
+    with pytest.raises(CaseError, match="holds no run"):
+        report.write([tmp_path], tmp_path / "report.html")
+
+
+@pytest.mark.parametrize("name", ["plain", "cut"])
+def test_the_view_is_drawn_and_the_slider_works(runs, name):
+    chromium = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    if chromium is None:
+        pytest.skip("no Chromium was found")
+    page = report.write([runs / name], runs / f"{name}.html")
+    page.write_text(page.read_text().replace("</body>", PROBE + "</body>"))
+    command = [chromium, "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", page.as_uri()]
+    dom = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True).stdout
+    seen = json.loads(re.search(r'data-seen="(.*?)"', dom).group(1).replace("&quot;", '"'))
+    assert min(seen["colours"]) > 20  # not blank
+    assert seen["labels"][1] == "t = 0.00000 s"
+    if name == "plain":
+        assert seen["changed"] and seen["labels"][0] == "t = 0.000400000 s"
+
+
+@pytest.mark.parametrize("suffix", [".gif", ".mp4"])
+def test_a_movie_has_every_time(runs, suffix):
+    view.movie(runs / "plain", runs / f"movie{suffix}")
+    pictures = imageio.imread(runs / f"movie{suffix}", index=None if suffix == ".mp4" else ...)
+    assert len(pictures) == 3
+    assert pictures[0].std() > 5.0
+
+
+def test_an_unknown_kind_of_movie_is_refused(runs):
+    with pytest.raises(CaseError, match="must end with .gif or .mp4"):
+        view.movie(runs / "plain", runs / "movie.txt")
