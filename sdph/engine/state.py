@@ -46,6 +46,13 @@ class State(NamedTuple):
     born_variance: np.ndarray
     lost_still: np.ndarray
     lost_moving: np.ndarray
+    received: np.ndarray
+    exchanged: np.ndarray
+    warmth: np.ndarray
+    push_x: np.ndarray
+    push_y: np.ndarray
+    push_z: np.ndarray
+    damping: np.ndarray
 
 
 # name -> (unit, meaning)
@@ -69,10 +76,16 @@ FIELDS = {
     "born_variance": ("m2", "number variance of the grain diameters then"),
     "lost_still": ("m2", "loss of d^2 as in still gas (sdph.laws.grain_loss)"),
     "lost_moving": ("m^(3/2)", "further loss by the flow around the grains (the same)"),
+    "received": ("W", "heat from the gas in the last window"),
+    "exchanged": ("1", "1 if it was in the gas in the last window"),
+    # what holds over a window, and is there within it alone
+    "warmth": ("J", "heat from the gas in the window"),
+    "push_x": ("m/s2", "acceleration by gas and gravity"), "push_y": ("m/s2", "the same"), "push_z": ("m/s2", "the same"),
+    "damping": ("1/s", "rate at which the gas damps theta"),
 }  # fmt: skip
 ALWAYS = ("x", "y", "u", "v", "mass", "density", "ident", "kind")
-IN_SPACE = {"z", "w", "contact_yz", "contact_zx"}  # of length zero in two dimensions
-INTEGERS = {"ident": np.int64, "kind": np.int8, "nozzle": np.int32, "entering": np.int8}
+IN_SPACE = {"z", "w", "contact_yz", "contact_zx", "push_z"}  # of length zero in two dimensions
+INTEGERS = {"ident": np.int64, "kind": np.int8, "nozzle": np.int32, "entering": np.int8, "exchanged": np.int8}
 
 
 def empty(count: int, names=ALWAYS, dimensions: int = 2) -> State:
@@ -110,6 +123,11 @@ def axes(state: State) -> tuple[np.ndarray, ...]:
     return (state.x, state.y, state.z) if len(state.z) else (state.x, state.y)
 
 
+def pushes(state: State) -> tuple[np.ndarray, ...]:
+    """The accelerations that hold over a window, of the dimensions that there are."""
+    return (state.push_x, state.push_y, state.push_z) if len(state.z) else (state.push_x, state.push_y)
+
+
 def positions(state: State) -> np.ndarray:
     """(N, 3) positions [m]; z is zero in two dimensions."""
     return _columns(state.x, state.y, state.z)
@@ -143,6 +161,18 @@ def born(state: State) -> State:
 def wet(state: State) -> np.ndarray:
     """Mask of the particles that move by the equations of liquids."""
     return (state.kind == LIQUID) | (state.kind == GAS)
+
+
+def forced(state: State, warmth, push, damping) -> State:
+    """The same under what holds over a window: warmth (N,) [J], push (N, 3) [m/s2], damping (N,) [1/s]."""
+    x, y, z = np.ascontiguousarray(push.T)
+    return state._replace(warmth=warmth, push_x=x, push_y=y, push_z=z if len(state.z) else z[:0], damping=damping)
+
+
+def released(state: State) -> State:
+    """The same with nothing held over a window."""
+    nothing = np.zeros(0)
+    return state._replace(**dict.fromkeys(("warmth", "push_x", "push_y", "push_z", "damping"), nothing))
 
 
 def count(state: State) -> int:

@@ -16,6 +16,7 @@ from sdph.case.gas_cells import cell_edges
 from sdph.effects.around.streams import streams_of
 from sdph.engine.clock import Clock
 from sdph.engine.kept import POSITIVE, Maybe, Named, Unfit
+from sdph.engine.state import GRAIN
 
 SAFETY, GROWTH, SHRINK = 0.9, 2.0, 0.3  # usual bounds of a step controller (Hairer, Norsett & Wanner, II.4); our choice
 VAPOUR = 0.1  # of the gas in a cell: most vapour that comes into it in a window, so that it is carried away as it comes; our choice
@@ -30,46 +31,47 @@ KEYS = {
 class Control:
     """Step control of one exchanged quantity by the change of its rate."""
 
-    KEPT = ("rates", "scale", "error")  # see sdph.engine.kept
-    FORMS = {"rates": Maybe((0.0, np.zeros(0), np.zeros(0, np.int64)))}
+    KEPT, FORMS = ("before", "scale", "error"), {"before": Maybe(0.0)}  # see sdph.engine.kept
 
     def __init__(self, tolerance: float):
         self.tolerance = tolerance
-        self.rates = None
+        self.before = None  # length of the last window [s]
         self.scale = 0.0
         self.error = 0.0
 
     def admit(self, kept: dict) -> None:
-        """Unfit where the rates of the last window are not of its particles."""
-        dt, rates, ident = kept["rates"] or (1.0, (), ())
-        if not dt > 0.0 or len(rates) != len(ident) or min(kept["scale"], kept["error"]) < 0.0:
-            raise Unfit("the control of the window has no rates that belong to particles")
+        """Unfit where what it learned cannot be."""
+        if kept["before"] is not None and not kept["before"] > 0.0 or min(kept["scale"], kept["error"]) < 0.0:
+            raise Unfit("the control of the window has learned what no window can tell")
 
     def begin(self, rate: float, scale: float) -> float:
         """First window [s] of a relaxation at `rate` [1/s]: backward Euler errs by (rate dt)^2/2 of `scale`."""
         self.scale = scale
         return math.sqrt(2.0 * self.tolerance) / rate if rate > 0.0 else math.inf
 
-    def learn(self, dt: float, taken: np.ndarray, ident: np.ndarray) -> float:
-        """Next window [s] after one of `dt` [s] in which the particles `ident` (N,) exchanged `taken` (N,) [J]."""
-        before, self.rates = self.rates, (dt, taken / dt, ident)
-        self.scale = max(self.scale, float(np.abs(taken).sum()))
+    def learn(self, dt: float, heat: float, change: float) -> float:
+        """Next window [s] after one of `dt` [s] in which particles exchanged `heat` [J] in all, sum of |Q|, at rates that
+        differ by `change` [W], sum of |Q/dt - Q/dt before|, from those of the last window."""
+        before, self.before = self.before, dt
+        self.scale = max(self.scale, heat)
         if self.scale == 0.0:  # nothing to exchange, nothing to resolve
             return dt * GROWTH
         if before is None:
             return dt
-        change = _change(before, self.rates)
-        self.error = change * dt * dt / (dt + before[0]) / self.scale
+        self.error = change * dt * dt / (dt + before) / self.scale
         return dt * min(GROWTH, max(SHRINK, SAFETY * math.sqrt(self.tolerance / max(self.error, 1e-300))))
 
 
-def _change(before, now) -> float:
-    """Sum over the particles that are in both of how much their rate changed [W]."""
-    place = np.full(1 + max(before[2].max(initial=0), now[2].max(initial=0)), -1)  # of each ident before
-    place[before[2]] = np.arange(len(before[2]))
-    old = place[now[2]]
-    stayed = old >= 0
-    return float(np.abs(now[1][stayed] - before[1][old[stayed]]).sum())
+def learned(state, heat, dt: float) -> tuple[float, float]:
+    """Heat [J] that grains exchanged in a window of `dt` [s], sum of |heat|, and the change [W] of its rate since the last one,
+    of those that were in the gas in both; the state gets the rate of now."""
+    inside = state.kind == GRAIN
+    change = 0.0
+    if len(state.received):
+        both = inside & (state.exchanged > 0)
+        change = float(np.abs(heat[both] / dt - state.received[both]).sum())
+        state.received[:], state.exchanged[:] = heat / dt, inside
+    return float(np.abs(heat[inside]).sum()), change
 
 
 class Window(Clock):
@@ -116,13 +118,13 @@ class Window(Clock):
         """There is `heat` [J] to exchange now."""
         self.control.scale = max(self.control.scale, heat)
 
-    def learn(self, dt: float, heat: np.ndarray, ident: np.ndarray, courant: float, fastest: float) -> None:
-        """Set the limits from the window just done: heat (N,) [J] of the particles `ident` (N,), courant of the gas,
-        fastest particle [m/s]."""
+    def learn(self, dt: float, heat: float, change: float, courant: float, fastest: float) -> None:
+        """Set the limits from the window just done: `heat` and `change` as of `Control.learn`, courant of the gas, fastest
+        particle [m/s]."""
         if fastest > 0.0:
             self.limits["particles"] = self.courant * self.cell / fastest
         if "heat exchange" in self.limits:
-            self.limits["heat exchange"] = self.control.learn(dt, heat, ident)
+            self.limits["heat exchange"] = self.control.learn(dt, heat, change)
         if courant > 0.0:
             self.limits["courant"] = dt * min(GROWTH, self.courant / courant)
 

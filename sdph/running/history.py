@@ -50,13 +50,9 @@ def tracked(simulation) -> dict[str, float]:
         return {}
     state, columns = simulation.state, {}
     conducted = simulation.stepper.conduction_rates()
-    received = np.zeros(len(state.x))
-    if simulation.received:
-        known = np.isin(state.ident, simulation.received.ident)  # not what has come in since
-        received[known] = simulation.received.now(state.ident[known])[0]
     arrays = carried(simulation.case)
     fields = {key: getattr(state, name) for key, name in TRACKED.items() if name in arrays}
-    fields |= {"convective_heat_W": received, "conductive_heat_W": conducted}
+    fields |= {"convective_heat_W": state.received if len(state.received) else np.zeros(len(state.x)), "conductive_heat_W": conducted}
     for ident in names:
         place = np.flatnonzero((state.ident == ident) & (state.kind != particles.INFLOW))
         found = {key: float(values[place[0]]) if len(place) else math.nan for key, values in fields.items()}

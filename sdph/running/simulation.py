@@ -17,9 +17,9 @@ from sdph.engine.ledger import vector
 from sdph.engine.state import GRAIN, INFLOW
 from sdph.engine.walls import sides as boundary
 from sdph.exchange.exchange import Exchange
-from sdph.exchange.window import Window
+from sdph.exchange.window import Window, learned
 from sdph.methods.grains import start
-from sdph.methods.grains.method import Held, Stepper
+from sdph.methods.grains.method import Stepper
 from sdph.running import history, output
 
 PART = 4.0  # a window that the gas cannot finish is taken again, so much shorter (our choice),
@@ -72,7 +72,6 @@ class Simulation:
             self.clock.thicken(1.0, thickening)
             self.clock.hold(grip)
         self.ledger.open(self.grains, self.gas_state.budget)
-        self.received = None  # heat rate [W] of each particle from the gas in the last window
 
     def admit(self, kept: dict) -> None:
         """Unfit where time is not that of the ledger, or particles have numbers that nobody gave."""
@@ -81,14 +80,14 @@ class Simulation:
         if self.source:
             self.source.admit_at(kept["time"], kept["source"])
         given = kept["source"]["next_ident"] if self.source else len(self.state.x) + 1
-        for ident in (kept["stepper"]["state"]["ident"], (kept["clock"]["control"]["rates"] or (0.0, 0.0, np.zeros(0, np.int64)))[2]):
-            if ident.min(initial=1) < 1 or ident.max(initial=1) > max(1, given - 1):
-                raise Unfit(f"a particle has a number that is not among 1 to {given - 1}")
+        ident = kept["stepper"]["state"]["ident"]
+        if ident.min(initial=1) < 1 or ident.max(initial=1) > max(1, given - 1):
+            raise Unfit(f"a particle has a number that is not among 1 to {given - 1}")
 
     def take_up(self, checkpoint) -> None:
         """Go back to the gas of a checkpoint, instead of `start`; what else was kept is put back next."""
         sources = () if self.case.coupling.one_way else self.exchange.sources
-        self.gas_state, self.received = self.gas.restore(checkpoint.gas, sources), None
+        self.gas_state = self.gas.restore(checkpoint.gas, sources)
         self.stepper.guard.admit_gas(self.gas_state.fields)
         if abs(self.gas_state.time - checkpoint.time) > SAME_TIME * self.case.run.end_time:
             raise Unfit(f"its gas is at {self.gas_state.time:g} s, its particles are at {checkpoint.time:g} s")
@@ -100,19 +99,16 @@ class Simulation:
         taken = self._timed("exchange", self.exchange.take, handed, self.gas_state)
         self.clock.hold(self.exchange.grip(self.state, handed.damping))
         self.exchange.settle(self.state, handed)
-        inside = self.state.kind == GRAIN
-        self.received = Held(self.state, taken.heat / dt)
-        flows = Held(self.state, taken.warming, taken.impulse, self._body(handed), handed.damping)
-        self._without_finished()
-        warming, impulse, body, damping = flows.now(self.state.ident)
-        tally, mass = Tally(self), self.state.mass[:, None]
+        exchanged, body = learned(self.state, taken.heat, dt), self._body(handed)
         weight = np.einsum("i,ij->j", self.state.mass * (self.state.kind == GRAIN) * dt, body)
-        if self.moves:
-            self._timed("particles", self.stepper.move, dt, warming, body + impulse / (mass * dt), damping)
-        else:
-            self._timed("particles", self.stepper.conduct, dt, warming)
+        momentum = self.state.mass[:, None] * dt
+        pushed = np.divide(taken.impulse, momentum, out=np.zeros_like(body), where=momentum > 0.0)
+        self.stepper.force(taken.warming, body + pushed, handed.damping)
+        self._without_finished()
+        tally = Tally(self)
+        self._timed("particles", self.stepper.move if self.moves else self.stepper.conduct, dt)
         self.time, self.windows = end, self.windows + 1
-        self.clock.learn(dt, taken.heat[inside], self.received.ident[inside], self.gas_state.budget.courant, self._fastest())
+        self.clock.learn(dt, *exchanged, self.gas_state.budget.courant, self._fastest())
         self.clock.thicken(dt, self.exchange.vapour_share(handed, self.gas_state))
         exchanged = taken.columns() | tally.columns(self, weight, np.einsum("ij->j", taken.impulse))
         exchanged |= {"drag_heat_J": self.exchange.drag_heat_of(handed)}

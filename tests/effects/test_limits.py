@@ -45,10 +45,8 @@ def grains(case):
 def advance(case, stepper, dt):
     """Grains that fall through a window in which the gas does nothing."""
     count = len(stepper.state.x)
-    if effects.moving(case):
-        stepper.move(dt, np.zeros(count), np.full((count, 3), -9.81), np.zeros(count))
-    else:
-        stepper.conduct(dt, np.zeros(count))
+    stepper.force(np.zeros(count), np.full((count, 3), -9.81), np.zeros(count))
+    (stepper.move if effects.moving(case) else stepper.conduct)(dt)
 
 
 def shorten(monkeypatch, name, limit):

@@ -10,7 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from coupling.gas import GasError, Unfinished
+from sdph import effects
 from sdph.case import judge
+from sdph.engine import state as particles
 from sdph.engine.clock import Stalled
 from sdph.exchange import window
 from sdph.study.explain import estimate
@@ -24,12 +26,9 @@ def clock(*overrides, rate=0.0, scale=0.0):
     return chooser
 
 
-IDENT = np.arange(20)
-
-
 def learn(chooser, dt, courant=0.0):
     """Three particles at rest exchanged 1 W each for `dt`."""
-    chooser.learn(dt, np.ones(3) * dt, IDENT[:3], courant, 0.0)
+    chooser.learn(dt, 3.0 * dt, 0.0, courant, 0.0)
 
 
 def times(chooser, end):
@@ -102,7 +101,7 @@ def test_control_grows_and_shrinks_within_bounds(tolerance, dts, seed):
     control, rng = window.Control(tolerance), np.random.default_rng(seed)
     control.begin(1.0, 10.0)
     for dt in dts:
-        following = control.learn(dt, rng.normal(size=20) * dt * 10.0 ** rng.uniform(-6, 3), IDENT)
+        following = control.learn(dt, *rng.exponential(size=2) * (dt, 1.0) * 10.0 ** rng.uniform(-6, 3, 2))
         assert SHRINK * dt * (1.0 - 1e-12) <= following <= GROWTH * dt * (1.0 + 1e-12)
 
 
@@ -110,10 +109,11 @@ def test_control_holds_the_error_at_the_tolerance():
     """A rate that relaxes as exp(-t): the estimated error of every window is near the tolerance, whatever the start."""
     tolerance = 1e-4
     control = window.Control(tolerance)
-    dt, time, errors = control.begin(1.0, 1.0), 0.0, []
+    dt, time, errors, before = control.begin(1.0, 1.0), 0.0, [], 0.0
     for _ in range(60):
-        taken = np.array([math.exp(-time) - math.exp(-time - dt)])
-        following = control.learn(dt, taken, IDENT[:1])
+        taken = math.exp(-time) - math.exp(-time - dt)
+        following = control.learn(dt, taken, abs(taken / dt - before))
+        before = taken / dt
         errors.append(control.error)
         time, dt = time + dt, following
     assert max(errors[2:]) < 1.1 * tolerance
@@ -123,24 +123,26 @@ def test_control_holds_the_error_at_the_tolerance():
 def test_steady_exchange_lets_windows_grow():
     control = window.Control(1e-5)
     dt = control.begin(100.0, 1.0)
-    control.learn(dt, np.ones(4) * dt, IDENT[:4])
-    assert control.learn(dt, np.ones(4) * dt, IDENT[:4]) == GROWTH * dt
+    control.learn(dt, 4.0 * dt, 4.0)
+    assert control.learn(dt, 4.0 * dt, 0.0) == GROWTH * dt
 
 
 @given(order=st.permutations(range(8)), gone=st.integers(0, 7))
-def test_control_follows_particles_that_are_sorted_anew_or_leave(order, gone):
-    """Each particle exchanges at its own steady rate, so nothing changes, in whatever order they stand."""
-    control, rates = window.Control(1e-5), np.linspace(1.0, 1e3, 8)
-    control.begin(1.0, 1.0)
-    control.learn(0.1, 0.1 * rates, IDENT[:8])
+def test_the_change_is_of_particles_that_are_sorted_anew_or_leave(order, gone):
+    """Each particle exchanges at its own rate; of those that were not in the gas before there is no change to tell."""
+    state = particles.empty(8, effects.REGISTRY["heat"].arrays)
+    state.received[:], state.exchanged[:] = np.linspace(1.0, 1e3, 8), [1, 1, 1, 1, 1, 1, 1, 0]
+    rates = state.received + [0, 0, 5, 0, 0, 0, 0, 70]
     left = np.array([k for k in order if k != gone])
-    assert control.learn(0.1, 0.1 * rates[left], left) == GROWTH * 0.1
-    assert control.error <= 1e-15
+    state = particles.take(state, left)
+    heat, change = window.learned(state, 0.5 * rates[left], 0.5)
+    assert heat == pytest.approx(0.5 * rates[left].sum()) and change == pytest.approx(0.0 if gone == 2 else 5.0)
+    assert state.received == pytest.approx(rates[left]) and state.exchanged.all()
 
 
 def test_fast_particles_rule_by_name():
     chooser = clock("coupling.courant=0.5")
-    chooser.learn(1e-3, np.zeros(3), IDENT[:3], 0.0, 10.0)
+    chooser.learn(1e-3, 0.0, 0.0, 0.0, 10.0)
     assert chooser.choose(0.0) <= 0.5 * 5e-3 / 10.0
     assert chooser.limit == "particles"
 

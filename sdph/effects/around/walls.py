@@ -113,10 +113,10 @@ def gradient(p, kernel, box, dummies, rows, s, i):
 
 
 @njit(cache=True, error_model="numpy")
-def extrapolate(kernel, box, dummies, rows, s, pressure, body, weight, wall_pressure, wall_velocity):
+def extrapolate(kernel, box, dummies, rows, s, pressure, weight, wall_pressure, wall_velocity):
     """Pressure and mean velocity of the grains at the dummies: Adami et al. 2012, Eq. 23 and 27.
 
-    body (N, 3) [m/s2] is what acts on the grains from outside. A pressure below zero is taken as zero: grains do not
+    A pressure below zero is taken as zero: grains do not
     stick to a wall.
     """
     weight[:], wall_pressure[:], wall_velocity[:] = 0.0, 0.0, 0.0
@@ -126,7 +126,7 @@ def extrapolate(kernel, box, dummies, rows, s, pressure, body, weight, wall_pres
             dx, dy, dz = offset(box, dummies, w, s, i)
             value = kernels.cubic_spline(np.sqrt(dx * dx + dy * dy + dz * dz), kernel.h, kernel.sigma)
             weight[w] += value
-            hydrostatic = -(body[i, 0] * dx + body[i, 1] * dy + body[i, 2] * dz) * s.density[i]
+            hydrostatic = -(s.push_x[i] * dx + s.push_y[i] * dy + (s.push_z[i] * dz if len(s.z) else 0.0)) * s.density[i]
             wall_pressure[w] += value * (pressure[i] + hydrostatic)
             wall_velocity[w, 0] += value * s.u[i]
             wall_velocity[w, 1] += value * s.v[i]

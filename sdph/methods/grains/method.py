@@ -16,6 +16,7 @@ from sdph.effects.grains import friction, grain_shifting, granular_temperature
 from sdph.effects.grains.granular_viscosity import Viscous
 from sdph.engine.clock import count_of_parts
 from sdph.engine.kept import GROWING, Unfit
+from sdph.engine import state as particles
 from sdph.engine.rows import Neighbours
 from sdph.engine.state import INFLOW
 from sdph.engine.walls.sides import Boundary
@@ -100,27 +101,31 @@ class Stepper:
     def _sum(self, density) -> None:
         rates.sum_density(self.kernel, self.state, self.rows, self.neighbours.box, *self._walls(), density, self.pull)
 
-    def conduct(self, dt: float, heat) -> None:
-        """Grains at rest through `dt` [s]: conduction, and `heat` (N,) [J] from the gas spread evenly."""
+    def force(self, warmth, push, damping) -> None:
+        """What holds over the next window: heat (N,) [J] from the gas, push (N, 3) [m/s2] from outside, damping (N,) [1/s] of theta."""
+        self.state = particles.forced(self.state, warmth, push, damping)
+
+    def conduct(self, dt: float) -> None:
+        """Grains at rest through a window of `dt` [s]: conduction, and heat from the gas spread evenly."""
         steps = self._parts(dt)
         heating = np.zeros(len(self.state.x))
         for _ in range(steps):
             rates.conduct(self.kernel, self.state, self.rows, self.neighbours.box, self.pull, self.parameters["conduction"], heating)
-            self._warm(heating * dt / steps + heat / self.state.mass / steps)
+            self._warm(heating * dt / steps + self.state.warmth / self.state.mass / steps)
             self.guard.sub_step(self)
+        self.state = particles.released(self.state)
         self.steps += steps
 
-    def move(self, dt: float, heat, body, damping) -> None:
-        """Grains through `dt` [s]: heat (N,) [J] from the gas, body (N, 3) [m/s2] from outside, damping (N,) [1/s] of
-        theta, all held over the window, by `ident` because particles are sorted anew on the way."""
-        held = Held(self.state, heat / dt, body, damping)
+    def move(self, dt: float) -> None:
+        """Grains that move through a window of `dt` [s]."""
         left = dt
         while left > 0.0:
             step = self._sub_step(left)
-            self._advance(step, held.now(self.state.ident))
+            self._advance(step, dt)
             self.guard.sub_step(self)
             left = 0.0 if step >= left else left - step
             self.prepare()
+        self.state = particles.released(self.state)
 
     def conduction_rates(self) -> np.ndarray:
         """Heat [W] that each particle gets from its neighbours now."""
@@ -144,12 +149,11 @@ class Stepper:
         self.length = self.case.run.step_factor * found.get(self.limit, math.inf)
         return count_of_parts(left, self.length, self.shortest, f"the sub-step's limit {self.limit!r} (times run.step_factor)")
 
-    def _advance(self, dt: float, held) -> None:
-        """One sub-step: stress, walls, rates, then theta, heat, velocity, place."""
-        heat, body, damping = held
+    def _advance(self, dt: float, window: float) -> None:
+        """One sub-step of `dt` of a `window` [s]: stress, walls, rates, then theta, heat, velocity, place."""
         s, p, count = self.state, self.parameters, len(self.state.x)
         sheared = self._shear(dt)
-        wall_pressure, wall_velocity = self._extrapolate(self.stress.pressure, body)
+        wall_pressure, wall_velocity = self._extrapolate(self.stress.pressure)
         acceleration, agitation, heating = np.empty((count, 3)), np.empty(count), np.empty(count)
         rates.rates(
             self.kernel, s, self.rows, self.neighbours.box, self.pull, self.stress, self.viscous, p["friction"], *sheared[:3], p["artificial_viscosity"],
@@ -157,13 +161,13 @@ class Stepper:
             acceleration, agitation, heating,
         )  # fmt: skip
         if self.source:
-            self._hold_back(acceleration, agitation, heating, body)
+            self._hold_back(acceleration, agitation, heating)
         if p["granular_temperature"]:
-            self._agitate(dt, agitation, damping, sheared)
+            self._agitate(dt, agitation, sheared)
         if len(s.temperature):
-            self._warm((heating + heat / s.mass) * dt)
+            self._warm((heating + s.warmth / window / s.mass) * dt)
             self.mechanical_heat += float((s.mass * heating).sum() * dt)  # conduction adds up to nothing, but for what comes from upstream
-        self._drift(dt, acceleration + body)
+        self._drift(dt, acceleration)
         self.steps += 1
 
     def _stress(self) -> Stress:
@@ -184,29 +188,30 @@ class Stepper:
         shearing.shear(self.kernel, s, self.rows, self.neighbours.box, self.pull, self.stress, *self._walls(), p["friction"], dt, *held, *out)
         return out
 
-    def _extrapolate(self, pressure, body):
+    def _extrapolate(self, pressure):
         if not self.boundary:
             return OFF, OFF
         count = len(self.boundary.dummies.x)
         weight, wall_pressure, wall_velocity = np.empty(count), np.empty(count), np.empty((count, 3))
         walls.extrapolate(
-            self.kernel, self.neighbours.box, self.boundary.dummies, self.wall_rows, self.state, pressure, body, weight, wall_pressure, wall_velocity
+            self.kernel, self.neighbours.box, self.boundary.dummies, self.wall_rows, self.state, pressure, weight, wall_pressure, wall_velocity
         )
         return wall_pressure, wall_velocity
 
-    def _agitate(self, dt: float, agitation, damping, sheared) -> None:
+    def _agitate(self, dt: float, agitation, sheared) -> None:
         theta, held = np.empty(len(agitation)), np.empty(len(agitation))
         granular_temperature.advance_all(
-            self.parameters["granular_temperature"], self.state, agitation, damping, sheared.shear_squared, sheared.divergence, dt, theta, held
+            self.parameters["granular_temperature"], self.state, agitation, self.state.damping, sheared.shear_squared, sheared.divergence, dt, theta, held
         )
         moving = self.state.kind != INFLOW
         self.state.theta[moving], held[~moving] = theta[moving], 0.0
         self.bounds_work += float(1.5 * (self.state.mass * held).sum())
 
-    def _hold_back(self, acceleration, agitation, heating, body) -> None:
+    def _hold_back(self, acceleration, agitation, heating) -> None:
         """Particles upstream of a nozzle feel nothing."""
         waiting = self.state.kind == INFLOW
-        acceleration[waiting] = -body[waiting]
+        for a, push in enumerate(particles.pushes(self.state)):
+            acceleration[waiting, a] = -push[waiting]
         agitation[waiting] = heating[waiting] = 0.0
 
     def _warm(self, heat) -> None:
@@ -215,10 +220,9 @@ class Stepper:
 
     def _drift(self, dt: float, acceleration) -> None:
         s = self.state
-        for a, (place, velocity) in enumerate(zip((s.x, s.y, s.z), (s.u, s.v, s.w))):
-            if len(place):
-                velocity += acceleration[:, a] * dt
-                place += velocity * dt
+        for a, (place, velocity, push) in enumerate(zip(particles.axes(s), (s.u, s.v, s.w), particles.pushes(s))):
+            velocity += (acceleration[:, a] + push) * dt
+            place += velocity * dt
         if self.parameters["grain_shifting"]:
             self._shift(dt)
         if self.source:
@@ -244,19 +248,3 @@ def limits(case, parameters, state, fastest: float) -> dict[str, float]:
     """Longest sub-steps [s] by cause: what each effect bears, and sound, `fastest` [m/s] being that of c + v."""
     sound = {"sound": ACOUSTIC * case.smoothing_length / fastest} if fastest else {}
     return sound | effects.limits(parameters, case, state)
-
-
-class Held:
-    """Values of particles that hold over a window, handed out in whatever order the particles stand."""
-
-    def __init__(self, state, *values):
-        self.ident, self.values = state.ident.copy(), values
-        self.place = np.empty(int(state.ident.max(initial=0)) + 1, np.int64)  # of each ident
-        self.place[self.ident] = np.arange(len(self.ident))
-        self.order, self.given = state.ident, values  # as handed out last, and in which order
-
-    def now(self, ident):
-        if ident is not self.order:  # sorting makes a new array
-            rows = self.place[ident]
-            self.order, self.given = ident, tuple(value[rows] for value in self.values)
-        return self.given

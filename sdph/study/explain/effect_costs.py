@@ -58,7 +58,8 @@ def step(simulation, dt: float) -> float:
     simulation.stepper.guard.begin(simulation, dt)
     count, started = len(simulation.state.x), time.perf_counter()
     body = simulation._body(simulation._hand(dt))
-    simulation.stepper.move(dt, np.zeros(count), body, np.zeros(count))
+    simulation.stepper.force(np.zeros(count), body, np.zeros(count))
+    simulation.stepper.move(dt)
     return time.perf_counter() - started
 
 

@@ -31,7 +31,8 @@ def channel(folder, push, end, kind="wall", held=True, **walls):
     state, dt = stepper.state, 1e-4
     start, zeros = (state.x.copy(), state.y.copy()), np.zeros(len(state.x))
     for _ in range(round(end / dt)):
-        stepper.move(dt, zeros, np.tile((push, 0.0, 0.0), (len(zeros), 1)), zeros)
+        stepper.force(zeros, np.tile((push, 0.0, 0.0), (len(zeros), 1)), zeros)
+        stepper.move(dt)
         assert stepper.state is state  # not sorted anew
         state.x[:], state.y[:] = start
         stepper.prepare()
@@ -108,7 +109,8 @@ def storm(folder, case, steps, corners=None):
         state = stepper.state
         for velocity in (state.u, state.v, state.w):
             velocity[:] = rng.uniform(-20.0, 20.0, len(velocity))
-        stepper.move(2e-3, np.zeros(count), np.zeros((count, 3)), np.zeros(count))
+        stepper.force(np.zeros(count), np.zeros((count, 3)), np.zeros(count))
+        stepper.move(2e-3)
         here = [axis for axis in (stepper.state.x, stepper.state.y, stepper.state.z) if len(axis)]
         out = np.any([(axis < 0.0) | (axis > length) for axis, length in zip(here, case.domain.size)], axis=0)
         if corners is not None:

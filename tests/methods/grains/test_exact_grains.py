@@ -50,7 +50,8 @@ def sheared(folder, model="transport"):
     zeros = np.zeros(len(state.x))
     for _ in range(500):
         state.u[:], state.v[:] = RATE * state.y, 0.0
-        stepper.move(2e-4, zeros, np.zeros((len(zeros), 3)), zeros)
+        stepper.force(zeros, np.zeros((len(zeros), 3)), zeros)
+        stepper.move(2e-4)
         assert stepper.state is state  # not sorted anew
         state.x[:], state.y[:] = start
         stepper.prepare()

@@ -38,7 +38,8 @@ def test_neither_memory_nor_files_grow():
     def go(steps):
         end = stepper.steps + steps
         while stepper.steps < end:
-            stepper.move(1e-2, nothing, gravity, nothing)
+            stepper.force(nothing, gravity, nothing)
+            stepper.move(1e-2)
 
     go(WARM)
     gc.collect()
