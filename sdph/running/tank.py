@@ -12,7 +12,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from sdph.engine import state as particles
-from sdph.methods.liquids.method import LiquidStepper, loads
+from sdph.methods.liquids.loads import loads
+from sdph.methods.liquids.method import LiquidStepper
 from sdph.methods.liquids.outlet import Outlet
 from sdph.schema import CaseError
 

@@ -1,11 +1,55 @@
-"""What history.csv holds of each phase, where there are two."""
+"""What history.csv holds of a liquid: of all of it, of each phase where there are two, and what its tank feels."""
 
 from __future__ import annotations
+
+import math
 
 import numpy as np
 
 from sdph.engine import state as particles
 from sdph.engine.state import GAS, LIQUID
+from sdph.methods.liquids.loads import balance, kinetic_energy, pipe_energy, pipe_loads, wall_loads
+
+
+def row(run) -> dict[str, float]:
+    """What history.csv holds: sums over the liquid, and loads on the tank."""
+    stepper, case = run.stepper, run.case
+    wet = stepper.active
+    mass, pressure = run.state.mass[wet], stepper.pressure[wet]
+    places, velocities = particles.positions(run.state)[wet], particles.velocities(run.state)[wet]
+    values = {
+        "time_s": run.time,
+        "mass_kg": float(mass.sum()),
+        "kinetic_energy_J": kinetic_energy(run.state),
+        "potential_energy_J": -float((mass * (places[:, : case.dimensions] @ np.array(case.domain.gravity))).sum()),
+        "fastest_m_s": float(np.sqrt((velocities**2).sum(axis=1)).max(initial=0.0)),
+        "pressure_largest_Pa": float(pressure.max(initial=0.0)),
+        "centre_pressure_Pa": _in_the_middle(places, pressure, case.resolution.spacing),
+    }
+    for a, name in enumerate("xyz"[: case.dimensions]):
+        values[f"centre_{name}_m"] = float((mass * places[:, a]).sum() / mass.sum()) if len(mass) else math.nan
+        values[f"momentum_{name}_kg_m_s"] = float((mass * velocities[:, a]).sum())
+        values[f"largest_{name}_m"] = float(places[:, a].max()) if len(mass) else math.nan
+    return values | columns(stepper) | _drained(run) | _loads(run)
+
+
+def _drained(run) -> dict[str, float]:
+    if not run.outlet:
+        return {}
+    commanded = (run.outlet.fill - run.fill(run.time)) * run.stepper.capacity
+    return {"drained_kg": float(run.outlet.gone[0]), "commanded_kg": commanded, "pipe_kinetic_energy_J": pipe_energy(run.stepper)}
+
+
+def _loads(run) -> dict[str, float]:
+    """On the tank: the mean since the last row by the momentum theorem, and what the walls feel now."""
+    if "tank" not in run.case.effects:
+        return {}
+    mean = run.impulse / (run.time - run.since) if run.time > run.since else balance(run.stepper)[:6]
+    names = ("force_x_N", "force_y_N", "force_z_N", "moment_x_Nm", "moment_y_Nm", "moment_z_Nm")
+    loads = {"mean": mean, "wall": wall_loads(run.stepper)}
+    if run.case.parameters["tank"].outlet_radius:
+        loads["pipe"] = pipe_loads(run.stepper)  # the part of "wall" that the outlet pipe feels
+    return {f"{kind}_{name}": float(value) for kind, load in loads.items() for name, value in zip(names, load)}
 
 
 def columns(stepper) -> dict[str, float]:
@@ -26,3 +70,9 @@ def columns(stepper) -> dict[str, float]:
             values[f"{phase}_largest_{axis}_m"] = float(places[:, a].max())
         values[f"{phase}_fastest_m_s"] = float(np.sqrt((velocities**2).sum(axis=1).max()))
     return values
+
+
+def _in_the_middle(places, pressure, spacing: float) -> float:
+    """Mean pressure [Pa] within two spacings of the middle of the liquid; nan where there is none."""
+    near = ((places - places.mean(axis=0)) ** 2).sum(axis=1) < (2.0 * spacing) ** 2 if len(places) else np.zeros(0, bool)
+    return float(pressure[near].mean()) if near.any() else math.nan

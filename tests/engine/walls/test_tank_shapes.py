@@ -8,7 +8,8 @@ import pytest
 from sdph.case import read as cases
 from sdph.engine import state as particles
 from sdph.engine.walls import shapes
-from sdph.methods.liquids.method import LiquidStepper, loads, wall_loads
+from sdph.methods.liquids.loads import loads, wall_loads
+from sdph.methods.liquids.method import LiquidStepper
 from sdph.schema import CaseError
 
 G = 9.81  # m/s2

@@ -8,7 +8,8 @@ from scipy.spatial.transform import Rotation
 
 from sdph.case import read as cases
 from sdph.engine import state as particles
-from sdph.methods.liquids.method import LiquidStepper, loads
+from sdph.methods.liquids.loads import loads
+from sdph.methods.liquids.method import LiquidStepper
 from sdph.methods.liquids.walls import WallP
 
 G = 9.81  # m/s2

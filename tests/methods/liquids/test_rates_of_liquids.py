@@ -11,7 +11,8 @@ from sdph.engine.state import LIQUID, WALL, positions, velocities
 from sdph.laws import eos, matrices
 from sdph.methods.liquids import equations as rates
 from sdph.methods.liquids import shift, walls
-from sdph.methods.liquids.method import LiquidStepper, loads, wall_loads
+from sdph.methods.liquids.loads import loads, wall_loads
+from sdph.methods.liquids.method import LiquidStepper
 
 LIQUID_OF_TANK = {"density_kg_m3": 1000.0, "viscosity_Pa_s": 1.0, "sound_speed_m_s": 20.0}
 TANK = {

@@ -11,7 +11,8 @@ from sdph.engine import kernels as smoothing
 from sdph.engine.state import GAS, LIQUID, positions, velocities
 from sdph.laws import liquids
 from sdph.methods.liquids import interface, phases, shift
-from sdph.methods.liquids.method import LiquidStepper, loads, wall_loads
+from sdph.methods.liquids.loads import loads, wall_loads
+from sdph.methods.liquids.method import LiquidStepper
 from sdph.schema import CaseError
 
 BASE = {

@@ -1,0 +1,58 @@
+"""What a liquid does to its tank: forces and moments, by what is outside and by what the walls feel; energies of motion."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sdph.effects.around import tank
+from sdph.engine import state as particles
+from sdph.engine.walls import shapes
+from sdph.methods.liquids import walls
+
+
+def loads(stepper) -> np.ndarray:
+    """(6,) force [N] and moment about the origin [N m] of the liquid on the tank: what acts on the liquid from outside,
+    less what its momentum gains."""
+    return balance(stepper)[:6]
+
+
+def balance(stepper) -> np.ndarray:
+    """(10,) the same, then the force (3) [N] and the power [W] of gravity and of the frame's motion."""
+    load = np.zeros(10)
+    walls.reaction(stepper.state, stepper.active, stepper.p["gravity"], stepper.frame, stepper.acceleration, load)
+    return load
+
+
+def wall_loads(stepper, chosen=None) -> np.ndarray:
+    """(6,) the same, from what each wall particle feels of pressure and friction; of the wall particles `chosen` alone, if given."""
+    chosen = stepper.walls if chosen is None else chosen
+    force = np.zeros((len(chosen), 3))
+    p = stepper.p
+    walls.wall_force(
+        stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, chosen, stepper.wall, p["laminar_viscosity"],
+        p["liquid_damping"], p["shifting"], stepper.phases, p["gravity"], stepper.frame, stepper.least, stepper.pressure, stepper.volume,
+        stepper.excess, force,
+    )  # fmt: skip
+    places = particles.positions(stepper.state)[chosen]
+    return np.concatenate([force.sum(axis=0), np.cross(places, force).sum(axis=0)])
+
+
+def pipe_loads(stepper) -> np.ndarray:
+    """(6,) the same on the outlet pipe, and on what leaves through it."""
+    number, own = stepper.state.ident[stepper.walls], stepper.own_walls
+    return wall_loads(stepper, stepper.walls[(number < own.start) | (number >= own.stop)])
+
+
+def pipe_energy(stepper) -> float:
+    """Kinetic energy [J] of the liquid in the outlet pipe; 0 where there is none."""
+    shape = tank.shape_of(stepper.case)
+    if not isinstance(shape, shapes.Joined):
+        return 0.0
+    wet = particles.take(stepper.state, stepper.active)
+    return kinetic_energy(particles.take(wet, shape.tank.distance(particles.positions(wet)) > 0.0))
+
+
+def kinetic_energy(state) -> float:
+    """Of the liquid [J], per metre of depth in two dimensions."""
+    speed2 = (particles.velocities(state) ** 2).sum(axis=1)
+    return float(0.5 * (state.mass * speed2)[particles.wet(state)].sum())
