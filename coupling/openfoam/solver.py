@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import os
 import secrets
-import signal
 import subprocess
 import time
 from collections.abc import Callable
@@ -28,6 +27,7 @@ from coupling.openfoam import case as case_files
 from coupling.openfoam.programs import barrier, install
 from coupling.openfoam.programs import run as programs
 from coupling.openfoam.programs.build import silent
+from coupling.openfoam.programs.run import end_group
 from coupling.transport import files
 from coupling.transport.messages import Kind, Message, MessageError, message_limit
 from coupling.transport.sockets import SocketServer
@@ -247,21 +247,6 @@ class OpenFoamGas:
             value = told[name] if isinstance(told[name], str) else told.number(name)
             if ours != value:
                 raise CaseError(f"constant/gasProperties has {name} = {value}; case.toml has {ours}: make them the same")
-
-
-def end_group(process: subprocess.Popen) -> None:
-    """End a process and all that it started; mpirun is asked first, since it ends its ranks itself."""
-    if process.poll() is None:
-        process.terminate()
-        try:
-            process.wait(1.0)
-        except subprocess.TimeoutExpired:
-            pass  # it is killed next
-    try:
-        os.killpg(process.pid, signal.SIGKILL)
-    except ProcessLookupError:
-        pass  # nothing of the group is left
-    process.wait()
 
 
 def _mesh(told: Message) -> Mesh:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sdph.effects.around.inflow import Nozzle
+from sdph.effects.around.nozzles import Nozzle
 from sdph.engine.geometry import SIDES
 from sdph.engine.rows import SKIN
 from sdph.methods.liquids.sections import GasPhase, Liquid, Pool

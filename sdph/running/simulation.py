@@ -13,13 +13,13 @@ from sdph.effects.around.inflow import Source
 from sdph.effects.around.outflow import leaving, refuse_to_leave
 from sdph.engine import state as particles
 from sdph.engine.kept import Unfit
-from sdph.engine.ledger import vector
 from sdph.engine.state import GRAIN, INFLOW
 from sdph.engine.walls import sides as boundary
 from sdph.exchange.exchange import INSTANT, Exchange
 from sdph.exchange.window import Window
 from sdph.methods.grains import start
 from sdph.methods.grains.method import Held, Stepper
+from sdph.methods.grains.window import Tally, of_those_that_left
 from sdph.running import history, output
 
 PART = 4.0  # a window that the gas cannot finish is taken again, so much shorter (our choice),
@@ -224,7 +224,7 @@ class Simulation:
             self._weights_now = None
         if self.source and self.windows:
             self.clock.stake(self.exchange.stake(self.state, self.weights, self.gas_state))
-        return _of_those_that_left(self.case, left)
+        return of_those_that_left(self.case, left)
 
     def _fastest(self) -> float:
         """Speed of the fastest particle [m/s]."""
@@ -255,38 +255,3 @@ def parts_of(case) -> tuple[dict, Source | None, Stepper, Window]:
     source = Source(case, names, len(state.x) + 1) if parameters["inflow"] else None
     clock = Window(case)
     return parameters, source, Stepper(case, parameters, state, source, clock.shortest), clock
-
-
-class Tally:
-    """What the grains had before they moved, to tell afterwards what they got from where."""
-
-    def __init__(self, simulation):
-        self.momentum, self.heat = _momentum(simulation.state), simulation.stepper.mechanical_heat
-        self.came = _came_in(simulation)
-
-    def columns(self, simulation, body, exchanged) -> dict[str, float]:
-        """Ledger columns, given the impulses (3,) of body forces and from the gas; the rest is of walls."""
-        mass, energy, momentum = (now - before for now, before in zip(_came_in(simulation), self.came))
-        walls = _momentum(simulation.state) - self.momentum - body - exchanged - momentum
-        columns = {"injected_kg": mass, "injected_J": energy, "mechanical_heat_J": simulation.stepper.mechanical_heat - self.heat}
-        impulses = {"impulse_of_body_forces": body, "impulse_of_walls": walls, "impulse_of_inflow": momentum}
-        return columns | {key: value for name, impulse in impulses.items() for key, value in vector(name, impulse).items()}
-
-
-def _came_in(simulation):
-    """Mass [kg], enthalpy [J] and momentum [kg m/s] through the nozzles since the start."""
-    source = simulation.source
-    return (source.mass, source.energy, source.momentum) if source else (0.0, 0.0, np.zeros(3))
-
-
-def _momentum(state) -> np.ndarray:
-    return np.einsum("i,ij->j", state.mass * (state.kind == GRAIN), particles.velocities(state))
-
-
-def _of_those_that_left(case, left) -> dict[str, float]:
-    """Ledger columns of the grains that left."""
-    if left is None:
-        return {"left_kg": 0.0, "left_J": 0.0} | vector("impulse_of_outflow", np.zeros(3))
-    energy = float((left.mass * left.temperature).sum() * case.grains.heat_capacity) if len(left.temperature) else 0.0
-    return {"left_kg": float(left.mass.sum()), "left_J": energy} | vector("impulse_of_outflow", -_momentum(left))
-

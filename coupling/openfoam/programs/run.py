@@ -115,3 +115,18 @@ def _tail(log: Path) -> bytes:
         text.seek(0, os.SEEK_END)
         text.seek(max(0, text.tell() - TAIL))
         return text.read()
+
+
+def end_group(process: subprocess.Popen) -> None:
+    """End a process and all that it started; mpirun is asked first, since it ends its ranks itself."""
+    if process.poll() is None:
+        process.terminate()
+        try:
+            process.wait(1.0)
+        except subprocess.TimeoutExpired:
+            pass  # it is killed next
+    try:
+        os.killpg(process.pid, signal.SIGKILL)
+    except ProcessLookupError:
+        pass  # nothing of the group is left
+    process.wait()

@@ -16,39 +16,10 @@ import numpy as np
 
 from sdph.engine.surface import read
 from sdph.engine.walls import surface_points
+from sdph.engine.walls.surface_points import arc, disc, line, rings
 from sdph.schema import CaseError
 
 UP = (0.0, 0.0, 1.0)  # axis of a round tank in space
-GOLDEN = math.pi * (3.0 - math.sqrt(5.0))  # rad, turn from ring to ring, so that rings do not line up
-
-
-def _rings(profile: np.ndarray, spacing: float) -> np.ndarray:
-    """(N, 3) points on rings about the last axis, as many as their area asks for; profile (P, 3) radius, height and width [m]."""
-    points = []
-    for k, (radius, height, width) in enumerate(profile):
-        count = max(1, round(2.0 * math.pi * radius * width / spacing**2))
-        angle = 2.0 * math.pi * np.arange(count) / count + k * GOLDEN
-        points.append(np.stack([radius * np.cos(angle), radius * np.sin(angle), np.full(count, height)], axis=1))
-    return np.concatenate(points)
-
-
-def _arc(radius: float, height: float, first: float, last: float, spacing: float) -> np.ndarray:
-    """(P, 3) of a circle about (0, height), polar angle from the top between `first` and `last`, cell-centred."""
-    count = max(1, round(radius * (last - first) / spacing))
-    angle = first + (np.arange(count) + 0.5) * (last - first) / count
-    return np.stack([radius * np.sin(angle), height + radius * np.cos(angle), np.full(count, radius * (last - first) / count)], axis=1)
-
-
-def _line(radius: float, low: float, high: float, spacing: float) -> np.ndarray:
-    count = max(1, round((high - low) / spacing))
-    heights = low + (np.arange(count) + 0.5) * (high - low) / count
-    return np.stack([np.full(count, radius), heights, np.full(count, (high - low) / count)], axis=1)
-
-
-def _disc(radius: float, height: float, spacing: float) -> np.ndarray:
-    count = max(1, round(radius / spacing))
-    radii = (np.arange(count) + 0.5) * radius / count
-    return np.stack([radii, np.full(count, height), np.full(count, radius / count)], axis=1)
 
 
 @dataclass(frozen=True)
@@ -66,12 +37,12 @@ class Capsule:
 
     def shell(self, depth, spacing):
         radius, half = self.radius + depth, 0.5 * self.length
-        parts = [_arc(radius, half, 0.0, 0.5 * math.pi, spacing), _arc(radius, -half, 0.5 * math.pi, math.pi, spacing)]
+        parts = [arc(radius, half, 0.0, 0.5 * math.pi, spacing), arc(radius, -half, 0.5 * math.pi, math.pi, spacing)]
         if self.length:
-            parts.append(_line(radius, -half, half, spacing))
+            parts.append(line(radius, -half, half, spacing))
         else:
-            parts = [_arc(radius, 0.0, 0.0, math.pi, spacing)]
-        return _rings(np.concatenate(parts), spacing) + self.centre
+            parts = [arc(radius, 0.0, 0.0, math.pi, spacing)]
+        return rings(np.concatenate(parts), spacing) + self.centre
 
     def surface(self):
         import pyvista
@@ -105,11 +76,11 @@ class Cylinder:
 
     def shell(self, depth, spacing):
         half, beyond = 0.5 * self.length, self.reach
-        side = _line(self.radius + depth, -half - beyond, half + (0.0 if self.open_top else beyond), spacing)
-        ends = [_disc(self.radius, -half - depth, spacing)]
+        side = line(self.radius + depth, -half - beyond, half + (0.0 if self.open_top else beyond), spacing)
+        ends = [disc(self.radius, -half - depth, spacing)]
         if not self.open_top:
-            ends.append(_disc(self.radius, half + depth, spacing))
-        return _rings(np.concatenate([side, *ends]), spacing) + self.centre
+            ends.append(disc(self.radius, half + depth, spacing))
+        return rings(np.concatenate([side, *ends]), spacing) + self.centre
 
     def surface(self):
         import pyvista

@@ -24,6 +24,7 @@ from sdph.laws import kernels
 from sdph.methods.liquids import correction, interface, phases, shift, start, walls
 from sdph.methods.liquids import equations as rates
 from sdph.methods.liquids.bounds import LiquidGuard
+from sdph.methods.liquids.start import fluids, parts_of
 from sdph.methods.liquids.walls import WallP
 
 SLACK = 1.0125  # reach over 2 h: a particle may move 0.025 h, half a step, after the rows were found to hold
@@ -241,20 +242,3 @@ class LiquidStepper:
             s.x, s.y, s.z, s.u, s.v, s.w, s.density,
         )  # fmt: skip
         self.shifted = self.shifted + motion.momentum(s, self.active) - before
-
-
-def parts_of(case):
-    """Kernel parameters by effect, particles, and motion of the frame (or None): all that a run begins with."""
-    parameters = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
-    return parameters, start.fill(case), frame.motion(case.parameters["frame"]) if parameters["frame"] else None
-
-
-def fluids(case) -> np.ndarray:
-    """(5, K) rho_0, stiffness, exponent, background and cohesion by kind, as `rates.state_of` takes them."""
-    liquid, gas = case.liquid, case.gas_phase
-    table = np.ones((5, GAS + 1))
-    table[:, LIQUID] = liquid.density, liquid.density * liquid.sound_speed**2 / liquid.exponent, liquid.exponent, liquid.background_pressure, 0.0
-    if gas:
-        stiffness = gas.density * gas.speed_of_sound(liquid) ** 2 / gas.exponent
-        table[:, GAS] = gas.density, stiffness, gas.exponent, liquid.background_pressure, gas.cohesion
-    return table

@@ -6,14 +6,15 @@ import math
 
 import numpy as np
 
-from sdph.effects.around import tank
+from sdph import effects
+from sdph.effects.around import frame, tank
 from sdph.engine import lattice
 from sdph.engine import state as particles
 from sdph.engine.state import GAS, LIQUID, WALL
 from sdph.engine.walls import shapes
 from sdph.laws import eos
 from sdph.laws.liquids import quadrupole, square_patch_pressure, taylor_green
-from sdph.methods.liquids import filling
+from sdph.methods.liquids import filling, start
 from sdph.schema import CaseError
 
 ROUNDS = 50  # of the inversion of Van der Waals' equation; each takes off nine tenths of the error or more
@@ -159,3 +160,20 @@ def _velocity(pool, points, dimensions: int) -> np.ndarray:
             raise CaseError("pools: flow = \"quadrupole\" needs centre_m and radius_m of the disc, in a box too")
         velocity += quadrupole(points - np.array(pool.centre), pool.radius, pool.speed)
     return velocity
+
+
+def parts_of(case):
+    """Kernel parameters by effect, particles, and motion of the frame (or None): all that a run begins with."""
+    parameters = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
+    return parameters, start.fill(case), frame.motion(case.parameters["frame"]) if parameters["frame"] else None
+
+
+def fluids(case) -> np.ndarray:
+    """(5, K) rho_0, stiffness, exponent, background and cohesion by kind, as `rates.state_of` takes them."""
+    liquid, gas = case.liquid, case.gas_phase
+    table = np.ones((5, GAS + 1))
+    table[:, LIQUID] = liquid.density, liquid.density * liquid.sound_speed**2 / liquid.exponent, liquid.exponent, liquid.background_pressure, 0.0
+    if gas:
+        stiffness = gas.density * gas.speed_of_sound(liquid) ** 2 / gas.exponent
+        table[:, GAS] = gas.density, stiffness, gas.exponent, liquid.background_pressure, gas.cohesion
+    return table

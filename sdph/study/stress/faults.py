@@ -21,6 +21,7 @@ from pathlib import Path
 
 from sdph.engine import restart
 from sdph.scenes import paths
+from sdph.study.stress.processes import gone, processes, send
 
 CASE = (
     "disc_cluster", "--set", "resolution.spacing_mm=20", "--set", "resolution.cell_mm=20",
@@ -28,7 +29,6 @@ CASE = (
 )  # fmt: skip
 SHORT = ("--set", "run.output_interval_s=0.0001", "--until", "0.0003")
 PATIENCE = 300.0  # s that a run may take
-LINGER = 5.0  # s after which nothing of a run may be there any more
 DISK, LARGE_DISK = "200k", "64m"  # of the small tmpfs, and what it is given to go on
 CLOCK = r"""
 #define _GNU_SOURCE
@@ -115,7 +115,7 @@ def _killed(site: Site, chance: random.Random, number: int) -> dict:
 def _kill(process: subprocess.Popen, folder: Path, victim: str) -> bool:
     """Whether the victim was there to be killed; it is waited for while the run goes on."""
     while process.poll() is None:
-        found = [pid for pid, name in _processes(folder) if name.startswith(victim)] if victim != "python" else [process.pid]
+        found = [pid for pid, name in processes(folder) if name.startswith(victim)] if victim != "python" else [process.pid]
         if found:
             os.kill(found[-1], signal.SIGKILL)
             return True
@@ -213,8 +213,8 @@ def _wait_for(process: subprocess.Popen, path: Path) -> None:
 def _verdict(site: Site, folder: Path, name: str, named: bool, said: str) -> dict:
     """What has to be true after every fault."""
     wrong = [] if named else [f"it said: {' '.join(said.split())[-300:]}"]
-    if not _gone(folder):
-        wrong.append(f"left running: {_processes(folder)}")
+    if not gone(folder):
+        wrong.append(f"left running: {processes(folder)}")
     wrong += _unreadable(folder)
     if (folder / "case.toml").exists():
         process = site.start(folder, resume=True)
@@ -228,41 +228,15 @@ def _verdict(site: Site, folder: Path, name: str, named: bool, said: str) -> dic
     return {"name": name, "ok": not wrong, "detail": "; ".join(wrong)}
 
 
-def _gone(folder: Path) -> bool:
-    deadline = time.monotonic() + LINGER
-    while _processes(folder) and time.monotonic() < deadline:
-        time.sleep(0.1)
-    return not _processes(folder)
-
-
-def _processes(folder: Path) -> list[tuple[int, str]]:
-    """(pid, name) of every process whose command names the folder."""
-    found = []
-    for path in Path("/proc").glob("[0-9]*"):
-        try:
-            words = (path / "cmdline").read_bytes().decode(errors="replace").split("\0")
-        except OSError:
-            continue  # it has ended meanwhile
-        if any(word == str(folder) or word.startswith(f"{folder}/") for word in words):
-            found.append((int(path.name), Path(words[0]).name))
-    return sorted(found)
-
-
 @contextlib.contextmanager
 def _held(folder: Path):
     """The processes of a run stand still."""
-    pids = [pid for pid, _ in _processes(folder)]
-    _signal(pids, signal.SIGSTOP)
+    pids = [pid for pid, _ in processes(folder)]
+    send(pids, signal.SIGSTOP)
     try:
         yield
     finally:
-        _signal(pids, signal.SIGCONT)
-
-
-def _signal(pids: list[int], number: signal.Signals) -> None:
-    for pid in pids:
-        with contextlib.suppress(ProcessLookupError):  # it has ended meanwhile
-            os.kill(pid, number)
+        send(pids, signal.SIGCONT)
 
 
 def _unreadable(folder: Path) -> list[str]:
