@@ -44,7 +44,8 @@ class Effect:
     matter      what it acts on: "grains", "liquid"
     dt_limit    (kernel parameters, case, state) -> largest stable sub-step [s]
     two_phases  whether it needs a second phase
-    call        scales of a case (sdph.methods.grains.scales) -> Judgement; without it the effect is on where the user says so
+    call        scales of a case (sdph.methods.grains.scales) -> Judgement; without it the effect is on where the user
+                says so
     """
 
     name: str

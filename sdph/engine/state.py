@@ -12,7 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit, prange
 
-# values of `kind`, of grains and liquids alike; INFLOW: still upstream of its nozzle. Files hold them: they stay as they are
+# values of `kind`, of grains and liquids alike; INFLOW: still upstream of its nozzle. Files hold them: they stay as
+# they are
 GRAIN, WALL, LIQUID, GAS, INFLOW = range(5)
 
 
@@ -62,7 +63,8 @@ FIELDS = {
     "diameter": ("m", "number mean of the grain diameters"),
     "diameter_variance": ("m2", "number variance of the grain diameters"),
     "theta": ("m2/s2", "granular temperature"),
-    **{f"contact_{ab}": ("Pa", f"deviator of the stress of lasting contacts, {ab}") for ab in ("xx", "yy", "xy", "yz", "zx")},
+    **{f"contact_{ab}": ("Pa", f"deviator of the stress of lasting contacts, {ab}") for ab in ("xx", "yy", "xy", "yz",
+    "zx")},
     "evaporating": ("1", "1 once evaporation has started"),
     "born_mass": ("kg", "mass at the start or when it came in"),
     "born_diameter": ("m", "number mean of the grain diameters then"),
@@ -136,7 +138,11 @@ def _columns(a, b, c) -> np.ndarray:
 def born(state: State) -> State:
     """The same, with mass and sizes at birth set to those of now."""
     if len(state.born_mass):
-        state.born_mass[:], state.born_diameter[:], state.born_variance[:] = state.mass, state.diameter, state.diameter_variance
+        state.born_mass[:], state.born_diameter[:], state.born_variance[:] = (
+            state.mass,
+            state.diameter,
+            state.diameter_variance,
+        )
     return state
 
 

@@ -12,14 +12,17 @@ from sdph.engine.state import GRAIN
 from sdph.laws.constants import GAS_CONSTANT
 from sdph.laws.exchange import exponential_fraction
 
-NEGLIGIBLE = 1e-6  # of the temperature: smaller differences need not be resolved (round-off else rules the window); our choice
+# of the temperature: smaller differences need not be resolved (round-off else rules the window); our choice
+NEGLIGIBLE = 1e-6
 
 
 class Seen:
     """The gas as the particles see it: own velocity (N, 3), slip (N,), density, temperature (N,) of the gas."""
 
     def __init__(self, weights, gas_state, state):
-        velocity, self.density, self.temperature = (gather(weights, gas_state.fields[name]) for name in ("velocity", "density", "temperature"))
+        velocity, self.density, self.temperature = (
+            gather(weights, gas_state.fields[name]) for name in ("velocity", "density", "temperature")
+        )
         self.own = particles.velocities(state)
         self.slip = particles.lengths(velocity - self.own)
 
@@ -33,18 +36,36 @@ def vapour_concentration(p, gas_state) -> np.ndarray:
 
 
 def temperature_span(case) -> float:
-    """Hottest less coldest of all that the case gives a temperature [K], and where they are alike a negligible part of it."""
+    """Hottest less coldest of all that the case gives a temperature [K], and where they are alike a negligible part of
+    it."""
     given = [case.gas.temperature, *(part.temperature for part in (*case.particles.values(), *case.nozzles.values()))]
     given += [boundary.temperature for boundary in case.boundaries.values() if boundary.temperature]
     return max(max(given) - min(given), NEGLIGIBLE * max(given))
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def coefficients(drag_p, heat_p, sizes_p, s, grains, dt, slip, gas_density, kept, mean, latent, heat_share, pull, shared_mass, damping):
+def coefficients(
+    drag_p,
+    heat_p,
+    sizes_p,
+    s,
+    grains,
+    dt,
+    slip,
+    gas_density,
+    kept,
+    mean,
+    latent,
+    heat_share,
+    pull,
+    shared_mass,
+    damping,
+):
     """Of every particle: heat_share [W/K] and pull [W], m_k f_k/dt [kg/s], beta/(alpha_p rho_p) [1/s].
 
     With a latent heat flow L held over the window, x = dt K/C and C of the mass that is `kept` [kg],
-    Q/dt = K phi (T'_g - T) + L (1 - phi), phi = (1 - exp(-x))/x; without one K phi = C f/dt. `mean` is K where grains evaporate.
+    Q/dt = K phi (T'_g - T) + L (1 - phi), phi = (1 - exp(-x))/x; without one K phi = C f/dt. `mean` is K where grains
+    evaporate.
     """
     density, heat_capacity = grains
     for i in prange(len(s.x)):
@@ -57,7 +78,9 @@ def coefficients(drag_p, heat_p, sizes_p, s, grains, dt, slip, gas_density, kept
             else:
                 conductance = mean[i]
             if conductance > 0.0:
-                heat_share[i] = capacity * exponential_fraction(dt * conductance / capacity) / dt if capacity > 0.0 else 0.0
+                heat_share[i] = (
+                    capacity * exponential_fraction(dt * conductance / capacity) / dt if capacity > 0.0 else 0.0
+                )
                 pull[i] = heat_share[i] * s.temperature[i]
                 if len(latent) > 0:
                     pull[i] -= latent[i] * (1.0 - heat_share[i] / conductance)

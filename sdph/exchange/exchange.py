@@ -64,29 +64,51 @@ class Exchange:
         heat_share, pull, shared_mass, damping = (np.zeros(len(state.x)) for _ in range(4))
         latent = self.parameters["evaporation"].latent_heat / dt * loss.mass if loss else OFF
         coefficients(
-            self.parameters["drag"], self.parameters["heat"], self.sizes_p, state, self._grains(), dt, seen.slip, seen.density,
-            kept, conductance, latent, heat_share, pull, shared_mass, damping,
+            self.parameters["drag"], self.parameters["heat"], self.sizes_p, state, self._grains(), dt, seen.slip,
+            seen.density, kept, conductance, latent, heat_share, pull, shared_mass, damping,
         )  # fmt: skip
         there, inside = ahead
         sources = {"alpha_g": self._room(there, kept * inside)} if "alpha_g" in self.sources else {}
         sources |= self._sources(state, weights, seen, dt, loss, heat_share, pull, shared_mass)
         sources = {name: np.ascontiguousarray(values) for name, values in sources.items()}
-        return Handed(dt, weights, sources, heat_share, pull, shared_mass, damping, state.temperature.copy(), seen.own, kept * (state.kind == GRAIN), loss)
+        return Handed(
+            dt,
+            weights,
+            sources,
+            heat_share,
+            pull,
+            shared_mass,
+            damping,
+            state.temperature.copy(),
+            seen.own,
+            kept * (state.kind == GRAIN),
+            loss,
+        )
 
     def _sources(self, state, weights, seen, dt, loss, heat_share, pull, shared_mass) -> dict[str, np.ndarray]:
         """All but the volume fraction."""
         sources = {}
         if self.parameters["heat"]:
-            sources["heat"], sources["heat_temperature"] = self._density(weights, np.stack((heat_share, pull), axis=1)).T
+            sources["heat"], sources["heat_temperature"] = self._density(
+                weights, np.stack((heat_share, pull), axis=1)
+            ).T
         if self.parameters["drag"]:
             columns = np.concatenate((shared_mass[:, None], shared_mass[:, None] * seen.own), axis=1)
             columns = self._density(weights, columns)
-            sources["drag"], sources["drag_velocity"], sources["heat_source"] = columns[:, 0], columns[:, 1:], self.drag_heat
+            sources["drag"], sources["drag_velocity"], sources["heat_source"] = (
+                columns[:, 0],
+                columns[:, 1:],
+                self.drag_heat,
+            )
         if loss:
             rate = loss.mass[:, None] / dt
             enthalpy = self.case.vapour.heat_capacity * state.temperature[:, None]
             columns = self._density(weights, np.concatenate((rate, rate * seen.own, rate * enthalpy), axis=1))
-            sources["vapour"], sources["vapour_momentum"], sources["vapour_enthalpy"] = columns[:, 0], columns[:, 1:4], columns[:, 4]
+            sources["vapour"], sources["vapour_momentum"], sources["vapour_enthalpy"] = (
+                columns[:, 0],
+                columns[:, 1:4],
+                columns[:, 4],
+            )
         return sources
 
     def _evaporate(self, state, weights, gas_state, seen, dt) -> tuple[np.ndarray, Loss]:
@@ -102,11 +124,24 @@ class Exchange:
         concentration = gather(weights, vapour_concentration(p, gas_state))
         if not self.case.coupling.one_way:
             evaporating = surface > concentration
-            after = [self._relaxed(state, weights, gas_state, flow * some * dt, surface) for some in (evaporating, ~evaporating)]
+            after = [
+                self._relaxed(state, weights, gas_state, flow * some * dt, surface)
+                for some in (evaporating, ~evaporating)
+            ]
             concentration = np.where(evaporating, *after)
         loss = Loss(*(np.empty(count) for _ in range(4)))
         droplet_loss.losses(
-            p, self.sizes_p, state, *around, concentration, dt, conductance, loss.mass, loss.still, loss.moving, loss.refused
+            p,
+            self.sizes_p,
+            state,
+            *around,
+            concentration,
+            dt,
+            conductance,
+            loss.mass,
+            loss.still,
+            loss.moving,
+            loss.refused,
         )
         return conductance, loss
 
@@ -146,7 +181,11 @@ class Exchange:
     def _resistance(self, state, weights, gas_state) -> tuple[np.ndarray, np.ndarray]:
         """Mask of the cells with grains, and 1/C_p + 1/C_g of these [m3 K/J]."""
         content = self._density(weights, state.mass * (state.kind == GRAIN) * self.case.grains.heat_capacity)
-        gas = self._room(weights, state.mass * (state.kind == GRAIN)) * gas_state.fields["density"] * self.case.gas.heat_capacity
+        gas = (
+            self._room(weights, state.mass * (state.kind == GRAIN))
+            * gas_state.fields["density"]
+            * self.case.gas.heat_capacity
+        )
         full = content > 0.0
         return full, 1.0 / content[full] + 1.0 / gas[full]
 
@@ -177,7 +216,9 @@ class Exchange:
         """The same with what evaporation takes."""
         mass, latent = handed.loss.mass, self.parameters["evaporation"].latent_heat
         excess = self.case.grains.heat_capacity - self.case.vapour.heat_capacity
-        given = 0.0 if self.case.coupling.one_way else float((handed.sources["vapour"] * self.volumes).sum() * handed.dt)
+        given = (
+            0.0 if self.case.coupling.one_way else float((handed.sources["vapour"] * self.volumes).sum() * handed.dt)
+        )
         return replace(
             taken, warming=taken.heat - latent * mass, vapour=float(mass.sum()), vapour_to_gas=given,
             latent_heat=latent * float(mass.sum()), capacity_heat=excess * float((mass * handed.temperature).sum()),
@@ -200,7 +241,12 @@ class Exchange:
         """Take from the particles what evaporated."""
         if handed.loss:
             droplet_loss.apply(
-                self.parameters["evaporation"], self.sizes_p, state, handed.loss.mass, handed.loss.still, handed.loss.moving
+                self.parameters["evaporation"],
+                self.sizes_p,
+                state,
+                handed.loss.mass,
+                handed.loss.still,
+                handed.loss.moving,
             )
 
     def drag_heat_of(self, handed: Handed) -> float:

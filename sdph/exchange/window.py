@@ -18,12 +18,15 @@ from sdph.engine.clock import Clock
 from sdph.engine.kept import POSITIVE, Maybe, Named, Unfit
 
 SAFETY, GROWTH, SHRINK = 0.9, 2.0, 0.3  # usual bounds of a step controller (Hairer, Norsett & Wanner, II.4); our choice
-VAPOUR = 0.1  # of the gas in a cell: most vapour that comes into it in a window, so that it is carried away as it comes; our choice
-GRIP = 0.1  # of the time in which gas stops a bed, most that its force may be held: a held force drives the bed's oscillations; our choice
+# of the gas in a cell: most vapour that comes into it in a window, so that it is carried away as it comes; our choice
+VAPOUR = 0.1
+# of the time in which gas stops a bed, most that its force may be held: a held force drives the bed's oscillations; our
+# choice
+GRIP = 0.1
 # limit -> what a user can change about it
 KEYS = {
-    "largest": "coupling.window_largest_s", "heat exchange": "coupling.window_tolerance", "courant": "coupling.courant", "particles": "coupling.courant",
-    "evaporation": "the rate of evaporation", "grip": "the drag on packed grains",
+    "largest": "coupling.window_largest_s", "heat exchange": "coupling.window_tolerance", "courant": "coupling.courant",
+    "particles": "coupling.courant", "evaporation": "the rate of evaporation", "grip": "the drag on packed grains",
 }  # fmt: skip
 
 
@@ -103,7 +106,8 @@ class Window(Clock):
         return min(self.limits.values())
 
     def thicken(self, dt: float, share: float) -> None:
-        """In `dt` [s] vapour came into a cell of gas that was `share` of what was there, or would at the rate of now."""
+        """In `dt` [s] vapour came into a cell of gas that was `share` of what was there, or would at the rate of
+        now."""
         if share > 0.0:
             self.limits["evaporation"] = dt * min(GROWTH, VAPOUR / share)
 
@@ -133,12 +137,22 @@ def smallest_cell(case) -> float:
 
 
 def opening(case) -> dict[str, float]:
-    """Limits [s] of the first window from the speeds that the case gives: gas that is let in, as fast as it is between the
-    grains, and grains that are thrown at the start or by a nozzle. Later windows are told what moves how fast."""
+    """Limits [s] of the first window from the speeds that the case gives: gas that is let in, as fast as it is between
+    the grains, and grains that are thrown at the start or by a nozzle. Later windows are told what moves how fast."""
     packed = max((region.volume_fraction for region in case.particles.values()), default=0.0)
-    let_in = max((math.hypot(*b.velocity) for b in case.boundaries.values() if b.velocity), default=0.0) / (1.0 - packed)
-    thrown = [math.hypot(*region.velocity) for region in case.particles.values() if region.velocity] if effects.moving(case) else []
+    let_in = max((math.hypot(*b.velocity) for b in case.boundaries.values() if b.velocity), default=0.0) / (
+        1.0 - packed
+    )
+    thrown = (
+        [math.hypot(*region.velocity) for region in case.particles.values() if region.velocity]
+        if effects.moving(case)
+        else []
+    )
     if "inflow" in case.effects:
-        thrown += [float(np.linalg.norm(streams_of(case, nozzle).velocity, axis=1).max()) for nozzle in case.nozzles.values()]
+        thrown += [
+            float(np.linalg.norm(streams_of(case, nozzle).velocity, axis=1).max()) for nozzle in case.nozzles.values()
+        ]
     reach = case.coupling.courant * smallest_cell(case)
-    return {cause: reach / speed for cause, speed in (("courant", let_in), ("particles", max(thrown, default=0.0))) if speed}
+    return {
+        cause: reach / speed for cause, speed in (("courant", let_in), ("particles", max(thrown, default=0.0))) if speed
+    }

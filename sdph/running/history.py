@@ -43,8 +43,8 @@ def probe(simulation, point) -> dict[str, float]:
 
 
 def tracked(simulation) -> dict[str, float]:
-    """Place, velocity, temperatures and heat rates of the tracked particles (paper, figures 9 and 10); nan before they come
-    in and once they are gone."""
+    """Place, velocity, temperatures and heat rates of the tracked particles (paper, figures 9 and 10); nan before they
+    come in and once they are gone."""
     names = simulation.case.track
     if not names:
         return {}

@@ -31,7 +31,8 @@ class Simulation:
     """Particles of a case coupled to a gas; call `window` until `time` is the end."""
 
     at_row = True  # the history has a row of every window
-    KEPT = ("time", "windows", "repeated", "wall", "stepper", "exchange", "clock", "ledger", "source")  # see sdph.engine.kept
+    # see sdph.engine.kept
+    KEPT = ("time", "windows", "repeated", "wall", "stepper", "exchange", "clock", "ledger", "source")
 
     def __init__(self, case, gas, ledger):
         self.case, self.gas, self.ledger = case, gas, ledger
@@ -64,7 +65,11 @@ class Simulation:
         """Initial fields of both sides, and the first window."""
         self._turn_over(self.case.coupling.window_largest)
         one_way = self.case.coupling.one_way
-        alpha_g = None if one_way or not self.case.coupling.voidage else self.exchange.alpha_g(self.state, self.weights, self._inside())
+        alpha_g = (
+            None
+            if one_way or not self.case.coupling.voidage
+            else self.exchange.alpha_g(self.state, self.weights, self._inside())
+        )
         self.gas_state = self.gas.start(alpha_g, () if one_way else self.exchange.sources)
         if not one_way:
             rate, stake, thickening = self.exchange.pace(self.state, self.weights, self.gas_state)
@@ -81,7 +86,10 @@ class Simulation:
         if self.source:
             self.source.admit_at(kept["time"], kept["source"])
         given = kept["source"]["next_ident"] if self.source else len(self.state.x) + 1
-        for ident in (kept["stepper"]["state"]["ident"], (kept["clock"]["control"]["rates"] or (0.0, 0.0, np.zeros(0, np.int64)))[2]):
+        for ident in (
+            kept["stepper"]["state"]["ident"],
+            (kept["clock"]["control"]["rates"] or (0.0, 0.0, np.zeros(0, np.int64)))[2],
+        ):
             if ident.min(initial=1) < 1 or ident.max(initial=1) > max(1, given - 1):
                 raise Unfit(f"a particle has a number that is not among 1 to {given - 1}")
 
@@ -112,7 +120,9 @@ class Simulation:
         else:
             self._timed("particles", self.stepper.conduct, dt, warming)
         self.time, self.windows = end, self.windows + 1
-        self.clock.learn(dt, taken.heat[inside], self.received.ident[inside], self.gas_state.budget.courant, self._fastest())
+        self.clock.learn(
+            dt, taken.heat[inside], self.received.ident[inside], self.gas_state.budget.courant, self._fastest()
+        )
         self.clock.thicken(dt, self.exchange.vapour_share(handed, self.gas_state))
         exchanged = taken.columns() | tally.columns(self, weight, np.einsum("ij->j", taken.impulse))
         exchanged |= {"drag_heat_J": self.exchange.drag_heat_of(handed)}
@@ -120,7 +130,8 @@ class Simulation:
         self.ledger.close_window(end, dt, self.clock.limit, self.grains, self.gas_state, exchanged)
 
     def _with_gas(self, end: float):
-        """Gas through the window to `end` [s], or through the part of it that it can finish: where that ends, and what was handed."""
+        """Gas through the window to `end` [s], or through the part of it that it can finish: where that ends, and what
+        was handed."""
         for _ in range(REPEATS + 1):
             self.stepper.guard.begin(self, end - self.time)
             handed = self._timed("exchange", self._hand, end - self.time)
@@ -129,10 +140,14 @@ class Simulation:
                 return end, handed
             self.gas_state, tried = self.gas.retreat(), end - self.time
             end, self.repeated = self.time + tried / PART, self.repeated + 1
-            self.notices.append(f"window {self.windows + 1}, t = {self.time:.6g} s: taken again, a quarter of {tried:.3g} s long, because {failure}")
+            self.notices.append(
+                f"window {self.windows + 1}, t = {self.time:.6g} s: taken again, a quarter of {tried:.3g} s long, "
+                f"because {failure}"
+            )
         keys = f"coupling.window_largest_s below {tried:.2g} or coupling.courant (now {self.case.coupling.courant:g})"
         raise GasError(
-            f"the gas cannot finish window {self.windows + 1} at t = {self.time:.6g} s, not even {tried:.3g} s of it: {failure}; lower {keys}, "
+            f"the gas cannot finish window {self.windows + 1} at t = {self.time:.6g} s, not even {tried:.3g} s of it: "
+            f"{failure}; lower {keys}, "
             "or look at what enters there ([boundaries], [nozzles]) and at resolution.cell_mm"
         )
 
@@ -151,16 +166,24 @@ class Simulation:
     def meshes(self) -> dict:
         """Particles and gas for the timeline."""
         self.grid = self.grid or output.gas_grid(self.gas)
-        return {"particles": output.particle_points(self.grains, self.case.grains.density), "gas": output.with_fields(*self.grid, self.cell_fields())}
+        return {
+            "particles": output.particle_points(self.grains, self.case.grains.density),
+            "gas": output.with_fields(*self.grid, self.cell_fields()),
+        }
 
     def walls(self):
-        """Those of a surface mesh, for pictures (pyvista); None where there is none: the sides of the domain are seen anyway."""
+        """Those of a surface mesh, for pictures (pyvista); None where there is none: the sides of the domain are seen
+        anyway."""
         mesh = self.case.parameters["walls"].mesh if self.parameters["walls"] else ""
         return boundary.surface(mesh, self.case.dimensions) if mesh else None
 
     def summary(self, out) -> dict[str, float]:
         """summary.json, its own part; what probes rose by is told from the first and the last row of the history."""
-        own = {"cells": len(self.gas.mesh.volumes), "sub_steps": self.stepper.steps, "wall_contacts": self.stepper.contacts}
+        own = {
+            "cells": len(self.gas.mesh.volumes),
+            "sub_steps": self.stepper.steps,
+            "wall_contacts": self.stepper.contacts,
+        }
         own["windows_repeated"] = self.repeated
         for name in self.case.probes:
             own |= {key: out.last[key] for key in (f"{name}_{probed}" for probed in history.PROBED) if key in out.last}
@@ -174,7 +197,9 @@ class Simulation:
 
     def cell_fields(self) -> dict[str, np.ndarray]:
         """Fields of the gas, and alpha_p by cell."""
-        return self.gas_state.fields | {"alpha_p": 1.0 - self.exchange.alpha_g(self.state, self.weights, self._inside())}
+        return self.gas_state.fields | {
+            "alpha_p": 1.0 - self.exchange.alpha_g(self.state, self.weights, self._inside())
+        }
 
     def _hand(self, dt: float):
         """The exchange of a window of `dt`, from where the particles are in its middle (second order in their motion);

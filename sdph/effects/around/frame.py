@@ -23,7 +23,8 @@ class Frame:
     """Sums of harmonics, or a table; the caller of `sdph.running.tank.Tank` gives its own in place of both.
 
     The origin's displacement along axis a is sum A sin(w t + phase) of the rows [axis, A, w, phase] of `shake`
-    (m, rad/s, rad); the angular velocity the same of `turn` (rad/s, rad/s, rad). Both begin at `start` and cease at `end`.
+    (m, rad/s, rad); the angular velocity the same of `turn` (rad/s, rad/s, rad). Both begin at `start` and cease at
+    `end`.
     """
 
     shake: tuple = vector("", ())
@@ -55,7 +56,9 @@ def motion(own: Frame):
     for row in (*own.shake, *own.turn):
         flat = isinstance(row, tuple) and not any(isinstance(value, tuple) for value in row)
         if not flat or len(row) != 4 or row[0] not in (0, 1, 2):
-            raise CaseError(f"frame.shake or frame.turn holds {row}; a row is [axis 0, 1 or 2, amplitude, rad/s, phase]")
+            raise CaseError(
+                f"frame.shake or frame.turn holds {row}; a row is [axis 0, 1 or 2, amplitude, rad/s, phase]"
+            )
 
     def at(time: float):
         acceleration, omega, rate = np.zeros(3), np.array(own.spin, float), np.zeros(3)

@@ -121,7 +121,10 @@ class Source:
         """Unfit where not the layers were made that are needed at `time` [s], or other particles than these hold."""
         layers = kept["layers"]
         least, most = self._wanted(time, 0.0), self._wanted(time, 2.0 * self.case.coupling.window_largest) + 1
-        if kept["next_ident"] != self.next_ident + int(layers.sum()) or not ((layers >= least) & (layers <= most)).all():
+        if (
+            kept["next_ident"] != self.next_ident + int(layers.sum())
+            or not ((layers >= least) & (layers <= most)).all()
+        ):
             raise Unfit(f"the nozzles cannot have made and numbered what they have made at {time:g} s")
 
     def _particles(self, nozzle, points, velocity):
@@ -140,7 +143,8 @@ class Source:
         return particles.born(state)
 
     def mouths(self, dummies) -> np.ndarray:
-        """Number, from 1, of the nozzle in whose mouth or upstream of it each dummy of the walls (W,) stands; 0: none."""
+        """Number, from 1, of the nozzle in whose mouth or upstream of it each dummy of the walls (W,) stands; 0:
+        none."""
         places = np.stack((dummies.x, dummies.y, dummies.z)[: self.case.dimensions], axis=1)
         found, wide = np.zeros(len(places), np.int64), cell_radius(self.pitch, self.case.dimensions)
         for k, own in enumerate(self.streams):
@@ -170,7 +174,8 @@ class Source:
         return share
 
     def _beyond(self, nozzle, places) -> tuple[np.ndarray, np.ndarray]:
-        """Distances [m] of places (n, 3) beyond the mouths of their nozzles (n,), or of one, from 0; and from the axis."""
+        """Distances [m] of places (n, 3) beyond the mouths of their nozzles (n,), or of one, from 0; and from the
+        axis."""
         apart, axis = places[:, : self.case.dimensions] - self.centre[nozzle], self.axis[nozzle]
         along = (apart * axis).sum(axis=1)
         return along, np.linalg.norm(apart - along[:, None] * axis, axis=1)
@@ -218,4 +223,12 @@ def call(scales) -> Judgement:
     return Judgement("nozzles", float(count), 1.0, "the case", float(count > 0))
 
 
-EFFECT = Effect(name="inflow", summary="grains that come in through nozzles", parameters=Inflow, kernel=kernel, arrays=ARRAYS, moves=True, call=call)
+EFFECT = Effect(
+    name="inflow",
+    summary="grains that come in through nozzles",
+    parameters=Inflow,
+    kernel=kernel,
+    arrays=ARRAYS,
+    moves=True,
+    call=call,
+)

@@ -37,7 +37,10 @@ def check(case, name: str, nozzle: Nozzle) -> None:
         raise CaseError(f"{where}: give either volume_fraction or rate_kg_s")
     for key, unit_of in (("centre", "_m"), ("direction", "")):
         if len(getattr(nozzle, key)) != case.dimensions:
-            raise CaseError(f"{where}.{key}{unit_of} has {len(getattr(nozzle, key))} components; dimensions = {case.dimensions} asks for {case.dimensions}")
+            raise CaseError(
+                f"{where}.{key}{unit_of} has {len(getattr(nozzle, key))} components; dimensions = {case.dimensions} "
+                f"asks for {case.dimensions}"
+            )
     if nozzle.shape == "disc" and case.dimensions == 2:
         raise CaseError(f"{where}.shape = 'disc' is for three dimensions; in two a mouth is a slot or a cone")
     needs = ("width", "length")[: case.dimensions - 1] if nozzle.shape == "slot" else ("radius",)
@@ -55,7 +58,10 @@ def check(case, name: str, nozzle: Nozzle) -> None:
     _check_times(case, where, nozzle, streams)
     alpha_p = streams.alpha_p
     if alpha_p > case.grains.packing_limit:
-        raise CaseError(f"{where} makes a volume fraction of {alpha_p:.3g}, above grains.packing_limit = {case.grains.packing_limit}; slow down or widen it")
+        raise CaseError(
+            f"{where} makes a volume fraction of {alpha_p:.3g}, above grains.packing_limit = "
+            f"{case.grains.packing_limit}; slow down or widen it"
+        )
 
 
 def _check_times(case, where: str, nozzle: Nozzle, streams: Streams) -> None:

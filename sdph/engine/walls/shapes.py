@@ -2,7 +2,8 @@
 
 A shape has `distance(points)` [m], negative inside, `shell(depth, spacing)` the points of the surface moved outwards
 by `depth`, about one spacing apart, `surface()` of its walls for pictures (pyvista, lines in two dimensions), and
-`volume` [m^d], and `furthest(direction)` [m], the most of r.direction in it. The axis of a round tank is the last one of the case.
+`volume` [m^d], and `furthest(direction)` [m], the most of r.direction in it. The axis of a round tank is the last one
+of the case.
 """
 
 from __future__ import annotations
@@ -85,10 +86,14 @@ class Cylinder:
     def surface(self):
         import pyvista
 
-        return pyvista.Cylinder(center=self.centre, direction=UP, radius=self.radius, height=self.length, capping=not self.open_top)
+        return pyvista.Cylinder(
+            center=self.centre, direction=UP, radius=self.radius, height=self.length, capping=not self.open_top
+        )
 
     def furthest(self, direction):
-        return float(self.centre @ direction + self.radius * np.hypot(*direction[:2]) + 0.5 * self.length * abs(direction[2]))
+        return float(
+            self.centre @ direction + self.radius * np.hypot(*direction[:2]) + 0.5 * self.length * abs(direction[2])
+        )
 
     @property
     def volume(self):
@@ -199,7 +204,8 @@ class Mesh:
         return np.asarray(pyvista.PolyData(points).compute_implicit_distance(self.triangles)["implicit_distance"])
 
     def shell(self, depth, spacing):
-        """Lattice points between half a spacing less and half a spacing more than `depth` outside, moved onto it, evened out."""
+        """Lattice points between half a spacing less and half a spacing more than `depth` outside, moved onto it,
+        evened out."""
         bounds, around = np.array(self.triangles.bounds).reshape(3, 2), depth + spacing
         ticks = [np.arange(low - around, high + around, spacing) for low, high in bounds]
         points = np.stack([m.ravel() for m in np.meshgrid(*ticks, indexing="ij")], axis=1)
@@ -247,14 +253,19 @@ class Joined:
 
 
 def wall_points(shape, spacing: float, layers: int) -> np.ndarray:
-    """(W, d) wall particles in `layers`, the first half a spacing behind the surface; those of an outlet pipe come last."""
+    """(W, d) wall particles in `layers`, the first half a spacing behind the surface; those of an outlet pipe come
+    last."""
     own = _behind(shape.tank if isinstance(shape, Joined) else shape, shape, spacing, layers)
     return np.concatenate([own, pipe_points(shape, spacing, layers)])
 
 
 def pipe_points(shape, spacing: float, layers: int) -> np.ndarray:
     """(W, d) of `wall_points`, those of the outlet pipe; none where there is no pipe."""
-    return _behind(shape.pipe, shape, spacing, layers) if isinstance(shape, Joined) else shape.shell(0.5 * spacing, spacing)[:0]
+    return (
+        _behind(shape.pipe, shape, spacing, layers)
+        if isinstance(shape, Joined)
+        else shape.shell(0.5 * spacing, spacing)[:0]
+    )
 
 
 def _behind(part, whole, spacing: float, layers: int) -> np.ndarray:

@@ -23,8 +23,9 @@ from sdph.methods.grains import equations as rates
 from sdph.methods.grains.bounds import Guard
 from sdph.methods.grains.equations import Stress
 
-# Of h/(c + v); our choice. By von Neumann a lattice with summed density bears 1.86 h/c in these steps, under p = rho c^2/2 1.15
-# (tests/methods/grains/test_rates.py). Monaghan 1992 takes 0.25; the bed's heat to the grains is then 0.07 % different.
+# Of h/(c + v); our choice. By von Neumann a lattice with summed density bears 1.86 h/c in these steps, under p = rho
+# c^2/2 1.15 (tests/methods/grains/test_rates.py). Monaghan 1992 takes 0.25; the bed's heat to the grains is then 0.07 %
+# different.
 ACOUSTIC = 0.5
 DIFFUSIVE = 0.125  # of h^2/nu, Morris, Fox & Zhu 1997
 SAME_DENSITY = 1e-6  # of a density: what is summed twice differs by round-off at most; our choice
@@ -34,7 +35,8 @@ REACH = 2.0  # support of the kernels in smoothing lengths
 class Stepper:
     """State of the particles, and how it goes forward."""
 
-    KEPT = ("state", "neighbours", "steps", "contacts", "limit", "mechanical_heat", "bounds_work")  # see sdph.engine.kept
+    # see sdph.engine.kept
+    KEPT = ("state", "neighbours", "steps", "contacts", "limit", "mechanical_heat", "bounds_work")
     FORMS = {"state": GROWING}
 
     def __init__(self, case, parameters, state, source=None, shortest=0.0):
@@ -48,7 +50,8 @@ class Stepper:
         self.shears = bool(parameters["friction"] or algebraic)
         self.steps, self.contacts, self.limit = 0, 0, ""
         self.shortest = shortest  # sub-step [s] below which the run gets nowhere
-        self.stress, self.length = Stress(*[np.empty(0)] * len(Stress._fields)), 0.0  # of the last sub-step, and what that was limited to [s]
+        # of the last sub-step, and what that was limited to [s]
+        self.stress, self.length = Stress(*[np.empty(0)] * len(Stress._fields)), 0.0
         self.mechanical_heat = 0.0  # what motion has given to the temperature of the grains [J]
         self.bounds_work = 0.0  # what the bounds of theta have added [J]
 
@@ -105,7 +108,15 @@ class Stepper:
         steps = self._parts(dt, self._limit_of("conduction"), "conduction")
         heating = np.zeros(len(self.state.x))
         for _ in range(steps):
-            rates.conduct(self.kernel, self.state, self.rows, self.neighbours.box, self.pull, self.parameters["conduction"], heating)
+            rates.conduct(
+                self.kernel,
+                self.state,
+                self.rows,
+                self.neighbours.box,
+                self.pull,
+                self.parameters["conduction"],
+                heating,
+            )
             self._warm(heating * dt / steps + heat / self.state.mass / steps)
             self.guard.sub_step(self)
         self.steps += steps
@@ -126,7 +137,15 @@ class Stepper:
         """Heat [W] that each particle gets from its neighbours now."""
         heating = np.zeros(len(self.state.x))
         if self.parameters["conduction"]:
-            rates.conduct(self.kernel, self.state, self.rows, self.neighbours.box, self.pull, self.parameters["conduction"], heating)
+            rates.conduct(
+                self.kernel,
+                self.state,
+                self.rows,
+                self.neighbours.box,
+                self.pull,
+                self.parameters["conduction"],
+                heating,
+            )
         return heating * self.state.mass
 
     def _sub_step(self, left: float) -> float:
@@ -135,7 +154,10 @@ class Stepper:
         self.stress = self._stress()
         speed = np.sqrt(s.u**2 + s.v**2 + (s.w**2 if len(s.w) else 0.0))
         fastest = float((self.stress.sound + speed).max(initial=0.0))
-        limits = {"sound": ACOUSTIC * self.kernel.h / fastest if fastest else math.inf, "conduction": self._limit_of("conduction")}
+        limits = {
+            "sound": ACOUSTIC * self.kernel.h / fastest if fastest else math.inf,
+            "conduction": self._limit_of("conduction"),
+        }
         if len(s.theta) and s.theta.max(initial=0.0) > 0.0:  # viscosity and conductivity are at most h sqrt(theta)
             limits["agitation"] = DIFFUSIVE * self.kernel.h / math.sqrt(s.theta.max())
         self.limit = min(limits, key=limits.get)
@@ -143,8 +165,14 @@ class Stepper:
         return left / self._parts(left, limits[self.limit], self.limit)
 
     def _parts(self, left: float, limit: float, cause: str) -> int:
-        """Number of equal sub-steps in which `left` [s] is taken, none longer than `limit` [s] times run.step_factor."""
-        return count_of_parts(left, self.case.run.step_factor * limit, self.shortest, f"the sub-step's limit {cause!r} (times run.step_factor)")
+        """Number of equal sub-steps in which `left` [s] is taken, none longer than `limit` [s] times
+        run.step_factor."""
+        return count_of_parts(
+            left,
+            self.case.run.step_factor * limit,
+            self.shortest,
+            f"the sub-step's limit {cause!r} (times run.step_factor)",
+        )
 
     def _advance(self, dt: float, held) -> None:
         """One sub-step: stress, walls, rates, then theta, heat, velocity, place."""
@@ -154,9 +182,9 @@ class Stepper:
         wall_pressure, wall_velocity = self._extrapolate(self.stress.pressure, body)
         acceleration, agitation, heating = np.empty((count, 3)), np.empty(count), np.empty(count)
         rates.rates(
-            self.kernel, s, self.rows, self.neighbours.box, self.pull, self.stress, self.viscous, p["friction"], *sheared[:3], p["artificial_viscosity"],
-            p["granular_temperature"], p["conduction"], *self._walls(), wall_pressure, wall_velocity,
-            acceleration, agitation, heating,
+            self.kernel, s, self.rows, self.neighbours.box, self.pull, self.stress, self.viscous, p["friction"],
+            *sheared[:3], p["artificial_viscosity"], p["granular_temperature"], p["conduction"], *self._walls(),
+            wall_pressure, wall_velocity, acceleration, agitation, heating,
         )  # fmt: skip
         if self.source:
             self._hold_back(acceleration, agitation, heating, body)
@@ -164,7 +192,8 @@ class Stepper:
             self._agitate(dt, agitation, damping, sheared)
         if len(s.temperature):
             self._warm((heating + heat / s.mass) * dt)
-            self.mechanical_heat += float((s.mass * heating).sum() * dt)  # conduction adds up to nothing, but for what comes from upstream
+            # conduction adds up to nothing, but for what comes from upstream
+            self.mechanical_heat += float((s.mass * heating).sum() * dt)
         self._drift(dt, acceleration + body)
         self.steps += 1
 
@@ -183,7 +212,19 @@ class Stepper:
         if not self.shears:
             return shearing.nothing(len(s.x))
         out, held = shearing.empty(len(s.x), bool(p["friction"])), (getattr(s, name) for name in friction.ARRAYS)
-        shearing.shear(self.kernel, s, self.rows, self.neighbours.box, self.pull, self.stress, *self._walls(), p["friction"], dt, *held, *out)
+        shearing.shear(
+            self.kernel,
+            s,
+            self.rows,
+            self.neighbours.box,
+            self.pull,
+            self.stress,
+            *self._walls(),
+            p["friction"],
+            dt,
+            *held,
+            *out,
+        )
         return out
 
     def _extrapolate(self, pressure, body):
@@ -192,14 +233,31 @@ class Stepper:
         count = len(self.boundary.dummies.x)
         weight, wall_pressure, wall_velocity = np.empty(count), np.empty(count), np.empty((count, 3))
         walls.extrapolate(
-            self.kernel, self.neighbours.box, self.boundary.dummies, self.wall_rows, self.state, pressure, body, weight, wall_pressure, wall_velocity
+            self.kernel,
+            self.neighbours.box,
+            self.boundary.dummies,
+            self.wall_rows,
+            self.state,
+            pressure,
+            body,
+            weight,
+            wall_pressure,
+            wall_velocity,
         )
         return wall_pressure, wall_velocity
 
     def _agitate(self, dt: float, agitation, damping, sheared) -> None:
         theta, held = np.empty(len(agitation)), np.empty(len(agitation))
         granular_temperature.advance_all(
-            self.parameters["granular_temperature"], self.state, agitation, damping, sheared.shear_squared, sheared.divergence, dt, theta, held
+            self.parameters["granular_temperature"],
+            self.state,
+            agitation,
+            damping,
+            sheared.shear_squared,
+            sheared.divergence,
+            dt,
+            theta,
+            held,
         )
         moving = self.state.kind != INFLOW
         self.state.theta[moving], held[~moving] = theta[moving], 0.0
@@ -226,7 +284,9 @@ class Stepper:
         if self.source:
             self.source.release(s)
         if self.boundary:
-            self.contacts += walls.contact(self.parameters["walls"], self.neighbours.box, self.boundary.dummies, self.wall_rows, s)
+            self.contacts += walls.contact(
+                self.parameters["walls"], self.neighbours.box, self.boundary.dummies, self.wall_rows, s
+            )
 
     def _shift(self, dt: float) -> None:
         s = self.state
@@ -242,7 +302,9 @@ class Stepper:
         return (self.parameters["walls"], self.boundary.dummies, self.wall_rows) if self.boundary else (OFF, OFF, OFF)
 
     def _limit_of(self, name: str) -> float:
-        return REGISTRY[name].dt_limit(self.parameters[name], self.case, self.state) if self.parameters[name] else math.inf
+        return (
+            REGISTRY[name].dt_limit(self.parameters[name], self.case, self.state) if self.parameters[name] else math.inf
+        )
 
 
 class Held:

@@ -20,9 +20,15 @@ class Tally:
         """Ledger columns, given the impulses (3,) of body forces and from the gas; the rest is of walls."""
         mass, energy, momentum = (now - before for now, before in zip(_came_in(simulation), self.came))
         walls = _momentum(simulation.state) - self.momentum - body - exchanged - momentum
-        columns = {"injected_kg": mass, "injected_J": energy, "mechanical_heat_J": simulation.stepper.mechanical_heat - self.heat}
+        columns = {
+            "injected_kg": mass,
+            "injected_J": energy,
+            "mechanical_heat_J": simulation.stepper.mechanical_heat - self.heat,
+        }
         impulses = {"impulse_of_body_forces": body, "impulse_of_walls": walls, "impulse_of_inflow": momentum}
-        return columns | {key: value for name, impulse in impulses.items() for key, value in vector(name, impulse).items()}
+        return columns | {
+            key: value for name, impulse in impulses.items() for key, value in vector(name, impulse).items()
+        }
 
 
 def _came_in(simulation):

@@ -36,10 +36,25 @@ class LiquidStepper:
     """Liquid and wall particles of a case, and how they go forward."""
 
     KEPT = (
-        "state", "neighbours", "time", "steps", "limit", "shifted", "tightening", "pressure", "volume", "acceleration", "gradient", "least", "shift",
-        "twist", "extra", "excess",
+        "state",
+        "neighbours",
+        "time",
+        "steps",
+        "limit",
+        "shifted",
+        "tightening",
+        "pressure",
+        "volume",
+        "acceleration",
+        "gradient",
+        "least",
+        "shift",
+        "twist",
+        "extra",
+        "excess",
     )  # fmt: skip  (see sdph.engine.kept)
-    ROWS = ("pressure", "volume", "acceleration", "gradient", "least", "shift", "twist", "extra", "excess")  # of the particles
+    # of the particles
+    ROWS = ("pressure", "volume", "acceleration", "gradient", "least", "shift", "twist", "extra", "excess")
     FORMS = dict.fromkeys(("state", *ROWS), GROWING)
 
     def __init__(self, case, shortest: float = 0.0):
@@ -51,7 +66,8 @@ class LiquidStepper:
         period = tuple(length * bool(on) for length, on in zip(case.domain.size, periodic))
         self.neighbours = LiquidNeighbours(2.0 * SLACK * self.kernel.h, period, case.resolution.neighbour_skin)
         self.fluids, self.phases = fluids(case), phases.kernel(case)
-        first_of_pipe = len(self.state.x) - start.pipe_walls(case)  # walls follow the liquid, those of the outlet pipe come last
+        # walls follow the liquid, those of the outlet pipe come last
+        first_of_pipe = len(self.state.x) - start.pipe_walls(case)
         self.own_walls = range(int((self.state.kind != WALL).sum()), first_of_pipe)  # numbers of the tank's own
         own = self.p["tank"]
         self.wall = WallP(*[0.0] * 6, *own) if own else NO_WALL
@@ -73,7 +89,11 @@ class LiquidStepper:
 
     def admit(self, kept: dict) -> None:
         """Unfit where the particles cannot be of this case, or other arrays are not one row a particle each."""
-        state, built, kinds = kept["state"], kept["neighbours"]["built"], (WALL, LIQUID, *((GAS,) if self.case.gas_phase else ()))
+        state, built, kinds = (
+            kept["state"],
+            kept["neighbours"]["built"],
+            (WALL, LIQUID, *((GAS,) if self.case.gas_phase else ())),
+        )
         self.guard.admit_liquid(state, self.state, kinds)
         count = len(state["x"])
         if [len(axis) for axis in built] != [count] * self.case.dimensions:
@@ -83,8 +103,11 @@ class LiquidStepper:
             for array, like in zip([kept[name]], [fresh]) if one else zip(kept[name], fresh):
                 if len(array) != (count if len(like) else 0):
                     raise Unfit(f"{name} has {len(array)} values for {count} particles")
-        far, wild = FAR * max(self.case.domain.size), FAR * self.case.fastest_sound ** 2 / self.kernel.h
-        for name, values, most in (("acceleration", kept["acceleration"], wild), *(("a place at the last rows", axis, far) for axis in built)):
+        far, wild = FAR * max(self.case.domain.size), FAR * self.case.fastest_sound**2 / self.kernel.h
+        for name, values, most in (
+            ("acceleration", kept["acceleration"], wild),
+            *(("a place at the last rows", axis, far) for axis in built),
+        ):
             if np.abs(values).max(initial=0.0) > most:
                 raise Unfit(f"{name} is beyond {most:.3g}")
 
@@ -118,7 +141,9 @@ class LiquidStepper:
             limits["force"] = FORCE * math.sqrt(h / math.sqrt(force))
         self.limit = min(limits, key=limits.get)
         longest = self.case.run.step_factor * limits[self.limit]
-        return left / count_of_parts(left, longest, self.shortest, f"the step's limit {self.limit!r} (times run.step_factor)")
+        return left / count_of_parts(
+            left, longest, self.shortest, f"the step's limit {self.limit!r} (times run.step_factor)"
+        )
 
     def _limits(self) -> dict[str, float]:
         """Limits that stay through the run."""
@@ -149,8 +174,8 @@ class LiquidStepper:
 
     def _densify(self, dt: float) -> None:
         rates.compress(
-            self.kernel, self.state, self.rows, self.neighbours.box, self.active, self.wall, self.p["density_diffusion"], self.phases,
-            self.pressure, *self.gradient, self.volume, self.rate,
+            self.kernel, self.state, self.rows, self.neighbours.box, self.active, self.wall,
+            self.p["density_diffusion"], self.phases, self.pressure, *self.gradient, self.volume, self.rate,
         )  # fmt: skip
         motion.densify(self.active, self.rate, dt, self.state.density)
 
@@ -166,26 +191,48 @@ class LiquidStepper:
         rates.state_of(self.fluids, s, self.active, self.pressure, self.volume)
         if len(self.walls):
             walls.extrapolate(
-                self.kernel, s, self.rows, self.neighbours.box, self.walls, self.wall, p["gravity"], self.frame, self.volume,
-                self.pressure, s.u, s.v, s.w,
+                self.kernel, s, self.rows, self.neighbours.box, self.walls, self.wall, p["gravity"], self.frame,
+                self.volume, self.pressure, s.u, s.v, s.w,
             )  # fmt: skip
         if self.excess:
             correction.surround(self.kernel, s, self.rows, self.neighbours.box, self.active, self.volume, *self.excess)
         rates.push(
-            self.kernel, s, self.rows, self.neighbours.box, self.active, self.wall, p["gravity"], self.frame, p["laminar_viscosity"],
-            p["liquid_damping"], p["density_diffusion"], p["shifting"], self.phases, self.pressure, self.volume, self.least, self.excess,
-            self.acceleration, *self.gradient,
+            self.kernel, s, self.rows, self.neighbours.box, self.active, self.wall, p["gravity"], self.frame,
+            p["laminar_viscosity"], p["liquid_damping"], p["density_diffusion"], p["shifting"], self.phases,
+            self.pressure, self.volume, self.least, self.excess, self.acceleration, *self.gradient,
         )  # fmt: skip
         if p["surface_tension"]:
             self._tighten()
         if p["xsph"]:
-            shift.mingle(self.kernel, s, self.rows, self.neighbours.box, self.active, p["xsph"], self.phases, self.volume, *self.extra)
+            shift.mingle(
+                self.kernel,
+                s,
+                self.rows,
+                self.neighbours.box,
+                self.active,
+                p["xsph"],
+                self.phases,
+                self.volume,
+                *self.extra,
+            )
         if p["shifting"]:
             shift.surround(
-                self.kernel, s, self.rows, self.neighbours.box, self.active, p["shifting"], self.phases, self.volume, self.least, self.shift, self.twist
+                self.kernel,
+                s,
+                self.rows,
+                self.neighbours.box,
+                self.active,
+                p["shifting"],
+                self.phases,
+                self.volume,
+                self.least,
+                self.shift,
+                self.twist,
             )
             if not self.phases:
-                shift.along_surface(self.kernel, s, self.rows, self.neighbours.box, self.active, self.volume, self.least, self.shift)
+                shift.along_surface(
+                    self.kernel, s, self.rows, self.neighbours.box, self.active, self.volume, self.least, self.shift
+                )
 
     def _tighten(self) -> None:
         """Adds surface tension to the accelerations."""
@@ -197,7 +244,8 @@ class LiquidStepper:
         self.tightening = float(s.mass @ (particles.velocities(s) * (self.acceleration - before)).sum(axis=1))
 
     def _allocate(self, before) -> None:
-        """Work arrays for the particles in their new order; only `least` outlives a step. before (N,): their old order."""
+        """Work arrays for the particles in their new order; only `least` outlives a step. before (N,): their old
+        order."""
         s = self.state
         self._tell_apart()
         count = len(s.x)

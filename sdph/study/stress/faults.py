@@ -67,7 +67,9 @@ class Site:
         temporary.mkdir(exist_ok=True)
         python = os.pathsep.join(filter(None, (str(paths.PACKAGE.parent), os.environ.get("PYTHONPATH"))))
         variables = os.environ | {"TMPDIR": str(temporary), "PYTHONPATH": python} | (environment or {})
-        return subprocess.Popen(self.command(*words), env=variables, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        return subprocess.Popen(
+            self.command(*words), env=variables, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
+        )
 
 
 def run(moments: int) -> list[dict]:
@@ -76,7 +78,9 @@ def run(moments: int) -> list[dict]:
         site = _site(Path(scratch))
         chance = random.Random(1)
         checks = [_killed(site, chance, number) for number in range(moments)]
-        checks += [fault(site) for fault in (_terminated, _interrupted, _second_run, _full_disk, _read_only, _clock_back)]
+        checks += [
+            fault(site) for fault in (_terminated, _interrupted, _second_run, _full_disk, _read_only, _clock_back)
+        ]
     print("\n".join(f"{'ok' if c['ok'] else 'FAILED':8s}{c['name']:44s}{c['detail']}" for c in checks))
     return checks
 
@@ -107,7 +111,8 @@ def _killed(site: Site, chance: random.Random, number: int) -> dict:
     hit = _kill(process, folder, victim)
     said = process.communicate(timeout=PATIENCE)[1]
     told = process.returncode == 3 and "sdphGasFoam" in said
-    too_late = process.returncode == 0 and (folder / "ledger.csv").read_bytes() == site.ledger  # the gas had no more to do
+    # the gas had no more to do
+    too_late = process.returncode == 0 and (folder / "ledger.csv").read_bytes() == site.ledger
     named = not hit or victim == "python" or told or too_late
     return _verdict(site, folder, f"kill -9 {victim} at {moment:.2f} s", named, said)
 
@@ -115,7 +120,9 @@ def _killed(site: Site, chance: random.Random, number: int) -> dict:
 def _kill(process: subprocess.Popen, folder: Path, victim: str) -> bool:
     """Whether the victim was there to be killed; it is waited for while the run goes on."""
     while process.poll() is None:
-        found = [pid for pid, name in processes(folder) if name.startswith(victim)] if victim != "python" else [process.pid]
+        found = (
+            [pid for pid, name in processes(folder) if name.startswith(victim)] if victim != "python" else [process.pid]
+        )
         if found:
             os.kill(found[-1], signal.SIGKILL)
             return True
@@ -151,7 +158,12 @@ def _second_run(site: Site) -> dict:
     said = [other.communicate(timeout=PATIENCE)[1] for other in others]
     first.send_signal(signal.SIGCONT)
     first.communicate(timeout=PATIENCE)
-    named = first.returncode == 0 and [o.returncode for o in others] == [2, 2] and "another run" in said[0] and "in use" in said[1]
+    named = (
+        first.returncode == 0
+        and [o.returncode for o in others] == [2, 2]
+        and "another run" in said[0]
+        and "in use" in said[1]
+    )
     return _verdict(site, folder, "a second run in the same folder", named, " | ".join(said))
 
 
@@ -178,7 +190,10 @@ def _on_small_disk(site: Site, name: str, harm, words, size: str) -> dict:
     """A run on a tmpfs of `size`; `harm` gives the mounts to be taken away again before the run goes on."""
     disk = site.scratch / name.split()[0]
     disk.mkdir()
-    if os.geteuid() or subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", disk], capture_output=True).returncode:
+    if (
+        os.geteuid()
+        or subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", disk], capture_output=True).returncode
+    ):
         return {"name": name, "ok": True, "detail": "skipped: only root can mount a tmpfs"}
     try:
         process = site.start(disk / "run")
@@ -198,7 +213,10 @@ def _clock_back(site: Site) -> dict:
     source, library, name = site.scratch / "clock.c", site.scratch / "clock.so", "the clock steps back"
     source.write_text(CLOCK, encoding="utf-8")
     compiler = shutil.which("cc") or shutil.which("gcc")
-    if not compiler or subprocess.run([compiler, "-shared", "-fPIC", "-o", library, source, "-ldl"], capture_output=True).returncode:
+    if (
+        not compiler
+        or subprocess.run([compiler, "-shared", "-fPIC", "-o", library, source, "-ldl"], capture_output=True).returncode
+    ):
         return {"name": name, "ok": True, "detail": "skipped: there is no C compiler"}
     process = site.start(site.scratch / "clock", {"LD_PRELOAD": str(library)})
     said = process.communicate(timeout=PATIENCE)[1]
@@ -249,7 +267,9 @@ def _unreadable(folder: Path) -> list[str]:
             wrong.append(f"{path.name} is empty")
     if (folder / "run.pvd").exists():
         text = (folder / "run.pvd").read_text(encoding="utf-8")
-        wrong += [f"{name} is missing" for name in text.split('file="')[1:] if not (folder / name.split('"')[0]).is_file()]
+        wrong += [
+            f"{name} is missing" for name in text.split('file="')[1:] if not (folder / name.split('"')[0]).is_file()
+        ]
     for name in ("summary.json", "failure.json", "origin.json"):
         if (folder / name).exists():
             json.loads((folder / name).read_text(encoding="utf-8"))

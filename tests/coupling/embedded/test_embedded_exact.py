@@ -21,7 +21,8 @@ GHIA_V = {
 
 
 def test_ergun_column():
-    """Pressure drop of a fixed bed, Ergun's equation (Chem. Eng. Prog. 48, 89, 1952), iterated with the velocity handed back."""
+    """Pressure drop of a fixed bed, Ergun's equation (Chem. Eng. Prog. 48, 89, 1952), iterated with the velocity handed
+    back."""
     alpha_p, d, speed, mu, rho = 0.6, 0.5e-3, 0.2, 1.8e-5, 1.2
     boundaries = {
         "below": {"kind": "velocity_inlet", "side": "bottom", "velocity_m_s": [0.0, speed]},
