@@ -14,7 +14,7 @@ from sdph.engine.state import GAS, LIQUID, WALL
 from sdph.engine.walls import shapes
 from sdph.laws import eos
 from sdph.laws.liquids import quadrupole, square_patch_pressure, taylor_green
-from sdph.methods.liquids import filling, start
+from sdph.methods.liquids import filling
 from sdph.schema import CaseError
 
 ROUNDS = 50  # of the inversion of Van der Waals' equation; each takes off nine tenths of the error or more
@@ -178,7 +178,7 @@ def _velocity(pool, points, dimensions: int) -> np.ndarray:
 def parts_of(case):
     """Kernel parameters by effect, particles, and motion of the frame (or None): all that a run begins with."""
     parameters = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
-    return parameters, start.fill(case), frame.motion(case.parameters["frame"]) if parameters["frame"] else None
+    return parameters, fill(case), frame.motion(case.parameters["frame"]) if parameters["frame"] else None
 
 
 def fluids(case) -> np.ndarray:
