@@ -14,8 +14,13 @@ demo: setup
 	if $(SDPH) doctor >/dev/null; then $(SDPH) compare $(RUN) --against tfm || test $$? -eq 3; fi
 	@echo pictures: $(RUN)/*.png
 
-test: setup
+test: setup lint
 	$(VENV)/bin/python -m pytest -n auto --maxprocesses 4 --dist loadfile
+
+lint: $(VENV)/installed
+	$(VENV)/bin/ruff check .
+	$(VENV)/bin/ruff format --check .
+	$(VENV)/bin/lint-imports --no-cache
 
 setup: $(VENV)/installed
 	@$(SDPH) openfoam setup --install || { echo "no OpenFOAM here: the embedded gas solver does the gas, unless CI=true"; test "$$CI" != true; }
@@ -29,4 +34,4 @@ $(VENV)/installed: pyproject.toml
 clean:
 	rm -rf $(VENV) runs build dist
 
-.PHONY: demo test setup clean
+.PHONY: demo test lint setup clean

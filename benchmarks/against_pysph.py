@@ -34,14 +34,19 @@ def stepper(dimensions: int, count: float):
     gravity = [0.0, -9.81, 0.0][:dimensions]
     spacing = (np.prod(column) / count) ** (1.0 / dimensions)
     for _ in range(20):  # walls take their share of the particles: to the spacing that gives `count` in all
-        walls = 3.0 * (sum(size) + size[1] if dimensions == 2 else size[0] * size[2] + 2.0 * size[1] * (size[0] + size[2]))
-        spacing *= ((np.prod(column) / spacing**dimensions + walls / spacing ** (dimensions - 1)) / count) ** (1.0 / dimensions)
+        walls = 3.0 * (
+            sum(size) + size[1] if dimensions == 2 else size[0] * size[2] + 2.0 * size[1] * (size[0] + size[2])
+        )
+        spacing *= ((np.prod(column) / spacing**dimensions + walls / spacing ** (dimensions - 1)) / count) ** (
+            1.0 / dimensions
+        )
     own = LiquidStepper(cases.from_table({
         "dimensions": dimensions, "effects": ["gravity", "density_diffusion", "liquid_damping", "tank"],
         "run": {"end_time_s": 1.0, "output_interval_s": 1.0}, "domain": {"size_m": size, "gravity_m_s2": gravity},
         "resolution": {"spacing_mm": 1e3 * spacing, "smoothing_ratio": RATIO},
         "liquid": {"density_kg_m3": 1000.0, "sound_speed_m_s": 60.0, "kernel": "cubic_spline"},
-        "tank": {"open_sides": ["top"]}, "pools": {"column": {"shape": "box", "lower_m": [0.0] * dimensions, "upper_m": column}},
+        "tank": {"open_sides": ["top"]}, "pools": {"column": {"shape": "box", "lower_m": [0.0] * dimensions,
+        "upper_m": column}},
     }))  # fmt: skip
     go(own, 6)
     return own
@@ -64,8 +69,9 @@ def export(own, file: Path) -> None:
     s, case = own.state, own.case
     z, w = (s.z, s.w) if len(s.z) else (np.zeros(len(s.x)), np.zeros(len(s.x)))
     np.savez(
-        file, x=s.x, y=s.y, z=z, u=s.u, v=s.v, w=w, m=s.mass, rho=s.density, wet=particles.wet(s), dimensions=case.dimensions,
-        h=case.smoothing_length, spacing=case.resolution.spacing, rho_0=case.liquid.density, c_0=case.liquid.sound_speed,
+        file, x=s.x, y=s.y, z=z, u=s.u, v=s.v, w=w, m=s.mass, rho=s.density, wet=particles.wet(s),
+        dimensions=case.dimensions, h=case.smoothing_length, spacing=case.resolution.spacing, rho_0=case.liquid.density,
+        c_0=case.liquid.sound_speed,
     )  # fmt: skip
 
 
@@ -76,12 +82,17 @@ def peer() -> None:
         with tempfile.TemporaryDirectory() as folder:
             export(own, Path(folder) / "particles.npz")
             ours, theirs = in_turn(own, Path(folder) / "particles.npz", REBUILD * max(1, int(1e5 / count)))
-        print(f"{name:10s} {len(own.state.x):10d} {1e3 * ours:10.2f} {1e3 * theirs:11.2f} {theirs / ours:6.2f}", flush=True)
+        print(
+            f"{name:10s} {len(own.state.x):10d} {1e3 * ours:10.2f} {1e3 * theirs:11.2f} {theirs / ours:6.2f}",
+            flush=True,
+        )
 
 
 def in_turn(own, file: Path, steps: int) -> tuple[float, float]:
     """Medians [s] of one step and of one evaluation of PySPH, measured in turn."""
-    environment = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "VIRTUAL_ENV")} | {"OMP_NUM_THREADS": THREADS}
+    environment = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "VIRTUAL_ENV")} | {
+        "OMP_NUM_THREADS": THREADS
+    }
     command = [SYSTEM_PYTHON, str(Path(__file__).with_name("pysph_side.py")), str(file)]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=environment) as other:
         line = other.stdout.readline()

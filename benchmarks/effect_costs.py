@@ -2,8 +2,8 @@
 
     python benchmarks/effect_costs.py [effect ...]
 
-The loop without an effect is made from the source of sdph/methods/grains/equations.py: every call of a function of the effect's file is
-replaced by the zeros that it would return. Both are timed in turns; the least of each counts.
+The loop without an effect is made from the source of sdph/methods/grains/equations.py: every call of a function of the
+effect's file is replaced by the zeros that it would return. Both are timed in turns; the least of each counts.
 """
 
 import ast
@@ -21,7 +21,8 @@ from sdph.methods.grains import equations as rates
 from sdph.study.explain import effect_costs
 from sdph.study.explain.tables import table
 
-TERMS = {"conduction": {"pair": 1}, "artificial_viscosity": {"pair": 1}}  # functions in the loop, and how many numbers each returns
+# functions in the loop, and how many numbers each returns
+TERMS = {"conduction": {"pair": 1}, "artificial_viscosity": {"pair": 1}}
 ROUNDS = 60
 ALLOWED = 0.02
 
@@ -54,7 +55,8 @@ def built_without(effect: str):
 
 
 def compared(effect: str) -> dict:
-    """Time of the loop with the effect off over that of the loop built without it; whether they agree to the last bit."""
+    """Time of the loop with the effect off over that of the loop built without it; whether they agree to the last
+    bit."""
     whole = cases.load(scenes.HERE / "bubbling_bed" / "case.toml", effect_costs.BED)
     off = effect_costs.prepared(effect_costs.without(whole, effect))
     arguments, results = captured(off), []
@@ -66,7 +68,14 @@ def compared(effect: str) -> dict:
     times = np.array([[timed(loop, arguments) for loop in loops] for _ in range(ROUNDS)]).min(axis=0)
     same = all(np.array_equal(a, b) for a, b in zip(*results))
     ratio = times[0] / times[1]
-    return {"effect off": effect, "loop [us]": 1e6 * times[0], "built without [us]": 1e6 * times[1], "ratio": ratio, "bitwise": same, "within 2 %": ratio <= 1.0 + ALLOWED}
+    return {
+        "effect off": effect,
+        "loop [us]": 1e6 * times[0],
+        "built without [us]": 1e6 * times[1],
+        "ratio": ratio,
+        "bitwise": same,
+        "within 2 %": ratio <= 1.0 + ALLOWED,
+    }
 
 
 def captured(simulation) -> tuple:

@@ -1,9 +1,11 @@
-"""Time per window in a bed with a rising bubble: the embedded gas solver against OpenFOAM, and its multigrid against others.
+"""Time per window in a bed with a rising bubble: the embedded gas solver against OpenFOAM, and its multigrid against
+others.
 
     python benchmarks/embedded_gas.py [cells ...]
 
-Both solvers get the same sources. The pressure equation of the last window is then solved again to the same tolerance by what is
-there to be had: `pyamg` (if it is installed) and scipy, setup included, because the drag changes the matrix every window.
+Both solvers get the same sources. The pressure equation of the last window is then solved again to the same tolerance
+by what is there to be had: `pyamg` (if it is installed) and scipy, setup included, because the drag changes the matrix
+every window.
 """
 
 import contextlib
@@ -35,10 +37,11 @@ def bed(cells: int):
         "domain": {"size_m": list(SIZE), "gravity_m_s2": [0.0, -9.81]},
         "resolution": {"spacing_mm": side * 1e3, "cell_mm": side * 1e3},
         "gas": {
-            "density_kg_m3": 1.225, "viscosity_Pa_s": 1.8e-5, "conductivity_W_m_K": 0.0242, "heat_capacity_J_kg_K": 1006.0,
-            "temperature_K": 288.0,
+            "density_kg_m3": 1.225, "viscosity_Pa_s": 1.8e-5, "conductivity_W_m_K": 0.0242,
+            "heat_capacity_J_kg_K": 1006.0, "temperature_K": 288.0,
         },
-        "grains": {"density_kg_m3": 2500.0, "diameter_mm": GRAIN * 1e3, "heat_capacity_J_kg_K": 800.0, "conductivity_W_m_K": 1.0},
+        "grains": {"density_kg_m3": 2500.0, "diameter_mm": GRAIN * 1e3, "heat_capacity_J_kg_K": 800.0,
+        "conductivity_W_m_K": 1.0},
         "boundaries": {
             "below": {"kind": "velocity_inlet", "side": "bottom", "velocity_m_s": [0.0, 0.3], "temperature_K": 350.0},
             "above": {"kind": "pressure_outlet", "side": "top", "pressure_Pa": 0.0},
@@ -89,7 +92,12 @@ def recorded():
     last, solve = [None], pressure.solve_pressure
 
     def record(*arguments):
-        last[0] = (*arguments[:2], tuple(w.copy() for w in arguments[2]), *(a.copy() for a in arguments[3:6]), arguments[6])
+        last[0] = (
+            *arguments[:2],
+            tuple(w.copy() for w in arguments[2]),
+            *(a.copy() for a in arguments[3:6]),
+            arguments[6],
+        )
         return solve(*arguments)
 
     pressure.solve_pressure = record
@@ -105,13 +113,18 @@ def matrix(grid, conductance: np.ndarray):
     number[grid.cells] = np.arange(len(grid.cells))
     diagonal, rows, columns, values = np.zeros(len(grid.cells)), [], [], []
     for a, s in enumerate(grid.strides):
-        for neighbour, k in ((grid.cells - s, conductance[a, grid.cells]), (grid.cells + s, conductance[a, grid.cells + s])):
+        for neighbour, k in (
+            (grid.cells - s, conductance[a, grid.cells]),
+            (grid.cells + s, conductance[a, grid.cells + s]),
+        ):
             inside = number[neighbour] >= 0
             diagonal += k
             rows.append(np.flatnonzero(inside))
             columns.append(number[neighbour][inside])
             values.append(-k[inside])
-    off = sparse.coo_matrix((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), (len(diagonal),) * 2)
+    off = sparse.coo_matrix(
+        (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), (len(diagonal),) * 2
+    )
     return (off + sparse.diags(diagonal)).tocsr()
 
 
@@ -120,18 +133,25 @@ def others(A):
     jacobi = sparse.diags(1.0 / A.diagonal())
     found = {
         "scipy, sparse LU": lambda b, rtol: linalg.splu(A.tocsc()).solve(b),
-        "scipy, conjugate gradients with the diagonal": lambda b, rtol: linalg.cg(A, b, rtol=rtol, atol=0.0, M=jacobi, maxiter=20000)[0],
+        "scipy, conjugate gradients with the diagonal": lambda b, rtol: linalg.cg(
+            A, b, rtol=rtol, atol=0.0, M=jacobi, maxiter=20000
+        )[0],
     }
     with contextlib.suppress(ImportError):
         import pyamg
 
-        found["pyamg, smoothed aggregation"] = lambda b, rtol: pyamg.smoothed_aggregation_solver(A).solve(b, tol=rtol, accel="cg", maxiter=200)
-        found["pyamg, Ruge-Stuben"] = lambda b, rtol: pyamg.ruge_stuben_solver(A).solve(b, tol=rtol, accel="cg", maxiter=200)
+        found["pyamg, smoothed aggregation"] = lambda b, rtol: pyamg.smoothed_aggregation_solver(A).solve(
+            b, tol=rtol, accel="cg", maxiter=200
+        )
+        found["pyamg, Ruge-Stuben"] = lambda b, rtol: pyamg.ruge_stuben_solver(A).solve(
+            b, tol=rtol, accel="cg", maxiter=200
+        )
     return found
 
 
 def enough(solve, A, b: np.ndarray, scale: np.ndarray, tolerance: float) -> float:
-    """The largest tolerance, a power of ten, with which the residual of every cell is as small as the multigrid leaves it."""
+    """The largest tolerance, a power of ten, with which the residual of every cell is as small as the multigrid leaves
+    it."""
     tried = (10.0**-k for k in range(16))
     return next(rtol for rtol in tried if (np.abs(b - A @ solve(b, rtol)) / scale).max() <= tolerance)
 

@@ -1,4 +1,5 @@
-"""What a sub-step of the bubbling bed costs, part by part, on one thread and on two: python benchmarks/grain_sub_step.py [until]
+"""What a sub-step of the bubbling bed costs, part by part, on one thread and on two: python
+benchmarks/grain_sub_step.py [until]
 
 10 000 particles, all effects, after `until` seconds of bed (0.01) on the embedded gas. Least of all windows after that.
 """
@@ -17,7 +18,12 @@ from sdph.methods.grains import equations as rates
 from sdph.running.simulation import Simulation
 
 WINDOWS = 12
-LOOPS = {shearing: ("shear",), rates: ("sum_density", "constitutive", "rates"), walls: ("extrapolate", "contact"), granular_temperature: ("advance_all",)}
+LOOPS = {
+    shearing: ("shear",),
+    rates: ("sum_density", "constitutive", "rates"),
+    walls: ("extrapolate", "contact"),
+    granular_temperature: ("advance_all",),
+}
 
 
 class NoLedger:
@@ -62,7 +68,12 @@ def timed(simulation) -> dict[str, Timer]:
             found[name] = Timer(getattr(module, name))
             setattr(module, name, found[name])
     stepper = simulation.stepper
-    for owner, name in ((simulation.transfer, "weights"), (stepper, "_sub_step"), (stepper, "_advance"), (stepper, "prepare")):
+    for owner, name in (
+        (simulation.transfer, "weights"),
+        (stepper, "_sub_step"),
+        (stepper, "_advance"),
+        (stepper, "prepare"),
+    ):
         found[name] = Timer(getattr(owner, name))
         setattr(owner, name, found[name])
     return found

@@ -2,10 +2,10 @@
 
     python benchmarks/liquid_scaling.py [DIMENSIONS:PARTICLES ...]
 
-Each in a process of its own. Times are told per particle of liquid and per particle, walls included: the dry part of the
-channel has many, which cost little, and the fewer the finer it is. Rows are made anew every 6 steps (a liquid on its way needs
-that every 8 to 20). Memory is the largest the process held less what it held before it had a case, per particle. 3-D is
-the same column, as deep as it is wide. Threads: NUMBA_NUM_THREADS.
+Each in a process of its own. Times are told per particle of liquid and per particle, walls included: the dry part of
+the channel has many, which cost little, and the fewer the finer it is. Rows are made anew every 6 steps (a liquid on
+its way needs that every 8 to 20). Memory is the largest the process held less what it held before it had a case, per
+particle. 3-D is the same column, as deep as it is wide. Threads: NUMBA_NUM_THREADS.
 """
 
 import math
@@ -65,7 +65,8 @@ def measured(dimensions: int, count: float) -> str:
     times = ", ".join(f"{threads}: {1e6 * t / liquid:.3f} ({1e6 * t / particles:.3f})" for threads, t in spent.items())
     near = float(np.mean(stepper.rows.count[stepper.active]))
     return (
-        f"{dimensions}-D, {liquid} particles of liquid ({particles} with walls), {near:.0f} in a row: us per particle and step by threads {times}; "
+        f"{dimensions}-D, {liquid} particles of liquid ({particles} with walls), {near:.0f} in a row: us per particle "
+        f"and step by threads {times}; "
         f"speed-up {spent[1] / min(spent.values()):.2f}; {memory:.0f} bytes a particle"
     )
 

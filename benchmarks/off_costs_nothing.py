@@ -2,10 +2,11 @@
 
     python benchmarks/off_costs_nothing.py [effect ...]
 
-For each effect that has terms in the loops over particles (sdph/methods/grains/equations.py, sdph/methods/grains/contacts.py), these are compiled for a bubbling bed with the
-effect off, once from the source and once from the source in which every call of a function of the effect's file is
-replaced by what that function gives when it is off. Identical instructions take the same time on any machine and under
-any load, which no timing can show. Serial builds are compared: threads share out the same body.
+For each effect that has terms in the loops over particles (sdph/methods/grains/equations.py,
+sdph/methods/grains/contacts.py), these are compiled for a bubbling bed with the effect off, once from the source and
+once from the source in which every call of a function of the effect's file is replaced by what that function gives when
+it is off. Identical instructions take the same time on any machine and under any load, which no timing can show. Serial
+builds are compared: threads share out the same body.
 """
 
 import ast
@@ -82,7 +83,7 @@ def instructions(loop, given: tuple) -> list[str]:
     (text,) = serial.inspect_asm().values()
     seen: dict[str, str] = {}
     lines = (line.split("#")[0].strip() for line in text.splitlines())
-    code = [line for line in lines if line and not line.startswith((".", "_", "\t.")) or line.startswith(".L")]
+    code = [line for line in lines if (line and not line.startswith((".", "_", "\t."))) or line.startswith(".L")]
     return [NAME.sub(lambda m: _symbol(m[0], seen), line) for line in code]
 
 
@@ -101,12 +102,21 @@ def compared(effect: str) -> list[dict]:
         loop = getattr(LOOPS[name], name)
         if inspect.getsource(loop.py_func).count(f"{effect}."):
             own, bare = instructions(loop, given[name]), instructions(getattr(other[LOOPS[name]], name), given[name])
-            rows.append({"effect off": effect, "loop": name, "instructions": len(own), "built without": len(bare), "identical": own == bare})
+            rows.append(
+                {
+                    "effect off": effect,
+                    "loop": name,
+                    "instructions": len(own),
+                    "built without": len(bare),
+                    "identical": own == bare,
+                }
+            )
     return rows
 
 
 def with_terms() -> list[str]:
-    """Effects whose functions the loops call; those of granular temperature give their argument when off: no constant stands for them."""
+    """Effects whose functions the loops call; those of granular temperature give their argument when off: no constant
+    stands for them."""
     source = "".join(inspect.getsource(getattr(module, name).py_func) for name, module in LOOPS.items())
     return [name for name in effects.REGISTRY if f"{name}." in source and name != "granular_temperature"]
 

@@ -12,12 +12,17 @@ START, OURS, THEIRS = 0.02, 0.01, 0.002  # s of bed: before, and looked at each 
 
 
 def cost(simulation, duration: float) -> tuple[float, int, int]:
-    """Wall time [s] per simulated second over `duration` [s] or a little more; windows and sub-steps a simulated second."""
+    """Wall time [s] per simulated second over `duration` [s] or a little more; windows and sub-steps a simulated
+    second."""
     begun, windows, steps, started = simulation.time, simulation.windows, simulation.stepper.steps, time.perf_counter()
     while simulation.time < begun + duration:
         simulation.window()
     wall, passed = time.perf_counter() - started, simulation.time - begun
-    return wall / passed, round((simulation.windows - windows) / passed), round((simulation.stepper.steps - steps) / passed)
+    return (
+        wall / passed,
+        round((simulation.windows - windows) / passed),
+        round((simulation.stepper.steps - steps) / passed),
+    )
 
 
 if __name__ == "__main__":

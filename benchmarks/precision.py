@@ -2,8 +2,9 @@
 
     python benchmarks/precision.py
 
-A bubbling bed at its own resolution, one sub-step; least time of several, results against those of 64 bits relative to the
-largest. Positions in 32 bits resolve 6e-8 of the domain: the last row says what of a sub-step's motion is lost by that.
+A bubbling bed at its own resolution, one sub-step; least time of several, results against those of 64 bits relative to
+the largest. Positions in 32 bits resolve 6e-8 of the domain: the last row says what of a sub-step's motion is lost by
+that.
 """
 
 import time
@@ -36,9 +37,19 @@ def compared(name: str, given: tuple) -> dict:
     both = given, single(given)
     for arguments_ in both:
         loop(*arguments_)
-    apart = max(np.abs(a - b).max() / np.abs(a).max() for a, b in zip(both[0][-count:], both[1][-count:]) if np.abs(a).max() > 0.0)
+    apart = max(
+        np.abs(a - b).max() / np.abs(a).max()
+        for a, b in zip(both[0][-count:], both[1][-count:])
+        if np.abs(a).max() > 0.0
+    )
     times = np.array([[_timed(loop, arguments_) for arguments_ in both] for _ in range(ROUNDS)]).min(axis=0)
-    return {"loop": name, "64 bits [us]": 1e6 * times[0], "32 bits [us]": 1e6 * times[1], "faster by": times[0] / times[1], "apart": float(apart)}
+    return {
+        "loop": name,
+        "64 bits [us]": 1e6 * times[0],
+        "32 bits [us]": 1e6 * times[1],
+        "faster by": times[0] / times[1],
+        "apart": float(apart),
+    }
 
 
 def _timed(loop, given) -> float:

@@ -26,8 +26,8 @@ def evaluator(given):
         columns = {key: given[key][chosen] for key in ("x", "y", "z", "u", "v", "w", "m", "rho")}
         arrays.append(get_particle_array_wcsph(name=name, h=h * np.ones(chosen.sum()), **columns))
     scheme = WCSPHScheme(
-        ["fluid"], ["solid"], dim=d, rho0=float(given["rho_0"]), c0=float(given["c_0"]), h0=h, hdx=h / spacing, gy=-9.81,
-        alpha=0.02, beta=0.0, delta=0.1, delta_sph=True,
+        ["fluid"], ["solid"], dim=d, rho0=float(given["rho_0"]), c0=float(given["c_0"]), h0=h, hdx=h / spacing,
+        gy=-9.81, alpha=0.02, beta=0.0, delta=0.1, delta_sph=True,
     )  # fmt: skip
     scheme.setup_properties(arrays)
     groups = scheme.get_equations()

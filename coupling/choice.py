@@ -33,7 +33,7 @@ def open_gas(case, folder: Path, template: Path | None, status, allow_code: bool
 
 
 def expected(case) -> str:
-    """"openfoam" or "embedded": which solver a case gets if what is there can be used, which is not tried."""
+    """ "openfoam" or "embedded": which solver a case gets if what is there can be used, which is not tried."""
     _refuse_periodic(case)
     if case.coupling.gas != "auto":
         return case.coupling.gas

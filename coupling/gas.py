@@ -42,7 +42,8 @@ class GasError(RuntimeError):
 
 
 class Unfinished(GasError):
-    """A window that the gas could not finish: not a number, out of bounds, not converged. `Gas.retreat` goes back before it."""
+    """A window that the gas could not finish: not a number, out of bounds, not converged. `Gas.retreat` goes back
+    before it."""
 
 
 class CheckpointError(GasError):
@@ -98,11 +99,15 @@ def refuse_full_cells(alpha_g: np.ndarray, centres: np.ndarray) -> None:
     if not alpha_g.min() > 0.0:
         cell = int(np.argmin(alpha_g))
         place = ", ".join(f"{a:.4g}" for a in centres[cell])
-        raise Unfinished(f"alpha_g is {alpha_g[cell]:g} in cell {cell} at ({place}) m; the gas needs some room: the cell is over-packed")
+        raise Unfinished(
+            f"alpha_g is {alpha_g[cell]:g} in cell {cell} at ({place}) m; the gas needs some room: the cell is "
+            "over-packed"
+        )
 
 
 class Gas(Protocol):
-    """A gas solver. `advance` raises `GasError` when the solver fails or does not answer, `Unfinished` where a shorter step may do."""
+    """A gas solver. `advance` raises `GasError` when the solver fails or does not answer, `Unfinished` where a shorter
+    step may do."""
 
     mesh: Mesh
 

@@ -76,7 +76,8 @@ def gather(weights: Weights, field: np.ndarray) -> np.ndarray:
 
 
 def deposit(weights: Weights, field: np.ndarray) -> np.ndarray:
-    """Extensive particle values (N,) or (N, m) summed into cells: (C,) or (C, m). In order, so that it repeats bit for bit."""
+    """Extensive particle values (N,) or (N, m) summed into cells: (C,) or (C, m). In order, so that it repeats bit for
+    bit."""
     out = np.zeros((weights.total, *field.shape[1:]))
     _deposit(weights, _columns(field), _columns(out))
     return out
@@ -88,7 +89,8 @@ def _columns(field):
 
 
 class Bins(NamedTuple):
-    """Cells sorted into square bins of side `size`, each with its centre, 1/h^2 of its smoothing length (h `widest` of all), volume, number."""
+    """Cells sorted into square bins of side `size`, each with its centre, 1/h^2 of its smoothing length (h `widest` of
+    all), volume, number."""
 
     low: np.ndarray
     size: np.ndarray
@@ -112,7 +114,9 @@ def _bins(centres, smoothing, volumes) -> Bins:
     number = np.ravel_multi_index(tuple(place.T), tuple(shape), order="F")  # x fastest
     order = np.argsort(number, kind="stable")
     start = np.concatenate(([0], np.cumsum(np.bincount(number, minlength=int(shape.prod())))))
-    return Bins(low, size, shape, start, points[order], smoothing[order] ** -2.0, volumes[order], order, float(smoothing.max()))
+    return Bins(
+        low, size, shape, start, points[order], smoothing[order] ** -2.0, volumes[order], order, float(smoothing.max())
+    )
 
 
 @njit(cache=True, error_model="numpy")
@@ -124,7 +128,8 @@ def _spline(q):
 
 @njit(cache=True, error_model="numpy")
 def _around(bins, a, value):
-    """First and one past the last bin to look at along an axis, both from 0 to the number of bins, however far `value` is."""
+    """First and one past the last bin to look at along an axis, both from 0 to the number of bins, however far `value`
+    is."""
     place = np.int64(np.floor((value - bins.low[a]) / bins.size[a]))
     first = min(max(place - 1, 0), bins.shape[a])
     return first, max(min(place + 2, bins.shape[a]), first)
@@ -132,9 +137,9 @@ def _around(bins, a, value):
 
 @njit(cache=True, error_model="numpy", forceinline=True)
 def _add(bins, x, y, z, cells, weight, found):
-    """Appends the cells that a kernel at (x, y, z) reaches, by their place in the bins, and (r/h)^2 of each; returns how many
-    there are then. An entry is written before it is known to count, which saves a branch: a row that they fill was too short.
-    Indices are unsigned: of one that might be negative numba asks so each time."""
+    """Appends the cells that a kernel at (x, y, z) reaches, by their place in the bins, and (r/h)^2 of each; returns
+    how many there are then. An entry is written before it is known to count, which saves a branch: a row that they fill
+    was too short. Indices are unsigned: of one that might be negative numba asks so each time."""
     x0, x1 = _around(bins, 0, x)
     y0, y1 = _around(bins, 1, y)
     z0, z1 = _around(bins, 2, z)
@@ -158,7 +163,8 @@ def _inside(side, reach, place):
 
 @njit(cache=True, error_model="numpy")
 def _image(side, reach, place, which):
-    """A place along one axis (0), or its mirror image at the origin (1) or at `side` (2), where that is near; else nan."""
+    """A place along one axis (0), or its mirror image at the origin (1) or at `side` (2), where that is near; else
+    nan."""
     if which == 0:
         return place
     if side == np.inf:
@@ -171,7 +177,8 @@ def _image(side, reach, place, which):
 
 @njit(cache=True, error_model="numpy", forceinline=True)
 def _row(bins, sides, x, y, z, cells, weight):
-    """One normalised row, mirror images included; returns how many entries there are, also when the row is too short."""
+    """One normalised row, mirror images included; returns how many entries there are, also when the row is too
+    short."""
     found, reach = np.uint64(0), SUPPORT * bins.widest
     if _inside(sides[0], reach, x) and _inside(sides[1], reach, y) and _inside(sides[2], reach, z):
         return _weighed(bins, cells, weight, _add(bins, x, y, z, cells, weight, found))

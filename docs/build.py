@@ -24,9 +24,13 @@ from markdown_it import MarkdownIt
 
 HERE = Path(__file__).parent
 ROOT = HERE.parent
-STYLE = """body { font: 16px/1.5 sans-serif; max-width: 900px; margin: 2em auto; padding: 0 1em } pre { background: #f5f5f5; padding: 0.8em;
-overflow: auto } td, th { padding: 0.2em 0.8em 0.2em 0; text-align: left; vertical-align: top } img { max-width: 100% }"""
-PAGE = '<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>{style}</style></head><body>{body}</body></html>\n'
+STYLE = """body { font: 16px/1.5 sans-serif; max-width: 900px; margin: 2em auto; padding: 0 1em }
+pre { background: #f5f5f5; padding: 0.8em; overflow: auto }
+td, th { padding: 0.2em 0.8em 0.2em 0; text-align: left; vertical-align: top } img { max-width: 100% }"""
+PAGE = (
+    '<!doctype html><html lang="en"><head><meta '
+    'charset="utf-8"><title>{title}</title><style>{style}</style></head><body>{body}</body></html>\n'
+)
 NONE = (inspect.Parameter.empty, dataclasses.MISSING)
 
 
@@ -47,9 +51,15 @@ def laws() -> str:
     parts = []
     for info in pkgutil.iter_modules(sdph.laws.__path__):
         module = importlib.import_module(f"sdph.laws.{info.name}")
-        own = [f for f in map(_python, vars(module).values()) if inspect.isfunction(f) and f.__module__ == module.__name__]
+        own = [
+            f for f in map(_python, vars(module).values()) if inspect.isfunction(f) and f.__module__ == module.__name__
+        ]
         parts.append(f"### `{_file(module)}`\n\n{inspect.getdoc(module)}\n")
-        parts += [f"**{f.__name__}{inspect.signature(f)}**\n\n```\n{inspect.getdoc(f)}\n```\n" for f in own if f.__doc__ and f.__name__[0] != "_"]
+        parts += [
+            f"**{f.__name__}{inspect.signature(f)}**\n\n```\n{inspect.getdoc(f)}\n```\n"
+            for f in own
+            if f.__doc__ and f.__name__[0] != "_"
+        ]
     return "\n".join(parts)
 
 
@@ -61,7 +71,9 @@ def _python(function):
 def effects() -> str:
     from sdph.effects import FILES
 
-    return "\n".join(f"### {file.EFFECT.name}\n\n`{_file(file)}`\n\n```\n{inspect.getdoc(file)}\n```\n" for file in FILES)
+    return "\n".join(
+        f"### {file.EFFECT.name}\n\n`{_file(file)}`\n\n```\n{inspect.getdoc(file)}\n```\n" for file in FILES
+    )
 
 
 def reference() -> str:
@@ -70,7 +82,12 @@ def reference() -> str:
     from sdph.case import sections as declared
 
     sections = declared.SECTIONS | {f"{name}.NAME": cls for name, cls in declared.GROUPS.items()}
-    sections |= {"coupling": declared.Coupling, "vapour": declared.Vapour, "liquid": declared.Liquid, "gas_phase": declared.GasPhase}
+    sections |= {
+        "coupling": declared.Coupling,
+        "vapour": declared.Vapour,
+        "liquid": declared.Liquid,
+        "gas_phase": declared.GasPhase,
+    }
     sections |= {name: row.parameters for name, row in all_effects.REGISTRY.items()}
     return "\n".join(_keys(name, cls) for name, cls in sections.items())
 
@@ -99,9 +116,20 @@ def _default(cls, name: str) -> str:
 def _allowed(kind) -> str:
     if kind.choices:
         return ", ".join(kind.choices)
-    low = f"above {kind.above:g}" if kind.above > float("-inf") else f"at least {kind.least:g}" if kind.least > float("-inf") else ""
+    low = (
+        f"above {kind.above:g}"
+        if kind.above > float("-inf")
+        else f"at least {kind.least:g}"
+        if kind.least > float("-inf")
+        else ""
+    )
     high = f"at most {kind.most:g}" if kind.most < float("inf") else ""
-    what = {bool: "true or false", int: "a whole number", str: "a text", Path: "the path of a file, from the folder of the case file"}.get(kind.of, "numbers" if kind.components is None else "a number")
+    what = {
+        bool: "true or false",
+        int: "a whole number",
+        str: "a text",
+        Path: "the path of a file, from the folder of the case file",
+    }.get(kind.of, "numbers" if kind.components is None else "a number")
     return f"{what} {' and '.join(filter(None, (low, high)))}"
 
 
@@ -114,15 +142,27 @@ def gallery() -> str:
 def _scene(folder: Path) -> str:
     from sdph import scenes
 
-    pictures = "".join(f"![{folder.name}]({folder.name}-{picture.name})\n\n" for picture in sorted(folder.glob("*.png")))
-    return f"## {folder.name}\n\n{scenes.title(folder.name)}\n\n{pictures}`sdph run {folder.name}`, [case.toml]({folder.name}.toml)\n"
+    pictures = "".join(
+        f"![{folder.name}]({folder.name}-{picture.name})\n\n" for picture in sorted(folder.glob("*.png"))
+    )
+    return (
+        f"## {folder.name}\n\n{scenes.title(folder.name)}\n\n{pictures}`sdph run {folder.name}`, "
+        f"[case.toml]({folder.name}.toml)\n"
+    )
 
 
 def _file(module) -> str:
     return str(Path(module.__file__).relative_to(ROOT))
 
 
-FILLED = {"@include": include, "@doc": doc, "@laws": laws, "@effects": effects, "@reference": reference, "@gallery": gallery}
+FILLED = {
+    "@include": include,
+    "@doc": doc,
+    "@laws": laws,
+    "@effects": effects,
+    "@reference": reference,
+    "@gallery": gallery,
+}
 
 
 def page(source: Path) -> str:

@@ -1,4 +1,5 @@
-"""A rigid craft with a tank of liquid, free in space: the craft's loop owns the time step and asks the tank for its loads.
+"""A rigid craft with a tank of liquid, free in space: the craft's loop owns the time step and asks the tank for its
+loads.
 
     python examples/rigid_craft.py
 
@@ -31,7 +32,8 @@ CASE = {
 
 @dataclass
 class Craft:
-    """Mass [kg], tensor of inertia [kg m2] in its own axes; place, velocity, attitude (quaternion), angular velocity."""
+    """Mass [kg], tensor of inertia [kg m2] in its own axes; place, velocity, attitude (quaternion), angular
+    velocity."""
 
     mass: float
     inertia: np.ndarray
@@ -46,11 +48,13 @@ class Craft:
         return np.concatenate([p, np.cross(self.place, p) + self.attitude.apply(self.inertia @ self.omega)])
 
     def step(self, dt: float, impulse: np.ndarray):
-        """Takes an impulse (6,), about the inertial origin, in the course of `dt`; returns the acceleration and omega_dot
-        (3,) in its own axes by which the frame goes the same way."""
+        """Takes an impulse (6,), about the inertial origin, in the course of `dt`; returns the acceleration and
+        omega_dot (3,) in its own axes by which the frame goes the same way."""
         change = impulse[:3] / self.mass
         place = self.place + dt * (self.velocity + 0.5 * change)
-        orbital = np.cross(place, self.mass * (self.velocity + change)) - np.cross(self.place, self.mass * self.velocity)
+        orbital = np.cross(place, self.mass * (self.velocity + change)) - np.cross(
+            self.place, self.mass * self.velocity
+        )
         spin = self.attitude.apply(self.inertia @ self.omega) + impulse[3:] - orbital
         omega = self.omega
         for _ in range(30):  # the attitude at the end depends on omega at the end: a fixed point
@@ -59,7 +63,13 @@ class Craft:
         omega_dot = (omega - self.omega) / dt
         halfway = self.attitude * Rotation.from_rotvec(0.25 * dt * (self.omega + omega))
         acceleration = halfway.inv().apply(change / dt)
-        before, self.place, self.velocity, self.attitude, self.omega = self.omega, place, self.velocity + change, attitude, omega
+        before, self.place, self.velocity, self.attitude, self.omega = (
+            self.omega,
+            place,
+            self.velocity + change,
+            attitude,
+            omega,
+        )
         return acceleration, before, omega_dot
 
 
@@ -91,10 +101,13 @@ def main() -> None:
     craft = Craft(mass=400.0, inertia=np.diag([90.0, 120.0, 100.0]), omega=np.array([0.02, 0.05, 0.3]))
     tank = Tank(case)
     first = None
-    for time, craft, total in coupled(craft, tank, 0.01, 200):
+    for time, moved, total in coupled(craft, tank, 0.01, 200):
         first = total if first is None else first
         if round(time * 100) % 20 == 0:
-            print(f"t = {time:5.2f} s  omega = {np.round(craft.omega, 5)} rad/s  total changed by {np.abs(total - first).max():.2e}")
+            print(
+                f"t = {time:5.2f} s  omega = {np.round(moved.omega, 5)} rad/s  total changed by "
+                f"{np.abs(total - first).max():.2e}"
+            )
 
 
 if __name__ == "__main__":

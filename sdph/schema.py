@@ -15,9 +15,10 @@ from typing import Any
 
 # unit as written in a key -> factor to SI
 UNITS = {
-    "": 1.0, "s": 1.0, "ms": 1e-3, "us": 1e-6, "m": 1.0, "mm": 1e-3, "um": 1e-6, "K": 1.0, "Pa": 1.0, "deg": math.pi / 180.0,
-    "kg_m3": 1.0, "Pa_s": 1.0, "W_m_K": 1.0, "J_kg_K": 1.0, "J_kg": 1.0, "m_s": 1.0, "m_s2": 1.0, "m2_s": 1.0,
-    "m2_s2": 1.0, "kg_kmol": 1.0, "kg_s": 1.0, "N_m": 1.0, "Pa_m6_kg2": 1.0, "rad_s": 1.0, "kg": 1.0, "Hz": 1.0,
+    "": 1.0, "s": 1.0, "ms": 1e-3, "us": 1e-6, "m": 1.0, "mm": 1e-3, "um": 1e-6, "K": 1.0, "Pa": 1.0,
+    "deg": math.pi / 180.0, "kg_m3": 1.0, "Pa_s": 1.0, "W_m_K": 1.0, "J_kg_K": 1.0, "J_kg": 1.0, "m_s": 1.0,
+    "m_s2": 1.0, "m2_s": 1.0, "m2_s2": 1.0, "kg_kmol": 1.0, "kg_s": 1.0, "N_m": 1.0, "Pa_m6_kg2": 1.0, "rad_s": 1.0,
+    "kg": 1.0, "Hz": 1.0,
 }  # fmt: skip
 SAME_AS = {"ms": "s", "us": "s", "mm": "m", "um": "m"}  # unit -> the one that its bounds stand under
 
@@ -121,7 +122,11 @@ def words(default=REQUIRED):
 
 def fields(cls: type) -> dict[str, tuple[str, Kind]]:
     """TOML key -> (attribute, kind) of a dataclass declared with this module."""
-    return {f.metadata["kind"].key(f.name): (f.name, f.metadata["kind"]) for f in dataclasses.fields(cls) if "kind" in f.metadata}
+    return {
+        f.metadata["kind"].key(f.name): (f.name, f.metadata["kind"])
+        for f in dataclasses.fields(cls)
+        if "kind" in f.metadata
+    }
 
 
 def read(cls: type, table: dict, where: str):
@@ -205,7 +210,13 @@ def _number(value: Any, key: str, kind: Kind) -> float:
 
 def _bounded(kind: Kind, value: float, key: str) -> float:
     if not (value > kind.above and kind.least <= value <= kind.most):
-        low = f"above {kind.above:g}" if kind.above > -math.inf else f"at least {kind.least:g}" if kind.least > -math.inf else ""
+        low = (
+            f"above {kind.above:g}"
+            if kind.above > -math.inf
+            else f"at least {kind.least:g}"
+            if kind.least > -math.inf
+            else ""
+        )
         high = f"at most {kind.most:g}" if kind.most < math.inf else ""
         raise CaseError(f"{key} = {str(value)[:40]}; it must be {' and '.join(filter(None, (low, high)))}")
     return value
@@ -220,7 +231,8 @@ def plausible(record: Any, where: str):
 
 
 def refuse_implausible(value: float, unit: str, key: str, positive: bool = False) -> None:
-    """`CaseError` where a value [SI] is larger than makes sense, or smaller though above 0; `unit` is that of its key."""
+    """`CaseError` where a value [SI] is larger than makes sense, or smaller though above 0; `unit` is that of its
+    key."""
     least, most, what = PLAUSIBLE[SAME_AS.get(unit, unit)]
     if abs(value) <= most and not (positive and abs(value) < least):
         return
@@ -242,7 +254,9 @@ def _vector(kind: Kind, value: Any, key: str) -> tuple:
         raise CaseError(f"{key} = {value!r}; it must be a list of numbers in {kind.unit.replace('_', ' ') or '1'}")
     if kind.components and (len(value) != kind.components or any(isinstance(v, list) for v in value)):
         raise CaseError(f"{key} = {str(value)[:80]}; it must have {kind.components} components")
-    return tuple(_vector(kind, v, key) if isinstance(v, list) else _number(v, key, kind) * UNITS[kind.unit] for v in value)
+    return tuple(
+        _vector(kind, v, key) if isinstance(v, list) else _number(v, key, kind) * UNITS[kind.unit] for v in value
+    )
 
 
 def _in_unit(value: Any, unit: float) -> Any:

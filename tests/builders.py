@@ -102,7 +102,9 @@ def summed_density(kernel, state, period=OPEN):
     """(state as sorted, density) by the code's own loop."""
     state, rows = Neighbours(kernels.SUPPORT * kernel.h, period).update(state)
     density = np.full(len(state.x), np.nan)
-    rates.sum_density(kernel, state, rows, box_of(period, dimensions_of(state)), OFF, OFF, OFF, density, np.empty(rows.index.shape))
+    rates.sum_density(
+        kernel, state, rows, box_of(period, dimensions_of(state)), OFF, OFF, OFF, density, np.empty(rows.index.shape)
+    )
     return state, density
 
 

@@ -1,4 +1,5 @@
-"""Harm to the checkpoints of a run that is done with care: sums and lengths in the manifest fit to what the files then hold."""
+"""Harm to the checkpoints of a run that is done with care: sums and lengths in the manifest fit to what the files then
+hold."""
 
 import hashlib
 import io
@@ -12,8 +13,9 @@ import numpy as np
 from coupling.transport.messages import Message, decode, encode
 
 NASTY = (
-    None, True, False, 0, 1, -1, 7, 2**31, 2**63, 10**400, 0.0, -0.5, 1e-300, 1e300, -1e300, float("nan"), float("inf"), -float("inf"), "", "text",
-    "\ud800", "\x1b[2J\n", "../../x", [], {}, [1, "a"], {"a": 1}, {"array": "0"}, {"array": "999"}, {"array": 5}, {"array": ["0"]},
+    None, True, False, 0, 1, -1, 7, 2**31, 2**63, 10**400, 0.0, -0.5, 1e-300, 1e300, -1e300, float("nan"), float("inf"),
+    -float("inf"), "", "text", "\ud800", "\x1b[2J\n", "../../x", [], {}, [1, "a"], {"a": 1}, {"array": "0"},
+    {"array": "999"}, {"array": 5}, {"array": ["0"]},
 )  # fmt: skip
 
 
@@ -65,7 +67,11 @@ def other_number(rng, array):
     """One value, or all, become what no run leaves."""
     array = array.copy()
     if array.dtype.kind in "fiu" and array.size:
-        worst = {"f": (np.nan, np.inf, -np.inf, 1e300, -1e300, 1e-300, 0.0, -1.0), "i": (-1, -128, 127, 100, 0), "u": (0, 1, 127)}[array.dtype.kind]
+        worst = {
+            "f": (np.nan, np.inf, -np.inf, 1e300, -1e300, 1e-300, 0.0, -1.0),
+            "i": (-1, -128, 127, 100, 0),
+            "u": (0, 1, 127),
+        }[array.dtype.kind]
         value = np.array(worst[rng.integers(len(worst))]).astype(array.dtype)
         if array.dtype == np.int64 and rng.random() < 0.5:
             value = np.int64((2**62, -(2**62), 10**9)[rng.integers(3)])
@@ -79,8 +85,9 @@ ARRAY_HARMS = (
     lambda rng, a: np.concatenate((a, a)) if a.ndim else a[None],
     lambda rng, a: a[:0] if a.ndim else np.array("text"),
     lambda rng, a: a[..., None],
-    lambda rng, a: a.astype((np.float32, np.int64, np.int8, complex, bool, "S3")[rng.integers(6)], casting="unsafe") if a.dtype.kind in "fi" else a,
-    lambda rng, a: np.frombuffer(rng.bytes(a.nbytes), a.dtype).reshape(a.shape) if a.dtype.kind in "fi" else a,
+    lambda rng, a: a.astype((np.float32, np.int64, np.int8, complex, bool, "S3")[rng.integers(6)],
+    casting="unsafe") if a.dtype.kind in "fi" else a, lambda rng,
+    a: np.frombuffer(rng.bytes(a.nbytes), a.dtype).reshape(a.shape) if a.dtype.kind in "fi" else a,
     lambda rng, a: rng.permutation(a) if a.ndim else a,
     lambda rng, a: np.asfortranarray(a) * 2 if a.dtype.kind in "fi" else a,
     lambda rng, a: np.array([{"a": 1}, None], object),
@@ -136,15 +143,17 @@ def of_objects(path):
 
 FILE_HARMS = (
     bomb, pickled, of_objects,
-    with_member(lying_member((10**12,))), with_member(lying_member((0, 2**62, 2**62))), with_member(lying_member("(" * 5000)),
-    with_member(lying_member((10**12,), "<U0")), with_member(lying_member((1,), "<U999999999")), with_member(b""), with_member(b"\x93NUMPY\x02\x00"),
-    lambda path: path.write_bytes(b""), lambda path: path.write_bytes(b"PK\x05\x06" + bytes(18)), lambda path: path.write_bytes(path.read_bytes()[:-40]),
+    with_member(lying_member((10**12,))), with_member(lying_member((0, 2**62, 2**62))),
+    with_member(lying_member("(" * 5000)), with_member(lying_member((10**12,), "<U0")),
+    with_member(lying_member((1,), "<U999999999")), with_member(b""), with_member(b"\x93NUMPY\x02\x00"),
+    lambda path: path.write_bytes(b""), lambda path: path.write_bytes(b"PK\x05\x06" + bytes(18)),
+    lambda path: path.write_bytes(path.read_bytes()[:-40]),
     lambda path: path.write_bytes(path.read_bytes() + bytes(30)),
     lambda path: path.write_bytes(path.read_bytes()[:-12] + b"\xff" * 8 + path.read_bytes()[-4:]),
 )  # fmt: skip
 TEXTS = (
-    "", "[]", "null", "5", '"x"', "{", "[" * 200_000, '{"a":' * 200_000, "[" * 100 + "]" * 100, "[" + "[]," * 10**6 + "[]]", "9" * 10**5, "\x00", "{}",
-    '{"array": "0"}', "NaN",
+    "", "[]", "null", "5", '"x"', "{", "[" * 200_000, '{"a":' * 200_000, "[" * 100 + "]" * 100,
+    "[" + "[]," * 10**6 + "[]]", "9" * 10**5, "\x00", "{}", '{"array": "0"}', "NaN",
 )  # fmt: skip
 
 
@@ -212,4 +221,14 @@ def harm_gas(rng, run):
     certify(folder)
 
 
-HARMS = (harm_whole, harm_numbers, harm_numbers, harm_numbers, harm_manifest, harm_stored, harm_stored, harm_stored, harm_gas)
+HARMS = (
+    harm_whole,
+    harm_numbers,
+    harm_numbers,
+    harm_numbers,
+    harm_manifest,
+    harm_stored,
+    harm_stored,
+    harm_stored,
+    harm_gas,
+)

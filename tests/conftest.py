@@ -1,4 +1,5 @@
-"""What all tests share: hypothesis without deadlines, how long fuzz tests are, and what becomes of tests that need OpenFOAM where it is not."""
+"""What all tests share: hypothesis without deadlines, how long fuzz tests are, and what becomes of tests that need
+OpenFOAM where it is not."""
 
 import os
 import sys
@@ -12,7 +13,8 @@ settings.register_profile("sdph", deadline=None, max_examples=60, derandomize=Tr
 settings.load_profile("sdph")
 
 
-# Tests take helpers and fixtures from each other by bare names, whatever folder these are in: every file has a name of its own.
+# Tests take helpers and fixtures from each other by bare names, whatever folder these are in: every file has a name of
+# its own.
 sys.path += sorted(str(folder) for folder in Path(__file__).parent.rglob("*/") if folder.name != "__pycache__")
 
 LONG = int(os.environ.get("SDPH_LONG", "1"))  # times as many examples of the fuzz tests

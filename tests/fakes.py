@@ -46,5 +46,10 @@ class StillGas:
         mass = float((self.alpha * self.mesh.volumes).sum() * gas.density)
         energy = float((self.alpha * self.temperature * self.mesh.volumes).sum() * gas.density * gas.heat_capacity)
         budget = Budget(mass, energy, 0.0, (0.0, 0.0, 0.0), 0.0, 0.0, 0.0, 0.0)
-        fields = {"velocity": zeros, "pressure": zeros[:, 0], "pressure_gradient": zeros, "temperature": self.temperature.copy()}
+        fields = {
+            "velocity": zeros,
+            "pressure": zeros[:, 0],
+            "pressure_gradient": zeros,
+            "temperature": self.temperature.copy(),
+        }
         return GasState(self.time, fields | {"density": np.full(len(zeros), gas.density)}, budget)

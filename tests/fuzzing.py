@@ -1,4 +1,5 @@
-"""Size and seed of the fuzz tests: `SDPH_FUZZ=50 SDPH_FUZZ_SEED=7 pytest -k fuzz` is the long form with other harm than that of CI."""
+"""Size and seed of the fuzz tests: `SDPH_FUZZ=50 SDPH_FUZZ_SEED=7 pytest -k fuzz` is the long form with other harm than
+that of CI."""
 
 import os
 

@@ -66,7 +66,7 @@ class Row:
         """Velocity first, then the density that it compresses: no damping but that of drag."""
         self.time += dt
         push = np.zeros_like(self.velocity)
-        push[:, 0] = -self.c**2 * self._slope(self.rise)
+        push[:, 0] = -(self.c**2) * self._slope(self.rise)
         push += np.array((*self.case.domain.gravity, 0.0)[:3]) - self.alpha * self.gradient / self.mass
         drag, pull = sources.get("momentum_coefficient", np.zeros(len(push)))[:, None], sources.get("momentum", 0.0)
         self.velocity = (self.mass * (self.velocity + dt * push) + dt * pull) / (self.mass + dt * drag)
@@ -84,8 +84,9 @@ class Row:
         total = (self.mass * self.mesh.volumes[:, None] * self.velocity).sum(axis=0)
         budget = Budget(self.mass * self.mesh.volumes.sum(), 0.0, 0.0, tuple(total), 0.0, 0.0, 0.0, 0.0)
         fields = {
-            "velocity": self.velocity.copy(), "pressure": zeros, "pressure_gradient": np.tile(self.gradient, (cells, 1)),
-            "temperature": zeros + 300.0, "density": zeros + self.case.gas.density,
+            "velocity": self.velocity.copy(), "pressure": zeros,
+            "pressure_gradient": np.tile(self.gradient, (cells, 1)), "temperature": zeros + 300.0,
+            "density": zeros + self.case.gas.density,
         }  # fmt: skip
         return GasState(self.time, fields, budget)
 

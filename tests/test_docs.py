@@ -24,7 +24,11 @@ def site(tmp_path_factory):
 
 
 def test_links_and_pictures_lead_somewhere(site):
-    links = [(page, link) for page in site.glob("*.html") for link in re.findall(r'(?:href|src)="([^"#]+)"', page.read_text())]
+    links = [
+        (page, link)
+        for page in site.glob("*.html")
+        for link in re.findall(r'(?:href|src)="([^"#]+)"', page.read_text())
+    ]
     assert len(links) > 20
     for page, link in links:
         assert (site / link).is_file(), f"{page.name}: {link}"

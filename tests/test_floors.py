@@ -1,4 +1,5 @@
-"""The floors of the house (.importlinter): rooms import what lies below them alone, and no module by way of others itself."""
+"""The floors of the house (.importlinter): rooms import what lies below them alone, and no module by way of others
+itself."""
 
 import grimp
 from importlinter.cli import lint_imports
@@ -14,7 +15,8 @@ def test_rooms_import_only_what_lies_below_them(capsys):
 
 
 def test_no_circle_is_hidden_in_a_function():
-    """Modules whose imports have all been taken away are taken away, those in functions counted; a circle would stay."""
+    """Modules whose imports have all been taken away are taken away, those in functions counted; a circle would
+    stay."""
     graph = grimp.build_graph("sdph", "coupling", cache_dir=None)
     left = {name: graph.find_modules_directly_imported_by(name) for name in graph.modules}
     assert len(left) > 200

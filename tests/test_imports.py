@@ -58,8 +58,8 @@ def on_circles(graph: dict[str, set[str]]) -> list[str]:
 
 
 def test_any_module_can_be_imported_first():
-    """Order matters on circles alone (a package and the modules that it takes up are one): each module on one is tried as
-    the first, and the rest is imported together."""
+    """Order matters on circles alone (a package and the modules that it takes up are one): each module on one is tried
+    as the first, and the rest is imported together."""
     known = modules()
     graph = {name: imported(name, file, known.keys()) for name, file in known.items()}
     assert len(graph) > 150 and all(graph[name] for name in graph if "." in name)

@@ -17,7 +17,12 @@ from sdph.engine.geometry import SIDES
 from sdph.schema import CaseError
 
 # kind -> whether the gas passes freely, and whether it clings (takes the tangential velocity of the boundary)
-KINDS = {"wall": (False, True), "slip_wall": (False, False), "velocity_inlet": (False, True), "pressure_outlet": (True, False)}
+KINDS = {
+    "wall": (False, True),
+    "slip_wall": (False, False),
+    "velocity_inlet": (False, True),
+    "pressure_outlet": (True, False),
+}
 
 
 @dataclass(frozen=True)
@@ -100,12 +105,16 @@ def _owners(case, grid: Grid, axis: int, upper: int, cell: np.ndarray) -> np.nda
         mine = np.ones(len(cell), dtype=bool) if boundary.span is None else _inside(grid, axis, boundary.span, name)
         level = 1 if boundary.side is None else 2 if boundary.span is None else 3
         if np.any(mine & (rank == level)):
-            raise CaseError(f"boundaries.{name} covers faces that another boundary covers too; give them separate spans")
+            raise CaseError(
+                f"boundaries.{name} covers faces that another boundary covers too; give them separate spans"
+            )
         mine &= rank < level
         owner[mine], rank[mine] = number, level
     if np.any(owner < 0):
         side = next(name for name, where in SIDES.items() if where == (axis, upper))
-        raise CaseError(f"no boundary covers all of the {side} side; give one, or one without a side for all that is left over")
+        raise CaseError(
+            f"no boundary covers all of the {side} side; give one, or one without a side for all that is left over"
+        )
     return owner
 
 
@@ -114,7 +123,9 @@ def _inside(grid: Grid, axis: int, span: tuple, name: str) -> np.ndarray:
     tangential = [b for b in range(grid.dimensions) if b != axis]
     pairs = span if isinstance(span[0], (tuple, list)) else (span,)
     if len(pairs) != len(tangential):
-        raise CaseError(f"boundaries.{name}.span_m has {len(pairs)} ranges [low, high]; a side here has {len(tangential)}")
+        raise CaseError(
+            f"boundaries.{name}.span_m has {len(pairs)} ranges [low, high]; a side here has {len(tangential)}"
+        )
     inside = np.ones(1, dtype=bool)
     for b, (low, high) in zip(tangential, pairs):
         edges = grid.edges[b]
@@ -154,7 +165,9 @@ def component_ghosts(grid: Grid, faces: Faces, axis: int) -> Ghosts:
         ghost.append(faces.ghost[beside] + shift)
         node.append(faces.cell[beside] + shift)
         pinned.append(total > 0.0)
-        value.append(np.divide(moving[b, face] + moving[b, face - along], total, out=np.zeros(len(total)), where=total > 0.0))
+        value.append(
+            np.divide(moving[b, face] + moving[b, face - along], total, out=np.zeros(len(total)), where=total > 0.0)
+        )
     own = ~beside
     ghost.append(faces.face[own] + (along * faces.sign[own]).astype(np.int64))
     node.append(faces.face[own])

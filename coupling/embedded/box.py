@@ -64,22 +64,30 @@ class Flow:
 
 
 def restored(box: Box, saved: dict[str, np.ndarray]) -> Flow:
-    """The flow from its saved attributes (name -> array); ValueError where they are not of this box or no gas is like that."""
+    """The flow from its saved attributes (name -> array); ValueError where they are not of this box or no gas is like
+    that."""
     cells, faces = (box.grid.size,), (box.grid.dimensions, box.grid.size)
     for field in dataclasses.fields(Flow):
         value = saved[field.name]
         shape = () if field.type == "float" else faces if field.name in ("velocity", "flux") else cells
         if value.dtype != np.float64 or value.shape != shape:
-            raise ValueError(f"{field.name} is {value.dtype} of shape {value.shape}; this mesh has float64 of shape {shape}")
+            raise ValueError(
+                f"{field.name} is {value.dtype} of shape {value.shape}; this mesh has float64 of shape {shape}"
+            )
         if not np.isfinite(value).all():
             raise ValueError(f"{field.name} is not finite everywhere")
-    flow = Flow(**{field.name: value if (value := saved[field.name]).ndim else float(value) for field in dataclasses.fields(Flow)})
+    flow = Flow(
+        **{
+            field.name: value if (value := saved[field.name]).ndim else float(value)
+            for field in dataclasses.fields(Flow)
+        }
+    )
     inside, usual = box.grid.cells, box.properties.density(box.temperature, 0.0)
     for name in ("alpha", "mass", "temperature"):
         if not (getattr(flow, name)[inside] > 0.0).all():
             raise ValueError(f"{name} is not above 0 everywhere")
     times = flow.mass[inside] / (flow.alpha[inside] * box.grid.geometry.volume[inside] * usual)
-    if not (1.0 / MOST < times.min() and times.max() < MOST and 1.0 / MOST < flow.ratio < MOST):
+    if not (times.min() > 1.0 / MOST and times.max() < MOST and 1.0 / MOST < flow.ratio < MOST):
         raise ValueError(f"its density is not within {MOST:g} times that of this case")
     if flow.alpha[inside].max() > 1.0 + ROUND_OFF or np.abs(flow.vapour).max() > flow.mass.max() or flow.time < 0.0:
         raise ValueError("its volume fraction, its vapour or its time cannot be")

@@ -46,7 +46,8 @@ def carried(through, courant, values, gaps, reach, limited):
 
 @njit(cache=True, error_model="numpy")
 def substeps(inner, flux, before, after, dt):
-    """Sub-steps in which no cell lets more than `TURNOVER` of its mass out or in, and the Courant number of the window."""
+    """Sub-steps in which no cell lets more than `TURNOVER` of its mass out or in, and the Courant number of the
+    window."""
     rows, run, steps = inner
     share, courant = 0.0, 0.0
     for row in rows:

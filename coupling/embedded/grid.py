@@ -108,7 +108,7 @@ def build_grid(edges: tuple[np.ndarray, ...]) -> Grid:
     strides, size = strides_of(counts)
     box = np.ones(tuple(n + 2 * PAD for n in reversed(counts)))
     flat = lambda axis, values: (_spread(values, axis, d) * box).ravel()  # noqa: E731
-    inner = [np.pad(np.diff(e), PAD) for e in edges]                    # widths, zero in ghosts
+    inner = [np.pad(np.diff(e), PAD) for e in edges]  # widths, zero in ghosts
     faces = [(np.arange(n + 2 * PAD) >= PAD) * (np.arange(n + 2 * PAD) <= n + PAD) * 1.0 for n in counts]
     width = np.stack([flat(a, np.where(w > 0, w, 1.0)) for a, w in enumerate(inner)])
     reach = [0.5 * np.roll(w, 1) for w in inner]

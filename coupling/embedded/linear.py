@@ -1,4 +1,5 @@
-"""Implicit exchange between neighbours: (D + sum K) x_c - sum K x_nb = b on any padded field, by conjugate gradients."""
+"""Implicit exchange between neighbours: (D + sum K) x_c - sum K x_nb = b on any padded field, by conjugate
+gradients."""
 
 from __future__ import annotations
 
@@ -10,7 +11,9 @@ ITERATIONS = 500  # of a solver; our choice: far above what any case of ours nee
 
 def not_converged(name: str, time: float, residual: float) -> str:
     """What to say of an equation whose solver gave up."""
-    return f"embedded gas solver: {name} did not converge at t = {time:g} s, residual {residual:.1e}; shorten the window"
+    return (
+        f"embedded gas solver: {name} did not converge at t = {time:g} s, residual {residual:.1e}; shorten the window"
+    )
 
 
 @njit(cache=True, error_model="numpy")
@@ -46,7 +49,8 @@ def worst(nodes, r, scale):
 
 @njit(error_model="numpy")
 def iterate(nodes, conductance, diagonal, rho, first, x, r, z, p, q):
-    """One step of preconditioned conjugate gradients on x (S,), z (S,) being about A^-1 r, 0 on nodes that are given; returns r.z."""
+    """One step of preconditioned conjugate gradients on x (S,), z (S,) being about A^-1 r, 0 on nodes that are given;
+    returns r.z."""
     rows, run, steps = nodes
     new, curvature = 0.0, 0.0
     for row in rows:

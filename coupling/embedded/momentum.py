@@ -84,7 +84,9 @@ def momentum_balance(wide, axis, active, grid, cells, stress, moved, gravity, dt
         for f in range(row, row + run):
             m = 0.5 * (mass[f] + mass[f - s])
             gas = 0.5 * (alpha[f] * volume[f] + alpha[f - s] * volume[f - s])
-            force = m * gravity + 0.5 * (push[f] + push[f - s]) - gas * (pressure[f] - pressure[f - s]) / grid.gap[axis, f]
+            force = (
+                m * gravity + 0.5 * (push[f] + push[f - s]) - gas * (pressure[f] - pressure[f - s]) / grid.gap[axis, f]
+            )
             viscous = 0.0
             for b in range(len(steps)):
                 viscous += stress[b, f + steps[b]] - stress[b, f]
@@ -125,7 +127,9 @@ class Momentum:
             given = grid.geometry, cells, stress, moved[a], self.box.gravity[a], window.dt
             momentum_balance(grid.wide, a, active, *given, diagonal[a], source)
             fill(velocity[a], self.ghosts[a])
-            _, error = solve_implicit(grid.wide, active, conductance, diagonal[a], source, velocity[a], self.box.tolerance)
+            _, error = solve_implicit(
+                grid.wide, active, conductance, diagonal[a], source, velocity[a], self.box.tolerance
+            )
             residual = max(residual, error)
         return velocity, diagonal, residual
 

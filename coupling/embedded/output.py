@@ -15,7 +15,9 @@ def cell_velocity(box: Box, flow: Flow) -> np.ndarray:
     inside = flow.velocity.copy()
     fixed = ~faces.open
     axis, face, cell = faces.axis[fixed], faces.face[fixed], faces.cell[fixed]
-    inside[axis, face] = flow.flux[axis, face] * grid.geometry.volume[cell] / (flow.mass[cell] * grid.geometry.area[axis, face])
+    inside[axis, face] = (
+        flow.flux[axis, face] * grid.geometry.volume[cell] / (flow.mass[cell] * grid.geometry.area[axis, face])
+    )
     return _cell_vectors(box, lambda a, s: 0.5 * (inside[a, grid.cells] + inside[a, grid.cells + s]))
 
 

@@ -84,12 +84,14 @@ class Pressure:
         self.work = np.zeros((grid.dimensions, self.levels.first[-1])), *np.zeros((3, self.levels.first[-1]))
         self.density = box.properties.density(faces.temperature, faces.vapour)  # of what flows in
         normal = faces.velocity[np.arange(len(faces.face)), faces.axis]
-        self.inlet = np.where(faces.inlet, normal * faces.sign * grid.geometry.area[faces.axis, faces.face], 0.0)  # m3/s outward
+        # m3/s outward
+        self.inlet = np.where(faces.inlet, normal * faces.sign * grid.geometry.area[faces.axis, faces.face], 0.0)
         self.standing = grid.zeros(grid.dimensions)
         self.standing[faces.axis, faces.face] = np.where(faces.inlet, normal, 0.0)
 
     def at_start(self) -> np.ndarray:
-        """(S,) pressure of the gas of the case at rest; on the boundary it is in the ghosts, and in openings it stays."""
+        """(S,) pressure of the gas of the case at rest; on the boundary it is in the ghosts, and in openings it
+        stays."""
         box = self.box
         density = float(box.properties.density(np.array([box.temperature]), 0.0)[0])
         outside, inside = resting_pressure(box.faces, box.grid, box.gravity, density)
@@ -146,10 +148,15 @@ class Pressure:
         flux[faces.axis, beyond] = flux[faces.axis, faces.face]
 
     def _lean(self, window: Window, mass: np.ndarray, velocity: np.ndarray, pressure: np.ndarray) -> None:
-        """Where the boundary gives the velocity, its pressure (in the ghosts) holds the gas there against weight and particles."""
+        """Where the boundary gives the velocity, its pressure (in the ghosts) holds the gas there against weight and
+        particles."""
         faces, grid = self.box.faces, self.box.grid
         fixed = np.flatnonzero(~faces.open)
         axis, cell, face = faces.axis[fixed], faces.cell[fixed], faces.face[fixed]
-        force = mass[cell] * np.array(self.box.gravity)[axis] + window.push[axis, cell] - window.pull[cell] * velocity[axis, face]
+        force = (
+            mass[cell] * np.array(self.box.gravity)[axis]
+            + window.push[axis, cell]
+            - window.pull[cell] * velocity[axis, face]
+        )
         slope = force / (window.alpha[cell] * grid.geometry.volume[cell])
         pressure[faces.ghost[fixed]] = pressure[cell] + faces.sign[fixed] * grid.geometry.gap[axis, face] * slope

@@ -17,7 +17,8 @@ class Properties:
         laws = {"constant": self._constant, "operating": self._operating}
         if case.gas.equation_of_state not in laws:
             raise CaseError(
-                f"gas.equation_of_state = {case.gas.equation_of_state!r}; the embedded gas solver has {' and '.join(laws)}: "
+                f"gas.equation_of_state = {case.gas.equation_of_state!r}; the embedded gas solver has "
+                f"{' and '.join(laws)}: "
                 "choose one of these, or take OpenFOAM (--gas openfoam)"
             )
         self.density = laws[case.gas.equation_of_state]

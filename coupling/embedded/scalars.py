@@ -75,7 +75,9 @@ class Scalars:
         """The new flow and the residual; heat: content [J/K] before, its flux [W/K], content after, sub-steps."""
         before, carrier, after, parts = heat
         conductivity = window.alpha * self.box.properties.mixture("conductivity", flow.fraction())
-        grown = window.dt * (window.cling if self.box.vapour is None else window.cling + self.box.vapour.heat_capacity * window.vapour)
+        grown = window.dt * (
+            window.cling if self.box.vapour is None else window.cling + self.box.vapour.heat_capacity * window.vapour
+        )
         exchanged = (after + window.dt * window.cling, grown, window.dt * window.warmth)
         carried = (old.temperature.copy(), before.copy(), carrier, parts)
         temperature, through, error = self._transport(flow, window.dt, "heat", carried, conductivity, exchanged)
@@ -99,8 +101,8 @@ class Scalars:
         return field, through + given, error
 
     def _half(self, content: np.ndarray, grown: np.ndarray, source: np.ndarray):
-        """(share kept, gain), (S,) each, of the implicit exchange of half a window: `grown` is what a whole one adds to the
-        diagonal, `source` what it adds to the content."""
+        """(share kept, gain), (S,) each, of the implicit exchange of half a window: `grown` is what a whole one adds to
+        the diagonal, `source` what it adds to the content."""
         after = content + 0.5 * grown + self.beyond
         return content / after, 0.5 * source / after
 

@@ -41,7 +41,8 @@ MOST_HEADERS = 2**16  # bytes of a checkpoint that are not of arrays; our choice
 
 
 class EmbeddedGas:
-    """The `Gas` of a case on a Cartesian grid; `limited` False takes first-order upwind convection instead of van Leer's."""
+    """The `Gas` of a case on a Cartesian grid; `limited` False takes first-order upwind convection instead of van
+    Leer's."""
 
     def __init__(self, case, *, limited: bool = True):
         self.box = Box(case, build_grid(cell_edges(case)), limited)
@@ -111,7 +112,9 @@ class EmbeddedGas:
         """Go on from what `checkpoint` wrote; `sources` are those that will come (None: those of the checkpoint)."""
         path, grid = Path(folder) / CHECKPOINT, self.box.grid
         try:
-            saved = read_arrays(path, MOST_HEADERS + 8 * grid.size * len(dataclasses.fields(Flow)) * (1 + grid.dimensions))
+            saved = read_arrays(
+                path, MOST_HEADERS + 8 * grid.size * len(dataclasses.fields(Flow)) * (1 + grid.dimensions)
+            )
             self.sources = _known(tuple(str(name) for name in np.atleast_1d(saved.pop("sources"))), self.box)
             self.flow = restored(self.box, saved)
         except KeyError as missing:
@@ -119,7 +122,9 @@ class EmbeddedGas:
         except (Unreadable, GasError, ValueError) as error:
             raise CheckpointError(f"{path} is no checkpoint of this gas: {error}") from None
         if sources is not None and sources != self.sources:
-            raise CheckpointError(f"{path} is of the sources {', '.join(self.sources)}; to come are {', '.join(sources)}")
+            raise CheckpointError(
+                f"{path} is of the sources {', '.join(self.sources)}; to come are {', '.join(sources)}"
+            )
         self.state = self._state()
         return self.state
 

@@ -1,4 +1,5 @@
-"""system/blockMeshDict of a box: blocks split where a boundary begins or ends on a side, patches named as in the case."""
+"""system/blockMeshDict of a box: blocks split where a boundary begins or ends on a side, patches named as in the
+case."""
 
 from __future__ import annotations
 
@@ -8,7 +9,8 @@ from sdph.case.gas_cells import cell_edges, nearest_edge
 from sdph.engine.geometry import SIDES
 from sdph.schema import CaseError
 
-# vertices (of the eight of a block, bit k: upper along axis k) of the lower and upper face of each axis, seen from outside
+# vertices (of the eight of a block, bit k: upper along axis k) of the lower and upper face of each axis, seen from
+# outside
 FACES = {
     0: ((0, 4, 6, 2), (1, 3, 7, 5)),
     1: ((0, 1, 5, 4), (2, 6, 7, 3)),
@@ -40,8 +42,10 @@ def _edges(case, axis: int, length: float) -> list[float]:
                 found |= {low, high}
     edges = sorted(found)
     if edges[0] < 0.0 or edges[-1] > length:
-        raise CaseError(f"a span_m goes from {edges[0]:g} to {edges[-1]:g} m; the box goes from 0 to {length:g} m there")
-    return [a for a, b in zip(edges, edges[1:]) if b - a > CLOSE * length] + [length]
+        raise CaseError(
+            f"a span_m goes from {edges[0]:g} to {edges[-1]:g} m; the box goes from 0 to {length:g} m there"
+        )
+    return [a for a, b in itertools.pairwise(edges) if b - a > CLOSE * length] + [length]
 
 
 def _spans(boundary, dimensions: int) -> list[tuple[int, tuple[float, float]]]:
@@ -52,7 +56,9 @@ def _spans(boundary, dimensions: int) -> list[tuple[int, tuple[float, float]]]:
     tangential = [a for a in range(dimensions) if a != axis]
     spans = boundary.span if isinstance(boundary.span[0], (tuple, list)) else (boundary.span,)
     if len(spans) != len(tangential) or any(len(s) != 2 or s[0] >= s[1] for s in spans):
-        raise CaseError(f"span_m of the boundary on the {boundary.side} is {boundary.span}; give [low, high] per tangential axis")
+        raise CaseError(
+            f"span_m of the boundary on the {boundary.side} is {boundary.span}; give [low, high] per tangential axis"
+        )
     return list(zip(tangential, spans))
 
 
@@ -61,11 +67,11 @@ def _cells(case, axis: int, edges: list[float]) -> list[tuple[int, float]]:
     if axis >= case.dimensions:
         return [(1, 1.0)]
     if not case.resolution.stretch:
-        return [(max(1, round((high - low) / case.resolution.cell)), 1.0) for low, high in zip(edges, edges[1:])]
+        return [(max(1, round((high - low) / case.resolution.cell)), 1.0) for low, high in itertools.pairwise(edges)]
     whole = cell_edges(case)[axis]
     ends = [nearest_edge(whole, end, "a span_m") for end in edges]
     growth = case.resolution.stretch[axis] ** (1.0 / max(len(whole) - 2, 1))
-    return [(high - low, float(growth ** (high - low - 1))) for low, high in zip(ends, ends[1:])]
+    return [(high - low, float(growth ** (high - low - 1))) for low, high in itertools.pairwise(ends)]
 
 
 def _vertex(block: tuple[int, ...], corner: int, edges: list[list[float]]) -> int:
@@ -76,7 +82,9 @@ def _vertex(block: tuple[int, ...], corner: int, edges: list[list[float]]) -> in
 def _block_line(block, edges, cells) -> str:
     corners = " ".join(str(_vertex(block, corner, edges)) for corner in BLOCK_ORDER)
     counts, ratios = zip(*(cells[axis][block[axis]] for axis in range(3)))
-    return f"    hex ({corners}) ({' '.join(map(str, counts))}) simpleGrading ({' '.join(f'{r:.17g}' for r in ratios)})\n"
+    return (
+        f"    hex ({corners}) ({' '.join(map(str, counts))}) simpleGrading ({' '.join(f'{r:.17g}' for r in ratios)})\n"
+    )
 
 
 def _patches(case, blocks, edges) -> dict[str, tuple[str, list[str]]]:
@@ -109,7 +117,9 @@ def _owner(case, block, axis: int, upper: int, edges) -> tuple[str, str]:
     best = [name for rank, name in claims if rank == max(claims)[0]]
     if len(best) != 1:
         says = f"belongs to {' and '.join(best)}" if best else "belongs to no boundary"
-        raise CaseError(f"a part of the {side} side {says}; give `side` and `span_m`, or one boundary without a side for the rest")
+        raise CaseError(
+            f"a part of the {side} side {says}; give `side` and `span_m`, or one boundary without a side for the rest"
+        )
     return best[0], "wall" if case.boundaries[best[0]].kind in ("wall", "slip_wall") else "patch"
 
 

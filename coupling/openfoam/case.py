@@ -35,7 +35,9 @@ def write_case(
     `known` keeps what was read of the template, for who reads the copy (see `refuse_code`).
     """
     if set(str(folder.absolute())) & set(REFUSED):
-        raise CaseError(f"{folder.absolute()}: OpenFOAM takes no blanks and quotes in a path; give another --out, or --gas embedded")
+        raise CaseError(
+            f"{folder.absolute()}: OpenFOAM takes no blanks and quotes in a path; give another --out, or --gas embedded"
+        )
     if not (template / "system" / "controlDict").exists():
         raise CaseError(f"{template} is no OpenFOAM case: it has no system/controlDict")
     for name in case.boundaries:
@@ -57,7 +59,9 @@ def write_macros(case, folder: Path) -> None:
     """`constant/sdphCase`."""
     (folder / "constant").mkdir(exist_ok=True, parents=True)
     lines = "".join(f"{name} {value};\n" for name, value in macros(case).items())
-    (folder / "constant" / "sdphCase").write_text(f"// Written by sdph from case.toml, in SI units\n{lines}", encoding="utf-8")
+    (folder / "constant" / "sdphCase").write_text(
+        f"// Written by sdph from case.toml, in SI units\n{lines}", encoding="utf-8"
+    )
 
 
 def macros(case) -> dict[str, str]:
@@ -129,7 +133,10 @@ def write_decomposition(case, folder: Path, ranks: int) -> None:
     longest = size.index(max(size))
     most = cells(case)[longest]
     if ranks > most:
-        raise CaseError(f"coupling.ranks = {ranks}; the gas is cut along its longest side, which has {most} cells: give that many at most")
+        raise CaseError(
+            f"coupling.ranks = {ranks}; the gas is cut along its longest side, which has {most} cells: give that many "
+            "at most"
+        )
     counts = " ".join(str(ranks) if axis == longest else "1" for axis in range(3))
     text = f"numberOfSubdomains {ranks};\nmethod simple;\nsimpleCoeffs {{ n ({counts}); delta 0.001; }}\n"
     path.write_text(HEAD.format(name="decomposeParDict") + text, encoding="utf-8")

@@ -41,14 +41,20 @@ def read(path: Path, cells: int) -> np.ndarray:
     components, count = COMPONENTS[found.group(1).decode()], int(found.group(2))
     if count != cells:
         raise FieldError(f"{path} holds {count} values for a mesh of {cells} cells")
-    values = _binary(text, found.end(), count * components) if _is_binary(text) else _ascii(text, found.end(), count, components)
+    values = (
+        _binary(text, found.end(), count * components)
+        if _is_binary(text)
+        else _ascii(text, found.end(), count, components)
+    )
     return values.reshape(count, components) if components > 1 else values
 
 
 def _is_binary(text: bytes) -> bool:
     head = text[: text.index(b"}")]
     if b"label=64" in head or b"scalar=32" in head or b"MSB" in head:
-        raise FieldError("a binary field of another OpenFOAM build (needs 64-bit floats, little-endian); write it as ascii")
+        raise FieldError(
+            "a binary field of another OpenFOAM build (needs 64-bit floats, little-endian); write it as ascii"
+        )
     return re.search(rb"format\s+binary;", head) is not None
 
 
@@ -96,7 +102,9 @@ def cell_count(folder: Path) -> int:
 
 def read_probe(folder: Path, name: str, field: str) -> tuple[np.ndarray, np.ndarray]:
     """Times (N,) [s] and values (N, P) of the P points of the `probes` function object `name`, for a scalar field."""
-    pieces = sorted((Path(folder) / "postProcessing" / name).glob(f"*/{field}"), key=lambda path: float(path.parent.name))
+    pieces = sorted(
+        (Path(folder) / "postProcessing" / name).glob(f"*/{field}"), key=lambda path: float(path.parent.name)
+    )
     if not pieces:
         raise FieldError(f"{folder} has no probes {name} of {field}")
     table = np.concatenate([np.loadtxt(piece, ndmin=2) for piece in pieces])

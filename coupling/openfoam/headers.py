@@ -67,7 +67,9 @@ def _source_lines() -> list[str]:
     name = "ubuntu" if "ubuntu" in (system.get("ID"), system.get("ID_LIKE")) else "debian"
     key = f"[signed-by={KEYRINGS[name]}] " if KEYRINGS[name].exists() else ""
     form = "$(ORIGIN)|$(REPO_URI)|$(RELEASE)|$(COMPONENT)"
-    done = subprocess.run(["apt-get", "indextargets", "--format", form, "Created-By: Packages"], capture_output=True, text=True)
+    done = subprocess.run(
+        ["apt-get", "indextargets", "--format", form, "Created-By: Packages"], capture_output=True, text=True
+    )
     rows = {tuple(line.split("|")[1:]) for line in done.stdout.splitlines() if line.lower().startswith(f"{name}|")}
     if not rows:
         component = "universe" if name == "ubuntu" else "main"

@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import os
 import secrets
-import signal
 import subprocess
 import time
 from collections.abc import Callable
@@ -28,6 +27,7 @@ from coupling.openfoam import case as case_files
 from coupling.openfoam.programs import barrier, install
 from coupling.openfoam.programs import run as programs
 from coupling.openfoam.programs.build import silent
+from coupling.openfoam.programs.run import end_group
 from coupling.transport import files
 from coupling.transport.messages import Kind, Message, MessageError, message_limit
 from coupling.transport.sockets import SocketServer
@@ -50,13 +50,20 @@ SERVERS = {
 class OpenFoamGas:
     """`coupling.gas.Gas` by sdphGasFoam, in `folder`; its log is `folder/log.sdphGasFoam`.
 
-    `template` is an OpenFOAM case with 0, constant and system; None takes `folder` as an earlier run left it. Code in either
-    is refused, and kept from running, unless `allow_code`.
-    Time folders are written at the outputs of the case; `case_folder/case.foam` opens them, of `ranks` ranks, in ParaView.
+    `template` is an OpenFOAM case with 0, constant and system; None takes `folder` as an earlier run left it. Code in
+    either is refused, and kept from running, unless `allow_code`.
+    Time folders are written at the outputs of the case; `case_folder/case.foam` opens them, of `ranks` ranks, in
+    ParaView.
     """
 
     def __init__(
-        self, case, folder: Path, template: Path | None, *, status: Callable[[str], None] = silent, allow_code: bool = False
+        self,
+        case,
+        folder: Path,
+        template: Path | None,
+        *,
+        status: Callable[[str], None] = silent,
+        allow_code: bool = False,
     ):
         self._case, self._folder, self._status = case, Path(folder).resolve(), status
         self._log, self.case_folder, self.ranks = self._folder / "log.sdphGasFoam", self._folder, case.coupling.ranks
@@ -106,7 +113,9 @@ class OpenFoamGas:
         finally:
             server.close()
         self._expect(first, Kind.HELLO)
-        told = self._expect(self._guard(lambda alive: self._connection.receive(START_TIME, alive), "to start"), Kind.MESH)
+        told = self._expect(
+            self._guard(lambda alive: self._connection.receive(START_TIME, alive), "to start"), Kind.MESH
+        )
         self._guard(lambda alive: self._meet(told), "to start")
         self._connection.limit = message_limit(len(self.mesh.volumes))
 
@@ -125,8 +134,13 @@ class OpenFoamGas:
         environment = self._environment() | {"SDPH_SECRET": secret, "FOAM_SIGFPE": "false", "FOAM_SETNAN": "false"}
         with self._log.open("wb") as log, programs.starting(command[0]):
             return subprocess.Popen(
-                command, cwd=self._folder, env=environment,
-                stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True,
+                command,
+                cwd=self._folder,
+                env=environment,
+                stdin=subprocess.DEVNULL,
+                stdout=log,
+                stderr=log,
+                start_new_session=True,
             )
 
     def start(self, alpha_g: np.ndarray | None, sources: tuple[str, ...]) -> GasState:
@@ -141,7 +155,9 @@ class OpenFoamGas:
         if "alpha_g" in sources:
             refuse_full_cells(sources["alpha_g"], self.mesh.centres)
         units = {name: SOURCES[name][0] for name in sources} | {"dt": "s"}
-        return self._ask(Message(Kind.ADVANCE, {"dt": float(dt), "write": self._clock.writes(self._time + dt), **sources}, units))
+        return self._ask(
+            Message(Kind.ADVANCE, {"dt": float(dt), "write": self._clock.writes(self._time + dt), **sources}, units)
+        )
 
     def retreat(self) -> GasState:
         """See `Gas.retreat`."""
@@ -178,7 +194,10 @@ class OpenFoamGas:
 
     def _ask(self, message: Message) -> GasState:
         answer = self._request(message, Kind.STATE)
-        state = self._guard(lambda alive: _state(answer, len(self.mesh.volumes), self._case.vapour is not None), f"for {message.kind.name}")
+        state = self._guard(
+            lambda alive: _state(answer, len(self.mesh.volumes), self._case.vapour is not None),
+            f"for {message.kind.name}",
+        )
         self._time = state.time
         return state
 
@@ -197,7 +216,8 @@ class OpenFoamGas:
         return self._expect(self._guard(exchange, f"for {message.kind.name}"), answer, refused)
 
     def _guard(self, action: Callable, what: str):
-        """The result of an action that waits for the solver; whatever goes wrong becomes a GasError and ends the solver."""
+        """The result of an action that waits for the solver; whatever goes wrong becomes a GasError and ends the
+        solver."""
         try:
             return action(self._watch())
         except (ConnectionError, TimeoutError, MessageError) as error:
@@ -232,13 +252,20 @@ class OpenFoamGas:
         if message.kind is Kind.UNFINISHED:
             raise Unfinished(f"sdphGasFoam says: {message.values.get('text')} (log: {self._log})")
         self.close()
-        said = message.values.get("text") if message.kind is Kind.ERROR else f"{message.kind.name} where {kind.name} was expected"
+        said = (
+            message.values.get("text")
+            if message.kind is Kind.ERROR
+            else f"{message.kind.name} where {kind.name} was expected"
+        )
         raise refused(f"sdphGasFoam says: {' '.join(str(said).split())} (log: {self._log})")
 
     def _check_properties(self, told: Message) -> None:
         """The particles and the gas must mean the same gas."""
         if told.number("dimensions") != self._case.dimensions:
-            raise CaseError(f"the mesh has {told.number('dimensions')} dimensions; case.toml says dimensions = {self._case.dimensions}")
+            raise CaseError(
+                f"the mesh has {told.number('dimensions')} dimensions; case.toml says dimensions = "
+                f"{self._case.dimensions}"
+            )
         for name in told.values:
             section, _, key = name.partition("_")
             if section not in ("gas", "vapour"):
@@ -246,27 +273,16 @@ class OpenFoamGas:
             ours = getattr(getattr(self._case, section), key, None)
             value = told[name] if isinstance(told[name], str) else told.number(name)
             if ours != value:
-                raise CaseError(f"constant/gasProperties has {name} = {value}; case.toml has {ours}: make them the same")
-
-
-def end_group(process: subprocess.Popen) -> None:
-    """End a process and all that it started; mpirun is asked first, since it ends its ranks itself."""
-    if process.poll() is None:
-        process.terminate()
-        try:
-            process.wait(1.0)
-        except subprocess.TimeoutExpired:
-            pass  # it is killed next
-    try:
-        os.killpg(process.pid, signal.SIGKILL)
-    except ProcessLookupError:
-        pass  # nothing of the group is left
-    process.wait()
+                raise CaseError(
+                    f"constant/gasProperties has {name} = {value}; case.toml has {ours}: make them the same"
+                )
 
 
 def _mesh(told: Message) -> Mesh:
     centres = told.array("centres", None, 3)
-    return Mesh(centres, told.array("volumes", len(centres)), int(told.number("dimensions")), float(told.number("depth")))
+    return Mesh(
+        centres, told.array("volumes", len(centres)), int(told.number("dimensions")), float(told.number("depth"))
+    )
 
 
 def _state(message: Message, cells: int, vapour: bool) -> GasState:
@@ -274,7 +290,15 @@ def _state(message: Message, cells: int, vapour: bool) -> GasState:
     totals = {f.name for f in dataclasses.fields(Budget)} - {"residuals"}
     vectors = {name: tuple(message.array(f"budget_{name}", 3).tolist()) for name in ("momentum", "force")}
     numbers = {name: float(message.number(f"budget_{name}")) for name in totals - vectors.keys()}
-    residuals = {name.removeprefix("residual_"): float(message.number(name)) for name in message.values if name.startswith("residual_")}
-    shapes = {name: (cells, 3)[: 1 + (row[1] == 3)] for name, row in FIELDS.items() if vapour or name != "vapour_mass_fraction"}
+    residuals = {
+        name.removeprefix("residual_"): float(message.number(name))
+        for name in message.values
+        if name.startswith("residual_")
+    }
+    shapes = {
+        name: (cells, 3)[: 1 + (row[1] == 3)]
+        for name, row in FIELDS.items()
+        if vapour or name != "vapour_mass_fraction"
+    }
     fields = {name: message.array(name, *shape) for name, shape in shapes.items()}
     return GasState(float(message.number("time")), fields, Budget(**numbers, **vectors, residuals=residuals))

@@ -31,7 +31,9 @@ def start_fields(case) -> dict[str, str]:
 
 def _field(case, name: str, inside: str) -> str:
     cls, dimensions = FIELDS[name]
-    patches = "".join(f"    {patch} {{ {KINDS[b.kind](case, b, patch)[name]} }}\n" for patch, b in case.boundaries.items())
+    patches = "".join(
+        f"    {patch} {{ {KINDS[b.kind](case, b, patch)[name]} }}\n" for patch, b in case.boundaries.items()
+    )
     if case.dimensions == 2:
         patches += "    frontAndBack { type empty; }\n"
     head = HEAD.format(cls=cls, name=name)
@@ -81,7 +83,10 @@ def _pressure_outlet(case, boundary, name: str) -> dict[str, str]:
         "alpha_g": ZERO_GRADIENT,
         "U": "type pressureInletOutletVelocity; value uniform (0 0 0);",
         "p_rgh": _fixed(boundary.pressure or 0.0),
-        **{field: f"type inletOutlet; inletValue uniform {value}; value uniform {value};" for field, value in back.items()},
+        **{
+            field: f"type inletOutlet; inletValue uniform {value}; value uniform {value};"
+            for field, value in back.items()
+        },
     }
 
 

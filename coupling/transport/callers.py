@@ -1,4 +1,5 @@
-"""Callers at the door: whoever connects has a short time and few bytes to tell the secret of the run; nobody waits for another."""
+"""Callers at the door: whoever connects has a short time and few bytes to tell the secret of the run; nobody waits for
+another."""
 
 from __future__ import annotations
 

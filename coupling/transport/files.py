@@ -33,7 +33,9 @@ SHORTEST_SLEEP, LONGEST_SLEEP = 5e-5, 2e-3  # s between two looks for a file
 class FileConnection:
     """One side of an exchange through `folder`. `limit` [bytes] bounds each message in either direction."""
 
-    def __init__(self, folder: Path, outgoing: str = DIRECTIONS[0], incoming: str = DIRECTIONS[1], limit: int = ABSOLUTE_LIMIT):
+    def __init__(
+        self, folder: Path, outgoing: str = DIRECTIONS[0], incoming: str = DIRECTIONS[1], limit: int = ABSOLUTE_LIMIT
+    ):
         self._out, self._in = Path(folder) / outgoing, Path(folder) / incoming
         self._sent = self._received = 0
         self.limit, self.own = limit, None  # own: the folder, where it was made for this exchange alone
@@ -74,7 +76,8 @@ class FileConnection:
             sleep = min(LONGEST_SLEEP, 1.2 * sleep)
 
     def close(self) -> None:
-        """Remove the messages that nobody read, and the folder where it was made for them; a second call does nothing."""
+        """Remove the messages that nobody read, and the folder where it was made for them; a second call does
+        nothing."""
         for folder in (self._out, self._in):
             shutil.rmtree(folder, ignore_errors=True)
         if self.own is not None:

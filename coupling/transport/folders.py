@@ -1,7 +1,7 @@
 """Folders that belong to a process and are locked while it lives: one whose lock can be taken has a dead owner.
 
-The lock is the kernel's own (flock), so that it counts between processes that do not see each other's numbers too, as in
-containers that share /tmp, and goes with its owner, however that ends.
+The lock is the kernel's own (flock), so that it counts between processes that do not see each other's numbers too, as
+in containers that share /tmp, and goes with its owner, however that ends.
 """
 
 from __future__ import annotations

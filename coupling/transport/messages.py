@@ -83,8 +83,15 @@ class Message:
     def array(self, name: str, *shape: int | None) -> np.ndarray:
         """A field that has to be numbers of this shape; None where any extent will do."""
         value = np.asarray(self[name])
-        if value.dtype.kind not in "fi" or len(value.shape) != len(shape) or any(b not in (a, None) for a, b in zip(value.shape, shape)):
-            raise MessageError(f"{self.kind.name}: field {name!r} is of type {value.dtype} and shape {value.shape}; numbers of shape {shape} were expected")
+        if (
+            value.dtype.kind not in "fi"
+            or len(value.shape) != len(shape)
+            or any(b not in (a, None) for a, b in zip(value.shape, shape))
+        ):
+            raise MessageError(
+                f"{self.kind.name}: field {name!r} is of type {value.dtype} and shape {value.shape}; numbers of shape "
+                f"{shape} were expected"
+            )
         return value
 
 
@@ -95,7 +102,8 @@ def secret_fits(first: Message, secret: str) -> bool:
 
 
 def message_limit(cells: int) -> int:
-    """Bytes that the largest message on a mesh of `cells` cells can have: centres, volumes, all fields, or all sources."""
+    """Bytes that the largest message on a mesh of `cells` cells can have: centres, volumes, all fields, or all
+    sources."""
     components = 4 + max(sum(row[1] for row in table.values()) for table in (SOURCES, FIELDS))
     return min(ABSOLUTE_LIMIT, FIXED_PART + 8 * components * cells)
 

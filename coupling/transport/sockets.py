@@ -1,7 +1,7 @@
 """Messages over a socket: a Unix socket in a private folder, or TCP on the loopback.
 
-The particles listen and the gas solver calls, its first message being HELLO with the secret of the run. Whoever does not
-know that is turned away; once the solver is in, the listening socket is closed, so that nobody else can connect.
+The particles listen and the gas solver calls, its first message being HELLO with the secret of the run. Whoever does
+not know that is turned away; once the solver is in, the listening socket is closed, so that nobody else can connect.
 """
 
 from __future__ import annotations
@@ -77,7 +77,8 @@ class SocketConnection:
 
 
 def _own_folder() -> OwnFolder | None:
-    """A folder for a socket, where the path is short enough for one; None where there is no such place. Those of dead owners go."""
+    """A folder for a socket, where the path is short enough for one; None where there is no such place. Those of dead
+    owners go."""
     for where in _places():
         sweep(where, PREFIX, {NAME})
         try:

@@ -58,7 +58,9 @@ def inside(case, key: str, lower, upper) -> None:
     """What a key places between two corners lies in the domain."""
     slack = SAME * max(case.domain.size)  # of centre plus radius
     if any(a < -slack or b > length + slack for a, b, length in zip(lower, upper, case.domain.size)):
-        raise CaseError(f"{key} reaches out of the domain, domain.size_m = {list(case.domain.size)}; move it or enlarge the domain")
+        raise CaseError(
+            f"{key} reaches out of the domain, domain.size_m = {list(case.domain.size)}; move it or enlarge the domain"
+        )
 
 
 def side(case, where: str, boundary) -> None:
@@ -106,14 +108,24 @@ def check(case: Case) -> None:
     matter = "liquid" if case.liquid else "grains"
     for name in case.effects:
         if matter not in effects.REGISTRY[name].matter:
-            raise CaseError(f"effects holds {name}, which does not act on {'a liquid' if case.liquid else 'grains'}; leave it out")
+            raise CaseError(
+                f"effects holds {name}, which does not act on {'a liquid' if case.liquid else 'grains'}; leave it out"
+            )
     _check_phases(case)
     if case.resolution.cell is None and not case.liquid:
         raise CaseError("resolution.cell_mm is missing; it has no default: give it in [resolution]")
-    vectors = {"domain.size_m": case.domain.size, "domain.gravity_m_s2": case.domain.gravity, "resolution.stretch": case.resolution.stretch}
+    vectors = {
+        "domain.size_m": case.domain.size,
+        "domain.gravity_m_s2": case.domain.gravity,
+        "resolution.stretch": case.resolution.stretch,
+    }
     for group, places, cls in (("particles", case.particles, Region), ("pools", case.pools, Pool)):
         for name, place in places.items():
-            vectors |= {f"{group}.{name}.{key}": getattr(place, at) for key, (at, kind) in fields(cls).items() if kind.components is None}
+            vectors |= {
+                f"{group}.{name}.{key}": getattr(place, at)
+                for key, (at, kind) in fields(cls).items()
+                if kind.components is None
+            }
     for name, point in case.probes.items():
         vectors[f"probes.{name}.at_m"] = point.at
     for name, boundary in case.boundaries.items():
@@ -125,7 +137,9 @@ def check(case: Case) -> None:
         vectors |= {"tank.lower_m": own.lower, "tank.upper_m": own.upper, "tank.centre_m": own.centre}
     for key, value in vectors.items():
         if value is not None and (len(value) != case.dimensions or any(isinstance(v, tuple) for v in value)):
-            raise CaseError(f"{key} has {len(value)} components; dimensions = {case.dimensions} asks for {case.dimensions}")
+            raise CaseError(
+                f"{key} has {len(value)} components; dimensions = {case.dimensions} asks for {case.dimensions}"
+            )
     if any(not 1.0 / STRETCH <= ratio <= STRETCH for ratio in case.resolution.stretch or ()):
         given = f"resolution.stretch = {list(case.resolution.stretch)}"
         raise CaseError(f"{given}; every ratio must be from {1.0 / STRETCH:g} to {STRETCH:g}: 1 for equal cells")
@@ -157,7 +171,10 @@ def _check_outputs(case: Case) -> None:
     for key, interval in intervals.items():
         if interval and case.run.end_time > MOST_OUTPUTS * interval:
             given = f"{key} = {interval:g} up to run.end_time_s = {case.run.end_time:g}"
-            raise CaseError(f"{given} makes {case.run.end_time / interval:.3g} outputs; {MOST_OUTPUTS:.0e} are allowed: lengthen the one or shorten the other")
+            raise CaseError(
+                f"{given} makes {case.run.end_time / interval:.3g} outputs; {MOST_OUTPUTS:.0e} are allowed: lengthen "
+                "the one or shorten the other"
+            )
 
 
 def _check_place(case: Case, where: str, part) -> None:
@@ -168,7 +185,9 @@ def _check_place(case: Case, where: str, part) -> None:
             raise CaseError(f"{where}.{key}_m is missing; a {part.shape} needs {' and '.join(f'{n}_m' for n in needs)}")
     size = part.radius if part.shape != "box" else min(b - a for a, b in zip(part.lower, part.upper))
     if size <= 0.0:
-        raise CaseError(f"{where}: upper_m = {list(part.upper)} must lie above lower_m = {list(part.lower)} along every axis")
+        raise CaseError(
+            f"{where}: upper_m = {list(part.upper)} must lie above lower_m = {list(part.lower)} along every axis"
+        )
     if case.resolution.spacing > size * (1.0 + SAME):
         spacing = f"resolution.spacing_mm = {case.resolution.spacing * 1e3:g}"
         raise CaseError(f"{spacing} is larger than {where} ({size * 1e3:g} mm); give a spacing well below that")
@@ -176,7 +195,7 @@ def _check_place(case: Case, where: str, part) -> None:
 
 def _check_phases(case: Case) -> None:
     if case.gas_phase is None:
-        two = [f"pools.{name}.phase = \"gas\"" for name, pool in case.pools.items() if pool.phase == "gas"]
+        two = [f'pools.{name}.phase = "gas"' for name, pool in case.pools.items() if pool.phase == "gas"]
         two += [name for name in case.effects if effects.REGISTRY[name].two_phases]
         if two:
             raise CaseError(f"{two[0]} needs a second phase; give its properties in [gas_phase]")
@@ -186,7 +205,10 @@ def _check_phases(case: Case) -> None:
     if "drain" in case.effects:
         raise CaseError("effects holds drain, which knows one phase; leave it or [gas_phase] out")
     if case.gas_phase.density_by == "summation" and "density_diffusion" in case.effects:
-        raise CaseError("effects holds density_diffusion, but with gas_phase.density_by = \"summation\" no density is advanced; leave one out")
+        raise CaseError(
+            'effects holds density_diffusion, but with gas_phase.density_by = "summation" no density is advanced; '
+            "leave one out"
+        )
 
 
 def _check_period(case: Case) -> None:
@@ -195,7 +217,9 @@ def _check_period(case: Case) -> None:
         if axis not in axes:
             raise CaseError(f"domain.periodic holds {axis!r}; allowed: {', '.join(axes)}")
         if case.domain.period[axes.index(axis)] < least:
-            raise CaseError(f"domain.size_m is below {least:g} m along {axis}, which is periodic; lengthen it or take finer grains")
+            raise CaseError(
+                f"domain.size_m is below {least:g} m along {axis}, which is periodic; lengthen it or take finer grains"
+            )
     if case.liquid:
         _check_period_of_liquid(case)
 
@@ -203,17 +227,26 @@ def _check_period(case: Case) -> None:
 def _check_period_of_liquid(case: Case) -> None:
     given, least = case.liquid.periodic, 4.1 * case.smoothing_length  # two reaches of the neighbour rows
     if given and (len(given) != case.dimensions or any(on not in (0.0, 1.0) for on in given)):
-        raise CaseError(f"liquid.periodic = {list(given)}; it must be {case.dimensions} numbers, 1 along periodic axes and 0 along the others")
+        raise CaseError(
+            f"liquid.periodic = {list(given)}; it must be {case.dimensions} numbers, 1 along periodic axes and 0 "
+            "along the others"
+        )
     for axis, length, on in zip("xyz", case.domain.size, given):
         if on and length < least:
-            raise CaseError(f"domain.size_m is below {least:g} m along {axis}, which is periodic; lengthen it or take a finer spacing")
+            raise CaseError(
+                f"domain.size_m is below {least:g} m along {axis}, which is periodic; lengthen it or take a finer "
+                "spacing"
+            )
 
 
 def _check_region(case: Case, name: str, region: Region) -> None:
     _check_place(case, f"particles.{name}", region)
     if region.volume_fraction > case.grains.packing_limit:
         given = f"particles.{name}.volume_fraction = {region.volume_fraction:g}"
-        raise CaseError(f"{given}; grains pack to grains.packing_limit = {case.grains.packing_limit:g} at most: lower the one or raise the other")
+        raise CaseError(
+            f"{given}; grains pack to grains.packing_limit = {case.grains.packing_limit:g} at most: lower the one or "
+            "raise the other"
+        )
     box = region.shape == "box"
     lower = region.lower if box else [c - region.radius for c in region.centre]
     inside(case, f"particles.{name}", lower, region.upper if box else [c + region.radius for c in region.centre])

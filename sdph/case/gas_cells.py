@@ -9,18 +9,22 @@ import numpy as np
 from sdph.case.sections import Case
 from sdph.schema import CaseError
 
-SAME = 1e-8  # of the size of a mesh: centres nearer to each other along an axis lie in one layer of cells (OpenFOAM writes ten digits)
+# of the size of a mesh: centres nearer to each other along an axis lie in one layer of cells (OpenFOAM writes ten
+# digits)
+SAME = 1e-8
 THIN = 0.25  # of the size of a cell: layers nearer to each other on average are none, as of tetrahedra; our choice
 SNAP = 1e-6  # of a cell: how far from a cell edge a span may end; our choice
 
 
 def cell_edges(case) -> tuple[np.ndarray, ...]:
-    """Edges [m] of the gas cells along each axis, from 0; on a stretched axis each cell is wider than the one before by one factor."""
+    """Edges [m] of the gas cells along each axis, from 0; on a stretched axis each cell is wider than the one before by
+    one factor."""
     return tuple(map(graded_edges, case.domain.size, cells(case), case.resolution.stretch or (1.0,) * case.dimensions))
 
 
 def graded_edges(length: float, count: int, stretch: float) -> np.ndarray:
-    """(count + 1,) edges from 0 to `length`; `stretch` is the last width over the first, as blockMesh's simpleGrading means it."""
+    """(count + 1,) edges from 0 to `length`; `stretch` is the last width over the first, as blockMesh's simpleGrading
+    means it."""
     widths = stretch ** (np.arange(count) / max(count - 1, 1))
     edges = np.concatenate(([0.0], np.cumsum(widths)))
     return edges * (length / edges[-1])
@@ -47,14 +51,17 @@ def upwards(case, metric: str) -> np.ndarray:
     gravity = np.array([*case.domain.gravity, 0.0][:3])
     if not gravity.any():
         given = f"domain.gravity_m_s2 = {list(case.domain.gravity)}"
-        raise CaseError(f"run.metrics holds {metric}, but {given} tells of no way up; give gravity, or leave {metric} out")
+        raise CaseError(
+            f"run.metrics holds {metric}, but {given} tells of no way up; give gravity, or leave {metric} out"
+        )
     return -gravity / np.linalg.norm(gravity)
 
 
 class Rows:
-    """Cells of any mesh sorted by height along `up` (3,): `own` (C,) is the row of each cell, `above` (C,) [m] its height
-    over the floor; place over the floor and height (R,) [m] of each row, which may differ; `floor` and `top` [m], the
-    place of the floor along `up` and the height of the vessel. Two rows that touch are taken to be equally wide."""
+    """Cells of any mesh sorted by height along `up` (3,): `own` (C,) is the row of each cell, `above` (C,) [m] its
+    height over the floor; place over the floor and height (R,) [m] of each row, which may differ; `floor` and `top`
+    [m], the place of the floor along `up` and the height of the vessel. Two rows that touch are taken to be equally
+    wide."""
 
     def __init__(self, mesh, up):
         along = mesh.centres @ np.asarray(up)

@@ -34,7 +34,14 @@ def called_for(case, scales=None) -> dict[str, Judgement]:
 
 def missing(case, scales=None) -> list[str]:
     """One warning for each effect that is called for and off; where nothing moves, grains are held by intent."""
-    text = "effect {} is off, but called for ({} = {:.3g}, matters from {:.3g}): expect an error of about {:.1g} of the answer"
+    text = (
+        "effect {} is off, but called for ({} = {:.3g}, matters from {:.3g}): expect an error of about {:.1g} of "
+        "the answer"
+    )
     held = not effects.moving(case)
-    off = {n: own for n, own in called_for(case, scales).items() if n not in case.effects and not (held and effects.REGISTRY[n].moves)}
+    off = {
+        n: own
+        for n, own in called_for(case, scales).items()
+        if n not in case.effects and not (held and effects.REGISTRY[n].moves)
+    }
     return [text.format(name, own.name, own.number, own.threshold, own.error_if_off) for name, own in off.items()]

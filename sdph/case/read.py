@@ -21,7 +21,10 @@ from sdph.schema import CaseError, fields, plausible, read, record, unknown, vec
 
 LONGEST = 100  # letters of a name; our choice
 FILES = [  # (section, key) of all that name a file
-    (name, key) for name, row in effects.REGISTRY.items() for key, (_, kind) in fields(row.parameters).items() if kind.of is Path
+    (name, key)
+    for name, row in effects.REGISTRY.items()
+    for key, (_, kind) in fields(row.parameters).items()
+    if kind.of is Path
 ]
 
 
@@ -152,7 +155,9 @@ def _effects(table: dict) -> tuple[str, ...]:
     if len(set(on)) < len(on):
         raise CaseError(f"effects = {on}; each may stand there once")
     for name in effects.REGISTRY.keys() & table.keys() - set(on):
-        raise CaseError(f"[{name}] is given, but {name} is not among effects = {list(on)}; add it there or remove the section")
+        raise CaseError(
+            f"[{name}] is given, but {name} is not among effects = {list(on)}; add it there or remove the section"
+        )
     return tuple(on)
 
 
@@ -166,7 +171,11 @@ def _automatic(table: dict) -> tuple[str, ...]:
 def to_table(case: Case) -> dict:
     """The TOML table of a case, every value resolved."""
     table = {"title": case.title, "scene": case.scene, "dimensions": case.dimensions, "effects": list(case.effects)}
-    table |= {name: write(getattr(case, name)) for name in (*SECTIONS, "coupling", "liquid", "gas_phase") if getattr(case, name)}
+    table |= {
+        name: write(getattr(case, name))
+        for name in (*SECTIONS, "coupling", "liquid", "gas_phase")
+        if getattr(case, name)
+    }
     table |= {group: {name: write(entry) for name, entry in getattr(case, group).items()} for group in GROUPS}
     table |= {name: write(parameters) for name, parameters in case.parameters.items() if write(parameters)}
     if case.vapour:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sdph.effects.around.inflow import Nozzle
+from sdph.effects.around.nozzles import Nozzle
 from sdph.engine.geometry import SIDES
 from sdph.engine.rows import SKIN
 from sdph.methods.liquids.sections import GasPhase, Liquid, Pool
@@ -16,7 +16,8 @@ class Run:
     end_time: float = quantity("s", above=0.0)
     output_interval: float = quantity("s", above=0.0)
     step_factor: float = quantity("", 1.0, least=1e-6, most=1e3)  # sub-steps over the largest that the effects allow
-    accuracy: float = quantity("", 0.01, above=0.0, most=1.0)  # error that is allowed: decides `effects = "auto"` and warnings
+    # error that is allowed: decides `effects = "auto"` and warnings
+    accuracy: float = quantity("", 0.01, above=0.0, most=1.0)
     report_at: tuple = vector("s", ())  # times that a window ends at, so that history.csv has them
     metrics: tuple = words(())  # of sdph.running.metrics, for metrics.csv and the summary
     checkpoint_interval: float = quantity("s", 600.0, above=0.0)  # of wall time; our choice
@@ -45,8 +46,10 @@ class Resolution:
     spacing: float = quantity("mm", above=0.0)
     smoothing_ratio: float = quantity("", 1.5, least=1.0, most=3.0)  # paper section 4: h is 1.5 spacings
     cell: float | None = quantity("mm", None, above=0.0)  # of the gas; the mean along an axis that is stretched
-    stretch: tuple | None = vector("", None)  # along each axis: width of the last gas cell over the first (blockMesh's simpleGrading)
-    neighbour_skin: float = quantity("", SKIN, least=0.0, most=1.0)  # of the kernel's reach: how far neighbour rows look beyond it
+    # along each axis: width of the last gas cell over the first (blockMesh's simpleGrading)
+    stretch: tuple | None = vector("", None)
+    # of the kernel's reach: how far neighbour rows look beyond it
+    neighbour_skin: float = quantity("", SKIN, least=0.0, most=1.0)
 
 
 @record
@@ -81,9 +84,11 @@ class Grains:
     heat_capacity: float = quantity("J_kg_K", above=0.0)
     conductivity: float = quantity("W_m_K", above=0.0, tiny=True)  # grains may insulate
     diameter_std: float = quantity("mm", 0.0, least=0.0)
-    restitution: float = quantity("", 0.9, least=0.0, most=0.9999)  # not in the paper: Fluent's default (sdph-notes, section 2)
+    # not in the paper: Fluent's default (sdph-notes, section 2)
+    restitution: float = quantity("", 0.9, least=0.0, most=0.9999)
     packing_limit: float = quantity("", 0.63, above=0.0, most=0.74)  # the same
-    surface_tension: float | None = quantity("N_m", None, above=0.0)  # of droplets: for Weber and Bond numbers of `sdph explain`
+    # of droplets: for Weber and Bond numbers of `sdph explain`
+    surface_tension: float | None = quantity("N_m", None, above=0.0)
     granular_temperature: float = quantity("m2_s2", 1e-4, least=0.0)  # at the start; the same
 
 
@@ -131,7 +136,8 @@ class Coupling:
     window_tolerance: float = quantity("", 2e-5, above=0.0)  # error of one window over the heat there is to exchange
     window_largest: float = quantity("s", 1e-2, above=0.0)
     courant: float = quantity("", 1.0, least=1e-6)  # of the gas, in one window
-    gas_tolerance: float = quantity("", 1e-11, above=0.0, most=1e-4)  # relative, of the embedded solver; pressure: 1000 times that; our choice
+    # relative, of the embedded solver; pressure: 1000 times that; our choice
+    gas_tolerance: float = quantity("", 1e-11, above=0.0, most=1e-4)
 
 
 @record

@@ -32,11 +32,19 @@ def main(given: list[str] | None = None) -> int:
     except OSError as error:
         if error.errno == errno.ENAMETOOLONG:
             return _failed(f"{str(error.filename)[:80]}...: {error.strerror}; give a shorter one", BAD_INPUT)
-        return _failed(f"{error.filename or 'a file'}: {error.strerror or error}; give a place that is there and can be written", CANNOT_WRITE)
+        return _failed(
+            f"{error.filename or 'a file'}: {error.strerror or error}; give a place that is there and can be written",
+            CANNOT_WRITE,
+        )
     except KeyboardInterrupt as stop:
-        return _failed(str(stop) and stop or "interrupted", 128 + getattr(stop, "number", signal.SIGINT))
+        return _failed((str(stop) and stop) or "interrupted", 128 + getattr(stop, "number", signal.SIGINT))
     except RuntimeError as error:
-        code = {"GasError": GAS_FAILED, "CannotWrite": CANNOT_WRITE, "Unstable": WENT_UNSTABLE, "Stalled": WENT_UNSTABLE}.get(type(error).__name__)
+        code = {
+            "GasError": GAS_FAILED,
+            "CannotWrite": CANNOT_WRITE,
+            "Unstable": WENT_UNSTABLE,
+            "Stalled": WENT_UNSTABLE,
+        }.get(type(error).__name__)
         if code is None:
             raise
         return _failed(error, code)
@@ -128,7 +136,9 @@ def _overrides(options) -> tuple[str, ...]:
 
 
 def _table(summary: dict) -> str:
-    return "\n".join(f"{key:40s} {value:.9g}" if isinstance(value, float) else f"{key:40s} {value}" for key, value in summary.items())
+    return "\n".join(
+        f"{key:40s} {value:.9g}" if isinstance(value, float) else f"{key:40s} {value}" for key, value in summary.items()
+    )
 
 
 def explain_case(options) -> int:
@@ -159,7 +169,11 @@ def cost_of_accuracy(options) -> int:
     from sdph.study.cost import climb, report, rows
 
     folder = options.out or Path("runs/cost") / options.scene
-    found = rows.errors(climb.climb(options.scene, folder / "cost.csv", options.budget, options.repeats, lambda text: print(text, flush=True)))
+    found = rows.errors(
+        climb.climb(
+            options.scene, folder / "cost.csv", options.budget, options.repeats, lambda text: print(text, flush=True)
+        )
+    )
     print(f"\n{report.text(options.scene, found)}")
     report.draw(options.scene, found, folder / "cost.png")
     print(f"{folder}/cost.csv and cost.png")
@@ -185,7 +199,11 @@ def stress_cases(options) -> int:
         if not options.json:
             suite.show(verdicts[-1])
     fine = [verdict.ok for verdict in verdicts]
-    print(output.strict_json({"checks": [check for verdict in verdicts for check in verdict.checks]}) if options.json else f"{sum(fine)} of {len(fine)} pass")
+    print(
+        output.strict_json({"checks": [check for verdict in verdicts for check in verdict.checks]})
+        if options.json
+        else f"{sum(fine)} of {len(fine)} pass"
+    )
     return FINE if all(fine) else CHECK_FAILED
 
 

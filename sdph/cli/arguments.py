@@ -32,16 +32,31 @@ def parser() -> argparse.ArgumentParser:
     explain = _command(commands, "explain", "what a case calls for, its limits and its cost, before it runs")
     _case_options(explain)
     _code_option(explain)
-    explain.add_argument("--measure", action="store_true", help="measure what each effect costs on this machine; minutes the first time")
+    explain.add_argument(
+        "--measure", action="store_true", help="measure what each effect costs on this machine; minutes the first time"
+    )
     cost = _command(commands, "cost", "what accuracy costs in time: measures a ladder of settings, draws it")
     cost.add_argument("scene")
     cost.add_argument("--out", type=Path, help="folder (default: runs/cost/SCENE); goes on with what is there")
-    cost.add_argument("--budget", type=seconds, default=float("inf"), metavar="TIME", help="such as 90s or 10min: starts nothing new after that")
+    cost.add_argument(
+        "--budget",
+        type=seconds,
+        default=float("inf"),
+        metavar="TIME",
+        help="such as 90s or 10min: starts nothing new after that",
+    )
     cost.add_argument("--repeats", type=count, default=1, help="runs of each setting; the median counts (default: 1)")
     stress = _command(commands, "stress", "hard cases that must stay stable; exit code 1 if one does not")
     stress.add_argument("case", nargs="*", help="hard cases (default: all under validation/stress)")
     stress.add_argument("--fast", action="store_true", help="only those that CI runs")
-    stress.add_argument("--faults", type=count, nargs="?", const=50, metavar="N", help="kill, starve and stop runs at N random moments (50)")
+    stress.add_argument(
+        "--faults",
+        type=count,
+        nargs="?",
+        const=50,
+        metavar="N",
+        help="kill, starve and stop runs at N random moments (50)",
+    )
     stress.add_argument("--json", action="store_true", help="print the checks as JSON")
     stress.add_argument("--map", action="store_true", help="measure how far beyond its limits each effect stays stable")
     compare = _command(commands, "compare", "a run against a reference; exit code 1 outside tolerance")
@@ -58,7 +73,9 @@ def parser() -> argparse.ArgumentParser:
     view.add_argument("run", type=Path)
     view.add_argument("--png", type=Path, help="write a picture instead of opening a window")
     view.add_argument("--time", type=float, metavar="T", help="time [s] (default: the last)")
-    view.add_argument("--field", help="what colours the particles and cells (default: temperature, of a liquid velocity)")
+    view.add_argument(
+        "--field", help="what colours the particles and cells (default: temperature, of a liquid velocity)"
+    )
     view.add_argument("--movie", type=Path, help="write all times as a .gif or .mp4 instead of opening a window")
     report = _command(commands, "report", "one HTML file of one or several runs, side by side; also of failed ones")
     report.add_argument("runs", nargs="+", type=Path, metavar="RUN")
@@ -81,7 +98,11 @@ def _case_options(parser) -> None:
 
 
 def _code_option(parser) -> None:
-    parser.add_argument("--allow-code", action="store_true", help="let the OpenFOAM files of your case run code (#codeStream and its like)")
+    parser.add_argument(
+        "--allow-code",
+        action="store_true",
+        help="let the OpenFOAM files of your case run code (#codeStream and its like)",
+    )
 
 
 def _run_options(parser) -> None:
@@ -94,9 +115,16 @@ def _run_options(parser) -> None:
     parser.add_argument("--transport", choices=("socket", "file"), help="how fields travel to OpenFOAM")
     parser.add_argument("--np", type=int, help="MPI ranks of the gas solver")
     _code_option(parser)
-    parser.add_argument("--accuracy", type=share, metavar="E", help="take the cheapest measured setting that errs by this or less, such as 2%%")
+    parser.add_argument(
+        "--accuracy",
+        type=share,
+        metavar="E",
+        help="take the cheapest measured setting that errs by this or less, such as 2%%",
+    )
     parser.add_argument("--until", type=float, metavar="T", help="end time [s]")
-    parser.add_argument("--watch", action="store_true", help="keep a page of the run as it goes in its folder: watch.html")
+    parser.add_argument(
+        "--watch", action="store_true", help="keep a page of the run as it goes in its folder: watch.html"
+    )
     parser.add_argument("--json", action="store_true", help="print the summary as JSON")
 
 
@@ -104,7 +132,9 @@ def share(text: str) -> float:
     """2% or 0.02; no more than 1."""
     found = _above_zero(text.removesuffix("%"), "2% or 0.02") / (100.0 if text.endswith("%") else 1.0)
     if found > 1.0:
-        raise argparse.ArgumentTypeError(f"{text}; it must be at most 1, or 100%: did you mean {text.removesuffix('%')}%?")
+        raise argparse.ArgumentTypeError(
+            f"{text}; it must be at most 1, or 100%: did you mean {text.removesuffix('%')}%?"
+        )
     return found
 
 

@@ -51,7 +51,7 @@ def moving(case) -> bool:
 
 
 def limits(parameters, case, state) -> dict[str, float]:
-    """Longest sub-step [s] that each effect that is on bears with the particles as they are; those without a limit left out."""
+    """Longest sub-step [s] that each effect that is on bears with the particles as they are, where there is one."""
     found = {name: REGISTRY[name].dt_limit(parameters[name], case, state) for name in case.effects}
     return {name: limit for name, limit in found.items() if limit != NO_LIMIT}
 

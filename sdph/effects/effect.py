@@ -41,12 +41,13 @@ class Effect:
     kernel      case -> the floats that its terms take, as a NamedTuple
     arrays      arrays of the state that it needs
     sources     quantities by which it acts on the gas (names of coupling.gas.SOURCES)
-    to_gas      (window's exchange, sdph.handed.Handed; case) -> quantity -> what each particle gives of it, (N,) or (N, 3)
+    to_gas      (exchange of a window, its case) -> quantity -> what each particle gives of it, (N,) or (N, 3)
     moves       whether particles move by it
     matter      what it acts on: "grains", "liquid"
     dt_limit    (kernel parameters, case, state as it is) -> largest stable sub-step [s]; asked before every sub-step
     two_phases  whether it needs a second phase
-    call        scales of a case (sdph.methods.grains.scales) -> Judgement; without it the effect is on where the user says so
+    call        scales of a case (sdph.methods.grains.scales) -> Judgement; without it the effect is on where the user
+                says so
     """
 
     name: str

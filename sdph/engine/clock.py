@@ -7,7 +7,8 @@ import math
 import numpy as np
 
 SAME = 1e-9  # of the longest time between outputs: moments nearer to each other differ by round-off only; our choice
-DIGITS = 15  # of a multiple of an interval: 12 x 0.05 is 0.6 then, as whoever wrote the end time meant it; a float holds as many
+# of a multiple of an interval: 12 x 0.05 is 0.6 then, as whoever wrote the end time meant it; a float holds as many
+DIGITS = 15
 WHOLE = 1.0 - 1e-9  # of a limit: a part that is longer than it by round-off is allowed
 
 
@@ -18,8 +19,8 @@ class Stalled(RuntimeError):
 class Clock:
     """Landmarks of a run [s]: outputs of fields, rows of the history every `rows` [s], `run.report_at`, the end.
 
-    A landmark within round-off of now is now. `shortest` [s] is the least that a window or step may be long; `limit` names
-    what ruled the last one.
+    A landmark within round-off of now is now. `shortest` [s] is the least that a window or step may be long; `limit`
+    names what ruled the last one.
     """
 
     KEPT = ("limit",)  # see sdph.engine.restart
@@ -58,10 +59,12 @@ class Clock:
 
 
 def count_of_parts(length: float, longest: float, shortest: float, cause: str) -> int:
-    """Number of equal parts, each no longer than `longest`, of a `length` [s]; `Stalled` where `longest` is below `shortest`."""
+    """Number of equal parts, each no longer than `longest`, of a `length` [s]; `Stalled` where `longest` is below
+    `shortest`."""
     if not longest >= shortest:
         raise Stalled(
-            f"the run gets nowhere: {cause} asks for {longest:.2g} s at a time, and less than {shortest:.2g} s (1e-9 of the longest time "
+            f"the run gets nowhere: {cause} asks for {longest:.2g} s at a time, and less than {shortest:.2g} s (1e-9 "
+            "of the longest time "
             "between two outputs) is not taken; raise that limit, or look for what has become so fast"
         )
     return max(1, math.ceil(length / longest * WHOLE))

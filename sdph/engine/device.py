@@ -38,7 +38,10 @@ def warnings() -> list[str]:
         layer = numba.threading_layer()
     except ValueError:  # none has run in parallel
         return []
-    slow = "loops ran on numba's own work queue, which takes 0.14 ms to start one and OpenMP 0.002 ms; install OpenMP (libgomp1)"
+    slow = (
+        "loops ran on numba's own work queue, which takes 0.14 ms to start one and OpenMP 0.002 ms; install OpenMP "
+        "(libgomp1)"
+    )
     return [slow] if layer == "workqueue" else []
 
 

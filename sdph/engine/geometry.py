@@ -24,11 +24,13 @@ def faster(s, box, i, j):
     """v_i - v_j (3 components; the last 0 in two dimensions)."""
     return s.u[i] - s.u[j], s.v[i] - s.v[j], s.w[i] - s.w[j] if deep(box) else 0.0
 
+
 OPEN = 0.0  # period of an axis that is not periodic
 
 
 class Plane(NamedTuple):
-    """Lengths of a periodic box in two dimensions and their inverses, both 0 along an open axis: an image costs no branch."""
+    """Lengths of a periodic box in two dimensions and their inverses, both 0 along an open axis: an image costs no
+    branch."""
 
     length_x: float
     length_y: float
@@ -45,6 +47,7 @@ class Space(NamedTuple):
     inverse_x: float
     inverse_y: float
     inverse_z: float
+
 
 OPEN_PLANE, OPEN_SPACE = (), (0.0,)  # boxes in which nothing is periodic
 

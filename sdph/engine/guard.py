@@ -1,8 +1,8 @@
 """Catches a run that goes unstable, within a few sub-steps: what grew, which particle, where, when, and what to lower.
 
 Bounds come from the case: no particle can be ten times as fast as everything that drives it taken together, nor much
-hotter or colder than all that the case gives a temperature. The gas solver knows no sound, so that sudden cooling drives
-its gas past the speed of sound for a moment: ten times that is too much.
+hotter or colder than all that the case gives a temperature. The gas solver knows no sound, so that sudden cooling
+drives its gas past the speed of sound for a moment: ten times that is too much.
 """
 
 from __future__ import annotations
@@ -43,15 +43,20 @@ class Watch:
     def begin(self, simulation) -> None:
         """Before a window: the state to go back to."""
         self.time, self.window = simulation.time, simulation.windows
-        self.last = {"time": simulation.time, **{name: a.copy() for name, a in simulation.state._asdict().items() if len(a)}}
+        self.last = {
+            "time": simulation.time,
+            **{name: a.copy() for name, a in simulation.state._asdict().items() if len(a)},
+        }
 
     def admit(self, state: dict, names, bounds: dict) -> None:
-        """Unfit where the arrays of a kept State, those `names` of effects among them, are not one row a particle each, or
-        values are out of `bounds`, name -> (low, high)."""
+        """Unfit where the arrays of a kept State, those `names` of effects among them, are not one row a particle each,
+        or values are out of `bounds`, name -> (low, high)."""
         count, fresh = len(state["x"]), particles.empty(1, names, self.case.dimensions)
         for name, like in fresh._asdict().items():
             if len(state[name]) != count * len(like):
-                raise Unfit(f"{name} has {len(state[name])} values where {count * len(like)} belong to {count} particles")
+                raise Unfit(
+                    f"{name} has {len(state[name])} values where {count * len(like)} belong to {count} particles"
+                )
         if len(np.unique(state["ident"])) < count:
             raise Unfit("two particles have one number")
         far = FAR * max(self.case.domain.size)
@@ -62,14 +67,20 @@ class Watch:
                 raise Unfit(f"{which}; this case allows {low:.3g} to {high:.3g}")
 
     def hold(self, name, values, bounds, state, lower: str) -> None:
-        """Unstable where a value (N,) of the particles is out of bounds (low, high, unit); `lower`: what is to be lowered."""
+        """Unstable where a value (N,) of the particles is out of bounds (low, high, unit); `lower`: what is to be
+        lowered."""
         worst = outside(values, *bounds[:2])
         if worst is not None:
-            self.stop(name, f"particle {state.ident[worst]}", particles.positions(state)[worst], values[worst], bounds, lower)
+            self.stop(
+                name, f"particle {state.ident[worst]}", particles.positions(state)[worst], values[worst], bounds, lower
+            )
 
     def stop(self, name, which, place, value, bounds, lower: str) -> None:
         found = self._told(name, which, place, value, bounds)
-        raise Unstable(f"the run went unstable at t = {self.time:.6g} s, in window {self.window + 1}: {found}; lower {lower}", self.last)
+        raise Unstable(
+            f"the run went unstable at t = {self.time:.6g} s, in window {self.window + 1}: {found}; lower {lower}",
+            self.last,
+        )
 
     def _told(self, name, which, place, value, bounds) -> str:
         """Name a value that is out of bounds (low, high, unit), its place [m], and what is allowed."""

@@ -12,8 +12,8 @@ shapes, every number finite. Attributes whose fresh value does not tell their fo
 
 and what only the class itself can judge it refuses in `admit(kept)`, by `Unfit`. Nothing is set before all has been
 checked. What follows from the kept is not kept: a class that has to make it anew does so in `revive()`, which is called
-once its attributes are back. An effect with a memory of its own keeps it in arrays of the State, or in an object that is
-named in the KEPT of the one which owns it; nothing else is to be done.
+once its attributes are back. An effect with a memory of its own keeps it in arrays of the State, or in an object that
+is named in the KEPT of the one which owns it; nothing else is to be done.
 """
 
 from __future__ import annotations
@@ -102,7 +102,8 @@ FORM = (Maybe, Many, Named, Growing, Positive, Cell)
 
 
 def pack(value, arrays: dict):
-    """A value as JSON can hold it; arrays go to `arrays`, numbered: a key may be a text that a file cannot be called."""
+    """A value as JSON can hold it; arrays go to `arrays`, numbered: a key may be a text that a file cannot be
+    called."""
     if isinstance(value, np.ndarray):
         arrays[name := str(len(arrays))] = value
         return {"array": name}
@@ -142,7 +143,8 @@ def _parts(value) -> dict | None:
 
 
 def check(like, value, where: str, free: bool = False) -> None:
-    """`Unfit` where `value` is not of the form of `like`, a fresh value or a FORM; arrays of any length where `free`."""
+    """`Unfit` where `value` is not of the form of `like`, a fresh value or a FORM; arrays of any length where
+    `free`."""
     if isinstance(like, FORM):
         like.check(None, value, where)
     elif isinstance(like, np.ndarray):
@@ -152,7 +154,11 @@ def check(like, value, where: str, free: bool = False) -> None:
     elif (parts := _parts(like)) is not None:
         _named(like, parts, value, where, free)
     elif isinstance(like, (list, tuple)):
-        _expect(isinstance(value, list) and len(value) == len(like), where, f"is {short(value)}; a list of {len(like)} was expected")
+        _expect(
+            isinstance(value, list) and len(value) == len(like),
+            where,
+            f"is {short(value)}; a list of {len(like)} was expected",
+        )
         for i, (part, own) in enumerate(zip(value, like)):
             check(own, part, f"{where}.{i}", free)
     else:
@@ -190,7 +196,9 @@ def _single(like, value, where: str) -> None:
     elif isinstance(like, str):
         _text(value, where)
     elif isinstance(like, (float, np.floating)):
-        _expect(isinstance(value, float) and math.isfinite(value), where, f"is {short(value)}; a finite number was expected")
+        _expect(
+            isinstance(value, float) and math.isfinite(value), where, f"is {short(value)}; a finite number was expected"
+        )
     else:
         _whole(value, where)
 
@@ -201,7 +209,8 @@ def _whole(value, where: str) -> None:
 
 
 def _text(value, where: str) -> None:
-    fine = isinstance(value, str) and not any("\ud800" <= letter <= "\udfff" for letter in value)  # halves of letters cannot be written
+    # halves of letters cannot be written
+    fine = isinstance(value, str) and not any("\ud800" <= letter <= "\udfff" for letter in value)
     _expect(fine, where, f"is {short(value)}; a text was expected")
 
 

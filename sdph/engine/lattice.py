@@ -8,7 +8,8 @@ import numpy as np
 
 
 def lattice(region, spacing: float, dimensions: int) -> np.ndarray:
-    """(N, dimensions) points of a square or cubic lattice in a region, cell-centred on the region's centre or corner."""
+    """(N, dimensions) points of a square or cubic lattice in a region, cell-centred on the region's centre or
+    corner."""
     if region.shape == "box":
         counts = [max(1, round((b - a) / spacing)) for a, b in zip(region.lower, region.upper)]
         ticks = [a + (np.arange(n) + 0.5) * (b - a) / n for a, b, n in zip(region.lower, region.upper, counts)]

@@ -16,15 +16,14 @@ from sdph.engine.kept import ROW, Maybe, Unfit
 from sdph.engine.table import Table
 
 VECTORS = (
-    "impulse_to_particles", "impulse_to_gas", "impulse_of_body_forces", "impulse_of_walls", "impulse_of_inflow", "impulse_of_outflow",
+    "impulse_to_particles", "impulse_to_gas", "impulse_of_body_forces", "impulse_of_walls", "impulse_of_inflow",
+    "impulse_of_outflow",
 )  # fmt: skip
 AMOUNTS = (
     "heat_to_particles_J", "heat_to_gas_J", "drag_heat_J", "mechanical_heat_J", "evaporated_kg", "vapour_to_gas_kg",
     "condensation_refused_kg", "latent_heat_J", "capacity_heat_J", "injected_kg", "injected_J", "left_kg", "left_J",
 )  # fmt: skip
-NOTHING = dict.fromkeys(AMOUNTS, 0.0) | {
-    f"{name}_{a}_kg_m_s": 0.0 for name in VECTORS for a in "xyz"
-}
+NOTHING = dict.fromkeys(AMOUNTS, 0.0) | {f"{name}_{a}_kg_m_s": 0.0 for name in VECTORS for a in "xyz"}
 
 
 def vector(name: str, values) -> dict[str, float]:
@@ -35,13 +34,15 @@ def vector(name: str, values) -> dict[str, float]:
 class Ledger:
     """Keeps the rows of one run and writes each to `ledger.csv` as it comes."""
 
-    KEPT = ("sums", "heat_mismatch", "impulse_mismatch", "mass_mismatch", "first", "last", "table")  # see sdph.engine.kept
+    # see sdph.engine.kept
+    KEPT = ("sums", "heat_mismatch", "impulse_mismatch", "mass_mismatch", "first", "last", "table")
     FORMS = {"first": Maybe(ROW), "last": Maybe(ROW)}
 
     def __init__(self, path: Path, case, depth: float):
         self.case, self.depth = case, depth
         self.sums = dict.fromkeys((*NOTHING, "heat_exchanged_J", "impulse_exchanged_kg_m_s"), 0.0)
-        self.heat_mismatch = self.impulse_mismatch = self.mass_mismatch = 0.0  # largest |particles - gas| of a window [J], [kg m/s], [kg]
+        # largest |particles - gas| of a window [J], [kg m/s], [kg]
+        self.heat_mismatch = self.impulse_mismatch = self.mass_mismatch = 0.0
         self.first = self.last = None
         self.table = Table(path)
 
@@ -54,13 +55,17 @@ class Ledger:
 
     def close_window(self, time: float, dt: float, limit: str, state, gas_state, exchanged: dict) -> None:
         """The row of a window; `exchanged` has the keys of NOTHING."""
-        self._write({"time_s": time, "window_s": dt, "limit": limit} | self._totals(state, gas_state.budget) | exchanged)
+        self._write(
+            {"time_s": time, "window_s": dt, "limit": limit} | self._totals(state, gas_state.budget) | exchanged
+        )
         for key, value in exchanged.items():
             self.sums[key] += value
         self.sums["heat_exchanged_J"] += abs(exchanged["heat_to_particles_J"])
         self.heat_mismatch = max(self.heat_mismatch, abs(exchanged["heat_to_particles_J"] + exchanged["heat_to_gas_J"]))
         self.mass_mismatch = max(self.mass_mismatch, abs(exchanged["evaporated_kg"] - exchanged["vapour_to_gas_kg"]))
-        impulse = [(exchanged[f"impulse_to_particles_{a}_kg_m_s"], exchanged[f"impulse_to_gas_{a}_kg_m_s"]) for a in "xyz"]
+        impulse = [
+            (exchanged[f"impulse_to_particles_{a}_kg_m_s"], exchanged[f"impulse_to_gas_{a}_kg_m_s"]) for a in "xyz"
+        ]
         self.sums["impulse_exchanged_kg_m_s"] += math.hypot(*(own for own, _ in impulse))
         self.impulse_mismatch = max(self.impulse_mismatch, math.hypot(*(own + other for own, other in impulse)))
 
@@ -71,20 +76,29 @@ class Ledger:
         if "inflow" in self.case.effects or "outflow" in self.case.effects:
             sums |= {key: self.sums[key] for key in ("injected_kg", "left_kg")}
         if "evaporation" in self.case.effects:
-            sums |= {key: self.sums[key] for key in ("evaporated_kg", "condensation_refused_kg", "latent_heat_J", "capacity_heat_J")}
+            sums |= {
+                key: self.sums[key]
+                for key in ("evaporated_kg", "condensation_refused_kg", "latent_heat_J", "capacity_heat_J")
+            }
         if self.case.coupling.one_way:  # the gas feels nothing, so there is no balance of energy to close
             return sums | drifts
         if "evaporation" in self.case.effects:
             vapour = self._change("gas_vapour_kg", 1) + self._change("gas_vapour_in_kg", -1)
             drifts |= {
-                "species_drift_rel": _ratio(abs(math.fsum((*vapour, -self.sums["vapour_to_gas_kg"]))), self.sums["evaporated_kg"]),
+                "species_drift_rel": _ratio(
+                    abs(math.fsum((*vapour, -self.sums["vapour_to_gas_kg"]))), self.sums["evaporated_kg"]
+                ),
                 "exchange_mass_mismatch_rel": _ratio(self.mass_mismatch, self.sums["evaporated_kg"]),
             }
-        return sums | drifts | {
-            "exchange_energy_mismatch_rel": _ratio(self.heat_mismatch, self.sums["heat_exchanged_J"]),
-            "exchange_momentum_mismatch_rel": _ratio(self.impulse_mismatch, self.sums["impulse_exchanged_kg_m_s"]),
-            "energy_drift_rel": _ratio(abs(self._energy_drift()), self.sums["heat_exchanged_J"]),
-        }
+        return (
+            sums
+            | drifts
+            | {
+                "exchange_energy_mismatch_rel": _ratio(self.heat_mismatch, self.sums["heat_exchanged_J"]),
+                "exchange_momentum_mismatch_rel": _ratio(self.impulse_mismatch, self.sums["impulse_exchanged_kg_m_s"]),
+                "energy_drift_rel": _ratio(abs(self._energy_drift()), self.sums["heat_exchanged_J"]),
+            }
+        )
 
     def _mass_drifts(self) -> dict[str, float]:
         """Of both phases together, and of the particles, over all the mass that there was or that came in."""
@@ -101,7 +115,9 @@ class Ledger:
 
     def _energy_drift(self) -> float:
         """What the energy of both phases grew by beyond what came in and was made [J]."""
-        change = self._change("particle_energy_J", 1) + self._change("gas_energy_J", 1) + self._change("gas_energy_in_J", -1)
+        change = (
+            self._change("particle_energy_J", 1) + self._change("gas_energy_J", 1) + self._change("gas_energy_in_J", -1)
+        )
         made = [self.sums[key] for key in ("mechanical_heat_J", "drag_heat_J", "injected_J")]
         bound = [self.sums[key] for key in ("latent_heat_J", "capacity_heat_J", "left_J")]
         return math.fsum((*change, *bound, *(-value for value in made)))
@@ -113,7 +129,9 @@ class Ledger:
     def _totals(self, state, budget) -> dict[str, float]:
         velocity = particles.velocities(state)
         momentum = np.einsum("i,ij->j", state.mass, velocity)
-        enthalpy = state.mass * state.temperature * self.case.grains.heat_capacity if len(state.temperature) else np.zeros(1)
+        enthalpy = (
+            state.mass * state.temperature * self.case.grains.heat_capacity if len(state.temperature) else np.zeros(1)
+        )
         row = {
             "particles": len(state.x),
             "particle_mass_kg": float(state.mass.sum()),
@@ -131,8 +149,8 @@ class Ledger:
 
 
 def refuse_rows(kept: dict, not_first=()) -> None:
-    """Unfit where the first row of a kept ledger, which lacks `not_first`, or the last is not of its columns, or where a
-    value is no number."""
+    """Unfit where the first row of a kept ledger, which lacks `not_first`, or the last is not of its columns, or where
+    a value is no number."""
     columns = set(kept["table"]["columns"])
     for row, expected in ((kept["first"], columns - set(not_first)), (kept["last"], columns)):
         if not row or set(row) != expected or not isinstance(row.get("limit"), str):

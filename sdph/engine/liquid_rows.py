@@ -1,7 +1,7 @@
 """Neighbour rows of a liquid and its walls, one behind the other, so that a row takes no more room than it needs.
 
-Within a cell liquid comes before wall, and the row of a wall particle holds the liquid near it and no other wall. Rows are
-counted before they are filled: to count is quick, in whole vectors.
+Within a cell liquid comes before wall, and the row of a wall particle holds the liquid near it and no other wall. Rows
+are counted before they are filled: to count is quick, in whole vectors.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from sdph.engine.state import WALL
 
 
 class Rows(NamedTuple):
-    """Neighbours of particle i: `count[i]` entries of `index` from `start[i]` on, then i itself, once at least, up to a multiple
-    of LANES."""
+    """Neighbours of particle i: `count[i]` entries of `index` from `start[i]` on, then i itself, once at least, up to a
+    multiple of LANES."""
 
     index: np.ndarray
     start: np.ndarray
@@ -52,7 +52,10 @@ class LiquidNeighbours(neighbours.Neighbours):
 
     def _rows_of(self, grid, here, kind) -> Rows:
         places, self.box = neighbours.three(here), geometry.box_of(self.period, len(here))
-        halves = neighbours.starts(_halves(neighbours.cells(grid, *places), kind), 2 * int(grid.shape.prod())).view(np.uint64)  # see _runs
+        # see _runs
+        halves = neighbours.starts(_halves(neighbours.cells(grid, *places), kind), 2 * int(grid.shape.prod())).view(
+            np.uint64
+        )
         near = (grid, halves, *places, kind, self.box, (self.reach * (1.0 + self.skin)) ** 2)
         count, start = np.empty(len(kind), np.int32), np.zeros(len(kind) + 1, np.int64)
         _count(*near, count)
@@ -65,7 +68,8 @@ class LiquidNeighbours(neighbours.Neighbours):
         """Room for that many entries; that of the last time where they fit, which nobody needs any more."""
         if len(self.room) < entries:
             self.room = np.empty(0, np.uint32)  # given back before more is taken
-            self.room = np.empty(entries + entries // 16, np.uint32)  # some spare, so that a slow compaction does not ask each time
+            # some spare, so that a slow compaction does not ask each time
+            self.room = np.empty(entries + entries // 16, np.uint32)
         return self.room
 
     def _holds(self, here) -> bool:
@@ -94,8 +98,8 @@ def _within(x, y, z, box, i, j, cutoff2):
 
 @njit(cache=True, error_model="numpy")
 def _runs(grid, halves, x, y, z, kind, i):
-    """(C, 2) first and one past the last particle that i may meet in each cell around it. They are unsigned: of an index that
-    might be negative numba asks so each time, and nothing is done in whole vectors."""
+    """(C, 2) first and one past the last particle that i may meet in each cell around it. They are unsigned: of an
+    index that might be negative numba asks so each time, and nothing is done in whole vectors."""
     layers, lines, cells = span(grid, 2, z[i]) if len(z) else (0, 1), span(grid, 1, y[i]), span(grid, 0, x[i])
     runs = np.empty(((layers[1] - layers[0]) * (lines[1] - lines[0]) * (cells[1] - cells[0]), 2), np.uint64)
     found, last = 0, 1 if kind[i] == WALL else 2
@@ -123,7 +127,8 @@ def _count(grid, halves, x, y, z, kind, box, cutoff2, count):
 
 @njit(cache=True, parallel=True, error_model="numpy")
 def _fill(grid, halves, x, y, z, kind, box, cutoff2, start, count, index):
-    """index: the rows, each from its start on. An entry is written before it is known to count, which saves a branch."""
+    """index: the rows, each from its start on. An entry is written before it is known to count, which saves a
+    branch."""
     for i in prange(len(x)):
         end = start[i]
         runs = _runs(grid, halves, x, y, z, kind, i)

@@ -1,4 +1,5 @@
-"""Reading of files that somebody else may have made: plain files alone, of bounded size, from which nothing is executed."""
+"""Reading of files that somebody else may have made: plain files alone, of bounded size, from which nothing is
+executed."""
 
 from __future__ import annotations
 
@@ -13,12 +14,16 @@ from pathlib import Path
 
 import numpy as np
 
-JSON_BYTES, JSON_MEMORY, JSON_DEPTH = 2**28, 2**28, 64  # of a file, of what becomes of it, of lists in lists; our choice
+# of a file, of what becomes of it, of lists in lists; our choice
+JSON_BYTES, JSON_MEMORY, JSON_DEPTH = 2**28, 2**28, 64
 ENTRY = 100  # bytes of memory that a value of JSON takes at most, its text left out
 DIRECTORY = 2**22  # bytes of the list of arrays in a file, some 40 000; our choice
-END, END_64, LOCATOR = struct.Struct("<4s8xL6x"), struct.Struct("<4s36xQ8x"), 20  # of a zip file (APPNOTE.TXT 4.3): signature, bytes of the list
+# of a zip file (APPNOTE.TXT 4.3): signature, bytes of the list
+END, END_64, LOCATOR = struct.Struct("<4s8xL6x"), struct.Struct("<4s36xQ8x"), 20
 PREFIX = b"\x93NUMPY\x01\x00"  # of an array (numpy.lib.format, version 1.0), before the length of its header
-HEAD = re.compile(rb"\{'descr': '([<|][biufU]\d{1,9})', 'fortran_order': (True|False), 'shape': \(([\d, ]{0,200})\), \} *\n")
+HEAD = re.compile(
+    rb"\{'descr': '([<|][biufU]\d{1,9})', 'fortran_order': (True|False), 'shape': \(([\d, ]{0,200})\), \} *\n"
+)
 MOST_NUMBERS = 2**40  # of an array, extents of 0 taken as 1
 
 
@@ -29,14 +34,19 @@ class Unreadable(ValueError):
 def open_plain(path: Path, most: int) -> int:
     """A descriptor of a plain file (no link, pipe or device) of at most `most` bytes."""
     try:
-        descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)  # a pipe nobody writes into would not open
+        # a pipe nobody writes into would not open
+        descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
     except (OSError, ValueError) as error:
-        raise Unreadable(f"{path.name} cannot be read as a plain file ({getattr(error, 'strerror', None) or error})") from None
+        raise Unreadable(
+            f"{path.name} cannot be read as a plain file ({getattr(error, 'strerror', None) or error})"
+        ) from None
     found = os.fstat(descriptor)
     if stat.S_ISREG(found.st_mode) and found.st_size <= most:
         return descriptor
     os.close(descriptor)
-    what = f"has {found.st_size} bytes; at most {most} are allowed" if stat.S_ISREG(found.st_mode) else "is no plain file"
+    what = (
+        f"has {found.st_size} bytes; at most {most} are allowed" if stat.S_ISREG(found.st_mode) else "is no plain file"
+    )
     raise Unreadable(f"{path.name} {what}")
 
 
@@ -67,14 +77,20 @@ def read_json(path: Path):
 def _refuse_depth(path: Path, value) -> None:
     level = [value]
     for _ in range(JSON_DEPTH):
-        level = [part for whole in level if isinstance(whole, (dict, list)) for part in (whole.values() if isinstance(whole, dict) else whole)]
+        level = [
+            part
+            for whole in level
+            if isinstance(whole, (dict, list))
+            for part in (whole.values() if isinstance(whole, dict) else whole)
+        ]
         if not level:
             return
     raise Unreadable(f"{path.name} is nested too deeply")
 
 
 def read_arrays(path: Path, most: int) -> dict[str, np.ndarray]:
-    """Name -> array of a file as `np.savez` writes it, of at most `most` bytes: numbers and texts, stored as they are."""
+    """Name -> array of a file as `np.savez` writes it, of at most `most` bytes: numbers and texts, stored as they
+    are."""
     with open(open_plain(path, most), "rb") as file:
         try:
             return _arrays(file, os.fstat(file.fileno()).st_size)
@@ -91,7 +107,9 @@ def _arrays(file, size: int) -> dict[str, np.ndarray]:
         raise Unreadable("it lists too many arrays")
     with zipfile.ZipFile(file) as archive:
         members = archive.infolist()
-        if sum(member.file_size for member in members) > size or any(member.compress_type != zipfile.ZIP_STORED for member in members):
+        if sum(member.file_size for member in members) > size or any(
+            member.compress_type != zipfile.ZIP_STORED for member in members
+        ):
             raise Unreadable("it says that it holds more than it is long")
         if len(archive.NameToInfo) < len(members):
             raise Unreadable("it holds two arrays of one name")
@@ -114,9 +132,15 @@ def _array(data: bytes) -> np.ndarray:
     head = HEAD.fullmatch(data[start : start + length])
     if data[: len(PREFIX)] != PREFIX or head is None:
         raise Unreadable("an array is not of plain numbers or texts")
-    dtype, shape = np.dtype(head[1].decode()), tuple(int(extent) for extent in head[3].decode().replace(",", " ").split())
+    dtype, shape = (
+        np.dtype(head[1].decode()),
+        tuple(int(extent) for extent in head[3].decode().replace(",", " ").split()),
+    )
     start += length
-    if math.prod(max(1, extent) for extent in shape) > MOST_NUMBERS or math.prod(shape) * dtype.itemsize != len(data) - start:
+    if (
+        math.prod(max(1, extent) for extent in shape) > MOST_NUMBERS
+        or math.prod(shape) * dtype.itemsize != len(data) - start
+    ):
         raise Unreadable(f"an array of shape {shape} and type {dtype} has {len(data) - start} bytes")
     flat = np.frombuffer(data, dtype, offset=start) if len(data) > start else np.empty(0, dtype)
     return flat.reshape(shape, order="F" if head[2] == b"True" else "C").copy(order="A")

@@ -30,12 +30,16 @@ from sdph.schema import CaseError, flat
 FORMAT = 4  # of the files of a checkpoint
 FOLDER = "checkpoints"
 LASTING = 2  # checkpoints that are kept, so that there is one when the newest is damaged
-FREE = ("run.end_time_s", "run.output_interval_s", "run.checkpoint_interval_s", "run.checkpoint_windows")  # keys that may change between the parts of a run
-WRITTEN = ("fields", "gas", "ledger.csv", "history.csv", "metrics.csv")  # in a run folder, what a run that goes on writes into
+# keys that may change between the parts of a run
+FREE = ("run.end_time_s", "run.output_interval_s", "run.checkpoint_interval_s", "run.checkpoint_windows")
+# in a run folder, what a run that goes on writes into
+WRITTEN = ("fields", "gas", "ledger.csv", "history.csv", "metrics.csv")
 MANIFEST, NUMBERS, ARRAYS, GAS = "manifest.json", "numbers.json", "arrays.npz", "gas"
 NAME, DRAFT = re.compile(r"[0-9]{9,18}"), re.compile(r"\.[0-9]{9,18}\.part")
-FORMS = {"time_s": float, "case": dict, "files": dict, "bytes": dict}  # of what is in a manifest besides sdph and format
-HOLLOW, SHARE = 2**30, 64  # bytes of a file from which on it is not read where less than a 64th is on the disk; our choice
+# of what is in a manifest besides sdph and format
+FORMS = {"time_s": float, "case": dict, "files": dict, "bytes": dict}
+# bytes of a file from which on it is not read where less than a 64th is on the disk; our choice
+HOLLOW, SHARE = 2**30, 64
 
 
 class Damaged(RuntimeError):
@@ -68,7 +72,9 @@ class Checkpoint:
         for what, now in (("sdph", __version__), ("format", FORMAT)):
             if self.manifest[what] != now:
                 was = short(self.manifest[what]).strip(kept.QUOTES)
-                raise CaseError(f"{self.folder} was written with {what} {was}; this is {now}: go on with that one, or run anew")
+                raise CaseError(
+                    f"{self.folder} was written with {what} {was}; this is {now}: go on with that one, or run anew"
+                )
         before, now = flat(self.manifest["case"]), flat(_plain(case_table))
         for key in sorted(before.keys() | now.keys()):
             if before.get(key) != now.get(key) and key not in FREE:
@@ -106,7 +112,8 @@ def _told(table: dict, key: str) -> str:
 
 
 def write(run_folder: Path, number: int, time: float, case_table: dict, thing, gas) -> Path:
-    """Checkpoint `number` of a run at `time` [s]: `thing` (has KEPT) and the gas, if there is one. The one before stays."""
+    """Checkpoint `number` of a run at `time` [s]: `thing` (has KEPT) and the gas, if there is one. The one before
+    stays."""
     folder = _own(run_folder) / f"{number:09d}"
     draft = folder.with_name(f".{folder.name}.part")
     shutil.rmtree(draft, ignore_errors=True)
@@ -152,10 +159,13 @@ def newest(run_folder: Path, status=lambda text: None) -> Checkpoint | None:
 
 
 def prepare(run_folder: Path) -> None:
-    """For who has claimed a run and goes on with it: refuse what leads out of its folder, remove drafts that were cut."""
+    """For who has claimed a run and goes on with it: refuse what leads out of its folder, remove drafts that were
+    cut."""
     for path in (run_folder / name for name in WRITTEN):
-        if path.is_symlink() or path.exists() and not (path.is_file() or path.is_dir()):
-            raise CaseError(f"{path} is a link or a device; a run goes on in its own folder: put there what it stands for")
+        if path.is_symlink() or (path.exists() and not (path.is_file() or path.is_dir())):
+            raise CaseError(
+                f"{path} is a link or a device; a run goes on in its own folder: put there what it stands for"
+            )
     for draft in _own(run_folder).glob(".*.part"):
         if DRAFT.fullmatch(draft.name):
             shutil.rmtree(draft, ignore_errors=True)
@@ -193,7 +203,9 @@ def _refuse_links(folder: Path) -> None:
     """CaseError where the folder of a checkpoint, or anything down to its gas's files, is a link."""
     for path in (folder, *folder.glob("*"), *(folder / GAS).glob("*")):
         if path.is_symlink():
-            raise CaseError(f"{path} is a link; checkpoints are plain files: put the file itself there, or remove {folder}")
+            raise CaseError(
+                f"{path} is a link; checkpoints are plain files: put the file itself there, or remove {folder}"
+            )
 
 
 def _refuse_form(manifest) -> None:
@@ -201,7 +213,9 @@ def _refuse_form(manifest) -> None:
         if type(manifest.get(key)) is not form:
             raise Damaged(f"{key} of its manifest is {short(manifest.get(key))}")
     sums, lengths, time = manifest["files"], manifest["bytes"], manifest["time_s"]
-    whole = all(isinstance(text, str) for text in sums.values()) and all(type(n) is int and n >= 0 for n in lengths.values())
+    whole = all(isinstance(text, str) for text in sums.values()) and all(
+        type(n) is int and n >= 0 for n in lengths.values()
+    )
     if not (whole and sums.keys() == lengths.keys() >= {NUMBERS, ARRAYS}):
         raise Damaged("its manifest does not name its files with sums and lengths")
     if not (math.isfinite(time) and time >= 0.0):

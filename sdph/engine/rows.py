@@ -44,7 +44,10 @@ class Neighbours:
 
     def __init__(self, reach: float, period=(OPEN, OPEN, OPEN), skin: float = SKIN):
         if any(0.0 < length < 2.0 * reach for length in period):
-            raise ValueError(f"periods {tuple(period)} m: a periodic box must be at least two reaches ({2.0 * reach:g} m) wide, or images are missed")
+            raise ValueError(
+                f"periods {tuple(period)} m: a periodic box must be at least two reaches ({2.0 * reach:g} m) wide, or "
+                "images are missed"
+            )
         self.reach, self.skin = reach, skin
         self.period = np.array([*period, OPEN][:3])
         self.box = OPEN_PLANE  # of the particles that rows were last made for
@@ -115,7 +118,8 @@ class Neighbours:
             most = int(count.max(initial=0))
             if most < self.stride:
                 return Rows(index, count)
-            self.stride = (most + 8) // LANES * LANES  # a few spare, so that a slow compaction does not rebuild each time
+            # a few spare, so that a slow compaction does not rebuild each time
+            self.stride = (most + 8) // LANES * LANES
 
     def _room(self, count: int) -> np.ndarray:
         """Rows for `count` points; those of the last time where they fit, which nobody needs any more."""
@@ -188,8 +192,8 @@ def fill_up(index, i, count):
 
 @njit(cache=True, error_model="numpy")
 def length(rows, i):
-    """Entries to loop over in row i, a multiple of LANES: a loop of pairs then runs in whole vectors. The last ones may be i
-    itself, whose separation from i, and so every pair term, is 0."""
+    """Entries to loop over in row i, a multiple of LANES: a loop of pairs then runs in whole vectors. The last ones may
+    be i itself, whose separation from i, and so every pair term, is 0."""
     return (rows.count[i] + LANES - 1) // LANES * LANES
 
 
@@ -204,8 +208,8 @@ def span(grid, a, value):
 
 @njit(cache=True, error_model="numpy")
 def _run(start, row, shape, x0, x1):
-    """First and one past the last particle in the cells x0 to x1 of a row of `shape` cells; none where x1 <= x0. They are
-    unsigned: of an index that might be negative numba asks so each time."""
+    """First and one past the last particle in the cells x0 to x1 of a row of `shape` cells; none where x1 <= x0. They
+    are unsigned: of an index that might be negative numba asks so each time."""
     x0, x1 = max(x0, 0), min(x1, shape)
     return (np.uint64(start[row + x0]), np.uint64(start[row + x1])) if x0 < x1 else (np.uint64(0), np.uint64(0))
 

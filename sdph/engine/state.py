@@ -12,7 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit, prange
 
-# values of `kind`, of grains and liquids alike; INFLOW: still upstream of its nozzle. Files hold them: they stay as they are
+# values of `kind`, of grains and liquids alike; INFLOW: still upstream of its nozzle. Files hold them: they stay as
+# they are
 GRAIN, WALL, LIQUID, GAS, INFLOW = range(5)
 
 
@@ -69,7 +70,8 @@ FIELDS = {
     "diameter": ("m", "number mean of the grain diameters"),
     "diameter_variance": ("m2", "number variance of the grain diameters"),
     "theta": ("m2/s2", "granular temperature"),
-    **{f"contact_{ab}": ("Pa", f"deviator of the stress of lasting contacts, {ab}") for ab in ("xx", "yy", "xy", "yz", "zx")},
+    **{f"contact_{ab}": ("Pa", f"deviator of the stress of lasting contacts, {ab}") for ab in ("xx", "yy", "xy", "yz",
+    "zx")},
     "evaporating": ("1", "1 once evaporation has started"),
     "born_mass": ("kg", "mass at the start or when it came in"),
     "born_diameter": ("m", "number mean of the grain diameters then"),
@@ -80,7 +82,7 @@ FIELDS = {
     "exchanged": ("1", "1 if it was in the gas in the last window"),
     # what holds over a window, and is there within it alone
     "warmth": ("J", "heat from the gas in the window"),
-    "push_x": ("m/s2", "acceleration by gas and gravity"), "push_y": ("m/s2", "the same"), "push_z": ("m/s2", "the same"),
+    **{f"push_{a}": ("m/s2", "acceleration by gas and gravity") for a in "xyz"},
     "damping": ("1/s", "rate at which the gas damps theta"),
 }  # fmt: skip
 ALWAYS = ("x", "y", "u", "v", "mass", "density", "ident", "kind")
@@ -154,7 +156,11 @@ def _columns(a, b, c) -> np.ndarray:
 def born(state: State) -> State:
     """The same, with mass and sizes at birth set to those of now."""
     if len(state.born_mass):
-        state.born_mass[:], state.born_diameter[:], state.born_variance[:] = state.mass, state.diameter, state.diameter_variance
+        state.born_mass[:], state.born_diameter[:], state.born_variance[:] = (
+            state.mass,
+            state.diameter,
+            state.diameter_variance,
+        )
     return state
 
 

@@ -128,7 +128,7 @@ class Table:
     KEPT, FORMS = ("columns", "place"), {"columns": Many("")}  # see sdph.engine.kept
 
     def __init__(self, path: Path):
-        self.file = open(path, "a", newline="", encoding="utf-8")
+        self.file = open(path, "a", newline="", encoding="utf-8")  # noqa: SIM115  (`close` closes it)
         self.columns: tuple[str, ...] = ()
 
     def admit(self, kept: dict) -> None:

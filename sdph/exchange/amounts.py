@@ -25,10 +25,10 @@ class Loss:
 class Handed:
     """What one window hands over: what the gas is told, and what the reaction is computed from.
 
-    heat (N,) [W/K] and pull (N,) [W]: the particle takes heat * T'_g - pull; drag (N,) [kg/s] is m_k f_k/dt; temperature
-    and velocity are those of the particles when they were computed; damping (N,) [1/s] is beta/(alpha_p rho_p); mass
-    (N,) [kg] what is in the gas at the window's end. terms (C,) or (C, 3) per volume of the cells, by quantity and effect;
-    alpha_g (C,) at the window's end, where the gas is told.
+    heat (N,) [W/K] and pull (N,) [W]: the particle takes heat * T'_g - pull; drag (N,) [kg/s] is m_k f_k/dt;
+    temperature and velocity are those of the particles when they were computed; damping (N,) [1/s] is
+    beta/(alpha_p rho_p); mass (N,) [kg] what is in the gas at the window's end. terms (C,) or (C, 3) per volume of the
+    cells, by quantity and effect; alpha_g (C,) at the window's end, where the gas is told.
     """
 
     dt: float
@@ -55,10 +55,12 @@ class Handed:
 
 @dataclass(frozen=True)
 class Taken:
-    """What the particles take in a window: heat (N,) [J], impulse (N, 3) [kg m/s]; and what the gas gave by its own sum.
+    """What the particles take in a window: heat (N,) [J], impulse (N, 3) [kg m/s]; and what the gas gave by its own
+    sum.
 
-    warming (N,) [J] is the heat less that of evaporation; vapour and vapour_to_gas [kg] what left particles and what the
-    gas got; latent_heat [J] and capacity_heat [J] what evaporation binds, and what the vapour's other heat capacity does.
+    warming (N,) [J] is the heat less that of evaporation; vapour and vapour_to_gas [kg] what left particles and what
+    the gas got; latent_heat [J] and capacity_heat [J] what evaporation binds, and what the vapour's other heat capacity
+    does.
     """
 
     heat: np.ndarray
@@ -75,7 +77,11 @@ class Taken:
     def columns(self) -> dict[str, float]:
         """Both sides of the exchange for the ledger."""
         heat = {"heat_to_particles_J": float(self.heat.sum()), "heat_to_gas_J": -self.heat_from_gas}
-        vapour = {"evaporated_kg": self.vapour, "vapour_to_gas_kg": self.vapour_to_gas, "condensation_refused_kg": self.refused}
+        vapour = {
+            "evaporated_kg": self.vapour,
+            "vapour_to_gas_kg": self.vapour_to_gas,
+            "condensation_refused_kg": self.refused,
+        }
         bound = {"latent_heat_J": self.latent_heat, "capacity_heat_J": self.capacity_heat}
         own, other = np.einsum("ij->j", self.impulse), -self.impulse_from_gas
         return heat | vapour | bound | vector("impulse_to_particles", own) | vector("impulse_to_gas", other)

@@ -26,7 +26,8 @@ SHORT = 1e-8  # relaxation times in a window below which the mean rise is its li
 
 @njit(cache=True, error_model="numpy")
 def transfer(p, sizes_p, s, i, c):
-    """k_c A of all grains [m3/s]: flow of gas that they exchange. 6 k_c/d per volume of grains, k_c = Sh D/d (Eq. 11)."""
+    """k_c A of all grains [m3/s]: flow of gas that they exchange. 6 k_c/d per volume of grains, k_c = Sh D/d (Eq.
+    11)."""
     total = whole = 0.0
     own = sizes.birth(sizes_p, s, i)
     for q in range(sizes.classes(sizes_p)):
@@ -40,7 +41,8 @@ def transfer(p, sizes_p, s, i, c):
 
 @njit(cache=True, error_model="numpy")
 def kept_share(sizes_p, s, i, still, moving):
-    """Share of its mass that particle i keeps when `still` = integral of a dt [m2], `moving` of a c dt [m^3/2] are lost."""
+    """Share of its mass that particle i keeps when `still` = integral of a dt [m2], `moving` of a c dt [m^3/2] are
+    lost."""
     if still <= 0.0:
         return 1.0
     if len(sizes_p) == 0:
@@ -74,8 +76,8 @@ def active_time(p, s, i, conductance, gas_temperature, dt):
 
 @njit(cache=True, parallel=True, error_model="numpy")
 def survey(p, sizes_p, s, slip, gas_density, gas_temperature, dt, conductance, flow, surface):
-    """Before the losses: gas [m3/s] that the particle exchanges vapour with, averaged over the window, and vapour concentration
-    at its surface [kmol/m3]; conductance (N,) [W/K] of heat."""
+    """Before the losses: gas [m3/s] that the particle exchanges vapour with, averaged over the window, and vapour at
+    its surface [kmol/m3]; conductance (N,) [W/K] of heat."""
     for i in prange(len(s.x)):
         flow[i] = surface[i] = 0.0
         if s.kind[i] == GRAIN:
@@ -85,7 +87,9 @@ def survey(p, sizes_p, s, slip, gas_density, gas_temperature, dt, conductance, f
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def losses(p, sizes_p, s, slip, gas_density, gas_temperature, concentration, dt, conductance, loss, still, moving, refused):
+def losses(
+    p, sizes_p, s, slip, gas_density, gas_temperature, concentration, dt, conductance, loss, still, moving, refused
+):
     """Of each particle in dt: mass lost [kg]; its integrals of a dt [m2], a c dt [m^3/2]; condensation refused [kg].
 
     `conductance` becomes the mean over the window: it shrinks with the grains as evaporation does.
@@ -96,7 +100,20 @@ def losses(p, sizes_p, s, slip, gas_density, gas_temperature, concentration, dt,
         if time > 0.0:
             c = ventilation(p, slip[i], gas_density[i])
             rate = transfer(p, sizes_p, s, i, c)
-            force = window_force(p, sizes_p, s, i, rate, c, gas_density[i], gas_temperature[i], concentration[i], time, dt, conductance[i])
+            force = window_force(
+                p,
+                sizes_p,
+                s,
+                i,
+                rate,
+                c,
+                gas_density[i],
+                gas_temperature[i],
+                concentration[i],
+                time,
+                dt,
+                conductance[i],
+            )
             refused[i] = max(0.0, -force) * rate * time
             still[i] = 8.0 * p.diffusivity * max(0.0, force) / p.grain_density * time  # d(d^2)/dt = -4 Sh D force/rho_p
             moving[i] = c * still[i]
@@ -118,13 +135,15 @@ def rates(p, sizes_p, s, slip, gas_density, gas_temperature, concentration, rate
 
 @njit(cache=True, error_model="numpy")
 def shrinkage(loss, unshrunk):
-    """Mean over the window of the grains' exchange over that at its start: what was lost over what the start would lose."""
+    """Mean over the window of the grains' exchange over that at its start: what was lost over what the start would
+    lose."""
     return min(1.0, loss / unshrunk)
 
 
 @njit(cache=True, error_model="numpy")
 def window_force(p, sizes_p, s, i, rate, c, gas_density, gas_temperature, concentration, time, dt, conductance):
-    """Driving force [kg/m3] at the mean temperature of the window; at boiling what the heat that comes in evaporates."""
+    """Driving force [kg/m3] at the mean temperature of the window; at boiling what the heat that comes in
+    evaporates."""
     temperature = s.temperature[i]
     now = driving_force(p, temperature, concentration, gas_temperature, gas_density)
     below = driving_force(p, temperature - PROBE, concentration, gas_temperature, gas_density)
@@ -135,7 +154,9 @@ def window_force(p, sizes_p, s, i, rate, c, gas_density, gas_temperature, concen
     capacity = s.mass[i] * kept * p.grain_heat_capacity
     latent = p.latent_heat * rate * share * time / dt  # W per unit of force
     warmth = conductance * share
-    rise = mean_rise(warmth * (gas_temperature - temperature) - latent * max(0.0, now), warmth + latent * slope, capacity, dt)
+    rise = mean_rise(
+        warmth * (gas_temperature - temperature) - latent * max(0.0, now), warmth + latent * slope, capacity, dt
+    )
     force = now + slope * rise
     return max(force, boiling_force(p, temperature, gas_temperature, warmth, capacity, latent, force, dt))
 

@@ -12,14 +12,17 @@ from sdph.engine.state import GRAIN
 from sdph.laws.constants import GAS_CONSTANT
 from sdph.laws.exchange import exponential_fraction
 
-NEGLIGIBLE = 1e-6  # of the temperature: smaller differences need not be resolved (round-off else rules the window); our choice
+# of the temperature: smaller differences need not be resolved (round-off else rules the window); our choice
+NEGLIGIBLE = 1e-6
 
 
 class Seen:
     """The gas as the particles see it: own velocity (N, 3), slip (N,), density, temperature (N,) of the gas."""
 
     def __init__(self, weights, gas_state, state):
-        velocity, self.density, self.temperature = (gather(weights, gas_state.fields[name]) for name in ("velocity", "density", "temperature"))
+        velocity, self.density, self.temperature = (
+            gather(weights, gas_state.fields[name]) for name in ("velocity", "density", "temperature")
+        )
         self.own = particles.velocities(state)
         self.slip = particles.lengths(velocity - self.own)
 
@@ -33,7 +36,8 @@ def vapour_concentration(p, gas_state) -> np.ndarray:
 
 
 def temperature_span(case) -> float:
-    """Hottest less coldest of all that the case gives a temperature [K], and where they are alike a negligible part of it."""
+    """Hottest less coldest of all that the case gives a temperature [K], and where they are alike a negligible part of
+    it."""
     given = [case.gas.temperature, *(part.temperature for part in (*case.particles.values(), *case.nozzles.values()))]
     given += [boundary.temperature for boundary in case.boundaries.values() if boundary.temperature]
     return max(max(given) - min(given), NEGLIGIBLE * max(given))
@@ -61,7 +65,9 @@ def shares(s, heat_capacity, dt, conductance, damping, kept, power, heat_share, 
         heat_share[i] = pull[i] = 0.0
         capacity = kept[i] * heat_capacity
         if conductance[i] > 0.0:
-            heat_share[i] = capacity * exponential_fraction(dt * conductance[i] / capacity) / dt if capacity > 0.0 else 0.0
+            heat_share[i] = (
+                capacity * exponential_fraction(dt * conductance[i] / capacity) / dt if capacity > 0.0 else 0.0
+            )
             pull[i] = heat_share[i] * s.temperature[i]
             if len(power) > 0:
                 pull[i] += power[i] * (1.0 - heat_share[i] / conductance[i])

@@ -32,7 +32,6 @@ from sdph.exchange.amounts import Handed, Loss, Taken
 from sdph.exchange.equations import Seen, temperature_span, vapour_concentration
 
 
-
 class Exchange:
     """The effects of a case that reach across to the gas."""
 
@@ -61,29 +60,52 @@ class Exchange:
         """
         seen = Seen(weights, gas_state, state)
         conductance, damping = self._rates(state, seen)
-        loss = self._evaporate(state, weights, gas_state, seen, conductance, dt) if self.parameters["evaporation"] else None
+        loss = (
+            self._evaporate(state, weights, gas_state, seen, conductance, dt)
+            if self.parameters["evaporation"]
+            else None
+        )
         kept = state.mass - loss.mass if loss else state.mass
         power = self.parameters["evaporation"].latent_heat / -dt * loss.mass if loss else OFF
         heat_share, pull, shared_mass = (np.empty(len(state.x)) for _ in range(3))
-        equations.shares(state, self.case.grains.heat_capacity, dt, conductance, damping, kept, power, heat_share, pull, shared_mass)
+        equations.shares(
+            state, self.case.grains.heat_capacity, dt, conductance, damping, kept, power, heat_share, pull, shared_mass
+        )
         there, inside = ahead
         handed = Handed(
-            dt, weights, heat_share, pull, shared_mass, damping, state.temperature.copy(), seen.own, kept * (state.kind == GRAIN), loss
+            dt,
+            weights,
+            heat_share,
+            pull,
+            shared_mass,
+            damping,
+            state.temperature.copy(),
+            seen.own,
+            kept * (state.kind == GRAIN),
+            loss,
         )
-        return replace(handed, terms=self._terms(handed), alpha_g=self._room(there, kept * inside) if "alpha_g" in self.sources else None)
+        return replace(
+            handed,
+            terms=self._terms(handed),
+            alpha_g=self._room(there, kept * inside) if "alpha_g" in self.sources else None,
+        )
 
     def _rates(self, state, seen) -> tuple[np.ndarray, np.ndarray]:
         """Of every particle now: heat conductance to the gas [W/K], and beta/(alpha_p rho_p) [1/s]."""
         conductance, damping = np.empty(len(state.x)), np.empty(len(state.x))
         equations.rates(
-            self.parameters["drag"], self.parameters["heat"], self.sizes_p, state, self.case.grains.density, seen.slip, seen.density,
-            conductance, damping,
+            self.parameters["drag"], self.parameters["heat"], self.sizes_p, state, self.case.grains.density,
+            seen.slip, seen.density, conductance, damping,
         )  # fmt: skip
         return conductance, damping
 
     def _terms(self, handed: Handed) -> dict[tuple[str, str], np.ndarray]:
         """(quantity, effect) -> what the effect gives to the gas, per volume of the cells."""
-        given = {(quantity, name): own for name, to_gas in self.to_gas.items() for quantity, own in to_gas(handed, self.case).items()}
+        given = {
+            (quantity, name): own
+            for name, to_gas in self.to_gas.items()
+            for quantity, own in to_gas(handed, self.case).items()
+        }
         if not given:
             return {}
         columns = [own[:, None] if own.ndim == 1 else own for own in given.values()]
@@ -105,11 +127,24 @@ class Exchange:
         concentration = gather(weights, vapour_concentration(p, gas_state))
         if not self.case.coupling.one_way:
             evaporating = surface > concentration
-            after = [self._relaxed(state, weights, gas_state, flow * some * dt, surface) for some in (evaporating, ~evaporating)]
+            after = [
+                self._relaxed(state, weights, gas_state, flow * some * dt, surface)
+                for some in (evaporating, ~evaporating)
+            ]
             concentration = np.where(evaporating, *after)
         loss = Loss(*(np.empty(count) for _ in range(4)))
         droplet_loss.losses(
-            p, self.sizes_p, state, *around, concentration, dt, conductance, loss.mass, loss.still, loss.moving, loss.refused
+            p,
+            self.sizes_p,
+            state,
+            *around,
+            concentration,
+            dt,
+            conductance,
+            loss.mass,
+            loss.still,
+            loss.moving,
+            loss.refused,
         )
         return loss
 
@@ -121,12 +156,16 @@ class Exchange:
         return gather(weights, (room * cells + deposited[:, 1]) / (room + deposited[:, 0]))
 
     def pace(self, state, weights, gas_state) -> tuple[float, float, float, float]:
-        """At the start: rate [1/s] at which the fastest cell takes the grains' temperature, `stake` [J], rate [1/s] at which
-        vapour comes into the fastest cell, over the gas in it, and `grip` [1/s]."""
+        """At the start: rate [1/s] at which the fastest cell takes the grains' temperature, `stake` [J], rate [1/s] at
+        which vapour comes into the fastest cell, over the gas in it, and `grip` [1/s]."""
         seen = Seen(weights, gas_state, state)
         conductance, damping = self._rates(state, seen)
         full, resistance = self._resistance(state, weights, gas_state)
-        rate = float((self._density(weights, conductance)[full] * resistance).max(initial=0.0)) if self.parameters["heat"] else 0.0
+        rate = (
+            float((self._density(weights, conductance)[full] * resistance).max(initial=0.0))
+            if self.parameters["heat"]
+            else 0.0
+        )
         thickening = self._thickening(state, weights, gas_state, seen) if self.parameters["evaporation"] else 0.0
         return rate, self.stake(state, weights, gas_state), thickening, self.grip(state, damping)
 
@@ -143,7 +182,9 @@ class Exchange:
         if not handed.loss:
             return 0.0
         room = self._room(handed.weights, handed.mass)
-        return float((handed.terms["vapour", "evaporation"] * handed.dt / (room * gas_state.fields["density"])).max(initial=0.0))
+        return float(
+            (handed.terms["vapour", "evaporation"] * handed.dt / (room * gas_state.fields["density"])).max(initial=0.0)
+        )
 
     def stake(self, state, weights, gas_state) -> float:
         """A scale of heat [J]: the gas among the grains, and they, brought to equilibrium through all of the
@@ -156,7 +197,11 @@ class Exchange:
     def _resistance(self, state, weights, gas_state) -> tuple[np.ndarray, np.ndarray]:
         """Mask of the cells with grains, and 1/C_p + 1/C_g of these [m3 K/J]."""
         content = self._density(weights, state.mass * (state.kind == GRAIN) * self.case.grains.heat_capacity)
-        gas = self._room(weights, state.mass * (state.kind == GRAIN)) * gas_state.fields["density"] * self.case.gas.heat_capacity
+        gas = (
+            self._room(weights, state.mass * (state.kind == GRAIN))
+            * gas_state.fields["density"]
+            * self.case.gas.heat_capacity
+        )
         full = content > 0.0
         return full, 1.0 / content[full] + 1.0 / gas[full]
 
@@ -186,7 +231,11 @@ class Exchange:
         """The same with what evaporation takes."""
         mass, latent = handed.loss.mass, self.parameters["evaporation"].latent_heat
         excess = self.case.grains.heat_capacity - self.case.vapour.heat_capacity
-        given = 0.0 if self.case.coupling.one_way else float((handed.terms["vapour", "evaporation"] * self.volumes).sum() * handed.dt)
+        given = (
+            0.0
+            if self.case.coupling.one_way
+            else float((handed.terms["vapour", "evaporation"] * self.volumes).sum() * handed.dt)
+        )
         return replace(
             taken, warming=taken.heat - latent * mass, vapour=float(mass.sum()), vapour_to_gas=given,
             latent_heat=latent * float(mass.sum()), capacity_heat=excess * float((mass * handed.temperature).sum()),
@@ -209,7 +258,12 @@ class Exchange:
         """Take from the particles what evaporated."""
         if handed.loss:
             droplet_loss.apply(
-                self.parameters["evaporation"], self.sizes_p, state, handed.loss.mass, handed.loss.still, handed.loss.moving
+                self.parameters["evaporation"],
+                self.sizes_p,
+                state,
+                handed.loss.mass,
+                handed.loss.still,
+                handed.loss.moving,
             )
 
     def drag_heat_of(self, handed: Handed) -> float:
@@ -226,4 +280,3 @@ class Exchange:
         """Extensive amounts (N,) or (N, m) of the particles per volume of the cells."""
         deposited = deposit(weights, amounts)
         return deposited / (self.volumes if deposited.ndim == 1 else self.volumes[:, None])
-

@@ -19,12 +19,15 @@ from sdph.engine.kept import POSITIVE, Maybe, Named, Unfit
 from sdph.engine.state import GRAIN
 
 SAFETY, GROWTH, SHRINK = 0.9, 2.0, 0.3  # usual bounds of a step controller (Hairer, Norsett & Wanner, II.4); our choice
-VAPOUR = 0.1  # of the gas in a cell: most vapour that comes into it in a window, so that it is carried away as it comes; our choice
-GRIP = 0.1  # of the time in which gas stops a bed, most that its force may be held: a held force drives the bed's oscillations; our choice
+# of the gas in a cell: most vapour that comes into it in a window, so that it is carried away as it comes; our choice
+VAPOUR = 0.1
+# of the time in which gas stops a bed, most that its force may be held: a held force drives the bed's oscillations; our
+# choice
+GRIP = 0.1
 # limit -> what a user can change about it
 KEYS = {
-    "largest": "coupling.window_largest_s", "heat exchange": "coupling.window_tolerance", "courant": "coupling.courant", "particles": "coupling.courant",
-    "evaporation": "the rate of evaporation", "grip": "the drag on packed grains",
+    "largest": "coupling.window_largest_s", "heat exchange": "coupling.window_tolerance", "courant": "coupling.courant",
+    "particles": "coupling.courant", "evaporation": "the rate of evaporation", "grip": "the drag on packed grains",
 }  # fmt: skip
 
 
@@ -41,7 +44,7 @@ class Control:
 
     def admit(self, kept: dict) -> None:
         """Unfit where what it learned cannot be."""
-        if kept["before"] is not None and not kept["before"] > 0.0 or min(kept["scale"], kept["error"]) < 0.0:
+        if (kept["before"] is not None and not kept["before"] > 0.0) or min(kept["scale"], kept["error"]) < 0.0:
             raise Unfit("the control of the window has learned what no window can tell")
 
     def begin(self, rate: float, scale: float) -> float:
@@ -50,7 +53,7 @@ class Control:
         return math.sqrt(2.0 * self.tolerance) / rate if rate > 0.0 else math.inf
 
     def learn(self, dt: float, heat: float, change: float) -> float:
-        """Next window [s] after one of `dt` [s] in which particles exchanged `heat` [J] in all, sum of |Q|, at rates that
+        """Next window [s] after one of `dt` [s] in which particles exchanged `heat` [J], sum of |Q|, at rates that
         differ by `change` [W], sum of |Q/dt - Q/dt before|, from those of the last window."""
         before, self.before = self.before, dt
         self.scale = max(self.scale, heat)
@@ -63,8 +66,8 @@ class Control:
 
 
 def learned(state, heat, dt: float) -> tuple[float, float]:
-    """Heat [J] that grains exchanged in a window of `dt` [s], sum of |heat|, and the change [W] of its rate since the last one,
-    of those that were in the gas in both; the state gets the rate of now."""
+    """Heat [J] that grains exchanged in a window of `dt` [s], sum of |heat|, and the change [W] of its rate since the
+    last one, of those that were in the gas in both; the state gets the rate of now."""
     inside = state.kind == GRAIN
     change = 0.0
     if len(state.received):
@@ -105,7 +108,8 @@ class Window(Clock):
         return min(self.limits.values())
 
     def thicken(self, dt: float, share: float) -> None:
-        """In `dt` [s] vapour came into a cell of gas that was `share` of what was there, or would at the rate of now."""
+        """In `dt` [s] vapour came into a cell of gas that was `share` of what was there, or would at the rate of
+        now."""
         if share > 0.0:
             self.limits["evaporation"] = dt * min(GROWTH, VAPOUR / share)
 
@@ -119,8 +123,8 @@ class Window(Clock):
         self.control.scale = max(self.control.scale, heat)
 
     def learn(self, dt: float, heat: float, change: float, courant: float, fastest: float) -> None:
-        """Set the limits from the window just done: `heat` and `change` as of `Control.learn`, courant of the gas, fastest
-        particle [m/s]."""
+        """Set the limits from the window just done: `heat` and `change` as of `Control.learn`, courant of the gas,
+        fastest particle [m/s]."""
         if fastest > 0.0:
             self.limits["particles"] = self.courant * self.cell / fastest
         if "heat exchange" in self.limits:
@@ -135,12 +139,22 @@ def smallest_cell(case) -> float:
 
 
 def opening(case) -> dict[str, float]:
-    """Limits [s] of the first window from the speeds that the case gives: gas that is let in, as fast as it is between the
-    grains, and grains that are thrown at the start or by a nozzle. Later windows are told what moves how fast."""
+    """Limits [s] of the first window from the speeds that the case gives: gas that is let in, as fast as it is between
+    the grains, and grains that are thrown at the start or by a nozzle. Later windows are told what moves how fast."""
     packed = max((region.volume_fraction for region in case.particles.values()), default=0.0)
-    let_in = max((math.hypot(*b.velocity) for b in case.boundaries.values() if b.velocity), default=0.0) / (1.0 - packed)
-    thrown = [math.hypot(*region.velocity) for region in case.particles.values() if region.velocity] if effects.moving(case) else []
+    let_in = max((math.hypot(*b.velocity) for b in case.boundaries.values() if b.velocity), default=0.0) / (
+        1.0 - packed
+    )
+    thrown = (
+        [math.hypot(*region.velocity) for region in case.particles.values() if region.velocity]
+        if effects.moving(case)
+        else []
+    )
     if "inflow" in case.effects:
-        thrown += [float(np.linalg.norm(streams_of(case, nozzle).velocity, axis=1).max()) for nozzle in case.nozzles.values()]
+        thrown += [
+            float(np.linalg.norm(streams_of(case, nozzle).velocity, axis=1).max()) for nozzle in case.nozzles.values()
+        ]
     reach = case.coupling.courant * smallest_cell(case)
-    return {cause: reach / speed for cause, speed in (("courant", let_in), ("particles", max(thrown, default=0.0))) if speed}
+    return {
+        cause: reach / speed for cause, speed in (("courant", let_in), ("particles", max(thrown, default=0.0))) if speed
+    }

@@ -3,7 +3,8 @@
 GAS_CONSTANT = 8314.46261815324  # J/(kmol K), 1000 k_B N_A, exact since the SI of 2019 (CODATA 2018)
 ATMOSPHERE = 101325.0  # Pa, standard atmosphere (CGPM 1954)
 
-PACKING_MARGIN = 0.01  # -, closures are evaluated at most this far below close packing (1/(1-(a/a_max)^(1/3)) has a pole there)
+# -, closures are evaluated at most this far below close packing (1/(1-(a/a_max)^(1/3)) has a pole there)
+PACKING_MARGIN = 0.01
 SOFTENING = 0.01  # -, eta^2/h^2 in r^2 + eta^2, keeps coincident pairs finite (Monaghan 1992; Cleary & Monaghan 1999)
 
 # Friction of grains: Johnson & Jackson 1987, with the constants of OpenFOAM's tutorials (Johnson-Jackson model)

@@ -53,7 +53,8 @@ def schiller_naumann_coefficient(alpha_g, reynolds):
 
 @law
 def schiller_naumann_coefficient_paper(alpha_g, reynolds):
-    """C_D [-] as above, but switched on Re_p = 1000: jumps by 5.5 % at alpha_g = 0.85. Chen et al. 2014, section 2.1."""
+    """C_D [-] as above, but switched on Re_p = 1000: jumps by 5.5 % at alpha_g = 0.85. Chen et al. 2014, section
+    2.1."""
     if reynolds < NEWTON_REYNOLDS:
         return _viscous_coefficient(alpha_g * reynolds) / (alpha_g * reynolds)
     return NEWTON_COEFFICIENT

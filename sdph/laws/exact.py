@@ -7,7 +7,8 @@ in the dusty problems are per volume of mixture too, and K is the drag coefficie
 from __future__ import annotations
 
 import math
-from typing import Callable, NamedTuple
+from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
@@ -171,7 +172,12 @@ def wen_yu_minimum_fluidisation(
 
 
 def settling_slip(
-    law: Callable, alpha_p: float, density: float, gravity: float, diameter: float, gas_density: float,
+    law: Callable,
+    alpha_p: float,
+    density: float,
+    gravity: float,
+    diameter: float,
+    gas_density: float,
     gas_viscosity: float,
 ) -> float:
     """Slip [m/s] of uniform settling in a periodic box: beta s = alpha_p alpha_g (rho_p - rho_g) g; `law` of drag.py.

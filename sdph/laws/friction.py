@@ -67,8 +67,8 @@ def schaeffer_viscosity(pressure, sin_angle, shear_squared, least_rate):
 def yield_share(pressure, sin_angle, stress_squared):
     """Share [-] of a deviatoric stress that contacts bear: sqrt(J2) is at most p_fr sin(phi).
 
-    pressure p_fr [Pa], sin_angle = sin(phi), stress_squared = J2 = tau:tau/2 [Pa2]. Schaeffer 1987: while grains yield, tau
-    = 2 mu_fr dev(D) with the viscosity above at least_rate = 0.
+    pressure p_fr [Pa], sin_angle = sin(phi), stress_squared = J2 = tau:tau/2 [Pa2]. Schaeffer 1987: while grains yield,
+    tau = 2 mu_fr dev(D) with the viscosity above at least_rate = 0.
     """
     most = pressure * sin_angle
     return most / math.sqrt(stress_squared) if stress_squared > most * most else 1.0

@@ -22,8 +22,9 @@ ROUND_OFF = 1e-14  # of D
 
 
 def _jacobi() -> tuple[np.ndarray, np.ndarray]:
-    """Nodes and weights on [0, 1] for the weight 4 t^3: eigenvalues and vectors of the recurrence of Jacobi's polynomials with
-    exponents 0 and 3 (Golub & Welsch 1969, Math. Comput. 23, 221). scipy.special has them too, and takes 0.3 s to import."""
+    """Nodes and weights on [0, 1] for the weight 4 t^3: eigenvalues and vectors of the recurrence of Jacobi's
+    polynomials with exponents 0 and 3 (Golub & Welsch 1969, Math. Comput. 23, 221). scipy.special has them too, and
+    takes 0.3 s to import."""
     k, b = np.arange(NODES), 3.0
     middle = b * b / ((2 * k + b) * (2 * k + b + 2))
     beside = 2.0 * k * (k + b) / ((2 * k + b) * np.sqrt((2 * k + b + 1) * (2 * k + b - 1)))

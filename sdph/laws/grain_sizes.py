@@ -73,7 +73,8 @@ def gauss_hermite(n: int) -> tuple[np.ndarray, np.ndarray]:
 
 @law
 def diameter_at(x, m, s):
-    """Diameter [m] at the node x [-]: exp(m + s x), m = `log_mean` for averages over grains, `mass_log_mean` over mass."""
+    """Diameter [m] at the node x [-]: exp(m + s x), m = `log_mean` for averages over grains, `mass_log_mean` over
+    mass."""
     return math.exp(m + s * x)
 
 

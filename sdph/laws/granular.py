@@ -183,8 +183,8 @@ def equilibrium_theta(alpha_p, restitution, g0, density, diameter, shear_squared
 
     tau:D - p_s div v = gamma + 3 beta theta. With r = sqrt(theta): G r^2 + (P div v + 3 beta) r = S,
     S = 4 mu I2D + lambda (div v)^2 per r, P = p_s/theta, G = gamma/theta^1.5; its one root >= 0.
-    shear_squared = I2D [1/s2] (`second_invariant` of friction.py), divergence [1/s], beta [kg/(m3 s)]; e < 1, alpha_p > 0.
-    Syamlal, Rogers & O'Brien 1993, MFIX theory guide (algebraic form), here with Gidaspow's viscosities and drag.
+    shear_squared = I2D [1/s2] (`second_invariant` of friction.py), divergence [1/s], beta [kg/(m3 s)]; e < 1, alpha_p >
+    0. Syamlal, Rogers & O'Brien 1993, MFIX theory guide (algebraic form), here with Gidaspow's viscosities and drag.
     """
     mu = gidaspow_viscosity(alpha_p, 1.0, restitution, g0, density, diameter)
     bulk = lun_bulk_viscosity(alpha_p, 1.0, restitution, g0, density, diameter)

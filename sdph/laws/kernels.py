@@ -7,7 +7,8 @@ the loop they cost their polynomial only. q = r/h throughout.
 from __future__ import annotations
 
 import math
-from typing import Callable, NamedTuple
+from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
@@ -24,7 +25,8 @@ def cubic_spline(r, h, sigma):
     """
     q = r / h
     near, far = 1.0 - q * q * (1.5 - 0.75 * q), max(2.0 - q, 0.0)
-    return sigma * (near if q < 1.0 else 0.25 * far * far * far)  # chosen, not branched to: loops of pairs can be vectorised
+    # chosen, not branched to: loops of pairs can be vectorised
+    return sigma * (near if q < 1.0 else 0.25 * far * far * far)
 
 
 @law
@@ -66,12 +68,8 @@ class Kernel(NamedTuple):
 
 
 KERNELS = {
-    "cubic_spline": Kernel(
-        cubic_spline, cubic_spline_gradient, (2.0 / 3.0, 10.0 / (7.0 * math.pi), 1.0 / math.pi)
-    ),
-    "wendland_c2": Kernel(
-        wendland_c2, wendland_c2_gradient, (0.75, 7.0 / (4.0 * math.pi), 21.0 / (16.0 * math.pi))
-    ),
+    "cubic_spline": Kernel(cubic_spline, cubic_spline_gradient, (2.0 / 3.0, 10.0 / (7.0 * math.pi), 1.0 / math.pi)),
+    "wendland_c2": Kernel(wendland_c2, wendland_c2_gradient, (0.75, 7.0 / (4.0 * math.pi), 21.0 / (16.0 * math.pi))),
 }
 
 
@@ -88,7 +86,8 @@ def _lattice_radii(dims: int, ratio: float) -> np.ndarray:
 
 
 def lattice_factor(kernel: str, dims: int, ratio: float) -> float:
-    """Sum of W dx^dims [-] over the square or cubic lattice with h/dx = `ratio`: what summed densities are too large by."""
+    """Sum of W dx^dims [-] over the square or cubic lattice with h/dx = `ratio`: what summed densities are too large
+    by."""
     sigma = normalisation(kernel, dims, ratio)
     return math.fsum(KERNELS[kernel].value(r, ratio, sigma) for r in _lattice_radii(dims, ratio))
 

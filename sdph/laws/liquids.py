@@ -10,7 +10,8 @@ TERMS = 99  # odd terms of the series up to this one: 1e-5 of the pressure in th
 
 
 def square_patch_pressure(points, side: float, omega: float, density: float) -> np.ndarray:
-    """p (N,) [Pa] of a square of liquid that begins to turn like a solid, free surface all round; points from its corner.
+    """p (N,) [Pa] of a square of liquid that begins to turn like a solid, free surface all round; points from its
+    corner.
 
     Colicchio 2004; Le Touze et al. 2013, Int. J. Numer. Methods Fluids 73, 660, Eq. 22:
     p = rho sum_mn -32 w^2/(m n pi^2 [(n pi/L)^2 + (m pi/L)^2]) sin(m pi x/L) sin(n pi y/L), m, n odd.
@@ -60,12 +61,16 @@ def quadrupole(points, radius: float, speed: float) -> np.ndarray:
     fall = np.where(inside, 0.0, (radius**2 / r2) ** 1.5)
     radial, turning = fall * np.cos(double), fall * np.sin(double)
     direction = points / np.sqrt(r2)[:, None]
-    outside = np.stack([radial * direction[:, 0] - turning * direction[:, 1], radial * direction[:, 1] + turning * direction[:, 0]], axis=1)
+    outside = np.stack(
+        [radial * direction[:, 0] - turning * direction[:, 1], radial * direction[:, 1] + turning * direction[:, 0]],
+        axis=1,
+    )
     return speed * np.where(inside[:, None], points / radius * np.array([1.0, -1.0]), outside)
 
 
 def disc_frequency(order: int, radius: float, tension: float, density: float, around: float = 0.0) -> float:
-    """omega [rad/s] of a disc of liquid in another one: sqrt(n (n^2 - 1) sigma/((rho + rho_around) R^3)). Lamb 1932, section 273."""
+    """omega [rad/s] of a disc of liquid in another one: sqrt(n (n^2 - 1) sigma/((rho + rho_around) R^3)). Lamb 1932,
+    section 273."""
     return math.sqrt(order * (order**2 - 1) * tension / ((density + around) * radius**3))
 
 

@@ -18,7 +18,8 @@ def monaghan(approach, r_squared, h, sound_speed, density, alpha, beta):
 
 @law
 def espanol_revenga(dimensions, shear, bulk, r_squared, closing, scale):
-    """Viscous force per mass of i by j: (along r_ij [1/s2], along v_ij [1/s]); shear mu and bulk lambda of the pair [Pa s].
+    """Viscous force per mass of i by j: (along r_ij [1/s2], along v_ij [1/s]); shear mu and bulk lambda of the pair [Pa
+    s].
 
     scale = m_j (dW/dr)/r / (rho_i rho_j); closing = v_ij.r_ij [m2/s]. In d dimensions, with
     P = 5/3 mu - lambda and Q = (d+2)(lambda + mu/3), its continuum is mu lap v + (lambda + mu/3) grad div v; it never

@@ -83,7 +83,9 @@ def resume(folder: Path, overrides: tuple[str, ...], reporter, *, allow_code: bo
         if checkpoint:
             checkpoint.refuse_other(cases.to_table(inputs.seen_from(case, folder)))
         elif restart.numbered(folder):
-            raise CaseError(f"{folder} has no whole checkpoint; to begin again remove {folder / restart.FOLDER}, or run anew")
+            raise CaseError(
+                f"{folder} has no whole checkpoint; to begin again remove {folder / restart.FOLDER}, or run anew"
+            )
         else:
             reporter.status(f"{folder} has no checkpoint: it begins again")
             output.clear(folder)
@@ -102,14 +104,15 @@ def simulation_of(case, gas, ledger: Path):
 def _guarded(run: Run, checkpoint, template: Path | None, allow_code: bool) -> dict:
     """The summary of a run; where it fails, the folder says why, and the error says how to go on."""
     try:
-        with listening() as wish:
-            with _gas_of(run, template, allow_code) as gas:
-                return run.go(gas, checkpoint, wish)
+        with listening() as wish, _gas_of(run, template, allow_code) as gas:
+            return run.go(gas, checkpoint, wish)
     except OSError as error:
-        failure = output.CannotWrite(f"{run.folder} cannot be written: {error.strerror or error}; make room or give another folder")
+        failure = output.CannotWrite(
+            f"{run.folder} cannot be written: {error.strerror or error}; make room or give another folder"
+        )
         raise run.failed(failure) from error
     except (RuntimeError, CaseError, Stopped) as error:
-        raise run.failed(error)
+        raise run.failed(error)  # noqa: B904  (the same error with a note, as a rule)
 
 
 def _gas_of(run: Run, template: Path | None, allow_code: bool):
@@ -161,7 +164,8 @@ class Run:
         return summary
 
     def failed(self, error: BaseException) -> BaseException:
-        """The error with a note on how to go on; failure.json keeps what happened. A run that was refused is as it was."""
+        """The error with a note on how to go on; failure.json keeps what happened. A run that was refused is as it
+        was."""
         if isinstance(error, CaseError) and not self.goes:
             return error
         checkpoint = restart.newest(self.folder)
@@ -177,7 +181,9 @@ class Run:
             if isinstance(error, Unstable):
                 error.leave(self.folder)
                 error.add_note(f"last good state: {self.folder}/last_good.npz and .png")
-            output.write_json(self.folder / output.FAILURE, {"what": str(error), "kind": type(error).__name__, "time_s": time_s})
+            output.write_json(
+                self.folder / output.FAILURE, {"what": str(error), "kind": type(error).__name__, "time_s": time_s}
+            )
         return error
 
     def _begin(self, gas, checkpoint) -> None:

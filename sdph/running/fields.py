@@ -75,7 +75,7 @@ def _unpacked(text: bytes, header) -> int:
     """Bytes of an array in compressed blocks, whose number and size base64 begins with."""
     width = np.dtype(header).itemsize
     count, size, last = np.frombuffer(base64.b64decode(text[: 4 * width], validate=True), header, 3).tolist()
-    if count and not size or last > size or count > len(text):
+    if (count and not size) or last > size or count > len(text):
         raise ValueError("its blocks have no size")
     return count * size
 
@@ -105,7 +105,9 @@ class Fields:
         files = {f"fields/{name}_{number:05d}.{SUFFIXES[mesh.GetClassName()]}": mesh for name, mesh in meshes.items()}
         for name, mesh in files.items():
             save(mesh, self.folder / name)
-        self.entries += [f'<DataSet timestep="{time:.9g}" part="{part}" file="{name}"/>' for part, name in enumerate(files)]
+        self.entries += [
+            f'<DataSet timestep="{time:.9g}" part="{part}" file="{name}"/>' for part, name in enumerate(files)
+        ]
         self._write_timeline()
 
     def write_walls(self, walls) -> None:

@@ -43,8 +43,8 @@ def probe(simulation, point) -> dict[str, float]:
 
 
 def tracked(simulation) -> dict[str, float]:
-    """Place, velocity, temperatures and heat rates of the tracked particles (paper, figures 9 and 10); nan before they come
-    in and once they are gone."""
+    """Place, velocity, temperatures and heat rates of the tracked particles (paper, figures 9 and 10); nan before they
+    come in and once they are gone."""
     names = simulation.case.track
     if not names:
         return {}
@@ -52,7 +52,10 @@ def tracked(simulation) -> dict[str, float]:
     conducted = simulation.stepper.conduction_rates()
     arrays = carried(simulation.case)
     fields = {key: getattr(state, name) for key, name in TRACKED.items() if name in arrays}
-    fields |= {"convective_heat_W": state.received if len(state.received) else np.zeros(len(state.x)), "conductive_heat_W": conducted}
+    fields |= {
+        "convective_heat_W": state.received if len(state.received) else np.zeros(len(state.x)),
+        "conductive_heat_W": conducted,
+    }
     for ident in names:
         place = np.flatnonzero((state.ident == ident) & (state.kind != particles.INFLOW))
         found = {key: float(values[place[0]]) if len(place) else math.nan for key, values in fields.items()}

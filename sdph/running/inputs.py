@@ -109,7 +109,8 @@ def gas_of(folder: Path) -> Path:
 
 
 def keep_gas(template: Path, folder: Path, allow_code: bool) -> None:
-    """Copy the OpenFOAM case of the gas into a run folder. What it links to would be copied too: code is looked for before."""
+    """Copy the OpenFOAM case of the gas into a run folder. What it links to would be copied too: code is looked for
+    before."""
     if not allow_code:
         refuse_code(template)
     try:

@@ -8,8 +8,11 @@ import threading
 from contextlib import contextmanager
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-CALLBACK = "_raw_object_cache_notify"  # of llvmlite, called by LLVM while a kernel is compiled: what is raised in it is lost
-PATIENCE = 3.0  # s that a window and its checkpoint may still take once the run was asked to stop: a gas that hangs takes for ever; our choice
+# of llvmlite, called by LLVM while a kernel is compiled: what is raised in it is lost
+CALLBACK = "_raw_object_cache_notify"
+# s that a window and its checkpoint may still take once the run was asked to stop: a gas that hangs takes for ever; our
+# choice
+PATIENCE = 3.0
 LATER = 0.05  # s until a signal that came there is sent again; our choice
 
 
@@ -22,8 +25,8 @@ class Stopped(KeyboardInterrupt):
 
 
 class Wish:
-    """Whether somebody wants the run to stop. While it is `patient` the first signal only sets `number`; else, the second
-    time, and where nobody has obeyed for `PATIENCE`, it raises `Stopped` at once."""
+    """Whether somebody wants the run to stop. While it is `patient` the first signal only sets `number`; else, the
+    second time, and where nobody has obeyed for `PATIENCE`, it raises `Stopped` at once."""
 
     def __init__(self):
         self.number, self.patient, self.timer = None, False, None

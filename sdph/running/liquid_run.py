@@ -1,4 +1,5 @@
-"""A liquid on its way, as `sdph.running.driver` runs it: the same calls as `sdph.running.simulation.Simulation` has, without a gas."""
+"""A liquid on its way, as `sdph.running.driver` runs it: the same calls as `sdph.running.simulation.Simulation` has,
+without a gas."""
 
 from __future__ import annotations
 
@@ -20,7 +21,8 @@ from sdph.methods.liquids.window import Tally
 
 SAMPLES = 10  # rows of history.csv for each output of fields, where the case says nothing
 STRIDE = 20  # steps in a window at most: a liquid that goes unstable is caught within these (our choice)
-SLOW = 0.2  # of the speed of sound: a liquid that is faster is compressed by 4 % (u2/c2); the rule is 0.1, twice that is told of
+# of the speed of sound: a liquid that is faster is compressed by 4 % (u2/c2); the rule is 0.1, twice that is told of
+SLOW = 0.2
 
 
 class LiquidRun:
@@ -29,7 +31,11 @@ class LiquidRun:
     KEPT = ("windows", "wall", "stepper", "outlet", "clock", "ledger", "impulse", "since")  # see sdph.engine.kept
 
     def __init__(self, case, ledger: Path):
-        self.case, self.gas, self.clock = case, None, Clock(case.run, case.liquid.history_interval or case.run.output_interval / SAMPLES)
+        self.case, self.gas, self.clock = (
+            case,
+            None,
+            Clock(case.run, case.liquid.history_interval or case.run.output_interval / SAMPLES),
+        )
         self.stepper, self.ledger = LiquidStepper(case, self.clock.shortest), LiquidLedger(ledger)
         self.outlet = Outlet(self.stepper) if "drain" in case.effects else None
         self.fill = drain.command(case.parameters["drain"], self.outlet.fill) if self.outlet else None
@@ -104,10 +110,16 @@ class LiquidRun:
 
     def summary(self, out) -> dict[str, float]:
         """summary.json, its own part."""
-        return {"liquid_particles": len(self.stepper.active), "sub_steps": self.stepper.steps, "kinetic_energy_J": kinetic_energy(self.state)}
+        return {
+            "liquid_particles": len(self.stepper.active),
+            "sub_steps": self.stepper.steps,
+            "kinetic_energy_J": kinetic_energy(self.state),
+        }
 
     def warnings(self) -> list[str]:
         """What the run has to say of itself in the end."""
         mach, c = self.ledger.mach, self.case.liquid.sound_speed
-        reached = f"particles reached {mach:.2g} of their speed of sound and were compressed by about {100.0 * mach**2:.0f} %"
+        reached = (
+            f"particles reached {mach:.2g} of their speed of sound and were compressed by about {100.0 * mach**2:.0f} %"
+        )
         return [f"{reached}: raise liquid.sound_speed_m_s from {c:g} to {10.0 * mach * c:.3g}"] if mach > SLOW else []

@@ -1,8 +1,8 @@
 """The run folder: what a run leaves behind, each file whole or not there.
 
-    case.toml inputs/ (files that the case names: sdph.running.inputs) origin.json ledger.csv history.csv metrics.csv
-    run.pvd fields/particles_*.vtp fields/gas_*.vt? fields/walls.vtp (of a tank or of a surface mesh) checkpoints/
-    gas/ (case and log); at the end summary.json, or failure.json
+case.toml inputs/ (files that the case names: sdph.running.inputs) origin.json ledger.csv history.csv metrics.csv
+run.pvd fields/particles_*.vtp fields/gas_*.vt? fields/walls.vtp (of a tank or of a surface mesh) checkpoints/
+gas/ (case and log); at the end summary.json, or failure.json
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ MARK, ORIGIN = "case.toml", "origin.json"  # a folder with these files holds a r
 FAILURE = "failure.json"
 WALLS = "fields/walls.vtp"
 LEFT = (  # by a run, as patterns; what else is in its folder is the user's
-    "ledger.csv", "history.csv", "metrics.csv", "run.pvd", "summary.json", FAILURE, "compare_*.json", "last_good.*", "checkpoints", "gas",
-    WALLS, "fields/particles_*.vt?", "fields/gas_*.vt?", "fields/part-*.vt?",
+    "ledger.csv", "history.csv", "metrics.csv", "run.pvd", "summary.json", FAILURE, "compare_*.json", "last_good.*",
+    "checkpoints", "gas", WALLS, "fields/particles_*.vt?", "fields/gas_*.vt?", "fields/part-*.vt?",
 )  # fmt: skip
 TEXTS = ("limit",)  # columns of the tables of a run that hold no numbers
 NAMED = ("numpy", "numba", "scipy", "pyvista")  # packages whose versions a run notes
@@ -112,8 +112,11 @@ def write_summary(folder: Path, summary: dict) -> None:
 
 
 def write_origin(folder: Path) -> None:
-    """Where a run comes from: the command, versions, machine. Nothing is taken from it: a folder may come from anywhere."""
-    versions = {"sdph": __version__, "python": platform.python_version()} | {name: importlib.metadata.version(name) for name in NAMED}
+    """Where a run comes from: the command, versions, machine. Nothing is taken from it: a folder may come from
+    anywhere."""
+    versions = {"sdph": __version__, "python": platform.python_version()} | {
+        name: importlib.metadata.version(name) for name in NAMED
+    }
     origin = {"command": sys.argv, "versions": versions, "machine": platform.platform(), "cores": os.cpu_count()}
     write_json(folder / ORIGIN, origin)
 
@@ -135,7 +138,9 @@ def read_summary(folder: Path) -> dict:
     try:
         found = read_json(path)
     except (FileNotFoundError, NotADirectoryError):
-        raise CaseError(f"{folder} holds no finished run (no summary.json); run it first with: sdph run ... --out {folder}") from None
+        raise CaseError(
+            f"{folder} holds no finished run (no summary.json); run it first with: sdph run ... --out {folder}"
+        ) from None
     for key, value in found.items():
         if key != "title" and not _short_number(value):
             raise CaseError(f"{path} is damaged ({key} = {str(value)[:40]!r} is no number); run it again")
@@ -191,7 +196,9 @@ def gas_grid(gas):
     places = [layers(along) for along in centres.T]
     if np.prod([p.max() + 1 for p in places]) == len(centres):
         ticks = [np.bincount(p, along) / np.bincount(p) for p, along in zip(places, centres.T)]
-        edges = [_edges(t, np.bincount(p, gas.mesh.volumes)) for t, p in zip(ticks, places)] + [np.zeros(1)] * (3 - len(ticks))
+        edges = [_edges(t, np.bincount(p, gas.mesh.volumes)) for t, p in zip(ticks, places)] + [np.zeros(1)] * (
+            3 - len(ticks)
+        )
         return pyvista.RectilinearGrid(*edges), np.lexsort(places)
     return _polyhedra(gas)
 
@@ -206,7 +213,8 @@ def _edges(ticks: np.ndarray, layers: np.ndarray) -> np.ndarray:
 
 
 def _polyhedra(gas):
-    """Any OpenFOAM mesh, read from its case, a plane one as a cut through its middle; cells matched by their centres."""
+    """Any OpenFOAM mesh, read from its case, a plane one as a cut through its middle; cells matched by their
+    centres."""
     import pyvista
     from scipy.spatial import cKDTree
 

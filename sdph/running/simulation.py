@@ -13,13 +13,13 @@ from sdph.effects.around.inflow import Source
 from sdph.effects.around.outflow import leaving, refuse_to_leave
 from sdph.engine import state as particles
 from sdph.engine.kept import Unfit
-from sdph.engine.ledger import vector
 from sdph.engine.state import GRAIN, INFLOW
 from sdph.engine.walls import sides as boundary
 from sdph.exchange.exchange import Exchange
 from sdph.exchange.window import Window, learned
 from sdph.methods.grains import start
 from sdph.methods.grains.method import Stepper
+from sdph.methods.grains.window import Tally, of_those_that_left
 from sdph.running import history, output
 
 PART = 4.0  # a window that the gas cannot finish is taken again, so much shorter (our choice),
@@ -31,7 +31,8 @@ class Simulation:
     """Particles of a case coupled to a gas; call `window` until `time` is the end."""
 
     at_row = True  # the history has a row of every window
-    KEPT = ("time", "windows", "repeated", "wall", "stepper", "exchange", "clock", "ledger", "source")  # see sdph.engine.kept
+    # see sdph.engine.kept
+    KEPT = ("time", "windows", "repeated", "wall", "stepper", "exchange", "clock", "ledger", "source")
 
     def __init__(self, case, gas, ledger):
         self.case, self.gas, self.ledger = case, gas, ledger
@@ -64,7 +65,11 @@ class Simulation:
         """Initial fields of both sides, and the first window."""
         self._turn_over(self.case.coupling.window_largest)
         one_way = self.case.coupling.one_way
-        alpha_g = None if one_way or not self.case.coupling.voidage else self.exchange.alpha_g(self.state, self.weights, self._inside())
+        alpha_g = (
+            None
+            if one_way or not self.case.coupling.voidage
+            else self.exchange.alpha_g(self.state, self.weights, self._inside())
+        )
         self.gas_state = self.gas.start(alpha_g, () if one_way else self.exchange.sources)
         if not one_way:
             rate, stake, thickening, grip = self.exchange.pace(self.state, self.weights, self.gas_state)
@@ -116,7 +121,8 @@ class Simulation:
         self.ledger.close_window(end, dt, self.clock.limit, self.grains, self.gas_state, exchanged)
 
     def _with_gas(self, end: float):
-        """Gas through the window to `end` [s], or through the part of it that it can finish: where that ends, and what was handed."""
+        """Gas through the window to `end` [s], or through the part of it that it can finish: where that ends, and what
+        was handed."""
         for _ in range(REPEATS + 1):
             self.stepper.guard.begin(self, end - self.time)
             handed = self._timed("exchange", self._hand, end - self.time)
@@ -125,10 +131,14 @@ class Simulation:
                 return end, handed
             self.gas_state, tried = self.gas.retreat(), end - self.time
             end, self.repeated = self.time + tried / PART, self.repeated + 1
-            self.notices.append(f"window {self.windows + 1}, t = {self.time:.6g} s: taken again, a quarter of {tried:.3g} s long, because {failure}")
+            self.notices.append(
+                f"window {self.windows + 1}, t = {self.time:.6g} s: taken again, a quarter of {tried:.3g} s long, "
+                f"because {failure}"
+            )
         keys = f"coupling.window_largest_s below {tried:.2g} or coupling.courant (now {self.case.coupling.courant:g})"
         raise GasError(
-            f"the gas cannot finish window {self.windows + 1} at t = {self.time:.6g} s, not even {tried:.3g} s of it: {failure}; lower {keys}, "
+            f"the gas cannot finish window {self.windows + 1} at t = {self.time:.6g} s, not even {tried:.3g} s of it: "
+            f"{failure}; lower {keys}, "
             "or look at what enters there ([boundaries], [nozzles]) and at resolution.cell_mm"
         )
 
@@ -147,16 +157,24 @@ class Simulation:
     def meshes(self) -> dict:
         """Particles and gas for the timeline."""
         self.grid = self.grid or output.gas_grid(self.gas)
-        return {"particles": output.particle_points(self.grains, self.case.grains.density), "gas": output.with_fields(*self.grid, self.cell_fields())}
+        return {
+            "particles": output.particle_points(self.grains, self.case.grains.density),
+            "gas": output.with_fields(*self.grid, self.cell_fields()),
+        }
 
     def walls(self):
-        """Those of a surface mesh, for pictures (pyvista); None where there is none: the sides of the domain are seen anyway."""
+        """Those of a surface mesh, for pictures (pyvista); None where there is none: the sides of the domain are seen
+        anyway."""
         mesh = self.case.parameters["walls"].mesh if self.parameters["walls"] else ""
         return boundary.surface(mesh, self.case.dimensions) if mesh else None
 
     def summary(self, out) -> dict[str, float]:
         """summary.json, its own part; what probes rose by is told from the first and the last row of the history."""
-        own = {"cells": len(self.gas.mesh.volumes), "sub_steps": self.stepper.steps, "wall_contacts": self.stepper.contacts}
+        own = {
+            "cells": len(self.gas.mesh.volumes),
+            "sub_steps": self.stepper.steps,
+            "wall_contacts": self.stepper.contacts,
+        }
         own["windows_repeated"] = self.repeated
         for name in self.case.probes:
             own |= {key: out.last[key] for key in (f"{name}_{probed}" for probed in history.PROBED) if key in out.last}
@@ -170,7 +188,9 @@ class Simulation:
 
     def cell_fields(self) -> dict[str, np.ndarray]:
         """Fields of the gas, and alpha_p by cell."""
-        return self.gas_state.fields | {"alpha_p": 1.0 - self.exchange.alpha_g(self.state, self.weights, self._inside())}
+        return self.gas_state.fields | {
+            "alpha_p": 1.0 - self.exchange.alpha_g(self.state, self.weights, self._inside())
+        }
 
     def _hand(self, dt: float):
         """The exchange of a window of `dt`, from where the particles are in its middle (second order in their motion);
@@ -220,7 +240,7 @@ class Simulation:
             self._weights_now = None
         if self.source and self.windows:
             self.clock.stake(self.exchange.stake(self.state, self.weights, self.gas_state))
-        return _of_those_that_left(self.case, left)
+        return of_those_that_left(self.case, left)
 
     def _fastest(self) -> float:
         """Speed of the fastest particle [m/s]."""
@@ -251,38 +271,3 @@ def parts_of(case) -> tuple[dict, Source | None, Stepper, Window]:
     source = Source(case, names, len(state.x) + 1) if parameters["inflow"] else None
     clock = Window(case)
     return parameters, source, Stepper(case, parameters, state, source, clock.shortest), clock
-
-
-class Tally:
-    """What the grains had before they moved, to tell afterwards what they got from where."""
-
-    def __init__(self, simulation):
-        self.momentum, self.heat = _momentum(simulation.state), simulation.stepper.mechanical_heat
-        self.came = _came_in(simulation)
-
-    def columns(self, simulation, body, exchanged) -> dict[str, float]:
-        """Ledger columns, given the impulses (3,) of body forces and from the gas; the rest is of walls."""
-        mass, energy, momentum = (now - before for now, before in zip(_came_in(simulation), self.came))
-        walls = _momentum(simulation.state) - self.momentum - body - exchanged - momentum
-        columns = {"injected_kg": mass, "injected_J": energy, "mechanical_heat_J": simulation.stepper.mechanical_heat - self.heat}
-        impulses = {"impulse_of_body_forces": body, "impulse_of_walls": walls, "impulse_of_inflow": momentum}
-        return columns | {key: value for name, impulse in impulses.items() for key, value in vector(name, impulse).items()}
-
-
-def _came_in(simulation):
-    """Mass [kg], enthalpy [J] and momentum [kg m/s] through the nozzles since the start."""
-    source = simulation.source
-    return (source.mass, source.energy, source.momentum) if source else (0.0, 0.0, np.zeros(3))
-
-
-def _momentum(state) -> np.ndarray:
-    return np.einsum("i,ij->j", state.mass * (state.kind == GRAIN), particles.velocities(state))
-
-
-def _of_those_that_left(case, left) -> dict[str, float]:
-    """Ledger columns of the grains that left."""
-    if left is None:
-        return {"left_kg": 0.0, "left_J": 0.0} | vector("impulse_of_outflow", np.zeros(3))
-    energy = float((left.mass * left.temperature).sum() * case.grains.heat_capacity) if len(left.temperature) else 0.0
-    return {"left_kg": float(left.mass.sum()), "left_J": energy} | vector("impulse_of_outflow", -_momentum(left))
-

@@ -34,8 +34,8 @@ class Tank:
         """Takes the liquid through `dt` [s]; returns (force (3,) [N], moment (3,) [N m]) of the liquid on the craft.
 
         acceleration (3,) [m/s2] of the origin, gravity left out, held over `dt`; omega (3,) [rad/s] at the start,
-        omega_dot (3,) [rad/s2] held; fill, commanded at the end. Force and moment are means over `dt` in the axes at its
-        start, about the point where the origin was then (carried along with its velocity): what the momentum of the
+        omega_dot (3,) [rad/s2] held; fill, commanded at the end. Force and moment are means over `dt` in the axes at
+        its start, about the point where the origin was then (carried along with its velocity): what the momentum of the
         liquid has not gained (paper T, Eq. 16 and 17). `wall_load` holds the same summed over the pushes of the walls.
         """
         acceleration, omega, omega_dot = (np.asarray(v, float) for v in (acceleration, omega, omega_dot))
@@ -69,7 +69,8 @@ class Tank:
         self.wall_load = impulse / dt
 
     def _momentum(self, rotation, omega, velocity, moved) -> np.ndarray:
-        """(6,) of the liquid in the axes at the start, `rotation` (3, 3) from the tank's, which has `velocity` and has `moved`."""
+        """(6,) of the liquid in the axes at the start, `rotation` (3, 3) from the tank's, which has `velocity` and has
+        `moved`."""
         s = self.stepper.state
         wet = particles.wet(s)
         r, v, m = particles.positions(s)[wet], particles.velocities(s)[wet], s.mass[wet, None]
@@ -77,13 +78,20 @@ class Tank:
         return np.concatenate([p.sum(axis=0), np.cross(r @ rotation.T + moved, p).sum(axis=0)])
 
     def _left(self, gone, rotation, omega, gained) -> np.ndarray:
-        """(6,) momentum that the mass `gone` (its momenta relative to the tank) took along, at the middle of the step."""
+        """(6,) momentum that the mass `gone` (its momenta relative to the tank) took along, at the middle of the
+        step."""
         mass, momentum, angular = gone[0], gone[1:4], gone[4:7]
         if mass == 0.0:
             return np.zeros(6)
         place = self.outlet.place
         p = rotation @ (momentum + mass * np.cross(omega, place)) + 0.5 * mass * gained
-        return np.concatenate([p, rotation @ (angular + mass * np.cross(place, np.cross(omega, place))) + np.cross(place, 0.5 * mass * gained)])
+        return np.concatenate(
+            [
+                p,
+                rotation @ (angular + mass * np.cross(place, np.cross(omega, place)))
+                + np.cross(place, 0.5 * mass * gained),
+            ]
+        )
 
     def _weight(self) -> np.ndarray:
         """(6,) force and moment of gravity on the liquid, where the case has any."""
@@ -99,14 +107,14 @@ class Tank:
         return float(s.mass[particles.wet(s)].sum())
 
     def momentum(self, rotation, omega, velocity, place) -> np.ndarray:
-        """(6,) momentum and angular momentum of the liquid in inertial axes, about their origin: `rotation` (3, 3) from the
-        tank's axes, omega (3,) in the tank's, velocity and place (3,) of the tank's origin."""
+        """(6,) momentum and angular momentum of the liquid in inertial axes, about their origin: `rotation` (3, 3) from
+        the tank's axes, omega (3,) in the tank's, velocity and place (3,) of the tank's origin."""
         return self._momentum(rotation, omega, velocity, place)
 
 
 def frame_step(acceleration, omega, omega_dot, dt: float) -> tuple[np.ndarray, np.ndarray]:
-    """(rotation (3, 3) from the axes at the end to those at the start, gain of velocity (3,) in those at the start) of a
-    frame whose acceleration and omega_dot are held over `dt` [s] in its own axes; second order in time."""
+    """(rotation (3, 3) from the axes at the end to those at the start, gain of velocity (3,) in those at the start) of
+    a frame whose acceleration and omega_dot are held over `dt` [s] in its own axes; second order in time."""
     turn = (np.asarray(omega) + 0.5 * dt * np.asarray(omega_dot)) * dt
     halfway = Rotation.from_rotvec(0.5 * turn).as_matrix()
     return Rotation.from_rotvec(turn).as_matrix(), halfway @ (np.asarray(acceleration) * dt)

@@ -46,10 +46,13 @@ def _frame(time: float, particles, gas) -> dict:
 
 
 def _sizes(gas) -> dict:
-    """Width and height (C, 2) of the cells of a grid of boxes; of other meshes nothing, their cells are drawn as the case's."""
+    """Width and height (C, 2) of the cells of a grid of boxes; of other meshes nothing, their cells are drawn as the
+    case's."""
     if gas.GetClassName() != "vtkRectilinearGrid":
         return {}
-    steps = np.meshgrid(*(np.diff(ticks) if len(ticks) > 1 else np.zeros(1) for ticks in (gas.z, gas.y, gas.x)), indexing="ij")
+    steps = np.meshgrid(
+        *(np.diff(ticks) if len(ticks) > 1 else np.zeros(1) for ticks in (gas.z, gas.y, gas.x)), indexing="ij"
+    )
     return {"size": np.stack((steps[2].ravel(), steps[1].ravel()), axis=1)}
 
 
@@ -67,11 +70,16 @@ def _points(places, arrays, shapes) -> dict:
 def _ranges(parts: list[dict]) -> dict[str, list[float]]:
     """Least and greatest value over all instants."""
     names = [name for name in (parts[0] if parts else ()) if name not in ("x", "size")]
-    return {name: [float(min(p[name].min() for p in parts)), float(max(p[name].max() for p in parts))] for name in names}
+    return {
+        name: [float(min(p[name].min() for p in parts)), float(max(p[name].max() for p in parts))] for name in names
+    }
 
 
 def _encoded(frame: dict) -> dict:
     def text(values) -> str:
         return base64.b64encode(np.ascontiguousarray(values, "<f4").tobytes()).decode()
 
-    return {part: {name: text(v) for name, v in value.items()} if isinstance(value, dict) else value for part, value in frame.items()}
+    return {
+        part: {name: text(v) for name, v in value.items()} if isinstance(value, dict) else value
+        for part, value in frame.items()
+    }

@@ -29,11 +29,24 @@ SLAB = 0.25  # of the next longer side: a box so thin is looked at across
 SAME = 1e-6  # of the last time: how far past it a time may lie, by the digits it was written with
 OFF_FACES = 1e-6  # of its lengths: a cut through the middle of a box is no face of its cells
 MOVIES = {".gif": {"duration": 100, "loop": 0}, ".mp4": {"fps": 10, "macro_block_size": 2}}  # ten pictures a second
-BAR = {"vertical": True, "position_y": 0.2, "height": 0.6, "width": 0.06, "fmt": "%.6g", "n_labels": 5, "title_font_size": 16, "label_font_size": 14}
+BAR = {
+    "vertical": True,
+    "position_y": 0.2,
+    "height": 0.6,
+    "width": 0.06,
+    "fmt": "%.6g",
+    "n_labels": 5,
+    "title_font_size": 16,
+    "label_font_size": 14,
+}
 PARTICLES = ("velocity", "ident", "kind", "mass", "density")  # arrays that all particles have, of grains and of liquids
 GAS_CELLS = ("velocity", "pressure", "temperature", "density", "alpha_p")
 GAS_UNITS = {"alpha_p": "1", "temperature": "K", "pressure": "Pa", "density": "kg/m3", "vapour_mass_fraction": "1"}
-PARTICLE_UNITS = {name: unit for name, (unit, _) in FIELDS.items()} | {"alpha_p": "1", "pressure": "Pa", "velocity": "m/s"}
+PARTICLE_UNITS = {name: unit for name, (unit, _) in FIELDS.items()} | {
+    "alpha_p": "1",
+    "pressure": "Pa",
+    "velocity": "m/s",
+}
 
 
 @dataclass(frozen=True)
@@ -91,7 +104,9 @@ def show(folder: Path, png: Path | None = None, time: float | None = None, field
     """A window on the last state of a run, or the same as a picture."""
     chosen, particles, gas = state_at(read(folder), time)
     if png is None and sys.platform == "linux" and not {"DISPLAY", "WAYLAND_DISPLAY"} & os.environ.keys():
-        raise CaseError("there is no display to open a window on; write a picture with --png FILE, or a movie with --movie FILE")
+        raise CaseError(
+            "there is no display to open a window on; write a picture with --png FILE, or a movie with --movie FILE"
+        )
     plotter = scene(particles, gas, field, f"t = {chosen:g} s", png is not None, walls=_walls(folder), up=_up(folder))
     if png is None:
         plotter.show()
@@ -116,7 +131,17 @@ def movie(folder: Path, target: Path, field: str | None = None) -> None:
     walls = _walls(folder)
     box = _around([*(particles if gas is None else gas for _, particles, gas in states), *([walls] if walls else [])])
     for time, particles, gas in states:
-        plotter = scene(particles, gas, field, f"t = {time:g} s", off_screen=True, ranges=ranges, box=box, walls=walls, up=_up(folder))
+        plotter = scene(
+            particles,
+            gas,
+            field,
+            f"t = {time:g} s",
+            off_screen=True,
+            ranges=ranges,
+            box=box,
+            walls=walls,
+            up=_up(folder),
+        )
         pictures.append(plotter.screenshot(return_img=True))
         plotter.close()
     try:
@@ -138,7 +163,8 @@ def _up(folder: Path) -> tuple:
 
 
 def upwards(gravity) -> tuple:
-    """The axis, as a vector (3,), against which gravity (d,) [m/s2] pulls most; z in two dimensions and where nothing falls."""
+    """The axis, as a vector (3,), against which gravity (d,) [m/s2] pulls most; z in two dimensions and where nothing
+    falls."""
     falls = len(gravity) == 3 and min(gravity) < 0.0
     return tuple(float(a == (np.argmin(gravity) if falls else 2)) for a in range(3))
 
@@ -162,10 +188,20 @@ def _around(meshes) -> np.ndarray:
     return np.stack((bounds[:, :, 0].min(axis=0), bounds[:, :, 1].max(axis=0)), axis=1).ravel()
 
 
-def scene(particles, gas, field: str | None, title: str, off_screen: bool, ranges=(None, None), box=None, walls=None, up=(0.0, 0.0, 1.0)):
-    """A plotter with the particles coloured by `field` (None: temperature, speed where there is none) over the cells of the gas,
-    in `walls`, `up` (3,) being upwards in space; `ranges` of the colours of both, and `box` that is shown (6,) [m] (None: those of the picture). Of two phases
-    of particles the gas is drawn small."""
+def scene(
+    particles,
+    gas,
+    field: str | None,
+    title: str,
+    off_screen: bool,
+    ranges=(None, None),
+    box=None,
+    walls=None,
+    up=(0.0, 0.0, 1.0),
+):
+    """A plotter with the particles coloured by `field` (None: temperature, speed where there is none) over the cells of
+    the gas, in `walls`, `up` (3,) being upwards in space; `ranges` of the colours of both, and `box` that is shown (6,)
+    [m] (None: those of the picture). Of two phases of particles the gas is drawn small."""
     import pyvista
     from vtkmodules.vtkCommonCore import vtkLogger
 
@@ -173,7 +209,9 @@ def scene(particles, gas, field: str | None, title: str, off_screen: bool, range
         vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
 
     given, field = field, field or _usual(gas)
-    known = sorted({*particles.point_data, *(gas.cell_data if gas is not None else ())} & {*GAS_UNITS, *PARTICLE_UNITS, "velocity"})
+    known = sorted(
+        {*particles.point_data, *(gas.cell_data if gas is not None else ())} & {*GAS_UNITS, *PARTICLE_UNITS, "velocity"}
+    )
     if given and given not in known:
         raise CaseError(f"--field {given}: this run has {', '.join(known)}")
     plotter = pyvista.Plotter(off_screen=off_screen, window_size=WINDOW)
@@ -189,7 +227,9 @@ def scene(particles, gas, field: str | None, title: str, off_screen: bool, range
             size, look = ASLANT * size, {"render_points_as_spheres": True}
         for part, share in _phases(particles):
             colours = ranges[0] or _range([particles], field)
-            plotter.add_mesh(part, scalars=field, cmap="inferno", clim=colours, scalar_bar_args=bar, point_size=share * size, **look)
+            plotter.add_mesh(
+                part, scalars=field, cmap="inferno", clim=colours, scalar_bar_args=bar, point_size=share * size, **look
+            )
     if walls:
         plotter.add_mesh(walls, color=WALL, opacity=CLEAR, lighting=False, line_width=2)
     plotter.add_text(title, font_size=12, position="upper_edge")
@@ -201,7 +241,9 @@ def scene(particles, gas, field: str | None, title: str, off_screen: bool, range
     else:
         plotter.view_vector((1.0, 1.0, 1.0), viewup=up)
     axes = {"xtitle": "x [m]", "ytitle": "y [m]", "ztitle": "z [m]", "font_size": 10, "fmt": "%.3g"}
-    axes |= {f"n_{a}labels": max(2, round(LABELS * length / _lengths(box).max())) for a, length in zip("xyz", _lengths(box))}
+    axes |= {
+        f"n_{a}labels": max(2, round(LABELS * length / _lengths(box).max())) for a, length in zip("xyz", _lengths(box))
+    }
     plotter.show_bounds(bounds=_rounded(box), location="outer", **axes)
     plotter.reset_camera(bounds=_rounded(box))
     wide = box[1] - box[0] > box[3] - box[2]
@@ -210,7 +252,8 @@ def scene(particles, gas, field: str | None, title: str, off_screen: bool, range
 
 
 def _cut(gas):
-    """The gas, in space by the plane through the middle of its thinnest side; and that axis where it is a slab, else None."""
+    """The gas, in space by the plane through the middle of its thinnest side; and that axis where it is a slab, else
+    None."""
     lengths = _lengths(gas.bounds)
     if not lengths[2]:
         return gas, None
@@ -238,7 +281,9 @@ def _phases(particles) -> list[tuple]:
     light = particles["kind"] == GAS if "kind" in particles.point_data else np.zeros(particles.n_points, bool)
     if light.all() or not light.any():
         return [(particles, 1.0)]
-    return [(particles.extract_points(own, include_cells=False), share) for own, share in ((~light, 1.0), (light, LIGHT))]
+    return [
+        (particles.extract_points(own, include_cells=False), share) for own, share in ((~light, 1.0), (light, LIGHT))
+    ]
 
 
 def _size(particles, bounds) -> float:

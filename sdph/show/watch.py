@@ -32,7 +32,9 @@ class Page:
         draft = self.folder / f".{PICTURE}"
         _draw(simulation, draft)
         os.replace(draft, self.folder / PICTURE)
-        text = PAGE.format(title=html.escape(simulation.case.title), line=html.escape(line), picture=PICTURE, stamp=simulation.windows)
+        text = PAGE.format(
+            title=html.escape(simulation.case.title), line=html.escape(line), picture=PICTURE, stamp=simulation.windows
+        )
         output.write_text(self.folder / NAME, text)
         now = time.perf_counter()
         self.due = now + (now - begun) / SHARE
@@ -45,7 +47,9 @@ def _draw(simulation, file: Path) -> None:
     particles = meshes["particles"]
     field = next((name for name in SHOWN if name in particles.point_data), SHOWN[0])
     walls, up = simulation.walls(), view.upwards(simulation.case.domain.gravity)
-    plotter = view.scene(particles, meshes.get("gas"), field, f"t = {simulation.time:g} s", off_screen=True, walls=walls, up=up)
+    plotter = view.scene(
+        particles, meshes.get("gas"), field, f"t = {simulation.time:g} s", off_screen=True, walls=walls, up=up
+    )
     image = plotter.screenshot(return_img=True)
     plotter.close()
     import imageio.v3 as imageio

@@ -66,7 +66,13 @@ def check(name: str, value: float, reference: float, tolerance: float, relative:
     """One row of a comparison: |value - reference| <= tolerance (times |reference| where relative)."""
     value, reference = float(value), float(reference)
     allowed = tolerance * abs(reference) if relative else tolerance
-    return {"name": name, "value": value, "reference": reference, "tolerance": allowed, "ok": bool(abs(value - reference) <= allowed)}
+    return {
+        "name": name,
+        "value": value,
+        "reference": reference,
+        "tolerance": allowed,
+        "ok": bool(abs(value - reference) <= allowed),
+    }
 
 
 def compare(folder: Path, against: str) -> list[dict]:
@@ -76,14 +82,20 @@ def compare(folder: Path, against: str) -> list[dict]:
     function = getattr(module, against, None)
     if function is None:
         known = [name for name in ("exact", "tfm", "dpm") if hasattr(module, name)]
-        raise CaseError(f"--against {against}: {run.case.scene or 'this case'} has no such reference; it has: {', '.join(known) or 'none'}")
+        raise CaseError(
+            f"--against {against}: {run.case.scene or 'this case'} has no such reference; it has: "
+            f"{', '.join(known) or 'none'}"
+        )
     try:
         checks = function(run)
     except KeyError as error:  # regions, effects and arrays go by the names that the scene gives them
         lacks = f"{folder} cannot be compared as {run.case.scene}: it has no {error}"
         raise CaseError(f"{lacks}; compare a run of the scene as it is") from None
     if not checks:
-        raise CaseError(f"the run ends at {run.summary['time_s']:g} s, before the first time that its reference tells of; go on with: sdph run --resume {folder} --until T")
+        raise CaseError(
+            f"the run ends at {run.summary['time_s']:g} s, before the first time that its reference tells of; go on "
+            f"with: sdph run --resume {folder} --until T"
+        )
     output.write_json(folder / f"compare_{against}.json", {"checks": checks})
     return checks
 
@@ -103,5 +115,7 @@ def table(checks: list[dict]) -> str:
     """The checks as text, one line each."""
     head = f"{'check':72s} {'value':>14s} {'reference':>14s} {'difference':>12s} {'tolerance':>11s}"
     row = "{name:72s} {value:14.7g} {reference:14.7g} {difference:12.3g} {tolerance:11.3g} {verdict}"
-    lines = [row.format(difference=c["value"] - c["reference"], verdict="ok" if c["ok"] else "FAILED", **c) for c in checks]
+    lines = [
+        row.format(difference=c["value"] - c["reference"], verdict="ok" if c["ok"] else "FAILED", **c) for c in checks
+    ]
     return "\n".join([head, *lines])

@@ -20,19 +20,25 @@ ROUND = {2: math.pi, 3: 4.0 / 3.0 * math.pi}  # of a disc and a sphere over radi
 
 def refuse_too_large(case) -> None:
     """CaseError where the case needs more memory than is free."""
-    count = sum(_volume(case, part) for part in (*case.particles.values(), *case.pools.values())) / case.resolution.spacing**case.dimensions
+    count = (
+        sum(_volume(case, part) for part in (*case.particles.values(), *case.pools.values()))
+        / case.resolution.spacing**case.dimensions
+    )
     count += sum(_waiting(case, nozzle) for nozzle in case.nozzles.values())
     cells = 0 if case.liquid else math.prod(gas_cells.cells(case))
     needed, free = estimate.memory(case, count, cells) + POINT * _looked_at(case), available()
     if needed > free:
         raise CaseError(
-            f"the case has about {count:.3g} particles and {cells:.3g} gas cells and needs about {needed / 1e9:.3g} GB of memory; "
-            f"{free / 1e9:.3g} GB are free here: raise resolution.spacing_mm or resolution.cell_mm, or take a larger machine"
+            f"the case has about {count:.3g} particles and {cells:.3g} gas cells and needs about {needed / 1e9:.3g} "
+            "GB of memory; "
+            f"{free / 1e9:.3g} GB are free here: raise resolution.spacing_mm or resolution.cell_mm, or take a larger "
+            "machine"
         )
 
 
 def available() -> float:
-    """Bytes that a program can still have: what the system says is free, or what its group is allowed; inf where neither is told."""
+    """Bytes that a program can still have: what the system says is free, or what its group is allowed; inf where
+    neither is told."""
     found = [math.inf]
     if MEMINFO.exists():
         lines = dict(line.split(":") for line in MEMINFO.read_text(encoding="ascii").splitlines())

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from coupling.choice import expected
 from sdph.case.gas_cells import cell_edges
-from sdph.methods.liquids.method import parts_of as parts_of_liquid
+from sdph.methods.liquids.start import parts_of as parts_of_liquid
 from sdph.running import inputs, metrics
 from sdph.running.simulation import parts_of
 from sdph.study import memory as room

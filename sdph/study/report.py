@@ -17,12 +17,24 @@ from sdph.show import frames
 
 STYLE = """
 body { font: 15px/1.45 sans-serif; margin: 2em auto; max-width: 1200px; padding: 0 1em; color: #222 }
-table { border-collapse: collapse; margin: 0.5em 0 1.5em } td, th { padding: 0.15em 0.9em 0.15em 0; text-align: left; border-bottom: 1px solid #ddd }
-td.number { text-align: right; font-variant-numeric: tabular-nums } .failed { color: #b00 } img, canvas { max-width: 100% } h2 { margin-top: 1.6em }
+table { border-collapse: collapse; margin: 0.5em 0 1.5em }
+td, th { padding: 0.15em 0.9em 0.15em 0; text-align: left; border-bottom: 1px solid #ddd }
+td.number { text-align: right; font-variant-numeric: tabular-nums } .failed { color: #b00 }
+img, canvas { max-width: 100% } h2 { margin-top: 1.6em }
 canvas { border: 1px solid #ccc; touch-action: none }
 """
-PAGE = '<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>{style}</style></head><body>{body}</body></html>\n'
-CLOSURE = ("mass_drift_rel", "energy_drift_rel", "exchange_energy_mismatch_rel", "exchange_momentum_mismatch_rel", "momentum_drift_rel", "energy_made_rel")
+PAGE = (
+    '<!doctype html><html lang="en"><head><meta '
+    'charset="utf-8"><title>{title}</title><style>{style}</style></head><body>{body}</body></html>\n'
+)
+CLOSURE = (
+    "mass_drift_rel",
+    "energy_drift_rel",
+    "exchange_energy_mismatch_rel",
+    "exchange_momentum_mismatch_rel",
+    "momentum_drift_rel",
+    "energy_made_rel",
+)
 CHECK = ("name", "value", "reference", "tolerance")  # of a comparison
 PLOTS = 6  # curves in one figure
 
@@ -115,11 +127,17 @@ def _state(run: Shown) -> str:
         return f'<span class="failed">failed at t = {when:.6g} s: {what}</span>'
     if run.summary:
         return f"finished at t = {run.summary['time_s']:.6g} s"
-    return '<span class="failed">not finished: it is still going on, or was killed; sdph run --resume goes on with it</span>'
+    return (
+        '<span class="failed">not finished: it is still going on, or was killed; sdph run --resume goes on with '
+        "it</span>"
+    )
 
 
 def _results(runs: list[Shown]) -> str:
-    numbers = [{k: v for k, v in run.summary.items() if not k.startswith("wall_") and not k.endswith("_per_window")} for run in runs]
+    numbers = [
+        {k: v for k, v in run.summary.items() if not k.startswith("wall_") and not k.endswith("_per_window")}
+        for run in runs
+    ]
     body = _side_by_side(runs, numbers)
     for run in runs:
         for path in sorted(run.folder.glob("compare_*.json")):
@@ -155,7 +173,9 @@ def _histories(runs: list[Shown]) -> str:
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    figure, axes = pyplot.subplots(len(columns), 1, figsize=(9.0, 2.2 * len(columns)), sharex=True, squeeze=False, layout="constrained")
+    figure, axes = pyplot.subplots(
+        len(columns), 1, figsize=(9.0, 2.2 * len(columns)), sharex=True, squeeze=False, layout="constrained"
+    )
     for axis, column in zip(axes[:, 0], columns):
         for name, table in tables:
             if column in table:
@@ -187,7 +207,10 @@ def _ledger(runs: list[Shown]) -> str:
 
 def _walls(runs: list[Shown]) -> str:
     """Where the time went."""
-    rows = [{k: v for k, v in run.summary.items() if k.startswith("wall_") or k.endswith(("_per_window", "_per_s"))} for run in runs]
+    rows = [
+        {k: v for k, v in run.summary.items() if k.startswith("wall_") or k.endswith(("_per_window", "_per_s"))}
+        for run in runs
+    ]
     return _section("Where the time went", _side_by_side(runs, rows)) if any(rows) else ""
 
 
@@ -202,6 +225,11 @@ def _short(value):
 
 
 def _versions(runs: list[Shown]) -> str:
-    rows = [run.origin.get("versions", {}) | {k: run.origin[k] for k in ("machine", "cores") if k in run.origin} for run in runs]
-    command = [{"command": " ".join(["sdph", *run.origin["command"][1:]])} if "command" in run.origin else {} for run in runs]
+    rows = [
+        run.origin.get("versions", {}) | {k: run.origin[k] for k in ("machine", "cores") if k in run.origin}
+        for run in runs
+    ]
+    command = [
+        {"command": " ".join(["sdph", *run.origin["command"][1:]])} if "command" in run.origin else {} for run in runs
+    ]
     return _section("Versions", _side_by_side(runs, [a | b for a, b in zip(rows, command)]))

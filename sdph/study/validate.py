@@ -36,7 +36,9 @@ def validate(scene: str, overrides: tuple[str, ...], reporter, folder: Path | No
         driver.run(case, scene, own_folder, None, reporter)
         run = compare.open_run(own_folder)
         for reference in references:
-            checks += [check | {"name": f"{name}, {reference}: {check['name']}"} for check in getattr(module, reference)(run)]
+            checks += [
+                check | {"name": f"{name}, {reference}: {check['name']}"} for check in getattr(module, reference)(run)
+            ]
     return checks
 
 

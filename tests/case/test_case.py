@@ -79,14 +79,24 @@ def test_every_unit_reads_back(value, unit):
 
 
 def test_default_is_in_the_unit_of_its_key():
-    record = schema.record(type("Section", (), {"__annotations__": {"angle": float}, "angle": schema.quantity("deg", 30.0, most=60.0)}))
+    record = schema.record(
+        type("Section", (), {"__annotations__": {"angle": float}, "angle": schema.quantity("deg", 30.0, most=60.0)})
+    )
     assert schema.read(record, {}, "section") == schema.read(record, {"angle_deg": 30.0}, "section")
     assert schema.read(record, {}, "section").angle == pytest.approx(math.pi / 6.0, rel=1e-15)
 
 
 def test_optional_sections_read_back():
-    vapour = "{molar_mass_kg_kmol=142.3, diffusivity_m2_s=3.8e-6, heat_capacity_J_kg_K=2e3, conductivity_W_m_K=0.018, viscosity_Pa_s=7e-6}"
-    case = disc(f"vapour={vapour}", "track.particles=[645, 1050]", "boundaries.inlet.kind='velocity_inlet'", "boundaries.inlet.velocity_m_s=[0,1]")
+    vapour = (
+        "{molar_mass_kg_kmol=142.3, diffusivity_m2_s=3.8e-6, heat_capacity_J_kg_K=2e3, conductivity_W_m_K=0.018, "
+        "viscosity_Pa_s=7e-6}"
+    )
+    case = disc(
+        f"vapour={vapour}",
+        "track.particles=[645, 1050]",
+        "boundaries.inlet.kind='velocity_inlet'",
+        "boundaries.inlet.velocity_m_s=[0,1]",
+    )
     assert case.vapour.molar_mass == 142.3
     assert case.track == (645, 1050)
     assert read_back(case) == case
@@ -160,9 +170,18 @@ def test_bad_value_is_refused_by_name(overrides, told):
         assert part in message
 
 
-RECORDS = sections.SECTIONS | sections.GROUPS | {"coupling": sections.Coupling, "vapour": sections.Vapour, "liquid": Liquid, "gas_phase": GasPhase}
+RECORDS = (
+    sections.SECTIONS
+    | sections.GROUPS
+    | {"coupling": sections.Coupling, "vapour": sections.Vapour, "liquid": Liquid, "gas_phase": GasPhase}
+)
 RECORDS |= {name: row.parameters for name, row in effects.REGISTRY.items()}
-QUANTITIES = [(cls, key, *found) for cls in RECORDS.values() for key, found in schema.fields(cls).items() if not found[1].choices and found[1].of is None]
+QUANTITIES = [
+    (cls, key, *found)
+    for cls in RECORDS.values()
+    for key, found in schema.fields(cls).items()
+    if not found[1].choices and found[1].of is None
+]
 
 
 def holding(cls, name, value):
@@ -173,16 +192,20 @@ def holding(cls, name, value):
     return made
 
 
-@pytest.mark.parametrize(("cls", "key", "name", "kind"), QUANTITIES, ids=[f"{cls.__name__}.{key}" for cls, key, *_ in QUANTITIES])
+@pytest.mark.parametrize(
+    ("cls", "key", "name", "kind"), QUANTITIES, ids=[f"{cls.__name__}.{key}" for cls, key, *_ in QUANTITIES]
+)
 def test_no_quantity_may_be_absurd(cls, key, name, kind):
-    """1e31 of anything, and 1e-31 of what must be above 0: not of times, which may be as short as one likes, nor of what stands for 0."""
+    """1e31 of anything, and 1e-31 of what must be above 0: not of times, which may be as short as one likes, nor of
+    what stands for 0."""
     for value in (1e31, -1e31) if kind.components == 0 else ((1e31, 0.0), ((0.0, -1e31),)):
         with pytest.raises(CaseError, match=rf"section.{key} = .*e\+\d\d; what makes sense here"):
             schema.plausible(holding(cls, name, value), "section")
     if kind.above == 0.0 and kind.unit not in ("s", "ms") and not kind.tiny:
         with pytest.raises(CaseError, match=f"section.{key} = .*e-.*makes sense here is from"):
             schema.plausible(holding(cls, name, 1e-31), "section")
-    schema.plausible(holding(cls, name, (0.0, 1e-300) if kind.components is None else 1.0), "section")  # round-off of who computed it
+    # round-off of who computed it
+    schema.plausible(holding(cls, name, (0.0, 1e-300) if kind.components is None else 1.0), "section")
 
 
 def test_every_unit_has_bounds():
@@ -197,7 +220,10 @@ def test_every_unit_has_bounds():
         ("title=5", "title = 5; it must be a text"),
         ("title=['a']", "title = ['a']; it must be a text"),
         ("scene=true", "scene = True; it must be a text"),
-        ("grains.density_kg_m3=1e30", "grains.density_kg_m3 = 1e+30; what makes sense here is from 1e-20 to 1e+06 kg m3"),
+        (
+            "grains.density_kg_m3=1e30",
+            "grains.density_kg_m3 = 1e+30; what makes sense here is from 1e-20 to 1e+06 kg m3",
+        ),
         ("grains.diameter_mm=1e-30", "grains.diameter_mm = 1e-30; what makes sense here is from 1e-13 to 1e+13 mm"),
         ("gas.temperature_K=1e12", "gas.temperature_K = 1e+12"),
         ("domain.gravity_m_s2=[0,-1e20]", "domain.gravity_m_s2 = -1e+20"),
@@ -239,8 +265,16 @@ def paths(table, here=()):
 
 
 anything = st.recursive(
-    st.none() | st.booleans() | st.integers() | st.integers(10**308, 10**310) | st.floats() | st.text(max_size=6) | st.sampled_from(["box", "ideal"]),
-    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.sampled_from(["kind", "at_m", "x"]), inner, max_size=2),
+    st.none()
+    | st.booleans()
+    | st.integers()
+    | st.integers(10**308, 10**310)
+    | st.floats()
+    | st.text(max_size=6)
+    | st.sampled_from(["box", "ideal"]),
+    lambda inner: (
+        st.lists(inner, max_size=3) | st.dictionaries(st.sampled_from(["kind", "at_m", "x"]), inner, max_size=2)
+    ),
     max_leaves=4,
 )
 # TOML has no null; a None stands for "take it away"

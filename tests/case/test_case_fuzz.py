@@ -23,20 +23,33 @@ from sdph.study import memory as room
 from sdph.study import rehearsal
 from sdph.study.explain import tables
 
-TABLES = {name: tomllib.loads((scenes.HERE / name / "case.toml").read_text(encoding="utf-8")) for name in scenes.names()}
+TABLES = {
+    name: tomllib.loads((scenes.HERE / name / "case.toml").read_text(encoding="utf-8")) for name in scenes.names()
+}
 WORDS = sorted({key for table in TABLES.values() for key in json.dumps(table).split('"')[1::2]})
 ODD = [
-    0, 1, -1, 2, 3, 10**9, 10**400, 0.0, -0.0, 1e-308, 1e308, 5e-324, float("inf"), float("-inf"), float("nan"), True, False, "", "x",
-    "../../etc/passwd", "/tmp/out", "#codeStream { }", "$HOME", "a\nb", "\0", "ä" * 300, [], [[]], [1.0], [1.0, 2.0], [1.0, 2.0, 3.0],
-    [-1.0, 1e9], [["x"]], [None], {}, {"a": 1}, {"shape": "box"}, "1e400",
+    0, 1, -1, 2, 3, 10**9, 10**400, 0.0, -0.0, 1e-308, 1e308, 5e-324, float("inf"), float("-inf"), float("nan"), True,
+    False, "", "x",
+    "../../etc/passwd", "/tmp/out", "#codeStream { }", "$HOME", "a\nb", "\0", "ä" * 300, [], [[]], [1.0], [1.0, 2.0],
+    [1.0, 2.0, 3.0], [-1.0, 1e9], [["x"]], [None], {}, {"a": 1}, {"shape": "box"}, "1e400",
 ]  # fmt: skip
 VALUES = st.one_of(
-    st.sampled_from(ODD), st.floats(allow_nan=True), st.integers(-(2**70), 2**70), st.text(max_size=8), st.sampled_from(WORDS),
-    st.lists(st.floats(-1e3, 1e3), max_size=4),
+    st.sampled_from(ODD), st.floats(allow_nan=True), st.integers(-(2**70), 2**70), st.text(max_size=8),
+    st.sampled_from(WORDS), st.lists(st.floats(-1e3, 1e3), max_size=4),
 )  # fmt: skip
 SMALL = {  # of what a case that passes is really run with: seconds, not hours
-    "disc_cluster": ("resolution.spacing_mm=25", "resolution.cell_mm=100", "run.end_time_s=1e-5", "run.output_interval_s=1e-5"),
-    "bubbling_bed": ("resolution.spacing_mm=50", "resolution.cell_mm=20", "run.end_time_s=1e-5", "run.output_interval_s=1e-5"),
+    "disc_cluster": (
+        "resolution.spacing_mm=25",
+        "resolution.cell_mm=100",
+        "run.end_time_s=1e-5",
+        "run.output_interval_s=1e-5",
+    ),
+    "bubbling_bed": (
+        "resolution.spacing_mm=50",
+        "resolution.cell_mm=20",
+        "run.end_time_s=1e-5",
+        "run.output_interval_s=1e-5",
+    ),
 }
 
 
@@ -95,7 +108,9 @@ def bent(draw):
 
 
 FACTORS = st.one_of(st.floats(-3.0, 3.0).map(lambda x: 10.0**x), st.sampled_from([-1.0, 0.0, 1e-9, 1e9]))
-SPECIES = {matter: sorted(name for name, row in REGISTRY.items() if matter in row.matter) for matter in ("grains", "liquid")}
+SPECIES = {
+    matter: sorted(name for name, row in REGISTRY.items() if matter in row.matter) for matter in ("grains", "liquid")
+}
 
 
 def others(value):
@@ -105,7 +120,9 @@ def others(value):
     if isinstance(value, (int, float)):
         return FACTORS.map(lambda factor: type(value)(value * factor))
     if isinstance(value, list) and value and isinstance(value[0], str):
-        return st.lists(st.sampled_from(SPECIES["liquid" if set(value) <= set(SPECIES["liquid"]) else "grains"]), unique=True)
+        return st.lists(
+            st.sampled_from(SPECIES["liquid" if set(value) <= set(SPECIES["liquid"]) else "grains"]), unique=True
+        )
     if isinstance(value, list):
         return st.tuples(*map(others, value)).map(list)
     return st.sampled_from(WORDS) if isinstance(value, str) else st.just(value)
@@ -130,7 +147,12 @@ def test_a_bent_case_is_explained_or_refused_in_one_line(pair):
 
 
 @settings(max_examples=300)
-@given(st.sampled_from(sorted(TABLES)), st.text(st.characters(codec="utf-8"), max_size=30), st.integers(0, 3000), st.integers(0, 60))
+@given(
+    st.sampled_from(sorted(TABLES)),
+    st.text(st.characters(codec="utf-8"), max_size=30),
+    st.integers(0, 3000),
+    st.integers(0, 60),
+)
 def test_a_harmed_file_is_read_or_refused_in_one_line(tmp_path_factory, name, text, place, removed):
     file = tmp_path_factory.mktemp("case") / "case.toml"
     whole = (scenes.HERE / name / "case.toml").read_text(encoding="utf-8")

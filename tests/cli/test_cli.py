@@ -1,4 +1,5 @@
-"""The command line as a user meets it: exit codes, one line for what is wrong, nothing touched that was there before."""
+"""The command line as a user meets it: exit codes, one line for what is wrong, nothing touched that was there
+before."""
 
 import json
 import os
@@ -12,7 +13,18 @@ from sdph import cli, scenes
 from sdph.scenes import paths
 
 ENVIRONMENT = os.environ | {"PYTHONPATH": str(paths.PACKAGE.parent)}
-SMALL = ("--gas", "embedded", "--set", "resolution.spacing_mm=20", "--set", "resolution.cell_mm=50", "--set", "run.output_interval_s=0.001", "--until", "0.002")
+SMALL = (
+    "--gas",
+    "embedded",
+    "--set",
+    "resolution.spacing_mm=20",
+    "--set",
+    "resolution.cell_mm=50",
+    "--set",
+    "run.output_interval_s=0.001",
+    "--until",
+    "0.002",
+)
 
 
 def sdph(*arguments, cwd, code=0):
@@ -50,7 +62,14 @@ def test_asking_is_quick(tmp_path, arguments):
         "heavy = {'numba', 'scipy', 'pyvista', 'matplotlib'} & sys.modules.keys()\n"
         "assert not heavy, heavy"
     )
-    done = subprocess.run([sys.executable, "-c", code, *arguments], cwd=tmp_path, env=ENVIRONMENT, capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        [sys.executable, "-c", code, *arguments],
+        cwd=tmp_path,
+        env=ENVIRONMENT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert done.returncode == 0, done.stderr
     assert done.stdout
 
@@ -65,10 +84,16 @@ def test_list_names_every_scene(tmp_path):
     ("arguments", "told"),
     [
         (("run", "disc_clusster"), ("disc_clusster", "disc_cluster")),
-        (("run", "disc_cluster", "--set", "resolution.spaceing_mm=1"), ("resolution.spaceing_mm", "did you mean resolution.spacing_mm?")),
+        (
+            ("run", "disc_cluster", "--set", "resolution.spaceing_mm=1"),
+            ("resolution.spaceing_mm", "did you mean resolution.spacing_mm?"),
+        ),
         (("run", "disc_cluster", "--set", "resolution.spacing_mm=-1"), ("resolution.spacing_mm", "-1", "above 0")),
         (("run", "disc_cluster", "--set", "resolution.spacing_mm=nan"), ("resolution.spacing_mm", "nan")),
-        (("run", "disc_cluster", "--set", "resolution.spacing_mm=500"), ("spacing_mm = 500", "larger than particles.disc")),
+        (
+            ("run", "disc_cluster", "--set", "resolution.spacing_mm=500"),
+            ("spacing_mm = 500", "larger than particles.disc"),
+        ),
         (("run", "disc_cluster", "--set", "grains.density_kg_m3='heavy'"), ("grains.density_kg_m3", "heavy")),
         (("run", "disc_cluster", "--set", "grains"), ("--set grains", "section.key=value")),
         (("run", "disc_cluster", "--np", "0"), ("coupling.ranks", "at least 1")),
@@ -111,11 +136,31 @@ COMMANDS = {
 
 @pytest.mark.parametrize("command", COMMANDS)
 @pytest.mark.parametrize(
-    "target", ["nowhere", "empty", "empty.toml", "junk.toml", "junk", "pipe", "dangling", "of_junk", "of_folder", "case.toml/deep", "", "..", "x" * 3000]
+    "target",
+    [
+        "nowhere",
+        "empty",
+        "empty.toml",
+        "junk.toml",
+        "junk",
+        "pipe",
+        "dangling",
+        "of_junk",
+        "of_folder",
+        "case.toml/deep",
+        "",
+        "..",
+        "x" * 3000,
+    ],
 )
 def test_what_is_no_case_and_no_run_is_refused_by_every_command(refused, tmp_path, command, target):
     junk = bytes(range(256)) * 8
-    for name, content in (("empty.toml", b""), ("junk.toml", junk), ("junk", junk), ("case.toml", b"title = 'not whole'\n")):
+    for name, content in (
+        ("empty.toml", b""),
+        ("junk.toml", junk),
+        ("junk", junk),
+        ("case.toml", b"title = 'not whole'\n"),
+    ):
         (tmp_path / name).write_bytes(content)
     for name in ("empty", "of_junk", "of_folder/case.toml"):
         (tmp_path / name).mkdir(parents=True)
@@ -138,7 +183,9 @@ def test_a_report_replaces_nothing_but_a_file(tmp_path, refused, target):
 
 def test_a_reader_that_has_read_enough_is_no_error(tmp_path):
     code = "import sys; from sdph import cli; [cli.main(['list']) for _ in range(100)]"
-    told = subprocess.Popen([sys.executable, "-c", code], cwd=tmp_path, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    told = subprocess.Popen(
+        [sys.executable, "-c", code], cwd=tmp_path, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    )
     told.stdout.readline()
     told.stdout.close()
     assert told.stderr.read() == b""
@@ -152,7 +199,10 @@ def test_process_ends_with_code_2_and_one_line(tmp_path):
     assert "disc_cluster" in done.stderr
 
 
-@pytest.mark.parametrize("arguments", [(), ("fly",), ("run",), ("run", "disc_cluster", "--np", "two"), ("compare", "x", "--against", "nothing")])
+@pytest.mark.parametrize(
+    "arguments",
+    [(), ("fly",), ("run",), ("run", "disc_cluster", "--np", "two"), ("compare", "x", "--against", "nothing")],
+)
 def test_wrong_usage_is_code_2_and_one_line(capsys, arguments):
     assert cli.main(list(arguments)) == 2
     said = capsys.readouterr().err
@@ -165,7 +215,8 @@ def test_wrong_usage_is_code_2_and_one_line(capsys, arguments):
     ("run", "--resume", "nowhere", "--out", "x"),
     ("run", "disc_cluster", "--accuracy", "2%", "--set", "resolution.cell_mm=20"),
     ("run", "disc_cluster", "--set", "particles.disc.volume_fraction=0.9"),
-    ("run", "bubbling_bed", "--gas", "embedded", "--set", "resolution.cell_mm=40", "--set", "resolution.spacing_mm=20", "--out", "bed"),
+    ("run", "bubbling_bed", "--gas", "embedded", "--set", "resolution.cell_mm=40", "--set", "resolution.spacing_mm=20",
+    "--out", "bed"),
 ])  # fmt: skip
 def test_what_would_do_nothing_or_cannot_be_is_refused_and_leaves_no_folder(refused, arguments):
     refused(*arguments)
@@ -182,8 +233,17 @@ def test_run_leaves_a_whole_folder_and_is_not_run_over(tmp_path, refused):
     assert len(list((folder / "fields").iterdir())) == 6  # start and two outputs, particles and gas
     assert not list(folder.rglob("*.part"))
     assert "another run" in refused("run", "disc_cluster", *SMALL, "--out", "mine")
-    again = json.loads(sdph("run", "mine", "--out", "again", "--json", cwd=tmp_path).stdout)  # the case it wrote is the case it ran
-    for key in ("time_s", "particles", "cells", "windows", "centre_temperature_K", "centre_gas_temperature_K", "heat_exchanged_J"):
+    # the case it wrote is the case it ran
+    again = json.loads(sdph("run", "mine", "--out", "again", "--json", cwd=tmp_path).stdout)
+    for key in (
+        "time_s",
+        "particles",
+        "cells",
+        "windows",
+        "centre_temperature_K",
+        "centre_gas_temperature_K",
+        "heat_exchanged_J",
+    ):
         assert again[key] == pytest.approx(summary[key], rel=1e-10), key
 
 

@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from coupling.transfer import Transfer, deposit, gather
 
 UNIFORM = tensor_mesh(np.linspace(0.0, 1.0, 21), np.linspace(0.0, 1.0, 21))
-GRADED = tensor_mesh(np.linspace(0.0, 1.0, 18) ** 2, 1.0 - np.linspace(1.0, 0.0, 14) ** 3)  # cells from 1/289 to 1/5 wide
+# cells from 1/289 to 1/5 wide
+GRADED = tensor_mesh(np.linspace(0.0, 1.0, 18) ** 2, 1.0 - np.linspace(1.0, 0.0, 14) ** 3)
 WEDGE = polar_mesh(12, 9, 1.0, np.pi / 2.0)
 SOLID = tensor_mesh(*3 * [np.linspace(0.0, 1.0, 9) ** 1.5])
 MESHES = {"uniform": UNIFORM, "graded": GRADED, "wedge": WEDGE, "solid": SOLID}
@@ -48,7 +49,9 @@ def test_totals_are_kept_and_the_two_ways_are_transposes(rng, name, h, columns):
     down, up = deposit(weights, amount), gather(weights, field)
     assert down.shape == field.shape and up.shape == amount.shape
     np.testing.assert_allclose(down.sum(axis=0), amount.sum(axis=0), atol=1e-13 * np.abs(amount).sum())
-    assert (amount * up).sum() == pytest.approx((down * field).sum(), abs=1e-12 * np.abs(amount).sum() * np.abs(field).max())
+    assert (amount * up).sum() == pytest.approx(
+        (down * field).sum(), abs=1e-12 * np.abs(amount).sum() * np.abs(field).max()
+    )
     np.testing.assert_allclose(down, dense(weights, mesh).T @ amount, atol=1e-12)
 
 
@@ -63,7 +66,9 @@ def test_weights_are_the_kernel_times_the_cell_volume(rng, name, h):
     q = np.linalg.norm(points[:, None] - mesh.centres[None], axis=2) / smoothing
     spline = np.where(q < 1.0, 1.0 - 1.5 * q**2 + 0.75 * q**3, 0.25 * np.clip(2.0 - q, 0.0, None) ** 3) * mesh.volumes
     covered = spline.sum(axis=1) > 1e-12 * mesh.volumes.min()
-    np.testing.assert_allclose(matrix[covered], spline[covered] / spline[covered].sum(axis=1, keepdims=True), atol=1e-12)
+    np.testing.assert_allclose(
+        matrix[covered], spline[covered] / spline[covered].sum(axis=1, keepdims=True), atol=1e-12
+    )
     assert not covered[weights.outside].any()
 
 

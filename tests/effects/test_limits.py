@@ -1,4 +1,4 @@
-"""Every effect that is on is asked for its limit before every sub-step, obeyed and named; `explain` prints what the run obeys."""
+"""Every effect that is on is asked for its limit before every sub-step, obeyed and named; `explain` tells the same."""
 
 from dataclasses import replace
 
@@ -73,7 +73,9 @@ def test_a_limit_is_obeyed_and_named(monkeypatch, scene, name):
     assert stepper.limit == name and taken == pytest.approx(5.5 * TINY / 6)
 
 
-@pytest.mark.parametrize(("scene", "name"), [("bubbling_bed", "granular_viscosity"), ("taylor_green", "laminar_viscosity")])
+@pytest.mark.parametrize(
+    ("scene", "name"), [("bubbling_bed", "granular_viscosity"), ("taylor_green", "laminar_viscosity")]
+)
 def test_a_limit_is_that_of_the_state_as_it_is(monkeypatch, scene, name):
     case, seen = load(scene), []
 

@@ -72,7 +72,11 @@ def forget_the_most():
 
 
 def files_of(folder):
-    return {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*") if path.is_file() and not path.is_symlink()}
+    return {
+        path.relative_to(folder): path.read_bytes()
+        for path in folder.rglob("*")
+        if path.is_file() and not path.is_symlink()
+    }
 
 
 @pytest.mark.parametrize("scene", SMALL)
@@ -175,9 +179,9 @@ def linked_table(name):
 
 
 LINKS = {
-    "checkpoints": linked_checkpoints, "folder": linked_folder, "manifest": linked_file("manifest.json"), "arrays": linked_file("arrays.npz"),
-    "gas of it": linked_file("gas/embedded_gas.npz"), "ledger": linked_table("ledger.csv"), "history": linked_table("history.csv"),
-    "fields": linked_table("fields"),
+    "checkpoints": linked_checkpoints, "folder": linked_folder, "manifest": linked_file("manifest.json"),
+    "arrays": linked_file("arrays.npz"), "gas of it": linked_file("gas/embedded_gas.npz"),
+    "ledger": linked_table("ledger.csv"), "history": linked_table("history.csv"), "fields": linked_table("fields"),
 }  # fmt: skip
 
 
@@ -205,7 +209,9 @@ def test_a_link_without_any_whole_checkpoint_is_refused_too(copied, capsys, tmp_
     assert files_of(outside) == before
 
 
-@pytest.mark.parametrize("name", ["manifest.json", "numbers.json", "arrays.npz", "gas/embedded_gas.npz", "another", "gas/another"])
+@pytest.mark.parametrize(
+    "name", ["manifest.json", "numbers.json", "arrays.npz", "gas/embedded_gas.npz", "another", "gas/another"]
+)
 def test_pipes_are_not_waited_for(copied, capsys, name):
     run = copied("disc_cluster")
     for folder in checkpoints(run):

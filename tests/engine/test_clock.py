@@ -33,7 +33,12 @@ def test_a_landmark_within_round_off_of_now_is_now(interval, count, off):
     assert moments.writes(now) and moments.rows_at(now)
 
 
-@given(end=st.floats(1e-3, 1e3), parts=st.floats(0.2, 50.0), rows=st.floats(0.5, 50.0), reports=st.lists(st.floats(1e-3, 1.2), max_size=4))
+@given(
+    end=st.floats(1e-3, 1e3),
+    parts=st.floats(0.2, 50.0),
+    rows=st.floats(0.5, 50.0),
+    reports=st.lists(st.floats(1e-3, 1.2), max_size=4),
+)
 def test_no_two_landmarks_that_are_taken_are_nearer_than_the_shortest_window(end, parts, rows, reports):
     moments = of(end, end / parts, end / rows, [share * end for share in reports])
     time, taken = 0.0, []

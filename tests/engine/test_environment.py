@@ -51,8 +51,10 @@ def test_threads_are_launched_by_openmp():
 def written(function):
     """What stands before the [...] of each place that a function writes to."""
     for node in ast.walk(function):
-        targets = node.targets if isinstance(node, ast.Assign) else [node.target] if isinstance(node, ast.AugAssign) else []
-        for target in (t for target in targets for t in (target.elts if isinstance(target, ast.Tuple) else [target])):
+        targets = (
+            node.targets if isinstance(node, ast.Assign) else [node.target] if isinstance(node, ast.AugAssign) else []
+        )
+        for target in (t for whole in targets for t in (whole.elts if isinstance(whole, ast.Tuple) else [whole])):
             if isinstance(target, ast.Subscript):
                 yield target.value
 
@@ -62,7 +64,8 @@ def test_no_parallel_loop_writes_to_unpacked_arguments():
     for file, function, words in kernels():
         if "parallel" in words:
             unpacked = {
-                name.id for node in ast.walk(function) if isinstance(node, ast.Assign) and isinstance(node.value, ast.Name)
+                name.id for node in ast.walk(function) if isinstance(node, ast.Assign) and isinstance(node.value,
+                ast.Name)
                 for target in node.targets if isinstance(target, ast.Tuple) for name in target.elts
             }  # fmt: skip
             names = {place.id for place in written(function) if isinstance(place, ast.Name)}
@@ -73,7 +76,9 @@ def test_no_parallel_loop_writes_to_a_field_of_an_argument():
     """`s.x[i] = ...` of a NamedTuple s is dropped in a prange."""
     for file, function, words in kernels():
         if "parallel" in words:
-            assert not any(isinstance(place, ast.Attribute) for place in written(function)), f"{file.name}: {function.name}"
+            assert not any(isinstance(place, ast.Attribute) for place in written(function)), (
+                f"{file.name}: {function.name}"
+            )
 
 
 def test_fast_arithmetic_keeps_nans():
@@ -121,7 +126,10 @@ def test_an_edited_law_gets_kernels_of_its_own(monkeypatch, tmp_path):
 
 
 def test_numba_imported_first_caches_by_the_sources_too():
-    told = "import numba, sdph; from sdph.engine import device as environment; print(numba.config.CACHE_DIR.endswith(environment._sources()))"
+    told = (
+        "import numba, sdph; from sdph.engine import device as environment; "
+        "print(numba.config.CACHE_DIR.endswith(environment._sources()))"
+    )
     variables = {name: value for name, value in os.environ.items() if name != "NUMBA_CACHE_DIR"}
     found = subprocess.run([sys.executable, "-c", told], capture_output=True, text=True, check=True, env=variables)
     assert found.stdout.split() == ["True"]

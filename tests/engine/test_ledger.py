@@ -10,7 +10,13 @@ from fakes import StillGas
 from sdph.engine import ledger
 from sdph.running import output
 
-SHORT = ("resolution.spacing_mm=10", "resolution.cell_mm=25", "run.end_time_s=0.004", "run.output_interval_s=0.004", "run.report_at_s=[]")
+SHORT = (
+    "resolution.spacing_mm=10",
+    "resolution.cell_mm=25",
+    "run.end_time_s=0.004",
+    "run.output_interval_s=0.004",
+    "run.report_at_s=[]",
+)
 
 
 class LeakyGas(StillGas):
@@ -27,7 +33,9 @@ class HeatedGas(StillGas):
     crossed = 0.0
 
     def advance(self, dt, sources):
-        self.temperature += 1.0 / (self.alpha * self.mesh.volumes).sum() / self.case.gas.density / self.case.gas.heat_capacity
+        self.temperature += (
+            1.0 / (self.alpha * self.mesh.volumes).sum() / self.case.gas.density / self.case.gas.heat_capacity
+        )
         self.crossed += 1.0
         return super().advance(dt, sources)
 
@@ -48,7 +56,9 @@ def test_closed_box_is_closed(tmp_path):
 def test_leak_shows(tmp_path):
     done = run(disc(*SHORT), tmp_path, gas=LeakyGas)
     lost = done.ledger.first["gas_energy_J"] * 1e-6 * done.windows
-    assert done.ledger.summary()["energy_drift_rel"] * done.ledger.summary()["heat_exchanged_J"] == pytest.approx(lost, rel=0.5)
+    assert done.ledger.summary()["energy_drift_rel"] * done.ledger.summary()["heat_exchanged_J"] == pytest.approx(
+        lost, rel=0.5
+    )
     assert done.ledger.summary()["energy_drift_rel"] > 1e-6
 
 

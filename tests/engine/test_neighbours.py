@@ -17,9 +17,9 @@ def all_pairs(state, reach, period=(0.0, 0.0, 0.0)):
     """Pairs of ident nearer than `reach`, through periodic boundaries, and those so near it that either is right."""
     here = np.stack(particles.axes(state), axis=1)
     apart = here[:, None, :] - here[None, :, :]
-    for a, length in enumerate(period[: here.shape[1]]):
-        if length:
-            apart[..., a] -= length * np.rint(apart[..., a] / length)
+    for a, wide in enumerate(period[: here.shape[1]]):
+        if wide:
+            apart[..., a] -= wide * np.rint(apart[..., a] / wide)
     distance = np.sqrt((apart**2).sum(axis=-1))
     pairs = {(a, b) for a, b in state.ident[np.argwhere(distance < reach)].tolist() if a != b}
     edge = {(a, b) for a, b in state.ident[np.argwhere(abs(distance - reach) < 1e-12)].tolist()}
@@ -65,8 +65,8 @@ def test_periodic_cloud(rng, count, dimensions, cells):
     points = rng.uniform(-0.5, 1.5, (count, dimensions)) * lengths
     state, rows = Neighbours(REACH, period).update(cloud(points))
     assert_right(state, rows, period)
-    for axis, length in zip(particles.axes(state), period):
-        assert not length or (axis >= 0.0).all() and (axis <= length).all()
+    for axis, wide in zip(particles.axes(state), period):
+        assert not wide or ((axis >= 0.0).all() and (axis <= wide).all())
 
 
 @given(rng=clouds, scale=st.sampled_from([0.0, 1e-12, 1e-3]))
@@ -96,7 +96,11 @@ def test_only_a_line_in_a_plane():
 
 def marked(rng, count, dimensions):
     """A cloud whose every array is a function of ident, so that a mix-up shows."""
-    state = particles.empty(count, particles.State._fields if dimensions == 3 else ("temperature", "diameter", "diameter_variance", "theta"), dimensions)
+    state = particles.empty(
+        count,
+        particles.State._fields if dimensions == 3 else ("temperature", "diameter", "diameter_variance", "theta"),
+        dimensions,
+    )
     for array in state:
         array[:] = rng.uniform(0.0, 1.0, len(array))
     state.ident[:] = rng.permutation(count)
@@ -118,7 +122,11 @@ def test_every_array_stays_with_its_particle(rng, dimensions, period):
         np.testing.assert_array_equal(now, was)
 
 
-@given(rng=clouds, moves=st.lists(st.sampled_from([0.0, 0.3, 0.49, 0.6, 3.0]), min_size=1, max_size=6), period=st.sampled_from([0.0, 1.0]))
+@given(
+    rng=clouds,
+    moves=st.lists(st.sampled_from([0.0, 0.3, 0.49, 0.6, 3.0]), min_size=1, max_size=6),
+    period=st.sampled_from([0.0, 1.0]),
+)
 def test_rows_hold_while_particles_move(rng, moves, period):
     """Moves of less and of more than half the skin, one after the other, also through periodic boundaries."""
     near = Neighbours(REACH, (period, period))
@@ -169,16 +177,19 @@ def test_rows_end_in_the_particle_itself(count, rng):
         assert (rows.index[i, rows.count[i] : last] == i).all()
 
 
-@given(apart=st.lists(st.floats(-3.0, 3.0), min_size=3, max_size=3), period=st.lists(st.sampled_from([0.0, 1.0, 2.5]), min_size=3, max_size=3))
+@given(
+    apart=st.lists(st.floats(-3.0, 3.0), min_size=3, max_size=3),
+    period=st.lists(st.sampled_from([0.0, 1.0, 2.5]), min_size=3, max_size=3),
+)
 def test_nearest_image(apart, period):
     found = nearest_image(box_of(period, 3), *apart)
-    for given_, image, length in zip(apart, found, period):
+    for given_, image, wide in zip(apart, found, period):
         shift = given_ - image
-        if not length:
+        if not wide:
             assert image == given_
         else:
-            assert abs(image) <= 0.5 * length * (1.0 + 1e-12)
-            assert shift / length == pytest.approx(round(shift / length), abs=1e-9)
+            assert abs(image) <= 0.5 * wide * (1.0 + 1e-12)
+            assert shift / wide == pytest.approx(round(shift / wide), abs=1e-9)
 
 
 def test_box_narrower_than_two_reaches_is_refused():

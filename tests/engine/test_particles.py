@@ -57,7 +57,9 @@ def test_disc_is_symmetric_whatever_the_spacing(spacing):
 
 @given(spacing=st.floats(0.4, 30.0), alpha=st.floats(0.01, 0.63))
 def test_box_holds_its_mass_at_any_spacing(spacing, alpha):
-    state = start.fill(disc(*FULL_BOX, f"resolution.spacing_mm={spacing!r}", f"particles.disc.volume_fraction={alpha!r}"), ())
+    state = start.fill(
+        disc(*FULL_BOX, f"resolution.spacing_mm={spacing!r}", f"particles.disc.volume_fraction={alpha!r}"), ()
+    )
     assert state.mass.sum() == pytest.approx(alpha * 3060.0 * 0.05**2, rel=1e-12)
     assert 0.0 < state.x.min() < state.x.max() < 0.05 or len(state.x) == 1
 
@@ -124,7 +126,12 @@ def test_take_by_mask_does_not_share_memory(state, data):
     assert not np.shares_memory(chosen.x, state.x)
 
 
-@given(count=st.integers(0, 5), other=st.integers(0, 5), names=st.sets(st.sampled_from(ALL)), dimensions=st.sampled_from([2, 3]))
+@given(
+    count=st.integers(0, 5),
+    other=st.integers(0, 5),
+    names=st.sets(st.sampled_from(ALL)),
+    dimensions=st.sampled_from([2, 3]),
+)
 def test_join_keeps_both(count, other, names, dimensions):
     first, second = numbered(count, names, dimensions), numbered(other, names, dimensions)
     both = particles.join(first, second)

@@ -26,18 +26,21 @@ from sdph.running import driver, output
 from sdph.schema import CaseError
 
 COARSE = {
-    "disc_cluster": ("resolution.spacing_mm=20", "resolution.cell_mm=50", "run.output_interval_s=0.0002", "run.end_time_s=0.0004"),
-    "bubbling_bed": ("resolution.spacing_mm=20", "resolution.cell_mm=20", "run.output_interval_s=0.001", "run.end_time_s=0.003"),
+    "disc_cluster": ("resolution.spacing_mm=20", "resolution.cell_mm=50", "run.output_interval_s=0.0002",
+    "run.end_time_s=0.0004"),
+    "bubbling_bed": ("resolution.spacing_mm=20", "resolution.cell_mm=20", "run.output_interval_s=0.001",
+    "run.end_time_s=0.003"),
     "evaporating_jet": (  # droplets come in, evaporate, and leave from the 25th window on
-        "resolution.spacing_mm=100", "resolution.cell_mm=200", "domain.size_m=[1.2,2.0]", "nozzles.jet.centre_m=[0.0,1.0]",
-        "nozzles.jet.speed_m_s=30.0", "evaporation.onset_temperature_K=294.001", "coupling.window_largest_s=2e-3",
-        "coupling.window_tolerance=1e-2", "run.output_interval_s=0.02", "run.end_time_s=0.06",
+        "resolution.spacing_mm=100", "resolution.cell_mm=200", "domain.size_m=[1.2,2.0]",
+        "nozzles.jet.centre_m=[0.0,1.0]", "nozzles.jet.speed_m_s=30.0", "evaporation.onset_temperature_K=294.001",
+        "coupling.window_largest_s=2e-3", "coupling.window_tolerance=1e-2", "run.output_interval_s=0.02",
+        "run.end_time_s=0.06",
     ),
 }  # fmt: skip
 SOON = "run.checkpoint_windows=4"
 SECOND = (  # faces the first, opens and closes on the way
-    "nozzles.second={shape='slot', centre_m=[1.0,1.3], width_m=0.3, direction=[-1.0,0.1], speed_m_s=20.0, volume_fraction=0.1, "
-    "temperature_K=300.0, start_s=0.01, end_s=0.05}",
+    "nozzles.second={shape='slot', centre_m=[1.0,1.3], width_m=0.3, direction=[-1.0,0.1], speed_m_s=20.0, "
+    "volume_fraction=0.1, temperature_K=300.0, start_s=0.01, end_s=0.05}",
 )  # fmt: skip
 
 
@@ -106,9 +109,9 @@ def test_resumed_run_is_the_uninterrupted_one_bit_for_bit(tmp_path, scene, gas, 
         start(tmp_path / "cut", scene, gas, cut_after=after, more=more)
     resumed = driver.resume(tmp_path / "cut", (), Reporter())
     same_run(tmp_path / "whole", tmp_path / "cut")
-    assert {key: resumed[key] for key in whole if "wall" not in key and "_per_" not in key and "start_to" not in key} == {
-        key: whole[key] for key in whole if "wall" not in key and "_per_" not in key and "start_to" not in key
-    }
+    assert {
+        key: resumed[key] for key in whole if "wall" not in key and "_per_" not in key and "start_to" not in key
+    } == {key: whole[key] for key in whole if "wall" not in key and "_per_" not in key and "start_to" not in key}
 
 
 def test_a_run_can_be_made_longer(tmp_path):
@@ -123,7 +126,13 @@ def test_a_run_can_be_made_longer(tmp_path):
 def test_a_run_goes_on_past_an_end_that_is_a_landmark_but_for_round_off(tmp_path, gas, count, interval):
     """12 x 0.05 is more than 0.6 in floating point; a window of 1e-16 s used to end the run."""
     end, later = float(f"{count * interval:.6g}"), float(f"{(count + 0.4) * interval:.6g}")
-    quick = ("resolution.spacing_mm=50", "resolution.cell_mm=100", "coupling.window_tolerance=1e-1", "run.report_at_s=[]", f"run.output_interval_s={interval}")
+    quick = (
+        "resolution.spacing_mm=50",
+        "resolution.cell_mm=100",
+        "coupling.window_tolerance=1e-1",
+        "run.report_at_s=[]",
+        f"run.output_interval_s={interval}",
+    )
     whole = start(tmp_path / "whole", gas=gas, more=(*quick, f"run.end_time_s={later}"))
     start(tmp_path / "cut", gas=gas, more=(*quick, f"run.end_time_s={end}"))
     resumed = driver.resume(tmp_path / "cut", (f"run.end_time_s={later}",), Reporter())
@@ -136,7 +145,9 @@ def test_a_run_goes_on_past_an_end_that_is_a_landmark_but_for_round_off(tmp_path
 def test_the_output_interval_may_change_when_a_run_goes_on(tmp_path):
     start(tmp_path / "run")
     driver.resume(tmp_path / "run", ("run.end_time_s=0.0006", "run.output_interval_s=0.00005"), Reporter())
-    instants = sorted({float(entry.split('"')[1]) for entry in (tmp_path / "run" / "run.pvd").read_text().split("timestep=")[1:]})
+    instants = sorted(
+        {float(entry.split('"')[1]) for entry in (tmp_path / "run" / "run.pvd").read_text().split("timestep=")[1:]}
+    )
     np.testing.assert_allclose(instants, [0.0, 2e-4, 4e-4, 4.5e-4, 5e-4, 5.5e-4, 6e-4], rtol=1e-12)
 
 
@@ -183,7 +194,10 @@ def test_what_the_user_has_put_into_the_folder_stays(cut):
     assert all(path.read_text() == "mine" for path in own)
 
 
-@pytest.mark.parametrize(("override", "told"), [("run.end_time_s=1e-6", "has reached .* lies before that"), ("grains.diameter_mm=0.3", "diameter")])
+@pytest.mark.parametrize(
+    ("override", "told"),
+    [("run.end_time_s=1e-6", "has reached .* lies before that"), ("grains.diameter_mm=0.3", "diameter")],
+)
 def test_a_refused_resume_changes_nothing(cut, override, told):
     before = {path: path.read_bytes() for path in cut.rglob("*") if path.is_file()}
     with pytest.raises(CaseError, match=told):
@@ -193,14 +207,20 @@ def test_a_refused_resume_changes_nothing(cut, override, told):
 
 @pytest.mark.parametrize(
     ("override", "told"),
-    [("grains.diameter_mm=0.3", "grains.diameter_mm was 0.285 and is 0.3"), ("vapour.molar_mass_kg_kmol=18.0", "vapour")],
+    [
+        ("grains.diameter_mm=0.3", "grains.diameter_mm was 0.285 and is 0.3"),
+        ("vapour.molar_mass_kg_kmol=18.0", "vapour"),
+    ],
 )
 def test_another_case_is_refused_with_the_difference(cut, override, told):
     with pytest.raises(CaseError, match=told):
         driver.resume(cut, (override,), Reporter())
 
 
-@pytest.mark.parametrize(("change", "told"), [({"sdph": "0.0.0"}, "written with sdph 0.0.0"), ({"format": 2}, "written with format 2; this is 3")])
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [({"sdph": "0.0.0"}, "written with sdph 0.0.0"), ({"format": 2}, "written with format 2; this is 3")],
+)
 def test_another_version_is_refused(cut, change, told):
     manifest = restart.newest(cut).folder / "manifest.json"
     manifest.write_text(json.dumps(json.loads(manifest.read_text()) | change))
@@ -236,7 +256,9 @@ COARSE_DAM = ("resolution.spacing_mm=4", "domain.gravity_m_s2=[0.0,-0.1]", "run.
     ],
 )
 def test_a_signal_leaves_a_checkpoint(tmp_path, number, scene, coarse):
-    overrides = [word for text in (*coarse, "run.end_time_s=1.0", "run.checkpoint_interval_s=1e6") for word in ("--set", text)]
+    overrides = [
+        word for text in (*coarse, "run.end_time_s=1.0", "run.checkpoint_interval_s=1e6") for word in ("--set", text)
+    ]
     gas = () if scene == "dam_break" else ("--gas", "embedded")
     command = [sys.executable, "-m", "sdph.cli", "run", scene, *gas, *overrides, "--out", "mine"]
     process = subprocess.Popen(command, cwd=tmp_path, env=ENVIRONMENT, stderr=subprocess.PIPE, text=True)
@@ -278,10 +300,14 @@ class Thing:
 FINITE = st.floats(allow_nan=False, allow_infinity=False)
 NUMBERS = st.one_of(st.none(), st.booleans(), st.integers(-(2**63), 2**63 - 1), FINITE, st.text(max_size=5))
 SHAPES = hnp.array_shapes(min_dims=1, max_dims=2, min_side=0, max_side=4)
-ARRAYS = st.one_of(hnp.arrays(np.float64, SHAPES, elements=FINITE), *(hnp.arrays(dtype, SHAPES) for dtype in (np.int64, np.int8)))
+ARRAYS = st.one_of(
+    hnp.arrays(np.float64, SHAPES, elements=FINITE), *(hnp.arrays(dtype, SHAPES) for dtype in (np.int64, np.int8))
+)
 VALUES = st.recursive(
     st.one_of(NUMBERS, ARRAYS),
-    lambda parts: st.one_of(st.lists(parts, max_size=3).map(tuple), st.dictionaries(st.text(max_size=4), parts, max_size=3)),
+    lambda parts: st.one_of(
+        st.lists(parts, max_size=3).map(tuple), st.dictionaries(st.text(max_size=4), parts, max_size=3)
+    ),
     max_leaves=6,
 )
 

@@ -56,4 +56,6 @@ def test_rows_hold_until_something_has_moved_half_the_skin():
     assert own.update(state)[1] is rows
     state.x[7] += 0.02 * SKIN * REACH
     state, rows = own.update(state)
-    assert {(state.ident[i], state.ident[j]) for i in range(400) for j in rows.index[rows.start[i] :][: rows.count[i]]} == expected(state, (0.0, 0.0))
+    assert {
+        (state.ident[i], state.ident[j]) for i in range(400) for j in rows.index[rows.start[i] :][: rows.count[i]]
+    } == expected(state, (0.0, 0.0))

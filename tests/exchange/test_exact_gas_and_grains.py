@@ -3,6 +3,7 @@
 The gas is a fake that does what the solution assumes and no more; particles, drag, exchange and windows are real.
 """
 
+import itertools
 import math
 
 import numpy as np
@@ -39,7 +40,11 @@ def rates_of(law, viscosity=VISCOSITY):
     return at[0] * both, (at[1] - at[0]) * both
 
 
-CASES = {"linear": ("stokes", drag.stokes, VISCOSITY), "quadratic": ("ergun", drag.ergun, 1e-15), "ergun": ("ergun", drag.ergun, VISCOSITY)}
+CASES = {
+    "linear": ("stokes", drag.stokes, VISCOSITY),
+    "quadratic": ("ergun", drag.ergun, 1e-15),
+    "ergun": ("ergun", drag.ergun, VISCOSITY),
+}
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -74,7 +79,13 @@ def test_a_window_of_many_relaxation_times_ends_in_equilibrium(tmp_path):
 def settled(folder, law, end, count):
     """Grains and gas that fall past each other under a pressure gradient that carries both: no net force."""
     mixture = DUST + GAS
-    case = box(["drag", "gas_pressure", "gravity"], alpha_p=ALPHA_P, gravity=(0.0, -9.81), drag={"law": law}, **windows(end, count))
+    case = box(
+        ["drag", "gas_pressure", "gravity"],
+        alpha_p=ALPHA_P,
+        gravity=(0.0, -9.81),
+        drag={"law": law},
+        **windows(end, count),
+    )
     done = go(started(case, folder, Row(case, gradient=(0.0, -9.81 * mixture, 0.0))))
     assert DUST * done.state.v.mean() + GAS * done.gas.velocity[0, 1] == pytest.approx(0.0, abs=1e-12)
     return float(done.gas.velocity[0, 1] - done.state.v.mean())
@@ -110,7 +121,8 @@ def dusty_wave(folder, per_wave, count, law="stokes", turns=0.25):
     k = 2.0 * math.pi / WAVE_LENGTH
     spacing, end = WAVE_LENGTH / per_wave, turns * 2.0 * math.pi / (k * WAVE_C)
     size = (WAVE_LENGTH, 8 * spacing)
-    case = box(["drag"], size=size, alpha_p=WAVE_ALPHA, drag={"law": law}, resolution={"spacing_mm": spacing * 1e3, "cell_mm": spacing * 1e3},
+    case = box(["drag"], size=size, alpha_p=WAVE_ALPHA, drag={"law": law},
+        resolution={"spacing_mm": spacing * 1e3, "cell_mm": spacing * 1e3},
                gas={"viscosity_Pa_s": VISCOSITY}, **windows(end, count))  # fmt: skip
     gas = Row(case, per_wave, WAVE_C)
     simulated = started(case, folder, gas)
@@ -120,7 +132,10 @@ def dusty_wave(folder, per_wave, count, law="stokes", turns=0.25):
     simulated.state.u[:] = wave(simulated.state.x)
     simulated.gas_state = gas._state()
     go(simulated)
-    own = [_amplitude(gas.mesh.centres[:, 0], gas.velocity[:, 0], k), _amplitude(simulated.state.x, simulated.state.u, k)]
+    own = [
+        _amplitude(gas.mesh.centres[:, 0], gas.velocity[:, 0], k),
+        _amplitude(simulated.state.x, simulated.state.u, k),
+    ]
     return np.array(own) / 1e-4, _exact_wave(end, k)
 
 
@@ -137,7 +152,7 @@ def _exact_wave(t, k):
     dust, gas = WAVE_ALPHA * DENSITY, (1.0 - WAVE_ALPHA) * 1.225
     beta = WAVE_ALPHA * drag.stokes(WAVE_ALPHA, 0.0, DIAMETER, 1.225, VISCOSITY)
     # v_g = V cos, rise = R sin: dR/dt = k V; dV/dt = -c^2 k R - beta/rho_g (V - U); dU/dt = beta/rho_d (V - U)
-    matrix = np.array([[0.0, k, 0.0], [-WAVE_C**2 * k, -beta / gas, beta / gas], [0.0, beta / dust, -beta / dust]])
+    matrix = np.array([[0.0, k, 0.0], [-(WAVE_C**2) * k, -beta / gas, beta / gas], [0.0, beta / dust, -beta / dust]])
     roots = np.sort_complex(np.linalg.eigvals(matrix))
     theirs = np.sort_complex(exact.dusty_wave_roots(k, WAVE_C, gas, dust, beta))
     np.testing.assert_allclose(roots, theirs, rtol=1e-9)  # the same dispersion relation
@@ -157,7 +172,7 @@ def test_dusty_wave_converges_with_the_spacing(tmp_path):
     for per_wave in (16, 32, 64):
         (tmp_path / str(per_wave)).mkdir()
         found.append(dusty_wave(tmp_path / str(per_wave), per_wave, 200)[0])
-    first, second = (np.abs(b - a).max() for a, b in zip(found, found[1:]))
+    first, second = (np.abs(b - a).max() for a, b in itertools.pairwise(found))
     order = math.log2(first / second)
     print(f"dusty wave: {found}, order in the spacing {order:.2f}")
     assert order == pytest.approx(2.0, abs=0.4)

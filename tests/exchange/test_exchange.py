@@ -71,8 +71,12 @@ def test_what_one_side_loses_the_other_gains(tmp_path, lam, windows, gas, law, c
     cold, hot = sorted((288.0, gas))
     while started.time < case.run.end_time:
         started.window()
-        assert (started.state.temperature >= cold * (1.0 - 1e-13)).all() and (started.state.temperature <= hot * (1.0 + 1e-13)).all()
-        assert (started.gas.temperature >= cold * (1.0 - 1e-13)).all() and (started.gas.temperature <= hot * (1.0 + 1e-13)).all()
+        assert (started.state.temperature >= cold * (1.0 - 1e-13)).all() and (
+            started.state.temperature <= hot * (1.0 + 1e-13)
+        ).all()
+        assert (started.gas.temperature >= cold * (1.0 - 1e-13)).all() and (
+            started.gas.temperature <= hot * (1.0 + 1e-13)
+        ).all()
     started.ledger.table.close()
     summary = started.ledger.summary()
     assert started.windows == windows
@@ -93,7 +97,9 @@ def test_one_way_is_exact_in_any_window(tmp_path, dt):
         np.testing.assert_allclose(done.state.temperature, expected, rtol=1e-12)
 
 
-@pytest.mark.parametrize(("closure", "key"), [("paper", "disc_oneway_Tp_paper_t0.1"), ("geometric", "disc_oneway_Tp_geom_t0.1")])
+@pytest.mark.parametrize(
+    ("closure", "key"), [("paper", "disc_oneway_Tp_paper_t0.1"), ("geometric", "disc_oneway_Tp_geom_t0.1")]
+)
 def test_one_way_disc_reaches_the_reference(tmp_path, closure, key):
     """The heart of the disc (r < 0.09 m) is uniform and has the published temperature at 0.1 s; half the resolution."""
     case = disc("resolution.spacing_mm=5", "resolution.cell_mm=10", f"heat.closure={closure!r}", *ONE_WAY)
@@ -132,9 +138,15 @@ def test_window_of_a_thousand_relaxation_times_lands_on_equilibrium(tmp_path):
 
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-5])
 def test_adaptive_windows_follow_the_lumped_solution(tmp_path, tolerance):
-    """The rise within 1 % at 1, 2, 5 and 20 ms, with few windows; ten times the tolerance costs about a third of them."""
+    """The rise within 1 % at 1, 2, 5 and 20 ms, with few windows; ten times the tolerance costs about a third of
+    them."""
     times = [0.001, 0.002, 0.005, 0.02]
-    case = lumped("run.end_time_s=0.1", "run.output_interval_s=0.1", f"run.report_at_s={times}", f"coupling.window_tolerance={tolerance}")
+    case = lumped(
+        "run.end_time_s=0.1",
+        "run.output_interval_s=0.1",
+        f"run.report_at_s={times}",
+        f"coupling.window_tolerance={tolerance}",
+    )
     simulated = simulation(case, tmp_path, cells=(1, 1))
     seen = {}
     while simulated.time < case.run.end_time:
@@ -149,8 +161,8 @@ def test_adaptive_windows_follow_the_lumped_solution(tmp_path, tolerance):
 def test_two_way_disc_follows_the_lumped_solution_in_its_heart(tmp_path):
     """Several cells, Gunn's law: the rise of the centre within 1 % at 1 ms, as the reference values say."""
     case = disc(
-        "heat.closure='paper'", "run.end_time_s=0.001", "run.output_interval_s=0.001", "run.report_at_s=[]", "resolution.spacing_mm=5",
-        "resolution.cell_mm=10",
+        "heat.closure='paper'", "run.end_time_s=0.001", "run.output_interval_s=0.001", "run.report_at_s=[]",
+        "resolution.spacing_mm=5", "resolution.cell_mm=10",
     )  # fmt: skip
     done = run(case, tmp_path)
     centre = history.probe(done, (0.25, 0.25))

@@ -50,7 +50,10 @@ def times(chooser, end):
 def test_landmarks_are_hit_exactly_and_windows_are_no_longer_than_allowed(end, parts, reports, largest):
     asked = [share * end for share in reports]
     chooser = clock(
-        f"run.end_time_s={end!r}", f"run.output_interval_s={end / parts!r}", f"run.report_at_s={asked!r}", f"coupling.window_largest_s={largest * end!r}"
+        f"run.end_time_s={end!r}",
+        f"run.output_interval_s={end / parts!r}",
+        f"run.report_at_s={asked!r}",
+        f"coupling.window_largest_s={largest * end!r}",
     )
     found = times(chooser, end)
     assert found[-1] == end
@@ -62,8 +65,12 @@ def test_landmarks_are_hit_exactly_and_windows_are_no_longer_than_allowed(end, p
 
 
 def test_outputs_are_every_interval_and_the_end():
-    np.testing.assert_allclose(clock("run.end_time_s=1.0", "run.output_interval_s=0.3").outputs, [0.3, 0.6, 0.9, 1.0], rtol=1e-15)
-    np.testing.assert_allclose(clock("run.end_time_s=0.3", "run.output_interval_s=0.1").outputs, [0.1, 0.2, 0.3], rtol=1e-15)
+    np.testing.assert_allclose(
+        clock("run.end_time_s=1.0", "run.output_interval_s=0.3").outputs, [0.3, 0.6, 0.9, 1.0], rtol=1e-15
+    )
+    np.testing.assert_allclose(
+        clock("run.end_time_s=0.3", "run.output_interval_s=0.1").outputs, [0.1, 0.2, 0.3], rtol=1e-15
+    )
     np.testing.assert_array_equal(clock("run.end_time_s=0.1", "run.output_interval_s=5.0").outputs, [0.1])
 
 
@@ -91,12 +98,18 @@ def test_limits_are_named():
 
 @given(dt=st.floats(1e-5, 1.0), courant=st.floats(1e-6, 1e3))
 def test_courant_limit_grows_no_faster_than_allowed(dt, courant):
-    chooser = clock("coupling.window_largest_s=10", "run.end_time_s=10", "run.output_interval_s=10", "run.report_at_s=[]")
+    chooser = clock(
+        "coupling.window_largest_s=10", "run.end_time_s=10", "run.output_interval_s=10", "run.report_at_s=[]"
+    )
     learn(chooser, dt, courant)
     assert chooser.choose(0.0) <= dt * min(GROWTH, 1.0 / courant) * (1.0 + 1e-6)
 
 
-@given(tolerance=st.floats(1e-9, 1e-1), dts=st.lists(st.floats(1e-6, 1e-2), min_size=2, max_size=6), seed=st.integers(0, 2**32 - 1))
+@given(
+    tolerance=st.floats(1e-9, 1e-1),
+    dts=st.lists(st.floats(1e-6, 1e-2), min_size=2, max_size=6),
+    seed=st.integers(0, 2**32 - 1),
+)
 def test_control_grows_and_shrinks_within_bounds(tolerance, dts, seed):
     control, rng = window.Control(tolerance), np.random.default_rng(seed)
     control.begin(1.0, 10.0)
@@ -132,7 +145,7 @@ def test_the_change_is_of_particles_that_are_sorted_anew_or_leave(order, gone):
     """Each particle exchanges at its own rate; of those that were not in the gas before there is no change to tell."""
     state = particles.empty(8, effects.REGISTRY["heat"].arrays)
     state.received[:], state.exchanged[:] = np.linspace(1.0, 1e3, 8), [1, 1, 1, 1, 1, 1, 1, 0]
-    rates = state.received + [0, 0, 5, 0, 0, 0, 0, 70]
+    rates = state.received + np.array([0.0, 0, 5, 0, 0, 0, 0, 70])
     left = np.array([k for k in order if k != gone])
     state = particles.take(state, left)
     heat, change = window.learned(state, 0.5 * rates[left], 0.5)
@@ -173,7 +186,8 @@ BLOWN = (
 
 
 def test_the_first_window_obeys_what_enters_and_what_is_thrown():
-    """Gas of 5 m/s is twice as fast between grains of 0.5; grains that nothing moves do not count, whatever speed they are given."""
+    """Gas of 5 m/s is twice as fast between grains of 0.5; grains that nothing moves do not count, whatever speed they
+    are given."""
     resting = disc(*BLOWN, "resolution.cell_mm=10", "coupling.courant=0.5")
     assert window.opening(resting) == pytest.approx({"courant": 0.5 * 0.01 / 10.0})
     moving = disc(*BLOWN, "resolution.cell_mm=10", "effects=['gravity','heat','conduction']")
@@ -183,7 +197,11 @@ def test_the_first_window_obeys_what_enters_and_what_is_thrown():
 
 def test_explain_shows_what_the_first_window_obeys():
     case = disc(*BLOWN, "effects=['gravity','heat','conduction']")
-    rows = {row["cause"]: row["largest [s]"] for row in estimate.limits(case, judge.scales_of(case)) if row["of"] == "window"}
+    rows = {
+        row["cause"]: row["largest [s]"]
+        for row in estimate.limits(case, judge.scales_of(case))
+        if row["of"] == "window"
+    }
     assert window.opening(case).items() <= rows.items()
 
 
@@ -203,7 +221,10 @@ def test_a_window_that_the_gas_cannot_finish_is_taken_again_and_counted(tmp_path
     (tmp_path / "short").mkdir()
     case = disc(*FULL_BOX, *fixed_windows(2e-5), "run.report_at_s=[]", "run.end_time_s=1e-4")
     run = simulation(case, tmp_path, gas=Fragile)
-    short = simulation(disc(*FULL_BOX, *fixed_windows(2e-5 / 64.0), "run.report_at_s=[]", "run.end_time_s=3.125e-7"), tmp_path / "short")
+    short = simulation(
+        disc(*FULL_BOX, *fixed_windows(2e-5 / 64.0), "run.report_at_s=[]", "run.end_time_s=3.125e-7"),
+        tmp_path / "short",
+    )
     run.window()
     short.window()
     assert run.time == run.gas.time == short.time == 2e-5 / 64.0
@@ -216,7 +237,11 @@ def test_a_window_that_the_gas_cannot_finish_is_taken_again_and_counted(tmp_path
 def test_a_gas_that_finishes_nothing_ends_the_run_with_the_keys_to_change(tmp_path):
     case = disc(*FULL_BOX, "coupling.window_largest_s=1e-3", "coupling.window_tolerance=1e30", "run.report_at_s=[]")
     run = simulation(case, tmp_path, gas=Fragile)
-    with pytest.raises(GasError, match="cannot finish window 1 at t = 0 s, not even 3.91e-06 s of it: the gas is fragile; lower coupling.window_largest_s"):
+    with pytest.raises(
+        GasError,
+        match="cannot finish window 1 at t = 0 s, not even 3.91e-06 s of it: the gas is fragile; lower "
+        "coupling.window_largest_s",
+    ):
         run.window()
 
 

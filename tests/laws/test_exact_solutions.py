@@ -62,7 +62,8 @@ def test_tightly_coupled_wave_moves_at_the_mixture_speed():
 
 def test_shock_tube_without_dust_is_sod():
     star = riemann.dusty_shock_tube((1.0, 1.0), (0.125, 0.1), 1.4, 0.0)
-    published = 0.30313, 0.92745, 0.42632, 0.26557, 1.75216  # Toro 2009, table 4.2 (test 1); speed from Rankine-Hugoniot
+    # Toro 2009, table 4.2 (test 1); speed from Rankine-Hugoniot
+    published = 0.30313, 0.92745, 0.42632, 0.26557, 1.75216
     assert tuple(star) == pytest.approx(published, abs=5e-6)
 
 

@@ -41,7 +41,13 @@ def test_harmonic_mean_is_symmetric_and_bounded(a, b):
     assert exchange.harmonic_conductivity(a, 0.0) == 0.0
 
 
-@given(q=st.floats(0.0, 1.9), k_i=st.floats(0.1, 1e3), k_j=st.floats(0.1, 1e3), m_i=st.floats(0.1, 2.0), m_j=st.floats(0.1, 2.0))
+@given(
+    q=st.floats(0.0, 1.9),
+    k_i=st.floats(0.1, 1e3),
+    k_j=st.floats(0.1, 1e3),
+    m_i=st.floats(0.1, 2.0),
+    m_j=st.floats(0.1, 2.0),
+)
 def test_pair_cools_the_hotter_and_conserves_energy(q, k_i, k_j, m_i, m_j):
     h, rho_i, rho_j = 0.00375, 1800.0, 900.0
     r = q * h
@@ -63,6 +69,8 @@ def test_conduction_on_a_lattice_is_the_laplacian():
             r2 = (a * a + b * b) * dx * dx
             if r2 > 0.0:
                 gradient = kernels.cubic_spline_gradient(math.sqrt(r2), h, sigma)
-                rate += exchange.cleary_monaghan(rho * dx * dx, rho, rho, k, k, r2, gradient, 0.0) * (0.0 - 0.5 * (a * dx) ** 2)
+                rate += exchange.cleary_monaghan(rho * dx * dx, rho, rho, k, k, r2, gradient, 0.0) * (
+                    0.0 - 0.5 * (a * dx) ** 2
+                )
     expected = k / rho * kernels.lattice_divergence_factor("cubic_spline", 2, 1.5)
     assert rate == pytest.approx(expected, rel=1e-12)

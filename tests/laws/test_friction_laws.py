@@ -38,7 +38,9 @@ def test_no_friction_below_the_threshold_and_a_smooth_start(pressure, slope, p, 
 def test_grains_yield_at_pressure_times_sine_of_the_angle(rate, pressure, degrees):
     sine = math.sin(math.radians(degrees))
     invariant = friction.second_invariant(0.0, 0.0, 0.0, 0.5 * rate, 0.0, 0.0)
-    assert friction.schaeffer_viscosity(pressure, sine, invariant, 0.0) * rate == pytest.approx(pressure * sine, rel=1e-12)
+    assert friction.schaeffer_viscosity(pressure, sine, invariant, 0.0) * rate == pytest.approx(
+        pressure * sine, rel=1e-12
+    )
 
 
 def test_viscosity_of_grains_at_rest_is_finite():

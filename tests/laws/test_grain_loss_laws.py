@@ -32,7 +32,9 @@ def test_gone_is_exactly_gone(d, c, over):
 
 @given(d=diameters, loss=st.floats(0.0, 2.0))
 def test_still_gas_is_the_d2_law(d, loss):
-    assert grain_loss.square_after(d * d, loss * d * d, 0.0) == pytest.approx(evaporation.d2_step(d, loss * d * d, 1.0) ** 2, abs=1e-14 * d * d)
+    assert grain_loss.square_after(d * d, loss * d * d, 0.0) == pytest.approx(
+        evaporation.d2_step(d, loss * d * d, 1.0) ** 2, abs=1e-14 * d * d
+    )
 
 
 @pytest.mark.parametrize("c", [1.0, 20.0, 120.0])

@@ -84,6 +84,6 @@ def test_counted_grains_give_the_mass_back(alpha_p, dx, mean, ratio, dims):
 
 
 def test_equal_grains_are_all_alike():
-    d, w = grain_sizes.mass_quadrature(3e-4, 0.0, 5)
+    d, _w = grain_sizes.mass_quadrature(3e-4, 0.0, 5)
     np.testing.assert_allclose(d, 3e-4, rtol=1e-13)
     assert grain_sizes.sphere_mass(3060.0, 3e-4, 0.0) == pytest.approx(3060.0 * math.pi / 6.0 * 3e-4**3, rel=1e-13)

@@ -117,7 +117,9 @@ def test_cooling_is_the_dissipation_per_mass(alpha_p, theta, e):
     cooling = granular.cooling_coefficient(alpha_p, e, g0_of(alpha_p), D)
     assert cooling * theta**1.5 == pytest.approx(2.0 / 3.0 * gamma / (alpha_p * RHO), rel=1e-12)
     damping = granular.damping_rate(5e3, RHO)
-    assert damping * theta == pytest.approx(-2.0 / 3.0 * granular.gidaspow_damping(alpha_p * 5e3, theta) / (alpha_p * RHO))
+    assert damping * theta == pytest.approx(
+        -2.0 / 3.0 * granular.gidaspow_damping(alpha_p * 5e3, theta) / (alpha_p * RHO)
+    )
 
 
 @given(theta=thetas, cooling=st.floats(0.0, 1e5), damping=st.floats(0.0, 1e3), dt=steps, parts=st.integers(2, 5))

@@ -399,4 +399,4 @@ def test_every_check_covers_a_value():
 
 
 def test_gas_constant_is_that_of_the_reference():
-    assert GAS_CONSTANT == CONSTANTS["R_J_per_kmolK"]
+    assert CONSTANTS["R_J_per_kmolK"] == GAS_CONSTANT

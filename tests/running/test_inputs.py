@@ -15,21 +15,29 @@ from sdph.case import read as cases
 from sdph.running import driver
 from sdph.schema import CaseError
 
-AIR = {"density_kg_m3": 1.2, "viscosity_Pa_s": 1.8e-5, "conductivity_W_m_K": 0.025, "heat_capacity_J_kg_K": 1006.0, "temperature_K": 300.0}
+AIR = {
+    "density_kg_m3": 1.2,
+    "viscosity_Pa_s": 1.8e-5,
+    "conductivity_W_m_K": 0.025,
+    "heat_capacity_J_kg_K": 1006.0,
+    "temperature_K": 300.0,
+}
 SAND = {"density_kg_m3": 2500.0, "diameter_mm": 1.0, "heat_capacity_J_kg_K": 800.0, "conductivity_W_m_K": 1.0}
 GRAINS = {
     "title": "grains fall on a plate", "dimensions": 2, "effects": ["gravity", "drag", "walls", "granular_pressure"],
     "run": {"end_time_s": 0.004, "output_interval_s": 0.002}, "coupling": {"window_largest_s": 0.001},
     "domain": {"size_m": [0.2, 0.2], "gravity_m_s2": [0.0, -9.81]}, "resolution": {"spacing_mm": 10.0, "cell_mm": 50.0},
     "gas": AIR, "grains": SAND, "boundaries": {"sides": {"kind": "slip_wall"}}, "walls": {"mesh": "shapes/plate.vtk"},
-    "particles": {"cloud": {"shape": "box", "lower_m": [0.05, 0.11], "upper_m": [0.15, 0.16], "volume_fraction": 0.2, "temperature_K": 300.0}},
+    "particles": {"cloud": {"shape": "box", "lower_m": [0.05, 0.11], "upper_m": [0.15, 0.16], "volume_fraction": 0.2,
+    "temperature_K": 300.0}},
 }  # fmt: skip
 LIQUID = {
     "title": "a tank that is shaken", "dimensions": 2, "effects": ["gravity", "frame", "tank"],
-    "run": {"end_time_s": 0.004, "output_interval_s": 0.002}, "domain": {"size_m": [0.2, 0.2], "gravity_m_s2": [0.0, -9.81]},
-    "resolution": {"spacing_mm": 20.0}, "liquid": {"density_kg_m3": 1000.0, "viscosity_Pa_s": 0.001, "sound_speed_m_s": 20.0},
-    "pools": {"water": {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.2, 0.1]}},
-    "tank": {"shape": "box"}, "frame": {"table": "shapes/motion.csv"},
+    "run": {"end_time_s": 0.004, "output_interval_s": 0.002},
+    "domain": {"size_m": [0.2, 0.2], "gravity_m_s2": [0.0, -9.81]}, "resolution": {"spacing_mm": 20.0},
+    "liquid": {"density_kg_m3": 1000.0, "viscosity_Pa_s": 0.001, "sound_speed_m_s": 20.0},
+    "pools": {"water": {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.2, 0.1]}}, "tank": {"shape": "box"},
+    "frame": {"table": "shapes/motion.csv"},
 }  # fmt: skip
 MOTION = "time_s,ax_m_s2,ay_m_s2,az_m_s2,wx_rad_s,wy_rad_s,wz_rad_s\n0,0,0,0,0,0,0\n0.1,1,0,0,0,0,0\n"
 EMBEDDED = ("--gas", "embedded")
@@ -128,7 +136,8 @@ def test_a_bad_file_is_one_line_and_leaves_no_folder(refused, tmp_path, command,
 
 
 @pytest.mark.parametrize(
-    ("text", "told"), [(None, "no such file"), ("a,b\n1,2\n", "has no column"), (MOTION.splitlines()[0], "two rows at least")]
+    ("text", "told"),
+    [(None, "no such file"), ("a,b\n1,2\n", "has no column"), (MOTION.splitlines()[0], "two rows at least")],
 )
 def test_a_bad_table_is_one_line_and_leaves_no_folder(refused, tmp_path, text, told):  # noqa: F811
     file = write_case(tmp_path / "mine", LIQUID) / "shapes" / "motion.csv"

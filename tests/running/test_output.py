@@ -16,7 +16,13 @@ from sdph.running.fields import Fields
 from sdph.schema import CaseError
 from sdph.show import view
 
-SHORT = ("resolution.spacing_mm=10", "resolution.cell_mm=25", "run.end_time_s=0.004", "run.output_interval_s=0.002", "run.report_at_s=[]")
+SHORT = (
+    "resolution.spacing_mm=10",
+    "resolution.cell_mm=25",
+    "run.end_time_s=0.004",
+    "run.output_interval_s=0.002",
+    "run.report_at_s=[]",
+)
 
 
 def snapshot(folder):
@@ -72,10 +78,21 @@ def test_summary_reads_back_and_a_missing_one_is_told(tmp_path):
     with pytest.raises(CaseError, match="no summary.json"):
         output.read_summary(tmp_path)
     output.write_summary(tmp_path, {"particles": 5024, "drift": 1.5e-13})
-    assert output.read_summary(tmp_path) == json.loads((tmp_path / "summary.json").read_text()) == {"particles": 5024, "drift": 1.5e-13}
+    assert (
+        output.read_summary(tmp_path)
+        == json.loads((tmp_path / "summary.json").read_text())
+        == {"particles": 5024, "drift": 1.5e-13}
+    )
 
 
-@given(rows=st.lists(st.tuples(st.floats(allow_nan=False), st.integers(-(2**53), 2**53), st.sampled_from(["a", "courant", 'x, "y"'])), min_size=1))
+@given(
+    rows=st.lists(
+        st.tuples(
+            st.floats(allow_nan=False), st.integers(-(2**53), 2**53), st.sampled_from(["a", "courant", 'x, "y"'])
+        ),
+        min_size=1,
+    )
+)
 def test_table_reads_back_to_the_last_bit(tmp_path_factory, rows):
     file = tmp_path_factory.mktemp("table") / "t.csv"
     table = Table(file)

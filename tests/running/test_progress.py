@@ -1,4 +1,5 @@
-"""What a run says of itself while it goes: the line, the page, and what is refused or stopped because it would get nowhere."""
+"""What a run says of itself while it goes: the line, the page, and what is refused or stopped because it would get
+nowhere."""
 
 import json
 import re
@@ -32,7 +33,9 @@ class Terminal(list):
         return True
 
 
-LINE = re.compile(r"t = 0\.0004 s, dt = \d.*e-\d\d s \(.+\), 80 particles, residual \d.*\(\w+\), closure \d.* \(\w+\), 0 s left")
+LINE = re.compile(
+    r"t = 0\.0004 s, dt = \d.*e-\d\d s \(.+\), 80 particles, residual \d.*\(\w+\), closure \d.* \(\w+\), 0 s left"
+)
 
 
 def test_the_line_on_a_terminal_says_all(tmp_path, monkeypatch):
@@ -48,7 +51,9 @@ def test_the_line_on_a_terminal_says_all(tmp_path, monkeypatch):
 
 def test_json_hides_no_warning(tmp_path):
     """What is printed is JSON alone; the warning stands beside it, and no progress does."""
-    done = sdph("run", "disc_cluster", *SMALL, "--set", "resolution.cell_mm=100", "--json", "--out", "mine", cwd=tmp_path)
+    done = sdph(
+        "run", "disc_cluster", *SMALL, "--set", "resolution.cell_mm=100", "--json", "--out", "mine", cwd=tmp_path
+    )
     assert json.loads(done.stdout)["time_s"] == 0.002
     assert "warning: domain / cell = 5, safe from 10" in done.stderr and "t = " not in done.stderr
 
@@ -85,7 +90,8 @@ def test_memory_is_told_and_a_case_that_fits_is_not_refused(monkeypatch):
 
 
 def test_a_run_whose_sub_steps_collapse_is_stopped(tmp_path, monkeypatch, capsys):
-    """Sound that nothing in the case can account for: exit code 5, and the sub-step, the particle and the place are named."""
+    """Sound that nothing in the case can account for: exit code 5, and the sub-step, the particle and the place are
+    named."""
     measure = Stepper._sub_step
 
     def sub_step(stepper, left):
@@ -95,8 +101,19 @@ def test_a_run_whose_sub_steps_collapse_is_stopped(tmp_path, monkeypatch, capsys
         return step
 
     monkeypatch.setattr(Stepper, "_sub_step", sub_step)
-    overrides = [word for text in ("resolution.spacing_mm=20", "resolution.cell_mm=20", "run.end_time_s=0.01") for word in ("--set", text)]
-    assert cli.main(["run", "bubbling_bed", "--gas", "embedded", *overrides, "--out", str(tmp_path / "run")]) == cli.WENT_UNSTABLE
+    overrides = [
+        word
+        for text in ("resolution.spacing_mm=20", "resolution.cell_mm=20", "run.end_time_s=0.01")
+        for word in ("--set", text)
+    ]
+    assert (
+        cli.main(["run", "bubbling_bed", "--gas", "embedded", *overrides, "--out", str(tmp_path / "run")])
+        == cli.WENT_UNSTABLE
+    )
     said = capsys.readouterr().err
-    assert "speed of sound of particle" in said and "the sub-step has fallen to" in said and len(said.splitlines()[-1:]) == 1
+    assert (
+        "speed of sound of particle" in said
+        and "the sub-step has fallen to" in said
+        and len(said.splitlines()[-1:]) == 1
+    )
     assert (tmp_path / "run" / "last_good.npz").exists()

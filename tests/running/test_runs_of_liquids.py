@@ -51,7 +51,9 @@ def test_resumed_run_is_the_uninterrupted_one_bit_for_bit(tmp_path, scene):
     resumed = driver.resume(tmp_path / "cut", (), Reporter())
     same_run(tmp_path / "whole", tmp_path / "cut")
     timed = ("wall", "_per_", "start_to")
-    assert {k: v for k, v in resumed.items() if not any(t in k for t in timed)} == {k: v for k, v in whole.items() if not any(t in k for t in timed)}
+    assert {k: v for k, v in resumed.items() if not any(t in k for t in timed)} == {
+        k: v for k, v in whole.items() if not any(t in k for t in timed)
+    }
 
 
 def test_another_liquid_is_refused(tmp_path):
@@ -172,7 +174,10 @@ def test_a_liquid_too_fast_for_its_sound_is_told(tmp_path):
     assert any("raise liquid.sound_speed_m_s from 2.5 to" in line for line in reporter.said)
 
 
-@pytest.mark.parametrize(("override", "told"), [("resolution.spacing_mm=100", "along x, which is periodic"), ("liquid.periodic=[1]", "2 numbers")])
+@pytest.mark.parametrize(
+    ("override", "told"),
+    [("resolution.spacing_mm=100", "along x, which is periodic"), ("liquid.periodic=[1]", "2 numbers")],
+)
 def test_a_periodic_box_that_is_too_narrow_is_refused(override, told):
     with pytest.raises(CaseError, match=told):
         cases.load(scenes.HERE / "poiseuille" / "case.toml", (override,))
@@ -199,4 +204,6 @@ def test_its_tank_is_drawn_around_it(tmp_path):
 
 def test_up_is_against_gravity():
     assert view.upwards((0.0, -9.81, 0.0)) == (0.0, 1.0, 0.0)
-    assert view.upwards((0.0, 0.0, -0.5)) == view.upwards((0.8, 0.0, 0.0)) == view.upwards((0.0, -9.81)) == (0.0, 0.0, 1.0)
+    assert (
+        view.upwards((0.0, 0.0, -0.5)) == view.upwards((0.8, 0.0, 0.0)) == view.upwards((0.0, -9.81)) == (0.0, 0.0, 1.0)
+    )

@@ -22,7 +22,13 @@ TABLE = {
     "domain": {"size_m": [1.0, 1.0, 1.0], "gravity_m_s2": [0.0, 0.0, 0.0]},
     "resolution": {"spacing_mm": 100.0, "smoothing_ratio": 1.3},
     "liquid": {"density_kg_m3": 1000.0, "sound_speed_m_s": 15.0},
-    "tank": {"shape": "sphere", "centre_m": [0.0, 0.0, 0.0], "radius_m": 0.5, "outlet_radius_m": 0.15, "outlet_length_m": 0.2},
+    "tank": {
+        "shape": "sphere",
+        "centre_m": [0.0, 0.0, 0.0],
+        "radius_m": 0.5,
+        "outlet_radius_m": 0.15,
+        "outlet_length_m": 0.2,
+    },
     "pools": {"water": {"shape": "tank", "fill": 0.5}},
 }
 
@@ -116,7 +122,14 @@ def test_a_closed_loop_keeps_momentum(monkeypatch):
 def test_walls_fill_what_lies_behind_the_surface(shape):
     """Wall and liquid particles around the surface fill the kernel: the sum of V W is 1 within a few per cent."""
     spacing, h = 0.05, 0.065
-    case = cases.from_table(TABLE | {"resolution": {"spacing_mm": 50.0, "smoothing_ratio": 1.3}, "tank": shape, "pools": {"all": {"shape": "tank", "fill": 1.0}}})
+    case = cases.from_table(
+        TABLE
+        | {
+            "resolution": {"spacing_mm": 50.0, "smoothing_ratio": 1.3},
+            "tank": shape,
+            "pools": {"all": {"shape": "tank", "fill": 1.0}},
+        }
+    )
     state = start.fill(case)
     everything = particles.positions(state)
     inside, walls = everything[state.kind == LIQUID], everything[state.kind == particles.WALL]
@@ -125,6 +138,8 @@ def test_walls_fill_what_lies_behind_the_surface(shape):
     sums = []
     for point in inside[:: max(1, len(inside) // 60)]:
         r = np.linalg.norm(everything - point, axis=1) / h
-        kernel = np.where(r < 1, 1 - 1.5 * r**2 + 0.75 * r**3, np.where(r < 2, 0.25 * (2 - r) ** 3, 0.0)) / (np.pi * h**3)
+        kernel = np.where(r < 1, 1 - 1.5 * r**2 + 0.75 * r**3, np.where(r < 2, 0.25 * (2 - r) ** 3, 0.0)) / (
+            np.pi * h**3
+        )
         sums.append(kernel.sum() * spacing**3)
     assert np.mean(sums) == pytest.approx(1.0, abs=0.08) and min(sums) > 0.6

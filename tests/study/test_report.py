@@ -1,4 +1,5 @@
-"""The report: whole in one file, true for runs that failed too, and its view is drawn and follows its slider in a browser."""
+"""The report: whole in one file, true for runs that failed too, and its view is drawn and follows its slider in a
+browser."""
 
 import json
 import re
@@ -18,14 +19,17 @@ from sdph.study import report
 PROBE = """
 <script>
 const canvas = document.querySelector('canvas'), slider = document.querySelector('.viewer input');
-const colours = () => new Set(new Uint32Array(canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data.buffer)).size;
+const pixels = () => canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data.buffer;
+const colours = () => new Set(new Uint32Array(pixels())).size;
 const seen = [];
 for (const place of [slider.max, 0]) {
   slider.value = place;
   slider.dispatchEvent(new Event('input'));
   seen.push({colours: colours(), picture: canvas.toDataURL(), label: document.querySelector('output').value});
 }
-document.body.setAttribute('data-seen', JSON.stringify({colours: seen.map(s => s.colours), labels: seen.map(s => s.label), changed: seen[0].picture !== seen[1].picture}));
+document.body.setAttribute('data-seen', JSON.stringify({
+  colours: seen.map(s => s.colours), labels: seen.map(s => s.label), changed: seen[0].picture !== seen[1].picture
+}));
 </script>
 """
 
@@ -44,16 +48,27 @@ def runs(tmp_path_factory):
 def test_runs_stand_side_by_side_in_one_file(runs):
     text = report.write([runs / "paper", runs / "plain"], runs / "both.html").read_text()
     assert not re.findall(r'(?:src|href)="(?!data:)', text)
-    for part in ("What was run", "Results", "Figures", "Fields", "Ledger", "Where the time went", "Settings", "Versions"):
+    for part in (
+        "What was run",
+        "Results",
+        "Figures",
+        "Fields",
+        "Ledger",
+        "Where the time went",
+        "Settings",
+        "Versions",
+    ):
         assert f"<h2>{part}</h2>" in text
     row = re.search(r"<tr><td>heat.closure</td>(.*?)</tr>", text).group(1)
     assert re.findall(r"<td>(\w+)</td>", row) == ["paper", "geometric"]
     summary = json.loads((runs / "plain" / "summary.json").read_text())
-    assert f'{summary["centre_temperature_K"]:.6g}</td>' in text
+    assert f"{summary['centre_temperature_K']:.6g}</td>" in text
 
 
 def test_a_failed_run_says_what_went_wrong(runs, capsys):
-    (runs / "cut" / "failure.json").write_text(json.dumps({"what": "the <gas> was killed", "kind": "GasError", "time_s": 1e-4}))
+    (runs / "cut" / "failure.json").write_text(
+        json.dumps({"what": "the <gas> was killed", "kind": "GasError", "time_s": 1e-4})
+    )
     assert cli.main(["report", str(runs / "cut")]) == 0
     text = (runs / "cut" / "report.html").read_text()
     assert capsys.readouterr().out.strip() == str(runs / "cut" / "report.html")

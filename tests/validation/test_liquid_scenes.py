@@ -23,9 +23,12 @@ class Points(dict):
 
 @pytest.mark.parametrize("stretch", [1.0, 1.2, 1.3])
 def test_circularity_of_an_ellipse_is_found(stretch):
-    """Cut out of a lattice whose particles are off by a tenth of a spacing; 0.005: half of what the bubble is held to."""
+    """Cut out of a lattice whose particles are off by a tenth of a spacing; 0.005: half of what the bubble is held
+    to."""
     ticks = (np.arange(-20, 20) + 0.5) * SPACING  # as in the scene
-    points = np.stack(np.meshgrid(ticks, ticks), axis=-1).reshape(-1, 2) + 0.1 * SPACING * np.random.default_rng(1).standard_normal((1600, 2))
+    points = np.stack(np.meshgrid(ticks, ticks), axis=-1).reshape(-1, 2) + 0.1 * SPACING * np.random.default_rng(
+        1
+    ).standard_normal((1600, 2))
     inside = (points[:, 0] / stretch) ** 2 + (points[:, 1] * stretch) ** 2 < RADIUS**2
     case = SimpleNamespace(resolution=SimpleNamespace(spacing=SPACING), smoothing_length=1.5 * SPACING)
     found, area = compare.scene_module("bubble_rise").circularity(Points(points, np.where(inside, GAS, LIQUID)), case)
@@ -36,13 +39,20 @@ def test_circularity_of_an_ellipse_is_found(stretch):
     assert area == pytest.approx(np.pi * RADIUS**2, rel=0.02)
 
 
-@pytest.mark.parametrize(("made", "shaken", "ok"), [(0.0, 0.0, [True, True]), (1.0, 0.0, [False, True]), (0.0, 1.0, [True, False])])
+@pytest.mark.parametrize(
+    ("made", "shaken", "ok"), [(0.0, 0.0, [True, True]), (1.0, 0.0, [False, True]), (0.0, 1.0, [True, False])]
+)
 def test_energy_that_cassini_makes_is_told(made, shaken, ok):
     """`made` [J] at 100 s by nobody, as the ledger has it; `shaken` [J] more in the tank from 250 s on."""
     case = cases.load(scenes.HERE / "sloshing_cassini" / "case.toml")
     time = np.arange(0.0, 300.5, 0.5)
     ones, late = np.ones_like(time), time > 250.0
-    history = {"time_s": time, "mass_kg": 200.0 * ones, "kinetic_energy_J": 3.0 - 1e-3 * time + shaken * late, "pipe_kinetic_energy_J": ones}
+    history = {
+        "time_s": time,
+        "mass_kg": 200.0 * ones,
+        "kinetic_energy_J": 3.0 - 1e-3 * time + shaken * late,
+        "pipe_kinetic_energy_J": ones,
+    }
     ledger = {"time_s": time, "dissipated_J": 0.01 * ones - made * (time == 100.0)}
     run = SimpleNamespace(case=case, history=history, ledger=ledger)
     assert [row["ok"] for row in compare.scene_module("sloshing_cassini")._energy(run)] == ok

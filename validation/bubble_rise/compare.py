@@ -70,12 +70,16 @@ def exact(run) -> list[dict]:
     case, h, known = run.case, run.history, reference()
     period = 2.0 * case.domain.size[1] / case.liquid.sound_speed
     times = np.arange(period, min(h["time_s"][-1], known[-1, 1]) - 0.5 * period, 0.01)
-    rise, expected = (_mean_speed(times, period, t, y) for t, y in ((h["time_s"], h["gas_centre_y_m"]), (known[:, 1], known[:, 3])))
+    rise, expected = (
+        _mean_speed(times, period, t, y) for t, y in ((h["time_s"], h["gas_centre_y_m"]), (known[:, 1], known[:, 3]))
+    )
     shapes = [circularity(points, case) for points in (run.fields(t)[1] for t in _outputs(case, known))]
     roundness = np.array([shape[0] for shape in shapes])
     round_known = np.interp(_outputs(case, known), known[:, 1], known[:, 2])
     end = min(h["time_s"][-1], known[-1, 1])
-    centre, centre_known = (np.interp(end, t, y) for t, y in ((h["time_s"], h["gas_centre_y_m"]), (known[:, 1], known[:, 3])))
+    centre, centre_known = (
+        np.interp(end, t, y) for t, y in ((h["time_s"], h["gas_centre_y_m"]), (known[:, 1], known[:, 3]))
+    )
     return [
         check("largest rise velocity [m/s]", rise.max(), expected.max(), SPEED, True),
         check("rise velocity, worst of the run [m/s]", *_worst(rise, expected), SPEED * expected.max()),
@@ -88,7 +92,10 @@ def exact(run) -> list[dict]:
 
 def _outputs(case, known) -> np.ndarray:
     """Times at which there are fields, the start left out: a disc on a lattice is not round yet."""
-    return np.arange(1, round(min(case.run.end_time, known[-1, 1]) / case.run.output_interval) + 1) * case.run.output_interval
+    return (
+        np.arange(1, round(min(case.run.end_time, known[-1, 1]) / case.run.output_interval) + 1)
+        * case.run.output_interval
+    )
 
 
 def _mean_speed(times, period: float, t, y) -> np.ndarray:

@@ -1,7 +1,7 @@
 """The bubbling bed against OpenFOAM's two-fluid solver, and against what the paper says of it.
 
-Both runs are measured by one function (sdph.running.metrics.bubble) on the same mesh. The paper's own description (section 4.2,
-figures 6 to 10) is checked point by point.
+Both runs are measured by one function (sdph.running.metrics.bubble) on the same mesh. The paper's own description
+(section 4.2, figures 6 to 10) is checked point by point.
 """
 
 from __future__ import annotations
@@ -23,7 +23,8 @@ AREA = 0.08  # of the two-fluid area
 RESOLVED = 0.19  # Courant number of the two-fluid run (0.25 ms): its area no longer depends on the step (README.md)
 DETACHMENT = 0.02  # s
 HOTTEST = 3.0  # K
-TWO_FLUIDS = {"bubble_diameter_m": 0.1268, "bubble_centroid_m": 0.0463}  # at 0.1 s, limit of cells of 20, 10 and 5 mm (README.md)
+# at 0.1 s, limit of cells of 20, 10 and 5 mm (README.md)
+TWO_FLUIDS = {"bubble_diameter_m": 0.1268, "bubble_centroid_m": 0.0463}
 TWO_FLUIDS_HEAT = 705.6  # J, the same of what the grains take up
 COMPARED_CELLS = (0.02, 0.01, 0.005)  # m, of the two-fluid runs that `sdph cost` draws
 ROUND_OFF = 1e-12  # of a limit: heights are multiples of a cell
@@ -40,7 +41,7 @@ def tfm(run) -> list[dict]:
     own, other = [_own(run, t) for t in times], [_other(reference, t) for t in times]
     _metrics_figure(run, times, own, other)
     _fields_figure(run, reference, [t for t in SHOWN if t <= times[-1]])
-    return _checks(run, times, own, other) + [_finer(run)]
+    return [*_checks(run, times, own, other), _finer(run)]
 
 
 def _finer(run) -> dict:
@@ -51,7 +52,9 @@ def _finer(run) -> dict:
     case = dataclasses.replace(run.case, resolution=half, run=dataclasses.replace(run.case.run, end_time=LARGEST))
     fine = _other(run_two_fluid(case, run.folder / "tfm_fine"), LARGEST)
     own = _own(run, LARGEST)["bubble_area_m2"]
-    return check("bubble area at 0.20 s [m2], two fluids on cells of half the size", own, fine["bubble_area_m2"], AREA, True)
+    return check(
+        "bubble area at 0.20 s [m2], two fluids on cells of half the size", own, fine["bubble_area_m2"], AREA, True
+    )
 
 
 def paper(run) -> list[dict]:
@@ -65,28 +68,55 @@ def paper(run) -> list[dict]:
     checks = [
         check("fig. 6: bubble lets go of the floor [s]", bubble.detachment(times, rows), LARGEST, DETACHMENT),
         _below("fig. 6: equivalent diameter at 0.20 s [m]", _own(run, LARGEST)["bubble_diameter_m"], 0.195),
-        _above("fig. 6: wake at 0.24 s, rise of the underside in its middle [m]", _wake(run, 0.24), run.case.resolution.cell),
-        check("fig. 7: highest gas temperature in the middle at 0.20 s [K]", _own(run, LARGEST)["gas_temperature_max_K"], 345.0, HOTTEST),
+        _above(
+            "fig. 6: wake at 0.24 s, rise of the underside in its middle [m]",
+            _wake(run, 0.24),
+            run.case.resolution.cell,
+        ),
+        check(
+            "fig. 7: highest gas temperature in the middle at 0.20 s [K]",
+            _own(run, LARGEST)["gas_temperature_max_K"],
+            345.0,
+            HOTTEST,
+        ),
         _below("fig. 7: highest gas temperature ever [K]", hottest, 350.0 + 1e-6),
         _above("fig. 8: hottest grain above the start [K]", _hottest_grain(run) - 288.0, 0.0),
-        _above("fig. 9: 645 moves outward first [m]", beside["x_m"][0] - beside["x_m"].min(), run.case.resolution.spacing),
+        _above(
+            "fig. 9: 645 moves outward first [m]", beside["x_m"][0] - beside["x_m"].min(), run.case.resolution.spacing
+        ),
         _above("fig. 9: 645 comes back [m]", beside["x_m"][-1] - beside["x_m"].min(), 0.0),
         _above("fig. 9: 645 then moves up [m]", beside["y_m"][-1] - beside["y_m"][0], 0.0),
         _above("fig. 9: 1050 moves up [m]", above["y_m"][-1] - above["y_m"][0], run.case.resolution.spacing),
-        _below("fig. 10: heat to 645 at 0.24 s over its largest before 0.20 s [-]", _left(history, beside["convective_heat_W"], 0.24), FADED),
-        _above("fig. 10: mean heat to 1050 after 0.20 s over that before [-]", _growth(history, above["convective_heat_W"]), 1.0),
-        _below("fig. 10: conduction to 1050 at 0.22 s over its largest before 0.20 s [-]", _left(history, above["conductive_heat_W"], 0.22), FADED),
+        _below(
+            "fig. 10: heat to 645 at 0.24 s over its largest before 0.20 s [-]",
+            _left(history, beside["convective_heat_W"], 0.24),
+            FADED,
+        ),
+        _above(
+            "fig. 10: mean heat to 1050 after 0.20 s over that before [-]",
+            _growth(history, above["convective_heat_W"]),
+            1.0,
+        ),
+        _below(
+            "fig. 10: conduction to 1050 at 0.22 s over its largest before 0.20 s [-]",
+            _left(history, above["conductive_heat_W"], 0.22),
+            FADED,
+        ),
     ]
     return checks
 
 
 def _reaches(run, time: float) -> None:
     if run.summary["time_s"] < time * (1.0 - ROUND_OFF):
-        raise CaseError(f"the run ends at {run.summary['time_s']:g} s and is compared until {time:g} s; go on with: sdph run --resume {run.folder} --until {time:g}")
+        raise CaseError(
+            f"the run ends at {run.summary['time_s']:g} s and is compared until {time:g} s; go on with: sdph run "
+            f"--resume {run.folder} --until {time:g}"
+        )
 
 
 def metrics(run) -> dict[str, tuple]:
-    """For `sdph cost`: the bubble at the end of the excerpt, and the heat to the grains, against the limit of two fluids."""
+    """For `sdph cost`: the bubble at the end of the excerpt, and the heat to the grains, against the limit of two
+    fluids."""
     return _metrics(run.summary, run.summary["heat_exchanged_J"])
 
 
@@ -103,7 +133,12 @@ def others(case, folder):
         refined = dataclasses.replace(case, resolution=dataclasses.replace(case.resolution, cell=cell))
         reference = run_two_fluid(refined, folder / f"tfm_{number}")
         at_end = _other(reference, case.run.end_time)
-        yield f"all {number + 1}/{len(COMPARED_CELLS)}, {1e3 * cell:g} mm", reference.solver, reference.wall, _metrics(at_end, _heat(reference, case))
+        yield (
+            f"all {number + 1}/{len(COMPARED_CELLS)}, {1e3 * cell:g} mm",
+            reference.solver,
+            reference.wall,
+            _metrics(at_end, _heat(reference, case)),
+        )
 
 
 def _heat(reference, case) -> float:
@@ -120,7 +155,12 @@ def _checks(run, times, own, other) -> list[dict]:
         check("bubble area at 0.20 s [m2]", own[k]["bubble_area_m2"], other[k]["bubble_area_m2"], AREA, True),
         check("bubble centroid at 0.20 s [m]", own[k]["bubble_centroid_m"], other[k]["bubble_centroid_m"], cell),
         check("detachment [s], reference the paper's", bubble.detachment(times, own), LARGEST, DETACHMENT),
-        check("detachment [s], reference two fluids", bubble.detachment(times, own), bubble.detachment(times, other), DETACHMENT),
+        check(
+            "detachment [s], reference two fluids",
+            bubble.detachment(times, own),
+            bubble.detachment(times, other),
+            DETACHMENT,
+        ),
         check("bed height at 0.20 s [m]", own[k]["bed_height_m"], other[k]["bed_height_m"], cell),
         check("pressure drop at 0.20 s [Pa]", own[k]["pressure_drop_Pa"], other[k]["pressure_drop_Pa"], AREA, True),
         _below("highest gas temperature [K]", max(row["gas_temperature_max_K"] for row in own), 350.0 + 1e-6),
@@ -135,12 +175,16 @@ def _checks(run, times, own, other) -> list[dict]:
 def _own(run, time: float) -> dict:
     _, _, gas = run.fields(time)
     sizes = np.asarray(gas.compute_cell_sizes()["Area"])
-    return bubble.metrics(gas.cell_centers().points, sizes, *(np.asarray(gas[name]) for name in ("alpha_p", "temperature", "pressure")))
+    return bubble.metrics(
+        gas.cell_centers().points, sizes, *(np.asarray(gas[name]) for name in ("alpha_p", "temperature", "pressure"))
+    )
 
 
 def _other(reference, time: float) -> dict:
     fields = reference.fields[reference.nearest(time)]
-    return bubble.metrics(reference.centres, reference.volumes, *(fields[name] for name in ("alpha_p", "gas_temperature", "pressure")))
+    return bubble.metrics(
+        reference.centres, reference.volumes, *(fields[name] for name in ("alpha_p", "gas_temperature", "pressure"))
+    )
 
 
 def _below(name: str, value: float, limit: float) -> dict:
@@ -149,7 +193,13 @@ def _below(name: str, value: float, limit: float) -> dict:
 
 def _above(name: str, value: float, limit: float) -> dict:
     least = limit - ROUND_OFF * abs(limit)
-    return {"name": name, "value": float(value), "reference": limit, "tolerance": limit - least, "ok": bool(value >= least)}
+    return {
+        "name": name,
+        "value": float(value),
+        "reference": limit,
+        "tolerance": limit - least,
+        "ok": bool(value >= least),
+    }
 
 
 def _tracked(history, ident: int) -> dict[str, np.ndarray]:
@@ -197,7 +247,14 @@ def _pyplot():
 
 def _metrics_figure(run, times, own, other) -> None:
     pyplot = _pyplot()
-    keys = ("bubble_area_m2", "bubble_centroid_m", "neck_width_m", "gas_temperature_max_K", "bed_height_m", "pressure_drop_Pa")
+    keys = (
+        "bubble_area_m2",
+        "bubble_centroid_m",
+        "neck_width_m",
+        "gas_temperature_max_K",
+        "bed_height_m",
+        "pressure_drop_Pa",
+    )
     figure, axes = pyplot.subplots(2, 3, figsize=(13, 7), constrained_layout=True)
     for key, axis in zip(keys, axes.ravel()):
         axis.plot(times, [row[key] for row in own], "o-", ms=3, label="SDPH")
@@ -218,8 +275,14 @@ def _image(axis, centres, values, limits):
 def _fields_figure(run, reference, times) -> None:
     """Voidage, gas temperature and grain temperature side by side; upper row SDPH, lower two fluids."""
     pyplot = _pyplot()
-    rows = (("alpha_p", "viridis", 0.0, 0.63), ("gas_temperature", "inferno", 288.0, 350.0), ("particle_temperature", "inferno", 288.0, 290.0))
-    figure, axes = pyplot.subplots(6, len(times), figsize=(2.6 * len(times), 24), constrained_layout=True, squeeze=False)
+    rows = (
+        ("alpha_p", "viridis", 0.0, 0.63),
+        ("gas_temperature", "inferno", 288.0, 350.0),
+        ("particle_temperature", "inferno", 288.0, 290.0),
+    )
+    figure, axes = pyplot.subplots(
+        6, len(times), figsize=(2.6 * len(times), 24), constrained_layout=True, squeeze=False
+    )
     for column, t in enumerate(times):
         _, grains, gas = run.fields(t)
         fields = reference.fields[reference.nearest(t)]

@@ -30,8 +30,9 @@ def run(end: float, spacing: float, window: float) -> dict[str, float]:
     overrides = (
         f"run.end_time_s={end}", f"run.output_interval_s={end}", "track.particles=[]",
         f"resolution.spacing_mm={spacing}", f"resolution.cell_mm={2.0 * spacing}",
-        "domain.size_m=[0.48,0.96]", "particles.bed.upper_m=[0.48,0.48]", "boundaries.jet.span_m=[0.2,0.28]", "boundaries.jet.velocity_m_s=[0.0,1.875]",
-        f"coupling.window_largest_s={window}", "coupling.window_tolerance=1e30", "coupling.courant=1e30",
+        "domain.size_m=[0.48,0.96]", "particles.bed.upper_m=[0.48,0.48]", "boundaries.jet.span_m=[0.2,0.28]",
+        "boundaries.jet.velocity_m_s=[0.0,1.875]", f"coupling.window_largest_s={window}",
+        "coupling.window_tolerance=1e30", "coupling.courant=1e30",
     )  # fmt: skip
     case = cases.load(scenes.HERE / "bubbling_bed" / "case.toml", overrides)
     gas = EmbeddedGas(case)
@@ -53,7 +54,10 @@ def order(coarse: float, middle: float, fine: float) -> float:
 
 
 def main(end: float) -> None:
-    series = {"window [s]": [(w, run(end, COARSE, w)) for w in WINDOWS], "spacing [mm]": [(s, run(end, s, WINDOWS[-1])) for s in SPACINGS]}
+    series = {
+        "window [s]": [(w, run(end, COARSE, w)) for w in WINDOWS],
+        "spacing [mm]": [(s, run(end, s, WINDOWS[-1])) for s in SPACINGS],
+    }
     for name, rows in series.items():
         for value, found in rows:
             print(f"{name} {value:g}:", ", ".join(f"{key} {number:.6g}" for key, number in found.items()))

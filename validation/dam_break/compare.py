@@ -1,6 +1,7 @@
 """The front of the collapsing column against measurements: front.csv, from the sources that it names.
 
-Times are shifted by a usual 0.175 (in units of sqrt(a/2g)): a gate opens in finite time and friction holds the front back.
+Times are shifted by a usual 0.175 (in units of sqrt(a/2g)): a gate opens in finite time and friction holds the front
+back.
 """
 
 from __future__ import annotations
@@ -50,4 +51,7 @@ def exact(run) -> list[dict]:
 
 def within_scatter(found: dict) -> list[dict]:
     """No further from the middle of the measured than half their spread; found: what `fronts` gives."""
-    return [check(f"front x/a at T = {at:g}", value, middle, spread + MARGIN) for at, (value, middle, spread) in found.items()]
+    return [
+        check(f"front x/a at T = {at:g}", value, middle, spread + MARGIN)
+        for at, (value, middle, spread) in found.items()
+    ]

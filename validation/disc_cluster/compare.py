@@ -49,14 +49,24 @@ def tfm(run) -> list[dict]:
     checks = []
     for t in (t for t in TWO_FLUID_TIMES if t <= run.summary["time_s"]):
         rise, gas = lumped(t)[0], lumped(t)[1]
-        for name, column, change in (("rise", "temperature_K", rise), ("gas temperature", "gas_temperature_K", start - gas)):
+        for name, column, change in (
+            ("rise", "temperature_K", rise),
+            ("gas temperature", "gas_temperature_K", start - gas),
+        ):
             offset = run.history["centre_temperature_K"][0] if name == "rise" else 0.0
             value = run.at(f"centre_{column}", t) - offset
             other = float(np.interp(t, history["time_s"], history[f"centre_{column}"])) - offset
             if change:
                 checks.append(check(f"centre {name} [K] at {1e3 * t:g} ms", value, other, TWO_FLUID * abs(change)))
     centre = run.history["centre_temperature_K"][0]
-    _figure(run, "tfm", history["time_s"], history["centre_temperature_K"] - centre, history["centre_gas_temperature_K"], reference)
+    _figure(
+        run,
+        "tfm",
+        history["time_s"],
+        history["centre_temperature_K"] - centre,
+        history["centre_gas_temperature_K"],
+        reference,
+    )
     return checks
 
 
@@ -73,20 +83,35 @@ def _lumped(case):
     t_p, t_g = region.temperature, gas.temperature
     if case.coupling.one_way:
         return lambda t: (solution.one_way_temperature(t, t_p, t_g, eps, c_p) - t_p, t_g)
-    return lambda t: (solution.two_way_rise(t, t_p, t_g, eps, c_p, c_g), solution.two_way_temperatures(t, t_p, t_g, eps, c_p, c_g)[1])
+    return lambda t: (
+        solution.two_way_rise(t, t_p, t_g, eps, c_p, c_g),
+        solution.two_way_temperatures(t, t_p, t_g, eps, c_p, c_g)[1],
+    )
 
 
 def _one_way(run, times, lumped) -> list[dict]:
     start = run.case.particles["disc"].temperature
     return [
-        check(f"centre temperature [K] at {1e3 * t:g} ms", run.at("centre_temperature_K", t), start + lumped(t)[0], ONE_WAY) for t in times
+        check(
+            f"centre temperature [K] at {1e3 * t:g} ms",
+            run.at("centre_temperature_K", t),
+            start + lumped(t)[0],
+            ONE_WAY,
+        )
+        for t in times
     ]
 
 
 def _two_way(run, times, lumped) -> list[dict]:
     start = run.history["centre_temperature_K"][0]
-    checks = [check(f"centre rise [K] at {1e3 * t:g} ms", run.at("centre_temperature_K", t) - start, lumped(t)[0], RISE, True) for t in times]
-    checks += [check(f"centre gas temperature [K] at {1e3 * t:g} ms", run.at("centre_gas_temperature_K", t), lumped(t)[1], GAS) for t in times]
+    checks = [
+        check(f"centre rise [K] at {1e3 * t:g} ms", run.at("centre_temperature_K", t) - start, lumped(t)[0], RISE, True)
+        for t in times
+    ]
+    checks += [
+        check(f"centre gas temperature [K] at {1e3 * t:g} ms", run.at("centre_gas_temperature_K", t), lumped(t)[1], GAS)
+        for t in times
+    ]
     return checks
 
 
@@ -103,13 +128,23 @@ def _figure(run, against: str, t, rise, gas, reference=None) -> None:
     radius = np.sqrt(((particles.points[:, :2] - centre) ** 2).sum(axis=1))
     left.plot(radius * 1e3, particles["temperature"], ".", ms=2, label="SDPH particles")
     if reference is None:
-        left.axhline(particles["temperature"].min() * 0 + run.case.particles["disc"].temperature + rise[-1], color="k", lw=1, label=against)
+        left.axhline(
+            particles["temperature"].min() * 0 + run.case.particles["disc"].temperature + rise[-1],
+            color="k",
+            lw=1,
+            label=against,
+        )
     else:
         _profile(left, reference, centre, run.case.particles["disc"].radius)
     left.set(xlabel="radius [mm]", ylabel="grain temperature [K]", title=f"t = {run.summary['time_s']:g} s")
     h = run.history
     for axes, own, other, label in (
-        (middle, h["centre_temperature_K"] - h["centre_temperature_K"][0], rise, "rise of the grains at the centre [K]"),
+        (
+            middle,
+            h["centre_temperature_K"] - h["centre_temperature_K"][0],
+            rise,
+            "rise of the grains at the centre [K]",
+        ),
         (right, h["centre_gas_temperature_K"], gas, "gas temperature at the centre [K]"),
     ):
         axes.semilogx(h["time_s"][1:], own[1:], ".", ms=3, label="SDPH")
@@ -125,12 +160,20 @@ def _profile(axes, reference, centre, radius) -> None:
     """Cells of the two-fluid run that hold grains."""
     r = np.sqrt(((reference.centres[:, :2] - centre) ** 2).sum(axis=1))
     inside = r < radius
-    axes.plot(r[inside] * 1e3, reference.fields[max(reference.fields)]["particle_temperature"][inside], "k.", ms=2, label="tfm cells")
+    axes.plot(
+        r[inside] * 1e3,
+        reference.fields[max(reference.fields)]["particle_temperature"][inside],
+        "k.",
+        ms=2,
+        label="tfm cells",
+    )
 
 
 def metrics(run) -> dict[str, tuple]:
-    """For `sdph cost`: (value, closed form, scale) at the times of TIMES; rises by themselves, the gas by its whole change."""
-    start, lumped = run.history["centre_temperature_K"][0], _lumped(cases.load(scenes.find("disc_cluster")[1]))  # all effects on
+    """For `sdph cost`: (value, closed form, scale) at the times of TIMES; rises by themselves, the gas by its whole
+    change."""
+    # all effects on
+    start, lumped = run.history["centre_temperature_K"][0], _lumped(cases.load(scenes.find("disc_cluster")[1]))
     span = abs(run.case.gas.temperature - run.case.particles["disc"].temperature)
     rises = {f"rise at {t:g} s": (run.at("centre_temperature_K", t) - start, lumped(t)[0], lumped(t)[0]) for t in TIMES}
     return rises | {f"gas at {t:g} s": (run.at("centre_gas_temperature_K", t), lumped(t)[1], span) for t in TIMES}

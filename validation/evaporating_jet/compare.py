@@ -41,7 +41,9 @@ def dpm(run) -> list[dict]:
     checks = [check(f"{name} at {end:g} s", *pair, ALIKE if same else DIFFERENT, True)]
     for t in times:
         if same:
-            checks.append(check(f"heat in the droplets [J] at {t:g} s", heat(run, t), heat_of(reference, run.case, t), HEAT, True))
+            checks.append(
+                check(f"heat in the droplets [J] at {t:g} s", heat(run, t), heat_of(reference, run.case, t), HEAT, True)
+            )
         front = reference.parcels[nearest(reference, t)]["position"][:, 0].max()
         checks.append(check(f"front [m] at {t:g} s", at_output(run, "front_m", t), front, FRONT, True))
     checks += bounds(run, times)
@@ -51,12 +53,17 @@ def dpm(run) -> list[dict]:
 
 
 def others(case, folder):
-    """For `sdph cost`: (label, solver, wall time [s], metrics) of the droplet solver on finer and finer cells, and with them steps."""
+    """For `sdph cost`: (label, solver, wall time [s], metrics) of the droplet solver on finer and finer cells, and with
+    them steps."""
     for number, cell in enumerate(COMPARED_CELLS):
         refined = dataclasses.replace(case, resolution=dataclasses.replace(case.resolution, cell=cell))
         reference, end = _droplet_run(refined, folder / f"dpm_{number}"), case.run.end_time
         front = float(reference.parcels[nearest(reference, end)]["position"][:, 0].max())
-        values = {"evaporated_kg": evaporated_by(reference, case, end), "front_m": front, "heat_exchanged_J": heat_of(reference, case, end)}
+        values = {
+            "evaporated_kg": evaporated_by(reference, case, end),
+            "front_m": front,
+            "heat_exchanged_J": heat_of(reference, case, end),
+        }
         label = f"all {number + 1}/{len(COMPARED_CELLS)}, {1e3 * cell:g} mm"
         yield label, reference.solver, reference.wall, {name: (value, None, None) for name, value in values.items()}
 
@@ -74,13 +81,23 @@ def alike(case) -> bool:
 
 def bounds(run, times) -> list[dict]:
     """sdph-notes 4.3: free flight and fall, onset, saturation, mass."""
-    nozzle, own, gravity = run.case.nozzles["jet"], run.case.parameters["evaporation"], math.hypot(*run.case.domain.gravity)
+    nozzle, own, gravity = (
+        run.case.nozzles["jet"],
+        run.case.parameters["evaporation"],
+        math.hypot(*run.case.domain.gravity),
+    )
     checks = []
     for t in times:
         checks.append(at_most(f"front [m] at {t:g} s", at_output(run, "front_m", t), nozzle.speed * t))
         checks.append(at_most(f"sag [m] at {t:g} s", at_output(run, "sag_m", t), 0.5 * gravity * t * t))
         checks.append(at_most(f"core [K] at {t:g} s", at_output(run, "core_temperature_K", t), own.onset_temperature))
-        checks.append(at_most(f"largest vapour mass fraction at {t:g} s", at_output(run, "vapour_mass_fraction_max", t), saturated(run.case)))
+        checks.append(
+            at_most(
+                f"largest vapour mass fraction at {t:g} s",
+                at_output(run, "vapour_mass_fraction_max", t),
+                saturated(run.case),
+            )
+        )
     share = run.summary["evaporated_kg"] / run.summary["injected_kg"]
     return [*checks, at_most("share of the liquid that evaporated", share, 0.0025)]
 
@@ -162,7 +179,9 @@ def _figure(run, reference, number: int, what: str, label: str, times) -> None:
     times = [t for t in times if t <= run.summary["time_s"] * (1.0 + 1e-9)]
     if not times:
         return
-    figure, axes = pyplot.subplots(2, len(times), figsize=(6.0 * len(times), 7.0), squeeze=False, constrained_layout=True, sharex=True, sharey=True)
+    figure, axes = pyplot.subplots(
+        2, len(times), figsize=(6.0 * len(times), 7.0), squeeze=False, constrained_layout=True, sharex=True, sharey=True
+    )
     panels = [[_sdph(run, what, t), _droplets(run, reference, what, t)] for t in times]
     both = np.concatenate([np.asarray(values).ravel() for pair in panels for _, values in pair])
     limits = {"vmin": float(both.min()), "vmax": float(both.max())}
@@ -185,7 +204,9 @@ def _draw(axes, what: str, places, values, limits):
     if what == "contours":
         levels = np.linspace(0.1, 1.0, 8) * limits["vmax"]
         return axes.contour(*places, values, levels=levels, cmap="viridis")
-    return axes.pcolormesh(*places, values, cmap="viridis" if what == "vapour_mass_fraction" else "inferno", shading="nearest", **limits)
+    return axes.pcolormesh(
+        *places, values, cmap="viridis" if what == "vapour_mass_fraction" else "inferno", shading="nearest", **limits
+    )
 
 
 def _sdph(run, what: str, time: float):

@@ -38,7 +38,10 @@ def main() -> None:
         summary = driver.run(case, "evaporating_jet", options.folder / str(number), None, Reporter(quiet=True))
         first = first or summary["evaporated_kg"]
         columns = f"{1e3 * summary['evaporated_kg']:8.4f} g  {100 * (summary['evaporated_kg'] / first - 1):+7.2f} %"
-        print(f"{name:40s} {columns}  Y_max {summary['vapour_mass_fraction_max']:.4f}  front {summary['front_m']:.4f} m", flush=True)
+        print(
+            f"{name:40s} {columns}  Y_max {summary['vapour_mass_fraction_max']:.4f}  front {summary['front_m']:.4f} m",
+            flush=True,
+        )
 
 
 if __name__ == "__main__":

@@ -39,7 +39,9 @@ def resting(run) -> list[dict]:
     return [
         _below("fastest grain at rest [m/s]", late["speed_max_m_s"].max(), STILL),
         _below("swing of the pressure drop at rest over the weight [-]", noise, QUIET),
-        check("pressure drop at rest [Pa], Ergun", late["pressure_drop_Pa"].mean(), late["ergun_Pa"].mean(), PACKED, True),
+        check(
+            "pressure drop at rest [Pa], Ergun", late["pressure_drop_Pa"].mean(), late["ergun_Pa"].mean(), PACKED, True
+        ),
     ]
 
 
@@ -51,7 +53,9 @@ def fluidisation(case, ramp=RAMP, stage=STAGE) -> list[dict]:
         name = f"pressure drop at {velocity:g} m/s, {'up' if k <= np.argmax(ramp) else 'down'} [Pa]"
         if velocity < onset:
             inside = column.ergun(case, [row["alpha_p_inside"]], row["superficial_velocity_m_s"])[0]
-            checks.append(check(f"{name.replace('drop', 'gradient')}/m inside, Ergun", row["gradient_Pa_m"], inside, PACKED, True))
+            checks.append(
+                check(f"{name.replace('drop', 'gradient')}/m inside, Ergun", row["gradient_Pa_m"], inside, PACKED, True)
+            )
             checks.append(check(f"{name}, Ergun", row["pressure_drop_Pa"], row["ergun_Pa"], PACKED, True))
         else:
             checks.append(check(f"{name}, weight", row["pressure_drop_Pa"], row["weight_Pa"], CARRIED, True))
@@ -64,7 +68,9 @@ def _onset(case, down) -> dict:
     fixed = [row for row in down if row["gradient_Pa_m"] < FIXED * weight * row["alpha_p_inside"]]
     alpha_p = float(np.mean([row["alpha_p_inside"] for row in fixed]))
     found = crossing([(row["superficial_velocity_m_s"], row["gradient_Pa_m"]) for row in fixed], weight * alpha_p)
-    return check(f"U_mf [m/s], Ergun at alpha_p = {alpha_p:.4f} of the fixed bed", found, u_mf(case, alpha_p), ONSET, True)
+    return check(
+        f"U_mf [m/s], Ergun at alpha_p = {alpha_p:.4f} of the fixed bed", found, u_mf(case, alpha_p), ONSET, True
+    )
 
 
 def stages(case, ramp, stage):
@@ -101,7 +107,9 @@ def _stage(case, state):
 def u_mf(case, alpha_p: float) -> float:
     """Ergun's minimum fluidisation velocity [m/s] of the bed as it lies."""
     grains, gas = case.grains, case.gas
-    return laws.minimum_fluidisation(alpha_p, grains.density, -case.domain.gravity[1], grains.diameter, gas.density, gas.viscosity)
+    return laws.minimum_fluidisation(
+        alpha_p, grains.density, -case.domain.gravity[1], grains.diameter, gas.density, gas.viscosity
+    )
 
 
 def crossing(packed, weight: float) -> float:

@@ -14,14 +14,19 @@ def pressure_error(run, liquid) -> float:
     case, pool = run.case, run.case.pools["water"]
     g = -case.domain.gravity[1]
     expected = case.liquid.density * g * (pool.upper[1] - liquid.points[:, 1])
-    return np.sqrt(np.mean((liquid["pressure"] - expected) ** 2)) / (case.liquid.density * g * (pool.upper[1] - pool.lower[1]))
+    return np.sqrt(np.mean((liquid["pressure"] - expected) ** 2)) / (
+        case.liquid.density * g * (pool.upper[1] - pool.lower[1])
+    )
 
 
 def metrics(run) -> dict:
     """What `sdph cost` takes: (value, reference, scale)."""
     _, liquid, _ = run.fields(run.summary["time_s"])
     weight = -liquid["mass"].sum() * run.case.domain.gravity[1]
-    return {"pressure": (pressure_error(run, liquid), 0.0, 1.0), "weight": (-run.history["wall_force_y_N"][-1] / weight, 1.0, 1.0)}
+    return {
+        "pressure": (pressure_error(run, liquid), 0.0, 1.0),
+        "weight": (-run.history["wall_force_y_N"][-1] / weight, 1.0, 1.0),
+    }
 
 
 def exact(run) -> list[dict]:

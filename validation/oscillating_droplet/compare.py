@@ -38,13 +38,17 @@ def period(run) -> list[dict]:
     """Of a damped sine that is fitted to the difference of the droplet's two variances."""
     case, h = run.case, run.history
     time, stretch = h["time_s"], h["liquid_spread_x_m2"] - h["liquid_spread_y_m2"]
-    omega = liquids.disc_frequency(2, radius(run), case.parameters["surface_tension"].coefficient, case.liquid.density, case.gas_phase.density)
+    omega = liquids.disc_frequency(
+        2, radius(run), case.parameters["surface_tension"].coefficient, case.liquid.density, case.gas_phase.density
+    )
 
     def damped(t, size, rate, w, phase):
         return size * np.exp(-rate * t) * np.sin(w * t + phase)
 
-    (size, rate, w, _), _ = curve_fit(damped, time, stretch, (stretch.max(), 0.05 * omega, omega, 0.0))
-    centre = np.hypot(h["liquid_centre_x_m"] - h["liquid_centre_x_m"][0], h["liquid_centre_y_m"] - h["liquid_centre_y_m"][0]).max()
+    (_size, rate, w, _), _ = curve_fit(damped, time, stretch, (stretch.max(), 0.05 * omega, omega, 0.0))
+    centre = np.hypot(
+        h["liquid_centre_x_m"] - h["liquid_centre_x_m"][0], h["liquid_centre_y_m"] - h["liquid_centre_y_m"][0]
+    ).max()
     return [
         check("period [s]", 2.0 * np.pi / w, 2.0 * np.pi / omega, PERIOD, True),
         check("damping over omega", rate / omega, 0.0, 0.1),

@@ -29,4 +29,6 @@ def metrics(run) -> dict:
 
 
 def exact(run) -> list[dict]:
-    return [check(f"velocity at {time:g} s, L2 over the largest", error, 0.0, SHARE) for time, error in errors(run).items()]
+    return [
+        check(f"velocity at {time:g} s, L2 over the largest", error, 0.0, SHARE) for time, error in errors(run).items()
+    ]

@@ -44,20 +44,25 @@ def exact(run) -> list[dict]:
 def _droplet(run):
     """Times, diameter, temperature and mass of the droplet as long as it is there."""
     h = run.history
-    columns = [h[name] for name in ("time_s", "particle_1_diameter_m", "particle_1_temperature_K", "particle_1_mass_kg")]
+    columns = [
+        h[name] for name in ("time_s", "particle_1_diameter_m", "particle_1_temperature_K", "particle_1_mass_kg")
+    ]
     return [column[np.isfinite(columns[1])] for column in columns]
 
 
 def metrics(run) -> dict[str, tuple]:
-    """For `sdph cost`: temperature when half of the surface is gone, against the wet bulb, of what it has to warm; the d^2
-    constant between 60 and 20 % of the surface, when it has long warmed up."""
+    """For `sdph cost`: temperature when half of the surface is gone, against the wet bulb, of what it has to warm; the
+    d^2 constant between 60 and 20 % of the surface, when it has long warmed up."""
     temperature, constant = closed_form(cases.load(scenes.find("single_droplet")[1]))  # all effects on
     t, d, T, _ = _droplet(run)
     share = (d / d[0]) ** 2
     part = (share <= 0.6) & (share >= 0.2)
     slope = -np.polyfit(t[part], d[part] ** 2, 1)[0] if part.sum() > 1 else 0.0
     half = T[np.argmin(np.abs(share - 0.5))]
-    return {"wet bulb [K]": (float(half), temperature, abs(temperature - T[0])), "d2 constant [m2/s]": (float(slope), constant, None)}
+    return {
+        "wet bulb [K]": (float(half), temperature, abs(temperature - T[0])),
+        "d2 constant [m2/s]": (float(slope), constant, None),
+    }
 
 
 def closed_form(case) -> tuple[float, float]:

@@ -24,7 +24,10 @@ def periods(run) -> tuple[float, float]:
 
 def metrics(run) -> dict:
     """What `sdph cost` takes: (value, reference, scale)."""
-    return {name: (float(value), 1.0, 1.0) for name, value in zip(("period of the centre", "period of the force"), periods(run))}
+    return {
+        name: (float(value), 1.0, 1.0)
+        for name, value in zip(("period of the centre", "period of the force"), periods(run))
+    }
 
 
 def exact(run) -> list[dict]:

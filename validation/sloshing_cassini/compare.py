@@ -14,31 +14,52 @@ LAST = 20.0  # s, mean over the end of a part of the run: some sloshing periods 
 def metrics(run) -> dict:
     """What `sdph cost` takes: (value, reference, scale)."""
     _, weight, apart, lever, *_ = (row["value"] for row in exact(run))
-    return {"mean force over the weight": (weight, 1.0, 1.0), "forces of both sides apart": (apart, 0.0, 1.0), "moment off r_c x F": (lever, 0.0, 1.0)}
+    return {
+        "mean force over the weight": (weight, 1.0, 1.0),
+        "forces of both sides apart": (apart, 0.0, 1.0),
+        "moment off r_c x F": (lever, 0.0, 1.0),
+    }
 
 
 def exact(run) -> list[dict]:
     h, own = run.history, run.case
     particle = own.liquid.density * own.resolution.spacing**3
     weight = h["mass_kg"] * np.linalg.norm(own.domain.gravity)
-    walls, pipe, mean = (np.stack([h[f"{part}_force_{a}_N"] for a in AXES], axis=1) for part in ("wall", "pipe", "mean"))
+    walls, pipe, mean = (
+        np.stack([h[f"{part}_force_{a}_N"] for a in AXES], axis=1) for part in ("wall", "pipe", "mean")
+    )
     moment = np.stack([h[f"wall_moment_{a}_Nm"] - h[f"pipe_moment_{a}_Nm"] for a in AXES], axis=1)
     lever = np.cross(np.array(own.parameters["tank"].centre), walls - pipe)
     rows = max(1, round(SMOOTHED / np.diff(h["time_s"]).mean()))
-    apart = _rms(np.stack([np.convolve(c, np.ones(rows) / rows, mode="valid") for c in (mean - walls).T], axis=1)) / weight.mean()
+    apart = (
+        _rms(np.stack([np.convolve(c, np.ones(rows) / rows, mode="valid") for c in (mean - walls).T], axis=1))
+        / weight.mean()
+    )
     checks = [
-        check("drained less commanded, largest, over a particle", np.abs(h["drained_kg"] - h["commanded_kg"]).max() / particle, 0.0, 0.5),
+        check(
+            "drained less commanded, largest, over a particle",
+            np.abs(h["drained_kg"] - h["commanded_kg"]).max() / particle,
+            0.0,
+            0.5,
+        ),
         check("mean downward force over the weight", (-mean[:, 2] / weight)[1:].mean(), 1.0, 0.01),
         check("force by momentum less force by the walls, means over 5 s, rms over the weight", apart, 0.0, 0.02),
-        check("moment less r_c x F on the tank without its pipe, rms over rms", _rms(moment - lever) / _rms(lever), 0.0, 0.01),
+        check(
+            "moment less r_c x F on the tank without its pipe, rms over rms",
+            _rms(moment - lever) / _rms(lever),
+            0.0,
+            0.01,
+        ),
     ]
     return checks + _energy(run)
 
 
 def _energy(run) -> list[dict]:
-    """Energy does not grow of itself: in no SMOOTHED seconds does it rise by more than the frame, gravity and the drain gave (ledger).
+    """Energy does not grow of itself: in no SMOOTHED seconds does it rise by more than the frame, gravity and the drain
+    gave (ledger).
 
-    Beside it the kinetic energy of the tank's own liquid, which falls once the motion has ceased; that of the outlet pipe is the drain's.
+    Beside it the kinetic energy of the tank's own liquid, which falls once the motion has ceased; that of the outlet
+    pipe is the drain's.
     """
     h, rows, ceases = run.history, run.ledger, run.case.parameters["frame"].end
     if h["time_s"][-1] < ceases + 2.0 * LAST:
@@ -49,8 +70,18 @@ def _energy(run) -> list[dict]:
     own = (h["kinetic_energy_J"] - h["pipe_kinetic_energy_J"]) / h["mass_kg"]
     end, before = (own[(h["time_s"] > t - LAST) & (h["time_s"] <= t)].mean() for t in (h["time_s"][-1], ceases))
     return [
-        check("energy made in 5 s, largest: its rise less the work of frame, gravity and drain [J]", max(-least, 0.0), 0.0, 0.0),
-        check("kinetic energy in the tank per mass, last 20 s over the last of the motion, less 1", max(end / before - 1.0, 0.0), 0.0, 0.0),
+        check(
+            "energy made in 5 s, largest: its rise less the work of frame, gravity and drain [J]",
+            max(-least, 0.0),
+            0.0,
+            0.0,
+        ),
+        check(
+            "kinetic energy in the tank per mass, last 20 s over the last of the motion, less 1",
+            max(end / before - 1.0, 0.0),
+            0.0,
+            0.0,
+        ),
     ]
 
 

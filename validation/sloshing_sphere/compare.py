@@ -1,4 +1,5 @@
-"""Sphere that drains while it is shaken: mass against the command, moment against r_c x F, force against a linear estimate."""
+"""Sphere that drains while it is shaken: mass against the command, moment against r_c x F, force against a linear
+estimate."""
 
 from __future__ import annotations
 
@@ -14,21 +15,35 @@ AXES = ("x", "y", "z")
 
 
 def metrics(run) -> dict:
-    """What `sdph cost` takes: (value, reference, scale); forces have no other reference than the limit of the ladder."""
+    """What `sdph cost` takes: (value, reference, scale); forces have no other reference than the limit of the
+    ladder."""
     _, lever, peak, weight = (row["value"] for row in exact(run))
-    return {"peak of F_x": (peak, None, None), "mean F_z": (weight, None, None), "moment off r_c x F": (lever, 0.0, 1.0)}
+    return {
+        "peak of F_x": (peak, None, None),
+        "mean F_z": (weight, None, None),
+        "moment off r_c x F": (lever, 0.0, 1.0),
+    }
 
 
 def exact(run) -> list[dict]:
     h, own = run.history, run.case.parameters["tank"]
     particle = run.case.liquid.density * run.case.resolution.spacing**3
-    force, walls, pipe = (np.stack([h[f"{part}_force_{a}_N"] for a in AXES], axis=1) for part in ("mean", "wall", "pipe"))
+    force, walls, pipe = (
+        np.stack([h[f"{part}_force_{a}_N"] for a in AXES], axis=1) for part in ("mean", "wall", "pipe")
+    )
     moments = [np.stack([h[f"{part}_moment_{a}_Nm"] for a in AXES], axis=1) for part in ("wall", "pipe")]
     shaken = h["time_s"] > run.case.parameters["frame"].start
     lever = np.cross(np.array(own.centre), walls - pipe)[shaken]  # of the sphere, whose pipe is a tank of its own
-    miss = np.sqrt((((moments[0] - moments[1])[shaken] - lever) ** 2).sum(axis=1).mean() / (lever**2).sum(axis=1).mean())
+    miss = np.sqrt(
+        (((moments[0] - moments[1])[shaken] - lever) ** 2).sum(axis=1).mean() / (lever**2).sum(axis=1).mean()
+    )
     checks = [
-        check("drained less commanded, largest, over a particle", np.abs(h["drained_kg"] - h["commanded_kg"]).max() / particle, 0.0, 1e-6),
+        check(
+            "drained less commanded, largest, over a particle",
+            np.abs(h["drained_kg"] - h["commanded_kg"]).max() / particle,
+            0.0,
+            1e-6,
+        ),
         check("moment less r_c x F on the sphere without its pipe, rms over rms", miss, 0.0, 0.01),
     ]
     linear = _linear()
@@ -36,7 +51,8 @@ def exact(run) -> list[dict]:
     own_x = _smooth(force[shaken, 0], 0.2 / np.diff(time).mean())
     peak = np.abs(np.interp(time, linear["t"], linear["Fx_N"])).max()
     checks.append(check("peak of F_x, filtered over 0.2 s [N]", np.abs(own_x).max(), peak, LINEAR, True))
-    weight = h["mass_kg"][shaken] * run.case.domain.gravity[2]  # with that in the pipe, 6.5 kg of 156 at the start, which the estimate leaves out
+    # with that in the pipe, 6.5 kg of 156 at the start, which the estimate leaves out
+    weight = h["mass_kg"][shaken] * run.case.domain.gravity[2]
     checks.append(check("mean F_z over the weight", force[shaken, 2].mean() / weight.mean(), 1.0, 0.05))
     return checks
 

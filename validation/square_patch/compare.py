@@ -24,7 +24,10 @@ def pressure(run) -> tuple[float, float]:
 def metrics(run) -> dict:
     """What `sdph cost` takes: (value, reference, scale)."""
     energy = run.history["kinetic_energy_J"]
-    return {"pressure of the centre": (*pressure(run), pressure(run)[1]), "energy kept": (energy[-1] / energy[0], 1.0, 1.0)}
+    return {
+        "pressure of the centre": (*pressure(run), pressure(run)[1]),
+        "energy kept": (energy[-1] / energy[0], 1.0, 1.0),
+    }
 
 
 def exact(run) -> list[dict]:

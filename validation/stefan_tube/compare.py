@@ -23,7 +23,12 @@ def exact(run) -> list[dict]:
     above, below = first_above(run.case, y), int(np.searchsorted(y, run.case.boundaries["wind"].span[0])) - 1
     own = run.case.vapour
     expected = own.molar_mass * solution.stefan_tube_flux(
-        run.case.gas.operating_pressure, own.diffusivity, run.case.gas.temperature, y[below] - y[above], X[above], X[below]
+        run.case.gas.operating_pressure,
+        own.diffusivity,
+        run.case.gas.temperature,
+        y[below] - y[above],
+        X[above],
+        X[below],
     )
     line = np.interp(y, [y[above], y[below]], [np.log1p(-X[above]), np.log1p(-X[below])])
     middle = (above + below) // 2
@@ -39,7 +44,10 @@ def metrics(run) -> dict[str, tuple]:
     """For `sdph cost`: flux, and the mole fraction in the middle relative to that at the liquid, against Stefan."""
     rate, middle, _ = exact(run)
     top = saturated(run.case)
-    return {"flux": (rate["value"], rate["reference"], None), "mole fraction in the middle": (middle["value"], middle["reference"], top)}
+    return {
+        "flux": (rate["value"], rate["reference"], None),
+        "mole fraction in the middle": (middle["value"], middle["reference"], top),
+    }
 
 
 def profile(run) -> tuple[np.ndarray, np.ndarray]:
@@ -47,13 +55,16 @@ def profile(run) -> tuple[np.ndarray, np.ndarray]:
     _, _, gas = run.fields(run.summary["time_s"])
     y = np.asarray(gas.cell_centers().points)[:, 1]
     Y = np.asarray(gas.cell_data["vapour_mass_fraction"])
-    X = np.array([evaporation.vapour_mole_fraction(value, run.case.vapour.molar_mass, run.case.gas.molar_mass) for value in Y])
+    X = np.array(
+        [evaporation.vapour_mole_fraction(value, run.case.vapour.molar_mass, run.case.gas.molar_mass) for value in Y]
+    )
     rows, own = np.unique(np.round(y, 9), return_inverse=True)
     return rows, np.bincount(own, X) / np.bincount(own)
 
 
 def first_above(case, y) -> int:
-    """The first cell that no particle reaches: two smoothing lengths above the highest (not below a cell's own size)."""
+    """The first cell that no particle reaches: two smoothing lengths above the highest (not below a cell's own
+    size)."""
     reach = 2.0 * max(case.smoothing_length, case.resolution.cell)
     top = case.particles["film"].upper[1] - 0.5 * case.resolution.spacing
     return int(np.searchsorted(y, top + reach + 0.5 * case.resolution.cell))

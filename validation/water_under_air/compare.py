@@ -14,7 +14,10 @@ AIR = 5e-3  # of sqrt(g H): our choice; air at 1/1000 of the density feels every
 def metrics(run) -> dict:
     """What `sdph cost` takes: (value, reference, scale)."""
     speed, _, pressure, *_ = exact(run)
-    return {"pressure of the water": (pressure["value"], 0.0, 1.0), "fastest water over sqrt(g H)": (speed["value"], 0.0, 1.0)}
+    return {
+        "pressure of the water": (pressure["value"], 0.0, 1.0),
+        "fastest water over sqrt(g H)": (speed["value"], 0.0, 1.0),
+    }
 
 
 def exact(run) -> list[dict]:
@@ -31,5 +34,10 @@ def exact(run) -> list[dict]:
         check("fastest air over sqrt(g H) in the end", h["gas_fastest_m_s"][-1] / speed, 0.0, AIR),
         check("pressure of the water, L2 over rho g H", error, 0.0, PRESSURE),
         check("rise of the water's centre over H, largest", np.ptp(h["liquid_centre_y_m"]) / surface, 0.0, 1e-3),
-        check("lowest air over highest water, spacings", (y[air].min() - y[water].max()) / case.resolution.spacing, 1.0, 0.2),
+        check(
+            "lowest air over highest water, spacings",
+            (y[air].min() - y[water].max()) / case.resolution.spacing,
+            1.0,
+            0.2,
+        ),
     ]

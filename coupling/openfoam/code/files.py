@@ -26,7 +26,8 @@ LARGEST = 2**31  # bytes that a compressed file may unpack to (our choice)
 
 @dataclass(frozen=True)
 class Findings:
-    """What a file was when it was read: its size and time, what it includes, whether binary, whether read as strictly."""
+    """What a file was when it was read: its size and time, what it includes, whether binary, whether read as
+    strictly."""
 
     stamp: tuple[int, int]
     included: frozenset[Path]
@@ -54,11 +55,14 @@ def refuse_code(folder: Path, known: dict[Path, Findings] | None = None) -> None
 
 
 def _refuse_binary_includes(folder: Path, found: dict[Path, Findings]) -> None:
-    """A file that is included is read as text, whatever its header says, and as it is where it is named with its .gz."""
+    """A file that is included is read as text, whatever its header says, and as it is where it is named with its
+    .gz."""
     binary = {name for name, findings in found.items() if findings.binary}
     for name, findings in found.items():
         for target in (target for target in findings.included if target.suffix == ".gz"):
-            raise _refusal(folder / name, f"it includes {target}, a compressed file, which is read as it is: leave .gz out")
+            raise _refusal(
+                folder / name, f"it includes {target}, a compressed file, which is read as it is: leave .gz out"
+            )
         for target in _with_compressed(findings.included) & binary:
             raise _refusal(folder / name, f"it includes {target}, a binary file")
 

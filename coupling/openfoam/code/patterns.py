@@ -39,7 +39,7 @@ def value_is_harmless(data: bytes, position: int) -> bool:
     """Whether what follows a quoted text is a dictionary, the end of a list, or a value that names no library."""
     depth, names = 0, False
     for count, token in enumerate(Tokens(data, position)):
-        if token.is_mark(b"{") and count == 0 or token.is_mark(b")]}") and depth == 0:
+        if (token.is_mark(b"{") and count == 0) or (token.is_mark(b")]}") and depth == 0):
             return True
         if token.is_mark(b";") and depth == 0:
             return not names

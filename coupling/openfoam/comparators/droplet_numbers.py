@@ -1,4 +1,5 @@
-"""Numbers that reactingParcelFoam wants in another form than a case has them: `constant/sdphDroplets`, `constant/nozzle`."""
+"""Numbers that reactingParcelFoam wants in another form than a case has them: `constant/sdphDroplets`,
+`constant/nozzle`."""
 
 from __future__ import annotations
 
@@ -62,7 +63,8 @@ def flow(case: Case, nozzle: Nozzle) -> float:
 
 
 def diffusion_volume(case: Case, liquid: Liquid) -> float:
-    """The two volumes a = b of OpenFOAM's D with which it is the case's at the film temperature where evaporation starts."""
+    """The two volumes a = b of OpenFOAM's D with which it is the case's at the film temperature where evaporation
+    starts."""
     film = (2.0 * liquid.onset_temperature + case.gas.temperature) / 3.0  # OpenFOAM's surface values: T + (T_gas - T)/3
     beta = API_DIFFUSION * (1.8 * film) ** 1.75 / (case.gas.operating_pressure * case.vapour.diffusivity)
     return (beta / 4.0) ** 1.5  # beta = (a^(1/3) + b^(1/3))^2
@@ -74,6 +76,9 @@ def nozzle_rows(case: Case, nozzle: Nozzle) -> str:
     grains = case.grains
     each = flow(case, nozzle) / count
     places = [nozzle.middle + nozzle.width * ((i + 0.5) / count - 0.5) for i in range(count)]
-    tail = f"{grains.diameter!r} {grains.density!r} {each!r} {nozzle.temperature!r} {grains.heat_capacity!r} (0 1 0) () (1) ()"
+    tail = (
+        f"{grains.diameter!r} {grains.density!r} {each!r} {nozzle.temperature!r} {grains.heat_capacity!r} (0 1 0) "
+        "() (1) ()"
+    )
     rows = "".join(f"(1e-6 {y!r} 0.5) ({nozzle.speed!r} 0 0) {tail}\n" for y in places)
     return f"(\n{rows})\n"

@@ -1,4 +1,5 @@
-"""Reference runs of stock OpenFOAM solvers on the same case: twoPhaseEulerFoam (two fluids), reactingParcelFoam (droplets).
+"""Reference runs of stock OpenFOAM solvers on the same case: twoPhaseEulerFoam (two fluids), reactingParcelFoam
+(droplets).
 
 A run takes its files from `openfoam_case_templates/<scene>/{tfm,dpm}`; every physical number reaches it from the case
 by macros. A finished run is kept in the user's cache, so that it is made once.
@@ -35,7 +36,8 @@ OPENFOAM = re.compile(r"system|constant|dynamicCode|postProcessing|processor.*|[
 @dataclass(frozen=True)
 class Solver:
     """A stock solver: its name, the kind of template, the macro file it needs besides the case's, the programs that
-    prepare a run, its fields (file -> name here) and the probes that a template may ask for (name -> file -> column)."""
+    prepare a run, its fields (file -> name here) and the probes that a template may ask for (name -> file ->
+    column)."""
 
     name: str
     kind: str
@@ -72,20 +74,29 @@ DROPLETS = Solver(
 
 
 def run_two_fluid(
-    case: Case, folder: Path, ranks: int = 1, progress: Progress | None = None, courant: float = two_fluid_numbers.COURANT
+    case: Case,
+    folder: Path,
+    ranks: int = 1,
+    progress: Progress | None = None,
+    courant: float = two_fluid_numbers.COURANT,
 ) -> Reference:
     """Run twoPhaseEulerFoam on the case in `folder`, or take what it gave from the cache.
 
-    `progress(time, end)` [s] hears where the run is; `courant` is the largest Courant number of an inlet. `GasError` when
-    OpenFOAM fails.
+    `progress(time, end)` [s] hears where the run is; `courant` is the largest Courant number of an inlet. `GasError`
+    when OpenFOAM fails.
     """
     return _run(TWO_FLUID, case, folder, ranks, {TWO_FLUID.macros: two_fluid_numbers.macros(case, courant)}, progress)
 
 
 def run_droplets(
-    case: Case, nozzle: droplet_numbers.Nozzle, liquid: droplet_numbers.Liquid, folder: Path, progress: Progress | None = None
+    case: Case,
+    nozzle: droplet_numbers.Nozzle,
+    liquid: droplet_numbers.Liquid,
+    folder: Path,
+    progress: Progress | None = None,
 ) -> Reference:
-    """Run reactingParcelFoam on the case in `folder`, or take what it gave from the cache. Serial: parcels enter on one rank."""
+    """Run reactingParcelFoam on the case in `folder`, or take what it gave from the cache. Serial: parcels enter on one
+    rank."""
     files = {
         DROPLETS.macros: droplet_numbers.macros(case, nozzle, liquid),
         "nozzle": droplet_numbers.nozzle_rows(case, nozzle),
@@ -105,7 +116,9 @@ def _run(solver: Solver, case: Case, folder: Path, ranks: int, files: dict, prog
     for program in solver.prepare:
         programs.run([program], folder, folder / f"log.{program}", environment)
     began = time.perf_counter()
-    programs.run_solver(solver.name, folder, folder / f"log.{solver.name}", case.run.end_time, progress, environment, ranks)
+    programs.run_solver(
+        solver.name, folder, folder / f"log.{solver.name}", case.run.end_time, progress, environment, ranks
+    )
     reference = _read(solver, folder, environment, time.perf_counter() - began)
     keep(reference, kept)
     return reference
@@ -161,7 +174,9 @@ def _read(solver: Solver, folder: Path, environment: dict[str, str], wall: float
         wall=wall,
         centres=fields.read(folder / "0/C", cells),
         volumes=fields.read(folder / "0/V", cells),
-        fields={when: {name: fields.read(path / file, cells) for file, name in present.items()} for when, path in outputs},
+        fields={
+            when: {name: fields.read(path / file, cells) for file, name in present.items()} for when, path in outputs
+        },
         history=_history(solver, folder),
         parcels={when: _parcels(path / CLOUD) for when, path in outputs if (path / CLOUD).is_dir()},
     )

@@ -28,7 +28,9 @@ def macros(case: Case, courant: float = COURANT) -> dict[str, str]:
     """Macros of the two-fluid templates: name -> text."""
     gas, grains = case.gas, case.grains
     if gas.equation_of_state != "constant":
-        raise CaseError(f"gas.equation_of_state = {gas.equation_of_state!r}; the two-fluid reference is laid out for 'constant'")
+        raise CaseError(
+            f"gas.equation_of_state = {gas.equation_of_state!r}; the two-fluid reference is laid out for 'constant'"
+        )
     if "heat" not in case.effects:
         raise CaseError(f"effects = {list(case.effects)}; the two-fluid reference exchanges heat: add 'heat'")
     return {
@@ -50,7 +52,9 @@ def _switch(on: bool) -> str:
 def _heat_exchange(case: Case) -> dict[str, str]:
     heat = case.parameters["heat"]
     if heat.law == "ranz_marshall" and heat.closure == "paper":
-        raise CaseError("heat.law = 'ranz_marshall' with heat.closure = 'paper'; OpenFOAM's has no alpha_g: give 'geometric'")
+        raise CaseError(
+            "heat.law = 'ranz_marshall' with heat.closure = 'paper'; OpenFOAM's has no alpha_g: give 'geometric'"
+        )
     model, reynolds = HEAT_MODELS[heat.law]
     return {"heat_model": model, "heat_reynolds": reynolds, "heat_alpha_gas": _switch(heat.closure == "paper")}
 
@@ -85,7 +89,10 @@ def _time_steps(case: Case, courant: float) -> dict[str, str]:
     if speeds:
         return {"time_step": repr(divided(case.run.output_interval, courant * case.resolution.cell / max(speeds)))}
     table = resting_steps(case)
-    return {"first_time_step": repr(table[0][1]), "time_steps": "(" + " ".join(f"({t!r} {dt!r})" for t, dt in table) + ")"}
+    return {
+        "first_time_step": repr(table[0][1]),
+        "time_steps": "(" + " ".join(f"({t!r} {dt!r})" for t, dt in table) + ")",
+    }
 
 
 def divided(interval: float, step: float) -> float:
@@ -94,7 +101,8 @@ def divided(interval: float, step: float) -> float:
 
 
 def resting_steps(case: Case) -> list[tuple[float, float]]:
-    """(time, step) [s]: fine for ten relaxation times of the gas, five times that for ten more, then a tenth of the outputs."""
+    """(time, step) [s]: fine for ten relaxation times of the gas, five times that for ten more, then a tenth of the
+    outputs."""
     last = case.run.output_interval / 10.0
     if case.coupling.one_way:
         return [(0.0, last), (case.run.end_time, last)]
@@ -105,7 +113,12 @@ def resting_steps(case: Case) -> list[tuple[float, float]]:
     second_end = last * math.ceil(20.0 * relaxation / last)
     half = 0.5 * fine  # a step is looked up at its start: change between two starts
     steps = [(0.0, fine), (first_end - half, fine), (first_end - 0.9 * half, middle)]
-    return [*steps, (second_end - half, middle), (second_end - 0.9 * half, last), (case.run.end_time + second_end, last)]
+    return [
+        *steps,
+        (second_end - half, middle),
+        (second_end - 0.9 * half, last),
+        (case.run.end_time + second_end, last),
+    ]
 
 
 def gas_relaxation(case: Case) -> float:

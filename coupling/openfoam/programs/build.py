@@ -23,7 +23,8 @@ from coupling.openfoam.programs.installation import Installation, require
 from sdph.schema import CaseError
 
 FLAGS = (
-    "-std=c++14", "-O3", "-fPIC", "-pthread", "-DWM_DP", "-DWM_LABEL_SIZE=32", "-DNoRepository", "-ftemplate-depth-100", "-w",
+    "-std=c++14", "-O3", "-fPIC", "-pthread", "-DWM_DP", "-DWM_LABEL_SIZE=32", "-DNoRepository", "-ftemplate-depth-100",
+    "-w",
 )  # fmt: skip
 # Debian links with --as-needed, which would drop what only a constructor of a library registers
 LINK = ("-Wl,--no-as-needed", "-lOpenFOAM", "-lPstream", "-ldl", "-lm")
@@ -53,7 +54,8 @@ def build(source: Path, status: Callable[[str], None] = silent) -> Path:
 
 
 def built(source: Path, installation: Installation) -> Path:
-    """Where the product of `source` is, or will be: the folder is named by OpenFOAM's version and a hash of all that goes in."""
+    """Where the product of `source` is, or will be: the folder is named by OpenFOAM's version and a hash of all that
+    goes in."""
     digest = hashlib.sha256(repr((FLAGS, LINK, installation.package)).encode())
     for path in sorted(p for p in source.rglob("*") if p.suffix in (".C", ".H") or p.parent.name == "Make"):
         digest.update(f"{path.relative_to(source)}\0".encode() + path.read_bytes())
@@ -100,7 +102,14 @@ def gxx_command(copy: Path, product: Path, installation: Installation, tree: Pat
     always = [f"-I{tree}/src/OpenFOAM/lnInclude", f"-I{tree}/src/OSspecific/POSIX/lnInclude"]
     sources = [line for line in (copy / "Make" / "files").read_text().split("\n") if line.strip().endswith(".C")]
     shared = ["-shared"] if kind == "LIB" else []
-    compile_part = ["g++", *FLAGS, f"-DOPENFOAM={installation.version}", f"-I{copy}", *options["EXE_INC"].split(), *always]
+    compile_part = [
+        "g++",
+        *FLAGS,
+        f"-DOPENFOAM={installation.version}",
+        f"-I{copy}",
+        *options["EXE_INC"].split(),
+        *always,
+    ]
     return [*compile_part, *shared, *sources, "-o", str(product), LINK[0], *options[f"{kind}_LIBS"].split(), *LINK[1:]]
 
 

@@ -18,7 +18,19 @@ GAS_SOLVER = HERE / "sdphGasFoam"
 TWO_FLUID_CLOSURES = HERE / "twoFluidClosures"
 CODE_GUARD = HERE / "codeGuard"
 
-__all__ = ["Row", "build", "code_guard", "doctor", "environment", "find", "gas_solver", "mpirun", "require", "setup", "two_fluid_closures"]
+__all__ = [
+    "Row",
+    "build",
+    "code_guard",
+    "doctor",
+    "environment",
+    "find",
+    "gas_solver",
+    "mpirun",
+    "require",
+    "setup",
+    "two_fluid_closures",
+]
 
 
 def gas_solver(status: Callable[[str], None] = silent) -> Path:

@@ -17,7 +17,8 @@ from coupling.openfoam.programs import barrier, install
 LOOK = 0.2  # s between two looks at a running solver
 TAIL = 20000  # bytes of a log that are looked through
 
-CHATTER = re.compile(r"residual|continuity errors|^(Time = |ExecutionTime|Courant|PIMPLE|//)|^\W*$")  # lines of a solver that goes on well
+# lines of a solver that goes on well
+CHATTER = re.compile(r"residual|continuity errors|^(Time = |ExecutionTime|Courant|PIMPLE|//)|^\W*$")
 MEMORY = " (by somebody, or by the system because memory ran out)"
 
 Progress = Callable[[float, float], None]
@@ -52,7 +53,9 @@ def run_solver(
     run(["reconstructPar"], folder, folder / "log.reconstructPar", environment)
 
 
-def _watch(command, folder: Path, log: Path, end: float, progress: Progress | None, environment: dict[str, str]) -> None:
+def _watch(
+    command, folder: Path, log: Path, end: float, progress: Progress | None, environment: dict[str, str]
+) -> None:
     with log.open("wb") as out, starting(command[0]):
         process = subprocess.Popen(
             command, cwd=folder, env=environment, stdout=out, stderr=subprocess.STDOUT, start_new_session=True
@@ -65,7 +68,9 @@ def _watch(command, folder: Path, log: Path, end: float, progress: Progress | No
     finally:
         _end(process)
     if process.returncode:
-        raise GasError(f"{command[0]} {ending(process.returncode)} at {solver_time(log):g} s: {reason(log)} (log: {log})")
+        raise GasError(
+            f"{command[0]} {ending(process.returncode)} at {solver_time(log):g} s: {reason(log)} (log: {log})"
+        )
 
 
 def _end(process: subprocess.Popen) -> None:
@@ -90,9 +95,12 @@ def ending(code: int) -> str:
 
 
 def reason(log: Path) -> str:
-    """Why a program ended, in one line: the cause that its log names, else its last line, unless that is of a solver that goes on well."""
+    """Why a program ended, in one line: the cause that its log names, else its last line, unless that is of a solver
+    that goes on well."""
     last = (_tail(log).decode(errors="replace").strip().splitlines() or ["it wrote no log"])[-1]
-    return cause(log) or (f"its log breaks off at {solver_time(log):g} s without a cause" if CHATTER.search(last) else last)
+    return cause(log) or (
+        f"its log breaks off at {solver_time(log):g} s without a cause" if CHATTER.search(last) else last
+    )
 
 
 def cause(log: Path) -> str:
@@ -107,7 +115,9 @@ def cause(log: Path) -> str:
         return signalled.group(0)
     if rank := re.search(r"mpirun noticed that process (rank \d+) .* exited on (signal \d+ \(.*\))", text):
         return f"{rank.group(1)} exited on {rank.group(2)}"
-    return "one of its processes was killed or failed without a word" if "returned\na non-zero exit code" in text else ""
+    return (
+        "one of its processes was killed or failed without a word" if "returned\na non-zero exit code" in text else ""
+    )
 
 
 def _tail(log: Path) -> bytes:
@@ -115,3 +125,14 @@ def _tail(log: Path) -> bytes:
         text.seek(0, os.SEEK_END)
         text.seek(max(0, text.tell() - TAIL))
         return text.read()
+
+
+def end_group(process: subprocess.Popen) -> None:
+    """End a process and all that it started; mpirun is asked first, since it ends its ranks itself."""
+    if process.poll() is None:
+        process.terminate()
+        with contextlib.suppress(subprocess.TimeoutExpired):  # it is killed next
+            process.wait(1.0)
+    with contextlib.suppress(ProcessLookupError):  # nothing of the group is left
+        os.killpg(process.pid, signal.SIGKILL)
+    process.wait()

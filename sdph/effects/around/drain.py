@@ -2,9 +2,9 @@
 
 `debt`: the lowest particle loses mass as it is commanded, its volume with it, and goes when it has none left. The mass
 in the tank is the commanded one at every instant.
-`paper`: whole particles go, as many as have been commanded so far, rounded (paper T, Eq. 12, cumulatively). Each goes to the
-outlet's end within `interval` at an even speed (Eq. 13), with the pressure of a wall, and its push on the others fades
-(Eq. 14). Its speed, an outcome of the interval, is left out of what the others feel.
+`paper`: whole particles go, as many as have been commanded so far, rounded (paper T, Eq. 12, cumulatively). Each goes
+to the outlet's end within `interval` at an even speed (Eq. 13), with the pressure of a wall, and its push on the others
+fades (Eq. 14). Its speed, an outcome of the interval, is left out of what the others feel.
 """
 
 from __future__ import annotations

@@ -24,13 +24,15 @@ class Frame:
     """Sums of harmonics, or a table; the caller of `sdph.running.tank.Tank` gives its own in place of both.
 
     The origin's displacement along axis a is sum A sin(w t + phase) of the rows [axis, A, w, phase] of `shake`
-    (m, rad/s, rad); the angular velocity the same of `turn` (rad/s, rad/s, rad). Both begin at `start` and cease at `end`.
+    (m, rad/s, rad); the angular velocity the same of `turn` (rad/s, rad/s, rad). Both begin at `start` and cease at
+    `end`.
     """
 
     shake: tuple = vector("", ())
     turn: tuple = vector("", ())
     spin: tuple = vector("rad_s", (0.0, 0.0, 0.0), components=3)  # constant angular velocity
-    table: str = file()  # CSV file: time_s after `start`, ax_m_s2 ... of the origin, wx_rad_s ...; linear between rows, at rest before the first
+    # CSV file: time_s after `start`, ax_m_s2 ... of the origin, wx_rad_s ...; linear between rows, at rest before them
+    table: str = file()
     start: float = quantity("s", 0.0, least=0.0)  # at rest before: time for the liquid to settle
     end: float | None = quantity("s", None, above=0.0)  # neither accelerated nor turning after
 
@@ -50,13 +52,15 @@ class FrameP(NamedTuple):
 
 
 def motion(own: Frame, until: float):
-    """t -> (acceleration (3,), omega (3,), omega_dot (3,)) of the frame, gravity left out, for t to `until` [s] at least."""
+    """t -> (acceleration (3,), omega (3,), omega_dot (3,)) of the frame, gravity left out; t goes to `until` [s]."""
     if own.table:
         return _tabulated(own, until)
     for row in (*own.shake, *own.turn):
         flat = isinstance(row, tuple) and not any(isinstance(value, tuple) for value in row)
         if not flat or len(row) != 4 or row[0] not in (0, 1, 2):
-            raise CaseError(f"frame.shake or frame.turn holds {row}; a row is [axis 0, 1 or 2, amplitude, rad/s, phase]")
+            raise CaseError(
+                f"frame.shake or frame.turn holds {row}; a row is [axis 0, 1 or 2, amplitude, rad/s, phase]"
+            )
 
     def at(time: float):
         acceleration, omega, rate = np.zeros(3), np.array(own.spin, float), np.zeros(3)
@@ -85,7 +89,9 @@ def _tabulated(own: Frame, until: float):
     last, needed = own.start + times[-1], until if own.end is None else min(until, own.end)
     if last < needed * (1.0 - SAME):
         ends = f"frame.table = {own.table!r} ends at {last:g} s and the run at {until:g} s"
-        raise CaseError(f"{ends}; add rows, lower run.end_time_s, or set frame.end_s, from which on the frame is at rest")
+        raise CaseError(
+            f"{ends}; add rows, lower run.end_time_s, or set frame.end_s, from which on the frame is at rest"
+        )
 
     def at(time: float):
         t = time - own.start

@@ -35,10 +35,19 @@ def acceleration(p):
 
 
 def call(scales) -> Judgement:
-    """Way of free fall within the run over that way and that of jet or throw, g t^2/2 and U t: of the inverse Froude number."""
+    """Way of free fall within the run over that way and that of jet or throw, g t^2/2 and U t: of the inverse Froude
+    number."""
     fall, other = 0.5 * scales.gravity * scales.end, max(scales.jet, scales.thrown)
     share = fall / (fall + other) if fall else 0.0
     return Judgement("g t/(g t + 2 U), of the Froude number", share, 0.01, "Froude number of the run", share)
 
 
-EFFECT = Effect(name="gravity", summary="gravity", parameters=Gravity, kernel=kernel, moves=True, matter=("grains", "liquid"), call=call)
+EFFECT = Effect(
+    name="gravity",
+    summary="gravity",
+    parameters=Gravity,
+    kernel=kernel,
+    moves=True,
+    matter=("grains", "liquid"),
+    call=call,
+)

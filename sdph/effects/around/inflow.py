@@ -14,38 +14,16 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial import cKDTree
 
-from sdph.effects.around.streams import ROUND_OFF, Patch, Streams, cell_radius, layers_of, streams_of, unit, without
+from sdph.effects.around.nozzles import check
+from sdph.effects.around.streams import ROUND_OFF, Patch, cell_radius, layers_of, streams_of, unit, without
 from sdph.effects.effect import Effect, Judgement
 from sdph.engine import state as particles
 from sdph.engine.kept import Unfit
 from sdph.engine.state import GRAIN, INFLOW
-from sdph.schema import CaseError, choice, quantity, record, vector
+from sdph.schema import CaseError, record
 
 DEPTH = 4.0  # smoothing lengths of particles upstream: the density of those that the first grain sees is whole too
 ARRAYS = ("nozzle", "entering")
-
-
-@record
-class Nozzle:
-    """A mouth that grains leave at `speed`: a slot, a disc, or a cone, whose streams spread up to `half_angle`."""
-
-    shape: str = choice("slot", "disc", "cone")
-    centre: tuple = vector("m")
-    direction: tuple = vector("")
-    speed: float = quantity("m_s", above=0.0)  # mean over the mouth
-    temperature: float = quantity("K", above=0.0)
-    volume_fraction: float | None = quantity("", None, above=0.0, most=1.0)  # either this
-    rate: float | None = quantity("kg_s", None, above=0.0)  # or this, per metre of depth in two dimensions
-    profile: str = choice("uniform", "parabolic")  # of the speed; parabolic: none at the rim
-    width: float | None = quantity("m", None, above=0.0)  # of a slot
-    length: float | None = quantity("m", None, above=0.0)  # of a slot in three dimensions
-    across: tuple | None = vector("", None)  # direction of its width
-    radius: float | None = quantity("m", None, above=0.0)  # of a disc or cone; in two dimensions half the mouth's width
-    half_angle: float = quantity("deg", 0.0, least=0.0, most=80.0)
-    diameter: float | None = quantity("mm", None, above=0.0)  # of the grains; none: those of [grains]
-    diameter_std: float | None = quantity("mm", None, least=0.0)
-    start: float = quantity("s", 0.0, least=0.0)
-    end: float | None = quantity("s", None, above=0.0)
 
 
 @record
@@ -55,7 +33,7 @@ class Inflow:
     def patches(self, case) -> list:
         """What comes in, for `sdph.methods.grains.scales`."""
         for name, nozzle in case.nozzles.items():
-            _check(case, name, nozzle)
+            check(case, name, nozzle)
         return [_patch(case, nozzle) for nozzle in case.nozzles.values()]
 
 
@@ -76,53 +54,8 @@ def kernel(case) -> InflowP:
     if not case.nozzles:
         raise CaseError("the effect inflow needs a nozzle; give one in [nozzles.some_name]")
     for name, nozzle in case.nozzles.items():
-        _check(case, name, nozzle)
+        check(case, name, nozzle)
     return InflowP(len(case.nozzles))
-
-
-def _check(case, name: str, nozzle: Nozzle) -> None:
-    where = f"nozzles.{name}"
-    if (nozzle.volume_fraction is None) == (nozzle.rate is None):
-        raise CaseError(f"{where}: give either volume_fraction or rate_kg_s")
-    for key, unit_of in (("centre", "_m"), ("direction", "")):
-        if len(getattr(nozzle, key)) != case.dimensions:
-            raise CaseError(f"{where}.{key}{unit_of} has {len(getattr(nozzle, key))} components; dimensions = {case.dimensions} asks for {case.dimensions}")
-    if nozzle.shape == "disc" and case.dimensions == 2:
-        raise CaseError(f"{where}.shape = 'disc' is for three dimensions; in two a mouth is a slot or a cone")
-    needs = ("width", "length")[: case.dimensions - 1] if nozzle.shape == "slot" else ("radius",)
-    for key in needs:
-        if getattr(nozzle, key) is None:
-            raise CaseError(f"{where}.{key}_m is missing; a {nozzle.shape} in {case.dimensions} dimensions needs it")
-    if nozzle.half_angle and nozzle.shape != "cone":
-        raise CaseError(f"{where}.half_angle_deg is of a cone; shape = {nozzle.shape!r}")
-    if not np.linalg.norm(nozzle.direction) > 0.0:
-        raise CaseError(f"{where}.direction = {list(nozzle.direction)}; it must point somewhere")
-    if nozzle.across and case.dimensions == 3 and _parallel(nozzle.across, nozzle.direction):
-        aside = f"it must point aside of direction = {list(nozzle.direction)}"
-        raise CaseError(f"{where}.across = {list(nozzle.across)}; {aside}")
-    streams = streams_of(case, nozzle)
-    _check_times(case, where, nozzle, streams)
-    alpha_p = streams.alpha_p
-    if alpha_p > case.grains.packing_limit:
-        raise CaseError(f"{where} makes a volume fraction of {alpha_p:.3g}, above grains.packing_limit = {case.grains.packing_limit}; slow down or widen it")
-
-
-def _check_times(case, where: str, nozzle: Nozzle, streams: Streams) -> None:
-    """What a nozzle gives in the time in which it is open must be a layer of particles at least."""
-    if nozzle.end is None:
-        return
-    given = f"{where} is open from start_s = {nozzle.start:g} to end_s = {nozzle.end:g}"
-    if nozzle.end <= nozzle.start:
-        raise CaseError(f"{given}; its end must come after its start")
-    if not layers_of(nozzle, streams).any():
-        way = (nozzle.end - nozzle.start) * streams.speed.max()
-        least = f"less than half of resolution.spacing_mm = {case.resolution.spacing * 1e3:g}"
-        raise CaseError(f"{given}: its grains go {way * 1e3:.3g} mm, {least}; open it longer or take a finer spacing")
-
-
-def _parallel(a, b) -> bool:
-    """Whether two vectors of space span no plane."""
-    return bool(np.linalg.norm(np.cross(a, b)) <= ROUND_OFF * np.linalg.norm(a) * np.linalg.norm(b))
 
 
 class Source:
@@ -188,7 +121,10 @@ class Source:
         """Unfit where not the layers were made that are needed at `time` [s], or other particles than these hold."""
         layers = kept["layers"]
         least, most = self._wanted(time, 0.0), self._wanted(time, 2.0 * self.case.coupling.window_largest) + 1
-        if kept["next_ident"] != self.next_ident + int(layers.sum()) or not ((layers >= least) & (layers <= most)).all():
+        if (
+            kept["next_ident"] != self.next_ident + int(layers.sum())
+            or not ((layers >= least) & (layers <= most)).all()
+        ):
             raise Unfit(f"the nozzles cannot have made and numbered what they have made at {time:g} s")
 
     def _particles(self, nozzle, points, velocity):
@@ -207,7 +143,8 @@ class Source:
         return particles.born(state)
 
     def mouths(self, dummies) -> np.ndarray:
-        """Number, from 1, of the nozzle in whose mouth or upstream of it each dummy of the walls (W,) stands; 0: none."""
+        """Number, from 1, of the nozzle in whose mouth or upstream of it each dummy of the walls (W,) stands; 0:
+        none."""
         places = np.stack((dummies.x, dummies.y, dummies.z)[: self.case.dimensions], axis=1)
         found, wide = np.zeros(len(places), np.int64), cell_radius(self.pitch, self.case.dimensions)
         for k, own in enumerate(self.streams):
@@ -237,7 +174,8 @@ class Source:
         return share
 
     def _beyond(self, nozzle, places) -> tuple[np.ndarray, np.ndarray]:
-        """Distances [m] of places (n, 3) beyond the mouths of their nozzles (n,), or of one, from 0; and from the axis."""
+        """Distances [m] of places (n, 3) beyond the mouths of their nozzles (n,), or of one, from 0; and from the
+        axis."""
         apart, axis = places[:, : self.case.dimensions] - self.centre[nozzle], self.axis[nozzle]
         along = (apart * axis).sum(axis=1)
         return along, np.linalg.norm(apart - along[:, None] * axis, axis=1)
@@ -285,4 +223,12 @@ def call(scales) -> Judgement:
     return Judgement("nozzles", float(count), 1.0, "the case", float(count > 0))
 
 
-EFFECT = Effect(name="inflow", summary="grains that come in through nozzles", parameters=Inflow, kernel=kernel, arrays=ARRAYS, moves=True, call=call)
+EFFECT = Effect(
+    name="inflow",
+    summary="grains that come in through nozzles",
+    parameters=Inflow,
+    kernel=kernel,
+    arrays=ARRAYS,
+    moves=True,
+    call=call,
+)

@@ -46,7 +46,8 @@ def refuse_to_leave(case, state, gone, time: float) -> None:
     first = int(np.flatnonzero(gone)[0])
     place = ", ".join(f"{axis[first]:.4g}" for axis in particles.axes(state))
     raise CaseError(
-        f"{int(gone.sum())} particles have left the domain through an open side at t = {time:.6g} s, the first is {state.ident[first]} at ({place}) m; "
+        f"{int(gone.sum())} particles have left the domain through an open side at t = {time:.6g} s, the first is "
+        f"{state.ident[first]} at ({place}) m; "
         f"add outflow to effects = {list(case.effects)}, or enlarge domain.size_m = {list(case.domain.size)}"
     )
 
@@ -72,7 +73,16 @@ def _spans(span, count: int):
 def call(scales) -> Judgement:
     """How far grains get within the run over their way to the nearest open side: past 1 they are out of the gas."""
     over_gap = scales.to_outlets.over_gap
-    return Judgement("way of the grains / gap to an open side", over_gap, 1.0, "geometry", 1.0 if over_gap >= 1.0 else 0.0)
+    return Judgement(
+        "way of the grains / gap to an open side", over_gap, 1.0, "geometry", 1.0 if over_gap >= 1.0 else 0.0
+    )
 
 
-EFFECT = Effect(name="outflow", summary="grains that leave through open sides", parameters=Outflow, kernel=kernel, moves=True, call=call)
+EFFECT = Effect(
+    name="outflow",
+    summary="grains that leave through open sides",
+    parameters=Outflow,
+    kernel=kernel,
+    moves=True,
+    call=call,
+)

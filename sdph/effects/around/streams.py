@@ -21,8 +21,8 @@ def unit(vector_) -> np.ndarray:
 
 
 class Streams(NamedTuple):
-    """S streams of one nozzle: places in the mouth (S, d) [m], axis (d,), speed along it (S,) [m/s], velocity at the mouth
-    (S, d), mass of a particle [kg], layer pitch [m], volume fraction."""
+    """S streams of one nozzle: places in the mouth (S, d) [m], axis (d,), speed along it (S,) [m/s], velocity at the
+    mouth (S, d), mass of a particle [kg], layer pitch [m], volume fraction."""
 
     mouth: np.ndarray
     axis: np.ndarray
@@ -82,7 +82,10 @@ def _mouth(case, nozzle, axis) -> tuple[np.ndarray, float, float]:
     grid = np.stack([m.ravel() for m in np.meshgrid(ticks, ticks, indexing="ij")], axis=1)
     grid = grid[(grid**2).sum(axis=1) <= nozzle.radius**2]
     if not len(grid):
-        raise CaseError(f"resolution.spacing_mm = {spacing * 1e3:g} is too coarse for a nozzle of radius {nozzle.radius * 1e3:g} mm; give it less")
+        raise CaseError(
+            f"resolution.spacing_mm = {spacing * 1e3:g} is too coarse for a nozzle of radius {nozzle.radius * 1e3:g} "
+            "mm; give it less"
+        )
     area = math.pi * nozzle.radius**2
     return grid * math.sqrt(area / len(grid)) / spacing @ np.stack(tangents), area, nozzle.radius
 
@@ -93,7 +96,8 @@ def _ticks(size: float, spacing: float) -> np.ndarray:
 
 
 def cell_radius(pitch: float, dimensions: int) -> float:
-    """How far [m] from a stream its part of the mouth reaches: of a circle as large as a cell of the lattice in space."""
+    """How far [m] from a stream its part of the mouth reaches: of a circle as large as a cell of the lattice in
+    space."""
     return 0.5 * pitch * (1.0 + ROUND_OFF) if dimensions == 2 else pitch / math.sqrt(math.pi)
 
 
@@ -111,8 +115,8 @@ def without(gone, index, count):
 
 @dataclass(frozen=True)
 class Patch:
-    """Grains that are there at the start, or come in: volume fraction, temperature, velocity, corners of their box; angle
-    [rad] that their paths spread up to on each side."""
+    """Grains that are there at the start, or come in: volume fraction, temperature, velocity, corners of their box;
+    angle [rad] that their paths spread up to on each side."""
 
     alpha_p: float
     temperature: float

@@ -15,7 +15,8 @@ from sdph.schema import CaseError, choice, file, quantity, record, vector, words
 
 @record
 class Tank:
-    """`open_sides` of a box have no wall. The outlet is a pipe at the lowest point, as full at the start as the tank is."""
+    """`open_sides` of a box have no wall. The outlet is a pipe at the lowest point, as full at the start as the tank
+    is."""
 
     shape: str = choice("box", "sphere", "cylinder", "capsule", "mesh")
     lower: tuple | None = vector("m", None)  # of a box; None: the domain
@@ -32,8 +33,8 @@ class Tank:
 
 
 class TankP(NamedTuple):
-    """1 for no slip, 0 for free slip; least pressure of a wall [Pa]; inverse of the distance from a wall particle at which
-    it begins to hold liquid off [1/m]; c^2 [m2/s2]."""
+    """1 for no slip, 0 for free slip; least pressure of a wall [Pa]; inverse of the distance from a wall particle at
+    which it begins to hold liquid off [1/m]; c^2 [m2/s2]."""
 
     stick: float
     least: float
@@ -44,7 +45,8 @@ class TankP(NamedTuple):
 def kernel(case) -> TankP:
     own, c = case.parameters["tank"], case.fastest_sound
     least = 0.0 if own.suction == "none" else -math.inf
-    near = 0.5 * math.sqrt(case.dimensions) * case.resolution.spacing  # of the surface, no place is further from the wall's lattice
+    # of the surface, no place is further from the wall's lattice
+    near = 0.5 * math.sqrt(case.dimensions) * case.resolution.spacing
     return TankP(float(own.slip == "no_slip"), least, 1.0 / near, c * c)
 
 
@@ -113,11 +115,20 @@ def layers(case) -> int:
 
 
 def call(scales) -> Judgement:
-    """How far the liquid gets within the run when nothing holds it, or how deep the friction of walls along a channel."""
+    """How far the liquid gets within the run when nothing holds it, or how deep the friction of walls along a
+    channel."""
     across, along = scales.pull
     way = 0.5 * (across + scales.shaken) * scales.end**2 / scales.length
     reach = max(way, scales.layer if along else 0.0)
     return Judgement("way of the liquid within the run / its width", reach, 0.01, "geometry", min(1.0, reach))
 
 
-EFFECT = Effect(name="tank", summary="walls of a tank for a liquid", parameters=Tank, kernel=kernel, moves=True, matter=("liquid",), call=call)
+EFFECT = Effect(
+    name="tank",
+    summary="walls of a tank for a liquid",
+    parameters=Tank,
+    kernel=kernel,
+    moves=True,
+    matter=("liquid",),
+    call=call,
+)

@@ -27,9 +27,12 @@ CONTACT = 0.25  # spacings between a particle and the surface at which they touc
 @record
 class Walls:
     model: str = choice(*MODELS)
-    specularity: float | None = quantity("", None, least=0.0, most=1.0)  # share of collisions that are diffuse; None: no slip
-    restitution: float = quantity("", 0.0, least=0.0, most=1.0)  # of a contact; SPH particles are many grains: no bounce
-    penalty: float = quantity("", 1.0, above=0.0, most=1e6)  # eps of the paper's force in grain densities times sqrt(g h)/h; not given there
+    # share of collisions that are diffuse; None: no slip
+    specularity: float | None = quantity("", None, least=0.0, most=1.0)
+    # of a contact; SPH particles are many grains: no bounce
+    restitution: float = quantity("", 0.0, least=0.0, most=1.0)
+    # eps of the paper's force in grain densities times sqrt(g h)/h; not given there
+    penalty: float = quantity("", 1.0, above=0.0, most=1e6)
     mesh: str = file()  # surface mesh that meshio reads, in metres, normals towards the grains
 
 
@@ -54,14 +57,15 @@ def kernel(case) -> WallsP:
     penalty = own.penalty * np.sqrt(gravity / case.smoothing_length)
     specularity = NO_SLIP if own.specularity is None else own.specularity
     return WallsP(
-        specularity, own.restitution, CONTACT * spacing, spacing, spacing**case.dimensions, penalty, MODELS.index(own.model),
-        case.grains.packing_limit, case.grains.density,
+        specularity, own.restitution, CONTACT * spacing, spacing, spacing**case.dimensions, penalty,
+        MODELS.index(own.model), case.grains.packing_limit, case.grains.density,
     )  # fmt: skip
 
 
 @njit(cache=True, error_model="numpy")
 def near(p, rows, i):
-    """Whether particle i sees dummies. Few do; to call what follows for the others too would cost as much as the pairs."""
+    """Whether particle i sees dummies. Few do; to call what follows for the others too would cost as much as the
+    pairs."""
     if len(p) == 0:
         return False
     return rows.count[i] > 0
@@ -80,7 +84,8 @@ def closure(p, box, dummies, rows, s, i, kernel):
 
 @njit(cache=True, error_model="numpy")
 def held(p, dummies, w, x, y, z):
-    """What of a vector (velocity or traction of contacts) a wall takes hold of: all of it where it grips, else the normal part."""
+    """What of a vector (velocity or traction of contacts) a wall takes hold of: all of it where it grips, else the
+    normal part."""
     nx, ny, nz = normal_part(dummies, w, x, y, z)
     grips = dummies.stick[w] if p.specularity != 0.0 else 0.0
     return nx + grips * (x - nx), ny + grips * (y - ny), nz + grips * (z - nz)
@@ -88,8 +93,9 @@ def held(p, dummies, w, x, y, z):
 
 @njit(cache=True, error_model="numpy")
 def gradient(p, kernel, box, dummies, rows, s, i):
-    """What walls add to the velocity gradient (xx, xy, xz, yx, yy, yz, zx, zy, zz) [1/s] of particle i: mirrored velocities
-    behind them. The adjoint of the traction of contacts in `force`, so that elastic contacts neither gain nor lose."""
+    """What walls add to the velocity gradient (xx, xy, xz, yx, yy, yz, zx, zy, zz) [1/s] of particle i: mirrored
+    velocities behind them. The adjoint of the traction of contacts in `force`, so that elastic contacts neither gain
+    nor lose."""
     xx = xy = xz = yx = yy = yz = zx = zy = zz = 0.0
     if len(p) == 0:
         return xx, xy, xz, yx, yy, yz, zx, zy, zz
@@ -126,7 +132,9 @@ def extrapolate(kernel, box, dummies, rows, s, pressure, weight, wall_pressure, 
             dx, dy, dz = offset(box, dummies, w, s, i)
             value = kernels.cubic_spline(np.sqrt(dx * dx + dy * dy + dz * dz), kernel.h, kernel.sigma)
             weight[w] += value
-            hydrostatic = -(s.push_x[i] * dx + s.push_y[i] * dy + (s.push_z[i] * dz if len(s.z) else 0.0)) * s.density[i]
+            hydrostatic = (
+                -(s.push_x[i] * dx + s.push_y[i] * dy + (s.push_z[i] * dz if len(s.z) else 0.0)) * s.density[i]
+            )
             wall_pressure[w] += value * (pressure[i] + hydrostatic)
             wall_velocity[w, 0] += value * s.u[i]
             wall_velocity[w, 1] += value * s.v[i]
@@ -146,7 +154,9 @@ def grip(p, dummies, w, s, i, dx, dy, dz, shear):
     """
     if p.specularity < 0.0 or dummies.stick[w] == 0.0 or len(s.theta) == 0:
         return dummies.stick[w] * (p.specularity != 0.0)
-    y = max(dx * dummies.normal_x[w] + dy * dummies.normal_y[w] + dz * dummies.normal_z[w] - dummies.depth[w], p.contact)
+    y = max(
+        dx * dummies.normal_x[w] + dy * dummies.normal_y[w] + dz * dummies.normal_z[w] - dummies.depth[w], p.contact
+    )
     a = granular.capped_fraction(s.density[i] / p.grain_density, p.packing)
     g0 = granular.sinclair_jackson(a, p.packing)
     k = p.specularity * np.pi * p.grain_density * a * g0 * np.sqrt(3.0 * s.theta[i]) / (6.0 * p.packing)
@@ -155,7 +165,8 @@ def grip(p, dummies, w, s, i, dx, dy, dz, shear):
 
 @njit(cache=True, error_model="numpy")
 def force(p, kernel, box, dummies, rows, s, i, pressure, shear, tau, wall_pressure, wall_velocity):
-    """Acceleration [m/s2] of particle i by the wall; contacts, with their traction tau (N, 6) of sdph.methods.grains.contacts, bear on it as they do on grains."""
+    """Acceleration [m/s2] of particle i by the wall; contacts, with their traction tau (N, 6) of
+    sdph.methods.grains.contacts, bear on it as they do on grains."""
     ax, ay, az = 0.0, 0.0, 0.0
     if len(p) == 0:
         return ax, ay, az
@@ -175,9 +186,12 @@ def force(p, kernel, box, dummies, rows, s, i, pressure, shear, tau, wall_pressu
             gradient = kernels.cubic_spline_gradient(r, kernel.h, kernel.sigma)
             push = -p.volume / s.density[i] * (pressure[i] + wall_pressure[w]) * gradient
             # mirrored velocity 2 v_wall - <v>: against a wall at rest v_i + <v>; Morris' form of the viscous force
-            stick = 2.0 * grip(p, dummies, w, s, i, dx, dy, dz, shear[i]) * p.volume / s.density[i] * shear[i] * gradient
+            stick = (
+                2.0 * grip(p, dummies, w, s, i, dx, dy, dz, shear[i]) * p.volume / s.density[i] * shear[i] * gradient
+            )
             nx, ny, nz = dummies.normal_x[w], dummies.normal_y[w], dummies.normal_z[w]
-            along = push * (dx * nx + dy * ny + dz * nz)  # pressure acts along the normal: a row of dummies is no row of teeth
+            # pressure acts along the normal: a row of dummies is no row of teeth
+            along = push * (dx * nx + dy * ny + dz * nz)
             corner = push * (1.0 - (nx * nx + ny * ny + nz * nz))
             ax += along * nx + corner * dx + stick * (s.u[i] + wall_velocity[w, 0])
             ay += along * ny + corner * dy + stick * (s.v[i] + wall_velocity[w, 1])

@@ -12,7 +12,17 @@ from sdph.effects.gas import sizes
 from sdph.laws import drag as law
 from sdph.schema import choice, record
 
-LAWS = ("gidaspow", "ergun", "wen_yu", "gidaspow_paper", "gidaspow_switch", "syamlal_obrien", "di_felice", "schiller_naumann", "stokes")
+LAWS = (
+    "gidaspow",
+    "ergun",
+    "wen_yu",
+    "gidaspow_paper",
+    "gidaspow_switch",
+    "syamlal_obrien",
+    "di_felice",
+    "schiller_naumann",
+    "stokes",
+)
 
 
 @record

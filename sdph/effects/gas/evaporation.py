@@ -1,5 +1,5 @@
-"""Evaporation of droplets: the vapour that a droplet's surface has, and what drives it off. What a window takes from each
-particle follows in `sdph.exchange.droplets`."""
+"""Evaporation of droplets: the vapour that a droplet's surface has, and what drives it off. What a window takes from
+each particle follows in `sdph.exchange.droplets`."""
 
 from __future__ import annotations
 
@@ -19,7 +19,8 @@ ONSETS = ("latched", "paper")
 SATURATIONS = ("constant", "antoine", "clausius_clapeyron")
 ALWAYS = 1.0  # K, a threshold that every droplet is above
 NEVER = 1e9  # K, a boiling temperature that none reaches
-BOILING_MARGIN = 1e-3  # of the pressure: Spalding's ln(1 + B) has a pole at boiling and is evaluated at most this near; our choice
+# of the pressure: Spalding's ln(1 + B) has a pole at boiling and is evaluated at most this near; our choice
+BOILING_MARGIN = 1e-3
 SOURCE = "d2 law: Spalding 1953; Ranz & Marshall 1952"
 
 
@@ -27,9 +28,11 @@ SOURCE = "d2 law: Spalding 1953; Ranz & Marshall 1952"
 class Evaporation:
     latent_heat: float = quantity("J_kg", least=0.0)
     law: str = choice(*LAWS)
-    onset: str = choice(*ONSETS)  # "latched": once started it goes on below the onset (Fluent); "paper": above it only (Eq. 7)
+    # "latched": once started it goes on below the onset (Fluent); "paper": above it only (Eq. 7)
+    onset: str = choice(*ONSETS)
     onset_temperature: float | None = quantity("K", None, above=0.0)  # none: at any temperature
-    boiling_temperature: float | None = quantity("K", None, above=0.0)  # none: from the saturation law; a constant one never boils
+    # none: from the saturation law; a constant one never boils
+    boiling_temperature: float | None = quantity("K", None, above=0.0)
     saturation: str = choice(*SATURATIONS)
     saturation_pressure: float | None = quantity("Pa", None, above=0.0)  # constant; or at saturation_temperature
     saturation_temperature: float | None = quantity("K", None, above=0.0)
@@ -66,7 +69,10 @@ def kernel(case) -> EvaporationP:
     if vapour is None:
         raise CaseError("the effect evaporation needs [vapour]: molar_mass_kg_kmol, diffusivity_m2_s, ...; add it")
     if own.latent_heat > 0.0 and "heat" not in case.effects:
-        raise CaseError("evaporation.latent_heat_J_kg is above 0, but no heat comes from the gas; add heat to effects, or set it to 0")
+        raise CaseError(
+            "evaporation.latent_heat_J_kg is above 0, but no heat comes from the gas; add heat to effects, or set it "
+            "to 0"
+        )
     p = _saturation(own, vapour)
     places = LAWS.index(own.law), ONSETS.index(own.onset), SATURATIONS.index(own.saturation)
     boiling = own.boiling_temperature or _boiling(own, p, gas.operating_pressure)
@@ -149,12 +155,16 @@ def shrinking(s, surface: float) -> tuple[float, float]:
 def to_gas(handed, case) -> dict:
     """Vapour, with the velocity and the temperature of its droplet."""
     rate = handed.loss.mass / handed.dt
-    return {"vapour": rate, "momentum": rate[:, None] * handed.velocity, "heat": rate * case.vapour.heat_capacity * handed.temperature}
+    return {
+        "vapour": rate,
+        "momentum": rate[:, None] * handed.velocity,
+        "heat": rate * case.vapour.heat_capacity * handed.temperature,
+    }
 
 
 def call(scales) -> Judgement:
-    """Share of the mass that evaporates within the run (d2 law), of the heat that evaporation takes, and of the vapour that the
-    gas among the droplets can take up, the largest."""
+    """Share of the mass that evaporates within the run (d2 law), of the heat that evaporation takes, and of the vapour
+    that the gas among the droplets can take up, the largest."""
     case, s = scales.case, scales
     if case.vapour is None or not s.patches:
         return Judgement("K t/d2", 0.0, 0.01, SOURCE, 0.0)

@@ -27,7 +27,8 @@ def kernel(case) -> GasPressureP:
 def call(scales) -> Judgement:
     """Share of the gas's force on grains that its pressure gradient gives: that of the displaced mixture."""
     share = scales.alpha_p + scales.gas.density / scales.grains.density if scales.slip else 0.0
-    grip = 0.0 if scales.resting else scales.rim * -math.expm1(-scales.end / scales.drag_time)  # how far the gas moves grains
+    # how far the gas moves grains
+    grip = 0.0 if scales.resting else scales.rim * -math.expm1(-scales.end / scales.drag_time)
     source = "Anderson & Jackson 1967: grad P carries alpha_p of the gas's force"
     return Judgement("alpha_p + rho_g/rho_p", share, 0.01, source, share * grip)
 

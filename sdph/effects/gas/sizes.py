@@ -33,7 +33,8 @@ class Sizes(NamedTuple):
 
 
 class Birth(NamedTuple):
-    """Of one particle: mean and standard deviation of ln d_0, its loss [m2], ventilation c [m^-1/2], z_cut, and u_top."""
+    """Of one particle: mean and standard deviation of ln d_0, its loss [m2], ventilation c [m^-1/2], z_cut, and
+    u_top."""
 
     mean: float
     std: float

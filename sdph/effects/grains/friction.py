@@ -1,4 +1,5 @@
-"""Lasting contacts: Johnson-Jackson frictional pressure, and Schaeffer's friction, which yields at |tau| = p_fr sin(phi).
+"""Lasting contacts: Johnson-Jackson frictional pressure, and Schaeffer's friction, which yields at |tau| = p_fr
+sin(phi).
 
 Schaeffer's viscosity p_fr sin(phi)/(2 sqrt(I2D)) is infinite at rest. A bound on it makes a bed creep, and one that
 holds a bed takes steps far below those of sound. Here the contacts are elastic below yield (Bui, Fukagawa, Sako & Ohno
@@ -25,15 +26,17 @@ NEAR = 0.95  # of the onset: grains that close get there when they settle; our c
 
 @record
 class Friction:
-    onset: float = quantity("", 0.60, above=0.0, most=1.0)  # alpha_p where contacts begin to last (sdph-notes, section 2)
+    # alpha_p where contacts begin to last (sdph-notes, section 2)
+    onset: float = quantity("", 0.60, above=0.0, most=1.0)
     angle: float = quantity("deg", 28.5, least=0.0, most=60.0)  # OpenFOAM tutorials
     fr: float = quantity("Pa", constants.FRICTION_FR, least=0.0)  # Johnson & Jackson 1987, OpenFOAM tutorials
-    poisson_ratio: float = quantity("", 0.4, above=0.0, most=0.49)  # of contacts that do not yield; loose sand has 0.2 to 0.4
+    # of contacts that do not yield; loose sand has 0.2 to 0.4
+    poisson_ratio: float = quantity("", 0.4, above=0.0, most=0.49)
 
 
 class FrictionP(NamedTuple):
-    """Onset [-], packing limit [-], Fr [Pa], sine of the friction angle, grain density [kg/m3], shear over bulk modulus [-],
-    h [m], dimensions."""
+    """Onset [-], packing limit [-], Fr [Pa], sine of the friction angle, grain density [kg/m3], shear over bulk modulus
+    [-], h [m], dimensions."""
 
     onset: float
     packing: float
@@ -50,13 +53,21 @@ def kernel(case) -> FrictionP:
     packing, density = case.grains.packing_limit, case.grains.density
     stiffness = law.shear_over_bulk(chosen.poisson_ratio)
     return FrictionP(
-        chosen.onset, packing, chosen.fr, math.sin(chosen.angle), density, stiffness, case.smoothing_length, float(case.dimensions)
+        chosen.onset,
+        packing,
+        chosen.fr,
+        math.sin(chosen.angle),
+        density,
+        stiffness,
+        case.smoothing_length,
+        float(case.dimensions),
     )
 
 
 @njit(cache=True, error_model="numpy")
 def pressure(p, alpha_p):
-    """p_fr [Pa] and its slope [Pa]; goes on along its tangent past PACKING_MARGIN below the limit, where it has a pole."""
+    """p_fr [Pa] and its slope [Pa]; goes on along its tangent past PACKING_MARGIN below the limit, where it has a
+    pole."""
     if len(p) == 0:
         return 0.0, 0.0
     a = granular.capped_fraction(alpha_p, p.packing)
@@ -76,8 +87,8 @@ def sound_squared(p, slope):
 
 @njit(cache=True, error_model="numpy")
 def pair(p, rubbing, i, j, r_squared, closing, scale):
-    """Viscous force of contacts, as granular_viscosity.pair; the mean viscosity, so that the surface, where the kernel sees
-    too little for a pressure, is held by what lies below it."""
+    """Viscous force of contacts, as granular_viscosity.pair; the mean viscosity, so that the surface, where the kernel
+    sees too little for a pressure, is held by what lies below it."""
     if len(p) == 0:
         return 0.0, 0.0
     return viscosity.espanol_revenga(p.dimensions, 0.5 * (rubbing[i] + rubbing[j]), 0.0, r_squared, closing, scale)
@@ -103,9 +114,10 @@ def elastic(p, s, box, i, j, per_i, per_j, dx, dy, dz):
 def stress(p, pressures, s, i, D, spin, dt):
     """Deviator of the elastic stress of contacts [Pa] after dt (xx, yy, zz, xy, yz, zx), and their viscosity [Pa s].
 
-    `pressures` is a sdph.methods.grains.equations.Stress, D (6) the deviator of the rate of strain [1/s], spin (xy, yz, zx) its antisymmetric
-    part: the stress turns with the grains (Jaumann), grows by 2 G D dt, and is joined by 2 mu D with the largest mu that an explicit step bears, so
-    that contacts come to rest; both are cut down together where their sum is past yield.
+    `pressures` is a sdph.methods.grains.equations.Stress, D (6) the deviator of the rate of strain [1/s], spin (xy, yz,
+    zx) its antisymmetric part: the stress turns with the grains (Jaumann), grows by 2 G D dt, and is joined by 2 mu D
+    with the largest mu that an explicit step bears, so that contacts come to rest; both are cut down together where
+    their sum is past yield.
     """
     frictional_pressure = pressures.lasting[i] * s.density[i] ** 2
     if frictional_pressure == 0.0:
@@ -114,7 +126,9 @@ def stress(p, pressures, s, i, D, spin, dt):
     xx, yy, zz, xy, yz, zx = trial(s, i, D, spin, 2.0 * p.stiffness * bulk, dt)
     mu = DIFFUSIVE * p.h * p.h / dt * s.density[i]
     m = 2.0 * mu
-    squared = law.second_invariant(xx + m * D[0], yy + m * D[1], zz + m * D[2], xy + m * D[3], yz + m * D[4], zx + m * D[5])
+    squared = law.second_invariant(
+        xx + m * D[0], yy + m * D[1], zz + m * D[2], xy + m * D[3], yz + m * D[4], zx + m * D[5]
+    )
     share = law.yield_share(frictional_pressure, p.sine, squared)
     return (share * xx, share * yy, share * zz, share * xy, share * yz, share * zx), share * mu
 
@@ -143,8 +157,8 @@ def power(tau, D):
 
 
 def call(scales) -> Judgement:
-    """Whether grains lie closer than where contacts begin to last, and what presses them on each other: their weight on a
-    wall, or the gas that holds up the foremost."""
+    """Whether grains lie closer than where contacts begin to last, and what presses them on each other: their weight on
+    a wall, or the gas that holds up the foremost."""
     onset = scales.case.parameters["friction"].onset
     ratio = scales.alpha_p / onset
     fall = scales.gravity * scales.end

@@ -5,10 +5,10 @@ no grain has. A pair nearer than the spacing L of packed grains is parted in the
 
     dr_i/dt = v_i + strength sum_j m_j/(m_i + m_j) |v_ij| (1 - r_ij/L) r_ij/r_ij,    r_ij < L,
 
-a shift along the pair as in Xu, Stansby & Laurence 2009, J. Comput. Phys. 228, 6703, with the speed of the pair for that
-of the flow. Mass, momentum, heat and agitation go with the particle and their sums do not change; the centre of mass
-stays where it is, to round-off, pair by pair. Angular momentum changes by sum m shift x v. Grains at rest or in free
-flight together are not shifted.
+a shift along the pair as in Xu, Stansby & Laurence 2009, J. Comput. Phys. 228, 6703, with the speed of the pair for
+that of the flow. Mass, momentum, heat and agitation go with the particle and their sums do not change; the centre of
+mass stays where it is, to round-off, pair by pair. Angular momentum changes by sum m shift x v. Grains at rest or in
+free flight together are not shifted.
 """
 
 from __future__ import annotations
@@ -39,7 +39,11 @@ class ShiftingP(NamedTuple):
 
 
 def kernel(case) -> ShiftingP:
-    return ShiftingP(case.parameters["grain_shifting"].strength, case.grains.packing_limit * case.grains.density, float(case.dimensions))
+    return ShiftingP(
+        case.parameters["grain_shifting"].strength,
+        case.grains.packing_limit * case.grains.density,
+        float(case.dimensions),
+    )
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
@@ -66,7 +70,9 @@ def shift(p, s, rows, box, dt, moved):
 def call(scales) -> Judgement:
     """Clumps grow where grains are strained; what they are worth was measured once."""
     strain = scales.speed * scales.end / scales.length if scales.collides and scales.length else 0.0
-    return Judgement("strain of the grains in the run", strain, 1.0, "the bed with it and without", WORTH * min(1.0, strain))
+    return Judgement(
+        "strain of the grains in the run", strain, 1.0, "the bed with it and without", WORTH * min(1.0, strain)
+    )
 
 
 EFFECT = Effect(

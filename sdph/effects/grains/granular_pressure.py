@@ -19,7 +19,8 @@ class GranularPressure:
 
 
 class PressureP(NamedTuple):
-    """Restitution [-], packing limit [-], grain density [kg/m3], 1 where compression heats the grains and 0 where theta stands."""
+    """Restitution [-], packing limit [-], grain density [kg/m3], 1 where compression heats the grains and 0 where theta
+    stands."""
 
     restitution: float
     packing: float

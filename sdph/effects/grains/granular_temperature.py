@@ -27,7 +27,8 @@ class GranularTemperature:
 
 
 class TemperatureP(NamedTuple):
-    """Model and dissipation by place; share of artificial heating to theta; restitution; packing; density; h; bounds."""
+    """Model and dissipation by place; share of artificial heating to theta; restitution; packing; density; h;
+    bounds."""
 
     model: int
     dissipation: int
@@ -43,7 +44,9 @@ class TemperatureP(NamedTuple):
 def kernel(case) -> TemperatureP:
     own, grains = case.parameters["granular_temperature"], case.grains
     places = MODELS.index(own.model), DISSIPATIONS.index(own.dissipation), float(own.artificial_heating)
-    return TemperatureP(*places, grains.restitution, grains.packing_limit, grains.density, case.smoothing_length, own.least, own.most)
+    return TemperatureP(
+        *places, grains.restitution, grains.packing_limit, grains.density, case.smoothing_length, own.least, own.most
+    )
 
 
 @njit(cache=True, error_model="numpy")
@@ -91,7 +94,9 @@ def advance(p, alpha_p, theta, heating, damping, diameter, shear_squared, diverg
     g0 = granular.sinclair_jackson(a, p.packing)
     if p.model == 1:
         beta = damping * alpha_p * p.grain_density
-        free = granular.equilibrium_theta(a, p.restitution, g0, p.grain_density, diameter, shear_squared, divergence, beta)
+        free = granular.equilibrium_theta(
+            a, p.restitution, g0, p.grain_density, diameter, shear_squared, divergence, beta
+        )
     else:
         weight = 1.0 if p.dissipation == 0 else 1.0 / a
         cooling = granular.cooling_coefficient(a, p.restitution, g0, diameter) * weight
@@ -117,13 +122,19 @@ def dt_limit(p, case, state) -> float:
 
 def call(scales) -> Judgement:
     """How much of theta is made or lost within the run; it acts by way of pressure and viscosity."""
-    cooling = granular.cooling_coefficient(scales.capped, scales.grains.restitution, scales.g0, scales.grains.diameter) if scales.alpha_p else 0.0
+    cooling = (
+        granular.cooling_coefficient(scales.capped, scales.grains.restitution, scales.g0, scales.grains.diameter)
+        if scales.alpha_p
+        else 0.0
+    )
     rate = cooling * math.sqrt(scales.theta) + 2.0 / scales.drag_time
     changed = -math.expm1(-rate * scales.end) if scales.speed and scales.collides else 0.0
     stiffness = 1.0 + 2.0 * (1.0 + scales.grains.restitution) * scales.alpha_p * scales.g0
     push = scales.theta * stiffness / scales.speed**2 if scales.speed else 0.0
     source = "Haff 1983; Lun et al. 1984"
-    return Judgement("run / decay time of theta", rate * scales.end if scales.speed else 0.0, 0.01, source, changed * min(1.0, push))
+    return Judgement(
+        "run / decay time of theta", rate * scales.end if scales.speed else 0.0, 0.01, source, changed * min(1.0, push)
+    )
 
 
 EFFECT = Effect(

@@ -83,7 +83,9 @@ def call(scales) -> Judgement:
     if not scales.collides or not scales.speed:
         return Judgement("nu t/L2", 0.0, 0.01, SOURCE, 0.0)
     grains = scales.grains
-    mu = granular.gidaspow_viscosity(scales.capped, scales.theta, grains.restitution, scales.g0, grains.density, grains.diameter)
+    mu = granular.gidaspow_viscosity(
+        scales.capped, scales.theta, grains.restitution, scales.g0, grains.density, grains.diameter
+    )
     spread = mu / (scales.alpha_p * grains.density) * scales.end / scales.shear_length**2
     return Judgement("nu t/L2", spread, 0.01, SOURCE, -math.expm1(-spread))
 

@@ -45,14 +45,18 @@ def pair(p, rise, along):
     return -p.strength * (2.0 * rise + p.corrected * along)
 
 
-NOISE = 0.015  # of the answer, once sound has crossed the liquid: 0.0025 to 0.012 in five scenes, validation/<scene>/cost.csv; our choice
+# of the answer, once sound has crossed the liquid: 0.0025 to 0.012 in five scenes, validation/<scene>/cost.csv; our
+# choice
+NOISE = 0.015
 
 
 def call(scales) -> Judgement:
     """Sound that nothing damps goes to and fro as noise of the pressure; a channel that starts from rest makes none."""
     made = scales.pull[0] or scales.shaken or scales.thrown
     crossings = scales.liquid.sound_speed * scales.end / scales.length if made else 0.0
-    return Judgement("c t/L, crossings of sound", crossings, 1.0, "Marrone et al. 2011, CMAME 200, 1526", NOISE * min(1.0, crossings))
+    return Judgement(
+        "c t/L, crossings of sound", crossings, 1.0, "Marrone et al. 2011, CMAME 200, 1526", NOISE * min(1.0, crossings)
+    )
 
 
 EFFECT = Effect(

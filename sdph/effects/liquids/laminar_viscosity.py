@@ -73,7 +73,8 @@ def central(p, kind_i, kind_j, closing, r2):
 
 
 def call(scales) -> Judgement:
-    """Decay of the largest vortex within the run, nu (2 pi/L)^2 t; where there are walls, at least their layer's share."""
+    """Decay of the largest vortex within the run, nu (2 pi/L)^2 t; where there are walls, at least their layer's
+    share."""
     decay = scales.viscosity * scales.end * (2.0 * math.pi / scales.length) ** 2
     own = scales.case.parameters.get("tank") if "tank" in scales.case.effects else None
     share = scales.layer if own and own.slip == "no_slip" else 0.0

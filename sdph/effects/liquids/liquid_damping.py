@@ -40,7 +40,9 @@ def kernel(case) -> LinearP | RiemannP:
     own, liquid = case.parameters["liquid_damping"], case.liquid
     if own.model == "riemann":
         return RiemannP(liquid.density, liquid.sound_speed, LIMITER)
-    return LinearP(own.alpha * case.smoothing_length * liquid.sound_speed * liquid.density, SOFTENING * case.smoothing_length**2)
+    return LinearP(
+        own.alpha * case.smoothing_length * liquid.sound_speed * liquid.density, SOFTENING * case.smoothing_length**2
+    )
 
 
 @njit(cache=True, error_model="numpy")
@@ -59,14 +61,23 @@ def pair(p, closing, r2, inverse_r):
     return p.density * min(p.limiter * max(speed, 0.0), p.sound) * speed
 
 
-SCATTER = 0.02  # of the answer, where nothing damps single particles: 0.003 to 0.12 in three scenes, validation/<scene>/cost.csv; our choice
+# of the answer, where nothing damps single particles: 0.003 to 0.12 in three scenes, validation/<scene>/cost.csv; our
+# choice
+SCATTER = 0.02
 
 
 def call(scales) -> Judgement:
-    """Reynolds number of the spacing of particles: above 1 viscosity does not hold them together. Walls and free fall drive them."""
+    """Reynolds number of the spacing of particles: above 1 viscosity does not hold them together. Walls and free fall
+    drive them."""
     h, driven = scales.case.smoothing_length, scales.pull[0] + scales.shaken
     cell = scales.speed * h / scales.viscosity if scales.viscosity else math.inf
-    return Judgement("U h/nu, of the particles", cell if driven else 0.0, 1.0, "Monaghan 1992", SCATTER if driven and cell > 1.0 else 0.0)
+    return Judgement(
+        "U h/nu, of the particles",
+        cell if driven else 0.0,
+        1.0,
+        "Monaghan 1992",
+        SCATTER if driven and cell > 1.0 else 0.0,
+    )
 
 
 EFFECT = Effect(

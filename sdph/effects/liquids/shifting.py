@@ -17,7 +17,8 @@ from sdph.schema import choice, flag, quantity, record
 
 CROWDING, POWER_OF = 0.2, 4  # R and n of the term that separates pairs, Monaghan 2000, J. Comput. Phys. 159, 290
 INTERIOR = 0.75  # of the smallest eigenvalue of the renormalisation matrix, Sun et al. 2017
-DISORDER = 0.3  # of the answer, of vortices whose particles line up: all of it in taylor_green, 0.012 in square_patch; our choice
+# of the answer, of vortices whose particles line up: all of it in taylor_green, 0.012 in square_patch; our choice
+DISORDER = 0.3
 DISORDER_OF_TWO = 0.03  # the same between two phases: 0.023 in bubble_rise, 0.012 in dam_break_gas; our choice
 SPRAY = 0.4  # the same, Sun et al. 2017: below it a particle is not shifted
 
@@ -33,7 +34,8 @@ class Shifting:
     """
 
     form: str = choice(*FORMS)
-    strength: float = quantity("", 3.0, above=0.0, most=1e3)  # of the cited; with h = 1.5 dx 1 is too weak: Taylor-Green's vortices fall apart
+    # of the cited; with h = 1.5 dx 1 is too weak: Taylor-Green's vortices fall apart
+    strength: float = quantity("", 3.0, above=0.0, most=1e3)
     tension_control: bool = flag(True)
     phases: str = choice("both", "gas")  # which are shifted
 
@@ -50,19 +52,32 @@ class ShiftingP(NamedTuple):
 
 
 def kernel(case) -> ShiftingP:
-    """-Ma CFL (2h)^2 sum ... V_j/2 a step, Sun et al. 2017, CMAME 315, 25, Eq. 8, as a speed: CFL h/c = dt, Ma c = v_max.
+    """-Ma CFL (2h)^2 sum ... V_j/2 a step, Sun et al. 2017, CMAME 315, 25, Eq. 8, as a speed: CFL h/c = dt, Ma c =
+    v_max.
 
-    transport_velocity: dt 2 p_b/rho sum V_j grad W of Adami, Hu & Adams 2013, J. Comput. Phys. 241, 292, Eq. 8, with the
-    dt of the sound limit and p_b = strength rho c^2.
+    transport_velocity: dt 2 p_b/rho sum V_j grad W of Adami, Hu & Adams 2013, J. Comput. Phys. 241, 292, Eq. 8, with
+    the dt of the sound limit and p_b = strength rho c^2.
     """
     own, h = case.parameters["shifting"], case.smoothing_length
     liquid = float(own.phases == "both")
     if own.form == "transport_velocity":
-        return ShiftingP(2.0 * own.strength * case.liquid.courant * h * case.liquid.sound_speed, case.liquid.fastest, 0.0, 0.0, liquid)
+        return ShiftingP(
+            2.0 * own.strength * case.liquid.courant * h * case.liquid.sound_speed,
+            case.liquid.fastest,
+            0.0,
+            0.0,
+            liquid,
+        )
     kernel_ = smoothing.smoothing(case.liquid.kernel, case.dimensions, h)
     speed = case.liquid.fastest
     peak = smoothing.value.py_func(kernel_, case.resolution.spacing)
-    return ShiftingP(own.strength * 2.0 * h * speed, 0.5 * speed, 1.0 / peak, float(own.tension_control and case.gas_phase is None), liquid)
+    return ShiftingP(
+        own.strength * 2.0 * h * speed,
+        0.5 * speed,
+        1.0 / peak,
+        float(own.tension_control and case.gas_phase is None),
+        liquid,
+    )
 
 
 @njit(cache=True, error_model="numpy")
@@ -83,8 +98,8 @@ def sign(p, pressure, least):
 
 
 def call(scales) -> Judgement:
-    """Particles of a flow that turns over line up and part; gravity presses those of one phase together again, and along a
-    channel they stay in line."""
+    """Particles of a flow that turns over line up and part; gravity presses those of one phase together again, and
+    along a channel they stay in line."""
     two = scales.case.gas_phase is not None
     strain = 0.0 if not two and (any(scales.pull) or scales.shaken) else scales.turns
     error = (DISORDER_OF_TWO if two else DISORDER) * -math.expm1(-strain)
@@ -92,5 +107,11 @@ def call(scales) -> Judgement:
 
 
 EFFECT = Effect(
-    name="shifting", summary="particle shifting in a liquid", parameters=Shifting, kernel=kernel, moves=True, matter=("liquid",), call=call
+    name="shifting",
+    summary="particle shifting in a liquid",
+    parameters=Shifting,
+    kernel=kernel,
+    moves=True,
+    matter=("liquid",),
+    call=call,
 )

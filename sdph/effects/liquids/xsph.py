@@ -12,7 +12,8 @@ from sdph.schema import quantity, record
 
 @record
 class Xsph:
-    strength: float = quantity("", 0.5, above=0.0, most=1.0)  # epsilon of Monaghan 1992; of the gas-liquid paper too: liquids.md, part L
+    # epsilon of Monaghan 1992; of the gas-liquid paper too: liquids.md, part L
+    strength: float = quantity("", 0.5, above=0.0, most=1.0)
 
 
 JUMP, MINGLED = 10.0, 0.1  # of densities; share of the liquid that mingles with the gas without: our estimate
@@ -30,7 +31,8 @@ def kernel(case) -> XsphP:
 
 @njit(cache=True, error_model="numpy")
 def share(p, m_j, rho_i, rho_j, value):
-    """Of v_j - v_i, what particle i moves with: eps m_j W/rho_ij, rho_ij the mean. Monaghan 1992, Annu. Rev. Astron. Astrophys. 30, 543, Eq. 2.12."""
+    """Of v_j - v_i, what particle i moves with: eps m_j W/rho_ij, rho_ij the mean. Monaghan 1992, Annu. Rev. Astron.
+    Astrophys. 30, 543, Eq. 2.12."""
     return p.strength * m_j * value / (0.5 * (rho_i + rho_j))
 
 
@@ -38,7 +40,13 @@ def call(scales) -> Judgement:
     """Phases mingle where nothing but p_i + p_j holds them apart; the Riemann form needs no XSPH."""
     gas = scales.case.gas_phase
     jump = scales.liquid.density / gas.density if gas and gas.interaction == "plain" else 0.0
-    return Judgement("rho/rho_gas of plain pairs", jump, JUMP, "Colagrossi & Landrini 2003, J. Comput. Phys. 191, 448", MINGLED if jump >= JUMP else 0.0)
+    return Judgement(
+        "rho/rho_gas of plain pairs",
+        jump,
+        JUMP,
+        "Colagrossi & Landrini 2003, J. Comput. Phys. 191, 448",
+        MINGLED if jump >= JUMP else 0.0,
+    )
 
 
 EFFECT = Effect(

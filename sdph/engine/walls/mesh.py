@@ -1,8 +1,8 @@
 """Which side of a mesh particles stand on: thin walls part the grains on their two sides from each other.
 
 A mesh closes off what lies behind it, so that of a plate thinner than the kernel's reach both faces are near every
-particle. Rows of neighbours are cleared of what a particle cannot meet when they are built; no kernel asks again. Contact
-has put every particle in front of its surface by then, a quarter of a spacing or more.
+particle. Rows of neighbours are cleared of what a particle cannot meet when they are built; no kernel asks again.
+Contact has put every particle in front of its surface by then, a quarter of a spacing or more.
 """
 
 from __future__ import annotations
@@ -48,7 +48,10 @@ def part(dummies, of_mesh, spacing, places, wall_rows, rows):
         kept = 0
         for k in range(rows.count[i]):
             j = rows.index[i, k]
-            if not (parted(dummies, of_mesh, spacing, places, wall_rows, i, j) or parted(dummies, of_mesh, spacing, places, wall_rows, j, i)):
+            if not (
+                parted(dummies, of_mesh, spacing, places, wall_rows, i, j)
+                or parted(dummies, of_mesh, spacing, places, wall_rows, j, i)
+            ):
                 rows.index[i, kept] = j
                 kept += 1
         fill_up(rows.index, i, kept)

@@ -2,7 +2,8 @@
 
 A shape has `distance(points)` [m], negative inside, `shell(depth, spacing)` the points of the surface moved outwards
 by `depth`, about one spacing apart, `surface()` of its walls for pictures (pyvista, lines in two dimensions), and
-`volume` [m^d], and `furthest(direction)` [m], the most of r.direction in it. The axis of a round tank is the last one of the case.
+`volume` [m^d], and `furthest(direction)` [m], the most of r.direction in it. The axis of a round tank is the last one
+of the case.
 """
 
 from __future__ import annotations
@@ -16,39 +17,10 @@ import numpy as np
 
 from sdph.engine.surface import read
 from sdph.engine.walls import surface_points
+from sdph.engine.walls.surface_points import arc, disc, line, rings
 from sdph.schema import CaseError
 
 UP = (0.0, 0.0, 1.0)  # axis of a round tank in space
-GOLDEN = math.pi * (3.0 - math.sqrt(5.0))  # rad, turn from ring to ring, so that rings do not line up
-
-
-def _rings(profile: np.ndarray, spacing: float) -> np.ndarray:
-    """(N, 3) points on rings about the last axis, as many as their area asks for; profile (P, 3) radius, height and width [m]."""
-    points = []
-    for k, (radius, height, width) in enumerate(profile):
-        count = max(1, round(2.0 * math.pi * radius * width / spacing**2))
-        angle = 2.0 * math.pi * np.arange(count) / count + k * GOLDEN
-        points.append(np.stack([radius * np.cos(angle), radius * np.sin(angle), np.full(count, height)], axis=1))
-    return np.concatenate(points)
-
-
-def _arc(radius: float, height: float, first: float, last: float, spacing: float) -> np.ndarray:
-    """(P, 3) of a circle about (0, height), polar angle from the top between `first` and `last`, cell-centred."""
-    count = max(1, round(radius * (last - first) / spacing))
-    angle = first + (np.arange(count) + 0.5) * (last - first) / count
-    return np.stack([radius * np.sin(angle), height + radius * np.cos(angle), np.full(count, radius * (last - first) / count)], axis=1)
-
-
-def _line(radius: float, low: float, high: float, spacing: float) -> np.ndarray:
-    count = max(1, round((high - low) / spacing))
-    heights = low + (np.arange(count) + 0.5) * (high - low) / count
-    return np.stack([np.full(count, radius), heights, np.full(count, (high - low) / count)], axis=1)
-
-
-def _disc(radius: float, height: float, spacing: float) -> np.ndarray:
-    count = max(1, round(radius / spacing))
-    radii = (np.arange(count) + 0.5) * radius / count
-    return np.stack([radii, np.full(count, height), np.full(count, radius / count)], axis=1)
 
 
 @dataclass(frozen=True)
@@ -66,12 +38,12 @@ class Capsule:
 
     def shell(self, depth, spacing):
         radius, half = self.radius + depth, 0.5 * self.length
-        parts = [_arc(radius, half, 0.0, 0.5 * math.pi, spacing), _arc(radius, -half, 0.5 * math.pi, math.pi, spacing)]
+        parts = [arc(radius, half, 0.0, 0.5 * math.pi, spacing), arc(radius, -half, 0.5 * math.pi, math.pi, spacing)]
         if self.length:
-            parts.append(_line(radius, -half, half, spacing))
+            parts.append(line(radius, -half, half, spacing))
         else:
-            parts = [_arc(radius, 0.0, 0.0, math.pi, spacing)]
-        return _rings(np.concatenate(parts), spacing) + self.centre
+            parts = [arc(radius, 0.0, 0.0, math.pi, spacing)]
+        return rings(np.concatenate(parts), spacing) + self.centre
 
     def surface(self):
         import pyvista
@@ -105,19 +77,23 @@ class Cylinder:
 
     def shell(self, depth, spacing):
         half, beyond = 0.5 * self.length, self.reach
-        side = _line(self.radius + depth, -half - beyond, half + (0.0 if self.open_top else beyond), spacing)
-        ends = [_disc(self.radius, -half - depth, spacing)]
+        side = line(self.radius + depth, -half - beyond, half + (0.0 if self.open_top else beyond), spacing)
+        ends = [disc(self.radius, -half - depth, spacing)]
         if not self.open_top:
-            ends.append(_disc(self.radius, half + depth, spacing))
-        return _rings(np.concatenate([side, *ends]), spacing) + self.centre
+            ends.append(disc(self.radius, half + depth, spacing))
+        return rings(np.concatenate([side, *ends]), spacing) + self.centre
 
     def surface(self):
         import pyvista
 
-        return pyvista.Cylinder(center=self.centre, direction=UP, radius=self.radius, height=self.length, capping=not self.open_top)
+        return pyvista.Cylinder(
+            center=self.centre, direction=UP, radius=self.radius, height=self.length, capping=not self.open_top
+        )
 
     def furthest(self, direction):
-        return float(self.centre @ direction + self.radius * np.hypot(*direction[:2]) + 0.5 * self.length * abs(direction[2]))
+        return float(
+            self.centre @ direction + self.radius * np.hypot(*direction[:2]) + 0.5 * self.length * abs(direction[2])
+        )
 
     @property
     def volume(self):
@@ -228,7 +204,8 @@ class Mesh:
         return np.asarray(pyvista.PolyData(points).compute_implicit_distance(self.triangles)["implicit_distance"])
 
     def shell(self, depth, spacing):
-        """Lattice points between half a spacing less and half a spacing more than `depth` outside, moved onto it, evened out."""
+        """Lattice points between half a spacing less and half a spacing more than `depth` outside, moved onto it,
+        evened out."""
         bounds, around = np.array(self.triangles.bounds).reshape(3, 2), depth + spacing
         ticks = [np.arange(low - around, high + around, spacing) for low, high in bounds]
         points = np.stack([m.ravel() for m in np.meshgrid(*ticks, indexing="ij")], axis=1)
@@ -276,14 +253,19 @@ class Joined:
 
 
 def wall_points(shape, spacing: float, layers: int) -> np.ndarray:
-    """(W, d) wall particles in `layers`, the first half a spacing behind the surface; those of an outlet pipe come last."""
+    """(W, d) wall particles in `layers`, the first half a spacing behind the surface; those of an outlet pipe come
+    last."""
     own = _behind(shape.tank if isinstance(shape, Joined) else shape, shape, spacing, layers)
     return np.concatenate([own, pipe_points(shape, spacing, layers)])
 
 
 def pipe_points(shape, spacing: float, layers: int) -> np.ndarray:
     """(W, d) of `wall_points`, those of the outlet pipe; none where there is no pipe."""
-    return _behind(shape.pipe, shape, spacing, layers) if isinstance(shape, Joined) else shape.shell(0.5 * spacing, spacing)[:0]
+    return (
+        _behind(shape.pipe, shape, spacing, layers)
+        if isinstance(shape, Joined)
+        else shape.shell(0.5 * spacing, spacing)[:0]
+    )
 
 
 def _behind(part, whole, spacing: float, layers: int) -> np.ndarray:

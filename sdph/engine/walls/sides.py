@@ -49,7 +49,9 @@ def dummies(case) -> np.ndarray:
     mesh = case.parameters["walls"].mesh
     parts = [np.pad(_box(case), ((0, 0), (0, 1)))]
     if mesh:
-        parts.append(np.pad(_mesh(mesh, case.resolution.spacing, case.dimensions), ((0, 0), (0, 1)), constant_values=1.0))
+        parts.append(
+            np.pad(_mesh(mesh, case.resolution.spacing, case.dimensions), ((0, 0), (0, 1)), constant_values=1.0)
+        )
     return np.concatenate(parts)
 
 
@@ -63,14 +65,18 @@ def _box(case) -> np.ndarray:
     points = np.stack([m.ravel() for m in np.meshgrid(*ticks, indexing="ij")], axis=1)
     outside = np.stack([(points < 0.0), (points > case.domain.size)], axis=-1)  # (P, d, end)
     depth = np.maximum(-points, points - case.domain.size)
-    closed = np.stack([_closed(case, points, side) for side in itertools.islice(SIDES, 2 * d)], axis=1).reshape(-1, d, 2)
+    closed = np.stack([_closed(case, points, side) for side in itertools.islice(SIDES, 2 * d)], axis=1).reshape(
+        -1, d, 2
+    )
     keep = outside.any(axis=(1, 2)) & (~outside | closed).all(axis=(1, 2))
     table = np.zeros((int(keep.sum()), 8))
     table[:, :d] = points[keep]
     single = outside[keep].sum(axis=(1, 2)) == 1
     table[:, 3 : 3 + d] = np.where(single[:, None], outside[keep, :, 0] * 1.0 - outside[keep, :, 1] * 1.0, 0.0)
     table[:, 6] = depth[keep].max(axis=1)
-    slips = np.stack([_behind(case, points, side, "slip_wall") for side in itertools.islice(SIDES, 2 * d)], axis=1).reshape(-1, d, 2)
+    slips = np.stack(
+        [_behind(case, points, side, "slip_wall") for side in itertools.islice(SIDES, 2 * d)], axis=1
+    ).reshape(-1, d, 2)
     table[:, 7] = (outside & ~slips)[keep].any(axis=(1, 2))  # in a corner the side that grips rules
     return table
 
@@ -98,7 +104,9 @@ def _within(points, axis: int, span) -> np.ndarray:
         return np.ones(len(points), bool)
     spans = span if isinstance(span[0], tuple) else (span,)
     tangential = [a for a in range(points.shape[1]) if a != axis]
-    return np.logical_and.reduce([(points[:, a] >= low) & (points[:, a] <= high) for a, (low, high) in zip(tangential, spans)])
+    return np.logical_and.reduce(
+        [(points[:, a] >= low) & (points[:, a] <= high) for a, (low, high) in zip(tangential, spans)]
+    )
 
 
 def surface(path: str, dimensions: int):
@@ -115,7 +123,9 @@ def _read(path: str, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
     mesh = read(path, "walls.mesh")
     kind = "line" if dimensions == 2 else "triangle"
     if kind not in mesh.cells_dict:
-        raise CaseError(f"walls.mesh = {path!r} holds no cells of type {kind}; a wall in {dimensions}-D is made of them")
+        raise CaseError(
+            f"walls.mesh = {path!r} holds no cells of type {kind}; a wall in {dimensions}-D is made of them"
+        )
     places = np.zeros((len(mesh.points), 3))
     places[:, : mesh.points.shape[1]] = mesh.points
     return places, mesh.cells_dict[kind]
@@ -133,17 +143,18 @@ def _mesh(path: str, spacing: float, dimensions: int) -> np.ndarray:
     for layer in range(LAYERS):
         rows = slice(layer * len(surface), (layer + 1) * len(surface))
         depth = (layer + 0.5) * spacing
-        table[rows, :dimensions], table[rows, 3 : 3 + dimensions], table[rows, 6] = surface - depth * normal, normal, depth
+        table[rows, :dimensions], table[rows, 3 : 3 + dimensions], table[rows, 6] = (
+            surface - depth * normal,
+            normal,
+            depth,
+        )
     return table
 
 
 def _facet(corners: np.ndarray, spacing: float) -> tuple[np.ndarray, np.ndarray]:
     """Points about one spacing apart on a line or triangle, and its unit normal."""
     edges = corners[1:] - corners[0]
-    if len(edges) == 1:
-        normal = np.array([-edges[0, 1], edges[0, 0]])
-    else:
-        normal = np.cross(*edges)
+    normal = np.array([-edges[0, 1], edges[0, 0]]) if len(edges) == 1 else np.cross(*edges)
     n = max(1, int(np.ceil(np.linalg.norm(edges, axis=1).max() / spacing)))
     if len(edges) == 1:
         weights = ((np.arange(n) + 0.5) / n)[:, None]

@@ -12,7 +12,8 @@ from sdph.engine.kept import Unfit
 from sdph.laws.constants import GAS_CONSTANT
 from sdph.methods.grains.scales import scales_of
 
-COLLAPSE = 1e3  # times what drives the grains: sound that is faster shrinks the sub-steps until a run gets nowhere; our choice
+# times what drives the grains: sound that is faster shrinks the sub-steps until a run gets nowhere; our choice
+COLLAPSE = 1e3
 LATENT = 0.25  # of the hottest: how far below the coldest evaporation may cool; our choice
 ADIABATIC = 1.4  # cp/cv of a diatomic gas
 
@@ -46,7 +47,11 @@ class Guard(Watch):
         speed, positive, zero_on = (-RUNAWAY * self.reach, RUNAWAY * self.reach), (TINY, math.inf), (0.0, math.inf)
         bounds = dict.fromkeys("uvw", speed) | dict.fromkeys(("diameter", "born_mass", "born_diameter"), positive)
         bounds |= dict.fromkeys(("diameter_variance", "born_variance", "lost_still", "lost_moving"), zero_on)
-        bounds |= {"mass": (TINY, heaviest), "density": (0.0, DENSE * self.case.grains.density), "evaporating": (0.0, 1.0)}
+        bounds |= {
+            "mass": (TINY, heaviest),
+            "density": (0.0, DENSE * self.case.grains.density),
+            "evaporating": (0.0, 1.0),
+        }
         bounds |= {"temperature": (self.coldest, self.hottest), "theta": (0.0, (COLLAPSE * self.reach) ** 2)}
         bounds |= {"nozzle": (0, len(self.case.nozzles)), "entering": (0, 1)}
         kinds = [particles.GRAIN, particles.INFLOW]
@@ -55,18 +60,25 @@ class Guard(Watch):
             raise Unfit("a particle is neither a grain nor of a nozzle")
 
     def admit_gas(self, fields: dict) -> None:
-        """Unfit where gas that comes from a checkpoint is faster, hotter, colder or under more pressure than this case allows."""
+        """Unfit where gas that comes from a checkpoint is faster, hotter, colder or under more pressure than this case
+        allows."""
         most = self.case.gas.density * (RUNAWAY * self.sound) ** 2 + self.pressure
         for name, values, bounds in (*self._of_gas(fields), ("pressure", fields["pressure"], (-most, most, "Pa"))):
             worst = outside(values, *bounds[:2])
             if worst is not None:
                 low, high, unit = bounds
-                raise Unfit(f"gas {name} of cell {worst} is {values[worst]:.3g} {unit}; this case allows {low:.3g} to {high:.3g}")
+                raise Unfit(
+                    f"gas {name} of cell {worst} is {values[worst]:.3g} {unit}; this case allows {low:.3g} to "
+                    f"{high:.3g}"
+                )
 
     def sub_step(self, stepper) -> None:
         """After a sub-step: NaN, speed, temperature of the particles."""
         s = stepper.state
-        lower = f"run.step_factor (now {self.case.run.step_factor:g}; the sub-step was ruled by {stepper.limit or 'conduction'}), then {self._shorter()}"
+        lower = (
+            f"run.step_factor (now {self.case.run.step_factor:g}; the sub-step was ruled by "
+            f"{stepper.limit or 'conduction'}), then {self._shorter()}"
+        )
         speed = np.sqrt(s.u**2 + s.v**2 + (s.w**2 if len(s.w) else 0.0))
         self.hold("speed", speed, (0.0, RUNAWAY * self.reach, "m/s"), s, lower)
         if len(s.temperature):
@@ -80,7 +92,9 @@ class Guard(Watch):
         for name, values, bound in self._of_gas(simulation.gas_state.fields):
             worst = outside(values, *bound[:2])
             if worst is not None:
-                return self._told(f"gas {name}", f"cell {worst}", simulation.gas.mesh.centres[worst], values[worst], bound)
+                return self._told(
+                    f"gas {name}", f"cell {worst}", simulation.gas.mesh.centres[worst], values[worst], bound
+                )
         return None
 
     def _of_gas(self, fields: dict):

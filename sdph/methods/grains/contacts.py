@@ -21,8 +21,8 @@ from sdph.methods.grains.equations import approach, loop, separation
 
 
 class Shearing(NamedTuple):
-    """Per particle: stress of contacts, elastic and viscous, over density squared (N, 6) [Pa m6/kg2], xx, yy, zz, xy, yz, zx;
-    viscosity of contacts (N,) [Pa s], both () without contacts; work of the elastic stress (N,) [W/kg];
+    """Per particle: stress of contacts, elastic and viscous, over density squared (N, 6) [Pa m6/kg2], xx, yy, zz, xy,
+    yz, zx; viscosity of contacts (N,) [Pa s], both () without contacts; work of the elastic stress (N,) [W/kg];
     I2D = dev(D):dev(D)/2 (N,) [1/s2] and div v (N,) [1/s]."""
 
     traction: np.ndarray
@@ -70,7 +70,8 @@ def shear(
     kernel, s, rows, box, pull, stress, walls_p, dummies, wall_rows, friction_p, dt,
     held_xx, held_yy, held_xy, held_yz, held_zx, traction, rubbing, contact_work, shear_squared, divergence,
 ):  # fmt: skip
-    """The fields of `Shearing`, from velocities as they are; contacts are strained over dt [s]: `held` is the state's own stress."""
+    """The fields of `Shearing`, from velocities as they are; contacts are strained over dt [s]: `held` is the state's
+    own stress."""
     for i in prange(len(s.x)):
         xx, xy, xz, yx, yy, yz, zx, zy, zz = gradient(s, rows, box, pull, i)
         if walls.near(walls_p, wall_rows, i):

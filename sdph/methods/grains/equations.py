@@ -44,9 +44,9 @@ def kernel_of(case) -> Kernel:
 
 
 class Stress(NamedTuple):
-    """Per particle: pressure [Pa], its parts by agitation and by lasting contacts over density squared [Pa m6/kg2], slope of
-    the latter's pressure against alpha_p [Pa], shear and bulk viscosity of agitation [Pa s], conductivity of theta [kg/m/s],
-    sound speed [m/s]."""
+    """Per particle: pressure [Pa], its parts by agitation and by lasting contacts over density squared [Pa m6/kg2],
+    slope of the latter's pressure against alpha_p [Pa], shear and bulk viscosity of agitation [Pa s], conductivity of
+    theta [kg/m/s], sound speed [m/s]."""
 
     pressure: np.ndarray
     agitated: np.ndarray
@@ -86,7 +86,9 @@ def sum_density(kernel, s, rows, box, walls_p, dummies, wall_rows, density, pull
             r, m_j = np.sqrt(separation(s, box, i, rows.index[i, k])[3]), s.mass[rows.index[i, k]]
             rho += m_j * kernels.cubic_spline(r, kernel.h, kernel.sigma)
             pull[i, k] = m_j * kernels.cubic_spline_gradient(r, kernel.h, kernel.sigma)
-        share = walls.closure(walls_p, box, dummies, wall_rows, s, i, kernel) if walls.near(walls_p, wall_rows, i) else 1.0
+        share = (
+            walls.closure(walls_p, box, dummies, wall_rows, s, i, kernel) if walls.near(walls_p, wall_rows, i) else 1.0
+        )
         density[i] = rho / share
 
 
@@ -100,10 +102,16 @@ def constitutive(
         alpha_p = s.density[i] / grain_density
         theta = s.theta[i] if len(s.theta) else 0.0
         diameter = s.diameter[i] if len(s.diameter) else 0.0
-        kinetic, (frictional, stiffness[i]) = granular_pressure.pressure(pressure_p, alpha_p, theta), friction.pressure(friction_p, alpha_p)
+        kinetic, (frictional, stiffness[i]) = (
+            granular_pressure.pressure(pressure_p, alpha_p, theta),
+            friction.pressure(friction_p, alpha_p),
+        )
         pressure[i] = kinetic + frictional
         agitated[i], lasting[i] = kinetic / s.density[i] ** 2, frictional / s.density[i] ** 2
-        sound[i] = np.sqrt(granular_pressure.sound_squared(pressure_p, alpha_p, theta) + friction.sound_squared(friction_p, stiffness[i]))
+        sound[i] = np.sqrt(
+            granular_pressure.sound_squared(pressure_p, alpha_p, theta)
+            + friction.sound_squared(friction_p, stiffness[i])
+        )
         shear[i], bulk[i] = granular_viscosity.viscosities(viscosity_p, alpha_p, theta, diameter)
         conductivity[i] = granular_temperature.conductivity(temperature_p, alpha_p, theta, diameter)
 
@@ -121,15 +129,29 @@ def conduct(kernel, s, rows, box, pull, conduction_p, heating):
 
 @loop
 def rates(
-    kernel, s, rows, box, pull, stress, viscous_p, friction_p, traction, rubbing, contact_work, artificial_p, temperature_p, conduction_p,
-    walls_p, dummies, wall_rows, wall_pressure, wall_velocity, acceleration, agitation, heating,
+    kernel, s, rows, box, pull, stress, viscous_p, friction_p, traction, rubbing, contact_work, artificial_p,
+    temperature_p, conduction_p, walls_p, dummies, wall_rows, wall_pressure, wall_velocity, acceleration, agitation,
+    heating,
 ):  # fmt: skip
     """Of grains that move: acceleration (N, 3) [m/s2], agitation (N,) [W/kg] that feeds theta, heating (N,) [W/kg]."""
     for i in prange(len(s.x)):
         ax = ay = az = work = 0.0
         warmth = contact_work[i]
         if walls.near(walls_p, wall_rows, i):
-            ax, ay, az = walls.force(walls_p, kernel, box, dummies, wall_rows, s, i, stress.pressure, stress.shear, traction, wall_pressure, wall_velocity)
+            ax, ay, az = walls.force(
+                walls_p,
+                kernel,
+                box,
+                dummies,
+                wall_rows,
+                s,
+                i,
+                stress.pressure,
+                stress.shear,
+                traction,
+                wall_pressure,
+                wall_velocity,
+            )
         rho_i, per_i = s.density[i], 1.0 / s.density[i]
         for k in range(length(rows, i)):
             j = rows.index[i, k]
@@ -142,7 +164,9 @@ def rates(
             # section 2.1, corrected: -m_j (S_i/rho_i^2 + S_j/rho_j^2 + Pi_ij) grad W, S = p I - tau
             agitated = pull_ij * (stress.agitated[i] + stress.agitated[j])
             lasting = pull_ij * (stress.lasting[i] + stress.lasting[j])
-            ringing = pull_ij * artificial_viscosity.pair(artificial_p, kernel.h, closing, r2, stress.sound[i], stress.sound[j], rho_i, rho_j)
+            ringing = pull_ij * artificial_viscosity.pair(
+                artificial_p, kernel.h, closing, r2, stress.sound[i], stress.sound[j], rho_i, rho_j
+            )
             along, across = granular_viscosity.pair(viscous_p, stress, i, j, r2, closing, scale)
             rub_along, rub_across = friction.pair(friction_p, rubbing, i, j, r2, closing, scale)
             fx, fy, fz = friction.elastic(friction_p, s, box, i, j, per_i, per_j, dx, dy, dz)
@@ -153,7 +177,15 @@ def rates(
 
             v2 = du * du + dv * dv + dw * dw
             work += granular_temperature.pair(
-                temperature_p, stress, s, i, j, agitated * closing, -along * closing - across * v2, ringing * closing, scale
+                temperature_p,
+                stress,
+                s,
+                i,
+                j,
+                agitated * closing,
+                -along * closing - across * v2,
+                ringing * closing,
+                scale,
             )
             rubbed = lasting * closing - rub_along * closing - rub_across * v2
             warmth += 0.5 * (rubbed + granular_temperature.rest(temperature_p, ringing * closing))

@@ -14,9 +14,9 @@ from sdph.effects import OFF, REGISTRY
 from sdph.effects.around import walls
 from sdph.effects.grains import friction, grain_shifting, granular_temperature
 from sdph.effects.grains.granular_viscosity import Viscous
+from sdph.engine import state as particles
 from sdph.engine.clock import count_of_parts
 from sdph.engine.kept import GROWING, Unfit
-from sdph.engine import state as particles
 from sdph.engine.rows import Neighbours
 from sdph.engine.state import INFLOW
 from sdph.engine.walls.sides import Boundary
@@ -25,8 +25,9 @@ from sdph.methods.grains import equations as rates
 from sdph.methods.grains.bounds import Guard
 from sdph.methods.grains.equations import Stress
 
-# Of h/(c + v); our choice. By von Neumann a lattice with summed density bears 1.86 h/c in these steps, under p = rho c^2/2 1.15
-# (tests/methods/grains/test_rates.py). Monaghan 1992 takes 0.25; the bed's heat to the grains is then 0.07 % different.
+# Of h/(c + v); our choice. By von Neumann a lattice with summed density bears 1.86 h/c in these steps, under p = rho
+# c^2/2 1.15 (tests/methods/grains/test_rates.py). Monaghan 1992 takes 0.25; the bed's heat to the grains is then 0.07 %
+# different.
 ACOUSTIC = 0.5
 SAME_DENSITY = 1e-6  # of a density: what is summed twice differs by round-off at most; our choice
 REACH = 2.0  # support of the kernels in smoothing lengths
@@ -35,7 +36,8 @@ REACH = 2.0  # support of the kernels in smoothing lengths
 class Stepper:
     """State of the particles, and how it goes forward."""
 
-    KEPT = ("state", "neighbours", "steps", "contacts", "limit", "mechanical_heat", "bounds_work")  # see sdph.engine.kept
+    # see sdph.engine.kept
+    KEPT = ("state", "neighbours", "steps", "contacts", "limit", "mechanical_heat", "bounds_work")
     FORMS = {"state": GROWING}
 
     def __init__(self, case, parameters, state, source=None, shortest=0.0):
@@ -49,7 +51,8 @@ class Stepper:
         self.shears = bool(parameters["friction"] or algebraic)
         self.steps, self.contacts, self.limit = 0, 0, ""
         self.shortest = shortest  # sub-step [s] below which the run gets nowhere
-        self.stress, self.length = Stress(*[np.empty(0)] * len(Stress._fields)), 0.0  # of the last sub-step, and what that was limited to [s]
+        # of the last sub-step, and what that was limited to [s]
+        self.stress, self.length = Stress(*[np.empty(0)] * len(Stress._fields)), 0.0
         self.mechanical_heat = 0.0  # what motion has given to the temperature of the grains [J]
         self.bounds_work = 0.0  # what the bounds of theta have added [J]
 
@@ -102,7 +105,8 @@ class Stepper:
         rates.sum_density(self.kernel, self.state, self.rows, self.neighbours.box, *self._walls(), density, self.pull)
 
     def force(self, warmth, push, damping) -> None:
-        """What holds over the next window: heat (N,) [J] from the gas, push (N, 3) [m/s2] from outside, damping (N,) [1/s] of theta."""
+        """Take what holds over the next window: heat (N,) [J] from the gas, push (N, 3) [m/s2] from outside, damping
+        (N,) [1/s] of theta."""
         self.state = particles.forced(self.state, warmth, push, damping)
 
     def conduct(self, dt: float) -> None:
@@ -110,7 +114,15 @@ class Stepper:
         steps = self._parts(dt)
         heating = np.zeros(len(self.state.x))
         for _ in range(steps):
-            rates.conduct(self.kernel, self.state, self.rows, self.neighbours.box, self.pull, self.parameters["conduction"], heating)
+            rates.conduct(
+                self.kernel,
+                self.state,
+                self.rows,
+                self.neighbours.box,
+                self.pull,
+                self.parameters["conduction"],
+                heating,
+            )
             self._warm(heating * dt / steps + self.state.warmth / self.state.mass / steps)
             self.guard.sub_step(self)
         self.state = particles.released(self.state)
@@ -131,7 +143,15 @@ class Stepper:
         """Heat [W] that each particle gets from its neighbours now."""
         heating = np.zeros(len(self.state.x))
         if self.parameters["conduction"]:
-            rates.conduct(self.kernel, self.state, self.rows, self.neighbours.box, self.pull, self.parameters["conduction"], heating)
+            rates.conduct(
+                self.kernel,
+                self.state,
+                self.rows,
+                self.neighbours.box,
+                self.pull,
+                self.parameters["conduction"],
+                heating,
+            )
         return heating * self.state.mass
 
     def _sub_step(self, left: float) -> float:
@@ -143,11 +163,13 @@ class Stepper:
         return left / self._parts(left, fastest)
 
     def _parts(self, left: float, fastest: float = 0.0) -> int:
-        """Number of equal sub-steps in which `left` [s] is taken, none longer than the shortest limit times run.step_factor."""
+        """Number of equal sub-steps for `left` [s], none longer than the shortest limit times run.step_factor."""
         found = limits(self.case, self.parameters, self.state, fastest)
         self.limit = min(found, key=found.get, default="")
         self.length = self.case.run.step_factor * found.get(self.limit, math.inf)
-        return count_of_parts(left, self.length, self.shortest, f"the sub-step's limit {self.limit!r} (times run.step_factor)")
+        return count_of_parts(
+            left, self.length, self.shortest, f"the sub-step's limit {self.limit!r} (times run.step_factor)"
+        )
 
     def _advance(self, dt: float, window: float) -> None:
         """One sub-step of `dt` of a `window` [s]: stress, walls, rates, then theta, heat, velocity, place."""
@@ -156,9 +178,9 @@ class Stepper:
         wall_pressure, wall_velocity = self._extrapolate(self.stress.pressure)
         acceleration, agitation, heating = np.empty((count, 3)), np.empty(count), np.empty(count)
         rates.rates(
-            self.kernel, s, self.rows, self.neighbours.box, self.pull, self.stress, self.viscous, p["friction"], *sheared[:3], p["artificial_viscosity"],
-            p["granular_temperature"], p["conduction"], *self._walls(), wall_pressure, wall_velocity,
-            acceleration, agitation, heating,
+            self.kernel, s, self.rows, self.neighbours.box, self.pull, self.stress, self.viscous, p["friction"],
+            *sheared[:3], p["artificial_viscosity"], p["granular_temperature"], p["conduction"], *self._walls(),
+            wall_pressure, wall_velocity, acceleration, agitation, heating,
         )  # fmt: skip
         if self.source:
             self._hold_back(acceleration, agitation, heating)
@@ -166,7 +188,9 @@ class Stepper:
             self._agitate(dt, agitation, sheared)
         if len(s.temperature):
             self._warm((heating + s.warmth / window / s.mass) * dt)
-            self.mechanical_heat += float((s.mass * heating).sum() * dt)  # conduction adds up to nothing, but for what comes from upstream
+            self.mechanical_heat += float(
+                (s.mass * heating).sum() * dt
+            )  # conduction adds up to nothing, but for what comes from upstream
         self._drift(dt, acceleration)
         self.steps += 1
 
@@ -185,7 +209,19 @@ class Stepper:
         if not self.shears:
             return shearing.nothing(len(s.x))
         out, held = shearing.empty(len(s.x), bool(p["friction"])), (getattr(s, name) for name in friction.ARRAYS)
-        shearing.shear(self.kernel, s, self.rows, self.neighbours.box, self.pull, self.stress, *self._walls(), p["friction"], dt, *held, *out)
+        shearing.shear(
+            self.kernel,
+            s,
+            self.rows,
+            self.neighbours.box,
+            self.pull,
+            self.stress,
+            *self._walls(),
+            p["friction"],
+            dt,
+            *held,
+            *out,
+        )
         return out
 
     def _extrapolate(self, pressure):
@@ -194,14 +230,30 @@ class Stepper:
         count = len(self.boundary.dummies.x)
         weight, wall_pressure, wall_velocity = np.empty(count), np.empty(count), np.empty((count, 3))
         walls.extrapolate(
-            self.kernel, self.neighbours.box, self.boundary.dummies, self.wall_rows, self.state, pressure, weight, wall_pressure, wall_velocity
+            self.kernel,
+            self.neighbours.box,
+            self.boundary.dummies,
+            self.wall_rows,
+            self.state,
+            pressure,
+            weight,
+            wall_pressure,
+            wall_velocity,
         )
         return wall_pressure, wall_velocity
 
     def _agitate(self, dt: float, agitation, sheared) -> None:
         theta, held = np.empty(len(agitation)), np.empty(len(agitation))
         granular_temperature.advance_all(
-            self.parameters["granular_temperature"], self.state, agitation, self.state.damping, sheared.shear_squared, sheared.divergence, dt, theta, held
+            self.parameters["granular_temperature"],
+            self.state,
+            agitation,
+            self.state.damping,
+            sheared.shear_squared,
+            sheared.divergence,
+            dt,
+            theta,
+            held,
         )
         moving = self.state.kind != INFLOW
         self.state.theta[moving], held[~moving] = theta[moving], 0.0
@@ -228,7 +280,9 @@ class Stepper:
         if self.source:
             self.source.release(s)
         if self.boundary:
-            self.contacts += walls.contact(self.parameters["walls"], self.neighbours.box, self.boundary.dummies, self.wall_rows, s)
+            self.contacts += walls.contact(
+                self.parameters["walls"], self.neighbours.box, self.boundary.dummies, self.wall_rows, s
+            )
 
     def _shift(self, dt: float) -> None:
         s = self.state

@@ -27,7 +27,9 @@ class Scales:
         self.case, self.gas, self.grains = case, case.gas, case.grains
         self.end = case.run.end_time
         self.patches = [_patch(case, region) for region in case.particles.values()]
-        self.patches += [patch for own in case.parameters.values() if hasattr(own, "patches") for patch in own.patches(case)]
+        self.patches += [
+            patch for own in case.parameters.values() if hasattr(own, "patches") for patch in own.patches(case)
+        ]
         self.gravity = math.hypot(*case.domain.gravity)
 
     @cached_property
@@ -37,7 +39,10 @@ class Scales:
     @cached_property
     def length(self) -> float:
         """Narrowest extent [m] of the grains."""
-        return min((b - a for patch in self.patches for a, b in zip(patch.lower, patch.upper)), default=min(self.case.domain.size))
+        return min(
+            (b - a for patch in self.patches for a, b in zip(patch.lower, patch.upper)),
+            default=min(self.case.domain.size),
+        )
 
     @cached_property
     def jet(self) -> float:
@@ -68,7 +73,8 @@ class Scales:
     def rush(self) -> float:
         """Speed [m/s] of gas that rushes in where grains cool it and out where they heat it; none at constant density.
 
-        The change of volume of the patch in the time in which its gas takes the grains' temperature: the most it can be.
+        The change of volume of the patch in the time in which its gas takes the grains' temperature: the most it can
+        be.
         """
         if self.gas.equation_of_state == "constant" or not self.alpha_p:
             return 0.0
@@ -84,7 +90,10 @@ class Scales:
 
     def _damping(self, alpha_p: float, slip: float) -> float:
         """beta/(alpha_p rho_p) [1/s] by the blended Gidaspow law, whatever law the case has."""
-        return drag.gidaspow(alpha_p, slip, self.grains.diameter, self.gas.density, self.gas.viscosity) / self.grains.density
+        return (
+            drag.gidaspow(alpha_p, slip, self.grains.diameter, self.gas.density, self.gas.viscosity)
+            / self.grains.density
+        )
 
     @cached_property
     def drag_time(self) -> float:
@@ -141,11 +150,14 @@ class Scales:
     @cached_property
     def blown(self) -> float:
         """Dragged along by the gas that is let in, with no more energy per volume than it has [m/s]."""
-        return 0.0 if self.resting else self.jet * -math.expm1(-self.end / self.drag_time) / math.sqrt(1.0 + self.loading)
+        return (
+            0.0 if self.resting else self.jet * -math.expm1(-self.end / self.drag_time) / math.sqrt(1.0 + self.loading)
+        )
 
     @cached_property
     def coasting(self) -> float:
-        """Way of thrown grains over their speed [s]: gas and grains take up one speed, that of their common momentum."""
+        """Way of thrown grains over their speed [s]: gas and grains take up one speed, that of their common
+        momentum."""
         kept, stop = self.loading / (1.0 + self.loading), self.drag_time / (1.0 + self.loading)
         return kept * self.end - (1.0 - kept) * stop * math.expm1(-self.end / stop)
 
@@ -155,19 +167,23 @@ class Scales:
         if not self.alpha_p or not self.gravity:
             return math.nan
         grains, gas = self.grains, self.gas
-        return exact.minimum_fluidisation(self.capped, grains.density, self.gravity, grains.diameter, gas.density, gas.viscosity)
+        return exact.minimum_fluidisation(
+            self.capped, grains.density, self.gravity, grains.diameter, gas.density, gas.viscosity
+        )
 
     @cached_property
     def resting(self) -> bool:
         """Whether grains lie packed on the floor and the gas that is let in cannot lift them."""
-        onset = self.case.parameters["friction"].onset if "friction" in self.case.parameters else self.grains.packing_limit
+        onset = (
+            self.case.parameters["friction"].onset if "friction" in self.case.parameters else self.grains.packing_limit
+        )
         packed = self.alpha_p >= SETTLED * onset and not self.thrown and self.gravity > 0.0
         return packed and self.jet < self.minimum_fluidisation and ways.lie(self.case, self.patches)
 
     @cached_property
     def rim(self) -> float:
-        """Share of the grains that outside gas slips past: all where gas is blown through them; of those thrown, that of a
-        rim as thick as the gas takes to follow them, or as the kernel resolves."""
+        """Share of the grains that outside gas slips past: all where gas is blown through them; of those thrown, that
+        of a rim as thick as the gas takes to follow them, or as the kernel resolves."""
         if self.jet or not self.thrown:
             return 1.0
         return min(1.0, 2.0 * max(self.thrown * self.gas_drag_time, self.case.smoothing_length) / self.length)
@@ -208,12 +224,15 @@ class Scales:
 
     @cached_property
     def theta(self) -> float:
-        """Granular temperature [m2/s2]: the start's, or that which shear speed/length keeps up by collisions, the larger."""
+        """Granular temperature [m2/s2]: the start's, or that which shear speed/length keeps up by collisions, the
+        larger."""
         if not self.collides:
             return self.grains.granular_temperature
         beta = self.alpha_p * self.grains.density / self.drag_time
         grains, shear = self.grains, (SHEAR * self.speed / self.length) ** 2
-        kept = granular.equilibrium_theta(self.capped, grains.restitution, self.g0, grains.density, grains.diameter, shear, 0.0, beta)
+        kept = granular.equilibrium_theta(
+            self.capped, grains.restitution, self.g0, grains.density, grains.diameter, shear, 0.0, beta
+        )
         return max(grains.granular_temperature, kept)
 
     @cached_property
@@ -228,7 +247,11 @@ class Scales:
         if not self.alpha_p or not self.theta:
             return 0.0
         grains, slope = self.grains, granular.sinclair_jackson_slope(self.capped, self.grains.packing_limit)
-        return math.sqrt(granular.sound_speed_squared(self.capped, self.theta, grains.restitution, self.g0, slope, grains.density, 0.0))
+        return math.sqrt(
+            granular.sound_speed_squared(
+                self.capped, self.theta, grains.restitution, self.g0, slope, grains.density, 0.0
+            )
+        )
 
 
 def scales_of(case) -> Scales:

@@ -32,7 +32,11 @@ def _region(case, region, names) -> State:
         array[:] = value
     state.density[:] = region.volume_fraction * case.grains.density
     state.mass[:] = state.density * volume
-    for name, value in (("temperature", region.temperature), ("diameter", case.grains.diameter), ("theta", case.grains.granular_temperature)):
+    for name, value in (
+        ("temperature", region.temperature),
+        ("diameter", case.grains.diameter),
+        ("theta", case.grains.granular_temperature),
+    ):
         getattr(state, name)[:] = value
     state.diameter_variance[:] = case.grains.diameter_std**2
     return born(state)

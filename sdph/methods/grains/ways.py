@@ -1,4 +1,5 @@
-"""Where grains and gas get to within a run: which inlet's gas meets the grains, how far grains come towards each side."""
+"""Where grains and gas get to within a run: which inlet's gas meets the grains, how far grains come towards each
+side."""
 
 from __future__ import annotations
 
@@ -20,7 +21,8 @@ class Reach(NamedTuple):
 
 
 def strength(case, boundary, patches) -> float:
-    """Share of an inlet's speed that its gas has at the grains: 1 where they lie in its stream or no span tells, less aside."""
+    """Share of an inlet's speed that its gas has at the grains: 1 where they lie in its stream or no span tells, less
+    aside."""
     if boundary.span is None or boundary.side is None:
         return 1.0
     axis = next(a for a, pair in enumerate(PAIRS) if boundary.side in pair)
@@ -69,7 +71,8 @@ def opened(case, side: str) -> bool:
 
 
 def towards(s, patch, axis: int, outward: float) -> float:
-    """How far [m] grains of a patch get along an axis within the run: thrown, spread, fallen, or blown along by the gas."""
+    """How far [m] grains of a patch get along an axis within the run: thrown, spread, fallen, or blown along by the
+    gas."""
     thrown = outward * patch.velocity[axis] * s.coasting
     spread = math.hypot(*patch.velocity) * math.sin(patch.half_angle) * s.coasting if not patch.velocity[axis] else 0.0
     fallen = s.falling * s.end if outward * s.case.domain.gravity[axis] > 0.0 else 0.0

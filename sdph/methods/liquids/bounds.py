@@ -21,7 +21,10 @@ class LiquidGuard(Watch):
     def admit_liquid(self, state: dict, fresh, kinds) -> None:
         """`admit` of a liquid and its walls that began as the State `fresh`; `kinds` that there are."""
         fast = RUNAWAY * self.case.fastest_sound
-        bounds = dict.fromkeys("uvw", (-fast, fast)) | {"mass": (TINY, fresh.mass.max()), "ident": (0, len(fresh.x) - 1)}
+        bounds = dict.fromkeys("uvw", (-fast, fast)) | {
+            "mass": (TINY, fresh.mass.max()),
+            "ident": (0, len(fresh.x) - 1),
+        }
         self.admit(state, (), bounds | {"density": (fresh.density.min() / DENSE, fresh.density.max() * DENSE)})
         if not np.isin(state["kind"], kinds).all():
             raise Unfit("a particle is of no phase and of no wall")
@@ -31,7 +34,8 @@ class LiquidGuard(Watch):
         s, own = stepper.state, self.case
         self.time = stepper.time
         lower = (
-            f"run.step_factor (now {own.run.step_factor:g}; the step was ruled by {stepper.limit or 'sound'}); where the liquid is meant "
+            f"run.step_factor (now {own.run.step_factor:g}; the step was ruled by {stepper.limit or 'sound'}); where "
+            "the liquid is meant "
             f"to be so fast, raise liquid.sound_speed_m_s (now {own.liquid.sound_speed:g}) to ten times its speed"
         )
         wet = particles.take(s, stepper.active)

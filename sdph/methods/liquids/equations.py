@@ -45,7 +45,8 @@ def push(
     kernel, s, rows, box, active, wall_p, gravity_p, frame_p, laminar_p, damping_p, diffusion_p, shifting_p, phases_p,
     pressure, volume, least, excess, acceleration, gradient_x, gradient_y, gradient_z,
 ):  # fmt: skip
-    """Acceleration (N, 3) [m/s2] with body forces; corrected pressure gradient (N,) x 3 [Pa/m], where something needs it."""
+    """Acceleration (N, 3) [m/s2] with body forces; corrected pressure gradient (N,) x 3 [Pa/m], where something needs
+    it."""
     for n in prange(len(active)):
         i = active[n]
         p_i, rho_i = pressure[i], s.density[i]
@@ -64,19 +65,35 @@ def push(
             wet, V = max(signed, 0.0), abs(signed)
             stick = 1.0 if signed > 0.0 else wall_p.stick
             closing = du * dx + dv * dy + dw * dz
-            kind_j, rho_j = phases.kind(phases_p, signed, s.kind[i], s.kind[j]), phases.density(phases_p, signed, rho_i, s.density[j])
+            kind_j, rho_j = (
+                phases.kind(phases_p, signed, s.kind[i], s.kind[j]),
+                phases.density(phases_p, signed, rho_i, s.density[j]),
+            )
             p_j = phases.behind(phases_p, signed, pressure[j], p_i - rho_i * (bx * dx + by * dy + bz * dz))
-            ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY)) * phases.harmonic(phases_p, rho_i, rho_j)
+            ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY)) * phases.harmonic(
+                phases_p, rho_i, rho_j
+            )
             friction = laminar_viscosity.central(laminar_p, s.kind[i], kind_j, closing, r2)
 
             # rho_i dv_i/dt = -sum V_j (p_i + p_j) grad W + sum V_j 2 mu r.grad W/(r^2 + eta^2) v_ij
-            along = -V * slope * (phases.pressure(phases_p, sign_i * p_i, p_j, rho_i, rho_j) + stick * (ringing + friction) + held_off(wall_p, signed, rho_i, r))
+            along = (
+                -V
+                * slope
+                * (
+                    phases.pressure(phases_p, sign_i * p_i, p_j, rho_i, rho_j)
+                    + stick * (ringing + friction)
+                    + held_off(wall_p, signed, rho_i, r)
+                )
+            )
             across = V * slope * stick * laminar_viscosity.pair(laminar_p)
             ax += along * dx + across * du
             ay += along * dy + across * dv
             az += along * dz + across * dw
             if len(excess):  # B of a wall is that of the liquid in front
-                own, other = phases.share(phases_p, rho_i, rho_j) * sign_i * p_i, phases.share(phases_p, rho_j, rho_i) * p_j
+                own, other = (
+                    phases.share(phases_p, rho_i, rho_j) * sign_i * p_i,
+                    phases.share(phases_p, rho_j, rho_i) * p_j,
+                )
                 ex, ey, ez = correction.extra(excess, i, j if signed > 0.0 else i, own, other, dx, dy, dz)
                 ax -= V * slope * ex
                 ay -= V * slope * ey
@@ -97,7 +114,9 @@ def push(
         acceleration[i, 1] = ay / rho_i + by
         acceleration[i, 2] = az / rho_i + bz
         if len(diffusion_p) or len(shifting_p):
-            gradient_x[i], gradient_y[i], gradient_z[i] = solved(xx, yy, zz if len(s.z) else 1.0, xy, yz, zx, gx, gy, gz)
+            gradient_x[i], gradient_y[i], gradient_z[i] = solved(
+                xx, yy, zz if len(s.z) else 1.0, xy, yz, zx, gx, gy, gz
+            )
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
@@ -113,7 +132,22 @@ def sum_up(kernel, s, rows, box, active, lattice, density):
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
-def compress(kernel, s, rows, box, active, wall_p, diffusion_p, phases_p, pressure, gradient_x, gradient_y, gradient_z, volume, rate):
+def compress(
+    kernel,
+    s,
+    rows,
+    box,
+    active,
+    wall_p,
+    diffusion_p,
+    phases_p,
+    pressure,
+    gradient_x,
+    gradient_y,
+    gradient_z,
+    volume,
+    rate,
+):
     """d rho/dt (N,) [kg/m3/s] = rho_i sum V_j v_ij.grad W + delta h c sum V_j psi_ij.grad W (Antuono et al. 2010)."""
     for n in prange(len(active)):
         i = active[n]

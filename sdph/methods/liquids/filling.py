@@ -1,9 +1,9 @@
 """The part of a tank that a pool fills: between which levels it lies, and where its particles stand.
 
-There are as many as its volume asks for. A lattice that ends half a spacing before a curved wall leaves a layer half a spacing thick
-free along it, and stands too high by what that layer would hold; so the particles are those of a lattice that lie deepest, packed
-(sdph.methods.liquids.packing) so that they conform to the wall. A box that stands upright is filled as any other box: the lattice is
-fitted to its sides.
+There are as many as its volume asks for. A lattice that ends half a spacing before a curved wall leaves a layer half a
+spacing thick free along it, and stands too high by what that layer would hold; so the particles are those of a lattice
+that lie deepest, packed (sdph.methods.liquids.packing) so that they conform to the wall. A box that stands upright is
+filled as any other box: the lattice is fitted to its sides.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ SAME = 1e-9  # of a spacing: round-off
 
 
 class Slab(NamedTuple):
-    """Between the heights `low` and `high` [m] along the unit vector `up` (d,): from `below` to `fill` of the tank's volume; the
-    lowest one, `below` = 0, has no lower end, so that an outlet pipe is part of it."""
+    """Between the heights `low` and `high` [m] along the unit vector `up` (d,): from `below` to `fill` of the tank's
+    volume; the lowest one, `below` = 0, has no lower end, so that an outlet pipe is part of it."""
 
     up: np.ndarray
     low: float
@@ -59,7 +59,8 @@ class Filled(Pool):
 
 
 def pools(case) -> list[Pool]:
-    """The pools of a case, those of the shape tank filled from the level of the ones before, as boxes in an upright box."""
+    """The pools of a case, those of the shape tank filled from the level of the ones before, as boxes in an upright
+    box."""
     found, below = [], 0.0
     for name, pool in case.pools.items():
         if pool.shape == "tank":
@@ -71,13 +72,19 @@ def pools(case) -> list[Pool]:
 def _filled(case, name: str, pool, below: float):
     """What a pool fills above the share `below` of the tank's volume."""
     if "tank" not in case.effects or pool.fill is None:
-        raise CaseError("pools: shape = \"tank\" needs the effect tank, and fill")
+        raise CaseError('pools: shape = "tank" needs the effect tank, and fill')
     if pool.fill <= below:
-        raise CaseError(f"pools.{name}.fill = {pool.fill:g}; the pools before it fill the tank up to {below:g}: give it more, or name it first")
+        raise CaseError(
+            f"pools.{name}.fill = {pool.fill:g}; the pools before it fill the tank up to {below:g}: give it more, or "
+            "name it first"
+        )
     shape, along = tank.shape_of(case), pull(case)
     inside = shape.tank if isinstance(shape, shapes.Joined) else shape
     if (pool.fill - below) * inside.volume < 0.5 * case.resolution.spacing**case.dimensions:
-        raise CaseError(f"pools: fill = {pool.fill:g} is less than half a particle of the tank; fill it more, or give a smaller spacing_mm")
+        raise CaseError(
+            f"pools: fill = {pool.fill:g} is less than half a particle of the tank; fill it more, or give a smaller "
+            "spacing_mm"
+        )
     up = -along / np.linalg.norm(along) if along.any() else np.eye(case.dimensions)[-1]
     low, high = levels(inside, up, (below, pool.fill), case.resolution.spacing)
     if isinstance(inside, shapes.Box) and np.abs(up).max() == 1.0:
@@ -100,7 +107,8 @@ def _as_box(shape, pool, up, low: float, high: float):
 
 
 def levels(shape, up, fills, spacing: float) -> np.ndarray:
-    """Heights [m] along `up` below which the shares `fills` of the volume lie, from sums over the cells of a lattice."""
+    """Heights [m] along `up` below which the shares `fills` of the volume lie, from sums over the cells of a
+    lattice."""
     axes, k = _axes(up)
     low, high = bounds(shape, axes)
     points, steps = _cells(low, high, spacing)
@@ -122,7 +130,8 @@ def _shares(shape, middles, steps) -> np.ndarray:
 
 
 def _axes(up) -> tuple[np.ndarray, int]:
-    """(d, d) unit vectors as rows, and which of them is `up`: the axes, mirrored so that the nearest to `up` falls onto it."""
+    """(d, d) unit vectors as rows, and which of them is `up`: the axes, mirrored so that the nearest to `up` falls onto
+    it."""
     k = int(np.argmax(np.abs(up)))
     across = np.eye(len(up))[k] - up
     square = across @ across
@@ -135,24 +144,31 @@ def bounds(shape, axes) -> tuple[np.ndarray, np.ndarray]:
 
 
 def fill(case, pool: Filled) -> np.ndarray:
-    """(N, d) places of the particles of a pool of the tank, and of the outlet pipe as high as the pool, if it is the lowest."""
+    """(N, d) places of the particles of a pool of the tank, and of the outlet pipe as high as the pool, if it is the
+    lowest."""
     shape, slab, spacing, reach = tank.shape_of(case), pool.slab, case.resolution.spacing, 2.0 * case.smoothing_length
     points, layer = lattice(shape, pool.inside, slab, spacing, reach)
     from_tank, from_slab = pool.inside.distance(points), slab.beyond(points)
-    wet = _deepest(np.maximum(from_tank, from_slab), (slab.fill - slab.below) * pool.inside.volume, spacing, len(slab.up))
+    wet = _deepest(
+        np.maximum(from_tank, from_slab), (slab.fill - slab.below) * pool.inside.volume, spacing, len(slab.up)
+    )
     if isinstance(shape, shapes.Joined) and not slab.below:
         outside = np.maximum(np.maximum(shape.pipe.distance(points), -from_tank), from_slab)
         outside[wet] = np.inf
         wet = np.concatenate([wet, _deepest(outside, _buffer(shape, slab, spacing / FINER), spacing, len(slab.up))])
     lid = (shape.distance(points) <= SAME * spacing) & (from_slab > 0.0) & (from_slab < reach)
     walls = shapes.wall_points(shape, spacing, tank.layers(case))
-    return packing.pack(case, points[wet], walls, points[lid], slab._replace(low=slab.low + 0.5 * layer, high=slab.high - 0.5 * layer))
+    return packing.pack(
+        case, points[wet], walls, points[lid], slab._replace(low=slab.low + 0.5 * layer, high=slab.high - 0.5 * layer)
+    )
 
 
 def lattice(shape, inside, slab: Slab, spacing: float, reach: float) -> tuple[np.ndarray, float]:
-    """(N, d) points in cells of spacing^d, and the height [m] of their layers, a whole number of which make up the slab.
+    """(N, d) points in cells of spacing^d, and the height [m] of their layers, a whole number of which make up the
+    slab.
 
-    They cover a shape, of which `inside` is the tank, from `reach` [m] below the slab to as much above it, and a cell around.
+    They cover a shape, of which `inside` is the tank, from `reach` [m] below the slab to as much above it, and a cell
+    around.
     """
     axes, k = _axes(slab.up)
     low, high = bounds(inside, axes)
@@ -162,7 +178,8 @@ def lattice(shape, inside, slab: Slab, spacing: float, reach: float) -> tuple[np
     layer = (slab.high - bottom) / max(1, round((slab.high - bottom) / spacing))
     steps = np.full(len(axes), spacing * (spacing / layer) ** (1.0 / (len(axes) - 1)))
     steps[k] = layer
-    origin = 0.5 * (low + high - np.round((high - low) / steps) * steps)  # corner of a cell: about the middle they lie evenly
+    # corner of a cell: about the middle they lie evenly
+    origin = 0.5 * (low + high - np.round((high - low) / steps) * steps)
     origin[k] = bottom
     ends = np.floor((first - origin) / steps).astype(int) - 1, np.ceil((last - origin) / steps).astype(int) + 1
     ticks = [start + (np.arange(a, b) + 0.5) * step for start, a, b, step in zip(origin, *ends, steps)]
@@ -170,7 +187,8 @@ def lattice(shape, inside, slab: Slab, spacing: float, reach: float) -> tuple[np
 
 
 def _buffer(shape, slab: Slab, spacing: float) -> float:
-    """Volume [m3] of what of an outlet pipe lies outside the tank and within the slab, from cells of that spacing [m]."""
+    """Volume [m3] of what of an outlet pipe lies outside the tank and within the slab, from cells of that spacing
+    [m]."""
     middles, steps = _cells(*bounds(shape.pipe, np.eye(3)), spacing)
     outside = _shares(shape.pipe, middles, steps) * (1.0 - _shares(shape.tank, middles, steps))
     return float(outside[slab.beyond(middles) <= 0.0].sum() * np.prod(steps))

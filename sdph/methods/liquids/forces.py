@@ -9,10 +9,11 @@ from sdph.effects.around import frame, gravity
 
 @njit(cache=True, error_model="numpy")
 def held_off(wall_p, signed, rho, r):
-    """Pressure [Pa] by which a wall particle holds off liquid of density rho that came nearer to it than it stands at rest.
+    """Pressure [Pa] by which a wall particle holds off liquid of density rho that came nearer to it than it stands at
+    rest.
 
-    rho c^2 (1 - r/near), our choice. The wall's other pressure is extrapolated from the liquid around: it knows nothing of
-    a particle that came closer than the rest, and what got in among the particles of a wall would lie there at rest.
+    rho c^2 (1 - r/near), our choice. The wall's other pressure is extrapolated from the liquid around: it knows nothing
+    of a particle that came closer than the rest, and what got in among the particles of a wall would lie there at rest.
     """
     over = rho * wall_p.stiffness * max(1.0 - r * wall_p.near, 0.0)
     return 0.0 if signed > 0.0 else over

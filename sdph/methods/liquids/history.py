@@ -37,7 +37,11 @@ def _drained(run) -> dict[str, float]:
     if not run.outlet:
         return {}
     commanded = (run.outlet.fill - run.fill(run.time)) * run.stepper.capacity
-    return {"drained_kg": float(run.outlet.gone[0]), "commanded_kg": commanded, "pipe_kinetic_energy_J": pipe_energy(run.stepper)}
+    return {
+        "drained_kg": float(run.outlet.gone[0]),
+        "commanded_kg": commanded,
+        "pipe_kinetic_energy_J": pipe_energy(run.stepper),
+    }
 
 
 def _loads(run) -> dict[str, float]:
@@ -53,7 +57,8 @@ def _loads(run) -> dict[str, float]:
 
 
 def columns(stepper) -> dict[str, float]:
-    """Centre [m], velocity [m/s], variance of places [m2] and furthest place [m] of each phase along each axis; means by mass."""
+    """Centre [m], velocity [m/s], variance of places [m2] and furthest place [m] of each phase along each axis; means
+    by mass."""
     s, values = stepper.state, {}
     if stepper.case.gas_phase is None:
         return values
@@ -74,5 +79,7 @@ def columns(stepper) -> dict[str, float]:
 
 def _in_the_middle(places, pressure, spacing: float) -> float:
     """Mean pressure [Pa] within two spacings of the middle of the liquid; nan where there is none."""
-    near = ((places - places.mean(axis=0)) ** 2).sum(axis=1) < (2.0 * spacing) ** 2 if len(places) else np.zeros(0, bool)
+    near = (
+        ((places - places.mean(axis=0)) ** 2).sum(axis=1) < (2.0 * spacing) ** 2 if len(places) else np.zeros(0, bool)
+    )
     return float(pressure[near].mean()) if near.any() else math.nan

@@ -19,7 +19,8 @@ from sdph.laws.matrices import solved
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
 def orient(kernel, s, rows, box, active, tension_p, volume, normal):
-    """normal (N, 3): direction of sum V_j grad W over the particles of the other phase, out of the own; 0 off the interface."""
+    """normal (N, 3): direction of sum V_j grad W over the particles of the other phase, out of the own; 0 off the
+    interface."""
     for n in prange(len(active)):
         i = active[n]
         gx = gy = gz = 0.0
@@ -59,7 +60,11 @@ def bend(kernel, s, rows, box, active, volume, normal, curvature):
             weight = max(volume[j], 0.0) if on_interface(normal, j) else 0.0
             share = weight * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
             turn = 1.0 if s.kind[i] == s.kind[j] else -1.0
-            du, dv, dw = normal[i, 0] - turn * normal[j, 0], normal[i, 1] - turn * normal[j, 1], normal[i, 2] - turn * normal[j, 2]
+            du, dv, dw = (
+                normal[i, 0] - turn * normal[j, 0],
+                normal[i, 1] - turn * normal[j, 1],
+                normal[i, 2] - turn * normal[j, 2],
+            )
             xx -= share * dx * dx
             yy -= share * dy * dy
             zz -= share * dz * dz
@@ -95,7 +100,12 @@ def pull(kernel, s, rows, box, active, tension_p, volume, normal, curvature, acc
             j = rows.index[rows.start[i] + k]
             dx, dy, dz = apart(s, box, i, j)
             unlike = max(volume[j], 0.0) if s.kind[i] != s.kind[j] else 0.0
-            steep = unlike * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz)) * 2.0 / (s.density[i] + s.density[j])
+            steep = (
+                unlike
+                * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
+                * 2.0
+                / (s.density[i] + s.density[j])
+            )
             bent = 0.5 * (curvature[i] + curvature[j]) if on_interface(normal, j) else curvature[i]
             strength = tension_p.coefficient * bent * outwards * steep
             ax += strength * dx

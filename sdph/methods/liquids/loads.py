@@ -1,4 +1,5 @@
-"""What a liquid does to its tank: forces and moments, by what is outside and by what the walls feel; energies of motion."""
+"""What a liquid does to its tank: forces and moments, by what is outside and by what the walls feel; energies of
+motion."""
 
 from __future__ import annotations
 
@@ -24,14 +25,15 @@ def balance(stepper) -> np.ndarray:
 
 
 def wall_loads(stepper, chosen=None) -> np.ndarray:
-    """(6,) the same, from what each wall particle feels of pressure and friction; of the wall particles `chosen` alone, if given."""
+    """(6,) the same, from what each wall particle feels of pressure and friction; of the wall particles `chosen` alone,
+    if given."""
     chosen = stepper.walls if chosen is None else chosen
     force = np.zeros((len(chosen), 3))
     p = stepper.p
     walls.wall_force(
-        stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, chosen, stepper.wall, p["laminar_viscosity"],
-        p["liquid_damping"], p["shifting"], stepper.phases, p["gravity"], stepper.frame, stepper.least, stepper.pressure, stepper.volume,
-        stepper.excess, force,
+        stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, chosen, stepper.wall,
+        p["laminar_viscosity"], p["liquid_damping"], p["shifting"], stepper.phases, p["gravity"], stepper.frame,
+        stepper.least, stepper.pressure, stepper.volume, stepper.excess, force,
     )  # fmt: skip
     places = particles.positions(stepper.state)[chosen]
     return np.concatenate([force.sum(axis=0), np.cross(places, force).sum(axis=0)])

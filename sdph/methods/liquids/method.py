@@ -24,6 +24,7 @@ from sdph.laws import kernels
 from sdph.methods.liquids import correction, interface, phases, shift, start, walls
 from sdph.methods.liquids import equations as rates
 from sdph.methods.liquids.bounds import LiquidGuard
+from sdph.methods.liquids.start import fluids, parts_of
 from sdph.methods.liquids.walls import WallP
 
 SLACK = 1.0125  # reach over 2 h: a particle may move 0.025 h, half a step, after the rows were found to hold
@@ -35,10 +36,25 @@ class LiquidStepper:
     """Liquid and wall particles of a case, and how they go forward."""
 
     KEPT = (
-        "state", "neighbours", "time", "steps", "limit", "shifted", "tightening", "pressure", "volume", "acceleration", "gradient", "least", "shift",
-        "twist", "extra", "excess",
+        "state",
+        "neighbours",
+        "time",
+        "steps",
+        "limit",
+        "shifted",
+        "tightening",
+        "pressure",
+        "volume",
+        "acceleration",
+        "gradient",
+        "least",
+        "shift",
+        "twist",
+        "extra",
+        "excess",
     )  # fmt: skip  (see sdph.engine.kept)
-    ROWS = ("pressure", "volume", "acceleration", "gradient", "least", "shift", "twist", "extra", "excess")  # of the particles
+    # of the particles
+    ROWS = ("pressure", "volume", "acceleration", "gradient", "least", "shift", "twist", "extra", "excess")
     FORMS = dict.fromkeys(("state", *ROWS), GROWING)
 
     def __init__(self, case, shortest: float = 0.0):
@@ -50,7 +66,8 @@ class LiquidStepper:
         period = tuple(length * bool(on) for length, on in zip(case.domain.size, periodic))
         self.neighbours = LiquidNeighbours(2.0 * SLACK * self.kernel.h, period, case.resolution.neighbour_skin)
         self.fluids, self.phases = fluids(case), phases.kernel(case)
-        first_of_pipe = len(self.state.x) - start.pipe_walls(case)  # walls follow the liquid, those of the outlet pipe come last
+        # walls follow the liquid, those of the outlet pipe come last
+        first_of_pipe = len(self.state.x) - start.pipe_walls(case)
         self.own_walls = range(int((self.state.kind != WALL).sum()), first_of_pipe)  # numbers of the tank's own
         own = self.p["tank"]
         self.wall = WallP(*[0.0] * 6, *own) if own else NO_WALL
@@ -72,7 +89,11 @@ class LiquidStepper:
 
     def admit(self, kept: dict) -> None:
         """Unfit where the particles cannot be of this case, or other arrays are not one row a particle each."""
-        state, built, kinds = kept["state"], kept["neighbours"]["built"], (WALL, LIQUID, *((GAS,) if self.case.gas_phase else ()))
+        state, built, kinds = (
+            kept["state"],
+            kept["neighbours"]["built"],
+            (WALL, LIQUID, *((GAS,) if self.case.gas_phase else ())),
+        )
         self.guard.admit_liquid(state, self.state, kinds)
         count = len(state["x"])
         if [len(axis) for axis in built] != [count] * self.case.dimensions:
@@ -82,8 +103,11 @@ class LiquidStepper:
             for array, like in zip([kept[name]], [fresh]) if one else zip(kept[name], fresh):
                 if len(array) != (count if len(like) else 0):
                     raise Unfit(f"{name} has {len(array)} values for {count} particles")
-        far, wild = FAR * max(self.case.domain.size), FAR * self.case.fastest_sound ** 2 / self.kernel.h
-        for name, values, most in (("acceleration", kept["acceleration"], wild), *(("a place at the last rows", axis, far) for axis in built)):
+        far, wild = FAR * max(self.case.domain.size), FAR * self.case.fastest_sound**2 / self.kernel.h
+        for name, values, most in (
+            ("acceleration", kept["acceleration"], wild),
+            *(("a place at the last rows", axis, far) for axis in built),
+        ):
             if np.abs(values).max(initial=0.0) > most:
                 raise Unfit(f"{name} is beyond {most:.3g}")
 
@@ -115,7 +139,9 @@ class LiquidStepper:
         found = limits(self.case, self.p, self.state, math.sqrt(speed), math.sqrt(force))
         self.limit = min(found, key=found.get)
         longest = self.case.run.step_factor * found[self.limit]
-        return left / count_of_parts(left, longest, self.shortest, f"the step's limit {self.limit!r} (times run.step_factor)")
+        return left / count_of_parts(
+            left, longest, self.shortest, f"the step's limit {self.limit!r} (times run.step_factor)"
+        )
 
     def _compliance(self, kind: int) -> float:
         """d rho/dp = 1/c^2 [s2/m2] of a kind, by which shifting carries density along the pressure gradient."""
@@ -141,8 +167,8 @@ class LiquidStepper:
 
     def _densify(self, dt: float) -> None:
         rates.compress(
-            self.kernel, self.state, self.rows, self.neighbours.box, self.active, self.wall, self.p["density_diffusion"], self.phases,
-            self.pressure, *self.gradient, self.volume, self.rate,
+            self.kernel, self.state, self.rows, self.neighbours.box, self.active, self.wall,
+            self.p["density_diffusion"], self.phases, self.pressure, *self.gradient, self.volume, self.rate,
         )  # fmt: skip
         motion.densify(self.active, self.rate, dt, self.state.density)
 
@@ -158,26 +184,48 @@ class LiquidStepper:
         rates.state_of(self.fluids, s, self.active, self.pressure, self.volume)
         if len(self.walls):
             walls.extrapolate(
-                self.kernel, s, self.rows, self.neighbours.box, self.walls, self.wall, p["gravity"], self.frame, self.volume,
-                self.pressure, s.u, s.v, s.w,
+                self.kernel, s, self.rows, self.neighbours.box, self.walls, self.wall, p["gravity"], self.frame,
+                self.volume, self.pressure, s.u, s.v, s.w,
             )  # fmt: skip
         if self.excess:
             correction.surround(self.kernel, s, self.rows, self.neighbours.box, self.active, self.volume, *self.excess)
         rates.push(
-            self.kernel, s, self.rows, self.neighbours.box, self.active, self.wall, p["gravity"], self.frame, p["laminar_viscosity"],
-            p["liquid_damping"], p["density_diffusion"], p["shifting"], self.phases, self.pressure, self.volume, self.least, self.excess,
-            self.acceleration, *self.gradient,
+            self.kernel, s, self.rows, self.neighbours.box, self.active, self.wall, p["gravity"], self.frame,
+            p["laminar_viscosity"], p["liquid_damping"], p["density_diffusion"], p["shifting"], self.phases,
+            self.pressure, self.volume, self.least, self.excess, self.acceleration, *self.gradient,
         )  # fmt: skip
         if p["surface_tension"]:
             self._tighten()
         if p["xsph"]:
-            shift.mingle(self.kernel, s, self.rows, self.neighbours.box, self.active, p["xsph"], self.phases, self.volume, *self.extra)
+            shift.mingle(
+                self.kernel,
+                s,
+                self.rows,
+                self.neighbours.box,
+                self.active,
+                p["xsph"],
+                self.phases,
+                self.volume,
+                *self.extra,
+            )
         if p["shifting"]:
             shift.surround(
-                self.kernel, s, self.rows, self.neighbours.box, self.active, p["shifting"], self.phases, self.volume, self.least, self.shift, self.twist
+                self.kernel,
+                s,
+                self.rows,
+                self.neighbours.box,
+                self.active,
+                p["shifting"],
+                self.phases,
+                self.volume,
+                self.least,
+                self.shift,
+                self.twist,
             )
             if not self.phases:
-                shift.along_surface(self.kernel, s, self.rows, self.neighbours.box, self.active, self.volume, self.least, self.shift)
+                shift.along_surface(
+                    self.kernel, s, self.rows, self.neighbours.box, self.active, self.volume, self.least, self.shift
+                )
 
     def _tighten(self) -> None:
         """Adds surface tension to the accelerations."""
@@ -189,7 +237,8 @@ class LiquidStepper:
         self.tightening = float(s.mass @ (particles.velocities(s) * (self.acceleration - before)).sum(axis=1))
 
     def _allocate(self, before) -> None:
-        """Work arrays for the particles in their new order; only `least` outlives a step. before (N,): their old order."""
+        """Work arrays for the particles in their new order; only `least` outlives a step. before (N,): their old
+        order."""
         s = self.state
         self._tell_apart()
         count = len(s.x)
@@ -237,26 +286,9 @@ class LiquidStepper:
 
 
 def limits(case, parameters, state, speed: float, acceleration: float) -> dict[str, float]:
-    """Longest steps [s] by cause: what each effect bears, sound, and force; of the fastest [m/s] and most pushed [m/s2] particle."""
+    """Longest steps [s] by cause: sound of the fastest particle [m/s], force on the most pushed [m/s2], each effect."""
     h = case.smoothing_length
     own = {"sound": case.liquid.courant * h / (case.fastest_sound + speed)}
     if acceleration:
         own["force"] = FORCE * math.sqrt(h / acceleration)
     return own | effects.limits(parameters, case, state)
-
-
-def parts_of(case):
-    """Kernel parameters by effect, particles, and motion of the frame (or None): all that a run begins with."""
-    parameters = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
-    return parameters, start.fill(case), frame.motion(case.parameters["frame"], case.run.end_time) if parameters["frame"] else None
-
-
-def fluids(case) -> np.ndarray:
-    """(5, K) rho_0, stiffness, exponent, background and cohesion by kind, as `rates.state_of` takes them."""
-    liquid, gas = case.liquid, case.gas_phase
-    table = np.ones((5, GAS + 1))
-    table[:, LIQUID] = liquid.density, liquid.density * liquid.sound_speed**2 / liquid.exponent, liquid.exponent, liquid.background_pressure, 0.0
-    if gas:
-        stiffness = gas.density * gas.speed_of_sound(liquid) ** 2 / gas.exponent
-        table[:, GAS] = gas.density, stiffness, gas.exponent, liquid.background_pressure, gas.cohesion
-    return table

@@ -16,7 +16,8 @@ ROUND_OFF = 1e-12  # of a particle's mass: less than that is nothing
 
 
 class Outlet:
-    """Takes from a stepper's liquid what is commanded; sums up what has gone: mass, momentum, angular momentum, energy."""
+    """Takes from a stepper's liquid what is commanded; sums up what has gone: mass, momentum, angular momentum,
+    energy."""
 
     KEPT, FORMS = ("place", "gone", "leaving"), {"leaving": GROWING}  # see sdph.engine.kept
 
@@ -29,8 +30,10 @@ class Outlet:
         lowest = particles.axes(stepper.state)[-1].min()
         self.end = lowest + (tank.layers(case) - 0.5) * case.resolution.spacing  # height of the outlet's end [m]
         self.place = np.zeros(3)  # where the last of it went [m]
-        self.gone = np.zeros(8)  # mass [kg], momentum (3) [kg m/s], angular momentum (3) [kg m2/s], energy [J], in the frame
-        self.leaving = np.zeros((0, 4))  # particles on their way out: number; way to go [m], time [s], mass [kg] when chosen
+        # mass [kg], momentum (3) [kg m/s], angular momentum (3) [kg m2/s], energy [J], in the frame
+        self.gone = np.zeros(8)
+        # particles on their way out: number; way to go [m], time [s], mass [kg] when chosen
+        self.leaving = np.zeros((0, 4))
 
     def admit_at(self, time: float, kept: dict, state: dict) -> None:
         """Unfit where more has gone at `time` [s] than there was, or who leaves is not among the pieces of wall."""
@@ -46,7 +49,8 @@ class Outlet:
         owed = (self.fill - fill) * self.stepper.capacity - self.gone[0]
         if self.form == "paper":
             owed = self.particle * np.floor(owed / self.particle + 0.5)
-        while owed > ROUND_OFF * self.particle and len(self.stepper.active):  # a tank of whole particles may hold half a one less
+        # a tank of whole particles may hold half a one less
+        while owed > ROUND_OFF * self.particle and len(self.stepper.active):
             owed -= self._take(owed)
 
     def _take(self, owed: float) -> float:
@@ -77,7 +81,8 @@ class Outlet:
         st.forces()
 
     def _fade(self) -> None:
-        """Moves what leaves to the outlet's end at an even speed; its volume goes with xi of what is left of the way."""
+        """Moves what leaves to the outlet's end at an even speed; its volume goes with xi of what is left of the
+        way."""
         st = self.stepper
         for row in self.leaving:
             number, way, begun, mass = row

@@ -1,10 +1,10 @@
 """Particles moved until they lie evenly between walls of any form, as under one pressure everywhere.
 
-dv/dt = -2 sum V_j grad W is what one pressure rho c^2 everywhere does to them where c = 1: it vanishes where the kernel's sums are
-even (Colagrossi, Bouscasse, Antuono & Marrone 2012, Comput. Phys. Commun. 183, 1641). When they begin to go against it they are
-stopped (kinetic damping, Cundall 1976), which needs no coefficient. They have the kernel and the Courant number of the run, go on
-until sound has crossed them, and keep off the particles of walls as far as those hold liquid off in the run (`held_off` in
-sdph.methods.liquids.forces).
+dv/dt = -2 sum V_j grad W is what one pressure rho c^2 everywhere does to them where c = 1: it vanishes where the
+kernel's sums are even (Colagrossi, Bouscasse, Antuono & Marrone 2012, Comput. Phys. Commun. 183, 1641). When they begin
+to go against it they are stopped (kinetic damping, Cundall 1976), which needs no coefficient. They have the kernel and
+the Courant number of the run, go on until sound has crossed them, and keep off the particles of walls as far as those
+hold liquid off in the run (`held_off` in sdph.methods.liquids.forces).
 """
 
 from __future__ import annotations
@@ -25,9 +25,12 @@ from sdph.engine.state import LIQUID, WALL
 
 
 def pack(case, points, walls, lid, slab) -> np.ndarray:
-    """(N, d) where `points` (N, d) come to lie within a slab, among walls and a lid of more of the same, which stand still."""
+    """(N, d) where `points` (N, d) come to lie within a slab, among walls and a lid of more of the same, which stand
+    still."""
     kernel = smoothing.smoothing(case.liquid.kernel, case.dimensions, case.smoothing_length)
-    period = [length * bool(on) for length, on in zip(case.domain.size, case.liquid.periodic or (0.0,) * case.dimensions)]
+    period = [
+        length * bool(on) for length, on in zip(case.domain.size, case.liquid.periodic or (0.0,) * case.dimensions)
+    ]
     neighbours = LiquidNeighbours(2.0 * kernel.h, period, case.resolution.neighbour_skin)
     state, dt, near = _state(case, points, walls, lid), case.liquid.courant * kernel.h, 1.0 / tank.kernel(case).near
     for _ in range(math.ceil(np.ptp(points, axis=0).max() / dt)):

@@ -2,7 +2,8 @@
 
 riemann: the pair's pressure is that of the Riemann problem between two densities with one sound speed, which is the
 average of Hu & Adams 2006, J. Comput. Phys. 213, 844; the velocity in the continuity equation is weighted likewise
-(Rezavand, Zhang & Hu 2020, J. Comput. Phys. 402, 109092, Eq. 14-20). plain: Colagrossi & Landrini 2003, J. Comput. Phys. 191, 448.
+(Rezavand, Zhang & Hu 2020, J. Comput. Phys. 402, 109092, Eq. 14-20). plain: Colagrossi & Landrini 2003, J. Comput.
+Phys. 191, 448.
 """
 
 from __future__ import annotations
@@ -75,7 +76,8 @@ def harmonic(p, rho_i, rho_j):
 
 @njit(cache=True, error_model="numpy")
 def share(p, rho_i, rho_j):
-    """Of v_ij, what the continuity equation of i takes: 1, or 2 rho_j/(rho_i + rho_j): a light particle yields to a heavy one."""
+    """Of v_ij, what the continuity equation of i takes: 1, or 2 rho_j/(rho_i + rho_j): a light particle yields to a
+    heavy one."""
     if len(p) == 0:
         return 1.0
     return 2.0 * rho_j / (rho_i + rho_j) if p.weighted > 0.0 else 1.0

@@ -47,7 +47,8 @@ class LiquidScales:
 
     @cached_property
     def shaken(self) -> float:
-        """Largest acceleration [m/s2] by the frame: of its origin, of its rotation and its rate at the far end of the domain."""
+        """Largest acceleration [m/s2] by the frame: of its origin, of its rotation and its rate at the far end of the
+        domain."""
         if "frame" not in self.case.effects:
             return 0.0
         move, arm = frame.motion(self.case.parameters["frame"], self.end), math.hypot(*self.case.domain.size)
@@ -57,12 +58,15 @@ class LiquidScales:
     @cached_property
     def pull(self) -> tuple[float, float]:
         """Gravity [m/s2] towards walls or free surfaces, and along periodic axes."""
-        gravity = np.array(self.case.domain.gravity) if "gravity" in self.case.effects else np.zeros(self.case.dimensions)
+        gravity = (
+            np.array(self.case.domain.gravity) if "gravity" in self.case.effects else np.zeros(self.case.dimensions)
+        )
         return float(np.linalg.norm(gravity[~self.periodic])), float(np.linalg.norm(gravity[self.periodic]))
 
     @cached_property
     def speed(self) -> float:
-        """U [m/s]: thrown; fallen by its own height; shaken across its length; driven along a channel until friction holds it."""
+        """U [m/s]: thrown; fallen by its own height; shaken across its length; driven along a channel until friction
+        holds it."""
         across, along = self.pull
         fallen = math.sqrt(2.0 * across * float(self.extents[-1]))
         driven = min(along * self.end, along * self.length**2 / (8.0 * self.viscosity) if self.viscosity else math.inf)

@@ -16,7 +16,8 @@ class Liquid:
     exponent: float = quantity("", 7.0, least=1.0, most=100.0)
     background_pressure: float = quantity("Pa", 0.0, least=0.0)
     kernel: str = choice(*NAMES)
-    pressure_gradient: str = choice("plain", "corrected")  # for how neighbours lie (sdph.methods.liquids.correction): shallow liquids, bubbles
+    # for how neighbours lie (sdph.methods.liquids.correction): shallow liquids, bubbles
+    pressure_gradient: str = choice("plain", "corrected")
     courant: float = quantity("", 0.25, least=1e-6, most=0.6)  # of h/(c + v): liquids.md
     history_interval: float | None = quantity("s", None, above=0.0)  # None: a tenth of run.output_interval_s
     periodic: tuple = vector("", ())  # 1 along periodic axes of the domain, 0 along the others
@@ -29,10 +30,11 @@ class Liquid:
 
 @record
 class GasPhase:
-    """A second phase, lighter than the liquid: p = rho_0 c^2/gamma [(rho/rho_0)^gamma - 1] + background - cohesion rho^2.
+    """A second phase, lighter than the liquid: p = rho_0 c^2/gamma [(rho/rho_0)^gamma - 1] + background - cohesion
+    rho^2.
 
-    `interaction`: riemann (sdph.methods.liquids.phases) or plain, p_i + p_j. `density_by`: the continuity equation, or a sum
-    over neighbours, of both phases, where the two fill a closed space.
+    `interaction`: riemann (sdph.methods.liquids.phases) or plain, p_i + p_j. `density_by`: the continuity equation, or
+    a sum over neighbours, of both phases, where the two fill a closed space.
     """
 
     density: float = quantity("kg_m3", above=0.0)
@@ -52,8 +54,8 @@ class GasPhase:
 class Pool:
     """A phase at the start: box (lower, upper), disc or sphere (centre, radius), or the lowest part of the tank (fill).
 
-    Where pools overlap, the one that is named first has the place: of two pools of the tank, a second one of gas and fill = 1 is what
-    the first leaves. The level lies across gravity, or across the last axis where there is none.
+    Where pools overlap, the one that is named first has the place: of two pools of the tank, a second one of gas and
+    fill = 1 is what the first leaves. The level lies across gravity, or across the last axis where there is none.
     """
 
     phase: str = choice("liquid", "gas")
@@ -65,4 +67,5 @@ class Pool:
     fill: float | None = quantity("", None, above=0.0, most=1.0)
     velocity: tuple | None = vector("m_s", None)
     flow: str = choice("uniform", "rotation", "taylor_green", "quadrupole")
-    speed: float = quantity("m_s", 0.0)  # of taylor_green: its amplitude; of rotation: at half the box's side; of quadrupole: at the disc's rim
+    # of taylor_green: its amplitude; of rotation: at half the box's side; of quadrupole: at the disc's rim
+    speed: float = quantity("m_s", 0.0)

@@ -70,7 +70,9 @@ def mingle(kernel, s, rows, box, active, xsph_p, phases_p, volume, extra_u, extr
             dx, dy, dz = apart(s, box, i, j)
             du, dv, dw = faster(s, box, i, j)
             value = smoothing.value(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
-            near = xsph.share(xsph_p, s.mass[j], s.density[i], s.density[j], value) * phases.like(phases_p, s.kind[i], s.kind[j])
+            near = xsph.share(xsph_p, s.mass[j], s.density[i], s.density[j], value) * phases.like(
+                phases_p, s.kind[i], s.kind[j]
+            )
             near = near if volume[j] > 0.0 else 0.0
             u -= near * du
             v -= near * dv
@@ -94,7 +96,11 @@ def along_surface(kernel, s, rows, box, active, volume, least, shift):
         for k in range(rows.count[i]):
             j = rows.index[rows.start[i] + k]
             dx, dy, dz = apart(s, box, i, j)
-            share = max(volume[j], 0.0) * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz)) * (least[j] - least[i])
+            share = (
+                max(volume[j], 0.0)
+                * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
+                * (least[j] - least[i])
+            )
             nx += share * dx
             ny += share * dy
             nz += share * dz
@@ -107,11 +113,13 @@ def along_surface(kernel, s, rows, box, active, volume, least, shift):
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def displace(p, active, kind, shift, gradient_x, gradient_y, gradient_z, twist, compliance, dt, x, y, z, u, v, w, density):
+def displace(
+    p, active, kind, shift, gradient_x, gradient_y, gradient_z, twist, compliance, dt, x, y, z, u, v, w, density
+):
     """r -= dt D sum V_j (1 + R (W/W0)^4) grad W, no faster than the parameters allow.
 
-    Velocity and density are taken along their gradients, so that moving a particle does not move the field; compliance (K,) is
-    d rho/dp [s2/m2] by kind.
+    Velocity and density are taken along their gradients, so that moving a particle does not move the field; compliance
+    (K,) is d rho/dp [s2/m2] by kind.
     """
     for n in prange(len(active)):
         i = active[n]

@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 
-from sdph.effects.around import tank
+from sdph import effects
+from sdph.effects.around import frame, tank
 from sdph.engine import lattice
 from sdph.engine import state as particles
 from sdph.engine.state import GAS, LIQUID, WALL
@@ -46,7 +47,11 @@ def _walls(case) -> particles.State:
 
 def pipe_walls(case) -> int:
     """How many wall particles an outlet pipe has; they come last."""
-    return len(shapes.pipe_points(tank.shape_of(case), case.resolution.spacing, tank.layers(case))) if "tank" in case.effects else 0
+    return (
+        len(shapes.pipe_points(tank.shape_of(case), case.resolution.spacing, tank.layers(case)))
+        if "tank" in case.effects
+        else 0
+    )
 
 
 def _placed(case, points) -> particles.State:
@@ -72,7 +77,8 @@ def _pool(case, pools: list, number: int) -> particles.State:
     state.kind[:] = GAS if pool.phase == "gas" else LIQUID
     density = phase_of(case, pool).density
     state.density[:] = _density(case, pool, _pressure(case, pool, pools[-1], points))
-    state.mass[:] = (state.density if case.gas_phase else density) * volume  # two phases fill their space from the start
+    # two phases fill their space from the start
+    state.mass[:] = (state.density if case.gas_phase else density) * volume
     for array, value in zip((state.u, state.v, state.w), _velocity(pool, points, d).T):
         array[:] = value
     return state
@@ -105,7 +111,8 @@ def _density(case, pool, pressure) -> np.ndarray:
 
 
 def _pressure(case, pool, around, points) -> np.ndarray:
-    """At the start: hydrostatic below the pool's top under gravity, of a rotating patch or vortices what is known exactly."""
+    """At the start: hydrostatic below the pool's top under gravity, of a rotating patch or vortices what is known
+    exactly."""
     if pool.flow == "rotation":
         side = pool.upper[0] - pool.lower[0]
         omega = 2.0 * pool.speed / side
@@ -116,11 +123,15 @@ def _pressure(case, pool, around, points) -> np.ndarray:
 
 
 def _hydrostatic(case, pool, around, points) -> np.ndarray:
-    """rho g depth below the pool's top, where it has the pressure that the last pool, `around`, would have there; a disc or
-    sphere has in its middle what the last pool would have there."""
+    """rho g depth below the pool's top, where it has the pressure that the last pool, `around`, would have there; a
+    disc or sphere has in its middle what the last pool would have there."""
     along, outside = filling.pull(case), 0.0
     height = points @ along  # rises downwards [m2/s2]
-    top = _top(pool, along) if pool.shape == "tank" else height.min() - 0.5 * case.resolution.spacing * float(np.linalg.norm(along))
+    top = (
+        _top(pool, along)
+        if pool.shape == "tank"
+        else height.min() - 0.5 * case.resolution.spacing * float(np.linalg.norm(along))
+    )
     if pool is not around and along.any():
         top = float(np.array(pool.centre) @ along) if pool.shape in ("disc", "sphere") else top
         outside = phase_of(case, around).density * (top - _top(around, along))
@@ -132,7 +143,10 @@ def _top(pool, along) -> float:
     if pool.shape == "tank":
         return -pool.slab.high * float(np.linalg.norm(along))
     if pool.shape != "box":
-        raise CaseError(f"pools: the last one fills what the others leave; give it shape = \"box\" or \"tank\" instead of {pool.shape!r}")
+        raise CaseError(
+            'pools: the last one fills what the others leave; give it shape = "box" or "tank" instead of '
+            f"{pool.shape!r}"
+        )
     return float(np.minimum(np.array(pool.lower) * along, np.array(pool.upper) * along).sum())
 
 
@@ -156,6 +170,30 @@ def _velocity(pool, points, dimensions: int) -> np.ndarray:
         velocity += taylor_green(points, pool.upper[0] - pool.lower[0], pool.speed, 1.0)[0]
     if pool.flow == "quadrupole":
         if pool.centre is None or pool.radius is None:
-            raise CaseError("pools: flow = \"quadrupole\" needs centre_m and radius_m of the disc, in a box too")
+            raise CaseError('pools: flow = "quadrupole" needs centre_m and radius_m of the disc, in a box too')
         velocity += quadrupole(points - np.array(pool.centre), pool.radius, pool.speed)
     return velocity
+
+
+def parts_of(case):
+    """Kernel parameters by effect, particles, and motion of the frame (or None): all that a run begins with."""
+    parameters = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
+    move = frame.motion(case.parameters["frame"], case.run.end_time) if parameters["frame"] else None
+    return parameters, fill(case), move
+
+
+def fluids(case) -> np.ndarray:
+    """(5, K) rho_0, stiffness, exponent, background and cohesion by kind, as `rates.state_of` takes them."""
+    liquid, gas = case.liquid, case.gas_phase
+    table = np.ones((5, GAS + 1))
+    table[:, LIQUID] = (
+        liquid.density,
+        liquid.density * liquid.sound_speed**2 / liquid.exponent,
+        liquid.exponent,
+        liquid.background_pressure,
+        0.0,
+    )
+    if gas:
+        stiffness = gas.density * gas.speed_of_sound(liquid) ** 2 / gas.exponent
+        table[:, GAS] = gas.density, stiffness, gas.exponent, liquid.background_pressure, gas.cohesion
+    return table

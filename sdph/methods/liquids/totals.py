@@ -1,10 +1,10 @@
 """The ledger of a liquid: mass, momentum and energy, and who gave and took them, one row a window.
 
-Momentum comes from body forces, walls and shifting, and goes through the drain; the walls' part is that which the pairs of
-particles do not give back to each other (with what surface tension does not), so that it is nothing where there are no
-walls. Energy is kinetic and elastic (of compression); body forces and surface tension work on it, the drain takes its
-share, and what is missing then has been dissipated: by viscosity, artificial or not, by diffusion of density, by shifting.
-A scheme that makes energy shows in `energy_made_rel`.
+Momentum comes from body forces, walls and shifting, and goes through the drain; the walls' part is that which the pairs
+of particles do not give back to each other (with what surface tension does not), so that it is nothing where there are
+no walls. Energy is kinetic and elastic (of compression); body forces and surface tension work on it, the drain takes
+its share, and what is missing then has been dissipated: by viscosity, artificial or not, by diffusion of density, by
+shifting. A scheme that makes energy shows in `energy_made_rel`.
 Two-dimensional amounts are per metre of depth.
 """
 
@@ -72,7 +72,9 @@ class LiquidLedger:
         mass = self.last["mass_kg"] - self.first["mass_kg"] + self.sums["drained_kg"]
         return self.sums | {
             "mass_drift_rel": abs(mass) / self.first["mass_kg"],
-            "momentum_drift_rel": _ratio(float(np.linalg.norm(change - self.impulses.sum(axis=0))), self.scale["kg_m_s"] + inertia),
+            "momentum_drift_rel": _ratio(
+                float(np.linalg.norm(change - self.impulses.sum(axis=0))), self.scale["kg_m_s"] + inertia
+            ),
             "energy_made_rel": _ratio(self.made, energy),
             "fastest_over_sound": self.mach,
         }
@@ -120,7 +122,11 @@ def specific_energies(stepper, own) -> tuple[np.ndarray, np.ndarray]:
     rho_0, stiffness, gamma, background, cohesion = stepper.fluids[:, s.kind[own]]
     x = s.density[own] / rho_0
     power = np.where(gamma == 1.0, np.log(x), (x ** (gamma - 1.0) - 1.0) / np.where(gamma == 1.0, 1.0, gamma - 1.0))
-    elastic = stiffness / rho_0 * (power + 1.0 / x - 1.0) + background / rho_0 * (1.0 - 1.0 / x) - cohesion * rho_0 * (x - 1.0)
+    elastic = (
+        stiffness / rho_0 * (power + 1.0 / x - 1.0)
+        + background / rho_0 * (1.0 - 1.0 / x)
+        - cohesion * rho_0 * (x - 1.0)
+    )
     w2 = s.w[own] ** 2 if len(s.w) else 0.0
     return 0.5 * (s.u[own] ** 2 + s.v[own] ** 2 + w2), elastic
 
@@ -129,7 +135,9 @@ def mach(stepper) -> float:
     """Largest speed over the speed of sound of the particle's phase, c^2 = gamma stiffness/rho_0 (Tait)."""
     s, own = stepper.state, stepper.active
     rho_0, stiffness, gamma = stepper.fluids[:3, s.kind[own]]
-    return math.sqrt(float(((particles.velocities(s)[own] ** 2).sum(axis=1) * rho_0 / (gamma * stiffness)).max(initial=0.0)))
+    return math.sqrt(
+        float(((particles.velocities(s)[own] ** 2).sum(axis=1) * rho_0 / (gamma * stiffness)).max(initial=0.0))
+    )
 
 
 def _ratio(part: float, whole: float) -> float:

@@ -18,7 +18,8 @@ from sdph.methods.liquids.forces import body, held_off
 
 
 class WallP(NamedTuple):
-    """Velocity [m/s] and acceleration [m/s2] of the walls in the frame; the rest as in sdph.effects.around.tank.TankP."""
+    """Velocity [m/s] and acceleration [m/s2] of the walls in the frame; the rest as in
+    sdph.effects.around.tank.TankP."""
 
     u: float
     v: float
@@ -62,7 +63,25 @@ def extrapolate(kernel, s, rows, box, walls, wall_p, gravity_p, frame_p, volume,
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
-def wall_force(kernel, s, rows, box, walls, wall_p, laminar_p, damping_p, shifting_p, phases_p, gravity_p, frame_p, least, pressure, volume, excess, force):
+def wall_force(
+    kernel,
+    s,
+    rows,
+    box,
+    walls,
+    wall_p,
+    laminar_p,
+    damping_p,
+    shifting_p,
+    phases_p,
+    gravity_p,
+    frame_p,
+    least,
+    pressure,
+    volume,
+    excess,
+    force,
+):
     """force (W, 3) [N] on each wall particle: what `push` gives the liquid in front of it, with the sign turned."""
     for n in prange(len(walls)):
         i = walls[n]
@@ -78,10 +97,14 @@ def wall_force(kernel, s, rows, box, walls, wall_p, laminar_p, damping_p, shifti
             sign_j = shifting.sign(shifting_p, pressure[j], least[j] if len(least) else 1.0)
             rho_j = s.density[j]
             friction = laminar_viscosity.central(laminar_p, s.kind[j], s.kind[j], closing, r2)
-            ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY)) * phases.harmonic(phases_p, rho_j, rho_j)
+            ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY)) * phases.harmonic(
+                phases_p, rho_j, rho_j
+            )
             bx, by, bz = body(gravity_p, frame_p, s, j, False)
             p_i = phases.behind(phases_p, -1.0, pressure[i], pressure[j] + rho_j * (bx * dx + by * dy + bz * dz))
-            along = -V * (p_i + sign_j * pressure[j] + wall_p.stick * (ringing + friction) + held_off(wall_p, -1.0, rho_j, r))
+            along = -V * (
+                p_i + sign_j * pressure[j] + wall_p.stick * (ringing + friction) + held_off(wall_p, -1.0, rho_j, r)
+            )
             across = V * wall_p.stick * laminar_viscosity.pair(laminar_p)
             fx += along * dx + across * du
             fy += along * dy + across * dv

@@ -9,7 +9,8 @@ from sdph.methods.liquids.totals import IMPULSES
 
 
 class Tally:
-    """What a liquid got from where in one window; `run` has its stepper, its outlet or None, and what the drain is to leave (fill)."""
+    """What a liquid got from where in one window; `run` has its stepper, its outlet or None, and what the drain is to
+    leave (fill)."""
 
     def __init__(self, run):
         self.run, self.stepper = run, run.stepper

@@ -19,7 +19,8 @@ SURFACE = 0.3  # alpha_p, mean over the width, at the top of the bed: half of a 
 
 
 def metrics(centres, volumes, alpha_p, gas_temperature, pressure, up=UP) -> dict[str, float]:
-    """Keys of one instant; centres (C, 3) [m], volumes (C,) [m3] and fields (C,) of a plane mesh 1 m deep, of any cells.
+    """Keys of one instant; centres (C, 3) [m], volumes (C,) [m3] and fields (C,) of a plane mesh 1 m deep, of any
+    cells.
 
     Heights are over the floor, along `up` (3,); neck_width_m is the least width of the bubble below its widest row;
     attached is 1 while it touches the floor.
@@ -42,7 +43,8 @@ def metrics(centres, volumes, alpha_p, gas_temperature, pressure, up=UP) -> dict
 
 
 def through_depth(depth: float, centres, volumes, *fields, up=UP) -> tuple:
-    """Centres, volumes and fields of a plane mesh 1 m deep: those of a slab, `depth` [m] along z, averaged through it."""
+    """Centres, volumes and fields of a plane mesh 1 m deep: those of a slab, `depth` [m] along z, averaged through
+    it."""
     place = layers(centres[:, 1]) * len(centres) + layers(centres[:, 0])
     _, first, column, deep = np.unique(place, return_index=True, return_inverse=True, return_counts=True)
     if deep.min() != layers(centres[:, 2]).max() + 1 or abs(up[2]) > SAME:

@@ -19,8 +19,8 @@ TOLD = (  # of each jet
 
 
 def metrics(simulation) -> dict[str, float]:
-    """front_m along the nozzle's direction; sag_m of the head below its axis along gravity; temperatures [K] of grains and
-    core; vapour_mass_fraction_max; gas_temperature_K the coldest and hottest.
+    """front_m along the nozzle's direction; sag_m of the head below its axis along gravity; temperatures [K] of grains
+    and core; vapour_mass_fraction_max; gas_temperature_K the coldest and hottest.
 
     Of several nozzles, what is told of one jet has the nozzle's name in front: left_front_m.
     """
@@ -64,7 +64,10 @@ def _sag(case, across) -> float:
 
 
 def _gas(fields) -> dict[str, float]:
-    row = {"gas_temperature_min_K": float(fields["temperature"].min()), "gas_temperature_max_K": float(fields["temperature"].max())}
+    row = {
+        "gas_temperature_min_K": float(fields["temperature"].min()),
+        "gas_temperature_max_K": float(fields["temperature"].max()),
+    }
     if "vapour_mass_fraction" in fields:
         row["vapour_mass_fraction_max"] = float(fields["vapour_mass_fraction"].max())
     return row

@@ -15,21 +15,29 @@ def measured(scene: str) -> tuple[Path, list[dict]]:
     for file in (Path("runs/cost") / scene / "cost.csv", paths.data("validation") / scene / "cost.csv"):
         if file.is_file():
             return file, measured_rows.errors(measured_rows.read(file))
-    raise CaseError(f"nothing is measured for {scene}, so no accuracy can be promised; measure it with: sdph cost {scene}")
+    raise CaseError(
+        f"nothing is measured for {scene}, so no accuracy can be promised; measure it with: sdph cost {scene}"
+    )
 
 
 def settings_for(scene: str, accuracy: float, report) -> tuple[str, ...]:
-    """Overrides of the cheapest measured settings that hold `accuracy`; says which, and on what evidence. What is simulated,
-    and until when, stays as the case has it."""
+    """Overrides of the cheapest measured settings that hold `accuracy`; says which, and on what evidence. What is
+    simulated, and until when, stays as the case has it."""
     file, rows = measured(scene)
     best = measured_rows.cheapest(rows, accuracy)
     if best is None:
         least = min(row["error"] for row in measured_rows.whole(rows))
-        raise CaseError(f"no measured setting of {scene} errs by {accuracy:g} or less (the best: {least:.2g}, {file}); allow a larger error, or refine its ladder")
+        raise CaseError(
+            f"no measured setting of {scene} errs by {accuracy:g} or less (the best: {least:.2g}, {file}); allow a "
+            "larger error, or refine its ladder"
+        )
     own = declared(scene)
     chosen = (*own.settings, *overrides({key: best[key] for key in own.keys}))
     over = f", measured with {' '.join(own.excerpt)}" if own.excerpt else ""
-    report(f"--accuracy {accuracy:g}: {' '.join(chosen)}; error {best['error']:.2g} against {own.reference}{over}, {best['wall_s']:.3g} s ({file})")
+    report(
+        f"--accuracy {accuracy:g}: {' '.join(chosen)}; error {best['error']:.2g} against {own.reference}{over}, "
+        f"{best['wall_s']:.3g} s ({file})"
+    )
     return chosen
 
 

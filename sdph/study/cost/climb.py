@@ -39,14 +39,20 @@ def climb(scene: str, file: Path, budget: float, repeats: int, report) -> list[d
         if time.perf_counter() - started > budget:
             report(f"the budget is spent before {label}; go on with the same command")
             break
-        rows.append(_keep(file, {"label": label, "solver": measured_rows.OWN, **settings, **measure(scene, own, settings, repeats)}))
+        rows.append(
+            _keep(
+                file,
+                {"label": label, "solver": measured_rows.OWN, **settings, **measure(scene, own, settings, repeats)},
+            )
+        )
         report(f"{label}: {rows[-1]['wall_s']:.3g} s")
     return rows
 
 
 def measure(scene: str, own: Ladder, settings: dict, repeats: int) -> dict:
     """One rung: the median wall time of its repeats, its metrics as JSON, the machine and its load. Kernels are warm.
-    A run that is stopped, as one without an effect that it needs may be, has no metrics; a liquid has no gas to tell of."""
+    A run that is stopped, as one without an effect that it needs may be, has no metrics; a liquid has no gas to tell
+    of."""
     with tempfile.TemporaryDirectory() as folder:
         try:
             _run(case_of(scene, own, settings, *SHORT), scene, Path(folder) / "warm")
@@ -55,7 +61,11 @@ def measure(scene: str, own: Ladder, settings: dict, repeats: int) -> dict:
         except (GasError, Unstable):
             made, found = [dict.fromkeys(KEPT, math.nan)], {}
     wall = statistics.median(summary["wall_s"] for summary in made)
-    return {name: made[0].get(name, ALL) for name in KEPT} | {"wall_s": wall, "metrics": json.dumps(found)} | _machine(repeats)
+    return (
+        {name: made[0].get(name, ALL) for name in KEPT}
+        | {"wall_s": wall, "metrics": json.dumps(found)}
+        | _machine(repeats)
+    )
 
 
 def _run(case, scene: str, folder: Path) -> dict:
@@ -63,11 +73,17 @@ def _run(case, scene: str, folder: Path) -> dict:
 
 
 def _machine(repeats: int) -> dict:
-    return {"repeats": repeats, "load": round(os.getloadavg()[0], 2), "cores": os.cpu_count(), "machine": platform.machine()}
+    return {
+        "repeats": repeats,
+        "load": round(os.getloadavg()[0], 2),
+        "cores": os.cpu_count(),
+        "machine": platform.machine(),
+    }
 
 
 def metrics(scene: str, own: Ladder, folder: Path, without: str) -> dict:
-    """Name -> (value, reference or None, scale or None) of a run; what an effect that is left out would have made is 0."""
+    """Name -> (value, reference or None, scale or None) of a run; what an effect that is left out would have made is
+    0."""
     run = compare.open_run(folder)
     if not own.metrics:
         return compare.scene_module(scene).metrics(run)
@@ -76,7 +92,8 @@ def metrics(scene: str, own: Ladder, folder: Path, without: str) -> dict:
 
 
 def _others(scene: str, own: Ladder, file: Path, rows: list[dict], report) -> list[dict]:
-    """Rows of other solvers on the same scene that `file` lacks; none where the scene has none, or they are not installed."""
+    """Rows of other solvers on the same scene that `file` lacks; none where the scene has none, or they are not
+    installed."""
     module, found = compare.scene_module(scene), []
     if not hasattr(module, "others"):
         return found
@@ -86,10 +103,16 @@ def _others(scene: str, own: Ladder, file: Path, rows: list[dict], report) -> li
     case, blank = case_of(scene, own, own.middle), dict.fromkeys([*own.keys, "without", *KEPT], ALL)
     with tempfile.TemporaryDirectory() as folder:
         try:
-            for label, solver, wall, values in module.others(case, Path(folder)):  # those that were run before come from the cache
+            # those that were run before come from the cache
+            for label, solver, wall, values in module.others(case, Path(folder)):
                 if any((row["solver"], row["label"]) == (solver, label) for row in rows):
                     continue
-                row = {"label": label, "solver": solver} | blank | {"wall_s": wall, "metrics": json.dumps(values)} | _machine(1)
+                row = (
+                    {"label": label, "solver": solver}
+                    | blank
+                    | {"wall_s": wall, "metrics": json.dumps(values)}
+                    | _machine(1)
+                )
                 found.append(_keep(file, row))
                 report(f"{solver}, {label}: {wall:.3g} s")
         except GasError as error:

@@ -4,7 +4,8 @@
     settings = ["..."]  `key=value` that go with every rung, and with `sdph run --accuracy`
     excerpt = ["..."]   `key=value` of the ladder alone: how much of the scene a rung computes
     drop = ["..."]      effects that are switched off, one at a time
-    [knobs]             key of the case -> values, coarse to fine, all of one length, in one ratio where the limit is asked for
+    [knobs]             key of the case -> values, coarse to fine, all of one length, in one ratio where the limit is
+                        asked for
     [alone]             key of the case -> values that are tried by themselves, all else in the middle
     metrics = ["..."]   keys of summary.json, against the limit of the ladder by Richardson, relative to it
 
@@ -55,14 +56,20 @@ class Ladder:
 
     def level(self, n: int) -> dict:
         """Settings of all knobs at level n, all else as usual."""
-        return {key: values[n] for key, values in self.knobs.items()} | {key: self.usual[key] for key in self.alone} | {"without": ALL}
+        return (
+            {key: values[n] for key, values in self.knobs.items()}
+            | {key: self.usual[key] for key in self.alone}
+            | {"without": ALL}
+        )
 
 
 def declared(scene: str) -> Ladder:
     """The ladder that a scene declares."""
     file = paths.data("validation") / scene / "cost.toml"
     if scene not in scenes.names() or not file.is_file():
-        raise CaseError(f"{scene} declares no ladder (validation/{scene}/cost.toml); scenes that do: {', '.join(with_ladder())}")
+        raise CaseError(
+            f"{scene} declares no ladder (validation/{scene}/cost.toml); scenes that do: {', '.join(with_ladder())}"
+        )
     table = tomllib.loads(file.read_text(encoding="utf-8"))
     resolved = flat(cases.to_table(cases.load(scenes.find(scene)[1], tuple(table.get("settings", ())))))
     return Ladder(**table, usual={key: resolved[key] for key in table.get("alone", ())})
@@ -74,7 +81,8 @@ def with_ladder() -> list[str]:
 
 
 def rungs(own: Ladder) -> list[tuple[str, dict]]:
-    """(label, settings): all knobs together from coarse to fine, then one at a time from the middle, then effects off."""
+    """(label, settings): all knobs together from coarse to fine, then one at a time from the middle, then effects
+    off."""
     found = [(f"all {n + 1}/{own.count}", own.level(n)) for n in range(own.count)]
     for key, values in (own.knobs | own.alone).items():
         found += [(key, own.middle | {key: value}) for value in values if value != own.middle[key]]
@@ -88,7 +96,9 @@ def overrides(settings: dict) -> tuple[str, ...]:
 
 def case_of(scene: str, own: Ladder, settings: dict, *more: str) -> cases.Case:
     """The case of a rung."""
-    table = cases.to_table(cases.load(scenes.find(scene)[1], (*own.settings, *own.excerpt, *overrides(settings), *more)))
+    table = cases.to_table(
+        cases.load(scenes.find(scene)[1], (*own.settings, *own.excerpt, *overrides(settings), *more))
+    )
     if settings["without"] != ALL:
         table["effects"] = [name for name in table["effects"] if name != settings["without"]]
         table.pop(settings["without"], None)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 from pathlib import Path
@@ -20,7 +21,10 @@ def read(file: Path) -> list[dict]:
         return []
     table = output.read_table(file, mend="remove it and measure again")
     if lacks := {"solver", "without", "metrics", "wall_s"} - table.keys():
-        raise CaseError(f"{file} lacks the columns {', '.join(sorted(lacks))}: another version of sdph wrote it; remove it and measure again")
+        raise CaseError(
+            f"{file} lacks the columns {', '.join(sorted(lacks))}: another version of sdph wrote it; remove it and "
+            "measure again"
+        )
     rows = [dict(zip(table, values)) for values in zip(*table.values())]
     for number, row in enumerate(rows, 1):
         if not _measured(row):
@@ -43,9 +47,12 @@ def has(row: dict, settings: dict) -> bool:
 
 
 def errors(rows: list[dict]) -> list[dict]:
-    """The rows with `error`: the largest of |value - reference|/scale. Where a metric has no reference it is the limit of
-    the same solver's own ladder, and no error is smaller than the doubt about that limit."""
-    levels = {solver: [found(row) for row in rows if row["solver"] == solver and _level(row)] for solver in {row["solver"] for row in rows}}
+    """The rows with `error`: the largest of |value - reference|/scale. Where a metric has no reference it is the limit
+    of the same solver's own ladder, and no error is smaller than the doubt about that limit."""
+    levels = {
+        solver: [found(row) for row in rows if row["solver"] == solver and _level(row)]
+        for solver in {row["solver"] for row in rows}
+    }
     limits = {solver: richardson(values) for solver, values in levels.items()}
     return [row | {"error": max(_errors(found(row), limits[row["solver"]]).values(), default=math.inf)} for row in rows]
 
@@ -73,8 +80,9 @@ def _share(change: float, scale: float) -> float:
 
 
 def richardson(levels: list[dict]) -> dict[str, tuple[float, float]]:
-    """Limit of each metric as all knobs are refined together in one ratio, and the doubt about it: by the observed order, in
-    doubt by what that adds to the finest; where there is no order the finest itself, in doubt by its last change."""
+    """Limit of each metric as all knobs are refined together in one ratio, and the doubt about it: by the observed
+    order, in doubt by what that adds to the finest; where there is no order the finest itself, in doubt by its last
+    change."""
     return {name: _limit([level[name][0] for level in levels[-3:]]) for name in (levels[-1] if levels else ())}
 
 
@@ -94,15 +102,15 @@ def orders(own: Ladder, rows: list[dict]) -> dict[str, float]:
     for key, values in own.knobs.items():
         line = [next((r for r in rows if has(r, own.middle | {key: value})), None) for value in values[-3:]]
         if len(line) == 3 and all(line) and all(isinstance(v, (int, float)) for v in values):
-            changes = [distance(a, b) for a, b in zip(line, line[1:])]
+            changes = [distance(a, b) for a, b in itertools.pairwise(line)]
             if min(changes) > FLOOR:
                 orders[key] = order(*values[-3:], *changes)
     return {key: found for key, found in orders.items() if not math.isnan(found)}
 
 
 def order(coarse: float, middle: float, fine: float, first: float, second: float) -> float:
-    """p of changes `first` and `second` between three steps, (coarse^p - middle^p)/(middle^p - fine^p) = first/second; by
-    bisection in -10..10, nan where no power fits."""
+    """p of changes `first` and `second` between three steps, (coarse^p - middle^p)/(middle^p - fine^p) = first/second;
+    by bisection in -10..10, nan where no power fits."""
 
     def excess(p: float) -> float:
         return (coarse**p - middle**p) / (middle**p - fine**p) - first / second
@@ -121,7 +129,9 @@ def distance(a: dict, b: dict) -> float:
     shares nothing with one that was not."""
     one, other = found(a), found(b)
     pairs = ((one[name], other[name][0]) for name in one.keys() & other.keys())
-    return max((_share(abs(value - changed), scale or value or changed) for (value, _, scale), changed in pairs), default=1.0)
+    return max(
+        (_share(abs(value - changed), scale or value or changed) for (value, _, scale), changed in pairs), default=1.0
+    )
 
 
 def whole(rows: list[dict]) -> list[dict]:

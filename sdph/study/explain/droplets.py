@@ -15,21 +15,36 @@ def numbers(s) -> list[tuple]:
     if grains.surface_tension:
         pull = grains.surface_tension / grains.diameter
         weight = abs(grains.density - gas.density) * s.gravity * grains.diameter
-        rows.append(("Weber", gas.density * s.slip**2 / pull, 12.0, "droplets break up: no effect of sdph does that", "Pilch & Erdman 1987"))
+        rows.append(
+            (
+                "Weber",
+                gas.density * s.slip**2 / pull,
+                12.0,
+                "droplets break up: no effect of sdph does that",
+                "Pilch & Erdman 1987",
+            )
+        )
         rows.append(("Bond", weight / pull, 0.4, "droplets are no spheres", "Clift, Grace & Weber 1978, fig. 2.5"))
     if "evaporation" in s.case.parameters and s.case.vapour and s.patches:
         mass, heat_number, spent = spalding(s)
         rows.append(("Spalding B of mass", mass, 0.1, "the vapour's own outflow slows evaporation", "Spalding 1953"))
-        rows.append(("Spalding B of heat", heat_number, 0.1, "vapour carries off some of the heat on its way", "Spalding 1953"))
+        rows.append(
+            ("Spalding B of heat", heat_number, 0.1, "vapour carries off some of the heat on its way", "Spalding 1953")
+        )
         rows.append(("run / evaporation time", spent, 1.0, "droplets are gone", "d2 law, Spalding 1953"))
     return rows
 
 
 def spalding(s) -> tuple[float, float, float]:
-    """B of mass (Y_s - Y)/(1 - Y_s) in gas without vapour, B of heat c_pv (T - T_s)/L, and the run over the evaporation time."""
+    """B of mass (Y_s - Y)/(1 - Y_s) in gas without vapour, B of heat c_pv (T - T_s)/L, and the run over the evaporation
+    time."""
     surface, own = evaporation.at_surface(s), s.case.parameters["evaporation"]
     coldest = min(patch.temperature for patch in s.patches)
     vapour_mole = surface / s.case.vapour.molar_mass * GAS_CONSTANT * coldest / s.gas.operating_pressure
-    fraction = law.vapour_mass_fraction(min(vapour_mole, 1.0 - evaporation.BOILING_MARGIN), s.case.vapour.molar_mass, s.gas.molar_mass)
-    heat_number = s.case.vapour.heat_capacity * (s.gas.temperature - coldest) / own.latent_heat if own.latent_heat else math.inf
+    fraction = law.vapour_mass_fraction(
+        min(vapour_mole, 1.0 - evaporation.BOILING_MARGIN), s.case.vapour.molar_mass, s.gas.molar_mass
+    )
+    heat_number = (
+        s.case.vapour.heat_capacity * (s.gas.temperature - coldest) / own.latent_heat if own.latent_heat else math.inf
+    )
     return law.spalding_number(fraction, 0.0), heat_number, evaporation.shrinking(s, surface)[1]

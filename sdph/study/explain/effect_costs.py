@@ -1,4 +1,5 @@
-"""What each effect costs on this machine, in microseconds per particle and sub-step: a case with it, less the same without.
+"""What each effect costs on this machine, in microseconds per particle and sub-step: a case with it, less the same
+without.
 
 Only grains that move: particle side and exchange, no gas solver. Times are the least of several, taken in turns.
 """
@@ -33,9 +34,16 @@ class Still:
         volume = float(np.prod([length / n for n, length in zip(counts, case.domain.size)]))
         self.mesh = Mesh(centres, np.full(len(centres), volume), case.dimensions)
         zeros = np.zeros((len(centres), 3))
-        fields = {"velocity": zeros + 0.1, "pressure": zeros[:, 0], "pressure_gradient": zeros, "vapour_mass_fraction": zeros[:, 0]}
+        fields = {
+            "velocity": zeros + 0.1,
+            "pressure": zeros[:, 0],
+            "pressure_gradient": zeros,
+            "vapour_mass_fraction": zeros[:, 0],
+        }
         full = {"temperature": case.gas.temperature + 10.0, "density": case.gas.density}
-        self.state = SimpleNamespace(fields=fields | {name: np.full(len(centres), value) for name, value in full.items()}, budget=None)
+        self.state = SimpleNamespace(
+            fields=fields | {name: np.full(len(centres), value) for name, value in full.items()}, budget=None
+        )
 
     def start(self, alpha_g, sources):
         return self.state
@@ -71,7 +79,10 @@ def table(report=print) -> list[dict]:
         on, off = prepared(whole), prepared(without(whole, name))
         pairs = [(step(on, dt), step(off, dt)) for _ in range(ROUNDS + 1)][1:]
         best_on, best_off = (1e6 * min(column) / len(on.state.x) for column in zip(*pairs))
-        rows.append({"effect": name, "with all [us]": best_on, "without it [us]": best_off, "costs [us]": best_on - best_off} | _leaves(on, off))
+        rows.append(
+            {"effect": name, "with all [us]": best_on, "without it [us]": best_off, "costs [us]": best_on - best_off}
+            | _leaves(on, off)
+        )
         report(f"{name}: {best_on - best_off:.3f} us")
     keep(min(row["with all [us]"] for row in rows))
     return rows

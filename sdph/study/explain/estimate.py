@@ -1,4 +1,5 @@
-"""How a case is resolved, what limits its steps, and what it will cost: from the case alone, good to about a factor of two."""
+"""How a case is resolved, what limits its steps, and what it will cost: from the case alone, good to about a factor of
+two."""
 
 from __future__ import annotations
 
@@ -20,23 +21,29 @@ from sdph.methods.grains import start
 from sdph.methods.grains.method import ACOUSTIC
 from sdph.methods.grains.method import limits as limits_of_step
 
-# Windows of a relaxation that is resolved to the tolerance e: integral of dt/sqrt(2 e) over rate = 2/sqrt(2 e), and half as
-# many again for the safety of the controller and its way back (measured: 504 for e = 2e-5, where 2/sqrt(2 e) = 316).
+# Windows of a relaxation that is resolved to the tolerance e: integral of dt/sqrt(2 e) over rate = 2/sqrt(2 e), and
+# half as many again for the safety of the controller and its way back (measured: 504 for e = 2e-5, where 2/sqrt(2 e) =
+# 316).
 RELAXATION = 1.5
 ROW = 8  # bytes of a number and of an entry of a neighbour row
 SCRATCH = 30  # arrays of the length of the particles that a step makes
 GAS_ARRAYS = 120  # arrays of the length of the cells that the gas solver and the exchange hold
 BASE = 180e6  # bytes of the program itself, kernels included
 CELLS_WHY = (
-    "what grains do to the gas is spread over 2 h, so that smaller cells do not sharpen the answer, but shrink the windows and cost "
+    "what grains do to the gas is spread over 2 h, so that smaller cells do not sharpen the answer, but shrink the "
+    "windows and cost "
     "(h/cell)^(dimensions + 1); in larger ones a particle that crosses a face makes alpha_p jump"
 )
-GRAINS_WHY = "drag and heat laws are means over many grains; in smaller cells a grain meets gas that it has slowed or cooled itself, and both come out too small"
+GRAINS_WHY = (
+    "drag and heat laws are means over many grains; in smaller cells a grain meets gas that it has slowed or "
+    "cooled itself, and both come out too small"
+)
 MEASURED = environment.CACHE / "speed.json"  # of this machine, by `sdph explain --measure`
 
 
 class Speed(NamedTuple):
-    """Time of one particle and sub-step, moving or at rest or of a liquid, and of one cell and window of the embedded gas [us]."""
+    """Time of one particle and sub-step, moving or at rest or of a liquid, and of one cell and window of the embedded
+    gas [us]."""
 
     moving: float
     resting: float
@@ -55,7 +62,8 @@ def speed() -> Speed:
 
 
 def ratios(case) -> list[dict]:
-    """Cells, kernels, spacings and grains against each other, with the range that is safe and why; none for a liquid."""
+    """Cells, kernels, spacings and grains against each other, with the range that is safe and why; none for a
+    liquid."""
     if case.grains is None:
         return []
     h, spacing, cell, d = case.smoothing_length, case.resolution.spacing, case.resolution.cell, case.grains.diameter
@@ -68,7 +76,10 @@ def ratios(case) -> list[dict]:
         ("grains' width / h", extent / h, 6.0, math.inf, "less than three kernels across is all rim"),
         ("domain / cell", min(case.domain.size) / cell, 10.0, math.inf, "coarser gas shows no flow"),
     ]
-    return [{"ratio": n, "value": v, "least": low, "most": high, "safe": "yes" if low <= v <= high else "NO", "why": w} for n, v, low, high, w in rows]
+    return [
+        {"ratio": n, "value": v, "least": low, "most": high, "safe": "yes" if low <= v <= high else "NO", "why": w}
+        for n, v, low, high, w in rows
+    ]
 
 
 def _extent(case) -> float:
@@ -77,7 +88,11 @@ def _extent(case) -> float:
 
 def warnings(case) -> list[str]:
     """Cells far smaller than the particles, and the other ratios that are not safe; what it does to the answer."""
-    return [f"{r['ratio']} = {r['value']:.3g}, safe from {r['least']:g} to {r['most']:g}: {r['why']}" for r in ratios(case) if r["safe"] == "NO"]
+    return [
+        f"{r['ratio']} = {r['value']:.3g}, safe from {r['least']:g} to {r['most']:g}: {r['why']}"
+        for r in ratios(case)
+        if r["safe"] == "NO"
+    ]
 
 
 def limits(case, scales) -> list[dict]:
@@ -85,21 +100,35 @@ def limits(case, scales) -> list[dict]:
     rows = [*_windows(case, scales), *_sub_steps(case, scales)]
     least = {kind: min(value for k, _, value, _ in rows if k == kind) for kind in ("window", "sub-step")}
     return [
-        {"of": kind, "cause": cause, "largest [s]": value, "rules": "<-" if value == least[kind] else "", "how": how} for kind, cause, value, how in rows
+        {"of": kind, "cause": cause, "largest [s]": value, "rules": "<-" if value == least[kind] else "", "how": how}
+        for kind, cause, value, how in rows
     ]
 
 
 def _windows(case, s) -> list[tuple]:
     own = case.coupling
-    rows = [("window", "largest", own.window_largest, "coupling.window_largest_s"), ("window", "output", case.run.output_interval, "run.output_interval_s")]
+    rows = [
+        ("window", "largest", own.window_largest, "coupling.window_largest_s"),
+        ("window", "output", case.run.output_interval, "run.output_interval_s"),
+    ]
     start = opening(case)
-    rows += [("window", cause, value, "coupling.courant cell/U of what enters or is thrown: the first window obeys it") for cause, value in start.items()]
+    rows += [
+        ("window", cause, value, "coupling.courant cell/U of what enters or is thrown: the first window obeys it")
+        for cause, value in start.items()
+    ]
     later = own.courant * smallest_cell(case) / s.slip if s.slip else math.inf
     if later < min(start.values(), default=math.inf):
         rows.append(("window", "motion", later, "coupling.courant cell/U of what falls or rushes later: an estimate"))
     if "heat" in case.effects and s.span and not own.one_way:
         rate = 1.0 / s.heat_time + 1.0 / s.gas_heat_time
-        rows.append(("window", "heat exchange", math.sqrt(2.0 * own.window_tolerance) / rate, "sqrt(2 tolerance)/rate: the first one, it grows with the rest to exchange"))
+        rows.append(
+            (
+                "window",
+                "heat exchange",
+                math.sqrt(2.0 * own.window_tolerance) / rate,
+                "sqrt(2 tolerance)/rate: the first one, it grows with the rest to exchange",
+            )
+        )
     return rows
 
 
@@ -115,8 +144,16 @@ def _sub_steps(case, s) -> list[tuple]:
 
 def _sound(case, s) -> float:
     """c [m/s] of agitation and friction where grains lie closest at the start."""
-    agitated = granular_pressure.sound_squared(granular_pressure.kernel(case), s.alpha_p, s.theta) if "granular_pressure" in case.effects else 0.0
-    lasting = friction.sound_squared(p := friction.kernel(case), friction.pressure(p, s.alpha_p)[1]) if "friction" in case.effects else 0.0
+    agitated = (
+        granular_pressure.sound_squared(granular_pressure.kernel(case), s.alpha_p, s.theta)
+        if "granular_pressure" in case.effects
+        else 0.0
+    )
+    lasting = (
+        friction.sound_squared(p := friction.kernel(case), friction.pressure(p, s.alpha_p)[1])
+        if "friction" in case.effects
+        else 0.0
+    )
     return math.sqrt(agitated + lasting)
 
 
@@ -134,13 +171,17 @@ def expected(case, s) -> list[dict]:
     pace = speed()
     particle = 1e-6 * count * steps * (pace.moving if effects.moving(case) else pace.resting)
     gas = 1e-6 * cells * windows * pace.cell
+    how = f"one core, embedded gas, warm; particles {particle:.2g} s, gas {gas:.2g} s; measured on {pace.measured}"
     return [
-        {"what": "particles", "value": end, "unit": "", "how": f"{start} at the start" if end > start else "all the time"},
+        {"what": "particles", "value": end, "unit": "",
+        "how": f"{start} at the start" if end > start else "all the time"},
         {"what": "gas cells", "value": cells, "unit": "", "how": ""},
         {"what": "windows", "value": windows, "unit": "", "how": "from the limits above"},
         {"what": "sub-steps", "value": steps, "unit": "", "how": "the same"},
-        {"what": "memory", "value": memory(case, end, cells) / 1e6, "unit": "MB", "how": "state, neighbours, gas fields, program"},
-        {"what": "wall time", "value": particle + gas, "unit": "s", "how": f"one core, embedded gas, warm; particles {particle:.2g} s, gas {gas:.2g} s; measured on {pace.measured}"},
+        {"what": "memory", "value": memory(case, end, cells) / 1e6, "unit": "MB",
+        "how": "state, neighbours, gas fields, program"},
+        {"what": "wall time", "value": particle + gas, "unit": "s",
+        "how": how},
     ]  # fmt: skip
 
 
@@ -167,7 +208,9 @@ def steps_of(case, s) -> tuple[int, int]:
     apart = {cause: value for _, cause, value, _ in rows if cause != "heat exchange"}
     windows = case.run.end_time / min(apart.values())
     if len(apart) < len(rows):
-        windows += min(case.run.end_time / rows[-1][2], RELAXATION * 2.0 / math.sqrt(2.0 * case.coupling.window_tolerance))
+        windows += min(
+            case.run.end_time / rows[-1][2], RELAXATION * 2.0 / math.sqrt(2.0 * case.coupling.window_tolerance)
+        )
     least = min(value for *_, value, _ in _sub_steps(case, s))
     return math.ceil(windows), math.ceil(max(windows, case.run.end_time / least))
 

@@ -25,21 +25,55 @@ def numbers(s) -> list[tuple]:
     tension = s.case.parameters.get("surface_tension")
     sigma = tension.coefficient if tension and hasattr(tension, "coefficient") else WATER
     weber, bond = s.capillary(sigma)
-    where = "by its definition" if sigma is not WATER else "by its definition; surface tension of water, for want of one"
+    where = (
+        "by its definition" if sigma is not WATER else "by its definition; surface tension of water, for want of one"
+    )
     cell = s.speed * s.case.smoothing_length / s.viscosity if s.viscosity else math.inf
     rows = [
-        ("Reynolds, U L/nu", s.speed * s.length / s.viscosity if s.viscosity else math.inf, 2000.0, "the flow may become turbulent", "Reynolds 1883"),
-        ("Reynolds of the particles, U h/nu", cell, 1.0, "viscosity does not damp the motion of single particles", "Monaghan 1992"),
+        (
+            "Reynolds, U L/nu",
+            s.speed * s.length / s.viscosity if s.viscosity else math.inf,
+            2000.0,
+            "the flow may become turbulent",
+            "Reynolds 1883",
+        ),
+        (
+            "Reynolds of the particles, U h/nu",
+            cell,
+            1.0,
+            "viscosity does not damp the motion of single particles",
+            "Monaghan 1992",
+        ),
         ("Froude, U/sqrt(g L)", froude, 1.0, "inertia beats gravity", "by its definition"),
-        ("Mach, U/c", s.speed / own.sound_speed, SLOW, "the liquid is compressed by more than 4 %; usual is 0.1", "Monaghan 1994"),
+        (
+            "Mach, U/c",
+            s.speed / own.sound_speed,
+            SLOW,
+            "the liquid is compressed by more than 4 %; usual is 0.1",
+            "Monaghan 1994",
+        ),
         ("Weber, rho U2 L/sigma", weber, 1.0, "inertia beats surface tension", where),
         ("Bond, rho g L2/sigma", bond, 1.0, "gravity beats surface tension", where),
         ("run / (L/U)", s.turns, 1.0, "the flow has time to turn over", "by its definition"),
         ("boundary layer, sqrt(nu t)/L", s.layer, 0.01, "walls slow the liquid", "Schlichting 1979, ch. 5"),
-        ("crossings of sound, c t/L", own.sound_speed * s.end / s.length, 1.0, "noise has time to go to and fro", "Marrone et al. 2011"),
+        (
+            "crossings of sound, c t/L",
+            own.sound_speed * s.end / s.length,
+            1.0,
+            "noise has time to go to and fro",
+            "Marrone et al. 2011",
+        ),
     ]
     if s.case.gas_phase:
-        rows.append(("density ratio", own.density / s.case.gas_phase.density, 1.0, "the gas yields to the liquid", "by its definition"))
+        rows.append(
+            (
+                "density ratio",
+                own.density / s.case.gas_phase.density,
+                1.0,
+                "the gas yields to the liquid",
+                "by its definition",
+            )
+        )
     return rows
 
 
@@ -50,12 +84,19 @@ def ratios(s) -> list[dict]:
         ("h / spacing", h / spacing, 1.2, 2.0, "fewer neighbours make noise, more blur"),
         ("liquid's width / h", s.length / h, 6.0, math.inf, "less than three kernels across is all rim"),
     ]
-    return [{"ratio": n, "value": v, "least": low, "most": high, "safe": "yes" if low <= v <= high else "NO", "why": w} for n, v, low, high, w in rows]
+    return [
+        {"ratio": n, "value": v, "least": low, "most": high, "safe": "yes" if low <= v <= high else "NO", "why": w}
+        for n, v, low, high, w in rows
+    ]
 
 
 def warnings(s) -> list[str]:
     """Ratios that are not safe, and sound that is too slow."""
-    unsafe = [f"{r['ratio']} = {r['value']:.3g}, safe from {r['least']:g} to {r['most']:g}: {r['why']}" for r in ratios(s) if r["safe"] == "NO"]
+    unsafe = [
+        f"{r['ratio']} = {r['value']:.3g}, safe from {r['least']:g} to {r['most']:g}: {r['why']}"
+        for r in ratios(s)
+        if r["safe"] == "NO"
+    ]
     c = s.liquid.sound_speed
     if s.speed > SLOW * c:
         fast = f"the liquid may reach {s.speed:.3g} m/s, {s.speed / c:.2g} of its speed of sound"

@@ -14,7 +14,9 @@ def explain(case) -> dict[str, list[dict]]:
     scales = judge.scales_of(case)
     found = liquids.explain(scales) if case.liquid else _of_grains(case, scales)
     return {
-        "numbers": [dict(zip(("number", "value", "threshold", "meaning", "source"), row)) for row in found.pop("numbers")],
+        "numbers": [
+            dict(zip(("number", "value", "threshold", "meaning", "source"), row)) for row in found.pop("numbers")
+        ],
         "effects": effect_rows(case, scales),
         **found,
         "warnings": [{"warning": text} for text in warnings(case, scales)],
@@ -50,7 +52,13 @@ def numbers(s) -> list[tuple]:
         ("Biot", biot, 0.1, "grains are not of one temperature inside", "Incropera, ch. 5.1"),
         ("Mach of the gas", s.slip / sound, 0.3, "gas is compressed by its own motion", "Anderson 2003"),
         ("1/Froude, g t/U", s.gravity * end / s.slip if s.slip else 0.0, 0.01, "gravity matters", "by its definition"),
-        ("Knudsen of the grains, path/h", free_path / s.case.smoothing_length, 0.1, "grains fly further than h between collisions", "Bird 1994, ch. 1"),
+        (
+            "Knudsen of the grains, path/h",
+            free_path / s.case.smoothing_length,
+            0.1,
+            "grains fly further than h between collisions",
+            "Bird 1994, ch. 1",
+        ),
         ("alpha_p", s.alpha_p, 1e-3, "grains collide", "Elghobashi 1994"),
         ("mass loading", s.loading, 0.1, "grains move the gas", "Elghobashi 1994; Crowe et al. 1998"),
         ("heat loading", s.heat_loading, 0.1, "grains heat or cool the gas", "Crowe et al. 1998"),
@@ -58,7 +66,13 @@ def numbers(s) -> list[tuple]:
         ("run / drag time", end / s.drag_time, 1.0, "grains follow the gas", "sdph-notes, section 3"),
         ("run / gas's drag time", end / s.gas_drag_time, 1.0, "gas follows the grains", "sdph-notes, section 3"),
         ("run / heat time", end / s.heat_time, 1.0, "grains take the gas's temperature", "sdph-notes, section 3"),
-        ("run / gas's heat time", end / s.gas_heat_time, 1.0, "gas takes the grains' temperature", "sdph-notes, section 3"),
+        (
+            "run / gas's heat time",
+            end / s.gas_heat_time,
+            1.0,
+            "gas takes the grains' temperature",
+            "sdph-notes, section 3",
+        ),
         ("run / collision time", end / s.collision_time, 1.0, "every grain has collided", "Gidaspow 1994"),
     ]
     return rows + droplets.numbers(s)
@@ -75,11 +89,18 @@ def effect_rows(case, scales=None) -> list[dict]:
             "effect": name,
             "in the case": "on" if name in case.effects else "off",
             "called for": ("yes" if name in called else "no") if own else "not judged",
-            "why": f"{own.name} = {own.number:.3g} (matters from {own.threshold:.3g})" if own else f"needs [{name}] to be judged" if row.call else row.summary,
+            "why": _why(row, own),
             "error if off": own.error_if_off if own else math.nan,
             "source": own.source if own else "",
         })  # fmt: skip
     return rows
+
+
+def _why(row, own) -> str:
+    """Number and threshold of an effect's judgement, or why it has none."""
+    if own:
+        return f"{own.name} = {own.number:.3g} (matters from {own.threshold:.3g})"
+    return f"needs [{row.name}] to be judged" if row.call else row.summary
 
 
 def text(parts: dict[str, list[dict]]) -> str:

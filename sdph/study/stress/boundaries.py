@@ -18,7 +18,8 @@ CAREFUL = 5.0  # times: a limit that could be more than that larger is too caref
 
 @dataclass(frozen=True)
 class Boundary:
-    """Largest stable and smallest unstable value of a knob; `limit` is what the code predicts, 0 where it predicts none."""
+    """Largest stable and smallest unstable value of a knob; `limit` is what the code predicts, 0 where it predicts
+    none."""
 
     effect: str
     knob: str
@@ -30,7 +31,11 @@ class Boundary:
     def verdict(self) -> str:
         held = max(self.stable, default=0.0)
         if not self.limit:
-            return "no limit foreseen, none found" if not self.unstable else f"no limit foreseen, breaks at {min(self.unstable):g}"
+            return (
+                "no limit foreseen, none found"
+                if not self.unstable
+                else f"no limit foreseen, breaks at {min(self.unstable):g}"
+            )
         if held < self.limit:
             return "WRONG: breaks within its limit"
         return "right" if held <= CAREFUL * self.limit else f"careful: holds to {held / self.limit:g} times"

@@ -21,6 +21,7 @@ from pathlib import Path
 
 from sdph.engine import restart
 from sdph.scenes import paths
+from sdph.study.stress.processes import gone, processes, send
 
 CASE = (
     "disc_cluster", "--set", "resolution.spacing_mm=20", "--set", "resolution.cell_mm=20",
@@ -28,7 +29,6 @@ CASE = (
 )  # fmt: skip
 SHORT = ("--set", "run.output_interval_s=0.0001", "--until", "0.0003")
 PATIENCE = 300.0  # s that a run may take
-LINGER = 5.0  # s after which nothing of a run may be there any more
 DISK, LARGE_DISK = "200k", "64m"  # of the small tmpfs, and what it is given to go on
 CLOCK = r"""
 #define _GNU_SOURCE
@@ -67,7 +67,9 @@ class Site:
         temporary.mkdir(exist_ok=True)
         python = os.pathsep.join(filter(None, (str(paths.PACKAGE.parent), os.environ.get("PYTHONPATH"))))
         variables = os.environ | {"TMPDIR": str(temporary), "PYTHONPATH": python} | (environment or {})
-        return subprocess.Popen(self.command(*words), env=variables, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        return subprocess.Popen(
+            self.command(*words), env=variables, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
+        )
 
 
 def run(moments: int) -> list[dict]:
@@ -76,7 +78,9 @@ def run(moments: int) -> list[dict]:
         site = _site(Path(scratch))
         chance = random.Random(1)
         checks = [_killed(site, chance, number) for number in range(moments)]
-        checks += [fault(site) for fault in (_terminated, _interrupted, _second_run, _full_disk, _read_only, _clock_back)]
+        checks += [
+            fault(site) for fault in (_terminated, _interrupted, _second_run, _full_disk, _read_only, _clock_back)
+        ]
     print("\n".join(f"{'ok' if c['ok'] else 'FAILED':8s}{c['name']:44s}{c['detail']}" for c in checks))
     return checks
 
@@ -107,7 +111,8 @@ def _killed(site: Site, chance: random.Random, number: int) -> dict:
     hit = _kill(process, folder, victim)
     said = process.communicate(timeout=PATIENCE)[1]
     told = process.returncode == 3 and "sdphGasFoam" in said
-    too_late = process.returncode == 0 and (folder / "ledger.csv").read_bytes() == site.ledger  # the gas had no more to do
+    # the gas had no more to do
+    too_late = process.returncode == 0 and (folder / "ledger.csv").read_bytes() == site.ledger
     named = not hit or victim == "python" or told or too_late
     return _verdict(site, folder, f"kill -9 {victim} at {moment:.2f} s", named, said)
 
@@ -115,7 +120,9 @@ def _killed(site: Site, chance: random.Random, number: int) -> dict:
 def _kill(process: subprocess.Popen, folder: Path, victim: str) -> bool:
     """Whether the victim was there to be killed; it is waited for while the run goes on."""
     while process.poll() is None:
-        found = [pid for pid, name in _processes(folder) if name.startswith(victim)] if victim != "python" else [process.pid]
+        found = (
+            [pid for pid, name in processes(folder) if name.startswith(victim)] if victim != "python" else [process.pid]
+        )
         if found:
             os.kill(found[-1], signal.SIGKILL)
             return True
@@ -151,7 +158,12 @@ def _second_run(site: Site) -> dict:
     said = [other.communicate(timeout=PATIENCE)[1] for other in others]
     first.send_signal(signal.SIGCONT)
     first.communicate(timeout=PATIENCE)
-    named = first.returncode == 0 and [o.returncode for o in others] == [2, 2] and "another run" in said[0] and "in use" in said[1]
+    named = (
+        first.returncode == 0
+        and [o.returncode for o in others] == [2, 2]
+        and "another run" in said[0]
+        and "in use" in said[1]
+    )
     return _verdict(site, folder, "a second run in the same folder", named, " | ".join(said))
 
 
@@ -178,7 +190,10 @@ def _on_small_disk(site: Site, name: str, harm, words, size: str) -> dict:
     """A run on a tmpfs of `size`; `harm` gives the mounts to be taken away again before the run goes on."""
     disk = site.scratch / name.split()[0]
     disk.mkdir()
-    if os.geteuid() or subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", disk], capture_output=True).returncode:
+    if (
+        os.geteuid()
+        or subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", disk], capture_output=True).returncode
+    ):
         return {"name": name, "ok": True, "detail": "skipped: only root can mount a tmpfs"}
     try:
         process = site.start(disk / "run")
@@ -198,7 +213,10 @@ def _clock_back(site: Site) -> dict:
     source, library, name = site.scratch / "clock.c", site.scratch / "clock.so", "the clock steps back"
     source.write_text(CLOCK, encoding="utf-8")
     compiler = shutil.which("cc") or shutil.which("gcc")
-    if not compiler or subprocess.run([compiler, "-shared", "-fPIC", "-o", library, source, "-ldl"], capture_output=True).returncode:
+    if (
+        not compiler
+        or subprocess.run([compiler, "-shared", "-fPIC", "-o", library, source, "-ldl"], capture_output=True).returncode
+    ):
         return {"name": name, "ok": True, "detail": "skipped: there is no C compiler"}
     process = site.start(site.scratch / "clock", {"LD_PRELOAD": str(library)})
     said = process.communicate(timeout=PATIENCE)[1]
@@ -213,8 +231,8 @@ def _wait_for(process: subprocess.Popen, path: Path) -> None:
 def _verdict(site: Site, folder: Path, name: str, named: bool, said: str) -> dict:
     """What has to be true after every fault."""
     wrong = [] if named else [f"it said: {' '.join(said.split())[-300:]}"]
-    if not _gone(folder):
-        wrong.append(f"left running: {_processes(folder)}")
+    if not gone(folder):
+        wrong.append(f"left running: {processes(folder)}")
     wrong += _unreadable(folder)
     if (folder / "case.toml").exists():
         process = site.start(folder, resume=True)
@@ -228,41 +246,15 @@ def _verdict(site: Site, folder: Path, name: str, named: bool, said: str) -> dic
     return {"name": name, "ok": not wrong, "detail": "; ".join(wrong)}
 
 
-def _gone(folder: Path) -> bool:
-    deadline = time.monotonic() + LINGER
-    while _processes(folder) and time.monotonic() < deadline:
-        time.sleep(0.1)
-    return not _processes(folder)
-
-
-def _processes(folder: Path) -> list[tuple[int, str]]:
-    """(pid, name) of every process whose command names the folder."""
-    found = []
-    for path in Path("/proc").glob("[0-9]*"):
-        try:
-            words = (path / "cmdline").read_bytes().decode(errors="replace").split("\0")
-        except OSError:
-            continue  # it has ended meanwhile
-        if any(word == str(folder) or word.startswith(f"{folder}/") for word in words):
-            found.append((int(path.name), Path(words[0]).name))
-    return sorted(found)
-
-
 @contextlib.contextmanager
 def _held(folder: Path):
     """The processes of a run stand still."""
-    pids = [pid for pid, _ in _processes(folder)]
-    _signal(pids, signal.SIGSTOP)
+    pids = [pid for pid, _ in processes(folder)]
+    send(pids, signal.SIGSTOP)
     try:
         yield
     finally:
-        _signal(pids, signal.SIGCONT)
-
-
-def _signal(pids: list[int], number: signal.Signals) -> None:
-    for pid in pids:
-        with contextlib.suppress(ProcessLookupError):  # it has ended meanwhile
-            os.kill(pid, number)
+        send(pids, signal.SIGCONT)
 
 
 def _unreadable(folder: Path) -> list[str]:
@@ -275,7 +267,9 @@ def _unreadable(folder: Path) -> list[str]:
             wrong.append(f"{path.name} is empty")
     if (folder / "run.pvd").exists():
         text = (folder / "run.pvd").read_text(encoding="utf-8")
-        wrong += [f"{name} is missing" for name in text.split('file="')[1:] if not (folder / name.split('"')[0]).is_file()]
+        wrong += [
+            f"{name} is missing" for name in text.split('file="')[1:] if not (folder / name.split('"')[0]).is_file()
+        ]
     for name in ("summary.json", "failure.json", "origin.json"):
         if (folder / name).exists():
             json.loads((folder / name).read_text(encoding="utf-8"))

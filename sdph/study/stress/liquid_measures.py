@@ -24,7 +24,11 @@ class LiquidMeasures(Extremes):
         self._take("pressure_Pa", stepper.pressure[own])
         energy = float(0.5 * (s.mass * speed2).sum())
         self._take("kinetic_energy_J", np.array([energy]))
-        self.last = {"particles": len(own), "kinetic_energy_end_J": energy, "speed_end_m_s": float(np.sqrt(speed2.max(initial=0.0)))}
+        self.last = {
+            "particles": len(own),
+            "kinetic_energy_end_J": energy,
+            "speed_end_m_s": float(np.sqrt(speed2.max(initial=0.0))),
+        }
         self.last |= {"windows": simulation.windows, "particle_mass_kg": float(s.mass.sum())}
         depth = self._behind_walls(s) / self.case.resolution.spacing
         self._take("spacings_into_walls", depth)

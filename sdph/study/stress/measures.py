@@ -28,8 +28,12 @@ class Extremes:
 
     def values(self) -> dict[str, float]:
         """Name -> figure: `X_max` and `X_min` over the run, and the last of what has no extremes."""
-        whole = {name: value for name, value in self.high.items() if name.endswith(("_rel", "_J")) and "kinetic" not in name}
-        extremes = {f"{name}_max": value for name, value in self.high.items()} | {f"{name}_min": value for name, value in self.low.items()}
+        whole = {
+            name: value for name, value in self.high.items() if name.endswith(("_rel", "_J")) and "kinetic" not in name
+        }
+        extremes = {f"{name}_max": value for name, value in self.high.items()} | {
+            f"{name}_min": value for name, value in self.low.items()
+        }
         return extremes | whole | self.last | {"lost_through_walls": float(self.lost)}
 
     def _take(self, name: str, values) -> None:
@@ -54,8 +58,15 @@ class Measures(Extremes):
         self._take("cell_alpha_p", simulation.cell_fields()["alpha_p"])
         energy = float(0.5 * (s.mass * speed**2).sum())
         self._take("kinetic_energy_J", np.array([energy]))
-        self._take("momentum_kg_m_s", np.linalg.norm((s.mass[:, None] * particles.velocities(s)).sum(axis=0), keepdims=True))
-        self.last = {"particles": len(s.x), "kinetic_energy_end_J": energy, "speed_end_m_s": float(speed.max(initial=0.0)), "windows": simulation.windows}
+        self._take(
+            "momentum_kg_m_s", np.linalg.norm((s.mass[:, None] * particles.velocities(s)).sum(axis=0), keepdims=True)
+        )
+        self.last = {
+            "particles": len(s.x),
+            "kinetic_energy_end_J": energy,
+            "speed_end_m_s": float(speed.max(initial=0.0)),
+            "windows": simulation.windows,
+        }
         self.last |= {"particle_mass_kg": float(s.mass.sum())}
         self.lost = max(self.lost, self._outside(s))
         self.regions = self.regions or self._regions(s)
@@ -67,14 +78,18 @@ class Measures(Extremes):
         """Name of each box of grains -> identities of those in it now."""
         places = np.stack(particles.axes(s), axis=1)
         boxes = {name: region for name, region in self.case.particles.items() if region.shape == "box"}
-        return {name: s.ident[((places >= box.lower) & (places <= box.upper)).all(axis=1)] for name, box in boxes.items()}
+        return {
+            name: s.ident[((places >= box.lower) & (places <= box.upper)).all(axis=1)] for name, box in boxes.items()
+        }
 
     def _outside(self, s) -> int:
         """Particles out of the box where walls hold the grains."""
         if "walls" not in self.case.effects:
             return 0
         out = np.zeros(len(s.x), bool)
-        for axis, ends, size in zip(particles.axes(s), (("left", "right"), ("bottom", "top"), ("back", "front")), self.case.domain.size):
+        for axis, ends, size in zip(
+            particles.axes(s), (("left", "right"), ("bottom", "top"), ("back", "front")), self.case.domain.size
+        ):
             for side, beyond in zip(ends, (axis < 0.0, axis > size)):
                 if not any(b.side == side and b.kind == "pressure_outlet" for b in self.case.boundaries.values()):
                     out |= beyond

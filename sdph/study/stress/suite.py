@@ -7,9 +7,11 @@ A file names a scene to start from and changes it:
     windows = 50             windows at most (default: to the end of the case)
     expect = "stable"        or "caught" (the guard must stop it), or "either"
     shear_1_s = [[...]]      adds the velocity gradient times (place - middle of the grains)
-    [case...]                tables that replace those of the scene, key by key; false removes a table; walls.mesh lies here
+    [case...]                tables that replace those of the scene, key by key; false removes a table; walls.mesh lies
+                             here
     [[then]]                 such tables again: the run goes on from its last state with them (windows, case)
-    [at_most] [at_least]     measures (see `sdph.study.stress.measures`) and their bounds, besides those that hold for every case
+    [at_most] [at_least]     measures (see `sdph.study.stress.measures`) and their bounds, besides those that hold for
+                             every case
 """
 
 from __future__ import annotations
@@ -82,7 +84,13 @@ class Verdict:
     def checks(self) -> list[dict]:
         """The rows as `sdph compare` has them: the bound is the reference, and there is no tolerance."""
         return [
-            {"name": f"{self.name}: {name} {bound[:2]}", "value": value, "reference": float(bound[3:]), "tolerance": 0.0, "ok": bool(ok)}
+            {
+                "name": f"{self.name}: {name} {bound[:2]}",
+                "value": value,
+                "reference": float(bound[3:]),
+                "tolerance": 0.0,
+                "ok": bool(ok),
+            }
             for name, value, bound, ok in self.rows
         ]
 
@@ -144,7 +152,9 @@ def run(hard: Hard, *changes: dict) -> Verdict:
             simulation = _first(hard, case, Path(folder), measures)
             for number, stage in enumerate(hard.then):
                 changed = case_of(hard, *changes, *(earlier.get("case", {}) for earlier in hard.then[: number + 1]))
-                simulation = _next(simulation, changed, Path(folder) / str(number), measures, stage.get("windows", 10**9))
+                simulation = _next(
+                    simulation, changed, Path(folder) / str(number), measures, stage.get("windows", 10**9)
+                )
         except (Unstable, GasError) as error:
             stopped = str(error)
     return Verdict(hard.name, _judged(hard, measures, stopped), time.perf_counter() - started, stopped)
@@ -224,7 +234,11 @@ def _judged(hard: Hard, measures, stopped: str) -> list:
     if stopped:
         return [("stopped with a reason", 1.0, "<= 0", False)]
     values = measures.values()
-    rows = [(name, values[name], f"<= {most:g}", values[name] <= most) for name, most in ((ALWAYS | hard.at_most).items()) if name in values]
+    rows = [
+        (name, values[name], f"<= {most:g}", values[name] <= most)
+        for name, most in ((ALWAYS | hard.at_most).items())
+        if name in values
+    ]
     rows += [(name, values[name], f">= {least:g}", values[name] >= least) for name, least in hard.at_least.items()]
     for name in hard.at_most.keys() - values.keys():
         raise CaseError(f"{hard.name}: {unknown(name, values)}")
@@ -235,7 +249,9 @@ def line(verdict: Verdict) -> str:
     """One line: pass or fail, with the figure nearest to its bound or past it."""
     shown = [row for row in verdict.rows if not row[3]] or verdict.rows[-1:]
     figures = "; ".join(f"{name} = {value:.4g} ({bound})" for name, value, bound, _ in shown)
-    return f"{'pass' if verdict.ok else 'FAIL'}  {verdict.name:28s} {verdict.wall:6.1f} s  {figures}" + (f"\n      {verdict.stopped}" if verdict.stopped else "")
+    return f"{'pass' if verdict.ok else 'FAIL'}  {verdict.name:28s} {verdict.wall:6.1f} s  {figures}" + (
+        f"\n      {verdict.stopped}" if verdict.stopped else ""
+    )
 
 
 def show(verdict: Verdict) -> None:

@@ -1,6 +1,7 @@
 """Cases and shorthands for the tests of the embedded gas solver."""
 
 import dataclasses
+import itertools
 
 import numpy as np
 
@@ -25,9 +26,11 @@ def gas_case(size, cells, *, gravity=None, boundaries=None, vapour=None, stretch
         "title": "gas alone", "dimensions": d, "effects": [],
         "run": {"end_time_s": 1.0, "output_interval_s": 1.0},
         "domain": {"size_m": [float(s) for s in size], "gravity_m_s2": [float(g) for g in gravity or [0.0] * d]},
-        "resolution": {"spacing_mm": size[0] / cells * 1e3, "cell_mm": size[0] / cells * 1e3, "stretch": list(stretch or [1.0] * d)},
+        "resolution": {"spacing_mm": size[0] / cells * 1e3, "cell_mm": size[0] / cells * 1e3,
+        "stretch": list(stretch or [1.0] * d)},
         "gas": AIR | gas,
-        "grains": {"density_kg_m3": 2500.0, "diameter_mm": 0.5, "heat_capacity_J_kg_K": 800.0, "conductivity_W_m_K": 1.0},
+        "grains": {"density_kg_m3": 2500.0, "diameter_mm": 0.5, "heat_capacity_J_kg_K": 800.0,
+        "conductivity_W_m_K": 1.0},
         "boundaries": boundaries or {"walls": {"kind": "wall"}},
     }  # fmt: skip
     return from_table(table | ({"vapour": vapour} if vapour else {}))
@@ -38,7 +41,8 @@ def gas_of(*args, limited=True, **kwargs):
 
 
 def set_flow(gas, velocity=None, temperature=None, pressure=None):
-    """Overwrite the fields of a started gas with functions of the coordinates (each (C,)); velocity takes the axis too."""
+    """Overwrite the fields of a started gas with functions of the coordinates (each (C,)); velocity takes the axis
+    too."""
     grid, flow = gas.box.grid, gas.flow
     new = {}
     if velocity is not None:
@@ -72,4 +76,4 @@ def norms(error, volumes):
 
 def orders(errors):
     """Observed orders between grids refined by two."""
-    return [float(np.log2(a / b)) for a, b in zip(errors, errors[1:])]
+    return [float(np.log2(a / b)) for a, b in itertools.pairwise(errors)]

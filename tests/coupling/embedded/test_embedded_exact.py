@@ -21,7 +21,8 @@ GHIA_V = {
 
 
 def test_ergun_column():
-    """Pressure drop of a fixed bed, Ergun's equation (Chem. Eng. Prog. 48, 89, 1952), iterated with the velocity handed back."""
+    """Pressure drop of a fixed bed, Ergun's equation (Chem. Eng. Prog. 48, 89, 1952), iterated with the velocity handed
+    back."""
     alpha_p, d, speed, mu, rho = 0.6, 0.5e-3, 0.2, 1.8e-5, 1.2
     boundaries = {
         "below": {"kind": "velocity_inlet", "side": "bottom", "velocity_m_s": [0.0, speed]},
@@ -34,7 +35,9 @@ def test_ergun_column():
     for _ in range(20):
         slip = np.linalg.norm(state.fields["velocity"], axis=1)
         beta = 150 * alpha_p**2 * mu / (alpha * d**2) + 1.75 * alpha_p * rho * slip / d
-        state = gas.advance(1e-3, {"alpha_g": alpha, "momentum_coefficient": beta, "momentum": np.zeros((len(beta), 3))})
+        state = gas.advance(
+            1e-3, {"alpha_g": alpha, "momentum_coefficient": beta, "momentum": np.zeros((len(beta), 3))}
+        )
     ergun = (150 * alpha_p**2 * mu * speed / d**2 + 1.75 * alpha_p * rho * speed**2 / d) / (1 - alpha_p) ** 3
     y, p = gas.mesh.centres[:, 1], state.fields["pressure"]
     inside = y > 0.02  # the gas enters with the velocity of alpha_g = 1 and speeds up in the first cell

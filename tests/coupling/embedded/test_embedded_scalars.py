@@ -54,7 +54,9 @@ def test_window_beyond_courant_one():
 
 def test_conduction_between_walls_of_given_temperature():
     ends = (("left", 400.0), ("right", 300.0))
-    boundaries = {side: {"kind": "wall", "side": side, "temperature_K": T} for side, T in ends} | {"walls": {"kind": "wall"}}
+    boundaries = {side: {"kind": "wall", "side": side, "temperature_K": T} for side, T in ends} | {
+        "walls": {"kind": "wall"}
+    }
     gas = gas_of((0.1, 0.02), 10, boundaries=boundaries)
     gas.start(None, ())
     for _ in range(10):

@@ -230,7 +230,7 @@ def _compiled(place: Place, prefix: str, code: str) -> None:
 
 
 CALCULATED = {
-    "calc_with_blanks": "a # /* of */\n calc \"1\";",
+    "calc_with_blanks": 'a # /* of */\n calc "1";',
     "calc_in_quotes": '"#calc" "1";',
     "calc_verbatim": '#{#calc#} "1";',
     "calc_in_a_condition": '#if #calc "1"\n#endif',

@@ -10,12 +10,15 @@ from sdph.scenes import paths
 
 TEMPLATE = paths.data("openfoam_case_templates") / "disc_cluster" / "gas"
 AIR = {
-    "density_kg_m3": 1.2, "viscosity_Pa_s": 1.8e-5, "conductivity_W_m_K": 0.025, "heat_capacity_J_kg_K": 1000.0, "temperature_K": 300.0,
+    "density_kg_m3": 1.2, "viscosity_Pa_s": 1.8e-5, "conductivity_W_m_K": 0.025, "heat_capacity_J_kg_K": 1000.0,
+    "temperature_K": 300.0,
 }  # fmt: skip
 WALLS = {"walls": {"kind": "wall"}}
 
 
-def box_case(size, cell, *, boundaries=WALLS, gravity=None, vapour=None, ranks=1, transport="socket", stretch=None, **gas):
+def box_case(
+    size, cell, *, boundaries=WALLS, gravity=None, vapour=None, ranks=1, transport="socket", stretch=None, **gas
+):
     """A case of gas alone: `size` [m], cubes of `cell` [m], `gas` overriding AIR."""
     d = len(size)
     table = {
@@ -24,7 +27,8 @@ def box_case(size, cell, *, boundaries=WALLS, gravity=None, vapour=None, ranks=1
         "domain": {"size_m": [float(s) for s in size], "gravity_m_s2": [float(g) for g in gravity or [0.0] * d]},
         "resolution": {"spacing_mm": cell * 1e3, "cell_mm": cell * 1e3} | ({"stretch": stretch} if stretch else {}),
         "gas": AIR | gas,
-        "grains": {"density_kg_m3": 2500.0, "diameter_mm": 0.5, "heat_capacity_J_kg_K": 800.0, "conductivity_W_m_K": 1.0},
+        "grains": {"density_kg_m3": 2500.0, "diameter_mm": 0.5, "heat_capacity_J_kg_K": 800.0,
+        "conductivity_W_m_K": 1.0},
         "boundaries": boundaries,
         "coupling": {"ranks": ranks, "transport": transport},
     }  # fmt: skip

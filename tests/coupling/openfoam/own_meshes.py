@@ -12,8 +12,8 @@ BOX = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2,
 
 
 def cylinder(radius: float, height: float, across: int, along: int) -> str:
-    """blockMeshDict of a cylinder that stands along z on (radius, radius, 0): a square core of `across` x `across` cells
-    and four blocks around it; patches inlet (below), outlet (above) and wall. 16 degrees off orthogonal."""
+    """blockMeshDict of a cylinder that stands along z on (radius, radius, 0): a square core of `across` x `across`
+    cells and four blocks around it; patches inlet (below), outlet (above) and wall. 16 degrees off orthogonal."""
     ring = [(r * cos(a), r * sin(a)) for r in (0.55 * radius, radius) for a in pi * np.array([0.25, 0.75, 1.25, 1.75])]
     points = [(radius + x, radius + y, z) for z in (0.0, height) for x, y in ring]
     quads = [(0, 1, 2, 3), *((4 + k, 4 + (k + 1) % 4, (k + 1) % 4, k) for k in range(4))]
@@ -38,7 +38,9 @@ def _arc(upper: int, k: int, radius: float) -> str:
 
 def sheared_box(size: float, cells: int) -> str:
     """blockMeshDict of a cube that is pushed over along x and y; one patch, `all`."""
-    points = [(size * (x + 0.4 * y + 0.3 * z), size * (y + 0.2 * z), size * z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+    points = [
+        (size * (x + 0.4 * y + 0.3 * z), size * (y + 0.2 * z), size * z) for z in (0, 1) for y in (0, 1) for x in (0, 1)
+    ]
     hexes = _hex((0, 1, 3, 2, 4, 5, 7, 6), [cells] * 3)
     return _block_mesh(points, hexes, {"all": BOX}, "")
 
@@ -59,7 +61,10 @@ def _block_mesh(points, hexes: str, patches, edges: str) -> str:
         for name, faces in patches.items()
     )
     head = HEAD.format(cls="dictionary", name="blockMeshDict")
-    return f"{head}scale 1;\nvertices\n(\n{vertices});\nblocks\n(\n{hexes});\nedges\n(\n{edges});\nboundary\n(\n{boundary});\n"
+    return (
+        f"{head}scale "
+        f"1;\nvertices\n(\n{vertices});\nblocks\n(\n{hexes});\nedges\n(\n{edges});\nboundary\n(\n{boundary});\n"
+    )
 
 
 def _hex(corners, counts) -> str:
@@ -79,7 +84,8 @@ def write_tetrahedra(folder, size: float, cells: int) -> None:
     points[inner] += np.random.default_rng(1).uniform(-0.2, 0.2, (inner.sum(), 3)) / cells
     stride = np.array([(cells + 1) ** 2, cells + 1, 1])
     first = [int(stride @ place) for place in itertools.product(range(cells), repeat=3)]
-    paths = [np.cumsum([0, *stride[list(order)]]) for order in itertools.permutations(range(3))]  # from corner to corner
+    # from corner to corner
+    paths = [np.cumsum([0, *stride[list(order)]]) for order in itertools.permutations(range(3))]
     tetrahedra = np.array([corner + path for corner in first for path in paths])
     faces, owner, neighbour = _faces(points, tetrahedra)
     inside = len(neighbour)

@@ -64,7 +64,9 @@ def test_programs_load_no_library_of_a_case(case, library, marker, program, entr
     marker.unlink()
     shutil.rmtree(case / "processor0", ignore_errors=True)
     shutil.rmtree(case / "processor1", ignore_errors=True)
-    with pytest.raises(GasError, match=f"{program} ended with code 1: the case loads the library {library}; give --allow-code"):
+    with pytest.raises(
+        GasError, match=f"{program} ended with code 1: the case loads the library {library}; give --allow-code"
+    ):
         programs.run([program], case, case / "log")
     assert not marker.exists()
 

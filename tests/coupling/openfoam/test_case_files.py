@@ -19,7 +19,13 @@ from sdph.case import read as cases
 from sdph.schema import CaseError
 
 SLOT = {
-    "slot": {"kind": "velocity_inlet", "side": "bottom", "span_m": [0.04, 0.06], "velocity_m_s": [0.0, 7.5], "temperature_K": 350.0},
+    "slot": {
+        "kind": "velocity_inlet",
+        "side": "bottom",
+        "span_m": [0.04, 0.06],
+        "velocity_m_s": [0.0, 7.5],
+        "temperature_K": 350.0,
+    },
     "floor": {"kind": "velocity_inlet", "side": "bottom", "velocity_m_s": [0.0, 0.08]},
     "outlet": {"kind": "pressure_outlet", "side": "top", "pressure_Pa": 0.0},
     "walls": {"kind": "wall"},
@@ -113,7 +119,8 @@ def test_own_files_of_a_template_win(tmp_path):
 @pytest.mark.parametrize("boundaries, says", [
     ({"slot": {"kind": "wall", "side": "bottom"}}, "belongs to no boundary"),
     ({"a": {"kind": "wall"}, "b": {"kind": "wall"}}, "belongs to a and b"),
-    ({"a": {"kind": "wall"}, "b": {"kind": "wall", "side": "top", "span_m": [0.05, 0.3]}}, "the box goes from 0 to 0.1"),
+    ({"a": {"kind": "wall"}, "b": {"kind": "wall", "side": "top", "span_m": [0.05, 0.3]}},
+    "the box goes from 0 to 0.1"),
     ({"a": {"kind": "wall"}, "b": {"kind": "wall", "side": "top", "span_m": [0.05, 0.02]}}, r"give \[low, high\]"),
 ])  # fmt: skip
 def test_boundaries_that_do_not_fit_are_named(boundaries, says):
@@ -125,7 +132,9 @@ def test_an_inlet_needs_a_velocity(tmp_path):
     boundaries = {"in": {"kind": "velocity_inlet", "side": "left"}, "walls": {"kind": "wall"}}
     shutil.copytree(TEMPLATE, tmp_path / "template")
     with pytest.raises(CaseError, match="boundaries.in.velocity_m_s is missing"):
-        case_files.write_case(box_case((0.1, 0.1), 0.01, boundaries=boundaries), tmp_path / "template", tmp_path / "out")
+        case_files.write_case(
+            box_case((0.1, 0.1), 0.01, boundaries=boundaries), tmp_path / "template", tmp_path / "out"
+        )
 
 
 def test_more_ranks_than_slabs_are_refused(tmp_path):
@@ -156,7 +165,12 @@ def outflow(gas, state):
 @pytest.mark.openfoam
 def test_a_mesh_in_three_dimensions_with_a_window(tmp_path):
     boundaries = {
-        "window": {"kind": "pressure_outlet", "side": "right", "span_m": [[0.02, 0.04], [0.0, 0.03]], "pressure_Pa": 0.0},
+        "window": {
+            "kind": "pressure_outlet",
+            "side": "right",
+            "span_m": [[0.02, 0.04], [0.0, 0.03]],
+            "pressure_Pa": 0.0,
+        },
         "lid": {"kind": "slip_wall", "side": "front"},
         "walls": {"kind": "wall"},
     }
@@ -167,5 +181,8 @@ def test_a_mesh_in_three_dimensions_with_a_window(tmp_path):
     done = subprocess.run(check, env=install.environment(), capture_output=True, text=True)
     assert "Mesh OK." in done.stdout
     boundary = (tmp_path / "out" / "constant" / "polyMesh" / "boundary").read_text()
-    faces = {name: int(boundary.partition(f"    {name}\n")[2].partition("nFaces")[2].partition(";")[0]) for name in boundaries}
+    faces = {
+        name: int(boundary.partition(f"    {name}\n")[2].partition("nFaces")[2].partition(";")[0])
+        for name in boundaries
+    }
     assert faces == {"window": 2 * 3, "lid": 10 * 6, "walls": 2 * 10 * 5 + 2 * 6 * 5 - 6 + 10 * 6}

@@ -26,7 +26,14 @@ LONGEST = 120.0  # s that a command may take
 
 # Imported once, before it is forked for each command: what takes the time of a command that is refused
 SERVER = multiprocessing.get_context("forkserver")
-USED = ("sdph.cli", "sdph.running.driver", "sdph.show.watch", "sdph.study.cost.choice", "sdph.study.explain.tables", "coupling.openfoam.solver")
+USED = (
+    "sdph.cli",
+    "sdph.running.driver",
+    "sdph.show.watch",
+    "sdph.study.cost.choice",
+    "sdph.study.explain.tables",
+    "coupling.openfoam.solver",
+)
 SERVER.set_forkserver_preload(list(USED))
 
 

@@ -124,11 +124,24 @@ def compressed_in_name_alone(trap):
     trap.add('#include "evil"')
 
 
-@pytest.mark.parametrize("plant", [
-    include_outside, include_above, linked_system, linked_file, behind_an_address, between_quoted_comments,
-    in_the_mesh, in_a_header_of_the_mesh,
-    under_an_expression, under_a_scoped_key, by_a_renamed_folder, compressed_in_name_alone,
-], ids=lambda plant: plant.__name__)
+@pytest.mark.parametrize(
+    "plant",
+    [
+        include_outside,
+        include_above,
+        linked_system,
+        linked_file,
+        behind_an_address,
+        between_quoted_comments,
+        in_the_mesh,
+        in_a_header_of_the_mesh,
+        under_an_expression,
+        under_a_scoped_key,
+        by_a_renamed_folder,
+        compressed_in_name_alone,
+    ],
+    ids=lambda plant: plant.__name__,
+)
 def test_a_case_that_brings_code_is_refused(trap, plant):
     plant(trap)
     trap.is_refused(trap.case, "--out", trap.root / "run", *SMALL, "--until", "0.001")

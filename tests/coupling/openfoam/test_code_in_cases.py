@@ -19,7 +19,7 @@ from coupling.openfoam.programs import run as programs
 from sdph.scenes import paths
 from sdph.schema import CaseError
 
-HEADER = "FoamFile {{ version 2.0; format {}; class {}; object x; arch \"LSB;label=32;scalar=64\"; }}\n"
+HEADER = 'FoamFile {{ version 2.0; format {}; class {}; object x; arch "LSB;label=32;scalar=64"; }}\n'
 DICTIONARY = HEADER.format("ascii", "dictionary")
 SHIPPED = sorted(path.parent.parent for path in paths.data("openfoam_case_templates").glob("*/*/system/controlDict"))
 
@@ -142,7 +142,7 @@ def test_files_without_a_header_are_read_in_all_folders(case, name):
 
 
 def test_files_that_no_program_opens_are_read_where_they_are_included(case):
-    put(case, "README", "libs, #calc and \" are words here")
+    put(case, "README", 'libs, #calc and " are words here')
     put(case, "constant/triSurface/box.obj", "# it's a box\nlibs 1\n")
     refuse_code(case)
     put(case, "system/extra", '#include "../README"')
@@ -216,7 +216,7 @@ def test_binary_meshes_are_stepped_over(case):
     refuse_code(case)
     put(case, "constant/polyMesh/owner", head + b'2(/*"//*"/)\nmore;')
     refused(case, "more than its class")
-    put(case, "constant/polyMesh/owner", head + b"5(/*calc  #calc   \"1\"   );")
+    put(case, "constant/polyMesh/owner", head + b'5(/*calc  #calc   "1"   );')
     refused(case, "may run code")
 
 
@@ -256,10 +256,40 @@ def test_meshes_and_fields_that_openfoam_writes_pass(tmp_path, form, compression
 
 
 PIECES = (
-    'libs ("x.so");', '"li.*" ("x.so");', '"libs" ("x.so");', '"a/libs" ("x.so");', "/*", "*/", "//", "\n", '"',
-    '\\"', "\\\n", "#{", "#}", "$x/", "${x}", "{", "}",
-    ";", " a ", 'note "', '";', "FoamFile ", "FoamFile { ", "#inputMode protect\n", "#if 0\n", "#else\n", "#endif\n",
-    "x (", ")", "List<char> 2(", " 1", "#", "'", "#eval {",
+    'libs ("x.so");',
+    '"li.*" ("x.so");',
+    '"libs" ("x.so");',
+    '"a/libs" ("x.so");',
+    "/*",
+    "*/",
+    "//",
+    "\n",
+    '"',
+    '\\"',
+    "\\\n",
+    "#{",
+    "#}",
+    "$x/",
+    "${x}",
+    "{",
+    "}",
+    ";",
+    " a ",
+    'note "',
+    '";',
+    "FoamFile ",
+    "FoamFile { ",
+    "#inputMode protect\n",
+    "#if 0\n",
+    "#else\n",
+    "#endif\n",
+    "x (",
+    ")",
+    "List<char> 2(",
+    " 1",
+    "#",
+    "'",
+    "#eval {",
 )
 
 

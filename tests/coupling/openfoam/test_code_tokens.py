@@ -50,13 +50,23 @@ def test_what_has_no_end_is_told(text):
 
 
 PIECES = {  # text -> what is found in it
-    b'"a // b"': (STRING, b"a // b"), b'"/*"': (STRING, b"/*"), b'"#{"': (STRING, b"#{"), b'"\\""': (STRING, b'"'),
-    b"#{ // \" #}": (VERBATIM, b' // " '),
-    b"word": (WORD, b"word"), b"f(a,b)": (WORD, b"f(a,b)"), b"$x": (VARIABLE, b"$x"), b"${x}": (VARIABLE, b"${x}"),
+    b'"a // b"': (STRING, b"a // b"),
+    b'"/*"': (STRING, b"/*"),
+    b'"#{"': (STRING, b"#{"),
+    b'"\\""': (STRING, b'"'),
+    b'#{ // " #}': (VERBATIM, b' // " '),
+    b"word": (WORD, b"word"),
+    b"f(a,b)": (WORD, b"f(a,b)"),
+    b"$x": (VARIABLE, b"$x"),
+    b"${x}": (VARIABLE, b"${x}"),
     b"#include": (HASH, b"#include"),
-    b";": (MARK, b";"), b"{": (MARK, b"{"), b"}": (MARK, b"}"), b"(": (MARK, b"("), b",": (MARK, b","),
+    b";": (MARK, b";"),
+    b"{": (MARK, b"{"),
+    b"}": (MARK, b"}"),
+    b"(": (MARK, b"("),
+    b",": (MARK, b","),
 }
-COMMENTS = [b" // \" /* #{\n", b" /* // \" #{ */ ", b" /***/ "]
+COMMENTS = [b' // " /* #{\n', b' /* // " #{ */ ', b" /***/ "]
 GAPS = st.sampled_from([b" ", b"\n", b"\t", b" 1.5e-3 ", b" (0 0 1) ", *COMMENTS])
 
 
@@ -65,7 +75,7 @@ def test_nothing_is_hidden_between_comments_and_numbers(pairs, last):
     assert cut(b"".join(b"%b%b" % pair for pair in pairs) + b" " + last) == [PIECES[piece] for _, piece in pairs]
 
 
-@given(st.text(alphabet='ab1.-e "\\/*#{}()$;\n\'', max_size=40).map(str.encode))
+@given(st.text(alphabet="ab1.-e \"\\/*#{}()$;\n'", max_size=40).map(str.encode))
 def test_tokens_go_forward_and_cover_what_is_no_blank(text):
     place = 0
     try:

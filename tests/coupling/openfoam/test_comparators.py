@@ -43,13 +43,17 @@ def exchange(case):
     """eps, C_p, C_g of a disc at rest."""
     gas, grains, alpha_p = case.gas, case.grains, 0.6
     nusselt = heat.gunn(1.0 - alpha_p, 0.0, heat.prandtl_number(gas.viscosity, gas.heat_capacity, gas.conductivity))
-    eps = alpha_p * heat.CLOSURES[case.parameters["heat"].closure](1.0 - alpha_p, nusselt, gas.conductivity, grains.diameter)
+    eps = alpha_p * heat.CLOSURES[case.parameters["heat"].closure](
+        1.0 - alpha_p, nusselt, gas.conductivity, grains.diameter
+    )
     return eps, alpha_p * grains.density * grains.heat_capacity, (1.0 - alpha_p) * gas.density * gas.heat_capacity
 
 
 @pytest.mark.parametrize("closure", ["paper", "geometric"])
 def test_one_way_disc_heats_as_the_exact_solution(tmp_path, closure):
-    case = disc("coupling.one_way=true", f"heat.closure={closure!r}", "run.end_time_s=0.02", "run.output_interval_s=0.01")
+    case = disc(
+        "coupling.one_way=true", f"heat.closure={closure!r}", "run.end_time_s=0.02", "run.output_interval_s=0.01"
+    )
     run = comparators.run_two_fluid(case, tmp_path / "run")
     eps, of_grains, _ = exchange(case)
     expected = exact.one_way_temperature(0.02, 288.0, 350.0, eps, of_grains) - 288.0
@@ -83,9 +87,13 @@ def test_a_finished_run_is_not_made_twice(tmp_path):
     assert not (tmp_path / "again" / "log.twoPhaseEulerFoam").exists()
     assert np.array_equal(last(first)["particle_temperature"], last(again)["particle_temperature"])
     assert np.array_equal(first.history["time_s"], again.history["time_s"]) and first.wall == again.wall
-    other = disc("coupling.one_way=true", "run.end_time_s=0.01", "run.output_interval_s=0.01", "grains.density_kg_m3=1530.0")
+    other = disc(
+        "coupling.one_way=true", "run.end_time_s=0.01", "run.output_interval_s=0.01", "grains.density_kg_m3=1530.0"
+    )
     lighter = comparators.run_two_fluid(other, tmp_path / "other")
-    assert lighter.history["centre_temperature_K"][-1] - 288.0 > 1.9 * (first.history["centre_temperature_K"][-1] - 288.0)
+    assert lighter.history["centre_temperature_K"][-1] - 288.0 > 1.9 * (
+        first.history["centre_temperature_K"][-1] - 288.0
+    )
 
 
 def test_two_ranks_give_the_fields_of_one(tmp_path):
@@ -107,7 +115,8 @@ def bed(alpha_p, jet, distributor, end, outputs=1):
         "resolution": {"spacing_mm": 5.0, "cell_mm": 10.0},
         "gas": AIR, "grains": SAND,
         "particles": {"bed": {
-            "shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.2, 0.2], "volume_fraction": alpha_p, "temperature_K": 288.0,
+            "shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.2, 0.2], "volume_fraction": alpha_p,
+            "temperature_K": 288.0,
         }},
         "boundaries": {
             "jet": inlet | {"span_m": [0.09, 0.11], "velocity_m_s": [0.0, jet], "temperature_K": 350.0},
@@ -184,7 +193,10 @@ def test_closures_library_is_built_once():
     assert install.two_fluid_closures(status=pytest.fail) == install.two_fluid_closures()
 
 
-HEADS = {"ascii": b"FoamFile { format ascii; }\n", "binary": b'FoamFile { format      binary; arch "LSB;label=32;scalar=64"; }\n'}
+HEADS = {
+    "ascii": b"FoamFile { format ascii; }\n",
+    "binary": b'FoamFile { format      binary; arch "LSB;label=32;scalar=64"; }\n',
+}
 
 
 def test_fields_are_read_in_each_form(tmp_path):
@@ -211,11 +223,14 @@ def test_a_field_of_another_mesh_is_refused(tmp_path):
 
 def test_a_reference_comes_back_as_it_was_kept(tmp_path):
     kept = reference.Reference(
-        solver="some", wall=1.5, centres=np.zeros((2, 3)), volumes=np.ones(2), fields={0.1: {"alpha_p": np.array([0.1, 0.2])}},
-        history={"time_s": np.array([0.0])}, parcels={0.1: {"diameter": np.array([1e-3])}},
+        solver="some", wall=1.5, centres=np.zeros((2, 3)), volumes=np.ones(2),
+        fields={0.1: {"alpha_p": np.array([0.1, 0.2])}}, history={"time_s": np.array([0.0])},
+        parcels={0.1: {"diameter": np.array([1e-3])}},
     )  # fmt: skip
     reference.keep(kept, tmp_path / "shelf" / "some.npz")
     back = reference.load(tmp_path / "shelf" / "some.npz")
     assert (back.solver, back.wall, back.nearest(0.3)) == ("some", 1.5, 0.1)
-    assert np.array_equal(back.fields[0.1]["alpha_p"], [0.1, 0.2]) and np.array_equal(back.parcels[0.1]["diameter"], [1e-3])
+    assert np.array_equal(back.fields[0.1]["alpha_p"], [0.1, 0.2]) and np.array_equal(
+        back.parcels[0.1]["diameter"], [1e-3]
+    )
     assert np.array_equal(back.centres, kept.centres) and np.array_equal(back.history["time_s"], [0.0])

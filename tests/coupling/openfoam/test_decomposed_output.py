@@ -42,7 +42,8 @@ def test_particles_and_gas_of_two_ranks_are_on_one_timeline(tmp_path, mesh, kind
         volumes = np.abs(gas.compute_cell_sizes()["Area"])
         assert volumes.sum() == pytest.approx(area, rel=1e-6)
         solid = gas["alpha_p"] * volumes
-        assert solid.sum() == pytest.approx((particles["mass"] / 3060.0).sum(), rel=1e-6)  # VTK reads places in single precision
+        # VTK reads places in single precision
+        assert solid.sum() == pytest.approx((particles["mass"] / 3060.0).sum(), rel=1e-6)
         centre = solid @ gas.cell_centers().points[:, :2] / solid.sum()  # each cell has its own value
         assert centre == pytest.approx([0.25, 0.25], abs=5e-3)
     assert np.ptp(gas["temperature"]) > 1.0  # the gas among the grains has cooled

@@ -1,4 +1,5 @@
-"""sdphGasFoam as a process: transports and ranks agree, checkpoints go on bit for bit, failures are told and leave nothing."""
+"""sdphGasFoam as a process: transports and ranks agree, checkpoints go on bit for bit, failures are told and leave
+nothing."""
 
 import os
 import signal
@@ -34,7 +35,13 @@ def busy_sources(gas, step):
     alpha = 1.0 - 0.4 * np.exp(-((x - 0.04 - 0.001 * step) ** 2 + (y - 0.03) ** 2) / 0.01**2)
     drag, heat = 200.0 * (1 - alpha), 1e5 * (1 - alpha)
     pull = drag[:, None] * [0.3, 0.1, 0.0]
-    return {"alpha_g": alpha, "momentum_coefficient": drag, "momentum": pull, "heat_coefficient": heat, "heat": heat * 290.0}
+    return {
+        "alpha_g": alpha,
+        "momentum_coefficient": drag,
+        "momentum": pull,
+        "heat_coefficient": heat,
+        "heat": heat * 290.0,
+    }
 
 
 def busy(gas, steps, begin=0):
@@ -48,7 +55,11 @@ def started(gas):
 
 
 def same(a, b):
-    return a.time == b.time and a.budget == b.budget and all(a.fields[k].tobytes() == b.fields[k].tobytes() for k in a.fields)
+    return (
+        a.time == b.time
+        and a.budget == b.budget
+        and all(a.fields[k].tobytes() == b.fields[k].tobytes() for k in a.fields)
+    )
 
 
 def run_busy(folder, **kwargs):
@@ -65,7 +76,8 @@ def test_socket_and_files_agree_bit_for_bit(tmp_path):
 
 
 def test_one_and_two_ranks_agree(tmp_path):
-    """To the tolerance of the pressure solver, whose multigrid is another on two ranks; what is conserved, to round-off."""
+    """To the tolerance of the pressure solver, whose multigrid is another on two ranks; what is conserved, to
+    round-off."""
     one_mesh, one = run_busy(tmp_path / "a")
     two_mesh, two = run_busy(tmp_path / "b", ranks=2)
     a, b = (np.lexsort(mesh.centres.round(9).T) for mesh in (one_mesh, two_mesh))
@@ -138,7 +150,10 @@ def test_a_damaged_file_of_one_rank_is_told_by_all(tmp_path, rank):
         gas.checkpoint(tmp_path / "checkpoint")
     path = tmp_path / "checkpoint" / f"gas.{rank}"
     path.write_bytes(path.read_bytes()[:-1])
-    with box(tmp_path / "b", (0.1, 0.06), 0.005, ranks=2) as gas, pytest.raises(CheckpointError, match=f"gas.{rank}: .*damaged"):
+    with (
+        box(tmp_path / "b", (0.1, 0.06), 0.005, ranks=2) as gas,
+        pytest.raises(CheckpointError, match=f"gas.{rank}: .*damaged"),
+    ):
         gas.restore(tmp_path / "checkpoint")
 
 
@@ -190,7 +205,9 @@ def test_time_folders_are_written_at_the_output_interval(tmp_path):
 
 
 def alive(pids):
-    return [pid for pid in pids if os.path.exists(f"/proc/{pid}") and " Z " not in Path(f"/proc/{pid}/stat").read_text()]
+    return [
+        pid for pid in pids if os.path.exists(f"/proc/{pid}") and " Z " not in Path(f"/proc/{pid}/stat").read_text()
+    ]
 
 
 def wait_for_end(pids, seconds=2.0):
@@ -228,7 +245,18 @@ def solver_processes(gas):
 def test_one_sigterm_ends_a_run_whose_gas_hangs(tmp_path, ranks):
     """Within 10 s, with the exit code of the signal; nothing stays behind."""
     quick = ["--set", "resolution.spacing_mm=20", "--set", "resolution.cell_mm=50", "--set", f"coupling.ranks={ranks}"]
-    command = [sys.executable, "-m", "sdph.cli", "run", "disc_cluster", "--gas", "openfoam", "--out", str(tmp_path / "run"), *quick]
+    command = [
+        sys.executable,
+        "-m",
+        "sdph.cli",
+        "run",
+        "disc_cluster",
+        "--gas",
+        "openfoam",
+        "--out",
+        str(tmp_path / "run"),
+        *quick,
+    ]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
     while not (tmp_path / "run" / "ledger.csv").is_file() or len((tmp_path / "run" / "ledger.csv").read_bytes()) < 500:
         time.sleep(0.1)
@@ -390,7 +418,14 @@ def test_both_languages_mean_the_same_format(wire_echo):
 
     message = Message(
         Kind.STATE,
-        {"a": np.arange(12.0).reshape(4, 3), "b": 7, "c": "wärme", "d": np.float64(0.1), "e": np.zeros((0, 3)), "f": ""},
+        {
+            "a": np.arange(12.0).reshape(4, 3),
+            "b": 7,
+            "c": "wärme",
+            "d": np.float64(0.1),
+            "e": np.zeros((0, 3)),
+            "f": "",
+        },
         {"a": "m/s"},
     )
     echoed = decode(wire_echo(encode(message)).stdout)
@@ -408,7 +443,9 @@ def test_both_languages_mean_the_same_format(wire_echo):
 
 def test_nothing_is_built_twice():
     installation = install.require()
-    assert installation.wmake or (header_folder(installation) / "src" / "finiteVolume" / "lnInclude" / "fvMesh.H").exists()
+    assert (
+        installation.wmake or (header_folder(installation) / "src" / "finiteVolume" / "lnInclude" / "fvMesh.H").exists()
+    )
     products = [install.gas_solver(), install.two_fluid_closures(), install.code_guard()]
     before = [path.stat().st_mtime_ns for path in products]
     said = []

@@ -14,7 +14,8 @@ pytestmark = pytest.mark.openfoam
 
 
 def mirror(folder) -> str:
-    """A source package of the version that is here, of which the mirror has nothing but the archive; its line for apt."""
+    """A source package of the version that is here, of which the mirror has nothing but the archive; its line for
+    apt."""
     command = ["dpkg-query", "-W", "-f", "${source:Version}", "openfoam"]
     version = subprocess.run(command, capture_output=True, text=True).stdout
     folder.mkdir()

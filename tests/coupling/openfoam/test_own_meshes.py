@@ -35,7 +35,8 @@ def put_tetrahedra(folder):
 
 @pytest.mark.parametrize("put_mesh", [put_cylinder, put_sheared_box, put_tetrahedra])
 def test_uniform_flow_stays_uniform(tmp_path, put_mesh):
-    """Cells get their velocity back from the fluxes of their faces: of a uniform flow to round-off, whatever their shape."""
+    """Cells get their velocity back from the fluxes of their faces: of a uniform flow to round-off, whatever their
+    shape."""
     own = template(tmp_path)
     patches, volume = put_mesh(own)
     put_velocity(own, {name: fixed(VELOCITY) for name in patches}, VELOCITY)
@@ -64,7 +65,8 @@ def put_velocity(folder, patches, inside) -> None:
 
 
 def round_vessel(folder, metrics):
-    """A user's case of a cylinder along z, with a bed that gas blows through from below: its own mesh and start field."""
+    """A user's case of a cylinder along z, with a bed that gas blows through from below: its own mesh and start
+    field."""
     assert main(["init", "bubbling_bed_3d", str(folder)]) == 0
     put_cylinder(folder / "gas")
     rest, above = (0, 0, 0), "type pressureInletOutletVelocity; value uniform (0 0 0);"
@@ -83,7 +85,8 @@ def round_vessel(folder, metrics):
 
 
 def test_bed_in_a_round_vessel(tmp_path, capsys):
-    """At default numerics nothing is lost, the gas goes round the bed, not off, and the grains weigh on the round floor."""
+    """At default numerics nothing is lost, the gas goes round the bed, not off, and the grains weigh on the round
+    floor."""
     vessel, out = round_vessel(tmp_path / "vessel", ["column"]), tmp_path / "out"
     assert main(["run", str(vessel), "--gas", "openfoam", "--out", str(out)]) == 0, capsys.readouterr().err
     summary = json.loads((out / "summary.json").read_text())

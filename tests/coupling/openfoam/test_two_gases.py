@@ -1,4 +1,5 @@
-"""Short forms of the paper's three scenes on both gas solvers: a case runs on either by `--gas` alone, and says the same."""
+"""Short forms of the paper's three scenes on both gas solvers: a case runs on either by `--gas` alone, and says the
+same."""
 
 import numpy as np
 import pytest
@@ -14,8 +15,14 @@ from sdph.running.progress import Reporter
 # scene -> (overrides, key of summary.json -> relative difference allowed)
 SHORT = {
     "disc_cluster": (("run.end_time_s=1e-3",), {"centre_rise_K": 1e-3, "heat_exchanged_J": 0.02}),
-    "bubbling_bed": (("run.end_time_s=0.02",), {"bubble_area_m2": 0.02, "bed_height_m": 0.02, "heat_exchanged_J": 0.02}),
-    "bubbling_bed, stretched": (("run.end_time_s=0.02", "resolution.stretch=[1.0,4.0]"), {"bed_height_m": 0.02, "heat_exchanged_J": 0.02}),
+    "bubbling_bed": (
+        ("run.end_time_s=0.02",),
+        {"bubble_area_m2": 0.02, "bed_height_m": 0.02, "heat_exchanged_J": 0.02},
+    ),
+    "bubbling_bed, stretched": (
+        ("run.end_time_s=0.02", "resolution.stretch=[1.0,4.0]"),
+        {"bed_height_m": 0.02, "heat_exchanged_J": 0.02},
+    ),
     "evaporating_jet": (("run.end_time_s=0.02",), {"front_m": 0.02, "heat_exchanged_J": 0.02}),
 }
 
@@ -37,22 +44,33 @@ SIZE, STRETCH = (0.1, 0.2), [3.0, 0.25]
 
 
 def through_a_slot(gas):
-    """Centres (C, 2), volumes (C,) and fields of gas driven through a slot into a body that drags, in one order for both solvers."""
+    """Centres (C, 2), volumes (C,) and fields of gas driven through a slot into a body that drags, in one order for
+    both solvers."""
     cells = len(gas.mesh.volumes)
     gas.start(None, ("momentum_coefficient", "momentum"))
     for _ in range(5):
         state = gas.advance(1e-2, {"momentum_coefficient": np.full(cells, 1e3), "momentum": np.zeros((cells, 3))})
     order = np.lexsort(np.round(gas.mesh.centres[:, :2], 9).T)
     fields = state.fields
-    return gas.mesh.centres[order, :2], gas.mesh.volumes[order], fields["velocity"][order, :2], fields["pressure"][order]
+    return (
+        gas.mesh.centres[order, :2],
+        gas.mesh.volumes[order],
+        fields["velocity"][order, :2],
+        fields["pressure"][order],
+    )
 
 
 @pytest.mark.openfoam
 def test_stretched_cells_and_what_flows_through_them_are_the_same(tmp_path):
-    across, along = cell_edges(box_case(SIZE, 0.01, stretch=STRETCH))
+    across, _along = cell_edges(box_case(SIZE, 0.01, stretch=STRETCH))
     assert np.diff(across)[[0, -1]] @ [-3.0, 1.0] == pytest.approx(0.0, abs=1e-15)
     boundaries = {
-        "slot": {"kind": "velocity_inlet", "side": "bottom", "span_m": [across[3], across[6]], "velocity_m_s": [0.0, 1.0]},
+        "slot": {
+            "kind": "velocity_inlet",
+            "side": "bottom",
+            "span_m": [across[3], across[6]],
+            "velocity_m_s": [0.0, 1.0],
+        },
         "above": {"kind": "pressure_outlet", "side": "top", "pressure_Pa": 0.0},
         "walls": {"kind": "slip_wall"},
     }

@@ -117,7 +117,8 @@ def test_a_comparator_that_aborts(tmp_path, monkeypatch, capsys):
 
 @pytest.mark.parametrize("code, fine", [(0, True), (3, True), (1, False), (2, False)])
 def test_demo_goes_on_without_a_comparator(tmp_path, code, fine):
-    """The recipe of the Makefile, with a program in place of sdph that ends as `compare` does where no two fluids run."""
+    """The recipe of the Makefile, with a program in place of sdph that ends as `compare` does where no two fluids
+    run."""
     venv = tmp_path / "venv"
     (venv / "bin").mkdir(parents=True)
     (venv / "bin" / "sdph").touch()

@@ -1,4 +1,5 @@
-"""Folders that go with their owner: a live one's stay whoever sweeps, a dead one's go, and nobody else's are touched."""
+"""Folders that go with their owner: a live one's stay whoever sweeps, a dead one's go, and nobody else's are
+touched."""
 
 import fcntl
 import os
@@ -74,7 +75,9 @@ def test_starts_at_once_do_not_take_each_others(tmp_path):
             assert (folder.path / "gas").exists()
             folder.close()
     """
-    processes = [subprocess.Popen([sys.executable, "-c", textwrap.dedent(script)], stderr=subprocess.PIPE) for _ in range(4)]
+    processes = [
+        subprocess.Popen([sys.executable, "-c", textwrap.dedent(script)], stderr=subprocess.PIPE) for _ in range(4)
+    ]
     said = [process.communicate(timeout=120)[1] for process in processes]
     assert [process.returncode for process in processes] == [0] * 4, said
     assert not list(tmp_path.iterdir())

@@ -14,9 +14,23 @@ from sdph.engine import state as particles
 from sdph.engine.state import GRAIN, INFLOW
 from sdph.schema import CaseError
 
-AIR = {"density_kg_m3": 1.2, "viscosity_Pa_s": 1.8e-5, "conductivity_W_m_K": 0.025, "heat_capacity_J_kg_K": 1006.0, "temperature_K": 300.0}
+AIR = {
+    "density_kg_m3": 1.2,
+    "viscosity_Pa_s": 1.8e-5,
+    "conductivity_W_m_K": 0.025,
+    "heat_capacity_J_kg_K": 1006.0,
+    "temperature_K": 300.0,
+}
 SAND = {"density_kg_m3": 700.0, "diameter_mm": 1.0, "heat_capacity_J_kg_K": 2000.0, "conductivity_W_m_K": 1.0}
-SLOT = {"shape": "slot", "centre_m": [0.0, 0.5], "width_m": 0.2, "direction": [1.0, 0.0], "speed_m_s": 2.0, "volume_fraction": 0.3, "temperature_K": 290.0}
+SLOT = {
+    "shape": "slot",
+    "centre_m": [0.0, 0.5],
+    "width_m": 0.2,
+    "direction": [1.0, 0.0],
+    "speed_m_s": 2.0,
+    "volume_fraction": 0.3,
+    "temperature_K": 290.0,
+}
 CONE = {
     "shape": "cone", "centre_m": [0.5, 0.5, 0.0], "radius_m": 0.11, "direction": [0.0, 0.0, 1.0], "speed_m_s": 2.0,
     "rate_kg_s": 3.0, "half_angle_deg": 30.0, "temperature_K": 290.0,
@@ -116,9 +130,12 @@ def test_cone_spreads_to_its_angle_and_keeps_its_rate():
 
 
 def test_parabolic_profile_has_the_mean_speed_and_the_rate():
-    streams = inflow.streams_of(case(SLOT | {"profile": "parabolic"}), case(SLOT | {"profile": "parabolic"}).nozzles["one"])
+    streams = inflow.streams_of(
+        case(SLOT | {"profile": "parabolic"}), case(SLOT | {"profile": "parabolic"}).nozzles["one"]
+    )
     assert streams.speed.mean() == pytest.approx(2.0, rel=1e-12)
-    assert streams.speed.max() == pytest.approx(3.0, rel=0.02) and streams.speed.min() < 0.6  # 3/2 of the mean, 0 at the rim
+    # 3/2 of the mean, 0 at the rim
+    assert streams.speed.max() == pytest.approx(3.0, rel=0.02) and streams.speed.min() < 0.6
     assert (streams.mass * streams.speed / streams.pitch).sum() == pytest.approx(0.3 * 700.0 * 0.2 * 2.0, rel=1e-12)
 
 

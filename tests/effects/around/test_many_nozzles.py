@@ -23,14 +23,18 @@ CLOSED = ("particle_mass_drift_rel", "mass_drift_rel", "energy_drift_rel")
 
 def slot(centre, direction, **more):
     return {
-        "shape": "slot", "centre_m": centre, "width_m": 0.1, "direction": direction, "speed_m_s": 4.0, "volume_fraction": 0.05, "temperature_K": 320.0,
+        "shape": "slot", "centre_m": centre, "width_m": 0.1, "direction": direction, "speed_m_s": 4.0,
+        "volume_fraction": 0.05, "temperature_K": 320.0,
     } | more  # fmt: skip
 
 
 def abreast(count):
     """Nozzles one over the other on the left side, each of one stream, no two at the same speed."""
     places = (np.arange(count) + 0.5) / count
-    return {f"n{k}": slot([0.0, y], [1.0, 0.0], width_m=0.5 / count, speed_m_s=4.0 + k / count) for k, y in enumerate(places)}
+    return {
+        f"n{k}": slot([0.0, y], [1.0, 0.0], width_m=0.5 / count, speed_m_s=4.0 + k / count)
+        for k, y in enumerate(places)
+    }
 
 
 FACING = {"left": slot([0.2, 0.5], [1.0, 0.0]), "right": slot([0.6, 0.5], [-1.0, 0.0], temperature_K=280.0)}
@@ -42,12 +46,16 @@ CONE_AND_SLOT = {
 
 
 def case(nozzles, dimensions=2, **more):
-    nozzles = {name: {key: value for key, value in nozzle.items() if value is not None} for name, nozzle in nozzles.items()}
+    nozzles = {
+        name: {key: value for key, value in nozzle.items() if value is not None} for name, nozzle in nozzles.items()
+    }
     return cases.from_table({
-        "title": "", "scene": "", "dimensions": dimensions, "effects": ["inflow", "outflow", "drag", "heat", "gas_pressure"],
-        "run": {"end_time_s": 0.1, "output_interval_s": 0.1}, "coupling": {"gas": "embedded", "window_largest_s": 0.01},
+        "title": "", "scene": "", "dimensions": dimensions, "effects": ["inflow", "outflow", "drag", "heat",
+        "gas_pressure"], "run": {"end_time_s": 0.1, "output_interval_s": 0.1},
+        "coupling": {"gas": "embedded", "window_largest_s": 0.01},
         "domain": {"size_m": [1.0] * dimensions, "gravity_m_s2": [0.0] * dimensions},
-        "resolution": {"spacing_mm": 50.0 if dimensions == 3 else 20.0, "cell_mm": 100.0}, "gas": AIR | {"equation_of_state": "constant"}, "grains": SAND,
+        "resolution": {"spacing_mm": 50.0 if dimensions == 3 else 20.0, "cell_mm": 100.0},
+        "gas": AIR | {"equation_of_state": "constant"}, "grains": SAND,
         "boundaries": {"sides": {"kind": "pressure_outlet", "pressure_Pa": 0.0}}, "nozzles": nozzles,
     } | more)  # fmt: skip
 
@@ -119,7 +127,13 @@ def test_only_its_own_mouth_matters_to_a_grain(nozzle, x, kind, entering, share)
 
 def test_release_lets_go_of_each_at_its_own_mouth():
     made = inflow.Source(case(FACING), (), 1)
-    rows = [at(made, 0, 0.19, INFLOW), at(made, 0, 0.201, INFLOW), at(made, 1, 0.7, INFLOW), at(made, 1, 0.4, INFLOW), at(made, 0, 0.605)]
+    rows = [
+        at(made, 0, 0.19, INFLOW),
+        at(made, 0, 0.201, INFLOW),
+        at(made, 1, 0.7, INFLOW),
+        at(made, 1, 0.4, INFLOW),
+        at(made, 0, 0.605),
+    ]
     state = rows[0]
     for row in rows[1:]:
         state = particles.join(state, row)

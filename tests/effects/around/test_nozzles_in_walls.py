@@ -40,7 +40,14 @@ def test_a_stream_comes_through_a_wall_as_it_comes_through_none(tmp_path, nozzle
 def test_a_mouth_that_gives_nothing_holds_grains_like_a_wall(tmp_path):
     """Before it opens and after it has closed."""
     nozzle = slot([0.5, 0.0], [0.0, 1.0], width_m=0.2, start_s=0.2, end_s=0.24)
-    bed = {"shape": "box", "lower_m": [0.3, 0.02], "upper_m": [0.7, 0.06], "volume_fraction": ALPHA, "temperature_K": 300.0, "velocity_m_s": [0.0, -0.5]}
+    bed = {
+        "shape": "box",
+        "lower_m": [0.3, 0.02],
+        "upper_m": [0.7, 0.06],
+        "volume_fraction": ALPHA,
+        "temperature_K": 300.0,
+        "velocity_m_s": [0.0, -0.5],
+    }
     chosen = case(
         {"below": nozzle}, effects=EFFECTS, boundaries=CLOSED, particles={"bed": bed},
         run={"end_time_s": 1.0, "output_interval_s": 1.0},

@@ -20,8 +20,8 @@ def channel(folder, push, end, kind="wall", held=True, **walls):
     as a solid does, which would hide a slow flow.
     """
     case = box(
-        ["gravity", "granular_pressure", "granular_viscosity", "walls"], size=(0.06, HEIGHT), alpha_p=ALPHA_P, periodic=("x",),
-        gravity=(push, 0.0), boundaries={"plates": {"kind": kind}}, walls=walls,
+        ["gravity", "granular_pressure", "granular_viscosity", "walls"], size=(0.06, HEIGHT), alpha_p=ALPHA_P,
+        periodic=("x",), gravity=(push, 0.0), boundaries={"plates": {"kind": kind}}, walls=walls,
         grains={"granular_temperature_m2_s2": THETA}, **windows(end, 1),
     )  # fmt: skip
     if not held:
@@ -86,13 +86,17 @@ def wedge(folder, lower, upper):
     corners = middle + reach * np.array([[1.0, 0.2], [-0.2, 1.0], [-1.0, -0.2], [0.2, -1.0]])
     corners = corners[::-1]  # clockwise: the left of each line is outside
     path = folder / "wedge.vtk"
-    meshio.Mesh(np.column_stack((corners, np.zeros(4))), [("line", np.array([[0, 1], [1, 2], [2, 3], [3, 0]]))]).write(path)
+    meshio.Mesh(np.column_stack((corners, np.zeros(4))), [("line", np.array([[0, 1], [1, 2], [2, 3], [3, 0]]))]).write(
+        path
+    )
     return path, corners
 
 
 def within(corners, x, y):
     """Mask of the points inside the clockwise square."""
-    sides = [(b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]) for a, b in zip(corners, np.roll(corners, -1, axis=0))]
+    sides = [
+        (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]) for a, b in zip(corners, np.roll(corners, -1, axis=0))
+    ]
     return np.all(np.array(sides) < 0.0, axis=0)
 
 
@@ -122,9 +126,12 @@ def storm(folder, case, steps, corners=None):
 
 def stormy(size, alpha_p=0.3, **walls):
     none = (0.0,) * len(size)
-    bed = {"velocity_m_s": [20.0, *none[1:]], "shape": "box", "lower_m": list(none), "upper_m": list(size), "volume_fraction": alpha_p,
+    bed = {"velocity_m_s": [20.0, *none[1:]], "shape": "box", "lower_m": list(none), "upper_m": list(size),
+        "volume_fraction": alpha_p,
            "temperature_K": 300.0}  # fmt: skip
-    return box(["granular_pressure", "walls"], size=size, periodic=(), gravity=none, walls=walls, particles={"bed": bed})
+    return box(
+        ["granular_pressure", "walls"], size=size, periodic=(), gravity=none, walls=walls, particles={"bed": bed}
+    )
 
 
 def test_nothing_leaks_from_a_box(tmp_path):

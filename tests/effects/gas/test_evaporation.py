@@ -1,4 +1,5 @@
-"""Evaporation: what leaves particles is what the gas gets; wet bulb, boiling, onset, the end of a droplet, condensation."""
+"""Evaporation: what leaves particles is what the gas gets; wet bulb, boiling, onset, the end of a droplet,
+condensation."""
 
 import math
 import tomllib
@@ -73,7 +74,9 @@ def test_momentum_of_the_vapour_is_that_of_the_droplet(tmp_path):
 @pytest.mark.parametrize("windows", [1, 7])
 def test_a_droplet_vanishes_in_any_window(tmp_path, windows):
     """Three lives in one window or in seven: nothing left, nothing negative, nothing that is no number."""
-    case = droplet("coupling.one_way=true", "run.end_time_s=180.0", "run.output_interval_s=180.0", *fixed_windows(180.0 / windows))
+    case = droplet(
+        "coupling.one_way=true", "run.end_time_s=180.0", "run.output_interval_s=180.0", *fixed_windows(180.0 / windows)
+    )
     run = finished(case, tmp_path)
     assert len(run.state.x) == 0
     summary = run.ledger.summary()
@@ -84,12 +87,20 @@ def test_a_droplet_vanishes_in_any_window(tmp_path, windows):
 def one(temperature, latched=0.0):
     names = {"temperature", "diameter", "diameter_variance", *evaporation.EFFECT.arrays}
     state = particles.empty(1, names, 2)
-    for name, value in (("mass", 1e-9), ("density", 1.0), ("temperature", temperature), ("diameter", 1e-3), ("evaporating", latched)):
+    for name, value in (
+        ("mass", 1e-9),
+        ("density", 1.0),
+        ("temperature", temperature),
+        ("diameter", 1e-3),
+        ("evaporating", latched),
+    ):
         getattr(state, name)[:] = value
     return particles.born(state)
 
 
-@pytest.mark.parametrize(("onset", "latched", "expected"), [("latched", 1.0, True), ("latched", 0.0, False), ("paper", 1.0, False)])
+@pytest.mark.parametrize(
+    ("onset", "latched", "expected"), [("latched", 1.0, True), ("latched", 0.0, False), ("paper", 1.0, False)]
+)
 def test_onset(onset, latched, expected):
     """Below the onset a droplet evaporates only where it is latched and has begun before."""
     p = evaporation.kernel(droplet(f"evaporation.onset='{onset}'", "evaporation.onset_temperature_K=300.0"))
@@ -109,8 +120,15 @@ def test_onset_within_a_window():
 
 @pytest.mark.parametrize("name", evaporation.LAWS)
 def test_boiling_is_not_exceeded(tmp_path, name):
-    """In gas far hotter than the boiling temperature droplets come to it and no higher: 0.1 K, as they shrink in a window."""
-    case = droplet(f"evaporation.law='{name}'", "gas.temperature_K=2000.0", "run.end_time_s=1.5", "run.output_interval_s=1.5", *fixed_windows(0.05))
+    """In gas far hotter than the boiling temperature droplets come to it and no higher: 0.1 K, as they shrink in a
+    window."""
+    case = droplet(
+        f"evaporation.law='{name}'",
+        "gas.temperature_K=2000.0",
+        "run.end_time_s=1.5",
+        "run.output_interval_s=1.5",
+        *fixed_windows(0.05),
+    )
     boiling = law.boiling_temperature(case.gas.operating_pressure, CLAPEYRON)
     run = started(case, tmp_path)
     hottest = 0.0
@@ -121,7 +139,8 @@ def test_boiling_is_not_exceeded(tmp_path, name):
 
 
 def test_condensation_is_refused_and_counted(tmp_path):
-    """Warm droplets saturate the gas; cold ones beside them lose nothing, gain nothing, and what they would gain is counted."""
+    """Warm droplets saturate the gas; cold ones beside them lose nothing, gain nothing, and what they would gain is
+    counted."""
     table = tomllib.loads(DROPLET.read_text(encoding="utf-8"))
     del table["heat"]
     table["resolution"]["spacing_mm"] = 5.0
@@ -169,7 +188,12 @@ def test_wet_bulb_in_a_stream_of_windows(tmp_path):
     case = droplet("run.end_time_s=40.0", "run.output_interval_s=40.0", *fixed_windows(5.0))
     run = finished(case, tmp_path)
     expected = exact.wet_bulb_temperature(
-        350.0, lambda T: law.saturation_clausius_clapeyron(T, CLAPEYRON), 3.79e-6, 142.284, 277000.0, case.gas.conductivity
+        350.0,
+        lambda T: law.saturation_clausius_clapeyron(T, CLAPEYRON),
+        3.79e-6,
+        142.284,
+        277000.0,
+        case.gas.conductivity,
     )
     assert run.state.temperature[0] == pytest.approx(expected, abs=1e-3)
 
@@ -185,11 +209,15 @@ def test_an_evaporation_that_cannot_be_says_so(tmp_path, overrides, words):
 
 def test_sizes_shrink_with_the_mass(tmp_path):
     """A spread of sizes: after the run the particle's mass is what its own sizes say."""
-    case = droplet("grains.diameter_std_mm=0.3", "run.end_time_s=30.0", "run.output_interval_s=30.0", *fixed_windows(1.0))
+    case = droplet(
+        "grains.diameter_std_mm=0.3", "run.end_time_s=30.0", "run.output_interval_s=30.0", *fixed_windows(1.0)
+    )
     run = finished(case, tmp_path)
     state, p = run.state, run.exchange.sizes_p
     left, mean, variance = sizes.remaining(sizes.birth(p, state, 0))
     whole = sizes.remaining(sizes.birth_of(1e-3, 0.3e-3**2, 0.0, 0.0))[0]
     assert state.mass[0] / state.born_mass[0] == pytest.approx(left / whole, rel=1e-9)
     assert 0.1 < left / whole < 0.9
-    assert state.diameter[0] == pytest.approx(mean, rel=1e-12) and state.diameter_variance[0] == pytest.approx(variance, rel=1e-9)
+    assert state.diameter[0] == pytest.approx(mean, rel=1e-12) and state.diameter_variance[0] == pytest.approx(
+        variance, rel=1e-9
+    )

@@ -24,7 +24,8 @@ def bins(std):
 
 
 def follow(std, ventilation):
-    """Losses to 90 % evaporated, each with the share of the mass and the mean diameter that 2000 fine bins have left."""
+    """Losses to 90 % evaporated, each with the share of the mass and the mean diameter that 2000 fine bins have
+    left."""
     s, m = grain_sizes.log_std(MEAN, std), grain_sizes.log_mean(MEAN, std)
     z = np.linspace(-6.0, 6.0 + 3.0 * s, 2001)
     number, start = np.exp(-0.5 * z * z), np.exp(m + s * z)

@@ -71,7 +71,18 @@ def test_work_of_contacts_is_what_their_force_takes(block):
         for k in range(block.rows.count[i]):
             j = block.rows.index[i, k]
             dx, dy, dz, r2 = separation(s, block.neighbours.box, i, j)
-            pull = friction.elastic(block.parameters["friction"], s, block.neighbours.box, i, j, 1.0 / s.density[i], 1.0 / s.density[j], dx, dy, dz)
+            pull = friction.elastic(
+                block.parameters["friction"],
+                s,
+                block.neighbours.box,
+                i,
+                j,
+                1.0 / s.density[i],
+                1.0 / s.density[j],
+                dx,
+                dy,
+                dz,
+            )
             g = s.mass[i] * s.mass[j] * kernels.cubic_spline_gradient(math.sqrt(r2), block.kernel.h, block.kernel.sigma)
             power += g * (pull[0] * s.u[i] + pull[1] * s.v[i])
     work = (s.mass * out.contact_work).sum()

@@ -10,7 +10,12 @@ from sdph.effects.grains import grain_shifting
 @pytest.fixture
 def crowd(tmp_path):
     """Grains thrown about in a periodic box, some of them nearly on top of each other."""
-    case = box(["granular_pressure", "grain_shifting"], size=(0.1, 0.1), alpha_p=0.5, grains={"granular_temperature_m2_s2": 0.0})
+    case = box(
+        ["granular_pressure", "grain_shifting"],
+        size=(0.1, 0.1),
+        alpha_p=0.5,
+        grains={"granular_temperature_m2_s2": 0.0},
+    )
     stepper = started(case, tmp_path).stepper
     rng, s = np.random.default_rng(4), stepper.state
     for values, width in ((s.x, 3e-3), (s.y, 3e-3), (s.u, 0.5), (s.v, 0.5)):
@@ -22,7 +27,9 @@ def crowd(tmp_path):
 
 def moved(stepper, dt):
     out = np.empty((len(stepper.state.x), 3))
-    grain_shifting.shift(stepper.parameters["grain_shifting"], stepper.state, stepper.rows, stepper.neighbours.box, dt, out)
+    grain_shifting.shift(
+        stepper.parameters["grain_shifting"], stepper.state, stepper.rows, stepper.neighbours.box, dt, out
+    )
     return out
 
 

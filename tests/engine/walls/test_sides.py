@@ -20,4 +20,6 @@ def test_no_pair_and_no_dummy_reaches_through_a_plate(tmp_path):
         facing = dummies.normal_x[seen[stepper.boundary.of_mesh[seen]]]
         assert np.all(facing == (-1.0 if own else 1.0))
     beside = np.flatnonzero(np.abs(stepper.state.x - 0.25) < 0.03)
-    assert len(beside) and all(stepper.boundary.of_mesh[stepper.wall_rows.index[i, : stepper.wall_rows.count[i]]].any() for i in beside)
+    assert len(beside) and all(
+        stepper.boundary.of_mesh[stepper.wall_rows.index[i, : stepper.wall_rows.count[i]]].any() for i in beside
+    )

@@ -1,5 +1,6 @@
 """Liquid at rest in tanks of every shape, and turning with one like a solid."""
 
+import itertools
 import math
 
 import numpy as np
@@ -70,14 +71,16 @@ def test_liquid_comes_to_rest(name, tmp_path):
 def test_liquid_turns_with_its_tank_like_a_solid():
     """The surface becomes z = z_0 + omega^2 r^2/(2 g), within a spacing."""
     spacing, omega = 0.07, 3.5
-    tank = {"shape": "cylinder", "length_m": 0.8, "radius_m": RADIUS, "centre_m": [0.0, 0.0, 0.0]}  # its axis is the frame's
+    # its axis is the frame's
+    tank = {"shape": "cylinder", "length_m": 0.8, "radius_m": RADIUS, "centre_m": [0.0, 0.0, 0.0]}
     own = settled(tank, spacing, 3.0, frame={"spin_rad_s": [0.0, 0.0, omega]})
     x = particles.positions(own.state)[own.active]
     radius = np.hypot(x[:, 0], x[:, 1])
     edges = np.linspace(0.0, RADIUS, 6)
     middle, top = 0.5 * (edges[:-1] + edges[1:]), []
-    for inner, outer in zip(edges, edges[1:]):
-        top.append(np.sort(x[(radius >= inner) & (radius < outer), 2])[-5:].mean() + 0.5 * spacing)  # the five highest of a ring
+    for inner, outer in itertools.pairwise(edges):
+        # the five highest of a ring
+        top.append(np.sort(x[(radius >= inner) & (radius < outer), 2])[-5:].mean() + 0.5 * spacing)
     rise = omega**2 * middle**2 / (2.0 * G)
     assert np.ptp(rise) > 1.5 * spacing
     assert np.abs(np.array(top) - rise - np.mean(np.array(top) - rise)).max() < spacing
@@ -113,7 +116,14 @@ def test_a_tank_is_drawn_where_its_walls_are(name):
     away = np.abs(shape.distance(drawn.points[:, : 2 if name in ("channel", "disc") else 3].astype(float)))
     assert away.max() < 1e-6
     size = drawn.area or drawn.compute_cell_sizes()["Length"].sum()
-    exact = {"sphere": math.pi, "capsule": 1.4 * math.pi, "cylinder": 1.3 * math.pi, "open box": 1.76, "channel": 1.6, "disc": math.pi}
+    exact = {
+        "sphere": math.pi,
+        "capsule": 1.4 * math.pi,
+        "cylinder": 1.3 * math.pi,
+        "open box": 1.76,
+        "channel": 1.6,
+        "disc": math.pi,
+    }
     assert size == pytest.approx(exact[name], rel=0.02)  # round ones are drawn by facets
 
 

@@ -74,8 +74,10 @@ def pair_rates(stepper):
     stepper._sub_step(1e-4)
     sheared = stepper._shear(1e-4)
     out = np.empty((count, 3)), np.empty(count), np.empty(count)
-    rates.rates(stepper.kernel, s, stepper.rows, stepper.neighbours.box, stepper.pull, stepper.stress, stepper.viscous, p["friction"], *sheared[:3],
-                p["artificial_viscosity"], p["granular_temperature"], p["conduction"], (), (), (), (), (), *out)  # fmt: skip
+    rates.rates(stepper.kernel, s, stepper.rows, stepper.neighbours.box, stepper.pull, stepper.stress, stepper.viscous,
+        p["friction"], *sheared[:3],
+                p["artificial_viscosity"], p["granular_temperature"], p["conduction"], (), (), (), (), (),
+                *out)  # fmt: skip
     return out
 
 
@@ -91,7 +93,10 @@ def test_uniform_shear_makes_as_much_agitation_as_collisions_take(tmp_path, mode
     middle = np.abs(stepper.state.y - 0.06) < 0.02
     theta = stepper.state.theta[middle]
     shear, pressure = across(stepper, 0.06)
-    print(f"{model}: theta {theta.mean() / expected.theta:.4f}, tau {shear / expected.stress:.4f}, p {pressure / expected.pressure:.4f}")
+    print(
+        f"{model}: theta {theta.mean() / expected.theta:.4f}, tau {shear / expected.stress:.4f}, p "
+        f"{pressure / expected.pressure:.4f}"
+    )
     assert theta == pytest.approx(expected.theta, rel=0.08)
     assert shear == pytest.approx(expected.stress, rel=0.09)
     assert pressure == pytest.approx(expected.pressure, rel=0.08)
@@ -99,7 +104,8 @@ def test_uniform_shear_makes_as_much_agitation_as_collisions_take(tmp_path, mode
 
 
 def test_pairs_keep_momentum_and_energy_to_round_off(tmp_path):
-    """Random grains, all effects between grains on: sum m a = 0; kinetic energy, agitation and heat add up to nothing."""
+    """Random grains, all effects between grains on: sum m a = 0; kinetic energy, agitation and heat add up to
+    nothing."""
     case = box([*KINETIC, "friction", "artificial_viscosity", "conduction"], alpha_p=0.61)
     stepper = started(case, tmp_path).stepper
     s, rng = stepper.state, np.random.default_rng(1)
@@ -121,10 +127,13 @@ PHI = math.radians(28.5)
 
 
 def slid(folder, slope, end=0.3):
-    """Mean velocity [m/s] at the end, and mean acceleration in the latter half, of a layer on a rough floor, tilted by `slope`."""
+    """Mean velocity [m/s] at the end, and mean acceleration in the latter half, of a layer on a rough floor, tilted by
+    `slope`."""
     g = (9.81 * math.sin(slope), -9.81 * math.cos(slope))
-    case = box(["gravity", "friction", "granular_pressure", "walls"], size=(0.06, 0.12), alpha_p=0.61, fill=(0.06, 0.06),
-               periodic=("x",), gravity=g, boundaries={"lid": {"kind": "pressure_outlet", "side": "top", "pressure_Pa": 0.0}},
+    case = box(["gravity", "friction", "granular_pressure", "walls"], size=(0.06, 0.12), alpha_p=0.61,
+        fill=(0.06, 0.06),
+               periodic=("x",), gravity=g, boundaries={"lid": {"kind": "pressure_outlet", "side": "top",
+               "pressure_Pa": 0.0}},
                grains={"granular_temperature_m2_s2": 0.0}, **windows(end, 30))  # fmt: skip
     simulated = started(case, folder)
     velocities = [0.0]
@@ -146,27 +155,35 @@ def test_slope_slides_with_what_friction_leaves(tmp_path):
 def test_slope_below_the_angle_of_yield_rests(tmp_path):
     """At 20 degrees, below atan(sin phi) = 25.5: contacts bear the layer elastically, whatever the step."""
     speed, acceleration = slid(tmp_path, math.radians(20.0))
-    print(f"slope of 20 degrees: {speed:.1e} m/s, {acceleration:.1e} m/s2; without friction {9.81 * math.sin(math.radians(20.0)):.2f} m/s2")
+    print(
+        f"slope of 20 degrees: {speed:.1e} m/s, {acceleration:.1e} m/s2; without friction "
+        f"{9.81 * math.sin(math.radians(20.0)):.2f} m/s2"
+    )
     assert abs(speed) < 1e-3
     assert abs(acceleration) < 0.01
 
 
 def collapsed(folder, aspect, width=0.08):
-    """(run-out over the first width, height over it) of a column `aspect` times as high as wide, fallen over a rough floor.
+    """(run-out over the first width, height over it) of a column `aspect` times as high as wide, fallen over a rough
+    floor.
 
-    With 8 particles across, the rim, where alpha_p is below the onset of contacts, is half of the column and flows like water."""
+    With 8 particles across, the rim, where alpha_p is below the onset of contacts, is half of the column and flows like
+    water."""
     height = aspect * width
     end = 4.0 * math.sqrt(height / 9.81)
-    case = box(["gravity", "friction", "granular_pressure", "artificial_viscosity", "walls"], size=(width * (2.0 + 3.0 * aspect), 1.2 * height),
-               alpha_p=0.61, fill=(width, height), periodic=(), gravity=(0.0, -9.81), grains={"granular_temperature_m2_s2": 1e-6},
-               boundaries={"side": {"kind": "slip_wall", "side": "left"}, "lid": {"kind": "pressure_outlet", "side": "top", "pressure_Pa": 0.0},
+    case = box(["gravity", "friction", "granular_pressure", "artificial_viscosity", "walls"],
+        size=(width * (2.0 + 3.0 * aspect), 1.2 * height),
+               alpha_p=0.61, fill=(width, height), periodic=(), gravity=(0.0, -9.81),
+               grains={"granular_temperature_m2_s2": 1e-6}, boundaries={"side": {"kind": "slip_wall", "side": "left"},
+               "lid": {"kind": "pressure_outlet", "side": "top", "pressure_Pa": 0.0},
                            "floor": {"kind": "wall"}}, **windows(end, 40))  # fmt: skip
     state = go(started(case, folder)).state
     return (np.percentile(state.x, 98.0) - width) / width, np.percentile(state.y, 98.0) / width
 
 
 def test_higher_columns_run_out_further(tmp_path):
-    """Trend of collapsing columns (Balmforth & Kerswell 2005, in a channel): run-out ~ a^0.9, height ~ a^0.6, roughly."""
+    """Trend of collapsing columns (Balmforth & Kerswell 2005, in a channel): run-out ~ a^0.9, height ~ a^0.6,
+    roughly."""
     aspects, found = (1.0, 2.0, 4.0), []
     for aspect in aspects:
         (tmp_path / f"{aspect}").mkdir()

@@ -74,7 +74,9 @@ def test_conduction_is_the_sum_of_cleary_and_monaghan(rng, count, dims, wrapped)
     factor = state.mass[None] / (state.density[:, None] * state.density[None]) * mean
     slope = r * spline(r, dims)[1] / (r**2 + 0.01 * H**2)
     pairs = factor * slope * (state.temperature[:, None] - state.temperature[None])
-    np.testing.assert_allclose(heating, pairs.sum(axis=1), rtol=1e-10, atol=1e-12 * np.abs(pairs).sum(axis=1).max(initial=0.0))
+    np.testing.assert_allclose(
+        heating, pairs.sum(axis=1), rtol=1e-10, atol=1e-12 * np.abs(pairs).sum(axis=1).max(initial=0.0)
+    )
 
 
 @given(rng=rngs, count=st.integers(2, 80), dims=dimensions, wrapped=periodic)
@@ -88,7 +90,9 @@ def test_conduction_keeps_the_heat_and_makes_entropy(rng, count, dims, wrapped):
 
 
 def test_coincident_pair_stays_finite():
-    state, heating = conduction_heating(rates.Kernel(H, SIGMA[2]), cloud([[0.1, 0.1], [0.1, 0.1]], temperature=[300.0, 400.0]), GRAINS)
+    _state, heating = conduction_heating(
+        rates.Kernel(H, SIGMA[2]), cloud([[0.1, 0.1], [0.1, 0.1]], temperature=[300.0, 400.0]), GRAINS
+    )
     np.testing.assert_array_equal(heating, 0.0)
 
 
@@ -98,7 +102,9 @@ def test_lattice_has_its_own_density(dims, sides):
     dx = 2.5e-3
     points = np.stack(np.meshgrid(*[(np.arange(n) + 0.5) * dx for n in sides]), axis=-1).reshape(-1, dims)
     kernel = rates.kernel_of(disc()) if dims == 2 else rates.Kernel(1.5 * dx, kernel_in_space(1.5 * dx))
-    state, density = summed_density(kernel, cloud(points, mass=0.6 * 3060.0 * dx**dims), (*(n * dx for n in sides), 0.0)[:3])
+    _state, density = summed_density(
+        kernel, cloud(points, mass=0.6 * 3060.0 * dx**dims), (*(n * dx for n in sides), 0.0)[:3]
+    )
     np.testing.assert_allclose(density, 0.6 * 3060.0, rtol=1e-12)
 
 
@@ -180,13 +186,17 @@ def test_effect_set_is_the_loop_written_by_hand(on):
 def test_every_output_is_written():
     """Numba drops writes to an array inside a tuple in a prange without a word; nan that stays would show it."""
     state = random_cloud(np.random.default_rng(8), 50, 2)
-    for found in (summed_density(rates.Kernel(H, SIGMA[2]), state), conduction_heating(rates.Kernel(H, SIGMA[2]), state, GRAINS)):
+    for found in (
+        summed_density(rates.Kernel(H, SIGMA[2]), state),
+        conduction_heating(rates.Kernel(H, SIGMA[2]), state, GRAINS),
+    ):
         assert np.isfinite(found[1]).all()
         assert np.abs(found[1]).max() > 0.0
 
 
 def test_sound_is_stable_at_twice_its_limit():
-    """von Neumann: waves on a lattice with h = 1.5 dx, summed density, pressure up to rho c^2/2; these steps bear omega dt = 2."""
+    """von Neumann: waves on a lattice with h = 1.5 dx, summed density, pressure up to rho c^2/2; these steps bear omega
+    dt = 2."""
     dx = H / 1.5
     place = dx * np.stack(np.meshgrid(*[np.arange(-4, 5)] * 2), axis=-1).reshape(-1, 2)
     place = place[place.any(axis=1)]
@@ -194,7 +204,11 @@ def test_sound_is_stable_at_twice_its_limit():
     pull = dx**2 * spline(r, 2)[1] / r  # V (dW/dr)/r
     shifted = 1e-6 * H * np.array([1.0, 0.0])
     ahead, behind = (np.linalg.norm(place + side * shifted, axis=1) for side in (1.0, -1.0))
-    bent = dx**2 * (spline(ahead, 2)[1] / ahead * (x + shifted[0]) - spline(behind, 2)[1] / behind * (x - shifted[0])) / (2.0 * shifted[0])
+    bent = (
+        dx**2
+        * (spline(ahead, 2)[1] / ahead * (x + shifted[0]) - spline(behind, 2)[1] / behind * (x - shifted[0]))
+        / (2.0 * shifted[0])
+    )
     waves = np.linspace(0.01, 1.0, 200)[:, None] * np.pi / dx * x
     compression, push = (pull * x * np.sin(waves)).sum(axis=1) ** 2, (bent * (1.0 - np.cos(waves))).sum(axis=1)
     borne = [2.0 / np.sqrt((compression + 2.0 * p * push).max()) / H for p in (0.0, 0.5)]  # of h/c

@@ -13,7 +13,9 @@ def corrections(own):
     for i in own.active:
         d = r[i] - r
         d = np.delete(d, i, axis=0)
-        share = np.delete(np.abs(own.volume), i) * np.array([smoothing.slope.py_func(own.kernel, q) for q in np.linalg.norm(d, axis=1)])
+        share = np.delete(np.abs(own.volume), i) * np.array(
+            [smoothing.slope.py_func(own.kernel, q) for q in np.linalg.norm(d, axis=1)]
+        )
         M = -np.einsum("j,ja,jb->ab", share, d, d)
         if own.case.dimensions == 2:
             M[2, 2] = 1.0

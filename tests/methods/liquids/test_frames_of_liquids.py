@@ -26,7 +26,9 @@ class MovingWalls(LiquidStepper):
     def _drift(self, dt: float) -> None:
         super()._drift(dt)
         before, self.moved = self.moved, self.moved + dt
-        self.state.x[self.state.kind == particles.WALL] += SHAKE * (math.cos(OMEGA * before) - math.cos(OMEGA * self.moved))
+        self.state.x[self.state.kind == particles.WALL] += SHAKE * (
+            math.cos(OMEGA * before) - math.cos(OMEGA * self.moved)
+        )
         self._walls_at(self.moved)
 
     def _walls_at(self, time: float) -> None:
@@ -39,8 +41,9 @@ class MovingWalls(LiquidStepper):
 def box(kind, *effects, **sections) -> LiquidStepper:
     own = kind(cases.from_table({
         "dimensions": 2, "effects": ["gravity", "density_diffusion", "liquid_damping", "tank", *effects],
-        "run": {"end_time_s": 1.0, "output_interval_s": 1.0}, "domain": {"size_m": [0.6, 0.5], "gravity_m_s2": [0.0, -G]},
-        "resolution": {"spacing_mm": 20.0}, "liquid": {"density_kg_m3": 1000.0, "sound_speed_m_s": 18.0},
+        "run": {"end_time_s": 1.0, "output_interval_s": 1.0},
+        "domain": {"size_m": [0.6, 0.5], "gravity_m_s2": [0.0, -G]}, "resolution": {"spacing_mm": 20.0},
+        "liquid": {"density_kg_m3": 1000.0, "sound_speed_m_s": 18.0},
         "tank": {"slip": "free_slip", "open_sides": ["top"]},
         "pools": {"water": {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.6, 0.3]}},
     } | sections))  # fmt: skip
@@ -72,15 +75,19 @@ def test_forces_are_the_same_from_outside_and_from_the_tank():
 def test_free_liquid_flies_the_same_way_seen_from_a_turning_frame(turn):
     """Omega, Coriolis and the centrifugal force are what makes a straight flight one."""
     table = {
-        "dimensions": 3, "effects": ["density_diffusion", "liquid_damping"], "run": {"end_time_s": 1.0, "output_interval_s": 1.0},
+        "dimensions": 3, "effects": ["density_diffusion", "liquid_damping"],
+        "run": {"end_time_s": 1.0, "output_interval_s": 1.0},
         "domain": {"size_m": [1.0, 1.0, 1.0], "gravity_m_s2": [0.0, 0.0, 0.0]}, "resolution": {"spacing_mm": 50.0},
         "liquid": {"density_kg_m3": 1000.0, "sound_speed_m_s": 10.0},
-        "pools": {"drop": {"shape": "box", "lower_m": [0.2, 0.3, 0.1], "upper_m": [0.45, 0.55, 0.35], "velocity_m_s": [1.0, 0.5, -0.3]}},
+        "pools": {"drop": {"shape": "box", "lower_m": [0.2, 0.3, 0.1], "upper_m": [0.45, 0.55, 0.35],
+        "velocity_m_s": [1.0, 0.5, -0.3]}},
     }  # fmt: skip
     turning = table | {"effects": [*table["effects"], "frame"], "frame": {"spin_rad_s": list(turn)}}
     still, turned = (LiquidStepper(cases.from_table(t)) for t in (table, turning))
     omega, end = np.array(turn), 0.2
-    for axis, column in zip((turned.state.u, turned.state.v, turned.state.w), np.cross(omega, particles.positions(turned.state)).T):
+    for axis, column in zip(
+        (turned.state.u, turned.state.v, turned.state.w), np.cross(omega, particles.positions(turned.state)).T
+    ):
         axis -= column
     turned.forces()
     for own in (still, turned):

@@ -21,8 +21,14 @@ TANK = {
 }
 
 
-def stepper(dimensions=2, effects=("gravity", "density_diffusion", "liquid_damping", "laminar_viscosity", "tank"), pressed=False, **sections):
-    """A pool at rest in a box, shaken: places and velocities random by a tenth; `pressed`: one particle right at the floor."""
+def stepper(
+    dimensions=2,
+    effects=("gravity", "density_diffusion", "liquid_damping", "laminar_viscosity", "tank"),
+    pressed=False,
+    **sections,
+):
+    """A pool at rest in a box, shaken: places and velocities random by a tenth; `pressed`: one particle right at the
+    floor."""
     gravity = [0.0] * (dimensions - 1) + [-9.81]
     table = {
         "dimensions": dimensions,
@@ -49,7 +55,9 @@ def stepper(dimensions=2, effects=("gravity", "density_diffusion", "liquid_dampi
 
 
 @pytest.mark.parametrize("dimensions", [2, 3])
-@pytest.mark.parametrize(("kernel", "gradient"), [("wendland_c2", "plain"), ("cubic_spline", "plain"), ("wendland_c2", "corrected")])
+@pytest.mark.parametrize(
+    ("kernel", "gradient"), [("wendland_c2", "plain"), ("cubic_spline", "plain"), ("wendland_c2", "corrected")]
+)
 def test_acceleration_is_the_sum_over_all_pairs(dimensions, kernel, gradient):
     own = stepper(dimensions, pressed=True, liquid=LIQUID_OF_TANK | {"kernel": kernel, "pressure_gradient": gradient})
     corrected = gradient == "corrected"
@@ -70,7 +78,9 @@ def test_acceleration_is_the_sum_over_all_pairs(dimensions, kernel, gradient):
             slope = smoothing.slope.py_func(own.kernel, distance[j])
             closing = (v[i] - v[j]) @ d[j]
             ringing = -p["liquid_damping"].strength * closing / (distance[j] ** 2 + p["liquid_damping"].softening)
-            held_off = 0.0 if wet[j] else s.density[i] * 20.0**2 * max(0.0, 1.0 - distance[j] / (0.025 * dimensions**0.5))
+            held_off = (
+                0.0 if wet[j] else s.density[i] * 20.0**2 * max(0.0, 1.0 - distance[j] / (0.025 * dimensions**0.5))
+            )
             expected -= volume[j] * slope * (own.pressure[i] * B[i] + own.pressure[j] * B[j if wet[j] else i]) @ d[j]
             expected -= volume[j] * slope * (ringing + held_off) * d[j]
             expected += volume[j] * slope * 2.0 * 1.0 * (v[i] - v[j])
@@ -84,8 +94,8 @@ def test_density_rate_is_the_sum_over_all_pairs(dimensions):
     own = stepper(dimensions)
     s = own.state
     rates.compress(
-        own.kernel, s, own.rows, own.neighbours.box, own.active, own.wall, own.p["density_diffusion"], own.phases, own.pressure,
-        *own.gradient, own.volume, own.rate,
+        own.kernel, s, own.rows, own.neighbours.box, own.active, own.wall, own.p["density_diffusion"], own.phases,
+        own.pressure, *own.gradient, own.volume, own.rate,
     )  # fmt: skip
     r, v = positions(s), velocities(s)
     wet = s.kind == LIQUID
@@ -100,7 +110,9 @@ def test_density_rate_is_the_sum_over_all_pairs(dimensions):
             slope = smoothing.slope.py_func(own.kernel, np.linalg.norm(d))
             expected += s.density[i] * abs(own.volume[j]) * slope * ((v[i] - v[j]) @ d)
             if wet[j]:
-                psi = 2.0 * (own.pressure[j] - own.pressure[i]) + sum((g[i] + g[j]) * d[a] for a, g in enumerate(own.gradient))
+                psi = 2.0 * (own.pressure[j] - own.pressure[i]) + sum(
+                    (g[i] + g[j]) * d[a] for a, g in enumerate(own.gradient)
+                )
                 expected -= strength * own.volume[j] * slope * psi
         assert own.rate[i] == pytest.approx(expected, rel=1e-9, abs=1e-6)
 
@@ -110,15 +122,15 @@ def test_a_linear_pressure_does_not_diffuse():
     own.pressure[:] = 1e4 + 3e3 * positions(own.state) @ np.array([1.0, -2.0, 0.5])
     s = own.state
     rates.push(
-        own.kernel, s, own.rows, own.neighbours.box, own.active, own.wall, own.p["gravity"], own.frame, own.p["laminar_viscosity"],
-        own.p["liquid_damping"], own.p["density_diffusion"], own.p["shifting"], own.phases, own.pressure, own.volume,
-        own.least, own.excess, own.acceleration, *own.gradient,
+        own.kernel, s, own.rows, own.neighbours.box, own.active, own.wall, own.p["gravity"], own.frame,
+        own.p["laminar_viscosity"], own.p["liquid_damping"], own.p["density_diffusion"], own.p["shifting"], own.phases,
+        own.pressure, own.volume, own.least, own.excess, own.acceleration, *own.gradient,
     )  # fmt: skip
     for array in (s.u, s.v, s.w):
         array[:] = 0.0
     rates.compress(
-        own.kernel, s, own.rows, own.neighbours.box, own.active, own.wall, own.p["density_diffusion"], own.phases, own.pressure,
-        *own.gradient, own.volume, own.rate,
+        own.kernel, s, own.rows, own.neighbours.box, own.active, own.wall, own.p["density_diffusion"], own.phases,
+        own.pressure, *own.gradient, own.volume, own.rate,
     )  # fmt: skip
     assert np.allclose(np.stack(own.gradient, axis=1)[own.active], [3e3, -6e3, 1.5e3], rtol=1e-9)
     assert np.abs(own.rate[own.active]).max() < 1e-9
@@ -134,10 +146,13 @@ def test_walls_feel_what_the_liquid_loses(dimensions, gradient):
 
 @pytest.mark.parametrize(("gradient", "error"), [("plain", 0.01), ("corrected", 1e-12)])
 def test_a_strained_lattice_does_not_resist(gradient, error):
-    """A pressure that is linear accelerates by -grad p/rho, however a lattice is strained: else it had a stress of its own."""
+    """A pressure that is linear accelerates by -grad p/rho, however a lattice is strained: else it had a stress of its
+    own."""
     pools = {"water": {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [1.0, 1.0]}}
     domain = {"size_m": [1.0, 1.0], "gravity_m_s2": [0.0, 0.0]}
-    own = stepper(2, ("density_diffusion",), liquid=LIQUID_OF_TANK | {"pressure_gradient": gradient}, pools=pools, domain=domain)
+    own = stepper(
+        2, ("density_diffusion",), liquid=LIQUID_OF_TANK | {"pressure_gradient": gradient}, pools=pools, domain=domain
+    )
     s, slope = own.state, np.array([3e3, -2e3])
     s.x[:], s.y[:] = (0.05 * (np.round(a / 0.05 - 0.5) + 0.5) for a in (s.x, s.y))
     s.x[:], s.y[:] = 1.1 * s.x, s.y / 1.1
@@ -173,7 +188,11 @@ def test_a_particle_among_those_of_a_wall_is_pushed_out(dimensions):
 
 @pytest.mark.parametrize("gradient", ["plain", "corrected"])
 def test_without_walls_momentum_stays(gradient):
-    own = stepper(3, effects=("density_diffusion", "liquid_damping", "laminar_viscosity"), liquid=LIQUID_OF_TANK | {"pressure_gradient": gradient})
+    own = stepper(
+        3,
+        effects=("density_diffusion", "liquid_damping", "laminar_viscosity"),
+        liquid=LIQUID_OF_TANK | {"pressure_gradient": gradient},
+    )
     before = (own.state.mass[:, None] * velocities(own.state)).sum(axis=0)
     scale = (own.state.mass[:, None] * np.abs(velocities(own.state))).sum()
     for _ in range(20):
@@ -200,9 +219,23 @@ def test_walls_extrapolate_a_hydrostatic_pressure():
     s.density[own.active] = 1000.0
     own.pressure[own.active] = 1000.0 * 9.81 * (0.4 - s.y[own.active])
     walls.extrapolate(
-        own.kernel, s, own.rows, own.neighbours.box, own.walls, own.wall, own.p["gravity"], own.frame, own.volume, own.pressure, s.u, s.v, s.w
+        own.kernel,
+        s,
+        own.rows,
+        own.neighbours.box,
+        own.walls,
+        own.wall,
+        own.p["gravity"],
+        own.frame,
+        own.volume,
+        own.pressure,
+        s.u,
+        s.v,
+        s.w,
     )
-    below = own.walls[(s.y[own.walls] < 0.0) & (s.y[own.walls] > -0.1) & (s.x[own.walls] > 0.0) & (s.x[own.walls] < 0.5)]
+    below = own.walls[
+        (s.y[own.walls] < 0.0) & (s.y[own.walls] > -0.1) & (s.x[own.walls] > 0.0) & (s.x[own.walls] < 0.5)
+    ]
     assert np.allclose(own.pressure[below], 9810.0 * (0.4 - s.y[below]), rtol=1e-12)
 
 
@@ -232,7 +265,11 @@ def test_a_rotating_liquid_stays_where_shifting_puts_its_velocity():
 
 def test_wall_particles_are_told_by_kind():
     own = stepper(2)
-    assert (own.state.kind[own.walls] == WALL).all() and (own.volume[own.walls] < 0.0).all() and (own.volume[own.active] > 0.0).all()
+    assert (
+        (own.state.kind[own.walls] == WALL).all()
+        and (own.volume[own.walls] < 0.0).all()
+        and (own.volume[own.active] > 0.0).all()
+    )
 
 
 def test_at_a_surface_particles_are_shifted_along_it():
@@ -241,7 +278,19 @@ def test_at_a_surface_particles_are_shifted_along_it():
     s, least = own.state, own.least
     along = own.shift.copy()
     own.shift[:] = 0.0
-    shift.surround(own.kernel, s, own.rows, own.neighbours.box, own.active, own.p["shifting"], own.phases, own.volume, least, own.shift, own.twist)
+    shift.surround(
+        own.kernel,
+        s,
+        own.rows,
+        own.neighbours.box,
+        own.active,
+        own.p["shifting"],
+        own.phases,
+        own.volume,
+        least,
+        own.shift,
+        own.twist,
+    )
     full, r = own.shift, positions(s)
     inside = least > shifting.INTERIOR
     assert inside.any() and np.array_equal(along[inside], full[inside])
@@ -261,4 +310,6 @@ def test_what_is_no_number_is_not_lost():
     own = stepper(2)
     own.state.density[own.active[0]] = np.nan
     own.forces()
-    assert np.isnan(own.acceleration[own.active[0]]).any() and np.isnan(own.acceleration[own.active]).any(axis=1).sum() > 3
+    assert (
+        np.isnan(own.acceleration[own.active[0]]).any() and np.isnan(own.acceleration[own.active]).any(axis=1).sum() > 3
+    )

@@ -21,7 +21,13 @@ BASE = {
     "run": {"end_time_s": 1.0, "output_interval_s": 1.0},
     "domain": {"size_m": [0.5, 0.8], "gravity_m_s2": [0.0, -9.81]},
     "resolution": {"spacing_mm": 50.0},
-    "liquid": {"density_kg_m3": 1000.0, "viscosity_Pa_s": 1.0, "sound_speed_m_s": 20.0, "exponent": 1.0, "background_pressure_Pa": 100.0},
+    "liquid": {
+        "density_kg_m3": 1000.0,
+        "viscosity_Pa_s": 1.0,
+        "sound_speed_m_s": 20.0,
+        "exponent": 1.0,
+        "background_pressure_Pa": 100.0,
+    },
     "gas_phase": {"density_kg_m3": 1.0, "viscosity_Pa_s": 0.02, "exponent": 1.0},
     "tank": {"suction": "full"},
     "pools": {
@@ -44,7 +50,9 @@ DROP = {
 
 def stepper(shaken=True, **sections):
     table = BASE | sections
-    own = LiquidStepper(cases.from_table({key: value for key, value in table.items() if key != "tank" or "tank" in table["effects"]}))
+    own = LiquidStepper(
+        cases.from_table({key: value for key, value in table.items() if key != "tank" or "tank" in table["effects"]})
+    )
     if shaken:
         random, s = np.random.default_rng(1), own.state
         wet = s.kind >= LIQUID
@@ -70,15 +78,24 @@ def expected_acceleration(own, i, weighted, B):
         first, second = (2.0 * rho_j / (rho_i + rho_j), 2.0 * rho_i / (rho_i + rho_j)) if weighted else (1.0, 1.0)
         pair = first * p_i * B[i] + second * p_j * B[j if wet else i]
         damping = -p["liquid_damping"].strength * closing / (distance**2 + p["liquid_damping"].softening)
-        along = damping * 2.0 * rho_i * rho_j / (rho_i + rho_j) / 1000.0 - 8.0 * mu[s.kind[i], kind_j] * closing / distance**2
+        along = (
+            damping * 2.0 * rho_i * rho_j / (rho_i + rho_j) / 1000.0
+            - 8.0 * mu[s.kind[i], kind_j] * closing / distance**2
+        )
         volume = s.mass[j] / s.density[j] if wet else 0.05**2
         total -= volume * smoothing.slope.py_func(own.kernel, distance) * (pair @ d + along * d)
     return total / s.density[i] + gravity
 
 
-@pytest.mark.parametrize(("interaction", "gradient"), [("riemann", "plain"), ("plain", "plain"), ("riemann", "corrected"), ("plain", "corrected")])
+@pytest.mark.parametrize(
+    ("interaction", "gradient"),
+    [("riemann", "plain"), ("plain", "plain"), ("riemann", "corrected"), ("plain", "corrected")],
+)
 def test_acceleration_is_the_sum_over_all_pairs(interaction, gradient):
-    own = stepper(gas_phase=BASE["gas_phase"] | {"interaction": interaction}, liquid=BASE["liquid"] | {"pressure_gradient": gradient})
+    own = stepper(
+        gas_phase=BASE["gas_phase"] | {"interaction": interaction},
+        liquid=BASE["liquid"] | {"pressure_gradient": gradient},
+    )
     B = corrections(own) if gradient == "corrected" else np.zeros((len(own.state.x), 3, 3)) + np.eye(3)
     chosen = np.concatenate([np.flatnonzero(own.state.kind == kind)[::5] for kind in (LIQUID, GAS)])
     for i in chosen:
@@ -93,12 +110,15 @@ def test_walls_feel_what_both_phases_lose(gradient):
     assert np.allclose(momentum[:3], felt[:3], rtol=1e-9, atol=1e-9 * np.abs(felt).max())
 
 
-@pytest.mark.parametrize(("interaction", "gradient"), [("riemann", "plain"), ("plain", "plain"), ("riemann", "corrected")])
+@pytest.mark.parametrize(
+    ("interaction", "gradient"), [("riemann", "plain"), ("plain", "plain"), ("riemann", "corrected")]
+)
 def test_pair_forces_keep_momentum(interaction, gradient):
     effects = ["density_diffusion", "liquid_damping", "laminar_viscosity", "xsph"]
     own = stepper(
         effects=effects, liquid=BASE["liquid"] | {"periodic": [1.0, 1.0], "pressure_gradient": gradient},
-        gas_phase=BASE["gas_phase"] | {"density_kg_m3": 100.0, "interaction": interaction}, domain={"size_m": [0.5, 0.8], "gravity_m_s2": [0.0, 0.0]},
+        gas_phase=BASE["gas_phase"] | {"density_kg_m3": 100.0, "interaction": interaction},
+        domain={"size_m": [0.5, 0.8], "gravity_m_s2": [0.0, 0.0]},
     )  # fmt: skip
     scale = (own.state.mass[:, None] * np.abs(velocities(own.state))).sum()
     before = own.state.mass @ velocities(own.state)
@@ -111,11 +131,13 @@ def test_xsph_moves_each_phase_with_its_own_and_as_a_whole_not_at_all():
     own = stepper(effects=["xsph"], liquid=BASE["liquid"] | {"periodic": [1.0, 1.0]})
     s = own.state
     s.u[s.kind == GAS], s.u[s.kind == LIQUID] = 5.0, -2.0
-    shift.mingle(own.kernel, s, own.rows, own.neighbours.box, own.active, own.p["xsph"], own.phases, own.volume, *own.extra)
+    shift.mingle(
+        own.kernel, s, own.rows, own.neighbours.box, own.active, own.p["xsph"], own.phases, own.volume, *own.extra
+    )
     assert np.abs(own.extra[0]).max() < 1e-12
     assert np.abs(own.extra[1]).max() > 1e-3
     for kind in (LIQUID, GAS):
-        assert abs((s.mass @ np.where(s.kind == kind, own.extra[1], 0.0))) < 1e-12 * s.mass.sum()
+        assert abs(s.mass @ np.where(s.kind == kind, own.extra[1], 0.0)) < 1e-12 * s.mass.sum()
 
 
 def test_water_under_air_stays_at_rest():
@@ -140,26 +162,47 @@ def test_curvature_of_a_disc():
 
 
 def test_tension_of_one_curvature_is_balanced_by_its_pressure():
-    """Whatever the disorder: with p = sigma kappa in the disc and 0 around it, force and pressure differ by no more than
-    what one pressure everywhere gives."""
+    """Whatever the disorder: with p = sigma kappa in the disc and 0 around it, force and pressure differ by no more
+    than what one pressure everywhere gives."""
     own = stepper(**DROP)
     s, sigma = own.state, 0.5
     own.curvature[:] = np.where(own.normal.any(axis=1), 2.0, 0.0)
     tension = np.zeros((len(s.x), 3))
-    interface.pull(own.kernel, s, own.rows, own.neighbours.box, own.active, own.p["surface_tension"], own.volume, own.normal, own.curvature, tension)
+    interface.pull(
+        own.kernel,
+        s,
+        own.rows,
+        own.neighbours.box,
+        own.active,
+        own.p["surface_tension"],
+        own.volume,
+        own.normal,
+        own.curvature,
+        tension,
+    )
     r, h = positions(s), own.kernel.h
     for i in np.flatnonzero(own.normal.any(axis=1))[::25]:
         jump = np.zeros(3)
         for j in np.flatnonzero((np.linalg.norm(r - r[i], axis=1) < 2.0 * h) & (s.kind != s.kind[i])):
             d, inside = r[i] - r[j], 2.0 * sigma * (s.kind[j] == LIQUID) - 2.0 * sigma * (s.kind[i] == LIQUID)
             pair = 2.0 * s.density[i] * inside / (s.density[i] + s.density[j])
-            jump -= s.mass[j] / s.density[j] * smoothing.slope.py_func(own.kernel, np.linalg.norm(d)) * pair * d / s.density[i]
+            jump -= (
+                s.mass[j]
+                / s.density[j]
+                * smoothing.slope.py_func(own.kernel, np.linalg.norm(d))
+                * pair
+                * d
+                / s.density[i]
+            )
         assert np.allclose(tension[i], -jump, rtol=1e-9, atol=1e-12 * np.abs(jump).max())
 
 
 def test_summed_density_of_a_lattice_is_that_of_rest():
     own = stepper(
-        shaken=False, effects=["tank"], gas_phase=BASE["gas_phase"] | {"density_by": "summation"}, domain={"size_m": [0.5, 0.8], "gravity_m_s2": [0.0, 0.0]}
+        shaken=False,
+        effects=["tank"],
+        gas_phase=BASE["gas_phase"] | {"density_by": "summation"},
+        domain={"size_m": [0.5, 0.8], "gravity_m_s2": [0.0, 0.0]},
     )
     assert np.allclose(own.state.density[own.state.kind == LIQUID], 1000.0, rtol=1e-9)
     assert np.allclose(own.state.density[own.state.kind == GAS], 1.0, rtol=1e-9)
@@ -171,14 +214,20 @@ def test_van_der_waals_gas_begins_at_the_pressure_of_the_case():
 
 
 def test_paper_and_default_let_the_column_fall_alike():
-    """XSPH and Van der Waals' gas as the paper has them (p_i + p_j, c_a = 14.1 c_w), and the Riemann form: fronts within a spacing."""
+    """XSPH and Van der Waals' gas as the paper has them (p_i + p_j, c_a = 14.1 c_w), and the Riemann form: fronts
+    within a spacing."""
     fronts = []
     for paper in (False, True):
         table = cases.to_table(cases.load(scenes.find("dam_break_gas")[1], ("resolution.spacing_mm=7.14375",)))
         if paper:
             table["effects"] = [*(name for name in table["effects"] if name != "shifting"), "xsph"]
             del table["shifting"]
-            table["gas_phase"] |= {"interaction": "plain", "exponent": 1.4, "sound_speed_m_s": 299.0, "cohesion_Pa_m6_kg2": 1682.0}
+            table["gas_phase"] |= {
+                "interaction": "plain",
+                "exponent": 1.4,
+                "sound_speed_m_s": 299.0,
+                "cohesion_Pa_m6_kg2": 1682.0,
+            }
             table["liquid"] |= {"exponent": 7.0}
         own = LiquidStepper(cases.from_table(table))
         while own.time < 0.03:
@@ -189,7 +238,9 @@ def test_paper_and_default_let_the_column_fall_alike():
 
 
 def test_one_phase_is_off():
-    case = cases.from_table({key: value for key, value in BASE.items() if key != "gas_phase"} | {"pools": {"water": BASE["pools"]["water"]}})
+    case = cases.from_table(
+        {key: value for key, value in BASE.items() if key != "gas_phase"} | {"pools": {"water": BASE["pools"]["water"]}}
+    )
     assert phases.kernel(case) == OFF
 
 
@@ -216,7 +267,20 @@ def test_frequencies_of_discs():
         ({"resolution": {"spacing_mm": 1e12}}, "larger than pools.water"),
         ({"gas_phase": None}, "gas_phase"),
         ({"gas_phase": {"density_kg_m3": 1.0, "density_by": "summation"}}, "density_diffusion"),
-        ({"pools": {"a": {"phase": "gas", "shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.5, 0.8], "flow": "quadrupole"}}}, "quadrupole"),
+        (
+            {
+                "pools": {
+                    "a": {
+                        "phase": "gas",
+                        "shape": "box",
+                        "lower_m": [0.0, 0.0],
+                        "upper_m": [0.5, 0.8],
+                        "flow": "quadrupole",
+                    }
+                }
+            },
+            "quadrupole",
+        ),
     ],
 )
 def test_what_two_phases_cannot_be_is_told(change, word):

@@ -10,7 +10,8 @@ CELL, SIZE = 0.01, (0.5, 1.0)  # m
 
 
 def bed(middle, radius, depth=None):
-    """Centres, volumes, alpha_p, temperature and pressure of a bed 0.6 m high with a round void; `depth` cells along z."""
+    """Centres, volumes, alpha_p, temperature and pressure of a bed 0.6 m high with a round void; `depth` cells along
+    z."""
     ticks = [(np.arange(round(length / CELL)) + 0.5) * CELL for length in SIZE] + [(np.arange(depth or 1) + 0.5) * CELL]
     centres = np.stack([a.ravel() for a in np.meshgrid(*ticks, indexing="ij")], axis=1)
     inside = np.hypot(centres[:, 0] - middle[0], centres[:, 1] - middle[1]) < radius
@@ -57,7 +58,9 @@ def tapered(middle, radius, cut):
     shapes = [(a, b, c), (a, c, d)] if cut else [(a, b, c, d)]
     centres = np.concatenate([np.mean(shape, axis=0).reshape(-1, 2) for shape in shapes])
     rings = [list(zip(shape, shape[1:] + shape[:1])) for shape in shapes]
-    area = np.concatenate([0.5 * abs(sum(np.linalg.det(np.stack(edge, axis=-1)) for edge in ring)).ravel() for ring in rings])
+    area = np.concatenate(
+        [0.5 * abs(sum(np.linalg.det(np.stack(edge, axis=-1)) for edge in ring)).ravel() for ring in rings]
+    )
     inside = np.hypot(centres[:, 0] - middle[0], centres[:, 1] - middle[1]) < radius
     alpha_p = np.where(inside | (centres[:, 1] > 0.6), 0.0, 0.6)
     return np.pad(centres, ((0, 0), (0, 1))), area, alpha_p, 288.0 + 50.0 * inside, 9e3 * (1.0 - centres[:, 1])
@@ -77,7 +80,7 @@ def test_any_cells_have_a_bubble(cut):
 
 def test_two_voids_that_touch_at_a_corner_are_two():
     """On cells of any kind as on a grid: neighbours share a face."""
-    centres, volumes, *_ = bed((0.25, 0.3), 0.0)
+    centres, _volumes, *_ = bed((0.25, 0.3), 0.0)
     grid = bubble.neighbours(centres)
     holed = np.ones(len(centres), bool)
     holed[-1] = False  # a grid with a hole is none, and takes the other way

@@ -1,4 +1,5 @@
-"""The ladder of accuracy: errors, orders, limits and choices on made rows; measuring, budget and resuming on a small disc."""
+"""The ladder of accuracy: errors, orders, limits and choices on made rows; measuring, budget and resuming on a small
+disc."""
 
 import argparse
 import json
@@ -39,7 +40,8 @@ def test_richardson_finds_the_limit_of_a_sequence_of_any_order():
 def test_a_sequence_without_order_is_taken_at_its_finest():
     levels = [row(f"all {n + 1}/3", value=v) for n, v in enumerate((1.0, 3.0, 2.0))]
     assert rows.richardson([rows.found(r) for r in levels])["a"] == (2.0, 1.0)
-    assert [r["error"] for r in rows.errors(levels)] == [0.5, 0.5, 0.5]  # none is told to be better than what is known of the limit
+    # none is told to be better than what is known of the limit
+    assert [r["error"] for r in rows.errors(levels)] == [0.5, 0.5, 0.5]
 
 
 def test_observed_order_of_second_order_rows():
@@ -64,12 +66,18 @@ def test_cheapest_holds_the_error_with_all_effects():
 
 
 def test_each_solver_has_its_own_limit():
-    made = [row(f"all {n + 1}/3", value=limit + 0.5**n, solver=who) for who, limit in ((rows.OWN, 5.0), ("other", 7.0)) for n in range(3)]
+    made = [
+        row(f"all {n + 1}/3", value=limit + 0.5**n, solver=who)
+        for who, limit in ((rows.OWN, 5.0), ("other", 7.0))
+        for n in range(3)
+    ]
     assert [r["error"] for r in rows.errors(made)] == pytest.approx([0.5, 0.25, 0.125] * 2)
 
 
 def test_rungs_are_levels_single_knobs_and_effects_off():
-    own = ladder.Ladder(reference="", knobs={"x": [3, 2, 1], "y": [6, 5, 4]}, alone={"z": [8]}, usual={"z": 9}, drop=["drag"])
+    own = ladder.Ladder(
+        reference="", knobs={"x": [3, 2, 1], "y": [6, 5, 4]}, alone={"z": [8]}, usual={"z": 9}, drop=["drag"]
+    )
     found = ladder.rungs(own)
     assert [label for label, _ in found] == ["all 1/3", "all 2/3", "all 3/3", "x", "x", "y", "y", "z", "without drag"]
     assert found[3][1] == {"x": 3, "y": 5, "z": 9, "without": ladder.ALL}
@@ -99,7 +107,10 @@ def test_ladder_is_measured_within_its_budget_and_resumed(tmp_path, monkeypatch)
 def test_accuracy_takes_what_was_measured_and_says_so(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(choice, "declared", lambda scene: SMALL)
-    coarse, fine = {"resolution.spacing_mm": 20.0, "resolution.cell_mm": 50.0}, {"resolution.spacing_mm": 10.0, "resolution.cell_mm": 25.0}
+    coarse, fine = (
+        {"resolution.spacing_mm": 20.0, "resolution.cell_mm": 50.0},
+        {"resolution.spacing_mm": 10.0, "resolution.cell_mm": 25.0},
+    )
     for settings, wall, value in ((coarse, 1.0, 1.2), (fine, 4.0, 1.02)):
         climb._keep(tmp_path / "runs/cost/some/cost.csv", row("x", wall, value, 1.0, **settings))
     said = []
@@ -144,7 +155,11 @@ def test_accuracy_leaves_what_is_simulated_as_it_is():
         for _, settings in ladder.rungs(own):
             chosen = cases.load(scenes.find(name)[1], (*own.settings, *ladder.overrides(settings)))
             assert chosen.run.end_time == case.run.end_time and chosen.domain == case.domain
-            assert chosen.effects == case.effects and chosen.nozzles == case.nozzles and chosen.boundaries == case.boundaries
+            assert (
+                chosen.effects == case.effects
+                and chosen.nozzles == case.nozzles
+                and chosen.boundaries == case.boundaries
+            )
 
 
 def test_a_table_of_another_version_is_told(tmp_path):

@@ -34,7 +34,9 @@ def test_heat_alone_sends_no_momentum():
 
 def test_a_sub_step_is_timed_and_moves_the_grains():
     table = cases.to_table(BED) | {"effects": ["gravity"]}
-    simulation = effect_costs.prepared(cases.from_table({key: value for key, value in table.items() if key not in effects.REGISTRY}))
+    simulation = effect_costs.prepared(
+        cases.from_table({key: value for key, value in table.items() if key not in effects.REGISTRY})
+    )
     before = simulation.stepper.steps
     assert effect_costs.step(simulation, 1e-3) > 0.0
     assert simulation.stepper.steps == before + 1

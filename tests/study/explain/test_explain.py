@@ -1,4 +1,5 @@
-"""What a case calls for: judgements against hand-made numbers, limits against the stepper's own, warnings where they belong."""
+"""What a case calls for: judgements against hand-made numbers, limits against the stepper's own, warnings where they
+belong."""
 
 import pytest
 from builders import DISC, simulation
@@ -117,7 +118,6 @@ def test_shipped_scenes_have_all_that_they_call_for():
         assert not tables.warnings(case), name
 
 
-
 def scales(scene, *overrides):
     return judge.scales_of(cases.load(scenes.find(scene)[1], overrides))
 
@@ -156,17 +156,31 @@ def test_grains_are_walled_in_where_they_get_to_a_wall():
 
 
 def test_numbers_of_droplets_by_hand():
-    """Table 3 of the paper, sigma = 23.8 mN/m, 10 m/s: We = rho U2 d/sigma, Bo = (rho_l - rho) g d2/sigma, B_T = c (T - T_l)/L."""
+    """Table 3 of the paper, sigma = 23.8 mN/m, 10 m/s: We = rho U2 d/sigma, Bo = (rho_l - rho) g d2/sigma, B_T = c (T -
+    T_l)/L."""
     rows = rows_by(tables.explain(cases.load(scenes.find("evaporating_jet")[1]))["numbers"], "number")
     assert rows["Weber"]["value"] == pytest.approx(1.225 * 100.0 * 3e-3 / 0.0238, rel=1e-6)
     assert rows["Bond"]["value"] == pytest.approx((700.0 - 1.225) * 9.81 * 9e-6 / 0.0238, rel=1e-6)
     assert rows["Spalding B of heat"]["value"] == pytest.approx(2470.0 * 56.0 / 277000.0, rel=1e-6)
     fraction = 1329.0 / 101325.0 * 142.284 / (1329.0 / 101325.0 * 142.284 + (1.0 - 1329.0 / 101325.0) * 28.96)
     assert rows["Spalding B of mass"]["value"] == pytest.approx(fraction / (1.0 - fraction), rel=1e-3)
-    assert not any(name.startswith("Spalding") for name in rows_by(tables.explain(cases.load(BED))["numbers"], "number"))
+    assert not any(
+        name.startswith("Spalding") for name in rows_by(tables.explain(cases.load(BED))["numbers"], "number")
+    )
 
 
-@pytest.mark.parametrize("scene", ["bubbling_bed", "bubbling_bed_3d", "disc_cluster", "fluidised_column", "single_droplet", "spray_cone", "stefan_tube"])
+@pytest.mark.parametrize(
+    "scene",
+    [
+        "bubbling_bed",
+        "bubbling_bed_3d",
+        "disc_cluster",
+        "fluidised_column",
+        "single_droplet",
+        "spray_cone",
+        "stefan_tube",
+    ],
+)
 def test_auto_holds_what_the_scenes_were_given_by_hand(scene):
     """All that is called for is on; what is on besides is told to matter less than the accuracy asked for."""
     case = cases.load(scenes.find(scene)[1])

@@ -50,7 +50,14 @@ def test_every_effect_on_liquids_judges_itself():
 
 @pytest.mark.parametrize(
     ("scene", "off"),
-    [("dam_break", "gravity"), ("dam_break", "tank"), ("taylor_green", "laminar_viscosity"), ("taylor_green", "shifting"), ("bubble_rise", "shifting"), ("poiseuille", "tank")],
+    [
+        ("dam_break", "gravity"),
+        ("dam_break", "tank"),
+        ("taylor_green", "laminar_viscosity"),
+        ("taylor_green", "shifting"),
+        ("bubble_rise", "shifting"),
+        ("poiseuille", "tank"),
+    ],
 )
 def test_a_missing_effect_is_told(scene, off):
     table = cases.to_table(load(scene))
@@ -66,7 +73,10 @@ def test_what_a_scene_does_not_call_for_is_not_judged_missing():
 
 
 def test_slow_sound_is_told():
-    assert any("raise liquid.sound_speed_m_s from 5 to" in line for line in tables.warnings(load("dam_break", "liquid.sound_speed_m_s=5")))
+    assert any(
+        "raise liquid.sound_speed_m_s from 5 to" in line
+        for line in tables.warnings(load("dam_break", "liquid.sound_speed_m_s=5"))
+    )
 
 
 def test_limits_are_the_steppers_own():

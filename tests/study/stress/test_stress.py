@@ -76,7 +76,9 @@ def test_a_bad_velocity_is_caught_at_once(tmp_path, value):
 def test_bad_gas_is_caught(tmp_path):
     run = simulation(disc("resolution.spacing_mm=10", "resolution.cell_mm=25"), tmp_path)
     run.gas.temperature[3] = -5000.0
-    with pytest.raises(GasError, match="cannot finish window 1 .*gas temperature of cell 3 .*lower coupling.window_largest_s"):
+    with pytest.raises(
+        GasError, match="cannot finish window 1 .*gas temperature of cell 3 .*lower coupling.window_largest_s"
+    ):
         run.window()
     assert run.repeated == len(run.notices) == running.REPEATS + 1
 
@@ -96,5 +98,5 @@ def test_an_unstable_run_leaves_its_last_good_state(tmp_path, monkeypatch, capsy
     assert "went unstable" in said and "last_good" in said
     with np.load(tmp_path / "burst" / "last_good.npz") as last:
         assert np.isfinite(last["temperature"]).all() and len(last["x"]) > 300
-        assert 280.0 < last["temperature"].min()
+        assert last["temperature"].min() > 280.0
     assert (tmp_path / "burst" / "last_good.png").stat().st_size > 10_000
