@@ -25,10 +25,10 @@ class Loss:
 class Handed:
     """What one window hands over: what the gas is told, and what the reaction is computed from.
 
-    heat (N,) [W/K] and pull (N,) [W]: the particle takes heat * T'_g - pull; drag (N,) [kg/s] is m_k f_k/dt;
+    heat (N,) [W/K] and pull (N,) [W]: the particle takes heat * (T'_g - origin) - pull; drag (N,) [kg/s] is m_k f_k/dt;
     temperature and velocity are those of the particles when they were computed; damping (N,) [1/s] is
     beta/(alpha_p rho_p); mass (N,) [kg] what is in the gas at the window's end. terms (C,) or (C, 3) per volume of the
-    cells, by quantity and effect; alpha_g (C,) at the window's end, where the gas is told.
+    cells, by quantity and effect, heat from origin [K] on; alpha_g (C,) at the window's end, where the gas is told.
     """
 
     dt: float
@@ -41,6 +41,7 @@ class Handed:
     velocity: np.ndarray
     mass: np.ndarray
     loss: Loss | None
+    origin: float
     terms: dict[tuple[str, str], np.ndarray] = field(default_factory=dict)
     alpha_g: np.ndarray | None = None
 
@@ -50,6 +51,8 @@ class Handed:
         told = {} if self.alpha_g is None else {"alpha_g": self.alpha_g}
         for (quantity, _), values in self.terms.items():
             told[quantity] = told[quantity] + values if quantity in told else values
+        if "heat_coefficient" in told:
+            told["heat"] = told["heat"] + self.origin * told["heat_coefficient"]
         return {name: np.ascontiguousarray(values) for name, values in told.items()}
 
 

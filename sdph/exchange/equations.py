@@ -55,8 +55,10 @@ def rates(drag_p, heat_p, sizes_p, s, grain_density, slip, gas_density, conducta
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def shares(s, heat_capacity, dt, conductance, damping, kept, power, heat_share, pull, shared_mass):
+def shares(s, heat_capacity, origin, dt, conductance, damping, kept, power, heat_share, pull, shared_mass):
     """What meets the gas in a window: heat_share [W/K] and pull [W] of heat, m_k f_k/dt [kg/s] of momentum.
+
+    Temperatures count from `origin` [K], so that what is exchanged is no small difference of large numbers.
 
     With a `power` P [W] from elsewhere held over the window, x = dt K/C and C of the mass that is `kept` [kg],
     Q/dt = K phi (T'_g - T) - P (1 - phi), phi = (1 - exp(-x))/x; without one K phi = C f/dt.
@@ -68,7 +70,7 @@ def shares(s, heat_capacity, dt, conductance, damping, kept, power, heat_share, 
             heat_share[i] = (
                 capacity * exponential_fraction(dt * conductance[i] / capacity) / dt if capacity > 0.0 else 0.0
             )
-            pull[i] = heat_share[i] * s.temperature[i]
+            pull[i] = heat_share[i] * (s.temperature[i] - origin)
             if len(power) > 0:
                 pull[i] += power[i] * (1.0 - heat_share[i] / conductance[i])
         shared_mass[i] = kept[i] * exponential_fraction(dt * damping[i]) / dt

@@ -46,6 +46,7 @@ class Exchange:
         names = dict.fromkeys(name for row in rows for name in row.sources)
         self.sources = tuple(name for name in names if name != "alpha_g" or case.coupling.voidage)
         self.to_gas = {row.name: row.to_gas for row in rows if row.to_gas}
+        self.origin = case.gas.temperature  # [K], of the heat that is exchanged
         self.drag_heat = np.zeros(len(self.volumes))  # [W/m3], for the next window
 
     def alpha_g(self, state, weights, inside=1.0) -> np.ndarray:
@@ -69,7 +70,17 @@ class Exchange:
         power = self.parameters["evaporation"].latent_heat / -dt * loss.mass if loss else OFF
         heat_share, pull, shared_mass = (np.empty(len(state.x)) for _ in range(3))
         equations.shares(
-            state, self.case.grains.heat_capacity, dt, conductance, damping, kept, power, heat_share, pull, shared_mass
+            state,
+            self.case.grains.heat_capacity,
+            self.origin,
+            dt,
+            conductance,
+            damping,
+            kept,
+            power,
+            heat_share,
+            pull,
+            shared_mass,
         )
         there, inside = ahead
         handed = Handed(
@@ -83,6 +94,7 @@ class Exchange:
             seen.own,
             kept * (state.kind == GRAIN),
             loss,
+            self.origin,
         )
         return replace(
             handed,
@@ -210,7 +222,7 @@ class Exchange:
         taken_heat, from_gas = np.zeros(len(handed.heat)), 0.0
         impulse, impulse_from_gas = np.zeros((len(handed.heat), 3)), np.zeros(3)
         if ("heat", "heat") in handed.terms:
-            temperature = gas_state.fields["temperature"]
+            temperature = gas_state.fields["temperature"] - self.origin
             taken_heat = handed.dt * (handed.heat * gather(handed.weights, temperature) - handed.pull)
             given = handed.terms["heat_coefficient", "heat"] * temperature - handed.terms["heat", "heat"]
             from_gas = float((given * self.volumes).sum() * handed.dt)
