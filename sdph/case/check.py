@@ -103,14 +103,24 @@ def _is_pair(part) -> bool:
 
 def check(case: Case) -> None:
     """What no single key can tell."""
+    if case.liquid and (case.gas is None) != (case.grains is None):
+        raise CaseError("a liquid stands alone, or beside grains in a gas: give both [grains] and [gas], or neither")
+    for name in case.effects:
+        if not set(effects.REGISTRY[name].matter) & set(case.matters):
+            what = "a liquid" if case.matters == ("liquid",) else "grains"
+            raise CaseError(f"effects holds {name}, which does not act on {what}; leave it out")
+    if len(case.matters) > 1 and (case.domain.periodic or any(case.liquid.periodic or ())):
+        raise CaseError(
+            "grains beside a liquid need a domain without periodic axes; leave domain.periodic and liquid.periodic out"
+        )
+    for matter in case.matters:
+        _check_one(case.only(matter))
+
+
+def _check_one(case: Case) -> None:
+    """Of a case with grains or a liquid alone."""
     if case.scene and case.scene not in scenes.names():
         raise CaseError(f"{unknown(case.scene, scenes.names()).replace('unknown key', 'scene =', 1)}; or leave it out")
-    matter = "liquid" if case.liquid else "grains"
-    for name in case.effects:
-        if matter not in effects.REGISTRY[name].matter:
-            raise CaseError(
-                f"effects holds {name}, which does not act on {'a liquid' if case.liquid else 'grains'}; leave it out"
-            )
     _check_phases(case)
     if case.resolution.cell is None and not case.liquid:
         raise CaseError("resolution.cell_mm is missing; it has no default: give it in [resolution]")

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import dataclasses
+
+from sdph.effects import REGISTRY
 from sdph.effects.around.nozzles import Nozzle
 from sdph.engine.geometry import SIDES
 from sdph.engine.rows import SKIN
@@ -151,7 +154,7 @@ class Case:
     run: Run
     domain: Domain
     resolution: Resolution
-    gas: GasProperties | None  # None in a case with a liquid
+    gas: GasProperties | None  # None in a case of a liquid alone
     grains: Grains | None  # the same
     liquid: Liquid | None
     gas_phase: GasPhase | None
@@ -164,6 +167,22 @@ class Case:
     vapour: Vapour | None
     track: tuple[str, ...]
     parameters: dict[str, object]
+
+    @property
+    def matters(self) -> tuple[str, ...]:
+        """What the case holds: "grains" (in a gas), "liquid", or both side by side."""
+        return ("grains",) * (self.grains is not None) + ("liquid",) * (self.liquid is not None)
+
+    def only(self, matter: str) -> Case:
+        """The case without its other matter, and without the effects that act on that alone."""
+        if self.matters == (matter,):
+            return self
+        kept = tuple(name for name in self.effects if matter in REGISTRY[name].matter)
+        left = {"effects": kept, "parameters": {name: self.parameters[name] for name in kept}}
+        grains = dict.fromkeys(("gas", "grains", "vapour")) | {"track": ()}
+        grains |= {group: {} for group in ("particles", "boundaries", "probes", "nozzles")}
+        liquid = dict.fromkeys(("liquid", "gas_phase")) | {"pools": {}}
+        return dataclasses.replace(self, **left, **(liquid if matter == "grains" else grains))
 
     @property
     def smoothing_length(self) -> float:

@@ -103,7 +103,7 @@ def run(options) -> int:
                 overrides = choice.with_settings(name, options.accuracy, overrides, reporter.status)
             case = cases.load(file, overrides)
             inputs.check(case)  # what follows reads some of them
-            if case.liquid:
+            if "grains" not in case.matters:
                 _refuse(options, ("gas", "transport", "np"), f"{name} is a liquid and has no gas solver")
             elif options.gas == "embedded":
                 _refuse(options, ("transport", "np"), "the embedded gas solver runs in this process")

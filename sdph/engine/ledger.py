@@ -17,7 +17,7 @@ from sdph.engine.table import Table
 
 VECTORS = (
     "impulse_to_particles", "impulse_to_gas", "impulse_of_body_forces", "impulse_of_walls", "impulse_of_inflow",
-    "impulse_of_outflow",
+    "impulse_of_outflow", "impulse_of_contact",
 )  # fmt: skip
 AMOUNTS = (
     "heat_to_particles_J", "heat_to_gas_J", "drag_heat_J", "mechanical_heat_J", "evaporated_kg", "vapour_to_gas_kg",

@@ -28,6 +28,7 @@ GRIP = 0.1
 KEYS = {
     "largest": "coupling.window_largest_s", "heat exchange": "coupling.window_tolerance", "courant": "coupling.courant",
     "particles": "coupling.courant", "evaporation": "the rate of evaporation", "grip": "the drag on packed grains",
+    "contact": "liquid.sound_speed_m_s, whose square is the stiffness of contacts",
 }  # fmt: skip
 
 
@@ -102,6 +103,12 @@ class Window(Clock):
         """The time [s] at which the next window ends."""
         self.limit = min(self.limits, key=self.limits.get)
         return self.part(time, self.limits[self.limit], f"the window's limit {self.limit!r} ({KEYS[self.limit]})")
+
+    def touch(self, limit: float) -> None:
+        """Contact with another method bears windows no longer than `limit` [s]; inf where nothing touches."""
+        self.limits.pop("contact", None)
+        if limit < math.inf:
+            self.limits["contact"] = limit
 
     def longest(self) -> float:
         """No window that `choose` picks next is longer [s]."""

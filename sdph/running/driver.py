@@ -1,6 +1,7 @@
 """`sdph run`: a run from its case, or from its last checkpoint, to its summary.
 
-What is run is a `Simulation` of grains in a gas or a `LiquidRun`. The driver knows of both only what both have:
+What is run is a `Simulation` of grains in a gas, a liquid beside them or not, or a liquid `Alone`. The driver knows of
+both only what both have:
 
     start()  take_up(checkpoint)  window()                             how it goes
     time  windows  at_row  clock (sdph.engine.clock)                   where it is
@@ -21,17 +22,18 @@ from pathlib import Path
 from coupling.choice import open_gas
 from coupling.gas import CheckpointError, GasError
 from sdph.case import read as cases
+from sdph.engine import contact, restart
 from sdph.engine import device as environment
-from sdph.engine import restart
 from sdph.engine import state as particles
 from sdph.engine.guard import Unstable
 from sdph.engine.kept import ROW, Many, Maybe, Unfit
 from sdph.engine.ledger import Ledger
 from sdph.engine.table import Table
+from sdph.methods.liquids.liquid import Liquid
 from sdph.running import inputs, metrics, output
+from sdph.running.alone import Alone
 from sdph.running.fields import Fields
 from sdph.running.interruption import Stopped, listening
-from sdph.running.liquid_run import LiquidRun
 from sdph.running.simulation import Simulation
 from sdph.scenes import paths
 from sdph.schema import CaseError
@@ -51,7 +53,7 @@ def run(case, name: str, folder: Path, gas_folder: Path | None, reporter, *, all
     with output.claimed(output.create(folder)):
         try:
             case = inputs.keep(case, folder)
-            if not case.liquid and case.coupling.gas != "embedded":
+            if "grains" in case.matters and case.coupling.gas != "embedded":
                 inputs.keep_gas(template, folder, allow_code)
             output.write_origin(folder)
             output.write_text(folder / output.MARK, cases.dumps(inputs.seen_from(case, folder)))
@@ -95,10 +97,15 @@ def resume(folder: Path, overrides: tuple[str, ...], reporter, *, allow_code: bo
 
 
 def simulation_of(case, gas, ledger: Path):
-    """What runs a case: a liquid (`gas` is None), or grains in a gas; its ledger goes to a new file."""
+    """What runs a case: a liquid alone (`gas` is None), or grains in a gas, beside a liquid where the case has one; its
+    ledgers go to new files."""
+    if "grains" not in case.matters:
+        return Alone(case, ledger)
+    simulation = Simulation(case.only("grains"), gas, Ledger(ledger, case, gas.mesh.depth))
     if case.liquid:
-        return LiquidRun(case, ledger)
-    return Simulation(case, gas, Ledger(ledger, case, gas.mesh.depth))
+        liquid = Liquid(case.only("liquid"), ledger.with_name("ledger_liquid.csv"), simulation.clock.shortest)
+        simulation.stand_beside(liquid, contact.between(case))
+    return simulation
 
 
 def _guarded(run: Run, checkpoint, template: Path | None, allow_code: bool) -> dict:
@@ -117,9 +124,9 @@ def _guarded(run: Run, checkpoint, template: Path | None, allow_code: bool) -> d
 
 def _gas_of(run: Run, template: Path | None, allow_code: bool):
     """A context with the gas of a run, closed in the end; None where there is none."""
-    if run.case.liquid:
+    if "grains" not in run.case.matters:
         return contextlib.nullcontext()
-    return contextlib.closing(open_gas(run.case, run.folder, template, run.reporter.status, allow_code))
+    return contextlib.closing(open_gas(run.case.only("grains"), run.folder, template, run.reporter.status, allow_code))
 
 
 class Run:
@@ -200,7 +207,7 @@ class Run:
     def admit(self, kept: dict) -> None:
         """Unfit where time, windows or wall times are not those of a run."""
         run = kept["simulation"]
-        windows, time_s, wall = run["windows"], run["ledger"]["last"]["time_s"], run["wall"]
+        windows, time_s, wall = run["windows"], self.simulation.time_of(run), run["wall"]
         if windows < 0 or time_s < 0.0 or (windows == 0) != (time_s == 0.0) or min(kept["spent"], *wall.values()) < 0.0:
             raise Unfit("its windows, time and wall time are not those of a run")
         if windows and not wall["particles"] > 0.0:
@@ -208,7 +215,7 @@ class Run:
 
     def _take_up(self, checkpoint, kept: dict) -> None:
         """The gas goes back first: where that fails, the run is as it was."""
-        if (kept["windows"], kept["ledger"]["last"]["time_s"]) != (checkpoint.number, checkpoint.time):
+        if (kept["windows"], self.simulation.time_of(kept)) != (checkpoint.number, checkpoint.time):
             raise Unfit("its windows and time are not those that its name and manifest tell")
         try:
             self.simulation.take_up(checkpoint)
@@ -275,7 +282,7 @@ class Outputs:
             self._write()
 
     def close(self) -> None:
-        for table in (self.history, self.metrics, self.simulation.ledger.table):
+        for table in (self.history, self.metrics, *self.simulation.tables()):
             table.close()
 
     def _write(self) -> None:

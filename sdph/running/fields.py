@@ -21,7 +21,9 @@ READERS = {
     ".vtu": "vtkXMLUnstructuredGridReader",
 }
 LAST = b"</VTKFile>"
-ENTRY = re.compile(r'<DataSet timestep="[\d.e+-]+" part="\d+" file="fields/(particles|gas)_\d{5,}\.(vtp|vtr|vtu)"/>')
+ENTRY = re.compile(
+    r'<DataSet timestep="[\d.e+-]+" part="\d+" file="fields/(particles|gas|liquid)_\d{5,}\.(vtp|vtr|vtu)"/>'
+)
 SUFFIXES = {"vtkPolyData": "vtp", "vtkRectilinearGrid": "vtr", "vtkUnstructuredGrid": "vtu"}
 PVD = '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n<Collection>\n{}\n</Collection>\n</VTKFile>\n'
 DENSEST = 255  # times: how much LZ4 can press together at most

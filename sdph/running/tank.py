@@ -26,6 +26,7 @@ class Tank:
     def __init__(self, case):
         if case.liquid is None or "tank" not in case.effects:
             raise CaseError("a Tank needs a case with a [liquid] section and the effect tank")
+        case = case.only("liquid")
         self.stepper = LiquidStepper(case)
         self.outlet = Outlet(self.stepper)
         self.time, self.wall_load = 0.0, np.zeros(6)

@@ -25,8 +25,11 @@ def refuse_too_large(case) -> None:
         / case.resolution.spacing**case.dimensions
     )
     count += sum(_waiting(case, nozzle) for nozzle in case.nozzles.values())
-    cells = 0 if case.liquid else math.prod(gas_cells.cells(case))
-    needed, free = estimate.memory(case, count, cells) + POINT * _looked_at(case), available()
+    cells = math.prod(gas_cells.cells(case)) if "grains" in case.matters else 0
+    needed, free = (
+        estimate.memory(case, count, cells) + POINT * sum(_looked_at(case.only(matter)) for matter in case.matters),
+        available(),
+    )
     if needed > free:
         raise CaseError(
             f"the case has about {count:.3g} particles and {cells:.3g} gas cells and needs about {needed / 1e9:.3g} "

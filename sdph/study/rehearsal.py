@@ -16,7 +16,8 @@ from sdph.study import memory as room
 def rehearse(case, template: Path, *, allow_code: bool = False) -> None:
     """CaseError where `sdph run` would end with one; `template` and `allow_code` as in `coupling.choice.open_gas`."""
     look(case, template, allow_code=allow_code)
-    (parts_of_liquid if case.liquid else parts_of)(case)
+    for matter in case.matters:
+        {"grains": parts_of, "liquid": parts_of_liquid}[matter](case.only(matter))
 
 
 def look(case, template: Path, *, allow_code: bool = False) -> None:
@@ -24,8 +25,9 @@ def look(case, template: Path, *, allow_code: bool = False) -> None:
     inputs.check(case)
     room.refuse_too_large(case)
     metrics.refuse_unknown(case)
-    if not case.liquid:
-        _gas(case, template, expected(case), allow_code)
+    if "grains" in case.matters:
+        grains = case.only("grains")
+        _gas(grains, template, expected(grains), allow_code)
 
 
 def _gas(case, template: Path, chosen: str, allow_code: bool) -> None:

@@ -13,7 +13,7 @@ from sdph.engine.clock import Stalled
 from sdph.engine.guard import Unstable
 from sdph.methods.liquids import totals as ledger
 from sdph.running import driver, output
-from sdph.running.liquid_run import STRIDE, LiquidRun
+from sdph.running.alone import STRIDE, Alone
 from sdph.schema import CaseError
 from sdph.show import view
 
@@ -36,7 +36,7 @@ def start(folder, scene="dam_break", cut_after=None, more=()):
 
 
 def begun(tmp_path, scene="dam_break", *more):
-    run = LiquidRun(load(scene, *more), tmp_path / "ledger.csv")
+    run = Alone(load(scene, *more), tmp_path / "ledger.csv")
     run.start()
     return run
 

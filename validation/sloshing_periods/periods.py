@@ -23,7 +23,7 @@ import numpy as np
 
 from sdph.case import read as cases
 from sdph.laws import liquids
-from sdph.running.liquid_run import LiquidRun
+from sdph.running.alone import Alone
 from sdph.running.metrics.periods import ringing
 
 G = 9.81  # m/s2
@@ -96,7 +96,7 @@ def finite(fill: float, amplitude: float, damping: float, time: float) -> float:
 def measure(shape: str, fill: float, across: int, ratio: float, shake: float, gradient: str) -> dict:
     case, omega = tank(shape, fill, across, ratio, shake, gradient)
     with tempfile.TemporaryDirectory() as folder:
-        run, rows = LiquidRun(case, Path(folder) / "ledger.csv"), []
+        run, rows = Alone(case, Path(folder) / "ledger.csv"), []
         run.start()
         while run.time < case.run.end_time:
             run.window()

@@ -16,16 +16,18 @@ class Tally:
         self.momentum, self.heat = _momentum(simulation.state), simulation.stepper.mechanical_heat
         self.came = _came_in(simulation)
 
-    def columns(self, simulation, body, exchanged) -> dict[str, float]:
-        """Ledger columns, given the impulses (3,) of body forces and from the gas; the rest is of walls."""
+    def columns(self, simulation, body, exchanged, touched) -> dict[str, float]:
+        """Ledger columns, given the impulses (3,) of body forces, from the gas and of contact with other methods; the
+        rest is of walls."""
         mass, energy, momentum = (now - before for now, before in zip(_came_in(simulation), self.came))
-        walls = _momentum(simulation.state) - self.momentum - body - exchanged - momentum
+        walls = _momentum(simulation.state) - self.momentum - body - exchanged - touched - momentum
         columns = {
             "injected_kg": mass,
             "injected_J": energy,
             "mechanical_heat_J": simulation.stepper.mechanical_heat - self.heat,
         }
         impulses = {"impulse_of_body_forces": body, "impulse_of_walls": walls, "impulse_of_inflow": momentum}
+        impulses["impulse_of_contact"] = touched
         return columns | {
             key: value for name, impulse in impulses.items() for key, value in vector(name, impulse).items()
         }

@@ -158,6 +158,9 @@ class LiquidStepper:
     def _kick(self, dt: float) -> None:
         s = self.state
         motion.kick(self.active, self.acceleration, dt, s.u, s.v, s.w)
+        for velocity, push in zip((s.u, s.v, s.w), particles.pushes(s)):
+            if len(push):
+                velocity += dt * push
 
     def _drift(self, dt: float) -> None:
         s = self.state

@@ -20,13 +20,13 @@ from sdph.engine.kept import ROW, Maybe
 from sdph.engine.ledger import refuse_rows, vector
 from sdph.engine.table import Table
 
-IMPULSES = ("body_forces", "walls", "shifting", "drain")
+IMPULSES = ("body_forces", "walls", "shifting", "drain", "contact")
 
 
 class LiquidLedger:
     """Keeps the sums of one run and writes each row to `ledger.csv` as it comes."""
 
-    WORKS = ("work_of_body_forces_J", "work_of_surface_tension_J")
+    WORKS = ("work_of_body_forces_J", "work_of_surface_tension_J", "work_of_contact_J")
     KEPT = ("sums", "impulses", "scale", "most", "made", "mach", "first", "last", "table")  # see sdph.engine.kept
     FORMS = {"first": Maybe(ROW), "last": Maybe(ROW)}
 

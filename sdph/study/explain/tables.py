@@ -10,7 +10,14 @@ from sdph.study.explain import droplets, estimate, liquids
 
 
 def explain(case) -> dict[str, list[dict]]:
-    """All parts, each a list of rows (name -> value) of one table."""
+    """All parts, each a list of rows (name -> value) of one table; of a case with several matters those of each."""
+    if len(case.matters) == 1:
+        return _explain(case)
+    found = {matter: _explain(case.only(matter)) for matter in case.matters}
+    return {f"{part} ({matter})": rows for matter, parts in found.items() for part, rows in parts.items()}
+
+
+def _explain(case) -> dict[str, list[dict]]:
     scales = judge.scales_of(case)
     found = liquids.explain(scales) if case.liquid else _of_grains(case, scales)
     return {
@@ -30,6 +37,8 @@ def _of_grains(case, scales) -> dict[str, list]:
 
 def warnings(case, scales=None) -> list[str]:
     """What `run` says before it starts: effects that are missing, ratios that are not safe; `scales` of the case."""
+    if len(case.matters) > 1:
+        return [text for matter in case.matters for text in warnings(case.only(matter))]
     scales = scales or judge.scales_of(case)
     return [*judge.missing(case, scales), *(liquids.warnings(scales) if case.liquid else estimate.warnings(case))]
 

@@ -1,0 +1,116 @@
+"""A liquid in its tank, as a run needs it (sdph.methods.method.Method): stepper, drain, ledger, loads on the tank."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from sdph.effects.around import drain, tank
+from sdph.engine import state as particles
+from sdph.engine.kept import Unfit
+from sdph.methods.liquids import history
+from sdph.methods.liquids.loads import kinetic_energy
+from sdph.methods.liquids.method import LiquidStepper
+from sdph.methods.liquids.outlet import Outlet
+from sdph.methods.liquids.totals import LiquidLedger
+from sdph.methods.liquids.window import Tally
+
+# of the speed of sound: a liquid that is faster is compressed by 4 % (u2/c2); the rule is 0.1, twice that is told of
+SLOW = 0.2
+
+
+class Liquid:
+    """A liquid and what it does in a window."""
+
+    matter = "liquid"
+    KEPT = ("windows", "stepper", "outlet", "ledger", "impulse", "since")  # see sdph.engine.kept
+
+    def __init__(self, case, ledger: Path, shortest: float):
+        self.case, self.windows = case, 0
+        self.stepper, self.ledger = LiquidStepper(case, shortest), LiquidLedger(ledger)
+        self.outlet = Outlet(self.stepper) if "drain" in case.effects else None
+        self.fill = drain.command(case.parameters["drain"], self.outlet.fill) if self.outlet else None
+        self.impulse, self.since = np.zeros(6), 0.0  # force and moment on the tank since the last row, and its time [s]
+
+    @property
+    def state(self):
+        return self.stepper.state
+
+    @property
+    def time(self) -> float:
+        return self.stepper.time
+
+    @property
+    def steps(self) -> int:
+        return self.stepper.steps
+
+    @property
+    def limit(self) -> str:
+        return self.stepper.limit
+
+    def start(self) -> None:
+        self.ledger.open(self.stepper)
+
+    def admit(self, kept: dict) -> None:
+        """Unfit where time is not that of the ledger, or the outlet's memory does not fit to the particles."""
+        time = kept["stepper"]["time"]
+        if time != kept["ledger"]["last"]["time_s"] or not 0.0 <= kept["since"] <= time:
+            raise Unfit("its time is not that of the ledger")
+        if self.outlet:
+            self.outlet.admit_at(time, kept["outlet"], kept["stepper"]["state"])
+
+    def begin(self) -> None:
+        self.stepper.guard.begin(self)
+        self.begun = self.time
+
+    def push(self, acceleration) -> None:
+        """Take an acceleration (N, 3) [m/s2] from outside, that holds over the next window."""
+        nothing = np.zeros(0)
+        self.stepper.state = particles.forced(self.state, nothing, acceleration, nothing)
+
+    def advance(self, end: float, most: float = np.inf) -> None:
+        self.tally, done = Tally(self), 0
+        while self.time != end and done < most:
+            self.tally.step(end)
+            done += 1
+        self.windows += 1
+
+    def close(self) -> None:
+        self.stepper.guard.look(self.stepper)
+        self.impulse = self.impulse + self.tally.load[:6]
+        self.ledger.close_window(self.stepper, self.time - self.begun, *self.tally.amounts())
+        self.stepper.state = particles.released(self.state)
+
+    def new_row(self) -> None:
+        """Begin the mean of the loads anew: the history has a row of now."""
+        self.impulse, self.since = np.zeros(6), self.time
+
+    def row(self) -> dict[str, float]:
+        return history.row(self)
+
+    def points(self):
+        import pyvista
+
+        wet = self.stepper.active
+        cloud = pyvista.PolyData(particles.positions(self.state)[wet])
+        if len(wet):  # pyvista knows no empty arrays
+            cloud["velocity"] = particles.velocities(self.state)[wet]
+            cloud["pressure"] = self.stepper.pressure[wet]
+            for name in ("ident", "kind", "mass", "density"):
+                cloud[name] = getattr(self.state, name)[wet]
+        return cloud
+
+    def walls(self):
+        return tank.shape_of(self.case).surface() if "tank" in self.case.effects else None
+
+    def summary(self) -> dict[str, float]:
+        own = {"liquid_particles": len(self.stepper.active), "kinetic_energy_J": kinetic_energy(self.state)}
+        return own
+
+    def warnings(self) -> list[str]:
+        mach, c = self.ledger.mach, self.case.liquid.sound_speed
+        reached = f"particles reached {mach:.2g} of their speed of sound"
+        compressed = f"{reached} and were compressed by about {100.0 * mach**2:.0f} %"
+        wanted = f"raise liquid.sound_speed_m_s from {c:g} to {10.0 * mach * c:.3g}"
+        return [f"{compressed}: {wanted}"] if mach > SLOW else []

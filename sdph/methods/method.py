@@ -1,0 +1,51 @@
+"""What a run needs of a method, a way to move one kind of matter. Methods stand side by side and know no other."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from sdph.engine.state import State
+
+
+class Method(Protocol):
+    """Matter and how it goes forward; a run calls `begin`, `advance` and `close` once a window, in that order.
+
+    matter   name of what it moves, "grains" or "liquid": of its fields and columns too where several stand side by side
+    KEPT     what a checkpoint holds of it (sdph.engine.kept); `admit` refuses what cannot be
+    state    its particles; what pushes them from outside over a window is in `push_x` to `push_z` (sdph.engine.state)
+    steps, limit   sub-steps so far, and what ruled the last one
+    """
+
+    matter: str
+    KEPT: tuple[str, ...]
+    state: State
+    time: float
+    steps: int
+    limit: str
+
+    def start(self) -> None:
+        """Open the ledger; particles are there from the beginning."""
+
+    def begin(self) -> None:
+        """Remember the state to go back to, before a window."""
+
+    def advance(self, end: float, most: float) -> None:
+        """Go to `end` [s], in `most` sub-steps at most, none longer than any effect that is on allows."""
+
+    def close(self) -> None:
+        """Look for what is out of bounds, and write the row of the ledger of the window."""
+
+    def row(self) -> dict[str, float]:
+        """Columns of history.csv."""
+
+    def points(self):
+        """Its particles as pyvista points."""
+
+    def walls(self):
+        """Its walls as a pyvista surface; None where there are none to show."""
+
+    def summary(self) -> dict[str, float]:
+        """Its part of summary.json, beside that of its ledger."""
+
+    def warnings(self) -> list[str]:
+        """What it has to say of itself in the end."""
