@@ -28,6 +28,9 @@ def read(path: str, key: str):
             mesh = meshio.read(path)
         if not np.isfinite(mesh.points).all():
             raise ValueError("one of its points is no number")
+        for block in mesh.cells:  # VTK would end the process
+            if len(block.data) and not 0 <= np.min(block.data) <= np.max(block.data) < len(mesh.points):
+                raise ValueError(f"a cell of type {block.type} names a point that is not there; it has {len(mesh.points)}")
     except (Exception, SystemExit) as error:  # meshio's readers trip over damaged files in ways of their own
         raise CaseError(
             f"{key} = {path!r} cannot be read ({_short(error)}); give a surface mesh that meshio reads"
