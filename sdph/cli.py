@@ -36,7 +36,8 @@ def main(given: list[str] | None = None) -> int:
     except KeyboardInterrupt as stop:
         return _failed(str(stop) and stop or "interrupted", 128 + getattr(stop, "number", signal.SIGINT))
     except RuntimeError as error:
-        code = {"GasError": GAS_FAILED, "CannotWrite": CANNOT_WRITE, "Unstable": WENT_UNSTABLE, "Stalled": WENT_UNSTABLE}.get(type(error).__name__)
+        codes = {"GasError": GAS_FAILED, "CannotWrite": CANNOT_WRITE, "Unstable": WENT_UNSTABLE, "Stalled": WENT_UNSTABLE}
+        code = next((codes[kind.__name__] for kind in type(error).__mro__ if kind.__name__ in codes), None)
         if code is None:
             raise
         return _failed(error, code)

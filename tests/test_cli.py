@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 import pytest
+from coupling.gas import Unfinished
 from test_output import snapshot
 
 from sdph import cli, paths, scenes
@@ -200,3 +201,12 @@ def test_unnamed_runs_are_numbered(tmp_path):
     sdph("run", "disc_cluster", *SMALL, cwd=tmp_path)
     assert (tmp_path / "runs" / "disc_cluster-2" / "summary.json").is_file()
     assert not list((tmp_path / "runs" / "disc_cluster").iterdir())
+
+
+def test_a_gas_that_does_not_even_begin_its_first_window_is_code_3_and_one_line(monkeypatch, capsys):
+    def unfinished(options):
+        raise Unfinished("sdphGasFoam says: too hot")
+
+    monkeypatch.setitem(cli.COMMANDS, "list", unfinished)
+    assert cli.main(["list"]) == 3
+    assert capsys.readouterr().err == "sdph: sdphGasFoam says: too hot\n"
