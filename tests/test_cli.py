@@ -6,9 +6,9 @@ import subprocess
 import sys
 
 import pytest
-from coupling.gas import Unfinished
 from test_output import snapshot
 
+from coupling.gas import Unfinished
 from sdph import cli, paths, scenes
 
 ENVIRONMENT = os.environ | {"PYTHONPATH": str(paths.PACKAGE.parent)}
@@ -210,3 +210,9 @@ def test_a_gas_that_does_not_even_begin_its_first_window_is_code_3_and_one_line(
     monkeypatch.setitem(cli.COMMANDS, "list", unfinished)
     assert cli.main(["list"]) == 3
     assert capsys.readouterr().err == "sdph: sdphGasFoam says: too hot\n"
+
+
+@pytest.mark.parametrize("name, told", [("\\u0000\\u001b[31m", r"\x00\x1b[31m"), ("x" * 10**5, " [...] ")])
+def test_what_was_given_cannot_command_the_terminal_nor_fill_it(refused, name, told):
+    line = refused("explain", "disc_cluster", "--set", f'scene="{name}"').removesuffix("\n")
+    assert told in line and line.isprintable() and len(line) < 2100
