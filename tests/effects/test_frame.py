@@ -85,3 +85,10 @@ def test_a_table_that_is_none_is_refused_in_one_line(tmp_path, content, told):
 def test_what_is_no_file_is_refused(tmp_path, name):
     with pytest.raises(CaseError, match="there is no such file"):
         frame.motion(frame.Frame(table=str(tmp_path / name)))
+
+
+def test_a_table_of_gigabytes_is_refused_before_it_is_read(tmp_path):
+    with open(tmp_path / "motion.csv", "wb") as file:
+        file.truncate(3 * 2**30)
+    with pytest.raises(CaseError, match="it has 3221225472 bytes; at most 33554432 are allowed"):
+        frame.motion(frame.Frame(table=str(tmp_path / "motion.csv")))
