@@ -11,6 +11,8 @@ import numpy as np
 
 from sdph.schema import CaseError
 
+LARGEST = 2**27  # bytes of a mesh, some 2.5 million triangles in binary STL; our choice
+
 
 def read(path: str, key: str):
     """What meshio makes of a file, its points finite; a `CaseError` with the key of the case where it is no mesh."""
@@ -19,6 +21,8 @@ def read(path: str, key: str):
     try:
         if not Path(path).is_file():  # nor a pipe or a device, which may have no end
             raise ValueError("there is no such file")
+        if Path(path).stat().st_size > LARGEST:
+            raise ValueError(f"it has {Path(path).stat().st_size} bytes; at most {LARGEST} are allowed")
         with (
             warnings.catch_warnings(),
             redirect_stdout(io.StringIO()),
