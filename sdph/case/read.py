@@ -7,6 +7,7 @@ unknown key, a bad value or a section of an effect that is off is a `CaseError`.
 from __future__ import annotations
 
 import os
+import re
 import tomllib
 from pathlib import Path
 
@@ -20,6 +21,10 @@ from sdph.methods.liquids.sections import GasPhase, Liquid
 from sdph.schema import CaseError, fields, plausible, read, record, unknown, vector, write
 
 LONGEST = 100  # letters of a name; our choice
+# bytes of a case file, parts of a dotted key (the parser's time goes with their square); our choice
+LARGEST, DEEPEST = 2**20, 50
+PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')"""
+DOTTED = re.compile(rf"(?<![\w-])(?:{PART}[ \t]{{0,9}}\.[ \t]{{0,9}}){{{DEEPEST}}}")
 FILES = [  # (section, key) of all that name a file
     (name, key)
     for name, row in effects.REGISTRY.items()
@@ -44,11 +49,21 @@ def load(path: Path, overrides: tuple[str, ...] = ()) -> Case:
 def parsed(path: Path) -> dict:
     """What a TOML file holds; some editors put a byte order mark before it."""
     try:
-        return tomllib.loads(Path(path).read_text(encoding="utf-8-sig"))
+        with open(path, encoding="utf-8-sig") as file:
+            text = file.read(LARGEST + 1)
+        large, deep = len(text) > LARGEST, DOTTED.search(text)
+        if not large and not deep:
+            return tomllib.loads(text)
     except (ValueError, RecursionError) as error:  # not TOML, not UTF-8, numbers too long, lists too deep
         raise CaseError(f"{path} is not TOML: {error}") from None
     except OSError as error:
         raise CaseError(f"{path} cannot be read: {error.strerror}; give a case.toml that can") from None
+    if large:
+        long = "a long motion belongs into a file, frame.table"
+        raise CaseError(f"{path} is too large for a case: at most {LARGEST} letters are read; {long}")
+    raise CaseError(
+        f"{path}: a key there has {DEEPEST} parts or more; the longest that a case has are section.name.key"
+    )
 
 
 def _locate(table: dict, folder: Path) -> None:

@@ -137,7 +137,7 @@ class Coupling:
     one_way: bool = flag(False)  # the gas acts on the particles and feels nothing
     voidage: bool = flag(True)  # the gas knows of the volume of the grains; false as in point-particle models
     window_tolerance: float = quantity("", 2e-5, above=0.0)  # error of one window over the heat there is to exchange
-    window_largest: float = quantity("s", 1e-2, above=0.0)
+    window_largest: float = quantity("s", 1e-2, least=1e-15)  # far below what any gas needs; our choice
     courant: float = quantity("", 1.0, least=1e-6)  # of the gas, in one window
     # relative, of the embedded solver; pressure: 1000 times that; our choice
     gas_tolerance: float = quantity("", 1e-11, above=0.0, most=1e-4)

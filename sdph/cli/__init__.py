@@ -14,6 +14,7 @@ from sdph.cli.arguments import parser
 from sdph.schema import CaseError
 
 FINE, CHECK_FAILED, BAD_INPUT, GAS_FAILED, CANNOT_WRITE, WENT_UNSTABLE = 0, 1, 2, 3, 4, 5
+LONGEST = 2000  # letters of the line that says what is wrong; our choice
 
 
 def main(given: list[str] | None = None) -> int:
@@ -39,12 +40,13 @@ def main(given: list[str] | None = None) -> int:
     except KeyboardInterrupt as stop:
         return _failed((str(stop) and stop) or "interrupted", 128 + getattr(stop, "number", signal.SIGINT))
     except RuntimeError as error:
-        code = {
+        codes = {
             "GasError": GAS_FAILED,
             "CannotWrite": CANNOT_WRITE,
             "Unstable": WENT_UNSTABLE,
             "Stalled": WENT_UNSTABLE,
-        }.get(type(error).__name__)
+        }
+        code = next((codes[kind.__name__] for kind in type(error).__mro__ if kind.__name__ in codes), None)
         if code is None:
             raise
         return _failed(error, code)
@@ -53,8 +55,14 @@ def main(given: list[str] | None = None) -> int:
 def _failed(message, code: int) -> int:
     """One line, with how to go on where that is known."""
     text = " ".join([str(message), *getattr(message, "__notes__", ())])
-    print(f"sdph: {' '.join(text.split())}", file=sys.stderr)
+    print(f"sdph: {_printable(' '.join(text.split()))}", file=sys.stderr)
     return code
+
+
+def _printable(text: str) -> str:
+    """A text that a terminal takes for no commands, its middle left out where it is of no length to read."""
+    text = text if len(text) <= LONGEST else f"{text[: LONGEST // 2]} [...] {text[-LONGEST // 2 :]}"
+    return "".join(letter if letter.isprintable() else repr(letter)[1:-1] for letter in text)
 
 
 def list_scenes(options) -> int:

@@ -11,6 +11,8 @@ import numpy as np
 
 from sdph.schema import CaseError
 
+LARGEST = 2**27  # bytes of a mesh, some 2.5 million triangles in binary STL; our choice
+
 
 def read(path: str, key: str):
     """What meshio makes of a file, its points finite; a `CaseError` with the key of the case where it is no mesh."""
@@ -19,6 +21,8 @@ def read(path: str, key: str):
     try:
         if not Path(path).is_file():  # nor a pipe or a device, which may have no end
             raise ValueError("there is no such file")
+        if Path(path).stat().st_size > LARGEST:
+            raise ValueError(f"it has {Path(path).stat().st_size} bytes; at most {LARGEST} are allowed")
         with (
             warnings.catch_warnings(),
             redirect_stdout(io.StringIO()),
@@ -28,6 +32,11 @@ def read(path: str, key: str):
             mesh = meshio.read(path)
         if not np.isfinite(mesh.points).all():
             raise ValueError("one of its points is no number")
+        for block in mesh.cells:  # VTK would end the process
+            if len(block.data) and not 0 <= np.min(block.data) <= np.max(block.data) < len(mesh.points):
+                raise ValueError(
+                    f"a cell of type {block.type} names a point that is not there; it has {len(mesh.points)}"
+                )
     except (Exception, SystemExit) as error:  # meshio's readers trip over damaged files in ways of their own
         raise CaseError(
             f"{key} = {path!r} cannot be read ({_short(error)}); give a surface mesh that meshio reads"

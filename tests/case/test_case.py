@@ -256,6 +256,29 @@ def test_file_that_is_not_toml(tmp_path, text):
         cases.load(file)
 
 
+@pytest.mark.parametrize("value", ["5e-324", "1e-16", "0.0"])
+def test_windows_of_no_length_are_refused(value):
+    """The number of windows would be no number, or one that no machine counts to."""
+    assert "coupling.window_largest_s" in refusal(f"coupling.window_largest_s={value}")
+
+
+@pytest.mark.parametrize(
+    "text", ["a." * 20000 + "b = 1\n", "[" + "'a'. " * 20000 + "b]\n", "x = {" + "a." * 20000 + "b = 1}\n"]
+)
+def test_key_of_very_many_parts_is_refused_at_once(tmp_path, text):
+    """The time of the parser goes with the square of the parts: minutes for these."""
+    (tmp_path / "case.toml").write_text(text)
+    with pytest.raises(CaseError, match="a key there has 50 parts or more"):
+        cases.load(tmp_path / "case.toml")
+
+
+def test_file_of_gigabytes_is_refused_before_it_is_read(tmp_path):
+    with open(tmp_path / "case.toml", "wb") as file:
+        file.truncate(3 * 2**30)
+    with pytest.raises(CaseError, match="too large for a case: at most 1048576 letters"):
+        cases.load(tmp_path / "case.toml")
+
+
 def paths(table, here=()):
     """Where every value of a nested table is."""
     for key, value in table.items():

@@ -9,6 +9,7 @@ import sys
 import pytest
 from test_output import snapshot
 
+from coupling.gas import Unfinished
 from sdph import cli, scenes
 from sdph.scenes import paths
 
@@ -261,3 +262,18 @@ def test_unnamed_runs_are_numbered(tmp_path):
     sdph("run", "disc_cluster", *SMALL, cwd=tmp_path)
     assert (tmp_path / "runs" / "disc_cluster-2" / "summary.json").is_file()
     assert not list((tmp_path / "runs" / "disc_cluster").iterdir())
+
+
+def test_a_gas_that_does_not_even_begin_its_first_window_is_code_3_and_one_line(monkeypatch, capsys):
+    def unfinished(options):
+        raise Unfinished("sdphGasFoam says: too hot")
+
+    monkeypatch.setitem(cli.COMMANDS, "list", unfinished)
+    assert cli.main(["list"]) == 3
+    assert capsys.readouterr().err == "sdph: sdphGasFoam says: too hot\n"
+
+
+@pytest.mark.parametrize("name, told", [("\\u0000\\u001b[31m", r"\x00\x1b[31m"), ("x" * 10**5, " [...] ")])
+def test_what_was_given_cannot_command_the_terminal_nor_fill_it(refused, name, told):
+    line = refused("explain", "disc_cluster", "--set", f'scene="{name}"').removesuffix("\n")
+    assert told in line and line.isprintable() and len(line) < 2100

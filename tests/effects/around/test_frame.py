@@ -87,6 +87,13 @@ def test_what_is_no_file_is_refused(tmp_path, name):
         frame.motion(frame.Frame(table=str(tmp_path / name)), 1.0)
 
 
+def test_a_table_of_gigabytes_is_refused_before_it_is_read(tmp_path):
+    with open(tmp_path / "motion.csv", "wb") as file:
+        file.truncate(3 * 2**30)
+    with pytest.raises(CaseError, match="it has 3221225472 bytes; at most 33554432 are allowed"):
+        frame.motion(frame.Frame(table=str(tmp_path / "motion.csv")), 1.0)
+
+
 def test_the_frame_is_at_rest_before_its_table_and_after_its_end(tmp_path):
     move = motion(tmp_path, table(*ROWS[1:]), until=9.0, start=2.0, end=2.8)
     for time in (0.0, 1.9, 2.4, 2.81, 9.0):
