@@ -41,6 +41,7 @@ class Effect:
     kernel      case -> the floats that its terms take, as a NamedTuple
     arrays      arrays of the state that it needs
     sources     quantities by which it acts on the gas (names of coupling.gas.SOURCES)
+    fields      fields that it asks of the gas besides the usual ones (names of coupling.gas.ON_REQUEST)
     to_gas      (window's exchange, sdph.handed.Handed; case) -> quantity -> what each particle gives of it, (N,) or (N, 3)
     moves       whether particles move by it
     matter      what it acts on: "grains", "liquid"
@@ -55,6 +56,7 @@ class Effect:
     kernel: Callable
     arrays: tuple[str, ...] = ()
     sources: tuple[str, ...] = ()
+    fields: tuple[str, ...] = ()
     moves: bool = False
     matter: tuple[str, ...] = ("grains",)
     dt_limit: Callable = lambda p, case, state: NO_LIMIT

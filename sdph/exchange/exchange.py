@@ -46,6 +46,7 @@ class Exchange:
         rows = [effects.REGISTRY[name] for name in case.effects]
         names = dict.fromkeys(name for row in rows for name in row.sources)
         self.sources = tuple(name for name in names if name != "alpha_g" or case.coupling.voidage)
+        self.fields = tuple(dict.fromkeys(name for row in rows for name in row.fields))
         self.to_gas = {row.name: row.to_gas for row in rows if row.to_gas}
         self.drag_heat = np.zeros(len(self.volumes))  # [W/m3], for the next window
 

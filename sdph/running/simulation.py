@@ -65,7 +65,7 @@ class Simulation:
         self._turn_over(self.case.coupling.window_largest)
         one_way = self.case.coupling.one_way
         alpha_g = None if one_way or not self.case.coupling.voidage else self.exchange.alpha_g(self.state, self.weights, self._inside())
-        self.gas_state = self.gas.start(alpha_g, () if one_way else self.exchange.sources)
+        self.gas_state = self.gas.start(alpha_g, () if one_way else self.exchange.sources, self.exchange.fields)
         if not one_way:
             rate, stake, thickening, grip = self.exchange.pace(self.state, self.weights, self.gas_state)
             self.clock.begin(rate, stake)
@@ -87,7 +87,7 @@ class Simulation:
     def take_up(self, checkpoint) -> None:
         """Go back to the gas of a checkpoint, instead of `start`; what else was kept is put back next."""
         sources = () if self.case.coupling.one_way else self.exchange.sources
-        self.gas_state = self.gas.restore(checkpoint.gas, sources)
+        self.gas_state = self.gas.restore(checkpoint.gas, sources, self.exchange.fields)
         self.stepper.guard.admit_gas(self.gas_state.fields)
         if abs(self.gas_state.time - checkpoint.time) > SAME_TIME * self.case.run.end_time:
             raise Unfit(f"its gas is at {self.gas_state.time:g} s, its particles are at {checkpoint.time:g} s")

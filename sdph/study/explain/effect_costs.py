@@ -37,7 +37,7 @@ class Still:
         full = {"temperature": case.gas.temperature + 10.0, "density": case.gas.density}
         self.state = SimpleNamespace(fields=fields | {name: np.full(len(centres), value) for name, value in full.items()}, budget=None)
 
-    def start(self, alpha_g, sources):
+    def start(self, alpha_g, sources, fields=()):
         return self.state
 
 
