@@ -42,7 +42,8 @@ class Effect:
     arrays      arrays of the state that it needs
     sources     quantities by which it acts on the gas (names of coupling.gas.SOURCES)
     fields      fields that it asks of the gas besides the usual ones (names of coupling.gas.ON_REQUEST)
-    to_gas      (window's exchange, sdph.handed.Handed; case) -> quantity -> what each particle gives of it, (N,) or (N, 3)
+    to_gas      (window's exchange, sdph.exchange.amounts.Handed; case) -> quantity -> what each particle gives of it, (N,) or
+                (N, 3), beside what the exchange tells of the conductance, drag and force that effects add up to
     moves       whether particles move by it
     matter      what it acts on: "grains", "liquid"
     dt_limit    (kernel parameters, case, state as it is) -> largest stable sub-step [s]; asked before every sub-step

@@ -25,10 +25,11 @@ class Loss:
 class Handed:
     """What one window hands over: what the gas is told, and what the reaction is computed from.
 
-    heat (N,) [W/K] and pull (N,) [W]: the particle takes heat * T'_g - pull; drag (N,) [kg/s] is m_k f_k/dt; temperature
-    and velocity are those of the particles when they were computed; damping (N,) [1/s] is beta/(alpha_p rho_p); mass
-    (N,) [kg] what is in the gas at the window's end. terms (C,) or (C, 3) per volume of the cells, by quantity and effect;
-    alpha_g (C,) at the window's end, where the gas is told.
+    heat (N,) [W/K] and pull (N,) [W]: the particle takes heat * T'_g - pull; drag (N,) [kg/s] is m_k f_k/dt; force (N, 3)
+    [N] what the gas does besides, held over the window (no row where no effect does); temperature and velocity are those of
+    the particles when they were computed; damping (N,) [1/s] is beta/(alpha_p rho_p); mass (N,) [kg] what is in the gas at
+    the window's end. terms (C,) or (C, 3) per volume of the cells, by quantity and by what it comes from: a sum over effects
+    ("conductance", "drag", "force"), or an effect; alpha_g (C,) at the window's end, where the gas is told.
     """
 
     dt: float
@@ -36,6 +37,7 @@ class Handed:
     heat: np.ndarray
     pull: np.ndarray
     drag: np.ndarray
+    force: np.ndarray
     damping: np.ndarray
     temperature: np.ndarray
     velocity: np.ndarray
@@ -46,7 +48,7 @@ class Handed:
 
     @property
     def sources(self) -> dict[str, np.ndarray]:
-        """What the gas is told: each quantity is the sum of what the effects give to it."""
+        """What the gas is told: each quantity is the sum of what is given to it."""
         told = {} if self.alpha_g is None else {"alpha_g": self.alpha_g}
         for (quantity, _), values in self.terms.items():
             told[quantity] = told[quantity] + values if quantity in told else values

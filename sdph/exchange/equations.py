@@ -16,12 +16,15 @@ NEGLIGIBLE = 1e-6  # of the temperature: smaller differences need not be resolve
 
 
 class Seen:
-    """The gas as the particles see it: own velocity (N, 3), slip (N,), density, temperature (N,) of the gas."""
+    """The gas as the particles see it: its velocity from theirs `apart` (N, 3) and slip (N,), their own velocity (N, 3); its
+    density and temperature (N,); `fields`, what effects ask for besides, by name."""
 
-    def __init__(self, weights, gas_state, state):
+    def __init__(self, weights, gas_state, state, fields=()):
         velocity, self.density, self.temperature = (gather(weights, gas_state.fields[name]) for name in ("velocity", "density", "temperature"))
         self.own = particles.velocities(state)
-        self.slip = particles.lengths(velocity - self.own)
+        self.apart = velocity - self.own
+        self.slip = particles.lengths(self.apart)
+        self.fields = {name: gather(weights, gas_state.fields[name]) for name in fields}
 
 
 def vapour_concentration(p, gas_state) -> np.ndarray:

@@ -9,10 +9,12 @@ and from the temperature T'_c that it answers with, particle k takes exactly wha
 
     Q_k = C_k f_k sum_c w_kc (T'_c - T_k)   [J].
 
-Momentum goes the same way with m_k for C_k and the drag coefficient for K_k. The heat of drag, force times slip with
-the new gas velocity, is known when the window is done: the gas gets it in the next one.
+Momentum goes the same way with m_k for C_k and the drag coefficient for K_k; other forces of the gas are held over the
+window, and the gas gets their opposite. The heat of all of them, force times slip with the new gas velocity, is the kinetic
+energy that both sides lose. It is known when the window is done: the gas gets it in the next one.
 
-The gas is told by quantity (`coupling.gas.SOURCES`): what each effect gives stands in the effect's own file (`to_gas`).
+The gas is told by quantity (`coupling.gas.SOURCES`): conductance, drag and force are sums over effects; what else an effect
+gives stands in its own file (`to_gas`).
 """
 
 from __future__ import annotations
@@ -60,8 +62,8 @@ class Exchange:
         `ahead` are the weights of where the particles will be at the end of the window, and the share of each (N,) that
         will be in the gas: the volume fraction then is told to the gas.
         """
-        seen = Seen(weights, gas_state, state)
-        conductance, damping = self._rates(state, seen)
+        seen = Seen(weights, gas_state, state, self.fields)
+        conductance, damping, force = self._rates(state, seen)
         loss = self._evaporate(state, weights, gas_state, seen, conductance, dt) if self.parameters["evaporation"] else None
         kept = state.mass - loss.mass if loss else state.mass
         power = self.parameters["evaporation"].latent_heat / -dt * loss.mass if loss else OFF
@@ -69,29 +71,40 @@ class Exchange:
         equations.shares(state, self.case.grains.heat_capacity, dt, conductance, damping, kept, power, heat_share, pull, shared_mass)
         there, inside = ahead
         handed = Handed(
-            dt, weights, heat_share, pull, shared_mass, damping, state.temperature.copy(), seen.own, kept * (state.kind == GRAIN), loss
+            dt, weights, heat_share, pull, shared_mass, force, damping, state.temperature.copy(), seen.own, kept * (state.kind == GRAIN), loss
         )
         return replace(handed, terms=self._terms(handed), alpha_g=self._room(there, kept * inside) if "alpha_g" in self.sources else None)
 
-    def _rates(self, state, seen) -> tuple[np.ndarray, np.ndarray]:
-        """Of every particle now: heat conductance to the gas [W/K], and beta/(alpha_p rho_p) [1/s]."""
-        conductance, damping = np.empty(len(state.x)), np.empty(len(state.x))
+    def _rates(self, state, seen) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Of every particle now: heat conductance to the gas [W/K], beta/(alpha_p rho_p) [1/s], and the force that is held [N]."""
+        conductance, damping, force = np.empty(len(state.x)), np.empty(len(state.x)), np.zeros((0, 3))
         equations.rates(
             self.parameters["drag"], self.parameters["heat"], self.sizes_p, state, self.case.grains.density, seen.slip, seen.density,
             conductance, damping,
         )  # fmt: skip
-        return conductance, damping
+        return conductance, damping, force
+
+    def _sums(self, handed: Handed) -> dict[tuple[str, str], np.ndarray]:
+        """What each particle gives of what effects add up to; the keys as of `_terms`."""
+        given = {}
+        if "heat_coefficient" in self.sources:
+            given |= {("heat_coefficient", "conductance"): handed.heat, ("heat", "conductance"): handed.pull}
+        if "momentum_coefficient" in self.sources:
+            given |= {("momentum_coefficient", "drag"): handed.drag, ("momentum", "drag"): handed.drag[:, None] * handed.velocity}
+        return given | ({("momentum", "force"): -handed.force} if len(handed.force) else {})
 
     def _terms(self, handed: Handed) -> dict[tuple[str, str], np.ndarray]:
-        """(quantity, effect) -> what the effect gives to the gas, per volume of the cells."""
-        given = {(quantity, name): own for name, to_gas in self.to_gas.items() for quantity, own in to_gas(handed, self.case).items()}
+        """(quantity, sum or effect that it comes from) -> what it gives to the gas, per volume of the cells."""
+        given = self._sums(handed)
+        given |= {(quantity, name): own for name, to_gas in self.to_gas.items() for quantity, own in to_gas(handed, self.case).items()}
         if not given:
             return {}
         columns = [own[:, None] if own.ndim == 1 else own for own in given.values()]
         ends = np.cumsum([column.shape[1] for column in columns])
         cells = np.split(self._density(handed.weights, np.concatenate(columns, axis=1)), ends[:-1], axis=1)
         terms = {key: cell[:, 0] if own.ndim == 1 else cell for (key, own), cell in zip(given.items(), cells)}
-        return terms | ({("heat", "friction"): self.drag_heat} if self.parameters["drag"] else {})
+        rubs = ("momentum", "drag") in terms or ("momentum", "force") in terms
+        return terms | ({("heat", "friction"): self.drag_heat} if rubs else {})
 
     def _evaporate(self, state, weights, gas_state, seen, conductance, dt) -> Loss:
         """What evaporates in a window; the heat conductance (N,) [W/K] becomes the mean over it.
@@ -124,10 +137,10 @@ class Exchange:
     def pace(self, state, weights, gas_state) -> tuple[float, float, float, float]:
         """At the start: rate [1/s] at which the fastest cell takes the grains' temperature, `stake` [J], rate [1/s] at which
         vapour comes into the fastest cell, over the gas in it, and `grip` [1/s]."""
-        seen = Seen(weights, gas_state, state)
-        conductance, damping = self._rates(state, seen)
+        seen = Seen(weights, gas_state, state, self.fields)
+        conductance, damping, _ = self._rates(state, seen)
         full, resistance = self._resistance(state, weights, gas_state)
-        rate = float((self._density(weights, conductance)[full] * resistance).max(initial=0.0)) if self.parameters["heat"] else 0.0
+        rate = float((self._density(weights, conductance)[full] * resistance).max(initial=0.0)) if "heat_coefficient" in self.sources else 0.0
         thickening = self._thickening(state, weights, gas_state, seen) if self.parameters["evaporation"] else 0.0
         return rate, self.stake(state, weights, gas_state), thickening, self.grip(state, damping)
 
@@ -149,7 +162,7 @@ class Exchange:
     def stake(self, state, weights, gas_state) -> float:
         """A scale of heat [J]: the gas among the grains, and they, brought to equilibrium through all of the
         temperatures that the case has."""
-        if not self.parameters["heat"]:
+        if "heat_coefficient" not in self.sources:
             return 0.0
         full, resistance = self._resistance(state, weights, gas_state)
         return float(temperature_span(self.case) * (self.volumes[full] / resistance).sum())
@@ -165,23 +178,31 @@ class Exchange:
         """The reaction on the particles, from the new gas state with the old weights, temperatures and velocities."""
         taken_heat, from_gas = np.zeros(len(handed.heat)), 0.0
         impulse, impulse_from_gas = np.zeros((len(handed.heat), 3)), np.zeros(3)
-        if ("heat", "heat") in handed.terms:
+        if ("heat", "conductance") in handed.terms:
             temperature = gas_state.fields["temperature"]
             taken_heat = handed.dt * (handed.heat * gather(handed.weights, temperature) - handed.pull)
-            given = handed.terms["heat_coefficient", "heat"] * temperature - handed.terms["heat", "heat"]
+            given = handed.terms["heat_coefficient", "conductance"] * temperature - handed.terms["heat", "conductance"]
             from_gas = float((given * self.volumes).sum() * handed.dt)
-        if ("momentum", "drag") in handed.terms:
-            velocity = gas_state.fields["velocity"]
-            apart = gather(handed.weights, velocity) - handed.velocity
-            impulse = handed.dt * handed.drag[:, None] * apart
-            given = handed.terms["momentum_coefficient", "drag"][:, None] * velocity - handed.terms["momentum", "drag"]
-            impulse_from_gas = np.einsum("ij,i->j", given, self.volumes) * handed.dt
-            self.drag_heat = self._density(handed.weights, np.einsum("ij,ij->i", impulse, apart) / handed.dt)
+        if ("heat", "friction") in handed.terms:
+            impulse, impulse_from_gas = self._push(handed, gas_state.fields["velocity"])
         if self.case.coupling.one_way:  # the gas feels nothing
             from_gas, impulse_from_gas = 0.0, np.zeros(3)
         if not handed.loss:
             return Taken(taken_heat, taken_heat, impulse, from_gas, impulse_from_gas)
         return self._with_vapour(Taken(taken_heat, taken_heat, impulse, from_gas, impulse_from_gas), handed)
+
+    def _push(self, handed: Handed, velocity) -> tuple[np.ndarray, np.ndarray]:
+        """Impulse (N, 3) [kg m/s] of drag and force, and (3,) what the gas gave; the heat of both is kept for the next window."""
+        apart, given = gather(handed.weights, velocity) - handed.velocity, np.zeros_like(velocity)
+        impulse = np.zeros_like(apart)
+        if ("momentum", "drag") in handed.terms:
+            impulse += handed.dt * handed.drag[:, None] * apart
+            given += handed.terms["momentum_coefficient", "drag"][:, None] * velocity - handed.terms["momentum", "drag"]
+        if ("momentum", "force") in handed.terms:
+            impulse += handed.dt * handed.force
+            given -= handed.terms["momentum", "force"]
+        self.drag_heat = self._density(handed.weights, np.einsum("ij,ij->i", impulse, apart) / handed.dt)
+        return impulse, np.einsum("ij,i->j", given, self.volumes) * handed.dt
 
     def _with_vapour(self, taken: Taken, handed: Handed) -> Taken:
         """The same with what evaporation takes."""
