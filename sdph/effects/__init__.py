@@ -4,7 +4,7 @@ import dataclasses
 
 from sdph.effects.around import drain, frame, gravity, inflow, outflow, tank, walls
 from sdph.effects.effect import NO_LIMIT, OFF, Effect, kernel_of
-from sdph.effects.gas import drag, evaporation, gas_pressure, heat
+from sdph.effects.gas import drag, evaporation, gas_pressure, heat, lift
 from sdph.effects.grains import (
     artificial_viscosity,
     conduction,
@@ -18,6 +18,7 @@ from sdph.effects.liquids import density_diffusion, laminar_viscosity, liquid_da
 
 FILES = (
     drag,
+    lift,
     gas_pressure,
     gravity,
     granular_pressure,

@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit, prange
 
 from coupling.transfer import gather
-from sdph.effects.gas import drag, heat
+from sdph.effects.gas import drag, heat, lift
 from sdph.engine import state as particles
 from sdph.engine.state import GRAIN
 from sdph.laws.constants import GAS_CONSTANT
@@ -43,14 +43,18 @@ def temperature_span(case) -> float:
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def rates(drag_p, heat_p, sizes_p, s, grain_density, slip, gas_density, conductance, damping):
-    """Of every particle as it is: heat to the gas per kelvin [W/K], and beta/(alpha_p rho_p) [1/s]."""
+def rates(drag_p, heat_p, lift_p, sizes_p, s, grain_density, apart, slip, gas_density, vorticity, conductance, damping, force):
+    """Of every particle as it is: heat to the gas per kelvin [W/K], beta/(alpha_p rho_p) [1/s], and force of the gas that is held
+    (N, 3) [N], where an effect makes one."""
     for i in prange(len(s.x)):
         conductance[i] = damping[i] = 0.0
         if s.kind[i] == GRAIN:
             alpha_p = s.density[i] / grain_density
             conductance[i] = heat.conductance(heat_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
             damping[i] = drag.damping(drag_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
+        if len(lift_p):
+            x, y, z = lift.force(lift_p, sizes_p, s, i, apart, slip[i], vorticity, gas_density[i])
+            force[i, 0], force[i, 1], force[i, 2] = (x, y, z) if s.kind[i] == GRAIN else (0.0, 0.0, 0.0)
 
 
 @njit(cache=True, parallel=True, error_model="numpy")

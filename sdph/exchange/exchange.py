@@ -77,10 +77,11 @@ class Exchange:
 
     def _rates(self, state, seen) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Of every particle now: heat conductance to the gas [W/K], beta/(alpha_p rho_p) [1/s], and the force that is held [N]."""
-        conductance, damping, force = np.empty(len(state.x)), np.empty(len(state.x)), np.zeros((0, 3))
+        p, count, vorticity = self.parameters, len(state.x), seen.fields.get("vorticity", OFF)
+        conductance, damping, force = np.empty(count), np.empty(count), np.empty((count if p["lift"] else 0, 3))
         equations.rates(
-            self.parameters["drag"], self.parameters["heat"], self.sizes_p, state, self.case.grains.density, seen.slip, seen.density,
-            conductance, damping,
+            p["drag"], p["heat"], p["lift"], self.sizes_p, state, self.case.grains.density, seen.apart, seen.slip, seen.density,
+            vorticity, conductance, damping, force,
         )  # fmt: skip
         return conductance, damping, force
 
