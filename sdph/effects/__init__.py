@@ -57,6 +57,12 @@ def limits(parameters, case, state) -> dict[str, float]:
     return {name: limit for name, limit in found.items() if limit != NO_LIMIT}
 
 
+def window_limits(parameters, case, state) -> dict[str, float]:
+    """Longest window [s] that each effect that is on and limits it bears with the particles as they are."""
+    asked = [REGISTRY[name] for name in case.effects if REGISTRY[name].window_limit]
+    return {row.name: row.window_limit(parameters[row.name], case, state) for row in asked}
+
+
 def without_input(matter: str) -> dict:
     """Parameters of the effects on grains or a liquid that can judge themselves and need no input."""
     rows = [row for row in REGISTRY.values() if row.call and matter in row.matter]
@@ -67,4 +73,4 @@ def without_input(matter: str) -> dict:
     }
 
 
-__all__ = ["OFF", "REGISTRY", "Effect", "kernel_of", "limits", "moving", "without_input"]
+__all__ = ["OFF", "REGISTRY", "Effect", "kernel_of", "limits", "moving", "window_limits", "without_input"]

@@ -47,6 +47,7 @@ class Effect:
     moves       whether particles move by it
     matter      what it acts on: "grains", "liquid"
     dt_limit    (kernel parameters, case, state as it is) -> largest stable sub-step [s]; asked before every sub-step
+    window_limit  the same for windows, where exchange or splitting asks for short ones; asked at the start and after every window
     two_phases  whether it needs a second phase
     call        scales of a case (sdph.methods.grains.scales) -> Judgement; without it the effect is on where the user says so
     """
@@ -61,6 +62,7 @@ class Effect:
     moves: bool = False
     matter: tuple[str, ...] = ("grains",)
     dt_limit: Callable = lambda p, case, state: NO_LIMIT
+    window_limit: Callable | None = None
     two_phases: bool = False
     to_gas: Callable | None = None
     call: Callable | None = None

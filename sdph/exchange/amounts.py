@@ -59,7 +59,8 @@ class Handed:
 class Taken:
     """What the particles take in a window: heat (N,) [J], impulse (N, 3) [kg m/s]; and what the gas gave by its own sum.
 
-    warming (N,) [J] is the heat less that of evaporation; vapour and vapour_to_gas [kg] what left particles and what the
+    lost (N,) [J] is what leaves the system to its surroundings (no entry where no effect gives any); warming (N,) [J] the heat
+    less that and less that of evaporation; vapour and vapour_to_gas [kg] what left particles and what the
     gas got; latent_heat [J] and capacity_heat [J] what evaporation binds, and what the vapour's other heat capacity does.
     """
 
@@ -68,6 +69,7 @@ class Taken:
     impulse: np.ndarray
     heat_from_gas: float
     impulse_from_gas: np.ndarray
+    lost: np.ndarray = field(default_factory=lambda: np.zeros(0))
     vapour: float = 0.0
     vapour_to_gas: float = 0.0
     latent_heat: float = 0.0
@@ -79,5 +81,6 @@ class Taken:
         heat = {"heat_to_particles_J": float(self.heat.sum()), "heat_to_gas_J": -self.heat_from_gas}
         vapour = {"evaporated_kg": self.vapour, "vapour_to_gas_kg": self.vapour_to_gas, "condensation_refused_kg": self.refused}
         bound = {"latent_heat_J": self.latent_heat, "capacity_heat_J": self.capacity_heat}
+        bound |= {"heat_to_surroundings_J": float(self.lost.sum())}
         own, other = np.einsum("ij->j", self.impulse), -self.impulse_from_gas
         return heat | vapour | bound | vector("impulse_to_particles", own) | vector("impulse_to_gas", other)

@@ -175,8 +175,8 @@ class Exchange:
         full = content > 0.0
         return full, 1.0 / content[full] + 1.0 / gas[full]
 
-    def take(self, handed: Handed, gas_state) -> Taken:
-        """The reaction on the particles, from the new gas state with the old weights, temperatures and velocities."""
+    def take(self, state, handed: Handed, gas_state) -> Taken:
+        """The reaction on the particles, still as they were handed, from the new gas state with the old weights."""
         taken_heat, from_gas = np.zeros(len(handed.heat)), 0.0
         impulse, impulse_from_gas = np.zeros((len(handed.heat), 3)), np.zeros(3)
         if ("heat", "conductance") in handed.terms:
