@@ -4,7 +4,7 @@ import dataclasses
 
 from sdph.effects.around import drain, frame, gravity, inflow, outflow, tank, walls
 from sdph.effects.effect import NO_LIMIT, OFF, Effect, kernel_of
-from sdph.effects.gas import drag, evaporation, gas_pressure, heat, lift
+from sdph.effects.gas import drag, evaporation, gas_pressure, heat, lift, radiation
 from sdph.effects.grains import (
     artificial_viscosity,
     conduction,
@@ -29,6 +29,7 @@ FILES = (
     grain_shifting,
     walls,
     heat,
+    radiation,
     conduction,
     density_diffusion,
     laminar_viscosity,

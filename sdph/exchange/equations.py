@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit, prange
 
 from coupling.transfer import gather
-from sdph.effects.gas import drag, heat, lift
+from sdph.effects.gas import drag, heat, lift, radiation
 from sdph.engine import state as particles
 from sdph.engine.state import GRAIN
 from sdph.laws.constants import GAS_CONSTANT
@@ -37,20 +37,22 @@ def vapour_concentration(p, gas_state) -> np.ndarray:
 
 def temperature_span(case) -> float:
     """Hottest less coldest of all that the case gives a temperature [K], and where they are alike a negligible part of it."""
-    given = [case.gas.temperature, *(part.temperature for part in (*case.particles.values(), *case.nozzles.values()))]
-    given += [boundary.temperature for boundary in case.boundaries.values() if boundary.temperature]
-    return max(max(given) - min(given), NEGLIGIBLE * max(given))
+    return max(max(case.temperatures) - min(case.temperatures), NEGLIGIBLE * max(case.temperatures))
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def rates(drag_p, heat_p, lift_p, sizes_p, s, grain_density, apart, slip, gas_density, vorticity, conductance, damping, force):
+def rates(
+    drag_p, heat_p, radiation_p, lift_p, sizes_p, s, grain_density, apart, slip, gas_density, gas_temperature, vorticity,
+    conductance, damping, force,
+):  # fmt: skip
     """Of every particle as it is: heat to the gas per kelvin [W/K], beta/(alpha_p rho_p) [1/s], and force of the gas that is held
     (N, 3) [N], where an effect makes one."""
     for i in prange(len(s.x)):
         conductance[i] = damping[i] = 0.0
         if s.kind[i] == GRAIN:
             alpha_p = s.density[i] / grain_density
-            conductance[i] = heat.conductance(heat_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
+            conductance[i] += heat.conductance(heat_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
+            conductance[i] += radiation.conductance(radiation_p, sizes_p, s, i, gas_temperature[i])
             damping[i] = drag.damping(drag_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
         if len(lift_p):
             x, y, z = lift.force(lift_p, sizes_p, s, i, apart, slip[i], vorticity, gas_density[i])
@@ -58,8 +60,8 @@ def rates(drag_p, heat_p, lift_p, sizes_p, s, grain_density, apart, slip, gas_de
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def shares(s, heat_capacity, dt, conductance, damping, kept, power, heat_share, pull, shared_mass):
-    """What meets the gas in a window: heat_share [W/K] and pull [W] of heat, m_k f_k/dt [kg/s] of momentum.
+def shares(s, temperature, heat_capacity, dt, conductance, damping, kept, power, heat_share, pull, shared_mass):
+    """What meets the gas in a window: heat_share [W/K] and pull [W] of heat, from `temperature` (N,) on, m_k f_k/dt [kg/s] of momentum.
 
     With a `power` P [W] from elsewhere held over the window, x = dt K/C and C of the mass that is `kept` [kg],
     Q/dt = K phi (T'_g - T) - P (1 - phi), phi = (1 - exp(-x))/x; without one K phi = C f/dt.
@@ -69,7 +71,7 @@ def shares(s, heat_capacity, dt, conductance, damping, kept, power, heat_share, 
         capacity = kept[i] * heat_capacity
         if conductance[i] > 0.0:
             heat_share[i] = capacity * exponential_fraction(dt * conductance[i] / capacity) / dt if capacity > 0.0 else 0.0
-            pull[i] = heat_share[i] * s.temperature[i]
+            pull[i] = heat_share[i] * temperature[i]
             if len(power) > 0:
                 pull[i] += power[i] * (1.0 - heat_share[i] / conductance[i])
         shared_mass[i] = kept[i] * exponential_fraction(dt * damping[i]) / dt

@@ -26,7 +26,7 @@ import numpy as np
 from coupling.transfer import deposit, gather
 from sdph import effects
 from sdph.effects import OFF
-from sdph.effects.gas import sizes
+from sdph.effects.gas import radiation, sizes
 from sdph.engine.state import GRAIN
 from sdph.exchange import droplets as droplet_loss
 from sdph.exchange import equations
@@ -68,7 +68,7 @@ class Exchange:
         kept = state.mass - loss.mass if loss else state.mass
         power = self.parameters["evaporation"].latent_heat / -dt * loss.mass if loss else OFF
         heat_share, pull, shared_mass = (np.empty(len(state.x)) for _ in range(3))
-        equations.shares(state, self.case.grains.heat_capacity, dt, conductance, damping, kept, power, heat_share, pull, shared_mass)
+        equations.shares(state, self._radiated(state, state.temperature, 0.5 * dt), self.case.grains.heat_capacity, dt, conductance, damping, kept, power, heat_share, pull, shared_mass)
         there, inside = ahead
         handed = Handed(
             dt, weights, heat_share, pull, shared_mass, force, damping, state.temperature.copy(), seen.own, kept * (state.kind == GRAIN), loss
@@ -80,8 +80,8 @@ class Exchange:
         p, count, vorticity = self.parameters, len(state.x), seen.fields.get("vorticity", OFF)
         conductance, damping, force = np.empty(count), np.empty(count), np.empty((count if p["lift"] else 0, 3))
         equations.rates(
-            p["drag"], p["heat"], p["lift"], self.sizes_p, state, self.case.grains.density, seen.apart, seen.slip, seen.density,
-            vorticity, conductance, damping, force,
+            p["drag"], p["heat"], p["radiation"], p["lift"], self.sizes_p, state, self.case.grains.density, seen.apart, seen.slip,
+            seen.density, seen.temperature, vorticity, conductance, damping, force,
         )  # fmt: skip
         return conductance, damping, force
 
@@ -188,9 +188,10 @@ class Exchange:
             impulse, impulse_from_gas = self._push(handed, gas_state.fields["velocity"])
         if self.case.coupling.one_way:  # the gas feels nothing
             from_gas, impulse_from_gas = 0.0, np.zeros(3)
-        if not handed.loss:
-            return Taken(taken_heat, taken_heat, impulse, from_gas, impulse_from_gas)
-        return self._with_vapour(Taken(taken_heat, taken_heat, impulse, from_gas, impulse_from_gas), handed)
+        taken = Taken(taken_heat, taken_heat, impulse, from_gas, impulse_from_gas)
+        if handed.loss:
+            taken = self._with_vapour(taken, handed)
+        return self._with_radiation(taken, state, handed) if self.parameters["radiation"] else taken
 
     def _push(self, handed: Handed, velocity) -> tuple[np.ndarray, np.ndarray]:
         """Impulse (N, 3) [kg m/s] of drag and force, and (3,) what the gas gave; the heat of both is kept for the next window."""
@@ -215,6 +216,22 @@ class Exchange:
             latent_heat=latent * float(mass.sum()), capacity_heat=excess * float((mass * handed.temperature).sum()),
             refused=float(handed.loss.refused.sum()),
         )  # fmt: skip
+
+    def _with_radiation(self, taken: Taken, state, handed: Handed) -> Taken:
+        """The same with what leaves to the surroundings, half of it before and half of it after the exchange with the gas."""
+        capacity, half = handed.mass * self.case.grains.heat_capacity, 0.5 * handed.dt
+        before = self._radiated(state, handed.temperature, half)
+        between = before + np.divide(taken.warming, capacity, out=np.zeros_like(capacity), where=capacity > 0.0)
+        lost = capacity * (handed.temperature - before + between - self._radiated(state, between, half))
+        return replace(taken, warming=taken.warming - lost, lost=lost)
+
+    def _radiated(self, state, temperature, dt):
+        """Temperatures (N,) [K] after dt [s] of radiation to the surroundings."""
+        if not self.parameters["radiation"]:
+            return temperature
+        cooled = np.empty_like(temperature)
+        radiation.cool(self.parameters["radiation"], self.sizes_p, state, temperature, dt, cooled)
+        return cooled
 
     def grip(self, state, damping) -> float:
         """Rate [1/s] at which gas that cannot give way stops grains that move as one, mean by mass; damping (N,) [1/s].
