@@ -1,12 +1,13 @@
 """Lift on a sphere in sheared gas.
 
-Every law has one signature, `law(slip, spin, diameter, gas_density, gas_viscosity)`, and returns L [kg/m3], so that laws
-are interchangeable:
+Every law has one signature, `law(slip, spin, diameter, gas_density, gas_viscosity)`, and returns L [kg/m3], so that
+laws are interchangeable:
 
     F = L (v_g - v_p) x omega_g   [N per m3 of grain],   omega_g = curl v_g;   acceleration of a grain = F/rho_p
 
-slip = |v_g - v_p| [m/s], spin = |omega_g| [1/s], diameter [m], gas_density [kg/m3], gas_viscosity [Pa s]. In a simple shear
-G spin = |G|. A grain that lags behind the gas is pushed to where the gas is faster. Lone grains that do not turn themselves.
+slip = |v_g - v_p| [m/s], spin = |omega_g| [1/s], diameter [m], gas_density [kg/m3], gas_viscosity [Pa s]. In a simple
+shear G spin = |G|. A grain that lags behind the gas is pushed to where the gas is faster. Lone grains that do not
+turn themselves.
 """
 
 import math
@@ -32,9 +33,9 @@ def shear_reynolds(spin, diameter, gas_density, gas_viscosity):
 def mei_factor(reynolds, shear):
     """Lift over Saffman's [-], reynolds = Re_p, shear = Re_G, b = Re_G/(2 Re_p):
 
-    (1 - 0.3314 sqrt b) exp(-Re_p/10) + 0.3314 sqrt b up to Re_p = 40, 0.0524 sqrt(b Re_p) beyond. It falls at 40, by 14 % at
-    b = 0.1. 0.005 < b < 0.4, Re_p < 100. At Re_p = 0 it is 1.
-    Mei 1992, Int. J. Multiphase Flow 18, 145: a fit to Dandy & Dwyer 1990 and to Saffman's limit.
+    (1 - 0.3314 sqrt b) exp(-Re_p/10) + 0.3314 sqrt b up to Re_p = 40, 0.0524 sqrt(b Re_p) beyond. It falls at 40, by
+    14 % at b = 0.1. 0.005 < b < 0.4, Re_p < 100. At Re_p = 0 it is 1. Mei 1992, Int. J. Multiphase Flow 18, 145: a
+    fit to Dandy & Dwyer 1990 and to Saffman's limit.
     """
     if reynolds > INERTIAL_REYNOLDS:
         return INERTIAL * math.sqrt(0.5 * shear)
@@ -44,7 +45,7 @@ def mei_factor(reynolds, shear):
 
 @law
 def saffman(slip, spin, diameter, gas_density, gas_viscosity):
-    """L of F = 1.615 mu d s sqrt(Re_G) on a sphere. Re_p << sqrt(Re_G) << 1. Saffman 1965, with the correction of 1968."""
+    """L of F = 1.615 mu d s sqrt(Re_G) on a sphere. Re_p << sqrt(Re_G) << 1. Saffman 1965 and 1968."""
     return 6.0 * SAFFMAN / (math.pi * diameter) * math.sqrt(gas_density * gas_viscosity / max(spin, TINY))
 
 

@@ -1,4 +1,4 @@
-"""Radiation of grey bodies whose surroundings see them whole (optically thin): their emissivity is their absorptivity."""
+"""Radiation of grey bodies whose surroundings see them whole (optically thin): they absorb as they emit."""
 
 import math
 
@@ -6,7 +6,7 @@ from sdph.laws.compiled import law
 from sdph.laws.constants import STEFAN_BOLTZMANN
 
 SMALL = 0.2  # of a temperature ratio, below which a difference of two near functions is summed as a series; our choice
-COLD = 1e-15  # of a body's temperature, below which surroundings give nothing back: (T_s/T)^4 is far below round-off; our choice
+COLD = 1e-15  # of a temperature, below which surroundings give nothing back, (T_s/T)^4, to round-off; our choice
 ITERATIONS = 60  # of Newton's method, which takes about 6; our choice
 
 
@@ -28,7 +28,8 @@ def _half_difference(u):
 
 @law
 def cooled(temperature, surroundings, rate, time):
-    """T [K] of a body after `time` [s] under dT/dt = -k (T^4 - T_s^4), `rate` k [1/(K3 s)] = epsilon sigma A/(m c). T_s >= 0, exact.
+    """T [K] of a body after `time` [s] under dT/dt = -k (T^4 - T_s^4), `rate` k [1/(K3 s)] = epsilon sigma A/(m c).
+    T_s >= 0, exact.
 
     With z = T_s/T = tanh u, (u - arctan tanh u)/2 grows by k T_s^3 t; a colder body has z = T/T_s and the plus sign.
     T_s = 0: T (1 + 3 k T^3 t)^(-1/3). E.g. Incropera & DeWitt, Fundamentals of Heat and Mass Transfer, section 5.3.
@@ -37,7 +38,8 @@ def cooled(temperature, surroundings, rate, time):
     if temperature == surroundings or rate * time == 0.0:
         return temperature
     if surroundings <= COLD * temperature:
-        return max(surroundings, temperature * (1.0 + 3.0 * rate * temperature * temperature * temperature * time) ** (-1.0 / 3.0))
+        growth = rate * temperature * temperature * temperature * time
+        return max(surroundings, temperature * (1.0 + 3.0 * growth) ** (-1.0 / 3.0))
     hot, growth = temperature > surroundings, rate * surroundings * surroundings * surroundings * time
     ratio = surroundings / temperature if hot else temperature / surroundings
     if ratio >= 1.0:  # alike to round-off

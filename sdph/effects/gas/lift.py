@@ -1,4 +1,4 @@
-"""Lift of sheared gas on grains and droplets, L (v_g - v_p) x curl v_g, held over the window; the gas gets its opposite."""
+"""Lift on grains and droplets, L (v_g - v_p) x curl v_g, held over a window; the gas gets the opposite."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def coefficient(p, slip, spin, d, gas_density):
 
 @njit(cache=True, error_model="numpy", forceinline=True)
 def force(p, sizes_p, s, i, apart, slip, vorticity, gas_density):
-    """(x, y, z) [N] on all grains of particle i: the mass average over its sizes. apart (N, 3) is v_g - v_p, vorticity (N, 3)."""
+    """(x, y, z) [N] on all grains of particle i: mass average over its sizes; apart and vorticity (N, 3), v_g - v_p."""
     if len(p) == 0:
         return 0.0, 0.0, 0.0
     x, y, z = vorticity[i, 0], vorticity[i, 1], vorticity[i, 2]

@@ -1,8 +1,9 @@
 """Radiation of grains: grey, optically thin, to surroundings of one temperature and, for its share, to the gas.
 
 Of epsilon sigma A T^4 the gas takes the share `gas_absorptivity`, and gives as much back by its own temperature: a
-conductance beside that of heat. The rest leaves the system, and comes back by the temperature of the surroundings, exactly,
-half of it before and half of it after what a window exchanges with the gas (Strang 1968, second order in the window).
+conductance beside that of heat. The rest leaves the system, and comes back by the temperature of the surroundings,
+exactly, half of it before and half of it after what a window exchanges with the gas (Strang 1968, second order in the
+window).
 """
 
 from __future__ import annotations
@@ -20,15 +21,18 @@ from sdph.laws import radiation as law
 from sdph.laws.constants import STEFAN_BOLTZMANN
 from sdph.schema import quantity, record
 
-SPLIT = 0.1  # of the time in which grains cool by radiation, most that a window takes it apart from the rest: errs by 2.5e-5 of the cooling (tests); our choice
-BESIDE = ("heat", "conduction", "evaporation")  # what changes the temperature of grains too
+# Of the time in which grains cool by radiation, most that a window takes it apart from the rest; our choice: errs by
+2.5e-5 of # the cooling (tests/effects/gas/test_radiation_effect.py) SPLIT = 0.1 BESIDE = ("heat", "conduction",
+"evaporation")  # what changes the temperature of grains too
+
+TIMES, SOURCE = "run / radiative response time", "Incropera & DeWitt, section 5.3"
 
 
 @record
 class Radiation:
     emissivity: float = quantity("", above=0.0, most=1.0)  # of the grains
     surroundings_temperature: float = quantity("K", least=0.0)
-    gas_absorptivity: float = quantity("", 0.0, least=0.0, most=1.0)  # share of the radiation that is exchanged with the gas
+    gas_absorptivity: float = quantity("", 0.0, least=0.0, most=1.0)  # share of it that the gas exchanges
 
     @property
     def temperatures(self) -> tuple[float]:
@@ -37,7 +41,7 @@ class Radiation:
 
 
 class RadiationP(NamedTuple):
-    """Emissivity for the gas and for the surroundings [-]; temperature of these [K]; density [kg/m3], heat capacity [J/(kg K)]."""
+    """Emissivity for gas and surroundings [-]; temperature of these [K]; density [kg/m3], heat capacity [J/(kg K)]."""
 
     to_gas: float
     to_surroundings: float
@@ -90,7 +94,7 @@ def cool(p, sizes_p, s, temperature, dt, out):
 
 
 def window_limit(p, case, state) -> float:
-    """A part of the time in which the hottest and finest grains cool, where something else changes their temperature too."""
+    """A part of the time in which the hottest and finest grains cool, where something else warms or cools them too."""
     if not len(state.mass) or not any(name in case.effects for name in BESIDE):
         return NO_LIMIT
     hottest = max(float(state.temperature.max()), p.surroundings)
@@ -101,14 +105,14 @@ def window_limit(p, case, state) -> float:
 
 def call(scales) -> Judgement:
     """Time of the run over the time in which the grains take the temperature of the surroundings."""
-    s, own, source = scales, scales.case.parameters["radiation"], "Incropera & DeWitt, section 5.3: radiative response time"
+    s, own = scales, scales.case.parameters["radiation"]
     temperatures = [patch.temperature for patch in s.patches]
     if not temperatures:
-        return Judgement("run / radiative response time", 0.0, 0.01, source, 0.0)
+        return Judgement(TIMES, 0.0, 0.01, SOURCE, 0.0)
     apart = max(abs(t - own.surroundings_temperature) for t in temperatures)
     coefficient = own.emissivity * law.exchange_coefficient(max(temperatures), own.surroundings_temperature)
-    felt = s.end * coefficient * 6.0 / (s.grains.density * s.grains.heat_capacity * s.grains.diameter)
-    return Judgement("run / radiative response time", felt if apart else 0.0, 0.01, source, -math.expm1(-felt) if apart else 0.0)
+    felt = s.end * coefficient * 6.0 / (s.grains.density * s.grains.heat_capacity * s.grains.diameter) if apart else 0.0
+    return Judgement(TIMES, felt, 0.01, SOURCE, -math.expm1(-felt))
 
 
 EFFECT = Effect(
