@@ -67,7 +67,7 @@ def push(
             kind_j, rho_j = phases.kind(phases_p, signed, s.kind[i], s.kind[j]), phases.density(phases_p, signed, rho_i, s.density[j])
             p_j = phases.behind(phases_p, signed, pressure[j], p_i - rho_i * (bx * dx + by * dy + bz * dz))
             ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY)) * phases.harmonic(phases_p, rho_i, rho_j)
-            friction = laminar_viscosity.central(laminar_p, s.kind[i], kind_j, closing, r2)
+            friction = laminar_viscosity.central(laminar_p, s, i, j if signed > 0.0 else i, s.kind[i], kind_j, closing, r2)
 
             # rho_i dv_i/dt = -sum V_j (p_i + p_j) grad W + sum V_j 2 mu r.grad W/(r^2 + eta^2) v_ij
             along = -V * slope * (phases.pressure(phases_p, sign_i * p_i, p_j, rho_i, rho_j) + stick * (ringing + friction) + held_off(wall_p, signed, rho_i, r))

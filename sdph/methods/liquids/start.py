@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from sdph import effects
 from sdph.effects.around import tank
 from sdph.engine import lattice
 from sdph.engine import state as particles
@@ -50,7 +51,7 @@ def pipe_walls(case) -> int:
 
 
 def _placed(case, points) -> particles.State:
-    state = particles.empty(len(points), (), case.dimensions)
+    state = particles.empty(len(points), effects.arrays(case), case.dimensions)
     for axis, column in zip(particles.axes(state), points.T):
         axis[:] = column
     return state

@@ -77,7 +77,7 @@ def wall_force(kernel, s, rows, box, walls, wall_p, laminar_p, damping_p, shifti
             closing = du * dx + dv * dy + dw * dz
             sign_j = shifting.sign(shifting_p, pressure[j], least[j] if len(least) else 1.0)
             rho_j = s.density[j]
-            friction = laminar_viscosity.central(laminar_p, s.kind[j], s.kind[j], closing, r2)
+            friction = laminar_viscosity.central(laminar_p, s, j, j, s.kind[j], s.kind[j], closing, r2)
             ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY)) * phases.harmonic(phases_p, rho_j, rho_j)
             bx, by, bz = body(gravity_p, frame_p, s, j, False)
             p_i = phases.behind(phases_p, -1.0, pressure[i], pressure[j] + rho_j * (bx * dx + by * dy + bz * dz))
