@@ -36,6 +36,11 @@ FIELDS = {
     "vapour_mass_fraction": ("1", 1, "mass fraction of vapour (only where a vapour is solved for)"),
 }
 
+# What it hands back besides, where an effect asks for it at the start.
+ON_REQUEST = {
+    "vorticity": ("1/s", 3, "curl of the velocity"),
+}
+
 
 class GasError(RuntimeError):
     """The gas side failed: what happened, and where its log is."""
@@ -87,11 +92,19 @@ class Budget:
 
 @dataclass(frozen=True)
 class GasState:
-    """Fields of the gas (name -> array, see `FIELDS`) at `time` [s], and its budget."""
+    """Fields of the gas (name -> array, see `FIELDS` and `ON_REQUEST`) at `time` [s], and its budget."""
 
     time: float
     fields: dict[str, np.ndarray]
     budget: Budget
+
+
+def known_fields(names) -> tuple[str, ...]:
+    """The names of fields that are asked for; GasError where one is not among `ON_REQUEST`."""
+    for name in names:
+        if name not in ON_REQUEST:
+            raise GasError(f"unknown field {name!r}; on request a gas solver hands {', '.join(ON_REQUEST)}")
+    return tuple(names)
 
 
 def refuse_full_cells(alpha_g: np.ndarray, centres: np.ndarray) -> None:
@@ -111,9 +124,9 @@ class Gas(Protocol):
 
     mesh: Mesh
 
-    def start(self, alpha_g: np.ndarray | None, sources: tuple[str, ...]) -> GasState:
-        """Initial fields; `alpha_g` is the gas volume fraction at the start (None: 1 everywhere), and
-        `sources` names what every later `advance` brings."""
+    def start(self, alpha_g: np.ndarray | None, sources: tuple[str, ...], fields: tuple[str, ...] = ()) -> GasState:
+        """Initial fields; `alpha_g` is the gas volume fraction at the start (None: 1 everywhere), `sources` names
+        what every later `advance` brings, `fields` what of `ON_REQUEST` every state holds."""
 
     def advance(self, dt: float, sources: dict[str, np.ndarray]) -> GasState:
         """One step of `dt` [s] with the sources held over it, except `alpha_g`, which goes linearly
@@ -125,8 +138,8 @@ class Gas(Protocol):
     def checkpoint(self, folder: Path) -> None:
         """Write all that `restore` needs to go on bit for bit into `folder`."""
 
-    def restore(self, folder: Path, sources: tuple[str, ...] | None = None) -> GasState:
-        """Go back to a checkpoint, instead of `start`; `sources` as there (None: those of the checkpoint).
+    def restore(self, folder: Path, sources: tuple[str, ...] | None = None, fields: tuple[str, ...] = ()) -> GasState:
+        """Go back to a checkpoint, instead of `start`; `sources` (None: those of the checkpoint) and `fields` as there.
         `CheckpointError` where it is not whole, or of another mesh or other sources."""
 
     def close(self) -> None:

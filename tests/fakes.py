@@ -20,7 +20,7 @@ class StillGas:
         self.time = 0.0
         self.temperature = np.full(len(centres), case.gas.temperature)
 
-    def start(self, alpha_g, sources):
+    def start(self, alpha_g, sources, fields=()):
         self.alpha = np.ones(len(self.temperature)) if alpha_g is None else alpha_g
         return self._state()
 

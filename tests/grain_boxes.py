@@ -57,7 +57,7 @@ class Row:
         self.time, self.velocity, self.rise = 0.0, np.zeros((cells, 3)), np.zeros(cells)
         self.given = alpha_g
 
-    def start(self, alpha_g, sources):
+    def start(self, alpha_g, sources, fields=()):
         self.alpha = float(np.mean(alpha_g)) if self.given is None else self.given
         self.mass = self.alpha * self.case.gas.density  # per volume [kg/m3]
         return self._state()

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 
+from coupling.embedded.boundaries import component_ghosts
 from coupling.embedded.box import Box, Flow, Window
+from coupling.embedded.linear import fill
 from coupling.gas import Budget
 
 
@@ -35,8 +39,26 @@ def _cell_vectors(box: Box, component) -> np.ndarray:
     return vectors
 
 
-def cell_fields(box: Box, flow: Flow) -> dict[str, np.ndarray]:
-    """The fields of `coupling.gas.FIELDS`."""
+def vorticity(box: Box, flow: Flow) -> np.ndarray:
+    """(C, 3) curl of the velocity: mean of the edges of each cell, where the velocities of its faces make it; walls
+    count with their own velocity. Exact in a simple shear."""
+    grid, velocity, curl = box.grid, flow.velocity.copy(), np.zeros((len(box.grid.cells), 3))
+    for a in range(grid.dimensions):
+        fill(velocity[a], component_ghosts(grid, box.faces, a))
+    for a, b in itertools.combinations(range(grid.dimensions), 2):
+        s, t = grid.strides[a], grid.strides[b]
+        edges = grid.cells[:, None] + np.array([0, s, t, s + t])
+        across = (velocity[b, edges] - velocity[b, edges - s]) / grid.geometry.gap[a, edges]
+        along = (velocity[a, edges] - velocity[a, edges - t]) / grid.geometry.gap[b, edges]
+        curl[:, 3 - a - b] = (1.0 if b == a + 1 else -1.0) * (across - along).mean(axis=1)
+    return curl
+
+
+ASKED = {"vorticity": vorticity}  # of `coupling.gas.ON_REQUEST`
+
+
+def cell_fields(box: Box, flow: Flow, asked: tuple[str, ...]) -> dict[str, np.ndarray]:
+    """The fields of `coupling.gas.FIELDS`, and those that were asked for."""
     cells = box.grid.cells
     fields = {
         "velocity": cell_velocity(box, flow),
@@ -44,7 +66,7 @@ def cell_fields(box: Box, flow: Flow) -> dict[str, np.ndarray]:
         "pressure_gradient": pressure_gradient(box, flow),
         "temperature": flow.temperature[cells],
         "density": flow.mass[cells] / (flow.alpha[cells] * box.grid.geometry.volume[cells]),
-    }
+    } | {name: ASKED[name](box, flow) for name in asked}
     return fields | ({"vapour_mass_fraction": flow.fraction()[cells]} if box.vapour is not None else {})
 
 

@@ -31,7 +31,7 @@ from coupling.embedded.momentum import Momentum
 from coupling.embedded.output import budget, cell_fields, force_of_boundary
 from coupling.embedded.pressure import Pressure
 from coupling.embedded.scalars import Scalars
-from coupling.gas import SOURCES, CheckpointError, GasError, GasState, Mesh, Unfinished
+from coupling.gas import SOURCES, CheckpointError, GasError, GasState, Mesh, Unfinished, known_fields
 from sdph.case.gas_cells import cell_edges
 from sdph.engine.reading import Unreadable, read_arrays
 
@@ -50,6 +50,7 @@ class EmbeddedGas:
         self.pressure = Pressure(self.box, self.momentum.active)
         self.scalars = Scalars(self.box)
         self.sources: tuple[str, ...] = ()
+        self.fields: tuple[str, ...] = ()  # on request
         self.flow: Flow | None = None
         self.state: GasState | None = None
         grid = self.box.grid
@@ -57,9 +58,9 @@ class EmbeddedGas:
         centres[:, : grid.dimensions] = grid.centres
         self.mesh = Mesh(centres, grid.geometry.volume[grid.cells], grid.dimensions)
 
-    def start(self, alpha_g: np.ndarray | None, sources: tuple[str, ...]) -> GasState:
+    def start(self, alpha_g: np.ndarray | None, sources: tuple[str, ...], fields: tuple[str, ...] = ()) -> GasState:
         """Gas at rest at the temperature of the case, without vapour."""
-        self.sources = _known(sources, self.box)
+        self.sources, self.fields = _known(sources, self.box), known_fields(fields)
         box, grid = self.box, self.box.grid
         alpha = grid.extended(grid.padded(np.ones(len(grid.cells)) if alpha_g is None else alpha_g))
         temperature = np.full(grid.size, box.temperature)
@@ -108,9 +109,9 @@ class EmbeddedGas:
             os.fsync(file.fileno())
         os.replace(part, path)
 
-    def restore(self, folder: Path, sources: tuple[str, ...] | None = None) -> GasState:
+    def restore(self, folder: Path, sources: tuple[str, ...] | None = None, fields: tuple[str, ...] = ()) -> GasState:
         """Go on from what `checkpoint` wrote; `sources` are those that will come (None: those of the checkpoint)."""
-        path, grid = Path(folder) / CHECKPOINT, self.box.grid
+        path, grid, self.fields = Path(folder) / CHECKPOINT, self.box.grid, known_fields(fields)
         try:
             saved = read_arrays(
                 path, MOST_HEADERS + 8 * grid.size * len(dataclasses.fields(Flow)) * (1 + grid.dimensions)
@@ -132,7 +133,7 @@ class EmbeddedGas:
         """Nothing is left running."""
 
     def _state(self) -> GasState:
-        fields = cell_fields(self.box, self.flow)
+        fields = cell_fields(self.box, self.flow, self.fields)
         return GasState(self.flow.time, fields, budget(self.box, self.flow, fields))
 
     def _check(self, dt: float, sources: dict[str, np.ndarray]) -> None:

@@ -14,6 +14,7 @@ import numpy as np
 
 from coupling.gas import (
     FIELDS,
+    ON_REQUEST,
     SOURCES,
     Budget,
     CheckpointError,
@@ -21,6 +22,7 @@ from coupling.gas import (
     GasState,
     Mesh,
     Unfinished,
+    known_fields,
     refuse_full_cells,
 )
 from coupling.openfoam import case as case_files
@@ -68,7 +70,7 @@ class OpenFoamGas:
         self._case, self._folder, self._status = case, Path(folder).resolve(), status
         self._log, self.case_folder, self.ranks = self._folder / "log.sdphGasFoam", self._folder, case.coupling.ranks
         self._process, self._connection, self._asking = None, None, False
-        self._time, self._clock = 0.0, Clock(case.run)
+        self._time, self._clock, self._fields = 0.0, Clock(case.run), ()
         self._allow_code, self._known = allow_code, {}
         if template is None:
             self._refuse_code(Path(folder))
@@ -143,9 +145,10 @@ class OpenFoamGas:
                 start_new_session=True,
             )
 
-    def start(self, alpha_g: np.ndarray | None, sources: tuple[str, ...]) -> GasState:
+    def start(self, alpha_g: np.ndarray | None, sources: tuple[str, ...], fields: tuple[str, ...] = ()) -> GasState:
         """See `Gas.start`."""
-        values = {"sources": " ".join(sources)}
+        self._fields = known_fields(fields)
+        values = {"sources": " ".join(sources), "fields": " ".join(fields)}
         if alpha_g is not None:
             values["alpha_g"] = np.asarray(alpha_g, float)
         return self._ask(Message(Kind.START, values, {"alpha_g": "1"}))
@@ -168,10 +171,13 @@ class OpenFoamGas:
         Path(folder).mkdir(parents=True, exist_ok=True)
         self._request(Message(Kind.CHECKPOINT, {"folder": str(Path(folder).resolve())}), Kind.DONE)
 
-    def restore(self, folder: Path, sources: tuple[str, ...] | None = None) -> GasState:
+    def restore(self, folder: Path, sources: tuple[str, ...] | None = None, fields: tuple[str, ...] = ()) -> GasState:
         """See `Gas.restore`."""
+        self._fields = known_fields(fields)
         known = {} if sources is None else {"sources": " ".join(sources)}
-        return self._ask(Message(Kind.RESTORE, {"folder": str(Path(folder).resolve())} | known))
+        return self._ask(
+            Message(Kind.RESTORE, {"folder": str(Path(folder).resolve()), "fields": " ".join(fields)} | known)
+        )
 
     def close(self) -> None:
         """End the solver and all its ranks; a second call does nothing."""
@@ -195,7 +201,7 @@ class OpenFoamGas:
     def _ask(self, message: Message) -> GasState:
         answer = self._request(message, Kind.STATE)
         state = self._guard(
-            lambda alive: _state(answer, len(self.mesh.volumes), self._case.vapour is not None),
+            lambda alive: _state(answer, len(self.mesh.volumes), self._case.vapour is not None, self._fields),
             f"for {message.kind.name}",
         )
         self._time = state.time
@@ -285,8 +291,8 @@ def _mesh(told: Message) -> Mesh:
     )
 
 
-def _state(message: Message, cells: int, vapour: bool) -> GasState:
-    """The state in a message, of a mesh of `cells` cells."""
+def _state(message: Message, cells: int, vapour: bool, asked: tuple[str, ...] = ()) -> GasState:
+    """The state in a message, of a mesh of `cells` cells, with the fields that were `asked` for."""
     totals = {f.name for f in dataclasses.fields(Budget)} - {"residuals"}
     vectors = {name: tuple(message.array(f"budget_{name}", 3).tolist()) for name in ("momentum", "force")}
     numbers = {name: float(message.number(f"budget_{name}")) for name in totals - vectors.keys()}
@@ -295,10 +301,8 @@ def _state(message: Message, cells: int, vapour: bool) -> GasState:
         for name in message.values
         if name.startswith("residual_")
     }
-    shapes = {
-        name: (cells, 3)[: 1 + (row[1] == 3)]
-        for name, row in FIELDS.items()
-        if vapour or name != "vapour_mass_fraction"
-    }
+    rows = {name: row for name, row in FIELDS.items() if vapour or name != "vapour_mass_fraction"}
+    rows |= {name: ON_REQUEST[name] for name in asked}
+    shapes = {name: (cells, 3)[: 1 + (row[1] == 3)] for name, row in rows.items()}
     fields = {name: message.array(name, *shape) for name, shape in shapes.items()}
     return GasState(float(message.number("time")), fields, Budget(**numbers, **vectors, residuals=residuals))

@@ -20,7 +20,7 @@ from enum import IntEnum
 
 import numpy as np
 
-from coupling.gas import FIELDS, SOURCES
+from coupling.gas import FIELDS, ON_REQUEST, SOURCES
 
 MAGIC = b"SDPH"
 VERSION = 2
@@ -104,7 +104,7 @@ def secret_fits(first: Message, secret: str) -> bool:
 def message_limit(cells: int) -> int:
     """Bytes that the largest message on a mesh of `cells` cells can have: centres, volumes, all fields, or all
     sources."""
-    components = 4 + max(sum(row[1] for row in table.values()) for table in (SOURCES, FIELDS))
+    components = 4 + max(sum(row[1] for row in table.values()) for table in (SOURCES, FIELDS | ON_REQUEST))
     return min(ABSOLUTE_LIMIT, FIXED_PART + 8 * components * cells)
 
 

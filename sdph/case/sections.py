@@ -189,6 +189,17 @@ class Case:
         return self.resolution.smoothing_ratio * self.resolution.spacing
 
     @property
+    def temperatures(self) -> list[float]:
+        """All that the case gives [K]: of the gas, particles, nozzles, boundaries, and `temperatures` of sections of
+        effects."""
+        given = [
+            self.gas.temperature,
+            *(part.temperature for part in (*self.particles.values(), *self.nozzles.values())),
+        ]
+        given += [boundary.temperature for boundary in self.boundaries.values() if boundary.temperature]
+        return given + [one for own in self.parameters.values() for one in getattr(own, "temperatures", ())]
+
+    @property
     def fastest_sound(self) -> float:
         """The larger sound speed of the phases of a liquid [m/s]."""
         return max(self.liquid.sound_speed, self.gas_phase.speed_of_sound(self.liquid) if self.gas_phase else 0.0)

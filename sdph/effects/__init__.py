@@ -4,7 +4,7 @@ import dataclasses
 
 from sdph.effects.around import drain, frame, gravity, inflow, outflow, tank, walls
 from sdph.effects.effect import NO_LIMIT, OFF, Effect, kernel_of
-from sdph.effects.gas import drag, evaporation, gas_pressure, heat
+from sdph.effects.gas import drag, evaporation, gas_pressure, heat, lift, radiation
 from sdph.effects.grains import (
     artificial_viscosity,
     conduction,
@@ -18,6 +18,7 @@ from sdph.effects.liquids import density_diffusion, laminar_viscosity, liquid_da
 
 FILES = (
     drag,
+    lift,
     gas_pressure,
     gravity,
     granular_pressure,
@@ -28,6 +29,7 @@ FILES = (
     grain_shifting,
     walls,
     heat,
+    radiation,
     conduction,
     density_diffusion,
     laminar_viscosity,
@@ -56,6 +58,17 @@ def limits(parameters, case, state) -> dict[str, float]:
     return {name: limit for name, limit in found.items() if limit != NO_LIMIT}
 
 
+def arrays(case) -> set[str]:
+    """Arrays of the state that the effects that are on need."""
+    return {name for effect in case.effects for name in REGISTRY[effect].arrays}
+
+
+def window_limits(parameters, case, state) -> dict[str, float]:
+    """Longest window [s] that each effect that is on and limits it bears with the particles as they are."""
+    asked = [REGISTRY[name] for name in case.effects if REGISTRY[name].window_limit]
+    return {row.name: row.window_limit(parameters[row.name], case, state) for row in asked}
+
+
 def without_input(matter: str) -> dict:
     """Parameters of the effects on grains or a liquid that can judge themselves and need no input."""
     rows = [row for row in REGISTRY.values() if row.call and matter in row.matter]
@@ -66,4 +79,4 @@ def without_input(matter: str) -> dict:
     }
 
 
-__all__ = ["OFF", "REGISTRY", "Effect", "kernel_of", "limits", "moving", "without_input"]
+__all__ = ["OFF", "REGISTRY", "Effect", "arrays", "kernel_of", "limits", "moving", "window_limits", "without_input"]

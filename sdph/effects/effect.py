@@ -41,10 +41,17 @@ class Effect:
     kernel      case -> the floats that its terms take, as a NamedTuple
     arrays      arrays of the state that it needs
     sources     quantities by which it acts on the gas (names of coupling.gas.SOURCES)
-    to_gas      (exchange of a window, its case) -> quantity -> what each particle gives of it, (N,) or (N, 3)
+    fields      fields that it asks of the gas besides the usual ones (names of coupling.gas.ON_REQUEST)
+    to_gas      (window's exchange, sdph.exchange.amounts.Handed; case) -> quantity -> what each particle gives of it,
+                (N,) or (N, 3), beside what the exchange tells of the conductance, drag and force that effects add up to
     moves       whether particles move by it
     matter      what it acts on: "grains", "liquid"
     dt_limit    (kernel parameters, case, state as it is) -> largest stable sub-step [s]; asked before every sub-step
+    window_limit  the same for windows, where exchange or splitting asks for short ones; asked at the start and after
+                  every window
+    renew       (kernel parameters, method) puts the effect's arrays of the state right for where the particles of a
+                liquid are now; called before its forces
+    tells       (kernel parameters, state) -> columns of its own for history.csv of a liquid
     two_phases  whether it needs a second phase
     call        scales of a case (sdph.methods.grains.scales) -> Judgement; without it the effect is on where the user
                 says so
@@ -56,9 +63,13 @@ class Effect:
     kernel: Callable
     arrays: tuple[str, ...] = ()
     sources: tuple[str, ...] = ()
+    fields: tuple[str, ...] = ()
     moves: bool = False
     matter: tuple[str, ...] = ("grains",)
     dt_limit: Callable = lambda p, case, state: NO_LIMIT
+    window_limit: Callable | None = None
+    renew: Callable | None = None
+    tells: Callable | None = None
     two_phases: bool = False
     to_gas: Callable | None = None
     call: Callable | None = None

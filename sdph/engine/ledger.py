@@ -21,7 +21,8 @@ VECTORS = (
 )  # fmt: skip
 AMOUNTS = (
     "heat_to_particles_J", "heat_to_gas_J", "drag_heat_J", "mechanical_heat_J", "evaporated_kg", "vapour_to_gas_kg",
-    "condensation_refused_kg", "latent_heat_J", "capacity_heat_J", "injected_kg", "injected_J", "left_kg", "left_J",
+    "condensation_refused_kg", "latent_heat_J", "capacity_heat_J", "heat_to_surroundings_J", "injected_kg",
+    "injected_J", "left_kg", "left_J",
 )  # fmt: skip
 NOTHING = dict.fromkeys(AMOUNTS, 0.0) | {f"{name}_{a}_kg_m_s": 0.0 for name in VECTORS for a in "xyz"}
 
@@ -80,6 +81,8 @@ class Ledger:
                 key: self.sums[key]
                 for key in ("evaporated_kg", "condensation_refused_kg", "latent_heat_J", "capacity_heat_J")
             }
+        if self.sums["heat_to_surroundings_J"]:
+            sums["heat_to_surroundings_J"] = self.sums["heat_to_surroundings_J"]
         if self.case.coupling.one_way:  # the gas feels nothing, so there is no balance of energy to close
             return sums | drifts
         if "evaporation" in self.case.effects:
@@ -96,7 +99,9 @@ class Ledger:
             | {
                 "exchange_energy_mismatch_rel": _ratio(self.heat_mismatch, self.sums["heat_exchanged_J"]),
                 "exchange_momentum_mismatch_rel": _ratio(self.impulse_mismatch, self.sums["impulse_exchanged_kg_m_s"]),
-                "energy_drift_rel": _ratio(abs(self._energy_drift()), self.sums["heat_exchanged_J"]),
+                "energy_drift_rel": _ratio(
+                    abs(self._energy_drift()), self.sums["heat_exchanged_J"] + abs(self.sums["heat_to_surroundings_J"])
+                ),
             }
         )
 
@@ -119,7 +124,7 @@ class Ledger:
             self._change("particle_energy_J", 1) + self._change("gas_energy_J", 1) + self._change("gas_energy_in_J", -1)
         )
         made = [self.sums[key] for key in ("mechanical_heat_J", "drag_heat_J", "injected_J")]
-        bound = [self.sums[key] for key in ("latent_heat_J", "capacity_heat_J", "left_J")]
+        bound = [self.sums[key] for key in ("latent_heat_J", "capacity_heat_J", "heat_to_surroundings_J", "left_J")]
         return math.fsum((*change, *bound, *(-value for value in made)))
 
     def _change(self, key: str, sign: int) -> tuple[float, float]:

@@ -49,6 +49,7 @@ class State(NamedTuple):
     lost_moving: np.ndarray
     received: np.ndarray
     exchanged: np.ndarray
+    viscosity: np.ndarray
     warmth: np.ndarray
     push_x: np.ndarray
     push_y: np.ndarray
@@ -80,6 +81,7 @@ FIELDS = {
     "lost_moving": ("m^(3/2)", "further loss by the flow around the grains (the same)"),
     "received": ("W", "heat from the gas in the last window"),
     "exchanged": ("1", "1 if it was in the gas in the last window"),
+    "viscosity": ("Pa s", "viscosity of a liquid where it is not the same everywhere"),
     # what holds over a window, and is there within it alone
     "warmth": ("J", "heat from the gas in the window"),
     **{f"push_{a}": ("m/s2", "acceleration by gas and gravity") for a in "xyz"},

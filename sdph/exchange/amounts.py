@@ -26,9 +26,11 @@ class Handed:
     """What one window hands over: what the gas is told, and what the reaction is computed from.
 
     heat (N,) [W/K] and pull (N,) [W]: the particle takes heat * (T'_g - origin) - pull; drag (N,) [kg/s] is m_k f_k/dt;
-    temperature and velocity are those of the particles when they were computed; damping (N,) [1/s] is
-    beta/(alpha_p rho_p); mass (N,) [kg] what is in the gas at the window's end. terms (C,) or (C, 3) per volume of the
-    cells, by quantity and effect, heat from origin [K] on; alpha_g (C,) at the window's end, where the gas is told.
+    force (N, 3) [N] what the gas does besides, held over the window (no row where no effect does); temperature and
+    velocity are those of the particles when they were computed; damping (N,) [1/s] is beta/(alpha_p rho_p); mass (N,)
+    [kg] what is in the gas at the window's end. terms (C,) or (C, 3) per volume of the cells, by quantity and by what
+    it comes from: a sum over effects ("conductance", counted from origin [K] on, "drag", "force"), or an effect;
+    alpha_g (C,) at the window's end, where the gas is told.
     """
 
     dt: float
@@ -36,6 +38,7 @@ class Handed:
     heat: np.ndarray
     pull: np.ndarray
     drag: np.ndarray
+    force: np.ndarray
     damping: np.ndarray
     temperature: np.ndarray
     velocity: np.ndarray
@@ -47,7 +50,7 @@ class Handed:
 
     @property
     def sources(self) -> dict[str, np.ndarray]:
-        """What the gas is told: each quantity is the sum of what the effects give to it."""
+        """What the gas is told: each quantity is the sum of what is given to it."""
         told = {} if self.alpha_g is None else {"alpha_g": self.alpha_g}
         for (quantity, _), values in self.terms.items():
             told[quantity] = told[quantity] + values if quantity in told else values
@@ -61,8 +64,9 @@ class Taken:
     """What the particles take in a window: heat (N,) [J], impulse (N, 3) [kg m/s]; and what the gas gave by its own
     sum.
 
-    warming (N,) [J] is the heat less that of evaporation; vapour and vapour_to_gas [kg] what left particles and what
-    the gas got; latent_heat [J] and capacity_heat [J] what evaporation binds, and what the vapour's other heat capacity
+    lost (N,) [J] is what leaves the system to its surroundings (no entry where no effect gives any); warming (N,) [J]
+    the heat less that and less that of evaporation; vapour and vapour_to_gas [kg] what left particles and what the
+    gas got; latent_heat [J] and capacity_heat [J] what evaporation binds, and what the vapour's other heat capacity
     does.
     """
 
@@ -71,6 +75,7 @@ class Taken:
     impulse: np.ndarray
     heat_from_gas: float
     impulse_from_gas: np.ndarray
+    lost: np.ndarray = field(default_factory=lambda: np.zeros(0))
     vapour: float = 0.0
     vapour_to_gas: float = 0.0
     latent_heat: float = 0.0
@@ -86,5 +91,6 @@ class Taken:
             "condensation_refused_kg": self.refused,
         }
         bound = {"latent_heat_J": self.latent_heat, "capacity_heat_J": self.capacity_heat}
+        bound |= {"heat_to_surroundings_J": float(self.lost.sum())}
         own, other = np.einsum("ij->j", self.impulse), -self.impulse_from_gas
         return heat | vapour | bound | vector("impulse_to_particles", own) | vector("impulse_to_gas", other)

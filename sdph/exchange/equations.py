@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit, prange
 
 from coupling.transfer import gather
-from sdph.effects.gas import drag, heat
+from sdph.effects.gas import drag, heat, lift, radiation
 from sdph.engine import state as particles
 from sdph.engine.state import GRAIN
 from sdph.laws.constants import GAS_CONSTANT
@@ -17,14 +17,17 @@ NEGLIGIBLE = 1e-6
 
 
 class Seen:
-    """The gas as the particles see it: own velocity (N, 3), slip (N,), density, temperature (N,) of the gas."""
+    """The gas as the particles see it: its velocity from theirs `apart` (N, 3) and slip (N,), their own velocity (N,
+    3); its density and temperature (N,); `fields`, what effects ask for besides, by name."""
 
-    def __init__(self, weights, gas_state, state):
+    def __init__(self, weights, gas_state, state, fields=()):
         velocity, self.density, self.temperature = (
             gather(weights, gas_state.fields[name]) for name in ("velocity", "density", "temperature")
         )
         self.own = particles.velocities(state)
-        self.slip = particles.lengths(velocity - self.own)
+        self.apart = velocity - self.own
+        self.slip = particles.lengths(self.apart)
+        self.fields = {name: gather(weights, gas_state.fields[name]) for name in fields}
 
 
 def vapour_concentration(p, gas_state) -> np.ndarray:
@@ -38,25 +41,32 @@ def vapour_concentration(p, gas_state) -> np.ndarray:
 def temperature_span(case) -> float:
     """Hottest less coldest of all that the case gives a temperature [K], and where they are alike a negligible part of
     it."""
-    given = [case.gas.temperature, *(part.temperature for part in (*case.particles.values(), *case.nozzles.values()))]
-    given += [boundary.temperature for boundary in case.boundaries.values() if boundary.temperature]
-    return max(max(given) - min(given), NEGLIGIBLE * max(given))
+    return max(max(case.temperatures) - min(case.temperatures), NEGLIGIBLE * max(case.temperatures))
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def rates(drag_p, heat_p, sizes_p, s, grain_density, slip, gas_density, conductance, damping):
-    """Of every particle as it is: heat to the gas per kelvin [W/K], and beta/(alpha_p rho_p) [1/s]."""
+def rates(
+    drag_p, heat_p, radiation_p, lift_p, sizes_p, s, grain_density, apart, slip, gas_density, gas_temperature,
+    vorticity, conductance, damping, force,
+):  # fmt: skip
+    """Of every particle as it is: heat to the gas per kelvin [W/K], beta/(alpha_p rho_p) [1/s], and force of the gas
+    that is held (N, 3) [N], where an effect makes one."""
     for i in prange(len(s.x)):
         conductance[i] = damping[i] = 0.0
         if s.kind[i] == GRAIN:
             alpha_p = s.density[i] / grain_density
-            conductance[i] = heat.conductance(heat_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
+            conductance[i] += heat.conductance(heat_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
+            conductance[i] += radiation.conductance(radiation_p, sizes_p, s, i, gas_temperature[i])
             damping[i] = drag.damping(drag_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
+        if len(lift_p):
+            x, y, z = lift.force(lift_p, sizes_p, s, i, apart, slip[i], vorticity, gas_density[i])
+            force[i, 0], force[i, 1], force[i, 2] = (x, y, z) if s.kind[i] == GRAIN else (0.0, 0.0, 0.0)
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def shares(s, heat_capacity, origin, dt, conductance, damping, kept, power, heat_share, pull, shared_mass):
-    """What meets the gas in a window: heat_share [W/K] and pull [W] of heat, m_k f_k/dt [kg/s] of momentum.
+def shares(s, temperature, heat_capacity, origin, dt, conductance, damping, kept, power, heat_share, pull, shared_mass):
+    """What meets the gas in a window: heat_share [W/K] and pull [W] of heat, from `temperature` (N,) on, m_k f_k/dt
+    [kg/s] of momentum.
 
     Temperatures count from `origin` [K], so that what is exchanged is no small difference of large numbers.
 
@@ -70,7 +80,7 @@ def shares(s, heat_capacity, origin, dt, conductance, damping, kept, power, heat
             heat_share[i] = (
                 capacity * exponential_fraction(dt * conductance[i] / capacity) / dt if capacity > 0.0 else 0.0
             )
-            pull[i] = heat_share[i] * (s.temperature[i] - origin)
+            pull[i] = heat_share[i] * (temperature[i] - origin)
             if len(power) > 0:
                 pull[i] += power[i] * (1.0 - heat_share[i] / conductance[i])
         shared_mass[i] = kept[i] * exponential_fraction(dt * damping[i]) / dt

@@ -9,10 +9,12 @@ and from the temperature T'_c that it answers with, particle k takes exactly wha
 
     Q_k = C_k f_k sum_c w_kc (T'_c - T_k)   [J].
 
-Momentum goes the same way with m_k for C_k and the drag coefficient for K_k. The heat of drag, force times slip with
-the new gas velocity, is known when the window is done: the gas gets it in the next one.
+Momentum goes the same way with m_k for C_k and the drag coefficient for K_k; other forces of the gas are held over the
+window, and the gas gets their opposite. The heat of all of them, force times slip with the new gas velocity, is the
+kinetic energy that both sides lose. It is known when the window is done: the gas gets it in the next one.
 
-The gas is told by quantity (`coupling.gas.SOURCES`): what each effect gives stands in the effect's own file (`to_gas`).
+The gas is told by quantity (`coupling.gas.SOURCES`): conductance, drag and force are sums over effects; what else an
+effect gives stands in its own file (`to_gas`).
 """
 
 from __future__ import annotations
@@ -24,7 +26,7 @@ import numpy as np
 from coupling.transfer import deposit, gather
 from sdph import effects
 from sdph.effects import OFF
-from sdph.effects.gas import sizes
+from sdph.effects.gas import radiation, sizes
 from sdph.engine.state import GRAIN
 from sdph.exchange import droplets as droplet_loss
 from sdph.exchange import equations
@@ -45,6 +47,7 @@ class Exchange:
         rows = [effects.REGISTRY[name] for name in case.effects]
         names = dict.fromkeys(name for row in rows for name in row.sources)
         self.sources = tuple(name for name in names if name != "alpha_g" or case.coupling.voidage)
+        self.fields = tuple(dict.fromkeys(name for row in rows for name in row.fields))
         self.to_gas = {row.name: row.to_gas for row in rows if row.to_gas}
         self.origin = case.gas.temperature  # [K], of the heat that is exchanged
         self.drag_heat = np.zeros(len(self.volumes))  # [W/m3], for the next window
@@ -59,29 +62,18 @@ class Exchange:
         `ahead` are the weights of where the particles will be at the end of the window, and the share of each (N,) that
         will be in the gas: the volume fraction then is told to the gas.
         """
-        seen = Seen(weights, gas_state, state)
-        conductance, damping = self._rates(state, seen)
-        loss = (
-            self._evaporate(state, weights, gas_state, seen, conductance, dt)
-            if self.parameters["evaporation"]
-            else None
-        )
+        seen = Seen(weights, gas_state, state, self.fields)
+        conductance, damping, force = self._rates(state, seen)
+        loss = None
+        if self.parameters["evaporation"]:
+            loss = self._evaporate(state, weights, gas_state, seen, conductance, dt)
         kept = state.mass - loss.mass if loss else state.mass
         power = self.parameters["evaporation"].latent_heat / -dt * loss.mass if loss else OFF
         heat_share, pull, shared_mass = (np.empty(len(state.x)) for _ in range(3))
         equations.shares(
-            state,
-            self.case.grains.heat_capacity,
-            self.origin,
-            dt,
-            conductance,
-            damping,
-            kept,
-            power,
-            heat_share,
-            pull,
-            shared_mass,
-        )
+            state, self._radiated(state, state.temperature, 0.5 * dt), self.case.grains.heat_capacity, self.origin, dt,
+            conductance, damping, kept, power, heat_share, pull, shared_mass,
+        )  # fmt: skip
         there, inside = ahead
         handed = Handed(
             dt,
@@ -89,6 +81,7 @@ class Exchange:
             heat_share,
             pull,
             shared_mass,
+            force,
             damping,
             state.temperature.copy(),
             seen.own,
@@ -96,24 +89,36 @@ class Exchange:
             loss,
             self.origin,
         )
-        return replace(
-            handed,
-            terms=self._terms(handed),
-            alpha_g=self._room(there, kept * inside) if "alpha_g" in self.sources else None,
-        )
+        alpha_g = self._room(there, kept * inside) if "alpha_g" in self.sources else None
+        return replace(handed, terms=self._terms(handed), alpha_g=alpha_g)
 
-    def _rates(self, state, seen) -> tuple[np.ndarray, np.ndarray]:
-        """Of every particle now: heat conductance to the gas [W/K], and beta/(alpha_p rho_p) [1/s]."""
-        conductance, damping = np.empty(len(state.x)), np.empty(len(state.x))
+    def _rates(self, state, seen) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Of every particle now: heat conductance to the gas [W/K], beta/(alpha_p rho_p) [1/s], and the force that is
+        held [N]."""
+        p, count, vorticity = self.parameters, len(state.x), seen.fields.get("vorticity", OFF)
+        conductance, damping, force = np.empty(count), np.empty(count), np.empty((count if p["lift"] else 0, 3))
         equations.rates(
-            self.parameters["drag"], self.parameters["heat"], self.sizes_p, state, self.case.grains.density,
-            seen.slip, seen.density, conductance, damping,
+            p["drag"], p["heat"], p["radiation"], p["lift"], self.sizes_p, state, self.case.grains.density, seen.apart,
+            seen.slip, seen.density, seen.temperature, vorticity, conductance, damping, force,
         )  # fmt: skip
-        return conductance, damping
+        return conductance, damping, force
+
+    def _sums(self, handed: Handed) -> dict[tuple[str, str], np.ndarray]:
+        """What each particle gives of what effects add up to; the keys as of `_terms`."""
+        given = {}
+        if "heat_coefficient" in self.sources:
+            given |= {("heat_coefficient", "conductance"): handed.heat, ("heat", "conductance"): handed.pull}
+        if "momentum_coefficient" in self.sources:
+            given |= {
+                ("momentum_coefficient", "drag"): handed.drag,
+                ("momentum", "drag"): handed.drag[:, None] * handed.velocity,
+            }
+        return given | ({("momentum", "force"): -handed.force} if len(handed.force) else {})
 
     def _terms(self, handed: Handed) -> dict[tuple[str, str], np.ndarray]:
-        """(quantity, effect) -> what the effect gives to the gas, per volume of the cells."""
-        given = {
+        """(quantity, sum or effect that it comes from) -> what it gives to the gas, per volume of the cells."""
+        given = self._sums(handed)
+        given |= {
             (quantity, name): own
             for name, to_gas in self.to_gas.items()
             for quantity, own in to_gas(handed, self.case).items()
@@ -124,7 +129,8 @@ class Exchange:
         ends = np.cumsum([column.shape[1] for column in columns])
         cells = np.split(self._density(handed.weights, np.concatenate(columns, axis=1)), ends[:-1], axis=1)
         terms = {key: cell[:, 0] if own.ndim == 1 else cell for (key, own), cell in zip(given.items(), cells)}
-        return terms | ({("heat", "friction"): self.drag_heat} if self.parameters["drag"] else {})
+        rubs = ("momentum", "drag") in terms or ("momentum", "force") in terms
+        return terms | ({("heat", "friction"): self.drag_heat} if rubs else {})
 
     def _evaporate(self, state, weights, gas_state, seen, conductance, dt) -> Loss:
         """What evaporates in a window; the heat conductance (N,) [W/K] becomes the mean over it.
@@ -170,12 +176,12 @@ class Exchange:
     def pace(self, state, weights, gas_state) -> tuple[float, float, float, float]:
         """At the start: rate [1/s] at which the fastest cell takes the grains' temperature, `stake` [J], rate [1/s] at
         which vapour comes into the fastest cell, over the gas in it, and `grip` [1/s]."""
-        seen = Seen(weights, gas_state, state)
-        conductance, damping = self._rates(state, seen)
+        seen = Seen(weights, gas_state, state, self.fields)
+        conductance, damping, _ = self._rates(state, seen)
         full, resistance = self._resistance(state, weights, gas_state)
         rate = (
             float((self._density(weights, conductance)[full] * resistance).max(initial=0.0))
-            if self.parameters["heat"]
+            if "heat_coefficient" in self.sources
             else 0.0
         )
         thickening = self._thickening(state, weights, gas_state, seen) if self.parameters["evaporation"] else 0.0
@@ -201,7 +207,7 @@ class Exchange:
     def stake(self, state, weights, gas_state) -> float:
         """A scale of heat [J]: the gas among the grains, and they, brought to equilibrium through all of the
         temperatures that the case has."""
-        if not self.parameters["heat"]:
+        if "heat_coefficient" not in self.sources:
             return 0.0
         full, resistance = self._resistance(state, weights, gas_state)
         return float(temperature_span(self.case) * (self.volumes[full] / resistance).sum())
@@ -217,27 +223,37 @@ class Exchange:
         full = content > 0.0
         return full, 1.0 / content[full] + 1.0 / gas[full]
 
-    def take(self, handed: Handed, gas_state) -> Taken:
-        """The reaction on the particles, from the new gas state with the old weights, temperatures and velocities."""
+    def take(self, state, handed: Handed, gas_state) -> Taken:
+        """The reaction on the particles, still as they were handed, from the new gas state with the old weights."""
         taken_heat, from_gas = np.zeros(len(handed.heat)), 0.0
         impulse, impulse_from_gas = np.zeros((len(handed.heat), 3)), np.zeros(3)
-        if ("heat", "heat") in handed.terms:
+        if ("heat", "conductance") in handed.terms:
             temperature = gas_state.fields["temperature"] - self.origin
             taken_heat = handed.dt * (handed.heat * gather(handed.weights, temperature) - handed.pull)
-            given = handed.terms["heat_coefficient", "heat"] * temperature - handed.terms["heat", "heat"]
+            given = handed.terms["heat_coefficient", "conductance"] * temperature - handed.terms["heat", "conductance"]
             from_gas = float((given * self.volumes).sum() * handed.dt)
-        if ("momentum", "drag") in handed.terms:
-            velocity = gas_state.fields["velocity"]
-            apart = gather(handed.weights, velocity) - handed.velocity
-            impulse = handed.dt * handed.drag[:, None] * apart
-            given = handed.terms["momentum_coefficient", "drag"][:, None] * velocity - handed.terms["momentum", "drag"]
-            impulse_from_gas = np.einsum("ij,i->j", given, self.volumes) * handed.dt
-            self.drag_heat = self._density(handed.weights, np.einsum("ij,ij->i", impulse, apart) / handed.dt)
+        if ("heat", "friction") in handed.terms:
+            impulse, impulse_from_gas = self._push(handed, gas_state.fields["velocity"])
         if self.case.coupling.one_way:  # the gas feels nothing
             from_gas, impulse_from_gas = 0.0, np.zeros(3)
-        if not handed.loss:
-            return Taken(taken_heat, taken_heat, impulse, from_gas, impulse_from_gas)
-        return self._with_vapour(Taken(taken_heat, taken_heat, impulse, from_gas, impulse_from_gas), handed)
+        taken = Taken(taken_heat, taken_heat, impulse, from_gas, impulse_from_gas)
+        if handed.loss:
+            taken = self._with_vapour(taken, handed)
+        return self._with_radiation(taken, state, handed) if self.parameters["radiation"] else taken
+
+    def _push(self, handed: Handed, velocity) -> tuple[np.ndarray, np.ndarray]:
+        """Impulse (N, 3) [kg m/s] of drag and force, and (3,) what the gas gave; the heat of both is kept for the next
+        window."""
+        apart, given = gather(handed.weights, velocity) - handed.velocity, np.zeros_like(velocity)
+        impulse = np.zeros_like(apart)
+        if ("momentum", "drag") in handed.terms:
+            impulse += handed.dt * handed.drag[:, None] * apart
+            given += handed.terms["momentum_coefficient", "drag"][:, None] * velocity - handed.terms["momentum", "drag"]
+        if ("momentum", "force") in handed.terms:
+            impulse += handed.dt * handed.force
+            given -= handed.terms["momentum", "force"]
+        self.drag_heat = self._density(handed.weights, np.einsum("ij,ij->i", impulse, apart) / handed.dt)
+        return impulse, np.einsum("ij,i->j", given, self.volumes) * handed.dt
 
     def _with_vapour(self, taken: Taken, handed: Handed) -> Taken:
         """The same with what evaporation takes."""
@@ -253,6 +269,23 @@ class Exchange:
             latent_heat=latent * float(mass.sum()), capacity_heat=excess * float((mass * handed.temperature).sum()),
             refused=float(handed.loss.refused.sum()),
         )  # fmt: skip
+
+    def _with_radiation(self, taken: Taken, state, handed: Handed) -> Taken:
+        """The same with what leaves to the surroundings, half of it before and half of it after the exchange with the
+        gas."""
+        capacity, half = handed.mass * self.case.grains.heat_capacity, 0.5 * handed.dt
+        before = self._radiated(state, handed.temperature, half)
+        between = before + np.divide(taken.warming, capacity, out=np.zeros_like(capacity), where=capacity > 0.0)
+        lost = capacity * (handed.temperature - before + between - self._radiated(state, between, half))
+        return replace(taken, warming=taken.warming - lost, lost=lost)
+
+    def _radiated(self, state, temperature, dt):
+        """Temperatures (N,) [K] after dt [s] of radiation to the surroundings."""
+        if not self.parameters["radiation"]:
+            return temperature
+        cooled = np.empty_like(temperature)
+        radiation.cool(self.parameters["radiation"], self.sizes_p, state, temperature, dt, cooled)
+        return cooled
 
     def grip(self, state, damping) -> float:
         """Rate [1/s] at which gas that cannot give way stops grains that move as one, mean by mass; damping (N,) [1/s].

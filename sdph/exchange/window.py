@@ -102,7 +102,9 @@ class Window(Clock):
     def choose(self, time: float) -> float:
         """The time [s] at which the next window ends."""
         self.limit = min(self.limits, key=self.limits.get)
-        return self.part(time, self.limits[self.limit], f"the window's limit {self.limit!r} ({KEYS[self.limit]})")
+        return self.part(
+            time, self.limits[self.limit], f"the window's limit {self.limit!r} ({KEYS.get(self.limit, 'an effect')})"
+        )
 
     def touch(self, limit: float) -> None:
         """Contact with another method bears windows no longer than `limit` [s]; inf where nothing touches."""
@@ -124,6 +126,10 @@ class Window(Clock):
         """Gas that cannot give way stops grains that move as one at the rate `grip` [1/s]."""
         if grip > 0.0:
             self.limits["grip"] = GRIP / grip
+
+    def obey(self, limits: dict[str, float]) -> None:
+        """Longest windows [s] that effects bear now, by their names."""
+        self.limits |= {name: limit for name, limit in limits.items() if limit < math.inf}
 
     def stake(self, heat: float) -> None:
         """There is `heat` [J] to exchange now."""

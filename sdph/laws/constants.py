@@ -1,6 +1,9 @@
 """Constants of nature and of the closures: name, value, unit, source."""
 
 GAS_CONSTANT = 8314.46261815324  # J/(kmol K), 1000 k_B N_A, exact since the SI of 2019 (CODATA 2018)
+STEFAN_BOLTZMANN = (
+    5.670374419e-8  # W/(m2 K4), 2 pi^5 k_B^4/(15 h^3 c^2), exact since the SI of 2019 (CODATA 2018, rounded)
+)
 ATMOSPHERE = 101325.0  # Pa, standard atmosphere (CGPM 1954)
 
 # -, closures are evaluated at most this far below close packing (1/(1-(a/a_max)^(1/3)) has a pole there)

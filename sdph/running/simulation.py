@@ -87,7 +87,8 @@ class Simulation:
             if one_way or not self.case.coupling.voidage
             else self.exchange.alpha_g(self.state, self.weights, self._inside())
         )
-        self.gas_state = self.gas.start(alpha_g, () if one_way else self.exchange.sources)
+        self.gas_state = self.gas.start(alpha_g, () if one_way else self.exchange.sources, self.exchange.fields)
+        self.clock.obey(effects.window_limits(self.parameters, self.case, self.state))
         if not one_way:
             rate, stake, thickening, grip = self.exchange.pace(self.state, self.weights, self.gas_state)
             self.clock.begin(rate, stake)
@@ -113,7 +114,7 @@ class Simulation:
     def take_up(self, checkpoint) -> None:
         """Go back to the gas of a checkpoint, instead of `start`; what else was kept is put back next."""
         sources = () if self.case.coupling.one_way else self.exchange.sources
-        self.gas_state = self.gas.restore(checkpoint.gas, sources)
+        self.gas_state = self.gas.restore(checkpoint.gas, sources, self.exchange.fields)
         self.stepper.guard.admit_gas(self.gas_state.fields)
         if abs(self.gas_state.time - checkpoint.time) > SAME_TIME * self.case.run.end_time:
             raise Unfit(f"its gas is at {self.gas_state.time:g} s, its particles are at {checkpoint.time:g} s")
@@ -122,7 +123,7 @@ class Simulation:
         """One window: exchange prepared, gas advanced, reaction taken, particles advanced."""
         end, handed = self._with_gas(self.clock.choose(self.time))
         dt = end - self.time
-        taken = self._timed("exchange", self.exchange.take, handed, self.gas_state)
+        taken = self._timed("exchange", self.exchange.take, self.state, handed, self.gas_state)
         self.clock.hold(self.exchange.grip(self.state, handed.damping))
         self.exchange.settle(self.state, handed)
         exchanged, body = learned(self.state, taken.heat, dt), self._body(handed)
@@ -137,6 +138,7 @@ class Simulation:
         self.time, self.windows = end, self.windows + 1
         self.clock.learn(dt, *exchanged, self.gas_state.budget.courant, self._fastest())
         self.clock.thicken(dt, self.exchange.vapour_share(handed, self.gas_state))
+        self.clock.obey(effects.window_limits(self.parameters, self.case, self.state))
         exchanged = taken.columns() | tally.columns(
             self, weight, np.einsum("ij->j", taken.impulse), touched.sum(axis=0)
         )

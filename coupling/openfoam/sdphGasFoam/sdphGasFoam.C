@@ -73,6 +73,7 @@ void send(Channel* channel, const wire::Message& message)
 void start(const wire::Message& message, GasSolver& solver, const Exchange& exchange)
 {
     solver.sources.choose(message.text("sources"), solver.mesh);
+    solver.ask(message.text("fields"));
     solver.start(exchange.alpha(message, message.has("alpha_g"), solver.alpha.primitiveField()));
 }
 
@@ -123,6 +124,7 @@ void serve(Channel* channel, GasSolver& solver, const Exchange& exchange, Time& 
                 break;
             case wire::RESTORE:
                 Checkpoint(solver).read(message, time);
+                solver.ask(message.text("fields"));
                 send(channel, exchange.state(solver));
                 break;
             case wire::CLOSE:

@@ -81,11 +81,6 @@ def damping(p, sizes_p, s, i, alpha_p, slip, gas_density):
     return total / whole / p.grain_density
 
 
-def to_gas(handed, case) -> dict:
-    """beta and beta v_p; the heat of drag is known a window later and comes from the exchange."""
-    return {"momentum_coefficient": handed.drag, "momentum": handed.drag[:, None] * handed.velocity}
-
-
 def call(scales) -> Judgement:
     """Time of the run over the time in which drag stops a grain or, sooner, the gas among grains."""
     felt = scales.end / min(scales.drag_time, scales.gas_drag_time) if scales.slip else 0.0
@@ -100,7 +95,6 @@ EFFECT = Effect(
     kernel=kernel,
     arrays=("diameter", "diameter_variance"),
     sources=("alpha_g", "momentum", "momentum_coefficient", "heat"),
-    to_gas=to_gas,
     moves=True,
     call=call,
 )

@@ -70,11 +70,6 @@ def conductance(p, sizes_p, s, i, alpha_p, slip, gas_density):
     return s.mass[i] / p.grain_density * total / whole
 
 
-def to_gas(handed, case) -> dict:
-    """eps and eps T_p."""
-    return {"heat_coefficient": handed.heat, "heat": handed.pull}
-
-
 def call(scales) -> Judgement:
     """Time of the run over the time in which grains or the gas among them take each other's temperature."""
     both = not scales.case.coupling.one_way
@@ -91,6 +86,5 @@ EFFECT = Effect(
     kernel=kernel,
     arrays=("temperature", "diameter", "diameter_variance", "received", "exchanged"),
     sources=("alpha_g", "heat", "heat_coefficient"),
-    to_gas=to_gas,
     call=call,
 )

@@ -59,8 +59,9 @@ def pair(p):
 
 
 @njit(cache=True, error_model="numpy")
-def central(p, kind_i, kind_j, closing, r2):
-    """Pressure [Pa] added to p_i + p_j of a pair of two phases; closing = v_ij.r_ij [m2/s].
+def central(p, s, i, j, kind_i, kind_j, closing, r2):
+    """Pressure [Pa] added to p_i + p_j of a pair of two phases; closing = v_ij.r_ij [m2/s]. Of a wall j is i, what it
+    takes over.
 
     2 (d + 2) mu v.r/r^2 sums up to div mu (grad v + grad v^T) also where mu jumps, of which Morris' form has the first
     half alone: a bubble would slip through the liquid too easily. Monaghan 2005, Rep. Prog. Phys. 68, 1703, section 4;

@@ -30,8 +30,7 @@ class Guard(Watch):
         blown = math.sqrt(2.0 * (max(pressures, default=0.0) - min(pressures, default=0.0)) / case.gas.density)
         agitated = math.sqrt(case.grains.granular_temperature) + scales.sound
         self.reach = scales.jet + scales.thrown + drop + blown + agitated
-        given = [case.gas.temperature, *(patch.temperature for patch in scales.patches)]
-        given += [b.temperature for b in case.boundaries.values() if b.temperature]
+        given = case.temperatures
         slack = scales.span + LATENT * max(given) + self.reach**2 / case.grains.heat_capacity
         self.coldest, self.hottest = max(0.0, min(given) - slack), max(given) + slack
         self.sound = math.sqrt(ADIABATIC * GAS_CONSTANT / case.gas.molar_mass * max(given))

@@ -138,9 +138,7 @@ class Scales:
     @cached_property
     def span(self) -> float:
         """Between the hottest and the coldest of the case [K]."""
-        given = [self.gas.temperature, *(patch.temperature for patch in self.patches)]
-        given += [b.temperature for b in self.case.boundaries.values() if b.temperature]
-        return max(given) - min(given)
+        return max(self.case.temperatures) - min(self.case.temperatures)
 
     @cached_property
     def speed(self) -> float:

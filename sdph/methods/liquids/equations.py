@@ -73,7 +73,9 @@ def push(
             ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY)) * phases.harmonic(
                 phases_p, rho_i, rho_j
             )
-            friction = laminar_viscosity.central(laminar_p, s.kind[i], kind_j, closing, r2)
+            friction = laminar_viscosity.central(
+                laminar_p, s, i, j if signed > 0.0 else i, s.kind[i], kind_j, closing, r2
+            )
 
             # rho_i dv_i/dt = -sum V_j (p_i + p_j) grad W + sum V_j 2 mu r.grad W/(r^2 + eta^2) v_ij
             along = (

@@ -55,7 +55,7 @@ def pipe_walls(case) -> int:
 
 
 def _placed(case, points) -> particles.State:
-    state = particles.empty(len(points), (), case.dimensions)
+    state = particles.empty(len(points), effects.arrays(case), case.dimensions)
     for axis, column in zip(particles.axes(state), points.T):
         axis[:] = column
     return state

@@ -96,7 +96,7 @@ def wall_force(
             closing = du * dx + dv * dy + dw * dz
             sign_j = shifting.sign(shifting_p, pressure[j], least[j] if len(least) else 1.0)
             rho_j = s.density[j]
-            friction = laminar_viscosity.central(laminar_p, s.kind[j], s.kind[j], closing, r2)
+            friction = laminar_viscosity.central(laminar_p, s, j, j, s.kind[j], s.kind[j], closing, r2)
             ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY)) * phases.harmonic(
                 phases_p, rho_j, rho_j
             )

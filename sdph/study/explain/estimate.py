@@ -119,6 +119,11 @@ def _windows(case, s) -> list[tuple]:
     later = own.courant * smallest_cell(case) / s.slip if s.slip else math.inf
     if later < min(start.values(), default=math.inf):
         rows.append(("window", "motion", later, "coupling.courant cell/U of what falls or rushes later: an estimate"))
+    parameters = {name: effects.kernel_of(effects.REGISTRY[name], case) for name in case.effects}
+    asked = effects.window_limits(parameters, case, _state(case))
+    rows += [
+        ("window", name, limit, "the effect's own window_limit") for name, limit in asked.items() if limit < math.inf
+    ]
     if "heat" in case.effects and s.span and not own.one_way:
         rate = 1.0 / s.heat_time + 1.0 / s.gas_heat_time
         rows.append(

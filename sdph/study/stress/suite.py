@@ -186,8 +186,8 @@ class TakenOver:
     def __getattr__(self, name):
         return getattr(self.gas, name)
 
-    def start(self, alpha_g, sources):
-        return self.gas.restore(self.folder)
+    def start(self, alpha_g, sources, fields=()):
+        return self.gas.restore(self.folder, fields=fields)
 
 
 def _measures(case):
