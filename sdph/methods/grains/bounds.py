@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from sdph.engine import state as particles
-from sdph.engine.guard import DENSE, RUNAWAY, TINY, Watch, outside
+from sdph.engine.guard import DENSE, FAR, RUNAWAY, TINY, Watch, outside
 from sdph.engine.kept import Unfit
 from sdph.laws.constants import GAS_CONSTANT
 from sdph.methods.grains.scales import scales_of
@@ -44,8 +44,10 @@ class Guard(Watch):
     def admit_grains(self, state: dict, names, heaviest: float) -> None:
         """`admit` of grains, none of more than `heaviest` [kg]."""
         speed, positive, zero_on = (-RUNAWAY * self.reach, RUNAWAY * self.reach), (TINY, math.inf), (0.0, math.inf)
-        bounds = dict.fromkeys("uvw", speed) | dict.fromkeys(("diameter", "born_mass", "born_diameter"), positive)
-        bounds |= dict.fromkeys(("diameter_variance", "born_variance", "lost_still", "lost_moving"), zero_on)
+        size = FAR * self.case.grains.diameter
+        bounds = dict.fromkeys("uvw", speed) | dict.fromkeys(("diameter", "born_diameter"), (TINY, size))
+        bounds |= dict.fromkeys(("diameter_variance", "born_variance", "lost_still"), (0.0, size**2))
+        bounds |= {"born_mass": positive, "lost_moving": zero_on}
         bounds |= {
             "mass": (TINY, heaviest),
             "density": (0.0, DENSE * self.case.grains.density),
