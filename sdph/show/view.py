@@ -41,7 +41,10 @@ BAR = {
 }
 PARTICLES = ("velocity", "ident", "kind", "mass", "density")  # arrays that all particles have, of grains and of liquids
 GAS_CELLS = ("velocity", "pressure", "temperature", "density", "alpha_p")
-GAS_UNITS = {"alpha_p": "1", "temperature": "K", "pressure": "Pa", "density": "kg/m3", "vapour_mass_fraction": "1"}
+GAS_UNITS = {
+    "velocity": "m/s", "alpha_p": "1", "temperature": "K", "pressure": "Pa", "density": "kg/m3",
+    "vapour_mass_fraction": "1", "vorticity": "1/s",
+}  # fmt: skip
 PARTICLE_UNITS = {name: unit for name, (unit, _) in FIELDS.items()} | {
     "alpha_p": "1",
     "pressure": "Pa",
@@ -51,7 +54,8 @@ PARTICLE_UNITS = {name: unit for name, (unit, _) in FIELDS.items()} | {
 
 @dataclass(frozen=True)
 class Timeline:
-    """Instant [s] -> number of the part -> file: particles are part 0, gas is part 1 where there is any."""
+    """Instant [s] -> number of the part -> file: particles are part 0, gas is part 1 where there is any, then those of
+    other methods."""
 
     files: dict[float, dict[int, Path]]
 
@@ -97,7 +101,18 @@ def state_at(timeline: Timeline, time: float | None = None):
         raise CaseError(f"--time {time:g}: this run has fields from {times[0]:g} to {times[-1]:g} s")
     parts = timeline.files[chosen]
     gas = fields.load(parts[1], GAS_CELLS) if 1 in parts else None  # a liquid has none
-    return chosen, fields.load(parts[0], PARTICLES), gas
+    clouds = [fields.load(file, PARTICLES) for part, file in sorted(parts.items()) if part != 1]
+    return chosen, _together(clouds), gas
+
+
+def _together(clouds: list):
+    """Particles of all methods as one; nan where a method has no such field."""
+    names = {name: cloud[name] for cloud in clouds for name in cloud.array_names}
+    for cloud in clouds if len(clouds) > 1 else ():
+        for name, like in names.items():
+            if name not in cloud.array_names and cloud.n_points:
+                cloud[name] = np.full((cloud.n_points, *like.shape[1:]), np.nan)
+    return clouds[0].append_polydata(*clouds[1:]) if len(clouds) > 1 else clouds[0]
 
 
 def show(folder: Path, png: Path | None = None, time: float | None = None, field: str | None = None) -> None:
@@ -127,7 +142,7 @@ def movie(folder: Path, target: Path, field: str | None = None) -> None:
         raise CaseError(f"--movie {target}: its name must end with {' or '.join(MOVIES)}")
     reader = read(folder)
     states, pictures = [state_at(reader, time) for time in reader.time_values], []
-    ranges = [_range([state[part] for state in states], field or _usual(states[0][2])) for part in (1, 2)]
+    ranges = [_range([state[part] for state in states], field or _usual(*states[0][1:])) for part in (1, 2)]
     walls = _walls(folder)
     box = _around([*(particles if gas is None else gas for _, particles, gas in states), *([walls] if walls else [])])
     for time, particles, gas in states:
@@ -169,9 +184,10 @@ def upwards(gravity) -> tuple:
     return tuple(float(a == (np.argmin(gravity) if falls else 2)) for a in range(3))
 
 
-def _usual(gas) -> str:
-    """The field that is shown unasked."""
-    return "velocity" if gas is None else "temperature"
+def _usual(particles, gas) -> str:
+    """The field that is shown unasked: temperature where particles and gas have one, else velocity."""
+    warm = gas is not None and (not particles.n_points or "temperature" in particles.array_names)
+    return "temperature" if warm else "velocity"
 
 
 def _range(meshes, field: str):
@@ -199,7 +215,7 @@ def scene(
     walls=None,
     up=(0.0, 0.0, 1.0),
 ):
-    """A plotter with the particles coloured by `field` (None: temperature, speed where there is none) over the cells of
+    """A plotter with the particles coloured by `field` (None: as `_usual` says) over the cells of
     the gas, in `walls`, `up` (3,) being upwards in space; `ranges` of the colours of both, and `box` that is shown (6,)
     [m] (None: those of the picture). Of two phases of particles the gas is drawn small."""
     import pyvista
@@ -208,7 +224,7 @@ def scene(
     if off_screen:  # VTK first tries an X server, complains, and then renders in software
         vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
 
-    given, field = field, field or _usual(gas)
+    given, field = field, field or _usual(particles, gas)
     known = sorted(
         {*particles.point_data, *(gas.cell_data if gas is not None else ())} & {*GAS_UNITS, *PARTICLE_UNITS, "velocity"}
     )
