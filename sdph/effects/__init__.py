@@ -58,6 +58,11 @@ def limits(parameters, case, state) -> dict[str, float]:
     return {name: limit for name, limit in found.items() if limit != NO_LIMIT}
 
 
+def arrays(case) -> set[str]:
+    """Arrays of the state that the effects that are on need."""
+    return {name for effect in case.effects for name in REGISTRY[effect].arrays}
+
+
 def window_limits(parameters, case, state) -> dict[str, float]:
     """Longest window [s] that each effect that is on and limits it bears with the particles as they are."""
     asked = [REGISTRY[name] for name in case.effects if REGISTRY[name].window_limit]
@@ -74,4 +79,4 @@ def without_input(matter: str) -> dict:
     }
 
 
-__all__ = ["OFF", "REGISTRY", "Effect", "kernel_of", "limits", "moving", "window_limits", "without_input"]
+__all__ = ["OFF", "REGISTRY", "Effect", "arrays", "kernel_of", "limits", "moving", "window_limits", "without_input"]

@@ -48,6 +48,9 @@ class Effect:
     matter      what it acts on: "grains", "liquid"
     dt_limit    (kernel parameters, case, state as it is) -> largest stable sub-step [s]; asked before every sub-step
     window_limit  the same for windows, where exchange or splitting asks for short ones; asked at the start and after every window
+    renew       (kernel parameters, method) puts the effect's arrays of the state right for where the particles of a liquid are now;
+                called before its forces
+    tells       (kernel parameters, state) -> columns of its own for history.csv of a liquid
     two_phases  whether it needs a second phase
     call        scales of a case (sdph.methods.grains.scales) -> Judgement; without it the effect is on where the user says so
     """
@@ -63,6 +66,8 @@ class Effect:
     matter: tuple[str, ...] = ("grains",)
     dt_limit: Callable = lambda p, case, state: NO_LIMIT
     window_limit: Callable | None = None
+    renew: Callable | None = None
+    tells: Callable | None = None
     two_phases: bool = False
     to_gas: Callable | None = None
     call: Callable | None = None

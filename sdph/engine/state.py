@@ -48,6 +48,8 @@ class State(NamedTuple):
     lost_moving: np.ndarray
     received: np.ndarray
     exchanged: np.ndarray
+    viscosity: np.ndarray
+    depth: np.ndarray
     warmth: np.ndarray
     push_x: np.ndarray
     push_y: np.ndarray
@@ -78,6 +80,8 @@ FIELDS = {
     "lost_moving": ("m^(3/2)", "further loss by the flow around the grains (the same)"),
     "received": ("W", "heat from the gas in the last window"),
     "exchanged": ("1", "1 if it was in the gas in the last window"),
+    "viscosity": ("Pa s", "viscosity of a liquid where it is not the same everywhere"),
+    "depth": ("m", "how far a wall particle lies behind the surface of its wall; 0 of others"),
     # what holds over a window, and is there within it alone
     "warmth": ("J", "heat from the gas in the window"),
     "push_x": ("m/s2", "acceleration by gas and gravity"), "push_y": ("m/s2", "the same"), "push_z": ("m/s2", "the same"),

@@ -49,8 +49,8 @@ def dt_limit(p, case, state) -> float:
 
 
 @njit(cache=True, error_model="numpy")
-def pair(p):
-    """Over V_j (dW/dr)/r v_ij/rho_i: 2 mu [Pa s]. Morris, Fox & Zhu 1997, Eq. 22; of equal densities the form of
+def pair(p, s, i, j):
+    """Over V_j (dW/dr)/r v_ij/rho_i: 2 mu [Pa s]; of a wall j is i. Morris, Fox & Zhu 1997, Eq. 22; of equal densities the form of
     Lo & Shao 2002, Appl. Ocean Res. 24, 275, which the sloshing paper takes (Eq. 8).
 
     Without their eta^2 in r^2 + eta^2: (dW/dr)/r is finite at r = 0, and eta = 0.1 h takes 2 % off the viscosity.

@@ -10,6 +10,7 @@ import sys
 
 import numpy as np
 
+from sdph import effects
 from sdph.engine import state as particles
 from sdph.engine.guard import DENSE, RUNAWAY, TINY, Watch
 from sdph.engine.kept import Unfit
@@ -22,7 +23,7 @@ class LiquidGuard(Watch):
         """`admit` of a liquid and its walls that began as the State `fresh`; `kinds` that there are."""
         fast = RUNAWAY * self.case.fastest_sound
         bounds = dict.fromkeys("uvw", (-fast, fast)) | {"mass": (TINY, fresh.mass.max()), "ident": (0, len(fresh.x) - 1)}
-        self.admit(state, (), bounds | {"density": (fresh.density.min() / DENSE, fresh.density.max() * DENSE)})
+        self.admit(state, effects.arrays(self.case), bounds | {"density": (fresh.density.min() / DENSE, fresh.density.max() * DENSE)})
         if not np.isin(state["kind"], kinds).all():
             raise Unfit("a particle is of no phase and of no wall")
 

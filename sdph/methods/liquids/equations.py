@@ -71,7 +71,7 @@ def push(
 
             # rho_i dv_i/dt = -sum V_j (p_i + p_j) grad W + sum V_j 2 mu r.grad W/(r^2 + eta^2) v_ij
             along = -V * slope * (phases.pressure(phases_p, sign_i * p_i, p_j, rho_i, rho_j) + stick * (ringing + friction) + held_off(wall_p, signed, rho_i, r))
-            across = V * slope * stick * laminar_viscosity.pair(laminar_p)
+            across = V * slope * stick * laminar_viscosity.pair(laminar_p, s, i, j if signed > 0.0 else i)
             ax += along * dx + across * du
             ay += along * dy + across * dv
             az += along * dz + across * dw

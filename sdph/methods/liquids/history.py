@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from sdph import effects
 from sdph.engine import state as particles
 from sdph.engine.state import GAS, LIQUID
 from sdph.methods.liquids.loads import balance, kinetic_energy, pipe_energy, pipe_loads, wall_loads
@@ -30,7 +31,13 @@ def row(run) -> dict[str, float]:
         values[f"centre_{name}_m"] = float((mass * places[:, a]).sum() / mass.sum()) if len(mass) else math.nan
         values[f"momentum_{name}_kg_m_s"] = float((mass * velocities[:, a]).sum())
         values[f"largest_{name}_m"] = float(places[:, a].max()) if len(mass) else math.nan
-    return values | columns(stepper) | _drained(run) | _loads(run)
+    return values | columns(stepper) | _drained(run) | _loads(run) | _told(stepper)
+
+
+def _told(stepper) -> dict[str, float]:
+    """What effects tell themselves."""
+    told = [row.tells(stepper.p[name], stepper.state) for name in stepper.case.effects if (row := effects.REGISTRY[name]).tells]
+    return {key: value for own in told for key, value in own.items()}
 
 
 def _drained(run) -> dict[str, float]:

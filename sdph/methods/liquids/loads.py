@@ -29,7 +29,7 @@ def wall_loads(stepper, chosen=None) -> np.ndarray:
     force = np.zeros((len(chosen), 3))
     p = stepper.p
     walls.wall_force(
-        stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, chosen, stepper.wall, p["laminar_viscosity"],
+        stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, chosen, stepper.wall, stepper.viscous,
         p["liquid_damping"], p["shifting"], stepper.phases, p["gravity"], stepper.frame, stepper.least, stepper.pressure, stepper.volume,
         stepper.excess, force,
     )  # fmt: skip

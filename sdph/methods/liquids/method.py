@@ -45,6 +45,8 @@ class LiquidStepper:
         self.case, self.guard, d = case, LiquidGuard(case), case.dimensions
         self.shortest = shortest  # step [s] below which the run gets nowhere
         self.p, self.state, self.move = parts_of(case)
+        self.viscous = self.p["laminar_viscosity"]  # parameters of friction, for the loops
+        self.renewing = [(row, self.p[name]) for name in case.effects if (row := effects.REGISTRY[name]).renew]
         self.kernel = smoothing.smoothing(case.liquid.kernel, d, case.smoothing_length)
         periodic = case.liquid.periodic or (0.0,) * d
         period = tuple(length * bool(on) for length, on in zip(case.domain.size, periodic))
@@ -161,10 +163,12 @@ class LiquidStepper:
                 self.kernel, s, self.rows, self.neighbours.box, self.walls, self.wall, p["gravity"], self.frame, self.volume,
                 self.pressure, s.u, s.v, s.w,
             )  # fmt: skip
+        for row, own in self.renewing:
+            row.renew(own, self)
         if self.excess:
             correction.surround(self.kernel, s, self.rows, self.neighbours.box, self.active, self.volume, *self.excess)
         rates.push(
-            self.kernel, s, self.rows, self.neighbours.box, self.active, self.wall, p["gravity"], self.frame, p["laminar_viscosity"],
+            self.kernel, s, self.rows, self.neighbours.box, self.active, self.wall, p["gravity"], self.frame, self.viscous,
             p["liquid_damping"], p["density_diffusion"], p["shifting"], self.phases, self.pressure, self.volume, self.least, self.excess,
             self.acceleration, *self.gradient,
         )  # fmt: skip

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from sdph import effects
 from sdph.effects.around import tank
 from sdph.engine import lattice
 from sdph.engine import state as particles
@@ -37,7 +38,11 @@ def fill(case) -> particles.State:
 
 
 def _walls(case) -> particles.State:
-    state = _placed(case, shapes.wall_points(tank.shape_of(case), case.resolution.spacing, tank.layers(case)))
+    shape = tank.shape_of(case)
+    points = shapes.wall_points(shape, case.resolution.spacing, tank.layers(case))
+    state = _placed(case, points)
+    if len(state.depth):
+        state.depth[:] = shape.distance(points)
     state.kind[:] = WALL
     state.density[:] = case.liquid.density
     state.mass[:] = case.liquid.density * tank.wall_volume(case)
@@ -50,7 +55,7 @@ def pipe_walls(case) -> int:
 
 
 def _placed(case, points) -> particles.State:
-    state = particles.empty(len(points), (), case.dimensions)
+    state = particles.empty(len(points), effects.arrays(case), case.dimensions)
     for axis, column in zip(particles.axes(state), points.T):
         axis[:] = column
     return state

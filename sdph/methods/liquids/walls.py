@@ -82,7 +82,7 @@ def wall_force(kernel, s, rows, box, walls, wall_p, laminar_p, damping_p, shifti
             bx, by, bz = body(gravity_p, frame_p, s, j, False)
             p_i = phases.behind(phases_p, -1.0, pressure[i], pressure[j] + rho_j * (bx * dx + by * dy + bz * dz))
             along = -V * (p_i + sign_j * pressure[j] + wall_p.stick * (ringing + friction) + held_off(wall_p, -1.0, rho_j, r))
-            across = V * wall_p.stick * laminar_viscosity.pair(laminar_p)
+            across = V * wall_p.stick * laminar_viscosity.pair(laminar_p, s, j, j)
             fx += along * dx + across * du
             fy += along * dy + across * dv
             fz += along * dz + across * dw
