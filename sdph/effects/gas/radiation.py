@@ -21,10 +21,10 @@ from sdph.laws import radiation as law
 from sdph.laws.constants import STEFAN_BOLTZMANN
 from sdph.schema import quantity, record
 
-# Of the time in which grains cool by radiation, most that a window takes it apart from the rest; our choice: errs by
-2.5e-5 of # the cooling (tests/effects/gas/test_radiation_effect.py) SPLIT = 0.1 BESIDE = ("heat", "conduction",
-"evaporation")  # what changes the temperature of grains too
-
+# Of the time in which grains cool by radiation, most that a window takes it apart from the rest; our choice: errs by 2.5e-5
+# of the cooling (tests/effects/gas/test_radiation_effect.py)
+SPLIT = 0.1
+BESIDE = ("heat", "conduction", "evaporation")  # what changes the temperature of grains too
 TIMES, SOURCE = "run / radiative response time", "Incropera & DeWitt, section 5.3"
 
 
