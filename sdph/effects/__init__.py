@@ -14,7 +14,15 @@ from sdph.effects.grains import (
     granular_temperature,
     granular_viscosity,
 )
-from sdph.effects.liquids import density_diffusion, laminar_viscosity, liquid_damping, shifting, surface_tension, xsph
+from sdph.effects.liquids import (
+    density_diffusion,
+    laminar_viscosity,
+    liquid_damping,
+    shear_thinning,
+    shifting,
+    surface_tension,
+    xsph,
+)
 
 FILES = (
     drag,
@@ -33,6 +41,7 @@ FILES = (
     conduction,
     density_diffusion,
     laminar_viscosity,
+    shear_thinning,
     liquid_damping,
     shifting,
     surface_tension,

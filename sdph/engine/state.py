@@ -50,6 +50,7 @@ class State(NamedTuple):
     received: np.ndarray
     exchanged: np.ndarray
     viscosity: np.ndarray
+    depth: np.ndarray
     warmth: np.ndarray
     push_x: np.ndarray
     push_y: np.ndarray
@@ -82,6 +83,7 @@ FIELDS = {
     "received": ("W", "heat from the gas in the last window"),
     "exchanged": ("1", "1 if it was in the gas in the last window"),
     "viscosity": ("Pa s", "viscosity of a liquid where it is not the same everywhere"),
+    "depth": ("m", "how far a wall particle lies behind the surface of its wall; 0 of others"),
     # what holds over a window, and is there within it alone
     "warmth": ("J", "heat from the gas in the window"),
     **{f"push_{a}": ("m/s2", "acceleration by gas and gravity") for a in "xyz"},

@@ -55,7 +55,14 @@ def shorten(monkeypatch, name, limit):
 
 def test_every_effect_is_among_those_asked():
     known = {name for _, name in PAIRS}
-    assert effects.REGISTRY.keys() - known <= {"grain_shifting", "xsph", "artificial_viscosity", "lift", "radiation"}
+    assert effects.REGISTRY.keys() - known <= {
+        "grain_shifting",
+        "xsph",
+        "artificial_viscosity",
+        "lift",
+        "radiation",
+        "shear_thinning",
+    }
 
 
 @pytest.mark.parametrize(("scene", "name"), PAIRS)

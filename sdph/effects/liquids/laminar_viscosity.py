@@ -49,13 +49,17 @@ def dt_limit(p, case, state) -> float:
 
 
 @njit(cache=True, error_model="numpy")
-def pair(p):
-    """Over V_j (dW/dr)/r v_ij/rho_i: 2 mu [Pa s]. Morris, Fox & Zhu 1997, Eq. 22; of equal densities the form of
-    Lo & Shao 2002, Appl. Ocean Res. 24, 275, which the sloshing paper takes (Eq. 8).
+def pair(p, s, i, j):
+    """Over V_j (dW/dr)/r v_ij/rho_i: 2 mu [Pa s]; of a wall j is i. Morris, Fox & Zhu 1997, Eq. 22; of equal densities
+    the form of Lo & Shao 2002, Appl. Ocean Res. 24, 275, which the sloshing paper takes (Eq. 8).
 
     Without their eta^2 in r^2 + eta^2: (dW/dr)/r is finite at r = 0, and eta = 0.1 h takes 2 % off the viscosity.
     """
-    return p.twice if len(p) == 1 else 0.0
+    if len(p) == 1:
+        return p.twice
+    if len(p) > 3:  # viscosities of their own (shear_thinning): the harmonic mean
+        return 4.0 * s.viscosity[i] * s.viscosity[j] / (s.viscosity[i] + s.viscosity[j])
+    return 0.0
 
 
 @njit(cache=True, error_model="numpy")
@@ -76,6 +80,8 @@ def central(p, s, i, j, kind_i, kind_j, closing, r2):
 def call(scales) -> Judgement:
     """Decay of the largest vortex within the run, nu (2 pi/L)^2 t; where there are walls, at least their layer's
     share."""
+    if "shear_thinning" in scales.case.effects:  # takes its place
+        return Judgement("nu (2 pi/L)^2 t", 0.0, 0.01, "shear_thinning", 0.0)
     decay = scales.viscosity * scales.end * (2.0 * math.pi / scales.length) ** 2
     own = scales.case.parameters.get("tank") if "tank" in scales.case.effects else None
     share = scales.layer if own and own.slip == "no_slip" else 0.0

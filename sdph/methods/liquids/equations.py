@@ -87,7 +87,7 @@ def push(
                     + held_off(wall_p, signed, rho_i, r)
                 )
             )
-            across = V * slope * stick * laminar_viscosity.pair(laminar_p)
+            across = V * slope * stick * laminar_viscosity.pair(laminar_p, s, i, j if signed > 0.0 else i)
             ax += along * dx + across * du
             ay += along * dy + across * dv
             az += along * dz + across * dw

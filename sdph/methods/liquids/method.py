@@ -61,7 +61,7 @@ class LiquidStepper:
         self.case, self.guard, d = case, LiquidGuard(case), case.dimensions
         self.shortest = shortest  # step [s] below which the run gets nowhere
         self.p, self.state, self.move = parts_of(case)
-        self.viscous = self.p["laminar_viscosity"]  # parameters of friction, for the loops
+        self.viscous = self.p["shear_thinning"] or self.p["laminar_viscosity"]  # parameters of friction, for the loops
         self.renewing = [(row, self.p[name]) for name in case.effects if (row := effects.REGISTRY[name]).renew]
         self.kernel = smoothing.smoothing(case.liquid.kernel, d, case.smoothing_length)
         periodic = case.liquid.periodic or (0.0,) * d

@@ -38,7 +38,11 @@ def fill(case) -> particles.State:
 
 
 def _walls(case) -> particles.State:
-    state = _placed(case, shapes.wall_points(tank.shape_of(case), case.resolution.spacing, tank.layers(case)))
+    shape = tank.shape_of(case)
+    points = shapes.wall_points(shape, case.resolution.spacing, tank.layers(case))
+    state = _placed(case, points)
+    if len(state.depth):
+        state.depth[:] = shape.distance(points)
     state.kind[:] = WALL
     state.density[:] = case.liquid.density
     state.mass[:] = case.liquid.density * tank.wall_volume(case)

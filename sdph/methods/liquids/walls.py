@@ -105,7 +105,7 @@ def wall_force(
             along = -V * (
                 p_i + sign_j * pressure[j] + wall_p.stick * (ringing + friction) + held_off(wall_p, -1.0, rho_j, r)
             )
-            across = V * wall_p.stick * laminar_viscosity.pair(laminar_p)
+            across = V * wall_p.stick * laminar_viscosity.pair(laminar_p, s, j, j)
             fx += along * dx + across * du
             fy += along * dy + across * dv
             fz += along * dz + across * dw
