@@ -152,7 +152,7 @@ def test_rate_is_ranz_and_marshall_in_a_stream():
     p, state, dry = evaporation.kernel(case), one(330.0), np.zeros(1)
     around = np.full(1, 3.0), np.full(1, 1.225), np.full(1, 350.0)
     conductance, damping = np.empty(1), np.empty(1)
-    exchange.rates(OFF, heat.kernel(case), OFF, state, 700.0, *around[:2], conductance, damping)
+    exchange.rates(OFF, heat.kernel(case), OFF, OFF, OFF, state, 700.0, OFF, *around, OFF, conductance, damping, OFF)
     loss, rate, *others = (np.empty(1) for _ in range(5))
     droplet_loss.losses(p, OFF, state, *around, dry, 1e-6, conductance, loss, *others)
     droplet_loss.rates(p, OFF, state, *around, dry, rate)
