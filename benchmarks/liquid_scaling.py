@@ -63,7 +63,7 @@ def measured(dimensions: int, count: float) -> str:
             numba.set_num_threads(threads)
             spent[threads] = min(spent.get(threads, math.inf), step_time(stepper))
     times = ", ".join(f"{threads}: {1e6 * t / liquid:.3f} ({1e6 * t / particles:.3f})" for threads, t in spent.items())
-    near = float(np.mean(stepper.rows.count[stepper.active]))
+    near = float(np.mean(stepper.rows.number[stepper.active]))
     return (
         f"{dimensions}-D, {liquid} particles of liquid ({particles} with walls), {near:.0f} in a row: us per particle "
         f"and step by threads {times}; "

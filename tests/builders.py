@@ -103,7 +103,7 @@ def summed_density(kernel, state, period=OPEN):
     state, rows = Neighbours(kernels.SUPPORT * kernel.h, period).update(state)
     density = np.full(len(state.x), np.nan)
     rates.sum_density(
-        kernel, state, rows, box_of(period, dimensions_of(state)), OFF, OFF, OFF, density, np.empty(rows.index.shape)
+        kernel, state, rows, box_of(period, dimensions_of(state)), OFF, OFF, OFF, density, np.empty(len(rows.entries))
     )
     return state, density
 
@@ -111,7 +111,11 @@ def summed_density(kernel, state, period=OPEN):
 def conduction_heating(kernel, state, conduction_p, period=OPEN):
     """(state as sorted, heating [W/kg]) by the code's own loop."""
     state, rows = Neighbours(kernels.SUPPORT * kernel.h, period).update(state)
-    box, pull, heating = box_of(period, dimensions_of(state)), np.empty(rows.index.shape), np.full(len(state.x), np.nan)
+    box, pull, heating = (
+        box_of(period, dimensions_of(state)),
+        np.empty(len(rows.entries)),
+        np.full(len(state.x), np.nan),
+    )
     rates.sum_density(kernel, state, rows, box, OFF, OFF, OFF, np.empty(len(state.x)), pull)
     rates.conduct(kernel, state, rows, box, pull, conduction_p, heating)
     return state, heating

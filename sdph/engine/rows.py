@@ -1,7 +1,9 @@
-"""Neighbours by a cell-linked list: counting sort into cells, particles reordered, fixed-stride rows with a skin.
+"""Neighbours by a cell-linked list: counting sort into cells, particles reordered, compressed rows with a skin.
 
 `Neighbours.update` reorders the particles so that those of one cell lie together, and lists for each particle all
-others within `reach * (1 + skin)`; the rows hold until some particle has moved half the skin.
+others within `reach * (1 + skin)`; the rows hold until some particle has moved half the skin. They stand one behind the
+other, so that a row takes no more room than it needs, and are counted before they are filled: to count is quick, in
+whole vectors. Within a cell walls come last, and the row of a wall particle holds what is near it and no other wall.
 """
 
 from __future__ import annotations
@@ -11,14 +13,17 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit, prange
 
+from sdph.engine import motion
 from sdph.engine import state as particles
 from sdph.engine.geometry import OPEN, OPEN_PLANE, box_of, nearest_image
 from sdph.engine.kept import Many
+from sdph.engine.state import WALL
 
 SKIN = 0.1  # of the reach; our choice: 0.2 h measured best (about 5-8 steps per list), and the reach is 2 h
 CELLS_A_PARTICLE = 16  # memory of the cells stays below that of the rows; our choice
 LANES = 4  # doubles of a vector register of 256 bit, as wide as pays on today's x86
 MOST_CELLS = 2**20  # along an axis, so that their product is an int64
+SPARE = 16  # one entry in so many is kept free, so that a slow compaction does not ask for room each time; our choice
 
 
 class Grid(NamedTuple):
@@ -31,10 +36,12 @@ class Grid(NamedTuple):
 
 
 class Rows(NamedTuple):
-    """Neighbours of particle i: `index[i, :count[i]]`, filled up to a multiple of LANES with i itself."""
+    """Neighbours of particle i: `number[i]` of the `entries` from `start[i]` on, then i itself, once at least, up to a
+    multiple of LANES."""
 
-    index: np.ndarray
-    count: np.ndarray
+    entries: np.ndarray
+    start: np.ndarray
+    number: np.ndarray
 
 
 class Neighbours:
@@ -51,14 +58,8 @@ class Neighbours:
         self.reach, self.skin = reach, skin
         self.period = np.array([*period, OPEN][:3])
         self.box = OPEN_PLANE  # of the particles that rows were last made for
-        self.stride = 32
         self.built = ()  # positions at the last build
-        self.room = np.empty((0, 0), np.uint32)
-
-    def revive(self) -> None:
-        """The rows of a checkpoint that was put back: those of the last build."""
-        if self.built:
-            self.rows = self._rows(self._grid(self.built), self.built)
+        self.room = np.empty(0, np.uint32)
 
     def update(self, state):
         """The state (reordered where the list had to be rebuilt) and its rows."""
@@ -69,26 +70,20 @@ class Neighbours:
             if period:
                 np.mod(axis, period, out=axis)
         grid = self._grid(here)
-        state = self._sorted(grid, state)
-        self.rows = self._listed(grid, state)
+        state = particles.take(state, order(halves(grid, *three(here), state.kind == WALL), 2 * int(grid.shape.prod())))
         self.built = tuple(axis.copy() for axis in particles.axes(state))
-        return state, self.rows
+        return state, self.relist(state.kind)
 
-    def _sorted(self, grid: Grid, state):
-        """The state in the order of its cells."""
-        return particles.take(state, order(cells(grid, *three(particles.axes(state))), int(grid.shape.prod())))
-
-    def _listed(self, grid: Grid, state) -> Rows:
-        """Rows of a state in that order."""
-        return self._rows(grid, particles.axes(state))
+    def relist(self, kind) -> Rows:
+        """Rows of the particles at the last build, of these kinds."""
+        solid = kind == WALL
+        self.rows = self._rows(self.built, solid, self.built, solid, True)
+        return self.rows
 
     def _holds(self, here) -> bool:
         if len(here) != len(self.built) or len(here[0]) != len(self.built[0]):
             return False
-        if len(here[0]) == 0:
-            return True
-        moved = sum((a - b) ** 2 for a, b in zip(here, self.built))
-        return bool(moved.max() < (0.5 * self.skin * self.reach) ** 2)
+        return bool(motion.travelled(*three(here), *three(self.built)) < (0.5 * self.skin * self.reach) ** 2)
 
     def _grid(self, here) -> Grid:
         """Cells no smaller than the cutoff; larger ones where a few stray particles make the box mostly empty."""
@@ -106,36 +101,34 @@ class Neighbours:
             size[a] = (high - low) / cells if self.period[a] else max(cutoff, (high - low) / cells * (1.0 + 1e-12))
         return Grid(origin, size, shape, self.period)
 
-    def _rows(self, grid: Grid, here, at=None) -> Rows:
-        """Rows of the points `here`, sorted by cell, for the points `at` (None: for each other)."""
-        own, other = three(here), three(at or here)
-        self.box = box_of(self.period, len(here))
-        start = starts(cells(grid, *own), int(grid.shape.prod()))
-        while True:
-            index = self._room(len(other[0]))
-            count = np.empty(len(other[0]), np.int64)
-            _fill(grid, start, *own, *other, at is None, self.box, (self.reach * (1.0 + self.skin)) ** 2, index, count)
-            most = int(count.max(initial=0))
-            if most < self.stride:
-                return Rows(index, count)
-            # a few spare, so that a slow compaction does not rebuild each time
-            self.stride = (most + 8) // LANES * LANES
+    def _rows(self, here, solid, at, blind, same: bool) -> Rows:
+        """Rows of the points `here`, sorted by cell, `solid` ones last, for the points `at`; `blind` ones see nothing
+        solid. With `same` both are the same points."""
+        grid, self.box = self._grid(here), box_of(self.period, len(here))
+        begin = starts(halves(grid, *three(here), solid), 2 * int(grid.shape.prod())).view(np.uint64)  # see _run
+        near = (grid, begin, *three(here), *three(at), blind, same, self.box, (self.reach * (1.0 + self.skin)) ** 2)
+        number, start = np.empty(len(blind), np.int32), np.zeros(len(blind) + 1, np.int64)
+        _count(*near, number)
+        np.cumsum((number // LANES + 1) * LANES, out=start[1:])
+        rows = Rows(self._room(int(start[-1])), start, number)
+        _fill(*near, start, number, rows.entries)
+        return rows
 
-    def _room(self, count: int) -> np.ndarray:
-        """Rows for `count` points; those of the last time where they fit, which nobody needs any more."""
-        if self.room.shape != (count, self.stride):
-            self.room = np.empty((0, 0), np.uint32)  # given back before more is taken
-            self.room = np.empty((count, self.stride), np.uint32)
+    def _room(self, entries: int) -> np.ndarray:
+        """Room for that many entries; that of the last time where they fit, which nobody needs any more."""
+        if len(self.room) < entries:
+            self.room = np.empty(0, np.uint32)  # given back before more is taken
+            self.room = np.empty(entries + entries // SPARE, np.uint32)
         return self.room
 
     def sort(self, here) -> np.ndarray:
         """Order in which fixed points have to stand for `seen_from`."""
         grid = self._grid(here)
-        return order(cells(grid, *three(here)), int(grid.shape.prod()))
+        return order(halves(grid, *three(here), np.zeros(len(here[0]), bool)), 2 * int(grid.shape.prod()))
 
     def seen_from(self, here, at) -> Rows:
-        """Rows of fixed points `here`, in the order of `sort`, for the points `at`."""
-        return self._rows(self._grid(here), here, at)
+        """Rows of fixed points `here`, in the order of `sort`, for the points `at`; they are not filled up."""
+        return self._rows(here, np.zeros(len(here[0]), bool), at, np.zeros(len(at[0]), bool), False)
 
 
 def three(here):
@@ -154,12 +147,15 @@ def _place(grid, a, value):
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def cells(grid, x, y, z):
-    """Cell number of each particle, x fastest."""
+def halves(grid, x, y, z, solid):
+    """Half of a cell that each particle is in, (N,): twice the number of the cell, x fastest, and one more for what is
+    solid."""
     number = np.empty(len(x), np.int64)
     for i in prange(len(x)):
         layer = _place(grid, 2, z[i]) if len(z) else 0
-        number[i] = (layer * grid.shape[1] + _place(grid, 1, y[i])) * grid.shape[0] + _place(grid, 0, x[i])
+        number[i] = (
+            2 * ((layer * grid.shape[1] + _place(grid, 1, y[i])) * grid.shape[0] + _place(grid, 0, x[i])) + solid[i]
+        )
     return number
 
 
@@ -184,17 +180,36 @@ def order(number, total):
 
 
 @njit(cache=True, error_model="numpy")
-def fill_up(index, i, count):
-    """Puts i itself behind the `count` neighbours in its row, as far as `length` goes."""
-    for k in range(count, min((count + LANES - 1) // LANES * LANES, index.shape[1])):
-        index[i, k] = i
+def place(rows, i, k):
+    """Where the k-th entry of row i stands, among the entries and in arrays along them. It is unsigned: of an index
+    that might be negative numba asks so each time."""
+    return np.uint64(rows.start[i] + k)
+
+
+@njit(cache=True, error_model="numpy")
+def entry(rows, i, k):
+    """The k-th neighbour of particle i."""
+    return rows.entries[place(rows, i, k)]
 
 
 @njit(cache=True, error_model="numpy")
 def length(rows, i):
     """Entries to loop over in row i, a multiple of LANES: a loop of pairs then runs in whole vectors. The last ones may
     be i itself, whose separation from i, and so every pair term, is 0."""
-    return (rows.count[i] + LANES - 1) // LANES * LANES
+    return (rows.number[i] + LANES - 1) // LANES * LANES
+
+
+@njit(cache=True, error_model="numpy")
+def _end(entries, first, last, i):
+    for e in range(first, last):
+        entries[e] = i
+
+
+@njit(cache=True, error_model="numpy")
+def shorten(rows, i, number):
+    """Leave row i its first `number` entries, and put i itself behind them as far as `length` goes."""
+    rows.number[i] = number
+    _end(rows.entries, place(rows, i, number), place(rows, i, length(rows, i)), i)
 
 
 @njit(cache=True, error_model="numpy")
@@ -207,36 +222,76 @@ def span(grid, a, value):
 
 
 @njit(cache=True, error_model="numpy")
-def _run(start, row, shape, x0, x1):
-    """First and one past the last particle in the cells x0 to x1 of a row of `shape` cells; none where x1 <= x0. They
-    are unsigned: of an index that might be negative numba asks so each time."""
-    x0, x1 = max(x0, 0), min(x1, shape)
-    return (np.uint64(start[row + x0]), np.uint64(start[row + x1])) if x0 < x1 else (np.uint64(0), np.uint64(0))
+def _run(begin, line, shape, x0, x1, blind, n):
+    """First and one past the last particle of the n-th run of a line of `shape` cells, of which x0 to x1 are looked at:
+    one run for each time round a periodic box, or for who is blind to what is solid the first half of each cell. They
+    are unsigned: of an index that might be negative numba asks so each time, and nothing is done in whole vectors."""
+    if blind:
+        half = 2 * (line + (x0 + n) % shape)
+        return begin[half], begin[half + 1]
+    turn = (n - 1) * shape
+    low, high = max(x0 - turn, 0), min(x1 - turn, shape)
+    return (begin[2 * (line + low)], begin[2 * (line + high)]) if low < high else (np.uint64(0), np.uint64(0))
+
+
+@njit(cache=True, error_model="numpy")
+def _counted(x, y, z, box, xi, yi, zi, cutoff2, first, last):
+    """How many of a run are within the cutoff."""
+    found = 0
+    for j in range(first, last):
+        dx, dy, dz = nearest_image(box, xi - x[j], yi - y[j], zi - z[j] if len(z) else 0.0)
+        found += 1 if dx * dx + dy * dy + dz * dz < cutoff2 else 0
+    return found
+
+
+@njit(cache=True, error_model="numpy")
+def _listed(x, y, z, box, xi, yi, zi, own, cutoff2, first, last, entries, end):
+    """Appends those to the entries and returns their end. One is written before it is known to count, which saves a
+    branch."""
+    for j in range(first, last):
+        dx, dy, dz = nearest_image(box, xi - x[j], yi - y[j], zi - z[j] if len(z) else 0.0)
+        entries[end] = j
+        end += np.uint64((j != own) & (dx * dx + dy * dy + dz * dz < cutoff2))
+    return end
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def _fill(grid, start, x, y, z, at_x, at_y, at_z, same, box, cutoff2, index, count):
-    """Rows of neighbours (x, y, z), sorted by cell, of the points at_x, at_y, at_z; with `same` i is not its own.
-
-    An entry is written before it is known to count, which saves a branch: a row that `count` fills was too short.
-    """
-    shape, room = grid.shape[0], np.uint64(index.shape[1] - 1)
+def _count(grid, begin, x, y, z, at_x, at_y, at_z, blind, same, box, cutoff2, number):
+    """number (n,) of neighbours (x, y, z), sorted by cell, of the points at_x, at_y, at_z; with `same` i is not its
+    own."""
     for i in prange(len(at_x)):
-        found, own = np.uint64(0), np.uint64(i if same else len(x))
+        found = -1 if same and not blind[i] else 0  # who sees itself
         xi, yi, zi = at_x[i], at_y[i], at_z[i] if len(z) else 0.0
         z0, z1 = span(grid, 2, zi) if len(z) else (0, 1)
         y0, y1 = span(grid, 1, yi)
         x0, x1 = span(grid, 0, xi)
+        runs = (0, x1 - x0) if blind[i] else (0, 3) if grid.period[0] > 0.0 else (1, 2)
         for kz in range(z0, z1):
             for ky in range(y0, y1):
-                row = ((kz % grid.shape[2]) * grid.shape[1] + ky % grid.shape[1]) * shape
-                for turn in range(-1, 2):  # through the ends of a periodic box
-                    first, last = _run(start, row, shape, x0 + turn * shape, x1 + turn * shape)
-                    for j in range(first, last):
-                        dz = zi - z[j] if len(z) else 0.0
-                        dx, dy, dz = nearest_image(box, xi - x[j], yi - y[j], dz)
-                        index[i, min(found, room)] = j
-                        found += np.uint64((j != own) & (dx * dx + dy * dy + dz * dz < cutoff2))
-        if same:
-            fill_up(index, i, np.int64(found))
-        count[i] = found
+                line = ((kz % grid.shape[2]) * grid.shape[1] + ky % grid.shape[1]) * grid.shape[0]
+                for n in range(runs[0], runs[1]):
+                    first, last = _run(begin, line, grid.shape[0], x0, x1, blind[i], n)
+                    found += _counted(x, y, z, box, xi, yi, zi, cutoff2, first, last)
+        number[i] = max(found, 0)  # who is nowhere does not see itself
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
+def _fill(grid, begin, x, y, z, at_x, at_y, at_z, blind, same, box, cutoff2, start, number, entries):
+    """entries: the rows, each from its start on, of what `_count` has counted."""
+    for i in prange(len(at_x)):
+        if number[i] == 0:
+            _end(entries, start[i], start[i + 1], i)
+            continue
+        end, own = np.uint64(start[i]), np.uint64(i if same else len(x))
+        xi, yi, zi = at_x[i], at_y[i], at_z[i] if len(z) else 0.0
+        z0, z1 = span(grid, 2, zi) if len(z) else (0, 1)
+        y0, y1 = span(grid, 1, yi)
+        x0, x1 = span(grid, 0, xi)
+        runs = (0, x1 - x0) if blind[i] else (0, 3) if grid.period[0] > 0.0 else (1, 2)
+        for kz in range(z0, z1):
+            for ky in range(y0, y1):
+                line = ((kz % grid.shape[2]) * grid.shape[1] + ky % grid.shape[1]) * grid.shape[0]
+                for n in range(runs[0], runs[1]):
+                    first, last = _run(begin, line, grid.shape[0], x0, x1, blind[i], n)
+                    end = _listed(x, y, z, box, xi, yi, zi, own, cutoff2, first, last, entries, end)
+        _end(entries, np.int64(end), start[i + 1], i)

@@ -28,7 +28,11 @@ def all_pairs(state, reach, period=(0.0, 0.0, 0.0)):
 
 def listed(state, rows):
     """Pairs of ident in the rows; every neighbour stands there once."""
-    pairs = [(state.ident[i], state.ident[j]) for i in range(len(state.x)) for j in rows.index[i, : rows.count[i]]]
+    pairs = [
+        (state.ident[i], state.ident[j])
+        for i in range(len(state.x))
+        for j in rows.entries[rows.start[i] :][: rows.number[i]]
+    ]
     assert len(pairs) == len(set(pairs))
     return set(pairs)
 
@@ -75,7 +79,7 @@ def test_crowd_in_one_place(rng, scale):
     points = 0.3 + scale * rng.uniform(size=(60, 2))
     state, rows = Neighbours(REACH).update(cloud(points))
     assert_right(state, rows)
-    np.testing.assert_array_equal(rows.count, 59)
+    np.testing.assert_array_equal(rows.number, 59)
 
 
 @pytest.mark.parametrize("dimensions", [2, 3])
@@ -83,8 +87,8 @@ def test_crowd_in_one_place(rng, scale):
 @pytest.mark.parametrize("count", [0, 1])
 def test_none_or_one(count, period, dimensions):
     state, rows = Neighbours(REACH, period).update(cloud(np.full((count, dimensions), 0.4)))
-    assert len(state.x) == len(rows.count) == count
-    assert rows.count.sum() == 0
+    assert len(state.x) == len(rows.number) == count
+    assert rows.number.sum() == 0
 
 
 def test_only_a_line_in_a_plane():
@@ -173,8 +177,8 @@ def test_rows_end_in_the_particle_itself(count, rng):
     _, rows = Neighbours(REACH).update(cloud(rng.uniform(0.0, 1.0, (count, 2))))
     for i in range(count):
         last = length.py_func(rows, i)
-        assert last % LANES == 0 and 0 <= last - rows.count[i] < LANES
-        assert (rows.index[i, rows.count[i] : last] == i).all()
+        assert last % LANES == 0 and 0 <= last - rows.number[i] < LANES
+        assert (rows.entries[rows.start[i] :][rows.number[i] : last] == i).all()
 
 
 @given(

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from sdph.engine import state as particles
-from sdph.engine.liquid_rows import LiquidNeighbours
-from sdph.engine.rows import LANES
+from sdph.engine.rows import LANES, Neighbours
 from sdph.engine.state import LIQUID, WALL
 
 REACH, SKIN = 0.12, 0.1
@@ -37,25 +36,25 @@ def expected(state, period):
 @pytest.mark.parametrize("periodic", [False, True])
 def test_rows_hold_all_that_is_needed_and_nothing_else(dimensions, periodic):
     period = (1.0 * periodic, 0.0, 0.0)[:dimensions]
-    own = LiquidNeighbours(REACH, period, SKIN)
+    own = Neighbours(REACH, period, SKIN)
     state, rows = own.update(cloud(dimensions))
     found = []
     for i in range(len(state.x)):
-        row = rows.index[rows.start[i] : rows.start[i + 1]]
-        assert len(row) % LANES == 0 and len(row) > rows.count[i] and (row[rows.count[i] :] == i).all()
-        found += [(state.ident[i], state.ident[j]) for j in row[: rows.count[i]]]
+        row = rows.entries[rows.start[i] : rows.start[i + 1]]
+        assert len(row) % LANES == 0 and len(row) > rows.number[i] and (row[rows.number[i] :] == i).all()
+        found += [(state.ident[i], state.ident[j]) for j in row[: rows.number[i]]]
     assert len(found) == len(set(found)) and set(found) == expected(state, period)
     again = own.relist(state.kind)
-    assert np.array_equal(again.count, rows.count) and np.array_equal(again.start, rows.start)
+    assert np.array_equal(again.number, rows.number) and np.array_equal(again.start, rows.start)
 
 
 def test_rows_hold_until_something_has_moved_half_the_skin():
-    own = LiquidNeighbours(REACH, (0.0, 0.0), SKIN)
+    own = Neighbours(REACH, (0.0, 0.0), SKIN)
     state, rows = own.update(cloud(2))
     state.x[7] += 0.49 * SKIN * REACH
     assert own.update(state)[1] is rows
     state.x[7] += 0.02 * SKIN * REACH
     state, rows = own.update(state)
     assert {
-        (state.ident[i], state.ident[j]) for i in range(400) for j in rows.index[rows.start[i] :][: rows.count[i]]
+        (state.ident[i], state.ident[j]) for i in range(400) for j in rows.entries[rows.start[i] :][: rows.number[i]]
     } == expected(state, (0.0, 0.0))

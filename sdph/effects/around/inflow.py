@@ -159,7 +159,7 @@ class Source:
         giving = np.zeros(len(self.nozzles) + 1, bool)
         giving[state.nozzle[state.kind == INFLOW]] = True
         if giving.any():
-            without(giving[mouths], rows.index, rows.count)
+            without(giving[mouths], rows)
 
     def inside(self, state, after: float = 0.0) -> np.ndarray:
         """Share of each particle (N,) that will be through its mouth when `after` [s] has gone.

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from sdph.engine.rows import entry, place
 from sdph.schema import CaseError
 
 ROUND_OFF = 1e-9  # of a spacing
@@ -102,15 +103,15 @@ def cell_radius(pitch: float, dimensions: int) -> float:
 
 
 @njit(cache=True, error_model="numpy")
-def without(gone, index, count):
+def without(gone, rows):
     """Take the entries that are `gone` (W,) out of rows."""
-    for i in range(len(count)):
+    for i in range(len(rows.number)):
         kept = 0
-        for k in range(count[i]):
-            if not gone[index[i, k]]:
-                index[i, kept] = index[i, k]
+        for k in range(rows.number[i]):
+            if not gone[entry(rows, i, k)]:
+                rows.entries[place(rows, i, kept)] = entry(rows, i, k)
                 kept += 1
-        count[i] = kept
+        rows.number[i] = kept
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ import numpy as np
 from numba import njit
 
 from sdph.effects.effect import Effect, Judgement
+from sdph.engine.rows import entry
 from sdph.engine.walls.dummies import distance, normal_part, offset
 from sdph.laws import granular, kernels
 from sdph.schema import choice, file, quantity, record
@@ -68,7 +69,7 @@ def near(p, rows, i):
     pairs."""
     if len(p) == 0:
         return False
-    return rows.count[i] > 0
+    return rows.number[i] > 0
 
 
 @njit(cache=True, error_model="numpy")
@@ -77,8 +78,10 @@ def closure(p, box, dummies, rows, s, i, kernel):
     if len(p) == 0:
         return 1.0
     share = 1.0
-    for k in range(rows.count[i]):
-        share -= p.volume * kernels.cubic_spline(distance(box, dummies, rows.index[i, k], s, i), kernel.h, kernel.sigma)
+    for k in range(rows.number[i]):
+        share -= p.volume * kernels.cubic_spline(
+            distance(box, dummies, entry(rows, i, k), s, i), kernel.h, kernel.sigma
+        )
     return share
 
 
@@ -99,8 +102,8 @@ def gradient(p, kernel, box, dummies, rows, s, i):
     xx = xy = xz = yx = yy = yz = zx = zy = zz = 0.0
     if len(p) == 0:
         return xx, xy, xz, yx, yy, yz, zx, zy, zz
-    for k in range(rows.count[i]):
-        w = rows.index[i, k]
+    for k in range(rows.number[i]):
+        w = entry(rows, i, k)
         dx, dy, dz = offset(box, dummies, w, s, i)
         r = np.sqrt(dx * dx + dy * dy + dz * dz)
         g = -2.0 * p.volume * kernels.cubic_spline_gradient(r, kernel.h, kernel.sigma)
@@ -127,8 +130,8 @@ def extrapolate(kernel, box, dummies, rows, s, pressure, weight, wall_pressure, 
     """
     weight[:], wall_pressure[:], wall_velocity[:] = 0.0, 0.0, 0.0
     for i in range(len(s.x)):
-        for k in range(rows.count[i]):
-            w = rows.index[i, k]
+        for k in range(rows.number[i]):
+            w = entry(rows, i, k)
             dx, dy, dz = offset(box, dummies, w, s, i)
             value = kernels.cubic_spline(np.sqrt(dx * dx + dy * dy + dz * dz), kernel.h, kernel.sigma)
             weight[w] += value
@@ -163,15 +166,15 @@ def grip(p, dummies, w, s, i, dx, dy, dz, shear):
     return k * y / (k * y + shear) if k > 0.0 else 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, error_model="numpy", forceinline=True)  # to hand over the whole state costs more than this
 def force(p, kernel, box, dummies, rows, s, i, pressure, shear, tau, wall_pressure, wall_velocity):
     """Acceleration [m/s2] of particle i by the wall; contacts, with their traction tau (N, 6) of
     sdph.methods.grains.contacts, bear on it as they do on grains."""
     ax, ay, az = 0.0, 0.0, 0.0
     if len(p) == 0:
         return ax, ay, az
-    for k in range(rows.count[i]):
-        w = rows.index[i, k]
+    for k in range(rows.number[i]):
+        w = entry(rows, i, k)
         dx, dy, dz = offset(box, dummies, w, s, i)
         r = np.sqrt(dx * dx + dy * dy + dz * dz)
         vz = s.w[i] if len(s.z) else 0.0
@@ -227,8 +230,8 @@ def contact(p, box, dummies, rows, s):
         before = touched
         if len(s.entering) > 0 and s.entering[i] > 0:
             continue
-        for k in range(rows.count[i]):
-            w = rows.index[i, k]
+        for k in range(rows.number[i]):
+            w = entry(rows, i, k)
             dx, dy, dz = offset(box, dummies, w, s, i)
             nx, ny, nz = dummies.normal_x[w], dummies.normal_y[w], dummies.normal_z[w]
             height = dx * nx + dy * ny + dz * nz

@@ -110,7 +110,7 @@ def elastic(p, s, box, i, j, per_i, per_j, dx, dy, dz):
     return xx * dx + xy * dy + zx * dz, xy * dx + yy * dy + yz * dz, zx * dx + yz * dy - (xx + yy) * dz
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, error_model="numpy", forceinline=True)  # to hand over the whole state costs more than this
 def stress(p, pressures, s, i, D, spin, dt):
     """Deviator of the elastic stress of contacts [Pa] after dt (xx, yy, zz, xy, yz, zx), and their viscosity [Pa s].
 
@@ -133,7 +133,7 @@ def stress(p, pressures, s, i, D, spin, dt):
     return (share * xx, share * yy, share * zz, share * xy, share * yz, share * zx), share * mu
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, error_model="numpy", forceinline=True)  # to hand over the whole state costs more than this
 def trial(s, i, D, spin, modulus, dt):
     """Stress of contacts [Pa] after dt if none yields; modulus = 2 G [Pa]."""
     xx, yy, xy = s.contact_xx[i], s.contact_yy[i], s.contact_xy[i]

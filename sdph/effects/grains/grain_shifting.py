@@ -20,6 +20,7 @@ from numba import njit, prange
 
 from sdph.effects.effect import Effect, Judgement
 from sdph.engine.geometry import nearest_image
+from sdph.engine.rows import entry
 from sdph.schema import quantity, record
 
 WORTH = 0.006  # of the heat to the grains: what it changed in the bubbling bed
@@ -51,8 +52,8 @@ def shift(p, s, rows, box, dt, moved):
     """moved (N, 3) [m] of every particle within dt [s]."""
     for i in prange(len(s.x)):
         x = y = z = 0.0
-        for k in range(rows.count[i]):
-            j = rows.index[i, k]
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
             dx, dy, dz = nearest_image(box, s.x[i] - s.x[j], s.y[i] - s.y[j], s.z[i] - s.z[j] if len(s.z) else 0.0)
             r = math.sqrt(dx * dx + dy * dy + dz * dz)
             reach = (0.5 * (s.mass[i] + s.mass[j]) / p.packed) ** (1.0 / p.dimensions)

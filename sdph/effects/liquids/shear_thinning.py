@@ -18,7 +18,7 @@ from numba import njit, prange
 from sdph.effects.effect import Effect, Judgement, diffusive_limit
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import FAST, apart, faster
-from sdph.engine.rows import length
+from sdph.engine.rows import entry, length
 from sdph.engine.state import LIQUID
 from sdph.laws import thinning as law
 from sdph.laws.matrices import solved
@@ -97,9 +97,9 @@ def images(kernel, s, rows, box, walls, volume, out):
         i = walls[n]
         weight = x = y = z = 0.0
         for k in range(length(rows, i)):
-            dx, dy, dz = apart(s, box, i, rows.index[rows.start[i] + k])
+            dx, dy, dz = apart(s, box, i, entry(rows, i, k))
             value = smoothing.value(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
-            value = value if volume[rows.index[rows.start[i] + k]] > 0.0 else 0.0
+            value = value if volume[entry(rows, i, k)] > 0.0 else 0.0
             weight += value
             x -= value * dx
             y -= value * dy
@@ -118,7 +118,7 @@ def shear_rates(kernel, s, rows, box, active, volume, stick, image, out):
         xx = yy = zz = xy = yz = zx = 0.0
         ux = uy = uz = vx = vy = vz = wx = wy = wz = 0.0
         for k in range(length(rows, i)):
-            j = rows.index[rows.start[i] + k]
+            j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
             du, dv, dw = faster(s, box, i, j)
             share = smoothing.slope(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))

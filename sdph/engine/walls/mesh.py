@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from sdph.engine.rows import fill_up
+from sdph.engine.rows import entry, place, shorten
 
 AROUND = 0.75  # spacings about a surface point that count as its own: points stand one spacing apart or closer
 
@@ -33,12 +33,12 @@ def keep_in_front(dummies, of_mesh, places, rows):
     x, y, z = places
     for i in range(len(x)):
         kept = 0
-        for k in range(rows.count[i]):
-            w = rows.index[i, k]
+        for k in range(rows.number[i]):
+            w = entry(rows, i, k)
             if not of_mesh[w] or height(dummies, w, x[i], y[i], z[i]) > 0.0:
-                rows.index[i, kept] = w
+                rows.entries[place(rows, i, kept)] = w
                 kept += 1
-        rows.count[i] = kept
+        rows.number[i] = kept
 
 
 @njit(cache=True, error_model="numpy")
@@ -46,24 +46,23 @@ def part(dummies, of_mesh, spacing, places, wall_rows, rows):
     """Take the neighbours out of the particles' rows that stand on the other side of a mesh."""
     for i in range(len(places[0])):
         kept = 0
-        for k in range(rows.count[i]):
-            j = rows.index[i, k]
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
             if not (
                 parted(dummies, of_mesh, spacing, places, wall_rows, i, j)
                 or parted(dummies, of_mesh, spacing, places, wall_rows, j, i)
             ):
-                rows.index[i, kept] = j
+                rows.entries[place(rows, i, kept)] = j
                 kept += 1
-        fill_up(rows.index, i, kept)
-        rows.count[i] = kept
+        shorten(rows, i, kept)
 
 
 @njit(cache=True, error_model="numpy")
 def parted(dummies, of_mesh, spacing, places, wall_rows, i, j):
     """Whether the way from i, in front of a surface, to j, behind it, goes through one of its points."""
     x, y, z = places
-    for k in range(wall_rows.count[i]):
-        w = wall_rows.index[i, k]
+    for k in range(wall_rows.number[i]):
+        w = entry(wall_rows, i, k)
         if not of_mesh[w] or dummies.depth[w] > spacing:  # the first layer alone: it stands for the surface
             continue
         before, behind = height(dummies, w, x[i], y[i], z[i]), height(dummies, w, x[j], y[j], z[j])

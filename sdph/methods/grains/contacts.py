@@ -15,7 +15,7 @@ from numba import njit, prange
 from sdph.effects.around import walls
 from sdph.effects.grains import friction
 from sdph.engine.geometry import deep
-from sdph.engine.rows import length
+from sdph.engine.rows import entry, length, place
 from sdph.laws.friction import second_invariant
 from sdph.methods.grains.equations import approach, loop, separation
 
@@ -42,15 +42,15 @@ def empty(count: int, contacts: bool) -> Shearing:
     return Shearing(*tensors, *(np.empty(count) for _ in range(3)))
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, error_model="numpy", forceinline=True)  # to hand over the whole state costs more than this
 def gradient(s, rows, box, pull, i):
     """(1/rho_i) sum m_j (v_j - v_i)_a dW/dx_b [1/s]: xx, xy, xz, yx, yy, yz, zx, zy, zz."""
     xx = xy = xz = yx = yy = yz = zx = zy = zz = 0.0
     for k in range(length(rows, i)):
-        j = rows.index[i, k]
+        j = entry(rows, i, k)
         dx, dy, dz, _ = separation(s, box, i, j)
         du, dv, dw = approach(s, box, i, j)
-        g = -pull[i, k]
+        g = -pull[place(rows, i, k)]
         xx += g * du * dx
         xy += g * du * dy
         yx += g * dv * dx

@@ -60,6 +60,7 @@ class Stepper:
         """After a checkpoint was put back."""
         if not self.neighbours.built:  # particles came or went: the next step begins with new rows
             return
+        self.neighbours.relist(self.state.kind)
         self._look_around()
         density = np.empty(len(self.state.x))
         self._sum(density)
@@ -94,7 +95,7 @@ class Stepper:
     def _look_around(self) -> None:
         """What belongs to neighbour rows just made."""
         self.rows, built = self.neighbours.rows, self.neighbours.built
-        self.pull = np.empty(self.rows.index.shape)
+        self.pull = np.empty(len(self.rows.entries))
         if self.boundary:
             self.wall_rows = self.boundary.rows(built)
             if self.source:

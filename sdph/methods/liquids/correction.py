@@ -17,7 +17,7 @@ from numba import njit, prange
 
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import FAST, apart
-from sdph.engine.rows import length
+from sdph.engine.rows import entry, length
 
 # of det M, 1 inside: below it a particle is left as it is. In a lattice 0.34 to 0.37 in the first layer at a free
 # surface, 0.65 (h = 2 dx) or 0.82 (1.5 dx) in the second; our choice, made with the periods of boxes in view: at h = 2
@@ -32,7 +32,7 @@ def surround(kernel, s, rows, box, active, volume, xx, yy, zz, xy, yz, zx):
         i = active[n]
         a = b = c = d = e = f = 0.0
         for k in range(length(rows, i)):
-            j = rows.index[rows.start[i] + k]
+            j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
             share = abs(volume[j]) * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
             a -= share * dx * dx

@@ -13,7 +13,7 @@ from numba import njit, prange
 from sdph.effects.liquids import density_diffusion, laminar_viscosity, liquid_damping, shifting
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import FAST, apart, deep, faster
-from sdph.engine.rows import length
+from sdph.engine.rows import entry, length
 from sdph.laws.matrices import solved
 from sdph.methods.liquids import correction, phases
 from sdph.methods.liquids.forces import body, held_off
@@ -55,7 +55,7 @@ def push(
         ax = ay = az = gx = gy = gz = 0.0
         xx = yy = zz = xy = yz = zx = 0.0
         for k in range(length(rows, i)):
-            j = rows.index[rows.start[i] + k]
+            j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
             du, dv, dw = faster(s, box, i, j)
             r2 = dx * dx + dy * dy + dz * dz
@@ -127,8 +127,8 @@ def sum_up(kernel, s, rows, box, active, lattice, density):
     for n in prange(len(active)):
         i = active[n]
         number = smoothing.value(kernel, 0.0)
-        for k in range(rows.count[i]):
-            dx, dy, dz = apart(s, box, i, rows.index[rows.start[i] + k])
+        for k in range(rows.number[i]):
+            dx, dy, dz = apart(s, box, i, entry(rows, i, k))
             number += smoothing.value(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
         density[i] = s.mass[i] * number / lattice
 
@@ -156,7 +156,7 @@ def compress(
         p_i, rho_i = pressure[i], s.density[i]
         growth = spread = 0.0
         for k in range(length(rows, i)):
-            j = rows.index[rows.start[i] + k]
+            j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
             signed, u_j, v_j = volume[j], s.u[j], s.v[j]  # read before they are chosen from: no branch
             w_j = s.w[j] if deep(box) else 0.0

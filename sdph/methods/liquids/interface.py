@@ -13,6 +13,7 @@ from numba import njit, prange
 
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import FAST, apart
+from sdph.engine.rows import entry
 from sdph.engine.state import LIQUID
 from sdph.laws.matrices import solved
 
@@ -24,8 +25,8 @@ def orient(kernel, s, rows, box, active, tension_p, volume, normal):
     for n in prange(len(active)):
         i = active[n]
         gx = gy = gz = 0.0
-        for k in range(rows.count[i]):
-            j = rows.index[rows.start[i] + k]
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
             unlike = max(volume[j], 0.0) if s.kind[i] != s.kind[j] else 0.0
             steep = unlike * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
@@ -54,8 +55,8 @@ def bend(kernel, s, rows, box, active, volume, normal, curvature):
             continue
         xx = yy = zz = xy = yz = zx = 0.0
         ux = uy = uz = vx = vy = vz = wx = wy = wz = 0.0
-        for k in range(rows.count[i]):
-            j = rows.index[rows.start[i] + k]
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
             weight = max(volume[j], 0.0) if on_interface(normal, j) else 0.0
             share = weight * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
@@ -96,8 +97,8 @@ def pull(kernel, s, rows, box, active, tension_p, volume, normal, curvature, acc
             continue
         outwards = 1.0 if s.kind[i] == LIQUID else -1.0
         ax = ay = az = 0.0
-        for k in range(rows.count[i]):
-            j = rows.index[rows.start[i] + k]
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
             unlike = max(volume[j], 0.0) if s.kind[i] != s.kind[j] else 0.0
             steep = (

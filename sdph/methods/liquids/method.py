@@ -18,7 +18,7 @@ from sdph.engine import state as particles
 from sdph.engine.clock import count_of_parts
 from sdph.engine.guard import FAR
 from sdph.engine.kept import GROWING, Unfit
-from sdph.engine.liquid_rows import LiquidNeighbours
+from sdph.engine.rows import Neighbours
 from sdph.engine.state import GAS, LIQUID, WALL
 from sdph.laws import kernels
 from sdph.methods.liquids import correction, interface, phases, shift, start, walls
@@ -66,7 +66,7 @@ class LiquidStepper:
         self.kernel = smoothing.smoothing(case.liquid.kernel, d, case.smoothing_length)
         periodic = case.liquid.periodic or (0.0,) * d
         period = tuple(length * bool(on) for length, on in zip(case.domain.size, periodic))
-        self.neighbours = LiquidNeighbours(2.0 * SLACK * self.kernel.h, period, case.resolution.neighbour_skin)
+        self.neighbours = Neighbours(2.0 * SLACK * self.kernel.h, period, case.resolution.neighbour_skin)
         self.fluids, self.phases = fluids(case), phases.kernel(case)
         # walls follow the liquid, those of the outlet pipe come last
         first_of_pipe = len(self.state.x) - start.pipe_walls(case)
@@ -264,7 +264,7 @@ class LiquidStepper:
         """Liquid particles, those of the walls that liquid is near, and arrays that no step takes from the last."""
         s = self.state
         self.active = np.flatnonzero(particles.wet(s)).astype(np.int32)
-        self.walls = np.flatnonzero((s.kind == WALL) & (self.rows.count > 0)).astype(np.int32)
+        self.walls = np.flatnonzero((s.kind == WALL) & (self.rows.number > 0)).astype(np.int32)
         self.rate = np.zeros(len(s.x))
         near = len(s.x) if self.p["surface_tension"] else 0
         self.normal, self.curvature = np.zeros((near, 3)), np.zeros(near)

@@ -19,8 +19,7 @@ from sdph.engine import kernels as smoothing
 from sdph.engine import motion
 from sdph.engine import state as particles
 from sdph.engine.geometry import FAST, apart
-from sdph.engine.liquid_rows import LiquidNeighbours
-from sdph.engine.rows import length
+from sdph.engine.rows import Neighbours, entry, length
 from sdph.engine.state import LIQUID, WALL
 
 
@@ -31,7 +30,7 @@ def pack(case, points, walls, lid, slab) -> np.ndarray:
     period = [
         length * bool(on) for length, on in zip(case.domain.size, case.liquid.periodic or (0.0,) * case.dimensions)
     ]
-    neighbours = LiquidNeighbours(2.0 * kernel.h, period, case.resolution.neighbour_skin)
+    neighbours = Neighbours(2.0 * kernel.h, period, case.resolution.neighbour_skin)
     state, dt, near = _state(case, points, walls, lid), case.liquid.courant * kernel.h, 1.0 / tank.kernel(case).near
     for _ in range(math.ceil(np.ptp(points, axis=0).max() / dt)):
         state, rows = neighbours.update(state)
@@ -52,7 +51,7 @@ def spread(kernel, s, rows, box, active, acceleration):
         i = active[n]
         ax = ay = az = 0.0
         for k in range(length(rows, i)):
-            j = rows.index[rows.start[i] + k]
+            j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
             slope = s.mass[j] * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
             ax -= slope * dx
@@ -69,8 +68,8 @@ def clear(s, rows, box, active, near, way):
     for n in prange(len(active)):
         i = active[n]
         px = py = pz = 0.0
-        for k in range(rows.count[i]):
-            j = rows.index[rows.start[i] + k]
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
             if s.kind[j] == WALL:
                 dx, dy, dz = apart(s, box, i, j)
                 r = np.sqrt(dx * dx + dy * dy + dz * dz)

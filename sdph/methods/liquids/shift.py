@@ -8,7 +8,7 @@ from numba import njit, prange
 from sdph.effects.liquids import shifting, xsph
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import FAST, apart, faster
-from sdph.engine.rows import length
+from sdph.engine.rows import entry, length
 from sdph.engine.state import GAS
 from sdph.laws.matrices import smallest, solved
 from sdph.methods.liquids import phases
@@ -26,7 +26,7 @@ def surround(kernel, s, rows, box, active, shifting_p, phases_p, volume, least, 
         cx = cy = cz = xx = yy = zz = xy = yz = zx = 0.0
         ux = uy = uz = vx = vy = vz = wx = wy = wz = 0.0
         for k in range(length(rows, i)):
-            j = rows.index[rows.start[i] + k]
+            j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
             du, dv, dw = faster(s, box, i, j)
             r = np.sqrt(dx * dx + dy * dy + dz * dz)
@@ -65,8 +65,8 @@ def mingle(kernel, s, rows, box, active, xsph_p, phases_p, volume, extra_u, extr
     for n in prange(len(active)):
         i = active[n]
         u = v = w = 0.0
-        for k in range(rows.count[i]):
-            j = rows.index[rows.start[i] + k]
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
             du, dv, dw = faster(s, box, i, j)
             value = smoothing.value(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
@@ -93,8 +93,8 @@ def along_surface(kernel, s, rows, box, active, volume, least, shift):
         if least[i] > shifting.INTERIOR:
             continue
         nx = ny = nz = 0.0
-        for k in range(rows.count[i]):
-            j = rows.index[rows.start[i] + k]
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
             share = (
                 max(volume[j], 0.0)

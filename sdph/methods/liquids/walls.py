@@ -13,6 +13,7 @@ from numba import njit, prange
 from sdph.effects.liquids import laminar_viscosity, liquid_damping, shifting
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import FAST, apart, faster
+from sdph.engine.rows import entry
 from sdph.methods.liquids import correction, phases
 from sdph.methods.liquids.forces import body, held_off
 
@@ -44,8 +45,8 @@ def extrapolate(kernel, s, rows, box, walls, wall_p, gravity_p, frame_p, volume,
         bx, by, bz = body(gravity_p, frame_p, s, i, True)
         bx, by, bz = bx - wall_p.ax, by - wall_p.ay, bz - wall_p.az
         weight = push = u = v = w = 0.0
-        for k in range(rows.count[i]):
-            j = rows.index[rows.start[i] + k]
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
             value = smoothing.value(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
             value = value if volume[j] > 0.0 else 0.0
@@ -86,8 +87,8 @@ def wall_force(
     for n in prange(len(walls)):
         i = walls[n]
         fx = fy = fz = 0.0
-        for k in range(rows.count[i]):
-            j = rows.index[rows.start[i] + k]
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
             du, dv, dw = faster(s, box, i, j)
             r2 = dx * dx + dy * dy + dz * dz

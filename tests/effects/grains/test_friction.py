@@ -7,6 +7,7 @@ import pytest
 from grain_boxes import box, started
 
 from sdph.effects.grains import friction
+from sdph.engine.rows import entry
 from sdph.laws import kernels
 from sdph.laws.friction import second_invariant
 from sdph.methods.grains.equations import separation
@@ -68,8 +69,8 @@ def test_work_of_contacts_is_what_their_force_takes(block):
     out = block._shear(DT)
     power = 0.0
     for i in range(len(s.x)):
-        for k in range(block.rows.count[i]):
-            j = block.rows.index[i, k]
+        for k in range(block.rows.number[i]):
+            j = entry(block.rows, i, k)
             dx, dy, dz, r2 = separation(s, block.neighbours.box, i, j)
             pull = friction.elastic(
                 block.parameters["friction"],

@@ -3,8 +3,13 @@
 import numpy as np
 from builders import simulation
 
-from sdph.engine.rows import length
+from sdph.engine.rows import length, place
 from sdph.study.stress import suite
+
+
+def of(rows, i):
+    """Neighbours of particle i."""
+    return rows.entries[rows.start[i] :][: rows.number[i]]
 
 
 def test_no_pair_and_no_dummy_reaches_through_a_plate(tmp_path):
@@ -13,13 +18,14 @@ def test_no_pair_and_no_dummy_reaches_through_a_plate(tmp_path):
     stepper.prepare()
     left, dummies = stepper.state.x < 0.25, stepper.boundary.dummies
     for i, own in enumerate(left):
-        near = stepper.rows.index[i, : stepper.rows.count[i]]
+        near = of(stepper.rows, i)
         assert len(near) and np.all(left[near] == own)
-        assert np.all(stepper.rows.index[i, len(near) : length(stepper.rows, i)] == i)
-        seen = stepper.wall_rows.index[i, : stepper.wall_rows.count[i]]
+        assert np.all(
+            stepper.rows.entries[place(stepper.rows, i, len(near)) : place(stepper.rows, i, length(stepper.rows, i))]
+            == i
+        )
+        seen = of(stepper.wall_rows, i)
         facing = dummies.normal_x[seen[stepper.boundary.of_mesh[seen]]]
         assert np.all(facing == (-1.0 if own else 1.0))
     beside = np.flatnonzero(np.abs(stepper.state.x - 0.25) < 0.03)
-    assert len(beside) and all(
-        stepper.boundary.of_mesh[stepper.wall_rows.index[i, : stepper.wall_rows.count[i]]].any() for i in beside
-    )
+    assert len(beside) and all(stepper.boundary.of_mesh[of(stepper.wall_rows, i)].any() for i in beside)

@@ -13,7 +13,7 @@ from sdph.effects import OFF
 from sdph.effects.grains import conduction
 from sdph.engine import state as particles
 from sdph.engine.geometry import box_of
-from sdph.engine.rows import Neighbours
+from sdph.engine.rows import Neighbours, entry
 from sdph.laws import exact, kernels
 from sdph.laws.constants import SOFTENING
 from sdph.laws.exchange import cleary_monaghan
@@ -156,8 +156,8 @@ def by_hand(h, sigma, s, rows, box, conductivity, grain_density, on, heating):
     for i in prange(len(s.x)):
         heat = 0.0
         if on:
-            for k in range(rows.count[i]):
-                j = rows.index[i, k]
+            for k in range(rows.number[i]):
+                j = entry(rows, i, k)
                 dx, dy = s.x[i] - s.x[j], s.y[i] - s.y[j]
                 dx -= box.length_x * np.rint(dx * box.inverse_x)
                 dy -= box.length_y * np.rint(dy * box.inverse_y)
@@ -175,7 +175,7 @@ def test_effect_set_is_the_loop_written_by_hand(on):
     state, rows = Neighbours(2.0 * H, PERIOD[2]).update(random_cloud(np.random.default_rng(4), 400, 2))
     box, kernel = box_of(PERIOD[2], 2), rates.Kernel(H, SIGMA[2])
     ours, theirs = np.full(400, np.nan), np.full(400, np.nan)
-    pull = np.empty(rows.index.shape)
+    pull = np.empty(len(rows.entries))
     rates.sum_density(kernel, state, rows, box, OFF, OFF, OFF, np.empty(400), pull)
     rates.conduct(kernel, state, rows, box, pull, GRAINS if on else OFF, ours)
     by_hand(H, SIGMA[2], state, rows, box, *GRAINS, on, theirs)
