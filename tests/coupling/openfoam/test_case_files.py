@@ -149,8 +149,8 @@ def test_flux_through_a_slot_is_the_superficial_one(tmp_path):
         assert gas.mesh.depth == 1.0
         assert gas.mesh.volumes.sum() == pytest.approx(0.1 * 0.2)
         alpha = np.full(200, 0.5)
-        gas.start(alpha, ("drag",))
-        state = gas.advance(1e-3, {"drag": np.full(200, 1e3)})
+        gas.start(alpha, ("momentum_coefficient",))
+        state = gas.advance(1e-3, {"momentum_coefficient": np.full(200, 1e3)})
     expected = 1e-3 * AIR["density_kg_m3"] * (7.5 * 0.02 + 0.08 * 0.08)
     inflow = state.budget.mass_in + 1e-3 * AIR["density_kg_m3"] * outflow(gas, state)
     assert inflow == pytest.approx(expected, rel=1e-3)

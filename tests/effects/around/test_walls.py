@@ -33,7 +33,7 @@ def channel(folder, push, end, kind="wall", held=True, **walls):
     for _ in range(round(end / dt)):
         stepper.force(zeros, np.tile((push, 0.0, 0.0), (len(zeros), 1)), zeros)
         stepper.move(dt)
-        assert stepper.state is state  # not sorted anew
+        assert stepper.state.x is state.x  # not sorted anew
         state.x[:], state.y[:] = start
         stepper.prepare()
     return state.y, state.u

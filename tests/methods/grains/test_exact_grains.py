@@ -52,7 +52,7 @@ def sheared(folder, model="transport"):
         state.u[:], state.v[:] = RATE * state.y, 0.0
         stepper.force(zeros, np.zeros((len(zeros), 3)), zeros)
         stepper.move(2e-4)
-        assert stepper.state is state  # not sorted anew
+        assert stepper.state.x is state.x  # not sorted anew
         state.x[:], state.y[:] = start
         stepper.prepare()
     return stepper
