@@ -44,6 +44,7 @@ class Effect:
     fields      fields that it asks of the gas besides the usual ones (names of coupling.gas.ON_REQUEST)
     to_gas      (window's exchange, sdph.exchange.amounts.Handed; case) -> quantity -> what each particle gives of it,
                 (N,) or (N, 3), beside what the exchange tells of the conductance, drag and force that effects add up to
+    holds_force whether the gas pushes by it with a force that is held over a window
     moves       whether particles move by it
     matter      what it acts on: "grains", "liquid"
     dt_limit    (kernel parameters, case, state as it is) -> largest stable sub-step [s]; asked before every sub-step
@@ -64,6 +65,7 @@ class Effect:
     arrays: tuple[str, ...] = ()
     sources: tuple[str, ...] = ()
     fields: tuple[str, ...] = ()
+    holds_force: bool = False
     moves: bool = False
     matter: tuple[str, ...] = ("grains",)
     dt_limit: Callable = lambda p, case, state: NO_LIMIT

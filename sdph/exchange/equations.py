@@ -58,9 +58,11 @@ def rates(
             conductance[i] += heat.conductance(heat_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
             conductance[i] += radiation.conductance(radiation_p, sizes_p, s, i, gas_temperature[i])
             damping[i] = drag.damping(drag_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
-        if len(lift_p):
-            x, y, z = lift.force(lift_p, sizes_p, s, i, apart, slip[i], vorticity, gas_density[i])
-            force[i, 0], force[i, 1], force[i, 2] = (x, y, z) if s.kind[i] == GRAIN else (0.0, 0.0, 0.0)
+            if len(force):
+                x, y, z = lift.force(lift_p, sizes_p, s, i, apart, slip[i], vorticity, gas_density[i])
+                force[i, 0] += x
+                force[i, 1] += y
+                force[i, 2] += z
 
 
 @njit(cache=True, parallel=True, error_model="numpy")

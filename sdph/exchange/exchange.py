@@ -48,6 +48,7 @@ class Exchange:
         names = dict.fromkeys(name for row in rows for name in row.sources)
         self.sources = tuple(name for name in names if name != "alpha_g" or case.coupling.voidage)
         self.fields = tuple(dict.fromkeys(name for row in rows for name in row.fields))
+        self.holds = any(row.holds_force for row in rows)
         self.to_gas = {row.name: row.to_gas for row in rows if row.to_gas}
         self.origin = case.gas.temperature  # [K], of the heat that is exchanged
         self.drag_heat = np.zeros(len(self.volumes))  # [W/m3], for the next window
@@ -96,7 +97,7 @@ class Exchange:
         """Of every particle now: heat conductance to the gas [W/K], beta/(alpha_p rho_p) [1/s], and the force that is
         held [N]."""
         p, count, vorticity = self.parameters, len(state.x), seen.fields.get("vorticity", OFF)
-        conductance, damping, force = np.empty(count), np.empty(count), np.empty((count if p["lift"] else 0, 3))
+        conductance, damping, force = np.empty(count), np.empty(count), np.zeros((count if self.holds else 0, 3))
         equations.rates(
             p["drag"], p["heat"], p["radiation"], p["lift"], self.sizes_p, state, self.case.grains.density, seen.apart,
             seen.slip, seen.density, seen.temperature, vorticity, conductance, damping, force,

@@ -77,6 +77,7 @@ EFFECT = Effect(
     arrays=("diameter", "diameter_variance"),
     sources=("alpha_g", "momentum", "heat"),
     fields=("vorticity",),
+    holds_force=True,
     moves=True,
     call=call,
 )
