@@ -104,7 +104,7 @@ def simulation_of(case, gas, ledger: Path):
     simulation = Simulation(case.only("grains"), gas, Ledger(ledger, case, gas.mesh.depth))
     if case.liquid:
         liquid = Liquid(case.only("liquid"), ledger.with_name("ledger_liquid.csv"), simulation.clock.shortest)
-        simulation.stand_beside(liquid, contact.between(case))
+        simulation.beside.add(liquid, contact.between(case))
     return simulation
 
 

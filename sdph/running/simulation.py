@@ -12,7 +12,6 @@ from sdph import effects
 from sdph.effects.around.inflow import Source
 from sdph.effects.around.outflow import leaving, refuse_to_leave
 from sdph.engine import state as particles
-from sdph.engine.contact import Contact
 from sdph.engine.kept import Unfit
 from sdph.engine.state import GRAIN, INFLOW
 from sdph.engine.walls import sides as boundary
@@ -21,8 +20,8 @@ from sdph.exchange.window import Window, learned
 from sdph.methods.grains import start
 from sdph.methods.grains.method import Stepper
 from sdph.methods.grains.window import Tally, of_those_that_left
-from sdph.methods.method import Method
 from sdph.running import history, output
+from sdph.running.beside import Beside
 
 PART = 4.0  # a window that the gas cannot finish is taken again, so much shorter (our choice),
 REPEATS = 4  # so often at most: down to 1/256
@@ -45,13 +44,8 @@ class Simulation:
         self.time, self.windows, self.repeated, self.grid = 0.0, 0, 0, None
         self.notices: list[str] = []  # for the user, until somebody has passed them on
         self._weights_now = None
-        self.beside: dict[str, Method] = {}  # other methods by their matter
-        self.contacts: dict[str, Contact] = {}
+        self.beside = Beside()  # other methods
         self.wall = {"particles": 0.0, "exchange": 0.0, "gas": 0.0}
-
-    def stand_beside(self, method: Method, contact: Contact) -> None:
-        """Let another method go through the same windows, in contact with the grains; the gas feels nothing of it."""
-        self.beside[method.matter], self.contacts[method.matter] = method, contact
 
     @staticmethod
     def time_of(kept: dict) -> float:
@@ -60,7 +54,7 @@ class Simulation:
 
     def tables(self) -> list:
         """Ledgers that are open."""
-        return [self.ledger.table, *(method.ledger.table for method in self.beside.values())]
+        return [self.ledger.table, *(method.ledger.table for method in self.beside.methods.values())]
 
     @property
     def state(self):
@@ -95,15 +89,14 @@ class Simulation:
             self.clock.thicken(1.0, thickening)
             self.clock.hold(grip)
         self.ledger.open(self.grains, self.gas_state.budget)
-        for method in self.beside.values():
-            method.start()
-        self._hold_contact()
+        self.beside.start()
+        self.clock.touch(self.beside.limit(self.state))
 
     def admit(self, kept: dict) -> None:
         """Unfit where time is not that of the ledger, or particles have numbers that nobody gave."""
-        times = [kept["ledger"]["last"]["time_s"], *(own["stepper"]["time"] for own in kept["beside"].values())]
-        if any(kept["time"] != time for time in times):
+        if kept["time"] != kept["ledger"]["last"]["time_s"]:
             raise Unfit("its time is not that of the ledger")
+        self.beside.refuse_other_times(kept["beside"], kept["time"])
         if self.source:
             self.source.admit_at(kept["time"], kept["source"])
         given = kept["source"]["next_ident"] if self.source else len(self.state.x) + 1
@@ -129,7 +122,7 @@ class Simulation:
         exchanged, body = learned(self.state, taken.heat, dt), self._body(handed)
         weight = np.einsum("i,ij->j", self.state.mass * (self.state.kind == GRAIN) * dt, body)
         momentum = self.state.mass[:, None] * dt
-        touched = self._touch(dt)
+        touched = self.beside.touch(self.state, dt)
         pushed = np.divide(taken.impulse + touched, momentum, out=np.zeros_like(body), where=momentum > 0.0)
         self.stepper.force(taken.warming, body + pushed, handed.damping)
         self._without_finished()
@@ -144,40 +137,13 @@ class Simulation:
         )
         exchanged |= {"drag_heat_J": self.exchange.drag_heat_of(handed)}
         exchanged |= self._timed("exchange", self._turn_over, self.clock.longest())
-        self._hold_contact()
+        self.clock.touch(self.beside.limit(self.state))
         self.ledger.close_window(end, dt, self.clock.limit, self.grains, self.gas_state, exchanged)
 
     def _advance(self, end: float) -> None:
         """All methods to `end` [s]."""
         (self.stepper.move if self.moves else self.stepper.conduct)(end - self.time)
-        for method in self.beside.values():
-            method.begin()
-            method.new_row()
-            method.advance(end)
-            method.close()
-
-    def _touch(self, dt: float) -> np.ndarray:
-        """Impulses (N, 3) [kg m/s] of contact on the grains in a window of `dt` [s]; other methods get the opposite."""
-        impulse, here = np.zeros((len(self.state.x), 3)), particles.positions(self.state)
-        inside = self.state.kind == GRAIN
-        for matter, method in self.beside.items():
-            wet, there = particles.wet(method.state), particles.positions(method.state)
-            own, other = self.contacts[matter].forces(here[inside], there[wet])
-            impulse[inside] += dt * own
-            push = np.zeros((len(there), 3))
-            push[wet] = other / method.state.mass[wet, None]
-            method.push(push)
-        return impulse
-
-    def _hold_contact(self) -> None:
-        """No window is longer than a contact that may come bears."""
-        inside = self.state.kind == GRAIN
-        for matter, method in self.beside.items():
-            wet, contact = particles.wet(method.state), self.contacts[matter]
-            here, there = particles.positions(self.state)[inside], particles.positions(method.state)[wet]
-            near = contact.near(here, there)
-            lightest = min(self.state.mass[inside].min(initial=np.inf), method.state.mass[wet].min(initial=np.inf))
-            self.clock.touch(contact.limit(lightest) if near else np.inf)
+        self.beside.advance(end)
 
     def _with_gas(self, end: float):
         """Gas through the window to `end` [s], or through the part of it that it can finish: where that ends, and what
@@ -211,7 +177,7 @@ class Simulation:
 
     def row(self) -> dict[str, float]:
         """What history.csv holds; columns of other methods begin with their matter."""
-        return history.row(self) | _named(self.beside, lambda method: method.row())
+        return history.row(self) | self.beside.named(lambda method: method.row())
 
     def meshes(self) -> dict:
         """Particles and gas for the timeline."""
@@ -219,13 +185,13 @@ class Simulation:
         return {
             "particles": output.particle_points(self.grains, self.case.grains.density),
             "gas": output.with_fields(*self.grid, self.cell_fields()),
-        } | {matter: method.points() for matter, method in self.beside.items()}
+        } | self.beside.points()
 
     def walls(self):
         """Surfaces of walls for pictures (pyvista); None where there are none: sides of the domain are seen anyway."""
         mesh = self.case.parameters["walls"].mesh if self.parameters["walls"] else ""
         parts = [boundary.surface(mesh, self.case.dimensions)] if mesh else []
-        parts += [walls for method in self.beside.values() if (walls := method.walls()) is not None]
+        parts += self.beside.walls()
         return parts[0].append_polydata(*parts[1:]) if parts else None
 
     def summary(self, out) -> dict[str, float]:
@@ -240,12 +206,11 @@ class Simulation:
             own |= {key: out.last[key] for key in (f"{name}_{probed}" for probed in history.PROBED) if key in out.last}
             if (key := f"{name}_temperature_K") in out.last:
                 own[f"{name}_rise_K"] = out.last[key] - out.first[key]
-        return own | _named(self.beside, lambda method: method.summary() | method.ledger.summary())
+        return own | self.beside.named(lambda method: method.summary() | method.ledger.summary())
 
     def warnings(self) -> list[str]:
         """What the run has to say of itself in the end: of the grains nothing that the ledger does not."""
-        told = [f"the gas does not feel the {matter} beside the grains: it flows through" for matter in self.beside]
-        return told + [text for method in self.beside.values() for text in method.warnings()]
+        return self.beside.warnings()
 
     def cell_fields(self) -> dict[str, np.ndarray]:
         """Fields of the gas, and alpha_p by cell."""
@@ -321,16 +286,6 @@ class Simulation:
         result = function(*arguments)
         self.wall[part] += clock.perf_counter() - start
         return result
-
-
-def _named(methods: dict, told) -> dict:
-    """What each method tells, (method) -> name -> value, under names that begin with its matter."""
-    found = {matter: told(method) for matter, method in methods.items()}
-    return {
-        f"{matter}_{key.removeprefix(f'{matter}_')}": value
-        for matter, own in found.items()
-        for key, value in own.items()
-    }
 
 
 def parts_of(case) -> tuple[dict, Source | None, Stepper, Window]:
