@@ -12,7 +12,7 @@ CODE = re.compile(rb"(?i)#\s*(?:calc|code|stream)")  # of openfoam.org too
 PATH = rb"[ \t]*+(?:\"([^\"\\\n]*+)\"|([^\s\"'/;{}#$()]++))"
 FUNCTION = rb"[ \t]*+\"?([A-Za-z]\w*+)(?:\([\w,.]*+\))?\"?(?=\s|;|\Z)"
 LEFT = rb"()"
-EVALUATED = rb"[ \t]*+(?:\"[^\"\\\n]*+\"|\{(?:[^{}\"#/\\\n]|/(?![/*]))*+\})()"
+EVALUATED = rb"[ \t]*+(?:\"[^\"\\\n]*+\"|\{(?:[^{}\"#/\\\n]|/(?![/*]))*\})()"
 ARGUMENTS = {  # what stands behind a directive, in its line
     b"#include": PATH, b"#sinclude": PATH, b"#includeIfPresent": PATH, b"#includeEtc": PATH, b"#sincludeEtc": PATH,
     b"#includeFunc": FUNCTION, b"#inputMode": rb"[ \t]*+\w++()", b"#eval": EVALUATED,
@@ -20,7 +20,7 @@ ARGUMENTS = {  # what stands behind a directive, in its line
     b"#if": LEFT, b"#ifeq": LEFT, b"#elif": LEFT, b"#else": LEFT, b"#endif": LEFT,
 }  # fmt: skip
 # The rest of the line is passed over unread where entries are skipped: nothing may begin in it that ends behind it
-PLAIN = re.compile(rb"(?:[^\"#/\\$\n]|\"[^\"\\\n]*+\"|/(?![/*])|\$(?=[\w{:.\[]))*+(?://[^\n]*+)?(?=\n|\Z)")
+PLAIN = re.compile(rb"(?:[^\"#/\\$\n]|\"[^\"\\\n]*+\"|/(?![/*])|\$(?=[\w{:.\[]))*(?://[^\n]*+)?(?=\n|\Z)")
 
 OF_CASE = {"$FOAM_CASE": "", "${FOAM_CASE}": "", "<case>": "", "<constant>": "constant", "<system>": "system"}
 CERTAIN = re.compile(r"[\w.,+@=:%/-]+", re.ASCII)

@@ -11,11 +11,12 @@ from collections.abc import Iterator
 from enum import Enum, auto
 from typing import NamedTuple
 
+# No group is repeated possessively: before Python 3.11.5 what fails within one is passed over all the same (gh-106052)
 BLANK = rb"(?:\s++|//[^\n]*+|/\*(?s:.*?)\*/)"
 NUMBER = rb"(?:\([-+.\deE\s]*+\)|[-.\d][-+.\deE]*+)"  # also a bracket of nothing else
-SKIPPED = re.compile(rb"(?:%b|%b)*+" % (BLANK, NUMBER))
-BLANKS = re.compile(BLANK + rb"*+")
-STRING = re.compile(rb'"((?:[^"\\\n]|\\(?s:.))*+)"')
+SKIPPED = re.compile(rb"(?:%b|%b){0,4096}" % (BLANK, NUMBER))  # so many at a time: each takes memory
+BLANKS = re.compile(BLANK + rb"*")
+STRING = re.compile(rb'"([^"\\\n]*+(?:\\(?s:.)[^"\\\n]*+)*)"')
 ESCAPED = re.compile(rb"\\(?s:(.))")
 VERBATIM = re.compile(rb"\{(?s:(.*?))#\}")
 IN_WORD = re.compile(rb"[^\s\"'/;{}]*+")
@@ -68,7 +69,9 @@ class Tokens:
 
     def next(self) -> Token | None:
         """The next token, None at the end."""
-        start = SKIPPED.match(self.data, self.position).end()
+        start = self.position
+        while (end := SKIPPED.match(self.data, start).end()) > start:
+            start = end
         if start == len(self.data):
             self.position = start
             return None

@@ -1,9 +1,13 @@
 """Words of OpenFOAM dictionaries are cut where OpenFOAM cuts them."""
 
+import re
+from pathlib import Path
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from coupling.openfoam import code
 from coupling.openfoam.code.tokens import Doubt, Kind, Tokens
 
 WORD, STRING, VERBATIM, VARIABLE, HASH, MARK = Kind
@@ -90,3 +94,10 @@ def test_tokens_go_forward_and_cover_what_is_no_blank(text):
 def test_numbers_are_passed_over(numbers, depth):
     text = b" ".join(b"%r" % number for number in numbers)
     assert all(kind is MARK for kind, _ in cut(b"(" * depth + text + b")" * depth))
+
+
+def test_no_group_is_repeated_possessively():
+    """Before Python 3.11.5, that of Debian 12 among them, such a group passes over what it does not match (gh-106052)."""
+    folder = Path(code.__file__).parent
+    found = {file.name: re.findall(r"\)(?:[*+?]|\{[0-9,]+\})\+", file.read_text()) for file in folder.glob("*.py")}
+    assert len(found) > 3 and not any(found.values()), found
