@@ -97,7 +97,7 @@ def test_numbers_are_passed_over(numbers, depth):
 
 
 def test_no_group_is_repeated_possessively():
-    """Before Python 3.11.5, that of Debian 12 among them, such a group passes over what it does not match (gh-106052)."""
+    """Before Python 3.11.5 (Debian 12) such a group passes over what it does not match (gh-106052)."""
     folder = Path(code.__file__).parent
     found = {file.name: re.findall(r"\)(?:[*+?]|\{[0-9,]+\})\+", file.read_text()) for file in folder.glob("*.py")}
     assert len(found) > 3 and not any(found.values()), found
