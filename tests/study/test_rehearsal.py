@@ -51,6 +51,7 @@ BOX = ("tank.shape='box'", "tank.lower_m=[0,0,0]", "tank.upper_m=[1,1,1]")
         ("sloshing_box", ("frame.shake=[[0,[1.0],1.0,0.0]]",), "a row is [axis"),
         ("sloshing_box", ("run.metrics=['bubble']",), "for liquids: none"),
         ("sloshing_cassini", ("tank.outlet_radius_m=1.0",), "an outlet is narrower"),
+        ("sloshing_cassini", ("tank.outlet_radius_m=5e-324",), "a pipe is a particle wide"),
         ("sloshing_cassini", BOX, "an outlet is narrower"),
         ("sloshing_cassini", ("drain.end_s=1.0", "drain.start_s=2.0"), "drain.end_s = 1 must come after"),
         ("sloshing_cassini", ("pools.propellant.fill=1e-9",), "less than half a particle"),

@@ -56,6 +56,9 @@ def shape_of(case):
     if own.outlet_radius and (own.shape in ("box", "mesh") or d == 2 or own.outlet_radius >= (own.radius or math.inf)):
         allowed = "an outlet is narrower than its tank, a sphere, cylinder or capsule in 3-D"
         raise CaseError(f"tank.outlet_radius_m = {own.outlet_radius:g}; {allowed}")
+    if 0.0 < own.outlet_radius < 0.5 * case.resolution.spacing:
+        given = f"tank.outlet_radius_m = {own.outlet_radius:g}"
+        raise CaseError(f"{given}; a pipe is a particle wide at least: half of resolution.spacing_mm, or 0 for none")
     if own.shape == "box":
         return _box(case, own)
     if own.shape == "mesh" and d == 3:
