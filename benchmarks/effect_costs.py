@@ -1,4 +1,4 @@
-"""What each effect costs, and that one that is off costs nothing: against the same loop built without its terms.
+"""Cost of each effect, and that one that is off costs nothing: against the same loop built without its terms.
 
     python benchmarks/effect_costs.py [effect ...]
 

@@ -1,4 +1,4 @@
-"""What a sub-step of the bubbling bed costs, part by part, on one thread and on two: python
+"""Cost of a sub-step of the bubbling bed, part by part, on one thread and on two: python
 benchmarks/grain_sub_step.py [until]
 
 10 000 particles, all effects, after `until` seconds of bed (0.01) on the embedded gas. Least of all windows after that.

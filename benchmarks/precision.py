@@ -1,4 +1,4 @@
-"""What single precision would give: the loops over pairs with every array and number in 32 bits against 64.
+"""Gain of single precision: the loops over pairs with every array and number in 32 bits against 64.
 
     python benchmarks/precision.py
 

@@ -1,4 +1,4 @@
-"""Which gas solver a case gets: OpenFOAM's, the embedded one, or with `auto` OpenFOAM's where it is and can be used.
+"""Choice of the gas solver: OpenFOAM's, the embedded one, or with `auto` OpenFOAM's where it is and can be used.
 
 Each solver is imported where it is made: it takes 0.15 s, and a run needs one of them.
 """
@@ -12,6 +12,7 @@ from coupling.gas import GasError
 from coupling.openfoam.programs.build import silent
 from sdph import scenes
 from sdph.case import read as cases
+from sdph.engine.reading import one_line
 from sdph.scenes import paths
 from sdph.schema import CaseError
 
@@ -79,7 +80,7 @@ def _automatic(case, folder: Path, template: Path, status, allow_code: bool):
 
 
 def _not_ready(status) -> str | None:
-    """Why there is no sdphGasFoam to run, in one line; None where there is."""
+    """Reason, in one line, that there is no sdphGasFoam to run; None where there is one."""
     from coupling.openfoam.programs import install
 
     if install.find() is None:
@@ -87,20 +88,16 @@ def _not_ready(status) -> str | None:
     try:
         install.gas_solver(status)
     except (GasError, CaseError, OSError) as error:
-        return f"OpenFOAM cannot be used: {_line(error)}"
+        return f"OpenFOAM cannot be used: {one_line(error)}"
     return None
 
 
 def _trial() -> str | None:
-    """Why OpenFOAM does not run the shipped disc, in one line; None where it does."""
+    """Reason, in one line, that OpenFOAM does not run the shipped disc; None where it does."""
     disc = cases.load(scenes.HERE / "disc_cluster" / "case.toml")
     with tempfile.TemporaryDirectory() as folder:
         try:
             _openfoam(disc, Path(folder), paths.gas_template("disc_cluster"), silent, False).close()
         except GasError as error:
-            return f"OpenFOAM cannot be used: {_line(error).partition(' (log: ')[0]}"
+            return f"OpenFOAM cannot be used: {one_line(error).partition(' (log: ')[0]}"
     return None
-
-
-def _line(error: BaseException) -> str:
-    return " ".join(str(error).split())

@@ -33,6 +33,7 @@ FIELDS = {
     "pressure_gradient": ("Pa/m", 3, "gradient of the gas pressure, as the momentum equation saw it"),
     "temperature": ("K", 1, "gas temperature"),
     "density": ("kg/m3", 1, "gas density"),
+    "power": ("W/m3", 1, "power of what the particles gave in `momentum` and `momentum_coefficient`, in the last step"),
     "vapour_mass_fraction": ("1", 1, "mass fraction of vapour (only where a vapour is solved for)"),
 }
 
@@ -72,9 +73,12 @@ class Mesh:
 class Budget:
     """Totals over the mesh, and what crossed the boundary since the start of the run (in minus out).
 
-    mass [kg], energy [J] (sum of alpha rho cp T V, reference 0 K), vapour [kg], momentum (3,) [kg m/s]
-    of the gas; `*_in` the same through the boundaries. `force` (3,) [N] is that of walls and boundary
-    pressure on the gas in the last step; `courant` the largest Courant number of the last step.
+    mass [kg], energy [J] (enthalpy, sum of alpha rho cp T V, reference 0 K), kinetic [J] (sum of alpha rho U^2/2 V),
+    vapour [kg], momentum (3,) [kg m/s] of the gas; `*_in` the same through the boundaries. `pressure_work` [J] is what
+    alpha U.grad p gave the enthalpy since the start, out of the motion of the gas; `boundary_work` [J] what that motion
+    got from the pressure besides; `gravity_work` [J] what gravity gave it. In works and powers U is the mean of the
+    velocities before and after a step. `force` (3,) [N] is that of walls and boundary pressure on the gas in the last
+    step; `courant` the largest Courant number of the last step.
     `residuals` names the final linear-solver residual of each equation.
     """
 
@@ -87,6 +91,11 @@ class Budget:
     vapour_in: float
     courant: float
     force: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    kinetic: float = 0.0
+    kinetic_in: float = 0.0
+    pressure_work: float = 0.0
+    boundary_work: float = 0.0
+    gravity_work: float = 0.0
     residuals: dict[str, float] = field(default_factory=dict)
 
 

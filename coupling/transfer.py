@@ -157,7 +157,7 @@ def _add(bins, x, y, z, cells, weight, found):
 
 @njit(cache=True, error_model="numpy")
 def _inside(side, reach, place):
-    """Whether a place is so far from both ends of an axis that none mirrors it."""
+    """True where a place is so far from both ends of an axis that none mirrors it."""
     return side == np.inf or reach <= place <= side - reach
 
 

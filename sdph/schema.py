@@ -59,7 +59,7 @@ record = dataclasses.dataclass(frozen=True, kw_only=True)
 
 @dataclasses.dataclass(frozen=True)
 class Kind:
-    """What a field accepts: its unit, its bounds, and how many components (0: a scalar, None: any number)."""
+    """Values that a field accepts: its unit, its bounds, and how many components (0: a scalar, None: any number)."""
 
     unit: str = ""
     above: float = -math.inf

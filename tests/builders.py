@@ -103,7 +103,7 @@ def summed_density(kernel, state, period=OPEN):
     state, rows = Neighbours(kernels.SUPPORT * kernel.h, period).update(state)
     density = np.full(len(state.x), np.nan)
     rates.sum_density(
-        kernel, state, rows, box_of(period, dimensions_of(state)), OFF, OFF, OFF, density, np.empty(len(rows.entries))
+        kernel, state, rows, box_of(period, dimensions_of(state)), OFF, OFF, density, np.empty(len(rows.entries))
     )
     return state, density
 
@@ -116,6 +116,6 @@ def conduction_heating(kernel, state, conduction_p, period=OPEN):
         np.empty(len(rows.entries)),
         np.full(len(state.x), np.nan),
     )
-    rates.sum_density(kernel, state, rows, box, OFF, OFF, OFF, np.empty(len(state.x)), pull)
+    rates.sum_density(kernel, state, rows, box, OFF, OFF, np.empty(len(state.x)), pull)
     rates.conduct(kernel, state, rows, box, pull, conduction_p, heating)
     return state, heating

@@ -52,4 +52,5 @@ class StillGas:
             "pressure_gradient": zeros,
             "temperature": self.temperature.copy(),
         }
-        return GasState(self.time, fields | {"density": np.full(len(zeros), gas.density)}, budget)
+        rest = {"density": np.full(len(zeros), gas.density), "power": zeros[:, 0]}
+        return GasState(self.time, fields | rest, budget)

@@ -55,6 +55,7 @@ class Row:
         self.mesh = Mesh(centres, np.full(cells, np.prod(case.domain.size) / cells), case.dimensions)
         self.wave = 2j * math.pi * np.fft.rfftfreq(cells, length / cells)
         self.time, self.velocity, self.rise = 0.0, np.zeros((cells, 3)), np.zeros(cells)
+        self.power, self.heat = np.zeros(cells), 0.0
         self.given = alpha_g
 
     def start(self, alpha_g, sources, fields=()):
@@ -69,7 +70,10 @@ class Row:
         push[:, 0] = -(self.c**2) * self._slope(self.rise)
         push += np.array((*self.case.domain.gravity, 0.0)[:3]) - self.alpha * self.gradient / self.mass
         drag, pull = sources.get("momentum_coefficient", np.zeros(len(push)))[:, None], sources.get("momentum", 0.0)
+        before = self.velocity
         self.velocity = (self.mass * (self.velocity + dt * push) + dt * pull) / (self.mass + dt * drag)
+        self.power = ((pull - drag * self.velocity) * 0.5 * (before + self.velocity)).sum(axis=1)
+        self.heat += float((sources.get("heat", np.zeros(1)) * self.mesh.volumes).sum() * dt)
         self.rise = self.rise - dt * self._slope(self.velocity[:, 0])
         return self._state()
 
@@ -82,11 +86,13 @@ class Row:
     def _state(self):
         zeros, cells = np.zeros(len(self.velocity)), len(self.velocity)
         total = (self.mass * self.mesh.volumes[:, None] * self.velocity).sum(axis=0)
-        budget = Budget(self.mass * self.mesh.volumes.sum(), 0.0, 0.0, tuple(total), 0.0, 0.0, 0.0, 0.0)
+        kinetic = 0.5 * self.mass * float(self.mesh.volumes @ (self.velocity**2).sum(axis=1))
+        own = self.mass * self.mesh.volumes.sum(), self.heat, 0.0, tuple(total), 0.0, 0.0, 0.0, 0.0
+        budget = Budget(*own, kinetic=kinetic)
         fields = {
             "velocity": self.velocity.copy(), "pressure": zeros,
             "pressure_gradient": np.tile(self.gradient, (cells, 1)), "temperature": zeros + 300.0,
-            "density": zeros + self.case.gas.density,
+            "density": zeros + self.case.gas.density, "power": self.power,
         }  # fmt: skip
         return GasState(self.time, fields, budget)
 

@@ -71,7 +71,7 @@ def _side(case, grid: Grid, axis: int, upper: int) -> dict[str, np.ndarray]:
 
 
 def _row(case, name: str) -> dict:
-    """What one boundary says, with what it leaves out taken from the gas of the case."""
+    """Values of one boundary, with what it leaves out taken from the gas of the case."""
     boundary = case.boundaries[name]
     if boundary.kind not in KINDS:
         raise CaseError(f"boundaries.{name}.kind = {boundary.kind!r}; the embedded gas solver knows {', '.join(KINDS)}")
@@ -136,7 +136,7 @@ def _inside(grid: Grid, axis: int, span: tuple, name: str) -> np.ndarray:
 
 
 class Ghosts(NamedTuple):
-    """How to fill the ghosts of one field: ghost <- value where pinned, else the field at node."""
+    """Rule for the ghosts of one field: ghost <- value where pinned, else the field at node."""
 
     ghost: np.ndarray
     node: np.ndarray

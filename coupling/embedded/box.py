@@ -1,4 +1,5 @@
-"""What does not change during a run, what every window hands on to the next, and what one window is given."""
+"""Constants of a run (`Box`), the state that every window hands on to the next (`Flow`), and the input of one
+(`Window`)."""
 
 from __future__ import annotations
 
@@ -31,7 +32,7 @@ class Box:
 
     @property
     def closed(self) -> bool:
-        """Whether nothing opens to a given pressure."""
+        """True where nothing opens to a given pressure."""
         return not self.faces.open.any()
 
     def outward(self, flux: np.ndarray) -> np.ndarray:
@@ -43,7 +44,7 @@ class Box:
 class Flow:
     """All that the next window needs. Cells (S,): alpha, mass, vapour [kg], temperature [K], pressure [Pa];
     faces (d, S): velocity [m/s], flux [kg/s]; `ratio` of the density to the equation of state; what came in
-    through the boundary since the start [kg, J, kg]."""
+    through the boundary since the start [kg, J, kg, J]; works since the start [J], see `coupling.gas.Budget`."""
 
     time: float
     alpha: np.ndarray
@@ -57,6 +58,10 @@ class Flow:
     mass_in: float = 0.0
     energy_in: float = 0.0
     vapour_in: float = 0.0
+    kinetic_in: float = 0.0
+    pressure_work: float = 0.0
+    boundary_work: float = 0.0
+    gravity_work: float = 0.0
 
     def fraction(self):
         """Mass fraction of vapour in the cells, 0 in ghosts."""

@@ -13,9 +13,9 @@ TURNOVER = 0.5  # of a cell's mass in one sub-step: up to here the scheme is bou
 
 
 class Nodes(NamedTuple):
-    """Where a field lives: rows of its nodes and of the faces between them (see `Grid`); `shift` is 0 for cells, and
-    for the velocity along an axis that axis' stride: a control volume then takes half of each neighbour's fluxes;
-    `active` (S,): nodes that change; gap, reach (d, S) between nodes."""
+    """Nodes of a field: rows of them and of the faces between them (see `Grid`); `shift` is 0 for cells, and for the
+    velocity along an axis that axis' stride: a control volume then takes half of each neighbour's fluxes; `active`
+    (S,): nodes that change; gap, reach (d, S) between nodes."""
 
     inner: tuple
     wide: tuple
@@ -64,7 +64,7 @@ def substeps(inner, flux, before, after, dt):
 
 @njit(error_model="numpy")
 def _face_flux(nodes, a, field, mass, flux, sub, limited, face):
-    """What each face of axis a lets through, into face (S,)."""
+    """Flux of the field through each face of axis a, into face (S,)."""
     rows, run, steps = nodes.wide
     s, shift, gap, reach = steps[a], nodes.shift, nodes.gap[a], nodes.reach[a]
     for row in rows:
@@ -96,7 +96,7 @@ def _update(nodes, field, mass, flux, face, sub, follows):
 
 @njit(error_model="numpy")
 def _ahead(field, exchange):
-    """What faces carry: the field half a window's exchange on, with the (share kept, gain) of every node."""
+    """Field that faces carry: half a window's exchange on, with the (share kept, gain) of every node."""
     if len(exchange) == 0:
         return field
     return exchange[0] * field + exchange[1]

@@ -10,7 +10,7 @@ ITERATIONS = 500  # of a solver; our choice: far above what any case of ours nee
 
 
 def not_converged(name: str, time: float, residual: float) -> str:
-    """What to say of an equation whose solver gave up."""
+    """Message of an equation whose solver gave up."""
     return (
         f"embedded gas solver: {name} did not converge at t = {time:g} s, residual {residual:.1e}; shorten the window"
     )
@@ -90,7 +90,7 @@ def _begin(nodes, active, conductance, diagonal, source, x, inverse, r):
 
 @njit(error_model="numpy")
 def _settle(wide, active, conductance, diagonal, source, x, through):
-    """What every face lets through upwards, and x = (source + what came in)/D."""
+    """Set the upward flux through every face, and x = (source + what came in)/D."""
     rows, run, steps = wide
     for a in range(len(steps)):
         s = steps[a]

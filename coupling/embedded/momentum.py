@@ -54,8 +54,9 @@ def divergence(inner, velocity, width, out):
 
 @njit(cache=True, error_model="numpy")
 def rest_of_stress(wide, axis, viscosity, velocity, spread, grid, out):
-    """What the Laplacian leaves out of tau (Eq. 5 of the closure sheet), times area [N], on the faces of the control
-    volumes of the velocity along `axis`, into out (d, S): alpha mu (dv_b/dx_axis - 2/3 div v on the normal ones)."""
+    """Part of tau (Eq. 5 of the closure sheet) that the Laplacian leaves out, times area [N], on the faces of the
+    control volumes of the velocity along `axis`, into out (d, S): alpha mu (dv_b/dx_axis - 2/3 div v on the normal
+    ones)."""
     rows, run, steps = wide
     area, s = grid.area, steps[axis]
     for b in range(len(steps)):

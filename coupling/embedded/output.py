@@ -1,4 +1,4 @@
-"""What the solver hands back: cell fields and the budget."""
+"""Output of the solver: cell fields and the budget."""
 
 from __future__ import annotations
 
@@ -9,20 +9,15 @@ import numpy as np
 from coupling.embedded.boundaries import component_ghosts
 from coupling.embedded.box import Box, Flow, Window
 from coupling.embedded.linear import fill
+from coupling.embedded.works import inside, kinetic_energy
 from coupling.gas import Budget
 
 
 def cell_velocity(box: Box, flow: Flow) -> np.ndarray:
     """(C, 3) mean of the two faces of each cell, which makes the drag on both sides equal (see momentum.py). At an
     inlet the face counts with the velocity just inside, where the gas has the room of the cell."""
-    grid, faces = box.grid, box.faces
-    inside = flow.velocity.copy()
-    fixed = ~faces.open
-    axis, face, cell = faces.axis[fixed], faces.face[fixed], faces.cell[fixed]
-    inside[axis, face] = (
-        flow.flux[axis, face] * grid.geometry.volume[cell] / (flow.mass[cell] * grid.geometry.area[axis, face])
-    )
-    return _cell_vectors(box, lambda a, s: 0.5 * (inside[a, grid.cells] + inside[a, grid.cells + s]))
+    grid, velocity = box.grid, inside(box, flow)
+    return _cell_vectors(box, lambda a, s: 0.5 * (velocity[a, grid.cells] + velocity[a, grid.cells + s]))
 
 
 def pressure_gradient(box: Box, flow: Flow) -> np.ndarray:
@@ -58,7 +53,7 @@ ASKED = {"vorticity": vorticity}  # of `coupling.gas.ON_REQUEST`
 
 
 def cell_fields(box: Box, flow: Flow, asked: tuple[str, ...]) -> dict[str, np.ndarray]:
-    """The fields of `coupling.gas.FIELDS`, and those that were asked for."""
+    """Fields of `coupling.gas.FIELDS` before any window, and those that were asked for."""
     cells = box.grid.cells
     fields = {
         "velocity": cell_velocity(box, flow),
@@ -66,6 +61,7 @@ def cell_fields(box: Box, flow: Flow, asked: tuple[str, ...]) -> dict[str, np.nd
         "pressure_gradient": pressure_gradient(box, flow),
         "temperature": flow.temperature[cells],
         "density": flow.mass[cells] / (flow.alpha[cells] * box.grid.geometry.volume[cells]),
+        "power": np.zeros(len(cells)),
     } | {name: ASKED[name](box, flow) for name in asked}
     return fields | ({"vapour_mass_fraction": flow.fraction()[cells]} if box.vapour is not None else {})
 
@@ -95,5 +91,7 @@ def budget(box: Box, flow: Flow, fields: dict[str, np.ndarray]) -> Budget:
         energy=float((capacity * flow.temperature[cells]).sum()),
         vapour=float(flow.vapour[cells].sum()),
         momentum=tuple(np.einsum("i,ij->j", flow.mass[cells], fields["velocity"]).tolist()),
-        mass_in=flow.mass_in, energy_in=flow.energy_in, vapour_in=flow.vapour_in, courant=0.0,
+        kinetic=kinetic_energy(box, flow),
+        mass_in=flow.mass_in, energy_in=flow.energy_in, vapour_in=flow.vapour_in, kinetic_in=flow.kinetic_in,
+        pressure_work=flow.pressure_work, boundary_work=flow.boundary_work, gravity_work=flow.gravity_work, courant=0.0,
     )  # fmt: skip

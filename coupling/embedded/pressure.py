@@ -130,7 +130,7 @@ class Pressure:
         balance(grid.inner, flux, window.vapour, old.mass, dt, mass)
         self._carry_beyond(flux)
         pressure = old.pressure + correction
-        self._lean(window, mass, velocity, pressure)
+        self._lean(window, mass, flux, pressure)
         new = {"alpha": window.alpha, "mass": mass, "velocity": velocity, "flux": flux, "ratio": aim.ratio}
         totals = {"time": old.time + dt, "mass_in": old.mass_in - float(dt * box.outward(flux).sum())}
         return replace(old, pressure=pressure, **new, **totals), error
@@ -142,21 +142,18 @@ class Pressure:
         return flux
 
     def _carry_beyond(self, flux: np.ndarray) -> None:
-        """What passes an opening goes on beyond it: half the control volume of the velocity there ends on it."""
+        """Carry the flux through an opening on beyond it: half the control volume of the velocity there ends on it."""
         faces = self.box.faces
         beyond = faces.face + (faces.sign * np.array(self.box.grid.strides)[faces.axis]).astype(np.int64)
         flux[faces.axis, beyond] = flux[faces.axis, faces.face]
 
-    def _lean(self, window: Window, mass: np.ndarray, velocity: np.ndarray, pressure: np.ndarray) -> None:
-        """Where the boundary gives the velocity, its pressure (in the ghosts) holds the gas there against weight and
-        particles."""
+    def _lean(self, window: Window, mass: np.ndarray, flux: np.ndarray, pressure: np.ndarray) -> None:
+        """Set the pressure in the ghosts where the boundary gives the velocity: it holds the gas there against weight
+        and particles, between which it is as fast as its flux asks for."""
         faces, grid = self.box.faces, self.box.grid
         fixed = np.flatnonzero(~faces.open)
         axis, cell, face = faces.axis[fixed], faces.cell[fixed], faces.face[fixed]
-        force = (
-            mass[cell] * np.array(self.box.gravity)[axis]
-            + window.push[axis, cell]
-            - window.pull[cell] * velocity[axis, face]
-        )
+        velocity = flux[axis, face] * grid.geometry.volume[cell] / (mass[cell] * grid.geometry.area[axis, face])
+        force = mass[cell] * np.array(self.box.gravity)[axis] + window.push[axis, cell] - window.pull[cell] * velocity
         slope = force / (window.alpha[cell] * grid.geometry.volume[cell])
         pressure[faces.ghost[fixed]] = pressure[cell] + faces.sign[fixed] * grid.geometry.gap[axis, face] * slope

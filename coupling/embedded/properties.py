@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from sdph.case.read import CaseError
-
-GAS_CONSTANT = 8314.462618  # J/kmol/K, CODATA 2018
+from sdph.laws.eos import ideal_gas_density
+from sdph.laws.evaporation import mixture_molar_mass
 
 
 class Properties:
@@ -34,7 +34,7 @@ class Properties:
 
     def _operating(self, T, Y):
         """p_op M/(R T) with 1/M = (1 - Y)/M_g + Y/M_v [kg/m3]."""
-        moles = 1.0 / self.gas.molar_mass
+        molar_mass = self.gas.molar_mass
         if self.vapour is not None:
-            moles = moles + Y * (1.0 / self.vapour.molar_mass - moles)
-        return self.gas.operating_pressure / (GAS_CONSTANT * moles * T)
+            molar_mass = mixture_molar_mass(Y, self.vapour.molar_mass, molar_mass)
+        return ideal_gas_density(self.gas.operating_pressure, T, molar_mass)

@@ -11,6 +11,7 @@ from coupling.embedded.boundaries import Ghosts, on_faces
 from coupling.embedded.box import Box, Flow, Window
 from coupling.embedded.convection import Nodes, convect, substeps
 from coupling.embedded.linear import fill, solve_implicit
+from coupling.embedded.works import pressure_work
 from coupling.gas import Unfinished
 
 NO_SHIFT = np.uint64(0)
@@ -78,11 +79,17 @@ class Scalars:
         grown = window.dt * (
             window.cling if self.box.vapour is None else window.cling + self.box.vapour.heat_capacity * window.vapour
         )
-        exchanged = (after + window.dt * window.cling, grown, window.dt * window.warmth)
+        pressed, unpaid = pressure_work(self.box, old, window, flow)
+        given = window.dt * window.warmth + self.box.grid.padded(pressed)
+        exchanged = (after + window.dt * window.cling, grown, given)
         carried = (old.temperature.copy(), before.copy(), carrier, parts)
         temperature, through, error = self._transport(flow, window.dt, "heat", carried, conductivity, exchanged)
         energy_in = flow.energy_in - float(self.box.outward(through).sum())
-        return replace(flow, temperature=temperature, energy_in=energy_in), error
+        works = {
+            "pressure_work": old.pressure_work + float(pressed.sum()),
+            "boundary_work": old.boundary_work + float(unpaid.sum()),
+        }
+        return replace(flow, temperature=temperature, energy_in=energy_in, **works), error
 
     def _transport(self, flow: Flow, dt: float, name: str, carried, diffusivity: np.ndarray, exchanged):
         """One field from the start of the window to its end, and what went through every face."""

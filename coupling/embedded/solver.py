@@ -6,10 +6,13 @@ Low-Mach equations of a gas of volume fraction alpha on a Cartesian staggered gr
     ddt(alpha rho u)    + div(alpha rho u u)    = -alpha grad p + div tau + alpha rho g + beta v_p - beta u + Gamma v_p
     ddt(alpha rho Y)    + div(alpha rho u Y)    = -div J + Gamma,    J = -alpha rho D grad Y
     ddt(alpha rho cp T) + div(alpha rho u cp T) = div(alpha k grad T) - div((cp_v - cp_g) T J) + eps T_p - eps T + q
+                                                  + alpha u.grad p
 
 First order in time, second in space. Convection is explicit, in as many sub-steps as the window needs, the rest
 implicit: accuracy alone limits a window. Mass, vapour and heat of a cell are what the fluxes brought, so totals
-close to round-off. Laminar; the work dp/dt is dropped, as the closure sheet does (Eq. 30, low Mach).
+close to round-off. Laminar. A gas of `constant` density is a low-Mach ideal gas: h = cp T, so that the pressure works
+on it (Eq. 30 of the closure sheet): with the heat of drag, q, a throttled gas keeps its temperature. Of Dp/Dt the
+rate dp/dt is left out: without sound the pressure is as high for an instant as any sudden motion asks for.
 
 In a box without opening the mass is given, so its density is the equation of state's times one factor for the
 whole box: with `operating` that is the rise of the operating pressure, with `constant` the gas is squeezed alike
@@ -31,6 +34,7 @@ from coupling.embedded.momentum import Momentum
 from coupling.embedded.output import budget, cell_fields, force_of_boundary
 from coupling.embedded.pressure import Pressure
 from coupling.embedded.scalars import Scalars
+from coupling.embedded.works import power, through_motion
 from coupling.gas import SOURCES, CheckpointError, GasError, GasState, Mesh, Unfinished, known_fields
 from sdph.case.gas_cells import cell_edges
 from sdph.engine.reading import Unreadable, read_arrays
@@ -73,7 +77,7 @@ class EmbeddedGas:
         return self.state
 
     def advance(self, dt: float, sources: dict[str, np.ndarray]) -> GasState:
-        """One window: where should the mass be, what does momentum want, what does pressure allow, what is carried."""
+        """Advance one window: mass to be reached, momentum predictor, pressure projection, transport of scalars."""
         self._check(dt, sources)
         self.before = self.flow, self.state
         old = new = self.flow
@@ -85,8 +89,11 @@ class EmbeddedGas:
             new, courant, residuals = self.scalars.carry(old, window, new)
         residuals["momentum"] = residual
         _converged(new.time, residuals, self.box.tolerance)
-        self.flow, before = new, self.state.budget.momentum
+        came, lifted = through_motion(self.box, old, new, dt)
+        works = {"kinetic_in": old.kinetic_in + came, "gravity_work": old.gravity_work + lifted}
+        self.flow, before = dataclasses.replace(new, **works), self.state.budget.momentum
         found = self._state()
+        found.fields["power"] = power(self.box, old, window, new) / self.mesh.volumes
         force = force_of_boundary(self.box, window, before, new, found.fields)
         residuals |= {"pressure": left, "box": float(new.ratio - 1.0)}
         full = dataclasses.replace(found.budget, courant=courant, force=force, residuals=residuals)
@@ -130,7 +137,7 @@ class EmbeddedGas:
         return self.state
 
     def close(self) -> None:
-        """Nothing is left running."""
+        """Do nothing: the solver has no process of its own."""
 
     def _state(self) -> GasState:
         fields = cell_fields(self.box, self.flow, self.fields)

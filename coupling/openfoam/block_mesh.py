@@ -34,7 +34,7 @@ def block_mesh(case, depth: float) -> str:
 
 
 def _edges(case, axis: int, length: float) -> list[float]:
-    """Where blocks meet along an axis."""
+    """Places along an axis where blocks meet."""
     found = {0.0, length}
     for boundary in case.boundaries.values():
         for along, (low, high) in _spans(boundary, case.dimensions):
@@ -63,7 +63,7 @@ def _spans(boundary, dimensions: int) -> list[tuple[int, tuple[float, float]]]:
 
 
 def _cells(case, axis: int, edges: list[float]) -> list[tuple[int, float]]:
-    """Of each block along an axis: number of cells, and last width over first."""
+    """Number of cells and last width over first, of each block along an axis."""
     if axis >= case.dimensions:
         return [(1, 1.0)]
     if not case.resolution.stretch:

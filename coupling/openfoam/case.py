@@ -134,8 +134,8 @@ def write_decomposition(case, folder: Path, ranks: int) -> None:
     most = cells(case)[longest]
     if ranks > most:
         raise CaseError(
-            f"coupling.ranks = {ranks}; the gas is cut along its longest side, which has {most} cells: give that many "
-            "at most"
+            f"coupling.gas_ranks = {ranks}; the gas is cut along its longest side, which has {most} cells: give that "
+            "many at most"
         )
     counts = " ".join(str(ranks) if axis == longest else "1" for axis in range(3))
     text = f"numberOfSubdomains {ranks};\nmethod simple;\nsimpleCoeffs {{ n ({counts}); delta 0.001; }}\n"

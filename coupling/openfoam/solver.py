@@ -34,6 +34,7 @@ from coupling.transport import files
 from coupling.transport.messages import Kind, Message, MessageError, message_limit
 from coupling.transport.sockets import SocketServer
 from sdph.engine.clock import Clock
+from sdph.engine.reading import one_line
 from sdph.schema import CaseError
 
 START_TIME = 120.0  # s that the solver may take to read its case
@@ -68,7 +69,8 @@ class OpenFoamGas:
         allow_code: bool = False,
     ):
         self._case, self._folder, self._status = case, Path(folder).resolve(), status
-        self._log, self.case_folder, self.ranks = self._folder / "log.sdphGasFoam", self._folder, case.coupling.ranks
+        self._log, self.case_folder = self._folder / "log.sdphGasFoam", self._folder
+        self.ranks = case.coupling.gas_ranks
         self._process, self._connection, self._asking = None, None, False
         self._time, self._clock, self._fields = 0.0, Clock(case.run), ()
         self._allow_code, self._known = allow_code, {}
@@ -77,7 +79,7 @@ class OpenFoamGas:
         files.sweep(self._folder)
         program = install.gas_solver(status)
         if template is not None:
-            case_files.write_case(case, Path(template), self._folder, case.coupling.ranks, allow_code, self._known)
+            case_files.write_case(case, Path(template), self._folder, case.coupling.gas_ranks, allow_code, self._known)
             self._make_mesh()
         try:
             self._launch(program)
@@ -88,7 +90,7 @@ class OpenFoamGas:
     def _make_mesh(self) -> None:
         if not (self._folder / "constant" / "polyMesh").exists():
             self._run("blockMesh")
-        if self._case.coupling.ranks > 1:
+        if self._case.coupling.gas_ranks > 1:
             self._run("decomposePar", "-force")
         (self._folder / "case.foam").touch()
 
@@ -128,7 +130,7 @@ class OpenFoamGas:
         self.solver = f"{told.text('solver')}, {told.text('openfoam')}, {told.number('ranks')} ranks"
 
     def _start(self, program: Path, address: str, secret: str) -> subprocess.Popen:
-        ranks = self._case.coupling.ranks
+        ranks = self._case.coupling.gas_ranks
         command = [str(program), "-case", str(self._folder), "-address", address, "-watch", str(os.getpid())]
         if ranks > 1:
             command = [*install.mpirun(ranks), *command, "-parallel"]
@@ -246,7 +248,8 @@ class OpenFoamGas:
         return alive
 
     def _reason(self, error: str, what: str) -> str:
-        """Why the solver does not answer: how it ended, with the end of its log, or what was wrong with its answer."""
+        """Reason that the solver does not answer: how it ended, with the end of its log, or what was wrong with its
+        answer."""
         try:
             return f"sdphGasFoam {programs.ending(self._process.wait(1.0))}: {programs.reason(self._log)}"
         except subprocess.TimeoutExpired:
@@ -256,14 +259,14 @@ class OpenFoamGas:
         if message.kind is kind:
             return message
         if message.kind is Kind.UNFINISHED:
-            raise Unfinished(f"sdphGasFoam says: {message.values.get('text')} (log: {self._log})")
+            raise Unfinished(f"sdphGasFoam says: {one_line(message.values.get('text'))} (log: {self._log})")
         self.close()
         said = (
             message.values.get("text")
             if message.kind is Kind.ERROR
             else f"{message.kind.name} where {kind.name} was expected"
         )
-        raise refused(f"sdphGasFoam says: {' '.join(str(said).split())} (log: {self._log})")
+        raise refused(f"sdphGasFoam says: {one_line(said)} (log: {self._log})")
 
     def _check_properties(self, told: Message) -> None:
         """The particles and the gas must mean the same gas."""

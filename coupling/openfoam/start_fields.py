@@ -77,7 +77,7 @@ def _velocity_inlet(case, boundary, name: str) -> dict[str, str]:
 
 
 def _pressure_outlet(case, boundary, name: str) -> dict[str, str]:
-    """What flows back has the given temperature and vapour, and comes in at right angles to the face."""
+    """Open side: gas that flows back has the given temperature and vapour, and comes in at right angles to the face."""
     back = {"T": boundary.temperature or case.gas.temperature, "Y": boundary.vapour_mass_fraction or 0.0}
     return {
         "alpha_g": ZERO_GRADIENT,

@@ -1,1 +1,1 @@
-"""What both transports of messages stand on."""
+"""Transports of messages between particles and gas: sockets and files, on one wire format."""

@@ -119,6 +119,6 @@ class FileServer:
         return self._connection, first
 
     def close(self) -> None:
-        """Nothing listens; where nobody came, nothing of the exchange stays."""
+        """Stop listening; where nobody came, nothing of the exchange stays."""
         if not self._accepted:
             self._connection.close()

@@ -5,7 +5,8 @@
             | u32 per dimension | zeros up to a multiple of 8 of the body | data
 
 Everything is little-endian. dtype 0 is float64, 1 int64, 2 UTF-8 text (one dimension: its bytes). Whatever
-does not fit raises `MessageError` with one line that says what; nothing received is ever executed.
+does not fit raises `MessageError` with one line that says what; nothing received is ever executed. The text of `TOLD`
+is read whatever its bytes are: it may quote a file.
 `sdphGasFoam/wire.H` is the same format in C++.
 """
 
@@ -21,6 +22,7 @@ from enum import IntEnum
 import numpy as np
 
 from coupling.gas import FIELDS, ON_REQUEST, SOURCES
+from sdph.engine.reading import one_line
 
 MAGIC = b"SDPH"
 VERSION = 2
@@ -31,6 +33,7 @@ FIXED_PART = 2**18  # bytes of names, units, budget and texts that do not grow w
 GREETING_LIMIT = 2**12  # bytes of the first message, which is read before anybody knows who sends it
 MAX_FIELDS = 256
 MAX_DIMENSIONS = 4
+SHORT = 80  # letters of a text in a line that says what is wrong with it; our choice
 
 F64, I64, UTF8 = 0, 1, 2
 NUMBERS = {F64: np.dtype("<f8"), I64: np.dtype("<i8")}
@@ -41,7 +44,7 @@ class MessageError(RuntimeError):
 
 
 class Kind(IntEnum):
-    """What a message asks or tells."""
+    """Kinds of messages."""
 
     HELLO = 1  # gas -> sdph, first of all: secret
     START = 2  # sdph -> gas: sources to come, initial alpha_g
@@ -55,6 +58,9 @@ class Kind(IntEnum):
     MESH = 10  # gas -> sdph, after HELLO: mesh, properties
     UNFINISHED = 11  # gas -> sdph: why it could not finish a step; it can retreat
     RETREAT = 12  # sdph -> gas: go back to where the last step began
+
+
+TOLD = (Kind.ERROR, Kind.UNFINISHED)  # kinds whose text is for people
 
 
 @dataclass(frozen=True)
@@ -96,7 +102,7 @@ class Message:
 
 
 def secret_fits(first: Message, secret: str) -> bool:
-    """Whether the first message carries the secret of the run, compared in constant time."""
+    """True where the first message carries the secret of the run, compared in constant time."""
     given = first.values.get("secret")
     return isinstance(given, str) and hmac.compare_digest(given.encode(), secret.encode())
 
@@ -125,7 +131,7 @@ def encode(message: Message, limit: int = ABSOLUTE_LIMIT) -> bytes:
 
 def _encode_field(name: str, unit: str, value) -> tuple[bytes, bytes]:
     if isinstance(value, str):
-        data = value.encode()
+        data = _utf8(value)
         dtype, shape = UTF8, (len(data),)
     else:
         array = np.asarray(value)
@@ -143,10 +149,17 @@ def _dtype_code(name: str, array: np.ndarray) -> int:
     raise MessageError(f"field {name!r} is of type {array.dtype}; float64, int64 and text can be sent")
 
 
+def _utf8(text: str) -> bytes:
+    try:
+        return text.encode()
+    except UnicodeEncodeError:
+        raise MessageError(f"{one_line(text, SHORT)!r} cannot be sent: it is no text in UTF-8; give another") from None
+
+
 def _short_text(text: str) -> bytes:
-    data = text.encode()
+    data = _utf8(text)
     if len(data) > 255:
-        raise MessageError(f"{text[:40]!r}... is {len(data)} bytes long; a name or unit has at most 255")
+        raise MessageError(f"{one_line(text, SHORT)!r} is {len(data)} bytes long; a name or unit has at most 255")
     return bytes([len(data)]) + data
 
 
@@ -155,14 +168,19 @@ def read_header(header: bytes, limit: int = ABSOLUTE_LIMIT) -> tuple[Kind, int, 
     if len(header) != HEADER.size:
         raise MessageError(f"a header has {HEADER.size} bytes; got {len(header)}")
     magic, version, kind, length, crc, zero = HEADER.unpack(header)
-    if magic != MAGIC or zero != 0:
-        raise MessageError(f"not a message of sdph: it begins with {magic!r}")
+    if magic != MAGIC:
+        raise MessageError(f"not a message of sdph: it begins with {magic!r}; one of sdph with {MAGIC!r}")
     if version != VERSION:
         raise MessageError(f"protocol version {version}; this is version {VERSION}: run `sdph openfoam setup` again")
     if kind not in list(Kind):
         raise MessageError(f"unknown kind of message {kind}; {min(Kind)} to {max(Kind)} are known")
-    if length > min(limit, ABSOLUTE_LIMIT):
-        raise MessageError(f"{Kind(kind).name} says it is {length} bytes long; at most {limit} are allowed here")
+    if zero != 0:
+        raise MessageError(
+            f"not a message of sdph: the last word of its header is {zero}; one of sdph has 0: run "
+            "`sdph openfoam setup` again"
+        )
+    if length > (most := min(limit, ABSOLUTE_LIMIT)):
+        raise MessageError(f"{Kind(kind).name} says it is {length} bytes long; at most {most} are allowed here")
     return Kind(kind), length, crc
 
 
@@ -212,7 +230,7 @@ class _Reader:
 
     def text(self, length: int) -> str:
         try:
-            return str(self.take(length), "utf-8")
+            return str(self.take(length), "utf-8", "backslashreplace" if self.kind in TOLD else "strict")
         except UnicodeDecodeError:
             raise MessageError(f"{self.kind.name} has a text that is not UTF-8") from None
 

@@ -9,7 +9,7 @@ SLICE = 0.2  # s between two looks at whether the peer is alive
 
 
 def always() -> bool:
-    """A peer that nobody watches."""
+    """Take a peer that nobody watches to be alive."""
     return True
 
 

@@ -18,7 +18,7 @@ OF_BOX, OF_PLANE = ("rotation", "taylor_green"), ("taylor_green", "quadrupole") 
 
 
 def columns_of_history(case) -> None:
-    """No two columns of history.csv have one name."""
+    """CaseError where two columns of history.csv have one name."""
     columns = [f"{name}_{key}" for name in case.probes for key in ("temperature_K", "gas_temperature_K")]
     columns += [f"particle_{ident}_temperature_K" for ident in case.track]
     twice = [name for name, count in Counter(columns).items() if count > 1]
@@ -55,7 +55,7 @@ def mouth(case, where: str, nozzle) -> None:
 
 
 def inside(case, key: str, lower, upper) -> None:
-    """What a key places between two corners lies in the domain."""
+    """CaseError where a region from `lower` to `upper`, given by `key`, reaches out of the domain."""
     slack = SAME * max(case.domain.size)  # of centre plus radius
     if any(a < -slack or b > length + slack for a, b, length in zip(lower, upper, case.domain.size)):
         raise CaseError(
@@ -70,6 +70,10 @@ def side(case, where: str, boundary) -> None:
         raise CaseError(
             f"{where}.side = {boundary.side!r}; a case of {case.dimensions} dimensions has {', '.join(there)}"
         )
+    slides = boundary.kind == "wall" and boundary.velocity and any(boundary.velocity)
+    if slides and (boundary.side is None or boundary.velocity[SIDES[boundary.side][0]] != 0.0):
+        given = f"{where}.velocity_m_s = {list(boundary.velocity)}"
+        raise CaseError(f"{given}; a wall slides along its side: name the side, and give 0 at right angles to it")
     if boundary.span is None:
         return
     if boundary.side is None:
@@ -102,7 +106,7 @@ def _is_pair(part) -> bool:
 
 
 def check(case: Case) -> None:
-    """What no single key can tell."""
+    """Check what several keys decide together: `CaseError` where they do not fit."""
     if case.liquid and (case.gas is None) != (case.grains is None):
         raise CaseError("a liquid stands alone, or beside grains in a gas: give both [grains] and [gas], or neither")
     for name in case.effects:
@@ -118,12 +122,42 @@ def check(case: Case) -> None:
 
 
 def _check_one(case: Case) -> None:
-    """Of a case with grains or a liquid alone."""
+    """Check a case of grains alone or of a liquid alone."""
+    if case.particles and case.grains is None:
+        raise CaseError(f"particles.{next(iter(case.particles))} is given without [grains]; add that, or leave it out")
     if case.scene and case.scene not in scenes.names():
         raise CaseError(f"{unknown(case.scene, scenes.names()).replace('unknown key', 'scene =', 1)}; or leave it out")
     _check_phases(case)
     if case.resolution.cell is None and not case.liquid:
         raise CaseError("resolution.cell_mm is missing; it has no default: give it in [resolution]")
+    _check_components(case)
+    if any(not 1.0 / STRETCH <= ratio <= STRETCH for ratio in case.resolution.stretch or ()):
+        given = f"resolution.stretch = {list(case.resolution.stretch)}"
+        raise CaseError(f"{given}; every ratio must be from {1.0 / STRETCH:g} to {STRETCH:g}: 1 for equal cells")
+    if min(case.domain.size) <= 0.0:
+        raise CaseError(f"domain.size_m = {list(case.domain.size)}; every length must be above 0")
+    _check_period(case)
+    if any(isinstance(t, tuple) or t <= 0.0 for t in case.run.report_at):
+        raise CaseError(f"run.report_at_s = {list(case.run.report_at)}; it must be a list of times above 0")
+    _check_outputs(case)
+    for name, pool in case.pools.items():
+        if pool.shape != "tank":
+            _check_place(case, f"pools.{name}", pool)
+            _check_period_of_pool(case, f"pools.{name}", pool)
+        flow(case, f"pools.{name}", pool)
+    for name, boundary in case.boundaries.items():
+        side(case, f"boundaries.{name}", boundary)
+    for name, region in case.particles.items():
+        _check_region(case, name, region)
+    for name, point in case.probes.items():
+        probe(case, f"probes.{name}", point)
+    for name, nozzle in case.nozzles.items():
+        mouth(case, f"nozzles.{name}", nozzle)
+    columns_of_history(case)
+
+
+def _check_components(case: Case) -> None:
+    """Vectors have as many components as the case has dimensions."""
     vectors = {
         "domain.size_m": case.domain.size,
         "domain.gravity_m_s2": case.domain.gravity,
@@ -150,28 +184,6 @@ def _check_one(case: Case) -> None:
             raise CaseError(
                 f"{key} has {len(value)} components; dimensions = {case.dimensions} asks for {case.dimensions}"
             )
-    if any(not 1.0 / STRETCH <= ratio <= STRETCH for ratio in case.resolution.stretch or ()):
-        given = f"resolution.stretch = {list(case.resolution.stretch)}"
-        raise CaseError(f"{given}; every ratio must be from {1.0 / STRETCH:g} to {STRETCH:g}: 1 for equal cells")
-    if min(case.domain.size) <= 0.0:
-        raise CaseError(f"domain.size_m = {list(case.domain.size)}; every length must be above 0")
-    _check_period(case)
-    if any(isinstance(t, tuple) or t <= 0.0 for t in case.run.report_at):
-        raise CaseError(f"run.report_at_s = {list(case.run.report_at)}; it must be a list of times above 0")
-    _check_outputs(case)
-    for name, pool in case.pools.items():
-        if pool.shape != "tank":
-            _check_place(case, f"pools.{name}", pool)
-        flow(case, f"pools.{name}", pool)
-    for name, boundary in case.boundaries.items():
-        side(case, f"boundaries.{name}", boundary)
-    for name, region in case.particles.items():
-        _check_region(case, name, region)
-    for name, point in case.probes.items():
-        probe(case, f"probes.{name}", point)
-    for name, nozzle in case.nozzles.items():
-        mouth(case, f"nozzles.{name}", nozzle)
-    columns_of_history(case)
 
 
 def _check_outputs(case: Case) -> None:
@@ -246,6 +258,19 @@ def _check_period_of_liquid(case: Case) -> None:
             raise CaseError(
                 f"domain.size_m is below {least:g} m along {axis}, which is periodic; lengthen it or take a finer "
                 "spacing"
+            )
+
+
+def _check_period_of_pool(case: Case, where: str, pool) -> None:
+    """A pool lies within the domain along periodic axes: beyond it particles would lie on their own images."""
+    box, slack = pool.shape == "box", SAME * max(case.domain.size)
+    lower = pool.lower if box else [c - pool.radius for c in pool.centre]
+    upper = pool.upper if box else [c + pool.radius for c in pool.centre]
+    for axis, low, high, length, on in zip("xyz", lower, upper, case.domain.size, case.liquid.periodic or ()):
+        if on and (low < -slack or high > length + slack):
+            raise CaseError(
+                f"{where} reaches from {low:g} to {high:g} m along {axis}, which is periodic; keep it within 0 and "
+                f"{length:g} m, or its particles lie on each other"
             )
 
 

@@ -78,7 +78,7 @@ class Rows:
         self.place, self.above = place - self.floor, along - self.floor
 
     def at_ends(self, values) -> tuple[float, float]:
-        """At the floor and at the top, straight on from the two rows next to them."""
+        """Values extrapolated linearly to the floor and to the top, each from the two rows next to it."""
         slopes = np.diff(values)[[0, -1]] / np.diff(self.place)[[0, -1]]
         return float(values[0] - slopes[0] * self.place[0]), float(values[-1] + slopes[1] * (self.top - self.place[-1]))
 

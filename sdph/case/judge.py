@@ -1,4 +1,4 @@
-"""Which effects a case calls for: every effect judges itself from the scales of the case."""
+"""Effects that a case calls for: every effect judges itself from the scales of the case."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def judgements(case, scales=None) -> dict[str, Judgement]:
 
 
 def called_for(case, scales=None) -> dict[str, Judgement]:
-    """Those without which the case errs by more than `run.accuracy`."""
+    """Judgements of the effects without which the case errs by more than `run.accuracy`."""
     return {name: own for name, own in judgements(case, scales).items() if own.error_if_off > case.run.accuracy}
 
 

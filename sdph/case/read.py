@@ -47,7 +47,7 @@ def load(path: Path, overrides: tuple[str, ...] = ()) -> Case:
 
 
 def parsed(path: Path) -> dict:
-    """What a TOML file holds; some editors put a byte order mark before it."""
+    """Table of a TOML file; some editors put a byte order mark before it."""
     try:
         with open(path, encoding="utf-8-sig") as file:
             text = file.read(LARGEST + 1)

@@ -97,7 +97,7 @@ class Grains:
 
 @record
 class Region:
-    """Where particles are at the start: a disc or sphere (centre, radius), or a box (lower, upper)."""
+    """Region that particles fill at the start: a disc or sphere (centre, radius), or a box (lower, upper)."""
 
     shape: str = choice("disc", "sphere", "box")
     volume_fraction: float = quantity("", above=0.0, most=1.0)
@@ -116,7 +116,7 @@ class Boundary:
     kind: str = choice("wall", "slip_wall", "velocity_inlet", "pressure_outlet")
     side: str | None = choice(*SIDES, default=None)
     span: tuple | None = vector("m", None)
-    velocity: tuple | None = vector("m_s", None)
+    velocity: tuple | None = vector("m_s", None)  # of the gas that comes in, or with which a wall slides along itself
     temperature: float | None = quantity("K", None, above=0.0)
     vapour_mass_fraction: float | None = quantity("", None, least=0.0, most=1.0)
     pressure: float | None = quantity("Pa", None)
@@ -133,7 +133,7 @@ class Probe:
 class Coupling:
     gas: str = choice("auto", "openfoam", "embedded")
     transport: str = choice("socket", "file")
-    ranks: int = whole(1, least=1)
+    gas_ranks: int = whole(1, least=1)
     one_way: bool = flag(False)  # the gas acts on the particles and feels nothing
     voidage: bool = flag(True)  # the gas knows of the volume of the grains; false as in point-particle models
     window_tolerance: float = quantity("", 2e-5, above=0.0)  # error of one window over the heat there is to exchange
@@ -170,7 +170,7 @@ class Case:
 
     @property
     def matters(self) -> tuple[str, ...]:
-        """What the case holds: "grains" (in a gas), "liquid", or both side by side."""
+        """Kinds of matter in the case: "grains" (in a gas), "liquid", or both side by side."""
         return ("grains",) * (self.grains is not None) + ("liquid",) * (self.liquid is not None)
 
     def only(self, matter: str) -> Case:

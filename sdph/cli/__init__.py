@@ -14,7 +14,6 @@ from sdph.cli.arguments import parser
 from sdph.schema import CaseError
 
 FINE, CHECK_FAILED, BAD_INPUT, GAS_FAILED, CANNOT_WRITE, WENT_UNSTABLE = 0, 1, 2, 3, 4, 5
-LONGEST = 2000  # letters of the line that says what is wrong; our choice
 
 
 def main(given: list[str] | None = None) -> int:
@@ -54,15 +53,11 @@ def main(given: list[str] | None = None) -> int:
 
 def _failed(message, code: int) -> int:
     """One line, with how to go on where that is known."""
+    from sdph.engine.reading import one_line
+
     text = " ".join([str(message), *getattr(message, "__notes__", ())])
-    print(f"sdph: {_printable(' '.join(text.split()))}", file=sys.stderr)
+    print(f"sdph: {one_line(text)}", file=sys.stderr)
     return code
-
-
-def _printable(text: str) -> str:
-    """A text that a terminal takes for no commands, its middle left out where it is of no length to read."""
-    text = text if len(text) <= LONGEST else f"{text[: LONGEST // 2]} [...] {text[-LONGEST // 2 :]}"
-    return "".join(letter if letter.isprintable() else repr(letter)[1:-1] for letter in text)
 
 
 def list_scenes(options) -> int:
@@ -127,7 +122,7 @@ def run(options) -> int:
 
 
 def _refuse(options, names, why: str) -> None:
-    """Options that would do nothing are not taken in silence."""
+    """CaseError for options that would do nothing."""
     for name in names:
         if getattr(options, name):
             raise CaseError(f"--{name.replace('_', '-')} {getattr(options, name)}: {why}; leave it out")
@@ -137,7 +132,7 @@ def _overrides(options) -> tuple[str, ...]:
     given = {
         "coupling.gas": options.gas,
         "coupling.transport": options.transport,
-        "coupling.ranks": options.np,
+        "coupling.gas_ranks": options.np,
         "run.end_time_s": options.until,
     }
     return tuple(f"{key}={json.dumps(value)}" for key, value in given.items() if value is not None)
@@ -174,13 +169,14 @@ def _say(text: str) -> None:
 
 
 def cost_of_accuracy(options) -> int:
-    from sdph.study.cost import climb, report, rows
+    from sdph.study.cost import climb, errors, ladder, report
 
     folder = options.out or Path("runs/cost") / options.scene
-    found = rows.errors(
+    found = errors.judged(
+        ladder.declared(options.scene),
         climb.climb(
             options.scene, folder / "cost.csv", options.budget, options.repeats, lambda text: print(text, flush=True)
-        )
+        ),
     )
     print(f"\n{report.text(options.scene, found)}")
     report.draw(options.scene, found, folder / "cost.png")

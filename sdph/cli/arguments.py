@@ -20,7 +20,7 @@ class _Parser(argparse.ArgumentParser):
 
 
 def parser() -> argparse.ArgumentParser:
-    """What it parses has the name of the command as `command`."""
+    """Parser of the command line; its result has the name of the command as `command`."""
     whole = _Parser(prog="sdph", description="Flows of grains, droplets and liquids: SPH particles and a gas.")
     whole.add_argument("--version", action="version", version=__version__)
     commands = whole.add_subparsers(required=True, dest="command", metavar="COMMAND")
@@ -35,6 +35,17 @@ def parser() -> argparse.ArgumentParser:
     explain.add_argument(
         "--measure", action="store_true", help="measure what each effect costs on this machine; minutes the first time"
     )
+    _study(commands)
+    _look(commands)
+    openfoam = _command(commands, "openfoam", "find or install OpenFOAM and compile the gas solver")
+    openfoam.add_argument("action", choices=("setup",))
+    openfoam.add_argument("--install", action="store_true", help="install what is missing with apt")
+    _command(commands, "doctor", "what is there, what is missing and what mends it")
+    return whole
+
+
+def _study(commands) -> None:
+    """Commands that judge: cost, stress, compare, validate."""
     cost = _command(commands, "cost", "what accuracy costs in time: measures a ladder of settings, draws it")
     cost.add_argument("scene")
     cost.add_argument("--out", type=Path, help="folder (default: runs/cost/SCENE); goes on with what is there")
@@ -64,11 +75,19 @@ def parser() -> argparse.ArgumentParser:
     compare.add_argument("--against", required=True, choices=("tfm", "dpm", "exact"))
     compare.add_argument("--json", action="store_true", help="print the checks as JSON")
     check = _command(commands, "validate", "run a scene and check it against all its references")
-    check.add_argument("scene", nargs="?", help="default: every scene that has a validation")
+    check.add_argument(
+        "scene",
+        nargs="?",
+        help="or experiments: what others measured (default: every scene that has a validation, and these)",
+    )
     check.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override a key of the case")
     check.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: openfoam where it is)")
     check.add_argument("--out", type=Path, help="keep the runs in this folder")
     check.add_argument("--json", action="store_true", help="print the checks as JSON")
+
+
+def _look(commands) -> None:
+    """Commands that show a run: view, report."""
     view = _command(commands, "view", "look at a run")
     view.add_argument("run", type=Path)
     view.add_argument("--png", type=Path, help="write a picture instead of opening a window")
@@ -80,11 +99,6 @@ def parser() -> argparse.ArgumentParser:
     report = _command(commands, "report", "one HTML file of one or several runs, side by side; also of failed ones")
     report.add_argument("runs", nargs="+", type=Path, metavar="RUN")
     report.add_argument("--out", type=Path, help="the file (default: report.html in the first run's folder)")
-    openfoam = _command(commands, "openfoam", "find or install OpenFOAM and compile the gas solver")
-    openfoam.add_argument("action", choices=("setup",))
-    openfoam.add_argument("--install", action="store_true", help="install what is missing with apt")
-    _command(commands, "doctor", "what is there, what is missing and what mends it")
-    return whole
 
 
 def _command(commands, name: str, summary: str):

@@ -78,6 +78,13 @@ def window_limits(parameters, case, state) -> dict[str, float]:
     return {row.name: row.window_limit(parameters[row.name], case, state) for row in asked}
 
 
+def held(parameters, case, method) -> dict[str, float]:
+    """Shares and numbers of particles that limiters of the effects that are on hold in a method now, by column of
+    history.csv."""
+    asked = [REGISTRY[name] for name in case.effects if REGISTRY[name].held]
+    return {column: value for row in asked for column, value in row.held(parameters[row.name], method).items()}
+
+
 def without_input(matter: str) -> dict:
     """Parameters of the effects on grains or a liquid that can judge themselves and need no input."""
     rows = [row for row in REGISTRY.values() if row.call and matter in row.matter]
@@ -88,4 +95,6 @@ def without_input(matter: str) -> dict:
     }
 
 
-__all__ = ["OFF", "REGISTRY", "Effect", "arrays", "kernel_of", "limits", "moving", "window_limits", "without_input"]
+__all__ = [
+    "OFF", "REGISTRY", "Effect", "arrays", "held", "kernel_of", "limits", "moving", "window_limits", "without_input",
+]  # fmt: skip

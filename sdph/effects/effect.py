@@ -1,4 +1,4 @@
-"""What an effect is: a row of facts about one piece of physics that a case can switch on.
+"""An effect: a row of facts about one piece of physics that a case can switch on.
 
 An effect that is off costs nothing: kernels get `OFF` for its parameters and drop its terms when they are compiled
 (`if len(p) == 0` inside the term), its arrays have length zero, its fields are not sent to the gas.
@@ -16,7 +16,7 @@ DIFFUSIVE = 0.125  # of h^2/nu, Morris, Fox & Zhu 1997, J. Comput. Phys. 136, 21
 
 @dataclass(frozen=True)
 class Judgement:
-    """Whether a case calls for an effect, told by a number of the case.
+    """Need of a case for an effect, told by a number of the case.
 
     number, name   the dimensionless number, and what it is
     threshold      from which on it matters at the usual accuracy
@@ -53,6 +53,8 @@ class Effect:
     renew       (kernel parameters, method) puts the effect's arrays of the state right for where the particles of a
                 liquid are now; called before its forces
     tells       (kernel parameters, state) -> columns of its own for history.csv of a liquid
+    held        (kernel parameters, method as it is after its last sub-step) -> what its limiters hold in grains, by
+                column of history.csv: shares and numbers of particles; summary.json has the largest of the run
     two_phases  whether it needs a second phase
     call        scales of a case (sdph.methods.grains.scales) -> Judgement; without it the effect is on where the user
                 says so
@@ -72,6 +74,7 @@ class Effect:
     window_limit: Callable | None = None
     renew: Callable | None = None
     tells: Callable | None = None
+    held: Callable | None = None
     two_phases: bool = False
     to_gas: Callable | None = None
     call: Callable | None = None

@@ -1,1 +1,1 @@
-"""What every run stands on, whatever it is of: it knows no case, no effect and no method."""
+"""Tools of every run, of whatever matter: they know no case, no effect and no method."""

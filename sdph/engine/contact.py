@@ -27,7 +27,7 @@ class Contact:
         return STEADY * math.sqrt(lightest / self.stiffness)
 
     def near(self, first: np.ndarray, second: np.ndarray) -> bool:
-        """Whether any two are so near, within two spacings, that they may touch in the next window."""
+        """True where any two are so near, within two spacings, that they may touch in the next window."""
         return (
             bool(len(first) and len(second)) and cKDTree(first).count_neighbors(cKDTree(second), 2.0 * self.spacing) > 0
         )

@@ -1,4 +1,4 @@
-"""What has to be set before kernels are compiled: where kernels are cached, and how threads wait."""
+"""Settings made before kernels are compiled: the cache of kernels, and how threads wait."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def prepare() -> None:
 
 
 def warnings() -> list[str]:
-    """What slows the kernels down that have run so far, and what mends it."""
+    """Warnings of what slows the kernels down that have run so far, and what mends it."""
     import numba
 
     try:
@@ -46,7 +46,7 @@ def warnings() -> list[str]:
 
 
 def _has_avx512() -> bool:
-    """As Linux tells; elsewhere the compiler's own choice stands."""
+    """True where Linux tells of AVX-512; elsewhere the compiler's own choice stands."""
     try:
         described = Path("/proc/cpuinfo").read_text(encoding="utf-8").split("\n\n")[0]
     except OSError:

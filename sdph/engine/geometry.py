@@ -63,7 +63,7 @@ def box_of(period, dimensions: int) -> tuple:
 
 @njit(cache=True, error_model="numpy")
 def deep(box):
-    """Whether a box has three dimensions."""
+    """True where a box has three dimensions."""
     return len(box) == 1 or len(box) == 6
 
 

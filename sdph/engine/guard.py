@@ -28,20 +28,20 @@ class Unstable(RuntimeError):
         self.last = last
 
     def leave(self, folder: Path) -> None:
-        """The last good state, and a picture of it, into the run's folder."""
+        """Write the last good state, and a picture of it, into the run's folder."""
         np.savez(folder / "last_good.npz", **self.last)
         _picture(self.last, folder / "last_good.png", str(self))
 
 
 class Watch:
-    """What every guard does: it keeps the last good state, and stops the run where a value is out of its bounds."""
+    """Base of all guards: keeps the last good state, and stops the run where a value is out of its bounds."""
 
     def __init__(self, case):
         self.case, self.last = case, {}
         self.time, self.window = 0.0, 0
 
     def begin(self, simulation) -> None:
-        """Before a window: the state to go back to."""
+        """Keep the state before a window, to go back to."""
         self.time, self.window = simulation.time, simulation.windows
         self.last = {
             "time": simulation.time,
@@ -99,7 +99,7 @@ def outside(values, low: float, high: float):
 
 
 def _picture(last: dict, file: Path, title: str) -> None:
-    """Where the particles were, coloured by speed."""
+    """Draw the particles of the last good state, coloured by speed."""
     import textwrap
 
     import matplotlib

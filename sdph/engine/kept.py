@@ -1,4 +1,4 @@
-"""What a run keeps: taken apart for a file, checked when it comes back, and put into its place.
+"""State that a run keeps: taken apart for a file, checked when it comes back, and put into its place.
 
 A class that changes as a run goes names its attributes that do so,
 
@@ -215,7 +215,7 @@ def _text(value, where: str) -> None:
 
 
 def _generator(like, value, where: str) -> None:
-    """By trying it on a copy: numpy knows best what its generators take."""
+    """Check the state of a random generator by trying it on a copy: numpy knows best what its generators take."""
     _expect(isinstance(value, dict), where, "is no state of a random generator")
     try:
         trial = copy.deepcopy(like)
@@ -242,7 +242,7 @@ def short(value) -> str:
 
 
 def put(like, value):
-    """What was checked, in the place of `like`: an object that has KEPT is filled, anything else is made anew."""
+    """Put checked values in the place of `like`: an object that has KEPT is filled, anything else is made anew."""
     if isinstance(like, np.random.Generator):
         like.bit_generator.state = value
         return like

@@ -1,7 +1,9 @@
 """The ledger: mass, momentum, energy and species of each phase and what they exchanged, one row a window.
 
-Energy of the particles is their enthalpy m c T; that of the gas sum(alpha rho cp T V). What crosses the gas
-boundary is counted by the gas itself. Two-dimensional amounts are per metre of depth.
+Energy stands in three places for the particles, heat m c T, motion m v^2/2 and agitation 3/2 m theta, and in two for
+the gas, enthalpy sum(alpha rho cp T V) and motion. What crosses the gas boundary is counted by the gas itself. Every
+work is integrated where it is done; what explicit steps make of it is `numerical_work_J`. Two-dimensional amounts are
+per metre of depth.
 """
 
 from __future__ import annotations
@@ -9,9 +11,6 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-import numpy as np
-
-from sdph.engine import state as particles
 from sdph.engine.kept import ROW, Maybe, Unfit
 from sdph.engine.table import Table
 
@@ -20,10 +19,36 @@ VECTORS = (
     "impulse_of_outflow", "impulse_of_contact",
 )  # fmt: skip
 AMOUNTS = (
-    "heat_to_particles_J", "heat_to_gas_J", "drag_heat_J", "mechanical_heat_J", "evaporated_kg", "vapour_to_gas_kg",
-    "condensation_refused_kg", "latent_heat_J", "capacity_heat_J", "heat_to_surroundings_J", "injected_kg",
-    "injected_J", "left_kg", "left_J",
+    "heat_to_particles_J", "heat_to_gas_J", "drag_heat_J", "friction_J", "mechanical_heat_J", "evaporated_kg",
+    "vapour_to_gas_kg", "condensation_refused_kg", "latent_heat_J", "capacity_heat_J", "heat_to_surroundings_J",
+    "vapour_motion_J", "injected_kg", "injected_J", "injected_motion_J", "left_kg", "left_J", "left_motion_J",
+    "work_of_drag_J", "work_of_pressure_J", "work_of_gravity_J", "work_of_walls_J", "work_of_contact_J",
+    "work_of_inflow_J", "agitation_J", "collision_heat_J", "damping_heat_J", "bounds_work_J", "numerical_work_J",
+    "contact_way_m", "contact_lift_J", "finished_kg", "impulse_of_gone_kg_m_s",
 )  # fmt: skip
+# column -> sign with which it changes the motion and agitation of the particles
+MOTION = {
+    "work_of_drag_J": 1, "work_of_pressure_J": 1, "work_of_gravity_J": 1, "work_of_walls_J": 1, "work_of_contact_J": 1,
+    "work_of_inflow_J": 1, "numerical_work_J": 1, "bounds_work_J": 1, "injected_motion_J": 1, "left_motion_J": -1,
+    "vapour_motion_J": -1, "mechanical_heat_J": -1, "collision_heat_J": -1, "damping_heat_J": -1,
+}  # fmt: skip
+# the same of the heat of the particles and the enthalpy of the gas
+HEAT = {
+    "mechanical_heat_J": 1, "collision_heat_J": 1, "friction_J": 1, "injected_J": 1, "left_J": -1,
+    "latent_heat_J": -1, "capacity_heat_J": -1, "heat_to_surroundings_J": -1,
+}  # fmt: skip
+OF_GAS = {
+    "mass": "kg", "energy": "J", "kinetic": "J", "vapour": "kg", "mass_in": "kg", "energy_in": "J", "kinetic_in": "J",
+    "vapour_in": "kg", "pressure_work": "J", "boundary_work": "J", "gravity_work": "J",
+}  # fmt: skip
+# effect -> amounts of a case with it whose sums the summary tells, besides those of every case
+SUMMED = {
+    "inflow": ("injected_kg", "left_kg"), "outflow": ("injected_kg", "left_kg"),
+    "evaporation": (
+        "evaporated_kg", "condensation_refused_kg", "finished_kg", "latent_heat_J", "capacity_heat_J",
+    ),
+    "lift": ("impulse_of_gone_kg_m_s",), "walls": ("contact_way_m", "contact_lift_J"),
+}  # fmt: skip
 NOTHING = dict.fromkeys(AMOUNTS, 0.0) | {f"{name}_{a}_kg_m_s": 0.0 for name in VECTORS for a in "xyz"}
 
 
@@ -41,7 +66,7 @@ class Ledger:
 
     def __init__(self, path: Path, case, depth: float):
         self.case, self.depth = case, depth
-        self.sums = dict.fromkeys((*NOTHING, "heat_exchanged_J", "impulse_exchanged_kg_m_s"), 0.0)
+        self.sums = dict.fromkeys((*NOTHING, "heat_exchanged_J", "impulse_exchanged_kg_m_s", "work_exchanged_J"), 0.0)
         # largest |particles - gas| of a window [J], [kg m/s], [kg]
         self.heat_mismatch = self.impulse_mismatch = self.mass_mismatch = 0.0
         self.first = self.last = None
@@ -50,18 +75,17 @@ class Ledger:
     def admit(self, kept: dict) -> None:
         refuse_rows(kept)
 
-    def open(self, state, budget) -> None:
-        """The row of the start."""
-        self._write({"time_s": 0.0, "window_s": 0.0, "limit": ""} | self._totals(state, budget) | NOTHING)
+    def open(self, totals: dict, budget) -> None:
+        """The row of the start; `totals` are columns of the particles, `budget` is of the gas."""
+        self._write({"time_s": 0.0, "window_s": 0.0, "limit": ""} | totals | self._gas(budget) | NOTHING)
 
-    def close_window(self, time: float, dt: float, limit: str, state, gas_state, exchanged: dict) -> None:
+    def close_window(self, time: float, dt: float, limit: str, totals: dict, budget, exchanged: dict) -> None:
         """The row of a window; `exchanged` has the keys of NOTHING."""
-        self._write(
-            {"time_s": time, "window_s": dt, "limit": limit} | self._totals(state, gas_state.budget) | exchanged
-        )
+        self._write({"time_s": time, "window_s": dt, "limit": limit} | totals | self._gas(budget) | exchanged)
         for key, value in exchanged.items():
             self.sums[key] += value
         self.sums["heat_exchanged_J"] += abs(exchanged["heat_to_particles_J"])
+        self.sums["work_exchanged_J"] += sum(abs(exchanged[key]) for key in MOTION)
         self.heat_mismatch = max(self.heat_mismatch, abs(exchanged["heat_to_particles_J"] + exchanged["heat_to_gas_J"]))
         self.mass_mismatch = max(self.mass_mismatch, abs(exchanged["evaporated_kg"] - exchanged["vapour_to_gas_kg"]))
         impulse = [
@@ -71,16 +95,10 @@ class Ledger:
         self.impulse_mismatch = max(self.impulse_mismatch, math.hypot(*(own + other for own, other in impulse)))
 
     def summary(self) -> dict[str, float]:
-        """Closure of the run: relative drifts and mismatches. Energy is relative to the heat exchanged."""
-        sums = {key: self.sums[key] for key in ("heat_exchanged_J", "drag_heat_J", "mechanical_heat_J")}
-        drifts = self._mass_drifts()
-        if "inflow" in self.case.effects or "outflow" in self.case.effects:
-            sums |= {key: self.sums[key] for key in ("injected_kg", "left_kg")}
-        if "evaporation" in self.case.effects:
-            sums |= {
-                key: self.sums[key]
-                for key in ("evaporated_kg", "condensation_refused_kg", "latent_heat_J", "capacity_heat_J")
-            }
+        """Closure of the run: drifts and mismatches, relative to what was exchanged; drifts of energy in joules too."""
+        told = ("heat_exchanged_J", "drag_heat_J", "mechanical_heat_J", "numerical_work_J", "bounds_work_J")
+        sums, drifts = {key: self.sums[key] for key in told}, self._mass_drifts() | self._motion_drift()
+        sums |= {key: self.sums[key] for effect in SUMMED if effect in self.case.effects for key in SUMMED[effect]}
         if self.sums["heat_to_surroundings_J"]:
             sums["heat_to_surroundings_J"] = self.sums["heat_to_surroundings_J"]
         if self.case.coupling.one_way:  # the gas feels nothing, so there is no balance of energy to close
@@ -99,10 +117,9 @@ class Ledger:
             | {
                 "exchange_energy_mismatch_rel": _ratio(self.heat_mismatch, self.sums["heat_exchanged_J"]),
                 "exchange_momentum_mismatch_rel": _ratio(self.impulse_mismatch, self.sums["impulse_exchanged_kg_m_s"]),
-                "energy_drift_rel": _ratio(
-                    abs(self._energy_drift()), self.sums["heat_exchanged_J"] + abs(self.sums["heat_to_surroundings_J"])
-                ),
             }
+            | self._energy_drift()
+            | self._gas_motion()
         )
 
     def _mass_drifts(self) -> dict[str, float]:
@@ -118,34 +135,41 @@ class Ledger:
             "particle_mass_drift_rel": _ratio(abs(math.fsum((*particles, vapour))), whole),
         }
 
-    def _energy_drift(self) -> float:
-        """What the energy of both phases grew by beyond what came in and was made [J]."""
-        change = (
-            self._change("particle_energy_J", 1) + self._change("gas_energy_J", 1) + self._change("gas_energy_in_J", -1)
-        )
-        made = [self.sums[key] for key in ("mechanical_heat_J", "drag_heat_J", "injected_J")]
-        bound = [self.sums[key] for key in ("latent_heat_J", "capacity_heat_J", "heat_to_surroundings_J", "left_J")]
-        return math.fsum((*change, *bound, *(-value for value in made)))
+    def _energy_drift(self) -> dict[str, float]:
+        """Growth of the heat of both phases beyond what came in and was made."""
+        pairs = {"particle_energy_J": 1, "gas_energy_J": 1, "heat_on_its_way_J": 1}
+        pairs |= {"gas_energy_in_J": -1, "gas_pressure_work_J": -1}
+        warm = self.last["particle_energy_J"] + self.sums["left_J"] > 0.0  # else no heat of the grains is kept
+        kept = {key: sign for key, sign in HEAT.items() if warm or key not in ("mechanical_heat_J", "collision_heat_J")}
+        moved = [sign * self.sums[key] for key, sign in kept.items()]
+        drift = math.fsum((*(c for key, sign in pairs.items() for c in self._change(key, sign)), *(-m for m in moved)))
+        scale = self.sums["heat_exchanged_J"] + sum(abs(self.sums[key]) for key in ("friction_J", "injected_J"))
+        scale += abs(self.sums["heat_to_surroundings_J"]) + abs(sum(self._change("gas_pressure_work_J", 1)))
+        return {"energy_drift_J": abs(drift), "energy_drift_rel": _ratio(abs(drift), scale)}
+
+    def _gas_motion(self) -> dict[str, float]:
+        """Work [J] that is missing in the kinetic energy of the gas: its own viscosity, and what is numerical,
+        convection upwind, implicit steps, splitting of velocity and pressure."""
+        change = {"gas_kinetic_J": 1, "gas_kinetic_in_J": -1, "gas_gravity_work_J": -1, "gas_pressure_work_J": 1}
+        change["gas_boundary_work_J"] = -1
+        given = {"friction_J": 1, "work_of_drag_J": 1, "damping_heat_J": -1, "vapour_motion_J": -1}
+        terms = [c for key, sign in change.items() for c in self._change(key, sign)]
+        lost = -math.fsum((*terms, *(sign * self.sums[key] for key, sign in given.items())))
+        return {"gas_dissipation_J": lost, "gas_dissipation_rel": _ratio(abs(lost), abs(self.sums["friction_J"]))}
+
+    def _motion_drift(self) -> dict[str, float]:
+        """Growth of the motion and agitation of the particles beyond the work that was done on them."""
+        change = [c for kind in ("kinetic", "fluctuation") for c in self._change(f"particle_{kind}_energy_J", 1)]
+        drift = abs(math.fsum((*change, *(-sign * self.sums[key] for key, sign in MOTION.items()))))
+        return {"motion_drift_J": drift, "motion_drift_rel": _ratio(drift, self.sums["work_exchanged_J"])}
 
     def _change(self, key: str, sign: int) -> tuple[float, float]:
         """Change of a column over the run, as terms of an exact sum."""
         return sign * self.last[key], -sign * self.first[key]
 
-    def _totals(self, state, budget) -> dict[str, float]:
-        velocity = particles.velocities(state)
-        momentum = np.einsum("i,ij->j", state.mass, velocity)
-        enthalpy = (
-            state.mass * state.temperature * self.case.grains.heat_capacity if len(state.temperature) else np.zeros(1)
-        )
-        row = {
-            "particles": len(state.x),
-            "particle_mass_kg": float(state.mass.sum()),
-            "particle_energy_J": math.fsum(enthalpy.tolist()),
-            "particle_kinetic_energy_J": float(0.5 * np.einsum("i,ij,ij->", state.mass, velocity, velocity)),
-        }
-        row |= {f"particle_momentum_{a}_kg_m_s": float(p) for a, p in zip("xyz", momentum)}
-        scalars = {"mass": "kg", "energy": "J", "vapour": "kg", "mass_in": "kg", "energy_in": "J", "vapour_in": "kg"}
-        row |= {f"gas_{name}_{unit}": getattr(budget, name) / self.depth for name, unit in scalars.items()}
+    def _gas(self, budget) -> dict[str, float]:
+        """Columns of the gas."""
+        row = {f"gas_{name}_{unit}": getattr(budget, name) / self.depth for name, unit in OF_GAS.items()}
         return row | {f"gas_momentum_{a}_kg_m_s": p / self.depth for a, p in zip("xyz", budget.momentum)}
 
     def _write(self, row: dict) -> None:

@@ -1,5 +1,5 @@
-"""Reading of files that somebody else may have made: plain files alone, of bounded size, from which nothing is
-executed."""
+"""Reading of what somebody else may have made: plain files alone, of bounded size, from which nothing is executed; a
+text as one line."""
 
 from __future__ import annotations
 
@@ -24,11 +24,20 @@ PREFIX = b"\x93NUMPY\x01\x00"  # of an array (numpy.lib.format, version 1.0), be
 HEAD = re.compile(
     rb"\{'descr': '([<|][biufU]\d{1,9})', 'fortran_order': (True|False), 'shape': \(([\d, ]{0,200})\), \} *\n"
 )
+LINE = 2000  # letters of a line that says what is wrong; our choice
 MOST_NUMBERS = 2**40  # of an array, extents of 0 taken as 1
 
 
 class Unreadable(ValueError):
     """A file that is not what it has to be: what is wrong with it, in one line."""
+
+
+def one_line(text, most: int = LINE) -> str:
+    """A text, or what an error says, as one line that a terminal takes for no commands; its middle is left out where it
+    has more than `most` letters."""
+    words = " ".join(str(text).split())
+    line = "".join(letter if letter.isprintable() else repr(letter)[1:-1] for letter in words)
+    return line if len(line) <= most else f"{line[: most // 2]} [...] {line[-most // 2 :]}"
 
 
 def open_plain(path: Path, most: int) -> int:
@@ -60,7 +69,7 @@ def read_plain(path: Path, most: int) -> bytes:
 
 
 def read_json(path: Path):
-    """What a file of JSON holds; NaN and Infinity are numbers."""
+    """Value of a JSON file; NaN and Infinity are numbers."""
     data = read_plain(path, JSON_BYTES)
     if len(data) + ENTRY * sum(data.count(mark) for mark in (b",", b"[", b"{")) > JSON_MEMORY:
         raise Unreadable(f"{path.name} would take more than {JSON_MEMORY} bytes of memory")

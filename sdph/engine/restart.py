@@ -27,7 +27,7 @@ from sdph.engine.kept import short
 from sdph.engine.reading import Unreadable, open_plain, read_arrays, read_json
 from sdph.schema import CaseError, flat
 
-FORMAT = 4  # of the files of a checkpoint
+FORMAT = 5  # of the files of a checkpoint
 FOLDER = "checkpoints"
 LASTING = 2  # checkpoints that are kept, so that there is one when the newest is damaged
 # keys that may change between the parts of a run
@@ -86,7 +86,7 @@ class Checkpoint:
             raise CaseError(f"{reached}, run.end_time_s = {end:g} lies before that; give a later --until")
 
     def refuse(self, why) -> CaseError:
-        """What to raise where this checkpoint does not fit."""
+        """CaseError to raise where this checkpoint does not fit."""
         mend = "remove it to go on from the one before it, or run anew"
         return CaseError(f"{self.folder} is no checkpoint to go on from: {why}; {mend}")
 
@@ -159,8 +159,7 @@ def newest(run_folder: Path, status=lambda text: None) -> Checkpoint | None:
 
 
 def prepare(run_folder: Path) -> None:
-    """For who has claimed a run and goes on with it: refuse what leads out of its folder, remove drafts that were
-    cut."""
+    """Refuse what leads out of the folder of a run that was claimed to go on, and remove drafts that were cut."""
     for path in (run_folder / name for name in WRITTEN):
         if path.is_symlink() or (path.exists() and not (path.is_file() or path.is_dir())):
             raise CaseError(

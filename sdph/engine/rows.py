@@ -161,7 +161,7 @@ def halves(grid, x, y, z, solid):
 
 @njit(cache=True, error_model="numpy")
 def starts(number, total):
-    """Where the particles of each cell begin, (total + 1,), from their cell numbers."""
+    """First particle of each cell, (total + 1,), from their cell numbers."""
     start = np.zeros(total + 1, np.int64)
     for cell in number:
         start[cell + 1] += 1
@@ -181,8 +181,8 @@ def order(number, total):
 
 @njit(cache=True, error_model="numpy")
 def place(rows, i, k):
-    """Where the k-th entry of row i stands, among the entries and in arrays along them. It is unsigned: of an index
-    that might be negative numba asks so each time."""
+    """Index of the k-th entry of row i, among the entries and in arrays along them. It is unsigned: of an index that
+    might be negative numba asks so each time."""
     return np.uint64(rows.start[i] + k)
 
 
@@ -236,7 +236,7 @@ def _run(begin, line, shape, x0, x1, blind, n):
 
 @njit(cache=True, error_model="numpy")
 def _counted(x, y, z, box, xi, yi, zi, cutoff2, first, last):
-    """How many of a run are within the cutoff."""
+    """Number of a run's particles within the cutoff."""
     found = 0
     for j in range(first, last):
         dx, dy, dz = nearest_image(box, xi - x[j], yi - y[j], zi - z[j] if len(z) else 0.0)

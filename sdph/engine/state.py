@@ -56,7 +56,17 @@ class State(NamedTuple):
     push_y: np.ndarray
     push_z: np.ndarray
     damping: np.ndarray
+    damped: np.ndarray
+    way_x: np.ndarray
+    way_y: np.ndarray
+    way_z: np.ndarray
+    row: np.ndarray
 
+
+# there within a window alone
+HELD = (
+    "warmth", "push_x", "push_y", "push_z", "damping", "damped", "way_x", "way_y", "way_z", "row",
+)  # fmt: skip
 
 # name -> (unit, meaning)
 FIELDS = {
@@ -88,10 +98,20 @@ FIELDS = {
     "warmth": ("J", "heat from the gas in the window"),
     **{f"push_{a}": ("m/s2", "acceleration by gas and gravity") for a in "xyz"},
     "damping": ("1/s", "rate at which the gas damps theta"),
+    "damped": ("J", "energy of theta that went into the gas"),
+    **{f"way_{a}": ("m", "mean velocity of every sub-step times its length") for a in "xyz"},
+    "row": ("1", "row that the particle had when the window began"),
 }  # fmt: skip
 ALWAYS = ("x", "y", "u", "v", "mass", "density", "ident", "kind")
-IN_SPACE = {"z", "w", "contact_yz", "contact_zx", "push_z"}  # of length zero in two dimensions
-INTEGERS = {"ident": np.int64, "kind": np.int8, "nozzle": np.int32, "entering": np.int8, "exchanged": np.int8}
+IN_SPACE = {"z", "w", "contact_yz", "contact_zx", "push_z", "way_z"}  # of length zero in two dimensions
+INTEGERS = {
+    "ident": np.int64,
+    "kind": np.int8,
+    "nozzle": np.int32,
+    "entering": np.int8,
+    "exchanged": np.int8,
+    "row": np.int64,
+}
 
 
 def empty(count: int, names=ALWAYS, dimensions: int = 2) -> State:
@@ -136,25 +156,33 @@ def pushes(state: State) -> tuple[np.ndarray, ...]:
 
 def positions(state: State) -> np.ndarray:
     """(N, 3) positions [m]; z is zero in two dimensions."""
-    return _columns(state.x, state.y, state.z)
+    return vectors(state.x, state.y, state.z)
 
 
 def velocities(state: State) -> np.ndarray:
     """(N, 3) velocities [m/s]."""
-    return _columns(state.u, state.v, state.w)
+    return vectors(state.u, state.v, state.w)
 
 
 def lengths(vectors: np.ndarray) -> np.ndarray:
-    """(N,) of (N, 3), four times as fast as a sum along the last axis."""
+    """Lengths (N,) of vectors (N, 3), four times as fast as a sum along the last axis."""
     return np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
 
 
-def _columns(a, b, c) -> np.ndarray:
+def vectors(a, b, c) -> np.ndarray:
+    """(N, 3) of three arrays; the last is zero in two dimensions."""
     out = np.zeros((len(a), 3))
     out[:, 0], out[:, 1] = a, b
     if len(c):
         out[:, 2] = c
     return out
+
+
+def energy_of_motion(state: State) -> float:
+    """Kinetic energy and that of theta [J]."""
+    velocity = velocities(state)
+    agitated = float(1.5 * state.mass @ state.theta) if len(state.theta) else 0.0
+    return float(0.5 * np.einsum("i,ij,ij->", state.mass, velocity, velocity)) + agitated
 
 
 def born(state: State) -> State:
@@ -179,10 +207,17 @@ def forced(state: State, warmth, push, damping) -> State:
     return state._replace(warmth=warmth, push_x=x, push_y=y, push_z=z if len(state.z) else z[:0], damping=damping)
 
 
+def followed(state: State) -> State:
+    """The same with the way of each particle and what its theta loses counted from now on, and its row remembered."""
+    count = len(state.x)
+    ways = {f"way_{a}": np.zeros(count if a != "z" or len(state.z) else 0) for a in "xyz"}
+    return state._replace(**ways, damped=np.zeros(len(state.theta)), row=np.arange(count))
+
+
 def released(state: State) -> State:
     """The same with nothing held over a window."""
     nothing = np.zeros(0)
-    return state._replace(**dict.fromkeys(("warmth", "push_x", "push_y", "push_z", "damping"), nothing))
+    return state._replace(**{name: nothing.astype(INTEGERS.get(name, float)) for name in HELD})
 
 
 def count(state: State) -> int:

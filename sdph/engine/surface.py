@@ -9,13 +9,16 @@ from pathlib import Path
 
 import numpy as np
 
+from sdph.engine.reading import one_line
 from sdph.schema import CaseError
 
+SHORT = 200  # letters of what meshio says; our choice
 LARGEST = 2**27  # bytes of a mesh, some 2.5 million triangles in binary STL; our choice
 
 
 def read(path: str, key: str):
-    """What meshio makes of a file, its points finite; a `CaseError` with the key of the case where it is no mesh."""
+    """Mesh of a file as meshio reads it, its points finite; a `CaseError` with the key of the case where it is no
+    mesh."""
     import meshio
 
     try:
@@ -38,11 +41,6 @@ def read(path: str, key: str):
                     f"a cell of type {block.type} names a point that is not there; it has {len(mesh.points)}"
                 )
     except (Exception, SystemExit) as error:  # meshio's readers trip over damaged files in ways of their own
-        raise CaseError(
-            f"{key} = {path!r} cannot be read ({_short(error)}); give a surface mesh that meshio reads"
-        ) from None
+        told = one_line(error, SHORT) or type(error).__name__
+        raise CaseError(f"{key} = {path!r} cannot be read ({told}); give a surface mesh that meshio reads") from None
     return mesh
-
-
-def _short(error: BaseException) -> str:
-    return " ".join(str(error).split())[:200] or type(error).__name__

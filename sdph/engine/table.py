@@ -14,9 +14,13 @@ import numpy as np
 from sdph.engine.kept import Many, Unfit
 from sdph.schema import CaseError
 
-LARGEST = 2**25  # bytes of a table that a case names, some 300 000 rows of a frame; our choice
+LARGEST = 2**25  # bytes of a table, some 300 000 rows of a frame; our choice
 SEPARATORS = ",;\t"  # that spreadsheets write between cells; of these the most frequent one of the first line holds
 LONGEST = 2**20  # characters of the first line of a table; our choice
+
+
+class TooLarge(ValueError):
+    """A table that is longer than any that is read."""
 
 
 @dataclass(frozen=True)
@@ -60,6 +64,8 @@ def read_cells(path: Path) -> Cells:
 def _text(path: Path) -> str:
     if not path.is_file():  # nor a pipe or a device, which may have no end
         raise ValueError("there is no such file")
+    if path.stat().st_size > LARGEST:
+        raise TooLarge(f"it has {path.stat().st_size} bytes; at most {LARGEST} are allowed")
     try:
         with open(path, newline="", encoding="utf-8-sig") as file:  # with or without a byte order mark
             return file.read()
@@ -71,8 +77,6 @@ def _text(path: Path) -> str:
 
 def numbers(path: Path, names: tuple[str, ...]) -> tuple[list[int], dict[str, np.ndarray]]:
     """Line of the file of each row, and the columns `names` (rows,), all finite; other columns may be there."""
-    if path.is_file() and path.stat().st_size > LARGEST:
-        raise ValueError(f"it has {path.stat().st_size} bytes; at most {LARGEST} are allowed")
     cells = read_cells(path)
     for name in names:
         if name not in cells.head:

@@ -1,4 +1,4 @@
-"""What particles and gas hand each other in a window of `sdph.exchange.exchange`."""
+"""Amounts that particles and gas hand each other in a window of `sdph.exchange.exchange`."""
 
 from __future__ import annotations
 
@@ -12,25 +12,30 @@ from sdph.engine.ledger import vector
 
 @dataclass(frozen=True)
 class Loss:
-    """What evaporates in one window, of each particle: mass [kg], its effect on the sizes (see sdph.exchange.droplets),
-    and condensation that was refused [kg]."""
+    """Evaporation in one window, of each particle: mass [kg], its effect on the sizes (see sdph.exchange.droplets),
+    condensation that was refused [kg], the rest of finished droplets [kg], and the energy of motion that the vapour has
+    [J]; `held`, shares of the particles that its limiters hold."""
 
     mass: np.ndarray
     still: np.ndarray
     moving: np.ndarray
     refused: np.ndarray
+    rest: np.ndarray
+    motion: np.ndarray
+    held: dict[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
 class Handed:
-    """What one window hands over: what the gas is told, and what the reaction is computed from.
+    """Amounts that one window hands over: what the gas is told, and what the reaction is computed from.
 
     heat (N,) [W/K] and pull (N,) [W]: the particle takes heat * (T'_g - origin) - pull; drag (N,) [kg/s] is m_k f_k/dt;
     force (N, 3) [N] what the gas does besides, held over the window (no row where no effect does); temperature and
     velocity are those of the particles when they were computed; damping (N,) [1/s] is beta/(alpha_p rho_p); mass (N,)
     [kg] what is in the gas at the window's end. terms (C,) or (C, 3) per volume of the cells, by quantity and by what
     it comes from: a sum over effects ("conductance", counted from origin [K] on, "drag", "force"), or an effect;
-    alpha_g (C,) at the window's end, where the gas is told.
+    alpha_g (C,) at the window's end, where the gas is told; gone [kg m/s] the held impulse, summed by its length, of
+    droplets that are gone at the window's end and do not get it.
     """
 
     dt: float
@@ -47,10 +52,20 @@ class Handed:
     origin: float
     terms: dict[tuple[str, str], np.ndarray] = field(default_factory=dict)
     alpha_g: np.ndarray | None = None
+    gone: float = 0.0
+
+    def columns(self) -> dict[str, float]:
+        """Amounts that were held back or given at once, for the ledger."""
+        rest = float(self.loss.rest.sum()) if self.loss else 0.0
+        return {"finished_kg": rest, "impulse_of_gone_kg_m_s": self.gone}
+
+    def held(self) -> dict[str, float]:
+        """Particles beside the mesh and shares that limiters of the exchange hold, by column of history.csv."""
+        return {"outside_mesh_particles": float(len(self.weights.outside))} | (self.loss.held if self.loss else {})
 
     @property
     def sources(self) -> dict[str, np.ndarray]:
-        """What the gas is told: each quantity is the sum of what is given to it."""
+        """Sources as the gas is told them: each quantity is the sum of what is given to it."""
         told = {} if self.alpha_g is None else {"alpha_g": self.alpha_g}
         for (quantity, _), values in self.terms.items():
             told[quantity] = told[quantity] + values if quantity in told else values
@@ -61,13 +76,13 @@ class Handed:
 
 @dataclass(frozen=True)
 class Taken:
-    """What the particles take in a window: heat (N,) [J], impulse (N, 3) [kg m/s]; and what the gas gave by its own
-    sum.
+    """Reaction on the particles in a window: heat (N,) [J], impulse (N, 3) [kg m/s]; and what the gas gave by its own
+    sum, of momentum by its force (C, 3) [N/m3] too.
 
     lost (N,) [J] is what leaves the system to its surroundings (no entry where no effect gives any); warming (N,) [J]
     the heat less that and less that of evaporation; vapour and vapour_to_gas [kg] what left particles and what the
     gas got; latent_heat [J] and capacity_heat [J] what evaporation binds, and what the vapour's other heat capacity
-    does.
+    does; vapour_motion [J] the energy of motion that went with it.
     """
 
     heat: np.ndarray
@@ -75,12 +90,14 @@ class Taken:
     impulse: np.ndarray
     heat_from_gas: float
     impulse_from_gas: np.ndarray
+    force: np.ndarray
     lost: np.ndarray = field(default_factory=lambda: np.zeros(0))
     vapour: float = 0.0
     vapour_to_gas: float = 0.0
     latent_heat: float = 0.0
     capacity_heat: float = 0.0
     refused: float = 0.0
+    vapour_motion: float = 0.0
 
     def columns(self) -> dict[str, float]:
         """Both sides of the exchange for the ledger."""
@@ -89,6 +106,7 @@ class Taken:
             "evaporated_kg": self.vapour,
             "vapour_to_gas_kg": self.vapour_to_gas,
             "condensation_refused_kg": self.refused,
+            "vapour_motion_J": self.vapour_motion,
         }
         bound = {"latent_heat_J": self.latent_heat, "capacity_heat_J": self.capacity_heat}
         bound |= {"heat_to_surroundings_J": float(self.lost.sum())}

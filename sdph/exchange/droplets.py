@@ -1,4 +1,4 @@
-"""What droplets lose by evaporation in a window, and what becomes of them.
+"""Evaporation of droplets in a window: what they lose, and what becomes of them.
 
 Over a window the heat of evaporation L is held, so that heat exchange integrates in closed form (`exchange.py`). The
 rate is that of the mean temperature in the window, from the linearised balance of heat with the gas as it is; grains
@@ -14,27 +14,26 @@ import numpy as np
 from numba import njit, prange
 
 from sdph.effects.gas import sizes
-from sdph.effects.gas.evaporation import driving_force, saturation_pressure, ventilation
+from sdph.effects.gas.evaporation import driving_force, past_boiling, saturation_pressure, ventilation
 from sdph.engine.state import GRAIN
 from sdph.laws import evaporation as law
 from sdph.laws import grain_loss
+from sdph.laws.exchange import mean_rise
 
 PROBE = 1e-3  # K, step of the slope of the rate with temperature
 FINISHED = 1e-9  # of the mass at birth, below which a particle has evaporated; our choice
-SHORT = 1e-8  # relaxation times in a window below which the mean rise is its limit
 
 
 @njit(cache=True, error_model="numpy")
 def transfer(p, sizes_p, s, i, c):
-    """k_c A of all grains [m3/s]: flow of gas that they exchange. 6 k_c/d per volume of grains, k_c = Sh D/d (Eq.
-    11)."""
+    """k_c A of all grains [m3/s]: flow of gas that they exchange, the mass average over their sizes."""
     total = whole = 0.0
     own = sizes.birth(sizes_p, s, i)
     for q in range(sizes.classes(sizes_p)):
         d, mass = sizes.grain(sizes_p, s, i, own, q)
         if mass == 0.0:  # gone; what comes after is smaller still
             break
-        total += mass * 12.0 * (1.0 + c * math.sqrt(d)) * p.diffusivity / (d * d)
+        total += law.gas_exchanged(mass, d, c, p.diffusivity)
         whole += mass
     return s.mass[i] / p.grain_density * total / whole
 
@@ -51,15 +50,6 @@ def kept_share(sizes_p, s, i, still, moving):
     before = sizes.remaining(sizes.birth(sizes_p, s, i))[0]
     lost = s.lost_still[i] + still, s.lost_moving[i] + moving
     return sizes.remaining(sizes.birth_of(s.born_diameter[i], s.born_variance[i], *lost))[0] / before
-
-
-@njit(cache=True, error_model="numpy")
-def mean_rise(power, conductance, capacity, dt):
-    """Mean over dt [s] of the rise [K] of a body of `capacity` [J/K] heated with power - conductance * rise [W]."""
-    if conductance * dt <= SHORT * capacity:
-        return 0.5 * power * dt / capacity if capacity > 0.0 else 0.0
-    x = conductance * dt / capacity
-    return power / conductance * (1.0 + math.expm1(-x) / x)
 
 
 @njit(cache=True, error_model="numpy")
@@ -88,14 +78,28 @@ def survey(p, sizes_p, s, slip, gas_density, gas_temperature, dt, conductance, f
 
 @njit(cache=True, parallel=True, error_model="numpy")
 def losses(
-    p, sizes_p, s, slip, gas_density, gas_temperature, concentration, dt, conductance, loss, still, moving, refused
+    p,
+    sizes_p,
+    s,
+    slip,
+    gas_density,
+    gas_temperature,
+    concentration,
+    dt,
+    conductance,
+    loss,
+    still,
+    moving,
+    refused,
+    rest,
 ):
-    """Of each particle in dt: mass lost [kg]; its integrals of a dt [m2], a c dt [m^3/2]; condensation refused [kg].
+    """Of each particle in dt: mass lost [kg]; its integrals of a dt [m2], a c dt [m^3/2]; condensation refused [kg];
+    rest [kg] of a droplet that has finished, which is lost at once.
 
     `conductance` becomes the mean over the window: it shrinks with the grains as evaporation does.
     """
     for i in prange(len(s.x)):
-        loss[i] = still[i] = moving[i] = refused[i] = 0.0
+        loss[i] = still[i] = moving[i] = refused[i] = rest[i] = 0.0
         time = active_time(p, s, i, conductance[i], gas_temperature[i], dt) if s.kind[i] == GRAIN else 0.0
         if time > 0.0:
             c = ventilation(p, slip[i], gas_density[i])
@@ -115,10 +119,11 @@ def losses(
                 conductance[i],
             )
             refused[i] = max(0.0, -force) * rate * time
-            still[i] = 8.0 * p.diffusivity * max(0.0, force) / p.grain_density * time  # d(d^2)/dt = -4 Sh D force/rho_p
+            still[i] = law.regression_rate(force, p.diffusivity, p.grain_density) * time
             moving[i] = c * still[i]
             left = s.mass[i] * kept_share(sizes_p, s, i, still[i], moving[i])
-            loss[i] = s.mass[i] - (left if left > FINISHED * s.born_mass[i] else 0.0)
+            rest[i] = 0.0 if left > FINISHED * s.born_mass[i] else left
+            loss[i] = s.mass[i] - (left - rest[i])
             if force > 0.0:
                 conductance[i] *= shrinkage(loss[i], rate * force * time)
 
@@ -146,9 +151,8 @@ def window_force(p, sizes_p, s, i, rate, c, gas_density, gas_temperature, concen
     evaporates."""
     temperature = s.temperature[i]
     now = driving_force(p, temperature, concentration, gas_temperature, gas_density)
-    below = driving_force(p, temperature - PROBE, concentration, gas_temperature, gas_density)
-    slope = max(0.0, (now - below) / PROBE)
-    still = 8.0 * p.diffusivity * max(0.0, now) / p.grain_density * time
+    slope = max(0.0, slope_of(p, temperature, concentration, gas_temperature, gas_density, now))
+    still = law.regression_rate(now, p.diffusivity, p.grain_density) * time
     kept = kept_share(sizes_p, s, i, still, c * still)
     share = shrinkage(s.mass[i] * (1.0 - kept), rate * now * time) if now > 0.0 else 1.0
     capacity = s.mass[i] * kept * p.grain_heat_capacity
@@ -162,21 +166,32 @@ def window_force(p, sizes_p, s, i, rate, c, gas_density, gas_temperature, concen
 
 
 @njit(cache=True, error_model="numpy")
+def slope_of(p, temperature, concentration, gas_temperature, gas_density, now):
+    """Slope [kg/m3/K] of the driving force, which is `now`, with the temperature of the droplet."""
+    below = driving_force(p, temperature - PROBE, concentration, gas_temperature, gas_density)
+    return (now - below) / PROBE
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
+def held(p, s, gas_density, gas_temperature, concentration, flat, boiling):
+    """Mark (N,) the particles whose slope is held at 0, and those whose vapour at the surface is held below boiling."""
+    for i in prange(len(s.x)):
+        now = driving_force(p, s.temperature[i], concentration[i], gas_temperature[i], gas_density[i])
+        flat[i] = slope_of(p, s.temperature[i], concentration[i], gas_temperature[i], gas_density[i], now) < 0.0
+        boiling[i] = past_boiling(p, s.temperature[i])
+
+
+@njit(cache=True, error_model="numpy")
 def boiling_force(p, temperature, gas_temperature, warmth, capacity, latent, force, dt):
     """Driving force [kg/m3] that holds the end of the window at the boiling temperature; `force` if it stays below."""
     if warmth == 0.0 or latent == 0.0 or gas_temperature <= p.boiling_temperature:
         return force
-    fraction = -math.expm1(-warmth * dt / capacity)
-    cooling = latent * max(0.0, force) / warmth
-    end = temperature + (gas_temperature - temperature - cooling) * fraction
-    if end <= p.boiling_temperature:
-        return force
-    return warmth / latent * (gas_temperature - temperature - (p.boiling_temperature - temperature) / fraction)
+    return law.boiling_force(temperature, gas_temperature, p.boiling_temperature, warmth, capacity, latent, force, dt)
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
 def shrink(p, sizes_p, s, still, moving, latched, diameter, variance):
-    """What the sizes of each particle are after its loss: latch, mean [m] and variance [m2] of the diameters left."""
+    """Sizes of each particle after its loss: latch, mean [m] and variance [m2] of the diameters left."""
     for i in prange(len(s.x)):
         latched[i] = max(s.evaporating[i], 1.0 * (still[i] > 0.0))
         if still[i] > 0.0:

@@ -9,7 +9,7 @@ from coupling.transfer import gather
 from sdph.effects.gas import drag, heat, lift, radiation
 from sdph.engine import state as particles
 from sdph.engine.state import GRAIN
-from sdph.laws.constants import GAS_CONSTANT
+from sdph.laws import evaporation
 from sdph.laws.exchange import exponential_fraction
 
 # of the temperature: smaller differences need not be resolved (round-off else rules the window); our choice
@@ -33,9 +33,8 @@ class Seen:
 def vapour_concentration(p, gas_state) -> np.ndarray:
     """Vapour in the cells [kmol/m3], Eq. 10."""
     Y, temperature = gas_state.fields["vapour_mass_fraction"], gas_state.fields["temperature"]
-    moles = Y / p.molar_mass
-    fraction = moles / (moles + (1.0 - Y) / p.gas_molar_mass)
-    return fraction * p.operating_pressure / (GAS_CONSTANT * temperature)
+    fraction = evaporation.vapour_mole_fraction(Y, p.molar_mass, p.gas_molar_mass)
+    return evaporation.vapour_concentration(fraction * p.operating_pressure, temperature)
 
 
 def temperature_span(case) -> float:
@@ -67,7 +66,7 @@ def rates(
 
 @njit(cache=True, parallel=True, error_model="numpy")
 def shares(s, temperature, heat_capacity, origin, dt, conductance, damping, kept, power, heat_share, pull, shared_mass):
-    """What meets the gas in a window: heat_share [W/K] and pull [W] of heat, from `temperature` (N,) on, m_k f_k/dt
+    """Shares of a window's exchange: heat_share [W/K] and pull [W] of heat, from `temperature` (N,) on, m_k f_k/dt
     [kg/s] of momentum.
 
     Temperatures count from `origin` [K], so that what is exchanged is no small difference of large numbers.

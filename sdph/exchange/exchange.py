@@ -23,27 +23,31 @@ from dataclasses import replace
 
 import numpy as np
 
-from coupling.transfer import deposit, gather
+from coupling.transfer import gather
 from sdph import effects
 from sdph.effects import OFF
 from sdph.effects.gas import radiation, sizes
-from sdph.engine.state import GRAIN
-from sdph.exchange import droplets as droplet_loss
+from sdph.engine.state import GRAIN, lengths
 from sdph.exchange import equations
-from sdph.exchange.amounts import Handed, Loss, Taken
+from sdph.exchange.amounts import Handed, Taken
+from sdph.exchange.cells import Cells
 from sdph.exchange.equations import Seen, temperature_span, vapour_concentration
+from sdph.exchange.vapour import Vapour
 
 
 class Exchange:
     """The effects of a case that reach across to the gas."""
 
-    KEPT = ("drag_heat",)
+    KEPT = ("pending",)
 
     def __init__(self, case, mesh, parameters):
         self.case = case
         self.parameters = parameters
         self.sizes_p = sizes.kernel(case)
-        self.volumes = mesh.volumes / mesh.depth
+        self.cells = Cells(mesh, case.grains.density)
+        self.volumes = self.cells.volumes
+        evaporation = parameters["evaporation"]
+        self.vapour = Vapour(case, evaporation, self.sizes_p, self.cells) if evaporation else None
         rows = [effects.REGISTRY[name] for name in case.effects]
         names = dict.fromkeys(name for row in rows for name in row.sources)
         self.sources = tuple(name for name in names if name != "alpha_g" or case.coupling.voidage)
@@ -51,11 +55,11 @@ class Exchange:
         self.holds = any(row.holds_force for row in rows)
         self.to_gas = {row.name: row.to_gas for row in rows if row.to_gas}
         self.origin = case.gas.temperature  # [K], of the heat that is exchanged
-        self.drag_heat = np.zeros(len(self.volumes))  # [W/m3], for the next window
+        self.pending = np.zeros(len(self.volumes))  # heat [J/m3] that the gas gets in the next window
 
     def alpha_g(self, state, weights, inside=1.0) -> np.ndarray:
         """Gas volume fraction of the cells; `inside` (N,) is the share of each particle that is in the gas."""
-        return self._room(weights, state.mass * inside)
+        return self.cells.room(weights, state.mass * inside)
 
     def hand(self, state, weights, ahead, gas_state, dt) -> Handed:
         """Coefficients from the old gas state, and the sources for the gas.
@@ -66,10 +70,13 @@ class Exchange:
         seen = Seen(weights, gas_state, state, self.fields)
         conductance, damping, force = self._rates(state, seen)
         loss = None
-        if self.parameters["evaporation"]:
-            loss = self._evaporate(state, weights, gas_state, seen, conductance, dt)
+        if self.vapour:
+            loss = self.vapour.evaporate(state, weights, gas_state, seen, conductance, dt)
         kept = state.mass - loss.mass if loss else state.mass
         power = self.parameters["evaporation"].latent_heat / -dt * loss.mass if loss else OFF
+        gone = kept == 0.0 if loss and len(force) else np.zeros(len(force), bool)
+        missed = dt * float(lengths(force[gone]).sum())
+        force[gone] = 0.0  # those that are gone at the window's end feel nothing in it
         heat_share, pull, shared_mass = (np.empty(len(state.x)) for _ in range(3))
         equations.shares(
             state, self._radiated(state, state.temperature, 0.5 * dt), self.case.grains.heat_capacity, self.origin, dt,
@@ -90,8 +97,8 @@ class Exchange:
             loss,
             self.origin,
         )
-        alpha_g = self._room(there, kept * inside) if "alpha_g" in self.sources else None
-        return replace(handed, terms=self._terms(handed), alpha_g=alpha_g)
+        alpha_g = self.cells.room(there, kept * inside) if "alpha_g" in self.sources else None
+        return replace(handed, terms=self._terms(handed), alpha_g=alpha_g, gone=missed)
 
     def _rates(self, state, seen) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Of every particle now: heat conductance to the gas [W/K], beta/(alpha_p rho_p) [1/s], and the force that is
@@ -105,7 +112,7 @@ class Exchange:
         return conductance, damping, force
 
     def _sums(self, handed: Handed) -> dict[tuple[str, str], np.ndarray]:
-        """What each particle gives of what effects add up to; the keys as of `_terms`."""
+        """Amounts that each particle gives of what effects add up to; the keys as of `_terms`."""
         given = {}
         if "heat_coefficient" in self.sources:
             given |= {("heat_coefficient", "conductance"): handed.heat, ("heat", "conductance"): handed.pull}
@@ -128,51 +135,9 @@ class Exchange:
             return {}
         columns = [own[:, None] if own.ndim == 1 else own for own in given.values()]
         ends = np.cumsum([column.shape[1] for column in columns])
-        cells = np.split(self._density(handed.weights, np.concatenate(columns, axis=1)), ends[:-1], axis=1)
+        cells = np.split(self.cells.density(handed.weights, np.concatenate(columns, axis=1)), ends[:-1], axis=1)
         terms = {key: cell[:, 0] if own.ndim == 1 else cell for (key, own), cell in zip(given.items(), cells)}
-        rubs = ("momentum", "drag") in terms or ("momentum", "force") in terms
-        return terms | ({("heat", "friction"): self.drag_heat} if rubs else {})
-
-    def _evaporate(self, state, weights, gas_state, seen, conductance, dt) -> Loss:
-        """What evaporates in a window; the heat conductance (N,) [W/K] becomes the mean over it.
-
-        The vapour in each cell is taken as it would be at the window's end if no flow carried it: fast exchange
-        saturates a cell and does not overshoot.
-        """
-        p, count = self.parameters["evaporation"], len(state.x)
-        flow, surface = np.empty(count), np.empty(count)
-        around = seen.slip, seen.density, seen.temperature
-        droplet_loss.survey(p, self.sizes_p, state, *around, dt, conductance, flow, surface)
-        concentration = gather(weights, vapour_concentration(p, gas_state))
-        if not self.case.coupling.one_way:
-            evaporating = surface > concentration
-            after = [
-                self._relaxed(state, weights, gas_state, flow * some * dt, surface)
-                for some in (evaporating, ~evaporating)
-            ]
-            concentration = np.where(evaporating, *after)
-        loss = Loss(*(np.empty(count) for _ in range(4)))
-        droplet_loss.losses(
-            p,
-            self.sizes_p,
-            state,
-            *around,
-            concentration,
-            dt,
-            conductance,
-            loss.mass,
-            loss.still,
-            loss.moving,
-            loss.refused,
-        )
-        return loss
-
-    def _relaxed(self, state, weights, gas_state, exchanged, surface) -> np.ndarray:
-        """Vapour around the particles [kmol/m3] once they have exchanged so much gas (N,) [m3] with the cells."""
-        deposited = deposit(weights, np.stack((exchanged, exchanged * surface), axis=1))
-        room = self._room(weights, state.mass * (state.kind == GRAIN)) * self.volumes
-        cells = vapour_concentration(self.parameters["evaporation"], gas_state)
-        return gather(weights, (room * cells + deposited[:, 1]) / (room + deposited[:, 0]))
+        return terms | ({("heat", "friction"): self.pending / handed.dt} if "momentum" in self.sources else {})
 
     def pace(self, state, weights, gas_state) -> tuple[float, float, float, float]:
         """At the start: rate [1/s] at which the fastest cell takes the grains' temperature, `stake` [J], rate [1/s] at
@@ -181,29 +146,12 @@ class Exchange:
         conductance, damping, _ = self._rates(state, seen)
         full, resistance = self._resistance(state, weights, gas_state)
         rate = (
-            float((self._density(weights, conductance)[full] * resistance).max(initial=0.0))
+            float((self.cells.density(weights, conductance)[full] * resistance).max(initial=0.0))
             if "heat_coefficient" in self.sources
             else 0.0
         )
-        thickening = self._thickening(state, weights, gas_state, seen) if self.parameters["evaporation"] else 0.0
+        thickening = self.vapour.thickening(state, weights, gas_state, seen) if self.vapour else 0.0
         return rate, self.stake(state, weights, gas_state), thickening, self.grip(state, damping)
-
-    def _thickening(self, state, weights, gas_state, seen) -> float:
-        """Vapour that comes into a cell now, over the gas in it [1/s]; the largest of all cells."""
-        p, rate = self.parameters["evaporation"], np.empty(len(state.x))
-        concentration = gather(weights, vapour_concentration(p, gas_state))
-        droplet_loss.rates(p, self.sizes_p, state, seen.slip, seen.density, seen.temperature, concentration, rate)
-        room = self._room(weights, state.mass * (state.kind == GRAIN))
-        return float((self._density(weights, rate) / (room * gas_state.fields["density"])).max(initial=0.0))
-
-    def vapour_share(self, handed: Handed, gas_state) -> float:
-        """Vapour that a window brought into a cell, over the gas in it; the largest of all cells."""
-        if not handed.loss:
-            return 0.0
-        room = self._room(handed.weights, handed.mass)
-        return float(
-            (handed.terms["vapour", "evaporation"] * handed.dt / (room * gas_state.fields["density"])).max(initial=0.0)
-        )
 
     def stake(self, state, weights, gas_state) -> float:
         """A scale of heat [J]: the gas among the grains, and they, brought to equilibrium through all of the
@@ -213,11 +161,19 @@ class Exchange:
         full, resistance = self._resistance(state, weights, gas_state)
         return float(temperature_span(self.case) * (self.volumes[full] / resistance).sum())
 
+    def held(self, state, weights, gas_state) -> dict[str, float]:
+        """Columns of `Handed.held` at the start."""
+        own = {}
+        if self.vapour:
+            seen = Seen(weights, gas_state, state)
+            own = self.vapour.held(state, seen, gather(weights, vapour_concentration(self.vapour.p, gas_state)))
+        return {"outside_mesh_particles": float(len(weights.outside))} | own
+
     def _resistance(self, state, weights, gas_state) -> tuple[np.ndarray, np.ndarray]:
         """Mask of the cells with grains, and 1/C_p + 1/C_g of these [m3 K/J]."""
-        content = self._density(weights, state.mass * (state.kind == GRAIN) * self.case.grains.heat_capacity)
+        content = self.cells.density(weights, state.mass * (state.kind == GRAIN) * self.case.grains.heat_capacity)
         gas = (
-            self._room(weights, state.mass * (state.kind == GRAIN))
+            self.cells.room(weights, state.mass * (state.kind == GRAIN))
             * gas_state.fields["density"]
             * self.case.gas.heat_capacity
         )
@@ -227,49 +183,49 @@ class Exchange:
     def take(self, state, handed: Handed, gas_state) -> Taken:
         """The reaction on the particles, still as they were handed, from the new gas state with the old weights."""
         taken_heat, from_gas = np.zeros(len(handed.heat)), 0.0
-        impulse, impulse_from_gas = np.zeros((len(handed.heat), 3)), np.zeros(3)
+        impulse, force = np.zeros((len(handed.heat), 3)), np.zeros((len(self.volumes), 3))
         if ("heat", "conductance") in handed.terms:
             temperature = gas_state.fields["temperature"] - self.origin
             taken_heat = handed.dt * (handed.heat * gather(handed.weights, temperature) - handed.pull)
             given = handed.terms["heat_coefficient", "conductance"] * temperature - handed.terms["heat", "conductance"]
             from_gas = float((given * self.volumes).sum() * handed.dt)
         if ("heat", "friction") in handed.terms:
-            impulse, impulse_from_gas = self._push(handed, gas_state.fields["velocity"])
+            impulse, force = self._push(handed, gas_state.fields["velocity"])
         if self.case.coupling.one_way:  # the gas feels nothing
-            from_gas, impulse_from_gas = 0.0, np.zeros(3)
-        taken = Taken(taken_heat, taken_heat, impulse, from_gas, impulse_from_gas)
+            from_gas, force = 0.0, np.zeros_like(force)
+        given = np.einsum("ij,i->j", force, self.volumes) * handed.dt
+        taken = Taken(taken_heat, taken_heat, impulse, from_gas, given, force)
         if handed.loss:
-            taken = self._with_vapour(taken, handed)
+            taken = self.vapour.taken(taken, handed)
         return self._with_radiation(taken, state, handed) if self.parameters["radiation"] else taken
 
     def _push(self, handed: Handed, velocity) -> tuple[np.ndarray, np.ndarray]:
-        """Impulse (N, 3) [kg m/s] of drag and force, and (3,) what the gas gave; the heat of both is kept for the next
-        window."""
-        apart, given = gather(handed.weights, velocity) - handed.velocity, np.zeros_like(velocity)
-        impulse = np.zeros_like(apart)
+        """Impulse (N, 3) [kg m/s] of drag and held force, and the force (C, 3) [N/m3] by which the gas gave it."""
+        given, impulse = np.zeros_like(velocity), np.zeros_like(handed.velocity)
         if ("momentum", "drag") in handed.terms:
+            apart = gather(handed.weights, velocity) - handed.velocity
             impulse += handed.dt * handed.drag[:, None] * apart
             given += handed.terms["momentum_coefficient", "drag"][:, None] * velocity - handed.terms["momentum", "drag"]
         if ("momentum", "force") in handed.terms:
             impulse += handed.dt * handed.force
             given -= handed.terms["momentum", "force"]
-        self.drag_heat = self._density(handed.weights, np.einsum("ij,ij->i", impulse, apart) / handed.dt)
-        return impulse, np.einsum("ij,i->j", given, self.volumes) * handed.dt
+        return impulse, given
 
-    def _with_vapour(self, taken: Taken, handed: Handed) -> Taken:
-        """The same with what evaporation takes."""
-        mass, latent = handed.loss.mass, self.parameters["evaporation"].latent_heat
-        excess = self.case.grains.heat_capacity - self.case.vapour.heat_capacity
-        given = (
-            0.0
-            if self.case.coupling.one_way
-            else float((handed.terms["vapour", "evaporation"] * self.volumes).sum() * handed.dt)
-        )
-        return replace(
-            taken, warming=taken.heat - latent * mass, vapour=float(mass.sum()), vapour_to_gas=given,
-            latent_heat=latent * float(mass.sum()), capacity_heat=excess * float((mass * handed.temperature).sum()),
-            refused=float(handed.loss.refused.sum()),
-        )  # fmt: skip
+    def rub(self, handed: Handed, taken: Taken, gas_state, way, damped) -> float:
+        """Keep for the next window the heat that motion becomes in this one, and return it [J].
+
+        The gas tells the power that it lost; the particles get impulse.way/dt of it, `way` (N, 3) [m] being their mean
+        velocity times dt; damped (N,) [J] is what theta loses to the gas. Vapour has no part in it: what its motion
+        loses in that of the gas is of the order of u^2/c_p, and stays in `gas_dissipation_J` of the ledger.
+        """
+        if self.case.coupling.one_way or "momentum" not in self.sources:
+            return 0.0
+        made, lost = damped - np.einsum("ij,ij->i", taken.impulse, way) / handed.dt, -gas_state.fields["power"]
+        if handed.loss:
+            brought = handed.terms["momentum", "evaporation"]
+            lost = lost + np.einsum("ij,ij->i", brought, gas_state.fields["velocity"])
+        self.pending = lost * handed.dt + self.cells.density(handed.weights, made)
+        return float(self.pending @ self.volumes)
 
     def _with_radiation(self, taken: Taken, state, handed: Handed) -> Taken:
         """The same with what leaves to the surroundings, half of it before and half of it after the exchange with the
@@ -300,29 +256,8 @@ class Exchange:
         alpha_p = np.minimum(state.density / self.case.grains.density, self.case.grains.packing_limit)
         return float(np.average(damping / (1.0 - alpha_p) ** 2, weights=mass))
 
-    def settle(self, state, handed: Handed) -> None:
-        """Take from the particles what evaporated."""
-        if handed.loss:
-            droplet_loss.apply(
-                self.parameters["evaporation"],
-                self.sizes_p,
-                state,
-                handed.loss.mass,
-                handed.loss.still,
-                handed.loss.moving,
-            )
-
-    def drag_heat_of(self, handed: Handed) -> float:
-        """Heat of drag [J] that the gas was handed."""
+    def handed_heat(self, handed: Handed) -> float:
+        """Heat of motion [J] that the gas was handed."""
         if ("heat", "friction") not in handed.terms or self.case.coupling.one_way:
             return 0.0
-        return float((handed.terms["heat", "friction"] * self.volumes).sum() * handed.dt)
-
-    def _room(self, weights, mass) -> np.ndarray:
-        """Gas volume fraction of the cells with grains of `mass` (N,) [kg] in them."""
-        return 1.0 - deposit(weights, mass / self.case.grains.density) / self.volumes
-
-    def _density(self, weights, amounts) -> np.ndarray:
-        """Extensive amounts (N,) or (N, m) of the particles per volume of the cells."""
-        deposited = deposit(weights, amounts)
-        return deposited / (self.volumes if deposited.ndim == 1 else self.volumes[:, None])
+        return float((handed.terms["heat", "friction"] @ self.volumes) * handed.dt)

@@ -1,4 +1,4 @@
-"""How long the next window is: the least of all limits, each by its cause.
+"""Length of the next window: the least of all limits, each by its cause.
 
 The exchange is first order in the window. Its error over a window is estimated from how much the exchanged heat
 changed since the last one, error = sum |Q_n/dt_n - Q_(n-1)/dt_(n-1)| dt_n^2/(dt_n + dt_(n-1)), and held at

@@ -1,4 +1,4 @@
-"""How a law is compiled: cached on disk, IEEE division (1/0 is inf, as in numpy), no fast-math."""
+"""Compilation of laws: cached on disk, IEEE division (1/0 is inf, as in numpy), no fast-math."""
 
 from numba import njit
 

@@ -4,7 +4,6 @@ GAS_CONSTANT = 8314.46261815324  # J/(kmol K), 1000 k_B N_A, exact since the SI 
 STEFAN_BOLTZMANN = (
     5.670374419e-8  # W/(m2 K4), 2 pi^5 k_B^4/(15 h^3 c^2), exact since the SI of 2019 (CODATA 2018, rounded)
 )
-ATMOSPHERE = 101325.0  # Pa, standard atmosphere (CGPM 1954)
 
 # -, closures are evaluated at most this far below close packing (1/(1-(a/a_max)^(1/3)) has a pole there)
 PACKING_MARGIN = 0.01
@@ -14,7 +13,5 @@ SOFTENING = 0.01  # -, eta^2/h^2 in r^2 + eta^2, keeps coincident pairs finite (
 FRICTION_FR = 0.05  # Pa
 FRICTION_ETA = 2.0  # -
 FRICTION_P = 5.0  # -
-FRICTION_SCHAEFFER = 1e24  # Pa, frictional pressure of MFIX (Syamlal et al. 1993, 1e25 dyn/cm2) and OpenFOAM
-FRICTION_SCHAEFFER_POWER = 10.0  # -
 
 TINY = 1e-300  # keeps a quotient finite whose numerator vanishes with its denominator, without a branch; our choice

@@ -34,30 +34,21 @@ def _viscous_coefficient(x):
 
 
 @law
-def _coefficient_times_reynolds(x):
-    """C_D x [-], with the switch to C_D = 0.44 at x = 1000 (there C_D x jumps by +0.4 %)."""
-    if x < NEWTON_REYNOLDS:
-        return _viscous_coefficient(x)
-    return NEWTON_COEFFICIENT * x
+def coefficient_times_reynolds(x):
+    """C_D x [-]: C_D = 24/x (1 + 0.15 x^0.687) for x < 1000, else 0.44 (there it jumps by +0.4 %). Finite at x = 0.
 
-
-@law
-def schiller_naumann_coefficient(alpha_g, reynolds):
-    """C_D [-] = 24/x (1 + 0.15 x^0.687), x = alpha_g Re_p < 1000, else 0.44.
-
-    Schiller & Naumann 1935, VDI-Z. 77, 318; switch on alpha_g Re_p as Gidaspow 1994, MFIX and OpenFOAM.
+    Schiller & Naumann 1935, VDI-Z. 77, 318; x = alpha_g Re_p in crowds, as Gidaspow 1994, MFIX and OpenFOAM.
     """
-    x = alpha_g * reynolds
-    return _coefficient_times_reynolds(x) / x
+    return _viscous_coefficient(x) if x < NEWTON_REYNOLDS else NEWTON_COEFFICIENT * x
 
 
 @law
-def schiller_naumann_coefficient_paper(alpha_g, reynolds):
-    """C_D [-] as above, but switched on Re_p = 1000: jumps by 5.5 % at alpha_g = 0.85. Chen et al. 2014, section
-    2.1."""
-    if reynolds < NEWTON_REYNOLDS:
-        return _viscous_coefficient(alpha_g * reynolds) / (alpha_g * reynolds)
-    return NEWTON_COEFFICIENT
+def coefficient_times_reynolds_paper(x, reynolds):
+    """C_D x [-] of x = alpha_g Re_p, but switched on Re_p = 1000: C_D jumps by 5.5 % at alpha_g = 0.85.
+
+    Chen et al. 2014, section 2.1.
+    """
+    return _viscous_coefficient(x) if reynolds < NEWTON_REYNOLDS else NEWTON_COEFFICIENT * x
 
 
 @law
@@ -73,7 +64,7 @@ def schiller_naumann(alpha_p, slip, diameter, gas_density, gas_viscosity):
     Schiller & Naumann 1935, VDI-Z. 77, 318.
     """
     reynolds = particle_reynolds(slip, diameter, gas_density, gas_viscosity)
-    return 0.75 * _coefficient_times_reynolds(reynolds) * gas_viscosity / diameter**2
+    return 0.75 * coefficient_times_reynolds(reynolds) * gas_viscosity / diameter**2
 
 
 @law
@@ -94,7 +85,7 @@ def wen_yu(alpha_p, slip, diameter, gas_density, gas_viscosity):
     """
     alpha_g = 1.0 - alpha_p
     x = alpha_g * particle_reynolds(slip, diameter, gas_density, gas_viscosity)
-    return 0.75 * _coefficient_times_reynolds(x) * gas_viscosity / diameter**2 * alpha_g**WEN_YU_EXPONENT
+    return 0.75 * coefficient_times_reynolds(x) * gas_viscosity / diameter**2 * alpha_g**WEN_YU_EXPONENT
 
 
 @law
@@ -102,8 +93,7 @@ def wen_yu_paper(alpha_p, slip, diameter, gas_density, gas_viscosity):
     """Wen & Yu with the drag coefficient switched on Re_p. Chen et al. 2014, section 2.1."""
     alpha_g = 1.0 - alpha_p
     reynolds = particle_reynolds(slip, diameter, gas_density, gas_viscosity)
-    x = alpha_g * reynolds
-    drag = _viscous_coefficient(x) if reynolds < NEWTON_REYNOLDS else NEWTON_COEFFICIENT * x
+    drag = coefficient_times_reynolds_paper(alpha_g * reynolds, reynolds)
     return 0.75 * drag * gas_viscosity / diameter**2 * alpha_g**WEN_YU_EXPONENT
 
 
@@ -180,17 +170,3 @@ def di_felice(alpha_p, slip, diameter, gas_density, gas_viscosity):
     chi = 3.7 - 0.65 * math.exp(-0.5 * (1.5 - math.log10(x)) ** 2) if x > 0.0 else 3.7
     drag = (0.63 * math.sqrt(x) + 4.8) ** 2  # C_D x
     return 0.75 * drag * gas_viscosity / diameter**2 * alpha_g ** (1.0 - chi)
-
-
-LAWS = {
-    "stokes": stokes,
-    "schiller_naumann": schiller_naumann,
-    "ergun": ergun,
-    "wen_yu": wen_yu,
-    "wen_yu_paper": wen_yu_paper,
-    "gidaspow": gidaspow,
-    "gidaspow_paper": gidaspow_paper,
-    "gidaspow_switch": gidaspow_switch,
-    "syamlal_obrien": syamlal_obrien,
-    "di_felice": di_felice,
-}

@@ -1,8 +1,9 @@
 """Evaporation of droplets: what leaves the surface, and how the diameter follows.
 
-Fluxes are positive outwards. From a mass flux G [kg/(m2 s)], for grains that are spheres of density rho_p:
+What drives it is the mass flux over the mass-transfer coefficient, F = G/k_c [kg/m3], positive outwards, with
+k_c = Sh D/d and Sh = 2 (1 + c sqrt(d)), c the `ventilation` of grain_loss.py. For spheres of density rho_p:
 
-    dm/dt = -pi d^2 G,   (dm/dt)/m = -6 G/(rho_p d),   d(d^2)/dt = -4 G d/rho_p = -`regression rate`.
+    dm/dt = -pi d^2 k_c F = -`gas_exchanged` F,   d(d^2)/dt = -4 Sh D F/rho_p = -`regression_rate` (1 + c sqrt(d)).
 
 Saturation laws have one signature, `law(temperature, p)`, p a tuple of floats named in each docstring.
 Quoted as "Chen et al. 2014": Chen, Qiang & Gao, Acta Phys. Sin. 63, 230206 (equation numbers as printed there).
@@ -45,12 +46,24 @@ def boiling_temperature(pressure, p):
 
 
 @law
+def boiling_temperature_antoine(pressure, p):
+    """T [K] at which `saturation_antoine` reaches `pressure` [Pa]; p as there."""
+    return p[1] / (p[0] - math.log10(pressure)) - p[2]
+
+
+@law
 def vapour_concentration(pressure, temperature):
     """C [kmol/m3] = p/(R T), p the partial pressure [Pa]: p_sat, T_p at the surface, X p_op, T_g in the gas.
 
     Chen et al. 2014, Eqs. (9), (10).
     """
     return pressure / (GAS_CONSTANT * temperature)
+
+
+@law
+def partial_pressure(concentration, temperature):
+    """p [Pa] = C R T, inverse of `vapour_concentration`; C [kmol/m3]."""
+    return concentration * GAS_CONSTANT * temperature
 
 
 @law
@@ -89,87 +102,58 @@ def sherwood_ranz_marshall(reynolds, schmidt):
 
 
 @law
-def mass_transfer_coefficient(sherwood, diffusivity, diameter):
-    """k_c [m/s] = Sh D/d."""
-    return sherwood * diffusivity / diameter
-
-
-@law
-def molar_flux(transfer_coefficient, surface_concentration, gas_concentration):
-    """N [kmol/(m2 s)] = k_c (C_s - C_g), and no condensation: 0 if C_s < C_g. Chen et al. 2014, Eq. (8)."""
-    return transfer_coefficient * max(0.0, surface_concentration - gas_concentration)
-
-
-@law
 def spalding_number(surface_mass_fraction, gas_mass_fraction):
     """B_M [-] = (Y_s - Y_g)/(1 - Y_s), Y_s < 1 (below boiling). Spalding 1953, 4th Symp. (Int.) Combust., 847."""
     return (surface_mass_fraction - gas_mass_fraction) / (1.0 - surface_mass_fraction)
 
 
 @law
-def mass_flux_linear(transfer_coefficient, surface_concentration, gas_concentration, molar_mass):
-    """G [kg/(m2 s)] = W N: slow evaporation, Y_s << 1. Chen et al. 2014, Eqs. (8), (12)."""
-    return molar_mass * molar_flux(transfer_coefficient, surface_concentration, gas_concentration)
+def driving_force_linear(surface_concentration, gas_concentration, molar_mass):
+    """F [kg/m3] = W (C_s - C_g): slow evaporation, Y_s << 1; negative where vapour would condense.
+
+    concentrations [kmol/m3]. Chen et al. 2014, Eqs. (8), (12).
+    """
+    return molar_mass * (surface_concentration - gas_concentration)
 
 
 @law
-def mass_flux_spalding(transfer_coefficient, gas_density, transfer_number):
-    """G [kg/(m2 s)] = rho_g k_c ln(1 + B_M): with the Stefan flow of the vapour itself; 0 if B_M < 0.
+def driving_force_spalding(surface_mass_fraction, gas_mass_fraction, gas_density):
+    """F [kg/m3] = rho_g ln(1 + B_M): with the Stefan flow of the vapour itself; negative where it would condense.
 
     Spalding 1953; Fluent's "convection/diffusion controlled" law. Equals the linear law for B_M -> 0.
     """
-    return gas_density * transfer_coefficient * math.log1p(max(0.0, transfer_number))
+    return gas_density * math.log1p(spalding_number(surface_mass_fraction, gas_mass_fraction))
 
 
 @law
-def boiling_flux(heat_transfer_coefficient, gas_temperature, boiling_temperature, latent_heat):
-    """G [kg/(m2 s)] = h (T_g - T_b)/h_fg, 0 if the gas is colder: all heat that comes in evaporates.
+def gas_exchanged(volume, diameter, ventilation, diffusivity):
+    """k_c A [m3/s] of spheres of `diameter` [m] and together of `volume` [m3]: 6 V k_c/d = 12 V (1 + c sqrt(d)) D/d^2.
 
-    h [W/(m2 K)], temperatures [K], latent_heat [J/kg]. Energy balance of a drop held at T_b.
+    ventilation c [m^-1/2]. Chen et al. 2014, Eqs. (11), (12).
     """
-    return heat_transfer_coefficient * max(0.0, gas_temperature - boiling_temperature) / latent_heat
+    return volume * 12.0 * (1.0 + ventilation * math.sqrt(diameter)) * diffusivity / (diameter * diameter)
 
 
 @law
-def boiling_flux_spalding(
-    heat_transfer_coefficient, gas_temperature, boiling_temperature, latent_heat, vapour_heat_capacity
+def regression_rate(driving_force, diffusivity, density):
+    """-d(d^2)/dt [m2/s] = 8 D F/rho_p of a sphere in still gas, Sh = 2, 0 where vapour would condense: d^2 law.
+
+    Godsave 1953 and Spalding 1953, 4th Symp. (Int.) Combust., 818 and 847.
+    """
+    return 8.0 * diffusivity * max(0.0, driving_force) / density
+
+
+@law
+def boiling_force(
+    temperature, gas_temperature, boiling_temperature, conductance, capacity, latent_power, driving_force, dt
 ):
-    """G [kg/(m2 s)] = h/c_v ln(1 + c_v (T_g - T_b)/h_fg): as `boiling_flux`, with Stefan flow shielding the drop.
+    """F [kg/m3] that holds the end of dt [s] at the boiling temperature [K]; `driving_force` if it stays below.
 
-    Godsave 1953, 4th Symp. (Int.) Combust., 818; Fluent's boiling law. c_v [J/(kg K)] of the vapour.
+    A drop of `capacity` [J/K] takes conductance (T_g - T) [W] and gives latent_power F; latent_power [W m3/kg].
     """
-    transfer_number = vapour_heat_capacity * max(0.0, gas_temperature - boiling_temperature) / latent_heat
-    return heat_transfer_coefficient / vapour_heat_capacity * math.log1p(transfer_number)
-
-
-@law
-def mass_rate(mass_flux, diameter):
-    """dm/dt [kg/s] = -pi d^2 G of one sphere. Chen et al. 2014, Eq. (12)."""
-    return -math.pi * diameter * diameter * mass_flux
-
-
-@law
-def relative_mass_rate(mass_flux, diameter, density):
-    """(dm/dt)/m [1/s] = -6 G/(rho_p d) of one sphere, hence of an SPH particle of equal spheres."""
-    return -6.0 * mass_flux / (density * diameter)
-
-
-@law
-def diameter_rate(mass_flux, density):
-    """dd/dt [m/s] = -2 G/rho_p, for spheres and discs alike."""
-    return -2.0 * mass_flux / density
-
-
-@law
-def regression_rate(mass_flux, diameter, density):
-    """K [m2/s] = -d(d^2)/dt = 4 G d/rho_p: does not depend on d while Sh is constant (d^2 law)."""
-    return 4.0 * mass_flux * diameter / density
-
-
-@law
-def d2_step(diameter, regression_rate, dt):
-    """Diameter [m] after dt [s]: sqrt(max(0, d^2 - K dt)), exact for constant K, and exactly 0 once it is gone.
-
-    Godsave 1953 and Spalding 1953 (d^2 law).
-    """
-    return math.sqrt(max(0.0, diameter * diameter - regression_rate * dt))
+    fraction = -math.expm1(-conductance * dt / capacity)
+    cooling = latent_power * max(0.0, driving_force) / conductance
+    end = temperature + (gas_temperature - temperature - cooling) * fraction
+    if end <= boiling_temperature:
+        return driving_force
+    return conductance / latent_power * (gas_temperature - temperature - (boiling_temperature - temperature) / fraction)

@@ -1,4 +1,4 @@
-"""How far two things that exchange come together within a step, and conduction between two particles.
+"""Exchange of two things within a step, how far they come together, and conduction between two particles.
 
 In a step, a particle goes the fraction f of its way to the gas: v' = (1 - f) v + f v_g', with
 lam = dt beta/(alpha_p rho_p) for momentum, dt eps/(alpha_p rho_p c_p) for heat (sdph notes, section 3).
@@ -9,11 +9,7 @@ import math
 from sdph.laws.compiled import law
 from sdph.laws.constants import TINY
 
-
-@law
-def backward_euler_fraction(lam):
-    """f [-] = lam/(1 + lam): first order in time, stiffly damped. lam >= 0 [-]."""
-    return lam / (1.0 + lam)
+SHORT = 1e-8  # relaxation times in a step below which the mean rise is its limit; our choice
 
 
 @law
@@ -23,22 +19,32 @@ def exponential_fraction(lam):
 
 
 @law
-def harmonic_conductivity(conductivity_i, conductivity_j):
-    """2 K_i K_j/(K_i + K_j) [W/(m K)]: the flux between unlike particles is continuous; 0 if either insulates.
+def harmonic_mean(a, b):
+    """2 a b/(a + b) of two conductivities or viscosities: the flux between unlike particles is continuous; 0 if either
+    is.
 
     Cleary & Monaghan 1999, J. Comput. Phys. 148, 227, doi 10.1006/jcph.1998.6118.
     """
-    return 2.0 * conductivity_i * conductivity_j / max(conductivity_i + conductivity_j, TINY)
+    return 2.0 * a * b / max(a + b, TINY)
 
 
 @law
-def cleary_monaghan(mass_j, density_i, density_j, conductivity_i, conductivity_j, r_squared, gradient, eta_squared):
+def cleary_monaghan(pull, r_squared, eta_squared, conductivity, grain_density, density):
     """Coefficient C [W/(kg K)] <= 0 of dh_i/dt = sum_j C_ij (T_i - T_j): the hotter particle cools.
 
-    C = 4 m_j/(rho_i rho_j) K_i K_j/(K_i + K_j) r.grad_i W/(r^2 + eta^2), with r.grad_i W = r^2 * `gradient`.
-    mass [kg or kg/m], density = SPH density alpha_p rho_p [kg/m3], conductivity = alpha_p k_p [W/(m K)],
-    gradient = (dW/dr)/r [1/m^(dims+2)], eta_squared [m2] (0.01 h^2 keeps coincident pairs finite).
-    Cleary & Monaghan 1999 (as above); Chen et al. 2014, Eq. (19), whose sign belongs to r_ij = r_j - r_i.
+    C = 4 m_j/(rho_i rho_j) K_i K_j/(K_i + K_j) r.grad_i W/(r^2 + eta^2), where with K = alpha_p k and rho = alpha_p
+    rho_p all but 2 k/rho_p over the mean of the densities [kg/m3] falls out. pull = m_j (dW/dr)/r [kg/m^(dims+2)],
+    conductivity k [W/(m K)] and grain_density rho_p [kg/m3] of the grains, eta_squared [m2] (0.01 h^2 keeps coincident
+    pairs finite). Cleary & Monaghan 1999 (as above); Chen et al. 2014, Eq. (19), with r_ij = r_j - r_i in its sign.
     """
-    weight = 2.0 * mass_j / (density_i * density_j) * gradient * r_squared / (r_squared + eta_squared)
-    return weight * harmonic_conductivity(conductivity_i, conductivity_j)
+    weight = pull * r_squared / (r_squared + eta_squared)
+    return 2.0 * conductivity / grain_density * weight / density
+
+
+@law
+def mean_rise(power, conductance, capacity, dt):
+    """Mean over dt [s] of the rise [K] of a body of `capacity` [J/K] heated with power - conductance * rise [W]."""
+    if conductance * dt <= SHORT * capacity:
+        return 0.5 * power * dt / capacity if capacity > 0.0 else 0.0
+    x = conductance * dt / capacity
+    return power / conductance * (1.0 + math.expm1(-x) / x)

@@ -29,21 +29,6 @@ def johnson_jackson_slope(alpha_p, alpha_fr, alpha_max, fr, eta, p):
 
 
 @law
-def schaeffer_pressure(alpha_p, alpha_fr, scale, power):
-    """p_fr [Pa] = scale (alpha_p - alpha_fr)^power, 0 below alpha_fr; scale 1e24 Pa, power 10 (constants.py).
-
-    Syamlal, Rogers & O'Brien 1993, MFIX theory guide; OpenFOAM's Schaeffer model.
-    """
-    return scale * max(0.0, alpha_p - alpha_fr) ** power
-
-
-@law
-def schaeffer_slope(alpha_p, alpha_fr, scale, power):
-    """dp_fr/dalpha_p [Pa] = scale power (alpha_p - alpha_fr)^(power - 1), 0 below alpha_fr."""
-    return scale * power * max(0.0, alpha_p - alpha_fr) ** (power - 1.0)
-
-
-@law
 def second_invariant(d11, d22, d33, d12, d23, d31):
     """I2D [1/s2] = dev(D):dev(D)/2 of the rate of strain D [1/s]; (shear rate)^2/4 in simple shear. 2-D: d33 = 0.
 
@@ -54,24 +39,24 @@ def second_invariant(d11, d22, d33, d12, d23, d31):
 
 
 @law
-def schaeffer_viscosity(pressure, sin_angle, shear_squared, least_rate):
-    """Total mu_fr [Pa s] = p_fr sin(phi)/(2 sqrt(I2D + eps^2)): the grains yield at |tau| = p_fr sin(phi).
-
-    pressure p_fr [Pa], sin_angle = sin(phi), shear_squared = I2D [1/s2], least_rate = eps [1/s] keeps grains at rest
-    finite. Schaeffer 1987, J. Differ. Equations 66, 19. Chen et al. 2014 take p_s for p_fr, and alpha_p times this.
-    """
-    return 0.5 * pressure * sin_angle / math.sqrt(shear_squared + least_rate**2)
-
-
-@law
 def yield_share(pressure, sin_angle, stress_squared):
     """Share [-] of a deviatoric stress that contacts bear: sqrt(J2) is at most p_fr sin(phi).
 
-    pressure p_fr [Pa], sin_angle = sin(phi), stress_squared = J2 = tau:tau/2 [Pa2]. Schaeffer 1987: while grains yield,
-    tau = 2 mu_fr dev(D) with the viscosity above at least_rate = 0.
+    pressure p_fr [Pa], sin_angle = sin(phi), stress_squared = J2 = tau:tau/2 [Pa2]. Schaeffer 1987, J. Differ.
+    Equations 66, 19: grains that yield have tau = 2 mu_fr dev(D), mu_fr = p_fr sin(phi)/(2 sqrt(I2D)).
     """
     most = pressure * sin_angle
     return most / math.sqrt(stress_squared) if stress_squared > most * most else 1.0
+
+
+@law
+def johnson_jackson_wall(specularity, alpha_p, theta, g0, density, alpha_max):
+    """k [Pa s/m] of the stress k v on a wall that grains slip along at v: phi pi rho_p alpha_p g0 sqrt(3 theta)/(6
+    alpha_max).
+
+    specularity phi [-], 0 smooth to 1 rough; theta [m2/s2], density rho_p [kg/m3]. Johnson & Jackson 1987.
+    """
+    return specularity * math.pi * density * alpha_p * g0 * math.sqrt(3.0 * theta) / (6.0 * alpha_max)
 
 
 @law

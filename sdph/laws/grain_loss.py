@@ -1,4 +1,4 @@
-"""How evaporation moves a distribution of sizes: each grain by its own rate, the small ones vanish first.
+"""Evaporation of a distribution of sizes: each grain by its own rate, the small ones vanish first.
 
 With the Ranz-Marshall number, Sh = 2 (1 + c sqrt(d)), the square D = d^2 of a diameter falls as
 

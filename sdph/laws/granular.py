@@ -15,6 +15,9 @@ import math
 from sdph.laws.compiled import law
 from sdph.laws.constants import PACKING_MARGIN
 
+# of `streaming_share`: mu_kin = 10/96 and (2/3) k_kin = 25/96 of rho_p d sqrt(pi theta)/((1 + e) g0) without crowding
+STREAMING_MOMENTUM, STREAMING_AGITATION = 10.0, 25.0
+
 
 @law
 def capped_fraction(alpha_p, alpha_max):
@@ -36,33 +39,6 @@ def sinclair_jackson_slope(alpha_p, alpha_max):
     """dg0/dalpha_p [-] = x/(3 alpha_p (1 - x)^2), x = (alpha_p/alpha_max)^(1/3); alpha_p > 0 (infinite at 0)."""
     x = (alpha_p / alpha_max) ** (1.0 / 3.0)
     return 1.0 / (3.0 * alpha_max * x * x * (1.0 - x) ** 2)
-
-
-@law
-def carnahan_starling(alpha_p, alpha_max):
-    """g0 [-] = (2 - alpha_p)/(2 (1 - alpha_p)^3): hard-sphere fluid, alpha_p < 0.5; alpha_max not used.
-
-    Carnahan & Starling 1969, J. Chem. Phys. 51, 635.
-    """
-    return (2.0 - alpha_p) / (2.0 * (1.0 - alpha_p) ** 3)
-
-
-@law
-def carnahan_starling_slope(alpha_p, alpha_max):
-    """dg0/dalpha_p [-] = (5 - 2 alpha_p)/(2 (1 - alpha_p)^4)."""
-    return (5.0 - 2.0 * alpha_p) / (2.0 * (1.0 - alpha_p) ** 4)
-
-
-@law
-def lun_savage(alpha_p, alpha_max):
-    """g0 [-] = (1 - alpha_p/alpha_max)^(-2.5 alpha_max). Lun & Savage 1986, Acta Mech. 63, 15."""
-    return (1.0 - alpha_p / alpha_max) ** (-2.5 * alpha_max)
-
-
-@law
-def lun_savage_slope(alpha_p, alpha_max):
-    """dg0/dalpha_p [-] = 2.5 (1 - alpha_p/alpha_max)^(-2.5 alpha_max - 1)."""
-    return 2.5 * (1.0 - alpha_p / alpha_max) ** (-2.5 * alpha_max - 1.0)
 
 
 @law
@@ -105,10 +81,21 @@ def gidaspow_kinetic_viscosity(alpha_p, theta, restitution, g0, density, diamete
 
 
 @law
-def gidaspow_viscosity(alpha_p, theta, restitution, g0, density, diameter):
-    """Total mu [Pa s] = collisional + kinetic: OpenFOAM's rho*nu of the Gidaspow viscosity model."""
+def streaming_share(alpha_p, restitution, g0, diameter, factor, h):
+    """Share, 1 at most, of a kinetic coefficient that is left where grains stream freely over no more than h [m].
+
+    Between collisions momentum and agitation go sqrt(theta) times a free path, factor sqrt(pi) d/(96 (1 + e) alpha_p
+    g0), which grows without bound as alpha_p vanishes. factor: STREAMING_MOMENTUM or STREAMING_AGITATION. No field of a
+    smoothing length h tells of longer ones; our choice.
+    """
+    return min(1.0, 96.0 * (1.0 + restitution) * alpha_p * g0 * h / (factor * math.sqrt(math.pi) * diameter))
+
+
+@law
+def gidaspow_viscosity(alpha_p, theta, restitution, g0, density, diameter, streaming=1.0):
+    """Total mu [Pa s] = collisional + `streaming` times kinetic: OpenFOAM's rho*nu of the Gidaspow viscosity model."""
     collisional = gidaspow_collisional_viscosity(alpha_p, theta, restitution, g0, density, diameter)
-    return collisional + gidaspow_kinetic_viscosity(alpha_p, theta, restitution, g0, density, diameter)
+    return collisional + streaming * gidaspow_kinetic_viscosity(alpha_p, theta, restitution, g0, density, diameter)
 
 
 @law
@@ -118,8 +105,8 @@ def lun_bulk_viscosity(alpha_p, theta, restitution, g0, density, diameter):
 
 
 @law
-def gidaspow_conductivity(alpha_p, theta, restitution, g0, density, diameter):
-    """k_theta [kg/(m s)], flux of 3/2 alpha_p rho_p theta is -k_theta grad theta:
+def gidaspow_conductivity(alpha_p, theta, restitution, g0, density, diameter, streaming=1.0):
+    """k_theta [kg/(m s)], flux of 3/2 alpha_p rho_p theta is -k_theta grad theta, its first part times `streaming`:
 
     k = 25 rho_p d sqrt(pi theta)/(64 (1 + e) g0) [1 + 6/5 alpha_p g0 (1 + e)]^2
         + 2 rho_p alpha_p^2 d (1 + e) g0 sqrt(theta/pi). Gidaspow 1994; Chen et al. 2014, section 2.1.
@@ -127,7 +114,7 @@ def gidaspow_conductivity(alpha_p, theta, restitution, g0, density, diameter):
     e1 = 1.0 + restitution
     stretch = (1.0 + 1.2 * alpha_p * g0 * e1) ** 2
     kinetic = 25.0 * density * diameter * math.sqrt(math.pi * theta) / (64.0 * e1 * g0) * stretch
-    return kinetic + 2.0 * density * alpha_p**2 * diameter * e1 * g0 * math.sqrt(theta / math.pi)
+    return streaming * kinetic + 2.0 * density * alpha_p**2 * diameter * e1 * g0 * math.sqrt(theta / math.pi)
 
 
 @law
@@ -135,19 +122,6 @@ def lun_dissipation(alpha_p, theta, restitution, g0, density, diameter):
     """gamma [W/m3] = 12 (1 - e^2) g0/(d sqrt(pi)) rho_p alpha_p^2 theta^1.5. Lun et al. 1984."""
     rate = 12.0 * (1.0 - restitution**2) * g0 / (diameter * math.sqrt(math.pi))
     return rate * density * alpha_p**2 * theta**1.5
-
-
-@law
-def paper_dissipation(alpha_p, theta, restitution, g0, density, diameter):
-    """gamma [W/m3] as Chen et al. 2014 print it, with alpha_p^1: larger than Lun's by 1/alpha_p."""
-    rate = 12.0 * (1.0 - restitution**2) * g0 / (diameter * math.sqrt(math.pi))
-    return rate * density * alpha_p * theta**1.5
-
-
-@law
-def gidaspow_damping(beta, theta):
-    """J [W/m3] = -3 beta theta: fluctuations lost to the gas; beta [kg/(m3 s)]. Gidaspow 1994."""
-    return -3.0 * beta * theta
 
 
 @law
@@ -160,9 +134,18 @@ def cooling_coefficient(alpha_p, restitution, g0, diameter):
 
 
 @law
-def damping_rate(drag, density):
-    """B [1/s] of d theta/dt = -B theta, = (2/3) 3 beta/(alpha_p rho_p); drag = beta/alpha_p [kg/(m3 s)]."""
-    return 2.0 * drag / density
+def cooling_coefficient_paper(alpha_p, restitution, g0, diameter):
+    """K [1/m] with gamma as Chen et al. 2014 print it, with alpha_p^1: larger than Lun's by 1/alpha_p; alpha_p > 0."""
+    return cooling_coefficient(alpha_p, restitution, g0, diameter) / alpha_p
+
+
+@law
+def damping_rate(damping):
+    """B [1/s] of d theta/dt = -B theta: fluctuations lost to the gas, J = -3 beta theta [W/m3] over 3/2 alpha_p rho_p.
+
+    damping = beta/(alpha_p rho_p) [1/s]. Gidaspow 1994.
+    """
+    return 2.0 * damping
 
 
 @law

@@ -90,10 +90,3 @@ def lattice_factor(kernel: str, dims: int, ratio: float) -> float:
     by."""
     sigma = normalisation(kernel, dims, ratio)
     return math.fsum(KERNELS[kernel].value(r, ratio, sigma) for r in _lattice_radii(dims, ratio))
-
-
-def lattice_divergence_factor(kernel: str, dims: int, ratio: float) -> float:
-    """-(1/dims) sum of dx^dims r.grad W [-] on the same lattice: the discrete div(r)/dims, one for an exact kernel."""
-    sigma = normalisation(kernel, dims, ratio)
-    gradient = KERNELS[kernel].gradient
-    return -math.fsum(r * r * gradient(r, ratio, sigma) for r in _lattice_radii(dims, ratio)) / dims

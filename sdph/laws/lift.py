@@ -55,6 +55,3 @@ def saffman_mei(slip, spin, diameter, gas_density, gas_viscosity):
     reynolds = particle_reynolds(slip, diameter, gas_density, gas_viscosity)
     factor = mei_factor(reynolds, shear_reynolds(spin, diameter, gas_density, gas_viscosity))
     return factor * saffman(slip, spin, diameter, gas_density, gas_viscosity)
-
-
-LAWS = {"saffman_mei": saffman_mei, "saffman": saffman}

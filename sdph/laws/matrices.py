@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
+import math
+
 from numba import njit
 
 SINGULAR = 1e-3  # determinant of a renormalisation matrix; 1 inside, 0.1-0.5 at a surface; our choice
@@ -25,9 +26,9 @@ def smallest(xx, yy, zz, xy, yz, zx):
     """Smallest eigenvalue of a symmetric matrix, by its invariants (Smith 1961, Commun. ACM 4, 168)."""
     mean = (xx + yy + zz) / 3.0
     a, b, c = xx - mean, yy - mean, zz - mean
-    spread = np.sqrt((a * a + b * b + c * c + 2.0 * (xy * xy + yz * yz + zx * zx)) / 6.0)
+    spread = math.sqrt((a * a + b * b + c * c + 2.0 * (xy * xy + yz * yz + zx * zx)) / 6.0)
     if spread == 0.0:
         return mean
     half = (a * (b * c - yz * yz) - xy * (xy * c - yz * zx) + zx * (xy * yz - b * zx)) / (2.0 * spread**3)
-    angle = np.arccos(min(max(half, -1.0), 1.0)) / 3.0
-    return mean + 2.0 * spread * np.cos(angle + 2.0 * np.pi / 3.0)
+    angle = math.acos(min(max(half, -1.0), 1.0)) / 3.0
+    return mean + 2.0 * spread * math.cos(angle + 2.0 * math.pi / 3.0)

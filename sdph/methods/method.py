@@ -1,12 +1,13 @@
-"""What a run needs of a method, a way to move one kind of matter. Methods stand side by side and know no other."""
+"""Methods: ways to move one kind of matter each, as a run needs them. They stand side by side and know no other."""
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from sdph.engine.state import State
 
 
+@runtime_checkable
 class Method(Protocol):
     """Matter and how it goes forward; a run calls `begin`, `advance` and `close` once a window, in that order.
 
@@ -24,16 +25,16 @@ class Method(Protocol):
     limit: str
 
     def start(self) -> None:
-        """Open the ledger; particles are there from the beginning."""
+        """Begin: what comes in at once is there, a ledger of its own is open."""
 
     def begin(self) -> None:
         """Remember the state to go back to, before a window."""
 
-    def advance(self, end: float, most: float) -> None:
-        """Go to `end` [s], in `most` sub-steps at most, none longer than any effect that is on allows."""
+    def advance(self, end: float) -> None:
+        """Go to `end` [s], in sub-steps no longer than any effect that is on allows."""
 
     def close(self) -> None:
-        """Look for what is out of bounds, and write the row of the ledger of the window."""
+        """End the window: what held over it is released, a ledger of its own has its row."""
 
     def row(self) -> dict[str, float]:
         """Columns of history.csv."""
@@ -48,4 +49,4 @@ class Method(Protocol):
         """Its part of summary.json, beside that of its ledger."""
 
     def warnings(self) -> list[str]:
-        """What it has to say of itself in the end."""
+        """Notes for the user on how it went."""

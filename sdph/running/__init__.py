@@ -1,1 +1,1 @@
-"""What a run is made of, from its case to what it leaves behind."""
+"""Parts of a run, from its case to what it leaves behind."""

@@ -43,13 +43,18 @@ class Alone:
 
     @property
     def at_row(self) -> bool:
-        """Whether the history has a row of now."""
+        """True where the history has a row of now."""
         return self.clock.rows_at(self.time)
 
     @staticmethod
     def time_of(kept: dict) -> float:
         """Time [s] of what was kept."""
         return kept["liquid"]["stepper"]["time"]
+
+    @staticmethod
+    def windows_of(kept: dict) -> int:
+        """Windows of what was kept."""
+        return kept["windows"]
 
     def tables(self) -> list:
         """Ledgers that are open."""
@@ -79,7 +84,7 @@ class Alone:
         self.wall["particles"] += clock.perf_counter() - begun
 
     def row(self) -> dict[str, float]:
-        """What history.csv holds."""
+        """Columns of history.csv."""
         return {"time_s": self.time} | self.liquid.row()
 
     def meshes(self) -> dict:
@@ -87,7 +92,7 @@ class Alone:
         return {"particles": self.liquid.points()}
 
     def walls(self):
-        """Those of the tank as a pyvista surface; None where there are none."""
+        """Walls of the tank as a pyvista surface; None where there are none."""
         return self.liquid.walls()
 
     def summary(self, out) -> dict[str, float]:
@@ -95,5 +100,5 @@ class Alone:
         return {"sub_steps": self.liquid.steps} | self.liquid.summary()
 
     def warnings(self) -> list[str]:
-        """What the run has to say of itself in the end."""
+        """Notes for the user on how the run went."""
         return self.liquid.warnings()

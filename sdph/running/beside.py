@@ -65,7 +65,7 @@ class Beside:
         return longest
 
     def named(self, told) -> dict:
-        """What each method tells, (method) -> name -> value, under names that begin with its matter."""
+        """Values that each method tells, (method) -> name -> value, under names that begin with its matter."""
         found = {matter: told(method) for matter, method in self.methods.items()}
         return {
             f"{matter}_{key.removeprefix(f'{matter}_')}": value
@@ -82,6 +82,6 @@ class Beside:
         return [walls for method in self.methods.values() if (walls := method.walls()) is not None]
 
     def warnings(self) -> list[str]:
-        """What the methods have to say of themselves, and that the gas does not feel them."""
+        """Notes of the methods on how they went, and that the gas does not feel them."""
         told = [f"the gas does not feel the {matter} beside the grains: it flows through" for matter in self.methods]
         return told + [text for method in self.methods.values() for text in method.warnings()]

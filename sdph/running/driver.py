@@ -1,7 +1,6 @@
 """`sdph run`: a run from its case, or from its last checkpoint, to its summary.
 
-What is run is a `Simulation` of grains in a gas, a liquid beside them or not, or a liquid `Alone`. The driver knows of
-both only what both have:
+A `Simulation` of grains in a gas, a liquid beside them or not, or a liquid `Alone` is run. Both have:
 
     start()  take_up(checkpoint)  window()                             how it goes
     time  windows  at_row  clock (sdph.engine.clock)                   where it is
@@ -97,8 +96,8 @@ def resume(folder: Path, overrides: tuple[str, ...], reporter, *, allow_code: bo
 
 
 def simulation_of(case, gas, ledger: Path):
-    """What runs a case: a liquid alone (`gas` is None), or grains in a gas, beside a liquid where the case has one; its
-    ledgers go to new files."""
+    """Simulation of a case: a liquid alone (`gas` is None), or grains in a gas, beside a liquid where the case has one;
+    its ledgers go to new files."""
     if "grains" not in case.matters:
         return Alone(case, ledger)
     simulation = Simulation(case.only("grains"), gas, Ledger(ledger, case, gas.mesh.depth))
@@ -152,7 +151,7 @@ class Run:
         self.elapsed = before
 
     def go(self, gas, checkpoint, wish) -> dict:
-        """From the start, or from a checkpoint, to the summary; `gas` None for a liquid."""
+        """Run from the start, or from a checkpoint, to the summary; `gas` None for a liquid."""
         self._begin(gas, checkpoint)
         output.write_text(self.folder / output.MARK, cases.dumps(inputs.seen_from(self.case, self.folder)))
         (self.folder / output.FAILURE).unlink(missing_ok=True)
@@ -207,15 +206,15 @@ class Run:
     def admit(self, kept: dict) -> None:
         """Unfit where time, windows or wall times are not those of a run."""
         run = kept["simulation"]
-        windows, time_s, wall = run["windows"], self.simulation.time_of(run), run["wall"]
+        windows, time_s, wall = self.simulation.windows_of(run), self.simulation.time_of(run), run["wall"]
         if windows < 0 or time_s < 0.0 or (windows == 0) != (time_s == 0.0) or min(kept["spent"], *wall.values()) < 0.0:
             raise Unfit("its windows, time and wall time are not those of a run")
         if windows and not wall["particles"] > 0.0:
             raise Unfit("its particles took no time")
 
     def _take_up(self, checkpoint, kept: dict) -> None:
-        """The gas goes back first: where that fails, the run is as it was."""
-        if (kept["windows"], self.simulation.time_of(kept)) != (checkpoint.number, checkpoint.time):
+        """Take up a checkpoint, the gas first: where that fails, the run is as it was."""
+        if (self.simulation.windows_of(kept), self.simulation.time_of(kept)) != (checkpoint.number, checkpoint.time):
             raise Unfit("its windows and time are not those that its name and manifest tell")
         try:
             self.simulation.take_up(checkpoint)
@@ -236,7 +235,7 @@ class Run:
         self.simulation.notices.clear()
 
     def _due(self) -> bool:
-        """Whether it is time for a checkpoint."""
+        """True where it is time for a checkpoint."""
         windows = self.case.run.checkpoint_windows or math.inf
         apart = time.monotonic() - self.saved_time
         return apart >= self.case.run.checkpoint_interval or self.simulation.windows - self.saved_window >= windows
@@ -274,7 +273,7 @@ class Outputs:
         self._write()
 
     def window(self) -> None:
-        """After each window."""
+        """Write what is due after a window."""
         if self.simulation.at_row:
             self.last = self.simulation.row()
             self.history.write(self.last)

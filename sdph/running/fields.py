@@ -45,7 +45,7 @@ def load(path: Path, arrays: tuple[str, ...] = ()):
 
 
 def _decoded(path: Path):
-    """What VTK makes of a file. Its own complaints, of many lines, are kept from the terminal."""
+    """Mesh of a file by VTK, whose own complaints, of many lines, are kept from the terminal."""
     import pyvista
     from vtkmodules import vtkIOXML
     from vtkmodules.vtkCommonCore import vtkLogger
@@ -132,7 +132,7 @@ def save(mesh, path: Path) -> None:
 
 
 def whole(path: Path) -> bool:
-    """Whether a VTK file is there, with its last line."""
+    """True where a VTK file is there, with its last line."""
     if not path.is_file():
         return False
     with open(path, "rb") as file:

@@ -23,6 +23,7 @@ import tomli_w
 from coupling.openfoam.code import refuse_code
 from sdph.case import read as cases
 from sdph.effects.around import frame, tank
+from sdph.engine.reading import one_line
 from sdph.engine.walls import sides as boundary
 from sdph.running import output
 from sdph.schema import CaseError
@@ -56,8 +57,7 @@ def check(case) -> None:
         except CaseError:
             raise
         except Exception as error:  # whatever the parsers of meshio stumble on
-            told = " ".join(str(error).split())
-            raise CaseError(f"{key} = {path!r} cannot be read ({told}); give a file that is whole") from None
+            raise CaseError(f"{key} = {path!r} cannot be read ({one_line(error)}); give a file that is whole") from None
 
 
 @contextlib.contextmanager
@@ -83,7 +83,7 @@ def _copied(key: str, source: Path, folder: Path) -> str:
 
 
 def _place(key: str, source: Path) -> str:
-    """Where a file is kept, from the run folder."""
+    """Path of a kept file, from the run folder."""
     return f"{FOLDER}/{key}/{source.name}"
 
 

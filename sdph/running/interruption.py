@@ -25,8 +25,8 @@ class Stopped(KeyboardInterrupt):
 
 
 class Wish:
-    """Whether somebody wants the run to stop. While it is `patient` the first signal only sets `number`; else, the
-    second time, and where nobody has obeyed for `PATIENCE`, it raises `Stopped` at once."""
+    """Request to stop the run. While it is `patient` the first signal only sets `number`; else, the second time, and
+    where nobody has obeyed for `PATIENCE`, it raises `Stopped` at once."""
 
     def __init__(self):
         self.number, self.patient, self.timer = None, False, None
@@ -53,7 +53,7 @@ class Wish:
 
 
 def _called_from(name: str, frame) -> bool:
-    """Whether a function of that name is among those that are running."""
+    """True where a function of that name is among those that are running."""
     while frame and frame.f_code.co_name != name:
         frame = frame.f_back
     return frame is not None

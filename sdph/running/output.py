@@ -22,8 +22,7 @@ import numpy as np
 
 from sdph import __version__
 from sdph.case.gas_cells import SAME, layers
-from sdph.engine import state as particles
-from sdph.engine.table import Found, column, read_cells
+from sdph.engine.table import Found, TooLarge, column, read_cells
 from sdph.schema import CaseError
 
 MARK, ORIGIN = "case.toml", "origin.json"  # a folder with these files holds a run
@@ -113,7 +112,7 @@ def write_summary(folder: Path, summary: dict) -> None:
 
 
 def write_origin(folder: Path) -> None:
-    """Where a run comes from: the command, versions, machine. Nothing is taken from it: a folder may come from
+    """Write the origin of a run: the command, versions, machine. Nothing is taken from it: a folder may come from
     anywhere."""
     versions = {"sdph": __version__, "python": platform.python_version()} | {
         name: importlib.metadata.version(name) for name in NAMED
@@ -149,7 +148,7 @@ def read_summary(folder: Path) -> dict:
 
 
 def _short_number(value) -> bool:
-    """Whether a value of JSON is a number that a float can hold, or none at all."""
+    """True where a value of JSON is a number that a float can hold, or none at all."""
     return value is None or isinstance(value, float) or (isinstance(value, int) and abs(value) <= sys.float_info.max)
 
 
@@ -170,23 +169,12 @@ def read_table(path: Path, texts: tuple[str, ...] | None = None, mend: str = "ru
             cells.rows.pop()
         cells.whole()
         return Found(path, {name: column(cells, name, texts) for name in cells.head})
+    except TooLarge as error:
+        raise CaseError(
+            f"{path} is too long a table ({error}); give one of a shorter run, or of longer windows"
+        ) from None
     except ValueError as error:
         raise CaseError(f"{path} is damaged ({error}); {mend}") from None
-
-
-def particle_points(state, grain_density: float):
-    """Particles as pyvista points with their arrays and alpha_p."""
-    import pyvista
-
-    points = pyvista.PolyData(particles.positions(state))
-    if not points.n_points:  # pyvista knows no empty arrays
-        return points
-    points["velocity"] = particles.velocities(state)
-    points["alpha_p"] = state.density / grain_density
-    for name in ("ident", "kind", "mass", "density", "temperature", "diameter", "theta"):
-        if len(getattr(state, name)):
-            points[name] = getattr(state, name)
-    return points
 
 
 def gas_grid(gas):

@@ -1,4 +1,5 @@
-"""Where a run is: one line that is rewritten on a terminal, plain lines elsewhere, and a page of it with `--watch`."""
+"""Progress of a run: one line that is rewritten on a terminal, plain lines elsewhere, and a page of it with
+`--watch`."""
 
 from __future__ import annotations
 
@@ -29,7 +30,7 @@ class Reporter:
             print(text, file=sys.stderr, flush=True)
 
     def progress(self, simulation) -> None:
-        """After a window."""
+        """Show the state of a run after a window."""
         now = time.perf_counter()
         self.begun = self.begun or (now, simulation.time)
         if self.page:

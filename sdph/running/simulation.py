@@ -9,19 +9,14 @@ import numpy as np
 from coupling.gas import GasError, Unfinished
 from coupling.transfer import Transfer, gather
 from sdph import effects
-from sdph.effects.around.inflow import Source
-from sdph.effects.around.outflow import leaving, refuse_to_leave
-from sdph.engine import state as particles
 from sdph.engine.kept import Unfit
-from sdph.engine.state import GRAIN, INFLOW
-from sdph.engine.walls import sides as boundary
 from sdph.exchange.exchange import Exchange
 from sdph.exchange.window import Window, learned
-from sdph.methods.grains import start
-from sdph.methods.grains.method import Stepper
-from sdph.methods.grains.window import Tally, of_those_that_left
+from sdph.methods.grains.grains import Grains
 from sdph.running import history, output
 from sdph.running.beside import Beside
+from sdph.running.limiters import Limiters
+from sdph.running.work import Held
 
 PART = 4.0  # a window that the gas cannot finish is taken again, so much shorter (our choice),
 REPEATS = 4  # so often at most: down to 1/256
@@ -29,58 +24,65 @@ SAME_TIME = 1e-6  # of the end time: the gas sums up its windows with round-off;
 
 
 class Simulation:
-    """Particles of a case coupled to a gas; call `window` until `time` is the end."""
+    """Grains of a case coupled to a gas, and other methods beside them; call `window` until `time` is the end."""
 
     at_row = True  # the history has a row of every window
-    # see sdph.engine.kept
-    KEPT = ("time", "windows", "repeated", "wall", "stepper", "exchange", "clock", "ledger", "source", "beside")
+    KEPT = ("repeated", "wall", "grains", "exchange", "clock", "ledger", "beside", "limiters")  # see sdph.engine.kept
 
     def __init__(self, case, gas, ledger):
         self.case, self.gas, self.ledger = case, gas, ledger
-        self.parameters, self.source, self.stepper, self.clock = parts_of(case)
-        self.moves = effects.moving(case)
+        self.grains, self.clock = Grains(case), Window(case)
+        self.parameters = self.grains.parameters
         self.transfer = Transfer(gas.mesh, case.smoothing_length, case.domain.size)
         self.exchange = Exchange(case, gas.mesh, self.parameters)
-        self.time, self.windows, self.repeated, self.grid = 0.0, 0, 0, None
+        self.repeated, self.grid = 0, None
         self.notices: list[str] = []  # for the user, until somebody has passed them on
         self._weights_now = None
-        self.beside = Beside()  # other methods
+        self.beside, self.limiters = Beside(), Limiters()  # other methods; what limiters hold
         self.wall = {"particles": 0.0, "exchange": 0.0, "gas": 0.0}
 
     @staticmethod
     def time_of(kept: dict) -> float:
         """Time [s] of what was kept."""
-        return kept["time"]
+        return kept["grains"]["time"]
+
+    @staticmethod
+    def windows_of(kept: dict) -> int:
+        """Windows of what was kept."""
+        return kept["grains"]["windows"]
 
     def tables(self) -> list:
         """Ledgers that are open."""
         return [self.ledger.table, *(method.ledger.table for method in self.beside.methods.values())]
 
     @property
+    def time(self) -> float:
+        return self.grains.time
+
+    @property
+    def windows(self) -> int:
+        return self.grains.windows
+
+    @property
     def state(self):
-        return self.stepper.state
+        return self.grains.state
+
+    @property
+    def stepper(self):
+        return self.grains.stepper
 
     @property
     def weights(self):
         """Transfer weights of where the particles are between windows, made when somebody asks."""
         if self._weights_now is None:
-            self._weights_now = self._weights()
+            self._weights_now = self.transfer.weights(self.grains.places())
         return self._weights_now
-
-    @property
-    def grains(self):
-        """The particles that are in the gas."""
-        return particles.grains(self.state)
 
     def start(self) -> None:
         """Initial fields of both sides, and the first window."""
-        self._turn_over(self.case.coupling.window_largest)
+        self.grains.start()
         one_way = self.case.coupling.one_way
-        alpha_g = (
-            None
-            if one_way or not self.case.coupling.voidage
-            else self.exchange.alpha_g(self.state, self.weights, self._inside())
-        )
+        alpha_g = None if one_way or not self.case.coupling.voidage else self._alpha_g()
         self.gas_state = self.gas.start(alpha_g, () if one_way else self.exchange.sources, self.exchange.fields)
         self.clock.obey(effects.window_limits(self.parameters, self.case, self.state))
         if not one_way:
@@ -88,21 +90,17 @@ class Simulation:
             self.clock.begin(rate, stake)
             self.clock.thicken(1.0, thickening)
             self.clock.hold(grip)
-        self.ledger.open(self.grains, self.gas_state.budget)
+        self.ledger.open(self._totals(), self.gas_state.budget)
+        self.limiters.hear(self.stepper.held | self.exchange.held(self.state, self.weights, self.gas_state))
         self.beside.start()
         self.clock.touch(self.beside.limit(self.state))
 
     def admit(self, kept: dict) -> None:
-        """Unfit where time is not that of the ledger, or particles have numbers that nobody gave."""
-        if kept["time"] != kept["ledger"]["last"]["time_s"]:
+        """Unfit where time is not that of the ledger."""
+        time = self.time_of(kept)
+        if time != kept["ledger"]["last"]["time_s"]:
             raise Unfit("its time is not that of the ledger")
-        self.beside.refuse_other_times(kept["beside"], kept["time"])
-        if self.source:
-            self.source.admit_at(kept["time"], kept["source"])
-        given = kept["source"]["next_ident"] if self.source else len(self.state.x) + 1
-        ident = kept["stepper"]["state"]["ident"]
-        if ident.min(initial=1) < 1 or ident.max(initial=1) > max(1, given - 1):
-            raise Unfit(f"a particle has a number that is not among 1 to {given - 1}")
+        self.beside.refuse_other_times(kept["beside"], time)
 
     def take_up(self, checkpoint) -> None:
         """Go back to the gas of a checkpoint, instead of `start`; what else was kept is put back next."""
@@ -113,43 +111,63 @@ class Simulation:
             raise Unfit(f"its gas is at {self.gas_state.time:g} s, its particles are at {checkpoint.time:g} s")
 
     def window(self) -> None:
-        """One window: exchange prepared, gas advanced, reaction taken, particles advanced."""
+        """One window: exchange prepared, gas advanced, reaction taken, particles advanced and renewed."""
         end, handed = self._with_gas(self.clock.choose(self.time))
         dt = end - self.time
         taken = self._timed("exchange", self.exchange.take, self.state, handed, self.gas_state)
-        self.clock.hold(self.exchange.grip(self.state, handed.damping))
-        self.exchange.settle(self.state, handed)
-        exchanged, body = learned(self.state, taken.heat, dt), self._body(handed)
-        weight = np.einsum("i,ij->j", self.state.mass * (self.state.kind == GRAIN) * dt, body)
-        momentum = self.state.mass[:, None] * dt
-        touched = self.beside.touch(self.state, dt)
-        pushed = np.divide(taken.impulse + touched, momentum, out=np.zeros_like(body), where=momentum > 0.0)
-        self.stepper.force(taken.warming, body + pushed, handed.damping)
-        self._without_finished()
-        tally = Tally(self)
+        changed = learned(self.state, taken.heat, dt)
+        held = self._react(handed, taken, dt)
         self._timed("particles", self._advance, end)
-        self.time, self.windows = end, self.windows + 1
-        self.clock.learn(dt, *exchanged, self.gas_state.budget.courant, self._fastest())
-        self.clock.thicken(dt, self.exchange.vapour_share(handed, self.gas_state))
+        self.grains.close()
+        way = self.grains.way
+        self.limiters.hear(self.stepper.held | handed.held())
+        exchanged = taken.columns() | handed.columns() | held.columns(way)
+        exchanged |= {"drag_heat_J": self.exchange.handed_heat(handed)}
+        exchanged |= {"friction_J": self.exchange.rub(handed, taken, self.gas_state, way, self.grains.damped)}
+        self.clock.learn(dt, *changed, self.gas_state.budget.courant, self.grains.fastest())
+        self.clock.thicken(dt, self.exchange.vapour.share(handed, self.gas_state) if self.exchange.vapour else 0.0)
         self.clock.obey(effects.window_limits(self.parameters, self.case, self.state))
-        exchanged = taken.columns() | tally.columns(
-            self, weight, np.einsum("ij->j", taken.impulse), touched.sum(axis=0)
-        )
-        exchanged |= {"drag_heat_J": self.exchange.drag_heat_of(handed)}
-        exchanged |= self._timed("exchange", self._turn_over, self.clock.longest())
+        self._timed("exchange", self._renew)
         self.clock.touch(self.beside.limit(self.state))
-        self.ledger.close_window(end, dt, self.clock.limit, self.grains, self.gas_state, exchanged)
+        exchanged |= self.grains.columns()
+        self.ledger.close_window(end, dt, self.clock.limit, self._totals(), self.gas_state.budget, exchanged)
+
+    def _react(self, handed, taken, dt: float) -> Held:
+        """Put on the particles what holds over a window of `dt` [s]: the answer of the gas, gravity, contact."""
+        self.clock.hold(self.exchange.grip(self.state, handed.damping))
+        if self.exchange.vapour:
+            self.exchange.vapour.settle(self.state, handed)
+        body, touched = self._body(handed), self.beside.touch(self.state, dt)
+        held = Held(self.state, dt, taken.impulse, touched, *body)
+        self.grains.force(taken.warming, held.push, handed.damping)
+        return held
 
     def _advance(self, end: float) -> None:
         """All methods to `end` [s]."""
-        (self.stepper.move if self.moves else self.stepper.conduct)(end - self.time)
+        self.grains.advance(end)
         self.beside.advance(end)
+
+    def _renew(self) -> None:
+        """Between windows: particles that come and go; there may be more to exchange then."""
+        if self.grains.renew(self.clock.longest()):
+            self._weights_now = None
+        if self.grains.source:
+            self.clock.stake(self.exchange.stake(self.state, self.weights, self.gas_state))
+
+    def _totals(self) -> dict[str, float]:
+        """Ledger columns of the grains, and of heat that is on its way to the gas."""
+        return self.grains.totals() | {"heat_on_its_way_J": float(self.exchange.pending @ self.exchange.volumes)}
+
+    def _alpha_g(self) -> np.ndarray:
+        """Gas volume fraction of the cells now."""
+        return self.exchange.alpha_g(self.state, self.weights, self.grains.share_inside())
 
     def _with_gas(self, end: float):
         """Gas through the window to `end` [s], or through the part of it that it can finish: where that ends, and what
         was handed."""
         for _ in range(REPEATS + 1):
-            self.stepper.guard.begin(self, end - self.time)
+            self.grains.begin()
+            self.stepper.guard.rule(end - self.time, self.clock.limit)
             handed = self._timed("exchange", self._hand, end - self.time)
             failure = self._timed("gas", self._advance_gas, handed)
             if failure is None:
@@ -173,35 +191,29 @@ class Simulation:
             self.gas_state = self.gas.advance(handed.dt, {} if self.case.coupling.one_way else handed.sources)
         except Unfinished as failure:
             return str(failure)
-        return self.stepper.guard.gas(self)
+        return self.stepper.guard.gas(self.gas_state.fields, self.gas.mesh.centres)
 
     def row(self) -> dict[str, float]:
-        """What history.csv holds; columns of other methods begin with their matter."""
-        return history.row(self) | self.beside.named(lambda method: method.row())
+        """Columns of history.csv; those of other methods begin with their matter."""
+        return history.row(self) | self.limiters.now | self.beside.named(lambda method: method.row())
 
     def meshes(self) -> dict:
         """Particles and gas for the timeline."""
         self.grid = self.grid or output.gas_grid(self.gas)
         return {
-            "particles": output.particle_points(self.grains, self.case.grains.density),
+            "particles": self.grains.points(),
             "gas": output.with_fields(*self.grid, self.cell_fields()),
         } | self.beside.points()
 
     def walls(self):
-        """Surfaces of walls for pictures (pyvista); None where there are none: sides of the domain are seen anyway."""
-        mesh = self.case.parameters["walls"].mesh if self.parameters["walls"] else ""
-        parts = [boundary.surface(mesh, self.case.dimensions)] if mesh else []
-        parts += self.beside.walls()
+        """Surfaces of walls for pictures (pyvista); None where there are none."""
+        parts = [own for own in (self.grains.walls(), *self.beside.walls()) if own is not None]
         return parts[0].append_polydata(*parts[1:]) if parts else None
 
     def summary(self, out) -> dict[str, float]:
         """summary.json, its own part; what probes rose by is told from the first and the last row of the history."""
-        own = {
-            "cells": len(self.gas.mesh.volumes),
-            "sub_steps": self.stepper.steps,
-            "wall_contacts": self.stepper.contacts,
-        }
-        own["windows_repeated"] = self.repeated
+        own = {"cells": len(self.gas.mesh.volumes)} | self.grains.summary() | {"windows_repeated": self.repeated}
+        own |= self.limiters.summary()
         for name in self.case.probes:
             own |= {key: out.last[key] for key in (f"{name}_{probed}" for probed in history.PROBED) if key in out.last}
             if (key := f"{name}_temperature_K") in out.last:
@@ -209,91 +221,30 @@ class Simulation:
         return own | self.beside.named(lambda method: method.summary() | method.ledger.summary())
 
     def warnings(self) -> list[str]:
-        """What the run has to say of itself in the end: of the grains nothing that the ledger does not."""
-        return self.beside.warnings()
+        """Notes for the user on how the run went."""
+        return self.grains.warnings() + self.beside.warnings()
 
     def cell_fields(self) -> dict[str, np.ndarray]:
         """Fields of the gas, and alpha_p by cell."""
-        return self.gas_state.fields | {
-            "alpha_p": 1.0 - self.exchange.alpha_g(self.state, self.weights, self._inside())
-        }
+        return self.gas_state.fields | {"alpha_p": 1.0 - self._alpha_g()}
 
     def _hand(self, dt: float):
         """The exchange of a window of `dt`, from where the particles are in its middle (second order in their motion);
         the gas is told where they will be at its end."""
-        middle, ahead = (self._weights(0.5 * dt), self._weights(dt)) if self.moves else (self.weights, self.weights)
-        return self.exchange.hand(self.state, middle, (ahead, self._inside(dt)), self.gas_state, dt)
+        middle = ahead = self.weights
+        if self.grains.moves:
+            middle, ahead = (self.transfer.weights(self.grains.places(after)) for after in (0.5 * dt, dt))
+        return self.exchange.hand(self.state, middle, (ahead, self.grains.share_inside(dt)), self.gas_state, dt)
 
-    def _inside(self, after: float = 0.0) -> np.ndarray:
-        """Share of each particle that is in the gas, or will be `after` [s]."""
-        return self.source.inside(self.state, after) if self.source else np.ones(len(self.state.x))
-
-    def _weights(self, after: float = 0.0):
-        """Transfer weights of where the particles are, or will be `after` [s]. Those upstream of a nozzle exchange
-        nothing; they stand in for the nearest place in the box."""
-        places = particles.positions(self.state) + particles.velocities(self.state) * after
-        if self.source:
-            waiting = self.state.kind == INFLOW
-            size = (*self.case.domain.size, 0.0)[:3]
-            places[waiting] = np.clip(places[waiting], 0.0, size)
-        return self.transfer.weights(places)
-
-    def _without_finished(self) -> None:
-        """Particles that have evaporated are no more."""
-        left = self.state.mass > 0.0
-        if not left.all():
-            self.stepper.replace(particles.take(self.state, left))
-            self.stepper.prepare()
-
-    def _turn_over(self, longest: float) -> dict[str, float]:
-        """Between windows: what has evaporated or left is taken out, what comes in within `longest` [s] is made."""
-        state, count = self.state, len(self.state.x)
-        gone = leaving(self.case, state) if self.moves else np.zeros(count, bool)
-        if gone.any() and not self.parameters["outflow"]:
-            refuse_to_leave(self.case, state, gone, self.time)
-        left = particles.take(state, gone) if gone.any() else None
-        if left is not None:
-            state = particles.take(state, ~gone)
-        if self.source:
-            state = self.source.fill(state, self.time, longest)
-        replaced = state is not self.stepper.state
-        if replaced:
-            self.stepper.replace(state)
-        changed = replaced or self.parameters["evaporation"]
-        if changed or self.windows == 0:  # those that moved are prepared
-            self.stepper.prepare()
-        if changed or self.moves:
-            self._weights_now = None
-        if self.source and self.windows:
-            self.clock.stake(self.exchange.stake(self.state, self.weights, self.gas_state))
-        return of_those_that_left(self.case, left)
-
-    def _fastest(self) -> float:
-        """Speed of the fastest particle [m/s]."""
-        return float(particles.lengths(particles.velocities(self.state)).max(initial=0.0)) if self.moves else 0.0
-
-    def _body(self, handed) -> np.ndarray:
-        """Gravity and the gas's pressure gradient, held over the window: (N, 3) [m/s2]."""
-        body = np.zeros((len(self.state.x), 3))
-        if self.parameters["gravity"]:
-            body += self.parameters["gravity"]
+    def _body(self, handed) -> tuple[np.ndarray, np.ndarray]:
+        """Gravity (3,) and the gas's pressure gradient (N, 3), held over the window [m/s2]."""
+        pressed = np.zeros((len(self.state.x), 3))
         if self.parameters["gas_pressure"]:
-            body -= gather(handed.weights, self.gas_state.fields["pressure_gradient"]) / self.case.grains.density
-        return body
+            pressed -= gather(handed.weights, self.gas_state.fields["pressure_gradient"]) / self.case.grains.density
+        return self.stepper.gravity, pressed
 
     def _timed(self, part: str, function, *arguments):
         start = clock.perf_counter()
         result = function(*arguments)
         self.wall[part] += clock.perf_counter() - start
         return result
-
-
-def parts_of(case) -> tuple[dict, Source | None, Stepper, Window]:
-    """Kernel parameters by effect, nozzles, stepper and clock of a case: all that a run begins with beside the gas."""
-    rows = [effects.REGISTRY[name] for name in case.effects]
-    parameters = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
-    names = {name for row in rows for name in row.arrays}
-    state = start.fill(case, names)
-    source = Source(case, names, len(state.x) + 1) if parameters["inflow"] else None
-    clock = Window(case)
-    return parameters, source, Stepper(case, parameters, state, source, clock.shortest), clock

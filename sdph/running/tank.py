@@ -103,7 +103,7 @@ class Tank:
 
     @property
     def mass(self) -> float:
-        """Of the liquid [kg]."""
+        """Mass of the liquid [kg]."""
         s = self.stepper.state
         return float(s.mass[particles.wet(s)].sum())
 

@@ -1,4 +1,4 @@
-"""Where the data that travels with sdph lies: in the wheel, or beside the package in a checkout."""
+"""Paths of the data that travels with sdph: in the wheel, or beside the package in a checkout."""
 
 from pathlib import Path
 

@@ -1,1 +1,1 @@
-"""What shows a run: pictures, movies, pages."""
+"""Views of a run: pictures, movies, pages."""

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from sdph.scenes import paths
-from sdph.show import view
+from sdph.show import timeline, view
 
 INSTANTS, POINTS = 16, 20000  # at most in one report; more make no better picture and a large file
 MAP = (  # arrays that are shown, by their name in the output
@@ -22,10 +22,10 @@ def viewer(folder: Path, case) -> str:
     """HTML of the viewer; empty where a run has no fields."""
     if not (folder / "run.pvd").is_file():
         return ""
-    reader = view.read(folder)
+    reader = timeline.read(folder)
     times = reader.time_values
     chosen = sorted({times[round(i)] for i in np.linspace(0, len(times) - 1, min(INSTANTS, len(times)))})
-    frames = [_frame(*view.state_at(reader, time)) for time in chosen]
+    frames = [_frame(*timeline.state_at(reader, time)) for time in chosen]
     ranges = {part: _ranges([frame[part] for frame in frames if part in frame]) for part in ("particles", "gas")}
     size = (*case.domain.size, 0.0)[:3]
     data = {

@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 import os
 import sys
-from dataclasses import dataclass
 from pathlib import Path
-from xml.etree import ElementTree
 
 import numpy as np
 
@@ -17,6 +15,7 @@ from sdph.case.sections import Domain
 from sdph.engine.state import FIELDS, GAS
 from sdph.running import fields, output
 from sdph.schema import CaseError
+from sdph.show.timeline import read, state_at
 
 WINDOW = (1200, 900)  # pixels
 SHOWN = 0.75  # share of the window that the domain fills
@@ -26,7 +25,6 @@ BESIDE_BARS = 0.85  # of the window that a wide domain fills, or one seen aslant
 WALL, CLEAR = "grey", 0.2  # colour and opacity of walls; our choice
 LABELS = 6  # along the longest axis
 SLAB = 0.25  # of the next longer side: a box so thin is looked at across
-SAME = 1e-6  # of the last time: how far past it a time may lie, by the digits it was written with
 OFF_FACES = 1e-6  # of its lengths: a cut through the middle of a box is no face of its cells
 MOVIES = {".gif": {"duration": 100, "loop": 0}, ".mp4": {"fps": 10, "macro_block_size": 2}}  # ten pictures a second
 BAR = {
@@ -39,8 +37,6 @@ BAR = {
     "title_font_size": 16,
     "label_font_size": 14,
 }
-PARTICLES = ("velocity", "ident", "kind", "mass", "density")  # arrays that all particles have, of grains and of liquids
-GAS_CELLS = ("velocity", "pressure", "temperature", "density", "alpha_p")
 GAS_UNITS = {
     "velocity": "m/s", "alpha_p": "1", "temperature": "K", "pressure": "Pa", "density": "kg/m3",
     "vapour_mass_fraction": "1", "vorticity": "1/s",
@@ -50,69 +46,6 @@ PARTICLE_UNITS = {name: unit for name, (unit, _) in FIELDS.items()} | {
     "pressure": "Pa",
     "velocity": "m/s",
 }
-
-
-@dataclass(frozen=True)
-class Timeline:
-    """Instant [s] -> number of the part -> file: particles are part 0, gas is part 1 where there is any, then those of
-    other methods."""
-
-    files: dict[float, dict[int, Path]]
-
-    @property
-    def time_values(self) -> list[float]:
-        return sorted(self.files)
-
-
-def read(folder: Path) -> Timeline:
-    """The timeline of a run."""
-    file, files = folder / "run.pvd", {}
-    if not file.is_file():
-        raise CaseError(f"{folder} holds no fields (no run.pvd); give the folder of a run")
-    try:
-        for row in ElementTree.parse(file).getroot().iter("DataSet"):
-            files.setdefault(_instant(row.attrib), {})[int(row.attrib["part"])] = folder / _inside(row.attrib["file"])
-        if not files or not all(0 in parts for parts in files.values()):
-            raise ValueError("it names no particles")
-    except (SyntaxError, ValueError, KeyError) as error:  # no XML, or none of a timeline
-        raise CaseError(f"{file} is damaged ({error}); run it again") from None
-    return Timeline(files)
-
-
-def _instant(row: dict) -> float:
-    if not math.isfinite(time := float(row["timestep"])):
-        raise ValueError(f"timestep = {time}")
-    return time
-
-
-def _inside(name: str) -> str:
-    """The name of a file of fields in the run folder."""
-    path = Path(name)
-    if path.is_absolute() or ".." in path.parts or path.suffix not in fields.READERS:
-        raise ValueError(f"{name[:80]!r} is no file of fields in this folder")
-    return name
-
-
-def state_at(timeline: Timeline, time: float | None = None):
-    """(time, particles, gas) nearest to `time` [s]; the last without one."""
-    times = timeline.time_values
-    chosen = times[-1] if time is None else min(times, key=lambda t: abs(t - time))
-    if time is not None and not times[0] <= time <= times[-1] and not abs(time - chosen) <= SAME * times[-1]:
-        raise CaseError(f"--time {time:g}: this run has fields from {times[0]:g} to {times[-1]:g} s")
-    parts = timeline.files[chosen]
-    gas = fields.load(parts[1], GAS_CELLS) if 1 in parts else None  # a liquid has none
-    clouds = [fields.load(file, PARTICLES) for part, file in sorted(parts.items()) if part != 1]
-    return chosen, _together(clouds), gas
-
-
-def _together(clouds: list):
-    """Particles of all methods as one; nan where a method has no such field."""
-    names = {name: cloud[name] for cloud in clouds for name in cloud.array_names}
-    for cloud in clouds if len(clouds) > 1 else ():
-        for name, like in names.items():
-            if name not in cloud.array_names and cloud.n_points:
-                cloud[name] = np.full((cloud.n_points, *like.shape[1:]), np.nan)
-    return clouds[0].append_polydata(*clouds[1:]) if len(clouds) > 1 else clouds[0]
 
 
 def show(folder: Path, png: Path | None = None, time: float | None = None, field: str | None = None) -> None:
@@ -225,27 +158,11 @@ def scene(
         vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
 
     given, field = field, field or _usual(particles, gas)
-    known = sorted(
-        {*particles.point_data, *(gas.cell_data if gas is not None else ())} & {*GAS_UNITS, *PARTICLE_UNITS, "velocity"}
-    )
-    if given and given not in known:
-        raise CaseError(f"--field {given}: this run has {', '.join(known)}")
+    _check_field(given, particles, gas)
     plotter = pyvista.Plotter(off_screen=off_screen, window_size=WINDOW)
     box = _around([gas if gas is not None else particles, *([walls] if walls else [])]) if box is None else box
     gas, across = _cut(gas) if gas is not None else (None, None)
-    if gas is not None and field in gas.cell_data:
-        bar = BAR | {"title": f"gas {field}\n[{GAS_UNITS.get(field, '1')}]", "position_x": 0.86}
-        plotter.add_mesh(gas, scalars=field, cmap="YlOrRd", clim=ranges[1], scalar_bar_args=bar, lighting=False)
-    if particles.n_points and field in particles.point_data:
-        bar = BAR | {"title": f"particle {field}\n[{PARTICLE_UNITS[field]}]", "position_x": 0.07}
-        size, look = _size(particles, box), {"lighting": False}
-        if _lengths(box)[2] and across is None:  # seen aslant they are balls, which show depth by their shading
-            size, look = ASLANT * size, {"render_points_as_spheres": True}
-        for part, share in _phases(particles):
-            colours = ranges[0] or _range([particles], field)
-            plotter.add_mesh(
-                part, scalars=field, cmap="inferno", clim=colours, scalar_bar_args=bar, point_size=share * size, **look
-            )
+    _draw(plotter, particles, gas, field, ranges, box, across is None)
     if walls:
         plotter.add_mesh(walls, color=WALL, opacity=CLEAR, lighting=False, line_width=2)
     plotter.add_text(title, font_size=12, position="upper_edge")
@@ -256,15 +173,45 @@ def scene(
         plotter.enable_parallel_projection()
     else:
         plotter.view_vector((1.0, 1.0, 1.0), viewup=up)
+    _rule(plotter, box)
+    plotter.reset_camera(bounds=_rounded(box))
+    wide = box[1] - box[0] > box[3] - box[2]
+    plotter.camera.zoom(BESIDE_BARS if wide or across is None else 0.95)
+    return plotter
+
+
+def _check_field(name: str | None, particles, gas) -> None:
+    """`CaseError` where neither particles nor gas have a field of that name."""
+    has = {*particles.point_data, *(gas.cell_data if gas is not None else ())}
+    known = sorted(has & {*GAS_UNITS, *PARTICLE_UNITS, "velocity"})
+    if name and name not in known:
+        raise CaseError(f"--field {name}: this run has {', '.join(known)}")
+
+
+def _draw(plotter, particles, gas, field: str, ranges, box, aslant: bool) -> None:
+    """Gas and particles coloured by `field`; where a box is seen aslant particles are balls."""
+    if gas is not None and field in gas.cell_data:
+        bar = BAR | {"title": f"gas {field}\n[{GAS_UNITS.get(field, '1')}]", "position_x": 0.86}
+        plotter.add_mesh(gas, scalars=field, cmap="YlOrRd", clim=ranges[1], scalar_bar_args=bar, lighting=False)
+    if particles.n_points and field in particles.point_data:
+        bar = BAR | {"title": f"particle {field}\n[{PARTICLE_UNITS[field]}]", "position_x": 0.07}
+        size, look = _size(particles, box), {"lighting": False}
+        if _lengths(box)[2] and aslant:  # seen aslant they are balls, which show depth by their shading
+            size, look = ASLANT * size, {"render_points_as_spheres": True}
+        for part, share in _phases(particles):
+            colours = ranges[0] or _range([particles], field)
+            plotter.add_mesh(
+                part, scalars=field, cmap="inferno", clim=colours, scalar_bar_args=bar, point_size=share * size, **look
+            )
+
+
+def _rule(plotter, box) -> None:
+    """Axes with round numbers around a box."""
     axes = {"xtitle": "x [m]", "ytitle": "y [m]", "ztitle": "z [m]", "font_size": 10, "fmt": "%.3g"}
     axes |= {
         f"n_{a}labels": max(2, round(LABELS * length / _lengths(box).max())) for a, length in zip("xyz", _lengths(box))
     }
     plotter.show_bounds(bounds=_rounded(box), location="outer", **axes)
-    plotter.reset_camera(bounds=_rounded(box))
-    wide = box[1] - box[0] > box[3] - box[2]
-    plotter.camera.zoom(BESIDE_BARS if wide or across is None else 0.95)
-    return plotter
 
 
 def _cut(gas):
@@ -288,7 +235,7 @@ def _rounded(bounds) -> np.ndarray:
 
 
 def _lengths(bounds) -> np.ndarray:
-    """Of a box, along each axis."""
+    """Lengths of a box along each axis."""
     return np.diff(np.reshape(bounds, (3, 2)))[:, 0]
 
 

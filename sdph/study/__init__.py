@@ -1,1 +1,1 @@
-"""What is asked of cases and runs: explain, cost, stress, compare, validate, report."""
+"""Studies of cases and runs: explain, cost, stress, compare, validate, report."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,7 +14,7 @@ from sdph.case import read as cases
 from sdph.running import output
 from sdph.scenes import paths
 from sdph.schema import CaseError
-from sdph.show import view
+from sdph.show import timeline
 
 
 @dataclass(frozen=True)
@@ -41,7 +42,7 @@ class Run:
 
     def fields(self, time: float):
         """(time, particles, gas) nearest to `time` [s]."""
-        return view.state_at(view.read(self.folder), time)
+        return timeline.state_at(timeline.read(self.folder), time)
 
 
 def open_run(folder: Path) -> Run:
@@ -101,12 +102,13 @@ def compare(folder: Path, against: str) -> list[dict]:
 
 
 def scene_module(scene: str):
-    """validation/<scene>/compare.py as a module; None where the scene has none."""
+    """validation/<scene>/compare.py as a module, which may import its neighbours; None where there is none."""
     file = paths.data("validation") / scene / "compare.py"
     if scene not in scenes.names() or not file.is_file():  # a case.toml may name no other code
         return None
-    spec = importlib.util.spec_from_file_location(f"sdph_validation_{scene}", file)
-    module = importlib.util.module_from_spec(spec)
+    package, beside = f"sdph_validation_{scene}", [str(file.parent)]
+    spec = importlib.util.spec_from_file_location(package, file, submodule_search_locations=beside)
+    module = sys.modules[package] = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
 

@@ -1,4 +1,4 @@
-"""Whether a case fits into the memory of this machine, told before anything of it is made."""
+"""Memory that a case needs, against that of this machine, told before anything of it is made."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What `sdph run` makes of a case before its first window, made without a gas: what cannot be is refused."""
+"""Rehearsal of `sdph run` up to its first window, without a gas: what cannot be is refused."""
 
 from __future__ import annotations
 
@@ -7,17 +7,21 @@ from pathlib import Path
 
 from coupling.choice import expected
 from sdph.case.gas_cells import cell_edges
+from sdph.exchange.window import Window
+from sdph.methods.grains.grains import Grains
 from sdph.methods.liquids.start import parts_of as parts_of_liquid
 from sdph.running import inputs, metrics
-from sdph.running.simulation import parts_of
 from sdph.study import memory as room
+
+# matter -> what makes all of it that a run begins with
+MADE = {"grains": lambda case: (Grains(case), Window(case)), "liquid": parts_of_liquid}
 
 
 def rehearse(case, template: Path, *, allow_code: bool = False) -> None:
     """CaseError where `sdph run` would end with one; `template` and `allow_code` as in `coupling.choice.open_gas`."""
     look(case, template, allow_code=allow_code)
     for matter in case.matters:
-        {"grains": parts_of, "liquid": parts_of_liquid}[matter](case.only(matter))
+        MADE[matter](case.only(matter))
 
 
 def look(case, template: Path, *, allow_code: bool = False) -> None:
@@ -31,7 +35,7 @@ def look(case, template: Path, *, allow_code: bool = False) -> None:
 
 
 def _gas(case, template: Path, chosen: str, allow_code: bool) -> None:
-    """What each gas solver makes of the case before it starts."""
+    """Rehearse what the gas solver `chosen` makes of the case before it starts."""
     if chosen == "embedded":
         from coupling.embedded.box import Box
         from coupling.embedded.grid import build_grid
@@ -43,4 +47,4 @@ def _gas(case, template: Path, chosen: str, allow_code: bool) -> None:
 
     require()
     with tempfile.TemporaryDirectory(prefix="sdph-explain-") as folder:
-        write_case(case, template, Path(folder) / "gas", case.coupling.ranks, allow_code)
+        write_case(case, template, Path(folder) / "gas", case.coupling.gas_ranks, allow_code)

@@ -12,6 +12,7 @@ import numpy as np
 
 from sdph.case import read as cases
 from sdph.running import output
+from sdph.running.limiters import LARGEST
 from sdph.schema import CaseError, flat
 from sdph.show import frames
 
@@ -30,6 +31,7 @@ PAGE = (
 CLOSURE = (
     "mass_drift_rel",
     "energy_drift_rel",
+    "motion_drift_rel",
     "exchange_energy_mismatch_rel",
     "exchange_momentum_mismatch_rel",
     "momentum_drift_rel",
@@ -61,7 +63,7 @@ def write(folders: list[Path], target: Path) -> Path:
     runs = [_open(Path(folder)) for folder in folders]
     title = " and ".join(dict.fromkeys(run.case.title or run.name for run in runs))
     parts = [f"<h1>{html.escape(title)}</h1>", _what(runs), _results(runs), _figures(runs), _views(runs)]
-    parts += [_ledger(runs), _walls(runs), _settings(runs), _versions(runs)]
+    parts += [_ledger(runs), _limiters(runs), _walls(runs), _settings(runs), _versions(runs)]
     output.write_text(target, PAGE.format(title=html.escape(title), style=STYLE, body="\n".join(parts)))
     return target
 
@@ -135,7 +137,7 @@ def _state(run: Shown) -> str:
 
 def _results(runs: list[Shown]) -> str:
     numbers = [
-        {k: v for k, v in run.summary.items() if not k.startswith("wall_") and not k.endswith("_per_window")}
+        {k: v for k, v in run.summary.items() if not k.startswith(("wall_", LARGEST)) and not k.endswith("_per_window")}
         for run in runs
     ]
     body = _side_by_side(runs, numbers)
@@ -200,13 +202,19 @@ def _views(runs: list[Shown]) -> str:
 
 
 def _ledger(runs: list[Shown]) -> str:
-    """How well the budgets close."""
+    """Section of the closure of the budgets."""
     closures = [{key: run.summary[key] for key in CLOSURE if key in run.summary} for run in runs]
     return _section("Ledger", _side_by_side(runs, closures)) if any(closures) else ""
 
 
+def _limiters(runs: list[Shown]) -> str:
+    """Section of the largest that limiters held in a window (docs/limiters.md)."""
+    held = [{k.removeprefix(LARGEST): v for k, v in run.summary.items() if k.startswith(LARGEST)} for run in runs]
+    return _section("Limiters: the largest of all windows", _side_by_side(runs, held)) if any(held) else ""
+
+
 def _walls(runs: list[Shown]) -> str:
-    """Where the time went."""
+    """Section of wall times."""
     rows = [
         {k: v for k, v in run.summary.items() if k.startswith("wall_") or k.endswith(("_per_window", "_per_s"))}
         for run in runs

@@ -1,32 +1,39 @@
 """`sdph validate`: runs scenes and checks them against all their references.
 
 A scene's validation/<scene>/compare.py has functions `exact`, `tfm`, `dpm` and `paper`, each Run -> checks, and may
-name in VARIANTS what else is to be run: name -> (overrides, references to check it against).
+name in VARIANTS what else is to be run: name -> (overrides, references to check it against). What others have measured
+and no scene stands for is under `experiments`: validation/experiments has a module for each.
 """
 
 from __future__ import annotations
 
+import importlib.util
 import re
+import sys
 import tempfile
 from pathlib import Path
 
 from sdph import scenes
 from sdph.case import read as cases
 from sdph.running import driver
+from sdph.scenes import paths
 from sdph.schema import CaseError
 from sdph.study import compare
 
 REFERENCES = ("exact", "paper", "tfm", "dpm")
+EXPERIMENTS = "experiments"
 
 
 def validate(scene: str, overrides: tuple[str, ...], reporter, folder: Path | None = None) -> list[dict]:
     """The checks of a scene and its variants, each run anew under `folder` (None: one that goes when done)."""
     module = compare.scene_module(scene)
-    if module is None:
-        raise CaseError(f"{scene} has no validation; scenes that have: {', '.join(validated())}")
+    if module is None and scene != EXPERIMENTS:
+        raise CaseError(f"{scene} has no validation; those that have: {', '.join(validated())}")
     if folder is None:
         with tempfile.TemporaryDirectory(prefix="sdph-validate-") as temporary:
             return validate(scene, overrides, reporter, Path(temporary))
+    if scene == EXPERIMENTS:
+        return _experiments(overrides, reporter, folder)
     whole = {scene: ((), [name for name in REFERENCES if hasattr(module, name)])}
     checks = []
     for name, (own, references) in getattr(module, "VARIANTS", whole).items():
@@ -42,6 +49,29 @@ def validate(scene: str, overrides: tuple[str, ...], reporter, folder: Path | No
     return checks
 
 
+def _experiments(overrides: tuple[str, ...], reporter, folder: Path) -> list[dict]:
+    """The checks of all experiments; their runs and figures go to `folder`."""
+    for text in overrides:
+        if not text.startswith("coupling."):
+            raise CaseError(f"--set {text}: experiments are run as they were measured; leave it out")
+    folder.mkdir(parents=True, exist_ok=True)
+    own = [experiment(name) for name in experiment().NAMES]
+    return [check for module in own for check in module.checks(folder, overrides, reporter)]
+
+
+def experiment(name: str = ""):
+    """A module of validation/experiments; without a name the package."""
+    package = f"sdph_validation_{EXPERIMENTS}"
+    if package not in sys.modules:
+        place = paths.data("validation") / EXPERIMENTS
+        spec = importlib.util.spec_from_file_location(
+            package, place / "__init__.py", submodule_search_locations=[str(place)]
+        )
+        sys.modules[package] = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(sys.modules[package])
+    return importlib.import_module(f"{package}.{name}" if name else package)
+
+
 def validated() -> list[str]:
-    """Scenes that have a validation."""
-    return [name for name in scenes.names() if compare.scene_module(name)]
+    """Scenes that have a validation, and what has been measured."""
+    return [*(name for name in scenes.names() if compare.scene_module(name)), EXPERIMENTS]

@@ -109,6 +109,7 @@ def test_optional_sections_read_back():
         ("resolution.spaceing_mm=2.5", "did you mean resolution.spacing_mm?"),
         ("particles.disc.raduis_m=0.1", "did you mean particles.disc.radius_m?"),
         ("coupling.one_wey=true", "did you mean coupling.one_way?"),
+        ("coupling.ranks=2", "did you mean coupling.gas_ranks?"),  # its name up to 0.1.0
         ("heat.closur='paper'", "did you mean heat.closure?"),
         ("granis.density_kg_m3=1", "did you mean grains?"),
     ],
@@ -132,8 +133,8 @@ def test_unknown_key_names_the_nearest(override, named):
         ((f"resolution.spacing_mm=1{'0' * 400}",), ("resolution.spacing_mm", "finite")),
         (("grains.density_kg_m3='3060 kg/m3'",), ("grains.density_kg_m3", "3060 kg/m3", "without the unit")),
         (("grains.density_kg_m3=true",), ("grains.density_kg_m3", "number")),
-        (("coupling.ranks=1.5",), ("coupling.ranks", "whole number")),
-        (("coupling.ranks=0",), ("coupling.ranks", "at least 1")),
+        (("coupling.gas_ranks=1.5",), ("coupling.gas_ranks", "whole number")),
+        (("coupling.gas_ranks=0",), ("coupling.gas_ranks", "at least 1")),
         (("coupling.one_way='yes'",), ("coupling.one_way", "true or false")),
         (("coupling.transport='pigeon'",), ("coupling.transport", "pigeon", "socket, file")),
         (("domain.size_m=0.5",), ("domain.size_m", "list of numbers in m")),

@@ -97,7 +97,7 @@ def test_list_names_every_scene(tmp_path):
         ),
         (("run", "disc_cluster", "--set", "grains.density_kg_m3='heavy'"), ("grains.density_kg_m3", "heavy")),
         (("run", "disc_cluster", "--set", "grains"), ("--set grains", "section.key=value")),
-        (("run", "disc_cluster", "--np", "0"), ("coupling.ranks", "at least 1")),
+        (("run", "disc_cluster", "--np", "0"), ("coupling.gas_ranks", "at least 1")),
         (("run", "disc_cluster", "--until", "nan"), ("run.end_time_s",)),
         (("run", "disc_cluster", "--until", "-1"), ("run.end_time_s", "-1", "above 0")),
         (("compare", "nowhere", "--against", "exact"), ("nowhere", "run it first")),

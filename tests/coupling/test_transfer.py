@@ -6,6 +6,7 @@ from builders import polar_mesh, tensor_mesh
 from hypothesis import given
 from hypothesis import strategies as st
 
+from coupling import transfer
 from coupling.transfer import Transfer, deposit, gather
 
 UNIFORM = tensor_mesh(np.linspace(0.0, 1.0, 21), np.linspace(0.0, 1.0, 21))
@@ -160,3 +161,12 @@ def test_a_lattice_up_to_the_walls_fills_the_cells_evenly():
     points[:, 0], points[:, 1] = (m.ravel() for m in np.meshgrid(ticks, ticks))
     weights = Transfer(UNIFORM, 1.5 / 40.0, (1.0, 1.0)).weights(points)
     np.testing.assert_allclose(deposit(weights, np.ones(1600)), 4.0, rtol=1e-12)
+
+
+def test_a_row_that_is_too_short_is_not_written_past():
+    """The row of a particle ends where that of the next one begins; what it would need is told."""
+    own = Transfer(UNIFORM, WIDE)
+    cells, weight = np.full(6, -7), np.full(6, -7.0)
+    found = transfer._row(own.bins, own.sides, 0.5, 0.5, 0.0, cells[:5], weight[:5])
+    assert found == own.weights(np.array([[0.5, 0.5, 0.0]])).count[0] > 5
+    assert cells[5] == -7 and weight[5] == -7.0

@@ -7,8 +7,8 @@ import pytest
 
 from sdph import effects, scenes
 from sdph.case import read as cases
+from sdph.methods.grains.grains import Grains
 from sdph.methods.liquids.method import LiquidStepper
-from sdph.running.simulation import parts_of
 from sdph.study.explain import tables
 
 COARSE = {
@@ -35,11 +35,9 @@ def explained(case) -> dict[str, float]:
 
 def grains(case):
     """Grains of a case, and what its nozzles let in within a window."""
-    _, source, stepper, _ = parts_of(case)
-    if source:
-        stepper.replace(source.fill(stepper.state, 0.0, case.coupling.window_largest))
-    stepper.prepare()
-    return stepper
+    own = Grains(case)
+    own.start()
+    return own.stepper
 
 
 def advance(case, stepper, dt):

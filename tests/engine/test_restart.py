@@ -97,7 +97,7 @@ def same_run(one, other):
         ("evaporating_jet", "embedded", 29, ()),
         ("evaporating_jet", "embedded", 29, SECOND),
         pytest.param("disc_cluster", "openfoam", 10, (), marks=pytest.mark.openfoam),
-        pytest.param("disc_cluster", "openfoam", 10, ("coupling.ranks=2",), marks=pytest.mark.openfoam),
+        pytest.param("disc_cluster", "openfoam", 10, ("coupling.gas_ranks=2",), marks=pytest.mark.openfoam),
         pytest.param("bubbling_bed", "openfoam", 10, (), marks=pytest.mark.openfoam),
         pytest.param("evaporating_jet", "openfoam", 29, (), marks=pytest.mark.openfoam),
         pytest.param("evaporating_jet", "openfoam", 29, SECOND, marks=pytest.mark.openfoam),
@@ -219,7 +219,7 @@ def test_another_case_is_refused_with_the_difference(cut, override, told):
 
 @pytest.mark.parametrize(
     ("change", "told"),
-    [({"sdph": "0.0.0"}, "written with sdph 0.0.0"), ({"format": 2}, "written with format 2; this is 4")],
+    [({"sdph": "0.0.0"}, "written with sdph 0.0.0"), ({"format": 2}, "written with format 2; this is 5")],
 )
 def test_another_version_is_refused(cut, change, told):
     manifest = restart.newest(cut).folder / "manifest.json"

@@ -6,6 +6,7 @@ The gas is a fake that does what the solution assumes and no more; particles, dr
 import itertools
 import math
 
+import exact_solutions as solutions
 import numpy as np
 import pytest
 from grain_boxes import DENSITY, DIAMETER, VISCOSITY, Row, box, go, started, windows
@@ -53,7 +54,7 @@ def test_dusty_box(tmp_path, name):
     law, function, viscosity = CASES[name]
     a, b = rates_of(function, viscosity)
     end = 1.0 / (a + b * START)
-    expected = exact.quadratic_slip(end, START, a, b)
+    expected = solutions.quadratic_slip(end, START, a, b)
     errors = []
     for count in (20, 40):
         folder = tmp_path / str(count)
@@ -67,6 +68,19 @@ def test_dusty_box(tmp_path, name):
     print(f"dusty box, {name}: error {errors[-1]:.2e}, order in the window {math.log2(errors[0] / errors[1]):.2f}")
     assert errors[1] < 0.01
     assert math.log2(errors[0] / errors[1]) == pytest.approx(1.0, abs=0.15)
+
+
+def test_heat_of_drag_is_the_kinetic_energy_that_both_lose(tmp_path):
+    """That of the last window waits for the next one."""
+    count, end, start = 30, 3.0 / rates_of(drag.stokes)[0], 0.2 * START
+    done = dusty_box(tmp_path, "stokes", end, count, start=start)
+    grains, gas, volumes = done.state.u.mean(), done.gas.velocity[0, 0], done.exchange.volumes
+    sums = done.ledger.sums
+    lost = 0.5 * volumes.sum() * (DUST * (start**2 - grains**2) - GAS * gas**2)
+    made = sums["friction_J"]
+    print(f"heat of drag over the kinetic energy lost: {made / lost:.12f}")
+    assert made == pytest.approx(lost, rel=1e-9)
+    assert made == pytest.approx(sums["drag_heat_J"] + done.ledger.last["heat_on_its_way_J"], rel=1e-12)
 
 
 def test_a_window_of_many_relaxation_times_ends_in_equilibrium(tmp_path):
@@ -94,7 +108,7 @@ def settled(folder, law, end, count):
 @pytest.mark.parametrize("law", ["stokes", "wen_yu", "ergun", "gidaspow", "syamlal_obrien", "di_felice"])
 def test_periodic_settling_reaches_the_slip_of_the_law(tmp_path, law):
     """beta s = alpha_p alpha_g (rho_p - rho_g) g."""
-    expected = exact.settling_slip(getattr(drag, law), ALPHA_P, DENSITY, 9.81, DIAMETER, 1.225, VISCOSITY)
+    expected = solutions.settling_slip(getattr(drag, law), ALPHA_P, DENSITY, 9.81, DIAMETER, 1.225, VISCOSITY)
     assert settled(tmp_path, law, 0.02, 400) == pytest.approx(expected, rel=1e-3)
 
 
@@ -102,7 +116,7 @@ def test_periodic_settling_relaxes_at_the_rate_of_the_drag(tmp_path):
     """1 - exp(-beta (1/rho_g + 1/rho_d) t) on the way, first order in the window."""
     beta = ALPHA_P * drag.stokes(ALPHA_P, 0.0, DIAMETER, 1.225, VISCOSITY)
     end = 1.0 / exact.exchange_rate(beta, DUST, GAS)
-    expected, errors = exact.settling_slip_at(end, beta, ALPHA_P, DENSITY, 1.225, 9.81), []
+    expected, errors = solutions.settling_slip_at(end, beta, ALPHA_P, DENSITY, 1.225, 9.81), []
     for count in (50, 100):
         folder = tmp_path / str(count)
         folder.mkdir()
@@ -154,7 +168,7 @@ def _exact_wave(t, k):
     # v_g = V cos, rise = R sin: dR/dt = k V; dV/dt = -c^2 k R - beta/rho_g (V - U); dU/dt = beta/rho_d (V - U)
     matrix = np.array([[0.0, k, 0.0], [-(WAVE_C**2) * k, -beta / gas, beta / gas], [0.0, beta / dust, -beta / dust]])
     roots = np.sort_complex(np.linalg.eigvals(matrix))
-    theirs = np.sort_complex(exact.dusty_wave_roots(k, WAVE_C, gas, dust, beta))
+    theirs = np.sort_complex(solutions.dusty_wave_roots(k, WAVE_C, gas, dust, beta))
     np.testing.assert_allclose(roots, theirs, rtol=1e-9)  # the same dispersion relation
     return (expm(matrix * t) @ np.array([0.0, 1.0, 1.0]))[1:]
 

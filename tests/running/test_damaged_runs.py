@@ -107,6 +107,27 @@ def test_other_damaged_tables_are_told_when_they_are_read(whole, tmp_path, name,
         getattr(compare.open_run(tmp_path / "run"), name)
 
 
+@pytest.mark.parametrize("command", ["report", "compare"])
+def test_a_table_of_gigabytes_is_refused_before_it_is_read(read, tmp_path, command):
+    with open(tmp_path / "run" / "history.csv", "r+b") as file:
+        file.truncate(3 * 2**30)
+    code, said = read(command)
+    assert (code, said.count("\n")) == (2, 1) and "history.csv is too long a table" in said
+    assert "it has 3221225472 bytes; at most 33554432 are allowed" in said and "longer windows" in said
+
+
+@pytest.mark.parametrize("name", ["ledger", "metrics"])
+def test_other_tables_of_gigabytes_are_refused_before_they_are_read(whole, tmp_path, name):
+    from sdph.schema import CaseError
+    from sdph.study import compare
+
+    shutil.copytree(whole, tmp_path / "run")
+    with open(tmp_path / "run" / f"{name}.csv", "r+b") as file:
+        file.truncate(3 * 2**30)
+    with pytest.raises(CaseError, match=f"{name}.csv is too long a table"):
+        getattr(compare.open_run(tmp_path / "run"), name)
+
+
 def test_a_row_that_is_still_being_written_is_not_there_yet(read):
     assert read("report", "history.csv", lambda data: data + b"0.1,29")[0] == 0
 

@@ -14,7 +14,7 @@ from sdph.engine.table import Table
 from sdph.running import output
 from sdph.running.fields import Fields
 from sdph.schema import CaseError
-from sdph.show import view
+from sdph.show import timeline, view
 
 SHORT = (
     "resolution.spacing_mm=10",
@@ -115,9 +115,9 @@ def test_fields_read_back(tmp_path):
     while simulated.time < case.run.end_time:
         simulated.window()
     fields.write(simulated.time, simulated.meshes())
-    reader = view.read(tmp_path / "run")
+    reader = timeline.read(tmp_path / "run")
     assert list(reader.time_values) == [0.0, 0.004]
-    time, particles, gas = view.state_at(reader)
+    time, particles, gas = timeline.state_at(reader)
     assert time == 0.004
     np.testing.assert_array_equal(particles["temperature"], simulated.state.temperature)
     np.testing.assert_array_equal(particles["ident"], simulated.state.ident)
@@ -133,7 +133,7 @@ def test_fields_read_back(tmp_path):
 
 def test_folder_without_fields_is_told(tmp_path):
     with pytest.raises(CaseError, match="run.pvd"):
-        view.read(tmp_path)
+        timeline.read(tmp_path)
 
 
 def test_picture_of_a_run(tmp_path, monkeypatch):

@@ -97,7 +97,7 @@ def test_a_run_whose_sub_steps_collapse_is_stopped(tmp_path, monkeypatch, capsys
     def sub_step(stepper, left):
         step = measure(stepper, left)
         if stepper.steps == 10:
-            stepper.stress.sound[7] = 2.0 * COLLAPSE * stepper.guard.reach
+            stepper.scratch.sound[7] = 2.0 * COLLAPSE * stepper.guard.reach
         return step
 
     monkeypatch.setattr(Stepper, "_sub_step", sub_step)

@@ -15,7 +15,7 @@ from sdph.methods.liquids import totals as ledger
 from sdph.running import driver, output
 from sdph.running.alone import STRIDE, Alone
 from sdph.schema import CaseError
-from sdph.show import view
+from sdph.show import timeline, view
 
 COARSE = {
     "dam_break": ("resolution.spacing_mm=8", "run.end_time_s=0.06"),
@@ -193,7 +193,7 @@ def test_its_tank_is_drawn_around_it(tmp_path):
     start(tmp_path / "run")
     walls = view._walls(tmp_path / "run")
     assert walls.bounds == pytest.approx((0.0, 0.28575, 0.0, 0.17145, 0.0, 0.0))
-    _, liquid, _ = view.state_at(view.read(tmp_path / "run"))
+    _, liquid, _ = timeline.state_at(timeline.read(tmp_path / "run"))
     shown = view.scene(liquid, None, None, "", True, walls=walls)
     assert shown.bounds[1] > 0.28
     shown.close()

@@ -78,7 +78,7 @@ def test_explain_and_run_refuse_alike(refused, scene, overrides, told):  # noqa:
     [
         ("boundaries.walls.kind='velocity_inlet'", "boundaries.walls.velocity_m_s is missing"),
         ("boundaries.walls.side='left'", "belongs to no boundary"),
-        ("coupling.ranks=1000", "has 100 cells"),
+        ("coupling.gas_ranks=1000", "has 100 cells"),
     ],
 )
 def test_explain_and_run_on_openfoam_refuse_alike(refused, override, told):  # noqa: F811

@@ -54,6 +54,7 @@ def test_runs_stand_side_by_side_in_one_file(runs):
         "Figures",
         "Fields",
         "Ledger",
+        "Limiters: the largest of all windows",
         "Where the time went",
         "Settings",
         "Versions",
@@ -63,6 +64,19 @@ def test_runs_stand_side_by_side_in_one_file(runs):
     assert re.findall(r"<td>(\w+)</td>", row) == ["paper", "geometric"]
     summary = json.loads((runs / "plain" / "summary.json").read_text())
     assert f"{summary['centre_temperature_K']:.6g}</td>" in text
+
+
+def test_limiters_have_a_section_of_their_own(runs):
+    """Each with the largest value of each run, and not among the results."""
+    path = runs / "plain" / "summary.json"
+    before = path.read_text()
+    path.write_text(json.dumps(json.loads(before) | {"largest_theta_at_least_share": 0.4321}))
+    text = report.write([runs / "paper", runs / "plain"], runs / "limiters.html").read_text()
+    path.write_text(before)
+    results, limiters = (text.partition(f"<h2>{part}")[2].partition("<h2>")[0] for part in ("Results", "Limiters"))
+    assert re.search(r"<td>theta_at_least_share</td><td></td><td[^>]*>0.4321</td>", limiters)
+    assert "outside_mesh_particles" in limiters
+    assert "theta_at_least_share" not in results and "outside_mesh_particles" not in results
 
 
 def test_a_failed_run_says_what_went_wrong(runs, capsys):

@@ -60,7 +60,7 @@ def _smooth(line, shortest: float) -> np.ndarray:
 
 
 def metrics(run) -> dict:
-    """What `sdph cost` takes: (value, reference, scale)."""
+    """Values for `sdph cost`: (value, reference, scale)."""
     rise, _, centre, _, roundness, _ = exact(run)
     chosen = {"largest rise velocity": rise, "height of the centre": centre, "smallest circularity": roundness}
     return {name: (row["value"], row["reference"], row["reference"]) for name, row in chosen.items()}
@@ -105,6 +105,6 @@ def _mean_speed(times, period: float, t, y) -> np.ndarray:
 
 
 def _worst(values, expected) -> tuple[float, float]:
-    """Where the two are furthest apart."""
+    """Places where the two are furthest apart."""
     k = np.argmax(np.abs(values - expected))
     return values[k], expected[k]

@@ -41,7 +41,7 @@ def fronts(run, column: str = "largest_x_m") -> dict[float, tuple[float, float, 
 
 
 def metrics(run, column: str = "largest_x_m") -> dict:
-    """What `sdph cost` takes: (value, reference, scale)."""
+    """Values for `sdph cost`: (value, reference, scale)."""
     return {f"front at T = {at:g}": (value, middle, middle) for at, (value, middle, _) in fronts(run, column).items()}
 
 

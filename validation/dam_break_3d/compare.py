@@ -6,7 +6,7 @@ from sdph.study.compare import scene_module
 
 
 def metrics(run) -> dict:
-    """What `sdph cost` takes: (value, reference, scale)."""
+    """Values for `sdph cost`: (value, reference, scale)."""
     return scene_module("dam_break").metrics(run)
 
 

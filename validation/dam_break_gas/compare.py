@@ -12,7 +12,7 @@ FRONT = "liquid_largest_x_m"  # column of the history
 
 
 def metrics(run) -> dict:
-    """What `sdph cost` takes: (value, reference, scale)."""
+    """Values for `sdph cost`: (value, reference, scale)."""
     return compare.scene_module("dam_break").metrics(run, FRONT)
 
 

@@ -1,4 +1,4 @@
-"""What each difference between the two models is worth: the jet with one model switched at a time, and all of them.
+"""Worth of each difference between the two models: the jet with one model switched at a time, and all of them.
 
     python validation/evaporating_jet/shares.py FOLDER [--gas openfoam]
 

@@ -59,18 +59,20 @@ def fluidisation(case, ramp=RAMP, stage=STAGE) -> list[dict]:
             checks.append(check(f"{name}, Ergun", row["pressure_drop_Pa"], row["ergun_Pa"], PACKED, True))
         else:
             checks.append(check(f"{name}, weight", row["pressure_drop_Pa"], row["weight_Pa"], CARRIED, True))
-    return [*checks, _onset(case, [row for _, row in rows[int(np.argmax(ramp)) :]])]
+    return [*checks, *_onset(case, [row for _, row in rows[int(np.argmax(ramp)) :]], rows[0][1]["alpha_p_inside"])]
 
 
-def _onset(case, down) -> dict:
-    """U_mf as it is measured: the line of the fixed bed on the way down, carried on to the weight of the bed."""
+def _onset(case, down, settled: float) -> list[dict]:
+    """U_mf as it is measured: the line of the fixed bed on the way down, carried on to the weight of the bed; against
+    Ergun's at the alpha_p of that line, and at that of the bed before it was blown through."""
     weight = laws.buoyant_weight(1.0, case.grains.density, case.gas.density, -case.domain.gravity[1])
     fixed = [row for row in down if row["gradient_Pa_m"] < FIXED * weight * row["alpha_p_inside"]]
     alpha_p = float(np.mean([row["alpha_p_inside"] for row in fixed]))
     found = crossing([(row["superficial_velocity_m_s"], row["gradient_Pa_m"]) for row in fixed], weight * alpha_p)
-    return check(
-        f"U_mf [m/s], Ergun at alpha_p = {alpha_p:.4f} of the fixed bed", found, u_mf(case, alpha_p), ONSET, True
-    )
+    return [
+        check(f"U_mf [m/s], Ergun at alpha_p = {at:.4f} of the {bed}", found, u_mf(case, at), ONSET, True)
+        for at, bed in ((alpha_p, "fixed bed on the way down"), (settled, "settled bed"))
+    ]
 
 
 def stages(case, ramp, stage):

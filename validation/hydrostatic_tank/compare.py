@@ -20,7 +20,7 @@ def pressure_error(run, liquid) -> float:
 
 
 def metrics(run) -> dict:
-    """What `sdph cost` takes: (value, reference, scale)."""
+    """Values for `sdph cost`: (value, reference, scale)."""
     _, liquid, _ = run.fields(run.summary["time_s"])
     weight = -liquid["mass"].sum() * run.case.domain.gravity[1]
     return {

@@ -17,7 +17,7 @@ VARIANTS = {"oscillating_droplet": ((), ["exact"]), "at_rest": (AT_REST, ["exact
 
 
 def metrics(run) -> dict:
-    """What `sdph cost` takes: (value, reference, scale)."""
+    """Values for `sdph cost`: (value, reference, scale)."""
     own = period(run)[0]
     return {"period": (own["value"], own["reference"], own["reference"])}
 

@@ -24,7 +24,7 @@ def errors(run) -> dict[float, float]:
 
 
 def metrics(run) -> dict:
-    """What `sdph cost` takes: (value, reference, scale)."""
+    """Values for `sdph cost`: (value, reference, scale)."""
     return {f"velocity at {time:g} s": (float(error), 0.0, 1.0) for time, error in errors(run).items()}
 
 

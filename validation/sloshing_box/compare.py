@@ -23,7 +23,7 @@ def periods(run) -> tuple[float, float]:
 
 
 def metrics(run) -> dict:
-    """What `sdph cost` takes: (value, reference, scale)."""
+    """Values for `sdph cost`: (value, reference, scale)."""
     return {
         name: (float(value), 1.0, 1.0)
         for name, value in zip(("period of the centre", "period of the force"), periods(run))

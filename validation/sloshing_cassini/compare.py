@@ -12,7 +12,7 @@ LAST = 20.0  # s, mean over the end of a part of the run: some sloshing periods 
 
 
 def metrics(run) -> dict:
-    """What `sdph cost` takes: (value, reference, scale)."""
+    """Values for `sdph cost`: (value, reference, scale)."""
     _, weight, apart, lever, *_ = (row["value"] for row in exact(run))
     return {
         "mean force over the weight": (weight, 1.0, 1.0),

@@ -15,7 +15,7 @@ AXES = ("x", "y", "z")
 
 
 def metrics(run) -> dict:
-    """What `sdph cost` takes: (value, reference, scale); forces have no other reference than the limit of the
+    """Values for `sdph cost`: (value, reference, scale); forces have no other reference than the limit of the
     ladder."""
     _, lever, peak, weight = (row["value"] for row in exact(run))
     return {

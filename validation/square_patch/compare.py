@@ -22,7 +22,7 @@ def pressure(run) -> tuple[float, float]:
 
 
 def metrics(run) -> dict:
-    """What `sdph cost` takes: (value, reference, scale)."""
+    """Values for `sdph cost`: (value, reference, scale)."""
     energy = run.history["kinetic_energy_J"]
     return {
         "pressure of the centre": (*pressure(run), pressure(run)[1]),

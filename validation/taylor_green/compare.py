@@ -24,7 +24,7 @@ def decay(run) -> tuple[float, float, float]:
 
 
 def metrics(run) -> dict:
-    """What `sdph cost` takes: (value, reference, scale)."""
+    """Values for `sdph cost`: (value, reference, scale)."""
     rate, expected, worst = decay(run)
     return {"rate of decay": (rate, expected, expected), "velocity": (worst, 0.0, 1.0)}
 

@@ -12,7 +12,7 @@ AIR = 5e-3  # of sqrt(g H): our choice; air at 1/1000 of the density feels every
 
 
 def metrics(run) -> dict:
-    """What `sdph cost` takes: (value, reference, scale)."""
+    """Values for `sdph cost`: (value, reference, scale)."""
     speed, _, pressure, *_ = exact(run)
     return {
         "pressure of the water": (pressure["value"], 0.0, 1.0),

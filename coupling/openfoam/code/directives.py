@@ -55,7 +55,7 @@ def _read_by(token: Token, given: str, file: Path) -> set[Path]:
 
 
 def _parents(given: str, file: Path) -> set[Path]:
-    """From where a name counts: the folder of the file that has it; ./ is the folder where programs run."""
+    """Folders from which a name counts: that of the file that has it; ./ is the folder where programs run."""
     return {file.parent, Path()} if given.startswith("./") else {file.parent}
 
 
@@ -78,7 +78,7 @@ def _require_inside(given: str, place: str, token: Token) -> None:
 
 
 def names_one(text: bytes) -> bool:
-    """Whether a quoted text is a directive where a key is expected, as `"#calc"` is."""
+    """True where a quoted text is a directive where a key is expected, as `"#calc"` is."""
     name = b"#" + text[1:].strip()
     return text.startswith(b"#") and (name in ARGUMENTS or CODE.match(name) is not None)
 

@@ -1,4 +1,4 @@
-"""Which files of a case programs of OpenFOAM can come to, and what each of them says.
+"""Files of a case that programs of OpenFOAM can come to, and what each of them says.
 
 A case is read before any program is: what runs code of it is refused, and so is what cannot be decided.
 """
@@ -26,8 +26,7 @@ LARGEST = 2**31  # bytes that a compressed file may unpack to (our choice)
 
 @dataclass(frozen=True)
 class Findings:
-    """What a file was when it was read: its size and time, what it includes, whether binary, whether read as
-    strictly."""
+    """Facts of a file as it was read: its size and time, what it includes, whether binary, whether read as strictly."""
 
     stamp: tuple[int, int]
     included: frozenset[Path]
@@ -98,7 +97,7 @@ def _refuse_folder(folder: Path, name: Path) -> None:
 
 
 def _is_opened(folder: Path, name: Path) -> bool:
-    """Whether a program may open a file without being told to by an include."""
+    """True where a program may open a file without being told to by an include."""
     in_folder = len(name.parts) > 1 and not name.parts[0].startswith(".")
     if in_folder and not SURFACES.fullmatch(name.as_posix()):
         return True

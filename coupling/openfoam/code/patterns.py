@@ -20,7 +20,7 @@ LONGEST = 200
 
 
 def may_be_key(text: bytes) -> bool:
-    """Whether a quoted key is an expression that matches one of KEYS, or may do so."""
+    """True where a quoted key is an expression that matches one of KEYS, or may do so."""
     return SPECIAL.search(text) is not None and any(_may_match(part.strip(b"'")) for part in {text, *text.split(b"/")})
 
 
@@ -36,7 +36,7 @@ def _may_match(part: bytes) -> bool:
 
 
 def value_is_harmless(data: bytes, position: int) -> bool:
-    """Whether what follows a quoted text is a dictionary, the end of a list, or a value that names no library."""
+    """True where a dictionary, the end of a list, or a value that names no library follows a quoted text."""
     depth, names = 0, False
     for count, token in enumerate(Tokens(data, position)):
         if (token.is_mark(b"{") and count == 0) or (token.is_mark(b")]}") and depth == 0):

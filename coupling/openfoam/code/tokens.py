@@ -26,7 +26,7 @@ MARKS = b";()[]{}:,=+*"
 
 
 class Doubt(ValueError):
-    """What in a file runs code of the case or may do so, and where (byte)."""
+    """Content of a file that runs code of the case or may do so, and its place (byte)."""
 
     def __init__(self, what: str, place: int):
         super().__init__(what)
@@ -53,7 +53,7 @@ class Token(NamedTuple):
     end: int
 
     def is_mark(self, marks: bytes) -> bool:
-        """Whether it is one of `marks`."""
+        """True where it is one of `marks`."""
         return self.kind is Kind.MARK and self.text in marks
 
 

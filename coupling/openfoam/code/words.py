@@ -93,7 +93,7 @@ class Words:
             self.included |= directives.follow(token, self.tokens, self.file)
 
     def mark(self, token: Token) -> None:
-        """A bracket or another mark: nothing."""
+        """Ignore a bracket or another mark."""
 
 
 CHECKS = {
@@ -103,7 +103,7 @@ CHECKS = {
 
 
 def has_header(data: bytes) -> bool:
-    """Whether a file begins with FoamFile, as those do that OpenFOAM opens by itself."""
+    """True where a file begins with FoamFile, as those do that OpenFOAM opens by itself."""
     token = Tokens(data).next()
     return token is not None and token.kind is Kind.WORD and token.text == HEADER
 

@@ -28,7 +28,7 @@ class Nozzle:
 
 @dataclass(frozen=True)
 class Liquid:
-    """What the droplets evaporate by: onset temperature [K], saturation pressure [Pa], latent heat [J/kg]."""
+    """Evaporation data of the droplets: onset temperature [K], saturation pressure [Pa], latent heat [J/kg]."""
 
     onset_temperature: float
     saturation_pressure: float

@@ -1,4 +1,4 @@
-"""What a reference run of OpenFOAM gave, kept in the user's cache under a hash of all that went into it."""
+"""Results of a reference run of OpenFOAM, kept in the user's cache under a hash of all that went into it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ TIMED = ("fields", "parcels")  # groups of a reference that are given at each ou
 
 @dataclass(frozen=True)
 class Reference:
-    """What a run gave. C cells, N time steps, P parcels.
+    """Results of a run. C cells, N time steps, P parcels.
 
     centres (C, 3) [m]; volumes (C,) [m3]; fields: time [s] -> name -> (C,) or (C, 3), SI;
     history: "time_s" and columns such as "centre_temperature_K", (N,) each;
@@ -45,7 +45,7 @@ def key(folder: Path, made_with: str) -> str:
 
 
 def keep(reference: Reference, path: Path) -> None:
-    """Written under another name first: what stands under the final name is whole."""
+    """Write a reference, under another name first: what stands under the final name is whole."""
     path.parent.mkdir(parents=True, exist_ok=True)
     arrays = {"centres": reference.centres, "volumes": reference.volumes}
     arrays |= {f"history/{name}": column for name, column in reference.history.items()}
@@ -59,7 +59,7 @@ def keep(reference: Reference, path: Path) -> None:
 
 
 def load(path: Path) -> Reference:
-    """What `keep` wrote."""
+    """Read what `keep` wrote."""
     with np.load(path) as stored:
         arrays = {name: stored[name] for name in stored.files}
     plain = json.loads(str(arrays.pop("plain")))

@@ -136,7 +136,7 @@ def _clear(folder: Path) -> None:
 
 
 def shelf() -> Path:
-    """Where finished runs are kept."""
+    """Folder of finished runs."""
     return build.cache().parent / "references"
 
 

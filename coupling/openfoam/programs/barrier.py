@@ -39,7 +39,7 @@ def _guarded(variables: dict[str, str]) -> dict[str, str]:
 
 
 def _dictionaries(installation: Installation, name: str) -> list[Path]:
-    """Where OpenFOAM looks for a dictionary of its own (etcFiles.C), the strongest last."""
+    """Places where OpenFOAM looks for a dictionary of its own (etcFiles.C), the strongest last."""
     site = Path(os.environ.get("WM_PROJECT_SITE") or installation.project / "site") / "etc"
     user = Path.home() / ".OpenFOAM"
     folders = (installation.project / "etc", site, site / installation.version, user, user / installation.version)

@@ -31,13 +31,13 @@ LINK = ("-Wl,--no-as-needed", "-lOpenFOAM", "-lPstream", "-ldl", "-lm")
 
 
 def cache() -> Path:
-    """Where built things are kept: $XDG_CACHE_HOME/sdph/openfoam."""
+    """Folder of built things: $XDG_CACHE_HOME/sdph/openfoam."""
     base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
     return Path(base) / "sdph" / "openfoam"
 
 
 def silent(_: str) -> None:
-    """Nobody watches."""
+    """Drop a message."""
 
 
 def build(source: Path, status: Callable[[str], None] = silent) -> Path:
@@ -54,7 +54,7 @@ def build(source: Path, status: Callable[[str], None] = silent) -> Path:
 
 
 def built(source: Path, installation: Installation) -> Path:
-    """Where the product of `source` is, or will be: the folder is named by OpenFOAM's version and a hash of all that
+    """Path of the product of `source`, built or not: the folder is named by OpenFOAM's version and a hash of all that
     goes in."""
     digest = hashlib.sha256(repr((FLAGS, LINK, installation.package)).encode())
     for path in sorted(p for p in source.rglob("*") if p.suffix in (".C", ".H") or p.parent.name == "Make"):
@@ -90,7 +90,7 @@ def _gxx(copy: Path, product: Path, installation: Installation, status: Callable
 
 
 def header_folder(installation: Installation) -> Path:
-    """Where the headers of an installation without its own are kept."""
+    """Folder of the headers of an installation without its own."""
     return cache() / f"headers-{installation.package}"
 
 

@@ -94,7 +94,7 @@ class Row:
 
 
 def doctor() -> list[Row]:
-    """What of OpenFOAM is there, and what mends the rest."""
+    """Rows of `sdph doctor`: each part of OpenFOAM, whether it is there, and what mends it."""
     found = find()
     get = "sdph openfoam setup --install"
     rows = [Row("OpenFOAM", found is not None, f"{found.version} in {found.project}" if found else "", get)]

@@ -1,4 +1,4 @@
-"""Which OpenFOAM is on this machine, and the environment that its programs need."""
+"""Installation of OpenFOAM on this machine, and the environment that its programs need."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Installation:
 
     @property
     def wmake(self) -> bool:
-        """Whether it can compile by itself."""
+        """True where it can compile by itself."""
         return (self.project / "wmake" / "wmake").exists()
 
     def environment(self) -> dict[str, str]:

@@ -35,7 +35,7 @@ def run(command: list[str], folder: Path, log: Path, environment: dict[str, str]
 
 @contextlib.contextmanager
 def starting(program: str) -> Iterator[None]:
-    """A program that is not there, or not for this machine, is a `GasError`."""
+    """Turn the error of a program that is not there, or not for this machine, into a `GasError`."""
     try:
         yield
     except OSError as error:
@@ -74,7 +74,7 @@ def _watch(
 
 
 def _end(process: subprocess.Popen) -> None:
-    """Nothing is left running, mpirun's ranks included."""
+    """End a program, mpirun's ranks included."""
     if process.poll() is None:
         os.killpg(process.pid, signal.SIGKILL)
         process.wait()
@@ -95,8 +95,8 @@ def ending(code: int) -> str:
 
 
 def reason(log: Path) -> str:
-    """Why a program ended, in one line: the cause that its log names, else its last line, unless that is of a solver
-    that goes on well."""
+    """Reason that a program ended, in one line: the cause that its log names, else its last line, unless that is of a
+    solver that goes on well."""
     last = (_tail(log).decode(errors="replace").strip().splitlines() or ["it wrote no log"])[-1]
     return cause(log) or (
         f"its log breaks off at {solver_time(log):g} s without a cause" if CHATTER.search(last) else last

@@ -80,7 +80,12 @@ void start(const wire::Message& message, GasSolver& solver, const Exchange& exch
 wire::Message advance(const wire::Message& message, GasSolver& solver, const Exchange& exchange, Time& time)
 {
     const scalar dt = message.number("dt");
-    if (!(dt > 0 && dt < GREAT)) throw BadValue("dt is " + std::to_string(dt) + " s; it must be positive");
+    if (!(dt > 0 && dt < GREAT))
+    {
+        std::ostringstream text;
+        text << "dt is " << dt << " s; it must be above 0 and below " << GREAT << " s: choose another window";
+        throw BadValue(text.str());
+    }
     exchange.takeSources(message, solver.sources);
     const scalarField alphaEnd
     (

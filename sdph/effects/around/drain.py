@@ -53,7 +53,7 @@ def command(own: Drain, first: float):
 
 
 def call(scales) -> Judgement:
-    """How much of the liquid is to leave within the run."""
+    """Share of the liquid that is to leave within the run."""
     own = scales.case.parameters["drain"]
     first = next((pool.fill for pool in scales.case.pools.values() if pool.fill), 1.0)
     share = 1.0 - command(own, first)(scales.end) / first

@@ -134,7 +134,7 @@ def kernel(case) -> FrameP:
 
 
 def call(scales) -> Judgement:
-    """What the frame's motion can do to the liquid's speed within the run."""
+    """Change of the liquid's speed by the frame's motion within the run, over that speed."""
     ratio = scales.shaken * scales.end / scales.speed if scales.speed else 0.0
     return Judgement("a_frame t/U", ratio, 0.01, "Froude number of the frame", min(1.0, ratio))
 

@@ -31,7 +31,7 @@ class Inflow:
     """Has no input of its own: see [nozzles]."""
 
     def patches(self, case) -> list:
-        """What comes in, for `sdph.methods.grains.scales`."""
+        """Grains that come in, one patch a nozzle, for `sdph.methods.grains.scales`."""
         for name, nozzle in case.nozzles.items():
             check(case, name, nozzle)
         return [_patch(case, nozzle) for nozzle in case.nozzles.values()]
@@ -64,7 +64,7 @@ class Source:
     Streams of all nozzles stand one after the other, S of them; `of` (S,) is the nozzle of each, counted from 0.
     """
 
-    KEPT = ("layers", "next_ident", "mass", "energy", "momentum")  # see sdph.engine.kept
+    KEPT = ("layers", "next_ident", "mass", "energy", "motion", "momentum")  # see sdph.engine.kept
 
     def __init__(self, case, names, first_ident: int):
         self.case, self.names, self.pitch = case, {*names, *ARRAYS}, case.resolution.spacing
@@ -81,7 +81,8 @@ class Source:
         self.values = {name: np.array(column) for name, column in self._columns().items()}
         self.trees = [cKDTree(s.mouth) for s in self.streams]
         self.layers, self.next_ident = np.zeros(len(self.of), np.int64), first_ident
-        self.mass, self.energy, self.momentum = 0.0, 0.0, np.zeros(3)  # through the mouths [kg], [J], [kg m/s]
+        self.mass, self.energy, self.motion = 0.0, 0.0, 0.0  # through the mouths [kg], heat and motion [J]
+        self.momentum = np.zeros(3)  # [kg m/s]
 
     def _columns(self) -> dict[str, list]:
         """Array of the state -> what a particle of each nozzle has there."""
@@ -208,6 +209,7 @@ class Source:
         self.mass += float(out.mass.sum())
         if len(out.temperature):
             self.energy += float((out.mass * out.temperature).sum() * self.case.grains.heat_capacity)
+        self.motion += particles.energy_of_motion(out)
         self.momentum = self.momentum + (out.mass[:, None] * particles.velocities(out)).sum(axis=0)
 
 
@@ -215,6 +217,13 @@ def _places(state, rows, after: float = 0.0) -> np.ndarray:
     """(n, d) positions [m] of some particles when `after` [s] has gone."""
     moving = zip(particles.axes(state), (state.u, state.v, state.w))
     return np.stack([place[rows] + after * speed[rows] for place, speed in moving], axis=1)
+
+
+def held(p, method) -> dict[str, float]:
+    """Number of particles upstream of a nozzle, outside the domain, which stand in for its edge in the gas."""
+    s = method.state
+    places, size = particles.positions(s)[s.kind == INFLOW], (*method.case.domain.size, 0.0)[:3]
+    return {"upstream_particles": float(((places < 0.0) | (places > size)).any(axis=1).sum())}
 
 
 def call(scales) -> Judgement:
@@ -230,5 +239,6 @@ EFFECT = Effect(
     kernel=kernel,
     arrays=ARRAYS,
     moves=True,
+    held=held,
     call=call,
 )

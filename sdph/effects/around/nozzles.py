@@ -65,7 +65,7 @@ def check(case, name: str, nozzle: Nozzle) -> None:
 
 
 def _check_times(case, where: str, nozzle: Nozzle, streams: Streams) -> None:
-    """What a nozzle gives in the time in which it is open must be a layer of particles at least."""
+    """CaseError where a nozzle closes before it opens, or before it gives a layer of particles."""
     if nozzle.end is None:
         return
     given = f"{where} is open from start_s = {nozzle.start:g} to end_s = {nozzle.end:g}"
@@ -78,5 +78,5 @@ def _check_times(case, where: str, nozzle: Nozzle, streams: Streams) -> None:
 
 
 def _parallel(a, b) -> bool:
-    """Whether two vectors of space span no plane."""
+    """True where two vectors of space span no plane."""
     return bool(np.linalg.norm(np.cross(a, b)) <= ROUND_OFF * np.linalg.norm(a) * np.linalg.norm(b))

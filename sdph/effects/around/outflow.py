@@ -19,7 +19,7 @@ class Outflow:
 
 
 class OutflowP(NamedTuple):
-    """Whether walls hold grains back at the other sides."""
+    """1 where walls hold grains back at the other sides, else 0."""
 
     walls: int
 
@@ -34,7 +34,9 @@ def leaving(case, state) -> np.ndarray:
     if not len(gone):
         return gone
     places = particles.axes(state)
-    for axis, (sides, length) in enumerate(zip(PAIRS, case.domain.size)):
+    for axis, (sides, length, period) in enumerate(zip(PAIRS, case.domain.size, case.domain.period)):
+        if period:  # who is beyond it for a moment is on its way round
+            continue
         for side, out in zip(sides, (places[axis] < 0.0, places[axis] > length)):
             if out.any():
                 gone |= out & _open(case, side, axis, places)
@@ -71,7 +73,7 @@ def _spans(span, count: int):
 
 
 def call(scales) -> Judgement:
-    """How far grains get within the run over their way to the nearest open side: past 1 they are out of the gas."""
+    """Way of the grains within the run over their way to the nearest open side: past 1 they are out of the gas."""
     over_gap = scales.to_outlets.over_gap
     return Judgement(
         "way of the grains / gap to an open side", over_gap, 1.0, "geometry", 1.0 if over_gap >= 1.0 else 0.0

@@ -97,8 +97,7 @@ def _ticks(size: float, spacing: float) -> np.ndarray:
 
 
 def cell_radius(pitch: float, dimensions: int) -> float:
-    """How far [m] from a stream its part of the mouth reaches: of a circle as large as a cell of the lattice in
-    space."""
+    """Radius [m] of a stream's part of the mouth: in space that of a circle as large as a cell of the lattice."""
     return 0.5 * pitch * (1.0 + ROUND_OFF) if dimensions == 2 else pitch / math.sqrt(math.pi)
 
 

@@ -118,8 +118,8 @@ def layers(case) -> int:
 
 
 def call(scales) -> Judgement:
-    """How far the liquid gets within the run when nothing holds it, or how deep the friction of walls along a
-    channel."""
+    """Way of the liquid within the run when nothing holds it, or along a channel the depth of the walls' friction, over
+    its width."""
     across, along = scales.pull
     way = 0.5 * (across + scales.shaken) * scales.end**2 / scales.length
     reach = max(way, scales.layer if along else 0.0)

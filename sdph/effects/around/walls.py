@@ -3,21 +3,25 @@
 Dummies stand in three layers behind the surface. They close the kernel in the density, push back with a pressure
 extrapolated from the grains in front of them, and drag with a mirrored velocity (no slip), with as much of it as
 leaves the stress of Johnson & Jackson 1987 at the wall, or not at all (`specularity` 0, or a side of the domain that is
-a slip_wall). Pressure vanishes where grains are few, so a grain that comes closer than `contact` to the surface is
-stopped there: its normal velocity is reversed with `restitution`.
+a slip_wall). A wall may slide along itself. What its grip takes from the motion of grains feeds their agitation.
+Pressure vanishes where grains are few, so a grain that comes closer than `contact` to the surface is stopped there: its
+normal velocity is reversed with `restitution`.
 """
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
+from numba import njit, prange
 
+from sdph.effects.around.wall_limiters import held as held_by_limiters
 from sdph.effects.effect import Effect, Judgement
 from sdph.engine.rows import entry
 from sdph.engine.walls.dummies import distance, normal_part, offset
 from sdph.laws import granular, kernels
+from sdph.laws.friction import johnson_jackson_wall
 from sdph.schema import choice, file, quantity, record
 
 MODELS = ("dummy", "paper")
@@ -55,7 +59,7 @@ class WallsP(NamedTuple):
 def kernel(case) -> WallsP:
     own, spacing = case.parameters["walls"], case.resolution.spacing
     gravity = float(np.linalg.norm(case.domain.gravity)) or 1.0
-    penalty = own.penalty * np.sqrt(gravity / case.smoothing_length)
+    penalty = own.penalty * math.sqrt(gravity / case.smoothing_length)
     specularity = NO_SLIP if own.specularity is None else own.specularity
     return WallsP(
         specularity, own.restitution, CONTACT * spacing, spacing, spacing**case.dimensions, penalty,
@@ -64,51 +68,57 @@ def kernel(case) -> WallsP:
 
 
 @njit(cache=True, error_model="numpy")
-def near(p, rows, i):
-    """Whether particle i sees dummies. Few do; to call what follows for the others too would cost as much as the
+def near(p, wall, i):
+    """True where particle i sees a wall. Few do; to call what follows for the others too would cost as much as the
     pairs."""
     if len(p) == 0:
         return False
-    return rows.number[i] > 0
+    return wall.number[i] > 0
 
 
 @njit(cache=True, error_model="numpy")
-def closure(p, box, dummies, rows, s, i, kernel):
-    """Share of the kernel of particle i that lies among grains: 1 - sum V W over dummies."""
+def closure(p, box, wall, s, i, kernel):
+    """Share of the kernel of particle i that lies among grains: 1 - sum V W over wall."""
     if len(p) == 0:
         return 1.0
     share = 1.0
-    for k in range(rows.number[i]):
-        share -= p.volume * kernels.cubic_spline(
-            distance(box, dummies, entry(rows, i, k), s, i), kernel.h, kernel.sigma
-        )
+    for k in range(wall.number[i]):
+        r = distance(box, wall, entry(wall, i, k), s, i)
+        share -= p.volume * kernels.cubic_spline(r, kernel.h, kernel.sigma)
     return share
 
 
 @njit(cache=True, error_model="numpy")
-def held(p, dummies, w, x, y, z):
-    """What of a vector (velocity or traction of contacts) a wall takes hold of: all of it where it grips, else the
-    normal part."""
-    nx, ny, nz = normal_part(dummies, w, x, y, z)
-    grips = dummies.stick[w] if p.specularity != 0.0 else 0.0
+def held(p, wall, w, x, y, z):
+    """Part of a vector (velocity or traction of contacts) that a wall takes hold of: all of it where it grips, else
+    that along the normal."""
+    nx, ny, nz = normal_part(wall, w, x, y, z)
+    grips = wall.stick[w] if p.specularity != 0.0 else 0.0
     return nx + grips * (x - nx), ny + grips * (y - ny), nz + grips * (z - nz)
 
 
 @njit(cache=True, error_model="numpy")
-def gradient(p, kernel, box, dummies, rows, s, i):
-    """What walls add to the velocity gradient (xx, xy, xz, yx, yy, yz, zx, zy, zz) [1/s] of particle i: mirrored
+def against(wall, w, s, i):
+    """Velocity of particle i less that of the wall (3 components) [m/s]."""
+    across = s.w[i] if len(s.z) else 0.0
+    return s.u[i] - wall.slide_x[w], s.v[i] - wall.slide_y[w], across - wall.slide_z[w]
+
+
+@njit(cache=True, error_model="numpy")
+def gradient(p, kernel, box, wall, s, i):
+    """Share of walls in the velocity gradient (xx, xy, xz, yx, yy, yz, zx, zy, zz) [1/s] of particle i: mirrored
     velocities behind them. The adjoint of the traction of contacts in `force`, so that elastic contacts neither gain
     nor lose."""
     xx = xy = xz = yx = yy = yz = zx = zy = zz = 0.0
     if len(p) == 0:
         return xx, xy, xz, yx, yy, yz, zx, zy, zz
-    for k in range(rows.number[i]):
-        w = entry(rows, i, k)
-        dx, dy, dz = offset(box, dummies, w, s, i)
-        r = np.sqrt(dx * dx + dy * dy + dz * dz)
+    for k in range(wall.number[i]):
+        w = entry(wall, i, k)
+        dx, dy, dz = offset(box, wall, w, s, i)
+        r = math.sqrt(dx * dx + dy * dy + dz * dz)
         g = -2.0 * p.volume * kernels.cubic_spline_gradient(r, kernel.h, kernel.sigma)
-        du, dv, dw = held(p, dummies, w, s.u[i], s.v[i], s.w[i] if len(s.z) else 0.0)
-        dx, dy, dz = normal_part(dummies, w, dx, dy, dz)
+        du, dv, dw = held(p, wall, w, *against(wall, w, s, i))
+        dx, dy, dz = normal_part(wall, w, dx, dy, dz)
         xx += g * du * dx
         xy += g * du * dy
         xz += g * du * dz
@@ -121,131 +131,146 @@ def gradient(p, kernel, box, dummies, rows, s, i):
     return xx, xy, xz, yx, yy, yz, zx, zy, zz
 
 
-@njit(cache=True, error_model="numpy")
-def extrapolate(kernel, box, dummies, rows, s, pressure, weight, wall_pressure, wall_velocity):
+@njit(cache=True, parallel=True, error_model="numpy")
+def extrapolate(kernel, box, wall, facing, s, pressure, wall_pressure, unheld, wall_velocity):
     """Pressure and mean velocity of the grains at the dummies: Adami et al. 2012, Eq. 23 and 27.
 
-    A pressure below zero is taken as zero: grains do not
-    stick to a wall.
+    `facing` are the rows of the dummies; those without grains near have 0. A pressure below zero is taken as zero:
+    grains do not stick to a wall; `unheld` (W,) [Pa] is the pressure before that, nan without grains near.
     """
-    weight[:], wall_pressure[:], wall_velocity[:] = 0.0, 0.0, 0.0
-    for i in range(len(s.x)):
-        for k in range(rows.number[i]):
-            w = entry(rows, i, k)
-            dx, dy, dz = offset(box, dummies, w, s, i)
-            value = kernels.cubic_spline(np.sqrt(dx * dx + dy * dy + dz * dz), kernel.h, kernel.sigma)
-            weight[w] += value
+    for w in prange(len(wall.x)):
+        weight = push = u = v = up = 0.0
+        for k in range(facing.number[w]):
+            i = entry(facing, w, k)
+            dx, dy, dz = offset(box, wall, w, s, i)
+            value = kernels.cubic_spline(math.sqrt(dx * dx + dy * dy + dz * dz), kernel.h, kernel.sigma)
+            weight += value
             hydrostatic = (
                 -(s.push_x[i] * dx + s.push_y[i] * dy + (s.push_z[i] * dz if len(s.z) else 0.0)) * s.density[i]
             )
-            wall_pressure[w] += value * (pressure[i] + hydrostatic)
-            wall_velocity[w, 0] += value * s.u[i]
-            wall_velocity[w, 1] += value * s.v[i]
-            if len(s.z):
-                wall_velocity[w, 2] += value * s.w[i]
-    for w in range(len(weight)):
-        if weight[w] > 0.0:
-            wall_pressure[w] = max(wall_pressure[w] / weight[w], 0.0)
-            wall_velocity[w] /= weight[w]
+            push += value * (pressure[i] + hydrostatic)
+            u += value * s.u[i]
+            v += value * s.v[i]
+            up += value * s.w[i] if len(s.z) else 0.0
+        found = weight > 0.0
+        unheld[w] = push / weight if found else np.nan
+        wall_pressure[w] = max(push / weight, 0.0) if found else 0.0
+        wall_velocity[w, 0] = u / weight if found else 0.0
+        wall_velocity[w, 1] = v / weight if found else 0.0
+        wall_velocity[w, 2] = up / weight if found else 0.0
 
 
 @njit(cache=True, error_model="numpy")
-def grip(p, dummies, w, s, i, dx, dy, dz, shear):
-    """Share of the no-slip stress: y/(y + b) at the distance y from the wall, with the slip length b = mu/k of
-
-    tau = k v, k = phi pi rho_p alpha_p g0 sqrt(3 theta)/(6 alpha_max). Johnson & Jackson 1987, J. Fluid Mech. 176, 67.
-    """
-    if p.specularity < 0.0 or dummies.stick[w] == 0.0 or len(s.theta) == 0:
-        return dummies.stick[w] * (p.specularity != 0.0)
-    y = max(
-        dx * dummies.normal_x[w] + dy * dummies.normal_y[w] + dz * dummies.normal_z[w] - dummies.depth[w], p.contact
-    )
+def grip(p, wall, w, s, i, dx, dy, dz, shear):
+    """Share of the no-slip stress: y/(y + b) at the distance y from the wall, with the slip length b = mu/k of the law
+    tau = k v."""
+    if p.specularity < 0.0 or wall.stick[w] == 0.0 or len(s.theta) == 0:
+        return wall.stick[w] * (p.specularity != 0.0)
+    y = max(dx * wall.normal_x[w] + dy * wall.normal_y[w] + dz * wall.normal_z[w] - wall.depth[w], p.contact)
     a = granular.capped_fraction(s.density[i] / p.grain_density, p.packing)
     g0 = granular.sinclair_jackson(a, p.packing)
-    k = p.specularity * np.pi * p.grain_density * a * g0 * np.sqrt(3.0 * s.theta[i]) / (6.0 * p.packing)
+    k = johnson_jackson_wall(p.specularity, a, s.theta[i], g0, p.grain_density, p.packing)
     return k * y / (k * y + shear) if k > 0.0 else 0.0
 
 
 @njit(cache=True, error_model="numpy", forceinline=True)  # to hand over the whole state costs more than this
-def force(p, kernel, box, dummies, rows, s, i, pressure, shear, tau, wall_pressure, wall_velocity):
-    """Acceleration [m/s2] of particle i by the wall; contacts, with their traction tau (N, 6) of
-    sdph.methods.grains.contacts, bear on it as they do on grains."""
-    ax, ay, az = 0.0, 0.0, 0.0
+def force(p, kernel, box, wall, s, i, stress, friction_p):
+    """Accelerations [m/s2] of particle i by the wall: by its push, and by its grip; power of the grip by the sliding of
+    the wall, and what viscosity takes there from the motion of the grains [W/kg].
+
+    `stress` holds pressure, shear viscosity and, where there is friction, the traction (N, 6) of contacts
+    (sdph.methods.grains.equations.Scratch), which bears on a wall as it does on grains; what it takes from the motion
+    is counted there.
+    """
+    ax = ay = az = tx = ty = tz = slid = lost = 0.0
     if len(p) == 0:
-        return ax, ay, az
-    for k in range(rows.number[i]):
-        w = entry(rows, i, k)
-        dx, dy, dz = offset(box, dummies, w, s, i)
-        r = np.sqrt(dx * dx + dy * dy + dz * dz)
-        vz = s.w[i] if len(s.z) else 0.0
+        return ax, ay, az, tx, ty, tz, slid, lost
+    for k in range(wall.number[i]):
+        w = entry(wall, i, k)
+        dx, dy, dz = offset(box, wall, w, s, i)
+        r = math.sqrt(dx * dx + dy * dy + dz * dz)
         if p.paper == 1:  # f/rho = -eps 2h sum (v.n) W A n / r, where v.n < 0; A = dx^(d-1), eps = penalty rho
-            approach = s.u[i] * dummies.normal_x[w] + s.v[i] * dummies.normal_y[w] + vz * dummies.normal_z[w]
+            vz = s.w[i] if len(s.z) else 0.0
+            approach = s.u[i] * wall.normal_x[w] + s.v[i] * wall.normal_y[w] + vz * wall.normal_z[w]
             push = -p.penalty * 2.0 * kernel.h * min(approach, 0.0) / r * p.volume
             push *= kernels.cubic_spline(r, kernel.h, kernel.sigma)
-            ax += push * dummies.normal_x[w]
-            ay += push * dummies.normal_y[w]
-            az += push * dummies.normal_z[w]
+            ax += push * wall.normal_x[w]
+            ay += push * wall.normal_y[w]
+            az += push * wall.normal_z[w]
         else:
             gradient = kernels.cubic_spline_gradient(r, kernel.h, kernel.sigma)
-            push = -p.volume / s.density[i] * (pressure[i] + wall_pressure[w]) * gradient
-            # mirrored velocity 2 v_wall - <v>: against a wall at rest v_i + <v>; Morris' form of the viscous force
-            stick = (
-                2.0 * grip(p, dummies, w, s, i, dx, dy, dz, shear[i]) * p.volume / s.density[i] * shear[i] * gradient
-            )
-            nx, ny, nz = dummies.normal_x[w], dummies.normal_y[w], dummies.normal_z[w]
+            push = -p.volume / s.density[i] * (stress.pressure[i] + wall.pressure[w]) * gradient
+            # mirrored velocity 2 v_wall - <v>: v_i + <v> - 2 v_wall; Morris' form of the viscous force
+            gripped = 2.0 * grip(p, wall, w, s, i, dx, dy, dz, stress.shear[i])
+            stick = gripped * p.volume / s.density[i] * stress.shear[i] * gradient
+            du, dv, dw = against(wall, w, s, i)
+            fx = stick * (du + wall.velocity[w, 0] - wall.slide_x[w])
+            fy = stick * (dv + wall.velocity[w, 1] - wall.slide_y[w])
+            fz = stick * (dw + wall.velocity[w, 2] - wall.slide_z[w])
+            lost -= fx * du + fy * dv + fz * dw
+            nx, ny, nz = wall.normal_x[w], wall.normal_y[w], wall.normal_z[w]
             # pressure acts along the normal: a row of dummies is no row of teeth
             along = push * (dx * nx + dy * ny + dz * nz)
             corner = push * (1.0 - (nx * nx + ny * ny + nz * nz))
-            ax += along * nx + corner * dx + stick * (s.u[i] + wall_velocity[w, 0])
-            ay += along * ny + corner * dy + stick * (s.v[i] + wall_velocity[w, 1])
-            az += along * nz + corner * dz + stick * (vz + wall_velocity[w, 2])
-            if len(tau):
+            ax += along * nx + corner * dx
+            ay += along * ny + corner * dy
+            az += along * nz + corner * dz
+            if len(friction_p):
                 rub = 2.0 * p.volume * s.density[i] * gradient
-                fx, fy, fz = rubbing(p, dummies, w, tau, i, dx, dy, dz)
-                ax += rub * fx
-                ay += rub * fy
-                az += rub * fz
-    return ax, ay, az
+                rx, ry, rz = rubbing(p, wall, w, stress.traction, i, dx, dy, dz)
+                fx, fy, fz = fx + rub * rx, fy + rub * ry, fz + rub * rz
+            tx += fx
+            ty += fy
+            tz += fz
+            slid += fx * wall.slide_x[w] + fy * wall.slide_y[w] + fz * wall.slide_z[w]
+    return ax, ay, az, tx, ty, tz, slid, lost
 
 
 @njit(cache=True, error_model="numpy")
-def rubbing(p, dummies, w, tau, i, dx, dy, dz):
+def rubbing(p, wall, w, tau, i, dx, dy, dz):
     """tau_i.r of contacts, r taken along the normal; of a smooth wall its normal part."""
-    dx, dy, dz = normal_part(dummies, w, dx, dy, dz)
+    dx, dy, dz = normal_part(wall, w, dx, dy, dz)
     fx = tau[i, 0] * dx + tau[i, 3] * dy + tau[i, 5] * dz
     fy = tau[i, 3] * dx + tau[i, 1] * dy + tau[i, 4] * dz
     fz = tau[i, 5] * dx + tau[i, 4] * dy + tau[i, 2] * dz
-    return held(p, dummies, w, fx, fy, fz)
+    return held(p, wall, w, fx, fy, fz)
 
 
 @njit(cache=True, error_model="numpy")
-def contact(p, box, dummies, rows, s):
+def contact(p, wall, box, s, gravity, impulse, work, back_put):
     """Stops particles that came closer than `contact` to a surface; returns how many did.
 
     The place is put back to the contact distance, the normal velocity reversed with the restitution. Those that come
-    through a nozzle pass.
+    through a nozzle pass. Adds to impulse (3,) [kg m/s] and work (1,) [J] of the walls on the grains, and to back_put
+    (2,) the ways that places were put back [m] and the energy that they got by it under gravity (3,) [m/s2], [J].
     """
     touched = 0
     for i in range(len(s.x)):
         before = touched
         if len(s.entering) > 0 and s.entering[i] > 0:
             continue
-        for k in range(rows.number[i]):
-            w = entry(rows, i, k)
-            dx, dy, dz = offset(box, dummies, w, s, i)
-            nx, ny, nz = dummies.normal_x[w], dummies.normal_y[w], dummies.normal_z[w]
+        for k in range(wall.number[i]):
+            w = entry(wall, i, k)
+            dx, dy, dz = offset(box, wall, w, s, i)
+            nx, ny, nz = wall.normal_x[w], wall.normal_y[w], wall.normal_z[w]
             height = dx * nx + dy * ny + dz * nz
             aside = dx * dx + dy * dy + dz * dz - height * height
-            inside = p.contact - (height - dummies.depth[w])
+            inside = p.contact - (height - wall.depth[w])
             if inside <= 0.0 or aside > p.spacing * p.spacing or nx * nx + ny * ny + nz * nz == 0.0:
                 continue
             s.x[i] += inside * nx
             s.y[i] += inside * ny
+            back_put[0] += inside
+            back_put[1] -= s.mass[i] * inside * (gravity[0] * nx + gravity[1] * ny + gravity[2] * nz)
             normal = s.u[i] * nx + s.v[i] * ny
             if len(s.z):
                 s.z[i] += inside * nz
                 normal += s.w[i] * nz
             back = -(1.0 + p.restitution) * min(normal, 0.0)
+            impulse[0] += s.mass[i] * back * nx
+            impulse[1] += s.mass[i] * back * ny
+            impulse[2] += s.mass[i] * back * nz
+            work[0] += s.mass[i] * back * (normal + 0.5 * back * (nx * nx + ny * ny + nz * nz))
             s.u[i] += back * nx
             s.v[i] += back * ny
             if len(s.z):
@@ -255,7 +280,7 @@ def contact(p, box, dummies, rows, s):
 
 
 def call(scales) -> Judgement:
-    """How far grains get within the run over their way to the nearest wall."""
+    """Judge by how far grains get within the run over their way to the nearest wall."""
     way, over_gap = scales.to_walls
     past = min(1.0, way / scales.length)  # how much of them would be through the wall
     return Judgement("way of the grains / gap to a wall", over_gap, 1.0, "geometry", past if over_gap >= 1.0 else 0.0)
@@ -267,5 +292,6 @@ EFFECT = Effect(
     parameters=Walls,
     kernel=kernel,
     moves=True,
+    held=held_by_limiters,
     call=call,
 )

@@ -11,7 +11,6 @@ from numba import njit
 from sdph.effects.effect import Effect, Judgement
 from sdph.laws import evaporation as law
 from sdph.laws import grain_loss
-from sdph.laws.constants import GAS_CONSTANT
 from sdph.schema import CaseError, choice, quantity, record, vector
 
 LAWS = ("linear", "spalding")
@@ -104,7 +103,7 @@ def _boiling(own, p, pressure: float) -> float:
     if own.saturation == "constant":
         return NEVER
     if own.saturation == "antoine":
-        return p[1] / (p[0] - math.log10(pressure)) - p[2]
+        return law.boiling_temperature_antoine(pressure, p)
     return law.boiling_temperature(pressure, p)
 
 
@@ -124,12 +123,18 @@ def driving_force(p, temperature, concentration, gas_temperature, gas_density):
     """Mass flux over k_c [kg/m3], negative where vapour would condense; concentration [kmol/m3] in the gas."""
     pressure = saturation_pressure(p, temperature)
     if p.law == 0:
-        return p.molar_mass * (law.vapour_concentration(pressure, temperature) - concentration)
+        return law.driving_force_linear(law.vapour_concentration(pressure, temperature), concentration, p.molar_mass)
     surface = min(pressure / p.operating_pressure, 1.0 - BOILING_MARGIN)
     y_s = law.vapour_mass_fraction(surface, p.molar_mass, p.gas_molar_mass)
-    mole_fraction = concentration * GAS_CONSTANT * gas_temperature / p.operating_pressure
+    mole_fraction = law.partial_pressure(concentration, gas_temperature) / p.operating_pressure
     y_g = law.vapour_mass_fraction(mole_fraction, p.molar_mass, p.gas_molar_mass)
-    return gas_density * math.log1p(law.spalding_number(y_s, y_g))
+    return law.driving_force_spalding(y_s, y_g, gas_density)
+
+
+@njit(cache=True, error_model="numpy")
+def past_boiling(p, temperature):
+    """True where the mole fraction of vapour at the surface is held below 1, short of the pole of Spalding's law."""
+    return p.law == 1 and saturation_pressure(p, temperature) / p.operating_pressure > 1.0 - BOILING_MARGIN
 
 
 @njit(cache=True, error_model="numpy")
@@ -149,7 +154,8 @@ def shrinking(s, surface: float) -> tuple[float, float]:
     """Sherwood number, and the run over the time in which a droplet evaporates (d2 law)."""
     diffusivity = s.case.vapour.diffusivity
     sherwood = law.sherwood_ranz_marshall(s.reynolds, law.schmidt_number(s.gas.density, s.gas.viscosity, diffusivity))
-    return sherwood, 4.0 * sherwood * diffusivity * surface / s.grains.density * s.end / s.grains.diameter**2
+    rate = 0.5 * sherwood * law.regression_rate(surface, diffusivity, s.grains.density)
+    return sherwood, rate * s.end / s.grains.diameter**2
 
 
 def to_gas(handed, case) -> dict:

@@ -36,7 +36,7 @@ class Radiation:
 
     @property
     def temperatures(self) -> tuple[float]:
-        """What the case gives besides [K]."""
+        """Temperature of the surroundings [K], one of those of the case."""
         return (self.surroundings_temperature,)
 
 

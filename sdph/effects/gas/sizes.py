@@ -27,14 +27,14 @@ NARROW = 1e-6  # least standard deviation of ln d: equal grains among unequal on
 
 
 class Sizes(NamedTuple):
-    """Whether evaporation is on (1) or not (0)."""
+    """1 where evaporation is on, else 0."""
 
     shrinking: int
 
 
 class Birth(NamedTuple):
-    """Of one particle: mean and standard deviation of ln d_0, its loss [m2], ventilation c [m^-1/2], z_cut, and
-    u_top."""
+    """Size classes of one particle: mean and standard deviation of ln d_0, its loss [m2], ventilation c [m^-1/2],
+    z_cut, and u_top."""
 
     mean: float
     std: float
@@ -60,7 +60,7 @@ def classes(p):
 
 @njit(cache=True, error_model="numpy")
 def birth(p, s, i):
-    """What the size classes of particle i are computed from."""
+    """Quantities that give the size classes of particle i."""
     if len(p) == 0:
         return Birth(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     if len(s.lost_still) == 0:
@@ -106,7 +106,7 @@ def grain(p, s, i, own, q):
 
 @njit(cache=True, error_model="numpy")
 def remaining(own):
-    """Of the grains that are left: mass [m3 a grain at birth], number mean [m] and variance [m2] of their diameters."""
+    """Mass [m3 a grain at birth], number mean [m] and variance [m2] of the diameters of the grains that are left."""
     count = first = second = third = 0.0
     for q in range(CLASSES):
         d, number = by_number(own, q)

@@ -8,6 +8,7 @@ from typing import NamedTuple
 from numba import njit
 
 from sdph.effects.effect import NO_LIMIT, Effect, Judgement
+from sdph.laws import exchange as law
 from sdph.laws.constants import SOFTENING
 from sdph.schema import record
 
@@ -32,15 +33,12 @@ def kernel(case) -> ConductionP:
 
 @njit(cache=True, error_model="numpy")
 def pair(p, h, s, i, j, r_squared, pull):
-    """Heat per mass and time [W/kg] that i gets from j; `pull` is m_j (dW/dr)/r [kg/m^(d+2)].
-
-    The law `cleary_monaghan` with K = alpha_p k, where K_i K_j/(rho_i rho_j) leaves k/(alpha_p rho_p) of the mean.
-    """
+    """Heat per mass and time [W/kg] that i gets from j; `pull` is m_j (dW/dr)/r [kg/m^(d+2)]."""
     if len(p) == 0:
         return 0.0
-    weight = pull * r_squared / (r_squared + SOFTENING * h * h)
     mean = 0.5 * (s.density[i] + s.density[j])
-    return 2.0 * p.conductivity / p.grain_density * weight / mean * (s.temperature[i] - s.temperature[j])
+    coefficient = law.cleary_monaghan(pull, r_squared, SOFTENING * h * h, p.conductivity, p.grain_density, mean)
+    return coefficient * (s.temperature[i] - s.temperature[j])
 
 
 def dt_limit(p, case, state) -> float:

@@ -12,8 +12,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import numpy as np
 from numba import njit
 
+from sdph.effects import limiter
 from sdph.effects.effect import DIFFUSIVE, Effect, Judgement
 from sdph.engine.geometry import deep
 from sdph.laws import constants, granular, viscosity
@@ -21,6 +23,7 @@ from sdph.laws import friction as law
 from sdph.schema import quantity, record
 
 ARRAYS = ("contact_xx", "contact_yy", "contact_xy", "contact_yz", "contact_zx")  # of the state [Pa]
+SAME = 1e-9  # of a viscosity that loops have reordered; our choice
 NEAR = 0.95  # of the onset: grains that close get there when they settle; our choice
 
 
@@ -114,23 +117,29 @@ def elastic(p, s, box, i, j, per_i, per_j, dx, dy, dz):
 def stress(p, pressures, s, i, D, spin, dt):
     """Deviator of the elastic stress of contacts [Pa] after dt (xx, yy, zz, xy, yz, zx), and their viscosity [Pa s].
 
-    `pressures` is a sdph.methods.grains.equations.Stress, D (6) the deviator of the rate of strain [1/s], spin (xy, yz,
-    zx) its antisymmetric part: the stress turns with the grains (Jaumann), grows by 2 G D dt, and is joined by 2 mu D
-    with the largest mu that an explicit step bears, so that contacts come to rest; both are cut down together where
-    their sum is past yield.
+    `pressures` is a sdph.methods.grains.equations.Scratch, D (6) the deviator of the rate of strain [1/s], spin (xy,
+    yz, zx) its antisymmetric part: the stress turns with the grains (Jaumann), grows by 2 G D dt, and is joined by
+    2 mu D with the largest mu that an explicit step bears, so that contacts come to rest; both are cut down together
+    where their sum is past yield.
     """
     frictional_pressure = pressures.lasting[i] * s.density[i] ** 2
     if frictional_pressure == 0.0:
         return (0.0, 0.0, 0.0, 0.0, 0.0, 0.0), 0.0
     bulk = s.density[i] / p.grain_density * pressures.stiffness[i]
     xx, yy, zz, xy, yz, zx = trial(s, i, D, spin, 2.0 * p.stiffness * bulk, dt)
-    mu = DIFFUSIVE * p.h * p.h / dt * s.density[i]
+    mu = stiffest(p, s.density[i], dt)
     m = 2.0 * mu
     squared = law.second_invariant(
         xx + m * D[0], yy + m * D[1], zz + m * D[2], xy + m * D[3], yz + m * D[4], zx + m * D[5]
     )
     share = law.yield_share(frictional_pressure, p.sine, squared)
     return (share * xx, share * yy, share * zz, share * xy, share * yz, share * zx), share * mu
+
+
+@njit(cache=True, error_model="numpy")
+def stiffest(p, density, dt):
+    """Most viscosity [Pa s] that a step of dt [s] bears at a density [kg/m3]."""
+    return DIFFUSIVE * p.h * p.h / dt * density
 
 
 @njit(cache=True, error_model="numpy", forceinline=True)  # to hand over the whole state costs more than this
@@ -156,9 +165,19 @@ def power(tau, D):
     return tau[0] * D[0] + tau[1] * D[1] + tau[2] * D[2] + 2.0 * (tau[3] * D[3] + tau[4] * D[4] + tau[5] * D[5])
 
 
+def held(p, method) -> dict[str, float]:
+    """Shares of the particles beyond the packing at which the pressure goes on along its tangent, and of those whose
+    contacts do not yield, so that their viscosity is the most that the last step bore."""
+    s, found = method.state, limiter.capped(p, method.state)
+    stiff = np.zeros(len(s.x), bool)
+    if method.step:
+        stiff = method.scratch.rubbing >= (1.0 - SAME) * stiffest(p, s.density, method.step)
+    return found | {"contact_viscosity_share": limiter.share(s, stiff)}
+
+
 def call(scales) -> Judgement:
-    """Whether grains lie closer than where contacts begin to last, and what presses them on each other: their weight on
-    a wall, or the gas that holds up the foremost."""
+    """Volume fraction over the onset of contacts; the error by what presses grains on each other: their weight on a
+    wall, or the gas that holds up the foremost."""
     onset = scales.case.parameters["friction"].onset
     ratio = scales.alpha_p / onset
     fall = scales.gravity * scales.end
@@ -175,5 +194,6 @@ EFFECT = Effect(
     kernel=kernel,
     arrays=("theta", *ARRAYS),
     moves=True,
+    held=held,
     call=call,
 )

@@ -16,9 +16,12 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import numpy as np
 from numba import njit, prange
 
+from sdph.effects import limiter
 from sdph.effects.effect import Effect, Judgement
+from sdph.engine import state as particles
 from sdph.engine.geometry import nearest_image
 from sdph.engine.rows import entry
 from sdph.schema import quantity, record
@@ -68,6 +71,15 @@ def shift(p, s, rows, box, dt, moved):
         moved[i, 0], moved[i, 1], moved[i, 2] = x, y, z
 
 
+def held(p, method) -> dict[str, float]:
+    """Share of the particles that the last sub-step shifted, and the longest shift [m]."""
+    far = particles.lengths(method.shifted) if len(method.shifted) else np.zeros(len(method.state.x))
+    return {
+        "shifted_share": limiter.share(method.state, far > 0.0),
+        "shift_m": float(far.max(initial=0.0)),
+    }
+
+
 def call(scales) -> Judgement:
     """Clumps grow where grains are strained; what they are worth was measured once."""
     strain = scales.speed * scales.end / scales.length if scales.collides and scales.length else 0.0
@@ -82,5 +94,6 @@ EFFECT = Effect(
     parameters=GrainShifting,
     kernel=kernel,
     moves=True,
+    held=held,
     call=call,
 )

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from numba import njit
 
+from sdph.effects import limiter
 from sdph.effects.effect import Effect, Judgement
 from sdph.laws import granular
 from sdph.schema import record
@@ -54,6 +55,11 @@ def sound_squared(p, alpha_p, theta):
     return granular.sound_speed_squared(a, theta, p.restitution, g0, slope, p.grain_density, 0.0)
 
 
+def held(p, method) -> dict[str, float]:
+    """Share of the particles beyond the packing at which g0 is held."""
+    return limiter.capped(p, method.state)
+
+
 def call(scales) -> Judgement:
     """Collisions of a grain within the run; what they push with, over the momentum flux of the grains."""
     collisions = scales.end / scales.collision_time if scales.collides and scales.speed else 0.0
@@ -71,5 +77,6 @@ EFFECT = Effect(
     kernel=kernel,
     arrays=("theta", "diameter"),
     moves=True,
+    held=held,
     call=call,
 )

@@ -5,15 +5,16 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy as np
 from numba import njit, prange
 
+from sdph.effects import limiter
 from sdph.effects.effect import NO_LIMIT, Effect, Judgement, diffusive_limit
 from sdph.laws import granular
-from sdph.laws.constants import TINY
+from sdph.laws.exchange import harmonic_mean
 from sdph.schema import choice, flag, quantity, record
 
 MODELS = ("transport", "algebraic")
+PART = 0.25  # of the decay time: steady theta is within PART^2/12 = 0.5 % of its balance; our choice
 DISSIPATIONS = ("lun", "paper")  # alpha_p^2 as derived, or alpha_p^1 as printed
 
 
@@ -22,7 +23,8 @@ class GranularTemperature:
     model: str = choice(*MODELS)
     dissipation: str = choice(*DISSIPATIONS)
     artificial_heating: bool = flag(False)  # heat of the artificial viscosity to theta, as in the paper; else to T
-    least: float = quantity("m2_s2", 1e-6, above=0.0)  # sdph-notes, section 2
+    # grains at rest are sheared into motion from it; 1e-5 m/s is far below any speed that is told; our choice
+    least: float = quantity("m2_s2", 1e-10, above=0.0)
     most: float = quantity("m2_s2", 100.0, above=0.0)
 
 
@@ -51,27 +53,56 @@ def kernel(case) -> TemperatureP:
 
 @njit(cache=True, error_model="numpy")
 def conductivity(p, alpha_p, theta, diameter):
-    """k_theta [kg/m/s] (paper section 2.1), held at the Knudsen limit 3/2 alpha_p rho h sqrt(theta), our choice."""
+    """k_theta [kg/m/s] (paper section 2.1); the kinetic part by `granular.streaming_share` where grains are few."""
     if len(p) == 0 or p.model == 1:
         return 0.0
     a = granular.capped_fraction(alpha_p, p.packing)
     g0 = granular.sinclair_jackson(a, p.packing)
-    own = granular.gidaspow_conductivity(a, theta, p.restitution, g0, p.grain_density, diameter)
-    return min(own, 1.5 * alpha_p * p.grain_density * p.h * np.sqrt(theta))
+    e, rho = p.restitution, p.grain_density
+    share = granular.streaming_share(a, e, g0, diameter, granular.STREAMING_AGITATION, p.h)
+    return granular.gidaspow_conductivity(a, theta, e, g0, rho, diameter, share)
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
+def largest(p, density, theta, diameter):
+    """Largest diffusivity of theta [m2/s] of particles of `density` (N,) [kg/m3]."""
+    most = 0.0
+    for i in prange(len(density)):
+        if density[i] > 0.0:
+            k = conductivity(p, density[i] / p.grain_density, theta[i], diameter[i])
+            most = max(most, k / (1.5 * density[i]))
+    return most
+
+
+def held(p, method) -> dict[str, float]:
+    """Shares of the particles whose theta is at its bounds and whose free path is at its limit, and the mean part of
+    the kinetic conductivity that this takes away."""
+    s = method.state
+    found = {
+        "theta_at_least_share": limiter.share(s, s.theta <= p.least),
+        "theta_at_most_share": limiter.share(s, s.theta >= p.most),
+    }
+    factor = granular.STREAMING_AGITATION if p.model == 0 else 0.0
+    return found | limiter.streaming(p, s, factor, "conductivity") | limiter.capped(p, s)
 
 
 @njit(cache=True, error_model="numpy")
 def pair(p, stress, s, i, j, squeeze_work, viscous_work, artificial_work, scale):
-    """What the pair gives to theta of i per mass [W/kg]: work of agitation, and diffusion with the harmonic mean.
+    """Rate of theta of i by the pair, per mass [W/kg]: work of agitation, and diffusion with the harmonic mean.
 
     scale = m_j (dW/dr)/r / (rho_i rho_j). The works [W/kg] are those of the whole pair; half goes to each.
     """
     if len(p) == 0:
         return 0.0
     k_i, k_j = stress.conductivity[i], stress.conductivity[j]
-    k = 2.0 * k_i * k_j / max(k_i + k_j, TINY)
     made = 0.5 * (squeeze_work + viscous_work + p.artificial * artificial_work)
-    return made + 2.0 * k * (s.theta[i] - s.theta[j]) * scale
+    return made + 2.0 * harmonic_mean(k_i, k_j) * (s.theta[i] - s.theta[j]) * scale
+
+
+@njit(cache=True, error_model="numpy")
+def fed(p, lost):
+    """Share of what viscosity takes from the motion [W/kg] that feeds theta: all, where there is this effect."""
+    return lost if len(p) else 0.0
 
 
 @njit(cache=True, error_model="numpy")
@@ -84,50 +115,89 @@ def rest(p, artificial_work):
 
 @njit(cache=True, error_model="numpy")
 def advance(p, alpha_p, theta, heating, damping, diameter, shear_squared, divergence, dt):
-    """theta after dt [m2/s2]: explicit `heating` [W/kg], then dissipation and damping by their exact step.
+    """theta after dt [m2/s2] by `heating` [W/kg], dissipation and damping = beta/(alpha_p rho_p) [1/s].
 
-    damping = beta/(alpha_p rho_p) [1/s]. Returns theta held within its bounds, and by how much that changed it.
+    Returns theta held within its bounds, by how much these changed it, and what went into collisions and into the gas
+    [m2/s2].
     """
     if len(p) == 0:
-        return theta, 0.0
+        return theta, 0.0, 0.0, 0.0
     a = granular.capped_fraction(alpha_p, p.packing)
     g0 = granular.sinclair_jackson(a, p.packing)
+    if p.dissipation == 0:
+        cooling = granular.cooling_coefficient(a, p.restitution, g0, diameter)
+    else:
+        cooling = granular.cooling_coefficient_paper(a, p.restitution, g0, diameter)
+    damped, fed = granular.damping_rate(damping), 2.0 / 3.0 * heating * dt
     if p.model == 1:
         beta = damping * alpha_p * p.grain_density
         free = granular.equilibrium_theta(
             a, p.restitution, g0, p.grain_density, diameter, shear_squared, divergence, beta
         )
+        begun = max(theta + fed, 0.0)
+        mended = begun - (theta + fed)
+        collided, gone = lost(begun, free, cooling, damped)
     else:
-        weight = 1.0 if p.dissipation == 0 else 1.0 / a
-        cooling = granular.cooling_coefficient(a, p.restitution, g0, diameter) * weight
-        free = granular.theta_step(max(theta + 2.0 / 3.0 * heating * dt, 0.0), cooling, 2.0 * damping, dt)
+        free, mended, collided, gone = transported(theta, fed, cooling, damped, dt)
     held = min(max(free, p.least), p.most)
-    return held, held - free
+    return held, mended + held - free, collided, gone
+
+
+@njit(cache=True, error_model="numpy")
+def transported(theta, fed, cooling, damped, dt):
+    """theta [m2/s2] after dt in which it is fed [m2/s2], cools and is damped; what was needed to keep it from below 0,
+    and what went into collisions and into the gas.
+
+    In parts of PART of its decay time: half of what it is fed, the exact decay, the other half (Strang 1968, SIAM J.
+    Numer. Anal. 5, 506), so that it comes to where they balance however long the step is.
+    """
+    decays = (cooling * math.sqrt(theta + max(fed, 0.0)) + damped) * dt / PART
+    parts = max(1, math.ceil(decays)) if math.isfinite(decays) else 1
+    half, mended, collided, gone = 0.5 * fed / parts, 0.0, 0.0, 0.0
+    for _ in range(parts):
+        begun = max(theta + half, 0.0)
+        decayed = granular.theta_step(begun, cooling, damped, dt / parts)
+        mended += begun - (theta + half)
+        theta = max(decayed + half, 0.0)
+        mended += theta - (decayed + half)
+        to_heat, to_gas = lost(begun, decayed, cooling, damped)
+        collided += to_heat
+        gone += to_gas
+    return theta, mended, collided, gone
+
+
+@njit(cache=True, error_model="numpy")
+def lost(begun, decayed, cooling, damped):
+    """Loss of theta to collisions and to the gas [m2/s2], shared by their rates at the mean of sqrt(theta)."""
+    colliding = 0.5 * cooling * (math.sqrt(begun) + math.sqrt(decayed))
+    share = damped / (damped + colliding) if damped > 0.0 else 0.0
+    return (1.0 - share) * (begun - decayed), share * (begun - decayed)
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def advance_all(p, s, heating, damping, shear_squared, divergence, dt, theta, held):
-    """theta (N,) [m2/s2] of all particles after dt; held (N,) [m2/s2] is what the bounds changed."""
+def advance_all(p, s, heating, damping, shear_squared, divergence, dt, theta, held, collided, damped):
+    """theta (N,) [m2/s2] of all particles after dt; by bounds, collisions and gas it lost or got the others (N,)
+    [m2/s2]."""
     for i in prange(len(s.x)):
         alpha_p = s.density[i] / p.grain_density
-        theta[i], held[i] = advance(
+        theta[i], held[i], collided[i], damped[i] = advance(
             p, alpha_p, s.theta[i], heating[i], damping[i], s.diameter[i], shear_squared[i], divergence[i], dt
         )
 
 
 def dt_limit(p, case, state) -> float:
-    """theta spreads with h sqrt(theta) at most; where it is algebraic it does not spread."""
-    return diffusive_limit(p.h, p.h * math.sqrt(state.theta.max(initial=0.0))) if p.model == 0 else NO_LIMIT
+    """Sub-step limit [s] by diffusion of theta; none where theta is algebraic."""
+    return diffusive_limit(p.h, largest(p, state.density, state.theta, state.diameter)) if p.model == 0 else NO_LIMIT
 
 
 def call(scales) -> Judgement:
-    """How much of theta is made or lost within the run; it acts by way of pressure and viscosity."""
+    """Time of the run over the decay time of theta, which acts by way of pressure and viscosity."""
     cooling = (
         granular.cooling_coefficient(scales.capped, scales.grains.restitution, scales.g0, scales.grains.diameter)
         if scales.alpha_p
         else 0.0
     )
-    rate = cooling * math.sqrt(scales.theta) + 2.0 / scales.drag_time
+    rate = cooling * math.sqrt(scales.theta) + granular.damping_rate(1.0 / scales.drag_time)
     changed = -math.expm1(-rate * scales.end) if scales.speed and scales.collides else 0.0
     stiffness = 1.0 + 2.0 * (1.0 + scales.grains.restitution) * scales.alpha_p * scales.g0
     push = scales.theta * stiffness / scales.speed**2 if scales.speed else 0.0
@@ -145,5 +215,6 @@ EFFECT = Effect(
     arrays=("theta", "diameter"),
     moves=True,
     dt_limit=dt_limit,
+    held=held,
     call=call,
 )

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy as np
-from numba import njit
+from numba import njit, prange
 
+from sdph.effects import limiter
 from sdph.effects.effect import Effect, Judgement, diffusive_limit
 from sdph.laws import granular, viscosity
-from sdph.laws.constants import TINY
+from sdph.laws.exchange import harmonic_mean
 from sdph.schema import record
 
 SOURCE = "diffusion of momentum, Gidaspow 1994 viscosity"
@@ -35,30 +35,40 @@ def kernel(case) -> ViscosityP:
 
 
 class Viscous(NamedTuple):
-    """On where any effect gives a viscosity."""
+    """Number of dimensions; OFF where this effect is."""
 
     dimensions: float
 
 
 @njit(cache=True, error_model="numpy")
-def harmonic(a, b):
-    return 2.0 * a * b / max(a + b, TINY)
-
-
-@njit(cache=True, error_model="numpy")
 def viscosities(p, alpha_p, theta, diameter):
-    """Total shear and bulk viscosity [Pa s].
-
-    A free path longer than h is not seen: the kinematic viscosity is held at h sqrt(theta) (Knudsen limit, our
-    choice), which Gidaspow's kinetic part passes where grains are few.
-    """
+    """Total shear and bulk viscosity [Pa s]; the kinetic part by `granular.streaming_share` where grains are few."""
     if len(p) == 0:
         return 0.0, 0.0
     a = granular.capped_fraction(alpha_p, p.packing)
     g0 = granular.sinclair_jackson(a, p.packing)
-    shear = granular.gidaspow_viscosity(a, theta, p.restitution, g0, p.grain_density, diameter)
-    most = alpha_p * p.grain_density * p.h * np.sqrt(theta)
-    return min(shear, most), granular.lun_bulk_viscosity(a, theta, p.restitution, g0, p.grain_density, diameter)
+    e, rho = p.restitution, p.grain_density
+    share = granular.streaming_share(a, e, g0, diameter, granular.STREAMING_MOMENTUM, p.h)
+    shear = granular.gidaspow_viscosity(a, theta, e, g0, rho, diameter, share)
+    return shear, granular.lun_bulk_viscosity(a, theta, e, g0, rho, diameter)
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
+def largest(p, density, theta, diameter):
+    """Largest diffusivity of momentum [m2/s] of particles of `density` (N,) [kg/m3]: that of sound, 4/3 mu + lambda."""
+    most = 0.0
+    for i in prange(len(density)):
+        if density[i] > 0.0:
+            shear, bulk = viscosities(p, density[i] / p.grain_density, theta[i], diameter[i])
+            most = max(most, (4.0 / 3.0 * shear + bulk) / density[i])
+    return most
+
+
+def held(p, method) -> dict[str, float]:
+    """Share of the particles whose free path is at its limit, and the mean part of the kinetic viscosity that this
+    takes away."""
+    s = method.state
+    return limiter.streaming(p, s, granular.STREAMING_MOMENTUM, "viscosity") | limiter.capped(p, s)
 
 
 @njit(cache=True, error_model="numpy")
@@ -69,13 +79,13 @@ def pair(viscous, stress, i, j, r_squared, closing, scale):
     """
     if len(viscous) == 0:
         return 0.0, 0.0
-    mu, bulk = harmonic(stress.shear[i], stress.shear[j]), harmonic(stress.bulk[i], stress.bulk[j])
+    mu, bulk = harmonic_mean(stress.shear[i], stress.shear[j]), harmonic_mean(stress.bulk[i], stress.bulk[j])
     return viscosity.espanol_revenga(viscous.dimensions, mu, bulk, r_squared, closing, scale)
 
 
 def dt_limit(p, case, state) -> float:
-    """The viscosity is at most h sqrt(theta)."""
-    return diffusive_limit(p.h, p.h * math.sqrt(state.theta.max(initial=0.0)))
+    """Sub-step limit [s] by the largest viscosity."""
+    return diffusive_limit(p.h, largest(p, state.density, state.theta, state.diameter))
 
 
 def call(scales) -> Judgement:
@@ -98,5 +108,6 @@ EFFECT = Effect(
     arrays=("theta", "diameter"),
     moves=True,
     dt_limit=dt_limit,
+    held=held,
     call=call,
 )

@@ -10,6 +10,7 @@ from numba import njit
 from sdph.effects.effect import Effect, Judgement, diffusive_limit
 from sdph.engine import kernels as smoothing
 from sdph.engine.state import LIQUID
+from sdph.laws.exchange import harmonic_mean
 from sdph.schema import record
 
 
@@ -37,9 +38,8 @@ def kernel(case) -> LaminarP | LaminarOfTwoP:
     if case.gas_phase is None:
         return LaminarP(2.0 * mu)
     other = case.gas_phase.viscosity
-    between = 2.0 * mu * other / (mu + other) if mu + other else 0.0
     factor = 2.0 * (case.dimensions + 2.0)
-    return LaminarOfTwoP(factor * mu, factor * other, factor * between)
+    return LaminarOfTwoP(factor * mu, factor * other, factor * harmonic_mean(mu, other))
 
 
 def dt_limit(p, case, state) -> float:

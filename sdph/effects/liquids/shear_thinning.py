@@ -91,8 +91,9 @@ def viscosity(p, shear_rate):
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
 def images(kernel, s, rows, box, walls, volume, out):
-    """Where a linear flow has the velocity of wall particles (sdph.methods.liquids.walls, the mean of the liquid in
-    front, turned round): the mirror image of the middle of that liquid, from the particle, into out (N, 3) [m]."""
+    """Points at which a linear flow has the velocity of wall particles (sdph.methods.liquids.walls, the mean of the
+    liquid in front, turned round): the mirror image of the middle of that liquid, from the particle, into out (N, 3)
+    [m]."""
     for n in prange(len(walls)):
         i = walls[n]
         weight = x = y = z = 0.0
@@ -167,7 +168,7 @@ def renew(p, method) -> None:
 
 
 def dt_limit(p, case, state) -> float:
-    """That of the largest viscosity of now; before there is one, of the liquid at rest."""
+    """Sub-step limit [s] by the largest viscosity of now; before there is one, by that of the liquid at rest."""
     largest = float(state.viscosity.max(initial=0.0)) or viscosity(p, 0.0)
     return diffusive_limit(case.smoothing_length, largest / case.liquid.density)
 

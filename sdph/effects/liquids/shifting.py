@@ -91,7 +91,7 @@ def weight(p, value):
 
 @njit(cache=True, error_model="numpy")
 def sign(p, pressure, least):
-    """What p_i is multiplied by in p_j + p_i: -1 under tension inside the liquid, else 1."""
+    """Factor of p_i in p_j + p_i: -1 under tension inside the liquid, else 1."""
     if len(p) == 0:
         return 1.0
     return -1.0 if p.tension > 0.0 and pressure < 0.0 and least > INTERIOR else 1.0

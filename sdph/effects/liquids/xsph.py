@@ -31,8 +31,8 @@ def kernel(case) -> XsphP:
 
 @njit(cache=True, error_model="numpy")
 def share(p, m_j, rho_i, rho_j, value):
-    """Of v_j - v_i, what particle i moves with: eps m_j W/rho_ij, rho_ij the mean. Monaghan 1992, Annu. Rev. Astron.
-    Astrophys. 30, 543, Eq. 2.12."""
+    """Share of v_j - v_i that particle i moves with: eps m_j W/rho_ij, rho_ij the mean. Monaghan 1992, Annu. Rev.
+    Astron. Astrophys. 30, 543, Eq. 2.12."""
     return p.strength * m_j * value / (0.5 * (rho_i + rho_j))
 
 

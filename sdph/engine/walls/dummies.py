@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from sdph.engine.geometry import nearest_image
+from sdph.engine.rows import Rows, entry
 
 
 class Dummies(NamedTuple):
     """W dummies: place [m], unit normal (0 in corners, where two walls meet), depth behind the surface [m], 0 where
-    the surface lets grains slip and else 1."""
+    the surface lets grains slip and else 1, velocity of the surface along itself [m/s]."""
 
     x: np.ndarray
     y: np.ndarray
@@ -22,6 +24,38 @@ class Dummies(NamedTuple):
     normal_z: np.ndarray
     depth: np.ndarray
     stick: np.ndarray
+    slide_x: np.ndarray
+    slide_y: np.ndarray
+    slide_z: np.ndarray
+
+
+OF_ROWS = ("entries", "start", "number", "pressure", "velocity")
+Wall = NamedTuple("Wall", [(name, np.ndarray) for name in (*Dummies._fields, *OF_ROWS)])
+Wall.__doc__ = """Dummies as loops take them, in one flat group: their fields, the rows of the particles that see them,
+pressure (W,) [Pa] and velocity (W, 3) [m/s] that they have from the grains in front."""
+
+
+def seen(dummies: Dummies, rows) -> Wall:
+    """Dummies of which particles see those in `rows`."""
+    return Wall(*dummies, *rows, np.zeros(len(dummies.x)), np.zeros((len(dummies.x), 3)))
+
+
+@njit(cache=True, error_model="numpy")
+def turned(rows, count):
+    """Rows of the `count` fixed points that `rows` lists for particles: for each the particles that see it, in their
+    order; not filled up."""
+    start = np.zeros(count + 1, np.int64)
+    for i in range(len(rows.number)):
+        for k in range(rows.number[i]):
+            start[entry(rows, i, k) + 1] += 1
+    start = np.cumsum(start)
+    entries, number = np.empty(start[count], np.uint32), np.zeros(count, np.int32)
+    for i in range(len(rows.number)):
+        for k in range(rows.number[i]):
+            w = entry(rows, i, k)
+            entries[start[w] + number[w]] = i
+            number[w] += 1
+    return Rows(entries, start, number)
 
 
 @njit(cache=True, error_model="numpy")
@@ -34,7 +68,7 @@ def offset(box, dummies, w, s, i):
 @njit(cache=True, error_model="numpy")
 def distance(box, dummies, w, s, i):
     dx, dy, dz = offset(box, dummies, w, s, i)
-    return np.sqrt(dx * dx + dy * dy + dz * dz)
+    return math.sqrt(dx * dx + dy * dy + dz * dz)
 
 
 @njit(cache=True, error_model="numpy")

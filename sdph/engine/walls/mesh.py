@@ -1,4 +1,4 @@
-"""Which side of a mesh particles stand on: thin walls part the grains on their two sides from each other.
+"""Sides of a mesh that particles stand on: thin walls part the grains on their two sides from each other.
 
 A mesh closes off what lies behind it, so that of a plate thinner than the kernel's reach both faces are near every
 particle. Rows of neighbours are cleared of what a particle cannot meet when they are built; no kernel asks again.
@@ -22,7 +22,7 @@ def three(axes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 @njit(cache=True, error_model="numpy")
 def height(dummies, w, x, y, z):
-    """How far [m] a place stands in front of the surface that dummy w is behind."""
+    """Height [m] of a place over the surface that dummy w is behind."""
     along = (x - dummies.x[w]) * dummies.normal_x[w] + (y - dummies.y[w]) * dummies.normal_y[w]
     return along + (z - dummies.z[w]) * dummies.normal_z[w] - dummies.depth[w]
 
@@ -59,7 +59,7 @@ def part(dummies, of_mesh, spacing, places, wall_rows, rows):
 
 @njit(cache=True, error_model="numpy")
 def parted(dummies, of_mesh, spacing, places, wall_rows, i, j):
-    """Whether the way from i, in front of a surface, to j, behind it, goes through one of its points."""
+    """True where the way from i, in front of a surface, to j, behind it, goes through one of its points."""
     x, y, z = places
     for k in range(wall_rows.number[i]):
         w = entry(wall_rows, i, k)

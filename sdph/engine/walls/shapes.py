@@ -142,7 +142,7 @@ class Box:
         return np.minimum(out.max(axis=1), 0.0) + np.linalg.norm(np.maximum(out, 0.0), axis=1)
 
     def steps(self, spacing):
-        """How many cells fit its sides, and their lengths (d,) [m]."""
+        """Numbers of cells that fit its sides, and their lengths (d,) [m]."""
         counts = np.array([max(1, round(length / spacing)) for length in self.upper - self.lower])
         return counts, (self.upper - self.lower) / counts
 

@@ -1,4 +1,4 @@
-"""Where walls are: dummy particles behind the sides of the domain, and behind any surface mesh."""
+"""Walls of grains: dummy particles behind the sides of the domain, and behind any surface mesh."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ import itertools
 import numpy as np
 
 from sdph.engine.geometry import SIDES
-from sdph.engine.rows import Neighbours
+from sdph.engine.rows import Neighbours, Rows
 from sdph.engine.surface import read
 from sdph.engine.walls import mesh as sides
-from sdph.engine.walls.dummies import Dummies
+from sdph.engine.walls.dummies import Dummies, Wall, seen, turned
 from sdph.schema import CaseError
 
 REACH = 2.0  # support of the kernels in smoothing lengths
@@ -24,8 +24,8 @@ class Boundary:
         self.search = Neighbours(REACH * case.smoothing_length, case.domain.period, case.resolution.neighbour_skin)
         table, self.spacing = dummies(case), case.resolution.spacing
         order = self.search.sort(tuple(np.ascontiguousarray(column) for column in table[:, : case.dimensions].T))
-        self.dummies = Dummies(*(np.ascontiguousarray(column) for column in table[order, :8].T))
-        self.of_mesh = table[order, 8] > 0.0
+        self.dummies = Dummies(*(np.ascontiguousarray(column) for column in table[order, :-1].T))
+        self.of_mesh = table[order, -1] > 0.0
 
     def rows(self, state_axes):
         """Dummies near each particle; valid as long as the particles' own rows."""
@@ -33,6 +33,10 @@ class Boundary:
         if self.of_mesh.any():
             sides.keep_in_front(self.dummies, self.of_mesh, sides.three(state_axes), rows)
         return rows
+
+    def seen(self, rows) -> tuple[Wall, Rows]:
+        """Dummies for loops, and the rows of the particles that each of them has in front."""
+        return seen(self.dummies, rows), turned(rows, len(self.dummies.x))
 
     def part(self, rows, wall_rows, state_axes) -> None:
         """Take the pairs out of the particles' rows that a mesh lies between."""
@@ -45,7 +49,7 @@ def _axes(dummies: Dummies, dimensions: int):
 
 
 def dummies(case) -> np.ndarray:
-    """(W, 9) place, normal, depth, stick of all dummies of a case; 1 for those of a mesh."""
+    """(W, 12) columns of `Dummies` of all dummies of a case; 1 for those of a mesh."""
     mesh = case.parameters["walls"].mesh
     parts = [np.pad(_box(case), ((0, 0), (0, 1)))]
     if mesh:
@@ -69,7 +73,7 @@ def _box(case) -> np.ndarray:
         -1, d, 2
     )
     keep = outside.any(axis=(1, 2)) & (~outside | closed).all(axis=(1, 2))
-    table = np.zeros((int(keep.sum()), 8))
+    table = np.zeros((int(keep.sum()), len(Dummies._fields)))
     table[:, :d] = points[keep]
     single = outside[keep].sum(axis=(1, 2)) == 1
     table[:, 3 : 3 + d] = np.where(single[:, None], outside[keep, :, 0] * 1.0 - outside[keep, :, 1] * 1.0, 0.0)
@@ -78,6 +82,11 @@ def _box(case) -> np.ndarray:
         [_behind(case, points, side, "slip_wall") for side in itertools.islice(SIDES, 2 * d)], axis=1
     ).reshape(-1, d, 2)
     table[:, 7] = (outside & ~slips)[keep].any(axis=(1, 2))  # in a corner the side that grips rules
+    for side, behind in zip(SIDES, outside.reshape(len(points), 2 * d).T):
+        for boundary in case.boundaries.values():
+            if boundary.kind == "wall" and boundary.side == side and boundary.velocity:
+                slides = behind & _within(points, SIDES[side][0], boundary.span)
+                table[slides[keep] & single, 8 : 8 + d] = boundary.velocity[:d]  # corners are at rest
     return table
 
 
@@ -136,7 +145,7 @@ def _mesh(path: str, spacing: float, dimensions: int) -> np.ndarray:
     places, facets = _read(path, dimensions)
     corners = places[facets][:, :, :dimensions]
     parts = [_facet(facet, spacing) for facet in corners]
-    table = np.zeros((sum(len(points) for points, _ in parts) * LAYERS, 8))
+    table = np.zeros((sum(len(points) for points, _ in parts) * LAYERS, len(Dummies._fields)))
     table[:, 7] = 1.0
     surface = np.concatenate([points for points, _ in parts])
     normal = np.concatenate([np.tile(n, (len(points), 1)) for points, n in parts])

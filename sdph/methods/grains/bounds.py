@@ -36,10 +36,9 @@ class Guard(Watch):
         self.sound = math.sqrt(ADIABATIC * GAS_CONSTANT / case.gas.molar_mass * max(given))
         self.cause, self.length = "largest", case.coupling.window_largest  # until the first window begins
 
-    def begin(self, simulation, dt: float) -> None:
-        """Before a window of `dt` [s]."""
-        super().begin(simulation)
-        self.cause, self.length = simulation.clock.limit, dt
+    def rule(self, dt: float, cause: str) -> None:
+        """The window that comes is of `dt` [s], ruled by `cause`."""
+        self.cause, self.length = cause, dt
 
     def admit_grains(self, state: dict, names, heaviest: float) -> None:
         """`admit` of grains, none of more than `heaviest` [kg]."""
@@ -86,16 +85,14 @@ class Guard(Watch):
             self.hold("temperature", s.temperature, (self.coldest, self.hottest, "K"), s, lower)
         self.hold("density", s.density, (0.0, math.inf, "kg/m3"), s, lower)
         collapse = f"what packs the grains: the sub-step has fallen to {stepper.length:.2g} s"
-        self.hold("speed of sound", stepper.stress.sound, (0.0, COLLAPSE * self.reach, "m/s"), s, collapse)
+        self.hold("speed of sound", stepper.scratch.sound, (0.0, COLLAPSE * self.reach, "m/s"), s, collapse)
 
-    def gas(self, simulation) -> str | None:
+    def gas(self, fields: dict, centres) -> str | None:
         """Name what is out of bounds in the gas after a window, NaN, speed or temperature; None where nothing is."""
-        for name, values, bound in self._of_gas(simulation.gas_state.fields):
+        for name, values, bound in self._of_gas(fields):
             worst = outside(values, *bound[:2])
             if worst is not None:
-                return self._told(
-                    f"gas {name}", f"cell {worst}", simulation.gas.mesh.centres[worst], values[worst], bound
-                )
+                return self._told(f"gas {name}", f"cell {worst}", centres[worst], values[worst], bound)
         return None
 
     def _of_gas(self, fields: dict):

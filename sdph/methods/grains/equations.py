@@ -7,6 +7,7 @@ tuple inside a prange without a word.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -43,11 +44,18 @@ def kernel_of(case) -> Kernel:
     return Kernel(case.smoothing_length, sigma / lattice)
 
 
-class Stress(NamedTuple):
-    """Per particle: pressure [Pa], its parts by agitation and by lasting contacts over density squared [Pa m6/kg2],
-    slope of the latter's pressure against alpha_p [Pa], shear and bulk viscosity of agitation [Pa s], conductivity of
-    theta [kg/m/s], sound speed [m/s]."""
+class Scratch(NamedTuple):
+    """Values that one loop of a sub-step leaves to the next, in one flat group.
 
+    pull (E,) of `sum_density`; per particle, by `constitutive`: pressure [Pa], its parts by agitation and by lasting
+    contacts over density squared [Pa m6/kg2], slope of the latter's pressure against alpha_p [Pa], shear and bulk
+    viscosity of agitation [Pa s], conductivity of theta [kg/m/s], sound speed [m/s]; by `contacts.shear`: stress of
+    contacts, elastic and viscous, over density squared (N, 6) [Pa m6/kg2], xx, yy, zz, xy, yz, zx, their viscosity (N,)
+    [Pa s], both without length where there is no friction; work of it, and of what rubs on walls (N,) [W/kg];
+    I2D = dev(D):dev(D)/2 (N,) [1/s2] and div v (N,) [1/s].
+    """
+
+    pull: np.ndarray
     pressure: np.ndarray
     agitated: np.ndarray
     lasting: np.ndarray
@@ -56,6 +64,28 @@ class Stress(NamedTuple):
     bulk: np.ndarray
     conductivity: np.ndarray
     sound: np.ndarray
+    traction: np.ndarray
+    rubbing: np.ndarray
+    contact_work: np.ndarray
+    shear_squared: np.ndarray
+    divergence: np.ndarray
+
+    @property
+    def stress(self) -> tuple[np.ndarray, ...]:
+        """Arrays that `constitutive` writes."""
+        return self[1:9]
+
+    @property
+    def shearing(self) -> tuple[np.ndarray, ...]:
+        """Arrays that `contacts.shear` writes."""
+        return self[9:]
+
+
+def scratch(count: int, entries: int, friction: bool) -> Scratch:
+    """Room for `count` particles with so many `entries` in their rows; nothing is sheared."""
+    rubbed = count if friction else 0
+    stress, sheared = [np.zeros(count) for _ in range(8)], [np.zeros(count) for _ in range(3)]
+    return Scratch(np.empty(entries), *stress, np.zeros((rubbed, 6)), np.zeros(rubbed), *sheared)
 
 
 @njit(cache=True, error_model="numpy")
@@ -74,7 +104,7 @@ def approach(s, box, i, j):
 
 
 @loop
-def sum_density(kernel, s, rows, box, walls_p, dummies, wall_rows, density, pull):
+def sum_density(kernel, s, rows, box, walls_p, wall, density, pull):
     """rho_i = sum m_j W_ij, i itself included (Eq. 25), over the share of the kernel that lies among grains.
 
     pull (E,) [kg/m^(d+2)] is m_j (dW/dr)/r of every entry of the rows, for the other loops.
@@ -84,12 +114,10 @@ def sum_density(kernel, s, rows, box, walls_p, dummies, wall_rows, density, pull
         rho = s.mass[i] * kernels.cubic_spline(0.0, kernel.h, kernel.sigma) * (1.0 + rows.number[i] - entries)
         for k in range(entries):
             j = entry(rows, i, k)
-            r, m_j = np.sqrt(separation(s, box, i, j)[3]), s.mass[j]
+            r, m_j = math.sqrt(separation(s, box, i, j)[3]), s.mass[j]
             rho += m_j * kernels.cubic_spline(r, kernel.h, kernel.sigma)
             pull[place(rows, i, k)] = m_j * kernels.cubic_spline_gradient(r, kernel.h, kernel.sigma)
-        share = (
-            walls.closure(walls_p, box, dummies, wall_rows, s, i, kernel) if walls.near(walls_p, wall_rows, i) else 1.0
-        )
+        share = walls.closure(walls_p, box, wall, s, i, kernel) if walls.near(walls_p, wall, i) else 1.0
         density[i] = rho / share
 
 
@@ -98,7 +126,7 @@ def constitutive(
     s, grain_density, pressure_p, friction_p, viscosity_p, temperature_p,
     pressure, agitated, lasting, stiffness, shear, bulk, conductivity, sound,
 ):  # fmt: skip
-    """The fields of `Stress`, of every particle from its density and theta."""
+    """Stress and sound of every particle (see `Scratch`) from its density and theta."""
     for i in prange(len(s.x)):
         alpha_p = s.density[i] / grain_density
         theta = s.theta[i] if len(s.theta) else 0.0
@@ -109,7 +137,7 @@ def constitutive(
         )
         pressure[i] = kinetic + frictional
         agitated[i], lasting[i] = kinetic / s.density[i] ** 2, frictional / s.density[i] ** 2
-        sound[i] = np.sqrt(
+        sound[i] = math.sqrt(
             granular_pressure.sound_squared(pressure_p, alpha_p, theta)
             + friction.sound_squared(friction_p, stiffness[i])
         )
@@ -132,46 +160,42 @@ def conduct(kernel, s, rows, box, pull, conduction_p, heating):
 
 @loop
 def rates(
-    kernel, s, rows, box, pull, stress, viscous_p, friction_p, traction, rubbing, contact_work, artificial_p,
-    temperature_p, conduction_p, walls_p, dummies, wall_rows, wall_pressure, wall_velocity, acceleration, agitation,
-    heating,
+    kernel, s, rows, box, scratch, viscous_p, friction_p, artificial_p, temperature_p, conduction_p, walls_p, wall,
+    acceleration, of_walls, agitation, heating,
 ):  # fmt: skip
-    """Of grains that move: acceleration (N, 3) [m/s2], agitation (N,) [W/kg] that feeds theta, heating (N,) [W/kg]."""
+    """Of grains that move: acceleration (N, 3) [m/s2] by each other; of_walls (N, 7) as `account.kick` takes it;
+    agitation (N,) [W/kg] that feeds theta, heating (N,) [W/kg]."""
     for i in prange(len(s.x)):
         ax = ay = az = work = 0.0
-        warmth = contact_work[i]
-        if walls.near(walls_p, wall_rows, i):
-            ax, ay, az = walls.force(
-                walls_p,
-                kernel,
-                box,
-                dummies,
-                wall_rows,
-                s,
-                i,
-                stress.pressure,
-                stress.shear,
-                traction,
-                wall_pressure,
-                wall_velocity,
-            )
+        warmth = scratch.contact_work[i]
+        if walls.near(walls_p, wall, i):
+            wx, wy, wz, tx, ty, tz, slid, lost = walls.force(walls_p, kernel, box, wall, s, i, scratch, friction_p)
+            of_walls[i, 0] = wx
+            of_walls[i, 1] = wy
+            of_walls[i, 2] = wz
+            of_walls[i, 3] = tx
+            of_walls[i, 4] = ty
+            of_walls[i, 5] = tz
+            of_walls[i, 6] = slid
+            work += granular_temperature.fed(temperature_p, lost)
+            warmth += lost - granular_temperature.fed(temperature_p, lost)
         rho_i, per_i = s.density[i], 1.0 / s.density[i]
         for k in range(length(rows, i)):
             j = entry(rows, i, k)
             dx, dy, dz, r2 = separation(s, box, i, j)
             du, dv, dw = approach(s, box, i, j)
             closing = du * dx + dv * dy + dw * dz
-            rho_j, per_j, pull_ij = s.density[j], 1.0 / s.density[j], pull[place(rows, i, k)]
+            rho_j, per_j, pull_ij = s.density[j], 1.0 / s.density[j], scratch.pull[place(rows, i, k)]
             scale = pull_ij * per_i * per_j
 
             # section 2.1, corrected: -m_j (S_i/rho_i^2 + S_j/rho_j^2 + Pi_ij) grad W, S = p I - tau
-            agitated = pull_ij * (stress.agitated[i] + stress.agitated[j])
-            lasting = pull_ij * (stress.lasting[i] + stress.lasting[j])
+            agitated = pull_ij * (scratch.agitated[i] + scratch.agitated[j])
+            lasting = pull_ij * (scratch.lasting[i] + scratch.lasting[j])
             ringing = pull_ij * artificial_viscosity.pair(
-                artificial_p, kernel.h, closing, r2, stress.sound[i], stress.sound[j], rho_i, rho_j
+                artificial_p, kernel.h, closing, r2, scratch.sound[i], scratch.sound[j], rho_i, rho_j
             )
-            along, across = granular_viscosity.pair(viscous_p, stress, i, j, r2, closing, scale)
-            rub_along, rub_across = friction.pair(friction_p, rubbing, i, j, r2, closing, scale)
+            along, across = granular_viscosity.pair(viscous_p, scratch, i, j, r2, closing, scale)
+            rub_along, rub_across = friction.pair(friction_p, scratch.rubbing, i, j, r2, closing, scale)
             fx, fy, fz = friction.elastic(friction_p, s, box, i, j, per_i, per_j, dx, dy, dz)
             push = along + rub_along - agitated - lasting - ringing
             ax += push * dx + (across + rub_across) * du + pull_ij * fx
@@ -181,7 +205,7 @@ def rates(
             v2 = du * du + dv * dv + dw * dw
             work += granular_temperature.pair(
                 temperature_p,
-                stress,
+                scratch,
                 s,
                 i,
                 j,

@@ -20,10 +20,11 @@ from sdph.engine.kept import GROWING, Unfit
 from sdph.engine.rows import Neighbours
 from sdph.engine.state import INFLOW
 from sdph.engine.walls.sides import Boundary
+from sdph.methods.grains import account
 from sdph.methods.grains import contacts as shearing
 from sdph.methods.grains import equations as rates
+from sdph.methods.grains.account import Account
 from sdph.methods.grains.bounds import Guard
-from sdph.methods.grains.equations import Stress
 
 # Of h/(c + v); our choice. By von Neumann a lattice with summed density bears 1.86 h/c in these steps, under p = rho
 # c^2/2 1.15 (tests/methods/grains/test_rates.py). Monaghan 1992 takes 0.25; the bed's heat to the grains is then 0.07 %
@@ -36,8 +37,7 @@ REACH = 2.0  # support of the kernels in smoothing lengths
 class Stepper:
     """State of the particles, and how it goes forward."""
 
-    # see sdph.engine.kept
-    KEPT = ("state", "neighbours", "steps", "contacts", "limit", "mechanical_heat", "bounds_work")
+    KEPT = ("state", "neighbours", "steps", "contacts", "limit")  # see sdph.engine.kept
     FORMS = {"state": GROWING}
 
     def __init__(self, case, parameters, state, source=None, shortest=0.0):
@@ -49,12 +49,14 @@ class Stepper:
         self.viscous = Viscous(float(case.dimensions)) if parameters["granular_viscosity"] else OFF
         algebraic = parameters["granular_temperature"] and parameters["granular_temperature"].model == 1
         self.shears = bool(parameters["friction"] or algebraic)
+        self.gravity = np.array(parameters["gravity"] or (0.0, 0.0, 0.0))
         self.steps, self.contacts, self.limit = 0, 0, ""
         self.shortest = shortest  # sub-step [s] below which the run gets nowhere
-        # of the last sub-step, and what that was limited to [s]
-        self.stress, self.length = Stress(*[np.empty(0)] * len(Stress._fields)), 0.0
-        self.mechanical_heat = 0.0  # what motion has given to the temperature of the grains [J]
-        self.bounds_work = 0.0  # what the bounds of theta have added [J]
+        self.length = self.step = 0.0  # [s] that the last sub-step was limited to, and was
+        self.held: dict[str, float] = {}  # what limiters hold (sdph.effects.held)
+        self.wall, self.scratch, self.account = OFF, rates.scratch(0, 0, False), Account()
+        # pressure [Pa] of the walls before it is held, and what the last sub-step shifted (N, 3) [m]
+        self.unheld, self.shifted = np.zeros(0), np.zeros((0, 3))
 
     def revive(self) -> None:
         """After a checkpoint was put back."""
@@ -93,41 +95,52 @@ class Stepper:
         self._sum(self.state.density)
 
     def _look_around(self) -> None:
-        """What belongs to neighbour rows just made."""
-        self.rows, built = self.neighbours.rows, self.neighbours.built
-        self.pull = np.empty(len(self.rows.entries))
+        """Make what belongs to neighbour rows just made."""
+        self.rows, built, count = self.neighbours.rows, self.neighbours.built, len(self.state.x)
+        self.scratch = rates.scratch(count, len(self.rows.entries), bool(self.parameters["friction"]))
+        self.of_walls = np.zeros((count, 7))
         if self.boundary:
-            self.wall_rows = self.boundary.rows(built)
+            rows = self.boundary.rows(built)
             if self.source:
-                self.source.open(self.state, self.mouths, self.wall_rows)
-            self.boundary.part(self.rows, self.wall_rows, built)
+                self.source.open(self.state, self.mouths, rows)
+            self.boundary.part(self.rows, rows, built)
+            self.wall, self.facing = self.boundary.seen(rows)
+            self.unheld = np.full(len(self.wall.x), np.nan)
 
     def _sum(self, density) -> None:
-        rates.sum_density(self.kernel, self.state, self.rows, self.neighbours.box, *self._walls(), density, self.pull)
+        rates.sum_density(
+            self.kernel, self.state, self.rows, self.neighbours.box, *self._walls(), density, self.scratch.pull
+        )
 
     def force(self, warmth, push, damping) -> None:
         """Take what holds over the next window: heat (N,) [J] from the gas, push (N, 3) [m/s2] from outside, damping
-        (N,) [1/s] of theta."""
-        self.state = particles.forced(self.state, warmth, push, damping)
+        (N,) [1/s] of theta; begin its account."""
+        self.state = particles.followed(particles.forced(self.state, warmth, push, damping))
+        self.account, self.rows_before = Account(), len(self.state.x)
+
+    def release(self) -> tuple[np.ndarray, np.ndarray]:
+        """End the window: way (N, 3) [m] of the particles in it, and what their theta lost to the gas (N,) [J], in the
+        rows that they had when it began; 0 for those that were taken out since."""
+        s = self.state
+        damped = s.damped if len(s.damped) else np.zeros(len(s.x))
+        moved = np.column_stack((particles.vectors(s.way_x, s.way_y, s.way_z), damped))
+        before = np.zeros((self.rows_before, moved.shape[1]))
+        before[s.row] = moved
+        self.state = particles.released(s)
+        return before[:, :3], before[:, 3]
 
     def conduct(self, dt: float) -> None:
         """Grains at rest through a window of `dt` [s]: conduction, and heat from the gas spread evenly."""
         steps = self._parts(dt)
-        heating = np.zeros(len(self.state.x))
         for _ in range(steps):
-            rates.conduct(
-                self.kernel,
-                self.state,
-                self.rows,
-                self.neighbours.box,
-                self.pull,
-                self.parameters["conduction"],
-                heating,
-            )
-            self._warm(heating * dt / steps + self.state.warmth / self.state.mass / steps)
+            self._warm(self._conducted() * dt / steps + self.state.warmth / self.state.mass / steps)
             self.guard.sub_step(self)
-        self.state = particles.released(self.state)
         self.steps += steps
+        self.tell()
+
+    def tell(self) -> None:
+        """See what limiters hold now, before rows are made anew."""
+        self.held = effects.held(self.parameters, self.case, self)
 
     def move(self, dt: float) -> None:
         """Grains that move through a window of `dt` [s]."""
@@ -137,30 +150,29 @@ class Stepper:
             self._advance(step, dt)
             self.guard.sub_step(self)
             left = 0.0 if step >= left else left - step
+            if left == 0.0:
+                self.tell()
             self.prepare()
-        self.state = particles.released(self.state)
+
+    def _conducted(self) -> np.ndarray:
+        """Heat (N,) [W/kg] that the particles get from their neighbours now."""
+        heating = np.zeros(len(self.state.x))
+        rates.conduct(
+            self.kernel, self.state, self.rows, self.neighbours.box, self.scratch.pull, self.parameters["conduction"],
+            heating,
+        )  # fmt: skip
+        return heating
 
     def conduction_rates(self) -> np.ndarray:
-        """Heat [W] that each particle gets from its neighbours now."""
-        heating = np.zeros(len(self.state.x))
-        if self.parameters["conduction"]:
-            rates.conduct(
-                self.kernel,
-                self.state,
-                self.rows,
-                self.neighbours.box,
-                self.pull,
-                self.parameters["conduction"],
-                heating,
-            )
-        return heating * self.state.mass
+        """Heat (N,) [W] that each particle gets from its neighbours now."""
+        return self._conducted() * self.state.mass
 
     def _sub_step(self, left: float) -> float:
         """The next sub-step [s]: what is left of the window, in equal parts."""
         s = self.state
-        self.stress = self._stress()
+        self._constitute()
         speed = np.sqrt(s.u**2 + s.v**2 + (s.w**2 if len(s.w) else 0.0))
-        fastest = float((self.stress.sound + speed).max(initial=0.0))
+        fastest = float((self.scratch.sound + speed).max(initial=0.0))
         return left / self._parts(left, fastest)
 
     def _parts(self, left: float, fastest: float = 0.0) -> int:
@@ -174,107 +186,82 @@ class Stepper:
 
     def _advance(self, dt: float, window: float) -> None:
         """One sub-step of `dt` of a `window` [s]: stress, walls, rates, then theta, heat, velocity, place."""
-        s, p, count = self.state, self.parameters, len(self.state.x)
-        sheared = self._shear(dt)
-        wall_pressure, wall_velocity = self._extrapolate(self.stress.pressure)
+        s, p, count, self.step = self.state, self.parameters, len(self.state.x), dt
+        if self.shears:
+            self._shear(dt)
+        if self.boundary:
+            self._extrapolate()
         acceleration, agitation, heating = np.empty((count, 3)), np.empty(count), np.empty(count)
         rates.rates(
-            self.kernel, s, self.rows, self.neighbours.box, self.pull, self.stress, self.viscous, p["friction"],
-            *sheared[:3], p["artificial_viscosity"], p["granular_temperature"], p["conduction"], *self._walls(),
-            wall_pressure, wall_velocity, acceleration, agitation, heating,
+            self.kernel, s, self.rows, self.neighbours.box, self.scratch, self.viscous, p["friction"],
+            p["artificial_viscosity"], p["granular_temperature"], p["conduction"], *self._walls(), acceleration,
+            self.of_walls, agitation, heating,
+        )  # fmt: skip
+        account.kick(
+            s, acceleration, self.of_walls, agitation + heating, self.gravity, dt, self.account.impulses,
+            self.account.works,
         )  # fmt: skip
         if self.source:
-            self._hold_back(acceleration, agitation, heating)
-        if p["granular_temperature"]:
-            self._agitate(dt, agitation, sheared)
-        if len(s.temperature):
-            self._warm((heating + s.warmth / window / s.mass) * dt)
-            self.mechanical_heat += float(
-                (s.mass * heating).sum() * dt
-            )  # conduction adds up to nothing, but for what comes from upstream
-        self._drift(dt, acceleration)
+            waiting = s.kind == INFLOW
+            agitation[waiting] = heating[waiting] = 0.0
+        self.account.add(agitation=(s.mass @ agitation) * dt, mechanical_heat=(s.mass @ heating) * dt)
+        collided = self._agitate(dt, agitation) if p["granular_temperature"] else 0.0
+        self._warm(collided + (heating + s.warmth / window / s.mass) * dt)
+        self._drift(dt)
         self.steps += 1
 
-    def _stress(self) -> Stress:
+    def _constitute(self) -> None:
         s, p = self.state, self.parameters
-        stress = Stress(*(np.empty(len(s.x)) for _ in Stress._fields))
         rates.constitutive(
             s, self.case.grains.density, p["granular_pressure"], p["friction"],
-            p["granular_viscosity"], p["granular_temperature"], *stress,
+            p["granular_viscosity"], p["granular_temperature"], *self.scratch.stress,
         )  # fmt: skip
-        return stress
 
-    def _shear(self, dt: float) -> shearing.Shearing:
-        """Strain, and contacts strained over `dt` [s]."""
-        s, p = self.state, self.parameters
-        if not self.shears:
-            return shearing.nothing(len(s.x))
-        out, held = shearing.empty(len(s.x), bool(p["friction"])), (getattr(s, name) for name in friction.ARRAYS)
+    def _shear(self, dt: float) -> None:
+        """Shear of the grains; where there is friction contacts are strained over `dt` [s]."""
+        s, rubs = self.state, self.parameters["friction"]
+        contact = np.empty((len(friction.ARRAYS), len(s.x) if rubs else 0))
         shearing.shear(
-            self.kernel,
-            s,
-            self.rows,
-            self.neighbours.box,
-            self.pull,
-            self.stress,
-            *self._walls(),
-            p["friction"],
-            dt,
-            *held,
-            *out,
-        )
-        return out
+            self.kernel, s, self.rows, self.neighbours.box, self.scratch, *self._walls(), rubs, dt, contact,
+            *self.scratch.shearing,
+        )  # fmt: skip
+        for name, values in zip(friction.ARRAYS, contact):
+            own = getattr(s, name)
+            own[:] = values[: len(own)]
 
-    def _extrapolate(self, pressure):
-        if not self.boundary:
-            return OFF, OFF
-        count = len(self.boundary.dummies.x)
-        weight, wall_pressure, wall_velocity = np.empty(count), np.empty(count), np.empty((count, 3))
+    def _extrapolate(self) -> None:
+        """Pressure and velocity of the walls, from the grains in front of them."""
+        own = self.wall
         walls.extrapolate(
-            self.kernel,
-            self.neighbours.box,
-            self.boundary.dummies,
-            self.wall_rows,
-            self.state,
-            pressure,
-            weight,
-            wall_pressure,
-            wall_velocity,
-        )
-        return wall_pressure, wall_velocity
+            self.kernel, self.neighbours.box, own, self.facing, self.state, self.scratch.pressure, own.pressure,
+            self.unheld, own.velocity,
+        )  # fmt: skip
 
-    def _agitate(self, dt: float, agitation, sheared) -> None:
-        theta, held = np.empty(len(agitation)), np.empty(len(agitation))
+    def _agitate(self, dt: float, agitation) -> np.ndarray:
+        """theta after `dt` [s]; heat (N,) [J/kg] that its collisions give the grains."""
+        s, count = self.state, len(agitation)
+        theta, held, collided, damped = (np.empty(count) for _ in range(4))
         granular_temperature.advance_all(
-            self.parameters["granular_temperature"],
-            self.state,
-            agitation,
-            self.state.damping,
-            sheared.shear_squared,
-            sheared.divergence,
-            dt,
-            theta,
-            held,
-        )
-        moving = self.state.kind != INFLOW
-        self.state.theta[moving], held[~moving] = theta[moving], 0.0
-        self.bounds_work += float(1.5 * (self.state.mass * held).sum())
-
-    def _hold_back(self, acceleration, agitation, heating) -> None:
-        """Particles upstream of a nozzle feel nothing."""
-        waiting = self.state.kind == INFLOW
-        for a, push in enumerate(particles.pushes(self.state)):
-            acceleration[waiting, a] = -push[waiting]
-        agitation[waiting] = heating[waiting] = 0.0
+            self.parameters["granular_temperature"], s, agitation, s.damping, self.scratch.shear_squared,
+            self.scratch.divergence, dt, theta, held, collided, damped,
+        )  # fmt: skip
+        waiting = s.kind == INFLOW
+        held[waiting] = collided[waiting] = damped[waiting] = 0.0
+        np.copyto(s.theta, theta, where=~waiting)
+        s.damped[:] += 1.5 * s.mass * damped
+        sums = {"bounds_work": held, "collision_heat": collided, "damping_heat": damped}
+        self.account.add(**{name: 1.5 * (s.mass @ values) for name, values in sums.items()})
+        return 1.5 * collided
 
     def _warm(self, heat) -> None:
-        """Heat per mass (N,) [J/kg] into the temperature."""
+        """Put heat per mass (N,) [J/kg] into the temperature, where there is one."""
+        if not len(self.state.temperature):
+            return
         self.state.temperature[:] += heat / self.case.grains.heat_capacity
 
-    def _drift(self, dt: float, acceleration) -> None:
+    def _drift(self, dt: float) -> None:
         s = self.state
-        for a, (place, velocity, push) in enumerate(zip(particles.axes(s), (s.u, s.v, s.w), particles.pushes(s))):
-            velocity += (acceleration[:, a] + push) * dt
+        for place, velocity in zip(particles.axes(s), (s.u, s.v, s.w)):
             place += velocity * dt
         if self.parameters["grain_shifting"]:
             self._shift(dt)
@@ -282,7 +269,13 @@ class Stepper:
             self.source.release(s)
         if self.boundary:
             self.contacts += walls.contact(
-                self.parameters["walls"], self.neighbours.box, self.boundary.dummies, self.wall_rows, s
+                *self._walls(),
+                self.neighbours.box,
+                s,
+                self.gravity,
+                self.account.impulses[account.WALLS],
+                self.account.works[account.BY_WALLS :],
+                self.account.back_put,
             )
 
     def _shift(self, dt: float) -> None:
@@ -290,13 +283,14 @@ class Stepper:
         moved = np.empty((len(s.x), 3))
         grain_shifting.shift(self.parameters["grain_shifting"], s, self.rows, self.neighbours.box, dt, moved)
         moved[s.kind == INFLOW] = 0.0
+        self.shifted = moved
         for a, place in enumerate((s.x, s.y, s.z)):
             if len(place):
                 place += moved[:, a]
 
     def _walls(self):
-        """Parameters, dummies and rows of the walls for kernels."""
-        return (self.parameters["walls"], self.boundary.dummies, self.wall_rows) if self.boundary else (OFF, OFF, OFF)
+        """Walls for kernels: parameters and dummies."""
+        return self.parameters["walls"], self.wall
 
 
 def limits(case, parameters, state, fastest: float) -> dict[str, float]:

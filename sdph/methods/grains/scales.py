@@ -142,7 +142,7 @@ class Scales:
 
     @cached_property
     def speed(self) -> float:
-        """What the grains reach within the run [m/s]: thrown, blown along or falling; 0 in a bed at rest."""
+        """Speed that the grains reach within the run [m/s]: thrown, blown along or falling; 0 in a bed at rest."""
         return 0.0 if self.resting else max(self.thrown, self.blown, self.falling if self.patches else 0.0)
 
     @cached_property
@@ -171,7 +171,7 @@ class Scales:
 
     @cached_property
     def resting(self) -> bool:
-        """Whether grains lie packed on the floor and the gas that is let in cannot lift them."""
+        """True where grains lie packed on the floor and the gas that is let in cannot lift them."""
         onset = (
             self.case.parameters["friction"].onset if "friction" in self.case.parameters else self.grains.packing_limit
         )
@@ -194,22 +194,22 @@ class Scales:
 
     @cached_property
     def to_walls(self) -> ways.Reach:
-        """How near grains come to a side that is no pressure outlet."""
+        """Way of the grains to the nearest side that is no pressure outlet."""
         return ways.reach(self, False)
 
     @cached_property
     def to_outlets(self) -> ways.Reach:
-        """How near they come to a pressure outlet."""
+        """Way of the grains to the nearest pressure outlet."""
         return ways.reach(self, True)
 
     @cached_property
     def collides(self) -> bool:
-        """Whether grains meet each other often enough to matter, and SPH particles have neighbours."""
+        """True where grains meet each other often enough to matter, and SPH particles have neighbours."""
         return self.alpha_p >= DILUTE and not self.lone
 
     @cached_property
     def lone(self) -> bool:
-        """Whether grains are so few that an SPH particle has no neighbour."""
+        """True where grains are so few that an SPH particle has no neighbour."""
         return self.length < 2.0 * self.case.resolution.spacing
 
     @cached_property

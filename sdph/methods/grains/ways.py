@@ -1,4 +1,4 @@
-"""Where grains and gas get to within a run: which inlet's gas meets the grains, how far grains come towards each
+"""Places that grains and gas get to within a run: which inlet's gas meets the grains, how far grains come towards each
 side."""
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ def reach(s, out: bool) -> Reach:
 
 
 def lie(case, patches) -> bool:
-    """Whether grains lie on a closed side that gravity points to."""
+    """True where grains lie on a closed side that gravity points to."""
     axis = max(range(case.dimensions), key=lambda a: abs(case.domain.gravity[a]))
     end = int(case.domain.gravity[axis] > 0.0)
     rooms = [case.domain.size[axis] - patch.upper[axis] if end else patch.lower[axis] for patch in patches]
@@ -66,12 +66,12 @@ def lie(case, patches) -> bool:
 
 
 def opened(case, side: str) -> bool:
-    """Whether the whole of a side is a pressure outlet."""
+    """True where the whole of a side is a pressure outlet."""
     return any(b.side == side and b.kind == "pressure_outlet" and b.span is None for b in case.boundaries.values())
 
 
 def towards(s, patch, axis: int, outward: float) -> float:
-    """How far [m] grains of a patch get along an axis within the run: thrown, spread, fallen, or blown along by the
+    """Way [m] that grains of a patch get along an axis within the run: thrown, spread, fallen, or blown along by the
     gas."""
     thrown = outward * patch.velocity[axis] * s.coasting
     spread = math.hypot(*patch.velocity) * math.sin(patch.half_angle) * s.coasting if not patch.velocity[axis] else 0.0

@@ -12,7 +12,8 @@ shallow liquids slosh 2 or 1 % too fast and rising bubbles lag. Between two phas
 
 from __future__ import annotations
 
-import numpy as np
+import math
+
 from numba import njit, prange
 
 from sdph.engine import kernels as smoothing
@@ -34,7 +35,7 @@ def surround(kernel, s, rows, box, active, volume, xx, yy, zz, xy, yz, zx):
         for k in range(length(rows, i)):
             j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
-            share = abs(volume[j]) * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
+            share = abs(volume[j]) * smoothing.slope(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
             a -= share * dx * dx
             b -= share * dy * dy
             c -= share * dz * dz

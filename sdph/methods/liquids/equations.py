@@ -7,6 +7,9 @@ Outputs are arguments of their own: numba drops writes to arrays of a tuple insi
 
 from __future__ import annotations
 
+import math
+from typing import NamedTuple
+
 import numpy as np
 from numba import njit, prange
 
@@ -14,18 +17,21 @@ from sdph.effects.liquids import density_diffusion, laminar_viscosity, liquid_da
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import FAST, apart, deep, faster
 from sdph.engine.rows import entry, length
+from sdph.laws.eos import tait_pressure
 from sdph.laws.matrices import solved
 from sdph.methods.liquids import correction, phases
 from sdph.methods.liquids.forces import body, held_off
 
 
-@njit(cache=True, error_model="numpy")
-def tait(compression, stiffness, exponent, background):
-    """p [Pa]; the powers 7 and 1 without `pow`, which costs more than a pair."""
-    if exponent == 7.0:
-        cubed = compression * compression * compression
-        return stiffness * (cubed * cubed * compression - 1.0) + background
-    return stiffness * (compression**exponent - 1.0) + background
+class Flow(NamedTuple):
+    """Values that one loop of a step leaves to the next, in one flat group: indices of the particles that move (A,),
+    pressure (N,) [Pa], volume (N,) [m^d], negative for walls, and smallest eigenvalue of the renormalisation matrix
+    (N,) of the last step, without length where nothing is shifted."""
+
+    active: np.ndarray
+    pressure: np.ndarray
+    volume: np.ndarray
+    least: np.ndarray
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
@@ -36,21 +42,22 @@ def state_of(fluids, s, active, pressure, volume):
         i = active[n]
         kind, rho = s.kind[i], s.density[i]
         tension = fluids[4, kind] * rho * rho  # of Van der Waals
-        pressure[i] = tait(rho / fluids[0, kind], fluids[1, kind], fluids[2, kind], fluids[3, kind]) - tension
+        compression = rho / fluids[0, kind]
+        pressure[i] = tait_pressure(compression, fluids[1, kind], fluids[2, kind], fluids[3, kind]) - tension
         volume[i] = s.mass[i] / s.density[i]
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
 def push(
-    kernel, s, rows, box, active, wall_p, gravity_p, frame_p, laminar_p, damping_p, diffusion_p, shifting_p, phases_p,
-    pressure, volume, least, excess, acceleration, gradient_x, gradient_y, gradient_z,
+    kernel, s, rows, box, flow, wall_p, gravity_p, frame_p, laminar_p, damping_p, diffusion_p, shifting_p, phases_p,
+    excess, acceleration, gradient,
 ):  # fmt: skip
-    """Acceleration (N, 3) [m/s2] with body forces; corrected pressure gradient (N,) x 3 [Pa/m], where something needs
+    """Acceleration (N, 3) [m/s2] with body forces; corrected pressure gradient (N, 3) [Pa/m], where something needs
     it."""
-    for n in prange(len(active)):
-        i = active[n]
-        p_i, rho_i = pressure[i], s.density[i]
-        sign_i = shifting.sign(shifting_p, p_i, least[i] if len(least) else 1.0)
+    for n in prange(len(flow.active)):
+        i = flow.active[n]
+        p_i, rho_i = flow.pressure[i], s.density[i]
+        sign_i = shifting.sign(shifting_p, p_i, flow.least[i] if len(flow.least) else 1.0)
         bx, by, bz = body(gravity_p, frame_p, s, i, False)
         ax = ay = az = gx = gy = gz = 0.0
         xx = yy = zz = xy = yz = zx = 0.0
@@ -59,9 +66,9 @@ def push(
             dx, dy, dz = apart(s, box, i, j)
             du, dv, dw = faster(s, box, i, j)
             r2 = dx * dx + dy * dy + dz * dz
-            r = np.sqrt(r2)
+            r = math.sqrt(r2)
             slope = smoothing.slope(kernel, r)
-            signed = volume[j]
+            signed = flow.volume[j]
             wet, V = max(signed, 0.0), abs(signed)
             stick = 1.0 if signed > 0.0 else wall_p.stick
             closing = du * dx + dv * dy + dw * dz
@@ -69,7 +76,7 @@ def push(
                 phases.kind(phases_p, signed, s.kind[i], s.kind[j]),
                 phases.density(phases_p, signed, rho_i, s.density[j]),
             )
-            p_j = phases.behind(phases_p, signed, pressure[j], p_i - rho_i * (bx * dx + by * dy + bz * dz))
+            p_j = phases.behind(phases_p, signed, flow.pressure[j], p_i - rho_i * (bx * dx + by * dy + bz * dz))
             ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY)) * phases.harmonic(
                 phases_p, rho_i, rho_j
             )
@@ -116,9 +123,10 @@ def push(
         acceleration[i, 1] = ay / rho_i + by
         acceleration[i, 2] = az / rho_i + bz
         if len(diffusion_p) or len(shifting_p):
-            gradient_x[i], gradient_y[i], gradient_z[i] = solved(
-                xx, yy, zz if len(s.z) else 1.0, xy, yz, zx, gx, gy, gz
-            )
+            steep = solved(xx, yy, zz if len(s.z) else 1.0, xy, yz, zx, gx, gy, gz)
+            gradient[i, 0] = steep[0]
+            gradient[i, 1] = steep[1]
+            gradient[i, 2] = steep[2]
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
@@ -129,46 +137,31 @@ def sum_up(kernel, s, rows, box, active, lattice, density):
         number = smoothing.value(kernel, 0.0)
         for k in range(rows.number[i]):
             dx, dy, dz = apart(s, box, i, entry(rows, i, k))
-            number += smoothing.value(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
+            number += smoothing.value(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
         density[i] = s.mass[i] * number / lattice
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
-def compress(
-    kernel,
-    s,
-    rows,
-    box,
-    active,
-    wall_p,
-    diffusion_p,
-    phases_p,
-    pressure,
-    gradient_x,
-    gradient_y,
-    gradient_z,
-    volume,
-    rate,
-):
+def compress(kernel, s, rows, box, flow, wall_p, diffusion_p, phases_p, gradient, rate):
     """d rho/dt (N,) [kg/m3/s] = rho_i sum V_j v_ij.grad W + delta h c sum V_j psi_ij.grad W (Antuono et al. 2010)."""
-    for n in prange(len(active)):
-        i = active[n]
-        p_i, rho_i = pressure[i], s.density[i]
+    for n in prange(len(flow.active)):
+        i = flow.active[n]
+        p_i, rho_i = flow.pressure[i], s.density[i]
         growth = spread = 0.0
         for k in range(length(rows, i)):
             j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
-            signed, u_j, v_j = volume[j], s.u[j], s.v[j]  # read before they are chosen from: no branch
+            signed, u_j, v_j = flow.volume[j], s.u[j], s.v[j]  # read before they are chosen from: no branch
             w_j = s.w[j] if deep(box) else 0.0
             du = s.u[i] - (u_j if signed > 0.0 else wall_p.u)
             dv = s.v[i] - (v_j if signed > 0.0 else wall_p.v)
             dw = s.w[i] - (w_j if signed > 0.0 else wall_p.w) if deep(box) else 0.0
-            slope = smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
+            slope = smoothing.slope(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
             rho_j = phases.density(phases_p, signed, rho_i, s.density[j])
             growth += abs(signed) * slope * phases.share(phases_p, rho_i, rho_j) * (du * dx + dv * dy + dw * dz)
             if len(diffusion_p):
-                ramp = (gradient_x[i] + gradient_x[j]) * dx + (gradient_y[i] + gradient_y[j]) * dy
-                ramp += (gradient_z[i] + gradient_z[j]) * dz if deep(box) else 0.0
+                ramp = (gradient[i, 0] + gradient[j, 0]) * dx + (gradient[i, 1] + gradient[j, 1]) * dy
+                ramp += (gradient[i, 2] + gradient[j, 2]) * dz if deep(box) else 0.0
                 same = max(signed, 0.0) * phases.like(phases_p, s.kind[i], s.kind[j])
-                spread += same * slope * density_diffusion.pair(diffusion_p, pressure[j] - p_i, ramp)
+                spread += same * slope * density_diffusion.pair(diffusion_p, flow.pressure[j] - p_i, ramp)
         rate[i] = rho_i * growth + spread * phases.slowness(phases_p, s.kind[i])

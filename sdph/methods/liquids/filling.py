@@ -70,7 +70,7 @@ def pools(case) -> list[Pool]:
 
 
 def _filled(case, name: str, pool, below: float):
-    """What a pool fills above the share `below` of the tank's volume."""
+    """Part of the tank that a pool fills above the share `below` of the tank's volume."""
     if "tank" not in case.effects or pool.fill is None:
         raise CaseError('pools: shape = "tank" needs the effect tank, and fill')
     if pool.fill <= below:

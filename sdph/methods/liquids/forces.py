@@ -1,4 +1,4 @@
-"""What the loops over liquids share: separations, acceleration from outside, small symmetric matrices."""
+"""Parts that the loops over liquids share: separations, acceleration from outside, small symmetric matrices."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What history.csv holds of a liquid: of all of it, of each phase where there are two, and what its tank feels."""
+"""Columns of history.csv of a liquid: of all of it, of each phase where there are two, and what its tank feels."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from sdph.methods.liquids.loads import balance, kinetic_energy, pipe_energy, pip
 
 
 def row(run) -> dict[str, float]:
-    """What history.csv holds: sums over the liquid, and loads on the tank."""
+    """Columns of history.csv: sums over the liquid, and loads on the tank."""
     stepper, case = run.stepper, run.case
     wet = stepper.active
     mass, pressure = run.state.mass[wet], stepper.pressure[wet]
@@ -35,7 +35,7 @@ def row(run) -> dict[str, float]:
 
 
 def _told(stepper) -> dict[str, float]:
-    """What effects tell themselves."""
+    """Columns that effects tell themselves."""
     told = [
         row.tells(stepper.p[name], stepper.state)
         for name in stepper.case.effects

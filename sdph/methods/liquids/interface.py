@@ -8,7 +8,8 @@ disc with R = 20 dx a particle's own is off by 3 %.
 
 from __future__ import annotations
 
-import numpy as np
+import math
+
 from numba import njit, prange
 
 from sdph.engine import kernels as smoothing
@@ -29,18 +30,18 @@ def orient(kernel, s, rows, box, active, tension_p, volume, normal):
             j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
             unlike = max(volume[j], 0.0) if s.kind[i] != s.kind[j] else 0.0
-            steep = unlike * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
+            steep = unlike * smoothing.slope(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
             gx += steep * dx
             gy += steep * dy
             gz += steep * dz
-        size = np.sqrt(gx * gx + gy * gy + gz * gz)
+        size = math.sqrt(gx * gx + gy * gy + gz * gz)
         inverse = 1.0 / size if size > tension_p.least else 0.0
         normal[i, 0], normal[i, 1], normal[i, 2] = inverse * gx, inverse * gy, inverse * gz
 
 
 @njit(cache=True, error_model="numpy")
 def on_interface(normal, i):
-    """Whether particle i has a normal."""
+    """True where particle i has a normal."""
     return normal[i, 0] != 0.0 or normal[i, 1] != 0.0 or normal[i, 2] != 0.0
 
 
@@ -59,7 +60,7 @@ def bend(kernel, s, rows, box, active, volume, normal, curvature):
             j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
             weight = max(volume[j], 0.0) if on_interface(normal, j) else 0.0
-            share = weight * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
+            share = weight * smoothing.slope(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
             turn = 1.0 if s.kind[i] == s.kind[j] else -1.0
             du, dv, dw = (
                 normal[i, 0] - turn * normal[j, 0],
@@ -103,7 +104,7 @@ def pull(kernel, s, rows, box, active, tension_p, volume, normal, curvature, acc
             unlike = max(volume[j], 0.0) if s.kind[i] != s.kind[j] else 0.0
             steep = (
                 unlike
-                * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
+                * smoothing.slope(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
                 * 2.0
                 / (s.density[i] + s.density[j])
             )

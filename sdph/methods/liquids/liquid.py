@@ -70,6 +70,7 @@ class Liquid:
         self.stepper.state = particles.forced(self.state, nothing, acceleration, nothing)
 
     def advance(self, end: float, most: float = np.inf) -> None:
+        """Go to `end` [s], or as far as `most` steps get."""
         self.tally, done = Tally(self), 0
         while self.time != end and done < most:
             self.tally.step(end)

@@ -1,4 +1,4 @@
-"""What a liquid does to its tank: forces and moments, by what is outside and by what the walls feel; energies of
+"""Loads of a liquid on its tank: forces and moments, by what is outside and by what the walls feel; energies of
 motion."""
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ def wall_loads(stepper, chosen=None) -> np.ndarray:
     force = np.zeros((len(chosen), 3))
     p = stepper.p
     walls.wall_force(
-        stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, chosen, stepper.wall, stepper.viscous,
-        p["liquid_damping"], p["shifting"], stepper.phases, p["gravity"], stepper.frame, stepper.least,
-        stepper.pressure, stepper.volume, stepper.excess, force,
+        stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, stepper.flow, chosen, stepper.wall,
+        stepper.viscous, p["liquid_damping"], p["shifting"], stepper.phases, p["gravity"], stepper.frame,
+        stepper.excess, force,
     )  # fmt: skip
     places = particles.positions(stepper.state)[chosen]
     return np.concatenate([force.sum(axis=0), np.cross(places, force).sum(axis=0)])

@@ -35,24 +35,11 @@ NO_WALL = WallP(*[0.0] * 10)
 class LiquidStepper:
     """Liquid and wall particles of a case, and how they go forward."""
 
+    # see sdph.engine.kept
     KEPT = (
-        "state",
-        "neighbours",
-        "time",
-        "steps",
-        "limit",
-        "shifted",
-        "tightening",
-        "pressure",
-        "volume",
-        "acceleration",
-        "gradient",
-        "least",
-        "shift",
-        "twist",
-        "extra",
-        "excess",
-    )  # fmt: skip  (see sdph.engine.kept)
+        "state", "neighbours", "time", "steps", "limit", "shifted", "tightening", "pressure", "volume", "acceleration",
+        "gradient", "least", "shift", "twist", "extra", "excess",
+    )  # fmt: skip
     # of the particles
     ROWS = ("pressure", "volume", "acceleration", "gradient", "least", "shift", "twist", "extra", "excess")
     FORMS = dict.fromkeys(("state", *ROWS), GROWING)
@@ -113,6 +100,11 @@ class LiquidStepper:
             if np.abs(values).max(initial=0.0) > most:
                 raise Unfit(f"{name} is beyond {most:.3g}")
 
+    @property
+    def flow(self) -> rates.Flow:
+        """Values that loops share."""
+        return rates.Flow(self.active, self.pressure, self.volume, self.least)
+
     def step(self, most: float) -> float:
         """One step, no longer than `most` [s]; returns its length."""
         dt = self.next_step(most)
@@ -133,7 +125,7 @@ class LiquidStepper:
         return dt
 
     def next_step(self, left: float) -> float:
-        """What is left [s] in equal parts no longer than the shortest limit; `limit` names it."""
+        """Length [s] of the next step: `left` in equal parts no longer than the shortest limit; `limit` names it."""
         speed, force = motion.fastest(self.state, self.active, self.acceleration)
         c = self.case.fastest_sound
         if not speed + 0.0 * force <= c * c:  # or one of them is no number
@@ -172,8 +164,8 @@ class LiquidStepper:
 
     def _densify(self, dt: float) -> None:
         rates.compress(
-            self.kernel, self.state, self.rows, self.neighbours.box, self.active, self.wall,
-            self.p["density_diffusion"], self.phases, self.pressure, *self.gradient, self.volume, self.rate,
+            self.kernel, self.state, self.rows, self.neighbours.box, self.flow, self.wall,
+            self.p["density_diffusion"], self.phases, self.gradient, self.rate,
         )  # fmt: skip
         motion.densify(self.active, self.rate, dt, self.state.density)
 
@@ -184,8 +176,9 @@ class LiquidStepper:
         if built is not self.neighbours.built:
             self._allocate(ident)
         s, p = self.state, self.p
+        around = self.kernel, s, self.rows, self.neighbours.box, self.active
         if self.summed:
-            rates.sum_up(self.kernel, s, self.rows, self.neighbours.box, self.active, self.lattice, s.density)
+            rates.sum_up(*around, self.lattice, s.density)
         rates.state_of(self.fluids, s, self.active, self.pressure, self.volume)
         if len(self.walls):
             walls.extrapolate(
@@ -195,44 +188,20 @@ class LiquidStepper:
         for row, own in self.renewing:
             row.renew(own, self)
         if self.excess:
-            correction.surround(self.kernel, s, self.rows, self.neighbours.box, self.active, self.volume, *self.excess)
+            correction.surround(*around, self.volume, *self.excess)
         rates.push(
-            self.kernel, s, self.rows, self.neighbours.box, self.active, self.wall, p["gravity"], self.frame,
-            self.viscous, p["liquid_damping"], p["density_diffusion"], p["shifting"], self.phases, self.pressure,
-            self.volume, self.least, self.excess, self.acceleration, *self.gradient,
+            self.kernel, s, self.rows, self.neighbours.box, self.flow, self.wall, p["gravity"], self.frame,
+            self.viscous, p["liquid_damping"], p["density_diffusion"], p["shifting"], self.phases, self.excess,
+            self.acceleration, self.gradient,
         )  # fmt: skip
         if p["surface_tension"]:
             self._tighten()
         if p["xsph"]:
-            shift.mingle(
-                self.kernel,
-                s,
-                self.rows,
-                self.neighbours.box,
-                self.active,
-                p["xsph"],
-                self.phases,
-                self.volume,
-                *self.extra,
-            )
+            shift.mingle(*around, p["xsph"], self.phases, self.volume, *self.extra)
         if p["shifting"]:
-            shift.surround(
-                self.kernel,
-                s,
-                self.rows,
-                self.neighbours.box,
-                self.active,
-                p["shifting"],
-                self.phases,
-                self.volume,
-                self.least,
-                self.shift,
-                self.twist,
-            )
+            shift.surround(*around, p["shifting"], self.phases, self.volume, self.least, self.shift, self.twist)
             if not self.phases:
-                shift.along_surface(
-                    self.kernel, s, self.rows, self.neighbours.box, self.active, self.volume, self.least, self.shift
-                )
+                shift.along_surface(*around, self.volume, self.least, self.shift)
 
     def _tighten(self) -> None:
         """Adds surface tension to the accelerations."""
@@ -252,7 +221,7 @@ class LiquidStepper:
         self.pressure, self.volume = np.zeros(count), np.zeros(count)
         solid = s.kind == WALL
         self.volume[solid] = -s.mass[solid] / s.density[solid]
-        self.acceleration, self.gradient = np.zeros((count, 3)), tuple(np.zeros((3, count)))
+        self.acceleration, self.gradient = np.zeros((count, 3)), np.zeros((count, 3))
         self.excess = tuple(np.zeros((6, count))) if self.case.liquid.pressure_gradient == "corrected" else ()
         shifted = count if self.p["shifting"] else 0
         self.extra = tuple(np.zeros(count if self.p["xsph"] and len(axis) else 0) for axis in (s.x, s.y, s.z))
@@ -286,7 +255,7 @@ class LiquidStepper:
     def _shift(self, dt: float) -> None:
         s, before = self.state, np.array(motion.momentum(self.state, self.active))
         shift.displace(
-            self.p["shifting"], self.active, s.kind, self.shift, *self.gradient, self.twist, self.compliance, dt,
+            self.p["shifting"], self.active, s.kind, self.shift, self.gradient, self.twist, self.compliance, dt,
             s.x, s.y, s.z, s.u, s.v, s.w, s.density,
         )  # fmt: skip
         self.shifted = self.shifted + motion.momentum(s, self.active) - before

@@ -53,7 +53,7 @@ def spread(kernel, s, rows, box, active, acceleration):
         for k in range(length(rows, i)):
             j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
-            slope = s.mass[j] * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
+            slope = s.mass[j] * smoothing.slope(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
             ax -= slope * dx
             ay -= slope * dy
             az -= slope * dz
@@ -72,7 +72,7 @@ def clear(s, rows, box, active, near, way):
             j = entry(rows, i, k)
             if s.kind[j] == WALL:
                 dx, dy, dz = apart(s, box, i, j)
-                r = np.sqrt(dx * dx + dy * dy + dz * dz)
+                r = math.sqrt(dx * dx + dy * dy + dz * dz)
                 share = max(near / (r + smoothing.TINY) - 1.0, 0.0)
                 px += share * dx
                 py += share * dy

@@ -1,8 +1,9 @@
-"""What moves particles other than their own velocity: XSPH, and shifting with how particles lie around each other."""
+"""Motion of particles beside their own velocity: XSPH, and shifting with how particles lie around each other."""
 
 from __future__ import annotations
 
-import numpy as np
+import math
+
 from numba import njit, prange
 
 from sdph.effects.liquids import shifting, xsph
@@ -16,7 +17,7 @@ from sdph.methods.liquids import phases
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
 def surround(kernel, s, rows, box, active, shifting_p, phases_p, volume, least, shift, twist):
-    """How neighbours lie around each particle, and how fast they go.
+    """Survey how neighbours lie around each particle, and how fast they go.
 
     least (N,), smallest eigenvalue of the renormalisation matrix (1 among two phases: they leave no free surface);
     shift (N, 3), sum V_j (1 + R (W/W0)^4) grad W [1/m]; twist (N, 9), corrected gradient dv_a/dx_b [1/s], a slowest.
@@ -29,7 +30,7 @@ def surround(kernel, s, rows, box, active, shifting_p, phases_p, volume, least, 
             j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
             du, dv, dw = faster(s, box, i, j)
-            r = np.sqrt(dx * dx + dy * dy + dz * dz)
+            r = math.sqrt(dx * dx + dy * dy + dz * dz)
             slope = smoothing.slope(kernel, r)
             share = max(volume[j], 0.0) * slope * phases.like(phases_p, s.kind[i], s.kind[j])
             xx -= share * dx * dx
@@ -69,7 +70,7 @@ def mingle(kernel, s, rows, box, active, xsph_p, phases_p, volume, extra_u, extr
             j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
             du, dv, dw = faster(s, box, i, j)
-            value = smoothing.value(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
+            value = smoothing.value(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
             near = xsph.share(xsph_p, s.mass[j], s.density[i], s.density[j], value) * phases.like(
                 phases_p, s.kind[i], s.kind[j]
             )
@@ -98,7 +99,7 @@ def along_surface(kernel, s, rows, box, active, volume, least, shift):
             dx, dy, dz = apart(s, box, i, j)
             share = (
                 max(volume[j], 0.0)
-                * smoothing.slope(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
+                * smoothing.slope(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
                 * (least[j] - least[i])
             )
             nx += share * dx
@@ -113,9 +114,7 @@ def along_surface(kernel, s, rows, box, active, volume, least, shift):
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def displace(
-    p, active, kind, shift, gradient_x, gradient_y, gradient_z, twist, compliance, dt, x, y, z, u, v, w, density
-):
+def displace(p, active, kind, shift, gradient, twist, compliance, dt, x, y, z, u, v, w, density):
     """r -= dt D sum V_j (1 + R (W/W0)^4) grad W, no faster than the parameters allow.
 
     Velocity and density are taken along their gradients, so that moving a particle does not move the field; compliance
@@ -124,14 +123,14 @@ def displace(
     for n in prange(len(active)):
         i = active[n]
         dx, dy, dz = -p.strength * shift[i, 0], -p.strength * shift[i, 1], -p.strength * shift[i, 2]
-        speed = np.sqrt(dx * dx + dy * dy + dz * dz)
+        speed = math.sqrt(dx * dx + dy * dy + dz * dz)
         scale = dt * min(1.0, p.largest / speed) if speed > 0.0 and (p.liquid > 0.0 or kind[i] == GAS) else 0.0
         dx, dy, dz = scale * dx, scale * dy, scale * dz
         x[i] += dx
         y[i] += dy
         u[i] += twist[i, 0] * dx + twist[i, 1] * dy + twist[i, 2] * dz
         v[i] += twist[i, 3] * dx + twist[i, 4] * dy + twist[i, 5] * dz
-        density[i] += compliance[kind[i]] * (gradient_x[i] * dx + gradient_y[i] * dy + gradient_z[i] * dz)
+        density[i] += compliance[kind[i]] * (gradient[i, 0] * dx + gradient[i, 1] * dy + gradient[i, 2] * dz)
         if len(z):
             z[i] += dz
             w[i] += twist[i, 6] * dx + twist[i, 7] * dy + twist[i, 8] * dz

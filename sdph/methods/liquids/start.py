@@ -50,7 +50,7 @@ def _walls(case) -> particles.State:
 
 
 def pipe_walls(case) -> int:
-    """How many wall particles an outlet pipe has; they come last."""
+    """Number of wall particles of an outlet pipe; they come last."""
     return (
         len(shapes.pipe_points(tank.shape_of(case), case.resolution.spacing, tank.layers(case)))
         if "tank" in case.effects

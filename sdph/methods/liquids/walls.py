@@ -5,9 +5,9 @@ Adami, Hu & Adams 2012, J. Comput. Phys. 231, 7057.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
-import numpy as np
 from numba import njit, prange
 
 from sdph.effects.liquids import laminar_viscosity, liquid_damping, shifting
@@ -48,7 +48,7 @@ def extrapolate(kernel, s, rows, box, walls, wall_p, gravity_p, frame_p, volume,
         for k in range(rows.number[i]):
             j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
-            value = smoothing.value(kernel, np.sqrt(dx * dx + dy * dy + dz * dz))
+            value = smoothing.value(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
             value = value if volume[j] > 0.0 else 0.0
             weight += value
             push += value * (pressure[j] + s.density[j] * (bx * dx + by * dy + bz * dz))
@@ -65,24 +65,9 @@ def extrapolate(kernel, s, rows, box, walls, wall_p, gravity_p, frame_p, volume,
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
 def wall_force(
-    kernel,
-    s,
-    rows,
-    box,
-    walls,
-    wall_p,
-    laminar_p,
-    damping_p,
-    shifting_p,
-    phases_p,
-    gravity_p,
-    frame_p,
-    least,
-    pressure,
-    volume,
-    excess,
+    kernel, s, rows, box, flow, walls, wall_p, laminar_p, damping_p, shifting_p, phases_p, gravity_p, frame_p, excess,
     force,
-):
+):  # fmt: skip
     """force (W, 3) [N] on each wall particle: what `push` gives the liquid in front of it, with the sign turned."""
     for n in prange(len(walls)):
         i = walls[n]
@@ -92,26 +77,28 @@ def wall_force(
             dx, dy, dz = apart(s, box, i, j)
             du, dv, dw = faster(s, box, i, j)
             r2 = dx * dx + dy * dy + dz * dz
-            r = np.sqrt(r2)
-            V = max(volume[j], 0.0) * abs(volume[i]) * smoothing.slope(kernel, r)
+            r = math.sqrt(r2)
+            V = max(flow.volume[j], 0.0) * abs(flow.volume[i]) * smoothing.slope(kernel, r)
             closing = du * dx + dv * dy + dw * dz
-            sign_j = shifting.sign(shifting_p, pressure[j], least[j] if len(least) else 1.0)
+            sign_j = shifting.sign(shifting_p, flow.pressure[j], flow.least[j] if len(flow.least) else 1.0)
             rho_j = s.density[j]
             friction = laminar_viscosity.central(laminar_p, s, j, j, s.kind[j], s.kind[j], closing, r2)
             ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY)) * phases.harmonic(
                 phases_p, rho_j, rho_j
             )
             bx, by, bz = body(gravity_p, frame_p, s, j, False)
-            p_i = phases.behind(phases_p, -1.0, pressure[i], pressure[j] + rho_j * (bx * dx + by * dy + bz * dz))
+            p_i = phases.behind(
+                phases_p, -1.0, flow.pressure[i], flow.pressure[j] + rho_j * (bx * dx + by * dy + bz * dz)
+            )
             along = -V * (
-                p_i + sign_j * pressure[j] + wall_p.stick * (ringing + friction) + held_off(wall_p, -1.0, rho_j, r)
+                p_i + sign_j * flow.pressure[j] + wall_p.stick * (ringing + friction) + held_off(wall_p, -1.0, rho_j, r)
             )
             across = V * wall_p.stick * laminar_viscosity.pair(laminar_p, s, j, j)
             fx += along * dx + across * du
             fy += along * dy + across * dv
             fz += along * dz + across * dw
             if len(excess):
-                ex, ey, ez = correction.extra(excess, j, j, p_i, sign_j * pressure[j], dx, dy, dz)
+                ex, ey, ez = correction.extra(excess, j, j, p_i, sign_j * flow.pressure[j], dx, dy, dz)
                 fx -= V * ex
                 fy -= V * ey
                 fz -= V * ez

@@ -1,4 +1,4 @@
-"""What a liquid gets from where in one window."""
+"""Account of a window of a liquid: what it gets from where."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from sdph.methods.liquids.totals import IMPULSES
 
 
 class Tally:
-    """What a liquid got from where in one window; `run` has its stepper, its outlet or None, and what the drain is to
+    """Account of one window; `run` has its stepper, its outlet or None, and what the drain is to
     leave (fill)."""
 
     def __init__(self, run):
@@ -37,7 +37,7 @@ class Tally:
         self.before = self._drain(now)
 
     def _drain(self, now):
-        """What the drain is commanded to take; the balance after it."""
+        """Command what the drain has to take, and take the balance after it."""
         if not self.run.outlet:
             return now
         self.run.outlet.command(self.run.fill(self.stepper.time))

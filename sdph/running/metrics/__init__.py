@@ -1,4 +1,4 @@
-"""What a scene wants to know of itself at every output, by the names in `run.metrics`: rows of metrics.csv."""
+"""Metrics of a scene at every output, by the names in `run.metrics`: rows of metrics.csv."""
 
 from __future__ import annotations
 
@@ -14,7 +14,9 @@ def bed(simulation) -> dict[str, float]:
     if mesh.dimensions == 3:
         cells = bubble.through_depth(simulation.case.domain.size[2], *cells, up=up)
     row = bubble.metrics(*cells, up)
-    return row | {"alpha_p_max": float(simulation.grains.density.max(initial=0.0) / simulation.case.grains.density)}
+    return row | {
+        "alpha_p_max": float(simulation.grains.inside.density.max(initial=0.0) / simulation.case.grains.density)
+    }
 
 
 def bed_in_the_end(rows: list[dict]) -> dict[str, float]:

@@ -1,4 +1,4 @@
-"""What a bubble in a bed is like, from cell fields on a box mesh: the same function for SDPH and two-fluid fields.
+"""Metrics of a bubble in a bed, from cell fields on a box mesh: the same function for SDPH and two-fluid fields.
 
 The bubble is the largest connected void, alpha_p < VOID, that does not reach the top of the domain.
 """

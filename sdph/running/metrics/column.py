@@ -53,5 +53,5 @@ def ergun(case, alpha_p, flux: float) -> np.ndarray:
 
 
 def weight(case, mass: float, floor: float) -> float:
-    """Of `mass` [kg] of grains in gas over a floor [m2], in two dimensions [m] [Pa]."""
+    """Weight less buoyancy [Pa] of `mass` [kg] of grains in gas over a floor [m2], in two dimensions [m]."""
     return mass * (1.0 - case.gas.density / case.grains.density) * math.hypot(*case.domain.gravity) / floor

@@ -1,4 +1,4 @@
-"""What the jets of grains look like, each from its nozzle: how far it is, how it sags, how warm its core is."""
+"""Metrics of jets of grains, each from its nozzle: reach, sag, temperature of the core."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def metrics(simulation) -> dict[str, float]:
 
     Of several nozzles, what is told of one jet has the nozzle's name in front: left_front_m.
     """
-    case, state = simulation.case, simulation.grains
+    case, state = simulation.case, simulation.grains.inside
     if "inflow" not in case.effects:
         told = "run.metrics holds 'jet', which tells of nozzles"
         raise CaseError(f"{told}; add inflow to effects and a nozzle, or leave it out")
@@ -36,7 +36,7 @@ def metrics(simulation) -> dict[str, float]:
 
 
 def _jet(case, nozzle, state) -> dict[str, float]:
-    """Of the grains that came from one nozzle; nan where there are none."""
+    """Metrics of the grains that came from one nozzle; nan where there are none."""
     return _grains(case, nozzle, state) if len(state.x) else dict.fromkeys(TOLD, math.nan)
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from sdph.scenes import paths
 from sdph.schema import CaseError
+from sdph.study.cost import errors
 from sdph.study.cost import rows as measured_rows
 from sdph.study.cost.ladder import declared, overrides
 
@@ -14,30 +15,29 @@ def measured(scene: str) -> tuple[Path, list[dict]]:
     """The rows for a scene: the user's own, else those that come with sdph."""
     for file in (Path("runs/cost") / scene / "cost.csv", paths.data("validation") / scene / "cost.csv"):
         if file.is_file():
-            return file, measured_rows.errors(measured_rows.read(file))
+            return file, errors.judged(declared(scene), measured_rows.read(file))
     raise CaseError(
         f"nothing is measured for {scene}, so no accuracy can be promised; measure it with: sdph cost {scene}"
     )
 
 
 def settings_for(scene: str, accuracy: float, report) -> tuple[str, ...]:
-    """Overrides of the cheapest measured settings that hold `accuracy`; says which, and on what evidence. What is
-    simulated, and until when, stays as the case has it."""
+    """Overrides of the cheapest measured settings that hold `accuracy`, as do all finer ones; says which, and on what
+    evidence. What is simulated, and until when, stays as the case has it."""
     file, rows = measured(scene)
-    best = measured_rows.cheapest(rows, accuracy)
+    own, best = declared(scene), measured_rows.cheapest(rows, accuracy)
     if best is None:
-        least = min(row["error"] for row in measured_rows.whole(rows))
         raise CaseError(
-            f"no measured setting of {scene} errs by {accuracy:g} or less (the best: {least:.2g}, {file}); allow a "
-            "larger error, or refine its ladder"
+            f"{scene} is {errors.refusal(own, rows, accuracy)} ({file}); allow a larger error, or refine its ladder"
         )
-    own = declared(scene)
     chosen = (*own.settings, *overrides({key: best[key] for key in own.keys}))
     over = f", measured with {' '.join(own.excerpt)}" if own.excerpt else ""
     report(
-        f"--accuracy {accuracy:g}: {' '.join(chosen)}; error {best['error']:.2g} against {own.reference}{over}, "
+        f"--accuracy {accuracy:g}: {' '.join(chosen)}; within {best['bound']:.2g} of its limit{over}, "
         f"{best['wall_s']:.3g} s ({file})"
     )
+    if different := errors.model_difference(own, rows):
+        report(f"--accuracy {accuracy:g} is of the numerics alone: {different} ({own.reference})")
     return chosen
 
 

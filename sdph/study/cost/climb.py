@@ -18,6 +18,7 @@ from coupling.openfoam.programs import install
 from sdph.engine.guard import Unstable
 from sdph.running import driver
 from sdph.running.progress import Reporter
+from sdph.schema import CaseError
 from sdph.study import compare
 from sdph.study.cost import rows as measured_rows
 from sdph.study.cost.ladder import ALL, Ladder, case_of, declared, rungs
@@ -60,6 +61,10 @@ def measure(scene: str, own: Ladder, settings: dict, repeats: int) -> dict:
             found = metrics(scene, own, Path(folder) / "0", settings["without"])
         except (GasError, Unstable):
             made, found = [dict.fromkeys(KEPT, math.nan)], {}
+        except CaseError:  # such as of grains that nothing holds back any more
+            if settings["without"] == ALL:
+                raise
+            made, found = [dict.fromkeys(KEPT, math.nan)], {}
     wall = statistics.median(summary["wall_s"] for summary in made)
     return (
         {name: made[0].get(name, ALL) for name in KEPT}
@@ -78,6 +83,7 @@ def _machine(repeats: int) -> dict:
         "load": round(os.getloadavg()[0], 2),
         "cores": os.cpu_count(),
         "machine": platform.machine(),
+        "measured": time.strftime("%Y-%m-%d"),
     }
 
 

@@ -1,17 +1,19 @@
 """The settings that a scene is measured with. validation/<scene>/cost.toml declares them:
 
-    reference = "..."   what errors are taken against
+    reference = "..."   what the metrics' shares are taken from; errors are distances from the limit of the
+                        ladder itself (`sdph.study.cost.converged`)
     settings = ["..."]  `key=value` that go with every rung, and with `sdph run --accuracy`
     excerpt = ["..."]   `key=value` of the ladder alone: how much of the scene a rung computes
     drop = ["..."]      effects that are switched off, one at a time
-    [knobs]             key of the case -> values, coarse to fine, all of one length, in one ratio where the limit is
-                        asked for
+    [knobs]             key of the case -> values, coarse to fine, all of one length; the first is the step h that
+                        orders are observed in, so that the others should shrink with it
     [alone]             key of the case -> values that are tried by themselves, all else in the middle
-    metrics = ["..."]   keys of summary.json, against the limit of the ladder by Richardson, relative to it
+    metrics = ["..."]   keys of summary.json, relative to the limit of the ladder
 
 In place of metrics, validation/<scene>/compare.py may have `metrics(run) -> {name: (value, reference, scale)}`, where a
-reference of None is the limit of the ladder and a scale of None the reference itself; its `others(case, folder)` yields
-(label, solver, wall time [s], metrics) of other solvers on the same scene.
+reference of None leaves the value as it is and a scale of None means the reference, or else the limit; its
+`others(case, folder)` yields (label, solver, wall time [s], metrics) of other solvers on the same scene, each on cells
+of half the size.
 """
 
 from __future__ import annotations
@@ -29,7 +31,7 @@ ALL = "-"  # in the column `without`: no effect is left out
 
 @dataclass(frozen=True)
 class Ladder:
-    """What validation/<scene>/cost.toml says; `usual`: what the scene has for the keys of `alone`."""
+    """Settings of validation/<scene>/cost.toml; `usual`: what the scene has for the keys of `alone`."""
 
     reference: str
     knobs: dict
@@ -48,6 +50,11 @@ class Ladder:
     @property
     def middle(self) -> dict:
         return self.level(self.count // 2)
+
+    @property
+    def steps(self) -> list[float]:
+        """Step of each level: the values of the first knob."""
+        return next(iter(self.knobs.values()))
 
     @property
     def keys(self) -> list[str]:

@@ -1,12 +1,14 @@
-"""What `sdph cost` shows: the table by accuracy, observed orders, effects off against their estimates, the figure."""
+"""Report of `sdph cost`: the table by accuracy, observed orders, effects off against their estimates, the figure."""
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 from sdph import scenes
 from sdph.case import judge
 from sdph.case import read as cases
+from sdph.study.cost import errors
 from sdph.study.cost import rows as measured_rows
 from sdph.study.cost.ladder import ALL, declared
 from sdph.study.cost.rows import OWN
@@ -15,13 +17,18 @@ from sdph.study.explain import tables
 LIMITS = (0.10, 0.05, 0.02, 0.01)  # errors that the table answers for
 NEGLIGIBLE = 0.01  # both below the usual `run.accuracy`: rightly told to be of no account
 LEAST = 1e-12  # error that the logarithmic axis ends at
+FACTOR = 3.0  # an estimate is right within it: our choice
 
 
 def text(scene: str, rows: list[dict]) -> str:
-    """All tables."""
+    """All tables; `rows` as `sdph.study.cost.errors.judged` gives them."""
     own = declared(scene)
-    parts = [f"errors against: {own.reference}", tables.table([_row(own, row) for row in rows])]
-    parts.append(tables.table([_answer(own, rows, limit) for limit in LIMITS]))
+    parts = [f"errors against the limit of the ladder; reference: {own.reference}"]
+    parts.append(tables.table([_row(own, row) for row in rows]))
+    known = errors.converged(own, rows)
+    parts += [tables.table([_limit(name, metric) for name, metric in known.items()])] if known else []
+    parts.append(tables.table([answer(own, rows, limit) for limit in LIMITS]))
+    parts += [different] if (different := errors.model_difference(own, rows)) else []
     found = measured_rows.orders(own, rows)
     parts.append(
         "observed orders: " + (", ".join(f"{key} {order:.2f}" for key, order in found.items()) or "too few rungs yet")
@@ -35,19 +42,33 @@ def _row(own, row: dict) -> dict:
     return (
         who
         | {key: row[key] for key in own.keys}
-        | {"error": row["error"], "wall [s]": row["wall_s"], "load": row["load"]}
+        | {"error": row["error"], "at most, with all finer": row["bound"], "off the reference": row["off reference"]}
+        | {"wall [s]": row["wall_s"], "load": row["load"]}
     )
 
 
-def _answer(own, rows: list[dict], limit: float) -> dict:
-    """For this error take these settings, it costs so much."""
+def _limit(name: str, metric: errors.Converged) -> dict:
+    """Limit that a metric converges to: its share of the reference, or its own value."""
+    value, doubt, order = metric.limit
+    return {
+        "metric": name,
+        "limit": value * metric.scale if not metric.referred else math.nan,
+        "limit off the reference": value if metric.referred else math.nan,
+        "doubt": doubt,
+        "order": order,
+        "": "off beyond the doubt: model and reference differ" if metric.off else "",
+    }
+
+
+def answer(own, rows: list[dict], limit: float) -> dict:
+    """For this error take these settings, it costs so much; or why nothing can be told."""
     best = measured_rows.cheapest(rows, limit)
-    take = " ".join(f"{key}={best[key]}" for key in own.keys) if best else "nothing measured holds it"
+    take = " ".join(f"{key}={best[key]}" for key in own.keys) if best else errors.refusal(own, rows, limit)
     return {
         "for": f"{100 * limit:g} %",
         "take": take,
-        "error": best["error"] if best else float("nan"),
-        "it costs [s]": best["wall_s"] if best else float("nan"),
+        "at most": best["bound"] if best else math.nan,
+        "it costs [s]": best["wall_s"] if best else math.nan,
     }
 
 
@@ -65,20 +86,23 @@ def without(scene: str, rows: list[dict]) -> list[dict]:
                     "effect left out": row["without"],
                     "measured change": change,
                     "estimate": estimate,
-                    "right order": "yes" if near(change, estimate) else "NO",
+                    "within a factor of 3": "yes" if near(change, estimate) else "NO",
                 }
             )
     return found
 
 
 def near(change: float, estimate: float) -> bool:
-    """Whether an estimate is right: within a factor of ten, or of no account like the change itself. An estimate is a
+    """True of a right estimate: within a factor of three, or of no account like the change itself. An estimate is a
     share of the answer, so that a change of more than all of it counts as 1."""
-    return max(change, estimate) < NEGLIGIBLE or 0.1 <= min(change, 1.0) / max(estimate, 1e-300) <= 10.0
+    if max(change, estimate) < NEGLIGIBLE:
+        return True
+    return 1.0 / FACTOR <= min(change, 1.0) / max(estimate, 1e-300) <= FACTOR
 
 
 def draw(scene: str, rows: list[dict], picture: Path) -> None:
-    """The work-precision diagram."""
+    """The work-precision diagram: each row by its own error, lines by what may be promised, all finer rows and the
+    doubt about the limit included."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -87,25 +111,11 @@ def draw(scene: str, rows: list[dict], picture: Path) -> None:
     figure, axes = pyplot.subplots(figsize=(7.5, 5.5), constrained_layout=True)
     for row in rows:
         _point(axes, row)
-    best = measured_rows.front(rows)
-    axes.plot(
-        [row["wall_s"] for row in best],
-        [max(row["error"], LEAST) for row in best],
-        "o-",
-        color="tab:red",
-        label="sdph, Pareto front",
-    )
+    _line(axes, measured_rows.front(rows), "o-", "tab:red", "sdph, promised")
     for colour, solver in zip(("tab:blue", "tab:green"), sorted({row["solver"] for row in rows} - {OWN})):
-        line = [row for row in rows if row["solver"] == solver]
-        axes.plot(
-            [row["wall_s"] for row in line],
-            [max(row["error"], LEAST) for row in line],
-            "s--",
-            color=colour,
-            label=solver,
-        )
+        _line(axes, [row for row in rows if row["solver"] == solver], "s--", colour, f"{solver}, by the same rule")
     loads = [float(row["load"]) for row in rows]
-    axes.set(xscale="log", yscale="log", xlabel="wall time [s]", ylabel="error of the worst metric")
+    axes.set(xscale="log", yscale="log", xlabel="wall time [s]", ylabel="distance of the worst metric from the limit")
     axes.set_title(
         f"{scene}; reference: {declared(scene).reference}\nload of the machine {min(loads):g} to {max(loads):g} on "
         f"{int(rows[0]['cores'])} cores",
@@ -117,7 +127,15 @@ def draw(scene: str, rows: list[dict], picture: Path) -> None:
     pyplot.close(figure)
 
 
+def _line(axes, rows: list[dict], style: str, colour: str, label: str) -> None:
+    told = [row for row in rows if math.isfinite(row["bound"])]
+    places = [row["wall_s"] for row in told], [max(row["bound"], LEAST) for row in told]
+    axes.plot(*places, style, color=colour, label=label if told else f"{label}: nothing")
+
+
 def _point(axes, row: dict) -> None:
+    if not math.isfinite(row["error"]):
+        return
     place = row["wall_s"], max(row["error"], LEAST)
     axes.plot(*place, "o" if row["without"] == ALL else "x", color="tab:gray", ms=4)
     label = str(row["label"])

@@ -1,4 +1,5 @@
-"""What was measured of a scene, a row a rung: errors, observed orders, and the cheapest that holds an error."""
+"""Rows measured of a scene, one a rung: observed orders, the change between two, and the cheapest that holds an
+error. `sdph.study.cost.errors` judges them."""
 
 from __future__ import annotations
 
@@ -9,10 +10,12 @@ from pathlib import Path
 
 from sdph.running import output
 from sdph.schema import CaseError
+from sdph.study.cost.converged import order
 from sdph.study.cost.ladder import ALL, Ladder
 
 OWN = "sdph"  # in the column `solver`
 FLOOR = 1e-12  # of a metric's scale: changes below it are round-off
+COLUMNS = {"solver", "without", "metrics", "wall_s", "measured"}  # that a table must have
 
 
 def read(file: Path) -> list[dict]:
@@ -20,7 +23,7 @@ def read(file: Path) -> list[dict]:
     if not file.is_file():
         return []
     table = output.read_table(file, mend="remove it and measure again")
-    if lacks := {"solver", "without", "metrics", "wall_s"} - table.keys():
+    if lacks := COLUMNS - table.keys():
         raise CaseError(
             f"{file} lacks the columns {', '.join(sorted(lacks))}: another version of sdph wrote it; remove it and "
             "measure again"
@@ -33,7 +36,7 @@ def read(file: Path) -> list[dict]:
 
 
 def _measured(row: dict) -> bool:
-    """Whether a row has a wall time, and metrics as `found` takes them."""
+    """True where a row has a wall time, and metrics as `found` takes them."""
     try:
         float(row["wall_s"])
         return all(len(value) == 3 for value in found(row).values())
@@ -42,57 +45,13 @@ def _measured(row: dict) -> bool:
 
 
 def has(row: dict, settings: dict) -> bool:
-    """Whether a row was measured with these settings."""
-    return all(str(row[key]) == str(value) for key, value in settings.items())
-
-
-def errors(rows: list[dict]) -> list[dict]:
-    """The rows with `error`: the largest of |value - reference|/scale. Where a metric has no reference it is the limit
-    of the same solver's own ladder, and no error is smaller than the doubt about that limit."""
-    levels = {
-        solver: [found(row) for row in rows if row["solver"] == solver and _level(row)]
-        for solver in {row["solver"] for row in rows}
-    }
-    limits = {solver: richardson(values) for solver, values in levels.items()}
-    return [row | {"error": max(_errors(found(row), limits[row["solver"]]).values(), default=math.inf)} for row in rows]
+    """True where a row was measured with these settings."""
+    return all(str(row.get(key)) == str(value) for key, value in settings.items())
 
 
 def found(row: dict) -> dict:
     """Metrics of a row: name -> (value, reference or None, scale or None)."""
     return json.loads(row["metrics"])
-
-
-def _level(row: dict) -> bool:
-    return str(row["label"]).startswith("all ")
-
-
-def _errors(values: dict, limits: dict) -> dict:
-    found = {}
-    for name, (value, given, scale) in values.items():
-        reference, doubt = limits[name] if given is None else (given, 0.0)
-        found[name] = _share(max(abs(value - reference), doubt), reference if scale is None else scale)
-    return found
-
-
-def _share(change: float, scale: float) -> float:
-    """A change of what is 0 itself is a whole one without bound."""
-    return change / abs(scale) if scale else math.inf if change else 0.0
-
-
-def richardson(levels: list[dict]) -> dict[str, tuple[float, float]]:
-    """Limit of each metric as all knobs are refined together in one ratio, and the doubt about it: by the observed
-    order, in doubt by what that adds to the finest; where there is no order the finest itself, in doubt by its last
-    change."""
-    return {name: _limit([level[name][0] for level in levels[-3:]]) for name in (levels[-1] if levels else ())}
-
-
-def _limit(values: list[float]) -> tuple[float, float]:
-    if len(values) == 3 and (values[1] - values[0]) * (values[2] - values[1]) > 0.0:
-        ratio = (values[1] - values[0]) / (values[2] - values[1])
-        if ratio > 1.0:
-            more = (values[2] - values[1]) / (ratio - 1.0)
-            return values[2] + more, abs(more)
-    return values[-1], abs(values[-1] - values[max(-2, -len(values))])
 
 
 def orders(own: Ladder, rows: list[dict]) -> dict[str, float]:
@@ -108,30 +67,19 @@ def orders(own: Ladder, rows: list[dict]) -> dict[str, float]:
     return {key: found for key, found in orders.items() if not math.isnan(found)}
 
 
-def order(coarse: float, middle: float, fine: float, first: float, second: float) -> float:
-    """p of changes `first` and `second` between three steps, (coarse^p - middle^p)/(middle^p - fine^p) = first/second;
-    by bisection in -10..10, nan where no power fits."""
-
-    def excess(p: float) -> float:
-        return (coarse**p - middle**p) / (middle**p - fine**p) - first / second
-
-    low, high = -10.0, 10.0
-    if excess(low) * excess(high) > 0.0:
-        return math.nan
-    for _ in range(60):
-        p = 0.5 * (low + high) or 1e-9  # at 0 both changes vanish
-        low, high = (p, high) if excess(p) * excess(high) <= 0.0 else (low, p)
-    return 0.5 * (low + high)
-
-
 def distance(a: dict, b: dict) -> float:
     """Largest difference of two rows' metrics over their scale, or without one over the first's; a run that was stopped
     shares nothing with one that was not."""
     one, other = found(a), found(b)
     pairs = ((one[name], other[name][0]) for name in one.keys() & other.keys())
     return max(
-        (_share(abs(value - changed), scale or value or changed) for (value, _, scale), changed in pairs), default=1.0
+        (share(abs(value - changed), scale or value or changed) for (value, _, scale), changed in pairs), default=1.0
     )
+
+
+def share(change: float, scale: float) -> float:
+    """A change over its scale; of what is 0 itself it is a whole one without bound."""
+    return change / abs(scale) if scale else math.copysign(math.inf, change) if change else 0.0
 
 
 def whole(rows: list[dict]) -> list[dict]:
@@ -140,15 +88,15 @@ def whole(rows: list[dict]) -> list[dict]:
 
 
 def cheapest(rows: list[dict], accuracy: float) -> dict | None:
-    """The row that takes least time among those with all effects whose error is at most `accuracy`."""
-    return min((row for row in whole(rows) if row["error"] <= accuracy), key=lambda row: row["wall_s"], default=None)
+    """The row that takes least time among those with all effects that err by `accuracy` at most, as do all finer."""
+    return min((row for row in whole(rows) if row["bound"] <= accuracy), key=lambda row: row["wall_s"], default=None)
 
 
 def front(rows: list[dict]) -> list[dict]:
-    """Rows that nothing beats in both error and time, by time."""
+    """Rows that nothing beats in both bound of the error and time, by time."""
     kept, least = [], math.inf
-    for row in sorted(whole(rows), key=lambda row: (row["wall_s"], row["error"])):
-        if row["error"] < least:
+    for row in sorted(whole(rows), key=lambda row: (row["wall_s"], row["bound"])):
+        if row["bound"] < least:
             kept.append(row)
-            least = row["error"]
+            least = row["bound"]
     return kept

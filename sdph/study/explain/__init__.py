@@ -1,6 +1,7 @@
 """`sdph explain`: what a case calls for, what limits its steps, and what it will cost, before it runs.
 
-estimate       limits, steps, memory and time
+estimate       limits, memory and time
+pace           windows and sub-steps
 droplets       numbers of droplets
 liquids        those of a liquid
 tables         all of it as tables

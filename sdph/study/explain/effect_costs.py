@@ -1,4 +1,4 @@
-"""What each effect costs on this machine, in microseconds per particle and sub-step: a case with it, less the same
+"""Cost of each effect on this machine, in microseconds per particle and sub-step: a case with it, less the same
 without.
 
 Only grains that move: particle side and exchange, no gas solver. Times are the least of several, taken in turns.
@@ -63,11 +63,12 @@ def prepared(case) -> Simulation:
 
 def step(simulation, dt: float) -> float:
     """Wall time [s] of one sub-step of `dt` [s], its exchange included."""
-    simulation.stepper.guard.begin(simulation, dt)
+    simulation.grains.begin()
     count, started = len(simulation.state.x), time.perf_counter()
-    body = simulation._body(simulation._hand(dt))
-    simulation.stepper.force(np.zeros(count), body, np.zeros(count))
+    gravity, pressed = simulation._body(simulation._hand(dt))
+    simulation.stepper.force(np.zeros(count), gravity + pressed, np.zeros(count))
     simulation.stepper.move(dt)
+    simulation.grains.close()
     return time.perf_counter() - started
 
 

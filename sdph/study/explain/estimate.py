@@ -1,4 +1,4 @@
-"""How a case is resolved, what limits its steps, and what it will cost: from the case alone, good to about a factor of
+"""Estimates of resolution, limits of steps and cost: from the case alone, good to about a factor of
 two."""
 
 from __future__ import annotations
@@ -12,19 +12,14 @@ import numpy as np
 from sdph import effects
 from sdph.case import gas_cells
 from sdph.case.judge import scales_of
-from sdph.effects.grains import friction, granular_pressure
 from sdph.engine import device as environment
 from sdph.engine import state as particles
-from sdph.exchange.window import opening, smallest_cell
+from sdph.exchange.window import opening
 from sdph.laws import kernels
 from sdph.methods.grains import start
 from sdph.methods.grains.method import ACOUSTIC
-from sdph.methods.grains.method import limits as limits_of_step
+from sdph.study.explain import pace
 
-# Windows of a relaxation that is resolved to the tolerance e: integral of dt/sqrt(2 e) over rate = 2/sqrt(2 e), and
-# half as many again for the safety of the controller and its way back (measured: 504 for e = 2e-5, where 2/sqrt(2 e) =
-# 316).
-RELAXATION = 1.5
 ROW = 8  # bytes of a number and of an entry of a neighbour row
 SCRATCH = 30  # arrays of the length of the particles that a step makes
 GAS_ARRAYS = 120  # arrays of the length of the cells that the gas solver and the exchange hold
@@ -57,7 +52,7 @@ SHIPPED = Speed(2.5, 0.4, 1.0, 2.0, "another machine; `sdph explain SCENE --meas
 
 
 def speed() -> Speed:
-    """What was last measured on this machine, else the shipped numbers."""
+    """Speeds last measured on this machine, else the shipped numbers."""
     return Speed(**json.loads(MEASURED.read_text())) if MEASURED.is_file() else SHIPPED
 
 
@@ -111,26 +106,33 @@ def _windows(case, s) -> list[tuple]:
         ("window", "largest", own.window_largest, "coupling.window_largest_s"),
         ("window", "output", case.run.output_interval, "run.output_interval_s"),
     ]
-    start = opening(case)
     rows += [
         ("window", cause, value, "coupling.courant cell/U of what enters or is thrown: the first window obeys it")
-        for cause, value in start.items()
+        for cause, value in opening(case).items()
     ]
-    later = own.courant * smallest_cell(case) / s.slip if s.slip else math.inf
-    if later < min(start.values(), default=math.inf):
-        rows.append(("window", "motion", later, "coupling.courant cell/U of what falls or rushes later: an estimate"))
-    parameters = {name: effects.kernel_of(effects.REGISTRY[name], case) for name in case.effects}
-    asked = effects.window_limits(parameters, case, _state(case))
+    rows += [
+        (
+            "window",
+            f"{cause}, later",
+            value,
+            "coupling.courant cell/U of what moves once the start is over: an estimate",
+        )
+        for cause, value in pace.later(case, s).items()
+    ]
+    asked = effects.window_limits(pace.parameters(case), case, _state(case))
     rows += [
         ("window", name, limit, "the effect's own window_limit") for name, limit in asked.items() if limit < math.inf
     ]
+    if (grip := pace.grip(case, s)) < math.inf:
+        rows.append(("window", "grip", grip, "of the time in which the gas stops packed grains"))
     if "heat" in case.effects and s.span and not own.one_way:
         rate = 1.0 / s.heat_time + 1.0 / s.gas_heat_time
+        first = math.sqrt(2.0 * own.window_tolerance) / rate
         rows.append(
             (
                 "window",
                 "heat exchange",
-                math.sqrt(2.0 * own.window_tolerance) / rate,
+                first,
                 "sqrt(2 tolerance)/rate: the first one, it grows with the rest to exchange",
             )
         )
@@ -138,28 +140,10 @@ def _windows(case, s) -> list[tuple]:
 
 
 def _sub_steps(case, s) -> list[tuple]:
-    sound = _sound(case, s) if effects.moving(case) else 0.0
-    fastest = sound + s.speed if effects.moving(case) else 0.0
-    parameters = {name: effects.kernel_of(effects.REGISTRY[name], case) for name in case.effects}
-    how = {"sound": f"{ACOUSTIC:g} h/(c + v), c = {sound:.3g} m/s"}
-    found = limits_of_step(case, parameters, _state(case), fastest)
+    how = {"sound": f"{ACOUSTIC:g} h/(c + v), c = {pace.sound(case, s):.3g} m/s where grains carry what they have to"}
+    found = pace.sub_steps(case, s, _state(case))
     rows = [("sub-step", name, limit, how.get(name, "the effect's own dt_limit")) for name, limit in found.items()]
     return rows or [("sub-step", "window", case.coupling.window_largest, "nothing else limits it")]
-
-
-def _sound(case, s) -> float:
-    """c [m/s] of agitation and friction where grains lie closest at the start."""
-    agitated = (
-        granular_pressure.sound_squared(granular_pressure.kernel(case), s.alpha_p, s.theta)
-        if "granular_pressure" in case.effects
-        else 0.0
-    )
-    lasting = (
-        friction.sound_squared(p := friction.kernel(case), friction.pressure(p, s.alpha_p)[1])
-        if "friction" in case.effects
-        else 0.0
-    )
-    return math.sqrt(agitated + lasting)
 
 
 def _state(case):
@@ -172,16 +156,16 @@ def expected(case, s) -> list[dict]:
     start, cells = len(_state(case).x), int(np.prod(gas_cells.cells(case)))
     end = start + _incoming(case)
     count = (start + end) // 2
-    windows, steps = steps_of(case, s)
-    pace = speed()
-    particle = 1e-6 * count * steps * (pace.moving if effects.moving(case) else pace.resting)
-    gas = 1e-6 * cells * windows * pace.cell
-    how = f"one core, embedded gas, warm; particles {particle:.2g} s, gas {gas:.2g} s; measured on {pace.measured}"
+    windows, steps = pace.expected(case, s, _state(case))
+    own = speed()
+    particle = 1e-6 * count * steps * (own.moving if effects.moving(case) else own.resting)
+    gas = 1e-6 * cells * windows * own.cell
+    how = f"one core, embedded gas, warm; particles {particle:.2g} s, gas {gas:.2g} s; measured on {own.measured}"
     return [
         {"what": "particles", "value": end, "unit": "",
         "how": f"{start} at the start" if end > start else "all the time"},
         {"what": "gas cells", "value": cells, "unit": "", "how": ""},
-        {"what": "windows", "value": windows, "unit": "", "how": "from the limits above"},
+        {"what": "windows", "value": windows, "unit": "", "how": "the run's clock, driven by the scales above"},
         {"what": "sub-steps", "value": steps, "unit": "", "how": "the same"},
         {"what": "memory", "value": memory(case, end, cells) / 1e6, "unit": "MB",
         "how": "state, neighbours, gas fields, program"},
@@ -205,19 +189,6 @@ def mouth(case, nozzle) -> float:
     if nozzle.shape == "slot":
         return math.prod((nozzle.width or 0.0, nozzle.length or 0.0)[: case.dimensions - 1])
     return 2.0 * radius if case.dimensions == 2 else math.pi * radius**2
-
-
-def steps_of(case, s) -> tuple[int, int]:
-    """Windows and sub-steps to be expected."""
-    rows = _windows(case, s)
-    apart = {cause: value for _, cause, value, _ in rows if cause != "heat exchange"}
-    windows = case.run.end_time / min(apart.values())
-    if len(apart) < len(rows):
-        windows += min(
-            case.run.end_time / rows[-1][2], RELAXATION * 2.0 / math.sqrt(2.0 * case.coupling.window_tolerance)
-        )
-    least = min(value for *_, value, _ in _sub_steps(case, s))
-    return math.ceil(windows), math.ceil(max(windows, case.run.end_time / least))
 
 
 def memory(case, count: int, cells: int) -> float:

@@ -29,51 +29,23 @@ def numbers(s) -> list[tuple]:
         "by its definition" if sigma is not WATER else "by its definition; surface tension of water, for want of one"
     )
     cell = s.speed * s.case.smoothing_length / s.viscosity if s.viscosity else math.inf
+    reynolds = s.speed * s.length / s.viscosity if s.viscosity else math.inf
+    mach, crossings = s.speed / own.sound_speed, own.sound_speed * s.end / s.length
+    slow = "the liquid is compressed by more than 4 %; usual is 0.1"
     rows = [
-        (
-            "Reynolds, U L/nu",
-            s.speed * s.length / s.viscosity if s.viscosity else math.inf,
-            2000.0,
-            "the flow may become turbulent",
-            "Reynolds 1883",
-        ),
-        (
-            "Reynolds of the particles, U h/nu",
-            cell,
-            1.0,
-            "viscosity does not damp the motion of single particles",
-            "Monaghan 1992",
-        ),
+        ("Reynolds, U L/nu", reynolds, 2000.0, "the flow may become turbulent", "Reynolds 1883"),
+        ("Reynolds of the particles, U h/nu", cell, 1.0, "viscosity does not damp single particles", "Monaghan 1992"),
         ("Froude, U/sqrt(g L)", froude, 1.0, "inertia beats gravity", "by its definition"),
-        (
-            "Mach, U/c",
-            s.speed / own.sound_speed,
-            SLOW,
-            "the liquid is compressed by more than 4 %; usual is 0.1",
-            "Monaghan 1994",
-        ),
+        ("Mach, U/c", mach, SLOW, slow, "Monaghan 1994"),
         ("Weber, rho U2 L/sigma", weber, 1.0, "inertia beats surface tension", where),
         ("Bond, rho g L2/sigma", bond, 1.0, "gravity beats surface tension", where),
         ("run / (L/U)", s.turns, 1.0, "the flow has time to turn over", "by its definition"),
         ("boundary layer, sqrt(nu t)/L", s.layer, 0.01, "walls slow the liquid", "Schlichting 1979, ch. 5"),
-        (
-            "crossings of sound, c t/L",
-            own.sound_speed * s.end / s.length,
-            1.0,
-            "noise has time to go to and fro",
-            "Marrone et al. 2011",
-        ),
+        ("crossings of sound, c t/L", crossings, 1.0, "noise has time to go to and fro", "Marrone et al. 2011"),
     ]
     if s.case.gas_phase:
-        rows.append(
-            (
-                "density ratio",
-                own.density / s.case.gas_phase.density,
-                1.0,
-                "the gas yields to the liquid",
-                "by its definition",
-            )
-        )
+        ratio = own.density / s.case.gas_phase.density
+        rows.append(("density ratio", ratio, 1.0, "the gas yields to the liquid", "by its definition"))
     return rows
 
 

@@ -36,7 +36,7 @@ def _of_grains(case, scales) -> dict[str, list]:
 
 
 def warnings(case, scales=None) -> list[str]:
-    """What `run` says before it starts: effects that are missing, ratios that are not safe; `scales` of the case."""
+    """Notes of `run` before it starts: effects that are missing, ratios that are not safe; `scales` of the case."""
     if len(case.matters) > 1:
         return [text for matter in case.matters for text in warnings(case.only(matter))]
     scales = scales or judge.scales_of(case)

@@ -50,7 +50,7 @@ time_t time(time_t* t) { struct timespec n; clock_gettime(CLOCK_REALTIME, &n); i
 
 @dataclass
 class Site:
-    """Where the faults happen: a scratch folder, how the gas is solved, and the ledger of the undisturbed run."""
+    """Scratch folder of the faults, how the gas is solved, and the ledger of the undisturbed run."""
 
     scratch: Path
     gas: tuple[str, ...]
@@ -118,7 +118,7 @@ def _killed(site: Site, chance: random.Random, number: int) -> dict:
 
 
 def _kill(process: subprocess.Popen, folder: Path, victim: str) -> bool:
-    """Whether the victim was there to be killed; it is waited for while the run goes on."""
+    """Kill the victim, and say whether it was there; it is waited for while the run goes on."""
     while process.poll() is None:
         found = (
             [pid for pid, name in processes(folder) if name.startswith(victim)] if victim != "python" else [process.pid]
@@ -149,7 +149,7 @@ def _stopped(site: Site, number: signal.Signals) -> dict:
 
 
 def _second_run(site: Site) -> dict:
-    """Neither a new run nor a resumed one gets into a folder where one is going on."""
+    """Check that neither a new run nor a resumed one gets into a folder where one is going on."""
     folder = site.scratch / "second"
     first = site.start(folder)
     _wait_for(first, folder / "history.csv")
@@ -229,7 +229,7 @@ def _wait_for(process: subprocess.Popen, path: Path) -> None:
 
 
 def _verdict(site: Site, folder: Path, name: str, named: bool, said: str) -> dict:
-    """What has to be true after every fault."""
+    """Check what has to be true after every fault."""
     wrong = [] if named else [f"it said: {' '.join(said.split())[-300:]}"]
     if not gone(folder):
         wrong.append(f"left running: {processes(folder)}")

@@ -1,4 +1,4 @@
-"""What a hard case of a liquid is judged by."""
+"""Measures by which a hard case of a liquid is judged."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ LOST = 1.0  # spacings behind the surface of a wall: past the first of its layer
 
 
 class LiquidMeasures(Extremes):
-    """Of a liquid and its tank."""
+    """Measures of a liquid and its tank."""
 
     def window(self, simulation) -> None:
-        """After a window."""
+        """Take the figures after a window."""
         stepper, own = simulation.stepper, simulation.stepper.active
         s, rho_0 = particles.take(stepper.state, own), stepper.fluids[0, stepper.state.kind[own]]
         speed2 = (particles.velocities(s) ** 2).sum(axis=1)
@@ -35,7 +35,7 @@ class LiquidMeasures(Extremes):
         self.lost = max(self.lost, int((depth > LOST).sum()))
 
     def _behind_walls(self, s) -> np.ndarray:
-        """How far [m] each particle that is out of the tank, but not through an open side, is behind its surface."""
+        """Depth [m] behind its surface of each particle that is out of the tank, but not through an open side."""
         if "tank" not in self.case.effects:
             return np.zeros(0)
         shape, points = tank.shape_of(self.case), particles.positions(s)[:, : self.case.dimensions]

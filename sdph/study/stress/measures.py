@@ -1,4 +1,4 @@
-"""What a hard case is judged by: extremes over the run, and what the ledger closes to."""
+"""Measures by which a hard case is judged: extremes over the run, and what the ledger closes to."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Extremes:
         self.regions: dict[str, np.ndarray] = {}
 
     def finish(self, simulation) -> None:
-        """At the end of a stage: what the ledger says, the worst over all stages."""
+        """Take the figures of the ledger at the end of a stage, the worst over all stages."""
         for name, value in (simulation.ledger.summary() if simulation.ledger.last else {}).items():
             self._take(name, np.array([value]))
         self.last |= {"sub_steps": simulation.stepper.steps, "warnings": len(simulation.warnings())}
@@ -43,11 +43,12 @@ class Extremes:
 
 
 class Measures(Extremes):
-    """Of grains and their gas."""
+    """Measures of grains and their gas."""
 
     def window(self, simulation) -> None:
-        """After a window. The box around the grains that each region began with is kept as NAME_x_m and so on."""
-        s, fields, density = simulation.grains, simulation.gas_state.fields, self.case.grains.density
+        """Take the figures after a window. The box around the grains that each region began with is kept as NAME_x_m
+        and so on."""
+        s, fields, density = simulation.grains.inside, simulation.gas_state.fields, self.case.grains.density
         speed = np.sqrt((particles.velocities(s) ** 2).sum(axis=1))
         self._take("speed_m_s", speed)
         self._take("alpha_p", s.density / density)

@@ -69,7 +69,7 @@ class Hard:
 
 @dataclass(frozen=True)
 class Verdict:
-    """How a case did: rows (measure, value, bound, ok), and what was said if the guard stopped it."""
+    """Outcome of a case: rows (measure, value, bound, ok), and what was said if the guard stopped it."""
 
     name: str
     rows: list
@@ -204,7 +204,7 @@ def _gas(case):
 
 
 def _go(simulation, measures, windows: int):
-    """Up to so many windows, or to the end of the case; every one is measured."""
+    """Run up to so many windows, or to the end of the case; every one is measured."""
     try:
         for _ in range(windows):
             if simulation.time >= simulation.case.run.end_time:

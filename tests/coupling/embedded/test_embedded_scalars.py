@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from gas_cases import OIL, gas_of, norms, orders, set_flow
 
+from coupling.embedded import convection
+
 VAPOUR = OIL | {"diffusivity_m2_s": 2e-2}
 
 
@@ -107,3 +109,20 @@ def test_stefan_tube(equation_of_state):
     assert error < 1e-3
     assert abs(gas.flow.vapour_in - before) < 1e-6 * flux * 0.0025 * 2e-3
     assert np.ptp(state.fields["temperature"]) < 1e-9
+
+
+@pytest.mark.parametrize("way", [1.0, -1.0])
+def test_a_straight_profile_is_carried_exactly_over_uneven_nodes(way):
+    """What passes a face is what stands half of what passes behind it, upstream; every distance and mass differs."""
+    x = np.array([0.0, 1.0, 1.5, 2.7, 3.0, 4.4, 5.0, 5.2])
+    gap, mass = np.diff(x, prepend=np.nan), np.linspace(1.0, 2.4, 8)
+    reach, flux, sub = 0.4 * gap, way * np.linspace(0.5, 1.9, 8), 0.3
+    one, faces = np.uint64(1), range(2, 7)
+    wide = np.array([2], np.uint64), np.uint64(5), (one,)
+    nodes = convection.Nodes(wide, wide, np.uint64(0), np.ones(8, bool), gap[None], reach[None])
+    face = np.zeros(8)
+    convection._face_flux(nodes, 0, 3.0 + 2.0 * x, mass, flux, sub, True, face)
+    for f in faces:
+        courant = 2.0 * sub * abs(flux[f]) / (mass[f - 1] + mass[f])
+        start, distance = (x[f - 1], reach[f]) if way > 0.0 else (x[f], reach[f] - gap[f])
+        assert face[f] == pytest.approx(flux[f] * (3.0 + 2.0 * (start + distance * (1.0 - courant))), rel=1e-13)

@@ -30,7 +30,7 @@ def box_case(
         "grains": {"density_kg_m3": 2500.0, "diameter_mm": 0.5, "heat_capacity_J_kg_K": 800.0,
         "conductivity_W_m_K": 1.0},
         "boundaries": boundaries,
-        "coupling": {"ranks": ranks, "transport": transport},
+        "coupling": {"gas_ranks": ranks, "transport": transport},
     }  # fmt: skip
     return from_table(table | ({"vapour": vapour} if vapour else {}))
 

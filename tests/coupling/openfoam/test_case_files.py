@@ -138,7 +138,7 @@ def test_an_inlet_needs_a_velocity(tmp_path):
 
 
 def test_more_ranks_than_slabs_are_refused(tmp_path):
-    with pytest.raises(CaseError, match="coupling.ranks = 21; .* has 20 cells"):
+    with pytest.raises(CaseError, match="coupling.gas_ranks = 21; .* has 20 cells"):
         case_files.write_decomposition(box_case((0.1, 0.2), 0.01), tmp_path, 21)
 
 

@@ -8,7 +8,7 @@ from gas_boxes import TEMPLATE
 from test_restart import Reporter, load
 
 from sdph.running import driver
-from sdph.show import view
+from sdph.show import timeline, view
 
 pytestmark = pytest.mark.openfoam
 
@@ -31,13 +31,13 @@ def test_particles_and_gas_of_two_ranks_are_on_one_timeline(tmp_path, mesh, kind
     shutil.copytree(TEMPLATE, tmp_path / "gas")
     if mesh:
         (tmp_path / "gas" / "system" / "blockMeshDict").write_text(mesh)
-    case = load("disc_cluster", "openfoam", "coupling.ranks=2", "resolution.cell_mm=25")
+    case = load("disc_cluster", "openfoam", "coupling.gas_ranks=2", "resolution.cell_mm=25")
     driver.run(case, "disc_cluster", tmp_path / "run", tmp_path / "gas", Reporter())
     assert (tmp_path / "run" / "gas" / "processor1").is_dir()
-    reader = view.read(tmp_path / "run")
+    reader = timeline.read(tmp_path / "run")
     assert list(reader.time_values) == [0.0, 2e-4, 4e-4]
     for time in reader.time_values:
-        _, particles, gas = view.state_at(reader, time)
+        _, particles, gas = timeline.state_at(reader, time)
         assert type(gas).__name__ == kind and gas.n_cells == 400 and particles.n_points == 80
         volumes = np.abs(gas.compute_cell_sizes()["Area"])
         assert volumes.sum() == pytest.approx(area, rel=1e-6)

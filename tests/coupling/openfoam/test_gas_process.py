@@ -2,6 +2,7 @@
 nothing."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -17,7 +18,7 @@ from coupling.gas import CheckpointError, GasError, Unfinished
 from coupling.openfoam.programs import install
 from coupling.openfoam.programs.build import header_folder
 from coupling.openfoam.solver import OpenFoamGas
-from coupling.transport.messages import Message, decode, encode
+from coupling.transport.messages import Kind, Message, decode, encode
 from sdph.schema import CaseError
 
 pytestmark = pytest.mark.openfoam
@@ -99,6 +100,7 @@ def test_ranks_and_files_conserve_energy_too(tmp_path, ranks):
             state = gas.advance(1e-3, sources)
             given += 1e-3 * total(gas, sources["heat"] - sources["heat_coefficient"] * state.fields["temperature"])
     change = state.budget.energy - first.energy - (state.budget.energy_in - first.energy_in)
+    change -= state.budget.pressure_work - first.pressure_work
     assert abs(change - given) < 1e-9 * abs(given)
 
 
@@ -244,7 +246,8 @@ def solver_processes(gas):
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_one_sigterm_ends_a_run_whose_gas_hangs(tmp_path, ranks):
     """Within 10 s, with the exit code of the signal; nothing stays behind."""
-    quick = ["--set", "resolution.spacing_mm=20", "--set", "resolution.cell_mm=50", "--set", f"coupling.ranks={ranks}"]
+    settings = ("resolution.spacing_mm=20", "resolution.cell_mm=50", f"coupling.gas_ranks={ranks}")
+    quick = [word for setting in settings for word in ("--set", setting)]
     command = [
         sys.executable,
         "-m",
@@ -321,6 +324,16 @@ def test_an_impossible_source_is_named_with_its_cell(tmp_path, name, value, says
         sources[name][7] = value
         with pytest.raises(GasError, match=says):
             gas.advance(1e-3, sources)
+
+
+@pytest.mark.parametrize("dt, given", [(9e15, "9e+15"), (0.0, "0"), (-1e-3, "-0.001"), (np.nan, "nan")])
+def test_a_step_that_cannot_be_is_told_with_what_is_allowed(tmp_path, dt, given):
+    with (
+        box(tmp_path, (0.1, 0.06), 0.005) as gas,
+        pytest.raises(GasError, match=re.escape(f"dt is {given} s; it must be above 0 and below 1e+15 s: choose")),
+    ):
+        started(gas)._clock.writes = lambda time: False
+        gas.advance(dt, busy_sources(gas, 1))
 
 
 def test_a_source_of_the_wrong_shape_or_name_is_refused(tmp_path):
@@ -414,8 +427,6 @@ def wire_echo(tmp_path_factory):
 
 
 def test_both_languages_mean_the_same_format(wire_echo):
-    from coupling.transport.messages import Kind
-
     message = Message(
         Kind.STATE,
         {
@@ -439,6 +450,12 @@ def test_both_languages_mean_the_same_format(wire_echo):
         assert done.returncode in (0, 3)
         if done.returncode == 0:
             assert done.stdout[6:8] != data[6:8]  # only the kind lies outside the checksum
+
+
+def test_the_last_word_of_a_header_is_named_by_cpp_too(wire_echo):
+    data = encode(Message(Kind.DONE))
+    done = wire_echo(data[:20] + b"\x07\0\0\0" + data[24:])
+    assert done.returncode == 3 and b"the last word of its header is 7; one of sdph has 0" in done.stderr
 
 
 def test_nothing_is_built_twice():

@@ -11,7 +11,7 @@ from gas_boxes import box_case, template
 
 from coupling.openfoam.solver import OpenFoamGas
 from sdph.cli import main
-from sdph.show import view
+from sdph.show import timeline
 
 pytestmark = pytest.mark.openfoam
 
@@ -40,7 +40,7 @@ def test_uniform_flow_stays_uniform(tmp_path, put_mesh):
     own = template(tmp_path)
     patches, volume = put_mesh(own)
     put_velocity(own, {name: fixed(VELOCITY) for name in patches}, VELOCITY)
-    boundaries = {name: {"kind": "wall", "velocity_m_s": list(VELOCITY)} for name in patches}
+    boundaries = {name: {"kind": "velocity_inlet", "velocity_m_s": list(VELOCITY)} for name in patches}
     gas = OpenFoamGas(box_case((0.2, 0.2, 0.4), 0.02, boundaries=boundaries), tmp_path / "gas", own)
     try:
         gas.start(None, ())
@@ -93,7 +93,7 @@ def test_bed_in_a_round_vessel(tmp_path, capsys):
     drifts = {key: value for key, value in summary.items() if "drift" in key or "mismatch" in key}
     assert len(drifts) >= 5 and max(drifts.values()) < 1e-8, drifts
     assert summary["heat_exchanged_J"] > 1.0
-    _, _, gas = view.state_at(view.read(out), 0.01)
+    _, _, gas = timeline.state_at(timeline.read(out), 0.01)
     assert 0.3 < np.linalg.norm(gas.cell_data["velocity"], axis=1).max() < 3.0  # comes in with 0.3 m/s, round the bed
     mass = 0.6 * 3060.0 * 0.08 * 0.08 * 0.06
     weight = mass * (1.0 - 1.225 / 3060.0) * 9.81 / (np.pi * 0.1**2)

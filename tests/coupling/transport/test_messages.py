@@ -1,6 +1,7 @@
 """The wire format: what goes in comes out bit for bit, and nothing that is not a message gets through."""
 
 import contextlib
+import os
 import struct
 import zlib
 
@@ -10,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
+from coupling.gas import FIELDS, ON_REQUEST, SOURCES
 from coupling.transport.messages import (
     ABSOLUTE_LIMIT,
     HEADER,
@@ -90,12 +92,12 @@ def header(magic=MAGIC, version=VERSION, kind=Kind.DONE, length=4, crc=None, zer
 
 
 @pytest.mark.parametrize("wrong, says", [
-    ({"magic": b"HTTP"}, "not a message"),
+    ({"magic": b"HTTP"}, "begins with b'HTTP'; one of sdph with b'SDPH'"),
     ({"version": VERSION + 1}, f"protocol version {VERSION + 1}"),
     ({"kind": 77}, "unknown kind"),
     ({"length": 2**40}, "at most"),
     ({"crc": 1}, "checksum"),
-    ({"zero": 1}, "not a message"),
+    ({"zero": 7}, "the last word of its header is 7; one of sdph has 0: run"),
 ])  # fmt: skip
 def test_a_wrong_header_is_named(wrong, says):
     assert decode(header()).kind is Kind.DONE
@@ -136,6 +138,23 @@ def test_unknown_types_double_names_and_bad_text_are_refused():
         decode(body_of(first, second))
 
 
+@pytest.mark.parametrize("kind", [Kind.ERROR, Kind.UNFINISHED])
+def test_what_is_told_to_people_is_read_whatever_its_bytes_are(kind):
+    """It may quote a file, or a path."""
+    field = b"\x04text\x00" + struct.pack("<BBI", 2, 1, 6)
+    body = struct.pack("<I", 1) + field + bytes(-(4 + len(field)) % 8) + b"no \xff\xc3\n"
+    data = HEADER.pack(MAGIC, VERSION, kind, len(body), zlib.crc32(body), 0) + body
+    assert decode(data).text("text") == "no \\xff\\xc3\n"
+
+
+def test_a_text_that_is_not_utf_8_is_not_sent():
+    path = os.fsdecode(b"/tmp/\xff\n" + b"x" * 200)
+    for message in (Message(Kind.CHECKPOINT, {"folder": path}), Message(Kind.STATE, {path: 1.0})):
+        with pytest.raises(MessageError, match="cannot be sent: it is no text in UTF-8; give another") as told:
+            encode(message)
+        assert str(told.value).isprintable() and len(str(told.value)) < 200
+
+
 def test_what_cannot_be_sent_is_named():
     with pytest.raises(MessageError, match="'T' is of type complex128"):
         encode(Message(Kind.STATE, {"T": np.zeros(2, complex)}))
@@ -151,6 +170,16 @@ def test_limits_grow_with_the_mesh():
     cells = 1000
     everything = {name: np.zeros((cells, 3)) for name in "abcd"}
     assert len(encode(Message(Kind.ADVANCE, everything), message_limit(cells))) > 8 * 12 * cells
+
+
+def test_the_limit_grows_by_what_the_largest_message_does():
+    """All fields, or all sources, of a cell, and its centre and volume."""
+
+    def size(table, cells):
+        return len(encode(Message(Kind.STATE, {name: np.zeros((cells, row[1])) for name, row in table.items()})))
+
+    largest = max(size(table, 2000) - size(table, 1000) for table in (SOURCES, FIELDS | ON_REQUEST))
+    assert message_limit(2000) - message_limit(1000) == largest + 8 * 4 * 1000
 
 
 def test_fields_are_asked_for_with_their_form():

@@ -28,7 +28,9 @@ def call(address: str) -> SocketConnection:
     """What the gas solver does first."""
     if address.startswith("unix:"):
         s = socket.socket(socket.AF_UNIX)
+        s.settimeout(5.0)  # also where nobody takes who waits at the door
         s.connect(address.removeprefix("unix:"))
+        s.settimeout(None)
     else:
         _, host, port = address.split(":")
         s = socket.create_connection((host, int(port)))

@@ -107,3 +107,26 @@ def test_a_table_that_ends_before_the_run_is_refused(tmp_path):
     with pytest.raises(CaseError, match="ends at 3 s"):
         motion(tmp_path, table(*ROWS), until=3.5, start=2.0, end=3.2)
     assert np.any(motion(tmp_path, table(*ROWS), until=3.0, start=2.0)(3.0))
+
+
+def test_forces_of_a_frame_by_cross_products():
+    """-a - domega/dt x r - omega x (omega x r) - 2 omega x v, of numbers that are all different."""
+    own = np.random.default_rng(3)
+    for _ in range(5):
+        a, omega, rate, r, v = own.normal(size=(5, 3))
+        expected = -a - np.cross(rate, r) - np.cross(omega, np.cross(omega, r)) - 2.0 * np.cross(omega, v)
+        p = frame.FrameP(**dict(zip(("ax", "ay", "az", "wx", "wy", "wz", "bx", "by", "bz"), (*a, *omega, *rate))))
+        np.testing.assert_allclose(frame.acceleration(p, *r, *v), expected, rtol=1e-12)
+    assert frame.acceleration((), *r, *v) == (0.0, 0.0, 0.0)
+
+
+def test_a_harmonic_motion_is_the_derivative_of_itself():
+    """Amplitude, frequency and phase of each axis: the place's second derivative, and the rate of the turning."""
+    shake, turn = ((0, 0.02, 5.0, 0.3), (2, 0.01, 3.0, 1.0)), ((1, 0.4, 2.0, 0.7),)
+    move = frame.motion(frame.Frame(shake=shake, turn=turn, spin=(0.0, 0.0, 0.5), start=1.0), 9.0)
+    acceleration, omega, rate = move(2.5)
+    expected = [-0.02 * 25.0 * np.sin(7.5 + 0.3), 0.0, -0.01 * 9.0 * np.sin(4.5 + 1.0)]
+    np.testing.assert_allclose(acceleration, expected, rtol=1e-12)
+    np.testing.assert_allclose(omega, [0.0, 0.4 * np.sin(3.7), 0.5], rtol=1e-12)
+    np.testing.assert_allclose(rate, [0.0, 0.8 * np.cos(3.7), 0.0], rtol=1e-12)
+    assert not any(np.any(part) for part in move(0.9))

@@ -100,8 +100,8 @@ def test_no_seam_at_the_mouth(tmp_path, nozzle, dimensions):
     done = simulation(case(nozzle, dimensions), tmp_path, cells=(4,) * dimensions)
     while done.time < 0.15:
         done.window()
-    streams = done.source.streams[0]
-    along, aside = done.source._beyond(0, particles.positions(done.state))
+    streams = done.grains.source.streams[0]
+    along, aside = done.grains.source._beyond(0, particles.positions(done.state))
     heart = (np.abs(along) < 0.06) & (aside < streams.pitch * 1.5)
     assert heart.sum() > 8 and (along[heart] > 0.0).any() and (along[heart] < 0.0).any()
     np.testing.assert_allclose(done.state.density[heart], streams.alpha_p * 700.0, rtol=0.02)
@@ -153,9 +153,9 @@ def test_what_leaves_is_counted_and_taken_out(tmp_path):
     summary = done.ledger.summary()
     assert summary["left_kg"] > 0.2 * summary["injected_kg"]
     assert summary["particle_mass_drift_rel"] <= 1e-12
-    inside = particles.positions(done.grains)
+    inside = particles.positions(done.grains.inside)
     assert (inside[:, 0] <= 1.0).all()
-    assert math.fsum(done.grains.mass) == pytest.approx(summary["injected_kg"] - summary["left_kg"], rel=1e-12)
+    assert math.fsum(done.grains.inside.mass) == pytest.approx(summary["injected_kg"] - summary["left_kg"], rel=1e-12)
 
 
 @pytest.mark.parametrize(("change", "words"), [

@@ -27,11 +27,11 @@ def until(done, time):
 def test_a_stream_comes_through_a_wall_as_it_comes_through_none(tmp_path, nozzles, dimensions):
     """Mass as rate times time, and no seam in the density: not as if the wall stood in the mouth too."""
     done = until(begun(case(nozzles, dimensions, effects=EFFECTS, boundaries=CLOSED), tmp_path), 0.04)
-    layer = sum(s.mass * len(s.speed) for s in done.source.streams)
-    came = sum(s.mass * (s.speed / s.pitch).sum() for s in done.source.streams) * done.time
-    assert abs(done.source.mass - came) <= 0.5 * layer * (1.0 + 1e-9)
-    state, streams = done.state, done.source.streams[0]
-    along, aside = done.source._beyond(0, particles.positions(state))
+    layer = sum(s.mass * len(s.speed) for s in done.grains.source.streams)
+    came = sum(s.mass * (s.speed / s.pitch).sum() for s in done.grains.source.streams) * done.time
+    assert abs(done.grains.source.mass - came) <= 0.5 * layer * (1.0 + 1e-9)
+    state, streams = done.state, done.grains.source.streams[0]
+    along, aside = done.grains.source._beyond(0, particles.positions(state))
     heart = (state.nozzle == 1) & (np.abs(along) < 1.2 * streams.pitch) & (aside < 1.2 * streams.pitch)
     assert (along[heart] > 0.0).any() and (along[heart] < 0.0).any()
     np.testing.assert_allclose(state.density[heart], ALPHA * 700.0, rtol=0.1)
@@ -55,6 +55,6 @@ def test_a_mouth_that_gives_nothing_holds_grains_like_a_wall(tmp_path):
     done = until(begun(chosen, tmp_path), 0.15)
     assert (done.state.kind == GRAIN).all() and done.state.y.min() > 0.0
     until(done, 0.3)
-    assert done.source.mass > 0.0 and not (done.state.kind == INFLOW).any()
+    assert done.grains.source.mass > 0.0 and not (done.state.kind == INFLOW).any()
     assert done.state.y.min() > 0.0
-    assert math.fsum(done.state.mass) == pytest.approx(ALPHA * 700.0 * 0.4 * 0.04 + done.source.mass, rel=1e-12)
+    assert math.fsum(done.state.mass) == pytest.approx(ALPHA * 700.0 * 0.4 * 0.04 + done.grains.source.mass, rel=1e-12)

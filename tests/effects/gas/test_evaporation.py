@@ -174,15 +174,26 @@ def test_rate_is_ranz_and_marshall_in_a_stream():
     nothing, apart = np.zeros((0, 3)), np.zeros((1, 3))
     off = (OFF, heat.kernel(case), OFF, OFF, OFF)
     exchange.rates(*off, state, 700.0, apart, *around, OFF, conductance, damping, nothing)
-    loss, rate, *others = (np.empty(1) for _ in range(5))
+    loss, rate, *others = (np.empty(1) for _ in range(6))
     droplet_loss.losses(p, OFF, state, *around, dry, 1e-6, conductance, loss, *others)
     droplet_loss.rates(p, OFF, state, *around, dry, rate)
     reynolds = 1.225 * 3.0 * 1e-3 / case.gas.viscosity
     sherwood = law.sherwood_ranz_marshall(reynolds, law.schmidt_number(1.225, case.gas.viscosity, 3.79e-6))
     surface = law.vapour_concentration(law.saturation_clausius_clapeyron(330.0, CLAPEYRON), 330.0)
-    flux = law.mass_flux_linear(law.mass_transfer_coefficient(sherwood, 3.79e-6, 1e-3), surface, 0.0, 142.284)
-    expected = -law.relative_mass_rate(flux, 1e-3, 700.0) * 1e-9 * 1e-6
+    flux = sherwood * 3.79e-6 / 1e-3 * 142.284 * surface  # kg/(m2 s)
+    expected = 6.0 * flux / (700.0 * 1e-3) * 1e-9 * 1e-6
     assert loss[0] == pytest.approx(expected, rel=1e-4) and 1e-6 * rate[0] == pytest.approx(expected, rel=1e-4)
+
+
+def test_spaldings_force_is_what_drives_a_droplet():
+    """rho_g ln((1 - Y)/(1 - Y_s)), the mole fractions being p_sat/p and C R T/p, worked out here once more."""
+    case = droplet("evaporation.law='spalding'")
+    p = evaporation.kernel(case)
+    surface = law.saturation_clausius_clapeyron(330.0, CLAPEYRON) / 101325.0
+    around = 2e-4 * 8314.46261815324 * 350.0 / 101325.0
+    y_s, y = (x * 142.284 / (x * 142.284 + (1.0 - x) * case.gas.molar_mass) for x in (surface, around))
+    found = evaporation.driving_force(p, 330.0, 2e-4, 350.0, 1.1)
+    assert found == pytest.approx(1.1 * math.log((1.0 - y) / (1.0 - y_s)), rel=1e-10)
 
 
 def test_wet_bulb_in_a_stream_of_windows(tmp_path):

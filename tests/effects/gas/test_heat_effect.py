@@ -5,12 +5,12 @@ import pytest
 from builders import disc
 from hypothesis import given
 from hypothesis import strategies as st
+from lognormal import mass_moment
 
 from sdph import effects
 from sdph.effects import OFF
 from sdph.effects.gas import heat, sizes
 from sdph.engine import state as particles
-from sdph.laws import grain_sizes
 from sdph.laws import heat as law
 
 PRANDTL = law.prandtl_number(1.7895e-5, 1006.43, 0.0242)
@@ -50,7 +50,7 @@ def test_grains_of_all_sizes_exchange_by_their_surface_and_film(std):
     state = one_grain(variance=(std * 1e-3) ** 2)
     found = heat.conductance(heat.kernel(spread), sizes.kernel(spread), state, 0, 0.5, 0.0, 1.2)
     single = heat.conductance(heat.kernel(alike), OFF, state, 0, 0.5, 0.0, 1.2)
-    assert found / single == pytest.approx(grain_sizes.mass_moment(-2.0, 285e-6, std * 1e-3) * 285e-6**2, rel=2e-3)
+    assert found / single == pytest.approx(mass_moment(-2.0, 285e-6, std * 1e-3) * 285e-6**2, rel=2e-3)
 
 
 def test_registry_rows_are_whole():

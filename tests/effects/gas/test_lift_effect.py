@@ -6,13 +6,13 @@ import math
 import numpy as np
 import pytest
 from grain_boxes import DENSITY, DIAMETER, VISCOSITY, Row, box, go, started, windows
+from lognormal import mass_moment
 
 from coupling.embedded import EmbeddedGas
 from sdph.effects import OFF
 from sdph.effects.gas import lift, sizes
 from sdph.engine import state as particles
 from sdph.engine.ledger import Ledger
-from sdph.laws import grain_sizes
 from sdph.laws import lift as law
 from sdph.running.simulation import Simulation
 
@@ -76,7 +76,7 @@ def test_grains_of_all_sizes_are_lifted_by_mass():
     spread = box(["lift"], lift={"law": "saffman"}, grains={"diameter_std_mm": std * 1e3})
     around = np.array([[0.1, 0.0, 0.0]]), 0.1, np.array([[0.0, 0.0, 50.0]]), 1.2
     found, single = (lift.force(lift.kernel(spread), p, state, 0, *around)[1] for p in (sizes.kernel(spread), OFF))
-    assert found / single == pytest.approx(grain_sizes.mass_moment(-1.0, DIAMETER, std) * DIAMETER, rel=1e-3)
+    assert found / single == pytest.approx(mass_moment(-1.0, DIAMETER, std) * DIAMETER, rel=1e-3)
 
 
 @pytest.mark.parametrize("effects", [("lift",), ("drag", "lift")])

@@ -8,13 +8,14 @@ import numpy as np
 import pytest
 from builders import FULL_BOX, disc, fixed_windows, run, simulation
 from grain_boxes import DIAMETER
+from lognormal import mass_moment
 
 from sdph import effects
 from sdph.case import read as cases
 from sdph.effects import OFF
 from sdph.effects.gas import radiation, sizes
 from sdph.engine import state as particles
-from sdph.laws import grain_sizes, heat
+from sdph.laws import heat
 from sdph.laws import radiation as law
 from sdph.laws.constants import STEFAN_BOLTZMANN
 from sdph.schema import CaseError
@@ -84,7 +85,7 @@ def test_grains_of_all_sizes_radiate_by_their_surface():
     state = particles.empty(1, ("temperature", "diameter", "diameter_variance"))
     state.mass[:], state.diameter[:], state.diameter_variance[:] = 2.0, DIAMETER, std**2
     found = radiation.surface(sizes.kernel(case), state, 0)
-    assert found == pytest.approx(6.0 * grain_sizes.mass_moment(-1.0, DIAMETER, std), rel=1e-3)
+    assert found == pytest.approx(6.0 * mass_moment(-1.0, DIAMETER, std), rel=1e-3)
     assert radiation.surface(OFF, state, 0) == pytest.approx(6.0 / DIAMETER, rel=1e-15)
 
 

@@ -1,5 +1,6 @@
 """Liquids that thin: flow between plates against the exact profile, shear rates, momentum, limits, nothing when off."""
 
+import exact_solutions as solutions
 import numpy as np
 import pytest
 
@@ -7,6 +8,7 @@ from sdph import effects, scenes
 from sdph.case import judge
 from sdph.case import read as cases
 from sdph.effects.liquids import laminar_viscosity, shear_thinning
+from sdph.engine import kernels
 from sdph.engine.state import LIQUID, positions
 from sdph.laws import thinning as law
 from sdph.methods.liquids.history import _told
@@ -48,8 +50,8 @@ def test_flow_of_a_power_law_between_plates(index, viscosity, most, end):
     """The exact profile within 1 % of its largest velocity, everywhere."""
     own = gone(channel(viscosity, index=index, most_viscosity_Pa_s=most), end)
     wet = own.state.kind == LIQUID
-    u = law.between_plates(own.state.y[wet], 1.0, 0.8, viscosity, index)
-    assert law.between_plates([0.5], 1.0, 0.8, viscosity, index)[0] == pytest.approx(1.0, rel=1e-12)
+    u = solutions.between_plates(own.state.y[wet], 1.0, 0.8, viscosity, index)
+    assert solutions.between_plates([0.5], 1.0, 0.8, viscosity, index)[0] == pytest.approx(1.0, rel=1e-12)
     error = own.state.u[wet] - u
     mean = np.sqrt(np.mean(error**2))
     print(f"power law, n = {index}: L2 {mean:.2e}, largest {np.abs(error).max():.2e}, steps {own.steps}")
@@ -83,6 +85,25 @@ def test_each_particle_has_the_viscosity_of_its_own_shear_rate(model):
     inside = (own.state.kind == LIQUID) & (np.abs(r[:, 0] - 0.25) < 0.15) & (np.abs(r[:, 1] - 0.5) < 0.4)
     np.testing.assert_allclose(own.state.viscosity[inside], expected, rtol=1e-10)
     assert p.least < expected < p.most
+
+
+def test_images_of_walls_mirror_the_middle_of_what_is_in_front():
+    """2 depth n - m of every wall particle: m the mean way to the liquid that it sees, n its direction."""
+    own = stirred(channel(index=0.5))
+    image = np.zeros((len(own.state.x), 3))
+    shear_thinning.images(own.kernel, own.state, own.rows, own.neighbours.box, own.walls, own.volume, image)
+    places, length = positions(own.state)[:, :2], own.case.domain.size[0]
+    wet, seen = np.flatnonzero(own.volume > 0.0), 0
+    for i in own.walls:
+        way = places[wet] - places[i]
+        way[:, 0] -= length * np.rint(way[:, 0] / length)
+        value = np.array([kernels.value(own.kernel, float(np.hypot(*each))) for each in way])
+        if value.sum() > 0.0:
+            mean = value @ way / value.sum()
+            expected = 2.0 * own.state.depth[i] * mean / np.hypot(*mean) - mean
+            np.testing.assert_allclose(image[i, :2], expected, rtol=1e-9, atol=1e-12)
+            seen += abs(mean[0]) > 1e-6
+    assert seen > 10  # the liquid is off the lattice: the mean is not straight ahead
 
 
 def test_a_linear_flow_along_a_wall_is_sheared_alike_up_to_the_wall():

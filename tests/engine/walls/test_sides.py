@@ -24,8 +24,8 @@ def test_no_pair_and_no_dummy_reaches_through_a_plate(tmp_path):
             stepper.rows.entries[place(stepper.rows, i, len(near)) : place(stepper.rows, i, length(stepper.rows, i))]
             == i
         )
-        seen = of(stepper.wall_rows, i)
+        seen = of(stepper.wall, i)
         facing = dummies.normal_x[seen[stepper.boundary.of_mesh[seen]]]
         assert np.all(facing == (-1.0 if own else 1.0))
     beside = np.flatnonzero(np.abs(stepper.state.x - 0.25) < 0.03)
-    assert len(beside) and all(stepper.boundary.of_mesh[of(stepper.wall_rows, i)].any() for i in beside)
+    assert len(beside) and all(stepper.boundary.of_mesh[of(stepper.wall, i)].any() for i in beside)

@@ -50,22 +50,11 @@ def test_strain_of_a_uniform_flow_in_space(tmp_path):
     velocity = particles.positions(state) @ gradient.T
     for own, column in zip((state.u, state.v, state.w), velocity.T):
         own[:] = column
-    sheared = shearing.empty(len(state.x), contacts=False)
+    sheared = stepper.scratch
     shearing.shear(
-        stepper.kernel,
-        state,
-        stepper.rows,
-        stepper.neighbours.box,
-        stepper.pull,
-        stepper.stress,
-        OFF,
-        OFF,
-        OFF,
-        OFF,
-        1e-4,
-        *[np.empty(0)] * 5,
-        *sheared,
-    )
+        stepper.kernel, state, stepper.rows, stepper.neighbours.box, sheared, OFF, OFF, OFF, 1e-4, np.empty((5, 0)),
+        *sheared.shearing,
+    )  # fmt: skip
     shear, divergence = sheared.shear_squared, sheared.divergence
     inside = (np.abs(particles.positions(state) - 0.03) < 0.011).all(axis=1)
     D = 0.5 * (gradient + gradient.T)

@@ -2,6 +2,7 @@
 
 import math
 
+import exact_solutions as solutions
 import numpy as np
 import pytest
 from builders import OPEN, cloud, conduction_heating, disc, summed_density
@@ -14,9 +15,8 @@ from sdph.effects.grains import conduction
 from sdph.engine import state as particles
 from sdph.engine.geometry import box_of
 from sdph.engine.rows import Neighbours, entry
-from sdph.laws import exact, kernels
+from sdph.laws import kernels
 from sdph.laws.constants import SOFTENING
-from sdph.laws.exchange import cleary_monaghan
 from sdph.methods.grains import equations as rates
 from sdph.methods.grains.method import ACOUSTIC
 
@@ -129,7 +129,7 @@ def test_cosine_decays_by_conduction(mode, bias):
     temperature = 300.0 + np.cos(k * points[:, 0])
     state = cloud(points, mass=0.6 * 3060.0 * dx**2, temperature=temperature, density=0.6 * 3060.0)
     parameters, kernel = conduction.kernel(case), rates.kernel_of(case)
-    diffusivity = exact.thermal_diffusivity(500.0, 3060.0, 2470.0)
+    diffusivity = solutions.thermal_diffusivity(500.0, 3060.0, 2470.0)
     dt = 1e-3 / (diffusivity * k**2)
     for _ in range(1000):
         state, heating = conduction_heating(kernel, state, parameters, (length, 8 * dx, 0.0))
@@ -138,7 +138,7 @@ def test_cosine_decays_by_conduction(mode, bias):
     rate = -math.log(amplitude) / (1000 * dt)
     explicit = -math.log1p(-1e-3 * lattice_rate(kernel, dx, k)) / 1e-3
     assert rate == pytest.approx(explicit * diffusivity * k**2, rel=1e-9)
-    assert amplitude == pytest.approx(exact.cosine_decay(1000 * dt, k, diffusivity), rel=bias)
+    assert amplitude == pytest.approx(solutions.cosine_decay(1000 * dt, k, diffusivity), rel=bias)
 
 
 def lattice_rate(kernel, dx, k):
@@ -164,7 +164,8 @@ def by_hand(h, sigma, s, rows, box, conductivity, grain_density, on, heating):
                 r2 = dx * dx + dy * dy + 0.0
                 gradient = kernels.cubic_spline_gradient(np.sqrt(r2), h, sigma)
                 k_i, k_j = s.density[i] / grain_density * conductivity, s.density[j] / grain_density * conductivity
-                c = cleary_monaghan(s.mass[j], s.density[i], s.density[j], k_i, k_j, r2, gradient, SOFTENING * h**2)
+                c = 4.0 * s.mass[j] / (s.density[i] * s.density[j]) * k_i * k_j / (k_i + k_j)
+                c *= gradient * r2 / (r2 + SOFTENING * h**2)
                 heat += c * (s.temperature[i] - s.temperature[j])
         heating[i] = heat
 
@@ -176,7 +177,7 @@ def test_effect_set_is_the_loop_written_by_hand(on):
     box, kernel = box_of(PERIOD[2], 2), rates.Kernel(H, SIGMA[2])
     ours, theirs = np.full(400, np.nan), np.full(400, np.nan)
     pull = np.empty(len(rows.entries))
-    rates.sum_density(kernel, state, rows, box, OFF, OFF, OFF, np.empty(400), pull)
+    rates.sum_density(kernel, state, rows, box, OFF, OFF, np.empty(400), pull)
     rates.conduct(kernel, state, rows, box, pull, GRAINS if on else OFF, ours)
     by_hand(H, SIGMA[2], state, rows, box, *GRAINS, on, theirs)
     np.testing.assert_allclose(ours, theirs, rtol=1e-13, atol=1e-14 * np.abs(theirs).max())

@@ -10,7 +10,7 @@ from sdph import scenes
 from sdph.case import read as cases
 from sdph.cli import arguments
 from sdph.schema import CaseError
-from sdph.study.cost import choice, climb, ladder, report, rows
+from sdph.study.cost import choice, climb, converged, errors, ladder, report, rows
 
 SMALL = ladder.Ladder(
     reference="none",
@@ -22,26 +22,8 @@ SMALL = ladder.Ladder(
 
 
 def row(label="all 1/1", wall=1.0, value=0.0, reference=None, without=ladder.ALL, solver=rows.OWN, **settings):
-    made = {"label": label, "solver": solver, "wall_s": wall, "without": without, "load": 0.0}
+    made = {"label": label, "solver": solver, "wall_s": wall, "without": without, "load": 0.0, "measured": "2026-11-22"}
     return made | {"metrics": json.dumps({"a": (value, reference, 2.0)})} | settings
-
-
-def test_error_is_of_the_scale_against_the_reference():
-    assert [r["error"] for r in rows.errors([row(value=1.3, reference=1.0)])] == [pytest.approx(0.15)]
-
-
-def test_richardson_finds_the_limit_of_a_sequence_of_any_order():
-    """a + b q^n: three levels give a."""
-    levels = [row(f"all {n + 1}/3", value=5.0 + 3.0 * 0.37**n) for n in range(3)]
-    assert rows.richardson([rows.found(r) for r in levels])["a"] == pytest.approx((5.0, 3.0 * 0.37**2))
-    assert rows.errors(levels)[0]["error"] == pytest.approx(1.5)
-
-
-def test_a_sequence_without_order_is_taken_at_its_finest():
-    levels = [row(f"all {n + 1}/3", value=v) for n, v in enumerate((1.0, 3.0, 2.0))]
-    assert rows.richardson([rows.found(r) for r in levels])["a"] == (2.0, 1.0)
-    # none is told to be better than what is known of the limit
-    assert [r["error"] for r in rows.errors(levels)] == [0.5, 0.5, 0.5]
 
 
 def test_observed_order_of_second_order_rows():
@@ -53,12 +35,12 @@ def test_observed_order_of_second_order_rows():
 @pytest.mark.parametrize("p", [0.5, 1.0, 2.3])
 def test_observed_order_of_steps_in_no_one_ratio(p):
     """Changes of c x^p between 5, 3 and 1."""
-    assert rows.order(5.0, 3.0, 1.0, 5.0**p - 3.0**p, 3.0**p - 1.0) == pytest.approx(p)
+    assert converged.order(5.0, 3.0, 1.0, 5.0**p - 3.0**p, 3.0**p - 1.0) == pytest.approx(p)
 
 
 def test_cheapest_holds_the_error_with_all_effects():
-    made = [row(wall=9.0) | {"error": 0.001}, row(wall=3.0) | {"error": 0.015}, row(wall=0.5) | {"error": 0.3}]
-    made += [row(wall=1.0, without="drag") | {"error": 0.0}, row(wall=0.1, solver="twoPhaseEulerFoam") | {"error": 0.0}]
+    made = [row(wall=9.0) | {"bound": 0.001}, row(wall=3.0) | {"bound": 0.015}, row(wall=0.5) | {"bound": 0.3}]
+    made += [row(wall=1.0, without="drag") | {"bound": 0.0}, row(wall=0.1, solver="twoPhaseEulerFoam") | {"bound": 0.0}]
     assert rows.cheapest(made, 0.02)["wall_s"] == 3.0
     assert rows.cheapest(made, 0.01)["wall_s"] == 9.0
     assert rows.cheapest(made, 1e-4) is None
@@ -66,12 +48,11 @@ def test_cheapest_holds_the_error_with_all_effects():
 
 
 def test_each_solver_has_its_own_limit():
-    made = [
-        row(f"all {n + 1}/3", value=limit + 0.5**n, solver=who)
-        for who, limit in ((rows.OWN, 5.0), ("other", 7.0))
-        for n in range(3)
-    ]
-    assert [r["error"] for r in rows.errors(made)] == pytest.approx([0.5, 0.25, 0.125] * 2)
+    """Another solver's levels halve their step each, ours have that of the first knob."""
+    own = ladder.Ladder(reference="", knobs={"x": [9.0, 3.0, 1.0]})
+    made = [row(f"all {n + 1}/3", value=5.0 + 0.1 * x, x=x) for n, x in enumerate((9.0, 3.0, 1.0))]
+    made += [row(f"all {n + 1}/3", value=7.0 + 0.5**n, solver="other") for n in range(3)]
+    assert [r["error"] for r in errors.judged(own, made)] == pytest.approx([0.45, 0.15, 0.05, 0.5, 0.25, 0.125])
 
 
 def test_rungs_are_levels_single_knobs_and_effects_off():
@@ -99,27 +80,37 @@ def test_ladder_is_measured_within_its_budget_and_resumed(tmp_path, monkeypatch)
     again = climb.climb("disc_cluster", file, 1e9, 1, said.append)
     assert file.read_bytes() == before
     assert all("measured before" in line for line in said) and len(said) == 4
-    assert "all 2/2" in report.text("disc_cluster", rows.errors(again))
-    report.draw("disc_cluster", rows.errors(again), tmp_path / "cost.png")
+    assert "all 2/2" in report.text("disc_cluster", errors.judged(SMALL, again))
+    report.draw("disc_cluster", errors.judged(SMALL, again), tmp_path / "cost.png")
     assert (tmp_path / "cost.png").stat().st_size > 10_000
+
+
+def test_a_run_that_is_refused_without_an_effect_has_no_metrics(monkeypatch):
+    """As where grains leave through a side that was a wall; refused with all effects it is no rung."""
+
+    def refuse(case, scene, folder):
+        raise CaseError("2 particles have left the domain")
+
+    monkeypatch.setattr(climb, "_run", refuse)
+    made = climb.measure("disc_cluster", SMALL, SMALL.middle | {"without": "conduction"}, 1)
+    assert made["metrics"] == "{}" and made["wall_s"] != made["wall_s"]
+    with pytest.raises(CaseError, match="have left"):
+        climb.measure("disc_cluster", SMALL, SMALL.middle, 1)
 
 
 def test_accuracy_takes_what_was_measured_and_says_so(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(choice, "declared", lambda scene: SMALL)
-    coarse, fine = (
-        {"resolution.spacing_mm": 20.0, "resolution.cell_mm": 50.0},
-        {"resolution.spacing_mm": 10.0, "resolution.cell_mm": 25.0},
-    )
-    for settings, wall, value in ((coarse, 1.0, 1.2), (fine, 4.0, 1.02)):
+    for wall, (spacing, cell), value in ((1.0, (20.0, 50.0), 1.2), (4.0, (10.0, 25.0), 1.02)):
+        settings = {"resolution.spacing_mm": spacing, "resolution.cell_mm": cell}
         climb._keep(tmp_path / "runs/cost/some/cost.csv", row("x", wall, value, 1.0, **settings))
     said = []
-    assert not any("end_time" in setting for setting in choice.settings_for("some", 0.1, said.append))
-    assert "resolution.spacing_mm=20.0" in choice.settings_for("some", 0.1, said.append)
-    assert "resolution.spacing_mm=10.0" in choice.settings_for("some", 0.05, said.append)
-    assert "error 0.01 against none" in said[-1] and "4 s" in said[-1]
-    with pytest.raises(CaseError, match="the best: 0.01"):
-        choice.settings_for("some", 1e-3, said.append)
+    assert not any("end_time" in setting for setting in choice.settings_for("some", 0.4, said.append))
+    assert "resolution.spacing_mm=20.0" in choice.settings_for("some", 0.4, said.append)  # 0.09 and three times that
+    assert "resolution.spacing_mm=10.0" in choice.settings_for("some", 0.3, said.append)
+    assert "within 0.27 of its limit" in said[-1] and "4 s" in said[-1]
+    with pytest.raises(CaseError, match="in doubt by 0.27"):
+        choice.settings_for("some", 0.2, said.append)
     with pytest.raises(CaseError, match="sdph cost other"):
         choice.settings_for("other", 0.02, said.append)
 
@@ -144,6 +135,7 @@ def test_declared_ladders_name_keys_that_the_scene_has():
     for name in ladder.with_ladder():
         own = ladder.declared(name)
         assert len({len(values) for values in own.knobs.values()}) == 1
+        assert own.steps == sorted(set(own.steps), reverse=True)  # numbers, the step of the levels
         for _, settings in ladder.rungs(own):
             assert ladder.case_of(name, own, settings)
 

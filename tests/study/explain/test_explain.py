@@ -101,7 +101,7 @@ def test_expected_counts_are_those_of_the_case(tmp_path):
     assert own["gas cells"]["value"] == len(run.gas.mesh.volumes)
     while run.time < case.run.end_time:
         run.window()
-    assert own["windows"]["value"] == pytest.approx(run.windows, rel=0.6)
+    assert own["windows"]["value"] == pytest.approx(run.windows, rel=0.3)
 
 
 def test_explained_as_text_and_numbers():

@@ -1,0 +1,37 @@
+"""Shares of grains that a limiter holds, as effects tell them in `held` (sdph.effects.effect)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from sdph.engine.state import GRAIN
+from sdph.laws import granular
+
+
+def share(state, held) -> float:
+    """Mean of `held` (N,), true or false or a part of 1, over the particles in the gas; 0 where there are none."""
+    inside = state.kind == GRAIN
+    return float(held[inside].mean()) if inside.any() else 0.0
+
+
+def capped(p, state) -> dict[str, float]:
+    """Share of the particles that closures take for less packed than they are (sdph.laws.granular.capped_fraction)."""
+    most = granular.capped_fraction(1.0, p.packing)
+    return {"alpha_p_capped_share": share(state, state.density / p.grain_density > most)}
+
+
+def streaming(p, state, factor: float, name: str) -> dict[str, float]:
+    """Share of the particles whose free path `granular.streaming_share` limits, and the mean part of the kinetic
+    coefficient `name` that this takes away."""
+    taken = np.empty(len(state.x))
+    _taken(p, state.density / p.grain_density, state.diameter, factor, taken)
+    return {f"knudsen_{name}_share": share(state, taken > 0.0), f"knudsen_{name}_rel": share(state, taken)}
+
+
+@njit(cache=True, error_model="numpy")
+def _taken(p, alpha_p, diameter, factor, part):
+    for i in range(len(part)):
+        a = granular.capped_fraction(alpha_p[i], p.packing)
+        g0 = granular.sinclair_jackson(a, p.packing)
+        part[i] = 1.0 - granular.streaming_share(a, p.restitution, g0, diameter[i], factor, p.h)

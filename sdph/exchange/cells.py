@@ -1,0 +1,23 @@
+"""Cells of the gas as the exchange sees them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from coupling.transfer import deposit
+
+
+class Cells:
+    """Volumes (C,) [m3, or m2 per metre of depth] of the cells, and what particles are in them."""
+
+    def __init__(self, mesh, grain_density: float):
+        self.volumes, self.grain_density = mesh.volumes / mesh.depth, grain_density
+
+    def room(self, weights, mass) -> np.ndarray:
+        """Gas volume fraction of the cells with grains of `mass` (N,) [kg] in them."""
+        return 1.0 - deposit(weights, mass / self.grain_density) / self.volumes
+
+    def density(self, weights, amounts) -> np.ndarray:
+        """Extensive amounts (N,) or (N, m) of the particles per volume of the cells."""
+        deposited = deposit(weights, amounts)
+        return deposited / (self.volumes if deposited.ndim == 1 else self.volumes[:, None])

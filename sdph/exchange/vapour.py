@@ -1,0 +1,107 @@
+"""Evaporation in the exchange of a window: the vapour around the particles, what they lose, what the gas gets of it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from coupling.transfer import deposit, gather
+from sdph.effects.limiter import share
+from sdph.engine import state as particles
+from sdph.engine.state import GRAIN
+from sdph.exchange import droplets as droplet_loss
+from sdph.exchange.amounts import Handed, Loss, Taken
+from sdph.exchange.equations import vapour_concentration
+
+
+class Vapour:
+    """Evaporation of a case with parameters `p`, the EvaporationP of sdph.effects.gas.evaporation."""
+
+    def __init__(self, case, p, sizes_p, cells):
+        self.case, self.p, self.sizes_p, self.cells = case, p, sizes_p, cells
+
+    def evaporate(self, state, weights, gas_state, seen, conductance, dt) -> Loss:
+        """Evaporation in a window; the heat conductance (N,) [W/K] becomes the mean over it.
+
+        The vapour in each cell is taken as it would be at the window's end if no flow carried it: fast exchange
+        saturates a cell and does not overshoot.
+        """
+        p, count = self.p, len(state.x)
+        flow, surface = np.empty(count), np.empty(count)
+        around = seen.slip, seen.density, seen.temperature
+        droplet_loss.survey(p, self.sizes_p, state, *around, dt, conductance, flow, surface)
+        concentration = gather(weights, vapour_concentration(p, gas_state))
+        if not self.case.coupling.one_way:
+            evaporating = surface > concentration
+            after = [
+                self._relaxed(state, weights, gas_state, flow * some * dt, surface)
+                for some in (evaporating, ~evaporating)
+            ]
+            concentration = np.where(evaporating, *after)
+        loss = Loss(*(np.empty(count) for _ in range(5)), np.zeros(count), self.held(state, seen, concentration))
+        droplet_loss.losses(
+            p,
+            self.sizes_p,
+            state,
+            *around,
+            concentration,
+            dt,
+            conductance,
+            loss.mass,
+            loss.still,
+            loss.moving,
+            loss.refused,
+            loss.rest,
+        )
+        velocity = particles.velocities(state)
+        theta = state.theta if len(state.theta) else 0.0
+        return replace(loss, motion=loss.mass * (0.5 * np.einsum("ij,ij->i", velocity, velocity) + 1.5 * theta))
+
+    def held(self, state, seen, concentration) -> dict[str, float]:
+        """Shares of the particles whose rate is taken not to fall with temperature, and that are held below boiling."""
+        flat, boiling = (np.empty(len(state.x), bool) for _ in range(2))
+        droplet_loss.held(self.p, state, seen.density, seen.temperature, concentration, flat, boiling)
+        return {"flat_rate_share": share(state, flat), "boiling_held_share": share(state, boiling)}
+
+    def _relaxed(self, state, weights, gas_state, exchanged, surface) -> np.ndarray:
+        """Vapour around the particles [kmol/m3] once they have exchanged so much gas (N,) [m3] with the cells."""
+        deposited = deposit(weights, np.stack((exchanged, exchanged * surface), axis=1))
+        room = self.cells.room(weights, state.mass * (state.kind == GRAIN)) * self.cells.volumes
+        cells = vapour_concentration(self.p, gas_state)
+        return gather(weights, (room * cells + deposited[:, 1]) / (room + deposited[:, 0]))
+
+    def thickening(self, state, weights, gas_state, seen) -> float:
+        """Vapour that comes into a cell now, over the gas in it [1/s]; the largest of all cells."""
+        p, rate = self.p, np.empty(len(state.x))
+        concentration = gather(weights, vapour_concentration(p, gas_state))
+        droplet_loss.rates(p, self.sizes_p, state, seen.slip, seen.density, seen.temperature, concentration, rate)
+        room = self.cells.room(weights, state.mass * (state.kind == GRAIN))
+        return float((self.cells.density(weights, rate) / (room * gas_state.fields["density"])).max(initial=0.0))
+
+    def share(self, handed: Handed, gas_state) -> float:
+        """Vapour that a window brought into a cell, over the gas in it; the largest of all cells."""
+        room = self.cells.room(handed.weights, handed.mass)
+        return float(
+            (handed.terms["vapour", "evaporation"] * handed.dt / (room * gas_state.fields["density"])).max(initial=0.0)
+        )
+
+    def taken(self, taken: Taken, handed: Handed) -> Taken:
+        """The same with what evaporation takes."""
+        mass, latent = handed.loss.mass, self.p.latent_heat
+        excess = self.case.grains.heat_capacity - self.case.vapour.heat_capacity
+        given = (
+            0.0
+            if self.case.coupling.one_way
+            else float((handed.terms["vapour", "evaporation"] * self.cells.volumes).sum() * handed.dt)
+        )
+        return replace(
+            taken, warming=taken.heat - latent * mass, vapour=float(mass.sum()), vapour_to_gas=given,
+            latent_heat=latent * float(mass.sum()), capacity_heat=excess * float((mass * handed.temperature).sum()),
+            refused=float(handed.loss.refused.sum()), vapour_motion=float(handed.loss.motion.sum()),
+        )  # fmt: skip
+
+    def settle(self, state, handed: Handed) -> None:
+        """Take from the particles what evaporated."""
+        own = handed.loss
+        droplet_loss.apply(self.p, self.sizes_p, state, own.mass, own.still, own.moving)

@@ -1,0 +1,91 @@
+"""Account of a window: impulses and work on the grains by cause, and where the energy of their motion goes.
+
+A sub-step of dt moves particle i with the acceleration a by v' = v + a dt. Its kinetic energy grows by
+m a.(v + v')/2 dt, to round-off, so the work of each part of a is counted with the mean of both velocities. What pairs
+give to theta and to the temperature is counted at v, where the loops take it; the difference is `numerical_work`, first
+order in dt.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from sdph.engine.ledger import vector
+from sdph.engine.state import INFLOW
+
+# of `Account.impulses` and `Account.works`, and their places there
+IMPULSES, (WALLS, INLET) = ("walls", "inflow"), range(2)
+WORKS = ("work_of_walls_J", "work_of_gravity_J", "work_of_inflow_J", "numerical_work_J")
+BY_WALLS, BY_GRAVITY, BY_INFLOW, NUMERICAL = range(4)
+HEATS = (
+    "mechanical_heat_J",  # of motion into the temperature of the grains: artificial viscosity, contacts
+    "agitation_J",  # of motion into theta: pressure and viscosity of agitation
+    "collision_heat_J",  # of theta into the temperature: inelastic collisions
+    "damping_heat_J",  # of theta into the gas
+    "bounds_work_J",  # into theta by its bounds
+)
+BACK_PUT = ("contact_way_m", "contact_lift_J")  # by contact with walls: ways of all grains, energy that they got by it
+
+
+class Account:
+    """Sums since the window began; `columns` for the ledger."""
+
+    def __init__(self):
+        self.impulses, self.works = np.zeros((len(IMPULSES), 3)), np.zeros(len(WORKS))
+        self.heats, self.back_put = dict.fromkeys(HEATS, 0.0), np.zeros(len(BACK_PUT))
+
+    def add(self, **heats: float) -> None:
+        """Count heats [J], by their columns less the unit."""
+        for name, heat in heats.items():
+            self.heats[f"{name}_J"] += float(heat)
+
+    def columns(self) -> dict[str, float]:
+        """Ledger columns [J], [kg m/s], [m]."""
+        found = dict(zip(WORKS, map(float, self.works))) | self.heats | dict(zip(BACK_PUT, map(float, self.back_put)))
+        for name, impulse in zip(IMPULSES, self.impulses):
+            found |= vector(f"impulse_of_{name}", impulse)
+        return found
+
+
+@njit(cache=True, error_model="numpy")
+def kick(s, acceleration, of_walls, booked, gravity, dt, impulses, works):
+    """Velocities after dt [s]; what the sub-step adds to an account.
+
+    acceleration (N, 3) [m/s2] is of pairs; of_walls (N, 7) of the push of walls and of their grip [m/s2], three columns
+    each, and the power of the grip by the sliding of walls [W/kg]. What pairs and grip take from the motion is `booked`
+    (N,) [W/kg]. A particle upstream of a nozzle feels
+    nothing: what pairs would do to it is done by the inflow.
+    """
+    for i in range(len(s.x)):
+        m, deep = s.mass[i] * dt, len(s.z) > 0
+        u, v, w = s.u[i], s.v[i], s.w[i] if deep else 0.0
+        ax, ay, az = acceleration[i, 0], acceleration[i, 1], acceleration[i, 2]
+        if s.kind[i] == INFLOW:
+            impulses[INLET, 0] -= m * ax
+            impulses[INLET, 1] -= m * ay
+            impulses[INLET, 2] -= m * az
+            works[BY_INFLOW] -= m * (ax * u + ay * v + az * w + booked[i])
+            s.way_x[i] += u * dt
+            s.way_y[i] += v * dt
+            if deep:
+                s.way_z[i] += w * dt
+            continue
+        wx, wy, wz = of_walls[i, 0], of_walls[i, 1], of_walls[i, 2]
+        rx, ry, rz = of_walls[i, 3], of_walls[i, 4], of_walls[i, 5]
+        ax, ay, az = ax + rx, ay + ry, az + rz
+        gx = 0.5 * dt * (ax + wx + s.push_x[i])
+        gy = 0.5 * dt * (ay + wy + s.push_y[i])
+        gz = 0.5 * dt * (az + wz + s.push_z[i]) if deep else 0.0
+        s.u[i], s.v[i] = u + 2.0 * gx, v + 2.0 * gy
+        s.way_x[i] += (u + gx) * dt
+        s.way_y[i] += (v + gy) * dt
+        if deep:
+            s.w[i] = w + 2.0 * gz
+            s.way_z[i] += (w + gz) * dt
+        impulses[WALLS, 0] += m * (wx + rx)
+        impulses[WALLS, 1] += m * (wy + ry)
+        impulses[WALLS, 2] += m * (wz + rz)
+        works[BY_WALLS] += m * (wx * (u + gx) + wy * (v + gy) + wz * (w + gz) + of_walls[i, 6])
+        works[BY_GRAVITY] += m * (gravity[0] * (u + gx) + gravity[1] * (v + gy) + gravity[2] * (w + gz))
+        works[NUMERICAL] += m * (ax * gx + ay * gy + az * gz)

@@ -1,0 +1,198 @@
+"""Grains or droplets in a gas, as a run needs them (sdph.methods.method.Method): stepper, nozzles, what leaves."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from sdph import effects
+from sdph.effects.around.inflow import Source
+from sdph.effects.around.outflow import leaving, refuse_to_leave
+from sdph.engine import state as particles
+from sdph.engine.clock import Clock
+from sdph.engine.kept import Unfit
+from sdph.engine.ledger import vector
+from sdph.engine.state import INFLOW
+from sdph.engine.walls import sides as boundary
+from sdph.methods.grains import start
+from sdph.methods.grains.history import tracked
+from sdph.methods.grains.method import Stepper
+
+NOTHING_LEFT = {"left_kg": 0.0, "left_J": 0.0, "left_motion_J": 0.0} | vector("impulse_of_outflow", np.zeros(3))
+
+
+class Grains:
+    """Grains of a case and what they do in a window; their ledger is that of the gas too, which the run keeps."""
+
+    matter = "grains"
+    KEPT = ("time", "windows", "stepper", "source")  # see sdph.engine.kept
+
+    def __init__(self, case):
+        rows = [effects.REGISTRY[name] for name in case.effects]
+        names = {name for row in rows for name in row.arrays}
+        self.case, self.moves = case, effects.moving(case)
+        self.parameters = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
+        state = start.fill(case, names)
+        self.source = Source(case, names, len(state.x) + 1) if self.parameters["inflow"] else None
+        self.stepper = Stepper(case, self.parameters, state, self.source, Clock(case.run).shortest)
+        self.time, self.windows, self.came, self.left = 0.0, 0, self._came_in(), NOTHING_LEFT
+
+    @property
+    def state(self):
+        return self.stepper.state
+
+    @property
+    def inside(self):
+        """The particles that are in the gas."""
+        return particles.grains(self.state)
+
+    @property
+    def steps(self) -> int:
+        return self.stepper.steps
+
+    @property
+    def limit(self) -> str:
+        return self.stepper.limit
+
+    def admit(self, kept: dict) -> None:
+        """Unfit where particles have numbers that nobody gave."""
+        if self.source:
+            self.source.admit_at(kept["time"], kept["source"])
+        given = kept["source"]["next_ident"] if self.source else len(self.state.x) + 1
+        ident = kept["stepper"]["state"]["ident"]
+        if ident.min(initial=1) < 1 or ident.max(initial=1) > max(1, given - 1):
+            raise Unfit(f"a particle has a number that is not among 1 to {given - 1}")
+
+    def start(self) -> None:
+        """Let in what the nozzles give at first."""
+        self.renew(self.case.coupling.window_largest)
+        self.stepper.tell()
+
+    def begin(self) -> None:
+        """Remember the state to go back to, before a window."""
+        self.stepper.guard.begin(self)
+        self.came, self.left = self._came_in(), NOTHING_LEFT
+
+    def force(self, warmth, push, damping) -> None:
+        """Take heat (N,) [J], acceleration (N, 3) [m/s2] and damping (N,) [1/s] of theta that hold over the window;
+        what has evaporated is taken out."""
+        self.stepper.force(warmth, push, damping)
+        left = self.state.mass > 0.0
+        if not left.all():
+            self.stepper.replace(particles.take(self.state, left))
+            self.stepper.prepare()
+
+    def advance(self, end: float) -> None:
+        (self.stepper.move if self.moves else self.stepper.conduct)(end - self.time)
+        self.time, self.windows = end, self.windows + 1
+
+    def close(self) -> None:
+        """End the window; `way` and `damped` are what `Stepper.release` tells of it."""
+        self.way, self.damped = self.stepper.release()
+
+    def renew(self, longest: float) -> bool:
+        """Take out what has left, and make what comes in within `longest` [s]; tell whether particles are others, or
+        elsewhere."""
+        state, gone = self.state, leaving(self.case, self.state) if self.moves else np.zeros(len(self.state.x), bool)
+        if gone.any():
+            if not self.parameters["outflow"]:
+                refuse_to_leave(self.case, state, gone, self.time)
+            self.left = self._of(particles.take(state, gone))
+            state = particles.take(state, ~gone)
+        if self.source:
+            state = self.source.fill(state, self.time, longest)
+        replaced = state is not self.state
+        if replaced:
+            self.stepper.replace(state)
+        changed = replaced or bool(self.parameters["evaporation"])
+        if changed or self.windows == 0:  # those that moved are prepared
+            self.stepper.prepare()
+        return changed or self.moves
+
+    def share_inside(self, after: float = 0.0) -> np.ndarray:
+        """Share of each particle (N,) that is in the gas, or will be `after` [s]."""
+        return self.source.inside(self.state, after) if self.source else np.ones(len(self.state.x))
+
+    def places(self, after: float = 0.0) -> np.ndarray:
+        """Positions (N, 3) [m] where the particles are, or will be `after` [s]. Those upstream of a nozzle exchange
+        nothing; they stand in for the nearest place in the box."""
+        places = particles.positions(self.state) + particles.velocities(self.state) * after
+        if self.source:
+            waiting = self.state.kind == INFLOW
+            places[waiting] = np.clip(places[waiting], 0.0, (*self.case.domain.size, 0.0)[:3])
+        return places
+
+    def fastest(self) -> float:
+        """Speed of the fastest particle [m/s]."""
+        return float(particles.lengths(particles.velocities(self.state)).max(initial=0.0)) if self.moves else 0.0
+
+    def columns(self) -> dict[str, float]:
+        """Ledger columns of the window: what the grains got from where, and what came and left."""
+        found = self.stepper.account.columns()
+        names = ("injected_kg", "injected_J", "injected_motion_J")
+        found |= {name: now - before for name, now, before in zip(names, self._came_in(), self.came)}
+        momentum = self._came_in()[-1] - self.came[-1]
+        found |= {key: found[key] + value for key, value in vector("impulse_of_inflow", momentum).items()}
+        return found | self.left
+
+    def totals(self) -> dict[str, float]:
+        """Ledger columns of what there is in the gas: mass, thermal energy, motion, agitation, momentum."""
+        state = self.inside
+        velocity = particles.velocities(state)
+        row = {"particles": len(state.x), "particle_mass_kg": float(state.mass.sum())}
+        row["particle_energy_J"] = math.fsum(self._enthalpy(state).tolist())
+        row["particle_kinetic_energy_J"] = float(0.5 * np.einsum("i,ij,ij->", state.mass, velocity, velocity))
+        row["particle_fluctuation_energy_J"] = float(1.5 * state.mass @ state.theta) if len(state.theta) else 0.0
+        gravity = -np.asarray(self.parameters["gravity"] or (0.0, 0.0, 0.0))
+        row["particle_potential_energy_J"] = float(state.mass @ (particles.positions(state) @ gravity))
+        return row | vector("particle_momentum", np.einsum("i,ij->j", state.mass, velocity))
+
+    def row(self) -> dict[str, float]:
+        """Columns of history.csv."""
+        return tracked(self.case, self.stepper)
+
+    def points(self):
+        """Particles in the gas as pyvista points with their arrays and alpha_p."""
+        import pyvista
+
+        state = self.inside
+        points = pyvista.PolyData(particles.positions(state))
+        if not points.n_points:  # pyvista knows no empty arrays
+            return points
+        points["velocity"] = particles.velocities(state)
+        points["alpha_p"] = state.density / self.case.grains.density
+        for name in ("ident", "kind", "mass", "density", "temperature", "diameter", "theta"):
+            if len(getattr(state, name)):
+                points[name] = getattr(state, name)
+        return points
+
+    def walls(self):
+        """Meshes of walls as a pyvista surface; None where there are none: sides of the domain are seen anyway."""
+        mesh = self.case.parameters["walls"].mesh if self.parameters["walls"] else ""
+        return boundary.surface(mesh, self.case.dimensions) if mesh else None
+
+    def summary(self) -> dict[str, float]:
+        """Its part of summary.json."""
+        return {"sub_steps": self.steps, "wall_contacts": self.stepper.contacts}
+
+    def warnings(self) -> list[str]:
+        """Nothing that the ledger does not tell."""
+        return []
+
+    def _enthalpy(self, state) -> np.ndarray:
+        return (
+            state.mass * state.temperature * self.case.grains.heat_capacity if len(state.temperature) else np.zeros(1)
+        )
+
+    def _came_in(self):
+        """Mass [kg], enthalpy, energy of motion [J] and momentum [kg m/s] through the nozzles since the start."""
+        own = self.source
+        return (own.mass, own.energy, own.motion, own.momentum) if own else (0.0, 0.0, 0.0, np.zeros(3))
+
+    def _of(self, left) -> dict[str, float]:
+        """Ledger columns of the grains that left."""
+        momentum = np.einsum("i,ij->j", left.mass, particles.velocities(left))
+        found = {"left_kg": float(left.mass.sum()), "left_J": float(self._enthalpy(left).sum())}
+        found["left_motion_J"] = particles.energy_of_motion(left)
+        return found | vector("impulse_of_outflow", -momentum)

@@ -1,0 +1,39 @@
+"""Columns of history.csv of grains: the particles that `[track]` names."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from sdph.effects import REGISTRY
+from sdph.engine import state as particles
+
+TRACKED = {
+    "x_m": "x", "y_m": "y", "z_m": "z", "u_m_s": "u", "v_m_s": "v", "w_m_s": "w", "temperature_K": "temperature",
+    "granular_temperature_m2_s2": "theta", "diameter_m": "diameter", "mass_kg": "mass",
+}  # fmt: skip
+
+
+def tracked(case, stepper) -> dict[str, float]:
+    """Place, velocity, temperatures and heat rates of the tracked particles (paper, figures 9 and 10); nan before they
+    come in and once they are gone."""
+    if not case.track:
+        return {}
+    state, columns, arrays = stepper.state, {}, carried(case)
+    fields = {key: getattr(state, name) for key, name in TRACKED.items() if name in arrays}
+    fields |= {
+        "convective_heat_W": state.received if len(state.received) else np.zeros(len(state.x)),
+        "conductive_heat_W": stepper.conduction_rates(),
+    }
+    for ident in case.track:
+        place = np.flatnonzero((state.ident == ident) & (state.kind != particles.INFLOW))
+        found = {key: float(values[place[0]]) if len(place) else math.nan for key, values in fields.items()}
+        columns |= {f"particle_{ident}_{key}": value for key, value in found.items()}
+    return columns
+
+
+def carried(case) -> set[str]:
+    """Names of the arrays that particles of a case have, were there any: so that every row has the same columns."""
+    names = {name for effect in case.effects for name in REGISTRY[effect].arrays}
+    return {name for name, values in particles.empty(1, names, case.dimensions)._asdict().items() if len(values)}

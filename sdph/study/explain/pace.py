@@ -1,0 +1,178 @@
+"""Windows and sub-steps to be expected of grains: the run's own clock, driven by the scales of the case.
+
+What rules later differs from the start in three ways, each by an argument from the case alone:
+- gas that is let in has blown its mouth free, so that the Courant number is that of its own speed, not of that
+  between packed grains;
+- packed grains that the gas grips as one bear `sdph.exchange.window.GRIP` of the time in which it stops them, at the
+  slip that carries their weight;
+- lasting contacts of packed grains become as stiff as what they carry asks for: the weight that the gas leaves to
+  them, or the dynamic pressure alpha_p rho_p v^2/2 of grains that are thrown and brought to rest.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from sdph import effects
+from sdph.effects.grains import friction, granular_pressure
+from sdph.engine.clock import count_of_parts
+from sdph.exchange.window import GRIP, Window, smallest_cell
+from sdph.laws import drag
+from sdph.methods.grains import ways
+from sdph.methods.grains.method import limits as limits_of_step
+from sdph.methods.grains.scales import SETTLED
+
+HALVINGS = 60  # of the bracket of a volume fraction: to round-off
+
+
+class Pace(NamedTuple):
+    """Windows and sub-steps of a run."""
+
+    windows: int
+    steps: int
+
+
+def expected(case, s, state) -> Pace:
+    """Counts for the case with scales `s` and particles as in `state` at the start."""
+    limit = case.run.step_factor * min(sub_steps(case, s, state).values(), default=math.inf)
+    moving, windows, steps = effects.moving(case), 0, 0.0
+    for length, number in lengths(case, s, state):
+        windows += number
+        steps += number * parts(length, limit, moving)
+    return Pace(windows, math.ceil(steps))
+
+
+def parts(window: float, limit: float, moving: bool) -> float:
+    """Sub-steps in a window, both [s]. The limit of grains that move varies from one to the next, so that what is
+    rounded up is half a sub-step more on average; that of others does not."""
+    share = window / limit
+    if moving:
+        return share + 0.5 if share > 0.5 else 1.0
+    return max(1, math.ceil(share))
+
+
+def lengths(case, s, state) -> list[tuple[float, int]]:
+    """(length [s], how many) of the windows, one after the other."""
+    clock = Window(case)
+    clock.obey({"grip": grip(case, s), **effects.window_limits(parameters(case), case, state)})
+    driven, found, time = Driven(case, s, clock), [], 0.0
+    if min([clock.longest(), *driven.steady.values()]) < clock.shortest:  # the run itself will say that it gets nowhere
+        return [(clock.longest(), math.ceil(case.run.end_time / clock.longest()))]
+    while not clock.over(time) and not driven.settled():
+        end = clock.choose(time)
+        found.append((end - time, 1))
+        driven.learn(end - time)
+        time = end
+    return found + ([] if clock.over(time) else _evenly(clock, time))
+
+
+def _evenly(clock, time: float) -> list[tuple[float, int]]:
+    """Lengths and numbers of the windows left, of one limit, in equal parts between moments that must be met."""
+    moments = clock.landmarks[clock.landmarks > time + clock.shortest]
+    gaps = np.diff(moments, prepend=time)
+    numbers = [count_of_parts(gap, clock.longest(), clock.shortest, "the window") for gap in gaps]
+    return [(gap / number, number) for gap, number in zip(gaps, numbers)]
+
+
+class Driven:
+    """News for a clock after each window: speeds that the case leads to, and the heat that one lump of grains
+    exchanges with its gas, from the temperatures that both start with."""
+
+    def __init__(self, case, s, clock):
+        self.clock, self.steady = clock, later(case, s)
+        self.fastest = s.speed if effects.moving(case) else 0.0
+        self.rate, self.flow = 0.0, None  # [1/s], and heat in the last window over its length, of all there is [1/s]
+        if "heat" in case.effects and s.span and not case.coupling.one_way:
+            self.rate = 1.0 / s.heat_time + 1.0 / s.gas_heat_time
+            clock.begin(self.rate, 1.0)
+        apart = max((abs(patch.temperature - case.gas.temperature) for patch in case.particles.values()), default=0.0)
+        self.left = apart / s.span if self.rate else 0.0  # to exchange
+
+    def settled(self) -> bool:
+        """True where no limit that rules will change any more: each is what it will be, or stays above the least."""
+        now = self.clock.limits
+        least = min(limit for cause, limit in now.items() if cause != "heat exchange")
+        pairs = [(now.get(cause, 0.0), limit) for cause, limit in self.steady.items()]
+        steady = all(math.isclose(*pair) or min(pair) > least for pair in pairs)
+        return steady and now.get("heat exchange", math.inf) > least
+
+    def learn(self, dt: float) -> None:
+        """A window of `dt` [s] is done; what is left of the heat has relaxed exponentially."""
+        given = self.left * -math.expm1(-self.rate * dt)
+        change = abs(given / dt - self.flow) if self.flow is not None else 0.0
+        self.left, self.flow = self.left - given, given / dt
+        courant = self.clock.courant * dt / self.steady["courant"] if "courant" in self.steady else 0.0
+        self.clock.learn(dt, given, change, courant, self.fastest)
+
+
+def later(case, s) -> dict[str, float]:
+    """Longest windows [s] by what moves once the start is over, of gas and of grains."""
+    let_in = max((math.hypot(*b.velocity) for b in case.boundaries.values() if b.velocity), default=0.0)
+    speeds = {"courant": max(let_in, s.rush), "particles": s.speed if effects.moving(case) else 0.0}
+    reach = case.coupling.courant * smallest_cell(case)
+    return {cause: reach / speed for cause, speed in speeds.items() if speed}
+
+
+def grip(case, s) -> float:
+    """Longest window [s] of grains that the gas grips as one (`sdph.exchange.exchange.Exchange.grip`)."""
+    if not {"gas_pressure", "drag"} <= set(case.effects) or case.coupling.one_way or not case.particles:
+        return math.inf
+    carrying = s.minimum_fluidisation / (1.0 - s.capped)
+    slip = s.slip if math.isnan(carrying) else min(s.slip, carrying)
+    rate = drag.gidaspow(s.alpha_p, slip, s.grains.diameter, s.gas.density, s.gas.viscosity) / s.grains.density
+    return GRIP * (1.0 - s.capped) ** 2 / rate if rate else math.inf
+
+
+def sub_steps(case, s, state) -> dict[str, float]:
+    """Longest sub-steps [s] by cause, before run.step_factor."""
+    fastest = sound(case, s) + s.speed if effects.moving(case) else 0.0
+    return limits_of_step(case, parameters(case), state, fastest)
+
+
+def parameters(case) -> dict:
+    """Of the effects that are on, as the run's loops take them."""
+    return {name: effects.kernel_of(effects.REGISTRY[name], case) for name in case.effects}
+
+
+def sound(case, s) -> float:
+    """c [m/s] of agitation and friction where grains lie closest once they carry what they have to."""
+    squared = 0.0
+    if "friction" in case.effects:
+        p, alpha_p = friction.kernel(case), s.alpha_p
+        if alpha_p >= SETTLED * p.onset:
+            alpha_p = max(alpha_p, packed_by(p, carried(case, s)))
+        squared = friction.sound_squared(p, friction.pressure(p, alpha_p)[1])
+    if "granular_pressure" in case.effects:
+        squared += granular_pressure.sound_squared(granular_pressure.kernel(case), s.alpha_p, s.theta)
+    return math.sqrt(squared)
+
+
+def carried(case, s) -> float:
+    """Pressure [Pa] that lasting contacts carry: the weight of grains on a floor that gas from below does not, or the
+    dynamic pressure (Bernoulli's) of those that are thrown."""
+    density, up = s.alpha_p * s.grains.density, max(range(case.dimensions), key=lambda a: abs(case.domain.gravity[a]))
+    weight = 0.0
+    if s.gravity and s.patches and ways.lie(case, s.patches):
+        height = max(patch.upper[up] - patch.lower[up] for patch in s.patches)
+        weight = density * s.gravity * height * (1.0 - lifted(case, s, up))
+    return max(0.5 * density * s.thrown**2, weight)
+
+
+def lifted(case, s, up: int) -> float:
+    """Share of the weight that gas carries which is let in against gravity: U/U_mf of the slowest inlet, as a jet
+    beside it lifts what lies before it only; Ergun's law is all but linear there."""
+    against = -math.copysign(1.0, case.domain.gravity[up])
+    speeds = [b.velocity[up] * against for b in case.boundaries.values() if b.velocity]
+    return min(1.0, max(0.0, min(speeds, default=0.0)) / s.minimum_fluidisation)
+
+
+def packed_by(p, pressure: float) -> float:
+    """alpha_p at which contacts with the parameters `p` carry a pressure [Pa], by bisection."""
+    low, high = 0.0, 1.0
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if friction.pressure(p, middle)[0] < pressure else (low, middle)
+    return low

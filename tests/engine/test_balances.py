@@ -1,0 +1,85 @@
+"""Balances of motion: what both sides lose becomes heat, to round-off, and a gas that cheats is caught."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from grain_boxes import Row, started, table, windows
+
+from sdph.case import read as cases
+
+SPEED = 0.3
+
+
+def dusty(folder, count, gas=Row):
+    """Grains that drift through gas at rest in a closed row, for ten relaxation times of the drag, in `count` windows:
+    the run when it is over."""
+    own = table(["drag", "gravity"], alpha_p=4e-4, **windows(0.5, count))
+    own["particles"]["bed"]["velocity_m_s"] = [SPEED, 0.0]
+    case = cases.from_table(own)
+    run = started(case, folder, gas(case))
+    while run.time < 0.5:
+        run.window()
+    run.ledger.table.close()
+    return run
+
+
+def motion(row):
+    return row["particle_kinetic_energy_J"] + row["gas_kinetic_J"]
+
+
+@pytest.mark.parametrize("count", [1, 7, 50])
+def test_what_motion_loses_in_a_dusty_box_is_heat(tmp_path, count):
+    """Whatever the windows: one of ten relaxation times as well as fifty."""
+    own = dusty(tmp_path, count).ledger
+    lost, heat = motion(own.first) - motion(own.last), own.last["gas_energy_J"] + own.last["heat_on_its_way_J"]
+    assert lost > 0.1 * motion(own.first)
+    assert heat == pytest.approx(lost, rel=1e-10)
+    summary = own.summary()
+    assert summary["motion_drift_rel"] < 1e-12 and summary["energy_drift_rel"] < 1e-12
+    assert abs(summary["gas_dissipation_J"]) < 1e-10 * lost
+
+
+class Cheat(Row):
+    """Says of one total that it has a thousandth less after each window."""
+
+    total = ""
+
+    def advance(self, dt, sources):
+        self.windows = getattr(self, "windows", 0) + 1
+        return super().advance(dt, sources)
+
+    def _state(self):
+        state, lost = super()._state(), 1.0 - 1e-3 * getattr(self, "windows", 0)
+        if not self.total:
+            return state
+        own = np.multiply(getattr(state.budget, self.total), lost)
+        own = tuple(own.tolist()) if np.ndim(own) else float(own)
+        return dataclasses.replace(state, budget=dataclasses.replace(state.budget, **{self.total: own}))
+
+
+@pytest.mark.parametrize(
+    "total, told", [("mass", "mass_drift_rel"), ("energy", "energy_drift_rel"), ("kinetic", "gas_dissipation_rel")]
+)
+def test_a_gas_that_loses_something_is_caught(tmp_path, total, told):
+    honest = dusty(tmp_path, 7, Cheat).ledger.summary()[told]
+    cheat = type("Cheats", (Cheat,), {"total": total})
+    (tmp_path / "cheat").mkdir()
+    assert dusty(tmp_path / "cheat", 7, cheat).ledger.summary()[told] > 1e-6 > 1e3 * abs(honest)
+
+
+def test_each_work_on_the_grains_counts(tmp_path):
+    """A bed that falls on its floor and settles: gravity, walls, contacts and agitation all act, and the sum is what
+    motion changed by."""
+    effects = ["gravity", "walls", "drag", "granular_pressure", "granular_viscosity", "granular_temperature",
+               "friction", "artificial_viscosity", "conduction"]  # fmt: skip
+    own = table(effects, periodic=("x",), gravity=(0.0, -9.81), **windows(0.02, 10))
+    own["particles"]["bed"]["velocity_m_s"] = [0.0, -0.5]
+    run = started(cases.from_table(own), tmp_path)
+    while run.time < 0.02:
+        run.window()
+    sums, summary = run.ledger.sums, run.ledger.summary()
+    acted = ("work_of_gravity_J", "work_of_walls_J", "work_of_drag_J", "agitation_J", "collision_heat_J",
+             "damping_heat_J", "mechanical_heat_J", "numerical_work_J")  # fmt: skip
+    assert all(sums[name] != 0.0 for name in acted), {name: sums[name] for name in acted}
+    assert summary["motion_drift_rel"] < 1e-12

@@ -1,0 +1,65 @@
+"""What limiters hold comes to history.csv, to summary.json and into checkpoints; docs/limiters.md names the columns."""
+
+import json
+import re
+
+import pytest
+from test_restart import COARSE, Reporter, load
+
+from sdph.engine.ledger import NOTHING
+from sdph.running import driver, output
+from sdph.running.limiters import Limiters
+from sdph.scenes import paths
+from sdph.study.explain.effect_costs import prepared
+
+PAGE = paths.PACKAGE.parent / "docs" / "limiters.md"
+PARTS = ("Repairs of the numerics: grains", "Repairs of the numerics: exchange of grains and gas")
+# scenes that have all limiters between them, with what no scene has
+EVERY = {
+    "bubbling_bed": ("walls.specularity=0.1",),
+    "evaporating_jet": ("effects=['inflow', 'granular_pressure', 'grain_shifting', 'drag', 'heat', 'evaporation']",),
+}
+
+
+@pytest.mark.parametrize(
+    "name, acts", [("bubbling_bed", "contact_viscosity_share"), ("evaporating_jet", "flat_rate_share")]
+)
+def test_history_has_them_and_the_summary_the_largest(tmp_path, name, acts):
+    driver.run(load(name, "embedded", *COARSE[name]), name, tmp_path / "run", None, Reporter())
+    history = output.read_table(tmp_path / "run" / "history.csv")
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    told = {key.removeprefix("largest_"): value for key, value in summary.items() if key.startswith("largest_")}
+    assert told.keys() >= {"theta_at_least_share", "knudsen_viscosity_share", "outside_mesh_particles"}
+    assert told == {column: pytest.approx(history[column].max(), rel=1e-12) for column in told}
+    assert told[acts] > 0.0
+    for column in ("contact_way_m", "contact_lift_J") if name == "bubbling_bed" else ("finished_kg",):
+        ledger = output.read_table(tmp_path / "run" / "ledger.csv")
+        assert summary[column] == pytest.approx(ledger[column].sum(), rel=1e-12, abs=0.0)
+
+
+def test_the_largest_of_all_windows_is_told():
+    own = Limiters()
+    for value in (0.1, 0.3, 0.2):
+        own.hear({"a_share": value})
+    assert (own.now, own.summary()) == ({"a_share": 0.2}, {"largest_a_share": 0.3})
+
+
+def counted(letter):
+    """Names that the page gives for rows of grains and of their exchange, in a file by its `letter`."""
+    found, part = set(), ""
+    for line in PAGE.read_text(encoding="utf-8").splitlines():
+        part = line.removeprefix("## ") if line.startswith("## ") else part
+        if part in PARTS and re.match(r"\| \d", line):
+            for told in line.rstrip(" |").rpartition(" | ")[2].split(";"):
+                names, letters = re.findall(r"`(\w+)`", told), re.search(r"`((?: [LSH])+)", told)
+                found |= set(names) if letters and letter in letters[1] else set()
+    return found
+
+
+def test_the_page_names_all_columns_of_the_history():
+    told = [set(prepared(load(name, "embedded", *more)).limiters.now) for name, more in EVERY.items()]
+    assert counted("H") == set.union(*told)
+
+
+def test_the_page_names_columns_of_the_ledger():
+    assert {"contact_lift_J", "finished_kg", "impulse_of_gone_kg_m_s"} < counted("L") <= set(NOTHING)

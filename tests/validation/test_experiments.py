@@ -1,0 +1,103 @@
+"""Short forms of `sdph validate experiments`: checks that hold where ours is as measured and fail where it is not, and
+runs that have what was asked for."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from sdph import cli
+from sdph.laws import drag, evaporation, heat
+from sdph.running.progress import Reporter
+from sdph.study import validate
+
+QUIET = Reporter(quiet=True)
+
+
+def verdicts(checks) -> list[bool]:
+    return [check["ok"] for check in checks]
+
+
+def test_friction_of_runs_is_that_of_the_markers(tmp_path):
+    """Ergun's friction is linear in Re: two runs span the markers."""
+    bed = validate.experiment("packed_bed")
+    places = bed.PLACES[0], bed.PLACES[-1]
+    assert verdicts(bed.checks(tmp_path, (), QUIET, places)) == [True] * 4
+    assert (tmp_path / "packed_bed.png").is_file()
+
+
+@pytest.mark.parametrize("factor", [1.2, 1.0 / 1.2])
+def test_friction_off_by_a_fifth_is_told(tmp_path, monkeypatch, factor):
+    bed = validate.experiment("packed_bed")
+    monkeypatch.setattr(bed, "friction", lambda x, *_: (x, factor * (150.0 + 1.75 * x)))
+    assert verdicts(bed.checks(tmp_path)) == [False] * 6
+
+
+@pytest.mark.parametrize(("factor", "ok"), [(1.0, True), (1.2, True), (1.3, False), (0.7, False)])
+def test_minimum_fluidisation_off_by_more_than_the_bar_is_told(tmp_path, monkeypatch, factor, ok):
+    powders = validate.experiment("minimum_fluidisation")
+    found = powders.measured.table("geldart_1973")["U0_m_s"]
+    ours = iter(factor * found[np.isfinite(found)])
+    monkeypatch.setattr(powders, "LAWS", {"as measured": lambda density, diameter: next(ours)})
+    assert verdicts(powders.checks(tmp_path)) == [ok] * 6
+
+
+def test_index_of_laws_that_are_known():
+    """Stokes without crowding: U = eps s, s as the weight of the suspension, eps. Wen & Yu at rest: eps^(2 + 2.65)."""
+    liquid = validate.experiment("liquid_fluidisation")
+    assert liquid.index(drag.stokes, 1e-3) == pytest.approx(2.0, abs=1e-6)
+    assert liquid.index(drag.wen_yu, 1e-6) == pytest.approx(2.0 - drag.WEN_YU_EXPONENT, abs=1e-3)
+
+
+@pytest.mark.parametrize(("off", "ok"), [(0.0, True), (0.14, True), (0.16, False), (-0.16, False)])
+def test_an_index_outside_its_bar_is_told(tmp_path, monkeypatch, off, ok):
+    liquid = validate.experiment("liquid_fluidisation")
+    known = {row["Re"]: row["n0"] for row in liquid.measured.table("richardson_zaki_1954")}
+    monkeypatch.setattr(liquid, "index", lambda law, Re: known[Re] + off)
+    assert verdicts(liquid.checks(tmp_path)) == [ok] * 8
+
+
+def balance(row, water) -> tuple[float, float]:
+    """Rate [1e-11 m3/s] and temperature [C] at which a drop's heat evaporates it, slow evaporation (linear)."""
+    hot, d = row["T_air_C"] + water.ICE, row["d_m"]
+    film = 0.5 * (hot + water.wet_bulb(hot, row["p_Pa"]))
+    cold = 2.0 * film - hot
+    gas, D = water.air(film, row["p_Pa"]), water.diffusivity(film, row["p_Pa"])
+    rho, mu, k = gas["density_kg_m3"], gas["viscosity_Pa_s"], gas["conductivity_W_m_K"]
+    Re = rho * row["U_m_s"] * d / mu
+    Nu = heat.ranz_marshall(1.0, Re, heat.prandtl_number(mu, water.AIR_HEAT_CAPACITY, k))
+    Sh = evaporation.sherwood_ranz_marshall(Re, evaporation.schmidt_number(rho, mu, D))
+
+    def flux(T):
+        saturation = evaporation.saturation_antoine(T, water.antoine(cold))
+        return Sh * D / d * water.MOLAR_MASS * evaporation.vapour_concentration(saturation, T)
+
+    T = brentq(lambda T: Nu * k / d * (hot - T) - water.latent_heat(cold) * flux(T), water.ICE, hot)
+    return 1e11 * math.pi * d**2 * flux(T) / water.DENSITY, T - water.ICE
+
+
+@pytest.mark.parametrize("place", [0, 13, 18, 26, 33])
+def test_a_run_has_the_balance_of_the_drop_that_was_measured(tmp_path, place):
+    """0.2 % and 0.02 K: the drop shrinks by as much in a run."""
+    drops = validate.experiment("water_drops")
+    row = drops.measured.table("ranz_marshall_1952")[place]
+    rate, temperature = drops.drop(row, "linear", tmp_path, (), QUIET)
+    expected = balance(row, drops.water)
+    assert rate == pytest.approx(expected[0], rel=2e-3)
+    assert temperature == pytest.approx(expected[1], abs=0.02)
+
+
+@pytest.mark.parametrize(("factor", "ok"), [(1.0, True), (1.2, False), (1.0 / 1.2, False)])
+def test_drops_off_by_a_fifth_are_told(tmp_path, monkeypatch, factor, ok):
+    drops = validate.experiment("water_drops")
+    monkeypatch.setattr(
+        drops, "drop", lambda row, *_: (factor * row["evaporation_1e-11_m3_s"], factor * row["T_drop_C"])
+    )
+    checks = drops.checks(tmp_path)
+    assert verdicts(checks) == [ok] * 20
+
+
+def test_what_was_measured_is_not_overridden(tmp_path, capsys):
+    assert cli.main(["validate", "experiments", "--set", "gas.density_kg_m3=2.0", "--out", str(tmp_path / "new")]) == 2
+    assert "gas.density_kg_m3=2.0" in capsys.readouterr().err

@@ -1,0 +1,10 @@
+"""Measurements of others, and what we have there: an experiment is a module with `checks(folder, overrides,
+reporter)`, whose runs and figure go to `folder`, and `sdph validate experiments` calls them all.
+
+packed_bed                 Ergun 1952: friction of gas in a bed, from runs
+minimum_fluidisation       Geldart 1973: U_mf of 22 powders, laws alone
+liquid_fluidisation        Richardson & Zaki 1954: index n, laws alone
+water_drops                Ranz & Marshall 1952: rate of evaporation and wet bulb, from runs
+"""
+
+NAMES = ("packed_bed", "minimum_fluidisation", "liquid_fluidisation", "water_drops")
