@@ -5,17 +5,17 @@ from __future__ import annotations
 import numpy as np
 
 from sdph.engine.ledger import vector
-from sdph.engine.state import GRAIN
 
 
 class Held:
     """Accelerations of the particles of a `state` over `dt` [s]: impulse (N, 3) [kg m/s] of the exchange with the gas,
-    that of contact with other methods, gravity (3,) and pressure gradient (N, 3) [m/s2]."""
+    that of contact with other methods, gravity (3,) and pressure gradient (N, 3) [m/s2]. Of particles upstream of a
+    nozzle they are undone by the inflow (sdph.methods.grains.account.kick)."""
 
     def __init__(self, state, dt: float, impulse, touched, gravity, pressed):
         self.impulse, self.touched = impulse, touched
-        inside, mass = (state.kind == GRAIN)[:, None], state.mass[:, None] * dt
-        self.pressed, self.weight = mass * inside * pressed, mass * inside * gravity
+        mass = state.mass[:, None] * dt
+        self.pressed, self.weight = mass * pressed, mass * gravity
         pushed = np.divide(impulse + touched, mass, out=np.zeros_like(impulse), where=mass > 0.0)
         self.push, self.dt = gravity + pressed + pushed, dt
 

@@ -23,7 +23,7 @@ HEATS = (
     "agitation_J",  # of motion into theta: pressure and viscosity of agitation
     "collision_heat_J",  # of theta into the temperature: inelastic collisions
     "damping_heat_J",  # of theta into the gas
-    "bounds_work_J",  # into theta by its bounds
+    "bounds_work_J",  # into theta by its bounds, and by what holds it where it stands
 )
 BACK_PUT = ("contact_way_m", "contact_lift_J")  # by contact with walls: ways of all grains, energy that they got by it
 
@@ -54,18 +54,19 @@ def kick(s, acceleration, of_walls, booked, gravity, dt, impulses, works):
 
     acceleration (N, 3) [m/s2] is of pairs; of_walls (N, 7) of the push of walls and of their grip [m/s2], three columns
     each, and the power of the grip by the sliding of walls [W/kg]. What pairs and grip take from the motion is `booked`
-    (N,) [W/kg]. A particle upstream of a nozzle feels
-    nothing: what pairs would do to it is done by the inflow.
+    (N,) [W/kg]. A particle upstream of a nozzle feels nothing: the inflow undoes what pairs and the push do to it.
     """
     for i in range(len(s.x)):
         m, deep = s.mass[i] * dt, len(s.z) > 0
         u, v, w = s.u[i], s.v[i], s.w[i] if deep else 0.0
         ax, ay, az = acceleration[i, 0], acceleration[i, 1], acceleration[i, 2]
         if s.kind[i] == INFLOW:
+            ax, ay, az = ax + s.push_x[i], ay + s.push_y[i], az + s.push_z[i] if deep else 0.0
             impulses[INLET, 0] -= m * ax
             impulses[INLET, 1] -= m * ay
             impulses[INLET, 2] -= m * az
             works[BY_INFLOW] -= m * (ax * u + ay * v + az * w + booked[i])
+            works[BY_GRAVITY] += m * (gravity[0] * u + gravity[1] * v + gravity[2] * w)
             s.way_x[i] += u * dt
             s.way_y[i] += v * dt
             if deep:

@@ -205,7 +205,7 @@ class Stepper:
             waiting = s.kind == INFLOW
             agitation[waiting] = heating[waiting] = 0.0
         self.account.add(agitation=(s.mass @ agitation) * dt, mechanical_heat=(s.mass @ heating) * dt)
-        collided = self._agitate(dt, agitation) if p["granular_temperature"] else 0.0
+        collided = self._agitate(dt, agitation)
         self._warm(collided + (heating + s.warmth / window / s.mass) * dt)
         self._drift(dt)
         self.steps += 1
@@ -238,8 +238,12 @@ class Stepper:
         )  # fmt: skip
 
     def _agitate(self, dt: float, agitation) -> np.ndarray:
-        """theta after `dt` [s]; heat (N,) [J/kg] that its collisions give the grains."""
+        """theta after `dt` [s]; heat (N,) [J/kg] that its collisions give the grains. Where the case has theta stand,
+        what would raise it goes out by its bounds."""
         s, count = self.state, len(agitation)
+        if not self.parameters["granular_temperature"]:
+            self.account.add(bounds_work=-(s.mass @ agitation) * dt)
+            return np.zeros(count)
         theta, held, collided, damped = (np.empty(count) for _ in range(4))
         granular_temperature.advance_all(
             self.parameters["granular_temperature"], s, agitation, s.damping, self.scratch.shear_squared,

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from builders import simulation
+from grain_boxes import Row
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -12,6 +13,7 @@ from sdph.case import read as cases
 from sdph.effects.around import inflow
 from sdph.engine import state as particles
 from sdph.engine.state import GRAIN, INFLOW
+from sdph.running import output
 from sdph.schema import CaseError
 
 AIR = {
@@ -156,6 +158,26 @@ def test_what_leaves_is_counted_and_taken_out(tmp_path):
     inside = particles.positions(done.grains.inside)
     assert (inside[:, 0] <= 1.0).all()
     assert math.fsum(done.grains.inside.mass) == pytest.approx(summary["injected_kg"] - summary["left_kg"], rel=1e-12)
+
+
+def test_what_waits_and_comes_in_closes_the_balances_of_motion(tmp_path):
+    """Layers let go in the middle of windows, under gravity, drag and the pressure gradient of the gas: to round-off."""
+    effects = ["inflow", "outflow", "granular_pressure", "gravity", "drag", "gas_pressure"]
+    domain = {"size_m": [1.0, 1.0], "gravity_m_s2": [3.0, -9.81]}
+    chosen = case(SLOT | {"speed_m_s": 8.0}, effects=effects, domain=domain)
+    done = simulation(chosen, tmp_path, 4, lambda own, cells: Row(own, cells, gradient=(-4e3, 7e3, 0.0)))
+    while done.time < 0.3:
+        done.window()
+    done.ledger.table.close()
+    rows, sums = output.read_table(tmp_path / "ledger.csv"), done.ledger.sums
+    assert done.ledger.summary()["motion_drift_rel"] < 1e-12
+    given = ("to_particles", "of_body_forces", "of_walls", "of_inflow", "of_outflow", "of_contact")
+    for a in "xy":
+        change = np.diff(rows[f"particle_momentum_{a}_kg_m_s"][[0, -1]])[0]
+        impulses = [sums[f"impulse_{name}_{a}_kg_m_s"] for name in given]
+        assert change == pytest.approx(math.fsum(impulses), abs=1e-12 * sum(map(abs, impulses)))
+    acted = ("work_of_inflow_J", "work_of_drag_J", "work_of_pressure_J", "bounds_work_J")
+    assert all(sums[name] != 0.0 for name in acted)
 
 
 @pytest.mark.parametrize(("change", "words"), [
