@@ -161,7 +161,7 @@ def test_what_leaves_is_counted_and_taken_out(tmp_path):
 
 
 def test_what_waits_and_comes_in_closes_the_balances_of_motion(tmp_path):
-    """Layers let go in the middle of windows, under gravity, drag and the pressure gradient of the gas: to round-off."""
+    """Layers let go in the middle of windows, under gravity, drag and pressure of the gas: to round-off."""
     effects = ["inflow", "outflow", "granular_pressure", "gravity", "drag", "gas_pressure"]
     domain = {"size_m": [1.0, 1.0], "gravity_m_s2": [3.0, -9.81]}
     chosen = case(SLOT | {"speed_m_s": 8.0}, effects=effects, domain=domain)
