@@ -98,6 +98,8 @@ class Ledger:
         """Closure of the run: drifts and mismatches, relative to what was exchanged; drifts of energy in joules too."""
         told = ("heat_exchanged_J", "drag_heat_J", "mechanical_heat_J", "numerical_work_J", "bounds_work_J")
         sums, drifts = {key: self.sums[key] for key in told}, self._mass_drifts() | self._motion_drift()
+        physical = sum(abs(self.sums[key]) for key in ("friction_J", "mechanical_heat_J", "collision_heat_J"))
+        drifts["numerical_work_rel"] = _ratio(abs(self.sums["numerical_work_J"]), physical)
         sums |= {key: self.sums[key] for effect in SUMMED if effect in self.case.effects for key in SUMMED[effect]}
         if self.sums["heat_to_surroundings_J"]:
             sums["heat_to_surroundings_J"] = self.sums["heat_to_surroundings_J"]
@@ -193,4 +195,5 @@ def _finite(value) -> bool:
 
 
 def _ratio(part: float, whole: float) -> float:
-    return part / whole if whole else 0.0
+    """The part over the whole; with nothing to relate it to, the part itself."""
+    return part / whole if whole else part

@@ -32,6 +32,7 @@ CLOSURE = (
     "mass_drift_rel",
     "energy_drift_rel",
     "motion_drift_rel",
+    "numerical_work_rel",
     "exchange_energy_mismatch_rel",
     "exchange_momentum_mismatch_rel",
     "momentum_drift_rel",

@@ -18,7 +18,7 @@ from sdph.case import read as cases
 from sdph.running import driver
 from sdph.scenes import paths
 from sdph.schema import CaseError
-from sdph.study import compare
+from sdph.study import balances, compare
 
 REFERENCES = ("exact", "paper", "tfm", "dpm")
 EXPERIMENTS = "experiments"
@@ -42,6 +42,7 @@ def validate(scene: str, overrides: tuple[str, ...], reporter, folder: Path | No
         own_folder = folder / re.sub(r"[^\w.-]+", "-", name)
         driver.run(case, scene, own_folder, None, reporter)
         run = compare.open_run(own_folder)
+        checks += [check | {"name": f"{name}, balances: {check['name']}"} for check in balances.checks(run.summary)]
         for reference in references:
             checks += [
                 check | {"name": f"{name}, {reference}: {check['name']}"} for check in getattr(module, reference)(run)

@@ -60,6 +60,23 @@ def test_leak_shows(tmp_path):
     assert done.ledger.summary()["energy_drift_rel"] > 1e-6
 
 
+def test_a_leak_with_nothing_exchanged_shows(tmp_path):
+    """There is nothing to relate it to, so that the joules are judged."""
+    run = simulation(disc(*SHORT), tmp_path)
+    totals, budget = run.grains.totals() | {"heat_on_its_way_J": 0.0}, run.gas_state.budget
+    leaky = dataclasses.replace(budget, energy=budget.energy - 3.0)
+    run.ledger.close_window(1e-3, 1e-3, "largest", totals, leaky, ledger.NOTHING)
+    assert run.ledger.summary()["energy_drift_rel"] == pytest.approx(3.0, rel=1e-6)
+
+
+def test_numerical_work_is_told_beside_what_is_dissipated(tmp_path):
+    run = simulation(disc(*SHORT), tmp_path)
+    totals = run.grains.totals() | {"heat_on_its_way_J": 0.0}
+    done = {"numerical_work_J": -0.3, "friction_J": 4.0, "mechanical_heat_J": 1.5, "collision_heat_J": 0.5}
+    run.ledger.close_window(1e-3, 1e-3, "largest", totals, run.gas_state.budget, ledger.NOTHING | done)
+    assert run.ledger.summary()["numerical_work_rel"] == pytest.approx(0.05, rel=1e-12)
+
+
 def test_unequal_exchange_shows(tmp_path):
     """One of three windows in which the gas gave a millionth more than the particles took."""
     run = simulation(disc(*SHORT), tmp_path)

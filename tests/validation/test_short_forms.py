@@ -9,7 +9,7 @@ from sdph import scenes
 from sdph.case import read as cases
 from sdph.running import driver
 from sdph.running.progress import Reporter
-from sdph.study import compare, validate
+from sdph.study import balances, compare, validate
 
 COARSE_BED = ("resolution.spacing_mm=10.0", "resolution.cell_mm=20.0", "run.end_time_s=0.24")
 ALIKE = compare.scene_module("evaporating_jet").VARIANTS["closures alike"][0]
@@ -71,7 +71,8 @@ def checks(folder, scene, overrides, references) -> list[dict]:
     gas = ("coupling.gas='embedded'",) if "[gas]" in path.read_text(encoding="utf-8") else ()
     driver.run(cases.load(path, (*gas, *overrides)), scene, folder, None, Reporter(quiet=True))
     run = compare.open_run(folder)
-    return [check for name in references for check in getattr(compare.scene_module(scene), name)(run)]
+    compared = [check for name in references for check in getattr(compare.scene_module(scene), name)(run)]
+    return balances.checks(run.summary) + compared
 
 
 def named(scene, check) -> list[str]:

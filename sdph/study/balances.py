@@ -1,0 +1,29 @@
+"""What the balances of every run close to, whatever the scene: `sdph validate` and `sdph stress` hold them to it."""
+
+from __future__ import annotations
+
+ROUND_OFF = 1e-10  # of what is there, moved or exchanged; with nothing to relate to, kg, J or kg m/s
+NUMERICAL = 0.02  # of the physical dissipation: work of explicit steps, upwinding, splitting; our choice
+BARS = {
+    "mass_drift_rel": ROUND_OFF,
+    "particle_mass_drift_rel": ROUND_OFF,
+    "species_drift_rel": ROUND_OFF,
+    "energy_drift_rel": 1e-8,  # of the heat exchanged: round-off of the enthalpy of all the gas, up to 1e7 times that
+    "motion_drift_rel": ROUND_OFF,
+    "momentum_drift_rel": ROUND_OFF,
+    "exchange_mass_mismatch_rel": ROUND_OFF,
+    "exchange_energy_mismatch_rel": ROUND_OFF,
+    "exchange_momentum_mismatch_rel": ROUND_OFF,
+    "energy_made_rel": 0.05,  # of liquids: shifting takes the field anew at other places, which makes some; our choice
+    "numerical_work_rel": NUMERICAL,
+    "gas_dissipation_rel": NUMERICAL,
+}
+
+
+def checks(summary: dict) -> list[dict]:
+    """The balances that `summary` tells, as `sdph compare` has checks: the bar is the tolerance about 0."""
+    return [
+        {"name": name, "value": summary[name], "reference": 0.0, "tolerance": bar, "ok": abs(summary[name]) <= bar}
+        for name, bar in BARS.items()
+        if name in summary
+    ]

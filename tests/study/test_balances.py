@@ -1,0 +1,17 @@
+"""Balances that `sdph validate` holds each run to."""
+
+import pytest
+
+from sdph.study import balances
+
+
+@pytest.mark.parametrize("name", balances.BARS)
+def test_a_balance_past_its_bar_fails(name):
+    bar = balances.BARS[name]
+    for value, ok in ((0.99 * bar, True), (-0.99 * bar, True), (1.01 * bar, False), (-1.01 * bar, False)):
+        (found,) = balances.checks({name: value, "windows": 3})
+        assert found == {"name": name, "value": value, "reference": 0.0, "tolerance": bar, "ok": ok}
+
+
+def test_a_balance_that_is_no_number_fails():
+    assert not balances.checks({"mass_drift_rel": float("nan")})[0]["ok"]
