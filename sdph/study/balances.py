@@ -1,4 +1,4 @@
-"""What the balances of every run close to, whatever the scene: `sdph validate` and `sdph stress` hold them to it."""
+"""Bars of the balances of every run, whatever its scene: `sdph validate` and `sdph stress` hold it to them."""
 
 from __future__ import annotations
 
