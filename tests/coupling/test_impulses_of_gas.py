@@ -1,6 +1,7 @@
 """What moves the gas, each impulse against a hand calculation; and what its momentum grows by besides. Both solvers."""
 
 import contextlib
+import itertools
 import math
 
 import numpy as np
@@ -67,10 +68,8 @@ def test_gas_that_heat_speeds_up(tmp_path, solver):
         density = 101325.0 * 29.5 / (8314.462618 * 300.0)
         warm = (x > 0.05) & (x < 0.15)
         heat = np.where(warm, density * speed * CP * warmer / 0.1, 0.0)
-        for step in range(steps):
-            state = gas.advance(dt, {"heat": heat})
-            middle = state if step == steps - last - 1 else middle if step > steps - last - 1 else None
-    found = grown(gas, middle, state)
+        states = [gas.advance(dt, {"heat": heat}) for _ in range(steps)]
+    found = grown(gas, states[-last - 1], states[-1])
     hand = density * speed * (speed - speed * (300.0 + warmer) / 300.0) * size[1] * last * dt
     parts = ", ".join(f"{name} {values[0]:.5e}" for name, values in found.items())
     print(f"{solver}: by hand {hand:.5e}, {parts}")
@@ -168,7 +167,7 @@ def test_numerical_impulse_is_of_first_order(tmp_path, solver):
         (tmp_path / str(parts)).mkdir()
         with running(solver, tmp_path / str(parts), (0.1, 0.1), 0.01 / parts, **THICK) as gas:
             found.append(stirred(gas, 2e-3 / parts, 20 * parts, 1))
-    orders = [math.log2(a / b) for a, b in zip(found, found[1:])]
+    orders = [math.log2(a / b) for a, b in itertools.pairwise(found)]
     print(f"{solver}: numerical {', '.join(f'{rel:.1e}' for rel in found)} of what moved the gas, orders {orders}")
     assert found[-1] < 0.02
     assert min(orders) > 0.7
