@@ -43,6 +43,11 @@ ON_REQUEST = {
 }
 
 
+# What moves the gas: names of `Budget` whose growth is that of its momentum, but for what is numerical.
+IMPULSES = ("momentum_in", "impulse_pressure", "impulse_walls", "impulse_gravity", "impulse_exchange", "impulse_room")
+NOTHING = (0.0, 0.0, 0.0)
+
+
 class GasError(RuntimeError):
     """The gas side failed: what happened, and where its log is."""
 
@@ -77,8 +82,13 @@ class Budget:
     vapour [kg], momentum (3,) [kg m/s] of the gas; `*_in` the same through the boundaries. `pressure_work` [J] is what
     alpha U.grad p gave the enthalpy since the start, out of the motion of the gas; `boundary_work` [J] what that motion
     got from the pressure besides; `gravity_work` [J] what gravity gave it. In works and powers U is the mean of the
-    velocities before and after a step. `force` (3,) [N] is that of walls and boundary pressure on the gas in the last
-    step; `courant` the largest Courant number of the last step.
+    velocities before and after a step.
+
+    Impulses (3,) [kg m/s] as given to the gas since the start, each integrated where it acts: `impulse_pressure` of
+    the pressure on boundary faces, -p S; `impulse_walls` of the viscous stress on them; `impulse_gravity`;
+    `impulse_exchange` of `momentum` and `momentum_coefficient` of the particles; `impulse_room` of the pressure on the
+    room of the particles, (1 - alpha) grad p, since the equation has -alpha grad p. What `momentum` grew by besides
+    these and `momentum_in` is numerical. `courant` is the largest Courant number of the last step.
     `residuals` names the final linear-solver residual of each equation.
     """
 
@@ -90,12 +100,17 @@ class Budget:
     energy_in: float
     vapour_in: float
     courant: float
-    force: tuple[float, float, float] = (0.0, 0.0, 0.0)
     kinetic: float = 0.0
     kinetic_in: float = 0.0
     pressure_work: float = 0.0
     boundary_work: float = 0.0
     gravity_work: float = 0.0
+    momentum_in: tuple[float, float, float] = NOTHING
+    impulse_pressure: tuple[float, float, float] = NOTHING
+    impulse_walls: tuple[float, float, float] = NOTHING
+    impulse_gravity: tuple[float, float, float] = NOTHING
+    impulse_exchange: tuple[float, float, float] = NOTHING
+    impulse_room: tuple[float, float, float] = NOTHING
     residuals: dict[str, float] = field(default_factory=dict)
 
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from coupling.gas import Budget, GasState, Mesh
+from coupling.gas import IMPULSES, Budget, GasState, Mesh
 from sdph.case import read as cases
 from sdph.engine.ledger import Ledger
 from sdph.running.simulation import Simulation
@@ -56,6 +56,7 @@ class Row:
         self.wave = 2j * math.pi * np.fft.rfftfreq(cells, length / cells)
         self.time, self.velocity, self.rise = 0.0, np.zeros((cells, 3)), np.zeros(cells)
         self.power, self.heat = np.zeros(cells), 0.0
+        self.impulses = dict.fromkeys(IMPULSES, np.zeros(3))
         self.given = alpha_g
 
     def start(self, alpha_g, sources, fields=()):
@@ -68,14 +69,25 @@ class Row:
         self.time += dt
         push = np.zeros_like(self.velocity)
         push[:, 0] = -(self.c**2) * self._slope(self.rise)
-        push += np.array((*self.case.domain.gravity, 0.0)[:3]) - self.alpha * self.gradient / self.mass
+        weight = np.array((*self.case.domain.gravity, 0.0)[:3])
+        push += weight - self.alpha * self.gradient / self.mass
         drag, pull = sources.get("momentum_coefficient", np.zeros(len(push)))[:, None], sources.get("momentum", 0.0)
         before = self.velocity
         self.velocity = (self.mass * (self.velocity + dt * push) + dt * pull) / (self.mass + dt * drag)
+        self._count(dt, weight, pull - drag * self.velocity)
         self.power = ((pull - drag * self.velocity) * 0.5 * (before + self.velocity)).sum(axis=1)
         self.heat += float((sources.get("heat", np.zeros(1)) * self.mesh.volumes).sum() * dt)
         self.rise = self.rise - dt * self._slope(self.velocity[:, 0])
         return self._state()
+
+    def _count(self, dt, weight, given):
+        """Impulses of a window; given (C, 3) [N/m3] is from the particles."""
+        whole, room = self.mesh.volumes.sum(), (1.0 - self.alpha) * self.mesh.volumes.sum()
+        now = {
+            "impulse_gravity": whole * self.mass * weight, "impulse_pressure": -whole * self.gradient,
+            "impulse_room": room * self.gradient, "impulse_exchange": self.mesh.volumes @ given,
+        }  # fmt: skip
+        self.impulses = self.impulses | {name: self.impulses[name] + dt * force for name, force in now.items()}
 
     def close(self):
         pass
@@ -88,7 +100,8 @@ class Row:
         total = (self.mass * self.mesh.volumes[:, None] * self.velocity).sum(axis=0)
         kinetic = 0.5 * self.mass * float(self.mesh.volumes @ (self.velocity**2).sum(axis=1))
         own = self.mass * self.mesh.volumes.sum(), self.heat, 0.0, tuple(total), 0.0, 0.0, 0.0, 0.0
-        budget = Budget(*own, kinetic=kinetic)
+        told = {name: tuple(impulse.tolist()) for name, impulse in self.impulses.items()}
+        budget = Budget(*own, kinetic=kinetic, **told)
         fields = {
             "velocity": self.velocity.copy(), "pressure": zeros,
             "pressure_gradient": np.tile(self.gradient, (cells, 1)), "temperature": zeros + 300.0,

@@ -10,7 +10,7 @@ import numpy as np
 from coupling.embedded import boundaries
 from coupling.embedded.grid import Grid
 from coupling.embedded.properties import Properties
-from coupling.gas import refuse_full_cells
+from coupling.gas import IMPULSES, refuse_full_cells
 
 ROUND_OFF = 1e-9  # of a volume fraction
 MOST = 1e4  # times its usual density that a gas may have; our choice
@@ -44,7 +44,8 @@ class Box:
 class Flow:
     """All that the next window needs. Cells (S,): alpha, mass, vapour [kg], temperature [K], pressure [Pa];
     faces (d, S): velocity [m/s], flux [kg/s]; `ratio` of the density to the equation of state; what came in
-    through the boundary since the start [kg, J, kg, J]; works since the start [J], see `coupling.gas.Budget`."""
+    through the boundary since the start [kg, J, kg, J]; works since the start [J], see `coupling.gas.Budget`, and the
+    `impulses` (6, 3) [kg m/s] of `coupling.gas.IMPULSES`."""
 
     time: float
     alpha: np.ndarray
@@ -54,6 +55,7 @@ class Flow:
     pressure: np.ndarray
     velocity: np.ndarray
     flux: np.ndarray
+    impulses: np.ndarray
     ratio: float = 1.0
     mass_in: float = 0.0
     energy_in: float = 0.0
@@ -72,9 +74,10 @@ def restored(box: Box, saved: dict[str, np.ndarray]) -> Flow:
     """The flow from its saved attributes (name -> array); ValueError where they are not of this box or no gas is like
     that."""
     cells, faces = (box.grid.size,), (box.grid.dimensions, box.grid.size)
+    shapes = {"velocity": faces, "flux": faces, "impulses": (len(IMPULSES), 3)}
     for field in dataclasses.fields(Flow):
         value = saved[field.name]
-        shape = () if field.type == "float" else faces if field.name in ("velocity", "flux") else cells
+        shape = () if field.type == "float" else shapes.get(field.name, cells)
         if value.dtype != np.float64 or value.shape != shape:
             raise ValueError(
                 f"{field.name} is {value.dtype} of shape {value.shape}; this mesh has float64 of shape {shape}"

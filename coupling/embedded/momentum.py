@@ -15,6 +15,7 @@ from coupling.embedded.boundaries import active_nodes, component_ghosts, on_face
 from coupling.embedded.box import Box, Flow, Window
 from coupling.embedded.convection import Nodes, convect, substeps
 from coupling.embedded.grid import component_spacing
+from coupling.embedded.impulses import crossed, rims_of
 from coupling.embedded.linear import fill, solve_implicit
 
 
@@ -109,17 +110,18 @@ class Momentum:
             for a, (step, active) in enumerate(zip(grid.wide[2], self.active))
         ]
         self.hold = on_faces(grid, faces, faces.clings * 1.0, 1.0)
+        self.rims = [rims_of(grid, faces, a, active) for a, active in enumerate(self.active)]
 
     def predict(self, old: Flow, window: Window, mass: np.ndarray, fraction: np.ndarray):
-        """Velocity (d, S) under the old pressure, the diagonal D (d, S) [kg] of its equation and the largest residual.
-        mass (S,): of the cells, at the end."""
+        """Velocity (d, S) under the old pressure, the diagonal D (d, S) [kg] of its equation, the largest residual, and
+        what crossed the rims (3, d) [kg m/s], see `impulses.crossed`. mass (S,): of the cells, at the end."""
         grid = self.box.grid
         inside = grid.geometry.volume > 0.0
         viscosity = grid.extended(window.alpha * self.box.properties.mixture("viscosity", fraction) * inside)
-        moved = self.convected(old, window.dt)
+        moved, carried = self.convected(old, window.dt)
         spread, stress = grid.zeros(), grid.zeros(grid.dimensions)
         divergence(grid.inner, old.velocity, grid.geometry.width, spread)
-        velocity, diagonal, residual = moved.copy(), np.ones_like(moved), 0.0
+        velocity, diagonal, residual, over = moved.copy(), np.ones_like(moved), 0.0, []
         for a in range(grid.dimensions):
             conductance, source, active = np.zeros_like(moved), grid.zeros(), self.active[a]
             viscous_conductances(grid.wide, a, viscosity, grid.geometry, self.hold, window.dt, conductance)
@@ -128,17 +130,21 @@ class Momentum:
             given = grid.geometry, cells, stress, moved[a], self.box.gravity[a], window.dt
             momentum_balance(grid.wide, a, active, *given, diagonal[a], source)
             fill(velocity[a], self.ghosts[a])
-            _, error = solve_implicit(
+            rubbed, error = solve_implicit(
                 grid.wide, active, conductance, diagonal[a], source, velocity[a], self.box.tolerance
             )
             residual = max(residual, error)
-        return velocity, diagonal, residual
+            over.append(crossed(self.rims[a], carried[a], rubbed, window.dt * stress))
+        return velocity, diagonal, residual, np.array(over).T
 
-    def convected(self, old: Flow, dt: float) -> np.ndarray:
-        """The old velocity (d, S) carried on by the old mass fluxes."""
+    def convected(self, old: Flow, dt: float) -> tuple[np.ndarray, np.ndarray]:
+        """The old velocity (d, S) carried on by the old mass fluxes, and what of that along each axis every face let
+        through upwards (d, d, S) [kg m/s]."""
         grid, velocity = self.box.grid, old.velocity.copy()
+        through = np.zeros((grid.dimensions, *velocity.shape))
         parts, _ = substeps(grid.inner, old.flux, old.mass, old.mass, dt)
         for a in range(grid.dimensions if parts else 0):
             mass = 0.5 * (old.mass + np.roll(old.mass, grid.strides[a]))
-            convect(self.nodes[a], self.ghosts[a], velocity[a], mass, old.flux, dt, parts, self.box.limited, False, ())
-        return velocity
+            how = self.box.limited, False, ()
+            through[a] = convect(self.nodes[a], self.ghosts[a], velocity[a], mass, old.flux, dt, parts, *how)
+        return velocity, through

@@ -7,10 +7,10 @@ import itertools
 import numpy as np
 
 from coupling.embedded.boundaries import component_ghosts
-from coupling.embedded.box import Box, Flow, Window
+from coupling.embedded.box import Box, Flow
 from coupling.embedded.linear import fill
 from coupling.embedded.works import inside, kinetic_energy
-from coupling.gas import Budget
+from coupling.gas import IMPULSES, Budget
 
 
 def cell_velocity(box: Box, flow: Flow) -> np.ndarray:
@@ -66,20 +66,6 @@ def cell_fields(box: Box, flow: Flow, asked: tuple[str, ...]) -> dict[str, np.nd
     return fields | ({"vapour_mass_fraction": flow.fraction()[cells]} if box.vapour is not None else {})
 
 
-def force_of_boundary(box: Box, window: Window, before, flow: Flow, fields: dict[str, np.ndarray]) -> tuple[float, ...]:
-    """(3,) [N]: what remains of the change of momentum since `before` (3,) without drag, vapour, weight, and the
-    pressure that the particles feel, their share 1 - alpha of its gradient: walls, pressure at the boundary, momentum
-    convected through it, and what the splitting of velocity and pressure leaves (as in sdphGasFoam)."""
-    cells, d = box.grid.cells, box.grid.dimensions
-    velocity, slope = fields["velocity"][:, :d], fields["pressure_gradient"][:, :d]
-    room = (1.0 - flow.alpha[cells]) * box.grid.geometry.volume[cells]
-    drag = window.push[:, cells].T - (window.pull - window.vapour)[cells, None] * velocity
-    known = drag + flow.mass[cells, None] * np.array(box.gravity) + room[:, None] * slope
-    force = np.zeros(3)
-    force[:d] = (np.einsum("i,ij->j", flow.mass[cells], velocity) - before[:d]) / window.dt - np.einsum("ij->j", known)
-    return tuple(force.tolist())
-
-
 def budget(box: Box, flow: Flow, fields: dict[str, np.ndarray]) -> Budget:
     """Totals of the gas, nothing yet of a window."""
     cells = box.grid.cells
@@ -94,4 +80,5 @@ def budget(box: Box, flow: Flow, fields: dict[str, np.ndarray]) -> Budget:
         kinetic=kinetic_energy(box, flow),
         mass_in=flow.mass_in, energy_in=flow.energy_in, vapour_in=flow.vapour_in, kinetic_in=flow.kinetic_in,
         pressure_work=flow.pressure_work, boundary_work=flow.boundary_work, gravity_work=flow.gravity_work, courant=0.0,
+        **{name: tuple(impulse) for name, impulse in zip(IMPULSES, flow.impulses.tolist())},
     )  # fmt: skip

@@ -14,6 +14,10 @@ close to round-off. Laminar. A gas of `constant` density is a low-Mach ideal gas
 on it (Eq. 30 of the closure sheet): with the heat of drag, q, a throttled gas keeps its temperature. Of Dp/Dt the
 rate dp/dt is left out: without sound the pressure is as high for an instant as any sudden motion asks for.
 
+Velocity is carried by the mass fluxes of the window before and takes no mass along: even velocity stays even. Where
+no mass of a cell changes in a window, momentum is then kept to the tolerance of continuity, on graded cells too; where
+particles that move or vapour change it, to first order in the window (`gas_numerical_impulse` of the ledger).
+
 In a box without opening the mass is given, so its density is the equation of state's times one factor for the
 whole box: with `operating` that is the rise of the operating pressure, with `constant` the gas is squeezed alike
 everywhere. `Budget.residuals["box"]` is the factor less 1. Its pressure has zero mean.
@@ -29,13 +33,14 @@ import numpy as np
 
 from coupling.embedded.box import Box, Flow, restored, window_of
 from coupling.embedded.grid import build_grid
+from coupling.embedded.impulses import impulses
 from coupling.embedded.linear import not_converged
 from coupling.embedded.momentum import Momentum
-from coupling.embedded.output import budget, cell_fields, force_of_boundary
+from coupling.embedded.output import budget, cell_fields
 from coupling.embedded.pressure import Pressure
 from coupling.embedded.scalars import Scalars
 from coupling.embedded.works import power, through_motion
-from coupling.gas import SOURCES, CheckpointError, GasError, GasState, Mesh, Unfinished, known_fields
+from coupling.gas import IMPULSES, SOURCES, CheckpointError, GasError, GasState, Mesh, Unfinished, known_fields
 from sdph.case.gas_cells import cell_edges
 from sdph.engine.reading import Unreadable, read_arrays
 
@@ -72,7 +77,8 @@ class EmbeddedGas:
         mass[grid.cells] = alpha[grid.cells] * grid.geometry.volume[grid.cells] * density
         pressure = self.pressure.at_start()
         velocity = self.pressure.standing.copy()
-        self.flow = Flow(0.0, alpha, mass, grid.zeros(), temperature, pressure, velocity, grid.zeros(grid.dimensions))
+        moving = velocity, grid.zeros(grid.dimensions), np.zeros((len(IMPULSES), 3))
+        self.flow = Flow(0.0, alpha, mass, grid.zeros(), temperature, pressure, *moving)
         self.state = self._state()
         return self.state
 
@@ -84,19 +90,19 @@ class EmbeddedGas:
         window = window_of(self.box, old, dt, sources)
         for _ in range(PASSES if self.box.properties.varies else 1):
             aim = self.pressure.aim(old, window, new.temperature, new.fraction())
-            velocity, diagonal, residual = self.momentum.predict(old, window, aim.mass, new.fraction())
+            velocity, diagonal, residual, over = self.momentum.predict(old, window, aim.mass, new.fraction())
             new, left = self.pressure.project(old, window, aim, velocity, diagonal)
             new, courant, residuals = self.scalars.carry(old, window, new)
         residuals["momentum"] = residual
         _converged(new.time, residuals, self.box.tolerance)
         came, lifted = through_motion(self.box, old, new, dt)
-        works = {"kinetic_in": old.kinetic_in + came, "gravity_work": old.gravity_work + lifted}
-        self.flow, before = dataclasses.replace(new, **works), self.state.budget.momentum
+        sums = {"kinetic_in": old.kinetic_in + came, "gravity_work": old.gravity_work + lifted}
+        sums["impulses"] = old.impulses + impulses(self.box, old, window, new, over)
+        self.flow = dataclasses.replace(new, **sums)
         found = self._state()
         found.fields["power"] = power(self.box, old, window, new) / self.mesh.volumes
-        force = force_of_boundary(self.box, window, before, new, found.fields)
         residuals |= {"pressure": left, "box": float(new.ratio - 1.0)}
-        full = dataclasses.replace(found.budget, courant=courant, force=force, residuals=residuals)
+        full = dataclasses.replace(found.budget, courant=courant, residuals=residuals)
         self.state = dataclasses.replace(found, budget=full)
         return self.state
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from coupling.gas import (
     FIELDS,
+    IMPULSES,
     ON_REQUEST,
     SOURCES,
     Budget,
@@ -297,7 +298,7 @@ def _mesh(told: Message) -> Mesh:
 def _state(message: Message, cells: int, vapour: bool, asked: tuple[str, ...] = ()) -> GasState:
     """The state in a message, of a mesh of `cells` cells, with the fields that were `asked` for."""
     totals = {f.name for f in dataclasses.fields(Budget)} - {"residuals"}
-    vectors = {name: tuple(message.array(f"budget_{name}", 3).tolist()) for name in ("momentum", "force")}
+    vectors = {name: tuple(message.array(f"budget_{name}", 3).tolist()) for name in ("momentum", *IMPULSES)}
     numbers = {name: float(message.number(f"budget_{name}")) for name in totals - vectors.keys()}
     residuals = {
         name.removeprefix("residual_"): float(message.number(name))

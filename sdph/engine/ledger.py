@@ -16,7 +16,7 @@ from sdph.engine.table import Table
 
 VECTORS = (
     "impulse_to_particles", "impulse_to_gas", "impulse_of_body_forces", "impulse_of_walls", "impulse_of_inflow",
-    "impulse_of_outflow", "impulse_of_contact",
+    "impulse_of_outflow", "impulse_of_contact", "impulse_of_vapour",
 )  # fmt: skip
 AMOUNTS = (
     "heat_to_particles_J", "heat_to_gas_J", "drag_heat_J", "friction_J", "mechanical_heat_J", "evaporated_kg",
@@ -41,6 +41,10 @@ OF_GAS = {
     "mass": "kg", "energy": "J", "kinetic": "J", "vapour": "kg", "mass_in": "kg", "energy_in": "J", "kinetic_in": "J",
     "vapour_in": "kg", "pressure_work": "J", "boundary_work": "J", "gravity_work": "J",
 }  # fmt: skip
+# impulses that the momentum of the gas grows by, of its budget (`coupling.gas.IMPULSES`)
+IMPULSES_OF_GAS = (
+    "momentum_in", "impulse_pressure", "impulse_walls", "impulse_gravity", "impulse_exchange", "impulse_room",
+)  # fmt: skip
 # effect -> amounts of a case with it whose sums the summary tells, besides those of every case
 SUMMED = {
     "inflow": ("injected_kg", "left_kg"), "outflow": ("injected_kg", "left_kg"),
@@ -49,12 +53,19 @@ SUMMED = {
     ),
     "lift": ("impulse_of_gone_kg_m_s",), "walls": ("contact_way_m", "contact_lift_J"),
 }  # fmt: skip
+# sums of what was exchanged or moved in a window, without sign, which drifts are related to
+RELATED = ("heat_exchanged_J", "impulse_exchanged_kg_m_s", "work_exchanged_J", "gas_impulse_moved_kg_m_s")
 NOTHING = dict.fromkeys(AMOUNTS, 0.0) | {f"{name}_{a}_kg_m_s": 0.0 for name in VECTORS for a in "xyz"}
 
 
 def vector(name: str, values) -> dict[str, float]:
     """Columns of an impulse (3,) [kg m/s]."""
     return {f"{name}_{a}_kg_m_s": float(value) for a, value in zip("xyz", values)}
+
+
+def vector_of(row: dict, name: str) -> tuple[float, ...]:
+    """The impulse (3,) [kg m/s] in such columns of a row."""
+    return tuple(row[f"{name}_{a}_kg_m_s"] for a in "xyz")
 
 
 class Ledger:
@@ -66,7 +77,7 @@ class Ledger:
 
     def __init__(self, path: Path, case, depth: float):
         self.case, self.depth = case, depth
-        self.sums = dict.fromkeys((*NOTHING, "heat_exchanged_J", "impulse_exchanged_kg_m_s", "work_exchanged_J"), 0.0)
+        self.sums = dict.fromkeys((*NOTHING, *RELATED), 0.0)
         # largest |particles - gas| of a window [J], [kg m/s], [kg]
         self.heat_mismatch = self.impulse_mismatch = self.mass_mismatch = 0.0
         self.first = self.last = None
@@ -81,6 +92,7 @@ class Ledger:
 
     def close_window(self, time: float, dt: float, limit: str, totals: dict, budget, exchanged: dict) -> None:
         """The row of a window; `exchanged` has the keys of NOTHING."""
+        before = self.last
         self._write({"time_s": time, "window_s": dt, "limit": limit} | totals | self._gas(budget) | exchanged)
         for key, value in exchanged.items():
             self.sums[key] += value
@@ -88,11 +100,22 @@ class Ledger:
         self.sums["work_exchanged_J"] += sum(abs(exchanged[key]) for key in MOTION)
         self.heat_mismatch = max(self.heat_mismatch, abs(exchanged["heat_to_particles_J"] + exchanged["heat_to_gas_J"]))
         self.mass_mismatch = max(self.mass_mismatch, abs(exchanged["evaporated_kg"] - exchanged["vapour_to_gas_kg"]))
-        impulse = [
-            (exchanged[f"impulse_to_particles_{a}_kg_m_s"], exchanged[f"impulse_to_gas_{a}_kg_m_s"]) for a in "xyz"
-        ]
-        self.sums["impulse_exchanged_kg_m_s"] += math.hypot(*(own for own, _ in impulse))
-        self.impulse_mismatch = max(self.impulse_mismatch, math.hypot(*(own + other for own, other in impulse)))
+        columns = [key for key in self.last if key.endswith("kg_m_s")]
+        unequal = self._hear_impulses(exchanged, {key: self.last[key] - before[key] for key in columns})
+        self.impulse_mismatch = max(self.impulse_mismatch, unequal)
+
+    def _hear_impulses(self, exchanged: dict, grown: dict) -> float:
+        """Add up the impulses of a window; `grown` is what columns grew by. Returns by how much what both sides gave
+        each other, or what the gas says that it got, is unequal [kg m/s]."""
+        own, given, brought = (
+            vector_of(exchanged, f"impulse_{name}") for name in ("to_particles", "to_gas", "of_vapour")
+        )
+        moved = [vector_of(grown, f"gas_{name}") for name in IMPULSES_OF_GAS]
+        told = moved[IMPULSES_OF_GAS.index("impulse_exchange")]
+        self.sums["impulse_exchanged_kg_m_s"] += math.hypot(*own) + math.hypot(*brought)
+        self.sums["gas_impulse_moved_kg_m_s"] += sum(math.hypot(*impulse) for impulse in moved)
+        unheard = math.hypot(*(a + b - c for a, b, c in zip(given, brought, told)))
+        return math.hypot(*(a + b for a, b in zip(own, given))) + unheard
 
     def summary(self) -> dict[str, float]:
         """Closure of the run: drifts and mismatches, relative to what was exchanged; drifts of energy in joules too."""
@@ -122,6 +145,7 @@ class Ledger:
             }
             | self._energy_drift()
             | self._gas_motion()
+            | self._gas_momentum()
         )
 
     def _mass_drifts(self) -> dict[str, float]:
@@ -159,6 +183,12 @@ class Ledger:
         lost = -math.fsum((*terms, *(sign * self.sums[key] for key, sign in given.items())))
         return {"gas_dissipation_J": lost, "gas_dissipation_rel": _ratio(abs(lost), abs(self.sums["friction_J"]))}
 
+    def _gas_momentum(self) -> dict[str, float]:
+        """Momentum of the gas that no impulse gave it: what is numerical."""
+        drift = math.hypot(*vector_of(self.last, "gas_numerical_impulse"))
+        rel = _ratio(drift, self.sums["gas_impulse_moved_kg_m_s"])
+        return {"gas_momentum_drift_kg_m_s": drift, "gas_momentum_drift_rel": rel}
+
     def _motion_drift(self) -> dict[str, float]:
         """Growth of the motion and agitation of the particles beyond the work that was done on them."""
         change = [c for kind in ("kinetic", "fluctuation") for c in self._change(f"particle_{kind}_energy_J", 1)]
@@ -172,7 +202,16 @@ class Ledger:
     def _gas(self, budget) -> dict[str, float]:
         """Columns of the gas."""
         row = {f"gas_{name}_{unit}": getattr(budget, name) / self.depth for name, unit in OF_GAS.items()}
-        return row | {f"gas_momentum_{a}_kg_m_s": p / self.depth for a, p in zip("xyz", budget.momentum)}
+        for name in ("momentum", *IMPULSES_OF_GAS):
+            row |= vector(f"gas_{name}", [p / self.depth for p in getattr(budget, name)])
+        return row | self._numerical(row)
+
+    def _numerical(self, row: dict) -> dict[str, float]:
+        """Growth of the momentum of the gas since the start that no impulse gave, from its columns in a row."""
+        first = self.first or row
+        grown = {name: vector_of(row, name) for name in ("gas_momentum", *(f"gas_{name}" for name in IMPULSES_OF_GAS))}
+        own, *given = ([a - b for a, b in zip(now, vector_of(first, name))] for name, now in grown.items())
+        return vector("gas_numerical_impulse", [math.fsum((p, *(-g for g in of))) for p, *of in zip(own, *given)])
 
     def _write(self, row: dict) -> None:
         self.first, self.last = self.first or row, row

@@ -82,7 +82,8 @@ class Taken:
     lost (N,) [J] is what leaves the system to its surroundings (no entry where no effect gives any); warming (N,) [J]
     the heat less that and less that of evaporation; vapour and vapour_to_gas [kg] what left particles and what the
     gas got; latent_heat [J] and capacity_heat [J] what evaporation binds, and what the vapour's other heat capacity
-    does; vapour_motion [J] the energy of motion that went with it.
+    does; vapour_motion [J] the energy of motion that went with it, vapour_impulse (3,) [kg m/s]
+    what it brought to the gas.
     """
 
     heat: np.ndarray
@@ -98,6 +99,7 @@ class Taken:
     capacity_heat: float = 0.0
     refused: float = 0.0
     vapour_motion: float = 0.0
+    vapour_impulse: np.ndarray = field(default_factory=lambda: np.zeros(3))
 
     def columns(self) -> dict[str, float]:
         """Both sides of the exchange for the ledger."""
@@ -111,4 +113,5 @@ class Taken:
         bound = {"latent_heat_J": self.latent_heat, "capacity_heat_J": self.capacity_heat}
         bound |= {"heat_to_surroundings_J": float(self.lost.sum())}
         own, other = np.einsum("ij->j", self.impulse), -self.impulse_from_gas
-        return heat | vapour | bound | vector("impulse_to_particles", own) | vector("impulse_to_gas", other)
+        impulses = vector("impulse_to_particles", own) | vector("impulse_to_gas", other)
+        return heat | vapour | bound | impulses | vector("impulse_of_vapour", self.vapour_impulse)

@@ -90,15 +90,16 @@ class Vapour:
         """The same with what evaporation takes."""
         mass, latent = handed.loss.mass, self.p.latent_heat
         excess = self.case.grains.heat_capacity - self.case.vapour.heat_capacity
-        given = (
-            0.0
-            if self.case.coupling.one_way
-            else float((handed.terms["vapour", "evaporation"] * self.cells.volumes).sum() * handed.dt)
+        share = 0.0 if self.case.coupling.one_way else handed.dt  # s in which the gas feels anything of it
+        given, brought = (
+            share * np.tensordot(self.cells.volumes, handed.terms[name, "evaporation"], 1)
+            for name in ("vapour", "momentum")
         )
         return replace(
-            taken, warming=taken.heat - latent * mass, vapour=float(mass.sum()), vapour_to_gas=given,
+            taken, warming=taken.heat - latent * mass, vapour=float(mass.sum()), vapour_to_gas=float(given),
             latent_heat=latent * float(mass.sum()), capacity_heat=excess * float((mass * handed.temperature).sum()),
             refused=float(handed.loss.refused.sum()), vapour_motion=float(handed.loss.motion.sum()),
+            vapour_impulse=brought,
         )  # fmt: skip
 
     def settle(self, state, handed: Handed) -> None:

@@ -35,6 +35,7 @@ CLOSURE = (
     "numerical_work_rel",
     "exchange_energy_mismatch_rel",
     "exchange_momentum_mismatch_rel",
+    "gas_momentum_drift_rel",
     "momentum_drift_rel",
     "energy_made_rel",
 )

@@ -6,15 +6,17 @@ import numpy as np
 import pytest
 from grain_boxes import Row, started, table, windows
 
+from coupling.gas import IMPULSES, NOTHING
 from sdph.case import read as cases
+from sdph.engine.ledger import IMPULSES_OF_GAS
 
 SPEED = 0.3
 
 
-def dusty(folder, count, gas=Row):
+def dusty(folder, count, gas=Row, gravity=(0.0, 0.0)):
     """Grains that drift through gas at rest in a closed row, for ten relaxation times of the drag, in `count` windows:
     the run when it is over."""
-    own = table(["drag", "gravity"], alpha_p=4e-4, **windows(0.5, count))
+    own = table(["drag", "gravity"], alpha_p=4e-4, gravity=gravity, **windows(0.5, count))
     own["particles"]["bed"]["velocity_m_s"] = [SPEED, 0.0]
     case = cases.from_table(own)
     run = started(case, folder, gas(case))
@@ -38,6 +40,8 @@ def test_what_motion_loses_in_a_dusty_box_is_heat(tmp_path, count):
     summary = own.summary()
     assert summary["motion_drift_rel"] < 1e-12 and summary["energy_drift_rel"] < 1e-12
     assert abs(summary["gas_dissipation_J"]) < 1e-10 * lost
+    assert summary["exchange_momentum_mismatch_rel"] < 1e-12 and summary["gas_momentum_drift_rel"] < 1e-12
+    assert summary["gas_momentum_drift_kg_m_s"] < 1e-12 * abs(own.last["gas_impulse_exchange_x_kg_m_s"])
 
 
 class Cheat(Row):
@@ -66,6 +70,48 @@ def test_a_gas_that_loses_something_is_caught(tmp_path, total, told):
     cheat = type("Cheats", (Cheat,), {"total": total})
     (tmp_path / "cheat").mkdir()
     assert dusty(tmp_path / "cheat", 7, cheat).ledger.summary()[told] > 1e-6 > 1e3 * abs(honest)
+
+
+class Driven(Cheat):
+    """The same, which a gradient of pressure drives besides."""
+
+    def __init__(self, case):
+        super().__init__(case, gradient=(20.0, 0.0, 0.0))
+
+
+class Silent(Driven):
+    """Says of its momentum and of all that moves it nothing at all."""
+
+    def _state(self):
+        state = super()._state()
+        nothing = dict.fromkeys(("momentum", *IMPULSES), NOTHING)
+        return dataclasses.replace(state, budget=dataclasses.replace(state.budget, **nothing))
+
+
+@pytest.mark.parametrize(
+    "total, told",
+    [
+        *((total, "gas_momentum_drift") for total in ("momentum", "impulse_pressure", "impulse_gravity")),
+        *((total, "gas_momentum_drift") for total in ("impulse_room", "impulse_exchange")),
+        ("impulse_exchange", "exchange_momentum_mismatch"),
+    ],
+)
+def test_a_gas_that_loses_momentum_is_caught(tmp_path, total, told):
+    """Of its momentum, or of what moves it."""
+    honest = dusty(tmp_path, 7, Driven, (0.3, -9.81)).ledger.summary()[f"{told}_rel"]
+    cheat = type("Cheats", (Driven,), {"total": total})
+    (tmp_path / "cheat").mkdir()
+    assert dusty(tmp_path / "cheat", 7, cheat, (0.3, -9.81)).ledger.summary()[f"{told}_rel"] > 1e-6 > 1e3 * honest
+
+
+def test_a_gas_that_says_nothing_of_its_momentum_is_caught(tmp_path):
+    summary = dusty(tmp_path, 7, Silent).ledger.summary()
+    assert summary["gas_momentum_drift_kg_m_s"] == 0.0
+    assert summary["exchange_momentum_mismatch_rel"] > 1e-2
+
+
+def test_the_ledger_knows_every_impulse_of_the_gas():
+    assert IMPULSES_OF_GAS == IMPULSES
 
 
 def test_each_work_on_the_grains_counts(tmp_path):

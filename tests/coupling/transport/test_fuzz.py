@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 from fuzzing import FACTOR, SEED
 
-from coupling.gas import Budget
+from coupling.gas import IMPULSES, Budget
 from coupling.openfoam.solver import _mesh, _state
 from coupling.transport.files import FileConnection
 from coupling.transport.messages import GREETING_LIMIT, HEADER, MAGIC, VERSION, Kind, Message, MessageError, encode
@@ -26,7 +26,7 @@ COUNT = 10_000 * FACTOR
 LIMIT = 2**16  # bytes of a message
 WHOLE = [
     Message(Kind.ADVANCE, {"dt": 1e-3, "write": 1, "drag": np.arange(24.0).reshape(8, 3)}, {"dt": "s"}),
-    Message(Kind.STATE, {"time": 0.5, "temperature": np.full(8, 300.0), "budget_force": np.zeros(3)}, {"time": "s"}),
+    Message(Kind.STATE, {"time": 0.5, "temperature": np.full(8, 300.0), "budget_momentum": np.zeros(3)}, {"time": "s"}),
     Message(Kind.HELLO, {"secret": "a" * 64, "dimensions": 2, "centres": np.ones((8, 3)), "solver": "gas"}),
     Message(Kind.ERROR, {"text": "it blew up"}),
     Message(Kind.CHECKPOINT, {"folder": "/nowhere"}),
@@ -185,9 +185,10 @@ def test_what_has_the_form_of_a_message_but_not_its_content_is_refused():
     """States and meshes of which fields are missing, or are of another type or shape."""
     rng, cells = np.random.default_rng(15 + SEED), 4
     vectors, scalars = ("velocity", "pressure_gradient"), ("pressure", "temperature", "density", "power")
-    numbers = {field.name for field in dataclasses.fields(Budget)} - {"momentum", "force", "residuals"}
+    of_budget = {"momentum", *IMPULSES}
+    numbers = {field.name for field in dataclasses.fields(Budget)} - of_budget - {"residuals"}
     budget = {f"budget_{name}": 1.0 for name in sorted(numbers)}
-    state = {"time": 1.0, "residual_T": 1e-9, "budget_momentum": np.zeros(3), "budget_force": np.zeros(3)} | budget
+    state = {"time": 1.0, "residual_T": 1e-9} | {f"budget_{name}": np.zeros(3) for name in sorted(of_budget)} | budget
     state |= {name: np.ones((cells, 3)) for name in vectors} | {name: np.ones(cells) for name in scalars}
     mesh = {"centres": np.ones((cells, 3)), "volumes": np.ones(cells), "dimensions": 2, "depth": 1.0}
     others = (
