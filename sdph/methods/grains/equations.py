@@ -158,6 +158,45 @@ def conduct(kernel, s, rows, box, pull, conduction_p, heating):
         heating[i] = warmth
 
 
+@njit(cache=True, error_model="numpy")
+def by_pair(
+    kernel, s, box, scratch, viscous_p, friction_p, artificial_p, temperature_p, conduction_p, i, j, pull_ij
+):  # fmt: skip
+    """Of a particle i by another, j: acceleration (3 values) [m/s2], rate of theta, and heat by rubbing and by
+    conduction [W/kg]; pull_ij = m_j (dW/dr)/r."""
+    rho_i, rho_j = s.density[i], s.density[j]
+    per_i, per_j = 1.0 / rho_i, 1.0 / rho_j
+    dx, dy, dz, r2 = separation(s, box, i, j)
+    du, dv, dw = approach(s, box, i, j)
+    closing, v2 = du * dx + dv * dy + dw * dz, du * du + dv * dv + dw * dw
+    scale = pull_ij * per_i * per_j
+
+    # section 2.1, corrected: -m_j (S_i/rho_i^2 + S_j/rho_j^2 + Pi_ij) grad W, S = p I - tau
+    agitated = pull_ij * (scratch.agitated[i] + scratch.agitated[j])
+    lasting = pull_ij * (scratch.lasting[i] + scratch.lasting[j])
+    ringing = pull_ij * artificial_viscosity.pair(
+        artificial_p, kernel.h, closing, r2, scratch.sound[i], scratch.sound[j], rho_i, rho_j
+    )
+    along, across = granular_viscosity.pair(viscous_p, scratch, i, j, r2, closing, scale)
+    rub_along, rub_across = friction.pair(friction_p, scratch.rubbing, i, j, r2, closing, scale)
+    fx, fy, fz = friction.elastic(friction_p, s, box, i, j, per_i, per_j, dx, dy, dz)
+    push, drag = along + rub_along - agitated - lasting - ringing, across + rub_across
+
+    viscous = -along * closing - across * v2
+    rubbed = lasting * closing - rub_along * closing - rub_across * v2
+    work = granular_temperature.pair(
+        temperature_p, scratch, s, i, j, agitated * closing, viscous, ringing * closing, scale
+    )
+    return (
+        push * dx + drag * du + pull_ij * fx,
+        push * dy + drag * dv + pull_ij * fy,
+        push * dz + drag * dw + pull_ij * fz,
+        work,
+        0.5 * (rubbed + granular_temperature.rest(temperature_p, ringing * closing)),
+        conduction.pair(conduction_p, kernel.h, s, i, j, r2, pull_ij),
+    )
+
+
 @loop
 def rates(
     kernel, s, rows, box, scratch, viscous_p, friction_p, artificial_p, temperature_p, conduction_p, walls_p, wall,
@@ -179,44 +218,17 @@ def rates(
             of_walls[i, 6] = slid
             work += granular_temperature.fed(temperature_p, lost)
             warmth += lost - granular_temperature.fed(temperature_p, lost)
-        rho_i, per_i = s.density[i], 1.0 / s.density[i]
         for k in range(length(rows, i)):
-            j = entry(rows, i, k)
-            dx, dy, dz, r2 = separation(s, box, i, j)
-            du, dv, dw = approach(s, box, i, j)
-            closing = du * dx + dv * dy + dw * dz
-            rho_j, per_j, pull_ij = s.density[j], 1.0 / s.density[j], scratch.pull[place(rows, i, k)]
-            scale = pull_ij * per_i * per_j
-
-            # section 2.1, corrected: -m_j (S_i/rho_i^2 + S_j/rho_j^2 + Pi_ij) grad W, S = p I - tau
-            agitated = pull_ij * (scratch.agitated[i] + scratch.agitated[j])
-            lasting = pull_ij * (scratch.lasting[i] + scratch.lasting[j])
-            ringing = pull_ij * artificial_viscosity.pair(
-                artificial_p, kernel.h, closing, r2, scratch.sound[i], scratch.sound[j], rho_i, rho_j
-            )
-            along, across = granular_viscosity.pair(viscous_p, scratch, i, j, r2, closing, scale)
-            rub_along, rub_across = friction.pair(friction_p, scratch.rubbing, i, j, r2, closing, scale)
-            fx, fy, fz = friction.elastic(friction_p, s, box, i, j, per_i, per_j, dx, dy, dz)
-            push = along + rub_along - agitated - lasting - ringing
-            ax += push * dx + (across + rub_across) * du + pull_ij * fx
-            ay += push * dy + (across + rub_across) * dv + pull_ij * fy
-            az += push * dz + (across + rub_across) * dw + pull_ij * fz
-
-            v2 = du * du + dv * dv + dw * dw
-            work += granular_temperature.pair(
-                temperature_p,
-                scratch,
-                s,
-                i,
-                j,
-                agitated * closing,
-                -along * closing - across * v2,
-                ringing * closing,
-                scale,
-            )
-            rubbed = lasting * closing - rub_along * closing - rub_across * v2
-            warmth += 0.5 * (rubbed + granular_temperature.rest(temperature_p, ringing * closing))
-            warmth += conduction.pair(conduction_p, kernel.h, s, i, j, r2, pull_ij)
+            px, py, pz, made, rubbed, conducted = by_pair(
+                kernel, s, box, scratch, viscous_p, friction_p, artificial_p, temperature_p, conduction_p, i,
+                entry(rows, i, k), scratch.pull[place(rows, i, k)],
+            )  # fmt: skip
+            ax += px
+            ay += py
+            az += pz
+            work += made
+            warmth += rubbed
+            warmth += conducted
         acceleration[i, 0] = ax
         acceleration[i, 1] = ay
         acceleration[i, 2] = az
