@@ -25,10 +25,10 @@ SPACINGS = (2.5e-3, 1.25e-3)  # m
 EFFECTS = ("granular_pressure", "granular_viscosity", "granular_temperature", "friction", "walls", "gravity")
 
 
-def case(size, alpha_p: float, spacing: float, theta: float, **sections):
+def case(size, alpha_p: float, spacing: float, theta: float, effects=EFFECTS, **sections):
     """A box of `size` (2,) [m] full of grains, periodic along x; `sections` of the case replace its own or add."""
     table = {
-        "title": "grains alone", "dimensions": 2, "effects": list(EFFECTS),
+        "title": "grains alone", "dimensions": 2, "effects": list(effects),
         "run": {"end_time_s": 1.0, "output_interval_s": 1.0},
         "domain": {"size_m": list(size), "gravity_m_s2": [0.0, 0.0], "periodic": ["x"]},
         "resolution": {"spacing_mm": 1e3 * spacing, "cell_mm": 1e3 * size[0]},  # of a gas that is not there

@@ -1,6 +1,6 @@
 """Diffusion of theta: a wave of it across a periodic box decays by conduction.
 
-The wave is in balance where alpha_p is lower where theta is higher, so that pressure is even: then it spreads alone. At
+Of grains that nothing pushes it is conduction alone. Where pressure acts, the wave is in balance where alpha_p is lower where theta is higher, so that pressure is even: then it spreads alone. At
 even alpha_p it rings as it spreads.
 
 Grains as elastic as a case allows (e = 0.9999). The reference is the closures' own: theta = theta_0 + theta_1 cos kx,
@@ -30,11 +30,14 @@ LENGTH, WIDTH = 0.12, 8.0  # m and spacings: a wave of 48 and 96 particles
 LEFT = 0.2  # of a wave at even alpha_p that does not push, at the end: past the first e-folding of all; our choice
 WINDOWS = 60
 BAR = 0.02  # issue 18, of the wave at the start
-# spacings that particles are off their lattice at the start, and whether alpha_p balances the pressure of the wave
+ALONE = ("granular_temperature",)
+# effects, spacings that particles are off their lattice at the start, whether alpha_p balances the wave's pressure
 STARTS = {
-    "in balance": (0.0, True),
-    "in balance, disordered": (0.1, True),
-    "even alpha_p": (0.0, False),
+    "conduction alone": (ALONE, 0.0, False),
+    "conduction alone, disordered": (ALONE, 0.1, False),
+    "in balance": (boxes.EFFECTS, 0.0, True),
+    "in balance, disordered": (boxes.EFFECTS, 0.1, True),
+    "even alpha_p": (boxes.EFFECTS, 0.0, False),
 }
 
 
@@ -51,10 +54,11 @@ def checks(folder: Path, *_, spacings=boxes.SPACINGS, starts=tuple(STARTS)) -> l
     return rows
 
 
-def wave(off: float, balanced: bool, spacing: float) -> tuple[np.ndarray, np.ndarray]:
+def wave(effects, off: float, balanced: bool, spacing: float) -> tuple[np.ndarray, np.ndarray]:
     """Waves of theta over the first one, at the end of each window: of grains, and of the closures."""
     size, k = (LENGTH, WIDTH * spacing), 2.0 * np.pi / LENGTH
-    case = boxes.case(size, ALPHA_P, spacing, THETA, domain={"periodic": ["x", "y"]}, grains={"restitution": ELASTIC})
+    sections = {"domain": {"periodic": ["x", "y"]}, "grains": {"restitution": ELASTIC}}
+    case, moves = boxes.case(size, ALPHA_P, spacing, THETA, effects, **sections), effects is not ALONE
     run, alpha = boxes.Alone(case), _balance() * SHARE if balanced else 0.0
     s, rng = run.state, np.random.default_rng(1)
     run.begin_with(**{a: getattr(s, a) + off * spacing * rng.uniform(-1.0, 1.0, len(s.x)) for a in "xy"})
@@ -68,7 +72,7 @@ def wave(off: float, balanced: bool, spacing: float) -> tuple[np.ndarray, np.nda
         s = run.state
         ours.append(boxes.amplitude(s.theta, k * s.x, s.mass) / first)
     given = (THETA, alpha, 0.0, first)
-    law = solve_ivp(_rates, (0.0, end), given, "LSODA", times, args=(k,), rtol=1e-9, atol=1e-15)
+    law = solve_ivp(_rates, (0.0, end), given, "LSODA", times, args=(k, moves), rtol=1e-9, atol=1e-15)
     return np.array(ours), law.y[3] / first
 
 
@@ -85,7 +89,7 @@ def folding(values) -> float:
     return later - (np.exp(-1.0) - values[later]) / (values[later - 1] - values[later])
 
 
-def _rates(time: float, wave, k: float) -> tuple[float, ...]:
+def _rates(time: float, wave, k: float, moves: bool) -> tuple[float, ...]:
     """d/dt of theta_0, alpha_1, u_1, theta_1."""
     theta, alpha, u, amplitude = wave
     a, rho = ALPHA_P, boxes.DENSITY
@@ -99,7 +103,7 @@ def _rates(time: float, wave, k: float) -> tuple[float, ...]:
     push = k * (slope * alpha + p / theta * amplitude) - (4.0 / 3.0 * mu + bulk) * k**2 * u
     heat = -p * k * u - _conductivity(a, theta) * k**2 * amplitude
     heat -= (growth - loss / a) * alpha + 1.5 * loss / theta * amplitude
-    return -loss / (1.5 * a * rho), -a * k * u, push / (a * rho), heat / (1.5 * a * rho)
+    return -loss / (1.5 * a * rho), -a * k * u, moves * push / (a * rho), heat / (1.5 * a * rho)
 
 
 def _loss(a: float, theta: float) -> float:
