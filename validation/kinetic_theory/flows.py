@@ -1,0 +1,95 @@
+"""Couette and Poiseuille flow of agitated grains between walls, against the closures' own profiles (profiles.py).
+
+Couette: walls slide apart, half of the collisions with them diffuse, so that grains slip and are hottest there.
+Poiseuille: gravity pulls along rough walls; grains are cold and dense in the middle. The gap is 15 diameters of 4 mm:
+conduction evens theta out over 1.8 to 2 diameters, which is 3 and 6 spacings.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+
+from sdph.laws import granular
+from sdph.study.compare import check
+
+from . import boxes, profiles
+
+HEIGHT, LENGTH, DIAMETER, ALPHA_P = 0.06, 0.03, 4e-3, 0.45  # m, m, m, -
+FLOWS = {
+    "Couette": profiles.Flow(HEIGHT, ALPHA_P, DIAMETER, wall=0.6, specularity=0.5),  # 20/s, as the shear cell
+    "Poiseuille": profiles.Flow(HEIGHT, ALPHA_P, DIAMETER, gravity=1.0),
+}
+SETTLED, MEASURED, SAMPLES = 8.0, 4.0, 50  # relaxation times of the slowest shear; our choice
+BINS = 12  # across the gap: two spacings of the coarser each
+BAR = 0.05  # issue 18; of the largest value across the gap
+
+
+def checks(folder: Path, *_, spacings=boxes.SPACINGS, flows=tuple(FLOWS)) -> list[dict]:
+    rows = []
+    for name in flows:
+        for dx in spacings:
+            law, ours, contacts = measured(FLOWS[name], dx)
+            for what, unit in (("u", "m/s"), ("theta", "m2/s2"), ("alpha_p", "-")):
+                error = math.sqrt(np.mean((ours[what] - law[what]) ** 2)) / np.abs(law[what]).max()
+                rows.append(check(f"{name}, {1e3 * dx:g} mm: {what} [{unit}], rms off over its largest", error, 0.0, BAR))
+            for what in ("pressure", "stress"):
+                ratio = ours[what] / law[what]
+                rows.append(check(f"{name}, {1e3 * dx:g} mm: {what} on the walls over the closures' [-]", ratio, 1.0, BAR))
+            rows.append(check(f"{name}, {1e3 * dx:g} mm: contacts with walls that are not in it", contacts, 0.0, 0.0))
+    return rows
+
+
+def measured(flow, spacing: float) -> tuple[dict, dict, int]:
+    """Means by bin over MEASURED and on the walls: of the closures at the same places, of the grains; contacts."""
+    run, law = started(flow, spacing), profiles.solved(flow, np.linspace(0.0, HEIGHT, 241))
+    end = relaxation(flow)
+    for _ in range(SAMPLES):
+        run.window(SETTLED * end / SAMPLES)
+    run.forget()
+    before, samples = run.grains.stepper.contacts, []
+    for _ in range(SAMPLES):
+        run.window(MEASURED * end / SAMPLES)
+        samples.append(binned(run, law))
+    ours, theirs = np.nanmean(samples, axis=0)
+    names, push = ("u", "theta", "alpha_p"), run.push / (LENGTH * MEASURED * end)
+    along = 0.5 * (push[1, 1] - push[0, 1]) if flow.wall else -0.5 * push[:, 1].sum()
+    return (
+        dict(zip(names, theirs)) | {"pressure": law.pressure, "stress": law.stress},
+        dict(zip(names, ours)) | {"pressure": push[:, 0].mean(), "stress": along},
+        run.grains.stepper.contacts - before,
+    )
+
+
+def relaxation(flow) -> float:
+    """Time [s] in which shear across the gap evens out at the mean theta: H^2/(pi^2 nu)."""
+    law = profiles.solved(flow, np.linspace(0.0, HEIGHT, 241))
+    own = (ALPHA_P, float(law.theta.mean()), boxes.RESTITUTION, boxes.g0(ALPHA_P), boxes.DENSITY)
+    mu = granular.gidaspow_viscosity(*own, DIAMETER)
+    return HEIGHT**2 * ALPHA_P * boxes.DENSITY / (math.pi**2 * mu)
+
+
+def started(flow, spacing: float):
+    """Grains of even alpha_p and theta: sheared evenly, or at rest."""
+    walls = {side: {"kind": "wall", "side": side, "velocity_m_s": [way * flow.wall, 0.0]}
+             for side, way in (("bottom", -1.0), ("top", 1.0))}  # fmt: skip
+    theta = float(profiles.solved(flow, np.linspace(0.0, HEIGHT, 241)).theta.mean())
+    own = {"grains": {"diameter_mm": 1e3 * DIAMETER}, "domain": {"gravity_m_s2": [flow.gravity, 0.0]}}
+    own |= {"walls": {"specularity": flow.specularity}} if flow.wall else {}
+    run = boxes.Alone(boxes.case((LENGTH, HEIGHT), ALPHA_P, spacing, theta, boundaries=walls, **own))
+    run.begin_with(u=flow.wall * (2.0 * run.state.y / HEIGHT - 1.0))
+    return run
+
+
+def binned(run, law) -> np.ndarray:
+    """Means of u, theta and alpha_p by bin (2, 3, BINS): of grains, and of the closures where the grains are; nan where
+    there are none."""
+    s, y = run.state, np.linspace(0.0, HEIGHT, 241)
+    at = np.minimum((s.y / HEIGHT * BINS).astype(int), BINS - 1)
+    count = np.bincount(at, minlength=BINS)
+    ours = (s.u, s.theta, boxes.alpha_p(s))
+    theirs = tuple(np.interp(s.y, y, values) for values in (law.u, law.theta, law.share))
+    with np.errstate(invalid="ignore"):
+        return np.array([[np.bincount(at, each, BINS) / count for each in side] for side in (ours, theirs)])
