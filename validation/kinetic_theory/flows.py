@@ -23,6 +23,7 @@ FLOWS = {
     "Poiseuille": profiles.Flow(HEIGHT, ALPHA_P, DIAMETER, gravity=1.0),
 }
 SETTLED, MEASURED, SAMPLES = 8.0, 4.0, 50  # relaxation times of the slowest shear; our choice
+ACROSS = np.linspace(0.0, HEIGHT, 241)  # m, where the closures' profile is taken
 BINS = 12  # across the gap: two spacings of the coarser each
 BAR = 0.05  # issue 18; of the largest value across the gap
 
@@ -44,8 +45,8 @@ def checks(folder: Path, *_, spacings=boxes.SPACINGS, flows=tuple(FLOWS)) -> lis
 
 def measured(flow, spacing: float) -> tuple[dict, dict, int]:
     """Means by bin over MEASURED and on the walls: of the closures at the same places, of the grains; contacts."""
-    run, law = started(flow, spacing), profiles.solved(flow, np.linspace(0.0, HEIGHT, 241))
-    end = relaxation(flow)
+    law = profiles.solved(flow, ACROSS)
+    run, end = started(flow, spacing, float(law.theta.mean())), relaxation(float(law.theta.mean()))
     for _ in range(SAMPLES):
         run.window(SETTLED * end / SAMPLES)
     run.forget()
@@ -63,19 +64,16 @@ def measured(flow, spacing: float) -> tuple[dict, dict, int]:
     )
 
 
-def relaxation(flow) -> float:
-    """Time [s] in which shear across the gap evens out at the mean theta: H^2/(pi^2 nu)."""
-    law = profiles.solved(flow, np.linspace(0.0, HEIGHT, 241))
-    own = (ALPHA_P, float(law.theta.mean()), boxes.RESTITUTION, boxes.g0(ALPHA_P), boxes.DENSITY)
-    mu = granular.gidaspow_viscosity(*own, DIAMETER)
-    return HEIGHT**2 * ALPHA_P * boxes.DENSITY / (math.pi**2 * mu)
+def relaxation(theta: float) -> float:
+    """Time [s] in which shear across the gap evens out: H^2/(pi^2 nu)."""
+    own = (ALPHA_P, theta, boxes.RESTITUTION, boxes.g0(ALPHA_P), boxes.DENSITY)
+    return HEIGHT**2 * ALPHA_P * boxes.DENSITY / (math.pi**2 * granular.gidaspow_viscosity(*own, DIAMETER))
 
 
-def started(flow, spacing: float):
-    """Grains of even alpha_p and theta: sheared evenly, or at rest."""
+def started(flow, spacing: float, theta: float):
+    """Grains of even alpha_p and theta [m2/s2]: sheared evenly, or at rest."""
     walls = {side: {"kind": "wall", "side": side, "velocity_m_s": [way * flow.wall, 0.0]}
              for side, way in (("bottom", -1.0), ("top", 1.0))}  # fmt: skip
-    theta = float(profiles.solved(flow, np.linspace(0.0, HEIGHT, 241)).theta.mean())
     own = {"grains": {"diameter_mm": 1e3 * DIAMETER}, "domain": {"gravity_m_s2": [flow.gravity, 0.0]}}
     own |= {"walls": {"specularity": flow.specularity}} if flow.wall else {}
     run = boxes.Alone(boxes.case((LENGTH, HEIGHT), ALPHA_P, spacing, theta, boundaries=walls, **own))
@@ -86,10 +84,10 @@ def started(flow, spacing: float):
 def binned(run, law) -> np.ndarray:
     """Means of u, theta and alpha_p by bin (2, 3, BINS): of grains, and of the closures where the grains are; nan where
     there are none."""
-    s, y = run.state, np.linspace(0.0, HEIGHT, 241)
+    s = run.state
     at = np.minimum((s.y / HEIGHT * BINS).astype(int), BINS - 1)
     count = np.bincount(at, minlength=BINS)
     ours = (s.u, s.theta, boxes.alpha_p(s))
-    theirs = tuple(np.interp(s.y, y, values) for values in (law.u, law.theta, law.share))
+    theirs = tuple(np.interp(s.y, ACROSS, values) for values in (law.u, law.theta, law.share))
     with np.errstate(invalid="ignore"):
         return np.array([[np.bincount(at, each, BINS) / count for each in side] for side in (ours, theirs)])
