@@ -3,7 +3,9 @@
 
 cooling      Haff's law
 diffusion    a wave of theta that decays
-shear        uniform shear between sliding rough walls
+shear        uniform shear between sliding rough walls; what makes theta, and what takes it
+flows        Couette and Poiseuille flow, against profiles.py
+slopes       a layer on a rough slope: rest, and sliding
 """
 
-NAMES = ("cooling", "diffusion", "shear")
+NAMES = ("cooling", "diffusion", "shear", "flows", "slopes")

@@ -1,7 +1,7 @@
 """Diffusion of theta: a wave of it across a periodic box decays by conduction.
 
-Of grains that nothing pushes it is conduction alone. Where pressure acts, the wave is in balance where alpha_p is lower where theta is higher, so that pressure is even: then it spreads alone. At
-even alpha_p it rings as it spreads.
+Of grains that nothing pushes it is conduction alone. Where pressure acts, the wave is in balance where alpha_p is lower
+where theta is higher, so that pressure is even; at even alpha_p it rings as it spreads.
 
 Grains as elastic as a case allows (e = 0.9999). The reference is the closures' own: theta = theta_0 + theta_1 cos kx,
 alpha_p likewise, and the velocity u_1 sin kx that they drive, to first order in the wave, integrated by scipy:

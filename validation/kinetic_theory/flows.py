@@ -25,21 +25,25 @@ FLOWS = {
 SETTLED, MEASURED, SAMPLES = 8.0, 4.0, 50  # relaxation times of the slowest shear; our choice
 ACROSS = np.linspace(0.0, HEIGHT, 241)  # m, where the closures' profile is taken
 BINS = 12  # across the gap: two spacings of the coarser each
+QUANTITIES = {"u": "m/s", "theta": "m2/s2", "alpha_p": "-"}
 BAR = 0.05  # issue 18; of the largest value across the gap
 
 
 def checks(folder: Path, *_, spacings=boxes.SPACINGS, flows=tuple(FLOWS)) -> list[dict]:
+    found = {(name, dx): measured(FLOWS[name], dx) for name in flows for dx in spacings}
+    _figure(folder / "flows.png", found)
+    return [row for (name, dx), own in found.items() for row in against(f"{name}, {1e3 * dx:g} mm", *own)]
+
+
+def against(name: str, law: dict, ours: dict, contacts: int) -> list[dict]:
+    """Checks of one flow, as `measured` has it."""
     rows = []
-    for name in flows:
-        for dx in spacings:
-            law, ours, contacts = measured(FLOWS[name], dx)
-            for what, unit in (("u", "m/s"), ("theta", "m2/s2"), ("alpha_p", "-")):
-                error = math.sqrt(np.mean((ours[what] - law[what]) ** 2)) / np.abs(law[what]).max()
-                rows.append(check(f"{name}, {1e3 * dx:g} mm: {what} [{unit}], rms off over its largest", error, 0.0, BAR))
-            for what in ("pressure", "stress"):
-                ratio = ours[what] / law[what]
-                rows.append(check(f"{name}, {1e3 * dx:g} mm: {what} on the walls over the closures' [-]", ratio, 1.0, BAR))
-            rows.append(check(f"{name}, {1e3 * dx:g} mm: contacts with walls that are not in it", contacts, 0.0, 0.0))
+    for what, unit in QUANTITIES.items():
+        error = math.sqrt(np.mean((ours[what] - law[what]) ** 2)) / np.abs(law[what]).max()
+        rows.append(check(f"{name}: {what} [{unit}], rms off over its largest", error, 0.0, BAR))
+    for what in ("pressure", "stress"):
+        rows.append(check(f"{name}: {what} on the walls over the closures' [-]", ours[what] / law[what], 1.0, BAR))
+    rows.append(check(f"{name}: contacts with walls that the stress leaves out", contacts, 0.0, 0.0))
     return rows
 
 
@@ -55,11 +59,11 @@ def measured(flow, spacing: float) -> tuple[dict, dict, int]:
         run.window(MEASURED * end / SAMPLES)
         samples.append(binned(run, law))
     ours, theirs = np.nanmean(samples, axis=0)
-    names, push = ("u", "theta", "alpha_p"), run.push / (LENGTH * MEASURED * end)
+    push = run.push / (LENGTH * MEASURED * end)
     along = 0.5 * (push[1, 1] - push[0, 1]) if flow.wall else -0.5 * push[:, 1].sum()
     return (
-        dict(zip(names, theirs)) | {"pressure": law.pressure, "stress": law.stress},
-        dict(zip(names, ours)) | {"pressure": push[:, 0].mean(), "stress": along},
+        dict(zip(QUANTITIES, theirs)) | {"pressure": law.pressure, "stress": law.stress},
+        dict(zip(QUANTITIES, ours)) | {"pressure": push[:, 0].mean(), "stress": along},
         run.grains.stepper.contacts - before,
     )
 
@@ -91,3 +95,22 @@ def binned(run, law) -> np.ndarray:
     theirs = tuple(np.interp(s.y, ACROSS, values) for values in (law.u, law.theta, law.share))
     with np.errstate(invalid="ignore"):
         return np.array([[np.bincount(at, each, BINS) / count for each in side] for side in (ours, theirs)])
+
+
+def _figure(file: Path, found: dict) -> None:
+    """Profiles across the gap: lines of the closures, marks of the grains."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    names, y = list(dict.fromkeys(name for name, _ in found)), (np.arange(BINS) + 0.5) * 1e3 * HEIGHT / BINS
+    figure, panels = pyplot.subplots(len(names), 3, figsize=(9, 3 * len(names)), constrained_layout=True, squeeze=False)
+    for (name, dx), (law, ours, _) in found.items():
+        for axes, (what, unit) in zip(panels[names.index(name)], QUANTITIES.items()):
+            axes.plot(law[what], y, "k-", lw=1)
+            axes.plot(ours[what], y, "o" if dx == boxes.SPACINGS[0] else "x", mfc="none", label=f"{1e3 * dx:g} mm")
+            axes.set(xlabel=f"{what} [{unit}]", ylabel="y [mm]", title=name)
+            axes.legend(fontsize=7)
+    figure.savefig(file, dpi=90)
+    pyplot.close(figure)

@@ -1,9 +1,9 @@
 """Steady flow of agitated grains between two walls as the closures have it: ODEs across the lower half, by scipy.
 
-    du/dy = tau/mu,   dtheta/dy = q/k_theta,   dq/dy = gamma - tau du/dy,   dm/dy = alpha_p,   p_s(alpha_p, theta) = p
+    du/dy = tau/mu,  dtheta/dy = q/k_theta,  dq/dy = gamma - tau du/dy,  dm/dy = alpha_p,  p_s(alpha_p, theta) = p
 
-q is the heat that goes down in y [W/m2], m the volume of grains below y [m]. In the middle q = 0. tau is even in Couette
-flow and rho_p g times the grains between y and the middle in Poiseuille flow.
+q is the heat that goes down in y [W/m2], m the volume of grains below y [m]. In the middle q = 0. tau is even in
+Couette flow and rho_p g times the grains between y and the middle in Poiseuille flow.
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ def packed(pressure, theta):
 
 def _slopes(flow: Flow, values, unknown):
     """d/dy of u, theta, q, m (4, N)."""
-    u, theta, q, below = values
+    _, theta, q, below = values
     theta = np.abs(theta)  # on the way to the solution it may pass below 0
     share = packed(unknown[0], theta)
     tau = unknown[1] if flow.wall else boxes.DENSITY * flow.gravity * (0.5 * flow.share * flow.height - below)
@@ -106,7 +106,5 @@ def _ends(flow: Flow, wall, middle, unknown):
         return np.array([*ends, wall[0], wall[2]])
     theta, slip = abs(wall[1]), wall[0] + flow.wall
     share = float(packed(unknown[0], theta))
-    k = friction.johnson_jackson_wall(
-        flow.specularity, share, theta, boxes.g0(share), boxes.DENSITY, boxes.PACKING
-    )
+    k = friction.johnson_jackson_wall(flow.specularity, share, theta, boxes.g0(share), boxes.DENSITY, boxes.PACKING)
     return np.array([*ends, middle[0], k * slip - unknown[1], wall[2] + unknown[1] * slip])

@@ -17,7 +17,8 @@ from sdph.study.compare import check
 from . import boxes
 
 GRAVITY, PHI = 9.81, math.radians(28.5)  # m/s2; of friction as a case has it that gives none
-LENGTH, DEPTH, SPACING, ALPHA_P = 0.06, 0.06, 5e-3, 0.61  # m, m, m, -
+LENGTH, DEPTH, ALPHA_P = 0.06, 0.06, 0.61  # m, m, -
+SPACINGS = (5e-3, 2.5e-3)  # m: 12 and 24 particles deep
 END, WINDOWS = 0.3, 30  # s; the second half is measured
 LOW = 1e-10  # m2/s2, the least theta that a case has
 REST = 1e-3  # m/s, and m/s2 of the mean acceleration: our choice, 1e-3 and 3e-4 of falling freely
@@ -26,23 +27,31 @@ FRICTION = ("gravity", "friction", "granular_pressure", "walls")
 SLOPES = (20.0, 30.0, 45.0)  # degrees
 
 
-def checks(folder: Path, *_, slopes=SLOPES, agitated=(False, True)) -> list[dict]:
-    rows = []
-    for slope in slopes:
-        for theory in agitated:
-            speed, acceleration = slid(math.radians(slope), boxes.EFFECTS if theory else FRICTION)
-            name = f"slope of {slope:g} degrees, {'kinetic theory' if theory else 'friction alone'}"
-            left = GRAVITY * (math.sin(math.radians(slope)) - math.sin(PHI) * math.cos(math.radians(slope)))
-            if left < 0.0:
-                rows.append(check(f"{name}: speed [m/s]", speed, 0.0, REST))
-                rows.append(check(f"{name}: acceleration [m/s2]", acceleration, 0.0, REST))
-            else:
-                bar = math.inf if theory else BAR
-                rows.append(check(f"{name}: acceleration over that of a block [-]", acceleration / left, 1.0, bar))
-    return rows
+def checks(folder: Path, *_, spacings=SPACINGS, slopes=SLOPES, agitated=(False, True)) -> list[dict]:
+    return [
+        row
+        for slope in slopes
+        for theory in agitated
+        for dx in spacings[: 1 if theory else None]
+        for row in of_slope(math.radians(slope), theory, dx)
+    ]
 
 
-def slid(slope: float, effects) -> tuple[float, float]:
+def of_slope(slope: float, theory: bool, spacing: float) -> list[dict]:
+    """Checks of one slope [rad]."""
+    speed, acceleration = slid(slope, boxes.EFFECTS if theory else FRICTION, spacing)
+    acting = "kinetic theory" if theory else "friction alone"
+    name = f"slope of {math.degrees(slope):g} degrees, {acting}, {1e3 * spacing:g} mm"
+    left = GRAVITY * (math.sin(slope) - math.sin(PHI) * math.cos(slope))
+    if left < 0.0:
+        found = {"speed [m/s]": speed, "acceleration [m/s2]": acceleration}
+        return [check(f"{name}: {what}", value, 0.0, REST) for what, value in found.items()]
+    bar = math.inf if theory else BAR
+    told = ", reported" if theory else ""
+    return [check(f"{name}: acceleration over that of a block{told} [-]", acceleration / left, 1.0, bar)]
+
+
+def slid(slope: float, effects, spacing: float) -> tuple[float, float]:
     """Mean speed [m/s] of a layer after END on a slope [rad], and its mean acceleration in the second half [m/s2]."""
     pull = [GRAVITY * math.sin(slope), -GRAVITY * math.cos(slope)]
     own = {
@@ -52,7 +61,7 @@ def slid(slope: float, effects) -> tuple[float, float]:
                               "volume_fraction": ALPHA_P, "temperature_K": 300.0}},
         "boundaries": {"lid": {"kind": "pressure_outlet", "side": "top", "pressure_Pa": 0.0}},
     }  # fmt: skip
-    run = boxes.Alone(boxes.case((LENGTH, 2.0 * DEPTH), ALPHA_P, SPACING, LOW, effects, **own))
+    run = boxes.Alone(boxes.case((LENGTH, 2.0 * DEPTH), ALPHA_P, spacing, LOW, effects, **own))
     speeds = [0.0]
     for _ in range(WINDOWS):
         run.window(END / WINDOWS)
