@@ -1,4 +1,4 @@
-"""Short forms of `sdph validate kinetic_theory`: the coarser spacing, one case of each kind; what it misses is named."""
+"""Short forms of `sdph validate kinetic_theory`: the coarser spacing, one case of each kind; misses are named."""
 
 import math
 
@@ -31,15 +31,13 @@ def test_theta_spreads_as_conduction_has_it(tmp_path):
 
 
 def test_sheared_grains_miss_their_closures_by_the_lean_of_the_viscosity():
-    """Pressure, stress and theta miss 2 % by a percent or two: particles line up along the shear, where the pair force
-    is weak (validation/kinetic_theory/README.md). What shear makes is what collisions take."""
+    """Pressure, stress and theta are 2.8, 3.6 and 2.9 % low where 2 % is allowed: particles line up along the shear,
+    where the pair force is weak (validation/kinetic_theory/README.md). What shear makes is what collisions take."""
     rows = shear.of_cell(0.45, *COARSE, shear.BARS[0.45])
-    missed = {"pressure over", "shear stress over", "theta over", "lost by the motion over"}
-    assert {name.split(": ")[1] for name in failed(rows)} <= {
-        f"{what} the closure [-]" if "motion" not in what else f"{what} tau rate V [-]" for what in missed
-    }
-    off = [row["value"] - 1.0 for row in rows if "over the closure" in row["name"]]
-    assert max(map(abs, off)) < 0.05
+    missed = [row for row in rows if "over the closure" in row["name"]]
+    assert len(missed) == 3
+    assert failed(rows) == [row["name"] for row in missed]
+    assert all(0.95 < row["value"] < 0.98 for row in missed)
 
 
 def test_couette_flow_is_that_of_the_closures(tmp_path):
@@ -49,7 +47,7 @@ def test_couette_flow_is_that_of_the_closures(tmp_path):
 
 def test_a_layer_rests_at_20_degrees_and_slides_at_45():
     rows = [row for slope in (20.0, 45.0) for row in slopes.of_slope(math.radians(slope), False, slopes.SPACINGS[0])]
-    assert failed(rows) in ([], [rows[1]["name"]])  # contacts ring at 1.4e-3 m/s2 where 1e-3 is asked for
+    assert failed(rows) == [rows[1]["name"]]  # contacts ring at 1.4e-3 m/s2 where 1e-3 is asked for
 
 
 def test_between_walls_without_slip_the_profile_is_that_of_uniform_shear():
