@@ -21,7 +21,7 @@ def verdicts(checks) -> list[bool]:
 
 def test_friction_of_runs_is_that_of_the_markers(tmp_path):
     """Ergun's friction is linear in Re: two runs span the markers."""
-    bed = validate.experiment("packed_bed")
+    bed = validate.part(validate.EXPERIMENTS, "packed_bed")
     places = bed.PLACES[0], bed.PLACES[-1]
     assert verdicts(bed.checks(tmp_path, (), QUIET, places)) == [True] * 4
     assert (tmp_path / "packed_bed.png").is_file()
@@ -29,14 +29,14 @@ def test_friction_of_runs_is_that_of_the_markers(tmp_path):
 
 @pytest.mark.parametrize("factor", [1.2, 1.0 / 1.2])
 def test_friction_off_by_a_fifth_is_told(tmp_path, monkeypatch, factor):
-    bed = validate.experiment("packed_bed")
+    bed = validate.part(validate.EXPERIMENTS, "packed_bed")
     monkeypatch.setattr(bed, "friction", lambda x, *_: (x, factor * (150.0 + 1.75 * x)))
     assert verdicts(bed.checks(tmp_path)) == [False] * 6
 
 
 @pytest.mark.parametrize(("factor", "ok"), [(1.0, True), (1.2, True), (1.3, False), (0.7, False)])
 def test_minimum_fluidisation_off_by_more_than_the_bar_is_told(tmp_path, monkeypatch, factor, ok):
-    powders = validate.experiment("minimum_fluidisation")
+    powders = validate.part(validate.EXPERIMENTS, "minimum_fluidisation")
     found = powders.measured.table("geldart_1973")["U0_m_s"]
     ours = iter(factor * found[np.isfinite(found)])
     monkeypatch.setattr(powders, "LAWS", {"as measured": lambda density, diameter: next(ours)})
@@ -45,14 +45,14 @@ def test_minimum_fluidisation_off_by_more_than_the_bar_is_told(tmp_path, monkeyp
 
 def test_index_of_laws_that_are_known():
     """Stokes without crowding: U = eps s, s as the weight of the suspension, eps. Wen & Yu at rest: eps^(2 + 2.65)."""
-    liquid = validate.experiment("liquid_fluidisation")
+    liquid = validate.part(validate.EXPERIMENTS, "liquid_fluidisation")
     assert liquid.index(drag.stokes, 1e-3) == pytest.approx(2.0, abs=1e-6)
     assert liquid.index(drag.wen_yu, 1e-6) == pytest.approx(2.0 - drag.WEN_YU_EXPONENT, abs=1e-3)
 
 
 @pytest.mark.parametrize(("off", "ok"), [(0.0, True), (0.14, True), (0.16, False), (-0.16, False)])
 def test_an_index_outside_its_bar_is_told(tmp_path, monkeypatch, off, ok):
-    liquid = validate.experiment("liquid_fluidisation")
+    liquid = validate.part(validate.EXPERIMENTS, "liquid_fluidisation")
     known = {row["Re"]: row["n0"] for row in liquid.measured.table("richardson_zaki_1954")}
     monkeypatch.setattr(liquid, "index", lambda law, Re: known[Re] + off)
     assert verdicts(liquid.checks(tmp_path)) == [ok] * 8
@@ -80,7 +80,7 @@ def balance(row, water) -> tuple[float, float]:
 @pytest.mark.parametrize("place", [0, 13, 18, 26, 33])
 def test_a_run_has_the_balance_of_the_drop_that_was_measured(tmp_path, place):
     """0.2 % and 0.02 K: the drop shrinks by as much in a run."""
-    drops = validate.experiment("water_drops")
+    drops = validate.part(validate.EXPERIMENTS, "water_drops")
     row = drops.measured.table("ranz_marshall_1952")[place]
     rate, temperature = drops.drop(row, "linear", tmp_path, (), QUIET)
     expected = balance(row, drops.water)
@@ -90,7 +90,7 @@ def test_a_run_has_the_balance_of_the_drop_that_was_measured(tmp_path, place):
 
 @pytest.mark.parametrize(("factor", "ok"), [(1.0, True), (1.2, False), (1.0 / 1.2, False)])
 def test_drops_off_by_a_fifth_are_told(tmp_path, monkeypatch, factor, ok):
-    drops = validate.experiment("water_drops")
+    drops = validate.part(validate.EXPERIMENTS, "water_drops")
     monkeypatch.setattr(
         drops, "drop", lambda row, *_: (factor * row["evaporation_1e-11_m3_s"], factor * row["T_drop_C"])
     )
