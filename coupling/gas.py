@@ -89,7 +89,8 @@ class Budget:
     `impulse_exchange` of `momentum` and `momentum_coefficient` of the particles; `impulse_room` of the pressure on the
     room of the particles, (1 - alpha) grad p, since the equation has -alpha grad p. What `momentum` grew by besides
     these and `momentum_in` is numerical. `courant` is the largest Courant number of the last step.
-    `residuals` names the final linear-solver residual of each equation.
+    `residuals` names the final linear-solver residual of each equation, `held` what limiters of the gas took in the
+    last step, by column of history.csv, each 0 or more (docs/limiters.md).
     """
 
     mass: float
@@ -112,6 +113,7 @@ class Budget:
     impulse_exchange: tuple[float, float, float] = NOTHING
     impulse_room: tuple[float, float, float] = NOTHING
     residuals: dict[str, float] = field(default_factory=dict)
+    held: dict[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ particles that move or vapour change it, to first order in the window (`gas_nume
 
 In a box without opening the mass is given, so its density is the equation of state's times one factor for the
 whole box: with `operating` that is the rise of the operating pressure, with `constant` the gas is squeezed alike
-everywhere. `Budget.residuals["box"]` is the factor less 1. Its pressure has zero mean.
+everywhere. `gas_box_rel` of the history is the factor less 1. Its pressure has zero mean.
 """
 
 from __future__ import annotations
@@ -101,8 +101,9 @@ class EmbeddedGas:
         self.flow = dataclasses.replace(new, **sums)
         found = self._state()
         found.fields["power"] = power(self.box, old, window, new) / self.mesh.volumes
-        residuals |= {"pressure": left, "box": float(new.ratio - 1.0)}
-        full = dataclasses.replace(found.budget, courant=courant, residuals=residuals)
+        held = {"gas_box_rel": abs(float(new.ratio - 1.0)), "gas_mass_left_rel": left}
+        told = {"courant": courant, "residuals": residuals | {"pressure": left}, "held": held}
+        full = dataclasses.replace(found.budget, **told)
         self.state = dataclasses.replace(found, budget=full)
         return self.state
 

@@ -55,11 +55,7 @@ class Reporter:
         parts = [f"t = {simulation.time:.4g} s", f"dt = {ledger.last['window_s']:.2e} s ({simulation.clock.limit})"]
         parts.append(f"{particles.count(simulation.state)} particles")
         if gas:
-            parts.append(
-                "residual {1:.0e} ({0})".format(
-                    *max((item for item in gas.items() if item[0] != "box"), key=lambda item: item[1])
-                )
-            )
+            parts.append("residual {1:.0e} ({0})".format(*max(gas.items(), key=lambda item: item[1])))
         closure = {key: value for key, value in ledger.summary().items() if key.endswith(("drift_rel", "mismatch_rel"))}
         parts.append(
             "closure {:.0e} ({})".format(*max((value, key.removesuffix("_rel")) for key, value in closure.items()))

@@ -91,7 +91,8 @@ class Simulation:
             self.clock.thicken(1.0, thickening)
             self.clock.hold(grip)
         self.ledger.open(self._totals(), self.gas_state.budget)
-        self.limiters.hear(self.stepper.held | self.exchange.held(self.state, self.weights, self.gas_state))
+        held = self.exchange.held(self.state, self.weights, self.gas_state) | self.gas_state.budget.held
+        self.limiters.hear(self.stepper.held | held)
         self.beside.start()
         self.clock.touch(self.beside.limit(self.state))
 
@@ -120,7 +121,7 @@ class Simulation:
         self._timed("particles", self._advance, end)
         self.grains.close()
         way = self.grains.way
-        self.limiters.hear(self.stepper.held | handed.held())
+        self.limiters.hear(self.stepper.held | handed.held() | self.gas_state.budget.held)
         exchanged = taken.columns() | handed.columns() | held.columns(way)
         exchanged |= {"drag_heat_J": self.exchange.handed_heat(handed)}
         exchanged |= {"friction_J": self.exchange.rub(handed, taken, self.gas_state, way, self.grains.damped)}

@@ -186,7 +186,7 @@ def test_what_has_the_form_of_a_message_but_not_its_content_is_refused():
     rng, cells = np.random.default_rng(15 + SEED), 4
     vectors, scalars = ("velocity", "pressure_gradient"), ("pressure", "temperature", "density", "power")
     of_budget = {"momentum", *IMPULSES}
-    numbers = {field.name for field in dataclasses.fields(Budget)} - of_budget - {"residuals"}
+    numbers = {field.name for field in dataclasses.fields(Budget)} - of_budget - {"residuals", "held"}
     budget = {f"budget_{name}": 1.0 for name in sorted(numbers)}
     state = {"time": 1.0, "residual_T": 1e-9} | {f"budget_{name}": np.zeros(3) for name in sorted(of_budget)} | budget
     state |= {name: np.ones((cells, 3)) for name in vectors} | {name: np.ones(cells) for name in scalars}
