@@ -6,8 +6,8 @@ half a step before and half a step after them, and the trapezoidal rule over the
 
 Walls are summed over their particles and what is outside over the liquid's, every step. What pairs of the liquid lose
 (sdph.methods.liquids.losses) takes a loop over all pairs, as long as that of the forces: it is looked at in one step of
-EVERY and holds until the next look. What a liquid loses as a whole changes over many steps, so that the error is that
-of a rectangle of EVERY steps at both ends of a run.
+EVERY, holds until the next look, and is made up for then (trapezoidal rule between looks): what a liquid loses as a
+whole changes over many steps.
 """
 
 from __future__ import annotations
@@ -25,7 +25,8 @@ LOADS, BODY, GRAVITY, FRAME = slice(0, 6), slice(6, 9), 9, 10
 WALLS, BY_WALLS, HELD_OFF = slice(11, 14), 14, 15
 TENSION, BY_TENSION = slice(16, 19), 19
 LOST = slice(20, 20 + len(losses.CAUSES))
-SIZE = LOST.stop
+SINCE = LOST.stop  # time [s] since the last look
+SIZE = SINCE + 1
 
 
 def rates(stepper, ahead: float, last: np.ndarray | None) -> np.ndarray:
@@ -40,8 +41,19 @@ def rates(stepper, ahead: float, last: np.ndarray | None) -> np.ndarray:
         pull = stepper.state.mass[:, None] * stepper.tightening
         velocity = particles.velocities(stepper.state) + ahead * stepper.acceleration
         now[TENSION], now[BY_TENSION] = pull.sum(axis=0), (pull * velocity).sum()
-    now[LOST] = _lost(stepper, ahead) if last is None or stepper.steps % EVERY == 0 else last[LOST]
+    if last is None or (ahead and stepper.steps % EVERY == 0):
+        now[LOST] = _lost(stepper, ahead)
+    else:
+        now[LOST], now[SINCE] = last[LOST], last[SINCE] + 2.0 * ahead
     return now
+
+
+def between(before: np.ndarray, now: np.ndarray, dt: float) -> np.ndarray:
+    """(SIZE,) [N s], [J] of a step of `dt` [s]; a look makes up for what held since the one before."""
+    sums = 0.5 * dt * (before + now)
+    if now[SINCE] == 0.0:
+        sums[LOST] += 0.5 * before[SINCE] * (now[LOST] - before[LOST])
+    return sums
 
 
 def _lost(stepper, ahead: float) -> tuple:

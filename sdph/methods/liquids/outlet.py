@@ -34,9 +34,7 @@ class Outlet:
         self.gone = np.zeros(8)
         # particles on their way out: number; way to go [m], time [s], mass [kg] when chosen
         self.leaving = np.zeros((0, 4))
-        self.pushed = np.zeros(
-            3
-        )  # force [N] on what was taken, as the last forces were made; the next kick gives it not
+        self.pushed = np.zeros(3)  # force [N] on what was taken, which the next kick does not give
 
     def admit_at(self, time: float, kept: dict, state: dict) -> None:
         """Unfit where more has gone at `time` [s] than there was, or who leaves is not among the pieces of wall."""

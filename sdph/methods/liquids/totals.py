@@ -33,18 +33,8 @@ AMOUNTS = ("drained_kg", "drained_J", *WORKS, *LOSSES, "dissipated_J", "numerica
 class LiquidLedger:
     """Keeps the sums of one run and writes each row to `ledger.csv` as it comes."""
 
-    KEPT = (
-        "sums",
-        "impulses",
-        "scale",
-        "most",
-        "moved",
-        "made",
-        "mach",
-        "first",
-        "last",
-        "table",
-    )  # see sdph.engine.kept
+    # see sdph.engine.kept
+    KEPT = ("sums", "impulses", "scale", "most", "moved", "made", "mach", "first", "last", "table")
     FORMS = {"first": Maybe(ROW), "last": Maybe(ROW)}
 
     def __init__(self, path: Path):

@@ -29,7 +29,7 @@ class Tally:
         dt = self.stepper.step(left)
         if dt >= left:
             self.stepper.time = end
-        self.sums += 0.5 * dt * (run.rates + self.now)
+        self.sums += account.between(run.rates, self.now, dt)
         after = pushed(self.stepper.state)
         self.contact += dt * after[:3]
         self.pressed += 0.5 * dt * (before[3] + after[3])
