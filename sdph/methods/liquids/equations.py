@@ -34,16 +34,20 @@ class Flow(NamedTuple):
     least: np.ndarray
 
 
+@njit(cache=True, error_model="numpy")
+def pressure_at(fluids, kind, rho):
+    """Pressure [Pa] of a kind at a density [kg/m3], as in `state_of`."""
+    tension = fluids[4, kind] * rho * rho  # of Van der Waals
+    return tait_pressure(rho / fluids[0, kind], fluids[1, kind], fluids[2, kind], fluids[3, kind]) - tension
+
+
 @njit(cache=True, parallel=True, error_model="numpy")
 def state_of(fluids, s, active, pressure, volume):
     """Pressure [Pa] and volume [m^d] of liquid particles; `fluids` (5, K): rho_0, stiffness, exponent, background,
     cohesion by kind."""
     for n in prange(len(active)):
         i = active[n]
-        kind, rho = s.kind[i], s.density[i]
-        tension = fluids[4, kind] * rho * rho  # of Van der Waals
-        compression = rho / fluids[0, kind]
-        pressure[i] = tait_pressure(compression, fluids[1, kind], fluids[2, kind], fluids[3, kind]) - tension
+        pressure[i] = pressure_at(fluids, s.kind[i], s.density[i])
         volume[i] = s.mass[i] / s.density[i]
 
 

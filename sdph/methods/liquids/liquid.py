@@ -9,7 +9,7 @@ import numpy as np
 from sdph.effects.around import drain, tank
 from sdph.engine import state as particles
 from sdph.engine.kept import Unfit
-from sdph.methods.liquids import history
+from sdph.methods.liquids import account, history
 from sdph.methods.liquids.loads import kinetic_energy
 from sdph.methods.liquids.method import LiquidStepper
 from sdph.methods.liquids.outlet import Outlet
@@ -24,13 +24,14 @@ class Liquid:
     """A liquid and what it does in a window."""
 
     matter = "liquid"
-    KEPT = ("windows", "stepper", "outlet", "ledger", "impulse", "since")  # see sdph.engine.kept
+    KEPT = ("windows", "stepper", "outlet", "ledger", "rates", "impulse", "since")  # see sdph.engine.kept
 
     def __init__(self, case, ledger: Path, shortest: float):
         self.case, self.windows = case, 0
         self.stepper, self.ledger = LiquidStepper(case, shortest), LiquidLedger(ledger)
         self.outlet = Outlet(self.stepper) if "drain" in case.effects else None
         self.fill = drain.command(case.parameters["drain"], self.outlet.fill) if self.outlet else None
+        self.rates = account.rates(self.stepper, 0.0, None)  # what acts now
         self.impulse, self.since = np.zeros(6), 0.0  # force and moment on the tank since the last row, and its time [s]
 
     @property
@@ -79,7 +80,7 @@ class Liquid:
 
     def close(self) -> None:
         self.stepper.guard.look(self.stepper)
-        self.impulse = self.impulse + self.tally.load[:6]
+        self.impulse = self.impulse + self.tally.sums[account.LOADS]
         self.ledger.close_window(self.stepper, self.time - self.begun, *self.tally.amounts())
         self.stepper.state = particles.released(self.state)
 

@@ -17,10 +17,13 @@ def loads(stepper) -> np.ndarray:
     return balance(stepper)[:6]
 
 
-def balance(stepper) -> np.ndarray:
-    """(10,) the same, then the force (3) [N] and the power [W] of gravity and of the frame's motion."""
-    load = np.zeros(10)
-    walls.reaction(stepper.state, stepper.active, stepper.p["gravity"], stepper.frame, stepper.acceleration, load)
+def balance(stepper, ahead: float = 0.0) -> np.ndarray:
+    """(11,) the same, then the force (3) [N] of gravity and of the frame's motion and the power [W] of each, with the
+    velocities that the accelerations lead to in `ahead` [s]."""
+    load = np.zeros(11)
+    walls.reaction(
+        stepper.state, stepper.active, stepper.p["gravity"], stepper.frame, stepper.acceleration, ahead, load
+    )
     return load
 
 
@@ -29,12 +32,7 @@ def wall_loads(stepper, chosen=None) -> np.ndarray:
     if given."""
     chosen = stepper.walls if chosen is None else chosen
     force = np.zeros((len(chosen), 3))
-    p = stepper.p
-    walls.wall_force(
-        stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, stepper.flow, chosen, stepper.wall,
-        stepper.viscous, p["liquid_damping"], p["shifting"], stepper.phases, p["gravity"], stepper.frame,
-        stepper.excess, force,
-    )  # fmt: skip
+    walls.feel(stepper, chosen, 0.0, force, np.zeros((len(chosen), 2)))
     places = particles.positions(stepper.state)[chosen]
     return np.concatenate([force.sum(axis=0), np.cross(places, force).sum(axis=0)])
 

@@ -37,7 +37,7 @@ class LiquidStepper:
 
     # see sdph.engine.kept
     KEPT = (
-        "state", "neighbours", "time", "steps", "limit", "shifted", "tightening", "pressure", "volume", "acceleration",
+        "state", "neighbours", "time", "steps", "limit", "shifted", "eased", "pressure", "volume", "acceleration",
         "gradient", "least", "shift", "twist", "extra", "excess",
     )  # fmt: skip
     # of the particles
@@ -64,10 +64,12 @@ class LiquidStepper:
         self.lattice = kernels.lattice_factor(case.liquid.kernel, d, case.resolution.smoothing_ratio)
         self.limit, self.steps, self.time = "", 0, 0.0
         self.shifted = np.zeros(3)  # momentum that shifting has given [kg m/s]
-        self.tightening = 0.0  # power of surface tension on the particles [W]
+        self.eased = 0.0  # energy that shifting has taken [J]
+        self.tightening = np.zeros((0, 3))  # acceleration by surface tension [m/s2]
         self.compliance = np.array([self._compliance(kind) for kind in range(GAS + 1)])
         self.aim(0.0)
         self.least = np.zeros(0)
+        self.look = None  # who is told of new forces, with the length [s] of the kick to come
         self.forces()
 
     def revive(self) -> None:
@@ -117,7 +119,7 @@ class LiquidStepper:
             self._shift(dt)
         self.time += dt
         self.aim(self.time)
-        self.forces()
+        self.forces(0.5 * dt)
         if self.frame:
             motion.turn(self.active, self.frame, dt, self.acceleration)
         self._kick(0.5 * dt)
@@ -169,8 +171,8 @@ class LiquidStepper:
         )  # fmt: skip
         motion.densify(self.active, self.rate, dt, self.state.density)
 
-    def forces(self) -> None:
-        """Neighbours, pressure, walls, accelerations of where the particles are now."""
+    def forces(self, ahead: float = 0.0) -> None:
+        """Neighbours, pressure, walls, accelerations of where the particles are now, before a kick by `ahead` [s]."""
         built, ident = self.neighbours.built, self.state.ident
         self.state, self.rows = self.neighbours.update(self.state)
         if built is not self.neighbours.built:
@@ -202,6 +204,8 @@ class LiquidStepper:
             shift.surround(*around, p["shifting"], self.phases, self.volume, self.least, self.shift, self.twist)
             if not self.phases:
                 shift.along_surface(*around, self.volume, self.least, self.shift)
+        if self.look:
+            self.look(ahead)
 
     def _tighten(self) -> None:
         """Adds surface tension to the accelerations."""
@@ -210,7 +214,7 @@ class LiquidStepper:
         interface.orient(*common, own, self.volume, self.normal)
         interface.bend(*common, self.volume, self.normal, self.curvature)
         interface.pull(*common, own, self.volume, self.normal, self.curvature, self.acceleration)
-        self.tightening = float(s.mass @ (particles.velocities(s) * (self.acceleration - before)).sum(axis=1))
+        self.tightening = self.acceleration - before
 
     def _allocate(self, before) -> None:
         """Work arrays for the particles in their new order; only `least` outlives a step. before (N,): their old
@@ -254,8 +258,8 @@ class LiquidStepper:
 
     def _shift(self, dt: float) -> None:
         s, before = self.state, np.array(motion.momentum(self.state, self.active))
-        shift.displace(
-            self.p["shifting"], self.active, s.kind, self.shift, self.gradient, self.twist, self.compliance, dt,
+        self.eased += shift.displace(
+            self.p["shifting"], self.fluids, s, self.active, self.shift, self.gradient, self.twist, self.compliance, dt,
             s.x, s.y, s.z, s.u, s.v, s.w, s.density,
         )  # fmt: skip
         self.shifted = self.shifted + motion.momentum(s, self.active) - before

@@ -19,7 +19,7 @@ class Outlet:
     """Takes from a stepper's liquid what is commanded; sums up what has gone: mass, momentum, angular momentum,
     energy."""
 
-    KEPT, FORMS = ("place", "gone", "leaving"), {"leaving": GROWING}  # see sdph.engine.kept
+    KEPT, FORMS = ("place", "gone", "leaving", "pushed"), {"leaving": GROWING}  # see sdph.engine.kept
 
     def __init__(self, stepper):
         case = stepper.case
@@ -34,6 +34,7 @@ class Outlet:
         self.gone = np.zeros(8)
         # particles on their way out: number; way to go [m], time [s], mass [kg] when chosen
         self.leaving = np.zeros((0, 4))
+        self.pushed = np.zeros(3)  # force [N] on what was taken, which the next kick does not give
 
     def admit_at(self, time: float, kept: dict, state: dict) -> None:
         """Unfit where more has gone at `time` [s] than there was, or who leaves is not among the pieces of wall."""
@@ -45,6 +46,7 @@ class Outlet:
 
     def command(self, fill: float) -> None:
         """Takes out what is left of the command that the tank be filled to `fill`."""
+        self.pushed = np.zeros(3)
         self._fade()
         owed = (self.fill - fill) * self.stepper.capacity - self.gone[0]
         if self.form == "paper":
@@ -65,10 +67,13 @@ class Outlet:
         self.gone += taken * np.concatenate(([1.0], velocity, np.cross(place, velocity), energy))
         if s.mass[i] - taken > ROUND_OFF * self.particle:
             s.mass[i] -= taken
+            self.pushed = self.pushed + taken * st.acceleration[i]
         elif self.form == "paper":
             self._release(i)
+            self.pushed = np.zeros(3)
         else:
             st.remove(i)
+            self.pushed = np.zeros(3)
         return taken
 
     def _release(self, i: int) -> None:

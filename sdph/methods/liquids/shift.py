@@ -13,6 +13,7 @@ from sdph.engine.rows import entry, length
 from sdph.engine.state import GAS
 from sdph.laws.matrices import smallest, solved
 from sdph.methods.liquids import phases
+from sdph.methods.liquids.equations import pressure_at
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
@@ -114,23 +115,35 @@ def along_surface(kernel, s, rows, box, active, volume, least, shift):
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def displace(p, active, kind, shift, gradient, twist, compliance, dt, x, y, z, u, v, w, density):
+def displace(p, fluids, s, active, shift, gradient, twist, compliance, dt, x, y, z, u, v, w, density):
     """r -= dt D sum V_j (1 + R (W/W0)^4) grad W, no faster than the parameters allow.
 
     Velocity and density are taken along their gradients, so that moving a particle does not move the field; compliance
-    (K,) is d rho/dp [s2/m2] by kind.
+    (K,) is d rho/dp [s2/m2] by kind. Returns the energy [J] of motion and compression that this takes; x ... density
+    are those of s once more: a prange keeps no writes to arrays of a tuple.
     """
+    lost = 0.0
     for n in prange(len(active)):
-        i = active[n]
+        i, kind = active[n], s.kind[active[n]]
         dx, dy, dz = -p.strength * shift[i, 0], -p.strength * shift[i, 1], -p.strength * shift[i, 2]
         speed = math.sqrt(dx * dx + dy * dy + dz * dz)
-        scale = dt * min(1.0, p.largest / speed) if speed > 0.0 and (p.liquid > 0.0 or kind[i] == GAS) else 0.0
+        scale = dt * min(1.0, p.largest / speed) if speed > 0.0 and (p.liquid > 0.0 or kind == GAS) else 0.0
         dx, dy, dz = scale * dx, scale * dy, scale * dz
         x[i] += dx
         y[i] += dy
-        u[i] += twist[i, 0] * dx + twist[i, 1] * dy + twist[i, 2] * dz
-        v[i] += twist[i, 3] * dx + twist[i, 4] * dy + twist[i, 5] * dz
-        density[i] += compliance[kind[i]] * (gradient[i, 0] * dx + gradient[i, 1] * dy + gradient[i, 2] * dz)
+        du = twist[i, 0] * dx + twist[i, 1] * dy + twist[i, 2] * dz
+        dv = twist[i, 3] * dx + twist[i, 4] * dy + twist[i, 5] * dz
+        denser = compliance[kind] * (gradient[i, 0] * dx + gradient[i, 1] * dy + gradient[i, 2] * dz)
+        middle = density[i] + 0.5 * denser
+        gained = (u[i] + 0.5 * du) * du + (v[i] + 0.5 * dv) * dv
+        gained += pressure_at(fluids, kind, middle) / (middle * middle) * denser
+        u[i] += du
+        v[i] += dv
+        density[i] += denser
         if len(z):
             z[i] += dz
-            w[i] += twist[i, 6] * dx + twist[i, 7] * dy + twist[i, 8] * dz
+            dw = twist[i, 6] * dx + twist[i, 7] * dy + twist[i, 8] * dz
+            gained += (w[i] + 0.5 * dw) * dw
+            w[i] += dw
+        lost -= s.mass[i] * gained
+    return lost

@@ -1,10 +1,11 @@
 """The ledger of a liquid: mass, momentum and energy, and who gave and took them, one row a window.
 
-Momentum comes from body forces, walls and shifting, and goes through the drain; the walls' part is that which the pairs
-of particles do not give back to each other (with what surface tension does not), so that it is nothing where there are
-no walls. Energy is kinetic and elastic (of compression); body forces and surface tension work on it, the drain takes
-its share, and what is missing then has been dissipated: by viscosity, artificial or not, by diffusion of density, by
-shifting. A scheme that makes energy shows in `energy_made_rel`.
+Momentum comes from body forces, walls, surface tension, contact and shifting, and goes through the drain; walls are
+summed over their particles, so that what pairs do not give back to each other is a drift. Energy is kinetic and elastic
+(of compression). Gravity, the frame, the pressure of walls, surface tension and contact work on it, the drain takes its
+share. Dissipation is the sum of its causes (LOSSES), each taken where its force acts; what explicit steps and the
+continuity equation make of both is `numerical_work_J`. A scheme that makes energy shows in `energy_made_J`. Potential
+energy is that in gravity, which is the same everywhere; the work of gravity is beside it, as shifting lifts too.
 Two-dimensional amounts are per metre of depth.
 """
 
@@ -19,63 +20,73 @@ from sdph.engine import state as particles
 from sdph.engine.kept import ROW, Maybe
 from sdph.engine.ledger import refuse_rows, vector
 from sdph.engine.table import Table
+from sdph.methods.liquids.losses import CAUSES
 
-IMPULSES = ("body_forces", "walls", "shifting", "drain", "contact")
+IMPULSES = ("body_forces", "walls", "surface_tension", "shifting", "drain", "contact")
+WORKS = (
+    "work_of_gravity_J", "work_of_frame_J", "work_of_walls_J", "work_of_surface_tension_J", "work_of_contact_J",
+)  # fmt: skip
+LOSSES = (*CAUSES, "held_off_J", "shifting_J")
+AMOUNTS = ("drained_kg", "drained_J", *WORKS, *LOSSES, "dissipated_J", "numerical_work_J")
 
 
 class LiquidLedger:
     """Keeps the sums of one run and writes each row to `ledger.csv` as it comes."""
 
-    WORKS = ("work_of_body_forces_J", "work_of_surface_tension_J", "work_of_contact_J")
-    KEPT = ("sums", "impulses", "scale", "most", "made", "mach", "first", "last", "table")  # see sdph.engine.kept
+    # see sdph.engine.kept
+    KEPT = ("sums", "impulses", "scale", "most", "moved", "made", "mach", "first", "last", "table")
     FORMS = {"first": Maybe(ROW), "last": Maybe(ROW)}
 
     def __init__(self, path: Path):
-        self.sums = dict.fromkeys(("drained_kg", "drained_J", *self.WORKS), 0.0)
+        self.sums = dict.fromkeys(AMOUNTS, 0.0)
         self.impulses = np.zeros((len(IMPULSES), 3))  # since the start [kg m/s]
         self.scale = {"kg_m_s": 0.0, "J": 0.0}  # impulses, and energy that could fall and work that was done
-        self.most = self.made = 0.0  # most energy [J] that there was, and that there was beyond what came in
+        # most energy [J] that there was, of motion, and beyond what came in
+        self.most = self.moved = self.made = 0.0
         self.mach = 0.0  # largest speed over the speed of sound
         self.first = self.last = None
         self.table = Table(path)
 
     def admit(self, kept: dict) -> None:
-        refuse_rows(kept, (*self.sums, "dissipated_J"))
+        refuse_rows(kept, AMOUNTS)
 
     def open(self, stepper) -> None:
         """The row of the start."""
         nothing = dict.fromkeys(IMPULSES, np.zeros(3))
         self.scale["J"] = _falling(stepper)
-        self._write(stepper, 0.0, self._totals(stepper), nothing, dict.fromkeys((*self.sums, "dissipated_J"), 0.0))
+        self._write(stepper, 0.0, self._totals(stepper), nothing, dict.fromkeys(AMOUNTS, 0.0))
 
     def close_window(self, stepper, dt: float, impulses: dict, amounts: dict) -> None:
         """The row of a window of `dt` [s]: impulses (3,) by the names of IMPULSES, amounts by the keys of `sums`."""
+        now = self._totals(stepper)
+        amounts = amounts | {"dissipated_J": math.fsum(amounts[name] for name in LOSSES)}
+        given = self._given(amounts) - amounts["dissipated_J"]
+        amounts["numerical_work_J"] = _energy(now) - _energy(self.last) - given
         for key, value in amounts.items():
             self.sums[key] += value
         self.impulses += np.array([impulses[name] for name in IMPULSES])
         self.scale["kg_m_s"] += sum(float(np.linalg.norm(value)) for value in impulses.values())
-        self.scale["J"] += sum(abs(amounts[name]) for name in self.WORKS)
-        now = self._totals(stepper)
-        lost = self._given(amounts) - (_energy(now) - _energy(self.last))
-        self._write(stepper, dt, now, impulses, amounts | {"dissipated_J": lost})
+        self.scale["J"] += sum(abs(amounts[name]) for name in WORKS)
+        self._write(stepper, dt, now, impulses, amounts)
         self.made = max(self.made, _energy(now) - _energy(self.first) - self._given(self.sums))
 
     def _given(self, amounts: dict) -> float:
         """Energy [J] that came from outside."""
-        return sum(amounts[name] for name in self.WORKS) - amounts["drained_J"]
+        return sum(amounts[name] for name in WORKS) - amounts["drained_J"]
 
     def summary(self) -> dict[str, float]:
-        """Closure of the run, relative to what there was of mass, momentum and energy; the largest Mach number."""
+        """Closure of the run: mass and momentum relative to what there was, energy to the largest of motion; the
+        largest Mach number."""
         change = np.array([self.last[f"momentum_{a}_kg_m_s"] - self.first[f"momentum_{a}_kg_m_s"] for a in "xyz"])
-        energy = self.scale["J"] + self.most
-        inertia = math.sqrt(2.0 * self.first["mass_kg"] * energy)  # momentum of that mass with all that energy
+        inertia = math.sqrt(2.0 * self.first["mass_kg"] * (self.scale["J"] + self.most))  # of all with all that energy
         mass = self.last["mass_kg"] - self.first["mass_kg"] + self.sums["drained_kg"]
+        drift = float(np.linalg.norm(change - self.impulses.sum(axis=0)))
         return self.sums | {
             "mass_drift_rel": abs(mass) / self.first["mass_kg"],
-            "momentum_drift_rel": _ratio(
-                float(np.linalg.norm(change - self.impulses.sum(axis=0))), self.scale["kg_m_s"] + inertia
-            ),
-            "energy_made_rel": _ratio(self.made, energy),
+            "momentum_drift_rel": _ratio(drift, self.scale["kg_m_s"] + inertia),
+            "energy_made_J": self.made,
+            "energy_made_rel": _ratio(self.made, self.moved),
+            "numerical_work_rel": _ratio(abs(self.sums["numerical_work_J"]), abs(self.sums["dissipated_J"])),
             "fastest_over_sound": self.mach,
         }
 
@@ -84,14 +95,16 @@ class LiquidLedger:
         velocity, (kinetic, elastic) = particles.velocities(s)[own], energies(stepper)
         speed = math.sqrt(float((velocity**2).sum(axis=1).max(initial=0.0)))
         row = {"particles": len(own), "mass_kg": float(s.mass[own].sum())} | vector("momentum", s.mass[own] @ velocity)
-        return row | {"kinetic_energy_J": kinetic, "elastic_energy_J": elastic, "fastest_m_s": speed}
+        weight = s.mass[own] * (particles.positions(s)[own] @ np.array(stepper.p["gravity"] or (0.0, 0.0, 0.0)))
+        row |= {"kinetic_energy_J": kinetic, "elastic_energy_J": elastic, "potential_energy_J": -float(weight.sum())}
+        return row | {"fastest_m_s": speed}
 
     def _write(self, stepper, dt: float, totals: dict, impulses: dict, amounts: dict) -> None:
         row = {"time_s": stepper.time, "window_s": dt, "limit": stepper.limit} | totals
         for name, impulse in impulses.items():
             row |= vector(f"impulse_of_{name}", impulse)
         self.mach = max(self.mach, mach(stepper))
-        self.most = max(self.most, _energy(totals))
+        self.most, self.moved = max(self.most, _energy(totals)), max(self.moved, totals["kinetic_energy_J"])
         self.first, self.last = self.first or row, row | amounts
         self.table.write(self.last)
 

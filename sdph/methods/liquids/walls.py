@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from numba import njit, prange
 
+from sdph.effects.around import frame, gravity
 from sdph.effects.liquids import laminar_viscosity, liquid_damping, shifting
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import FAST, apart, faster
@@ -66,12 +67,16 @@ def extrapolate(kernel, s, rows, box, walls, wall_p, gravity_p, frame_p, volume,
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
 def wall_force(
     kernel, s, rows, box, flow, walls, wall_p, laminar_p, damping_p, shifting_p, phases_p, gravity_p, frame_p, excess,
-    force,
+    acceleration, ahead, force, power,
 ):  # fmt: skip
-    """force (W, 3) [N] on each wall particle: what `push` gives the liquid in front of it, with the sign turned."""
+    """force (W, 3) [N] on each wall particle: what `push` gives the liquid in front of it, with the sign turned.
+
+    power (W, 2) [W] that its pressure and its holding off give the liquid, with the velocities that the accelerations
+    lead to in `ahead` [s]; compression pays for the liquid's own pressure.
+    """
     for n in prange(len(walls)):
         i = walls[n]
-        fx = fy = fz = 0.0
+        fx = fy = fz = worked = held = 0.0
         for k in range(rows.number[i]):
             j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
@@ -90,27 +95,36 @@ def wall_force(
             p_i = phases.behind(
                 phases_p, -1.0, flow.pressure[i], flow.pressure[j] + rho_j * (bx * dx + by * dy + bz * dz)
             )
-            along = -V * (
-                p_i + sign_j * flow.pressure[j] + wall_p.stick * (ringing + friction) + held_off(wall_p, -1.0, rho_j, r)
-            )
+            over, p_j = held_off(wall_p, -1.0, rho_j, r), flow.pressure[j]
+            along = -V * (p_i + sign_j * p_j + wall_p.stick * (ringing + friction) + over)
             across = V * wall_p.stick * laminar_viscosity.pair(laminar_p, s, j, j)
             fx += along * dx + across * du
             fy += along * dy + across * dv
             fz += along * dz + across * dw
+            u, v = s.u[j] + ahead * acceleration[j, 0], s.v[j] + ahead * acceleration[j, 1]
+            w = s.w[j] + ahead * acceleration[j, 2] if len(s.z) else 0.0
+            nearing = u * dx + v * dy + w * dz
+            worked += V * (p_i + (sign_j - 1.0) * p_j) * nearing
+            held += V * over * nearing
             if len(excess):
-                ex, ey, ez = correction.extra(excess, j, j, p_i, sign_j * flow.pressure[j], dx, dy, dz)
+                ex, ey, ez = correction.extra(excess, j, j, p_i, sign_j * p_j, dx, dy, dz)
+                worked += V * (ex * u + ey * v + ez * w)
                 fx -= V * ex
                 fy -= V * ey
                 fz -= V * ez
         force[n, 0] = fx
         force[n, 1] = fy
         force[n, 2] = fz
+        power[n, 0] = worked
+        power[n, 1] = held
 
 
 @njit(cache=True, error_model="numpy")
-def reaction(s, active, gravity_p, frame_p, acceleration, load):
-    """load (10,): force [N] and moment [N m] of the liquid on its walls, -sum m (a - body), -sum r x m (a - body); body
-    force, sum m body [N], and its power, sum m v.body [W]."""
+def reaction(s, active, gravity_p, frame_p, acceleration, ahead, load):
+    """load (11,): force [N] and moment [N m] of the liquid on its walls, -sum m (a - body), -sum r x m (a - body); of
+    velocities that the accelerations lead to in `ahead` [s] the body force, sum m body [N], and the power of gravity
+    and of the frame, sum m v.body [W]."""
+    gx, gy, gz = gravity.acceleration(gravity_p)
     for i in active:
         bx, by, bz = body(gravity_p, frame_p, s, i, False)
         fx = s.mass[i] * (bx - acceleration[i, 0])
@@ -123,7 +137,21 @@ def reaction(s, active, gravity_p, frame_p, acceleration, load):
         load[3] += s.y[i] * fz - z * fy
         load[4] += z * fx - s.x[i] * fz
         load[5] += s.x[i] * fy - s.y[i] * fx
-        load[6] += s.mass[i] * bx
-        load[7] += s.mass[i] * by
-        load[8] += s.mass[i] * bz
-        load[9] += s.mass[i] * (s.u[i] * bx + s.v[i] * by + (s.w[i] * bz if len(s.w) else 0.0))
+        u, v = s.u[i] + ahead * acceleration[i, 0], s.v[i] + ahead * acceleration[i, 1]
+        w = s.w[i] + ahead * acceleration[i, 2] if len(s.w) else 0.0
+        ex, ey, ez = frame.acceleration(frame_p, s.x[i], s.y[i], z, u, v, w)
+        load[6] += s.mass[i] * (gx + ex)
+        load[7] += s.mass[i] * (gy + ey)
+        load[8] += s.mass[i] * (gz + ez)
+        load[9] += s.mass[i] * (gx * u + gy * v + gz * w)
+        load[10] += s.mass[i] * (ex * u + ey * v + ez * w)
+
+
+def feel(stepper, chosen, ahead: float, force, power) -> None:
+    """`wall_force` of the wall particles `chosen` of a stepper."""
+    p = stepper.p
+    wall_force(
+        stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, stepper.flow, chosen, stepper.wall,
+        stepper.viscous, p["liquid_damping"], p["shifting"], stepper.phases, p["gravity"], stepper.frame,
+        stepper.excess, stepper.acceleration, ahead, force, power,
+    )  # fmt: skip

@@ -1,55 +1,60 @@
-"""Account of a window of a liquid: what it gets from where."""
+"""Account of a window of a liquid: what it gets from where, and where its energy goes."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from sdph.engine import state as particles
-from sdph.methods.liquids.loads import balance
+from sdph.methods.liquids import account
+from sdph.methods.liquids.losses import CAUSES
 from sdph.methods.liquids.totals import IMPULSES
 
 
 class Tally:
-    """Account of one window; `run` has its stepper, its outlet or None, and what the drain is to
-    leave (fill)."""
+    """Account of one window; `run` has its stepper, its outlet or None, what the drain is to leave (fill), and what
+    acts now (rates)."""
 
     def __init__(self, run):
         self.run, self.stepper = run, run.stepper
-        self.load = np.zeros(10)  # integral of sdph.methods.liquids.loads.balance [N s, N m s, J]
-        self.shifted = self.stepper.shifted
+        self.stepper.look, self.now = self._look, run.rates
+        self.sums = np.zeros(account.SIZE)  # integral of sdph.methods.liquids.account.rates [N s, N m s, J]
+        self.shifted, self.eased = self.stepper.shifted, self.stepper.eased
         self.gone = run.outlet.gone.copy() if run.outlet else np.zeros(8)
-        self.tension = self.pressed = 0.0  # work of surface tension and of contact [J]
-        self.contact = np.zeros(3)  # impulse of contact [N s]
-        self.before = balance(self.stepper)
+        self.pressed = 0.0  # work of contact [J]
+        self.contact, self.spared = np.zeros(3), np.zeros(3)  # impulses of contact, and on what the drain took [N s]
 
     def step(self, end: float) -> None:
         """One step, to `end` [s] at most."""
-        left, tightening, before = end - self.stepper.time, self.stepper.tightening, pushed(self.stepper.state)
+        run, left, before = self.run, end - self.stepper.time, pushed(self.stepper.state)
         dt = self.stepper.step(left)
         if dt >= left:
             self.stepper.time = end
-        now = balance(self.stepper)
-        self.load += 0.5 * dt * (self.before + now)
-        self.tension += 0.5 * dt * (tightening + self.stepper.tightening)
+        self.sums += account.between(run.rates, self.now, dt)
         after = pushed(self.stepper.state)
         self.contact += dt * after[:3]
         self.pressed += 0.5 * dt * (before[3] + after[3])
-        self.before = self._drain(now)
+        if run.outlet:
+            self.spared += 0.5 * dt * run.outlet.pushed
+            run.outlet.command(run.fill(self.stepper.time))
+        run.rates = self.now
 
-    def _drain(self, now):
-        """Command what the drain has to take, and take the balance after it."""
-        if not self.run.outlet:
-            return now
-        self.run.outlet.command(self.run.fill(self.stepper.time))
-        return balance(self.stepper)
+    def _look(self, ahead: float) -> None:
+        self.now = account.rates(self.stepper, ahead, self.now)
 
     def amounts(self) -> tuple[dict, dict]:
         """Impulses and amounts for the ledger."""
         gone = (self.run.outlet.gone if self.run.outlet else np.zeros(8)) - self.gone
-        given = (self.load[6:9], -self.load[:3], self.stepper.shifted - self.shifted, -gone[1:4], self.contact)
-        works = {"work_of_body_forces_J": float(self.load[9]), "work_of_surface_tension_J": self.tension}
-        works["work_of_contact_J"] = self.pressed
-        return dict(zip(IMPULSES, given)), {"drained_kg": float(gone[0]), "drained_J": float(gone[7])} | works
+        shifted, sums = self.stepper.shifted - self.shifted, self.sums
+        given = (
+            sums[account.BODY], sums[account.WALLS], sums[account.TENSION], shifted, -gone[1:4] - self.spared,
+            self.contact,
+        )  # fmt: skip
+        amounts = {"drained_kg": gone[0], "drained_J": gone[7], "work_of_contact_J": self.pressed}
+        amounts |= {"work_of_gravity_J": sums[account.GRAVITY], "work_of_frame_J": sums[account.FRAME]}
+        amounts |= {"work_of_walls_J": sums[account.BY_WALLS], "work_of_surface_tension_J": sums[account.BY_TENSION]}
+        amounts |= {"held_off_J": -sums[account.HELD_OFF], "shifting_J": self.stepper.eased - self.eased}
+        amounts |= dict(zip(CAUSES, sums[account.LOST]))
+        return dict(zip(IMPULSES, given)), {name: float(value) for name, value in amounts.items()}
 
 
 def pushed(state) -> np.ndarray:

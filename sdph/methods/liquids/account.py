@@ -1,0 +1,66 @@
+"""What acts on a liquid now, by cause: forces [N], and the power [W] with which they work on it or take from it.
+
+The last evaluation of the forces made accelerations from velocities of half a step before; a kick of half a step
+follows. So forces are those that act, and powers are taken with the velocities after the kick: an acceleration acts
+half a step before and half a step after them, and the trapezoidal rule over the steps is what the kicks do.
+
+Walls are summed over their particles and what is outside over the liquid's, every step. What pairs of the liquid lose
+(sdph.methods.liquids.losses) takes a loop over all pairs, as long as that of the forces: it is looked at in one step of
+EVERY, holds until the next look, and is made up for then (trapezoidal rule between looks): what a liquid loses as a
+whole changes over many steps.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sdph.engine import state as particles
+from sdph.methods.liquids import losses, walls
+from sdph.methods.liquids.loads import balance
+
+EVERY = 32  # steps; our choice: 2 % of the time of a step
+
+# places in what `rates` returns
+LOADS, BODY, GRAVITY, FRAME = slice(0, 6), slice(6, 9), 9, 10
+WALLS, BY_WALLS, HELD_OFF = slice(11, 14), 14, 15
+TENSION, BY_TENSION = slice(16, 19), 19
+LOST = slice(20, 20 + len(losses.CAUSES))
+SINCE = LOST.stop  # time [s] since the last look
+SIZE = SINCE + 1
+
+
+def rates(stepper, ahead: float, last: np.ndarray | None) -> np.ndarray:
+    """(SIZE,) of now, before a kick by `ahead` [s]; `last` is what was told in the step before, None where nothing."""
+    now = np.zeros(SIZE)
+    now[: FRAME + 1] = balance(stepper, ahead)
+    if len(stepper.walls):
+        force, power = np.zeros((len(stepper.walls), 3)), np.zeros((len(stepper.walls), 2))
+        walls.feel(stepper, stepper.walls, ahead, force, power)
+        now[WALLS], now[BY_WALLS : HELD_OFF + 1] = -force.sum(axis=0), power.sum(axis=0)
+    if stepper.p["surface_tension"]:
+        pull = stepper.state.mass[:, None] * stepper.tightening
+        velocity = particles.velocities(stepper.state) + ahead * stepper.acceleration
+        now[TENSION], now[BY_TENSION] = pull.sum(axis=0), (pull * velocity).sum()
+    if last is None or (ahead and stepper.steps % EVERY == 0):
+        now[LOST] = _lost(stepper, ahead)
+    else:
+        now[LOST], now[SINCE] = last[LOST], last[SINCE] + 2.0 * ahead
+    return now
+
+
+def between(before: np.ndarray, now: np.ndarray, dt: float) -> np.ndarray:
+    """(SIZE,) [N s], [J] of a step of `dt` [s]; a look makes up for what held since the one before."""
+    sums = 0.5 * dt * (before + now)
+    if now[SINCE] == 0.0:
+        sums[LOST] += 0.5 * before[SINCE] * (now[LOST] - before[LOST])
+    return sums
+
+
+def _lost(stepper, ahead: float) -> tuple:
+    """Power [W] that pairs lose by the causes of sdph.methods.liquids.losses."""
+    p = stepper.p
+    return losses.losses(
+        stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, stepper.flow, stepper.wall,
+        stepper.viscous, p["liquid_damping"], () if stepper.summed else p["density_diffusion"], p["shifting"],
+        stepper.phases, stepper.excess, stepper.gradient, stepper.acceleration, ahead,
+    )  # fmt: skip
