@@ -100,7 +100,7 @@ def _closures(flow: Flow, share: float, theta: float) -> tuple[float, float, flo
 
 
 def _ends(flow: Flow, wall, middle, unknown):
-    """What is 0 at the wall and in the middle; what grains lose by slipping along the wall heats them."""
+    """Residuals (5,) or (6,) at the wall and in the middle; slip along the wall heats the grains."""
     ends = [middle[2], wall[3], middle[3] - 0.5 * flow.share * flow.height]
     if not flow.wall:
         return np.array([*ends, wall[0], wall[2]])

@@ -101,7 +101,7 @@ def started(share: float, spacing: float):
 
 
 def steady(share: float, spacing: float) -> Steady:
-    """What a cell has come to."""
+    """State of a cell once it is steady."""
     run, step = started(share, spacing), SAMPLE / RATE
     for _ in range(round(SETTLED / SAMPLE)):
         run.window(step)
