@@ -12,7 +12,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from coupling.gas import Mesh
+from coupling.gas import NOTHING, Budget, Mesh
 from sdph import scenes
 from sdph.case import gas_cells
 from sdph.case import read as cases
@@ -42,7 +42,8 @@ class Still:
         }
         full = {"temperature": case.gas.temperature + 10.0, "density": case.gas.density}
         self.state = SimpleNamespace(
-            fields=fields | {name: np.full(len(centres), value) for name, value in full.items()}, budget=None
+            fields=fields | {name: np.full(len(centres), value) for name, value in full.items()},
+            budget=Budget(0.0, 0.0, 0.0, NOTHING, 0.0, 0.0, 0.0, 0.0),
         )
 
     def start(self, alpha_g, sources, fields=()):
