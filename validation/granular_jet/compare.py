@@ -17,7 +17,7 @@ from . import figures
 TIMES = (0.05, 0.10, 0.15, 0.20)  # s; the shown ones too
 # a step smeared over h = 3 mm in a layer that viscosity has made sqrt(nu t) = 9 mm wide at 0.05 s: h^2/(nu t)
 BAR = 0.10
-COURANT = 0.2  # of the stream in the two-fluid run, 0.8 ms: a quarter of it changes nothing by 1 % (README.md)
+COURANT = 0.2  # of the stream in the two-fluid run, 0.8 ms: a quarter of it changes nothing by 1.3 % (README.md)
 CELL = 4e-3  # m, of the two-fluid run, where grains need as fine a field as the particles are; half: README.md
 AXIS = "y"  # along the stream
 
