@@ -19,6 +19,7 @@ SHORT = {
     "stefan_tube": (("run.end_time_s=70.0", "run.output_interval_s=70.0"), ("exact",)),
     "disc_cluster": (("resolution.spacing_mm=10.0", "resolution.cell_mm=25.0"), ("exact", "tfm")),
     "bubbling_bed": (COARSE_BED, ("paper", "tfm")),
+    "granular_jet": (("run.end_time_s=0.1",), ("tfm",)),
     "evaporating_jet": ((*ALIKE, "run.end_time_s=0.05"), ("exact", "dpm")),
     "poiseuille": (("run.end_time_s=2.0",), ("exact",)),
     "taylor_green": (("resolution.spacing_mm=20.0", "run.end_time_s=1.0"), ("exact",)),

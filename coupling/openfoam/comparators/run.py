@@ -82,8 +82,8 @@ def run_two_fluid(
 ) -> Reference:
     """Run twoPhaseEulerFoam on the case in `folder`, or take what it gave from the cache.
 
-    `progress(time, end)` [s] hears where the run is; `courant` is the largest Courant number of an inlet. `GasError`
-    when OpenFOAM fails.
+    `progress(time, end)` [s] hears where the run is; `courant` is the largest Courant number of inlets and of grains
+    at the start. `GasError` when OpenFOAM fails.
     """
     return _run(TWO_FLUID, case, folder, ranks, {TWO_FLUID.macros: two_fluid_numbers.macros(case, courant)}, progress)
 

@@ -13,7 +13,7 @@ from sdph.laws import heat as heat_law
 from sdph.schema import CaseError
 
 OUTSIDE = 1.0  # m; how far selections reach past the domain, so that round-off at its faces decides nothing
-COURANT = 0.75  # largest Courant number of an inlet in the two-fluid run; stable with 3 outer iterations
+COURANT = 0.75  # largest of inlets and of grains at the start in the two-fluid run; stable with 3 outer iterations
 STEPS_PER_RELAXATION = 15  # second-order steps: 0.03 % of the rise at 1 ms (validation/disc_cluster)
 
 # heat.law -> OpenFOAM's model, and the slip velocity in gunn's Reynolds number (RanzMarshall does not read it)
@@ -85,7 +85,8 @@ def _point(place, z: float) -> str:
 
 def _time_steps(case: Case, courant: float) -> dict[str, str]:
     """`first_time_step` and `time_steps`, a table of steps against time, for a case that rests; else `time_step`."""
-    speeds = [math.hypot(*boundary.velocity) for boundary in case.boundaries.values() if boundary.velocity]
+    given = (*case.boundaries.values(), *case.particles.values())
+    speeds = [math.hypot(*one.velocity) for one in given if one.velocity]
     if speeds:
         return {"time_step": repr(divided(case.run.output_interval, courant * case.resolution.cell / max(speeds)))}
     table = resting_steps(case)

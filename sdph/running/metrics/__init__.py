@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from sdph.case.gas_cells import upwards
-from sdph.running.metrics import bubble, column, jet
+from sdph.running.metrics import agitation, bubble, column, jet
 from sdph.schema import CaseError
 
 
@@ -23,7 +23,7 @@ def bed_in_the_end(rows: list[dict]) -> dict[str, float]:
     return {"detachment_time_s": bubble.detachment([row["time_s"] for row in rows], rows)}
 
 
-AT_OUTPUTS = {"bubble": bed, "column": column.metrics, "jet": jet.metrics}
+AT_OUTPUTS = {"agitation": agitation.of_run, "bubble": bed, "column": column.metrics, "jet": jet.metrics}
 IN_THE_END = {"bubble": bed_in_the_end}
 
 

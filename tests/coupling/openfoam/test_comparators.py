@@ -5,7 +5,7 @@ import pytest
 
 from coupling.gas import GasError
 from coupling.openfoam import fields
-from coupling.openfoam.comparators import reference
+from coupling.openfoam.comparators import reference, two_fluid_numbers
 from coupling.openfoam.comparators import run as comparators
 from coupling.openfoam.comparators.droplet_numbers import Liquid, Nozzle, flow
 from coupling.openfoam.programs import install
@@ -125,6 +125,12 @@ def bed(alpha_p, jet, distributor, end, outputs=1):
             "walls": {"kind": "wall"},
         },
     })  # fmt: skip
+
+
+def test_steps_follow_the_grains_that_move_at_the_start():
+    """1 m/s through cells of 4 mm, Courant number 0.2: 0.8 ms at most, a part of the 10 ms of an output."""
+    stream = cases.load(scenes.find("granular_jet")[1], ("resolution.cell_mm=4.0",))
+    assert float(two_fluid_numbers.macros(stream, 0.2)["time_step"]) == pytest.approx(0.01 / 13, rel=1e-12)
 
 
 def test_bed_keeps_its_grains_and_lets_the_jet_in(tmp_path):
