@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import os
 import secrets
 import subprocess
@@ -12,21 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
-from coupling.gas import (
-    FIELDS,
-    IMPULSES,
-    ON_REQUEST,
-    SOURCES,
-    Budget,
-    CheckpointError,
-    GasError,
-    GasState,
-    Mesh,
-    Unfinished,
-    known_fields,
-    refuse_full_cells,
-)
+from coupling.gas import SOURCES, CheckpointError, GasError, GasState, Unfinished, known_fields, refuse_full_cells
 from coupling.openfoam import case as case_files
+from coupling.openfoam import told as told_by
 from coupling.openfoam.programs import barrier, install
 from coupling.openfoam.programs import run as programs
 from coupling.openfoam.programs.build import silent
@@ -127,7 +114,7 @@ class OpenFoamGas:
     def _meet(self, told: Message) -> None:
         """Take what the solver tells of itself and its mesh."""
         self._check_properties(told)
-        self.mesh = _mesh(told)
+        self.mesh = told_by.mesh(told)
         self.solver = f"{told.text('solver')}, {told.text('openfoam')}, {told.number('ranks')} ranks"
 
     def _start(self, program: Path, address: str, secret: str) -> subprocess.Popen:
@@ -204,7 +191,7 @@ class OpenFoamGas:
     def _ask(self, message: Message) -> GasState:
         answer = self._request(message, Kind.STATE)
         state = self._guard(
-            lambda alive: _state(answer, len(self.mesh.volumes), self._case.vapour is not None, self._fields),
+            lambda alive: told_by.state(answer, len(self.mesh.volumes), self._case.vapour is not None, self._fields),
             f"for {message.kind.name}",
         )
         self._time = state.time
@@ -286,28 +273,3 @@ class OpenFoamGas:
                 raise CaseError(
                     f"constant/gasProperties has {name} = {value}; case.toml has {ours}: make them the same"
                 )
-
-
-def _mesh(told: Message) -> Mesh:
-    centres = told.array("centres", None, 3)
-    return Mesh(
-        centres, told.array("volumes", len(centres)), int(told.number("dimensions")), float(told.number("depth"))
-    )
-
-
-def _state(message: Message, cells: int, vapour: bool, asked: tuple[str, ...] = ()) -> GasState:
-    """The state in a message, of a mesh of `cells` cells, with the fields that were `asked` for."""
-    totals = {f.name for f in dataclasses.fields(Budget)} - {"residuals", "held"}
-    vectors = {name: tuple(message.array(f"budget_{name}", 3).tolist()) for name in ("momentum", *IMPULSES)}
-    numbers = {name: float(message.number(f"budget_{name}")) for name in totals - vectors.keys()}
-    named = {"residuals": _begun(message, "residual_"), "held": _begun(message, "held_")}
-    rows = {name: row for name, row in FIELDS.items() if vapour or name != "vapour_mass_fraction"}
-    rows |= {name: ON_REQUEST[name] for name in asked}
-    shapes = {name: (cells, 3)[: 1 + (row[1] == 3)] for name, row in rows.items()}
-    fields = {name: message.array(name, *shape) for name, shape in shapes.items()}
-    return GasState(float(message.number("time")), fields, Budget(**numbers, **vectors, **named))
-
-
-def _begun(message: Message, begin: str) -> dict[str, float]:
-    """Numbers whose names `begin` so, by the rest of their names."""
-    return {name[len(begin) :]: float(message.number(name)) for name in message.values if name.startswith(begin)}

@@ -33,6 +33,13 @@ GRAINS_WHY = (
     "drag and heat laws are means over many grains; in smaller cells a grain meets gas that it has slowed or "
     "cooled itself, and both come out too small"
 )
+# of pushed_aside, r. What a window hands to the grains is the pressure gradient of gas that made way, in the window
+# before, to where they would be without it: a_next = -r (2 a - a_before), bounded up to this r.
+ADDED_MASS = 1.0 / 3.0
+ADDED_MASS_WHY = (
+    "the gas that light grains push aside swings them by its pressure gradient, each window further than the one "
+    "before, however short; make the grains heavier, or leave out gas_pressure"
+)
 MEASURED = environment.CACHE / "speed.json"  # of this machine, by `sdph explain --measure`
 
 
@@ -71,10 +78,19 @@ def ratios(case) -> list[dict]:
         ("grains' width / h", extent / h, 6.0, math.inf, "less than three kernels across is all rim"),
         ("domain / cell", min(case.domain.size) / cell, 10.0, math.inf, "coarser gas shows no flow"),
     ]
+    if "gas_pressure" in case.effects and not case.coupling.one_way:
+        rows.append(("gas pushed aside / packed grains", pushed_aside(case), 0.0, ADDED_MASS, ADDED_MASS_WHY))
     return [
         {"ratio": n, "value": v, "least": low, "most": high, "safe": "yes" if low <= v <= high else "NO", "why": w}
         for n, v, low, high, w in rows
     ]
+
+
+def pushed_aside(case) -> float:
+    """r = alpha_p rho_g / (alpha_g rho_p) at the packing limit: inertia of the gas that moves the other way, over that
+    of the grains."""
+    alpha_p = case.grains.packing_limit
+    return alpha_p * case.gas.density / ((1.0 - alpha_p) * case.grains.density)
 
 
 def _extent(case) -> float:

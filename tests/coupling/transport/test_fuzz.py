@@ -17,7 +17,7 @@ import pytest
 from fuzzing import FACTOR, SEED
 
 from coupling.gas import IMPULSES, Budget
-from coupling.openfoam.solver import _mesh, _state
+from coupling.openfoam import told
 from coupling.transport.files import FileConnection
 from coupling.transport.messages import GREETING_LIMIT, HEADER, MAGIC, VERSION, Kind, Message, MessageError, encode
 from coupling.transport.sockets import SocketConnection, SocketServer
@@ -202,9 +202,9 @@ def test_what_has_the_form_of_a_message_but_not_its_content_is_refused():
         np.zeros((1, 1, 1)),
         np.zeros(cells, int),
     )
-    _state(Message(Kind.STATE, state), cells, False)
-    _mesh(Message(Kind.MESH, mesh))
-    for read, whole in ((lambda m: _state(m, cells, False), state), (_mesh, mesh)):
+    told.state(Message(Kind.STATE, state), cells, False)
+    told.mesh(Message(Kind.MESH, mesh))
+    for read, whole in ((lambda m: told.state(m, cells, False), state), (told.mesh, mesh)):
         for _ in range(300 * FACTOR):
             values, name = dict(whole), list(whole)[rng.integers(len(whole))]
             values[name] = others[rng.integers(len(others))]

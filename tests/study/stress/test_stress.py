@@ -10,6 +10,7 @@ from sdph.engine.guard import Unstable
 from sdph.methods.grains.bounds import Guard
 from sdph.running import simulation as running
 from sdph.schema import CaseError
+from sdph.study.explain import estimate
 from sdph.study.stress import suite
 
 FAST = [hard.name for hard in suite.chosen([], True)]
@@ -28,6 +29,19 @@ def test_there_are_enough_hard_cases():
 def test_hard_case(name):
     verdict = suite.run(*suite.chosen([name], True))
     assert verdict.ok, suite.line(verdict)
+
+
+@pytest.mark.parametrize("share, held", [(0.9, True), (1.15, False)])
+def test_light_grains_are_held_up_to_the_limit_that_explain_tells(share, held):
+    """Lighter and lighter grains, against the weight of the gas that they push aside at alpha_p = 0.3."""
+    (hard,) = suite.chosen(["light_grains"], False)
+    case = suite.case_of(hard)
+    density = 0.3 / 0.7 * case.gas.density / (share * estimate.ADDED_MASS)
+    short = {"run": {"end_time_s": 0.002, "output_interval_s": 0.002}, "grains": {"density_kg_m3": density}}
+    assert bool(suite.run(hard, short).stopped) is not held
+    light = suite.case_of(hard, short)
+    assert estimate.pushed_aside(light) == pytest.approx(share * 0.7 / 3.0 / 0.3 * 0.63 / 0.37, rel=1e-12)
+    assert any("pushed aside" in line for line in estimate.warnings(light))
 
 
 def test_a_criterion_that_is_missed_fails():

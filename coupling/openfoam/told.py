@@ -1,0 +1,34 @@
+"""What sdphGasFoam tells in its messages: its mesh, and its fields and budget after a step."""
+
+from __future__ import annotations
+
+import dataclasses
+
+from coupling.gas import FIELDS, IMPULSES, ON_REQUEST, Budget, GasState, Mesh
+from coupling.transport.messages import Message
+
+
+def mesh(told: Message) -> Mesh:
+    """The mesh in a message."""
+    centres = told.array("centres", None, 3)
+    return Mesh(
+        centres, told.array("volumes", len(centres)), int(told.number("dimensions")), float(told.number("depth"))
+    )
+
+
+def state(message: Message, cells: int, vapour: bool, asked: tuple[str, ...] = ()) -> GasState:
+    """The state in a message, of a mesh of `cells` cells, with the fields that were `asked` for."""
+    totals = {f.name for f in dataclasses.fields(Budget)} - {"residuals", "held"}
+    vectors = {name: tuple(message.array(f"budget_{name}", 3).tolist()) for name in ("momentum", *IMPULSES)}
+    numbers = {name: float(message.number(f"budget_{name}")) for name in totals - vectors.keys()}
+    named = {"residuals": _begun(message, "residual_"), "held": _begun(message, "held_")}
+    rows = {name: row for name, row in FIELDS.items() if vapour or name != "vapour_mass_fraction"}
+    rows |= {name: ON_REQUEST[name] for name in asked}
+    shapes = {name: (cells, 3)[: 1 + (row[1] == 3)] for name, row in rows.items()}
+    fields = {name: message.array(name, *shape) for name, shape in shapes.items()}
+    return GasState(float(message.number("time")), fields, Budget(**numbers, **vectors, **named))
+
+
+def _begun(message: Message, begin: str) -> dict[str, float]:
+    """Numbers whose names `begin` so, by the rest of their names."""
+    return {name[len(begin) :]: float(message.number(name)) for name in message.values if name.startswith(begin)}
