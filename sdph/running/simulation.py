@@ -91,9 +91,13 @@ class Simulation:
             self.clock.thicken(1.0, thickening)
             self.clock.hold(grip)
         self.ledger.open(self._totals(), self.gas_state.budget)
-        self.limiters.hear(self.stepper.held | self.exchange.held(self.state, self.weights, self.gas_state))
+        self._hear(self.exchange.held(self.state, self.weights, self.gas_state))
         self.beside.start()
         self.clock.touch(self.beside.limit(self.state))
+
+    def _hear(self, of_exchange: dict[str, float]) -> None:
+        """What limiters of the grains, of the exchange and of other methods hold."""
+        self.limiters.hear(self.grains.held() | of_exchange | self.beside.named(lambda method: method.held()))
 
     def admit(self, kept: dict) -> None:
         """Unfit where time is not that of the ledger."""
@@ -120,7 +124,7 @@ class Simulation:
         self._timed("particles", self._advance, end)
         self.grains.close()
         way = self.grains.way
-        self.limiters.hear(self.stepper.held | handed.held())
+        self._hear(handed.held())
         exchanged = taken.columns() | handed.columns() | held.columns(way)
         exchanged |= {"drag_heat_J": self.exchange.handed_heat(handed)}
         exchanged |= {"friction_J": self.exchange.rub(handed, taken, self.gas_state, way, self.grains.damped)}

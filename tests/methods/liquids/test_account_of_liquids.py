@@ -17,7 +17,9 @@ DROP = {
 }  # fmt: skip
 # scene or case, time [s], what is set; what is to be seen there
 SEEN = {
-    "dam_break": (0.02, ("resolution.spacing_mm=8",), ("work_of_gravity_J", "work_of_walls_J", "damping_J", "diffusion_J")),
+    "dam_break": (
+        0.02, ("resolution.spacing_mm=8",), ("work_of_gravity_J", "work_of_walls_J", "damping_J", "diffusion_J"),
+    ),
     "sloshing_box": (
         0.03, ("frame.start_s=0", "frame.shake=[[0, 0.05, 20.0, 0.0]]"), ("work_of_frame_J",),
     ),
