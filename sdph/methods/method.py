@@ -39,6 +39,9 @@ class Method(Protocol):
     def row(self) -> dict[str, float]:
         """Columns of history.csv."""
 
+    def held(self) -> dict[str, float]:
+        """What its limiters hold now, by column of history.csv."""
+
     def points(self):
         """Its particles as pyvista points."""
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from sdph.engine.clock import Clock
 from sdph.engine.kept import Unfit
 from sdph.methods.liquids.liquid import Liquid
+from sdph.running.limiters import Limiters
 
 SAMPLES = 10  # rows of history.csv for each output of fields, where the case says nothing
 STRIDE = 20  # steps in a window at most: a liquid that goes unstable is caught within these (our choice)
@@ -17,12 +18,14 @@ class Alone:
     """A liquid without a gas; call `window` until `time` is the end."""
 
     gas = None
-    KEPT = ("windows", "wall", "clock", "liquid")  # see sdph.engine.kept
+    KEPT = ("windows", "wall", "clock", "liquid", "limiters")  # see sdph.engine.kept
 
     def __init__(self, case, ledger: Path):
         self.case = case
         self.clock = Clock(case.run, case.liquid.history_interval or case.run.output_interval / SAMPLES)
         self.liquid = Liquid(case, ledger, self.clock.shortest)
+        self.limiters = Limiters()
+        self.limiters.hear(self.liquid.held())
         self.windows, self.wall, self.notices = 0, {"particles": 0.0}, []
 
     @property
@@ -79,13 +82,14 @@ class Alone:
         self.liquid.begin()
         self.liquid.advance(self.clock.next(self.time), STRIDE)
         self.liquid.close()
+        self.limiters.hear(self.liquid.held())
         self.windows += 1
         self.clock.limit = self.liquid.limit
         self.wall["particles"] += clock.perf_counter() - begun
 
     def row(self) -> dict[str, float]:
         """Columns of history.csv."""
-        return {"time_s": self.time} | self.liquid.row()
+        return {"time_s": self.time} | self.liquid.row() | self.limiters.now
 
     def meshes(self) -> dict:
         """Particles for the timeline."""
@@ -97,7 +101,7 @@ class Alone:
 
     def summary(self, out) -> dict[str, float]:
         """summary.json, its own part."""
-        return {"sub_steps": self.liquid.steps} | self.liquid.summary()
+        return {"sub_steps": self.liquid.steps} | self.liquid.summary() | self.limiters.summary()
 
     def warnings(self) -> list[str]:
         """Notes for the user on how the run went."""

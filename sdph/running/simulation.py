@@ -91,10 +91,14 @@ class Simulation:
             self.clock.thicken(1.0, thickening)
             self.clock.hold(grip)
         self.ledger.open(self._totals(), self.gas_state.budget)
-        held = self.exchange.held(self.state, self.weights, self.gas_state) | self.gas_state.budget.held
-        self.limiters.hear(self.stepper.held | held)
+        held = self.exchange.held(self.state, self.weights, self.gas_state)
+        self._hear(held | self.gas_state.budget.held)
         self.beside.start()
         self.clock.touch(self.beside.limit(self.state))
+
+    def _hear(self, of_exchange: dict[str, float]) -> None:
+        """What limiters of the grains, of the exchange and of other methods hold."""
+        self.limiters.hear(self.grains.held() | of_exchange | self.beside.named(lambda method: method.held()))
 
     def admit(self, kept: dict) -> None:
         """Unfit where time is not that of the ledger."""
@@ -121,7 +125,7 @@ class Simulation:
         self._timed("particles", self._advance, end)
         self.grains.close()
         way = self.grains.way
-        self.limiters.hear(self.stepper.held | handed.held() | self.gas_state.budget.held)
+        self._hear(handed.held() | self.gas_state.budget.held)
         exchanged = taken.columns() | handed.columns() | held.columns(way)
         exchanged |= {"drag_heat_J": self.exchange.handed_heat(handed)}
         exchanged |= {"friction_J": self.exchange.rub(handed, taken, self.gas_state, way, self.grains.damped)}

@@ -7,8 +7,12 @@ import pytest
 from test_limiters_of_gas import EMBEDDED, OPENFOAM
 from test_restart import COARSE, Reporter, load
 
+from sdph import scenes
+from sdph.case import read as cases
 from sdph.engine.ledger import NOTHING
+from sdph.methods.liquids.totals import AMOUNTS
 from sdph.running import driver, output
+from sdph.running.alone import Alone
 from sdph.running.limiters import Limiters
 from sdph.scenes import paths
 from sdph.study.explain.effect_costs import prepared
@@ -16,6 +20,7 @@ from sdph.study.explain.effect_costs import prepared
 PAGE = paths.PACKAGE.parent / "docs" / "limiters.md"
 PARTS = [f"Repairs of the numerics: {part}" for part in ("grains", "exchange of grains and gas", "gas")]
 OF_GAS = set(EMBEDDED | OPENFOAM)  # `prepared` has a gas that holds nothing
+LIQUIDS = ("Repairs of the numerics: liquids",)
 # scenes that have all limiters between them, with what no scene has
 EVERY = {
     "bubbling_bed": ("walls.specularity=0.1",),
@@ -46,12 +51,13 @@ def test_the_largest_of_all_windows_is_told():
     assert (own.now, own.summary()) == ({"a_share": 0.2}, {"largest_a_share": 0.3})
 
 
-def counted(letter):
-    """Names that the page gives for rows of grains, gas and their exchange, in a file by its `letter`."""
+def counted(letter, parts=PARTS):
+    """Names that the page gives for rows of grains, gas and their exchange, or of other parts, in a file by its
+    `letter`."""
     found, part = set(), ""
     for line in PAGE.read_text(encoding="utf-8").splitlines():
         part = line.removeprefix("## ") if line.startswith("## ") else part
-        if part in PARTS and re.match(r"\| \d", line):
+        if part in parts and re.match(r"\| \d", line):
             for told in line.rstrip(" |").rpartition(" | ")[2].split(";"):
                 names, letters = re.findall(r"`(\w+)`", told), re.search(r"`((?: [LSH])+)", told)
                 found |= set(names) if letters and letter in letters[1] else set()
@@ -61,6 +67,16 @@ def counted(letter):
 def test_the_page_names_all_columns_of_the_history():
     told = [set(prepared(load(name, "embedded", *more)).limiters.now) for name, more in EVERY.items()]
     assert counted("H") == set.union(OF_GAS, *told)
+
+
+def test_the_page_names_all_columns_of_liquids(tmp_path):
+    told = {"at_least_viscosity", "at_most_viscosity"}  # of shear_thinning, at rows of the history alone
+    for name in ("dam_break", "square_patch", "bubble_rise"):
+        spacing = 8 if name == "dam_break" else 50
+        case = cases.load(scenes.HERE / name / "case.toml", (f"resolution.spacing_mm={spacing}",))
+        told |= set(Alone(case, tmp_path / "ledger.csv").limiters.now)
+    assert counted("H", LIQUIDS) == told
+    assert counted("L", LIQUIDS) < set(AMOUNTS) | {f"impulse_of_shifting_{a}_kg_m_s" for a in "xyz"}
 
 
 def test_the_page_names_columns_of_the_ledger():

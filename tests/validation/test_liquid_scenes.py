@@ -40,19 +40,26 @@ def test_circularity_of_an_ellipse_is_found(stretch):
 
 
 @pytest.mark.parametrize(
-    ("made", "shaken", "ok"), [(0.0, 0.0, [True, True]), (1.0, 0.0, [False, True]), (0.0, 1.0, [True, False])]
+    ("made", "shaken", "piped", "ok"),
+    [
+        (0.0, 0.0, 0.0, [True, True, True]),
+        (1.0, 0.0, 0.0, [False, True, True]),
+        (0.0, 1.0, 0.0, [True, False, False]),
+        (0.0, 0.0, 1.0, [True, False, True]),
+    ],
 )
-def test_energy_that_cassini_makes_is_told(made, shaken, ok):
-    """`made` [J] at 100 s by nobody, as the ledger has it; `shaken` [J] more in the tank from 250 s on."""
+def test_energy_that_cassini_makes_is_told(made, shaken, piped, ok):
+    """`made` [J] at 100 s by nobody, as the ledger has it; `shaken` [J] more in the tank from 250 s on, `piped`
+    [J] in its pipe."""
     case = cases.load(scenes.HERE / "sloshing_cassini" / "case.toml")
     time = np.arange(0.0, 300.5, 0.5)
     ones, late = np.ones_like(time), time > 250.0
     history = {
         "time_s": time,
         "mass_kg": 200.0 * ones,
-        "kinetic_energy_J": 3.0 - 1e-3 * time + shaken * late,
-        "pipe_kinetic_energy_J": ones,
+        "kinetic_energy_J": 3.0 - 1e-3 * time + (shaken + piped) * late,
+        "pipe_kinetic_energy_J": ones + piped * late,
     }
-    ledger = {"time_s": time, "dissipated_J": 0.01 * ones - made * (time == 100.0)}
+    ledger = {"time_s": time, "dissipated_J": 0.01 * ones, "numerical_work_J": made * (time == 100.0)}
     run = SimpleNamespace(case=case, history=history, ledger=ledger)
     assert [row["ok"] for row in compare.scene_module("sloshing_cassini")._energy(run)] == ok

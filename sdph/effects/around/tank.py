@@ -44,6 +44,9 @@ class TankP(NamedTuple):
 
 def kernel(case) -> TankP:
     own, c = case.parameters["tank"], case.fastest_sound
+    if case.gas_phase is not None and own.suction == "none":
+        why = "between two phases walls mirror the pressure in front and pull"
+        raise CaseError(f"tank.suction = 'none'; {why}: set tank.suction = \"full\"")
     least = 0.0 if own.suction == "none" else -math.inf
     # of the surface, no place is further from the wall's lattice
     near = 0.5 * math.sqrt(case.dimensions) * case.resolution.spacing

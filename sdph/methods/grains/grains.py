@@ -152,6 +152,10 @@ class Grains:
         """Columns of history.csv."""
         return tracked(self.case, self.stepper)
 
+    def held(self) -> dict[str, float]:
+        """What its limiters hold, by column of history.csv."""
+        return self.stepper.held
+
     def points(self):
         """Particles in the gas as pyvista points with their arrays and alpha_p."""
         import pyvista

@@ -9,7 +9,7 @@ import numpy as np
 from sdph.effects.around import drain, tank
 from sdph.engine import state as particles
 from sdph.engine.kept import Unfit
-from sdph.methods.liquids import account, history
+from sdph.methods.liquids import account, history, limiters
 from sdph.methods.liquids.loads import kinetic_energy
 from sdph.methods.liquids.method import LiquidStepper
 from sdph.methods.liquids.outlet import Outlet
@@ -90,6 +90,10 @@ class Liquid:
 
     def row(self) -> dict[str, float]:
         return history.row(self)
+
+    def held(self) -> dict[str, float]:
+        """What limiters hold now, by column of history.csv."""
+        return limiters.held(self.stepper)
 
     def points(self):
         import pyvista

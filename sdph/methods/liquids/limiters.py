@@ -1,0 +1,72 @@
+"""What limiters hold in a liquid now (docs/limiters.md), by column of history.csv; summary.json has the largest."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from sdph.effects.liquids import shifting
+from sdph.engine.geometry import apart
+from sdph.engine.rows import entry
+from sdph.engine.state import GAS
+
+
+@njit(cache=True, error_model="numpy")
+def in_front(s, rows, box, walls, near, support, volume, wets, holds):
+    """Mark the wall particles (W,) that have liquid within the kernel's `support` [m], and those that hold some off,
+    nearer than 1/near [m]."""
+    for n in range(len(walls)):
+        i = walls[n]
+        wets[n] = holds[n] = False
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
+            dx, dy, dz = apart(s, box, i, j)
+            r, wet = math.sqrt(dx * dx + dy * dy + dz * dz), volume[j] > 0.0
+            wets[n] |= wet and r < support
+            holds[n] |= wet and r * near < 1.0
+
+
+def held(stepper) -> dict[str, float]:
+    """Shares of the particles of liquid, or of the wall particles that have liquid in front, that are held now."""
+    return _by_walls(stepper) | _by_shifting(stepper) | _by_correction(stepper)
+
+
+def _by_walls(stepper) -> dict[str, float]:
+    if not stepper.p["tank"]:
+        return {}
+    wets, holds = np.zeros((2, len(stepper.walls)), bool)
+    in_front(
+        stepper.state, stepper.rows, stepper.neighbours.box, stepper.walls, stepper.wall.near, 2.0 * stepper.kernel.h,
+        stepper.volume, wets, holds,
+    )  # fmt: skip
+    found = {"wall_holds_off_share": _share(holds[wets])}
+    if stepper.wall.least == 0.0:
+        found["walls_held_share"] = _share(stepper.pressure[stepper.walls[wets]] == 0.0)
+    return found
+
+
+def _by_shifting(stepper) -> dict[str, float]:
+    p, own = stepper.p["shifting"], stepper.active
+    if not p:
+        return {}
+    moved = own if p.liquid > 0.0 else own[stepper.state.kind[own] == GAS]
+    speed, least = p.strength * np.sqrt((stepper.shift[moved] ** 2).sum(axis=1)), stepper.least[own]
+    found = {"shift_held_share": _share(speed > p.largest)}
+    if p.tension > 0.0:
+        found["tension_controlled_share"] = _share((stepper.pressure[own] < 0.0) & (least > shifting.INTERIOR))
+    if not stepper.phases:
+        found["shift_at_surface_share"] = _share(least <= shifting.INTERIOR)
+    return found
+
+
+def _by_correction(stepper) -> dict[str, float]:
+    if not stepper.excess:
+        return {}
+    left = ~np.any([part[stepper.active] != 0.0 for part in stepper.excess], axis=0)
+    return {"uncorrected_share": _share(left)}
+
+
+def _share(held) -> float:
+    return float(held.mean()) if len(held) else 0.0
