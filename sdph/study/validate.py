@@ -2,7 +2,8 @@
 
 A scene's validation/<scene>/compare.py has functions `exact`, `tfm`, `dpm` and `paper`, each Run -> checks, and may
 name in VARIANTS what else is to be run: name -> (overrides, references to check it against). What others have measured
-and no scene stands for is under `experiments`: validation/experiments has a module for each.
+and no scene stands for is in STUDIES: `experiments`, and `granular_piles` without a gas. Each is a package of its own,
+with a module for everything in its NAMES.
 """
 
 from __future__ import annotations
@@ -21,19 +22,19 @@ from sdph.schema import CaseError
 from sdph.study import compare
 
 REFERENCES = ("exact", "paper", "tfm", "dpm")
-EXPERIMENTS = "experiments"
+STUDIES = {"experiments": ("coupling.",), "granular_piles": ()}  # name -> overrides that it takes begin with
 
 
 def validate(scene: str, overrides: tuple[str, ...], reporter, folder: Path | None = None) -> list[dict]:
     """The checks of a scene and its variants, each run anew under `folder` (None: one that goes when done)."""
     module = compare.scene_module(scene)
-    if module is None and scene != EXPERIMENTS:
+    if module is None and scene not in STUDIES:
         raise CaseError(f"{scene} has no validation; those that have: {', '.join(validated())}")
     if folder is None:
         with tempfile.TemporaryDirectory(prefix="sdph-validate-") as temporary:
             return validate(scene, overrides, reporter, Path(temporary))
-    if scene == EXPERIMENTS:
-        return _experiments(overrides, reporter, folder)
+    if scene in STUDIES:
+        return _studied(scene, overrides, reporter, folder)
     whole = {scene: ((), [name for name in REFERENCES if hasattr(module, name)])}
     checks = []
     for name, (own, references) in getattr(module, "VARIANTS", whole).items():
@@ -49,21 +50,21 @@ def validate(scene: str, overrides: tuple[str, ...], reporter, folder: Path | No
     return checks
 
 
-def _experiments(overrides: tuple[str, ...], reporter, folder: Path) -> list[dict]:
-    """The checks of all experiments; their runs and figures go to `folder`."""
+def _studied(study: str, overrides: tuple[str, ...], reporter, folder: Path) -> list[dict]:
+    """The checks of all modules of a study; their runs and figures go to `folder`."""
     for text in overrides:
-        if not text.startswith("coupling."):
-            raise CaseError(f"--set {text}: experiments are run as they were measured; leave it out")
+        if not text.startswith(STUDIES[study]):
+            raise CaseError(f"--set {text}: {study} are run as they were measured; leave it out")
     folder.mkdir(parents=True, exist_ok=True)
-    own = [experiment(name) for name in experiment().NAMES]
+    own = [experiment(name, study) for name in experiment("", study).NAMES]
     return [check for module in own for check in module.checks(folder, overrides, reporter)]
 
 
-def experiment(name: str = ""):
-    """A module of validation/experiments; without a name the package."""
-    package = f"sdph_validation_{EXPERIMENTS}"
+def experiment(name: str = "", study: str = "experiments"):
+    """A module of a study, validation/<study>; without a name the package."""
+    package = f"sdph_validation_{study}"
     if package not in sys.modules:
-        place = paths.data("validation") / EXPERIMENTS
+        place = paths.data("validation") / study
         spec = importlib.util.spec_from_file_location(
             package, place / "__init__.py", submodule_search_locations=[str(place)]
         )
@@ -73,5 +74,5 @@ def experiment(name: str = ""):
 
 
 def validated() -> list[str]:
-    """Scenes that have a validation, and what has been measured."""
-    return [*(name for name in scenes.names() if compare.scene_module(name)), EXPERIMENTS]
+    """Scenes that have a validation, and studies."""
+    return [*(name for name in scenes.names() if compare.scene_module(name)), *STUDIES]

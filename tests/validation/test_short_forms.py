@@ -99,4 +99,4 @@ def test_short_ramp_of_the_column():
 
 
 def test_every_scene_with_a_validation_has_a_short_form():
-    assert {*SHORT, "fluidised_column", validate.EXPERIMENTS} == set(validate.validated())
+    assert {*SHORT, "fluidised_column", *validate.STUDIES} == set(validate.validated())
