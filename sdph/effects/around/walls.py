@@ -5,7 +5,8 @@ extrapolated from the grains in front of them, and drag with a mirrored velocity
 leaves the stress of Johnson & Jackson 1987 at the wall, or not at all (`specularity` 0, or a side of the domain that is
 a slip_wall). A wall may slide along itself. What its grip takes from the motion of grains feeds their agitation.
 Pressure vanishes where grains are few, so a grain that comes closer than `contact` to the surface is stopped there: its
-normal velocity is reversed with `restitution`.
+normal velocity is reversed with `restitution`. A wall that grips rubs it then by Coulomb's law, with sin(phi) of
+`friction`, the ratio of shear stress to pressure at which Schaeffer's grains slide along a plane.
 """
 
 from __future__ import annotations
@@ -43,7 +44,7 @@ class Walls:
 
 class WallsP(NamedTuple):
     """Specularity (-1: no slip), restitution, contact distance and spacing [m], volume of a dummy [m^d], penalty [1/s],
-    1 for the paper's force, packing limit, grain density [kg/m3]."""
+    1 for the paper's force, packing limit, grain density [kg/m3], Coulomb's coefficient of a contact [-]."""
 
     specularity: float
     restitution: float
@@ -54,6 +55,7 @@ class WallsP(NamedTuple):
     paper: int
     packing: float
     grain_density: float
+    rubs: float
 
 
 def kernel(case) -> WallsP:
@@ -61,9 +63,10 @@ def kernel(case) -> WallsP:
     gravity = float(np.linalg.norm(case.domain.gravity)) or 1.0
     penalty = own.penalty * math.sqrt(gravity / case.smoothing_length)
     specularity = NO_SLIP if own.specularity is None else own.specularity
+    rubs = math.sin(case.parameters["friction"].angle) if "friction" in case.effects and specularity != 0.0 else 0.0
     return WallsP(
         specularity, own.restitution, CONTACT * spacing, spacing, spacing**case.dimensions, penalty,
-        MODELS.index(own.model), case.grains.packing_limit, case.grains.density,
+        MODELS.index(own.model), case.grains.packing_limit, case.grains.density, rubs,
     )  # fmt: skip
 
 
@@ -234,49 +237,6 @@ def rubbing(p, wall, w, tau, i, dx, dy, dz):
     fy = tau[i, 3] * dx + tau[i, 1] * dy + tau[i, 4] * dz
     fz = tau[i, 5] * dx + tau[i, 4] * dy + tau[i, 2] * dz
     return held(p, wall, w, fx, fy, fz)
-
-
-@njit(cache=True, error_model="numpy")
-def contact(p, wall, box, s, gravity, impulse, work, back_put):
-    """Stops particles that came closer than `contact` to a surface; returns how many did.
-
-    The place is put back to the contact distance, the normal velocity reversed with the restitution. Those that come
-    through a nozzle pass. Adds to impulse (3,) [kg m/s] and work (1,) [J] of the walls on the grains, and to back_put
-    (2,) the ways that places were put back [m] and the energy that they got by it under gravity (3,) [m/s2], [J].
-    """
-    touched = 0
-    for i in range(len(s.x)):
-        before = touched
-        if len(s.entering) > 0 and s.entering[i] > 0:
-            continue
-        for k in range(wall.number[i]):
-            w = entry(wall, i, k)
-            dx, dy, dz = offset(box, wall, w, s, i)
-            nx, ny, nz = wall.normal_x[w], wall.normal_y[w], wall.normal_z[w]
-            height = dx * nx + dy * ny + dz * nz
-            aside = dx * dx + dy * dy + dz * dz - height * height
-            inside = p.contact - (height - wall.depth[w])
-            if inside <= 0.0 or aside > p.spacing * p.spacing or nx * nx + ny * ny + nz * nz == 0.0:
-                continue
-            s.x[i] += inside * nx
-            s.y[i] += inside * ny
-            back_put[0] += inside
-            back_put[1] -= s.mass[i] * inside * (gravity[0] * nx + gravity[1] * ny + gravity[2] * nz)
-            normal = s.u[i] * nx + s.v[i] * ny
-            if len(s.z):
-                s.z[i] += inside * nz
-                normal += s.w[i] * nz
-            back = -(1.0 + p.restitution) * min(normal, 0.0)
-            impulse[0] += s.mass[i] * back * nx
-            impulse[1] += s.mass[i] * back * ny
-            impulse[2] += s.mass[i] * back * nz
-            work[0] += s.mass[i] * back * (normal + 0.5 * back * (nx * nx + ny * ny + nz * nz))
-            s.u[i] += back * nx
-            s.v[i] += back * ny
-            if len(s.z):
-                s.w[i] += back * nz
-            touched = before + 1
-    return touched
 
 
 def call(scales) -> Judgement:

@@ -11,7 +11,7 @@ import numpy as np
 
 from sdph import effects
 from sdph.effects import OFF, REGISTRY
-from sdph.effects.around import walls
+from sdph.effects.around import wall_contact, walls
 from sdph.effects.grains import friction, grain_shifting, granular_temperature
 from sdph.effects.grains.granular_viscosity import Viscous
 from sdph.engine import state as particles
@@ -272,7 +272,7 @@ class Stepper:
         if self.source:
             self.source.release(s)
         if self.boundary:
-            self.contacts += walls.contact(
+            self.contacts += wall_contact.contact(
                 *self._walls(),
                 self.neighbours.box,
                 s,

@@ -1,0 +1,72 @@
+"""Contact of grains with walls where pressure does not hold them: they are stopped, and rubbed by Coulomb's law."""
+
+from __future__ import annotations
+
+import math
+
+from numba import njit
+
+from sdph.effects.around.walls import against
+from sdph.engine.rows import entry
+from sdph.engine.walls.dummies import offset
+
+
+@njit(cache=True, error_model="numpy")
+def rubbed(p, wall, w, s, i, back):
+    """Change of velocity (3 components) [m/s] along a wall by Coulomb's friction, in a contact that turns the normal
+    one by `back`."""
+    u, v, across = against(wall, w, s, i)
+    along = u * wall.normal_x[w] + v * wall.normal_y[w] + across * wall.normal_z[w]
+    u, v = u - along * wall.normal_x[w], v - along * wall.normal_y[w]
+    across -= along * wall.normal_z[w]
+    speed, most = math.sqrt(u * u + v * v + across * across), wall.stick[w] * p.rubs * back
+    share = 1.0 if speed <= most else most / speed
+    return -share * u, -share * v, -share * across
+
+
+@njit(cache=True, error_model="numpy")
+def contact(p, wall, box, s, gravity, impulse, work, back_put):
+    """Stops particles that came closer than `contact` to a surface; returns how many did.
+
+    The place is put back to the contact distance, the normal velocity reversed with the restitution, and that along the
+    wall taken away, by `rubs` times as much at most. Those that come through a nozzle pass. Adds to impulse (3,)
+    [kg m/s] and work (1,) [J] of the walls on the grains, and to back_put (2,) the ways that places were put back [m]
+    and the energy that they got by it under gravity (3,) [m/s2], [J].
+    """
+    touched = 0
+    for i in range(len(s.x)):
+        before = touched
+        if len(s.entering) > 0 and s.entering[i] > 0:
+            continue
+        for k in range(wall.number[i]):
+            w = entry(wall, i, k)
+            dx, dy, dz = offset(box, wall, w, s, i)
+            nx, ny, nz = wall.normal_x[w], wall.normal_y[w], wall.normal_z[w]
+            height = dx * nx + dy * ny + dz * nz
+            aside = dx * dx + dy * dy + dz * dz - height * height
+            inside = p.contact - (height - wall.depth[w])
+            if inside <= 0.0 or aside > p.spacing * p.spacing or nx * nx + ny * ny + nz * nz == 0.0:
+                continue
+            s.x[i] += inside * nx
+            s.y[i] += inside * ny
+            back_put[0] += inside
+            back_put[1] -= s.mass[i] * inside * (gravity[0] * nx + gravity[1] * ny + gravity[2] * nz)
+            normal = s.u[i] * nx + s.v[i] * ny
+            if len(s.z):
+                s.z[i] += inside * nz
+                normal += s.w[i] * nz
+            back = -(1.0 + p.restitution) * min(normal, 0.0)
+            rx, ry, rz = rubbed(p, wall, w, s, i, back)
+            bx, by, bz = back * nx + rx, back * ny + ry, back * nz + rz
+            impulse[0] += s.mass[i] * bx
+            impulse[1] += s.mass[i] * by
+            impulse[2] += s.mass[i] * bz
+            across = s.w[i] if len(s.z) else 0.0
+            after = bx * (s.u[i] + 0.5 * bx) + by * (s.v[i] + 0.5 * by) + bz * (across + 0.5 * bz)
+            work[0] += s.mass[i] * after
+            s.u[i] += bx
+            s.v[i] += by
+            if len(s.z):
+                s.w[i] += bz
+            touched = before + 1
+    return touched
