@@ -122,7 +122,7 @@ class Ledger:
         told = ("heat_exchanged_J", "drag_heat_J", "mechanical_heat_J", "numerical_work_J", "bounds_work_J")
         sums, drifts = {key: self.sums[key] for key in told}, self._mass_drifts() | self._motion_drift()
         physical = sum(abs(self.sums[key]) for key in ("friction_J", "mechanical_heat_J", "collision_heat_J"))
-        drifts["numerical_work_rel"] = _ratio(abs(self.sums["numerical_work_J"]), physical)
+        drifts["numerical_work_rel"] = ratio(abs(self.sums["numerical_work_J"]), physical)
         sums |= {key: self.sums[key] for effect in SUMMED if effect in self.case.effects for key in SUMMED[effect]}
         if self.sums["heat_to_surroundings_J"]:
             sums["heat_to_surroundings_J"] = self.sums["heat_to_surroundings_J"]
@@ -131,17 +131,17 @@ class Ledger:
         if "evaporation" in self.case.effects:
             vapour = self._change("gas_vapour_kg", 1) + self._change("gas_vapour_in_kg", -1)
             drifts |= {
-                "species_drift_rel": _ratio(
+                "species_drift_rel": ratio(
                     abs(math.fsum((*vapour, -self.sums["vapour_to_gas_kg"]))), self.sums["evaporated_kg"]
                 ),
-                "exchange_mass_mismatch_rel": _ratio(self.mass_mismatch, self.sums["evaporated_kg"]),
+                "exchange_mass_mismatch_rel": ratio(self.mass_mismatch, self.sums["evaporated_kg"]),
             }
         return (
             sums
             | drifts
             | {
-                "exchange_energy_mismatch_rel": _ratio(self.heat_mismatch, self.sums["heat_exchanged_J"]),
-                "exchange_momentum_mismatch_rel": _ratio(self.impulse_mismatch, self.sums["impulse_exchanged_kg_m_s"]),
+                "exchange_energy_mismatch_rel": ratio(self.heat_mismatch, self.sums["heat_exchanged_J"]),
+                "exchange_momentum_mismatch_rel": ratio(self.impulse_mismatch, self.sums["impulse_exchanged_kg_m_s"]),
             }
             | self._energy_drift()
             | self._gas_motion()
@@ -157,8 +157,8 @@ class Ledger:
         vapour = self.sums["evaporated_kg"]
         lost = vapour if self.case.coupling.one_way else 0.0  # the gas feels nothing of it
         return {
-            "mass_drift_rel": _ratio(abs(math.fsum((*particles, *gas, lost))), whole + self.first["gas_mass_kg"]),
-            "particle_mass_drift_rel": _ratio(abs(math.fsum((*particles, vapour))), whole),
+            "mass_drift_rel": ratio(abs(math.fsum((*particles, *gas, lost))), whole + self.first["gas_mass_kg"]),
+            "particle_mass_drift_rel": ratio(abs(math.fsum((*particles, vapour))), whole),
         }
 
     def _energy_drift(self) -> dict[str, float]:
@@ -171,7 +171,7 @@ class Ledger:
         drift = math.fsum((*(c for key, sign in pairs.items() for c in self._change(key, sign)), *(-m for m in moved)))
         scale = self.sums["heat_exchanged_J"] + sum(abs(self.sums[key]) for key in ("friction_J", "injected_J"))
         scale += abs(self.sums["heat_to_surroundings_J"]) + abs(sum(self._change("gas_pressure_work_J", 1)))
-        return {"energy_drift_J": abs(drift), "energy_drift_rel": _ratio(abs(drift), scale)}
+        return {"energy_drift_J": abs(drift), "energy_drift_rel": ratio(abs(drift), scale)}
 
     def _gas_motion(self) -> dict[str, float]:
         """Work [J] that is missing in the kinetic energy of the gas: its own viscosity, and what is numerical,
@@ -181,19 +181,19 @@ class Ledger:
         given = {"friction_J": 1, "work_of_drag_J": 1, "damping_heat_J": -1, "vapour_motion_J": -1}
         terms = [c for key, sign in change.items() for c in self._change(key, sign)]
         lost = -math.fsum((*terms, *(sign * self.sums[key] for key, sign in given.items())))
-        return {"gas_dissipation_J": lost, "gas_dissipation_rel": _ratio(abs(lost), abs(self.sums["friction_J"]))}
+        return {"gas_dissipation_J": lost, "gas_dissipation_rel": ratio(abs(lost), abs(self.sums["friction_J"]))}
 
     def _gas_momentum(self) -> dict[str, float]:
         """Momentum of the gas that no impulse gave it: what is numerical."""
         drift = math.hypot(*vector_of(self.last, "gas_numerical_impulse"))
-        rel = _ratio(drift, self.sums["gas_impulse_moved_kg_m_s"])
+        rel = ratio(drift, self.sums["gas_impulse_moved_kg_m_s"])
         return {"gas_momentum_drift_kg_m_s": drift, "gas_momentum_drift_rel": rel}
 
     def _motion_drift(self) -> dict[str, float]:
         """Growth of the motion and agitation of the particles beyond the work that was done on them."""
         change = [c for kind in ("kinetic", "fluctuation") for c in self._change(f"particle_{kind}_energy_J", 1)]
         drift = abs(math.fsum((*change, *(-sign * self.sums[key] for key, sign in MOTION.items()))))
-        return {"motion_drift_J": drift, "motion_drift_rel": _ratio(drift, self.sums["work_exchanged_J"])}
+        return {"motion_drift_J": drift, "motion_drift_rel": ratio(drift, self.sums["work_exchanged_J"])}
 
     def _change(self, key: str, sign: int) -> tuple[float, float]:
         """Change of a column over the run, as terms of an exact sum."""
@@ -233,6 +233,6 @@ def _finite(value) -> bool:
     return not isinstance(value, str) and math.isfinite(value)
 
 
-def _ratio(part: float, whole: float) -> float:
+def ratio(part: float, whole: float) -> float:
     """The part over the whole; with nothing to relate it to, the part itself."""
     return part / whole if whole else part

@@ -18,7 +18,7 @@ import numpy as np
 
 from sdph.engine import state as particles
 from sdph.engine.kept import ROW, Maybe
-from sdph.engine.ledger import refuse_rows, vector
+from sdph.engine.ledger import ratio, refuse_rows, vector
 from sdph.engine.table import Table
 from sdph.methods.liquids.losses import CAUSES
 
@@ -83,10 +83,10 @@ class LiquidLedger:
         drift = float(np.linalg.norm(change - self.impulses.sum(axis=0)))
         return self.sums | {
             "mass_drift_rel": abs(mass) / self.first["mass_kg"],
-            "momentum_drift_rel": _ratio(drift, self.scale["kg_m_s"] + inertia),
+            "momentum_drift_rel": ratio(drift, self.scale["kg_m_s"] + inertia),
             "energy_made_J": self.made,
-            "energy_made_rel": _ratio(self.made, self.moved),
-            "numerical_work_rel": _ratio(abs(self.sums["numerical_work_J"]), abs(self.sums["dissipated_J"])),
+            "energy_made_rel": ratio(self.made, self.moved),
+            "numerical_work_rel": ratio(abs(self.sums["numerical_work_J"]), abs(self.sums["dissipated_J"])),
             "fastest_over_sound": self.mach,
         }
 
@@ -151,7 +151,3 @@ def mach(stepper) -> float:
     return math.sqrt(
         float(((particles.velocities(s)[own] ** 2).sum(axis=1) * rho_0 / (gamma * stiffness)).max(initial=0.0))
     )
-
-
-def _ratio(part: float, whole: float) -> float:
-    return part / whole if whole else 0.0
