@@ -1,8 +1,7 @@
 """Grains out of a slot in the floor of a bin, against Beverloo's law in a plane.
 
-Beverloo, Leniger & van de Velde 1961, Chem. Eng.
-Sci. 15, 260: W = 0.58 rho_b sqrt(g) (D - k d)^(5/2), k = 1.4, out of a
-round hole. Per area and sqrt(g times hydraulic diameter) that is 0.58 4/pi; the hydraulic diameter of a long slot is
+Beverloo, Leniger & van de Velde 1961, Chem. Eng. Sci. 15, 260: W = 0.58 rho_b sqrt(g) (D - k d)^(5/2), k = 1.4, out of
+a round hole. Per area and sqrt(g times hydraulic diameter) that is 0.58 4/pi; the hydraulic diameter of a long slot is
 twice its width D: W = 0.58 4 sqrt(2)/pi rho_b sqrt(g) (D - k d)^(3/2) per length, with 1.04 for 0.58 (Nedderman 1992,
 Statics and Kinematics of Granular Materials, gives 1.03 for slots).
 """
@@ -17,7 +16,7 @@ from sdph.study.compare import check
 from . import alone
 
 C, K = 0.58, 1.4  # -, Beverloo et al. 1961
-SLOTS, SPACINGS = (0.04, 0.06, 0.08), (5e-3,)  # m: 40 to 80 grains, 8 to 16 particles
+SLOTS, SPACINGS = (0.04, 0.06, 0.08), (5e-3, 2.5e-3)  # m: 40 to 80 grains, 8 to 32 particles
 WIDE, HIGH = 2.5, 2.5  # slots: narrower than 0.4 of the bin, and filled to more than the bin's width; our choice
 STARTED, MEASURED = 0.15, 0.35  # of what was filled in that has left; between them the rate is taken; our choice
 LONGEST = 5.0  # times Beverloo's time for it; our choice

@@ -17,7 +17,7 @@ from sdph.study.compare import check
 from . import alone
 
 PHI = math.radians(28.5)  # default of a case: 25.5 degrees along a plane
-ANGLES, SPACINGS = (20.0, 30.0, 45.0), (5e-3,)  # deg, m
+ANGLES, SPACINGS = (20.0, 30.0, 45.0), (5e-3, 2.5e-3)  # deg, m
 DEPTH, LENGTH = 0.1, 10.0  # m, spacings
 EFFECTS = ("gravity", "walls", "friction")
 SETTLED = 0.3  # s on level ground, 3 sqrt(DEPTH/g): the lattice is packed; our choice
