@@ -78,8 +78,8 @@ def _study(commands) -> None:
     check.add_argument(
         "scene",
         nargs="?",
-        help="or experiments: what others measured, or kinetic_theory (default: every scene that has a validation, and "
-        "these)",
+        help="or experiments, granular_piles: what others measured, or kinetic_theory (default: all these and every "
+        "scene that has a validation)",
     )
     check.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override a key of the case")
     check.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: openfoam where it is)")

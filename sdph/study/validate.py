@@ -2,8 +2,8 @@
 
 A scene's validation/<scene>/compare.py has functions `exact`, `tfm`, `dpm` and `paper`, each Run -> checks, and may
 name in VARIANTS what else is to be run: name -> (overrides, references to check it against). What others have measured
-and no scene stands for is under `experiments`, the kinetic theory of grains under `kinetic_theory`: each is a folder of
-validation/ with a module for each part of it.
+and no scene stands for is under `experiments`, the kinetic theory of grains under `kinetic_theory`, grains
+that heap up and flow out under `granular_piles`: each is a folder of validation/ with a module for each part of it.
 """
 
 from __future__ import annotations
@@ -23,7 +23,8 @@ from sdph.study import balances, compare
 
 REFERENCES = ("exact", "paper", "tfm", "dpm")
 EXPERIMENTS = "experiments"
-STUDIES = (EXPERIMENTS, "kinetic_theory")
+# name -> how overrides begin that it takes: two of them have no gas
+STUDIES = {EXPERIMENTS: ("coupling.",), "kinetic_theory": (), "granular_piles": ()}
 
 
 def validate(scene: str, overrides: tuple[str, ...], reporter, folder: Path | None = None) -> list[dict]:
@@ -55,7 +56,7 @@ def validate(scene: str, overrides: tuple[str, ...], reporter, folder: Path | No
 def _parts(study: str, overrides: tuple[str, ...], reporter, folder: Path) -> list[dict]:
     """The checks of all parts of a study; their runs and figures go to `folder`."""
     for text in overrides:
-        if not text.startswith("coupling."):
+        if not text.startswith(STUDIES[study]):
             raise CaseError(f"--set {text}: {study} is run as it is; leave it out")
     folder.mkdir(parents=True, exist_ok=True)
     own = [part(study, name) for name in part(study).NAMES]

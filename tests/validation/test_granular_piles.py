@@ -11,7 +11,7 @@ from sdph.study import validate
 
 
 def study(name):
-    return validate.experiment(name, "granular_piles")
+    return validate.part("granular_piles", name)
 
 
 def verdicts(checks) -> list[bool]:

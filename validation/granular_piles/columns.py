@@ -12,11 +12,11 @@ from pathlib import Path
 import numpy as np
 
 from sdph.study.compare import check
-from sdph.study.validate import experiment
+from sdph.study.validate import part
 
 from . import alone
 
-measured = experiment("measured")
+measured = part("experiments", "measured")
 
 WIDTH = 0.1  # m, half of the column: that of Lube et al. is 9 cm
 ASPECTS, SPACINGS = (1.0, 2.0, 3.0), (5e-3, 2.5e-3)  # -, m
