@@ -27,7 +27,8 @@ class Tank:
     mesh: str = file()
     open_sides: tuple = words(())
     slip: str = choice("no_slip", "free_slip")
-    suction: str = choice("none", "full")  # whether a wall can pull, with a pressure below 0
+    # whether a wall can pull, with a pressure below 0; None: full between two phases, where walls mirror the pressure
+    suction: str | None = choice("none", "full", default=None)
     outlet_radius: float = quantity("m", 0.0, least=0.0)
     outlet_length: float = quantity("m", 0.0, least=0.0)
 
@@ -46,8 +47,8 @@ def kernel(case) -> TankP:
     own, c = case.parameters["tank"], case.fastest_sound
     if case.gas_phase is not None and own.suction == "none":
         why = "between two phases walls mirror the pressure in front and pull"
-        raise CaseError(f"tank.suction = 'none'; {why}: set tank.suction = \"full\"")
-    least = 0.0 if own.suction == "none" else -math.inf
+        raise CaseError(f"tank.suction = 'none'; {why}: set tank.suction = \"full\", or leave it out")
+    least = -math.inf if own.suction == "full" or case.gas_phase is not None else 0.0
     # of the surface, no place is further from the wall's lattice
     near = 0.5 * math.sqrt(case.dimensions) * case.resolution.spacing
     return TankP(float(own.slip == "no_slip"), least, 1.0 / near, c * c)

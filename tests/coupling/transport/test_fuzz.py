@@ -15,6 +15,7 @@ import zlib
 import numpy as np
 import pytest
 from fuzzing import FACTOR, SEED
+from knocking import connected
 
 from coupling.gas import IMPULSES, Budget
 from coupling.openfoam import told
@@ -158,20 +159,6 @@ def test_whatever_calls_the_solver_gets_in(tcp):
     assert first.kind is Kind.HELLO
     for end in (ours, solver, *callers):
         end.close()
-
-
-def connected(address):
-    if address.startswith("unix:"):
-        caller = socket.socket(socket.AF_UNIX)
-        caller.settimeout(5.0)  # also where nobody takes who waits at the door
-        for _ in range(500):
-            with contextlib.suppress(BlockingIOError):  # as many wait at the door as it has room for
-                caller.connect(address.removeprefix("unix:"))
-                return caller
-            time.sleep(0.01)
-        raise TimeoutError(f"{address}: no room at the door for 5 s")
-    _, host, port = address.split(":")
-    return socket.create_connection((host, int(port)), 5.0)
 
 
 def run_in_background(function):

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from knocking import connected
 
 from coupling.transport import callers, sockets
 from coupling.transport.callers import MOST
@@ -26,14 +27,8 @@ BIG = Message(Kind.ADVANCE, {"dt": 1e-3, "drag": RNG.normal(size=(40000, 3)), "w
 
 def call(address: str) -> SocketConnection:
     """What the gas solver does first."""
-    if address.startswith("unix:"):
-        s = socket.socket(socket.AF_UNIX)
-        s.settimeout(5.0)  # also where nobody takes who waits at the door
-        s.connect(address.removeprefix("unix:"))
-        s.settimeout(None)
-    else:
-        _, host, port = address.split(":")
-        s = socket.create_connection((host, int(port)))
+    s = connected(address)
+    s.settimeout(None)
     return SocketConnection(s)
 
 

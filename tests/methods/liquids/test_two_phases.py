@@ -266,7 +266,7 @@ def test_frequencies_of_discs():
         ({"pools": {"a": {"shape": "disc", "centre_m": [0.2, 0.2]}}}, "pools.a.radius_m is missing"),
         ({"resolution": {"spacing_mm": 1e12}}, "larger than pools.water"),
         ({"gas_phase": None}, "gas_phase"),
-        ({"tank": {}}, "suction"),
+        ({"tank": {"suction": "none"}}, "suction"),
         ({"gas_phase": {"density_kg_m3": 1.0, "density_by": "summation"}}, "density_diffusion"),
         (
             {
