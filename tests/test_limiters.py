@@ -49,6 +49,7 @@ HARMLESS = {
     "sdph/methods/liquids/filling.py:fill": "geometry: distances",
     "sdph/methods/liquids/filling.py:lattice": "geometry: extents",
     "sdph/methods/liquids/start.py:_top": "geometry: the higher corner",
+    "sdph/methods/liquids/losses.py:losses": "the same as `compress`",
     "sdph/methods/liquids/*:compress": "takes the liquid among neighbours: volumes of walls are negative",
     "sdph/methods/liquids/interface.py:*": "the same",
     "sdph/methods/liquids/shift.py:surround": "the same",

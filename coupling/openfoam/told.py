@@ -1,4 +1,4 @@
-"""What sdphGasFoam tells in its messages: its mesh, and its fields and budget after a step."""
+"""Messages of sdphGasFoam as they are read: its mesh, and its fields and budget after a step."""
 
 from __future__ import annotations
 

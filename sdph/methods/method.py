@@ -40,7 +40,7 @@ class Method(Protocol):
         """Columns of history.csv."""
 
     def held(self) -> dict[str, float]:
-        """What its limiters hold now, by column of history.csv."""
+        """Shares that its limiters hold now, by column of history.csv."""
 
     def points(self):
         """Its particles as pyvista points."""

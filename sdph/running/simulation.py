@@ -97,7 +97,7 @@ class Simulation:
         self.clock.touch(self.beside.limit(self.state))
 
     def _hear(self, of_exchange: dict[str, float]) -> None:
-        """What limiters of the grains, of the exchange and of other methods hold."""
+        """Hear what limiters of the grains, of the exchange and of other methods hold."""
         self.limiters.hear(self.grains.held() | of_exchange | self.beside.named(lambda method: method.held()))
 
     def admit(self, kept: dict) -> None:

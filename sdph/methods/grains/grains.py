@@ -153,7 +153,7 @@ class Grains:
         return tracked(self.case, self.stepper)
 
     def held(self) -> dict[str, float]:
-        """What its limiters hold, by column of history.csv."""
+        """Shares that its limiters hold, by column of history.csv."""
         return self.stepper.held
 
     def points(self):

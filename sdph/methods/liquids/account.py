@@ -1,4 +1,4 @@
-"""What acts on a liquid now, by cause: forces [N], and the power [W] with which they work on it or take from it.
+"""Forces [N] on a liquid now, by cause, and the power [W] with which they work on it or take from it.
 
 The last evaluation of the forces made accelerations from velocities of half a step before; a kick of half a step
 follows. So forces are those that act, and powers are taken with the velocities after the kick: an acceleration acts

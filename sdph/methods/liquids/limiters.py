@@ -1,4 +1,4 @@
-"""What limiters hold in a liquid now (docs/limiters.md), by column of history.csv; summary.json has the largest."""
+"""Limiters of a liquid: what they hold now, by column of history.csv (docs/limiters.md).
 
 from __future__ import annotations
 

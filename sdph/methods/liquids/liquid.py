@@ -92,7 +92,7 @@ class Liquid:
         return history.row(self)
 
     def held(self) -> dict[str, float]:
-        """What limiters hold now, by column of history.csv."""
+        """Shares that limiters hold now, by column of history.csv."""
         return limiters.held(self.stepper)
 
     def points(self):
