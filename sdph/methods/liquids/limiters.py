@@ -1,4 +1,4 @@
-"""Limiters of a liquid: what they hold now, by column of history.csv (docs/limiters.md).
+"""Limiters of a liquid: what they hold now, by column of history.csv (docs/limiters.md)."""
 
 from __future__ import annotations
 
