@@ -272,15 +272,11 @@ class Stepper:
         if self.source:
             self.source.release(s)
         if self.boundary:
+            own = self.account
             self.contacts += wall_contact.contact(
-                *self._walls(),
-                self.neighbours.box,
-                s,
-                self.gravity,
-                self.account.impulses[account.WALLS],
-                self.account.works[account.BY_WALLS :],
-                self.account.back_put,
-            )
+                *self._walls(), self.neighbours.box, s, self.gravity, own.impulses[account.WALLS],
+                own.works[account.BY_WALLS :], own.back_put,
+            )  # fmt: skip
 
     def _shift(self, dt: float) -> None:
         s = self.state
