@@ -142,6 +142,7 @@ class Simulation:
         self.clock.hold(self.exchange.grip(self.state, handed.damping))
         if self.exchange.vapour:
             self.exchange.vapour.settle(self.state, handed)
+            self.stepper.prepare()  # pairs of the masses that are left: else what one gives the other does not get
         body, touched = self._body(handed), self.beside.touch(self.state, dt)
         held = Held(self.state, dt, taken.impulse, touched, *body)
         self.grains.force(taken.warming, held.push, handed.damping)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 ROUND_OFF = 1e-10  # of what is there, moved or exchanged; with nothing to relate to, kg, J or kg m/s
-NUMERICAL = 0.02  # of the physical dissipation: work of explicit steps, upwinding, splitting; our choice
+NUMERICAL = 0.02  # of the physical dissipation: work of explicit steps; bar of our choice
 BARS = {
     "mass_drift_rel": ROUND_OFF,
     "particle_mass_drift_rel": ROUND_OFF,
@@ -16,7 +16,6 @@ BARS = {
     "exchange_momentum_mismatch_rel": ROUND_OFF,
     "energy_made_rel": 0.05,  # of liquids: shifting takes the field anew at other places, which makes some; our choice
     "numerical_work_rel": NUMERICAL,
-    "gas_dissipation_rel": NUMERICAL,
 }
 
 
