@@ -23,17 +23,12 @@ from sdph.methods.grains.grains import Grains
 
 RESTITUTION, RUBBING = 0.9, 0.5  # - of smooth grains, a case's default; friction of two grains, as of sand in DEM
 REPOSE = math.radians(30.0)  # of sand, couscous, rice (experiments/data/column_collapse.csv)
-DENSITY, DIAMETER, ALPHA_P = (
-    2500.0,
-    1e-3,
-    0.6,
-)  # kg/m3, m: sand or glass, our choice; -, as poured: the onset of contacts
+DENSITY, DIAMETER = 2500.0, 1e-3  # kg/m3, m: sand or glass, our choice
+ALPHA_P = 0.6  # as poured: the onset of contacts
 GRAVITY = 9.80665  # m/s2, standard (CGPM 1901)
 EFFECTS = (
     "gravity", "walls", "outflow", "friction", "granular_pressure", "granular_viscosity", "granular_temperature",
 )  # fmt: skip
-
-
 STEP = 0.05  # of sqrt(spacing/g), longest window: contacts have no stiffness before they touch; our choice
 
 
@@ -66,7 +61,7 @@ def case(size, bed, spacing: float, effects=EFFECTS, **sections):
 
 
 class Alone:
-    """Grains of a case without a gas."""
+    """Grains of a case without a gas; `gravity` (3,) [m/s2] pulls."""
 
     def __init__(self, case):
         self.case, self.grains = case, Grains(case)
@@ -81,16 +76,17 @@ class Alone:
     def time(self) -> float:
         return self.grains.time
 
+    def window(self, dt: float) -> dict[str, float]:
+        """Go on by `dt` [s]; the account of it (sdph.methods.grains.account)."""
+        none = np.zeros(len(self.state.x))
+        self.grains.begin()
+        self.grains.force(none, np.tile(self.gravity, (len(none), 1)), none)
+        self.grains.advance(self.time + dt)
+        self.grains.close()
+        self.grains.renew(dt)
+        return self.grains.columns()
+
     def go(self, end: float) -> float:
         """Go on for `end` [s]; the mass that left meanwhile [kg, per metre of depth in two dimensions]."""
-        left = 0.0
         count = math.ceil(end / (STEP * math.sqrt(self.case.resolution.spacing / GRAVITY)))
-        for _ in range(count):
-            none = np.zeros(len(self.state.x))
-            self.grains.begin()
-            self.grains.force(none, np.tile(self.gravity, (len(none), 1)), none)
-            self.grains.advance(self.time + end / count)
-            self.grains.close()
-            self.grains.renew(end / count)
-            left += self.grains.columns()["left_kg"]
-        return left
+        return sum(self.window(end / count)["left_kg"] for _ in range(count))

@@ -17,7 +17,7 @@ import numpy as np
 
 from sdph.case import read as cases
 from sdph.laws import granular
-from sdph.methods.grains.grains import Grains
+from sdph.study.validate import part
 
 DENSITY, RESTITUTION, PACKING = 2500.0, 0.9, 0.63  # kg/m3, -, -
 DIAMETER = 2e-3  # m
@@ -45,24 +45,14 @@ def case(size, alpha_p: float, spacing: float, theta: float, effects=EFFECTS, **
     return cases.from_table(table)
 
 
-class Alone:
-    """Grains of a case without a gas; `gravity` (2,) [m/s2] pulls."""
+class Alone(part("granular_piles", "alone").Alone):
+    """The same, and what walls do to the grains."""
 
     def __init__(self, case):
-        self.case, self.grains = case, Grains(case)
-        self.gravity = np.array((*case.domain.gravity, 0.0))
-        self.grains.start()
+        super().__init__(case)
         self.push = np.zeros((2, 2))  # of the walls below and above [N s/m], normal to them and along x, since `forget`
         self.rest, self.grains.stepper.guard.sub_step = self.grains.stepper.guard.sub_step, self._after_sub_step
         self.largest: dict[str, float] = {}  # of what limiters held
-
-    @property
-    def state(self):
-        return self.grains.state
-
-    @property
-    def time(self) -> float:
-        return self.grains.time
 
     def begin_with(self, **arrays) -> None:
         """Give the particles other values than the case can: x, y, u, v, theta, once."""
@@ -72,16 +62,10 @@ class Alone:
         self.grains.stepper.prepare()
 
     def window(self, dt: float) -> dict[str, float]:
-        """Go on by `dt` [s]; the account of it (sdph.methods.grains.account)."""
-        none = np.zeros(len(self.state.x))
-        self.grains.begin()
-        self.grains.force(none, np.tile(self.gravity, (len(none), 1)), none)
-        self.grains.advance(self.time + dt)
-        self.grains.close()
-        self.grains.renew(dt)
+        told = super().window(dt)
         for name, value in self.grains.stepper.held.items():
             self.largest[name] = max(value, self.largest.get(name, 0.0))
-        return self.grains.columns()
+        return told
 
     def forget(self) -> None:
         """Begin anew with what walls push and limiters hold."""

@@ -34,9 +34,8 @@ def rates(stepper, ahead: float, last: np.ndarray | None) -> np.ndarray:
     now = np.zeros(SIZE)
     now[: FRAME + 1] = balance(stepper, ahead)
     if len(stepper.walls):
-        force, power = np.zeros((len(stepper.walls), 3)), np.zeros((len(stepper.walls), 2))
-        walls.feel(stepper, stepper.walls, ahead, force, power)
-        now[WALLS], now[BY_WALLS : HELD_OFF + 1] = -force.sum(axis=0), power.sum(axis=0)
+        felt = walls.feel(stepper, stepper.walls, ahead).sum(axis=0)
+        now[WALLS], now[BY_WALLS : HELD_OFF + 1] = -felt[:3], felt[3:]
     if stepper.p["surface_tension"]:
         pull = stepper.state.mass[:, None] * stepper.tightening
         velocity = particles.velocities(stepper.state) + ahead * stepper.acceleration

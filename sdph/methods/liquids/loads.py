@@ -31,8 +31,7 @@ def wall_loads(stepper, chosen=None) -> np.ndarray:
     """(6,) the same, from what each wall particle feels of pressure and friction; of the wall particles `chosen` alone,
     if given."""
     chosen = stepper.walls if chosen is None else chosen
-    force = np.zeros((len(chosen), 3))
-    walls.feel(stepper, chosen, 0.0, force, np.zeros((len(chosen), 2)))
+    force = walls.feel(stepper, chosen, 0.0)[:, :3]
     places = particles.positions(stepper.state)[chosen]
     return np.concatenate([force.sum(axis=0), np.cross(places, force).sum(axis=0)])
 

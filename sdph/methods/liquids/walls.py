@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import numpy as np
 from numba import njit, prange
 
 from sdph.effects.around import frame, gravity
@@ -67,13 +68,11 @@ def extrapolate(kernel, s, rows, box, walls, wall_p, gravity_p, frame_p, volume,
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
 def wall_force(
     kernel, s, rows, box, flow, walls, wall_p, laminar_p, damping_p, shifting_p, phases_p, gravity_p, frame_p, excess,
-    acceleration, ahead, force, power,
+    gain, felt,
 ):  # fmt: skip
-    """force (W, 3) [N] on each wall particle: what `push` gives the liquid in front of it, with the sign turned.
-
-    power (W, 2) [W] that its pressure and its holding off give the liquid, with the velocities that the accelerations
-    lead to in `ahead` [s]; compression pays for the liquid's own pressure.
-    """
+    """felt (W, 5) by each wall particle: force (3 columns) [N], what `push` gives the liquid in front of it with the
+    sign turned, and power [W] that its pressure and its holding off give the liquid, with the velocities that it has
+    after a gain (N, 3) [m/s]; compression pays for the liquid's own pressure."""
     for n in prange(len(walls)):
         i = walls[n]
         fx = fy = fz = worked = held = 0.0
@@ -101,8 +100,8 @@ def wall_force(
             fx += along * dx + across * du
             fy += along * dy + across * dv
             fz += along * dz + across * dw
-            u, v = s.u[j] + ahead * acceleration[j, 0], s.v[j] + ahead * acceleration[j, 1]
-            w = s.w[j] + ahead * acceleration[j, 2] if len(s.z) else 0.0
+            u, v = s.u[j] + gain[j, 0], s.v[j] + gain[j, 1]
+            w = s.w[j] + gain[j, 2] if len(s.z) else 0.0
             nearing = u * dx + v * dy + w * dz
             worked += V * (p_i + (sign_j - 1.0) * p_j) * nearing
             held += V * over * nearing
@@ -112,11 +111,11 @@ def wall_force(
                 fx -= V * ex
                 fy -= V * ey
                 fz -= V * ez
-        force[n, 0] = fx
-        force[n, 1] = fy
-        force[n, 2] = fz
-        power[n, 0] = worked
-        power[n, 1] = held
+        felt[n, 0] = fx
+        felt[n, 1] = fy
+        felt[n, 2] = fz
+        felt[n, 3] = worked
+        felt[n, 4] = held
 
 
 @njit(cache=True, error_model="numpy")
@@ -147,11 +146,12 @@ def reaction(s, active, gravity_p, frame_p, acceleration, ahead, load):
         load[10] += s.mass[i] * (ex * u + ey * v + ez * w)
 
 
-def feel(stepper, chosen, ahead: float, force, power) -> None:
-    """`wall_force` of the wall particles `chosen` of a stepper."""
-    p = stepper.p
+def feel(stepper, chosen, ahead: float) -> np.ndarray:
+    """(W, 5) of the wall particles `chosen` of a stepper, as `wall_force` has it; `ahead` [s] of a kick."""
+    p, felt = stepper.p, np.zeros((len(chosen), 5))
     wall_force(
         stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, stepper.flow, chosen, stepper.wall,
         stepper.viscous, p["liquid_damping"], p["shifting"], stepper.phases, p["gravity"], stepper.frame,
-        stepper.excess, stepper.acceleration, ahead, force, power,
+        stepper.excess, ahead * stepper.acceleration, felt,
     )  # fmt: skip
+    return felt
