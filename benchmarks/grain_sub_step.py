@@ -11,7 +11,7 @@ import numba
 
 from sdph import scenes
 from sdph.case import read as cases
-from sdph.effects.around import walls
+from sdph.effects.around import wall_contact, walls
 from sdph.effects.grains import granular_temperature
 from sdph.methods.grains import contacts as shearing
 from sdph.methods.grains import equations as rates
@@ -21,7 +21,8 @@ WINDOWS = 12
 LOOPS = {
     shearing: ("shear",),
     rates: ("sum_density", "constitutive", "rates"),
-    walls: ("extrapolate", "contact"),
+    walls: ("extrapolate",),
+    wall_contact: ("contact",),
     granular_temperature: ("advance_all",),
 }
 

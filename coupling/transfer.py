@@ -21,6 +21,8 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit, prange
 
+from sdph.laws.compiled import inlined
+
 SUPPORT = 2.0  # reach of the cubic spline in smoothing lengths
 
 
@@ -135,7 +137,7 @@ def _around(bins, a, value):
     return first, max(min(place + 2, bins.shape[a]), first)
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@inlined
 def _add(bins, x, y, z, cells, weight, found):
     """Appends the cells that a kernel at (x, y, z) reaches, by their place in the bins, and (r/h)^2 of each; returns
     how many there are then. An entry is written before it is known to count, which saves a branch: a row that they fill
@@ -175,7 +177,7 @@ def _image(side, reach, place, which):
     return -place if which == 1 else 2.0 * side - place
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@inlined
 def _row(bins, sides, x, y, z, cells, weight):
     """One normalised row, mirror images included; returns how many entries there are, also when the row is too
     short."""
@@ -193,7 +195,7 @@ def _row(bins, sides, x, y, z, cells, weight):
     return _weighed(bins, cells, weight, found)
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@inlined
 def _weighed(bins, cells, weight, found):
     """`found`, with cells by their number and weights that sum to 1."""
     total, entries = 0.0, min(found, np.uint64(len(cells)))

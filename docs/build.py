@@ -87,6 +87,7 @@ def reference() -> str:
         "vapour": declared.Vapour,
         "liquid": declared.Liquid,
         "gas_phase": declared.GasPhase,
+        "solid": declared.Solid,
     }
     sections |= {name: row.parameters for name, row in all_effects.REGISTRY.items()}
     return "\n".join(_keys(name, cls) for name, cls in sections.items())

@@ -18,7 +18,7 @@ UNITS = {
     "": 1.0, "s": 1.0, "ms": 1e-3, "us": 1e-6, "m": 1.0, "mm": 1e-3, "um": 1e-6, "K": 1.0, "Pa": 1.0,
     "deg": math.pi / 180.0, "kg_m3": 1.0, "Pa_s": 1.0, "W_m_K": 1.0, "J_kg_K": 1.0, "J_kg": 1.0, "m_s": 1.0,
     "m_s2": 1.0, "m2_s": 1.0, "m2_s2": 1.0, "kg_kmol": 1.0, "kg_s": 1.0, "N_m": 1.0, "Pa_m6_kg2": 1.0, "rad_s": 1.0,
-    "kg": 1.0, "Hz": 1.0,
+    "kg": 1.0, "Hz": 1.0, "1_s": 1.0, "W_m2": 1.0,
 }  # fmt: skip
 SAME_AS = {"ms": "s", "us": "s", "mm": "m", "um": "m"}  # unit -> the one that its bounds stand under
 
@@ -29,6 +29,7 @@ PLAUSIBLE = {
     "deg": (0.0, math.tau, "a full turn"),
     "s": (0.0, 1e12, "30 000 years"),
     "Hz": (0.0, 1e18, "X-rays"),
+    "1_s": (1e-18, 1e15, "from the creep of mountains to a shock of atoms"),
     "rad_s": (0.0, 1e12, "faster than anything turns"),
     "m": (1e-16, 1e10, "from inside a nucleus to beyond the largest planet"),
     "m_s": (1e-15, 299792458.0, "the speed of light"),
@@ -45,7 +46,8 @@ PLAUSIBLE = {
     "Pa_m6_kg2": (0.0, 1e9, "a million times that of water"),
     "N_m": (1e-12, 1e6, "from interfaces at their critical point to a million times water"),
     "W_m_K": (1e-9, 1e9, "from a ten-thousandth of the best insulator to a million times copper"),
-    "J_kg": (0.0, 1e15, "nuclear fuel"),
+    "W_m2": (1e-12, 1e20, "from starlight to a focused laser"),
+    "J_kg": (1e-6, 1e15, "from a fall of a ten-thousandth of a millimetre to nuclear fuel"),
     "J_kg_K": (1e-6, 1e12, "from a metal near 0 K to a bath that nothing warms"),
 }
 

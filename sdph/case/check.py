@@ -6,14 +6,18 @@ import math
 from collections import Counter
 
 from sdph import effects, scenes
+from sdph.case import beside, bodies
 from sdph.case.sections import Case, Region
 from sdph.engine.geometry import SIDES
 from sdph.methods.liquids.sections import Pool
+from sdph.methods.mps.scales import KNOWN
+from sdph.methods.solids.sections import Body
 from sdph.schema import CaseError, fields, unknown
 
 SAME = 1e-9  # of a length: round-off
 MOST_OUTPUTS = 1e5  # of fields, and of history rows of a liquid as it sets them; our choice
 STRETCH = 100.0  # of the last cell of a row over its first, at most, either way; our choice
+NEEDS = {"box": ("lower", "upper"), "ring": ("centre", "radius", "inner_radius")}  # of a place, by its shape
 OF_BOX, OF_PLANE = ("rotation", "taylor_green"), ("taylor_green", "quadrupole")  # flows of a pool at the start
 
 
@@ -39,8 +43,8 @@ def flow(case, where: str, pool) -> None:
 
 def probe(case, where: str, own) -> None:
     """A probe lies in the domain, and in a gas: a liquid has no temperature to follow."""
-    if case.liquid:
-        raise CaseError(f"[{where}] follows temperatures of grains and gas, and the case is of a liquid; leave it out")
+    if case.grains is None:
+        raise CaseError(f"[{where}] follows temperatures of grains and gas, and the case has none; leave it out")
     inside(case, where, own.at, own.at)
 
 
@@ -107,16 +111,13 @@ def _is_pair(part) -> bool:
 
 def check(case: Case) -> None:
     """Check what several keys decide together: `CaseError` where they do not fit."""
+    beside.check(case)
     if case.liquid and (case.gas is None) != (case.grains is None):
         raise CaseError("a liquid stands alone, or beside grains in a gas: give both [grains] and [gas], or neither")
     for name in case.effects:
         if not set(effects.REGISTRY[name].matter) & set(case.matters):
-            what = "a liquid" if case.matters == ("liquid",) else "grains"
+            what = {"liquid": "a liquid", "solid": "a solid"}.get(case.matters[0], "grains")
             raise CaseError(f"effects holds {name}, which does not act on {what}; leave it out")
-    if len(case.matters) > 1 and (case.domain.periodic or any(case.liquid.periodic or ())):
-        raise CaseError(
-            "grains beside a liquid need a domain without periodic axes; leave domain.periodic and liquid.periodic out"
-        )
     for matter in case.matters:
         _check_one(case.only(matter))
 
@@ -128,7 +129,10 @@ def _check_one(case: Case) -> None:
     if case.scene and case.scene not in scenes.names():
         raise CaseError(f"{unknown(case.scene, scenes.names()).replace('unknown key', 'scene =', 1)}; or leave it out")
     _check_phases(case)
-    if case.resolution.cell is None and not case.liquid:
+    _check_method(case)
+    if case.bodies and case.solid is None:
+        raise CaseError(f"bodies.{next(iter(case.bodies))} is given without [solid]; add that, or leave it out")
+    if case.resolution.cell is None and case.grains:
         raise CaseError("resolution.cell_mm is missing; it has no default: give it in [resolution]")
     _check_components(case)
     if any(not 1.0 / STRETCH <= ratio <= STRETCH for ratio in case.resolution.stretch or ()):
@@ -145,6 +149,8 @@ def _check_one(case: Case) -> None:
             _check_place(case, f"pools.{name}", pool)
             _check_period_of_pool(case, f"pools.{name}", pool)
         flow(case, f"pools.{name}", pool)
+    if case.solid:
+        bodies.check(case)
     for name, boundary in case.boundaries.items():
         side(case, f"boundaries.{name}", boundary)
     for name, region in case.particles.items():
@@ -156,6 +162,29 @@ def _check_one(case: Case) -> None:
     columns_of_history(case)
 
 
+def _check_method(case: Case) -> None:
+    """A liquid has what its method needs, and no effect that this method does not know."""
+    if case.liquid is None:
+        if case.method is not None and case.solid is None and case.grains is None:
+            raise CaseError("[method] is of a liquid; give [liquid] too, or leave it out")
+        return
+    if not case.incompressible:
+        if case.liquid.sound_speed is None:
+            raise CaseError(
+                "liquid.sound_speed_m_s is missing; a weakly compressible liquid needs it, ten times its speed"
+            )
+        if "free_energy_tension" in case.effects:
+            raise CaseError('effects holds free_energy_tension, which is of moving particles; set method.name = "mps"')
+        return
+    for name in case.effects:
+        if name not in KNOWN:
+            raise CaseError(
+                f'effects holds {name}; with method.name = "mps" there are {", ".join(KNOWN)}: leave it out'
+            )
+    if case.gas_phase or any(case.liquid.periodic or ()):
+        raise CaseError('method.name = "mps" moves one liquid with open sides: leave [gas_phase], liquid.periodic out')
+
+
 def _check_components(case: Case) -> None:
     """Vectors have as many components as the case has dimensions."""
     vectors = {
@@ -163,7 +192,8 @@ def _check_components(case: Case) -> None:
         "domain.gravity_m_s2": case.domain.gravity,
         "resolution.stretch": case.resolution.stretch,
     }
-    for group, places, cls in (("particles", case.particles, Region), ("pools", case.pools, Pool)):
+    groups = ("particles", case.particles, Region), ("pools", case.pools, Pool), ("bodies", case.bodies, Body)
+    for group, places, cls in groups:
         for name, place in places.items():
             vectors |= {
                 f"{group}.{name}.{key}": getattr(place, at)
@@ -190,6 +220,8 @@ def _check_outputs(case: Case) -> None:
     intervals = {"run.output_interval_s": case.run.output_interval}
     if case.liquid:
         intervals["liquid.history_interval_s"] = case.liquid.history_interval
+    if case.solid:
+        intervals["solid.history_interval_s"] = case.solid.history_interval
     for key, interval in intervals.items():
         if interval and case.run.end_time > MOST_OUTPUTS * interval:
             given = f"{key} = {interval:g} up to run.end_time_s = {case.run.end_time:g}"
@@ -201,11 +233,14 @@ def _check_outputs(case: Case) -> None:
 
 def _check_place(case: Case, where: str, part) -> None:
     """A region or a pool has what its shape needs, is no box upside down, and no narrower than the spacing."""
-    needs = ("lower", "upper") if part.shape == "box" else ("centre", "radius")
+    needs = NEEDS.get(part.shape, ("centre", "radius"))
     for key in needs:
         if getattr(part, key) is None:
             raise CaseError(f"{where}.{key}_m is missing; a {part.shape} needs {' and '.join(f'{n}_m' for n in needs)}")
     size = part.radius if part.shape != "box" else min(b - a for a, b in zip(part.lower, part.upper))
+    if part.shape == "ring" and part.inner_radius >= part.radius:
+        raise CaseError(f"{where}.inner_radius_m = {part.inner_radius:g} must be below radius_m = {part.radius:g}")
+    size -= part.inner_radius if part.shape == "ring" else 0.0
     if size <= 0.0:
         raise CaseError(
             f"{where}: upper_m = {list(part.upper)} must lie above lower_m = {list(part.lower)} along every axis"

@@ -6,15 +6,20 @@ from sdph import effects
 from sdph.effects.effect import Judgement
 from sdph.methods.grains import scales as grains
 from sdph.methods.liquids import scales as liquids
+from sdph.methods.mps import scales as mps
+from sdph.methods.solids import scales as solids
+
+OF = {"grains": grains, "liquid": liquids, "mps": mps, "solid": solids}
 
 
 def scales_of(case):
     """Scales of a case as if every effect that can judge itself and needs no input had its section."""
-    return liquids.scales_of(case) if case.liquid else grains.scales_of(case)
+    return OF[case.moved_by(matter(case))].scales_of(case)
 
 
-def _matter(case) -> str:
-    return "liquid" if case.liquid else "grains"
+def matter(case) -> str:
+    """Matter that a case is judged by: a liquid rather than grains or bodies beside it."""
+    return "liquid" if "liquid" in case.matters else case.matters[-1]
 
 
 def judgements(case, scales=None) -> dict[str, Judgement]:
@@ -23,7 +28,7 @@ def judgements(case, scales=None) -> dict[str, Judgement]:
     `scales` are those of the case, where they are known.
     """
     scales = scales or scales_of(case)
-    own = {name: row for name, row in effects.REGISTRY.items() if row.call and _matter(case) in row.matter}
+    own = {name: row for name, row in effects.REGISTRY.items() if row.call and matter(case) in row.matter}
     return {name: row.call(scales) for name, row in own.items() if name in scales.case.parameters}
 
 

@@ -13,13 +13,21 @@ from pathlib import Path
 
 import tomli_w
 
-from sdph import effects
+from sdph import effects, scenes
 from sdph.case import judge
 from sdph.case.check import check
 from sdph.case.sections import GROUPS, SECTIONS, Case, Coupling, Vapour
 from sdph.methods.liquids.sections import GasPhase, Liquid
+from sdph.methods.mps.sections import LiquidMethod
+from sdph.methods.solids.sections import Solid
 from sdph.schema import CaseError, fields, plausible, read, record, unknown, vector, write
 
+METHODS = {
+    "liquid": Liquid,
+    "gas_phase": GasPhase,
+    "solid": Solid,
+    "method": LiquidMethod,
+}  # sections of methods without a gas
 LONGEST = 100  # letters of a name; our choice
 # bytes of a case file, parts of a dotted key (the parser's time goes with their square); our choice
 LARGEST, DEEPEST = 2**20, 50
@@ -41,7 +49,7 @@ def load(path: Path, overrides: tuple[str, ...] = ()) -> Case:
     given = parsed(path)
     _locate(given, Path(path).parent)
     for override in overrides:
-        _override(given, override)
+        put(given, override)
     _locate(given, Path())
     return from_table(given)
 
@@ -68,13 +76,29 @@ def parsed(path: Path) -> dict:
 
 def _locate(table: dict, folder: Path) -> None:
     """Make the paths of files absolute, from `folder`."""
-    for section, key in FILES:
-        entries = table.get(section)
-        if isinstance(entries, dict) and isinstance(entries.get(key), str) and entries[key]:
-            entries[key] = os.path.abspath(folder / entries[key])
+    for _, entries, key in files(table):
+        entries[key] = os.path.abspath(folder / entries[key])
 
 
-def _override(table: dict, text: str) -> None:
+def files(table: dict) -> list[tuple[str, dict, str]]:
+    """(section, its entries, key) of all in a TOML table that names a file, or the case that a nozzle records."""
+    nozzles = table.get("nozzles")
+    parts = [(section, table.get(section), key) for section, key in FILES]
+    parts += [
+        (f"nozzles.{name}", entries, key)
+        for name, entries in (nozzles.items() if isinstance(nozzles, dict) else ())
+        for key in ("table", "record")
+    ]
+    return [
+        (where, entries, key)
+        for where, entries, key in parts
+        if isinstance(entries, dict) and isinstance(entries.get(key), str) and entries[key]
+        if key != "record" or entries[key] not in scenes.names()
+    ]
+
+
+def put(table: dict, text: str) -> None:
+    """Put `section.key=value`, the value as in TOML, into a table."""
     key, equals, value = text.partition("=")
     *sections, last = key.strip().split(".")
     if not equals or not all([*sections, last]):
@@ -91,11 +115,11 @@ def _override(table: dict, text: str) -> None:
 
 def from_table(table: dict) -> Case:
     """The case of a parsed TOML table."""
-    head = {"title", "scene", "dimensions", "effects", "coupling", "vapour", "track", "liquid", "gas_phase"}
+    head = {"title", "scene", "dimensions", "effects", "coupling", "vapour", "track", *METHODS}
     for key in table:
         if key not in head | SECTIONS.keys() | GROUPS.keys() | effects.REGISTRY.keys():
             raise CaseError(unknown(key, head | SECTIONS.keys() | GROUPS.keys() | effects.REGISTRY.keys()))
-    spared = {"gas", "grains"} if "liquid" in table else set()
+    spared = {"gas", "grains"} if table.keys() & {"liquid", "solid"} else set()
     given = {name: cls for name, cls in SECTIONS.items() if name not in spared - table.keys()}
     sections = dict.fromkeys(SECTIONS) | {name: _section(cls, table.get(name, {}), name) for name, cls in given.items()}
     groups = {name: _group(cls, table.get(name, {}), name) for name, cls in GROUPS.items()}
@@ -106,8 +130,7 @@ def from_table(table: dict) -> Case:
         dimensions=_dimensions(table),
         effects=on,
         coupling=_section(Coupling, table.get("coupling", {}), "coupling"),
-        liquid=_section(Liquid, table["liquid"], "liquid") if "liquid" in table else None,
-        gas_phase=_section(GasPhase, table["gas_phase"], "gas_phase") if "gas_phase" in table else None,
+        **{name: _section(cls, table[name], name) if name in table else None for name, cls in METHODS.items()},
         vapour=_section(Vapour, table["vapour"], "vapour") if "vapour" in table else None,
         track=_track(table),
         parameters={name: _section(effects.REGISTRY[name].parameters, table.get(name, {}), name) for name in on},
@@ -186,11 +209,7 @@ def _automatic(table: dict) -> tuple[str, ...]:
 def to_table(case: Case) -> dict:
     """The TOML table of a case, every value resolved."""
     table = {"title": case.title, "scene": case.scene, "dimensions": case.dimensions, "effects": list(case.effects)}
-    table |= {
-        name: write(getattr(case, name))
-        for name in (*SECTIONS, "coupling", "liquid", "gas_phase")
-        if getattr(case, name)
-    }
+    table |= {name: write(getattr(case, name)) for name in (*SECTIONS, "coupling", *METHODS) if getattr(case, name)}
     table |= {group: {name: write(entry) for name, entry in getattr(case, group).items()} for group in GROUPS}
     table |= {name: write(parameters) for name, parameters in case.parameters.items() if write(parameters)}
     if case.vapour:

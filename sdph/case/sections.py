@@ -9,8 +9,11 @@ from sdph.effects.around.nozzles import Nozzle
 from sdph.engine.geometry import SIDES
 from sdph.engine.rows import SKIN
 from sdph.methods.liquids.sections import GasPhase, Liquid, Pool
+from sdph.methods.mps.sections import LiquidMethod
+from sdph.methods.solids.sections import Body, Solid
 from sdph.schema import choice, flag, quantity, record, vector, whole, words
 
+OPENINGS = ("inflow", "outflow")  # effects that act on the grains alone where grains and a liquid are side by side
 STANDARD_ATMOSPHERE = 101325.0  # Pa, ISO 2533
 
 
@@ -136,6 +139,8 @@ class Coupling:
     gas_ranks: int = whole(1, least=1)
     one_way: bool = flag(False)  # the gas acts on the particles and feels nothing
     voidage: bool = flag(True)  # the gas knows of the volume of the grains; false as in point-particle models
+    # properties of the gas around a droplet as at (2 T_p + T_g)/3, the third rule: Hubbard, Denny & Mills 1975
+    film: bool = flag(False)
     window_tolerance: float = quantity("", 2e-5, above=0.0)  # error of one window over the heat there is to exchange
     window_largest: float = quantity("s", 1e-2, least=1e-15)  # far below what any gas needs; our choice
     courant: float = quantity("", 1.0, least=1e-6)  # of the gas, in one window
@@ -154,10 +159,13 @@ class Case:
     run: Run
     domain: Domain
     resolution: Resolution
-    gas: GasProperties | None  # None in a case of a liquid alone
+    gas: GasProperties | None  # None in a case without grains
     grains: Grains | None  # the same
     liquid: Liquid | None
+    method: LiquidMethod | None  # of the liquid; None: weakly compressible
     gas_phase: GasPhase | None
+    solid: Solid | None
+    bodies: dict[str, Body]
     pools: dict[str, Pool]
     particles: dict[str, Region]
     boundaries: dict[str, Boundary]
@@ -170,19 +178,31 @@ class Case:
 
     @property
     def matters(self) -> tuple[str, ...]:
-        """Kinds of matter in the case: "grains" (in a gas), "liquid", or both side by side."""
-        return ("grains",) * (self.grains is not None) + ("liquid",) * (self.liquid is not None)
+        """Kinds of matter in the case: "grains" (in a gas), "liquid", "solid"; a liquid beside one of the others."""
+        given = {"grains": self.grains, "liquid": self.liquid, "solid": self.solid}
+        return tuple(matter for matter, section in given.items() if section is not None)
 
     def only(self, matter: str) -> Case:
         """The case without its other matter, and without the effects that act on that alone."""
         if self.matters == (matter,):
             return self
-        kept = tuple(name for name in self.effects if matter in REGISTRY[name].matter)
+        given = OPENINGS if matter == "liquid" else ()  # to the grains
+        kept = tuple(name for name in self.effects if matter in REGISTRY[name].matter and name not in given)
         left = {"effects": kept, "parameters": {name: self.parameters[name] for name in kept}}
         grains = dict.fromkeys(("gas", "grains", "vapour")) | {"track": ()}
         grains |= {group: {} for group in ("particles", "boundaries", "probes", "nozzles")}
-        liquid = dict.fromkeys(("liquid", "gas_phase")) | {"pools": {}}
-        return dataclasses.replace(self, **left, **(liquid if matter == "grains" else grains))
+        liquid, solid = dict.fromkeys(("liquid", "gas_phase")) | {"pools": {}}, {"solid": None, "bodies": {}}
+        others = {"grains": liquid | solid, "liquid": grains | solid, "solid": grains | liquid}
+        return dataclasses.replace(self, **left, **others[matter])
+
+    @property
+    def incompressible(self) -> bool:
+        """True where the liquid is moved by `sdph.methods.mps`."""
+        return self.liquid is not None and self.method is not None and self.method.name == "mps"
+
+    def moved_by(self, matter: str) -> str:
+        """Name of the method that moves a matter: that of the matter, or "mps"."""
+        return "mps" if matter == "liquid" and self.incompressible else matter
 
     @property
     def smoothing_length(self) -> float:
@@ -194,7 +214,7 @@ class Case:
         effects."""
         given = [
             self.gas.temperature,
-            *(part.temperature for part in (*self.particles.values(), *self.nozzles.values())),
+            *(part.temperature for part in (*self.particles.values(), *self.nozzles.values()) if part.temperature),
         ]
         given += [boundary.temperature for boundary in self.boundaries.values() if boundary.temperature]
         return given + [one for own in self.parameters.values() for one in getattr(own, "temperatures", ())]
@@ -206,4 +226,6 @@ class Case:
 
 
 SECTIONS = {"run": Run, "domain": Domain, "resolution": Resolution, "gas": GasProperties, "grains": Grains}
-GROUPS = {"particles": Region, "pools": Pool, "boundaries": Boundary, "probes": Probe, "nozzles": Nozzle}
+GROUPS = {
+    "particles": Region, "pools": Pool, "bodies": Body, "boundaries": Boundary, "probes": Probe, "nozzles": Nozzle,
+}  # fmt: skip

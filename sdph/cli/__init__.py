@@ -107,7 +107,7 @@ def run(options) -> int:
             case = cases.load(file, overrides)
             inputs.check(case)  # what follows reads some of them
             if "grains" not in case.matters:
-                _refuse(options, ("gas", "transport", "np"), f"{name} is a liquid and has no gas solver")
+                _refuse(options, ("gas", "transport", "np"), f"{name} has no gas and no gas solver")
             elif options.gas == "embedded":
                 _refuse(options, ("transport", "np"), "the embedded gas solver runs in this process")
             template = driver.template_of(case, name, file)
@@ -234,6 +234,17 @@ def validate_scene(options) -> int:
     return FINE if all(check["ok"] for check in checks) else CHECK_FAILED
 
 
+def gel_droplet(options) -> int:
+    from sdph.running import output
+    from sdph.study.gel_droplet import course, sections
+
+    found = course.Course(sections.load(options.file, tuple(options.set)))
+    folder = options.out or output.free_name(Path("runs") / "droplet")
+    course.write(found, folder)
+    print(output.strict_json(found.summary) if options.json else f"{_table(found.summary)}\nfolder: {folder}")
+    return FINE
+
+
 def view_run(options) -> int:
     from sdph.show import view
 
@@ -276,6 +287,7 @@ COMMANDS = {
     "stress": stress_cases,
     "compare": compare_run,
     "validate": validate_scene,
+    "droplet": gel_droplet,
     "view": view_run,
     "report": report_runs,
     "openfoam": openfoam_setup,

@@ -36,6 +36,7 @@ def parser() -> argparse.ArgumentParser:
         "--measure", action="store_true", help="measure what each effect costs on this machine; minutes the first time"
     )
     _study(commands)
+    _droplet(commands)
     _look(commands)
     openfoam = _command(commands, "openfoam", "find or install OpenFOAM and compile the gas solver")
     openfoam.add_argument("action", choices=("setup",))
@@ -78,13 +79,22 @@ def _study(commands) -> None:
     check.add_argument(
         "scene",
         nargs="?",
-        help="or experiments, granular_piles: what others measured, or kinetic_theory (default: all these and every "
-        "scene that has a validation)",
+        help="or experiments, granular_piles: what others measured, kinetic_theory or spray_plug (default: all these "
+        "and every scene that has a validation)",
     )
     check.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override a key of the case")
     check.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: openfoam where it is)")
     check.add_argument("--out", type=Path, help="keep the runs in this folder")
     check.add_argument("--json", action="store_true", help="print the checks as JSON")
+
+
+def _droplet(commands) -> None:
+    """Command of the reduced model of a gel droplet."""
+    droplet = _command(commands, "droplet", "one gel droplet without particles: growth, neck, tear, vent")
+    droplet.add_argument("file", nargs="?", type=Path, help="TOML file with its keys (default: the base case)")
+    droplet.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override a key of the file")
+    droplet.add_argument("--out", type=Path, help="folder of table and picture (default: runs/droplet, numbered)")
+    droplet.add_argument("--json", action="store_true", help="print the summary as JSON")
 
 
 def _look(commands) -> None:

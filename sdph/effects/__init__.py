@@ -15,7 +15,9 @@ from sdph.effects.grains import (
     granular_viscosity,
 )
 from sdph.effects.liquids import (
+    bubble,
     density_diffusion,
+    free_energy_tension,
     laminar_viscosity,
     liquid_damping,
     shear_thinning,
@@ -23,6 +25,7 @@ from sdph.effects.liquids import (
     surface_tension,
     xsph,
 )
+from sdph.effects.solids import inflation, rigid_sides
 
 FILES = (
     drag,
@@ -45,6 +48,8 @@ FILES = (
     liquid_damping,
     shifting,
     surface_tension,
+    free_energy_tension,
+    bubble,
     xsph,
     tank,
     frame,
@@ -52,6 +57,8 @@ FILES = (
     evaporation,
     inflow,
     outflow,
+    inflation,
+    rigid_sides,
 )
 REGISTRY: dict[str, Effect] = {file.EFFECT.name: file.EFFECT for file in FILES}
 

@@ -46,7 +46,7 @@ class Effect:
                 (N,) or (N, 3), beside what the exchange tells of the conductance, drag and force that effects add up to
     holds_force whether the gas pushes by it with a force that is held over a window
     moves       whether particles move by it
-    matter      what it acts on: "grains", "liquid"
+    matter      what it acts on: "grains", "liquid", "solid"
     dt_limit    (kernel parameters, case, state as it is) -> largest stable sub-step [s]; asked before every sub-step
     window_limit  the same for windows, where exchange or splitting asks for short ones; asked at the start and after
                   every window

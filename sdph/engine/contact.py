@@ -1,9 +1,10 @@
-"""Contact between methods: particles of two kinds of matter that come nearer than a spacing push each other apart.
+"""Contact: particles of two kinds of matter, or of two bodies, that come nearer than a spacing push each other apart.
 
     F_ij = k dx (1 - r/dx) r_ij/r  for r < dx,   k = rho c^2 dx^(d-2)
 
 a spring as stiff as the liquid around (our choice: a particle pressed in by half a spacing feels rho c^2/2 on its
-face), equal and opposite, so that what one method loses the other gains. It is found once a window and holds over it.
+face), equal and opposite, so that what one loses the other gains. Between methods it is found once a window and holds
+over it; between bodies of one method it is found every step, and its energy comes back.
 """
 
 from __future__ import annotations
@@ -11,9 +12,16 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numba import njit
 from scipy.spatial import cKDTree
 
+from sdph.engine import state as particles
+from sdph.engine.kept import GROWING, Unfit
+
 STEADY = 0.2  # of sqrt(m/k), the time of the spring: longest that its force may be held; our choice
+
+
+SKIN = 1.0  # spacings by which pairs that may touch are looked for beyond contact; our choice
 
 
 class Contact:
@@ -50,3 +58,80 @@ def between(case) -> Contact:
     """Contact of grains with the liquid of a case, or of any method with it."""
     spacing, own = case.resolution.spacing, case.liquid
     return Contact(spacing, own.density * own.sound_speed**2 * spacing ** (case.dimensions - 2))
+
+
+class Touching:
+    """The same springs among particles of one method that no link holds: bodies against each other, and what has
+    broken off against all. Two that are nearer than a spacing when one of them breaks off push from that distance on:
+    else the tear would throw them."""
+
+    KEPT = ("near", "rest")  # see sdph.engine.kept
+    FORMS = {"near": GROWING, "rest": GROWING}
+
+    def __init__(self, contact: Contact, body):
+        self.contact, self.body = contact, body
+        self.pairs, self.lengths, self.built = np.zeros((0, 2), np.int64), np.zeros(0), None
+        self.near, self.rest = np.zeros(0, np.int64), np.zeros(0)  # pairs, as `_keys` names them, and distances [m]
+
+    def admit(self, kept: dict) -> None:
+        """Unfit where distances are not one a pair, or pairs stand in no order."""
+        if len(kept["near"]) != len(kept["rest"]) or (np.diff(kept["near"]) <= 0).any():
+            raise Unfit("distances of what has broken off are not one a pair")
+
+    def break_off(self, state, before, free) -> None:
+        """Remember the distances of those that are nearer than a spacing and are loose now, but were not `before`."""
+        pairs = self._within(state, self.contact.spacing)
+        pairs = pairs[self._loose(pairs, free) & ~self._loose(pairs, before)]
+        here = particles.positions(state)
+        keys = np.concatenate([self.near, self._keys(pairs)])
+        rest = np.concatenate([self.rest, particles.lengths(here[pairs[:, 0]] - here[pairs[:, 1]])])
+        order = np.argsort(keys)
+        self.near, self.rest, self.built = keys[order], rest[order], None
+
+    def update(self, state, free) -> None:
+        """Find the pairs that may touch, where particles have moved by half the skin; `free` (N,) 1 of what has broken
+        off."""
+        here = particles.positions(state)
+        if self.built is not None:
+            far = ((here - self.built) ** 2).sum(axis=1).max(initial=0.0)
+            if far < (0.5 * SKIN * self.contact.spacing) ** 2:
+                return
+        self.built = here
+        pairs = self._within(state, (1.0 + SKIN) * self.contact.spacing)
+        pairs = pairs[self._loose(pairs, free)]
+        self.pairs = pairs[np.lexsort(pairs.T)]  # in one order, whenever they were found
+        self.lengths = np.full(len(pairs), self.contact.spacing)
+        found = np.isin(keys := self._keys(self.pairs), self.near)
+        self.lengths[found] = self.rest[np.searchsorted(self.near, keys[found])]
+
+    def forces(self, state, acceleration) -> float:
+        """Add to accelerations (N, 3) [m/s2]; the energy [J] of the springs."""
+        return _press(self.contact.stiffness, state, self.pairs, self.lengths, acceleration)
+
+    def _within(self, state, reach: float) -> np.ndarray:
+        """Pairs (M, 2) nearer than `reach` [m]."""
+        return cKDTree(particles.positions(state)).query_pairs(reach, output_type="ndarray")
+
+    def _loose(self, pairs, free) -> np.ndarray:
+        first, second = pairs.T
+        return (self.body[first] != self.body[second]) | (free[first] != 0) | (free[second] != 0)
+
+    def _keys(self, pairs) -> np.ndarray:
+        """One number for each pair."""
+        return pairs[:, 0] * len(self.body) + pairs[:, 1]
+
+
+@njit(cache=True, error_model="numpy")
+def _press(stiffness, s, pairs, lengths, acceleration):
+    energy = 0.0
+    for n in range(len(pairs)):
+        i, j = pairs[n]
+        dx, dy, dz = s.x[i] - s.x[j], s.y[i] - s.y[j], s.z[i] - s.z[j] if len(s.z) else 0.0
+        r = math.sqrt(dx * dx + dy * dy + dz * dz)
+        if r < lengths[n]:
+            force = stiffness * (lengths[n] - r) / r
+            energy += 0.5 * stiffness * (lengths[n] - r) ** 2
+            for a, apart in enumerate((dx, dy, dz)):
+                acceleration[i, a] += force * apart / s.mass[i]
+                acceleration[j, a] -= force * apart / s.mass[j]
+    return energy

@@ -3,7 +3,8 @@
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
+
+from sdph.laws.compiled import inlined
 
 SIDES = {"left": (0, 0), "right": (0, 1), "bottom": (1, 0), "top": (1, 1), "back": (2, 0), "front": (2, 1)}  # axis, end
 PAIRS = tuple(zip(list(SIDES)[::2], list(SIDES)[1::2]))  # of opposite sides, by axis
@@ -12,14 +13,14 @@ PAIRS = tuple(zip(list(SIDES)[::2], list(SIDES)[1::2]))  # of opposite sides, by
 FAST = {"reassoc", "nsz", "arcp", "contract", "afn"}
 
 
-@njit(cache=True, error_model="numpy")
+@inlined
 def apart(s, box, i, j):
     """r_i - r_j (3 components; the last 0 in two dimensions), through periodic boundaries."""
     dz = s.z[i] - s.z[j] if deep(box) else 0.0
     return nearest_image(box, s.x[i] - s.x[j], s.y[i] - s.y[j], dz)
 
 
-@njit(cache=True, error_model="numpy")
+@inlined
 def faster(s, box, i, j):
     """v_i - v_j (3 components; the last 0 in two dimensions)."""
     return s.u[i] - s.u[j], s.v[i] - s.v[j], s.w[i] - s.w[j] if deep(box) else 0.0
@@ -61,13 +62,13 @@ def box_of(period, dimensions: int) -> tuple:
     return (Plane if dimensions == 2 else Space)(*lengths, *(1.0 / length if length else 0.0 for length in lengths))
 
 
-@njit(cache=True, error_model="numpy")
+@inlined
 def deep(box):
     """True where a box has three dimensions."""
     return len(box) == 1 or len(box) == 6
 
 
-@njit(cache=True, error_model="numpy")
+@inlined
 def nearest_image(box, dx, dy, dz):
     """A separation, through the periodic boundaries where that is shorter."""
     if len(box) < 2:

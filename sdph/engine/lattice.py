@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -17,6 +18,20 @@ def lattice(region, spacing: float, dimensions: int) -> np.ndarray:
     reach = math.ceil(region.radius / spacing)
     points = grid([c + (np.arange(-reach, reach) + 0.5) * spacing for c in region.centre])
     return points[((points - np.array(region.centre)) ** 2).sum(axis=1) <= region.radius**2]
+
+
+def rings(centre, inner: float, outer: float, spacing: float) -> tuple[np.ndarray, np.ndarray]:
+    """Points (N, 2) [m] of a disc with a hole in circles about a spacing apart, along which they stand about a spacing
+    apart too, and their areas (N,) [m2], which fill it."""
+    layers = max(1, round((outer - inner) / spacing))
+    edges = np.linspace(inner, outer, layers + 1)
+    points, areas = [], []
+    for low, high in itertools.pairwise(edges):
+        count = max(1, round(math.pi * (low + high) / spacing))
+        angle, middle = 2.0 * math.pi * (np.arange(count) + 0.5) / count, 0.5 * (low + high)
+        points.append(np.stack([middle * np.cos(angle), middle * np.sin(angle)], axis=1))
+        areas.append(np.full(count, math.pi * (high**2 - low**2) / count))
+    return np.concatenate(points) + np.array(centre), np.concatenate(areas)
 
 
 def grid(ticks: list[np.ndarray]) -> np.ndarray:

@@ -18,6 +18,7 @@ from sdph.engine import state as particles
 from sdph.engine.geometry import OPEN, OPEN_PLANE, box_of, nearest_image
 from sdph.engine.kept import Many
 from sdph.engine.state import WALL
+from sdph.laws.compiled import inlined
 
 SKIN = 0.1  # of the reach; our choice: 0.2 h measured best (about 5-8 steps per list), and the reach is 2 h
 CELLS_A_PARTICLE = 16  # memory of the cells stays below that of the rows; our choice
@@ -179,20 +180,20 @@ def order(number, total):
     return rows
 
 
-@njit(cache=True, error_model="numpy")
+@inlined
 def place(rows, i, k):
     """Index of the k-th entry of row i, among the entries and in arrays along them. It is unsigned: of an index that
     might be negative numba asks so each time."""
     return np.uint64(rows.start[i] + k)
 
 
-@njit(cache=True, error_model="numpy")
+@inlined
 def entry(rows, i, k):
     """The k-th neighbour of particle i."""
     return rows.entries[place(rows, i, k)]
 
 
-@njit(cache=True, error_model="numpy")
+@inlined
 def length(rows, i):
     """Entries to loop over in row i, a multiple of LANES: a loop of pairs then runs in whole vectors. The last ones may
     be i itself, whose separation from i, and so every pair term, is 0."""

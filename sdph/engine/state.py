@@ -12,9 +12,9 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit, prange
 
-# values of `kind`, of grains and liquids alike; INFLOW: still upstream of its nozzle. Files hold them: they stay as
+# values of `kind`, of all methods alike; INFLOW: still upstream of its nozzle. Files hold them: they stay as
 # they are
-GRAIN, WALL, LIQUID, GAS, INFLOW = range(5)
+GRAIN, WALL, LIQUID, GAS, INFLOW, SOLID = range(6)
 
 
 class State(NamedTuple):
@@ -75,7 +75,7 @@ FIELDS = {
     "mass": ("kg", "mass, per metre of depth in two dimensions"),
     "density": ("kg/m3", "alpha_p rho_p, by summation"),
     "ident": ("1", "number that a particle keeps for life"),
-    "kind": ("1", "0 grain, 1 wall, 2 liquid, 3 gas beside a liquid, 4 grain upstream of its nozzle"),
+    "kind": ("1", "0 grain, 1 wall, 2 liquid, 3 gas beside a liquid, 4 grain upstream of its nozzle, 5 solid"),
     "nozzle": ("1", "number of the nozzle that it comes from, counted from 1; 0: of none"),
     "entering": ("1", "1 until it is half a layer through its nozzle, then 0"),
     "temperature": ("K", "temperature of the grains"),

@@ -14,7 +14,7 @@ import numpy as np
 from numba import njit, prange
 
 from sdph.effects.gas import sizes
-from sdph.effects.gas.evaporation import driving_force, past_boiling, saturation_pressure, ventilation
+from sdph.effects.gas.evaporation import driving_force, past_boiling, saturated, ventilation
 from sdph.engine.state import GRAIN
 from sdph.laws import evaporation as law
 from sdph.laws import grain_loss
@@ -73,7 +73,7 @@ def survey(p, sizes_p, s, slip, gas_density, gas_temperature, dt, conductance, f
         if s.kind[i] == GRAIN:
             time = active_time(p, s, i, conductance[i], gas_temperature[i], dt)
             flow[i] = transfer(p, sizes_p, s, i, ventilation(p, slip[i], gas_density[i])) * time / dt
-            surface[i] = law.vapour_concentration(saturation_pressure(p, s.temperature[i]), s.temperature[i])
+            surface[i] = saturated(p, s.temperature[i], gas_temperature[i])
 
 
 @njit(cache=True, parallel=True, error_model="numpy")

@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit, prange
 
 from coupling.transfer import gather
-from sdph.effects.gas import drag, heat, lift, radiation
+from sdph.effects.gas import drag, film, heat, lift, radiation
 from sdph.engine import state as particles
 from sdph.engine.state import GRAIN
 from sdph.laws import evaporation
@@ -45,7 +45,7 @@ def temperature_span(case) -> float:
 
 @njit(cache=True, parallel=True, error_model="numpy")
 def rates(
-    drag_p, heat_p, radiation_p, lift_p, sizes_p, s, grain_density, apart, slip, gas_density, gas_temperature,
+    drag_p, heat_p, radiation_p, lift_p, film_p, sizes_p, s, grain_density, apart, slip, gas_density, gas_temperature,
     vorticity, conductance, damping, force,
 ):  # fmt: skip
     """Of every particle as it is: heat to the gas per kelvin [W/K], beta/(alpha_p rho_p) [1/s], and force of the gas
@@ -54,9 +54,11 @@ def rates(
         conductance[i] = damping[i] = 0.0
         if s.kind[i] == GRAIN:
             alpha_p = s.density[i] / grain_density
-            conductance[i] += heat.conductance(heat_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
+            r = film.ratio(film_p, s, i, gas_temperature[i])
+            around = gas_density[i] * (r * r)
+            conductance[i] += heat.conductance(heat_p, sizes_p, s, i, alpha_p, slip[i], around) / r
             conductance[i] += radiation.conductance(radiation_p, sizes_p, s, i, gas_temperature[i])
-            damping[i] = drag.damping(drag_p, sizes_p, s, i, alpha_p, slip[i], gas_density[i])
+            damping[i] = drag.damping(drag_p, sizes_p, s, i, alpha_p, slip[i], around) / r
             if len(force):
                 x, y, z = lift.force(lift_p, sizes_p, s, i, apart, slip[i], vorticity, gas_density[i])
                 force[i, 0] += x

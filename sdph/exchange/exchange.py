@@ -26,7 +26,7 @@ import numpy as np
 from coupling.transfer import gather
 from sdph import effects
 from sdph.effects import OFF
-from sdph.effects.gas import radiation, sizes
+from sdph.effects.gas import film, radiation, sizes
 from sdph.engine.state import GRAIN, lengths
 from sdph.exchange import equations
 from sdph.exchange.amounts import Handed, Taken
@@ -43,7 +43,7 @@ class Exchange:
     def __init__(self, case, mesh, parameters):
         self.case = case
         self.parameters = parameters
-        self.sizes_p = sizes.kernel(case)
+        self.sizes_p, self.film_p = sizes.kernel(case), film.kernel(case)
         self.cells = Cells(mesh, case.grains.density)
         self.volumes = self.cells.volumes
         evaporation = parameters["evaporation"]
@@ -106,8 +106,8 @@ class Exchange:
         p, count, vorticity = self.parameters, len(state.x), seen.fields.get("vorticity", OFF)
         conductance, damping, force = np.empty(count), np.empty(count), np.zeros((count if self.holds else 0, 3))
         equations.rates(
-            p["drag"], p["heat"], p["radiation"], p["lift"], self.sizes_p, state, self.case.grains.density, seen.apart,
-            seen.slip, seen.density, seen.temperature, vorticity, conductance, damping, force,
+            p["drag"], p["heat"], p["radiation"], p["lift"], self.film_p, self.sizes_p, state, self.case.grains.density,
+            seen.apart, seen.slip, seen.density, seen.temperature, vorticity, conductance, damping, force,
         )  # fmt: skip
         return conductance, damping, force
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from coupling.transfer import deposit, gather
+from sdph.effects.gas import film
 from sdph.effects.limiter import share
 from sdph.engine import state as particles
 from sdph.engine.state import GRAIN
@@ -29,7 +30,7 @@ class Vapour:
         """
         p, count = self.p, len(state.x)
         flow, surface = np.empty(count), np.empty(count)
-        around = seen.slip, seen.density, seen.temperature
+        around = seen.slip, self.density(state, seen), seen.temperature
         droplet_loss.survey(p, self.sizes_p, state, *around, dt, conductance, flow, surface)
         concentration = gather(weights, vapour_concentration(p, gas_state))
         if not self.case.coupling.one_way:
@@ -58,6 +59,13 @@ class Vapour:
         theta = state.theta if len(state.theta) else 0.0
         return replace(loss, motion=loss.mass * (0.5 * np.einsum("ij,ij->i", velocity, velocity) + 1.5 * theta))
 
+    def density(self, state, seen) -> np.ndarray:
+        """Density (N,) [kg/m3] with which the gas's viscosity gives the film's kinematic one
+        (sdph.effects.gas.film)."""
+        if not self.case.coupling.film:
+            return seen.density
+        return seen.density * (seen.temperature / film.temperature(seen.temperature, state.temperature)) ** 2
+
     def held(self, state, seen, concentration) -> dict[str, float]:
         """Shares of the particles whose rate is taken not to fall with temperature, and that are held below boiling."""
         flat, boiling = (np.empty(len(state.x), bool) for _ in range(2))
@@ -75,7 +83,8 @@ class Vapour:
         """Vapour that comes into a cell now, over the gas in it [1/s]; the largest of all cells."""
         p, rate = self.p, np.empty(len(state.x))
         concentration = gather(weights, vapour_concentration(p, gas_state))
-        droplet_loss.rates(p, self.sizes_p, state, seen.slip, seen.density, seen.temperature, concentration, rate)
+        around = seen.slip, self.density(state, seen), seen.temperature
+        droplet_loss.rates(p, self.sizes_p, state, *around, concentration, rate)
         room = self.cells.room(weights, state.mass * (state.kind == GRAIN))
         return float((self.cells.density(weights, rate) / (room * gas_state.fields["density"])).max(initial=0.0))
 

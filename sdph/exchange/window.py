@@ -165,7 +165,8 @@ def opening(case) -> dict[str, float]:
     )
     if "inflow" in case.effects:
         thrown += [
-            float(np.linalg.norm(streams_of(case, nozzle).velocity, axis=1).max()) for nozzle in case.nozzles.values()
+            float(np.linalg.norm(streams_of(case, nozzle).velocity, axis=1).max(initial=nozzle.speed))
+            for nozzle in case.nozzles.values()
         ]
     reach = case.coupling.courant * smallest_cell(case)
     return {

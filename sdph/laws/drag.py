@@ -17,6 +17,7 @@ from sdph.laws.compiled import law
 
 NEWTON_REYNOLDS = 1000.0  # -, Reynolds number from which the drag coefficient is constant (Rowe 1961)
 NEWTON_COEFFICIENT = 0.44  # -, its value there
+PUTNAM_COEFFICIENT = 0.424  # -, of a sphere above Re = 1000: Putnam 1961
 WEN_YU_EXPONENT = -2.65  # -, of the gas fraction (Wen & Yu 1966)
 DENSE_GAS_FRACTION = 0.8  # -, below it Ergun holds (Gidaspow 1994)
 
@@ -65,6 +66,17 @@ def schiller_naumann(alpha_p, slip, diameter, gas_density, gas_viscosity):
     """
     reynolds = particle_reynolds(slip, diameter, gas_density, gas_viscosity)
     return 0.75 * coefficient_times_reynolds(reynolds) * gas_viscosity / diameter**2
+
+
+@law
+def putnam(alpha_p, slip, diameter, gas_density, gas_viscosity):
+    """beta/alpha_p = 3/4 C_D rho_g s/d, C_D Re_p = 24 (1 + Re_p^(2/3)/6), 0.424 Re_p above 1000. A lone sphere.
+
+    Putnam 1961, ARS J. 31, 1467; the `sphereDrag` of OpenFOAM.
+    """
+    x = particle_reynolds(slip, diameter, gas_density, gas_viscosity)
+    drag = 24.0 * (1.0 + x ** (2.0 / 3.0) / 6.0) if x <= NEWTON_REYNOLDS else PUTNAM_COEFFICIENT * x
+    return 0.75 * drag * gas_viscosity / diameter**2
 
 
 @law

@@ -19,3 +19,10 @@ def log_std(mean, std):
 def log_mean(mean, std):
     """m = ln(mean) - s^2/2 (d in m): mean of ln d by number; exp(m) is the median diameter."""
     return math.log(mean) - 0.5 * log_std(mean, std) ** 2
+
+
+def of_moments(second, third):
+    """Number mean [m] and variance [m2] of the log-normal whose mean d^2 [m2] and mean d^3 [m3] by number are these:
+    number, surface and volume of the drops that it stands for are exact, the sum of d is not (swirl-sheet.md, 9)."""
+    spread = (third**2 / second**3) ** (1.0 / 3.0)  # 1 + (std/mean)^2, no less than 1 by Jensen's inequality
+    return (second / spread) ** 0.5, second / spread * max(0.0, spread - 1.0)

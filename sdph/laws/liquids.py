@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from scipy.special import erfc, wofz
 
 TERMS = 99  # odd terms of the series up to this one: 1e-5 of the pressure in the centre
 
@@ -72,6 +73,36 @@ def disc_frequency(order: int, radius: float, tension: float, density: float, ar
     """omega [rad/s] of a disc of liquid in another one: sqrt(n (n^2 - 1) sigma/((rho + rho_around) R^3)). Lamb 1932,
     section 273."""
     return math.sqrt(order * (order**2 - 1) * tension / ((density + around) * radius**3))
+
+
+def wave(points, length: float, amplitude: float) -> np.ndarray:
+    """(N, 2) potential flow of a standing wave of `length` [m] on the level y = 0 between two liquids, of which each is
+    deep; `amplitude` is the vertical one at x = 0, y = 0 and gives the unit. Lamb 1932, section 231."""
+    k, above = 2.0 * math.pi / length, points[:, 1] > 0.0
+    fall = amplitude * np.exp(-k * np.abs(points[:, 1]))
+    across = np.where(above, fall, -fall) * np.sin(k * points[:, 0])
+    return np.stack([across, fall * np.cos(k * points[:, 0])], axis=1)
+
+
+def capillary_wave(time, length: float, tension: float, density: float, around: float, viscosity: float) -> np.ndarray:
+    """Height (T,) over that at the start, from rest, of a small wave of `length` [m] between two liquids of one
+    kinematic viscosity [m2/s]; density and around [kg/m3]. Prosperetti 1981, Phys. Fluids 24, 1217, Eq. 24.
+
+    erfc(z sqrt t) exp(z^2 t) = w(i z sqrt t), the function of Faddeeva, which does not overflow.
+    """
+    time, k = np.asarray(time, float), 2.0 * math.pi / length
+    square, decay = tension * k**3 / (density + around), viscosity * k * k  # of the frequency [1/s2]; nu k2 [1/s]
+    beta = density * around / (density + around) ** 2
+    steady = (1.0 - 4.0 * beta) * decay**2
+    roots = np.roots(
+        [1.0, -4.0 * beta * decay**0.5, 2.0 * (1.0 - 6.0 * beta) * decay, 4.0 * (1.0 - 3.0 * beta) * decay**1.5,
+         steady + square]
+    )  # fmt: skip
+    height = 4.0 * steady / (8.0 * steady + square) * erfc(np.sqrt(decay * time)) + 0.0j
+    for n, z in enumerate(roots):
+        share = square * z / (np.prod(np.delete(roots, n) - z) * (z * z - decay))
+        height += share * np.exp(-decay * time) * wofz(1j * z * np.sqrt(time))
+    return height.real
 
 
 def box_slosh(length: float, depth: float, gravity: float) -> float:

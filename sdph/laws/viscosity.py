@@ -1,7 +1,7 @@
 """Artificial viscosity of SPH, which keeps particles from passing through each other."""
 
 from sdph.laws.compiled import law
-from sdph.laws.constants import SOFTENING, TINY
+from sdph.laws.constants import SOFTENING
 
 
 @law
@@ -14,16 +14,3 @@ def monaghan(approach, r_squared, h, sound_speed, density, alpha, beta):
     """
     mu = h * min(approach, 0.0) / (r_squared + SOFTENING * h * h)
     return (beta * mu - alpha * sound_speed) * mu / density
-
-
-@law
-def espanol_revenga(dimensions, shear, bulk, r_squared, closing, scale):
-    """Viscous force per mass of i by j: (along r_ij [1/s2], along v_ij [1/s]); shear mu and bulk lambda of the pair [Pa
-    s].
-
-    scale = m_j (dW/dr)/r / (rho_i rho_j); closing = v_ij.r_ij [m2/s]. In d dimensions, with
-    P = 5/3 mu - lambda and Q = (d+2)(lambda + mu/3), its continuum is mu lap v + (lambda + mu/3) grad div v; it never
-    gives energy. Espanol & Revenga 2003, Phys. Rev. E 67, 026705.
-    """
-    along = scale * (dimensions + 2.0) * (bulk + shear / 3.0) * closing / max(r_squared, TINY)
-    return along, scale * (5.0 / 3.0 * shear - bulk)

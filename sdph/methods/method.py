@@ -11,7 +11,7 @@ from sdph.engine.state import State
 class Method(Protocol):
     """Matter and how it goes forward; a run calls `begin`, `advance` and `close` once a window, in that order.
 
-    matter   name of what it moves, "grains" or "liquid": of its fields and columns too where several stand side by side
+    matter   name of what it moves, "grains", "liquid" or "solid", and of its fields and columns where several are there
     KEPT     what a checkpoint holds of it (sdph.engine.kept); `admit` refuses what cannot be
     state    its particles; what pushes them from outside over a window is in `push_x` to `push_z` (sdph.engine.state)
     steps, limit   sub-steps so far, and what ruled the last one

@@ -8,41 +8,52 @@ from pathlib import Path
 from sdph.engine.clock import Clock
 from sdph.engine.kept import Unfit
 from sdph.methods.liquids.liquid import Liquid
+from sdph.methods.mps.mps import Mps
+from sdph.methods.solids.solid import Solids
 from sdph.running.limiters import Limiters
 
 SAMPLES = 10  # rows of history.csv for each output of fields, where the case says nothing
-STRIDE = 20  # steps in a window at most: a liquid that goes unstable is caught within these (our choice)
+STRIDE = 20  # steps in a window at most: one that goes unstable is caught within these (our choice)
+
+
+METHODS = {"liquid": Liquid, "mps": Mps, "solid": Solids}  # as `Case.moved_by` names them
 
 
 class Alone:
-    """A liquid without a gas; call `window` until `time` is the end."""
+    """A liquid or solids without a gas; call `window` until `time` is the end."""
 
     gas = None
-    KEPT = ("windows", "wall", "clock", "liquid", "limiters")  # see sdph.engine.kept
+    KEPT = ("windows", "wall", "clock", "method", "limiters")  # see sdph.engine.kept
 
     def __init__(self, case, ledger: Path):
         self.case = case
-        self.clock = Clock(case.run, case.liquid.history_interval or case.run.output_interval / SAMPLES)
-        self.liquid = Liquid(case, ledger, self.clock.shortest)
+        self.matter = case.matters[0]
+        interval = getattr(case, self.matter).history_interval
+        self.clock = Clock(case.run, interval or case.run.output_interval / SAMPLES)
+        self.method = self._make(ledger)
         self.limiters = Limiters()
-        self.limiters.hear(self.liquid.held())
+        self.limiters.hear(self.method.held())
         self.windows, self.wall, self.notices = 0, {"particles": 0.0}, []
+
+    def _make(self, ledger: Path):
+        """The method of the case."""
+        return METHODS[self.case.moved_by(self.matter)](self.case, ledger, self.clock.shortest)
 
     @property
     def state(self):
-        return self.liquid.state
+        return self.method.state
 
     @property
     def stepper(self):
-        return self.liquid.stepper
+        return self.method.stepper
 
     @property
     def ledger(self):
-        return self.liquid.ledger
+        return self.method.ledger
 
     @property
     def time(self) -> float:
-        return self.liquid.time
+        return self.method.time
 
     @property
     def at_row(self) -> bool:
@@ -52,7 +63,7 @@ class Alone:
     @staticmethod
     def time_of(kept: dict) -> float:
         """Time [s] of what was kept."""
-        return kept["liquid"]["stepper"]["time"]
+        return kept["method"]["stepper"]["time"]
 
     @staticmethod
     def windows_of(kept: dict) -> int:
@@ -61,15 +72,15 @@ class Alone:
 
     def tables(self) -> list:
         """Ledgers that are open."""
-        return [self.ledger.table]
+        return self.method.tables()
 
     def start(self) -> None:
-        self.liquid.start()
+        self.method.start()
 
     def admit(self, kept: dict) -> None:
-        """Unfit where the liquid has gone through other windows."""
-        if kept["windows"] != kept["liquid"]["windows"]:
-            raise Unfit("its windows are not those of the liquid")
+        """Unfit where the method has gone through other windows."""
+        if kept["windows"] != kept["method"]["windows"]:
+            raise Unfit("its windows are not those of its method")
 
     def take_up(self, checkpoint) -> None:
         """Nothing: there is no gas, and what was kept is put back next."""
@@ -78,31 +89,34 @@ class Alone:
         """Some steps, to the next row of the history at most."""
         begun = clock.perf_counter()
         if self.at_row:
-            self.liquid.new_row()
-        self.liquid.begin()
-        self.liquid.advance(self.clock.next(self.time), STRIDE)
-        self.liquid.close()
-        self.limiters.hear(self.liquid.held())
+            self.method.new_row()
+        self._advance()
+        self.limiters.hear(self.method.held())
         self.windows += 1
-        self.clock.limit = self.liquid.limit
+        self.clock.limit = self.method.limit
         self.wall["particles"] += clock.perf_counter() - begun
+
+    def _advance(self) -> None:
+        self.method.begin()
+        self.method.advance(self.clock.next(self.time), STRIDE)
+        self.method.close()
 
     def row(self) -> dict[str, float]:
         """Columns of history.csv."""
-        return {"time_s": self.time} | self.liquid.row() | self.limiters.now
+        return {"time_s": self.time} | self.method.row() | self.limiters.now
 
     def meshes(self) -> dict:
         """Particles for the timeline."""
-        return {"particles": self.liquid.points()}
+        return {"particles": self.method.points()}
 
     def walls(self):
-        """Walls of the tank as a pyvista surface; None where there are none."""
-        return self.liquid.walls()
+        """Walls as a pyvista surface; None where there are none."""
+        return self.method.walls()
 
     def summary(self, out) -> dict[str, float]:
         """summary.json, its own part."""
-        return {"sub_steps": self.liquid.steps} | self.liquid.summary() | self.limiters.summary()
+        return {"sub_steps": self.method.steps} | self.method.summary() | self.limiters.summary()
 
     def warnings(self) -> list[str]:
         """Notes for the user on how the run went."""
-        return self.liquid.warnings()
+        return self.method.warnings()

@@ -1,6 +1,6 @@
 """`sdph run`: a run from its case, or from its last checkpoint, to its summary.
 
-A `Simulation` of grains in a gas, a liquid beside them or not, or a liquid `Alone` is run. Both have:
+A `Simulation` of grains in a gas, a liquid beside them or not, or a liquid or solids `Alone`, or `Together`. All have:
 
     start()  take_up(checkpoint)  window()                             how it goes
     time  windows  at_row  clock (sdph.engine.clock)                   where it is
@@ -29,8 +29,7 @@ from sdph.engine.kept import ROW, Many, Maybe, Unfit
 from sdph.engine.ledger import Ledger
 from sdph.engine.table import Table
 from sdph.methods.liquids.liquid import Liquid
-from sdph.running import inputs, metrics, output
-from sdph.running.alone import Alone
+from sdph.running import chain, inputs, metrics, output, together
 from sdph.running.fields import Fields
 from sdph.running.interruption import Stopped, listening
 from sdph.running.simulation import Simulation
@@ -56,6 +55,7 @@ def run(case, name: str, folder: Path, gas_folder: Path | None, reporter, *, all
                 inputs.keep_gas(template, folder, allow_code)
             output.write_origin(folder)
             output.write_text(folder / output.MARK, cases.dumps(inputs.seen_from(case, folder)))
+            case = chain.made(case, folder, run, resume, reporter)
             return _guarded(Run(case, folder, reporter), None, inputs.gas_of(folder), allow_code)
         except CaseError:
             if not restart.newest(folder):  # the case cannot be run: as if it had not been tried
@@ -90,16 +90,16 @@ def resume(folder: Path, overrides: tuple[str, ...], reporter, *, allow_code: bo
         else:
             reporter.status(f"{folder} has no checkpoint: it begins again")
             output.clear(folder)
-            case = inputs.keep(case, folder)
+            case = chain.made(inputs.keep(case, folder), folder, run, resume, reporter)
         template = None if checkpoint else inputs.gas_of(folder)
         return _guarded(Run(case, folder, reporter), checkpoint, template, allow_code)
 
 
 def simulation_of(case, gas, ledger: Path):
-    """Simulation of a case: a liquid alone (`gas` is None), or grains in a gas, beside a liquid where the case has one;
-    its ledgers go to new files."""
+    """Simulation of a case: a liquid or solids alone (`gas` is None), or grains in a gas, beside a liquid where the
+    case has one; its ledgers go to new files."""
     if "grains" not in case.matters:
-        return Alone(case, ledger)
+        return together.of(case, ledger)
     simulation = Simulation(case.only("grains"), gas, Ledger(ledger, case, gas.mesh.depth))
     if case.liquid:
         liquid = Liquid(case.only("liquid"), ledger.with_name("ledger_liquid.csv"), simulation.clock.shortest)
@@ -151,7 +151,7 @@ class Run:
         self.elapsed = before
 
     def go(self, gas, checkpoint, wish) -> dict:
-        """Run from the start, or from a checkpoint, to the summary; `gas` None for a liquid."""
+        """Run from the start, or from a checkpoint, to the summary; `gas` None without grains."""
         self._begin(gas, checkpoint)
         output.write_text(self.folder / output.MARK, cases.dumps(inputs.seen_from(self.case, self.folder)))
         (self.folder / output.FAILURE).unlink(missing_ok=True)

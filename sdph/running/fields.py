@@ -22,8 +22,9 @@ READERS = {
 }
 LAST = b"</VTKFile>"
 ENTRY = re.compile(
-    r'<DataSet timestep="[\d.e+-]+" part="\d+" file="fields/(particles|gas|liquid)_\d{5,}\.(vtp|vtr|vtu)"/>'
+    r'<DataSet timestep="[\d.e+-]+" part="\d+" file="fields/(particles|gas|liquid|solid)_\d{5,}\.(vtp|vtr|vtu)"/>'
 )
+PARTS = {"particles": 0, "gas": 1, "liquid": 2, "solid": 3}  # of a timeline
 SUFFIXES = {"vtkPolyData": "vtp", "vtkRectilinearGrid": "vtr", "vtkUnstructuredGrid": "vtu"}
 PVD = '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n<Collection>\n{}\n</Collection>\n</VTKFile>\n'
 DENSEST = 255  # times: how much LZ4 can press together at most
@@ -107,8 +108,9 @@ class Fields:
         files = {f"fields/{name}_{number:05d}.{SUFFIXES[mesh.GetClassName()]}": mesh for name, mesh in meshes.items()}
         for name, mesh in files.items():
             save(mesh, self.folder / name)
+        parts = [PARTS[name] for name in meshes]
         self.entries += [
-            f'<DataSet timestep="{time:.9g}" part="{part}" file="{name}"/>' for part, name in enumerate(files)
+            f'<DataSet timestep="{time:.9g}" part="{part}" file="{name}"/>' for part, name in zip(parts, files)
         ]
         self._write_timeline()
 

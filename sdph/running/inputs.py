@@ -1,6 +1,7 @@
 """Files that a case names: looked at before a run begins, and kept in its folder, so that it needs nothing else.
 
     RUN/inputs/walls.mesh/plate.stl   a file, under its key
+    RUN/inputs/nozzles.jet.table/drops.csv
     RUN/inputs/gas/                   the OpenFOAM case that the gas began with
 
 In a case file a path is taken from the folder of that file, after --set from the working directory (`case.load`). A
@@ -17,21 +18,23 @@ import shutil
 import tomllib
 import warnings
 from pathlib import Path
+from urllib.parse import quote
 
 import tomli_w
 
 from coupling.openfoam.code import refuse_code
+from sdph import scenes
 from sdph.case import read as cases
-from sdph.effects.around import frame, tank
+from sdph.effects.around import drops, frame, tank
 from sdph.engine.reading import one_line
-from sdph.engine.walls import sides as boundary
+from sdph.engine.walls import facets
 from sdph.running import output
 from sdph.schema import CaseError
 
-FOLDER = "inputs"
+FOLDER, DROPS = "inputs", "droplets.csv"
 FROM = "in a case file a path is taken from the folder of that file, after --set from the working directory"
 READERS = {  # key -> what the run makes of its file
-    "walls.mesh": lambda case: boundary.surface(case.parameters["walls"].mesh, case.dimensions),
+    "walls.mesh": lambda case: facets.drawn(case.parameters["walls"].mesh, case.dimensions),
     "tank.mesh": lambda case: tank.shape_of(case).surface(),
     "frame.table": lambda case: frame.motion(case.parameters["frame"], case.run.end_time),
 }
@@ -43,21 +46,48 @@ def named(case) -> dict[str, str]:
     for section, key in cases.FILES:
         path = getattr(case.parameters.get(section), key, "")
         found |= {f"{section}.{key}": path} if path else {}
-    return found
+    return found | {f"nozzles.{safe(n)}.table": own.table for n, own in case.nozzles.items() if own.table}
+
+
+def safe(name: str) -> str:
+    """The name of a section as a file can be called, each by another."""
+    return quote(name, safe=" ")
 
 
 def check(case) -> None:
-    """CaseError where a file that a case names is missing or cannot be read."""
+    """CaseError where a file that a case names is missing or cannot be read, or a nozzle records what has no drops."""
     for key, path in named(case).items():
         if not os.path.isfile(path):
             raise CaseError(f"{key} = {path!r}: there is no such file; {FROM}")
         try:
             with _silence():
-                READERS[key](case)
+                READERS.get(key, _read_table)(case)
         except CaseError:
             raise
         except Exception as error:  # whatever the parsers of meshio stumble on
             raise CaseError(f"{key} = {path!r} cannot be read ({one_line(error)}); give a file that is whole") from None
+    for name, nozzle in case.nozzles.items():
+        if nozzle.record and not nozzle.table:
+            recorded(f"nozzles.{name}", nozzle)
+
+
+def recorded(where: str, nozzle):
+    """The case that a nozzle records, and the folder of its run where it has been run already, else None."""
+    given = f"{where}.record = {nozzle.record!r}"
+    _, file = scenes.find(nozzle.record)
+    done = file.parent if (file.parent / DROPS).is_file() else None
+    if done and nozzle.record_set:
+        raise CaseError(f"{given} has been run already; leave {where}.record_set out, or name its case")
+    case = cases.load(file, nozzle.record_set)
+    if not case.incompressible or "outflow" not in case.effects or not case.nozzles:
+        raise CaseError(f'{given} tells of no drops: it must have method.name = "mps", a nozzle and outflow')
+    return case, done
+
+
+def _read_table(case) -> None:
+    for nozzle in case.nozzles.values():
+        if nozzle.table:
+            drops.Replay(case, nozzle)
 
 
 @contextlib.contextmanager
@@ -75,14 +105,14 @@ def keep(case, folder: Path):
 
 
 def _copied(key: str, source: Path, folder: Path) -> str:
-    target = Path(os.path.abspath(folder / _place(key, source)))
+    target = Path(os.path.abspath(folder / place(key, source)))
     target.parent.mkdir(parents=True, exist_ok=True)
     if not (target.exists() and target.samefile(source)):
         shutil.copyfile(source, target)
     return str(target)
 
 
-def _place(key: str, source: Path) -> str:
+def place(key: str, source: Path) -> str:
     """Path of a kept file, from the run folder."""
     return f"{FOLDER}/{key}/{source.name}"
 
@@ -96,11 +126,14 @@ def seen_from(case, folder: Path):
 
 def _with_paths(case, paths_: dict[str, str]):
     """The case with other paths, key -> path."""
-    parameters = dict(case.parameters)
+    parameters, nozzles = dict(case.parameters), dict(case.nozzles)
+    for name, own in nozzles.items():
+        path = paths_.pop(f"nozzles.{safe(name)}.table", own.table)
+        nozzles[name] = dataclasses.replace(own, table=path)
     for key, path in paths_.items():
         section, name = key.split(".")
         parameters[section] = dataclasses.replace(parameters[section], **{name: path})
-    return dataclasses.replace(case, parameters=parameters)
+    return dataclasses.replace(case, parameters=parameters, nozzles=nozzles)
 
 
 def gas_of(folder: Path) -> Path:
@@ -124,13 +157,15 @@ def copy_case(file: Path, folder: Path) -> None:
     """case.toml in a new folder, with copies of the files that it names."""
     text = file.read_text(encoding="utf-8")
     table = tomllib.loads(text)
-    for section, key in cases.FILES:
-        value = table.get(section, {}).get(key)
-        if value:
-            source = file.parent / value
-            table[section][key] = _place(f"{section}.{key}", source)
-            text = text.replace(f'"{value}"', f'"{table[section][key]}"')
-            _copied(f"{section}.{key}", source, folder)
+    for where, entries, key in cases.files(table):
+        source, value = file.parent / entries[key], entries[key]
+        if key == "record":
+            entries[key] = os.path.abspath(source)
+        else:
+            *group, name = where.split(".", 1)
+            entries[key] = place(".".join([*group, safe(name), key]), source)
+            _copied(".".join([*group, safe(name), key]), source, folder)
+        text = text.replace(f'"{value}"', f'"{entries[key]}"')
     if tomllib.loads(text) != table:  # a value written in another way: comments are lost
         text = tomli_w.dumps(table)
     output.write_text(folder / output.MARK, text)

@@ -7,8 +7,10 @@ gas/ (case and log); at the end summary.json, or failure.json
 
 from __future__ import annotations
 
+import csv
 import fcntl
 import importlib.metadata
+import io
 import json
 import math
 import os
@@ -88,6 +90,15 @@ def write_text(path: Path, text: str) -> None:
         file.flush()
         os.fsync(file.fileno())
     os.replace(temporary, path)
+
+
+def write_rows(path: Path, rows: list[dict]) -> None:
+    """A CSV file of rows of one set of keys, whole or not at all."""
+    text = io.StringIO(newline="")
+    writer = csv.DictWriter(text, rows[0], lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    write_text(path, text.getvalue())
 
 
 def write_json(path: Path, table: dict) -> None:

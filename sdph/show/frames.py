@@ -14,6 +14,7 @@ from sdph.show import timeline, view
 INSTANTS, POINTS = 16, 20000  # at most in one report; more make no better picture and a large file
 MAP = (  # arrays that are shown, by their name in the output
     "temperature", "velocity", "alpha_p", "pressure", "density", "vapour_mass_fraction", "theta", "diameter",
+    "equivalent_stress", "plastic_strain", "damage",
 )  # fmt: skip
 UNITS = view.GAS_UNITS | view.PARTICLE_UNITS
 

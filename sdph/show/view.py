@@ -12,7 +12,7 @@ import numpy as np
 from sdph import schema
 from sdph.case import read as cases
 from sdph.case.sections import Domain
-from sdph.engine.state import FIELDS, GAS
+from sdph.engine.state import FIELDS, GAS, SOLID
 from sdph.running import fields, output
 from sdph.schema import CaseError
 from sdph.show.timeline import read, state_at
@@ -41,11 +41,18 @@ GAS_UNITS = {
     "velocity": "m/s", "alpha_p": "1", "temperature": "K", "pressure": "Pa", "density": "kg/m3",
     "vapour_mass_fraction": "1", "vorticity": "1/s",
 }  # fmt: skip
-PARTICLE_UNITS = {name: unit for name, (unit, _) in FIELDS.items()} | {
-    "alpha_p": "1",
-    "pressure": "Pa",
-    "velocity": "m/s",
-}
+PARTICLE_UNITS = (
+    {name: unit for name, (unit, _) in FIELDS.items()}
+    | {
+        "alpha_p": "1",
+        "pressure": "Pa",
+        "velocity": "m/s",
+        "equivalent_stress": "Pa",
+        "plastic_strain": "1",
+        "damage": "1",
+    }
+    | {f"stress_{ab}": "Pa" for ab in ("xx", "yy", "zz", "xy", "yz", "zx")}
+)
 
 
 def show(folder: Path, png: Path | None = None, time: float | None = None, field: str | None = None) -> None:
@@ -252,5 +259,9 @@ def _phases(particles) -> list[tuple]:
 def _size(particles, bounds) -> float:
     """Point size [pixels] at which neighbouring particles just touch."""
     box, lengths = _lengths(bounds), _lengths(particles.bounds)
-    spacing = (lengths[lengths > 0.0].prod() / particles.n_points) ** (1.0 / max(1, (lengths > 0.0).sum()))
+    if "kind" in particles.point_data and (particles["kind"] == SOLID).all():  # bodies may have holes
+        filled = (particles["mass"] / particles["density"]).sum()
+    else:
+        filled = lengths[lengths > 0.0].prod()
+    spacing = (filled / particles.n_points) ** (1.0 / max(1, (lengths > 0.0).sum()))
     return max(2.0, SHOWN * min(WINDOW[0] / box[0], WINDOW[1] / box[1]) * spacing)

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from sdph.case import gas_cells
 from sdph.effects.around import tank
-from sdph.effects.around.inflow import DEPTH
-from sdph.engine.walls import sides as boundary
+from sdph.effects.around.source import DEPTH
+from sdph.engine.walls import facets
 from sdph.engine.walls.sides import LAYERS
 from sdph.schema import CaseError
 from sdph.study.explain import estimate
@@ -21,7 +21,7 @@ ROUND = {2: math.pi, 3: 4.0 / 3.0 * math.pi}  # of a disc and a sphere over radi
 def refuse_too_large(case) -> None:
     """CaseError where the case needs more memory than is free."""
     count = (
-        sum(_volume(case, part) for part in (*case.particles.values(), *case.pools.values()))
+        sum(_volume(case, part) for part in (*case.particles.values(), *case.pools.values(), *case.bodies.values()))
         / case.resolution.spacing**case.dimensions
     )
     count += sum(_waiting(case, nozzle) for nozzle in case.nozzles.values())
@@ -52,11 +52,13 @@ def available() -> float:
 
 
 def _volume(case, part) -> float:
-    """[m2] or [m3] that a region or a pool fills at most."""
+    """[m2] or [m3] that a region, a pool or a body fills at most."""
     if part.shape == "tank":
         return math.prod(_extents(case))
     if part.shape == "box":
         return math.prod(high - low for low, high in zip(part.lower, part.upper))
+    if part.shape == "cylinder":
+        return math.pi * part.radius**2 * part.length
     return ROUND[case.dimensions] * part.radius**case.dimensions
 
 
@@ -75,8 +77,7 @@ def _looked_at(case) -> float:
         points += _lattice(case, (2.0 * own.outlet_radius, 2.0 * own.outlet_radius, own.outlet_length))
     if case.liquid or not case.parameters["walls"].mesh:
         return points
-    surface = boundary.surface(case.parameters["walls"].mesh, case.dimensions)
-    sizes = surface.compute_cell_sizes()["Area" if case.dimensions == 3 else "Length"]
+    sizes = facets.sizes(facets.read(case.parameters["walls"].mesh, case.dimensions))
     return points + LAYERS * float(sizes.sum()) / case.resolution.spacing ** (case.dimensions - 1)
 
 

@@ -10,18 +10,23 @@ from sdph.case.gas_cells import cell_edges
 from sdph.exchange.window import Window
 from sdph.methods.grains.grains import Grains
 from sdph.methods.liquids.start import parts_of as parts_of_liquid
+from sdph.methods.mps.method import MpsStepper
+from sdph.methods.solids.method import SolidStepper
 from sdph.running import inputs, metrics
 from sdph.study import memory as room
 
-# matter -> what makes all of it that a run begins with
-MADE = {"grains": lambda case: (Grains(case), Window(case)), "liquid": parts_of_liquid}
+# method -> what makes all of it that a run begins with
+MADE = {
+    "grains": lambda case: (Grains(case), Window(case)), "liquid": parts_of_liquid, "mps": MpsStepper,
+    "solid": SolidStepper,
+}  # fmt: skip
 
 
 def rehearse(case, template: Path, *, allow_code: bool = False) -> None:
     """CaseError where `sdph run` would end with one; `template` and `allow_code` as in `coupling.choice.open_gas`."""
     look(case, template, allow_code=allow_code)
     for matter in case.matters:
-        MADE[matter](case.only(matter))
+        MADE[case.moved_by(matter)](case.only(matter))
 
 
 def look(case, template: Path, *, allow_code: bool = False) -> None:

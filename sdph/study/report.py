@@ -38,6 +38,7 @@ CLOSURE = (
     "gas_momentum_drift_rel",
     "momentum_drift_rel",
     "energy_made_rel",
+    "energy_missing_rel",
 )
 CHECK = ("name", "value", "reference", "tolerance")  # of a comparison
 PLOTS = 6  # curves in one figure

@@ -3,7 +3,9 @@
 A scene's validation/<scene>/compare.py has functions `exact`, `tfm`, `dpm` and `paper`, each Run -> checks, and may
 name in VARIANTS what else is to be run: name -> (overrides, references to check it against). What others have measured
 and no scene stands for is under `experiments`, the kinetic theory of grains under `kinetic_theory`, grains
-that heap up and flow out under `granular_piles`: each is a folder of validation/ with a module for each part of it.
+that heap up and flow out under `granular_piles`, a plug of spray under `spray_plug`, a gel droplet without particles
+under `gel_droplet_reduced`, free bodies of moving particles under `moving_particles`: each is a folder of validation/
+with a module for each part of it.
 """
 
 from __future__ import annotations
@@ -23,8 +25,11 @@ from sdph.study import balances, compare
 
 REFERENCES = ("exact", "paper", "tfm", "dpm")
 EXPERIMENTS = "experiments"
-# name -> how overrides begin that it takes: two of them have no gas
-STUDIES = {EXPERIMENTS: ("coupling.",), "kinetic_theory": (), "granular_piles": ()}
+# name -> how overrides begin that it takes: what has no gas, or is one case, takes none
+STUDIES = {
+    EXPERIMENTS: ("coupling.",), "kinetic_theory": (), "granular_piles": (), "spray_plug": (),
+    "gel_droplet_reduced": (), "moving_particles": (),
+}  # fmt: skip
 
 
 def validate(scene: str, overrides: tuple[str, ...], reporter, folder: Path | None = None) -> list[dict]:

@@ -14,6 +14,7 @@ from sdph import effects, scenes, schema
 from sdph.case import gas_cells, sections
 from sdph.case import read as cases
 from sdph.methods.liquids.sections import GasPhase, Liquid
+from sdph.methods.solids.sections import Solid
 from sdph.schema import CaseError
 
 TABLE = tomllib.loads(DISC.read_text(encoding="utf-8"))
@@ -174,7 +175,13 @@ def test_bad_value_is_refused_by_name(overrides, told):
 RECORDS = (
     sections.SECTIONS
     | sections.GROUPS
-    | {"coupling": sections.Coupling, "vapour": sections.Vapour, "liquid": Liquid, "gas_phase": GasPhase}
+    | {
+        "coupling": sections.Coupling,
+        "vapour": sections.Vapour,
+        "liquid": Liquid,
+        "gas_phase": GasPhase,
+        "solid": Solid,
+    }
 )
 RECORDS |= {name: row.parameters for name, row in effects.REGISTRY.items()}
 QUANTITIES = [

@@ -75,7 +75,8 @@ def harmed(draw, names=tuple(TABLES), most=3):
         if what == "remove":
             del section[path[-1]]
         else:
-            section[path[-1] if what == "change" else draw(st.sampled_from(WORDS))] = draw(VALUES)
+            key = path[-1] if what == "change" else draw(st.sampled_from(WORDS))
+            section[key] = copy.deepcopy(draw(VALUES))  # later changes may reach into it
         if not table:
             break
     return name, table
@@ -109,7 +110,8 @@ def bent(draw):
 
 FACTORS = st.one_of(st.floats(-3.0, 3.0).map(lambda x: 10.0**x), st.sampled_from([-1.0, 0.0, 1e-9, 1e9]))
 SPECIES = {
-    matter: sorted(name for name, row in REGISTRY.items() if matter in row.matter) for matter in ("grains", "liquid")
+    matter: sorted(name for name, row in REGISTRY.items() if matter in row.matter)
+    for matter in ("grains", "solid", "liquid")
 }
 
 
@@ -120,9 +122,8 @@ def others(value):
     if isinstance(value, (int, float)):
         return FACTORS.map(lambda factor: type(value)(value * factor))
     if isinstance(value, list) and value and isinstance(value[0], str):
-        return st.lists(
-            st.sampled_from(SPECIES["liquid" if set(value) <= set(SPECIES["liquid"]) else "grains"]), unique=True
-        )
+        matter = next((own for own in ("solid", "liquid") if set(value) <= set(SPECIES[own])), "grains")
+        return st.lists(st.sampled_from(SPECIES[matter]), unique=True)
     if isinstance(value, list):
         return st.tuples(*map(others, value)).map(list)
     return st.sampled_from(WORDS) if isinstance(value, str) else st.just(value)

@@ -9,6 +9,8 @@ from sdph import effects, scenes
 from sdph.case import read as cases
 from sdph.methods.grains.grains import Grains
 from sdph.methods.liquids.method import LiquidStepper
+from sdph.methods.mps.method import MpsStepper
+from sdph.methods.solids.method import SolidStepper
 from sdph.study.explain import tables
 
 COARSE = {
@@ -18,8 +20,12 @@ COARSE = {
     "bubble_rise": ("resolution.spacing_mm=100",),
     "sloshing_sphere": ("resolution.spacing_mm=100",),
     "taylor_green": ("resolution.spacing_mm=100",),
+    "thick_ring": (),
+    "swirl_sheet": ("pools.drop={shape='sphere',centre_m=[0.01,0.01,0.01],radius_m=4e-4}",),
+    "taylor_bar": ("resolution.spacing_mm=1.6",),
 }
-TINY = 1e-7  # s, far below all other limits
+STEPPERS = {"liquid": LiquidStepper, "mps": MpsStepper, "solid": SolidStepper}
+TINY = 1e-9  # s, far below all other limits
 
 
 def load(scene):
@@ -55,6 +61,7 @@ def test_every_effect_is_among_those_asked():
     known = {name for _, name in PAIRS}
     assert effects.REGISTRY.keys() - known <= {
         "grain_shifting",
+        "bubble",
         "xsph",
         "artificial_viscosity",
         "lift",
@@ -68,8 +75,8 @@ def test_a_limit_is_obeyed_and_named(monkeypatch, scene, name):
     case = load(scene)
     shorten(monkeypatch, name, lambda p, case, state: TINY)
     assert explained(case)[name] == TINY == min(explained(case).values())
-    if case.liquid:
-        stepper = LiquidStepper(case)
+    if case.liquid or case.solid:
+        stepper = STEPPERS[case.moved_by(case.matters[0])](case)
         taken = stepper.next_step(5.5 * TINY)
     else:
         stepper = grains(case)

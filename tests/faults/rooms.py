@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 GRAINS = ("tests/methods/grains", "tests/exchange", "tests/effects/gas", "tests/effects/grains")
+SOLIDS = ("tests/methods/solids",)
 LIQUIDS = ("tests/methods/liquids", "tests/effects/liquids", "tests/validation/test_liquid_scenes.py")
 
 
@@ -23,10 +24,10 @@ class Room(NamedTuple):
 
 AROUND = "sdph/effects/around"
 ROOMS = {
-    "laws": Room(("sdph/laws/*.py",), ("tests/laws", "tests/effects", *GRAINS, *LIQUIDS, "tests/validation")),
+    "laws": Room(("sdph/laws/*.py",), ("tests/laws", "tests/effects", *GRAINS, *LIQUIDS, *SOLIDS, "tests/validation")),
     "effects": Room(
-        (f"{AROUND}/gravity.py", "sdph/effects/gas/*.py", "sdph/effects/grains/*.py", "sdph/effects/liquids/*.py"),
-        ("tests/effects", *GRAINS, *LIQUIDS, "tests/laws", "tests/validation"),
+        (f"{AROUND}/gravity.py", *(f"sdph/effects/{own}/*.py" for own in ("gas", "grains", "liquids", "solids"))),
+        ("tests/effects", *GRAINS, *LIQUIDS, *SOLIDS, "tests/laws", "tests/validation"),
     ),
     "equations": Room(
         ("sdph/methods/*/*.py",),

@@ -12,7 +12,7 @@ from sdph.laws import drag
 AIR = GAS["rho"], GAS["mu"]
 LAWS = sorted((*CHOSEN, "wen_yu_paper"))
 DILUTE = [name for name in LAWS if name != "ergun"]  # Ergun's viscous part vanishes with alpha_p
-CROWDING = [name for name in LAWS if name not in ("stokes", "schiller_naumann")]
+CROWDING = [name for name in LAWS if name not in ("stokes", "schiller_naumann", "putnam")]
 
 fractions = st.floats(0.0, 0.63)
 slips = st.floats(0.0, 30.0)

@@ -57,6 +57,40 @@ def test_flow_between_plates_starts_and_ends():
     np.testing.assert_allclose(liquids.poiseuille(y, 50.0, *own), 2.0 * y * (1.0 - y), rtol=1e-12)
 
 
+# omega_0 t, height/length of a wave that is 0.01 high at the start, Laplace number 3000, without its sign: Popinet &
+# Zaleski 1999 after Prosperetti 1981 (comphy-lab/basilisk-C, prosperetti.h)
+WAVE = [(0.338877, 0.0094816), (1.69439, 7.29205e-4), (3.45655, 7.2896e-3), (10.3358, 3.48877e-3), (23.7214, 7.4837e-4)]
+
+
+def test_capillary_wave_is_that_of_the_table():
+    omega = math.sqrt((2.0 * math.pi) ** 3 / 2.0)
+    for phase, expected in WAVE:
+        height = liquids.capillary_wave(phase / omega, 1.0, 1.0, 1.0, 1.0, 0.0182571749236)
+        assert abs(0.01 * height) == pytest.approx(expected, abs=1e-6)
+
+
+def test_capillary_wave_of_one_liquid_without_viscosity_is_a_cosine():
+    """omega^2 = sigma k^3/rho: Lamb 1932, section 266."""
+    omega, time = math.sqrt(0.07 * (2.0 * math.pi / 0.2) ** 3 / 900.0), np.linspace(0.0, 3.0, 7)
+    height = liquids.capillary_wave(time, 0.2, 0.07, 900.0, 0.0, 1e-12)
+    np.testing.assert_allclose(height, np.cos(omega * time), atol=1e-4)
+
+
+def test_wave_has_no_divergence_and_no_curl():
+    """On both sides of its level, across which its vertical part does not jump; it is its amplitude at a crest."""
+
+    def own(points):
+        return liquids.wave(points - [0.0, 0.5], 0.8, 2.0)
+
+    gradient = slopes(own)
+    np.testing.assert_allclose(gradient[0, :, 0] + gradient[1, :, 1], 0.0, atol=1e-4)
+    np.testing.assert_allclose(gradient[0, :, 1] - gradient[1, :, 0], 0.0, atol=1e-4)
+    low, high = liquids.wave(np.array([[0.1, -1e-9], [0.1, 1e-9]]), 0.8, 2.0)
+    assert low[1] == pytest.approx(high[1], rel=1e-6)
+    assert low[0] == pytest.approx(-high[0], rel=1e-6)
+    np.testing.assert_allclose(liquids.wave(np.zeros((1, 2)), 0.8, 2.0), [[0.0, 2.0]], atol=1e-12)
+
+
 def test_quadrupole_has_no_divergence_and_no_curl():
     """Inside and outside of the rim; at the rim on the x axis it goes outwards with the speed."""
     own = PLACES - 0.5

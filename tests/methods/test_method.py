@@ -1,4 +1,4 @@
-"""Grains and liquids are methods: what a run needs of one, both have."""
+"""Grains, liquids and solids are methods: what a run needs of one, all have."""
 
 import pytest
 
@@ -7,6 +7,7 @@ from sdph.case import read as cases
 from sdph.methods.grains.grains import Grains
 from sdph.methods.liquids.liquid import Liquid
 from sdph.methods.method import Method
+from sdph.methods.solids.solid import Solids
 
 
 def of(scene, *more):
@@ -18,6 +19,7 @@ def of(scene, *more):
     [
         lambda folder: Grains(of("disc_cluster", "resolution.spacing_mm=20", "resolution.cell_mm=50")),
         lambda folder: Liquid(of("dam_break", "resolution.spacing_mm=20"), folder / "ledger.csv", 0.0),
+        lambda folder: Solids(of("oscillating_plate", "resolution.spacing_mm=5"), folder / "ledger.csv", 0.0),
     ],
 )
 def test_each_is_a_method(made, tmp_path):

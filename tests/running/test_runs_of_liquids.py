@@ -24,6 +24,7 @@ COARSE = {
         "resolution.spacing_mm=70", "run.end_time_s=0.2", "run.output_interval_s=0.1", "liquid.history_interval_s=0.05",
         "frame.start_s=0", "drain.start_s=0.02", "drain.end_s=1.0",
     ),
+    "free_overfall": ("resolution.spacing_mm=20", "run.end_time_s=0.3", "run.output_interval_s=0.1"),
 }  # fmt: skip
 
 

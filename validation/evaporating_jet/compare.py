@@ -20,11 +20,12 @@ HEAT = 0.1  # of what the droplets took up, with the closures made alike
 FRONT = 0.05  # of the front's place
 TIMES = (0.05, 0.1, 0.15, 0.2)  # s
 COMPARED_CELLS = (0.2, 0.1, 0.05)  # m, of the droplet runs that `sdph cost` draws
-DROP = {"drag": "schiller_naumann", "heat": "ranz_marshall"}  # closures of the droplet solver
+DROP = {"drag": "putnam", "heat": "ranz_marshall"}  # closures of the droplet solver, as validation/spray_plug shows
+POINTS = ("coupling.voidage=false", "coupling.film=true", "evaporation.onset='paper'")
 VARIANTS = {
     "evaporating_jet": ((), ("exact", "dpm")),
     "closures alike": (
-        (*(f"{effect}.law='{law}'" for effect, law in DROP.items()), "coupling.voidage=false"),
+        (*(f"{effect}.law='{law}'" for effect, law in DROP.items()), *POINTS),
         ("dpm",),
     ),
 }
@@ -83,7 +84,8 @@ def exact(run) -> list[dict]:
 def alike(case) -> bool:
     """True where the case has the closures of the droplet solver."""
     laws = all(case.parameters[name].law == law for name, law in DROP.items())
-    return laws and not case.coupling.voidage
+    onset = case.parameters["evaporation"].onset == "paper"
+    return laws and onset and case.coupling.film and not case.coupling.voidage
 
 
 def bounds(run, times) -> list[dict]:

@@ -14,15 +14,17 @@ from sdph import scenes
 from sdph.case import read as cases
 from sdph.running import driver
 from sdph.running.progress import Reporter
+from sdph.study import compare
 
 SWITCHES = {
     "as it is (Gunn, Gidaspow, voidage)": (),
     "Ranz-Marshall for Gunn": ("heat.law='ranz_marshall'",),
     "one-sphere drag for Gidaspow": ("drag.law='schiller_naumann'",),
     "gas that ignores the liquid's volume": ("coupling.voidage=false",),
+    "gas around a droplet as in its film": ("coupling.film=true",),
     "Spalding's law for the linear one": ("evaporation.law='spalding'",),
 }
-ALIKE = ("heat.law='ranz_marshall'", "drag.law='schiller_naumann'", "coupling.voidage=false")
+ALIKE = compare.scene_module("evaporating_jet").VARIANTS["closures alike"][0]
 
 
 def main() -> None:
@@ -33,7 +35,7 @@ def main() -> None:
     options = parser.parse_args()
     base = (f"coupling.gas='{options.gas}'", f"run.end_time_s={options.until}")
     first = None
-    for number, (name, switched) in enumerate((SWITCHES | {"the first three together": ALIKE}).items()):
+    for number, (name, switched) in enumerate((SWITCHES | {"closures alike": ALIKE}).items()):
         case = cases.load(scenes.find("evaporating_jet")[1], (*base, *switched))
         summary = driver.run(case, "evaporating_jet", options.folder / str(number), None, Reporter(quiet=True))
         first = first or summary["evaporated_kg"]

@@ -27,6 +27,8 @@ SETTLED, SHEARED, SAMPLE = 10.0, 10.0, 0.02  # strains; our choice
 BARS = {0.30: 0.02, 0.45: 0.02, 0.55: 0.02, 0.58: 0.05, 0.60: 0.05}  # issue 18
 # the same: no bar; at one spacing, for friction's sound makes ten times as many steps there
 REPORTED = {0.62: math.inf}
+# spacings that places are off their lattice at the start, at most: shear keeps the rows of a lattice whole. Reported
+OFF, DISORDERED = 0.2, (0.30, 0.45)
 ONSET, SINE = 0.60, math.sin(math.radians(28.5))  # of friction, as a case has it that gives none
 
 
@@ -50,18 +52,16 @@ class Steady(NamedTuple):
     held: float  # largest share of particles that a limiter of the theory held
 
 
-def checks(folder: Path, *_, spacings=boxes.SPACINGS, bars=BARS | REPORTED) -> list[dict]:
-    return [
-        row
-        for share, bar in bars.items()
-        for dx in (spacings[:1] if share in REPORTED else spacings)
-        for row in of_cell(share, dx, bar)
-    ]
+def checks(folder: Path, *_, spacings=boxes.SPACINGS, bars=BARS | REPORTED, disordered=DISORDERED) -> list[dict]:
+    cells = [(s, dx, bar, 0.0) for s, bar in bars.items() for dx in (spacings[:1] if s in REPORTED else spacings)]
+    cells += [(s, dx, math.inf, OFF) for s in disordered for dx in spacings]
+    return [row for cell in cells for row in of_cell(*cell)]
 
 
-def of_cell(share: float, spacing: float, bar: float) -> list[dict]:
+def of_cell(share: float, spacing: float, bar: float, off: float = 0.0) -> list[dict]:
     """Checks of one cell: stress and theta; what shear makes and collisions take."""
-    name, own = f"shear, alpha_p {share:g}, {1e3 * spacing:g} mm", steady(share, spacing)
+    name = f"shear{', disordered' if off else ''}, alpha_p {share:g}, {1e3 * spacing:g} mm"
+    own = steady(share, spacing, off)
     volume = HEIGHT * LENGTH
     shear_work = own.stress * own.rate * volume * SHEARED / RATE
     rows = [
@@ -90,19 +90,21 @@ def of_cell(share: float, spacing: float, bar: float) -> list[dict]:
     return rows
 
 
-def started(share: float, spacing: float):
-    """A cell as the closures have it at RATE."""
+def started(share: float, spacing: float, off: float = 0.0):
+    """A cell as the closures have it at RATE, its particles `off` [spacings] their lattice at most."""
     walls = {side: {"kind": "wall", "side": side, "velocity_m_s": [way * RATE * HEIGHT, 0.0]}
              for side, way in (("bottom", -0.5), ("top", 0.5))}  # fmt: skip
     theta = boxes.steady_theta(share, RATE)
     run = boxes.Alone(boxes.case((LENGTH, HEIGHT), share, spacing, theta, boundaries=walls))
+    s, rng = run.state, np.random.default_rng(1)
+    run.begin_with(**{a: getattr(s, a) + off * spacing * rng.uniform(-1.0, 1.0, len(s.x)) for a in "xy"})
     run.begin_with(u=RATE * (run.state.y - 0.5 * HEIGHT))
     return run
 
 
-def steady(share: float, spacing: float) -> Steady:
+def steady(share: float, spacing: float, off: float = 0.0) -> Steady:
     """State of a cell once it is steady."""
-    run, step = started(share, spacing), SAMPLE / RATE
+    run, step = started(share, spacing, off), SAMPLE / RATE
     for _ in range(round(SETTLED / SAMPLE)):
         run.window(step)
     run.forget()

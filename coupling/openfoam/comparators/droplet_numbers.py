@@ -25,6 +25,44 @@ class Nozzle:
     temperature: float
     volume_fraction: float
 
+    def mass(self, case: Case) -> float:
+        """Liquid [kg] that comes in during the run, per metre of depth."""
+        return self.volume_fraction * case.grains.density * self.speed * self.width * case.run.end_time
+
+    def duration(self, case: Case) -> float:
+        """Time [s] in which it comes in."""
+        return case.run.end_time
+
+    def places(self, case: Case) -> list[tuple[float, float]]:
+        """Points [m] that parcels start from: one per particle spacing across the slot, just inside the wall."""
+        count = round(self.width / case.resolution.spacing)
+        return [(1e-6, self.middle + self.width * ((i + 0.5) / count - 0.5)) for i in range(count)]
+
+
+@dataclass(frozen=True)
+class Plug:
+    """Droplets that are there at the start, over the whole height of the domain: ends along x [m], speed [m/s] along
+    x, temperature [K], volume fraction of liquid [-]."""
+
+    ends: tuple[float, float]
+    speed: float
+    temperature: float
+    volume_fraction: float
+
+    def mass(self, case: Case) -> float:
+        """Liquid [kg] per metre of depth."""
+        return self.volume_fraction * case.grains.density * (self.ends[1] - self.ends[0]) * case.domain.size[1]
+
+    def duration(self, case: Case) -> float:
+        """Time [s] of the one step in which it comes in."""
+        return time_step(case, self)
+
+    def places(self, case: Case) -> list[tuple[float, float]]:
+        """Points [m] that parcels start from: a lattice of the particle spacing."""
+        dx = case.resolution.spacing
+        along, up = round((self.ends[1] - self.ends[0]) / dx), round(case.domain.size[1] / dx)
+        return [(self.ends[0] + (i + 0.5) * dx, (j + 0.5) * dx) for i in range(along) for j in range(up)]
+
 
 @dataclass(frozen=True)
 class Liquid:
@@ -35,9 +73,9 @@ class Liquid:
     latent_heat: float
 
 
-def macros(case: Case, nozzle: Nozzle, liquid: Liquid) -> dict[str, str]:
+def macros(case: Case, source: Nozzle | Plug, liquid: Liquid) -> dict[str, str]:
     """Macros of the droplet templates: name -> text."""
-    gas, vapour, dt = case.gas, case.vapour, time_step(case, nozzle)
+    gas, vapour, dt = case.gas, case.vapour, time_step(case, source)
     return {
         "gas_prandtl": repr(heat_law.prandtl_number(gas.viscosity, gas.heat_capacity, gas.conductivity)),
         "vapour_prandtl": repr(heat_law.prandtl_number(vapour.viscosity, vapour.heat_capacity, vapour.conductivity)),
@@ -45,21 +83,17 @@ def macros(case: Case, nozzle: Nozzle, liquid: Liquid) -> dict[str, str]:
         "liquid_log_saturation_pressure": repr(math.log(liquid.saturation_pressure)),
         "liquid_latent_heat": repr(liquid.latent_heat),
         "liquid_diffusion_volume": repr(diffusion_volume(case, liquid)),
-        "nozzle_temperature": repr(nozzle.temperature),
-        "nozzle_mass": repr(flow(case, nozzle) * case.run.end_time),
-        "nozzle_rows_per_second": repr((1.0 + 1e-9) / dt),  # one row a step: its number is rounded down
+        "nozzle_temperature": repr(source.temperature),
+        "nozzle_mass": repr(source.mass(case)),
+        "nozzle_duration": repr(source.duration(case)),
+        "nozzle_rows_per_second": repr((1.0 + 1e-9) / dt),  # each row once a step: its number is rounded down
         "time_step": repr(dt),
     }
 
 
-def time_step(case: Case, nozzle: Nozzle) -> float:
+def time_step(case: Case, source: Nozzle | Plug) -> float:
     """Time step [s]."""
-    return divided(case.run.output_interval, COURANT * case.resolution.cell / nozzle.speed)
-
-
-def flow(case: Case, nozzle: Nozzle) -> float:
-    """Liquid [kg/s] that the nozzle gives, per metre of depth."""
-    return nozzle.volume_fraction * case.grains.density * nozzle.speed * nozzle.width
+    return divided(case.run.output_interval, COURANT * case.resolution.cell / source.speed)
 
 
 def diffusion_volume(case: Case, liquid: Liquid) -> float:
@@ -70,15 +104,13 @@ def diffusion_volume(case: Case, liquid: Liquid) -> float:
     return (beta / 4.0) ** 1.5  # beta = (a^(1/3) + b^(1/3))^2
 
 
-def nozzle_rows(case: Case, nozzle: Nozzle) -> str:
-    """OpenFOAM's table of injectors: one per particle spacing across the slot, just inside the wall."""
-    count = round(nozzle.width / case.resolution.spacing)
-    grains = case.grains
-    each = flow(case, nozzle) / count
-    places = [nozzle.middle + nozzle.width * ((i + 0.5) / count - 0.5) for i in range(count)]
+def source_rows(case: Case, source: Nozzle | Plug) -> str:
+    """OpenFOAM's table of injectors."""
+    places, grains = source.places(case), case.grains
+    each = source.mass(case) / source.duration(case) / len(places)
     tail = (
-        f"{grains.diameter!r} {grains.density!r} {each!r} {nozzle.temperature!r} {grains.heat_capacity!r} (0 1 0) "
+        f"{grains.diameter!r} {grains.density!r} {each!r} {source.temperature!r} {grains.heat_capacity!r} (0 1 0) "
         "() (1) ()"
     )
-    rows = "".join(f"(1e-6 {y!r} 0.5) ({nozzle.speed!r} 0 0) {tail}\n" for y in places)
+    rows = "".join(f"({x!r} {y!r} 0.5) ({source.speed!r} 0 0) {tail}\n" for x, y in places)
     return f"(\n{rows})\n"

@@ -90,7 +90,7 @@ def run_two_fluid(
 
 def run_droplets(
     case: Case,
-    nozzle: droplet_numbers.Nozzle,
+    source: droplet_numbers.Nozzle | droplet_numbers.Plug,
     liquid: droplet_numbers.Liquid,
     folder: Path,
     progress: Progress | None = None,
@@ -98,8 +98,8 @@ def run_droplets(
     """Run reactingParcelFoam on the case in `folder`, or take what it gave from the cache. Serial: parcels enter on one
     rank."""
     files = {
-        DROPLETS.macros: droplet_numbers.macros(case, nozzle, liquid),
-        "nozzle": droplet_numbers.nozzle_rows(case, nozzle),
+        DROPLETS.macros: droplet_numbers.macros(case, source, liquid),
+        "nozzle": droplet_numbers.source_rows(case, source),
     }
     return _run(DROPLETS, case, folder, 1, files, progress)
 

@@ -48,6 +48,6 @@ EFFECT = Effect(
     parameters=Gravity,
     kernel=kernel,
     moves=True,
-    matter=("grains", "liquid"),
+    matter=("grains", "liquid", "solid"),
     call=call,
 )

@@ -1,22 +1,26 @@
-"""A nozzle as a case gives it, and what must hold of it."""
+"""A nozzle as a case gives it, and what must hold of it. It gives grains where the case has grains, else liquid."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from sdph.effects.around.streams import ROUND_OFF, Streams, layers_of, streams_of
-from sdph.schema import CaseError, choice, quantity, record, vector
+from sdph.schema import CaseError, choice, file, quantity, record, vector, whole, words
+
+OF_GRAINS = ("temperature", "volume_fraction", "rate", "diameter", "diameter_std")
 
 
 @record
 class Nozzle:
-    """A mouth that grains leave at `speed`: a slot, a disc, or a cone, whose streams spread up to `half_angle`."""
+    """A mouth that grains or liquid leave at `speed`: a slot, a disc, a cone, whose streams spread up to `half_angle`,
+    or of liquid an annulus, whose streams turn about its axis; or drops of a `table`, with speed and radius for the
+    scales of the case and the interval and scatter of what becomes one particle (sdph.effects.around.drops)."""
 
-    shape: str = choice("slot", "disc", "cone")
+    shape: str = choice("slot", "disc", "cone", "annulus", "table")
     centre: tuple = vector("m")
     direction: tuple = vector("")
     speed: float = quantity("m_s", above=0.0)  # mean over the mouth
-    temperature: float = quantity("K", above=0.0)
+    temperature: float | None = quantity("K", None, above=0.0)  # of grains, which need it
     volume_fraction: float | None = quantity("", None, above=0.0, most=1.0)  # either this
     rate: float | None = quantity("kg_s", None, above=0.0)  # or this, per metre of depth in two dimensions
     profile: str = choice("uniform", "parabolic")  # of the speed; parabolic: none at the rim
@@ -25,6 +29,14 @@ class Nozzle:
     across: tuple | None = vector("", None)  # direction of its width
     radius: float | None = quantity("m", None, above=0.0)  # of a disc or cone; in two dimensions half the mouth's width
     half_angle: float = quantity("deg", 0.0, least=0.0, most=80.0)
+    inner_radius: float | None = quantity("m", None, above=0.0)  # of an annulus
+    swirl: float = quantity("", 0.0, least=-10.0, most=10.0)  # of an annulus: speed around the axis over that along it
+    seed: int = whole(0)  # of the angles by which the layers of an annulus are turned, or a table that is played again
+    table: str = file()  # CSV file of drops, with z along the direction
+    # in place of the table: a scene, a case.toml or a run folder of moving particles, whose drops become the table
+    record: str = words("")
+    record_set: tuple = words(())  # key=value of that run
+    table_from: float = quantity("s", 0.0, least=0.0)  # drops before it are left out: the sheet was still filling
     diameter: float | None = quantity("mm", None, above=0.0)  # of the grains; none: those of [grains]
     diameter_std: float | None = quantity("mm", None, least=0.0)
     start: float = quantity("s", 0.0, least=0.0)
@@ -33,8 +45,7 @@ class Nozzle:
 
 def check(case, name: str, nozzle: Nozzle) -> None:
     where = f"nozzles.{name}"
-    if (nozzle.volume_fraction is None) == (nozzle.rate is None):
-        raise CaseError(f"{where}: give either volume_fraction or rate_kg_s")
+    (_check_grains if case.grains else _check_liquid)(case, where, nozzle)
     for key, unit_of in (("centre", "_m"), ("direction", "")):
         if len(getattr(nozzle, key)) != case.dimensions:
             raise CaseError(
@@ -47,6 +58,8 @@ def check(case, name: str, nozzle: Nozzle) -> None:
     for key in needs:
         if getattr(nozzle, key) is None:
             raise CaseError(f"{where}.{key}_m is missing; a {nozzle.shape} in {case.dimensions} dimensions needs it")
+    _check_annulus(case, where, nozzle)
+    _check_table(case, where, nozzle)
     if nozzle.half_angle and nozzle.shape != "cone":
         raise CaseError(f"{where}.half_angle_deg is of a cone; shape = {nozzle.shape!r}")
     if not np.linalg.norm(nozzle.direction) > 0.0:
@@ -57,16 +70,56 @@ def check(case, name: str, nozzle: Nozzle) -> None:
     streams = streams_of(case, nozzle)
     _check_times(case, where, nozzle, streams)
     alpha_p = streams.alpha_p
-    if alpha_p > case.grains.packing_limit:
+    if case.grains and alpha_p > case.grains.packing_limit:
         raise CaseError(
             f"{where} makes a volume fraction of {alpha_p:.3g}, above grains.packing_limit = "
             f"{case.grains.packing_limit}; slow down or widen it"
         )
 
 
+def _check_annulus(case, where: str, nozzle: Nozzle) -> None:
+    """CaseError where an annulus has no room or no liquid, or another shape has what only an annulus has."""
+    if nozzle.shape != "annulus":
+        if nozzle.swirl or nozzle.inner_radius is not None:
+            raise CaseError(f"{where}: swirl and inner_radius_m are of an annulus; shape = {nozzle.shape!r}")
+        return
+    if case.grains or case.dimensions == 2 or nozzle.profile != "uniform":
+        raise CaseError(f"{where}.shape = 'annulus' gives liquid in three dimensions, at one speed; take another shape")
+    if nozzle.inner_radius is None or nozzle.inner_radius >= nozzle.radius:
+        raise CaseError(f"{where}: an annulus needs inner_radius_m, below radius_m = {nozzle.radius:g}")
+
+
+def _check_table(case, where: str, nozzle: Nozzle) -> None:
+    """CaseError where a table of drops has nobody to give them to or none to give, or another shape names one."""
+    if nozzle.shape != "table":
+        if nozzle.table or nozzle.record:
+            raise CaseError(f"{where}: table and record are of shape = 'table'; shape = {nozzle.shape!r}")
+        return
+    if case.grains is None or case.dimensions == 2 or nozzle.rate is None:
+        raise CaseError(f"{where}.shape = 'table' gives droplets in three dimensions at rate_kg_s: give [grains] too")
+    if not nozzle.table and not nozzle.record:
+        raise CaseError(f"{where}.table is missing; name a CSV file of drops, or a record to make one from")
+
+
+def _check_grains(case, where: str, nozzle: Nozzle) -> None:
+    if (nozzle.volume_fraction is None) == (nozzle.rate is None):
+        raise CaseError(f"{where}: give either volume_fraction or rate_kg_s")
+    if nozzle.temperature is None:
+        raise CaseError(f"{where}.temperature_K is missing; grains come in with one")
+
+
+def _check_liquid(case, where: str, nozzle: Nozzle) -> None:
+    """CaseError where a nozzle of liquid has what only grains have, or a second phase is there."""
+    for key in OF_GRAINS:
+        if getattr(nozzle, key) is not None:
+            raise CaseError(f"{where}.{key} is of grains; a nozzle of liquid has its speed and its mouth: leave it out")
+    if case.gas_phase is not None:
+        raise CaseError(f"{where}: liquid comes in where there is one phase; leave out [gas_phase] or the nozzle")
+
+
 def _check_times(case, where: str, nozzle: Nozzle, streams: Streams) -> None:
     """CaseError where a nozzle closes before it opens, or before it gives a layer of particles."""
-    if nozzle.end is None:
+    if nozzle.end is None or nozzle.shape == "table":
         return
     given = f"{where} is open from start_s = {nozzle.start:g} to end_s = {nozzle.end:g}"
     if nozzle.end <= nozzle.start:

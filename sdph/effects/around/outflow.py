@@ -1,4 +1,4 @@
-"""Grains that leave the domain through its open sides are taken out and counted."""
+"""Grains or liquid that leave the domain through its open sides are taken out and counted."""
 
 from __future__ import annotations
 
@@ -8,14 +8,15 @@ import numpy as np
 
 from sdph.effects.effect import Effect, Judgement
 from sdph.engine import state as particles
-from sdph.engine.geometry import PAIRS
-from sdph.engine.state import GRAIN
+from sdph.engine.geometry import PAIRS, SIDES
+from sdph.engine.state import GRAIN, LIQUID
 from sdph.schema import CaseError, record
 
 
 @record
 class Outflow:
-    """Has no input of its own: grains leave through every pressure_outlet, and where no `walls` hold them."""
+    """Has no input of its own: grains leave through every pressure_outlet, and where no `walls` hold them; liquid
+    every side of the domain on which no wall of a box stands."""
 
 
 class OutflowP(NamedTuple):
@@ -25,6 +26,8 @@ class OutflowP(NamedTuple):
 
 
 def kernel(case) -> OutflowP:
+    if not case.grains and not open_sides(case):
+        raise CaseError("outflow: walls of the tank are all around; name a side in tank.open_sides, or leave it out")
     return OutflowP(int("walls" in case.effects))
 
 
@@ -41,6 +44,35 @@ def leaving(case, state) -> np.ndarray:
             if out.any():
                 gone |= out & _open(case, side, axis, places)
     return gone & (state.kind == GRAIN)
+
+
+def left(case, state) -> np.ndarray:
+    """Mask of the liquid that is out of the domain through an open side."""
+    gone = np.zeros(len(state.x), bool)
+    for axis, side in open_sides(case):
+        place = particles.axes(state)[axis]
+        gone |= place > case.domain.size[axis] if side else place < 0.0
+    return gone & (state.kind == LIQUID)
+
+
+def open_sides(case) -> list[tuple[int, int]]:
+    """Axis and end (0 or 1) of the sides of the domain where no wall of the tank stands, so that liquid leaves."""
+    periodic = case.liquid.periodic or (0,) * case.dimensions
+    ends = [(axis, end) for axis in range(case.dimensions) if not periodic[axis] for end in (0, 1)]
+    if "tank" not in case.effects:
+        return ends
+    own, size = case.parameters["tank"], case.domain.size
+    if own.shape != "box":
+        return []
+    walls = (own.lower or (0.0,) * len(size)), (own.upper or size)
+    away = {(axis, end) for axis, end in ends if walls[end][axis] != end * size[axis]}
+    return [side for side in ends if side in away | without_wall(own)]
+
+
+def without_wall(own) -> set[tuple[int, int]]:
+    """Axis and end of the sides of a box that have no wall: a wall within the domain closes its side."""
+    named = [own.open_sides] if isinstance(own.open_sides, str) else own.open_sides
+    return {SIDES[name] for name in named}
 
 
 def refuse_to_leave(case, state, gone, time: float) -> None:
@@ -74,6 +106,12 @@ def _spans(span, count: int):
 
 def call(scales) -> Judgement:
     """Way of the grains within the run over their way to the nearest open side: past 1 they are out of the gas."""
+    if not hasattr(scales, "to_outlets"):  # of a liquid; beside grains the openings are theirs
+        down = np.array(scales.case.domain.gravity)
+        own = scales.case.parameters["tank"] if "tank" in scales.case.effects and not scales.case.grains else None
+        there = set(open_sides(scales.case)) & without_wall(own) if own else ()
+        counts = sum((2 * end - 1) * down[a] >= 0.0 for a, end in there)
+        return Judgement("open sides that are not above", float(counts), 1.0, "geometry", 1.0 if counts else 0.0)
     over_gap = scales.to_outlets.over_gap
     return Judgement(
         "way of the grains / gap to an open side", over_gap, 1.0, "geometry", 1.0 if over_gap >= 1.0 else 0.0
@@ -82,9 +120,10 @@ def call(scales) -> Judgement:
 
 EFFECT = Effect(
     name="outflow",
-    summary="grains that leave through open sides",
+    summary="grains or liquid that leave through open sides",
     parameters=Outflow,
     kernel=kernel,
     moves=True,
+    matter=("grains", "liquid"),
     call=call,
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -13,6 +14,7 @@ from sdph.engine.rows import entry, place
 from sdph.schema import CaseError
 
 ROUND_OFF = 1e-9  # of a spacing
+JITTER = 0.02  # of a spacing: places in an annulus, so that no row lines up; swirl-sheet.md, section 2, 10
 
 
 def unit(vector_) -> np.ndarray:
@@ -23,7 +25,7 @@ def unit(vector_) -> np.ndarray:
 
 class Streams(NamedTuple):
     """S streams of one nozzle: places in the mouth (S, d) [m], axis (d,), speed along it (S,) [m/s], velocity at the
-    mouth (S, d), mass of a particle [kg], layer pitch [m], volume fraction."""
+    mouth (S, d), mass of a particle [kg], layer pitch [m], volume fraction, which is 1 of liquid."""
 
     mouth: np.ndarray
     axis: np.ndarray
@@ -37,6 +39,12 @@ class Streams(NamedTuple):
 def streams_of(case, nozzle) -> Streams:
     """The streams of a nozzle, on a lattice of the case's spacing that is fitted to the area of the mouth."""
     spacing, axis = case.resolution.spacing, unit(nozzle.direction)
+    if nozzle.shape == "table":
+        nothing, alpha_p = (
+            np.zeros((0, 3)),
+            nozzle.rate / (case.grains.density * math.pi * nozzle.radius**2 * nozzle.speed),
+        )
+        return Streams(nothing, axis, nothing[:, 0], nothing, 0.0, spacing, alpha_p)
     offsets, area, reach = _mouth(case, nozzle, axis)
     distance = np.linalg.norm(offsets, axis=1)
     speed = np.full(len(offsets), nozzle.speed)
@@ -47,9 +55,12 @@ def streams_of(case, nozzle) -> Streams:
     angle = nozzle.half_angle * distance / reach
     outward = offsets / np.maximum(distance, 1e-300)[:, None]
     velocity = speed[:, None] * (np.cos(angle)[:, None] * axis + np.sin(angle)[:, None] * outward)
+    if nozzle.shape == "annulus":
+        velocity = velocity + nozzle.swirl * nozzle.speed * np.cross(axis, outward)
     speed = speed * np.cos(angle)
-    alpha_p = nozzle.volume_fraction or nozzle.rate / (case.grains.density * area * speed.mean())
-    mass = alpha_p * case.grains.density * area / len(offsets) * spacing
+    density = (case.grains or case.liquid).density
+    alpha_p = (nozzle.volume_fraction or nozzle.rate / (density * area * speed.mean())) if case.grains else 1.0
+    mass = alpha_p * density * area / len(offsets) * spacing
     return Streams(np.array(nozzle.centre) + offsets, axis, speed, velocity, mass, spacing, alpha_p)
 
 
@@ -58,6 +69,12 @@ def layers_of(nozzle, streams: Streams) -> np.ndarray:
     if nozzle.end is None:
         return np.full(len(streams.speed), np.iinfo(np.int64).max)
     return np.round(streams.speed * (nozzle.end - nozzle.start) / streams.pitch).astype(np.int64)
+
+
+def frame_of(nozzle) -> np.ndarray:
+    """(3, 3) unit vectors of a nozzle in space: two in its mouth, the first along its width, and its axis."""
+    axis = unit(nozzle.direction)
+    return np.stack([*_tangents(nozzle, axis), axis])
 
 
 def _tangents(nozzle, axis) -> list[np.ndarray]:
@@ -78,6 +95,8 @@ def _mouth(case, nozzle, axis) -> tuple[np.ndarray, float, float]:
         ticks = [_ticks(size, spacing) for size in sizes]
         grid = np.stack([m.ravel() for m in np.meshgrid(*ticks, indexing="ij")], axis=1)
         return grid @ np.stack(tangents), math.prod(sizes), 0.5 * sizes[0]
+    if nozzle.shape == "annulus":
+        return _rings(nozzle, spacing) @ np.stack(tangents), _area(nozzle), nozzle.radius
     n = math.ceil(nozzle.radius / spacing) + 1
     ticks = (np.arange(-n, n) + 0.5) * spacing
     grid = np.stack([m.ravel() for m in np.meshgrid(ticks, ticks, indexing="ij")], axis=1)
@@ -89,6 +108,53 @@ def _mouth(case, nozzle, axis) -> tuple[np.ndarray, float, float]:
         )
     area = math.pi * nozzle.radius**2
     return grid * math.sqrt(area / len(grid)) / spacing @ np.stack(tangents), area, nozzle.radius
+
+
+def _area(nozzle) -> float:
+    return math.pi * (nozzle.radius**2 - nozzle.inner_radius**2)
+
+
+def _rings(nozzle, spacing: float) -> np.ndarray:
+    """Places (S, 2) [m] in an annulus: a ring for each spacing of its gap, of as many streams as its area asks for."""
+    number = max(1, round((nozzle.radius - nozzle.inner_radius) / spacing))
+    edges = np.linspace(nozzle.inner_radius, nozzle.radius, number + 1)
+    rings = []
+    for low, high in itertools.pairwise(edges):
+        count = max(3, round(math.pi * (high**2 - low**2) / spacing**2))
+        angle = 2.0 * math.pi * np.arange(count) / count
+        rings.append(0.5 * (low + high) * np.stack([np.cos(angle), np.sin(angle)], axis=1))
+    return np.concatenate(rings)
+
+
+def turned(nozzle, own: Streams, stream, layer, place) -> tuple[np.ndarray, np.ndarray]:
+    """Places (n, 3) [m] and velocities (n, 3) [m/s] of particles of an annulus in its streams (n,), layers (n,) and at
+    places (n,) [m] along the axis.
+
+    Each layer is turned by an angle of its own, drawn by the seed, and strewn by JITTER; it comes along helices, so
+    that nothing slips at the mouth.
+    """
+    offsets = own.mouth[stream] - nozzle.centre
+    angle = nozzle.swirl * place / np.linalg.norm(offsets, axis=1)
+    aside = np.zeros_like(offsets)
+    for number in np.unique(layer):
+        draw, rows = np.random.default_rng((nozzle.seed, int(number))), layer == number
+        angle[rows] += draw.uniform(0.0, 2.0 * math.pi)
+        aside[rows] = JITTER * own.pitch * draw.uniform(-1.0, 1.0, (len(own.mouth), 3))[stream[rows]]
+    places = nozzle.centre + about(own.axis, offsets, angle) + aside + place[:, None] * own.axis
+    return places, swirling(nozzle, own, places)
+
+
+def swirling(nozzle, own: Streams, places) -> np.ndarray:
+    """Velocities (n, 3) [m/s] that an annulus gives at places (n, 3) [m]: u along the axis, swirl u around it."""
+    offsets = places - nozzle.centre
+    offsets = offsets - (offsets @ own.axis)[:, None] * own.axis
+    around = np.cross(own.axis, offsets) / np.linalg.norm(offsets, axis=1)[:, None]
+    return nozzle.speed * (own.axis + nozzle.swirl * around)
+
+
+def about(axis, offsets, angle) -> np.ndarray:
+    """Offsets (n, 3) [m] from an axis turned about it by angles (n,) [rad]."""
+    return np.cos(angle)[:, None] * offsets + np.sin(angle)[:, None] * np.cross(axis, offsets)
 
 
 def _ticks(size: float, spacing: float) -> np.ndarray:

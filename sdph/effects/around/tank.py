@@ -44,14 +44,19 @@ class TankP(NamedTuple):
 
 
 def kernel(case) -> TankP:
-    own, c = case.parameters["tank"], case.fastest_sound
+    own = case.parameters["tank"]
     if case.gas_phase is not None and own.suction == "none":
         why = "between two phases walls mirror the pressure in front and pull"
         raise CaseError(f"tank.suction = 'none'; {why}: set tank.suction = \"full\", or leave it out")
     least = -math.inf if own.suction == "full" or case.gas_phase is not None else 0.0
+    return acts(case, float(own.slip == "no_slip"), least)
+
+
+def acts(case, stick: float, least: float) -> TankP:
+    """Walls of particles of the case's spacing; `stick` and `least` as there."""
     # of the surface, no place is further from the wall's lattice
     near = 0.5 * math.sqrt(case.dimensions) * case.resolution.spacing
-    return TankP(float(own.slip == "no_slip"), least, 1.0 / near, c * c)
+    return TankP(stick, least, 1.0 / near, case.fastest_sound**2)
 
 
 def shape_of(case):

@@ -23,13 +23,14 @@ def nearer(p, wall, box, s, found):
 
 
 def held(p, method) -> dict[str, float]:
-    """Share of the dummies with grains in front whose pressure is held at 0, and the largest suction [Pa] that is taken
+    """Share of the dummies with grains in front whose pressure is held, and the largest suction [Pa] that is taken
     away; with a specularity the share of the grains whose distance is held, and of those past the cap of g0."""
     if p.paper == 1:
         return {}
-    pressure = method.unheld[~np.isnan(method.unheld)]
+    told = ~np.isnan(method.unheld)
+    pressure = method.unheld[told]
     found = {
-        "walls_held_share": float((pressure < 0.0).mean()) if len(pressure) else 0.0,
+        "walls_held_share": float((pressure != method.wall.pressure[told]).mean()) if len(pressure) else 0.0,
         "wall_suction_Pa": float((-pressure).max(initial=0.0)),
     }
     if p.specularity < 0.0:

@@ -22,6 +22,7 @@ from sdph.effects.effect import Effect, Judgement
 from sdph.engine.rows import entry
 from sdph.engine.walls.dummies import distance, normal_part, offset
 from sdph.laws import granular, kernels
+from sdph.laws.compiled import inlined
 from sdph.laws.friction import johnson_jackson_wall
 from sdph.schema import choice, file, quantity, record
 
@@ -138,11 +139,13 @@ def gradient(p, kernel, box, wall, s, i):
 def extrapolate(kernel, box, wall, facing, s, pressure, wall_pressure, unheld, wall_velocity):
     """Pressure and mean velocity of the grains at the dummies: Adami et al. 2012, Eq. 23 and 27.
 
-    `facing` are the rows of the dummies; those without grains near have 0. A pressure below zero is taken as zero:
-    grains do not stick to a wall; `unheld` (W,) [Pa] is the pressure before that, nan without grains near.
+    `facing` are the rows of the dummies; those without grains near have 0. The weight between a grain and the wall adds
+    to what the grain is pressed by, and no more than that: a grain without pressure feels none from a wall, and contact
+    stops it (a heap of four rows has at its foot what the third layer of dummies adds). A pressure below zero is taken
+    as zero: grains do not stick to a wall; `unheld` (W,) [Pa] is the pressure before both, nan without grains near.
     """
     for w in prange(len(wall.x)):
-        weight = push = u = v = up = 0.0
+        weight = push = full = u = v = up = 0.0
         for k in range(facing.number[w]):
             i = entry(facing, w, k)
             dx, dy, dz = offset(box, wall, w, s, i)
@@ -151,12 +154,13 @@ def extrapolate(kernel, box, wall, facing, s, pressure, wall_pressure, unheld, w
             hydrostatic = (
                 -(s.push_x[i] * dx + s.push_y[i] * dy + (s.push_z[i] * dz if len(s.z) else 0.0)) * s.density[i]
             )
-            push += value * (pressure[i] + hydrostatic)
+            push += value * (pressure[i] + min(hydrostatic, pressure[i]))
+            full += value * (pressure[i] + hydrostatic)
             u += value * s.u[i]
             v += value * s.v[i]
             up += value * s.w[i] if len(s.z) else 0.0
         found = weight > 0.0
-        unheld[w] = push / weight if found else np.nan
+        unheld[w] = full / weight if found else np.nan
         wall_pressure[w] = max(push / weight, 0.0) if found else 0.0
         wall_velocity[w, 0] = u / weight if found else 0.0
         wall_velocity[w, 1] = v / weight if found else 0.0
@@ -176,7 +180,7 @@ def grip(p, wall, w, s, i, dx, dy, dz, shear):
     return k * y / (k * y + shear) if k > 0.0 else 0.0
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)  # to hand over the whole state costs more than this
+@inlined
 def force(p, kernel, box, wall, s, i, stress, friction_p):
     """Accelerations [m/s2] of particle i by the wall: by its push, and by its grip; power of the grip by the sliding of
     the wall, and what viscosity takes there from the motion of the grains [W/kg].

@@ -10,6 +10,7 @@ from numba import njit
 from sdph.effects.effect import Effect, Judgement
 from sdph.effects.gas import sizes
 from sdph.laws import drag as law
+from sdph.laws.compiled import inlined
 from sdph.schema import choice, record
 
 LAWS = (
@@ -21,6 +22,7 @@ LAWS = (
     "syamlal_obrien",
     "di_felice",
     "schiller_naumann",
+    "putnam",
     "stokes",
 )
 
@@ -62,10 +64,12 @@ def coefficient(p, alpha_p, slip, d, gas_density):
         return law.di_felice(alpha_p, slip, d, gas_density, mu)
     if p.law == 7:
         return law.schiller_naumann(alpha_p, slip, d, gas_density, mu)
+    if p.law == 8:
+        return law.putnam(alpha_p, slip, d, gas_density, mu)
     return law.stokes(alpha_p, slip, d, gas_density, mu)
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@inlined
 def damping(p, sizes_p, s, i, alpha_p, slip, gas_density):
     """beta/(alpha_p rho_p) [1/s] of particle i: the mass average over its sizes (paper section 2.1, R'^SPH)."""
     if len(p) == 0:

@@ -9,11 +9,13 @@ from typing import NamedTuple
 from numba import njit
 
 from sdph.effects.effect import Effect, Judgement
+from sdph.effects.gas import film
 from sdph.laws import evaporation as law
 from sdph.laws import grain_loss
 from sdph.schema import CaseError, choice, quantity, record, vector
 
 LAWS = ("linear", "spalding")
+LINEAR_FILM = len(LAWS)  # "linear" with both concentrations at the temperature of the film (coupling.film)
 ONSETS = ("latched", "paper")
 SATURATIONS = ("constant", "antoine", "clausius_clapeyron")
 ALWAYS = 1.0  # K, a threshold that every droplet is above
@@ -73,7 +75,10 @@ def kernel(case) -> EvaporationP:
             "to 0"
         )
     p = _saturation(own, vapour)
-    places = LAWS.index(own.law), ONSETS.index(own.onset), SATURATIONS.index(own.saturation)
+    if case.coupling.film and own.law != "linear":
+        raise CaseError(f"coupling.film: evaporation.law = {own.law!r} has no film; take 'linear'")
+    chosen = LINEAR_FILM if case.coupling.film else LAWS.index(own.law)
+    places = chosen, ONSETS.index(own.onset), SATURATIONS.index(own.saturation)
     boiling = own.boiling_temperature or _boiling(own, p, gas.operating_pressure)
     return EvaporationP(
         *places, *p, own.onset_temperature or ALWAYS, boiling, own.latent_heat, vapour.molar_mass, vapour.diffusivity,
@@ -124,11 +129,23 @@ def driving_force(p, temperature, concentration, gas_temperature, gas_density):
     pressure = saturation_pressure(p, temperature)
     if p.law == 0:
         return law.driving_force_linear(law.vapour_concentration(pressure, temperature), concentration, p.molar_mass)
+    if p.law == LINEAR_FILM:
+        around = film.temperature(gas_temperature, temperature)
+        surface, gas = law.vapour_concentration(pressure, around), concentration * (gas_temperature / around)
+        return law.driving_force_linear(surface, gas, p.molar_mass)
     surface = min(pressure / p.operating_pressure, 1.0 - BOILING_MARGIN)
     y_s = law.vapour_mass_fraction(surface, p.molar_mass, p.gas_molar_mass)
     mole_fraction = law.partial_pressure(concentration, gas_temperature) / p.operating_pressure
     y_g = law.vapour_mass_fraction(mole_fraction, p.molar_mass, p.gas_molar_mass)
     return law.driving_force_spalding(y_s, y_g, gas_density)
+
+
+@njit(cache=True, error_model="numpy")
+def saturated(p, temperature, gas_temperature):
+    """Vapour [kmol/m3] in the gas at which a droplet gives no more; of Spalding's law that at its surface."""
+    return law.vapour_concentration(
+        saturation_pressure(p, temperature), gas_temperature if p.law == LINEAR_FILM else temperature
+    )
 
 
 @njit(cache=True, error_model="numpy")

@@ -10,6 +10,7 @@ from numba import njit
 from sdph.effects.effect import Effect, Judgement
 from sdph.effects.gas import sizes
 from sdph.laws import heat as law
+from sdph.laws.compiled import inlined
 from sdph.schema import choice, record
 
 LAWS = ("gunn", "gunn_interstitial", "ranz_marshall")
@@ -49,7 +50,7 @@ def nusselt(p, alpha_g, reynolds):
     return law.ranz_marshall(alpha_g, reynolds, p.prandtl)
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@inlined
 def conductance(p, sizes_p, s, i, alpha_p, slip, gas_density):
     """Heat exchanged per kelvin [W/K] by the grains of particle i; `slip` [m/s]. Eq. 20: mass average over sizes."""
     if len(p) == 0:

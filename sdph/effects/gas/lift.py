@@ -10,6 +10,7 @@ from numba import njit
 from sdph.effects.effect import Effect, Judgement
 from sdph.effects.gas import sizes
 from sdph.laws import lift as law
+from sdph.laws.compiled import inlined
 from sdph.schema import choice, record
 
 LAWS = ("saffman_mei", "saffman")
@@ -40,7 +41,7 @@ def coefficient(p, slip, spin, d, gas_density):
     return law.saffman(slip, spin, d, gas_density, p.viscosity)
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@inlined
 def force(p, sizes_p, s, i, apart, slip, vorticity, gas_density):
     """(x, y, z) [N] on all grains of particle i: mass average over its sizes; apart and vorticity (N, 3), v_g - v_p."""
     if len(p) == 0:

@@ -18,6 +18,7 @@ from sdph.effects.effect import NO_LIMIT, Effect, Judgement
 from sdph.effects.gas import sizes
 from sdph.engine.state import GRAIN
 from sdph.laws import radiation as law
+from sdph.laws.compiled import inlined
 from sdph.laws.constants import STEFAN_BOLTZMANN
 from sdph.schema import quantity, record
 
@@ -70,7 +71,7 @@ def surface(sizes_p, s, i):
     return total / whole
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@inlined
 def conductance(p, sizes_p, s, i, gas_temperature):
     """Heat exchanged with the gas per kelvin [W/K] by the grains of particle i, at the temperatures of now."""
     if len(p) == 0:

@@ -17,9 +17,9 @@ from numba import njit
 
 from sdph.effects import limiter
 from sdph.effects.effect import DIFFUSIVE, Effect, Judgement
-from sdph.engine.geometry import deep
-from sdph.laws import constants, granular, viscosity
+from sdph.laws import constants, granular
 from sdph.laws import friction as law
+from sdph.laws.compiled import inlined
 from sdph.schema import quantity, record
 
 ARRAYS = ("contact_xx", "contact_yy", "contact_xy", "contact_yz", "contact_zx")  # of the state [Pa]
@@ -39,7 +39,7 @@ class Friction:
 
 class FrictionP(NamedTuple):
     """Onset [-], packing limit [-], Fr [Pa], sine of the friction angle, grain density [kg/m3], shear over bulk modulus
-    [-], h [m], dimensions."""
+    [-], h [m]."""
 
     onset: float
     packing: float
@@ -48,7 +48,6 @@ class FrictionP(NamedTuple):
     grain_density: float
     stiffness: float
     h: float
-    dimensions: float
 
 
 def kernel(case) -> FrictionP:
@@ -63,7 +62,6 @@ def kernel(case) -> FrictionP:
         density,
         stiffness,
         case.smoothing_length,
-        float(case.dimensions),
     )
 
 
@@ -88,32 +86,7 @@ def sound_squared(p, slope):
     return slope / p.grain_density * (1.0 + 4.0 / 3.0 * p.stiffness)
 
 
-@njit(cache=True, error_model="numpy")
-def pair(p, rubbing, i, j, r_squared, closing, scale):
-    """Viscous force of contacts, as granular_viscosity.pair; the mean viscosity, so that the surface, where the kernel
-    sees too little for a pressure, is held by what lies below it."""
-    if len(p) == 0:
-        return 0.0, 0.0
-    return viscosity.espanol_revenga(p.dimensions, 0.5 * (rubbing[i] + rubbing[j]), 0.0, r_squared, closing, scale)
-
-
-@njit(cache=True, error_model="numpy")
-def elastic(p, s, box, i, j, per_i, per_j, dx, dy, dz):
-    """(tau_i/rho_i^2 + tau_j/rho_j^2).r_ij of the elastic stress of contacts; per_i = 1/rho_i [m3/kg]."""
-    if len(p) == 0:
-        return 0.0, 0.0, 0.0
-    own, other = per_i * per_i, per_j * per_j
-    xx = s.contact_xx[i] * own + s.contact_xx[j] * other
-    yy = s.contact_yy[i] * own + s.contact_yy[j] * other
-    xy = s.contact_xy[i] * own + s.contact_xy[j] * other
-    if not deep(box):
-        return xx * dx + xy * dy, xy * dx + yy * dy, 0.0
-    yz = s.contact_yz[i] * own + s.contact_yz[j] * other
-    zx = s.contact_zx[i] * own + s.contact_zx[j] * other
-    return xx * dx + xy * dy + zx * dz, xy * dx + yy * dy + yz * dz, zx * dx + yz * dy - (xx + yy) * dz
-
-
-@njit(cache=True, error_model="numpy", forceinline=True)  # to hand over the whole state costs more than this
+@inlined
 def stress(p, pressures, s, i, D, spin, dt):
     """Deviator of the elastic stress of contacts [Pa] after dt (xx, yy, zz, xy, yz, zx), and their viscosity [Pa s].
 
@@ -142,7 +115,7 @@ def stiffest(p, density, dt):
     return DIFFUSIVE * p.h * p.h / dt * density
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)  # to hand over the whole state costs more than this
+@inlined
 def trial(s, i, D, spin, modulus, dt):
     """Stress of contacts [Pa] after dt if none yields; modulus = 2 G [Pa]."""
     xx, yy, xy = s.contact_xx[i], s.contact_yy[i], s.contact_xy[i]

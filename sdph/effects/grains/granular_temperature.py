@@ -87,13 +87,13 @@ def held(p, method) -> dict[str, float]:
 
 
 @njit(cache=True, error_model="numpy")
-def pair(p, stress, s, i, j, squeeze_work, viscous_work, artificial_work, scale):
+def pair(p, stress, s, i, j, squeeze_work, artificial_work, scale):
     """Rate of theta of i by the pair, per mass [W/kg]: work of agitation, and diffusion with the harmonic mean.
 
     scale = m_j (dW/dr)/r / (rho_i rho_j). The works [W/kg] are those of the whole pair; half goes to each. Where theta
     stands it is what would raise it.
     """
-    made = 0.5 * (squeeze_work + viscous_work)
+    made = 0.5 * squeeze_work
     if len(p) == 0:
         return made
     k_i, k_j = stress.conductivity[i], stress.conductivity[j]

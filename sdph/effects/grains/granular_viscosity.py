@@ -9,8 +9,7 @@ from numba import njit, prange
 
 from sdph.effects import limiter
 from sdph.effects.effect import Effect, Judgement, diffusive_limit
-from sdph.laws import granular, viscosity
-from sdph.laws.exchange import harmonic_mean
+from sdph.laws import granular
 from sdph.schema import record
 
 SOURCE = "diffusion of momentum, Gidaspow 1994 viscosity"
@@ -32,12 +31,6 @@ class ViscosityP(NamedTuple):
 
 def kernel(case) -> ViscosityP:
     return ViscosityP(case.grains.restitution, case.grains.packing_limit, case.grains.density, case.smoothing_length)
-
-
-class Viscous(NamedTuple):
-    """Number of dimensions; OFF where this effect is."""
-
-    dimensions: float
 
 
 @njit(cache=True, error_model="numpy")
@@ -65,22 +58,10 @@ def largest(p, density, theta, diameter):
 
 
 def held(p, method) -> dict[str, float]:
-    """Share of the particles whose free path is at its limit, and the mean part of the kinetic viscosity that this
-    takes away."""
-    s = method.state
-    return limiter.streaming(p, s, granular.STREAMING_MOMENTUM, "viscosity") | limiter.capped(p, s)
-
-
-@njit(cache=True, error_model="numpy")
-def pair(viscous, stress, i, j, r_squared, closing, scale):
-    """Viscous force per mass of i by j: `along` r_ij and `across`, along v_ij. Off where `viscous` is ().
-
-    scale = m_j (dW/dr)/r / (rho_i rho_j); closing = v_ij.r_ij.
-    """
-    if len(viscous) == 0:
-        return 0.0, 0.0
-    mu, bulk = harmonic_mean(stress.shear[i], stress.shear[j]), harmonic_mean(stress.bulk[i], stress.bulk[j])
-    return viscosity.espanol_revenga(viscous.dimensions, mu, bulk, r_squared, closing, scale)
+    """Shares of the particles whose free path is at its limit, with the mean part of the kinetic viscosity that this
+    takes away, and of those that neighbours do not enclose, so that their viscosity is of Morris' form."""
+    s, found = method.state, {"unenclosed_share": limiter.share(method.state, method.scratch.strain[2] == 0.0)}
+    return found | limiter.streaming(p, s, granular.STREAMING_MOMENTUM, "viscosity") | limiter.capped(p, s)
 
 
 def dt_limit(p, case, state) -> float:

@@ -8,10 +8,9 @@ import numpy as np
 
 from sdph.engine.geometry import SIDES
 from sdph.engine.rows import Neighbours, Rows
-from sdph.engine.surface import read
+from sdph.engine.walls import facets
 from sdph.engine.walls import mesh as sides
 from sdph.engine.walls.dummies import Dummies, Wall, seen, turned
-from sdph.schema import CaseError
 
 REACH = 2.0  # support of the kernels in smoothing lengths
 LAYERS = 3  # the support of the kernel is 2 h = 3 spacings
@@ -54,7 +53,7 @@ def dummies(case) -> np.ndarray:
     parts = [np.pad(_box(case), ((0, 0), (0, 1)))]
     if mesh:
         parts.append(
-            np.pad(_mesh(mesh, case.resolution.spacing, case.dimensions), ((0, 0), (0, 1)), constant_values=1.0)
+            np.pad(_behind_facets(facets.read(mesh, case.dimensions), case), ((0, 0), (0, 1)), constant_values=1.0)
         )
     return np.concatenate(parts)
 
@@ -118,56 +117,13 @@ def _within(points, axis: int, span) -> np.ndarray:
     )
 
 
-def surface(path: str, dimensions: int):
-    """A surface mesh of walls as pyvista has it."""
-    import pyvista
-
-    places, facets = _read(path, dimensions)
-    cells = np.insert(facets, 0, facets.shape[1], axis=1).ravel()
-    return pyvista.PolyData(places, lines=cells) if dimensions == 2 else pyvista.PolyData(places, faces=cells)
-
-
-def _read(path: str, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
-    """Points (P, 3) [m] of a surface mesh and its facets: lines in 2-D, triangles in 3-D."""
-    mesh = read(path, "walls.mesh")
-    kind = "line" if dimensions == 2 else "triangle"
-    if kind not in mesh.cells_dict:
-        raise CaseError(
-            f"walls.mesh = {path!r} holds no cells of type {kind}; a wall in {dimensions}-D is made of them"
-        )
-    places = np.zeros((len(mesh.points), 3))
-    places[:, : mesh.points.shape[1]] = mesh.points
-    return places, mesh.cells_dict[kind]
-
-
-def _mesh(path: str, spacing: float, dimensions: int) -> np.ndarray:
-    """Dummies behind a surface mesh, normals to the left of a line or by the right hand."""
-    places, facets = _read(path, dimensions)
-    corners = places[facets][:, :, :dimensions]
-    parts = [_facet(facet, spacing) for facet in corners]
-    table = np.zeros((sum(len(points) for points, _ in parts) * LAYERS, len(Dummies._fields)))
-    table[:, 7] = 1.0
-    surface = np.concatenate([points for points, _ in parts])
-    normal = np.concatenate([np.tile(n, (len(points), 1)) for points, n in parts])
-    for layer in range(LAYERS):
-        rows = slice(layer * len(surface), (layer + 1) * len(surface))
-        depth = (layer + 0.5) * spacing
-        table[rows, :dimensions], table[rows, 3 : 3 + dimensions], table[rows, 6] = (
-            surface - depth * normal,
-            normal,
-            depth,
-        )
+def _behind_facets(corners: np.ndarray, case) -> np.ndarray:
+    """Dummies in LAYERS behind facets (F, d, d) [m]."""
+    spacing, d = case.resolution.spacing, case.dimensions
+    points, normals = facets.spread(corners, spacing)
+    depth = (np.repeat(np.arange(LAYERS), len(points)) + 0.5) * spacing
+    normal = np.tile(normals, (LAYERS, 1))
+    table = np.zeros((len(depth), len(Dummies._fields)))
+    table[:, :d] = np.tile(points, (LAYERS, 1)) - depth[:, None] * normal
+    table[:, 3 : 3 + d], table[:, 6], table[:, 7] = normal, depth, 1.0
     return table
-
-
-def _facet(corners: np.ndarray, spacing: float) -> tuple[np.ndarray, np.ndarray]:
-    """Points about one spacing apart on a line or triangle, and its unit normal."""
-    edges = corners[1:] - corners[0]
-    normal = np.array([-edges[0, 1], edges[0, 0]]) if len(edges) == 1 else np.cross(*edges)
-    n = max(1, int(np.ceil(np.linalg.norm(edges, axis=1).max() / spacing)))
-    if len(edges) == 1:
-        weights = ((np.arange(n) + 0.5) / n)[:, None]
-    else:
-        a, b = ((m.ravel() + 1.0 / 3.0) / n for m in np.meshgrid(np.arange(n), np.arange(n), indexing="ij"))
-        weights = np.stack((a, b), axis=1)[a + b < 1.0]
-    return corners[0] + weights @ edges, normal / np.linalg.norm(normal)

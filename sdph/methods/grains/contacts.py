@@ -2,75 +2,118 @@
 
 The stress of contacts is one tensor per particle, as S of the paper (Eq. 22). The pair sum of its divergence is the
 adjoint of the velocity gradient (1/rho_i) sum m_j (v_j - v_i) grad W, so that what it takes from the motion is tau:D of
-each particle, to round-off.
+each particle, to round-off. Viscous stress is in `sdph.methods.grains.stress`.
 """
 
 from __future__ import annotations
 
-from numba import njit, prange
+from numba import prange
 
 from sdph.effects.around import walls
 from sdph.effects.grains import friction
 from sdph.engine.geometry import deep
 from sdph.engine.rows import entry, length, place
+from sdph.laws.compiled import inlined
 from sdph.laws.friction import second_invariant
+from sdph.methods.grains import stress
 from sdph.methods.grains.equations import approach, loop, separation
 
+NOTHING = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
-@njit(cache=True, error_model="numpy", forceinline=True)  # to hand over the whole state costs more than this
-def gradient(s, rows, box, pull, i):
-    """(1/rho_i) sum m_j (v_j - v_i)_a dW/dx_b [1/s]: xx, xy, xz, yx, yy, yz, zx, zy, zz."""
-    xx = xy = xz = yx = yy = yz = zx = zy = zz = 0.0
+
+@inlined
+def moments(s, rows, box, pull, i):
+    """N = (1/rho_i) sum m_j (v_j - v_i)_a dW/dx_b [1/s]: xx, xy, xz, yx, yy, yz, zx, zy, zz; M, of r_ij for v_ij [-]:
+    xx, yy, zz (1 in two dimensions), xy, yz, zx; and -(1/rho_i) sum m_j |v_ij|^2 (dW/dr)/r [1/s2]."""
+    xx = xy = xz = yx = yy = yz = zx = zy = zz = square = 0.0
+    mxx = myy = mzz = mxy = myz = mzx = 0.0
     for k in range(length(rows, i)):
         j = entry(rows, i, k)
         dx, dy, dz, _ = separation(s, box, i, j)
         du, dv, dw = approach(s, box, i, j)
         g = -pull[place(rows, i, k)]
-        xx += g * du * dx
-        xy += g * du * dy
-        yx += g * dv * dx
-        yy += g * dv * dy
+        gx, gy = g * dx, g * dy
+        xx += gx * du
+        xy += gy * du
+        yx += gx * dv
+        yy += gy * dv
+        mxx += gx * dx
+        myy += gy * dy
+        mxy += gx * dy
+        square += g * (du * du + dv * dv + dw * dw)
         if deep(box):
-            xz += g * du * dz
-            yz += g * dv * dz
-            zx += g * dw * dx
-            zy += g * dw * dy
-            zz += g * dw * dz
+            gz = g * dz
+            xz += gz * du
+            yz += gz * dv
+            zx += gx * dw
+            zy += gy * dw
+            zz += gz * dw
+            mzz += gz * dz
+            myz += gy * dz
+            mzx += gx * dz
     per = 1.0 / s.density[i]
-    return xx * per, xy * per, xz * per, yx * per, yy * per, yz * per, zx * per, zy * per, zz * per
+    mzz = mzz * per if deep(box) else 1.0
+    N = xx * per, xy * per, xz * per, yx * per, yy * per, yz * per, zx * per, zy * per, zz * per
+    return N, (mxx * per, myy * per, mzz, mxy * per, myz * per, mzx * per), square * per
+
+
+@inlined
+def added(a, b):
+    """Sum of two gradients [1/s]."""
+    return (
+        a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3], a[4] + b[4], a[5] + b[5], a[6] + b[6], a[7] + b[7],
+        a[8] + b[8],
+    )  # fmt: skip
+
+
+@inlined
+def symmetric(G):
+    """xx, yy, zz, xy, yz, zx [1/s] of the symmetric part of a gradient."""
+    return G[0], G[4], G[8], 0.5 * (G[1] + G[3]), 0.5 * (G[5] + G[7]), 0.5 * (G[6] + G[2])
+
+
+@inlined
+def deviator(G):
+    """Trace [1/s] of a gradient, and the deviator of its symmetric part (6)."""
+    xx, yy, zz, xy, yz, zx = symmetric(G)
+    rate = xx + yy + zz
+    return rate, (xx - rate / 3.0, yy - rate / 3.0, zz - rate / 3.0, xy, yz, zx)
 
 
 @loop
 def shear(
-    kernel, s, rows, box, scratch, walls_p, wall, friction_p, dt,
-    contact, traction, rubbing, contact_work, shear_squared, divergence,
+    kernel, s, rows, box, scratch, walls_p, wall, friction_p, viscous_p, dt,
+    contact, traction, rubbing, bearing, works, strain,
 ):  # fmt: skip
     """Shear of velocities as they are (see `equations.Scratch`); contact (5, N) [Pa]: stress of contacts of the state
     once they are strained over dt [s]."""
     for i in prange(len(s.x)):
-        xx, xy, xz, yx, yy, yz, zx, zy, zz = gradient(s, rows, box, scratch.pull, i)
-        B = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0  # the share of walls in the rate of strain
-        if walls.near(walls_p, wall, i):
-            behind = walls.gradient(walls_p, kernel, box, wall, s, i)
-            xx, xy, xz = xx + behind[0], xy + behind[1], xz + behind[2]
-            yx, yy, yz = yx + behind[3], yy + behind[4], yz + behind[5]
-            zx, zy, zz = zx + behind[6], zy + behind[7], zz + behind[8]
-            B = (
-                behind[0], behind[4], behind[8],
-                0.5 * (behind[1] + behind[3]), 0.5 * (behind[5] + behind[7]), 0.5 * (behind[6] + behind[2]),
-            )  # fmt: skip
-        third = (xx + yy + zz) / 3.0
-        D = xx - third, yy - third, zz - third, 0.5 * (xy + yx), 0.5 * (yz + zy), 0.5 * (zx + xz)
-        shear_squared[i] = second_invariant(*D)
-        divergence[i] = 3.0 * third
-        contact_work[i] = 0.0
+        N, M, square = moments(s, rows, box, scratch.pull, i)
+        beside = walls.near(walls_p, wall, i)
+        behind = walls.gradient(walls_p, kernel, box, wall, s, i) if beside else stress.NO_GRADIENT
+        G = added(N, behind)
+        rate, D = deviator(G)
+        strain[0, i], strain[1, i] = second_invariant(*D), rate
+        tau, mu, warm = NOTHING, 0.0, 0.0
+        per = 1.0 / s.density[i]
         if len(friction_p):
-            spin = 0.5 * (xy - yx), 0.5 * (yz - zy), 0.5 * (zx - xz)
-            tau, rubbing[i] = friction.stress(friction_p, scratch, s, i, D, spin, dt)
+            spin = 0.5 * (G[1] - G[3]), 0.5 * (G[5] - G[7]), 0.5 * (G[6] - G[2])
+            tau, mu = friction.stress(friction_p, scratch, s, i, D, spin, dt)
+            rubbing[i] = mu
             contact[0, i], contact[1, i], contact[2, i] = tau[0], tau[1], tau[3]
             contact[3, i], contact[4, i] = tau[4], tau[5]
             for a in range(6):
-                traction[i, a] = (tau[a] + 2.0 * rubbing[i] * D[a]) / s.density[i] ** 2
-            # what contacts rub on walls stays in the grains; on each other it is counted pair by pair
-            rubbed = 2.0 * rubbing[i] * friction.power(D, B)
-            contact_work[i] = (friction.power(tau, D) + rubbed) / s.density[i]
+                traction[i, a] = (tau[a] + 2.0 * mu * D[a]) * per * per
+            # what contacts rub on walls stays in the grains
+            warm = friction.power(tau, D) + 2.0 * mu * friction.power(D, symmetric(behind))
+        if len(friction_p) + len(viscous_p):
+            enclosed = not beside and stress.determinant(M) > stress.ENCLOSED
+            strain[2, i] = 1.0 if enclosed else 0.0
+            total = mu + scratch.shear[i]
+            A, sheared, squeezed = stress.NO_GRADIENT, square, 0.0
+            if enclosed:
+                A, sheared, squeezed = stress.viscous(N, M, square, total, scratch.bulk[i])
+            stress.bear(bearing, i, box, per * per, total, A, tau)
+            works[0, i] = (scratch.shear[i] * sheared + scratch.bulk[i] * squeezed) * per
+            warm += mu * sheared
+        works[1, i] = warm * per

@@ -25,6 +25,8 @@ from sdph.effects.grains import (
 from sdph.engine.geometry import FAST, deep, nearest_image
 from sdph.engine.rows import entry, length, place
 from sdph.laws import kernels
+from sdph.laws.compiled import inlined
+from sdph.methods.grains import stress
 
 # Sums reordered and divisions shared are 2.3 times as fast as none of it.
 loop = njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
@@ -51,8 +53,9 @@ class Scratch(NamedTuple):
     contacts over density squared [Pa m6/kg2], slope of the latter's pressure against alpha_p [Pa], shear and bulk
     viscosity of agitation [Pa s], conductivity of theta [kg/m/s], sound speed [m/s]; by `contacts.shear`: stress of
     contacts, elastic and viscous, over density squared (N, 6) [Pa m6/kg2], xx, yy, zz, xy, yz, zx, their viscosity (N,)
-    [Pa s], both without length where there is no friction; work of it, and of what rubs on walls (N,) [W/kg];
-    I2D = dev(D):dev(D)/2 (N,) [1/s2] and div v (N,) [1/s].
+    [Pa s], both without length where there is no friction; bearing (N, 5) or (N, 10) of `stress.pair`, over density
+    squared; works (2, N) [W/kg] of viscosity into theta, and of contacts and what rubs on walls into heat; strain (3,
+    N): I2D = dev(D):dev(D)/2 [1/s2], div v [1/s], and 1 where neighbours enclose the particle (`stress.ENCLOSED`).
     """
 
     pull: np.ndarray
@@ -66,9 +69,9 @@ class Scratch(NamedTuple):
     sound: np.ndarray
     traction: np.ndarray
     rubbing: np.ndarray
-    contact_work: np.ndarray
-    shear_squared: np.ndarray
-    divergence: np.ndarray
+    bearing: np.ndarray
+    works: np.ndarray
+    strain: np.ndarray
 
     @property
     def stress(self) -> tuple[np.ndarray, ...]:
@@ -81,14 +84,16 @@ class Scratch(NamedTuple):
         return self[9:]
 
 
-def scratch(count: int, entries: int, friction: bool) -> Scratch:
-    """Room for `count` particles with so many `entries` in their rows; nothing is sheared."""
+def scratch(count: int, entries: int, friction: bool, deep: bool = False) -> Scratch:
+    """Room for `count` particles with so many `entries` in their rows, in 3-D where `deep`; nothing is sheared."""
     rubbed = count if friction else 0
-    stress, sheared = [np.zeros(count) for _ in range(8)], [np.zeros(count) for _ in range(3)]
-    return Scratch(np.empty(entries), *stress, np.zeros((rubbed, 6)), np.zeros(rubbed), *sheared)
+    constituted = [np.zeros(count) for _ in range(8)]
+    sheared = np.zeros((count, 10 if deep else 5)), np.zeros((2, count)), np.zeros((3, count))
+    sheared[2][2] = 1.0  # no particle is held to lie open before one has been looked at
+    return Scratch(np.empty(entries), *constituted, np.zeros((rubbed, 6)), np.zeros(rubbed), *sheared)
 
 
-@njit(cache=True, error_model="numpy")
+@inlined
 def separation(s, box, i, j):
     """r_i - r_j (3 components; the last 0 in two dimensions) through periodic boundaries, and its square."""
     dz = s.z[i] - s.z[j] if deep(box) else 0.0
@@ -96,7 +101,7 @@ def separation(s, box, i, j):
     return dx, dy, dz, dx * dx + dy * dy + dz * dz
 
 
-@njit(cache=True, error_model="numpy")
+@inlined
 def approach(s, box, i, j):
     """v_i - v_j (3 components)."""
     dw = s.w[i] - s.w[j] if deep(box) else 0.0
@@ -158,18 +163,16 @@ def conduct(kernel, s, rows, box, pull, conduction_p, heating):
         heating[i] = warmth
 
 
-@njit(cache=True, error_model="numpy")
+@inlined
 def by_pair(
     kernel, s, box, scratch, viscous_p, friction_p, artificial_p, temperature_p, conduction_p, i, j, pull_ij
 ):  # fmt: skip
     """Of a particle i by another, j: acceleration (3 values) [m/s2], rate of theta, and heat by rubbing and by
     conduction [W/kg]; pull_ij = m_j (dW/dr)/r."""
     rho_i, rho_j = s.density[i], s.density[j]
-    per_i, per_j = 1.0 / rho_i, 1.0 / rho_j
     dx, dy, dz, r2 = separation(s, box, i, j)
     du, dv, dw = approach(s, box, i, j)
-    closing, v2 = du * dx + dv * dy + dw * dz, du * du + dv * dv + dw * dw
-    scale = pull_ij * per_i * per_j
+    closing, scale = du * dx + dv * dy + dw * dz, pull_ij / (rho_i * rho_j)
 
     # section 2.1, corrected: -m_j (S_i/rho_i^2 + S_j/rho_j^2 + Pi_ij) grad W, S = p I - tau
     agitated = pull_ij * (scratch.agitated[i] + scratch.agitated[j])
@@ -177,22 +180,16 @@ def by_pair(
     ringing = pull_ij * artificial_viscosity.pair(
         artificial_p, kernel.h, closing, r2, scratch.sound[i], scratch.sound[j], rho_i, rho_j
     )
-    along, across = granular_viscosity.pair(viscous_p, scratch, i, j, r2, closing, scale)
-    rub_along, rub_across = friction.pair(friction_p, scratch.rubbing, i, j, r2, closing, scale)
-    fx, fy, fz = friction.elastic(friction_p, s, box, i, j, per_i, per_j, dx, dy, dz)
-    push, drag = along + rub_along - agitated - lasting - ringing, across + rub_across
+    fx, fy, fz = stress.pair(viscous_p, friction_p, scratch.bearing, box, i, j, dx, dy, dz, du, dv, dw)
+    push = -agitated - lasting - ringing
 
-    viscous = -along * closing - across * v2
-    rubbed = lasting * closing - rub_along * closing - rub_across * v2
-    work = granular_temperature.pair(
-        temperature_p, scratch, s, i, j, agitated * closing, viscous, ringing * closing, scale
-    )
+    work = granular_temperature.pair(temperature_p, scratch, s, i, j, agitated * closing, ringing * closing, scale)
     return (
-        push * dx + drag * du + pull_ij * fx,
-        push * dy + drag * dv + pull_ij * fy,
-        push * dz + drag * dw + pull_ij * fz,
+        push * dx + pull_ij * fx,
+        push * dy + pull_ij * fy,
+        push * dz + pull_ij * fz,
         work,
-        0.5 * (rubbed + granular_temperature.rest(temperature_p, ringing * closing)),
+        0.5 * (lasting * closing + granular_temperature.rest(temperature_p, ringing * closing)),
         conduction.pair(conduction_p, kernel.h, s, i, j, r2, pull_ij),
     )
 
@@ -205,8 +202,8 @@ def rates(
     """Of grains that move: acceleration (N, 3) [m/s2] by each other; of_walls (N, 7) as `account.kick` takes it;
     agitation (N,) [W/kg] that feeds theta, heating (N,) [W/kg]."""
     for i in prange(len(s.x)):
-        ax = ay = az = work = 0.0
-        warmth = scratch.contact_work[i]
+        ax = ay = az = 0.0
+        work, warmth = scratch.works[0, i], scratch.works[1, i]
         if walls.near(walls_p, wall, i):
             wx, wy, wz, tx, ty, tz, slid, lost = walls.force(walls_p, kernel, box, wall, s, i, scratch, friction_p)
             of_walls[i, 0] = wx

@@ -7,14 +7,14 @@ import math
 import numpy as np
 
 from sdph import effects
-from sdph.effects.around.inflow import Source
 from sdph.effects.around.outflow import leaving, refuse_to_leave
+from sdph.effects.around.source import Source
 from sdph.engine import state as particles
 from sdph.engine.clock import Clock
 from sdph.engine.kept import Unfit
 from sdph.engine.ledger import vector
 from sdph.engine.state import INFLOW
-from sdph.engine.walls import sides as boundary
+from sdph.engine.walls import facets
 from sdph.methods.grains import start
 from sdph.methods.grains.history import tracked
 from sdph.methods.grains.method import Stepper
@@ -174,7 +174,7 @@ class Grains:
     def walls(self):
         """Meshes of walls as a pyvista surface; None where there are none: sides of the domain are seen anyway."""
         mesh = self.case.parameters["walls"].mesh if self.parameters["walls"] else ""
-        return boundary.surface(mesh, self.case.dimensions) if mesh else None
+        return facets.drawn(mesh, self.case.dimensions) if mesh else None
 
     def summary(self) -> dict[str, float]:
         """Its part of summary.json."""

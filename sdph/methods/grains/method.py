@@ -13,7 +13,6 @@ from sdph import effects
 from sdph.effects import OFF, REGISTRY
 from sdph.effects.around import wall_contact, walls
 from sdph.effects.grains import friction, grain_shifting, granular_temperature
-from sdph.effects.grains.granular_viscosity import Viscous
 from sdph.engine import state as particles
 from sdph.engine.clock import count_of_parts
 from sdph.engine.kept import GROWING, Unfit
@@ -46,9 +45,8 @@ class Stepper:
         self.neighbours = Neighbours(REACH * case.smoothing_length, case.domain.period, case.resolution.neighbour_skin)
         self.boundary = Boundary(case) if parameters["walls"] else None
         self.mouths = source.mouths(self.boundary.dummies) if source and self.boundary else None  # nozzle of each dummy
-        self.viscous = Viscous(float(case.dimensions)) if parameters["granular_viscosity"] else OFF
         algebraic = parameters["granular_temperature"] and parameters["granular_temperature"].model == 1
-        self.shears = bool(parameters["friction"] or algebraic)
+        self.shears = bool(parameters["friction"] or parameters["granular_viscosity"] or algebraic)
         self.gravity = np.array(parameters["gravity"] or (0.0, 0.0, 0.0))
         self.steps, self.contacts, self.limit = 0, 0, ""
         self.shortest = shortest  # sub-step [s] below which the run gets nowhere
@@ -73,8 +71,8 @@ class Stepper:
         """Unfit where the particles cannot be of this case, or their rows were not made near to where they are."""
         state, built = kept["state"], kept["neighbours"]["built"]
         names = {name for effect in self.case.effects for name in REGISTRY[effect].arrays}
-        born = [streams.mass for streams in self.source.streams] if self.source else []
-        self.guard.admit_grains(state, names, max(self.state.mass.max(initial=0.0), *born, 0.0))
+        born = self.source.heaviest if self.source else 0.0
+        self.guard.admit_grains(state, names, max(self.state.mass.max(initial=0.0), born))
         here = [state[axis] for axis in "xyz"[: self.case.dimensions]]
         if built and [len(axis) for axis in built] != [len(axis) for axis in here]:
             raise Unfit("rows of neighbours are of other particles")
@@ -97,7 +95,9 @@ class Stepper:
     def _look_around(self) -> None:
         """Make what belongs to neighbour rows just made."""
         self.rows, built, count = self.neighbours.rows, self.neighbours.built, len(self.state.x)
-        self.scratch = rates.scratch(count, len(self.rows.entries), bool(self.parameters["friction"]))
+        self.scratch = rates.scratch(
+            count, len(self.rows.entries), bool(self.parameters["friction"]), self.case.dimensions == 3
+        )
         self.of_walls = np.zeros((count, 7))
         if self.boundary:
             rows = self.boundary.rows(built)
@@ -193,9 +193,9 @@ class Stepper:
             self._extrapolate()
         acceleration, agitation, heating = np.empty((count, 3)), np.empty(count), np.empty(count)
         rates.rates(
-            self.kernel, s, self.rows, self.neighbours.box, self.scratch, self.viscous, p["friction"],
-            p["artificial_viscosity"], p["granular_temperature"], p["conduction"], *self._walls(), acceleration,
-            self.of_walls, agitation, heating,
+            self.kernel, s, self.rows, self.neighbours.box, self.scratch, p["granular_viscosity"],
+            p["friction"], p["artificial_viscosity"], p["granular_temperature"], p["conduction"], *self._walls(),
+            acceleration, self.of_walls, agitation, heating,
         )  # fmt: skip
         account.kick(
             s, acceleration, self.of_walls, agitation + heating, self.gravity, dt, self.account.impulses,
@@ -222,8 +222,8 @@ class Stepper:
         s, rubs = self.state, self.parameters["friction"]
         contact = np.empty((len(friction.ARRAYS), len(s.x) if rubs else 0))
         shearing.shear(
-            self.kernel, s, self.rows, self.neighbours.box, self.scratch, *self._walls(), rubs, dt, contact,
-            *self.scratch.shearing,
+            self.kernel, s, self.rows, self.neighbours.box, self.scratch, *self._walls(), rubs,
+            self.parameters["granular_viscosity"], dt, contact, *self.scratch.shearing,
         )  # fmt: skip
         for name, values in zip(friction.ARRAYS, contact):
             own = getattr(s, name)
@@ -246,8 +246,8 @@ class Stepper:
             return np.zeros(count)
         theta, held, collided, damped = (np.empty(count) for _ in range(4))
         granular_temperature.advance_all(
-            self.parameters["granular_temperature"], s, agitation, s.damping, self.scratch.shear_squared,
-            self.scratch.divergence, dt, theta, held, collided, damped,
+            self.parameters["granular_temperature"], s, agitation, s.damping, *self.scratch.strain[:2],
+            dt, theta, held, collided, damped,
         )  # fmt: skip
         waiting = s.kind == INFLOW
         held[waiting] = collided[waiting] = damped[waiting] = 0.0

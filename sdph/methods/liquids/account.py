@@ -15,8 +15,7 @@ from __future__ import annotations
 import numpy as np
 
 from sdph.engine import state as particles
-from sdph.methods.liquids import losses, walls
-from sdph.methods.liquids.loads import balance
+from sdph.methods.liquids import loads, losses, openings, walls
 
 EVERY = 32  # steps; our choice: 2 % of the time of a step
 
@@ -24,22 +23,34 @@ EVERY = 32  # steps; our choice: 2 % of the time of a step
 LOADS, BODY, GRAVITY, FRAME = slice(0, 6), slice(6, 9), 9, 10
 WALLS, BY_WALLS, HELD_OFF = slice(11, 14), 14, 15
 TENSION, BY_TENSION = slice(16, 19), 19
-LOST = slice(20, 20 + len(losses.CAUSES))
-SINCE = LOST.stop  # time [s] since the last look
+INLET, BY_INLET = slice(20, 23), 23
+LOST = slice(24, 24 + len(losses.CAUSES))
+BUBBLE, BY_BUBBLE = slice(LOST.stop, LOST.stop + 3), LOST.stop + 3
+SINCE = BY_BUBBLE + 1  # time [s] since the last look
 SIZE = SINCE + 1
 
 
 def rates(stepper, ahead: float, last: np.ndarray | None) -> np.ndarray:
     """(SIZE,) of now, before a kick by `ahead` [s]; `last` is what was told in the step before, None where nothing."""
     now = np.zeros(SIZE)
-    now[: FRAME + 1] = balance(stepper, ahead)
+    now[: FRAME + 1] = loads.balance(stepper, ahead)
     if len(stepper.walls):
-        felt = walls.feel(stepper, stepper.walls, ahead).sum(axis=0)
-        now[WALLS], now[BY_WALLS : HELD_OFF + 1] = -felt[:3], felt[3:]
+        felt = walls.feel(stepper, stepper.walls, ahead)
+        of_bodies = stepper.bodies.among(stepper.walls) if stepper.bodies else np.zeros(len(felt), bool)
+        now[WALLS], now[BY_WALLS : HELD_OFF + 1] = -felt[~of_bodies, :3].sum(axis=0), felt[:, 3:].sum(axis=0)
+        now[LOADS] -= loads.of_forces(stepper, stepper.walls[of_bodies], felt[of_bodies, :3])  # they are no tank
     if stepper.p["surface_tension"]:
         pull = stepper.state.mass[:, None] * stepper.tightening
         velocity = particles.velocities(stepper.state) + ahead * stepper.acceleration
         now[TENSION], now[BY_TENSION] = pull.sum(axis=0), (pull * velocity).sum()
+    if stepper.void:
+        push = stepper.state.mass[:, None] * stepper.inflating
+        velocity = particles.velocities(stepper.state) + ahead * stepper.acceleration
+        now[BUBBLE], now[BY_BUBBLE] = push.sum(axis=0), (push * velocity).sum()
+        now[LOADS] += loads.of_forces(stepper, np.arange(len(push)), push)  # the bubble is no tank
+    if len(stepper.waiting):
+        now[INLET], moment, now[BY_INLET] = openings.given(stepper, ahead)
+        now[LOADS] += np.concatenate((now[INLET], moment))  # what waits is no tank
     if last is None or (ahead and stepper.steps % EVERY == 0):
         now[LOST] = _lost(stepper, ahead)
     else:
@@ -61,5 +72,5 @@ def _lost(stepper, ahead: float) -> tuple:
     return losses.losses(
         stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, stepper.flow, stepper.wall,
         stepper.viscous, p["liquid_damping"], () if stepper.summed else p["density_diffusion"], p["shifting"],
-        stepper.phases, stepper.excess, stepper.gradient, stepper.acceleration, ahead,
+        stepper.phases, stepper.excess, stepper.gradient, stepper.acceleration, stepper.moving, ahead,
     )  # fmt: skip

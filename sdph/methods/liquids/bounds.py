@@ -6,25 +6,30 @@ particle as fast as sound is past all that the case foresaw.
 
 from __future__ import annotations
 
+import math
 import sys
 
 import numpy as np
 
 from sdph import effects
 from sdph.engine import state as particles
-from sdph.engine.guard import DENSE, RUNAWAY, TINY, Watch
+from sdph.engine.guard import DENSE, FAR, RUNAWAY, TINY, Watch
 from sdph.engine.kept import Unfit
+from sdph.engine.state import GAS, INFLOW, LIQUID, WALL
+
+FORCE = 0.25  # of sqrt(h/|a|), liquids.md, shared core
 
 
 class LiquidGuard(Watch):
     """Looks at all particles after every window, and at once when the fastest outruns sound."""
 
-    def admit_liquid(self, state: dict, fresh, kinds) -> None:
-        """`admit` of a liquid and its walls that began as the State `fresh`; `kinds` that there are."""
+    def admit_liquid(self, state: dict, fresh, kinds, number_of_last: int) -> None:
+        """`admit` of a liquid and its walls that began as the State `fresh`; `kinds` that there are, and the number of
+        the particle that was made last."""
         fast = RUNAWAY * self.case.fastest_sound
         bounds = dict.fromkeys("uvw", (-fast, fast)) | {
             "mass": (TINY, fresh.mass.max()),
-            "ident": (0, len(fresh.x) - 1),
+            "ident": (0, number_of_last),
         }
         self.admit(
             state,
@@ -33,6 +38,28 @@ class LiquidGuard(Watch):
         )
         if not np.isin(state["kind"], kinds).all():
             raise Unfit("a particle is of no phase and of no wall")
+
+    def admit_stepper(self, own, kept: dict) -> None:
+        """Unfit where what was kept of a LiquidStepper cannot be of this case; `own` is a fresh one."""
+        state, built = kept["state"], kept["neighbours"]["built"]
+        gas, inflow = (GAS,) if self.case.gas_phase else (), (INFLOW,) if own.p["inflow"] else ()
+        made = kept["openings"]["source"]["next_ident"] if own.p["inflow"] else len(own.state.x)
+        self.admit_liquid(state, own.state, (WALL, LIQUID, *gas, *inflow), made - 1)
+        count = len(state["x"])
+        if [len(axis) for axis in built] != [count] * self.case.dimensions:
+            raise Unfit("rows of neighbours are of other particles")
+        for name in own.ROWS:
+            one = isinstance(fresh := getattr(own, name), np.ndarray)  # else several
+            for array, like in zip([kept[name]], [fresh]) if one else zip(kept[name], fresh):
+                if len(array) != (count if len(like) else 0):
+                    raise Unfit(f"{name} has {len(array)} values for {count} particles")
+        far, wild = FAR * max(self.case.domain.size), FAR * self.case.fastest_sound**2 / own.kernel.h
+        for name, values, most in (
+            ("acceleration", kept["acceleration"], wild),
+            *(("a place at the last rows", axis, far) for axis in built),
+        ):
+            if np.abs(values).max(initial=0.0) > most:
+                raise Unfit(f"{name} is beyond {most:.3g}")
 
     def look(self, stepper) -> None:
         """NaN, speed, density, acceleration."""
@@ -49,3 +76,12 @@ class LiquidGuard(Watch):
         self.hold("density", wet.density, (sys.float_info.min, sys.float_info.max, "kg/m3"), wet, lower)
         size = np.sqrt((stepper.acceleration[stepper.active] ** 2).sum(axis=1))
         self.hold("acceleration", size, (0.0, sys.float_info.max, "m/s2"), wet, lower)
+
+
+def limits(case, parameters, state, speed: float, acceleration: float) -> dict[str, float]:
+    """Longest steps [s] by cause: sound of the fastest particle [m/s], force on the most pushed [m/s2], each effect."""
+    h = case.smoothing_length
+    own = {"sound": case.liquid.courant * h / (case.fastest_sound + speed)}
+    if acceleration:
+        own["force"] = FORCE * math.sqrt(h / acceleration)
+    return own | effects.limits(parameters, case, state)

@@ -20,7 +20,7 @@ from sdph.engine.rows import entry, length
 from sdph.laws.eos import tait_pressure
 from sdph.laws.matrices import solved
 from sdph.methods.liquids import correction, phases
-from sdph.methods.liquids.forces import body, held_off
+from sdph.methods.liquids.forces import body, held_off, velocity
 
 
 class Flow(NamedTuple):
@@ -51,6 +51,42 @@ def state_of(fluids, s, active, pressure, volume):
         volume[i] = s.mass[i] / s.density[i]
 
 
+@njit(cache=True, error_model="numpy", fastmath=FAST, forceinline=True)
+def by_pair(kernel, s, box, flow, wall_p, laminar_p, damping_p, phases_p, excess, i, j, own, outside):
+    """Of a liquid particle i by another, j: force per volume (3 values) [N/m3]; share V_j (dW/dr)/r of liquid of its
+    kind [1/m2], the rise of pressure to j [Pa], and r_ij (3 values) [m].
+
+    own: pressure of i [Pa] with the sign that tension control gives it; outside (3 values): its acceleration [m/s2]."""
+    rho_i, p_i = s.density[i], flow.pressure[i]
+    dx, dy, dz = apart(s, box, i, j)
+    du, dv, dw = faster(s, box, i, j)
+    r2 = dx * dx + dy * dy + dz * dz
+    r = math.sqrt(r2)
+    slope = smoothing.slope(kernel, r)
+    signed = flow.volume[j]
+    wet, V = max(signed, 0.0), abs(signed)
+    stick, behind = (1.0, j) if signed > 0.0 else (wall_p.stick, i)
+    closing = du * dx + dv * dy + dw * dz
+    kind_j = phases.kind(phases_p, signed, s.kind[i], s.kind[j])
+    rho_j = phases.density(phases_p, signed, rho_i, s.density[j])
+    weight = outside[0] * dx + outside[1] * dy + outside[2] * dz
+    p_j = phases.behind(phases_p, signed, flow.pressure[j], p_i - rho_i * weight)
+    mean = phases.harmonic(phases_p, rho_i, rho_j)
+    ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY)) * mean
+    friction = laminar_viscosity.central(laminar_p, s, i, behind, s.kind[i], kind_j, closing, r2)
+
+    # rho_i dv_i/dt = -sum V_j (p_i + p_j) grad W + sum V_j 2 mu r.grad W/(r^2 + eta^2) v_ij
+    pressed = phases.pressure(phases_p, own, p_j, rho_i, rho_j) + held_off(wall_p, signed, rho_i, r)
+    along = -V * slope * (pressed + stick * (ringing + friction))
+    across = V * slope * stick * laminar_viscosity.pair(laminar_p, s, i, behind)
+    fx, fy, fz = along * dx + across * du, along * dy + across * dv, along * dz + across * dw
+    if len(excess):  # B of a wall is that of the liquid in front
+        parts = phases.share(phases_p, rho_i, rho_j) * own, phases.share(phases_p, rho_j, rho_i) * p_j
+        ex, ey, ez = correction.extra(excess, i, behind, parts[0], parts[1], dx, dy, dz)
+        fx, fy, fz = fx - V * slope * ex, fy - V * slope * ey, fz - V * slope * ez
+    return fx, fy, fz, wet * slope * phases.like(phases_p, s.kind[i], kind_j), p_j - p_i, dx, dy, dz
+
+
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
 def push(
     kernel, s, rows, box, flow, wall_p, gravity_p, frame_p, laminar_p, damping_p, diffusion_p, shifting_p, phases_p,
@@ -60,72 +96,30 @@ def push(
     it."""
     for n in prange(len(flow.active)):
         i = flow.active[n]
-        p_i, rho_i = flow.pressure[i], s.density[i]
-        sign_i = shifting.sign(shifting_p, p_i, flow.least[i] if len(flow.least) else 1.0)
-        bx, by, bz = body(gravity_p, frame_p, s, i, False)
-        ax = ay = az = gx = gy = gz = 0.0
-        xx = yy = zz = xy = yz = zx = 0.0
+        rho_i, p_i = s.density[i], flow.pressure[i]
+        own = shifting.sign(shifting_p, p_i, flow.least[i] if len(flow.least) else 1.0) * p_i
+        outside = body(gravity_p, frame_p, s, i, False)
+        ax = ay = az = gx = gy = gz = xx = yy = zz = xy = yz = zx = 0.0
         for k in range(length(rows, i)):
-            j = entry(rows, i, k)
-            dx, dy, dz = apart(s, box, i, j)
-            du, dv, dw = faster(s, box, i, j)
-            r2 = dx * dx + dy * dy + dz * dz
-            r = math.sqrt(r2)
-            slope = smoothing.slope(kernel, r)
-            signed = flow.volume[j]
-            wet, V = max(signed, 0.0), abs(signed)
-            stick = 1.0 if signed > 0.0 else wall_p.stick
-            closing = du * dx + dv * dy + dw * dz
-            kind_j, rho_j = (
-                phases.kind(phases_p, signed, s.kind[i], s.kind[j]),
-                phases.density(phases_p, signed, rho_i, s.density[j]),
-            )
-            p_j = phases.behind(phases_p, signed, flow.pressure[j], p_i - rho_i * (bx * dx + by * dy + bz * dz))
-            ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY)) * phases.harmonic(
-                phases_p, rho_i, rho_j
-            )
-            friction = laminar_viscosity.central(
-                laminar_p, s, i, j if signed > 0.0 else i, s.kind[i], kind_j, closing, r2
-            )
-
-            # rho_i dv_i/dt = -sum V_j (p_i + p_j) grad W + sum V_j 2 mu r.grad W/(r^2 + eta^2) v_ij
-            along = (
-                -V
-                * slope
-                * (
-                    phases.pressure(phases_p, sign_i * p_i, p_j, rho_i, rho_j)
-                    + stick * (ringing + friction)
-                    + held_off(wall_p, signed, rho_i, r)
-                )
-            )
-            across = V * slope * stick * laminar_viscosity.pair(laminar_p, s, i, j if signed > 0.0 else i)
-            ax += along * dx + across * du
-            ay += along * dy + across * dv
-            az += along * dz + across * dw
-            if len(excess):  # B of a wall is that of the liquid in front
-                own, other = (
-                    phases.share(phases_p, rho_i, rho_j) * sign_i * p_i,
-                    phases.share(phases_p, rho_j, rho_i) * p_j,
-                )
-                ex, ey, ez = correction.extra(excess, i, j if signed > 0.0 else i, own, other, dx, dy, dz)
-                ax -= V * slope * ex
-                ay -= V * slope * ey
-                az -= V * slope * ez
-
-            share = wet * slope * phases.like(phases_p, s.kind[i], kind_j)
-            rise = share * (p_j - p_i)
-            gx += rise * dx
-            gy += rise * dy
-            gz += rise * dz
+            fx, fy, fz, share, rise, dx, dy, dz = by_pair(
+                kernel, s, box, flow, wall_p, laminar_p, damping_p, phases_p, excess, i, entry(rows, i, k), own,
+                outside,
+            )  # fmt: skip
+            ax += fx
+            ay += fy
+            az += fz
+            gx += share * rise * dx
+            gy += share * rise * dy
+            gz += share * rise * dz
             xx -= share * dx * dx
             yy -= share * dy * dy
             zz -= share * dz * dz
             xy -= share * dx * dy
             yz -= share * dy * dz
             zx -= share * dz * dx
-        acceleration[i, 0] = ax / rho_i + bx
-        acceleration[i, 1] = ay / rho_i + by
-        acceleration[i, 2] = az / rho_i + bz
+        acceleration[i, 0] = ax / rho_i + outside[0]
+        acceleration[i, 1] = ay / rho_i + outside[1]
+        acceleration[i, 2] = az / rho_i + outside[2]
         if len(diffusion_p) or len(shifting_p):
             steep = solved(xx, yy, zz if len(s.z) else 1.0, xy, yz, zx, gx, gy, gz)
             gradient[i, 0] = steep[0]
@@ -146,7 +140,7 @@ def sum_up(kernel, s, rows, box, active, lattice, density):
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
-def compress(kernel, s, rows, box, flow, wall_p, diffusion_p, phases_p, gradient, rate):
+def compress(kernel, s, rows, box, flow, wall_p, moving, diffusion_p, phases_p, gradient, rate):
     """d rho/dt (N,) [kg/m3/s] = rho_i sum V_j v_ij.grad W + delta h c sum V_j psi_ij.grad W (Antuono et al. 2010)."""
     for n in prange(len(flow.active)):
         i = flow.active[n]
@@ -157,9 +151,10 @@ def compress(kernel, s, rows, box, flow, wall_p, diffusion_p, phases_p, gradient
             dx, dy, dz = apart(s, box, i, j)
             signed, u_j, v_j = flow.volume[j], s.u[j], s.v[j]  # read before they are chosen from: no branch
             w_j = s.w[j] if deep(box) else 0.0
-            du = s.u[i] - (u_j if signed > 0.0 else wall_p.u)
-            dv = s.v[i] - (v_j if signed > 0.0 else wall_p.v)
-            dw = s.w[i] - (w_j if signed > 0.0 else wall_p.w) if deep(box) else 0.0
+            wall_u, wall_v, wall_w = velocity(wall_p, moving, j)
+            du = s.u[i] - (u_j if signed > 0.0 else wall_u)
+            dv = s.v[i] - (v_j if signed > 0.0 else wall_v)
+            dw = s.w[i] - (w_j if signed > 0.0 else wall_w) if deep(box) else 0.0
             slope = smoothing.slope(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
             rho_j = phases.density(phases_p, signed, rho_i, s.density[j])
             growth += abs(signed) * slope * phases.share(phases_p, rho_i, rho_j) * (du * dx + dv * dy + dw * dz)

@@ -2,9 +2,29 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
+import numpy as np
 from numba import njit
 
 from sdph.effects.around import frame, gravity
+from sdph.laws.compiled import inlined
+
+
+class Moving(NamedTuple):
+    """Velocities (N,) [m/s] of wall particles that are of bodies, 0 of all others; `()` where there are no bodies."""
+
+    u: np.ndarray
+    v: np.ndarray
+    w: np.ndarray
+
+
+@inlined
+def velocity(wall_p, moving, j):
+    """Velocity [m/s] (3 components) of wall particle j: of the walls all over, or of its own."""
+    if len(moving) == 0:
+        return wall_p.u, wall_p.v, wall_p.w
+    return moving.u[j], moving.v[j], moving.w[j]
 
 
 @njit(cache=True, error_model="numpy")

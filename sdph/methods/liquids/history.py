@@ -9,7 +9,8 @@ import numpy as np
 from sdph import effects
 from sdph.engine import state as particles
 from sdph.engine.state import GAS, LIQUID
-from sdph.methods.liquids.loads import balance, kinetic_energy, pipe_energy, pipe_loads, wall_loads
+from sdph.methods.liquids import account
+from sdph.methods.liquids.loads import kinetic_energy, pipe_energy, pipe_loads, wall_loads
 
 
 def row(run) -> dict[str, float]:
@@ -31,6 +32,7 @@ def row(run) -> dict[str, float]:
         values[f"centre_{name}_m"] = float((mass * places[:, a]).sum() / mass.sum()) if len(mass) else math.nan
         values[f"momentum_{name}_kg_m_s"] = float((mass * velocities[:, a]).sum())
         values[f"largest_{name}_m"] = float(places[:, a].max()) if len(mass) else math.nan
+    values |= stepper.void.row() if stepper.void else {}
     return values | columns(stepper) | _drained(run) | _loads(run) | _told(stepper)
 
 
@@ -59,7 +61,7 @@ def _loads(run) -> dict[str, float]:
     """On the tank: the mean since the last row by the momentum theorem, and what the walls feel now."""
     if "tank" not in run.case.effects:
         return {}
-    mean = run.impulse / (run.time - run.since) if run.time > run.since else balance(run.stepper)[:6]
+    mean = run.impulse / (run.time - run.since) if run.time > run.since else run.rates[account.LOADS]
     names = ("force_x_N", "force_y_N", "force_z_N", "moment_x_Nm", "moment_y_Nm", "moment_z_Nm")
     loads = {"mean": mean, "wall": wall_loads(run.stepper)}
     if run.case.parameters["tank"].outlet_radius:

@@ -34,7 +34,7 @@ def held(stepper) -> dict[str, float]:
 
 
 def _by_walls(stepper) -> dict[str, float]:
-    if not stepper.p["tank"]:
+    if not (stepper.p["tank"] or stepper.bodies):
         return {}
     wets, holds = np.zeros((2, len(stepper.walls)), bool)
     in_front(

@@ -10,6 +10,7 @@ from sdph.effects.around import drain, tank
 from sdph.engine import state as particles
 from sdph.engine.kept import Unfit
 from sdph.methods.liquids import account, history, limiters
+from sdph.methods.liquids.bodies import Carrier
 from sdph.methods.liquids.loads import kinetic_energy
 from sdph.methods.liquids.method import LiquidStepper
 from sdph.methods.liquids.outlet import Outlet
@@ -26,9 +27,9 @@ class Liquid:
     matter = "liquid"
     KEPT = ("windows", "stepper", "outlet", "ledger", "rates", "impulse", "since")  # see sdph.engine.kept
 
-    def __init__(self, case, ledger: Path, shortest: float):
+    def __init__(self, case, ledger: Path, shortest: float, carrier: Carrier | None = None):
         self.case, self.windows = case, 0
-        self.stepper, self.ledger = LiquidStepper(case, shortest), LiquidLedger(ledger)
+        self.stepper, self.ledger = LiquidStepper(case, shortest, carrier), LiquidLedger(ledger)
         self.outlet = Outlet(self.stepper) if "drain" in case.effects else None
         self.fill = drain.command(case.parameters["drain"], self.outlet.fill) if self.outlet else None
         self.rates = account.rates(self.stepper, 0.0, None)  # what acts now
@@ -49,6 +50,10 @@ class Liquid:
     @property
     def limit(self) -> str:
         return self.stepper.limit
+
+    def tables(self) -> list:
+        """Files that grow by rows."""
+        return [self.ledger.table]
 
     def start(self) -> None:
         self.ledger.open(self.stepper)

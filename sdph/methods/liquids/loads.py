@@ -31,7 +31,13 @@ def wall_loads(stepper, chosen=None) -> np.ndarray:
     """(6,) the same, from what each wall particle feels of pressure and friction; of the wall particles `chosen` alone,
     if given."""
     chosen = stepper.walls if chosen is None else chosen
-    force = walls.feel(stepper, chosen, 0.0)[:, :3]
+    if stepper.bodies:
+        chosen = chosen[~stepper.bodies.among(chosen)]
+    return of_forces(stepper, chosen, walls.feel(stepper, chosen, 0.0)[:, :3])
+
+
+def of_forces(stepper, chosen, force) -> np.ndarray:
+    """(6,) sum of forces (W, 3) [N] on the particles `chosen` (W,), and of their moments about the origin."""
     places = particles.positions(stepper.state)[chosen]
     return np.concatenate([force.sum(axis=0), np.cross(places, force).sum(axis=0)])
 

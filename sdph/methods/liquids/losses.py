@@ -14,6 +14,7 @@ from sdph.effects.liquids import density_diffusion, laminar_viscosity, liquid_da
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import FAST, apart, deep, faster
 from sdph.engine.rows import entry, length
+from sdph.laws.compiled import inlined
 from sdph.methods.liquids import correction, phases
 
 # of their sum: viscosity of the liquid, artificial viscosity, diffusion of density, control of tension, corrected
@@ -24,7 +25,7 @@ CAUSES = ("viscosity_J", "damping_J", "diffusion_J", "tension_control_J", "gradi
 @njit(cache=True, error_model="numpy")
 def rubbed(laminar_p, damping_p, phases_p, s, i, j, signed, d, dv, v):
     """Of a pair, over V_i V_j (dW/dr)/r stick: power [J m2/s] lost to the viscosity of the liquid, and to the
-    artificial one; d, dv = r_ij, v_ij; v velocity of i."""
+    artificial one; d, dv = r_ij, v_ij; v velocity of i, past a body that over the body's."""
     dx, dy, dz = d
     du, dv_, dw = dv
     r2 = dx * dx + dy * dy + dz * dz
@@ -37,6 +38,14 @@ def rubbed(laminar_p, damping_p, phases_p, s, i, j, signed, d, dv, v):
     ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (math.sqrt(r2) + smoothing.TINY))
     ringing *= phases.harmonic(phases_p, s.density[i], rho_j)
     return friction * parting - across * (du * v[0] + dv_ * v[1] + dw * v[2]), ringing * parting
+
+
+@inlined
+def moved(moving, j):
+    """Velocity [m/s] (3 components) of what j belongs to where it is of a body, else 0."""
+    if len(moving) == 0:
+        return 0.0, 0.0, 0.0
+    return moving.u[j], moving.v[j], moving.w[j]
 
 
 @njit(cache=True, error_model="numpy")
@@ -64,7 +73,7 @@ def unmatched(excess, phases_p, s, pressure, i, j, sign_i, d, v):
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
 def losses(
     kernel, s, rows, box, flow, wall_p, laminar_p, damping_p, diffusion_p, shifting_p, phases_p, excess, gradient,
-    acceleration, ahead,
+    acceleration, moving, ahead,
 ):  # fmt: skip
     """Power [W] lost by the CAUSES: forces of now, times velocities that the accelerations lead to in `ahead` [s]."""
     by_viscosity = by_damping = by_diffusion = by_control = by_correction = 0.0
@@ -81,7 +90,9 @@ def losses(
             slope = smoothing.slope(kernel, math.sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]))
             signed = flow.volume[j]
             wet, grip = max(signed, 0.0) * slope, (signed if signed > 0.0 else -wall_p.stick * signed) * slope
-            friction, ringing = rubbed(laminar_p, damping_p, phases_p, s, i, j, signed, d, dv, v)
+            wall = moved(moving, j)
+            past = (v[0] - wall[0], v[1] - wall[1], v[2] - wall[2])
+            friction, ringing = rubbed(laminar_p, damping_p, phases_p, s, i, j, signed, d, dv, past)
             viscous += grip * friction
             damped += grip * ringing
             diffused -= wet * spread(diffusion_p, phases_p, box, s, flow.pressure, gradient, i, j, d)

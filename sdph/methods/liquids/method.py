@@ -16,19 +16,18 @@ from sdph.engine import kernels as smoothing
 from sdph.engine import motion
 from sdph.engine import state as particles
 from sdph.engine.clock import count_of_parts
-from sdph.engine.guard import FAR
-from sdph.engine.kept import GROWING, Unfit
+from sdph.engine.kept import GROWING
 from sdph.engine.rows import Neighbours
-from sdph.engine.state import GAS, LIQUID, WALL
+from sdph.engine.state import GAS, INFLOW, LIQUID, WALL
 from sdph.laws import kernels
-from sdph.methods.liquids import correction, interface, phases, shift, start, walls
+from sdph.methods.liquids import bodies as immersion
+from sdph.methods.liquids import bubble, correction, interface, openings, phases, shift, start, walls
 from sdph.methods.liquids import equations as rates
-from sdph.methods.liquids.bounds import LiquidGuard
+from sdph.methods.liquids.bounds import LiquidGuard, limits
 from sdph.methods.liquids.start import fluids, parts_of
 from sdph.methods.liquids.walls import WallP
 
 SLACK = 1.0125  # reach over 2 h: a particle may move 0.025 h, half a step, after the rows were found to hold
-FORCE = 0.25  # of sqrt(h/|a|), liquids.md, shared core
 NO_WALL = WallP(*[0.0] * 10)
 
 
@@ -38,13 +37,13 @@ class LiquidStepper:
     # see sdph.engine.kept
     KEPT = (
         "state", "neighbours", "time", "steps", "limit", "shifted", "eased", "pressure", "volume", "acceleration",
-        "gradient", "least", "shift", "twist", "extra", "excess",
+        "gradient", "least", "shift", "twist", "extra", "excess", "openings", "void",
     )  # fmt: skip
     # of the particles
     ROWS = ("pressure", "volume", "acceleration", "gradient", "least", "shift", "twist", "extra", "excess")
     FORMS = dict.fromkeys(("state", *ROWS), GROWING)
 
-    def __init__(self, case, shortest: float = 0.0):
+    def __init__(self, case, shortest: float = 0.0, carrier: immersion.Carrier | None = None):
         self.case, self.guard, d = case, LiquidGuard(case), case.dimensions
         self.shortest = shortest  # step [s] below which the run gets nowhere
         self.p, self.state, self.move = parts_of(case)
@@ -55,10 +54,17 @@ class LiquidStepper:
         period = tuple(length * bool(on) for length, on in zip(case.domain.size, periodic))
         self.neighbours = Neighbours(2.0 * SLACK * self.kernel.h, period, case.resolution.neighbour_skin)
         self.fluids, self.phases = fluids(case), phases.kernel(case)
+        self.bodies, self.moving = immersion.Bodies(carrier) if carrier else None, ()
         # walls follow the liquid, those of the outlet pipe come last
         first_of_pipe = len(self.state.x) - start.pipe_walls(case)
+        if self.bodies:
+            self.state = self.bodies.immersed(case, self.state)
+            first_of_pipe = self.bodies.first  # beside bodies there is no pipe
         self.own_walls = range(int((self.state.kind != WALL).sum()), first_of_pipe)  # numbers of the tank's own
-        own = self.p["tank"]
+        self.openings = openings.Openings(case, self.state) if self.p["inflow"] or self.p["outflow"] else None
+        if self.openings:
+            self.state = self.openings.begin(self.state)
+        own = self.p["tank"] or (immersion.wall_of(case) if self.bodies else ())
         self.wall = WallP(*[0.0] * 6, *own) if own else NO_WALL
         self.summed = case.gas_phase is not None and case.gas_phase.density_by == "summation"
         self.lattice = kernels.lattice_factor(case.liquid.kernel, d, case.resolution.smoothing_ratio)
@@ -69,38 +75,21 @@ class LiquidStepper:
         self.compliance = np.array([self._compliance(kind) for kind in range(GAS + 1)])
         self.aim(0.0)
         self.least = np.zeros(0)
+        self.void = bubble.Void(case, self.p["bubble"], self.state) if self.p["bubble"] else None
         self.look = None  # who is told of new forces, with the length [s] of the kick to come
         self.forces()
+        if self.bodies:
+            carrier.meet(self.bodies.force(self))
 
     def revive(self) -> None:
         """After a checkpoint was put back."""
         self.rows = self.neighbours.relist(self.state.kind)
-        self._tell_apart()
+        self.tell_apart()
         self.aim(self.time)
 
     def admit(self, kept: dict) -> None:
         """Unfit where the particles cannot be of this case, or other arrays are not one row a particle each."""
-        state, built, kinds = (
-            kept["state"],
-            kept["neighbours"]["built"],
-            (WALL, LIQUID, *((GAS,) if self.case.gas_phase else ())),
-        )
-        self.guard.admit_liquid(state, self.state, kinds)
-        count = len(state["x"])
-        if [len(axis) for axis in built] != [count] * self.case.dimensions:
-            raise Unfit("rows of neighbours are of other particles")
-        for name in self.ROWS:
-            one = isinstance(fresh := getattr(self, name), np.ndarray)  # else several
-            for array, like in zip([kept[name]], [fresh]) if one else zip(kept[name], fresh):
-                if len(array) != (count if len(like) else 0):
-                    raise Unfit(f"{name} has {len(array)} values for {count} particles")
-        far, wild = FAR * max(self.case.domain.size), FAR * self.case.fastest_sound**2 / self.kernel.h
-        for name, values, most in (
-            ("acceleration", kept["acceleration"], wild),
-            *(("a place at the last rows", axis, far) for axis in built),
-        ):
-            if np.abs(values).max(initial=0.0) > most:
-                raise Unfit(f"{name} is beyond {most:.3g}")
+        self.guard.admit_stepper(self, kept)
 
     @property
     def flow(self) -> rates.Flow:
@@ -110,6 +99,8 @@ class LiquidStepper:
     def step(self, most: float) -> float:
         """One step, no longer than `most` [s]; returns its length."""
         dt = self.next_step(most)
+        if self.bodies:
+            self.bodies.set_off(dt)
         self._kick(0.5 * dt)
         self._drift(0.5 * dt)
         if not self.summed:
@@ -117,12 +108,18 @@ class LiquidStepper:
         self._drift(0.5 * dt)
         if self.p["shifting"]:
             self._shift(dt)
+        if self.openings:
+            self.openings.move(self.state, self.time, dt)
         self.time += dt
         self.aim(self.time)
+        if self.openings:
+            self.openings.renew(self)
         self.forces(0.5 * dt)
         if self.frame:
             motion.turn(self.active, self.frame, dt, self.acceleration)
         self._kick(0.5 * dt)
+        if self.bodies:
+            self.bodies.carrier.arrive(dt, self.bodies.force(self))
         self.steps += 1
         return dt
 
@@ -133,6 +130,8 @@ class LiquidStepper:
         if not speed + 0.0 * force <= c * c:  # or one of them is no number
             self.guard.look(self)
         found = limits(self.case, self.p, self.state, math.sqrt(speed), math.sqrt(force))
+        if self.bodies:
+            found |= self.bodies.carrier.limits()
         self.limit = min(found, key=found.get)
         longest = self.case.run.step_factor * found[self.limit]
         return left / count_of_parts(
@@ -163,10 +162,12 @@ class LiquidStepper:
         motion.drift(self.active, s.u, s.v, s.w, dt, s.x, s.y, s.z)
         if self.p["xsph"]:
             motion.drift(self.active, *self.extra, dt, s.x, s.y, s.z)
+        if self.bodies:
+            self.bodies.drift(s, dt)
 
     def _densify(self, dt: float) -> None:
         rates.compress(
-            self.kernel, self.state, self.rows, self.neighbours.box, self.flow, self.wall,
+            self.kernel, self.state, self.rows, self.neighbours.box, self.flow, self.wall, self.moving,
             self.p["density_diffusion"], self.phases, self.gradient, self.rate,
         )  # fmt: skip
         motion.densify(self.active, self.rate, dt, self.state.density)
@@ -174,6 +175,8 @@ class LiquidStepper:
     def forces(self, ahead: float = 0.0) -> None:
         """Neighbours, pressure, walls, accelerations of where the particles are now, before a kick by `ahead` [s]."""
         built, ident = self.neighbours.built, self.state.ident
+        if self.bodies and self.moving:
+            self.bodies.place(self.state)
         self.state, self.rows = self.neighbours.update(self.state)
         if built is not self.neighbours.built:
             self._allocate(ident)
@@ -182,10 +185,18 @@ class LiquidStepper:
         if self.summed:
             rates.sum_up(*around, self.lattice, s.density)
         rates.state_of(self.fluids, s, self.active, self.pressure, self.volume)
+        if self.p["bubble"] and self.p["bubble"].vapour and ahead:
+            self.void.boil(self, 2.0 * ahead)
+            rates.state_of(self.fluids, s, self.active, self.pressure, self.volume)
+        if len(self.waiting):
+            openings.meet(
+                *around[:-1], self.waiting, p["gravity"], self.frame, self.fluids[:, LIQUID], self.pressure,
+                self.volume, s.density, self.gradient, self.least,
+            )  # fmt: skip
         if len(self.walls):
             walls.extrapolate(
-                self.kernel, s, self.rows, self.neighbours.box, self.walls, self.wall, p["gravity"], self.frame,
-                self.volume, self.pressure, s.u, s.v, s.w,
+                self.kernel, s, self.rows, self.neighbours.box, self.walls, self.wall, self.moving, p["gravity"],
+                self.frame, self.volume, self.pressure, s.u, s.v, s.w,
             )  # fmt: skip
         for row, own in self.renewing:
             row.renew(own, self)
@@ -198,6 +209,8 @@ class LiquidStepper:
         )  # fmt: skip
         if p["surface_tension"]:
             self._tighten()
+        if self.void:
+            self.void.press(self)
         if p["xsph"]:
             shift.mingle(*around, p["xsph"], self.phases, self.volume, *self.extra)
         if p["shifting"]:
@@ -220,7 +233,7 @@ class LiquidStepper:
         """Work arrays for the particles in their new order; only `least` outlives a step. before (N,): their old
         order."""
         s = self.state
-        self._tell_apart()
+        self.tell_apart()
         count = len(s.x)
         self.pressure, self.volume = np.zeros(count), np.zeros(count)
         solid = s.kind == WALL
@@ -233,14 +246,19 @@ class LiquidStepper:
         known[before[: len(self.least)]] = self.least
         self.least, self.shift, self.twist = known[s.ident[:shifted]], np.zeros((shifted, 3)), np.zeros((shifted, 9))
 
-    def _tell_apart(self) -> None:
-        """Liquid particles, those of the walls that liquid is near, and arrays that no step takes from the last."""
+    def tell_apart(self) -> None:
+        """Tell liquid particles, those that wait, those of the walls that liquid is near; arrays that no step takes
+        from the last."""
         s = self.state
+        self.waiting = np.flatnonzero(s.kind == INFLOW).astype(np.int32)
         self.active = np.flatnonzero(particles.wet(s)).astype(np.int32)
         self.walls = np.flatnonzero((s.kind == WALL) & (self.rows.number > 0)).astype(np.int32)
+        self.moving = self.bodies.find(s) if self.bodies else ()
         self.rate = np.zeros(len(s.x))
         near = len(s.x) if self.p["surface_tension"] else 0
         self.normal, self.curvature = np.zeros((near, 3)), np.zeros(near)
+        blown = len(s.x) if self.p["bubble"] else 0
+        self.inflating, self.facing = np.zeros((blown, 3)), np.zeros(blown)  # see sdph.methods.liquids.bubble
 
     @property
     def capacity(self) -> float:
@@ -251,10 +269,18 @@ class LiquidStepper:
         """Takes particle i out; neighbours and forces are made anew."""
         keep = np.ones(len(self.state.x), bool)
         keep[i] = False
-        self.state = particles.take(self.state, keep)
-        self.least = self.least[keep[: len(self.least)]]
-        self.neighbours.built = ()
+        self.leave(keep)
         self.forces()
+
+    def leave(self, keep) -> None:
+        """Take the particles out that are not kept (N,); the next forces make neighbours anew."""
+        self.least = self.least[keep[: len(self.least)]]
+        self.replace(particles.take(self.state, keep))
+
+    def replace(self, state) -> None:
+        """Go on with another state, whose first particles are those of now; the next forces make neighbours anew."""
+        if state is not self.state:
+            self.state, self.neighbours.built = state, ()
 
     def _shift(self, dt: float) -> None:
         s, before = self.state, np.array(motion.momentum(self.state, self.active))
@@ -263,12 +289,3 @@ class LiquidStepper:
             s.x, s.y, s.z, s.u, s.v, s.w, s.density,
         )  # fmt: skip
         self.shifted = self.shifted + motion.momentum(s, self.active) - before
-
-
-def limits(case, parameters, state, speed: float, acceleration: float) -> dict[str, float]:
-    """Longest steps [s] by cause: sound of the fastest particle [m/s], force on the most pushed [m/s2], each effect."""
-    h = case.smoothing_length
-    own = {"sound": case.liquid.courant * h / (case.fastest_sound + speed)}
-    if acceleration:
-        own["force"] = FORCE * math.sqrt(h / acceleration)
-    return own | effects.limits(parameters, case, state)

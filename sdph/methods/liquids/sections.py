@@ -12,7 +12,8 @@ class Liquid:
 
     density: float = quantity("kg_m3", above=0.0)
     viscosity: float = quantity("Pa_s", 0.0, least=0.0)
-    sound_speed: float = quantity("m_s", above=0.0)  # ten times the fastest speed or more: liquids.md, shared core
+    # ten times the fastest speed or more: liquids.md, shared core; `mps` needs none
+    sound_speed: float | None = quantity("m_s", None, above=0.0)
     exponent: float = quantity("", 7.0, least=1.0, most=100.0)
     background_pressure: float = quantity("Pa", 0.0, least=0.0)
     kernel: str = choice(*NAMES)
@@ -52,20 +53,23 @@ class GasPhase:
 
 @record
 class Pool:
-    """A phase at the start: box (lower, upper), disc or sphere (centre, radius), or the lowest part of the tank (fill).
+    """A phase at the start: box (lower, upper), disc or sphere (centre, radius), ring (those and inner_radius; in
+    circles), or the lowest part of the tank (fill).
 
     Where pools overlap, the one that is named first has the place: of two pools of the tank, a second one of gas and
     fill = 1 is what the first leaves. The level lies across gravity, or across the last axis where there is none.
     """
 
     phase: str = choice("liquid", "gas")
-    shape: str = choice("box", "disc", "sphere", "tank")
+    shape: str = choice("box", "disc", "sphere", "ring", "tank")
     lower: tuple | None = vector("m", None)
     upper: tuple | None = vector("m", None)
     centre: tuple | None = vector("m", None)
     radius: float | None = quantity("m", None, above=0.0)
+    inner_radius: float | None = quantity("m", None, above=0.0)
     fill: float | None = quantity("", None, above=0.0, most=1.0)
     velocity: tuple | None = vector("m_s", None)
-    flow: str = choice("uniform", "rotation", "taylor_green", "quadrupole")
-    # of taylor_green: its amplitude; of rotation: at half the box's side; of quadrupole: at the disc's rim
+    flow: str = choice("uniform", "rotation", "taylor_green", "quadrupole", "wave")
+    # of taylor_green and wave: its amplitude; of rotation: at half the box's side; of quadrupole: at the disc's rim
     speed: float = quantity("m_s", 0.0)
+    displacement: float = quantity("m", 0.0)  # of the particles along a wave's flow: its height at the start

@@ -8,12 +8,13 @@ import numpy as np
 
 from sdph import effects
 from sdph.effects.around import frame, tank
+from sdph.effects.around.source import Source
 from sdph.engine import lattice
 from sdph.engine import state as particles
 from sdph.engine.state import GAS, LIQUID, WALL
 from sdph.engine.walls import shapes
 from sdph.laws import eos
-from sdph.laws.liquids import quadrupole, square_patch_pressure, taylor_green
+from sdph.laws.liquids import quadrupole, square_patch_pressure, taylor_green, wave
 from sdph.methods.liquids import filling
 from sdph.schema import CaseError
 
@@ -40,7 +41,9 @@ def fill(case) -> particles.State:
 def _walls(case) -> particles.State:
     shape = tank.shape_of(case)
     points = shapes.wall_points(shape, case.resolution.spacing, tank.layers(case))
-    state = _placed(case, points)
+    if "inflow" in case.effects:
+        points = points[Source(case, (), 0).mouths(placed(case, points)) == 0]
+    state = placed(case, points)
     if len(state.depth):
         state.depth[:] = shape.distance(points)
     state.kind[:] = WALL
@@ -58,7 +61,8 @@ def pipe_walls(case) -> int:
     )
 
 
-def _placed(case, points) -> particles.State:
+def placed(case, points) -> particles.State:
+    """Particles at points (N, d) [m], with what the effects of a case need, all 0."""
     state = particles.empty(len(points), effects.arrays(case), case.dimensions)
     for axis, column in zip(particles.axes(state), points.T):
         axis[:] = column
@@ -68,16 +72,20 @@ def _placed(case, points) -> particles.State:
 def _pool(case, pools: list, number: int) -> particles.State:
     """The particles of pool `number`, less those that lie in the pools before it."""
     pool, d, spacing = pools[number], case.dimensions, case.resolution.spacing
-    points = filling.fill(case, pool) if pool.shape == "tank" else lattice.lattice(pool, spacing, d)
     volume = spacing**d
+    if pool.shape == "ring":
+        points, volume = lattice.rings(pool.centre, pool.inner_radius, pool.radius, spacing)
+    else:
+        points = filling.fill(case, pool) if pool.shape == "tank" else lattice.lattice(pool, spacing, d)
     if pool.shape == "box":  # the lattice is fitted to the box
         volume = math.prod(b - a for a, b in zip(pool.lower, pool.upper)) / len(points)
     for earlier in pools[:number]:
-        points = points[~_holds(earlier, points)]
+        left = ~_holds(earlier, points)
+        points, volume = points[left], volume[left] if pool.shape == "ring" else volume
     if not len(points):
         mend = "enlarge it, give a finer resolution.spacing_mm, or name it before the others"
         raise CaseError(f"pools.{list(case.pools)[number]} holds no particle; {mend}")
-    state = _placed(case, points)
+    state = placed(case, points + _raised(pool, points))
     state.kind[:] = GAS if pool.phase == "gas" else LIQUID
     density = phase_of(case, pool).density
     state.density[:] = _density(case, pool, _pressure(case, pool, pools[-1], points))
@@ -99,7 +107,8 @@ def _holds(pool, points) -> np.ndarray:
         return pool.holds(points)
     if pool.shape == "box":
         return ((points >= np.array(pool.lower)) & (points <= np.array(pool.upper))).all(axis=1)
-    return ((points - np.array(pool.centre)) ** 2).sum(axis=1) <= pool.radius**2
+    from_centre = np.sqrt(((points - np.array(pool.centre)) ** 2).sum(axis=1))
+    return (from_centre <= pool.radius) & (from_centre >= (pool.inner_radius or 0.0))
 
 
 def _density(case, pool, pressure) -> np.ndarray:
@@ -176,7 +185,25 @@ def _velocity(pool, points, dimensions: int) -> np.ndarray:
         if pool.centre is None or pool.radius is None:
             raise CaseError('pools: flow = "quadrupole" needs centre_m and radius_m of the disc, in a box too')
         velocity += quadrupole(points - np.array(pool.centre), pool.radius, pool.speed)
+    if pool.flow == "wave":
+        velocity += _wave(pool, points, pool.speed)
     return velocity
+
+
+def _raised(pool, points) -> np.ndarray:
+    """(N, d) displacement [m] of the particles of a wave at the start."""
+    if not pool.displacement:
+        return np.zeros_like(points)
+    if pool.flow != "wave":
+        raise CaseError(f'pools: displacement_m = {pool.displacement:g} is that of a wave; set flow = "wave"')
+    return _wave(pool, points, pool.displacement)
+
+
+def _wave(pool, points, amplitude: float) -> np.ndarray:
+    """Wave as long as the box, about the level of the centre, with a crest there."""
+    if pool.shape != "box" or pool.centre is None or len(pool.centre) != 2:
+        raise CaseError('pools: flow = "wave" needs shape = "box" in two dimensions, and centre_m at a crest')
+    return wave(points - np.array(pool.centre), pool.upper[0] - pool.lower[0], amplitude)
 
 
 def parts_of(case):

@@ -1,11 +1,12 @@
 """The ledger of a liquid: mass, momentum and energy, and who gave and took them, one row a window.
 
-Momentum comes from body forces, walls, surface tension, contact and shifting, and goes through the drain; walls are
-summed over their particles, so that what pairs do not give back to each other is a drift. Energy is kinetic and elastic
-(of compression). Gravity, the frame, the pressure of walls, surface tension and contact work on it, the drain takes its
-share. Dissipation is the sum of its causes (LOSSES), each taken where its force acts; what explicit steps and the
-continuity equation make of both is `numerical_work_J`. A scheme that makes energy shows in `energy_made_J`. Potential
-energy is that in gravity, which is the same everywhere; the work of gravity is beside it, as shifting lifts too.
+Momentum comes from body forces, walls, surface tension, contact, shifting and nozzles, and goes through the drain and
+open sides; walls are summed over their particles, so that what pairs do not give back to each other is a drift. Energy
+is kinetic and elastic (of compression). Gravity, the frame, the pressure of walls and of nozzles, surface tension and
+contact work on it; what comes in brings some, the drain and open sides take their share. Dissipation is the sum of its
+causes (LOSSES), each taken where its force acts; what explicit steps and the continuity equation make of both is
+`numerical_work_J`. A scheme that makes energy shows in `energy_made_J`. Potential energy is that in gravity, which is
+the same everywhere; the work of gravity is beside it, as shifting lifts too.
 Two-dimensional amounts are per metre of depth.
 """
 
@@ -22,12 +23,14 @@ from sdph.engine.ledger import ratio, refuse_rows, vector
 from sdph.engine.table import Table
 from sdph.methods.liquids.losses import CAUSES
 
-IMPULSES = ("body_forces", "walls", "surface_tension", "shifting", "drain", "contact")
+IMPULSES = ("body_forces", "walls", "surface_tension", "shifting", "drain", "contact", "inflow", "outflow", "bubble")
 WORKS = (
     "work_of_gravity_J", "work_of_frame_J", "work_of_walls_J", "work_of_surface_tension_J", "work_of_contact_J",
+    "work_of_inflow_J", "work_of_bubble_J",
 )  # fmt: skip
 LOSSES = (*CAUSES, "held_off_J", "shifting_J")
-AMOUNTS = ("drained_kg", "drained_J", *WORKS, *LOSSES, "dissipated_J", "numerical_work_J")
+PASSED = ("drained_kg", "drained_J", "injected_kg", "injected_J", "left_kg", "left_J", "boiled_kg", "boiled_J")
+AMOUNTS = (*PASSED, *WORKS, *LOSSES, "dissipated_J", "numerical_work_J")
 
 
 class LiquidLedger:
@@ -72,17 +75,21 @@ class LiquidLedger:
 
     def _given(self, amounts: dict) -> float:
         """Energy [J] that came from outside."""
-        return sum(amounts[name] for name in WORKS) - amounts["drained_J"]
+        gone = amounts["drained_J"] + amounts["left_J"] + amounts["boiled_J"]
+        return sum(amounts[name] for name in WORKS) + amounts["injected_J"] - gone
 
     def summary(self) -> dict[str, float]:
         """Closure of the run: mass and momentum relative to what there was, energy to the largest of motion; the
         largest Mach number."""
         change = np.array([self.last[f"momentum_{a}_kg_m_s"] - self.first[f"momentum_{a}_kg_m_s"] for a in "xyz"])
-        inertia = math.sqrt(2.0 * self.first["mass_kg"] * (self.scale["J"] + self.most))  # of all with all that energy
-        mass = self.last["mass_kg"] - self.first["mass_kg"] + self.sums["drained_kg"]
+        there = self.first["mass_kg"] + self.sums["injected_kg"]
+        inertia = math.sqrt(2.0 * there * (self.scale["J"] + self.most))  # of all with all that energy
+        gone = self.sums["drained_kg"] + self.sums["left_kg"] + self.sums["boiled_kg"]
+        came = self.sums["injected_kg"] - gone
+        mass = self.last["mass_kg"] - self.first["mass_kg"] - came
         drift = float(np.linalg.norm(change - self.impulses.sum(axis=0)))
         return self.sums | {
-            "mass_drift_rel": abs(mass) / self.first["mass_kg"],
+            "mass_drift_rel": abs(mass) / there,
             "momentum_drift_rel": ratio(drift, self.scale["kg_m_s"] + inertia),
             "energy_made_J": self.made,
             "energy_made_rel": ratio(self.made, self.moved),

@@ -16,8 +16,9 @@ from sdph.effects.liquids import laminar_viscosity, liquid_damping, shifting
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import FAST, apart, faster
 from sdph.engine.rows import entry
+from sdph.engine.state import INFLOW
 from sdph.methods.liquids import correction, phases
-from sdph.methods.liquids.forces import body, held_off
+from sdph.methods.liquids.forces import body, held_off, velocity
 
 
 class WallP(NamedTuple):
@@ -37,8 +38,10 @@ class WallP(NamedTuple):
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
-def extrapolate(kernel, s, rows, box, walls, wall_p, gravity_p, frame_p, volume, pressure, wall_u, wall_v, wall_w):
-    """Pressure and velocity of wall particles: Adami et al. 2012, Eq. 23 and 27; without liquid near, both are 0.
+def extrapolate(
+    kernel, s, rows, box, walls, wall_p, moving, gravity_p, frame_p, volume, pressure, wall_u, wall_v, wall_w
+):
+    """Pressure and velocity of wall particles: Adami et al. 2012, Eq. 23 and 27; without liquid near, pressure is 0.
 
     wall_u, wall_v, wall_w are s.u, s.v, s.w once more: a prange keeps no writes to arrays of a tuple.
     """
@@ -59,10 +62,11 @@ def extrapolate(kernel, s, rows, box, walls, wall_p, gravity_p, frame_p, volume,
             w += value * s.w[j] if len(s.w) else 0.0
         inverse = 1.0 / weight if weight > 0.0 else 0.0
         pressure[i] = max(push * inverse, wall_p.least)
-        wall_u[i] = 2.0 * wall_p.u - u * inverse
-        wall_v[i] = 2.0 * wall_p.v - v * inverse
+        own = velocity(wall_p, moving, i)
+        wall_u[i] = 2.0 * own[0] - u * inverse
+        wall_v[i] = 2.0 * own[1] - v * inverse
         if len(s.w):
-            wall_w[i] = 2.0 * wall_p.w - w * inverse
+            wall_w[i] = 2.0 * own[2] - w * inverse
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
@@ -71,8 +75,9 @@ def wall_force(
     gain, felt,
 ):  # fmt: skip
     """felt (W, 5) by each wall particle: force (3 columns) [N], what `push` gives the liquid in front of it with the
-    sign turned, and power [W] that its pressure and its holding off give the liquid, with the velocities that it has
-    after a gain (N, 3) [m/s]; compression pays for the liquid's own pressure."""
+    sign turned, and power [W] that its pressure and its holding off give the liquid as it moves against the wall, with
+    the velocities that it has after a gain (N, 3) [m/s], which of a body's particle is its velocity; compression pays
+    for the liquid's own pressure."""
     for n in prange(len(walls)):
         i = walls[n]
         fx = fy = fz = worked = held = 0.0
@@ -82,14 +87,14 @@ def wall_force(
             du, dv, dw = faster(s, box, i, j)
             r2 = dx * dx + dy * dy + dz * dz
             r = math.sqrt(r2)
-            V = max(flow.volume[j], 0.0) * abs(flow.volume[i]) * smoothing.slope(kernel, r)
+            inside = 0.0 if s.kind[j] == INFLOW else max(flow.volume[j], 0.0)  # what waits bears on no tank
+            V = inside * abs(flow.volume[i]) * smoothing.slope(kernel, r)
             closing = du * dx + dv * dy + dw * dz
             sign_j = shifting.sign(shifting_p, flow.pressure[j], flow.least[j] if len(flow.least) else 1.0)
             rho_j = s.density[j]
             friction = laminar_viscosity.central(laminar_p, s, j, j, s.kind[j], s.kind[j], closing, r2)
-            ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY)) * phases.harmonic(
-                phases_p, rho_j, rho_j
-            )
+            ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY))
+            ringing *= phases.harmonic(phases_p, rho_j, rho_j)
             bx, by, bz = body(gravity_p, frame_p, s, j, False)
             p_i = phases.behind(
                 phases_p, -1.0, flow.pressure[i], flow.pressure[j] + rho_j * (bx * dx + by * dy + bz * dz)
@@ -100,8 +105,8 @@ def wall_force(
             fx += along * dx + across * du
             fy += along * dy + across * dv
             fz += along * dz + across * dw
-            u, v = s.u[j] + gain[j, 0], s.v[j] + gain[j, 1]
-            w = s.w[j] + gain[j, 2] if len(s.z) else 0.0
+            u, v = s.u[j] + gain[j, 0] - gain[i, 0], s.v[j] + gain[j, 1] - gain[i, 1]
+            w = s.w[j] + gain[j, 2] - gain[i, 2] if len(s.z) else 0.0
             nearing = u * dx + v * dy + w * dz
             worked += V * (p_i + (sign_j - 1.0) * p_j) * nearing
             held += V * over * nearing
@@ -148,10 +153,12 @@ def reaction(s, active, gravity_p, frame_p, acceleration, ahead, load):
 
 def feel(stepper, chosen, ahead: float) -> np.ndarray:
     """(W, 5) of the wall particles `chosen` of a stepper, as `wall_force` has it; `ahead` [s] of a kick."""
-    p, felt = stepper.p, np.zeros((len(chosen), 5))
+    p, felt, gain = stepper.p, np.zeros((len(chosen), 5)), ahead * stepper.acceleration
+    if stepper.bodies:
+        stepper.bodies.add_velocities(gain)
     wall_force(
         stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, stepper.flow, chosen, stepper.wall,
         stepper.viscous, p["liquid_damping"], p["shifting"], stepper.phases, p["gravity"], stepper.frame,
-        stepper.excess, ahead * stepper.acceleration, felt,
+        stepper.excess, gain, felt,
     )  # fmt: skip
     return felt

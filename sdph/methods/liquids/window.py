@@ -20,6 +20,8 @@ class Tally:
         self.sums = np.zeros(account.SIZE)  # integral of sdph.methods.liquids.account.rates [N s, N m s, J]
         self.shifted, self.eased = self.stepper.shifted, self.stepper.eased
         self.gone = run.outlet.gone.copy() if run.outlet else np.zeros(8)
+        self.passed, self.given = _passed(self.stepper), _given(self.stepper)
+        self.boiled = _boiled(self.stepper)
         self.pressed = 0.0  # work of contact [J]
         self.contact, self.spared = np.zeros(3), np.zeros(3)  # impulses of contact, and on what the drain took [N s]
 
@@ -44,17 +46,38 @@ class Tally:
     def amounts(self) -> tuple[dict, dict]:
         """Impulses and amounts for the ledger."""
         gone = (self.run.outlet.gone if self.run.outlet else np.zeros(8)) - self.gone
+        came, left = _passed(self.stepper) - self.passed
+        given, boiled = _given(self.stepper) - self.given, _boiled(self.stepper) - self.boiled
         shifted, sums = self.stepper.shifted - self.shifted, self.sums
-        given = (
+        impulses = (
             sums[account.BODY], sums[account.WALLS], sums[account.TENSION], shifted, -gone[1:4] - self.spared,
-            self.contact,
+            self.contact + given[:3], sums[account.INLET] + came[1:4], -left[1:4],
+            sums[account.BUBBLE] - boiled[1:4],
         )  # fmt: skip
-        amounts = {"drained_kg": gone[0], "drained_J": gone[7], "work_of_contact_J": self.pressed}
+        amounts = {"drained_kg": gone[0], "drained_J": gone[7], "work_of_contact_J": self.pressed + given[3]}
+        amounts |= {"boiled_kg": boiled[0], "boiled_J": boiled[4]}
+        amounts |= {"injected_kg": came[0], "injected_J": came[4], "left_kg": left[0], "left_J": left[4]}
+        amounts |= {"work_of_inflow_J": sums[account.BY_INLET], "work_of_bubble_J": sums[account.BY_BUBBLE]}
         amounts |= {"work_of_gravity_J": sums[account.GRAVITY], "work_of_frame_J": sums[account.FRAME]}
         amounts |= {"work_of_walls_J": sums[account.BY_WALLS], "work_of_surface_tension_J": sums[account.BY_TENSION]}
         amounts |= {"held_off_J": -sums[account.HELD_OFF], "shifting_J": self.stepper.eased - self.eased}
         amounts |= dict(zip(CAUSES, sums[account.LOST]))
-        return dict(zip(IMPULSES, given)), {name: float(value) for name, value in amounts.items()}
+        return dict(zip(IMPULSES, impulses)), {name: float(value) for name, value in amounts.items()}
+
+
+def _passed(stepper) -> np.ndarray:
+    """(2, 5) of what came in through nozzles and left through open sides (sdph.methods.liquids.openings)."""
+    return stepper.openings.passed.copy() if stepper.openings else np.zeros((2, 5))
+
+
+def _boiled(stepper) -> np.ndarray:
+    """(5,) of what boiled off into a bubble (sdph.methods.liquids.bubble)."""
+    return stepper.void.passed.copy() if stepper.void else np.zeros(5)
+
+
+def _given(stepper) -> np.ndarray:
+    """(4,) impulse [N s] and work [J] that bodies have given the liquid (sdph.methods.liquids.bodies)."""
+    return -stepper.bodies.carrier.given if stepper.bodies else np.zeros(4)
 
 
 def pushed(state) -> np.ndarray:

@@ -40,7 +40,8 @@ def refuse_unknown(case) -> None:
     """CaseError where a case asks for metrics that it cannot have."""
     for name in case.run.metrics:
         if name not in AT_OUTPUTS or "grains" not in case.matters:
-            raise CaseError(f"run.metrics = {name!r}; known for grains: {', '.join(AT_OUTPUTS)}, for liquids: none")
+            none = "for liquids: none, for solids: none"
+            raise CaseError(f"run.metrics = {name!r}; known for grains: {', '.join(AT_OUTPUTS)}, {none}")
     if "jet" in case.run.metrics and not case.nozzles:
         mend = "leave it out, or give one in [nozzles.some_name]"
         raise CaseError(f"run.metrics holds jet, but the case has no nozzle; {mend}")

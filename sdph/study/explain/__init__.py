@@ -4,6 +4,7 @@ estimate       limits, memory and time
 pace           windows and sub-steps
 droplets       numbers of droplets
 liquids        those of a liquid
+solids         those of solids
 tables         all of it as tables
 effect_costs   time of each effect on this machine
 """

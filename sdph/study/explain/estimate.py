@@ -44,23 +44,25 @@ MEASURED = environment.CACHE / "speed.json"  # of this machine, by `sdph explain
 
 
 class Speed(NamedTuple):
-    """Time of one particle and sub-step, moving or at rest or of a liquid, and of one cell and window of the embedded
-    gas [us]."""
+    """Time of one particle and sub-step, moving or at rest, of a liquid, of a solid, and of one cell and window of the
+    embedded gas [us]."""
 
     moving: float
     resting: float
     liquid: float
+    solid: float
     cell: float
     measured: str
 
 
 # One core of the machine the shipped numbers were made on; `sdph explain --measure` replaces them by yours.
-SHIPPED = Speed(2.5, 0.4, 1.0, 2.0, "another machine; `sdph explain SCENE --measure` measures this one")
+SHIPPED = Speed(2.5, 0.4, 1.0, 1.0, 2.0, "another machine; `sdph explain SCENE --measure` measures this one")
 
 
 def speed() -> Speed:
     """Speeds last measured on this machine, else the shipped numbers."""
-    return Speed(**json.loads(MEASURED.read_text())) if MEASURED.is_file() else SHIPPED
+    kept = json.loads(MEASURED.read_text()) if MEASURED.is_file() else {}
+    return SHIPPED._replace(**kept)
 
 
 def ratios(case) -> list[dict]:
@@ -204,7 +206,7 @@ def mouth(case, nozzle) -> float:
     radius = nozzle.radius or 0.0
     if nozzle.shape == "slot":
         return math.prod((nozzle.width or 0.0, nozzle.length or 0.0)[: case.dimensions - 1])
-    return 2.0 * radius if case.dimensions == 2 else math.pi * radius**2
+    return 2.0 * radius if case.dimensions == 2 else math.pi * (radius**2 - (nozzle.inner_radius or 0.0) ** 2)
 
 
 def memory(case, count: int, cells: int) -> float:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from sdph import effects
+from sdph.methods.liquids.bounds import limits as limits_of_step
 from sdph.methods.liquids.liquid import SLOW
-from sdph.methods.liquids.method import limits as limits_of_step
 from sdph.study.explain import estimate
 
 WATER = 0.0728  # N/m, of water in air at 20 C (IAPWS R1-76): for the Weber and Bond numbers of a case that gives none

@@ -6,7 +6,13 @@ import math
 
 from sdph import effects
 from sdph.case import judge
-from sdph.study.explain import droplets, estimate, liquids
+from sdph.study.explain import droplets, estimate, liquids, mps, solids
+
+OF = {
+    "liquid": liquids,
+    "mps": mps,
+    "solid": solids,
+}  # method -> module with `explain` and `warnings`; grains have their own
 
 
 def explain(case) -> dict[str, list[dict]]:
@@ -19,7 +25,8 @@ def explain(case) -> dict[str, list[dict]]:
 
 def _explain(case) -> dict[str, list[dict]]:
     scales = judge.scales_of(case)
-    found = liquids.explain(scales) if case.liquid else _of_grains(case, scales)
+    own = OF.get(case.moved_by(judge.matter(case)))
+    found = own.explain(scales) if own else _of_grains(case, scales)
     return {
         "numbers": [
             dict(zip(("number", "value", "threshold", "meaning", "source"), row)) for row in found.pop("numbers")
@@ -40,7 +47,8 @@ def warnings(case, scales=None) -> list[str]:
     if len(case.matters) > 1:
         return [text for matter in case.matters for text in warnings(case.only(matter))]
     scales = scales or judge.scales_of(case)
-    return [*judge.missing(case, scales), *(liquids.warnings(scales) if case.liquid else estimate.warnings(case))]
+    own = OF.get(case.moved_by(judge.matter(case)))
+    return [*judge.missing(case, scales), *(own.warnings(scales) if own else estimate.warnings(case))]
 
 
 def numbers(s) -> list[tuple]:
@@ -91,7 +99,7 @@ def effect_rows(case, scales=None) -> list[dict]:
     """Every effect: on or off, called for or not, why, and the error without it; `scales` of the case, if known."""
     scales = scales or judge.scales_of(case)
     judged, called = judge.judgements(case, scales), judge.called_for(case, scales)
-    rows, matter = [], "liquid" if case.liquid else "grains"
+    rows, matter = [], judge.matter(case)
     for name, row in ((name, row) for name, row in effects.REGISTRY.items() if matter in row.matter):
         own = judged.get(name)
         rows.append({

@@ -194,7 +194,7 @@ def _gas(case):
     """The embedded solver; None for a liquid."""
     from coupling.embedded import EmbeddedGas
 
-    return None if case.liquid else EmbeddedGas(case)
+    return EmbeddedGas(case) if case.grains else None
 
 
 def _go(simulation, measures, windows: int):

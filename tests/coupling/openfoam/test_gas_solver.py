@@ -29,14 +29,19 @@ def test_ergun_pressure_drop(tmp_path, dt, steps):
         for _ in range(steps):
             slip = np.linalg.norm(state.fields["velocity"], axis=1)
             beta = 150 * alpha_p**2 * mu / (alpha * d**2) + 1.75 * alpha_p * RHO * slip / d
+            before = state.budget.impulse_pressure[1]
             state = gas.advance(dt, {"momentum_coefficient": beta, "momentum": np.zeros((len(beta), 3))})
-        y = gas.mesh.centres[:, 1]
+        y, column = gas.mesh.centres[:, 1], gas.mesh.volumes.sum()
     ergun = (150 * alpha_p**2 * mu * speed / d**2 + 1.75 * alpha_p * RHO * speed**2 / d) / (1 - alpha_p) ** 3
     inside = y > 0.05  # the gas comes in as through alpha_g = 1, and speeds up in the first cells
     slope = np.polyfit(y[inside], state.fields["pressure"][inside], 1)[0]
     print(f"Ergun {-ergun:.2f} Pa/m, computed {slope:.2f}")
     assert slope == pytest.approx(-ergun, rel=1e-3)
     assert state.fields["pressure_gradient"][inside, 1] == pytest.approx(-ergun, rel=1e-3)
+    # grains in the first row, and the inlet itself, bear what the speed between the grains asks for
+    faster = RHO * speed / (1 - alpha_p) * (speed / (1 - alpha_p) - speed) / 0.01  # 18 Pa/m in a row of 10 mm
+    assert state.fields["pressure_gradient"][y < 0.01, 1] == pytest.approx(-ergun - faster, rel=1e-3)
+    assert (state.budget.impulse_pressure[1] - before) / dt == pytest.approx(ergun * column, rel=1e-3)
 
 
 @pytest.mark.parametrize("dt, steps", [(1e-4, 300), (1e-2, 40)])

@@ -93,7 +93,7 @@ def test_bed_in_a_round_vessel(tmp_path, capsys):
     drifts = {key: value for key, value in summary.items() if "drift" in key or "mismatch" in key}
     numerical = {key: drifts.pop(key) for key in ("gas_momentum_drift_kg_m_s", "gas_momentum_drift_rel")}
     assert len(drifts) >= 5 and max(drifts.values()) < 1e-8, drifts
-    assert numerical["gas_momentum_drift_rel"] < 0.1  # of first order in the cell (docs/results.md)
+    assert numerical["gas_momentum_drift_rel"] < 0.004  # cells are no boxes: 0.0020, 0.0011 with half of their size
     assert summary["heat_exchanged_J"] > 1.0
     _, _, gas = timeline.state_at(timeline.read(out), 0.01)
     assert 0.3 < np.linalg.norm(gas.cell_data["velocity"], axis=1).max() < 3.0  # comes in with 0.3 m/s, round the bed

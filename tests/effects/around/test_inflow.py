@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from sdph.case import read as cases
 from sdph.effects.around import inflow
+from sdph.effects.around.source import Source
 from sdph.engine import state as particles
 from sdph.engine.state import GRAIN, INFLOW
 from sdph.running import output
@@ -51,7 +52,7 @@ def case(nozzle, dimensions=2, **more):
 
 def source(chosen):
     names = {"temperature", "diameter", "diameter_variance"}
-    return inflow.Source(chosen, names, 1), particles.empty(0, names, chosen.dimensions)
+    return Source(chosen, names, 1), particles.empty(0, names, chosen.dimensions)
 
 
 def drift(chosen, until, dt):

@@ -9,7 +9,7 @@ from test_inflow import AIR, SAND
 
 from coupling.embedded import EmbeddedGas
 from sdph.case import read as cases
-from sdph.effects.around import inflow
+from sdph.effects.around.source import Source
 from sdph.engine import state as particles
 from sdph.engine.state import GRAIN, INFLOW
 from sdph.running import driver, output
@@ -98,7 +98,7 @@ def test_kinds_are_unique():
 def test_each_particle_knows_its_nozzle():
     """More nozzles than a byte counts, each with its own temperature."""
     chosen = case({name: n | {"temperature_K": 300.0 + k} for k, (name, n) in enumerate(abreast(300).items())})
-    made = inflow.Source(chosen, {"temperature"}, 1)
+    made = Source(chosen, {"temperature"}, 1)
     state = made.fill(particles.empty(0), 0.0, 0.01)
     assert set(state.nozzle) == set(range(1, 301))
     np.testing.assert_array_equal(state.temperature, 299.0 + state.nozzle)
@@ -107,7 +107,7 @@ def test_each_particle_knows_its_nozzle():
 
 def at(made, nozzle, x, kind=GRAIN, entering=1):
     """One particle of a nozzle at a place on the axis of FACING."""
-    state = made._particles(np.array([nozzle]), np.array([[x, 0.5]]), np.zeros((1, 2)))
+    state = made.make(np.array([nozzle]), np.array([[x, 0.5]]), np.zeros((1, 2)))
     state.kind[:], state.entering[:] = kind, entering
     return state
 
@@ -124,12 +124,12 @@ def at(made, nozzle, x, kind=GRAIN, entering=1):
     (1, 0.64, INFLOW, 1, 0.0),
 ])  # fmt: skip
 def test_only_its_own_mouth_matters_to_a_grain(nozzle, x, kind, entering, share):
-    made = inflow.Source(case(FACING), (), 1)
+    made = Source(case(FACING), (), 1)
     assert made.inside(at(made, nozzle, x, kind, entering))[0] == pytest.approx(share, abs=1e-12)
 
 
 def test_release_lets_go_of_each_at_its_own_mouth():
-    made = inflow.Source(case(FACING), (), 1)
+    made = Source(case(FACING), (), 1)
     rows = [
         at(made, 0, 0.19, INFLOW),
         at(made, 0, 0.201, INFLOW),

@@ -39,6 +39,23 @@ def test_friction_of_a_contact_does_the_work_that_is_booked(tmp_path):
     assert account["work_of_walls_J"] == pytest.approx(0.5 * mass * (speed**2 - SPEED**2 - FALL**2), rel=1e-9)
 
 
+@pytest.mark.parametrize("effects", [[], ["granular_pressure", "granular_viscosity", "granular_temperature"]])
+def test_a_lone_grain_that_lies_on_a_floor_bears_its_weight_on_the_contact(tmp_path, effects):
+    """It slides and slows by sin(phi) g: no pressure, none from the wall, and no theta yet that makes it viscous."""
+    case = box(
+        ["walls", "friction", "gravity", *effects], alpha_p=0.6, periodic=("x",), fill=(SPACING, SPACING),
+        gravity=(0.0, -9.81), friction={"angle_deg": ANGLE}, grains={"granular_temperature_m2_s2": 1e-10},
+    )  # fmt: skip
+    stepper = started(case, tmp_path).stepper
+    stepper.state.y[:], stepper.state.u[:] = 0.25 * SPACING, SPEED
+    stepper.prepare()
+    stepper.force(np.zeros(1), np.array([[0.0, -9.81, 0.0]]), np.zeros(1))
+    stepper.move(5 * TIME)
+    slowed = (SPEED - stepper.state.u[0]) / (5 * TIME)
+    print(f"slows by {slowed / 9.81:.5f} g")
+    assert slowed == pytest.approx(math.sin(math.radians(ANGLE)) * 9.81, rel=1e-3)
+
+
 def test_it_comes_to_rest_and_does_not_turn(tmp_path):
     assert flung(tmp_path, speed=0.9 * RUBBED).state.u[0] == 0.0
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from grain_boxes import DENSITY, DIAMETER, box, go, started, windows
 
-from sdph.engine.walls import sides as boundary
+from sdph.engine.walls import facets
 from sdph.laws import granular
 
 ALPHA_P, THETA, HEIGHT = 0.5, 1.0, 0.06
@@ -145,7 +145,7 @@ def test_nothing_leaks_through_a_mesh(tmp_path):
 
 def test_a_mesh_is_drawn_as_it_is(tmp_path):
     path, corners = wedge(tmp_path, np.zeros(2), np.full(2, 0.16))
-    drawn = boundary.surface(str(path), 2)
+    drawn = facets.drawn(str(path), 2)
     np.testing.assert_allclose(drawn.points[:, :2], corners)
     assert drawn.n_lines == len(corners)
 

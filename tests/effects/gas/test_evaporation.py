@@ -172,7 +172,7 @@ def test_rate_is_ranz_and_marshall_in_a_stream():
     around = np.full(1, 3.0), np.full(1, 1.225), np.full(1, 350.0)
     conductance, damping = np.empty(1), np.empty(1)
     nothing, apart = np.zeros((0, 3)), np.zeros((1, 3))
-    off = (OFF, heat.kernel(case), OFF, OFF, OFF)
+    off = (OFF, heat.kernel(case), OFF, OFF, OFF, OFF)
     exchange.rates(*off, state, 700.0, apart, *around, OFF, conductance, damping, nothing)
     loss, rate, *others = (np.empty(1) for _ in range(6))
     droplet_loss.losses(p, OFF, state, *around, dry, 1e-6, conductance, loss, *others)

@@ -10,6 +10,7 @@ from sdph.effects.grains import friction
 from sdph.engine.rows import entry
 from sdph.laws import kernels
 from sdph.laws.friction import second_invariant
+from sdph.methods.grains import contacts, stress
 from sdph.methods.grains.equations import separation
 
 RATE, DT = 20.0, 1e-5  # 1/s, s
@@ -68,26 +69,20 @@ def test_work_of_contacts_is_what_their_force_takes(block):
     s.u[:], s.v[:] = rng.uniform(-0.1, 0.1, (2, len(s.x)))
     before = s.contact_xy.copy()
     block._shear(DT)
-    out = block.scratch
-    power = 0.0
+    out, elastic = block.scratch, block.parameters["friction"]
+    tau = np.stack([s.contact_xx, s.contact_yy, -s.contact_xx - s.contact_yy, s.contact_xy, *np.zeros((2, len(s.x)))])
+    for i, column in enumerate(tau.T):  # without the viscosity of contacts
+        stress.bear(out.bearing, i, block.neighbours.box, s.density[i] ** -2, 0.0, stress.NO_GRADIENT, tuple(column))
+    power, work = 0.0, 0.0
     for i in range(len(s.x)):
         for k in range(block.rows.number[i]):
             j = entry(block.rows, i, k)
             dx, dy, dz, r2 = separation(s, block.neighbours.box, i, j)
-            pull = friction.elastic(
-                block.parameters["friction"],
-                s,
-                block.neighbours.box,
-                i,
-                j,
-                1.0 / s.density[i],
-                1.0 / s.density[j],
-                dx,
-                dy,
-                dz,
-            )
+            pull = stress.pair((), elastic, out.bearing, block.neighbours.box, i, j, dx, dy, dz, 0.0, 0.0, 0.0)
             g = s.mass[i] * s.mass[j] * kernels.cubic_spline_gradient(math.sqrt(r2), block.kernel.h, block.kernel.sigma)
             power += g * (pull[0] * s.u[i] + pull[1] * s.v[i])
-    work = (s.mass * out.contact_work).sum()
+    for i in range(len(s.x)):
+        N = contacts.moments(s, block.rows, block.neighbours.box, out.pull, i)[0]
+        work += s.mass[i] / s.density[i] * friction.power(tuple(tau[:, i]), contacts.deviator(N)[1])
     assert np.abs(s.contact_xy - before).max() > 0.0
     assert power == pytest.approx(-work, rel=1e-10)

@@ -37,14 +37,14 @@ def test_diffusion_on_a_lattice_is_the_laplacian():
             if r2 := a * a + b * b:
                 scale = kernels.cubic_spline_gradient(math.sqrt(r2), h, sigma) / rho
                 grains, stress = Grains(np.array([0.0, 0.5 * a * a])), Stress(np.full(2, k))
-                total += own.pair(parameters(), stress, grains, 0, 1, 0.0, 0.0, 0.0, scale)
+                total += own.pair.py_func(parameters(), stress, grains, 0, 1, 0.0, 0.0, scale)
     assert total == pytest.approx(k / rho * lattice_divergence_factor("cubic_spline", 2, 1.5), rel=1e-12)
 
 
 def test_a_pair_gets_half_of_its_works_and_conducts_by_the_harmonic_mean():
     grains, stress = Grains(np.array([0.1, 0.4])), Stress(np.array([1.0, 3.0]))
-    given = own.pair(parameters(artificial=0.25), stress, grains, 0, 1, 0.2, 0.4, 0.8, -0.5)
-    assert given == pytest.approx(0.5 * (0.2 + 0.4 + 0.25 * 0.8) + 2.0 * 1.5 * (0.1 - 0.4) * -0.5, rel=1e-13)
+    given = own.pair.py_func(parameters(artificial=0.25), stress, grains, 0, 1, 0.2, 0.8, -0.5)
+    assert given == pytest.approx(0.5 * (0.2 + 0.25 * 0.8) + 2.0 * 1.5 * (0.1 - 0.4) * -0.5, rel=1e-13)
     assert own.rest(parameters(artificial=0.25), 0.8) == pytest.approx(0.6, rel=1e-15)
     assert own.rest((), 0.8) == 0.8
 

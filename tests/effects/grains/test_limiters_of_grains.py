@@ -22,7 +22,7 @@ def grains(alpha_p, theta, upstream=()):
     state = particles.empty(len(alpha_p), effects.arrays(box(BED)), 2)
     state.density[:], state.theta[:], state.diameter[:] = np.multiply(alpha_p, DENSITY), theta, DIAMETER
     state.kind[list(upstream)] = INFLOW
-    return SimpleNamespace(state=state, step=0.0)
+    return SimpleNamespace(state=state, step=0.0, scratch=SimpleNamespace(strain=np.ones((3, len(alpha_p)))))
 
 
 def held(name, method, **sections):
@@ -66,6 +66,12 @@ def test_grains_past_the_cap_of_packing(name):
     """0.01 below the packing limit of 0.63."""
     own = grains([0.60, 0.6199, 0.6201, 0.64, 0.64], 1e-4, upstream=(4,))
     assert held(name, own)["alpha_p_capped_share"] == 0.5
+
+
+def test_grains_that_neighbours_do_not_enclose():
+    own = grains([0.6] * 4, 1e-4, upstream=(3,))
+    own.scratch.strain[2, 1:] = 0.0
+    assert held("granular_viscosity", own)["unenclosed_share"] == pytest.approx(2.0 / 3.0)
 
 
 def test_no_grains_are_no_share():

@@ -52,10 +52,10 @@ def test_strain_of_a_uniform_flow_in_space(tmp_path):
         own[:] = column
     sheared = stepper.scratch
     shearing.shear(
-        stepper.kernel, state, stepper.rows, stepper.neighbours.box, sheared, OFF, OFF, OFF, 1e-4, np.empty((5, 0)),
-        *sheared.shearing,
+        stepper.kernel, state, stepper.rows, stepper.neighbours.box, sheared, OFF, OFF, OFF, OFF, 1e-4,
+        np.empty((5, 0)), *sheared.shearing,
     )  # fmt: skip
-    shear, divergence = sheared.shear_squared, sheared.divergence
+    shear, divergence = sheared.strain[:2]
     inside = (np.abs(particles.positions(state) - 0.03) < 0.011).all(axis=1)
     D = 0.5 * (gradient + gradient.T)
     deviator = D - np.trace(D) / 3.0 * np.eye(3)

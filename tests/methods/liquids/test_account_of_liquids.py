@@ -39,6 +39,10 @@ SEEN = {
         ),
         ("drained_J", "work_of_gravity_J"),
     ),
+    "channel_bore": (0.05, ("resolution.spacing_mm=25",), ("work_of_inflow_J", "injected_J", "work_of_gravity_J")),
+    "free_overfall": (
+        0.3, ("resolution.spacing_mm=20",), ("work_of_inflow_J", "injected_J", "left_J", "work_of_gravity_J"),
+    ),
 }  # fmt: skip
 UNSHIFTED = "resolution.spacing_mm=50", "effects=['gravity', 'density_diffusion', 'laminar_viscosity', 'tank']"
 
@@ -95,14 +99,14 @@ def thrown(folder, push=0.0, **places) -> dict:
     for name, value in places.items():
         getattr(run.state, name)[run.stepper.active] = value
     run.stepper.forces()
-    run.liquid.rates = account.rates(run.stepper, 0.0, None)
+    run.method.rates = account.rates(run.stepper, 0.0, None)
     run.start()
     pushes = np.zeros((len(run.state.x), 3))
     pushes[run.stepper.active] = 50.0 * push, 200.0 * push, 0.0
-    run.liquid.begin()
-    run.liquid.push(pushes)
-    run.liquid.advance(1.0, 10)
-    run.liquid.close()
+    run.method.begin()
+    run.method.push(pushes)
+    run.method.advance(1.0, 10)
+    run.method.close()
     return run.ledger.summary()
 
 

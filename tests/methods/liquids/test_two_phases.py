@@ -10,7 +10,7 @@ from sdph.effects import OFF
 from sdph.engine import kernels as smoothing
 from sdph.engine.state import GAS, LIQUID, positions, velocities
 from sdph.laws import liquids
-from sdph.methods.liquids import interface, phases, shift
+from sdph.methods.liquids import interface, phases, shift, start
 from sdph.methods.liquids.loads import loads, wall_loads
 from sdph.methods.liquids.method import LiquidStepper
 from sdph.schema import CaseError
@@ -197,6 +197,18 @@ def test_tension_of_one_curvature_is_balanced_by_its_pressure():
         assert np.allclose(tension[i], -jump, rtol=1e-9, atol=1e-12 * np.abs(jump).max())
 
 
+def test_wave_raises_the_particles_of_both_phases_about_its_level():
+    middle = {"centre_m": [0.0, 0.4], "flow": "wave", "displacement_m": 0.02, "speed_m_s": 0.3}
+    pools = {name: pool | middle for name, pool in BASE["pools"].items()}
+    raised, flat = (start.fill(cases.from_table(BASE | {"pools": own})) for own in (pools, BASE["pools"]))
+    wet = flat.kind >= LIQUID
+    moved = (positions(raised) - positions(flat))[wet, :2]
+    expected = liquids.wave(positions(flat)[wet, :2] - [0.0, 0.4], 0.5, 0.02)
+    np.testing.assert_allclose(moved, expected, atol=1e-12)
+    np.testing.assert_allclose(velocities(raised)[wet, :2], 15.0 * expected, atol=1e-12)
+    assert (raised.y == flat.y)[~wet].all()
+
+
 def test_summed_density_of_a_lattice_is_that_of_rest():
     own = stepper(
         shaken=False,
@@ -282,6 +294,8 @@ def test_frequencies_of_discs():
             },
             "quadrupole",
         ),
+        ({"pools": BASE["pools"] | {"air": BASE["pools"]["air"] | {"flow": "wave"}}}, "crest"),
+        ({"pools": BASE["pools"] | {"air": BASE["pools"]["air"] | {"displacement_m": 0.01}}}, "that of a wave"),
     ],
 )
 def test_what_two_phases_cannot_be_is_told(change, word):

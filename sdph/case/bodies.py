@@ -1,0 +1,65 @@
+"""Checks of the bodies of a case; each raises a CaseError: what was given, and what is allowed."""
+
+from __future__ import annotations
+
+from sdph.schema import CaseError
+
+NEEDS = {
+    "box": ("lower_m", "upper_m"), "disc": ("centre_m", "radius_m"),
+    "ring": ("centre_m", "radius_m", "inner_radius_m"), "cylinder": ("centre_m", "radius_m", "length_m"),
+}  # fmt: skip
+DIMENSIONS = {"disc": 2, "ring": 2, "cylinder": 3}
+CONSTANTS = 5  # of failure: D1 to D5
+
+
+def check(case) -> None:
+    """Bodies have what their shapes need, lie in the domain, and are wider than the spacing; failure has its
+    constants."""
+    own = case.solid
+    if case.domain.periodic:
+        raise CaseError("domain.periodic is given; bodies know no periodic axes: leave it out")
+    if own.failure and (len(own.failure) != CONSTANTS or any(isinstance(d, tuple) for d in own.failure)):
+        raise CaseError(f"solid.failure = {list(own.failure)}; it must be the five numbers D1 to D5")
+    if own.failure and own.yield_stress is None:
+        raise CaseError("solid.failure is of plastic strain; give solid.yield_stress_Pa, or leave it out")
+    for name, body in case.bodies.items():
+        _check_shape(case, f"bodies.{name}", body)
+        _check_motion(f"bodies.{name}", body)
+
+
+def _check_shape(case, where: str, body) -> None:
+    for key in NEEDS[body.shape]:
+        if getattr(body, key.removesuffix("_m")) is None:
+            raise CaseError(f"{where}.{key} is missing; a {body.shape} needs {', '.join(NEEDS[body.shape])}")
+    wanted = DIMENSIONS.get(body.shape, case.dimensions)
+    if case.dimensions != wanted:
+        raise CaseError(f"{where}.shape = {body.shape!r} is of {wanted} dimensions; dimensions = {case.dimensions}")
+    lower, upper = extents(body)
+    if body.shape == "ring" and body.inner_radius >= body.radius:
+        raise CaseError(f"{where}.inner_radius_m = {body.inner_radius:g} must be below radius_m = {body.radius:g}")
+    wide = body.radius - body.inner_radius if body.shape == "ring" else min(b - a for a, b in zip(lower, upper))
+    if wide < case.resolution.spacing * (1.0 - 1e-9):
+        spacing = f"resolution.spacing_mm = {case.resolution.spacing * 1e3:g}"
+        raise CaseError(f"{spacing} is larger than {where} is wide ({wide * 1e3:g} mm); give a spacing well below that")
+    slack = 1e-9 * max(case.domain.size)
+    if any(a < -slack or b > size + slack for a, b, size in zip(lower, upper, case.domain.size)):
+        raise CaseError(
+            f"{where} reaches out of the domain, domain.size_m = {list(case.domain.size)}; move it or enlarge the "
+            "domain"
+        )
+
+
+def _check_motion(where: str, body) -> None:
+    if (body.held_lower is None) != (body.held_upper is None):
+        raise CaseError(f"{where}: give held_lower_m and held_upper_m, or neither")
+    held = body.shape == "box" and body.held_upper is not None and body.lower[0] <= body.held_upper[0] < body.upper[0]
+    if body.motion == "cantilever" and not held:
+        raise CaseError(f'{where}.motion = "cantilever" is of a box that is held on its left: give held_upper_m')
+
+
+def extents(body) -> tuple[tuple, tuple]:
+    """Lower and upper corner [m] of the box around a body."""
+    if body.shape == "box":
+        return body.lower, body.upper
+    across = [body.radius] * 2 + [0.5 * (body.length or 0.0)] * (len(body.centre) - 2)
+    return tuple(c - a for c, a in zip(body.centre, across)), tuple(c + a for c, a in zip(body.centre, across))

@@ -1,0 +1,125 @@
+"""Bodies that touch a liquid: it meets their particles as it meets those of a wall, but for that they move.
+
+Pressure and velocity of a body's particle are extrapolated from the liquid in front (Adami, Hu & Adams 2012, J. Comput.
+Phys. 231, 7057), with gravity and without the body's own acceleration: that is known from the step before, and would
+drive a light body wild (our choice; an error of first order in the spacing). Force and friction of each pair go to the
+body with the sign turned, so that momentum closes pair by pair.
+"""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from sdph.effects.around import tank
+from sdph.engine import motion
+from sdph.engine import state as particles
+from sdph.engine.state import WALL
+from sdph.methods.liquids import start, walls
+from sdph.methods.liquids.forces import Moving
+
+NEAREST = 0.75  # spacings: what stands nearer to a body at the start stands in it; our choice
+
+
+class Carrier(Protocol):
+    """Bodies as a liquid knows them, M particles in an order that stays.
+
+    volume  (M,) [m^d]
+    given   (4,) impulse [N s] and work [J] that they have got from the liquid
+    """
+
+    volume: np.ndarray
+    given: np.ndarray
+
+    def places(self) -> np.ndarray:
+        """(M, 3) [m]."""
+
+    def velocities(self) -> np.ndarray:
+        """(M, 3) [m/s]."""
+
+    def limits(self) -> dict[str, float]:
+        """Longest steps [s] by cause."""
+
+    def set_off(self, dt: float) -> None:
+        """The first half of the kick of a step of `dt` [s], and the way."""
+
+    def meet(self, force: np.ndarray) -> None:
+        """Forces (M, 3) [N] of the liquid at the start, which the first kick is with."""
+
+    def arrive(self, dt: float, force: np.ndarray) -> None:
+        """Forces at the end of the step, (M, 3) [N] of the liquid among them, and the second half of the kick."""
+
+
+class Bodies:
+    """Particles of a carrier within a liquid: wall particles, numbered behind all others."""
+
+    def __init__(self, carrier: Carrier):
+        self.carrier = carrier
+        self.first = 0  # their first number
+        self.at = np.zeros(0, np.int64)  # (M,) where each stands
+        self.moving = Moving(*np.zeros((3, 0)))
+
+    def immersed(self, case, state):
+        """The liquid and walls of a case less what stands in the bodies, and the bodies' particles behind them."""
+        places, d = self.carrier.places(), case.dimensions
+        here = particles.positions(state)
+        gap, _ = cKDTree(places).query(here, distance_upper_bound=NEAREST * case.resolution.spacing)
+        state = particles.take(state, np.isinf(gap))
+        own = start.placed(case, places[:, :d])
+        own.kind[:], own.density[:] = WALL, case.liquid.density
+        own.mass[:] = case.liquid.density * self.carrier.volume
+        self.first = len(state.x)
+        state = particles.join(state, own)
+        state.ident[:] = np.arange(len(state.ident))
+        return state
+
+    def find(self, state) -> Moving:
+        """Find out where they stand in a state; velocities of all wall particles."""
+        own = np.flatnonzero(state.ident >= self.first)
+        self.at = np.empty(len(own), np.int64)
+        self.at[state.ident[own] - self.first] = own
+        self.moving = Moving(*np.zeros((3, len(state.ident))))
+        self._tell()
+        return self.moving
+
+    def among(self, chosen) -> np.ndarray:
+        """(W,) whether the wall particles `chosen` are theirs."""
+        own = np.zeros(len(self.moving.u), bool)
+        own[self.at] = True
+        return own[chosen]
+
+    def set_off(self, dt: float) -> None:
+        """The carrier's kick, and velocities after it."""
+        self.carrier.set_off(dt)
+        self._tell()
+
+    def drift(self, state, dt: float) -> None:
+        """Go along for `dt` [s]."""
+        motion.drift(self.at, *self.moving, dt, state.x, state.y, state.z)
+
+    def place(self, state) -> None:
+        """Go to where the carrier has them."""
+        for axis, column in zip(particles.axes(state), self.carrier.places().T):
+            axis[self.at] = column
+
+    def force(self, stepper) -> np.ndarray:
+        """(M, 3) [N] of the liquid on them now."""
+        near = self.at[stepper.rows.number[self.at] > 0]
+        found = np.zeros((len(stepper.state.x), 3))
+        found[near] = walls.feel(stepper, near, 0.0)[:, :3]
+        return found[self.at]
+
+    def add_velocities(self, gain) -> None:
+        """Add theirs to (N, 3) [m/s]."""
+        gain[self.at] += np.stack([axis[self.at] for axis in self.moving], axis=1)
+
+    def _tell(self) -> None:
+        for axis, column in zip(self.moving, self.carrier.velocities().T):
+            axis[self.at] = column
+
+
+def wall_of(case) -> tank.TankP:
+    """Parameters of bodies in a liquid without a tank: they slip, and do not pull."""
+    return tank.acts(case, stick=0.0, least=0.0)

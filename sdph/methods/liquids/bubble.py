@@ -1,0 +1,158 @@
+"""The bubble of a liquid: its void, what is in it, and its pressure on the liquid.
+
+Void: area within the outermost ring of the liquid, and half of that ring, less the area of the liquid, m/rho of all;
+what the polygon of the ring misses at the start is taken off for good, so that the first void is that of the case.
+Pressure: -2 p_b is added to p_i + p_j of all pairs of the liquid nearer to the void than to the rim. The sum of
+V_j grad W vanishes inside, which leaves p_b on the void's face alone. What is given back is not equal and opposite pair
+by pair: `impulse_of_bubble_*` says what the sum over a closed void misses.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit, prange
+
+from sdph.effects.liquids import bubble
+from sdph.engine import kernels as smoothing
+from sdph.engine import state as particles
+from sdph.engine.geometry import FAST, apart
+from sdph.engine.rows import entry, length
+from sdph.laws import cavities, real_gas
+from sdph.methods.liquids import totals
+
+SAME = 1e-6  # of a radius: round-off
+COLDEST, HOTTEST = (
+    0.5,
+    0.999,
+)  # of the critical temperature: beyond, a vapour's bubble is no longer followed; our choice
+LOWER = "bubble.flux_W_m2 or run.step_factor"
+
+
+class Void:
+    """A bubble: void [m2], pressure over that around [Pa], mass [kg/m] and temperature [K] of vapour, heat that it got
+    and with which it warmed [J/m]; passed (5,): mass, momentum and energy that the liquid gave to it, and mass that it
+    still owes, of this step's warming."""
+
+    KEPT = ("area", "pressure", "mass", "temperature", "heat", "warmed", "owed", "passed")  # see sdph.engine.kept
+
+    def __init__(self, case, p, state):
+        self.p, pool = p, bubble.pool_of(case)
+        x, y = state.x - pool.centre[0], state.y - pool.centre[1]
+        r = np.where(particles.wet(state), np.hypot(x, y), 0.0)
+        ring = np.flatnonzero((r > r.max() * (1.0 - SAME)) & (r > 0.0))
+        self.loop = state.ident[ring][np.argsort(np.arctan2(y[ring], x[ring]))]  # counterclockwise
+        self.first = cavities.void(pool.inner_radius, 2)
+        self.area, self.missed = self.first, 0.0
+        self.missed = self._measure(state) - self.first
+        self.pressure, self.mass, self.temperature = p.excess, 0.0, 0.0
+        self.heat = self.warmed = 0.0
+        self.owed, self.passed = 0.0, np.zeros(5)
+        if p.vapour:
+            self.coldest, self.hottest = (share * p.vapour.critical_temperature for share in (COLDEST, HOTTEST))
+            self.thinnest, self.densest = (
+                float(real_gas.saturated_density(p.vapour, end)) for end in (self.coldest, self.hottest)
+            )
+            self.temperature = float(real_gas.saturation_temperature(p.vapour, p.around + self._capillary()))
+            self.mass = float(real_gas.saturated_density(p.vapour, self.temperature) * self.area)
+
+    @property
+    def radius(self) -> float:
+        """R [m] of a round void of that area."""
+        return math.sqrt(self.area / math.pi)
+
+    def press(self, stepper) -> None:
+        """Add to the accelerations of a stepper; what was added is its `inflating` (N, 3) [m/s2]."""
+        s = stepper.state
+        self.area = self._measure(s) - self.missed
+        if not self.area > 0.0:
+            stepper.guard.stop("void", "the bubble", np.zeros(3), self.area, (0.0, math.inf, "m2"), LOWER)
+        self.pressure = self._content(stepper.guard) - self.p.around - self._capillary()
+        outside = np.where(self._near(s), self.pressure, 0.0)
+        self._facing(stepper, outside)
+        stepper.acceleration += stepper.inflating
+
+    def _facing(self, stepper, outside) -> None:
+        s = stepper.state
+        press(
+            stepper.kernel, s, stepper.rows, stepper.neighbours.box, stepper.active, stepper.volume, outside,
+            stepper.inflating, stepper.facing,
+        )  # fmt: skip
+
+    def boil(self, stepper, dt: float) -> None:
+        """Boil for `dt` [s]: take mass off the liquid at the void's face, by how much of each particle faces it."""
+        s, own = stepper.state, stepper.active
+        self._facing(stepper, np.zeros(len(s.x)))
+        heat = dt * self.p.flux * 2.0 * math.pi * self.radius
+        boiled = heat / self.p.vapour.latent_heat
+        self.heat, self.mass, mass, self.owed = self.heat + heat, self.mass + boiled, self.owed + boiled, 0.0
+        share = np.where(self._near(s)[own], s.mass[own] * stepper.facing[own], 0.0)
+        share *= mass / share.sum()
+        kinetic, elastic = totals.specific_energies(stepper, own)
+        self.passed += [share.sum(), *(share @ particles.velocities(s)[own]), float(share @ (kinetic + elastic))]
+        s.mass[own] -= share
+
+    def _capillary(self) -> float:
+        return float(cavities.capillary_pressure(self.p.tension, self.radius, 2))
+
+    def _content(self, guard) -> float:
+        """Pressure [Pa] of what is in it, absolute."""
+        p, v = self.p, self.p.vapour
+        if not v:
+            held = p.around + p.tension / math.sqrt(self.first / math.pi)
+            return (held + p.excess) * (self.first / self.area) ** p.exponent
+        before = self.temperature
+        density = self.mass / self.area
+        if not self.thinnest < density < self.densest:
+            allowed = (self.thinnest, self.densest, "kg/m3")
+            guard.stop("density of the vapour", "the bubble", np.append(self.rim, 0.0), density, allowed, LOWER)
+        self.temperature = float(cavities.temperature_of(v, density, self.coldest, self.hottest))
+        warmed = self.mass * v.heat_capacity * (self.temperature - before)
+        self.mass, self.owed = self.mass - warmed / v.latent_heat, self.owed - warmed / v.latent_heat
+        self.warmed += warmed
+        return float(real_gas.saturation_pressure(v, self.temperature))
+
+    def _measure(self, state) -> float:
+        """Area [m2] within the rim less that of the liquid; half of the rim's own stands outside the polygon."""
+        place = np.empty(int(state.ident.max()) + 1, np.int64)
+        place[state.ident] = np.arange(len(state.ident))
+        rim = place[self.loop]
+        x, y = state.x[rim], state.y[rim]
+        self.rim = np.array([x.mean(), y.mean()])
+        inside = 0.5 * float((x * np.roll(y, -1) - np.roll(x, -1) * y).sum())
+        wet = particles.wet(state)
+        volume = state.mass / state.density
+        return inside + 0.5 * float(volume[rim].sum()) - float(volume[wet].sum())
+
+    def _near(self, state) -> np.ndarray:
+        """(N,) whether particles are nearer to the void than to the rim: a round one in the rim's middle."""
+        r = np.hypot(state.x - self.rim[0], state.y - self.rim[1])
+        reach = math.sqrt((self.area + float((state.mass / state.density)[particles.wet(state)].sum())) / math.pi)
+        return r < 0.5 * (self.radius + reach)
+
+    def row(self) -> dict[str, float]:
+        """Columns of history.csv."""
+        told = {"bubble_area_m2": self.area, "bubble_pressure_Pa": self.pressure}
+        if self.p.vapour:
+            told |= {"bubble_mass_kg": self.mass, "bubble_temperature_K": self.temperature}
+        return told
+
+
+@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+def press(kernel, s, rows, box, active, volume, outside, inflating, facing):
+    """inflating (N, 3) [m/s2] = 2 p_b/rho sum V_j grad W of a pressure `outside` (N,) [Pa]; facing (N,) [1/m] the
+    length of that sum."""
+    for n in prange(len(active)):
+        i = active[n]
+        x = y = z = 0.0
+        for k in range(length(rows, i)):
+            j = entry(rows, i, k)
+            dx, dy, dz = apart(s, box, i, j)
+            share = abs(volume[j]) * smoothing.slope(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
+            x += share * dx
+            y += share * dy
+            z += share * dz
+        scale = 2.0 * outside[i] / s.density[i]
+        inflating[i, 0], inflating[i, 1], inflating[i, 2] = scale * x, scale * y, scale * z
+        facing[i] = math.sqrt(x * x + y * y + z * z)

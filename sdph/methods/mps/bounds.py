@@ -1,0 +1,47 @@
+"""Catches moving particles that go unstable: none is far faster than what drives them."""
+
+from __future__ import annotations
+
+import math
+
+from sdph.engine import state as particles
+from sdph.engine.guard import RUNAWAY, TINY, Unstable, Watch
+from sdph.engine.kept import Unfit
+from sdph.engine.state import INFLOW, LIQUID
+
+
+class MpsGuard(Watch):
+    """Looks at all particles after every window."""
+
+    @property
+    def fast(self) -> float:
+        """Speed [m/s] that no particle reaches: RUNAWAY times nozzles, pools, a fall through the domain and what
+        tension gives one particle, taken together."""
+        case = self.case
+        driven = [n.speed * math.hypot(1.0, n.swirl) for n in case.nozzles.values()]
+        driven += [math.hypot(*pool.velocity) for pool in case.pools.values() if pool.velocity]
+        driven.append(math.sqrt(2.0 * math.hypot(*case.domain.gravity) * max(case.domain.size)))
+        if own := case.parameters.get("free_energy_tension"):
+            driven.append(math.sqrt(2.0 * own.coefficient / (case.liquid.density * case.resolution.spacing)))
+        return RUNAWAY * sum(driven)
+
+    def admit_mps(self, state: dict) -> None:
+        """`admit` of moving particles."""
+        case = self.case
+        most = 2.0 * case.liquid.density * case.resolution.spacing**case.dimensions
+        names = ("nozzle", "entering") if "inflow" in case.effects else ()
+        self.admit(state, names, dict.fromkeys("uvw", (-self.fast, self.fast)) | {"mass": (TINY, most)})
+        if not set(state["kind"].tolist()) <= {LIQUID, INFLOW}:
+            raise Unfit("its particles are not those of a liquid")
+
+    def look(self, stepper) -> None:
+        """NaN, speed."""
+        s, self.time = stepper.state, stepper.time
+        lower = f"run.step_factor (now {self.case.run.step_factor:g}; the step was ruled by {stepper.limit})"
+        self.hold("speed", particles.lengths(particles.velocities(s)), (0.0, self.fast, "m/s"), s, lower)
+
+    def unsolved(self, stepper, error) -> None:
+        """Stop a run whose pressure has not come to its tolerance."""
+        own = self.case.method
+        mend = f"raise method.iterations (now {own.iterations}) or method.tolerance (now {own.tolerance:g})"
+        raise Unstable(f"the pressure was not found at t = {stepper.time:.6g} s: {error}; {mend}", self.last)

@@ -1,0 +1,226 @@
+"""Loops over neighbours of the moving-particle method (swirl-sheet.md, section 2, whose numbers they bear).
+
+Here r_ij = r_j - r_i and u_ij = u_j - u_i, as in the sources. Forces of pairs are equal and opposite. Everybody counts,
+those that wait upstream of a nozzle too.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit, prange
+
+from sdph.engine.geometry import apart, faster
+from sdph.engine.linear import Matrix
+from sdph.engine.rows import entry
+from sdph.laws import moving_particles
+from sdph.laws.compiled import inlined
+
+loop = njit(cache=True, parallel=True, error_model="numpy")
+
+# a particle sees the surface where n is below SPARSE n_0, or below THIN n_0 with neighbours ASIDE n_0 to one side (5),
+# or where it has fewer than FEW neighbours for each dimension: two that touch have no n that tells; our choice
+SPARSE, THIN, ASIDE, FEW = 0.85, 0.97, 0.2, 2
+BURST = 1e-6  # of the diagonal, so that a piece without a surface has a pressure; swirl-sheet.md, 5
+
+
+class Cloud(NamedTuple):
+    """Spacing l0 and reach r_e [m], n_0 [-], lambda [m2], dimensions, density [kg/m3]."""
+
+    spacing: float
+    reach: float
+    number: float
+    spread: float
+    dimensions: float
+    density: float
+
+
+@inlined
+def seen(cloud, s, box, i, j):
+    """r_ij (3 components) [m], its length, CLOSE l0 at least, and the weight w, 0 beyond r_e."""
+    dx, dy, dz = apart(s, box, j, i)
+    r = max(math.sqrt(dx * dx + dy * dy + dz * dz), moving_particles.CLOSE * cloud.spacing)
+    return dx, dy, dz, r, moving_particles.weight(r / cloud.spacing, cloud.reach / cloud.spacing)
+
+
+@loop
+def look(cloud, s, rows, box, number, surface, speed):
+    """number (N,): n; surface (N,): 1 where it sees the surface; speed (N,) [m/s]: the most by which a neighbour
+    within r_e goes faster."""
+    for i in prange(len(s.x)):
+        n = ox = oy = oz = fastest = 0.0
+        near = 0
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
+            dx, dy, dz, r, w = seen(cloud, s, box, i, j)
+            if w == 0.0:
+                continue
+            near += 1
+            n += w
+            per = w / r
+            ox += per * dx
+            oy += per * dy
+            oz += per * dz
+            du, dv, dw = faster(s, box, j, i)
+            fastest = max(fastest, du * du + dv * dv + dw * dw)
+        aside = math.sqrt(ox * ox + oy * oy + oz * oz)
+        open_side = n < THIN * cloud.number and aside > ASIDE * cloud.number
+        few = near < FEW * cloud.dimensions
+        number[i], speed[i] = n, math.sqrt(fastest)
+        surface[i] = 1 if n < SPARSE * cloud.number or open_side or few else 0
+
+
+@loop
+def diverge(cloud, s, rows, box, divergence):
+    """divergence (N,) [1/s]: (d/n_0) sum u_ij.r_ij w/r^2 (4)."""
+    for i in prange(len(s.x)):
+        total = 0.0
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
+            dx, dy, dz, r, w = seen(cloud, s, box, i, j)
+            if w == 0.0:
+                continue
+            du, dv, dw = faster(s, box, j, i)
+            total += w / (r * r) * (du * dx + dv * dy + dw * dz)
+        divergence[i] = cloud.dimensions / cloud.number * total
+
+
+@loop
+def near_surface(cloud, s, rows, box, surface, beside):
+    """beside (N,): 1 where the particle or a neighbour of it within r_e sees the surface."""
+    for i in prange(len(s.x)):
+        found = surface[i]
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
+            if surface[j] == 1 and seen(cloud, s, box, i, j)[4] > 0.0:
+                found = 1
+        beside[i] = found
+
+
+@loop
+def equations_of(cloud, s, rows, box, number, surface, start, diagonal, column, value):
+    """Fill the matrix of (2 d/(lambda n_0)) sum (p_j - p_i) w times -lambda n_0/(2 d), of which start (N + 1,) is
+    known: a particle at the surface has n_0 on the diagonal, as if what it lacks were there with p = 0."""
+    for i in prange(len(s.x)):
+        e = start[i]
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
+            w = seen(cloud, s, box, i, j)[4]
+            if w > 0.0:
+                column[e], value[e] = j, w
+                e += 1
+        diagonal[i] = max(number[i], cloud.number) if surface[i] == 1 else number[i] * (1.0 + BURST)
+
+
+@loop
+def count(cloud, s, rows, box, found):
+    """found (N,): neighbours within r_e."""
+    for i in prange(len(s.x)):
+        n = 0
+        for k in range(rows.number[i]):
+            if seen(cloud, s, box, i, entry(rows, i, k))[4] > 0.0:
+                n += 1
+        found[i] = n
+
+
+def matrix(cloud, s, rows, box, number, surface) -> Matrix:
+    """The pressure's matrix (5), (7)."""
+    found = np.empty(len(s.x), np.int64)
+    count(cloud, s, rows, box, found)
+    start = np.zeros(len(found) + 1, np.int64)
+    np.cumsum(found, out=start[1:])
+    column, value, diagonal = np.empty(start[-1], np.int32), np.empty(start[-1]), np.empty(len(found))
+    equations_of(cloud, s, rows, box, number, surface, start, diagonal, column, value)
+    return Matrix(diagonal, start, column, value)
+
+
+@loop
+def press(cloud, s, rows, box, pressure, acceleration):
+    """acceleration (N, 3) [m/s2]: -(1/rho) (d/n_0) sum (p_i + p_j) r_ij w/r^2 (6)."""
+    factor = cloud.dimensions / (cloud.density * cloud.number)
+    for i in prange(len(s.x)):
+        ax = ay = az = 0.0
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
+            dx, dy, dz, r, w = seen(cloud, s, box, i, j)
+            push = factor * (pressure[i] + pressure[j]) * w / (r * r)
+            ax -= push * dx
+            ay -= push * dy
+            az -= push * dz
+        acceleration[i, 0], acceleration[i, 1], acceleration[i, 2] = ax, ay, az
+
+
+@loop
+def rub(cloud, s, rows, box, viscosity, acceleration):
+    """acceleration (N, 3) [m/s2]: nu (2 d/(lambda n_0)) sum u_ij w (3, 7), nu [m2/s]."""
+    factor = viscosity * 2.0 * cloud.dimensions / (cloud.spread * cloud.number)
+    for i in prange(len(s.x)):
+        ax = ay = az = 0.0
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
+            w = seen(cloud, s, box, i, j)[4]
+            du, dv, dw = faster(s, box, j, i)
+            ax += w * du
+            ay += w * dv
+            az += w * dw
+        acceleration[i, 0], acceleration[i, 1], acceleration[i, 2] = factor * ax, factor * ay, factor * az
+
+
+@loop
+def pull(cloud, tension_p, s, rows, box, acceleration, energy):
+    """acceleration (N, 3) [m/s2] by tension, F/(rho l0^d) (8), and energy (N,) [J] of the pairs, half to each."""
+    unit, reach = cloud.spacing, tension_p.reach / cloud.spacing
+    mass = cloud.density * unit**cloud.dimensions
+    for i in prange(len(s.x)):
+        ax = ay = az = bound = 0.0
+        for k in range(rows.number[i]):
+            dx, dy, dz = apart(s, box, entry(rows, i, k), i)
+            r = math.sqrt(dx * dx + dy * dy + dz * dz)
+            if r >= tension_p.reach or r == 0.0:
+                continue
+            force = tension_p.coefficient * moving_particles.tension(r / unit, reach) / (mass * r)
+            ax -= force * dx
+            ay -= force * dy
+            az -= force * dz
+            bound += 0.5 * tension_p.coefficient * unit * moving_particles.cohesion(r / unit, reach)
+        acceleration[i, 0], acceleration[i, 1], acceleration[i, 2], energy[i] = ax, ay, az, -bound
+
+
+@loop
+def meet(s, rows, box, distance, meeting):
+    """meeting (N,): neighbours nearer than `distance` [m] that approach."""
+    for i in prange(len(s.x)):
+        n = 0
+        for k in range(rows.number[i]):
+            n += 1 if _approach(s, box, i, entry(rows, i, k), distance)[3] < 0.0 else 0
+        meeting[i] = n
+
+
+@inlined
+def _approach(s, box, i, j, distance):
+    """e_ij and u_ij.e_ij [m/s] of a pair nearer than `distance` [m]; else 0."""
+    dx, dy, dz = apart(s, box, j, i)
+    r = math.sqrt(dx * dx + dy * dy + dz * dz)
+    if r >= distance or r == 0.0:
+        return 0.0, 0.0, 0.0, 0.0
+    du, dv, dw = faster(s, box, j, i)
+    return dx / r, dy / r, dz / r, (du * dx + dv * dy + dw * dz) / r
+
+
+@loop
+def collide(s, rows, box, distance, restitution, meeting, change):
+    """change (N, 3) [m/s] of velocity: of a pair that approaches each loses (1 + e)/2 of it, shared by the larger
+    number of contacts of the two (9)."""
+    for i in prange(len(s.x)):
+        ux = uy = uz = 0.0
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
+            ex, ey, ez, speed = _approach(s, box, i, j, distance)
+            if speed < 0.0:
+                part = 0.5 * (1.0 + restitution) * speed / max(meeting[i], meeting[j])
+                ux += part * ex
+                uy += part * ey
+                uz += part * ez
+        change[i, 0], change[i, 1], change[i, 2] = ux, uy, uz

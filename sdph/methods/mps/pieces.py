@@ -1,0 +1,73 @@
+"""Pieces of a liquid: particles that hang together, sheets, ligaments, drops."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from sdph.engine import state as particles
+from sdph.laws.sheets import diameter_of
+
+
+def labels(places, distance: float) -> np.ndarray:
+    """Number (N,) of the piece of each place (N, 3) [m]: two are of one where they are nearer than `distance` [m]."""
+    pairs = cKDTree(places).query_pairs(distance, output_type="ndarray")
+    graph = coo_array((np.ones(len(pairs), np.int8), pairs.T), shape=(len(places),) * 2)
+    return connected_components(graph, directed=False)[1]
+
+
+def of(state, label, case) -> list[dict]:
+    """Particles, mass [kg], diameter [m], middle [m] and velocity [m/s] of each piece, label (N,), and the energy of
+    motion in it [J]."""
+    _, own = np.unique(label, return_inverse=True)
+    mass = np.bincount(own, weights=state.mass)
+    places, velocities = particles.positions(state), particles.velocities(state)
+    middle, mean = (
+        np.stack([np.bincount(own, weights=state.mass * column) for column in values.T], axis=1) / mass[:, None]
+        for values in (places, velocities)
+    )
+    inner = 0.5 * np.bincount(own, weights=state.mass * ((velocities - mean[own]) ** 2).sum(axis=1))
+    size = diameter_of(mass / case.liquid.density, case.dimensions)
+    number = np.bincount(own)
+    return [
+        {"particles": int(number[k]), "mass_kg": float(mass[k]), "diameter_m": float(size[k])}
+        | {f"{a}_m": float(value) for a, value in zip("xyz", middle[k])}
+        | {f"velocity_{a}_m_s": float(value) for a, value in zip("xyz", mean[k])}
+        | {"inner_J": float(inner[k])}
+        for k in range(len(mass))
+    ]
+
+
+def sauter(diameters) -> float:
+    """D32 = sum d^3/sum d^2 [m]; nan of nothing."""
+    d = np.asarray(diameters, float)
+    return float((d**3).sum() / (d**2).sum()) if len(d) else float("nan")
+
+
+def mean(diameters) -> float:
+    """D10 = sum d/N [m], the mean by number; nan of nothing."""
+    return float(np.mean(diameters)) if len(diameters) else float("nan")
+
+
+def percentile(diameters, share: float) -> float:
+    """Diameter [m] below which `share` of the volume is; nan of nothing."""
+    d = np.sort(np.asarray(diameters, float))
+    if not len(d):
+        return float("nan")
+    return float(d[np.searchsorted(np.cumsum(d**3), share * (d**3).sum())])
+
+
+def sizes(diameters, whole) -> dict[str, float]:
+    """Summary of drops of diameters (n,) [m], `whole` (n,) where they are resolved: D10, D32 and the percentiles of
+    volume of all, D32 of those that are resolved, and the share of the mass that is not."""
+    if not len(diameters):
+        return {}
+    found = {"sauter_mean_diameter_m": sauter(diameters[whole])} if whole.any() else {}
+    volume = diameters**3
+    return found | {
+        "unresolved_mass_share": 1.0 - float(volume[whole].sum() / volume.sum()),
+        "sauter_mean_diameter_of_all_m": sauter(diameters), "mean_diameter_of_all_m": mean(diameters),
+        **{f"volume_{n}_percent_below_m": percentile(diameters, n / 100.0) for n in (10, 50, 90)},
+    }  # fmt: skip

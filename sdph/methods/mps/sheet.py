@@ -1,0 +1,115 @@
+"""Half angle of a swirling sheet, and how far from its mouth light gets through it.
+
+The axis of the sheet is that of its nozzle; places (N, 3) [m] are about the middle of the mouth, z along the axis.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from sdph.effects.around.streams import streams_of, turned
+from sdph.laws import sheets
+
+RANGE = (0.25, 0.85)  # of the sheet's length, over which the slope is taken; swirl-sheet.md, section 7
+PIXEL, MIDDLE, HALF, SMOOTHED = 2.0, 0.8, 0.5, 3  # l0; of the width; of the light; rows; the same
+
+
+def nozzle_of(case):
+    """The annular nozzle of a case; None where there is none."""
+    return next((n for n in case.nozzles.values() if n.shape == "annulus"), None)
+
+
+def about_axis(case, places) -> np.ndarray:
+    """(N, 3) places with z along the nozzle's axis, from the middle of its mouth."""
+    nozzle = nozzle_of(case)
+    axis = np.asarray(nozzle.direction, float) / np.linalg.norm(nozzle.direction)
+    first = np.eye(3)[np.argmin(np.abs(axis))]
+    first = first - (first @ axis) * axis
+    first /= np.linalg.norm(first)
+    return (places - np.array(nozzle.centre)) @ np.stack([first, np.cross(axis, first), axis]).T
+
+
+def reach(places) -> float:
+    """Length [m] of the sheet: where all but a hundredth of it is."""
+    return float(np.quantile(places[:, 2], 0.99)) if len(places) else 0.0
+
+
+def half_angle(places, length: float) -> float:
+    """Half angle [rad] by the slope of the radius against z over RANGE of `length` [m]; nan of a short sheet."""
+    z = places[:, 2]
+    on = (z > RANGE[0] * length) & (z < RANGE[1] * length)
+    if on.sum() < 3:
+        return math.nan
+    return float(np.arctan(np.polyfit(z[on], np.hypot(*places[on, :2].T), 1)[0]))
+
+
+def half_angle_of_meridian(z, r, length: float) -> float:
+    """The same of a curve r (n,) at z (n,) [m]."""
+    ends = np.linspace(RANGE[0] * length, RANGE[1] * length, 400)
+    return float(np.arctan(np.polyfit(ends, np.interp(ends, z, r), 1)[0]))
+
+
+def transmission(places, spacing: float) -> tuple[np.ndarray, np.ndarray]:
+    """Distances [m] from the mouth and the share of light that gets through the sheet there, seen from aside: the mean
+    of exp(-depth) over the middle of its width, depth = sum l0^2/pixel area of the particles of a pixel."""
+    pixel = PIXEL * spacing
+    rows = np.floor(places[:, 2] / pixel).astype(int)
+    found = []
+    for row in range(max(0, rows.max(initial=-1) + 1)):
+        own = places[rows == row]
+        if not len(own):
+            found.append(1.0)
+            continue
+        half = MIDDLE * float(np.hypot(*own[:, :2].T).mean())
+        count = max(1, round(2.0 * half / pixel))
+        number = np.histogram(own[:, 0], np.linspace(-half, half, count + 1))[0]
+        found.append(float(np.exp(-number * spacing**2 / (2.0 * half / count * pixel)).mean()))
+    return (np.arange(len(found)) + 0.5) * pixel, np.array(found)
+
+
+def break_up(places, spacing: float) -> float:
+    """Distance [m] from the mouth along the axis at which the sheet first lets half of the light through, three rows
+    smoothed; nan where it nowhere does."""
+    z, light = transmission(places, spacing)
+    if len(light) < SMOOTHED:
+        return math.nan
+    smooth = np.convolve(light, np.full(SMOOTHED, 1.0 / SMOOTHED), mode="valid")
+    past = np.flatnonzero(smooth > HALF)
+    return float(z[past[0] + SMOOTHED // 2]) if len(past) else math.nan
+
+
+def slant(nozzle) -> float:
+    """Way along a particle's path over that along the axis: sqrt(1 + alpha^2)."""
+    return math.hypot(1.0, nozzle.swirl)
+
+
+def ballistic(case, length: float) -> np.ndarray:
+    """(N, 3) places up to `length` [m] along the axis of what the nozzle gives, had it flown straight."""
+    nozzle = nozzle_of(case)
+    own = streams_of(case, nozzle)
+    layers = math.ceil(length / own.pitch)
+    stream = np.tile(np.arange(len(own.mouth)), layers)
+    layer = np.repeat(np.arange(layers), len(own.mouth))
+    places, velocities = turned(nozzle, own, stream, layer, np.zeros(len(layer)))
+    way = (layer + 0.5) * own.pitch / nozzle.speed
+    return about_axis(case, places + way[:, None] * velocities)
+
+
+def told(case, places) -> dict[str, float]:
+    """Summary of a sheet: half angle beside that of straight flight over the same range, break-up length along the
+    path beside that of particles that fly straight, by the same rule."""
+    nozzle, spacing = nozzle_of(case), case.resolution.spacing
+    seen = about_axis(case, places)
+    seen = seen[seen[:, 2] > 0.0]
+    length = min(reach(seen), case.domain.size[int(np.argmax(np.abs(nozzle.direction)))])
+    z = np.linspace(0.0, max(length, spacing), 400)
+    middle = 0.5 * (nozzle.inner_radius + nozzle.radius)
+    straight = half_angle_of_meridian(z, sheets.ballistic_radius(z, middle, nozzle.swirl), length)
+    return {
+        "half_angle_deg": math.degrees(half_angle(seen, length)),
+        "half_angle_ballistic_deg": math.degrees(straight),
+        "break_up_length_m": slant(nozzle) * break_up(seen, spacing),
+        "break_up_length_ballistic_m": slant(nozzle) * break_up(ballistic(case, length), spacing),
+    }

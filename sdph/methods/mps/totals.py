@@ -1,0 +1,99 @@
+"""The ledger of moving particles: mass, momentum and energy, and who gave and took them, one row a window.
+
+Energy of motion changes by the work of every kick, each integrated with it, and by what comes in and leaves. What
+tension takes from it goes into the cohesion of pairs, of which there is more as liquid comes in. Two-dimensional
+amounts are per metre of depth.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+
+from sdph.engine import state as particles
+from sdph.engine.kept import ROW, Maybe
+from sdph.engine.ledger import ratio, refuse_rows, vector
+from sdph.engine.state import LIQUID
+from sdph.engine.table import Table
+from sdph.methods.mps.method import WORKS
+from sdph.methods.mps.openings import IN, OUT
+
+FLOWS = ("injected_kg", "injected_J", "left_kg", "left_J")
+AMOUNTS = (*(f"work_of_{name}_J" for name in WORKS), *FLOWS)
+
+
+class MpsLedger:
+    """Keeps the sums of one run and writes each row to `ledger.csv` as it comes."""
+
+    # see sdph.engine.kept
+    KEPT = ("sums", "works", "impulses", "passed", "momentum", "moved", "first", "last", "table")
+    FORMS = {"first": Maybe(ROW), "last": Maybe(ROW)}
+
+    def __init__(self, path: Path):
+        self.sums = dict.fromkeys(AMOUNTS, 0.0)
+        # of the stepper, at the last row
+        self.works, self.impulses, self.passed = np.zeros(len(WORKS)), np.zeros((2, 3)), np.zeros((2, 5))
+        self.momentum = np.zeros(3)  # impulses since the start, and momentum in less that out [kg m/s]
+        self.moved = 0.0  # the same without sign
+        self.first = self.last = None
+        self.table = Table(path)
+
+    def admit(self, kept: dict) -> None:
+        refuse_rows(kept, AMOUNTS)
+
+    def open(self, stepper) -> None:
+        """The row of the start."""
+        self._write(stepper, 0.0, totals(stepper), np.zeros((2, 3)), dict.fromkeys(AMOUNTS, 0.0))
+
+    def close_window(self, stepper, dt: float) -> None:
+        """The row of a window of `dt` [s]."""
+        now, impulses, passed = totals(stepper), stepper.impulses - self.impulses, _passed(stepper) - self.passed
+        amounts = {f"work_of_{name}_J": float(work) for name, work in zip(WORKS, stepper.works - self.works)}
+        amounts |= dict(zip(FLOWS, (passed[IN, 0], passed[IN, 4], passed[OUT, 0], passed[OUT, 4])))
+        for key, value in amounts.items():
+            self.sums[key] += value
+        flows = np.concatenate((impulses, passed[IN : IN + 1, 1:4], -passed[OUT : OUT + 1, 1:4]))
+        self.momentum = self.momentum + flows.sum(axis=0)
+        self.moved += float(np.linalg.norm(flows, axis=1).sum())
+        self._write(stepper, dt, now, impulses, amounts)
+
+    def _write(self, stepper, dt: float, now: dict, impulses, amounts: dict) -> None:
+        row = {"time_s": stepper.time, "window_s": dt, "limit": stepper.limit} | now
+        row |= vector("impulse_of_gravity", impulses[0]) | vector("impulse_of_pairs_with_inflow", impulses[1])
+        self.works, self.impulses, self.passed = stepper.works.copy(), stepper.impulses.copy(), _passed(stepper)
+        self.first, self.last = self.first or row, row | amounts
+        self.table.write(self.last)
+
+    def summary(self) -> dict[str, float]:
+        """Closure of the run: mass, momentum and energy of motion, relative to what there was and what moved."""
+        first, last, sums = self.first, self.last, self.sums
+        mass = last["mass_kg"] - first["mass_kg"] - sums["injected_kg"] + sums["left_kg"]
+        change = np.array([last[f"momentum_{a}_kg_m_s"] - first[f"momentum_{a}_kg_m_s"] for a in "xyz"])
+        works = sum(sums[f"work_of_{name}_J"] for name in WORKS)
+        energy = last["kinetic_energy_J"] - first["kinetic_energy_J"] - works - sums["injected_J"] + sums["left_J"]
+        whole = first["mass_kg"] + sums["injected_kg"]
+        turned = math.sqrt(2.0 * whole * (first["kinetic_energy_J"] + sums["injected_J"] + abs(works)))
+        scale = first["kinetic_energy_J"] + sums["injected_J"] + sum(abs(sums[f"work_of_{n}_J"]) for n in WORKS)
+        return sums | {
+            "mass_drift_rel": ratio(abs(mass), whole),
+            "momentum_drift_rel": ratio(float(np.linalg.norm(change - self.momentum)), self.moved + turned),
+            "energy_drift_rel": ratio(abs(energy), scale),
+        }
+
+
+def _passed(stepper) -> np.ndarray:
+    return stepper.openings.passed.copy() if stepper.openings else np.zeros((2, 5))
+
+
+def totals(stepper) -> dict[str, float]:
+    """Columns of the liquid that there is now, upstream of nozzles left out."""
+    inside = stepper.state.kind == LIQUID
+    s = particles.take(stepper.state, inside)
+    row = {"particles": len(s.x), "mass_kg": float(s.mass.sum())}
+    row |= vector("momentum", s.mass @ particles.velocities(s))
+    return row | {
+        "kinetic_energy_J": particles.energy_of_motion(s),
+        "cohesion_energy_J": float(stepper.energy[inside].sum()),
+    }

@@ -1,0 +1,38 @@
+"""Catches solids that go unstable, within the steps of one window: no particle outruns sound in its own body."""
+
+from __future__ import annotations
+
+import sys
+
+import numpy as np
+
+from sdph.engine import state as particles
+from sdph.engine.guard import RUNAWAY, TINY, Watch
+from sdph.engine.kept import Unfit
+from sdph.engine.state import SOLID
+from sdph.methods.solids import start
+
+
+class SolidGuard(Watch):
+    """Looks at all particles after every window."""
+
+    def admit_solid(self, state: dict, fresh) -> None:
+        """`admit` of bodies that began as the State `fresh`: the same particles in the same order."""
+        fast = RUNAWAY * start.sound(self.case)
+        bounds = dict.fromkeys("uvw", (-fast, fast)) | {"mass": (TINY, fresh.mass.max())}
+        self.admit(state, (), bounds)
+        if not np.array_equal(state["ident"], fresh.ident) or (state["kind"] != SOLID).any():
+            raise Unfit("its particles are not those of the bodies of this case")
+
+    def look(self, stepper) -> None:
+        """NaN, speed, acceleration."""
+        s = stepper.state
+        self.time = stepper.time
+        lower = (
+            f"run.step_factor (now {self.case.run.step_factor:g}; the step was ruled by {stepper.limit or 'waves'}), "
+            "or the load: an element may have been turned inside out"
+        )
+        speed, sound = particles.lengths(particles.velocities(s)), start.sound(self.case)
+        self.hold("speed", speed, (0.0, sound, "m/s"), s, lower)
+        size = particles.lengths(stepper.acceleration)
+        self.hold("acceleration", size, (0.0, sys.float_info.max, "m/s2"), s, lower)

@@ -1,0 +1,224 @@
+"""Solids through one step: kick, drift, deformation, stress, cuts, forces, kick (velocity Verlet)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sdph import effects
+from sdph.effects.solids import rigid_sides
+from sdph.engine import kernels as smoothing
+from sdph.engine import motion
+from sdph.engine import state as particles
+from sdph.engine.clock import count_of_parts
+from sdph.engine.contact import Contact, Touching
+from sdph.engine.kept import Unfit
+from sdph.methods.solids import equations, start
+from sdph.methods.solids.bounds import SolidGuard
+from sdph.methods.solids.cavity import Cavity
+from sdph.methods.solids.weights import Weights
+from sdph.schema import CaseError
+
+WORKS = ("forces", "hourglass", "viscosity", "pressure", "plastic", "cut", "gravity")
+IMPULSES = ("gravity", "sides", "clamp", "liquid")
+
+
+class SolidStepper:
+    """Particles of the bodies of a case, and how they go forward."""
+
+    # see sdph.engine.kept
+    KEPT = (
+        "state", "time", "steps", "limit", "works", "impulses", "acting", "springs", "touching", "cavity", "free",
+        "unloaded", "strained", "hardened", "harm", "gradient", "stress", "kirchhoff", "amounts", "acceleration",
+        "steadying", "friction", "pressed",
+    )  # fmt: skip
+
+    def __init__(self, case, shortest: float = 0.0, *, wet: bool = False):
+        self.case, self.guard, self.shortest = case, SolidGuard(case), shortest
+        self.wet = wet  # whether a liquid presses on the bodies
+        made = start.Made(case)
+        self.state, self.body, self.held = made.state, made.body, made.held
+        self.p = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
+        self.kernel = smoothing.smoothing(case.solid.kernel, case.dimensions, case.smoothing_length)
+        self.material = start.material(case)
+        self.plastic, self.damage = start.plastic(case), start.damage(case)
+        self.reference = particles.positions(self.state)
+        self.weights = Weights(self.kernel, self.reference, made.volume, made.body, case.dimensions)
+        if not self.weights.correction.any(axis=1).all():
+            thin = "has too few neighbours to tell a deformation"
+            raise CaseError(f"a particle of [bodies] {thin}; give a finer resolution.spacing_mm, or enlarge the body")
+        for number in case.track:
+            if not 1 <= number <= len(made.volume):
+                raise CaseError(f"track.particles holds {number}; the case has {len(made.volume)}, counted from 1")
+        self.active = np.flatnonzero(~made.held).astype(np.int32)
+        self.touching = Touching(contact(case), made.body)
+        self.cavity = self._cavity(made)
+        self.time, self.steps, self.limit = 0.0, 0, ""
+        self.works, self.impulses = np.zeros(len(WORKS)), np.zeros((len(IMPULSES), 3))
+        self.acting = np.zeros((len(IMPULSES), 3))  # forces [N] of now, by the names of IMPULSES
+        self.springs = 0.0  # energy [J] of contact
+        self._allocate(len(self.state.x))
+        self.load = np.zeros_like(self.pressed) if wet else None  # forces (N, 3) [N] of the liquid
+        self.forces(1.0)  # nothing flows at rest: the length of a step decides nothing
+
+    def _allocate(self, count: int) -> None:
+        self.free = self.weights.free
+        self.unloaded = np.tile([1.0, 1.0, 1.0, 0.0, 0.0, 0.0], (count, 1))
+        self.strained, self.hardened, self.harm = np.zeros((3, count))
+        self.gradient, self.stress, self.kirchhoff = np.zeros((count, 9)), np.zeros((count, 9)), np.zeros((count, 6))
+        self.amounts = np.zeros((count, 3))
+        self.acceleration, self.steadying, self.friction = np.zeros((3, count, 3))
+        self.pressed = np.zeros((count if self.cavity or self.wet else 0, 3))
+
+    def _cavity(self, made):
+        own = self.p["inflation"]
+        if not own:
+            return None
+        name = self.case.parameters["inflation"].body
+        return Cavity(own, self.case.bodies[name], list(self.case.bodies).index(name), made)
+
+    def revive(self) -> None:
+        """After a checkpoint was put back: links as they were cut."""
+        self.weights.free[:] = self.free
+        self.weights.cut(np.zeros(len(self.free), bool))
+        self.free = self.weights.free
+        self.touching.built = None
+
+    def admit(self, kept: dict) -> None:
+        """Unfit where the particles cannot be of this case."""
+        self.guard.admit_solid(kept["state"], self.state)
+        if not np.isin(kept["free"], (0, 1)).all():
+            raise Unfit("free is neither 0 nor 1 somewhere")
+
+    @property
+    def ref(self) -> equations.Reference:
+        """Undeformed bodies as kernels take them."""
+        own = self.weights
+        return equations.Reference(*own.axes, own.volume, own.slope, own.correction, own.free)
+
+    def step(self, most: float) -> float:
+        """One step, no longer than `most` [s]; returns its length."""
+        dt = self.next_step(most)
+        self.set_off(dt)
+        self.arrive(dt)
+        return dt
+
+    def set_off(self, dt: float) -> None:
+        """The first half of the kick of a step of `dt` [s], and the way."""
+        s = self.state
+        self._kick(0.5 * dt)
+        before = self._height()
+        motion.drift(self.active, s.u, s.v, s.w, dt, s.x, s.y, s.z)
+        self.works[WORKS.index("gravity")] += self._height() - before
+        self.time += dt
+
+    def arrive(self, dt: float) -> None:
+        """Forces at the end of the step, and the second half of the kick."""
+        self.forces(dt)
+        self._kick(0.5 * dt)
+        self.steps += 1
+
+    def _kick(self, dt: float) -> None:
+        s = self.state
+        found = equations.kick(
+            s.mass, self.active, self.acceleration, self.steadying, self.friction, self.pressed, dt, s.u, s.v, s.w
+        )
+        self.works[: len(found)] += found
+        self.impulses += dt * self.acting
+
+    def _height(self) -> float:
+        """sum m g.r [J] of what moves; 0 without gravity."""
+        if not self.p["gravity"]:
+            return 0.0
+        places = particles.positions(self.state)[self.active]
+        return float(self.state.mass[self.active] @ (places @ np.array(self.p["gravity"])))
+
+    def next_step(self, left: float) -> float:
+        """Length [s] of the next step: `left` in equal parts no longer than the shortest limit; `limit` names it."""
+        found = limits(self)
+        self.limit = min(found, key=found.get)
+        longest = self.case.run.step_factor * found[self.limit]
+        return left / count_of_parts(
+            left, longest, self.shortest, f"the step's limit {self.limit!r} (times run.step_factor)"
+        )
+
+    def forces(self, dt: float) -> None:
+        """Stress after a step of `dt` [s] and accelerations of where the particles are now."""
+        self._load(dt)
+        while self.damage and (broken := (self.harm >= self.damage.critical) & (self.free == 0)).any():
+            self._break(broken, dt)  # those beside a cut may fail by it
+        s = self.state
+        equations.push(
+            self.kernel, self.material, s.x, s.y, s.z, s.u, s.v, s.w, self.weights.rows, self.ref, self.gradient,
+            self.stress, self.acceleration, self.steadying, self.friction,
+        )  # fmt: skip
+        if self.cavity:
+            self.cavity.push(s, self.gradient, self.time, self.pressed)
+        if self.wet:
+            np.divide(self.load, s.mass[:, None], out=self.pressed)
+            self.acting[IMPULSES.index("liquid")] = self.load.sum(axis=0)
+        if len(self.pressed):
+            self.acceleration += self.pressed
+        self.springs = self._touch()
+        self.acting[IMPULSES.index("clamp")] = -(s.mass[self.held] @ self.acceleration[self.held])
+        self._press_on_sides()
+        if self.p["gravity"]:
+            self.acceleration += self.p["gravity"]
+            self.acting[IMPULSES.index("gravity")] = s.mass[self.active].sum() * np.array(self.p["gravity"])
+
+    def _load(self, dt: float) -> None:
+        equations.deform(self.state.x, self.state.y, self.state.z, self.weights.rows, self.ref, self.gradient)
+        equations.load(
+            self.material, self.plastic, self.damage, self.ref, dt, self.gradient, self.unloaded, self.strained,
+            self.hardened, self.harm, self.stress, self.kirchhoff, self.amounts,
+        )  # fmt: skip
+        self.works[WORKS.index("plastic")] += self.weights.volume @ self.amounts[:, 1]
+
+    def _break(self, broken, dt: float) -> None:
+        """Cut what has failed; the energy that the links and their neighbours lose by it is told."""
+        flown, before, bound = self.works[WORKS.index("plastic")], self.elastic_energy, self.free.copy()
+        self.weights.cut(broken)
+        self.touching.break_off(self.state, bound, self.free)
+        self._load(dt)
+        flown = self.works[WORKS.index("plastic")] - flown
+        self.works[WORKS.index("cut")] += before - self.elastic_energy - flown
+
+    def _touch(self) -> float:
+        """Contact of bodies and of what has broken off; its energy [J]."""
+        if len(self.case.bodies) == 1 and not self.free.any():
+            return 0.0
+        self.touching.update(self.state, self.free)
+        return self.touching.forces(self.state, self.acceleration)
+
+    def _press_on_sides(self) -> None:
+        if not self.p["rigid_sides"]:
+            return
+        own, force = self.touching.contact, np.zeros(3)
+        axes = particles.axes(self.state)
+        for axis, sign, depth in rigid_sides.depths(self.p["rigid_sides"], axes, own.spacing):
+            pressed = np.flatnonzero(depth > 0.0)
+            push = sign * own.stiffness * depth[pressed]
+            self.acceleration[pressed, axis] += push / self.state.mass[pressed]
+            self.springs += 0.5 * own.stiffness * float((depth[pressed] ** 2).sum())
+            force[axis] += push.sum()
+        self.acting[IMPULSES.index("sides")] = force
+
+    @property
+    def elastic_energy(self) -> float:
+        """Elastic energy [J] of all links."""
+        return float(self.weights.volume @ self.amounts[:, 0])
+
+
+def contact(case) -> Contact:
+    """Springs of bodies that touch: k = rho c^2 dx^(d-2)."""
+    spacing = case.resolution.spacing
+    return Contact(spacing, case.solid.density * start.sound(case) ** 2 * spacing ** (case.dimensions - 2))
+
+
+def limits(stepper) -> dict[str, float]:
+    """Longest steps [s] by cause: waves across the least stretched element, contact where there is any, each effect."""
+    case = stepper.case
+    stretch = float(stepper.amounts[:, 2].min())
+    found = {"waves": case.solid.courant * case.smoothing_length * stretch / start.sound(case)}
+    if stepper.springs or len(stepper.touching.pairs) or stepper.p["rigid_sides"]:
+        found["contact"] = stepper.touching.contact.limit(float(stepper.state.mass.min()))
+    return found | effects.limits(stepper.p, case, stepper.state)

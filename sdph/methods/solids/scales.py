@@ -1,0 +1,45 @@
+"""Orders of magnitude of a case with solids, from the case alone: what its effects judge themselves by."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from functools import cached_property
+
+from sdph import effects
+from sdph.engine import state as particles
+from sdph.methods.solids import start
+
+
+class SolidScales:
+    """Scales of a case, SI."""
+
+    jet = 0.0  # no gas drives it
+
+    def __init__(self, case):
+        self.case, self.solid, self.end = case, case.solid, case.run.end_time
+        self.made = start.Made(case)
+        self.state = self.made.state
+        self.gravity = math.hypot(*case.domain.gravity)
+        self.sound = start.sound(case)
+
+    @cached_property
+    def thrown(self) -> float:
+        """Fastest particle at the start [m/s]."""
+        return float(particles.lengths(particles.velocities(self.state)).max())
+
+    @cached_property
+    def width(self) -> float:
+        """Narrowest extent [m] of a body at the start; of a ring its thickness."""
+        return min(_width(body) for body in self.case.bodies.values())
+
+
+def _width(body) -> float:
+    if body.shape == "box":
+        return min(b - a for a, b in zip(body.lower, body.upper))
+    return body.radius - body.inner_radius if body.shape == "ring" else min(2.0 * body.radius, body.length or math.inf)
+
+
+def scales_of(case) -> SolidScales:
+    """Scales of a case as if every effect that can judge itself and needs no input had its section."""
+    return SolidScales(dataclasses.replace(case, parameters=effects.without_input("solid") | case.parameters))

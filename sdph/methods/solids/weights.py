@@ -1,0 +1,112 @@
+"""Reference weights: neighbours of the undeformed body, kernel gradients that are constants, and their correction.
+
+    g_ij = V_j L_i grad_0 W,  L_i^-1 = M_i = sum V_j (X_j - X_i) grad_0 W
+
+so that any linear map is told exactly (Bonet & Lok 1999, Comput. Methods Appl. Mech. Engrg. 180, 97; Vignjevic et al.
+2006, Comput. Model. Eng. Sci. 16, 53). The slope of a link that damage has cut is 0 for good. A particle whose M has so
+small a determinant after cuts that its neighbours no longer tell a deformation is freed: all its links go.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit, prange
+
+from sdph.engine import kernels as smoothing
+from sdph.engine.rows import Neighbours, entry, place
+from sdph.engine.state import SOLID
+from sdph.laws.matrices import SINGULAR
+
+LOOSE = 0.15  # det M below which cuts free a particle; an uncut square corner has 0.137: gel-droplet.md, section 2
+
+
+class Weights:
+    """Rows of neighbours of undeformed bodies and what is constant along them, but for cuts. Particles stand in the
+    order of `sorted_by_cell`.
+
+    reference  places (N, 3) [m]; volume (N,) [m^d]; slope, along the entries of the rows: (dW/dr)/r [1/m^(d+2)];
+    correction (N, 9) L of each particle; free (N,) 1 where all its links are cut
+    """
+
+    def __init__(self, kernel, places, volume, body, dimensions: int):
+        self.reference, self.volume, self.dimensions = places, volume, dimensions
+        self.axes = tuple(np.ascontiguousarray(axis) for axis in places.T)  # X, Y, Z
+        near = Neighbours(2.0 * kernel.h, skin=0.0)
+        near.built = self.axes[:dimensions]
+        self.rows = near.relist(np.full(len(volume), SOLID, np.int8))
+        self.slope = np.zeros(len(self.rows.entries))
+        _slopes(kernel, places, body, self.rows, self.slope)
+        self.free = np.zeros(len(volume), np.int8)
+        self.torn = np.zeros(len(volume), np.int8)  # 1 of particles that have lost a link
+        self.correction, _ = inverses(self._moments(), dimensions, self.free)
+
+    def _moments(self) -> np.ndarray:
+        moments = np.zeros((len(self.volume), 9))
+        _sum_moments(self.reference, self.volume, self.rows, self.slope, moments)
+        return moments
+
+    def cut(self, failed) -> None:
+        """Free the particles `failed` (N,) bool, and those that this leaves loose."""
+        self.free[failed] = 1
+        while True:
+            _cut(self.rows, self.free, self.slope, self.torn)
+            self.correction, weak = inverses(self._moments(), self.dimensions, self.free)
+            loose = weak & (self.torn != 0) & (self.free == 0)
+            if not loose.any():
+                return
+            self.free[loose] = 1
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
+def _slopes(kernel, places, body, rows, slope):
+    """Kernel slopes along the rows; 0 between bodies."""
+    for i in prange(len(places)):
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
+            r2 = 0.0
+            for a in range(3):
+                r2 += (places[i, a] - places[j, a]) ** 2
+            if body[i] == body[j]:
+                slope[place(rows, i, k)] = smoothing.slope(kernel, math.sqrt(r2))
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
+def _sum_moments(places, volume, rows, slope, moments):
+    """M (N, 9) = -sum V_j slope X_ij X_ij^T."""
+    for i in prange(len(places)):
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
+            weight = -volume[j] * slope[place(rows, i, k)]
+            for a in range(3):
+                for b in range(3):
+                    moments[i, 3 * a + b] += weight * (places[i, a] - places[j, a]) * (places[i, b] - places[j, b])
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
+def _cut(rows, free, slope, torn):
+    """Set the slopes of all links of free particles to 0, and mark those that have lost one."""
+    for i in prange(len(free)):
+        for k in range(rows.number[i]):
+            e = place(rows, i, k)
+            if slope[e] < 0.0 and (free[i] or free[entry(rows, i, k)]):
+                slope[e] = 0.0
+                torn[i] = 1
+
+
+def sorted_by_cell(points, reach: float) -> np.ndarray:
+    """Order (N,) in which points (N, d) [m] have to stand for rows of neighbours within `reach` [m]."""
+    return Neighbours(reach, skin=0.0).sort(tuple(np.ascontiguousarray(axis) for axis in points.T))
+
+
+def inverses(moments, dimensions: int, free) -> tuple[np.ndarray, np.ndarray]:
+    """L (N, 9), 0 of free particles and where M is singular, and (N,) bool where det M is below LOOSE."""
+    matrices = moments.reshape(-1, 3, 3).copy()
+    if dimensions == 2:
+        matrices[:, 2, 2] = 1.0
+    determinant = np.linalg.det(matrices)
+    kept = (free == 0) & (np.abs(determinant) > SINGULAR)
+    found = np.zeros_like(matrices)
+    found[kept] = np.linalg.inv(matrices[kept])
+    return found.reshape(-1, 9), determinant < LOOSE

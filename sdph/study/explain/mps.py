@@ -1,0 +1,90 @@
+"""`sdph explain` of a case of moving particles: its numbers, what limits its step and what it will cost."""
+
+from __future__ import annotations
+
+import math
+
+from sdph import effects
+from sdph.methods.mps.method import limits as limits_of_step
+from sdph.study.explain import estimate
+
+WATER = 0.0728  # N/m, of water in air at 20 C (IAPWS R1-76): for the Weber number of a case that gives none
+LAYERS = 3.0  # across a film: with two every particle is at a surface; swirl-sheet.md, section 2, 5
+ROWS = 2.5  # times a step of a weakly compressible liquid: the bar of issue 21, for want of a measured one
+
+
+def explain(s) -> dict[str, list]:
+    """Numbers that decide, ratios, limits of the step, and what to expect: rows of a table each."""
+    steps = limits(s)
+    return {"numbers": numbers(s), "ratios": ratios(s), "limits": steps, "expected": expected(s, steps)}
+
+
+def numbers(s) -> list[tuple]:
+    """(name, value, threshold, what lies above it, source)."""
+    own = s.case.parameters.get("free_energy_tension")
+    sigma = own.coefficient if own and own.coefficient else WATER
+    weber, bond = s.capillary(sigma)
+    reynolds = s.speed * s.length / s.viscosity if s.viscosity else math.inf
+    return [
+        ("Reynolds, U L/nu", reynolds, 2000.0, "the flow may become turbulent", "Reynolds 1883"),
+        ("Weber, rho U2 L/sigma", weber, 1.0, "inertia beats surface tension", "by its definition"),
+        ("Bond, rho g L2/sigma", bond, 1.0, "gravity beats surface tension", "by its definition"),
+        ("Weber of a particle", weber / s.layers, 1.0, "tension does not stop a single one", "by its definition"),
+        ("run / (L/U)", s.speed * s.end / s.length, 1.0, "the flow has time to turn over", "by its definition"),
+    ]
+
+
+def ratios(s) -> list[dict]:
+    """The narrowest extent against the spacing, with the range that is safe and why."""
+    value = s.layers
+    why = (
+        "one layer or two are all surface, and where a film is one spacing thick it tears by the method, not by nature"
+    )
+    safe = "yes" if value >= LAYERS else "NO"
+    return [{"ratio": "width / spacing", "value": value, "least": LAYERS, "most": math.inf, "safe": safe, "why": why}]
+
+
+def warnings(s) -> list[str]:
+    """Ratios that are not safe."""
+    return [
+        f"{r['ratio']} = {r['value']:.3g}, safe from {r['least']:g} on: {r['why']}"
+        for r in ratios(s)
+        if r["safe"] == "NO"
+    ]
+
+
+def limits(s) -> list[dict]:
+    """Largest step [s] by cause, before run.step_factor; neighbours in a turning sheet part by U l0/r."""
+    parameters = {name: effects.kernel_of(effects.REGISTRY[name], s.case) for name in s.case.effects}
+    found = limits_of_step(s.case, parameters, s.state, relative_motion(s))
+    least = min(found.values(), default=math.inf)
+    return [{"cause": k, "largest [s]": v, "rules": "<-" if v == least else ""} for k, v in found.items()]
+
+
+def relative_motion(s) -> float:
+    """Speed [m/s] by which neighbours in reach part: u_t r_e/r in a turning ring, else U l0/L."""
+    reach = s.case.method.reach * s.case.resolution.spacing
+    found = [n.speed * abs(n.swirl) * reach / n.inner_radius for n in s.case.nozzles.values() if n.swirl]
+    return max([*found, s.thrown * s.case.resolution.spacing / s.length if not found else 0.0])
+
+
+def expected(s, steps: list[dict]) -> list[dict]:
+    """Particles, steps, memory, wall time."""
+    waiting = sum(estimate.mouth(s.case, n) for n in s.case.nozzles.values())
+    fed = sum(estimate.mouth(s.case, n) * _way(s, n) for n in s.case.nozzles.values()) / s.case.resolution.spacing
+    fed /= s.case.resolution.spacing ** (s.case.dimensions - 1)
+    count = len(s.state.x) + fed + 4.0 * waiting / s.case.resolution.spacing ** (s.case.dimensions - 1)
+    longest = min((row["largest [s]"] for row in steps), default=s.end)
+    number = math.ceil(s.end / (s.case.run.step_factor * longest))
+    wall = 1e-6 * ROWS * estimate.speed().liquid * count * number
+    return [
+        {"what": "particles at the end", "value": int(count), "unit": ""},
+        {"what": "steps", "value": number, "unit": ""},
+        {"what": "memory", "value": estimate.memory(s.case, count, 0) / 1e6, "unit": "MB"},
+        {"what": "wall time", "value": wall, "unit": f"s (measured on {estimate.speed().measured})"},
+    ]
+
+
+def _way(s, nozzle) -> float:
+    """Way [m] that a stream goes, to the end of the run or of the domain."""
+    return min(nozzle.speed * s.end, max(s.case.domain.size) if "outflow" in s.case.effects else math.inf)

@@ -1,0 +1,78 @@
+"""`sdph explain` of a case with solids: its numbers, what limits its step and what it will cost."""
+
+from __future__ import annotations
+
+import math
+
+from sdph.methods.solids import method, start
+from sdph.study.explain import estimate
+
+LAYERS = 4.0  # particles across a body: a ring of four gives Lame's stress within 3 % (gel-droplet.md, section 5)
+
+
+def explain(s) -> dict[str, list]:
+    """Numbers that decide, ratios, limits of the step, and what to expect: rows of a table each."""
+    steps = limits(s)
+    return {"numbers": numbers(s), "ratios": ratios(s), "limits": steps, "expected": expected(s, steps)}
+
+
+def numbers(s) -> list[tuple]:
+    """(name, value, threshold, what lies above it, source)."""
+    own, stress = s.solid, s.solid.density * s.sound * s.thrown
+    weight = own.density * s.gravity * s.width
+    rows = [
+        ("Mach, v/c", s.thrown / s.sound, 0.1, "shocks: the viscosity here has no quadratic part", "Monaghan 1992"),
+        ("rho c v/E", stress / own.youngs_modulus, 0.01, "impact strains the body by a hundredth", "Johnson 1972"),
+        ("rho g L/E", weight / own.youngs_modulus, 1e-3, "the body sags under its weight", "by its definition"),
+        ("crossings of sound, c t/L", s.sound * s.end / s.width, 1.0, "stress has time to spread", "by its definition"),
+    ]
+    if own.yield_stress is not None:
+        rows += [
+            ("rho c v/Y", stress / own.yield_stress, 1.0, "impact makes the body flow", "Johnson 1972"),
+            ("Y/E", own.yield_stress / own.youngs_modulus, 0.01, "elastic strain is large", "by its definition"),
+        ]
+    return rows
+
+
+def ratios(s) -> list[dict]:
+    """Kernel and spacing against the bodies, with the range that is safe and why."""
+    h, spacing = s.case.smoothing_length, s.case.resolution.spacing
+    rows = [
+        ("h / spacing", h / spacing, 1.2, 2.0, "fewer neighbours make noise, more blur"),
+        ("narrowest body / spacing", s.width / spacing, LAYERS, math.inf, "too few layers bend too stiffly"),
+    ]
+    return [
+        {"ratio": n, "value": v, "least": low, "most": high, "safe": "yes" if low <= v <= high else "NO", "why": w}
+        for n, v, low, high, w in rows
+    ]
+
+
+def warnings(s) -> list[str]:
+    """Ratios that are not safe."""
+    return [
+        f"{r['ratio']} = {r['value']:.3g}, safe from {r['least']:g} to {r['most']:g}: {r['why']}"
+        for r in ratios(s)
+        if r["safe"] == "NO"
+    ]
+
+
+def limits(s) -> list[dict]:
+    """Largest step [s] by cause at the start, before run.step_factor."""
+    found = method.limits(method.SolidStepper(s.case))
+    least = min(found.values())
+    return [{"cause": k, "largest [s]": v, "rules": "<-" if v == least else ""} for k, v in found.items()]
+
+
+def expected(s, steps: list[dict]) -> list[dict]:
+    """Particles, steps, memory, wall time, as long as nothing is squeezed: a stretch below 1 shortens the step."""
+    count = len(s.state.x)
+    number = math.ceil(s.end / (s.case.run.step_factor * min(row["largest [s]"] for row in steps)))
+    wall = 1e-6 * estimate.speed().solid * count * number
+    return [
+        {"what": "solid particles", "value": count, "unit": ""},
+        {"what": "held", "value": int(s.made.held.sum()), "unit": ""},
+        {"what": "steps", "value": number, "unit": ""},
+        {"what": "speed of sound", "value": start.sound(s.case), "unit": "m/s"},
+        {"what": "memory", "value": estimate.memory(s.case, count, 0) / 1e6, "unit": "MB"},
+        {"what": "wall time", "value": wall, "unit": f"s (measured on {estimate.speed().measured})"},
+    ]

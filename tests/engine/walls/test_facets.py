@@ -1,0 +1,70 @@
+"""Points on facets: one for each spacing^2, evenly apart, whatever the facets are."""
+
+import meshio
+import numpy as np
+import pytest
+import pyvista
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial import cKDTree
+
+from sdph.engine.walls import facets
+
+SPACING = 0.05
+
+
+def triangles(drawn) -> np.ndarray:
+    drawn = drawn.triangulate()
+    return np.asarray(drawn.points, float)[drawn.faces.reshape(-1, 4)[:, 1:]]
+
+
+def vessel(resolution: int) -> np.ndarray:
+    """A closed cylinder, R = 0.25 m, H = 0.8 m, as CAD makes it: sides of slivers from end to end, ends as fans."""
+    return triangles(pyvista.Cylinder(radius=0.25, height=0.8, direction=(0, 0, 1), resolution=resolution))
+
+
+def ball(rounds: int) -> np.ndarray:
+    return triangles(pyvista.Icosphere(radius=0.5, nsub=rounds))
+
+
+@pytest.mark.parametrize(
+    "corners",
+    [vessel(24), vessel(400), ball(1), ball(3), ball(5), triangles(pyvista.Plane(i_resolution=1, j_resolution=1))],
+    ids=["slivers", "thinner slivers", "large", "like the spacing", "0.2 of the spacing", "two triangles"],
+)
+def test_points_stand_one_spacing_apart(corners):
+    points, normals = facets.spread(corners, SPACING)
+    area = facets.sizes(corners).sum()
+    assert len(points) == round(area / SPACING**2)
+    apart = cKDTree(points).query(points, k=2)[0][:, 1] / SPACING
+    bare = cKDTree(points).query(corners.mean(axis=1))[0].max() / SPACING
+    print(f"{len(points)} points, nearest {apart.min():.3f} to {apart.max():.3f}, bare {bare:.3f}")
+    assert apart.min() > 0.35 and np.percentile(apart, 2) > 0.5 and apart.max() < 1.4 and bare < 1.0
+    np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1.0, rtol=1e-12)
+
+
+def test_points_lie_on_a_ball_and_their_normals_point_outwards():
+    points, normals = facets.spread(ball(4), SPACING)
+    radius = np.linalg.norm(points, axis=1)
+    assert radius.min() > 0.498 and radius.max() < 0.501  # of facets, and planes through them
+    assert np.einsum("ij,ij->i", points, normals).min() > 0.49
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.lists(st.floats(0.003, 3.0), min_size=1, max_size=20), st.integers(0, 2**31))
+def test_a_chain_of_lines_is_strewn_evenly(lengths, seed):
+    angles = np.cumsum(np.random.default_rng(seed).uniform(-0.1, 0.1, len(lengths)))
+    steps = np.array(lengths)[:, None] * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    ends = np.concatenate([np.zeros((1, 2)), np.cumsum(steps, axis=0)])
+    points, normals = facets.spread(np.stack([ends[:-1], ends[1:]], axis=1), SPACING)
+    assert len(points) == max(1, round(sum(lengths) / SPACING))
+    step = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    even = sum(lengths) / len(points)
+    assert np.all(step <= even * (1 + 1e-9)) and np.all(step > 0.9 * even)
+    assert np.all(normals[:, 1] >= np.cos(np.abs(angles).max()) - 1e-9)
+
+
+def test_facets_without_a_size_are_left_out(tmp_path):
+    places = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0]], float)
+    meshio.Mesh(places, [("triangle", np.array([[0, 1, 2], [0, 1, 3]]))]).write(tmp_path / "flat.vtk")
+    assert len(facets.read(str(tmp_path / "flat.vtk"), 3)) == 1

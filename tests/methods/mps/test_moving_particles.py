@@ -1,0 +1,138 @@
+"""Moving particles: operators on the lattice, conservation of free bodies, pressure that keeps the density."""
+
+import math
+
+import numpy as np
+import pytest
+from moving import SPACING, case, started
+
+from sdph.engine import state as particles
+from sdph.laws import moving_particles
+from sdph.methods.mps import equations
+from sdph.methods.mps.method import MpsStepper
+from sdph.schema import CaseError
+
+
+def block(velocity, dimensions=3):
+    """A stepper of a block of lattice whose velocities (N, 3) [m/s] are a function of places; mask of its inside."""
+    corners = {"lower_m": [2e-3] * dimensions, "upper_m": [4e-3] * dimensions}
+    coarse = {"resolution": {"spacing_mm": 0.2}, "pools": {"drop": {"shape": "box", "centre_m": None} | corners}}
+    stepper = MpsStepper(case(("laminar_viscosity",), coarse, dimensions))
+    s = stepper.state
+    places = particles.positions(s)
+    for array, column in zip((s.u, s.v, s.w), velocity(places - 3e-3).T):
+        array[:] = column[: len(array)]
+    return stepper, np.all((places > 2.5e-3) & (places < 3.5e-3), axis=1, where=np.arange(3) < dimensions)
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_divergence_is_exact_for_linear_fields(dimensions):
+    gradient = np.array([[1.0, 2.0, -1.0], [0.5, 3.0, 2.0], [1.0, -2.0, -7.0]])
+    stepper, inside = block(lambda r: r @ gradient.T, dimensions)
+    found = np.empty(len(inside))
+    equations.diverge(*stepper.around, found)
+    assert inside.sum() > 10
+    np.testing.assert_allclose(found[inside], np.trace(gradient[:dimensions, :dimensions]), rtol=1e-10, atol=1e-10)
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_viscosity_is_exact_for_quadratic_fields(dimensions):
+    """nu lap u of u_x = y^2, u_y = 3 x^2."""
+    stepper, inside = block(lambda r: np.stack([r[:, 1] ** 2, 3.0 * r[:, 0] ** 2, 0.0 * r[:, 0]], axis=1), dimensions)
+    found = np.empty((len(inside), 3))
+    equations.rub(*stepper.around, 0.5, found)
+    np.testing.assert_allclose(found[inside], [[1.0, 3.0, 0.0]] * int(inside.sum()), rtol=1e-9, atol=1e-9)
+
+
+def test_the_matrix_is_symmetric_and_outweighed_by_its_diagonal():
+    stepper, _ = block(lambda r: 0.0 * r)
+    matrix = equations.matrix(*stepper.around, stepper.number, stepper.surface)
+    whole = np.diag(matrix.diagonal)
+    for i in range(len(whole)):
+        whole[i, matrix.column[matrix.start[i] : matrix.start[i + 1]]] = -matrix.value[
+            matrix.start[i] : matrix.start[i + 1]
+        ]
+    np.testing.assert_allclose(whole, whole.T, rtol=1e-12)
+    others = np.abs(whole).sum(axis=1) - matrix.diagonal
+    assert np.all(matrix.diagonal > others * (1.0 - 1e-12))
+    assert np.all((matrix.diagonal - others)[stepper.surface == 1] > 0.0)
+
+
+def test_a_lattice_has_its_numbers():
+    stepper, inside = block(lambda r: 0.0 * r)
+    np.testing.assert_allclose(stepper.number[inside], moving_particles.lattice(2.1, 3).number, rtol=1e-12)
+    assert not stepper.surface[inside].any() and stepper.surface[~inside].any()
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_a_free_drop_keeps_mass_momentum_and_energy(tmp_path, dimensions):
+    """It rings, is stretched and turned; what tension does is told."""
+    run = started(tmp_path, case(dimensions=dimensions))
+    s = run.state
+    s.u[:] += 300.0 * (s.x - 4e-3) - 200.0 * (s.y - 4e-3) + 0.3
+    s.v[:] += 200.0 * (s.x - 4e-3) - 300.0 * (s.y - 4e-3)
+    before = s.mass @ particles.velocities(s), particles.energy_of_motion(s)
+    steps = run.stepper.steps
+    for _ in range(100):
+        run.stepper.step(1e-5)
+    s = run.state
+    scale = float(s.mass.sum()) * 0.3
+    assert run.stepper.steps == steps + 100
+    np.testing.assert_allclose(s.mass @ particles.velocities(s), before[0], rtol=0.0, atol=1e-12 * scale)
+    change = particles.energy_of_motion(s) - before[1]
+    assert change == pytest.approx(run.stepper.works.sum(), rel=1e-9)
+
+
+def test_a_squeezed_drop_does_not_give_way(tmp_path):
+    """Velocities that squeeze it are turned into ones without divergence: it becomes wide, n stays."""
+    run = started(tmp_path, case(()))
+    s = run.state
+    s.w[:] = -500.0 * (s.z - 4e-3)
+    for _ in range(60):
+        run.stepper.step(5e-6)
+    s = run.state
+    assert np.ptp(s.x) > 7.3e-4 > 6.7e-4 > np.ptp(s.z) and run.stepper.number.max() < 1.1 * run.stepper.cloud.number
+
+
+def test_tension_holds_a_drop_together_and_the_gauge_leaves_cohesion_out(tmp_path):
+    run = started(tmp_path, case())
+    for _ in range(200):
+        run.stepper.step(5e-6)
+    inside = run.stepper.surface == 0
+    assert inside.sum() > 20
+    laplace, cohesion = 2.0 * 0.024 / 4e-4, -run.stepper.p["free_energy_tension"].cohesion
+    mean = float(run.stepper.gauge[inside].mean())
+    print(f"gauge {mean:.0f} Pa, Laplace {laplace:.0f} Pa, cohesion {cohesion:.0f} Pa")
+    assert abs(mean - laplace) < 0.5 * cohesion < run.stepper.pressure[inside].mean()
+
+
+def test_two_that_meet_lose_what_they_approach_by(tmp_path):
+    own = case((), {"pools": {"other": {"shape": "sphere", "centre_m": [5.2e-3, 4e-3, 4e-3], "radius_m": 4e-4,
+                                         "velocity_m_s": [-2.0, 0.0, 0.0]}}})  # fmt: skip
+    run = started(tmp_path, own)
+    momentum = run.state.mass @ particles.velocities(run.state)
+    for _ in range(60):
+        run.stepper.step(5e-6)
+    s = run.state
+    np.testing.assert_allclose(s.mass @ particles.velocities(s), momentum, atol=1e-12 * abs(momentum[0]))
+    assert run.stepper.works[-1] <= 0.0 and run.stepper.works.sum() < 0.0
+
+
+@pytest.mark.parametrize(("effects", "sections", "told"), [
+    (("density_diffusion",), {}, 'effects holds density_diffusion; with method.name = "mps" there are gravity'),
+    ((), {"liquid": {"periodic": [1.0, 0.0, 0.0]}}, "moves one liquid with open sides"),
+    ((), {"method": {"name": "weakly_compressible"}}, "liquid.sound_speed_m_s is missing"),
+    ((), {"method": {"reach": 9.0}}, "method.reach"),
+])  # fmt: skip
+def test_what_does_not_fit_is_told_in_one_line(effects, sections, told):
+    with pytest.raises(CaseError, match=told.replace("(", r"\(")):
+        case(effects, sections)
+
+
+def test_steps_follow_the_motion_between_neighbours(tmp_path):
+    run = started(tmp_path, case(()))
+    run.state.u[:] = 1e3 * (run.state.x - 4e-3)  # neighbours in reach, 2 spacings apart at most along x
+    run.stepper._look()
+    assert run.stepper.next_step(1.0) == pytest.approx(0.2 * SPACING / (1e3 * 2.0 * SPACING), rel=1e-3)
+    assert run.stepper.limit == "relative motion"
+    assert math.isclose(run.stepper.speed.max(), 0.2, rel_tol=1e-9)

@@ -1,0 +1,144 @@
+"""What has failed is cut for good; bodies and rigid sides push apart and give the energy back."""
+
+import numpy as np
+import pytest
+from blocks import stepper
+
+from sdph.engine import state as particles
+from sdph.methods.solids.method import IMPULSES, WORKS
+from sdph.methods.solids.totals import SolidLedger, energy, totals
+
+BRITTLE = {
+    "yield_stress_Pa": 1e4, "failure": [0.02, 0.0, 0.0, 0.0, 0.0], "critical_damage": 1.0, "viscosity": 0.0,
+}  # fmt: skip
+
+
+def pulled(**solid):
+    """A block of 12 x 8 particles whose halves part at 1 m/s, a thirtieth of sound."""
+    run = {"end_time_s": 1.0, "output_interval_s": 0.5, "step_factor": 0.25}
+    own = stepper(solid=BRITTLE | solid, run=run)
+    own.state.u[:] = np.where(own.state.x > 0.46, 0.5, -0.5)
+    return own
+
+
+def test_what_has_failed_has_no_links_and_no_stress():
+    own = pulled()
+    while not own.free.any() and own.steps < 1600:
+        own.step(1.0)
+    free = np.flatnonzero(own.free)
+    assert len(free)
+    assert not own.stress[free].any() and not own.kirchhoff[free].any()
+    rows, slope = own.weights.rows, own.weights.slope
+    for i in range(len(own.free)):
+        for e in range(rows.start[i], rows.start[i] + rows.number[i]):
+            cut = own.free[i] or own.free[rows.entries[e]]
+            assert (slope[e] == 0.0) == bool(cut)
+    assert (own.harm[own.free == 0] < 1.0).all()
+
+
+def test_energy_and_momentum_close_through_a_tear(tmp_path):
+    own = pulled()
+    ledger = SolidLedger(tmp_path / "ledger.csv")
+    ledger.open(own)
+    first = totals(own)
+    for _ in range(1600):
+        own.step(1.0)
+        ledger.close_window(own, 1e-4)
+    assert own.free.sum() >= 8
+    found = ledger.summary()
+    assert found["damage_J"] != 0.0
+    assert found["energy_missing_rel"] < 0.01
+    assert found["momentum_drift_rel"] < 1e-12
+    assert energy(totals(own)) < energy(first)
+
+
+def test_a_particle_with_too_few_links_is_freed():
+    """Cutting the neighbours of a corner leaves it loose; corners that nothing was cut from stay."""
+    own = stepper(solid=BRITTLE)
+    corner = int(np.argmin(own.state.x + own.state.y))
+    r = particles.lengths(own.reference - own.reference[corner])
+    own.weights.cut((r > 0.0) & (r < 0.026))
+    assert own.weights.free[corner]
+    assert not own.weights.free[int(np.argmax(own.state.x + own.state.y))]
+
+
+def test_what_breaks_off_is_not_thrown_by_contact():
+    """Neighbours that stand nearer than a spacing when they part do not push, but do so once they come nearer."""
+    own = stepper(solid=BRITTLE)
+    squeezed = own.reference * [1.0, 0.9, 1.0]
+    for axis, column in zip(particles.axes(own.state), squeezed.T):
+        axis[:] = column
+    own.harm[40] = 1.0
+    own.forces(1e-6)
+    assert own.free[40] and own.springs == 0.0 and len(own.touching.rest)
+    own.state.y[40] += 1e-3
+    own.forces(1e-6)
+    assert own.springs > 0.0
+
+
+def two(speed):
+    """Two blocks of 6 x 6 particles, a spacing apart, that near each other."""
+    half = {"shape": "box", "velocity_m_s": [speed, 0.0]}
+    bodies = {
+        "left": half | {"lower_m": [0.4, 0.4], "upper_m": [0.46, 0.46]},
+        "right": half | {"lower_m": [0.47, 0.41], "upper_m": [0.53, 0.47], "velocity_m_s": [-speed, 0.0]},
+    }
+    return stepper(bodies=bodies, solid={"viscosity": 0.0, "hourglass": 0.0})
+
+
+def test_bodies_bounce_and_keep_momentum_and_energy():
+    own, steps = two(0.5), 0
+    first, touched = totals(own), False
+    while steps < 2000 and not (touched and own.springs == 0.0 and steps > 200):
+        own.step(1.0)
+        touched |= own.springs > 0.0
+        steps += 1
+    last = totals(own)
+    left = own.body == 0
+    assert touched
+    assert own.state.mass[left] @ own.state.u[left] < 0.0
+    whole = float(own.state.mass @ np.abs(own.state.u))
+    assert abs(last["momentum_x_kg_m_s"] - first["momentum_x_kg_m_s"]) < 1e-12 * whole
+    assert energy(last) == pytest.approx(energy(first), rel=2e-3)
+
+
+def test_no_links_between_bodies():
+    own = two(0.5)
+    rows = own.weights.rows
+    for i in range(len(own.body)):
+        for e in range(rows.start[i], rows.start[i] + rows.number[i]):
+            assert (own.weights.slope[e] != 0.0) == (own.body[i] == own.body[rows.entries[e]])
+
+
+def test_a_rigid_side_takes_the_momentum_and_gives_the_energy_back():
+    block = {"shape": "box", "lower_m": [0.4, 0.0], "upper_m": [0.46, 0.06], "velocity_m_s": [0.0, -0.5]}
+    own = stepper(
+        bodies={"block": block}, effects=["rigid_sides"], rigid_sides={"sides": ["bottom"]},
+        solid={"viscosity": 0.0, "hourglass": 0.0},
+    )  # fmt: skip
+    first = totals(own)
+    for _ in range(400):
+        own.step(1.0)
+    last = totals(own)
+    assert last["momentum_y_kg_m_s"] > 0.0
+    gained = last["momentum_y_kg_m_s"] - first["momentum_y_kg_m_s"]
+    assert own.impulses[IMPULSES.index("sides"), 1] == pytest.approx(gained, rel=1e-12)
+    assert energy(last) == pytest.approx(energy(first), rel=2e-3)
+
+
+def test_what_is_held_stays_and_its_reaction_is_told():
+    beam = {
+        "shape": "box", "lower_m": [0.4, 0.4], "upper_m": [0.52, 0.48], "velocity_m_s": [0.0, 0.5],
+        "held_lower_m": [0.0, 0.0], "held_upper_m": [0.43, 1.0],
+    }  # fmt: skip
+    own = stepper(bodies={"beam": beam}, effects=["gravity"], domain={"size_m": [1.0] * 2, "gravity_m_s2": [0.0, -9.8]})
+    first = totals(own)
+    for _ in range(50):
+        own.step(1.0)
+    held = own.held
+    assert held.sum() == 24
+    np.testing.assert_array_equal(particles.positions(own.state)[held], own.reference[held])
+    gained = totals(own)["momentum_y_kg_m_s"] - first["momentum_y_kg_m_s"]
+    assert own.impulses[:, 1].sum() == pytest.approx(gained, rel=1e-12)
+    fallen = -9.8 * own.state.mass @ (own.state.y - own.reference[:, 1])
+    assert own.works[WORKS.index("gravity")] == pytest.approx(fallen, rel=1e-9)

@@ -1,0 +1,108 @@
+"""Solids are run by the driver as liquids are: they go on bit for bit, and what bursts or makes no sense is refused."""
+
+import numpy as np
+import pytest
+from blocks import table
+from test_restart import Cut, Reporter, same_run
+
+from sdph import cli, scenes
+from sdph.case import read as cases
+from sdph.engine.guard import Unstable
+from sdph.running import driver
+from sdph.schema import CaseError
+from sdph.show import timeline
+
+# a bar that tears while it is pulled: contact, cuts and plastic flow
+TORN = {
+    "yield_stress_Pa": 1e4, "hardening_Pa": 1e4, "failure": [0.02, 0.0, 0.0, 0.0, 0.0],
+    "history_interval_s": 2e-3,
+}  # fmt: skip
+SHORT = {"end_time_s": 0.03, "output_interval_s": 0.01, "checkpoint_windows": 2}
+
+
+def torn():
+    half = {"shape": "box", "lower_m": [0.4, 0.4], "upper_m": [0.46, 0.46], "velocity_m_s": [1.0, 0.0]}
+    held = {"held_lower_m": [0.0, 0.0], "held_upper_m": [0.42, 1.0]}
+    other = {"shape": "box", "lower_m": [0.47, 0.41], "upper_m": [0.51, 0.45], "velocity_m_s": [-0.5, 0.0]}
+    return cases.from_table(table(solid=TORN, bodies={"left": half | held, "right": other}, run=SHORT))
+
+
+def ring():
+    own = ("run.end_time_s=2e-6", "run.output_interval_s=1e-6", "resolution.spacing_mm=0.025")
+    return cases.load(scenes.HERE / "thick_ring" / "case.toml", (*own, "run.checkpoint_windows=2"))
+
+
+@pytest.mark.parametrize("made", [torn, ring])
+def test_resumed_run_is_the_uninterrupted_one_bit_for_bit(tmp_path, made):
+    whole = driver.run(made(), "", tmp_path / "whole", None, Reporter(None))
+    assert made is ring or whole["free_particles"] > 0
+    with pytest.raises(Cut):
+        driver.run(made(), "", tmp_path / "cut", None, Reporter(whole["windows"] // 2 + 1))
+    driver.resume(tmp_path / "cut", (), Reporter())
+    same_run(tmp_path / "whole", tmp_path / "cut")
+
+
+def test_fields_and_history_tell_the_stress(tmp_path):
+    driver.run(ring(), "", tmp_path / "run", None, Reporter(None))
+    _, cloud, gas = timeline.state_at(timeline.read(tmp_path / "run"), None)
+    assert gas is None
+    for name in ("equivalent_stress", "stress_xx", "plastic_strain", "damage", "free", "pressure"):
+        assert np.isfinite(cloud[name]).all()
+    assert cli.main(["view", str(tmp_path / "run"), "--png", str(tmp_path / "ring.png")]) == 0
+
+
+def test_what_bursts_is_caught(tmp_path):
+    bent = table(run=SHORT | {"step_factor": 30.0})
+    bent["bodies"]["block"]["velocity_m_s"] = [1.0, 0.0]
+    bent["bodies"]["block"] |= {"held_lower_m": [0.0, 0.0], "held_upper_m": [0.43, 1.0]}
+    with pytest.raises(Unstable, match=r"run\.step_factor"):
+        driver.run(cases.from_table(bent), "", tmp_path / "run", None, Reporter(None))
+
+
+def test_particles_are_followed_and_must_be_there(tmp_path):
+    followed = cases.from_table(cases.to_table(ring()) | {"track": {"particles": [1]}})
+    driver.run(followed, "", tmp_path / "run", None, Reporter(None))
+    row = np.genfromtxt(tmp_path / "run" / "history.csv", delimiter=",", names=True)[0]
+    assert (row["particle_1_x_m"], row["particle_1_y_m"]) == pytest.approx((6e-4 + 4.625e-4, 6e-4))  # the first circle
+    nobody = cases.from_table(cases.to_table(ring()) | {"track": {"particles": [100000]}})
+    with pytest.raises(CaseError, match="counted from 1"):
+        driver.run(nobody, "", tmp_path / "other", None, Reporter(None))
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"solid": {"failure": [0.1]}}, "five numbers"),
+        ({"solid": {"failure": [0.1] * 5}}, "yield_stress_Pa"),
+        ({"bodies": {"a": {"shape": "ring", "centre_m": [0.5, 0.5], "radius_m": 0.1}}}, "inner_radius_m"),
+        ({"bodies": {"a": {"shape": "box", "lower_m": [0.4, 0.4], "upper_m": [0.3, 0.5]}}}, "is wide"),
+        ({"bodies": {"a": {"shape": "box", "lower_m": [0.9, 0.4], "upper_m": [1.1, 0.5]}}}, "out of the domain"),
+        ({"bodies": {"a": {"shape": "disc", "centre_m": [0.5, 0.5], "radius_m": 0.1, "motion": "cantilever"}}}, "held"),
+        ({"dimensions": 3, "bodies": {"a": {"shape": "disc", "centre_m": [0.5] * 3, "radius_m": 0.1}}}, "dimensions"),
+        ({"effects": ["gas_pressure"]}, "does not act on a solid"),
+        ({"liquid": {"density_kg_m3": 1000.0, "sound_speed_m_s": 10.0, "periodic": [1, 0]}}, "beside a liquid"),
+        ({"domain": {"size_m": [1.0, 1.0], "gravity_m_s2": [0.0, 0.0], "periodic": ["x"]}}, "periodic"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(change, told):
+    with pytest.raises(CaseError, match=told):
+        cases.from_table(table(**change))
+
+
+@pytest.mark.parametrize(
+    ("own", "told"),
+    [
+        ({"effects": ["inflation"], "inflation": {"body": "block"}}, "must be a ring"),
+        ({"effects": ["rigid_sides"], "rigid_sides": {"sides": ["front"]}}, "allowed"),
+        ({"bodies": {"a": {"shape": "box", "lower_m": [0.4, 0.4], "upper_m": [0.6, 0.411]}}}, "too few neighbours"),
+    ],
+)
+def test_what_cannot_be_made_is_refused(tmp_path, own, told):
+    with pytest.raises(CaseError, match=told):
+        driver.run(cases.from_table(table(**own)), "", tmp_path / "run", None, Reporter(None))
+
+
+def test_explain_tells_what_the_run_obeys(capsys):
+    assert cli.main(["explain", "oscillating_plate", "--set", "resolution.spacing_mm=5"]) == 0
+    shown = capsys.readouterr().out
+    assert "waves" in shown and "solid particles" in shown and "narrowest body / spacing" in shown

@@ -1,0 +1,140 @@
+"""A swirling sheet: its angle against straight flight and the sheet's equation, its mass, and what is only reported."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from sdph.engine import state as particles
+from sdph.engine import table
+from sdph.engine.state import LIQUID
+from sdph.laws import sheets
+from sdph.methods.mps import sheet
+from sdph.methods.mps.mps import RESOLVED
+from sdph.running.alone import Alone
+from sdph.running.inputs import DROPS
+from sdph.study.compare import check
+
+EARLY = 6e-4  # s, when the run without tension is looked at: the sheet is 12 mm long and has not torn
+ANGLE, SPEED = 0.3, 1e-3  # deg, of the speed: issue 21, without tension
+BENT = 0.03  # deg, of the difference by tension: issue 21
+LABELS = (f"fewer than {RESOLVED} particles", f"{RESOLVED} particles or more")
+HAN_GAS, HAN_ANGLE = 1.2, 43.0  # kg/m3, deg: swirl-sheet.md, section 3
+
+
+def exact(run) -> list[dict]:
+    case, nozzle = run.case, sheet.nozzle_of(run.case)
+    early = min(EARLY, run.summary["time_s"])
+    straight = _straight(case, early)
+    bent = _places(run, early)
+    length = min(sheet.reach(straight), sheet.reach(bent))
+    middle = 0.5 * (nozzle.inner_radius + nozzle.radius)
+    z = np.linspace(0.0, length, 400)
+    radius = sheets.ballistic_radius(z, middle, nozzle.swirl)
+    exact_angle, found = (math.degrees(sheet.half_angle_of_meridian(z, radius, length)), _angle(straight, length))
+    rate = case.liquid.density * math.pi * (nozzle.radius**2 - nozzle.inner_radius**2) * nozzle.speed
+    layer = rate / nozzle.speed * case.resolution.spacing
+    _figure(run)
+    return [
+        check("without tension: half angle [deg]", found, exact_angle, ANGLE),
+        check("without tension: mean speed [m/s]", straight.speed, nozzle.speed * sheet.slant(nozzle), SPEED, True),
+        check(
+            "by tension: half angle more [deg]", _angle(bent, length) - found, _bent(case, length) - exact_angle, BENT
+        ),
+        check("mass through the nozzle [kg]", run.summary["injected_kg"], rate * run.summary["time_s"], 0.5001 * layer),
+        *_reported(run),
+    ]
+
+
+def _figure(run) -> None:
+    """Sizes of the drops that left, by volume: histogram and what is below, resolved and not."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    try:
+        _, found = table.numbers(run.folder / DROPS, ("diameter_m", "particles"))
+    except ValueError:  # nothing has left yet
+        return
+    d, whole = found["diameter_m"], found["particles"] >= RESOLVED
+    volume = d**3 / (d**3).sum()
+    figure, (left, right) = pyplot.subplots(1, 2, figsize=(11, 4), constrained_layout=True)
+    edges = np.linspace(0.0, 1e6 * d.max() * 1.01, 40)
+    parts = [1e6 * d[~whole], 1e6 * d[whole]]
+    left.hist(parts, edges, weights=[volume[~whole], volume[whole]], stacked=True, label=LABELS)
+    left.set(xlabel="diameter [um]", ylabel="share of the volume")
+    order = np.argsort(d)
+    right.plot(1e6 * d[order], np.cumsum(volume[order]), "k-", label="all")
+    resolved = order[whole[order]]
+    if len(resolved):
+        right.plot(1e6 * d[resolved], np.cumsum(volume[resolved]) / volume[resolved].sum(), "C1-", label=LABELS[1])
+    right.set(xlabel="diameter [um]", ylabel="share of the volume below")
+    for axes in (left, right):
+        axes.legend()
+    figure.savefig(run.folder / "sizes.png", dpi=110)
+    pyplot.close(figure)
+
+
+def _reported(run) -> list[dict]:
+    """Numbers without a bar: what the method gives, beside particles that fly straight and beside Han's law."""
+    case, nozzle, own = run.case, sheet.nozzle_of(run.case), run.summary
+    width, sigma = nozzle.radius - nozzle.inner_radius, case.parameters["free_energy_tension"].coefficient
+    han = sheets.han_length(case.liquid.density, sigma, width, math.radians(HAN_ANGLE), HAN_GAS, nozzle.speed)
+    rows = [("break-up length, reported beside straight flight's [m]", own["break_up_length_ballistic_m"])]
+    rows.append(("break-up length, reported beside Han's [m]", han))
+    return [check(name, own["break_up_length_m"], reference, math.inf) for name, reference in rows]
+
+
+class _Sheet(np.ndarray):
+    """Places (N, 3) [m] about the axis, and the mean speed [m/s]."""
+
+    speed = math.nan
+
+
+def _straight(case, end: float) -> _Sheet:
+    """The same sheet at `end` [s] without tension and viscosity: exact is that its particles fly straight."""
+    own = dataclasses.replace(case.parameters["free_energy_tension"], coefficient=0.0)
+    case = dataclasses.replace(
+        case, parameters=case.parameters | {"free_energy_tension": own},
+        liquid=dataclasses.replace(case.liquid, viscosity=0.0), run=dataclasses.replace(case.run, end_time=end),
+    )  # fmt: skip
+    with tempfile.TemporaryDirectory(prefix="sdph-sheet-") as folder:
+        alone = Alone(case, Path(folder) / "ledger.csv")
+        alone.start()
+        while not alone.clock.over(alone.time):
+            alone.window()
+        for table in alone.tables():
+            table.close()
+    inside = alone.state.kind == LIQUID
+    found = sheet.about_axis(case, particles.positions(alone.state)[inside]).view(_Sheet)
+    found.speed = float(particles.lengths(particles.velocities(alone.state)[inside]).mean())
+    return found
+
+
+def _places(run, time: float) -> np.ndarray:
+    _, cloud, _ = run.fields(time)
+    return sheet.about_axis(run.case, np.asarray(cloud.points, float))
+
+
+def _angle(places, length: float) -> float:
+    return math.degrees(sheet.half_angle(np.asarray(places), length))
+
+
+def _bent(case, length: float) -> float:
+    """Half angle [deg] of the sheet's equation with tension, by the same slope."""
+    nozzle, sigma = sheet.nozzle_of(case), case.parameters["free_energy_tension"].coefficient
+    z = np.linspace(0.0, length, 400)
+    middle, width = 0.5 * (nozzle.inner_radius + nozzle.radius), nozzle.radius - nozzle.inner_radius
+    r, _ = sheets.meridian(z, middle, width, nozzle.speed, nozzle.swirl, case.liquid.density, sigma)
+    return math.degrees(sheet.half_angle_of_meridian(z, r, length))
+
+
+def metrics(run) -> dict:
+    """Values for `sdph cost`: (value, reference, scale)."""
+    own = run.summary
+    return {"half angle [deg]": (own["half_angle_deg"], own["half_angle_ballistic_deg"], 45.0)}
