@@ -6,7 +6,7 @@ import math
 from collections import Counter
 
 from sdph import effects, scenes
-from sdph.case import beside, bodies
+from sdph.case import beside, bodies, regions
 from sdph.case.sections import Case, Region
 from sdph.engine.geometry import SIDES
 from sdph.methods.liquids.sections import Pool
@@ -310,13 +310,8 @@ def _check_period_of_pool(case: Case, where: str, pool) -> None:
 
 
 def _check_region(case: Case, name: str, region: Region) -> None:
-    _check_place(case, f"particles.{name}", region)
-    if region.volume_fraction > case.grains.packing_limit:
-        given = f"particles.{name}.volume_fraction = {region.volume_fraction:g}"
-        raise CaseError(
-            f"{given}; grains pack to grains.packing_limit = {case.grains.packing_limit:g} at most: lower the one or "
-            "raise the other"
-        )
-    box = region.shape == "box"
-    lower = region.lower if box else [c - region.radius for c in region.centre]
-    inside(case, f"particles.{name}", lower, region.upper if box else [c + region.radius for c in region.centre])
+    regions.check(case, f"particles.{name}", region)
+    if region.shape in ("box", "disc", "sphere"):
+        _check_place(case, f"particles.{name}", region)
+    if found := regions.extents(case, region):
+        inside(case, f"particles.{name}", *found)

@@ -39,6 +39,7 @@ FILES = [  # (section, key) of all that name a file
     for key, (_, kind) in fields(row.parameters).items()
     if kind.of is Path
 ]
+OF_GROUPS = {"nozzles": ("table", "record"), "particles": ("mesh",)}  # keys that do so in sections with names
 
 
 def load(path: Path, overrides: tuple[str, ...] = ()) -> Case:
@@ -82,12 +83,12 @@ def _locate(table: dict, folder: Path) -> None:
 
 def files(table: dict) -> list[tuple[str, dict, str]]:
     """(section, its entries, key) of all in a TOML table that names a file, or the case that a nozzle records."""
-    nozzles = table.get("nozzles")
     parts = [(section, table.get(section), key) for section, key in FILES]
     parts += [
-        (f"nozzles.{name}", entries, key)
-        for name, entries in (nozzles.items() if isinstance(nozzles, dict) else ())
-        for key in ("table", "record")
+        (f"{group}.{name}", entries, key)
+        for group, keys in OF_GROUPS.items()
+        for name, entries in (table[group].items() if isinstance(table.get(group), dict) else ())
+        for key in keys
     ]
     return [
         (where, entries, key)

@@ -11,7 +11,7 @@ from sdph.engine.rows import SKIN
 from sdph.methods.liquids.sections import GasPhase, Liquid, Pool
 from sdph.methods.mps.sections import LiquidMethod
 from sdph.methods.solids.sections import Body, Solid
-from sdph.schema import choice, flag, quantity, record, vector, whole, words
+from sdph.schema import choice, file, flag, quantity, record, vector, whole, words
 
 OPENINGS = ("inflow", "outflow")  # effects that act on the grains alone where grains and a liquid are side by side
 STANDARD_ATMOSPHERE = 101325.0  # Pa, ISO 2533
@@ -100,16 +100,27 @@ class Grains:
 
 @record
 class Region:
-    """Region that particles fill at the start: a disc or sphere (centre, radius), or a box (lower, upper)."""
+    """Region that particles fill at the start: a disc or sphere (centre, radius), a box (lower, upper), a cylinder or a
+    cone along an axis about its centre, the inside of a closed mesh, or of the walls. What is not in front of
+    `walls.mesh` is left out."""
 
-    shape: str = choice("disc", "sphere", "box")
+    shape: str = choice("disc", "sphere", "box", "cylinder", "cone", "mesh", "walls")
     volume_fraction: float = quantity("", above=0.0, most=1.0)
     temperature: float = quantity("K", above=0.0)
     centre: tuple | None = vector("m", None)
     radius: float | None = quantity("m", None, above=0.0)
     lower: tuple | None = vector("m", None)
     upper: tuple | None = vector("m", None)
+    axis: str = choice("x", "y", "z", default="z")  # of a cylinder or cone
+    length: float | None = quantity("m", None, above=0.0)  # the same; half of it on each side of the centre
+    end_radius: float | None = quantity("m", None, least=0.0)  # of a cone, at its upper end; radius is at the lower
+    mesh: str = file()  # closed surface mesh of triangles that meshio reads, in metres, normals outwards
+    height: float | None = quantity("m", None, above=0.0)  # filled so high over the region's lowest point
+    mass: float | None = quantity("kg", None, above=0.0)  # filled from below until so much is there; 2-D: by the metre
     velocity: tuple | None = vector("m_s", None)
+    # particles stand off the lattice by up to so many spacings, at random: beds then are not mirror-symmetric
+    disorder: float = quantity("", 0.0, least=0.0, most=0.25)
+    seed: int = whole(0, least=0)  # of that chance
 
 
 @record

@@ -29,7 +29,7 @@ from sdph.engine.kept import ROW, Many, Maybe, Unfit
 from sdph.engine.ledger import Ledger
 from sdph.engine.table import Table
 from sdph.methods.liquids.liquid import Liquid
-from sdph.running import chain, inputs, metrics, output, together
+from sdph.running import chain, inputs, metrics, output, together, vessel
 from sdph.running.fields import Fields
 from sdph.running.interruption import Stopped, listening
 from sdph.running.simulation import Simulation
@@ -193,9 +193,12 @@ class Run:
         return error
 
     def _begin(self, gas, checkpoint) -> None:
+        self.case = vessel.walled(self.case, gas, self.folder)
         simulation = simulation_of(self.case, gas, self.folder / "ledger.csv")
         self.simulation, self.out = simulation, Outputs(self.folder, simulation)
         if checkpoint is None:
+            if gas:
+                vessel.refuse_outside(self.case, gas, simulation.state)
             simulation.start()
             self.out.start()
             self._save()

@@ -26,12 +26,14 @@ from coupling.openfoam.code import refuse_code
 from sdph import scenes
 from sdph.case import read as cases
 from sdph.effects.around import drops, frame, tank
+from sdph.engine import regions
 from sdph.engine.reading import one_line
 from sdph.engine.walls import facets
 from sdph.running import output
 from sdph.schema import CaseError
 
 FOLDER, DROPS = "inputs", "droplets.csv"
+GROUPED = (("nozzles", "table"), ("particles", "mesh"))  # sections with names, and their key that names a file
 FROM = "in a case file a path is taken from the folder of that file, after --set from the working directory"
 READERS = {  # key -> what the run makes of its file
     "walls.mesh": lambda case: facets.drawn(case.parameters["walls"].mesh, case.dimensions),
@@ -46,7 +48,12 @@ def named(case) -> dict[str, str]:
     for section, key in cases.FILES:
         path = getattr(case.parameters.get(section), key, "")
         found |= {f"{section}.{key}": path} if path else {}
-    return found | {f"nozzles.{safe(n)}.table": own.table for n, own in case.nozzles.items() if own.table}
+    return found | {
+        f"{group}.{safe(name)}.{key}": getattr(own, key)
+        for group, key in GROUPED
+        for name, own in getattr(case, group).items()
+        if getattr(own, key)
+    }
 
 
 def safe(name: str) -> str:
@@ -61,7 +68,7 @@ def check(case) -> None:
             raise CaseError(f"{key} = {path!r}: there is no such file; {FROM}")
         try:
             with _silence():
-                READERS.get(key, _read_table)(case)
+                _reader(key)(case)
         except CaseError:
             raise
         except Exception as error:  # whatever the parsers of meshio stumble on
@@ -82,6 +89,15 @@ def recorded(where: str, nozzle):
     if not case.incompressible or "outflow" not in case.effects or not case.nozzles:
         raise CaseError(f'{given} tells of no drops: it must have method.name = "mps", a nozzle and outflow')
     return case, done
+
+
+def _reader(key: str):
+    """What reads the file that a key names."""
+    if key.startswith("particles."):
+        return lambda case: [
+            regions.bounds(region, "", case.dimensions) for region in case.particles.values() if region.mesh
+        ]
+    return READERS.get(key, _read_table)
 
 
 def _read_table(case) -> None:
@@ -126,14 +142,16 @@ def seen_from(case, folder: Path):
 
 def _with_paths(case, paths_: dict[str, str]):
     """The case with other paths, key -> path."""
-    parameters, nozzles = dict(case.parameters), dict(case.nozzles)
-    for name, own in nozzles.items():
-        path = paths_.pop(f"nozzles.{safe(name)}.table", own.table)
-        nozzles[name] = dataclasses.replace(own, table=path)
+    parameters, groups = dict(case.parameters), {}
+    for group, key in GROUPED:
+        groups[group] = {
+            name: dataclasses.replace(own, **{key: paths_.pop(f"{group}.{safe(name)}.{key}", getattr(own, key))})
+            for name, own in getattr(case, group).items()
+        }
     for key, path in paths_.items():
         section, name = key.split(".")
         parameters[section] = dataclasses.replace(parameters[section], **{name: path})
-    return dataclasses.replace(case, parameters=parameters, nozzles=nozzles)
+    return dataclasses.replace(case, parameters=parameters, **groups)
 
 
 def gas_of(folder: Path) -> Path:

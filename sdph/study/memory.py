@@ -5,11 +5,14 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+import numpy as np
+
 from sdph.case import gas_cells
 from sdph.effects.around import tank
 from sdph.effects.around.source import DEPTH
 from sdph.engine.walls import facets
 from sdph.engine.walls.sides import LAYERS
+from sdph.methods.grains.start import extents
 from sdph.schema import CaseError
 from sdph.study.explain import estimate
 
@@ -21,9 +24,9 @@ ROUND = {2: math.pi, 3: 4.0 / 3.0 * math.pi}  # of a disc and a sphere over radi
 def refuse_too_large(case) -> None:
     """CaseError where the case needs more memory than is free."""
     count = (
-        sum(_volume(case, part) for part in (*case.particles.values(), *case.pools.values(), *case.bodies.values()))
-        / case.resolution.spacing**case.dimensions
-    )
+        sum(_volume(case, part) for part in (*case.pools.values(), *case.bodies.values()))
+        + sum(_around(case, region) for region in case.particles.values())
+    ) / case.resolution.spacing**case.dimensions
     count += sum(_waiting(case, nozzle) for nozzle in case.nozzles.values())
     cells = math.prod(gas_cells.cells(case)) if "grains" in case.matters else 0
     needed, free = (
@@ -52,7 +55,7 @@ def available() -> float:
 
 
 def _volume(case, part) -> float:
-    """[m2] or [m3] that a region, a pool or a body fills at most."""
+    """[m2] or [m3] that a pool or a body fills at most."""
     if part.shape == "tank":
         return math.prod(_extents(case))
     if part.shape == "box":
@@ -60,6 +63,12 @@ def _volume(case, part) -> float:
     if part.shape == "cylinder":
         return math.pi * part.radius**2 * part.length
     return ROUND[case.dimensions] * part.radius**case.dimensions
+
+
+def _around(case, region) -> float:
+    """[m2] or [m3] of the box around a region."""
+    low, high = extents(case, region)
+    return float(np.prod(high - low))
 
 
 def _waiting(case, nozzle) -> float:

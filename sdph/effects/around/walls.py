@@ -20,7 +20,7 @@ from numba import njit, prange
 from sdph.effects.around.wall_limiters import held as held_by_limiters
 from sdph.effects.effect import Effect, Judgement
 from sdph.engine.rows import entry
-from sdph.engine.walls.dummies import distance, normal_part, offset
+from sdph.engine.walls.dummies import CONTACT, distance, normal_part, offset
 from sdph.laws import granular, kernels
 from sdph.laws.compiled import inlined
 from sdph.laws.friction import johnson_jackson_wall
@@ -28,7 +28,6 @@ from sdph.schema import choice, file, quantity, record
 
 MODELS = ("dummy", "paper")
 NO_SLIP = -1.0
-CONTACT = 0.25  # spacings between a particle and the surface at which they touch; our choice, half of the start's
 
 
 @record
@@ -40,6 +39,9 @@ class Walls:
     restitution: float = quantity("", 0.0, least=0.0, most=1.0)
     # eps of the paper's force in grain densities times sqrt(g h)/h; not given there
     penalty: float = quantity("", 1.0, above=0.0, most=1e6)
+    # "gas": the sides of a generated mesh, or the patches of the OpenFOAM mesh that the case brings; "mesh": the sides
+    # of the domain and `mesh`. None: "mesh" where one is given, else "gas"
+    source: str | None = choice("gas", "mesh", default=None)
     mesh: str = file()  # surface mesh that meshio reads, in metres, normals towards the grains
 
 

@@ -11,6 +11,8 @@ from numba import njit
 from sdph.engine.geometry import nearest_image
 from sdph.engine.rows import Rows, entry
 
+CONTACT = 0.25  # spacings between a particle and the surface at which they touch; our choice, half of the start's
+
 
 class Dummies(NamedTuple):
     """W dummies: place [m], unit normal (0 in corners, where two walls meet), depth behind the surface [m], 0 where

@@ -23,6 +23,25 @@ def read(path: str, dimensions: int) -> np.ndarray:
     return corners[sizes(corners) > 0.0]
 
 
+def slips(path: str, dimensions: int) -> np.ndarray:
+    """(F,) whether grains slip on each facet of `read`: cells with a value `slip` that is not 0."""
+    mesh, kind = _mesh(path, dimensions)
+    given = mesh.cell_data_dict.get("slip", {}).get(kind, np.zeros(len(mesh.cells_dict[kind])))
+    places, facets = _cells(path, dimensions)
+    return np.asarray(given != 0)[sizes(places[facets][:, :, :dimensions]) > 0.0]
+
+
+def save(path, corners: np.ndarray, slip: np.ndarray) -> None:
+    """Facets (F, d, d) [m] as a surface mesh in VTK's format, with `slip` (F,) of `slips`."""
+    import meshio
+
+    count, d = corners.shape[:2]
+    points = np.pad(corners.reshape(-1, d), ((0, 0), (0, 3 - d)))
+    cells = np.arange(count * d).reshape(count, d)
+    kind = "line" if d == 2 else "triangle"
+    meshio.write_points_cells(path, points, {kind: cells}, cell_data={"slip": [slip.astype(np.int32)]})
+
+
 def drawn(path: str, dimensions: int):
     """A surface mesh of walls as pyvista has it."""
     import pyvista
@@ -32,17 +51,58 @@ def drawn(path: str, dimensions: int):
     return pyvista.PolyData(places, lines=cells) if dimensions == 2 else pyvista.PolyData(places, faces=cells)
 
 
+class Surface:
+    """Facets (F, d, d) [m] as one surface, for distances to it."""
+
+    def __init__(self, corners: np.ndarray):
+        import pyvista
+
+        self.flat = corners.shape[2] == 2
+        if self.flat:  # lines become strips as wide as the surface is long: nothing is nearer to their edges
+            half = np.ptp(corners.reshape(-1, 2), axis=0).sum()
+            corners = np.pad(corners, ((0, 0), (0, 0), (0, 1)))
+            rims = [corners + np.array([0.0, 0.0, z]) for z in (half, -half)]
+            corners = np.concatenate([rims[0], rims[1][:, ::-1]], axis=1)
+        count, size = corners.shape[:2]
+        faces = np.insert(np.arange(count * size).reshape(count, size), 0, size, axis=1)
+        self.mesh = pyvista.PolyData(corners.reshape(-1, 3), faces.ravel()).triangulate().clean()
+
+    @property
+    def closed(self) -> bool:
+        """True where no side of a facet is free; of lines, where each end meets another."""
+        ends = self.mesh.extract_feature_edges(
+            boundary_edges=True, feature_edges=False, manifold_edges=False, non_manifold_edges=False
+        )
+        if not self.flat:
+            return ends.n_cells == 0
+        free = ends.points[ends.lines.reshape(-1, 3)[:, 1:]]
+        return not (np.ptp(free[:, :, 2], axis=1) > 0.0).any()  # the rims of the strips are free too
+
+    def distance(self, places: np.ndarray) -> np.ndarray:
+        """(N,) [m] of places (N, d) from the surface, above 0 on the side of the normals."""
+        import pyvista
+
+        cloud = pyvista.PolyData(np.pad(places, ((0, 0), (0, 3 - places.shape[1]))))
+        return np.asarray(cloud.compute_implicit_distance(self.mesh)["implicit_distance"])
+
+
 def _cells(path: str, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
     """Points (P, 3) [m] of a surface mesh and its facets: lines in 2-D, triangles in 3-D."""
+    mesh, kind = _mesh(path, dimensions)
+    places = np.zeros((len(mesh.points), 3))
+    places[:, : mesh.points.shape[1]] = mesh.points
+    return places, mesh.cells_dict[kind]
+
+
+def _mesh(path: str, dimensions: int):
+    """A surface mesh as meshio has it, and the kind of its facets."""
     mesh = surface.read(path, "walls.mesh")
     kind = "line" if dimensions == 2 else "triangle"
     if kind not in mesh.cells_dict:
         raise CaseError(
             f"walls.mesh = {path!r} holds no cells of type {kind}; a wall in {dimensions}-D is made of them"
         )
-    places = np.zeros((len(mesh.points), 3))
-    places[:, : mesh.points.shape[1]] = mesh.points
-    return places, mesh.cells_dict[kind]
+    return mesh, kind
 
 
 def sizes(corners: np.ndarray) -> np.ndarray:

@@ -183,19 +183,20 @@ class Mesh:
     """Inside of a closed surface mesh of triangles that meshio reads, in metres, normals outwards."""
 
     path: str
+    key: str = "tank.mesh"  # of the case, for messages
 
     @functools.cached_property
     def triangles(self):
         """The surface as pyvista has it, read once."""
         import pyvista
 
-        mesh = read(self.path, "tank.mesh")
+        mesh = read(self.path, self.key)
         if "triangle" not in mesh.cells_dict:
-            raise CaseError(f"tank.mesh = {self.path!r} holds no triangles; a tank is made of them")
+            raise CaseError(f"{self.key} = {self.path!r} holds no triangles; a closed surface is made of them")
         faces = mesh.cells_dict["triangle"]
         surface = pyvista.PolyData(np.asarray(mesh.points, float), np.insert(faces, 0, 3, axis=1).ravel()).clean()
         if surface.n_open_edges:
-            raise CaseError(f"tank.mesh = {self.path!r} has {surface.n_open_edges} open edges; a tank must be closed")
+            raise CaseError(f"{self.key} = {self.path!r} has {surface.n_open_edges} open edges; it must be closed")
         return surface
 
     def distance(self, points):

@@ -49,12 +49,16 @@ def _axes(dummies: Dummies, dimensions: int):
 
 def dummies(case) -> np.ndarray:
     """(W, 12) columns of `Dummies` of all dummies of a case; 1 for those of a mesh."""
-    mesh = case.parameters["walls"].mesh
-    parts = [np.pad(_box(case), ((0, 0), (0, 1)))]
-    if mesh:
-        parts.append(
-            np.pad(_behind_facets(facets.read(mesh, case.dimensions), case), ((0, 0), (0, 1)), constant_values=1.0)
-        )
+    own, d = case.parameters["walls"], case.dimensions
+    vessel = own.mesh and own.source == "gas"  # then all walls are the mesh's
+    parts = [] if vessel else [np.pad(_box(case), ((0, 0), (0, 1)))]
+    if own.mesh:
+        corners, slip = facets.read(own.mesh, d), facets.slips(own.mesh, d)
+        parts += [
+            np.pad(_behind_facets(corners[slip == slips], case, slips), ((0, 0), (0, 1)), constant_values=1.0)
+            for slips in (False, True)
+            if (slip == slips).any()
+        ]
     return np.concatenate(parts)
 
 
@@ -117,13 +121,13 @@ def _within(points, axis: int, span) -> np.ndarray:
     )
 
 
-def _behind_facets(corners: np.ndarray, case) -> np.ndarray:
-    """Dummies in LAYERS behind facets (F, d, d) [m]."""
+def _behind_facets(corners: np.ndarray, case, slips: bool) -> np.ndarray:
+    """Dummies in LAYERS behind facets (F, d, d) [m], which let grains slip or not."""
     spacing, d = case.resolution.spacing, case.dimensions
     points, normals = facets.spread(corners, spacing)
     depth = (np.repeat(np.arange(LAYERS), len(points)) + 0.5) * spacing
     normal = np.tile(normals, (LAYERS, 1))
     table = np.zeros((len(depth), len(Dummies._fields)))
     table[:, :d] = np.tile(points, (LAYERS, 1)) - depth[:, None] * normal
-    table[:, 3 : 3 + d], table[:, 6], table[:, 7] = normal, depth, 1.0
+    table[:, 3 : 3 + d], table[:, 6], table[:, 7] = normal, depth, 0.0 if slips else 1.0
     return table

@@ -13,7 +13,7 @@ from functools import cached_property
 from sdph import effects
 from sdph.effects.around.streams import Patch
 from sdph.laws import drag, exact, granular, heat
-from sdph.methods.grains import ways
+from sdph.methods.grains import start, ways
 
 SHEAR = 0.5  # sqrt(I2D) over the rate of a simple shear: D_xy is half of it
 DILUTE = 1e-3  # alpha_p below which grains do not meet often enough to matter, Elghobashi 1994
@@ -259,8 +259,5 @@ def scales_of(case) -> Scales:
 
 
 def _patch(case, region) -> Patch:
-    lower, upper = region.lower, region.upper
-    if region.shape != "box":
-        lower = tuple(c - region.radius for c in region.centre)
-        upper = tuple(c + region.radius for c in region.centre)
+    lower, upper = map(tuple, start.extents(case, region))
     return Patch(region.volume_fraction, region.temperature, region.velocity or (0.0,) * case.dimensions, lower, upper)

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
-from sdph.engine.lattice import lattice
+from sdph.engine import regions
 from sdph.engine.state import State, axes, born, empty, join
+from sdph.engine.walls.sides import LAYERS
+from sdph.schema import CaseError
 
 
 def fill(case, names) -> State:
     """The particles that a case has at the start, numbered from 1 as in the paper; mass = alpha_p rho_p dx^d."""
-    parts = [_region(case, region, names) for region in case.particles.values()]
+    parts = [_region(case, name, region, names) for name, region in case.particles.items()]
     state = parts[0] if parts else empty(0, names, case.dimensions)
     for part in parts[1:]:
         state = join(state, part)
@@ -20,23 +20,62 @@ def fill(case, names) -> State:
     return state
 
 
-def _region(case, region, names) -> State:
-    points = lattice(region, case.resolution.spacing, case.dimensions)
-    volume = case.resolution.spacing**case.dimensions
-    if region.shape == "box":  # the lattice is fitted to the box, so the volumes are
-        volume = math.prod(b - a for a, b in zip(region.lower, region.upper)) / len(points)
-    state = empty(len(points), names, case.dimensions)
+def mesh_of_walls(case) -> str:
+    """Path of the mesh of the walls; empty where there is none."""
+    return case.parameters["walls"].mesh if "walls" in case.effects else ""
+
+
+def extents(case, region) -> tuple[np.ndarray, np.ndarray]:
+    """Lower and upper corner (d,) [m] of the box around a region; the domain where the mesh of walls is not there
+    yet."""
+    walls = mesh_of_walls(case)
+    if region.shape == "walls" and not walls:
+        return np.zeros(case.dimensions), np.array(case.domain.size)
+    return regions.bounds(region, walls, case.dimensions)
+
+
+def _region(case, name: str, region, names) -> State:
+    spacing, d, walls = case.resolution.spacing, case.dimensions, mesh_of_walls(case)
+    if region.shape == "walls" and not walls:
+        raise CaseError(
+            f'particles.{name}.shape = "walls", and the walls are the sides of the domain: give a box, or walls.mesh, '
+            "or a mesh of the gas of your own in the folder gas"
+        )
+    points = regions.points(region, spacing, d, walls)
+    density = region.volume_fraction * case.grains.density
+    volume = regions.volume(region, spacing, d, len(points)) if len(points) else 0.0
+    points = _reached(case, f"particles.{name}", region, points, walls, density * volume)
+    state = empty(len(points), names, d)
     for axis, column in zip(axes(state), points.T):
         axis[:] = column
     for array, value in zip((state.u, state.v, state.w), region.velocity or ()):
         array[:] = value
-    state.density[:] = region.volume_fraction * case.grains.density
-    state.mass[:] = state.density * volume
-    for name, value in (
+    state.density[:] = density
+    state.mass[:] = density * volume if region.mass is None else region.mass / len(points)
+    for key, value in (
         ("temperature", region.temperature),
         ("diameter", case.grains.diameter),
         ("theta", case.grains.granular_temperature),
     ):
-        getattr(state, name)[:] = value
+        getattr(state, key)[:] = value
     state.diameter_variance[:] = case.grains.diameter_std**2
     return born(state)
+
+
+def _reached(case, where: str, region, points, walls: str, each: float) -> np.ndarray:
+    """The points of a region that grains stand on: off the lattice by chance, in front of the walls, up to its level;
+    `each` [kg] the mass of a particle."""
+    spacing, there = case.resolution.spacing, len(points)
+    points = regions.disordered(points, region.disorder, region.seed, spacing)
+    if walls:
+        points = points[regions.in_front(points, walls, spacing, LAYERS)]
+    if not len(points):
+        what = f"none of its {there} places" if there else "no place"
+        raise CaseError(f"{where} holds {what} in front of walls.mesh; look at its normals, or move the region")
+    if region.height is not None or region.mass is not None:
+        gravity = np.array(case.domain.gravity)
+        up = -gravity / np.linalg.norm(gravity)
+        points = points[regions.below(where, region, points, up, spacing, each)]
+        if not len(points):
+            raise CaseError(f"{where}.height_m = {region.height:g} is below half a spacing: give more")
+    return points

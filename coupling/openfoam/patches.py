@@ -1,0 +1,60 @@
+"""Patches of an OpenFOAM mesh that hold grains back, as facets with their normals into the vessel."""
+
+from __future__ import annotations
+
+import itertools
+import re
+from pathlib import Path
+
+import numpy as np
+
+from coupling.gas import GasError
+
+FLAT = "empty"  # type of the two sides of a plane mesh
+HOLDING = ("wall", "slip_wall", "velocity_inlet")  # kinds of boundaries that let no grains through, as sides of a box
+PATCH = re.compile(r"([\w.+:-]+)\s*\{[^{}]*?\btype\s+(\w+)\s*;")
+
+
+def types(folder: Path) -> dict[str, str]:
+    """Patches of constant/polyMesh/boundary and their types."""
+    text = (Path(folder) / "constant/polyMesh/boundary").read_text(encoding="utf-8", errors="replace")
+    return {name: kind for name, kind in PATCH.findall(text) if name != "FoamFile"}
+
+
+def holding(folder: Path, boundaries: dict, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
+    """Corners (F, d, d) [m] of the facets of patches that hold grains back, and whether these slip on them (F,).
+
+    A patch that `boundaries` (name -> its section of the case) names holds them unless it is a pressure outlet, others
+    where OpenFOAM calls them a wall. `folder` is a case with case.foam and a mesh.
+    """
+    import pyvista
+
+    reader = pyvista.POpenFOAMReader(str(Path(folder) / "case.foam"))
+    reader.enable_all_patch_arrays()
+    patches = reader.read()["boundary"]
+    corners, slips = [np.zeros((0, dimensions, dimensions))], [np.zeros(0, bool)]
+    for name, kind in types(folder).items():
+        kind = boundaries[name].kind if name in boundaries and kind != FLAT else kind
+        if kind not in HOLDING or name not in patches.keys() or not patches[name].n_cells:  # noqa: SIM118  (MultiBlock)
+            continue
+        corners.append(_lines(name, patches[name]) if dimensions == 2 else _triangles(patches[name]))
+        slips.append(np.full(len(corners[-1]), kind == "slip_wall"))
+    return np.concatenate(corners), np.concatenate(slips)
+
+
+def _triangles(patch) -> np.ndarray:
+    """(F, 3, 3) of the faces of a patch, turned round: OpenFOAM's normals are outwards."""
+    surface = patch.extract_surface(algorithm=None).triangulate()
+    return np.asarray(surface.points, float)[surface.faces.reshape(-1, 4)[:, :0:-1]]
+
+
+def _lines(name: str, patch) -> np.ndarray:
+    """(F, 2, 2): the lower edges of the faces of a plane mesh, with the vessel to their left."""
+    found = []
+    for face in patch.cell:
+        points, low = np.asarray(face.points, float), patch.center[2]
+        edges = [(a, b) for a, b in itertools.pairwise([*points, points[0]]) if a[2] < low and b[2] < low]
+        if len(edges) != 1:
+            raise GasError(f"patch {name} of a plane mesh has a face that does not go across its one layer of cells")
+        found.append([edges[0][0][:2], edges[0][1][:2]])
+    return np.array(found).reshape(-1, 2, 2)

@@ -1,0 +1,126 @@
+"""Regions that grains fill at the start: lattice points in a shape, in front of the walls, up to a level.
+
+Shapes: box, disc, sphere (`lattice.lattice`); cylinder and cone along an axis, the inside of a closed surface mesh,
+and what the mesh of the walls encloses, on a square or cubic lattice. A level is a height over the region's lowest
+point, or the mass that comes to lie below it.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from sdph.engine.lattice import grid, lattice
+from sdph.engine.walls import facets, shapes
+from sdph.engine.walls.dummies import CONTACT
+from sdph.schema import CaseError
+
+ALONG_AXIS = ("cylinder", "cone")
+AXES = ("x", "y", "z")
+MESH = "mesh of particles"
+HALF = 0.5  # of a spacing between a level and the row below
+SAME = 1e-6  # of a spacing: round-off
+
+
+def bounds(region, walls: str, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
+    """Lower and upper corner (d,) [m] of the box around a region; `walls` is the path of their mesh."""
+    if region.shape == "box":
+        return np.array(region.lower), np.array(region.upper)
+    if region.shape == "mesh":
+        low, high = np.reshape(shapes.Mesh(region.mesh, MESH).triangles.bounds, (3, 2)).T
+        return low, high
+    if region.shape == "walls":
+        corners = facets.read(walls, dimensions).reshape(-1, dimensions)
+        return corners.min(axis=0), corners.max(axis=0)
+    centre, half = np.array(region.centre), np.full(dimensions, max(region.radius, region.end_radius or 0.0))
+    if region.shape in ALONG_AXIS:
+        half[AXES.index(region.axis)] = 0.5 * region.length
+    return centre - half, centre + half
+
+
+def volume(region, spacing: float, dimensions: int, count: int) -> float:
+    """[m^d] of each of the `count` points of a region: they share what is known of it, else it is that of the
+    lattice."""
+    if region.shape == "box":
+        return math.prod(b - a for a, b in zip(region.lower, region.upper)) / count
+    if region.shape in ALONG_AXIS:
+        a, b = _radii(region)
+        return math.pi * region.length * (a * a + a * b + b * b) / 3.0 / count
+    if region.shape == "mesh":
+        return shapes.Mesh(region.mesh, MESH).volume / count
+    return spacing**dimensions
+
+
+def _radii(region) -> tuple[float, float]:
+    """Radii [m] at the lower and the upper end of a cylinder or a cone."""
+    return region.radius, region.radius if region.shape == "cylinder" else region.end_radius
+
+
+def points(region, spacing: float, dimensions: int, walls: str) -> np.ndarray:
+    """(N, d) [m] of the lattice in a region, whatever stands there."""
+    if region.shape in ("box", "disc", "sphere"):
+        return lattice(region, spacing, dimensions)
+    low, high = bounds(region, walls, dimensions)
+    if region.shape in ALONG_AXIS:
+        places = _round_grid(region, low, high, spacing)
+        return places[_in_cone(region, places, low)]
+    places = grid([a + (np.arange(max(1, round((b - a) / spacing))) + 0.5) * spacing for a, b in zip(low, high)])
+    if region.shape == "mesh":
+        return places[shapes.Mesh(region.mesh, MESH).distance(places) < 0.0]
+    return places[facets.Surface(facets.read(walls, dimensions)).distance(places) > 0.0]
+
+
+def _round_grid(region, low, high, spacing: float) -> np.ndarray:
+    """Lattice over the box of a round region: fitted to its length, about its axis elsewhere."""
+    ticks = []
+    for axis, (a, b) in enumerate(zip(low, high)):
+        if AXES[axis] == region.axis:
+            count = max(1, round((b - a) / spacing))
+            ticks.append(a + (np.arange(count) + 0.5) * (b - a) / count)
+        else:
+            reach = math.ceil(0.5 * (b - a) / spacing)
+            ticks.append(0.5 * (a + b) + (np.arange(-reach, reach) + 0.5) * spacing)
+    return grid(ticks)
+
+
+def _in_cone(region, places, low) -> np.ndarray:
+    """Mask (N,) of the places between the ends of a cylinder or a cone and within its radius there."""
+    along = AXES.index(region.axis)
+    across = [axis for axis in range(3) if axis != along]
+    share = (places[:, along] - low[along]) / region.length
+    start, end = _radii(region)
+    off = places[:, across] - np.array(region.centre)[across]
+    return np.hypot(*off.T) <= start + share * (end - start)
+
+
+def in_front(places, walls: str, spacing: float, layers: int) -> np.ndarray:
+    """Mask (N,) of the places that stand in front of a mesh of walls, no nearer than contact holds grains, or so far
+    behind an open one that it is none to them: its dummies are `layers` spacings deep."""
+    surface = facets.Surface(facets.read(walls, places.shape[1]))
+    off = surface.distance(places)
+    front = off >= (CONTACT - SAME) * spacing
+    return front if surface.closed else front | (off < -layers * spacing)
+
+
+def below(where: str, region, places, up, spacing: float, each: float) -> np.ndarray:
+    """Mask (N,) of the places up to the level of a region, `each` [kg] the mass of a particle; `up` (d,)."""
+    height = places @ up
+    if region.height is not None:
+        return height <= height.min() + region.height - (HALF - SAME) * spacing
+    count = max(1, round(region.mass / each))
+    if count > len(places):
+        most = f"{len(places) * each:.6g} kg fit at volume_fraction = {region.volume_fraction:g}"
+        raise CaseError(f"{where}.mass_kg = {region.mass:g}; {most}: give less, or a larger region")
+    off = ((places - places.mean(axis=0)) ** 2).sum(axis=1)  # a layer that is not full is filled from its middle
+    chosen = np.lexsort((off, np.round(height / (SAME * spacing))))[:count]
+    mask = np.zeros(len(places), bool)
+    mask[chosen] = True
+    return mask
+
+
+def disordered(places, share: float, seed: int, spacing: float) -> np.ndarray:
+    """The places, each moved by up to a share of the spacing along each axis, by chance."""
+    if not share:
+        return places
+    return places + share * spacing * np.random.default_rng(seed).uniform(-1.0, 1.0, places.shape)

@@ -1,0 +1,67 @@
+"""Walls of grains from the mesh of their gas: what its patches hold back, kept in the run folder as a surface mesh."""
+
+from __future__ import annotations
+
+import dataclasses
+from pathlib import Path
+
+import numpy as np
+
+from coupling.choice import OWN_MESH
+from sdph.engine import state as particles
+from sdph.engine.walls import facets
+from sdph.methods.grains import start
+from sdph.running import inputs, output
+from sdph.schema import CaseError
+
+FILE = "patches.vtk"
+
+
+def walled(case, gas, folder: Path):
+    """The case with walls.mesh made of the patches of `gas`, where it asks for them and OpenFOAM's mesh is its own; the
+    sides of a generated mesh are known without."""
+    if "walls" not in case.effects or "grains" not in case.matters:
+        return case
+    own = case.parameters["walls"]
+    if own.source == "mesh" or own.mesh or not hasattr(gas, "case_folder"):
+        return case
+    if not any((inputs.gas_of(folder) / name).exists() for name in OWN_MESH):
+        return case
+    from coupling.openfoam.patches import holding
+
+    corners, slips = holding(gas.case_folder, case.boundaries, case.dimensions)
+    if not len(corners):
+        raise CaseError(
+            'walls.source = "gas", and no patch of its mesh holds grains back: call some of type wall, name them in '
+            '[boundaries], give walls.mesh, or set walls.source = "mesh" for the sides of the domain'
+        )
+    path = folder / inputs.place("walls.mesh", Path(FILE))
+    path.parent.mkdir(parents=True, exist_ok=True)
+    facets.save(path, corners, slips)
+    made = dataclasses.replace(own, source="gas", mesh=str(path.absolute()))
+    return dataclasses.replace(case, parameters=case.parameters | {"walls": made})
+
+
+def refuse_outside(case, gas, state) -> None:
+    """CaseError where grains of a region stand in no cell of a mesh that is no box: region, how many, and where."""
+    if not hasattr(gas, "case_folder") or not case.particles:
+        return
+    grid, _ = output.gas_grid(gas)
+    if grid.__class__.__name__ == "RectilinearGrid":  # fills the domain, and regions lie in that
+        return
+    places = particles.positions(state)
+    outside = places[np.asarray(grid.find_containing_cell(places)) < 0]
+    for name, region in case.particles.items():
+        low, high = start.extents(case, region)
+        own = outside[((outside >= _in_space(low)) & (outside <= _in_space(high))).all(axis=1)]
+        if len(own):
+            place = ", ".join(f"{a:.4g}" for a in own[0][: case.dimensions])
+            raise CaseError(
+                f"particles.{name} holds {len(own)} particles in no cell of the gas, the first at ({place}) m; move or "
+                "shrink it, or leave what lies behind walls out by walls"
+            )
+
+
+def _in_space(corner) -> np.ndarray:
+    """Corner (3,) of a box that a plane one is: 0 across."""
+    return np.array([*corner, 0.0][:3])

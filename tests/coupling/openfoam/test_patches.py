@@ -1,0 +1,73 @@
+"""Patches of an OpenFOAM mesh as walls of the grains: areas, normals into the vessel, which of them hold grains."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import own_meshes
+import pytest
+from gas_boxes import template
+
+from coupling.openfoam import patches
+from coupling.openfoam.programs import install
+from coupling.openfoam.programs import run as programs
+from sdph.engine.walls import facets
+
+WALL, SLIP, OUTLET, INLET = (
+    SimpleNamespace(kind=kind) for kind in ("wall", "slip_wall", "pressure_outlet", "velocity_inlet")
+)
+
+
+def tetrahedra(tmp_path, **boundaries):
+    own_meshes.write_tetrahedra(tmp_path / "constant" / "polyMesh", 0.1, 3)
+    (tmp_path / "system").mkdir()
+    (tmp_path / "system" / "controlDict").write_text(own_meshes.HEAD.format(cls="dictionary", name="controlDict"))
+    (tmp_path / "case.foam").touch()
+    return patches.holding(tmp_path, boundaries, 3)
+
+
+def test_a_cube_of_tetrahedra_is_closed_and_faces_inwards(tmp_path):
+    corners, slips = tetrahedra(tmp_path, all=WALL)
+    surface = facets.Surface(corners)
+    assert facets.sizes(corners).sum() == pytest.approx(6e-2) and surface.closed and not slips.any()
+    assert surface.distance(np.array([[0.05, 0.05, 0.03], [0.05, 0.05, -0.01]])) == pytest.approx([0.03, -0.01])
+
+
+def test_kinds_of_the_case_decide_then_types_of_the_mesh(tmp_path):
+    assert tetrahedra(tmp_path / "a", all=SLIP)[1].all()
+    assert len(tetrahedra(tmp_path / "b", all=INLET)[0])
+    assert not len(tetrahedra(tmp_path / "c", all=OUTLET)[0])
+    assert not len(tetrahedra(tmp_path / "d")[0])  # its type is patch
+
+
+def test_what_is_kept_is_read_again(tmp_path):
+    corners = tetrahedra(tmp_path, all=WALL)[0]
+    slips = np.arange(len(corners)) % 2 == 0
+    facets.save(tmp_path / "a.vtk", corners, slips)
+    np.testing.assert_array_equal(facets.read(str(tmp_path / "a.vtk"), 3), corners)
+    np.testing.assert_array_equal(facets.slips(str(tmp_path / "a.vtk"), 3), slips)
+
+
+def blocks(tmp_path, text):
+    """A case with the mesh of a blockMeshDict."""
+    own = template(tmp_path)
+    (own / "system" / "blockMeshDict").write_text(text)
+    (own / "case.foam").touch()
+    programs.run(["blockMesh"], own, tmp_path / "log", install.environment())
+    return own
+
+
+@pytest.mark.openfoam
+def test_a_plane_vessel_has_lines_with_itself_to_their_left(tmp_path):
+    own = blocks(tmp_path, own_meshes.taper(0.2, 0.4, 0.3, 4, 6))
+    corners, _ = patches.holding(own, {"inlet": INLET, "outlet": OUTLET, "wall": WALL}, 2)
+    assert facets.sizes(corners).sum() == pytest.approx(0.2 + 2.0 * np.hypot(0.1, 0.3))
+    inside = facets.Surface(corners).distance(np.array([[0.2, 0.02], [0.08, 0.15], [0.02, 0.1]]))
+    assert inside[0] == pytest.approx(0.02) and inside[1] > 0.0 > inside[2]
+
+
+@pytest.mark.openfoam
+def test_a_round_vessel_has_its_area(tmp_path):
+    own = blocks(tmp_path, own_meshes.cylinder(0.1, 0.4, 4, 8))
+    corners, _ = patches.holding(own, {}, 3)  # its type alone: wall
+    assert facets.sizes(corners).sum() == pytest.approx(2.0 * np.pi * 0.1 * 0.4, rel=0.03)  # chords for arcs
+    assert facets.Surface(corners).distance(np.array([[0.1, 0.1, 0.2]])) == pytest.approx([0.1], rel=0.05)
