@@ -69,6 +69,17 @@ def test_capillary_wave_is_that_of_the_table():
         assert abs(0.01 * height) == pytest.approx(expected, abs=1e-6)
 
 
+@pytest.mark.parametrize(("around", "viscosity"), [(0.0, 1e-3), (120.0, 2e-2), (900.0, 1e-1)])
+def test_capillary_wave_begins_from_rest_whatever_the_liquids(around, viscosity):
+    """Height 1, then less by half of omega^2 t^2 = sigma k^3/(rho + rho') t^2, before viscosity acts."""
+    k = 2.0 * np.pi / 0.2
+    square = 0.07 * k**3 / (900.0 + around)
+    time = 1e-3 / max(square**0.5, viscosity * k * k)
+    start, later = liquids.capillary_wave([0.0, time], 0.2, 0.07, 900.0, around, viscosity)
+    assert start == pytest.approx(1.0, abs=1e-10)  # roots of a quartic: 7e-12 off
+    assert 1.0 - later == pytest.approx(0.5 * square * time**2, rel=0.1)
+
+
 def test_capillary_wave_of_one_liquid_without_viscosity_is_a_cosine():
     """omega^2 = sigma k^3/rho: Lamb 1932, section 266."""
     omega, time = math.sqrt(0.07 * (2.0 * math.pi / 0.2) ** 3 / 900.0), np.linspace(0.0, 3.0, 7)
