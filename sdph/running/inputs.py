@@ -92,7 +92,7 @@ def recorded(where: str, nozzle):
 
 
 def _reader(key: str):
-    """What reads the file that a key names."""
+    """Reader of the file that a key names."""
     if key.startswith("particles."):
         return lambda case: [
             regions.bounds(region, "", case.dimensions) for region in case.particles.values() if region.mesh

@@ -36,7 +36,7 @@ class Simulation:
         self.transfer = Transfer(gas.mesh, case.smoothing_length, case.domain.size)
         self.exchange = Exchange(case, gas.mesh, self.parameters)
         self.repeated, self.grid = 0, None
-        self.notices: list[str] = []  # for the user, until somebody has passed them on
+        self.notices = self.grains.notices  # for the user, until somebody has passed them on
         self._weights_now = None
         self.beside, self.limiters = Beside(), Limiters()  # other methods; what limiters hold
         self.wall = {"particles": 0.0, "exchange": 0.0, "gas": 0.0}

@@ -33,7 +33,8 @@ class Grains:
         names = {name for row in rows for name in row.arrays}
         self.case, self.moves = case, effects.moving(case)
         self.parameters = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
-        state = start.fill(case, names)
+        self.notices: list[str] = []  # on how the case was filled
+        state = start.fill(case, names, self.notices)
         self.source = Source(case, names, len(state.x) + 1) if self.parameters["inflow"] else None
         self.stepper = Stepper(case, self.parameters, state, self.source, Clock(case.run).shortest)
         self.time, self.windows, self.came, self.left = 0.0, 0, self._came_in(), NOTHING_LEFT

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 
 from sdph.engine import regions
@@ -10,9 +12,12 @@ from sdph.engine.walls.sides import LAYERS
 from sdph.schema import CaseError
 
 
-def fill(case, names) -> State:
-    """The particles that a case has at the start, numbered from 1 as in the paper; mass = alpha_p rho_p dx^d."""
-    parts = [_region(case, name, region, names) for name, region in case.particles.items()]
+def fill(case, names, notices=None) -> State:
+    """The particles that a case has at the start, numbered from 1 as in the paper; mass = alpha_p rho_p dx^d.
+
+    `notices`, a list, gets a line for each region of which something is behind walls."""
+    notices = [] if notices is None else notices
+    parts = [_region(case, name, region, names, notices) for name, region in case.particles.items()]
     state = parts[0] if parts else empty(0, names, case.dimensions)
     for part in parts[1:]:
         state = join(state, part)
@@ -25,6 +30,17 @@ def mesh_of_walls(case) -> str:
     return case.parameters["walls"].mesh if "walls" in case.effects else ""
 
 
+def assumed(case):
+    """The case for estimates before a run: what walls enclose that are not known yet is the domain, at most."""
+    box = {"shape": "box", "lower": (0.0,) * case.dimensions, "upper": case.domain.size}
+    unknown = {} if mesh_of_walls(case) else box
+    found = {
+        name: dataclasses.replace(region, **unknown) if region.shape == "walls" else region
+        for name, region in case.particles.items()
+    }
+    return dataclasses.replace(case, particles=found)
+
+
 def extents(case, region) -> tuple[np.ndarray, np.ndarray]:
     """Lower and upper corner (d,) [m] of the box around a region; the domain where the mesh of walls is not there
     yet."""
@@ -34,7 +50,7 @@ def extents(case, region) -> tuple[np.ndarray, np.ndarray]:
     return regions.bounds(region, walls, case.dimensions)
 
 
-def _region(case, name: str, region, names) -> State:
+def _region(case, name: str, region, names, notices) -> State:
     spacing, d, walls = case.resolution.spacing, case.dimensions, mesh_of_walls(case)
     if region.shape == "walls" and not walls:
         raise CaseError(
@@ -44,7 +60,7 @@ def _region(case, name: str, region, names) -> State:
     points = regions.points(region, spacing, d, walls)
     density = region.volume_fraction * case.grains.density
     volume = regions.volume(region, spacing, d, len(points)) if len(points) else 0.0
-    points = _reached(case, f"particles.{name}", region, points, walls, density * volume)
+    points = _reached(case, f"particles.{name}", region, points, walls, density * volume, notices)
     state = empty(len(points), names, d)
     for axis, column in zip(axes(state), points.T):
         axis[:] = column
@@ -62,13 +78,15 @@ def _region(case, name: str, region, names) -> State:
     return born(state)
 
 
-def _reached(case, where: str, region, points, walls: str, each: float) -> np.ndarray:
+def _reached(case, where: str, region, points, walls: str, each: float, notices) -> np.ndarray:
     """The points of a region that grains stand on: off the lattice by chance, in front of the walls, up to its level;
     `each` [kg] the mass of a particle."""
     spacing, there = case.resolution.spacing, len(points)
     points = regions.disordered(points, region.disorder, region.seed, spacing)
     if walls:
         points = points[regions.in_front(points, walls, spacing, LAYERS)]
+        if region.shape != "walls" and len(points) < there:
+            notices.append(f"{where}: {there - len(points)} of {there} particles would stand in walls and are left out")
     if not len(points):
         what = f"none of its {there} places" if there else "no place"
         raise CaseError(f"{where} holds {what} in front of walls.mesh; look at its normals, or move the region")

@@ -1,0 +1,98 @@
+"""A vessel of the user's own: its patches are the walls, it is filled to a level, and what does not fit is refused."""
+
+import json
+import math
+import tomllib
+
+import numpy as np
+import pytest
+import tomli_w
+from test_own_meshes import round_vessel
+
+from sdph.case import read as cases
+from sdph.cli import main
+from sdph.methods.grains import start
+from sdph.running import vessel
+from sdph.schema import CaseError
+from sdph.show import timeline
+
+INSIDE = {"shape": "walls", "mass_kg": 2.0, "volume_fraction": 0.6, "temperature_K": 350.0, "disorder": 0.1}
+
+
+def filled(folder, region, **more):
+    own = round_vessel(folder, [])
+    case = tomllib.loads((own / "case.toml").read_text())
+    case["particles"], case["run"] = {"bed": region}, {"end_time_s": 1e-4, "output_interval_s": 1e-4}
+    (own / "case.toml").write_text(tomli_w.dumps(case | more))
+    return own
+
+
+@pytest.mark.openfoam
+def test_a_round_vessel_is_filled_to_a_mass_and_its_patches_hold_it(tmp_path, capsys):
+    own, out = filled(tmp_path / "own", INSIDE), tmp_path / "out"
+    assert main(["explain", str(own)]) == 0
+    assert main(["run", str(own), "--gas", "openfoam", "--out", str(out)]) == 0, capsys.readouterr().err
+    summary = json.loads((out / "summary.json").read_text())
+    assert summary["outside_mesh_particles"] == 0 if "outside_mesh_particles" in summary else True
+    _, cloud, _ = timeline.state_at(timeline.read(out), 0.0)
+    assert cloud["mass"].sum() == pytest.approx(2.0, rel=1e-12)
+    off = np.hypot(*(cloud.points[:, :2] - 0.1).T)
+    assert off.max() < 0.1 - 0.24 * 0.01 and off.max() > 0.09
+    assert cloud.points[:, 2].max() == pytest.approx(2.0 / (0.6 * 3060.0 * math.pi * 0.0092), rel=0.1)
+    kept = tomllib.loads((out / "case.toml").read_text())["walls"]
+    assert kept["source"] == "gas" and (out / kept["mesh"]).is_file()
+    again = cases.load(out / "case.toml")
+    assert vessel.walled(again, None, out) is again  # what was found is kept
+    assert len(start.fill(again, ()).x) == cloud.n_points
+
+
+@pytest.mark.openfoam
+def test_grains_outside_the_gas_are_refused_with_region_count_and_place(tmp_path, capsys):
+    corner = {"shape": "box", "lower_m": [0.0, 0.0, 0.0], "upper_m": [0.04, 0.04, 0.05], "volume_fraction": 0.6}
+    own = filled(tmp_path / "own", corner | {"temperature_K": 350.0}, walls={"source": "mesh"})
+    assert main(["run", str(own), "--gas", "openfoam", "--out", str(tmp_path / "out")]) == 2
+    said = capsys.readouterr().err.splitlines()[-1]
+    assert "particles.bed holds " in said and "in no cell of the gas, the first at (0.005, 0.005, 0.005) m" in said
+
+
+def grains(**region):
+    return cases.from_table({
+        "dimensions": 2, "effects": ["gravity", "walls"], "run": {"end_time_s": 1.0, "output_interval_s": 1.0},
+        "domain": {"size_m": [0.1, 0.2], "gravity_m_s2": [0.0, -9.81]},
+        "resolution": {"spacing_mm": 10.0, "cell_mm": 20.0},
+        "gas": {"density_kg_m3": 1.2, "viscosity_Pa_s": 1e-5, "conductivity_W_m_K": 0.02, "heat_capacity_J_kg_K": 1e3,
+                "temperature_K": 300.0},
+        "grains": {"density_kg_m3": 2500.0, "diameter_mm": 0.5, "heat_capacity_J_kg_K": 800.0,
+                   "conductivity_W_m_K": 1.0},
+        "boundaries": {"walls": {"kind": "wall"}},
+        "particles": {"bed": {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.1, 0.2], "volume_fraction": 0.5,
+                              "temperature_K": 300.0} | region},
+    })  # fmt: skip
+
+
+def test_a_level_is_told_by_mass_or_height():
+    assert start.fill(grains(mass_kg=3.0), ()).mass.sum() == pytest.approx(3.0, rel=1e-12)
+    assert start.fill(grains(height_m=0.1), ()).mass.sum() == pytest.approx(0.5 * 2500.0 * 0.01, rel=1e-12)
+    with pytest.raises(CaseError, match=r"particles.bed.mass_kg = 30; 25 kg fit"):
+        start.fill(grains(mass_kg=30.0), ())
+
+
+@pytest.mark.parametrize(
+    ("region", "told"),
+    [
+        ({"height_m": 0.1, "mass_kg": 1.0}, "either is a level: give one"),
+        ({"shape": "cylinder", "centre_m": [0.0, 0.0], "radius_m": 0.1, "length_m": 0.1}, "of three dimensions"),
+        ({"shape": "disc", "centre_m": [0.0, 0.0]}, r"particles.bed.radius_m is missing"),
+        ({"disorder": 0.3}, "disorder"),
+        ({"mass_kg": 0.0}, "mass_kg"),
+        ({"seed": -1}, "seed"),
+    ],
+)
+def test_a_region_that_cannot_be_is_refused(region, told):
+    with pytest.raises(CaseError, match=told):
+        grains(**region)
+
+
+def test_what_walls_enclose_is_refused_where_there_is_no_mesh_of_them():
+    with pytest.raises(CaseError, match="the walls are the sides of the domain"):
+        start.fill(grains(shape="walls"), ())
