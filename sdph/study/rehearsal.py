@@ -5,9 +5,10 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
-from coupling.choice import expected
+from coupling.choice import OWN_MESH, expected
 from sdph.case.gas_cells import cell_edges
 from sdph.exchange.window import Window
+from sdph.methods.grains import start
 from sdph.methods.grains.grains import Grains
 from sdph.methods.liquids.start import parts_of as parts_of_liquid
 from sdph.methods.mps.method import MpsStepper
@@ -25,6 +26,8 @@ MADE = {
 def rehearse(case, template: Path, *, allow_code: bool = False) -> None:
     """CaseError where `sdph run` would end with one; `template` and `allow_code` as in `coupling.choice.open_gas`."""
     look(case, template, allow_code=allow_code)
+    if any((template / name).exists() for name in OWN_MESH):  # walls that the run will know by it
+        case = start.assumed(case)
     for matter in case.matters:
         MADE[case.moved_by(matter)](case.only(matter))
 

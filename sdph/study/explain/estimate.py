@@ -166,7 +166,7 @@ def _sub_steps(case, s) -> list[tuple]:
 
 def _state(case):
     rows = [effects.REGISTRY[name] for name in case.effects]
-    return start.fill(start.assumed(case), {name for row in rows for name in row.arrays})
+    return start.fill(case, {name for row in rows for name in row.arrays})
 
 
 def expected(case, s) -> list[dict]:

@@ -6,6 +6,7 @@ import math
 
 from sdph import effects
 from sdph.case import judge
+from sdph.methods.grains import start
 from sdph.study.explain import droplets, estimate, liquids, mps, solids
 
 OF = {
@@ -17,6 +18,7 @@ OF = {
 
 def explain(case) -> dict[str, list[dict]]:
     """All parts, each a list of rows (name -> value) of one table; of a case with several matters those of each."""
+    case = start.assumed(case)
     if len(case.matters) == 1:
         return _explain(case)
     found = {matter: _explain(case.only(matter)) for matter in case.matters}
