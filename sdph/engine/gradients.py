@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from numba import njit
-
-from sdph.engine.geometry import FAST
+from sdph.laws.compiled import inlined
 from sdph.laws.matrices import solved
 
 NO_MATRIX = (0.0,) * 6  # xx, yy, zz, xy, yz, zx of a symmetric one
 NO_SUMS = (0.0,) * 9  # of u by x, y, z, then of v, of w
 
 
-@njit(cache=True, error_model="numpy", fastmath=FAST)
+@inlined
 def added(matrix, sums, share, dx, dy, dz, du, dv, dw):
     """Matrix and sums with those of a neighbour at (dx, dy, dz) [m] whose u, v, w differ by du, dv, dw; `share` is
     V_j times the kernel's slope."""
@@ -25,14 +23,14 @@ def added(matrix, sums, share, dx, dy, dz, du, dv, dw):
     return (xx, yy, zz, xy, yz, zx), (ux, uy, uz, vx, vy, vz, wx, wy, wz)
 
 
-@njit(cache=True, error_model="numpy", fastmath=FAST)
+@inlined
 def in_plane(matrix, flat):
     """The matrix; in two dimensions (`flat`), where nothing lies along z, with 1 there."""
     xx, yy, zz, xy, yz, zx = matrix
     return xx, yy, 1.0 if flat else zz, xy, yz, zx
 
 
-@njit(cache=True, error_model="numpy", fastmath=FAST)
+@inlined
 def divided(matrix, sums):
     """Gradient, 9 numbers as `sums`; 0 where the matrix is close to singular (sdph.laws.matrices.solved)."""
     ux, uy, uz, vx, vy, vz, wx, wy, wz = sums
