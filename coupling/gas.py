@@ -81,8 +81,9 @@ class Budget:
     mass [kg], energy [J] (enthalpy, sum of alpha rho cp T V, reference 0 K), kinetic [J] (sum of alpha rho U^2/2 V),
     vapour [kg], momentum (3,) [kg m/s] of the gas; `*_in` the same through the boundaries. `pressure_work` [J] is what
     alpha U.grad p gave the enthalpy since the start, out of the motion of the gas; `boundary_work` [J] what that motion
-    got from the pressure besides; `gravity_work` [J] what gravity gave it. In works and powers U is the mean of the
-    velocities before and after a step.
+    got from the pressure besides; `gravity_work` [J] what gravity gave it; `viscous_work` [J] what its viscous stress
+    gave it, below 0 but for walls that slide. In works and powers U is the mean of the velocities before and after a
+    step.
 
     Impulses (3,) [kg m/s] as given to the gas since the start, each integrated where it acts: `impulse_pressure` of
     the pressure on boundary faces, -p S; `impulse_walls` of the viscous stress on them; `impulse_gravity`;
@@ -106,6 +107,7 @@ class Budget:
     pressure_work: float = 0.0
     boundary_work: float = 0.0
     gravity_work: float = 0.0
+    viscous_work: float = 0.0
     momentum_in: tuple[float, float, float] = NOTHING
     impulse_pressure: tuple[float, float, float] = NOTHING
     impulse_walls: tuple[float, float, float] = NOTHING

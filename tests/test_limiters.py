@@ -56,6 +56,8 @@ HARMLESS = {
     "sdph/methods/liquids/*:compress": "takes the liquid among neighbours: volumes of walls are negative",
     "sdph/methods/liquids/interface.py:*": "the same",
     "sdph/methods/liquids/shift.py:surround": "the same",
+    "sdph/methods/liquids/sparse.py:*": "the same",
+    "sdph/methods/liquids/limiters.py:_by_damping": "the same",
     "sdph/methods/liquids/walls.py:wall_force": "the same",
     "sdph/laws/moving_particles.py:tension_coefficient": "takes the pairs above a plane",
     "sdph/effects/around/streams.py:_rings": "counts of points",

@@ -64,6 +64,7 @@ class Flow:
     pressure_work: float = 0.0
     boundary_work: float = 0.0
     gravity_work: float = 0.0
+    viscous_work: float = 0.0
 
     def fraction(self):
         """Mass fraction of vapour in the cells, 0 in ghosts."""

@@ -97,6 +97,22 @@ def momentum_balance(wide, axis, active, grid, cells, stress, moved, gravity, dt
             source[f] = m * moved[f] + dt * force
 
 
+@njit(cache=True, error_model="numpy")
+def viscous_impulse(wide, axis, active, mass, rubbed, stress, out):
+    """Impulse [kg m/s] of viscosity on the free velocities along an axis, into out (S,): of the implicit part, `rubbed`
+    (d, S) upwards through faces, and of the rest as `momentum_balance` has it, `stress` (d, S) downwards."""
+    rows, run, steps = wide
+    s = steps[axis]
+    for row in rows:
+        for f in range(row, row + run):
+            if not active[f]:
+                continue
+            for b in range(len(steps)):
+                out[f] += rubbed[b, f] - rubbed[b, f + steps[b]]
+                if mass[f] > 0.0 and mass[f - s] > 0.0:
+                    out[f] += stress[b, f + steps[b]] - stress[b, f]
+
+
 class Momentum:
     """The momentum predictor of a box."""
 
@@ -113,8 +129,9 @@ class Momentum:
         self.rims = [rims_of(grid, faces, a, active) for a, active in enumerate(self.active)]
 
     def predict(self, old: Flow, window: Window, mass: np.ndarray, fraction: np.ndarray):
-        """Velocity (d, S) under the old pressure, the diagonal D (d, S) [kg] of its equation, the largest residual, and
-        what crossed the rims (3, d) [kg m/s], see `impulses.crossed`. mass (S,): of the cells, at the end."""
+        """Velocity (d, S) under the old pressure, the diagonal D (d, S) [kg] of its equation, the largest residual,
+        what crossed the rims (3, d) [kg m/s], see `impulses.crossed`, and the impulses of viscosity (d, S) [kg m/s] on
+        the faces that move freely. mass (S,): of the cells, at the end."""
         grid = self.box.grid
         inside = grid.geometry.volume > 0.0
         viscosity = grid.extended(window.alpha * self.box.properties.mixture("viscosity", fraction) * inside)
@@ -122,6 +139,7 @@ class Momentum:
         spread, stress = grid.zeros(), grid.zeros(grid.dimensions)
         divergence(grid.inner, old.velocity, grid.geometry.width, spread)
         velocity, diagonal, residual, over = moved.copy(), np.ones_like(moved), 0.0, []
+        impulse = np.zeros_like(moved)
         for a in range(grid.dimensions):
             conductance, source, active = np.zeros_like(moved), grid.zeros(), self.active[a]
             viscous_conductances(grid.wide, a, viscosity, grid.geometry, self.hold, window.dt, conductance)
@@ -135,7 +153,8 @@ class Momentum:
             )
             residual = max(residual, error)
             over.append(crossed(self.rims[a], carried[a], rubbed, window.dt * stress))
-        return velocity, diagonal, residual, np.array(over).T
+            viscous_impulse(grid.wide, a, active, mass, rubbed, window.dt * stress, impulse[a])
+        return velocity, diagonal, residual, np.array(over).T, impulse
 
     def convected(self, old: Flow, dt: float) -> tuple[np.ndarray, np.ndarray]:
         """The old velocity (d, S) carried on by the old mass fluxes, and what of that along each axis every face let

@@ -79,7 +79,8 @@ def budget(box: Box, flow: Flow, fields: dict[str, np.ndarray]) -> Budget:
         momentum=tuple(np.einsum("i,ij->j", flow.mass[cells], fields["velocity"]).tolist()),
         kinetic=kinetic_energy(box, flow),
         mass_in=flow.mass_in, energy_in=flow.energy_in, vapour_in=flow.vapour_in, kinetic_in=flow.kinetic_in,
-        pressure_work=flow.pressure_work, boundary_work=flow.boundary_work, gravity_work=flow.gravity_work, courant=0.0,
+        pressure_work=flow.pressure_work, boundary_work=flow.boundary_work, gravity_work=flow.gravity_work,
+        viscous_work=flow.viscous_work, courant=0.0,
         held={"gas_box_rel": 0.0, "gas_mass_left_rel": 0.0},
         **{name: tuple(impulse) for name, impulse in zip(IMPULSES, flow.impulses.tolist())},
     )  # fmt: skip

@@ -39,7 +39,7 @@ from coupling.embedded.momentum import Momentum
 from coupling.embedded.output import budget, cell_fields
 from coupling.embedded.pressure import Pressure
 from coupling.embedded.scalars import Scalars
-from coupling.embedded.works import power, through_motion
+from coupling.embedded.works import power, through_motion, viscous_work
 from coupling.gas import IMPULSES, SOURCES, CheckpointError, GasError, GasState, Mesh, Unfinished, known_fields
 from sdph.case.gas_cells import cell_edges
 from sdph.engine.reading import Unreadable, read_arrays
@@ -90,13 +90,14 @@ class EmbeddedGas:
         window = window_of(self.box, old, dt, sources)
         for _ in range(PASSES if self.box.properties.varies else 1):
             aim = self.pressure.aim(old, window, new.temperature, new.fraction())
-            velocity, diagonal, residual, over = self.momentum.predict(old, window, aim.mass, new.fraction())
+            velocity, diagonal, residual, over, rubbed = self.momentum.predict(old, window, aim.mass, new.fraction())
             new, left = self.pressure.project(old, window, aim, velocity, diagonal)
             new, courant, residuals = self.scalars.carry(old, window, new)
         residuals["momentum"] = residual
         _converged(new.time, residuals, self.box.tolerance)
         came, lifted = through_motion(self.box, old, new, dt)
         sums = {"kinetic_in": old.kinetic_in + came, "gravity_work": old.gravity_work + lifted}
+        sums["viscous_work"] = old.viscous_work + viscous_work(self.box, old, new, rubbed)
         sums["impulses"] = old.impulses + impulses(self.box, old, window, new, over)
         self.flow = dataclasses.replace(new, **sums)
         found = self._state()

@@ -78,6 +78,11 @@ def _given(box: Box, old: Flow, window: Window, flow: Flow):
     return lambda a, face, cell: (push[a, cell] - pull[cell] * after[a, face]) * mean[a, face]
 
 
+def viscous_work(box: Box, old: Flow, flow: Flow, rubbed: np.ndarray) -> float:
+    """Work [J] of the viscous stress in a window, by its impulses (d, S) [kg m/s] on the faces that move freely."""
+    return float((rubbed * 0.5 * (inside(box, old) + inside(box, flow))).sum())
+
+
 def through_motion(box: Box, old: Flow, flow: Flow, dt: float) -> tuple[float, float]:
     """Kinetic energy that came in through the boundary in a window of dt [s], and the work of gravity in it [J]."""
     cells, faces, after, gravity = box.grid.cells, box.faces, inside(box, flow), box.gravity

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 
 from sdph import effects, scenes
-from sdph.case import beside, bodies, regions
+from sdph.case import beside, bodies, periods, regions
+from sdph.case.extents import SAME, inside, mouth, probe, side
 from sdph.case.sections import Case, Region
-from sdph.engine.geometry import SIDES
 from sdph.methods.liquids.sections import Pool
 from sdph.methods.mps.scales import KNOWN
 from sdph.methods.solids.sections import Body
 from sdph.schema import CaseError, fields, unknown
 
-SAME = 1e-9  # of a length: round-off
 MOST_OUTPUTS = 1e5  # of fields, and of history rows of a liquid as it sets them; our choice
 STRETCH = 100.0  # of the last cell of a row over its first, at most, either way; our choice
 NEEDS = {"box": ("lower", "upper"), "ring": ("centre", "radius", "inner_radius")}  # of a place, by its shape
@@ -39,74 +37,6 @@ def flow(case, where: str, pool) -> None:
         raise CaseError(f"{where}.flow = {pool.flow!r} is that of a box; shape = {pool.shape!r}")
     if pool.flow in OF_PLANE and case.dimensions != 2:
         raise CaseError(f"{where}.flow = {pool.flow!r} is known in two dimensions; dimensions = {case.dimensions}")
-
-
-def probe(case, where: str, own) -> None:
-    """A probe lies in the domain, and in a gas: a liquid has no temperature to follow."""
-    if case.grains is None:
-        raise CaseError(f"[{where}] follows temperatures of grains and gas, and the case has none; leave it out")
-    inside(case, where, own.at, own.at)
-
-
-def mouth(case, where: str, nozzle) -> None:
-    """The middle of a nozzle's mouth lies in the domain, and so does what lies half a spacing ahead of it."""
-    if len(nozzle.centre) != case.dimensions or len(nozzle.direction) != case.dimensions:
-        return  # the effect says so
-    inside(case, f"{where}.centre_m = {list(nozzle.centre)}", nozzle.centre, nozzle.centre)
-    length = max(math.hypot(*nozzle.direction), math.ulp(0.0))
-    ahead = [c + 0.5 * case.resolution.spacing * a / length for c, a in zip(nozzle.centre, nozzle.direction)]
-    inside(case, f"{where}.direction = {list(nozzle.direction)} at centre_m = {list(nozzle.centre)}", ahead, ahead)
-
-
-def inside(case, key: str, lower, upper) -> None:
-    """CaseError where a region from `lower` to `upper`, given by `key`, reaches out of the domain."""
-    slack = SAME * max(case.domain.size)  # of centre plus radius
-    if any(a < -slack or b > length + slack for a, b, length in zip(lower, upper, case.domain.size)):
-        raise CaseError(
-            f"{key} reaches out of the domain, domain.size_m = {list(case.domain.size)}; move it or enlarge the domain"
-        )
-
-
-def side(case, where: str, boundary) -> None:
-    """A boundary lies on a side that the domain has, and its span, [low, high] on each axis along it, on that side."""
-    if boundary.side and SIDES[boundary.side][0] >= case.dimensions:
-        there = list(SIDES)[: 2 * case.dimensions]
-        raise CaseError(
-            f"{where}.side = {boundary.side!r}; a case of {case.dimensions} dimensions has {', '.join(there)}"
-        )
-    slides = boundary.kind == "wall" and boundary.velocity and any(boundary.velocity)
-    if slides and (boundary.side is None or boundary.velocity[SIDES[boundary.side][0]] != 0.0):
-        given = f"{where}.velocity_m_s = {list(boundary.velocity)}"
-        raise CaseError(f"{given}; a wall slides along its side: name the side, and give 0 at right angles to it")
-    if boundary.span is None:
-        return
-    if boundary.side is None:
-        raise CaseError(f"{where}.span_m is given without a side; add it, or remove the span")
-    lengths = [length for axis, length in enumerate(case.domain.size) if axis != SIDES[boundary.side][0]]
-    for (low, high), length in zip(_pairs(where, boundary.span, len(lengths)), lengths):
-        if low < -SAME * length or high > length * (1.0 + SAME):
-            raise CaseError(
-                f"{where}.span_m goes from {low:g} to {high:g} m; the box goes from 0 to {length:g} m there"
-            )
-
-
-def _pairs(where: str, span: tuple, count: int) -> tuple:
-    """(low, high) on each of `count` axes."""
-    pairs = span if any(isinstance(part, tuple) for part in span) else (span,)
-    if len(pairs) != count or not all(map(_is_pair, pairs)):
-        raise CaseError(
-            f"{where}.span_m = {list(span)}; give [low, high] on each axis along its side, of which there are {count}"
-        )
-    return pairs
-
-
-def _is_pair(part) -> bool:
-    return (
-        isinstance(part, tuple)
-        and len(part) == 2
-        and not any(isinstance(end, tuple) for end in part)
-        and part[0] < part[1]
-    )
 
 
 def check(case: Case) -> None:
@@ -140,14 +70,14 @@ def _check_one(case: Case) -> None:
         raise CaseError(f"{given}; every ratio must be from {1.0 / STRETCH:g} to {STRETCH:g}: 1 for equal cells")
     if min(case.domain.size) <= 0.0:
         raise CaseError(f"domain.size_m = {list(case.domain.size)}; every length must be above 0")
-    _check_period(case)
+    periods.of_domain(case)
     if any(isinstance(t, tuple) or t <= 0.0 for t in case.run.report_at):
         raise CaseError(f"run.report_at_s = {list(case.run.report_at)}; it must be a list of times above 0")
     _check_outputs(case)
     for name, pool in case.pools.items():
         if pool.shape != "tank":
             _check_place(case, f"pools.{name}", pool)
-            _check_period_of_pool(case, f"pools.{name}", pool)
+            periods.of_pool(case, f"pools.{name}", pool)
         flow(case, f"pools.{name}", pool)
     if case.solid:
         bodies.check(case)
@@ -266,47 +196,6 @@ def _check_phases(case: Case) -> None:
             'effects holds density_diffusion, but with gas_phase.density_by = "summation" no density is advanced; '
             "leave one out"
         )
-
-
-def _check_period(case: Case) -> None:
-    axes, least = "xyz"[: case.dimensions], 4.0 * case.smoothing_length  # two reaches, or an image would be missed
-    for axis in case.domain.periodic:
-        if axis not in axes:
-            raise CaseError(f"domain.periodic holds {axis!r}; allowed: {', '.join(axes)}")
-        if case.domain.period[axes.index(axis)] < least:
-            raise CaseError(
-                f"domain.size_m is below {least:g} m along {axis}, which is periodic; lengthen it or take finer grains"
-            )
-    if case.liquid:
-        _check_period_of_liquid(case)
-
-
-def _check_period_of_liquid(case: Case) -> None:
-    given, least = case.liquid.periodic, 4.1 * case.smoothing_length  # two reaches of the neighbour rows
-    if given and (len(given) != case.dimensions or any(on not in (0.0, 1.0) for on in given)):
-        raise CaseError(
-            f"liquid.periodic = {list(given)}; it must be {case.dimensions} numbers, 1 along periodic axes and 0 "
-            "along the others"
-        )
-    for axis, length, on in zip("xyz", case.domain.size, given):
-        if on and length < least:
-            raise CaseError(
-                f"domain.size_m is below {least:g} m along {axis}, which is periodic; lengthen it or take a finer "
-                "spacing"
-            )
-
-
-def _check_period_of_pool(case: Case, where: str, pool) -> None:
-    """A pool lies within the domain along periodic axes: beyond it particles would lie on their own images."""
-    box, slack = pool.shape == "box", SAME * max(case.domain.size)
-    lower = pool.lower if box else [c - pool.radius for c in pool.centre]
-    upper = pool.upper if box else [c + pool.radius for c in pool.centre]
-    for axis, low, high, length, on in zip("xyz", lower, upper, case.domain.size, case.liquid.periodic or ()):
-        if on and (low < -slack or high > length + slack):
-            raise CaseError(
-                f"{where} reaches from {low:g} to {high:g} m along {axis}, which is periodic; keep it within 0 and "
-                f"{length:g} m, or its particles lie on each other"
-            )
 
 
 def _check_region(case: Case, name: str, region: Region) -> None:

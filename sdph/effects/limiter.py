@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
+from sdph.engine import softening
 from sdph.engine.state import GRAIN
 from sdph.laws import granular
 
@@ -19,6 +20,12 @@ def capped(p, state) -> dict[str, float]:
     """Share of the particles that closures take for less packed than they are (sdph.laws.granular.capped_fraction)."""
     most = granular.capped_fraction(1.0, p.packing)
     return {"alpha_p_capped_share": share(state, state.density / p.grain_density > most)}
+
+
+def softened(method) -> dict[str, float]:
+    """The part that r^2 + 0.01 h^2 in place of r^2 takes off the pairs in the gas (sdph.engine.softening)."""
+    s = method.state
+    return softening.held(method, "cubic_spline", np.flatnonzero(s.kind == GRAIN), s.mass)
 
 
 def streaming(p, state, factor: float, name: str) -> dict[str, float]:

@@ -40,6 +40,7 @@ HEAT = {
 OF_GAS = {
     "mass": "kg", "energy": "J", "kinetic": "J", "vapour": "kg", "mass_in": "kg", "energy_in": "J", "kinetic_in": "J",
     "vapour_in": "kg", "pressure_work": "J", "boundary_work": "J", "gravity_work": "J",
+    "viscous_work": "J",
 }  # fmt: skip
 # impulses that the momentum of the gas grows by, of its budget (`coupling.gas.IMPULSES`)
 IMPULSES_OF_GAS = (
@@ -174,14 +175,22 @@ class Ledger:
         return {"energy_drift_J": abs(drift), "energy_drift_rel": ratio(abs(drift), scale)}
 
     def _gas_motion(self) -> dict[str, float]:
-        """Work [J] that is missing in the kinetic energy of the gas: its own viscosity, and what is numerical,
+        """Work [J] that is missing in the kinetic energy of the gas: that of its own viscosity, and what is numerical,
         convection upwind, implicit steps, splitting of velocity and pressure."""
         change = {"gas_kinetic_J": 1, "gas_kinetic_in_J": -1, "gas_gravity_work_J": -1, "gas_pressure_work_J": 1}
         change["gas_boundary_work_J"] = -1
         given = {"friction_J": 1, "work_of_drag_J": 1, "damping_heat_J": -1, "vapour_motion_J": -1}
         terms = [c for key, sign in change.items() for c in self._change(key, sign)]
         lost = -math.fsum((*terms, *(sign * self.sums[key] for key, sign in given.items())))
-        return {"gas_dissipation_J": lost, "gas_dissipation_rel": ratio(abs(lost), abs(self.sums["friction_J"]))}
+        rubbed = math.fsum(self._change("gas_viscous_work_J", 1))
+        physical = abs(self.sums["friction_J"])
+        return {
+            "gas_dissipation_J": lost,
+            "gas_dissipation_rel": ratio(abs(lost), physical),
+            "gas_viscous_work_J": rubbed,
+            "gas_numerical_work_J": -(lost + rubbed),
+            "gas_numerical_work_rel": ratio(abs(lost + rubbed), physical + abs(rubbed)),
+        }
 
     def _gas_momentum(self) -> dict[str, float]:
         """Momentum of the gas that no impulse gave it: what is numerical."""

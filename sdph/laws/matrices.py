@@ -23,6 +23,12 @@ def solved(xx, yy, zz, xy, yz, zx, gx, gy, gz):
 
 
 @njit(cache=True, error_model="numpy")
+def determinant(xx, yy, zz, xy, yz, zx):
+    """Of a symmetric matrix; below SINGULAR nothing is `solved`."""
+    return xx * (yy * zz - yz * yz) + xy * (zx * yz - xy * zz) + zx * (xy * yz - zx * yy)
+
+
+@njit(cache=True, error_model="numpy")
 def smallest(xx, yy, zz, xy, yz, zx):
     """Smallest eigenvalue of a symmetric matrix, by its invariants (Smith 1961, Commun. ACM 4, 168)."""
     mean = (xx + yy + zz) / 3.0

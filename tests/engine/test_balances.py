@@ -72,6 +72,27 @@ def test_a_gas_that_loses_something_is_caught(tmp_path, total, told):
     assert dusty(tmp_path / "cheat", 7, cheat).ledger.summary()[told] > 1e-6 > 1e3 * abs(honest)
 
 
+class Viscous(Row):
+    """Loses a thousandth of its motion in each window, and says that its viscosity took two thirds of that."""
+
+    gone = 0.0
+
+    def advance(self, dt, sources):
+        state = super().advance(dt, sources)
+        self.gone += 1e-3 * state.budget.kinetic
+        told = {"kinetic": state.budget.kinetic - self.gone, "viscous_work": -2.0 / 3.0 * self.gone}
+        return dataclasses.replace(state, budget=dataclasses.replace(state.budget, **told))
+
+
+def test_work_of_the_gas_s_viscosity_is_apart_from_what_is_numerical(tmp_path):
+    run = dusty(tmp_path, 7, Viscous)
+    found, gone = run.ledger.summary(), run.gas.gone
+    assert found["gas_viscous_work_J"] == pytest.approx(-2.0 / 3.0 * gone) and gone > 0.0
+    assert found["gas_numerical_work_J"] == pytest.approx(-1.0 / 3.0 * gone, rel=1e-6)
+    physical = run.ledger.sums["friction_J"] + 2.0 / 3.0 * gone
+    assert found["gas_numerical_work_rel"] == pytest.approx(1.0 / 3.0 * gone / physical, rel=1e-6)
+
+
 class Driven(Cheat):
     """The same, which a gradient of pressure drives besides."""
 

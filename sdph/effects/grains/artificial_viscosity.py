@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from numba import njit
 
+from sdph.effects import limiter
 from sdph.effects.effect import Effect, Judgement
 from sdph.laws import viscosity
 from sdph.schema import quantity, record
@@ -35,6 +36,11 @@ def pair(p, h, approach, r_squared, c_i, c_j, rho_i, rho_j):
     return viscosity.monaghan(approach, r_squared, h, 0.5 * (c_i + c_j), 0.5 * (rho_i + rho_j), p.alpha, p.beta)
 
 
+def held(p, method) -> dict[str, float]:
+    """The part that r^2 + 0.01 h^2 takes off its pairs (sdph.engine.softening)."""
+    return limiter.softened(method)
+
+
 def call(scales) -> Judgement:
     """Mach number of the grains: shocks and crossing particles from about 1 on."""
     mach = scales.speed / scales.sound if scales.sound and scales.collides else 0.0
@@ -50,5 +56,6 @@ EFFECT = Effect(
     parameters=ArtificialViscosity,
     kernel=kernel,
     moves=True,
+    held=held,
     call=call,
 )

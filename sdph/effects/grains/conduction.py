@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from numba import njit
 
+from sdph.effects import limiter
 from sdph.effects.effect import NO_LIMIT, Effect, Judgement
 from sdph.laws import exchange as law
 from sdph.laws.constants import SOFTENING
@@ -48,6 +49,11 @@ def dt_limit(p, case, state) -> float:
     return STABLE * case.smoothing_length**2 / diffusivity
 
 
+def held(p, method) -> dict[str, float]:
+    """The part that r^2 + 0.01 h^2 takes off its pairs (sdph.engine.softening)."""
+    return limiter.softened(method)
+
+
 def call(scales) -> Judgement:
     """Fourier number of the grains; of it matters the share of the temperatures that reaches the grains."""
     diffusivity = scales.grains.conductivity / (scales.grains.density * scales.grains.heat_capacity)
@@ -63,5 +69,6 @@ EFFECT = Effect(
     kernel=kernel,
     arrays=("temperature",),
     dt_limit=dt_limit,
+    held=held,
     call=call,
 )

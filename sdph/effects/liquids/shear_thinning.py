@@ -18,10 +18,10 @@ from numba import njit, prange
 from sdph.effects.effect import Effect, Judgement, diffusive_limit
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import FAST, apart, faster
+from sdph.engine.gradients import NO_MATRIX, NO_SUMS, added, divided, in_plane
 from sdph.engine.rows import entry, length
 from sdph.engine.state import LIQUID
 from sdph.laws import thinning as law
-from sdph.laws.matrices import solved
 from sdph.schema import CaseError, choice, quantity, record
 
 MODELS = ("power_law", "carreau", "herschel_bulkley")
@@ -116,8 +116,7 @@ def shear_rates(kernel, s, rows, box, active, volume, stick, image, out):
     are near."""
     for n in prange(len(active)):
         i = active[n]
-        xx = yy = zz = xy = yz = zx = 0.0
-        ux = uy = uz = vx = vy = vz = wx = wy = wz = 0.0
+        matrix, sums = NO_MATRIX, NO_SUMS
         for k in range(length(rows, i)):
             j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
@@ -125,25 +124,8 @@ def shear_rates(kernel, s, rows, box, active, volume, stick, image, out):
             share = smoothing.slope(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
             share *= volume[j] if volume[j] > 0.0 else -stick * volume[j]
             dx, dy, dz = dx - image[j, 0], dy - image[j, 1], dz - image[j, 2]
-            xx -= share * dx * dx
-            yy -= share * dy * dy
-            zz -= share * dz * dz
-            xy -= share * dx * dy
-            yz -= share * dy * dz
-            zx -= share * dz * dx
-            ux -= share * du * dx
-            uy -= share * du * dy
-            uz -= share * du * dz
-            vx -= share * dv * dx
-            vy -= share * dv * dy
-            vz -= share * dv * dz
-            wx -= share * dw * dx
-            wy -= share * dw * dy
-            wz -= share * dw * dz
-        zz = zz if len(s.z) else 1.0
-        ux, uy, uz = solved(xx, yy, zz, xy, yz, zx, ux, uy, uz)
-        vx, vy, vz = solved(xx, yy, zz, xy, yz, zx, vx, vy, vz)
-        wx, wy, wz = solved(xx, yy, zz, xy, yz, zx, wx, wy, wz)
+            matrix, sums = added(matrix, sums, share, dx, dy, dz, du, dv, dw)
+        ux, uy, uz, vx, vy, vz, wx, wy, wz = divided(in_plane(matrix, len(s.z) == 0), sums)
         across = (uy + vx) * (uy + vx) + (vz + wy) * (vz + wy) + (wx + uz) * (wx + uz)
         out[i] = math.sqrt(2.0 * (ux * ux + vy * vy + wz * wz) + across)
 

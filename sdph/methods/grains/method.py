@@ -36,8 +36,9 @@ REACH = 2.0  # support of the kernels in smoothing lengths
 class Stepper:
     """State of the particles, and how it goes forward."""
 
-    KEPT = ("state", "neighbours", "steps", "contacts", "limit")  # see sdph.engine.kept
-    FORMS = {"state": GROWING}
+    KEPT, FORMS = ("state", "neighbours", "steps", "contacts", "limit"), {"state": GROWING}  # see sdph.engine.kept
+    # what a sub-step takes from neighbours and theirs, fresh, of `state`: all else of a particle is its own affair
+    HALO = (*"xyzuvw", "mass", "density", "temperature", "diameter", "theta", *friction.ARRAYS)
 
     def __init__(self, case, parameters, state, source=None, shortest=0.0):
         self.case, self.parameters, self.state, self.source = case, parameters, state, source

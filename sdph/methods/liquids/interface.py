@@ -14,9 +14,9 @@ from numba import njit, prange
 
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import FAST, apart
+from sdph.engine.gradients import NO_MATRIX, NO_SUMS, added, divided, in_plane
 from sdph.engine.rows import entry
 from sdph.engine.state import LIQUID
-from sdph.laws.matrices import solved
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
@@ -54,8 +54,7 @@ def bend(kernel, s, rows, box, active, volume, normal, curvature):
         curvature[i] = 0.0
         if not on_interface(normal, i):
             continue
-        xx = yy = zz = xy = yz = zx = 0.0
-        ux = uy = uz = vx = vy = vz = wx = wy = wz = 0.0
+        matrix, sums = NO_MATRIX, NO_SUMS
         for k in range(rows.number[i]):
             j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
@@ -67,26 +66,9 @@ def bend(kernel, s, rows, box, active, volume, normal, curvature):
                 normal[i, 1] - turn * normal[j, 1],
                 normal[i, 2] - turn * normal[j, 2],
             )
-            xx -= share * dx * dx
-            yy -= share * dy * dy
-            zz -= share * dz * dz
-            xy -= share * dx * dy
-            yz -= share * dy * dz
-            zx -= share * dz * dx
-            ux -= share * du * dx
-            uy -= share * du * dy
-            uz -= share * du * dz
-            vx -= share * dv * dx
-            vy -= share * dv * dy
-            vz -= share * dv * dz
-            wx -= share * dw * dx
-            wy -= share * dw * dy
-            wz -= share * dw * dz
-        zz = zz if len(s.z) else 1.0
-        u_x = solved(xx, yy, zz, xy, yz, zx, ux, uy, uz)[0]
-        v_y = solved(xx, yy, zz, xy, yz, zx, vx, vy, vz)[1]
-        w_z = solved(xx, yy, zz, xy, yz, zx, wx, wy, wz)[2]
-        curvature[i] = (u_x + v_y + w_z) * (1.0 if s.kind[i] == LIQUID else -1.0)
+            matrix, sums = added(matrix, sums, share, dx, dy, dz, du, dv, dw)
+        found = divided(in_plane(matrix, len(s.z) == 0), sums)
+        curvature[i] = (found[0] + found[4] + found[8]) * (1.0 if s.kind[i] == LIQUID else -1.0)
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)

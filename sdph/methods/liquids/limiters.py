@@ -7,10 +7,12 @@ import math
 import numpy as np
 from numba import njit
 
-from sdph.effects.liquids import shifting
+from sdph.effects.liquids import liquid_damping, shifting
+from sdph.engine import softening
 from sdph.engine.geometry import apart
 from sdph.engine.rows import entry
 from sdph.engine.state import GAS
+from sdph.methods.liquids import sparse
 
 
 @njit(cache=True, error_model="numpy")
@@ -30,7 +32,8 @@ def in_front(s, rows, box, walls, near, support, volume, wets, holds):
 
 def held(stepper) -> dict[str, float]:
     """Shares of the particles of liquid, or of the wall particles that have liquid in front, that are held now."""
-    return _by_walls(stepper) | _by_shifting(stepper) | _by_correction(stepper)
+    by_gradients = _by_correction(stepper) | sparse.held(stepper)
+    return _by_walls(stepper) | _by_shifting(stepper) | by_gradients | _by_damping(stepper)
 
 
 def _by_walls(stepper) -> dict[str, float]:
@@ -66,6 +69,13 @@ def _by_correction(stepper) -> dict[str, float]:
         return {}
     left = ~np.any([part[stepper.active] != 0.0 for part in stepper.excess], axis=0)
     return {"uncorrected_share": _share(left)}
+
+
+def _by_damping(stepper) -> dict[str, float]:
+    p = stepper.p["liquid_damping"]
+    if not isinstance(p, liquid_damping.LinearP):
+        return {}
+    return softening.held(stepper, stepper.case.liquid.kernel, stepper.active, np.maximum(stepper.volume, 0.0))
 
 
 def _share(held) -> float:

@@ -9,6 +9,7 @@ import numpy as np
 from sdph.effects.around import drain, tank
 from sdph.engine import state as particles
 from sdph.engine.kept import Unfit
+from sdph.engine.stepped import Stepped
 from sdph.methods.liquids import account, history, limiters
 from sdph.methods.liquids.bodies import Carrier
 from sdph.methods.liquids.loads import kinetic_energy
@@ -21,7 +22,7 @@ from sdph.methods.liquids.window import Tally
 SLOW = 0.2
 
 
-class Liquid:
+class Liquid(Stepped):
     """A liquid and what it does in a window."""
 
     matter = "liquid"
@@ -35,29 +36,6 @@ class Liquid:
         self.rates = account.rates(self.stepper, 0.0, None)  # what acts now
         self.impulse, self.since = np.zeros(6), 0.0  # force and moment on the tank since the last row, and its time [s]
 
-    @property
-    def state(self):
-        return self.stepper.state
-
-    @property
-    def time(self) -> float:
-        return self.stepper.time
-
-    @property
-    def steps(self) -> int:
-        return self.stepper.steps
-
-    @property
-    def limit(self) -> str:
-        return self.stepper.limit
-
-    def tables(self) -> list:
-        """Files that grow by rows."""
-        return [self.ledger.table]
-
-    def start(self) -> None:
-        self.ledger.open(self.stepper)
-
     def admit(self, kept: dict) -> None:
         """Unfit where time is not that of the ledger, or the outlet's memory does not fit to the particles."""
         time = kept["stepper"]["time"]
@@ -65,10 +43,6 @@ class Liquid:
             raise Unfit("its time is not that of the ledger")
         if self.outlet:
             self.outlet.admit_at(time, kept["outlet"], kept["stepper"]["state"])
-
-    def begin(self) -> None:
-        self.stepper.guard.begin(self)
-        self.begun = self.time
 
     def push(self, acceleration) -> None:
         """Take an acceleration (N, 3) [m/s2] from outside, that holds over the next window."""

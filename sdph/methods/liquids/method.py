@@ -42,6 +42,8 @@ class LiquidStepper:
     # of the particles
     ROWS = ("pressure", "volume", "acceleration", "gradient", "least", "shift", "twist", "extra", "excess")
     FORMS = dict.fromkeys(("state", *ROWS), GROWING)
+    # what the loops of a step take from neighbours and theirs, fresh, of `state` and of ROWS
+    HALO = (*"xyzuvw", "mass", "density", "kind", "depth", "pressure", "volume", "gradient")
 
     def __init__(self, case, shortest: float = 0.0, carrier: immersion.Carrier | None = None):
         self.case, self.guard, d = case, LiquidGuard(case), case.dimensions

@@ -9,9 +9,10 @@ from numba import njit, prange
 from sdph.effects.liquids import shifting, xsph
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import FAST, apart, faster
+from sdph.engine.gradients import NO_MATRIX, NO_SUMS, added, divided, in_plane
 from sdph.engine.rows import entry, length
 from sdph.engine.state import GAS
-from sdph.laws.matrices import smallest, solved
+from sdph.laws.matrices import smallest
 from sdph.methods.liquids import phases
 from sdph.methods.liquids.equations import pressure_at
 
@@ -25,8 +26,8 @@ def surround(kernel, s, rows, box, active, shifting_p, phases_p, volume, least, 
     """
     for n in prange(len(active)):
         i = active[n]
-        cx = cy = cz = xx = yy = zz = xy = yz = zx = 0.0
-        ux = uy = uz = vx = vy = vz = wx = wy = wz = 0.0
+        cx = cy = cz = 0.0
+        matrix, sums = NO_MATRIX, NO_SUMS
         for k in range(length(rows, i)):
             j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
@@ -34,31 +35,18 @@ def surround(kernel, s, rows, box, active, shifting_p, phases_p, volume, least, 
             r = math.sqrt(dx * dx + dy * dy + dz * dz)
             slope = smoothing.slope(kernel, r)
             share = max(volume[j], 0.0) * slope * phases.like(phases_p, s.kind[i], s.kind[j])
-            xx -= share * dx * dx
-            yy -= share * dy * dy
-            zz -= share * dz * dz
-            xy -= share * dx * dy
-            yz -= share * dy * dz
-            zx -= share * dz * dx
-            ux -= share * du * dx
-            uy -= share * du * dy
-            uz -= share * du * dz
-            vx -= share * dv * dx
-            vy -= share * dv * dy
-            vz -= share * dv * dz
-            wx -= share * dw * dx
-            wy -= share * dw * dy
-            wz -= share * dw * dz
+            matrix, sums = added(matrix, sums, share, dx, dy, dz, du, dv, dw)
             crowd = abs(volume[j]) * slope * shifting.weight(shifting_p, smoothing.value(kernel, r))
             cx += crowd * dx
             cy += crowd * dy
             cz += crowd * dz
-        zz = zz if len(s.z) else 1.0
-        least[i] = 1.0 if len(phases_p) else smallest(xx, yy, zz, xy, yz, zx)
+        matrix = in_plane(matrix, len(s.z) == 0)
+        least[i] = 1.0 if len(phases_p) else smallest(*matrix)
         shift[i, 0], shift[i, 1], shift[i, 2] = cx, cy, cz
-        twist[i, 0], twist[i, 1], twist[i, 2] = solved(xx, yy, zz, xy, yz, zx, ux, uy, uz)
-        twist[i, 3], twist[i, 4], twist[i, 5] = solved(xx, yy, zz, xy, yz, zx, vx, vy, vz)
-        twist[i, 6], twist[i, 7], twist[i, 8] = solved(xx, yy, zz, xy, yz, zx, wx, wy, wz)
+        found = divided(matrix, sums)
+        twist[i, 0], twist[i, 1], twist[i, 2] = found[0], found[1], found[2]
+        twist[i, 3], twist[i, 4], twist[i, 5] = found[3], found[4], found[5]
+        twist[i, 6], twist[i, 7], twist[i, 8] = found[6], found[7], found[8]
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)

@@ -96,9 +96,8 @@ def wall_force(
             ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY))
             ringing *= phases.harmonic(phases_p, rho_j, rho_j)
             bx, by, bz = body(gravity_p, frame_p, s, j, False)
-            p_i = phases.behind(
-                phases_p, -1.0, flow.pressure[i], flow.pressure[j] + rho_j * (bx * dx + by * dy + bz * dz)
-            )
+            expected = flow.pressure[j] + rho_j * (bx * dx + by * dy + bz * dz)
+            p_i = phases.behind(phases_p, -1.0, flow.pressure[i], expected)
             over, p_j = held_off(wall_p, -1.0, rho_j, r), flow.pressure[j]
             along = -V * (p_i + sign_j * p_j + wall_p.stick * (ringing + friction) + over)
             across = V * wall_p.stick * laminar_viscosity.pair(laminar_p, s, j, j)

@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 
 from sdph.engine import state as particles
-from sdph.engine.kept import GROWING, Unfit
+from sdph.engine.kept import GROWING
 from sdph.engine.state import LIQUID
+from sdph.engine.stepped import Stepped
 from sdph.engine.table import Table
 from sdph.methods.mps import pieces, sheet
 from sdph.methods.mps.method import MpsStepper
@@ -17,7 +18,7 @@ from sdph.methods.mps.totals import MpsLedger
 RESOLVED = 10  # particles of a piece whose size is told by more than one spacing; swirl-sheet.md, section 7
 
 
-class Mps:
+class Mps(Stepped):
     """An incompressible liquid and what it does in a window."""
 
     matter = "liquid"
@@ -31,47 +32,9 @@ class Mps:
         self.drops = Table(ledger.with_name("droplets.csv"))  # pieces that have left
         self.diameters, self.counts = np.zeros(0), np.zeros(0)  # [m] and particles of each
 
-    @property
-    def state(self):
-        return self.stepper.state
-
-    @property
-    def time(self) -> float:
-        return self.stepper.time
-
-    @property
-    def steps(self) -> int:
-        return self.stepper.steps
-
-    @property
-    def limit(self) -> str:
-        return self.stepper.limit
-
     def tables(self) -> list:
         """Files that grow by rows."""
         return [self.ledger.table, self.drops]
-
-    def start(self) -> None:
-        self.ledger.open(self.stepper)
-
-    def admit(self, kept: dict) -> None:
-        """Unfit where time is not that of the ledger."""
-        if kept["stepper"]["time"] != kept["ledger"]["last"]["time_s"]:
-            raise Unfit("its time is not that of the ledger")
-
-    def begin(self) -> None:
-        self.stepper.guard.begin(self)
-        self.begun = self.time
-
-    def advance(self, end: float, most: float = np.inf) -> None:
-        """Go to `end` [s], or as far as `most` steps get."""
-        done = 0
-        while self.time != end and done < most:
-            left = end - self.time
-            if self.stepper.step(left) >= left:
-                self.stepper.time = end
-            done += 1
-        self.windows += 1
 
     def close(self) -> None:
         self.stepper.guard.look(self.stepper)

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
-
 from sdph.engine import state as particles
-from sdph.engine.kept import Unfit
+from sdph.engine.stepped import Stepped
 from sdph.methods.solids import history
 from sdph.methods.solids.method import SolidStepper
 from sdph.methods.solids.totals import SolidLedger
 
 
-class Solids:
+class Solids(Stepped):
     """Bodies and what they do in a window."""
 
     matter = "solid"
@@ -22,48 +20,6 @@ class Solids:
     def __init__(self, case, ledger: Path, shortest: float, *, wet: bool = False):
         self.case, self.windows = case, 0
         self.stepper, self.ledger = SolidStepper(case, shortest, wet=wet), SolidLedger(ledger)
-
-    @property
-    def state(self):
-        return self.stepper.state
-
-    @property
-    def time(self) -> float:
-        return self.stepper.time
-
-    @property
-    def steps(self) -> int:
-        return self.stepper.steps
-
-    @property
-    def limit(self) -> str:
-        return self.stepper.limit
-
-    def tables(self) -> list:
-        """Files that grow by rows."""
-        return [self.ledger.table]
-
-    def start(self) -> None:
-        self.ledger.open(self.stepper)
-
-    def admit(self, kept: dict) -> None:
-        """Unfit where time is not that of the ledger."""
-        if kept["stepper"]["time"] != kept["ledger"]["last"]["time_s"]:
-            raise Unfit("its time is not that of the ledger")
-
-    def begin(self) -> None:
-        self.stepper.guard.begin(self)
-        self.begun = self.time
-
-    def advance(self, end: float, most: float = np.inf) -> None:
-        """Go to `end` [s], or as far as `most` steps get."""
-        done = 0
-        while self.time != end and done < most:
-            left = end - self.time
-            if self.stepper.step(left) >= left:
-                self.stepper.time = end
-            done += 1
-        self.windows += 1
 
     def close(self) -> None:
         self.stepper.guard.look(self.stepper)

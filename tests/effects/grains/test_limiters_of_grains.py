@@ -117,3 +117,20 @@ def test_what_shifting_moves(tmp_path):
 
 def test_an_effect_that_is_off_tells_nothing(tmp_path):
     assert started(box(["gravity"]), tmp_path).stepper.held == {}
+
+
+@pytest.mark.parametrize("name", ["artificial_viscosity", "conduction"])
+def test_what_softening_takes_off_pairs(tmp_path, name):
+    """Off a square lattice, by hand; more off grains that are pressed together."""
+    stepper = started(box([name, "granular_pressure"], size=(0.06, 0.06), alpha_p=0.5), tmp_path).stepper
+    cells = np.stack(np.meshgrid(*[np.arange(-3.0, 4.0)] * 2), axis=-1).reshape(-1, 2) * 5e-3
+    r = np.linalg.norm(cells, axis=1)
+    q = r / H
+    weight = np.where(q < 1.0, 3.0 * q - 2.25 * q**2, np.where(q < 2.0, 0.75 * (2.0 - q) ** 2, 0.0)) * r  # -r dW/dr
+    expected = 1.0 - (weight * r**2 / (r**2 + 0.01 * H**2)).sum() / weight.sum()
+    stepper.tell()
+    assert stepper.held["softened_rel"] == pytest.approx(expected, rel=1e-9)
+    stepper.state.x[:] *= 0.5
+    stepper.prepare()
+    stepper.tell()
+    assert stepper.held["softened_rel"] > expected

@@ -1,0 +1,78 @@
+"""Checks that probes, nozzles, regions and boundaries lie in the domain; each raises a CaseError."""
+
+from __future__ import annotations
+
+import math
+
+from sdph.engine.geometry import SIDES
+from sdph.schema import CaseError
+
+SAME = 1e-9  # of a length: round-off
+
+
+def probe(case, where: str, own) -> None:
+    """A probe lies in the domain, and in a gas: a liquid has no temperature to follow."""
+    if case.grains is None:
+        raise CaseError(f"[{where}] follows temperatures of grains and gas, and the case has none; leave it out")
+    inside(case, where, own.at, own.at)
+
+
+def mouth(case, where: str, nozzle) -> None:
+    """The middle of a nozzle's mouth lies in the domain, and so does what lies half a spacing ahead of it."""
+    if len(nozzle.centre) != case.dimensions or len(nozzle.direction) != case.dimensions:
+        return  # the effect says so
+    inside(case, f"{where}.centre_m = {list(nozzle.centre)}", nozzle.centre, nozzle.centre)
+    length = max(math.hypot(*nozzle.direction), math.ulp(0.0))
+    ahead = [c + 0.5 * case.resolution.spacing * a / length for c, a in zip(nozzle.centre, nozzle.direction)]
+    inside(case, f"{where}.direction = {list(nozzle.direction)} at centre_m = {list(nozzle.centre)}", ahead, ahead)
+
+
+def inside(case, key: str, lower, upper) -> None:
+    """CaseError where a region from `lower` to `upper`, given by `key`, reaches out of the domain."""
+    slack = SAME * max(case.domain.size)  # of centre plus radius
+    if any(a < -slack or b > length + slack for a, b, length in zip(lower, upper, case.domain.size)):
+        raise CaseError(
+            f"{key} reaches out of the domain, domain.size_m = {list(case.domain.size)}; move it or enlarge the domain"
+        )
+
+
+def side(case, where: str, boundary) -> None:
+    """A boundary lies on a side that the domain has, and its span, [low, high] on each axis along it, on that side."""
+    if boundary.side and SIDES[boundary.side][0] >= case.dimensions:
+        there = list(SIDES)[: 2 * case.dimensions]
+        raise CaseError(
+            f"{where}.side = {boundary.side!r}; a case of {case.dimensions} dimensions has {', '.join(there)}"
+        )
+    slides = boundary.kind == "wall" and boundary.velocity and any(boundary.velocity)
+    if slides and (boundary.side is None or boundary.velocity[SIDES[boundary.side][0]] != 0.0):
+        given = f"{where}.velocity_m_s = {list(boundary.velocity)}"
+        raise CaseError(f"{given}; a wall slides along its side: name the side, and give 0 at right angles to it")
+    if boundary.span is None:
+        return
+    if boundary.side is None:
+        raise CaseError(f"{where}.span_m is given without a side; add it, or remove the span")
+    lengths = [length for axis, length in enumerate(case.domain.size) if axis != SIDES[boundary.side][0]]
+    for (low, high), length in zip(_pairs(where, boundary.span, len(lengths)), lengths):
+        if low < -SAME * length or high > length * (1.0 + SAME):
+            raise CaseError(
+                f"{where}.span_m goes from {low:g} to {high:g} m; the box goes from 0 to {length:g} m there"
+            )
+
+
+def _pairs(where: str, span: tuple, count: int) -> tuple:
+    """(low, high) on each of `count` axes."""
+    pairs = span if any(isinstance(part, tuple) for part in span) else (span,)
+    if len(pairs) != count or not all(map(_is_pair, pairs)):
+        raise CaseError(
+            f"{where}.span_m = {list(span)}; give [low, high] on each axis along its side, of which there are {count}"
+        )
+    return pairs
+
+
+def _is_pair(part) -> bool:
+    return (
+        isinstance(part, tuple)
+        and len(part) == 2
+        and not any(isinstance(end, tuple) for end in part)
+        and part[0] < part[1]
+    )

@@ -1,0 +1,43 @@
+"""Part that r^2 + 0.01 h^2 in place of r^2 takes off the pairs of a cloud; limiters 11 and 34 of docs/limiters.md."""
+
+from __future__ import annotations
+
+import math
+
+from numba import njit
+
+from sdph.engine import kernels as smoothing
+from sdph.engine.geometry import apart
+from sdph.engine.rows import entry
+from sdph.laws.constants import SOFTENING
+
+SAMPLE = 8  # of so many particles one is looked at: a mean over a cloud, which costs nothing then; our choice
+
+
+@njit(cache=True, error_model="numpy")
+def taken(kernel, s, rows, box, chosen, weight, eta_squared):
+    """Part [-] of sum_i sum_j w_j r^2 (dW/dr)/r, a diffusion's own weights, that eta_squared [m2] in r^2/(r^2 + eta^2)
+    takes away; over the `chosen` (C,) particles and neighbours of weight (N,)."""
+    whole = left = 0.0
+    for i in chosen:
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
+            dx, dy, dz = apart(s, box, i, j)
+            r2 = dx * dx + dy * dy + dz * dz
+            share = weight[j] * smoothing.slope(kernel, math.sqrt(r2)) * r2
+            whole += share
+            left += share * r2 / (r2 + eta_squared)
+    return 1.0 - left / whole if whole != 0.0 else 0.0
+
+
+def held(method, name, chosen, weight) -> dict[str, float]:
+    """Column of history.csv of a stepper with the kernel `name`; chosen (A,) rows of its particles, of which one in
+    SAMPLE counts."""
+    case, eta_squared = method.case, SOFTENING * method.case.smoothing_length**2
+    around = (
+        smoothing.smoothing(name, case.dimensions, case.smoothing_length),
+        method.state,
+        method.rows,
+        method.neighbours.box,
+    )
+    return {"softened_rel": float(taken(*around, chosen[::SAMPLE], weight, eta_squared))}
