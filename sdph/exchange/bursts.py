@@ -1,8 +1,9 @@
 """Vapour that torn droplets throw in a window, before they exchange anything else with the gas in it.
 
-Their superheat falls to nothing along a straight line in the time `throwing`; what boils follows from it exactly
-(sdph.laws.bursting.flashed_share). All droplets of a particle shrink alike, their number stays. The energy of what is
-thrown is what the particle loses, to round-off: m c T before, less m' c T' after, less L (m - m').
+Their superheat falls to nothing along a straight line in the time `throwing`, in which they fall apart; what boils
+follows from it exactly (sdph.laws.bursting.flashed_share): flash keeps up with the surface that opens (our choice). All
+droplets of a particle shrink alike, their number stays. The energy of what is thrown is what the particle loses, to
+round-off: m c T before, less m' c T' after, less L (m - m').
 """
 
 from __future__ import annotations
@@ -16,11 +17,12 @@ from sdph.laws import bursting
 
 class Thrown(NamedTuple):
     """Of each particle: vapour (N,) [kg], that times its temperature (N,) [kg K]; `after`, arrays of the state by name
-    as they are then."""
+    as they are then; rows of those that have thrown all, which evaporate from the next window on."""
 
     mass: np.ndarray
     warmth: np.ndarray
     after: dict[str, np.ndarray]
+    opened: np.ndarray
 
 
 def throw(own, state, dt: float) -> Thrown | None:
@@ -44,14 +46,15 @@ def throw(own, state, dt: float) -> Thrown | None:
     after["born_mass"] = _put(state.born_mass, rows, mass - thrown)
     after["temperature"] = _put(state.temperature, rows, cold)
     after["throwing"] = _put(state.throwing, rows, np.where(ended, 0.0, left - dt))
-    after["sealed"] = _put(state.sealed, rows, np.where(ended, 0.0, state.sealed[rows]))
-    return Thrown(_put(np.zeros(len(state.x)), rows, thrown), _put(np.zeros(len(state.x)), rows, warmth), after)
+    nothing = np.zeros(len(state.x))
+    return Thrown(_put(nothing, rows, thrown), _put(nothing, rows, warmth), after, rows[ended])
 
 
 def take(state, thrown: Thrown) -> None:
-    """Take from the particles what they threw."""
+    """Take from the particles what they threw, and open those that are done."""
     for name, values in thrown.after.items():
         getattr(state, name)[:] = values
+    state.sealed[thrown.opened] = 0.0
 
 
 def _put(array, rows, values) -> np.ndarray:

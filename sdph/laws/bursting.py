@@ -40,13 +40,12 @@ def flashed_share(heat_capacity, cooling, latent_heat):
 
 
 @law
-def flash_time(diameter, diffusivity):
-    """Time [s] in which a sphere of `diameter` [m] gives off its superheat: twice d^2/(4 pi^2 alpha), alpha [m2/s].
+def opening_time(radius, wall, tension, density):
+    """Time [s] in which a torn wall [m] draws back over `radius` [m]: R/sqrt(2 sigma/(rho wall)).
 
-    The slowest part of the profile fades as exp(-4 pi^2 alpha t/d^2) (Carslaw & Jaeger 1959, section 9.3); a straight
-    ramp with the same mean time is twice as long.
+    Taylor 1959, Proc. R. Soc. A 253, 313; Culick 1960, J. Appl. Phys. 31, 1128. tension sigma [N/m], density [kg/m3].
     """
-    return diameter * diameter / (2.0 * math.pi * math.pi * diffusivity)
+    return radius / math.sqrt(2.0 * tension / (density * wall))
 
 
 @law

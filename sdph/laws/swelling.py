@@ -14,7 +14,7 @@ from sdph.laws import bursting, cavities, gel_droplet, real_gas, shells
 from sdph.laws.compiled import law
 
 SPHERE = 3  # dimensions
-GROWTH = 2e-3  # of D/D_0 in a step; by convergence (validation/gel_spray/README.md)
+GROWTH = 5e-3  # of D/D_0 in a step; by convergence (validation/gel_spray/README.md)
 SPOT_GROWTH, FAST, EAGER = (
     20.0,
     2.0,

@@ -23,7 +23,7 @@ from sdph.schema import CaseError, quantity, record
 SHELL = ("shell_flow", "shell_hard", "shell_harm", "shell_swell")
 SPOT = ("spot_flow", "spot_hard", "spot_harm", "spot_swell")
 RATE = 1.0  # 1/s, of strain, for the pressure that a shell bears in `call`: ten times as fast adds 17 %
-PART = 0.25  # of the time in which a torn droplet throws its vapour, most that a window takes; our choice
+PART = 0.05  # of the time from the first bubble to the tear, most that a window takes; our choice
 NOTHING_TORN = {"torn_droplets": 0.0, "made_droplets": 0.0}  # ledger columns
 SOURCE = "gel-droplet.md; Qiang et al. 2017"
 
@@ -76,19 +76,24 @@ class MicroExplosionP(NamedTuple):
 def kernel(case) -> MicroExplosionP:
     own, grains, pressure = case.parameters["micro_explosion"], case.grains, case.gas.operating_pressure
     _refuse(case, own)
-    boils = case.parameters["evaporation"]
-    fuel = gel.Fuel(
-        molar_mass=case.vapour.molar_mass, critical_temperature=own.critical_temperature,
-        critical_pressure=own.critical_pressure, acentric_factor=own.acentric_factor, antoine=boils.antoine,
-        latent_heat=boils.latent_heat, saturated_heat_capacity=own.saturated_heat_capacity,
-    )  # fmt: skip
+    fuel = fuel_of(case)
     gel.refuse_above_critical(fuel, pressure, "gas.operating_pressure_Pa")
     vapour = gel.vapour(fuel)
     ratios = own.shell_ratio, own.bubble_ratio, own.flaw, own.thrown_share, own.fragment_ratio or 0.0
-    material = grains.density, grains.heat_capacity, grains.conductivity, boils.latent_heat
+    material = grains.density, grains.heat_capacity, grains.conductivity, fuel.latent_heat
     around = gel_droplet.Around(swelling.SPHERE, pressure, grains.surface_tension, *gel.moduli(own))
     boiling = real_gas.saturation_temperature(vapour, pressure)
     return MicroExplosionP(Own(*ratios, *material, boiling), vapour, gel.plastic(own), gel.damage(own), around)
+
+
+def fuel_of(case) -> gel.Fuel:
+    """The fuel that boils in a droplet is the one that evaporates from it."""
+    own, boils = case.parameters["micro_explosion"], case.parameters["evaporation"]
+    critical = {name: getattr(own, name) for name in ("critical_temperature", "critical_pressure", "acentric_factor")}
+    return gel.Fuel(
+        molar_mass=case.vapour.molar_mass, antoine=boils.antoine, latent_heat=boils.latent_heat,
+        saturated_heat_capacity=own.saturated_heat_capacity, **critical,
+    )  # fmt: skip
 
 
 def _refuse(case, own: MicroExplosion) -> None:
@@ -119,11 +124,11 @@ def advance(own, vapour, plastic, damage, around, s, dt, torn, made):
         if s.kind[i] == GRAIN and s.sealed[i] > 0.0 and s.throwing[i] == 0.0:
             wall = grow(own, vapour, plastic, damage, around, s, i, dt)
             if wall > 0.0:
-                torn[i], made[i] = tear(own, s, i, wall)
+                torn[i], made[i] = tear(own, around.tension, s, i, wall)
 
 
 @njit(cache=True, error_model="numpy")
-def tear(own, s, i, wall):
+def tear(own, tension, s, i, wall):
     """Turn the droplets of particle i, whose walls [m] tear, into smaller ones; their number, and how many more there
     are. What their bubbles hold becomes superheat."""
     mean, variance = s.diameter[i], s.diameter_variance[i]
@@ -135,8 +140,7 @@ def tear(own, s, i, wall):
     s.diameter_variance[i] = s.born_variance[i] = variance
     s.temperature[i] += s.bubble_heat[i] / (s.mass[i] * own.heat_capacity)
     s.bubble_heat[i] = s.bubble_void[i] = 0.0
-    diffusivity = own.conductivity / (own.density * own.heat_capacity)
-    s.throwing[i] = bursting.flash_time(bursting.sauter(mean, variance), diffusivity)
+    s.throwing[i] = bursting.opening_time(0.5 * size, wall, tension, own.density)
     return number, number * (more - 1.0)
 
 
@@ -204,13 +208,14 @@ def swollen(p, state, dt) -> dict[str, float]:
 
 
 def window_limit(p, case, state) -> float:
-    """A part of the time in which those that throw vapour do so; no limit where none does."""
-    throwing = np.flatnonzero(state.throwing)
-    if not len(throwing):
+    """A part of the time in which a bubble grows to the tear, by the heat of now; no limit where none grows."""
+    growing = (state.bubble_void > 0.0) & (state.received > 0.0)
+    if not growing.any():
         return NO_LIMIT
-    sizes = bursting.sauter(state.diameter[throwing], state.diameter_variance[throwing])
-    own = p.own
-    return PART * float(bursting.flash_time(sizes.min(), own.conductivity / (own.density * own.heat_capacity)))
+    first, *_ = swelling.radii(p.own.bubble, p.own.shell, case.grains.diameter)
+    rise = tearing_temperature(p) - swelling.nucleus(p.vapour, p.around, first)
+    warming = state.received[growing] / (state.mass[growing] * p.own.heat_capacity)  # K/s
+    return PART * rise / float(warming.max())
 
 
 def tearing_temperature(p) -> float:

@@ -170,7 +170,7 @@ class Grains:
             return points
         points["velocity"] = particles.velocities(state)
         points["alpha_p"] = state.density / self.case.grains.density
-        for name in ("ident", "kind", "mass", "density", "temperature", "diameter", "theta"):
+        for name in ("ident", "kind", "mass", "density", "temperature", "diameter", "theta", "sealed"):
             if len(getattr(state, name)):
                 points[name] = getattr(state, name)
         return points
