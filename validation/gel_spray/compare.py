@@ -83,9 +83,9 @@ def tracked(run) -> Tracked:
 
 
 def heated(own: Tracked, at: int, done: int) -> float:
-    """Heat per mass [J/kg] from the gas while vapour is thrown."""
-    rows = slice(at + 1, done + 1)
-    return float((own.heat[rows] * np.diff(own.time)[at:done] / own.mass[rows]).sum())
+    """Heat per mass [J/kg] from the gas while vapour is thrown, less that of the last window, which stays."""
+    rows = slice(at + 1, done)
+    return float((own.heat[rows] * np.diff(own.time)[at : done - 1] / own.mass[rows]).sum())
 
 
 def torn(case, particle, own: Tracked) -> Tear:
