@@ -18,6 +18,11 @@ from sdph.running.progress import Reporter
 from sdph.study import compare
 
 TOLD = ("evaporated_kg", "thrown_kg", "injected_kg", "grain_temperature_max_K", "gas_temperature_min_K")
+LEAST = 1e-3  # of a particle's mass
+SHOWN = (
+    ("diameter", "mean diameter [um]", 1e6, "viridis", (10.0, 75.0)),
+    ("temperature", "droplets [K]", 1.0, "inferno", (300.0, 580.0)),
+)
 LABELS = {"bursting": "shells that burst", "bare": "bare droplets"}
 
 
@@ -47,31 +52,34 @@ def main(folder: Path, overrides: tuple[str, ...]) -> None:
 
 
 def draw(runs, file: Path) -> None:
-    """Particles of both runs from the side, by temperature and by size, and the vapour in the middle."""
+    """Particles of both runs from the side, by size and by temperature, and the vapour in the middle; those with less
+    than a thousandth of their mass are left out."""
     import matplotlib
 
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    figure, axes = pyplot.subplots(2, 3, figsize=(9, 12), constrained_layout=True)
-    for row, (name, run) in zip(axes, runs.items()):
+    figure, axes = pyplot.subplots(3, 2, figsize=(13, 9), constrained_layout=True)
+    for column, (name, run) in zip(axes.T, runs.items()):
         _, particles, gas = run.fields(run.summary["time_s"])
-        x, z = 1e3 * particles.points[:, 0], 1e3 * particles.points[:, 2]
-        panels = (1e6 * particles["diameter"], "mean diameter [um]", "viridis"), (
-            particles["temperature"], "droplets [K]", "inferno",
-        )  # fmt: skip
-        for panel, (values, label, colours) in zip(row, panels):
-            dots = panel.scatter(x, z, c=values, s=5, cmap=colours)
-            figure.colorbar(dots, ax=panel, label=label, shrink=0.6)
+        left = particles["mass"] > LEAST * particles["mass"].max()
+        width, length = 1e3 * run.case.domain.size[0], 1e3 * run.case.domain.size[2]
+        along, aside = length - 1e3 * particles.points[left, 2], 1e3 * particles.points[left, 0]
+        for panel, (key, label, factor, colours, ends) in zip(column, SHOWN):
+            dots = panel.scatter(
+                along, aside, c=factor * particles[key][left], s=7, cmap=colours, vmin=ends[0], vmax=ends[1]
+            )
+            figure.colorbar(dots, ax=panel, label=label)
         centres = gas.cell_centers().points
         planes = np.unique(np.round(centres[:, 1], 9))
         near = np.abs(centres[:, 1] - planes[len(planes) // 2]) < 1e-6
-        vapour = row[2].tripcolor(1e3 * centres[near, 0], 1e3 * centres[near, 2], gas["vapour_mass_fraction"][near])
-        figure.colorbar(vapour, ax=row[2], label="vapour mass fraction", shrink=0.6)
-        for panel in row:
-            size = run.case.domain.size
-            panel.set(xlim=(0, 1e3 * size[0]), ylim=(0, 1e3 * size[2]), aspect="equal", title=LABELS[name])
-    figure.savefig(file, dpi=80)
+        shown = length - 1e3 * centres[near, 2], 1e3 * centres[near, 0], gas["vapour_mass_fraction"][near]
+        filled = column[2].tricontourf(*shown, levels=np.linspace(0.0, 0.12, 13))
+        figure.colorbar(filled, ax=column[2], label="vapour mass fraction")
+        for panel in column:
+            panel.set(xlim=(0, length), ylim=(0, width), aspect="equal", title=LABELS[name])
+            panel.set(xlabel="from the nozzle [mm]", ylabel="x [mm]")
+    figure.savefig(file, dpi=75)
     pyplot.close(figure)
 
 
