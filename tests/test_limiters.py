@@ -30,6 +30,7 @@ HARMLESS = {
     "sdph/exchange/equations.py:temperature_span": "a scale for the length of windows",
     "sdph/exchange/exchange.py:Exchange.grip": "a limit of windows",
     "sdph/effects/gas/radiation.py:window_limit": "a limit of windows",
+    "sdph/effects/gas/micro_explosion.py:tear": "takes the ratio of the case where it gives one",
     "sdph/engine/clock.py:count_of_parts": "number of steps",
     "sdph/engine/rows.py:*": "indices of cells and of entries",
     "sdph/engine/reading.py:*": "sizes of files",

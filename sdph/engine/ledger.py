@@ -24,7 +24,8 @@ AMOUNTS = (
     "vapour_motion_J", "injected_kg", "injected_J", "injected_motion_J", "left_kg", "left_J", "left_motion_J",
     "work_of_drag_J", "work_of_pressure_J", "work_of_gravity_J", "work_of_walls_J", "work_of_contact_J",
     "work_of_inflow_J", "agitation_J", "collision_heat_J", "damping_heat_J", "bounds_work_J", "numerical_work_J",
-    "contact_way_m", "contact_lift_J", "finished_kg", "impulse_of_gone_kg_m_s",
+    "contact_way_m", "contact_lift_J", "finished_kg", "impulse_of_gone_kg_m_s", "thrown_kg",
+    "torn_droplets", "made_droplets",
 )  # fmt: skip
 # column -> sign with which it changes the motion and agitation of the particles
 MOTION = {
@@ -52,6 +53,7 @@ SUMMED = {
     "evaporation": (
         "evaporated_kg", "condensation_refused_kg", "finished_kg", "latent_heat_J", "capacity_heat_J",
     ),
+    "micro_explosion": ("thrown_kg", "torn_droplets", "made_droplets"),
     "lift": ("impulse_of_gone_kg_m_s",), "walls": ("contact_way_m", "contact_lift_J"),
 }  # fmt: skip
 # sums of what was exchanged or moved in a window, without sign, which drifts are related to

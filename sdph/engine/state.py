@@ -51,6 +51,20 @@ class State(NamedTuple):
     exchanged: np.ndarray
     viscosity: np.ndarray
     depth: np.ndarray
+    sealed: np.ndarray
+    throwing: np.ndarray
+    bubble_void: np.ndarray
+    bubble_temperature: np.ndarray
+    bubble_heat: np.ndarray
+    shell_flow: np.ndarray
+    shell_hard: np.ndarray
+    shell_harm: np.ndarray
+    shell_swell: np.ndarray
+    spot_flow: np.ndarray
+    spot_hard: np.ndarray
+    spot_harm: np.ndarray
+    spot_swell: np.ndarray
+    spot_hoop: np.ndarray
     warmth: np.ndarray
     push_x: np.ndarray
     push_y: np.ndarray
@@ -94,6 +108,17 @@ FIELDS = {
     "exchanged": ("1", "1 if it was in the gas in the last window"),
     "viscosity": ("Pa s", "viscosity of a liquid where it is not the same everywhere"),
     "depth": ("m", "how far a wall particle lies behind the surface of its wall; 0 of others"),
+    "sealed": ("1", "1 as long as the shell of a gel droplet holds vapour in, then 0"),
+    "throwing": ("s", "time for which a torn droplet still throws vapour"),
+    "bubble_void": ("m3", "bubble in each of its droplets; 0: none yet"),
+    "bubble_temperature": ("K", "temperature of that bubble"),
+    "bubble_heat": ("J", "heat in the bubbles of all its droplets"),
+    "shell_flow": ("1", "plastic strain of the shell, with its sign"),
+    "spot_flow": ("1", "the same of its flaw"),
+    **{f"{part}_hard": ("1", "part of it that hardens") for part in ("shell", "spot")},
+    **{f"{part}_harm": ("1", "damage (sdph.laws.strength)") for part in ("shell", "spot")},
+    **{f"{part}_swell": ("1", "logarithm of the change of volume") for part in ("shell", "spot")},
+    "spot_hoop": ("1", "hoop strain of the flaw"),
     # what holds over a window, and is there within it alone
     "warmth": ("J", "heat from the gas in the window"),
     **{f"push_{a}": ("m/s2", "acceleration by gas and gravity") for a in "xyz"},
@@ -186,13 +211,15 @@ def energy_of_motion(state: State) -> float:
 
 
 def born(state: State) -> State:
-    """The same, with mass and sizes at birth set to those of now."""
+    """The same, with mass and sizes at birth set to those of now, and shells whole."""
     if len(state.born_mass):
         state.born_mass[:], state.born_diameter[:], state.born_variance[:] = (
             state.mass,
             state.diameter,
             state.diameter_variance,
         )
+    if len(state.sealed):
+        state.sealed[:] = 1.0
     return state
 
 

@@ -8,13 +8,15 @@ import numpy as np
 
 from coupling.transfer import Weights
 from sdph.engine.ledger import vector
+from sdph.exchange import bursts
 
 
 @dataclass(frozen=True)
 class Loss:
     """Evaporation in one window, of each particle: mass [kg], its effect on the sizes (see sdph.exchange.droplets),
     condensation that was refused [kg], the rest of finished droplets [kg], and the energy of motion that the vapour has
-    [J]; `held`, shares of the particles that its limiters hold."""
+    [J]; `held`, shares of the particles that its limiters hold; `thrown`, vapour of torn droplets, where there are
+    any."""
 
     mass: np.ndarray
     still: np.ndarray
@@ -23,6 +25,17 @@ class Loss:
     rest: np.ndarray
     motion: np.ndarray
     held: dict[str, float] = field(default_factory=dict)
+    thrown: bursts.Thrown | None = None
+
+    @property
+    def vapour(self) -> np.ndarray:
+        """All vapour (N,) [kg]."""
+        return self.mass + self.thrown.mass if self.thrown else self.mass
+
+    def warmth(self, temperature) -> np.ndarray:
+        """All vapour times its temperature (N,) [kg K], where what evaporates has that of the particles (N,) [K]."""
+        evaporated = self.mass * temperature
+        return evaporated + self.thrown.warmth if self.thrown else evaporated
 
 
 @dataclass(frozen=True)
@@ -57,7 +70,8 @@ class Handed:
     def columns(self) -> dict[str, float]:
         """Amounts that were held back or given at once, for the ledger."""
         rest = float(self.loss.rest.sum()) if self.loss else 0.0
-        return {"finished_kg": rest, "impulse_of_gone_kg_m_s": self.gone}
+        thrown = float(self.loss.thrown.mass.sum()) if self.loss and self.loss.thrown else 0.0
+        return {"finished_kg": rest, "thrown_kg": thrown, "impulse_of_gone_kg_m_s": self.gone}
 
     def held(self) -> dict[str, float]:
         """Particles beside the mesh and shares that limiters of the exchange hold, by column of history.csv."""

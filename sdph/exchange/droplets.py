@@ -53,8 +53,16 @@ def kept_share(sizes_p, s, i, still, moving):
 
 
 @njit(cache=True, error_model="numpy")
+def is_sealed(s, i):
+    """True where a shell holds vapour in (sdph.effects.gas.micro_explosion)."""
+    return len(s.sealed) > 0 and s.sealed[i] > 0.0
+
+
+@njit(cache=True, error_model="numpy")
 def active_time(p, s, i, conductance, gas_temperature, dt):
     """Time [s] of the window in which particle i evaporates: from when it reaches the onset, as it warms up."""
+    if is_sealed(s, i):
+        return 0.0
     if s.temperature[i] >= p.onset_temperature or (p.onset == 0 and s.evaporating[i] > 0.0):
         return dt
     if gas_temperature <= p.onset_temperature or conductance == 0.0:
@@ -178,7 +186,7 @@ def held(p, s, gas_density, gas_temperature, concentration, flat, boiling):
     for i in prange(len(s.x)):
         now = driving_force(p, s.temperature[i], concentration[i], gas_temperature[i], gas_density[i])
         flat[i] = slope_of(p, s.temperature[i], concentration[i], gas_temperature[i], gas_density[i], now) < 0.0
-        boiling[i] = past_boiling(p, s.temperature[i])
+        boiling[i] = past_boiling(p, s.temperature[i]) and not is_sealed(s, i)
 
 
 @njit(cache=True, error_model="numpy")

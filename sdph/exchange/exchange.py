@@ -28,7 +28,7 @@ from sdph import effects
 from sdph.effects import OFF
 from sdph.effects.gas import film, radiation, sizes
 from sdph.engine.state import GRAIN, lengths
-from sdph.exchange import equations
+from sdph.exchange import bursts, equations
 from sdph.exchange.amounts import Handed, Taken
 from sdph.exchange.cells import Cells
 from sdph.exchange.equations import Seen, temperature_span, vapour_concentration
@@ -48,6 +48,7 @@ class Exchange:
         self.volumes = self.cells.volumes
         evaporation = parameters["evaporation"]
         self.vapour = Vapour(case, evaporation, self.sizes_p, self.cells) if evaporation else None
+        self.bursting = parameters["micro_explosion"]
         rows = [effects.REGISTRY[name] for name in case.effects]
         names = dict.fromkeys(name for row in rows for name in row.sources)
         self.sources = tuple(name for name in names if name != "alpha_g" or case.coupling.voidage)
@@ -67,11 +68,13 @@ class Exchange:
         `ahead` are the weights of where the particles will be at the end of the window, and the share of each (N,) that
         will be in the gas: the volume fraction then is told to the gas.
         """
+        thrown = bursts.throw(self.bursting.own, state, dt) if self.bursting else None
+        state = state._replace(**thrown.after) if thrown else state
         seen = Seen(weights, gas_state, state, self.fields)
         conductance, damping, force = self._rates(state, seen)
         loss = None
         if self.vapour:
-            loss = self.vapour.evaporate(state, weights, gas_state, seen, conductance, dt)
+            loss = self.vapour.evaporate(state, weights, gas_state, seen, conductance, dt, thrown)
         kept = state.mass - loss.mass if loss else state.mass
         power = self.parameters["evaporation"].latent_heat / -dt * loss.mass if loss else OFF
         gone = kept == 0.0 if loss and len(force) else np.zeros(len(force), bool)

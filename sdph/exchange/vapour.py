@@ -11,6 +11,7 @@ from sdph.effects.gas import film
 from sdph.effects.limiter import share
 from sdph.engine import state as particles
 from sdph.engine.state import GRAIN
+from sdph.exchange import bursts
 from sdph.exchange import droplets as droplet_loss
 from sdph.exchange.amounts import Handed, Loss, Taken
 from sdph.exchange.equations import vapour_concentration
@@ -22,8 +23,9 @@ class Vapour:
     def __init__(self, case, p, sizes_p, cells):
         self.case, self.p, self.sizes_p, self.cells = case, p, sizes_p, cells
 
-    def evaporate(self, state, weights, gas_state, seen, conductance, dt) -> Loss:
-        """Evaporation in a window; the heat conductance (N,) [W/K] becomes the mean over it.
+    def evaporate(self, state, weights, gas_state, seen, conductance, dt, thrown) -> Loss:
+        """Evaporation in a window; the heat conductance (N,) [W/K] becomes the mean over it. The state is that after
+        torn droplets have `thrown` their vapour, where there are any.
 
         The vapour in each cell is taken as it would be at the window's end if no flow carried it: fast exchange
         saturates a cell and does not overshoot.
@@ -40,7 +42,8 @@ class Vapour:
                 for some in (evaporating, ~evaporating)
             ]
             concentration = np.where(evaporating, *after)
-        loss = Loss(*(np.empty(count) for _ in range(5)), np.zeros(count), self.held(state, seen, concentration))
+        held = self.held(state, seen, concentration)
+        loss = Loss(*(np.empty(count) for _ in range(5)), np.zeros(count), held, thrown)
         droplet_loss.losses(
             p,
             self.sizes_p,
@@ -57,7 +60,7 @@ class Vapour:
         )
         velocity = particles.velocities(state)
         theta = state.theta if len(state.theta) else 0.0
-        return replace(loss, motion=loss.mass * (0.5 * np.einsum("ij,ij->i", velocity, velocity) + 1.5 * theta))
+        return replace(loss, motion=loss.vapour * (0.5 * np.einsum("ij,ij->i", velocity, velocity) + 1.5 * theta))
 
     def density(self, state, seen) -> np.ndarray:
         """Density (N,) [kg/m3] with which the gas's viscosity gives the film's kinematic one
@@ -97,7 +100,8 @@ class Vapour:
 
     def taken(self, taken: Taken, handed: Handed) -> Taken:
         """The same with what evaporation takes."""
-        mass, latent = handed.loss.mass, self.p.latent_heat
+        own, latent = handed.loss, self.p.latent_heat
+        vapour, warmth = float(own.vapour.sum()), float(own.warmth(handed.temperature).sum())
         excess = self.case.grains.heat_capacity - self.case.vapour.heat_capacity
         share = 0.0 if self.case.coupling.one_way else handed.dt  # s in which the gas feels anything of it
         given, brought = (
@@ -105,13 +109,15 @@ class Vapour:
             for name in ("vapour", "momentum")
         )
         return replace(
-            taken, warming=taken.heat - latent * mass, vapour=float(mass.sum()), vapour_to_gas=float(given),
-            latent_heat=latent * float(mass.sum()), capacity_heat=excess * float((mass * handed.temperature).sum()),
-            refused=float(handed.loss.refused.sum()), vapour_motion=float(handed.loss.motion.sum()),
+            taken, warming=taken.heat - latent * own.mass, vapour=vapour, vapour_to_gas=float(given),
+            latent_heat=latent * vapour, capacity_heat=excess * warmth, refused=float(own.refused.sum()),
+            vapour_motion=float(own.motion.sum()),
             vapour_impulse=brought,
         )  # fmt: skip
 
     def settle(self, state, handed: Handed) -> None:
-        """Take from the particles what evaporated."""
+        """Take from the particles what they threw and what evaporated."""
         own = handed.loss
+        if own.thrown:
+            bursts.take(state, own.thrown)
         droplet_loss.apply(self.p, self.sizes_p, state, own.mass, own.still, own.moving)

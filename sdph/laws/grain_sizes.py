@@ -21,6 +21,7 @@ def log_mean(mean, std):
     return math.log(mean) - 0.5 * log_std(mean, std) ** 2
 
 
+@law
 def of_moments(second, third):
     """Number mean [m] and variance [m2] of the log-normal whose mean d^2 [m2] and mean d^3 [m3] by number are these:
     number, surface and volume of the drops that it stands for are exact, the sum of d is not (swirl-sheet.md, 9)."""

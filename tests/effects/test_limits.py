@@ -65,6 +65,7 @@ def test_every_effect_is_among_those_asked():
         "xsph",
         "artificial_viscosity",
         "lift",
+        "micro_explosion",
         "radiation",
         "shear_thinning",
     }

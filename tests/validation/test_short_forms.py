@@ -50,6 +50,7 @@ SHORT = {
         ),
         ("exact",),
     ),
+    "gel_spray": (("resolution.spacing_mm=6.0", "run.end_time_s=0.016"), ("exact",)),
     "thick_ring": ((), ("exact",)),
     "oscillating_plate": (("resolution.spacing_mm=5.0", "run.end_time_s=0.2"), ("exact",)),
     "colliding_rings": (("resolution.spacing_mm=2.5", "run.end_time_s=4e-4"), ("exact",)),

@@ -176,12 +176,12 @@ def shrinking(s, surface: float) -> tuple[float, float]:
 
 
 def to_gas(handed, case) -> dict:
-    """Vapour, with the velocity and the temperature of its droplet."""
-    rate = handed.loss.mass / handed.dt
+    """Vapour, with the velocity and the temperature of its droplet; what torn droplets throw is among it."""
+    rate = handed.loss.vapour / handed.dt
     return {
         "vapour": rate,
         "momentum": rate[:, None] * handed.velocity,
-        "heat": rate * case.vapour.heat_capacity * handed.temperature,
+        "heat": case.vapour.heat_capacity / handed.dt * handed.loss.warmth(handed.temperature),
     }
 
 

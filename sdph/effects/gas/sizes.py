@@ -47,7 +47,7 @@ class Birth(NamedTuple):
 def kernel(case):
     """The sizes for kernels; OFF where all grains are alike."""
     spread = [case.grains.diameter_std, *(nozzle.diameter_std or 0.0 for nozzle in case.nozzles.values())]
-    if any(nozzle.shape == "table" for nozzle in case.nozzles.values()):
+    if any(nozzle.shape == "table" for nozzle in case.nozzles.values()) or "micro_explosion" in case.effects:
         return Sizes(int("evaporation" in case.effects))
     return Sizes(int("evaporation" in case.effects)) if max(spread) > 0.0 else OFF
 

@@ -53,6 +53,7 @@ class Guard(Watch):
             "evaporating": (0.0, 1.0),
         }
         bounds |= {"temperature": (self.coldest, self.hottest), "theta": (0.0, (COLLAPSE * self.reach) ** 2)}
+        bounds |= {"sealed": (0.0, 1.0), "throwing": zero_on, "bubble_void": (0.0, size**3)}
         bounds |= {"nozzle": (0, len(self.case.nozzles)), "entering": (0, 1)}
         kinds = [particles.GRAIN, particles.INFLOW]
         self.admit(state, names, bounds)

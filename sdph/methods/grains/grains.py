@@ -9,6 +9,7 @@ import numpy as np
 from sdph import effects
 from sdph.effects.around.outflow import leaving, refuse_to_leave
 from sdph.effects.around.source import Source
+from sdph.effects.gas import micro_explosion
 from sdph.engine import state as particles
 from sdph.engine.clock import Clock
 from sdph.engine.kept import Unfit
@@ -38,6 +39,7 @@ class Grains:
         self.source = Source(case, names, len(state.x) + 1) if self.parameters["inflow"] else None
         self.stepper = Stepper(case, self.parameters, state, self.source, Clock(case.run).shortest)
         self.time, self.windows, self.came, self.left = 0.0, 0, self._came_in(), NOTHING_LEFT
+        self.torn = dict(micro_explosion.NOTHING_TORN)  # in the window
 
     @property
     def state(self):
@@ -86,6 +88,8 @@ class Grains:
 
     def advance(self, end: float) -> None:
         (self.stepper.move if self.moves else self.stepper.conduct)(end - self.time)
+        if own := self.parameters["micro_explosion"]:
+            self.torn = micro_explosion.swollen(own, self.state, end - self.time)
         self.time, self.windows = end, self.windows + 1
 
     def close(self) -> None:
@@ -135,7 +139,7 @@ class Grains:
         found |= {name: now - before for name, now, before in zip(names, self._came_in(), self.came)}
         momentum = self._came_in()[-1] - self.came[-1]
         found |= {key: found[key] + value for key, value in vector("impulse_of_inflow", momentum).items()}
-        return found | self.left
+        return found | self.torn | self.left
 
     def totals(self) -> dict[str, float]:
         """Ledger columns of what there is in the gas: mass, thermal energy, motion, agitation, momentum."""
@@ -167,7 +171,7 @@ class Grains:
             return points
         points["velocity"] = particles.velocities(state)
         points["alpha_p"] = state.density / self.case.grains.density
-        for name in ("ident", "kind", "mass", "density", "temperature", "diameter", "theta"):
+        for name in ("ident", "kind", "mass", "density", "temperature", "diameter", "theta", "sealed"):
             if len(getattr(state, name)):
                 points[name] = getattr(state, name)
         return points
@@ -186,9 +190,10 @@ class Grains:
         return []
 
     def _enthalpy(self, state) -> np.ndarray:
-        return (
-            state.mass * state.temperature * self.case.grains.heat_capacity if len(state.temperature) else np.zeros(1)
-        )
+        if not len(state.temperature):
+            return np.zeros(1)
+        own = state.mass * state.temperature * self.case.grains.heat_capacity
+        return own + state.bubble_heat if len(state.bubble_heat) else own
 
     def _came_in(self):
         """Mass [kg], enthalpy, energy of motion [J] and momentum [kg m/s] through the nozzles since the start."""

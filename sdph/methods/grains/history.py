@@ -12,6 +12,7 @@ from sdph.engine import state as particles
 TRACKED = {
     "x_m": "x", "y_m": "y", "z_m": "z", "u_m_s": "u", "v_m_s": "v", "w_m_s": "w", "temperature_K": "temperature",
     "granular_temperature_m2_s2": "theta", "diameter_m": "diameter", "mass_kg": "mass",
+    "sealed": "sealed", "bubble_m3": "bubble_void",
 }  # fmt: skip
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from sdph.case.gas_cells import upwards
-from sdph.running.metrics import agitation, bubble, column, jet
+from sdph.running.metrics import agitation, bubble, bursts, column, jet
 from sdph.schema import CaseError
 
 
@@ -23,7 +23,13 @@ def bed_in_the_end(rows: list[dict]) -> dict[str, float]:
     return {"detachment_time_s": bubble.detachment([row["time_s"] for row in rows], rows)}
 
 
-AT_OUTPUTS = {"agitation": agitation.of_run, "bubble": bed, "column": column.metrics, "jet": jet.metrics}
+AT_OUTPUTS = {
+    "agitation": agitation.of_run,
+    "bubble": bed,
+    "bursts": bursts.metrics,
+    "column": column.metrics,
+    "jet": jet.metrics,
+}
 IN_THE_END = {"bubble": bed_in_the_end}
 
 
@@ -42,6 +48,8 @@ def refuse_unknown(case) -> None:
         if name not in AT_OUTPUTS or "grains" not in case.matters:
             none = "for liquids: none, for solids: none"
             raise CaseError(f"run.metrics = {name!r}; known for grains: {', '.join(AT_OUTPUTS)}, {none}")
+    if "bursts" in case.run.metrics and "micro_explosion" not in case.effects:
+        raise CaseError("run.metrics holds bursts, which tells of droplets that burst; add micro_explosion to effects")
     if "jet" in case.run.metrics and not case.nozzles:
         mend = "leave it out, or give one in [nozzles.some_name]"
         raise CaseError(f"run.metrics holds jet, but the case has no nozzle; {mend}")

@@ -23,6 +23,9 @@ from sdph.study.explain import pace
 ROW = 8  # bytes of a number and of an entry of a neighbour row
 SCRATCH = 30  # arrays of the length of the particles that a step makes
 GAS_ARRAYS = 120  # arrays of the length of the cells that the gas solver and the exchange hold
+OF_BURSTS = set(effects.REGISTRY["micro_explosion"].arrays).difference(  # arrays that no other effect has
+    *(row.arrays for name, row in effects.REGISTRY.items() if name != "micro_explosion")
+)
 BASE = 180e6  # bytes of the program itself, kernels included
 CELLS_WHY = (
     "what grains do to the gas is spread over 2 h, so that smaller cells do not sharpen the answer, but shrink the "
@@ -213,4 +216,5 @@ def memory(case, count: int, cells: int) -> float:
     """Bytes."""
     near = kernels.SUPPORT * case.resolution.smoothing_ratio
     neighbours = math.pi * near**2 if case.dimensions == 2 else 4.0 / 3.0 * math.pi * near**3
-    return BASE + ROW * (count * (len(particles.FIELDS) + SCRATCH + 1.5 * neighbours) + cells * GAS_ARRAYS)
+    fields = len(particles.FIELDS) - (0 if "micro_explosion" in case.effects else len(OF_BURSTS))
+    return BASE + ROW * (count * (fields + SCRATCH + 1.5 * neighbours) + cells * GAS_ARRAYS)
