@@ -42,6 +42,8 @@ HARMLESS = {
     "sdph/effects/around/streams.py:_ticks": "counts of points",
     "sdph/effects/around/source.py:Source.fill": "counts of layers",
     "sdph/effects/around/drops.py:Replay.count": "until when a nozzle is open",
+    "sdph/effects/around/rates.py:*": "a row of the table, and from when to when there must be rows",
+    "sdph/effects/around/sizes.py:_check_rosin_rammler": "the larger of two bounds of what is refused",
     "sdph/laws/grain_sizes.py:of_moments": "round-off where all drops are alike",
     "sdph/effects/around/source.py:Source._wanted": "counts of layers",
     "sdph/effects/around/frame.py:_tabulated*": "a row of the table, and up to where there must be rows",

@@ -38,9 +38,10 @@ COARSE = {
     ),
 }  # fmt: skip
 SOON = "run.checkpoint_windows=4"
-SECOND = (  # faces the first, opens and closes on the way
+SECOND = (  # faces the first, opens and closes on the way; two sizes, at a rate that changes
     "nozzles.second={shape='slot', centre_m=[1.0,1.3], width_m=0.3, direction=[-1.0,0.1], speed_m_s=20.0, "
-    "volume_fraction=0.1, temperature_K=300.0, start_s=0.01, end_s=0.05}",
+    "rates=[[0.0,200.0],[0.03,600.0],[0.06,400.0]], temperature_K=300.0, start_s=0.01, end_s=0.05, sizes='given', "
+    "diameters_mm=[2.0,4.0]}",
 )  # fmt: skip
 
 
