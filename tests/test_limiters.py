@@ -30,6 +30,8 @@ HARMLESS = {
     "sdph/exchange/equations.py:temperature_span": "a scale for the length of windows",
     "sdph/exchange/exchange.py:Exchange.grip": "a limit of windows",
     "sdph/effects/gas/radiation.py:window_limit": "a limit of windows",
+    "sdph/effects/gas/break_up.py:advance": "what is left of the window, or less of it",
+    "sdph/laws/break_up.py:*": "times: the sooner of two, a phase within a turn",
     "sdph/engine/clock.py:count_of_parts": "number of steps",
     "sdph/engine/rows.py:*": "indices of cells and of entries",
     "sdph/engine/reading.py:*": "sizes of files",

@@ -4,7 +4,7 @@ import dataclasses
 
 from sdph.effects.around import drain, frame, gravity, inflow, outflow, tank, walls
 from sdph.effects.effect import NO_LIMIT, OFF, Effect, kernel_of
-from sdph.effects.gas import drag, evaporation, gas_pressure, heat, lift, radiation
+from sdph.effects.gas import break_up, drag, evaporation, gas_pressure, heat, lift, radiation
 from sdph.effects.grains import (
     artificial_viscosity,
     conduction,
@@ -55,6 +55,7 @@ FILES = (
     frame,
     drain,
     evaporation,
+    break_up,
     inflow,
     outflow,
     inflation,

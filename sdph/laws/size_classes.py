@@ -28,7 +28,7 @@ def rosin_rammler(size: float, exponent: float, least: float, most: float, class
 
 
 def _cuts(low: float, high: float, classes: int) -> tuple[np.ndarray, np.ndarray]:
-    """Where classes of equal mass begin and end, in t = (d/X)^q: the mass above t is exp(-t)."""
+    """Begin and end of each class of equal mass, in t = (d/X)^q: the mass above t is exp(-t)."""
     begin = low - np.log1p(np.arange(classes) / classes * math.expm1(low - high))
     return begin, np.append(begin[1:], high)
 

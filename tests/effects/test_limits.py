@@ -66,6 +66,7 @@ def test_every_effect_is_among_those_asked():
         "artificial_viscosity",
         "lift",
         "radiation",
+        "break_up",
         "shear_thinning",
     }
 

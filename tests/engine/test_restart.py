@@ -43,6 +43,11 @@ SECOND = (  # faces the first, opens and closes on the way; two sizes, at a rate
     "rates=[[0.0,200.0],[0.03,600.0],[0.06,400.0]], temperature_K=300.0, start_s=0.01, end_s=0.05, sizes='given', "
     "diameters_mm=[2.0,4.0]}",
 )  # fmt: skip
+BREAKING = (  # droplets break as they come in
+    "effects=['inflow','outflow','drag','gas_pressure','gravity','granular_pressure','granular_temperature','heat',"
+    "'evaporation','break_up']",
+    "break_up.liquid_viscosity_Pa_s=9e-4", "break_up.products='chi_squared'",
+)  # fmt: skip
 
 
 class Cut(RuntimeError):
@@ -97,6 +102,7 @@ def same_run(one, other):
         ("bubbling_bed", "embedded", 10, ()),
         ("evaporating_jet", "embedded", 29, ()),
         ("evaporating_jet", "embedded", 29, SECOND),
+        ("evaporating_jet", "embedded", 29, BREAKING),
         pytest.param("disc_cluster", "openfoam", 10, (), marks=pytest.mark.openfoam),
         pytest.param("disc_cluster", "openfoam", 10, ("coupling.gas_ranks=2",), marks=pytest.mark.openfoam),
         pytest.param("bubbling_bed", "openfoam", 10, (), marks=pytest.mark.openfoam),

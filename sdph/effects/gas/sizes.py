@@ -47,7 +47,9 @@ class Birth(NamedTuple):
 
 def kernel(case):
     """The sizes for kernels; OFF where all grains are alike."""
-    differ = case.grains.diameter_std > 0.0 or any(spread(nozzle) for nozzle in case.nozzles.values())
+    products = case.parameters.get("break_up")
+    differ = products is not None and products.products != "equal"
+    differ = differ or case.grains.diameter_std > 0.0 or any(spread(nozzle) for nozzle in case.nozzles.values())
     return Sizes(int("evaporation" in case.effects)) if differ else OFF
 
 
