@@ -53,6 +53,7 @@ def test_each_size_is_a_particle_at_each_place():
     order = [np.lexsort((own.y, own.x)) for own in (small, large)]
     np.testing.assert_array_equal(small.x[order[0]], large.x[order[1]])
     np.testing.assert_allclose(3.0 * small.mass, large.mass, rtol=1e-14)
+    np.testing.assert_allclose(small.mass + large.mass, 0.3 * DENSITY * 0.02**2, rtol=1e-12)
     assert (state.density == 0.3 * DENSITY).all()
 
 
