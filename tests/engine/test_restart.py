@@ -43,7 +43,8 @@ SECOND = (  # faces the first, opens and closes on the way; two sizes, at a rate
     "rates=[[0.0,200.0],[0.03,600.0],[0.06,400.0]], temperature_K=300.0, start_s=0.01, end_s=0.05, sizes='given', "
     "diameters_mm=[2.0,4.0]}",
 )  # fmt: skip
-BREAKING = (  # droplets break as they come in
+BREAKING = (  # droplets that come in so thin that they feel the gas break on their way
+    "nozzles.jet.volume_fraction=0.05",
     "effects=['inflow','outflow','drag','gas_pressure','gravity','granular_pressure','granular_temperature','heat',"
     "'evaporation','break_up']",
     "break_up.liquid_viscosity_Pa_s=9e-4", "break_up.products='chi_squared'",
