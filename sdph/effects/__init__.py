@@ -4,7 +4,7 @@ import dataclasses
 
 from sdph.effects.around import drain, frame, gravity, inflow, outflow, tank, walls
 from sdph.effects.effect import NO_LIMIT, OFF, Effect, kernel_of
-from sdph.effects.gas import drag, evaporation, gas_pressure, heat, lift, micro_explosion, radiation
+from sdph.effects.gas import break_up, drag, evaporation, gas_pressure, heat, lift, micro_explosion, radiation
 from sdph.effects.grains import (
     artificial_viscosity,
     conduction,
@@ -56,6 +56,7 @@ FILES = (
     drain,
     evaporation,
     micro_explosion,
+    break_up,
     inflow,
     outflow,
     inflation,

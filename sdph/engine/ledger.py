@@ -25,19 +25,23 @@ AMOUNTS = (
     "work_of_drag_J", "work_of_pressure_J", "work_of_gravity_J", "work_of_walls_J", "work_of_contact_J",
     "work_of_inflow_J", "agitation_J", "collision_heat_J", "damping_heat_J", "bounds_work_J", "numerical_work_J",
     "contact_way_m", "contact_lift_J", "finished_kg", "impulse_of_gone_kg_m_s", "thrown_kg",
-    "torn_droplets", "made_droplets",
+    "torn_droplets", "made_droplets", "broken_kg", "break_up_surface_J", "break_up_agitation_J",
 )  # fmt: skip
 # column -> sign with which it changes the motion and agitation of the particles
 MOTION = {
     "work_of_drag_J": 1, "work_of_pressure_J": 1, "work_of_gravity_J": 1, "work_of_walls_J": 1, "work_of_contact_J": 1,
     "work_of_inflow_J": 1, "numerical_work_J": 1, "bounds_work_J": 1, "injected_motion_J": 1, "left_motion_J": -1,
     "vapour_motion_J": -1, "mechanical_heat_J": -1, "collision_heat_J": -1, "damping_heat_J": -1,
+    "break_up_agitation_J": 1,
 }  # fmt: skip
 # the same of the heat of the particles and the enthalpy of the gas
 HEAT = {
     "mechanical_heat_J": 1, "collision_heat_J": 1, "friction_J": 1, "injected_J": 1, "left_J": -1,
     "latent_heat_J": -1, "capacity_heat_J": -1, "heat_to_surroundings_J": -1,
+    "break_up_surface_J": -1, "break_up_agitation_J": -1,
 }  # fmt: skip
+# of these what the temperature of the particles takes or gives, where they have one
+IN_GRAINS = ("mechanical_heat_J", "collision_heat_J", "break_up_surface_J", "break_up_agitation_J")
 OF_GAS = {
     "mass": "kg", "energy": "J", "kinetic": "J", "vapour": "kg", "mass_in": "kg", "energy_in": "J", "kinetic_in": "J",
     "vapour_in": "kg", "pressure_work": "J", "boundary_work": "J", "gravity_work": "J",
@@ -54,6 +58,7 @@ SUMMED = {
         "evaporated_kg", "condensation_refused_kg", "finished_kg", "latent_heat_J", "capacity_heat_J",
     ),
     "micro_explosion": ("thrown_kg", "torn_droplets", "made_droplets"),
+    "break_up": ("broken_kg", "break_up_surface_J", "break_up_agitation_J"),
     "lift": ("impulse_of_gone_kg_m_s",), "walls": ("contact_way_m", "contact_lift_J"),
 }  # fmt: skip
 # sums of what was exchanged or moved in a window, without sign, which drifts are related to
@@ -169,7 +174,7 @@ class Ledger:
         pairs = {"particle_energy_J": 1, "gas_energy_J": 1, "heat_on_its_way_J": 1}
         pairs |= {"gas_energy_in_J": -1, "gas_pressure_work_J": -1}
         warm = self.last["particle_energy_J"] + self.sums["left_J"] > 0.0  # else no heat of the grains is kept
-        kept = {key: sign for key, sign in HEAT.items() if warm or key not in ("mechanical_heat_J", "collision_heat_J")}
+        kept = {key: sign for key, sign in HEAT.items() if warm or key not in IN_GRAINS}
         moved = [sign * self.sums[key] for key, sign in kept.items()]
         drift = math.fsum((*(c for key, sign in pairs.items() for c in self._change(key, sign)), *(-m for m in moved)))
         scale = self.sums["heat_exchanged_J"] + sum(abs(self.sums[key]) for key in ("friction_J", "injected_J"))

@@ -47,6 +47,9 @@ class State(NamedTuple):
     born_variance: np.ndarray
     lost_still: np.ndarray
     lost_moving: np.ndarray
+    deformation: np.ndarray
+    deformation_rate: np.ndarray
+    weber: np.ndarray
     received: np.ndarray
     exchanged: np.ndarray
     viscosity: np.ndarray
@@ -104,6 +107,9 @@ FIELDS = {
     "born_variance": ("m2", "number variance of the grain diameters then"),
     "lost_still": ("m2", "loss of d^2 as in still gas (sdph.laws.grain_loss)"),
     "lost_moving": ("m^(3/2)", "further loss by the flow around the grains (the same)"),
+    "deformation": ("1", "shift of a drop's equator over half its radius; it breaks at 1 (sdph.laws.break_up)"),
+    "deformation_rate": ("1/s", "its rate"),
+    "weber": ("1", "Weber number of the radius in the last window"),
     "received": ("W", "heat from the gas in the last window"),
     "exchanged": ("1", "1 if it was in the gas in the last window"),
     "viscosity": ("Pa s", "viscosity of a liquid where it is not the same everywhere"),

@@ -48,7 +48,8 @@ class Handed:
     [kg] what is in the gas at the window's end. terms (C,) or (C, 3) per volume of the cells, by quantity and by what
     it comes from: a sum over effects ("conductance", counted from origin [K] on, "drag", "force"), or an effect;
     alpha_g (C,) at the window's end, where the gas is told; gone [kg m/s] the held impulse, summed by its length, of
-    droplets that are gone at the window's end and do not get it.
+    droplets that are gone at the window's end and do not get it; around: slip (N,) [m/s] and density (N,) [kg/m3] of
+    the gas, where drops may break.
     """
 
     dt: float
@@ -66,6 +67,7 @@ class Handed:
     terms: dict[tuple[str, str], np.ndarray] = field(default_factory=dict)
     alpha_g: np.ndarray | None = None
     gone: float = 0.0
+    around: tuple = ()
 
     def columns(self) -> dict[str, float]:
         """Amounts that were held back or given at once, for the ledger."""

@@ -26,7 +26,7 @@ import numpy as np
 from coupling.transfer import gather
 from sdph import effects
 from sdph.effects import OFF
-from sdph.effects.gas import film, radiation, sizes
+from sdph.effects.gas import break_up, film, radiation, sizes
 from sdph.engine.state import GRAIN, lengths
 from sdph.exchange import bursts, equations
 from sdph.exchange.amounts import Handed, Taken
@@ -101,7 +101,8 @@ class Exchange:
             self.origin,
         )
         alpha_g = self.cells.room(there, kept * inside) if "alpha_g" in self.sources else None
-        return replace(handed, terms=self._terms(handed), alpha_g=alpha_g, gone=missed)
+        around = (seen.slip, seen.density) if self.parameters["break_up"] else ()
+        return replace(handed, terms=self._terms(handed), alpha_g=alpha_g, gone=missed, around=around)
 
     def _rates(self, state, seen) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Of every particle now: heat conductance to the gas [W/K], beta/(alpha_p rho_p) [1/s], and the force that is
@@ -201,6 +202,14 @@ class Exchange:
         if handed.loss:
             taken = self.vapour.taken(taken, handed)
         return self._with_radiation(taken, state, handed) if self.parameters["radiation"] else taken
+
+    def settle(self, state, handed: Handed) -> dict[str, float]:
+        """Take from the particles what evaporated, and let drops break; columns of the ledger."""
+        if self.vapour:
+            self.vapour.settle(state, handed)
+        if not self.parameters["break_up"]:
+            return dict.fromkeys(break_up.COLUMNS, 0.0)
+        return break_up.apply(self.parameters["break_up"], state, *handed.around, handed.dt)
 
     def _push(self, handed: Handed, velocity) -> tuple[np.ndarray, np.ndarray]:
         """Impulse (N, 3) [kg m/s] of drag and held force, and the force (C, 3) [N/m3] by which the gas gave it."""

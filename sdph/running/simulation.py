@@ -121,12 +121,14 @@ class Simulation:
         dt = end - self.time
         taken = self._timed("exchange", self.exchange.take, self.state, handed, self.gas_state)
         changed = learned(self.state, taken.heat, dt)
+        self.clock.hold(self.exchange.grip(self.state, handed.damping))
+        broken = self.exchange.settle(self.state, handed)
         held = self._react(handed, taken, dt)
         self._timed("particles", self._advance, end)
         self.grains.close()
         way = self.grains.way
         self._hear(handed.held() | self.gas_state.budget.held)
-        exchanged = taken.columns() | handed.columns() | held.columns(way)
+        exchanged = taken.columns() | handed.columns() | held.columns(way) | broken
         exchanged |= {"drag_heat_J": self.exchange.handed_heat(handed)}
         exchanged |= {"friction_J": self.exchange.rub(handed, taken, self.gas_state, way, self.grains.damped)}
         self.clock.learn(dt, *changed, self.gas_state.budget.courant, self.grains.fastest())
@@ -139,9 +141,7 @@ class Simulation:
 
     def _react(self, handed, taken, dt: float) -> Held:
         """Put on the particles what holds over a window of `dt` [s]: the answer of the gas, gravity, contact."""
-        self.clock.hold(self.exchange.grip(self.state, handed.damping))
         if self.exchange.vapour:
-            self.exchange.vapour.settle(self.state, handed)
             self.stepper.prepare()  # pairs of the masses that are left: else what one gives the other does not get
         body, touched = self._body(handed), self.beside.touch(self.state, dt)
         held = Held(self.state, dt, taken.impulse, touched, *body)

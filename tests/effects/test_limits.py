@@ -67,6 +67,7 @@ def test_every_effect_is_among_those_asked():
         "lift",
         "micro_explosion",
         "radiation",
+        "break_up",
         "shear_thinning",
     }
 

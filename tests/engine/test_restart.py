@@ -38,9 +38,16 @@ COARSE = {
     ),
 }  # fmt: skip
 SOON = "run.checkpoint_windows=4"
-SECOND = (  # faces the first, opens and closes on the way
+SECOND = (  # faces the first, opens and closes on the way; two sizes, at a rate that changes
     "nozzles.second={shape='slot', centre_m=[1.0,1.3], width_m=0.3, direction=[-1.0,0.1], speed_m_s=20.0, "
-    "volume_fraction=0.1, temperature_K=300.0, start_s=0.01, end_s=0.05}",
+    "rates=[[0.0,200.0],[0.03,600.0],[0.06,400.0]], temperature_K=300.0, start_s=0.01, end_s=0.05, sizes='given', "
+    "diameters_mm=[2.0,4.0]}",
+)  # fmt: skip
+BREAKING = (  # droplets that come in so thin that they feel the gas break on their way
+    "nozzles.jet.volume_fraction=0.05",
+    "effects=['inflow','outflow','drag','gas_pressure','gravity','granular_pressure','granular_temperature','heat',"
+    "'evaporation','break_up']",
+    "break_up.liquid_viscosity_Pa_s=9e-4", "break_up.products='chi_squared'",
 )  # fmt: skip
 
 
@@ -96,6 +103,7 @@ def same_run(one, other):
         ("bubbling_bed", "embedded", 10, ()),
         ("evaporating_jet", "embedded", 29, ()),
         ("evaporating_jet", "embedded", 29, SECOND),
+        ("evaporating_jet", "embedded", 29, BREAKING),
         pytest.param("disc_cluster", "openfoam", 10, (), marks=pytest.mark.openfoam),
         pytest.param("disc_cluster", "openfoam", 10, ("coupling.gas_ranks=2",), marks=pytest.mark.openfoam),
         pytest.param("bubbling_bed", "openfoam", 10, (), marks=pytest.mark.openfoam),

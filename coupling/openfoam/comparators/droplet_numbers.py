@@ -73,16 +73,16 @@ class Liquid:
     latent_heat: float
 
 
-def macros(case: Case, source: Nozzle | Plug, liquid: Liquid) -> dict[str, str]:
+def macros(case: Case, source: Nozzle | Plug, liquid: Liquid, courant: float = COURANT) -> dict[str, str]:
     """Macros of the droplet templates: name -> text."""
-    gas, vapour, dt = case.gas, case.vapour, time_step(case, source)
+    gas, vapour, dt = case.gas, case.vapour, time_step(case, source, courant)
     return {
         "gas_prandtl": repr(heat_law.prandtl_number(gas.viscosity, gas.heat_capacity, gas.conductivity)),
         "vapour_prandtl": repr(heat_law.prandtl_number(vapour.viscosity, vapour.heat_capacity, vapour.conductivity)),
         "liquid_onset_temperature": repr(liquid.onset_temperature),
         "liquid_log_saturation_pressure": repr(math.log(liquid.saturation_pressure)),
         "liquid_latent_heat": repr(liquid.latent_heat),
-        "liquid_diffusion_volume": repr(diffusion_volume(case, liquid)),
+        "liquid_diffusion_volume": repr(diffusion_volume(case, source, liquid)),
         "nozzle_temperature": repr(source.temperature),
         "nozzle_mass": repr(source.mass(case)),
         "nozzle_duration": repr(source.duration(case)),
@@ -91,15 +91,16 @@ def macros(case: Case, source: Nozzle | Plug, liquid: Liquid) -> dict[str, str]:
     }
 
 
-def time_step(case: Case, source: Nozzle | Plug) -> float:
+def time_step(case: Case, source: Nozzle | Plug, courant: float = COURANT) -> float:
     """Time step [s]."""
-    return divided(case.run.output_interval, COURANT * case.resolution.cell / source.speed)
+    return divided(case.run.output_interval, courant * case.resolution.cell / source.speed)
 
 
-def diffusion_volume(case: Case, liquid: Liquid) -> float:
+def diffusion_volume(case: Case, source: Nozzle | Plug, liquid: Liquid) -> float:
     """The two volumes a = b of OpenFOAM's D with which it is the case's at the film temperature where evaporation
-    starts."""
-    film = (2.0 * liquid.onset_temperature + case.gas.temperature) / 3.0  # OpenFOAM's surface values: T + (T_gas - T)/3
+    starts: at the onset, or in the nozzle where that is hotter."""
+    begins = max(liquid.onset_temperature, source.temperature)
+    film = (2.0 * begins + case.gas.temperature) / 3.0  # OpenFOAM's surface values: T + (T_gas - T)/3
     beta = API_DIFFUSION * (1.8 * film) ** 1.75 / (case.gas.operating_pressure * case.vapour.diffusivity)
     return (beta / 4.0) ** 1.5  # beta = (a^(1/3) + b^(1/3))^2
 

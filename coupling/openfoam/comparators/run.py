@@ -94,11 +94,12 @@ def run_droplets(
     liquid: droplet_numbers.Liquid,
     folder: Path,
     progress: Progress | None = None,
+    courant: float = droplet_numbers.COURANT,
 ) -> Reference:
-    """Run reactingParcelFoam on the case in `folder`, or take what it gave from the cache. Serial: parcels enter on one
-    rank."""
+    """Run reactingParcelFoam on the case in `folder`, or take what it gave from the cache; `courant` is that of the
+    droplets. Serial: parcels enter on one rank."""
     files = {
-        DROPLETS.macros: droplet_numbers.macros(case, source, liquid),
+        DROPLETS.macros: droplet_numbers.macros(case, source, liquid, courant),
         "nozzle": droplet_numbers.source_rows(case, source),
     }
     return _run(DROPLETS, case, folder, 1, files, progress)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from sdph.effects.around import rates, sizes
 from sdph.effects.around.streams import ROUND_OFF, Streams, layers_of, streams_of
 from sdph.schema import CaseError, choice, file, quantity, record, vector, whole, words
 
-OF_GRAINS = ("temperature", "volume_fraction", "rate", "diameter", "diameter_std")
+OF_GRAINS = ("temperature", "volume_fraction", "rate", *sizes.OF_LAW)
 
 
 @record
@@ -23,6 +24,7 @@ class Nozzle:
     temperature: float | None = quantity("K", None, above=0.0)  # of grains, which need it
     volume_fraction: float | None = quantity("", None, above=0.0, most=1.0)  # either this
     rate: float | None = quantity("kg_s", None, above=0.0)  # or this, per metre of depth in two dimensions
+    rates: tuple = vector("", ())  # or rows [time s, rate kg/s], linear between them (sdph.effects.around.rates)
     profile: str = choice("uniform", "parabolic")  # of the speed; parabolic: none at the rim
     width: float | None = quantity("m", None, above=0.0)  # of a slot
     length: float | None = quantity("m", None, above=0.0)  # of a slot in three dimensions
@@ -39,6 +41,15 @@ class Nozzle:
     table_from: float = quantity("s", 0.0, least=0.0)  # drops before it are left out: the sheet was still filling
     diameter: float | None = quantity("mm", None, above=0.0)  # of the grains; none: those of [grains]
     diameter_std: float | None = quantity("mm", None, least=0.0)
+    # of grains: log_normal has the two above; others their own keys (sdph.effects.around.sizes)
+    sizes: str = choice(*sizes.LAWS)
+    size_classes: int = whole(1, least=1)  # of equal mass, that a distribution is cut into: each is a particle
+    size_parameter: float | None = quantity("mm", None, above=0.0)  # X of rosin_rammler: 36.8 % of the mass is above
+    size_exponent: float | None = quantity("", None, least=0.5, most=20.0)  # q of rosin_rammler
+    least_diameter: float | None = quantity("mm", None, above=0.0)  # smallest drop of rosin_rammler
+    most_diameter: float | None = quantity("mm", None, above=0.0)  # largest; none: no bound
+    diameters: tuple = vector("mm", ())  # of sizes = "given", one by one
+    shares: tuple = vector("", ())  # of the mass, of each of them; none: equal
     start: float = quantity("s", 0.0, least=0.0)
     end: float | None = quantity("s", None, above=0.0)
 
@@ -46,6 +57,8 @@ class Nozzle:
 def check(case, name: str, nozzle: Nozzle) -> None:
     where = f"nozzles.{name}"
     (_check_grains if case.grains else _check_liquid)(case, where, nozzle)
+    sizes.check(case, where, nozzle)
+    rates.check(case, where, nozzle)
     for key, unit_of in (("centre", "_m"), ("direction", "")):
         if len(getattr(nozzle, key)) != case.dimensions:
             raise CaseError(
@@ -102,8 +115,8 @@ def _check_table(case, where: str, nozzle: Nozzle) -> None:
 
 
 def _check_grains(case, where: str, nozzle: Nozzle) -> None:
-    if (nozzle.volume_fraction is None) == (nozzle.rate is None):
-        raise CaseError(f"{where}: give either volume_fraction or rate_kg_s")
+    if (nozzle.volume_fraction is not None) + (nozzle.rate is not None) + bool(nozzle.rates) != 1:
+        raise CaseError(f"{where}: give either volume_fraction or rate_kg_s, or rates")
     if nozzle.temperature is None:
         raise CaseError(f"{where}.temperature_K is missing; grains come in with one")
 
@@ -111,7 +124,7 @@ def _check_grains(case, where: str, nozzle: Nozzle) -> None:
 def _check_liquid(case, where: str, nozzle: Nozzle) -> None:
     """CaseError where a nozzle of liquid has what only grains have, or a second phase is there."""
     for key in OF_GRAINS:
-        if getattr(nozzle, key) is not None:
+        if getattr(nozzle, key) not in (None, ()):
             raise CaseError(f"{where}.{key} is of grains; a nozzle of liquid has its speed and its mouth: leave it out")
     if case.gas_phase is not None:
         raise CaseError(f"{where}: liquid comes in where there is one phase; leave out [gas_phase] or the nozzle")

@@ -15,6 +15,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
+from sdph.effects.around import rates, sizes
 from sdph.effects.around.drops import Replays
 from sdph.effects.around.streams import ROUND_OFF, cell_radius, layers_of, streams_of, swirling, turned, without
 from sdph.engine import state as particles
@@ -29,6 +30,7 @@ class Source:
     """The nozzles of a case as they run: how many layers each stream has made, and what came in so far.
 
     Streams of all nozzles stand one after the other, S of them; `of` (S,) is the nozzle of each, counted from 0.
+    Several sizes (sdph.effects.around.sizes) are as many streams at one place.
     """
 
     KEPT = ("layers", "replays", "next_ident", "mass", "energy", "motion", "momentum")  # see sdph.engine.kept
@@ -38,10 +40,20 @@ class Source:
         self.inside_kind = GRAIN if case.grains else LIQUID
         self.nozzles = list(case.nozzles.values())
         self.streams = [streams_of(case, nozzle) for nozzle in self.nozzles]
-        self.of = np.repeat(np.arange(len(self.streams)), [len(s.speed) for s in self.streams])
-        self.mouth = np.concatenate([s.mouth for s in self.streams])
-        self.speed = np.concatenate([s.speed for s in self.streams])
-        self.most = np.concatenate([layers_of(n, s) for n, s in zip(self.nozzles, self.streams)])
+        own = [sizes.of_nozzle(case, nozzle) for nozzle in self.nozzles]
+        self.several = several = [len(each.share) for each in own]
+        self.of = np.repeat(np.arange(len(own)), [len(s.speed) * k for s, k in zip(self.streams, several)])
+        self.mouth = np.concatenate([np.repeat(s.mouth, k, axis=0) for s, k in zip(self.streams, several)])
+        self.speed = np.concatenate([np.repeat(s.speed, k) for s, k in zip(self.streams, several)])
+        self.most = np.concatenate(
+            [np.repeat(layers_of(n, s), k) for n, s, k in zip(self.nozzles, self.streams, several)]
+        )
+        self.size = sizes.Sizes(
+            *(
+                np.concatenate([np.tile(each[part], len(s.speed)) for each, s in zip(own, self.streams)])
+                for part in range(len(sizes.Sizes._fields))
+            )
+        )
         self.centre, self.start = np.array([n.centre for n in self.nozzles]), np.array([n.start for n in self.nozzles])
         self.end = np.array([np.inf if n.end is None else n.end for n in self.nozzles])
         self.axis = np.stack([s.axis for s in self.streams])
@@ -63,20 +75,13 @@ class Source:
 
     def _columns(self) -> dict[str, list]:
         """Array of the state -> what a particle of each nozzle has there."""
-        matter, grains = self.case.grains or self.case.liquid, self.case.grains
+        matter = self.case.grains or self.case.liquid
         found = {
             "mass": [s.mass for s in self.streams],
             "density": [s.alpha_p * matter.density for s in self.streams],
             "nozzle": list(range(1, len(self.nozzles) + 1)),
         }
-        if not grains:
-            return found
-        spread = [grains.diameter_std if n.diameter_std is None else n.diameter_std for n in self.nozzles]
-        return found | {
-            "temperature": [n.temperature for n in self.nozzles],
-            "diameter": [n.diameter or grains.diameter for n in self.nozzles],
-            "diameter_variance": [std**2 for std in spread],
-        }
+        return found | {"temperature": [n.temperature for n in self.nozzles]} if self.case.grains else found
 
     def fill(self, state, time: float, dt: float):
         """The state with the layers that the window from `time` of `dt` [s] needs, and what tables give till then."""
@@ -99,7 +104,21 @@ class Source:
                 points[own], velocity[own] = turned(
                     nozzle, self.streams[k], stream[own] - first, layer[own], place[own]
                 )
-        return particles.join(state, self.make(self.of[stream], points, velocity))
+        return particles.join(state, self._streamed(stream, layer, points, velocity))
+
+    def _streamed(self, stream, layer, points, velocity):
+        """Particles (n,) of streams (n,) and their layers (n,): each with the size and the mass of its own."""
+        made, thickness = self.make(self.of[stream], points, velocity), np.ones(len(stream))
+        for k, nozzle in enumerate(self.nozzles):
+            if nozzle.rates:
+                own = self.of[stream] == k
+                thickness[own] = rates.thickness(nozzle, self.speed[stream[own]], self.pitch, layer[own])
+        made.mass[:] *= self.size.share[stream] * thickness
+        made.density[:] *= thickness
+        for name, values in (("diameter", self.size.diameter), ("diameter_variance", self.size.variance)):
+            if len(getattr(made, name)):
+                getattr(made, name)[:] = values[stream]
+        return particles.born(made)
 
     def _wanted(self, time: float, dt: float) -> np.ndarray:
         """(S,) layers that the streams make for the window from `time` of `dt` [s]."""
@@ -182,13 +201,13 @@ class Source:
         return along, np.linalg.norm(apart - along[:, None] * axis, axis=1)
 
     def stream(self, state, rows) -> np.ndarray:
-        """(n,) stream, among S, of particles (n,) that wait."""
+        """(n,) stream, among S, of particles (n,) that wait; of several at one place the first."""
         nozzle, places, found = state.nozzle[rows] - 1, _places(state, rows), np.zeros(len(rows), np.int64)
         along, _ = self._beyond(nozzle, places)
         for k in np.unique(nozzle):
             own = nozzle == k
             there = places[own] - along[own, None] * self.axis[k]
-            found[own] = np.searchsorted(self.of, k) + self.trees[k].query(there)[1]
+            found[own] = np.searchsorted(self.of, k) + self.several[k] * self.trees[k].query(there)[1]
         return found
 
     def release(self, state) -> None:

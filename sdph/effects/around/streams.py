@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from sdph.effects.around import rates
 from sdph.engine.rows import entry, place
 from sdph.schema import CaseError
 
@@ -25,7 +26,8 @@ def unit(vector_) -> np.ndarray:
 
 class Streams(NamedTuple):
     """S streams of one nozzle: places in the mouth (S, d) [m], axis (d,), speed along it (S,) [m/s], velocity at the
-    mouth (S, d), mass of a particle [kg], layer pitch [m], volume fraction, which is 1 of liquid."""
+    mouth (S, d), mass [kg] at a place, which particles of several sizes share, layer pitch [m], volume fraction, which
+    is 1 of liquid; mass and volume fraction are those at the largest rate."""
 
     mouth: np.ndarray
     axis: np.ndarray
@@ -59,7 +61,9 @@ def streams_of(case, nozzle) -> Streams:
         velocity = velocity + nozzle.swirl * nozzle.speed * np.cross(axis, outward)
     speed = speed * np.cos(angle)
     density = (case.grains or case.liquid).density
-    alpha_p = (nozzle.volume_fraction or nozzle.rate / (density * area * speed.mean())) if case.grains else 1.0
+    alpha_p = 1.0
+    if case.grains:
+        alpha_p = nozzle.volume_fraction or rates.largest(nozzle) / (density * area * speed.mean())
     mass = alpha_p * density * area / len(offsets) * spacing
     return Streams(np.array(nozzle.centre) + offsets, axis, speed, velocity, mass, spacing, alpha_p)
 

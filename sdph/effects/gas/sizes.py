@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 from numba import njit
 
+from sdph.effects.around.sizes import spread
 from sdph.effects.effect import OFF
 from sdph.laws import grain_loss, grain_sizes
 
@@ -46,10 +47,10 @@ class Birth(NamedTuple):
 
 def kernel(case):
     """The sizes for kernels; OFF where all grains are alike."""
-    spread = [case.grains.diameter_std, *(nozzle.diameter_std or 0.0 for nozzle in case.nozzles.values())]
-    if any(nozzle.shape == "table" for nozzle in case.nozzles.values()) or "micro_explosion" in case.effects:
-        return Sizes(int("evaporation" in case.effects))
-    return Sizes(int("evaporation" in case.effects)) if max(spread) > 0.0 else OFF
+    products = case.parameters.get("break_up")
+    differ = "micro_explosion" in case.effects or (products is not None and products.products != "equal")
+    differ = differ or case.grains.diameter_std > 0.0 or any(spread(nozzle) for nozzle in case.nozzles.values())
+    return Sizes(int("evaporation" in case.effects)) if differ else OFF
 
 
 @njit(cache=True, error_model="numpy")

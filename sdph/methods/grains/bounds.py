@@ -54,6 +54,7 @@ class Guard(Watch):
         }
         bounds |= {"temperature": (self.coldest, self.hottest), "theta": (0.0, (COLLAPSE * self.reach) ** 2)}
         bounds |= {"sealed": (0.0, 1.0), "throwing": zero_on, "bubble_void": (0.0, size**3)}
+        bounds |= {"deformation": (-math.inf, 1.0), "weber": zero_on}
         bounds |= {"nozzle": (0, len(self.case.nozzles)), "entering": (0, 1)}
         kinds = [particles.GRAIN, particles.INFLOW]
         self.admit(state, names, bounds)

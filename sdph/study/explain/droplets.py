@@ -20,7 +20,7 @@ def numbers(s) -> list[tuple]:
                 "Weber",
                 gas.density * s.slip**2 / pull,
                 12.0,
-                "droplets break up: no effect of sdph does that",
+                "droplets break up: that is the effect break_up",
                 "Pilch & Erdman 1987",
             )
         )

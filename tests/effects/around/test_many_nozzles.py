@@ -39,6 +39,11 @@ def abreast(count):
 
 FACING = {"left": slot([0.2, 0.5], [1.0, 0.0]), "right": slot([0.6, 0.5], [-1.0, 0.0], temperature_K=280.0)}
 BESIDE = {"here": slot([0.0, 0.5], [1.0, 0.0]), "there": slot([0.01, 0.55], [1.0, 0.2], start_s=0.02, end_s=0.06)}
+MIXED = {
+    "drops": slot([0.0, 0.4], [1.0, 0.0], sizes="rosin_rammler", size_parameter_mm=1.0, size_exponent=3.0,
+                  least_diameter_mm=0.3, size_classes=3),
+    "two": slot([0.0, 0.7], [1.0, 0.0], sizes="given", diameters_mm=[0.5, 2.0], shares=[1.0, 3.0]),
+}  # fmt: skip
 CONE_AND_SLOT = {
     "cone": slot([0.5, 0.5, 0.0], [0.0, 0.0, 1.0], shape="cone", radius_m=0.11, half_angle_deg=30.0, width_m=None),
     "slot": slot([0.0, 0.5, 0.5], [1.0, 0.0, 0.0], length_m=0.2),
@@ -67,7 +72,8 @@ def begun(chosen, folder):
 
 
 @pytest.mark.parametrize(("nozzles", "dimensions"), [
-    (abreast(1), 2), (abreast(2), 2), (abreast(3), 2), (abreast(200), 2), (FACING, 2), (BESIDE, 2), (CONE_AND_SLOT, 3),
+    (abreast(1), 2), (abreast(2), 2), (abreast(3), 2), (abreast(200), 2), (FACING, 2), (BESIDE, 2), (MIXED, 2),
+    (CONE_AND_SLOT, 3),
 ])  # fmt: skip
 def test_the_books_close_whatever_the_number_of_nozzles(tmp_path, nozzles, dimensions):
     done = begun(case(nozzles, dimensions), tmp_path)
