@@ -26,7 +26,7 @@ class Thrown(NamedTuple):
 
 
 def throw(own, state, dt: float) -> Thrown | None:
-    """What particles of a state throw in dt [s], None where none does; `own` is `Own` of
+    """Vapour that particles of a state throw in dt [s], None where none does; `own` is `Own` of
     sdph.effects.gas.micro_explosion."""
     rows = np.flatnonzero(state.throwing)
     if not len(rows):

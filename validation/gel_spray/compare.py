@@ -36,7 +36,7 @@ class Tracked(NamedTuple):
 
 
 class Tear(NamedTuple):
-    """What the model says of the tear: time [s], superheat with what the bubble holds [K], wall [m]."""
+    """Tear by the model: time [s], superheat with what the bubble holds [K], wall [m]."""
 
     time: float
     superheat: float

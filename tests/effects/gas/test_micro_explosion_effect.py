@@ -19,6 +19,7 @@ from sdph.exchange import bursts
 from sdph.laws import bursting
 from sdph.running import driver
 from sdph.running.metrics import bursts as metrics
+from sdph.running.metrics import refuse_unknown
 from sdph.running.progress import Reporter
 from sdph.schema import CaseError
 
@@ -105,6 +106,20 @@ def test_every_droplet_tears_once_and_the_number_is_what_is_made(done):
     number = run.ledger.first["particle_mass_kg"] / (grains.density * math.pi / 6.0 * third)
     assert summary["torn_droplets"] == pytest.approx(number, rel=1e-12)
     assert summary["made_droplets"] > number
+
+
+def test_metrics_tell_number_size_and_whole_shells(done, tmp_path):
+    """Before: all whole, the log-normal's Sauter diameter; after: none whole, no more droplets than were made."""
+    run, _ = done
+    before, after = (metrics.metrics(own) for own in (started(bursting_case(std=0.01), tmp_path), run))
+    grains, summary = run.case.grains, run.ledger.summary()
+    assert before["whole_share"] == 1.0 and after["whole_share"] == 0.0
+    sauter = bursting.sauter(grains.diameter, grains.diameter_std**2)
+    assert before["sauter_diameter_m"] == pytest.approx(sauter, rel=1e-5)
+    assert before["droplets"] == pytest.approx(summary["torn_droplets"], rel=1e-5)
+    assert 0.0 < after["droplets"] <= (summary["torn_droplets"] + summary["made_droplets"]) * (1.0 + 1e-5)
+    with pytest.raises(CaseError, match="add micro_explosion to effects"):
+        refuse_unknown(cases.from_table(table(run={"metrics": ["bursts"]})))
 
 
 def test_flash_keeps_the_number(tmp_path):
