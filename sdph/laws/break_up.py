@@ -7,6 +7,9 @@ y is the shift of the drop's equator over half its radius. With the slip u past 
 whose solution is closed: y - y_e = exp(-b t) (A cos w t + B sin w t), y_e = We/12, We = rho_g u^2 r/sigma. The drop
 breaks at y = 1: from rest and without viscosity where We is above 6. Range: slip far below the gas's speed of sound,
 drops that are denser than the gas by far.
+
+OpenFOAM's TAB has the same y_e, w, b (its C_mu is a key, of 5 or 10) and products. It leaves b out between now and
+y = 1, sets y to 0 where nothing swings, and draws the size of the products; here nothing is left out or drawn.
 """
 
 import math

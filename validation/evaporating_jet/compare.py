@@ -41,9 +41,7 @@ OURS = {"gas_temperature": "temperature", "gas_velocity": "velocity", "vapour_ma
 
 def dpm(run) -> list[dict]:
     """Evaporated mass, front and droplets' temperatures against the droplets, and the bounds of sdph-notes 4.3."""
-    reference, coarse = (
-        _droplet_run(run.case, run.folder / name, c) for name, c in (("dpm", COURANT), ("dpm_coarse", 2.0 * COURANT))
-    )
+    reference, coarse = droplets(run, run.folder)
     times = [t for t in TIMES if t <= run.summary["time_s"] * (1.0 + 1e-9)]
     same, end = alike(run.case), max(times)
     name = "evaporated mass [kg]" if same else "evaporated mass [kg], closures differ,"
@@ -151,6 +149,11 @@ def heat_of(reference, case, time: float) -> float:
     drops = reference.parcels[nearest(reference, time)]
     mass = drops["count"] * drops["density"] * math.pi / 6.0 * drops["diameter"] ** 3
     return float((mass * (drops["temperature"] - case.nozzles["jet"].temperature)).sum() * case.grains.heat_capacity)
+
+
+def droplets(run, folder):
+    """The droplet solver on a run's case, with its step and with twice of it."""
+    return [_droplet_run(run.case, folder / f"dpm_{k}", k * COURANT) for k in (1, 2)]
 
 
 def limit_by(reference, coarse, case, time: float) -> float:
