@@ -29,7 +29,7 @@ from sdph.engine.kept import ROW, Many, Maybe, Unfit
 from sdph.engine.ledger import Ledger
 from sdph.engine.table import Table
 from sdph.methods.liquids.liquid import Liquid
-from sdph.running import chain, inputs, metrics, output, together
+from sdph.running import chain, hastened, inputs, metrics, output
 from sdph.running.fields import Fields
 from sdph.running.interruption import Stopped, listening
 from sdph.running.simulation import Simulation
@@ -99,7 +99,7 @@ def simulation_of(case, gas, ledger: Path):
     """Simulation of a case: a liquid or solids alone (`gas` is None), or grains in a gas, beside a liquid where the
     case has one; its ledgers go to new files."""
     if "grains" not in case.matters:
-        return together.of(case, ledger)
+        return hastened.of(case, ledger)
     simulation = Simulation(case.only("grains"), gas, Ledger(ledger, case, gas.mesh.depth))
     if case.liquid:
         liquid = Liquid(case.only("liquid"), ledger.with_name("ledger_liquid.csv"), simulation.clock.shortest)
