@@ -80,13 +80,12 @@ class Hastened(Together):
         share, old = -math.expm1(-passed / self.p.averaging), self.speed
         self.speed += share * ((radius - self.radius) / passed - self.speed)
         self.radius = radius
-        pressure = self.stepper.void.pressure
-        self.most["pressure_max_Pa"] = max(self.most["pressure_max_Pa"], pressure)
         if self.tear.time is not None:
             if self.pace != 1.0:
                 self._hasten(1.0)
                 self._follow()
             return
+        self.most["pressure_max_Pa"] = max(self.most["pressure_max_Pa"], self.stepper.void.pressure)
         self.most["diameter_ratio_max"] = max(self.most["diameter_ratio_max"], self.diameter_ratio())
         self._weigh(old, passed)
         self._hasten(time_scaling.pace(self.p, self.speed, self.pace))
@@ -157,7 +156,7 @@ class Hastened(Together):
         missing = liquid.sums["numerical_work_J"] + solid.sums["numerical_work_J"]
         given = abs(liquid.sums["work_of_bubble_J"])
         return {
-            "mass_drift_rel": abs(gel + void.mass + void.vented - first) / first,
+            "mass_drift_rel": abs(gel + void.mass + void.vented - void.owed - first) / first,
             "energy_drift_rel": abs(missing) / given if given else 0.0,
         }
 

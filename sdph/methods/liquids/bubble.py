@@ -43,7 +43,20 @@ class Void:
     still owes, of this step's warming; vented: mass that went out through a tear. In a shell, where there is one."""
 
     # see sdph.engine.kept
-    KEPT = ("area", "pressure", "mass", "temperature", "heat", "warmed", "owed", "passed", "vented", "rim")
+    KEPT = (
+        "area",
+        "pressure",
+        "mass",
+        "temperature",
+        "heat",
+        "warmed",
+        "owed",
+        "passed",
+        "vented",
+        "rim",
+        "missed",
+        "corners",
+    )
 
     def __init__(self, case, p, state, bodies=None):
         self.p, pool = p, bubble.pool_of(case)
@@ -53,7 +66,7 @@ class Void:
         ring = np.flatnonzero((r > r.max() * (1.0 - SAME)) & (r > 0.0))
         self.loop = state.ident[ring][np.argsort(np.arctan2(y[ring], x[ring]))]  # counterclockwise
         self.first = cavities.void(pool.inner_radius, 2)
-        self.area, self.missed = self.first, 0.0
+        self.area, self.missed, self.corners = self.first, 0.0, 0  # corners of the lining, where there is one
         self.missed = self._measure(state) - self.first
         self.pressure, self.mass, self.temperature = p.excess, 0.0, 0.0
         self.heat = self.warmed = 0.0
@@ -74,7 +87,10 @@ class Void:
     def press(self, stepper) -> None:
         """Add to the accelerations of a stepper; what was added is its `inflating` (N, 3) [m/s2]."""
         s = stepper.state
-        self.area = self._measure(s) - self.missed
+        corners, measured = self.corners, self._measure(s)
+        if self.corners != corners:  # some broke off: another polygon, the same void
+            self.missed = measured - self.area
+        self.area = measured - self.missed
         if not self.area > 0.0:
             stepper.guard.stop("void", "the bubble", np.zeros(3), self.area, (0.0, math.inf, "m2"), LOWER)
         self.pressure = self._content(stepper.guard) - self.p.around - self._capillary()
@@ -95,9 +111,11 @@ class Void:
         self._facing(stepper, np.zeros(len(s.x)))
         heat = dt * self.p.flux * 2.0 * math.pi * self.radius
         boiled = heat / self.p.vapour.latent_heat
-        self.heat, self.mass, mass, self.owed = self.heat + heat, self.mass + boiled, self.owed + boiled, 0.0
+        self.heat, self.mass, self.owed = self.heat + heat, self.mass + boiled, self.owed + boiled
         share = s.mass[own] * self.face(stepper)[own]
-        self.take(stepper, own, share * (mass / share.sum()))
+        if share.any():  # else it goes on owing: nothing faces it
+            mass, self.owed = self.owed, 0.0
+            self.take(stepper, own, share * (mass / share.sum()))
 
     def face(self, stepper) -> np.ndarray:
         """(N,) [1/m] how much of the void's face each particle has; 0 of those within, whose sum V_j grad W is but
@@ -171,7 +189,7 @@ class Void:
         volume = state.mass / state.density
         if self.carrier:
             points, own = self.carrier.lining()
-            self.rim = points.mean(axis=0)
+            self.rim, self.corners = points.mean(axis=0), len(points)
             self.within = self.carrier.inside(points, state, wet)
             return polygons.area(*points.T) - 0.5 * own - float(volume[self.within].sum())
         place = np.empty(int(state.ident.max()) + 1, np.int64)
@@ -190,6 +208,8 @@ class Void:
         """
         if not self.carrier:
             return self.near(state).astype(float)
+        if not self.within.any():  # it has all left a shell that tore
+            return np.zeros(len(state.x))
         r, turn = self._polar(state.x, state.y)
         share = 2.0 - (r - self._face_radius(r, turn)) / reach
         return np.where(self.within, np.clip(share, 0.0, 1.0), 0.0)

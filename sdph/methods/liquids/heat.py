@@ -104,7 +104,9 @@ class Heat:
         self.came += dt * float(powers.sum())
         if len(lost):
             self.taken += float(heat.sum())
+            before = s.mass[own.active].copy()
             own.void.take(own, own.active, lost[own.active])
+            own.acceleration[own.active] *= (before / s.mass[own.active])[:, None]  # by the forces of now
             self.capacity[own.active] = s.mass[own.active] * self.p.heat_capacity
 
     def _boil(self, dt: float) -> tuple[np.ndarray, np.ndarray]:

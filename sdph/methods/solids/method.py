@@ -27,7 +27,8 @@ class SolidStepper:
 
     # see sdph.engine.kept
     KEPT = (
-        "state", "time", "steps", "limit", "works", "impulses", "acting", "springs", "touching", "cavity", "free", "broken",
+        "state", "time", "steps", "limit", "works", "impulses", "acting", "springs", "touching", "cavity", "free",
+        "broken",
         "unloaded", "strained", "hardened", "harm", "gradient", "stress", "kirchhoff", "amounts", "acceleration",
         "steadying", "friction", "pressed",
     )  # fmt: skip
