@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from sdph.effects.liquids import time_scaling
 from sdph.schema import CaseError
 
 # effects that know no bodies in a liquid, and why
@@ -21,6 +22,8 @@ def check(case) -> None:
     if case.solid and case.grains:
         raise CaseError("a solid stands alone or beside a liquid: leave [grains] and [gas] out, or [solid]")
     _of_tables(case)
+    if "time_scaling" in case.effects:
+        time_scaling.check(case)
     if len(case.matters) < 2:
         return
     if case.domain.periodic or any(case.liquid.periodic or ()):

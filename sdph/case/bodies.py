@@ -24,6 +24,7 @@ def check(case) -> None:
         raise CaseError("solid.failure is of plastic strain; give solid.yield_stress_Pa, or leave it out")
     for name, body in case.bodies.items():
         _check_shape(case, f"bodies.{name}", body)
+        _check_flaw(f"bodies.{name}", body)
         _check_motion(f"bodies.{name}", body)
 
 
@@ -47,6 +48,11 @@ def _check_shape(case, where: str, body) -> None:
             f"{where} reaches out of the domain, domain.size_m = {list(case.domain.size)}; move it or enlarge the "
             "domain"
         )
+
+
+def _check_flaw(where: str, body) -> None:
+    if body.flaw and body.shape != "ring":
+        raise CaseError(f'{where}.flaw is that of a body of shape "ring"; shape = {body.shape!r}: leave it out')
 
 
 def _check_motion(where: str, body) -> None:

@@ -20,9 +20,11 @@ from sdph.effects.liquids import (
     free_energy_tension,
     laminar_viscosity,
     liquid_damping,
+    liquid_heat,
     shear_thinning,
     shifting,
     surface_tension,
+    time_scaling,
     xsph,
 )
 from sdph.effects.solids import inflation, rigid_sides
@@ -50,6 +52,8 @@ FILES = (
     surface_tension,
     free_energy_tension,
     bubble,
+    liquid_heat,
+    time_scaling,
     xsph,
     tank,
     frame,

@@ -29,7 +29,7 @@ from sdph.engine.kept import ROW, Many, Maybe, Unfit
 from sdph.engine.ledger import Ledger
 from sdph.engine.table import Table
 from sdph.methods.liquids.liquid import Liquid
-from sdph.running import chain, inputs, metrics, output, together, vessel
+from sdph.running import chain, hastened, inputs, metrics, output, vessel
 from sdph.running.fields import Fields
 from sdph.running.interruption import Stopped, listening
 from sdph.running.simulation import Simulation
@@ -72,8 +72,7 @@ def template_of(case, name: str, file: Path | None = None) -> Path:
 def resume(folder: Path, overrides: tuple[str, ...], reporter, *, allow_code: bool = False) -> dict:
     """Go on with a run from its newest whole checkpoint, or from its start where it has none; its summary.
 
-    The run folder may come from elsewhere: the OpenFOAM case in it may run code only with `allow_code`, given anew.
-    """
+    The run folder may come from elsewhere: its OpenFOAM case may run code only with `allow_code`, given anew."""
     if not (folder / output.MARK).is_file() or not (folder / output.ORIGIN).is_file():
         raise CaseError(f"{folder} holds no run to go on with; run it anew")
     case = cases.load(folder / output.MARK, overrides)
@@ -99,7 +98,7 @@ def simulation_of(case, gas, ledger: Path):
     """Simulation of a case: a liquid or solids alone (`gas` is None), or grains in a gas, beside a liquid where the
     case has one; its ledgers go to new files."""
     if "grains" not in case.matters:
-        return together.of(case, ledger)
+        return hastened.of(case, ledger)
     simulation = Simulation(case.only("grains"), gas, Ledger(ledger, case, gas.mesh.depth))
     if case.liquid:
         liquid = Liquid(case.only("liquid"), ledger.with_name("ledger_liquid.csv"), simulation.clock.shortest)
@@ -197,8 +196,7 @@ class Run:
         simulation = simulation_of(self.case, gas, self.folder / "ledger.csv")
         self.simulation, self.out = simulation, Outputs(self.folder, simulation)
         if checkpoint is None:
-            if gas:
-                vessel.refuse_outside(self.case, gas, simulation.state)
+            vessel.refuse_outside(self.case, gas, simulation.state)
             simulation.start()
             self.out.start()
             self._save()

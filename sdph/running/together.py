@@ -35,7 +35,7 @@ class Together(Alone):
         """Unfit where liquid and bodies are not at one time and window."""
         super().admit(kept)
         own = kept["bodies"]["solids"]
-        if (own["windows"], own["stepper"]["time"]) != (kept["windows"], self.time_of(kept)):
+        if (own["windows"], own["stepper"]["time"]) != (kept["windows"], kept["method"]["stepper"]["time"]):
             raise Unfit("its bodies are at another time than its liquid")
 
     def _advance(self) -> None:
@@ -59,8 +59,3 @@ class Together(Alone):
 def _named(values: dict) -> dict:
     """Values under names that begin with their matter."""
     return {f"solid_{key.removeprefix('solid_')}": value for key, value in values.items() if key != "time_s"}
-
-
-def of(case, ledger: Path) -> Alone:
-    """The run of a case without a gas."""
-    return (Together if len(case.matters) > 1 else Alone)(case, ledger)

@@ -44,7 +44,7 @@ def walled(case, gas, folder: Path):
 
 def refuse_outside(case, gas, state) -> None:
     """CaseError where grains of a region stand in no cell of a mesh that is no box: region, how many, and where."""
-    if not hasattr(gas, "case_folder") or not case.particles:
+    if not hasattr(gas, "case_folder") or not case.particles:  # the embedded solver's box is the domain
         return
     grid, _ = output.gas_grid(gas)
     if grid.__class__.__name__ == "RectilinearGrid":  # fills the domain, and regions lie in that

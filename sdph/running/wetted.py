@@ -5,14 +5,21 @@ The liquid knows them as in sdph.methods.liquids.bodies. Both go in the same ste
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
+from sdph.engine import polygons
 from sdph.engine import state as particles
 from sdph.engine.contact import Contact
 from sdph.engine.kept import Unfit
+from sdph.methods.liquids.bodies import Shell
+from sdph.methods.solids import start
 from sdph.methods.solids.method import IMPULSES, WORKS
 from sdph.methods.solids.method import limits as limits_of_solids
 from sdph.methods.solids.solid import Solids
+
+LEFT = 3  # corners of a polygon
 
 
 class Wetted:
@@ -22,8 +29,11 @@ class Wetted:
 
     def __init__(self, case, ledger, shortest: float):
         self.solids = Solids(case.only("solid"), ledger, shortest, wet=True)
-        self.volume = self.stepper.weights.volume
+        self.volume, self.density = self.stepper.weights.volume, case.solid.density
+        self.mass = self.stepper.state.mass
         self.force = self.stepper.load
+        self.shell = _shell(case, self.stepper.state.ident)
+        self.flaw_at = max((body.flaw_at for body in case.bodies.values() if body.flaw), default=0.0)  # [rad]
         # a liquid is to the body's particles a spring as stiff as those of sdph.engine.contact
         spacing, own = case.resolution.spacing, case.liquid
         self.contact = Contact(spacing, own.density * own.sound_speed**2 * spacing ** (case.dimensions - 2))
@@ -42,6 +52,49 @@ class Wetted:
 
     def velocities(self) -> np.ndarray:
         return particles.velocities(self.stepper.state)
+
+    def lining(self) -> tuple[np.ndarray, float]:
+        own = self.stepper
+        held = _held(self.shell.inner, own.free)
+        F = own.gradient[held]
+        return self.places()[held, :2], float(self.volume[held] @ (F[:, 0] * F[:, 4] - F[:, 1] * F[:, 3]))
+
+    def hull(self) -> np.ndarray:
+        """Corners (N, 2) [m] of the shell's outermost circle that have not broken off."""
+        return self.places()[_held(self.shell.outer, self.stepper.free), :2]
+
+    def angle_of_loose(self) -> float:
+        """Angle [deg] of what has broken off, seen from the middle of the shell and from its flaw."""
+        middle, broken = self.places()[:, :2].mean(axis=0), self.places()[self.loose(), :2]
+        x, y = (broken - middle).mean(axis=0)
+        turn = math.degrees(math.atan2(y, x) - self.flaw_at)
+        return (turn + 180.0) % 360.0 - 180.0
+
+    def links(self) -> np.ndarray:
+        """Points (N, 2) [m] along the links of the shell's innermost circle, a quarter of them apart."""
+        own, here = self.shell.inner, self.places()[:, :2]
+        after = np.roll(own, -1)
+        held = (self.stepper.free[own] == 0) & (self.stepper.free[after] == 0)
+        first, second = here[own[held]], here[after[held]]
+        return np.concatenate([first + share * (second - first) for share in (0.25, 0.5, 0.75)])
+
+    def inside(self, points, state, wet) -> np.ndarray:
+        if not self.torn:
+            return wet
+        return wet & polygons.holds(points[:, 0], points[:, 1], state.x, state.y)
+
+    @property
+    def torn(self) -> bool:
+        """Tell whether a particle of the bodies has broken off."""
+        return bool(self.stepper.free.any())
+
+    def loose(self) -> np.ndarray:
+        return self.stepper.free != 0
+
+    def hasten(self, pace: float, kick: float) -> None:
+        """Let `pace` seconds pass for what goes by time in each second of motion; velocities become `kick` times as
+        large."""
+        self.stepper.hasten(pace, kick)
 
     def limits(self) -> dict[str, float]:
         own = limits_of_solids(self.stepper) | {"liquid": self.contact.limit(float(self.stepper.state.mass.min()))}
@@ -76,3 +129,19 @@ class Wetted:
         """Unfit where forces are not one row a particle."""
         if len(kept["force"]) != len(kept["solids"]["stepper"]["state"]["x"]):
             raise Unfit("forces of the liquid are of other bodies")
+
+
+def _shell(case, ident) -> Shell | None:
+    """The ring of a case with one."""
+    names = [name for name, body in case.bodies.items() if body.shape == "ring"]
+    if len(names) != 1:
+        return None
+    place = np.argsort(ident)
+    inner, outer = (place[circle] for circle in start.circles(case, names[0]))
+    return Shell(inner, outer, case.bodies[names[0]].radius)
+
+
+def _held(circle, free) -> np.ndarray:
+    """Particles of a circle that have not broken off; all where fewer than three are left."""
+    held = circle[free[circle] == 0]
+    return held if len(held) >= LEFT else circle

@@ -62,6 +62,8 @@ def test_every_effect_is_among_those_asked():
     assert effects.REGISTRY.keys() - known <= {
         "grain_shifting",
         "bubble",
+        "liquid_heat",
+        "time_scaling",
         "xsph",
         "artificial_viscosity",
         "lift",

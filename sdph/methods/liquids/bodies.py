@@ -8,7 +8,7 @@ body with the sign turned, so that momentum closes pair by pair.
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -23,21 +23,43 @@ from sdph.methods.liquids.forces import Moving
 NEAREST = 0.75  # spacings: what stands nearer to a body at the start stands in it; our choice
 
 
+class Shell(NamedTuple):
+    """A ring: numbers (N,) of its innermost and outermost particles, counterclockwise, and its outer radius [m]."""
+
+    inner: np.ndarray
+    outer: np.ndarray
+    radius: float
+
+
 class Carrier(Protocol):
     """Bodies as a liquid knows them, M particles in an order that stays.
 
     volume  (M,) [m^d]
+    mass    (M,) [kg], and density [kg/m3] of what they are made of
     given   (4,) impulse [N s] and work [J] that they have got from the liquid
+    shell   the ring that the liquid is in, None where there is none
     """
 
     volume: np.ndarray
+    mass: np.ndarray
+    density: float
     given: np.ndarray
+    shell: Shell | None
 
     def places(self) -> np.ndarray:
         """(M, 3) [m]."""
 
     def velocities(self) -> np.ndarray:
         """(M, 3) [m/s]."""
+
+    def lining(self) -> tuple[np.ndarray, float]:
+        """Points (N, 2) [m] of the shell's innermost circle that have not broken off, and their area [m2]."""
+
+    def inside(self, points, state, wet) -> np.ndarray:
+        """(N,) which of the `wet` particles of a liquid are in the shell, whose lining has those points (M, 2)."""
+
+    def loose(self) -> np.ndarray:
+        """(M,) bool: what has broken off, which the liquid no longer meets."""
 
     def limits(self) -> dict[str, float]:
         """Longest steps [s] by cause."""
@@ -98,6 +120,12 @@ class Bodies:
     def drift(self, state, dt: float) -> None:
         """Go along for `dt` [s]."""
         motion.drift(self.at, *self.moving, dt, state.x, state.y, state.z)
+
+    def let_go(self, volume) -> None:
+        """No longer meet what has broken off: nothing of volume (N,) [m^d] is there for the liquid."""
+        loose = self.carrier.loose()
+        if loose.any():
+            volume[self.at[loose]] = -0.0
 
     def place(self, state) -> None:
         """Go to where the carrier has them."""

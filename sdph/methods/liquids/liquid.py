@@ -26,7 +26,7 @@ class Liquid(Stepped):
     """A liquid and what it does in a window."""
 
     matter = "liquid"
-    KEPT = ("windows", "stepper", "outlet", "ledger", "rates", "impulse", "since")  # see sdph.engine.kept
+    KEPT = ("windows", "stepper", "outlet", "ledger", "rates", "impulse", "since", "pace")  # see sdph.engine.kept
 
     def __init__(self, case, ledger: Path, shortest: float, carrier: Carrier | None = None):
         self.case, self.windows = case, 0
@@ -34,6 +34,8 @@ class Liquid(Stepped):
         self.outlet = Outlet(self.stepper) if "drain" in case.effects else None
         self.fill = drain.command(case.parameters["drain"], self.outlet.fill) if self.outlet else None
         self.rates = account.rates(self.stepper, 0.0, None)  # what acts now
+        self.scaled = np.zeros(4)  # impulse [N s] and energy [J] by `hasten` since the last window
+        self.pace = 1.0  # seconds that pass for heat in one of the motion: sdph.effects.liquids.time_scaling
         self.impulse, self.since = np.zeros(6), 0.0  # force and moment on the tank since the last row, and its time [s]
 
     def admit(self, kept: dict) -> None:
@@ -55,13 +57,26 @@ class Liquid(Stepped):
         while self.time != end and done < most:
             self.tally.step(end)
             done += 1
+        if self.stepper.heat:
+            self.stepper.heat.advance(self.pace * (self.time - self.begun))
         self.windows += 1
 
     def close(self) -> None:
         self.stepper.guard.look(self.stepper)
         self.impulse = self.impulse + self.tally.sums[account.LOADS]
         self.ledger.close_window(self.stepper, self.time - self.begun, *self.tally.amounts())
+        self.scaled = np.zeros(4)
         self.stepper.state = particles.released(self.state)
+
+    def hasten(self, pace: float, kick: float) -> None:
+        """Let `pace` seconds pass for heat in each second of motion from now on; velocities become `kick` times as
+        large."""
+        s, own = self.state, self.stepper.active
+        before, energy = s.mass[own] @ particles.velocities(s)[own], kinetic_energy(s)
+        for axis in (s.u, s.v, s.w):
+            axis *= kick
+        gain = s.mass[own] @ particles.velocities(s)[own] - before
+        self.scaled, self.pace = np.append(gain, kinetic_energy(s) - energy), pace
 
     def new_row(self) -> None:
         """Begin the mean of the loads anew: the history has a row of now."""
@@ -91,7 +106,7 @@ class Liquid(Stepped):
 
     def summary(self) -> dict[str, float]:
         own = {"liquid_particles": len(self.stepper.active), "kinetic_energy_J": kinetic_energy(self.state)}
-        return own
+        return own | (self.stepper.heat.summary() if self.stepper.heat else {})
 
     def warnings(self) -> list[str]:
         mach, c = self.ledger.mach, self.case.liquid.sound_speed

@@ -24,6 +24,7 @@ from sdph.methods.liquids import bodies as immersion
 from sdph.methods.liquids import bubble, correction, interface, openings, phases, shift, start, walls
 from sdph.methods.liquids import equations as rates
 from sdph.methods.liquids.bounds import LiquidGuard, limits
+from sdph.methods.liquids.heat import Heat
 from sdph.methods.liquids.start import fluids, parts_of
 from sdph.methods.liquids.walls import WallP
 
@@ -37,7 +38,7 @@ class LiquidStepper:
     # see sdph.engine.kept
     KEPT = (
         "state", "neighbours", "time", "steps", "limit", "shifted", "eased", "pressure", "volume", "acceleration",
-        "gradient", "least", "shift", "twist", "extra", "excess", "openings", "void",
+        "gradient", "least", "shift", "twist", "extra", "excess", "openings", "void", "heat",
     )  # fmt: skip
     # of the particles
     ROWS = ("pressure", "volume", "acceleration", "gradient", "least", "shift", "twist", "extra", "excess")
@@ -77,9 +78,11 @@ class LiquidStepper:
         self.compliance = np.array([self._compliance(kind) for kind in range(GAS + 1)])
         self.aim(0.0)
         self.least = np.zeros(0)
-        self.void = bubble.Void(case, self.p["bubble"], self.state) if self.p["bubble"] else None
+        self.heat = None  # until it is known what there is to heat
+        self.void = bubble.Void(case, self.p["bubble"], self.state, self.bodies) if self.p["bubble"] else None
         self.look = None  # who is told of new forces, with the length [s] of the kick to come
         self.forces()
+        self.heat = Heat(self, self.p["liquid_heat"]) if self.p["liquid_heat"] else None
         if self.bodies:
             carrier.meet(self.bodies.force(self))
 
@@ -183,6 +186,8 @@ class LiquidStepper:
         if built is not self.neighbours.built:
             self._allocate(ident)
         s, p = self.state, self.p
+        if self.bodies:
+            self.bodies.let_go(self.volume)
         around = self.kernel, s, self.rows, self.neighbours.box, self.active
         if self.summed:
             rates.sum_up(*around, self.lattice, s.density)

@@ -23,10 +23,12 @@ from sdph.engine.ledger import ratio, refuse_rows, vector
 from sdph.engine.table import Table
 from sdph.methods.liquids.losses import CAUSES
 
-IMPULSES = ("body_forces", "walls", "surface_tension", "shifting", "drain", "contact", "inflow", "outflow", "bubble")
+IMPULSES = (
+    "body_forces", "walls", "surface_tension", "shifting", "drain", "contact", "inflow", "outflow", "bubble", "scaling",
+)  # fmt: skip
 WORKS = (
     "work_of_gravity_J", "work_of_frame_J", "work_of_walls_J", "work_of_surface_tension_J", "work_of_contact_J",
-    "work_of_inflow_J", "work_of_bubble_J",
+    "work_of_inflow_J", "work_of_bubble_J", "work_of_scaling_J",
 )  # fmt: skip
 LOSSES = (*CAUSES, "held_off_J", "shifting_J")
 PASSED = ("drained_kg", "drained_J", "injected_kg", "injected_J", "left_kg", "left_J", "boiled_kg", "boiled_J")

@@ -22,6 +22,7 @@ class Tally:
         self.gone = run.outlet.gone.copy() if run.outlet else np.zeros(8)
         self.passed, self.given = _passed(self.stepper), _given(self.stepper)
         self.boiled = _boiled(self.stepper)
+        self.scaled = run.scaled  # impulse [N s] and work [J] of a change of the pace before this window
         self.pressed = 0.0  # work of contact [J]
         self.contact, self.spared = np.zeros(3), np.zeros(3)  # impulses of contact, and on what the drain took [N s]
 
@@ -52,12 +53,13 @@ class Tally:
         impulses = (
             sums[account.BODY], sums[account.WALLS], sums[account.TENSION], shifted, -gone[1:4] - self.spared,
             self.contact + given[:3], sums[account.INLET] + came[1:4], -left[1:4],
-            sums[account.BUBBLE] - boiled[1:4],
+            sums[account.BUBBLE] - boiled[1:4], self.scaled[:3],
         )  # fmt: skip
         amounts = {"drained_kg": gone[0], "drained_J": gone[7], "work_of_contact_J": self.pressed + given[3]}
         amounts |= {"boiled_kg": boiled[0], "boiled_J": boiled[4]}
         amounts |= {"injected_kg": came[0], "injected_J": came[4], "left_kg": left[0], "left_J": left[4]}
         amounts |= {"work_of_inflow_J": sums[account.BY_INLET], "work_of_bubble_J": sums[account.BY_BUBBLE]}
+        amounts |= {"work_of_scaling_J": self.scaled[3]}
         amounts |= {"work_of_gravity_J": sums[account.GRAVITY], "work_of_frame_J": sums[account.FRAME]}
         amounts |= {"work_of_walls_J": sums[account.BY_WALLS], "work_of_surface_tension_J": sums[account.BY_TENSION]}
         amounts |= {"held_off_J": -sums[account.HELD_OFF], "shifting_J": self.stepper.eased - self.eased}

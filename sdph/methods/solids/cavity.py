@@ -11,22 +11,15 @@ import numpy as np
 
 from sdph.effects.solids import inflation
 
-SAME = 1e-6  # of a radius: round-off
-
 
 class Cavity:
     """Cavity of a ring with a pressure [Pa], an area [m2], and the outermost particles of the ring."""
 
     KEPT = ("pressure", "area")  # see sdph.engine.kept
 
-    def __init__(self, parameters, body, number: int, made):
-        self.p = parameters
-        own = np.flatnonzero(made.body == number)
-        x, y = made.state.x[own] - body.centre[0], made.state.y[own] - body.centre[1]
-        r = np.hypot(x, y)
-        inner, outer = r < r.min() * (1.0 + SAME), r > r.max() * (1.0 - SAME)
-        self.nodes = own[inner][np.argsort(np.arctan2(y[inner], x[inner]))]
-        self.outer = own[outer]
+    def __init__(self, parameters, circles, made):
+        self.p, place = parameters, np.argsort(made.state.ident)
+        self.nodes, self.outer = (place[circle] for circle in circles)
         self.volume = made.volume[self.nodes]
         self.pressure = 0.0
         self.first = self.area = _area(self._surface(made.state, np.ones(len(self.nodes))))

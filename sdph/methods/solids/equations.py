@@ -34,7 +34,7 @@ class Material(NamedTuple):
 
 class Reference(NamedTuple):
     """Undeformed bodies: places X, Y, Z (N,) [m], volume (N,) [m^d], slope along the rows [1/m^(d+2)], 0 or negative,
-    L (N, 9), and 1 of free particles (N,)."""
+    L (N, 9), and 1 of particles that bear nothing (N,)."""
 
     X: np.ndarray
     Y: np.ndarray
@@ -242,7 +242,7 @@ def push(kernel, material, x, y, z, u, v, w, rows, ref, gradient, stress, accele
         for k in range(rows.number[i]):
             e = place(rows, i, k)
             j, slope = rows.entries[e], ref.slope[e]
-            V, linked = ref.volume[j], 1.0 if slope < 0.0 else 0.0
+            V, linked = ref.volume[j], 0.0 if slope == 0.0 or ref.free[i] or ref.free[j] else 1.0
             X, Y, Z = ref.X[i] - ref.X[j], ref.Y[i] - ref.Y[j], ref.Z[i] - ref.Z[j]
             dx, dy, dz = x[i] - x[j], y[i] - y[j], z[i] - z[j] if len(z) else 0.0
             R2, r2 = X * X + Y * Y + Z * Z, dx * dx + dy * dy + dz * dz
@@ -260,7 +260,7 @@ def push(kernel, material, x, y, z, u, v, w, rows, ref, gradient, stress, accele
             hy += hold * (0.5 * oy - dy)
             hz += hold * (0.5 * oz - dz)
 
-            rub = beta * V * slope * R * parting / (r2 * math.sqrt(r2))
+            rub = linked * beta * V * slope * R * parting / (r2 * math.sqrt(r2))
             fx += rub * dx
             fy += rub * dy
             fz += rub * dz

@@ -18,8 +18,8 @@ from sdph.methods.solids.cavity import Cavity
 from sdph.methods.solids.weights import Weights
 from sdph.schema import CaseError
 
-WORKS = ("forces", "hourglass", "viscosity", "pressure", "plastic", "cut", "gravity")
-IMPULSES = ("gravity", "sides", "clamp", "liquid")
+WORKS = ("forces", "hourglass", "viscosity", "pressure", "plastic", "cut", "gravity", "scaling")
+IMPULSES = ("gravity", "sides", "clamp", "liquid", "scaling")
 
 
 class SolidStepper:
@@ -28,6 +28,7 @@ class SolidStepper:
     # see sdph.engine.kept
     KEPT = (
         "state", "time", "steps", "limit", "works", "impulses", "acting", "springs", "touching", "cavity", "free",
+        "broken",
         "unloaded", "strained", "hardened", "harm", "gradient", "stress", "kirchhoff", "amounts", "acceleration",
         "steadying", "friction", "pressed",
     )  # fmt: skip
@@ -61,7 +62,7 @@ class SolidStepper:
         self.forces(1.0)  # nothing flows at rest: the length of a step decides nothing
 
     def _allocate(self, count: int) -> None:
-        self.free = self.weights.free
+        self.free, self.broken = self.weights.free, self.weights.broken
         self.unloaded = np.tile([1.0, 1.0, 1.0, 0.0, 0.0, 0.0], (count, 1))
         self.strained, self.hardened, self.harm = np.zeros((3, count))
         self.gradient, self.stress, self.kirchhoff = np.zeros((count, 9)), np.zeros((count, 9)), np.zeros((count, 6))
@@ -73,21 +74,21 @@ class SolidStepper:
         own = self.p["inflation"]
         if not own:
             return None
-        name = self.case.parameters["inflation"].body
-        return Cavity(own, self.case.bodies[name], list(self.case.bodies).index(name), made)
+        return Cavity(own, start.circles(self.case, self.case.parameters["inflation"].body), made)
 
     def revive(self) -> None:
         """After a checkpoint was put back: links as they were cut."""
-        self.weights.free[:] = self.free
-        self.weights.cut(np.zeros(len(self.free), bool))
-        self.free = self.weights.free
+        own = self.weights
+        own.free[:], own.broken[:] = self.free, self.broken
+        own.cut(np.zeros(len(self.free), bool))
+        self.free, self.broken = own.free, own.broken
         self.touching.built = None
 
     def admit(self, kept: dict) -> None:
         """Unfit where the particles cannot be of this case."""
         self.guard.admit_solid(kept["state"], self.state)
-        if not np.isin(kept["free"], (0, 1)).all():
-            raise Unfit("free is neither 0 nor 1 somewhere")
+        if not (np.isin(kept["free"], (0, 1)).all() and np.isin(kept["broken"], (0, 1)).all()):
+            raise Unfit("free or broken is neither 0 nor 1 somewhere")
 
     @property
     def ref(self) -> equations.Reference:
@@ -101,6 +102,19 @@ class SolidStepper:
         self.set_off(dt)
         self.arrive(dt)
         return dt
+
+    def hasten(self, pace: float, kick: float) -> None:
+        """Let `pace` seconds pass for what goes by time in each second of motion (sdph.effects.liquids.time_scaling);
+        velocities become `kick` times as large."""
+        s, plastic = self.state, start.plastic(self.case)
+        self.plastic = plastic and plastic._replace(reference_rate=pace * plastic.reference_rate)
+        if kick == 1.0:
+            return
+        before, motion_before = particles.energy_of_motion(s), s.mass @ particles.velocities(s)
+        for axis in (s.u, s.v, s.w):
+            axis *= kick
+        self.works[WORKS.index("scaling")] += particles.energy_of_motion(s) - before
+        self.impulses[IMPULSES.index("scaling")] += s.mass @ particles.velocities(s) - motion_before
 
     def set_off(self, dt: float) -> None:
         """The first half of the kick of a step of `dt` [s], and the way."""

@@ -37,7 +37,7 @@ class Body:
     (centre, radius, length, along the last axis). What lies in the held box does not move.
 
     `motion`: uniform, or cantilever: a box held on its left begins with the first mode of a thin plate, whose free end
-    moves up with `speed`.
+    moves up with `speed`. A ring may have a flaw: over an angle it is thinner, from outside.
     """
 
     shape: str = choice("box", "disc", "ring", "cylinder")
@@ -52,3 +52,6 @@ class Body:
     velocity: tuple | None = vector("m_s", None)
     motion: str = choice("uniform", "cantilever")
     speed: float = quantity("m_s", 0.0)
+    flaw: float = quantity("", 0.0, least=0.0, most=0.99)  # of a ring: share of the thickness that is missing
+    flaw_at: float = quantity("deg", 0.0, least=0.0, most=360.0)  # middle of the thin part, from the first axis
+    flaw_half_width: float = quantity("deg", 6.0, above=0.0, most=180.0)

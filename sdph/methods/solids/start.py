@@ -55,7 +55,7 @@ def places(case, body) -> tuple[np.ndarray, np.ndarray]:
     """Points (N, d) [m] of a body and their volumes (N,) [m^d], which fill it."""
     spacing, d = case.resolution.spacing, case.dimensions
     if body.shape == "ring":
-        return rings(body.centre, body.inner_radius, body.radius, spacing)
+        return flawed(body, *rings(body.centre, body.inner_radius, body.radius, spacing))
     if body.shape == "box":
         points = lattice.lattice(body, spacing, d)
         volume = math.prod(b - a for a, b in zip(body.lower, body.upper))
@@ -68,13 +68,43 @@ def rings(centre, inner: float, outer: float, spacing: float) -> tuple[np.ndarra
     """Points (N, 2) [m] of a ring in circles of as many points each, as wide as a spacing in the middle, and their
     areas (N,) [m2]."""
     layers = max(1, round((outer - inner) / spacing))
-    count = round(math.pi * (inner + outer) / spacing)
+    count = _around(inner, outer, spacing)
     edges = np.linspace(inner, outer, layers + 1)
     angle = 2.0 * math.pi * np.arange(count) / count
     middle = 0.5 * (edges[1:] + edges[:-1])
     points = np.stack([np.outer(middle, np.cos(angle)), np.outer(middle, np.sin(angle))], axis=-1).reshape(-1, 2)
     areas = np.repeat(math.pi * (edges[1:] ** 2 - edges[:-1] ** 2) / count, count)
     return points + np.array(centre), areas
+
+
+def flawed(body, points, areas) -> tuple[np.ndarray, np.ndarray]:
+    """Points (N, 2) [m] and areas (N,) [m2] of a ring whose layers are thinner where its flaw is; its inner face
+    stays."""
+    away = points - np.array(body.centre)
+    turn = np.arctan2(away[:, 1], away[:, 0]) - body.flaw_at
+    thin = np.abs((turn + math.pi) % (2.0 * math.pi) - math.pi) <= body.flaw_half_width
+    share = np.where(thin, 1.0 - body.flaw, 1.0)
+    radius = np.hypot(*away.T)
+    moved = body.inner_radius + share * (radius - body.inner_radius)
+    return np.array(body.centre) + away * (moved / radius)[:, None], areas * share * moved / radius
+
+
+def circles(case, name: str) -> tuple[np.ndarray, np.ndarray]:
+    """Numbers (N,) of the particles of the innermost and of the outermost circle of a ring, counterclockwise, as
+    `Made` counts them."""
+    first = 0
+    for other, body in case.bodies.items():
+        count = len(places(case, body)[1])
+        if other == name:
+            around = _around(body.inner_radius, body.radius, case.resolution.spacing)
+            return first + np.arange(around), first + count - around + np.arange(around)
+        first += count
+    raise KeyError(name)
+
+
+def _around(inner: float, outer: float, spacing: float) -> int:
+    """Points of each circle of a ring."""
+    return round(math.pi * (inner + outer) / spacing)
 
 
 def _round(body, spacing: float, dimensions: int) -> tuple[np.ndarray, float]:

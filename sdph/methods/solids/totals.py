@@ -20,7 +20,7 @@ from sdph.engine.ledger import ratio, refuse_rows, vector
 from sdph.engine.table import Table
 from sdph.methods.solids.method import IMPULSES, WORKS
 
-GIVEN = ("work_of_gravity_J", "work_of_pressure_J")
+GIVEN = ("work_of_gravity_J", "work_of_pressure_J", "work_of_scaling_J")
 TAKEN = ("plastic_J", "viscosity_J", "hourglass_J", "damage_J")
 AMOUNTS = (*GIVEN, *TAKEN, "numerical_work_J")
 
@@ -89,6 +89,7 @@ def _amounts(works) -> dict[str, float]:
     return {
         "work_of_gravity_J": own["gravity"], "work_of_pressure_J": own["pressure"], "plastic_J": own["plastic"],
         "viscosity_J": -own["viscosity"], "hourglass_J": -own["hourglass"], "damage_J": own["cut"],
+        "work_of_scaling_J": own["scaling"],
     }  # fmt: skip
 
 

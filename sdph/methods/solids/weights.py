@@ -4,7 +4,8 @@
 
 so that any linear map is told exactly (Bonet & Lok 1999, Comput. Methods Appl. Mech. Engrg. 180, 97; Vignjevic et al.
 2006, Comput. Model. Eng. Sci. 16, 53). The slope of a link that damage has cut is 0 for good. A particle whose M has so
-small a determinant after cuts that its neighbours no longer tell a deformation is freed: all its links go.
+small a determinant after cuts that its neighbours no longer tell a deformation bears nothing from then on, but its
+links stay: were they cut too, the next would be as badly off, and a ring would come apart link by link all round.
 """
 
 from __future__ import annotations
@@ -27,7 +28,8 @@ class Weights:
     order of `sorted_by_cell`.
 
     reference  places (N, 3) [m]; volume (N,) [m^d]; slope, along the entries of the rows: (dW/dr)/r [1/m^(d+2)];
-    correction (N, 9) L of each particle; free (N,) 1 where all its links are cut
+    correction (N, 9) L of each particle; broken (N,) 1 where all its links are cut; free (N,) 1 of these and of those
+    that bear nothing
     """
 
     def __init__(self, kernel, places, volume, body, dimensions: int):
@@ -38,7 +40,7 @@ class Weights:
         self.rows = near.relist(np.full(len(volume), SOLID, np.int8))
         self.slope = np.zeros(len(self.rows.entries))
         _slopes(kernel, places, body, self.rows, self.slope)
-        self.free = np.zeros(len(volume), np.int8)
+        self.free, self.broken = np.zeros((2, len(volume)), np.int8)
         self.torn = np.zeros(len(volume), np.int8)  # 1 of particles that have lost a link
         self.correction, _ = inverses(self._moments(), dimensions, self.free)
 
@@ -48,15 +50,12 @@ class Weights:
         return moments
 
     def cut(self, failed) -> None:
-        """Free the particles `failed` (N,) bool, and those that this leaves loose."""
-        self.free[failed] = 1
-        while True:
-            _cut(self.rows, self.free, self.slope, self.torn)
-            self.correction, weak = inverses(self._moments(), self.dimensions, self.free)
-            loose = weak & (self.torn != 0) & (self.free == 0)
-            if not loose.any():
-                return
-            self.free[loose] = 1
+        """Cut the links of the particles `failed` (N,) bool, and free those that this leaves loose."""
+        self.broken[failed] = 1
+        _cut(self.rows, self.broken, self.slope, self.torn)
+        self.correction, weak = inverses(self._moments(), self.dimensions, self.broken)
+        self.free[(self.broken != 0) | (weak & (self.torn != 0))] = 1
+        self.correction[self.free != 0] = 0.0
 
 
 @njit(cache=True, parallel=True, error_model="numpy")

@@ -31,7 +31,7 @@ def test_what_has_failed_has_no_links_and_no_stress():
     rows, slope = own.weights.rows, own.weights.slope
     for i in range(len(own.free)):
         for e in range(rows.start[i], rows.start[i] + rows.number[i]):
-            cut = own.free[i] or own.free[rows.entries[e]]
+            cut = own.broken[i] or own.broken[rows.entries[e]]
             assert (slope[e] == 0.0) == bool(cut)
     assert (own.harm[own.free == 0] < 1.0).all()
 

@@ -1,0 +1,62 @@
+"""Heat in a liquid and in bodies in it: conduction, a constant power on the rim or inside, and vapour that takes it.
+
+Between two particles of any matter the conductivity is 2 k_i k_j/(k_i + k_j): the flux through a face between unlike
+ones is continuous (Cleary & Monaghan 1999, J. Comput. Phys. 148, 227). No heat goes through an open side or a tank.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from sdph.effects.effect import Effect, diffusive_limit
+from sdph.schema import choice, quantity, record
+
+
+@record
+class LiquidHeat:
+    """Heat of liquid and bodies, and the power that comes in: flux times the outermost face at the start."""
+
+    conductivity: float = quantity("W_m_K", above=0.0)
+    heat_capacity: float = quantity("J_kg_K", above=0.0)
+    body_conductivity: float | None = quantity("W_m_K", None, above=0.0)  # None: that of the liquid
+    body_heat_capacity: float | None = quantity("J_kg_K", None, above=0.0)  # the same
+    temperature: float | None = quantity("K", None, above=0.0)  # at the start; None: that of the bubble
+    flux: float = quantity("W_m2", 0.0, least=0.0)
+    heated: str = choice("rim", "inside")  # the outermost circle alone, or all by their mass
+
+
+class LiquidHeatP(NamedTuple):
+    """k [W/m/K] and c [J/kg/K] of the liquid, then of bodies; T at the start [K], 0: of the bubble; flux [W/m2]; 1:
+    inside."""
+
+    conductivity: float
+    heat_capacity: float
+    body_conductivity: float
+    body_heat_capacity: float
+    temperature: float
+    flux: float
+    inside: int
+
+
+def kernel(case) -> LiquidHeatP:
+    own = case.parameters["liquid_heat"]
+    return LiquidHeatP(
+        own.conductivity, own.heat_capacity, own.body_conductivity or own.conductivity,
+        own.body_heat_capacity or own.heat_capacity, own.temperature or 0.0, own.flux, int(own.heated == "inside"),
+    )  # fmt: skip
+
+
+def longest(p: LiquidHeatP, h: float, density: float, body_density: float) -> float:
+    """Longest step [s] of time as it is: 0.125 h^2 over the larger diffusivity; steps of motion are cut to it."""
+    ratios = p.conductivity / (density * p.heat_capacity), p.body_conductivity / (body_density * p.body_heat_capacity)
+    return diffusive_limit(h, max(ratios))
+
+
+EFFECT = Effect(
+    name="liquid_heat",
+    summary="heat in a liquid and in bodies in it",
+    parameters=LiquidHeat,
+    kernel=kernel,
+    arrays=("temperature",),
+    matter=("liquid",),
+)

@@ -1,0 +1,75 @@
+"""Time scaling of a slow growth: in each second of the motion S seconds pass for all that goes by time.
+
+    tau = t/S: heat, rates of strain and boiling go S times as fast, stresses stay (gel-droplet.md, section 2)
+
+S = min(S_max, v_cap S/|dr/dtau|): the wall of the shell moves no faster than v_cap in the motion's own time, so that
+inertia, which is not scaled, stays small beside the pressure; 1 from the first cut on. When S changes velocities change
+with it, v S_new/S_old: the motion in real time goes on as it was.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from sdph.effects.effect import Effect
+from sdph.schema import CaseError, quantity, record
+
+
+@record
+class TimeScaling:
+    """Time scaling up to a wall speed, and how a run ends after a tear."""
+
+    wall_speed_cap: float = quantity("m_s", 0.2, above=0.0)
+    largest: float = quantity("", 1000.0, least=1.0)
+    averaging: float = quantity("us", 2.0, above=0.0)  # of the motion: the wall's speed is a mean; longer lags behind
+    after_tear: float = quantity("ms", 0.2, least=0.0)  # the run ends so long after the first cut
+
+
+class TimeScalingP(NamedTuple):
+    """v_cap [m/s], S_max, averaging time [s], time after a tear [s]."""
+
+    cap: float
+    largest: float
+    averaging: float
+    after_tear: float
+
+
+def kernel(case) -> TimeScalingP:
+    own = case.parameters["time_scaling"]
+    return TimeScalingP(own.wall_speed_cap, own.largest, own.averaging, own.after_tear)
+
+
+def check(case) -> None:
+    """CaseError where what goes by time is not all scaled."""
+    if case.solid is None or case.liquid is None or "bubble" not in case.effects:
+        raise CaseError(
+            "effects holds time_scaling, which is of a bubble in a liquid in a shell: give all, or leave it out"
+        )
+    if [body.shape for body in case.bodies.values()].count("ring") != 1:
+        raise CaseError('effects holds time_scaling, which needs one body of shape "ring", the shell: give it')
+    for name in ("laminar_viscosity", "surface_tension", "gravity", "shifting", "xsph"):
+        if name in case.effects:
+            raise CaseError(f"effects holds {name} and time_scaling, and {name} is not scaled: leave one out")
+
+
+def pace(p: TimeScalingP, speed: float, before: float) -> float:
+    """S of a wall speed [m/s] in the motion's own time under the S `before`; 1 at least."""
+    wanted = p.cap * before / abs(speed) if speed else p.largest
+    return max(1.0, min(p.largest, wanted))
+
+
+def pressure(density: float, inner: float, outer: float, speed: float, rate: float) -> float:
+    """Pressure [Pa] that inertia takes of a cylinder of radii [m] whose inner face moves at `speed` [m/s] and gains
+    speed at a rate [1/s]: rho ln(R/r) (r dv/dt + v^2) less v^2/2 (1 - r^2/R^2)."""
+    moved = math.log(outer / inner) * (inner * rate * speed + speed * speed)
+    return density * (moved - 0.5 * speed * speed * (1.0 - (inner / outer) ** 2))
+
+
+EFFECT = Effect(
+    name="time_scaling",
+    summary="a slow growth of a droplet in fewer steps",
+    parameters=TimeScaling,
+    kernel=kernel,
+    matter=("liquid", "solid"),
+)

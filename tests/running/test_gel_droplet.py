@@ -1,0 +1,120 @@
+"""A droplet that a bubble inflates: pace, flaw, the way out, and a coarse short run to the tear and beyond."""
+
+import math
+
+import numpy as np
+import pytest
+from test_restart import Cut, Reporter, same_run
+
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.effects.liquids import time_scaling
+from sdph.engine import polygons
+from sdph.methods.solids import start
+from sdph.running import driver, tear
+from sdph.schema import CaseError
+
+FILE = scenes.HERE / "gel_droplet" / "case.toml"
+
+
+def load(*more):
+    return cases.load(FILE, more)
+
+
+def test_a_flaw_takes_its_share_of_the_ring_and_leaves_the_inner_face():
+    whole, thin = (start.Made(load(f"bodies.shell.flaw={flaw}")) for flaw in (0.0, 0.3))
+    body = load().bodies["shell"]
+    inner, outer, half = body.inner_radius, body.radius, body.flaw_half_width
+    missing = half * (outer**2 - (inner + 0.7 * (outer - inner)) ** 2)
+    count = len(whole.volume) // 3
+    assert whole.volume.sum() - thin.volume.sum() == pytest.approx(missing, rel=3.0 / (count * half / math.pi))
+    r = np.hypot(thin.state.x - 1.5e-3, thin.state.y - 1.5e-3)
+    x = thin.state.x - 1.5e-3
+    spot = (np.abs(np.arctan2(thin.state.y - 1.5e-3, x)) < 0.9 * half) & (x > 0.0)
+    assert r[spot].max() == pytest.approx(inner + 0.7 * (5.0 / 6.0) * (outer - inner), rel=1e-9)
+    assert r[~spot].max() == pytest.approx(inner + 5.0 / 6.0 * (outer - inner), rel=1e-9)
+
+
+def test_pace_holds_the_wall_at_its_cap():
+    p = time_scaling.TimeScalingP(0.2, 1000.0, 25e-6, 2e-4)
+    assert time_scaling.pace(p, 0.0, 1.0) == 1000.0
+    assert time_scaling.pace(p, 0.4, 1000.0) == pytest.approx(500.0)
+    assert time_scaling.pace(p, -0.4, 1000.0) == pytest.approx(500.0)
+    assert time_scaling.pace(p, 400.0, 1000.0) == 1.0
+
+
+def test_inertia_of_a_cylinder_is_that_of_rayleigh():
+    """Work of the pressure is what the kinetic energy pi rho r^2 v^2 ln(R/r) gains, of a liquid that grows at r v."""
+    inner, outer, speed, rate, dt = 2e-4, 5e-4, 0.3, 2e3, 1e-9
+
+    def energy(r, v):
+        return math.pi * 1500.0 * r * r * v * v * math.log(math.sqrt(outer**2 + r * r - inner**2) / r)
+
+    gained = energy(inner + speed * dt, speed * (1.0 + rate * dt)) - energy(
+        inner - speed * dt, speed * (1.0 - rate * dt)
+    )
+    power = gained / (2.0 * dt)
+    pressure = time_scaling.pressure(1500.0, inner, outer, speed, rate)
+    assert power == pytest.approx(pressure * 2.0 * math.pi * inner * speed, rel=1e-5)
+
+
+def test_polygon_knows_what_it_holds():
+    turn = 2.0 * math.pi * np.arange(200) / 200
+    x, y = np.cos(turn), np.sin(turn)
+    assert polygons.area(x, y) == pytest.approx(math.pi, rel=1e-3)
+    r = np.linspace(0.01, 2.0, 100)
+    assert (polygons.holds(x, y, r * 0.6, r * 0.8) == (r < 1.0)).all()
+
+
+def test_the_widest_way_out_is_as_wide_as_the_gap():
+    cell, radius, gap = 0.01, 1.0, 0.2
+    x, y = (axis.ravel() for axis in np.meshgrid(*2 * [np.arange(-150, 150) * cell], indexing="ij"))
+    r, wide = np.hypot(x, y), []
+    for opening in (0.0, gap):
+        wall = (np.abs(r - radius) < 0.02) & ~((x > 0.0) & (np.abs(y) < 0.5 * opening))
+        room = tear.room_of(np.stack([x, y], axis=1)[wall], np.array([-1.6, -1.6]), (320, 320), cell)
+        turn = 2.0 * math.pi * np.arange(100) / 100
+        lining = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+        wide.append(tear.widest(room, lining, np.array([-1.6, -1.6]), cell))
+    assert wide[0] == 0.0
+    assert wide[1] == pytest.approx(gap - 2.0 * cell, abs=3.0 * cell)
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        (("bodies.shell.flaw=1.0",), "bodies.shell.flaw"),
+        (("bubble.around_Pa=1e7",), "critical pressure"),
+        (("bubble.centre_m=[1.6e-3,1.5e-3]",), 'pool of shape "ring"'),
+        (("bubble.centre_m=[9.0,9.0]",), 'pool of shape "ring"'),
+        (("bodies.shell.shape='disc'",), 'one body of shape "ring"'),
+        (("effects=['density_diffusion','bubble','gravity','time_scaling','liquid_heat']",), "gravity is not scaled"),
+        (("bodies={}",), "one body"),
+        (("effects=['density_diffusion','liquid_heat','time_scaling']",), "bubble"),
+    ],
+)
+def test_what_is_no_droplet_is_refused_in_one_line(tmp_path, change, told):
+    from sdph.running.hastened import of
+
+    with pytest.raises(CaseError, match=told) as error:
+        of(load(*change), tmp_path / "ledger.csv")
+    assert "\n" not in str(error.value)
+
+
+HURRIED = (
+    "resolution.spacing_mm=0.025", "liquid_heat.flux_W_m2=5.68e6", 'liquid_heat.heated="inside"',
+    "time_scaling.wall_speed_cap_m_s=3.0", "run.end_time_s=0.028", "run.output_interval_s=0.014",
+    "liquid.history_interval_s=0.001", "run.checkpoint_windows=4",
+)  # fmt: skip
+
+
+def test_resumed_run_in_mid_neck_is_the_uninterrupted_one_bit_for_bit(tmp_path):
+    """Heat ten times as fast as the fastest droplet: it is damaged when it is cut, and goes at another pace."""
+    whole = driver.run(load(*HURRIED), "gel_droplet", tmp_path / "whole", None, Reporter(None))
+    with pytest.raises(Cut):
+        driver.run(load(*HURRIED), "gel_droplet", tmp_path / "cut", None, Reporter(whole["windows"] * 9 // 10))
+    driver.resume(tmp_path / "cut", (), Reporter())
+    same_run(tmp_path / "whole", tmp_path / "cut")
+    rows = np.genfromtxt(tmp_path / "whole" / "history.csv", delimiter=",", names=True)
+    assert rows["solid_damage_largest"][-3] > 0.0 and rows["time_scale"][-3] < 1000.0
+    assert whole["heat_drift_rel"] < 1e-10 and whole["mass_drift_rel"] < 1e-12
