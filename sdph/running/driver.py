@@ -135,8 +135,7 @@ class Run:
     def __init__(self, case, folder: Path, reporter):
         self.case, self.folder, self.reporter = case, folder, reporter
         self.begun, self.goes = time.perf_counter(), False
-        self.simulation = None
-        self.elapsed = 0.0  # wall time [s] of the parts of the run before this one
+        self.simulation, self.elapsed = None, 0.0  # wall time [s] of the parts of the run before this one
         self.first = None  # wall time [s] to the end of the first window
         self.saved_time, self.saved_window = time.monotonic(), 0
 
