@@ -119,8 +119,7 @@ def test_two_that_meet_lose_what_they_approach_by(tmp_path):
 
 
 @pytest.mark.parametrize(("effects", "sections", "told"), [
-    (("density_diffusion",), {}, 'effects holds density_diffusion; with method.name = "mps" there are gravity'),
-    ((), {"liquid": {"periodic": [1.0, 0.0, 0.0]}}, "moves one liquid with open sides"),
+    (("shear_thinning",), {}, 'effects holds shear_thinning; with method.name = "mps" there are gravity'),
     ((), {"method": {"name": "weakly_compressible"}}, "liquid.sound_speed_m_s is missing"),
     ((), {"method": {"reach": 9.0}}, "method.reach"),
 ])  # fmt: skip
