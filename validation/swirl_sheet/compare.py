@@ -41,6 +41,7 @@ def exact(run) -> list[dict]:
         "mass through the nozzle [kg]", run.summary["injected_kg"], rate * run.summary["time_s"], 0.5001 * layer
     )
     _figure(run)
+    _views(run)
     return [*angles(run), came, *_reported(run)]
 
 
@@ -91,6 +92,25 @@ def _figure(run) -> None:
     for axes in (left, right):
         axes.legend()
     figure.savefig(run.folder / "sizes.png", dpi=110)
+    pyplot.close(figure)
+
+
+def _views(run) -> None:
+    """The sheet in the end: from aside, in a section through its axis one spacing to each side, from the front."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    places = 1e3 * _places(run, run.summary["time_s"])
+    unit = 1e3 * run.case.resolution.spacing
+    cut = np.abs(places[:, 1]) < unit
+    figure, axes = pyplot.subplots(1, 3, figsize=(15, 5.4), constrained_layout=True)
+    seen = (places[:, 2], places[:, 0]), (places[cut, 2], places[cut, 0]), (places[:, 1], places[:, 0])
+    for own, (a, b), title in zip(axes, seen, ("from aside", "section through the axis", "from the front")):
+        own.plot(a, b, "k.", markersize=0.6, alpha=0.5 if len(a) > 1e4 else 1.0)
+        own.set(aspect="equal", title=title, xlabel="mm", ylabel="mm")
+    figure.savefig(run.folder / "views.png", dpi=110)
     pyplot.close(figure)
 
 

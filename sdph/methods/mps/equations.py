@@ -118,7 +118,8 @@ def equations_of(cloud, walls, s, rows, box, number, surface, start, diagonal, c
                 own += w
                 e += 1
         missing = max(cloud.number - number[i], (1.0 - SPARSE) * cloud.number if len(walls) else 0.0)
-        diagonal[i] = own + missing if surface[i] == 1 else max(own, BURST * cloud.number) * (1.0 + BURST)
+        held = own + missing if surface[i] == 1 else max(own, BURST * cloud.number)
+        diagonal[i] = held * (1.0 + BURST)
 
 
 @loop
