@@ -88,6 +88,7 @@ HARMLESS = {
 }
 # functions that the page names -> clips in them, where there is more than one
 SEVERAL = {
+    "sdph/methods/mps/equations.py:equations_of": 2,
     "coupling/embedded/convection.py:carried": 2,
     "coupling/transfer.py:_spline": 2,
     "sdph/effects/around/drain.py:command.fill": 2,

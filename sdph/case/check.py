@@ -111,8 +111,10 @@ def _check_method(case: Case) -> None:
             raise CaseError(
                 f'effects holds {name}; with method.name = "mps" there are {", ".join(KNOWN)}: leave it out'
             )
-    if case.gas_phase or any(case.liquid.periodic or ()):
-        raise CaseError('method.name = "mps" moves one liquid with open sides: leave [gas_phase], liquid.periodic out')
+    if case.gas_phase:
+        raise CaseError('method.name = "mps" moves one liquid: leave [gas_phase] and pools of gas out')
+    if any(case.liquid.periodic or ()) and case.nozzles:
+        raise CaseError('method.name = "mps" has no periodic axes beside nozzles: leave liquid.periodic out')
 
 
 def _check_components(case: Case) -> None:

@@ -232,8 +232,10 @@ class Case:
 
     @property
     def fastest_sound(self) -> float:
-        """The larger sound speed of the phases of a liquid [m/s]."""
-        return max(self.liquid.sound_speed, self.gas_phase.speed_of_sound(self.liquid) if self.gas_phase else 0.0)
+        """The larger sound speed of the phases of a liquid [m/s]; 0 of moving particles, which need none."""
+        return max(
+            self.liquid.sound_speed or 0.0, self.gas_phase.speed_of_sound(self.liquid) if self.gas_phase else 0.0
+        )
 
 
 SECTIONS = {"run": Run, "domain": Domain, "resolution": Resolution, "gas": GasProperties, "grains": Grains}

@@ -19,16 +19,36 @@ from sdph.running.alone import Alone
 from sdph.running.inputs import DROPS
 from sdph.study.compare import check
 
-EARLY = 6e-4  # s, when the run without tension is looked at: the sheet is 12 mm long and has not torn
+WAY = 0.012  # m along the axis, when the run without tension is looked at: the sheet has not torn
 ANGLE, SPEED = 0.3, 1e-3  # deg, of the speed: issue 21, without tension
 BENT = 0.03  # deg, of the difference by tension: issue 21
 LABELS = (f"fewer than {RESOLVED} particles", f"{RESOLVED} particles or more")
 HAN_GAS, HAN_ANGLE = 1.2, 43.0  # kg/m3, deg: swirl-sheet.md, section 3
 
 
+# the other speeds of the paper, up to WAY
+SLOWER = ("nozzles.mouth.speed_m_s=15.0", "run.end_time_s=8e-4")
+FASTER = ("nozzles.mouth.speed_m_s=25.0", "run.end_time_s=4.8e-4", "run.output_interval_s=4.8e-5")
+VARIANTS = {"swirl_sheet": ((), ["exact"]), "at_15": (SLOWER, ["angles"]), "at_25": (FASTER, ["angles"])}
+
+
 def exact(run) -> list[dict]:
+    """Angles, mass, and what is only reported."""
     case, nozzle = run.case, sheet.nozzle_of(run.case)
-    early = min(EARLY, run.summary["time_s"])
+    rate = case.liquid.density * math.pi * (nozzle.radius**2 - nozzle.inner_radius**2) * nozzle.speed
+    layer = rate / nozzle.speed * case.resolution.spacing
+    came = check(
+        "mass through the nozzle [kg]", run.summary["injected_kg"], rate * run.summary["time_s"], 0.5001 * layer
+    )
+    _figure(run)
+    _views(run)
+    return [*angles(run), came, *_reported(run)]
+
+
+def angles(run) -> list[dict]:
+    """Half angle and speed without tension, and what tension changes, over the same range."""
+    case, nozzle = run.case, sheet.nozzle_of(run.case)
+    early = min(WAY / nozzle.speed, run.summary["time_s"])
     straight = _straight(case, early)
     bent = _places(run, early)
     length = min(sheet.reach(straight), sheet.reach(bent))
@@ -36,17 +56,12 @@ def exact(run) -> list[dict]:
     z = np.linspace(0.0, length, 400)
     radius = sheets.ballistic_radius(z, middle, nozzle.swirl)
     exact_angle, found = (math.degrees(sheet.half_angle_of_meridian(z, radius, length)), _angle(straight, length))
-    rate = case.liquid.density * math.pi * (nozzle.radius**2 - nozzle.inner_radius**2) * nozzle.speed
-    layer = rate / nozzle.speed * case.resolution.spacing
-    _figure(run)
     return [
         check("without tension: half angle [deg]", found, exact_angle, ANGLE),
         check("without tension: mean speed [m/s]", straight.speed, nozzle.speed * sheet.slant(nozzle), SPEED, True),
         check(
             "by tension: half angle more [deg]", _angle(bent, length) - found, _bent(case, length) - exact_angle, BENT
         ),
-        check("mass through the nozzle [kg]", run.summary["injected_kg"], rate * run.summary["time_s"], 0.5001 * layer),
-        *_reported(run),
     ]
 
 
@@ -77,6 +92,25 @@ def _figure(run) -> None:
     for axes in (left, right):
         axes.legend()
     figure.savefig(run.folder / "sizes.png", dpi=110)
+    pyplot.close(figure)
+
+
+def _views(run) -> None:
+    """The sheet in the end: from aside, in a section through its axis one spacing to each side, from the front."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    places = 1e3 * _places(run, run.summary["time_s"])
+    unit = 1e3 * run.case.resolution.spacing
+    cut = np.abs(places[:, 1]) < unit
+    figure, axes = pyplot.subplots(1, 3, figsize=(15, 5.4), constrained_layout=True)
+    seen = (places[:, 2], places[:, 0]), (places[cut, 2], places[cut, 0]), (places[:, 1], places[:, 0])
+    for own, (a, b), title in zip(axes, seen, ("from aside", "section through the axis", "from the front")):
+        own.plot(a, b, "k.", markersize=0.6, alpha=0.5 if len(a) > 1e4 else 1.0)
+        own.set(aspect="equal", title=title, xlabel="mm", ylabel="mm")
+    figure.savefig(run.folder / "views.png", dpi=110)
     pyplot.close(figure)
 
 

@@ -7,7 +7,7 @@ import math
 from sdph.engine import state as particles
 from sdph.engine.guard import RUNAWAY, TINY, Unstable, Watch
 from sdph.engine.kept import Unfit
-from sdph.engine.state import INFLOW, LIQUID
+from sdph.engine.state import INFLOW, LIQUID, WALL
 
 
 class MpsGuard(Watch):
@@ -19,7 +19,7 @@ class MpsGuard(Watch):
         tension gives one particle, taken together."""
         case = self.case
         driven = [n.speed * math.hypot(1.0, n.swirl) for n in case.nozzles.values()]
-        driven += [math.hypot(*pool.velocity) for pool in case.pools.values() if pool.velocity]
+        driven += [math.hypot(pool.speed, *(pool.velocity or ())) for pool in case.pools.values()]
         driven.append(math.sqrt(2.0 * math.hypot(*case.domain.gravity) * max(case.domain.size)))
         if own := case.parameters.get("free_energy_tension"):
             driven.append(math.sqrt(2.0 * own.coefficient / (case.liquid.density * case.resolution.spacing)))
@@ -31,7 +31,7 @@ class MpsGuard(Watch):
         most = 2.0 * case.liquid.density * case.resolution.spacing**case.dimensions
         names = ("nozzle", "entering") if "inflow" in case.effects else ()
         self.admit(state, names, dict.fromkeys("uvw", (-self.fast, self.fast)) | {"mass": (TINY, most)})
-        if not set(state["kind"].tolist()) <= {LIQUID, INFLOW}:
+        if not set(state["kind"].tolist()) <= {LIQUID, INFLOW, WALL}:
             raise Unfit("its particles are not those of a liquid")
 
     def look(self, stepper) -> None:

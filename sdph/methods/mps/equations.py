@@ -12,11 +12,12 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit, prange
 
-from sdph.engine.geometry import apart, faster
+from sdph.engine.geometry import apart, deep, faster
 from sdph.engine.linear import Matrix
 from sdph.engine.rows import entry
 from sdph.laws import moving_particles
 from sdph.laws.compiled import inlined
+from sdph.methods.mps.tanks import grip, solid
 
 loop = njit(cache=True, parallel=True, error_model="numpy")
 
@@ -46,12 +47,15 @@ def seen(cloud, s, box, i, j):
 
 
 @loop
-def look(cloud, s, rows, box, number, surface, speed):
+def look(cloud, walls, s, rows, box, number, surface, speed):
     """number (N,): n; surface (N,): 1 where it sees the surface; speed (N,) [m/s]: the most by which a neighbour
     within r_e goes faster."""
     for i in prange(len(s.x)):
         n = ox = oy = oz = fastest = 0.0
         near = 0
+        if solid(walls, s, i):
+            number[i], surface[i], speed[i] = cloud.number, 0, 0.0
+            continue
         for k in range(rows.number[i]):
             j = entry(rows, i, k)
             dx, dy, dz, r, w = seen(cloud, s, box, i, j)
@@ -73,7 +77,7 @@ def look(cloud, s, rows, box, number, surface, speed):
 
 
 @loop
-def diverge(cloud, s, rows, box, divergence):
+def diverge(cloud, walls, s, rows, box, divergence):
     """divergence (N,) [1/s]: (d/n_0) sum u_ij.r_ij w/r^2 (4)."""
     for i in prange(len(s.x)):
         total = 0.0
@@ -88,7 +92,7 @@ def diverge(cloud, s, rows, box, divergence):
 
 
 @loop
-def near_surface(cloud, s, rows, box, surface, beside):
+def near_surface(cloud, walls, s, rows, box, surface, beside):
     """beside (N,): 1 where the particle or a neighbour of it within r_e sees the surface."""
     for i in prange(len(s.x)):
         found = surface[i]
@@ -100,44 +104,49 @@ def near_surface(cloud, s, rows, box, surface, beside):
 
 
 @loop
-def equations_of(cloud, s, rows, box, number, surface, start, diagonal, column, value):
+def equations_of(cloud, walls, s, rows, box, number, surface, start, diagonal, column, value):
     """Fill the matrix of (2 d/(lambda n_0)) sum (p_j - p_i) w times -lambda n_0/(2 d), of which start (N + 1,) is
-    known: a particle at the surface has n_0 on the diagonal, as if what it lacks were there with p = 0."""
+    known: a particle at the surface has n_0 on the diagonal, as if what it lacks were there with p = 0. Walls are
+    on the right-hand side."""
     for i in prange(len(s.x)):
-        e = start[i]
-        for k in range(rows.number[i]):
+        e, own = start[i], 0.0
+        for k in range(rows.number[i] if not solid(walls, s, i) else 0):
             j = entry(rows, i, k)
             w = seen(cloud, s, box, i, j)[4]
-            if w > 0.0:
+            if w > 0.0 and not solid(walls, s, j):
                 column[e], value[e] = j, w
+                own += w
                 e += 1
-        diagonal[i] = max(number[i], cloud.number) if surface[i] == 1 else number[i] * (1.0 + BURST)
+        missing = max(cloud.number - number[i], (1.0 - SPARSE) * cloud.number if len(walls) else 0.0)
+        held = own + missing if surface[i] == 1 else max(own, BURST * cloud.number)
+        diagonal[i] = held * (1.0 + BURST)
 
 
 @loop
-def count(cloud, s, rows, box, found):
+def count(cloud, walls, s, rows, box, found):
     """found (N,): neighbours within r_e."""
     for i in prange(len(s.x)):
         n = 0
-        for k in range(rows.number[i]):
-            if seen(cloud, s, box, i, entry(rows, i, k))[4] > 0.0:
+        for k in range(rows.number[i] if not solid(walls, s, i) else 0):
+            j = entry(rows, i, k)
+            if seen(cloud, s, box, i, j)[4] > 0.0 and not solid(walls, s, j):
                 n += 1
         found[i] = n
 
 
-def matrix(cloud, s, rows, box, number, surface) -> Matrix:
+def matrix(cloud, walls, s, rows, box, number, surface) -> Matrix:
     """The pressure's matrix (5), (7)."""
     found = np.empty(len(s.x), np.int64)
-    count(cloud, s, rows, box, found)
+    count(cloud, walls, s, rows, box, found)
     start = np.zeros(len(found) + 1, np.int64)
     np.cumsum(found, out=start[1:])
     column, value, diagonal = np.empty(start[-1], np.int32), np.empty(start[-1]), np.empty(len(found))
-    equations_of(cloud, s, rows, box, number, surface, start, diagonal, column, value)
+    equations_of(cloud, walls, s, rows, box, number, surface, start, diagonal, column, value)
     return Matrix(diagonal, start, column, value)
 
 
 @loop
-def press(cloud, s, rows, box, pressure, acceleration):
+def press(cloud, walls, s, rows, box, pressure, acceleration):
     """acceleration (N, 3) [m/s2]: -(1/rho) (d/n_0) sum (p_i + p_j) r_ij w/r^2 (6)."""
     factor = cloud.dimensions / (cloud.density * cloud.number)
     for i in prange(len(s.x)):
@@ -153,7 +162,7 @@ def press(cloud, s, rows, box, pressure, acceleration):
 
 
 @loop
-def rub(cloud, s, rows, box, viscosity, acceleration):
+def rub(cloud, walls, s, rows, box, viscosity, acceleration):
     """acceleration (N, 3) [m/s2]: nu (2 d/(lambda n_0)) sum u_ij w (3, 7), nu [m2/s]."""
     factor = viscosity * 2.0 * cloud.dimensions / (cloud.spread * cloud.number)
     for i in prange(len(s.x)):
@@ -161,7 +170,11 @@ def rub(cloud, s, rows, box, viscosity, acceleration):
         for k in range(rows.number[i]):
             j = entry(rows, i, k)
             w = seen(cloud, s, box, i, j)[4]
-            du, dv, dw = faster(s, box, j, i)
+            if solid(walls, s, j):  # at rest
+                w *= grip(walls)
+                du, dv, dw = -s.u[i], -s.v[i], -s.w[i] if deep(box) else 0.0
+            else:
+                du, dv, dw = faster(s, box, j, i)
             ax += w * du
             ay += w * dv
             az += w * dw
@@ -189,7 +202,7 @@ def pull(cloud, tension_p, s, rows, box, acceleration, energy):
 
 
 @loop
-def meet(s, rows, box, distance, meeting):
+def meet(walls, s, rows, box, distance, meeting):
     """meeting (N,): neighbours nearer than `distance` [m] that approach."""
     for i in prange(len(s.x)):
         n = 0
@@ -210,7 +223,7 @@ def _approach(s, box, i, j, distance):
 
 
 @loop
-def collide(s, rows, box, distance, restitution, meeting, change):
+def collide(walls, s, rows, box, distance, restitution, meeting, change):
     """change (N, 3) [m/s] of velocity: of a pair that approaches each loses (1 + e)/2 of it, shared by the larger
     number of contacts of the two (9)."""
     for i in prange(len(s.x)):
@@ -219,7 +232,7 @@ def collide(s, rows, box, distance, restitution, meeting, change):
             j = entry(rows, i, k)
             ex, ey, ez, speed = _approach(s, box, i, j, distance)
             if speed < 0.0:
-                part = 0.5 * (1.0 + restitution) * speed / max(meeting[i], meeting[j])
+                part = (1.0 if solid(walls, s, j) else 0.5) * (1.0 + restitution) * speed / max(meeting[i], meeting[j])
                 ux += part * ex
                 uy += part * ey
                 uz += part * ez

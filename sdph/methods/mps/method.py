@@ -14,12 +14,15 @@ from sdph.engine.kept import GROWING, Unfit
 from sdph.engine.rows import Neighbours
 from sdph.engine.state import INFLOW, LIQUID
 from sdph.laws import moving_particles
-from sdph.methods.mps import equations, start
+from sdph.methods.mps import equations, pools, start, tanks
 from sdph.methods.mps.bounds import MpsGuard
 from sdph.methods.mps.openings import Openings
+from sdph.schema import CaseError
 
 WORKS = ("gravity", "viscosity", "tension", "pressure", "collisions")
 RELATIVE = 0.2  # of l0 that neighbours may move to each other in a step; swirl-sheet.md, section 2, 12
+COURANT = 0.2  # of l0 that a particle of a pool moves in a step, whose way is bent: Koshizuka & Oka 1996
+FALL = 0.1  # of sqrt(l0/g), so that a fall from rest by a step is 0.005 l0; our choice
 
 
 class MpsStepper:
@@ -28,7 +31,7 @@ class MpsStepper:
     # see sdph.engine.kept
     KEPT = (
         "state", "neighbours", "time", "steps", "limit", "pressure", "works", "impulses", "iterations", "clipped",
-        "openings",
+        "openings", "load", "moved",
     )  # fmt: skip
     FORMS = {"state": GROWING, "pressure": GROWING}
 
@@ -36,19 +39,26 @@ class MpsStepper:
         self.case, self.own, self.guard, self.shortest = case, case.method, MpsGuard(case), shortest
         self.p = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
         self.cloud, unit = cloud(case), case.resolution.spacing
+        self.pool = case.method.of_pools(case)
         self.state = start.fill(case)
+        self.walls = tanks.walls_of(case, self.state)
         self.openings = Openings(case, self.state) if self.p["inflow"] or self.p["outflow"] else None
         if self.openings:
             self.state = self.openings.begin(self.state)
         pulled = self.p["free_energy_tension"]
         reach = max(self.cloud.reach, pulled.reach if pulled else 0.0, self.own.piece * unit)
-        self.neighbours = Neighbours(reach, case.domain.period, case.resolution.neighbour_skin)
+        self.neighbours = Neighbours(reach, start.period(case), case.resolution.neighbour_skin)
         self.pressure, self.energy = np.zeros(len(self.state.x)), np.zeros(0)
         self.time, self.steps, self.limit = 0.0, 0, ""
         self.works, self.impulses = np.zeros(len(WORKS)), np.zeros((2, 3))  # of gravity, of what waits
         self.iterations = 0  # of all steps
         self.clipped = 0.0  # pressure below 0 that was left out, of all steps: sum of Pa
+        self.load = np.zeros(3)  # of the pressure on walls [N], in the last step
+        self.freed = np.zeros(0, bool)  # where the surface was drawn apart in the last step
+        self.moved = 0.0  # longest way [l0] by which particles were kept apart in the last step
         self._rebuild()
+        if self.walls and not (self.surface == 1).any():
+            raise CaseError("no particle is at a free surface, and mps gives a closed vessel no pressure: fill it less")
 
     def revive(self) -> None:
         """After a checkpoint was put back."""
@@ -69,7 +79,7 @@ class MpsStepper:
     @property
     def around(self):
         """Arguments that every loop begins with."""
-        return self.cloud, self.state, self.rows, self.neighbours.box
+        return self.cloud, self.walls, self.state, self.rows, self.neighbours.box
 
     def step(self, most: float) -> float:
         """One step, no longer than `most` [s]; returns its length."""
@@ -80,6 +90,8 @@ class MpsStepper:
         self._collide(active)
         s = self.state
         motion.drift(active, s.u, s.v, s.w, dt, s.x, s.y, s.z)
+        if self.pool:
+            self._keep_apart(active)
         if self.openings:
             self.openings.move(s, self.time, dt)
         self.time += dt
@@ -106,24 +118,49 @@ class MpsStepper:
         """Acceleration (N, 3) [m/s2] by the pressure that takes the divergence out of the velocities (7)."""
         cloud, own, count = self.cloud, self.own, len(self.state.x)
         divergence, beside = np.empty(count), np.empty(count, np.int8)
-        equations.diverge(*self.around, divergence)
         equations.near_surface(*self.around, self.surface, beside)
+        if self.pool:
+            pools.diverge(*self.around, beside, divergence)
+        else:
+            equations.diverge(*self.around, divergence)
         surplus = (self.number - cloud.number) / cloud.number
         surplus = np.where(beside == 1, np.maximum(surplus, 0.0), surplus)
-        source = cloud.density / dt * (divergence - own.compression * surplus / dt)
+        source = cloud.density / dt * (divergence - own.share_taken(self.case) * surplus / dt)
         source[self.state.kind == INFLOW] = 0.0
+        self.freed = (self.surface == 1) & (source > 0.0) & (not own.holds(self.case))
+        source[self.freed] = 0.0  # a surface that is drawn apart is not held together
         right = -cloud.spread * cloud.number / (2.0 * cloud.dimensions) * source
+        if self.walls:
+            pools.lean(*self.around, cloud.density / dt, right)
         matrix = equations.matrix(*self.around, self.number, self.surface)
         try:
             self.iterations += linear.solve(matrix, right, self.pressure, own.tolerance, own.iterations)
         except linear.Unsolved as error:
             self.guard.unsolved(self, error)
-        below = self.pressure < 0.0
+        below = self.pressure < 0.0 if own.holds(self.case) else np.zeros(count, bool)
         self.clipped -= float(self.pressure[below].sum())
         self.pressure[below] = 0.0
-        pressed = np.empty((count, 3))
-        equations.press(*self.around, self.pressure, pressed)
+        self.beside = beside
+        return self._pushed(cloud.density / dt, beside)
+
+    def _pushed(self, scale: float, beside) -> np.ndarray:
+        """Acceleration (N, 3) [m/s2] by the pressure; scale: rho/dt."""
+        pressed = np.empty((len(self.state.x), 3))
+        if not self.pool:
+            equations.press(*self.around, self.pressure, pressed)
+            return pressed
+        borne = np.empty_like(pressed)
+        pools.press(*self.around, self.pressure, beside, scale, pressed, borne)
+        self.load = -self.state.mass @ np.where((self.state.kind == LIQUID)[:, None], borne, 0.0)
         return pressed
+
+    def _keep_apart(self, active) -> None:
+        """Particles inside a pool move to where there are few."""
+        s, way = self.state, np.empty((len(self.state.x), 3))
+        pools.keep_apart(*self.around, self.beside, self.own.shift * self.cloud.spacing, way)
+        self.moved = float(particles.lengths(way).max(initial=0.0)) / self.cloud.spacing
+        for axis, column in zip(particles.axes(s), way.T):
+            axis[active] += column[active]
 
     def _kick(self, name: str, acceleration, dt: float, active) -> None:
         s = self.state
@@ -137,9 +174,9 @@ class MpsStepper:
         """Pairs nearer than they lie lose what they approach by."""
         s, own, count = self.state, self.own, len(self.state.x)
         distance, meeting, change = own.collision * self.cloud.spacing, np.empty(count), np.empty((count, 3))
-        equations.meet(s, self.rows, self.neighbours.box, distance, meeting)
+        equations.meet(self.walls, s, self.rows, self.neighbours.box, distance, meeting)
         if meeting.any():
-            equations.collide(s, self.rows, self.neighbours.box, distance, own.restitution, meeting, change)
+            equations.collide(self.walls, s, self.rows, self.neighbours.box, distance, own.restitution, meeting, change)
             self._kick("collisions", change, 1.0, active)
 
     def next_step(self, left: float) -> float:
@@ -165,7 +202,7 @@ class MpsStepper:
         equations.look(*self.around, self.number, self.surface, self.speed)
         self.pulled, self.energy = np.zeros((count, 3)), np.zeros(count)
         if own := self.p["free_energy_tension"]:
-            equations.pull(self.cloud, own, *self.around[1:], self.pulled, self.energy)
+            equations.pull(self.cloud, own, *self.around[2:], self.pulled, self.energy)
 
     @property
     def gauge(self) -> np.ndarray:
@@ -195,5 +232,10 @@ def cloud(case) -> equations.Cloud:
 
 def limits(case, parameters, state, relative: float) -> dict[str, float]:
     """Longest steps [s] by cause: neighbours that move to each other by `relative` [m/s], each effect."""
-    own = {"relative motion": RELATIVE * case.resolution.spacing / relative} if relative else {}
+    unit, gravity = case.resolution.spacing, math.hypot(*case.domain.gravity) if "gravity" in case.effects else 0.0
+    own = {"relative motion": RELATIVE * unit / relative} if relative else {}
+    if gravity:
+        own["gravity"] = FALL * math.sqrt(unit / gravity)
+    if case.method.of_pools(case) and (speed := float(particles.lengths(particles.velocities(state)).max(initial=0.0))):
+        own["motion"] = COURANT * unit / speed
     return own | effects.limits(parameters, case, state)

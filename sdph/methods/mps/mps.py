@@ -6,12 +6,13 @@ from pathlib import Path
 
 import numpy as np
 
+from sdph.effects.around import tank
 from sdph.engine import state as particles
 from sdph.engine.kept import GROWING
 from sdph.engine.state import LIQUID
 from sdph.engine.stepped import Stepped
 from sdph.engine.table import Table
-from sdph.methods.mps import pieces, sheet
+from sdph.methods.mps import history, pieces, sheet
 from sdph.methods.mps.method import MpsStepper
 from sdph.methods.mps.totals import MpsLedger
 
@@ -23,7 +24,7 @@ class Mps(Stepped):
 
     matter = "liquid"
     # see sdph.engine.kept
-    KEPT = ("windows", "stepper", "ledger", "drops", "diameters", "counts")
+    KEPT = ("windows", "stepper", "ledger", "drops", "diameters", "counts", "impulse", "since")
     FORMS = {"diameters": GROWING, "counts": GROWING}
 
     def __init__(self, case, ledger: Path, shortest: float):
@@ -31,6 +32,8 @@ class Mps(Stepped):
         self.stepper, self.ledger = MpsStepper(case, shortest), MpsLedger(ledger)
         self.drops = Table(ledger.with_name("droplets.csv"))  # pieces that have left
         self.diameters, self.counts = np.zeros(0), np.zeros(0)  # [m] and particles of each
+        # of the liquid by all but gravity at the last row [kg m/s], and its time [s]
+        self.impulse, self.since = np.zeros(3), 0.0
 
     def tables(self) -> list:
         """Files that grow by rows."""
@@ -48,29 +51,27 @@ class Mps(Stepped):
             told.clear()
 
     def new_row(self) -> None:
-        """Nothing: no column is a mean since the last row."""
+        """Begin the mean of the load on the tank anew: the history has a row of now."""
+        self.impulse, self.since = self.stepper.impulses[1].copy(), self.time
 
     def row(self) -> dict[str, float]:
         """Columns of history.csv."""
-        s = self._inside()
-        size = particles.lengths(particles.velocities(s))
-        pressure = self.stepper.gauge[self.state.kind == LIQUID]
-        return {
-            "time_s": self.time, "particles": len(s.x), "mass_kg": float(s.mass.sum()),
-            "kinetic_energy_J": particles.energy_of_motion(s), "fastest_m_s": float(size.max(initial=0.0)),
-            "pressure_largest_Pa": float(pressure.max(initial=0.0)),
-            "number_density_largest_rel": float(self.stepper.number.max(initial=0.0) / self.stepper.cloud.number),
-            "left": self._left,
-        } | {
-            f"largest_{a}_m": float(getattr(s, a).max(initial=0.0)) for a in "xyz"[: self.case.dimensions]
-        }  # fmt: skip
+        return history.row(self)
 
     def held(self) -> dict[str, float]:
-        """Share of the particles whose pressure would be below 0, where none is, now."""
-        inside = self.state.kind == LIQUID
-        return {
-            "pressure_at_least_share": float((self.stepper.pressure[inside] == 0.0).mean()) if inside.any() else 0.0
+        """Share of the particles whose pressure would be below 0, where none is, now; of pools those at the surface
+        that are drawn apart and not held, and the longest way by which particles were kept apart [l0]."""
+        inside, stepper = self.state.kind == LIQUID, self.stepper
+        clipped = stepper.own.holds(self.case)
+        found = {
+            "pressure_at_least_share": float((stepper.pressure[inside] == 0.0).mean())
+            if clipped and inside.any()
+            else 0.0
         }
+        if stepper.pool:
+            found["surface_freed_share"] = float(stepper.freed.sum() / (inside.sum() or 1))
+            found["kept_apart_rel"] = stepper.moved
+        return found
 
     def points(self):
         import pyvista
@@ -86,13 +87,13 @@ class Mps(Stepped):
         return cloud
 
     def walls(self):
-        return None
+        return tank.shape_of(self.case).surface() if "tank" in self.case.effects else None
 
     def summary(self) -> dict[str, float]:
         opening = self.stepper.openings
         found = {
             "liquid_particles": int((self.state.kind == LIQUID).sum()),
-            "kinetic_energy_J": particles.energy_of_motion(self._inside()),
+            "kinetic_energy_J": particles.energy_of_motion(self.inside()),
             "poisson_iterations_mean": self.stepper.iterations / max(1, self.steps),
             "pressure_clipped_Pa": self.stepper.clipped / max(1, self.steps) / max(1, len(self.state.x)),
         }
@@ -101,18 +102,16 @@ class Mps(Stepped):
             found |= {"droplets": opening.left, "droplets_resolved": int(whole.sum()), "cut_particles": opening.cut}
             found |= pieces.sizes(self.diameters, whole)
         if sheet.nozzle_of(self.case):
-            found |= sheet.told(self.case, particles.positions(self._inside()))
+            found |= sheet.told(self.case, particles.positions(self.inside()))
         return found
 
     def warnings(self) -> list[str]:
         cut = self.stepper.openings.cut if self.stepper.openings else 0
-        if not cut:
-            return []
-        return [f"{cut} particles were cut off the sheet one domain's length beyond its end: enlarge domain.size_m"]
+        ends = "were cut off the sheet one domain's length beyond its end: enlarge domain.size_m"
+        left = ", ".join(self.case.method.left_out)
+        told = f"left out, as moving particles do without it or cannot have it: {left}"
+        return [told] * bool(left) + [f"{cut} particles {ends}"] * bool(cut)
 
-    def _inside(self):
+    def inside(self):
+        """State of the liquid."""
         return particles.take(self.state, self.state.kind == LIQUID)
-
-    @property
-    def _left(self) -> int:
-        return self.stepper.openings.left if self.stepper.openings else 0

@@ -10,7 +10,7 @@ from sdph import effects
 from sdph.methods.mps.start import fill
 
 # effects that moving particles know
-KNOWN = ("gravity", "laminar_viscosity", "free_energy_tension", "inflow", "outflow")
+KNOWN = ("gravity", "laminar_viscosity", "free_energy_tension", "tank", "inflow", "outflow")
 
 
 class MpsScales:
@@ -22,11 +22,13 @@ class MpsScales:
         self.case, self.liquid, self.end = case, case.liquid, case.run.end_time
         self.gravity = math.hypot(*case.domain.gravity)
         self.viscosity = self.liquid.viscosity / self.liquid.density  # kinematic [m2/s]
-        self.layer = 0.0  # there are no walls
+        self.layer = math.sqrt(self.viscosity * self.end)  # depth that the friction of walls reaches [m]
+        self.pull = (self.gravity, 0.0)  # across walls and along periodic axes [m/s2]
+        self.shaken = 0.0
 
     @cached_property
     def state(self):
-        """Particles of the pools."""
+        """Particles of the pools, and of walls."""
         return fill(self.case)
 
     @cached_property
@@ -43,9 +45,7 @@ class MpsScales:
     def thrown(self) -> float:
         """Fastest liquid that comes in or is there at the start [m/s]."""
         found = [nozzle.speed * math.hypot(1.0, nozzle.swirl) for nozzle in self.case.nozzles.values()]
-        return max(
-            [*found, *(math.hypot(*pool.velocity) for pool in self.case.pools.values() if pool.velocity)], default=0
-        )
+        return max([*found, *(math.hypot(p.speed, *(p.velocity or ())) for p in self.case.pools.values())], default=0)
 
     @cached_property
     def speed(self) -> float:

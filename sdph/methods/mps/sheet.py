@@ -45,6 +45,19 @@ def half_angle(places, length: float) -> float:
     return float(np.arctan(np.polyfit(z[on], np.hypot(*places[on, :2].T), 1)[0]))
 
 
+def half_angle_of_outline(places, length: float, spacing: float) -> float:
+    """Half angle [rad] as one measures it on a picture from aside: slope of the furthest particle from the axis, in
+    rows as high as a pixel, over the same range; nan of a short sheet."""
+    z, out = places[:, 2], np.abs(places[:, 0])
+    rows = np.arange(math.ceil(RANGE[0] * length / (PIXEL * spacing)), int(RANGE[1] * length / (PIXEL * spacing)))
+    own = np.floor(z / (PIXEL * spacing)).astype(int)
+    found = [(row, out[own == row].max()) for row in rows if (own == row).any()]
+    if len(found) < 3:
+        return math.nan
+    height, edge = np.array(found).T
+    return float(np.arctan(np.polyfit(height * PIXEL * spacing, edge, 1)[0]))
+
+
 def half_angle_of_meridian(z, r, length: float) -> float:
     """The same of a curve r (n,) at z (n,) [m]."""
     ends = np.linspace(RANGE[0] * length, RANGE[1] * length, 400)
@@ -109,6 +122,7 @@ def told(case, places) -> dict[str, float]:
     straight = half_angle_of_meridian(z, sheets.ballistic_radius(z, middle, nozzle.swirl), length)
     return {
         "half_angle_deg": math.degrees(half_angle(seen, length)),
+        "half_angle_of_outline_deg": math.degrees(half_angle_of_outline(seen, length, spacing)),
         "half_angle_ballistic_deg": math.degrees(straight),
         "break_up_length_m": slant(nozzle) * break_up(seen, spacing),
         "break_up_length_ballistic_m": slant(nozzle) * break_up(ballistic(case, length), spacing),

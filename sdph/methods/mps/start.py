@@ -8,7 +8,11 @@ from sdph import effects
 from sdph.engine import lattice
 from sdph.engine import state as particles
 from sdph.engine.state import LIQUID
+from sdph.laws.liquids import quadrupole, taylor_green
+from sdph.methods.mps import tanks
 from sdph.schema import CaseError
+
+FLOWS = ("uniform", "rotation", "taylor_green", "quadrupole")
 
 
 def fill(case) -> particles.State:
@@ -19,21 +23,47 @@ def fill(case) -> particles.State:
         state = particles.join(state, _pool(case, name, pool, names))
     if not len(state.x) and not case.nozzles:
         raise CaseError("no liquid: give it in a section such as [pools.drop], or let it in by [nozzles.mouth]")
+    tanks.check(case)
+    if "tank" in case.effects:
+        state = particles.join(state, tanks.stand(case, tanks.points(case)))
     state.ident[:] = np.arange(len(state.x))
     return state
 
 
 def _pool(case, name: str, pool, names) -> particles.State:
     d, spacing = case.dimensions, case.resolution.spacing
-    if pool.shape == "tank" or pool.flow != "uniform" or pool.phase != "liquid":
+    if pool.shape in ("tank", "ring") or pool.flow not in FLOWS or pool.phase != "liquid":
         given = f"pools.{name} has shape = {pool.shape!r}, flow = {pool.flow!r}, phase = {pool.phase!r}"
-        raise CaseError(f"{given}; mps takes a box, disc or sphere of one liquid at one velocity")
+        raise CaseError(f"{given}; mps takes a box, disc or sphere of one liquid, with a flow of {', '.join(FLOWS)}")
     points = lattice.lattice(pool, spacing, d)
     state = particles.empty(len(points), names, d)
     for axis, column in zip(particles.axes(state), points.T):
         axis[:] = column
-    for array, value in zip((state.u, state.v, state.w), pool.velocity or ()):
+    for array, value in zip((state.u, state.v, state.w), _velocity(pool, points).T):
         array[:] = value
     state.kind[:], state.density[:] = LIQUID, case.liquid.density
     state.mass[:] = case.liquid.density * spacing**d
     return state
+
+
+def _velocity(pool, points) -> np.ndarray:
+    """(N, d) velocities [m/s]."""
+    velocity = np.zeros_like(points)
+    if pool.velocity is not None:
+        velocity += np.array(pool.velocity)
+    if pool.flow == "rotation":
+        lower, upper = np.array(pool.lower), np.array(pool.upper)
+        from_middle = (points - 0.5 * (lower + upper)) * 2.0 * pool.speed / (upper[0] - lower[0])
+        velocity[:, 0] += from_middle[:, 1]
+        velocity[:, 1] -= from_middle[:, 0]
+    if pool.flow == "taylor_green":
+        velocity += taylor_green(points, pool.upper[0] - pool.lower[0], pool.speed, 1.0)[0]
+    if pool.flow == "quadrupole":
+        velocity += quadrupole(points - np.array(pool.centre), pool.radius, pool.speed)
+    return velocity
+
+
+def period(case) -> tuple[float, ...]:
+    """Length (d,) [m] of each axis that is periodic, else 0."""
+    on = case.liquid.periodic or (0.0,) * case.dimensions
+    return tuple(length * bool(periodic) for length, periodic in zip(case.domain.size, on))

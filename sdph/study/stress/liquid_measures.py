@@ -17,10 +17,10 @@ class LiquidMeasures(Extremes):
     def window(self, simulation) -> None:
         """Take the figures after a window."""
         stepper, own = simulation.stepper, simulation.stepper.active
-        s, rho_0 = particles.take(stepper.state, own), stepper.fluids[0, stepper.state.kind[own]]
+        s = particles.take(stepper.state, own)
         speed2 = (particles.velocities(s) ** 2).sum(axis=1)
         self._take("speed_m_s", np.sqrt(speed2))
-        self._take("density_ratio", s.density / rho_0)
+        self._take("density_ratio", self._density(stepper, own))
         self._take("pressure_Pa", stepper.pressure[own])
         energy = float(0.5 * (s.mass * speed2).sum())
         self._take("kinetic_energy_J", np.array([energy]))
@@ -33,6 +33,12 @@ class LiquidMeasures(Extremes):
         depth = self._behind_walls(s) / self.case.resolution.spacing
         self._take("spacings_into_walls", depth)
         self.lost = max(self.lost, int((depth > LOST).sum()))
+
+    def _density(self, stepper, own) -> np.ndarray:
+        """(N,) density over that at rest; of moving particles the number density over the lattice's."""
+        if self.case.incompressible:
+            return stepper.number[own] / stepper.cloud.number
+        return stepper.state.density[own] / stepper.fluids[0, stepper.state.kind[own]]
 
     def _behind_walls(self, s) -> np.ndarray:
         """Depth [m] behind its surface of each particle that is out of the tank, but not through an open side."""

@@ -119,8 +119,7 @@ def test_two_that_meet_lose_what_they_approach_by(tmp_path):
 
 
 @pytest.mark.parametrize(("effects", "sections", "told"), [
-    (("density_diffusion",), {}, 'effects holds density_diffusion; with method.name = "mps" there are gravity'),
-    ((), {"liquid": {"periodic": [1.0, 0.0, 0.0]}}, "moves one liquid with open sides"),
+    (("frame",), {}, 'effects holds frame; with method.name = "mps" there are gravity'),
     ((), {"method": {"name": "weakly_compressible"}}, "liquid.sound_speed_m_s is missing"),
     ((), {"method": {"reach": 9.0}}, "method.reach"),
 ])  # fmt: skip
@@ -130,7 +129,7 @@ def test_what_does_not_fit_is_told_in_one_line(effects, sections, told):
 
 
 def test_steps_follow_the_motion_between_neighbours(tmp_path):
-    run = started(tmp_path, case(()))
+    run = started(tmp_path, case((), {"method": {"gradient": "pairs"}}))
     run.state.u[:] = 1e3 * (run.state.x - 4e-3)  # neighbours in reach, 2 spacings apart at most along x
     run.stepper._look()
     assert run.stepper.next_step(1.0) == pytest.approx(0.2 * SPACING / (1e3 * 2.0 * SPACING), rel=1e-3)

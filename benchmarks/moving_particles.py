@@ -1,0 +1,104 @@
+"""A step of the swirling sheet by moving particles over a delta-SPH step of as many particles: CPU time of one thread.
+
+    python benchmarks/moving_particles.py [SPACING_MM]
+
+The sheet is one that has flown straight to the end of its domain, and takes a few steps by itself first. The delta-SPH
+side is the dam break of `liquid_scaling.py` in three dimensions, walls counted, its rows made anew every 6 steps. Both
+in turn, the least of the rounds. Rows, pressure (source, matrix, solver, forces by it) and the rest are told apart.
+Memory is the largest the process held less what it held before it had a case, per particle.
+"""
+
+import math
+import sys
+import time
+
+import numpy as np
+from liquid_scaling import held, step_time, tank
+
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.effects.around.streams import streams_of, turned
+from sdph.engine import state as particles
+from sdph.engine.state import LIQUID
+from sdph.methods.mps import sheet
+from sdph.methods.mps.method import MpsStepper
+
+SPACING, LENGTH, STEPS, ROUNDS, FIRST = 0.0666, 0.02, 6, 3, 6  # mm, m
+
+
+def flown(case) -> MpsStepper:
+    """A stepper of the case's sheet, flown straight for LENGTH along its axis."""
+    stepper, nozzle = MpsStepper(case), sheet.nozzle_of(case)
+    own = streams_of(case, nozzle)
+    layers = int(LENGTH / own.pitch)
+    stream, layer = np.tile(np.arange(len(own.mouth)), layers), np.repeat(np.arange(layers), len(own.mouth))
+    places, velocities = turned(nozzle, own, stream, layer, np.zeros(len(layer)))
+    places = places + ((layer + 0.5) * own.pitch / nozzle.speed)[:, None] * velocities
+    mine = particles.take(stepper.state, np.zeros(len(places), int))
+    columns = np.concatenate((places, velocities), axis=1).T
+    for array, column in zip((*particles.axes(mine), mine.u, mine.v, mine.w), columns):
+        array[:] = column
+    mine.kind[:], mine.ident[:] = LIQUID, stepper.state.ident.max() + 1 + np.arange(len(places))
+    stepper.replace(particles.join(stepper.state, mine))
+    stepper._rebuild()
+    return stepper
+
+
+class Timed:
+    """Counts the CPU time [s] of a function that it stands for."""
+
+    def __init__(self, function):
+        self.function, self.spent = function, 0.0
+
+    def __call__(self, *given):
+        begun = time.process_time()
+        out = self.function(*given)
+        self.spent += time.process_time() - begun
+        return out
+
+
+def parts(stepper) -> dict[str, float]:
+    """CPU time [s] of a step: rows, pressure, the rest; iterations."""
+    rows, pressed, before = Timed(stepper.neighbours.update), Timed(stepper._pressed), stepper.iterations
+    stepper.neighbours.update, stepper._pressed = rows, pressed
+    begun = time.process_time()
+    for _ in range(STEPS):
+        stepper.step(1e-3)
+    whole = (time.process_time() - begun) / STEPS
+    stepper.neighbours.update, stepper._pressed = rows.function, pressed.function
+    found = {"rows": rows.spent / STEPS, "pressure": pressed.spent / STEPS}
+    return {"whole": whole} | found | {
+        "rest": whole - sum(found.values()), "iterations": (stepper.iterations - before) / STEPS
+    }  # fmt: skip
+
+
+def main(spacing: float) -> None:
+    case = cases.load(scenes.HERE / "swirl_sheet" / "case.toml", (f"resolution.spacing_mm={spacing}",))
+    before = held("VmRSS")
+    own = flown(case)
+    for _ in range(FIRST):
+        own.step(1e-3)
+    count = len(own.state.x)
+    memory = (held("VmHWM") - before) / count
+    other = tank(3, 0.37 * count)  # of which with walls as many
+    for _ in range(2):
+        other.step(1.0)
+    best, theirs = {"whole": math.inf}, math.inf
+    for _ in range(ROUNDS):
+        found = parts(own)
+        best = min(best, found, key=lambda one: one["whole"])
+        begun = time.process_time()
+        step_time(other)
+        theirs = min(theirs, (time.process_time() - begun) / STEPS)
+    per = 1e6 / count
+    told = ", ".join(f"{name} {per * best[name]:.2f}" for name in ("whole", "rows", "pressure", "rest"))
+    tail = f"{best['iterations']:.1f} iterations; {memory:.0f} B a particle"
+    print(f"sheet, {count} particles: us a particle and step: {told}; {tail}")
+    unit = 1e6 / len(other.state.x)
+    print(f"delta-SPH, {len(other.state.x)} particles ({len(other.active)} of liquid): {unit * theirs:.2f} us")
+    print(f"ratio by particle {per * best['whole'] / (unit * theirs):.2f}, "
+          f"by particle of liquid {per * best['whole'] / (1e6 * theirs / len(other.active)):.2f}")  # fmt: skip
+
+
+if __name__ == "__main__":
+    main(float(sys.argv[1]) if len(sys.argv) > 1 else SPACING)
