@@ -23,6 +23,7 @@ def filled(folder, region, **more):
     own = round_vessel(folder, [])
     case = tomllib.loads((own / "case.toml").read_text())
     case["particles"], case["run"] = {"bed": region}, {"end_time_s": 1e-4, "output_interval_s": 1e-4}
+    del case["walls"]["source"]
     (own / "case.toml").write_text(tomli_w.dumps(case | more))
     return own
 

@@ -102,7 +102,9 @@ def _refuse(case, own: MicroExplosion) -> None:
         if name not in case.effects:
             raise CaseError(f"micro_explosion: no droplet boils without {name}; add it to effects")
     if "break_up" in case.effects:
-        raise CaseError("micro_explosion: how gas breaks a droplet in a shell is not known; leave break_up out of effects")
+        raise CaseError(
+            "micro_explosion: how gas breaks a droplet in a shell is not known; leave break_up out of effects"
+        )
     boils = case.parameters["evaporation"]
     if boils.saturation != "antoine" or boils.latent_heat == 0.0:
         given = f"evaporation.saturation = {boils.saturation!r}, latent_heat_J_kg = {boils.latent_heat:g}"

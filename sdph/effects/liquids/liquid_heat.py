@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from sdph.effects.effect import Effect, diffusive_limit
+from sdph.effects.effect import Effect, Judgement, diffusive_limit
 from sdph.schema import choice, quantity, record
 
 
@@ -52,6 +52,12 @@ def longest(p: LiquidHeatP, h: float, density: float, body_density: float) -> fl
     return diffusive_limit(h, max(ratios))
 
 
+def call(scales) -> Judgement:
+    """Power that comes in: what is heated stays as it is without the effect."""
+    heated = 1.0 if scales.case.parameters["liquid_heat"].flux > 0.0 else 0.0
+    return Judgement("heat that comes in (1: some)", heated, 1.0, "by definition: nothing else brings heat", heated)
+
+
 EFFECT = Effect(
     name="liquid_heat",
     summary="heat in a liquid and in bodies in it",
@@ -59,4 +65,5 @@ EFFECT = Effect(
     kernel=kernel,
     arrays=("temperature",),
     matter=("liquid",),
+    call=call,
 )

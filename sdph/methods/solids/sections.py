@@ -54,4 +54,4 @@ class Body:
     speed: float = quantity("m_s", 0.0)
     flaw: float = quantity("", 0.0, least=0.0, most=0.99)  # of a ring: share of the thickness that is missing
     flaw_at: float = quantity("deg", 0.0, least=0.0, most=360.0)  # middle of the thin part, from the first axis
-    flaw_half_width: float = quantity("deg", 6.0, above=0.0, most=180.0)
+    flaw_half_width: float = quantity("deg", 6.0, above=0.0, most=180.0, tiny=True)
