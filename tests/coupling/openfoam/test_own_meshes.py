@@ -80,7 +80,7 @@ def round_vessel(folder, metrics):
     inlet = {"kind": "velocity_inlet", "side": "back", "velocity_m_s": [0.0, 0.0, 0.3]}
     outlet = {"kind": "pressure_outlet", "side": "front"}
     case["boundaries"] = {"inlet": inlet, "outlet": outlet, "wall": {"kind": "wall"}}
-    # a floor in line with the lattice: behind facets dummies stand in none, and grains near their packing start with a jolt
+    # a floor in line with the lattice: behind facets dummies stand in none, and grains near packing start with a jolt
     case["walls"] = case.get("walls", {}) | {"source": "mesh"}
     (folder / "case.toml").write_text(tomli_w.dumps(case))
     return folder
