@@ -67,7 +67,6 @@ HARMLESS = {
     "sdph/methods/liquids/bubble.py:Void._share": "how near to the void a particle is, from 0 to 1",
     "sdph/methods/liquids/bubbles.py:Voids._outside": "the same of several",
     "sdph/methods/liquids/bubbles.py:Voids._about": "the nearest where none is near",
-    "sdph/methods/liquids/bubbles.py:Voids.vent": "the largest of all",
     "sdph/methods/liquids/rooms.py:find": "how empty a cell is, from 0 to 1",
     "sdph/methods/liquids/rooms.py:fill": "indices of cells",
     "sdph/methods/liquids/heat.py:Heat.advance": "number of steps",
