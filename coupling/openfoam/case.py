@@ -39,7 +39,10 @@ def write_case(
             f"{folder.absolute()}: OpenFOAM takes no blanks and quotes in a path; give another --out, or --gas embedded"
         )
     if not (template / "system" / "controlDict").exists():
-        raise CaseError(f"{template} is no OpenFOAM case: it has no system/controlDict")
+        raise CaseError(
+            f"{template} is no OpenFOAM case: it has no system/controlDict; the gas folder that `sdph init disc_cluster "
+            "FOLDER` makes has all but your mesh"
+        )
     for name in case.boundaries:
         if not NAME.fullmatch(name):
             what = f"boundaries.{name!r}: OpenFOAM takes letters, digits and _ . + - in a name"

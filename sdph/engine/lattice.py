@@ -34,6 +34,19 @@ def rings(centre, inner: float, outer: float, spacing: float) -> tuple[np.ndarra
     return np.concatenate(points) + np.array(centre), np.concatenate(areas)
 
 
+def pierced(centre, outer: float, holes, spacing: float) -> tuple[np.ndarray, np.ndarray]:
+    """Points (N, 2) [m] of a disc with holes (each with centre and radius), in circles, and their areas (N,) [m2],
+    which fill it: about one hole in its middle, or those of the whole disc that no hole takes."""
+    if len(holes) == 1 and tuple(holes[0].centre) == tuple(centre):
+        return rings(centre, holes[0].radius, outer, spacing)
+    points, areas = rings(centre, 0.0, outer, spacing)
+    kept = np.ones(len(points), bool)
+    for hole in holes:
+        kept &= np.hypot(*(points - np.array(hole.centre)).T) > hole.radius
+    wanted = math.pi * (outer**2 - sum(hole.radius**2 for hole in holes))
+    return points[kept], areas[kept] * (wanted / areas[kept].sum())
+
+
 def grid(ticks: list[np.ndarray]) -> np.ndarray:
     """Points of a tensor grid, the first axis fastest (row-major numbering of the paper)."""
     mesh = np.meshgrid(*ticks[::-1], indexing="ij")[::-1]

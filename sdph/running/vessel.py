@@ -20,15 +20,14 @@ FILE = "patches.vtk"
 def walled(case, gas, folder: Path):
     """The case with walls.mesh made of the patches of `gas`, where it asks for them and OpenFOAM's mesh is its own; the
     sides of a generated mesh are known without."""
-    if "walls" not in case.effects or "grains" not in case.matters:
+    if not hasattr(gas, "case_folder") or not any((inputs.gas_of(folder) / name).exists() for name in OWN_MESH):
         return case
-    own = case.parameters["walls"]
-    if own.source == "mesh" or own.mesh or not hasattr(gas, "case_folder"):
-        return case
-    if not any((inputs.gas_of(folder) / name).exists() for name in OWN_MESH):
-        return case
-    from coupling.openfoam.patches import holding
+    from coupling.openfoam.patches import holding, types
 
+    _refuse_unknown(case, types(gas.case_folder))
+    own = case.parameters.get("walls")
+    if own is None or own.source == "mesh" or own.mesh:
+        return case
     corners, slips = holding(gas.case_folder, case.boundaries, case.dimensions)
     if not len(corners):
         raise CaseError(
@@ -40,6 +39,13 @@ def walled(case, gas, folder: Path):
     facets.save(path, corners, slips)
     made = dataclasses.replace(own, source="gas", mesh=str(path.absolute()))
     return dataclasses.replace(case, parameters=case.parameters | {"walls": made})
+
+
+def _refuse_unknown(case, patches) -> None:
+    """CaseError where a boundary is no patch of the mesh that the case brings."""
+    for name in case.boundaries:
+        if name not in patches:
+            raise CaseError(f"boundaries.{name} is no patch of the mesh of the gas; it has {', '.join(patches)}")
 
 
 def refuse_outside(case, gas, state) -> None:

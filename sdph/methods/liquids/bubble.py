@@ -22,22 +22,18 @@ from sdph.engine import polygons
 from sdph.engine import state as particles
 from sdph.engine.geometry import FAST, apart
 from sdph.engine.rows import entry, length
-from sdph.laws import cavities, real_gas
+from sdph.laws import cavities
 from sdph.methods.liquids import totals
+from sdph.methods.liquids.content import Content
 
 SAME = 1e-6  # of a radius: round-off
-COLDEST, HOTTEST = (
-    0.5,
-    0.999,
-)  # of the critical temperature: beyond, a vapour's bubble is no longer followed; our choice
 # of 1/h: |sum V_j grad W| from which on a particle is at a face; 0.6 half a spacing behind a plane one, 0.2 another
 # spacing on, disorder below 0.1; our choice
 AT_FACE = 0.25
 RAYS = 32  # directions in which the void's face is looked for; our choice
-LOWER = "bubble.flux_W_m2 or run.step_factor"
 
 
-class Void:
+class Void(Content):
     """A bubble: void [m2], pressure over that around [Pa], mass [kg/m] and temperature [K] of vapour, heat that it got
     and with which it warmed [J/m]; passed (5,): mass, momentum and energy that the liquid gave to it, and mass that it
     still owes, of this step's warming; vented: mass that went out through a tear. In a shell, where there is one."""
@@ -65,24 +61,16 @@ class Void:
         r = np.where(particles.wet(state), np.hypot(x, y), 0.0)
         ring = np.flatnonzero((r > r.max() * (1.0 - SAME)) & (r > 0.0))
         self.loop = state.ident[ring][np.argsort(np.arctan2(y[ring], x[ring]))]  # counterclockwise
-        self.first = cavities.void(pool.inner_radius, 2)
-        self.area, self.missed, self.corners = self.first, 0.0, 0  # corners of the lining, where there is one
-        self.missed = self._measure(state) - self.first
-        self.pressure, self.mass, self.temperature = p.excess, 0.0, 0.0
-        self.heat = self.warmed = 0.0
-        self.owed, self.passed, self.vented = 0.0, np.zeros(5), 0.0
-        if p.vapour:
-            self.coldest, self.hottest = (share * p.vapour.critical_temperature for share in (COLDEST, HOTTEST))
-            self.thinnest, self.densest = (
-                float(real_gas.saturated_density(p.vapour, end)) for end in (self.coldest, self.hottest)
-            )
-            self.temperature = float(real_gas.saturation_temperature(p.vapour, p.around + self._capillary()))
-            self.mass = float(real_gas.saturated_density(p.vapour, self.temperature) * self.area)
+        first = self._begin(case, state)
+        self.missed, self.corners = 0.0, 0  # corners of the lining, where there is one
+        self.missed = self._measure(state) - first
+        self.passed = np.zeros(5)
 
-    @property
-    def radius(self) -> float:
-        """R [m] of a round void of that area."""
-        return math.sqrt(self.area / math.pi)
+    def _begin(self, case, state) -> float:
+        """Fill what there is of bubbles at the start; their void [m2]."""
+        first = cavities.void(bubble.holes_of(case)[0].radius, 2)
+        self.fill(self.p, first)
+        return first
 
     def press(self, stepper) -> None:
         """Add to the accelerations of a stepper; what was added is its `inflating` (N, 3) [m/s2]."""
@@ -90,13 +78,13 @@ class Void:
         corners, measured = self.corners, self._measure(s)
         if self.corners != corners:  # some broke off: another polygon, the same void
             self.missed = measured - self.area
-        self.area = measured - self.missed
-        if not self.area > 0.0:
-            stepper.guard.stop("void", "the bubble", np.zeros(3), self.area, (0.0, math.inf, "m2"), LOWER)
-        self.pressure = self._content(stepper.guard) - self.p.around - self._capillary()
-        outside = self.pressure * self._share(s, 2.0 * stepper.kernel.h)
-        self._facing(stepper, outside)
+        self._facing(stepper, self._outside(stepper, measured - self.missed))
         stepper.acceleration += stepper.inflating
+
+    def _outside(self, stepper, area: float) -> np.ndarray:
+        """(N,) [Pa] that is taken off pairs of particles, now that the void is `area` [m2]."""
+        self.swell(area, stepper.guard)
+        return self.pressure * self._share(stepper.state, 2.0 * stepper.kernel.h)
 
     def _facing(self, stepper, outside) -> None:
         s = stepper.state
@@ -109,19 +97,19 @@ class Void:
         """Boil for `dt` [s]: take mass off the liquid at the void's face, by how much of each particle faces it."""
         s, own = stepper.state, stepper.active
         self._facing(stepper, np.zeros(len(s.x)))
-        heat = dt * self.p.flux * 2.0 * math.pi * self.radius
-        boiled = heat / self.p.vapour.latent_heat
-        self.heat, self.mass, self.owed = self.heat + heat, self.mass + boiled, self.owed + boiled
-        share = s.mass[own] * self.face(stepper)[own]
-        if share.any():  # else it goes on owing: nothing faces it
-            mass, self.owed = self.owed, 0.0
-            self.take(stepper, own, share * (mass / share.sum()))
+        lost = self.evaporate(dt, s.mass[own] * self.face(stepper)[own])
+        if lost is not None:
+            self.take(stepper, own, lost)
 
     def face(self, stepper) -> np.ndarray:
         """(N,) [1/m] how much of the void's face each particle has; 0 of those within, whose sum V_j grad W is but
         disorder: through that the whole liquid would boil."""
         facing = np.where(self.near(stepper.state), stepper.facing, 0.0)
         return np.where(facing * stepper.kernel.h > AT_FACE, facing, 0.0)
+
+    def take_up(self, stepper, conductance, dt: float) -> tuple[np.ndarray, np.ndarray]:
+        """Heat (N,) [J] of the particles, and mass (N,) [kg] that boils off them, as `soak` has them."""
+        return self.soak(conductance, stepper.state.temperature, dt)
 
     def take(self, stepper, own, lost) -> None:
         """Take mass (P,) [kg] off the particles `own`, with what it carries."""
@@ -130,58 +118,6 @@ class Void:
         s.mass[own] -= lost
         if stepper.heat:
             stepper.heat.carry(own, lost)
-
-    def soak(self, conductance, temperature, dt: float) -> tuple[np.ndarray, np.ndarray]:
-        """Heat (N,) [J] from particles of a temperature [K] by a conductance (N,) [W/K] in dt [s], at the temperature
-        that the bubble has in the end, of which no sub-step is too long; mass (N,) [kg] that boils off each."""
-        v, first, near = self.p.vapour, self.temperature, conductance > 0.0
-        if not near.any():
-            return np.zeros_like(conductance), np.zeros_like(conductance)
-        span = np.append(temperature[near], first)
-        low, high = float(span.min()), float(span.max())
-        while high - low > cavities.NEAR * high:
-            middle = 0.5 * (low + high)
-            mass = float(real_gas.saturated_density(v, middle)) * self.area
-            wanted = float(cavities.heat_taken(v, mass - self.mass, mass, middle - first))
-            given = dt * float(conductance @ (temperature - middle))
-            low, high = (middle, high) if given > wanted else (low, middle)
-        heat = np.where(near, dt * conductance * (temperature - 0.5 * (low + high)), 0.0)
-        whole = float(heat.sum())
-        gained = (whole - self.mass * v.heat_capacity * (high - first)) / (
-            v.latent_heat + v.heat_capacity * (high - first)
-        )
-        warmed = whole - v.latent_heat * gained
-        self.mass, self.temperature = self.mass + gained, high
-        self.heat, self.warmed = self.heat + whole, self.warmed + warmed
-        return heat, heat / v.latent_heat - conductance * (warmed / v.latent_heat / conductance.sum())
-
-    def vent(self, dt: float, width: float) -> None:
-        """Let vapour out for dt [s] through a way that is `width` [m] wide."""
-        v = self.p.vapour
-        inside = self.pressure + self.p.around
-        flux = cavities.vent_flux(inside, self.temperature, self.p.around, v.molar_mass, v.heat_ratio)
-        lost = float(flux) * width * dt
-        self.mass, self.vented = self.mass - lost, self.vented + lost
-
-    def _capillary(self) -> float:
-        return float(cavities.capillary_pressure(self.p.tension, self.radius, 2))
-
-    def _content(self, guard) -> float:
-        """Pressure [Pa] of what is in it, absolute."""
-        p, v = self.p, self.p.vapour
-        if not v:
-            held = p.around + p.tension / math.sqrt(self.first / math.pi)
-            return (held + p.excess) * (self.first / self.area) ** p.exponent
-        before = self.temperature
-        density = self.mass / self.area
-        if not self.thinnest < density < self.densest:
-            allowed = (self.thinnest, self.densest, "kg/m3")
-            guard.stop("density of the vapour", "the bubble", np.append(self.rim, 0.0), density, allowed, LOWER)
-        self.temperature = float(cavities.temperature_of(v, density, self.coldest, self.hottest))
-        warmed = self.mass * v.heat_capacity * (self.temperature - before)
-        self.mass, self.owed = self.mass - warmed / v.latent_heat, self.owed - warmed / v.latent_heat
-        self.warmed += warmed
-        return float(real_gas.saturation_pressure(v, self.temperature))
 
     def _measure(self, state) -> float:
         """Area [m2] within the rim less that of the liquid; half of the rim's own stands outside the polygon."""
@@ -211,21 +147,13 @@ class Void:
         if not self.within.any():  # it has all left a shell that tore
             return np.zeros(len(state.x))
         r, turn = self._polar(state.x, state.y)
-        share = 2.0 - (r - self._face_radius(r, turn)) / reach
+        share = 2.0 - (r - face_radius(r, turn, self.within)) / reach
         return np.where(self.within, np.clip(share, 0.0, 1.0), 0.0)
 
     def _polar(self, x, y) -> tuple[np.ndarray, np.ndarray]:
         """Distance (N,) [m] and angle [rad] from the middle of the rim."""
         x, y = x - self.rim[0], y - self.rim[1]
         return np.hypot(x, y), np.arctan2(y, x)
-
-    def _face_radius(self, r, turn) -> np.ndarray:
-        """(N,) distance [m] of the void's face from the middle of the rim, along the ray of each particle."""
-        ray = ((turn[self.within] + math.pi) / (2.0 * math.pi) * RAYS).astype(int) % RAYS
-        nearest, middle = np.full(RAYS, np.inf), (np.arange(RAYS) + 0.5) / RAYS * 2.0 * math.pi - math.pi
-        np.minimum.at(nearest, ray, r[self.within])
-        seen = np.isfinite(nearest)
-        return np.interp(turn, middle[seen], nearest[seen], period=2.0 * math.pi)
 
     def near(self, state) -> np.ndarray:
         """(N,) whether particles are nearer to the void than to the rim: a round one in the rim's middle."""
@@ -240,6 +168,20 @@ class Void:
             told |= {"bubble_mass_kg": self.mass, "bubble_temperature_K": self.temperature}
             told |= {"vented_kg": self.vented}
         return told
+
+    def summary(self) -> dict[str, float]:
+        """Add nothing to summary.json: it is all in the last row."""
+        return {}
+
+
+def face_radius(r, turn, within) -> np.ndarray:
+    """(N,) distance [m] of a void's face from its middle along the ray of each particle, which is at a distance r [m]
+    and an angle [rad]; faces are those `within`."""
+    ray = ((turn[within] + math.pi) / (2.0 * math.pi) * RAYS).astype(int) % RAYS
+    nearest, middle = np.full(RAYS, np.inf), (np.arange(RAYS) + 0.5) / RAYS * 2.0 * math.pi - math.pi
+    np.minimum.at(nearest, ray, r[within])
+    seen = np.isfinite(nearest)
+    return np.interp(turn, middle[seen], nearest[seen], period=2.0 * math.pi)
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)

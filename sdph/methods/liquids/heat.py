@@ -113,12 +113,18 @@ class Heat:
         """Heat (N,) [J] that each particle gives to the bubble, and mass (N,) [kg] that boils off it."""
         own = self.stepper
         facing, length = own.void.face(own), FACE * own.kernel.h
-        return own.void.soak(2.0 * self.p.conductivity / length * self.volume * facing, own.state.temperature, dt)
+        return own.void.take_up(own, 2.0 * self.p.conductivity / length * self.volume * facing, dt)
 
     def carry(self, own, lost) -> None:
         """Mass (P,) [kg] leaves particles `own` with their heat."""
         warmth = self.stepper.state.temperature[own] - self.origin
         self.carried += self.p.heat_capacity * float(lost @ warmth)
+
+    def give_back(self, own, heat) -> None:
+        """Heat (P,) [J] of a bubble that is gone comes to particles `own`."""
+        s = self.stepper.state
+        s.temperature[own] += heat / (s.mass[own] * self.p.heat_capacity)
+        self.taken -= float(heat.sum())
 
     def sensible(self) -> float:
         """Heat [J] of the particles above the start."""

@@ -106,7 +106,8 @@ class Liquid(Stepped):
 
     def summary(self) -> dict[str, float]:
         own = {"liquid_particles": len(self.stepper.active), "kinetic_energy_J": kinetic_energy(self.state)}
-        return own | (self.stepper.heat.summary() if self.stepper.heat else {})
+        parts = [part.summary() for part in (self.stepper.void, self.stepper.heat) if part]
+        return own | {name: value for part in parts for name, value in part.items()}
 
     def warnings(self) -> list[str]:
         mach, c = self.ledger.mach, self.case.liquid.sound_speed

@@ -21,7 +21,7 @@ from sdph.engine.rows import Neighbours
 from sdph.engine.state import GAS, INFLOW, LIQUID, WALL
 from sdph.laws import kernels
 from sdph.methods.liquids import bodies as immersion
-from sdph.methods.liquids import bubble, correction, interface, openings, phases, shift, start, walls
+from sdph.methods.liquids import bubbles, correction, interface, openings, phases, shift, start, walls
 from sdph.methods.liquids import equations as rates
 from sdph.methods.liquids.bounds import LiquidGuard, limits
 from sdph.methods.liquids.heat import Heat
@@ -79,7 +79,7 @@ class LiquidStepper:
         self.aim(0.0)
         self.least = np.zeros(0)
         self.heat = None  # until it is known what there is to heat
-        self.void = bubble.Void(case, self.p["bubble"], self.state, self.bodies) if self.p["bubble"] else None
+        self.void = bubbles.of(case, self.p["bubble"], self.state, self.bodies) if self.p["bubble"] else None
         self.look = None  # who is told of new forces, with the length [s] of the kick to come
         self.forces()
         self.heat = Heat(self, self.p["liquid_heat"]) if self.p["liquid_heat"] else None

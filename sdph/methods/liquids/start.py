@@ -9,6 +9,7 @@ import numpy as np
 from sdph import effects
 from sdph.effects.around import frame, tank
 from sdph.effects.around.source import Source
+from sdph.effects.liquids import bubble
 from sdph.engine import lattice
 from sdph.engine import state as particles
 from sdph.engine.state import GAS, LIQUID, WALL
@@ -75,13 +76,15 @@ def _pool(case, pools: list, number: int) -> particles.State:
     volume = spacing**d
     if pool.shape == "ring":
         points, volume = lattice.rings(pool.centre, pool.inner_radius, pool.radius, spacing)
+    elif "bubble" in case.effects and pool == bubble.pool_of(case):
+        points, volume = lattice.pierced(pool.centre, pool.radius, bubble.holes_of(case), spacing)
     else:
         points = filling.fill(case, pool) if pool.shape == "tank" else lattice.lattice(pool, spacing, d)
     if pool.shape == "box":  # the lattice is fitted to the box
         volume = math.prod(b - a for a, b in zip(pool.lower, pool.upper)) / len(points)
     for earlier in pools[:number]:
         left = ~_holds(earlier, points)
-        points, volume = points[left], volume[left] if pool.shape == "ring" else volume
+        points, volume = points[left], volume if np.isscalar(volume) else volume[left]
     if not len(points):
         mend = "enlarge it, give a finer resolution.spacing_mm, or name it before the others"
         raise CaseError(f"pools.{list(case.pools)[number]} holds no particle; {mend}")
