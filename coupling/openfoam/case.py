@@ -40,8 +40,8 @@ def write_case(
         )
     if not (template / "system" / "controlDict").exists():
         raise CaseError(
-            f"{template} is no OpenFOAM case: it has no system/controlDict; the gas folder that `sdph init disc_cluster "
-            "FOLDER` makes has all but your mesh"
+            f"{template} is no OpenFOAM case: it has no system/controlDict; the folder gas of `sdph init disc_cluster "
+            "DIR` has all but your mesh"
         )
     for name in case.boundaries:
         if not NAME.fullmatch(name):
