@@ -61,7 +61,7 @@ class Voids(Void):
 
     @property
     def left(self) -> list[Part]:
-        """Those that are still there."""
+        """Bubbles that are still there."""
         return [part for part in self.parts if part.held]
 
     def _sum(self, name: str) -> float:

@@ -1,4 +1,4 @@
-"""What is in a bubble of a liquid: gas or saturated vapour, its mass, temperature and heat."""
+"""Content of a bubble of a liquid: gas or saturated vapour, its mass, temperature and heat."""
 
 from __future__ import annotations
 
