@@ -37,7 +37,7 @@ def drift(active, u, v, w, dt, x, y, z):
         i = active[n]
         x[i] += dt * u[i]
         y[i] += dt * v[i]
-        if len(w):
+        if len(z):  # of bodies in a plane liquid w has rows, and z has none
             z[i] += dt * w[i]
 
 

@@ -33,7 +33,7 @@ def test_a_flaw_takes_its_share_of_the_ring_and_leaves_the_inner_face():
     x = thin.state.x - 1.5e-3
     spot = (np.abs(np.arctan2(thin.state.y - 1.5e-3, x)) < 0.9 * half) & (x > 0.0)
     assert r[spot].max() == pytest.approx(inner + 0.7 * (1.0 - 0.5 / layers) * (outer - inner), rel=1e-9)
-    assert r[~spot].max() == pytest.approx(inner + 5.0 / 6.0 * (outer - inner), rel=1e-9)
+    assert r[~spot].max() == pytest.approx(outer - 0.5 * (outer - inner) / layers, rel=1e-9)
 
 
 def test_pace_holds_the_wall_at_its_cap():
