@@ -86,6 +86,7 @@ def reference() -> str:
         "coupling": declared.Coupling,
         "vapour": declared.Vapour,
         "liquid": declared.Liquid,
+        "method": declared.LiquidMethod,
         "gas_phase": declared.GasPhase,
         "solid": declared.Solid,
     }

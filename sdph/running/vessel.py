@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from coupling.choice import OWN_MESH
+from coupling.openfoam import patches
 from sdph.engine import state as particles
 from sdph.engine.walls import facets
 from sdph.methods.grains import start
@@ -22,13 +23,11 @@ def walled(case, gas, folder: Path):
     sides of a generated mesh are known without."""
     if not hasattr(gas, "case_folder") or not any((inputs.gas_of(folder) / name).exists() for name in OWN_MESH):
         return case
-    from coupling.openfoam.patches import holding, types
-
-    _refuse_unknown(case, types(gas.case_folder))
+    _refuse_unknown(case, patches.types(gas.case_folder))
     own = case.parameters.get("walls")
     if own is None or own.source == "mesh" or own.mesh:
         return case
-    corners, slips = holding(gas.case_folder, case.boundaries, case.dimensions)
+    corners, slips = patches.holding(gas.case_folder, case.boundaries, case.dimensions)
     if not len(corners):
         raise CaseError(
             'walls.source = "gas", and no patch of its mesh holds grains back: call some of type wall, name them in '
@@ -41,11 +40,11 @@ def walled(case, gas, folder: Path):
     return dataclasses.replace(case, parameters=case.parameters | {"walls": made})
 
 
-def _refuse_unknown(case, patches) -> None:
+def _refuse_unknown(case, known) -> None:
     """CaseError where a boundary is no patch of the mesh that the case brings."""
     for name in case.boundaries:
-        if name not in patches:
-            raise CaseError(f"boundaries.{name} is no patch of the mesh of the gas; it has {', '.join(patches)}")
+        if name not in known:
+            raise CaseError(f"boundaries.{name} is no patch of the mesh of the gas; it has {', '.join(known)}")
 
 
 def refuse_outside(case, gas, state) -> None:

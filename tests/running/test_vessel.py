@@ -56,6 +56,17 @@ def test_grains_outside_the_gas_are_refused_with_region_count_and_place(tmp_path
     assert "particles.bed holds " in said and "in no cell of the gas, the first at (0.005, 0.005, 0.005) m" in said
 
 
+@pytest.mark.openfoam
+def test_a_boundary_that_is_no_patch_is_refused(tmp_path, capsys):
+    own = filled(tmp_path / "own", INSIDE)
+    case = tomllib.loads((own / "case.toml").read_text())
+    case["boundaries"]["flue"] = {"kind": "wall"}
+    (own / "case.toml").write_text(tomli_w.dumps(case))
+    assert main(["run", str(own), "--gas", "openfoam", "--out", str(tmp_path / "out")]) == 2
+    said = capsys.readouterr().err.splitlines()[-1]
+    assert "boundaries.flue is no patch of the mesh of the gas; it has inlet, outlet, wall" in said
+
+
 def grains(**region):
     return cases.from_table({
         "dimensions": 2, "effects": ["gravity", "walls"], "run": {"end_time_s": 1.0, "output_interval_s": 1.0},
