@@ -14,6 +14,7 @@ from sdph.methods.liquids.start import parts_of as parts_of_liquid
 from sdph.methods.mps.method import MpsStepper
 from sdph.methods.solids.method import SolidStepper
 from sdph.running import inputs, metrics
+from sdph.schema import CaseError
 from sdph.study import memory as room
 
 # method -> what makes all of it that a run begins with
@@ -44,6 +45,9 @@ def look(case, template: Path, *, allow_code: bool = False) -> None:
 
 def _gas(case, template: Path, chosen: str, allow_code: bool) -> None:
     """Rehearse what the gas solver `chosen` makes of the case before it starts."""
+    own = next((template / name for name in OWN_MESH if (template / name).exists()), None)
+    if own and case.coupling.gas == "embedded":
+        raise CaseError(f"{own} is a mesh that only OpenFOAM reads; give --gas openfoam, or take the mesh away")
     if chosen == "embedded":
         from coupling.embedded.box import Box
         from coupling.embedded.grid import build_grid

@@ -67,6 +67,12 @@ def test_a_boundary_that_is_no_patch_is_refused(tmp_path, capsys):
     assert "boundaries.flue is no patch of the mesh of the gas; it has inlet, outlet, wall" in said
 
 
+def test_a_mesh_of_ones_own_is_refused_by_the_embedded_gas(tmp_path, capsys):
+    own = filled(tmp_path / "own", INSIDE)
+    assert main(["run", str(own), "--gas", "embedded", "--out", str(tmp_path / "out")]) == 2
+    assert "is a mesh that only OpenFOAM reads; give --gas openfoam" in capsys.readouterr().err.splitlines()[-1]
+
+
 def grains(**region):
     return cases.from_table({
         "dimensions": 2, "effects": ["gravity", "walls"], "run": {"end_time_s": 1.0, "output_interval_s": 1.0},
