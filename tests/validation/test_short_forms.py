@@ -34,7 +34,7 @@ SHORT = {
     "free_overfall": (("resolution.spacing_mm=16.0", "run.end_time_s=2.0"), ("exact",)),
     "capillary_wave": (("resolution.spacing_mm=62.5",), ("exact",)),
     "sloshing_box": (("resolution.spacing_mm=50.0",), ("exact",)),
-    "sloshing_sphere": (("resolution.spacing_mm=70.0",), ("exact",)),
+    "sloshing_sphere": (("resolution.spacing_mm=80.0",), ("exact",)),
     "sloshing_cassini": (("resolution.spacing_mm=90.0", "run.end_time_s=30.0"), ("exact",)),
     "bubble_rise": (("resolution.spacing_mm=50.0",), ("exact",)),
     "swirl_sheet": (
