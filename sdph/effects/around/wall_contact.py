@@ -9,13 +9,14 @@ from numba import njit
 from sdph.effects.around.walls import against
 from sdph.engine.rows import entry
 from sdph.engine.walls.dummies import offset
+from sdph.laws.compiled import inlined
 
 
-@njit(cache=True, error_model="numpy")
-def rubbed(p, wall, w, s, i, back):
+@inlined
+def rubbed(p, wall, w, box, s, i, back):
     """Change of velocity (3 components) [m/s] along a wall by Coulomb's friction, in a contact that turns the normal
     one by `back`."""
-    u, v, across = against(wall, w, s, i)
+    u, v, across = against(wall, w, box, s, i)
     along = u * wall.normal_x[w] + v * wall.normal_y[w] + across * wall.normal_z[w]
     u, v = u - along * wall.normal_x[w], v - along * wall.normal_y[w]
     across -= along * wall.normal_z[w]
@@ -56,7 +57,7 @@ def contact(p, wall, box, s, gravity, impulse, work, back_put):
                 s.z[i] += inside * nz
                 normal += s.w[i] * nz
             back = -(1.0 + p.restitution) * min(normal, 0.0)
-            rx, ry, rz = rubbed(p, wall, w, s, i, back)
+            rx, ry, rz = rubbed(p, wall, w, box, s, i, back)
             bx, by, bz = back * nx + rx, back * ny + ry, back * nz + rz
             impulse[0] += s.mass[i] * bx
             impulse[1] += s.mass[i] * by

@@ -19,6 +19,7 @@ from numba import njit, prange
 
 from sdph.effects.around.wall_limiters import held as held_by_limiters
 from sdph.effects.effect import Effect, Judgement
+from sdph.engine.geometry import deep
 from sdph.engine.rows import entry
 from sdph.engine.walls.dummies import CONTACT, distance, normal_part, offset
 from sdph.laws import granular, kernels
@@ -94,19 +95,19 @@ def closure(p, box, wall, s, i, kernel):
     return share
 
 
-@njit(cache=True, error_model="numpy")
+@inlined
 def held(p, wall, w, x, y, z):
     """Part of a vector (velocity or traction of contacts) that a wall takes hold of: all of it where it grips, else
     that along the normal."""
     nx, ny, nz = normal_part(wall, w, x, y, z)
-    grips = wall.stick[w] if p.specularity != 0.0 else 0.0
+    grips = wall.stick[w] * (p.specularity != 0.0)
     return nx + grips * (x - nx), ny + grips * (y - ny), nz + grips * (z - nz)
 
 
-@njit(cache=True, error_model="numpy")
-def against(wall, w, s, i):
+@inlined
+def against(wall, w, box, s, i):
     """Velocity of particle i less that of the wall (3 components) [m/s]."""
-    across = s.w[i] if len(s.z) else 0.0
+    across = s.w[i] if deep(box) else 0.0
     return s.u[i] - wall.slide_x[w], s.v[i] - wall.slide_y[w], across - wall.slide_z[w]
 
 
@@ -123,7 +124,7 @@ def gradient(p, kernel, box, wall, s, i):
         dx, dy, dz = offset(box, wall, w, s, i)
         r = math.sqrt(dx * dx + dy * dy + dz * dz)
         g = -2.0 * p.volume * kernels.cubic_spline_gradient(r, kernel.h, kernel.sigma)
-        du, dv, dw = held(p, wall, w, *against(wall, w, s, i))
+        du, dv, dw = held(p, wall, w, *against(wall, w, box, s, i))
         dx, dy, dz = normal_part(wall, w, dx, dy, dz)
         xx += g * du * dx
         xy += g * du * dy
@@ -154,13 +155,13 @@ def extrapolate(kernel, box, wall, facing, s, pressure, wall_pressure, unheld, w
             value = kernels.cubic_spline(math.sqrt(dx * dx + dy * dy + dz * dz), kernel.h, kernel.sigma)
             weight += value
             hydrostatic = (
-                -(s.push_x[i] * dx + s.push_y[i] * dy + (s.push_z[i] * dz if len(s.z) else 0.0)) * s.density[i]
+                -(s.push_x[i] * dx + s.push_y[i] * dy + (s.push_z[i] * dz if deep(box) else 0.0)) * s.density[i]
             )
             push += value * (pressure[i] + min(hydrostatic, pressure[i]))
             full += value * (pressure[i] + hydrostatic)
             u += value * s.u[i]
             v += value * s.v[i]
-            up += value * s.w[i] if len(s.z) else 0.0
+            up += value * s.w[i] if deep(box) else 0.0
         found = weight > 0.0
         unheld[w] = full / weight if found else np.nan
         wall_pressure[w] = max(push / weight, 0.0) if found else 0.0
@@ -170,15 +171,15 @@ def extrapolate(kernel, box, wall, facing, s, pressure, wall_pressure, unheld, w
 
 
 @njit(cache=True, error_model="numpy")
-def grip(p, wall, w, s, i, dx, dy, dz, shear):
-    """Share of the no-slip stress: y/(y + b) at the distance y from the wall, with the slip length b = mu/k of the law
-    tau = k v."""
-    if p.specularity < 0.0 or wall.stick[w] == 0.0 or len(s.theta) == 0:
-        return wall.stick[w] * (p.specularity != 0.0)
-    y = max(dx * wall.normal_x[w] + dy * wall.normal_y[w] + dz * wall.normal_z[w] - wall.depth[w], p.contact)
-    a = granular.capped_fraction(s.density[i] / p.grain_density, p.packing)
+def grip(p, stick, y, density, theta, shear):
+    """Share of the no-slip stress: y/(y + b) at the distance y [m] from the wall, with the slip length b = mu/k of the
+    law tau = k v; all of it where theta [m2/s2] is not known (nan)."""
+    if p.specularity < 0.0 or stick == 0.0 or math.isnan(theta):
+        return stick * (p.specularity != 0.0)
+    y = max(y, p.contact)
+    a = granular.capped_fraction(density / p.grain_density, p.packing)
     g0 = granular.sinclair_jackson(a, p.packing)
-    k = johnson_jackson_wall(p.specularity, a, s.theta[i], g0, p.grain_density, p.packing)
+    k = johnson_jackson_wall(p.specularity, a, theta, g0, p.grain_density, p.packing)
     return k * y / (k * y + shear) if k > 0.0 else 0.0
 
 
@@ -194,12 +195,13 @@ def force(p, kernel, box, wall, s, i, stress, friction_p):
     ax = ay = az = tx = ty = tz = slid = lost = 0.0
     if len(p) == 0:
         return ax, ay, az, tx, ty, tz, slid, lost
+    theta = s.theta[i] if len(s.theta) else np.nan
     for k in range(wall.number[i]):
         w = entry(wall, i, k)
         dx, dy, dz = offset(box, wall, w, s, i)
         r = math.sqrt(dx * dx + dy * dy + dz * dz)
         if p.paper == 1:  # f/rho = -eps 2h sum (v.n) W A n / r, where v.n < 0; A = dx^(d-1), eps = penalty rho
-            vz = s.w[i] if len(s.z) else 0.0
+            vz = s.w[i] if deep(box) else 0.0
             approach = s.u[i] * wall.normal_x[w] + s.v[i] * wall.normal_y[w] + vz * wall.normal_z[w]
             push = -p.penalty * 2.0 * kernel.h * min(approach, 0.0) / r * p.volume
             push *= kernels.cubic_spline(r, kernel.h, kernel.sigma)
@@ -210,16 +212,17 @@ def force(p, kernel, box, wall, s, i, stress, friction_p):
             gradient = kernels.cubic_spline_gradient(r, kernel.h, kernel.sigma)
             push = -p.volume / s.density[i] * (stress.pressure[i] + wall.pressure[w]) * gradient
             # mirrored velocity 2 v_wall - <v>: v_i + <v> - 2 v_wall; Morris' form of the viscous force
-            gripped = 2.0 * grip(p, wall, w, s, i, dx, dy, dz, stress.shear[i])
+            nx, ny, nz = wall.normal_x[w], wall.normal_y[w], wall.normal_z[w]
+            away = dx * nx + dy * ny + dz * nz
+            gripped = 2.0 * grip(p, wall.stick[w], away - wall.depth[w], s.density[i], theta, stress.shear[i])
             stick = gripped * p.volume / s.density[i] * stress.shear[i] * gradient
-            du, dv, dw = against(wall, w, s, i)
+            du, dv, dw = against(wall, w, box, s, i)
             fx = stick * (du + wall.velocity[w, 0] - wall.slide_x[w])
             fy = stick * (dv + wall.velocity[w, 1] - wall.slide_y[w])
             fz = stick * (dw + wall.velocity[w, 2] - wall.slide_z[w])
             lost -= fx * du + fy * dv + fz * dw
-            nx, ny, nz = wall.normal_x[w], wall.normal_y[w], wall.normal_z[w]
             # pressure acts along the normal: a row of dummies is no row of teeth
-            along = push * (dx * nx + dy * ny + dz * nz)
+            along = push * away
             corner = push * (1.0 - (nx * nx + ny * ny + nz * nz))
             ax += along * nx + corner * dx
             ay += along * ny + corner * dy
@@ -235,7 +238,7 @@ def force(p, kernel, box, wall, s, i, stress, friction_p):
     return ax, ay, az, tx, ty, tz, slid, lost
 
 
-@njit(cache=True, error_model="numpy")
+@inlined
 def rubbing(p, wall, w, tau, i, dx, dy, dz):
     """tau_i.r of contacts, r taken along the normal; of a smooth wall its normal part."""
     dx, dy, dz = normal_part(wall, w, dx, dy, dz)

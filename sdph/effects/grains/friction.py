@@ -17,6 +17,7 @@ from numba import njit
 
 from sdph.effects import limiter
 from sdph.effects.effect import DIFFUSIVE, Effect, Judgement
+from sdph.engine.geometry import deep
 from sdph.laws import constants, granular
 from sdph.laws import friction as law
 from sdph.laws.compiled import inlined
@@ -87,7 +88,7 @@ def sound_squared(p, slope):
 
 
 @inlined
-def stress(p, pressures, s, i, D, spin, dt):
+def stress(p, pressures, s, box, i, D, spin, dt):
     """Deviator of the elastic stress of contacts [Pa] after dt (xx, yy, zz, xy, yz, zx), and their viscosity [Pa s].
 
     `pressures` is a sdph.methods.grains.equations.Scratch, D (6) the deviator of the rate of strain [1/s], spin (xy,
@@ -96,16 +97,14 @@ def stress(p, pressures, s, i, D, spin, dt):
     where their sum is past yield.
     """
     frictional_pressure = pressures.lasting[i] * s.density[i] ** 2
-    if frictional_pressure == 0.0:
-        return (0.0, 0.0, 0.0, 0.0, 0.0, 0.0), 0.0
     bulk = s.density[i] / p.grain_density * pressures.stiffness[i]
-    xx, yy, zz, xy, yz, zx = trial(s, i, D, spin, 2.0 * p.stiffness * bulk, dt)
+    xx, yy, zz, xy, yz, zx = trial(s, box, i, D, spin, 2.0 * p.stiffness * bulk, dt)
     mu = stiffest(p, s.density[i], dt)
     m = 2.0 * mu
     squared = law.second_invariant(
         xx + m * D[0], yy + m * D[1], zz + m * D[2], xy + m * D[3], yz + m * D[4], zx + m * D[5]
     )
-    share = law.yield_share(frictional_pressure, p.sine, squared)
+    share = law.yield_share(frictional_pressure, p.sine, squared) * (frictional_pressure > 0.0)
     return (share * xx, share * yy, share * zz, share * xy, share * yz, share * zx), share * mu
 
 
@@ -116,10 +115,10 @@ def stiffest(p, density, dt):
 
 
 @inlined
-def trial(s, i, D, spin, modulus, dt):
+def trial(s, box, i, D, spin, modulus, dt):
     """Stress of contacts [Pa] after dt if none yields; modulus = 2 G [Pa]."""
     xx, yy, xy = s.contact_xx[i], s.contact_yy[i], s.contact_xy[i]
-    yz, zx = (s.contact_yz[i], s.contact_zx[i]) if len(s.z) else (0.0, 0.0)
+    yz, zx = (s.contact_yz[i], s.contact_zx[i]) if deep(box) else (0.0, 0.0)
     zz, strain = -xx - yy, modulus * dt
     a, b, c = spin[0] * dt, spin[1] * dt, spin[2] * dt
     return (

@@ -8,8 +8,9 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from sdph.engine.geometry import nearest_image
+from sdph.engine.geometry import deep, nearest_image
 from sdph.engine.rows import Rows, entry
+from sdph.laws.compiled import inlined
 
 CONTACT = 0.25  # spacings between a particle and the surface at which they touch; our choice, half of the start's
 
@@ -60,20 +61,20 @@ def turned(rows, count):
     return Rows(entries, start, number)
 
 
-@njit(cache=True, error_model="numpy")
+@inlined
 def offset(box, dummies, w, s, i):
     """r_i - r_w, three components, through periodic boundaries."""
-    dz = s.z[i] - dummies.z[w] if len(s.z) else 0.0
+    dz = s.z[i] - dummies.z[w] if deep(box) else 0.0
     return nearest_image(box, s.x[i] - dummies.x[w], s.y[i] - dummies.y[w], dz)
 
 
-@njit(cache=True, error_model="numpy")
+@inlined
 def distance(box, dummies, w, s, i):
     dx, dy, dz = offset(box, dummies, w, s, i)
     return math.sqrt(dx * dx + dy * dy + dz * dz)
 
 
-@njit(cache=True, error_model="numpy")
+@inlined
 def normal_part(dummies, w, dx, dy, dz):
     """The part of a vector along the normal of a wall, or all of it in a corner, where none is known."""
     nx, ny, nz = dummies.normal_x[w], dummies.normal_y[w], dummies.normal_z[w]
