@@ -28,14 +28,15 @@ class Hastened(Together):
     # see sdph.engine.kept
     KEPT = (
         "windows", "wall", "clock", "bodies", "method", "limiters", "now", "pace", "speed", "inertia", "inertia_most",
-        "most", "tear",
+        "viscous", "viscous_most", "most", "tear",
     )  # fmt: skip
 
     def __init__(self, case, ledger: Path):
         self.now, self.pace, self.speed = 0.0, 1.0, 0.0
         super().__init__(case, ledger)
         self.p = self.stepper.p["time_scaling"]
-        self.inertia = self.inertia_most = 0.0  # pressure that inertia takes over that of the bubble, and the most
+        self.inertia = self.inertia_most = 0.0  # pressure [Pa] that inertia takes, and the most over the bubble's
+        self.viscous = self.viscous_most = 0.0  # the same of the gel's viscosity
         self.most = {"diameter_ratio_max": 1.0, "pressure_max_Pa": 0.0}
         self.tear = Tear(self)
         self.first, self.vapour = self._rim(), self.stepper.void.mass  # at the start
@@ -98,8 +99,11 @@ class Hastened(Together):
         taken = time_scaling.pressure(case.liquid.density, void.radius, outer, self.speed, rate)
         share = -math.expm1(-passed / BREATH)
         self.inertia += share * (taken - self.inertia)
+        viscosity = case.liquid.viscosity if "laminar_viscosity" in case.effects else 0.0
+        self.viscous = time_scaling.viscous_pressure(viscosity, void.radius, outer, self.speed)
         if void.pressure > 0.1 * self.most["pressure_max_Pa"] and void.pressure > 0.1 * self._around():
             self.inertia_most = max(self.inertia_most, abs(self.inertia) / void.pressure)
+            self.viscous_most = max(self.viscous_most, abs(self.viscous) / void.pressure)
 
     def _around(self) -> float:
         return self.stepper.void.p.around
@@ -138,7 +142,7 @@ class Hastened(Together):
         told = super().row() | {
             "time_s": self.now, "scaled_time_s": self.method.time, "time_scale": self.pace,
             "wall_speed_m_s": self.speed, "diameter_ratio": self.diameter_ratio(),
-            "inertial_pressure_Pa": self.inertia,
+            "inertial_pressure_Pa": self.inertia, "viscous_pressure_Pa": self.viscous,
         }  # fmt: skip
         return told | self.stepper.heat.row() | self.tear.row()
 
@@ -146,6 +150,7 @@ class Hastened(Together):
         heat = self.stepper.heat.summary()
         return super().summary(out) | self.most | heat | self.tear.summary() | self._closure() | {
             "scaled_time_s": self.method.time, "inertial_pressure_largest_rel": self.inertia_most,
+            "viscous_pressure_largest_rel": self.viscous_most,
         }  # fmt: skip
 
     def _closure(self) -> dict[str, float]:
@@ -161,10 +166,13 @@ class Hastened(Together):
         }
 
     def warnings(self) -> list[str]:
-        most = self.inertia_most
-        told = f"inertia took {100.0 * most:.1f} % of the bubble's pressure at most"
-        mend = "lower time_scaling.wall_speed_cap_m_s"
-        return super().warnings() + ([f"{told} (2 % is the specification's limit): {mend}"] if most > 0.02 else [])
+        found = {"inertia": self.inertia_most, "the gel's viscosity": self.viscous_most}
+        return super().warnings() + [
+            f"{name} took {100.0 * most:.1f} % of the bubble's pressure at most (2 % is the specification's limit): "
+            "lower time_scaling.wall_speed_cap_m_s"
+            for name, most in found.items()
+            if most > 0.02
+        ]
 
 
 def of(case, ledger: Path) -> Alone:

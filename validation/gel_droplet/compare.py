@@ -112,7 +112,7 @@ def off_flaw(run) -> float:
 
 
 def closure(run) -> list[dict]:
-    """Heat, mass, energy; inertia by time scaling."""
+    """Heat, mass, energy; inertia and viscosity by time scaling."""
     told = run.summary
     return [
         check("heat made, of what came in", told["heat_drift_rel"], 0.0, HEAT),
@@ -120,5 +120,8 @@ def closure(run) -> list[dict]:
         check("energy that nobody gave, of the bubble's work", told["energy_drift_rel"], 0.0, ENERGY),
         check(
             "pressure of inertia over pressure, before the tear", told["inertial_pressure_largest_rel"], 0.0, INERTIA
+        ),
+        check(
+            "pressure of viscosity over pressure, before the tear", told["viscous_pressure_largest_rel"], 0.0, INERTIA
         ),
     ]

@@ -204,7 +204,7 @@ def rates(
     for i in prange(len(s.x)):
         ax = ay = az = 0.0
         work, warmth = scratch.works[0, i], scratch.works[1, i]
-        if walls.near(walls_p, wall, i):
+        if len(walls_p) and walls.near(walls_p, wall, i):
             wx, wy, wz, tx, ty, tz, slid, lost = walls.force(walls_p, kernel, box, wall, s, i, scratch, friction_p)
             of_walls[i, 0] = wx
             of_walls[i, 1] = wy
