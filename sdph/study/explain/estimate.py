@@ -27,6 +27,13 @@ OF_BURSTS = set(effects.REGISTRY["micro_explosion"].arrays).difference(  # array
     *(row.arrays for name, row in effects.REGISTRY.items() if name != "micro_explosion")
 )
 BASE = 180e6  # bytes of the program itself, kernels included
+# of a bed's height over a cell: below it more than a tenth of its drag is missing, by the one cell at its surface that
+# validation/fluidised_column measures
+SHALLOW = 10.0
+SHALLOW_WHY = (
+    "where a bed ends the gas sees its grains thinned out: drag of about one cell of its height is missing, "
+    "and a bed of few cells sinks through gas that should carry it"
+)
 CELLS_WHY = (
     "what grains do to the gas is spread over 2 h, so that smaller cells do not sharpen the answer, but shrink the "
     "windows and cost "
@@ -85,6 +92,8 @@ def ratios(case) -> list[dict]:
     ]
     if "gas_pressure" in case.effects and not case.coupling.one_way:
         rows.append(("gas pushed aside / packed grains", pushed_aside(case), 0.0, ADDED_MASS, ADDED_MASS_WHY))
+        if height := blown_height(case):
+            rows.append(("bed's height / cell", height / cell, SHALLOW, math.inf, SHALLOW_WHY))
     return [
         {"ratio": n, "value": v, "least": low, "most": high, "safe": "yes" if low <= v <= high else "NO", "why": w}
         for n, v, low, high, w in rows
@@ -96,6 +105,24 @@ def pushed_aside(case) -> float:
     of the grains."""
     alpha_p = case.grains.packing_limit
     return alpha_p * case.gas.density / ((1.0 - alpha_p) * case.grains.density)
+
+
+def blown_height(case) -> float:
+    """Height [m] along gravity of the tallest region of grains that gas is blown into from below; 0 without any.
+
+    Of grains given by mass it is that of as much in a box around their region.
+    """
+    g = np.array(case.domain.gravity)
+    if "drag" not in case.effects or not any(b.velocity and g @ b.velocity < 0.0 for b in case.boundaries.values()):
+        return 0.0
+    tallest = 0.0
+    for region in case.particles.values():
+        low, high = start.extents(case, region)
+        height = float(abs(g @ (np.array(high) - low)) / np.linalg.norm(g))
+        if region.mass is not None:
+            height *= region.mass / (region.volume_fraction * case.grains.density * float(np.prod(high - low)))
+        tallest = max(tallest, height)
+    return tallest
 
 
 def _extent(case) -> float:
