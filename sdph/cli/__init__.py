@@ -85,13 +85,12 @@ def init_case(options) -> int:
 
 def run(options) -> int:
     from sdph import scenes
+    from sdph.api import launch
     from sdph.case import read as cases
-    from sdph.running import driver, inputs, output
+    from sdph.running import driver, output
     from sdph.running.progress import Reporter
     from sdph.show import watch
-    from sdph.study import rehearsal
     from sdph.study.cost import choice
-    from sdph.study.explain import tables
 
     overrides = tuple(options.set) + _overrides(options)
     with contextlib.closing(Reporter(line=not options.json)) as reporter:
@@ -105,14 +104,9 @@ def run(options) -> int:
             if options.accuracy:
                 overrides = choice.with_settings(name, options.accuracy, overrides, reporter.status)
             case = cases.load(file, overrides)
-            inputs.check(case)  # what follows reads some of them
-            if "grains" not in case.matters:
-                _refuse(options, ("gas", "transport", "np"), f"{name} has no gas and no gas solver")
-            elif options.gas == "embedded":
-                _refuse(options, ("transport", "np"), "the embedded gas solver runs in this process")
+            launch.refuse_useless(case, name, {f"--{key}": getattr(options, key) for key in ("gas", "transport", "np")})
             template = driver.template_of(case, name, file)
-            rehearsal.look(case, template, allow_code=options.allow_code)
-            for warning in tables.warnings(case):
+            for warning in launch.looked_at(case, template, allow_code=options.allow_code):
                 reporter.status(f"warning: {warning}")
             folder = options.out or output.free_name(Path("runs") / name)
             reporter.page = watch.Page(folder) if options.watch else None
