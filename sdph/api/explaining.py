@@ -33,8 +33,8 @@ class Explanation(dict[str, list[dict[str, Any]]]):
 
 
 def explain(case: Case | str | os.PathLike[str], *, allow_code: bool = False) -> Explanation:
-    """Judge what a case (or scene, folder, file) calls for, its limits and its cost; `CaseError` where `run` would end with
-    one."""
+    """Judge what a case (or scene, folder, file) calls for, its limits and its cost; `CaseError` where `run`
+    would end with one."""
     own = Case.of(case)
     rehearsal.rehearse(own.resolved, own.gas_folder, allow_code=allow_code)
     return Explanation(tables.explain(own.resolved))

@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 from sdph.cli.arguments import parser
+from sdph.cli.sweeping import sweep
 from sdph.schema import CaseError
 
 FINE, CHECK_FAILED, BAD_INPUT, GAS_FAILED, CANNOT_WRITE, WENT_UNSTABLE = 0, 1, 2, 3, 4, 5
@@ -281,6 +282,7 @@ COMMANDS = {
     "stress": stress_cases,
     "compare": compare_run,
     "validate": validate_scene,
+    "sweep": sweep,
     "droplet": gel_droplet,
     "view": view_run,
     "report": report_runs,
