@@ -6,6 +6,7 @@ A line that begins with @ is filled in from the code, so that it cannot go stale
     @doc MODULE          the docstring of a module, and where it lies
     @laws  @effects      every law with its formula, every effect with its section
     @reference           every key of a case: unit, default, bounds
+    @droplet             every key of `sdph droplet`
     @gallery             every scene: picture, title, how to run it
 """
 
@@ -94,6 +95,13 @@ def reference() -> str:
     return "\n".join(_keys(name, cls) for name, cls in sections.items())
 
 
+def droplet() -> str:
+    """Sections of `sdph droplet`."""
+    from sdph.study.gel_droplet.sections import CLASSES
+
+    return "\n".join(_keys(name, cls) for name, cls in CLASSES.items())
+
+
 def _keys(section: str, cls) -> str:
     from sdph.schema import fields
 
@@ -163,6 +171,7 @@ FILLED = {
     "@laws": laws,
     "@effects": effects,
     "@reference": reference,
+    "@droplet": droplet,
     "@gallery": gallery,
 }
 

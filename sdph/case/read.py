@@ -47,12 +47,23 @@ def load(path: Path, overrides: tuple[str, ...] = ()) -> Case:
 
     Files that the case names lie where they do from its own folder, those of the overrides from the working directory.
     """
-    given = parsed(path)
-    _locate(given, Path(path).parent)
+    given = located(path)
     for override in overrides:
         put(given, override)
-    _locate(given, Path())
-    return from_table(given)
+    return from_working_directory(given)
+
+
+def located(path: Path) -> dict:
+    """Table of a TOML file, the paths of files in it absolute."""
+    given = parsed(path)
+    _locate(given, Path(path).parent)
+    return given
+
+
+def from_working_directory(table: dict) -> Case:
+    """The case of a table whose relative paths are taken from the working directory."""
+    _locate(table, Path())
+    return from_table(table)
 
 
 def parsed(path: Path) -> dict:
@@ -101,17 +112,30 @@ def files(table: dict) -> list[tuple[str, dict, str]]:
 def put(table: dict, text: str) -> None:
     """Put `section.key=value`, the value as in TOML, into a table."""
     key, equals, value = text.partition("=")
-    *sections, last = key.strip().split(".")
-    if not equals or not all([*sections, last]):
+    entries, last = place(table, key, f"--set {text}")
+    if not equals:
         raise CaseError(f"--set {text}: give it as section.key=value")
+    entries[last] = value_of(value)
+
+
+def value_of(text: str):
+    """The value of a text as in TOML; the text itself where it is none."""
+    try:
+        return tomllib.loads(f"value = {text}")["value"]
+    except (ValueError, RecursionError):
+        return text
+
+
+def place(table: dict, key: str, told: str) -> tuple[dict, str]:
+    """The section (made where there is none) and the last part of a dotted key; `told` begins the message."""
+    *sections, last = key.strip().split(".")
+    if not all([*sections, last]):
+        raise CaseError(f"{told}: give it as section.key=value")
     for section in sections:
         table = table.setdefault(section, {})
         if not isinstance(table, dict):
-            raise CaseError(f"--set {text}: {section} is a value, not a section")
-    try:
-        table[last] = tomllib.loads(f"value = {value}")["value"]
-    except (ValueError, RecursionError):
-        table[last] = value
+            raise CaseError(f"{told}: {section} is a value, not a section")
+    return table, last
 
 
 def from_table(table: dict) -> Case:

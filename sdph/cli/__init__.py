@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 from sdph.cli.arguments import parser
+from sdph.cli.sweeping import sweep
 from sdph.schema import CaseError
 
 FINE, CHECK_FAILED, BAD_INPUT, GAS_FAILED, CANNOT_WRITE, WENT_UNSTABLE = 0, 1, 2, 3, 4, 5
@@ -85,13 +86,12 @@ def init_case(options) -> int:
 
 def run(options) -> int:
     from sdph import scenes
+    from sdph.api import launch
     from sdph.case import read as cases
-    from sdph.running import driver, inputs, output
+    from sdph.running import driver, output
     from sdph.running.progress import Reporter
     from sdph.show import watch
-    from sdph.study import rehearsal
     from sdph.study.cost import choice
-    from sdph.study.explain import tables
 
     overrides = tuple(options.set) + _overrides(options)
     with contextlib.closing(Reporter(line=not options.json)) as reporter:
@@ -105,14 +105,9 @@ def run(options) -> int:
             if options.accuracy:
                 overrides = choice.with_settings(name, options.accuracy, overrides, reporter.status)
             case = cases.load(file, overrides)
-            inputs.check(case)  # what follows reads some of them
-            if "grains" not in case.matters:
-                _refuse(options, ("gas", "transport", "np"), f"{name} has no gas and no gas solver")
-            elif options.gas == "embedded":
-                _refuse(options, ("transport", "np"), "the embedded gas solver runs in this process")
+            launch.refuse_useless(case, name, {f"--{key}": getattr(options, key) for key in ("gas", "transport", "np")})
             template = driver.template_of(case, name, file)
-            rehearsal.look(case, template, allow_code=options.allow_code)
-            for warning in tables.warnings(case):
+            for warning in launch.looked_at(case, template, allow_code=options.allow_code):
                 reporter.status(f"warning: {warning}")
             folder = options.out or output.free_name(Path("runs") / name)
             reporter.page = watch.Page(folder) if options.watch else None
@@ -287,6 +282,7 @@ COMMANDS = {
     "stress": stress_cases,
     "compare": compare_run,
     "validate": validate_scene,
+    "sweep": sweep,
     "droplet": gel_droplet,
     "view": view_run,
     "report": report_runs,

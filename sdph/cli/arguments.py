@@ -36,6 +36,7 @@ def parser() -> argparse.ArgumentParser:
         "--measure", action="store_true", help="measure what each effect costs on this machine; minutes the first time"
     )
     _study(commands)
+    _sweep(commands)
     _droplet(commands)
     _look(commands)
     openfoam = _command(commands, "openfoam", "find or install OpenFOAM and compile the gas solver")
@@ -86,6 +87,37 @@ def _study(commands) -> None:
     check.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: openfoam where it is)")
     check.add_argument("--out", type=Path, help="keep the runs in this folder")
     check.add_argument("--json", action="store_true", help="print the checks as JSON")
+
+
+def _sweep(commands) -> None:
+    """Command of many runs."""
+    sweep = _command(
+        commands, "sweep", "many runs of a case over values of its keys; called again, it does what is left"
+    )
+    sweep.add_argument("target", help="scene, folder made by `sdph init`, or case.toml")
+    sweep.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="KEY=VALUES",
+        help="values v1,v2,... or a:b:n, n numbers from a to b; several keys make a grid",
+    )
+    sweep.add_argument(
+        "--table", type=Path, metavar="FILE", help="CSV file: a row for each run, its first line names keys"
+    )
+    sweep.add_argument("--out", type=Path, help="folder of sweep.csv and runs (default: runs/sweep-TARGET)")
+    who = sweep.add_mutually_exclusive_group()
+    who.add_argument("--workers", type=count, metavar="N", help="so many runs at once, by dask (default: one by one)")
+    who.add_argument("--scheduler", metavar="ADDRESS", help="address of a scheduler of dask whose workers do the runs")
+    sweep.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: openfoam where it is)")
+    sweep.add_argument("--until", type=float, metavar="T", help="end time [s] of each run")
+    sweep.add_argument(
+        "--plot", action="append", default=[], metavar="METRIC", help="draw a number of the summaries; may be repeated"
+    )
+    sweep.add_argument("--over", metavar="KEY", help="over this key (default: the first that takes several numbers)")
+    sweep.add_argument("--again", action="store_true", help="also do again what cannot be run or went unstable")
+    _code_option(sweep)
+    sweep.add_argument("--json", action="store_true", help="print the rows as JSON")
 
 
 def _droplet(commands) -> None:

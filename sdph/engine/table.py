@@ -148,12 +148,15 @@ class Table:
         if length < 0 or columns != kept["columns"]:
             raise Unfit(f"{Path(name).name} does not begin with its columns, or is cut to {length} bytes")
 
+    def name(self, columns: tuple[str, ...]) -> None:
+        """Name the columns before there is a row."""
+        self.columns = columns
+        csv.DictWriter(self.file, columns).writeheader()
+
     def write(self, row: dict) -> None:
-        writer = csv.DictWriter(self.file, self.columns or row.keys())
         if not self.columns:
-            self.columns = tuple(row)
-            writer.writeheader()
-        writer.writerow(row)
+            self.name(tuple(row))
+        csv.DictWriter(self.file, self.columns).writerow(row)
 
     def flush(self) -> None:
         self.file.flush()

@@ -25,13 +25,12 @@ from sdph.engine import contact, restart
 from sdph.engine import device as environment
 from sdph.engine import state as particles
 from sdph.engine.guard import Unstable
-from sdph.engine.kept import ROW, Many, Maybe, Unfit
+from sdph.engine.kept import Maybe, Unfit
 from sdph.engine.ledger import Ledger
-from sdph.engine.table import Table
 from sdph.methods.liquids.liquid import Liquid
 from sdph.running import chain, hastened, inputs, metrics, output, vessel
-from sdph.running.fields import Fields
 from sdph.running.interruption import Stopped, listening
+from sdph.running.outputs import Outputs
 from sdph.running.simulation import Simulation
 from sdph.scenes import paths
 from sdph.schema import CaseError
@@ -41,7 +40,21 @@ FULL = 2**16  # bytes: with less, programs that do not say why they failed have 
 
 
 def run(case, name: str, folder: Path, gas_folder: Path | None, reporter, *, allow_code: bool = False) -> dict:
-    """Run a case into a new folder and return its summary.
+    """Run a case into a new folder and return its summary; arguments as of `stepping`."""
+    return _to_its_end(stepping(case, name, folder, gas_folder, reporter, allow_code=allow_code))
+
+
+def _to_its_end(windows) -> dict:
+    """The summary of a run that goes by its windows."""
+    while True:
+        try:
+            next(windows)
+        except StopIteration as end:
+            return end.value
+
+
+def stepping(case, name: str, folder: Path, gas_folder: Path | None, reporter, *, allow_code: bool = False):
+    """Run a case into a new folder and yield its `Run` after each window; who stops asking finds a checkpoint there.
 
     `gas_folder` holds the user's own OpenFOAM case (None: the scene's template), whose dictionaries may run code only
     with `allow_code`; `reporter` shows progress.
@@ -56,7 +69,7 @@ def run(case, name: str, folder: Path, gas_folder: Path | None, reporter, *, all
             output.write_origin(folder)
             output.write_text(folder / output.MARK, cases.dumps(inputs.seen_from(case, folder)))
             case = chain.made(case, folder, run, resume, reporter)
-            return _guarded(Run(case, folder, reporter), None, inputs.gas_of(folder), allow_code)
+            return (yield from _guarded(Run(case, folder, reporter), None, inputs.gas_of(folder), allow_code))
         except CaseError:
             if not restart.newest(folder):  # the case cannot be run: as if it had not been tried
                 shutil.rmtree(folder)
@@ -91,7 +104,7 @@ def resume(folder: Path, overrides: tuple[str, ...], reporter, *, allow_code: bo
             output.clear(folder)
             case = chain.made(inputs.keep(case, folder), folder, run, resume, reporter)
         template = None if checkpoint else inputs.gas_of(folder)
-        return _guarded(Run(case, folder, reporter), checkpoint, template, allow_code)
+        return _to_its_end(_guarded(Run(case, folder, reporter), checkpoint, template, allow_code))
 
 
 def simulation_of(case, gas, ledger: Path):
@@ -106,11 +119,11 @@ def simulation_of(case, gas, ledger: Path):
     return simulation
 
 
-def _guarded(run: Run, checkpoint, template: Path | None, allow_code: bool) -> dict:
-    """The summary of a run; where it fails, the folder says why, and the error says how to go on."""
+def _guarded(run: Run, checkpoint, template: Path | None, allow_code: bool):
+    """The windows of a run; where it fails, the folder says why, and the error says how to go on."""
     try:
         with listening() as wish, _gas_of(run, template, allow_code) as gas:
-            return run.go(gas, checkpoint, wish)
+            return (yield from run.go(gas, checkpoint, wish))
     except OSError as error:
         failure = output.CannotWrite(
             f"{run.folder} cannot be written: {error.strerror or error}; make room or give another folder"
@@ -148,8 +161,8 @@ class Run:
     def spent(self, before: float) -> None:
         self.elapsed = before
 
-    def go(self, gas, checkpoint, wish) -> dict:
-        """Run from the start, or from a checkpoint, to the summary; `gas` None without grains."""
+    def go(self, gas, checkpoint, wish):
+        """Run from the start, or from a checkpoint, window by window to the summary; `gas` None without grains."""
         self._begin(gas, checkpoint)
         output.write_text(self.folder / output.MARK, cases.dumps(inputs.seen_from(self.case, self.folder)))
         (self.folder / output.FAILURE).unlink(missing_ok=True)
@@ -157,6 +170,7 @@ class Run:
         with contextlib.closing(self.out):
             while not self.simulation.clock.over(self.simulation.time):
                 self._window()
+                yield from self._shown()
                 if wish.number is not None or self._due():
                     self._save()
                 wish.obey()
@@ -166,6 +180,14 @@ class Run:
         for warning in (*environment.warnings(), *self.simulation.warnings()):
             self.reporter.status(f"warning: {warning}")
         return summary
+
+    def _shown(self):
+        """Yield the run as it is; a checkpoint is left where nobody asks for more."""
+        try:
+            yield self
+        except GeneratorExit:
+            self._save()
+            raise
 
     def failed(self, error: BaseException) -> BaseException:
         """The error with a note on how to go on; failure.json keeps what happened. A run that was refused is as it
@@ -244,50 +266,6 @@ class Run:
         table = cases.to_table(inputs.seen_from(self.case, self.folder))
         restart.write(self.folder, self.simulation.windows, self.simulation.time, table, self, self.simulation.gas)
         self.saved_time, self.saved_window = time.monotonic(), self.simulation.windows
-
-
-class Outputs:
-    """All that a run writes as it goes: history by row, fields and metrics by output interval."""
-
-    KEPT = ("fields", "history", "metrics", "first", "last", "rows")  # see sdph.engine.kept
-    FORMS = {"first": ROW, "last": ROW, "rows": Many(ROW)}
-
-    def __init__(self, folder: Path, simulation):
-        self.simulation, self.fields = simulation, Fields(folder)
-        self.history, self.metrics = Table(folder / "history.csv"), Table(folder / "metrics.csv")
-        self.first, self.last, self.rows = {}, {}, []
-
-    def admit(self, kept: dict) -> None:
-        """Unfit where a kept row is not of the columns of its table, or holds what is no number."""
-        first, last, rows = kept["first"], kept["last"], kept["rows"]
-        own, metric = kept["history"]["columns"], kept["metrics"]["columns"]
-        for row, columns in ((first, own), (last or first, own), *((row, metric) for row in rows)):
-            if not row.keys() <= set(columns) or any(isinstance(value, str) for value in row.values()):
-                raise Unfit("a row of the history or of the metrics is not of the columns of its table")
-
-    def start(self) -> None:
-        """The rows and fields of the start, and the walls, which stay as they are."""
-        self.fields.write_walls(self.simulation.walls())
-        self.first = self.simulation.row()
-        self.history.write(self.first)
-        self._write()
-
-    def window(self) -> None:
-        """Write what is due after a window."""
-        if self.simulation.at_row:
-            self.last = self.simulation.row()
-            self.history.write(self.last)
-        if self.simulation.clock.writes(self.simulation.time):
-            self._write()
-
-    def close(self) -> None:
-        for table in (self.history, self.metrics, *self.simulation.tables()):
-            table.close()
-
-    def _write(self) -> None:
-        self.fields.write(self.simulation.time, self.simulation.meshes())
-        self.rows.append(metrics.row(self.simulation))
-        self.metrics.write(self.rows[-1])
 
 
 def _summary(simulation, out: Outputs) -> dict:

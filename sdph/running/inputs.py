@@ -175,15 +175,23 @@ def copy_case(file: Path, folder: Path) -> None:
     """case.toml in a new folder, with copies of the files that it names."""
     text = file.read_text(encoding="utf-8")
     table = tomllib.loads(text)
+    for before, after in take_along(table, file.parent, folder):
+        text = text.replace(f'"{before}"', f'"{after}"')
+    if tomllib.loads(text) != table:  # a value written in another way: comments are lost
+        text = tomli_w.dumps(table)
+    output.write_text(folder / output.MARK, text)
+
+
+def take_along(table: dict, base: Path, folder: Path) -> list[tuple[str, str]]:
+    """Copy the files that a table names, from the folder `base`, into `folder`; (path before, path now) of each."""
+    changed = []
     for where, entries, key in cases.files(table):
-        source, value = file.parent / entries[key], entries[key]
+        source, before = base / entries[key], entries[key]
         if key == "record":
             entries[key] = os.path.abspath(source)
         else:
             *group, name = where.split(".", 1)
             entries[key] = place(".".join([*group, safe(name), key]), source)
             _copied(".".join([*group, safe(name), key]), source, folder)
-        text = text.replace(f'"{value}"', f'"{entries[key]}"')
-    if tomllib.loads(text) != table:  # a value written in another way: comments are lost
-        text = tomli_w.dumps(table)
-    output.write_text(folder / output.MARK, text)
+        changed.append((before, entries[key]))
+    return changed

@@ -31,7 +31,7 @@ MARK, ORIGIN = "case.toml", "origin.json"  # a folder with these files holds a r
 FAILURE = "failure.json"
 WALLS = "fields/walls.vtp"
 LEFT = (  # by a run, as patterns; what else is in its folder is the user's
-    "ledger.csv", "ledger_liquid.csv", "history.csv", "metrics.csv", "run.pvd", "summary.json", FAILURE,
+    "ledger.csv", "ledger_liquid.csv", "outflow.csv", "history.csv", "metrics.csv", "run.pvd", "summary.json", FAILURE,
     "compare_*.json", "last_good.*", "checkpoints", "gas", WALLS,
     "fields/particles_*.vt?", "fields/gas_*.vt?", "fields/liquid_*.vt?", "fields/part-*.vt?",
 )  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time as clock
+from pathlib import Path
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from sdph.engine.kept import Unfit
 from sdph.exchange.exchange import Exchange
 from sdph.exchange.window import Window, learned
 from sdph.methods.grains.grains import Grains
-from sdph.running import history, output
+from sdph.running import history, outlet, output
 from sdph.running.beside import Beside
 from sdph.running.limiters import Limiters
 from sdph.running.work import Held
@@ -27,7 +28,17 @@ class Simulation:
     """Grains of a case coupled to a gas, and other methods beside them; call `window` until `time` is the end."""
 
     at_row = True  # the history has a row of every window
-    KEPT = ("repeated", "wall", "grains", "exchange", "clock", "ledger", "beside", "limiters")  # see sdph.engine.kept
+    KEPT = (
+        "repeated",
+        "wall",
+        "grains",
+        "exchange",
+        "clock",
+        "ledger",
+        "beside",
+        "limiters",
+        "outlet",
+    )  # see sdph.engine.kept
 
     def __init__(self, case, gas, ledger):
         self.case, self.gas, self.ledger = case, gas, ledger
@@ -39,6 +50,8 @@ class Simulation:
         self.notices = self.grains.notices  # for the user, until somebody has passed them on
         self._weights_now = None
         self.beside, self.limiters = Beside(), Limiters()  # other methods; what limiters hold
+        path = Path(ledger.table.file.name).with_name(outlet.FILE)
+        self.outlet = outlet.Outlet(case, path) if "outflow" in case.effects else None
         self.wall = {"particles": 0.0, "exchange": 0.0, "gas": 0.0}
 
     @staticmethod
@@ -53,7 +66,8 @@ class Simulation:
 
     def tables(self) -> list:
         """Ledgers that are open."""
-        return [self.ledger.table, *(method.ledger.table for method in self.beside.methods.values())]
+        own = [self.outlet.table] if self.outlet else []
+        return [self.ledger.table, *own, *(method.ledger.table for method in self.beside.methods.values())]
 
     @property
     def time(self) -> float:
@@ -81,6 +95,8 @@ class Simulation:
     def start(self) -> None:
         """Initial fields of both sides, and the first window."""
         self.grains.start()
+        if self.outlet:
+            self.outlet.start()
         one_way = self.case.coupling.one_way
         alpha_g = None if one_way or not self.case.coupling.voidage else self._alpha_g()
         self.gas_state = self.gas.start(alpha_g, () if one_way else self.exchange.sources, self.exchange.fields)
@@ -157,6 +173,8 @@ class Simulation:
         """Between windows: particles that come and go; there may be more to exchange then."""
         if self.grains.renew(self.clock.longest()):
             self._weights_now = None
+        if self.outlet and self.grains.gone is not None:
+            self.outlet.note(self.time, self.grains.gone)
         if self.grains.source:
             self.clock.stake(self.exchange.stake(self.state, self.weights, self.gas_state))
 
@@ -219,7 +237,7 @@ class Simulation:
     def summary(self, out) -> dict[str, float]:
         """summary.json, its own part; what probes rose by is told from the first and the last row of the history."""
         own = {"cells": len(self.gas.mesh.volumes)} | self.grains.summary() | {"windows_repeated": self.repeated}
-        own |= self.limiters.summary()
+        own |= self.limiters.summary() | (self.outlet.summary() if self.outlet else {})
         for name in self.case.probes:
             own |= {key: out.last[key] for key in (f"{name}_{probed}" for probed in history.PROBED) if key in out.last}
             if (key := f"{name}_temperature_K") in out.last:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 from xml.etree import ElementTree
 
 import numpy as np
@@ -15,6 +16,14 @@ from sdph.schema import CaseError
 SAME = 1e-6  # of the last time: how far past it a time may lie, by the digits it was written with
 PARTICLES = ("velocity", "ident", "kind", "mass", "density")  # arrays that all particles have, of grains and of liquids
 GAS_CELLS = ("velocity", "pressure", "temperature", "density", "alpha_p")
+
+
+class Instant(NamedTuple):
+    """Particles and gas (None where there is none) at a time [s], as pyvista meshes."""
+
+    time: float
+    particles: object
+    gas: object
 
 
 @dataclass(frozen=True)
@@ -58,19 +67,19 @@ def _inside(name: str) -> str:
     return name
 
 
-def state_at(timeline: Timeline, time: float | None = None):
+def state_at(timeline: Timeline, time: float | None = None) -> Instant:
     """(time, particles, gas) nearest to `time` [s]; the last without one."""
     times = timeline.time_values
     chosen = times[-1] if time is None else min(times, key=lambda t: abs(t - time))
     if time is not None and not times[0] <= time <= times[-1] and not abs(time - chosen) <= SAME * times[-1]:
-        raise CaseError(f"--time {time:g}: this run has fields from {times[0]:g} to {times[-1]:g} s")
+        raise CaseError(f"no fields at {time:g} s: this run has fields from {times[0]:g} to {times[-1]:g} s")
     parts = timeline.files[chosen]
     gas = fields.load(parts[1], GAS_CELLS) if 1 in parts else None  # a liquid has none
     clouds = [fields.load(file, PARTICLES) for part, file in sorted(parts.items()) if part != 1]
-    return chosen, _together(clouds), gas
+    return Instant(chosen, together(clouds), gas)
 
 
-def _together(clouds: list):
+def together(clouds: list):
     """Particles of all methods as one; nan where a method has no such field."""
     names = {name: cloud[name] for cloud in clouds for name in cloud.array_names}
     for cloud in clouds if len(clouds) > 1 else ():

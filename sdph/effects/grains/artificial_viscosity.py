@@ -42,8 +42,8 @@ def held(p, method) -> dict[str, float]:
 
 
 def call(scales) -> Judgement:
-    """Mach number of the grains: shocks and crossing particles from about 1 on."""
-    mach = scales.speed / scales.sound if scales.sound and scales.collides else 0.0
+    """Mach number of the grains: shocks and crossing particles from about 1 on; none where they are thin."""
+    mach = scales.speed / scales.sound if scales.sound and scales.collides and not scales.thin else 0.0
     blur = scales.case.smoothing_length / scales.length  # what it does, it does over h
     return Judgement(
         "speed / sound of the grains", mach, 1.0, "Monaghan 1992, section 4", min(1.0, mach) * min(1.0, blur)

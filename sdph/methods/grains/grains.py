@@ -39,6 +39,7 @@ class Grains:
         self.source = Source(case, names, len(state.x) + 1) if self.parameters["inflow"] else None
         self.stepper = Stepper(case, self.parameters, state, self.source, Clock(case.run).shortest)
         self.time, self.windows, self.came, self.left = 0.0, 0, self._came_in(), NOTHING_LEFT
+        self.gone = None  # State of what has left in the window
         self.torn = dict(micro_explosion.NOTHING_TORN)  # in the window
 
     @property
@@ -75,7 +76,7 @@ class Grains:
     def begin(self) -> None:
         """Remember the state to go back to, before a window."""
         self.stepper.guard.begin(self)
-        self.came, self.left = self._came_in(), NOTHING_LEFT
+        self.came, self.left, self.gone = self._came_in(), NOTHING_LEFT, None
 
     def force(self, warmth, push, damping) -> None:
         """Take heat (N,) [J], acceleration (N, 3) [m/s2] and damping (N,) [1/s] of theta that hold over the window;
@@ -103,7 +104,8 @@ class Grains:
         if gone.any():
             if not self.parameters["outflow"]:
                 refuse_to_leave(self.case, state, gone, self.time)
-            self.left = self._of(particles.take(state, gone))
+            self.gone = particles.take(state, gone)
+            self.left = self._of(self.gone)
             state = particles.take(state, ~gone)
         if self.source:
             state = self.source.fill(state, self.time, longest)

@@ -17,6 +17,9 @@ from sdph.methods.grains import start, ways
 
 SHEAR = 0.5  # sqrt(I2D) over the rate of a simple shear: D_xy is half of it
 DILUTE = 1e-3  # alpha_p below which grains do not meet often enough to matter, Elghobashi 1994
+THIN = (
+    0.1  # free path over h above which grains are no fluid (Bird 1994, ch. 1: continuum up to a Knudsen number of 0.1)
+)
 SETTLED = 0.95  # of the onset of lasting contacts, from which on grains lie on each other; our choice
 
 
@@ -238,6 +241,18 @@ class Scales:
         """d sqrt(pi)/(24 a_p g0 sqrt(theta)) [s], kinetic theory (Gidaspow 1994, ch. 9)."""
         rate = 24.0 * self.alpha_p * self.g0 * math.sqrt(self.theta / math.pi) / self.grains.diameter
         return 1.0 / rate if rate else math.inf
+
+    @cached_property
+    def free_path(self) -> float:
+        """d/(6 sqrt(2) a_p g0) [m]: mean way of a grain between collisions (Bird 1994, ch. 1)."""
+        found = 6.0 * math.sqrt(2.0) * self.alpha_p * self.g0
+        return self.grains.diameter / found if found else math.inf
+
+    @cached_property
+    def thin(self) -> bool:
+        """True where grains fly so far between collisions that they are no fluid over h: streams pass through each
+        other, without a shock."""
+        return self.free_path > THIN * self.case.smoothing_length
 
     @cached_property
     def sound(self) -> float:

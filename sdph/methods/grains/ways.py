@@ -72,8 +72,19 @@ def opened(case, side: str) -> bool:
 
 def towards(s, patch, axis: int, outward: float) -> float:
     """Way [m] that grains of a patch get along an axis within the run: thrown, spread, fallen, or blown along by the
-    gas."""
+    gas.
+
+    Droplets of a cone part: sideways each is stopped by gas that the mouth has not loaded.
+    """
     thrown = outward * patch.velocity[axis] * s.coasting
-    spread = math.hypot(*patch.velocity) * math.sin(patch.half_angle) * s.coasting if not patch.velocity[axis] else 0.0
+    alone = -s.drag_time * math.expm1(-s.end / s.drag_time)
+    spread = math.hypot(*patch.velocity) * math.sin(patch.half_angle) * alone if not patch.velocity[axis] else 0.0
     fallen = s.falling * s.end if outward * s.case.domain.gravity[axis] > 0.0 else 0.0
-    return max(0.0, thrown + spread + fallen + s.blown * s.end)
+    return max(0.0, thrown + spread + fallen + s.blown * s.end * _blows(s.case, axis, outward))
+
+
+def _blows(case, axis: int, outward: float) -> bool:
+    """True where gas that is let in may blow grains that way: a stream through a whole side goes straight on, one
+    through part of it turns anywhere."""
+    fed = [b for b in case.boundaries.values() if b.velocity and any(b.velocity)]
+    return any(b.span is not None or b.side is None or outward * b.velocity[axis] > 0.0 for b in fed)

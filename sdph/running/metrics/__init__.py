@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from sdph.case.gas_cells import upwards
+from sdph.running import sizing
 from sdph.running.metrics import agitation, bubble, bursts, column, jet
 from sdph.schema import CaseError
 
@@ -29,6 +30,7 @@ AT_OUTPUTS = {
     "bursts": bursts.metrics,
     "column": column.metrics,
     "jet": jet.metrics,
+    "sizes": sizing.metrics,
 }
 IN_THE_END = {"bubble": bed_in_the_end}
 
@@ -37,9 +39,16 @@ def row(simulation) -> dict[str, float]:
     """All metrics of the case now."""
     refuse_unknown(simulation.case)
     columns = {"time_s": simulation.time}
-    for name in simulation.case.run.metrics:
+    for name in names(simulation.case):
         columns |= AT_OUTPUTS[name](simulation)
     return columns
+
+
+def names(case) -> list[str]:
+    """Metrics that the case asks for, and sizes where they differ or change."""
+    own = list(case.run.metrics)
+    always = ["sizes"] if "grains" in case.matters and sizing.told(case) else []
+    return own + [name for name in always if name not in own]
 
 
 def refuse_unknown(case) -> None:
@@ -57,7 +66,7 @@ def refuse_unknown(case) -> None:
 
 def summary(case, rows: list[dict]) -> dict[str, float]:
     """The last row, and what only all of them tell."""
-    if not case.run.metrics:
+    if not names(case):
         return {}
-    in_the_end = [IN_THE_END[name](rows) for name in case.run.metrics if name in IN_THE_END]
+    in_the_end = [IN_THE_END[name](rows) for name in names(case) if name in IN_THE_END]
     return {key: value for part in (rows[-1], *in_the_end) for key, value in part.items() if key != "time_s"}

@@ -7,6 +7,7 @@ import math
 from sdph import effects
 from sdph.case import judge
 from sdph.methods.grains import start
+from sdph.methods.grains.scales import THIN
 from sdph.study.explain import droplets, estimate, liquids, mps, solids
 
 OF = {
@@ -59,7 +60,6 @@ def numbers(s) -> list[tuple]:
     biot = s.nusselt * gas.conductivity / (6.0 * grains.conductivity) if grains.conductivity else math.inf
     archimedes = gas.density * (grains.density - gas.density) * s.gravity * grains.diameter**3 / gas.viscosity**2
     sound = math.sqrt(1.4 * 8314.46 / gas.molar_mass * gas.temperature)  # of a diatomic gas
-    free_path = grains.diameter / (6.0 * math.sqrt(2.0) * s.alpha_p * s.g0) if s.alpha_p else math.inf
     diffusivity = grains.conductivity / (grains.density * grains.heat_capacity)
     peclet = s.speed * s.length / diffusivity if diffusivity else math.inf
     fed = s.jet / s.minimum_fluidisation if s.jet else 0.0
@@ -73,8 +73,8 @@ def numbers(s) -> list[tuple]:
         ("1/Froude, g t/U", s.gravity * end / s.slip if s.slip else 0.0, 0.01, "gravity matters", "by its definition"),
         (
             "Knudsen of the grains, path/h",
-            free_path / s.case.smoothing_length,
-            0.1,
+            s.free_path / s.case.smoothing_length,
+            THIN,
             "grains fly further than h between collisions",
             "Bird 1994, ch. 1",
         ),

@@ -159,6 +159,31 @@ def test_what_leaves_is_counted_and_taken_out(tmp_path):
     inside = particles.positions(done.grains.inside)
     assert (inside[:, 0] <= 1.0).all()
     assert math.fsum(done.grains.inside.mass) == pytest.approx(summary["injected_kg"] - summary["left_kg"], rel=1e-12)
+    gone = recorded(done, tmp_path)
+    assert gone["mass_kg"].sum() == pytest.approx(summary["left_kg"], rel=1e-12)
+    assert (gone["x_m"] > 1.0).all() and (gone["x_m"] < 1.0 + 0.01 * gone["velocity_x_m_s"].max()).all()
+    told = done.outlet.summary()
+    assert told["outflow_count"] == pytest.approx(summary["left_kg"] / (700.0 * math.pi / 6.0 * 1e-9), rel=1e-9)
+    assert told["outflow_particles"] == len(gone["time_s"]) and told["outflow_D32_m"] == pytest.approx(1e-3)
+
+
+def recorded(done, folder):
+    """Columns of outflow.csv; a particle is not there again."""
+    done.outlet.table.flush()
+    gone = output.read_table(folder / "outflow.csv")
+    assert (
+        len(set(gone["particle"])) == len(gone["particle"]) and set(gone["particle"]) & set(done.state.ident) == set()
+    )
+    return gone
+
+
+def test_a_record_of_nothing_names_its_columns(tmp_path):
+    done = simulation(case(SLOT), tmp_path, cells=(4, 4))
+    assert list(recorded(done, tmp_path)) == [
+        "time_s", "particle", "x_m", "y_m", "velocity_x_m_s", "velocity_y_m_s", "mass_kg",
+        "diameter_m", "diameter_std_m", "count",
+    ]  # fmt: skip
+    assert math.isnan(done.outlet.summary()["outflow_D10_m"])
 
 
 def test_what_waits_and_comes_in_closes_the_balances_of_motion(tmp_path):

@@ -1,0 +1,130 @@
+"""`sdph.load`: a run folder in Python. Tables are pandas frames, fields pyvista meshes or numpy arrays.
+
+Units stand in the names of columns; arrays of fields are in SI. docs/results.md says what the columns mean.
+"""
+
+from __future__ import annotations
+
+import os
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from sdph.api.case import Case
+from sdph.running import output
+from sdph.schema import CaseError
+from sdph.show import timeline
+from sdph.study import compare
+
+if TYPE_CHECKING:
+    import pandas
+
+
+class Run:
+    """A run in its folder; one that has not ended, or failed, has no summary, and the rest as far as it went."""
+
+    def __init__(self, folder: str | os.PathLike[str]) -> None:
+        self.folder = Path(folder)
+        for name in (output.MARK, "history.csv"):
+            if not (self.folder / name).is_file():
+                raise CaseError(f"{self.folder} holds no run (no {name}); give the folder of a run")
+
+    @cached_property
+    def case(self) -> Case:
+        """The case that was run."""
+        return Case.load(self.folder)
+
+    @property
+    def finished(self) -> bool:
+        """True where it went to its end."""
+        return (self.folder / "summary.json").is_file()
+
+    @cached_property
+    def summary(self) -> dict[str, Any]:
+        """Numbers of the whole run, by name; `CaseError` where it has not ended."""
+        return dict(output.read_summary(self.folder))
+
+    @property
+    def failure(self) -> dict[str, Any] | None:
+        """Reason why it failed: `what`, `kind`, `time_s`; None where it did not."""
+        path = self.folder / output.FAILURE
+        return output.read_json(path) if path.is_file() else None
+
+    @property
+    def history(self) -> pandas.DataFrame:
+        """Curves: a row a window, or an interval of the history (history.csv)."""
+        return self.table("history")
+
+    @property
+    def metrics(self) -> pandas.DataFrame:
+        """Metrics of the scene: a row an output (metrics.csv)."""
+        return self.table("metrics")
+
+    @property
+    def ledger(self) -> pandas.DataFrame:
+        """Balances: a row a window (ledger.csv)."""
+        return self.table("ledger")
+
+    @property
+    def tables(self) -> list[str]:
+        """Names of the tables that the folder holds, for `table`."""
+        return sorted(path.stem for path in self.folder.glob("*.csv"))
+
+    def table(self, name: str) -> pandas.DataFrame:
+        """A table of the folder by its name without .csv, such as ledger_liquid or outflow."""
+        if name not in self.tables:
+            raise CaseError(f"{self.folder} has no table {name}; it has: {', '.join(self.tables)}")
+        import pandas
+
+        return pandas.DataFrame(dict(self.columns(name)))
+
+    def columns(self, name: str) -> dict[str, np.ndarray]:
+        """The same as arrays by column."""
+        return output.read_table(self.folder / f"{name}.csv")
+
+    @property
+    def times(self) -> list[float]:
+        """Times [s] at which there are fields."""
+        return timeline.read(self.folder).time_values
+
+    def fields(self, time: float | None = None) -> timeline.Instant:
+        """(time, particles, gas) nearest to `time` [s], the last without one: pyvista meshes, gas None without one."""
+        return timeline.state_at(timeline.read(self.folder), time)
+
+    def particles(self, time: float | None = None) -> dict[str, np.ndarray]:
+        """Arrays of the particles by name: `position` (N, 3) [m], `velocity` (N, 3) [m/s], `mass` [kg], ..."""
+        return arrays(self.fields(time).particles)
+
+    def gas(self, time: float | None = None) -> dict[str, np.ndarray]:
+        """Arrays of the gas by name, a value a cell: `centre` (M, 3) [m], `temperature` [K], `velocity` [m/s], ..."""
+        return cells(self.fields(time).gas, self.folder)
+
+    def compare(self, against: str) -> pandas.DataFrame:
+        """Checks against `tfm`, `dpm` or `exact`: name, value, reference, tolerance, ok."""
+        import pandas
+
+        return pandas.DataFrame(compare.compare(self.folder, against))
+
+    def __repr__(self) -> str:
+        return f"<sdph.Run {self.folder}: {'finished' if self.finished else 'not finished'}>"
+
+
+def load(folder: str | os.PathLike[str]) -> Run:
+    """The run in a folder."""
+    return Run(folder)
+
+
+def arrays(mesh: Any) -> dict[str, np.ndarray]:
+    """Arrays of points by name, with their `position`."""
+    own = {name: np.asarray(mesh.point_data[name]) for name in mesh.point_data}
+    return {"position": np.asarray(mesh.points), **own}
+
+
+def cells(mesh: Any, folder: Path) -> dict[str, np.ndarray]:
+    """Arrays of cells by name, with their `centre`; `CaseError` where there is no gas."""
+    if mesh is None:
+        raise CaseError(f"{folder} is a run without a gas; its particles are all it has")
+    own = {name: np.asarray(mesh.cell_data[name]) for name in mesh.cell_data}
+    return {"centre": np.asarray(mesh.cell_centers().points), **own}

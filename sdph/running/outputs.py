@@ -1,0 +1,54 @@
+"""All that a run writes as it goes, beside its ledger and its checkpoints."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from sdph.engine.kept import ROW, Many, Unfit
+from sdph.engine.table import Table
+from sdph.running import metrics
+from sdph.running.fields import Fields
+
+
+class Outputs:
+    """All that a run writes as it goes: history by row, fields and metrics by output interval."""
+
+    KEPT = ("fields", "history", "metrics", "first", "last", "rows")  # see sdph.engine.kept
+    FORMS = {"first": ROW, "last": ROW, "rows": Many(ROW)}
+
+    def __init__(self, folder: Path, simulation):
+        self.simulation, self.fields = simulation, Fields(folder)
+        self.history, self.metrics = Table(folder / "history.csv"), Table(folder / "metrics.csv")
+        self.first, self.last, self.rows = {}, {}, []
+
+    def admit(self, kept: dict) -> None:
+        """Unfit where a kept row is not of the columns of its table, or holds what is no number."""
+        first, last, rows = kept["first"], kept["last"], kept["rows"]
+        own, metric = kept["history"]["columns"], kept["metrics"]["columns"]
+        for row, columns in ((first, own), (last or first, own), *((row, metric) for row in rows)):
+            if not row.keys() <= set(columns) or any(isinstance(value, str) for value in row.values()):
+                raise Unfit("a row of the history or of the metrics is not of the columns of its table")
+
+    def start(self) -> None:
+        """The rows and fields of the start, and the walls, which stay as they are."""
+        self.fields.write_walls(self.simulation.walls())
+        self.first = self.simulation.row()
+        self.history.write(self.first)
+        self._write()
+
+    def window(self) -> None:
+        """Write what is due after a window."""
+        if self.simulation.at_row:
+            self.last = self.simulation.row()
+            self.history.write(self.last)
+        if self.simulation.clock.writes(self.simulation.time):
+            self._write()
+
+    def close(self) -> None:
+        for table in (self.history, self.metrics, *self.simulation.tables()):
+            table.close()
+
+    def _write(self) -> None:
+        self.fields.write(self.simulation.time, self.simulation.meshes())
+        self.rows.append(metrics.row(self.simulation))
+        self.metrics.write(self.rows[-1])

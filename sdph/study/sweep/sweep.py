@@ -1,0 +1,54 @@
+"""A whole sweep: points, what is done already, the runs, table and figure."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from sdph.schema import CaseError
+from sdph.study.sweep import jobs as runs
+from sdph.study.sweep import plan, pool, table
+
+
+@dataclass(frozen=True)
+class Wish:
+    """Options of `sdph sweep`."""
+
+    target: str
+    sets: tuple[str, ...]
+    out: Path
+    table: Path | None = None
+    more: tuple[str, ...] = ()  # overrides that all runs have
+    flags: tuple[str, ...] = ()  # options of `sdph run` that all have
+    workers: int | None = None
+    scheduler: str | None = None
+    metrics: tuple[str, ...] = ()
+    over: str | None = None
+    again: bool = False  # also what failed in a way that lasts
+
+
+def sweep(wish: Wish, say: Callable[[str], None]) -> list[dict]:
+    """Rows of sweep.csv; what was done by an earlier call into the same folder is not done again."""
+    points = plan.points(list(wish.sets), wish.table)
+    if points == [{}]:
+        raise CaseError("a sweep needs values: give --set section.key=v1,v2 (or a:b:n), or --table FILE")
+    threads = pool.threads_each(wish.workers)
+    all_jobs = runs.jobs_of(wish.target, points, wish.more, wish.flags, wish.out, threads)
+    wish.out.mkdir(parents=True, exist_ok=True)
+    outcomes, before = {}, table.read(wish.out)
+    for job in all_jobs:
+        if stands := runs.standing(job, before, wish.again):
+            outcomes[job.name] = stands
+    left = [job for job in all_jobs if job.name not in outcomes]
+    say(f"{len(all_jobs)} runs, {len(left)} of them to do, in {wish.out / runs.RUNS}")
+    found = table.write(wish.out, all_jobs, outcomes)
+    for job, outcome in pool.outcomes(left, wish.workers, wish.scheduler):
+        outcomes[job.name] = outcome
+        found = table.write(wish.out, all_jobs, outcomes)
+        say(f"{len(outcomes)}/{len(all_jobs)} {job.name}: {outcome['reason'] or 'fine'}, {outcome['took_s']:.0f} s")
+    if wish.metrics:
+        keys = list(points[0])
+        over, metrics = table.chosen(found, keys, list(wish.metrics), wish.over)
+        say(f"{table.draw(found, keys, metrics, over, wish.out / table.FIGURE)}")
+    return found

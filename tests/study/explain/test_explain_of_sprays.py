@@ -1,0 +1,32 @@
+"""Sprays are told neither of walls that they do not reach nor of shocks where droplets pass through each other."""
+
+import pytest
+
+from sdph import scenes
+from sdph.case import judge
+from sdph.case import read as cases
+
+
+def case_of(scene, *more):
+    return cases.load(scenes.HERE / scene / "case.toml", more)
+
+
+def test_air_through_a_whole_side_blows_no_droplets_sideways():
+    """Air comes down through the whole top of the spray's box; through a part of it, it may turn anywhere."""
+    case = case_of("gel_spray")
+    walls = judge.judgements(case)["walls"]
+    stop, gap = judge.scales_of(case).drag_time, 0.032  # drag time [s]; from the mouth's rim to a side [m]
+    assert walls.number == pytest.approx(12.0 * 0.2079 * stop / gap, rel=0.02) and walls.number < 0.6
+    assert not [text for text in judge.missing(case) if "walls" in text]
+    part = case_of("gel_spray", "boundaries.top.span_m=[[0.03,0.05],[0.03,0.05]]")
+    assert judge.judgements(part)["walls"].number > 5.0
+
+
+def test_a_thin_spray_has_no_shocks_and_a_dense_jet_has():
+    rate = case_of("spray_cone").nozzles
+    (name, nozzle), *_ = rate.items()
+    thin = case_of("spray_cone", f"nozzles.{name}.rate_kg_s={4.0 * nozzle.rate}")
+    scales = judge.scales_of(thin)
+    assert scales.collides and scales.free_path > 0.1 * thin.smoothing_length  # told of shocks by its volume fraction
+    assert not [text for text in judge.missing(thin) if "artificial_viscosity" in text]
+    assert judge.judgements(case_of("evaporating_jet"))["artificial_viscosity"].error_if_off > 0.05
