@@ -21,15 +21,24 @@ def types(folder: Path) -> dict[str, str]:
     return {name: kind for name, kind in PATCH.findall(text) if name != "FoamFile"}
 
 
+def mesh_reader(folder: Path):
+    """Reader of the mesh of a case with case.foam. Fields are left out: VTK warns on the terminal of each
+    that has no entry for the sides of a plane mesh, which OpenFOAM does not ask for."""
+    import pyvista
+
+    reader = pyvista.POpenFOAMReader(str(Path(folder) / "case.foam"))
+    reader.disable_all_cell_arrays()
+    reader.disable_all_point_arrays()
+    return reader
+
+
 def holding(folder: Path, boundaries: dict, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
     """Corners (F, d, d) [m] of the facets of patches that hold grains back, and whether these slip on them (F,).
 
     A patch that `boundaries` (name -> its section of the case) names holds them unless it is a pressure outlet, others
     where OpenFOAM calls them a wall. `folder` is a case with case.foam and a mesh.
     """
-    import pyvista
-
-    reader = pyvista.POpenFOAMReader(str(Path(folder) / "case.foam"))
+    reader = mesh_reader(folder)
     reader.enable_all_patch_arrays()
     patches = reader.read()["boundary"]
     corners, slips = [np.zeros((0, dimensions, dimensions))], [np.zeros(0, bool)]

@@ -10,6 +10,7 @@ import signal
 import sys
 from pathlib import Path
 
+from sdph.cli import making
 from sdph.cli.arguments import parser
 from sdph.schema import CaseError
 
@@ -68,25 +69,9 @@ def list_scenes(options) -> int:
     return FINE
 
 
-def init_case(options) -> int:
-    from sdph import scenes
-    from sdph.case import read as cases
-    from sdph.running import inputs, output
-    from sdph.scenes import paths
-
-    name, file = scenes.find(options.scene)
-    inputs.check(cases.load(file))
-    own, folder = file.parent / "gas", output.create(options.folder, ())
-    inputs.copy_case(file, folder)
-    output.copy_template(own if own.is_dir() else paths.gas_template(name), folder / "gas")
-    print(f"{folder}/case.toml and {folder}/gas are yours to edit; run them with: sdph run {folder}")
-    return FINE
-
-
 def run(options) -> int:
     from sdph import scenes
-    from sdph.case import read as cases
-    from sdph.running import driver, inputs, output
+    from sdph.running import driver, inputs, output, vessel
     from sdph.running.progress import Reporter
     from sdph.show import watch
     from sdph.study import rehearsal
@@ -104,7 +89,7 @@ def run(options) -> int:
             name, file = scenes.find(options.target)
             if options.accuracy:
                 overrides = choice.with_settings(name, options.accuracy, overrides, reporter.status)
-            case = cases.load(file, overrides)
+            case = vessel.load(file, overrides)
             inputs.check(case)  # what follows reads some of them
             if "grains" not in case.matters:
                 _refuse(options, ("gas", "transport", "np"), f"{name} has no gas and no gas solver")
@@ -146,13 +131,12 @@ def _table(summary: dict) -> str:
 
 def explain_case(options) -> int:
     from sdph import scenes
-    from sdph.case import read as cases
-    from sdph.running import driver, output
+    from sdph.running import driver, output, vessel
     from sdph.study import rehearsal
     from sdph.study.explain import tables
 
     name, file = scenes.find(options.target)
-    case = cases.load(file, tuple(options.set))
+    case = vessel.load(file, tuple(options.set))
     rehearsal.rehearse(case, driver.template_of(case, name, file), allow_code=options.allow_code)
     parts = {}
     if options.measure:
@@ -280,7 +264,7 @@ def doctor(options) -> int:
 
 COMMANDS = {
     "list": list_scenes,
-    "init": init_case,
+    "init": making.init_case,
     "run": run,
     "explain": explain_case,
     "cost": cost_of_accuracy,

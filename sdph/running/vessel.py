@@ -8,14 +8,15 @@ from pathlib import Path
 import numpy as np
 
 from coupling.choice import OWN_MESH
-from coupling.openfoam import patches
+from coupling.openfoam import patches, poly_mesh
+from sdph.case import read as cases
 from sdph.engine import state as particles
 from sdph.engine.walls import facets
 from sdph.methods.grains import start
 from sdph.running import inputs, output
 from sdph.schema import CaseError
 
-FILE = "patches.vtk"
+FILE, SIZE = "patches.vtk", "domain.size_m"
 
 
 def walled(case, gas, folder: Path):
@@ -70,3 +71,17 @@ def refuse_outside(case, gas, state) -> None:
 def _in_space(corner) -> np.ndarray:
     """Corner (3,) of a box that a plane one is: 0 across."""
     return np.array([*corner, 0.0][:3])
+
+
+def load(file: Path, overrides: tuple[str, ...] = ()):
+    """The case of a file; where it brings a mesh and leaves domain.size_m out, the domain is the box around that."""
+    domain = cases.parsed(file).get("domain", {})
+    around = None
+    if isinstance(domain, dict) and "size_m" not in domain and not any(text.startswith(SIZE) for text in overrides):
+        around = poly_mesh.box(file.parent / "gas")
+    if around is not None:
+        d = len(domain.get("gravity_m_s2", [0.0] * 3))
+        corner, size = around[0][:d].tolist(), (around[1] - around[0])[:d].tolist()
+        low = (f"domain.lower_m={corner}",) if any(corner) and "lower_m" not in domain else ()
+        overrides = (f"{SIZE}={size}", *low, *overrides)
+    return cases.load(file, overrides)

@@ -66,6 +66,19 @@ def test_a_plane_vessel_has_lines_with_itself_to_their_left(tmp_path):
 
 
 @pytest.mark.openfoam
+def test_fields_that_leave_the_sides_of_a_plane_mesh_out_flood_no_terminal(tmp_path, capfd):
+    """OpenFOAM needs no entry for them; VTK would warn of each field."""
+    own = blocks(tmp_path, own_meshes.taper(0.2, 0.4, 0.3, 4, 6))
+    (own / "1").mkdir()
+    head = own_meshes.HEAD.format(cls="volScalarField", name="T") + "dimensions [0 0 0 1 0 0 0];\n"
+    inside = 'internalField uniform 300;\nboundaryField { inlet { type zeroGradient; } "(o|w).*" { $inlet; } }\n'
+    (own / "1" / "T").write_text(head + inside)
+    patches.holding(own, {"inlet": INLET, "outlet": OUTLET, "wall": WALL}, 2)
+    told = capfd.readouterr()
+    assert "not found" not in told.out + told.err
+
+
+@pytest.mark.openfoam
 def test_a_round_vessel_has_its_area(tmp_path):
     own = blocks(tmp_path, own_meshes.cylinder(0.1, 0.4, 4, 8))
     corners, _ = patches.holding(own, {}, 3)  # its type alone: wall
