@@ -51,6 +51,25 @@ def holding(folder: Path, boundaries: dict, dimensions: int) -> tuple[np.ndarray
     return np.concatenate(corners), np.concatenate(slips)
 
 
+def of_mesh(mesh, boundaries: dict, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
+    """The same of a `PolyMesh`, before there is a case to be read: faces as fans about their first corner, of a plane
+    mesh the edges that lie at its lower side."""
+    corners, slips = [np.zeros((0, dimensions, dimensions))], []
+    low = mesh.points[:, 2].min() + 0.5 * np.ptp(mesh.points[:, 2])
+    for name, patch in mesh.patches.items():
+        kind = boundaries[name].kind if name in boundaries and patch.kind != FLAT else patch.kind
+        for k in range(patch.faces.start, patch.faces.stop) if kind in HOLDING else ():
+            face = mesh.points[mesh.corners[mesh.first[k] : mesh.first[k + 1]]]
+            if dimensions == 3:
+                found = [(face[0], face[i + 1], face[i]) for i in range(1, len(face) - 1)]
+            else:
+                pairs = itertools.pairwise([*face, face[0]])
+                found = [(a[:2], b[:2]) for a, b in pairs if a[2] < low and b[2] < low]
+            corners.append(np.array(found))
+            slips += [kind == "slip_wall"] * len(found)
+    return np.concatenate(corners), np.array(slips, bool)
+
+
 def _triangles(patch) -> np.ndarray:
     """(F, 3, 3) of the faces of a patch, turned round: OpenFOAM's normals are outwards."""
     surface = patch.extract_surface(algorithm=None).triangulate()

@@ -8,6 +8,7 @@ import json
 import os
 import signal
 import sys
+import tempfile
 from pathlib import Path
 
 from sdph.cli import making
@@ -137,13 +138,16 @@ def explain_case(options) -> int:
 
     name, file = scenes.find(options.target)
     case = vessel.load(file, tuple(options.set))
-    rehearsal.rehearse(case, driver.template_of(case, name, file), allow_code=options.allow_code)
+    template = driver.template_of(case, name, file)
+    rehearsal.rehearse(case, template, allow_code=options.allow_code)
     parts = {}
     if options.measure:
         from sdph.study.explain import effect_costs
 
         parts["cost of effects, bubbling bed"] = effect_costs.table(_say)
-    parts |= tables.explain(case)
+    with tempfile.TemporaryDirectory() as folder:
+        seen = vessel.foreseen(case, template, Path(folder))
+        parts |= tables.explain(seen, rehearsal.priced(case, template))
     print(output.strict_json(parts) if options.json else f"{case.title}\n\n{tables.text(parts)}")
     return FINE
 

@@ -85,3 +85,16 @@ def load(file: Path, overrides: tuple[str, ...] = ()):
         low = (f"domain.lower_m={corner}",) if any(corner) and "lower_m" not in domain else ()
         overrides = (f"{SIZE}={size}", *low, *overrides)
     return cases.load(file, overrides)
+
+
+def foreseen(case, template: Path, folder: Path):
+    """The case with its walls as a run would make them of a mesh that is there, kept in `folder`: for estimates."""
+    own = case.parameters.get("walls")
+    known = (template / poly_mesh.FOLDER).is_dir() and "grains" in case.matters
+    if not known or own is None or own.source == "mesh" or own.mesh:
+        return case
+    mesh = poly_mesh.PolyMesh(template)
+    corners, slips = patches.of_mesh(mesh, case.boundaries, case.dimensions)
+    facets.save(folder / FILE, corners, slips)
+    made = dataclasses.replace(own, source="gas", mesh=str((folder / FILE).absolute()))
+    return dataclasses.replace(case, parameters=case.parameters | {"walls": made})
