@@ -61,6 +61,11 @@ def _gas(case, template: Path, chosen: str, allow_code: bool) -> None:
     own = next((template / name for name in OWN_MESH if (template / name).exists()), None)
     if own and case.coupling.gas == "embedded":
         raise CaseError(f"{own} is a mesh that only OpenFOAM reads; give --gas openfoam, or take the mesh away")
+    if own and chosen == "embedded":
+        raise CaseError(
+            f"{own} is a mesh that only OpenFOAM reads, and OpenFOAM was not found; get it with: sdph openfoam setup "
+            "--install"
+        )
     if chosen == "embedded":
         from coupling.embedded.box import Box
         from coupling.embedded.grid import build_grid

@@ -215,3 +215,35 @@ def test_meshes_are_read_as_text_and_as_binary_alike(tmp_path):
     assert text.patches == binary.patches and (text.owner == binary.owner).all()
     assert binary.volumes.sum() == pytest.approx(np.pi * 0.05**2 * 0.2, rel=0.03)
     assert binary.outwards("outlet")[1] == pytest.approx([0.0, 0.0, 1.0])
+
+
+@openfoam
+def test_speeds_between_grains_become_superficial(tmp_path, capsys):
+    """U of two fluids is that between grains; of sdph what enters through the whole patch."""
+    source = foam_cases.fluidised_bed(tmp_path / "foam", own_meshes.cylinder(0.05, 0.2, 4, 10), BLOWN, UP)
+    field = source / "0/U.air"
+    given = field.read_text()
+    kept = given.replace("type interstitialInletVelocity; inletVelocity", "type fixedValue; value")
+    field.write_text(kept.replace("value $internalField; }\n    outlet", "}\n    outlet"))
+    inlet = adopted(source, tmp_path / "mine")["boundaries"]["inlet"]
+    assert inlet["velocity_m_s"] == pytest.approx([0.0, 0.0, 0.25 * 0.45])
+    assert "boundaries.inlet: superficial" in capsys.readouterr().out
+    alpha = source / "0/alpha.particles"
+    alpha.write_text(alpha.read_text().replace('".*"', 'inlet { type fixedValue; value uniform 0; }\n    ".*"'))
+    alpha.write_text(alpha.read_text().replace('    ".*"', '    "(outlet|wall)"'))
+    inlet = adopted(source, tmp_path / "again")["boundaries"]["inlet"]
+    assert inlet["velocity_m_s"] == pytest.approx([0.0, 0.0, 0.25])
+
+
+@openfoam
+def test_normal_speeds_rates_of_mass_and_gas_drawn_off(tmp_path, capsys):
+    conditions = {
+        "inlet": ("type surfaceNormalFixedValue; refValue uniform -0.4;", "type zeroGradient;"),
+        "outlet": ("type flowRateInletVelocity; massFlowRate constant -0.01; rhoInlet 2;", "type zeroGradient;"),
+        "wall": ("type slip;", "type zeroGradient;"),
+    }
+    source = foam_cases.gas_alone(tmp_path / "foam", own_meshes.cylinder(0.05, 0.2, 4, 10), conditions)
+    found = adopted(source, tmp_path / "mine")["boundaries"]
+    assert found["inlet"]["velocity_m_s"] == pytest.approx([0.0, 0.0, 0.4]) and found["wall"]["kind"] == "slip_wall"
+    assert found["outlet"]["kind"] == "pressure_outlet"
+    assert "boundaries.outlet: gas leaves here at a given speed" in capsys.readouterr().out
