@@ -42,20 +42,23 @@ class Weights(NamedTuple):
 class Transfer:
     """Weights between particles and one mesh, for particles of smoothing length `smoothing` [m].
 
-    `box` (d,) [m] is that of the domain, from the origin; the kernel is folded at its sides where the mesh fills it.
+    `box` (d,) [m] is that of the domain, from its lower `corner` (d,) [m] or the origin; the kernel is folded at its
+    sides where the mesh fills it. Places are counted from there.
     """
 
-    def __init__(self, mesh, smoothing: float, box=()):
+    def __init__(self, mesh, smoothing: float, box=(), corner=()):
         self.volumes = mesh.volumes
         size = (mesh.volumes / mesh.depth) ** (1.0 / mesh.dimensions)
         self.smoothing = np.maximum(smoothing, size)
         filled = len(box) > 0 and np.isclose(np.prod(box) * mesh.depth, mesh.volumes.sum(), rtol=1e-9)
         self.sides = np.array([*box, *[np.inf] * (3 - len(box))]) if filled else np.full(3, np.inf)
-        self.bins = _bins(mesh.centres[:, : mesh.dimensions], self.smoothing, mesh.volumes)
+        self.corner = np.array([*corner, *[0.0] * (3 - len(corner))])
+        self.bins = _bins((mesh.centres - self.corner)[:, : mesh.dimensions], self.smoothing, mesh.volumes)
         self.stride = 16
 
     def weights(self, positions: np.ndarray) -> Weights:
         """Weights of particles at (N, 3) positions [m]; a particle that covers no cell centre takes the nearest."""
+        positions = positions - self.corner
         while True:
             count = np.empty(len(positions), np.int64)
             cells, weight = np.empty((len(positions), self.stride), np.int64), np.empty((len(positions), self.stride))

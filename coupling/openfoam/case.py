@@ -12,9 +12,10 @@ import re
 import shutil
 from pathlib import Path
 
+from coupling.openfoam import poly_mesh
 from coupling.openfoam.block_mesh import block_mesh
 from coupling.openfoam.code import Findings, refuse_code
-from coupling.openfoam.start_fields import start_fields
+from coupling.openfoam.start_fields import EMPTY, start_fields
 from sdph.case.gas_cells import cells
 from sdph.schema import CaseError
 
@@ -115,15 +116,38 @@ def _list(values) -> str:
 def write_start_fields(case, folder: Path) -> None:
     """`0/*`, those that the folder lacks."""
     (folder / "0").mkdir(exist_ok=True)
-    for name, text in start_fields(case).items():
+    for name, text in start_fields(case, _others(case, folder)).items():
         if not (folder / "0" / name).exists():
             (folder / "0" / name).write_text(text, encoding="utf-8")
+
+
+def _others(case, folder: Path) -> dict[str, str] | None:
+    """Name -> type of the patches of an own mesh that the case does not name, as walls; None of a mesh to be made."""
+    if not (folder / poly_mesh.FOLDER).is_dir():
+        return None
+    known = poly_mesh.patches(folder)
+    for name in case.boundaries:
+        if name not in known:
+            raise CaseError(f"boundaries.{name} is no patch of the mesh of the gas; it has {', '.join(known)}")
+    others = {name: patch for name, patch in known.items() if name not in case.boundaries}
+    for name, patch in others.items():
+        if patch.kind not in ("wall", EMPTY) and patch.faces.stop > patch.faces.start:
+            raise CaseError(
+                f"patch {name} of the mesh of the gas (type {patch.kind}) stands not in [boundaries]; give "
+                f"[boundaries.{name}] with its kind, as sdphGasFoam needs its fields"
+            )
+    return {name: patch.kind for name, patch in others.items()}
 
 
 def write_block_mesh(case, folder: Path) -> None:
     """`system/blockMeshDict`, unless the folder has one."""
     path = folder / "system" / "blockMeshDict"
     if not path.exists():
+        if any(case.domain.corner):
+            raise CaseError(
+                f"domain.lower_m = {list(case.domain.lower)} is of a mesh of your own in the folder gas; one that is "
+                "made begins at the origin: leave it out"
+            )
         path.write_text(HEAD.format(name="blockMeshDict") + block_mesh(case, DEPTH), encoding="utf-8")
 
 

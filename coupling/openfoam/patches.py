@@ -21,15 +21,24 @@ def types(folder: Path) -> dict[str, str]:
     return {name: kind for name, kind in PATCH.findall(text) if name != "FoamFile"}
 
 
+def mesh_reader(folder: Path):
+    """Reader of the mesh of a case with case.foam. Fields are left out: VTK warns on the terminal of each
+    that has no entry for the sides of a plane mesh, which OpenFOAM does not ask for."""
+    import pyvista
+
+    reader = pyvista.POpenFOAMReader(str(Path(folder) / "case.foam"))
+    reader.disable_all_cell_arrays()
+    reader.disable_all_point_arrays()
+    return reader
+
+
 def holding(folder: Path, boundaries: dict, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
     """Corners (F, d, d) [m] of the facets of patches that hold grains back, and whether these slip on them (F,).
 
     A patch that `boundaries` (name -> its section of the case) names holds them unless it is a pressure outlet, others
     where OpenFOAM calls them a wall. `folder` is a case with case.foam and a mesh.
     """
-    import pyvista
-
-    reader = pyvista.POpenFOAMReader(str(Path(folder) / "case.foam"))
+    reader = mesh_reader(folder)
     reader.enable_all_patch_arrays()
     patches = reader.read()["boundary"]
     corners, slips = [np.zeros((0, dimensions, dimensions))], [np.zeros(0, bool)]
@@ -40,6 +49,25 @@ def holding(folder: Path, boundaries: dict, dimensions: int) -> tuple[np.ndarray
         corners.append(_lines(name, patches[name]) if dimensions == 2 else _triangles(patches[name]))
         slips.append(np.full(len(corners[-1]), kind == "slip_wall"))
     return np.concatenate(corners), np.concatenate(slips)
+
+
+def of_mesh(mesh, boundaries: dict, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
+    """The same of a `PolyMesh`, before there is a case to be read: faces as fans about their first corner, of a plane
+    mesh the edges that lie at its lower side."""
+    corners, slips = [np.zeros((0, dimensions, dimensions))], []
+    low = mesh.points[:, 2].min() + 0.5 * np.ptp(mesh.points[:, 2])
+    for name, patch in mesh.patches.items():
+        kind = boundaries[name].kind if name in boundaries and patch.kind != FLAT else patch.kind
+        for k in range(patch.faces.start, patch.faces.stop) if kind in HOLDING else ():
+            face = mesh.points[mesh.corners[mesh.first[k] : mesh.first[k + 1]]]
+            if dimensions == 3:
+                found = [(face[0], face[i + 1], face[i]) for i in range(1, len(face) - 1)]
+            else:
+                pairs = itertools.pairwise([*face, face[0]])
+                found = [(a[:2], b[:2]) for a, b in pairs if a[2] < low and b[2] < low]
+            corners.append(np.array(found))
+            slips += [kind == "slip_wall"] * len(found)
+    return np.concatenate(corners), np.array(slips, bool)
 
 
 def _triangles(patch) -> np.ndarray:

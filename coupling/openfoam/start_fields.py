@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from sdph.case.sections import Boundary
 from sdph.schema import CaseError
 
 # field -> (class, dimensions)
@@ -19,23 +20,30 @@ FIELDS = {
 }
 HEAD = "FoamFile {{ version 2.0; format ascii; class {cls}; object {name}; }}\n"
 ZERO_GRADIENT = "type zeroGradient;"
+EMPTY = "empty"  # type of the sides of a plane mesh
+STILL = Boundary(kind="wall")
 GIVEN_FLUX = "type fixedFluxPressure; value uniform 0;"
 
 
-def start_fields(case) -> dict[str, str]:
-    """File name -> text; the mass fraction of vapour only where the case has a vapour."""
+def start_fields(case, others: dict[str, str] | None = None) -> dict[str, str]:
+    """File name -> text; the mass fraction of vapour only where the case has a vapour. `others`: name -> type of the
+    patches that the case does not name; with None those of the mesh that is made."""
+    if others is None:
+        others = {"frontAndBack": EMPTY} if case.dimensions == 2 else {}
     names = [name for name in FIELDS if name != "Y" or case.vapour is not None]
     inside = {"alpha_g": "1", "U": "(0 0 0)", "p_rgh": "0", "T": repr(case.gas.temperature), "Y": "0"}
-    return {name: _field(case, name, inside[name]) for name in names}
+    return {name: _field(case, name, inside[name], others) for name in names}
 
 
-def _field(case, name: str, inside: str) -> str:
+def _field(case, name: str, inside: str, others: dict[str, str]) -> str:
     cls, dimensions = FIELDS[name]
     patches = "".join(
         f"    {patch} {{ {KINDS[b.kind](case, b, patch)[name]} }}\n" for patch, b in case.boundaries.items()
     )
-    if case.dimensions == 2:
-        patches += "    frontAndBack { type empty; }\n"
+    still = _wall(case, STILL, name)[name]
+    patches += "".join(
+        f"    {patch} {{ {f'type {EMPTY};' if kind == EMPTY else still} }}\n" for patch, kind in others.items()
+    )
     head = HEAD.format(cls=cls, name=name)
     return f"{head}dimensions {dimensions};\ninternalField uniform {inside};\nboundaryField\n{{\n{patches}}}\n"
 

@@ -14,7 +14,7 @@ from sdph import scenes
 from sdph.api import launch
 from sdph.case import read as cases
 from sdph.case.sections import Case as Resolved
-from sdph.running import driver, inputs, output
+from sdph.running import driver, inputs, output, vessel
 from sdph.schema import CaseError, flat, unknown
 
 
@@ -34,7 +34,10 @@ class Case:
     def load(cls, target: str | os.PathLike[str]) -> Case:
         """The case of a scene's name, a folder that holds a case.toml, or a case file."""
         name, file = scenes.find(os.fspath(target))
-        return cls(cases.located(file), name, file)
+        table = cases.located(file)
+        for override in vessel.domain(file, table):
+            cases.put(table, override)
+        return cls(table, name, file)
 
     @classmethod
     def of(cls, given: Case | str | os.PathLike[str]) -> Case:

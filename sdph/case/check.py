@@ -70,6 +70,8 @@ def _check_one(case: Case) -> None:
         raise CaseError(f"{given}; every ratio must be from {1.0 / STRETCH:g} to {STRETCH:g}: 1 for equal cells")
     if min(case.domain.size) <= 0.0:
         raise CaseError(f"domain.size_m = {list(case.domain.size)}; every length must be above 0")
+    if any(case.domain.corner) and (case.liquid or case.solid or not case.grains):
+        raise CaseError(f"domain.lower_m = {list(case.domain.lower)} is of a vessel of grains; leave it out")
     periods.of_domain(case)
     if any(isinstance(t, tuple) or t <= 0.0 for t in case.run.report_at):
         raise CaseError(f"run.report_at_s = {list(case.run.report_at)}; it must be a list of times above 0")
@@ -122,6 +124,7 @@ def _check_components(case: Case) -> None:
     vectors = {
         "domain.size_m": case.domain.size,
         "domain.gravity_m_s2": case.domain.gravity,
+        "domain.lower_m": case.domain.lower,
         "resolution.stretch": case.resolution.stretch,
     }
     groups = ("particles", case.particles, Region), ("pools", case.pools, Pool), ("bodies", case.bodies, Body)

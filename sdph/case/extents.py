@@ -30,9 +30,12 @@ def mouth(case, where: str, nozzle) -> None:
 def inside(case, key: str, lower, upper) -> None:
     """CaseError where a region from `lower` to `upper`, given by `key`, reaches out of the domain."""
     slack = SAME * max(case.domain.size)  # of centre plus radius
-    if any(a < -slack or b > length + slack for a, b, length in zip(lower, upper, case.domain.size)):
+    low, high = case.domain.corner, case.domain.upper
+    if any(a < c - slack or b > d + slack for a, b, c, d in zip(lower, upper, low, high)):
+        begins = f" from domain.lower_m = {list(low)}" if any(low) else ""
         raise CaseError(
-            f"{key} reaches out of the domain, domain.size_m = {list(case.domain.size)}; move it or enlarge the domain"
+            f"{key} reaches out of the domain, domain.size_m = {list(case.domain.size)}{begins}; move it or enlarge "
+            "the domain (left out, it is the box around a mesh of your own in the folder gas)"
         )
 
 

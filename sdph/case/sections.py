@@ -32,19 +32,31 @@ class Run:
 
 @record
 class Domain:
-    """The box from the origin that holds the gas; `gravity` has as many components as the case has dimensions.
+    """The box that holds the gas; `gravity` has as many components as the case has dimensions. With an OpenFOAM mesh of
+    one's own, `size` and `lower` are those of the box around it where the case leaves them out.
 
     Grains that leave through a `periodic` side come in again on the other one. No gas solver does that.
     """
 
     size: tuple = vector("m")
     gravity: tuple = vector("m_s2")
+    lower: tuple | None = vector("m", None)  # corner of an own mesh that begins elsewhere than at the origin
     periodic: tuple = words(())  # axes: "x", "y", "z"
 
     @property
     def period(self) -> tuple[float, float, float]:
         """Length [m] along the periodic axes, 0 along the others."""
         return tuple(length if axis in self.periodic else 0.0 for axis, length in zip("xyz", (*self.size, 0.0)))
+
+    @property
+    def corner(self) -> tuple[float, ...]:
+        """Lower corner (d,) [m]."""
+        return self.lower or (0.0,) * len(self.size)
+
+    @property
+    def upper(self) -> tuple[float, ...]:
+        """Upper corner (d,) [m]."""
+        return tuple(low + length for low, length in zip(self.corner, self.size))
 
 
 @record

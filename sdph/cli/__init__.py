@@ -8,8 +8,10 @@ import json
 import os
 import signal
 import sys
+import tempfile
 from pathlib import Path
 
+from sdph.cli import making
 from sdph.cli.arguments import parser
 from sdph.cli.sweeping import sweep
 from sdph.schema import CaseError
@@ -69,26 +71,10 @@ def list_scenes(options) -> int:
     return FINE
 
 
-def init_case(options) -> int:
-    from sdph import scenes
-    from sdph.case import read as cases
-    from sdph.running import inputs, output
-    from sdph.scenes import paths
-
-    name, file = scenes.find(options.scene)
-    inputs.check(cases.load(file))
-    own, folder = file.parent / "gas", output.create(options.folder, ())
-    inputs.copy_case(file, folder)
-    output.copy_template(own if own.is_dir() else paths.gas_template(name), folder / "gas")
-    print(f"{folder}/case.toml and {folder}/gas are yours to edit; run them with: sdph run {folder}")
-    return FINE
-
-
 def run(options) -> int:
     from sdph import scenes
     from sdph.api import launch
-    from sdph.case import read as cases
-    from sdph.running import driver, output
+    from sdph.running import driver, output, vessel
     from sdph.running.progress import Reporter
     from sdph.show import watch
     from sdph.study.cost import choice
@@ -104,7 +90,7 @@ def run(options) -> int:
             name, file = scenes.find(options.target)
             if options.accuracy:
                 overrides = choice.with_settings(name, options.accuracy, overrides, reporter.status)
-            case = cases.load(file, overrides)
+            case = vessel.load(file, overrides)
             launch.refuse_useless(case, name, {f"--{key}": getattr(options, key) for key in ("gas", "transport", "np")})
             template = driver.template_of(case, name, file)
             for warning in launch.looked_at(case, template, allow_code=options.allow_code):
@@ -141,20 +127,22 @@ def _table(summary: dict) -> str:
 
 def explain_case(options) -> int:
     from sdph import scenes
-    from sdph.case import read as cases
-    from sdph.running import driver, output
+    from sdph.running import driver, output, vessel
     from sdph.study import rehearsal
     from sdph.study.explain import tables
 
     name, file = scenes.find(options.target)
-    case = cases.load(file, tuple(options.set))
-    rehearsal.rehearse(case, driver.template_of(case, name, file), allow_code=options.allow_code)
+    case = vessel.load(file, tuple(options.set))
+    template = driver.template_of(case, name, file)
+    rehearsal.rehearse(case, template, allow_code=options.allow_code)
     parts = {}
     if options.measure:
         from sdph.study.explain import effect_costs
 
         parts["cost of effects, bubbling bed"] = effect_costs.table(_say)
-    parts |= tables.explain(case)
+    with tempfile.TemporaryDirectory() as folder:
+        seen = vessel.foreseen(case, template, Path(folder))
+        parts |= tables.explain(seen, rehearsal.priced(case, template))
     print(output.strict_json(parts) if options.json else f"{case.title}\n\n{tables.text(parts)}")
     return FINE
 
@@ -275,7 +263,7 @@ def doctor(options) -> int:
 
 COMMANDS = {
     "list": list_scenes,
-    "init": init_case,
+    "init": making.init_case,
     "run": run,
     "explain": explain_case,
     "cost": cost_of_accuracy,

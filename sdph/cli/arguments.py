@@ -25,8 +25,11 @@ def parser() -> argparse.ArgumentParser:
     whole.add_argument("--version", action="version", version=__version__)
     commands = whole.add_subparsers(required=True, dest="command", metavar="COMMAND")
     _command(commands, "list", "the scenes, one line each")
-    init = _command(commands, "init", "an editable case folder from a scene")
-    init.add_argument("scene")
+    init = _command(commands, "init", "an editable case folder from a scene, or from an OpenFOAM case")
+    init.add_argument("scene", nargs="?")
+    init.add_argument(
+        "--from-openfoam", type=Path, metavar="CASE", help="take mesh, patches, conditions and properties of this case"
+    )
     init.add_argument("folder", type=Path)
     _run_options(_command(commands, "run", "run a scene, a case folder or a case file"))
     explain = _command(commands, "explain", "what a case calls for, its limits and its cost, before it runs")

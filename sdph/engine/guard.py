@@ -59,7 +59,7 @@ class Watch:
                 )
         if len(np.unique(state["ident"])) < count:
             raise Unfit("two particles have one number")
-        far = FAR * max(self.case.domain.size)
+        far = FAR * max(*self.case.domain.size, *map(abs, self.case.domain.corner))
         for name, (low, high) in (dict.fromkeys("xyz", (-far, far)) | bounds).items():
             worst = outside(state[name], low, high)
             if worst is not None:

@@ -215,10 +215,11 @@ def _edges(ticks: np.ndarray, layers: np.ndarray) -> np.ndarray:
 def _polyhedra(gas):
     """Any OpenFOAM mesh, read from its case, a plane one as a cut through its middle; cells matched by their
     centres."""
-    import pyvista
     from scipy.spatial import cKDTree
 
-    reader, d = pyvista.POpenFOAMReader(str(gas.case_folder / "case.foam")), gas.mesh.dimensions
+    from coupling.openfoam.patches import mesh_reader
+
+    reader, d = mesh_reader(gas.case_folder), gas.mesh.dimensions
     reader.case_type = "decomposed" if gas.ranks > 1 else "reconstructed"
     grid = reader.read()["internalMesh"]
     if d == 2:

@@ -44,7 +44,7 @@ class Simulation:
         self.case, self.gas, self.ledger = case, gas, ledger
         self.grains, self.clock = Grains(case), Window(case)
         self.parameters = self.grains.parameters
-        self.transfer = Transfer(gas.mesh, case.smoothing_length, case.domain.size)
+        self.transfer = Transfer(gas.mesh, case.smoothing_length, case.domain.size, case.domain.corner)
         self.exchange = Exchange(case, gas.mesh, self.parameters)
         self.repeated, self.grid = 0, None
         self.notices = self.grains.notices  # for the user, until somebody has passed them on

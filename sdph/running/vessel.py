@@ -8,14 +8,15 @@ from pathlib import Path
 import numpy as np
 
 from coupling.choice import OWN_MESH
-from coupling.openfoam import patches
+from coupling.openfoam import patches, poly_mesh
+from sdph.case import read as cases
 from sdph.engine import state as particles
 from sdph.engine.walls import facets
 from sdph.methods.grains import start
 from sdph.running import inputs, output
 from sdph.schema import CaseError
 
-FILE = "patches.vtk"
+FILE, SIZE = "patches.vtk", "domain.size_m"
 
 
 def walled(case, gas, folder: Path):
@@ -70,3 +71,35 @@ def refuse_outside(case, gas, state) -> None:
 def _in_space(corner) -> np.ndarray:
     """Corner (3,) of a box that a plane one is: 0 across."""
     return np.array([*corner, 0.0][:3])
+
+
+def load(file: Path, overrides: tuple[str, ...] = ()):
+    """The case of a file, with the domain of its own mesh."""
+    sized = any(text.startswith(SIZE) for text in overrides)
+    return cases.load(file, (*(() if sized else domain(file, cases.parsed(file))), *overrides))
+
+
+def domain(file: Path, table: dict) -> tuple[str, ...]:
+    """Overrides that make the domain the box around the mesh that a case file brings, where its table leaves
+    domain.size_m out."""
+    own = table.get("domain", {})
+    around = poly_mesh.box(file.parent / "gas") if isinstance(own, dict) and "size_m" not in own else None
+    if around is None:
+        return ()
+    d = len(own.get("gravity_m_s2", [0.0] * 3))
+    corner, size = around[0][:d].tolist(), (around[1] - around[0])[:d].tolist()
+    low = (f"domain.lower_m={corner}",) if any(corner) and "lower_m" not in own else ()
+    return (f"{SIZE}={size}", *low)
+
+
+def foreseen(case, template: Path, folder: Path):
+    """The case with its walls as a run would make them of a mesh that is there, kept in `folder`: for estimates."""
+    own = case.parameters.get("walls")
+    known = (template / poly_mesh.FOLDER).is_dir() and "grains" in case.matters
+    if not known or own is None or own.source == "mesh" or own.mesh:
+        return case
+    mesh = poly_mesh.PolyMesh(template)
+    corners, slips = patches.of_mesh(mesh, case.boundaries, case.dimensions)
+    facets.save(folder / FILE, corners, slips)
+    made = dataclasses.replace(own, source="gas", mesh=str((folder / FILE).absolute()))
+    return dataclasses.replace(case, parameters=case.parameters | {"walls": made})

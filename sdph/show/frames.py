@@ -28,9 +28,9 @@ def viewer(folder: Path, case) -> str:
     chosen = sorted({times[round(i)] for i in np.linspace(0, len(times) - 1, min(INSTANTS, len(times)))})
     frames = [_frame(*timeline.state_at(reader, time)) for time in chosen]
     ranges = {part: _ranges([frame[part] for frame in frames if part in frame]) for part in ("particles", "gas")}
-    size = (*case.domain.size, 0.0)[:3]
+    low, high = ((*corner, 0.0)[:3] for corner in (case.domain.corner, case.domain.upper))
     data = {
-        "dimensions": case.dimensions, "lower": [0.0, 0.0, 0.0], "upper": size, "spacing": case.resolution.spacing,
+        "dimensions": case.dimensions, "lower": low, "upper": high, "spacing": case.resolution.spacing,
         "cell": case.resolution.cell or case.resolution.spacing, "units": {name: UNITS.get(name, "1") for name in MAP},
         "ranges": ranges, "frames": [_encoded(frame) for frame in frames],
     }  # fmt: skip

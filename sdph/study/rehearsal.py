@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import tempfile
 from pathlib import Path
 
 from coupling.choice import OWN_MESH, expected
-from sdph.case.gas_cells import cell_edges
+from coupling.openfoam import poly_mesh
+from sdph.case.gas_cells import cell_edges, cells
 from sdph.exchange.window import Window
 from sdph.methods.grains import start
 from sdph.methods.grains.grains import Grains
@@ -15,13 +17,23 @@ from sdph.methods.mps.method import MpsStepper
 from sdph.methods.solids.method import SolidStepper
 from sdph.running import inputs, metrics
 from sdph.schema import CaseError
+from sdph.study import balance
 from sdph.study import memory as room
+from sdph.study.explain import estimate
 
 # method -> what makes all of it that a run begins with
 MADE = {
     "grains": lambda case: (Grains(case), Window(case)), "liquid": parts_of_liquid, "mps": MpsStepper,
     "solid": SolidStepper,
 }  # fmt: skip
+
+
+def priced(case, template: Path):
+    """Gas that a run would have, for estimates of its time; None for the embedded solver's, or without any."""
+    if "grains" not in case.matters or expected(case.only("grains")) == "embedded":
+        return None
+    own = (template / poly_mesh.FOLDER).is_dir()
+    return estimate.by_openfoam(len(poly_mesh.PolyMesh(template).volumes) if own else math.prod(cells(case)))
 
 
 def rehearse(case, template: Path, *, allow_code: bool = False) -> None:
@@ -41,6 +53,7 @@ def look(case, template: Path, *, allow_code: bool = False) -> None:
     if "grains" in case.matters:
         grains = case.only("grains")
         _gas(grains, template, expected(grains), allow_code)
+        balance.refuse_filling(grains, template)
 
 
 def _gas(case, template: Path, chosen: str, allow_code: bool) -> None:
@@ -48,6 +61,11 @@ def _gas(case, template: Path, chosen: str, allow_code: bool) -> None:
     own = next((template / name for name in OWN_MESH if (template / name).exists()), None)
     if own and case.coupling.gas == "embedded":
         raise CaseError(f"{own} is a mesh that only OpenFOAM reads; give --gas openfoam, or take the mesh away")
+    if own and chosen == "embedded":
+        raise CaseError(
+            f"{own} is a mesh that only OpenFOAM reads, and OpenFOAM was not found; get it with: sdph openfoam setup "
+            "--install"
+        )
     if chosen == "embedded":
         from coupling.embedded.box import Box
         from coupling.embedded.grid import build_grid

@@ -48,8 +48,9 @@ def kernel(case) -> InflowP:
 def held(p, method) -> dict[str, float]:
     """Number of particles upstream of a nozzle, outside the domain, which stand in for its edge in the gas."""
     s = method.state
-    places, size = particles.positions(s)[s.kind == INFLOW], (*method.case.domain.size, 0.0)[:3]
-    return {"upstream_particles": float(((places < 0.0) | (places > size)).any(axis=1).sum())}
+    places, domain = particles.positions(s)[s.kind == INFLOW], method.case.domain
+    low, high = (*domain.corner, 0.0)[:3], (*domain.upper, 0.0)[:3]
+    return {"upstream_particles": float(((places < low) | (places > high)).any(axis=1).sum())}
 
 
 def call(scales) -> Judgement:

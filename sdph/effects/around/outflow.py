@@ -37,10 +37,11 @@ def leaving(case, state) -> np.ndarray:
     if not len(gone):
         return gone
     places = particles.axes(state)
-    for axis, (sides, length, period) in enumerate(zip(PAIRS, case.domain.size, case.domain.period)):
+    ends = zip(case.domain.corner, case.domain.upper)
+    for axis, (sides, (low, high), period) in enumerate(zip(PAIRS, ends, case.domain.period)):
         if period:  # who is beyond it for a moment is on its way round
             continue
-        for side, out in zip(sides, (places[axis] < 0.0, places[axis] > length)):
+        for side, out in zip(sides, (places[axis] < low, places[axis] > high)):
             if out.any():
                 gone |= out & _open(case, side, axis, places)
     return gone & (state.kind == GRAIN)
@@ -87,7 +88,8 @@ def refuse_to_leave(case, state, gone, time: float) -> None:
 
 
 def _open(case, side: str, axis: int, places) -> np.ndarray:
-    if "walls" not in case.effects:
+    own = case.parameters.get("walls")
+    if own is None or (own.mesh and own.source == "gas"):  # patches hold grains wherever they are no outlet
         return np.ones(len(places[0]), bool)
     tangential = [place for a, place in enumerate(places) if a != axis]
     found = np.zeros(len(places[0]), bool)

@@ -69,9 +69,10 @@ def _box(case) -> np.ndarray:
     steps = [length / n for length, n in zip(case.domain.size, counts)]
     layers = [0 if period else LAYERS for period in case.domain.period]
     ticks = [(np.arange(-more, n + more) + 0.5) * step for n, step, more in zip(counts, steps, layers)]
-    points = np.stack([m.ravel() for m in np.meshgrid(*ticks, indexing="ij")], axis=1)
-    outside = np.stack([(points < 0.0), (points > case.domain.size)], axis=-1)  # (P, d, end)
-    depth = np.maximum(-points, points - case.domain.size)
+    low, high = np.array(case.domain.corner), np.array(case.domain.upper)
+    points = low + np.stack([m.ravel() for m in np.meshgrid(*ticks, indexing="ij")], axis=1)
+    outside = np.stack([(points < low), (points > high)], axis=-1)  # (P, d, end)
+    depth = np.maximum(low - points, points - high)
     closed = np.stack([_closed(case, points, side) for side in itertools.islice(SIDES, 2 * d)], axis=1).reshape(
         -1, d, 2
     )

@@ -127,7 +127,8 @@ class Grains:
         places = particles.positions(self.state) + particles.velocities(self.state) * after
         if self.source:
             waiting = self.state.kind == INFLOW
-            places[waiting] = np.clip(places[waiting], 0.0, (*self.case.domain.size, 0.0)[:3])
+            domain = self.case.domain
+            places[waiting] = np.clip(places[waiting], (*domain.corner, 0.0)[:3], (*domain.upper, 0.0)[:3])
         return places
 
     def fastest(self) -> float:

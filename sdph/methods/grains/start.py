@@ -32,7 +32,7 @@ def mesh_of_walls(case) -> str:
 
 def assumed(case):
     """The case for estimates before a run: what walls enclose that are not known yet is the domain, at most."""
-    box = {"shape": "box", "lower": (0.0,) * case.dimensions, "upper": case.domain.size}
+    box = {"shape": "box", "lower": case.domain.corner, "upper": case.domain.upper}
     unknown = {} if mesh_of_walls(case) else box
     found = {
         name: dataclasses.replace(region, **unknown) if region.shape == "walls" else region
@@ -46,7 +46,7 @@ def extents(case, region) -> tuple[np.ndarray, np.ndarray]:
     yet."""
     walls = mesh_of_walls(case)
     if region.shape == "walls" and not walls:
-        return np.zeros(case.dimensions), np.array(case.domain.size)
+        return np.array(case.domain.corner), np.array(case.domain.upper)
     return regions.bounds(region, walls, case.dimensions)
 
 

@@ -48,8 +48,9 @@ def _aside(patch, axis: int, span) -> float:
 def reach(s, out: bool) -> Reach:
     """The farthest that grains get, relative to the gap, towards sides that are open (`out`) or closed; `s`: scales."""
     found = [Reach(0.0, 0.0)]
-    for patch, (axis, size) in itertools.product(s.patches, enumerate(s.case.domain.size)):
-        rooms = patch.lower[axis], size - patch.upper[axis]
+    domain = s.case.domain
+    for patch, (axis, ends) in itertools.product(s.patches, enumerate(zip(domain.corner, domain.upper))):
+        rooms = patch.lower[axis] - ends[0], ends[1] - patch.upper[axis]
         for side, room, outward in zip(PAIRS[axis], rooms, (-1.0, 1.0)):
             if opened(s.case, side) == out:
                 way = towards(s, patch, axis, outward)
@@ -61,7 +62,8 @@ def lie(case, patches) -> bool:
     """True where grains lie on a closed side that gravity points to."""
     axis = max(range(case.dimensions), key=lambda a: abs(case.domain.gravity[a]))
     end = int(case.domain.gravity[axis] > 0.0)
-    rooms = [case.domain.size[axis] - patch.upper[axis] if end else patch.lower[axis] for patch in patches]
+    low, high = case.domain.corner[axis], case.domain.upper[axis]
+    rooms = [high - patch.upper[axis] if end else patch.lower[axis] - low for patch in patches]
     return not opened(case, PAIRS[axis][end]) and min(rooms, default=math.inf) < case.resolution.spacing
 
 

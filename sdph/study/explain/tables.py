@@ -17,19 +17,20 @@ OF = {
 }  # method -> module with `explain` and `warnings`; grains have their own
 
 
-def explain(case) -> dict[str, list[dict]]:
-    """All parts, each a list of rows (name -> value) of one table; of a case with several matters those of each."""
+def explain(case, priced=None) -> dict[str, list[dict]]:
+    """All parts, each a list of rows (name -> value) of one table; of a case with several matters those of each.
+    `priced` (`estimate.Priced`) is the gas, where it is not the embedded one's."""
     case = start.assumed(case)
     if len(case.matters) == 1:
-        return _explain(case)
-    found = {matter: _explain(case.only(matter)) for matter in case.matters}
+        return _explain(case, priced)
+    found = {matter: _explain(case.only(matter), priced) for matter in case.matters}
     return {f"{part} ({matter})": rows for matter, parts in found.items() for part, rows in parts.items()}
 
 
-def _explain(case) -> dict[str, list[dict]]:
+def _explain(case, priced) -> dict[str, list[dict]]:
     scales = judge.scales_of(case)
     own = OF.get(case.moved_by(judge.matter(case)))
-    found = own.explain(scales) if own else _of_grains(case, scales)
+    found = own.explain(scales) if own else _of_grains(case, scales, priced)
     return {
         "numbers": [
             dict(zip(("number", "value", "threshold", "meaning", "source"), row)) for row in found.pop("numbers")
@@ -40,8 +41,8 @@ def _explain(case) -> dict[str, list[dict]]:
     }
 
 
-def _of_grains(case, scales) -> dict[str, list]:
-    limits, expected = estimate.limits(case, scales), estimate.expected(case, scales)
+def _of_grains(case, scales, priced) -> dict[str, list]:
+    limits, expected = estimate.limits(case, scales), estimate.expected(case, scales, priced)
     return {"numbers": numbers(scales), "ratios": estimate.ratios(case), "limits": limits, "expected": expected}
 
 

@@ -18,7 +18,7 @@ from pathlib import Path
 
 from sdph import scenes
 from sdph.case import read as cases
-from sdph.running import inputs, output
+from sdph.running import inputs, output, vessel
 from sdph.schema import CaseError
 
 FINE, BAD_INPUT, WENT_UNSTABLE = 0, 2, 5  # exit codes of `sdph run`
@@ -57,7 +57,7 @@ def jobs_of(target: str, points: list[dict], more: tuple[str, ...], flags: tuple
 def _job(target: str, file: Path, point: dict, more: tuple, flags: tuple, out: Path, threads: int) -> Job:
     given = tuple(f"{key}={value}" for key, value in point.items() if value)
     try:
-        case = cases.load(file, (*more, *given))
+        case = vessel.load(file, (*more, *given))
         inputs.check(case)
         told, refused = cases.dumps(case), ""
     except CaseError as error:

@@ -8,6 +8,7 @@ import pytest
 from gas_boxes import template
 
 from coupling.openfoam import patches
+from coupling.openfoam.poly_mesh import PolyMesh
 from coupling.openfoam.programs import install
 from coupling.openfoam.programs import run as programs
 from sdph.engine.walls import facets
@@ -63,6 +64,33 @@ def test_a_plane_vessel_has_lines_with_itself_to_their_left(tmp_path):
     assert facets.sizes(corners).sum() == pytest.approx(0.2 + 2.0 * np.hypot(0.1, 0.3))
     inside = facets.Surface(corners).distance(np.array([[0.2, 0.02], [0.08, 0.15], [0.02, 0.1]]))
     assert inside[0] == pytest.approx(0.02) and inside[1] > 0.0 > inside[2]
+
+
+@pytest.mark.openfoam
+@pytest.mark.parametrize("dimensions, text", [(2, own_meshes.taper(0.2, 0.4, 0.3, 4, 6)),
+                                              (3, own_meshes.cylinder(0.1, 0.4, 4, 8))])  # fmt: skip
+def test_walls_are_foreseen_as_they_will_be(tmp_path, dimensions, text):
+    own = blocks(tmp_path, text)
+    kinds = {"inlet": INLET, "outlet": OUTLET, "wall": SLIP}
+    made, foreseen = patches.holding(own, kinds, dimensions), patches.of_mesh(PolyMesh(own), kinds, dimensions)
+    assert facets.sizes(foreseen[0]).sum() == pytest.approx(facets.sizes(made[0]).sum(), rel=1e-6)
+    assert foreseen[1].sum() == made[1].sum() > 0
+    places = np.array([[0.15, 0.02, 0.1], [0.1, 0.18, 0.2], [0.02, 0.1, 0.3]])[:, :dimensions]
+    off = [facets.Surface(corners).distance(places) for corners, _ in (made, foreseen)]
+    np.testing.assert_allclose(*off, atol=1e-7)
+
+
+@pytest.mark.openfoam
+def test_fields_that_leave_the_sides_of_a_plane_mesh_out_flood_no_terminal(tmp_path, capfd):
+    """OpenFOAM needs no entry for them; VTK would warn of each field."""
+    own = blocks(tmp_path, own_meshes.taper(0.2, 0.4, 0.3, 4, 6))
+    (own / "1").mkdir()
+    head = own_meshes.HEAD.format(cls="volScalarField", name="T") + "dimensions [0 0 0 1 0 0 0];\n"
+    inside = 'internalField uniform 300;\nboundaryField { inlet { type zeroGradient; } "(o|w).*" { $inlet; } }\n'
+    (own / "1" / "T").write_text(head + inside)
+    patches.holding(own, {"inlet": INLET, "outlet": OUTLET, "wall": WALL}, 2)
+    told = capfd.readouterr()
+    assert "not found" not in told.out + told.err
 
 
 @pytest.mark.openfoam

@@ -1,0 +1,129 @@
+"""Boundary conditions of an OpenFOAM case as [boundaries] of case.toml."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from coupling.openfoam.dictionary import number, of_patch, vector, word
+from coupling.openfoam.foreign import properties
+from coupling.openfoam.foreign.files import Files
+from coupling.openfoam.poly_mesh import PolyMesh
+
+PLANE = "empty"
+SLIP = ("slip", "partialSlip", "symmetry", "symmetryPlane", "basicSymmetry")
+STICK = ("noSlip", "movingWallVelocity")
+SYMMETRIES = ("symmetry", "symmetryPlane")  # types of patches that OpenFOAM lets stand for no other condition
+FREE = (
+    "pressureInletOutletVelocity", "inletOutlet", "zeroGradient", "pressureInletVelocity", "outletInlet",
+    "pressureNormalInletOutletVelocity", "fluxCorrectedVelocity", "pressureDirectedInletVelocity", "freestream",
+)  # fmt: skip
+HELD = (
+    "fixedValue", "totalPressure", "prghPressure", "prghTotalPressure", "uniformFixedValue", "uniformTotalPressure",
+    "fixedMean", "waveTransmissive", "entrainmentPressure", "prghEntrainmentPressure", "outletInlet",
+    "fixedMeanOutletInlet",
+)  # fmt: skip
+ASIDE = 1e-9  # of a velocity: nothing
+
+
+class Condition(NamedTuple):
+    """Entries of [boundaries.NAME], and the line that tells of them what the user must know; empty where nothing."""
+
+    entries: dict
+    note: str = ""
+
+
+def conditions(files: Files, mesh: PolyMesh, dimensions: int, alpha_p: float) -> dict[str, Condition]:
+    """Condition of each patch but the sides of a plane mesh; `alpha_p` is that of the bed."""
+    fields = {"U": files.field("U"), "p": files.field("p_rgh") or files.field("p"), "T": files.field("T")}
+    if files.grains:
+        fields["alpha"] = files.first(f"{files.start}/alpha.{files.grains}")
+    found = {}
+    for name, patch in mesh.patches.items():
+        if patch.kind == PLANE or patch.faces.start == patch.faces.stop:
+            continue
+        own = {key: of_patch(field.get("boundaryField", {}), name) for key, field in fields.items()}
+        found[name] = _with_temperature(_condition(files, mesh, name, own, alpha_p, dimensions), own)
+    return _relative(found)
+
+
+def _condition(files: Files, mesh: PolyMesh, name: str, own: dict, alpha_p: float, dimensions: int) -> Condition:
+    kind, patch = word(own["U"].get("type")), mesh.patches[name].kind
+    if patch in SYMMETRIES or kind in SLIP:
+        note = "partialSlip is taken as slip" if kind == "partialSlip" else ""
+        return Condition({"kind": "slip_wall"}, note)
+    if kind in STICK:
+        return Condition({"kind": "wall"}, "its wall stands still here" if kind == "movingWallVelocity" else "")
+    if kind in FREE and word(own["p"].get("type")) in HELD:
+        value = number(own["p"].get("p0") or own["p"].get("p") or own["p"].get("value") or own["p"].get("uniformValue"))
+        return Condition({"kind": "pressure_outlet", "pressure_Pa": (value or 0.0) * properties.level(files)["factor"]})
+    area, normal = mesh.outwards(name)
+    speed = _given(files, own["U"], area, normal)
+    if speed is None:
+        return _unknown(patch, kind, word(own["p"].get("type")))
+    share, note = _open_share(kind, own.get("alpha"), alpha_p)
+    velocity = [share * component for component in speed]
+    if max(map(abs, velocity)) <= ASIDE:
+        return Condition({"kind": "wall"})
+    if sum(v * n for v, n in zip(velocity, normal)) > 0.0:
+        what = "gas leaves here at a given speed, which is not known: taken as pressure_outlet"
+        return Condition({"kind": "pressure_outlet", "pressure_Pa": 0.0}, what)
+    rounded = [float(f"{component + 0.0:.9g}") if abs(component) > ASIDE else 0.0 for component in velocity]
+    return Condition({"kind": "velocity_inlet", "velocity_m_s": rounded[:dimensions]}, note)
+
+
+def _given(files: Files, own: dict, area: float, normal) -> list[float] | None:
+    """Velocity (3,) [m/s] that an entry of U gives; None where it is not known."""
+    kind = word(own.get("type"))
+    if kind in ("fixedValue", "uniformFixedValue", "interstitialInletVelocity", "surfaceNormalFixedValue"):
+        for key in ("inletVelocity", "uniformValue", "value"):
+            if key in own and (found := vector(own[key])):
+                return found
+        along = number(own.get("refValue"))
+        return None if along is None else [along * component for component in normal]
+    if kind == "flowRateInletVelocity" and area > 0.0:
+        rate = number(own.get("volumetricFlowRate"))
+        if rate is None and (mass := number(own.get("massFlowRate"))) is not None:
+            rate = mass / (number(own.get("rhoInlet")) or properties.gas(files, [])["density_kg_m3"])
+        return None if rate is None else [-rate / area * component for component in normal]
+    return None
+
+
+def _open_share(kind: str, alpha: dict | None, alpha_p: float) -> tuple[float, str]:
+    """Superficial velocity over that of U, as that of a gas between grains is the larger; what is told of it."""
+    if not alpha or kind == "interstitialInletVelocity":
+        return 1.0, ""
+    fixed = number(alpha.get("value")) if word(alpha.get("type")) == "fixedValue" else None
+    if fixed is not None:
+        return 1.0 - fixed, ""
+    return 1.0 - alpha_p, f"superficial: U of the gas times 1 - {alpha_p:g}, the grains of the bed"
+
+
+def _unknown(patch: str, kind: str, pressure: str) -> Condition:
+    """A choice to make: a wall where the mesh says so, an outlet where the pressure is held, else closed."""
+    entries = (
+        {"kind": "pressure_outlet", "pressure_Pa": 0.0} if pressure in HELD and patch != "wall" else {"kind": "wall"}
+    )
+    what = f"U is {kind or 'not given'}, p {pressure or 'not given'}"
+    return Condition(entries, f"{what}, which is not known: taken as {entries['kind']}; choose wall, slip_wall, "
+                     "velocity_inlet (with velocity_m_s) or pressure_outlet")  # fmt: skip
+
+
+def _with_temperature(found: Condition, own: dict) -> Condition:
+    """The condition with the temperature that T gives there."""
+    kind = word(own["T"].get("type"))
+    value = number(own["T"].get("value")) if kind == "fixedValue" else number(own["T"].get("inletValue"))
+    if value and kind in ("fixedValue", "inletOutlet") and found.entries["kind"] != "slip_wall":
+        return found._replace(entries=found.entries | {"temperature_K": value})
+    return found
+
+
+def _relative(found: dict[str, Condition]) -> dict[str, Condition]:
+    """Pressures over the least of all outlets: the gas is told differences."""
+    given = [own.entries["pressure_Pa"] for own in found.values() if "pressure_Pa" in own.entries]
+    least = min(given, default=0.0)
+    return {
+        name: own._replace(entries=own.entries | {"pressure_Pa": own.entries["pressure_Pa"] - least})
+        if "pressure_Pa" in own.entries
+        else own
+        for name, own in found.items()
+    }

@@ -1,0 +1,36 @@
+"""`sdph init`: a folder of one's own from a scene or from an OpenFOAM case."""
+
+from __future__ import annotations
+
+from sdph.schema import CaseError
+
+
+def init_case(options) -> int:
+    """Make the folder; returns the exit code."""
+    if options.from_openfoam:
+        return _adopted(options)
+    if options.scene is None:
+        raise CaseError("init takes SCENE DIR, or --from-openfoam CASE DIR; see sdph init --help")
+    from sdph import scenes
+    from sdph.running import inputs, output, vessel
+    from sdph.scenes import paths
+
+    name, file = scenes.find(options.scene)
+    inputs.check(vessel.load(file))
+    own, folder = file.parent / "gas", output.create(options.folder, ())
+    inputs.copy_case(file, folder)
+    output.copy_template(own if own.is_dir() else paths.gas_template(name), folder / "gas")
+    print(f"{folder}/case.toml and {folder}/gas are yours to edit; run them with: sdph run {folder}")
+    return 0
+
+
+def _adopted(options) -> int:
+    from sdph.running import adopted
+
+    if options.scene is not None:
+        raise CaseError(f"init --from-openfoam CASE DIR takes no scene: leave {options.scene} out")
+    for note in adopted.adopt(options.from_openfoam, options.folder):
+        print(f"note: {note}")
+    made = options.folder
+    print(f"{made}/case.toml and {made}/gas are yours to edit; see what it calls for: sdph explain {made}")
+    return 0
