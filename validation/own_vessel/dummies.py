@@ -17,8 +17,8 @@ AREA, NEAREST = 0.02, 0.35  # - of an even share of the area; spacings between t
 
 
 def sheet(size: float, length: float = 1.0) -> np.ndarray:
-    """Triangles (F, 3, 3) [m] with a short side of `size` and a long one of `length` times that, which cover a square of
-    four spacings across or of one cell, if that is larger."""
+    """Triangles (F, 3, 3) [m] with a short side of `size` spacings and a long one of `length` times that: as many as
+    cover four spacings each way, or one cell."""
     long = size * length
     counts = [max(1, round(4.0 / side)) for side in (long, size)]
     ticks = [SPACING * side * np.arange(n + 1) for n, side in zip(counts, (long, size))]
@@ -45,6 +45,11 @@ def _checks(corners: np.ndarray) -> list[dict]:
     whole = facets.sizes(corners).sum() / SPACING**2
     nearest = cKDTree(points).query(points, k=2)[0][:, 1].min() / SPACING
     return [
-        check("points over the area in squares of a spacing, less 1 [-]", len(points) / whole - 1.0, 0.0, max(AREA, 0.5 / whole)),
+        check(
+            "points over the area in squares of a spacing, less 1 [-]",
+            len(points) / whole - 1.0,
+            0.0,
+            max(AREA, 0.5 / whole),
+        ),
         check("nearest two [spacings]", nearest, 1.0, 1.0 - NEAREST),
     ]
