@@ -97,7 +97,7 @@ def _of_cone() -> Flow:
 
 
 def bed(mesh, folder: Path, name: str) -> list[dict]:
-    """A packed bed that fills the vessel: its pressure and its gradient by Ergun away from the inlet, where gas comes in
+    """A packed bed that fills the vessel: its pressure and gradient by Ergun away from the inlet, where gas comes in
     as through alpha_g = 1 and speeds up in the first cells."""
     flow, blown = exact(name), {"kind": "velocity_inlet", "velocity_m_s": [0.0, 0.0, SPEED]}
     boundaries = gases.OPEN_ABOVE | {"inlet": blown}
