@@ -74,7 +74,7 @@ def temperature(name: str, x: np.ndarray) -> np.ndarray:
 
 
 def sources(name: str, x: np.ndarray) -> dict[str, np.ndarray]:
-    """What keeps the flow as it is, at cells."""
+    """Sources that keep the flow as it is, at cells."""
 
     def moved(y):
         return velocity(name, y)
