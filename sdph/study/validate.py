@@ -5,7 +5,8 @@ name in VARIANTS what else is to be run: name -> (overrides, references to check
 and no scene stands for is under `experiments`, the kinetic theory of grains under `kinetic_theory`, grains
 that heap up and flow out under `granular_piles`, a plug of spray under `spray_plug`, a gel droplet without particles
 under `gel_droplet_reduced`, free bodies of moving particles under `moving_particles`, pools by them and by the weakly
-compressible method under `two_methods`: each is a folder of validation/ with a module for each part of it.
+compressible method under `two_methods`, vessels of any mesh under `own_vessel`: each is a folder of validation/ with a
+module for each part of it.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ EXPERIMENTS = "experiments"
 # name -> how overrides begin that it takes: what has no gas, or is one case, takes none
 STUDIES = {
     EXPERIMENTS: ("coupling.",), "kinetic_theory": (), "granular_piles": (), "spray_plug": (),
-    "gel_droplet_reduced": (), "moving_particles": (), "two_methods": (),
+    "gel_droplet_reduced": (), "moving_particles": (), "two_methods": (), "own_vessel": (),
 }  # fmt: skip
 
 

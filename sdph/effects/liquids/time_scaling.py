@@ -3,8 +3,8 @@
     tau = t/S: heat, rates of strain and boiling go S times as fast, stresses stay (gel-droplet.md, section 2)
 
 S = min(S_max, v_cap S/|dr/dtau|): the wall of the shell moves no faster than v_cap in the motion's own time, so that
-inertia and the viscosity of the gel, which are not scaled, stay small beside the pressure; 1 from the first cut on. When
-S changes velocities change with it, v S_new/S_old: the motion in real time goes on as it was.
+inertia and the viscosity of the gel, which are not scaled, stay small beside the pressure; 1 from the first cut on.
+When S changes velocities change with it, v S_new/S_old: the motion in real time goes on as it was.
 
 The specification has mu/S: a gel of 0.1 Pa s is then one of 1e-4, and nothing holds the face of the bubble round while
 noise in the pressure, which goes by the motion's time, moves it. Our choice: mu as it is. Its pressure is told.
