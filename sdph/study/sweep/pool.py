@@ -26,7 +26,7 @@ def outcomes(jobs: list[Job], workers: int | None = None, scheduler: str | None 
     distributed = _dask()
     with _client(distributed, workers, scheduler) as client:
         futures = {client.submit(done, job, key=f"sdph-{job.name}", pure=False): job for job in jobs}
-        for future in distributed.as_completed(futures):
+        for future in distributed.as_completed(futures, loop=client.loop):
             yield futures[future], _outcome(future)
 
 
