@@ -17,7 +17,7 @@ from sdph.methods.mps.method import MpsStepper
 from sdph.methods.solids.method import SolidStepper
 from sdph.running import inputs, metrics
 from sdph.schema import CaseError
-from sdph.study import balance
+from sdph.study import closed_vessels
 from sdph.study import memory as room
 from sdph.study.explain import estimate
 
@@ -53,7 +53,7 @@ def look(case, template: Path, *, allow_code: bool = False) -> None:
     if "grains" in case.matters:
         grains = case.only("grains")
         _gas(grains, template, expected(grains), allow_code)
-        balance.refuse_filling(grains, template)
+        closed_vessels.refuse_filling(grains, template)
 
 
 def _gas(case, template: Path, chosen: str, allow_code: bool) -> None:

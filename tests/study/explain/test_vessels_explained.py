@@ -12,13 +12,13 @@ from sdph.case import read as cases
 from sdph.cli import main
 from sdph.scenes import paths
 from sdph.schema import CaseError
-from sdph.study import balance
+from sdph.study import closed_vessels
 
 BED = scenes.HERE / "bubbling_bed" / "case.toml"
 
 
 def judged(*overrides: str) -> None:
-    balance.refuse_filling(cases.load(BED, overrides), paths.gas_template("bubbling_bed"))
+    closed_vessels.refuse_filling(cases.load(BED, overrides), paths.gas_template("bubbling_bed"))
 
 
 def test_gas_that_finds_no_way_out_is_refused_in_one_line(capsys):
