@@ -50,8 +50,8 @@ class Simulation:
         self.notices = self.grains.notices  # for the user, until somebody has passed them on
         self._weights_now = None
         self.beside, self.limiters = Beside(), Limiters()  # other methods; what limiters hold
-        path = Path(ledger.table.file.name).with_name(outlet.FILE)
-        self.outlet = outlet.Outlet(case, path) if "outflow" in case.effects else None
+        recorded = "outflow" in case.effects and ledger.table  # beside the ledger, where that is on disk
+        self.outlet = outlet.Outlet(case, Path(ledger.table.file.name).with_name(outlet.FILE)) if recorded else None
         self.wall = {"particles": 0.0, "exchange": 0.0, "gas": 0.0}
 
     @staticmethod

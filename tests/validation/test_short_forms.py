@@ -36,7 +36,8 @@ SHORT = {
     "free_overfall": (("resolution.spacing_mm=16.0", "run.end_time_s=2.0"), ("exact",)),
     "capillary_wave": (("resolution.spacing_mm=62.5",), ("exact",)),
     "sloshing_box": (("resolution.spacing_mm=50.0",), ("exact",)),
-    "sloshing_sphere": (("resolution.spacing_mm=80.0",), ("exact",)),
+    # at 80 mm its moment is 1.0 to 1.2 % of 1 % (R/6), and round-off decides which
+    "sloshing_sphere": (("resolution.spacing_mm=70.0",), ("exact",)),
     "sloshing_cassini": (("resolution.spacing_mm=90.0", "run.end_time_s=30.0"), ("exact",)),
     "bubble_rise": (("resolution.spacing_mm=50.0",), ("exact",)),
     "swirl_sheet": (
@@ -107,10 +108,7 @@ MISSED = {
     "oscillating_plate": {"period over": "1.28 with four layers"},
     "taylor_bar": {"length": "six spacings across", "radius of the foot": "the same"},
     "tank_with_flap": {"deflection of the tip": "1.26 with eight layers"},
-    "gel_droplet": {
-        "torn": "it ends before",
-        "numerical_work_rel": "3.9 % of 2 %, of a dissipation that is 0.2 % of the bubble's work",
-    },
+    "gel_droplet": {"torn": "it ends before"},
     "bubble_rise": {
         "largest rise velocity": "R/5",
         "rise velocity, worst": "R/5",

@@ -51,6 +51,8 @@ class Still:
 
 
 class _NoLedger:
+    table = None
+
     def open(self, state, budget) -> None:
         """Nothing is kept."""
 

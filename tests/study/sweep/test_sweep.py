@@ -141,6 +141,8 @@ def test_the_figure_is_of_what_there_is(tmp_path):
 class Client:
     """Stand-in for the client of dask, on threads."""
 
+    loop = None
+
     def __init__(self, address=None, **more):
         if address == "tcp://nobody:1":
             raise OSError("Timed out")
@@ -158,7 +160,11 @@ class Client:
 
 def test_workers_of_dask_do_the_runs(tmp_path, monkeypatch):
     """By a stand-in; one that is lost is told as a failure."""
-    monkeypatch.setitem(sys.modules, "distributed", types.SimpleNamespace(Client=Client, as_completed=as_completed))
+    monkeypatch.setitem(
+        sys.modules,
+        "distributed",
+        types.SimpleNamespace(Client=Client, as_completed=lambda futures, loop: as_completed(futures)),
+    )
 
     def done(own):
         if own.name == "b":
