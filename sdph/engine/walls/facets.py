@@ -12,6 +12,7 @@ from sdph.schema import CaseError
 # places in a unit square that fill it evenly: Roberts 2018, after Korobov; 1/p and 1/p^2 of p^3 = p + 1
 EVEN = np.array([0.7548776662466927, 0.5698402909980532])
 SAMPLES = 16  # of the surface to a point: parts are then alike to a sixteenth or so; our choice
+SAME = 1e-9  # of a wall's extent: corners so near are one; round-off
 ROUNDS = 8  # in which points come to the middle of their parts; 20 and 40 move none further (measured); our choice
 
 
@@ -127,6 +128,7 @@ def _turned(corners: np.ndarray) -> np.ndarray:
 def spread(corners: np.ndarray, spacing: float) -> tuple[np.ndarray, np.ndarray]:
     """Points (P, d) [m] on facets (F, d, d) and the normals (P, d) there: one for each spacing^(d-1) of all facets
     together, whatever size each of them has."""
+    corners = chained(corners) if corners.shape[2] == 2 else corners
     size = sizes(corners)
     ends = np.cumsum(size)
     count = max(1, round(ends[-1] / spacing ** (corners.shape[2] - 1)))
@@ -138,6 +140,23 @@ def spread(corners: np.ndarray, spacing: float) -> tuple[np.ndarray, np.ndarray]
         return points, normals(corners)[own]
     places, facing = _strewn(corners, ends, size, SAMPLES * count)
     return _evened(places, facing, count, spacing)
+
+
+def chained(corners: np.ndarray) -> np.ndarray:
+    """Facets (F, 2, 2) of a plane wall one after the other: each begins where the one before ends, where one does. In
+    any other order points of neighbours may be two facets apart, and grains slip through."""
+    ends = corners.reshape(-1, 2)
+    near = SAME * np.ptp(ends, axis=0).max()
+    point = np.unique(np.round(ends / near), axis=0, return_inverse=True)[1].reshape(-1, 2)
+    follower = dict(zip(point[:, 0].tolist(), range(len(point))))  # of a point: the facet that begins there
+    first = np.flatnonzero(~np.isin(point[:, 0], point[:, 1]))
+    order: dict[int, None] = {}
+    for begin in (*first.tolist(), *range(len(point))):
+        facet = begin
+        while facet is not None and facet not in order:
+            order[facet] = None
+            facet = follower.get(int(point[facet, 1]))
+    return corners[list(order)]
 
 
 def _strewn(corners, ends, size, count: int) -> tuple[np.ndarray, np.ndarray]:
