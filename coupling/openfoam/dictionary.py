@@ -16,7 +16,8 @@ UNKNOWN = "#unknown"
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 TOKEN = re.compile(
     r"""\s+|//[^\n]*|/\*.*?\*/|(?P<verbatim>\#\{.*?\#\})|(?P<text>"(?:\\.|[^"\\])*")|(?P<hash>\#\w+)"""
-    r"""|(?P<variable>\$(?:\{[^}]*\}|[\w:.]+))|(?P<mark>[][{}();])|(?P<word>[^\s;{}()[\]"]+(?:\([^\s()]*\)[^\s;{}()[\]"]*)*)""",
+    r"""|(?P<variable>\$(?:\{[^}]*\}|[\w:.]+))|(?P<mark>[][{}();])"""
+    r"""|(?P<word>[^\s;{}()[\]"]+(?:\([^\s()]*\)[^\s;{}()[\]"]*)*)""",
     re.DOTALL,
 )
 BINARY = re.compile(rb"List<(scalar|vector|symmTensor|tensor)>\s*(\d+)\s*\(")

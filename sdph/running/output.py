@@ -22,6 +22,7 @@ from pathlib import Path
 
 import numpy as np
 
+from coupling.openfoam import patches
 from sdph import __version__
 from sdph.case.gas_cells import SAME, layers
 from sdph.engine.table import Found, TooLarge, column, read_cells
@@ -217,9 +218,7 @@ def _polyhedra(gas):
     centres."""
     from scipy.spatial import cKDTree
 
-    from coupling.openfoam.patches import mesh_reader
-
-    reader, d = mesh_reader(gas.case_folder), gas.mesh.dimensions
+    reader, d = patches.mesh_reader(gas.case_folder), gas.mesh.dimensions
     reader.case_type = "decomposed" if gas.ranks > 1 else "reconstructed"
     grid = reader.read()["internalMesh"]
     if d == 2:

@@ -28,17 +28,8 @@ class Simulation:
     """Grains of a case coupled to a gas, and other methods beside them; call `window` until `time` is the end."""
 
     at_row = True  # the history has a row of every window
-    KEPT = (
-        "repeated",
-        "wall",
-        "grains",
-        "exchange",
-        "clock",
-        "ledger",
-        "beside",
-        "limiters",
-        "outlet",
-    )  # see sdph.engine.kept
+    # see sdph.engine.kept
+    KEPT = ("repeated", "wall", "grains", "exchange", "clock", "ledger", "beside", "limiters", "outlet")
 
     def __init__(self, case, gas, ledger):
         self.case, self.gas, self.ledger = case, gas, ledger

@@ -59,6 +59,15 @@ def test_inertia_of_a_cylinder_is_that_of_rayleigh():
     assert power == pytest.approx(pressure * 2.0 * math.pi * inner * speed, rel=1e-5)
 
 
+def test_viscosity_of_a_cylinder_takes_what_it_dissipates():
+    """Power of the pressure is that of the ring: 2 mu D:D = 4 mu (v r/x^2)^2 over 2 pi x dx."""
+    inner, outer, speed, viscosity = 2e-4, 5e-4, 0.3, 0.1
+    x = np.linspace(inner, outer, 20001)
+    lost = np.trapezoid(4.0 * viscosity * (speed * inner / x**2) ** 2 * 2.0 * math.pi * x, x)
+    pressure = time_scaling.viscous_pressure(viscosity, inner, outer, speed)
+    assert pressure * 2.0 * math.pi * inner * speed == pytest.approx(lost, rel=1e-6)
+
+
 def test_polygon_knows_what_it_holds():
     turn = 2.0 * math.pi * np.arange(200) / 200
     x, y = np.cos(turn), np.sin(turn)
