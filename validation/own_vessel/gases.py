@@ -34,15 +34,21 @@ FIELDS = {
 
 @contextlib.contextmanager
 def started(
-    mesh: meshes.Mesh, folder: Path, boundaries=CLOSED, fields=(), gravity=(0.0, 0.0, 0.0), tolerance=None, **gas
-):
+    mesh: meshes.Mesh, folder: Path, boundaries=CLOSED, fields=(), gravity=(0.0, 0.0, 0.0), tolerance=None, repeats=None,
+    **gas,
+):  # fmt: skip
     """A gas solver that runs on `mesh` in `folder`; `fields` are those of `start_field`, `tolerance` that of the
-    pressure in place of the template's, `gas` overrides the gas above."""
+    pressure in place of the template's, `repeats` of its solution at most on crooked faces, `gas` overrides the gas
+    above."""
     own = folder / "template"
     shutil.copytree(paths.data("openfoam_case_templates") / "disc_cluster" / "gas", own)
+    numbers = own / "system" / "fvSolution"
+    text = numbers.read_text(encoding="utf-8")
     if tolerance is not None:
-        numbers = own / "system" / "fvSolution"
-        numbers.write_text(numbers.read_text().replace(DEFAULT, f"tolerance       {tolerance};"), encoding="utf-8")
+        text = text.replace(DEFAULT, f"tolerance       {tolerance};")
+    if repeats is not None:
+        text = text.replace("PIMPLE\n{", f"PIMPLE\n{{\n    nStraightened {repeats};")
+    numbers.write_text(text, encoding="utf-8")
     meshes.write(mesh, own / "constant" / "polyMesh")
     (own / "0").mkdir(exist_ok=True)
     for name, text in fields:

@@ -1,0 +1,80 @@
+"""Checks that runs of gel droplets share: the reduced model of the same droplet, the tear, and what closes.
+
+Bars are of issue 20 and of gel-droplet.md, sections 5 and 6.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sdph.study.compare import check
+from sdph.study.gel_droplet import sections
+from sdph.study.gel_droplet.course import Course
+
+TIME = 0.05
+TEAR = 1.35, 1.47  # D/D0 of a flaw of 7 %
+HEAT, MASS, ENERGY, INERTIA = 1e-10, 1e-12, 0.01, 0.02
+
+
+def reduced(case) -> Course:
+    """Course of the reduced model of a case with its largest bubble alone; its spot is as much thinner as the shell's
+    flaw."""
+    own, shell, heat = case.solid, case.bodies["shell"], case.parameters["liquid_heat"]
+    bubble, fuel = case.parameters["bubble"], "vapour."
+    radius = max(bubble.radii, default=case.pools["gel"].inner_radius)
+    given = {
+        "droplet.diameter_mm": 2e3 * shell.radius,
+        "droplet.shell_thickness_um": 1e6 * (shell.radius - shell.inner_radius),
+        "droplet.bubble_diameter_mm": 2e3 * radius, "droplet.ambient_pressure_Pa": bubble.around,
+        "droplet.surface_tension_N_m": bubble.surface_tension, "heating.flux_W_m2": heat.flux,
+        "shell.youngs_modulus_Pa": own.youngs_modulus, "shell.poisson_ratio": own.poisson_ratio,
+        "shell.yield_stress_Pa": own.yield_stress, "shell.hardening_Pa": own.hardening,
+        "shell.hardening_exponent": own.hardening_exponent, "shell.rate_factor": own.rate_factor,
+        "shell.reference_rate_1_s": own.reference_rate, "shell.critical_damage": own.critical_damage,
+        "shell.flaw": shell.flaw, "gel.density_kg_m3": case.liquid.density,
+        "gel.heat_capacity_J_kg_K": heat.heat_capacity, "gel.conductivity_W_m_K": heat.conductivity,
+        fuel + "latent_heat_J_kg": bubble.latent_heat,
+    }  # fmt: skip
+    words = [f'heating.place="{heat.heated}"', f'vapour.equation_of_state="{bubble.equation_of_state}"']
+    words += [f"shell.failure={list(own.failure[:4])}"]
+    return Course(sections.load(None, (*(f"{key}={value!r}" for key, value in given.items()), *words)))
+
+
+def grown(history) -> slice:
+    """Rows before the tear."""
+    return slice(0, int(np.searchsorted(history["solid_free_particles"] > 0, True)) or None)
+
+
+def at_tear(run, column: str) -> float:
+    """A column of the history in the last row before the first cut."""
+    return float(run.history[column][grown(run.history)][-1])
+
+
+def size(run) -> dict:
+    """Check of D/D0 at the tear, for a flaw of 7 %."""
+    middle = sum(TEAR) / 2.0
+    found = run.summary["rupture_diameter_ratio"]
+    return check(f"D/D0 at the tear, {TEAR[0]:g} to {TEAR[1]:g}", found, middle, TEAR[1] - middle)
+
+
+def place(run) -> dict:
+    """Check that the shell tears at its flaw: angle from the flaw's edge to the middle of what broke off first."""
+    half_width = np.degrees(run.case.bodies["shell"].flaw_half_width)
+    off = max(0.0, abs(run.summary["tear_angle_deg"]) - half_width)
+    return check("angle of the tear from the flaw's edge [deg]", off, 0.0, 1.0)
+
+
+def closure(run) -> list[dict]:
+    """Checks of heat, mass, energy; inertia and viscosity by time scaling."""
+    told, scaled = run.summary, (("inertia", "inertial"), ("viscosity", "viscous"))
+    return [
+        check("heat made, of what came in", told["heat_drift_rel"], 0.0, HEAT),
+        check("mass of gel and vapour made", told["mass_drift_rel"], 0.0, MASS),
+        check("energy that nobody gave, of the bubble's work", told["energy_drift_rel"], 0.0, ENERGY),
+        *(
+            check(
+                f"pressure of {name} over pressure, before the tear", told[f"{key}_pressure_largest_rel"], 0.0, INERTIA
+            )
+            for name, key in scaled
+        ),
+    ]
