@@ -1,8 +1,9 @@
 """Force of a uniform electric field on grains that bear a charge, pi d^2 sigma E on each.
 
-The field is that of electrodes outside, the same everywhere and at all times; the charge stays on its grain. What the
-charges do to the field and to each other, to walls and to the gas is left out: `explain` and `run` tell where their
-own field is more than a tenth of the one given. The force on a particle is the sum over its grains, of all sizes.
+The field is that of electrodes outside, the same everywhere and at all times; the charge stays on its grain, so that no
+droplet may shrink or break. What the charges do to the field and to each other, to walls and to the gas is left out:
+`explain` and `run` tell where their own field is more than a tenth of the one given. The force on a particle is the sum
+over its grains, of all sizes.
 """
 
 from __future__ import annotations
@@ -54,11 +55,12 @@ class ElectricFieldP(NamedTuple):
 
 def kernel(case) -> ElectricFieldP:
     own = case.parameters["electric_field"]
-    if "evaporation" in case.effects:
-        raise CaseError(
-            "electric_field: a droplet that evaporates keeps its charge until that tears it, which is not known here; "
-            "leave evaporation or electric_field out of effects"
-        )
+    for name in ("evaporation", "break_up"):
+        if name in case.effects:
+            raise CaseError(
+                f"electric_field: what charge a droplet has that shrinks or breaks is not known here; leave {name} or "
+                "electric_field out of effects"
+            )
     return ElectricFieldP(*(*own.strength, 0.0)[:3], own.surface_charge, case.grains.density)
 
 
