@@ -54,7 +54,8 @@ def kick(s, acceleration, of_walls, booked, gravity, dt, impulses, works):
 
     acceleration (N, 3) [m/s2] is of pairs; of_walls (N, 7) of the push of walls and of their grip [m/s2], three columns
     each, and the power of the grip by the sliding of walls [W/kg]. What pairs and grip take from the motion is `booked`
-    (N,) [W/kg]. A particle upstream of a nozzle feels nothing: the inflow undoes what pairs and the push do to it.
+    (N,) [W/kg]. A particle upstream of a nozzle feels nothing: the inflow undoes what pairs and the push do to it, and
+    the grip of walls beside the mouth is not there.
     """
     for i in range(len(s.x)):
         m, deep = s.mass[i] * dt, len(s.z) > 0
@@ -65,7 +66,8 @@ def kick(s, acceleration, of_walls, booked, gravity, dt, impulses, works):
             impulses[INLET, 0] -= m * ax
             impulses[INLET, 1] -= m * ay
             impulses[INLET, 2] -= m * az
-            works[BY_INFLOW] -= m * (ax * u + ay * v + az * w + booked[i])
+            gripped = of_walls[i, 3] * u + of_walls[i, 4] * v + of_walls[i, 5] * w - of_walls[i, 6]
+            works[BY_INFLOW] -= m * (ax * u + ay * v + az * w + booked[i] + gripped)
             works[BY_GRAVITY] += m * (gravity[0] * u + gravity[1] * v + gravity[2] * w)
             s.way_x[i] += u * dt
             s.way_y[i] += v * dt

@@ -58,3 +58,12 @@ def test_a_mouth_that_gives_nothing_holds_grains_like_a_wall(tmp_path):
     assert done.grains.source.mass > 0.0 and not (done.state.kind == INFLOW).any()
     assert done.state.y.min() > 0.0
     assert math.fsum(done.state.mass) == pytest.approx(ALPHA * 700.0 * 0.4 * 0.04 + done.grains.source.mass, rel=1e-12)
+
+
+def test_walls_beside_a_mouth_take_nothing_from_grains_that_wait(tmp_path):
+    """Viscous grains between gripping walls: what waits upstream is carried, and motion closes to round-off."""
+    effects = [*EFFECTS, "granular_viscosity", "granular_temperature"]
+    nozzles = {"left": slot([0.0, 0.5], [1.0, 0.0], width_m=0.2)}
+    done = until(begun(case(nozzles, effects=effects, boundaries=CLOSED), tmp_path), 0.06)
+    assert done.grains.source.mass > 0.0 and done.ledger.sums["work_of_inflow_J"] != 0.0
+    assert done.ledger.summary()["motion_drift_rel"] < 1e-12
