@@ -68,6 +68,16 @@ SHORT = {
         ),
         ("exact",),
     ),
+    "gel_droplet_three": (
+        (
+            "resolution.spacing_mm=0.025",
+            "liquid_heat.flux_W_m2=5.68e5",
+            "run.end_time_s=0.05",
+            "run.output_interval_s=0.05",
+            "liquid.history_interval_s=0.005",
+        ),
+        ("exact",),
+    ),
     "tank_with_flap": (("resolution.spacing_mm=6.25", "run.end_time_s=0.3"), ("exact",)),
     "cylindrical_bed": (("resolution.spacing_mm=9.0", "run.end_time_s=0.5"), ("exact",)),
     "tapered_bed": (("resolution.spacing_mm=9.0", "run.end_time_s=1.0"), ("exact",)),
@@ -109,6 +119,7 @@ MISSED = {
     "taylor_bar": {"length": "six spacings across", "radius of the foot": "the same"},
     "tank_with_flap": {"deflection of the tip": "1.26 with eight layers"},
     "gel_droplet": {"torn": "it ends before"},
+    "gel_droplet_three": {"torn": "it ends before", "pressure of inertia": "four times the heat"},
     "bubble_rise": {
         "largest rise velocity": "R/5",
         "rise velocity, worst": "R/5",

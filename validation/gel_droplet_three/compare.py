@@ -31,5 +31,7 @@ def bubbles(run) -> list[dict]:
     numbers = range(1, len(run.case.parameters["bubble"].radii) + 1)
     wide = [at_tear(run, f"bubble_{k}_diameter_m") for k in numbers]
     pressures = [at_tear(run, f"bubble_{k}_pressure_Pa") for k in numbers]
-    found = [check(f"diameter of bubble {k} [m]", *own, WIDTH, True) for k, own in zip(numbers, zip(wide, WIDE))]
+    found = [check("largest bubble, by number", 1 + wide.index(max(wide)), 1, 0)]
+    if run.summary["torn"]:
+        found += [check(f"diameter of bubble {k} [m]", *own, WIDTH, True) for k, own in zip(numbers, zip(wide, WIDE))]
     return [*found, check("pressures of the bubbles apart [Pa]", max(pressures) - min(pressures), APART, APART)]

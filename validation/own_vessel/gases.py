@@ -34,8 +34,8 @@ FIELDS = {
 
 @contextlib.contextmanager
 def started(
-    mesh: meshes.Mesh, folder: Path, boundaries=CLOSED, fields=(), gravity=(0.0, 0.0, 0.0), tolerance=None, repeats=None,
-    **gas,
+    mesh: meshes.Mesh, folder: Path, boundaries=CLOSED, fields=(), gravity=(0.0, 0.0, 0.0), tolerance=None,
+    repeats=None, **gas,
 ):  # fmt: skip
     """A gas solver that runs on `mesh` in `folder`; `fields` are those of `start_field`, `tolerance` that of the
     pressure in place of the template's, `repeats` of its solution at most on crooked faces, `gas` overrides the gas
