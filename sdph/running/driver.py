@@ -28,7 +28,7 @@ from sdph.engine.guard import Unstable
 from sdph.engine.kept import Maybe, Unfit
 from sdph.engine.ledger import Ledger
 from sdph.methods.liquids.liquid import Liquid
-from sdph.running import chain, hastened, inputs, metrics, output, vessel
+from sdph.running import balances, chain, hastened, inputs, metrics, output, vessel
 from sdph.running.interruption import Stopped, listening
 from sdph.running.outputs import Outputs
 from sdph.running.simulation import Simulation
@@ -177,7 +177,7 @@ class Run:
             self._save()
         summary = _summary(self.simulation, self.out) | {"start_to_first_window_s": self.first, "wall_s": self.spent}
         output.write_summary(self.folder, summary)
-        for warning in (*environment.warnings(), *self.simulation.warnings()):
+        for warning in (*environment.warnings(), *self.simulation.warnings(), *balances.missed(summary)):
             self.reporter.status(f"warning: {warning}")
         return summary
 

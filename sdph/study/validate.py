@@ -19,10 +19,10 @@ from pathlib import Path
 
 from sdph import scenes
 from sdph.case import read as cases
-from sdph.running import driver
+from sdph.running import balances, driver
 from sdph.scenes import paths
 from sdph.schema import CaseError
-from sdph.study import balances, compare
+from sdph.study import compare
 
 REFERENCES = ("exact", "paper", "tfm", "dpm")
 EXPERIMENTS = "experiments"

@@ -8,10 +8,10 @@ import pytest
 from coupling.openfoam.poly_mesh import BLOCKS
 from sdph import scenes
 from sdph.case import read as cases
-from sdph.running import driver
+from sdph.running import balances, driver
 from sdph.running.progress import Reporter
 from sdph.scenes import paths
-from sdph.study import balances, compare, validate
+from sdph.study import compare, validate
 
 COARSE_BED = ("resolution.spacing_mm=10.0", "resolution.cell_mm=20.0", "run.end_time_s=0.24")
 ALIKE = compare.scene_module("evaporating_jet").VARIANTS["closures alike"][0]

@@ -16,8 +16,8 @@ from scipy.integrate import solve_ivp
 
 from sdph.case import read as cases
 from sdph.laws import drag, evaporation, heat
-from sdph.running import driver
-from sdph.study import balances, compare
+from sdph.running import balances, driver
+from sdph.study import compare
 from sdph.study.compare import check
 
 BAR = 0.01  # of each change since the start (issue 19)

@@ -30,10 +30,10 @@ from sdph import scenes
 from sdph.case import read as cases
 from sdph.engine.guard import Unstable
 from sdph.engine.state import WALL
+from sdph.running import balances
 from sdph.running.driver import simulation_of
 from sdph.scenes import paths
 from sdph.schema import CaseError, unknown
-from sdph.study import balances
 from sdph.study.stress.liquid_measures import LiquidMeasures
 from sdph.study.stress.measures import Measures
 

@@ -1,4 +1,5 @@
-"""Bars of the balances of every run, whatever its scene: `sdph validate` and `sdph stress` hold it to them."""
+"""Bars of the balances of every run, whatever its scene: `sdph validate` and `sdph stress` hold it to them, and a run
+tells which it missed."""
 
 from __future__ import annotations
 
@@ -31,3 +32,18 @@ def checks(summary: dict) -> list[dict]:
         for name, bar in bars.items()
         if name in summary
     ]
+
+
+def missed(summary: dict) -> list[str]:
+    """A line for each balance of a run that is not within its bar."""
+    return [
+        f"{row['name']} = {row['value']:.2g}, a balance is good to {row['tolerance']:g}: {_remedy(row['name'])}"
+        for row in checks(summary)
+        if not row["ok"]
+    ]
+
+
+def _remedy(name: str) -> str:
+    if name.endswith("numerical_work_rel"):
+        return "shorter steps (run.step_factor below 1) or finer particles lower what explicit steps do"
+    return "something was made or lost; docs/results.md says what the column counts"

@@ -2,7 +2,7 @@
 
 import pytest
 
-from sdph.study import balances
+from sdph.running import balances
 
 
 @pytest.mark.parametrize("name", balances.BARS)
@@ -15,3 +15,9 @@ def test_a_balance_past_its_bar_fails(name):
 
 def test_a_balance_that_is_no_number_fails():
     assert not balances.checks({"mass_drift_rel": float("nan")})[0]["ok"]
+
+
+def test_a_run_tells_what_it_missed_and_what_helps():
+    told = balances.missed({"mass_drift_rel": 1e-3, "numerical_work_rel": 0.177, "motion_drift_rel": 1e-15})
+    assert len(told) == 2 and not any("\n" in line for line in told)
+    assert "mass_drift_rel = 0.001" in told[0] and "numerical_work_rel = 0.18" in told[1] and "step_factor" in told[1]
