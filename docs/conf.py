@@ -26,6 +26,8 @@ autodoc_typehints = "description"
 html_theme, html_title = "furo", f"sdph {release}"
 html_math_renderer = "typeset"
 html_static_path, html_css_files = ["_static"], ["sdph.css"]
-html_show_sourcelink = html_copy_source = False
+html_show_sourcelink = html_copy_source = html_show_copyright = False
 suppress_warnings = ["myst.header"]  # docstrings and READMEs begin where they stand, at any level
+numfig = math_numfig = True  # equations by chapter
+numfig_secnum_depth = 1
 math_eqref_format = "({number})"

@@ -15,7 +15,7 @@ FENCE = re.compile(r"(^```.*?^```$)", re.DOTALL | re.MULTILINE)
 PICTURES = (".png", ".gif", ".svg")
 PAGES = {
     "README.md": "index.md", "CONTRIBUTING.md": "contributing.md", "benchmarks/README.md": "benchmarks.md",
-    "CHANGELOG.md": "changes.md", "validation": "dashboard.md",
+    "CHANGELOG.md": "changes.md", "validation": "dashboard.md", "CITATION.cff": "cite.md",
 }  # fmt: skip
 
 

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import argparse
 import inspect
+import os
 import pkgutil
 from pathlib import Path
 
 import sdph.laws
 from making import dashboard, docstrings, embedding, gallery, keys
 from sdph import effects, scenes
+from sdph.cli.arguments import parser
 from sdph.engine import restart
 from sdph.running import metrics
 
@@ -50,6 +53,7 @@ def made() -> dict[str, str]:
         "generated/plausible.md": keys.plausible(),
         "generated/laws.md": "\n".join(docstrings.functions(name, 2) for name in _modules()),
         "generated/effects.md": "\n".join(map(_effect_page, effects.FILES)),
+        "generated/commands.md": _commands(),
         "generated/rooms.md": "\n".join(docstrings.module(name, 2) for name in ROOMS),
         "generated/restart.md": docstrings.markdown(inspect.getdoc(restart)),
         "generated/metrics.md": _metrics(),
@@ -83,3 +87,10 @@ def _metrics() -> str:
 
 def _first_line(function) -> str:
     return " ".join(function.__doc__.split("\n\n")[0].split())
+
+
+def _commands() -> str:
+    """Help of every command."""
+    os.environ["COLUMNS"] = "100"  # of its lines
+    found = next(action for action in parser()._actions if isinstance(action, argparse._SubParsersAction))
+    return "\n".join(f"### sdph {name}\n\n```text\n{own.format_help()}```\n" for name, own in found.choices.items())
