@@ -110,6 +110,17 @@ def test_python_does_what_the_page_says(page, tmp_path, monkeypatch):
         exec(block[1], known)
 
 
+def test_equations_of_the_theory_lead_to_their_code():
+    """But for those of derivations, which no program computes."""
+    equation, lone, count = re.compile(r"\$\$ \(([\w-]+)\)\n(.*?)(?=\n\$\$\n|\n#|\Z)", re.DOTALL), [], 0
+    for path in sorted((DOCS / "theory").glob("*.md")):
+        for label, after in equation.findall(path.read_text(encoding="utf-8")):
+            count += 1
+            if "{src}`" not in after and not label.startswith("derive-"):
+                lone.append(f"{path.name}: {label}")
+    assert not lone and count > 80
+
+
 def test_spelling():
     listed = ["git", "ls-files", "-z", "-co", "--exclude-standard", "--", *SPELLED]
     told = subprocess.run(listed, cwd=ROOT, capture_output=True, text=True)

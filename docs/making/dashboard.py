@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import cache
 
 from making.docstrings import escaped
 from sdph.scenes import paths
@@ -11,15 +12,22 @@ from sdph.study import record, validate
 HEAD = "| check | value | reference | off by | tolerance | verdict |\n|--|--|--|--|--|--|"
 
 
+@cache
+def validated() -> list[str]:
+    """Scenes and studies that have checks."""
+    return validate.validated()
+
+
+@cache
 def records() -> dict[str, dict]:
     """The record of each scene and study that has one."""
-    found = {name: record.read(paths.data("validation") / "record", name) for name in validate.validated()}
+    found = {name: record.read(paths.data("validation") / "record", name) for name in validated()}
     return {name: own for name, own in found.items() if own}
 
 
 def of_scene(name: str) -> str:
     """The checks of one scene, and when they were measured."""
-    if name not in validate.validated():
+    if name not in validated():
         return "None but the balances of its ledger, which every run prints."
     own = records().get(name)
     if own is None:
@@ -31,7 +39,7 @@ def whole() -> str:
     """The whole page."""
     found = records()
     misses = [check | {"name": f"{name}: {check['name']}"} for name, own in found.items() for check in _missed(own)]
-    missing = [name for name in validate.validated() if name not in found]
+    missing = [name for name in validated() if name not in found]
     count = sum(len(own["checks"]) for own in found.values())
     parts = [
         f"{len(found)} of {len(found) + len(missing)} scenes and studies have a record, with {count} checks, of which "

@@ -27,7 +27,7 @@ ROOMS = (  # whose docstrings tell how a run goes
 
 def write(docs: Path) -> None:
     """All of them; files of the same folders that are made no more go."""
-    wanted = made()
+    wanted = made(docs)
     for folder in FOLDERS:
         (docs / folder).mkdir(exist_ok=True)
         for path in (docs / folder).glob("*.md"):
@@ -39,7 +39,7 @@ def write(docs: Path) -> None:
             path.write_text(text, encoding="utf-8")
 
 
-def made() -> dict[str, str]:
+def made(docs: Path) -> dict[str, str]:
     """Page -> its Markdown."""
     found = {f"scenes/{name}.md": gallery.scene(name) for name in scenes.names()}
     found |= {f"studies/{name}.md": gallery.study(name) for name in gallery.studies()}
@@ -58,10 +58,20 @@ def made() -> dict[str, str]:
         "generated/restart.md": docstrings.markdown(inspect.getdoc(restart)),
         "generated/metrics.md": _metrics(),
         "generated/dashboard.md": dashboard.whole(),
-        "generated/benchmarks.md": embedding.text("benchmarks/README.md", "benchmarks.md", 0),
+        "generated/benchmarks.md": _benchmarks(docs.parent),
+        "generated/estimates.md": embedding.text("validation/estimates.md", "cost.md", 1),
         "generated/contributing.md": embedding.text("CONTRIBUTING.md", "contributing.md", 0),
         "generated/changes.md": embedding.text("CHANGELOG.md", "changes.md", 0),
     }
+
+
+def _benchmarks(root: Path) -> str:
+    """The README of the benchmarks, and each other page of theirs under its title."""
+    parts = [embedding.text("benchmarks/README.md", "benchmarks.md", 0)]
+    for path in sorted((root / "benchmarks").glob("[a-z]*.md")):
+        title = path.read_text(encoding="utf-8").partition("\n")[0].lstrip("# ")
+        parts.append(f"## {title}\n\n{embedding.text(f'benchmarks/{path.name}', 'benchmarks.md', 1)}")
+    return "\n\n".join(parts)
 
 
 def _modules() -> list[str]:

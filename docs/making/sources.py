@@ -67,17 +67,25 @@ def page(file: str) -> str:
     return f"source/{file}"
 
 
-def pages(app):
-    """A page for each file that others lead to."""
+PAGE = """<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{file}</title>
+<link rel="stylesheet" href="{up}_static/pygments.css"></head>
+<body class="source"><p><a href="{up}index.html">sdph</a> / {file}</p>{code}</body></html>
+"""
+
+
+def write_pages(app, failure) -> None:
+    """Write a page for each file that others lead to, without the navigation, which would take most of the time."""
     form = HtmlFormatter(linenos="inline", lineanchors="L", anchorlinenos=True)
-    for file in sorted(set().union(*getattr(app.env, "sdph_sources", {}).values())):
-        text = (ROOT / file).read_text(encoding="utf-8")
+    found = set().union(*getattr(app.env, "sdph_sources", {}).values()) if failure is None else ()
+    for file in sorted(found):
         try:
             lexer = get_lexer_for_filename(file)
         except ClassNotFound:
             lexer = TextLexer()
-        body = f"<h1>{file}</h1>\n{highlight(text, lexer, form)}"
-        yield page(file), {"title": file, "body": body, "toc": ""}, "page.html"
+        code = highlight((ROOT / file).read_text(encoding="utf-8"), lexer, form)
+        target = Path(app.outdir) / f"{page(file)}.html"
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_text(PAGE.format(file=file, code=code, up="../" * page(file).count("/")), encoding="utf-8")
 
 
 def purge(app, env, docname) -> None:
@@ -96,5 +104,5 @@ def setup(app):
     app.add_role("src", Source())
     app.connect("env-purge-doc", purge)
     app.connect("env-merge-info", merge)
-    app.connect("html-collect-pages", pages)
+    app.connect("build-finished", write_pages)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
