@@ -1,6 +1,7 @@
 """The documentation builds without a warning, its links lead somewhere, and its commands do what it says."""
 
 import html.parser
+import importlib
 import re
 import shlex
 import subprocess
@@ -11,6 +12,7 @@ import pytest
 
 from sdph import cli
 from sdph.scenes import paths
+from sdph.study import compare
 
 ROOT = paths.PACKAGE.parent
 DOCS = ROOT / "docs"
@@ -108,6 +110,39 @@ def test_python_does_what_the_page_says(page, tmp_path, monkeypatch):
     known = {}
     for block in blocks(page, PYTHON):
         exec(block[1], known)
+
+
+def test_dashboard_tells_misses_first_and_who_has_no_record(monkeypatch):
+    monkeypatch.syspath_prepend(str(DOCS))
+    dashboard = importlib.import_module("making.dashboard")
+    checks = [compare.check("one, exact: fine", 1.0, 1.0, 0.1), compare.check("one, exact: off", 2.0, 1.0, 0.1)]
+    made = {"scene": "one", "date": "2026-11-25", "version": "0.1.0", "commit": None, "gas": "embedded"}
+    monkeypatch.setattr(dashboard, "records", lambda: {"one": made | {"checks": checks}})
+    monkeypatch.setattr(dashboard, "validated", lambda: ["one", "two"])
+    text = dashboard.whole()
+    assert "1 of 2 scenes and studies have a record, with 2 checks, of which 1 miss" in text
+    assert "| one, exact: off | 2 | 1 | 1 | 0.1 | **missed** |" in text.partition("## Scenes")[0]
+    assert "| one | 2 | 1 | 2026-11-25 | 0.1.0 | ? | embedded |" in text and "## Without a record\n\ntwo." in text
+    every = text.partition("## Every check")[2]
+    assert every.index("| exact: off |") < every.index("| exact: fine |")
+
+
+def test_a_key_without_a_meaning_ends_the_building(monkeypatch, tmp_path):
+    monkeypatch.syspath_prepend(str(DOCS))
+    keys = importlib.import_module("making.keys")
+    monkeypatch.setattr(keys, "MEANINGS", tmp_path / "keys.toml")
+    text = (DOCS / "keys.toml").read_text(encoding="utf-8")
+    for changed in (text.replace("spacing_mm =", "spacing_cm =", 1), text.replace("[lift]\nlaw", "[lifting]\nlaw")):
+        assert changed != text
+        (tmp_path / "keys.toml").write_text(changed, encoding="utf-8")
+        with pytest.raises(ValueError, match=r"keys.toml: \[\w+\] and the code differ in (spacing_|law)"):
+            keys.meanings()
+
+
+@pytest.mark.parametrize("page", ["README.md", "CONTRIBUTING.md"])
+def test_links_of_pages_outside_the_site_lead_somewhere(page):
+    links = re.findall(r"\]\(([^)#]+)[^)]*\)", (ROOT / page).read_text(encoding="utf-8"))
+    assert links and not [link for link in links if not link.startswith("http") and not (ROOT / link).exists()]
 
 
 def test_equations_of_the_theory_lead_to_their_code():

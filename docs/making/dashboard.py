@@ -38,7 +38,7 @@ def of_scene(name: str) -> str:
 def whole() -> str:
     """The whole page."""
     found = records()
-    misses = [check | {"name": f"{name}: {check['name']}"} for name, own in found.items() for check in _missed(own)]
+    misses = [check for own in found.values() for check in _missed(own)]
     missing = [name for name in validated() if name not in found]
     count = sum(len(own["checks"]) for own in found.values())
     parts = [
@@ -79,12 +79,14 @@ def _overview(found: dict[str, dict]) -> str:
 def _told(own: dict) -> str:
     """When a record was made, and its checks."""
     made = f"Measured {own['date']}, sdph {own['version']}, commit {own['commit'] or 'unknown'}, gas: {own['gas']}."
-    return f"{made}\n\n{_table(own['checks'])}"
+    short = [check | {"name": check["name"].removeprefix(f"{own['scene']}, ")} for check in own["checks"]]
+    return f"{made}\n\n{_table(short)}"
 
 
 def _table(checks: Iterable[dict]) -> str:
     """Rows of checks, misses first."""
-    return "\n".join([HEAD, *map(_row, sorted(checks, key=lambda check: check["ok"]))])
+    rows = "\n".join([HEAD, *map(_row, sorted(checks, key=lambda check: check["ok"]))])
+    return f":::{{container}} numbers\n\n{rows}\n\n:::"
 
 
 def _row(check: dict) -> str:
