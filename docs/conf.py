@@ -21,6 +21,7 @@ myst_enable_extensions = ["attrs_block", "attrs_inline", "colon_fence", "dollarm
 myst_heading_anchors = 3
 exclude_patterns = ["generated/*", "site"]  # the first are parts of pages
 toc_object_entries = False  # hundreds of laws, on every page
+default_role = "code"  # of docstrings, where single backticks stand around code
 autodoc_member_order = "bysource"
 autodoc_typehints = "description"
 html_theme, html_title = "furo", f"sdph {release}"

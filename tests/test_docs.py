@@ -17,7 +17,7 @@ from sdph.study import compare
 ROOT = paths.PACKAGE.parent
 DOCS = ROOT / "docs"
 MADE = ("generated", "scenes", "studies", "site")  # folders of docs that are made, not written
-FENCE = re.compile(r"`(?P<file>[\w/.]+)`:\n\n```toml\n(?P<text>.*?)```|```sh\n(?P<commands>.*?)```", re.DOTALL)
+FENCE = re.compile(r"`(?P<file>[\w/.]+)`:\n\n```(?:toml|text)\n(?P<text>.*?)```|```sh\n(?P<commands>.*?)```", re.DOTALL)
 PYTHON = re.compile(r"```python\n(.*?)```", re.DOTALL)
 SPELLED = ("*.md", "*.py", "*.toml", "*.C", "*.H")
 
@@ -107,6 +107,9 @@ def test_commands_do_what_the_page_says(page, tmp_path, monkeypatch):
 def test_python_does_what_the_page_says(page, tmp_path, monkeypatch):
     """One block after the other; those of docs/python.md are in tests/api."""
     monkeypatch.chdir(tmp_path)
+    for block in blocks(page, FENCE):
+        if block["file"]:
+            (tmp_path / block["file"]).write_text(block["text"])
     known = {}
     for block in blocks(page, PYTHON):
         exec(block[1], known)
