@@ -148,6 +148,15 @@ def test_links_of_pages_outside_the_site_lead_somewhere(page):
     assert links and not [link for link in links if not link.startswith("http") and not (ROOT / link).exists()]
 
 
+def test_equations_with_a_slip_are_not_drawn(monkeypatch):
+    monkeypatch.syspath_prepend(str(DOCS))
+    typeset = importlib.import_module("making.typeset")
+    assert typeset.svg(r"\alpha_p", inline=True).startswith("<svg")
+    for wrong in (r"\alfa_p", r"\frac{a"):
+        with pytest.raises((ValueError, AssertionError)):
+            typeset.svg(wrong, inline=True)
+
+
 def test_equations_of_the_theory_lead_to_their_code():
     """But for those of derivations, which no program computes."""
     equation, lone, count = re.compile(r"\$\$ \(([\w-]+)\)\n(.*?)(?=\n\$\$\n|\n#|\Z)", re.DOTALL), [], 0

@@ -20,6 +20,8 @@ ziamath.config.math.color = "currentColor"  # of the text around it, light or da
 def svg(latex: str, inline: bool) -> str:
     """An equation as an <svg> that scales with the text around it; its LaTeX is what screen readers read."""
     drawn = ziamath.Latex(latex, size=SIZE, inline=inline)
+    if "\\" in drawn.mathmlstr():
+        raise ValueError("a command that is not known")
     element = drawn.svgxml()
     for side in ("width", "height"):
         element.set(side, f"{float(element.get(side)) / SIZE:.3f}em")
