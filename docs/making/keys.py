@@ -24,6 +24,7 @@ WRITTEN = {  # unit in a key -> as it is written
     "": "1", "kg_m3": "kg/m³", "Pa_s": "Pa s", "W_m_K": "W/(m K)", "J_kg_K": "J/(kg K)", "J_kg": "J/kg", "m_s": "m/s",
     "m_s2": "m/s²", "m2_s": "m²/s", "m2_s2": "m²/s²", "kg_kmol": "kg/kmol", "kg_s": "kg/s", "N_m": "N/m",
     "Pa_m6_kg2": "Pa m⁶/kg²", "rad_s": "rad/s", "1_s": "1/s", "W_m2": "W/m²", "deg": "degrees",
+    "V_m": "V/m", "C_m2": "C/m²",
 }  # fmt: skip
 HEAD = "| key | meaning | unit | default | allowed |\n|--|--|--|--|--|"
 KINDS = {bool: "true, false", int: "whole number", str: "text", Path: "path of a file, from the folder of the case"}
