@@ -17,6 +17,10 @@ demo: setup
 test: setup lint
 	$(VENV)/bin/python -m pytest -n auto --maxprocesses 4 --dist loadfile
 
+docs: $(VENV)/installed
+	$(VENV)/bin/python -m sphinx -W --keep-going -q docs docs/site
+	@echo the documentation: docs/site/index.html
+
 lint: $(VENV)/installed
 	$(VENV)/bin/ruff check .
 	$(VENV)/bin/ruff format --check .
@@ -32,6 +36,6 @@ $(VENV)/installed: pyproject.toml
 	touch $@
 
 clean:
-	rm -rf $(VENV) runs build dist
+	rm -rf $(VENV) runs build dist docs/site docs/generated docs/scenes docs/studies
 
-.PHONY: demo test lint setup clean
+.PHONY: demo test docs lint setup clean

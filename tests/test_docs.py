@@ -1,55 +1,178 @@
-"""The documentation is built, its links lead somewhere, and its commands do what it says."""
+"""The documentation builds without a warning, its links lead somewhere, and its commands do what it says."""
 
-import importlib.util
+import html.parser
+import importlib
 import re
 import shlex
+import subprocess
+import sys
+from urllib.parse import unquote
 
 import pytest
 
 from sdph import cli
 from sdph.scenes import paths
+from sdph.study import compare
 
-DOCS = paths.PACKAGE.parent / "docs"
-FENCE = re.compile(r"`(?P<file>[\w/.]+)`:\n\n```toml\n(?P<text>.*?)```|```sh\n(?P<commands>.*?)```", re.DOTALL)
+ROOT = paths.PACKAGE.parent
+DOCS = ROOT / "docs"
+MADE = ("generated", "scenes", "studies", "site")  # folders of docs that are made, not written
+FENCE = re.compile(r"`(?P<file>[\w/.]+)`:\n\n```(?:toml|text)\n(?P<text>.*?)```|```sh\n(?P<commands>.*?)```", re.DOTALL)
+PYTHON = re.compile(r"```python\n(.*?)```", re.DOTALL)
+SPELLED = ("*.md", "*.py", "*.toml", "*.C", "*.H")
+
+
+def written() -> list[str]:
+    """Pages that stand in docs, by their path there without .md."""
+    found = (path.relative_to(DOCS) for path in sorted(DOCS.rglob("*.md")))
+    return [str(path.with_suffix("")) for path in found if path.parts[0] not in MADE]
+
+
+def blocks(page: str, pattern: re.Pattern) -> list:
+    return list(pattern.finditer((DOCS / f"{page}.md").read_text(encoding="utf-8")))
+
+
+class Page(html.parser.HTMLParser):
+    """Places that a page has, and addresses that it leads to."""
+
+    def __init__(self, path):
+        super().__init__()
+        self.places, self.links = {""}, []
+        self.feed(path.read_text(encoding="utf-8"))
+
+    def handle_starttag(self, tag, attributes):
+        given = dict(attributes)
+        self.places.add(given.get("id"))
+        self.links += [given[key] for key in ("href", "src") if given.get(key) and tag != "use"]
 
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory):
-    spec = importlib.util.spec_from_file_location("docs_build", DOCS / "build.py")
-    builder = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(builder)
     folder = tmp_path_factory.mktemp("site")
-    assert builder.build(folder)
-    return folder
+    words = [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", "-d", folder / "kept", DOCS, folder / "html"]
+    told = subprocess.run(words, capture_output=True, text=True)
+    assert told.returncode == 0, told.stderr
+    return folder / "html"
 
 
-def test_links_and_pictures_lead_somewhere(site):
-    links = [
-        (page, link)
-        for page in site.glob("*.html")
-        for link in re.findall(r'(?:href|src)="([^"#]+)"', page.read_text())
-    ]
-    assert len(links) > 20
-    for page, link in links:
-        assert (site / link).is_file(), f"{page.name}: {link}"
+@pytest.fixture(scope="module")
+def pages(site):
+    return {path: Page(path) for path in site.rglob("*.html")}
+
+
+def test_links_lead_to_pages_and_places(site, pages):
+    lost, count = [], 0
+    for path, page in pages.items():
+        for link in page.links:
+            address, _, place = unquote(link).partition("#")
+            if re.match(r"\w+:", address):
+                continue
+            target, count = (path.parent / address.partition("?")[0]).resolve() if address else path, count + 1
+            if not target.exists() or (target in pages and place not in pages[target].places):
+                lost.append(f"{path.relative_to(site)}: {link}")
+    assert not lost
+    assert count > 1000
+
+
+def test_no_page_needs_a_network(site, pages):
+    """Scripts, styles and pictures are in the site."""
+    loads = re.compile(r'<(?:script|link|img)\b[^>]*(?:src|href)="https?:')
+    assert not [path.name for path in pages if loads.search(path.read_text(encoding="utf-8"))]
 
 
 def test_pages_were_filled_in(site):
-    assert not [page for page in site.glob("*.html") if re.search(r"<p>@\w+", page.read_text())]
-    assert "particles.NAME" in (site / "reference.html").read_text()
-    assert "required" in (site / "reference.html").read_text()
-    assert "wen_yu" in (site / "theory.html").read_text()
+    def text(name):
+        return (site / name).read_text(encoding="utf-8")
+
+    assert "particles.NAME" in text("reference.html") and "required" in text("reference.html")
+    assert "wen_yu" in text("laws.html") and 'id="keys-drag"' in text("reference.html")
+    assert "stefan_tube" in text("scenes/index.html")
 
 
-@pytest.mark.parametrize("page", [path.stem for path in sorted(DOCS.glob("*.md")) if "```sh" in path.read_text()])
+@pytest.mark.parametrize("page", [page for page in written() if blocks(page, FENCE)])
 def test_commands_do_what_the_page_says(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    for block in FENCE.finditer((DOCS / f"{page}.md").read_text()):
+    for block in blocks(page, FENCE):
         if block["file"]:
             (tmp_path / block["file"]).write_text(block["text"])
             continue
         for command in block["commands"].splitlines():
-            program, *words = shlex.split(command)
+            program, *words = shlex.split(command, comments=True)
             assert program == "sdph"
             assert cli.main(words) == 0, command
     assert list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("page", [page for page in written() if blocks(page, PYTHON) and page != "python"])
+def test_python_does_what_the_page_says(page, tmp_path, monkeypatch):
+    """One block after the other; those of docs/python.md are in tests/api."""
+    monkeypatch.chdir(tmp_path)
+    for block in blocks(page, FENCE):
+        if block["file"]:
+            (tmp_path / block["file"]).write_text(block["text"])
+    known = {}
+    for block in blocks(page, PYTHON):
+        exec(block[1], known)
+
+
+def test_dashboard_tells_misses_first_and_who_has_no_record(monkeypatch):
+    monkeypatch.syspath_prepend(str(DOCS))
+    dashboard = importlib.import_module("making.dashboard")
+    checks = [compare.check("one, exact: fine", 1.0, 1.0, 0.1), compare.check("one, exact: off", 2.0, 1.0, 0.1)]
+    made = {"scene": "one", "date": "2026-11-25", "version": "0.1.0", "commit": None, "gas": "embedded"}
+    monkeypatch.setattr(dashboard, "records", lambda: {"one": made | {"checks": checks}})
+    monkeypatch.setattr(dashboard, "validated", lambda: ["one", "two"])
+    text = dashboard.whole()
+    assert "1 of 2 scenes and studies have a record, with 2 checks, of which 1 miss" in text
+    assert "| one, exact: off | 2 | 1 | 1 | 0.1 | **missed** |" in text.partition("## Scenes")[0]
+    assert "| one | 2 | 1 | 2026-11-25 | 0.1.0 | ? | embedded |" in text and "## Without a record\n\ntwo." in text
+    every = text.partition("## Every check")[2]
+    assert every.index("| exact: off |") < every.index("| exact: fine |")
+
+
+def test_a_key_without_a_meaning_ends_the_building(monkeypatch, tmp_path):
+    monkeypatch.syspath_prepend(str(DOCS))
+    keys = importlib.import_module("making.keys")
+    monkeypatch.setattr(keys, "MEANINGS", tmp_path / "keys.toml")
+    text = (DOCS / "keys.toml").read_text(encoding="utf-8")
+    for changed in (text.replace("spacing_mm =", "spacing_cm =", 1), text.replace("[lift]\nlaw", "[lifting]\nlaw")):
+        assert changed != text
+        (tmp_path / "keys.toml").write_text(changed, encoding="utf-8")
+        with pytest.raises(ValueError, match=r"keys.toml: \[\w+\] and the code differ in (spacing_|law)"):
+            keys.meanings()
+
+
+@pytest.mark.parametrize("page", ["README.md", "CONTRIBUTING.md"])
+def test_links_of_pages_outside_the_site_lead_somewhere(page):
+    links = re.findall(r"\]\(([^)#]+)[^)]*\)", (ROOT / page).read_text(encoding="utf-8"))
+    assert links and not [link for link in links if not link.startswith("http") and not (ROOT / link).exists()]
+
+
+def test_equations_with_a_slip_are_not_drawn(monkeypatch):
+    monkeypatch.syspath_prepend(str(DOCS))
+    typeset = importlib.import_module("making.typeset")
+    assert typeset.svg(r"\alpha_p", inline=True).startswith("<svg")
+    for wrong in (r"\alfa_p", r"\frac{a"):
+        with pytest.raises((ValueError, AssertionError)):
+            typeset.svg(wrong, inline=True)
+
+
+def test_equations_of_the_theory_lead_to_their_code():
+    """But for those of derivations, which no program computes."""
+    equation, lone, count = re.compile(r"\$\$ \(([\w-]+)\)\n(.*?)(?=\n\$\$\n|\n#|\Z)", re.DOTALL), [], 0
+    for path in sorted((DOCS / "theory").glob("*.md")):
+        for label, after in equation.findall(path.read_text(encoding="utf-8")):
+            count += 1
+            if "{src}`" not in after and not label.startswith("derive-"):
+                lone.append(f"{path.name}: {label}")
+    assert not lone and count > 80
+
+
+def test_spelling():
+    listed = ["git", "ls-files", "-z", "-co", "--exclude-standard", "--", *SPELLED]
+    told = subprocess.run(listed, cwd=ROOT, capture_output=True, text=True)
+    files = [name for name in told.stdout.split("\0") if name and not name.startswith("tests/data/")]
+    if told.returncode or not files:  # no checkout
+        files = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs", "sdph", "validation"]
+    found = subprocess.run([sys.executable, "-m", "codespell_lib", *files], cwd=ROOT, capture_output=True, text=True)
+    assert found.returncode == 0, found.stdout

@@ -1,5 +1,5 @@
-"""Writes what accuracy costs, from validation/*/cost.csv: the table of README.md, and what was measured of each scene
-into its README.md, between marks.
+"""Writes what accuracy costs, from validation/*/cost.csv: the table of docs/cost.md, and what was measured of each
+scene into its README.md, between marks.
 
     python validation/cost_table.py             tables
     python validation/cost_table.py --figures   cost.png of each scene too
@@ -13,7 +13,7 @@ from pathlib import Path
 from sdph.study.cost import errors, ladder, report, rows, summary
 
 HERE = Path(__file__).parent
-README = HERE.parent / "README.md"
+PAGE = HERE.parent / "docs" / "cost.md"
 BEGIN, END = "<!-- made by validation/cost_table.py -->\n", "\n<!-- end of what it makes -->"
 
 
@@ -24,8 +24,8 @@ def with_table(text: str, lines: list[str]) -> str:
 
 
 def pages() -> dict[Path, str]:
-    """Each README and what it should be."""
-    found = {README: summary.table(HERE)}
+    """Each page and what it should be."""
+    found = {PAGE: summary.table(HERE)}
     found |= {HERE / scene / "README.md": summary.section(HERE, scene) for scene in ladder.with_ladder()}
     return {
         file: with_table(file.read_text(encoding="utf-8"), lines) for file, lines in found.items() if file.is_file()

@@ -206,13 +206,18 @@ def compare_run(options) -> int:
 def validate_scene(options) -> int:
     from sdph.running import output
     from sdph.running.progress import Reporter
-    from sdph.study import compare, validate
+    from sdph.study import compare, record, validate
 
+    if options.record and options.set:
+        raise CaseError(f"--record {options.record}: a record is of the scene as it is; leave --set out")
     overrides = tuple(options.set) + ((f'coupling.gas="{options.gas}"',) if options.gas else ())
     checks = []
     with contextlib.closing(Reporter(line=not options.json)) as reporter:
         for scene in validate.validated() if options.scene is None else [options.scene]:
-            checks += validate.validate(scene, overrides, reporter, options.out and options.out / scene)
+            own = validate.validate(scene, overrides, reporter, options.out and options.out / scene)
+            if options.record:
+                record.write(options.record, scene, own, options.gas)
+            checks += own
     print(output.strict_json({"checks": checks}) if options.json else compare.table(checks))
     return FINE if all(check["ok"] for check in checks) else CHECK_FAILED
 

@@ -1,5 +1,5 @@
 """The table of all measured scenes, what an accuracy costs, or what doubt forbids to promise it; and what was measured
-of one scene. `python validation/cost_table.py` writes them into README.md and validation/<scene>/README.md."""
+of one scene. `python validation/cost_table.py` writes them into docs/cost.md and validation/<scene>/README.md."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def _cells(scene: str, own: Ladder, rows: list[dict]) -> list[str]:
     known = errors.converged(own, rows)
     name, worst = max(known.items(), key=lambda item: item[1].limit.doubt)
     return [
-        f"[`{scene}`](validation/{scene}/cost.png)",
+        f"[`{scene}`](../validation/{scene}/cost.png)",
         own.reference,
         *(f"{row['wall_s']:.2g} s" if row else "-" for row in best),
         f"{percent(worst.limit.doubt)} ({name})",

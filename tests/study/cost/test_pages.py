@@ -1,4 +1,4 @@
-"""README's table of what accuracy costs, and the page of the estimates, are what their scripts make."""
+"""The table of what accuracy costs, and the page of the estimates, are what their scripts make."""
 
 import importlib.util
 
@@ -20,7 +20,7 @@ def test_pages_are_what_the_rows_say():
     made = script("cost_table")
     for file, text in made.pages().items():
         assert file.read_text(encoding="utf-8") == text, file
-    assert made.BEGIN in made.README.read_text(encoding="utf-8")
+    assert made.BEGIN in made.PAGE.read_text(encoding="utf-8")
 
 
 def test_every_ladder_was_measured_and_its_rows_are_of_it():

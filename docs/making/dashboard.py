@@ -1,0 +1,101 @@
+"""Dashboard: every recorded check of every scene, misses first; records stand in validation/record."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cache
+
+from making.docstrings import escaped
+from sdph.scenes import paths
+from sdph.study import record, validate
+
+HEAD = "| check | value | reference | off by | tolerance | verdict |\n|--|--|--|--|--|--|"
+
+
+@cache
+def validated() -> list[str]:
+    """Scenes and studies that have checks."""
+    return validate.validated()
+
+
+@cache
+def records() -> dict[str, dict]:
+    """The record of each scene and study that has one."""
+    found = {name: record.read(paths.data("validation") / "record", name) for name in validated()}
+    return {name: own for name, own in found.items() if own}
+
+
+def of_scene(name: str) -> str:
+    """The checks of one scene, and when they were measured."""
+    if name not in validated():
+        return "None but the balances of its ledger, which every run prints."
+    own = records().get(name)
+    if own is None:
+        return f"No record yet: `sdph validate {name} --record validation/record` makes one."
+    return _told(own)
+
+
+def whole() -> str:
+    """The whole page."""
+    found = records()
+    misses = [check for own in found.values() for check in _missed(own)]
+    missing = [name for name in validated() if name not in found]
+    count = sum(len(own["checks"]) for own in found.values())
+    parts = [
+        f"{len(found)} of {len(found) + len(missing)} scenes and studies have a record, with {count} checks, of which "
+        f"{len(misses)} miss their tolerance.",
+        "## Misses", _table(misses) if misses else "None.",
+        "## Scenes and studies", _overview(found),
+        "## Without a record", ", ".join(_title(name) for name in missing) + "." if missing else "None.",
+        "## Every check", *(f"### {name}\n\n{_told(own)}" for name, own in found.items()),
+    ]  # fmt: skip
+    return "\n\n".join(parts) + "\n"
+
+
+def _missed(own: dict) -> list[dict]:
+    return [check for check in own["checks"] if not check["ok"]]
+
+
+def _title(name: str) -> str:
+    from making import embedding
+
+    page = embedding.page_of_scene(name)
+    return f"[{name}]({page})" if page else name
+
+
+def _overview(found: dict[str, dict]) -> str:
+    """A line for each record, those with misses first."""
+    ordered = sorted(found, key=lambda name: (-len(_missed(found[name])), name))
+    rows = [
+        f"| {_title(name)} | {len(own['checks'])} | {len(_missed(own)) or ''} | {own['date']} | {own['version']} | "
+        f"{own['commit'] or '?'} | {own['gas']} |"
+        for name in ordered
+        for own in [found[name]]
+    ]
+    head = "| scene | checks | misses | measured | version | commit | gas |\n|--|--|--|--|--|--|--|"
+    return "\n".join([head, *rows])
+
+
+def _told(own: dict) -> str:
+    """When a record was made, and its checks."""
+    made = f"Measured {own['date']}, sdph {own['version']}, commit {own['commit'] or 'unknown'}, gas: {own['gas']}."
+    short = [check | {"name": check["name"].removeprefix(f"{own['scene']}, ")} for check in own["checks"]]
+    return f"{made}\n\n{_table(short)}"
+
+
+def _table(checks: Iterable[dict]) -> str:
+    """Rows of checks, misses first."""
+    rows = "\n".join([HEAD, *map(_row, sorted(checks, key=lambda check: check["ok"]))])
+    return f":::{{container}} numbers\n\n{rows}\n\n:::"
+
+
+def _row(check: dict) -> str:
+    numbers = [check["value"], check["reference"], _off(check), check["tolerance"]]
+    value, reference, off, tolerance = ("none" if x is None else f"{x:.5g}" for x in numbers)
+    verdict = "ok" if check["ok"] else "**missed**"
+    return f"| {escaped(check['name'])} | {value} | {reference} | {off} | {tolerance} | {verdict} |"
+
+
+def _off(check: dict) -> float | None:
+    value, reference = check["value"], check["reference"]
+    return None if value is None or reference is None else value - reference
