@@ -42,6 +42,7 @@ HARMLESS = {
     "sdph/methods/liquids/totals.py:LiquidLedger.*": "the largest so far",
     "sdph/engine/walls/*": "geometry: distances, counts of points",
     "sdph/engine/lattice.py:*": "counts of points",
+    "sdph/methods/grains/start.py:_refuse_overlap": "a count of points",
     "sdph/engine/regions.py:*": "counts of points, extents",
     "sdph/effects/around/streams.py:_ticks": "counts of points",
     "sdph/effects/around/source.py:Source.fill": "counts of layers",

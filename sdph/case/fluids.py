@@ -97,7 +97,7 @@ def filled(table: dict) -> dict:
 
 
 def _lacks(table: dict, name: str) -> bool:
-    """Whether a key is missing that a fluid fills: a resolved case needs no library."""
+    """True where a key is missing that a fluid fills: a resolved case needs no library."""
     on = {"vapour": "evaporation"}  # section -> effect that asks for it
     return any(
         key not in table.get(section, {})
