@@ -8,7 +8,7 @@ from typing import NamedTuple
 from numba import njit, prange
 
 from sdph.effects import limiter
-from sdph.effects.effect import NO_LIMIT, Effect, Judgement, diffusive_limit
+from sdph.effects.effect import NO_LIMIT, Effect, Judgement, diffusive_limit, found
 from sdph.laws import granular
 from sdph.laws.exchange import harmonic_mean
 from sdph.schema import choice, flag, quantity, record
@@ -63,6 +63,12 @@ def conductivity(p, alpha_p, theta, diameter):
     return granular.gidaspow_conductivity(a, theta, e, g0, rho, diameter, share)
 
 
+@njit(cache=True, error_model="numpy")
+def diffusivity(k, density):
+    """Diffusivity of theta [m2/s], from its conductivity [kg/m/s] and the density of the particle [kg/m3]."""
+    return k / (1.5 * density)
+
+
 @njit(cache=True, parallel=True, error_model="numpy")
 def largest(p, density, theta, diameter):
     """Largest diffusivity of theta [m2/s] of particles of `density` (N,) [kg/m3]."""
@@ -70,7 +76,7 @@ def largest(p, density, theta, diameter):
     for i in prange(len(density)):
         if density[i] > 0.0:
             k = conductivity(p, density[i] / p.grain_density, theta[i], diameter[i])
-            most = max(most, k / (1.5 * density[i]))
+            most = max(most, diffusivity(k, density[i]))
     return most
 
 
@@ -189,7 +195,10 @@ def advance_all(p, s, heating, damping, shear_squared, divergence, dt, theta, he
 
 def dt_limit(p, case, state) -> float:
     """Sub-step limit [s] by diffusion of theta; none where theta is algebraic."""
-    return diffusive_limit(p.h, largest(p, state.density, state.theta, state.diameter)) if p.model == 0 else NO_LIMIT
+    if p.model == 1:
+        return NO_LIMIT
+    most = found(state, EFFECT.name)
+    return diffusive_limit(p.h, largest(p, state.density, state.theta, state.diameter) if most is None else most)
 
 
 def call(scales) -> Judgement:
