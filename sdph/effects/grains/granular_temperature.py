@@ -64,8 +64,10 @@ def conductivity(p, alpha_p, theta, diameter):
 
 
 @njit(cache=True, error_model="numpy")
-def diffusivity(k, density):
+def diffusivity(p, k, density):
     """Diffusivity of theta [m2/s], from its conductivity [kg/m/s] and the density of the particle [kg/m3]."""
+    if len(p) == 0:
+        return 0.0
     return k / (1.5 * density)
 
 
@@ -76,7 +78,7 @@ def largest(p, density, theta, diameter):
     for i in prange(len(density)):
         if density[i] > 0.0:
             k = conductivity(p, density[i] / p.grain_density, theta[i], diameter[i])
-            most = max(most, diffusivity(k, density[i]))
+            most = max(most, diffusivity(p, k, density[i]))
     return most
 
 

@@ -47,8 +47,10 @@ def viscosities(p, alpha_p, theta, diameter):
 
 
 @njit(cache=True, error_model="numpy")
-def diffusivity(shear, bulk, density):
+def diffusivity(p, shear, bulk, density):
     """Diffusivity of momentum [m2/s], that of sound: 4/3 mu + lambda over the density [kg/m3]."""
+    if len(p) == 0:
+        return 0.0
     return (4.0 / 3.0 * shear + bulk) / density
 
 
@@ -59,7 +61,7 @@ def largest(p, density, theta, diameter):
     for i in prange(len(density)):
         if density[i] > 0.0:
             shear, bulk = viscosities(p, density[i] / p.grain_density, theta[i], diameter[i])
-            most = max(most, diffusivity(shear, bulk, density[i]))
+            most = max(most, diffusivity(p, shear, bulk, density[i]))
     return most
 
 

@@ -158,8 +158,8 @@ def constitutive(
         speed = math.sqrt(s.u[i] * s.u[i] + s.v[i] * s.v[i] + w * w)
         pace = max(pace, swing(waves, squared, pressure[i] / s.density[i]) + 2.0 * speed)
         if s.density[i] > 0.0:
-            momentum = max(momentum, granular_viscosity.diffusivity(shear[i], bulk[i], s.density[i]))
-            agitation = max(agitation, granular_temperature.diffusivity(conductivity[i], s.density[i]))
+            momentum = max(momentum, granular_viscosity.diffusivity(viscosity_p, shear[i], bulk[i], s.density[i]))
+            agitation = max(agitation, granular_temperature.diffusivity(temperature_p, conductivity[i], s.density[i]))
     return pace, momentum, agitation
 
 

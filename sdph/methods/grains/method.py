@@ -48,7 +48,7 @@ class Stepper:
         self.length = self.step = 0.0  # [s] that the last sub-step was limited to, and was
         self.held: dict[str, float] = {}  # what limiters hold (sdph.effects.held)
         self.wall, self.scratch, self.account = OFF, rates.scratch(0, 0, False), account.opened()
-        self.facing = OFF  # rows of the dummies
+        self.facing, self.work = OFF, sub_step.work(0, False)  # rows of the dummies
         # pressure [Pa] of the walls before it is held, and what the last sub-step shifted (N, 3) [m]
         self.unheld, self.shifted = np.zeros(0), np.zeros((0, 3))
 
@@ -91,10 +91,11 @@ class Stepper:
     def _look_around(self) -> None:
         """Make what belongs to neighbour rows just made."""
         self.rows, built, count = self.neighbours.rows, self.neighbours.built, len(self.state.x)
-        self.scratch = rates.scratch(
-            count, len(self.rows.entries), bool(self.parameters["friction"]), self.case.dimensions == 3
-        )
-        self.work = sub_step.work(count, bool(self.parameters["friction"]))
+        rubs = bool(self.parameters["friction"])
+        if (count, len(self.rows.entries)) != (len(self.scratch.pressure), len(self.scratch.pull)):
+            self.scratch = rates.scratch(count, len(self.rows.entries), rubs, self.case.dimensions == 3)
+            self.work = sub_step.work(count, rubs)
+        self.work.of_walls[:] = 0.0  # loops write the rows of those that see a wall
         if self.boundary:
             rows = self.boundary.rows(built)
             if self.source:
@@ -104,9 +105,10 @@ class Stepper:
             self.unheld = np.full(len(self.wall.x), np.nan)
 
     def _sum(self, density) -> None:
-        rates.sum_density(
-            self.kernel, self.state, self.rows, self.neighbours.box, *self._walls(), density, self.scratch.pull
-        )
+        rates.sum_density(*self._of_density(density))
+
+    def _of_density(self, density) -> tuple:
+        return self.kernel, self.state, self.rows, self.neighbours.box, *self._walls(), density, self.scratch.pull
 
     def force(self, warmth, push, damping) -> None:
         """Take what holds over the next window: heat (N,) [J] from the gas, push (N, 3) [m/s2] from outside, damping
@@ -182,22 +184,38 @@ class Stepper:
         )
 
     def _constitute(self) -> tuple[float, float, float]:
-        s, p = self.state, self.parameters
-        return rates.constitutive(
-            s, self.waves, self.case.grains.density, p["granular_pressure"], p["friction"], p["granular_viscosity"],
-            p["granular_temperature"], *self.scratch.stress,
+        return rates.constitutive(*self._of_stress())
+
+    def _of_stress(self) -> tuple:
+        p = self.parameters
+        return (
+            self.state, self.waves, self.case.grains.density, p["granular_pressure"], p["friction"],
+            p["granular_viscosity"], p["granular_temperature"], *self.scratch.stress,
         )  # fmt: skip
 
     def _advance(self, dt: float, window: float) -> None:
         """One sub-step of `dt` of a `window` [s]: stress, walls, rates, then velocity, theta, heat, place."""
         self.step = dt
-        sub_step.advance(
+        sub_step.advance(*self._given(dt, window))
+        self._settle(dt)
+        self.steps += 1
+
+    def _given(self, dt: float, window: float) -> tuple:
+        """Arguments of a sub-step of `dt` of a `window` [s]."""
+        return (
             self.kernel, self.state, self.rows, self.neighbours.box, self.scratch, self.terms, *self._walls(),
             self.facing, self.unheld, self.work, self.gravity, (dt, window), self.case.grains.heat_capacity,
             self.account,
         )  # fmt: skip
-        self._settle(dt)
-        self.steps += 1
+
+    def loops(self, dt: float) -> dict[str, tuple]:
+        """Loops over particles of a sub-step of `dt` [s], by name, each with its arguments as they stand."""
+        density = np.empty(len(self.state.x))
+        return {
+            "sum_density": (rates.sum_density, self._of_density(density)),
+            "constitutive": (rates.constitutive, self._of_stress()),
+            **sub_step.loops(*self._given(dt, dt)),
+        }
 
     def _warm(self, heat) -> None:
         """Put heat per mass (N,) [J/kg] into the temperature, where there is one."""

@@ -96,3 +96,26 @@ def agitate(p, s, strain, work, dt):
         granular_temperature.advance_all(
             p, s, work.agitation, s.damping, strain[0], strain[1], dt, work.theta, work.held, work.collided, work.damped
         )
+
+
+def loops(
+    kernel, s, rows, box, scratch, terms, walls_p, wall, facing, unheld, work, gravity, steps, heat_capacity, sums
+) -> dict[str, tuple]:  # fmt: skip
+    """Loops over particles of `advance`, by name, each with its arguments: for who times one or looks into it."""
+    head = kernel, s, rows, box, scratch
+    found = {}
+    if len(terms.shears):
+        found["shear"] = (
+            contacts.shear,
+            (*head, walls_p, wall, terms.friction, terms.viscous, steps[0], work.contact, *scratch.shearing),
+        )
+    if len(walls_p):
+        found["extrapolate"] = (
+            walls.extrapolate,
+            (kernel, box, wall, facing, s, scratch.pressure, wall.pressure, unheld, wall.velocity),
+        )
+    found["rates"] = (
+        equations.rates,
+        (*head, *terms[:-1], walls_p, wall, work.acceleration, work.of_walls, work.agitation, work.heating),
+    )
+    return found
