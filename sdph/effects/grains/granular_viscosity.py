@@ -34,12 +34,12 @@ def kernel(case) -> ViscosityP:
 
 
 @njit(cache=True, error_model="numpy")
-def viscosities(p, alpha_p, theta, diameter):
-    """Total shear and bulk viscosity [Pa s]; the kinetic part by `granular.streaming_share` where grains are few."""
+def viscosities(p, alpha_p, theta, diameter, g0):
+    """Total shear and bulk viscosity [Pa s] where grains crowd by g0 (sdph.laws.granular.crowding); the kinetic part by
+    `granular.streaming_share` where they are few."""
     if len(p) == 0:
         return 0.0, 0.0
     a = granular.capped_fraction(alpha_p, p.packing)
-    g0 = granular.sinclair_jackson(a, p.packing)
     e, rho = p.restitution, p.grain_density
     share = granular.streaming_share(a, e, g0, diameter, granular.STREAMING_MOMENTUM, p.h)
     shear = granular.gidaspow_viscosity(a, theta, e, g0, rho, diameter, share)
@@ -60,7 +60,8 @@ def largest(p, density, theta, diameter):
     most = 0.0
     for i in prange(len(density)):
         if density[i] > 0.0:
-            shear, bulk = viscosities(p, density[i] / p.grain_density, theta[i], diameter[i])
+            alpha_p = density[i] / p.grain_density
+            shear, bulk = viscosities(p, alpha_p, theta[i], diameter[i], granular.crowding(alpha_p, p.packing))
             most = max(most, diffusivity(p, shear, bulk, density[i]))
     return most
 

@@ -187,9 +187,9 @@ class Stepper:
         return rates.constitutive(*self._of_stress())
 
     def _of_stress(self) -> tuple:
-        p = self.parameters
+        p, grains = self.parameters, self.case.grains
         return (
-            self.state, self.waves, self.case.grains.density, p["granular_pressure"], p["friction"],
+            self.state, self.waves, (grains.density, grains.packing_limit), p["granular_pressure"], p["friction"],
             p["granular_viscosity"], p["granular_temperature"], *self.scratch.stress,
         )  # fmt: skip
 

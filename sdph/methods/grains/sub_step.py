@@ -70,7 +70,7 @@ def advance(
     account.kick(
         s, work.acceleration, work.of_walls, work.agitation, work.heating, gravity, dt, sums.impulses, sums.works
     )
-    agitate(terms.temperature, s, scratch.strain, work, dt)
+    agitate(terms.temperature, s, scratch, work, dt)
     account.warm(terms.temperature, s, work, dt, window, heat_capacity, sums.heats)
     account.drift(s, dt)
 
@@ -90,12 +90,13 @@ def strain_grains(kernel, s, rows, box, scratch, shears, friction_p, viscous_p, 
 
 
 @njit(cache=True, error_model="numpy")
-def agitate(p, s, strain, work, dt):
+def agitate(p, s, scratch, work, dt):
     """theta after dt [s], where it is followed, and what it lost to whom, into `work`."""
     if len(p):
         granular_temperature.advance_all(
-            p, s, work.agitation, s.damping, strain[0], strain[1], dt, work.theta, work.held, work.collided, work.damped
-        )
+            p, s, work.agitation, s.damping, scratch.strain[0], scratch.strain[1], scratch.crowd, dt, work.theta,
+            work.held, work.collided, work.damped,
+        )  # fmt: skip
 
 
 def loops(

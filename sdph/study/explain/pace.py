@@ -155,8 +155,8 @@ def stiffness(case, s) -> tuple[float, float]:
         pressed = pressure / (alpha_p * s.grains.density) if pressure else 0.0
     if "granular_pressure" in case.effects and s.alpha_p:
         p = granular_pressure.kernel(case)
-        squared += granular_pressure.sound_squared(p, s.alpha_p, s.theta)
-        pressed += granular_pressure.pressure(p, s.alpha_p, s.theta) / (s.alpha_p * s.grains.density)
+        squared += granular_pressure.sound_squared(p, s.alpha_p, s.theta, s.g0)
+        pressed += granular_pressure.pressure(p, s.alpha_p, s.theta, s.g0) / (s.alpha_p * s.grains.density)
     return squared, pressed
 
 
