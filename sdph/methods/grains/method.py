@@ -224,7 +224,7 @@ class Stepper:
         self.state.temperature[:] += heat / self.case.grains.heat_capacity
 
     def _settle(self, dt: float) -> None:
-        """What moves particles besides their velocities, after they have gone for `dt` [s]."""
+        """Shift particles and stop them at walls, after they have gone for `dt` [s]."""
         s = self.state
         if self.parameters["grain_shifting"]:
             self._shift(dt)
