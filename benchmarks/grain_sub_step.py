@@ -1,30 +1,23 @@
 """Cost of a sub-step of the bubbling bed, part by part, on one thread and on two: python
-benchmarks/grain_sub_step.py [until]
+benchmarks/grain_sub_step.py [spacing_mm] [until]
 
-10 000 particles, all effects, after `until` seconds of bed (0.01) on the embedded gas. Least of all windows after that.
+All effects, after `until` seconds of bed (0.01) on the embedded gas; 10 000 particles with a spacing of 5 mm, 324 with
+27.8 mm. The least of all windows after that: of one thread the time of the processor, which knows nothing of other work
+on the machine, of two the time on the wall.
 """
 
 import sys
 import time
 
 import numba
+import numpy as np
 
 from sdph import scenes
 from sdph.case import read as cases
-from sdph.effects.around import wall_contact, walls
-from sdph.effects.grains import granular_temperature
-from sdph.methods.grains import contacts as shearing
-from sdph.methods.grains import equations as rates
 from sdph.running.simulation import Simulation
 
-WINDOWS = 12
-LOOPS = {
-    shearing: ("shear",),
-    rates: ("sum_density", "constitutive", "rates"),
-    walls: ("extrapolate",),
-    wall_contact: ("contact",),
-    granular_temperature: ("advance_all",),
-}
+WINDOWS = 30
+WHOLE = ("_sub_step", "_advance", "prepare")  # of a stepper: what a sub-step goes through
 
 
 class NoLedger:
@@ -40,22 +33,30 @@ class NoLedger:
 
 
 class Timer:
-    """Wraps a function; keeps its least wall time [s]."""
+    """Wraps a function; keeps its least time by `clock` and the sum of all [s]."""
+
+    clock = time.process_time
 
     def __init__(self, function):
-        self.function, self.least = function, float("inf")
+        self.function = function
+        self.reset()
+
+    def reset(self) -> None:
+        self.least, self.sum = float("inf"), 0.0
 
     def __call__(self, *arguments):
-        started = time.perf_counter()
+        started = Timer.clock()
         result = self.function(*arguments)
-        self.least = min(self.least, time.perf_counter() - started)
+        spent = Timer.clock() - started
+        self.least, self.sum = min(self.least, spent), self.sum + spent
         return result
 
 
-def bed(until: float) -> Simulation:
+def bed(until: float, spacing: float = 5.0) -> Simulation:
     from coupling.embedded import EmbeddedGas
 
-    case = cases.load(scenes.HERE / "bubbling_bed" / "case.toml")
+    sets = (f"resolution.spacing_mm={spacing}", f"resolution.cell_mm={10.0 if spacing < 10.0 else 20.0}")
+    case = cases.load(scenes.HERE / "bubbling_bed" / "case.toml", sets)
     simulation = Simulation(case, EmbeddedGas(case), NoLedger())
     simulation.start()
     while simulation.time < until:
@@ -64,35 +65,50 @@ def bed(until: float) -> Simulation:
 
 
 def timed(simulation) -> dict[str, Timer]:
-    """Timers of the loops, of whole sub-steps and of the transfer weights."""
-    found = {}
-    for module, names in LOOPS.items():
-        for name in names:
-            found[name] = Timer(getattr(module, name))
-            setattr(module, name, found[name])
-    stepper = simulation.stepper
-    for owner, name in (
-        (simulation.transfer, "weights"),
-        (stepper, "_sub_step"),
-        (stepper, "_advance"),
-        (stepper, "prepare"),
-    ):
+    """Timers of whole sub-steps, of what limiters tell, of windows and of the transfer weights."""
+    found, stepper = {}, simulation.stepper
+    owners = ((simulation.transfer, "weights"), *((stepper, name) for name in (*WHOLE, "tell", "move")))
+    for owner, name in owners:
         found[name] = Timer(getattr(owner, name))
         setattr(owner, name, found[name])
     return found
 
 
+def loops(stepper) -> dict[str, float]:
+    """Least time [ms] of each loop of a sub-step, called by itself."""
+    zeros = np.zeros(len(stepper.state.x))
+    stepper.force(zeros, np.zeros((len(zeros), 3)), zeros)
+    found = {}
+    for name, (loop, arguments) in stepper.loops(1e-7).items():
+        own = Timer(loop)
+        for _ in range(WINDOWS):
+            own(*arguments)
+        found[name] = 1e3 * own.least
+    stepper.release()
+    return found
+
+
+def measured(simulation, timers) -> dict[str, float]:
+    """Times [ms] of `WINDOWS` windows, then of the loops."""
+    for timer in timers.values():
+        timer.reset()
+    steps = simulation.stepper.steps
+    for _ in range(WINDOWS):
+        simulation.window()
+    row = {name: 1e3 * timer.least for name, timer in timers.items() if name != "move"}
+    row["one sub-step"] = sum(row[name] for name in WHOLE)
+    row["mean, rows and limiters too"] = 1e3 * timers["move"].sum / (simulation.stepper.steps - steps)
+    return row | loops(simulation.stepper)
+
+
 if __name__ == "__main__":
-    simulation = bed(float(sys.argv[1]) if sys.argv[1:] else 0.01)
-    timers, times = timed(simulation), {}
+    spacing, until = (float(given) for given in (*sys.argv[1:], *("5.0", "0.01")[len(sys.argv) - 1 :]))
+    simulation, times = bed(until, spacing), {}
+    timers = timed(simulation)
     for threads in range(1, numba.config.NUMBA_NUM_THREADS + 1):
         numba.set_num_threads(threads)
-        for timer in timers.values():
-            timer.least = float("inf")
-        for _ in range(WINDOWS):
-            simulation.window()
-        times[threads] = {name: 1e3 * timer.least for name, timer in timers.items()}
-        times[threads]["one sub-step"] = sum(times[threads][name] for name in ("_sub_step", "_advance", "prepare"))
+        Timer.clock = time.process_time if threads == 1 else time.perf_counter
+        times[threads] = measured(simulation, timers)
     print(f"{len(simulation.state.x)} particles, [ms] on " + ", ".join(f"{threads} thread(s)" for threads in times))
     for name in times[1]:
-        print(f"{name:16s}" + "".join(f"{row[name]:9.3f}" for row in times.values()))
+        print(f"{name:28s}" + "".join(f"{row[name]:9.3f}" for row in times.values()))

@@ -17,6 +17,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+import numpy as np
 from numba import njit
 
 from sdph import effects, scenes
@@ -65,15 +66,11 @@ def built_without(effect: str, whole):
 
 def arguments(simulation) -> dict[str, tuple]:
     """Name of each loop -> its arguments in one sub-step."""
-    kept, own = {}, {name: getattr(module, name) for name, module in LOOPS.items()}
-    for name, loop in own.items():
-        setattr(LOOPS[name], name, lambda *given, name=name, loop=loop: (kept.update({name: given}), loop(*given))[1])
-    try:
-        effect_costs.step(simulation, 1e-7)
-    finally:
-        for name, loop in own.items():
-            setattr(LOOPS[name], name, loop)
-    return kept
+    effect_costs.step(simulation, 1e-7)
+    stepper = simulation.stepper
+    zeros = np.zeros(len(stepper.state.x))
+    stepper.force(zeros, np.zeros((len(zeros), 3)), zeros)
+    return {name: given for name, (_, given) in stepper.loops(1e-7).items() if name in LOOPS}
 
 
 def instructions(loop, given: tuple) -> list[str]:

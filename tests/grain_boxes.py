@@ -7,6 +7,7 @@ import numpy as np
 from coupling.gas import IMPULSES, Budget, GasState, Mesh
 from sdph.case import read as cases
 from sdph.engine.ledger import Ledger
+from sdph.methods.grains import sub_step
 from sdph.running.simulation import Simulation
 
 DENSITY, DIAMETER, VISCOSITY = 3060.0, 285e-6, 1.7895e-5
@@ -123,3 +124,12 @@ def go(simulation):
         simulation.window()
     simulation.ledger.table.close()
     return simulation
+
+
+def strain(stepper, dt):
+    """Shear of the grains as they move, over `dt` [s], as a sub-step takes it."""
+    own, terms = stepper, stepper.terms
+    sub_step.strain_grains(
+        own.kernel, own.state, own.rows, own.neighbours.box, own.scratch, terms.shears, terms.friction, terms.viscous,
+        *own._walls(), own.work, dt,
+    )  # fmt: skip

@@ -95,8 +95,8 @@ def window_limits(parameters, case, state) -> dict[str, float]:
 def held(parameters, case, method) -> dict[str, float]:
     """Shares and numbers of particles that limiters of the effects that are on hold in a method now, by column of
     history.csv."""
-    asked = [REGISTRY[name] for name in case.effects if REGISTRY[name].held]
-    return {column: value for row in asked for column, value in row.held(parameters[row.name], method).items()}
+    asked = {REGISTRY[name].held: name for name in case.effects if REGISTRY[name].held}  # those of two effects once
+    return {column: value for ask, name in asked.items() for column, value in ask(parameters[name], method).items()}
 
 
 def without_input(matter: str) -> dict:

@@ -85,6 +85,22 @@ def diffusive_limit(h: float, diffusivity: float) -> float:
     return DIFFUSIVE * h**2 / diffusivity if diffusivity else NO_LIMIT
 
 
+class Live:
+    """A state as limits are asked of it in a run: `most` has the largest diffusivities [m2/s], by effect, that a loop
+    has found there already."""
+
+    def __init__(self, state, most: dict[str, float]):
+        self.state, self.most = state, most
+
+    def __getattr__(self, name: str):
+        return getattr(self.state, name)
+
+
+def found(state, name: str) -> float | None:
+    """Largest diffusivity [m2/s] of an effect that is known of a state already."""
+    return state.most.get(name) if isinstance(state, Live) else None
+
+
 def kernel_of(effect: Effect, case):
     """The effect's parameters for kernels, or OFF where the case does not call for it."""
     return effect.kernel(case) if effect.name in case.effects else OFF

@@ -13,6 +13,8 @@ from sdph.laws import granular
 def share(state, held) -> float:
     """Mean of `held` (N,), true or false or a part of 1, over the particles in the gas; 0 where there are none."""
     inside = state.kind == GRAIN
+    if inside.all() and len(inside):
+        return float(held.mean())
     return float(held[inside].mean()) if inside.any() else 0.0
 
 
@@ -22,7 +24,7 @@ def capped(p, state) -> dict[str, float]:
     return {"alpha_p_capped_share": share(state, state.density / p.grain_density > most)}
 
 
-def softened(method) -> dict[str, float]:
+def softened(p, method) -> dict[str, float]:
     """The part that r^2 + 0.01 h^2 in place of r^2 takes off the pairs in the gas (sdph.engine.softening)."""
     s = method.state
     return softening.held(method, "cubic_spline", np.flatnonzero(s.kind == GRAIN), s.mass)

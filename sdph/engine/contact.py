@@ -12,8 +12,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import scipy
 from numba import njit
-from scipy.spatial import cKDTree
 
 from sdph.engine import state as particles
 from sdph.engine.kept import GROWING, Unfit
@@ -37,7 +37,8 @@ class Contact:
     def near(self, first: np.ndarray, second: np.ndarray) -> bool:
         """True where any two are so near, within two spacings, that they may touch in the next window."""
         return (
-            bool(len(first) and len(second)) and cKDTree(first).count_neighbors(cKDTree(second), 2.0 * self.spacing) > 0
+            bool(len(first) and len(second))
+            and scipy.spatial.cKDTree(first).count_neighbors(scipy.spatial.cKDTree(second), 2.0 * self.spacing) > 0
         )
 
     def forces(self, first: np.ndarray, second: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -45,7 +46,9 @@ class Contact:
         on_first, on_second = np.zeros_like(first), np.zeros_like(second)
         if not len(first) or not len(second):
             return on_first, on_second
-        found = cKDTree(first).sparse_distance_matrix(cKDTree(second), self.spacing, output_type="ndarray")
+        found = scipy.spatial.cKDTree(first).sparse_distance_matrix(
+            scipy.spatial.cKDTree(second), self.spacing, output_type="ndarray"
+        )
         i, j, r = found["i"], found["j"], found["v"]
         apart = (first[i] - second[j]) / np.maximum(r, np.finfo(float).tiny)[:, None]
         force = (self.stiffness * (self.spacing - r))[:, None] * apart
@@ -110,7 +113,7 @@ class Touching:
 
     def _within(self, state, reach: float) -> np.ndarray:
         """Pairs (M, 2) nearer than `reach` [m]."""
-        return cKDTree(particles.positions(state)).query_pairs(reach, output_type="ndarray")
+        return scipy.spatial.cKDTree(particles.positions(state)).query_pairs(reach, output_type="ndarray")
 
     def _loose(self, pairs, free) -> np.ndarray:
         first, second = pairs.T

@@ -223,12 +223,18 @@ def span(grid, a, value):
 
 
 @njit(cache=True, error_model="numpy")
+def _turned(cell, count):
+    """A cell of `span`, one turn at most beyond the ends of an axis, by its number; % would cost more than the rest."""
+    return cell + count if cell < 0 else cell - count if cell >= count else cell
+
+
+@njit(cache=True, error_model="numpy")
 def _run(begin, line, shape, x0, x1, blind, n):
     """First and one past the last particle of the n-th run of a line of `shape` cells, of which x0 to x1 are looked at:
     one run for each time round a periodic box, or for who is blind to what is solid the first half of each cell. They
     are unsigned: of an index that might be negative numba asks so each time, and nothing is done in whole vectors."""
     if blind:
-        half = 2 * (line + (x0 + n) % shape)
+        half = 2 * (line + _turned(x0 + n, shape))
         return begin[half], begin[half + 1]
     turn = (n - 1) * shape
     low, high = max(x0 - turn, 0), min(x1 - turn, shape)
@@ -269,7 +275,7 @@ def _count(grid, begin, x, y, z, at_x, at_y, at_z, blind, same, box, cutoff2, nu
         runs = (0, x1 - x0) if blind[i] else (0, 3) if grid.period[0] > 0.0 else (1, 2)
         for kz in range(z0, z1):
             for ky in range(y0, y1):
-                line = ((kz % grid.shape[2]) * grid.shape[1] + ky % grid.shape[1]) * grid.shape[0]
+                line = (_turned(kz, grid.shape[2]) * grid.shape[1] + _turned(ky, grid.shape[1])) * grid.shape[0]
                 for n in range(runs[0], runs[1]):
                     first, last = _run(begin, line, grid.shape[0], x0, x1, blind[i], n)
                     found += _counted(x, y, z, box, xi, yi, zi, cutoff2, first, last)
@@ -291,7 +297,7 @@ def _fill(grid, begin, x, y, z, at_x, at_y, at_z, blind, same, box, cutoff2, sta
         runs = (0, x1 - x0) if blind[i] else (0, 3) if grid.period[0] > 0.0 else (1, 2)
         for kz in range(z0, z1):
             for ky in range(y0, y1):
-                line = ((kz % grid.shape[2]) * grid.shape[1] + ky % grid.shape[1]) * grid.shape[0]
+                line = (_turned(kz, grid.shape[2]) * grid.shape[1] + _turned(ky, grid.shape[1])) * grid.shape[0]
                 for n in range(runs[0], runs[1]):
                     first, last = _run(begin, line, grid.shape[0], x0, x1, blind[i], n)
                     end = _listed(x, y, z, box, xi, yi, zi, own, cutoff2, first, last, entries, end)

@@ -42,6 +42,18 @@ def sinclair_jackson_slope(alpha_p, alpha_max):
 
 
 @law
+def crowding(alpha_p, alpha_max):
+    """g0 [-] at which closures are evaluated."""
+    return sinclair_jackson(capped_fraction(alpha_p, alpha_max), alpha_max)
+
+
+@law
+def crowding_slope(alpha_p, g0):
+    """dg0/dalpha_p [-] = g0 (g0 - 1)/(3 alpha_p) of Sinclair & Jackson's g0; alpha_p > 0."""
+    return g0 * (g0 - 1.0) / (3.0 * alpha_p)
+
+
+@law
 def lun_pressure(alpha_p, theta, restitution, g0, density):
     """p_s [Pa] = alpha_p rho_p theta (1 + 2 (1 + e) alpha_p g0). Lun et al. 1984."""
     return alpha_p * density * theta * (1.0 + 2.0 * (1.0 + restitution) * alpha_p * g0)

@@ -39,6 +39,13 @@ def cubic_spline_gradient(r, h, sigma):
 
 
 @law
+def cubic_spline_curvature(r, h, sigma):
+    """d2W/dr2 [1/m^(dims+2)] of the cubic spline: sigma/h^2 {4.5 q - 3 (q < 1); 1.5 (2 - q) (q < 2); 0}."""
+    q = r / h
+    return sigma / (h * h) * (4.5 * q - 3.0 if q < 1.0 else 1.5 * max(2.0 - q, 0.0))
+
+
+@law
 def wendland_c2(r, h, sigma):
     """W [1/m^dims] = sigma (1 - q/2)^4 (1 + 2q) for q < 2. r, h [m].
 

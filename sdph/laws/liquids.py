@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.special import erfc, wofz
+import scipy
 
 TERMS = 99  # odd terms of the series up to this one: 1e-5 of the pressure in the centre
 
@@ -98,10 +98,10 @@ def capillary_wave(time, length: float, tension: float, density: float, around: 
         [1.0, -4.0 * beta * decay**0.5, 2.0 * (1.0 - 6.0 * beta) * decay, 4.0 * (1.0 - 3.0 * beta) * decay**1.5,
          steady + square]
     )  # fmt: skip
-    height = 4.0 * steady / (8.0 * steady + square) * erfc(np.sqrt(decay * time)) + 0.0j
+    height = 4.0 * steady / (8.0 * steady + square) * scipy.special.erfc(np.sqrt(decay * time)) + 0.0j
     for n, z in enumerate(roots):
         share = square * z / (np.prod(np.delete(roots, n) - z) * (z * z - decay))
-        height += share * np.exp(-decay * time) * wofz(1j * z * np.sqrt(time))
+        height += share * np.exp(-decay * time) * scipy.special.wofz(1j * z * np.sqrt(time))
     return height.real
 
 

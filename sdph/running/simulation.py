@@ -247,9 +247,10 @@ class Simulation:
     def _hand(self, dt: float):
         """The exchange of a window of `dt`, from where the particles are in its middle (second order in their motion);
         the gas is told where they will be at its end."""
-        middle = ahead = self.weights
         if self.grains.moves:
             middle, ahead = (self.transfer.weights(self.grains.places(after)) for after in (0.5 * dt, dt))
+        else:
+            middle = ahead = self.weights
         return self.exchange.hand(self.state, middle, (ahead, self.grains.share_inside(dt)), self.gas_state, dt)
 
     def _body(self, handed) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

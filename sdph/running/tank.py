@@ -9,7 +9,7 @@ All vectors are in axes fixed to the tank, its origin the origin of the case.
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial.transform import Rotation
+import scipy
 
 from sdph.engine import state as particles
 from sdph.methods.liquids.loads import loads
@@ -117,5 +117,5 @@ def frame_step(acceleration, omega, omega_dot, dt: float) -> tuple[np.ndarray, n
     """(rotation (3, 3) from the axes at the end to those at the start, gain of velocity (3,) in those at the start) of
     a frame whose acceleration and omega_dot are held over `dt` [s] in its own axes; second order in time."""
     turn = (np.asarray(omega) + 0.5 * dt * np.asarray(omega_dot)) * dt
-    halfway = Rotation.from_rotvec(0.5 * turn).as_matrix()
-    return Rotation.from_rotvec(turn).as_matrix(), halfway @ (np.asarray(acceleration) * dt)
+    halfway = scipy.spatial.transform.Rotation.from_rotvec(0.5 * turn).as_matrix()
+    return scipy.spatial.transform.Rotation.from_rotvec(turn).as_matrix(), halfway @ (np.asarray(acceleration) * dt)

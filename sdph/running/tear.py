@@ -8,7 +8,7 @@ way). Vapour vents through it, gel goes by its own motion.
 from __future__ import annotations
 
 import numpy as np
-from scipy import ndimage
+import scipy
 
 from sdph.engine import polygons
 from sdph.engine.kept import Maybe
@@ -83,7 +83,7 @@ def room_of(points, corner, shape, cell: float) -> np.ndarray:
     """Distance [m] of the cells of a grid to the nearest of points (N, 2) [m]."""
     empty = np.ones(shape, bool)
     empty[tuple(((points - corner) / cell).astype(int).T)] = False
-    return cell * ndimage.distance_transform_edt(empty)
+    return cell * scipy.ndimage.distance_transform_edt(empty)
 
 
 def widest(room, lining, corner, cell: float) -> float:
@@ -105,5 +105,5 @@ def widest(room, lining, corner, cell: float) -> float:
 
 def _leads(room, least: float, start) -> bool:
     """Tell whether a way that keeps a distance leads from a cell to the corner of the grid."""
-    parts, _ = ndimage.label(room > least)
+    parts, _ = scipy.ndimage.label(room > least)
     return parts[start] != 0 and parts[start] == parts[0, 0]

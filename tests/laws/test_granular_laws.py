@@ -33,7 +33,9 @@ def test_radial_distribution_and_its_slope(alpha_p):
     step = 1e-6
     difference = (g0_of(alpha_p + step) - g0_of(alpha_p - step)) / (2.0 * step)
     assert g0_of(alpha_p) > 1.0
-    assert granular.sinclair_jackson_slope(alpha_p, ALPHA_MAX) == pytest.approx(difference, rel=1e-6)
+    slope = granular.sinclair_jackson_slope(alpha_p, ALPHA_MAX)
+    assert slope == pytest.approx(difference, rel=1e-6)
+    assert granular.crowding_slope(alpha_p, g0_of(alpha_p)) == pytest.approx(slope, rel=1e-13)
 
 
 def test_radial_distribution_of_nothing_is_one():

@@ -13,7 +13,7 @@ the liquid in front (sdph.methods.liquids.openings).
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from sdph.effects.around import rates, sizes
 from sdph.effects.around.drops import Replays
@@ -62,7 +62,7 @@ class Source:
         ]
         self.reach = np.array(widths) + self.pitch
         self.values = {name: np.array(column) for name, column in self._columns().items()}
-        self.trees = [cKDTree(s.mouth) for s in self.streams]
+        self.trees = [scipy.spatial.cKDTree(s.mouth) for s in self.streams]
         self.replays = Replays(case)
         self.layers, self.next_ident = np.zeros(len(self.of), np.int64), first_ident
         self.mass, self.energy, self.motion = 0.0, 0.0, 0.0  # through the mouths [kg], heat and motion [J]

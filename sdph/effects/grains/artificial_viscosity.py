@@ -36,11 +36,6 @@ def pair(p, h, approach, r_squared, c_i, c_j, rho_i, rho_j):
     return viscosity.monaghan(approach, r_squared, h, 0.5 * (c_i + c_j), 0.5 * (rho_i + rho_j), p.alpha, p.beta)
 
 
-def held(p, method) -> dict[str, float]:
-    """The part that r^2 + 0.01 h^2 takes off its pairs (sdph.engine.softening)."""
-    return limiter.softened(method)
-
-
 def call(scales) -> Judgement:
     """Mach number of the grains: shocks and crossing particles from about 1 on; none where they are thin."""
     mach = scales.speed / scales.sound if scales.sound and scales.collides and not scales.thin else 0.0
@@ -56,6 +51,6 @@ EFFECT = Effect(
     parameters=ArtificialViscosity,
     kernel=kernel,
     moves=True,
-    held=held,
+    held=limiter.softened,
     call=call,
 )

@@ -49,11 +49,6 @@ def dt_limit(p, case, state) -> float:
     return STABLE * case.smoothing_length**2 / diffusivity
 
 
-def held(p, method) -> dict[str, float]:
-    """The part that r^2 + 0.01 h^2 takes off its pairs (sdph.engine.softening)."""
-    return limiter.softened(method)
-
-
 def call(scales) -> Judgement:
     """Fourier number of the grains; of it matters the share of the temperatures that reaches the grains."""
     diffusivity = scales.grains.conductivity / (scales.grains.density * scales.grains.heat_capacity)
@@ -69,6 +64,6 @@ EFFECT = Effect(
     kernel=kernel,
     arrays=("temperature",),
     dt_limit=dt_limit,
-    held=held,
+    held=limiter.softened,
     call=call,
 )

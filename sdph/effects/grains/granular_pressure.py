@@ -35,21 +35,20 @@ def kernel(case) -> PressureP:
 
 
 @njit(cache=True, error_model="numpy")
-def pressure(p, alpha_p, theta):
-    """p_p [Pa]; the pole of g0 is met at most PACKING_MARGIN below the packing limit."""
+def pressure(p, alpha_p, theta, g0):
+    """p_p [Pa]; the pole of g0 (sdph.laws.granular.crowding) is met at most PACKING_MARGIN below the packing limit."""
     if len(p) == 0:
         return 0.0
-    g0 = granular.sinclair_jackson(granular.capped_fraction(alpha_p, p.packing), p.packing)
     return granular.lun_pressure(alpha_p, theta, p.restitution, g0, p.grain_density)
 
 
 @njit(cache=True, error_model="numpy")
-def sound_squared(p, alpha_p, theta):
+def sound_squared(p, alpha_p, theta, g0):
     """c^2 [m2/s2] of the agitated grains, their heating by compression included where theta follows it."""
     if len(p) == 0:
         return 0.0
     a = granular.capped_fraction(alpha_p, p.packing)
-    g0, slope = granular.sinclair_jackson(a, p.packing), granular.sinclair_jackson_slope(a, p.packing)
+    slope = granular.crowding_slope(a, g0)
     if p.isentropic == 0.0:
         return granular.lun_pressure_slope(a, theta, p.restitution, g0, slope, p.grain_density) / p.grain_density
     return granular.sound_speed_squared(a, theta, p.restitution, g0, slope, p.grain_density, 0.0)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from numba import njit, prange
 
 from sdph.effects import limiter
-from sdph.effects.effect import NO_LIMIT, Effect, Judgement, diffusive_limit
+from sdph.effects.effect import NO_LIMIT, Effect, Judgement, diffusive_limit, found
 from sdph.laws import granular
 from sdph.laws.exchange import harmonic_mean
 from sdph.schema import choice, flag, quantity, record
@@ -52,15 +52,23 @@ def kernel(case) -> TemperatureP:
 
 
 @njit(cache=True, error_model="numpy")
-def conductivity(p, alpha_p, theta, diameter):
-    """k_theta [kg/m/s] (paper section 2.1); the kinetic part by `granular.streaming_share` where grains are few."""
+def conductivity(p, alpha_p, theta, diameter, g0):
+    """k_theta [kg/m/s] (paper section 2.1) where grains crowd by g0 (sdph.laws.granular.crowding); the kinetic part by
+    `granular.streaming_share` where they are few."""
     if len(p) == 0 or p.model == 1:
         return 0.0
     a = granular.capped_fraction(alpha_p, p.packing)
-    g0 = granular.sinclair_jackson(a, p.packing)
     e, rho = p.restitution, p.grain_density
     share = granular.streaming_share(a, e, g0, diameter, granular.STREAMING_AGITATION, p.h)
     return granular.gidaspow_conductivity(a, theta, e, g0, rho, diameter, share)
+
+
+@njit(cache=True, error_model="numpy")
+def diffusivity(p, k, density):
+    """Diffusivity of theta [m2/s], from its conductivity [kg/m/s] and the density of the particle [kg/m3]."""
+    if len(p) == 0:
+        return 0.0
+    return k / (1.5 * density)
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
@@ -69,8 +77,9 @@ def largest(p, density, theta, diameter):
     most = 0.0
     for i in prange(len(density)):
         if density[i] > 0.0:
-            k = conductivity(p, density[i] / p.grain_density, theta[i], diameter[i])
-            most = max(most, k / (1.5 * density[i]))
+            alpha_p = density[i] / p.grain_density
+            k = conductivity(p, alpha_p, theta[i], diameter[i], granular.crowding(alpha_p, p.packing))
+            most = max(most, diffusivity(p, k, density[i]))
     return most
 
 
@@ -116,7 +125,7 @@ def rest(p, artificial_work):
 
 
 @njit(cache=True, error_model="numpy")
-def advance(p, alpha_p, theta, heating, damping, diameter, shear_squared, divergence, dt):
+def advance(p, alpha_p, theta, heating, damping, diameter, shear_squared, divergence, g0, dt):
     """theta after dt [m2/s2] by `heating` [W/kg], dissipation and damping = beta/(alpha_p rho_p) [1/s].
 
     Returns theta held within its bounds, by how much these changed it, and what went into collisions and into the gas
@@ -125,7 +134,6 @@ def advance(p, alpha_p, theta, heating, damping, diameter, shear_squared, diverg
     if len(p) == 0:
         return theta, 0.0, 0.0, 0.0
     a = granular.capped_fraction(alpha_p, p.packing)
-    g0 = granular.sinclair_jackson(a, p.packing)
     if p.dissipation == 0:
         cooling = granular.cooling_coefficient(a, p.restitution, g0, diameter)
     else:
@@ -177,19 +185,22 @@ def lost(begun, decayed, cooling, damped):
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def advance_all(p, s, heating, damping, shear_squared, divergence, dt, theta, held, collided, damped):
-    """theta (N,) [m2/s2] of all particles after dt; by bounds, collisions and gas it lost or got the others (N,)
-    [m2/s2]."""
+def advance_all(p, s, heating, damping, shear_squared, divergence, crowd, dt, theta, held, collided, damped):
+    """theta (N,) [m2/s2] of all particles after dt, where they crowd by g0 = crowd (N,) [-]; by bounds, collisions and
+    gas it lost or got the others (N,) [m2/s2]."""
     for i in prange(len(s.x)):
-        alpha_p = s.density[i] / p.grain_density
         theta[i], held[i], collided[i], damped[i] = advance(
-            p, alpha_p, s.theta[i], heating[i], damping[i], s.diameter[i], shear_squared[i], divergence[i], dt
-        )
+            p, s.density[i] / p.grain_density, s.theta[i], heating[i], damping[i], s.diameter[i], shear_squared[i],
+            divergence[i], crowd[i], dt,
+        )  # fmt: skip
 
 
 def dt_limit(p, case, state) -> float:
     """Sub-step limit [s] by diffusion of theta; none where theta is algebraic."""
-    return diffusive_limit(p.h, largest(p, state.density, state.theta, state.diameter)) if p.model == 0 else NO_LIMIT
+    if p.model == 1:
+        return NO_LIMIT
+    most = found(state, EFFECT.name)
+    return diffusive_limit(p.h, largest(p, state.density, state.theta, state.diameter) if most is None else most)
 
 
 def call(scales) -> Judgement:

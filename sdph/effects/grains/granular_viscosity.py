@@ -8,7 +8,7 @@ from typing import NamedTuple
 from numba import njit, prange
 
 from sdph.effects import limiter
-from sdph.effects.effect import Effect, Judgement, diffusive_limit
+from sdph.effects.effect import Effect, Judgement, diffusive_limit, found
 from sdph.laws import granular
 from sdph.schema import record
 
@@ -34,26 +34,35 @@ def kernel(case) -> ViscosityP:
 
 
 @njit(cache=True, error_model="numpy")
-def viscosities(p, alpha_p, theta, diameter):
-    """Total shear and bulk viscosity [Pa s]; the kinetic part by `granular.streaming_share` where grains are few."""
+def viscosities(p, alpha_p, theta, diameter, g0):
+    """Total shear and bulk viscosity [Pa s] where grains crowd by g0 (sdph.laws.granular.crowding); the kinetic part by
+    `granular.streaming_share` where they are few."""
     if len(p) == 0:
         return 0.0, 0.0
     a = granular.capped_fraction(alpha_p, p.packing)
-    g0 = granular.sinclair_jackson(a, p.packing)
     e, rho = p.restitution, p.grain_density
     share = granular.streaming_share(a, e, g0, diameter, granular.STREAMING_MOMENTUM, p.h)
     shear = granular.gidaspow_viscosity(a, theta, e, g0, rho, diameter, share)
     return shear, granular.lun_bulk_viscosity(a, theta, e, g0, rho, diameter)
 
 
+@njit(cache=True, error_model="numpy")
+def diffusivity(p, shear, bulk, density):
+    """Diffusivity of momentum [m2/s], that of sound: 4/3 mu + lambda over the density [kg/m3]."""
+    if len(p) == 0:
+        return 0.0
+    return (4.0 / 3.0 * shear + bulk) / density
+
+
 @njit(cache=True, parallel=True, error_model="numpy")
 def largest(p, density, theta, diameter):
-    """Largest diffusivity of momentum [m2/s] of particles of `density` (N,) [kg/m3]: that of sound, 4/3 mu + lambda."""
+    """Largest diffusivity of momentum [m2/s] of particles of `density` (N,) [kg/m3]."""
     most = 0.0
     for i in prange(len(density)):
         if density[i] > 0.0:
-            shear, bulk = viscosities(p, density[i] / p.grain_density, theta[i], diameter[i])
-            most = max(most, (4.0 / 3.0 * shear + bulk) / density[i])
+            alpha_p = density[i] / p.grain_density
+            shear, bulk = viscosities(p, alpha_p, theta[i], diameter[i], granular.crowding(alpha_p, p.packing))
+            most = max(most, diffusivity(p, shear, bulk, density[i]))
     return most
 
 
@@ -66,7 +75,8 @@ def held(p, method) -> dict[str, float]:
 
 def dt_limit(p, case, state) -> float:
     """Sub-step limit [s] by the largest viscosity."""
-    return diffusive_limit(p.h, largest(p, state.density, state.theta, state.diameter))
+    most = found(state, EFFECT.name)
+    return diffusive_limit(p.h, largest(p, state.density, state.theta, state.diameter) if most is None else most)
 
 
 def call(scales) -> Judgement:

@@ -4,7 +4,7 @@ one spacing apart whatever the facets are."""
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from sdph.engine import surface
 from sdph.schema import CaseError
@@ -177,11 +177,11 @@ def _evened(places, facing, count: int, spacing: float) -> tuple[np.ndarray, np.
     samples = np.hstack((places, spacing * facing))
     points = samples[SAMPLES // 2 :: SAMPLES].copy()
     for _ in range(ROUNDS):
-        own = cKDTree(points).query(samples)[1]
+        own = scipy.spatial.cKDTree(points).query(samples)[1]
         number = np.bincount(own, minlength=count)
         sums = np.stack([np.bincount(own, column, minlength=count) for column in samples.T], axis=1)
         points = np.where(number[:, None] > 0, sums / np.maximum(number, 1)[:, None], points)
-    nearest = cKDTree(samples).query(points)[1]
+    nearest = scipy.spatial.cKDTree(samples).query(points)[1]
     normal = facing[nearest]
     off = np.einsum("ij,ij->i", points[:, :3] - places[nearest], normal)
     return points[:, :3] - off[:, None] * normal, normal

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from sdph.laws import kernels
 
@@ -24,7 +24,7 @@ def even_out(points, spacing: float, onto) -> np.ndarray:
     """
     h = WIDTH * spacing
     for _ in range(ROUNDS):
-        i, j = cKDTree(points).query_pairs(kernels.SUPPORT * h, output_type="ndarray").T
+        i, j = scipy.spatial.cKDTree(points).query_pairs(kernels.SUPPORT * h, output_type="ndarray").T
         apart = points[i] - points[j]
         slope = (
             -5.0

@@ -8,6 +8,8 @@ order in dt.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numba import njit
 
@@ -25,37 +27,43 @@ HEATS = (
     "damping_heat_J",  # of theta into the gas
     "bounds_work_J",  # into theta by its bounds, and by what holds it where it stands
 )
+AGITATION, COLLISIONS, DAMPING, BOUNDS, RUBBING = map(
+    HEATS.index, ("agitation_J", "collision_heat_J", "damping_heat_J", "bounds_work_J", "mechanical_heat_J")
+)
 BACK_PUT = ("contact_way_m", "contact_lift_J")  # by contact with walls: ways of all grains, energy that they got by it
 
 
-class Account:
-    """Sums since the window began; `columns` for the ledger."""
+class Account(NamedTuple):
+    """Sums since the window began."""
 
-    def __init__(self):
-        self.impulses, self.works = np.zeros((len(IMPULSES), 3)), np.zeros(len(WORKS))
-        self.heats, self.back_put = dict.fromkeys(HEATS, 0.0), np.zeros(len(BACK_PUT))
+    impulses: np.ndarray
+    works: np.ndarray
+    heats: np.ndarray
+    back_put: np.ndarray
 
-    def add(self, **heats: float) -> None:
-        """Count heats [J], by their columns less the unit."""
-        for name, heat in heats.items():
-            self.heats[f"{name}_J"] += float(heat)
 
-    def columns(self) -> dict[str, float]:
-        """Ledger columns [J], [kg m/s], [m]."""
-        found = dict(zip(WORKS, map(float, self.works))) | self.heats | dict(zip(BACK_PUT, map(float, self.back_put)))
-        for name, impulse in zip(IMPULSES, self.impulses):
-            found |= vector(f"impulse_of_{name}", impulse)
-        return found
+def opened() -> Account:
+    """An account with nothing in it."""
+    return Account(np.zeros((len(IMPULSES), 3)), *(np.zeros(len(names)) for names in (WORKS, HEATS, BACK_PUT)))
+
+
+def columns(account: Account) -> dict[str, float]:
+    """Ledger columns [J], [kg m/s], [m]."""
+    pairs = ((WORKS, account.works), (HEATS, account.heats), (BACK_PUT, account.back_put))
+    found = {name: float(value) for names, values in pairs for name, value in zip(names, values)}
+    for name, impulse in zip(IMPULSES, account.impulses):
+        found |= vector(f"impulse_of_{name}", impulse)
+    return found
 
 
 @njit(cache=True, error_model="numpy")
-def kick(s, acceleration, of_walls, booked, gravity, dt, impulses, works):
+def kick(s, acceleration, of_walls, agitation, heating, gravity, dt, impulses, works):
     """Velocities after dt [s]; what the sub-step adds to an account.
 
     acceleration (N, 3) [m/s2] is of pairs; of_walls (N, 7) of the push of walls and of their grip [m/s2], three columns
-    each, and the power of the grip by the sliding of walls [W/kg]. What pairs and grip take from the motion is `booked`
-    (N,) [W/kg]. A particle upstream of a nozzle feels nothing: the inflow undoes what pairs and the push do to it, and
-    the grip of walls beside the mouth is not there.
+    each, and the power of the grip by the sliding of walls [W/kg]. What pairs and grip take from the motion is booked
+    as `agitation` and `heating` (N,) [W/kg]. A particle upstream of a nozzle feels nothing: the inflow undoes what
+    pairs and the push do to it, the grip of walls beside the mouth is not there, and nothing agitates nor heats it.
     """
     for i in range(len(s.x)):
         m, deep = s.mass[i] * dt, len(s.z) > 0
@@ -67,7 +75,8 @@ def kick(s, acceleration, of_walls, booked, gravity, dt, impulses, works):
             impulses[INLET, 1] -= m * ay
             impulses[INLET, 2] -= m * az
             gripped = of_walls[i, 3] * u + of_walls[i, 4] * v + of_walls[i, 5] * w - of_walls[i, 6]
-            works[BY_INFLOW] -= m * (ax * u + ay * v + az * w + booked[i] + gripped)
+            works[BY_INFLOW] -= m * (ax * u + ay * v + az * w + agitation[i] + heating[i] + gripped)
+            agitation[i] = heating[i] = 0.0
             works[BY_GRAVITY] += m * (gravity[0] * u + gravity[1] * v + gravity[2] * w)
             s.way_x[i] += u * dt
             s.way_y[i] += v * dt
@@ -92,3 +101,37 @@ def kick(s, acceleration, of_walls, booked, gravity, dt, impulses, works):
         works[BY_WALLS] += m * (wx * (u + gx) + wy * (v + gy) + wz * (w + gz) + of_walls[i, 6])
         works[BY_GRAVITY] += m * (gravity[0] * (u + gx) + gravity[1] * (v + gy) + gravity[2] * (w + gz))
         works[NUMERICAL] += m * (ax * gx + ay * gy + az * gz)
+
+
+@njit(cache=True, error_model="numpy")
+def warm(p, s, work, dt, window, heat_capacity, heats):
+    """theta and temperatures after dt [s] of a window [s], and their sums [J]; `work` of sdph.methods.grains.sub_step.
+
+    p are the parameters of the granular temperature: where the case has theta stand, what would raise it goes out by
+    its bounds. A particle upstream of a nozzle keeps its theta.
+    """
+    for i in range(len(s.x)):
+        m, collided = s.mass[i], 0.0
+        heats[AGITATION] += m * work.agitation[i] * dt
+        heats[RUBBING] += m * work.heating[i] * dt
+        if len(p) == 0:
+            heats[BOUNDS] -= m * work.agitation[i] * dt
+        elif s.kind[i] != INFLOW:
+            collided = 1.5 * work.collided[i]
+            s.theta[i] = work.theta[i]
+            s.damped[i] += 1.5 * m * work.damped[i]
+            heats[BOUNDS] += 1.5 * m * work.held[i]
+            heats[COLLISIONS] += 1.5 * m * work.collided[i]
+            heats[DAMPING] += 1.5 * m * work.damped[i]
+        if len(s.temperature):
+            s.temperature[i] += (collided + (work.heating[i] + s.warmth[i] / window / m) * dt) / heat_capacity
+
+
+@njit(cache=True, error_model="numpy")
+def drift(s, dt):
+    """Places after dt [s]."""
+    for i in range(len(s.x)):
+        s.x[i] += s.u[i] * dt
+        s.y[i] += s.v[i] * dt
+        if len(s.z):
+            s.z[i] += s.w[i] * dt

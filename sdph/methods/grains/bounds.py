@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numba import njit
 
 from sdph.engine import state as particles
 from sdph.engine.guard import DENSE, FAR, RUNAWAY, TINY, Watch, outside
@@ -76,13 +77,15 @@ class Guard(Watch):
 
     def sub_step(self, stepper) -> None:
         """After a sub-step: NaN, speed, temperature of the particles."""
-        s = stepper.state
+        s, most = stepper.state, RUNAWAY * self.reach
+        if within(s, stepper.scratch.sound, most, COLLAPSE * self.reach, self.coldest, self.hottest):
+            return
         lower = (
             f"run.step_factor (now {self.case.run.step_factor:g}; the sub-step was ruled by "
             f"{stepper.limit or 'conduction'}), then {self._shorter()}"
         )
         speed = np.sqrt(s.u**2 + s.v**2 + (s.w**2 if len(s.w) else 0.0))
-        self.hold("speed", speed, (0.0, RUNAWAY * self.reach, "m/s"), s, lower)
+        self.hold("speed", speed, (0.0, most, "m/s"), s, lower)
         if len(s.temperature):
             self.hold("temperature", s.temperature, (self.coldest, self.hottest, "K"), s, lower)
         self.hold("density", s.density, (0.0, math.inf, "kg/m3"), s, lower)
@@ -105,3 +108,18 @@ class Guard(Watch):
 
     def _shorter(self) -> str:
         return f"coupling.window_largest_s below {self.length:.3g} (the window was ruled by {self.cause})"
+
+
+@njit(cache=True, error_model="numpy")
+def within(s, sound, fastest, loudest, coldest, hottest):
+    """True where no particle is faster or louder [m/s], colder or hotter [K] than that, nor is anything of it no
+    number."""
+    fine = True
+    for i in range(len(s.x)):
+        w = s.w[i] if len(s.w) else 0.0
+        fine &= s.u[i] * s.u[i] + s.v[i] * s.v[i] + w * w <= fastest * fastest
+        fine &= 0.0 <= sound[i] <= loudest
+        fine &= 0.0 <= s.density[i] < math.inf
+        if len(s.temperature):
+            fine &= coldest <= s.temperature[i] <= hottest
+    return fine

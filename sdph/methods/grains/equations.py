@@ -24,9 +24,10 @@ from sdph.effects.grains import (
 )
 from sdph.engine.geometry import FAST, deep, nearest_image
 from sdph.engine.rows import entry, length, place
-from sdph.laws import kernels
+from sdph.laws import granular, kernels
 from sdph.laws.compiled import inlined
 from sdph.methods.grains import stress
+from sdph.methods.grains.sound import swing
 
 # Sums reordered and divisions shared are 2.3 times as fast as none of it.
 loop = njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
@@ -51,11 +52,12 @@ class Scratch(NamedTuple):
 
     pull (E,) of `sum_density`; per particle, by `constitutive`: pressure [Pa], its parts by agitation and by lasting
     contacts over density squared [Pa m6/kg2], slope of the latter's pressure against alpha_p [Pa], shear and bulk
-    viscosity of agitation [Pa s], conductivity of theta [kg/m/s], sound speed [m/s]; by `contacts.shear`: stress of
-    contacts, elastic and viscous, over density squared (N, 6) [Pa m6/kg2], xx, yy, zz, xy, yz, zx, their viscosity (N,)
-    [Pa s], both without length where there is no friction; bearing (N, 5) or (N, 10) of `stress.pair`, over density
-    squared; works (2, N) [W/kg] of viscosity into theta, and of contacts and what rubs on walls into heat; strain (3,
-    N): I2D = dev(D):dev(D)/2 [1/s2], div v [1/s], and 1 where neighbours enclose the particle (`stress.ENCLOSED`).
+    viscosity of agitation [Pa s], conductivity of theta [kg/m/s], sound speed [m/s], g0 [-]; by `contacts.shear`:
+    stress of contacts, elastic and viscous, over density squared (N, 6) [Pa m6/kg2], xx, yy, zz, xy, yz, zx, their
+    viscosity (N,) [Pa s], both without length where there is no friction; bearing (N, 5) or (N, 10) of `stress.pair`,
+    over density squared; works (2, N) [W/kg] of viscosity into theta, and of contacts and what rubs on walls into heat;
+    strain (3, N): I2D = dev(D):dev(D)/2 [1/s2], div v [1/s], and 1 where neighbours enclose the particle
+    (`stress.ENCLOSED`).
     """
 
     pull: np.ndarray
@@ -67,6 +69,7 @@ class Scratch(NamedTuple):
     bulk: np.ndarray
     conductivity: np.ndarray
     sound: np.ndarray
+    crowd: np.ndarray
     traction: np.ndarray
     rubbing: np.ndarray
     bearing: np.ndarray
@@ -76,18 +79,18 @@ class Scratch(NamedTuple):
     @property
     def stress(self) -> tuple[np.ndarray, ...]:
         """Arrays that `constitutive` writes."""
-        return self[1:9]
+        return self[1:10]
 
     @property
     def shearing(self) -> tuple[np.ndarray, ...]:
         """Arrays that `contacts.shear` writes."""
-        return self[9:]
+        return self[10:]
 
 
 def scratch(count: int, entries: int, friction: bool, deep: bool = False) -> Scratch:
     """Room for `count` particles with so many `entries` in their rows, in 3-D where `deep`; nothing is sheared."""
     rubbed = count if friction else 0
-    constituted = [np.zeros(count) for _ in range(8)]
+    constituted = [np.zeros(count) for _ in range(9)]
     sheared = np.zeros((count, 10 if deep else 5)), np.zeros((2, count)), np.zeros((3, count))
     sheared[2][2] = 1.0  # no particle is held to lie open before one has been looked at
     return Scratch(np.empty(entries), *constituted, np.zeros((rubbed, 6)), np.zeros(rubbed), *sheared)
@@ -128,26 +131,50 @@ def sum_density(kernel, s, rows, box, walls_p, wall, density, pull):
 
 @njit(cache=True, parallel=True, error_model="numpy")
 def constitutive(
-    s, grain_density, pressure_p, friction_p, viscosity_p, temperature_p,
-    pressure, agitated, lasting, stiffness, shear, bulk, conductivity, sound,
+    s, waves, grains, pressure_p, friction_p, viscosity_p, temperature_p,
+    pressure, agitated, lasting, stiffness, shear, bulk, conductivity, sound, crowd,
 ):  # fmt: skip
-    """Stress and sound of every particle (see `Scratch`) from its density and theta."""
+    """Stress and sound of every particle (see `Scratch`) from its density and theta; grains: their density [kg/m3] and
+    packing limit [-].
+
+    Returns what limits sub-steps, the largest of all: pace omega h + 2 v [m/s] (sdph.methods.grains.sound), and
+    diffusivities [m2/s] of momentum, of sound, and of theta.
+    """
+    pace = momentum = agitation = 0.0
     for i in prange(len(s.x)):
-        alpha_p = s.density[i] / grain_density
+        alpha_p = s.density[i] / grains[0]
+        g0 = crowd[i] = granular.crowding(alpha_p, grains[1])
         theta = s.theta[i] if len(s.theta) else 0.0
         diameter = s.diameter[i] if len(s.diameter) else 0.0
         kinetic, (frictional, stiffness[i]) = (
-            granular_pressure.pressure(pressure_p, alpha_p, theta),
+            granular_pressure.pressure(pressure_p, alpha_p, theta, g0),
             friction.pressure(friction_p, alpha_p),
         )
         pressure[i] = kinetic + frictional
         agitated[i], lasting[i] = kinetic / s.density[i] ** 2, frictional / s.density[i] ** 2
-        sound[i] = math.sqrt(
-            granular_pressure.sound_squared(pressure_p, alpha_p, theta)
-            + friction.sound_squared(friction_p, stiffness[i])
+        squared = granular_pressure.sound_squared(pressure_p, alpha_p, theta, g0) + friction.sound_squared(
+            friction_p, stiffness[i]
         )
-        shear[i], bulk[i] = granular_viscosity.viscosities(viscosity_p, alpha_p, theta, diameter)
-        conductivity[i] = granular_temperature.conductivity(temperature_p, alpha_p, theta, diameter)
+        sound[i] = math.sqrt(squared)
+        shear[i], bulk[i] = granular_viscosity.viscosities(viscosity_p, alpha_p, theta, diameter, g0)
+        conductivity[i] = granular_temperature.conductivity(temperature_p, alpha_p, theta, diameter, g0)
+        w = s.w[i] if len(s.w) else 0.0
+        speed = math.sqrt(s.u[i] * s.u[i] + s.v[i] * s.v[i] + w * w)
+        pace = max(pace, swing(waves, squared, pressure[i] / s.density[i]) + 2.0 * speed)
+        if s.density[i] > 0.0:
+            momentum = max(momentum, granular_viscosity.diffusivity(viscosity_p, shear[i], bulk[i], s.density[i]))
+            agitation = max(agitation, granular_temperature.diffusivity(temperature_p, conductivity[i], s.density[i]))
+    return pace, momentum, agitation
+
+
+@njit(cache=True, error_model="numpy", fastmath=FAST)
+def conducted(kernel, s, rows, box, pull, conduction_p, i):
+    """Heat [W/kg] that particle i gets from its neighbours."""
+    warmth = 0.0
+    for k in range(length(rows, i)):
+        j = entry(rows, i, k)
+        warmth += conduction.pair(conduction_p, kernel.h, s, i, j, separation(s, box, i, j)[3], pull[place(rows, i, k)])
+    return warmth
 
 
 @loop

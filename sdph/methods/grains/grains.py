@@ -16,7 +16,7 @@ from sdph.engine.kept import Unfit
 from sdph.engine.ledger import vector
 from sdph.engine.state import INFLOW
 from sdph.engine.walls import facets
-from sdph.methods.grains import start
+from sdph.methods.grains import account, start
 from sdph.methods.grains.history import tracked
 from sdph.methods.grains.method import Stepper
 
@@ -137,7 +137,7 @@ class Grains:
 
     def columns(self) -> dict[str, float]:
         """Ledger columns of the window: what the grains got from where, and what came and left."""
-        found = self.stepper.account.columns()
+        found = account.columns(self.stepper.account)
         names = ("injected_kg", "injected_J", "injected_motion_J")
         found |= {name: now - before for name, now, before in zip(names, self._came_in(), self.came)}
         momentum = self._came_in()[-1] - self.came[-1]

@@ -23,13 +23,11 @@ def tracked(case, stepper) -> dict[str, float]:
         return {}
     state, columns, arrays = stepper.state, {}, carried(case)
     fields = {key: getattr(state, name) for key, name in TRACKED.items() if name in arrays}
-    fields |= {
-        "convective_heat_W": state.received if len(state.received) else np.zeros(len(state.x)),
-        "conductive_heat_W": stepper.conduction_rates(),
-    }
+    fields["convective_heat_W"] = state.received if len(state.received) else np.zeros(len(state.x))
     for ident in case.track:
         place = np.flatnonzero((state.ident == ident) & (state.kind != particles.INFLOW))
         found = {key: float(values[place[0]]) if len(place) else math.nan for key, values in fields.items()}
+        found["conductive_heat_W"] = float(stepper.conduction_rate(place[0])) if len(place) else math.nan
         columns |= {f"particle_{ident}_{key}": value for key, value in found.items()}
     return columns
 

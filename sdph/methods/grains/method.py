@@ -11,24 +11,19 @@ import numpy as np
 
 from sdph import effects
 from sdph.effects import OFF, REGISTRY
-from sdph.effects.around import wall_contact, walls
-from sdph.effects.grains import friction, grain_shifting, granular_temperature
+from sdph.effects.around import wall_contact
+from sdph.effects.effect import Live
+from sdph.effects.grains import friction, grain_shifting
 from sdph.engine import state as particles
 from sdph.engine.clock import count_of_parts
 from sdph.engine.kept import GROWING, Unfit
 from sdph.engine.rows import Neighbours
 from sdph.engine.state import INFLOW
 from sdph.engine.walls.sides import Boundary
-from sdph.methods.grains import account
-from sdph.methods.grains import contacts as shearing
+from sdph.methods.grains import account, sound, sub_step
 from sdph.methods.grains import equations as rates
-from sdph.methods.grains.account import Account
 from sdph.methods.grains.bounds import Guard
 
-# Of h/(c + v); our choice. By von Neumann a lattice with summed density bears 1.86 h/c in these steps, under p = rho
-# c^2/2 1.15 (tests/methods/grains/test_rates.py). Monaghan 1992 takes 0.25; the bed's heat to the grains is then 0.07 %
-# different.
-ACOUSTIC = 0.5
 SAME_DENSITY = 1e-6  # of a density: what is summed twice differs by round-off at most; our choice
 REACH = 2.0  # support of the kernels in smoothing lengths
 
@@ -46,14 +41,14 @@ class Stepper:
         self.neighbours = Neighbours(REACH * case.smoothing_length, case.domain.period, case.resolution.neighbour_skin)
         self.boundary = Boundary(case) if parameters["walls"] else None
         self.mouths = source.mouths(self.boundary.dummies) if source and self.boundary else None  # nozzle of each dummy
-        algebraic = parameters["granular_temperature"] and parameters["granular_temperature"].model == 1
-        self.shears = bool(parameters["friction"] or parameters["granular_viscosity"] or algebraic)
+        self.waves, self.terms = sound.waves_of(case), terms_of(parameters)
         self.gravity = np.array(parameters["gravity"] or (0.0, 0.0, 0.0))
         self.steps, self.contacts, self.limit = 0, 0, ""
         self.shortest = shortest  # sub-step [s] below which the run gets nowhere
         self.length = self.step = 0.0  # [s] that the last sub-step was limited to, and was
         self.held: dict[str, float] = {}  # what limiters hold (sdph.effects.held)
-        self.wall, self.scratch, self.account = OFF, rates.scratch(0, 0, False), Account()
+        self.wall, self.scratch, self.account = OFF, rates.scratch(0, 0, False), account.opened()
+        self.facing, self.work = OFF, sub_step.work(0, False)  # rows of the dummies
         # pressure [Pa] of the walls before it is held, and what the last sub-step shifted (N, 3) [m]
         self.unheld, self.shifted = np.zeros(0), np.zeros((0, 3))
 
@@ -96,10 +91,11 @@ class Stepper:
     def _look_around(self) -> None:
         """Make what belongs to neighbour rows just made."""
         self.rows, built, count = self.neighbours.rows, self.neighbours.built, len(self.state.x)
-        self.scratch = rates.scratch(
-            count, len(self.rows.entries), bool(self.parameters["friction"]), self.case.dimensions == 3
-        )
-        self.of_walls = np.zeros((count, 7))
+        rubs = bool(self.parameters["friction"])
+        if (count, len(self.rows.entries)) != (len(self.scratch.pressure), len(self.scratch.pull)):
+            self.scratch = rates.scratch(count, len(self.rows.entries), rubs, self.case.dimensions == 3)
+            self.work = sub_step.work(count, rubs)
+        self.work.of_walls[:] = 0.0  # loops write the rows of those that see a wall
         if self.boundary:
             rows = self.boundary.rows(built)
             if self.source:
@@ -109,15 +105,16 @@ class Stepper:
             self.unheld = np.full(len(self.wall.x), np.nan)
 
     def _sum(self, density) -> None:
-        rates.sum_density(
-            self.kernel, self.state, self.rows, self.neighbours.box, *self._walls(), density, self.scratch.pull
-        )
+        rates.sum_density(*self._of_density(density))
+
+    def _of_density(self, density) -> tuple:
+        return self.kernel, self.state, self.rows, self.neighbours.box, *self._walls(), density, self.scratch.pull
 
     def force(self, warmth, push, damping) -> None:
         """Take what holds over the next window: heat (N,) [J] from the gas, push (N, 3) [m/s2] from outside, damping
         (N,) [1/s] of theta; begin its account."""
         self.state = particles.followed(particles.forced(self.state, warmth, push, damping))
-        self.account, self.rows_before = Account(), len(self.state.x)
+        self.account, self.rows_before = account.opened(), len(self.state.x)
 
     def release(self) -> tuple[np.ndarray, np.ndarray]:
         """End the window: way (N, 3) [m] of the particles in it, and what their theta lost to the gas (N,) [J], in the
@@ -132,7 +129,7 @@ class Stepper:
 
     def conduct(self, dt: float) -> None:
         """Grains at rest through a window of `dt` [s]: conduction, and heat from the gas spread evenly."""
-        steps = self._parts(dt)
+        steps = self._parts(dt, self.state)
         for _ in range(steps):
             self._warm(self._conducted() * dt / steps + self.state.warmth / self.state.mass / steps)
             self.guard.sub_step(self)
@@ -164,99 +161,61 @@ class Stepper:
         )  # fmt: skip
         return heating
 
-    def conduction_rates(self) -> np.ndarray:
-        """Heat (N,) [W] that each particle gets from its neighbours now."""
-        return self._conducted() * self.state.mass
+    def conduction_rate(self, i: int) -> float:
+        """Heat [W] that particle i gets from its neighbours now."""
+        heating = rates.conducted(
+            self.kernel, self.state, self.rows, self.neighbours.box, self.scratch.pull, self.parameters["conduction"], i
+        )
+        return heating * self.state.mass[i]
 
     def _sub_step(self, left: float) -> float:
         """The next sub-step [s]: what is left of the window, in equal parts."""
-        s = self.state
-        self._constitute()
-        speed = np.sqrt(s.u**2 + s.v**2 + (s.w**2 if len(s.w) else 0.0))
-        fastest = float((self.scratch.sound + speed).max(initial=0.0))
-        return left / self._parts(left, fastest)
+        pace, momentum, agitation = self._constitute()
+        known = {"granular_viscosity": momentum, "granular_temperature": agitation}
+        return left / self._parts(left, Live(self.state, known), pace)
 
-    def _parts(self, left: float, fastest: float = 0.0) -> int:
+    def _parts(self, left: float, state, pace: float = 0.0) -> int:
         """Number of equal sub-steps for `left` [s], none longer than the shortest limit times run.step_factor."""
-        found = limits(self.case, self.parameters, self.state, fastest)
+        found = limits(self.case, self.parameters, state, pace)
         self.limit = min(found, key=found.get, default="")
         self.length = self.case.run.step_factor * found.get(self.limit, math.inf)
         return count_of_parts(
             left, self.length, self.shortest, f"the sub-step's limit {self.limit!r} (times run.step_factor)"
         )
 
-    def _advance(self, dt: float, window: float) -> None:
-        """One sub-step of `dt` of a `window` [s]: stress, walls, rates, then theta, heat, velocity, place."""
-        s, p, count, self.step = self.state, self.parameters, len(self.state.x), dt
-        if self.shears:
-            self._shear(dt)
-        if self.boundary:
-            self._extrapolate()
-        acceleration, agitation, heating = np.empty((count, 3)), np.empty(count), np.empty(count)
-        rates.rates(
-            self.kernel, s, self.rows, self.neighbours.box, self.scratch, p["granular_viscosity"],
-            p["friction"], p["artificial_viscosity"], p["granular_temperature"], p["conduction"], *self._walls(),
-            acceleration, self.of_walls, agitation, heating,
-        )  # fmt: skip
-        account.kick(
-            s, acceleration, self.of_walls, agitation + heating, self.gravity, dt, self.account.impulses,
-            self.account.works,
-        )  # fmt: skip
-        if self.source:
-            waiting = s.kind == INFLOW
-            agitation[waiting] = heating[waiting] = 0.0
-        self.account.add(agitation=(s.mass @ agitation) * dt, mechanical_heat=(s.mass @ heating) * dt)
-        collided = self._agitate(dt, agitation)
-        self._warm(collided + (heating + s.warmth / window / s.mass) * dt)
-        self._drift(dt)
-        self.steps += 1
+    def _constitute(self) -> tuple[float, float, float]:
+        return rates.constitutive(*self._of_stress())
 
-    def _constitute(self) -> None:
-        s, p = self.state, self.parameters
-        rates.constitutive(
-            s, self.case.grains.density, p["granular_pressure"], p["friction"],
+    def _of_stress(self) -> tuple:
+        p, grains = self.parameters, self.case.grains
+        return (
+            self.state, self.waves, (grains.density, grains.packing_limit), p["granular_pressure"], p["friction"],
             p["granular_viscosity"], p["granular_temperature"], *self.scratch.stress,
         )  # fmt: skip
 
-    def _shear(self, dt: float) -> None:
-        """Shear of the grains; where there is friction contacts are strained over `dt` [s]."""
-        s, rubs = self.state, self.parameters["friction"]
-        contact = np.empty((len(friction.ARRAYS), len(s.x) if rubs else 0))
-        shearing.shear(
-            self.kernel, s, self.rows, self.neighbours.box, self.scratch, *self._walls(), rubs,
-            self.parameters["granular_viscosity"], dt, contact, *self.scratch.shearing,
-        )  # fmt: skip
-        for name, values in zip(friction.ARRAYS, contact):
-            own = getattr(s, name)
-            own[:] = values[: len(own)]
+    def _advance(self, dt: float, window: float) -> None:
+        """One sub-step of `dt` of a `window` [s]: stress, walls, rates, then velocity, theta, heat, place."""
+        self.step = dt
+        sub_step.advance(*self._given(dt, window))
+        self._settle(dt)
+        self.steps += 1
 
-    def _extrapolate(self) -> None:
-        """Pressure and velocity of the walls, from the grains in front of them."""
-        own = self.wall
-        walls.extrapolate(
-            self.kernel, self.neighbours.box, own, self.facing, self.state, self.scratch.pressure, own.pressure,
-            self.unheld, own.velocity,
+    def _given(self, dt: float, window: float) -> tuple:
+        """Arguments of a sub-step of `dt` of a `window` [s]."""
+        return (
+            self.kernel, self.state, self.rows, self.neighbours.box, self.scratch, self.terms, *self._walls(),
+            self.facing, self.unheld, self.work, self.gravity, (dt, window), self.case.grains.heat_capacity,
+            self.account,
         )  # fmt: skip
 
-    def _agitate(self, dt: float, agitation) -> np.ndarray:
-        """theta after `dt` [s]; heat (N,) [J/kg] that its collisions give the grains. Where the case has theta stand,
-        what would raise it goes out by its bounds."""
-        s, count = self.state, len(agitation)
-        if not self.parameters["granular_temperature"]:
-            self.account.add(bounds_work=-(s.mass @ agitation) * dt)
-            return np.zeros(count)
-        theta, held, collided, damped = (np.empty(count) for _ in range(4))
-        granular_temperature.advance_all(
-            self.parameters["granular_temperature"], s, agitation, s.damping, *self.scratch.strain[:2],
-            dt, theta, held, collided, damped,
-        )  # fmt: skip
-        waiting = s.kind == INFLOW
-        held[waiting] = collided[waiting] = damped[waiting] = 0.0
-        np.copyto(s.theta, theta, where=~waiting)
-        s.damped[:] += 1.5 * s.mass * damped
-        sums = {"bounds_work": held, "collision_heat": collided, "damping_heat": damped}
-        self.account.add(**{name: 1.5 * (s.mass @ values) for name, values in sums.items()})
-        return 1.5 * collided
+    def loops(self, dt: float) -> dict[str, tuple]:
+        """Loops over particles of a sub-step of `dt` [s], by name, each with its arguments as they stand."""
+        density = np.empty(len(self.state.x))
+        return {
+            "sum_density": (rates.sum_density, self._of_density(density)),
+            "constitutive": (rates.constitutive, self._of_stress()),
+            **sub_step.loops(*self._given(dt, dt)),
+        }
 
     def _warm(self, heat) -> None:
         """Put heat per mass (N,) [J/kg] into the temperature, where there is one."""
@@ -264,10 +223,9 @@ class Stepper:
             return
         self.state.temperature[:] += heat / self.case.grains.heat_capacity
 
-    def _drift(self, dt: float) -> None:
+    def _settle(self, dt: float) -> None:
+        """Shift particles and stop them at walls, after they have gone for `dt` [s]."""
         s = self.state
-        for place, velocity in zip(particles.axes(s), (s.u, s.v, s.w)):
-            place += velocity * dt
         if self.parameters["grain_shifting"]:
             self._shift(dt)
         if self.source:
@@ -294,7 +252,14 @@ class Stepper:
         return self.parameters["walls"], self.wall
 
 
-def limits(case, parameters, state, fastest: float) -> dict[str, float]:
-    """Longest sub-steps [s] by cause: what each effect bears, and sound, `fastest` [m/s] being that of c + v."""
-    sound = {"sound": ACOUSTIC * case.smoothing_length / fastest} if fastest else {}
-    return sound | effects.limits(parameters, case, state)
+def terms_of(parameters) -> sub_step.Terms:
+    """Parameters of the effects between grains; an algebraic theta asks for their shear too."""
+    viscous, rubs, theta = (parameters[name] for name in ("granular_viscosity", "friction", "granular_temperature"))
+    shears = (1.0,) if viscous or rubs or (theta and theta.model == 1) else OFF
+    return sub_step.Terms(viscous, rubs, parameters["artificial_viscosity"], theta, parameters["conduction"], shears)
+
+
+def limits(case, parameters, state, pace: float) -> dict[str, float]:
+    """Longest sub-steps [s] by cause: what each effect bears, and sound of `pace` [m/s] (sdph.methods.grains.sound)."""
+    of_sound = {"sound": sound.limit(case.smoothing_length, pace)} if pace else {}
+    return of_sound | effects.limits(parameters, case, state)

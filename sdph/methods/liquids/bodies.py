@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import NamedTuple, Protocol
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from sdph.effects.around import tank
 from sdph.engine import motion
@@ -87,7 +87,7 @@ class Bodies:
         """The liquid and walls of a case less what stands in the bodies, and the bodies' particles behind them."""
         places, d = self.carrier.places(), case.dimensions
         here = particles.positions(state)
-        gap, _ = cKDTree(places).query(here, distance_upper_bound=NEAREST * case.resolution.spacing)
+        gap, _ = scipy.spatial.cKDTree(places).query(here, distance_upper_bound=NEAREST * case.resolution.spacing)
         state = particles.take(state, np.isinf(gap))
         own = start.placed(case, places[:, :d])
         own.kind[:], own.density[:] = WALL, case.liquid.density

@@ -15,8 +15,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import scipy
 from numba import njit
-from scipy.spatial import cKDTree
 
 from sdph.effects.liquids import liquid_heat
 from sdph.engine import kernels as smoothing
@@ -160,7 +160,7 @@ def conducted(kernel, spacing: float) -> float:
 def _pairs(built, filled, reach: float) -> np.ndarray:
     """Pairs (M, 2) of what is `filled` nearer than `reach` [m], in one order."""
     which = np.flatnonzero(filled)
-    tree = cKDTree(np.stack(built, axis=1)[which])
+    tree = scipy.spatial.cKDTree(np.stack(built, axis=1)[which])
     pairs = which[tree.query_pairs(reach, output_type="ndarray")]
     return pairs[np.lexsort(pairs.T)]
 

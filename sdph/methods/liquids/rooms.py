@@ -6,8 +6,8 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 from numba import njit
-from scipy import ndimage
 
 FINE = 0.5  # spacings: a cell; gel-droplet.md, section 2
 # spacings: how far a particle fills; a lattice of one spacing fills its emptiest place to 0.97; our choice
@@ -39,7 +39,7 @@ def find(points, volume, spacing: float) -> Rooms:
     filled = np.zeros(shape)
     fill(points[:, 0] - corner[0], points[:, 1] - corner[1], volume, cell, reach, filled)
     empty = np.maximum(1.0 - filled / EMPTY, 0.0)
-    label, _ = ndimage.label(empty > 0.0)
+    label, _ = scipy.ndimage.label(empty > 0.0)
     return Rooms(label, int(label[0, 0]), empty, corner, cell)
 
 

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
+import scipy
 
 from sdph.engine import state as particles
 from sdph.laws.sheets import diameter_of
@@ -13,9 +11,9 @@ from sdph.laws.sheets import diameter_of
 
 def labels(places, distance: float) -> np.ndarray:
     """Number (N,) of the piece of each place (N, 3) [m]: two are of one where they are nearer than `distance` [m]."""
-    pairs = cKDTree(places).query_pairs(distance, output_type="ndarray")
-    graph = coo_array((np.ones(len(pairs), np.int8), pairs.T), shape=(len(places),) * 2)
-    return connected_components(graph, directed=False)[1]
+    pairs = scipy.spatial.cKDTree(places).query_pairs(distance, output_type="ndarray")
+    graph = scipy.sparse.coo_array((np.ones(len(pairs), np.int8), pairs.T), shape=(len(places),) * 2)
+    return scipy.sparse.csgraph.connected_components(graph, directed=False)[1]
 
 
 def of(state, label, case) -> list[dict]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.optimize import curve_fit
+import scipy
 
 
 def ringing(time, signal, guess: float) -> tuple[float, float]:
@@ -14,5 +14,5 @@ def ringing(time, signal, guess: float) -> tuple[float, float]:
 
     t = time - time[0]
     start = (signal.mean(), 0.05, guess, np.ptp(signal) / 2.0, np.ptp(signal) / 2.0)
-    fitted, _ = curve_fit(model, t, signal, p0=start, maxfev=20000)
+    fitted, _ = scipy.optimize.curve_fit(model, t, signal, p0=start, maxfev=20000)
     return abs(float(fitted[2])), float(fitted[1])

@@ -17,7 +17,7 @@ from sdph.engine import state as particles
 from sdph.exchange.window import opening
 from sdph.laws import kernels
 from sdph.methods.grains import start
-from sdph.methods.grains.method import ACOUSTIC
+from sdph.methods.grains.sound import SWING
 from sdph.study.explain import pace
 
 ROW = 8  # bytes of a number and of an entry of a neighbour row
@@ -212,7 +212,8 @@ def _windows(case, s) -> list[tuple]:
 
 
 def _sub_steps(case, s) -> list[tuple]:
-    how = {"sound": f"{ACOUSTIC:g} h/(c + v), c = {pace.sound(case, s):.3g} m/s where grains carry what they have to"}
+    c = f"c = {pace.sound(case, s):.3g} m/s where grains carry what they have to"
+    how = {"sound": f"{SWING:g} over omega + 2 v/h of waves on a lattice, {c}"}
     found = pace.sub_steps(case, s, _state(case))
     rows = [("sub-step", name, limit, how.get(name, "the effect's own dt_limit")) for name, limit in found.items()]
     return rows or [("sub-step", "window", case.coupling.window_largest, "nothing else limits it")]

@@ -24,6 +24,7 @@ from sdph.laws import drag
 from sdph.methods.grains import ways
 from sdph.methods.grains.method import limits as limits_of_step
 from sdph.methods.grains.scales import SETTLED
+from sdph.methods.grains.sound import swing, waves_of
 
 HALVINGS = 60  # of the bracket of a volume fraction: to round-off
 
@@ -128,8 +129,8 @@ def grip(case, s) -> float:
 
 def sub_steps(case, s, state) -> dict[str, float]:
     """Longest sub-steps [s] by cause, before run.step_factor."""
-    fastest = sound(case, s) + s.speed if effects.moving(case) else 0.0
-    return limits_of_step(case, parameters(case), state, fastest)
+    pace = swing(waves_of(case), *stiffness(case, s)) + 2.0 * s.speed if effects.moving(case) else 0.0
+    return limits_of_step(case, parameters(case), state, pace)
 
 
 def parameters(case) -> dict:
@@ -139,15 +140,24 @@ def parameters(case) -> dict:
 
 def sound(case, s) -> float:
     """c [m/s] of agitation and friction where grains lie closest once they carry what they have to."""
-    squared = 0.0
+    return math.sqrt(stiffness(case, s)[0])
+
+
+def stiffness(case, s) -> tuple[float, float]:
+    """c^2 and pressure over density [m2/s2] there."""
+    squared = pressed = 0.0
     if "friction" in case.effects:
         p, alpha_p = friction.kernel(case), s.alpha_p
         if alpha_p >= SETTLED * p.onset:
             alpha_p = max(alpha_p, packed_by(p, carried(case, s)))
-        squared = friction.sound_squared(p, friction.pressure(p, alpha_p)[1])
-    if "granular_pressure" in case.effects:
-        squared += granular_pressure.sound_squared(granular_pressure.kernel(case), s.alpha_p, s.theta)
-    return math.sqrt(squared)
+        pressure, slope = friction.pressure(p, alpha_p)
+        squared = friction.sound_squared(p, slope)
+        pressed = pressure / (alpha_p * s.grains.density) if pressure else 0.0
+    if "granular_pressure" in case.effects and s.alpha_p:
+        p = granular_pressure.kernel(case)
+        squared += granular_pressure.sound_squared(p, s.alpha_p, s.theta, s.g0)
+        pressed += granular_pressure.pressure(p, s.alpha_p, s.theta, s.g0) / (s.alpha_p * s.grains.density)
+    return squared, pressed
 
 
 def carried(case, s) -> float:

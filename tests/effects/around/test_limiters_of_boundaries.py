@@ -8,6 +8,7 @@ from grain_boxes import DENSITY, SPACING, box, started
 from sdph import scenes
 from sdph.case import read as cases
 from sdph.engine.state import INFLOW
+from sdph.methods.grains.account import columns as columns_of
 from sdph.study.explain.effect_costs import prepared
 
 PUSH, CONTACT = 10.0, 0.25 * SPACING  # m/s2, m
@@ -74,7 +75,7 @@ def test_the_way_back_from_a_wall_and_its_energy(tmp_path):
     stepper.state.v[row] = -30.0
     mass, before = stepper.state.mass[row], stepper.state.y[row].copy()
     move(stepper, dt)
-    columns = stepper.account.columns()
+    columns = columns_of(stepper.account)
     ways = CONTACT - (before - 30.0 * dt)
     assert stepper.steps == 1 and (ways > 0.0).all()
     assert columns["contact_way_m"] == pytest.approx(ways.sum(), rel=1e-3)
@@ -86,7 +87,7 @@ def test_who_is_put_down_loses(tmp_path):
     stepper = floor(tmp_path)
     stepper.state.v[stepper.state.y > 0.06 - SPACING] = 30.0
     move(stepper, 1e-4)
-    columns = stepper.account.columns()
+    columns = columns_of(stepper.account)
     assert columns["contact_lift_J"] == pytest.approx(-stepper.state.mass[0] * PUSH * columns["contact_way_m"])
     assert columns["contact_way_m"] > 0.0
 

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from grain_boxes import SPACING, box, started
 
+from sdph.methods.grains.account import columns as columns_of
+
 ANGLE, SPEED, FALL = 30.0, 0.5, 0.1  # deg, m/s, m/s
 RUBBED = math.sin(math.radians(ANGLE)) * FALL  # m/s, of Schaeffer's grains that slide along a plane
 EFFECTS = ["walls", "friction"]
@@ -33,7 +35,7 @@ def test_a_floor_rubs_by_sin_phi_of_what_it_pushes(tmp_path, restitution):
 
 def test_friction_of_a_contact_does_the_work_that_is_booked(tmp_path):
     stepper = flung(tmp_path)
-    account, mass, speed = stepper.account.columns(), stepper.state.mass[0], stepper.state.u[0]
+    account, mass, speed = columns_of(stepper.account), stepper.state.mass[0], stepper.state.u[0]
     assert account["impulse_of_walls_x_kg_m_s"] == pytest.approx(mass * (speed - SPEED), rel=1e-9)
     assert account["impulse_of_walls_y_kg_m_s"] == pytest.approx(mass * FALL, rel=1e-9)
     assert account["work_of_walls_J"] == pytest.approx(0.5 * mass * (speed**2 - SPEED**2 - FALL**2), rel=1e-9)

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from grain_boxes import box, started
+from grain_boxes import box, started, strain
 
 from sdph.effects.grains import friction
 from sdph.engine.rows import entry
@@ -32,7 +32,7 @@ def loaded(stepper, times):
         getattr(s, name)[:] = 0.0
     for _ in range(times):
         stepper._sub_step(DT)
-        stepper._shear(DT)
+        strain(stepper, DT)
         out = stepper.scratch
     return s, np.abs(s.y - 0.05) < 0.03, out
 
@@ -68,7 +68,7 @@ def test_work_of_contacts_is_what_their_force_takes(block):
     rng = np.random.default_rng(2)
     s.u[:], s.v[:] = rng.uniform(-0.1, 0.1, (2, len(s.x)))
     before = s.contact_xy.copy()
-    block._shear(DT)
+    strain(block, DT)
     out, elastic = block.scratch, block.parameters["friction"]
     tau = np.stack([s.contact_xx, s.contact_yy, -s.contact_xx - s.contact_yy, s.contact_xy, *np.zeros((2, len(s.x)))])
     for i, column in enumerate(tau.T):  # without the viscosity of contacts

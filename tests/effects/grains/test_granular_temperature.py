@@ -51,12 +51,12 @@ def test_a_pair_gets_half_of_its_works_and_conducts_by_the_harmonic_mean():
 
 def test_conductivity_is_that_of_gidaspow():
     expected = granular.gidaspow_conductivity(ALPHA_P, THETA, E, G0, RHO, D)
-    assert own.conductivity(parameters(), ALPHA_P, THETA, D) == pytest.approx(expected, rel=1e-14)
-    assert own.conductivity(parameters(model="algebraic"), ALPHA_P, THETA, D) == 0.0
+    assert own.conductivity(parameters(), ALPHA_P, THETA, D, G0) == pytest.approx(expected, rel=1e-14)
+    assert own.conductivity(parameters(model="algebraic"), ALPHA_P, THETA, D, G0) == 0.0
 
 
 def advanced(p, heating=0.0, damping=0.0, dt=0.01):
-    return own.advance(p, ALPHA_P, THETA, heating, damping, D, 0.0, 0.0, dt)
+    return own.advance(p, ALPHA_P, THETA, heating, damping, D, 0.0, 0.0, G0, dt)
 
 
 def test_collisions_cool_as_haff_found():

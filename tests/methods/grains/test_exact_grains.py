@@ -5,7 +5,7 @@ import math
 import exact_solutions as solutions
 import numpy as np
 import pytest
-from grain_boxes import DENSITY, DIAMETER, VISCOSITY, box, go, started, windows
+from grain_boxes import DENSITY, DIAMETER, VISCOSITY, box, go, started, strain, windows
 
 from sdph.engine import state as particles
 from sdph.laws import drag, granular
@@ -73,8 +73,7 @@ def pair_rates(stepper):
     """acceleration, agitation, heating of all pairs as they stand now."""
     s, p, count = stepper.state, stepper.parameters, len(stepper.state.x)
     stepper._sub_step(1e-4)
-    if stepper.shears:
-        stepper._shear(1e-4)
+    strain(stepper, 1e-4)
     out = np.empty((count, 3)), np.zeros((count, 6)), np.empty(count), np.empty(count)
     rates.rates(
         stepper.kernel, s, stepper.rows, stepper.neighbours.box, stepper.scratch, p["granular_viscosity"],

@@ -1,0 +1,122 @@
+"""A sub-step of grains as one compiled call: what few particles cost is the way in and out of Python."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from sdph.effects.around import walls
+from sdph.effects.grains import friction, granular_temperature
+from sdph.methods.grains import account, contacts, equations
+
+
+class Terms(NamedTuple):
+    """Parameters of the effects between grains, `OFF` of those that are; `shears`: one entry where a loop asks for
+    their shear, else none."""
+
+    viscous: tuple
+    friction: tuple
+    artificial: tuple
+    temperature: tuple
+    conduction: tuple
+    shears: tuple
+
+
+class Work(NamedTuple):
+    """Arrays that a sub-step leaves to nobody: acceleration (N, 3) [m/s2] and of_walls (N, 7) as `account.kick` takes
+    them, agitation and heating (N,) [W/kg], contact (5, N) [Pa]; theta (N,) after it and what went by bounds,
+    collisions and gas (N,) [m2/s2]."""
+
+    acceleration: np.ndarray
+    of_walls: np.ndarray
+    agitation: np.ndarray
+    heating: np.ndarray
+    contact: np.ndarray
+    theta: np.ndarray
+    held: np.ndarray
+    collided: np.ndarray
+    damped: np.ndarray
+
+
+def work(count: int, rubs: bool) -> Work:
+    """Room for `count` particles, with contacts where they rub."""
+    contact = np.empty((len(friction.ARRAYS), count if rubs else 0))
+    return Work(
+        np.empty((count, 3)), np.zeros((count, 7)), np.empty(count), np.empty(count), contact,
+        *(np.zeros(count) for _ in range(4)),
+    )  # fmt: skip
+
+
+@njit(cache=True, error_model="numpy")
+def advance(
+    kernel, s, rows, box, scratch, terms, walls_p, wall, facing, unheld, work, gravity, steps, heat_capacity, sums
+):  # fmt: skip
+    """Stress, walls, rates, then velocity, theta, temperature and place after the sub-step; sums of `account`.
+
+    steps: its length and that of its window [s].
+    """
+    dt, window = steps
+    strain_grains(kernel, s, rows, box, scratch, terms.shears, terms.friction, terms.viscous, walls_p, wall, work, dt)
+    if len(walls_p):
+        walls.extrapolate(
+            kernel, box, wall, facing, s, scratch.pressure, wall.pressure, unheld, wall.velocity
+        )  # fmt: skip
+    equations.rates(
+        kernel, s, rows, box, scratch, terms.viscous, terms.friction, terms.artificial, terms.temperature,
+        terms.conduction, walls_p, wall, work.acceleration, work.of_walls, work.agitation, work.heating,
+    )  # fmt: skip
+    account.kick(
+        s, work.acceleration, work.of_walls, work.agitation, work.heating, gravity, dt, sums.impulses, sums.works
+    )
+    agitate(terms.temperature, s, scratch, work, dt)
+    account.warm(terms.temperature, s, work, dt, window, heat_capacity, sums.heats)
+    account.drift(s, dt)
+
+
+@njit(cache=True, error_model="numpy")
+def strain_grains(kernel, s, rows, box, scratch, shears, friction_p, viscous_p, walls_p, wall, work, dt):
+    """Shear of the grains, where somebody asks for it; where there is friction contacts are strained over dt [s]."""
+    if len(shears):
+        contacts.shear(
+            kernel, s, rows, box, scratch, walls_p, wall, friction_p, viscous_p, dt, work.contact, scratch.traction,
+            scratch.rubbing, scratch.bearing, scratch.works, scratch.strain,
+        )  # fmt: skip
+        if len(friction_p):
+            s.contact_xx[:], s.contact_yy[:], s.contact_xy[:] = work.contact[0], work.contact[1], work.contact[2]
+            if len(s.z):
+                s.contact_yz[:], s.contact_zx[:] = work.contact[3], work.contact[4]
+
+
+@njit(cache=True, error_model="numpy")
+def agitate(p, s, scratch, work, dt):
+    """theta after dt [s], where it is followed, and what it lost to whom, into `work`."""
+    if len(p):
+        granular_temperature.advance_all(
+            p, s, work.agitation, s.damping, scratch.strain[0], scratch.strain[1], scratch.crowd, dt, work.theta,
+            work.held, work.collided, work.damped,
+        )  # fmt: skip
+
+
+def loops(
+    kernel, s, rows, box, scratch, terms, walls_p, wall, facing, unheld, work, gravity, steps, heat_capacity, sums
+) -> dict[str, tuple]:  # fmt: skip
+    """Loops over particles of `advance`, by name, each with its arguments: for who times one or looks into it."""
+    head = kernel, s, rows, box, scratch
+    found = {}
+    if len(terms.shears):
+        found["shear"] = (
+            contacts.shear,
+            (*head, walls_p, wall, terms.friction, terms.viscous, steps[0], work.contact, *scratch.shearing),
+        )
+    if len(walls_p):
+        found["extrapolate"] = (
+            walls.extrapolate,
+            (kernel, box, wall, facing, s, scratch.pressure, wall.pressure, unheld, wall.velocity),
+        )
+    found["rates"] = (
+        equations.rates,
+        (*head, *terms[:-1], walls_p, wall, work.acceleration, work.of_walls, work.agitation, work.heating),
+    )
+    return found
