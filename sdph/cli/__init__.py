@@ -230,11 +230,13 @@ def gel_droplet(options) -> int:
 
 def view_run(options) -> int:
     from sdph.show import view
+    from sdph.show.look import Look
 
+    look = Look(options.field, options.theme, options.smooth, options.outline, options.vectors)
     if options.movie:
-        view.movie(options.run, options.movie, options.field)
+        view.movie(options.run, options.movie, look=look)
     else:
-        view.show(options.run, options.png, options.time, options.field)
+        view.show(options.run, options.png, options.time, look=look)
     return FINE
 
 

@@ -9,14 +9,13 @@ from pathlib import Path
 import numpy as np
 
 from sdph.scenes import paths
-from sdph.show import timeline, view
+from sdph.show import style, timeline
 
 INSTANTS, POINTS = 16, 20000  # at most in one report; more make no better picture and a large file
 MAP = (  # arrays that are shown, by their name in the output
     "temperature", "velocity", "alpha_p", "pressure", "density", "vapour_mass_fraction", "theta", "diameter",
     "equivalent_stress", "plastic_strain", "damage",
 )  # fmt: skip
-UNITS = view.GAS_UNITS | view.PARTICLE_UNITS
 
 
 def viewer(folder: Path, case) -> str:
@@ -31,7 +30,7 @@ def viewer(folder: Path, case) -> str:
     low, high = ((*corner, 0.0)[:3] for corner in (case.domain.corner, case.domain.upper))
     data = {
         "dimensions": case.dimensions, "lower": low, "upper": high, "spacing": case.resolution.spacing,
-        "cell": case.resolution.cell or case.resolution.spacing, "units": {name: UNITS.get(name, "1") for name in MAP},
+        "cell": case.resolution.cell or case.resolution.spacing, "units": {name: style.unit_of(name) for name in MAP},
         "ranges": ranges, "frames": [_encoded(frame) for frame in frames],
     }  # fmt: skip
     return (paths.PACKAGE / "show" / "viewer.html").read_text(encoding="utf-8").replace("@DATA@", json.dumps(data))
