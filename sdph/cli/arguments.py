@@ -142,9 +142,7 @@ def _look(commands) -> None:
     view.add_argument("--movie", type=Path, help="write all times as a .gif or .mp4 instead of opening a window")
     view.add_argument("--theme", choices=("light", "dark"), default="light", help="colours of the paper and the ink")
     view.add_argument("--smooth", action="store_true", help="continuous fields instead of particles and cells, in 2-D")
-    view.add_argument(
-        "--outline", action="store_true", help="outline bubbles (alpha_p = 0.15), of a liquid its surface"
-    )
+    view.add_argument("--outline", action="store_true", help="outline bubbles (alpha_p = 0.15) or a liquid")
     view.add_argument("--vectors", action="store_true", help="arrows of velocity")
     report = _command(commands, "report", "one HTML file of one or several runs, side by side; also of failed ones")
     report.add_argument("runs", nargs="+", type=Path, metavar="RUN")

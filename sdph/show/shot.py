@@ -100,7 +100,7 @@ def case_of(folder: Path):
 def of_state(instant: timeline.Instant, case, walls) -> Shot:
     """The same from what is at hand."""
     time, particles, gas = instant
-    box = _box(particles, gas, walls)
+    box = _box(particles, gas, walls, case)
     gravity = case.domain.gravity if case else ()
     up, lengths = upwards(gravity), box[1::2] - box[::2]
     axes = _axes(lengths, up, gas is not None)
@@ -111,13 +111,15 @@ def of_state(instant: timeline.Instant, case, walls) -> Shot:
     return Shot(time, particles, gas, walls, title, case, box, up, axes, level, spacing, dimensions)
 
 
-def _box(particles, gas, walls) -> np.ndarray:
-    """Box of gas and walls; of particles with a margin where these are all there is."""
+def _box(particles, gas, walls, case) -> np.ndarray:
+    """Box of gas and walls; of particles with a margin where these are all there is; without any, the domain."""
     around = [mesh for mesh in (gas, walls) if mesh is not None and mesh.n_points]
-    found = np.array([mesh.bounds for mesh in around or [particles] if mesh.n_points] or [np.zeros(6)])
-    found = found.reshape(-1, 3, 2)
+    found = [mesh.bounds for mesh in around or [particles] if mesh.n_points]
+    if not found and case:
+        found = [np.stack([[*end, 0.0][:3] for end in (case.domain.corner, case.domain.upper)], axis=1).ravel()]
+    found = np.reshape(found or [np.zeros(6)], (-1, 3, 2))
     box = np.stack((found[:, :, 0].min(axis=0), found[:, :, 1].max(axis=0)), axis=1)
-    if not around:
+    if not around and particles.n_points:
         thick = (box[:, 1] - box[:, 0]) > 0.0
         box[thick] += np.array([-1.0, 1.0]) * MARGIN * np.ptp(box, axis=1).max()
     return box.ravel()
@@ -181,5 +183,5 @@ def _subject(shots: list[Shot], known: list[str]) -> str:
 
 
 def _moves(shot: Shot) -> bool:
-    sound = shot.case.fastest_sound if shot.case else 0.0
+    sound = shot.case.fastest_sound if shot.case and shot.case.liquid else 0.0
     return max((float(own.max(initial=0.0)) for own in shot.values("velocity")), default=0.0) > SLOW * sound

@@ -48,7 +48,7 @@ PREFIXES = {  # unit -> (factor, unit) from large to small: the first that the l
     "kg": ((1.0, "kg"), (1e-3, "g"), (1e-6, "mg"), (1e-9, "µg")),
 }
 EXPONENTS = {"m2": "m²", "m3": "m³", "s2": "s²"}
-PREFIX_FROM = 0.1  # of a unit that the largest value must reach: 0.3 m stays m, 0.06 m is 60 mm; our choice
+PREFIX_FROM = {"m": 0.1, "s": 0.1}  # of a unit that the largest value must reach, else 1: 0.3 m stays m; our choice
 SHARE = 0.005  # of the values that may lie beyond each end of a range, which its bar then tells; our choice
 LONE = 2.0  # times longer must the whole range be than that of the others, or nothing is left beyond; our choice
 PLAIN = 1e5  # below this large numbers are written without an exponent
@@ -104,8 +104,8 @@ def unit_of(field: str) -> str:
 
 def prefixed(unit: str, largest: float) -> tuple[float, str]:
     """(factor, unit) in which values up to `largest` have few digits."""
-    known = PREFIXES.get(unit, ((1.0, unit),))
-    return next((row for row in known if largest >= PREFIX_FROM * row[0]), known[-1] if largest else known[0])
+    known, least = PREFIXES.get(unit, ((1.0, unit),)), PREFIX_FROM.get(unit, 1.0)
+    return next((row for row in known if largest >= least * row[0]), known[-1] if largest else known[0])
 
 
 def written(unit: str) -> str:
@@ -144,7 +144,7 @@ def _range(quantity: Quantity, field: str, arrays: list) -> tuple[float, float, 
     if quantity.map == SIGNED:
         low, high = -max(abs(low), abs(high)), max(abs(low), abs(high))
     elif field in FROM_ZERO and least >= 0.0:
-        low = 0.0
+        low, high = 0.0, high or 1.0
     if not high > low:
         low, high = low - 0.5 * max(abs(low), 1e-3), high + 0.5 * max(abs(high), 1e-3)
     return low, high, _EXTEND[least < low - 1e-9 * abs(low), most > high + 1e-9 * abs(high)]
