@@ -140,6 +140,7 @@ def _look(commands) -> None:
     view.add_argument("--time", type=float, metavar="T", help="time [s] (default: the last)")
     view.add_argument("--field", help="what colours the particles and cells (default: what the scene is about)")
     view.add_argument("--movie", type=Path, help="write all times as a .gif or .mp4 instead of opening a window")
+    view.add_argument("--web", action="store_true", help="serve a page with time, fields and a cut on this machine")
     view.add_argument("--theme", choices=("light", "dark"), default="light", help="colours of the paper and the ink")
     view.add_argument("--smooth", action="store_true", help="continuous fields instead of particles and cells, in 2-D")
     view.add_argument("--outline", action="store_true", help="outline bubbles (alpha_p = 0.15) or a liquid")

@@ -11,7 +11,7 @@ from sdph.show.style import Scale, Theme
 
 LONGEST, LEAST = 7.0, 2.6  # inches of the longer side of what is shown, and of the shorter one at least
 LEFT, RIGHT, BELOW, ABOVE = 0.75, 1.25, 0.6, 0.62  # inches around it
-LETTER = 0.085  # inches that a letter of the title takes
+LETTER = 0.078  # inches that a letter of the title takes
 DPI = 150
 WIDE = 1.7  # width over height from which the bar lies below; our choice
 TICKS = [1.0, 2.0, 2.5, 5.0, 10.0]  # round steps

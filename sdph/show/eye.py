@@ -1,4 +1,4 @@
-"""Where a picture in space is looked at from, and the numbers along the edges of its box."""
+"""The place that a picture in space is looked at from, and the numbers along the edges of its box."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ FROM = (0.5, 0.8, 0.42)  # along the longer level axis, the shorter one, and up:
 
 
 class Eye(NamedTuple):
-    """Where the eye is: unit vectors (3,) to the right, up and towards it; extents [m] of the box seen from there."""
+    """Unit vectors (3,) to the right, up and towards the eye; extents [m] of the box seen from there."""
 
     right: np.ndarray
     up: np.ndarray
@@ -28,7 +28,7 @@ class Eye(NamedTuple):
 
 
 def on(shot: Shot) -> Eye:
-    """Where to look from, so that the broad side is seen and up is up."""
+    """The eye of a shot, so that the broad side is seen and up is up."""
     low, high = shot.box[::2], shot.box[1::2]
     vertical = int(np.argmax(shot.up))
     level = sorted((a for a in range(3) if a != vertical), key=lambda a: -(high - low)[a])

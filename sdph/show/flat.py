@@ -54,7 +54,8 @@ def _painted(shot: Shot, grid: Pixels, field: str, scale: Scale, look: Look) -> 
 
 def _line(sheet: Sheet, grid: Pixels, values, level: float) -> None:
     """A contour, drawn so that it shows on every colour."""
-    if not np.nanmin(values) < level < np.nanmax(values):
+    known = values[np.isfinite(values)]
+    if not known.size or not known.min() < level < known.max():
         return
     for colour, width in (("black", 2.4), ("white", 1.1)):
         sheet.axes.contour(*_ticks(grid), values, [level], colors=[colour], linewidths=width)
@@ -105,7 +106,7 @@ def _arrows(sheet: Sheet, shot: Shot) -> None:
     places = grid.flat[moving][:, shot.axes]
     drawn = sheet.axes.quiver(
         *places.T, *velocity[moving].T, angles="xy", scale_units="xy", scale=fastest / (LONG * step), pivot="mid",
-        color="white", edgecolor="black", linewidth=0.45, width=0.0028, headwidth=4.0, headlength=4.5,
+        color="white", edgecolor="black", linewidth=0.4, width=0.0042, headwidth=3.2, headlength=3.8,
     )  # fmt: skip
     told = float(f"{fastest:.1g}")
     place = (sheet.size[0] - 0.62, 0.3) if not sheet.flat else (sheet.size[0] - 0.75, 0.5)

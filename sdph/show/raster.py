@@ -106,12 +106,19 @@ def _smooth(shot: Shot, grid: Pixels, values, found, near) -> tuple[np.ndarray, 
 
 
 def surface(shot: Shot, grid: Pixels) -> np.ndarray:
-    """(rows, columns) sum of volume and kernel of the heavy particles; 0.5 is their surface."""
+    """(rows, columns) sum of volume and kernel of the heavy particles, over that of all where there is a gas of
+    particles: 0.5 is where the liquid ends; nan where nothing is."""
+    heavy = ~shot.light()
+    share = _share(shot, grid, heavy)
+    if heavy.all():
+        return share
+    whole = share + _share(shot, grid, ~heavy)
+    return np.divide(share, whole, out=np.full(grid.shape, np.nan), where=whole > 0.0)
+
+
+def _share(shot: Shot, grid: Pixels, chosen) -> np.ndarray:
     import pyvista
 
-    heavy = ~shot.light()
-    places, sizes = np.asarray(shot.particles.points)[heavy], shot.sizes()[heavy]
-    _, share = sampled.of_particles(
-        pyvista.PolyData(grid.flat), places, sizes**shot.dimensions, {}, sampled.REACH * shot.spacing, shot.dimensions
-    )
-    return share.reshape(grid.shape)
+    places, sizes = np.asarray(shot.particles.points)[chosen], shot.sizes()[chosen]
+    points, h = pyvista.PolyData(grid.flat), sampled.REACH * shot.spacing
+    return sampled.of_particles(points, places, sizes**shot.dimensions, {}, h, shot.dimensions)[1].reshape(grid.shape)

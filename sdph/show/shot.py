@@ -167,7 +167,7 @@ SLOW = 1e-3  # of the speed of sound: a liquid that moves no faster than that is
 
 
 def _subject(shots: list[Shot], known: list[str]) -> str:
-    """What a scene is about: what its metrics measure; how warm it is, where that differs; what solids bear; how fast
+    """Subject of a scene: what its metrics measure; how warm it is, where that differs; what solids bear; how fast
     it is; and of a liquid at rest its pressure."""
     last, case = shots[-1], shots[-1].case
     told = [TOLD_BY[name] for name in (case.run.metrics if case else ()) if TOLD_BY.get(name) in known]

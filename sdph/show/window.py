@@ -15,6 +15,7 @@ from sdph.show.look import Look
 
 SIZE = (1200, 900)  # pixels
 LABELS = 5  # along the bar
+THOUSAND = 1e3  # from here on numbers of the bar are whole: three digits would take an exponent
 
 
 def open_window(folder: Path, time: float | None, look: Look) -> None:
@@ -79,9 +80,10 @@ class Stage:
         mapper.lookup_table = pyvista.LookupTable(style.map_of(scale.map), scalar_range=(scale.low, scale.high))
         for name in list(self.plotter.scalar_bars.keys()):
             self.plotter.remove_scalar_bar(name)
+        form = "%.0f" if scale.high >= THOUSAND else "%.3g"
         self.plotter.add_scalar_bar(
             scale.title, mapper=mapper, vertical=True, position_x=0.88, position_y=0.2, height=0.6, width=0.06,
-            n_labels=LABELS, fmt="%.4g", color=self.look.colours.ink, title_font_size=16, label_font_size=14,
+            n_labels=LABELS, fmt=form, color=self.look.colours.ink, title_font_size=16, label_font_size=14,
         )  # fmt: skip
 
 

@@ -17,7 +17,7 @@ TOLD = (  # keys of summaries in the order in which they are worth telling; othe
     "detachment_time_s", "bubble_diameter_m", "bed_height_m", "pressure_drop_Pa", "front_m", "D32_m", "outflow_D32_m",
     "sauter_diameter_m", "torn_droplets", "evaporated_kg", "vapour_mass_fraction_max", "half_angle_deg", "droplets",
     "plastic_strain_largest", "damage_largest", "free_particles", "heat_exchanged_J", "speed_max_m_s",
-    "drained_kg", "left_kg", "kinetic_energy_J", "elastic_energy_J",
+    "drained_kg", "left_kg", "kinetic_energy_J", "elastic_energy_J", "particles",
 )  # fmt: skip
 LARGEST = (("force on walls, largest", "wall_force_{}_N", "N"), ("pressure, largest", "pressure_largest_Pa", "Pa"),
            ("speed, largest", "fastest_m_s", "m/s"))  # fmt: skip
@@ -65,7 +65,7 @@ def state(run: Shown) -> str:
 
 def numbers(run: Shown) -> list[tuple[str, str]]:
     """(name, value) of the numbers that tell most: of probes, of metrics, the largest loads, then of the rest."""
-    probes = [f"{name}_temperature_K" for name in run.case.probes]
+    probes = [f"{name}_{told}_K" for name in run.case.probes for told in ("temperature", "rise")]
     found = [(key, run.summary[key]) for key in (*probes, *TOLD) if _tells(run.summary.get(key))]
     told = [(spoken(key)[0], measured(value, spoken(key)[1])) for key, value in found]
     loads = [] if "grains" in run.case.matters else _loads(run)
