@@ -100,9 +100,16 @@ def _smooth(shot: Shot, grid: Pixels, values, found, near) -> tuple[np.ndarray, 
         sampled.REACH * shot.spacing, shot.dimensions,
     )  # fmt: skip
     field, share = own["value"].reshape(grid.shape), share.reshape(grid.shape)
-    inside = share >= sampled.INSIDE
+    inside = (share >= sampled.INSIDE) | (near & _beside(shot, grid))
     lone = near & ~inside & (share < 0.5 * sampled.INSIDE) & (share > 0.0)
     return np.where(inside, field, np.where(lone, found, np.nan)), inside | lone
+
+
+def _beside(shot: Shot, grid: Pixels) -> np.ndarray:
+    """Mask of the pixels within a spacing of a side of the box, behind which the sum lacks neighbours."""
+    x0, x1, y0, y1 = grid.edges
+    x, y = grid.places[..., shot.axes[0]], grid.places[..., shot.axes[1]]
+    return np.minimum.reduce((x - x0, x1 - x, y - y0, y1 - y)) < shot.spacing
 
 
 def surface(shot: Shot, grid: Pixels) -> np.ndarray:

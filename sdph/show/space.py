@@ -15,6 +15,7 @@ from sdph.show.style import Scale
 AROUND = 0.1  # of the box, for numbers along its edges
 CLEAR = 0.18  # opacity of vessels; our choice
 FINE = 0.5  # of the spacing: step of the grid on which a surface is found; our choice
+MOST = 2e7  # points of that grid: half a minute and a GB; our choice
 SMOOTHED = 60  # rounds of Taubin's smoothing of a surface, that takes the bumps of the particles; our choice
 LONELY = 4  # particles with fewer neighbours within two spacings have no surface and are drawn as balls; our choice
 BALL = 0.62  # radius over edge: a ball of the volume of the cube, so that neighbours just overlap
@@ -82,7 +83,7 @@ def fill(plotter, shot: Shot, look: Look, scale: Scale, field: str, view: Eye | 
         _gas(plotter, shot, scale, field, theme, view)
     kinds = _kinds(shot)
     liquid = kinds == LIQUID
-    if shot.dimensions == 3 and liquid.any():
+    if shot.dimensions == 3 and liquid.any() and _affordable(shot, liquid):
         lone = _lonely(shot, liquid)
         _liquid(plotter, shot, liquid & ~lone, scale, field, theme)
         _balls(plotter, shot, lone, scale, field, theme)
@@ -146,6 +147,12 @@ def _lonely(shot: Shot, liquid: np.ndarray) -> np.ndarray:
     found = np.zeros(len(liquid), bool)
     found[np.flatnonzero(liquid)[near < LONELY]] = True
     return found
+
+
+def _affordable(shot: Shot, liquid: np.ndarray) -> bool:
+    """True where the grid for the surface has no more than MOST points; a thin sheet in a wide room has balls."""
+    wide = np.ptp(np.asarray(shot.particles.points)[liquid], axis=0) + 4.0 * shot.spacing
+    return float(np.prod(wide / (FINE * shot.spacing))) <= MOST
 
 
 def surface(shot: Shot, liquid: np.ndarray, field: str):

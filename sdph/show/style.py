@@ -40,6 +40,7 @@ QUANTITIES = {
 }
 PARTS = {"pale": ("magma_r", 0.0, 0.82), "warm": ("inferno", 0.08, 1.0)}  # maps of matplotlib without their black end
 SIGNED = "RdBu_r"  # the map of quantities whose sign matters: white is 0
+AWAY = 0.5  # of the largest: values that are all above it are shown in their own range, others from 0; our choice
 FROM_ZERO = ("velocity", "alpha_p", "vapour_mass_fraction", "theta", "equivalent_stress", "plastic_strain", "damage")
 PREFIXES = {  # unit -> (factor, unit) from large to small: the first that the largest value reaches is taken
     "m": ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm")),
@@ -143,7 +144,7 @@ def _range(quantity: Quantity, field: str, arrays: list) -> tuple[float, float, 
         low, high = least, most
     if quantity.map == SIGNED:
         low, high = -max(abs(low), abs(high)), max(abs(low), abs(high))
-    elif field in FROM_ZERO and least >= 0.0:
+    elif field in FROM_ZERO and 0.0 <= least <= AWAY * high:
         low, high = 0.0, high or 1.0
     if not high > low:
         low, high = low - 0.5 * max(abs(low), 1e-3), high + 0.5 * max(abs(high), 1e-3)

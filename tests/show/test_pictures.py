@@ -61,6 +61,7 @@ def test_one_scale_is_of_grains_and_gas():
         ("pressure", np.linspace(101325.0, 101345.0, 50), "pressure above 101 kPa [Pa]", 325.0, 345.0, "neither"),
         ("diameter", np.linspace(1e-5, 7e-4, 50), "diameter [mm]", 0.01, 0.7, "neither"),
         ("velocity", np.linspace(0.5, 2.0, 50), "speed [m/s]", 0.0, 2.0, "neither"),
+        ("velocity", np.linspace(20.0, 28.0, 50), "speed [m/s]", 20.0, 28.0, "neither"),
         ("vorticity", np.linspace(-1.0, 4.0, 50), "vorticity [1/s]", -4.0, 4.0, "neither"),
         ("pressure", np.append(np.linspace(0.0, 1.0, 999), 500.0), "pressure [Pa]", 0.005, 0.995, "both"),
     ],
@@ -138,6 +139,13 @@ def test_the_surface_in_space_holds_the_liquid_and_has_its_values():
     assert found.volume == pytest.approx(len(ball) * SPACING**3, rel=0.05)
     assert np.linalg.norm(found.points - 0.8, axis=1) == pytest.approx(0.7, abs=0.06)
     assert np.asarray(found["pressure"]) == pytest.approx(found.points[:, 2], abs=0.08)
+
+
+def test_a_thin_sheet_in_a_wide_room_is_drawn_as_balls():
+    """The grid for its surface would not fit into memory."""
+    wide = taken(cloud(np.array([[0.0, 0.0, 0.0], [60.0, 60.0, 20.0]])))
+    assert not space._affordable(wide, np.ones(2, bool))
+    assert space._affordable(taken(cloud(lattice(16, 3))), np.ones(16**3, bool))
 
 
 @pytest.mark.parametrize(("edges", "axes"), [((5, 9, 1), (0, 1)), ((1, 9, 5), (1, 2)), ((5, 9, 8), None)])
