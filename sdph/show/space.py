@@ -221,10 +221,19 @@ def _vessel(plotter, walls, theme) -> None:
     if walls.n_lines or not walls.n_faces:
         plotter.add_mesh(walls, color=theme.wall, line_width=3, lighting=False)
         return
-    plotter.add_mesh(walls, color=theme.wall, opacity=CLEAR, culling="front", smooth_shading=True)
-    edges = walls.extract_feature_edges(40.0)
+    whole = walls.clean()  # facets of an STL share no corners: each edge would be one of the vessel
+    plotter.add_mesh(whole, color=theme.wall, opacity=CLEAR, culling=_near_side(whole), smooth_shading=True)
+    edges = whole.extract_feature_edges(40.0, non_manifold_edges=False)
     if edges.n_cells:
         plotter.add_mesh(edges, color=theme.wall, line_width=2, lighting=False)
+
+
+def _near_side(walls) -> str:
+    """The faces of a vessel that lie between its inside and the eye: "front" where normals point outwards, else
+    "back"."""
+    sized = walls.compute_cell_sizes(length=False, volume=False)
+    along = ((sized.cell_centers().points - np.array(walls.center)) * walls.face_normals).sum(axis=1)
+    return "front" if along @ sized["Area"] > 0.0 else "back"
 
 
 def _arrows(plotter, shot: Shot, theme) -> None:

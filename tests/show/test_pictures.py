@@ -141,6 +141,12 @@ def test_the_surface_in_space_holds_the_liquid_and_has_its_values():
     assert np.asarray(found["pressure"]) == pytest.approx(found.points[:, 2], abs=0.08)
 
 
+def test_the_far_side_of_a_vessel_is_drawn_whatever_its_normals():
+    outwards = pyvista.Cylinder(resolution=20)
+    assert space._near_side(outwards) == "front"
+    assert space._near_side(outwards.flip_faces()) == "back"
+
+
 def test_a_thin_sheet_in_a_wide_room_is_drawn_as_balls():
     """The grid for its surface would not fit into memory."""
     wide = taken(cloud(np.array([[0.0, 0.0, 0.0], [60.0, 60.0, 20.0]])))
