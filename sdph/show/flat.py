@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from sdph.running.metrics import bubble
 from sdph.show import raster, sampled
 from sdph.show.canvas import DPI, Sheet
 from sdph.show.look import Look, coloured, rgb
@@ -11,7 +12,6 @@ from sdph.show.raster import Pixels
 from sdph.show.shot import Shot
 from sdph.show.style import Scale, digits
 
-VOID = 0.15  # alpha_p of the outline of a bubble: as sdph.running.metrics.bubble
 ARROWS = 24  # along the longer side; our choice
 LONG = 1.15  # of their distance: arrows as long as that stand for the fastest
 EDGE = "#a0a0a0c0"  # colour of the line around particles in a gas
@@ -73,7 +73,7 @@ def _outline(sheet: Sheet, shot: Shot, grid: Pixels) -> None:
     if shot.gas is None or "alpha_p" not in shot.gas.cell_data:
         _line(sheet, grid, raster.surface(shot, grid), sampled.INSIDE)
         return
-    _line(sheet, grid, raster.gas(shot, grid, "alpha_p", smooth=True), VOID)
+    _line(sheet, grid, raster.gas(shot, grid, "alpha_p", smooth=True), bubble.VOID)
 
 
 def _walls(sheet: Sheet, shot: Shot) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from sdph.engine.state import LIQUID
+from sdph.running.metrics import bubble
 from sdph.show import eye, sampled
 from sdph.show.canvas import DPI, Sheet
 from sdph.show.eye import Eye
@@ -80,7 +81,7 @@ def fill(plotter, shot: Shot, look: Look, scale: Scale, field: str, view: Eye | 
     if shot.walls is not None:
         _vessel(plotter, shot.walls, theme)
     if shot.gas is not None:
-        _gas(plotter, shot, scale, field, theme, view)
+        _gas(plotter, shot, look, scale, field, view)
     kinds = _kinds(shot)
     liquid = kinds == LIQUID
     if shot.dimensions == 3 and liquid.any() and _affordable(shot, liquid):
@@ -115,14 +116,18 @@ def _cut(shot: Shot, view: Eye | None) -> tuple[int, float]:
     return axis, float(shot.box[2 * axis : 2 * axis + 2].mean())
 
 
-def _gas(plotter, shot: Shot, scale, field: str, theme, view) -> None:
-    if field not in shot.gas.cell_data:
-        return
+def _gas(plotter, shot: Shot, look: Look, scale: Scale, field: str, view: Eye | None) -> None:
+    """The gas on its cut, and the outline of bubbles there."""
     axis, middle = _cut(shot, view)
     origin = np.array(shot.gas.center)
     origin[axis] = middle + 1e-6 * shot.gas.length  # a cut on a face of cells belongs to none of them
     cut = shot.gas.slice("xyz"[axis], origin=origin) if shot.dimensions == 3 else shot.gas
-    _add(plotter, cut, cut.cell_data, field, scale, theme, lighting=False)
+    if field in cut.cell_data:
+        _add(plotter, cut, cut.cell_data, field, scale, look.colours, lighting=False)
+    if look.outline and "alpha_p" in cut.cell_data:
+        line = cut.cell_data_to_point_data().contour([bubble.VOID], scalars="alpha_p")
+        if line.n_points:
+            plotter.add_mesh(line, color=look.colours.ink, line_width=4, lighting=False)
 
 
 def _add(plotter, mesh, data, field: str, scale, theme, **look) -> None:

@@ -242,6 +242,20 @@ def test_an_outline_is_where_a_bubble_ends():
     assert height == pytest.approx(1.0 - 0.25 * (0.5 - 0.15 / 0.6) * 2 / 2, abs=0.07)
 
 
+def test_an_outline_is_drawn_on_the_cut_in_space():
+    gas = pyvista.RectilinearGrid(*[np.linspace(0.0, 1.0, 5)] * 3)
+    gas.cell_data["alpha_p"] = 0.6 * (gas.cell_centers().points[:, 2] < 0.5)
+    own = taken(pyvista.PolyData(), gas)
+    counts = []
+    for outline in (False, True):
+        look = Look(outline=outline)
+        plotter = space.plotter((50, 50), look)
+        space.fill(plotter, own, look, style.scale("alpha_p", own.values("alpha_p")), "alpha_p", eye.on(own))
+        counts.append(len(plotter.actors))
+        plotter.close()
+    assert counts[1] == counts[0] + 1
+
+
 def test_a_picture_of_another_kind_is_refused(tmp_path):
     with pytest.raises(CaseError, match=r"a.jpg: its name must end with .png or .svg or .pdf"):
         view.show(tmp_path, tmp_path / "a.jpg")
