@@ -18,7 +18,7 @@ UNITS = {
     "": 1.0, "s": 1.0, "ms": 1e-3, "us": 1e-6, "m": 1.0, "mm": 1e-3, "um": 1e-6, "K": 1.0, "Pa": 1.0,
     "deg": math.pi / 180.0, "kg_m3": 1.0, "Pa_s": 1.0, "W_m_K": 1.0, "J_kg_K": 1.0, "J_kg": 1.0, "m_s": 1.0,
     "m_s2": 1.0, "m2_s": 1.0, "m2_s2": 1.0, "kg_kmol": 1.0, "kg_s": 1.0, "N_m": 1.0, "Pa_m6_kg2": 1.0, "rad_s": 1.0,
-    "kg": 1.0, "Hz": 1.0, "1_s": 1.0, "W_m2": 1.0,
+    "kg": 1.0, "Hz": 1.0, "1_s": 1.0, "W_m2": 1.0, "V_m": 1.0, "C_m2": 1.0,
 }  # fmt: skip
 SAME_AS = {"ms": "s", "us": "s", "mm": "m", "um": "m"}  # unit -> the one that its bounds stand under
 
@@ -47,6 +47,8 @@ PLAUSIBLE = {
     "N_m": (1e-12, 1e6, "from interfaces at their critical point to a million times water"),
     "W_m_K": (1e-9, 1e9, "from a ten-thousandth of the best insulator to a million times copper"),
     "W_m2": (1e-12, 1e20, "from starlight to a focused laser"),
+    "V_m": (0.0, 1e12, "the field inside an atom"),
+    "C_m2": (0.0, 10.0, "an electron on each atom of a surface"),
     "J_kg": (1e-6, 1e15, "from a fall of a ten-thousandth of a millimetre to nuclear fuel"),
     "J_kg_K": (1e-6, 1e12, "from a metal near 0 K to a bath that nothing warms"),
 }

@@ -27,6 +27,15 @@ NAME = re.compile(r"[\w.+-]+")  # of what a case names: no more than a word of O
 DEPTH = 1.0  # m, of the one cell that a two-dimensional mesh is deep
 
 
+def refuse_path(folder: Path) -> None:
+    """CaseError where OpenFOAM cannot work in a folder."""
+    if set(str(folder.absolute())) & set(REFUSED):
+        raise CaseError(
+            f"{folder.absolute()}: OpenFOAM takes no blanks and quotes in a path; move the run, give another --out, or "
+            "--gas embedded"
+        )
+
+
 def write_case(
     case, template: Path, folder: Path, ranks: int = 1, allow_code: bool = False,
     known: dict[Path, Findings] | None = None,
@@ -35,10 +44,6 @@ def write_case(
 
     `known` keeps what was read of the template, for who reads the copy (see `refuse_code`).
     """
-    if set(str(folder.absolute())) & set(REFUSED):
-        raise CaseError(
-            f"{folder.absolute()}: OpenFOAM takes no blanks and quotes in a path; give another --out, or --gas embedded"
-        )
     if not (template / "system" / "controlDict").exists():
         raise CaseError(
             f"{template} is no OpenFOAM case: it has no system/controlDict; the folder gas of `sdph init disc_cluster "

@@ -62,6 +62,7 @@ class OpenFoamGas:
         self._process, self._connection, self._asking = None, None, False
         self._time, self._clock, self._fields = 0.0, Clock(case.run), ()
         self._allow_code, self._known = allow_code, {}
+        case_files.refuse_path(self._folder)
         if template is None:
             self._refuse_code(Path(folder))
         files.sweep(self._folder)

@@ -144,6 +144,8 @@ def _check_components(case: Case) -> None:
         vectors |= {f"nozzles.{name}.{key}": value for key, value in own.items()}
     if own := case.parameters.get("tank"):
         vectors |= {"tank.lower_m": own.lower, "tank.upper_m": own.upper, "tank.centre_m": own.centre}
+    if own := case.parameters.get("electric_field"):
+        vectors["electric_field.strength_V_m"] = own.strength
     for key, value in vectors.items():
         if value is not None and (len(value) != case.dimensions or any(isinstance(v, tuple) for v in value)):
             raise CaseError(

@@ -14,7 +14,7 @@ from pathlib import Path
 import tomli_w
 
 from sdph import effects, scenes
-from sdph.case import judge, moving
+from sdph.case import fluids, judge, moving
 from sdph.case.check import check
 from sdph.case.sections import GROUPS, SECTIONS, Case, Coupling, Vapour
 from sdph.methods.liquids.sections import GasPhase, Liquid
@@ -140,7 +140,7 @@ def place(table: dict, key: str, told: str) -> tuple[dict, str]:
 
 def from_table(table: dict) -> Case:
     """The case of a parsed TOML table."""
-    table = moving.taken_over(table)
+    table = fluids.filled(moving.taken_over(table))
     head = {"title", "scene", "dimensions", "effects", "coupling", "vapour", "track", *METHODS}
     for key in table:
         if key not in head | SECTIONS.keys() | GROUPS.keys() | effects.REGISTRY.keys():

@@ -72,6 +72,7 @@ class Resolution:
 
 @record
 class GasProperties:
+    fluid: str = words("")  # of CoolProp: fills what is left out (sdph.case.fluids)
     density: float = quantity("kg_m3", above=0.0)
     viscosity: float = quantity("Pa_s", above=0.0)
     conductivity: float = quantity("W_m_K", above=0.0)
@@ -97,6 +98,7 @@ class Vapour:
 class Grains:
     """Grains of one material; each SPH particle carries a log-normal distribution of diameters (by number)."""
 
+    fluid: str = words("")  # of droplets: fills what is left out, of evaporation and vapour too (sdph.case.fluids)
     density: float = quantity("kg_m3", above=0.0)
     diameter: float = quantity("mm", above=0.0)
     heat_capacity: float = quantity("J_kg_K", above=0.0)

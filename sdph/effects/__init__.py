@@ -2,7 +2,7 @@
 
 import dataclasses
 
-from sdph.effects.around import drain, frame, gravity, inflow, outflow, tank, walls
+from sdph.effects.around import drain, electric_field, frame, gravity, inflow, outflow, tank, walls
 from sdph.effects.effect import NO_LIMIT, OFF, Effect, kernel_of
 from sdph.effects.gas import break_up, drag, evaporation, gas_pressure, heat, lift, micro_explosion, radiation
 from sdph.effects.grains import (
@@ -34,6 +34,7 @@ FILES = (
     lift,
     gas_pressure,
     gravity,
+    electric_field,
     granular_pressure,
     friction,
     granular_viscosity,

@@ -23,14 +23,16 @@ AMOUNTS = (
     "vapour_to_gas_kg", "condensation_refused_kg", "latent_heat_J", "capacity_heat_J", "heat_to_surroundings_J",
     "vapour_motion_J", "injected_kg", "injected_J", "injected_motion_J", "left_kg", "left_J", "left_motion_J",
     "work_of_drag_J", "work_of_pressure_J", "work_of_gravity_J", "work_of_walls_J", "work_of_contact_J",
-    "work_of_inflow_J", "agitation_J", "collision_heat_J", "damping_heat_J", "bounds_work_J", "numerical_work_J",
+    "work_of_electric_field_J", "work_of_inflow_J", "agitation_J", "collision_heat_J", "damping_heat_J",
+    "bounds_work_J", "numerical_work_J",
     "contact_way_m", "contact_lift_J", "finished_kg", "impulse_of_gone_kg_m_s", "thrown_kg",
     "torn_droplets", "made_droplets", "broken_kg", "break_up_surface_J", "break_up_agitation_J",
 )  # fmt: skip
 # column -> sign with which it changes the motion and agitation of the particles
 MOTION = {
     "work_of_drag_J": 1, "work_of_pressure_J": 1, "work_of_gravity_J": 1, "work_of_walls_J": 1, "work_of_contact_J": 1,
-    "work_of_inflow_J": 1, "numerical_work_J": 1, "bounds_work_J": 1, "injected_motion_J": 1, "left_motion_J": -1,
+    "work_of_electric_field_J": 1, "work_of_inflow_J": 1, "numerical_work_J": 1, "bounds_work_J": 1,
+    "injected_motion_J": 1, "left_motion_J": -1,
     "vapour_motion_J": -1, "mechanical_heat_J": -1, "collision_heat_J": -1, "damping_heat_J": -1,
     "break_up_agitation_J": 1,
 }  # fmt: skip

@@ -182,3 +182,25 @@ def di_felice(alpha_p, slip, diameter, gas_density, gas_viscosity):
     chi = 3.7 - 0.65 * math.exp(-0.5 * (1.5 - math.log10(x)) ** 2) if x > 0.0 else 3.7
     drag = (0.63 * math.sqrt(x) + 4.8) ** 2  # C_D x
     return 0.75 * drag * gas_viscosity / diameter**2 * alpha_g ** (1.0 - chi)
+
+
+@law
+def beetstra(alpha_p, slip, diameter, gas_density, gas_viscosity):
+    """beta/alpha_p = 18 mu_g alpha_g F/d^2, x = alpha_g Re_p, n = (1 + 4 alpha_p)/2,
+
+    F = 10 alpha_p/alpha_g^2 + alpha_g^2 (1 + 1.5 sqrt(alpha_p))
+        + 0.413 x/(24 alpha_g^2) (1/alpha_g + 3 alpha_p alpha_g + 8.4 x^-0.343)/(1 + 10^(3 alpha_p) x^-n).
+
+    Equal spheres, 0.1 <= alpha_p <= 0.6, x <= 1000: a fit to lattice-Boltzmann simulations, not to lone spheres (over
+    Schiller & Naumann by 16 % at Re_p = 100, 68 % at 1000). Slow and dilute it is Stokes', slow and dense Carman &
+    Kozeny's 180 alpha_p mu_g/(alpha_g d^2), to 0.9 % at alpha_p = 0.6.
+
+    Beetstra, van der Hoef & Kuipers 2007, AIChE J. 53, 489; as beta: the `Beetstra` of OpenFOAM.
+    """
+    alpha_g = 1.0 - alpha_p
+    x = alpha_g * particle_reynolds(slip, diameter, gas_density, gas_viscosity)
+    power = x ** (0.5 + 2.0 * alpha_p)  # both sides of the quotient times it: finite at x = 0
+    crowd = x * (1.0 / alpha_g + 3.0 * alpha_p * alpha_g) + 8.4 * x**0.657
+    inertial = 0.413 / 24.0 * power * crowd / (power + 10.0 ** (3.0 * alpha_p))
+    viscous = 10.0 * alpha_p + alpha_g**4 * (1.0 + 1.5 * math.sqrt(alpha_p))
+    return 18.0 * gas_viscosity * (viscous + inertial) / (alpha_g * diameter**2)

@@ -30,6 +30,15 @@ def saturation_antoine(temperature, p):
     return 10.0 ** (p[0] - p[1] / (p[2] + temperature))
 
 
+def antoine_through(temperatures, pressures):
+    """A, B, C of log10(p/Pa) = A - B/(C + T/K) through three points, T [K] rising, p [Pa]."""
+    (t1, t2, t3), (y1, y2, y3) = temperatures, (math.log10(p) for p in pressures)
+    ratio = (y2 - y1) * (t3 - t2) / ((y3 - y2) * (t2 - t1))
+    c = (t3 - ratio * t1) / (ratio - 1.0)
+    b = (y2 - y1) * (c + t1) * (c + t2) / (t2 - t1)
+    return y1 + b / (c + t1), b, c
+
+
 @law
 def saturation_clausius_clapeyron(temperature, p):
     """p_sat [Pa] = p_0 exp(h W/R (1/T_0 - 1/T)). p = (p_0 [Pa], T_0 [K], latent heat h [J/kg], W [kg/kmol]).

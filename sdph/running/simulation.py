@@ -11,6 +11,7 @@ from coupling.gas import GasError, Unfinished
 from coupling.transfer import Transfer, gather
 from sdph import effects
 from sdph.case import probed
+from sdph.effects.around import electric_field
 from sdph.engine.kept import Unfit
 from sdph.exchange.exchange import Exchange
 from sdph.exchange.window import Window, learned
@@ -253,12 +254,12 @@ class Simulation:
             middle, ahead = (self.transfer.weights(self.grains.places(after)) for after in (0.5 * dt, dt))
         return self.exchange.hand(self.state, middle, (ahead, self.grains.share_inside(dt)), self.gas_state, dt)
 
-    def _body(self, handed) -> tuple[np.ndarray, np.ndarray]:
-        """Gravity (3,) and the gas's pressure gradient (N, 3), held over the window [m/s2]."""
+    def _body(self, handed) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Gravity (3,), the gas's pressure gradient and the electric field (N, 3), held over the window [m/s2]."""
         pressed = np.zeros((len(self.state.x), 3))
         if self.parameters["gas_pressure"]:
             pressed -= gather(handed.weights, self.gas_state.fields["pressure_gradient"]) / self.case.grains.density
-        return self.stepper.gravity, pressed
+        return self.stepper.gravity, pressed, electric_field.acceleration(self.parameters["electric_field"], self.state)
 
     def _timed(self, part: str, function, *arguments):
         start = clock.perf_counter()

@@ -67,6 +67,7 @@ def test_every_effect_is_among_those_asked():
         "xsph",
         "artificial_viscosity",
         "lift",
+        "electric_field",
         "micro_explosion",
         "radiation",
         "break_up",

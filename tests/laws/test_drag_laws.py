@@ -119,3 +119,34 @@ def test_exponent_of_di_felice(x, chi):
     slip = x / alpha_g * AIR[1] / (AIR[0] * d)
     lone = drag.di_felice(0.0, slip * alpha_g, d, *AIR)  # the same superficial Reynolds number
     assert math.log(drag.di_felice(0.4, slip, d, *AIR) / lone, alpha_g) == pytest.approx(1.0 - chi, abs=1e-6)
+
+
+# F of Beetstra et al. 2007 as they write it, alpha_p and alpha_g Re_p, in decimals of 40 digits
+BEETSTRA = {
+    (0.1, 0.0): 2.428784637, (0.1, 0.2): 2.438267483, (0.1, 20.0): 3.926041156, (0.1, 1000.0): 47.74502664,
+    (0.3, 0.0): 7.015025059, (0.3, 0.2): 7.017478898, (0.3, 20.0): 9.763457068, (0.3, 1000.0): 106.5084699,
+    (0.6, 0.0): 37.8459032, (0.6, 0.2): 37.84629638, (0.6, 20.0): 47.49861104, (0.6, 1000.0): 468.4558517,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("alpha_p", "x"), BEETSTRA)
+def test_beetstra_in_its_own_range(alpha_p, x):
+    """The force on a grain is 3 pi mu d alpha_g s F, and there are 6 alpha_p/(pi d^3) of them."""
+    d, alpha_g = 4e-4, 1.0 - alpha_p
+    slip = x / alpha_g * AIR[1] / (AIR[0] * d)
+    expected = 3.0 * math.pi * AIR[1] * d * alpha_g * BEETSTRA[alpha_p, x] * 6.0 / (math.pi * d**3)
+    assert drag.beetstra(alpha_p, slip, d, *AIR) == pytest.approx(expected, rel=1e-9)
+
+
+def test_slow_dense_limit_of_beetstra_is_carman_and_kozenys():
+    alpha_p, d = 0.6, 4e-4
+    carman_kozeny = 180.0 * alpha_p * AIR[1] / ((1.0 - alpha_p) * d**2)
+    assert drag.beetstra(alpha_p, 0.0, d, *AIR) == pytest.approx(1.0092 * carman_kozeny, rel=1e-4)
+
+
+def test_beetstra_is_too_large_for_lone_fast_spheres():
+    """As its docstring says."""
+    for reynolds, ratio in ((100.0, 1.16), (1000.0, 1.68)):
+        slip = reynolds * AIR[1] / (AIR[0] * 1e-3)
+        lone = drag.schiller_naumann(0.0, slip, 1e-3, *AIR)
+        assert drag.beetstra(0.0, slip, 1e-3, *AIR) == pytest.approx(ratio * lone, rel=3e-3)

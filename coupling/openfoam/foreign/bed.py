@@ -61,14 +61,18 @@ def _from_boxes(files: Files, box, dimensions: int, limit: float) -> dict:
 
 def _chosen(box, gravity, notes: list[str]) -> dict:
     """A bed that the case does not tell of."""
-    entries = {"shape": "walls", "volume_fraction": LOOSE}
+    along = int(np.argmax(np.abs(gravity))) if any(gravity) else len(gravity) - 1
+    height = float(f"{QUARTER * (box[1][along] - box[0][along]):.4g}")
     if any(gravity):
-        along = int(np.argmax(np.abs(gravity)))
-        entries["height_m"] = float(f"{QUARTER * (box[1][along] - box[0][along]):.4g}")
+        entries = {"shape": "walls", "height_m": height}
+    else:  # no level without gravity: the lowest part along the last axis
+        upper = np.array(box[1], float)
+        upper[along] = box[0][along] + height
+        entries = {"shape": "box", "lower_m": _rounded(box[0]), "upper_m": _rounded(upper)}
     notes.append(
         "particles.bed: the case tells of no grains at the start; a quarter of the vessel is filled: our choice"
     )
-    return entries
+    return entries | {"volume_fraction": LOOSE}
 
 
 def temperature(files: Files, otherwise: float) -> float:

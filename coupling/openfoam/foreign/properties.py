@@ -16,7 +16,7 @@ AIR = {
 MOLAR_MASS = 28.96  # kg/kmol of dry air, ISO 2533
 GLASS = {"density_kg_m3": 2500.0, "diameter_mm": 0.5, "heat_capacity_J_kg_K": 840.0, "conductivity_W_m_K": 1.0}
 DRAG = {"GidaspowErgunWenYu": "gidaspow_switch", "Ergun": "ergun", "WenYu": "wen_yu", "SyamlalOBrien": "syamlal_obrien",
-        "SchillerNaumann": "schiller_naumann"}  # fmt: skip
+        "SchillerNaumann": "schiller_naumann", "Beetstra": "beetstra"}  # fmt: skip
 STEADY = ("simpleFoam", "rhoSimpleFoam", "potentialFoam", "porousSimpleFoam", "buoyantSimpleFoam")
 BY_TIME = ("runTime", "adjustableRunTime", "adjustable")  # kinds of writeControl that count seconds
 ABSOLUTE = 1e4  # Pa, from which on a pressure is taken for an absolute one; our choice

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import functools
 import math
+import os
 from typing import NamedTuple
 
 import numpy as np
@@ -71,7 +73,7 @@ def shape_of(case):
     if own.shape == "box":
         return _box(case, own)
     if own.shape == "mesh" and d == 3:
-        return shapes.Mesh(own.mesh)
+        return _mesh(case, own.mesh)
     if d == 2 and own.shape != "sphere":
         raise CaseError(f"tank.shape = {own.shape!r} needs dimensions = 3; in 2-D there are box and sphere (a disc)")
     if own.centre is None or own.radius is None or len(own.centre) != d:
@@ -89,6 +91,26 @@ def shape_of(case):
         tank = shapes.Capsule(centre, own.radius, own.length if own.shape == "capsule" else 0.0)
         bottom = centre[2] - own.radius - 0.5 * tank.length
     return _with_outlet(own, tank, bottom, reach)
+
+
+@functools.lru_cache(maxsize=4)
+def _of_file(path: str, changed: float, spacing: float):
+    """The mesh of a file as it is since `changed` [s], and where its walls are too thin for a spacing [m]."""
+    shape = shapes.Mesh(path)
+    return shape, shape.thin(spacing)
+
+
+def _mesh(case, path: str):
+    spacing = case.resolution.spacing
+    changed = os.path.getmtime(path) if os.path.exists(path) else 0.0
+    shape, thin = _of_file(path, changed, spacing)
+    if len(thin):
+        where = ", ".join(f"{x:.4g}" for x in thin[0])
+        raise CaseError(
+            f"tank.mesh: the wall at ({where}) m is thinner than two spacings, {2e3 * spacing:g} mm, which hold liquid "
+            "on both of its sides; lower resolution.spacing_mm or make the wall thicker"
+        )
+    return shape
 
 
 def _with_outlet(own, tank, bottom: float, reach: float):

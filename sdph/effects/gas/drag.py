@@ -21,6 +21,7 @@ LAWS = (
     "gidaspow_switch",
     "syamlal_obrien",
     "di_felice",
+    "beetstra",
     "schiller_naumann",
     "putnam",
     "stokes",
@@ -63,8 +64,10 @@ def coefficient(p, alpha_p, slip, d, gas_density):
     if p.law == 6:
         return law.di_felice(alpha_p, slip, d, gas_density, mu)
     if p.law == 7:
-        return law.schiller_naumann(alpha_p, slip, d, gas_density, mu)
+        return law.beetstra(alpha_p, slip, d, gas_density, mu)
     if p.law == 8:
+        return law.schiller_naumann(alpha_p, slip, d, gas_density, mu)
+    if p.law == 9:
         return law.putnam(alpha_p, slip, d, gas_density, mu)
     return law.stokes(alpha_p, slip, d, gas_density, mu)
 

@@ -16,11 +16,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from sdph.engine.surface import read
-from sdph.engine.walls import surface_points
+from sdph.engine.walls import facets, surface_points
 from sdph.engine.walls.surface_points import arc, disc, line, rings
 from sdph.schema import CaseError
 
 UP = (0.0, 0.0, 1.0)  # axis of a round tank in space
+# cosine of facets that look away from each other, by 120 degrees or more; share of a spacing that STL rounds off: our
+# choice
+OPPOSITE, ROUND_OFF = -0.5, 1e-3
 
 
 @dataclass(frozen=True)
@@ -217,6 +220,16 @@ class Mesh:
         """Points moved to where they are `depth` outside."""
         _, closest = self.triangles.find_closest_cell(points, return_closest_point=True)
         return closest + (points - closest) * (depth / self.distance(points))[:, None]
+
+    def thin(self, spacing):
+        """Places (P, 3) [m] of the surface behind which it comes back within two spacings: a plate between two rooms is
+        too thin there for wall particles half a spacing behind each of its faces, a spacing apart."""
+        places, facing = facets.spread(self.triangles.points[self.triangles.regular_faces], spacing)
+        behind = places + spacing * facing
+        cells, closest = self.triangles.find_closest_cell(behind, return_closest_point=True)
+        near = np.linalg.norm(behind - closest, axis=1) < (1.0 - ROUND_OFF) * spacing
+        opposite = np.einsum("ij,ij->i", self.triangles.face_normals[cells], facing) < OPPOSITE
+        return places[near & opposite]
 
     def surface(self):
         return self.triangles

@@ -24,7 +24,7 @@ class Guard(Watch):
     def __init__(self, case):
         super().__init__(case)
         scales = scales_of(case)
-        drop = math.sqrt(2.0 * scales.gravity * max(case.domain.size))
+        drop = math.sqrt(2.0 * (scales.gravity + math.hypot(*scales.field)) * max(case.domain.size))
         pressures = [b.pressure for b in case.boundaries.values() if b.pressure is not None]
         self.pressure = max(map(abs, pressures), default=0.0)
         blown = math.sqrt(2.0 * (max(pressures, default=0.0) - min(pressures, default=0.0)) / case.gas.density)

@@ -10,6 +10,8 @@ import dataclasses
 import math
 from functools import cached_property
 
+import numpy as np
+
 from sdph import effects
 from sdph.effects.around.streams import Patch
 from sdph.laws import drag, exact, granular, heat
@@ -34,6 +36,8 @@ class Scales:
             patch for own in case.parameters.values() if hasattr(own, "patches") for patch in own.patches(case)
         ]
         self.gravity = math.hypot(*case.domain.gravity)
+        own = case.parameters.get("electric_field")
+        self.field = own.acceleration(case.grains) if own else np.zeros(case.dimensions)  # of grains in it [m/s2]
 
     @cached_property
     def alpha_p(self) -> float:
@@ -59,9 +63,14 @@ class Scales:
         return max((math.hypot(*patch.velocity) for patch in self.patches), default=0.0)
 
     @cached_property
+    def weight(self) -> np.ndarray:
+        """Acceleration (d,) [m/s2] of a lone grain by its weight less that of the gas, and by an electric field."""
+        return np.array(self.case.domain.gravity) * max(0.0, 1.0 - self.gas.density / self.grains.density) + self.field
+
+    @cached_property
     def falling(self) -> float:
         """Speed [m/s] at which a lone grain settles, by the gas's drag; within the run."""
-        weight = self.gravity * max(0.0, 1.0 - self.gas.density / self.grains.density)
+        weight = math.hypot(*self.weight)
         slip = weight * self.end
         for _ in range(50):  # fixed point, damped: drag grows with slip
             slip = 0.5 * (slip + weight / max(self._damping(0.0, slip), weight / max(slip, 1e-300)))
@@ -178,7 +187,7 @@ class Scales:
         onset = (
             self.case.parameters["friction"].onset if "friction" in self.case.parameters else self.grains.packing_limit
         )
-        packed = self.alpha_p >= SETTLED * onset and not self.thrown and self.gravity > 0.0
+        packed = self.alpha_p >= SETTLED * onset and not self.thrown and self.weight @ self.case.domain.gravity > 0.0
         return packed and self.jet < self.minimum_fluidisation and ways.lie(self.case, self.patches)
 
     @cached_property

@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
+import math
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from sdph.engine import regions
-from sdph.engine.state import State, axes, born, empty, join
+from sdph.engine.state import State, axes, born, empty, join, positions
 from sdph.engine.walls.sides import LAYERS
 from sdph.schema import CaseError
+
+# particles of two regions that may be near where they touch: this share, and so many (a disc on a box); our choice
+FEW, TOUCHING = 0.01, 4
+SAME = 1e-9  # of a spacing: round-off
 
 
 def fill(case, names, notices=None) -> State:
@@ -18,11 +25,33 @@ def fill(case, names, notices=None) -> State:
     `notices`, a list, gets a line for each region of which something is behind walls."""
     notices = [] if notices is None else notices
     parts = [_region(case, name, region, names, notices) for name, region in case.particles.items()]
+    _refuse_overlap(case, parts)
     state = parts[0] if parts else empty(0, names, case.dimensions)
     for part in parts[1:]:
         state = join(state, part)
     state.ident[:] = np.arange(1, len(state.ident) + 1)
     return state
+
+
+def _refuse_overlap(case, parts) -> None:
+    """CaseError where grains of two regions stand among each other, denser than they can be packed."""
+    spacing, limit = case.resolution.spacing, case.grains.packing_limit
+    near = 0.5 * math.sqrt(case.dimensions) * spacing  # from the middle of a cell of a lattice to its corners
+    rows = [
+        (name, region, positions(part)[:, : case.dimensions])
+        for (name, region), part in zip(case.particles.items(), parts)
+    ]
+    for (name, region, own), (other, beside, theirs) in itertools.combinations(rows, 2):
+        dense = region.volume_fraction + beside.volume_fraction
+        if dense <= limit:
+            continue
+        among = theirs[np.isfinite(cKDTree(own).query(theirs, distance_upper_bound=(1.0 + SAME) * near)[0])]
+        if len(among) > FEW * min(len(own), len(theirs)) + TOUCHING:
+            place = ", ".join(f"{a:.4g}" for a in among[0])
+            raise CaseError(
+                f"particles.{name} and particles.{other} overlap: {len(among)} particles stand in both, the first at "
+                f"({place}) m, where alpha_p would be {dense:.3g} of at most {limit:g}; move or shrink one"
+            )
 
 
 def mesh_of_walls(case) -> str:
@@ -84,7 +113,9 @@ def _reached(case, where: str, region, points, walls: str, each: float, notices)
     spacing, there = case.resolution.spacing, len(points)
     points = regions.disordered(points, region.disorder, region.seed, spacing)
     if walls:
-        points = points[regions.in_front(points, walls, spacing, LAYERS)]
+        # what is behind walls of the gas's own mesh is in none of its cells, however far
+        deep = math.inf if case.parameters["walls"].source == "gas" else LAYERS
+        points = points[regions.in_front(points, walls, spacing, deep)]
         if region.shape != "walls" and len(points) < there:
             notices.append(f"{where}: {there - len(points)} of {there} particles would stand in walls and are left out")
     if not len(points):

@@ -81,7 +81,7 @@ def towards(s, patch, axis: int, outward: float) -> float:
     thrown = outward * patch.velocity[axis] * s.coasting
     alone = -s.drag_time * math.expm1(-s.end / s.drag_time)
     spread = math.hypot(*patch.velocity) * math.sin(patch.half_angle) * alone if not patch.velocity[axis] else 0.0
-    fallen = s.falling * s.end if outward * s.case.domain.gravity[axis] > 0.0 else 0.0
+    fallen = s.falling * s.end if outward * s.weight[axis] > 0.0 else 0.0
     return max(0.0, thrown + spread + fallen + s.blown * s.end * _blows(s.case, axis, outward))
 
 

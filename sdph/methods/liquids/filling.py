@@ -158,9 +158,8 @@ def fill(case, pool: Filled) -> np.ndarray:
         wet = np.concatenate([wet, _deepest(outside, _buffer(shape, slab, spacing / FINER), spacing, len(slab.up))])
     lid = (shape.distance(points) <= SAME * spacing) & (from_slab > 0.0) & (from_slab < reach)
     walls = shapes.wall_points(shape, spacing, tank.layers(case))
-    return packing.pack(
-        case, points[wet], walls, points[lid], slab._replace(low=slab.low + 0.5 * layer, high=slab.high - 0.5 * layer)
-    )
+    between = slab._replace(low=slab.low + 0.5 * layer, high=slab.high - 0.5 * layer)
+    return packing.pack(case, points[wet], walls, points[lid], between, shape)
 
 
 def lattice(shape, inside, slab: Slab, spacing: float, reach: float) -> tuple[np.ndarray, float]:

@@ -22,17 +22,28 @@ from sdph.engine.geometry import FAST, apart
 from sdph.engine.rows import Neighbours, entry, length
 from sdph.engine.state import LIQUID, WALL
 
+RETURNS = 8  # rounds at most after which none is put back into its tank any more; our choice: one does as a rule
+PROBE = 1e-3  # of a spacing, between the distances that a way back is the slope of; our choice
 
-def pack(case, points, walls, lid, slab) -> np.ndarray:
-    """(N, d) where `points` (N, d) come to lie within a slab, among walls and a lid of more of the same, which stand
-    still."""
+
+def pack(case, points, walls, lid, slab, shape) -> np.ndarray:
+    """(N, d) where `points` (N, d) come to lie within a slab of a tank's `shape`, among walls and a lid of more of the
+    same, which stand still. Those that got out of it, through walls that meet at a sharp edge, are put back and go
+    on."""
     kernel = smoothing.smoothing(case.liquid.kernel, case.dimensions, case.smoothing_length)
     period = [
         length * bool(on) for length, on in zip(case.domain.size, case.liquid.periodic or (0.0,) * case.dimensions)
     ]
     neighbours = Neighbours(2.0 * kernel.h, period, case.resolution.neighbour_skin)
     state, dt, near = _state(case, points, walls, lid), case.liquid.courant * kernel.h, 1.0 / tank.kernel(case).near
-    for _ in range(math.ceil(np.ptp(points, axis=0).max() / dt)):
+    rounds = math.ceil(np.ptp(points, axis=0).max() / dt)
+    for number in range(rounds + RETURNS):
+        if number >= rounds:
+            own = np.flatnonzero(state.kind == LIQUID)
+            way = _back(shape, _places(state)[own], case.resolution.spacing)
+            if not way.any():
+                break
+            _move(state, own, way)
         state, rows = neighbours.update(state)
         active = np.flatnonzero(state.kind == LIQUID).astype(np.int32)
         acceleration, way = np.zeros((2, len(state.x), 3))
@@ -41,7 +52,8 @@ def pack(case, points, walls, lid, slab) -> np.ndarray:
         _move(state, active, slab.back(_places(state)[active]))
         clear(state, rows, neighbours.box, active, near, way)
         _move(state, active, way[active])
-    return _places(state)[np.argsort(state.ident)[: len(points)]]
+    places = _places(state)[np.argsort(state.ident)[: len(points)]]
+    return places + _back(shape, places, case.resolution.spacing)
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
@@ -78,6 +90,18 @@ def clear(s, rows, box, active, near, way):
                 py += share * dy
                 pz += share * dz
         way[i, 0], way[i, 1], way[i, 2] = px, py, pz
+
+
+def _back(shape, places, spacing: float) -> np.ndarray:
+    """(N, d) [m] from places (N, d) out of a shape to half a spacing within it, 0 of those inside."""
+    way, distance = np.zeros_like(places), shape.distance(places)
+    out = np.flatnonzero(distance > 0.0)
+    if len(out):
+        steps = PROBE * spacing * np.eye(places.shape[1])
+        slope = np.stack([shape.distance(places[out] + e) - shape.distance(places[out] - e) for e in steps], axis=1)
+        slope /= np.linalg.norm(slope, axis=1, keepdims=True)
+        way[out] = -(distance[out] + 0.5 * spacing)[:, None] * slope
+    return way
 
 
 def _state(case, points, walls, lid) -> particles.State:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from sdph.engine.kernels import NAMES
-from sdph.schema import choice, quantity, record, vector
+from sdph.schema import choice, quantity, record, vector, words
 
 
 @record
 class Liquid:
     """A weakly compressible liquid, p = rho_0 c^2/gamma [(rho/rho_0)^gamma - 1] + background."""
 
+    fluid: str = words("")  # of CoolProp: fills density and viscosity where they are left out (sdph.case.fluids)
+    fluid_temperature: float = quantity("K", 293.15, above=0.0)  # that they are taken at: ISO 1
     density: float = quantity("kg_m3", above=0.0)
     viscosity: float = quantity("Pa_s", 0.0, least=0.0)
     # ten times the fastest speed or more: liquids.md, shared core; `mps` needs none
@@ -38,6 +40,8 @@ class GasPhase:
     a sum over neighbours, of both phases, where the two fill a closed space.
     """
 
+    fluid: str = words("")  # of CoolProp: fills density and viscosity where they are left out (sdph.case.fluids)
+    fluid_temperature: float = quantity("K", 293.15, above=0.0)  # that they are taken at: ISO 1
     density: float = quantity("kg_m3", above=0.0)
     viscosity: float = quantity("Pa_s", 0.0, least=0.0)
     sound_speed: float | None = quantity("m_s", None, above=0.0)  # None: that of the liquid (Rezavand, Zhang & Hu 2020)

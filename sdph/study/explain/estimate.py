@@ -50,6 +50,8 @@ ADDED_MASS_WHY = (
     "the gas that light grains push aside swings them by its pressure gradient, each window further than the one "
     "before, however short; make the grains heavier, or leave out gas_pressure"
 )
+OWN_FIELD = 0.1  # our choice: of a force that is left out
+OWN_FIELD_WHY = "charged grains drive each other apart, which is left out; charge or number of them must be less"
 MEASURED = environment.CACHE / "speed.json"  # of this machine, by `sdph explain --measure`
 
 
@@ -109,6 +111,9 @@ def ratios(case) -> list[dict]:
         ("grains' width / h", extent / h, 6.0, math.inf, "less than three kernels across is all rim"),
         ("domain / cell", min(case.domain.size) / cell, 10.0, math.inf, "coarser gas shows no flow"),
     ]
+    if "electric_field" in case.effects:
+        own = case.parameters["electric_field"].own_field(case.grains, scales_of(case).alpha_p, extent)
+        rows.append(("own field / given field", own, 0.0, OWN_FIELD, OWN_FIELD_WHY))
     if "gas_pressure" in case.effects and not case.coupling.one_way:
         rows.append(("gas pushed aside / packed grains", pushed_aside(case), 0.0, ADDED_MASS, ADDED_MASS_WHY))
         if height := blown_height(case):

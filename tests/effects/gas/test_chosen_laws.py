@@ -3,6 +3,7 @@ last."""
 
 import pytest
 
+from coupling.openfoam.foreign import properties
 from sdph.effects.gas import drag, heat, lift
 from sdph.laws import drag as drag_laws
 from sdph.laws import heat as heat_laws
@@ -25,3 +26,7 @@ def test_heat(name):
 def test_lift(name):
     p = lift.LiftP(lift.LAWS.index(name), 1.8e-5, 2500.0)
     assert lift.coefficient(p, 0.3, 200.0, 4e-4, 1.2) == getattr(lift_laws, name)(0.3, 200.0, 4e-4, 1.2, 1.8e-5)
+
+
+def test_laws_of_openfoam_are_those_of_a_case():
+    assert set(properties.DRAG.values()) < set(drag.LAWS) and properties.DRAG["Beetstra"] == "beetstra"

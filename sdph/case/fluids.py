@@ -1,0 +1,185 @@
+"""Properties of real fluids: `fluid = "..."` in [gas], [grains] (droplets), [liquid] or [gas_phase] fills what a case
+leaves out, from CoolProp (Bell et al. 2014, Ind. Eng. Chem. Res. 53, 2498, and the sources that it names).
+
+They are constants of a run, each at one temperature and at `gas.operating_pressure_Pa`: of the gas at its own; of
+droplets at the mean of those that regions and nozzles give them; of their vapour, and of its diffusivity in the gas
+(Fuller), at that of the film, T_p + (T_g - T_p)/3 (the 1/3 rule: Hubbard, Denny & Mills 1975, Int. J. Heat Mass
+Transfer 18, 1003), all but without pressure; of [liquid] and [gas_phase] at `fluid_temperature_K`. Saturation is
+Antoine's through three points from the droplets' temperature to boiling. What a case gives itself stands; the resolved
+case has every number.
+"""
+
+from __future__ import annotations
+
+import re
+from statistics import fmean
+
+from sdph.laws import diffusion
+from sdph.laws.evaporation import antoine_through
+from sdph.schema import CaseError, unknown
+
+AROMATIC = ("Benzene", "Toluene", "EthylBenzene", "m-Xylene", "o-Xylene", "p-Xylene")
+ATMOSPHERE, ROOM = 101325.0, 293.15  # Pa, K: ISO 2533; ISO 1
+THIN = 1.0  # Pa, at which a vapour is an ideal gas; our choice
+HOW = "give the numbers in their place, or another fluid"
+# key of a section -> what CoolProp calls it
+OF_GAS = {"density_kg_m3": "D", "viscosity_Pa_s": "V", "conductivity_W_m_K": "L", "heat_capacity_J_kg_K": "C"}
+OF_DROPLETS = {key: OF_GAS[key] for key in ("density_kg_m3", "heat_capacity_J_kg_K", "conductivity_W_m_K")}
+OF_VAPOUR = {key: OF_GAS[key] for key in ("heat_capacity_J_kg_K", "conductivity_W_m_K", "viscosity_Pa_s")}
+OF_PHASES = {key: OF_GAS[key] for key in ("density_kg_m3", "viscosity_Pa_s")}
+MOLAR_MASS, TENSION, DIFFUSIVITY = "molar_mass_kg_kmol", "surface_tension_N_m", "diffusivity_m2_s"
+# section with a fluid -> sections and the keys that it fills there, where the case has that effect
+FILLS = {
+    "gas": {"gas": (*OF_GAS, MOLAR_MASS)},
+    "grains": {
+        "grains": (*OF_DROPLETS, TENSION),
+        "evaporation": ("latent_heat_J_kg", "saturation"),
+        "vapour": (*OF_VAPOUR, MOLAR_MASS, DIFFUSIVITY),
+    },
+    "liquid": {"liquid": tuple(OF_PHASES), "surface_tension": ("coefficient_N_m",)},
+    "gas_phase": {"gas_phase": tuple(OF_PHASES)},
+}  # fmt: skip
+
+
+class Fluid:
+    """A pure fluid, or air, by the name in a case."""
+
+    def __init__(self, name: str, where: str):
+        try:
+            import CoolProp.CoolProp as library
+        except ImportError:
+            raise CaseError(f"{where}.fluid = {name!r} needs CoolProp: pip install 'sdph[fluids]', or {HOW}") from None
+        self.library, self.where = library, where
+        try:
+            self.name = library.get_fluid_param_string(name, "name")
+        except (ValueError, RuntimeError):
+            known = library.FluidsList()
+            raise CaseError(f"{where}.fluid: {unknown(name, known).replace('unknown key', 'no fluid', 1)}") from None
+        self.molar_mass = 1e3 * library.PropsSI("M", self.name)  # kg/kmol
+
+    def at(self, what: str, **state: float) -> float:
+        """A property [SI] at T [K] and P [Pa], or on the line of boiling at one of them and Q = 0 or 1."""
+        low, high = (self.library.PropsSI(end, self.name) for end in ("Tmin", "Tmax"))
+        if not low <= state.get("T", low) <= high:
+            raise CaseError(
+                f"{self.where}.fluid: {self.name} at {state['T']:g} K; known from {low:g} to {high:g} K; {HOW}"
+            )
+        pairs = [part for pair in state.items() for part in pair]
+        try:
+            return float(self.library.PropsSI(what, *pairs, self.name))
+        except ValueError as error:
+            told = " ".join(f"{key} = {value:g}" for key, value in state.items())
+            raise CaseError(f"{self.where}.fluid: {self.name} has no {what} at {told} ({error}); {HOW}") from None
+
+    def latent_heat(self, temperature: float) -> float:
+        """J/kg, of boiling at a temperature [K]."""
+        return self.at("H", T=temperature, Q=1.0) - self.at("H", T=temperature, Q=0.0)
+
+    def diffusion_volume(self) -> float:
+        """cm3/mol, of Fuller's law."""
+        if self.name in diffusion.MOLECULES:
+            return diffusion.MOLECULES[self.name]
+        atoms = re.findall(r"([A-Z][a-z]?)_\{(\d+)\}", self.library.get_fluid_param_string(self.name, "formula"))
+        strange = [atom for atom, _ in atoms if atom not in diffusion.ATOMS]
+        if strange or not atoms:
+            raise CaseError(f"{self.where}.fluid: {self.name} has no diffusion volume; give vapour.diffusivity_m2_s")
+        ring = diffusion.RING if self.name in AROMATIC else 0.0
+        return sum(diffusion.ATOMS[atom] * int(number) for atom, number in atoms) - ring
+
+
+def filled(table: dict) -> dict:
+    """The table of a case with the numbers of its fluids; the same one where it names none."""
+    for name, fill in (("gas", _gas), ("grains", _droplets), ("liquid", _phase), ("gas_phase", _phase)):
+        given = table.get(name)
+        if isinstance(given, dict) and isinstance(given.get("fluid"), str) and given["fluid"] and _lacks(table, name):
+            table = fill(table, name, Fluid(given["fluid"], name))
+    return table
+
+
+def _lacks(table: dict, name: str) -> bool:
+    """Whether a key is missing that a fluid fills: a resolved case needs no library."""
+    on = {"vapour": "evaporation"}  # section -> effect that asks for it
+    return any(
+        key not in table.get(section, {})
+        for section, keys in FILLS[name].items()
+        if section == name or on.get(section, section) in table.get("effects", ())
+        for key in keys
+    )
+
+
+def _with(table: dict, section: str, numbers: dict) -> dict:
+    return table | {section: numbers | table.get(section, {})}
+
+
+def _gas(table: dict, name: str, fluid: Fluid) -> dict:
+    state = {"T": _number(table[name], "temperature_K", name), "P": _pressure(table)}
+    numbers = {key: fluid.at(what, **state) for key, what in OF_GAS.items() if key not in table[name]}
+    return _with(table, name, numbers | {MOLAR_MASS: fluid.molar_mass})
+
+
+def _phase(table: dict, name: str, fluid: Fluid) -> dict:
+    own = table[name]
+    state = {"T": _number({"fluid_temperature_K": ROOM} | own, "fluid_temperature_K", name), "P": _pressure(table)}
+    table = _with(table, name, {key: fluid.at(what, **state) for key, what in OF_PHASES.items() if key not in own})
+    if name == "liquid" and "surface_tension" in table.get("effects", ()):
+        tension = {"coefficient_N_m": fluid.at("I", T=state["T"], Q=0.0)}
+        return _with(table, "surface_tension", {} if "coefficient_N_m" in table.get("surface_tension", {}) else tension)
+    return table
+
+
+def _droplets(table: dict, name: str, fluid: Fluid) -> dict:
+    cold, pressure = _of_droplets(table), _pressure(table)
+    boiling = fluid.at("T", P=pressure, Q=0.0)
+    if cold >= boiling:
+        raise CaseError(
+            f"{name}.fluid: droplets of {cold:g} K, but {fluid.name} boils at {boiling:g} K; make them colder"
+        )
+    own = table[name]
+    numbers = {key: fluid.at(what, T=cold, P=pressure) for key, what in OF_DROPLETS.items() if key not in own}
+    table = _with(table, name, numbers | {TENSION: fluid.at("I", T=cold, Q=0.0)})
+    if "evaporation" not in table.get("effects", ()):
+        return table
+    own = table.get("evaporation", {})
+    numbers = {} if "latent_heat_J_kg" in own else {"latent_heat_J_kg": fluid.latent_heat(cold)}
+    if "saturation" not in own:
+        points = cold, 0.5 * (cold + boiling), boiling
+        pressures = [fluid.at("P", T=point, Q=0.0) for point in points]
+        numbers |= {"saturation": "antoine", "antoine": list(antoine_through(points, pressures))}
+    return _vapour(_with(table, "evaporation", numbers), fluid, cold, pressure)
+
+
+def _vapour(table: dict, fluid: Fluid, cold: float, pressure: float) -> dict:
+    """The same with the vapour of its droplets, at the temperature of the film."""
+    own, gas = table.get("vapour", {}), table.get("gas", {})
+    film = cold + (_number(gas, "temperature_K", "gas") - cold) / 3.0
+    numbers = {key: fluid.at(what, T=film, P=THIN) for key, what in OF_VAPOUR.items() if key not in own}
+    if DIFFUSIVITY not in own:
+        around = Fluid(gas.get("fluid") or "Air", "gas")
+        masses = fluid.molar_mass, gas.get(MOLAR_MASS, around.molar_mass)
+        volumes = fluid.diffusion_volume(), around.diffusion_volume()
+        numbers[DIFFUSIVITY] = diffusion.fuller(film, pressure, masses, volumes)
+    return _with(table, "vapour", numbers | {MOLAR_MASS: fluid.molar_mass})
+
+
+def _of_droplets(table: dict) -> float:
+    """Mean temperature [K] that regions and nozzles give droplets."""
+    given = [
+        entry["temperature_K"]
+        for group in ("particles", "nozzles")
+        for entry in table.get(group, {}).values()
+        if isinstance(entry, dict) and "temperature_K" in entry
+    ]
+    if not given:
+        raise CaseError("grains.fluid: no region or nozzle gives temperature_K, at which its numbers are taken; add it")
+    return fmean(_number({"temperature_K": value}, "temperature_K", "particles") for value in given)
+
+
+def _pressure(table: dict) -> float:
+    return _number({"operating_pressure_Pa": ATMOSPHERE} | table.get("gas", {}), "operating_pressure_Pa", "gas")
+
+
+def _number(section: dict, key: str, where: str) -> float:
+    value = section.get(key)
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise CaseError(f"{where}.{key} = {value!r}; the numbers of a fluid are taken there: give a number")
+    return float(value)

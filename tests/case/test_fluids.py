@@ -1,0 +1,109 @@
+"""Cases that name real fluids: numbers against tables of others, what a case gives itself, what cannot be."""
+
+import sys
+import tomllib
+
+import pytest
+
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.laws import diffusion
+from sdph.laws.evaporation import saturation_antoine
+from sdph.schema import CaseError
+
+NAMED = {"grains": {"fluid": "water", "diameter_mm": 1.0}, "gas": {"fluid": "air", "temperature_K": 300.0}}
+
+
+def table(scene="single_droplet", **sections) -> dict:
+    given = tomllib.loads(scenes.find(scene)[1].read_text(encoding="utf-8"))
+    return given | sections
+
+
+def droplet(**more) -> dict:
+    """Water droplets of 293.15 K in air of 300 K, without a number of either."""
+    given = table(evaporation={"law": "spalding"}, **NAMED | more)
+    given["particles"]["droplet"]["temperature_K"] = 293.15
+    del given["vapour"]
+    return given
+
+
+def test_air_and_water_are_as_in_tables():
+    """Air: Incropera et al. 2007, table A.4 (1 %). Water: IAPWS 1995, 2008, Wagner & Pruss 2002 (0.5 %)."""
+    case = cases.from_table(droplet())
+    air, water, boils = case.gas, case.grains, case.parameters["evaporation"]
+    assert [air.density, air.viscosity, air.conductivity, air.heat_capacity] == pytest.approx(
+        [1.1614 * 101325 / 1e5, 1.846e-5, 0.0263, 1007.0], rel=0.01
+    )
+    assert [water.density, water.heat_capacity, water.conductivity, water.surface_tension] == pytest.approx(
+        [998.21, 4184.0, 0.5985, 0.07274], rel=0.005
+    )
+    assert boils.latent_heat == pytest.approx(2.4536e6, rel=0.005)
+    for temperature, pressure in ((293.15, 2339.3), (313.15, 7384.9), (333.15, 19946.0), (373.124, 101325.0)):
+        assert saturation_antoine(temperature, boils.antoine) == pytest.approx(pressure, rel=0.005)
+
+
+def test_vapour_is_that_of_the_film():
+    """Water vapour of 295.43 K: heat capacity of an ideal gas (Wagner & Pruss 2002), diffusivity of Massman 1998."""
+    vapour = cases.from_table(droplet()).vapour
+    assert vapour.molar_mass == pytest.approx(18.015, rel=1e-4)
+    assert vapour.heat_capacity == pytest.approx(1865.0, rel=0.005)
+    assert vapour.diffusivity == pytest.approx(2.178e-5 * (295.433 / 273.15) ** 1.81, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("atoms", "molar_mass", "measured"),
+    [
+        ({"C": 2, "H": 6, "O": 1}, 46.07, 0.1181e-4),
+        ({"C": 6, "H": 14}, 86.18, 0.0732e-4),
+        ({"C": 7, "H": 16}, 100.2, 0.0671e-4),
+    ],
+)
+def test_vapours_diffuse_in_air_as_measured(atoms, molar_mass, measured):
+    """Lugg 1968, Anal. Chem. 40, 1072, at 298 K; Fuller's formula is good to some 5 %."""
+    volume = sum(diffusion.ATOMS[atom] * number for atom, number in atoms.items())
+    found = diffusion.fuller(298.15, 101325.0, (molar_mass, 28.96), (volume, diffusion.MOLECULES["Air"]))
+    assert found == pytest.approx(measured, rel=0.08)
+
+
+def test_what_a_case_gives_stands_and_the_resolved_case_has_all():
+    own = droplet()
+    own["grains"]["density_kg_m3"] = 900.0
+    own["vapour"] = {"diffusivity_m2_s": 3e-5}
+    case = cases.from_table(own)
+    assert (case.grains.density, case.vapour.diffusivity) == (900.0, 3e-5)
+    assert cases.from_table(cases.to_table(case)) == case
+
+
+def test_a_resolved_case_needs_no_library(monkeypatch):
+    resolved = cases.to_table(cases.from_table(droplet()))
+    monkeypatch.setitem(sys.modules, "CoolProp.CoolProp", None)
+    cases.from_table(resolved)
+    with pytest.raises(CaseError, match="needs CoolProp"):
+        cases.from_table(droplet())
+
+
+def test_a_liquid_takes_density_viscosity_and_tension():
+    own = table("oscillating_droplet")
+    for section, keys in (("liquid", ("density_kg_m3", "viscosity_Pa_s")), ("surface_tension", ("coefficient_N_m",))):
+        for key in keys:
+            own[section].pop(key, None)
+    own["liquid"] |= {"fluid": "Water", "fluid_temperature_K": 298.15}
+    case = cases.from_table(own)
+    assert case.liquid.density == pytest.approx(997.05, rel=1e-3)
+    assert case.liquid.viscosity == pytest.approx(8.9e-4, rel=0.01)
+    assert case.parameters["surface_tension"].coefficient == pytest.approx(0.07198, rel=0.005)
+
+
+@pytest.mark.parametrize(
+    ("sections", "said"),
+    [
+        ({"gas": {"fluid": "aire", "temperature_K": 300.0}}, "gas.fluid: no fluid aire; did you mean"),
+        ({"gas": {"fluid": "air"}}, "gas.temperature_K = None"),
+        ({"gas": {"fluid": "air", "temperature_K": 1e5}}, "Air at 100000 K; known from"),
+        ({"grains": {"fluid": "propane", "diameter_mm": 1.0}}, "boils at 231.*; make them colder"),
+    ],
+)
+def test_what_cannot_be_is_said_in_one_line(sections, said):
+    with pytest.raises(CaseError, match=said) as error:
+        cases.from_table(droplet(**sections))
+    assert "\n" not in str(error.value)
