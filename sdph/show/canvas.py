@@ -9,7 +9,8 @@ import numpy as np
 from sdph.show import style
 from sdph.show.style import Scale, Theme
 
-LONGEST, LEAST = 7.0, 2.6  # inches of the longer side of what is shown, and of the shorter one at least
+LONGEST, LEAST = 7.0, 0.35  # inches of the longer side of what is shown, and of the shorter one at least
+NARROWEST = 4.2  # inches of the whole sheet: a slender column has a title all the same
 LEFT, RIGHT, BELOW, ABOVE = 0.75, 1.25, 0.6, 0.62  # inches around it
 LETTER = 0.078  # inches that a letter of the title takes
 DPI = 150
@@ -29,7 +30,7 @@ class Sheet:
         own = np.maximum([wide * scale, high * scale], LEAST)
         right = RIGHT if bar and not self.flat else 0.3
         below = BELOW + (0.75 if bar and self.flat else 0.0)
-        size = np.array([LEFT + own[0] + right, below + own[1] + ABOVE])
+        size = np.array([max(NARROWEST, LEFT + own[0] + right), below + own[1] + ABOVE])
         size = np.round(size * DPI / 2.0) * 2.0 / DPI  # even numbers of pixels: movies want them
         self.size, self.own, self.corner = size, own, np.array([LEFT, below])
         self.figure = figure.Figure(figsize=tuple(size), dpi=DPI, facecolor=theme.paper)
@@ -43,10 +44,10 @@ class Sheet:
     def head(self, title: str, time: float, last: float) -> None:
         """Title on the left, time on the right, over the picture; `last` [s] chooses the unit of time."""
         factor, unit = style.prefixed("s", abs(last))
-        right = self.corner[0] + self.own[0]
+        right = self.corner[0] + self.own[0] if self.size[0] > NARROWEST else self.size[0] - 0.2
         top = self.size[1] - 0.2
         said = f"t = {style.digits(time / factor)} {unit}"
-        room = int(self.own[0] / LETTER) - len(said) - 3
+        room = int((right - self.corner[0]) / LETTER) - len(said) - 3
         if title and room > 10:
             lines = textwrap.wrap(title, room, max_lines=2, placeholder=" …")
             self._text(self.corner[0], top, "\n".join(lines), self.theme.ink, ha="left")

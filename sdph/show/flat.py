@@ -106,7 +106,7 @@ def _arrows(sheet: Sheet, shot: Shot) -> None:
     places = grid.flat[moving][:, shot.axes]
     drawn = sheet.axes.quiver(
         *places.T, *velocity[moving].T, angles="xy", scale_units="xy", scale=fastest / (LONG * step), pivot="mid",
-        color="white", edgecolor="black", linewidth=0.4, width=0.0042, headwidth=3.2, headlength=3.8,
+        color="white", edgecolor="black", linewidth=0.4, units="inches", width=0.028, headwidth=3.2, headlength=3.8,
     )  # fmt: skip
     told = float(f"{fastest:.1g}")
     place = (sheet.size[0] - 0.62, 0.3) if not sheet.flat else (sheet.size[0] - 0.75, 0.5)

@@ -211,9 +211,10 @@ def test_the_whole_box_is_seen_with_up_up(box):
 
 def test_the_domain_fills_the_figure_and_nothing_hides_it():
     """Of a domain of any shape the picture's longer side is the same, and title, numbers and bar have their room."""
-    for wide, high in ((6.0, 4.0), (0.5, 1.0), (10.0, 1.0)):
+    for wide, high in ((6.0, 4.0), (0.5, 1.0), (10.0, 1.0), (0.03, 0.45)):
         sheet = canvas.Sheet(wide, high, style.THEMES["light"])
         assert max(sheet.own) == pytest.approx(canvas.LONGEST)
+        assert sheet.own[0] / sheet.own[1] == pytest.approx(wide / high)
         assert (sheet.corner + sheet.own < sheet.size).all()
         assert (np.round(sheet.size * canvas.DPI) % 2 == 0).all()
 
