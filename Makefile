@@ -14,6 +14,10 @@ demo: setup
 	if $(SDPH) doctor >/dev/null; then $(SDPH) compare $(RUN) --against tfm || test $$? -eq 3; fi
 	@echo pictures: $(RUN)/*.png
 
+# A picture of every scene, of short and coarse runs, into runs/gallery.
+gallery: setup
+	$(VENV)/bin/python validation/gallery.py
+
 test: setup lint
 	$(VENV)/bin/python -m pytest -n auto --maxprocesses 4 --dist loadfile
 
@@ -38,4 +42,4 @@ $(VENV)/installed: pyproject.toml
 clean:
 	rm -rf $(VENV) runs build dist docs/site docs/generated docs/scenes docs/studies
 
-.PHONY: demo test docs lint setup clean
+.PHONY: demo gallery test docs lint setup clean

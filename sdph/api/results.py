@@ -16,9 +16,11 @@ from sdph.api.case import Case
 from sdph.running import output
 from sdph.schema import CaseError
 from sdph.show import timeline
-from sdph.study import compare
+from sdph.study import compare, sampling
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import pandas
 
 
@@ -100,6 +102,26 @@ class Run:
     def gas(self, time: float | None = None) -> dict[str, np.ndarray]:
         """Arrays of the gas by name, a value a cell: `centre` (M, 3) [m], `temperature` [K], `velocity` [m/s], ..."""
         return cells(self.fields(time).gas, self.folder)
+
+    def line(
+        self, start: Sequence[float], end: Sequence[float], count: int = 100, time: float | None = None
+    ) -> pandas.DataFrame:
+        """Fields at `count` points from `start` to `end` [m] at `time` [s]: columns NAME of particles, gas_NAME of the
+        gas, NAME_x, NAME_y, NAME_z of vectors, `distance` [m] from the start; `share` is 1 inside of the particles."""
+        import pandas
+
+        return pandas.DataFrame(sampling.line(self.folder, start, end, count, time))
+
+    def plane(self, normal: str, place: float, step: float | None = None, time: float | None = None) -> Any:
+        """The same on the plane at `place` [m] along the axis `normal`, points `step` [m] apart, as a pyvista grid."""
+        return sampling.plane(self.folder, normal, place, step, time)
+
+    def averages(
+        self, start: float | None = None, end: float | None = None, step: float | None = None
+    ) -> sampling.Averages:
+        """Means and variances over the outputs from `start` to `end` [s]: (particles, gas, times), pyvista meshes with
+        arrays NAME_mean and NAME_variance; particles at points `step` [m] apart (None: a spacing)."""
+        return sampling.averages(self.folder, start, end, step)
 
     def compare(self, against: str) -> pandas.DataFrame:
         """Checks against `tfm`, `dpm` or `exact`: name, value, reference, tolerance, ok."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 
 from sdph import effects, scenes
-from sdph.case import beside, bodies, periods, regions
+from sdph.case import beside, bodies, periods, probed, regions
 from sdph.case.extents import SAME, inside, mouth, probe, side
 from sdph.case.sections import Case, Region
 from sdph.methods.liquids.sections import Pool
@@ -21,7 +21,7 @@ OF_BOX, OF_PLANE = ("rotation", "taylor_green"), ("taylor_green", "quadrupole") 
 
 def columns_of_history(case) -> None:
     """CaseError where two columns of history.csv have one name."""
-    columns = [f"{name}_{key}" for name in case.probes for key in ("temperature_K", "gas_temperature_K")]
+    columns = [f"{name}_{key}" for name, own in case.probes.items() for key in probed.columns(case, own)]
     columns += [f"particle_{ident}_temperature_K" for ident in case.track]
     twice = [name for name, count in Counter(columns).items() if count > 1]
     if twice:

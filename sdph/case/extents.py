@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from sdph.case import probed
 from sdph.engine.geometry import SIDES
 from sdph.schema import CaseError
 
@@ -11,10 +12,11 @@ SAME = 1e-9  # of a length: round-off
 
 
 def probe(case, where: str, own) -> None:
-    """A probe lies in the domain, and in a gas: a liquid has no temperature to follow."""
-    if case.grains is None:
-        raise CaseError(f"[{where}] follows temperatures of grains and gas, and the case has none; leave it out")
+    """A probe lies in the domain, and among grains or in a liquid, and what it follows is there."""
+    if case.grains is None and case.liquid is None:
+        raise CaseError(f"[{where}] follows grains and gas, or a liquid, and the case has none; leave it out")
     inside(case, where, own.at, own.at)
+    probed.check(case, where, own)
 
 
 def mouth(case, where: str, nozzle) -> None:

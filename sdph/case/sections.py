@@ -152,9 +152,11 @@ class Boundary:
 
 @record
 class Probe:
-    """A point whose temperatures `history.csv` follows."""
+    """A point that `history.csv` follows: `fields` there, of particles and gas; without these the temperatures, of a
+    liquid pressure and velocity."""
 
     at: tuple = vector("m")
+    fields: tuple = words(())  # names of sdph.case.probed, such as "pressure"
 
 
 @record

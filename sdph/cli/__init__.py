@@ -235,11 +235,18 @@ def gel_droplet(options) -> int:
 
 def view_run(options) -> int:
     from sdph.show import view
+    from sdph.show.look import Look
 
-    if options.movie:
-        view.movie(options.run, options.movie, options.field)
+    look = Look(options.field, options.theme, options.smooth, options.outline, options.vectors)
+    if options.web:
+        from sdph.show import web
+
+        _refuse(options, ("png", "movie"), "--web serves a page and writes no file")
+        web.serve(options.run, options.time, look)
+    elif options.movie:
+        view.movie(options.run, options.movie, look=look)
     else:
-        view.show(options.run, options.png, options.time, options.field)
+        view.show(options.run, options.png, options.time, look=look)
     return FINE
 
 

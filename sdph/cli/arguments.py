@@ -139,12 +139,15 @@ def _look(commands) -> None:
     """Commands that show a run: view, report."""
     view = _command(commands, "view", "look at a run")
     view.add_argument("run", type=Path)
-    view.add_argument("--png", type=Path, help="write a picture instead of opening a window")
+    view.add_argument("--png", type=Path, help="write a picture, .png, .svg or .pdf, instead of opening a window")
     view.add_argument("--time", type=float, metavar="T", help="time [s] (default: the last)")
-    view.add_argument(
-        "--field", help="what colours the particles and cells (default: temperature, of a liquid velocity)"
-    )
+    view.add_argument("--field", help="what colours the particles and cells (default: what the scene is about)")
     view.add_argument("--movie", type=Path, help="write all times as a .gif or .mp4 instead of opening a window")
+    view.add_argument("--web", action="store_true", help="serve a page with time, fields and a cut on this machine")
+    view.add_argument("--theme", choices=("light", "dark"), default="light", help="colours of the paper and the ink")
+    view.add_argument("--smooth", action="store_true", help="continuous fields instead of particles and cells, in 2-D")
+    view.add_argument("--outline", action="store_true", help="outline bubbles (alpha_p = 0.15) or a liquid")
+    view.add_argument("--vectors", action="store_true", help="arrows of velocity")
     report = _command(commands, "report", "one HTML file of one or several runs, side by side; also of failed ones")
     report.add_argument("runs", nargs="+", type=Path, metavar="RUN")
     report.add_argument("--out", type=Path, help="the file (default: report.html in the first run's folder)")

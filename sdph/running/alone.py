@@ -10,6 +10,7 @@ from sdph.engine.kept import Unfit
 from sdph.methods.liquids.liquid import Liquid
 from sdph.methods.mps.mps import Mps
 from sdph.methods.solids.solid import Solids
+from sdph.running import history
 from sdph.running.limiters import Limiters
 
 SAMPLES = 10  # rows of history.csv for each output of fields, where the case says nothing
@@ -103,7 +104,8 @@ class Alone:
 
     def row(self) -> dict[str, float]:
         """Columns of history.csv."""
-        return {"time_s": self.time} | self.method.row() | self.limiters.now
+        probes = history.of_liquid(self.case, self.method.points()) if self.case.probes else {}
+        return {"time_s": self.time} | self.method.row() | probes | self.limiters.now
 
     def meshes(self) -> dict:
         """Particles for the timeline."""

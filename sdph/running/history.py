@@ -2,37 +2,82 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from coupling.transfer import gather
+from sdph.case import probed
+from sdph.case.sections import Probe
 from sdph.engine import state as particles
-from sdph.methods.grains.history import carried
 from sdph.methods.grains.method import REACH
-
-PROBED = ("temperature_K", "gas_temperature_K")  # of particles and gas
 
 
 def row(simulation) -> dict[str, float]:
     """All columns of one instant."""
     columns = {"time_s": simulation.time}
-    for name, point in simulation.case.probes.items():
-        columns |= {f"{name}_{key}": value for key, value in probe(simulation, point.at).items()}
+    for name, own in simulation.case.probes.items():
+        columns |= {f"{name}_{key}": value for key, value in probe(simulation, own.at, own.fields).items()}
     return columns | simulation.grains.row()
 
 
-def probe(simulation, point) -> dict[str, float]:
-    """Values of PROBED at a point, by kernel interpolation: of particles where they have it, nan if none are near."""
-    here = np.zeros((1, 3))
-    here[0, : len(point)] = point
-    gas = gather(simulation.transfer.weights(here), simulation.gas_state.fields["temperature"])[0]
+def probe(simulation, point, fields: tuple[str, ...] = ()) -> dict[str, float]:
+    """Values at a point of `fields`, without any the temperatures, by kernel interpolation: of particles where they
+    have it, nan if none are near."""
+    case = simulation.case
+    chosen, here = probed.fields(case, Probe(at=point, fields=fields)), _place(point)
     state = simulation.grains.inside
-    if "temperature" not in carried(simulation.case):
-        return {"gas_temperature_K": float(gas)}
-    reach = REACH * simulation.case.smoothing_length
-    r = particles.lengths(particles.positions(state) - here)
-    near = np.flatnonzero(r < reach)
-    weight = state.mass[near] * (1.0 - r[near] / reach) ** 2
-    own = (weight * state.temperature[near]).sum() / weight.sum() if len(near) else math.nan
-    return {"temperature_K": float(own), "gas_temperature_K": float(gas)}
+    arrays = {name: _of_grains(case, state, name) for name in chosen["particles"]}
+    found = near(case, particles.positions(state), state.mass, arrays, here)
+    weights = simulation.transfer.weights(here)
+    cells = simulation.cell_fields() if "alpha_p" in chosen["gas"] else simulation.gas_state.fields
+    return found | _named(case, "gas", {name: gather(weights, cells[name])[0] for name in chosen["gas"]})
+
+
+def of_liquid(case, cloud) -> dict[str, float]:
+    """Columns of all probes in a liquid, whose particles are a cloud of pyvista."""
+    columns = {}
+    for name, own in case.probes.items():
+        there = cloud.n_points > 0  # pyvista knows no empty arrays
+        arrays = {
+            field: np.asarray(cloud[field]) if there else np.zeros((0, 3) if field == "velocity" else 0)
+            for field in probed.fields(case, own)["particles"]
+        }
+        places, mass = (
+            (np.asarray(cloud.points), np.asarray(cloud["mass"])) if there else (np.zeros((0, 3)), np.zeros(0))
+        )
+        found = near(case, places, mass, arrays, _place(own.at))
+        columns |= {f"{name}_{key}": value for key, value in found.items()}
+    return columns
+
+
+def near(case, places, mass, arrays: dict, here) -> dict[str, float]:
+    """Columns of arrays (N,) or (N, 3) of particles at `places` (N, 3) [m], by their mass [kg] and distance to `here`
+    (1, 3): sum m (1 - r/R)^2 f over sum m (1 - r/R)^2 within R, the reach of the kernel; nan if none are near."""
+    reach = REACH * case.smoothing_length
+    r = particles.lengths(places - here)
+    close = np.flatnonzero(r < reach)
+    weight = mass[close] * (1.0 - r[close] / reach) ** 2
+    total = weight.sum() if len(close) else np.nan
+    means = {name: (weight * values[close].T).sum(axis=-1) / total for name, values in arrays.items()}
+    return _named(case, "particles", means)
+
+
+def _named(case, whose: str, values: dict) -> dict[str, float]:
+    """Numbers by column, a vector by its axes."""
+    found = {}
+    for field, value in values.items():
+        name = probed.column(whose, field)
+        parts = probed.by_axis(name, case.dimensions) if np.ndim(value) else [name]
+        found |= {part: float(one) for part, one in zip(parts, np.atleast_1d(value))}
+    return found
+
+
+def _of_grains(case, state, field: str) -> np.ndarray:
+    """A field (N,) or (N, 3) of the grains."""
+    if field == "velocity":
+        return particles.velocities(state)
+    return state.density / case.grains.density if field == "alpha_p" else getattr(state, field)
+
+
+def _place(point) -> np.ndarray:
+    """(1, 3) of a point (d,) [m]."""
+    return np.array([[*point, 0.0][:3]])

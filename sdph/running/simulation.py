@@ -10,6 +10,7 @@ import numpy as np
 from coupling.gas import GasError, Unfinished
 from coupling.transfer import Transfer, gather
 from sdph import effects
+from sdph.case import probed
 from sdph.effects.around import electric_field
 from sdph.engine.kept import Unfit
 from sdph.exchange.exchange import Exchange
@@ -230,8 +231,9 @@ class Simulation:
         """summary.json, its own part; what probes rose by is told from the first and the last row of the history."""
         own = {"cells": len(self.gas.mesh.volumes)} | self.grains.summary() | {"windows_repeated": self.repeated}
         own |= self.limiters.summary() | (self.outlet.summary() if self.outlet else {})
-        for name in self.case.probes:
-            own |= {key: out.last[key] for key in (f"{name}_{probed}" for probed in history.PROBED) if key in out.last}
+        for name, probe in self.case.probes.items():
+            keys = (f"{name}_{column}" for column in probed.columns(self.case, probe))
+            own |= {key: out.last[key] for key in keys if key in out.last}
             if (key := f"{name}_temperature_K") in out.last:
                 own[f"{name}_rise_K"] = out.last[key] - out.first[key]
         return own | self.beside.named(lambda method: method.summary() | method.ledger.summary())

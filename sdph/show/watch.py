@@ -11,7 +11,6 @@ from sdph.running import output
 
 NAME, PICTURE = "watch.html", "watch.png"
 SHARE = 0.05  # of the run's time that drawing may take; our choice
-SHOWN = ("temperature", "pressure", "velocity")  # the first of these that the particles have colours them
 PAGE = """<!doctype html>
 <meta charset="utf-8"><meta http-equiv="refresh" content="2"><title>{title}</title>
 <h3>{title}</h3><p>{line}</p><img src="{picture}?{stamp}" alt="the run now">
@@ -41,17 +40,12 @@ class Page:
 
 
 def _draw(simulation, file: Path) -> None:
-    from sdph.show import view
+    from sdph.show import shot, timeline, view
+    from sdph.show.look import Look
 
     meshes = simulation.meshes()
-    particles = meshes["particles"]
-    field = next((name for name in SHOWN if name in particles.point_data), SHOWN[0])
-    walls, up = simulation.walls(), view.upwards(simulation.case.domain.gravity)
-    plotter = view.scene(
-        particles, meshes.get("gas"), field, f"t = {simulation.time:g} s", off_screen=True, walls=walls, up=up
-    )
-    image = plotter.screenshot(return_img=True)
-    plotter.close()
-    import imageio.v3 as imageio
-
-    imageio.imwrite(file, image, extension=".png")
+    clouds = [cloud for name, cloud in meshes.items() if name != "gas"]
+    instant = timeline.Instant(simulation.time, timeline.together(clouds), meshes.get("gas"))
+    taken = shot.of_state(instant, simulation.case, simulation.walls())
+    drawn = view.sheet(taken, Look(), last=simulation.case.run.end_time, fine=1)
+    drawn.figure.savefig(file, format="png", facecolor=drawn.theme.paper)

@@ -143,6 +143,8 @@ def test_unknown_key_names_the_nearest(override, named):
         (("domain.gravity_m_s2=[]",), ("domain.gravity_m_s2", "0 components", "2")),
         (("probes.centre.at_m=[0.1,0.1,0.1]",), ("probes.centre.at_m", "3 components", "2")),
         (("probes.centre.at_m=[0.1,0.7]",), ("probes.centre", "out of the domain")),
+        (("probes.centre.fields=['colour']",), ("probes.centre.fields holds 'colour'", "alpha_p, density, diameter")),
+        (("probes.centre.fields=['theta']",), ("probes.centre.fields holds 'theta'", "in this case there are")),
         (("domain.size_m=[0.5,0.0]",), ("domain.size_m", "above 0")),
         (("resolution.stretch=[1.0,1e9]",), ("resolution.stretch", "from 0.01 to 100")),
         (("run.output_interval_s=1e-12",), ("run.output_interval_s = 1e-12", "outputs; 1e+05 are allowed")),

@@ -1,13 +1,17 @@
 """Rows of the history: a probe tells what there is to tell, under a name of its own."""
 
+import math
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
+import pyvista
 from builders import disc
 
 from sdph import scenes
 from sdph.case import read as cases
 from sdph.running import history
+from sdph.running.alone import Alone
 from sdph.schema import CaseError
 from sdph.study.explain.effect_costs import prepared
 
@@ -31,6 +35,50 @@ def test_a_probe_where_there_is_heat_tells_of_both():
     row = history.row(simulation)
     assert row.keys() == {"time_s", "centre_temperature_K", "centre_gas_temperature_K"}
     assert summary(simulation, row)["centre_rise_K"] == 0.0
+
+
+def test_a_probe_follows_the_fields_that_it_names():
+    simulation = prepared(
+        disc(
+            "resolution.spacing_mm=20",
+            "resolution.cell_mm=50",
+            "probes.centre.fields=['pressure','velocity','alpha_p','temperature']",
+        )
+    )
+    row = history.row(simulation)
+    assert list(row)[1:] == [
+        "centre_velocity_x_m_s", "centre_velocity_y_m_s", "centre_alpha_p", "centre_temperature_K",
+        "centre_gas_pressure_Pa", "centre_gas_velocity_x_m_s", "centre_gas_velocity_y_m_s", "centre_gas_alpha_p",
+        "centre_gas_temperature_K",
+    ]  # fmt: skip
+    assert row["centre_alpha_p"] == pytest.approx(0.6, rel=0.05) and row["centre_gas_alpha_p"] > 0.4
+    assert row["centre_temperature_K"] == pytest.approx(288.0)
+    assert summary(simulation, row)["centre_gas_pressure_Pa"] == row["centre_gas_pressure_Pa"]
+
+
+def test_a_probe_in_a_liquid_tells_pressure_and_velocity():
+    """Of a linear pressure the value at the probe; nan where no liquid is near."""
+    case = cases.load(
+        scenes.HERE / "dam_break" / "case.toml", ("probes.wet.at_m=[0.03,0.05]", "probes.dry.at_m=[0.2,0.15]")
+    )
+    ticks = np.arange(0.5, 40.0) * case.resolution.spacing
+    places = np.stack(np.meshgrid(ticks, ticks, [0.0], indexing="ij"), axis=-1).reshape(-1, 3)
+    cloud = pyvista.PolyData(places)
+    cloud["mass"], cloud["pressure"] = np.ones(len(places)), 9810.0 * (0.1 - places[:, 1])
+    cloud["velocity"] = places * (2.0, 0.0, 0.0)
+    row = history.of_liquid(case, cloud)
+    assert row["wet_pressure_Pa"] == pytest.approx(9810.0 * 0.05, rel=0.01)
+    assert row["wet_velocity_x_m_s"] == pytest.approx(0.06, rel=0.01) and row["wet_velocity_y_m_s"] == 0.0
+    assert all(math.isnan(row[f"dry_{name}"]) for name in ("pressure_Pa", "velocity_x_m_s", "velocity_y_m_s"))
+    assert history.of_liquid(case, pyvista.PolyData()).keys() == row.keys()
+
+
+def test_the_history_of_a_liquid_has_its_probes(tmp_path):
+    case = cases.load(
+        scenes.HERE / "dam_break" / "case.toml", ("resolution.spacing_mm=5.715", "probes.wet.at_m=[0.03,0.05]")
+    )
+    alone = Alone(case, tmp_path / "ledger.csv")
+    assert {"wet_pressure_Pa", "wet_velocity_x_m_s", "kinetic_energy_J"} <= alone.row().keys()
 
 
 def test_every_row_has_the_same_columns(tmp_path):

@@ -5,6 +5,7 @@ import json
 import re
 import shutil
 import subprocess
+from types import SimpleNamespace
 
 import imageio.v3 as imageio
 import pytest
@@ -15,6 +16,7 @@ from sdph.running import driver
 from sdph.schema import CaseError
 from sdph.show import view
 from sdph.study import report
+from sdph.study.report import bars, curves, shown
 
 PROBE = """
 <script>
@@ -49,13 +51,14 @@ def test_runs_stand_side_by_side_in_one_file(runs):
     text = report.write([runs / "paper", runs / "plain"], runs / "both.html").read_text()
     assert not re.findall(r'(?:src|href)="(?!data:)', text)
     for part in (
-        "What was run",
-        "Results",
-        "Figures",
+        "At a glance",
+        "Curves",
         "Fields",
-        "Ledger",
-        "Limiters: the largest of all windows",
+        "Balances",
         "Where the time went",
+        "Results",
+        "Limiters: the largest of all windows",
+        "What was run",
         "Settings",
         "Versions",
     ):
@@ -64,6 +67,54 @@ def test_runs_stand_side_by_side_in_one_file(runs):
     assert re.findall(r"<td>(\w+)</td>", row) == ["paper", "geometric"]
     summary = json.loads((runs / "plain" / "summary.json").read_text())
     assert f"{summary['centre_temperature_K']:.6g}</td>" in text
+
+
+def test_it_begins_with_what_the_run_shows(runs):
+    """Picture, three numbers and verdicts come before anything else, and a miss is told as one."""
+    checks = [
+        {"name": "centre [K]", "value": 1.0, "reference": 2.0, "tolerance": 0.5, "ok": False},
+        {"name": "rim [K]", "value": 1.0, "reference": 1.0, "tolerance": 0.5, "ok": True},
+    ]
+    (runs / "plain" / "compare_exact.json").write_text(json.dumps({"checks": checks}))
+    text = report.write([runs / "plain"], runs / "first.html").read_text()
+    (runs / "plain" / "compare_exact.json").unlink()
+    glance = text.partition("<h2>")[2].partition("<h2>")[0]
+    assert glance.startswith("At a glance")
+    assert glance.count('class="card"') == 3 and 'class="first"' in glance
+    summary = json.loads((runs / "plain" / "summary.json").read_text())
+    assert f"<b>{summary['centre_temperature_K']:.3g} K</b><span>centre temperature</span>" in glance
+    assert "against exact: 1 of 2 missed (centre [K])" in glance
+    assert re.search(r"balances: all \d+ hold", glance)
+    assert "-2.00" in text.partition("<h2>References")[2].partition("<h2>")[0]
+
+
+def test_settings_are_last_and_those_that_differ_stand_open(runs):
+    text = report.write([runs / "paper", runs / "plain"], runs / "differ.html").read_text()
+    settings = text.partition("<h2>Settings")[2].partition("<h2>")[0]
+    opened = settings.partition("<details>")[0]
+    assert "heat.closure" in opened and "run.end_time_s" not in opened and "run.end_time_s" in settings
+    assert text.index("<h2>Curves") < text.index("<h2>Balances") < text.index("<h2>Settings")
+
+
+def test_curves_of_one_kind_share_a_panel_and_have_their_references():
+    assert {curves._kind(f"wall_force_{a}_N") for a in "xyz"} == {"wall_force_N"}
+    assert {curves._kind(name) for name in ("D32_m", "Dv50_m", "D10_m")} == {"sizes_m"}
+    assert curves._kind("particle_645_u_m_s") == curves._kind("particle_645_v_m_s") != curves._kind("particle_645_x_m")
+    checked = {"exact": [{"name": "sag [m] at 0.2 s", "value": 1.0, "reference": 3.0, "tolerance": 0.5, "ok": False}]}
+    run = SimpleNamespace(comparisons=checked)
+    assert curves._references(run, "sag_m") == [(0.2, 3.0, 0.5)] and not curves._references(run, "front_m")
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "text"), [(0.0123, "m", "12.3 mm"), (0.3456, "m", "0.346 m"), (101325.0, "Pa", "101 kPa")]
+)
+def test_key_numbers_have_three_digits_and_a_unit(value, unit, text):
+    assert shown.measured(value, unit) == text
+
+
+@pytest.mark.parametrize(("value", "place"), [(0.0, 0.0), (1e-20, 0.0), (1e-17, 0.0), (1.0, 100.0), (5.0, 100.0)])
+def test_balances_lie_on_a_track_from_round_off_to_all(value, place):
+    assert bars._place(value) == pytest.approx(place)
 
 
 def test_limiters_have_a_section_of_their_own(runs):

@@ -1,0 +1,61 @@
+"""Fields that a probe can follow, and the names of their columns in history.csv."""
+
+from __future__ import annotations
+
+from sdph.methods.grains.history import carried
+from sdph.schema import CaseError
+
+UNITS = {  # fields -> unit at the end of the column; "" of a number without one
+    "pressure": "Pa", "velocity": "m_s", "temperature": "K", "density": "kg_m3", "alpha_p": "",
+    "vapour_mass_fraction": "", "theta": "m2_s2", "diameter": "m",
+}  # fmt: skip
+OF_GAS = ("velocity", "pressure", "temperature", "density", "alpha_p")
+OF_GRAINS = ("velocity", "density", "alpha_p", "temperature", "theta", "diameter")
+OF_LIQUID = ("velocity", "pressure", "density")
+
+
+def fields(case, probe) -> dict[str, tuple[str, ...]]:
+    """Fields that a probe follows, by whose they are: "particles", "gas"; without a choice the temperatures of grains
+    and gas, and of a liquid its pressure and velocity."""
+    known = known_to(case)
+    usual = ("temperature",) if case.grains else ("pressure", "velocity")
+    chosen = probe.fields or usual
+    return {whose: tuple(name for name in chosen if name in own) for whose, own in known.items()}
+
+
+def known_to(case) -> dict[str, tuple[str, ...]]:
+    """All fields that there are to follow in a case, by whose they are."""
+    if not case.grains:
+        return {"particles": OF_LIQUID}
+    there = {"velocity", "density", "alpha_p", *carried(case)}
+    gas = (*OF_GAS, "vapour_mass_fraction") if case.vapour else OF_GAS
+    return {"particles": tuple(name for name in OF_GRAINS if name in there), "gas": gas}
+
+
+def column(whose: str, field: str) -> str:
+    """The end of a column's name; of a vector without its axis: velocity_m_s."""
+    unit = UNITS[field]
+    return ("gas_" if whose == "gas" else "") + field + (f"_{unit}" if unit else "")
+
+
+def columns(case, probe) -> list[str]:
+    """Ends of the names of all columns of a probe; of a vector one for each axis, velocity_x_m_s."""
+    return [
+        name
+        for whose, own in fields(case, probe).items()
+        for field in own
+        for name in (by_axis(column(whose, field), case.dimensions) if field == "velocity" else [column(whose, field)])
+    ]
+
+
+def by_axis(name: str, dimensions: int) -> list[str]:
+    """Columns of a vector: velocity_m_s is velocity_x_m_s, velocity_y_m_s, ..."""
+    return [name.replace("velocity_", f"velocity_{a}_") for a in "xyz"[:dimensions]]
+
+
+def check(case, where: str, probe) -> None:
+    """`CaseError` where a field is not known in the case."""
+    known = sorted({name for own in known_to(case).values() for name in own})
+    for name in probe.fields:
+        if name not in known:
+            raise CaseError(f"{where}.fields holds {name!r}; in this case there are: {', '.join(known)}")
