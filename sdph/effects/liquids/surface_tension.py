@@ -11,7 +11,7 @@ import math
 from typing import NamedTuple
 
 from sdph.effects.effect import Effect, Judgement
-from sdph.schema import quantity, record
+from sdph.schema import CaseError, quantity, record
 
 CAPILLARY = 0.25  # of sqrt(rho h^3/(2 pi sigma)), liquids.md, shared core; rho is the mean of both phases
 
@@ -49,6 +49,9 @@ def kernel(case) -> TensionP | WettingP:
     if own.contact_angle is None:
         return TensionP(own.coefficient, least)
     angle = own.contact_angle
+    if "tank" not in case.effects and not case.bodies:
+        given = f"surface_tension.contact_angle_deg = {math.degrees(angle):g}"
+        raise CaseError(f"{given}; there are no walls that the liquid could meet: add the effect tank, or leave it out")
     return WettingP(own.coefficient, least, math.cos(angle), math.sin(angle), case.resolution.spacing)
 
 

@@ -65,16 +65,19 @@ def bend(kernel, s, rows, box, active, volume, line, normal, curvature):
             weight = max(volume[j], 0.0) if on_interface(normal, j) else 0.0
             share = weight * smoothing.slope(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
             turn = 1.0 if s.kind[i] == s.kind[j] else -1.0
-            if len(line) and volume[j] < 0.0 and on_interface(normal, j):
-                share = -volume[j] * smoothing.slope(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
-                turn = 1.0 if s.kind[i] == LIQUID else -1.0
-                before = wetting.met(line, i, dx, dy, dz)
-                dx, dy, dz = before * dx, before * dy, before * dz
             du, dv, dw = (
                 normal[i, 0] - turn * normal[j, 0],
                 normal[i, 1] - turn * normal[j, 1],
                 normal[i, 2] - turn * normal[j, 2],
             )
+            if len(line) and volume[j] < 0.0 and on_interface(normal, j):
+                share = -volume[j] * smoothing.slope(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
+                turn, far = 1.0 if s.kind[i] == LIQUID else -1.0, wetting.beyond(line, i, dx, dy, dz)
+                du, dv, dw = (
+                    far * (normal[i, 0] - turn * normal[j, 0]),
+                    far * (normal[i, 1] - turn * normal[j, 1]),
+                    far * (normal[i, 2] - turn * normal[j, 2]),
+                )
             matrix, sums = added(matrix, sums, share, dx, dy, dz, du, dv, dw)
         found = divided(in_plane(matrix, len(s.z) == 0), sums)
         curvature[i] = (found[0] + found[4] + found[8]) * (1.0 if s.kind[i] == LIQUID else -1.0)

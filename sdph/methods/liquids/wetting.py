@@ -2,11 +2,12 @@
 as if behind the wall.
 
 The normal at a wall is that of Brackbill, Kothe & Zemach 1992, J. Comput. Phys. 100, 335, section V: t sin a + w cos a,
-w the wall's normal into the fluid, t the way along the wall out of the liquid. Wall particles take it as what the
-interface has on the wall's surface, where the line to them cuts it. Breinlinger et al. 2013, J. Comput. Phys. 243, 14,
-blend it with what particles near walls find themselves, which is wrong by as much as the wall cuts off. Here the
-interface goes on straight into the wall instead: a plane with that normal, which parts the particles in front of the
-wall as they are parted.
+w the wall's normal into the fluid, t the way along the wall out of the liquid. It is the interface's where the line to
+a wall particle cuts the wall's surface; the wall particle has what the particle in front and that lead to (as Morris,
+Fox & Zhu 1997, J. Comput. Phys. 136, 214, do with velocities), so that the curvatures of the rows add up to how far the
+interface turns. Breinlinger et al. 2013, J. Comput. Phys. 243, 14, blend the normal with what particles near walls find
+themselves, which is wrong by as much as the wall cuts off. Here the interface goes on straight into the wall instead:
+a plane with the wall's normal, which parts the particles in front of the wall as they are parted.
 """
 
 from __future__ import annotations
@@ -24,6 +25,9 @@ from sdph.engine.state import LIQUID
 from sdph.laws.compiled import inlined
 
 ROUNDS = 30  # of the search for a plane, each halves what is left of 8 h: our choice
+# most that a particle's difference from the wall's normal is multiplied by; a wall's first row takes twice that of the
+# row in front. Our choice
+FURTHEST = 4.0
 LEAST = 0.5  # of sin a: an interface that runs more along the wall than that does not meet it. Our choice
 
 
@@ -120,7 +124,8 @@ def opposite(line, kind, signed, j):
 
 
 @inlined
-def met(line, i, dx, dy, dz):
-    """Share of the way from particle i to one of a wall, r_ij [m], that lies in front of the wall's surface."""
+def beyond(line, i, dx, dy, dz):
+    """Length of the way from particle i to one of a wall, r_ij [m], over that of its part in front of the wall's
+    surface; FURTHEST at most."""
     deep = line.facing[i, 0] * dx + line.facing[i, 1] * dy + line.facing[i, 2] * dz
-    return min(line.height[i] / deep, 1.0) if deep > 0.0 else 0.0
+    return min(max(deep / (line.height[i] + smoothing.TINY), 1.0), FURTHEST)
