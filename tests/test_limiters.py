@@ -60,6 +60,8 @@ HARMLESS = {
     "sdph/methods/liquids/filling.py:fill": "geometry: distances",
     "sdph/methods/liquids/filling.py:lattice": "geometry: extents",
     "sdph/methods/liquids/start.py:_top": "geometry: the higher corner",
+    "sdph/methods/liquids/wetting.py:filled": "share of a cell inside a plane",
+    "sdph/methods/liquids/wetting.py:opposite": "chooses walls by the sign of the volume",
     "sdph/methods/liquids/losses.py:losses": "the same as `compress`",
     "sdph/methods/liquids/*:compress": "takes the liquid among neighbours: volumes of walls are negative",
     "sdph/methods/liquids/interface.py:*": "the same",
@@ -110,6 +112,8 @@ SEVERAL = {
     "sdph/exchange/droplets.py:losses": 2,
     "sdph/exchange/droplets.py:window_force": 3,
     "sdph/laws/matrices.py:smallest": 2,
+    "sdph/methods/liquids/wetting.py:beyond": 2,
+    "sdph/methods/liquids/wetting.py:face": 2,
     "sdph/laws/radiation.py:cooled": 2,
     "sdph/laws/strength.py:failure_strain": 2,
 }

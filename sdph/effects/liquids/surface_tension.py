@@ -1,7 +1,8 @@
 """Surface tension between two phases, as a continuum surface force (Brackbill, Kothe & Zemach 1992).
 
 The gradient of colour takes the inter-particle average of Adami, Hu & Adams 2010, J. Comput. Phys. 229, 5011, which
-is that of the pressure: with one curvature everywhere the force is balanced to round-off. Walls take no part in it.
+is that of the pressure: with one curvature everywhere the force is balanced to round-off. Walls have no force of their
+own; with a contact angle they bend the interface (sdph.methods.liquids.wetting).
 """
 
 from __future__ import annotations
@@ -10,14 +11,17 @@ import math
 from typing import NamedTuple
 
 from sdph.effects.effect import Effect, Judgement
-from sdph.schema import quantity, record
+from sdph.schema import CaseError, quantity, record
 
 CAPILLARY = 0.25  # of sqrt(rho h^3/(2 pi sigma)), liquids.md, shared core; rho is the mean of both phases
 
 
 @record
 class SurfaceTension:
+    """`contact_angle`: at which the interface meets walls, through the liquid; None: walls take no part."""
+
     coefficient: float = quantity("N_m", above=0.0)
+    contact_angle: float | None = quantity("deg", None, least=0.0, most=180.0)
 
 
 class TensionP(NamedTuple):
@@ -27,11 +31,28 @@ class TensionP(NamedTuple):
     least: float
 
 
+class WettingP(NamedTuple):
+    """The same; cosine and sine of the contact angle; spacing [m] of the walls' particles."""
+
+    coefficient: float
+    least: float
+    cosine: float
+    sine: float
+    spacing: float
+
+
 FAINT = 0.01  # of 1/h: Morris 2000, Int. J. Numer. Methods Fluids 33, 333, Eq. 20
 
 
-def kernel(case) -> TensionP:
-    return TensionP(case.parameters["surface_tension"].coefficient, FAINT / case.smoothing_length)
+def kernel(case) -> TensionP | WettingP:
+    own, least = case.parameters["surface_tension"], FAINT / case.smoothing_length
+    if own.contact_angle is None:
+        return TensionP(own.coefficient, least)
+    angle = own.contact_angle
+    if "tank" not in case.effects and not case.bodies:
+        given = f"surface_tension.contact_angle_deg = {math.degrees(angle):g}"
+        raise CaseError(f"{given}; there are no walls that the liquid could meet: add the effect tank, or leave it out")
+    return WettingP(own.coefficient, least, math.cos(angle), math.sin(angle), case.resolution.spacing)
 
 
 def dt_limit(p, case, state) -> float:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 from numba import njit, prange
 
 from sdph.engine import kernels as smoothing
@@ -17,12 +18,13 @@ from sdph.engine.geometry import FAST, apart
 from sdph.engine.gradients import NO_MATRIX, NO_SUMS, added, divided, in_plane
 from sdph.engine.rows import entry
 from sdph.engine.state import LIQUID
+from sdph.methods.liquids import wetting
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
-def orient(kernel, s, rows, box, active, tension_p, volume, normal):
+def orient(kernel, s, rows, box, active, tension_p, volume, line, normal):
     """normal (N, 3): direction of sum V_j grad W over the particles of the other phase, out of the own; 0 off the
-    interface."""
+    interface. line: what walls stand for, or ()."""
     for n in prange(len(active)):
         i = active[n]
         gx = gy = gz = 0.0
@@ -30,6 +32,8 @@ def orient(kernel, s, rows, box, active, tension_p, volume, normal):
             j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
             unlike = max(volume[j], 0.0) if s.kind[i] != s.kind[j] else 0.0
+            if len(line):
+                unlike += wetting.opposite(line, s.kind[i], volume[j], j)
             steep = unlike * smoothing.slope(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
             gx += steep * dx
             gy += steep * dy
@@ -46,9 +50,9 @@ def on_interface(normal, i):
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
-def bend(kernel, s, rows, box, active, volume, normal, curvature):
+def bend(kernel, s, rows, box, active, volume, line, normal, curvature):
     """curvature (N,) [1/m]: div n, above 0 around a drop on both sides; over particles with normals, those of the other
-    phase turned (Eq. 20)."""
+    phase turned (Eq. 20), and those of walls where they are met."""
     for n in prange(len(active)):
         i = active[n]
         curvature[i] = 0.0
@@ -66,6 +70,14 @@ def bend(kernel, s, rows, box, active, volume, normal, curvature):
                 normal[i, 1] - turn * normal[j, 1],
                 normal[i, 2] - turn * normal[j, 2],
             )
+            if len(line) and volume[j] < 0.0 and on_interface(normal, j):
+                share = -volume[j] * smoothing.slope(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
+                turn, far = 1.0 if s.kind[i] == LIQUID else -1.0, wetting.beyond(line, i, dx, dy, dz)
+                du, dv, dw = (
+                    far * (normal[i, 0] - turn * normal[j, 0]),
+                    far * (normal[i, 1] - turn * normal[j, 1]),
+                    far * (normal[i, 2] - turn * normal[j, 2]),
+                )
             matrix, sums = added(matrix, sums, share, dx, dy, dz, du, dv, dw)
         found = divided(in_plane(matrix, len(s.z) == 0), sums)
         curvature[i] = (found[0] + found[4] + found[8]) * (1.0 if s.kind[i] == LIQUID else -1.0)
@@ -98,3 +110,19 @@ def pull(kernel, s, rows, box, active, tension_p, volume, normal, curvature, acc
         acceleration[i, 0] -= ax
         acceleration[i, 1] -= ay
         acceleration[i, 2] -= az
+
+
+def tighten(stepper) -> None:
+    """Adds surface tension to the accelerations of a stepper (sdph.methods.liquids.method)."""
+    own, volume, normal = stepper.p["surface_tension"], stepper.volume, stepper.normal
+    around = stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box
+    line, before = (), stepper.acceleration.copy()
+    orient(*around, stepper.active, own, volume, line, normal)
+    if len(own) > 2 and len(stepper.walls):
+        line = wetting.Line(np.zeros_like(normal), np.zeros(len(volume)), np.zeros(len(volume)))
+        wetting.face(*around, stepper.active, own, volume, line.facing, line.height)
+        wetting.lean(*around, stepper.walls, own, normal, line.facing, line.share)
+        orient(*around, stepper.active, own, volume, line, normal)
+    bend(*around, stepper.active, volume, line, normal, stepper.curvature)
+    pull(*around, stepper.active, own, volume, normal, stepper.curvature, stepper.acceleration)
+    stepper.tightening = stepper.acceleration - before

@@ -215,7 +215,7 @@ class LiquidStepper:
             self.acceleration, self.gradient,
         )  # fmt: skip
         if p["surface_tension"]:
-            self._tighten()
+            interface.tighten(self)
         if self.void:
             self.void.press(self)
         if p["xsph"]:
@@ -226,15 +226,6 @@ class LiquidStepper:
                 shift.along_surface(*around, self.volume, self.least, self.shift)
         if self.look:
             self.look(ahead)
-
-    def _tighten(self) -> None:
-        """Adds surface tension to the accelerations."""
-        own, s = self.p["surface_tension"], self.state
-        common, before = (self.kernel, s, self.rows, self.neighbours.box, self.active), self.acceleration.copy()
-        interface.orient(*common, own, self.volume, self.normal)
-        interface.bend(*common, self.volume, self.normal, self.curvature)
-        interface.pull(*common, own, self.volume, self.normal, self.curvature, self.acceleration)
-        self.tightening = self.acceleration - before
 
     def _allocate(self, before) -> None:
         """Work arrays for the particles in their new order; only `least` outlives a step. before (N,): their old
