@@ -22,7 +22,7 @@ test: setup lint
 	$(VENV)/bin/python -m pytest -n auto --maxprocesses 4 --dist loadfile
 
 docs: $(VENV)/installed
-	$(VENV)/bin/python -m sphinx -W --keep-going -q docs docs/site
+	$(VENV)/bin/python -m sphinx -W --keep-going -q -E docs docs/site
 	@echo the documentation: docs/site/index.html
 
 lint: $(VENV)/installed

@@ -1,4 +1,5 @@
-"""Settings of the documentation: `make docs`, or `sphinx-build -W docs docs/site`.
+"""Settings of the documentation: `make docs`, or `sphinx-build -W -E docs docs/site`; without -E changes of docs/making
+are not seen.
 
 Pages that are made from the code are written by `docs/making` before Sphinx reads anything.
 """

@@ -47,7 +47,7 @@ def visit_math(self, node) -> None:
 
 def visit_displaymath(self, node) -> None:
     self.body.append(self.starttag(node, "div", CLASS="math"))
-    self.body.append(f"<span>{drawn(node.astext(), False, node)}</span>")
+    self.body.append(f'<span class="drawn">{drawn(node.astext(), False, node)}</span>')
     if node["number"]:
         self.body.append(f'<span class="eqno">({get_node_equation_number(self, node)})')
         self.add_permalink_ref(node, "Link to this equation")
