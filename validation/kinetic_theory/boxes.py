@@ -75,7 +75,7 @@ class Alone(part("granular_piles", "alone").Alone):
         """Add up what the walls did to the grains below and above the middle."""
         self.rest(stepper)
         s, middle = stepper.state, 0.5 * self.case.domain.size[1]
-        force = (s.mass * stepper.step)[:, None] * (stepper.of_walls[:, :2] + stepper.of_walls[:, 3:5])
+        force = (s.mass * stepper.step)[:, None] * (stepper.work.of_walls[:, :2] + stepper.work.of_walls[:, 3:5])
         for row, here, inwards in ((0, s.y < middle, 1.0), (1, s.y >= middle, -1.0)):
             self.push[row] += inwards * force[here, 1].sum(), force[here, 0].sum()
 

@@ -6,7 +6,7 @@ import html
 import math
 from typing import NamedTuple
 
-from sdph.study import balances
+from sdph.running import balances
 from sdph.study.report.shown import Shown, folded, section, side_by_side, spoken, table
 
 COLOURS = ("#1f5fa8", "#c2561a", "#2b8a5a", "#8a3d9e", "#6b6b6b", "#b8890b")

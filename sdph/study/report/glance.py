@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from sdph.study import balances
+from sdph.running import balances
 from sdph.study.report.shown import Shown, measured, picture, section, spoken
 
 NUMBERS = 3
