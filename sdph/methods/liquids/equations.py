@@ -65,19 +65,19 @@ def by_pair(kernel, s, box, flow, wall_p, laminar_p, damping_p, phases_p, excess
     slope = smoothing.slope(kernel, r)
     signed = flow.volume[j]
     wet, V = max(signed, 0.0), abs(signed)
-    stick, loose, behind = (1.0, 1.0, j) if signed > 0.0 else (wall_p.stick, 0.0, i)
+    stick, behind = (1.0, j) if signed > 0.0 else (wall_p.stick, i)
     closing = du * dx + dv * dy + dw * dz
     kind_j = phases.kind(phases_p, signed, s.kind[i], s.kind[j])
     rho_j = phases.density(phases_p, signed, rho_i, s.density[j])
     weight = outside[0] * dx + outside[1] * dy + outside[2] * dz
     p_j = phases.behind(phases_p, signed, flow.pressure[j], p_i - rho_i * weight)
     mean = phases.harmonic(phases_p, rho_i, rho_j)
-    ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY)) * mean * loose
+    ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY)) * mean
     friction = laminar_viscosity.central(laminar_p, s, i, behind, s.kind[i], kind_j, closing, r2)
 
     # rho_i dv_i/dt = -sum V_j (p_i + p_j) grad W + sum V_j 2 mu r.grad W/(r^2 + eta^2) v_ij
     pressed = phases.pressure(phases_p, own, p_j, rho_i, rho_j) + held_off(wall_p, signed, rho_i, r)
-    along = -V * slope * (pressed + (ringing + stick * friction))
+    along = -V * slope * (pressed + stick * (ringing + friction))
     across = V * slope * stick * laminar_viscosity.pair(laminar_p, s, i, behind)
     fx, fy, fz = along * dx + across * du, along * dy + across * dv, along * dz + across * dw
     if len(excess):  # B of a wall is that of the liquid in front

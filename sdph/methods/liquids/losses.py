@@ -94,7 +94,7 @@ def losses(
             past = (v[0] - wall[0], v[1] - wall[1], v[2] - wall[2])
             friction, ringing = rubbed(laminar_p, damping_p, phases_p, s, i, j, signed, d, dv, past)
             viscous += grip * friction
-            damped += wet * ringing  # none by walls
+            damped += grip * ringing
             diffused -= wet * spread(diffusion_p, phases_p, box, s, flow.pressure, gradient, i, j, d)
             controlled += wet * (sign_i - 1.0) * p_i * (d[0] * v[0] + d[1] * v[1] + d[2] * v[2])
             corrected += wet * unmatched(excess, phases_p, s, flow.pressure, i, j, sign_i, d, v)

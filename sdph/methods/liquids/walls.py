@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit, prange
 
 from sdph.effects.around import frame, gravity
-from sdph.effects.liquids import laminar_viscosity, shifting
+from sdph.effects.liquids import laminar_viscosity, liquid_damping, shifting
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import FAST, apart, faster
 from sdph.engine.rows import entry
@@ -71,8 +71,8 @@ def extrapolate(
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
 def wall_force(
-    kernel, s, rows, box, flow, walls, wall_p, laminar_p, shifting_p, phases_p, gravity_p, frame_p, excess, gain,
-    felt,
+    kernel, s, rows, box, flow, walls, wall_p, laminar_p, damping_p, shifting_p, phases_p, gravity_p, frame_p, excess,
+    gain, felt,
 ):  # fmt: skip
     """felt (W, 5) by each wall particle: force (3 columns) [N], what `push` gives the liquid in front of it with the
     sign turned, and power [W] that its pressure and its holding off give the liquid as it moves against the wall, with
@@ -93,11 +93,13 @@ def wall_force(
             sign_j = shifting.sign(shifting_p, flow.pressure[j], flow.least[j] if len(flow.least) else 1.0)
             rho_j = s.density[j]
             friction = laminar_viscosity.central(laminar_p, s, j, j, s.kind[j], s.kind[j], closing, r2)
+            ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY))
+            ringing *= phases.harmonic(phases_p, rho_j, rho_j)
             bx, by, bz = body(gravity_p, frame_p, s, j, False)
             expected = flow.pressure[j] + rho_j * (bx * dx + by * dy + bz * dz)
             p_i = phases.behind(phases_p, -1.0, flow.pressure[i], expected)
             over, p_j = held_off(wall_p, -1.0, rho_j, r), flow.pressure[j]
-            along = -V * (p_i + sign_j * p_j + wall_p.stick * friction + over)
+            along = -V * (p_i + sign_j * p_j + wall_p.stick * (ringing + friction) + over)
             across = V * wall_p.stick * laminar_viscosity.pair(laminar_p, s, j, j)
             fx += along * dx + across * du
             fy += along * dy + across * dv
@@ -155,6 +157,7 @@ def feel(stepper, chosen, ahead: float) -> np.ndarray:
         stepper.bodies.add_velocities(gain)
     wall_force(
         stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, stepper.flow, chosen, stepper.wall,
-        stepper.viscous, p["shifting"], stepper.phases, p["gravity"], stepper.frame, stepper.excess, gain, felt,
+        stepper.viscous, p["liquid_damping"], p["shifting"], stepper.phases, p["gravity"], stepper.frame,
+        stepper.excess, gain, felt,
     )  # fmt: skip
     return felt

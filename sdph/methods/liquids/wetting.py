@@ -1,4 +1,4 @@
-"""Where an interface of two phases meets a wall: the normal that its angle there asks for, and the liquid that stands
+"""Interface of two phases at a wall that it meets: the normal that its angle there asks for, and the liquid that stands
 as if behind the wall.
 
 The normal at a wall is that of Brackbill, Kothe & Zemach 1992, J. Comput. Phys. 100, 335, section V: t sin a + w cos a,
@@ -103,8 +103,8 @@ def filled(way):
 
 @inlined
 def parting(kernel, s, rows, box, j, nx, ny, nz, liquid, spacing):
-    """How far [spacings] wall particle j lies inside the plane of a normal (3 values) inside of which as much of what
-    it sees lies, weighted by the kernel, as there is `liquid`; found by halving."""
+    """Way [spacings] of wall particle j inside the plane of a normal (3 values) inside of which as much of what it
+    sees lies, weighted by the kernel, as there is `liquid`; found by halving."""
     low, high = -4.0 * kernel.h / spacing, 4.0 * kernel.h / spacing
     for _ in range(ROUNDS):
         middle, inside = 0.5 * (low + high), 0.0

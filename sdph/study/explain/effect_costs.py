@@ -68,8 +68,8 @@ def step(simulation, dt: float) -> float:
     """Wall time [s] of one sub-step of `dt` [s], its exchange included."""
     simulation.grains.begin()
     count, started = len(simulation.state.x), time.perf_counter()
-    gravity, pressed = simulation._body(simulation._hand(dt))
-    simulation.stepper.force(np.zeros(count), gravity + pressed, np.zeros(count))
+    push = sum(simulation._body(simulation._hand(dt)))
+    simulation.stepper.force(np.zeros(count), push, np.zeros(count))
     simulation.stepper.move(dt)
     simulation.grains.close()
     return time.perf_counter() - started

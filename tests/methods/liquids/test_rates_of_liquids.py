@@ -78,7 +78,6 @@ def test_acceleration_is_the_sum_over_all_pairs(dimensions, kernel, gradient):
             slope = smoothing.slope.py_func(own.kernel, distance[j])
             closing = (v[i] - v[j]) @ d[j]
             ringing = -p["liquid_damping"].strength * closing / (distance[j] ** 2 + p["liquid_damping"].softening)
-            ringing *= wet[j]  # walls grip by viscosity alone
             held_off = (
                 0.0 if wet[j] else s.density[i] * 20.0**2 * max(0.0, 1.0 - distance[j] / (0.025 * dimensions**0.5))
             )

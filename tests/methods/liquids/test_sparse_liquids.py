@@ -76,7 +76,7 @@ def test_a_lone_normal_has_no_curvature(droplet):
     own.normal[:] = 0.0
     own.normal[[one, other], 0] = 1.0
     around = own.kernel, own.state, own.rows, own.neighbours.box, own.active
-    interface.bend(*around, own.volume, own.normal, own.curvature)
+    interface.bend(*around, own.volume, (), own.normal, own.curvature)
     assert (own.curvature[[one, other]] == 0.0).all()
     assert held(own)["no_curvature_share"] == 1.0
 

@@ -77,7 +77,7 @@ def expected_acceleration(own, i, weighted, B):
         p_i, p_j = own.pressure[i], own.pressure[j] if wet else own.pressure[i] - rho_i * gravity @ d
         first, second = (2.0 * rho_j / (rho_i + rho_j), 2.0 * rho_i / (rho_i + rho_j)) if weighted else (1.0, 1.0)
         pair = first * p_i * B[i] + second * p_j * B[j if wet else i]
-        damping = -p["liquid_damping"].strength * closing / (distance**2 + p["liquid_damping"].softening) * wet
+        damping = -p["liquid_damping"].strength * closing / (distance**2 + p["liquid_damping"].softening)
         along = (
             damping * 2.0 * rho_i * rho_j / (rho_i + rho_j) / 1000.0
             - 8.0 * mu[s.kind[i], kind_j] * closing / distance**2
