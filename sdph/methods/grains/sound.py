@@ -20,8 +20,8 @@ import numpy as np
 from sdph.laws import kernels
 from sdph.laws.compiled import law
 
-# omega dt of a sub-step, of 2 that waves on a lattice bear; our choice, by convergence: at 1.0 the bed moves by less than
-# 0.15 %, but a layer on 20 degrees creeps four times as fast and one on 30 degrees is 1.5 % faster (validation/granular_piles)
+# omega dt of a sub-step, of 2 that waves on a lattice bear; our choice, by convergence: at 1.0 the bed moves by less
+# than 0.15 %, but grains on 30 degrees slide 1.5 % faster and those at rest on 20 creep (validation/granular_piles)
 SWING = 0.6
 WAVES = 200  # looked at in each direction, up to the shortest that a lattice has; our choice
 
