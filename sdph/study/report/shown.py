@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from sdph.case import read as cases
+from sdph.engine.table import Found
 from sdph.running import output
 from sdph.running.limiters import LARGEST
 from sdph.schema import CaseError
@@ -32,7 +33,8 @@ class Shown:
     @cached_property
     def history(self) -> dict[str, np.ndarray]:
         """Columns of history.csv that hold numbers, without those of limiters; empty where there is none."""
-        return {k: v for k, v in _columns(self.folder / "history.csv").items() if LARGEST + k not in self.summary}
+        path = self.folder / "history.csv"
+        return Found(path, {k: v for k, v in _columns(path).items() if LARGEST + k not in self.summary})
 
     @cached_property
     def metrics(self) -> dict[str, np.ndarray]:
@@ -62,7 +64,7 @@ def opened(folder: Path) -> Shown:
 def _columns(file: Path) -> dict[str, np.ndarray]:
     if not file.is_file() or not file.stat().st_size:
         return {}
-    return {k: v for k, v in output.read_table(file, output.TEXTS).items() if v.dtype.kind == "f"}
+    return Found(file, {k: v for k, v in output.read_table(file, output.TEXTS).items() if v.dtype.kind == "f"})
 
 
 def json_of(path: Path, needs: dict) -> dict:

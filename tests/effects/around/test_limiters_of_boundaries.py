@@ -70,7 +70,7 @@ def test_a_wall_without_specularity_holds_no_grip(tmp_path):
 
 def test_the_way_back_from_a_wall_and_its_energy(tmp_path):
     """The lowest row falls on the floor within a step and is put back to the distance of contact."""
-    stepper, dt = floor(tmp_path), 1e-4
+    stepper, dt = floor(tmp_path), 7e-5
     row = stepper.state.y < SPACING
     stepper.state.v[row] = -30.0
     mass, before = stepper.state.mass[row], stepper.state.y[row].copy()
