@@ -1,11 +1,8 @@
-"""Contact with a polyline in the plane: particles nearer to a chain of segments than a distance are pushed off it.
+"""Length of the next window: the least of all limits, each by its cause.
 
-    F = k (a - r) n       r < a the distance to the nearest place of the chain, n from there to the particle
-    -(1 - t) F and -t F   on the ends of the segment, t the share of the way from its first end at which the place lies
-
-Ends are particles of a body: what lies between them, however far they part, lets nothing through. -F acts where F does
-(the lever rule), so that momentum and angular momentum close, and F is what the energy k (a - r)^2/2 falls by: it comes
-back. The distance is that to the whole chain, so that a particle before two segments is pushed once.
+The exchange is first order in the window. Its error over a window is estimated from how much the exchanged heat
+changed since the last one, error = sum |Q_n/dt_n - Q_(n-1)/dt_(n-1)| dt_n^2/(dt_n + dt_(n-1)), and held at
+`coupling.window_tolerance` times the heat that there is to exchange.
 """
 
 from __future__ import annotations
@@ -13,67 +10,171 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import scipy
-from numba import njit
 
-from sdph.laws.compiled import inlined
+from sdph import effects
+from sdph.case.gas_cells import cell_edges
+from sdph.effects.around.streams import streams_of
+from sdph.engine.clock import Clock
+from sdph.engine.kept import POSITIVE, Maybe, Named, Unfit
+from sdph.engine.state import GRAIN
 
-
-def near(points, first, second, reach: float) -> np.ndarray:
-    """Pairs (P, 2) of points (N, 2) [m] and segments from `first` to `second` (S, 2) [m] nearer than `reach` [m],
-    sorted."""
-    if not len(points) or not len(first):
-        return np.zeros((0, 2), np.int64)
-    along = second - first
-    half = 0.5 * float(np.hypot(*along.T).max())
-    found = scipy.spatial.cKDTree(points).query_ball_point(first + 0.5 * along, reach + half)
-    segment = np.repeat(np.arange(len(first)), [len(own) for own in found])
-    point = np.concatenate(found).astype(np.int64)
-    own, way = points[point] - first[segment], along[segment]
-    share = np.clip((own * way).sum(axis=1) / np.maximum((way**2).sum(axis=1), np.finfo(float).tiny), 0.0, 1.0)
-    touches = np.hypot(*(own - share[:, None] * way).T) < reach
-    pairs = np.stack([point, segment], axis=1)[touches]
-    return pairs[np.lexsort(pairs.T[::-1])]
-
-
-@inlined
-def foot(x, y, i, a, b):
-    """Of particle i before the segment from a to b: from its nearest place (2 values) [m], share of the way there."""
-    along_x, along_y = x[b] - x[a], y[b] - y[a]
-    dx, dy = x[i] - x[a], y[i] - y[a]
-    length2 = along_x * along_x + along_y * along_y
-    share = (dx * along_x + dy * along_y) / length2 if length2 > 0.0 else 0.0
-    share = 0.0 if share < 0.0 else (1.0 if share > 1.0 else share)
-    return dx - share * along_x, dy - share * along_y, share
+SAFETY, GROWTH, SHRINK = 0.9, 2.0, 0.3  # usual bounds of a step controller (Hairer, Norsett & Wanner, II.4); our choice
+# of the gas in a cell: most vapour that comes into it in a window, so that it is carried away as it comes; our choice
+VAPOUR = 0.1
+# of the time in which gas stops a bed, most that its force may be held: a held force drives the bed's oscillations; our
+# choice
+GRIP = 0.1
+# limit -> what a user can change about it
+KEYS = {
+    "largest": "coupling.window_largest_s", "heat exchange": "coupling.window_tolerance", "courant": "coupling.courant",
+    "particles": "coupling.courant", "evaporation": "the rate of evaporation", "grip": "the drag on packed grains",
+    "settling": "run.accuracy",
+    "contact": "liquid.sound_speed_m_s, whose square is the stiffness of contacts",
+}  # fmt: skip
 
 
-@njit(cache=True, error_model="numpy")
-def press(stiffness, distance, x, y, segments, bears, pairs, force):
-    """Add to force (N, 3) [N] on all particles; energy [J] of the springs.
+class Control:
+    """Step control of one exchanged quantity by the change of its rate."""
 
-    segments (S, 2) particles at the ends; bears (S,) bool: others give no reaction; pairs (P, 2) of a particle and a
-    segment that may touch, sorted. What lies on a segment is pushed to its left, inwards of a counterclockwise chain.
+    KEPT, FORMS = ("before", "scale", "error"), {"before": Maybe(0.0)}  # see sdph.engine.kept
+
+    def __init__(self, tolerance: float):
+        self.tolerance = tolerance
+        self.before = None  # length of the last window [s]
+        self.scale = 0.0
+        self.error = 0.0
+
+    def admit(self, kept: dict) -> None:
+        """Unfit where what it learned cannot be."""
+        if (kept["before"] is not None and not kept["before"] > 0.0) or min(kept["scale"], kept["error"]) < 0.0:
+            raise Unfit("the control of the window has learned what no window can tell")
+
+    def begin(self, rate: float, scale: float) -> float:
+        """First window [s] of a relaxation at `rate` [1/s]: backward Euler errs by (rate dt)^2/2 of `scale`."""
+        self.scale = scale
+        return math.sqrt(2.0 * self.tolerance) / rate if rate > 0.0 else math.inf
+
+    def learn(self, dt: float, heat: float, change: float) -> float:
+        """Next window [s] after one of `dt` [s] in which particles exchanged `heat` [J], sum of |Q|, at rates that
+        differ by `change` [W], sum of |Q/dt - Q/dt before|, from those of the last window."""
+        before, self.before = self.before, dt
+        self.scale = max(self.scale, heat)
+        if self.scale == 0.0:  # nothing to exchange, nothing to resolve
+            return dt * GROWTH
+        if before is None:
+            return dt
+        self.error = change * dt * dt / (dt + before) / self.scale
+        return dt * min(GROWTH, max(SHRINK, SAFETY * math.sqrt(self.tolerance / max(self.error, 1e-300))))
+
+
+def learned(state, heat, dt: float) -> tuple[float, float]:
+    """Heat [J] that grains exchanged in a window of `dt` [s], sum of |heat|, and the change [W] of its rate since the
+    last one, of those that were in the gas in both; the state gets the rate of now."""
+    inside = state.kind == GRAIN
+    change = 0.0
+    if len(state.received):
+        both = inside & (state.exchanged > 0)
+        change = float(np.abs(heat[both] / dt - state.received[both]).sum())
+        state.received[:], state.exchanged[:] = heat / dt, inside
+    return float(np.abs(heat[inside]).sum()), change
+
+
+class Window(Clock):
+    """Chooses windows: what is told of each limit decides how long the next one is."""
+
+    KEPT, FORMS = ("limits", "control", "limit"), {"limits": Named(POSITIVE)}  # see sdph.engine.kept
+
+    def __init__(self, case):
+        super().__init__(case.run)
+        self.courant, self.cell = case.coupling.courant, smallest_cell(case)
+        self.limits = {"largest": case.coupling.window_largest} | opening(case)
+        self.control = Control(case.coupling.window_tolerance)
+
+    def admit(self, kept: dict) -> None:
+        """Unfit where a limit would never let the run come to its end."""
+        limits = kept["limits"]
+        if limits.get("largest") != self.limits["largest"] or min(limits.values()) < self.shortest:
+            raise Unfit(f"the limits of the window are not those of this case, or one is below {self.shortest:.2g} s")
+
+    def begin(self, rate: float, scale: float) -> None:
+        """Before the first window; see `Control.begin`."""
+        self.limits["heat exchange"] = self.control.begin(rate, scale)
+
+    def choose(self, time: float) -> float:
+        """The time [s] at which the next window ends."""
+        self.limit = min(self.limits, key=self.limits.get)
+        return self.part(
+            time, self.limits[self.limit], f"the window's limit {self.limit!r} ({KEYS.get(self.limit, 'an effect')})"
+        )
+
+    def longest(self) -> float:
+        """No window that `choose` picks next is longer [s]."""
+        return min(self.limits.values())
+
+    def thicken(self, dt: float, share: float) -> None:
+        """Take note that in `dt` [s] vapour came into a cell of gas that was `share` of what was there, or would at the
+        rate of now."""
+        self.limits["evaporation"] = dt * min(GROWTH, VAPOUR / share) if share > 0.0 else math.inf
+
+    def hold(self, grip: float) -> None:
+        """Take note that gas that cannot give way stops grains that move as one at the rate `grip` [1/s]."""
+        self.limits["grip"] = GRIP / grip if grip > 0.0 else math.inf
+
+    def obey(self, limits: dict[str, float]) -> None:
+        """Take note of the longest windows [s] that are borne now, by what bears them; inf where any is."""
+        self.limits |= limits
+
+    def stake(self, heat: float) -> None:
+        """There is `heat` [J] to exchange now."""
+        self.control.scale = max(self.control.scale, heat)
+
+    def learn(self, dt: float, heat: float, change: float, courant: float, fastest: float) -> None:
+        """Set the limits from the window just done: `heat` and `change` as of `Control.learn`, courant of the gas,
+        fastest particle [m/s]."""
+        self.limits["particles"] = self.courant * self.cell / fastest if fastest > 0.0 else math.inf
+        if "heat exchange" in self.limits:
+            self.limits["heat exchange"] = self.control.learn(dt, heat, change)
+        if courant > 0.0:
+            self.limits["courant"] = dt * min(GROWTH, self.courant / courant)
+        elif "courant" in self.limits:  # the gas has come to rest
+            self.limits["courant"] *= GROWTH
+
+
+def settling(case, pull: float, tau: float, speed: float) -> float:
+    """Longest window [s] in which grains drift right that a force pulls by `pull` [m/s2] while drag stops them within
+    `tau` [s]; `speed` [m/s] of what moves there.
+
+    Drag is that of the slip at a window's start, so that grains drift by dt/(2 tau) of tau pull too fast, and at most
+    by pull dt/2 where dt is longer than tau: that is held to `run.accuracy` of the fastest of their drift, of what
+    moves, and of a smoothing length in the run, as what is slower moves nothing.
     """
-    energy, n = 0.0, 0
-    while n < len(pairs):
-        i, hit, nearest, dx, dy, share = pairs[n, 0], -1, distance, 0.0, 0.0, 0.0
-        while n < len(pairs) and pairs[n, 0] == i:
-            s = pairs[n, 1]
-            if bears[s]:
-                own_x, own_y, own_share = foot(x, y, i, segments[s, 0], segments[s, 1])
-                r = math.sqrt(own_x * own_x + own_y * own_y)
-                if r < nearest:
-                    hit, nearest, dx, dy, share = s, r, own_x, own_y, own_share
-            n += 1
-        if hit < 0:
-            continue
-        a, b = segments[hit]
-        if nearest == 0.0:
-            dx, dy = y[a] - y[b], x[b] - x[a]
-        size = stiffness * (distance - nearest) / math.sqrt(dx * dx + dy * dy)
-        energy += 0.5 * stiffness * (distance - nearest) ** 2
-        for axis, push in ((0, size * dx), (1, size * dy)):
-            force[i, axis] += push
-            force[a, axis] -= (1.0 - share) * push
-            force[b, axis] -= share * push
-    return energy
+    felt = max(tau * pull, speed, case.smoothing_length / case.run.end_time)
+    return 2.0 * case.run.accuracy * felt / pull if pull > 0.0 else math.inf
+
+
+def smallest_cell(case) -> float:
+    """Least width [m] of a gas cell."""
+    return min(float(np.diff(edges).min()) for edges in cell_edges(case))
+
+
+def opening(case) -> dict[str, float]:
+    """Limits [s] of the first window from the speeds that the case gives: gas that is let in, as fast as it is between
+    the grains, and grains that are thrown at the start or by a nozzle. Later windows are told what moves how fast."""
+    packed = max((region.volume_fraction for region in case.particles.values()), default=0.0)
+    let_in = max((math.hypot(*b.velocity) for b in case.boundaries.values() if b.velocity), default=0.0) / (
+        1.0 - packed
+    )
+    thrown = (
+        [math.hypot(*region.velocity) for region in case.particles.values() if region.velocity]
+        if effects.moving(case)
+        else []
+    )
+    if "inflow" in case.effects:
+        thrown += [
+            float(np.linalg.norm(streams_of(case, nozzle).velocity, axis=1).max(initial=nozzle.speed))
+            for nozzle in case.nozzles.values()
+        ]
+    reach = case.coupling.courant * smallest_cell(case)
+    return {
+        cause: reach / speed for cause, speed in (("courant", let_in), ("particles", max(thrown, default=0.0))) if speed
+    }

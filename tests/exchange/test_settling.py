@@ -39,9 +39,9 @@ def test_grains_settle_at_their_speed(tmp_path, accuracy):
 
 def test_what_flies_fast_does_not_wait_for_its_weight(tmp_path):
     """Of grains thrown at 10 m/s the error may be as much of that speed; nothing asks where nothing pulls."""
-    thrown = {"particles": {"bed": {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.06, 0.06],
-                                    "volume_fraction": 1e-3, "temperature_K": 300.0, "velocity_m_s": [10.0, 0.0]}}}  # fmt: skip
-    run = started(case := falling(**thrown), tmp_path, still(case))
+    bed = {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.06, 0.06], "volume_fraction": 1e-3}
+    bed |= {"temperature_K": 300.0, "velocity_m_s": [10.0, 0.0]}
+    run = started(case := falling(particles={"bed": bed}), tmp_path, still(case))
     assert run.clock.limits["settling"] == pytest.approx(2.0 * 0.01 * 10.0 / G, rel=1e-12)
     for on in (("drag",), ("gravity",)):
         run = started(case := falling(on=on), tmp_path, still(case))
