@@ -218,6 +218,13 @@ def openfoam_setup(options) -> int:
     return FINE
 
 
+def complete(options) -> int:
+    from sdph.cli import completion
+
+    print(completion.script(parser(), options.shell))
+    return FINE
+
+
 def doctor(options) -> int:
     from coupling.openfoam.programs import install
 
@@ -242,4 +249,5 @@ COMMANDS = {
     "report": report_runs,
     "openfoam": openfoam_setup,
     "doctor": doctor,
+    "completion": complete,
 }
