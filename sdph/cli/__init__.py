@@ -210,14 +210,13 @@ def validate_scene(options) -> int:
 
     if options.record and options.set:
         raise CaseError(f"--record {options.record}: a record is of the scene as it is; leave --set out")
-    overrides = tuple(options.set) + ((f'coupling.gas="{options.gas}"',) if options.gas else ())
-    checks = []
+    overrides, checks = tuple(options.set) + ((f'coupling.gas="{options.gas}"',) if options.gas else ()), []
     with contextlib.closing(Reporter(line=not options.json)) as reporter:
         for scene in validate.validated() if options.scene is None else [options.scene]:
             own = validate.validate(scene, overrides, reporter, options.out and options.out / scene)
+            checks += own
             if options.record:
                 record.write(options.record, scene, own, options.gas)
-            checks += own
     print(output.strict_json({"checks": checks}) if options.json else compare.table(checks))
     return FINE if all(check["ok"] for check in checks) else CHECK_FAILED
 

@@ -67,14 +67,17 @@ class Checkpoint:
         """Windows that the run had done."""
         return int(self.folder.name)
 
-    def refuse_other(self, case_table: dict) -> None:
-        """CaseError where another version or case wrote it, with the difference, or where the case ends before it."""
+    def _refuse_version(self) -> None:
         for what, now in (("sdph", __version__), ("format", FORMAT)):
             if self.manifest[what] != now:
                 was = short(self.manifest[what]).strip(kept.QUOTES)
                 raise CaseError(
                     f"{self.folder} was written with {what} {was}; this is {now}: go on with that one, or run anew"
                 )
+
+    def refuse_other(self, case_table: dict) -> None:
+        """CaseError where another version or case wrote it, with the difference, or where the case ends before it."""
+        self._refuse_version()
         before, now = flat(self.manifest["case"]), flat(_plain(case_table))
         for key in sorted(before.keys() | now.keys()):
             if before.get(key) != now.get(key) and key not in FREE:

@@ -86,17 +86,19 @@ def kernel(case) -> EvaporationP:
     )  # fmt: skip
 
 
+# saturation -> keys that it needs, and their units
+NEEDS = {
+    "constant": {"saturation_pressure": "_Pa"},
+    "antoine": {"antoine": ""},
+    "clausius_clapeyron": {"saturation_pressure": "_Pa", "saturation_temperature": "_K"},
+}
+
+
 def _saturation(own, vapour) -> tuple:
     """Four numbers for the saturation law that was chosen."""
-    needs = {
-        "constant": ("saturation_pressure",),
-        "antoine": ("antoine",),
-        "clausius_clapeyron": ("saturation_pressure", "saturation_temperature"),
-    }[own.saturation]
-    for name in needs:
+    for name, unit in NEEDS[own.saturation].items():
         if getattr(own, name) is None:
-            units = {"saturation_pressure": "_Pa", "saturation_temperature": "_K", "antoine": ""}
-            raise CaseError(f"evaporation.{name}{units[name]} is missing; saturation = {own.saturation!r} needs it")
+            raise CaseError(f"evaporation.{name}{unit} is missing; saturation = {own.saturation!r} needs it")
     if own.saturation == "antoine":
         return (*own.antoine, 0.0)
     if own.saturation == "constant":

@@ -144,11 +144,9 @@ def specific_energies(stepper, own) -> tuple[np.ndarray, np.ndarray]:
     rho_0, stiffness, gamma, background, cohesion = stepper.fluids[:, s.kind[own]]
     x = s.density[own] / rho_0
     power = np.where(gamma == 1.0, np.log(x), (x ** (gamma - 1.0) - 1.0) / np.where(gamma == 1.0, 1.0, gamma - 1.0))
-    elastic = (
-        stiffness / rho_0 * (power + 1.0 / x - 1.0)
-        + background / rho_0 * (1.0 - 1.0 / x)
-        - cohesion * rho_0 * (x - 1.0)
-    )
+    elastic = stiffness / rho_0 * (power + 1.0 / x - 1.0)
+    elastic += background / rho_0 * (1.0 - 1.0 / x)
+    elastic -= cohesion * rho_0 * (x - 1.0)
     w2 = s.w[own] ** 2 if len(s.w) else 0.0
     return 0.5 * (s.u[own] ** 2 + s.v[own] ** 2 + w2), elastic
 

@@ -81,14 +81,10 @@ def without(scene: str, rows: list[dict]) -> list[dict]:
     for row in rows if middle else ():
         if row["solver"] == OWN and row["without"] != ALL:
             change, estimate = measured_rows.distance(middle, row), judged[row["without"]].error_if_off
-            found.append(
-                {
-                    "effect left out": row["without"],
-                    "measured change": change,
-                    "estimate": estimate,
-                    "within a factor of 3": "yes" if near(change, estimate) else "NO",
-                }
-            )
+            found.append({
+                "effect left out": row["without"], "measured change": change, "estimate": estimate,
+                "within a factor of 3": "yes" if near(change, estimate) else "NO",
+            })  # fmt: skip
     return found
 
 
