@@ -22,8 +22,7 @@ import numpy as np
 from numba import njit, prange
 
 from sdph.laws.compiled import inlined
-
-SUPPORT = 2.0  # reach of the cubic spline in smoothing lengths
+from sdph.laws.kernels import SUPPORT
 
 
 class Weights(NamedTuple):

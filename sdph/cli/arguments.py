@@ -6,8 +6,8 @@ import argparse
 import contextlib
 from pathlib import Path
 
-from sdph import __version__
 from sdph.schema import CaseError
+from sdph.version import __version__
 
 SET = "override a key of the case; the path of a file is taken from the working directory"
 

@@ -21,11 +21,11 @@ from pathlib import Path, PurePosixPath
 
 import numpy as np
 
-from sdph import __version__
 from sdph.engine import kept
 from sdph.engine.kept import short
 from sdph.engine.reading import Unreadable, open_plain, read_arrays, read_json
 from sdph.schema import CaseError, flat
+from sdph.version import __version__
 
 FORMAT = 7  # of the files of a checkpoint
 FOLDER = "checkpoints"

@@ -17,6 +17,7 @@ from sdph.effects.liquids import density_diffusion, laminar_viscosity, liquid_da
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import FAST, apart, deep, faster
 from sdph.engine.rows import entry, length
+from sdph.laws.constants import TINY
 from sdph.laws.eos import tait_pressure
 from sdph.laws.matrices import solved
 from sdph.methods.liquids import correction, phases
@@ -72,7 +73,7 @@ def by_pair(kernel, s, box, flow, wall_p, laminar_p, damping_p, phases_p, excess
     weight = outside[0] * dx + outside[1] * dy + outside[2] * dz
     p_j = phases.behind(phases_p, signed, flow.pressure[j], p_i - rho_i * weight)
     mean = phases.harmonic(phases_p, rho_i, rho_j)
-    ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY)) * mean
+    ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + TINY)) * mean
     friction = laminar_viscosity.central(laminar_p, s, i, behind, s.kind[i], kind_j, closing, r2)
 
     # rho_i dv_i/dt = -sum V_j (p_i + p_j) grad W + sum V_j 2 mu r.grad W/(r^2 + eta^2) v_ij

@@ -15,6 +15,7 @@ from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import FAST, apart, deep, faster
 from sdph.engine.rows import entry, length
 from sdph.laws.compiled import inlined
+from sdph.laws.constants import TINY
 from sdph.methods.liquids import correction, phases
 
 # of their sum: viscosity of the liquid, artificial viscosity, diffusion of density, control of tension, corrected
@@ -35,7 +36,7 @@ def rubbed(laminar_p, damping_p, phases_p, s, i, j, signed, d, dv, v):
     rho_j = phases.density(phases_p, signed, s.density[i], s.density[j])
     friction = laminar_viscosity.central(laminar_p, s, i, other, s.kind[i], kind_j, closing, r2)
     across = laminar_viscosity.pair(laminar_p, s, i, other)
-    ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (math.sqrt(r2) + smoothing.TINY))
+    ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (math.sqrt(r2) + TINY))
     ringing *= phases.harmonic(phases_p, s.density[i], rho_j)
     return friction * parting - across * (du * v[0] + dv_ * v[1] + dw * v[2]), ringing * parting
 
