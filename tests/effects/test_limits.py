@@ -165,3 +165,17 @@ def test_a_limit_is_that_of_the_state_as_it_is(monkeypatch, scene, name):
     else:
         advance(case, grains(case), 3e-4)
         assert len(set(seen)) == 3
+
+
+def test_grains_at_rest_ask_before_every_step(monkeypatch):
+    """A third of the window, then what is left in parts of a sixth."""
+    case, asked = load("disc_cluster"), []
+
+    def limit(p, case, state):
+        asked.append(None)
+        return 1e-4 if len(asked) == 1 else 5e-5
+
+    shorten(monkeypatch, "conduction", limit)
+    stepper = grains(case)
+    advance(case, stepper, 3e-4)
+    assert stepper.steps == len(asked) == 5 and stepper.limit == "conduction"
