@@ -32,7 +32,7 @@ class Flow(NamedTuple):
     active: np.ndarray
     pressure: np.ndarray
     volume: np.ndarray
-    least: np.ndarray
+    enclosure: np.ndarray
 
 
 @njit(cache=True, error_model="numpy")
@@ -98,7 +98,7 @@ def push(
     for n in prange(len(flow.active)):
         i = flow.active[n]
         rho_i, p_i = s.density[i], flow.pressure[i]
-        own = shifting.sign(shifting_p, p_i, flow.least[i] if len(flow.least) else 1.0) * p_i
+        own = shifting.sign(shifting_p, p_i, flow.enclosure[i] if len(flow.enclosure) else 1.0) * p_i
         outside = body(gravity_p, frame_p, s, i, False)
         ax = ay = az = gx = gy = gz = xx = yy = zz = xy = yz = zx = 0.0
         for k in range(length(rows, i)):

@@ -81,7 +81,7 @@ def losses(
     for n in prange(len(flow.active)):
         i = flow.active[n]
         p_i, V_i = flow.pressure[i], flow.volume[i]
-        sign_i = shifting.sign(shifting_p, p_i, flow.least[i] if len(flow.least) else 1.0)
+        sign_i = shifting.sign(shifting_p, p_i, flow.enclosure[i] if len(flow.enclosure) else 1.0)
         w = s.w[i] + ahead * acceleration[i, 2] if deep(box) else 0.0
         v = (s.u[i] + ahead * acceleration[i, 0], s.v[i] + ahead * acceleration[i, 1], w)
         viscous = damped = diffused = controlled = corrected = 0.0

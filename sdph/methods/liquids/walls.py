@@ -91,7 +91,7 @@ def wall_force(
             inside = 0.0 if s.kind[j] == INFLOW else max(flow.volume[j], 0.0)  # what waits bears on no tank
             V = inside * abs(flow.volume[i]) * smoothing.slope(kernel, r)
             closing = du * dx + dv * dy + dw * dz
-            sign_j = shifting.sign(shifting_p, flow.pressure[j], flow.least[j] if len(flow.least) else 1.0)
+            sign_j = shifting.sign(shifting_p, flow.pressure[j], flow.enclosure[j] if len(flow.enclosure) else 1.0)
             rho_j = s.density[j]
             friction = laminar_viscosity.central(laminar_p, s, j, j, s.kind[j], s.kind[j], closing, r2)
             ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + TINY))

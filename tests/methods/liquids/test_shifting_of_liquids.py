@@ -26,7 +26,7 @@ def test_a_rotating_liquid_stays_where_shifting_puts_its_velocity():
     s = own.state
     s.u[:], s.v[:], s.density[:] = 3.0 * s.y, -2.0 * s.x, 1000.0
     own.forces()
-    inside = own.active[own.least[own.active] > 0.75]
+    inside = own.active[own.state.enclosure[own.active] > 0.75]
     before = positions(s).copy()
     own._shift(1e-3)
     moved = np.abs(positions(s) - before).max(axis=1)[inside]
@@ -38,7 +38,7 @@ def test_a_rotating_liquid_stays_where_shifting_puts_its_velocity():
 def test_at_a_surface_particles_are_shifted_along_it():
     """Of the shift nothing leads along the gradient of the smallest eigenvalue; spray stays; inside nothing changes."""
     own = stepper(2, effects=("density_diffusion", "shifting"))
-    s, least = own.state, own.least
+    s, least = own.state, own.state.enclosure
     along = own.shift.copy()
     own.shift[:] = 0.0
     shift.surround(
