@@ -31,6 +31,7 @@ HARMLESS = {
     "sdph/methods/grains/equations.py:constitutive": "the largest of all",
     "sdph/exchange/equations.py:temperature_span": "a scale for the length of windows",
     "sdph/exchange/exchange.py:Exchange.grip": "a limit of windows",
+    "sdph/exchange/exchange.py:Exchange.settling": "a limit of windows",
     "sdph/effects/gas/radiation.py:window_limit": "a limit of windows",
     "sdph/effects/gas/micro_explosion.py:tear": "takes the ratio of the case where it gives one",
     "sdph/effects/gas/break_up.py:advance": "what is left of the window, or less of it",

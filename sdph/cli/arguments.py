@@ -75,6 +75,7 @@ def _study(commands) -> None:
         help="kill, starve and stop runs at N random moments (50)",
     )
     stress.add_argument("--json", action="store_true", help="print the checks as JSON")
+    _workers(stress, "cases")
     stress.add_argument("--map", action="store_true", help="measure how far beyond its limits each effect stays stable")
     compare = _command(commands, "compare", "a run against a reference; exit code 1 outside tolerance")
     compare.add_argument("run", type=Path)
@@ -94,6 +95,15 @@ def _study(commands) -> None:
         "--record", type=Path, metavar="FOLDER", help="keep the checks of each scene with date and commit: SCENE.json"
     )
     check.add_argument("--json", action="store_true", help="print the checks as JSON")
+    _workers(check, "scenes")
+
+
+def _workers(command, what: str) -> None:
+    """Options of commands that do many things of a kind."""
+    who = command.add_mutually_exclusive_group()
+    alone = "default: one by one"
+    who.add_argument("--workers", type=count, metavar="N", help=f"so many {what} at once, by dask ({alone})")
+    who.add_argument("--scheduler", metavar="ADDRESS", help=f"address of a dask scheduler whose workers do the {what}")
 
 
 def _sweep(commands) -> None:
@@ -113,9 +123,7 @@ def _sweep(commands) -> None:
         "--table", type=Path, metavar="FILE", help="CSV file: a row for each run, its first line names keys"
     )
     sweep.add_argument("--out", type=Path, help="folder of sweep.csv and runs (default: runs/sweep-TARGET)")
-    who = sweep.add_mutually_exclusive_group()
-    who.add_argument("--workers", type=count, metavar="N", help="so many runs at once, by dask (default: one by one)")
-    who.add_argument("--scheduler", metavar="ADDRESS", help="address of a scheduler of dask whose workers do the runs")
+    _workers(sweep, "runs")
     sweep.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: openfoam where it is)")
     sweep.add_argument("--until", type=float, metavar="T", help="end time [s] of each run")
     sweep.add_argument(

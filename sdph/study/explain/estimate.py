@@ -192,12 +192,16 @@ def _windows(case, s) -> list[tuple]:
         )
         for cause, value in pace.later(case, s).items()
     ]
-    asked = effects.window_limits(pace.parameters(case), case, _state(case))
+    how = {
+        "grip": "of the time in which the gas stops packed grains",
+        "settling": "run.accuracy of what moves, over the error of a drift by weight or field",
+    }
+    asked = pace.asked(case, s, _state(case))
     rows += [
-        ("window", name, limit, "the effect's own window_limit") for name, limit in asked.items() if limit < math.inf
+        ("window", name, limit, how.get(name, "the effect's own window_limit"))
+        for name, limit in asked.items()
+        if limit < math.inf
     ]
-    if (grip := pace.grip(case, s)) < math.inf:
-        rows.append(("window", "grip", grip, "of the time in which the gas stops packed grains"))
     if "heat" in case.effects and s.span and not own.one_way:
         rate = 1.0 / s.heat_time + 1.0 / s.gas_heat_time
         first = math.sqrt(2.0 * own.window_tolerance) / rate
