@@ -212,7 +212,7 @@ class Exchange:
         if self.vapour:
             self.vapour.settle(state, handed)
         if not self.parameters["break_up"]:
-            return dict.fromkeys(break_up.COLUMNS, 0.0)
+            return dict(break_up.NOTHING_BROKEN)
         return break_up.apply(self.parameters["break_up"], state, *handed.around, handed.dt)
 
     def _push(self, handed: Handed, velocity) -> tuple[np.ndarray, np.ndarray]:

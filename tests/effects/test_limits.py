@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from builders import simulation
 from test_break_up_effect import drops
-from test_electric_field import charged
 from test_micro_explosion_effect import bursting_case
 from test_radiation_effect import radiating
 
@@ -56,7 +55,6 @@ WITH = {
 }  # fmt: skip
 # effect that limits windows -> a case with it
 WINDOWS = {
-    "electric_field": lambda: charged(end=1e-4),
     "radiation": lambda: radiating(300.0, windows=1),
     "micro_explosion": bursting_case,
     "break_up": drops,

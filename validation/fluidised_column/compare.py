@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from coupling.embedded import EmbeddedGas
+from sdph import effects
 from sdph.engine.ledger import Ledger
 from sdph.laws import exact as laws
 from sdph.running.metrics import column
@@ -93,7 +94,9 @@ def with_velocity(case, velocity: float, end: float):
 def _stage(case, state):
     gas = EmbeddedGas(case)
     with tempfile.TemporaryDirectory() as folder:
-        simulation = Simulation(case, gas, Ledger(Path(folder) / "ledger.csv", case, gas.mesh.depth))
+        simulation = Simulation(
+            case, gas, Ledger(Path(folder) / "ledger.csv", case, gas.mesh.depth, *effects.in_ledger(case))
+        )
         if state is not None:
             simulation.stepper.replace(state)
         simulation.start()

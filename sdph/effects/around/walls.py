@@ -20,6 +20,7 @@ from numba import njit, prange
 from sdph.effects.around.wall_limiters import held as held_by_limiters
 from sdph.effects.effect import Effect, Judgement
 from sdph.engine.geometry import deep
+from sdph.engine.ledger import Column
 from sdph.engine.rows import entry
 from sdph.engine.walls.dummies import CONTACT, distance, normal_part, offset
 from sdph.laws import granular, kernels
@@ -269,5 +270,7 @@ EFFECT = Effect(
     kernel=kernel,
     moves=True,
     held=held_by_limiters,
+    columns=(Column("contact_way_m"), Column("contact_lift_J")),
+    sums=("contact_way_m", "contact_lift_J"),
     call=call,
 )

@@ -10,6 +10,7 @@ from numba import njit
 
 from sdph.effects.effect import Effect, Judgement
 from sdph.effects.gas import film
+from sdph.engine.ledger import Column
 from sdph.laws import evaporation as law
 from sdph.laws import grain_loss
 from sdph.schema import CaseError, choice, quantity, record, vector
@@ -213,5 +214,10 @@ EFFECT = Effect(
     ),
     sources=("alpha_g", "vapour", "momentum", "heat"),
     to_gas=to_gas,
+    columns=(
+        Column("condensation_refused_kg"), Column("finished_kg"), Column("latent_heat_J", heat=-1),
+        Column("capacity_heat_J", heat=-1),
+    ),
+    sums=("evaporated_kg", "condensation_refused_kg", "finished_kg", "latent_heat_J", "capacity_heat_J"),
     call=call,
 )  # fmt: skip
