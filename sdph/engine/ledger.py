@@ -159,7 +159,7 @@ class Ledger:
         )
 
     def _mass_drifts(self) -> dict[str, float]:
-        """Of both phases together, and of the particles, over all the mass that there was or that came in."""
+        """Drifts of both phases together, and of the particles, over all the mass that there was or that came in."""
         came = self.sums["injected_kg"] - self.sums["left_kg"]
         whole = self.first["particle_mass_kg"] + self.sums["injected_kg"]
         particles = (*self._change("particle_mass_kg", 1), -came)

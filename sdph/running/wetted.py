@@ -110,7 +110,7 @@ class Wetted:
         self.stepper.arrive(dt)
 
     def revive(self) -> None:
-        """After a checkpoint was put back."""
+        """Make anew what a checkpoint does not hold, once it was put back."""
         self.stepper.load = self.force
 
     def begin(self) -> None:

@@ -129,8 +129,8 @@ def _below(name: str, value: float, limit: float) -> dict:
 
 
 def metrics(run) -> dict[str, tuple]:
-    """For `sdph cost`: at the end, the pressure drop against Ergun's row by row, the gradient inside the bed against
-    Ergun's at the alpha_p there."""
+    """Metrics of `sdph cost`: at the end, the pressure drop against Ergun's row by row, the gradient inside the bed
+    against Ergun's at the alpha_p there."""
     last = run.summary
     inside = float(column.ergun(run.case, [last["alpha_p_inside"]], last["superficial_velocity_m_s"])[0])
     drop, gradient = (last["pressure_drop_Pa"], last["ergun_Pa"]), (last["gradient_Pa_m"], inside)

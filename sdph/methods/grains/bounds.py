@@ -75,7 +75,7 @@ class Guard(Watch):
                 )
 
     def sub_step(self, stepper) -> None:
-        """After a sub-step: NaN, speed, temperature of the particles."""
+        """Look, after a sub-step, for NaN, speed, temperature of the particles."""
         s, most = stepper.state, RUNAWAY * self.reach
         if within(s, stepper.scratch.sound, most, COLLAPSE * self.reach, self.coldest, self.hottest):
             return

@@ -165,7 +165,7 @@ def conducted(kernel, s, rows, box, pull, conduction_p, i):
 
 @loop
 def conduct(kernel, s, rows, box, pull, conduction_p, heating):
-    """Of grains that do not move: heating (N,) [W/kg]."""
+    """Conduction among grains that do not move: heating (N,) [W/kg]."""
     for i in prange(len(s.x)):
         heating[i] = conducted(kernel, s, rows, box, pull, conduction_p, i)
 
@@ -174,7 +174,7 @@ def conduct(kernel, s, rows, box, pull, conduction_p, heating):
 def by_pair(
     kernel, s, box, scratch, viscous_p, friction_p, artificial_p, temperature_p, conduction_p, i, j, pull_ij
 ):  # fmt: skip
-    """Of a particle i by another, j: acceleration (3 values) [m/s2], rate of theta, and heat by rubbing and by
+    """Terms of a particle i by another, j: acceleration (3 values) [m/s2], rate of theta, and heat by rubbing and by
     conduction [W/kg]; pull_ij = m_j (dW/dr)/r."""
     rho_i, rho_j = s.density[i], s.density[j]
     dx, dy, dz = apart(s, box, i, j)
@@ -207,7 +207,7 @@ def rates(
     kernel, s, rows, box, scratch, viscous_p, friction_p, artificial_p, temperature_p, conduction_p, walls_p, wall,
     acceleration, of_walls, agitation, heating,
 ):  # fmt: skip
-    """Of grains that move: acceleration (N, 3) [m/s2] by each other; of_walls (N, 7) as `account.kick` takes it;
+    """Rates of grains that move: acceleration (N, 3) [m/s2] by each other; of_walls (N, 7) as `account.kick` takes it;
     agitation (N,) [W/kg] that feeds theta, heating (N,) [W/kg]."""
     for i in prange(len(s.x)):
         ax = ay = az = 0.0

@@ -53,7 +53,7 @@ class Stepper:
         self.unheld, self.shifted = np.zeros(0), np.zeros((0, 3))
 
     def revive(self) -> None:
-        """After a checkpoint was put back."""
+        """Make anew what a checkpoint does not hold, once it was put back."""
         if not self.neighbours.built:  # particles came or went: the next step begins with new rows
             return
         self.neighbours.relist(self.state.kind)

@@ -54,8 +54,8 @@ def state_of(fluids, s, active, pressure, volume):
 
 @njit(cache=True, error_model="numpy", fastmath=FAST, forceinline=True)
 def by_pair(kernel, s, box, flow, wall_p, laminar_p, damping_p, phases_p, excess, i, j, own, outside):
-    """Of a liquid particle i by another, j: force per volume (3 values) [N/m3]; share V_j (dW/dr)/r of liquid of its
-    kind [1/m2], the rise of pressure to j [Pa], and r_ij (3 values) [m].
+    """Terms of a liquid particle i by another, j: force per volume (3 values) [N/m3]; share V_j (dW/dr)/r of liquid of
+    its kind [1/m2], the rise of pressure to j [Pa], and r_ij (3 values) [m].
 
     own: pressure of i [Pa] with the sign that tension control gives it; outside (3 values): its acceleration [m/s2]."""
     rho_i, p_i = s.density[i], flow.pressure[i]

@@ -25,7 +25,7 @@ CAUSES = ("viscosity_J", "damping_J", "diffusion_J", "tension_control_J", "gradi
 
 @njit(cache=True, error_model="numpy")
 def rubbed(laminar_p, damping_p, phases_p, s, i, j, signed, d, dv, v):
-    """Of a pair, over V_i V_j (dW/dr)/r stick: power [J m2/s] lost to the viscosity of the liquid, and to the
+    """Losses of a pair, over V_i V_j (dW/dr)/r stick: power [J m2/s] lost to the viscosity of the liquid, and to the
     artificial one; d, dv = r_ij, v_ij; v velocity of i, past a body that over the body's."""
     dx, dy, dz = d
     du, dv_, dw = dv
@@ -51,7 +51,7 @@ def moved(moving, j):
 
 @njit(cache=True, error_model="numpy")
 def spread(diffusion_p, phases_p, box, s, pressure, gradient, i, j, d):
-    """Of a pair, over V_j (dW/dr)/r: what diffusion of density does to the density of i (`compress`)."""
+    """Spread by a pair, over V_j (dW/dr)/r: what diffusion of density does to the density of i (`compress`)."""
     if len(diffusion_p) == 0:
         return 0.0
     ramp = (gradient[i, 0] + gradient[j, 0]) * d[0] + (gradient[i, 1] + gradient[j, 1]) * d[1]
@@ -62,7 +62,7 @@ def spread(diffusion_p, phases_p, box, s, pressure, gradient, i, j, d):
 
 @njit(cache=True, error_model="numpy")
 def unmatched(excess, phases_p, s, pressure, i, j, sign_i, d, v):
-    """Of a pair of liquid, over V_i V_j (dW/dr)/r: power lost by the corrected gradient of pressure."""
+    """Loss of a pair of liquid, over V_i V_j (dW/dr)/r: power lost by the corrected gradient of pressure."""
     if len(excess) == 0:
         return 0.0
     own = phases.share(phases_p, s.density[i], s.density[j]) * sign_i * pressure[i]

@@ -86,7 +86,7 @@ class LiquidStepper:
             carrier.meet(self.bodies.force(self))
 
     def revive(self) -> None:
-        """After a checkpoint was put back."""
+        """Make anew what a checkpoint does not hold, once it was put back."""
         self.rows = self.neighbours.relist(self.state.kind)
         self.tell_apart()
         self.aim(self.time)

@@ -61,7 +61,7 @@ def _limit(name: str, metric: errors.Converged) -> dict:
 
 
 def answer(own, rows: list[dict], limit: float) -> dict:
-    """For this error take these settings, it costs so much; or why nothing can be told."""
+    """Tell which settings to take for this error and what they cost, or why nothing can be told."""
     best = measured_rows.cheapest(rows, limit)
     take = " ".join(f"{key}={best[key]}" for key in own.keys) if best else errors.refusal(own, rows, limit)
     return {
