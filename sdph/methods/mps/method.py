@@ -34,6 +34,8 @@ class MpsStepper:
         "openings", "load", "moved",
     )  # fmt: skip
     FORMS = {"state": GROWING}
+    # what loops take from neighbours, fresh, of `state` and of what `_look` finds; the pressure is solved for by all
+    HALO = (*"xyzuvw", "kind", "ident", "pressure", "surface")
 
     def __init__(self, case, shortest: float = 0.0):
         self.case, self.own, self.guard, self.shortest = case, case.method, MpsGuard(case), shortest
@@ -61,7 +63,7 @@ class MpsStepper:
             raise CaseError("no particle is at a free surface, and mps gives a closed vessel no pressure: fill it less")
 
     def revive(self) -> None:
-        """After a checkpoint was put back."""
+        """Make anew what a checkpoint does not hold, once it was put back."""
         self.rows = self.neighbours.relist(self.state.kind)
         self._look()
 
