@@ -6,7 +6,7 @@ import pytest
 from blocks import stepper as block
 from moving import case
 from test_halo import poison, strewn
-from test_pools import TANK, joined, tank
+from test_pools import TANK, tank
 
 from sdph.engine import state as particles
 from sdph.methods.mps import equations, pools
@@ -20,11 +20,9 @@ OF_SOLIDS = (
     "steadying", "friction", "free", "broken",
 )  # fmt: skip
 POOLS = {
-    "pool": lambda: tank(),
+    "pool": tank,
     "drop": lambda: MpsStepper(case(("free_energy_tension", "laminar_viscosity"), {}, 2)),
-    "sticking pool": lambda: MpsStepper(
-        case(("gravity", "tank", "laminar_viscosity"), joined(TANK, {"tank": {"walls": "no_slip"}}), 2)
-    ),
+    "sticking pool": lambda: MpsStepper(case(("gravity", "tank", "laminar_viscosity"), TANK, 2)),
 }
 
 
