@@ -6,8 +6,8 @@ import argparse
 import contextlib
 from pathlib import Path
 
-from sdph import __version__
 from sdph.schema import CaseError
+from sdph.version import __version__
 
 SET = "override a key of the case; the path of a file is taken from the working directory"
 
@@ -41,7 +41,8 @@ def parser() -> argparse.ArgumentParser:
     _study(commands)
     _sweep(commands)
     _droplet(commands)
-    _look(commands)
+    _view(commands)
+    _report(commands)
     openfoam = _command(commands, "openfoam", "find or install OpenFOAM and compile the gas solver")
     openfoam.add_argument("action", choices=("setup",))
     openfoam.add_argument("--install", action="store_true", help="install what is missing with apt")
@@ -145,8 +146,7 @@ def _droplet(commands) -> None:
     droplet.add_argument("--json", action="store_true", help="print the summary as JSON")
 
 
-def _look(commands) -> None:
-    """Commands that show a run: view, report."""
+def _view(commands) -> None:
     view = _command(commands, "view", "look at a run")
     view.add_argument("run", type=Path)
     view.add_argument("--png", type=Path, help="write a picture, .png, .svg or .pdf, instead of opening a window")
@@ -158,6 +158,9 @@ def _look(commands) -> None:
     view.add_argument("--smooth", action="store_true", help="continuous fields instead of particles and cells, in 2-D")
     view.add_argument("--outline", action="store_true", help="outline bubbles (alpha_p = 0.15) or a liquid")
     view.add_argument("--vectors", action="store_true", help="arrows of velocity")
+
+
+def _report(commands) -> None:
     report = _command(commands, "report", "one HTML file of one or several runs, side by side; also of failed ones")
     report.add_argument("runs", nargs="+", type=Path, metavar="RUN")
     report.add_argument("--out", type=Path, help="the file (default: report.html in the first run's folder)")

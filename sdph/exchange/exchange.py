@@ -108,8 +108,8 @@ class Exchange:
         return replace(handed, terms=self._terms(handed), alpha_g=alpha_g, gone=missed, around=around)
 
     def _rates(self, state, seen) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Of every particle now: heat conductance to the gas [W/K], beta/(alpha_p rho_p) [1/s], and the force that is
-        held [N]."""
+        """Rates of every particle now: heat conductance to the gas [W/K], beta/(alpha_p rho_p) [1/s], and the force
+        that is held [N]."""
         p, count, vorticity = self.parameters, len(state.x), seen.fields.get("vorticity", OFF)
         conductance, damping, force = np.empty(count), np.empty(count), np.zeros((count if self.holds else 0, 3))
         equations.rates(
@@ -212,7 +212,7 @@ class Exchange:
         if self.vapour:
             self.vapour.settle(state, handed)
         if not self.parameters["break_up"]:
-            return dict.fromkeys(break_up.COLUMNS, 0.0)
+            return dict(break_up.NOTHING_BROKEN)
         return break_up.apply(self.parameters["break_up"], state, *handed.around, handed.dt)
 
     def _push(self, handed: Handed, velocity) -> tuple[np.ndarray, np.ndarray]:

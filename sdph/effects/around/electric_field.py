@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sdph.effects.effect import NO_LIMIT, Effect, Judgement
+from sdph.engine.ledger import Column
 from sdph.laws import electrostatics as law
 from sdph.laws.break_up import sauter_diameter
 from sdph.schema import CaseError, quantity, record, vector
@@ -109,5 +110,6 @@ EFFECT = Effect(
     arrays=("diameter", "diameter_variance"),
     moves=True,
     dt_limit=dt_limit,
+    columns=(Column("work_of_electric_field_J", motion=1),),
     call=call,
 )

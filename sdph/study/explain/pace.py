@@ -147,7 +147,7 @@ def sub_steps(case, s, state) -> dict[str, float]:
 
 
 def parameters(case) -> dict:
-    """Of the effects that are on, as the run's loops take them."""
+    """Parameters of the effects that are on, as the run's loops take them."""
     return {name: effects.kernel_of(effects.REGISTRY[name], case) for name in case.effects}
 
 
