@@ -191,7 +191,7 @@ class LiquidStepper:
         if self.summed:
             rates.sum_up(*around, self.lattice, s.density)
         rates.state_of(self.fluids, s, self.active, self.pressure, self.volume)
-        if self.p["bubble"] and self.p["bubble"].vapour and ahead:
+        if p["bubble"] and p["bubble"].vapour and ahead:
             self.void.boil(self, 2.0 * ahead)
             rates.state_of(self.fluids, s, self.active, self.pressure, self.volume)
         if len(self.waiting):
@@ -219,14 +219,21 @@ class LiquidStepper:
             self.void.press(self)
         if self.bodies:
             self.bodies.keep_off(self)
+        self._mend(around)
+        if self.look:
+            self.look(ahead)
+
+    def _mend(self, around) -> None:
+        """Find the velocity of neighbours and the way by which particles are shifted."""
+        p = self.p
         if p["xsph"]:
             shift.mingle(*around, p["xsph"], self.phases, self.volume, *self.extra)
         if p["shifting"]:
-            shift.surround(*around, p["shifting"], self.phases, self.volume, s.enclosure, self.shift, self.twist)
+            shift.surround(
+                *around, p["shifting"], self.phases, self.volume, self.state.enclosure, self.shift, self.twist
+            )
             if not self.phases:
-                shift.along_surface(*around, self.volume, s.enclosure, self.shift)
-        if self.look:
-            self.look(ahead)
+                shift.along_surface(*around, self.volume, self.state.enclosure, self.shift)
 
     def _allocate(self) -> None:
         """Work arrays for the particles in their new order; none outlives a step."""
