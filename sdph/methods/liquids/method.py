@@ -219,21 +219,9 @@ class LiquidStepper:
             self.void.press(self)
         if self.bodies:
             self.bodies.keep_off(self)
-        self._mend(around)
+        shift.prepare(self, around)
         if self.look:
             self.look(ahead)
-
-    def _mend(self, around) -> None:
-        """Find the velocity of neighbours and the way by which particles are shifted."""
-        p = self.p
-        if p["xsph"]:
-            shift.mingle(*around, p["xsph"], self.phases, self.volume, *self.extra)
-        if p["shifting"]:
-            shift.surround(
-                *around, p["shifting"], self.phases, self.volume, self.state.enclosure, self.shift, self.twist
-            )
-            if not self.phases:
-                shift.along_surface(*around, self.volume, self.state.enclosure, self.shift)
 
     def _allocate(self) -> None:
         """Work arrays for the particles in their new order; none outlives a step."""
