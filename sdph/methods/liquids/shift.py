@@ -138,8 +138,8 @@ def displace(p, fluids, s, active, shift, gradient, twist, compliance, dt, x, y,
 
 
 def prepare(stepper, around) -> None:
-    """Find the velocity by which XSPH moves particles of a `stepper`, and the way by which they are shifted; `around` is
-    what its loops take."""
+    """Find the velocity by which XSPH moves particles of a `stepper`, and the way by which they are shifted; `around`
+    is what its loops take."""
     p, s = stepper.p, stepper.state
     if p["xsph"]:
         mingle(*around, p["xsph"], stepper.phases, stepper.volume, *stepper.extra)
