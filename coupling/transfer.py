@@ -24,17 +24,16 @@ import numpy as np
 from numba import njit, prange
 
 from sdph.laws.compiled import inlined
-
-SUPPORT = 2.0  # reach of the cubic spline in smoothing lengths
+from sdph.laws.kernels import SUPPORT
 
 
 class Weights(NamedTuple):
-    """Weights of N particles: row k is cells[k, :count[k]] with weight[k, :count[k]]; of `total` cells.
+    """Weights of N particles: row k is cells[k, :number[k]] with weight[k, :number[k]]; of `total` cells.
 
     `outside` names the particles that cover no cell centre and took the nearest cell.
     """
 
-    count: np.ndarray
+    number: np.ndarray
     cells: np.ndarray
     weight: np.ndarray
     total: int
@@ -64,22 +63,22 @@ class Transfer:
         """Weights of particles at (N, 3) positions [m]; a particle that covers no cell centre takes the nearest."""
         positions = positions - self.corner
         while True:
-            count = np.empty(len(positions), np.int64)
+            number = np.empty(len(positions), np.int64)
             cells, weight = np.empty((len(positions), self.stride), np.int64), np.empty((len(positions), self.stride))
-            _fill(self.bins, self.sides, positions, count, cells, weight)
-            if count.max(initial=0) < self.stride:
+            _fill(self.bins, self.sides, positions, number, cells, weight)
+            if number.max(initial=0) < self.stride:
                 break
-            self.stride = int(count.max()) + 2
-        outside = np.flatnonzero(count == 0)
+            self.stride = int(number.max()) + 2
+        outside = np.flatnonzero(number == 0)
         for k in outside:
             cells[k, 0] = self.bins.cell[((self.bins.centres - positions[k]) ** 2).sum(axis=1).argmin()]
-            weight[k, 0] = count[k] = 1
-        return Weights(count, cells, weight, len(self.volumes), outside)
+            weight[k, 0] = number[k] = 1
+        return Weights(number, cells, weight, len(self.volumes), outside)
 
 
 def gather(weights: Weights, field: np.ndarray) -> np.ndarray:
     """Cell values (C,) or (C, m) at the particles: (N,) or (N, m)."""
-    out = np.empty((len(weights.count), *field.shape[1:]))
+    out = np.empty((len(weights.number), *field.shape[1:]))
     _gather(weights, _columns(field), _columns(out))
     return out
 
@@ -139,7 +138,7 @@ def _spline(q):
 def _around(bins, a, value):
     """First and one past the last bin to look at along an axis, both from 0 to the number of bins, however far `value`
     is."""
-    place = np.int64(np.floor((value - bins.low[a]) / bins.size[a]))
+    place = math.floor((value - bins.low[a]) / bins.size[a])
     first = min(max(place - 1, 0), bins.shape[a])
     return first, max(min(place + 2, bins.shape[a]), first)
 
@@ -207,7 +206,7 @@ def _weighed(bins, cells, weight, found):
     """`found`, with cells by their number and weights that sum to 1."""
     total, entries = 0.0, min(found, np.uint64(len(cells)))
     for e in range(entries):
-        weight[e] = _spline(np.sqrt(weight[e]))
+        weight[e] = _spline(math.sqrt(weight[e]))
     for e in range(entries):
         weight[e] *= bins.share[cells[e]]
         total += weight[e]
@@ -217,15 +216,15 @@ def _weighed(bins, cells, weight, found):
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
-def _fill(bins, sides, points, count, cells, weight):
+def _fill(bins, sides, points, number, cells, weight):
     for k in prange(len(points)):
-        count[k] = _row(bins, sides, points[k, 0], points[k, 1], points[k, 2], cells[k], weight[k])
+        number[k] = _row(bins, sides, points[k, 0], points[k, 1], points[k, 2], cells[k], weight[k])
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
 def _gather(weights, field, out):
     for k in prange(len(out)):
-        entries = np.uint64(weights.count[k])
+        entries = np.uint64(weights.number[k])
         for m in range(field.shape[1]):
             total = 0.0
             for e in range(entries):
@@ -236,7 +235,7 @@ def _gather(weights, field, out):
 @njit(cache=True, error_model="numpy")
 def _deposit(weights, field, out):
     for k in range(len(field)):
-        for e in range(np.uint64(weights.count[k])):
+        for e in range(np.uint64(weights.number[k])):
             cell, weight = np.uint64(weights.cells[k, e]), weights.weight[k, e]
             for m in range(field.shape[1]):
                 out[cell, m] += weight * field[k, m]

@@ -137,7 +137,11 @@ def _others(case, folder: Path) -> dict[str, str] | None:
     for name in case.boundaries:
         if name not in known:
             raise CaseError(f"boundaries.{name} is no patch of the mesh of the gas; it has {', '.join(known)}")
-    others = {name: patch for name, patch in known.items() if name not in case.boundaries}
+    return _walls({name: patch for name, patch in known.items() if name not in case.boundaries})
+
+
+def _walls(others: dict) -> dict[str, str]:
+    """Name -> type of patches that the case does not name; CaseError where one is no wall."""
     for name, patch in others.items():
         if patch.kind not in ("wall", EMPTY) and patch.faces.stop > patch.faces.start:
             raise CaseError(

@@ -1,4 +1,5 @@
-"""Before a run begins: what cannot be is refused, what may be wrong is warned of. `sdph run` and Python do the same."""
+"""Checks before a run begins: what cannot be is refused, what may be wrong is warned of. `sdph run` and Python do the
+same."""
 
 from __future__ import annotations
 

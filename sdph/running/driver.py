@@ -20,6 +20,7 @@ from pathlib import Path
 
 from coupling.choice import open_gas
 from coupling.gas import CheckpointError, GasError
+from sdph import effects
 from sdph.case import read as cases
 from sdph.engine import contact, restart
 from sdph.engine import device as environment
@@ -112,7 +113,7 @@ def simulation_of(case, gas, ledger: Path):
     case has one; its ledgers go to new files."""
     if "grains" not in case.matters:
         return hastened.of(case, ledger)
-    simulation = Simulation(case.only("grains"), gas, Ledger(ledger, case, gas.mesh.depth))
+    simulation = Simulation(case.only("grains"), gas, Ledger(ledger, case, gas.mesh.depth, *effects.in_ledger(case)))
     if case.liquid:
         liquid = Liquid(case.only("liquid"), ledger.with_name("ledger_liquid.csv"), simulation.clock.shortest)
         simulation.beside.add(liquid, contact.between(case))

@@ -60,14 +60,11 @@ class Reporter:
         if gas:
             parts.append("residual {1:.0e} ({0})".format(*max(gas.items(), key=lambda item: item[1])))
         closure = {key: value for key, value in ledger.summary().items() if key.endswith(("drift_rel", "mismatch_rel"))}
-        parts.append(
-            "closure {:.0e} ({})".format(*max((value, key.removesuffix("_rel")) for key, value in closure.items()))
-        )
+        worst, name = max((value, key.removesuffix("_rel")) for key, value in closure.items())
+        parts.append(f"closure {worst:.0e} ({name})")
         if simulation.time > at:
-            parts.append(
-                f"{(now - began) * (simulation.case.run.end_time - simulation.time) / (simulation.time - at):.0f} s "
-                "left"
-            )
+            left = (simulation.case.run.end_time - simulation.time) / (simulation.time - at)
+            parts.append(f"{(now - began) * left:.0f} s left")
         return ", ".join(parts)
 
 

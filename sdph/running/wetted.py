@@ -11,7 +11,7 @@ import numpy as np
 
 from sdph.engine import polygons
 from sdph.engine import state as particles
-from sdph.engine.contact import Contact
+from sdph.engine.contact import between
 from sdph.engine.kept import Unfit
 from sdph.methods.liquids.bodies import Shell
 from sdph.methods.solids import start
@@ -34,9 +34,7 @@ class Wetted:
         self.force = self.stepper.load
         self.shell = _shell(case, self.stepper.state.ident)
         self.flaw_at = max((body.flaw_at for body in case.bodies.values() if body.flaw), default=0.0)  # [rad]
-        # a liquid is to the body's particles a spring as stiff as those of sdph.engine.contact
-        spacing, own = case.resolution.spacing, case.liquid
-        self.contact = Contact(spacing, own.density * own.sound_speed**2 * spacing ** (case.dimensions - 2))
+        self.contact = between(case)  # a liquid is to the body's particles such a spring
 
     @property
     def stepper(self):
@@ -72,10 +70,8 @@ class Wetted:
 
     def links(self) -> np.ndarray:
         """Points (N, 2) [m] along the links of the shell's innermost circle, a quarter of them apart."""
-        own, here = self.shell.inner, self.places()[:, :2]
-        after = np.roll(own, -1)
-        held = (self.stepper.free[own] == 0) & (self.stepper.free[after] == 0)
-        first, second = here[own[held]], here[after[held]]
+        own, here = self.shell.links, self.places()[:, :2]
+        first, second = (here[ends] for ends in own[~self.loose()[own].any(axis=1)].T)
         return np.concatenate([first + share * (second - first) for share in (0.25, 0.5, 0.75)])
 
     def inside(self, points, state, wet) -> np.ndarray:
@@ -112,7 +108,7 @@ class Wetted:
         self.stepper.arrive(dt)
 
     def revive(self) -> None:
-        """After a checkpoint was put back."""
+        """Make anew what a checkpoint does not hold, once it was put back."""
         self.stepper.load = self.force
 
     def begin(self) -> None:

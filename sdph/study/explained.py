@@ -1,4 +1,4 @@
-"""All that `sdph explain` and Python's `explain` tell of a case, as a run would have it."""
+"""Table of what `sdph explain` and Python's `explain` tells of a case, as a run would have it."""
 
 from __future__ import annotations
 

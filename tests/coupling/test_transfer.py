@@ -190,5 +190,5 @@ def test_a_row_that_is_too_short_is_not_written_past():
     own = Transfer(UNIFORM, WIDE)
     cells, weight = np.full(6, -7), np.full(6, -7.0)
     found = transfer._row(own.bins, own.sides, 0.5, 0.5, 0.0, cells[:5], weight[:5])
-    assert found == own.weights(np.array([[0.5, 0.5, 0.0]])).count[0] > 5
+    assert found == own.weights(np.array([[0.5, 0.5, 0.0]])).number[0] > 5
     assert cells[5] == -7 and weight[5] == -7.0

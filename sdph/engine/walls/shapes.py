@@ -134,7 +134,7 @@ class Disc:
 
 @dataclass(frozen=True)
 class Box:
-    """Between `lower` and `upper` (d,); sides in `open` (axis, end) have no wall."""
+    """Space between `lower` and `upper` (d,); sides in `open` (axis, end) have no wall."""
 
     lower: np.ndarray
     upper: np.ndarray

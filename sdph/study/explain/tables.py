@@ -6,6 +6,7 @@ import math
 
 from sdph import effects
 from sdph.case import judge
+from sdph.laws.constants import ADIABATIC, GAS_CONSTANT
 from sdph.methods.grains import start
 from sdph.methods.grains.scales import THIN
 from sdph.study.explain import droplets, estimate, liquids, mps, solids
@@ -67,7 +68,7 @@ def numbers(s, warm: bool = True) -> list[tuple]:
     grains, gas, end = s.grains, s.gas, s.end
     biot = s.nusselt * gas.conductivity / (6.0 * grains.conductivity) if grains.conductivity else math.inf
     archimedes = gas.density * (grains.density - gas.density) * s.gravity * grains.diameter**3 / gas.viscosity**2
-    sound = math.sqrt(1.4 * 8314.46 / gas.molar_mass * gas.temperature)  # of a diatomic gas
+    sound = math.sqrt(ADIABATIC * GAS_CONSTANT / gas.molar_mass * gas.temperature)
     diffusivity = grains.conductivity / (grains.density * grains.heat_capacity)
     peclet = s.speed * s.length / diffusivity if diffusivity else math.inf
     fed = s.jet / s.minimum_fluidisation if s.jet else 0.0
