@@ -13,6 +13,9 @@ from sdph.schema import CaseError
 # digits)
 SAME = 1e-8
 THIN = 0.25  # of the size of a cell: layers nearer to each other on average are none, as of tetrahedra; our choice
+# from one layer of cells to the next the vessel is at most so many times as wide: more are cells that lean, whose
+# centres lie a little higher than those beside them (or a vessel with a step, for which slabs do as well); our choice
+STEP = 4.0
 SNAP = 1e-6  # of a cell: how far from a cell edge a span may end; our choice
 
 
@@ -38,11 +41,13 @@ def nearest_edge(edges: np.ndarray, place: float, key: str) -> int:
     return nearest
 
 
-def layers(along: np.ndarray) -> np.ndarray:
-    """(C,) number of the layer of cells that each centre lies in; `along` (C,) [m] are the centres along an axis."""
+def layers(along: np.ndarray, apart: float | None = None) -> np.ndarray:
+    """(C,) number of the layer of cells that each centre lies in; `along` (C,) [m] are the centres along an axis, which
+    part layers where none lies for `apart` [m], round-off by default."""
     order = np.argsort(along, kind="stable")
+    gap = SAME * np.ptp(along) if apart is None else apart
     number = np.empty(len(along), dtype=np.int64)
-    number[order] = np.concatenate(([0], np.cumsum(np.diff(along[order]) > SAME * np.ptp(along))))
+    number[order] = np.concatenate(([0], np.cumsum(np.diff(along[order]) > gap)))
     return number
 
 
@@ -59,9 +64,9 @@ def upwards(case, metric: str) -> np.ndarray:
 
 class Rows:
     """Cells of any mesh sorted by height along `up` (3,): `own` (C,) is the row of each cell, `above` (C,) [m] its
-    height over the floor; place over the floor and height (R,) [m] of each row, which may differ; `floor` and `top`
-    [m], the place of the floor along `up` and the height of the vessel. Two rows that touch are taken to be equally
-    wide."""
+    height over the floor; place over the floor and height (R,) [m] of each row, which may differ, and its area [m2], of
+    a plane mesh times its depth; `floor` and `top` [m], the place of the floor along `up` and the height of the vessel.
+    Two rows that touch are taken to be equally wide."""
 
     def __init__(self, mesh, up):
         along = mesh.centres @ np.asarray(up)
@@ -76,6 +81,7 @@ class Rows:
         self.floor = float(place[0] - 0.5 * self.height[0])
         self.top = float(place[-1] + 0.5 * self.height[-1]) - self.floor
         self.place, self.above = place - self.floor, along - self.floor
+        self.area = whole / self.height
 
     def at_ends(self, values) -> tuple[float, float]:
         """Values extrapolated linearly to the floor and to the top, each from the two rows next to it."""
@@ -88,13 +94,24 @@ class Rows:
 
 
 def _rows(along, mesh) -> np.ndarray:
-    """(C,) row of each cell: its layer, or where the cells lie in none, a slab as thick as a cell is wide."""
-    own, extent = layers(along), np.ptp(along)
+    """(C,) row of each cell: its layer, where cells lean that with those little higher or lower, or where they lie in
+    none, a slab as thick as a cell is wide."""
+    extent = np.ptp(along)
     size = (mesh.volumes.mean() / mesh.depth) ** (1.0 / mesh.dimensions)
-    if own.max() * THIN * size <= extent:
-        return own
+    for apart, fewest in ((None, 0.0), (THIN * size, THIN * extent / size)):
+        own = layers(along, apart)
+        if own.max() >= fewest and own.max() * THIN * size <= extent and _even(own, along, mesh.volumes):
+            return own
     slabs = np.floor((along - along.min()) / (extent * (1.0 + SAME)) * max(2, round(extent / size)))
     return np.unique(slabs, return_inverse=True)[1]
+
+
+def _even(own: np.ndarray, along: np.ndarray, volumes: np.ndarray) -> bool:
+    """True where layers `own` (C,) of cells are about as wide as those beside them: volume over height."""
+    whole = np.bincount(own, volumes)
+    place = np.bincount(own, volumes * along) / whole
+    across = 0.5 * (whole[1:] + whole[:-1]) / np.diff(place)
+    return bool((np.abs(np.diff(np.log(across))) <= math.log(STEP)).all())
 
 
 def cells(case: Case) -> tuple[int, ...]:

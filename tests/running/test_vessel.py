@@ -1,5 +1,6 @@
 """A vessel of the user's own: its patches are the walls, it is filled to a level, and what does not fit is refused."""
 
+import dataclasses
 import json
 import math
 import tomllib
@@ -93,6 +94,16 @@ def test_a_level_is_told_by_mass_or_height():
     assert start.fill(grains(height_m=0.1), ()).mass.sum() == pytest.approx(0.5 * 2500.0 * 0.01, rel=1e-12)
     with pytest.raises(CaseError, match=r"particles.bed.mass_kg = 30; 25 kg fit"):
         start.fill(grains(mass_kg=30.0), ())
+
+
+def test_estimates_know_the_level_of_a_region():
+    """Else a bed in the lower half would reach the outlet above, and `explain` call for outflow."""
+    case = grains(height_m=0.05)
+    low, high = start.extents(case, case.particles["bed"])
+    assert low.tolist() == [0.0, 0.0] and high == pytest.approx([0.1, 0.05])
+    upside = dataclasses.replace(case, domain=dataclasses.replace(case.domain, gravity=(0.0, 9.81)))
+    low, high = start.extents(upside, case.particles["bed"])
+    assert low == pytest.approx([0.0, 0.15]) and high.tolist() == [0.1, 0.2]
 
 
 @pytest.mark.parametrize(

@@ -73,12 +73,21 @@ def assumed(case):
 
 
 def extents(case, region) -> tuple[np.ndarray, np.ndarray]:
-    """Lower and upper corner (d,) [m] of the box around a region; the domain where the mesh of walls is not there
-    yet."""
+    """Lower and upper corner (d,) [m] of the box around a region, up to the level that it is filled to by height where
+    gravity points along an axis; around the domain where the mesh of walls is not there yet."""
     walls = mesh_of_walls(case)
     if region.shape == "walls" and walls is None:
-        return np.array(case.domain.corner), np.array(case.domain.upper)
-    return regions.bounds(region, walls, case.dimensions)
+        low, high = np.array(case.domain.corner), np.array(case.domain.upper)
+    else:
+        low, high = map(np.array, regions.bounds(region, walls, case.dimensions))
+    along = np.flatnonzero(case.domain.gravity)
+    if region.height is not None and len(along) == 1:
+        axis = along[0]
+        if case.domain.gravity[axis] < 0.0:
+            high[axis] = min(high[axis], low[axis] + region.height)
+        else:
+            low[axis] = max(low[axis], high[axis] - region.height)
+    return low, high
 
 
 def _region(case, name: str, region, names, notices) -> State:

@@ -17,15 +17,17 @@ INSIDE = (0.15, 0.75)  # of the bed's height: away from floor and surface
 
 
 def metrics(simulation) -> dict[str, float]:
-    """pressure_drop_Pa from floor to top; ergun_Pa, what Ergun says of every row at the gas flux of now; weight_Pa of
-    the grains in gas over the floor; gradient_Pa_m of the pressure inside the bed, and alpha_p there (nan where fewer
-    than two rows lie inside); speeds [m/s] of the grains; their fractions."""
+    """pressure_drop_Pa from floor to top; ergun_Pa, what Ergun says of every row at the gas flux of now over the floor,
+    which slows down as the vessel widens; weight_Pa of the grains in gas over the floor; gradient_Pa_m of the pressure
+    inside the bed, and alpha_p there (nan where fewer than two rows lie inside); speeds [m/s] of the grains; their
+    fractions."""
     case, mesh, fields = simulation.case, simulation.gas.mesh, simulation.cell_fields()
     up = upwards(case, "column")
     rows, mass = Rows(mesh, up), simulation.state.mass
     pressure, alpha_p = rows.mean(fields["pressure"]), rows.mean(fields["alpha_p"])
     floor, lid = rows.at_ends(pressure)
     flux = rows.mean((1.0 - fields["alpha_p"]) * (fields["velocity"] @ up))
+    through = flux[0] * rows.area[0] / rows.area
     height = 2.0 * float(mass @ (particles.positions(simulation.state) @ up - rows.floor) / mass.sum())
     inside = (rows.place > INSIDE[0] * height) & (rows.place < INSIDE[1] * height)
     seen = np.count_nonzero(inside) > 1
@@ -34,7 +36,7 @@ def metrics(simulation) -> dict[str, float]:
     return {
         "superficial_velocity_m_s": float(flux[0]),
         "pressure_drop_Pa": floor - lid,
-        "ergun_Pa": float((ergun(case, alpha_p, flux[0]) * rows.height).sum()),
+        "ergun_Pa": float((ergun(case, alpha_p, through) * rows.height).sum()),
         "weight_Pa": weight(case, float(mass.sum()), float(mesh.volumes.sum()) / mesh.depth / rows.top),
         "gradient_Pa_m": float(-np.polyfit(rows.place[inside], pressure[inside], 1)[0]) if seen else math.nan,
         "alpha_p_inside": float(alpha_p[inside].mean()) if seen else math.nan,
@@ -46,10 +48,11 @@ def metrics(simulation) -> dict[str, float]:
     }
 
 
-def ergun(case, alpha_p, flux: float) -> np.ndarray:
-    """dP/dy [Pa/m] at each alpha_p."""
-    gas = case.gas
-    return np.array([exact.ergun_gradient(a, flux, case.grains.diameter, gas.density, gas.viscosity) for a in alpha_p])
+def ergun(case, alpha_p, flux) -> np.ndarray:
+    """dP/dy [Pa/m] at each alpha_p (R,), at one flux [m/s] or that of each."""
+    gas, pairs = case.gas, np.broadcast_arrays(alpha_p, flux)
+    own = zip(*(column.tolist() for column in pairs))
+    return np.array([exact.ergun_gradient(a, u, case.grains.diameter, gas.density, gas.viscosity) for a, u in own])
 
 
 def weight(case, mass: float, floor: float) -> float:

@@ -169,9 +169,9 @@ def test_heat_is_left_out_of_the_numbers_of_a_case_without_any():
 
 
 def test_a_nozzle_at_a_side_but_for_the_digits_of_a_mesh_is_let_be():
-    """snappyHexMesh and text files leave 2 nm; a tenth of a spacing is an error still."""
+    """Text files of six digits leave a tenth of a micrometre; a millimetre is an error still."""
     jet = scenes.HERE / "evaporating_jet" / "case.toml"
     size = cases.load(jet).domain.size
-    cases.load(jet, ("domain.lower_m=[2e-9, 0.0]", f"domain.size_m=[{size[0] - 2e-9!r}, {size[1]!r}]"))
+    cases.load(jet, ("domain.lower_m=[1e-7, 0.0]", f"domain.size_m=[{size[0] - 1e-7!r}, {size[1]!r}]"))
     with pytest.raises(CaseError, match="nozzles.jet.centre_m = .* reaches out of the domain"):
         cases.load(jet, ("domain.lower_m=[1e-3, 0.0]",))
