@@ -13,8 +13,7 @@ What is public stands in `PUBLIC`, described in sdph.api; each name is imported 
 import importlib
 
 from sdph.engine import device as environment
-
-__version__ = "0.1.0"
+from sdph.version import __version__
 
 PUBLIC = {  # name -> the module that has it
     "Case": "sdph.api.case", "CaseError": "sdph.schema", "Run": "sdph.api.results", "Tank": "sdph.api.tank",

@@ -144,11 +144,15 @@ def read(cls: type, table: dict, where: str):
             raise CaseError(unknown(f"{where}.{key}" if where else key, known, where))
         name, kind = known[key]
         values[name] = _value(kind, value, f"{where}.{key}" if where else key)
+    _refuse_missing(cls, values, where)
+    return cls(**values)
+
+
+def _refuse_missing(cls: type, values: dict, where: str) -> None:
     for f in dataclasses.fields(cls):
         if f.name not in values and f.default is REQUIRED and f.default_factory is REQUIRED and "kind" in f.metadata:
             key = f.metadata["kind"].key(f.name)
             raise CaseError(f"{where}.{key} is missing; it has no default: give it in [{where}]")
-    return cls(**values)
 
 
 def write(record: Any) -> dict:
@@ -173,11 +177,15 @@ def unknown(given: str, known, where: str = "") -> str:
     return f"unknown key {given}; {hint} known here: {', '.join(sorted(known))}"
 
 
+def _chosen(kind: Kind, value: Any, key: str) -> Any:
+    if value not in kind.choices:
+        raise CaseError(f"{key} = {value!r}; allowed: {', '.join(kind.choices)}")
+    return value
+
+
 def _value(kind: Kind, value: Any, key: str) -> Any:
     if kind.choices:
-        if value not in kind.choices:
-            raise CaseError(f"{key} = {value!r}; allowed: {', '.join(kind.choices)}")
-        return value
+        return _chosen(kind, value, key)
     if kind.of is bool:
         return _typed(value, bool, key, "true or false")
     if kind.of is int:

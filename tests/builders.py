@@ -4,7 +4,7 @@ import numpy as np
 from fakes import StillGas
 
 from coupling.gas import Mesh
-from sdph import scenes
+from sdph import effects, scenes
 from sdph.case import gas_cells
 from sdph.case import read as cases
 from sdph.effects import OFF
@@ -42,7 +42,7 @@ def fixed_windows(dt: float) -> tuple[str, ...]:
 def simulation(case, folder, cells=None, gas=StillGas) -> Simulation:
     """A started simulation on a gas without flow; its ledger is in `folder`."""
     stand_in = gas(case, cells or gas_cells.cells(case))
-    run = Simulation(case, stand_in, Ledger(folder / "ledger.csv", case, stand_in.mesh.depth))
+    run = Simulation(case, stand_in, Ledger(folder / "ledger.csv", case, stand_in.mesh.depth, *effects.in_ledger(case)))
     run.start()
     return run
 

@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from coupling.gas import IMPULSES, Budget, GasState, Mesh
+from sdph import effects
 from sdph.case import read as cases
 from sdph.engine.ledger import Ledger
 from sdph.methods.grains import sub_step
@@ -113,7 +114,7 @@ class Row:
 
 def started(case, folder, gas=None):
     gas = gas or Row(case)
-    simulation = Simulation(case, gas, Ledger(folder / "ledger.csv", case, gas.mesh.depth))
+    simulation = Simulation(case, gas, Ledger(folder / "ledger.csv", case, gas.mesh.depth, *effects.in_ledger(case)))
     simulation.start()
     return simulation
 

@@ -60,8 +60,7 @@ def _side(case, grid: Grid, axis: int, upper: int) -> dict[str, np.ndarray]:
     last[axis] = first[axis] + 1
     cell = indices(grid.counts, tuple(first), tuple(last))
     owner = _owners(case, grid, axis, upper, cell)
-    names = list(case.boundaries)
-    rows = [_row(case, name) for name in names]
+    rows = [_row(case, name) for name in case.boundaries]
     step = grid.strides[axis] * (1 if upper else -1)
     each = {key: np.array([row[key] for row in rows])[owner] for key in rows[0]}
     return each | {

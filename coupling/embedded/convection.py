@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -59,7 +60,7 @@ def substeps(inner, flux, before, after, dt):
             mass = before[c] if before[c] < after[c] else after[c]
             share = max(share, 0.5 * (through + abs(gained)) / mass)  # the larger of what goes in and out
             courant = max(courant, 0.5 * through / mass)
-    return int(np.ceil(share * dt / TURNOVER)), courant * dt
+    return math.ceil(share * dt / TURNOVER), courant * dt
 
 
 @njit(error_model="numpy")

@@ -48,7 +48,7 @@ def rim_of(grid: Grid, members: np.ndarray) -> Rim:
 
 
 def rims_of(grid: Grid, faces: Faces, axis: int, free: np.ndarray) -> Rims:
-    """Of the velocities along `axis`; free (S,): those that are solved for."""
+    """Rims of the velocities along `axis`; free (S,): those that are solved for."""
     every, own = free.copy(), faces.axis == axis
     every[faces.face[own]] = True
     room = grid.geometry.volume > 0.0

@@ -161,12 +161,15 @@ class EmbeddedGas:
             announced = ", ".join(self.sources)
             raise GasError(f"the window brings {', '.join(sources)}, but announced at the start were {announced}")
         for name, values in sources.items():
-            shape = (len(self.mesh.volumes), 3)[: 1 + (SOURCES[name][1] == 3)]
-            if np.shape(values) != shape:
-                raise GasError(f"source {name} has shape {np.shape(values)}; it must be {shape}")
-            if not np.isfinite(np.sum(values)):
-                cell = int(np.argmin(np.isfinite(values).reshape(shape[0], -1).all(axis=1)))
-                raise GasError(f"source {name} is not finite in cell {cell}")
+            self._check_values(name, values)
+
+    def _check_values(self, name: str, values: np.ndarray) -> None:
+        shape = (len(self.mesh.volumes), 3)[: 1 + (SOURCES[name][1] == 3)]
+        if np.shape(values) != shape:
+            raise GasError(f"source {name} has shape {np.shape(values)}; it must be {shape}")
+        if not np.isfinite(np.sum(values)):
+            cell = int(np.argmin(np.isfinite(values).reshape(shape[0], -1).all(axis=1)))
+            raise GasError(f"source {name} is not finite in cell {cell}")
 
 
 def _converged(time: float, residuals: dict[str, float], tolerance: float) -> None:

@@ -72,6 +72,11 @@ def _check_one(case: Case) -> None:
         raise CaseError(f"domain.size_m = {list(case.domain.size)}; every length must be above 0")
     if any(case.domain.corner) and (case.liquid or case.solid or not case.grains):
         raise CaseError(f"domain.lower_m = {list(case.domain.lower)} is of a vessel of grains; leave it out")
+    for name, own in (*case.parameters.items(), *((f"particles.{name}", own) for name, own in case.particles.items())):
+        if getattr(own, "mesh_scale", 1.0) != 1.0 and not own.mesh:
+            raise CaseError(
+                f"{name}.mesh_scale = {own.mesh_scale:g}, and {name} names no mesh; name it, or leave it out"
+            )
     periods.of_domain(case)
     if any(isinstance(t, tuple) or t <= 0.0 for t in case.run.report_at):
         raise CaseError(f"run.report_at_s = {list(case.run.report_at)}; it must be a list of times above 0")
@@ -168,12 +173,8 @@ def _check_outputs(case: Case) -> None:
             )
 
 
-def _check_place(case: Case, where: str, part) -> None:
-    """A region or a pool has what its shape needs, is no box upside down, and no narrower than the spacing."""
-    needs = NEEDS.get(part.shape, ("centre", "radius"))
-    for key in needs:
-        if getattr(part, key) is None:
-            raise CaseError(f"{where}.{key}_m is missing; a {part.shape} needs {' and '.join(f'{n}_m' for n in needs)}")
+def _narrowest(where: str, part) -> float:
+    """Smallest width [m] of a region or a pool; CaseError where it has none."""
     size = part.radius if part.shape != "box" else min(b - a for a, b in zip(part.lower, part.upper))
     if part.shape == "ring" and part.inner_radius >= part.radius:
         raise CaseError(f"{where}.inner_radius_m = {part.inner_radius:g} must be below radius_m = {part.radius:g}")
@@ -182,18 +183,31 @@ def _check_place(case: Case, where: str, part) -> None:
         raise CaseError(
             f"{where}: upper_m = {list(part.upper)} must lie above lower_m = {list(part.lower)} along every axis"
         )
+    return size
+
+
+def _check_place(case: Case, where: str, part) -> None:
+    """A region or a pool has what its shape needs, is no box upside down, and no narrower than the spacing."""
+    needs = NEEDS.get(part.shape, ("centre", "radius"))
+    for key in needs:
+        if getattr(part, key) is None:
+            raise CaseError(f"{where}.{key}_m is missing; a {part.shape} needs {' and '.join(f'{n}_m' for n in needs)}")
+    size = _narrowest(where, part)
     if case.resolution.spacing > size * (1.0 + SAME):
         spacing = f"resolution.spacing_mm = {case.resolution.spacing * 1e3:g}"
         raise CaseError(f"{spacing} is larger than {where} ({size * 1e3:g} mm); give a spacing well below that")
 
 
+def _check_one_phase(case: Case) -> None:
+    two = [f'pools.{name}.phase = "gas"' for name, pool in case.pools.items() if pool.phase == "gas"]
+    two += [name for name in case.effects if effects.REGISTRY[name].two_phases]
+    if two:
+        raise CaseError(f"{two[0]} needs a second phase; give its properties in [gas_phase]")
+
+
 def _check_phases(case: Case) -> None:
     if case.gas_phase is None:
-        two = [f'pools.{name}.phase = "gas"' for name, pool in case.pools.items() if pool.phase == "gas"]
-        two += [name for name in case.effects if effects.REGISTRY[name].two_phases]
-        if two:
-            raise CaseError(f"{two[0]} needs a second phase; give its properties in [gas_phase]")
-        return
+        return _check_one_phase(case)
     if case.liquid is None:
         raise CaseError("[gas_phase] is given without [liquid]; a gas around grains goes into [gas]")
     if "drain" in case.effects:

@@ -207,17 +207,22 @@ def _dimensions(table: dict) -> int:
     return given
 
 
+def _refuse_names(on: list[str]) -> None:
+    """CaseError where one is no effect, or stands there twice."""
+    for name in on:
+        if name not in effects.REGISTRY:
+            raise CaseError(unknown(name, effects.REGISTRY).replace("key", "effect", 1))
+    if len(set(on)) < len(on):
+        raise CaseError(f"effects = {on}; each may stand there once")
+
+
 def _effects(table: dict) -> tuple[str, ...]:
     on = table.get("effects", [])
     if on == "auto":
         return _automatic(table)
     if not isinstance(on, list) or not all(isinstance(name, str) for name in on):
         raise CaseError(f"effects = {on!r}; it must be a list of names out of {', '.join(sorted(effects.REGISTRY))}")
-    for name in on:
-        if name not in effects.REGISTRY:
-            raise CaseError(unknown(name, effects.REGISTRY).replace("key", "effect", 1))
-    if len(set(on)) < len(on):
-        raise CaseError(f"effects = {on}; each may stand there once")
+    _refuse_names(on)
     for name in effects.REGISTRY.keys() & table.keys() - set(on):
         raise CaseError(
             f"[{name}] is given, but {name} is not among effects = {list(on)}; add it there or remove the section"

@@ -8,10 +8,9 @@ import json
 import os
 import signal
 import sys
-import tempfile
 from pathlib import Path
 
-from sdph.cli import making
+from sdph.cli import judging, making
 from sdph.cli.arguments import parser
 from sdph.cli.sweeping import sweep
 from sdph.schema import CaseError
@@ -127,22 +126,20 @@ def _table(summary: dict) -> str:
 
 def explain_case(options) -> int:
     from sdph import scenes
-    from sdph.running import driver, output, vessel
-    from sdph.study import rehearsal
+    from sdph.running import compiling, driver, output, vessel
+    from sdph.study import explained
     from sdph.study.explain import tables
 
     name, file = scenes.find(options.target)
     case = vessel.load(file, tuple(options.set))
     template = driver.template_of(case, name, file)
-    rehearsal.rehearse(case, template, allow_code=options.allow_code)
     parts = {}
-    if options.measure:
-        from sdph.study.explain import effect_costs
+    with compiling.told(_say):
+        if options.measure:
+            from sdph.study.explain import effect_costs
 
-        parts["cost of effects, bubbling bed"] = effect_costs.table(_say)
-    with tempfile.TemporaryDirectory() as folder:
-        seen = vessel.foreseen(case, template, Path(folder))
-        parts |= tables.explain(seen, rehearsal.priced(case, template))
+            parts["cost of effects, bubbling bed"] = effect_costs.table(_say)
+        parts |= explained.explained(case, template, allow_code=options.allow_code)
     print(output.strict_json(parts) if options.json else f"{case.title}\n\n{tables.text(parts)}")
     return FINE
 
@@ -167,57 +164,11 @@ def cost_of_accuracy(options) -> int:
     return FINE
 
 
-def stress_cases(options) -> int:
-    if options.json and (options.map or options.faults is not None):
-        raise CaseError("--json is of the hard cases; --map and --faults print their own tables: leave it out")
-    if options.faults is not None:
-        from sdph.study.stress import faults
-
-        return FINE if all(check["ok"] for check in faults.run(options.faults)) else CHECK_FAILED
-    from sdph.running import output
-    from sdph.study.stress import boundaries, suite
-
-    if options.map:
-        print(boundaries.table(Path("stress_map.png")))
-        return FINE
-    verdicts = []
-    for hard in suite.chosen(options.case, options.fast):
-        verdicts.append(suite.run(hard))
-        if not options.json:
-            suite.show(verdicts[-1])
-    fine = [verdict.ok for verdict in verdicts]
-    print(
-        output.strict_json({"checks": [check for verdict in verdicts for check in verdict.checks]})
-        if options.json
-        else f"{sum(fine)} of {len(fine)} pass"
-    )
-    return FINE if all(fine) else CHECK_FAILED
-
-
 def compare_run(options) -> int:
     from sdph.running import output
     from sdph.study import compare
 
     checks = compare.compare(options.run, options.against)
-    print(output.strict_json({"checks": checks}) if options.json else compare.table(checks))
-    return FINE if all(check["ok"] for check in checks) else CHECK_FAILED
-
-
-def validate_scene(options) -> int:
-    from sdph.running import output
-    from sdph.running.progress import Reporter
-    from sdph.study import compare, record, validate
-
-    if options.record and options.set:
-        raise CaseError(f"--record {options.record}: a record is of the scene as it is; leave --set out")
-    overrides = tuple(options.set) + ((f'coupling.gas="{options.gas}"',) if options.gas else ())
-    checks = []
-    with contextlib.closing(Reporter(line=not options.json)) as reporter:
-        for scene in validate.validated() if options.scene is None else [options.scene]:
-            own = validate.validate(scene, overrides, reporter, options.out and options.out / scene)
-            if options.record:
-                record.write(options.record, scene, own, options.gas)
-            checks += own
     print(output.strict_json({"checks": checks}) if options.json else compare.table(checks))
     return FINE if all(check["ok"] for check in checks) else CHECK_FAILED
 
@@ -264,6 +215,13 @@ def openfoam_setup(options) -> int:
     return FINE
 
 
+def complete(options) -> int:
+    from sdph.cli import completion
+
+    print(completion.script(parser(), options.shell))
+    return FINE
+
+
 def doctor(options) -> int:
     from coupling.openfoam.programs import install
 
@@ -279,13 +237,14 @@ COMMANDS = {
     "run": run,
     "explain": explain_case,
     "cost": cost_of_accuracy,
-    "stress": stress_cases,
+    "stress": judging.stress_cases,
     "compare": compare_run,
-    "validate": validate_scene,
+    "validate": judging.validate_scene,
     "sweep": sweep,
     "droplet": gel_droplet,
     "view": view_run,
     "report": report_runs,
     "openfoam": openfoam_setup,
     "doctor": doctor,
+    "completion": complete,
 }

@@ -6,8 +6,8 @@ import argparse
 import contextlib
 from pathlib import Path
 
-from sdph import __version__
 from sdph.schema import CaseError
+from sdph.version import __version__
 
 SET = "override a key of the case; the path of a file is taken from the working directory"
 
@@ -41,11 +41,14 @@ def parser() -> argparse.ArgumentParser:
     _study(commands)
     _sweep(commands)
     _droplet(commands)
-    _look(commands)
+    _view(commands)
+    _report(commands)
     openfoam = _command(commands, "openfoam", "find or install OpenFOAM and compile the gas solver")
     openfoam.add_argument("action", choices=("setup",))
     openfoam.add_argument("--install", action="store_true", help="install what is missing with apt")
     _command(commands, "doctor", "what is there, what is missing and what mends it")
+    completion = _command(commands, "completion", "a script by which your shell completes commands, options, scenes")
+    completion.add_argument("shell", choices=("bash", "zsh"))
     return whole
 
 
@@ -74,6 +77,7 @@ def _study(commands) -> None:
         help="kill, starve and stop runs at N random moments (50)",
     )
     stress.add_argument("--json", action="store_true", help="print the checks as JSON")
+    _workers(stress, "cases")
     stress.add_argument("--map", action="store_true", help="measure how far beyond its limits each effect stays stable")
     compare = _command(commands, "compare", "a run against a reference; exit code 1 outside tolerance")
     compare.add_argument("run", type=Path)
@@ -93,6 +97,15 @@ def _study(commands) -> None:
         "--record", type=Path, metavar="FOLDER", help="keep the checks of each scene with date and commit: SCENE.json"
     )
     check.add_argument("--json", action="store_true", help="print the checks as JSON")
+    _workers(check, "scenes")
+
+
+def _workers(command, what: str) -> None:
+    """Options of commands that do many things of a kind."""
+    who = command.add_mutually_exclusive_group()
+    alone = "default: one by one"
+    who.add_argument("--workers", type=count, metavar="N", help=f"so many {what} at once, by dask ({alone})")
+    who.add_argument("--scheduler", metavar="ADDRESS", help=f"address of a dask scheduler whose workers do the {what}")
 
 
 def _sweep(commands) -> None:
@@ -112,9 +125,7 @@ def _sweep(commands) -> None:
         "--table", type=Path, metavar="FILE", help="CSV file: a row for each run, its first line names keys"
     )
     sweep.add_argument("--out", type=Path, help="folder of sweep.csv and runs (default: runs/sweep-TARGET)")
-    who = sweep.add_mutually_exclusive_group()
-    who.add_argument("--workers", type=count, metavar="N", help="so many runs at once, by dask (default: one by one)")
-    who.add_argument("--scheduler", metavar="ADDRESS", help="address of a scheduler of dask whose workers do the runs")
+    _workers(sweep, "runs")
     sweep.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: openfoam where it is)")
     sweep.add_argument("--until", type=float, metavar="T", help="end time [s] of each run")
     sweep.add_argument(
@@ -135,8 +146,7 @@ def _droplet(commands) -> None:
     droplet.add_argument("--json", action="store_true", help="print the summary as JSON")
 
 
-def _look(commands) -> None:
-    """Commands that show a run: view, report."""
+def _view(commands) -> None:
     view = _command(commands, "view", "look at a run")
     view.add_argument("run", type=Path)
     view.add_argument("--png", type=Path, help="write a picture, .png, .svg or .pdf, instead of opening a window")
@@ -148,6 +158,9 @@ def _look(commands) -> None:
     view.add_argument("--smooth", action="store_true", help="continuous fields instead of particles and cells, in 2-D")
     view.add_argument("--outline", action="store_true", help="outline bubbles (alpha_p = 0.15) or a liquid")
     view.add_argument("--vectors", action="store_true", help="arrows of velocity")
+
+
+def _report(commands) -> None:
     report = _command(commands, "report", "one HTML file of one or several runs, side by side; also of failed ones")
     report.add_argument("runs", nargs="+", type=Path, metavar="RUN")
     report.add_argument("--out", type=Path, help="the file (default: report.html in the first run's folder)")

@@ -28,6 +28,7 @@ from sdph.effects.liquids import (
     xsph,
 )
 from sdph.effects.solids import inflation, rigid_sides
+from sdph.engine.ledger import Column
 
 FILES = (
     drag,
@@ -99,6 +100,13 @@ def held(parameters, case, method) -> dict[str, float]:
     return {column: value for ask, name in asked.items() for column, value in ask(parameters[name], method).items()}
 
 
+def in_ledger(case) -> tuple[tuple[Column, ...], tuple[str, ...]]:
+    """Columns that effects have in the ledger, on or off; names of those whose sums this case tells."""
+    on = (row for name, row in REGISTRY.items() if name in case.effects)
+    told = dict.fromkeys(name for row in on for name in row.sums)
+    return tuple(column for row in REGISTRY.values() for column in row.columns), tuple(told)
+
+
 def without_input(matter: str) -> dict:
     """Parameters of the effects on grains or a liquid that can judge themselves and need no input."""
     rows = [row for row in REGISTRY.values() if row.call and matter in row.matter]
@@ -110,5 +118,6 @@ def without_input(matter: str) -> dict:
 
 
 __all__ = [
-    "OFF", "REGISTRY", "Effect", "arrays", "held", "kernel_of", "limits", "moving", "window_limits", "without_input",
+    "OFF", "REGISTRY", "Effect", "arrays", "held", "in_ledger", "kernel_of", "limits", "moving", "window_limits",
+    "without_input",
 ]  # fmt: skip

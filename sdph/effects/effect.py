@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from sdph.engine.ledger import Column
+
 OFF = ()
 NO_LIMIT = float("inf")
 DIFFUSIVE = 0.125  # of h^2/nu, Morris, Fox & Zhu 1997, J. Comput. Phys. 136, 214, Eq. 21
@@ -55,6 +57,8 @@ class Effect:
     tells       (kernel parameters, state) -> columns of its own for history.csv of a liquid
     held        (kernel parameters, method as it is after its last sub-step) -> what its limiters hold in grains, by
                 column of history.csv: shares and numbers of particles; summary.json has the largest of the run
+    columns     columns of the ledger of grains that are its own, with their signs (sdph.engine.ledger.Column)
+    sums        columns of that ledger whose sums summary.json tells where it is on
     two_phases  whether it needs a second phase
     call        scales of a case (sdph.methods.grains.scales) -> Judgement; without it the effect is on where the user
                 says so
@@ -75,6 +79,8 @@ class Effect:
     renew: Callable | None = None
     tells: Callable | None = None
     held: Callable | None = None
+    columns: tuple[Column, ...] = ()
+    sums: tuple[str, ...] = ()
     two_phases: bool = False
     to_gas: Callable | None = None
     call: Callable | None = None

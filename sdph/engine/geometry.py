@@ -1,4 +1,4 @@
-"""The box of the domain: names of its sides."""
+"""The box of the domain: its sides, and how far particles in it are apart."""
 
 from typing import NamedTuple
 
@@ -24,6 +24,12 @@ def apart(s, box, i, j):
 def faster(s, box, i, j):
     """v_i - v_j (3 components; the last 0 in two dimensions)."""
     return s.u[i] - s.u[j], s.v[i] - s.v[j], s.w[i] - s.w[j] if deep(box) else 0.0
+
+
+@inlined
+def squared(dx, dy, dz):
+    """Square of a separation."""
+    return dx * dx + dy * dy + dz * dz
 
 
 OPEN = 0.0  # period of an axis that is not periodic

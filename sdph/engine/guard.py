@@ -48,17 +48,20 @@ class Watch:
             **{name: a.copy() for name, a in simulation.state._asdict().items() if len(a)},
         }
 
+    def _admit_rows(self, state: dict, names) -> None:
+        """Unfit where the arrays are not one row a particle each, or two particles have one number."""
+        count = len(state["x"])
+        for name, like in particles.empty(1, names, self.case.dimensions)._asdict().items():
+            own, due = len(state[name]), count * len(like)
+            if own != due:
+                raise Unfit(f"{name} has {own} values where {due} belong to {count} particles")
+        if len(np.unique(state["ident"])) < count:
+            raise Unfit("two particles have one number")
+
     def admit(self, state: dict, names, bounds: dict) -> None:
         """Unfit where the arrays of a kept State, those `names` of effects among them, are not one row a particle each,
         or values are out of `bounds`, name -> (low, high)."""
-        count, fresh = len(state["x"]), particles.empty(1, names, self.case.dimensions)
-        for name, like in fresh._asdict().items():
-            if len(state[name]) != count * len(like):
-                raise Unfit(
-                    f"{name} has {len(state[name])} values where {count * len(like)} belong to {count} particles"
-                )
-        if len(np.unique(state["ident"])) < count:
-            raise Unfit("two particles have one number")
+        self._admit_rows(state, names)
         far = FAR * max(*self.case.domain.size, *map(abs, self.case.domain.corner))
         for name, (low, high) in (dict.fromkeys("xyz", (-far, far)) | bounds).items():
             worst = outside(state[name], low, high)

@@ -10,8 +10,7 @@ from typing import NamedTuple
 from numba import njit
 
 from sdph.laws import kernels
-
-TINY = 1e-300  # keeps 1/r finite at r = 0, where the force is zero anyway
+from sdph.laws.constants import TINY
 
 
 class Cubic(NamedTuple):

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import NamedTuple
 
 from sdph.engine.kept import ROW, Maybe, Unfit
 from sdph.engine.table import Table
@@ -20,30 +21,26 @@ VECTORS = (
 )  # fmt: skip
 AMOUNTS = (
     "heat_to_particles_J", "heat_to_gas_J", "drag_heat_J", "friction_J", "mechanical_heat_J", "evaporated_kg",
-    "vapour_to_gas_kg", "condensation_refused_kg", "latent_heat_J", "capacity_heat_J", "heat_to_surroundings_J",
-    "vapour_motion_J", "injected_kg", "injected_J", "injected_motion_J", "left_kg", "left_J", "left_motion_J",
+    "vapour_to_gas_kg", "heat_to_surroundings_J", "vapour_motion_J",
+    "injected_kg", "injected_J", "injected_motion_J", "left_kg", "left_J", "left_motion_J",
     "work_of_drag_J", "work_of_pressure_J", "work_of_gravity_J", "work_of_walls_J", "work_of_contact_J",
-    "work_of_electric_field_J", "work_of_inflow_J", "agitation_J", "collision_heat_J", "damping_heat_J",
-    "bounds_work_J", "numerical_work_J",
-    "contact_way_m", "contact_lift_J", "finished_kg", "impulse_of_gone_kg_m_s", "thrown_kg",
-    "torn_droplets", "made_droplets", "broken_kg", "break_up_surface_J", "break_up_agitation_J",
+    "work_of_inflow_J", "agitation_J", "collision_heat_J", "damping_heat_J", "bounds_work_J", "numerical_work_J",
+    "impulse_of_gone_kg_m_s",
 )  # fmt: skip
 # column -> sign with which it changes the motion and agitation of the particles
 MOTION = {
     "work_of_drag_J": 1, "work_of_pressure_J": 1, "work_of_gravity_J": 1, "work_of_walls_J": 1, "work_of_contact_J": 1,
-    "work_of_electric_field_J": 1, "work_of_inflow_J": 1, "numerical_work_J": 1, "bounds_work_J": 1,
+    "work_of_inflow_J": 1, "numerical_work_J": 1, "bounds_work_J": 1,
     "injected_motion_J": 1, "left_motion_J": -1,
     "vapour_motion_J": -1, "mechanical_heat_J": -1, "collision_heat_J": -1, "damping_heat_J": -1,
-    "break_up_agitation_J": 1,
 }  # fmt: skip
 # the same of the heat of the particles and the enthalpy of the gas
 HEAT = {
     "mechanical_heat_J": 1, "collision_heat_J": 1, "friction_J": 1, "injected_J": 1, "left_J": -1,
-    "latent_heat_J": -1, "capacity_heat_J": -1, "heat_to_surroundings_J": -1,
-    "break_up_surface_J": -1, "break_up_agitation_J": -1,
+    "heat_to_surroundings_J": -1,
 }  # fmt: skip
 # of these what the temperature of the particles takes or gives, where they have one
-IN_GRAINS = ("mechanical_heat_J", "collision_heat_J", "break_up_surface_J", "break_up_agitation_J")
+IN_GRAINS = ("mechanical_heat_J", "collision_heat_J")
 OF_GAS = {
     "mass": "kg", "energy": "J", "kinetic": "J", "vapour": "kg", "mass_in": "kg", "energy_in": "J", "kinetic_in": "J",
     "vapour_in": "kg", "pressure_work": "J", "boundary_work": "J", "gravity_work": "J",
@@ -53,16 +50,6 @@ OF_GAS = {
 IMPULSES_OF_GAS = (
     "momentum_in", "impulse_pressure", "impulse_walls", "impulse_gravity", "impulse_exchange", "impulse_room",
 )  # fmt: skip
-# effect -> amounts of a case with it whose sums the summary tells, besides those of every case
-SUMMED = {
-    "inflow": ("injected_kg", "left_kg"), "outflow": ("injected_kg", "left_kg"),
-    "evaporation": (
-        "evaporated_kg", "condensation_refused_kg", "finished_kg", "latent_heat_J", "capacity_heat_J",
-    ),
-    "micro_explosion": ("thrown_kg", "torn_droplets", "made_droplets"),
-    "break_up": ("broken_kg", "break_up_surface_J", "break_up_agitation_J"),
-    "lift": ("impulse_of_gone_kg_m_s",), "walls": ("contact_way_m", "contact_lift_J"),
-}  # fmt: skip
 # sums of what was exchanged or moved in a window, without sign, which drifts are related to
 RELATED = ("heat_exchanged_J", "impulse_exchanged_kg_m_s", "work_exchanged_J", "gas_impulse_moved_kg_m_s")
 NOTHING = dict.fromkeys(AMOUNTS, 0.0) | {f"{name}_{a}_kg_m_s": 0.0 for name in VECTORS for a in "xyz"}
@@ -78,16 +65,35 @@ def vector_of(row: dict, name: str) -> tuple[float, ...]:
     return tuple(row[f"{name}_{a}_kg_m_s"] for a in "xyz")
 
 
+class Column(NamedTuple):
+    """Column that an effect has in the ledger: sign with which it changes the motion and agitation of the particles,
+    and that of the heat of the particles and the enthalpy of the gas; `of_grains`: the temperature of the particles
+    takes or gives it, where they have one."""
+
+    name: str
+    motion: int = 0
+    heat: int = 0
+    of_grains: bool = False
+
+
 class Ledger:
-    """Keeps the rows of one run and writes each to `ledger.csv` as it comes."""
+    """Keeps the rows of one run and writes each to `ledger.csv` as it comes.
+
+    `columns` are those that effects have of their own, `told` those whose sums the summary tells, besides those of
+    every case.
+    """
 
     # see sdph.engine.kept
     KEPT = ("sums", "heat_mismatch", "impulse_mismatch", "mass_mismatch", "first", "last", "table")
     FORMS = {"first": Maybe(ROW), "last": Maybe(ROW)}
 
-    def __init__(self, path: Path, case, depth: float):
-        self.case, self.depth = case, depth
-        self.sums = dict.fromkeys((*NOTHING, *RELATED), 0.0)
+    def __init__(self, path: Path, case, depth: float, columns: tuple[Column, ...], told: tuple[str, ...]):
+        self.case, self.depth, self.told = case, depth, told
+        self.nothing = NOTHING | {column.name: 0.0 for column in columns}
+        self.motion = MOTION | {column.name: column.motion for column in columns if column.motion}
+        self.heat = HEAT | {column.name: column.heat for column in columns if column.heat}
+        self.in_grains = {*IN_GRAINS, *(column.name for column in columns if column.of_grains)}
+        self.sums = dict.fromkeys((*self.nothing, *RELATED), 0.0)
         # largest |particles - gas| of a window [J], [kg m/s], [kg]
         self.heat_mismatch = self.impulse_mismatch = self.mass_mismatch = 0.0
         self.first = self.last = None
@@ -98,16 +104,16 @@ class Ledger:
 
     def open(self, totals: dict, budget) -> None:
         """The row of the start; `totals` are columns of the particles, `budget` is of the gas."""
-        self._write({"time_s": 0.0, "window_s": 0.0, "limit": ""} | totals | self._gas(budget) | NOTHING)
+        self._write({"time_s": 0.0, "window_s": 0.0, "limit": ""} | totals | self._gas(budget) | self.nothing)
 
     def close_window(self, time: float, dt: float, limit: str, totals: dict, budget, exchanged: dict) -> None:
-        """The row of a window; `exchanged` has the keys of NOTHING."""
+        """The row of a window; `exchanged` has the keys of `nothing`."""
         before = self.last
         self._write({"time_s": time, "window_s": dt, "limit": limit} | totals | self._gas(budget) | exchanged)
         for key, value in exchanged.items():
             self.sums[key] += value
         self.sums["heat_exchanged_J"] += abs(exchanged["heat_to_particles_J"])
-        self.sums["work_exchanged_J"] += sum(abs(exchanged[key]) for key in MOTION)
+        self.sums["work_exchanged_J"] += sum(abs(exchanged[key]) for key in self.motion)
         self.heat_mismatch = max(self.heat_mismatch, abs(exchanged["heat_to_particles_J"] + exchanged["heat_to_gas_J"]))
         self.mass_mismatch = max(self.mass_mismatch, abs(exchanged["evaporated_kg"] - exchanged["vapour_to_gas_kg"]))
         columns = [key for key in self.last if key.endswith("kg_m_s")]
@@ -133,19 +139,13 @@ class Ledger:
         sums, drifts = {key: self.sums[key] for key in told}, self._mass_drifts() | self._motion_drift()
         physical = sum(abs(self.sums[key]) for key in ("friction_J", "mechanical_heat_J", "collision_heat_J"))
         drifts["numerical_work_rel"] = ratio(abs(self.sums["numerical_work_J"]), physical)
-        sums |= {key: self.sums[key] for effect in SUMMED if effect in self.case.effects for key in SUMMED[effect]}
+        sums |= {key: self.sums[key] for key in self.told}
         if self.sums["heat_to_surroundings_J"]:
             sums["heat_to_surroundings_J"] = self.sums["heat_to_surroundings_J"]
         if self.case.coupling.one_way:  # the gas feels nothing, so there is no balance of energy to close
             return sums | drifts
-        if "evaporation" in self.case.effects:
-            vapour = self._change("gas_vapour_kg", 1) + self._change("gas_vapour_in_kg", -1)
-            drifts |= {
-                "species_drift_rel": ratio(
-                    abs(math.fsum((*vapour, -self.sums["vapour_to_gas_kg"]))), self.sums["evaporated_kg"]
-                ),
-                "exchange_mass_mismatch_rel": ratio(self.mass_mismatch, self.sums["evaporated_kg"]),
-            }
+        if "evaporated_kg" in self.told:
+            drifts |= self._species_drift()
         return (
             sums
             | drifts
@@ -159,7 +159,7 @@ class Ledger:
         )
 
     def _mass_drifts(self) -> dict[str, float]:
-        """Of both phases together, and of the particles, over all the mass that there was or that came in."""
+        """Drifts of both phases together, and of the particles, over all the mass that there was or that came in."""
         came = self.sums["injected_kg"] - self.sums["left_kg"]
         whole = self.first["particle_mass_kg"] + self.sums["injected_kg"]
         particles = (*self._change("particle_mass_kg", 1), -came)
@@ -171,12 +171,21 @@ class Ledger:
             "particle_mass_drift_rel": ratio(abs(math.fsum((*particles, vapour))), whole),
         }
 
+    def _species_drift(self) -> dict[str, float]:
+        """Growth of the vapour in the gas beyond what came in and evaporated."""
+        vapour = self._change("gas_vapour_kg", 1) + self._change("gas_vapour_in_kg", -1)
+        drift = abs(math.fsum((*vapour, -self.sums["vapour_to_gas_kg"])))
+        return {
+            "species_drift_rel": ratio(drift, self.sums["evaporated_kg"]),
+            "exchange_mass_mismatch_rel": ratio(self.mass_mismatch, self.sums["evaporated_kg"]),
+        }
+
     def _energy_drift(self) -> dict[str, float]:
         """Growth of the heat of both phases beyond what came in and was made."""
         pairs = {"particle_energy_J": 1, "gas_energy_J": 1, "heat_on_its_way_J": 1}
         pairs |= {"gas_energy_in_J": -1, "gas_pressure_work_J": -1}
         warm = self.last["particle_energy_J"] + self.sums["left_J"] > 0.0  # else no heat of the grains is kept
-        kept = {key: sign for key, sign in HEAT.items() if warm or key not in IN_GRAINS}
+        kept = {key: sign for key, sign in self.heat.items() if warm or key not in self.in_grains}
         moved = [sign * self.sums[key] for key, sign in kept.items()]
         drift = math.fsum((*(c for key, sign in pairs.items() for c in self._change(key, sign)), *(-m for m in moved)))
         scale = self.sums["heat_exchanged_J"] + sum(abs(self.sums[key]) for key in ("friction_J", "injected_J"))
@@ -210,7 +219,7 @@ class Ledger:
     def _motion_drift(self) -> dict[str, float]:
         """Growth of the motion and agitation of the particles beyond the work that was done on them."""
         change = [c for kind in ("kinetic", "fluctuation") for c in self._change(f"particle_{kind}_energy_J", 1)]
-        drift = abs(math.fsum((*change, *(-sign * self.sums[key] for key, sign in MOTION.items()))))
+        drift = abs(math.fsum((*change, *(-sign * self.sums[key] for key, sign in self.motion.items()))))
         return {"motion_drift_J": drift, "motion_drift_rel": ratio(drift, self.sums["work_exchanged_J"])}
 
     def _change(self, key: str, sign: int) -> tuple[float, float]:

@@ -46,17 +46,15 @@ def open_plain(path: Path, most: int) -> int:
         # a pipe nobody writes into would not open
         descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
     except (OSError, ValueError) as error:
-        raise Unreadable(
-            f"{path.name} cannot be read as a plain file ({getattr(error, 'strerror', None) or error})"
-        ) from None
+        why = getattr(error, "strerror", None) or error
+        raise Unreadable(f"{path.name} cannot be read as a plain file ({why})") from None
     found = os.fstat(descriptor)
-    if stat.S_ISREG(found.st_mode) and found.st_size <= most:
+    plain = stat.S_ISREG(found.st_mode)
+    if plain and found.st_size <= most:
         return descriptor
     os.close(descriptor)
-    what = (
-        f"has {found.st_size} bytes; at most {most} are allowed" if stat.S_ISREG(found.st_mode) else "is no plain file"
-    )
-    raise Unreadable(f"{path.name} {what}")
+    wrong = f"has {found.st_size} bytes; at most {most} are allowed" if plain else "is no plain file"
+    raise Unreadable(f"{path.name} {wrong}")
 
 
 def read_plain(path: Path, most: int) -> bytes:

@@ -21,13 +21,13 @@ from pathlib import Path, PurePosixPath
 
 import numpy as np
 
-from sdph import __version__
 from sdph.engine import kept
 from sdph.engine.kept import short
 from sdph.engine.reading import Unreadable, open_plain, read_arrays, read_json
 from sdph.schema import CaseError, flat
+from sdph.version import __version__
 
-FORMAT = 7  # of the files of a checkpoint
+FORMAT = 8  # of the files of a checkpoint
 FOLDER = "checkpoints"
 LASTING = 2  # checkpoints that are kept, so that there is one when the newest is damaged
 # keys that may change between the parts of a run
@@ -67,14 +67,17 @@ class Checkpoint:
         """Windows that the run had done."""
         return int(self.folder.name)
 
-    def refuse_other(self, case_table: dict) -> None:
-        """CaseError where another version or case wrote it, with the difference, or where the case ends before it."""
+    def _refuse_version(self) -> None:
         for what, now in (("sdph", __version__), ("format", FORMAT)):
             if self.manifest[what] != now:
                 was = short(self.manifest[what]).strip(kept.QUOTES)
                 raise CaseError(
                     f"{self.folder} was written with {what} {was}; this is {now}: go on with that one, or run anew"
                 )
+
+    def refuse_other(self, case_table: dict) -> None:
+        """CaseError where another version or case wrote it, with the difference, or where the case ends before it."""
+        self._refuse_version()
         before, now = flat(self.manifest["case"]), flat(_plain(case_table))
         for key in sorted(before.keys() | now.keys()):
             if before.get(key) != now.get(key) and key not in FREE:

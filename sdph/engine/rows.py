@@ -15,6 +15,7 @@ from numba import njit, prange
 
 from sdph.engine import motion
 from sdph.engine import state as particles
+from sdph.engine.cells import Grid, halves, order, span, starts, turned
 from sdph.engine.geometry import OPEN, OPEN_PLANE, box_of, nearest_image
 from sdph.engine.kept import Many
 from sdph.engine.state import WALL
@@ -25,15 +26,6 @@ CELLS_A_PARTICLE = 16  # memory of the cells stays below that of the rows; our c
 LANES = 4  # doubles of a vector register of 256 bit, as wide as pays on today's x86
 MOST_CELLS = 2**20  # along an axis, so that their product is an int64
 SPARE = 16  # one entry in so many is kept free, so that a slow compaction does not ask for room each time; our choice
-
-
-class Grid(NamedTuple):
-    """Cells of side `size` [m] from `origin` (3,) [m]; `shape` (3,) cells; `period` (3,) [m], 0 where open."""
-
-    origin: np.ndarray
-    size: np.ndarray
-    shape: np.ndarray
-    period: np.ndarray
 
 
 class Rows(NamedTuple):
@@ -141,45 +133,6 @@ def _extent(axis):
     return (float(axis.min()), float(axis.max())) if len(axis) else (0.0, 0.0)
 
 
-@njit(cache=True, error_model="numpy")
-def _place(grid, a, value):
-    cell = int((value - grid.origin[a]) / grid.size[a])
-    return min(max(cell, 0), grid.shape[a] - 1)
-
-
-@njit(cache=True, parallel=True, error_model="numpy")
-def halves(grid, x, y, z, solid):
-    """Half of a cell that each particle is in, (N,): twice the number of the cell, x fastest, and one more for what is
-    solid."""
-    number = np.empty(len(x), np.int64)
-    for i in prange(len(x)):
-        layer = _place(grid, 2, z[i]) if len(z) else 0
-        number[i] = (
-            2 * ((layer * grid.shape[1] + _place(grid, 1, y[i])) * grid.shape[0] + _place(grid, 0, x[i])) + solid[i]
-        )
-    return number
-
-
-@njit(cache=True, error_model="numpy")
-def starts(number, total):
-    """First particle of each cell, (total + 1,), from their cell numbers."""
-    start = np.zeros(total + 1, np.int64)
-    for cell in number:
-        start[cell + 1] += 1
-    return np.cumsum(start)
-
-
-@njit(cache=True, error_model="numpy")
-def order(number, total):
-    """Row of each particle after a stable counting sort by cell."""
-    start = starts(number, total)
-    rows = np.empty(len(number), np.int64)
-    for i, cell in enumerate(number):
-        rows[start[cell]] = i
-        start[cell] += 1
-    return rows
-
-
 @inlined
 def place(rows, i, k):
     """Index of the k-th entry of row i, among the entries and in arrays along them. It is unsigned: of an index that
@@ -214,27 +167,12 @@ def shorten(rows, i, number):
 
 
 @njit(cache=True, error_model="numpy")
-def span(grid, a, value):
-    """First and one past the last cell to look at along an axis; beyond the ends on a periodic one."""
-    cell = _place(grid, a, value)
-    if grid.period[a] > 0.0:
-        return (cell - 1, cell + 2) if grid.shape[a] >= 3 else (0, grid.shape[a])
-    return max(cell - 1, 0), min(cell + 2, grid.shape[a])
-
-
-@njit(cache=True, error_model="numpy")
-def _turned(cell, count):
-    """A cell of `span`, one turn at most beyond the ends of an axis, by its number; % would cost more than the rest."""
-    return cell + count if cell < 0 else cell - count if cell >= count else cell
-
-
-@njit(cache=True, error_model="numpy")
 def _run(begin, line, shape, x0, x1, blind, n):
     """First and one past the last particle of the n-th run of a line of `shape` cells, of which x0 to x1 are looked at:
     one run for each time round a periodic box, or for who is blind to what is solid the first half of each cell. They
     are unsigned: of an index that might be negative numba asks so each time, and nothing is done in whole vectors."""
     if blind:
-        half = 2 * (line + _turned(x0 + n, shape))
+        half = 2 * (line + turned(x0 + n, shape))
         return begin[half], begin[half + 1]
     turn = (n - 1) * shape
     low, high = max(x0 - turn, 0), min(x1 - turn, shape)
@@ -275,7 +213,7 @@ def _count(grid, begin, x, y, z, at_x, at_y, at_z, blind, same, box, cutoff2, nu
         runs = (0, x1 - x0) if blind[i] else (0, 3) if grid.period[0] > 0.0 else (1, 2)
         for kz in range(z0, z1):
             for ky in range(y0, y1):
-                line = (_turned(kz, grid.shape[2]) * grid.shape[1] + _turned(ky, grid.shape[1])) * grid.shape[0]
+                line = (turned(kz, grid.shape[2]) * grid.shape[1] + turned(ky, grid.shape[1])) * grid.shape[0]
                 for n in range(runs[0], runs[1]):
                     first, last = _run(begin, line, grid.shape[0], x0, x1, blind[i], n)
                     found += _counted(x, y, z, box, xi, yi, zi, cutoff2, first, last)
@@ -297,7 +235,7 @@ def _fill(grid, begin, x, y, z, at_x, at_y, at_z, blind, same, box, cutoff2, sta
         runs = (0, x1 - x0) if blind[i] else (0, 3) if grid.period[0] > 0.0 else (1, 2)
         for kz in range(z0, z1):
             for ky in range(y0, y1):
-                line = (_turned(kz, grid.shape[2]) * grid.shape[1] + _turned(ky, grid.shape[1])) * grid.shape[0]
+                line = (turned(kz, grid.shape[2]) * grid.shape[1] + turned(ky, grid.shape[1])) * grid.shape[0]
                 for n in range(runs[0], runs[1]):
                     first, last = _run(begin, line, grid.shape[0], x0, x1, blind[i], n)
                     end = _listed(x, y, z, box, xi, yi, zi, own, cutoff2, first, last, entries, end)

@@ -54,6 +54,8 @@ class State(NamedTuple):
     exchanged: np.ndarray
     viscosity: np.ndarray
     depth: np.ndarray
+    enclosure: np.ndarray
+    pressure: np.ndarray
     sealed: np.ndarray
     throwing: np.ndarray
     bubble_void: np.ndarray
@@ -114,6 +116,8 @@ FIELDS = {
     "exchanged": ("1", "1 if it was in the gas in the last window"),
     "viscosity": ("Pa s", "viscosity of a liquid where it is not the same everywhere"),
     "depth": ("m", "how far a wall particle lies behind the surface of its wall; 0 of others"),
+    "enclosure": ("1", "smallest eigenvalue of the renormalisation matrix of a liquid: 1 inside, 0 alone"),
+    "pressure": ("Pa", "pressure that the next one is looked for from, where an equation gives it (mps)"),
     "sealed": ("1", "1 as long as the shell of a gel droplet holds vapour in, then 0"),
     "throwing": ("s", "time for which a torn droplet still throws vapour"),
     "bubble_void": ("m3", "bubble in each of its droplets; 0: none yet"),

@@ -49,7 +49,7 @@ class Handed:
     it comes from: a sum over effects ("conductance", counted from origin [K] on, "drag", "force"), or an effect;
     alpha_g (C,) at the window's end, where the gas is told; gone [kg m/s] the held impulse, summed by its length, of
     droplets that are gone at the window's end and do not get it; around: slip (N,) [m/s] and density (N,) [kg/m3] of
-    the gas, where drops may break.
+    the gas.
     """
 
     dt: float

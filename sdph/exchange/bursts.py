@@ -16,8 +16,8 @@ from sdph.laws import bursting
 
 
 class Thrown(NamedTuple):
-    """Of each particle: vapour (N,) [kg], that times its temperature (N,) [kg K]; `after`, arrays of the state by name
-    as they are then; rows of those that have thrown all, which evaporate from the next window on."""
+    """Throw of each particle: vapour (N,) [kg], that times its temperature (N,) [kg K]; `after`, arrays of the
+    state by name as they are then; rows of those that have thrown all, which evaporate from the next window on."""
 
     mass: np.ndarray
     warmth: np.ndarray

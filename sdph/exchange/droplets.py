@@ -74,8 +74,8 @@ def active_time(p, s, i, conductance, gas_temperature, dt):
 
 @njit(cache=True, parallel=True, error_model="numpy")
 def survey(p, sizes_p, s, slip, gas_density, gas_temperature, dt, conductance, flow, surface):
-    """Before the losses: gas [m3/s] that the particle exchanges vapour with, averaged over the window, and vapour at
-    its surface [kmol/m3]; conductance (N,) [W/K] of heat."""
+    """Look, before the losses, at gas [m3/s] that the particle exchanges vapour with, averaged over the window, and
+    vapour at its surface [kmol/m3]; conductance (N,) [W/K] of heat."""
     for i in prange(len(s.x)):
         flow[i] = surface[i] = 0.0
         if s.kind[i] == GRAIN:
@@ -101,8 +101,8 @@ def losses(
     refused,
     rest,
 ):
-    """Of each particle in dt: mass lost [kg]; its integrals of a dt [m2], a c dt [m^3/2]; condensation refused [kg];
-    rest [kg] of a droplet that has finished, which is lost at once.
+    """Losses of each particle in dt: mass lost [kg]; its integrals of a dt [m2], a c dt [m^3/2]; condensation refused
+    [kg]; rest [kg] of a droplet that has finished, which is lost at once.
 
     `conductance` becomes the mean over the window: it shrinks with the grains as evaporation does.
     """

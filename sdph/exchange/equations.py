@@ -48,8 +48,8 @@ def rates(
     drag_p, heat_p, radiation_p, lift_p, film_p, sizes_p, s, grain_density, apart, slip, gas_density, gas_temperature,
     vorticity, conductance, damping, force,
 ):  # fmt: skip
-    """Of every particle as it is: heat to the gas per kelvin [W/K], beta/(alpha_p rho_p) [1/s], and force of the gas
-    that is held (N, 3) [N], where an effect makes one."""
+    """Rates of every particle as it is: heat to the gas per kelvin [W/K], beta/(alpha_p rho_p) [1/s], and force of the
+    gas that is held (N, 3) [N], where an effect makes one."""
     for i in prange(len(s.x)):
         conductance[i] = damping[i] = 0.0
         if s.kind[i] == GRAIN:

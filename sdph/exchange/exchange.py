@@ -19,6 +19,7 @@ effect gives stands in its own file (`to_gas`).
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -26,6 +27,7 @@ import numpy as np
 from coupling.transfer import gather
 from sdph import effects
 from sdph.effects import OFF
+from sdph.effects.around import electric_field
 from sdph.effects.gas import break_up, film, radiation, sizes
 from sdph.engine.state import GRAIN, lengths
 from sdph.exchange import bursts, equations
@@ -33,6 +35,7 @@ from sdph.exchange.amounts import Handed, Taken
 from sdph.exchange.cells import Cells
 from sdph.exchange.equations import Seen, temperature_span, vapour_concentration
 from sdph.exchange.vapour import Vapour
+from sdph.exchange.window import settling
 
 
 class Exchange:
@@ -101,12 +104,12 @@ class Exchange:
             self.origin,
         )
         alpha_g = self.cells.room(there, kept * inside) if "alpha_g" in self.sources else None
-        around = (seen.slip, seen.density) if self.parameters["break_up"] else ()
+        around = (seen.slip, seen.density)
         return replace(handed, terms=self._terms(handed), alpha_g=alpha_g, gone=missed, around=around)
 
     def _rates(self, state, seen) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Of every particle now: heat conductance to the gas [W/K], beta/(alpha_p rho_p) [1/s], and the force that is
-        held [N]."""
+        """Rates of every particle now: heat conductance to the gas [W/K], beta/(alpha_p rho_p) [1/s], and the force
+        that is held [N]."""
         p, count, vorticity = self.parameters, len(state.x), seen.fields.get("vorticity", OFF)
         conductance, damping, force = np.empty(count), np.empty(count), np.zeros((count if self.holds else 0, 3))
         equations.rates(
@@ -143,9 +146,9 @@ class Exchange:
         terms = {key: cell[:, 0] if own.ndim == 1 else cell for (key, own), cell in zip(given.items(), cells)}
         return terms | ({("heat", "friction"): self.pending / handed.dt} if "momentum" in self.sources else {})
 
-    def pace(self, state, weights, gas_state) -> tuple[float, float, float, float]:
+    def pace(self, state, weights, gas_state) -> tuple[float, float, float, float, float]:
         """At the start: rate [1/s] at which the fastest cell takes the grains' temperature, `stake` [J], rate [1/s] at
-        which vapour comes into the fastest cell, over the gas in it, and `grip` [1/s]."""
+        which vapour comes into the fastest cell, over the gas in it, `grip` [1/s] and `settling` [s]."""
         seen = Seen(weights, gas_state, state, self.fields)
         conductance, damping, _ = self._rates(state, seen)
         full, resistance = self._resistance(state, weights, gas_state)
@@ -155,7 +158,8 @@ class Exchange:
             else 0.0
         )
         thickening = self.vapour.thickening(state, weights, gas_state, seen) if self.vapour else 0.0
-        return rate, self.stake(state, weights, gas_state), thickening, self.grip(state, damping)
+        held = self.grip(state, damping), self.settling(state, damping, seen.own, seen.slip)
+        return rate, self.stake(state, weights, gas_state), thickening, *held
 
     def stake(self, state, weights, gas_state) -> float:
         """A scale of heat [J]: the gas among the grains, and they, brought to equilibrium through all of the
@@ -208,7 +212,7 @@ class Exchange:
         if self.vapour:
             self.vapour.settle(state, handed)
         if not self.parameters["break_up"]:
-            return dict.fromkeys(break_up.COLUMNS, 0.0)
+            return dict(break_up.NOTHING_BROKEN)
         return break_up.apply(self.parameters["break_up"], state, *handed.around, handed.dt)
 
     def _push(self, handed: Handed, velocity) -> tuple[np.ndarray, np.ndarray]:
@@ -267,6 +271,17 @@ class Exchange:
             return 0.0
         alpha_p = np.minimum(state.density / self.case.grains.density, self.case.grains.packing_limit)
         return float(np.average(damping / (1.0 - alpha_p) ** 2, weights=mass))
+
+    def settling(self, state, damping, own, slip) -> float:
+        """Longest window [s] in which grains drift right, by means of theirs by mass (`sdph.exchange.window.settling`):
+        weight and field, damping (N,) [1/s], their velocity (N, 3) and slip (N,) [m/s]."""
+        felt = (state.kind == GRAIN) & (damping > 0.0)
+        if not felt.any():
+            return math.inf
+        gravity, field = np.asarray(self.parameters["gravity"] or (0.0, 0.0, 0.0)), self.parameters["electric_field"]
+        pull = lengths(gravity + electric_field.acceleration(field, state))[felt]
+        means = pull, 1.0 / damping[felt], np.maximum(lengths(own), slip)[felt]
+        return settling(self.case, *(float(np.average(each, weights=state.mass[felt])) for each in means))
 
     def handed_heat(self, handed: Handed) -> float:
         """Heat of motion [J] that the gas was handed."""

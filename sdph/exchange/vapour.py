@@ -111,8 +111,7 @@ class Vapour:
         return replace(
             taken, warming=taken.heat - latent * own.mass, vapour=vapour, vapour_to_gas=float(given),
             latent_heat=latent * vapour, capacity_heat=excess * warmth, refused=float(own.refused.sum()),
-            vapour_motion=float(own.motion.sum()),
-            vapour_impulse=brought,
+            vapour_motion=float(own.motion.sum()), vapour_impulse=brought,
         )  # fmt: skip
 
     def settle(self, state, handed: Handed) -> None:

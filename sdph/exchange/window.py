@@ -28,6 +28,7 @@ GRIP = 0.1
 KEYS = {
     "largest": "coupling.window_largest_s", "heat exchange": "coupling.window_tolerance", "courant": "coupling.courant",
     "particles": "coupling.courant", "evaporation": "the rate of evaporation", "grip": "the drag on packed grains",
+    "settling": "run.accuracy",
     "contact": "liquid.sound_speed_m_s, whose square is the stiffness of contacts",
 }  # fmt: skip
 
@@ -106,30 +107,22 @@ class Window(Clock):
             time, self.limits[self.limit], f"the window's limit {self.limit!r} ({KEYS.get(self.limit, 'an effect')})"
         )
 
-    def touch(self, limit: float) -> None:
-        """Contact with another method bears windows no longer than `limit` [s]; inf where nothing touches."""
-        self.limits.pop("contact", None)
-        if limit < math.inf:
-            self.limits["contact"] = limit
-
     def longest(self) -> float:
         """No window that `choose` picks next is longer [s]."""
         return min(self.limits.values())
 
     def thicken(self, dt: float, share: float) -> None:
-        """In `dt` [s] vapour came into a cell of gas that was `share` of what was there, or would at the rate of
-        now."""
-        if share > 0.0:
-            self.limits["evaporation"] = dt * min(GROWTH, VAPOUR / share)
+        """Take note that in `dt` [s] vapour came into a cell of gas that was `share` of what was there, or would at the
+        rate of now."""
+        self.limits["evaporation"] = dt * min(GROWTH, VAPOUR / share) if share > 0.0 else math.inf
 
     def hold(self, grip: float) -> None:
-        """Gas that cannot give way stops grains that move as one at the rate `grip` [1/s]."""
-        if grip > 0.0:
-            self.limits["grip"] = GRIP / grip
+        """Take note that gas that cannot give way stops grains that move as one at the rate `grip` [1/s]."""
+        self.limits["grip"] = GRIP / grip if grip > 0.0 else math.inf
 
     def obey(self, limits: dict[str, float]) -> None:
-        """Longest windows [s] that effects bear now, by their names."""
-        self.limits |= {name: limit for name, limit in limits.items() if limit < math.inf}
+        """Take note of the longest windows [s] that are borne now, by what bears them; inf where any is."""
+        self.limits |= limits
 
     def stake(self, heat: float) -> None:
         """There is `heat` [J] to exchange now."""
@@ -138,12 +131,25 @@ class Window(Clock):
     def learn(self, dt: float, heat: float, change: float, courant: float, fastest: float) -> None:
         """Set the limits from the window just done: `heat` and `change` as of `Control.learn`, courant of the gas,
         fastest particle [m/s]."""
-        if fastest > 0.0:
-            self.limits["particles"] = self.courant * self.cell / fastest
+        self.limits["particles"] = self.courant * self.cell / fastest if fastest > 0.0 else math.inf
         if "heat exchange" in self.limits:
             self.limits["heat exchange"] = self.control.learn(dt, heat, change)
         if courant > 0.0:
             self.limits["courant"] = dt * min(GROWTH, self.courant / courant)
+        elif "courant" in self.limits:  # the gas has come to rest
+            self.limits["courant"] *= GROWTH
+
+
+def settling(case, pull: float, tau: float, speed: float) -> float:
+    """Longest window [s] in which grains drift right that a force pulls by `pull` [m/s2] while drag stops them within
+    `tau` [s]; `speed` [m/s] of what moves there.
+
+    Drag is that of the slip at a window's start, so that grains drift by dt/(2 tau) of tau pull too fast, and at most
+    by pull dt/2 where dt is longer than tau: that is held to `run.accuracy` of the fastest of their drift, of what
+    moves, and of a smoothing length in the run, as what is slower moves nothing.
+    """
+    felt = max(tau * pull, speed, case.smoothing_length / case.run.end_time)
+    return 2.0 * case.run.accuracy * felt / pull if pull > 0.0 else math.inf
 
 
 def smallest_cell(case) -> float:

@@ -4,6 +4,7 @@ GAS_CONSTANT = 8314.46261815324  # J/(kmol K), 1000 k_B N_A, exact since the SI 
 STEFAN_BOLTZMANN = (
     5.670374419e-8  # W/(m2 K4), 2 pi^5 k_B^4/(15 h^3 c^2), exact since the SI of 2019 (CODATA 2018, rounded)
 )
+ADIABATIC = 1.4  # -, cp/cv of a diatomic gas whose molecules turn and do not swing
 VACUUM_PERMITTIVITY = 8.8541878128e-12  # F/m, eps_0 (CODATA 2018)
 
 # -, closures are evaluated at most this far below close packing (1/(1-(a/a_max)^(1/3)) has a pole there)

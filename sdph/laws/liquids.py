@@ -7,6 +7,8 @@ import math
 import numpy as np
 import scipy
 
+from sdph.laws.constants import TINY
+
 TERMS = 99  # odd terms of the series up to this one: 1e-5 of the pressure in the centre
 
 
@@ -56,7 +58,7 @@ def quadrupole(points, radius: float, speed: float) -> np.ndarray:
     Potential flow of r^2 cos 2 theta inside and r^-2 cos 2 theta outside; `speed` is the radial one at the rim on the
     x axis. Lamb 1932, Hydrodynamics, section 275.
     """
-    r2 = np.maximum((points**2).sum(axis=1), 1e-300)
+    r2 = np.maximum((points**2).sum(axis=1), TINY)
     inside = r2 <= radius**2
     double = np.where(inside, 0.0, 2.0 * np.arctan2(points[:, 1], points[:, 0]))
     fall = np.where(inside, 0.0, (radius**2 / r2) ** 1.5)

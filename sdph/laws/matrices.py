@@ -24,7 +24,7 @@ def solved(xx, yy, zz, xy, yz, zx, gx, gy, gz):
 
 @njit(cache=True, error_model="numpy")
 def determinant(xx, yy, zz, xy, yz, zx):
-    """Of a symmetric matrix; below SINGULAR nothing is `solved`."""
+    """Determinant of a symmetric matrix; below SINGULAR nothing is `solved`."""
     return xx * (yy * zz - yz * yz) + xy * (zx * yz - xy * zz) + zx * (xy * yz - zx * yy)
 
 

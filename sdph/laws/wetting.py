@@ -15,7 +15,8 @@ FLAT = 1e-9  # rad: a surface that leans less is level
 
 
 class Segment(NamedTuple):
-    """Of a disc: height, width of its base [m], mean square of the distance from its middle along the base [m2]."""
+    """Part of a disc: height, width of its base [m], mean square of the distance from its middle along the base
+    [m2]."""
 
     height: float
     base: float

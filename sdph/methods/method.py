@@ -16,8 +16,8 @@ class Method(Protocol):
     state    its particles; what pushes them from outside over a window is in `push_x` to `push_z` (sdph.engine.state)
     steps, limit   sub-steps so far, and what ruled the last one
 
-    The steppers of grains and liquids say in HALO what their loops take, fresh, from neighbours
-    (tests/methods/test_halo.py): what a domain must tell the next.
+    Steppers say in HALO what their loops take, fresh, from neighbours (tests/methods/test_halo.py): what a domain must
+    tell the next.
     """
 
     matter: str

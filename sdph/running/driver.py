@@ -20,6 +20,7 @@ from pathlib import Path
 
 from coupling.choice import open_gas
 from coupling.gas import CheckpointError, GasError
+from sdph import effects
 from sdph.case import read as cases
 from sdph.engine import contact, restart
 from sdph.engine import device as environment
@@ -28,7 +29,7 @@ from sdph.engine.guard import Unstable
 from sdph.engine.kept import Maybe, Unfit
 from sdph.engine.ledger import Ledger
 from sdph.methods.liquids.liquid import Liquid
-from sdph.running import balances, chain, hastened, inputs, metrics, output, vessel
+from sdph.running import balances, chain, compiling, hastened, inputs, metrics, output, vessel
 from sdph.running.interruption import Stopped, listening
 from sdph.running.outputs import Outputs
 from sdph.running.simulation import Simulation
@@ -112,7 +113,7 @@ def simulation_of(case, gas, ledger: Path):
     case has one; its ledgers go to new files."""
     if "grains" not in case.matters:
         return hastened.of(case, ledger)
-    simulation = Simulation(case.only("grains"), gas, Ledger(ledger, case, gas.mesh.depth))
+    simulation = Simulation(case.only("grains"), gas, Ledger(ledger, case, gas.mesh.depth, *effects.in_ledger(case)))
     if case.liquid:
         liquid = Liquid(case.only("liquid"), ledger.with_name("ledger_liquid.csv"), simulation.clock.shortest)
         simulation.beside.add(liquid, contact.between(case))
@@ -122,7 +123,8 @@ def simulation_of(case, gas, ledger: Path):
 def _guarded(run: Run, checkpoint, template: Path | None, allow_code: bool):
     """The windows of a run; where it fails, the folder says why, and the error says how to go on."""
     try:
-        with listening() as wish, _gas_of(run, template, allow_code) as gas:
+        told = compiling.told(run.reporter.status)
+        with listening() as wish, told, _gas_of(run, template, allow_code) as gas:
             return (yield from run.go(gas, checkpoint, wish))
     except OSError as error:
         failure = output.CannotWrite(

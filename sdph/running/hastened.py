@@ -52,7 +52,7 @@ class Hastened(Together):
         return kept["now"]
 
     def revive(self) -> None:
-        """After a checkpoint was put back: S as it was, and rows after a tear."""
+        """Set S as it was, and rows after a tear, once a checkpoint was put back."""
         self.bodies.hasten(self.pace, 1.0)
         self.radius = self._inner()
         if self.tear.time is not None:

@@ -8,7 +8,7 @@ from coupling.transfer import gather
 from sdph.case import probed
 from sdph.case.sections import Probe
 from sdph.engine import state as particles
-from sdph.methods.grains.method import REACH
+from sdph.laws.kernels import SUPPORT
 
 
 def row(simulation) -> dict[str, float]:
@@ -52,7 +52,7 @@ def of_liquid(case, cloud) -> dict[str, float]:
 def near(case, places, mass, arrays: dict, here) -> dict[str, float]:
     """Columns of arrays (N,) or (N, 3) of particles at `places` (N, 3) [m], by their mass [kg] and distance to `here`
     (1, 3): sum m (1 - r/R)^2 f over sum m (1 - r/R)^2 within R, the reach of the kernel; nan if none are near."""
-    reach = REACH * case.smoothing_length
+    reach = SUPPORT * case.smoothing_length
     r = particles.lengths(places - here)
     close = np.flatnonzero(r < reach)
     weight = mass[close] * (1.0 - r[close] / reach) ** 2

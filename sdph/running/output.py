@@ -23,10 +23,10 @@ from pathlib import Path
 import numpy as np
 
 from coupling.openfoam import patches
-from sdph import __version__
 from sdph.case.gas_cells import SAME, layers
 from sdph.engine.table import Found, TooLarge, column, read_cells
 from sdph.schema import CaseError
+from sdph.version import __version__
 
 MARK, ORIGIN = "case.toml", "origin.json"  # a folder with these files holds a run
 FAILURE = "failure.json"

@@ -94,8 +94,9 @@ class Simulation:
         alpha_g = None if one_way or not self.case.coupling.voidage else self._alpha_g()
         self.gas_state = self.gas.start(alpha_g, () if one_way else self.exchange.sources, self.exchange.fields)
         self.clock.obey(effects.window_limits(self.parameters, self.case, self.state))
+        rate, stake, thickening, grip, settling = self.exchange.pace(self.state, self.weights, self.gas_state)
+        self.clock.obey({"settling": settling})
         if not one_way:
-            rate, stake, thickening, grip = self.exchange.pace(self.state, self.weights, self.gas_state)
             self.clock.begin(rate, stake)
             self.clock.thicken(1.0, thickening)
             self.clock.hold(grip)
@@ -103,7 +104,7 @@ class Simulation:
         held = self.exchange.held(self.state, self.weights, self.gas_state)
         self._hear(held | self.gas_state.budget.held)
         self.beside.start()
-        self.clock.touch(self.beside.limit(self.state))
+        self.clock.obey({"contact": self.beside.limit(self.state)})
 
     def _hear(self, of_exchange: dict[str, float]) -> None:
         """Hear what limiters of the grains, of the exchange and of other methods hold."""
@@ -131,6 +132,8 @@ class Simulation:
         taken = self._timed("exchange", self.exchange.take, self.state, handed, self.gas_state)
         changed = learned(self.state, taken.heat, dt)
         self.clock.hold(self.exchange.grip(self.state, handed.damping))
+        settling = self.exchange.settling(self.state, handed.damping, handed.velocity, handed.around[0])
+        self.clock.obey({"settling": settling})
         broken = self.exchange.settle(self.state, handed)
         held = self._react(handed, taken, dt)
         self._timed("particles", self._advance, end)
@@ -144,7 +147,7 @@ class Simulation:
         self.clock.thicken(dt, self.exchange.vapour.share(handed, self.gas_state) if self.exchange.vapour else 0.0)
         self.clock.obey(effects.window_limits(self.parameters, self.case, self.state))
         self._timed("exchange", self._renew)
-        self.clock.touch(self.beside.limit(self.state))
+        self.clock.obey({"contact": self.beside.limit(self.state)})
         exchanged |= self.grains.columns()
         self.ledger.close_window(end, dt, self.clock.limit, self._totals(), self.gas_state.budget, exchanged)
 

@@ -25,7 +25,8 @@ NAMES = ("D10_m", "D32_m", *SHARES)
 
 
 class Census(NamedTuple):
-    """Of N particles: number of drops, mean d [m], d^2 [m2] and d^3 [m3] of each (N,); volume [m3] by bins of ln d."""
+    """Sizes of N particles: number of drops, mean d [m], d^2 [m2] and d^3 [m3] of each (N,); volume [m3] by bins of ln
+    d."""
 
     number: np.ndarray
     first: np.ndarray

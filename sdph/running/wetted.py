@@ -11,7 +11,7 @@ import numpy as np
 
 from sdph.engine import polygons
 from sdph.engine import state as particles
-from sdph.engine.contact import Contact
+from sdph.engine.contact import between
 from sdph.engine.kept import Unfit
 from sdph.methods.liquids.bodies import Shell
 from sdph.methods.solids import start
@@ -34,9 +34,7 @@ class Wetted:
         self.force = self.stepper.load
         self.shell = _shell(case, self.stepper.state.ident)
         self.flaw_at = max((body.flaw_at for body in case.bodies.values() if body.flaw), default=0.0)  # [rad]
-        # a liquid is to the body's particles a spring as stiff as those of sdph.engine.contact
-        spacing, own = case.resolution.spacing, case.liquid
-        self.contact = Contact(spacing, own.density * own.sound_speed**2 * spacing ** (case.dimensions - 2))
+        self.contact = between(case)  # a liquid is to the body's particles such a spring
 
     @property
     def stepper(self):
@@ -110,7 +108,7 @@ class Wetted:
         self.stepper.arrive(dt)
 
     def revive(self) -> None:
-        """After a checkpoint was put back."""
+        """Make anew what a checkpoint does not hold, once it was put back."""
         self.stepper.load = self.force
 
     def begin(self) -> None:

@@ -6,9 +6,9 @@ import datetime
 import subprocess
 from pathlib import Path
 
-from sdph import __version__
 from sdph.running import output
 from sdph.scenes import paths
+from sdph.version import __version__
 
 
 def write(folder: Path, scene: str, checks: list[dict], gas: str | None) -> Path:

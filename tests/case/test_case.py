@@ -3,35 +3,19 @@
 import copy
 import dataclasses
 import math
-import tomllib
 
 import pytest
-from builders import DISC, disc
-from hypothesis import given, settings
+from builders import disc
+from discs import TABLE, read_back, refusal
+from hypothesis import given
 from hypothesis import strategies as st
 
-from sdph import effects, scenes, schema
-from sdph.case import gas_cells, sections
+from sdph import scenes, schema
+from sdph.case import gas_cells
 from sdph.case import read as cases
-from sdph.methods.liquids.sections import GasPhase, Liquid
-from sdph.methods.solids.sections import Solid
 from sdph.schema import CaseError
 
-TABLE = tomllib.loads(DISC.read_text(encoding="utf-8"))
 BOX = ("particles.disc.shape='box'", "particles.disc.lower_m=[0.1,0.1]", "particles.disc.upper_m=[0.3,0.3]")
-
-
-def refusal(*overrides) -> str:
-    """The message with which the disc is refused under overrides."""
-    with pytest.raises(CaseError) as caught:
-        disc(*overrides)
-    message = str(caught.value)
-    assert len(message.splitlines()) == 1
-    return message
-
-
-def read_back(case):
-    return cases.from_table(tomllib.loads(cases.dumps(case)))
 
 
 @pytest.mark.parametrize("name", scenes.names())
@@ -174,82 +158,6 @@ def test_bad_value_is_refused_by_name(overrides, told):
         assert part in message
 
 
-RECORDS = (
-    sections.SECTIONS
-    | sections.GROUPS
-    | {
-        "coupling": sections.Coupling,
-        "vapour": sections.Vapour,
-        "liquid": Liquid,
-        "gas_phase": GasPhase,
-        "solid": Solid,
-    }
-)
-RECORDS |= {name: row.parameters for name, row in effects.REGISTRY.items()}
-QUANTITIES = [
-    (cls, key, *found)
-    for cls in RECORDS.values()
-    for key, found in schema.fields(cls).items()
-    if not found[1].choices and found[1].of is None
-]
-
-
-def holding(cls, name, value):
-    """A record that has this value, and nothing else."""
-    made = object.__new__(cls)
-    for field in dataclasses.fields(cls):
-        object.__setattr__(made, field.name, value if field.name == name else None)
-    return made
-
-
-@pytest.mark.parametrize(
-    ("cls", "key", "name", "kind"), QUANTITIES, ids=[f"{cls.__name__}.{key}" for cls, key, *_ in QUANTITIES]
-)
-def test_no_quantity_may_be_absurd(cls, key, name, kind):
-    """1e31 of anything, and 1e-31 of what must be above 0: not of times, which may be as short as one likes, nor of
-    what stands for 0."""
-    for value in (1e31, -1e31) if kind.components == 0 else ((1e31, 0.0), ((0.0, -1e31),)):
-        with pytest.raises(CaseError, match=rf"section.{key} = .*e\+\d\d; what makes sense here"):
-            schema.plausible(holding(cls, name, value), "section")
-    if kind.above == 0.0 and kind.unit not in ("s", "ms", "us") and not kind.tiny:
-        with pytest.raises(CaseError, match=f"section.{key} = .*e-.*makes sense here is from"):
-            schema.plausible(holding(cls, name, 1e-31), "section")
-    # round-off of who computed it
-    schema.plausible(holding(cls, name, (0.0, 1e-300) if kind.components is None else 1.0), "section")
-
-
-def test_every_unit_has_bounds():
-    for unit in schema.UNITS:
-        least, most, _ = schema.PLAUSIBLE[schema.SAME_AS.get(unit, unit)]
-        assert 0.0 <= least < 1.0 < most
-
-
-@pytest.mark.parametrize(
-    ("override", "told"),
-    [
-        ("title=5", "title = 5; it must be a text"),
-        ("title=['a']", "title = ['a']; it must be a text"),
-        ("scene=true", "scene = True; it must be a text"),
-        (
-            "grains.density_kg_m3=1e30",
-            "grains.density_kg_m3 = 1e+30; what makes sense here is from 1e-20 to 1e+06 kg m3",
-        ),
-        ("grains.diameter_mm=1e-30", "grains.diameter_mm = 1e-30; what makes sense here is from 1e-13 to 1e+13 mm"),
-        ("gas.temperature_K=1e12", "gas.temperature_K = 1e+12"),
-        ("domain.gravity_m_s2=[0,-1e20]", "domain.gravity_m_s2 = -1e+20"),
-        ("run.step_factor=1e9", "run.step_factor = 1000000000.0; it must be at least 1e-06 and at most 1000"),
-    ],
-)
-def test_absurd_values_are_refused_by_name(override, told):
-    assert told in refusal(override)
-
-
-def test_a_byte_order_mark_is_no_error(tmp_path):
-    file = tmp_path / "case.toml"
-    file.write_bytes(b"\xef\xbb\xbf" + DISC.read_bytes())
-    assert cases.load(file) == disc()
-
-
 @pytest.mark.parametrize(("section", "key"), [("run", "end_time_s"), ("grains", "density_kg_m3"), ("domain", "size_m")])
 def test_missing_key_is_named(section, key):
     table = copy.deepcopy(TABLE)
@@ -258,86 +166,7 @@ def test_missing_key_is_named(section, key):
         cases.from_table(table)
 
 
-@pytest.mark.parametrize("text", ["title = ", "a = [1,\n", b"\xff\xfe", f"a = {'9' * 5000}", "a = " + "[" * 3000])
-def test_file_that_is_not_toml(tmp_path, text):
-    file = tmp_path / "case.toml"
-    file.write_bytes(text if isinstance(text, bytes) else text.encode())
-    with pytest.raises(CaseError, match="is not TOML"):
-        cases.load(file)
-
-
 @pytest.mark.parametrize("value", ["5e-324", "1e-16", "0.0"])
 def test_windows_of_no_length_are_refused(value):
     """The number of windows would be no number, or one that no machine counts to."""
     assert "coupling.window_largest_s" in refusal(f"coupling.window_largest_s={value}")
-
-
-@pytest.mark.parametrize(
-    "text", ["a." * 20000 + "b = 1\n", "[" + "'a'. " * 20000 + "b]\n", "x = {" + "a." * 20000 + "b = 1}\n"]
-)
-def test_key_of_very_many_parts_is_refused_at_once(tmp_path, text):
-    """The time of the parser goes with the square of the parts: minutes for these."""
-    (tmp_path / "case.toml").write_text(text)
-    with pytest.raises(CaseError, match="a key there has 50 parts or more"):
-        cases.load(tmp_path / "case.toml")
-
-
-def test_file_of_gigabytes_is_refused_before_it_is_read(tmp_path):
-    with open(tmp_path / "case.toml", "wb") as file:
-        file.truncate(3 * 2**30)
-    with pytest.raises(CaseError, match="too large for a case: at most 1048576 letters"):
-        cases.load(tmp_path / "case.toml")
-
-
-def paths(table, here=()):
-    """Where every value of a nested table is."""
-    for key, value in table.items():
-        yield (*here, key)
-        if isinstance(value, dict):
-            yield from paths(value, (*here, key))
-
-
-anything = st.recursive(
-    st.none()
-    | st.booleans()
-    | st.integers()
-    | st.integers(10**308, 10**310)
-    | st.floats()
-    | st.text(max_size=6)
-    | st.sampled_from(["box", "ideal"]),
-    lambda inner: (
-        st.lists(inner, max_size=3) | st.dictionaries(st.sampled_from(["kind", "at_m", "x"]), inner, max_size=2)
-    ),
-    max_leaves=4,
-)
-# TOML has no null; a None stands for "take it away"
-changes = st.lists(st.tuples(st.sampled_from(sorted(paths(TABLE))), anything, st.booleans()), min_size=1, max_size=3)
-
-
-def mutate(table, path, value, rename):
-    for key in path[:-1]:
-        if not isinstance(table.get(key), dict):
-            return
-        table = table[key]
-    if rename and path[-1] in table:
-        table[path[-1] + "x"] = table.pop(path[-1])
-    elif value is None:
-        table.pop(path[-1], None)
-    else:
-        table[path[-1]] = value
-
-
-@settings(max_examples=200)
-@given(changes=changes)
-def test_mutated_case_loads_or_is_refused(changes):
-    """Nothing but `CaseError`, and what does load can be read back and fills the box with particles or gas cells."""
-    table = copy.deepcopy(TABLE)
-    for change in changes:
-        mutate(table, *change)
-    try:
-        case = cases.from_table(table)
-    except CaseError as error:
-        assert str(error).strip()
-        return
-    assert read_back(case) == case
-    assert len(gas_cells.cells(case)) == case.dimensions

@@ -4,13 +4,19 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from builders import simulation
+from test_break_up_effect import drops
+from test_micro_explosion_effect import bursting_case
+from test_radiation_effect import radiating
 
+from coupling.embedded import EmbeddedGas
 from sdph import effects, scenes
 from sdph.case import read as cases
 from sdph.methods.grains.grains import Grains
 from sdph.methods.liquids.method import LiquidStepper
 from sdph.methods.mps.method import MpsStepper
 from sdph.methods.solids.method import SolidStepper
+from sdph.running.together import Together
 from sdph.study.explain import tables
 
 COARSE = {
@@ -23,16 +29,52 @@ COARSE = {
     "thick_ring": (),
     "swirl_sheet": ("pools.drop={shape='sphere',centre_m=[0.01,0.01,0.01],radius_m=4e-4}",),
     "taylor_bar": ("resolution.spacing_mm=1.6",),
+    "gel_droplet": ("resolution.spacing_mm=0.05",),
+    "gel_spray": (),
+}
+# effect of no such scene -> one that can have it, what stands there in its place, and its keys
+WITH = {
+    "grain_shifting": ("bubbling_bed", "", ()),
+    "lift": ("bubbling_bed", "", ("lift.law='mei'",)),
+    "electric_field": (
+        "bubbling_bed", "", ("electric_field.strength_V_m=[0.0,1e4]", "electric_field.surface_charge_C_m2=1e-6"),
+    ),
+    "radiation": (
+        "bubbling_bed", "", ("radiation.emissivity=0.8", "radiation.surroundings_temperature_K=300"),
+    ),
+    "break_up": (
+        "evaporating_jet", "",
+        ("break_up.liquid_viscosity_Pa_s=1e-3", "break_up.products='equal'", "grains.surface_tension_N_m=0.02"),
+    ),
+    "xsph": ("taylor_green", "", ()),
+    "shear_thinning": (
+        "taylor_green", "laminar_viscosity",
+        ("shear_thinning.model='power_law'", "shear_thinning.index=0.5", "shear_thinning.least_viscosity_Pa_s=1e-3",
+         "shear_thinning.most_viscosity_Pa_s=1.0"),
+    ),
+}  # fmt: skip
+# effect that limits windows -> a case with it
+WINDOWS = {
+    "radiation": lambda: radiating(300.0, windows=1),
+    "micro_explosion": bursting_case,
+    "break_up": drops,
 }
 STEPPERS = {"liquid": LiquidStepper, "mps": MpsStepper, "solid": SolidStepper}
 TINY = 1e-9  # s, far below all other limits
 
 
-def load(scene):
-    return cases.load(scenes.HERE / scene / "case.toml", COARSE[scene])
+def load(scene, name=""):
+    """A coarse scene, with an effect of WITH."""
+    file, sets = scenes.HERE / scene / "case.toml", COARSE[scene]
+    if name not in WITH:
+        return cases.load(file, sets)
+    _, instead, keys = WITH[name]
+    on = [*(own for own in cases.parsed(file)["effects"] if own != instead), name]
+    return cases.load(file, (*sets, f"effects={on}", *keys))
 
 
 PAIRS = [(scene, name) for scene in COARSE for name in load(scene).effects]
+PAIRS += [(scene, name) for name, (scene, *_) in WITH.items()]
 
 
 def explained(case) -> dict[str, float]:
@@ -57,37 +99,49 @@ def shorten(monkeypatch, name, limit):
     monkeypatch.setitem(effects.REGISTRY, name, replace(effects.REGISTRY[name], dt_limit=limit))
 
 
+def stepper_of(case, folder):
+    """The stepper of a liquid or of solids; that of solids in a liquid is the liquid's."""
+    if case.liquid and case.solid:
+        return Together(case, folder / "ledger.csv").stepper
+    return STEPPERS[case.moved_by(case.matters[0])](case)
+
+
 def test_every_effect_is_among_those_asked():
-    known = {name for _, name in PAIRS}
-    assert effects.REGISTRY.keys() - known <= {
-        "grain_shifting",
-        "bubble",
-        "liquid_heat",
-        "time_scaling",
-        "xsph",
-        "artificial_viscosity",
-        "lift",
-        "electric_field",
-        "micro_explosion",
-        "radiation",
-        "break_up",
-        "shear_thinning",
-    }
+    assert effects.REGISTRY.keys() == {name for _, name in PAIRS}
+    assert {name for name, row in effects.REGISTRY.items() if row.window_limit} == WINDOWS.keys()
 
 
 @pytest.mark.parametrize(("scene", "name"), PAIRS)
-def test_a_limit_is_obeyed_and_named(monkeypatch, scene, name):
-    case = load(scene)
+def test_a_limit_is_obeyed_and_named(monkeypatch, tmp_path, scene, name):
+    case = load(scene, name)
     shorten(monkeypatch, name, lambda p, case, state: TINY)
     assert explained(case)[name] == TINY == min(explained(case).values())
     if case.liquid or case.solid:
-        stepper = STEPPERS[case.moved_by(case.matters[0])](case)
+        stepper = stepper_of(case, tmp_path)
         taken = stepper.next_step(5.5 * TINY)
     else:
         stepper = grains(case)
         advance(case, stepper, 5.5 * TINY)
         taken = 5.5 * TINY / stepper.steps
     assert stepper.limit == name and taken == pytest.approx(5.5 * TINY / 6)
+
+
+@pytest.mark.parametrize("name", WINDOWS)
+def test_a_limit_of_windows_is_obeyed_and_named(monkeypatch, tmp_path, name):
+    """It is asked at the start and after every window, each time anew."""
+    case = WINDOWS[name]()
+    short = 1e-3 * case.run.end_time
+    allowed = [short]
+    row = replace(effects.REGISTRY[name], window_limit=lambda p, case, state: allowed[0])
+    monkeypatch.setitem(effects.REGISTRY, name, row)
+    windows = {row["cause"]: row["largest [s]"] for row in tables.explain(case)["limits"] if row.get("of") == "window"}
+    assert windows[name] == short == min(windows.values())
+    run = simulation(case, tmp_path, gas=lambda case, cells: EmbeddedGas(case))
+    for part in (1.0, 0.5, 0.25):
+        allowed[0], begun = 0.5 * part * short, run.time
+        run.window()
+        assert run.clock.limit == name and run.time - begun == pytest.approx(part * short, rel=0.01)
+    run.gas.close()
 
 
 @pytest.mark.parametrize(
@@ -109,3 +163,17 @@ def test_a_limit_is_that_of_the_state_as_it_is(monkeypatch, scene, name):
     else:
         advance(case, grains(case), 3e-4)
         assert len(set(seen)) == 3
+
+
+def test_grains_at_rest_ask_before_every_step(monkeypatch):
+    """A third of the window, then what is left in parts of a sixth."""
+    case, asked = load("disc_cluster"), []
+
+    def limit(p, case, state):
+        asked.append(None)
+        return 1e-4 if len(asked) == 1 else 5e-5
+
+    shorten(monkeypatch, "conduction", limit)
+    stepper = grains(case)
+    advance(case, stepper, 3e-4)
+    assert stepper.steps == len(asked) == 5 and stepper.limit == "conduction"

@@ -7,7 +7,7 @@ import pytest
 from builders import disc, fixed_windows, run, simulation
 from fakes import StillGas
 
-from sdph.engine import ledger
+from sdph.engine.ledger import Column, Ledger
 from sdph.running import output
 
 SHORT = (
@@ -65,7 +65,7 @@ def test_a_leak_with_nothing_exchanged_shows(tmp_path):
     run = simulation(disc(*SHORT), tmp_path)
     totals, budget = run.grains.totals() | {"heat_on_its_way_J": 0.0}, run.gas_state.budget
     leaky = dataclasses.replace(budget, energy=budget.energy - 3.0)
-    run.ledger.close_window(1e-3, 1e-3, "largest", totals, leaky, ledger.NOTHING)
+    run.ledger.close_window(1e-3, 1e-3, "largest", totals, leaky, run.ledger.nothing)
     assert run.ledger.summary()["energy_drift_rel"] == pytest.approx(3.0, rel=1e-6)
 
 
@@ -73,7 +73,7 @@ def test_numerical_work_is_told_beside_what_is_dissipated(tmp_path):
     run = simulation(disc(*SHORT), tmp_path)
     totals = run.grains.totals() | {"heat_on_its_way_J": 0.0}
     done = {"numerical_work_J": -0.3, "friction_J": 4.0, "mechanical_heat_J": 1.5, "collision_heat_J": 0.5}
-    run.ledger.close_window(1e-3, 1e-3, "largest", totals, run.gas_state.budget, ledger.NOTHING | done)
+    run.ledger.close_window(1e-3, 1e-3, "largest", totals, run.gas_state.budget, run.ledger.nothing | done)
     assert run.ledger.summary()["numerical_work_rel"] == pytest.approx(0.05, rel=1e-12)
 
 
@@ -81,7 +81,7 @@ def test_unequal_exchange_shows(tmp_path):
     """One of three windows in which the gas gave a millionth more than the particles took."""
     run = simulation(disc(*SHORT), tmp_path)
     for window, given in enumerate((10.0, 10.00001, 10.0)):
-        exchanged = ledger.NOTHING | {"heat_to_particles_J": 10.0, "heat_to_gas_J": -given}
+        exchanged = run.ledger.nothing | {"heat_to_particles_J": 10.0, "heat_to_gas_J": -given}
         totals = run.grains.totals() | {"heat_on_its_way_J": 0.0}
         run.ledger.close_window(1e-3 * (window + 1), 1e-3, "largest", totals, run.gas_state.budget, exchanged)
     summary = run.ledger.summary()
@@ -96,7 +96,7 @@ def test_mass_that_comes_and_goes_is_no_drift(tmp_path, missing):
     totals, budget = run.grains.totals() | {"heat_on_its_way_J": 0.0}, run.gas_state.budget
     first = totals["particle_mass_kg"]
     totals["particle_mass_kg"] += 2.0 - 0.75 - 0.25 - missing
-    moved = ledger.NOTHING | {"injected_kg": 2.0, "left_kg": 0.75, "evaporated_kg": 0.25}
+    moved = run.ledger.nothing | {"injected_kg": 2.0, "left_kg": 0.75, "evaporated_kg": 0.25}
     run.ledger.close_window(1e-3, 1e-3, "largest", totals, dataclasses.replace(budget, mass=budget.mass + 0.25), moved)
     summary = run.ledger.summary()
     assert summary["mass_drift_rel"] == pytest.approx(missing / (first + 2.0 + budget.mass), rel=1e-6, abs=1e-15)
@@ -135,3 +135,20 @@ def test_one_way_exchanges_nothing_with_the_gas(tmp_path):
     np.testing.assert_array_equal(table["heat_to_gas_J"], 0.0)
     assert done.ledger.last["gas_energy_J"] == done.ledger.first["gas_energy_J"]
     assert done.state.temperature.mean() > 288.0
+
+
+@pytest.mark.parametrize("missing", [0.0, 0.5])
+def test_a_column_of_an_effect_counts_with_its_signs(tmp_path, missing):
+    """2 J become motion and are taken from heat; what is `missing` of the motion is told."""
+    started = simulation(case := disc(*SHORT), tmp_path)
+    columns = (Column("turned_J", motion=1, heat=-1), Column("seen"))
+    own = Ledger(tmp_path / "own.csv", case, started.gas.mesh.depth, columns, ("turned_J", "seen"))
+    totals, budget = started.grains.totals() | {"heat_on_its_way_J": 0.0}, started.gas_state.budget
+    own.open(totals, budget)
+    totals["particle_kinetic_energy_J"] += 2.0 - missing
+    totals["particle_energy_J"] -= 2.0
+    own.close_window(1e-3, 1e-3, "largest", totals, budget, own.nothing | {"turned_J": 2.0, "seen": 7.0})
+    summary = own.summary()
+    assert (summary["turned_J"], summary["seen"]) == (2.0, 7.0)
+    assert summary["motion_drift_J"] == pytest.approx(missing, abs=1e-9)
+    assert summary["energy_drift_J"] == pytest.approx(0.0, abs=1e-6)

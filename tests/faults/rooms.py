@@ -72,6 +72,7 @@ ROOMS = {
             "tests/coupling/openfoam/test_gas_solver.py",
             "tests/coupling/openfoam/test_two_gases.py",
             "tests/coupling/openfoam/test_gas_process.py",
+            "tests/coupling/openfoam/test_wire_in_cpp.py",
             "tests/coupling/openfoam",
         ),
     ),

@@ -44,8 +44,7 @@ def poisoned(array, rows):
 def poison(stepper, names, far):
     """Poison fields of the state and arrays of rows, of particles that are `far` (N,)."""
     for name in names:
-        own = getattr(stepper.state, name, None)
-        own = getattr(stepper, name) if own is None else own
+        own = getattr(stepper if hasattr(stepper, name) else stepper.state, name)
         for array in own if isinstance(own, tuple) else (own,):
             if len(array):
                 poisoned(array, far)

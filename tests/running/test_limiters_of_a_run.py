@@ -7,7 +7,7 @@ import pytest
 from test_limiters_of_gas import EMBEDDED, OPENFOAM
 from test_restart import COARSE, Reporter, load
 
-from sdph import scenes
+from sdph import effects, scenes
 from sdph.case import read as cases
 from sdph.engine.ledger import NOTHING
 from sdph.methods.liquids.totals import AMOUNTS
@@ -70,7 +70,11 @@ def test_the_page_names_all_columns_of_the_history():
 
 
 def test_the_page_names_all_columns_of_liquids(tmp_path):
-    told = {"at_least_viscosity", "at_most_viscosity", "no_shear_rate_share"}  # of shear_thinning, which no scene has
+    told = {
+        "at_least_viscosity",
+        "at_most_viscosity",
+        "no_shear_rate_share",
+    }  # as shear_thinning tells
     for name in ("dam_break", "square_patch", "bubble_rise"):
         spacing = 8 if name == "dam_break" else 50
         case = cases.load(scenes.HERE / name / "case.toml", (f"resolution.spacing_mm={spacing}",))
@@ -80,4 +84,5 @@ def test_the_page_names_all_columns_of_liquids(tmp_path):
 
 
 def test_the_page_names_columns_of_the_ledger():
-    assert {"contact_lift_J", "finished_kg", "impulse_of_gone_kg_m_s"} < counted("L") <= set(NOTHING)
+    of_effects = {column.name for row in effects.REGISTRY.values() for column in row.columns}
+    assert {"contact_lift_J", "finished_kg", "impulse_of_gone_kg_m_s"} < counted("L") <= of_effects | set(NOTHING)

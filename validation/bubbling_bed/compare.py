@@ -118,8 +118,8 @@ def _reaches(run, time: float) -> None:
 
 
 def metrics(run) -> dict[str, tuple]:
-    """For `sdph cost`: the bubble at the end of the excerpt, and the heat to the grains, against the limit of two
-    fluids."""
+    """Metrics of `sdph cost`: the bubble at the end of the excerpt, and the heat to the grains, against the limit of
+    two fluids."""
     return _metrics(run.summary, run.summary["heat_exchanged_J"])
 
 
@@ -129,7 +129,7 @@ def _metrics(bubble_at_end: dict, heat: float) -> dict[str, tuple]:
 
 
 def others(case, folder):
-    """For `sdph cost`: (label, solver, wall time [s], metrics) of two fluids on finer and finer cells."""
+    """Others in `sdph cost`: (label, solver, wall time [s], metrics) of two fluids on finer and finer cells."""
     from coupling.openfoam.comparators.run import run_two_fluid
 
     for number, cell in enumerate(COMPARED_CELLS):

@@ -14,7 +14,7 @@ import tempfile
 from pathlib import Path
 
 from coupling.embedded import EmbeddedGas
-from sdph import scenes
+from sdph import effects, scenes
 from sdph.case import read as cases
 from sdph.engine.ledger import Ledger
 from sdph.running.simulation import Simulation
@@ -37,7 +37,9 @@ def run(end: float, spacing: float, window: float) -> dict[str, float]:
     case = cases.load(scenes.HERE / "bubbling_bed" / "case.toml", overrides)
     gas = EmbeddedGas(case)
     with tempfile.TemporaryDirectory() as folder:
-        simulation = Simulation(case, gas, Ledger(Path(folder) / "ledger.csv", case, gas.mesh.depth))
+        simulation = Simulation(
+            case, gas, Ledger(Path(folder) / "ledger.csv", case, gas.mesh.depth, *effects.in_ledger(case))
+        )
         simulation.start()
         before = simulation.state.y.mean()
         while simulation.time < end:

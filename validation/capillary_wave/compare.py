@@ -26,7 +26,7 @@ def heights(run) -> tuple[np.ndarray, np.ndarray]:
 
 
 def misses(run) -> np.ndarray:
-    """Of the height, over that at the start."""
+    """Misses of the height, over that at the start."""
     case, (times, found) = run.case, heights(run)
     pool, start = case.pools["lower"], case.pools["lower"].displacement
     expected = liquids.capillary_wave(

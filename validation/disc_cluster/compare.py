@@ -170,8 +170,8 @@ def _profile(axes, reference, centre, radius) -> None:
 
 
 def metrics(run) -> dict[str, tuple]:
-    """For `sdph cost`: (value, closed form, scale) at the times of TIMES; rises by themselves, the gas by its whole
-    change."""
+    """Metrics of `sdph cost`: (value, closed form, scale) at the times of TIMES; rises by themselves, the gas by its
+    whole change."""
     # all effects on
     start, lumped = run.history["centre_temperature_K"][0], _lumped(cases.load(scenes.find("disc_cluster")[1]))
     span = abs(run.case.gas.temperature - run.case.particles["disc"].temperature)

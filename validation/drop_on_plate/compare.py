@@ -17,7 +17,7 @@ VARIANTS = {"60 degrees": ((), ["exact"])} | ANGLES
 
 
 def area(case) -> float:
-    """Of the drop [m2]."""
+    """Area of the drop [m2]."""
     pool = case.pools["drop"]
     return float(np.prod(np.subtract(pool.upper, pool.lower)))
 

@@ -62,8 +62,8 @@ def dpm(run) -> list[dict]:
 
 
 def others(case, folder):
-    """For `sdph cost`: (label, solver, wall time [s], metrics) of the droplet solver on finer and finer cells, and with
-    them steps."""
+    """Others in `sdph cost`: (label, solver, wall time [s], metrics) of the droplet solver on finer and finer cells,
+    and with them steps."""
     for number, cell in enumerate(COMPARED_CELLS):
         refined = dataclasses.replace(case, resolution=dataclasses.replace(case.resolution, cell=cell))
         reference, end = _droplet_run(refined, folder / f"dpm_{number}"), case.run.end_time

@@ -39,7 +39,7 @@ def index(law, reynolds: float) -> float:
 
 
 def checks(folder: Path, overrides=(), reporter=None) -> list[dict]:
-    """Of each law over all Reynolds numbers."""
+    """Checks of each law over all Reynolds numbers."""
     rows = measured.table("richardson_zaki_1954")
     ours = {name: np.array([index(getattr(drag, name), Re) for Re in rows["Re"]]) for name in LAWS}
     with measured.figure(folder / "liquid_fluidisation.png", "Re of the lone sphere [-]", "n [-]") as axes:

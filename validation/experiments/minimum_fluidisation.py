@@ -33,7 +33,7 @@ LAWS = {"Ergun at onset": ergun_at_onset, "Wen & Yu": wen_yu}
 
 
 def checks(folder: Path, overrides=(), reporter=None) -> list[dict]:
-    """Of each law over all powders and over each kind."""
+    """Checks of each law over all powders and over each kind."""
     powders = measured.table("geldart_1973")
     powders = powders[np.isfinite(powders["U0_m_s"])]
     found, labels = powders["U0_m_s"], [f"{row['d_sv_um']:g} um [m/s]" for row in powders]

@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from coupling.embedded import EmbeddedGas
+from sdph import effects
 from sdph.engine.ledger import Ledger
 from sdph.laws import exact as laws
 from sdph.running.metrics import column
@@ -93,7 +94,9 @@ def with_velocity(case, velocity: float, end: float):
 def _stage(case, state):
     gas = EmbeddedGas(case)
     with tempfile.TemporaryDirectory() as folder:
-        simulation = Simulation(case, gas, Ledger(Path(folder) / "ledger.csv", case, gas.mesh.depth))
+        simulation = Simulation(
+            case, gas, Ledger(Path(folder) / "ledger.csv", case, gas.mesh.depth, *effects.in_ledger(case))
+        )
         if state is not None:
             simulation.stepper.replace(state)
         simulation.start()
@@ -126,8 +129,8 @@ def _below(name: str, value: float, limit: float) -> dict:
 
 
 def metrics(run) -> dict[str, tuple]:
-    """For `sdph cost`: at the end, the pressure drop against Ergun's row by row, the gradient inside the bed against
-    Ergun's at the alpha_p there."""
+    """Metrics of `sdph cost`: at the end, the pressure drop against Ergun's row by row, the gradient inside the bed
+    against Ergun's at the alpha_p there."""
     last = run.summary
     inside = float(column.ergun(run.case, [last["alpha_p_inside"]], last["superficial_velocity_m_s"])[0])
     drop, gradient = (last["pressure_drop_Pa"], last["ergun_Pa"]), (last["gradient_Pa_m"], inside)

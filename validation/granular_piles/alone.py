@@ -33,8 +33,8 @@ STEP = 0.05  # of sqrt(spacing/g), longest window: contacts have no stiffness be
 
 
 def effective_restitution(restitution: float, rubbing: float) -> float:
-    """Of smooth grains that lose as much as grains whose friction is `rubbing` [-]: Chialvo & Sundaresan 2013, after
-    Jenkins & Zhang 2002."""
+    """Restitution of smooth grains that lose as much as grains whose friction is `rubbing` [-]: Chialvo & Sundaresan
+    2013, after Jenkins & Zhang 2002."""
     return restitution - 1.5 * rubbing * math.exp(-3.0 * rubbing)
 
 

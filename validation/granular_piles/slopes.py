@@ -45,7 +45,7 @@ def checks(folder: Path, *_, angles=ANGLES, spacings=SPACINGS) -> list[dict]:
 
 
 def acceleration(angle: float) -> float:
-    """Of a block that slides down a slope of `angle` [deg], m/s2; below 0 where it rests."""
+    """Acceleration of a block that slides down a slope of `angle` [deg], m/s2; below 0 where it rests."""
     slope = math.radians(angle)
     return alone.GRAVITY * (math.sin(slope) - math.sin(PHI) * math.cos(slope))
 

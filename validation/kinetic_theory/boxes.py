@@ -100,6 +100,6 @@ def steady_theta(share: float, rate: float, diameter: float = DIAMETER) -> float
 
 
 def amplitude(values, phase, mass) -> float:
-    """Of cos(phase) in `values` (N,), by the mass of the particles."""
+    """Amplitude of cos(phase) in `values` (N,), by the mass of the particles."""
     wave = np.cos(phase)
     return math.fsum(mass * wave * (values - np.average(values, weights=mass))) / math.fsum(mass * wave**2)

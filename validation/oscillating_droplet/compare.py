@@ -29,13 +29,13 @@ def exact(run) -> list[dict]:
 
 
 def radius(run) -> float:
-    """Of a disc with the variance of the droplet at the start [m]."""
+    """Radius of a disc with the variance of the droplet at the start [m]."""
     spread = run.history["liquid_spread_x_m2"][0] + run.history["liquid_spread_y_m2"][0]  # R^2/2 of a disc
     return float(np.sqrt(2.0 * spread))
 
 
 def period(run) -> list[dict]:
-    """Of a damped sine that is fitted to the difference of the droplet's two variances."""
+    """Period of a damped sine that is fitted to the difference of the droplet's two variances."""
     case, h = run.case, run.history
     time, stretch = h["time_s"], h["liquid_spread_x_m2"] - h["liquid_spread_y_m2"]
     omega = liquids.disc_frequency(

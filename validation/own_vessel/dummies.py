@@ -29,7 +29,7 @@ def sheet(size: float, length: float = 1.0) -> np.ndarray:
 
 
 def checks(folder: Path | None = None, _=(), reporter=None) -> list[dict]:
-    """For each size of triangles, and for slivers: points over the area, of the whole and of its quarters."""
+    """Checks of each size of triangles, and of slivers: points over the area, of the whole and of its quarters."""
     rows = []
     for name, corners in {
         **{f"triangles of {size:g} spacings": sheet(size) for size in SIZES},

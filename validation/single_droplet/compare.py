@@ -51,8 +51,8 @@ def _droplet(run):
 
 
 def metrics(run) -> dict[str, tuple]:
-    """For `sdph cost`: temperature when half of the surface is gone, against the wet bulb, of what it has to warm; the
-    d^2 constant between 60 and 20 % of the surface, when it has long warmed up."""
+    """Metrics of `sdph cost`: temperature when half of the surface is gone, against the wet bulb, of what it has to
+    warm; the d^2 constant between 60 and 20 % of the surface, when it has long warmed up."""
     temperature, constant = closed_form(cases.load(scenes.find("single_droplet")[1]))  # all effects on
     t, d, T, _ = _droplet(run)
     share = (d / d[0]) ** 2

@@ -12,7 +12,7 @@ PERIOD = 0.01  # at half a length of 25 spacings: issue
 
 
 def periods(run) -> tuple[float, float]:
-    """Of the centre of mass and of the force, over that of linear theory."""
+    """Periods of the centre of mass and of the force, over that of linear theory."""
     case, pool, h = run.case, run.case.pools["water"], run.history
     length, depth, g = case.domain.size[0], pool.upper[1] - pool.lower[1], -case.domain.gravity[1]
     expected = liquids.box_slosh(length, depth, g)

@@ -63,7 +63,7 @@ def small(run) -> list[dict]:
 
 
 def _peak(run, share: float) -> dict:
-    """Of F_x against that of small waves, in proportion to how far the tank is shaken."""
+    """Peak of F_x against that of small waves, in proportion to how far the tank is shaken."""
     linear, start, h = _linear(), run.case.parameters["frame"].start, run.history
     time = h["time_s"][h["time_s"] > start] - start
     force = _smooth(h["mean_force_x_N"][h["time_s"] > start], 0.2 / np.diff(time).mean())

@@ -12,7 +12,7 @@ START = 0.1  # in units of 1/omega: the patch has turned by 6 degrees, sound has
 
 
 def pressure(run) -> tuple[float, float]:
-    """Of the centre, mean of the start [Pa], and the exact."""
+    """Pressure of the centre, mean of the start [Pa], and the exact."""
     case, pool, h = run.case, run.case.pools["patch"], run.history
     side = pool.upper[0] - pool.lower[0]
     omega = 2.0 * pool.speed / side

@@ -41,7 +41,8 @@ def exact(run) -> list[dict]:
 
 
 def metrics(run) -> dict[str, tuple]:
-    """For `sdph cost`: flux, and the mole fraction in the middle relative to that at the liquid, against Stefan."""
+    """Metrics of `sdph cost`: flux, and the mole fraction in the middle relative to that at the liquid, against
+    Stefan."""
     rate, middle, _ = exact(run)
     top = saturated(run.case)
     return {

@@ -21,7 +21,7 @@ def swings(run) -> np.ndarray:
 
 
 def deflection(run) -> np.ndarray:
-    """Of the tip [m], row by row of the history."""
+    """Deflection of the tip [m], row by row of the history."""
     place = run.history["solid_flap_highest_x_m"]
     return place - place[0]
 

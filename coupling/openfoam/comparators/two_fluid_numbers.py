@@ -67,7 +67,7 @@ def _friction(case: Case) -> dict[str, str]:
 
 
 def _regions(case: Case) -> dict[str, str]:
-    """For each region two points (and the middle) that reach past the two sides without cells of a 2-D mesh."""
+    """Two points for each region (and the middle) that reach past the two sides without cells of a 2-D mesh."""
     points = {}
     for name, region in case.particles.items():
         lower, upper = (region.lower, region.upper) if region.shape == "box" else (region.centre, region.centre)

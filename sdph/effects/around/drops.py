@@ -48,16 +48,22 @@ class Parcels(NamedTuple):
     variance: np.ndarray
 
 
+def _numbers(path: str) -> dict[str, np.ndarray]:
+    """Columns of a table of drops; ValueError where it has no rows or drops of no size."""
+    lines, found = table.numbers(Path(path), COLUMNS)
+    if not lines:
+        raise ValueError("it has no rows")
+    for name in ("mass_kg", "diameter_m"):
+        wrong = np.flatnonzero(found[name] <= 0.0)
+        if len(wrong):
+            raise ValueError(f"line {lines[wrong[0]]}: {name} = {found[name][wrong[0]]:g}; it must be above 0")
+    return found
+
+
 def read(path: str) -> Drops:
     """The drops of a table; `CaseError` where it is none."""
     try:
-        lines, found = table.numbers(Path(path), COLUMNS)
-        if not lines:
-            raise ValueError("it has no rows")
-        for name in ("mass_kg", "diameter_m"):
-            wrong = np.flatnonzero(found[name] <= 0.0)
-            if len(wrong):
-                raise ValueError(f"line {lines[wrong[0]]}: {name} = {found[name][wrong[0]]:g}; it must be above 0")
+        found = _numbers(path)
     except ValueError as error:
         needed = f"give a CSV file with the columns {', '.join(COLUMNS)}"
         raise CaseError(f"a nozzle's table = {path!r}: {error}; {needed}") from None

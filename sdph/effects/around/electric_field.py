@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sdph.effects.effect import NO_LIMIT, Effect, Judgement
-from sdph.effects.gas import drag
+from sdph.engine.ledger import Column
 from sdph.laws import electrostatics as law
 from sdph.laws.break_up import sauter_diameter
 from sdph.schema import CaseError, quantity, record, vector
@@ -93,19 +93,6 @@ def dt_limit(p, case, state) -> float:
     return STEP * math.sqrt(case.smoothing_length / strongest) if strongest else NO_LIMIT
 
 
-def window_limit(p, case, state) -> float:
-    """A part of the time in which drag stops a lone grain. Over a window dt the drag is that of the velocity at its
-    start, so that grains drift by dt/(2 tau) too fast: that is held to `run.accuracy`."""
-    strongest = _strongest(p, state)
-    if not strongest or "drag" not in case.effects:
-        return NO_LIMIT
-    smallest = float(_d32(state).min())
-    stokes = p.grain_density * smallest**2 / (18.0 * case.gas.viscosity)  # the slip is less than by Stokes' drag
-    own = drag.kernel(case)
-    tau = p.grain_density / drag.coefficient(own, 0.0, strongest * stokes, smallest, case.gas.density)
-    return 2.0 * case.run.accuracy * tau
-
-
 def call(scales) -> Judgement:
     """Way that the field drives grains within the run, free of drag, over all ways: of weight, jet and throw too."""
     s, own = scales, scales.case.parameters["electric_field"]
@@ -123,6 +110,6 @@ EFFECT = Effect(
     arrays=("diameter", "diameter_variance"),
     moves=True,
     dt_limit=dt_limit,
-    window_limit=window_limit,
+    columns=(Column("work_of_electric_field_J", motion=1),),
     call=call,
 )

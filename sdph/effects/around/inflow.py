@@ -68,5 +68,6 @@ EFFECT = Effect(
     moves=True,
     matter=("grains", "liquid"),
     held=held,
+    sums=("injected_kg", "left_kg"),
     call=call,
 )

@@ -127,5 +127,6 @@ EFFECT = Effect(
     kernel=kernel,
     moves=True,
     matter=("grains", "liquid"),
+    sums=("injected_kg", "left_kg"),
     call=call,
 )

@@ -146,9 +146,8 @@ class Source:
     def make(self, nozzle, points, velocity):
         """Particles (n,) of the nozzles (n,), counted from 0."""
         state = particles.empty(len(points), self.names, self.case.dimensions)
-        for array, column in zip(particles.axes(state), points.T):
-            array[:] = column
-        for array, column in zip((state.u, state.v, state.w), velocity.T):
+        speeds = zip((state.u, state.v, state.w), velocity.T)
+        for array, column in (*zip(particles.axes(state), points.T), *speeds):
             array[:] = column
         for name, values in self.values.items():
             if len(getattr(state, name)):

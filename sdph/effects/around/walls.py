@@ -20,6 +20,7 @@ from numba import njit, prange
 from sdph.effects.around.wall_limiters import held as held_by_limiters
 from sdph.effects.effect import Effect, Judgement
 from sdph.engine.geometry import deep
+from sdph.engine.ledger import Column
 from sdph.engine.rows import entry
 from sdph.engine.walls.dummies import CONTACT, distance, normal_part, offset
 from sdph.laws import granular, kernels
@@ -43,7 +44,8 @@ class Walls:
     # "gas": the sides of a generated mesh, or the patches of the OpenFOAM mesh that the case brings; "mesh": the sides
     # of the domain and `mesh`. None: "mesh" where one is given, else "gas"
     source: str | None = choice("gas", "mesh", default=None)
-    mesh: str = file()  # surface mesh that meshio reads, in metres, normals towards the grains
+    mesh: str = file()  # surface mesh that meshio reads, normals towards the grains
+    mesh_scale: float = quantity("", 1.0, above=0.0)  # metres of a unit of `mesh`: 0.001 where it is in millimetres
 
 
 class WallsP(NamedTuple):
@@ -184,6 +186,16 @@ def grip(p, stick, y, density, theta, shear):
 
 
 @inlined
+def penalty(p, kernel, box, wall, w, s, i, r):
+    """Acceleration [m/s2] along the normal of a dummy: -eps 2h (v.n) W A / (rho r) where v.n < 0; A = dx^(d-1), eps =
+    penalty rho."""
+    vz = s.w[i] if deep(box) else 0.0
+    approach = s.u[i] * wall.normal_x[w] + s.v[i] * wall.normal_y[w] + vz * wall.normal_z[w]
+    push = -p.penalty * 2.0 * kernel.h * min(approach, 0.0) / r * p.volume
+    return push * kernels.cubic_spline(r, kernel.h, kernel.sigma)
+
+
+@inlined
 def force(p, kernel, box, wall, s, i, stress, friction_p):
     """Accelerations [m/s2] of particle i by the wall: by its push, and by its grip; power of the grip by the sliding of
     the wall, and what viscosity takes there from the motion of the grains [W/kg].
@@ -200,11 +212,8 @@ def force(p, kernel, box, wall, s, i, stress, friction_p):
         w = entry(wall, i, k)
         dx, dy, dz = offset(box, wall, w, s, i)
         r = math.sqrt(dx * dx + dy * dy + dz * dz)
-        if p.paper == 1:  # f/rho = -eps 2h sum (v.n) W A n / r, where v.n < 0; A = dx^(d-1), eps = penalty rho
-            vz = s.w[i] if deep(box) else 0.0
-            approach = s.u[i] * wall.normal_x[w] + s.v[i] * wall.normal_y[w] + vz * wall.normal_z[w]
-            push = -p.penalty * 2.0 * kernel.h * min(approach, 0.0) / r * p.volume
-            push *= kernels.cubic_spline(r, kernel.h, kernel.sigma)
+        if p.paper == 1:
+            push = penalty(p, kernel, box, wall, w, s, i, r)
             ax += push * wall.normal_x[w]
             ay += push * wall.normal_y[w]
             az += push * wall.normal_z[w]
@@ -262,5 +271,7 @@ EFFECT = Effect(
     kernel=kernel,
     moves=True,
     held=held_by_limiters,
+    columns=(Column("contact_way_m"), Column("contact_lift_J")),
+    sums=("contact_way_m", "contact_lift_J"),
     call=call,
 )

@@ -14,6 +14,7 @@ import numpy as np
 from numba import njit, prange
 
 from sdph.effects.effect import NO_LIMIT, Effect, Judgement
+from sdph.engine.ledger import Column
 from sdph.engine.state import GRAIN
 from sdph.laws import break_up as law
 from sdph.schema import CaseError, choice, quantity, record
@@ -23,7 +24,13 @@ PRODUCTS = ("equal", "chi_squared")
 SLIP = 0.1
 STOP = 8.0 / 3.0  # rho/rho_g r/u: time in which drag stops a drop whose C_D is 1
 SOURCE = "O'Rourke & Amsden 1987"
-COLUMNS = ("broken_kg", "break_up_surface_J", "break_up_agitation_J")  # of the ledger
+# of the ledger: mass that broke, heat that new surfaces take, motion that products take from heat
+COLUMNS = (
+    Column("broken_kg"),
+    Column("break_up_surface_J", heat=-1, of_grains=True),
+    Column("break_up_agitation_J", motion=1, heat=-1, of_grains=True),
+)
+NOTHING_BROKEN = {column.name: 0.0 for column in COLUMNS}
 
 
 @record
@@ -101,7 +108,7 @@ def apply(p, s, slip, gas_density, dt: float) -> dict[str, float]:
         s.temperature[own] -= (surface + parted)[own] / (p.heat_capacity * s.mass[own])
     if len(s.born_mass):
         _bear(s, own)
-    return dict(zip(COLUMNS, map(float, (s.mass[own].sum(), surface.sum(), parted.sum()))))
+    return dict(zip(NOTHING_BROKEN, map(float, (s.mass[own].sum(), surface.sum(), parted.sum()))))
 
 
 def _bear(s, own) -> None:
@@ -135,5 +142,7 @@ EFFECT = Effect(
     kernel=kernel,
     arrays=("diameter", "diameter_variance", "deformation", "deformation_rate", "weber"),
     window_limit=window_limit,
+    columns=COLUMNS,
+    sums=tuple(NOTHING_BROKEN),
     call=call,
 )

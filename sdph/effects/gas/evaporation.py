@@ -10,6 +10,7 @@ from numba import njit
 
 from sdph.effects.effect import Effect, Judgement
 from sdph.effects.gas import film
+from sdph.engine.ledger import Column
 from sdph.laws import evaporation as law
 from sdph.laws import grain_loss
 from sdph.schema import CaseError, choice, quantity, record, vector
@@ -86,17 +87,19 @@ def kernel(case) -> EvaporationP:
     )  # fmt: skip
 
 
+# saturation -> keys that it needs, and their units
+NEEDS = {
+    "constant": {"saturation_pressure": "_Pa"},
+    "antoine": {"antoine": ""},
+    "clausius_clapeyron": {"saturation_pressure": "_Pa", "saturation_temperature": "_K"},
+}
+
+
 def _saturation(own, vapour) -> tuple:
     """Four numbers for the saturation law that was chosen."""
-    needs = {
-        "constant": ("saturation_pressure",),
-        "antoine": ("antoine",),
-        "clausius_clapeyron": ("saturation_pressure", "saturation_temperature"),
-    }[own.saturation]
-    for name in needs:
+    for name, unit in NEEDS[own.saturation].items():
         if getattr(own, name) is None:
-            units = {"saturation_pressure": "_Pa", "saturation_temperature": "_K", "antoine": ""}
-            raise CaseError(f"evaporation.{name}{units[name]} is missing; saturation = {own.saturation!r} needs it")
+            raise CaseError(f"evaporation.{name}{unit} is missing; saturation = {own.saturation!r} needs it")
     if own.saturation == "antoine":
         return (*own.antoine, 0.0)
     if own.saturation == "constant":
@@ -211,5 +214,10 @@ EFFECT = Effect(
     ),
     sources=("alpha_g", "vapour", "momentum", "heat"),
     to_gas=to_gas,
+    columns=(
+        Column("condensation_refused_kg"), Column("finished_kg"), Column("latent_heat_J", heat=-1),
+        Column("capacity_heat_J", heat=-1),
+    ),
+    sums=("evaporated_kg", "condensation_refused_kg", "finished_kg", "latent_heat_J", "capacity_heat_J"),
     call=call,
 )  # fmt: skip

@@ -80,5 +80,6 @@ EFFECT = Effect(
     fields=("vorticity",),
     holds_force=True,
     moves=True,
+    sums=("impulse_of_gone_kg_m_s",),
     call=call,
 )

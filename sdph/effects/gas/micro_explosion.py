@@ -16,6 +16,7 @@ from numba import njit, prange
 
 from sdph.effects.effect import NO_LIMIT, Effect, Judgement
 from sdph.effects.gas import gel
+from sdph.engine.ledger import Column
 from sdph.engine.state import GRAIN
 from sdph.laws import bursting, cavities, gel_droplet, real_gas, shells, strength, swelling
 from sdph.schema import CaseError, quantity, record
@@ -257,5 +258,7 @@ EFFECT = Effect(
     ),
     sources=("alpha_g", "vapour", "momentum", "heat"),
     window_limit=window_limit,
+    columns=(Column("thrown_kg"), *map(Column, NOTHING_TORN)),
+    sums=("thrown_kg", *NOTHING_TORN),
     call=call,
 )  # fmt: skip

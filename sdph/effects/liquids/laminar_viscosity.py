@@ -8,8 +8,8 @@ from typing import NamedTuple
 from numba import njit
 
 from sdph.effects.effect import Effect, Judgement, diffusive_limit
-from sdph.engine import kernels as smoothing
 from sdph.engine.state import LIQUID
+from sdph.laws.constants import TINY
 from sdph.laws.exchange import harmonic_mean
 from sdph.schema import record
 
@@ -74,7 +74,7 @@ def central(p, s, i, j, kind_i, kind_j, closing, r2):
     if len(p) != 3:
         return 0.0
     strength = (p.liquid if kind_i == LIQUID else p.gas) if kind_i == kind_j else p.between
-    return -strength * closing / (r2 + smoothing.TINY)
+    return -strength * closing / (r2 + TINY)
 
 
 def call(scales) -> Judgement:

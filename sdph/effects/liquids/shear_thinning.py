@@ -47,7 +47,7 @@ class ThinningP(NamedTuple):
 
     model: int
     viscosity: float
-    index: float
+    exponent: float
     least: float
     most: float
     time: float
@@ -81,11 +81,11 @@ def _constants(case, own) -> ThinningP:
 def viscosity(p, shear_rate):
     """Viscosity [Pa s] at a shear rate [1/s], within the limits."""
     if p.model == 0:
-        found = law.power_law(shear_rate, p.viscosity, p.index)
+        found = law.power_law(shear_rate, p.viscosity, p.exponent)
     elif p.model == 1:
-        found = law.carreau(shear_rate, p.viscosity, p.index, p.time, p.infinite)
+        found = law.carreau(shear_rate, p.viscosity, p.exponent, p.time, p.infinite)
     else:
-        found = law.herschel_bulkley(shear_rate, p.viscosity, p.index, p.time, p.yield_stress)
+        found = law.herschel_bulkley(shear_rate, p.viscosity, p.exponent, p.time, p.yield_stress)
     return min(max(found, p.least), p.most)
 
 

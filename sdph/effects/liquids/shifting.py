@@ -111,6 +111,7 @@ EFFECT = Effect(
     summary="particle shifting in a liquid",
     parameters=Shifting,
     kernel=kernel,
+    arrays=("enclosure",),
     moves=True,
     matter=("liquid",),
     call=call,

@@ -11,8 +11,8 @@ from sdph.engine.rows import Neighbours, Rows
 from sdph.engine.walls import facets
 from sdph.engine.walls import mesh as sides
 from sdph.engine.walls.dummies import Dummies, Wall, seen, turned
+from sdph.laws.kernels import SUPPORT
 
-REACH = 2.0  # support of the kernels in smoothing lengths
 LAYERS = 3  # the support of the kernel is 2 h = 3 spacings
 
 
@@ -20,7 +20,7 @@ class Boundary:
     """The dummies of a case and which of them each particle sees: none of a mesh that it stands behind."""
 
     def __init__(self, case):
-        self.search = Neighbours(REACH * case.smoothing_length, case.domain.period, case.resolution.neighbour_skin)
+        self.search = Neighbours(SUPPORT * case.smoothing_length, case.domain.period, case.resolution.neighbour_skin)
         table, self.spacing = dummies(case), case.resolution.spacing
         order = self.search.sort(tuple(np.ascontiguousarray(column) for column in table[:, : case.dimensions].T))
         self.dummies = Dummies(*(np.ascontiguousarray(column) for column in table[order, :-1].T))
@@ -53,7 +53,7 @@ def dummies(case) -> np.ndarray:
     vessel = own.mesh and own.source == "gas"  # then all walls are the mesh's
     parts = [] if vessel else [np.pad(_box(case), ((0, 0), (0, 1)))]
     if own.mesh:
-        corners, slip = facets.read(own.mesh, d), facets.slips(own.mesh, d)
+        corners, slip = facets.read(own.mesh, d, own.mesh_scale), facets.slips(own.mesh, d)
         parts += [
             np.pad(_behind_facets(corners[slip == slips], case, slips), ((0, 0), (0, 1)), constant_values=1.0)
             for slips in (False, True)

@@ -10,13 +10,12 @@ from numba import njit
 from sdph.engine import state as particles
 from sdph.engine.guard import DENSE, FAR, RUNAWAY, TINY, Watch, outside
 from sdph.engine.kept import Unfit
-from sdph.laws.constants import GAS_CONSTANT
+from sdph.laws.constants import ADIABATIC, GAS_CONSTANT
 from sdph.methods.grains.scales import scales_of
 
 # times what drives the grains: sound that is faster shrinks the sub-steps until a run gets nowhere; our choice
 COLLAPSE = 1e3
 LATENT = 0.25  # of the hottest: how far below the coldest evaporation may cool; our choice
-ADIABATIC = 1.4  # cp/cv of a diatomic gas
 
 
 class Guard(Watch):
@@ -76,14 +75,12 @@ class Guard(Watch):
                 )
 
     def sub_step(self, stepper) -> None:
-        """After a sub-step: NaN, speed, temperature of the particles."""
+        """Look, after a sub-step, for NaN, speed, temperature of the particles."""
         s, most = stepper.state, RUNAWAY * self.reach
         if within(s, stepper.scratch.sound, most, COLLAPSE * self.reach, self.coldest, self.hottest):
             return
-        lower = (
-            f"run.step_factor (now {self.case.run.step_factor:g}; the sub-step was ruled by "
-            f"{stepper.limit or 'conduction'}), then {self._shorter()}"
-        )
+        ruled = f"the sub-step was ruled by {stepper.limit or 'the window'}"
+        lower = f"run.step_factor (now {self.case.run.step_factor:g}; {ruled}), then {self._shorter()}"
         speed = np.sqrt(s.u**2 + s.v**2 + (s.w**2 if len(s.w) else 0.0))
         self.hold("speed", speed, (0.0, most, "m/s"), s, lower)
         if len(s.temperature):

@@ -11,12 +11,12 @@ from numba import prange
 
 from sdph.effects.around import walls
 from sdph.effects.grains import friction
-from sdph.engine.geometry import deep
+from sdph.engine.geometry import apart, deep, faster
 from sdph.engine.rows import entry, length, place
 from sdph.laws.compiled import inlined
 from sdph.laws.friction import second_invariant
 from sdph.methods.grains import stress
-from sdph.methods.grains.equations import approach, loop, separation
+from sdph.methods.grains.equations import loop
 
 NOTHING = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
@@ -29,8 +29,8 @@ def moments(s, rows, box, pull, i):
     mxx = myy = mzz = mxy = myz = mzx = 0.0
     for k in range(length(rows, i)):
         j = entry(rows, i, k)
-        dx, dy, dz, _ = separation(s, box, i, j)
-        du, dv, dw = approach(s, box, i, j)
+        dx, dy, dz = apart(s, box, i, j)
+        du, dv, dw = faster(s, box, i, j)
         g = -pull[place(rows, i, k)]
         gx, gy = g * dx, g * dy
         xx += gx * du

@@ -22,7 +22,7 @@ from sdph.effects.grains import (
     granular_temperature,
     granular_viscosity,
 )
-from sdph.engine.geometry import FAST, deep, nearest_image
+from sdph.engine.geometry import FAST, apart, faster, squared
 from sdph.engine.rows import entry, length, place
 from sdph.laws import granular, kernels
 from sdph.laws.compiled import inlined
@@ -96,21 +96,6 @@ def scratch(count: int, entries: int, friction: bool, deep: bool = False) -> Scr
     return Scratch(np.empty(entries), *constituted, np.zeros((rubbed, 6)), np.zeros(rubbed), *sheared)
 
 
-@inlined
-def separation(s, box, i, j):
-    """r_i - r_j (3 components; the last 0 in two dimensions) through periodic boundaries, and its square."""
-    dz = s.z[i] - s.z[j] if deep(box) else 0.0
-    dx, dy, dz = nearest_image(box, s.x[i] - s.x[j], s.y[i] - s.y[j], dz)
-    return dx, dy, dz, dx * dx + dy * dy + dz * dz
-
-
-@inlined
-def approach(s, box, i, j):
-    """v_i - v_j (3 components)."""
-    dw = s.w[i] - s.w[j] if deep(box) else 0.0
-    return s.u[i] - s.u[j], s.v[i] - s.v[j], dw
-
-
 @loop
 def sum_density(kernel, s, rows, box, walls_p, wall, density, pull):
     """rho_i = sum m_j W_ij, i itself included (Eq. 25), over the share of the kernel that lies among grains.
@@ -122,7 +107,7 @@ def sum_density(kernel, s, rows, box, walls_p, wall, density, pull):
         rho = s.mass[i] * kernels.cubic_spline(0.0, kernel.h, kernel.sigma) * (1.0 + rows.number[i] - entries)
         for k in range(entries):
             j = entry(rows, i, k)
-            r, m_j = math.sqrt(separation(s, box, i, j)[3]), s.mass[j]
+            r, m_j = math.sqrt(squared(*apart(s, box, i, j))), s.mass[j]
             rho += m_j * kernels.cubic_spline(r, kernel.h, kernel.sigma)
             pull[place(rows, i, k)] = m_j * kernels.cubic_spline_gradient(r, kernel.h, kernel.sigma)
         share = walls.closure(walls_p, box, wall, s, i, kernel) if walls.near(walls_p, wall, i) else 1.0
@@ -167,38 +152,34 @@ def constitutive(
     return pace, momentum, agitation
 
 
-@njit(cache=True, error_model="numpy", fastmath=FAST)
+@njit(cache=True, error_model="numpy", fastmath=FAST, forceinline=True)
 def conducted(kernel, s, rows, box, pull, conduction_p, i):
     """Heat [W/kg] that particle i gets from its neighbours."""
     warmth = 0.0
     for k in range(length(rows, i)):
         j = entry(rows, i, k)
-        warmth += conduction.pair(conduction_p, kernel.h, s, i, j, separation(s, box, i, j)[3], pull[place(rows, i, k)])
+        r2 = squared(*apart(s, box, i, j))
+        warmth += conduction.pair(conduction_p, kernel.h, s, i, j, r2, pull[place(rows, i, k)])
     return warmth
 
 
 @loop
 def conduct(kernel, s, rows, box, pull, conduction_p, heating):
-    """Of grains that do not move: heating (N,) [W/kg]."""
+    """Conduction among grains that do not move: heating (N,) [W/kg]."""
     for i in prange(len(s.x)):
-        warmth = 0.0
-        for k in range(length(rows, i)):
-            j = entry(rows, i, k)
-            warmth += conduction.pair(
-                conduction_p, kernel.h, s, i, j, separation(s, box, i, j)[3], pull[place(rows, i, k)]
-            )
-        heating[i] = warmth
+        heating[i] = conducted(kernel, s, rows, box, pull, conduction_p, i)
 
 
 @inlined
 def by_pair(
     kernel, s, box, scratch, viscous_p, friction_p, artificial_p, temperature_p, conduction_p, i, j, pull_ij
 ):  # fmt: skip
-    """Of a particle i by another, j: acceleration (3 values) [m/s2], rate of theta, and heat by rubbing and by
+    """Terms of a particle i by another, j: acceleration (3 values) [m/s2], rate of theta, and heat by rubbing and by
     conduction [W/kg]; pull_ij = m_j (dW/dr)/r."""
     rho_i, rho_j = s.density[i], s.density[j]
-    dx, dy, dz, r2 = separation(s, box, i, j)
-    du, dv, dw = approach(s, box, i, j)
+    dx, dy, dz = apart(s, box, i, j)
+    du, dv, dw = faster(s, box, i, j)
+    r2 = squared(dx, dy, dz)
     closing, scale = du * dx + dv * dy + dw * dz, pull_ij / (rho_i * rho_j)
 
     # section 2.1, corrected: -m_j (S_i/rho_i^2 + S_j/rho_j^2 + Pi_ij) grad W, S = p I - tau
@@ -226,7 +207,7 @@ def rates(
     kernel, s, rows, box, scratch, viscous_p, friction_p, artificial_p, temperature_p, conduction_p, walls_p, wall,
     acceleration, of_walls, agitation, heating,
 ):  # fmt: skip
-    """Of grains that move: acceleration (N, 3) [m/s2] by each other; of_walls (N, 7) as `account.kick` takes it;
+    """Rates of grains that move: acceleration (N, 3) [m/s2] by each other; of_walls (N, 7) as `account.kick` takes it;
     agitation (N,) [W/kg] that feeds theta, heating (N,) [W/kg]."""
     for i in prange(len(s.x)):
         ax = ay = az = 0.0

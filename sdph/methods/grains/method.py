@@ -20,12 +20,12 @@ from sdph.engine.kept import GROWING, Unfit
 from sdph.engine.rows import Neighbours
 from sdph.engine.state import INFLOW
 from sdph.engine.walls.sides import Boundary
+from sdph.laws.kernels import SUPPORT
 from sdph.methods.grains import account, sound, sub_step
 from sdph.methods.grains import equations as rates
 from sdph.methods.grains.bounds import Guard
 
 SAME_DENSITY = 1e-6  # of a density: what is summed twice differs by round-off at most; our choice
-REACH = 2.0  # support of the kernels in smoothing lengths
 
 
 class Stepper:
@@ -38,7 +38,7 @@ class Stepper:
     def __init__(self, case, parameters, state, source=None, shortest=0.0):
         self.case, self.parameters, self.state, self.source = case, parameters, state, source
         self.kernel, self.guard = rates.kernel_of(case), Guard(case)
-        self.neighbours = Neighbours(REACH * case.smoothing_length, case.domain.period, case.resolution.neighbour_skin)
+        self.neighbours = Neighbours(SUPPORT * self.kernel.h, case.domain.period, case.resolution.neighbour_skin)
         self.boundary = Boundary(case) if parameters["walls"] else None
         self.mouths = source.mouths(self.boundary.dummies) if source and self.boundary else None  # nozzle of each dummy
         self.waves, self.terms = sound.waves_of(case), terms_of(parameters)
@@ -53,7 +53,7 @@ class Stepper:
         self.unheld, self.shifted = np.zeros(0), np.zeros((0, 3))
 
     def revive(self) -> None:
-        """After a checkpoint was put back."""
+        """Make anew what a checkpoint does not hold, once it was put back."""
         if not self.neighbours.built:  # particles came or went: the next step begins with new rows
             return
         self.neighbours.relist(self.state.kind)
@@ -129,11 +129,13 @@ class Stepper:
 
     def conduct(self, dt: float) -> None:
         """Grains at rest through a window of `dt` [s]: conduction, and heat from the gas spread evenly."""
-        steps = self._parts(dt, self.state)
-        for _ in range(steps):
-            self._warm(self._conducted() * dt / steps + self.state.warmth / self.state.mass / steps)
+        left = dt
+        while left > 0.0:
+            step = left / self._parts(left, self.state)
+            self._warm(step * self._conducted() + step / dt * self.state.warmth / self.state.mass)
+            self.steps += 1
             self.guard.sub_step(self)
-        self.steps += steps
+            left = 0.0 if step >= left else left - step
         self.tell()
 
     def tell(self) -> None:

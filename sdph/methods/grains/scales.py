@@ -149,7 +149,7 @@ class Scales:
 
     @cached_property
     def span(self) -> float:
-        """Between the hottest and the coldest of the case [K]."""
+        """Difference of the hottest and the coldest of the case [K]."""
         return max(self.case.temperatures) - min(self.case.temperatures)
 
     @cached_property

@@ -27,7 +27,7 @@ WAVES = 200  # looked at in each direction, up to the shortest that a lattice ha
 
 
 class Waves(NamedTuple):
-    """Of the fastest waves on a lattice: (omega h/c)^2 by compression, and (omega h)^2 rho/p by the pressure itself."""
+    """Fastest waves on a lattice: (omega h/c)^2 by compression, and (omega h)^2 rho/p by the pressure itself."""
 
     stretch: float
     press: float

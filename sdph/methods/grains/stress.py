@@ -32,7 +32,7 @@ NO_GRADIENT = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)  # A where a velocit
 
 @inlined
 def determinant(M):
-    """Of M (xx, yy, zz, xy, yz, zx) [-]."""
+    """Determinant of M (xx, yy, zz, xy, yz, zx) [-]."""
     return M[0] * (M[1] * M[2] - M[4] * M[4]) + M[3] * (M[5] * M[4] - M[3] * M[2]) + M[5] * (M[3] * M[4] - M[5] * M[1])
 
 

@@ -17,6 +17,7 @@ from sdph.effects.liquids import density_diffusion, laminar_viscosity, liquid_da
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import FAST, apart, deep, faster
 from sdph.engine.rows import entry, length
+from sdph.laws.constants import TINY
 from sdph.laws.eos import tait_pressure
 from sdph.laws.matrices import solved
 from sdph.methods.liquids import correction, phases
@@ -31,7 +32,7 @@ class Flow(NamedTuple):
     active: np.ndarray
     pressure: np.ndarray
     volume: np.ndarray
-    least: np.ndarray
+    enclosure: np.ndarray
 
 
 @njit(cache=True, error_model="numpy")
@@ -53,8 +54,8 @@ def state_of(fluids, s, active, pressure, volume):
 
 @njit(cache=True, error_model="numpy", fastmath=FAST, forceinline=True)
 def by_pair(kernel, s, box, flow, wall_p, laminar_p, damping_p, phases_p, excess, i, j, own, outside):
-    """Of a liquid particle i by another, j: force per volume (3 values) [N/m3]; share V_j (dW/dr)/r of liquid of its
-    kind [1/m2], the rise of pressure to j [Pa], and r_ij (3 values) [m].
+    """Terms of a liquid particle i by another, j: force per volume (3 values) [N/m3]; share V_j (dW/dr)/r of liquid of
+    its kind [1/m2], the rise of pressure to j [Pa], and r_ij (3 values) [m].
 
     own: pressure of i [Pa] with the sign that tension control gives it; outside (3 values): its acceleration [m/s2]."""
     rho_i, p_i = s.density[i], flow.pressure[i]
@@ -72,7 +73,7 @@ def by_pair(kernel, s, box, flow, wall_p, laminar_p, damping_p, phases_p, excess
     weight = outside[0] * dx + outside[1] * dy + outside[2] * dz
     p_j = phases.behind(phases_p, signed, flow.pressure[j], p_i - rho_i * weight)
     mean = phases.harmonic(phases_p, rho_i, rho_j)
-    ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY)) * mean
+    ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + TINY)) * mean
     friction = laminar_viscosity.central(laminar_p, s, i, behind, s.kind[i], kind_j, closing, r2)
 
     # rho_i dv_i/dt = -sum V_j (p_i + p_j) grad W + sum V_j 2 mu r.grad W/(r^2 + eta^2) v_ij
@@ -97,7 +98,7 @@ def push(
     for n in prange(len(flow.active)):
         i = flow.active[n]
         rho_i, p_i = s.density[i], flow.pressure[i]
-        own = shifting.sign(shifting_p, p_i, flow.least[i] if len(flow.least) else 1.0) * p_i
+        own = shifting.sign(shifting_p, p_i, flow.enclosure[i] if len(flow.enclosure) else 1.0) * p_i
         outside = body(gravity_p, frame_p, s, i, False)
         ax = ay = az = gx = gy = gz = xx = yy = zz = xy = yz = zx = 0.0
         for k in range(length(rows, i)):

@@ -26,8 +26,8 @@ SAME = 1e-9  # of a spacing: round-off
 
 
 class Slab(NamedTuple):
-    """Between the heights `low` and `high` [m] along the unit vector `up` (d,): from `below` to `fill` of the tank's
-    volume; the lowest one, `below` = 0, has no lower end, so that an outlet pipe is part of it."""
+    """Slab between the heights `low` and `high` [m] along the unit vector `up` (d,): from `below` to `fill` of the
+    tank's volume; the lowest one, `below` = 0, has no lower end, so that an outlet pipe is part of it."""
 
     up: np.ndarray
     low: float

@@ -71,6 +71,16 @@ class Heat:
 
     def _find(self) -> None:
         """Values of the particles as they stand now, and pairs anew where rows were."""
+        own = self.stepper
+        self._weigh()
+        self.filled = self.capacity > 0.0
+        self.volume = np.abs(own.volume)
+        if self.built is not own.neighbours.built:
+            self.built = own.neighbours.built
+            self.pairs = _pairs(self.built, self.filled, own.neighbours.reach * (1.0 + own.neighbours.skin))
+
+    def _weigh(self) -> None:
+        """Heat capacities (N,) [J/K] and conductivities (N,) [W/m/K] of the particles."""
         own, s = self.stepper, self.stepper.state
         self.capacity, self.conductivity = np.zeros(len(s.x)), np.zeros(len(s.x))
         self.capacity[own.active] = s.mass[own.active] * self.p.heat_capacity
@@ -80,11 +90,6 @@ class Heat:
             self.capacity[at] = self.carrier.mass * self.p.body_heat_capacity
             self.conductivity[at] = self.p.body_conductivity
         self.conductivity /= self.lattice
-        self.filled = self.capacity > 0.0
-        self.volume = np.abs(own.volume)
-        if self.built is not own.neighbours.built:
-            self.built = own.neighbours.built
-            self.pairs = _pairs(self.built, self.filled, own.neighbours.reach * (1.0 + own.neighbours.skin))
 
     def _powers(self) -> np.ndarray:
         """(N,) [W] from outside."""

@@ -55,7 +55,7 @@ def _by_shifting(stepper) -> dict[str, float]:
     if not p:
         return {}
     moved = own if p.liquid > 0.0 else own[stepper.state.kind[own] == GAS]
-    speed, least = p.strength * np.sqrt((stepper.shift[moved] ** 2).sum(axis=1)), stepper.least[own]
+    speed, least = p.strength * np.sqrt((stepper.shift[moved] ** 2).sum(axis=1)), stepper.state.enclosure[own]
     found = {"shift_held_share": _share(speed > p.largest)}
     if p.tension > 0.0:
         found["tension_controlled_share"] = _share((stepper.pressure[own] < 0.0) & (least > shifting.INTERIOR))

@@ -58,6 +58,6 @@ def pipe_energy(stepper) -> float:
 
 
 def kinetic_energy(state) -> float:
-    """Of the liquid [J], per metre of depth in two dimensions."""
+    """Kinetic energy of the liquid [J], per metre of depth in two dimensions."""
     speed2 = (particles.velocities(state) ** 2).sum(axis=1)
     return float(0.5 * (state.mass * speed2)[particles.wet(state)].sum())

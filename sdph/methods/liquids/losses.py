@@ -15,6 +15,7 @@ from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import FAST, apart, deep, faster
 from sdph.engine.rows import entry, length
 from sdph.laws.compiled import inlined
+from sdph.laws.constants import TINY
 from sdph.methods.liquids import correction, phases
 
 # of their sum: viscosity of the liquid, artificial viscosity, diffusion of density, control of tension, corrected
@@ -24,7 +25,7 @@ CAUSES = ("viscosity_J", "damping_J", "diffusion_J", "tension_control_J", "gradi
 
 @njit(cache=True, error_model="numpy")
 def rubbed(laminar_p, damping_p, phases_p, s, i, j, signed, d, dv, v):
-    """Of a pair, over V_i V_j (dW/dr)/r stick: power [J m2/s] lost to the viscosity of the liquid, and to the
+    """Losses of a pair, over V_i V_j (dW/dr)/r stick: power [J m2/s] lost to the viscosity of the liquid, and to the
     artificial one; d, dv = r_ij, v_ij; v velocity of i, past a body that over the body's."""
     dx, dy, dz = d
     du, dv_, dw = dv
@@ -35,7 +36,7 @@ def rubbed(laminar_p, damping_p, phases_p, s, i, j, signed, d, dv, v):
     rho_j = phases.density(phases_p, signed, s.density[i], s.density[j])
     friction = laminar_viscosity.central(laminar_p, s, i, other, s.kind[i], kind_j, closing, r2)
     across = laminar_viscosity.pair(laminar_p, s, i, other)
-    ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (math.sqrt(r2) + smoothing.TINY))
+    ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (math.sqrt(r2) + TINY))
     ringing *= phases.harmonic(phases_p, s.density[i], rho_j)
     return friction * parting - across * (du * v[0] + dv_ * v[1] + dw * v[2]), ringing * parting
 
@@ -50,7 +51,7 @@ def moved(moving, j):
 
 @njit(cache=True, error_model="numpy")
 def spread(diffusion_p, phases_p, box, s, pressure, gradient, i, j, d):
-    """Of a pair, over V_j (dW/dr)/r: what diffusion of density does to the density of i (`compress`)."""
+    """Spread by a pair, over V_j (dW/dr)/r: what diffusion of density does to the density of i (`compress`)."""
     if len(diffusion_p) == 0:
         return 0.0
     ramp = (gradient[i, 0] + gradient[j, 0]) * d[0] + (gradient[i, 1] + gradient[j, 1]) * d[1]
@@ -61,7 +62,7 @@ def spread(diffusion_p, phases_p, box, s, pressure, gradient, i, j, d):
 
 @njit(cache=True, error_model="numpy")
 def unmatched(excess, phases_p, s, pressure, i, j, sign_i, d, v):
-    """Of a pair of liquid, over V_i V_j (dW/dr)/r: power lost by the corrected gradient of pressure."""
+    """Loss of a pair of liquid, over V_i V_j (dW/dr)/r: power lost by the corrected gradient of pressure."""
     if len(excess) == 0:
         return 0.0
     own = phases.share(phases_p, s.density[i], s.density[j]) * sign_i * pressure[i]
@@ -80,7 +81,7 @@ def losses(
     for n in prange(len(flow.active)):
         i = flow.active[n]
         p_i, V_i = flow.pressure[i], flow.volume[i]
-        sign_i = shifting.sign(shifting_p, p_i, flow.least[i] if len(flow.least) else 1.0)
+        sign_i = shifting.sign(shifting_p, p_i, flow.enclosure[i] if len(flow.enclosure) else 1.0)
         w = s.w[i] + ahead * acceleration[i, 2] if deep(box) else 0.0
         v = (s.u[i] + ahead * acceleration[i, 0], s.v[i] + ahead * acceleration[i, 1], w)
         viscous = damped = diffused = controlled = corrected = 0.0

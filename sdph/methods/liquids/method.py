@@ -38,10 +38,10 @@ class LiquidStepper:
     # see sdph.engine.kept
     KEPT = (
         "state", "neighbours", "time", "steps", "limit", "shifted", "eased", "pressure", "volume", "acceleration",
-        "gradient", "least", "shift", "twist", "extra", "excess", "openings", "void", "heat",
+        "gradient", "shift", "twist", "extra", "excess", "openings", "void", "heat",
     )  # fmt: skip
     # of the particles
-    ROWS = ("pressure", "volume", "acceleration", "gradient", "least", "shift", "twist", "extra", "excess")
+    ROWS = ("pressure", "volume", "acceleration", "gradient", "shift", "twist", "extra", "excess")
     FORMS = dict.fromkeys(("state", *ROWS), GROWING)
     # what the loops of a step take from neighbours and theirs, fresh, of `state` and of ROWS
     HALO = (*"xyzuvw", "mass", "density", "kind", "depth", "pressure", "volume", "gradient")
@@ -77,7 +77,6 @@ class LiquidStepper:
         self.tightening = np.zeros((0, 3))  # acceleration by surface tension [m/s2]
         self.compliance = np.array([self._compliance(kind) for kind in range(GAS + 1)])
         self.aim(0.0)
-        self.least = np.zeros(0)
         self.heat = None  # until it is known what there is to heat
         self.void = bubbles.of(case, self.p["bubble"], self.state, self.bodies) if self.p["bubble"] else None
         self.look = None  # who is told of new forces, with the length [s] of the kick to come
@@ -87,7 +86,7 @@ class LiquidStepper:
             carrier.meet(self.bodies.force(self))
 
     def revive(self) -> None:
-        """After a checkpoint was put back."""
+        """Make anew what a checkpoint does not hold, once it was put back."""
         self.rows = self.neighbours.relist(self.state.kind)
         self.tell_apart()
         self.aim(self.time)
@@ -99,7 +98,7 @@ class LiquidStepper:
     @property
     def flow(self) -> rates.Flow:
         """Values that loops share."""
-        return rates.Flow(self.active, self.pressure, self.volume, self.least)
+        return rates.Flow(self.active, self.pressure, self.volume, self.state.enclosure)
 
     def step(self, most: float) -> float:
         """One step, no longer than `most` [s]; returns its length."""
@@ -179,12 +178,12 @@ class LiquidStepper:
 
     def forces(self, ahead: float = 0.0) -> None:
         """Neighbours, pressure, walls, accelerations of where the particles are now, before a kick by `ahead` [s]."""
-        built, ident = self.neighbours.built, self.state.ident
+        built = self.neighbours.built
         if self.bodies and self.moving:
             self.bodies.place(self.state)
         self.state, self.rows = self.neighbours.update(self.state)
         if built is not self.neighbours.built:
-            self._allocate(ident)
+            self._allocate()
         s, p = self.state, self.p
         if self.bodies:
             self.bodies.let_go(self.volume)
@@ -192,13 +191,13 @@ class LiquidStepper:
         if self.summed:
             rates.sum_up(*around, self.lattice, s.density)
         rates.state_of(self.fluids, s, self.active, self.pressure, self.volume)
-        if self.p["bubble"] and self.p["bubble"].vapour and ahead:
+        if p["bubble"] and p["bubble"].vapour and ahead:
             self.void.boil(self, 2.0 * ahead)
             rates.state_of(self.fluids, s, self.active, self.pressure, self.volume)
         if len(self.waiting):
             openings.meet(
                 *around[:-1], self.waiting, p["gravity"], self.frame, self.fluids[:, LIQUID], self.pressure,
-                self.volume, s.density, self.gradient, self.least,
+                self.volume, s.density, self.gradient, s.enclosure,
             )  # fmt: skip
         if len(self.walls):
             walls.extrapolate(
@@ -220,18 +219,12 @@ class LiquidStepper:
             self.void.press(self)
         if self.bodies:
             self.bodies.keep_off(self)
-        if p["xsph"]:
-            shift.mingle(*around, p["xsph"], self.phases, self.volume, *self.extra)
-        if p["shifting"]:
-            shift.surround(*around, p["shifting"], self.phases, self.volume, self.least, self.shift, self.twist)
-            if not self.phases:
-                shift.along_surface(*around, self.volume, self.least, self.shift)
+        shift.prepare(self, around)
         if self.look:
             self.look(ahead)
 
-    def _allocate(self, before) -> None:
-        """Work arrays for the particles in their new order; only `least` outlives a step. before (N,): their old
-        order."""
+    def _allocate(self) -> None:
+        """Work arrays for the particles in their new order; none outlives a step."""
         s = self.state
         self.tell_apart()
         count = len(s.x)
@@ -242,9 +235,7 @@ class LiquidStepper:
         self.excess = tuple(np.zeros((6, count))) if self.case.liquid.pressure_gradient == "corrected" else ()
         shifted = count if self.p["shifting"] else 0
         self.extra = tuple(np.zeros(count if self.p["xsph"] and len(axis) else 0) for axis in (s.x, s.y, s.z))
-        known = np.zeros(int(before.max()) + 1)
-        known[before[: len(self.least)]] = self.least
-        self.least, self.shift, self.twist = known[s.ident[:shifted]], np.zeros((shifted, 3)), np.zeros((shifted, 9))
+        self.shift, self.twist = np.zeros((shifted, 3)), np.zeros((shifted, 9))
 
     def tell_apart(self) -> None:
         """Tell liquid particles, those that wait, those of the walls that liquid is near; arrays that no step takes
@@ -274,13 +265,24 @@ class LiquidStepper:
         self.leave(keep)
         self.forces()
 
+    def set_aside(self, i: int) -> None:
+        """Particle i becomes a piece of wall; neighbours and forces are made anew."""
+        self.state.kind[i] = WALL
+        self.neighbours.built = ()
+        self.forces()
+
+    def move_wall(self, i: int, height: float, mass: float) -> None:
+        """Take a piece of wall, particle i, to a height [m] along the last axis, where it has a mass [kg]."""
+        s = self.state
+        particles.axes(s)[-1][i], s.mass[i] = height, mass
+        self.volume[i] = -s.mass[i] / s.density[i]
+
     def leave(self, keep) -> None:
         """Take the particles out that are not kept (N,); the next forces make neighbours anew."""
-        self.least = self.least[keep[: len(self.least)]]
         self.replace(particles.take(self.state, keep))
 
     def replace(self, state) -> None:
-        """Go on with another state, whose first particles are those of now; the next forces make neighbours anew."""
+        """Go on with another state; the next forces make neighbours anew."""
         if state is not self.state:
             self.state, self.neighbours.built = state, ()
 

@@ -89,7 +89,7 @@ class Openings:
 
 @njit(cache=True, parallel=True, error_model="numpy")
 def meet(
-    kernel, s, rows, box, waiting, gravity_p, frame_p, liquid, pressure, volume, density, gradient, least,
+    kernel, s, rows, box, waiting, gravity_p, frame_p, liquid, pressure, volume, density, gradient, enclosure,
 ):  # fmt: skip
     """Pressure [Pa], and what follows from it, of the particles that wait: that of the liquid in front, 0 without any.
 
@@ -112,8 +112,8 @@ def meet(
         density[i] = liquid[0] * (1.0 + (pressure[i] - liquid[3]) / liquid[1]) ** (1.0 / liquid[2])
         volume[i] = s.mass[i] / density[i]
         gradient[i, 0], gradient[i, 1], gradient[i, 2] = density[i] * bx, density[i] * by, density[i] * bz
-        if len(least):
-            least[i] = 1.0
+        if len(enclosure):
+            enclosure[i] = 1.0
 
 
 @njit(cache=True, parallel=True, error_model="numpy")
@@ -133,7 +133,7 @@ def press(
             if s.kind[i] != LIQUID:
                 continue
             V, p_i = flow.volume[i], flow.pressure[i]
-            own = shifting.sign(shifting_p, p_i, flow.least[i] if len(flow.least) else 1.0) * p_i
+            own = shifting.sign(shifting_p, p_i, flow.enclosure[i] if len(flow.enclosure) else 1.0) * p_i
             px, py, pz, share, _, dx, dy, dz = by_pair(
                 kernel, s, box, flow, wall_p, laminar_p, damping_p, phases_p, excess, i, j, own, FREE
             )

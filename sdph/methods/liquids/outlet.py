@@ -81,9 +81,7 @@ class Outlet:
         st, s = self.stepper, self.stepper.state
         way = float(particles.axes(s)[-1][i]) - self.end
         self.leaving = np.vstack((self.leaving, (s.ident[i], way, st.time, s.mass[i])))
-        s.kind[i] = WALL
-        st.neighbours.built = ()
-        st.forces()
+        st.set_aside(i)
 
     def _fade(self) -> None:
         """Moves what leaves to the outlet's end at an even speed; its volume goes with xi of what is left of the
@@ -96,9 +94,7 @@ class Outlet:
                 st.remove(i)
                 self.leaving = self.leaving[self.leaving[:, 0] != number]
                 continue
-            particles.axes(st.state)[-1][i] = self.end + left * way
-            st.state.mass[i] = mass * fading(left)
-            st.volume[i] = -st.state.mass[i] / st.state.density[i]
+            st.move_wall(i, self.end + left * way, mass * fading(left))
 
 
 def fading(left: float) -> float:

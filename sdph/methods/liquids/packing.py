@@ -21,6 +21,7 @@ from sdph.engine import state as particles
 from sdph.engine.geometry import FAST, apart
 from sdph.engine.rows import Neighbours, entry, length
 from sdph.engine.state import LIQUID, WALL
+from sdph.laws.constants import TINY
 
 RETURNS = 8  # rounds at most after which none is put back into its tank any more; our choice: one does as a rule
 PROBE = 1e-3  # of a spacing, between the distances that a way back is the slope of; our choice
@@ -85,7 +86,7 @@ def clear(s, rows, box, active, near, way):
             if s.kind[j] == WALL:
                 dx, dy, dz = apart(s, box, i, j)
                 r = math.sqrt(dx * dx + dy * dy + dz * dz)
-                share = max(near / (r + smoothing.TINY) - 1.0, 0.0)
+                share = max(near / (r + TINY) - 1.0, 0.0)
                 px += share * dx
                 py += share * dy
                 pz += share * dz

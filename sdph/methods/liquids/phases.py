@@ -25,7 +25,7 @@ class PhasesP(NamedTuple):
 
 
 def kernel(case) -> PhasesP | tuple:
-    """For the loops; OFF where there is one phase, so that its terms are compiled away."""
+    """Parameters for the loops; OFF where there is one phase, so that its terms are compiled away."""
     gas, liquid = case.gas_phase, case.liquid
     if gas is None:
         return OFF
@@ -76,8 +76,8 @@ def harmonic(p, rho_i, rho_j):
 
 @njit(cache=True, error_model="numpy")
 def share(p, rho_i, rho_j):
-    """Of v_ij, what the continuity equation of i takes: 1, or 2 rho_j/(rho_i + rho_j): a light particle yields to a
-    heavy one."""
+    """Share of v_ij that the continuity equation of i takes: 1, or 2 rho_j/(rho_i + rho_j): a light particle yields to
+    a heavy one."""
     if len(p) == 0:
         return 1.0
     return 2.0 * rho_j / (rho_i + rho_j) if p.weighted > 0.0 else 1.0

@@ -18,10 +18,10 @@ from sdph.methods.liquids.equations import pressure_at
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
-def surround(kernel, s, rows, box, active, shifting_p, phases_p, volume, least, shift, twist):
+def surround(kernel, s, rows, box, active, shifting_p, phases_p, volume, enclosure, shift, twist):
     """Survey how neighbours lie around each particle, and how fast they go.
 
-    least (N,), smallest eigenvalue of the renormalisation matrix (1 among two phases: they leave no free surface);
+    enclosure (N,), smallest eigenvalue of the renormalisation matrix (1 among two phases: they leave no free surface);
     shift (N, 3), sum V_j (1 + R (W/W0)^4) grad W [1/m]; twist (N, 9), corrected gradient dv_a/dx_b [1/s], a slowest.
     """
     for n in prange(len(active)):
@@ -41,7 +41,7 @@ def surround(kernel, s, rows, box, active, shifting_p, phases_p, volume, least, 
             cy += crowd * dy
             cz += crowd * dz
         matrix = in_plane(matrix, len(s.z) == 0)
-        least[i] = 1.0 if len(phases_p) else smallest(*matrix)
+        enclosure[i] = 1.0 if len(phases_p) else smallest(*matrix)
         shift[i, 0], shift[i, 1], shift[i, 2] = cx, cy, cz
         found = divided(matrix, sums)
         twist[i, 0], twist[i, 1], twist[i, 2] = found[0], found[1], found[2]
@@ -73,14 +73,14 @@ def mingle(kernel, s, rows, box, active, xsph_p, phases_p, volume, extra_u, extr
 
 
 @njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
-def along_surface(kernel, s, rows, box, active, volume, least, shift):
+def along_surface(kernel, s, rows, box, active, volume, enclosure, shift):
     """Takes out of the shift (N, 3) of particles at a surface what leads through it; spray is not shifted at all.
 
-    The normal is the gradient of the smallest eigenvalue `least` (N,): Sun et al. 2017, CMAME 315, 25, Eq. 10 and 12.
+    The normal is the gradient of the smallest eigenvalue, `enclosure` (N,): Sun et al. 2017, CMAME 315, 25, Eq. 10, 12.
     """
     for n in prange(len(active)):
         i = active[n]
-        if least[i] > shifting.INTERIOR:
+        if enclosure[i] > shifting.INTERIOR:
             continue
         nx = ny = nz = 0.0
         for k in range(rows.number[i]):
@@ -89,14 +89,14 @@ def along_surface(kernel, s, rows, box, active, volume, least, shift):
             share = (
                 max(volume[j], 0.0)
                 * smoothing.slope(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
-                * (least[j] - least[i])
+                * (enclosure[j] - enclosure[i])
             )
             nx += share * dx
             ny += share * dy
             nz += share * dz
         n2 = nx * nx + ny * ny + nz * nz
         through = (shift[i, 0] * nx + shift[i, 1] * ny + shift[i, 2] * nz) / n2 if n2 > 0.0 else 0.0
-        kept = 1.0 if least[i] > shifting.SPRAY else 0.0
+        kept = 1.0 if enclosure[i] > shifting.SPRAY else 0.0
         shift[i, 0] = kept * (shift[i, 0] - through * nx)
         shift[i, 1] = kept * (shift[i, 1] - through * ny)
         shift[i, 2] = kept * (shift[i, 2] - through * nz)
@@ -135,3 +135,16 @@ def displace(p, fluids, s, active, shift, gradient, twist, compliance, dt, x, y,
             w[i] += dw
         lost -= s.mass[i] * gained
     return lost
+
+
+def prepare(stepper, around) -> None:
+    """Find the velocity by which XSPH moves particles of a `stepper`, and the way by which they are shifted; `around`
+    is what its loops take."""
+    p, s = stepper.p, stepper.state
+    if p["xsph"]:
+        mingle(*around, p["xsph"], stepper.phases, stepper.volume, *stepper.extra)
+    if p["shifting"]:
+        own = stepper.volume, s.enclosure, stepper.shift
+        surround(*around, p["shifting"], stepper.phases, *own, stepper.twist)
+        if not stepper.phases:
+            along_surface(*around, *own)

@@ -127,8 +127,8 @@ def _density(case, pool, pressure) -> np.ndarray:
 
 
 def _pressure(case, pool, around, points) -> np.ndarray:
-    """At the start: hydrostatic below the pool's top under gravity, of a rotating patch or vortices what is known
-    exactly."""
+    """Pressure at the start: hydrostatic below the pool's top under gravity, of a rotating patch or vortices what is
+    known exactly."""
     if pool.flow == "rotation":
         side = pool.upper[0] - pool.lower[0]
         omega = 2.0 * pool.speed / side

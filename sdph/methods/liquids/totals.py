@@ -19,9 +19,8 @@ from pathlib import Path
 import numpy as np
 
 from sdph.engine import state as particles
-from sdph.engine.kept import ROW, Maybe
-from sdph.engine.ledger import ratio, refuse_rows, vector
-from sdph.engine.table import Table
+from sdph.engine.ledger import ratio, vector
+from sdph.engine.sums import Sums
 from sdph.methods.liquids.losses import CAUSES
 
 IMPULSES = (
@@ -36,25 +35,19 @@ PASSED = ("drained_kg", "drained_J", "injected_kg", "injected_J", "left_kg", "le
 AMOUNTS = (*PASSED, *WORKS, *LOSSES, "dissipated_J", "numerical_work_J")
 
 
-class LiquidLedger:
-    """Keeps the sums of one run and writes each row to `ledger.csv` as it comes."""
+class LiquidLedger(Sums):
+    """Keeps the sums of a liquid: what is there, and what came and went."""
 
-    # see sdph.engine.kept
-    KEPT = ("sums", "impulses", "scale", "most", "moved", "made", "mach", "first", "last", "table")
-    FORMS = {"first": Maybe(ROW), "last": Maybe(ROW)}
+    KEPT = (*Sums.KEPT, "impulses", "scale", "most", "moved", "made", "mach")  # see sdph.engine.kept
+    AMOUNTS = AMOUNTS
 
     def __init__(self, path: Path):
-        self.sums = dict.fromkeys(AMOUNTS, 0.0)
+        super().__init__(path)
         self.impulses = np.zeros((len(IMPULSES), 3))  # since the start [kg m/s]
         self.scale = {"kg_m_s": 0.0, "J": 0.0}  # impulses, and energy that could fall and work that was done
         # most energy [J] that there was, of motion, and beyond what came in
         self.most = self.moved = self.made = 0.0
         self.mach = 0.0  # largest speed over the speed of sound
-        self.first = self.last = None
-        self.table = Table(path)
-
-    def admit(self, kept: dict) -> None:
-        refuse_rows(kept, AMOUNTS)
 
     def open(self, stepper) -> None:
         """The row of the start."""
@@ -68,8 +61,7 @@ class LiquidLedger:
         amounts = amounts | {"dissipated_J": math.fsum(amounts[name] for name in LOSSES)}
         given = self._given(amounts) - amounts["dissipated_J"]
         amounts["numerical_work_J"] = _energy(now) - _energy(self.last) - given
-        for key, value in amounts.items():
-            self.sums[key] += value
+        self.add(amounts)
         self.impulses += np.array([impulses[name] for name in IMPULSES])
         self.scale["kg_m_s"] += sum(float(np.linalg.norm(value)) for value in impulses.values())
         self.scale["J"] += sum(abs(amounts[name]) for name in WORKS)
@@ -84,13 +76,12 @@ class LiquidLedger:
     def summary(self) -> dict[str, float]:
         """Closure of the run: mass and momentum relative to what there was, energy to the largest of motion; the
         largest Mach number."""
-        change = np.array([self.last[f"momentum_{a}_kg_m_s"] - self.first[f"momentum_{a}_kg_m_s"] for a in "xyz"])
         there = self.first["mass_kg"] + self.sums["injected_kg"]
         inertia = math.sqrt(2.0 * there * (self.scale["J"] + self.most))  # of all with all that energy
         gone = self.sums["drained_kg"] + self.sums["left_kg"] + self.sums["boiled_kg"]
         came = self.sums["injected_kg"] - gone
         mass = self.last["mass_kg"] - self.first["mass_kg"] - came
-        drift = float(np.linalg.norm(change - self.impulses.sum(axis=0)))
+        drift = float(np.linalg.norm(self.gained() - self.impulses.sum(axis=0)))
         return self.sums | {
             "mass_drift_rel": abs(mass) / there,
             "momentum_drift_rel": ratio(drift, self.scale["kg_m_s"] + inertia),
@@ -116,8 +107,7 @@ class LiquidLedger:
             row |= vector(f"impulse_of_{name}", impulse)
         self.mach = max(self.mach, mach(stepper))
         self.most, self.moved = max(self.most, _energy(totals)), max(self.moved, totals["kinetic_energy_J"])
-        self.first, self.last = self.first or row, row | amounts
-        self.table.write(self.last)
+        self.put(row, amounts)
 
 
 def _falling(stepper) -> float:
@@ -146,11 +136,9 @@ def specific_energies(stepper, own) -> tuple[np.ndarray, np.ndarray]:
     rho_0, stiffness, gamma, background, cohesion = stepper.fluids[:, s.kind[own]]
     x = s.density[own] / rho_0
     power = np.where(gamma == 1.0, np.log(x), (x ** (gamma - 1.0) - 1.0) / np.where(gamma == 1.0, 1.0, gamma - 1.0))
-    elastic = (
-        stiffness / rho_0 * (power + 1.0 / x - 1.0)
-        + background / rho_0 * (1.0 - 1.0 / x)
-        - cohesion * rho_0 * (x - 1.0)
-    )
+    elastic = stiffness / rho_0 * (power + 1.0 / x - 1.0)
+    elastic += background / rho_0 * (1.0 - 1.0 / x)
+    elastic -= cohesion * rho_0 * (x - 1.0)
     w2 = s.w[own] ** 2 if len(s.w) else 0.0
     return 0.5 * (s.u[own] ** 2 + s.v[own] ** 2 + w2), elastic
 

@@ -17,6 +17,7 @@ from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import FAST, apart, faster
 from sdph.engine.rows import entry
 from sdph.engine.state import INFLOW
+from sdph.laws.constants import TINY
 from sdph.methods.liquids import correction, phases
 from sdph.methods.liquids.forces import body, held_off, velocity
 
@@ -90,10 +91,10 @@ def wall_force(
             inside = 0.0 if s.kind[j] == INFLOW else max(flow.volume[j], 0.0)  # what waits bears on no tank
             V = inside * abs(flow.volume[i]) * smoothing.slope(kernel, r)
             closing = du * dx + dv * dy + dw * dz
-            sign_j = shifting.sign(shifting_p, flow.pressure[j], flow.least[j] if len(flow.least) else 1.0)
+            sign_j = shifting.sign(shifting_p, flow.pressure[j], flow.enclosure[j] if len(flow.enclosure) else 1.0)
             rho_j = s.density[j]
             friction = laminar_viscosity.central(laminar_p, s, j, j, s.kind[j], s.kind[j], closing, r2)
-            ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + smoothing.TINY))
+            ringing = liquid_damping.pair(damping_p, closing, r2, 1.0 / (r + TINY))
             ringing *= phases.harmonic(phases_p, rho_j, rho_j)
             bx, by, bz = body(gravity_p, frame_p, s, j, False)
             expected = flow.pressure[j] + rho_j * (bx * dx + by * dy + bz * dz)

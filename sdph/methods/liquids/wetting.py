@@ -23,6 +23,7 @@ from sdph.engine.geometry import FAST, apart
 from sdph.engine.rows import entry
 from sdph.engine.state import LIQUID
 from sdph.laws.compiled import inlined
+from sdph.laws.constants import TINY
 
 ROUNDS = 30  # of the search for a plane, each halves what is left of 8 h: our choice
 # most that a particle's difference from the wall's normal is multiplied by; a wall's first row takes twice that of the
@@ -80,7 +81,7 @@ def lean(kernel, s, rows, box, walls, wetting_p, normal, facing, share):
             ox, oy, oz = ox + outwards * normal[i, 0], oy + outwards * normal[i, 1], oz + outwards * normal[i, 2]
             total += weight
             liquid += weight * wet
-        inverse = 1.0 / (math.sqrt(wx * wx + wy * wy + wz * wz) + smoothing.TINY)
+        inverse = 1.0 / (math.sqrt(wx * wx + wy * wy + wz * wz) + TINY)
         wx, wy, wz = inverse * wx, inverse * wy, inverse * wz
         through, size = ox * wx + oy * wy + oz * wz, math.sqrt(ox * ox + oy * oy + oz * oz)
         ox, oy, oz = ox - through * wx, oy - through * wy, oz - through * wz
@@ -128,4 +129,4 @@ def beyond(line, i, dx, dy, dz):
     """Length of the way from particle i to one of a wall, r_ij [m], over that of its part in front of the wall's
     surface; FURTHEST at most."""
     deep = line.facing[i, 0] * dx + line.facing[i, 1] * dy + line.facing[i, 2] * dz
-    return min(max(deep / (line.height[i] + smoothing.TINY), 1.0), FURTHEST)
+    return min(max(deep / (line.height[i] + TINY), 1.0), FURTHEST)

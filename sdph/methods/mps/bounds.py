@@ -29,7 +29,7 @@ class MpsGuard(Watch):
         """`admit` of moving particles."""
         case = self.case
         most = 2.0 * case.liquid.density * case.resolution.spacing**case.dimensions
-        names = ("nozzle", "entering") if "inflow" in case.effects else ()
+        names = ("pressure", "nozzle", "entering") if "inflow" in case.effects else ("pressure",)
         self.admit(state, names, dict.fromkeys("uvw", (-self.fast, self.fast)) | {"mass": (TINY, most)})
         if not set(state["kind"].tolist()) <= {LIQUID, INFLOW, WALL}:
             raise Unfit("its particles are not those of a liquid")

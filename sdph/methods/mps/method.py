@@ -10,7 +10,7 @@ from sdph import effects
 from sdph.engine import linear, motion
 from sdph.engine import state as particles
 from sdph.engine.clock import count_of_parts
-from sdph.engine.kept import GROWING, Unfit
+from sdph.engine.kept import GROWING
 from sdph.engine.rows import Neighbours
 from sdph.engine.state import INFLOW, LIQUID
 from sdph.laws import moving_particles
@@ -30,10 +30,12 @@ class MpsStepper:
 
     # see sdph.engine.kept
     KEPT = (
-        "state", "neighbours", "time", "steps", "limit", "pressure", "works", "impulses", "iterations", "clipped",
+        "state", "neighbours", "time", "steps", "limit", "works", "impulses", "iterations", "clipped",
         "openings", "load", "moved",
     )  # fmt: skip
-    FORMS = {"state": GROWING, "pressure": GROWING}
+    FORMS = {"state": GROWING}
+    # what loops take from neighbours, fresh, of `state` and of what `_look` finds; the pressure is solved for by all
+    HALO = (*"xyzuvw", "kind", "ident", "pressure", "surface")
 
     def __init__(self, case, shortest: float = 0.0):
         self.case, self.own, self.guard, self.shortest = case, case.method, MpsGuard(case), shortest
@@ -48,7 +50,7 @@ class MpsStepper:
         pulled = self.p["free_energy_tension"]
         reach = max(self.cloud.reach, pulled.reach if pulled else 0.0, self.own.piece * unit)
         self.neighbours = Neighbours(reach, start.period(case), case.resolution.neighbour_skin)
-        self.pressure, self.energy = np.zeros(len(self.state.x)), np.zeros(0)
+        self.energy = np.zeros(0)
         self.time, self.steps, self.limit = 0.0, 0, ""
         self.works, self.impulses = np.zeros(len(WORKS)), np.zeros((2, 3))  # of gravity, of what waits
         self.iterations = 0  # of all steps
@@ -61,15 +63,13 @@ class MpsStepper:
             raise CaseError("no particle is at a free surface, and mps gives a closed vessel no pressure: fill it less")
 
     def revive(self) -> None:
-        """After a checkpoint was put back."""
+        """Make anew what a checkpoint does not hold, once it was put back."""
         self.rows = self.neighbours.relist(self.state.kind)
         self._look()
 
     def admit(self, kept: dict) -> None:
         """Unfit where the particles cannot be of this case."""
         self.guard.admit_mps(kept["state"])
-        if len(kept["pressure"]) != len(kept["state"]["x"]):
-            raise Unfit("its pressures are not one a particle")
 
     @property
     def active(self) -> np.ndarray:
@@ -134,12 +134,13 @@ class MpsStepper:
             pools.lean(*self.around, cloud.density / dt, right)
         matrix = equations.matrix(*self.around, self.number, self.surface)
         try:
-            self.iterations += linear.solve(matrix, right, self.pressure, own.tolerance, own.iterations)
+            self.iterations += linear.solve(matrix, right, self.state.pressure, own.tolerance, own.iterations)
         except linear.Unsolved as error:
             self.guard.unsolved(self, error)
-        below = self.pressure < 0.0 if own.holds(self.case) else np.zeros(count, bool)
-        self.clipped -= float(self.pressure[below].sum())
-        self.pressure[below] = 0.0
+        pressure = self.state.pressure
+        below = pressure < 0.0 if own.holds(self.case) else np.zeros(count, bool)
+        self.clipped -= float(pressure[below].sum())
+        pressure[below] = 0.0
         self.beside = beside
         return self._pushed(cloud.density / dt, beside)
 
@@ -147,10 +148,10 @@ class MpsStepper:
         """Acceleration (N, 3) [m/s2] by the pressure; scale: rho/dt."""
         pressed = np.empty((len(self.state.x), 3))
         if not self.pool:
-            equations.press(*self.around, self.pressure, pressed)
+            equations.press(*self.around, self.state.pressure, pressed)
             return pressed
         borne = np.empty_like(pressed)
-        pools.press(*self.around, self.pressure, beside, scale, pressed, borne)
+        pools.press(*self.around, self.state.pressure, beside, scale, pressed, borne)
         self.load = -self.state.mass @ np.where((self.state.kind == LIQUID)[:, None], borne, 0.0)
         return pressed
 
@@ -190,10 +191,7 @@ class MpsStepper:
 
     def _rebuild(self) -> None:
         """Rows of where the particles are now, and what is seen from there."""
-        known = np.zeros(int(self.state.ident.max(initial=-1)) + 1)
-        known[self.state.ident[: len(self.pressure)]] = self.pressure
         self.state, self.rows = self.neighbours.update(self.state)
-        self.pressure = known[self.state.ident]
         self._look()
 
     def _look(self) -> None:
@@ -208,15 +206,14 @@ class MpsStepper:
     def gauge(self) -> np.ndarray:
         """Pressure (N,) [Pa] of the liquid: that of the solver less what only holds the cohesion of the lattice."""
         own = self.p["free_energy_tension"]
-        return self.pressure + (own.cohesion if own else 0.0) * (self.surface == 0)
+        return self.state.pressure + (own.cohesion if own else 0.0) * (self.surface == 0)
 
     def take(self, keep) -> None:
         """Take out the particles that are not kept (N,); the next rows are made anew."""
-        self.pressure = self.pressure[keep[: len(self.pressure)]]
         self.replace(particles.take(self.state, keep))
 
     def replace(self, state) -> None:
-        """Go on with another state, whose first particles are those of now; the next rows are made anew."""
+        """Go on with another state; the next rows are made anew."""
         if state is not self.state:
             self.state, self.neighbours.built = state, ()
 

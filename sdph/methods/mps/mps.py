@@ -64,7 +64,7 @@ class Mps(Stepped):
         inside, stepper = self.state.kind == LIQUID, self.stepper
         clipped = stepper.own.holds(self.case)
         found = {
-            "pressure_at_least_share": float((stepper.pressure[inside] == 0.0).mean())
+            "pressure_at_least_share": float((stepper.state.pressure[inside] == 0.0).mean())
             if clipped and inside.any()
             else 0.0
         }

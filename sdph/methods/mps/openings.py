@@ -10,13 +10,12 @@ import math
 
 import numpy as np
 
-from sdph import effects
 from sdph.effects.around.outflow import open_sides
 from sdph.effects.around.source import Source
 from sdph.effects.around.streams import about
 from sdph.engine import state as particles
 from sdph.engine.state import INFLOW, LIQUID
-from sdph.methods.mps import pieces
+from sdph.methods.mps import pieces, tanks
 
 IN, OUT = 0, 1
 
@@ -28,7 +27,7 @@ class Openings:
     KEPT = ("source", "passed", "left", "cut")  # see sdph.engine.kept
 
     def __init__(self, case, state):
-        names = effects.arrays(case)
+        names = tanks.arrays(case)
         self.case, self.passed, self.left, self.cut = case, np.zeros((2, 5)), 0, 0
         self.source = Source(case, names, len(state.x)) if "inflow" in case.effects else None
         self.leave = "outflow" in case.effects

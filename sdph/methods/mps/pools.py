@@ -18,7 +18,7 @@ from sdph.methods.mps.tanks import across, least, rise, solid
 
 @inlined
 def determinant(m):
-    """Of a symmetric matrix (xx, yy, zz, xy, yz, zx)."""
+    """Determinant of a symmetric matrix (xx, yy, zz, xy, yz, zx)."""
     a, b, c = m[1] * m[2] - m[4] * m[4], m[5] * m[4] - m[3] * m[2], m[3] * m[4] - m[5] * m[1]
     return m[0] * a + m[3] * b + m[5] * c
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from sdph import effects
 from sdph.engine import lattice
 from sdph.engine import state as particles
 from sdph.engine.state import LIQUID
@@ -17,7 +16,7 @@ FLOWS = ("uniform", "rotation", "taylor_green", "quadrupole")
 
 def fill(case) -> particles.State:
     """All particles of the pools, numbered from 0; none where nozzles alone give liquid."""
-    names = effects.arrays(case)
+    names = tanks.arrays(case)
     state = particles.empty(0, names, case.dimensions)
     for name, pool in case.pools.items():
         state = particles.join(state, _pool(case, name, pool, names))

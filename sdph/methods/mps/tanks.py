@@ -77,9 +77,14 @@ def grip(walls):
     return 2.0 * walls.stick
 
 
+def arrays(case) -> set[str]:
+    """Arrays of the state that the method and the effects of a case need."""
+    return effects.arrays(case) | {"pressure"}
+
+
 def stand(case, points) -> particles.State:
     """Wall particles at points (W, d) [m]."""
-    state = particles.empty(len(points), effects.arrays(case), case.dimensions)
+    state = particles.empty(len(points), arrays(case), case.dimensions)
     for axis, column in zip(particles.axes(state), points.T):
         axis[:] = column
     state.kind[:], state.density[:] = WALL, case.liquid.density

@@ -13,10 +13,9 @@ from pathlib import Path
 import numpy as np
 
 from sdph.engine import state as particles
-from sdph.engine.kept import ROW, Maybe
-from sdph.engine.ledger import ratio, refuse_rows, vector
+from sdph.engine.ledger import ratio, vector
 from sdph.engine.state import LIQUID
-from sdph.engine.table import Table
+from sdph.engine.sums import Sums
 from sdph.methods.mps.method import WORKS
 from sdph.methods.mps.openings import IN, OUT
 
@@ -24,24 +23,18 @@ FLOWS = ("injected_kg", "injected_J", "left_kg", "left_J")
 AMOUNTS = (*(f"work_of_{name}_J" for name in WORKS), *FLOWS)
 
 
-class MpsLedger:
-    """Keeps the sums of one run and writes each row to `ledger.csv` as it comes."""
+class MpsLedger(Sums):
+    """Keeps the sums of moving particles: what is there, and what came and went."""
 
-    # see sdph.engine.kept
-    KEPT = ("sums", "works", "impulses", "passed", "momentum", "moved", "first", "last", "table")
-    FORMS = {"first": Maybe(ROW), "last": Maybe(ROW)}
+    KEPT = (*Sums.KEPT, "works", "impulses", "passed", "momentum", "moved")  # see sdph.engine.kept
+    AMOUNTS = AMOUNTS
 
     def __init__(self, path: Path):
-        self.sums = dict.fromkeys(AMOUNTS, 0.0)
+        super().__init__(path)
         # of the stepper, at the last row
         self.works, self.impulses, self.passed = np.zeros(len(WORKS)), np.zeros((2, 3)), np.zeros((2, 5))
         self.momentum = np.zeros(3)  # impulses since the start, and momentum in less that out [kg m/s]
         self.moved = 0.0  # the same without sign
-        self.first = self.last = None
-        self.table = Table(path)
-
-    def admit(self, kept: dict) -> None:
-        refuse_rows(kept, AMOUNTS)
 
     def open(self, stepper) -> None:
         """The row of the start."""
@@ -52,8 +45,7 @@ class MpsLedger:
         now, impulses, passed = totals(stepper), stepper.impulses - self.impulses, _passed(stepper) - self.passed
         amounts = {f"work_of_{name}_J": float(work) for name, work in zip(WORKS, stepper.works - self.works)}
         amounts |= dict(zip(FLOWS, (passed[IN, 0], passed[IN, 4], passed[OUT, 0], passed[OUT, 4])))
-        for key, value in amounts.items():
-            self.sums[key] += value
+        self.add(amounts)
         flows = np.concatenate((impulses, passed[IN : IN + 1, 1:4], -passed[OUT : OUT + 1, 1:4]))
         self.momentum = self.momentum + flows.sum(axis=0)
         self.moved += float(np.linalg.norm(flows, axis=1).sum())
@@ -63,14 +55,12 @@ class MpsLedger:
         row = {"time_s": stepper.time, "window_s": dt, "limit": stepper.limit} | now
         row |= vector("impulse_of_gravity", impulses[0]) | vector("impulse_of_pairs_with_inflow", impulses[1])
         self.works, self.impulses, self.passed = stepper.works.copy(), stepper.impulses.copy(), _passed(stepper)
-        self.first, self.last = self.first or row, row | amounts
-        self.table.write(self.last)
+        self.put(row, amounts)
 
     def summary(self) -> dict[str, float]:
         """Closure of the run: mass, momentum and energy of motion, relative to what there was and what moved."""
         first, last, sums = self.first, self.last, self.sums
         mass = last["mass_kg"] - first["mass_kg"] - sums["injected_kg"] + sums["left_kg"]
-        change = np.array([last[f"momentum_{a}_kg_m_s"] - first[f"momentum_{a}_kg_m_s"] for a in "xyz"])
         works = sum(sums[f"work_of_{name}_J"] for name in WORKS)
         energy = last["kinetic_energy_J"] - first["kinetic_energy_J"] - works - sums["injected_J"] + sums["left_J"]
         whole = first["mass_kg"] + sums["injected_kg"]
@@ -78,7 +68,7 @@ class MpsLedger:
         scale = first["kinetic_energy_J"] + sums["injected_J"] + sum(abs(sums[f"work_of_{n}_J"]) for n in WORKS)
         return sums | {
             "mass_drift_rel": ratio(abs(mass), whole),
-            "momentum_drift_rel": ratio(float(np.linalg.norm(change - self.momentum)), self.moved + turned),
+            "momentum_drift_rel": ratio(float(np.linalg.norm(self.gained() - self.momentum)), self.moved + turned),
             "energy_drift_rel": ratio(abs(energy), scale),
         }
 

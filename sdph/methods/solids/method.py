@@ -33,6 +33,9 @@ class SolidStepper:
         "steadying", "friction", "pressed",
     )  # fmt: skip
 
+    # what the loops of a step take from neighbours, fresh, beside the undeformed bodies, which stay as they are
+    HALO = (*"xyzuvw", "gradient", "stress", "free")
+
     def __init__(self, case, shortest: float = 0.0, *, wet: bool = False):
         self.case, self.guard, self.shortest = case, SolidGuard(case), shortest
         self.wet = wet  # whether a liquid presses on the bodies
@@ -77,7 +80,7 @@ class SolidStepper:
         return Cavity(own, start.circles(self.case, self.case.parameters["inflation"].body), made)
 
     def revive(self) -> None:
-        """After a checkpoint was put back: links as they were cut."""
+        """Cut links as they were, after a checkpoint was put back."""
         own = self.weights
         own.free[:], own.broken[:] = self.free, self.broken
         own.cut(np.zeros(len(self.free), bool))

@@ -15,9 +15,8 @@ from pathlib import Path
 import numpy as np
 
 from sdph.engine import state as particles
-from sdph.engine.kept import ROW, Maybe
-from sdph.engine.ledger import ratio, refuse_rows, vector
-from sdph.engine.table import Table
+from sdph.engine.ledger import ratio, vector
+from sdph.engine.sums import Sums
 from sdph.methods.solids.method import IMPULSES, WORKS
 
 GIVEN = ("work_of_gravity_J", "work_of_pressure_J", "work_of_scaling_J")
@@ -25,23 +24,17 @@ TAKEN = ("plastic_J", "viscosity_J", "hourglass_J", "damage_J")
 AMOUNTS = (*GIVEN, *TAKEN, "numerical_work_J")
 
 
-class SolidLedger:
-    """Keeps the sums of one run and writes each row to `ledger.csv` as it comes."""
+class SolidLedger(Sums):
+    """Keeps the sums of solids: what is there, and what came and went."""
 
-    # see sdph.engine.kept
-    KEPT = ("sums", "impulses", "works", "moved", "scale", "most", "first", "last", "table")
-    FORMS = {"first": Maybe(ROW), "last": Maybe(ROW)}
+    KEPT = (*Sums.KEPT, "impulses", "works", "moved", "scale", "most")  # see sdph.engine.kept
+    AMOUNTS = AMOUNTS
 
     def __init__(self, path: Path):
-        self.sums = dict.fromkeys(AMOUNTS, 0.0)
+        super().__init__(path)
         self.impulses, self.works = np.zeros((len(IMPULSES), 3)), np.zeros(len(WORKS))  # of the stepper, at last row
         self.moved = self.scale = 0.0  # impulses [kg m/s] and works [J] without sign
         self.most = 0.0  # most energy [J] that there was
-        self.first = self.last = None
-        self.table = Table(path)
-
-    def admit(self, kept: dict) -> None:
-        refuse_rows(kept, AMOUNTS)
 
     def open(self, stepper) -> None:
         """The row of the start."""
@@ -53,8 +46,7 @@ class SolidLedger:
         amounts = _amounts(stepper.works - self.works)
         given = sum(amounts[name] for name in GIVEN) - sum(amounts[name] for name in TAKEN)
         amounts["numerical_work_J"] = energy(now) - energy(self.last) - given
-        for key, value in amounts.items():
-            self.sums[key] += value
+        self.add(amounts)
         self.moved += float(np.linalg.norm(impulses, axis=1).sum())
         self.scale += sum(abs(amounts[name]) for name in GIVEN)
         self._write(stepper, dt, now, impulses, amounts)
@@ -65,15 +57,13 @@ class SolidLedger:
             row |= vector(f"impulse_of_{name}", impulse)
         self.impulses, self.works = stepper.impulses.copy(), stepper.works.copy()
         self.most = max(self.most, energy(now))
-        self.first, self.last = self.first or row, row | amounts
-        self.table.write(self.last)
+        self.put(row, amounts)
 
     def summary(self) -> dict[str, float]:
         """Closure of the run: mass, momentum relative to impulses and to all mass with all the energy, energy to the
         most that there was or came in."""
         first, last = self.first, self.last
-        change = np.array([last[f"momentum_{a}_kg_m_s"] - first[f"momentum_{a}_kg_m_s"] for a in "xyz"])
-        drift = float(np.linalg.norm(change - self.impulses.sum(axis=0)))
+        drift = float(np.linalg.norm(self.gained() - self.impulses.sum(axis=0)))
         inertia = math.sqrt(2.0 * first["mass_kg"] * (self.scale + self.most))
         whole = self.scale + energy(first)
         return self.sums | {

@@ -25,7 +25,7 @@ def metrics(simulation) -> dict[str, float]:
 
 @njit(cache=True, error_model="numpy")
 def moments(density, s, number, second, third):
-    """Of each particle: number of droplets that are left (N,), their mean d^2 (N,) [m2] and d^3 (N,) [m3]."""
+    """Moments of each particle: number of droplets that are left (N,), their mean d^2 (N,) [m2] and d^3 (N,) [m3]."""
     for i in range(len(s.x)):
         own = sizes.birth_of(s.born_diameter[i], s.born_variance[i], s.lost_still[i], s.lost_moving[i])
         count = surface = volume = 0.0

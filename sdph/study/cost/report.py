@@ -61,7 +61,7 @@ def _limit(name: str, metric: errors.Converged) -> dict:
 
 
 def answer(own, rows: list[dict], limit: float) -> dict:
-    """For this error take these settings, it costs so much; or why nothing can be told."""
+    """Tell which settings to take for this error and what they cost, or why nothing can be told."""
     best = measured_rows.cheapest(rows, limit)
     take = " ".join(f"{key}={best[key]}" for key in own.keys) if best else errors.refusal(own, rows, limit)
     return {
@@ -81,14 +81,10 @@ def without(scene: str, rows: list[dict]) -> list[dict]:
     for row in rows if middle else ():
         if row["solver"] == OWN and row["without"] != ALL:
             change, estimate = measured_rows.distance(middle, row), judged[row["without"]].error_if_off
-            found.append(
-                {
-                    "effect left out": row["without"],
-                    "measured change": change,
-                    "estimate": estimate,
-                    "within a factor of 3": "yes" if near(change, estimate) else "NO",
-                }
-            )
+            found.append({
+                "effect left out": row["without"], "measured change": change, "estimate": estimate,
+                "within a factor of 3": "yes" if near(change, estimate) else "NO",
+            })  # fmt: skip
     return found
 
 

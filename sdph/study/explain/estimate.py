@@ -22,6 +22,7 @@ from sdph.study.explain import pace
 
 ROW = 8  # bytes of a number and of an entry of a neighbour row
 SCRATCH = 30  # arrays of the length of the particles that a step makes
+OF_LIQUIDS = ("enclosure", "pressure")  # arrays of the state that are among those
 GAS_ARRAYS = 120  # arrays of the length of the cells that the gas solver and the exchange hold
 OF_BURSTS = set(effects.REGISTRY["micro_explosion"].arrays).difference(  # arrays that no other effect has
     *(row.arrays for name, row in effects.REGISTRY.items() if name != "micro_explosion")
@@ -191,12 +192,16 @@ def _windows(case, s) -> list[tuple]:
         )
         for cause, value in pace.later(case, s).items()
     ]
-    asked = effects.window_limits(pace.parameters(case), case, _state(case))
+    how = {
+        "grip": "of the time in which the gas stops packed grains",
+        "settling": "run.accuracy of what moves, over the error of a drift by weight or field",
+    }
+    asked = pace.asked(case, s, _state(case))
     rows += [
-        ("window", name, limit, "the effect's own window_limit") for name, limit in asked.items() if limit < math.inf
+        ("window", name, limit, how.get(name, "the effect's own window_limit"))
+        for name, limit in asked.items()
+        if limit < math.inf
     ]
-    if (grip := pace.grip(case, s)) < math.inf:
-        rows.append(("window", "grip", grip, "of the time in which the gas stops packed grains"))
     if "heat" in case.effects and s.span and not own.one_way:
         rate = 1.0 / s.heat_time + 1.0 / s.gas_heat_time
         first = math.sqrt(2.0 * own.window_tolerance) / rate
@@ -271,5 +276,5 @@ def memory(case, count: int, cells: int) -> float:
     """Bytes."""
     near = kernels.SUPPORT * case.resolution.smoothing_ratio
     neighbours = math.pi * near**2 if case.dimensions == 2 else 4.0 / 3.0 * math.pi * near**3
-    fields = len(particles.FIELDS) - (0 if "micro_explosion" in case.effects else len(OF_BURSTS))
+    fields = len(particles.FIELDS) - len(OF_LIQUIDS) - (0 if "micro_explosion" in case.effects else len(OF_BURSTS))
     return BASE + ROW * (count * (fields + SCRATCH + 1.5 * neighbours) + cells * GAS_ARRAYS)

@@ -19,7 +19,7 @@ import numpy as np
 from sdph import effects
 from sdph.effects.grains import friction, granular_pressure
 from sdph.engine.clock import count_of_parts
-from sdph.exchange.window import GRIP, Window, smallest_cell
+from sdph.exchange.window import GRIP, Window, settling, smallest_cell
 from sdph.laws import drag
 from sdph.methods.grains import ways
 from sdph.methods.grains.method import limits as limits_of_step
@@ -58,7 +58,7 @@ def parts(window: float, limit: float, moving: bool) -> float:
 def lengths(case, s, state) -> list[tuple[float, int]]:
     """(length [s], how many) of the windows, one after the other."""
     clock = Window(case)
-    clock.obey({"grip": grip(case, s), **effects.window_limits(parameters(case), case, state)})
+    clock.obey(asked(case, s, state))
     driven, found, time = Driven(case, s, clock), [], 0.0
     if min([clock.longest(), *driven.steady.values()]) < clock.shortest:  # the run itself will say that it gets nowhere
         return [(clock.longest(), math.ceil(case.run.end_time / clock.longest()))]
@@ -117,6 +117,19 @@ def later(case, s) -> dict[str, float]:
     return {cause: reach / speed for cause, speed in speeds.items() if speed}
 
 
+def asked(case, s, state) -> dict[str, float]:
+    """Longest windows [s] that drag and the effects bear, by what bears them."""
+    own = {"grip": grip(case, s), "settling": drifting(case, s)}
+    return own | effects.window_limits(parameters(case), case, state)
+
+
+def drifting(case, s) -> float:
+    """Longest window [s] in which grains drift right (`sdph.exchange.exchange.Exchange.settling`)."""
+    if "drag" not in case.effects or not s.patches:
+        return math.inf
+    return settling(case, math.hypot(*s.weight), s.drag_time, s.slip)
+
+
 def grip(case, s) -> float:
     """Longest window [s] of grains that the gas grips as one (`sdph.exchange.exchange.Exchange.grip`)."""
     if not {"gas_pressure", "drag"} <= set(case.effects) or case.coupling.one_way or not case.particles:
@@ -134,7 +147,7 @@ def sub_steps(case, s, state) -> dict[str, float]:
 
 
 def parameters(case) -> dict:
-    """Of the effects that are on, as the run's loops take them."""
+    """Parameters of the effects that are on, as the run's loops take them."""
     return {name: effects.kernel_of(effects.REGISTRY[name], case) for name in case.effects}
 
 

@@ -6,6 +6,7 @@ import math
 
 from sdph import effects
 from sdph.case import judge
+from sdph.laws.constants import ADIABATIC, GAS_CONSTANT
 from sdph.methods.grains import start
 from sdph.methods.grains.scales import THIN
 from sdph.study.explain import droplets, estimate, liquids, mps, solids
@@ -15,6 +16,7 @@ OF = {
     "mps": mps,
     "solid": solids,
 }  # method -> module with `explain` and `warnings`; grains have their own
+OF_HEAT = ("Biot", "heat loading", "Peclet of conduction", "run / heat time", "run / gas's heat time")
 
 
 def explain(case, priced=None) -> dict[str, list[dict]]:
@@ -43,7 +45,12 @@ def _explain(case, priced) -> dict[str, list[dict]]:
 
 def _of_grains(case, scales, priced) -> dict[str, list]:
     limits, expected = estimate.limits(case, scales), estimate.expected(case, scales, priced)
-    return {"numbers": numbers(scales), "ratios": estimate.ratios(case), "limits": limits, "expected": expected}
+    return {
+        "numbers": numbers(scales, case.warm),
+        "ratios": estimate.ratios(case),
+        "limits": limits,
+        "expected": expected,
+    }
 
 
 def warnings(case, scales=None) -> list[str]:
@@ -55,12 +62,13 @@ def warnings(case, scales=None) -> list[str]:
     return [*judge.missing(case, scales), *(own.warnings(scales) if own else estimate.warnings(case))]
 
 
-def numbers(s) -> list[tuple]:
-    """(name, value, threshold, what lies above the threshold, source) of the numbers that decide."""
+def numbers(s, warm: bool = True) -> list[tuple]:
+    """(name, value, threshold, what lies above the threshold, source) of the numbers that decide; those of heat only
+    where the case is `warm`."""
     grains, gas, end = s.grains, s.gas, s.end
     biot = s.nusselt * gas.conductivity / (6.0 * grains.conductivity) if grains.conductivity else math.inf
     archimedes = gas.density * (grains.density - gas.density) * s.gravity * grains.diameter**3 / gas.viscosity**2
-    sound = math.sqrt(1.4 * 8314.46 / gas.molar_mass * gas.temperature)  # of a diatomic gas
+    sound = math.sqrt(ADIABATIC * GAS_CONSTANT / gas.molar_mass * gas.temperature)
     diffusivity = grains.conductivity / (grains.density * grains.heat_capacity)
     peclet = s.speed * s.length / diffusivity if diffusivity else math.inf
     fed = s.jet / s.minimum_fluidisation if s.jet else 0.0
@@ -95,7 +103,7 @@ def numbers(s) -> list[tuple]:
         ),
         ("run / collision time", end / s.collision_time, 1.0, "every grain has collided", "Gidaspow 1994"),
     ]
-    return rows + droplets.numbers(s)
+    return [row for row in rows if warm or row[0] not in OF_HEAT] + droplets.numbers(s)
 
 
 def effect_rows(case, scales=None) -> list[dict]:

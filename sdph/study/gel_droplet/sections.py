@@ -87,7 +87,13 @@ def of_table(table: dict) -> Droplet:
         if key not in CLASSES:
             raise CaseError(unknown(key, CLASSES))
     own = Droplet(*(plausible(read(cls, table.get(name, {}), name), name) for name, cls in CLASSES.items()))
-    drop = own.droplet
+    _refuse_shape(own.droplet)
+    gel.refuse_above_critical(own.vapour, own.droplet.ambient_pressure, "droplet.ambient_pressure_Pa")
+    return own
+
+
+def _refuse_shape(drop) -> None:
+    """CaseError where a droplet has no such dimensions, or its bubble has no room."""
     if drop.dimensions > 3:
         raise CaseError(f"droplet.dimensions = {drop.dimensions}; it must be 2 (a cylinder) or 3 (a sphere)")
     if not drop.bubble_diameter < drop.diameter - 2.0 * drop.shell_thickness:
@@ -95,5 +101,3 @@ def of_table(table: dict) -> Droplet:
             f"droplet.bubble_diameter_mm = {1e3 * drop.bubble_diameter:g}; inside the shell there are "
             f"{1e3 * drop.diameter - 2e3 * drop.shell_thickness:g} mm: give a smaller bubble or a thinner shell"
         )
-    gel.refuse_above_critical(own.vapour, drop.ambient_pressure, "droplet.ambient_pressure_Pa")
-    return own

@@ -228,6 +228,14 @@ def _wait_for(process: subprocess.Popen, path: Path) -> None:
         time.sleep(0.02)
 
 
+def _resumed(site: Site, folder: Path) -> list[str]:
+    """Faults of the run that goes on in a folder."""
+    process = site.start(folder, resume=True)
+    told = process.communicate(timeout=PATIENCE)[1]
+    same = not process.returncode and (folder / "ledger.csv").read_bytes() == site.ledger
+    return ([] if same else [f"it went on wrongly: {' '.join(told.split())[-300:]}"]) + _unreadable(folder)
+
+
 def _verdict(site: Site, folder: Path, name: str, named: bool, said: str) -> dict:
     """Check what has to be true after every fault."""
     wrong = [] if named else [f"it said: {' '.join(said.split())[-300:]}"]
@@ -235,11 +243,7 @@ def _verdict(site: Site, folder: Path, name: str, named: bool, said: str) -> dic
         wrong.append(f"left running: {processes(folder)}")
     wrong += _unreadable(folder)
     if (folder / "case.toml").exists():
-        process = site.start(folder, resume=True)
-        told = process.communicate(timeout=PATIENCE)[1]
-        if process.returncode or (folder / "ledger.csv").read_bytes() != site.ledger:
-            wrong.append(f"it went on wrongly: {' '.join(told.split())[-300:]}")
-        wrong += _unreadable(folder)
+        wrong += _resumed(site, folder)
     left = [path.name for path in (site.scratch / "t").glob("sdph-*")]
     if left and (folder / "case.toml").exists():
         wrong.append(f"left behind: {left}")

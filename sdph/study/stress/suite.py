@@ -225,17 +225,14 @@ def _shear(state, gradient) -> None:
 
 def _judged(hard: Hard, measures, stopped: str) -> list:
     """Rows (measure, value, bound, ok)."""
-    if hard.expect == "caught" or (hard.expect == "either" and stopped):
-        told = bool(stopped)
+    told = bool(stopped)
+    if hard.expect == "caught" or (hard.expect == "either" and told):
         return [("stopped with a reason", float(told), ">= 1", told)]
     if stopped:
         return [("stopped with a reason", 1.0, "<= 0", False)]
     values = measures.values()
-    rows = [
-        (name, values[name], f"<= {most:g}", values[name] <= most)
-        for name, most in ((ALWAYS | hard.at_most).items())
-        if name in values
-    ]
+    most = {name: bound for name, bound in (ALWAYS | hard.at_most).items() if name in values}
+    rows = [(name, values[name], f"<= {bound:g}", values[name] <= bound) for name, bound in most.items()]
     rows += [(name, values[name], f">= {least:g}", values[name] >= least) for name, least in hard.at_least.items()]
     for name in hard.at_most.keys() - values.keys():
         raise CaseError(f"{hard.name}: {unknown(name, values)}")

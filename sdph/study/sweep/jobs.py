@@ -10,7 +10,6 @@ import hashlib
 import os
 import re
 import shutil
-import subprocess
 import sys
 import time
 from dataclasses import dataclass
@@ -20,11 +19,11 @@ from sdph import scenes
 from sdph.case import read as cases
 from sdph.running import inputs, output, vessel
 from sdph.schema import CaseError
+from sdph.study.apart import FINE, ended, environment, reason
 
-FINE, BAD_INPUT, WENT_UNSTABLE = 0, 2, 5  # exit codes of `sdph run`
+BAD_INPUT, WENT_UNSTABLE = 2, 5  # exit codes of `sdph run`
 LASTING = (BAD_INPUT, WENT_UNSTABLE)  # failures that come again when nothing is changed
 RUNS = "runs"  # folder in that of the sweep
-LINGER = 30.0  # s that a run has to stop after Ctrl-C; our choice
 NAME, HASH = 60, 8  # letters of a folder's name
 
 
@@ -95,32 +94,7 @@ def done(job: Job) -> dict:
     folder.parent.mkdir(parents=True, exist_ok=True)
     with open(f"{job.folder}.log", "w+", encoding="utf-8") as log:
         command = [sys.executable, "-m", "sdph.cli", "run", *words]
-        code = _ended(command, cwd=job.home, env=_environment(job.threads), stdout=log, stderr=log)
+        code = ended(command, cwd=job.home, env=environment(job.threads), stdout=log, stderr=log)
         log.seek(0)
         said = log.read().splitlines()
-    return {"exit_code": code, "reason": _reason(code, said), "took_s": time.monotonic() - begun}
-
-
-def _ended(command: list[str], **more) -> int:
-    """Exit code of a command, 128 + signal where one ended it. Ctrl-C is the run's too: it may still write its
-    checkpoint."""
-    with subprocess.Popen(command, stdin=subprocess.DEVNULL, **more) as process:
-        try:
-            code = process.wait()
-        except KeyboardInterrupt:
-            process.wait(LINGER)
-            raise
-    return code if code >= 0 else 128 - code
-
-
-def _environment(threads: int) -> dict[str, str]:
-    own = {"NUMBA_NUM_THREADS": str(threads)} if threads else {}
-    return own | os.environ  # what the user has set stays
-
-
-def _reason(code: int, said: list[str]) -> str:
-    """The line with which a run that failed says why."""
-    if code == FINE:
-        return ""
-    own = [line.removeprefix("sdph: ") for line in said if line.startswith("sdph: ")]
-    return (own or said[-1:] or [f"ended with {code} and said nothing"])[-1]
+    return {"exit_code": code, "reason": reason(code, said), "took_s": time.monotonic() - begun}

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from sdph.schema import CaseError
+from sdph.study import pool
 from sdph.study.sweep import jobs as runs
-from sdph.study.sweep import plan, pool, table
+from sdph.study.sweep import plan, table
 
 
 @dataclass(frozen=True)
@@ -43,7 +44,7 @@ def sweep(wish: Wish, say: Callable[[str], None]) -> list[dict]:
     left = [job for job in all_jobs if job.name not in outcomes]
     say(f"{len(all_jobs)} runs, {len(left)} of them to do, in {wish.out / runs.RUNS}")
     found = table.write(wish.out, all_jobs, outcomes)
-    for job, outcome in pool.outcomes(left, wish.workers, wish.scheduler):
+    for job, outcome in pool.outcomes(left, runs.done, wish.workers, wish.scheduler):
         outcomes[job.name] = outcome
         found = table.write(wish.out, all_jobs, outcomes)
         say(f"{len(outcomes)}/{len(all_jobs)} {job.name}: {outcome['reason'] or 'fine'}, {outcome['took_s']:.0f} s")

@@ -4,23 +4,17 @@ import gzip
 import os
 import shutil
 import struct
-import subprocess
 
 import pytest
 from gas_boxes import TEMPLATE, box_case
-from hypothesis import given
-from hypothesis import strategies as st
+from written_cases import DICTIONARY, HEADER, put
 
 from coupling.openfoam import case as case_files
 from coupling.openfoam.code import refuse_code
-from coupling.openfoam.code.patterns import may_be_key
-from coupling.openfoam.programs import barrier
 from coupling.openfoam.programs import run as programs
 from sdph.scenes import paths
 from sdph.schema import CaseError
 
-HEADER = 'FoamFile {{ version 2.0; format {}; class {}; object x; arch "LSB;label=32;scalar=64"; }}\n'
-DICTIONARY = HEADER.format("ascii", "dictionary")
 SHIPPED = sorted(path.parent.parent for path in paths.data("openfoam_case_templates").glob("*/*/system/controlDict"))
 
 
@@ -30,13 +24,6 @@ def case(tmp_path):
     folder = tmp_path / "gas"
     shutil.copytree(TEMPLATE, folder)
     return folder
-
-
-def put(case, name, content):
-    """A file of the case."""
-    path = case / name
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_bytes(content.encode() if isinstance(content, str) else content)
 
 
 def refused(case, told=None):
@@ -253,79 +240,3 @@ def test_meshes_and_fields_that_openfoam_writes_pass(tmp_path, form, compression
     refuse_code(tmp_path / "gas")
     owner = next((tmp_path / "gas" / "processor1" / "constant" / "polyMesh").glob("owner*"))
     assert owner.suffix == (".gz" if (form, compression) == ("ascii", "on") else "")
-
-
-PIECES = (
-    'libs ("x.so");',
-    '"li.*" ("x.so");',
-    '"libs" ("x.so");',
-    '"a/libs" ("x.so");',
-    "/*",
-    "*/",
-    "//",
-    "\n",
-    '"',
-    '\\"',
-    "\\\n",
-    "#{",
-    "#}",
-    "$x/",
-    "${x}",
-    "{",
-    "}",
-    ";",
-    " a ",
-    'note "',
-    '";',
-    "FoamFile ",
-    "FoamFile { ",
-    "#inputMode protect\n",
-    "#if 0\n",
-    "#else\n",
-    "#endif\n",
-    "x (",
-    ")",
-    "List<char> 2(",
-    " 1",
-    "#",
-    "'",
-    "#eval {",
-)
-
-
-@pytest.mark.openfoam
-@given(st.lists(st.sampled_from(PIECES), min_size=1, max_size=8), st.sampled_from(["", "//*/", '";', "#}", "\n}\n"]))
-def test_whatever_passes_gives_openfoam_no_libraries(tmp_path_factory, pieces, end):
-    """foamDictionary is the judge: it reads what the reader has let pass."""
-    case = tmp_path_factory.mktemp("gas")
-    put(case, "system/a", DICTIONARY + "".join(pieces) + '\nlibs ("x.so");' + end)
-    try:
-        refuse_code(case)
-    except CaseError:
-        return
-    command = ["foamDictionary", "-entry", "libs", "-value", "system/a"]
-    done = subprocess.run(command, cwd=case, env=barrier.environment(), capture_output=True, check=False)
-    assert done.returncode != 0 or b"x.so" not in done.stdout
-
-
-MATCHING = (  # with the head, the tail and the capitals of a key
-    "{0}.*", ".*{1}", "{0}({1}|x)", "{0}[a-zA-Z]*", "(?i){2}", "^{0}{1}$", "((({0}))).*", "{0}.+.*.*.*.*.*",
-    "[[:alpha:]]*", "{0}(a*)*{1}",
-)  # fmt: skip
-
-
-@given(st.sampled_from(["libs", "functionObjectLibs"]), st.data())
-def test_expressions_that_match_a_key_are_known(key, data):
-    cut = data.draw(st.integers(0, len(key)))
-    head, tail = key[:cut], key[cut:]
-    form = data.draw(st.sampled_from(MATCHING))
-    assert may_be_key(form.format(head, tail, key.upper()).encode())
-
-
-def test_expressions_that_take_for_ever_are_not_tried():
-    assert may_be_key(b"(.+)*x") and may_be_key(b"(.+)+(.+)+x")
-
-
-@pytest.mark.parametrize("pattern", ["inlet.*", "(U|k|epsilon)", "div\\(.*\\)", "lib", "libs", ".*Wall"])
-def test_other_expressions_are_none(pattern):
-    assert not may_be_key(pattern.encode())

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from coupling.gas import GasError
-from coupling.openfoam import fields
 from coupling.openfoam.comparators import reference, two_fluid_numbers
 from coupling.openfoam.comparators import run as comparators
 from coupling.openfoam.comparators.droplet_numbers import Liquid, Nozzle
@@ -18,7 +17,6 @@ from sdph.laws import drag, exact, granular, heat
 from sdph.schema import CaseError
 
 pytestmark = pytest.mark.openfoam
-
 DISC = scenes.HERE / "disc_cluster" / "case.toml"
 AIR = {
     "equation_of_state": "constant", "density_kg_m3": 1.225, "viscosity_Pa_s": 1.7895e-5, "conductivity_W_m_K": 0.0242,
@@ -259,34 +257,6 @@ def test_what_cannot_be_run_says_so(tmp_path):
 def test_closures_library_is_built_once():
     assert install.two_fluid_closures().exists()
     assert install.two_fluid_closures(status=pytest.fail) == install.two_fluid_closures()
-
-
-HEADS = {
-    "ascii": b"FoamFile { format ascii; }\n",
-    "binary": b'FoamFile { format      binary; arch "LSB;label=32;scalar=64"; }\n',
-}
-
-
-def test_fields_are_read_in_each_form(tmp_path):
-    file, values = tmp_path / "field", np.arange(6.0).reshape(2, 3)
-    bodies = {
-        "ascii": b"internalField nonuniform List<vector> \n2\n(\n(0 1 2)\n(3 4 5)\n)\n;\n",
-        "binary": b"internalField nonuniform List<vector> \n2\n(" + values.tobytes() + b")\n;\n",
-    }
-    for form, body in bodies.items():
-        file.write_bytes(HEADS[form] + body)
-        assert np.array_equal(fields.read(file, 2), values)
-    file.write_bytes(HEADS["ascii"] + b"internalField uniform 2.5;\n")
-    assert np.array_equal(fields.read(file, 3), [2.5, 2.5, 2.5])
-    file.write_bytes(HEADS["ascii"] + b"internalField uniform (1 2 3);\n")
-    assert np.array_equal(fields.read(file, 2), [[1.0, 2.0, 3.0]] * 2)
-
-
-def test_a_field_of_another_mesh_is_refused(tmp_path):
-    file = tmp_path / "field"
-    file.write_bytes(HEADS["ascii"] + b"internalField nonuniform List<scalar> 2(1 2);\n")
-    with pytest.raises(fields.FieldError, match="2 values for a mesh of 3 cells"):
-        fields.read(file, 3)
 
 
 def test_a_reference_comes_back_as_it_was_kept(tmp_path):

@@ -3,20 +3,14 @@
 import numpy as np
 import pytest
 from gas_boxes import AIR, box, total
+from gas_columns import CP, OPEN, RHO, gas_volume
 
 pytestmark = pytest.mark.openfoam
-
-RHO, CP = AIR["density_kg_m3"], AIR["heat_capacity_J_kg_K"]
 COLUMN = {
     "below": {"kind": "velocity_inlet", "side": "bottom", "velocity_m_s": [0.0, 0.2]},
     "above": {"kind": "pressure_outlet", "side": "top", "pressure_Pa": 0.0},
     "walls": {"kind": "slip_wall"},
 }
-OPEN = {"all": {"kind": "pressure_outlet", "pressure_Pa": 0.0}}
-VAPOUR = {
-    "molar_mass_kg_kmol": 142.284, "diffusivity_m2_s": 3.79e-6, "heat_capacity_J_kg_K": 2470.0,
-    "conductivity_W_m_K": 0.0178, "viscosity_Pa_s": 7e-6,
-}  # fmt: skip
 
 
 @pytest.mark.parametrize("dt, steps", [(1e-4, 300), (1e-2, 30)])
@@ -76,10 +70,6 @@ def test_uniform_heat_source_is_exact(tmp_path):
     rise = source * dt * steps / (0.7 * RHO * CP)
     assert state.fields["temperature"] == pytest.approx(300.0 + rise, rel=1e-13)
     assert state.budget.energy - start.budget.energy == pytest.approx(source * dt * steps * gas_volume(gas), rel=1e-11)
-
-
-def gas_volume(gas):
-    return gas.mesh.volumes.sum()
 
 
 def test_two_temperatures_relax(tmp_path):
@@ -201,73 +191,6 @@ def test_impulse_of_the_particles_is_what_they_reckon(tmp_path):
     assert np.abs(state.budget.momentum).max() > 1e-6
 
 
-def test_vapour_mass(tmp_path):
-    """Vapour set free in still gas of a box open all round: what is there and what left is what was given, within 0.01
-    %."""
-    dt, steps = 1e-3, 40
-    with box(tmp_path, (0.1, 0.1), 0.005, boundaries=OPEN, vapour=VAPOUR) as gas:
-        x, y = gas.mesh.centres[:, 0], gas.mesh.centres[:, 1]
-        vapour = np.exp(-((x - 0.05) ** 2 + (y - 0.05) ** 2) / 0.01**2) * 5.0
-        names = ("vapour", "momentum", "heat")
-        start = gas.start(None, names)
-        warm = {"vapour": vapour, "momentum": np.zeros((len(x), 3)), "heat": vapour * 2470.0 * 310.0}
-        for _ in range(steps):
-            state = gas.advance(dt, warm)
-    given = dt * steps * total(gas, vapour)
-    held = total(gas, state.fields["density"] * state.fields["vapour_mass_fraction"])
-    assert state.budget.vapour == pytest.approx(held, rel=1e-12)
-    error = (state.budget.vapour - state.budget.vapour_in - given) / given
-    print(f"vapour mass error {error:.1e}")
-    assert abs(error) < 1e-4
-    assert state.budget.mass - start.budget.mass == pytest.approx(state.budget.mass_in + given, rel=1e-10)
-    gained = state.budget.energy - start.budget.energy - state.budget.energy_in - state.budget.pressure_work
-    assert gained == pytest.approx(given * 2470.0 * 310.0, rel=1e-9)
-    assert state.fields["vapour_mass_fraction"].min() >= 0.0 and state.fields["vapour_mass_fraction"].max() < 1.0
-
-
-@pytest.mark.parametrize("equation", ["constant", "operating"])
-def test_vapour_of_the_gas_temperature_changes_no_temperature(tmp_path, equation):
-    """Convection and diffusion of a vapour of another heat capacity: gas and vapour of 300 K stay at 300 K."""
-    with box(
-        tmp_path,
-        (0.1, 0.1),
-        0.005,
-        boundaries=OPEN,
-        vapour=VAPOUR,
-        equation_of_state=equation,
-        molar_mass_kg_kmol=28.96,
-    ) as gas:
-        x, y = gas.mesh.centres[:, 0], gas.mesh.centres[:, 1]
-        vapour = np.exp(-((x - 0.05) ** 2 + (y - 0.05) ** 2) / 0.01**2) * 5.0
-        gas.start(None, ("vapour", "heat"))
-        for _ in range(20):
-            state = gas.advance(1e-3, {"vapour": vapour, "heat": vapour * 2470.0 * 300.0})
-    assert state.fields["vapour_mass_fraction"].max() > 0.01
-    # on gas of constant density the pressure works, by the order of U^2/cp [K]
-    works = np.abs(state.fields["velocity"]).max() ** 2 / CP if equation == "constant" else 300.0 * 1e-10
-    assert works < 1e-3 and state.fields["temperature"] == pytest.approx(300.0, abs=works)
-
-
-def test_vapour_diffuses(tmp_path):
-    """Slab of vapour spreading in still gas: variance grows by 2 D t."""
-    with box(tmp_path, (0.2, 0.005), 0.0025, vapour=VAPOUR | {"diffusivity_m2_s": 1e-3}) as gas:
-        x = gas.mesh.centres[:, 0]
-        source = np.exp(-((x - 0.1) ** 2) / (2 * 0.01**2)) * 1e-4
-        gas.start(None, ("vapour",))
-        state = gas.advance(1e-4, {"vapour": source})
-        spread = [variance(x, state)]
-        for _ in range(100):
-            state = gas.advance(1e-4, {"vapour": np.zeros_like(x)})
-        spread.append(variance(x, state))
-    assert spread[1] - spread[0] == pytest.approx(2 * 1e-3 * 1e-2, rel=5e-3)
-
-
-def variance(x, state):
-    weight = state.fields["vapour_mass_fraction"]
-    mean = (weight * x).sum() / weight.sum()
-    return (weight * (x - mean) ** 2).sum() / weight.sum()
-
-
 def test_hydrostatic_gas_rests(tmp_path):
     """Gas alone under gravity between a floor and an outlet: no motion, and the pressure is the weight above."""
     boundaries = {"above": {"kind": "pressure_outlet", "side": "top", "pressure_Pa": 0.0}, "walls": {"kind": "wall"}}
@@ -297,15 +220,3 @@ def test_heated_gas_of_an_open_box_expands(tmp_path):
     assert state.budget.mass - start.budget.mass == pytest.approx(state.budget.mass_in, rel=1e-10)
     gained = state.budget.energy - start.budget.energy - state.budget.energy_in - state.budget.pressure_work
     assert gained == pytest.approx(1e5 * 0.02 * gas_volume(gas), rel=1e-9)
-
-
-def test_closed_box_of_constant_density_takes_the_vapour(tmp_path):
-    """Nothing can leave: the gas gets denser everywhere alike, by just the mass of the vapour."""
-    with box(tmp_path, (0.05, 0.05), 0.005, vapour=VAPOUR) as gas:
-        vapour = np.where(gas.mesh.centres[:, 0] < 0.025, 2.0, 0.0)
-        start = gas.start(None, ("vapour",))
-        for _ in range(10):
-            state = gas.advance(1e-3, {"vapour": vapour})
-    given = 1e-2 * total(gas, vapour)
-    assert state.budget.mass - start.budget.mass == pytest.approx(given, rel=1e-11)
-    assert state.fields["density"] == pytest.approx(RHO + given / gas_volume(gas), rel=1e-6)

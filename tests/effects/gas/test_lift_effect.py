@@ -9,6 +9,7 @@ from grain_boxes import DENSITY, DIAMETER, VISCOSITY, Row, box, go, started, win
 from lognormal import mass_moment
 
 from coupling.embedded import EmbeddedGas
+from sdph import effects
 from sdph.effects import OFF
 from sdph.effects.gas import lift, sizes
 from sdph.engine import state as particles
@@ -114,7 +115,7 @@ def work(folder, count):
             0.0]}, "sides": {"kind": "pressure_outlet", "pressure_Pa": 0.0}},
     )  # fmt: skip
     gas = EmbeddedGas(case)
-    simulation = Simulation(case, gas, Ledger(folder / f"{count}.csv", case, gas.mesh.depth))
+    simulation = Simulation(case, gas, Ledger(folder / f"{count}.csv", case, gas.mesh.depth, *effects.in_ledger(case)))
     simulation.start()
     return go(simulation).ledger.summary()
 

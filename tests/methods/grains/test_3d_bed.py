@@ -5,7 +5,7 @@ import pytest
 from grain_boxes import box, started
 
 from coupling.embedded import EmbeddedGas
-from sdph import scenes
+from sdph import effects, scenes
 from sdph.case import read as cases
 from sdph.effects import OFF
 from sdph.engine import state as particles
@@ -25,7 +25,7 @@ def test_slab_runs_and_keeps_its_books(tmp_path, kind):
     sides = tuple(f"boundaries.{side}.kind='{kind}'" for side in ("front", "back"))
     case = cases.load(scenes.HERE / "bubbling_bed_3d" / "case.toml", (*COARSE, *sides))
     gas = EmbeddedGas(case)
-    simulation = Simulation(case, gas, Ledger(tmp_path / "ledger.csv", case, gas.mesh.depth))
+    simulation = Simulation(case, gas, Ledger(tmp_path / "ledger.csv", case, gas.mesh.depth, *effects.in_ledger(case)))
     simulation.start()
     mass = simulation.state.mass.sum()
     while simulation.time < case.run.end_time:

@@ -38,7 +38,7 @@ def test_a_particle_at_a_wall_is_counted_and_so_is_suction(pool):
 def test_shifts_and_control_of_tension_are_counted():
     own = stepper("square_patch", "resolution.spacing_mm=50")
     own.step(1.0)
-    found, least, inside = held(own), own.least[own.active], own.pressure[own.active] < 0.0
+    found, least, inside = held(own), own.state.enclosure[own.active], own.pressure[own.active] < 0.0
     assert found["shift_at_surface_share"] == (least <= 0.75).mean() > 0.0
     assert found["tension_controlled_share"] == (inside & (least > 0.75)).mean() > 0.0
     for shifts, share in ((0.0, 0.0), (1e9, 7 / len(own.active))):

@@ -3,55 +3,14 @@
 import numpy as np
 import pytest
 from matrices import corrections
+from shaken_liquids import LIQUID_OF_TANK, stepper
 
-from sdph.case import read as cases
-from sdph.effects.liquids import shifting
 from sdph.engine import kernels as smoothing
 from sdph.engine.state import LIQUID, WALL, positions, velocities
-from sdph.laws import eos, matrices
+from sdph.laws import eos
 from sdph.methods.liquids import equations as rates
-from sdph.methods.liquids import shift, walls
+from sdph.methods.liquids import walls
 from sdph.methods.liquids.loads import loads, wall_loads
-from sdph.methods.liquids.method import LiquidStepper
-
-LIQUID_OF_TANK = {"density_kg_m3": 1000.0, "viscosity_Pa_s": 1.0, "sound_speed_m_s": 20.0}
-TANK = {
-    2: {"lower_m": [0.0, 0.0], "upper_m": [0.5, 0.4]},
-    3: {"lower_m": [0.0, 0.0, 0.0], "upper_m": [0.4, 0.3, 0.3]},
-}
-
-
-def stepper(
-    dimensions=2,
-    effects=("gravity", "density_diffusion", "liquid_damping", "laminar_viscosity", "tank"),
-    pressed=False,
-    **sections,
-):
-    """A pool at rest in a box, shaken: places and velocities random by a tenth; `pressed`: one particle right at the
-    floor."""
-    gravity = [0.0] * (dimensions - 1) + [-9.81]
-    table = {
-        "dimensions": dimensions,
-        "effects": list(effects),
-        "run": {"end_time_s": 1.0, "output_interval_s": 1.0},
-        "domain": {"size_m": [0.6] * dimensions, "gravity_m_s2": gravity},
-        "resolution": {"spacing_mm": 50.0},
-        "liquid": LIQUID_OF_TANK,
-        "pools": {"water": {"shape": "box", **TANK[dimensions]}},
-    } | sections
-    own = LiquidStepper(cases.from_table(table))
-    random = np.random.default_rng(1)
-    wet = own.state.kind == LIQUID
-    for name, size in (("x", 0.005), ("y", 0.005), ("z", 0.005), ("u", 0.3), ("v", 0.3), ("w", 0.3), ("density", 5.0)):
-        array = getattr(own.state, name)
-        if len(array):
-            array[wet] += size * random.standard_normal(wet.sum())
-    if pressed:
-        height = positions(own.state)[:, dimensions - 1]
-        low = np.flatnonzero(wet)[np.argmin(height[wet])]
-        (own.state.y if dimensions == 2 else own.state.z)[low] = 0.0
-    own.forces()
-    return own
 
 
 @pytest.mark.parametrize("dimensions", [2, 3])
@@ -240,30 +199,6 @@ def test_walls_extrapolate_a_hydrostatic_pressure():
     assert np.allclose(own.pressure[below], 9810.0 * (0.4 - s.y[below]), rtol=1e-12)
 
 
-def test_eigenvalues():
-    random = np.random.default_rng(2)
-    for _ in range(50):
-        a = random.standard_normal((3, 3))
-        m = a + a.T
-        least = matrices.smallest(m[0, 0], m[1, 1], m[2, 2], m[0, 1], m[1, 2], m[2, 0])
-        assert least == pytest.approx(np.linalg.eigvalsh(m)[0], abs=1e-9)
-
-
-def test_a_rotating_liquid_stays_where_shifting_puts_its_velocity():
-    """Shifting moves particles, not the field: of a linear velocity each particle still has that of its place."""
-    own = stepper(2, effects=("density_diffusion", "shifting"))
-    s = own.state
-    s.u[:], s.v[:], s.density[:] = 3.0 * s.y, -2.0 * s.x, 1000.0
-    own.forces()
-    inside = own.active[own.least[own.active] > 0.75]
-    before = positions(s).copy()
-    own._shift(1e-3)
-    moved = np.abs(positions(s) - before).max(axis=1)[inside]
-    assert len(inside) > 10 and moved.max() > 1e-5
-    assert np.allclose(s.u[inside], 3.0 * s.y[inside], rtol=1e-9)
-    assert np.allclose(s.v[inside], -2.0 * s.x[inside], rtol=1e-9)
-
-
 def test_wall_particles_are_told_by_kind():
     own = stepper(2)
     assert (
@@ -271,39 +206,6 @@ def test_wall_particles_are_told_by_kind():
         and (own.volume[own.walls] < 0.0).all()
         and (own.volume[own.active] > 0.0).all()
     )
-
-
-def test_at_a_surface_particles_are_shifted_along_it():
-    """Of the shift nothing leads along the gradient of the smallest eigenvalue; spray stays; inside nothing changes."""
-    own = stepper(2, effects=("density_diffusion", "shifting"))
-    s, least = own.state, own.least
-    along = own.shift.copy()
-    own.shift[:] = 0.0
-    shift.surround(
-        own.kernel,
-        s,
-        own.rows,
-        own.neighbours.box,
-        own.active,
-        own.p["shifting"],
-        own.phases,
-        own.volume,
-        least,
-        own.shift,
-        own.twist,
-    )
-    full, r = own.shift, positions(s)
-    inside = least > shifting.INTERIOR
-    assert inside.any() and np.array_equal(along[inside], full[inside])
-    assert (along[least <= shifting.SPRAY] == 0.0).all()
-    edge = np.flatnonzero(~inside & (least > shifting.SPRAY))
-    assert len(edge) > 5
-    for i in edge:
-        d = r[i] - r
-        slope = np.array([smoothing.slope.py_func(own.kernel, q) for q in np.linalg.norm(d, axis=1)])
-        normal = (own.volume * slope * (least - least[i])) @ d
-        normal /= np.linalg.norm(normal)
-        assert np.allclose(along[i], full[i] - (full[i] @ normal) * normal, atol=1e-9 * np.abs(full).max())
 
 
 def test_what_is_no_number_is_not_lost():

@@ -3,63 +3,17 @@
 import numpy as np
 import pytest
 from matrices import corrections
+from two_phase_drops import BASE, stepper
 
 from sdph import scenes
 from sdph.case import read as cases
 from sdph.effects import OFF
 from sdph.engine import kernels as smoothing
 from sdph.engine.state import GAS, LIQUID, positions, velocities
-from sdph.laws import liquids
-from sdph.methods.liquids import interface, phases, shift, start
+from sdph.methods.liquids import phases, shift
 from sdph.methods.liquids.loads import loads, wall_loads
 from sdph.methods.liquids.method import LiquidStepper
 from sdph.schema import CaseError
-
-BASE = {
-    "dimensions": 2,
-    "effects": ["gravity", "density_diffusion", "liquid_damping", "laminar_viscosity", "tank"],
-    "run": {"end_time_s": 1.0, "output_interval_s": 1.0},
-    "domain": {"size_m": [0.5, 0.8], "gravity_m_s2": [0.0, -9.81]},
-    "resolution": {"spacing_mm": 50.0},
-    "liquid": {
-        "density_kg_m3": 1000.0,
-        "viscosity_Pa_s": 1.0,
-        "sound_speed_m_s": 20.0,
-        "exponent": 1.0,
-        "background_pressure_Pa": 100.0,
-    },
-    "gas_phase": {"density_kg_m3": 1.0, "viscosity_Pa_s": 0.02, "exponent": 1.0},
-    "tank": {"suction": "full"},
-    "pools": {
-        "water": {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.5, 0.4]},
-        "air": {"phase": "gas", "shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.5, 0.8]},
-    },
-}
-DROP = {
-    "effects": ["surface_tension"],
-    "domain": {"size_m": [3.0, 3.0], "gravity_m_s2": [0.0, 0.0]},
-    "resolution": {"spacing_mm": 50.0, "smoothing_ratio": 1.5},
-    "liquid": BASE["liquid"] | {"periodic": [1.0, 1.0]},
-    "surface_tension": {"coefficient_N_m": 0.5},
-    "pools": {
-        "drop": {"shape": "disc", "centre_m": [1.5, 1.5], "radius_m": 1.0},
-        "air": {"phase": "gas", "shape": "box", "lower_m": [0.0, 0.0], "upper_m": [3.0, 3.0]},
-    },
-}
-
-
-def stepper(shaken=True, **sections):
-    table = BASE | sections
-    own = LiquidStepper(
-        cases.from_table({key: value for key, value in table.items() if key != "tank" or "tank" in table["effects"]})
-    )
-    if shaken:
-        random, s = np.random.default_rng(1), own.state
-        wet = s.kind >= LIQUID
-        for name, size in (("x", 0.005), ("y", 0.005), ("u", 0.3), ("v", 0.3)):
-            getattr(s, name)[wet] += size * random.standard_normal(wet.sum())
-        own.forces()
-    return own
 
 
 def expected_acceleration(own, i, weighted, B):
@@ -155,60 +109,6 @@ def test_water_under_air_stays_at_rest():
     assert s.y[s.kind == GAS].min() - s.y[s.kind == LIQUID].max() > 0.8 * own.case.resolution.spacing
 
 
-def test_curvature_of_a_disc():
-    own = stepper(shaken=False, **DROP)
-    across = own.curvature[own.curvature != 0.0]
-    assert np.mean(across) == pytest.approx(1.0, rel=0.02)
-
-
-def test_tension_of_one_curvature_is_balanced_by_its_pressure():
-    """Whatever the disorder: with p = sigma kappa in the disc and 0 around it, force and pressure differ by no more
-    than what one pressure everywhere gives."""
-    own = stepper(**DROP)
-    s, sigma = own.state, 0.5
-    own.curvature[:] = np.where(own.normal.any(axis=1), 2.0, 0.0)
-    tension = np.zeros((len(s.x), 3))
-    interface.pull(
-        own.kernel,
-        s,
-        own.rows,
-        own.neighbours.box,
-        own.active,
-        own.p["surface_tension"],
-        own.volume,
-        own.normal,
-        own.curvature,
-        tension,
-    )
-    r, h = positions(s), own.kernel.h
-    for i in np.flatnonzero(own.normal.any(axis=1))[::25]:
-        jump = np.zeros(3)
-        for j in np.flatnonzero((np.linalg.norm(r - r[i], axis=1) < 2.0 * h) & (s.kind != s.kind[i])):
-            d, inside = r[i] - r[j], 2.0 * sigma * (s.kind[j] == LIQUID) - 2.0 * sigma * (s.kind[i] == LIQUID)
-            pair = 2.0 * s.density[i] * inside / (s.density[i] + s.density[j])
-            jump -= (
-                s.mass[j]
-                / s.density[j]
-                * smoothing.slope.py_func(own.kernel, np.linalg.norm(d))
-                * pair
-                * d
-                / s.density[i]
-            )
-        assert np.allclose(tension[i], -jump, rtol=1e-9, atol=1e-12 * np.abs(jump).max())
-
-
-def test_wave_raises_the_particles_of_both_phases_about_its_level():
-    middle = {"centre_m": [0.0, 0.4], "flow": "wave", "displacement_m": 0.02, "speed_m_s": 0.3}
-    pools = {name: pool | middle for name, pool in BASE["pools"].items()}
-    raised, flat = (start.fill(cases.from_table(BASE | {"pools": own})) for own in (pools, BASE["pools"]))
-    wet = flat.kind >= LIQUID
-    moved = (positions(raised) - positions(flat))[wet, :2]
-    expected = liquids.wave(positions(flat)[wet, :2] - [0.0, 0.4], 0.5, 0.02)
-    np.testing.assert_allclose(moved, expected, atol=1e-12)
-    np.testing.assert_allclose(velocities(raised)[wet, :2], 15.0 * expected, atol=1e-12)
-    assert (raised.y == flat.y)[~wet].all()
-
-
 def test_summed_density_of_a_lattice_is_that_of_rest():
     own = stepper(
         shaken=False,
@@ -254,21 +154,6 @@ def test_one_phase_is_off():
         {key: value for key, value in BASE.items() if key != "gas_phase"} | {"pools": {"water": BASE["pools"]["water"]}}
     )
     assert phases.kernel(case) == OFF
-
-
-def test_quadrupole_is_continuous_across_the_rim_along_its_normal():
-    angle = np.linspace(0.0, 2.0 * np.pi, 17)
-    normal = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-    inside, outside = (liquids.quadrupole(r * normal, 2.0, 0.3) for r in (2.0 - 1e-9, 2.0 + 1e-9))
-    assert np.allclose((inside * normal).sum(axis=1), 0.3 * np.cos(2.0 * angle), atol=1e-8)
-    assert np.allclose((outside * normal).sum(axis=1), 0.3 * np.cos(2.0 * angle), atol=1e-8)
-
-
-def test_frequencies_of_discs():
-    """Closed forms of Lamb 1932 in units of sqrt(sigma/(rho R^3)), n = 2 and 3."""
-    assert liquids.disc_frequency(2, 1.0, 1.0, 1.0) == pytest.approx(2.44949, rel=1e-5)
-    assert liquids.disc_frequency(3, 1.0, 1.0, 1.0) == pytest.approx(4.89898, rel=1e-5)
-    assert liquids.disc_frequency(2, 1.0, 1.0, 1.0, 1.0) == pytest.approx(1.73205, rel=1e-5)
 
 
 @pytest.mark.parametrize(

@@ -103,7 +103,7 @@ def test_tension_holds_a_drop_together_and_the_gauge_leaves_cohesion_out(tmp_pat
     laplace, cohesion = 2.0 * 0.024 / 4e-4, -run.stepper.p["free_energy_tension"].cohesion
     mean = float(run.stepper.gauge[inside].mean())
     print(f"gauge {mean:.0f} Pa, Laplace {laplace:.0f} Pa, cohesion {cohesion:.0f} Pa")
-    assert abs(mean - laplace) < 0.5 * cohesion < run.stepper.pressure[inside].mean()
+    assert abs(mean - laplace) < 0.5 * cohesion < run.stepper.state.pressure[inside].mean()
 
 
 def test_two_that_meet_lose_what_they_approach_by(tmp_path):

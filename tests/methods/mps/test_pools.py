@@ -37,9 +37,9 @@ def test_water_at_rest_has_the_pressure_of_its_depth_and_nothing_moves_inside():
     s = stepper.state
     deep = (s.kind == LIQUID) & (s.y < 0.5)
     expected = RHO * G * s.y[deep]
-    fitted = np.polyfit(s.y[deep], stepper.pressure[deep], 1)
+    fitted = np.polyfit(s.y[deep], stepper.state.pressure[deep], 1)
     np.testing.assert_allclose(fitted[0], -RHO * G, rtol=0.02)
-    assert np.ptp(stepper.pressure[deep] + expected) < 0.01 * RHO * G * 0.8
+    assert np.ptp(stepper.state.pressure[deep] + expected) < 0.01 * RHO * G * 0.8
     assert np.abs(particles.velocities(s)[deep]).max() < 0.01 * G * dt
     weight = RHO * G * 0.6 * 0.8
     assert stepper.load[1] == pytest.approx(-weight, rel=0.05) and abs(stepper.load[0]) < 1e-6 * weight
@@ -103,7 +103,7 @@ def test_a_patch_that_turns_has_the_pressure_of_colicchio_and_keeps_its_momentum
     for _ in range(10):
         stepper.step(0.01)
         s = stepper.state
-        pressures.append(stepper.pressure[np.hypot(s.x - 0.5, s.y - 0.5) < 0.08].mean())
+        pressures.append(stepper.state.pressure[np.hypot(s.x - 0.5, s.y - 0.5) < 0.08].mean())
     assert np.mean(pressures[1:]) == pytest.approx(-147.34, rel=0.1)
     scale = float(s.mass.sum()) * 0.5
     assert np.abs(s.mass @ particles.velocities(s)).max() < 1e-10 * scale

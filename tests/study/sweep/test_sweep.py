@@ -10,7 +10,8 @@ import pytest
 
 from sdph import cli
 from sdph.schema import CaseError
-from sdph.study.sweep import jobs, plan, pool, table
+from sdph.study import pool
+from sdph.study.sweep import jobs, plan, table
 
 SMALL = ("--set", "resolution.cell_mm=50", "--gas", "embedded", "--until", "0.001")
 FINE = {"exit_code": 0, "reason": ""}
@@ -113,7 +114,7 @@ def test_a_run_that_was_cut_goes_on_and_one_that_fails_says_why(tmp_path, monkey
         more["stdout"].write("t = 1 s\nsdph: pressure is -7e23 in cell 3; lower it\nsee the log\n")
         return 5
 
-    monkeypatch.setattr(jobs, "_ended", process)
+    monkeypatch.setattr(jobs, "ended", process)
     own = job(tmp_path)
     outcome = jobs.done(own)
     assert (outcome["exit_code"], outcome["reason"]) == (5, "pressure is -7e23 in cell 3; lower it")
@@ -171,17 +172,16 @@ def test_workers_of_dask_do_the_runs(tmp_path, monkeypatch):
             raise RuntimeError("worker died")
         return FINE
 
-    monkeypatch.setattr(pool, "done", done)
-    found = {own.name: told for own, told in pool.outcomes([job(tmp_path, "a"), job(tmp_path, "b")], workers=2)}
+    found = {own.name: told for own, told in pool.outcomes([job(tmp_path, "a"), job(tmp_path, "b")], done, workers=2)}
     assert found["a"] == FINE and found["b"]["reason"] == "its worker failed: worker died"
     with pytest.raises(CaseError, match="no scheduler of dask answers there"):
-        list(pool.outcomes([job(tmp_path)], scheduler="tcp://nobody:1"))
+        list(pool.outcomes([job(tmp_path)], jobs.done, scheduler="tcp://nobody:1"))
 
 
 def test_dask_that_is_missing_is_told(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(CaseError, match=r"pip install 'sdph\[sweep\]'"):
-        list(pool.outcomes([job(tmp_path)], workers=2))
+        list(pool.outcomes([job(tmp_path)], jobs.done, workers=2))
 
 
 def test_workers_of_the_real_dask(tmp_path):

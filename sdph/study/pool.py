@@ -1,12 +1,11 @@
-"""Workers of a sweep: this process, one after the other, or workers of dask, here or on a cluster."""
+"""Workers of studies: this process, one job after the other, or workers of dask, here or on a cluster."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from sdph.schema import CaseError
-from sdph.study.sweep.jobs import Job, done
 
 
 def threads_each(workers: int | None) -> int:
@@ -14,9 +13,11 @@ def threads_each(workers: int | None) -> int:
     return max(1, (os.cpu_count() or 1) // workers) if workers else 0
 
 
-def outcomes(jobs: list[Job], workers: int | None = None, scheduler: str | None = None) -> Iterator[tuple[Job, dict]]:
-    """Each job with its outcome, as they end: by `workers` of this machine, by those of a `scheduler` (its address), or
-    else one by one."""
+def outcomes(
+    jobs: list, done: Callable, workers: int | None = None, scheduler: str | None = None
+) -> Iterator[tuple[object, dict]]:
+    """Each job, which has a `name`, with its outcome `done(job)`, as they end: by `workers` of this machine, by those
+    of a `scheduler` (its address), or else one by one."""
     if not jobs:
         return
     if workers is None and scheduler is None:

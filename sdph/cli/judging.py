@@ -1,0 +1,93 @@
+"""`sdph stress` and `sdph validate`: commands that judge many things, here or by workers."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+from pathlib import Path
+
+from sdph.schema import CaseError
+
+FINE, CHECK_FAILED = 0, 1  # exit codes
+
+
+def stress_cases(options) -> int:
+    """Run the hard cases, their map or the faults of `sdph stress`."""
+    if options.json and (options.map or options.faults is not None):
+        raise CaseError("--json is of the hard cases; --map and --faults print their own tables: leave it out")
+    if options.faults is not None:
+        from sdph.study.stress import faults
+
+        return FINE if all(check["ok"] for check in faults.run(options.faults)) else CHECK_FAILED
+    from sdph.study.stress import boundaries, suite
+
+    if options.map:
+        print(boundaries.table(Path("stress_map.png")))
+        return FINE
+    hard = suite.chosen(options.case, options.fast)
+    if _by_workers(options):
+        return _apart([own.name for own in hard], lambda name: ("stress", name), options)
+    verdicts = []
+    for own in hard:
+        verdicts.append(suite.run(own))
+        if not options.json:
+            suite.show(verdicts[-1])
+    fine = [verdict.ok for verdict in verdicts]
+    if options.json:
+        _tell([check for verdict in verdicts for check in verdict.checks], True)
+    else:
+        print(f"{sum(fine)} of {len(fine)} pass")
+    return FINE if all(fine) else CHECK_FAILED
+
+
+def validate_scene(options) -> int:
+    """Check one scene, or all, each in a process of its own."""
+    from sdph.running.progress import Reporter
+    from sdph.study import record, validate
+
+    if options.record and options.set:
+        raise CaseError(f"--record {options.record}: a record is of the scene as it is; leave --set out")
+    if options.scene is None:
+        return _apart(validate.validated(), lambda name: _words(name, options), options)
+    if _by_workers(options):
+        raise CaseError("--workers and --scheduler part the scenes among them; leave them out for one scene")
+    overrides = tuple(options.set) + ((f'coupling.gas="{options.gas}"',) if options.gas else ())
+    with contextlib.closing(Reporter(line=not options.json)) as reporter:
+        checks = validate.validate(options.scene, overrides, reporter, options.out and options.out / options.scene)
+    if options.record:
+        record.write(options.record, options.scene, checks, options.gas)
+    _tell(checks, options.json)
+    return FINE if all(check["ok"] for check in checks) else CHECK_FAILED
+
+
+def _words(name: str, options) -> tuple[str, ...]:
+    """Command that validates a scene as all are; a study without a gas is told of none."""
+    from sdph.study import validate
+
+    more = [("--set", text) for text in options.set]
+    more += [(f"--{key}", str(given)) for key in ("record", "out") if (given := getattr(options, key))]
+    if options.gas and any("coupling.gas".startswith(own) for own in validate.STUDIES.get(name, ("coupling.",))):
+        more.append(("--gas", options.gas))
+    return ("validate", name, *(word for pair in more for word in pair))
+
+
+def _by_workers(options) -> bool:
+    return options.workers is not None or options.scheduler is not None
+
+
+def _apart(names: list[str], words, options) -> int:
+    """Judge each of the names by a command of its own; the worst exit code of those that came to no judgement, else
+    whether all checks hold."""
+    from sdph.study import apart
+
+    who = options.workers, options.scheduler
+    found = apart.judged(names, words, who, lambda text: print(text, file=sys.stderr, flush=True))
+    _tell([check for outcome in found.values() for check in outcome.get("checks", [])], options.json)
+    return max(outcome["exit_code"] for outcome in found.values())
+
+
+def _tell(checks: list[dict], as_json: bool) -> None:
+    from sdph.running import output
+    from sdph.study import compare
+
+    print(output.strict_json({"checks": checks}) if as_json else compare.table(checks))

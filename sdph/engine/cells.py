@@ -1,0 +1,74 @@
+"""Cells that particles are sorted into, and which of them a particle has to look at.
+
+A counting sort by cell leaves the particles of one cell together; what is solid lies behind the rest of its cell.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit, prange
+
+
+class Grid(NamedTuple):
+    """Cells of side `size` [m] from `origin` (3,) [m]; `shape` (3,) cells; `period` (3,) [m], 0 where open."""
+
+    origin: np.ndarray
+    size: np.ndarray
+    shape: np.ndarray
+    period: np.ndarray
+
+
+@njit(cache=True, error_model="numpy")
+def _place(grid, a, value):
+    cell = int((value - grid.origin[a]) / grid.size[a])
+    return min(max(cell, 0), grid.shape[a] - 1)
+
+
+@njit(cache=True, parallel=True, error_model="numpy")
+def halves(grid, x, y, z, solid):
+    """Half of a cell that each particle is in, (N,): twice the number of the cell, x fastest, and one more for what is
+    solid."""
+    number = np.empty(len(x), np.int64)
+    for i in prange(len(x)):
+        layer = _place(grid, 2, z[i]) if len(z) else 0
+        number[i] = (
+            2 * ((layer * grid.shape[1] + _place(grid, 1, y[i])) * grid.shape[0] + _place(grid, 0, x[i])) + solid[i]
+        )
+    return number
+
+
+@njit(cache=True, error_model="numpy")
+def starts(number, total):
+    """First particle of each cell, (total + 1,), from their cell numbers."""
+    start = np.zeros(total + 1, np.int64)
+    for cell in number:
+        start[cell + 1] += 1
+    return np.cumsum(start)
+
+
+@njit(cache=True, error_model="numpy")
+def order(number, total):
+    """Row of each particle after a stable counting sort by cell."""
+    start = starts(number, total)
+    rows = np.empty(len(number), np.int64)
+    for i, cell in enumerate(number):
+        rows[start[cell]] = i
+        start[cell] += 1
+    return rows
+
+
+@njit(cache=True, error_model="numpy")
+def span(grid, a, value):
+    """First and one past the last cell to look at along an axis; beyond the ends on a periodic one."""
+    cell = _place(grid, a, value)
+    if grid.period[a] > 0.0:
+        return (cell - 1, cell + 2) if grid.shape[a] >= 3 else (0, grid.shape[a])
+    return max(cell - 1, 0), min(cell + 2, grid.shape[a])
+
+
+@njit(cache=True, error_model="numpy")
+def turned(cell, count):
+    """A cell of `span`, one turn at most beyond the ends of an axis, by its number; % would cost more than the rest."""
+    return cell + count if cell < 0 else cell - count if cell >= count else cell

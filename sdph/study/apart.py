@@ -1,0 +1,80 @@
+"""Commands of ours, each in a process of its own: what one of them does ends no other."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from sdph.study import pool
+
+FINE, CHECK_FAILED = 0, 1  # exit codes of commands that judge
+LINGER = 30.0  # s that a run has to stop after Ctrl-C; our choice
+
+
+@dataclass(frozen=True)
+class Command:
+    """`sdph WORDS --json`, a command that prints checks, from `home`; `name` is that of what it judges."""
+
+    name: str
+    words: tuple[str, ...]
+    home: str
+    threads: int = 0  # 0: as many as there are
+
+
+def judged(
+    names: list[str], words: Callable[[str], tuple], who: tuple[int | None, str | None], say: Callable[[str], None]
+) -> dict[str, dict]:
+    """Outcomes by name, in the order given, of the commands `words(name)`, done by `who` (workers, scheduler) of
+    `sdph.study.pool`."""
+    threads = pool.threads_each(who[0])
+    jobs = [Command(name, words(name), os.getcwd(), threads) for name in names]
+    found: dict[str, dict] = {}
+    for job, outcome in pool.outcomes(jobs, checked, *who):
+        found[job.name] = outcome
+        fine = sum(check["ok"] for check in outcome.get("checks", []))
+        told = outcome["reason"] or f"{fine} of {len(outcome['checks'])} checks hold"
+        say(f"{len(found)}/{len(jobs)} {job.name}: {told}, {outcome['took_s']:.0f} s")
+    return {name: found[name] for name in names}
+
+
+def checked(job: Command) -> dict:
+    """Outcome of a command: `exit_code`, `checks`, and the `reason` where it did not come to judge."""
+    command, begun = [sys.executable, "-m", "sdph.cli", *job.words, "--json"], time.monotonic()
+    more = {"stdin": subprocess.DEVNULL, "capture_output": True, "text": True}
+    done = subprocess.run(command, cwd=job.home, env=environment(job.threads), **more)
+    outcome = {"exit_code": done.returncode, "reason": "", "checks": [], "took_s": time.monotonic() - begun}
+    if done.returncode in (FINE, CHECK_FAILED) and done.stdout.startswith("{"):
+        return outcome | {"checks": json.loads(done.stdout)["checks"]}
+    code = done.returncode if done.returncode > 0 else 128 - done.returncode
+    return outcome | {"exit_code": code, "reason": reason(code, done.stderr.splitlines())}
+
+
+def ended(command: list[str], **more) -> int:
+    """Exit code of a command, 128 + signal where one ended it. Ctrl-C is the run's too: it may still write its
+    checkpoint."""
+    with subprocess.Popen(command, stdin=subprocess.DEVNULL, **more) as process:
+        try:
+            code = process.wait()
+        except KeyboardInterrupt:
+            process.wait(LINGER)
+            raise
+    return code if code >= 0 else 128 - code
+
+
+def environment(threads: int) -> dict[str, str]:
+    """Environment of a command that may take so many threads; 0: as many as there are."""
+    own = {"NUMBA_NUM_THREADS": str(threads)} if threads else {}
+    return own | os.environ  # what the user has set stays
+
+
+def reason(code: int, said: list[str]) -> str:
+    """The line with which a run that failed says why."""
+    if code == FINE:
+        return ""
+    own = [line.removeprefix("sdph: ") for line in said if line.startswith("sdph: ")]
+    return (own or said[-1:] or [f"ended with {code} and said nothing"])[-1]

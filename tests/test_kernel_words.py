@@ -1,0 +1,55 @@
+"""Words that CUDA takes too: `math` for one number in kernels, and no field that is called as a method of tuples is."""
+
+import ast
+import math
+
+from sdph.scenes import paths
+
+ROOT = paths.PACKAGE.parent
+COMPILED = {"njit", "law", "inlined", "loop", "jit", "vectorize"}  # decorators, called or not
+METHODS_OF_TUPLES = {"index", "count"}
+FILES = [file for package in ("sdph", "coupling") for file in sorted((ROOT / package).rglob("*.py"))]
+TREES = {file.relative_to(ROOT): ast.parse(file.read_text(encoding="utf-8")) for file in FILES}
+
+
+def named(decorator) -> str:
+    """Name of a decorator, called or not."""
+    own = decorator.func if isinstance(decorator, ast.Call) else decorator
+    return own.attr if isinstance(own, ast.Attribute) else own.id
+
+
+def compiled(tree) -> list:
+    """Functions that numba compiles."""
+    functions = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]
+    return [own for own in functions if COMPILED & {named(decorator) for decorator in own.decorator_list}]
+
+
+def of_numpy(function) -> list[str]:
+    """Functions of one number that are taken from numpy though `math` has them."""
+    taken = [own for own in ast.walk(function) if isinstance(own, ast.Attribute) and ast.unparse(own.value) == "np"]
+    return [own.attr for own in taken if callable(getattr(math, own.attr, None))]
+
+
+def shadowing(tree) -> list[str]:
+    """Fields of tuples that hide a method of theirs."""
+    classes = [node for node in ast.walk(tree) if isinstance(node, ast.ClassDef)]
+    tuples = [own for own in classes if "NamedTuple" in map(ast.unparse, own.bases)]
+    fields = [(own.name, part.target.id) for own in tuples for part in own.body if isinstance(part, ast.AnnAssign)]
+    return [f"{name}.{field}" for name, field in fields if field in METHODS_OF_TUPLES]
+
+
+def test_kernels_take_functions_of_one_number_from_math():
+    found = [(file, own) for file, tree in TREES.items() for own in compiled(tree)]
+    assert len(found) > 400
+    assert not [f"{file}:{own.name}: np.{name}" for file, own in found for name in of_numpy(own)]
+
+
+def test_no_field_hides_a_method_of_tuples():
+    assert sum("NamedTuple" in ast.unparse(tree) for tree in TREES.values()) > 50
+    assert not [f"{file}: {field}" for file, tree in TREES.items() for field in shadowing(tree)]
+
+
+def test_words_are_found():
+    kernel = "@njit(cache=True)\ndef f(x):\n    return np.sqrt(x) * np.pi"
+    tree = ast.parse(f"class A(NamedTuple):\n    index: int\n\n\n{kernel}")
+    assert shadowing(tree) == ["A.index"] and [of_numpy(own) for own in compiled(tree)] == [["sqrt"]]
