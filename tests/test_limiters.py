@@ -41,6 +41,8 @@ HARMLESS = {
     "sdph/engine/rows.py:*": "indices of entries",
     "sdph/engine/reading.py:*": "sizes of files",
     "sdph/engine/motion.py:*": "the largest of all",
+    "sdph/engine/polyline.py:near": "geometry: the nearest place of a segment",
+    "sdph/engine/polyline.py:foot": "the same",
     "sdph/effects/grains/*:largest": "the largest of all",
     "sdph/engine/ledger.py:Ledger.close_window": "the largest so far",
     "sdph/methods/liquids/totals.py:LiquidLedger.*": "the largest so far",
