@@ -122,14 +122,3 @@ def lattice_divergence_factor(kernel: str, dims: int, ratio: float) -> float:
     sigma, reach = kernels.normalisation(kernel, dims, ratio), math.ceil(kernels.SUPPORT * ratio)
     radii = [math.hypot(*point) for point in itertools.product(range(-reach, reach + 1), repeat=dims)]
     return -math.fsum(r * r * kernels.KERNELS[kernel].gradient(r, ratio, sigma) for r in radii) / dims
-
-
-def between_plates(y, height: float, pull: float, viscosity: float, index: float) -> np.ndarray:
-    """u (N,) [m/s] of a power-law liquid between plates at y = 0 and `height` [m], long after it began to be pulled
-    along by `pull` [N/m3]: n/(n+1) (pull/K)^(1/n) (R^(1+1/n) - |y - R|^(1+1/n)), R = height/2.
-
-    Bird, Armstrong & Hassager 1987, section 4.2.
-    """
-    half, power = 0.5 * height, 1.0 + 1.0 / index
-    shape = half**power - np.abs(np.asarray(y, float) - half) ** power
-    return index / (index + 1.0) * (pull / viscosity) ** (1.0 / index) * shape

@@ -16,7 +16,7 @@ from sdph.laws import bursting
 
 
 class Thrown(NamedTuple):
-    """What particles throw, each: vapour (N,) [kg], that times its temperature (N,) [kg K]; `after`, arrays of the
+    """Throw of each particle: vapour (N,) [kg], that times its temperature (N,) [kg K]; `after`, arrays of the
     state by name as they are then; rows of those that have thrown all, which evaporate from the next window on."""
 
     mass: np.ndarray

@@ -7,6 +7,8 @@ and `index` n [-], 1 of a Newtonian liquid, below 1 of one that thins.
 
 import math
 
+import numpy as np
+
 from sdph.laws.compiled import law
 
 UNIT_RATE = 1.0  # 1/s, shear rate at which a power law has its `viscosity`: K of K gamma^n, in Pa s^n, has that number
@@ -45,3 +47,14 @@ def herschel_bulkley(shear_rate, viscosity, index, time, yield_stress):
     """
     own = -math.expm1(-time * shear_rate) / shear_rate if shear_rate > 0.0 else time
     return power_law(shear_rate, viscosity, index) + yield_stress * own
+
+
+def between_plates(y, height: float, pull: float, viscosity: float, index: float) -> np.ndarray:
+    """u (N,) [m/s] of a power-law liquid between plates at y = 0 and `height` [m], long after it began to be pulled
+    along by `pull` [N/m3]: n/(n+1) (pull/K)^(1/n) (R^(1+1/n) - |y - R|^(1+1/n)), R = height/2.
+
+    Bird, Armstrong & Hassager 1987, section 4.2.
+    """
+    half, power = 0.5 * height, 1.0 + 1.0 / index
+    shape = half**power - np.abs(np.asarray(y, float) - half) ** power
+    return index / (index + 1.0) * (pull / viscosity) ** (1.0 / index) * shape

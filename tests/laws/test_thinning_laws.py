@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from exact_solutions import between_plates
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -41,9 +40,9 @@ def test_the_flow_between_plates_balances_the_pull():
     """Of index 1 the parabola; of others the stress of its slope is that of the pull at every place."""
     y = np.linspace(0.0, 1.0, 41)
     np.testing.assert_allclose(
-        between_plates(y, 1.0, 0.8, 0.1, 1.0), liquids.poiseuille(y, 1e3, 1.0, 0.8, 0.1), atol=1e-12
+        thinning.between_plates(y, 1.0, 0.8, 0.1, 1.0), liquids.poiseuille(y, 1e3, 1.0, 0.8, 0.1), atol=1e-12
     )
     for index in (0.5, 1.5):
-        low, high = (between_plates(np.array([0.1 + d]), 1.0, 0.8, 0.2, index)[0] for d in (-1e-6, 1e-6))
+        low, high = (thinning.between_plates(np.array([0.1 + d]), 1.0, 0.8, 0.2, index)[0] for d in (-1e-6, 1e-6))
         slope = (high - low) / 2e-6
         assert thinning.power_law(slope, 0.2, index) * slope == pytest.approx(0.8 * 0.4, rel=1e-6)

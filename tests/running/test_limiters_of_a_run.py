@@ -70,7 +70,11 @@ def test_the_page_names_all_columns_of_the_history():
 
 
 def test_the_page_names_all_columns_of_liquids(tmp_path):
-    told = {"at_least_viscosity", "at_most_viscosity", "no_shear_rate_share"}  # of shear_thinning, which no scene has
+    told = {
+        "at_least_viscosity",
+        "at_most_viscosity",
+        "no_shear_rate_share",
+    }  # as shear_thinning tells
     for name in ("dam_break", "square_patch", "bubble_rise"):
         spacing = 8 if name == "dam_break" else 50
         case = cases.load(scenes.HERE / name / "case.toml", (f"resolution.spacing_mm={spacing}",))

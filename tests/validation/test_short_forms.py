@@ -24,6 +24,8 @@ SHORT = {
     "granular_jet": (("run.end_time_s=0.1",), ("tfm",)),
     "evaporating_jet": ((*ALIKE, "run.end_time_s=0.05"), ("exact", "dpm")),
     "poiseuille": (("run.end_time_s=2.0",), ("exact",)),
+    "power_law_poiseuille": (("resolution.spacing_mm=50.0",), ("exact",)),
+    "radiating_grains": (("coupling.window_largest_s=1.0",), ("exact",)),
     "taylor_green": (("resolution.spacing_mm=20.0", "run.end_time_s=1.0"), ("exact",)),
     "square_patch": (("resolution.spacing_mm=20.0",), ("exact",)),
     "hydrostatic_tank": (("resolution.spacing_mm=25.0",), ("exact",)),
