@@ -45,6 +45,7 @@ HARMLESS = {
     "sdph/engine/ledger.py:Ledger.close_window": "the largest so far",
     "sdph/methods/liquids/totals.py:LiquidLedger.*": "the largest so far",
     "sdph/engine/walls/*": "geometry: distances, counts of points",
+    "sdph/engine/polyline.py:*": "geometry: the nearest place of a segment",
     "sdph/engine/lattice.py:*": "counts of points",
     "sdph/methods/grains/start.py:_refuse_overlap": "a count of points",
     "sdph/engine/regions.py:*": "counts of points, extents",

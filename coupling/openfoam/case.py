@@ -42,6 +42,7 @@ def write_case(
 ) -> None:  # fmt: skip
     """Make `folder` the OpenFOAM case of `case`: `template`'s files, macros, and the dictionary of the mesh.
 
+    The start fields of an own blockMeshDict ask for its mesh: `write_start_fields` after that is made.
     `known` keeps what was read of the template, for who reads the copy (see `refuse_code`).
     """
     if not (template / "system" / "controlDict").exists():
@@ -57,8 +58,10 @@ def write_case(
         refuse_code(template, known)
     shutil.copytree(template, folder, dirs_exist_ok=True)
     write_macros(case, folder)
-    write_start_fields(case, folder)
-    if not (folder / "constant" / "polyMesh").exists():
+    mesh, blocks = ((folder / name).exists() for name in (poly_mesh.FOLDER, poly_mesh.BLOCKS))
+    if mesh or not blocks:  # the patches of others are known when they are made
+        write_start_fields(case, folder)
+    if not mesh:
         write_block_mesh(case, folder)
     if ranks > 1:
         write_decomposition(case, folder, ranks)

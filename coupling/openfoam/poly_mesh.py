@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+import itertools
 import re
 from pathlib import Path
 from typing import NamedTuple
@@ -9,9 +11,11 @@ from typing import NamedTuple
 import numpy as np
 
 from coupling.openfoam import dictionary
+from sdph.engine.geometry import SIDES
 from sdph.schema import CaseError
 
 FOLDER, BLOCKS = "constant/polyMesh", "system/blockMeshDict"
+IN_SIDE = 1e-6  # of a mesh's size: OpenFOAM writes six digits or more
 ROUND_OFF = 1e-9  # of the size of a mesh: a corner nearer to the origin is there
 HEADER = re.compile(rb"FoamFile\s*\{.*?\}", re.DOTALL)
 COMMENT = re.compile(rb"//[^\n]*|/\*.*?\*/", re.DOTALL)
@@ -63,6 +67,36 @@ class PolyMesh:
         own = self.areas[self.patches[patch].faces]
         total = own.sum(axis=0)
         return float(np.linalg.norm(own, axis=1).sum()), total / max(float(np.linalg.norm(total)), 1e-300)
+
+    def spans(self, lower, upper) -> dict[str, tuple[str, tuple | None]]:
+        """Patch -> side of the box from `lower` to `upper` (d,) [m] that it lies in, with its (low, high) on each axis
+        along that, None where it is all that lies there. Patches that lie in no side are left out."""
+        on_side: dict[str, list[str]] = {}
+        near = IN_SIDE * float(max(np.subtract(upper, lower)))
+        for name, patch in self.patches.items():
+            middles = self.centres[patch.faces]
+            for side, (axis, end) in itertools.islice(SIDES.items(), 2 * len(lower)) if len(middles) else ():
+                if (np.abs(middles[:, axis] - (upper if end else lower)[axis]) < near).all():
+                    on_side.setdefault(side, []).append(name)
+        found = {}
+        for side, names in on_side.items():
+            tangential = [a for a in range(len(lower)) if a != SIDES[side][0]]
+            for name in names:
+                faces = self.patches[name].faces
+                own = self.points[self.corners[self.first[faces.start] : self.first[faces.stop]]][:, tangential]
+                span = tuple(zip(own.min(axis=0).tolist(), own.max(axis=0).tolist()))
+                found[name] = side, None if len(names) == 1 else span if len(span) > 1 else span[0]
+        return found
+
+
+def read(case: Path) -> PolyMesh:
+    """The mesh of a case, read once as long as it is as it was."""
+    return _read(case, (case / FOLDER / "boundary").stat().st_mtime_ns)
+
+
+@functools.lru_cache(maxsize=1)
+def _read(case: Path, changed: int) -> PolyMesh:
+    return PolyMesh(case)
 
 
 def box(case: Path) -> tuple[np.ndarray, np.ndarray] | None:

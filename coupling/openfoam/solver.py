@@ -79,6 +79,7 @@ class OpenFoamGas:
     def _make_mesh(self) -> None:
         if not (self._folder / "constant" / "polyMesh").exists():
             self._run("blockMesh")
+            case_files.write_start_fields(self._case, self._folder)
         if self._case.coupling.gas_ranks > 1:
             self._run("decomposePar", "-force")
         (self._folder / "case.foam").touch()

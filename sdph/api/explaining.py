@@ -6,7 +6,7 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from sdph.api.case import Case
-from sdph.study import rehearsal
+from sdph.study import explained
 from sdph.study.explain import tables
 
 if TYPE_CHECKING:
@@ -36,5 +36,4 @@ def explain(case: Case | str | os.PathLike[str], *, allow_code: bool = False) ->
     """Judge what a case (or scene, folder, file) calls for, its limits and its cost; `CaseError` where `run`
     would end with one."""
     own = Case.of(case)
-    rehearsal.rehearse(own.resolved, own.gas_folder, allow_code=allow_code)
-    return Explanation(tables.explain(own.resolved))
+    return Explanation(explained.explained(own.resolved, own.gas_folder, allow_code=allow_code))

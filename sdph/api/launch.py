@@ -7,15 +7,13 @@ from pathlib import Path
 
 from sdph.running import inputs
 from sdph.schema import CaseError
-from sdph.study import rehearsal
-from sdph.study.explain import tables
+from sdph.study import explained
 
 
 def looked_at(case, template: Path, *, allow_code: bool = False, whole: bool = False) -> list[str]:
     """Warnings of a resolved case; `CaseError` where it cannot run. `whole` makes its particles too, as `explain`
     does."""
-    (rehearsal.rehearse if whole else rehearsal.look)(case, template, allow_code=allow_code)
-    return tables.warnings(case)
+    return explained.warned(case, template, allow_code=allow_code, whole=whole)
 
 
 def refuse_useless(case, name: str, given: dict[str, object]) -> None:

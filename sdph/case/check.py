@@ -72,6 +72,11 @@ def _check_one(case: Case) -> None:
         raise CaseError(f"domain.size_m = {list(case.domain.size)}; every length must be above 0")
     if any(case.domain.corner) and (case.liquid or case.solid or not case.grains):
         raise CaseError(f"domain.lower_m = {list(case.domain.lower)} is of a vessel of grains; leave it out")
+    for name, own in (*case.parameters.items(), *((f"particles.{name}", own) for name, own in case.particles.items())):
+        if getattr(own, "mesh_scale", 1.0) != 1.0 and not own.mesh:
+            raise CaseError(
+                f"{name}.mesh_scale = {own.mesh_scale:g}, and {name} names no mesh; name it, or leave it out"
+            )
     periods.of_domain(case)
     if any(isinstance(t, tuple) or t <= 0.0 for t in case.run.report_at):
         raise CaseError(f"run.report_at_s = {list(case.run.report_at)}; it must be a list of times above 0")

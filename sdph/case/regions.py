@@ -52,4 +52,4 @@ def extents(case, region):
     """Lower and upper corner [m] of the box around a region whose place the case file tells; None where a mesh does."""
     if region.shape in ("mesh", "walls"):
         return None
-    return regions.bounds(region, "", case.dimensions)
+    return regions.bounds(region, None, case.dimensions)

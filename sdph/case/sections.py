@@ -14,6 +14,7 @@ from sdph.methods.solids.sections import Body, Solid
 from sdph.schema import choice, file, flag, quantity, record, vector, whole, words
 
 OPENINGS = ("inflow", "outflow")  # effects that act on the grains alone where grains and a liquid are side by side
+HEATING = {"heat", "conduction", "radiation", "evaporation", "micro_explosion"}
 STANDARD_ATMOSPHERE = 101325.0  # Pa, ISO 2533
 
 
@@ -128,7 +129,8 @@ class Region:
     axis: str = choice("x", "y", "z", default="z")  # of a cylinder or cone
     length: float | None = quantity("m", None, above=0.0)  # the same; half of it on each side of the centre
     end_radius: float | None = quantity("m", None, least=0.0)  # of a cone, at its upper end; radius is at the lower
-    mesh: str = file()  # closed surface mesh of triangles that meshio reads, in metres, normals outwards
+    mesh: str = file()  # closed surface mesh of triangles that meshio reads, normals outwards
+    mesh_scale: float = quantity("", 1.0, above=0.0)  # metres of a unit of `mesh`: 0.001 where it is in millimetres
     height: float | None = quantity("m", None, above=0.0)  # filled so high over the region's lowest point
     mass: float | None = quantity("kg", None, above=0.0)  # filled from below until so much is there; 2-D: by the metre
     velocity: tuple | None = vector("m_s", None)
@@ -245,6 +247,11 @@ class Case:
         ]
         given += [boundary.temperature for boundary in self.boundaries.values() if boundary.temperature]
         return given + [one for own in self.parameters.values() for one in getattr(own, "temperatures", ())]
+
+    @property
+    def warm(self) -> bool:
+        """True where grains and gas have heat to exchange: temperatures differ, or an effect acts on it."""
+        return bool(HEATING & set(self.effects)) or len(set(self.temperatures)) > 1
 
     @property
     def fastest_sound(self) -> float:

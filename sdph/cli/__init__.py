@@ -8,7 +8,6 @@ import json
 import os
 import signal
 import sys
-import tempfile
 from pathlib import Path
 
 from sdph.cli import judging, making
@@ -127,22 +126,20 @@ def _table(summary: dict) -> str:
 
 def explain_case(options) -> int:
     from sdph import scenes
-    from sdph.running import driver, output, vessel
-    from sdph.study import rehearsal
+    from sdph.running import compiling, driver, output, vessel
+    from sdph.study import explained
     from sdph.study.explain import tables
 
     name, file = scenes.find(options.target)
     case = vessel.load(file, tuple(options.set))
     template = driver.template_of(case, name, file)
-    rehearsal.rehearse(case, template, allow_code=options.allow_code)
     parts = {}
-    if options.measure:
-        from sdph.study.explain import effect_costs
+    with compiling.told(_say):
+        if options.measure:
+            from sdph.study.explain import effect_costs
 
-        parts["cost of effects, bubbling bed"] = effect_costs.table(_say)
-    with tempfile.TemporaryDirectory() as folder:
-        seen = vessel.foreseen(case, template, Path(folder))
-        parts |= tables.explain(seen, rehearsal.priced(case, template))
+            parts["cost of effects, bubbling bed"] = effect_costs.table(_say)
+        parts |= explained.explained(case, template, allow_code=options.allow_code)
     print(output.strict_json(parts) if options.json else f"{case.title}\n\n{tables.text(parts)}")
     return FINE
 
@@ -218,6 +215,13 @@ def openfoam_setup(options) -> int:
     return FINE
 
 
+def complete(options) -> int:
+    from sdph.cli import completion
+
+    print(completion.script(parser(), options.shell))
+    return FINE
+
+
 def doctor(options) -> int:
     from coupling.openfoam.programs import install
 
@@ -242,4 +246,5 @@ COMMANDS = {
     "report": report_runs,
     "openfoam": openfoam_setup,
     "doctor": doctor,
+    "completion": complete,
 }

@@ -47,6 +47,8 @@ def parser() -> argparse.ArgumentParser:
     openfoam.add_argument("action", choices=("setup",))
     openfoam.add_argument("--install", action="store_true", help="install what is missing with apt")
     _command(commands, "doctor", "what is there, what is missing and what mends it")
+    completion = _command(commands, "completion", "a script by which your shell completes commands, options, scenes")
+    completion.add_argument("shell", choices=("bash", "zsh"))
     return whole
 
 

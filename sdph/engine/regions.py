@@ -23,15 +23,16 @@ HALF = 0.5  # of a spacing between a level and the row below
 SAME = 1e-6  # of a spacing: round-off
 
 
-def bounds(region, walls: str, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
-    """Lower and upper corner (d,) [m] of the box around a region; `walls` is the path of their mesh."""
+def bounds(region, walls, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
+    """Lower and upper corner (d,) [m] of the box around a region; `walls` (F, d, d) [m]
+    are the facets of their mesh."""
     if region.shape == "box":
         return np.array(region.lower), np.array(region.upper)
     if region.shape == "mesh":
-        low, high = np.reshape(shapes.Mesh(region.mesh, MESH).triangles.bounds, (3, 2)).T
+        low, high = np.reshape(_surface(region).triangles.bounds, (3, 2)).T
         return low, high
     if region.shape == "walls":
-        corners = facets.read(walls, dimensions).reshape(-1, dimensions)
+        corners = walls.reshape(-1, dimensions)
         return corners.min(axis=0), corners.max(axis=0)
     centre, half = np.array(region.centre), np.full(dimensions, max(region.radius, region.end_radius or 0.0))
     if region.shape in ALONG_AXIS:
@@ -48,8 +49,13 @@ def volume(region, spacing: float, dimensions: int, count: int) -> float:
         a, b = _radii(region)
         return math.pi * region.length * (a * a + a * b + b * b) / 3.0 / count
     if region.shape == "mesh":
-        return shapes.Mesh(region.mesh, MESH).volume / count
+        return _surface(region).volume / count
     return spacing**dimensions
+
+
+def _surface(region):
+    """The closed surface that a region is the inside of."""
+    return shapes.Mesh(region.mesh, MESH, region.mesh_scale)
 
 
 def _radii(region) -> tuple[float, float]:
@@ -57,8 +63,8 @@ def _radii(region) -> tuple[float, float]:
     return region.radius, region.radius if region.shape == "cylinder" else region.end_radius
 
 
-def points(region, spacing: float, dimensions: int, walls: str) -> np.ndarray:
-    """(N, d) [m] of the lattice in a region, whatever stands there."""
+def points(region, spacing: float, dimensions: int, walls) -> np.ndarray:
+    """(N, d) [m] of the lattice in a region, whatever stands there; `walls` as in `bounds`."""
     if region.shape in ("box", "disc", "sphere"):
         return lattice(region, spacing, dimensions)
     low, high = bounds(region, walls, dimensions)
@@ -67,8 +73,8 @@ def points(region, spacing: float, dimensions: int, walls: str) -> np.ndarray:
         return places[_in_cone(region, places, low)]
     places = grid([a + (np.arange(max(1, round((b - a) / spacing))) + 0.5) * spacing for a, b in zip(low, high)])
     if region.shape == "mesh":
-        return places[shapes.Mesh(region.mesh, MESH).distance(places) < 0.0]
-    return places[facets.Surface(facets.read(walls, dimensions)).distance(places) > 0.0]
+        return places[_surface(region).distance(places) < 0.0]
+    return places[facets.Surface(walls).distance(places) > 0.0]
 
 
 def _round_grid(region, low, high, spacing: float) -> np.ndarray:
@@ -94,10 +100,10 @@ def _in_cone(region, places, low) -> np.ndarray:
     return np.hypot(*off.T) <= start + share * (end - start)
 
 
-def in_front(places, walls: str, spacing: float, layers: int) -> np.ndarray:
-    """Mask (N,) of the places that stand in front of a mesh of walls, no nearer than contact holds grains, or so far
-    behind an open one that it is none to them: its dummies are `layers` spacings deep."""
-    surface = facets.Surface(facets.read(walls, places.shape[1]))
+def in_front(places, walls, spacing: float, layers: int) -> np.ndarray:
+    """Mask (N,) of the places that stand in front of facets (F, d, d) [m] of walls, no nearer than contact holds
+    grains, or so far behind an open one that it is none to them: its dummies are `layers` spacings deep."""
+    surface = facets.Surface(walls)
     off = surface.distance(places)
     front = off >= (CONTACT - SAME) * spacing
     return front if surface.closed else front | (off < -layers * spacing)

@@ -14,6 +14,28 @@ from sdph.schema import CaseError
 
 SHORT = 200  # letters of what meshio says; our choice
 LARGEST = 2**27  # bytes of a mesh, some 2.5 million triangles in binary STL; our choice
+# widths of the domain that a surface may be wide: one in inches is 39 times as wide as it is meant, in millimetres a
+# thousand times; our choice
+WIDEST = 20.0
+
+
+def refuse_size(key: str, path: str, points: np.ndarray, domain, spacing: float) -> None:
+    """CaseError where a surface (points (P, d) [m]) is so wide or so narrow that its lengths are in another unit than
+    metres; `domain` (d,) [m] is the size of the case's, `spacing` [m] that of its particles."""
+    width = float(np.ptp(points, axis=0).max())
+    if spacing <= width <= WIDEST * max(domain):
+        return
+    size = f"domain.size_m = {[float(f'{length:.6g}') for length in domain]}"
+    wide = f"{key} = {path!r} is {width:.4g} m wide as it is read, and"
+    if width > spacing:
+        raise CaseError(
+            f"{wide} {size}: perhaps its lengths are millimetres; set {key}_scale, the metres of its unit (0.001 for "
+            "millimetres), or enlarge the domain"
+        )
+    raise CaseError(
+        f"{wide} resolution.spacing_mm = {1e3 * spacing:.4g}, which does not see it; look at {key}_scale, the metres "
+        "of its unit, or lower the spacing"
+    )
 
 
 def read(path: str, key: str):

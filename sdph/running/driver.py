@@ -29,7 +29,7 @@ from sdph.engine.guard import Unstable
 from sdph.engine.kept import Maybe, Unfit
 from sdph.engine.ledger import Ledger
 from sdph.methods.liquids.liquid import Liquid
-from sdph.running import balances, chain, hastened, inputs, metrics, output, vessel
+from sdph.running import balances, chain, compiling, hastened, inputs, metrics, output, vessel
 from sdph.running.interruption import Stopped, listening
 from sdph.running.outputs import Outputs
 from sdph.running.simulation import Simulation
@@ -123,7 +123,8 @@ def simulation_of(case, gas, ledger: Path):
 def _guarded(run: Run, checkpoint, template: Path | None, allow_code: bool):
     """The windows of a run; where it fails, the folder says why, and the error says how to go on."""
     try:
-        with listening() as wish, _gas_of(run, template, allow_code) as gas:
+        told = compiling.told(run.reporter.status)
+        with listening() as wish, told, _gas_of(run, template, allow_code) as gas:
             return (yield from run.go(gas, checkpoint, wish))
     except OSError as error:
         failure = output.CannotWrite(

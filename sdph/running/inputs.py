@@ -20,13 +20,14 @@ import warnings
 from pathlib import Path
 from urllib.parse import quote
 
+import numpy as np
 import tomli_w
 
 from coupling.openfoam.code import refuse_code
 from sdph import scenes
 from sdph.case import read as cases
 from sdph.effects.around import drops, frame, tank
-from sdph.engine import regions
+from sdph.engine import regions, surface
 from sdph.engine.reading import one_line
 from sdph.engine.walls import facets
 from sdph.running import output
@@ -36,7 +37,7 @@ FOLDER, DROPS = "inputs", "droplets.csv"
 GROUPED = (("nozzles", "table"), ("particles", "mesh"))  # sections with names, and their key that names a file
 FROM = "in a case file a path is taken from the folder of that file, after --set from the working directory"
 READERS = {  # key -> what the run makes of its file
-    "walls.mesh": lambda case: facets.drawn(case.parameters["walls"].mesh, case.dimensions),
+    "walls.mesh": lambda case: _facets(case),
     "tank.mesh": lambda case: tank.shape_of(case).surface(),
     "frame.table": lambda case: frame.motion(case.parameters["frame"], case.run.end_time),
 }
@@ -94,10 +95,24 @@ def recorded(where: str, nozzle):
 def _reader(key: str):
     """Reader of the file that a key names."""
     if key.startswith("particles."):
-        return lambda case: [
-            regions.bounds(region, "", case.dimensions) for region in case.particles.values() if region.mesh
-        ]
+        return _regions
     return READERS.get(key, _read_table)
+
+
+def _facets(case) -> None:
+    own, size = case.parameters["walls"], case.domain.size
+    corners = facets.read(own.mesh, case.dimensions, own.mesh_scale).reshape(-1, case.dimensions)
+    if not len(corners):
+        raise CaseError(f"walls.mesh = {own.mesh!r} has no facet that is of a size; give one that has")
+    surface.refuse_size("walls.mesh", own.mesh, corners, size, case.resolution.spacing)
+
+
+def _regions(case) -> None:
+    for name, region in case.particles.items():
+        if region.mesh:
+            corners = np.array(regions.bounds(region, None, case.dimensions))
+            key = f"particles.{name}.mesh"
+            surface.refuse_size(key, region.mesh, corners, case.domain.size, case.resolution.spacing)
 
 
 def _read_table(case) -> None:

@@ -9,6 +9,7 @@ import time
 from sdph.engine import state as particles
 
 LINE_INTERVAL = 10.0  # s between plain lines
+OF_HEAT = ("T", "heat")  # residuals of the equation of the gas's temperature, by OpenFOAM and the embedded gas
 REFRESH = 0.2  # s between changes of the line on a terminal
 
 
@@ -54,6 +55,8 @@ class Reporter:
         ledger, gas = simulation.ledger, simulation.gas and simulation.gas_state.budget.residuals
         parts = [f"t = {simulation.time:.4g} s", f"dt = {ledger.last['window_s']:.2e} s ({simulation.clock.limit})"]
         parts.append(f"{particles.count(simulation.state)} particles")
+        if gas and not simulation.case.warm:
+            gas = {name: left for name, left in gas.items() if name not in OF_HEAT}
         if gas:
             parts.append("residual {1:.0e} ({0})".format(*max(gas.items(), key=lambda item: item[1])))
         closure = {key: value for key, value in ledger.summary().items() if key.endswith(("drift_rel", "mismatch_rel"))}

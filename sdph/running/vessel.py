@@ -93,13 +93,27 @@ def domain(file: Path, table: dict) -> tuple[str, ...]:
 
 
 def foreseen(case, template: Path, folder: Path):
-    """The case with its walls as a run would make them of a mesh that is there, kept in `folder`: for estimates."""
+    """The case with its walls as a run would make them of a mesh that is there, kept in `folder`, and its patches on
+    the sides of the domain where they lie: for estimates."""
     own = case.parameters.get("walls")
-    known = (template / poly_mesh.FOLDER).is_dir() and "grains" in case.matters
-    if not known or own is None or own.source == "mesh" or own.mesh:
+    if not (template / poly_mesh.FOLDER).is_dir() or "grains" not in case.matters:
         return case
-    mesh = poly_mesh.PolyMesh(template)
+    mesh = poly_mesh.read(template)
+    case = dataclasses.replace(case, boundaries=_on_sides(case, mesh))
+    if own is None or own.source == "mesh" or own.mesh:
+        return case
     corners, slips = patches.of_mesh(mesh, case.boundaries, case.dimensions)
     facets.save(folder / FILE, corners, slips)
     made = dataclasses.replace(own, source="gas", mesh=str((folder / FILE).absolute()))
     return dataclasses.replace(case, parameters=case.parameters | {"walls": made})
+
+
+def _on_sides(case, mesh) -> dict:
+    """The boundaries of a case, those without a side on that in which their patch of `mesh` lies, if one: as all of it
+    where no other patch lies there, else over the span that they have."""
+    spans = mesh.spans(case.domain.corner, case.domain.upper)
+    found = {}
+    for name, own in case.boundaries.items():
+        side, span = spans.get(name, (None, None)) if own.side is None else (None, None)
+        found[name] = own if side is None else dataclasses.replace(own, side=side, span=span)
+    return found

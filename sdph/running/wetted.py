@@ -70,10 +70,8 @@ class Wetted:
 
     def links(self) -> np.ndarray:
         """Points (N, 2) [m] along the links of the shell's innermost circle, a quarter of them apart."""
-        own, here = self.shell.inner, self.places()[:, :2]
-        after = np.roll(own, -1)
-        held = (self.stepper.free[own] == 0) & (self.stepper.free[after] == 0)
-        first, second = here[own[held]], here[after[held]]
+        own, here = self.shell.links, self.places()[:, :2]
+        first, second = (here[ends] for ends in own[~self.loose()[own].any(axis=1)].T)
         return np.concatenate([first + share * (second - first) for share in (0.25, 0.5, 0.75)])
 
     def inside(self, points, state, wet) -> np.ndarray:

@@ -14,17 +14,13 @@ SAME = 1e-3  # of all that passes, in and out: as far as given digits and meshes
 
 
 def refuse_filling(case, template: Path) -> None:
-    """CaseError where gas of constant density is let in, on balance, and nothing is open. Not judged where the mesh is
-    still to be made of an own blockMeshDict."""
+    """CaseError where gas of constant density is let in, on balance, and nothing is open; `template` is the
+    OpenFOAM case with its mesh, if it has one of its own."""
     kinds = [boundary.kind for boundary in case.boundaries.values()]
     if case.gas.equation_of_state != "constant" or "pressure_outlet" in kinds or "velocity_inlet" not in kinds:
         return
-    if (template / poly_mesh.FOLDER).is_dir():
-        flows = _of_patches(case, template)
-    elif (template / poly_mesh.BLOCKS).is_file():
-        return
-    else:
-        flows = _of_box(case)
+    own = (template / poly_mesh.FOLDER).is_dir()
+    flows = _of_patches(case, template) if own else _of_box(case)
     if abs(flows.sum()) > SAME * np.abs(flows).sum():
         name = next(name for name, boundary in case.boundaries.items() if boundary.kind == "velocity_inlet")
         raise CaseError(
@@ -36,7 +32,7 @@ def refuse_filling(case, template: Path) -> None:
 
 def _of_patches(case, template: Path) -> np.ndarray:
     """Flow [m3/s], in two dimensions [m2/s], into an own mesh through each of its patches that has a velocity."""
-    mesh = poly_mesh.PolyMesh(template)
+    mesh = poly_mesh.read(template)
     given = {name: b.velocity for name, b in case.boundaries.items() if b.kind == "velocity_inlet" and b.velocity}
     across = {name: mesh.areas[mesh.patches[name].faces].sum(axis=0) for name in given if name in mesh.patches}
     depth = np.ptp(mesh.points[:, 2]) if case.dimensions == 2 else 1.0

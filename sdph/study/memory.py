@@ -12,7 +12,7 @@ from sdph.effects.around import tank
 from sdph.effects.around.source import DEPTH
 from sdph.engine.walls import facets
 from sdph.engine.walls.sides import LAYERS
-from sdph.methods.grains.start import extents
+from sdph.methods.grains.start import extents, mesh_of_walls
 from sdph.schema import CaseError
 from sdph.study.explain import estimate
 
@@ -84,9 +84,10 @@ def _looked_at(case) -> float:
     points = _lattice(case, _extents(case))
     if own := case.parameters.get("tank"):
         points += _lattice(case, (2.0 * own.outlet_radius, 2.0 * own.outlet_radius, own.outlet_length))
-    if case.liquid or not case.parameters["walls"].mesh:
+    corners = None if case.liquid else mesh_of_walls(case)
+    if corners is None:
         return points
-    sizes = facets.sizes(facets.read(case.parameters["walls"].mesh, case.dimensions))
+    sizes = facets.sizes(corners)
     return points + LAYERS * float(sizes.sum()) / case.resolution.spacing ** (case.dimensions - 1)
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 
 from coupling.choice import OWN_MESH, expected
@@ -29,52 +31,63 @@ MADE = {
 
 
 def priced(case, template: Path):
-    """Gas that a run would have, for estimates of its time; None for the embedded solver's, or without any."""
+    """Gas that a run would have, for estimates of its time; None for the embedded solver's, or without any. `template`
+    as `rehearsed` yields it."""
     if "grains" not in case.matters or expected(case.only("grains")) == "embedded":
         return None
     own = (template / poly_mesh.FOLDER).is_dir()
-    return estimate.by_openfoam(len(poly_mesh.PolyMesh(template).volumes) if own else math.prod(cells(case)))
+    return estimate.by_openfoam(len(poly_mesh.read(template).volumes) if own else math.prod(cells(case)))
 
 
-def rehearse(case, template: Path, *, allow_code: bool = False) -> None:
-    """CaseError where `sdph run` would end with one; `template` and `allow_code` as in `coupling.choice.open_gas`."""
-    look(case, template, allow_code=allow_code)
-    if any((template / name).exists() for name in OWN_MESH):  # walls that the run will know by it
-        case = start.assumed(case)
-    for matter in case.matters:
-        MADE[case.moved_by(matter)](case.only(matter))
-
-
-def look(case, template: Path, *, allow_code: bool = False) -> None:
-    """The same without particles, which a run makes next: where this passes they decide."""
+@contextlib.contextmanager
+def rehearsed(case, template: Path, *, allow_code: bool = False, whole: bool = False) -> Iterator[Path]:
+    """CaseError where `sdph run` would end with one; then the OpenFOAM case with the mesh that a run would have, as
+    long as the context lasts. `template` and `allow_code` as in `coupling.choice.open_gas`; `whole` makes the particles
+    too, which a run does next."""
     inputs.check(case)
     room.refuse_too_large(case)
     metrics.refuse_unknown(case)
-    if "grains" in case.matters:
-        grains = case.only("grains")
-        _gas(grains, template, expected(grains), allow_code)
+    with _looked_at(case, template, allow_code) as mesh:
+        if whole:
+            own = any((mesh / name).exists() for name in OWN_MESH)  # walls that the run will know by it
+            for matter in case.matters:
+                MADE[case.moved_by(matter)]((start.assumed(case) if own else case).only(matter))
+        yield mesh
+
+
+@contextlib.contextmanager
+def _looked_at(case, template: Path, allow_code: bool) -> Iterator[Path]:
+    """The OpenFOAM case with its mesh, where the gas can be made of it."""
+    if "grains" not in case.matters:
+        yield template
+        return
+    grains = case.only("grains")
+    if expected(grains) == "embedded":
+        _embedded(grains, template)
         closed_vessels.refuse_filling(grains, template)
-
-
-def _gas(case, template: Path, chosen: str, allow_code: bool) -> None:
-    """Rehearse what the gas solver `chosen` makes of the case before it starts."""
-    own = next((template / name for name in OWN_MESH if (template / name).exists()), None)
-    if own and case.coupling.gas == "embedded":
-        raise CaseError(f"{own} is a mesh that only OpenFOAM reads; give --gas openfoam, or take the mesh away")
-    if own and chosen == "embedded":
-        raise CaseError(
-            f"{own} is a mesh that only OpenFOAM reads, and OpenFOAM was not found; get it with: sdph openfoam setup "
-            "--install"
-        )
-    if chosen == "embedded":
-        from coupling.embedded.box import Box
-        from coupling.embedded.grid import build_grid
-
-        Box(case, build_grid(cell_edges(case)), limited=True)
+        yield template
         return
     from coupling.openfoam.case import write_case
+    from coupling.openfoam.meshed import meshed
     from coupling.openfoam.programs.installation import require
 
     require()
-    with tempfile.TemporaryDirectory(prefix="sdph-explain-") as folder:
-        write_case(case, template, Path(folder) / "gas", case.coupling.gas_ranks, allow_code)
+    with meshed(grains, template, allow_code) as mesh, tempfile.TemporaryDirectory(prefix="sdph-explain-") as folder:
+        write_case(grains, mesh, Path(folder) / "gas", case.coupling.gas_ranks, allow_code)
+        closed_vessels.refuse_filling(grains, mesh)
+        yield mesh
+
+
+def _embedded(case, template: Path) -> None:
+    """Rehearse what the embedded gas makes of the case before it starts."""
+    if own := next((template / name for name in OWN_MESH if (template / name).exists()), None):
+        why = (
+            "; give --gas openfoam, or take the mesh away"
+            if case.coupling.gas == "embedded"
+            else ", and OpenFOAM was not found; get it with: sdph openfoam setup --install"
+        )
+        raise CaseError(f"{own} is a mesh that only OpenFOAM reads{why}")
+    from coupling.embedded.box import Box
+    from coupling.embedded.grid import build_grid
+
+    Box(case, build_grid(cell_edges(case)), limited=True)

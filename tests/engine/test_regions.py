@@ -37,7 +37,7 @@ def stl(tmp_path, surface, name="a.stl"):
     ],
 )
 def test_a_round_region_holds_its_volume(own, volume):
-    points = regions.points(own, SPACING, 3, "")
+    points = regions.points(own, SPACING, 3, None)
     assert len(points) * SPACING**3 == pytest.approx(volume, rel=0.04)  # a lattice in eight spacings
     low, high = regions.bounds(own, "", 3)
     assert (points > low).all() and (points < high).all()
@@ -46,13 +46,13 @@ def test_a_round_region_holds_its_volume(own, volume):
 
 def test_the_wide_end_of_a_cone_is_the_upper_one_where_it_is_given_so():
     cone = dataclasses.replace(ROUND, shape="cone", radius=0.01, end_radius=0.08)
-    points = regions.points(cone, SPACING, 3, "")
+    points = regions.points(cone, SPACING, 3, None)
     assert points[:, 1].mean() > 0.2 + 0.03
 
 
 def test_the_inside_of_a_mesh_is_that_of_its_ball(tmp_path):
     ball = stl(tmp_path, pyvista.Sphere(radius=0.1, center=(0.2, 0.2, 0.2), theta_resolution=40, phi_resolution=40))
-    points = regions.points(region("mesh", mesh=ball), SPACING, 3, "")
+    points = regions.points(region("mesh", mesh=ball), SPACING, 3, None)
     assert len(points) * SPACING**3 == pytest.approx(4.0 / 3.0 * math.pi * 1e-3, rel=0.02)
     assert (((points - 0.2) ** 2).sum(axis=1) < 0.01).all()
 
@@ -63,12 +63,12 @@ def test_what_walls_enclose_stands_where_contact_holds_it(tmp_path, capping):
     vessel = pyvista.Cylinder(
         center=(0.1, 0.1, 0.1), direction=(0, 0, 1), radius=0.1, height=0.2, resolution=64, capping=capping
     ).triangulate()
-    walls = stl(tmp_path, vessel.flip_faces())  # normals inwards
+    walls = facets.read(stl(tmp_path, vessel.flip_faces()), 3)  # normals inwards
     points = regions.points(region("walls"), SPACING, 3, walls)
     points = points[regions.in_front(points, walls, SPACING, 3)]
     off = 0.1 - np.hypot(*(points[:, :2] - 0.1).T)
     assert off.min() > 0.249 * SPACING and len(points) * SPACING**3 == pytest.approx(math.pi * 0.01 * 0.2, rel=0.08)
-    assert facets.Surface(facets.read(walls, 3)).closed is capping
+    assert facets.Surface(walls).closed is capping
 
 
 def line(tmp_path, points, *, loop):
@@ -76,7 +76,7 @@ def line(tmp_path, points, *, loop):
     cells = [[n, (n + 1) % count] for n in range(count if loop else count - 1)]
     path = str(tmp_path / "line.vtk")
     meshio.write_points_cells(path, np.pad(np.array(points, float), ((0, 0), (0, 1))), {"line": np.array(cells)})
-    return path
+    return facets.read(path, 2)
 
 
 def test_a_plane_vessel_is_closed_and_holds_what_is_in_it(tmp_path):
@@ -84,7 +84,7 @@ def test_a_plane_vessel_is_closed_and_holds_what_is_in_it(tmp_path):
     walls = line(tmp_path, corners, loop=True)
     points = regions.points(region("walls"), SPACING, 2, walls)
     points = points[regions.in_front(points, walls, SPACING, 3)]
-    assert facets.Surface(facets.read(walls, 2)).closed
+    assert facets.Surface(walls).closed
     assert len(points) * SPACING**2 == pytest.approx(0.3 * 0.2, rel=0.06)
     assert points[:, 0].min() < 0.0 and points[:, 1].min() > 0.249 * SPACING
 
@@ -92,13 +92,13 @@ def test_a_plane_vessel_is_closed_and_holds_what_is_in_it(tmp_path):
 def test_an_open_plate_clears_what_stands_in_it_alone(tmp_path):
     walls = line(tmp_path, [(1.0, 0.5), (0.0, 0.5)], loop=False)  # its normal is down
     places = np.array([[0.5, y] for y in (0.2, 0.497, 0.498, 0.51, 0.529, 0.54, 0.9)])
-    assert not facets.Surface(facets.read(walls, 2)).closed
+    assert not facets.Surface(walls).closed
     assert regions.in_front(places, walls, SPACING, 3).tolist() == [True, True, False, False, False, True, True]
 
 
 def test_a_level_is_that_of_its_height_or_its_mass():
     box = region("box", lower=(0.0, 0.0), upper=(0.1, 0.2))
-    points, up = regions.points(box, SPACING, 2, ""), np.array([0.0, 1.0])
+    points, up = regions.points(box, SPACING, 2, None), np.array([0.0, 1.0])
     to_height = regions.below("a", dataclasses.replace(box, height=0.05), points, up, SPACING, 1.0)
     assert to_height.sum() == 50 and points[to_height][:, 1].max() < 0.05
     to_mass = regions.below("a", dataclasses.replace(box, mass=54.0), points, up, SPACING, 1.0)

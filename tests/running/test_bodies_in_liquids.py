@@ -9,7 +9,9 @@ from test_restart import Cut, Reporter, same_run
 
 from sdph import cli, scenes
 from sdph.case import read as cases
+from sdph.engine import state as particles
 from sdph.laws.solids import lame_ring
+from sdph.methods.liquids import account
 from sdph.running import driver
 from sdph.running.together import Together
 from sdph.schema import CaseError
@@ -161,3 +163,64 @@ def test_a_bubble_in_gel_in_a_shell_rests_where_the_shell_bears_it(tmp_path):
     assert lifted[whole].mean() == pytest.approx(outer * rest, rel=0.03)
     assert max(run.ledger.summary()[name] for name in ("momentum_drift_rel", "mass_drift_rel")) < 1e-12
     assert run.solids.ledger.summary()["momentum_drift_rel"] < 1e-12
+
+
+def wedged(folder, away):
+    """The droplet with a gel particle `away` spacings before the middle of a link of the lining; it and the link."""
+    run = Together(cases.from_table(DROPLET), folder / "ledger.csv")
+    own, link = run.stepper, run.bodies.shell.links[3]
+    first, second = run.bodies.places()[link]
+    inward = np.array([first[1] - second[1], second[0] - first[0], 0.0]) / np.hypot(*(second - first)[:2])
+    here = particles.positions(own.state)
+    place = 0.5 * (first + second) + away * run.case.resolution.spacing * inward
+    wedge = own.active[np.argmin(np.hypot(*(here[own.active] - place)[:, :2].T))]
+    number = own.state.ident[wedge]
+    own.state.x[wedge], own.state.y[wedge] = place[:2]
+    own.forces()
+    return run, int(np.flatnonzero(own.state.ident == number)[0]), link
+
+
+def test_the_lining_keeps_gel_off_between_its_particles(tmp_path):
+    """Spring of the liquid from half a spacing on, shared by the particles at both ends; nothing by one that is
+    loose."""
+    run, wedge, link = wedged(tmp_path, 0.2)
+    mass = run.state.mass[run.stepper.active]
+    assert np.ptp(mass) < 1e-9 * mass[0]
+    assert run.stepper.bodies.limits(run.state)["polyline"] == pytest.approx(0.2 * math.sqrt(mass[0] / 1500.0) / 100.0)
+    own, spacing = run.stepper.bodies, run.case.resolution.spacing
+    size = 1500.0 * 100.0**2 * 0.3 * spacing
+    assert np.hypot(*own.pressed[wedge, :2]) == pytest.approx(size, rel=1e-9)
+    np.testing.assert_allclose(own.pressed[own.at[link]], [-0.5 * own.pressed[wedge]] * 2, atol=1e-12 * size)
+    assert own.springs == pytest.approx(0.5 * size * 0.3 * spacing, rel=1e-9)
+    acceleration = run.stepper.acceleration[wedge].copy()
+    run.bodies.stepper.free[link[0]] = 1
+    own.keep_off(run.stepper)
+    assert own.springs == 0.0 and not own.pressed.any()
+    run.bodies.stepper.free[link[0]] = 0
+    run.stepper.acceleration[:] = 0.0
+    own.keep_off(run.stepper)
+    assert run.stepper.acceleration[wedge] == pytest.approx(own.pressed[wedge] / run.state.mass[wedge])
+    assert acceleration @ own.pressed[wedge] > 0.0
+
+
+def test_gel_at_rest_before_the_lining_does_not_touch_its_polyline(tmp_path):
+    run, _ = gone(cases.from_table(DROPLET | {"run": DROPLET["run"] | {"end_time_s": 6e-6}}), tmp_path)
+    assert len(run.stepper.bodies.pairs) == 0 and "polyline" not in run.stepper.bodies.limits(run.state)
+
+
+def test_what_the_polyline_gives_the_shell_gets(tmp_path, monkeypatch):
+    """Momentum of gel and shell, and energy of both with the springs', from a wedged particle until it is out; losses
+    are looked at in every step, as all is over in forty."""
+    monkeypatch.setattr(account, "EVERY", 1)
+    run, _, _ = wedged(tmp_path, 0.3)
+    run.bodies.meet(run.stepper.bodies.force(run.stepper))
+    run.start()
+    first, springs = run.ledger.last, run.stepper.bodies.springs
+    for _ in range(4):
+        run.window()
+    liquid, solid = run.ledger.summary(), run.solids.ledger.summary()
+    assert first["contact_energy_J"] == springs > 0.0
+    assert run.stepper.bodies.springs < 0.1 * springs
+    assert max(liquid["momentum_drift_rel"], solid["momentum_drift_rel"]) < 1e-12
+    assert run.ledger.impulses[5] == pytest.approx(-run.bodies.given[:3], abs=1e-12 * np.abs(run.bodies.given).max())
+    assert abs(run.ledger.sums["numerical_work_J"]) < 0.05 * springs

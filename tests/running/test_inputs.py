@@ -6,12 +6,15 @@ import shutil
 import meshio
 import numpy as np
 import pytest
+import pyvista
 import tomli_w
 from test_cli import refused  # noqa: F401  (`refused` is a fixture)
 from test_restart import Cut, Reporter
 
 from sdph import cli
 from sdph.case import read as cases
+from sdph.engine.walls import sides
+from sdph.methods.grains import start
 from sdph.running import driver
 from sdph.schema import CaseError
 
@@ -168,3 +171,60 @@ def test_init_takes_files_and_gas_along(tmp_path, monkeypatch, capsys, quote, fa
     assert mesh == str(tmp_path / "copy" / "inputs" / "walls.mesh" / "plate.vtk")
     assert len(meshio.read(mesh).points) == 2 and (tmp_path / "copy" / "gas" / "mine").is_file()
     assert quote != '"{}"' or "# mine" in (tmp_path / "copy" / "case.toml").read_text()
+
+
+def ball(path, radius):
+    """A closed surface about (0.1, 0.1) with normals outwards, an STL as CAD writes it."""
+    pyvista.Sphere(radius=radius, center=(radius, radius, radius)).triangulate().save(path)
+
+
+BALL = {"shape": "mesh", "volume_fraction": 0.2, "temperature_K": 300.0}
+IN_SPACE = GRAINS | {
+    "dimensions": 3, "domain": {"size_m": [0.2, 0.2, 0.2], "gravity_m_s2": [0.0, 0.0, -9.81]}, "walls": {},
+    "particles": {"ball": BALL | {"mesh": "ball.stl"}},
+}  # fmt: skip
+TANK = LIQUID | {
+    "dimensions": 3, "effects": ["gravity", "tank"], "tank": {"shape": "mesh", "mesh": "ball.stl"},
+    "domain": {"size_m": [0.2, 0.2, 0.2], "gravity_m_s2": [0.0, 0.0, -9.81]},
+    "pools": {"water": {"shape": "tank", "fill": 0.3}},
+}  # fmt: skip
+del TANK["frame"]
+
+
+@pytest.mark.parametrize(
+    ("table", "key"),
+    [
+        (IN_SPACE, "particles.ball.mesh"),
+        (IN_SPACE | {"walls": {"mesh": "ball.stl"}, "particles": {}}, "walls.mesh"),
+        (TANK, "tank.mesh"),
+    ],
+)
+def test_a_surface_in_millimetres_is_refused_with_its_width_and_the_key_of_its_unit(refused, tmp_path, table, key):  # noqa: F811
+    own = write_case(tmp_path / "mine", table)
+    ball(own / "ball.stl", 100.0)
+    line = refused("explain", "mine")
+    assert line.startswith(f"sdph: {key} = ") and "is 200 m wide" in line and f"set {key}_scale" in line
+    assert refused("run", "mine", *(() if table is TANK else EMBEDDED)) == line
+    assert "is 2e-05 m wide" in refused("explain", "mine", "--set", f"{key}_scale=1e-7")
+    assert cli.main(["explain", "mine", "--set", f"{key}_scale=1e-3"]) == 0
+
+
+def test_a_scaled_surface_is_where_it_would_be_in_metres(tmp_path):
+    own = write_case(tmp_path / "mine", IN_SPACE)
+    ball(own / "ball.stl", 0.1)
+    metres = start.fill(cases.load(own / "case.toml"), ())
+    ball(own / "ball.stl", 100.0)
+    scaled = start.fill(cases.load(own / "case.toml", ("particles.ball.mesh_scale=1e-3",)), ())
+    assert len(scaled.x) == len(metres.x) and np.allclose(scaled.x, metres.x, atol=1e-7)
+    own = write_case(
+        tmp_path / "walls", IN_SPACE | {"walls": {"mesh": "ball.stl", "mesh_scale": 1e-3}, "particles": {}}
+    )
+    ball(own / "ball.stl", 100.0)
+    behind = sides.dummies(cases.load(own / "case.toml"))
+    of_ball = behind[behind[:, -1] > 0.0]
+    off = np.linalg.norm(of_ball[:, :3] - 0.1, axis=1)
+    assert (
+        len(of_ball) and off.min() > 0.07 and off.max() < 0.1
+    )  # three layers behind, 5 to 25 mm: normals are outwards
+    with pytest.raises(CaseError, match="walls.mesh_scale = 0.001, and walls names no mesh"):
+        cases.from_table(GRAINS | {"walls": {"mesh_scale": 1e-3}})

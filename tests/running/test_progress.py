@@ -4,17 +4,23 @@ nowhere."""
 import json
 import re
 import sys
+import time
+from types import SimpleNamespace
 
+import numba
 import numpy as np
 import pytest
+from numba.core import event
 from test_cli import SMALL, refused, sdph  # noqa: F401  (`refused` is a fixture)
 from test_restart import load
 
 from sdph import cli
+from sdph.case import read as cases
 from sdph.methods.grains.bounds import COLLAPSE
 from sdph.methods.grains.method import Stepper
-from sdph.running import driver
+from sdph.running import compiling, driver
 from sdph.running.progress import Reporter
+from sdph.running.simulation import Simulation
 from sdph.schema import CaseError
 from sdph.show import watch
 from sdph.study import memory as room
@@ -47,6 +53,62 @@ def test_the_line_on_a_terminal_says_all(tmp_path, monkeypatch):
     driver.run(load("disc_cluster", "embedded"), "disc_cluster", tmp_path / "run", None, reporter)
     reporter.close()
     assert LINE.search("".join(terminal)), "".join(terminal)[-500:]
+
+
+def changed(case, effects=None, temperature_K=None):
+    """A case with other effects, all of it of one temperature."""
+    table = cases.to_table(case)
+    for name in set(table["effects"]) - set(effects or table["effects"]):
+        table.pop(name, None)
+    table["effects"] = effects or table["effects"]
+    for own in (table["gas"], *table["particles"].values(), *table["boundaries"].values()):
+        if temperature_K and "temperature_K" in own:
+            own["temperature_K"] = temperature_K
+    return cases.from_table(table)
+
+
+def test_a_case_without_heat_shows_no_residual_of_it(tmp_path):
+    shown = []
+    for name, changes in (("warm", {}), ("cold", {"effects": ["drag"], "temperature_K": 300.0})):
+        case = changed(load("disc_cluster", "embedded"), **changes)
+        page = SimpleNamespace(show=lambda simulation, line: shown.append(line))
+        driver.run(case, "disc_cluster", tmp_path / name, None, Reporter(quiet=True, page=page))
+    assert "(heat)" in shown[0] and "residual" in shown[-1] and "(heat)" not in shown[-1]
+
+
+def test_compiling_is_told_once_and_only_where_it_takes_time(tmp_path, monkeypatch):
+    """In a process that finds no kernels, on stderr; kernels that compile at once are not told of."""
+    heard = []
+    monkeypatch.setattr(compiling, "PATIENCE", 0.05)
+    slow, quick = (numba.njit(lambda x, k=k: x + k) for k in (1, 2))
+    with compiling.told(heard.append):
+        with event.trigger_event("numba:compile"):
+            time.sleep(0.2)
+            with event.trigger_event("numba:compile"):
+                time.sleep(0.2)
+        slow(1.0)
+    assert heard == [compiling.TEXT]
+    heard.clear()
+    monkeypatch.setattr(compiling, "PATIENCE", 60.0)
+    with compiling.told(heard.append):
+        quick(1.0)
+        quick(2.0)
+    assert not heard
+
+
+def test_a_run_says_that_it_compiles_beside_its_json(tmp_path, monkeypatch, capsys):
+    begin = Simulation.start
+
+    def start(simulation):
+        with event.trigger_event("numba:compile"):
+            time.sleep(0.3)
+        begin(simulation)
+
+    monkeypatch.setattr(Simulation, "start", start)
+    monkeypatch.setattr(compiling, "PATIENCE", 0.05)
+    assert cli.main(["run", "disc_cluster", *SMALL, "--json", "--out", str(tmp_path / "mine")]) == 0
+    told = capsys.readouterr()
+    assert told.err.count(compiling.TEXT) == 1 and json.loads(told.out)["time_s"] == 0.002
 
 
 def test_json_hides_no_warning(tmp_path):

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sdph.effects.effect import Effect, Judgement
+from sdph.engine import surface
 from sdph.engine.geometry import SIDES
 from sdph.engine.walls import shapes
 from sdph.schema import CaseError, choice, file, quantity, record, vector, words
@@ -27,6 +28,7 @@ class Tank:
     radius: float | None = quantity("m", None, above=0.0)
     length: float = quantity("m", 0.0, least=0.0)  # of the cylinder, or of the capsule's straight part
     mesh: str = file()
+    mesh_scale: float = quantity("", 1.0, above=0.0)  # metres of a unit of `mesh`: 0.001 where it is in millimetres
     open_sides: tuple = words(())
     slip: str = choice("no_slip", "free_slip")
     # whether a wall can pull, with a pressure below 0; None: full between two phases, where walls mirror the pressure
@@ -73,7 +75,7 @@ def shape_of(case):
     if own.shape == "box":
         return _box(case, own)
     if own.shape == "mesh" and d == 3:
-        return _mesh(case, own.mesh)
+        return _mesh(case, own.mesh, own.mesh_scale)
     if d == 2 and own.shape != "sphere":
         raise CaseError(f"tank.shape = {own.shape!r} needs dimensions = 3; in 2-D there are box and sphere (a disc)")
     if own.centre is None or own.radius is None or len(own.centre) != d:
@@ -94,16 +96,17 @@ def shape_of(case):
 
 
 @functools.lru_cache(maxsize=4)
-def _of_file(path: str, changed: float, spacing: float):
+def _of_file(path: str, changed: float, scale: float, domain: tuple, spacing: float):
     """The mesh of a file as it is since `changed` [s], and where its walls are too thin for a spacing [m]."""
-    shape = shapes.Mesh(path)
+    shape = shapes.Mesh(path, scale=scale)
+    surface.refuse_size("tank.mesh", path, shape.triangles.points, domain, spacing)
     return shape, shape.thin(spacing)
 
 
-def _mesh(case, path: str):
+def _mesh(case, path: str, scale: float):
     spacing = case.resolution.spacing
     changed = os.path.getmtime(path) if os.path.exists(path) else 0.0
-    shape, thin = _of_file(path, changed, spacing)
+    shape, thin = _of_file(path, changed, scale, case.domain.size, spacing)
     if len(thin):
         where = ", ".join(f"{x:.4g}" for x in thin[0])
         raise CaseError(

@@ -44,7 +44,8 @@ class Walls:
     # "gas": the sides of a generated mesh, or the patches of the OpenFOAM mesh that the case brings; "mesh": the sides
     # of the domain and `mesh`. None: "mesh" where one is given, else "gas"
     source: str | None = choice("gas", "mesh", default=None)
-    mesh: str = file()  # surface mesh that meshio reads, in metres, normals towards the grains
+    mesh: str = file()  # surface mesh that meshio reads, normals towards the grains
+    mesh_scale: float = quantity("", 1.0, above=0.0)  # metres of a unit of `mesh`: 0.001 where it is in millimetres
 
 
 class WallsP(NamedTuple):

@@ -16,11 +16,11 @@ SAME = 1e-9  # of a wall's extent: corners so near are one; round-off
 ROUNDS = 8  # in which points come to the middle of their parts; 20 and 40 move none further (measured); our choice
 
 
-def read(path: str, dimensions: int) -> np.ndarray:
-    """Corners (F, d, d) [m] of the facets of a surface mesh, those without a size left out; normals are to the left of
-    a line or by the right hand."""
+def read(path: str, dimensions: int, scale: float = 1.0) -> np.ndarray:
+    """Corners (F, d, d) [m] of the facets of a surface mesh whose unit is `scale` [m], those without a size left out;
+    normals are to the left of a line or by the right hand."""
     places, facets = _cells(path, dimensions)
-    corners = places[facets][:, :, :dimensions]
+    corners = scale * places[facets][:, :, :dimensions]
     return corners[sizes(corners) > 0.0]
 
 
@@ -43,12 +43,12 @@ def save(path, corners: np.ndarray, slip: np.ndarray) -> None:
     meshio.write_points_cells(path, points, {kind: cells}, cell_data={"slip": [slip.astype(np.int32)]})
 
 
-def drawn(path: str, dimensions: int):
-    """A surface mesh of walls as pyvista has it."""
+def drawn(path: str, dimensions: int, scale: float = 1.0):
+    """A surface mesh of walls as pyvista has it; its unit is `scale` [m]."""
     import pyvista
 
     places, facets = _cells(path, dimensions)
-    cells = np.insert(facets, 0, facets.shape[1], axis=1).ravel()
+    places, cells = scale * places, np.insert(facets, 0, facets.shape[1], axis=1).ravel()
     return pyvista.PolyData(places, lines=cells) if dimensions == 2 else pyvista.PolyData(places, faces=cells)
 
 
@@ -88,7 +88,7 @@ class Surface:
 
 
 def _cells(path: str, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
-    """Points (P, 3) [m] of a surface mesh and its facets: lines in 2-D, triangles in 3-D."""
+    """Points (P, 3), in the unit of the file, of a surface mesh and its facets: lines in 2-D, triangles in 3-D."""
     mesh, kind = _mesh(path, dimensions)
     places = np.zeros((len(mesh.points), 3))
     places[:, : mesh.points.shape[1]] = mesh.points

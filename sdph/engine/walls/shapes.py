@@ -183,10 +183,11 @@ class Box:
 
 @dataclass(frozen=True)
 class Mesh:
-    """Inside of a closed surface mesh of triangles that meshio reads, in metres, normals outwards."""
+    """Inside of a closed surface mesh of triangles that meshio reads, its unit `scale` [m], normals outwards."""
 
     path: str
     key: str = "tank.mesh"  # of the case, for messages
+    scale: float = 1.0
 
     @functools.cached_property
     def triangles(self):
@@ -197,7 +198,8 @@ class Mesh:
         if "triangle" not in mesh.cells_dict:
             raise CaseError(f"{self.key} = {self.path!r} holds no triangles; a closed surface is made of them")
         faces = mesh.cells_dict["triangle"]
-        surface = pyvista.PolyData(np.asarray(mesh.points, float), np.insert(faces, 0, 3, axis=1).ravel()).clean()
+        points = self.scale * np.asarray(mesh.points, float)
+        surface = pyvista.PolyData(points, np.insert(faces, 0, 3, axis=1).ravel()).clean()
         if surface.n_open_edges:
             raise CaseError(f"{self.key} = {self.path!r} has {surface.n_open_edges} open edges; it must be closed")
         return surface

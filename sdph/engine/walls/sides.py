@@ -53,7 +53,7 @@ def dummies(case) -> np.ndarray:
     vessel = own.mesh and own.source == "gas"  # then all walls are the mesh's
     parts = [] if vessel else [np.pad(_box(case), ((0, 0), (0, 1)))]
     if own.mesh:
-        corners, slip = facets.read(own.mesh, d), facets.slips(own.mesh, d)
+        corners, slip = facets.read(own.mesh, d, own.mesh_scale), facets.slips(own.mesh, d)
         parts += [
             np.pad(_behind_facets(corners[slip == slips], case, slips), ((0, 0), (0, 1)), constant_values=1.0)
             for slips in (False, True)

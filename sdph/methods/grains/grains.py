@@ -181,8 +181,8 @@ class Grains:
 
     def walls(self):
         """Meshes of walls as a pyvista surface; None where there are none: sides of the domain are seen anyway."""
-        mesh = self.case.parameters["walls"].mesh if self.parameters["walls"] else ""
-        return facets.drawn(mesh, self.case.dimensions) if mesh else None
+        own = self.case.parameters["walls"] if self.parameters["walls"] else None
+        return facets.drawn(own.mesh, self.case.dimensions, own.mesh_scale) if own and own.mesh else None
 
     def summary(self) -> dict[str, float]:
         """Its part of summary.json."""

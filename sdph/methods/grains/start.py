@@ -11,6 +11,7 @@ from scipy.spatial import cKDTree
 
 from sdph.engine import regions
 from sdph.engine.state import State, axes, born, empty, join, positions
+from sdph.engine.walls import facets
 from sdph.engine.walls.sides import LAYERS
 from sdph.schema import CaseError
 
@@ -54,15 +55,16 @@ def _refuse_overlap(case, parts) -> None:
             )
 
 
-def mesh_of_walls(case) -> str:
-    """Path of the mesh of the walls; empty where there is none."""
-    return case.parameters["walls"].mesh if "walls" in case.effects else ""
+def mesh_of_walls(case) -> np.ndarray | None:
+    """Facets (F, d, d) [m] of the mesh of the walls; None where there is none."""
+    own = case.parameters["walls"] if "walls" in case.effects else None
+    return facets.read(own.mesh, case.dimensions, own.mesh_scale) if own and own.mesh else None
 
 
 def assumed(case):
     """The case for estimates before a run: what walls enclose that are not known yet is the domain, at most."""
     box = {"shape": "box", "lower": case.domain.corner, "upper": case.domain.upper}
-    unknown = {} if mesh_of_walls(case) else box
+    unknown = box if mesh_of_walls(case) is None else {}
     found = {
         name: dataclasses.replace(region, **unknown) if region.shape == "walls" else region
         for name, region in case.particles.items()
@@ -74,14 +76,14 @@ def extents(case, region) -> tuple[np.ndarray, np.ndarray]:
     """Lower and upper corner (d,) [m] of the box around a region; the domain where the mesh of walls is not there
     yet."""
     walls = mesh_of_walls(case)
-    if region.shape == "walls" and not walls:
+    if region.shape == "walls" and walls is None:
         return np.array(case.domain.corner), np.array(case.domain.upper)
     return regions.bounds(region, walls, case.dimensions)
 
 
 def _region(case, name: str, region, names, notices) -> State:
     spacing, d, walls = case.resolution.spacing, case.dimensions, mesh_of_walls(case)
-    if region.shape == "walls" and not walls:
+    if region.shape == "walls" and walls is None:
         raise CaseError(
             f'particles.{name}.shape = "walls", and the walls are the sides of the domain: give a box, or walls.mesh, '
             "or a mesh of the gas of your own in the folder gas"
@@ -107,12 +109,12 @@ def _region(case, name: str, region, names, notices) -> State:
     return born(state)
 
 
-def _reached(case, where: str, region, points, walls: str, each: float, notices) -> np.ndarray:
+def _reached(case, where: str, region, points, walls, each: float, notices) -> np.ndarray:
     """The points of a region that grains stand on: off the lattice by chance, in front of the walls, up to its level;
     `each` [kg] the mass of a particle."""
     spacing, there = case.resolution.spacing, len(points)
     points = regions.disordered(points, region.disorder, region.seed, spacing)
-    if walls:
+    if walls is not None:
         # what is behind walls of the gas's own mesh is in none of its cells, however far
         deep = math.inf if case.parameters["walls"].source == "gas" else LAYERS
         points = points[regions.in_front(points, walls, spacing, deep)]

@@ -39,6 +39,9 @@ def rates(stepper, ahead: float, last: np.ndarray | None) -> np.ndarray:
         of_bodies = stepper.bodies.among(stepper.walls) if stepper.bodies else np.zeros(len(felt), bool)
         now[WALLS], now[BY_WALLS : HELD_OFF + 1] = -felt[~of_bodies, :3].sum(axis=0), felt[:, 3:].sum(axis=0)
         now[LOADS] -= loads.of_forces(stepper, stepper.walls[of_bodies], felt[of_bodies, :3])  # they are no tank
+    if stepper.bodies:
+        own = stepper.active
+        now[LOADS] += loads.of_forces(stepper, own, stepper.bodies.pressed[own])
     if stepper.p["surface_tension"]:
         pull = stepper.state.mass[:, None] * stepper.tightening
         velocity = particles.velocities(stepper.state) + ahead * stepper.acceleration

@@ -4,6 +4,10 @@ Pressure and velocity of a body's particle are extrapolated from the liquid in f
 Phys. 231, 7057), with gravity and without the body's own acceleration: that is known from the step before, and would
 drive a light body wild (our choice; an error of first order in the spacing). Force and friction of each pair go to the
 body with the sign turned, so that momentum closes pair by pair.
+
+A shell that stretches parts its particles, and liquid would get in between: it has contact with the polyline through
+the shell's innermost particles (sdph.engine.polyline), from half a spacing on. There a liquid particle's own half width
+ends; at rest it stands half a layer further off, so that the polyline bears where the particles no longer do.
 """
 
 from __future__ import annotations
@@ -14,13 +18,14 @@ import numpy as np
 import scipy
 
 from sdph.effects.around import tank
-from sdph.engine import motion
+from sdph.engine import contact, motion, polyline
 from sdph.engine import state as particles
 from sdph.engine.state import WALL
 from sdph.methods.liquids import start, walls
 from sdph.methods.liquids.forces import Moving
 
 NEAREST = 0.75  # spacings: what stands nearer to a body at the start stands in it; our choice
+BEFORE = 0.5  # spacings: half of what a liquid particle fills, which a polyline keeps it off
 
 
 class Shell(NamedTuple):
@@ -29,6 +34,11 @@ class Shell(NamedTuple):
     inner: np.ndarray
     outer: np.ndarray
     radius: float
+
+    @property
+    def links(self) -> np.ndarray:
+        """(N, 2) particles of the innermost circle and those next to them."""
+        return np.stack([self.inner, np.roll(self.inner, -1)], axis=1)
 
 
 class Carrier(Protocol):
@@ -75,13 +85,18 @@ class Carrier(Protocol):
 
 
 class Bodies:
-    """Particles of a carrier within a liquid: wall particles, numbered behind all others."""
+    """Particles of a carrier within a liquid: wall particles, numbered behind all others; springs of the polyline:
+    forces `pressed` (N, 3) [N] on all particles, and their energy [J]."""
 
-    def __init__(self, carrier: Carrier):
+    def __init__(self, carrier: Carrier, case):
         self.carrier = carrier
         self.first = 0  # their first number
         self.at = np.zeros(0, np.int64)  # (M,) where each stands
         self.moving = Moving(*np.zeros((3, 0)))
+        self.links = carrier.shell.links if carrier.shell else np.zeros((0, 2), np.int64)
+        self.contact = contact.Contact(BEFORE * case.resolution.spacing, contact.between(case).stiffness)
+        self.pairs = np.zeros((0, 2), np.int64)  # of a liquid particle and a link, that may touch
+        self.pressed, self.springs = np.zeros((0, 3)), 0.0
 
     def immersed(self, case, state):
         """The liquid and walls of a case less what stands in the bodies, and the bodies' particles behind them."""
@@ -112,6 +127,36 @@ class Bodies:
         own[self.at] = True
         return own[chosen]
 
+    def look(self, stepper) -> None:
+        """Find what may touch the polyline while the rows of neighbours hold: all that move by less than half the skin
+        since then."""
+        own, wet = stepper.neighbours, stepper.active
+        points = np.stack(own.built[:2], axis=1)
+        first, second = (points[self.at[ends]] for ends in self.links.T)
+        self.pairs = polyline.near(points[wet], first, second, self.contact.spacing + own.skin * own.reach)
+        self.pairs[:, 0] = wet[self.pairs[:, 0]]
+
+    def keep_off(self, stepper) -> None:
+        """Add what the polyline does to the accelerations of a stepper; links with an end that has broken off bear
+        nothing."""
+        self.pressed, self.springs = np.zeros_like(stepper.acceleration), 0.0
+        if not len(self.pairs):
+            return
+        s, bears = stepper.state, ~self.carrier.loose()[self.links].any(axis=1)
+        self.springs = polyline.press(
+            self.contact.stiffness, self.contact.spacing, s.x, s.y, self.at[self.links], bears, self.pairs,
+            self.pressed,
+        )  # fmt: skip
+        own = stepper.active
+        stepper.acceleration[own] += self.pressed[own] / s.mass[own, None]
+
+    def limits(self, state) -> dict[str, float]:
+        """Longest steps [s] by cause: the carrier's, and the polyline's for the liquid that may touch it."""
+        found = self.carrier.limits()
+        if len(self.pairs):
+            found["polyline"] = self.contact.limit(float(state.mass[self.pairs[:, 0]].min()))
+        return found
+
     def set_off(self, dt: float) -> None:
         """The carrier's kick, and velocities after it."""
         self.carrier.set_off(dt)
@@ -137,7 +182,7 @@ class Bodies:
         near = self.at[stepper.rows.number[self.at] > 0]
         found = np.zeros((len(stepper.state.x), 3))
         found[near] = walls.feel(stepper, near, 0.0)[:, :3]
-        return found[self.at]
+        return (found + self.pressed)[self.at]
 
     def add_velocities(self, gain) -> None:
         """Add theirs to (N, 3) [m/s]."""

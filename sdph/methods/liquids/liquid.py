@@ -26,7 +26,10 @@ class Liquid(Stepped):
     """A liquid and what it does in a window."""
 
     matter = "liquid"
-    KEPT = ("windows", "stepper", "outlet", "ledger", "rates", "impulse", "since", "pace")  # see sdph.engine.kept
+    # see sdph.engine.kept
+    KEPT = (
+        "windows", "stepper", "outlet", "ledger", "rates", "impulse", "since", "pace", "scaled",
+    )  # fmt: skip
 
     def __init__(self, case, ledger: Path, shortest: float, carrier: Carrier | None = None):
         self.case, self.windows = case, 0

@@ -57,7 +57,7 @@ class LiquidStepper:
         period = tuple(length * bool(on) for length, on in zip(case.domain.size, periodic))
         self.neighbours = Neighbours(2.0 * SLACK * self.kernel.h, period, case.resolution.neighbour_skin)
         self.fluids, self.phases = fluids(case), phases.kernel(case)
-        self.bodies, self.moving = immersion.Bodies(carrier) if carrier else None, ()
+        self.bodies, self.moving = immersion.Bodies(carrier, case) if carrier else None, ()
         # walls follow the liquid, those of the outlet pipe come last
         first_of_pipe = len(self.state.x) - start.pipe_walls(case)
         if self.bodies:
@@ -135,7 +135,7 @@ class LiquidStepper:
             self.guard.look(self)
         found = limits(self.case, self.p, self.state, math.sqrt(speed), math.sqrt(force))
         if self.bodies:
-            found |= self.bodies.carrier.limits()
+            found |= self.bodies.limits(self.state)
         self.limit = min(found, key=found.get)
         longest = self.case.run.step_factor * found[self.limit]
         return left / count_of_parts(
@@ -191,7 +191,7 @@ class LiquidStepper:
         if self.summed:
             rates.sum_up(*around, self.lattice, s.density)
         rates.state_of(self.fluids, s, self.active, self.pressure, self.volume)
-        if self.p["bubble"] and self.p["bubble"].vapour and ahead:
+        if p["bubble"] and p["bubble"].vapour and ahead:
             self.void.boil(self, 2.0 * ahead)
             rates.state_of(self.fluids, s, self.active, self.pressure, self.volume)
         if len(self.waiting):
@@ -217,12 +217,9 @@ class LiquidStepper:
             interface.tighten(self)
         if self.void:
             self.void.press(self)
-        if p["xsph"]:
-            shift.mingle(*around, p["xsph"], self.phases, self.volume, *self.extra)
-        if p["shifting"]:
-            shift.surround(*around, p["shifting"], self.phases, self.volume, s.enclosure, self.shift, self.twist)
-            if not self.phases:
-                shift.along_surface(*around, self.volume, s.enclosure, self.shift)
+        if self.bodies:
+            self.bodies.keep_off(self)
+        shift.prepare(self, around)
         if self.look:
             self.look(ahead)
 
@@ -248,6 +245,8 @@ class LiquidStepper:
         self.active = np.flatnonzero(particles.wet(s)).astype(np.int32)
         self.walls = np.flatnonzero((s.kind == WALL) & (self.rows.number > 0)).astype(np.int32)
         self.moving = self.bodies.find(s) if self.bodies else ()
+        if self.bodies:
+            self.bodies.look(self)
         self.rate = np.zeros(len(s.x))
         near = len(s.x) if self.p["surface_tension"] else 0
         self.normal, self.curvature = np.zeros((near, 3)), np.zeros(near)

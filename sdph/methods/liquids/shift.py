@@ -135,3 +135,16 @@ def displace(p, fluids, s, active, shift, gradient, twist, compliance, dt, x, y,
             w[i] += dw
         lost -= s.mass[i] * gained
     return lost
+
+
+def prepare(stepper, around) -> None:
+    """Find the velocity by which XSPH moves particles of a `stepper`, and the way by which they are shifted; `around`
+    is what its loops take."""
+    p, s = stepper.p, stepper.state
+    if p["xsph"]:
+        mingle(*around, p["xsph"], stepper.phases, stepper.volume, *stepper.extra)
+    if p["shifting"]:
+        own = stepper.volume, s.enclosure, stepper.shift
+        surround(*around, p["shifting"], stepper.phases, *own, stepper.twist)
+        if not stepper.phases:
+            along_surface(*around, *own)

@@ -2,11 +2,12 @@
 
 Momentum comes from body forces, walls, surface tension, contact, shifting and nozzles, and goes through the drain and
 open sides; walls are summed over their particles, so that what pairs do not give back to each other is a drift. Energy
-is kinetic and elastic (of compression). Gravity, the frame, the pressure of walls and of nozzles, surface tension and
-contact work on it; what comes in brings some, the drain and open sides take their share. Dissipation is the sum of its
-causes (LOSSES), each taken where its force acts; what explicit steps and the continuity equation make of both is
-`numerical_work_J`. A scheme that makes energy shows in `energy_made_J`. Potential energy is that in gravity, which is
-the same everywhere; the work of gravity is beside it, as shifting lifts too.
+is kinetic and elastic (of compression), beside bodies also that of the springs of their polyline. Gravity, the frame,
+the pressure of walls and of nozzles, surface tension and contact work on it; what comes in brings some, the drain and
+open sides take their share. Dissipation is the sum of its causes (LOSSES), each taken where its force acts; what
+explicit steps and the continuity equation make of both is `numerical_work_J`. A scheme that makes energy shows in
+`energy_made_J`. Potential energy is that in gravity, which is the same everywhere; the work of gravity is beside it, as
+shifting lifts too.
 Two-dimensional amounts are per metre of depth.
 """
 
@@ -97,7 +98,8 @@ class LiquidLedger(Sums):
         row = {"particles": len(own), "mass_kg": float(s.mass[own].sum())} | vector("momentum", s.mass[own] @ velocity)
         weight = s.mass[own] * (particles.positions(s)[own] @ np.array(stepper.p["gravity"] or (0.0, 0.0, 0.0)))
         row |= {"kinetic_energy_J": kinetic, "elastic_energy_J": elastic, "potential_energy_J": -float(weight.sum())}
-        return row | {"fastest_m_s": speed}
+        springs = {"contact_energy_J": stepper.bodies.springs} if stepper.bodies else {}
+        return row | {"fastest_m_s": speed} | springs
 
     def _write(self, stepper, dt: float, totals: dict, impulses: dict, amounts: dict) -> None:
         row = {"time_s": stepper.time, "window_s": dt, "limit": stepper.limit} | totals
@@ -116,7 +118,7 @@ def _falling(stepper) -> float:
 
 
 def _energy(row: dict) -> float:
-    return row["kinetic_energy_J"] + row["elastic_energy_J"]
+    return row["kinetic_energy_J"] + row["elastic_energy_J"] + row.get("contact_energy_J", 0.0)
 
 
 def energies(stepper) -> tuple[float, float]:

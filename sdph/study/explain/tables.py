@@ -16,6 +16,7 @@ OF = {
     "mps": mps,
     "solid": solids,
 }  # method -> module with `explain` and `warnings`; grains have their own
+OF_HEAT = ("Biot", "heat loading", "Peclet of conduction", "run / heat time", "run / gas's heat time")
 
 
 def explain(case, priced=None) -> dict[str, list[dict]]:
@@ -44,7 +45,12 @@ def _explain(case, priced) -> dict[str, list[dict]]:
 
 def _of_grains(case, scales, priced) -> dict[str, list]:
     limits, expected = estimate.limits(case, scales), estimate.expected(case, scales, priced)
-    return {"numbers": numbers(scales), "ratios": estimate.ratios(case), "limits": limits, "expected": expected}
+    return {
+        "numbers": numbers(scales, case.warm),
+        "ratios": estimate.ratios(case),
+        "limits": limits,
+        "expected": expected,
+    }
 
 
 def warnings(case, scales=None) -> list[str]:
@@ -56,8 +62,9 @@ def warnings(case, scales=None) -> list[str]:
     return [*judge.missing(case, scales), *(own.warnings(scales) if own else estimate.warnings(case))]
 
 
-def numbers(s) -> list[tuple]:
-    """(name, value, threshold, what lies above the threshold, source) of the numbers that decide."""
+def numbers(s, warm: bool = True) -> list[tuple]:
+    """(name, value, threshold, what lies above the threshold, source) of the numbers that decide; those of heat only
+    where the case is `warm`."""
     grains, gas, end = s.grains, s.gas, s.end
     biot = s.nusselt * gas.conductivity / (6.0 * grains.conductivity) if grains.conductivity else math.inf
     archimedes = gas.density * (grains.density - gas.density) * s.gravity * grains.diameter**3 / gas.viscosity**2
@@ -96,7 +103,7 @@ def numbers(s) -> list[tuple]:
         ),
         ("run / collision time", end / s.collision_time, 1.0, "every grain has collided", "Gidaspow 1994"),
     ]
-    return rows + droplets.numbers(s)
+    return [row for row in rows if warm or row[0] not in OF_HEAT] + droplets.numbers(s)
 
 
 def effect_rows(case, scales=None) -> list[dict]:

@@ -34,6 +34,7 @@ from sdph.running import balances
 from sdph.running.driver import simulation_of
 from sdph.scenes import paths
 from sdph.schema import CaseError, unknown
+from sdph.study.stress.droplet_measures import DropletMeasures
 from sdph.study.stress.liquid_measures import LiquidMeasures
 from sdph.study.stress.measures import Measures
 
@@ -185,6 +186,8 @@ class TakenOver:
 
 
 def _measures(case):
+    if "time_scaling" in case.effects:
+        return DropletMeasures(case)
     if case.liquid:
         return LiquidMeasures(case)
     return Measures(case)

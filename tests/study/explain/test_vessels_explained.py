@@ -1,18 +1,24 @@
 """What `sdph explain` says of vessels: gas with no way out, and the mesh that a case brings."""
 
+import itertools
 import json
+import shutil
+import tomllib
 
 import foam_cases
+import numpy as np
 import own_meshes
 import pytest
 
+import sdph
 from coupling.openfoam import poly_mesh
 from sdph import scenes
 from sdph.case import read as cases
 from sdph.cli import main
 from sdph.scenes import paths
 from sdph.schema import CaseError
-from sdph.study import closed_vessels
+from sdph.study import closed_vessels, inlets
+from sdph.study.explain import tables
 
 BED = scenes.HERE / "bubbling_bed" / "case.toml"
 
@@ -62,3 +68,110 @@ def test_a_closed_vessel_of_ones_own_is_refused(tmp_path, capsys):
     capsys.readouterr()
     assert main(["explain", str(mine), *shut]) == 2
     assert "boundaries.inlet is a velocity_inlet" in capsys.readouterr().err
+
+
+def explained(capsys, *words):
+    capsys.readouterr()
+    assert main(["explain", *map(str, words), "--json"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+@pytest.mark.openfoam
+def test_a_mesh_that_is_still_to_be_made_is_counted_as_one_that_is(tmp_path, capsys):
+    """The same vessel by its blockMeshDict alone: rows of explain are those of its polyMesh, and nothing is left."""
+    mine = made(tmp_path)
+    by_mesh = explained(capsys, mine)
+    shutil.rmtree(mine / "gas" / poly_mesh.FOLDER)
+    (mine / "gas" / poly_mesh.BLOCKS).write_text(own_meshes.cylinder(0.05, 0.2, 4, 10))
+    before = sorted(mine.rglob("*"))
+    by_blocks = explained(capsys, mine)
+    assert by_blocks == by_mesh and sorted(mine.rglob("*")) == before
+    assert sdph.explain(mine) == sdph.explain(str(mine))
+    rows = {row["what"]: row["value"] for row in sdph.explain(mine)["expected"]}
+    assert rows["gas cells"] == 480 and rows["particles"] == pytest.approx(3483, abs=5)
+    shut = ("--set", "boundaries.outlet.kind='wall'", "--set", "gas.equation_of_state='constant'")
+    assert main(["explain", str(mine), *shut]) == 2
+    assert "boundaries.inlet is a velocity_inlet" in capsys.readouterr().err
+
+
+@pytest.mark.openfoam
+def test_grains_that_reach_an_outlet_of_ones_own_mesh_call_for_outflow(tmp_path, capsys):
+    """Of a vessel whose mouth is below: without sides its patches were known to no judgement."""
+    mine = made(tmp_path)
+    text = (mine / "case.toml").read_text()
+    table = tomllib.loads(text)
+    assert not any("side" in own for own in table["boundaries"].values())
+    below = ("--set", "boundaries.inlet={kind='pressure_outlet'}", "--set", "run.end_time_s=1.0")
+    row = next(row for row in explained(capsys, mine, *below)["effects"] if row["effect"] == "outflow")
+    assert row["called for"] == "yes" and row["error if off"] == 1.0
+
+
+def test_a_patch_is_all_of_its_side_or_a_span_of_it(tmp_path):
+    """A plate and a hole in it lie in one side, each over its span; the wall of a round vessel lies in none."""
+    source = tmp_path / "ring"
+    own_meshes.write_tetrahedra(source / "constant" / "polyMesh", 0.1, 4)
+    mesh = poly_mesh.PolyMesh(source)
+    faces = mesh.patches["all"].faces
+    middles = mesh.centres[faces]
+    assert mesh.spans((0.0, 0.0, 0.0), (0.1, 0.1, 0.1)) == {}
+    order = np.argsort(~(middles[:, 2] < 1e-9), kind="stable") + faces.start  # those of the lower side first
+    below, hole = int((middles[:, 2] < 1e-9).sum()), 1
+    assert below > 2
+    mesh.centres[faces], corners = mesh.centres[order], [mesh.corners[mesh.first[k] : mesh.first[k + 1]] for k in order]
+    mesh.corners[mesh.first[faces.start] :] = np.concatenate(corners)
+    ends = faces.start, faces.start + hole, faces.start + below, faces.stop
+    mesh.patches = {name: poly_mesh.Patch("patch", slice(*pair)) for name, pair in zip("abc", itertools.pairwise(ends))}
+    found = mesh.spans((0.0, 0.0, 0.0), (0.1, 0.1, 0.1))
+    assert set(found) == {"a", "b"} and found["a"][0] == found["b"][0] == "back"
+    assert all(0.0 <= low < high <= 0.051 for low, high in found["a"][1])
+    mesh.patches = {"floor": poly_mesh.Patch("patch", slice(ends[0], ends[2])), "c": mesh.patches["c"]}
+    assert mesh.spans((0.0, 0.0, 0.0), (0.1, 0.1, 0.1)) == {"floor": ("back", None)}
+
+
+@pytest.mark.openfoam
+@pytest.mark.parametrize("blocks", [False, True])
+def test_an_inlet_that_sucks_is_warned_of(tmp_path, capsys, blocks):
+    mine = made(tmp_path)
+    if blocks:
+        shutil.rmtree(mine / "gas" / poly_mesh.FOLDER)
+        (mine / "gas" / poly_mesh.BLOCKS).write_text(own_meshes.cylinder(0.05, 0.2, 4, 10))
+    out = ("--set", "boundaries.inlet.velocity_m_s=[0.0, 0.0, -0.25]")
+    told = [row["warning"] for row in explained(capsys, mine, *out)["warnings"]]
+    assert (
+        sum("boundaries.inlet is a velocity_inlet" in text and "points out of the domain" in text for text in told) == 1
+    )
+    assert not any("points out" in row["warning"] for row in explained(capsys, mine)["warnings"])
+
+
+def test_an_inlet_that_sucks_is_warned_of_by_a_run_of_a_box(tmp_path, capsys):
+    """By its side; along it, and through no side in particular, there is nothing to say."""
+    case = cases.load(BED, ("boundaries.distributor.velocity_m_s=[0.0, -0.1]",))
+    assert ["boundaries.distributor" in text for text in inlets.warnings(case, tmp_path)] == [True]
+    along = cases.load(BED, ("boundaries.distributor.velocity_m_s=[0.3, 0.0]",))
+    assert inlets.warnings(along, tmp_path) == [] == inlets.warnings(cases.load(BED), tmp_path)
+    words = ("resolution.spacing_mm=20", "resolution.cell_mm=20", "run.end_time_s=1e-4", "run.output_interval_s=1e-4")
+    words += ("boundaries.distributor.velocity_m_s=[0.0, -0.1]",)
+    options = [word for text in words for word in ("--set", text)]
+    assert main(["run", "bubbling_bed", "--gas", "embedded", *options, "--out", str(tmp_path / "out")]) == 0
+    assert "warning: boundaries.distributor is a velocity_inlet" in capsys.readouterr().err
+
+
+def test_heat_is_left_out_of_the_numbers_of_a_case_without_any():
+    table = cases.to_table(cases.load(BED))
+    for warm in (True, False):
+        names = [row["number"] for row in tables.explain(cases.from_table(table))["numbers"]]
+        assert ("Biot" in names) is warm and ("run / heat time" in names) is warm and "alpha_p" in names
+        table["effects"] = [name for name in table["effects"] if name not in ("heat", "conduction")]
+        table.pop("heat", None)
+        for own in (table["gas"], *table["particles"].values(), *table["boundaries"].values()):
+            if "temperature_K" in own:
+                own["temperature_K"] = 300.0
+
+
+def test_a_nozzle_at_a_side_but_for_the_digits_of_a_mesh_is_let_be():
+    """snappyHexMesh and text files leave 2 nm; a tenth of a spacing is an error still."""
+    jet = scenes.HERE / "evaporating_jet" / "case.toml"
+    size = cases.load(jet).domain.size
+    cases.load(jet, ("domain.lower_m=[2e-9, 0.0]", f"domain.size_m=[{size[0] - 2e-9!r}, {size[1]!r}]"))
+    with pytest.raises(CaseError, match="nozzles.jet.centre_m = .* reaches out of the domain"):
+        cases.load(jet, ("domain.lower_m=[1e-3, 0.0]",))

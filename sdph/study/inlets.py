@@ -1,0 +1,46 @@
+"""Inlets whose gas goes out: OpenFOAM takes a velocity as it is given, and one that points out of the domain sucks."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from coupling.openfoam import poly_mesh
+from sdph.engine.geometry import SIDES
+
+ASIDE = 1e-3  # of the velocity: one along its patch but for round-off and the facets of a round one; our choice
+
+
+def warnings(case, template: Path) -> list[str]:
+    """A line for each velocity_inlet through which gas leaves on balance; `template` is the OpenFOAM case with its
+    mesh, if it has one of its own. On a box, inlets without a side are not judged: they lie on several."""
+    if "grains" not in case.matters:
+        return []
+    mesh = poly_mesh.read(template) if (template / poly_mesh.FOLDER).is_dir() else None
+    told = []
+    for name, boundary in case.boundaries.items():
+        if boundary.kind != "velocity_inlet" or not boundary.velocity:
+            continue
+        velocity = np.array([*boundary.velocity, 0.0][:3])
+        normal = _outwards(mesh, name, boundary)
+        if velocity @ normal > ASIDE * float(np.linalg.norm(velocity)):
+            outwards = ", ".join(f"{part:.2g}" for part in normal[: case.dimensions])
+            told.append(
+                f"boundaries.{name} is a velocity_inlet, and velocity_m_s = {list(boundary.velocity)} points out of "
+                f"the domain, whose normal there is ({outwards}): it sucks gas out; turn its sign, unless that is meant"
+            )
+    return told
+
+
+def _outwards(mesh, name: str, boundary) -> np.ndarray:
+    """Mean normal (3,) out of the domain, each part of a patch by its area; 0 where it is not known."""
+    normal = np.zeros(3)
+    if mesh is not None:
+        if name in mesh.patches:
+            own = mesh.areas[mesh.patches[name].faces]
+            normal = own.sum(axis=0) / max(float(np.linalg.norm(own, axis=1).sum()), 1e-300)
+    elif boundary.side:
+        axis, end = SIDES[boundary.side]
+        normal[axis] = 2.0 * end - 1.0
+    return normal
