@@ -39,6 +39,7 @@ def mps_answer(name, extra=()):
     own._look()
     if extra is not None:
         poison(own, of_far(own, OF_MPS, extra), ~inside)
+        own.surface[own.surface > 1] = 1  # a surface where none is
     count, around, unit = len(inside), own.around, own.cloud.spacing
     beside, divergence, meeting = np.zeros(count, np.int8), np.zeros(count), np.zeros(count)
     pressed, borne, rubbed, change, way = np.zeros((5, count, 3))
