@@ -38,7 +38,7 @@ def near(points, first, second, reach: float) -> np.ndarray:
 
 @inlined
 def foot(x, y, i, a, b):
-    """Of particle i before the segment from a to b: from its nearest place (2 values) [m], share of the way there."""
+    """Way (2 values) [m] to particle i from the nearest place of the segment from a to b, share of the way there."""
     along_x, along_y = x[b] - x[a], y[b] - y[a]
     dx, dy = x[i] - x[a], y[i] - y[a]
     length2 = along_x * along_x + along_y * along_y

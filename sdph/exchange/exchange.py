@@ -147,8 +147,8 @@ class Exchange:
         return terms | ({("heat", "friction"): self.pending / handed.dt} if "momentum" in self.sources else {})
 
     def pace(self, state, weights, gas_state) -> tuple[float, float, float, float, float]:
-        """At the start: rate [1/s] at which the fastest cell takes the grains' temperature, `stake` [J], rate [1/s] at
-        which vapour comes into the fastest cell, over the gas in it, `grip` [1/s] and `settling` [s]."""
+        """Pace at the start: rate [1/s] at which the fastest cell takes the grains' temperature, `stake` [J], rate
+        [1/s] at which vapour comes into the fastest cell, over the gas in it, `grip` [1/s] and `settling` [s]."""
         seen = Seen(weights, gas_state, state, self.fields)
         conductance, damping, _ = self._rates(state, seen)
         full, resistance = self._resistance(state, weights, gas_state)

@@ -97,7 +97,7 @@ class Window(Clock):
             raise Unfit(f"the limits of the window are not those of this case, or one is below {self.shortest:.2g} s")
 
     def begin(self, rate: float, scale: float) -> None:
-        """Before the first window; see `Control.begin`."""
+        """Set the limits before the first window; see `Control.begin`."""
         self.limits["heat exchange"] = self.control.begin(rate, scale)
 
     def choose(self, time: float) -> float:

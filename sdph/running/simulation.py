@@ -166,7 +166,7 @@ class Simulation:
         self.beside.advance(end)
 
     def _renew(self) -> None:
-        """Between windows: particles that come and go; there may be more to exchange then."""
+        """Take, between windows, particles that come and go; there may be more to exchange then."""
         if self.grains.renew(self.clock.longest()):
             self._weights_now = None
         if self.outlet and self.grains.gone is not None:
