@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from coupling.gas import GasError
 from sdph.running import inputs
 from sdph.schema import CaseError
 from sdph.study import explained
@@ -12,8 +13,13 @@ from sdph.study import explained
 
 def looked_at(case, template: Path, *, allow_code: bool = False, whole: bool = False) -> list[str]:
     """Warnings of a resolved case; `CaseError` where it cannot run. `whole` makes its particles too, as `explain`
-    does."""
-    return explained.warned(case, template, allow_code=allow_code, whole=whole)
+    does. Where OpenFOAM cannot make its mesh there are none before a run: that says why, and keeps the log."""
+    try:
+        return explained.warned(case, template, allow_code=allow_code, whole=whole)
+    except GasError:
+        if whole:
+            raise
+        return []
 
 
 def refuse_useless(case, name: str, given: dict[str, object]) -> None:

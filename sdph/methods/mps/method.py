@@ -77,6 +77,11 @@ class MpsStepper:
         return np.flatnonzero(self.state.kind == LIQUID).astype(np.int32)
 
     @property
+    def pressure(self) -> np.ndarray:
+        """Pressure (N,) [Pa] of the solver, a field of the state."""
+        return self.state.pressure
+
+    @property
     def around(self):
         """Arguments that every loop begins with."""
         return self.cloud, self.walls, self.state, self.rows, self.neighbours.box
@@ -134,10 +139,10 @@ class MpsStepper:
             pools.lean(*self.around, cloud.density / dt, right)
         matrix = equations.matrix(*self.around, self.number, self.surface)
         try:
-            self.iterations += linear.solve(matrix, right, self.state.pressure, own.tolerance, own.iterations)
+            self.iterations += linear.solve(matrix, right, self.pressure, own.tolerance, own.iterations)
         except linear.Unsolved as error:
             self.guard.unsolved(self, error)
-        pressure = self.state.pressure
+        pressure = self.pressure
         below = pressure < 0.0 if own.holds(self.case) else np.zeros(count, bool)
         self.clipped -= float(pressure[below].sum())
         pressure[below] = 0.0
@@ -148,10 +153,10 @@ class MpsStepper:
         """Acceleration (N, 3) [m/s2] by the pressure; scale: rho/dt."""
         pressed = np.empty((len(self.state.x), 3))
         if not self.pool:
-            equations.press(*self.around, self.state.pressure, pressed)
+            equations.press(*self.around, self.pressure, pressed)
             return pressed
         borne = np.empty_like(pressed)
-        pools.press(*self.around, self.state.pressure, beside, scale, pressed, borne)
+        pools.press(*self.around, self.pressure, beside, scale, pressed, borne)
         self.load = -self.state.mass @ np.where((self.state.kind == LIQUID)[:, None], borne, 0.0)
         return pressed
 
@@ -206,7 +211,7 @@ class MpsStepper:
     def gauge(self) -> np.ndarray:
         """Pressure (N,) [Pa] of the liquid: that of the solver less what only holds the cohesion of the lattice."""
         own = self.p["free_energy_tension"]
-        return self.state.pressure + (own.cohesion if own else 0.0) * (self.surface == 0)
+        return self.pressure + (own.cohesion if own else 0.0) * (self.surface == 0)
 
     def take(self, keep) -> None:
         """Take out the particles that are not kept (N,); the next rows are made anew."""
