@@ -7,8 +7,8 @@ import sys
 from pathlib import Path
 
 from sdph.schema import CaseError
-
-FINE, CHECK_FAILED = 0, 1  # exit codes
+from sdph.study import apart
+from sdph.study.apart import CHECK_FAILED, FINE
 
 
 def stress_cases(options) -> int:
@@ -78,8 +78,6 @@ def _by_workers(options) -> bool:
 def _apart(names: list[str], words, options) -> int:
     """Judge each of the names by a command of its own; the worst exit code of those that came to no judgement, else
     whether all checks hold."""
-    from sdph.study import apart
-
     who = options.workers, options.scheduler
     found = apart.judged(names, words, who, lambda text: print(text, file=sys.stderr, flush=True))
     _tell([check for outcome in found.values() for check in outcome.get("checks", [])], options.json)

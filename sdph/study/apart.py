@@ -47,11 +47,11 @@ def checked(job: Command) -> dict:
     command, begun = [sys.executable, "-m", "sdph.cli", *job.words, "--json"], time.monotonic()
     more = {"stdin": subprocess.DEVNULL, "capture_output": True, "text": True}
     done = subprocess.run(command, cwd=job.home, env=environment(job.threads), **more)
-    outcome = {"exit_code": done.returncode, "reason": "", "checks": [], "took_s": time.monotonic() - begun}
-    if done.returncode in (FINE, CHECK_FAILED) and done.stdout.startswith("{"):
+    code = _exit_code(done.returncode)
+    outcome = {"exit_code": code, "reason": "", "checks": [], "took_s": time.monotonic() - begun}
+    if code in (FINE, CHECK_FAILED) and done.stdout.startswith("{"):
         return outcome | {"checks": json.loads(done.stdout)["checks"]}
-    code = done.returncode if done.returncode > 0 else 128 - done.returncode
-    return outcome | {"exit_code": code, "reason": reason(code, done.stderr.splitlines())}
+    return outcome | {"reason": reason(code, done.stderr.splitlines())}
 
 
 def ended(command: list[str], **more) -> int:
@@ -63,6 +63,11 @@ def ended(command: list[str], **more) -> int:
         except KeyboardInterrupt:
             process.wait(LINGER)
             raise
+    return _exit_code(code)
+
+
+def _exit_code(code: int) -> int:
+    """Exit code as a shell tells it: 128 + signal where one ended the command."""
     return code if code >= 0 else 128 - code
 
 
