@@ -23,13 +23,13 @@ from numba import njit
 from sdph import effects, scenes
 from sdph.case import read as cases
 from sdph.effects.effect import OFF
+from sdph.laws.compiled import FAST
 from sdph.methods.grains import contacts as shearing
 from sdph.methods.grains import equations as rates
 from sdph.study.explain import effect_costs
 from sdph.study.explain.tables import table
 
 LOOPS = {"sum_density": rates, "shear": shearing, "constitutive": rates, "rates": rates}
-FLAGS = {"reassoc", "nsz", "arcp", "contract", "afn"}  # as in sdph/methods/grains/equations.py
 NAME = re.compile(r"[.$\w@]*[A-Za-z_][.$\w@]*")
 
 
@@ -75,7 +75,7 @@ def arguments(simulation) -> dict[str, tuple]:
 
 def instructions(loop, given: tuple) -> list[str]:
     """Machine code of a loop for the types of its arguments, with symbols by the order in which they come up."""
-    serial = njit(error_model="numpy", fastmath=FLAGS)(loop.py_func)
+    serial = njit(error_model="numpy", fastmath=FAST)(loop.py_func)
     serial(*(a.copy() if hasattr(a, "copy") else a for a in given))
     (text,) = serial.inspect_asm().values()
     seen: dict[str, str] = {}

@@ -21,9 +21,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 
-from sdph.laws.compiled import inlined
+from sdph.laws.compiled import inlined, parallel, serial
 from sdph.laws.kernels import SUPPORT
 
 
@@ -127,14 +127,14 @@ def _bins(centres, smoothing, share) -> Bins:
     )
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def _spline(q):
     """Cubic spline (M4) without its normalisation, which `Bins.share` has, but for what rows take over."""
     a, b = max(0.0, SUPPORT - q), max(0.0, 1.0 - q)
     return 0.25 * a * a * a - b * b * b
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def _around(bins, a, value):
     """First and one past the last bin to look at along an axis, both from 0 to the number of bins, however far `value`
     is."""
@@ -163,13 +163,13 @@ def _add(bins, x, y, z, cells, weight, found):
     return found
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def _inside(side, reach, place):
     """True where a place is so far from both ends of an axis that none mirrors it."""
     return side == np.inf or reach <= place <= side - reach
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def _image(side, reach, place, which):
     """A place along one axis (0), or its mirror image at the origin (1) or at `side` (2), where that is near; else
     nan."""
@@ -215,13 +215,13 @@ def _weighed(bins, cells, weight, found):
     return np.int64(found)
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def _fill(bins, sides, points, number, cells, weight):
     for k in prange(len(points)):
         number[k] = _row(bins, sides, points[k, 0], points[k, 1], points[k, 2], cells[k], weight[k])
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def _gather(weights, field, out):
     for k in prange(len(out)):
         entries = np.uint64(weights.number[k])
@@ -232,7 +232,7 @@ def _gather(weights, field, out):
             out[k, m] = total
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def _deposit(weights, field, out):
     for k in range(len(field)):
         for e in range(np.uint64(weights.number[k])):

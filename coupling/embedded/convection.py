@@ -6,9 +6,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from coupling.embedded.linear import fill
+from sdph.laws.compiled import serial
 
 TURNOVER = 0.5  # of a cell's mass in one sub-step: up to here the scheme is bounded
 
@@ -26,7 +26,7 @@ class Nodes(NamedTuple):
     reach: np.ndarray
 
 
-@njit(error_model="numpy")
+@serial
 def carried(through, courant, values, gaps, reach, limited):
     """Value that `through` carries over a face, from the values far below, below, above and far above it, the three
     distances between them, and that from below to the face: upwind, or with van Leer's slope (J. Comput. Phys. 14,
@@ -45,7 +45,7 @@ def carried(through, courant, values, gaps, reach, limited):
     return (below if upwards else above) + rise
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def substeps(inner, flux, before, after, dt):
     """Sub-steps in which no cell lets more than `TURNOVER` of its mass out or in, and the Courant number of the
     window."""
@@ -63,7 +63,7 @@ def substeps(inner, flux, before, after, dt):
     return math.ceil(share * dt / TURNOVER), courant * dt
 
 
-@njit(error_model="numpy")
+@serial
 def _face_flux(nodes, a, field, mass, flux, sub, limited, face):
     """Flux of the field through each face of axis a, into face (S,)."""
     rows, run, steps = nodes.wide
@@ -77,7 +77,7 @@ def _face_flux(nodes, a, field, mass, flux, sub, limited, face):
             face[f] = through * carried(through, courant, values, gaps, reach[f], limited)
 
 
-@njit(error_model="numpy")
+@serial
 def _update(nodes, field, mass, flux, face, sub, follows):
     """Field and mass of every node after a sub-step."""
     rows, run, steps = nodes.inner
@@ -95,7 +95,7 @@ def _update(nodes, field, mass, flux, face, sub, follows):
             field[c] = content / mass[c] if active[c] else field[c]
 
 
-@njit(error_model="numpy")
+@serial
 def _ahead(field, exchange):
     """Field that faces carry: half a window's exchange on, with the (share kept, gain) of every node."""
     if len(exchange) == 0:
@@ -103,7 +103,7 @@ def _ahead(field, exchange):
     return exchange[0] * field + exchange[1]
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def convect(nodes, ghosts, field, mass, flux, dt, parts, limited, follows, exchange):
     """Transport `field` (S,) of nodes of `mass` (S,) [kg] by mass fluxes (d, S) [kg/s] over dt, in place.
 

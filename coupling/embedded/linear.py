@@ -4,7 +4,8 @@ gradients."""
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from sdph.laws.compiled import serial
 
 ITERATIONS = 500  # of a solver; our choice: far above what any case of ours needed
 
@@ -16,7 +17,7 @@ def not_converged(name: str, time: float, residual: float) -> str:
     )
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def fill(field, ghosts):
     """Set the ghosts of a field: the value where pinned, else that of the node."""
     ghost, node, pinned, value = ghosts
@@ -24,7 +25,7 @@ def fill(field, ghosts):
         field[ghost[n]] = value[n] if pinned[n] else field[node[n]]
 
 
-@njit(error_model="numpy")
+@serial
 def coupled(conductance, steps, x, c):
     """sum K of a node, and sum K x over its neighbours."""
     total, weighted = 0.0, 0.0
@@ -36,7 +37,7 @@ def coupled(conductance, steps, x, c):
     return total, weighted
 
 
-@njit(error_model="numpy")
+@serial
 def worst(nodes, r, scale):
     """Largest |r| over scale."""
     rows, run, _ = nodes
@@ -47,7 +48,7 @@ def worst(nodes, r, scale):
     return found
 
 
-@njit(error_model="numpy")
+@serial
 def iterate(nodes, conductance, diagonal, rho, first, x, r, z, p, q):
     """One step of preconditioned conjugate gradients on x (S,), z (S,) being about A^-1 r, 0 on nodes that are given;
     returns r.z."""
@@ -74,7 +75,7 @@ def iterate(nodes, conductance, diagonal, rho, first, x, r, z, p, q):
     return new
 
 
-@njit(error_model="numpy")
+@serial
 def _begin(nodes, active, conductance, diagonal, source, x, inverse, r):
     """Inverse diagonal, 0 on given nodes, and residual; returns the largest |x|."""
     rows, run, steps = nodes
@@ -88,7 +89,7 @@ def _begin(nodes, active, conductance, diagonal, source, x, inverse, r):
     return largest
 
 
-@njit(error_model="numpy")
+@serial
 def _settle(wide, active, conductance, diagonal, source, x, through):
     """Set the upward flux through every face, and x = (source + what came in)/D."""
     rows, run, steps = wide
@@ -105,7 +106,7 @@ def _settle(wide, active, conductance, diagonal, source, x, through):
             x[c] = content / diagonal[c] if active[c] else x[c]
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def solve_implicit(wide, active, conductance, diagonal, source, x, tolerance):
     """Solve D x + sum K (x - x_nb) = source on the active nodes, in place; other nodes of x are given values.
 

@@ -9,7 +9,6 @@ half on to the boundary.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from coupling.embedded.boundaries import active_nodes, component_ghosts, on_faces
 from coupling.embedded.box import Box, Flow, Window
@@ -17,15 +16,16 @@ from coupling.embedded.convection import Nodes, convect, substeps
 from coupling.embedded.grid import component_spacing
 from coupling.embedded.impulses import crossed, rims_of
 from coupling.embedded.linear import fill, solve_implicit
+from sdph.laws.compiled import serial
 
 
-@njit(error_model="numpy")
+@serial
 def corner(values, f, s, t):
     """Mean of the four cells round the edge between f, f - s, f - t and f - s - t."""
     return 0.25 * (values[f] + values[f - s] + values[f - t] + values[f - s - t])
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def viscous_conductances(wide, axis, viscosity, grid, hold, dt, out):
     """dt alpha mu A/distance [kg] between the velocities along `axis` and their neighbours, into out (d, S)."""
     rows, run, steps = wide
@@ -42,7 +42,7 @@ def viscous_conductances(wide, axis, viscosity, grid, hold, dt, out):
                     out[b, f] = dt * corner(viscosity, f, s, t) * held / grid.gap[b, f]
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def divergence(inner, velocity, width, out):
     """div v of the cells, into out (S,)."""
     rows, run, steps = inner
@@ -53,7 +53,7 @@ def divergence(inner, velocity, width, out):
                 out[c] += (velocity[a, c + steps[a]] - velocity[a, c]) / width[a, c]
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def rest_of_stress(wide, axis, viscosity, velocity, spread, grid, out):
     """Part of tau (Eq. 5 of the closure sheet) that the Laplacian leaves out, times area [N], on the faces of the
     control volumes of the velocity along `axis`, into out (d, S): alpha mu (dv_b/dx_axis - 2/3 div v on the normal
@@ -72,7 +72,7 @@ def rest_of_stress(wide, axis, viscosity, velocity, spread, grid, out):
                     out[b, f] = corner(viscosity, f, s, t) * slope * 0.5 * (area[b, f - s] + area[b, f])
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def momentum_balance(wide, axis, active, grid, cells, stress, moved, gravity, dt, diagonal, source):
     """Diagonal [kg] and source [kg m/s] of the implicit equation for the velocity along `axis`.
 
@@ -97,7 +97,7 @@ def momentum_balance(wide, axis, active, grid, cells, stress, moved, gravity, dt
             source[f] = m * moved[f] + dt * force
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def viscous_impulse(wide, axis, active, mass, rubbed, stress, out):
     """Impulse [kg m/s] of viscosity on the free velocities along an axis, into out (S,): of the implicit part, `rubbed`
     (d, S) upwards through faces, and of the rest as `momentum_balance` has it, `stress` (d, S) downwards."""

@@ -12,11 +12,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numba.cpython.unsafe.tuple import tuple_setitem
 
 from coupling.embedded.grid import build_grid, indices
 from coupling.embedded.linear import ITERATIONS, coupled, iterate, worst
+from sdph.laws.compiled import serial
 
 ELONGATED = 1.5  # an axis waits while its cells are this much longer than the shortest; our choice
 TWO, BLACK, RED = np.uint64(2), np.uint64(1), np.uint64(0)
@@ -91,7 +91,7 @@ def _family(grid, coarse, parent):
     return into, ratio
 
 
-@njit(error_model="numpy")
+@serial
 def _steps(levels, steps, l):
     """The strides of level l, as a tuple like those of the finest."""
     for a in range(len(steps)):
@@ -99,17 +99,17 @@ def _steps(levels, steps, l):
     return steps
 
 
-@njit(error_model="numpy")
+@serial
 def _part(levels, l, packed):
     return packed[levels.first[l] : levels.first[l + 1]]
 
 
-@njit(error_model="numpy")
+@serial
 def _rows(levels, l):
     return levels.rows[levels.row_first[l] : levels.row_first[l + 1]]
 
 
-@njit(error_model="numpy")
+@serial
 def _sum(levels, l, steps, conductance, inverse):
     """One over the sum of the conductances of each cell; 0 where nothing reaches it."""
     run = levels.run[l]
@@ -119,7 +119,7 @@ def _sum(levels, l, steps, conductance, inverse):
             inverse[c] = 1.0 / total if total > 0.0 else 0.0
 
 
-@njit(error_model="numpy")
+@serial
 def _prepare(levels, steps, conductance, inverse):
     """Conductances of the coarse levels from those of the finest, and the inverse of every diagonal."""
     count = len(levels.run)
@@ -135,7 +135,7 @@ def _prepare(levels, steps, conductance, inverse):
                     above[a, levels.parent[c]] += conductance[a, c] * levels.ratio[a, c]
 
 
-@njit(error_model="numpy")
+@serial
 def _smooth(levels, l, steps, colour, conductance, inverse, b, x):
     """Gauss-Seidel on the cells of one colour."""
     run, odd = levels.run[l], levels.odd[levels.row_first[l] : levels.row_first[l + 1]]
@@ -146,7 +146,7 @@ def _smooth(levels, l, steps, colour, conductance, inverse, b, x):
             x[c] = (b[c] + weighted) * inverse[c]
 
 
-@njit(error_model="numpy")
+@serial
 def _restrict(levels, l, steps, conductance, inverse, b, x, below):
     """Add up the residuals of level l, which are zero on the cells smoothed last, for the next coarser one."""
     run, odd = levels.run[l], levels.odd[levels.row_first[l] : levels.row_first[l + 1]]
@@ -158,7 +158,7 @@ def _restrict(levels, l, steps, conductance, inverse, b, x, below):
             below[parent[c]] += b[c] + weighted - total * x[c]
 
 
-@njit(error_model="numpy")
+@serial
 def _correct(levels, l, coarse, x):
     """Add the correction of the next coarser level to level l."""
     run, parent = levels.run[l], _part(levels, l, levels.parent)
@@ -167,7 +167,7 @@ def _correct(levels, l, coarse, x):
             x[c] += coarse[parent[c]]
 
 
-@njit(error_model="numpy")
+@serial
 def _cycle(levels, steps, conductance, inverse, b, x):
     """One symmetric V(1,1) cycle: x = about A^-1 b on the finest level."""
     count = len(levels.run)
@@ -187,7 +187,7 @@ def _cycle(levels, steps, conductance, inverse, b, x):
         _smooth(levels, l, s, RED, k, *mine)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def solve_pressure(levels, inner, work, source, scale, x, tolerance):
     """Solve sum K (x - x_nb) = source on the cells, x (S,) from zero, until |residual| <= tolerance scale on each.
 

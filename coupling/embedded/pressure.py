@@ -10,18 +10,18 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from coupling.embedded.boundaries import resting_pressure
 from coupling.embedded.box import Box, Flow, Window
 from coupling.embedded.linear import not_converged
 from coupling.embedded.multigrid import build_levels, solve_pressure
 from coupling.gas import Unfinished
+from sdph.laws.compiled import serial
 
 CONTINUITY = 1e3  # tolerances: what of a cell's mass the solver may leave over in a window; our choice
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def face_fluxes(wide, active, grid, alpha, density, diagonal, velocity, dt, flux, conductance):
     """Mass fluxes [kg/s] of the predicted velocity on the active faces, and dt^2 alpha rho A alpha V/(D distance)
     [kg/Pa]. density (S,): alpha rho, ghosts as their neighbours."""
@@ -38,7 +38,7 @@ def face_fluxes(wide, active, grid, alpha, density, diagonal, velocity, dt, flux
                 conductance[a, f] = ease if active[a, f] else 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def balance(inner, flux, gained, mass, dt, out):
     """out (S,) = mass + dt (gained - div flux) of every cell [kg]."""
     rows, run, steps = inner
@@ -50,7 +50,7 @@ def balance(inner, flux, gained, mass, dt, out):
             out[c] = mass[c] + dt * change
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def correct(wide, active, grid, alpha, diagonal, conductance, correction, dt, velocity, flux):
     """Velocity and fluxes after the correction of the pressure, in place."""
     rows, run, steps = wide

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numba import njit
 
 from coupling.embedded.boundaries import Ghosts, on_faces
 from coupling.embedded.box import Box, Flow, Window
@@ -13,11 +12,12 @@ from coupling.embedded.convection import Nodes, convect, substeps
 from coupling.embedded.linear import fill, solve_implicit
 from coupling.embedded.works import pressure_work
 from coupling.gas import Unfinished
+from sdph.laws.compiled import serial
 
 NO_SHIFT = np.uint64(0)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def face_conductances(wide, grid, cell_value, hold, dt, out):
     """dt k A/distance on every face, k linear between the cells (ghosts as their neighbours), into out (d, S)."""
     rows, run, steps = wide

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from sdph.engine import softening
 from sdph.engine.state import GRAIN
 from sdph.laws import granular
+from sdph.laws.compiled import serial
 
 
 def share(state, held) -> float:
@@ -38,7 +38,7 @@ def streaming(p, state, factor: float, name: str) -> dict[str, float]:
     return {f"knudsen_{name}_share": share(state, taken > 0.0), f"knudsen_{name}_rel": share(state, taken)}
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def _taken(p, alpha_p, diameter, factor, part):
     for i in range(len(part)):
         a = granular.capped_fraction(alpha_p[i], p.packing)

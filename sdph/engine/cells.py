@@ -8,7 +8,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
+
+from sdph.laws.compiled import parallel, serial
 
 
 class Grid(NamedTuple):
@@ -20,13 +22,13 @@ class Grid(NamedTuple):
     period: np.ndarray
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def _place(grid, a, value):
     cell = int((value - grid.origin[a]) / grid.size[a])
     return min(max(cell, 0), grid.shape[a] - 1)
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def halves(grid, x, y, z, solid):
     """Half of a cell that each particle is in, (N,): twice the number of the cell, x fastest, and one more for what is
     solid."""
@@ -39,7 +41,7 @@ def halves(grid, x, y, z, solid):
     return number
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def starts(number, total):
     """First particle of each cell, (total + 1,), from their cell numbers."""
     start = np.zeros(total + 1, np.int64)
@@ -48,7 +50,7 @@ def starts(number, total):
     return np.cumsum(start)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def order(number, total):
     """Row of each particle after a stable counting sort by cell."""
     start = starts(number, total)
@@ -59,7 +61,7 @@ def order(number, total):
     return rows
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def span(grid, a, value):
     """First and one past the last cell to look at along an axis; beyond the ends on a periodic one."""
     cell = _place(grid, a, value)
@@ -68,7 +70,7 @@ def span(grid, a, value):
     return max(cell - 1, 0), min(cell + 2, grid.shape[a])
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def turned(cell, count):
     """A cell of `span`, one turn at most beyond the ends of an axis, by its number; % would cost more than the rest."""
     return cell + count if cell < 0 else cell - count if cell >= count else cell

@@ -13,10 +13,10 @@ import math
 
 import numpy as np
 import scipy
-from numba import njit
 
 from sdph.engine import state as particles
 from sdph.engine.kept import GROWING, Unfit
+from sdph.laws.compiled import serial
 
 STEADY = 0.2  # of sqrt(m/k), the time of the spring: longest that its force may be held; our choice
 
@@ -124,7 +124,7 @@ class Touching:
         return pairs[:, 0] * len(self.body) + pairs[:, 1]
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def _press(stiffness, s, pairs, lengths, acceleration):
     energy = 0.0
     for n in range(len(pairs)):

@@ -9,9 +9,6 @@ from sdph.laws.compiled import inlined
 SIDES = {"left": (0, 0), "right": (0, 1), "bottom": (1, 0), "top": (1, 1), "back": (2, 0), "front": (2, 1)}  # axis, end
 PAIRS = tuple(zip(list(SIDES)[::2], list(SIDES)[1::2]))  # of opposite sides, by axis
 
-# Sums may be reordered and vectorised; nan and inf keep their meaning, so that a run that bursts is noticed.
-FAST = {"reassoc", "nsz", "arcp", "contract", "afn"}
-
 
 @inlined
 def apart(s, box, i, j):

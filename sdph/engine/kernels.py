@@ -7,9 +7,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from numba import njit
-
 from sdph.laws import kernels
+from sdph.laws.compiled import serial
 from sdph.laws.constants import TINY
 
 
@@ -43,7 +42,7 @@ def smoothing(name: str, dimensions: int, h: float) -> Cubic | Wendland:
     return Wendland(h, 1.0 / h, sigma, -5.0 * sigma / h**2, 0.5 / h)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def value(kernel, r):
     """W [1/m^d]."""
     if len(kernel) == 5:
@@ -54,7 +53,7 @@ def value(kernel, r):
     return kernel.value * (a * a * a - 4.0 * b * b * b)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def slope(kernel, r):
     """(dW/dr)/r [1/m^(d+2)]: grad_i W = r_ij * this."""
     if len(kernel) == 5:

@@ -10,7 +10,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
+
+from sdph.laws.compiled import parallel
 
 PART = 4096  # of a sum; our choice
 
@@ -55,7 +57,7 @@ def solve(matrix: Matrix, right, x, tolerance: float, most: int) -> int:
     raise Unsolved(f"{most} iterations left a residual of {left:.3g} of the right-hand side, above {tolerance:g}")
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def multiply(matrix, x):
     """A x (N,)."""
     out = np.empty(len(x))
@@ -72,7 +74,7 @@ def dot(a, b) -> float:
     return float(_parts(a, b).sum())
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def _parts(a, b):
     parts = np.zeros((len(a) + PART - 1) // PART)
     for k in prange(len(parts)):

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from numba import njit, prange
+from numba import prange
+
+from sdph.laws.compiled import parallel
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def kick(active, acceleration, dt, u, v, w):
     """v += a dt."""
     for n in prange(len(active)):
@@ -16,7 +18,7 @@ def kick(active, acceleration, dt, u, v, w):
             w[i] += dt * acceleration[i, 2]
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def turn(active, frame_p, dt, acceleration):
     """a -= 2 omega x (a dt/2): Coriolis' acceleration of the velocity that the kick by dt/2 to come leads to.
 
@@ -30,7 +32,7 @@ def turn(active, frame_p, dt, acceleration):
         acceleration[i, 2] -= dt * (frame_p.wx * ay - frame_p.wy * ax)
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def drift(active, u, v, w, dt, x, y, z):
     """r += v dt."""
     for n in prange(len(active)):
@@ -41,14 +43,14 @@ def drift(active, u, v, w, dt, x, y, z):
             z[i] += dt * w[i]
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def densify(active, rate, dt, density):
     """rho += rate dt."""
     for n in prange(len(active)):
         density[active[n]] += dt * rate[active[n]]
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def fastest(s, active, acceleration):
     """Largest v^2 [m2/s2] and a^2 [m2/s4] of the liquid."""
     speed = force = 0.0
@@ -60,7 +62,7 @@ def fastest(s, active, acceleration):
     return speed, force
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def momentum(s, active):
     """Momentum of the liquid [kg m/s], three components."""
     x = y = z = 0.0
@@ -72,7 +74,7 @@ def momentum(s, active):
     return x, y, z
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def travelled(x, y, z, x0, y0, z0):
     """Largest squared distance [m2] between two sets of places."""
     most = 0.0

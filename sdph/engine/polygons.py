@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from sdph.laws.compiled import serial
 
 
 def area(x, y) -> float:
@@ -11,7 +12,7 @@ def area(x, y) -> float:
     return 0.5 * float((x * np.roll(y, -1) - np.roll(x, -1) * y).sum())
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def holds(corner_x, corner_y, x, y):
     """(N,) bool: which points lie within a polygon, by the crossings of a line to the right."""
     within = np.zeros(len(x), np.bool_)

@@ -14,9 +14,8 @@ import math
 
 import numpy as np
 import scipy
-from numba import njit
 
-from sdph.laws.compiled import inlined
+from sdph.laws.compiled import inlined, serial
 
 
 def near(points, first, second, reach: float) -> np.ndarray:
@@ -47,7 +46,7 @@ def foot(x, y, i, a, b):
     return dx - share * along_x, dy - share * along_y, share
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def press(stiffness, distance, x, y, segments, bears, pairs, force):
     """Add to force (N, 3) [N] on all particles; energy [J] of the springs.
 

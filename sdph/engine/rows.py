@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 
 from sdph.engine import motion
 from sdph.engine import state as particles
@@ -19,7 +19,7 @@ from sdph.engine.cells import Grid, halves, order, span, starts, turned
 from sdph.engine.geometry import OPEN, OPEN_PLANE, box_of, nearest_image
 from sdph.engine.kept import Many
 from sdph.engine.state import WALL
-from sdph.laws.compiled import inlined
+from sdph.laws.compiled import inlined, parallel, serial
 
 SKIN = 0.1  # of the reach; our choice: 0.2 h measured best (about 5-8 steps per list), and the reach is 2 h
 CELLS_A_PARTICLE = 16  # memory of the cells stays below that of the rows; our choice
@@ -153,20 +153,20 @@ def length(rows, i):
     return (rows.number[i] + LANES - 1) // LANES * LANES
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def _end(entries, first, last, i):
     for e in range(first, last):
         entries[e] = i
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def shorten(rows, i, number):
     """Leave row i its first `number` entries, and put i itself behind them as far as `length` goes."""
     rows.number[i] = number
     _end(rows.entries, place(rows, i, number), place(rows, i, length(rows, i)), i)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def _run(begin, line, shape, x0, x1, blind, n):
     """First and one past the last particle of the n-th run of a line of `shape` cells, of which x0 to x1 are looked at:
     one run for each time round a periodic box, or for who is blind to what is solid the first half of each cell. They
@@ -179,7 +179,7 @@ def _run(begin, line, shape, x0, x1, blind, n):
     return (begin[2 * (line + low)], begin[2 * (line + high)]) if low < high else (np.uint64(0), np.uint64(0))
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def _counted(x, y, z, box, xi, yi, zi, cutoff2, first, last):
     """Number of a run's particles within the cutoff."""
     found = 0
@@ -189,7 +189,7 @@ def _counted(x, y, z, box, xi, yi, zi, cutoff2, first, last):
     return found
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def _listed(x, y, z, box, xi, yi, zi, own, cutoff2, first, last, entries, end):
     """Appends those to the entries and returns their end. One is written before it is known to count, which saves a
     branch."""
@@ -200,7 +200,7 @@ def _listed(x, y, z, box, xi, yi, zi, own, cutoff2, first, last, entries, end):
     return end
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def _count(grid, begin, x, y, z, at_x, at_y, at_z, blind, same, box, cutoff2, number):
     """number (n,) of neighbours (x, y, z), sorted by cell, of the points at_x, at_y, at_z; with `same` i is not its
     own."""
@@ -220,7 +220,7 @@ def _count(grid, begin, x, y, z, at_x, at_y, at_z, blind, same, box, cutoff2, nu
         number[i] = max(found, 0)  # who is nowhere does not see itself
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def _fill(grid, begin, x, y, z, at_x, at_y, at_z, blind, same, box, cutoff2, start, number, entries):
     """entries: the rows, each from its start on, of what `_count` has counted."""
     for i in prange(len(at_x)):

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import apart
 from sdph.engine.rows import entry
+from sdph.laws.compiled import serial
 from sdph.laws.constants import SOFTENING
 
 SAMPLE = 8  # of so many particles one is looked at: a mean over a cloud, which costs nothing then; our choice
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def taken(kernel, s, rows, box, chosen, weight, eta_squared):
     """Part [-] of sum_i sum_j w_j r^2 (dW/dr)/r, a diffusion's own weights, that eta_squared [m2] in r^2/(r^2 + eta^2)
     takes away; over the `chosen` (C,) particles and neighbours of weight (N,)."""

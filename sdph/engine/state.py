@@ -10,7 +10,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
+
+from sdph.laws.compiled import parallel
 
 # values of `kind`, of all methods alike; INFLOW: still upstream of its nozzle. Files hold them: they stay as
 # they are
@@ -165,7 +167,7 @@ def take(state: State, rows: np.ndarray) -> State:
     return _map(lambda array: _taken(array, rows), state)
 
 
-@njit(cache=True, parallel=True)
+@parallel
 def _taken(array, rows):
     """array[rows]."""
     out = np.empty(len(rows), array.dtype)

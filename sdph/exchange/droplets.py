@@ -11,20 +11,21 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 
 from sdph.effects.gas import sizes
 from sdph.effects.gas.evaporation import driving_force, past_boiling, saturated, ventilation
 from sdph.engine.state import GRAIN
 from sdph.laws import evaporation as law
 from sdph.laws import grain_loss
+from sdph.laws.compiled import parallel, serial
 from sdph.laws.exchange import mean_rise
 
 PROBE = 1e-3  # K, step of the slope of the rate with temperature
 FINISHED = 1e-9  # of the mass at birth, below which a particle has evaporated; our choice
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def transfer(p, sizes_p, s, i, c):
     """k_c A of all grains [m3/s]: flow of gas that they exchange, the mass average over their sizes."""
     total = whole = 0.0
@@ -38,7 +39,7 @@ def transfer(p, sizes_p, s, i, c):
     return s.mass[i] / p.grain_density * total / whole
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def kept_share(sizes_p, s, i, still, moving):
     """Share of its mass that particle i keeps when `still` = integral of a dt [m2], `moving` of a c dt [m^3/2] are
     lost."""
@@ -52,13 +53,13 @@ def kept_share(sizes_p, s, i, still, moving):
     return sizes.remaining(sizes.birth_of(s.born_diameter[i], s.born_variance[i], *lost))[0] / before
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def is_sealed(s, i):
     """True where a shell holds vapour in (sdph.effects.gas.micro_explosion)."""
     return len(s.sealed) > 0 and s.sealed[i] > 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def active_time(p, s, i, conductance, gas_temperature, dt):
     """Time [s] of the window in which particle i evaporates: from when it reaches the onset, as it warms up."""
     if is_sealed(s, i):
@@ -72,7 +73,7 @@ def active_time(p, s, i, conductance, gas_temperature, dt):
     return max(0.0, dt - capacity / conductance * math.log(missing))
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def survey(p, sizes_p, s, slip, gas_density, gas_temperature, dt, conductance, flow, surface):
     """Look, before the losses, at gas [m3/s] that the particle exchanges vapour with, averaged over the window, and
     vapour at its surface [kmol/m3]; conductance (N,) [W/K] of heat."""
@@ -84,7 +85,7 @@ def survey(p, sizes_p, s, slip, gas_density, gas_temperature, dt, conductance, f
             surface[i] = saturated(p, s.temperature[i], gas_temperature[i])
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def losses(
     p,
     sizes_p,
@@ -136,7 +137,7 @@ def losses(
                 conductance[i] *= shrinkage(loss[i], rate * force * time)
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def rates(p, sizes_p, s, slip, gas_density, gas_temperature, concentration, rate):
     """rate (N,) [kg/s] at which each particle evaporates now."""
     for i in prange(len(s.x)):
@@ -146,14 +147,14 @@ def rates(p, sizes_p, s, slip, gas_density, gas_temperature, concentration, rate
             rate[i] = max(0.0, force) * transfer(p, sizes_p, s, i, ventilation(p, slip[i], gas_density[i]))
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def shrinkage(loss, unshrunk):
     """Mean over the window of the grains' exchange over that at its start: what was lost over what the start would
     lose."""
     return min(1.0, loss / unshrunk)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def window_force(p, sizes_p, s, i, rate, c, gas_density, gas_temperature, concentration, time, dt, conductance):
     """Driving force [kg/m3] at the mean temperature of the window; at boiling what the heat that comes in
     evaporates."""
@@ -173,14 +174,14 @@ def window_force(p, sizes_p, s, i, rate, c, gas_density, gas_temperature, concen
     return max(force, boiling_force(p, temperature, gas_temperature, warmth, capacity, latent, force, dt))
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def slope_of(p, temperature, concentration, gas_temperature, gas_density, now):
     """Slope [kg/m3/K] of the driving force, which is `now`, with the temperature of the droplet."""
     below = driving_force(p, temperature - PROBE, concentration, gas_temperature, gas_density)
     return (now - below) / PROBE
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def held(p, s, gas_density, gas_temperature, concentration, flat, boiling):
     """Mark (N,) the particles whose slope is held at 0, and those whose vapour at the surface is held below boiling."""
     for i in prange(len(s.x)):
@@ -189,7 +190,7 @@ def held(p, s, gas_density, gas_temperature, concentration, flat, boiling):
         boiling[i] = past_boiling(p, s.temperature[i]) and not is_sealed(s, i)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def boiling_force(p, temperature, gas_temperature, warmth, capacity, latent, force, dt):
     """Driving force [kg/m3] that holds the end of the window at the boiling temperature; `force` if it stays below."""
     if warmth == 0.0 or latent == 0.0 or gas_temperature <= p.boiling_temperature:
@@ -197,7 +198,7 @@ def boiling_force(p, temperature, gas_temperature, warmth, capacity, latent, for
     return law.boiling_force(temperature, gas_temperature, p.boiling_temperature, warmth, capacity, latent, force, dt)
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def shrink(p, sizes_p, s, still, moving, latched, diameter, variance):
     """Sizes of each particle after its loss: latch, mean [m] and variance [m2] of the diameters left."""
     for i in prange(len(s.x)):

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 
 from coupling.transfer import gather
 from sdph.effects.gas import drag, film, heat, lift, radiation
 from sdph.engine import state as particles
 from sdph.engine.state import GRAIN
 from sdph.laws import evaporation
+from sdph.laws.compiled import parallel
 from sdph.laws.exchange import exponential_fraction
 
 # of the temperature: smaller differences need not be resolved (round-off else rules the window); our choice
@@ -43,7 +44,7 @@ def temperature_span(case) -> float:
     return max(max(case.temperatures) - min(case.temperatures), NEGLIGIBLE * max(case.temperatures))
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def rates(
     drag_p, heat_p, radiation_p, lift_p, film_p, sizes_p, s, grain_density, apart, slip, gas_density, gas_temperature,
     vorticity, conductance, damping, force,
@@ -66,7 +67,7 @@ def rates(
                 force[i, 2] += z
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def shares(s, temperature, heat_capacity, origin, dt, conductance, damping, kept, power, heat_share, pull, shared_mass):
     """Shares of a window's exchange: heat_share [W/K] and pull [W] of heat, from `temperature` (N,) on, m_k f_k/dt
     [kg/s] of momentum.

@@ -1,9 +1,84 @@
-"""Compilation of laws and of small functions: cached on disk, IEEE division (1/0 is inf, as in numpy), no fast-math."""
+"""How functions are compiled: `law` and `serial` (one thread), `inlined` (part of a loop), `parallel`; cached on disk,
+IEEE division (1/0 is inf, as in numpy); `fast_` ones may sum in any order.
 
+numba spends two thirds of a cold start on what nobody needs, because a State has about eighty arrays: a way in from
+Python for functions that only loops call, and copies of the whole State that LLVM takes to pieces one by one. Neither
+is made here: the first start of a bed compiles for 70 s instead of 140 (benchmarks/README.md).
+"""
+
+from __future__ import annotations
+
+import types
+
+from llvmlite import binding
 from numba import njit
+from numba.core.codegen import CPUCodeLibrary
+from numba.core.registry import CPUDispatcher
 
-law = njit(cache=True, error_model="numpy")
+# Sums may be reordered and vectorised: 2.3 times as fast. nan and inf keep their meaning, so that a run that bursts is
+# noticed.
+FAST = {"reassoc", "nsz", "arcp", "contract", "afn"}
+COMMON = {"error_model": "numpy", "no_cfunc_wrapper": True}
+
+
+class Compiled(CPUDispatcher):
+    """A compiled function whose way in from Python is compiled apart, when Python first calls it."""
+
+    _entry = None
+
+    def __call__(self, *arguments, **named):
+        if self._entry is None:
+            self._entry = njit(cache=True, **self._options())(self._twin())
+        return self._entry(*arguments, **named)
+
+    def _options(self) -> dict:
+        return {
+            name: value for name, value in self.targetoptions.items() if name not in ("nopython", "no_cpython_wrapper")
+        }
+
+    def _twin(self):
+        """The same function by another name: numba's cache knows functions by their names."""
+        own = self.py_func
+        twin = types.FunctionType(own.__code__, own.__globals__, own.__name__, own.__defaults__, own.__closure__)
+        twin.__module__, twin.__qualname__, twin.__doc__ = own.__module__, f"{own.__qualname__}.called", own.__doc__
+        return twin
+
+
+def _within(**options):
+    """Decorator: a function that other compiled ones call, and Python too."""
+
+    def decorate(function) -> Compiled:
+        made = Compiled(function, targetoptions=dict(options, nopython=True, no_cpython_wrapper=True))
+        made.enable_caching()
+        return made
+
+    return decorate
+
+
+def _combine_first() -> None:
+    """Have LLVM read the fields of a struct one by one before it splits the struct.
+
+    Else it splits every copy of a State into its 600 numbers: 2.6 s for the function around one loop, 0.17 s so.
+    """
+    optimise = CPUCodeLibrary._optimize_functions
+
+    def combined(library, module) -> None:
+        passes = binding.create_new_function_pass_manager()
+        passes.add_instruction_combine_pass()
+        for function in module.functions:
+            if not function.is_declaration:
+                passes.run(function, library._codegen._pass_builder())
+        optimise(library, module)
+
+    CPUCodeLibrary._optimize_functions = combined
+
+
+_combine_first()
+law = serial = _within(**COMMON)
 # What stands in every loop over pairs, or takes the whole state, is part of the loop: a call costs more than what it
 # computes. LLVM takes such functions in by itself only when a loop comes from the cache: the process that compiles
 # `rates` ran it 2.4 times slower.
-inlined = njit(cache=True, error_model="numpy", forceinline=True)
+inlined = _within(**COMMON, forceinline=True)
+fast_inlined = _within(**COMMON, forceinline=True, fastmath=FAST)
+parallel = njit(cache=True, parallel=True, **COMMON)
+fast_parallel = njit(cache=True, parallel=True, fastmath=FAST, **COMMON)

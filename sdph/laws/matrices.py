@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
+from sdph.laws.compiled import serial
 
 SINGULAR = 1e-3  # determinant of a renormalisation matrix; 1 inside, 0.1-0.5 at a surface; our choice
 ROUND_OFF = 1e-32  # squared, of what is off the diagonal: round-off of float64
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def solved(xx, yy, zz, xy, yz, zx, gx, gy, gz):
     """Solution of M x = g for a symmetric M; 0 where M is close to singular (a line of particles, or spray)."""
     a, b, c = yy * zz - yz * yz, zx * yz - xy * zz, xy * yz - zx * yy
@@ -22,13 +22,13 @@ def solved(xx, yy, zz, xy, yz, zx, gx, gy, gz):
     return scale * (a * gx + b * gy + c * gz), scale * (b * gx + e * gy + f * gz), scale * (c * gx + f * gy + g * gz)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def determinant(xx, yy, zz, xy, yz, zx):
     """Determinant of a symmetric matrix; below SINGULAR nothing is `solved`."""
     return xx * (yy * zz - yz * yz) + xy * (zx * yz - xy * zz) + zx * (xy * yz - zx * yy)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def smallest(xx, yy, zz, xy, yz, zx):
     """Smallest eigenvalue of a symmetric matrix, by its invariants (Smith 1961, Commun. ACM 4, 168)."""
     mean = (xx + yy + zz) / 3.0
@@ -41,7 +41,7 @@ def smallest(xx, yy, zz, xy, yz, zx):
     return mean + 2.0 * spread * math.cos(angle + 2.0 * math.pi / 3.0)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def turned(pp, qq, pq, pr, qr):
     """(pp, qq, pr, qr, cosine, sine) of a symmetric matrix after the turn in the plane of axes p and q that makes its
     element pq 0; r is the third axis. Jacobi 1846; Golub & Van Loan 2013, section 8.5."""
@@ -54,7 +54,7 @@ def turned(pp, qq, pq, pr, qr):
     return pp - t * pq, qq + t * pq, c * pr - s * qr, s * pr + c * qr, c, s
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def spun(cosine, sine, a, b):
     """Vectors (3,) a and b turned in their plane."""
     return (
@@ -63,7 +63,7 @@ def spun(cosine, sine, a, b):
     )
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def principal(xx, yy, zz, xy, yz, zx):
     """Eigenvalues (a, b, c) of a symmetric matrix and eigenvectors (ax, ay, az, bx, by, bz, cx, cy, cz), in no order:
     cyclic Jacobi turns until what is off the diagonal is round-off."""

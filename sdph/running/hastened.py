@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from sdph.effects.liquids import time_scaling
-from sdph.engine import polygons
+from sdph.engine import motion, polygons
 from sdph.running.alone import STRIDE, Alone
 from sdph.running.tear import Tear
 from sdph.running.together import Together
@@ -60,7 +60,7 @@ class Hastened(Together):
 
     def start(self) -> None:
         super().start()
-        self._hasten(time_scaling.pace(self.p, self.speed, self.pace))
+        self._hasten(time_scaling.pace(self.p, self.speed, self._fastest(), self.pace))
 
     def _advance(self) -> None:
         self.bodies.begin()
@@ -89,7 +89,7 @@ class Hastened(Together):
         self.most["pressure_max_Pa"] = max(self.most["pressure_max_Pa"], self.stepper.void.pressure)
         self.most["diameter_ratio_max"] = max(self.most["diameter_ratio_max"], self.diameter_ratio())
         self._weigh(old, passed)
-        self._hasten(time_scaling.pace(self.p, self.speed, self.pace))
+        self._hasten(time_scaling.pace(self.p, self.speed, self._fastest(), self.pace))
 
     def _weigh(self, old: float, passed: float) -> None:
         """Mean pressure that inertia takes, and the most over that of the bubble."""
@@ -123,6 +123,11 @@ class Hastened(Together):
         clock.outputs = np.union1d(clock.outputs[clock.outputs <= tear], shows)
         clock.landmarks = np.union1d(clock.landmarks[clock.landmarks <= tear], np.union1d(ways, shows))
         clock.shortest = 1e-9 * last
+
+    def _fastest(self) -> float:
+        """Highest speed [m/s] of the gel."""
+        own = self.stepper
+        return math.sqrt(motion.fastest(own.state, own.active, own.acceleration)[0])
 
     def _inner(self) -> float:
         """Radius [m] of a circle as large as the shell's lining."""

@@ -11,10 +11,10 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from sdph.effects.gas import sizes
 from sdph.laws import grain_loss
+from sdph.laws.compiled import serial
 from sdph.methods.grains.history import carried
 
 FINER = 8  # nodes for each of the rule of sizes: quantiles to 0.3 % (tests/running/test_sizing.py); our choice
@@ -70,7 +70,7 @@ def metrics(simulation) -> dict[str, float]:
     return diameters(sums_of(found), found.volume)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def tally(p, density, s, number, first, second, third, volume):
     """Fill a Census; `p` of the sizes, density [kg/m3]. What lies beyond LEAST and MOST counts as of them."""
     for i in range(len(s.x)):
@@ -83,7 +83,7 @@ def tally(p, density, s, number, first, second, third, volume):
         number[i] = s.mass[i] / (density * math.pi / 6.0 * third[i]) if third[i] > 0.0 else 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def share(own, whole, i, first, second, third, volume):
     """Means of the drops of particle i, and its volume `whole` [m3] shared among the bins."""
     count = one = two = three = 0.0
@@ -107,7 +107,7 @@ def share(own, whole, i, first, second, third, volume):
         volume[place(upper)] += 0.5 * whole * amount / three
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def spread(amount, lower, upper, volume):
     """Put a volume [m3] evenly in ln d between two diameters [m]; all of it at the upper where the lower has gone."""
     high = position(upper)
@@ -120,7 +120,7 @@ def spread(amount, lower, upper, volume):
         volume[b] += amount * (min(high, b + 1.0) - max(low, float(b))) / (high - low)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def node(own, q):
     """Diameter now [m] and number (of one drop at birth) at node q, from the largest down: `sizes.by_number`, finer."""
     u = own.top - sizes.STEP / FINER * q
@@ -132,13 +132,13 @@ def node(own, q):
     return math.sqrt(square), number
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def position(d):
     """Place of a diameter [m] among the bins, as a number of them."""
     return min(max(0.0, PER_DECADE * math.log10(d / LEAST)), BINS - 1e-9)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def place(d):
     """Bin of a diameter [m]; of nothing the first."""
     return int(position(d)) if d > 0.0 else 0

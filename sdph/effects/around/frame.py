@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from sdph.effects.effect import Effect, Judgement
 from sdph.engine import table
 from sdph.engine.clock import SAME
+from sdph.laws.compiled import serial
 from sdph.schema import CaseError, file, quantity, record, refuse_implausible, vector
 
 COLUMNS = ("time_s", "ax_m_s2", "ay_m_s2", "az_m_s2", "wx_rad_s", "wy_rad_s", "wz_rad_s")
@@ -117,7 +117,7 @@ def _check_rows(lines, columns) -> None:
         raise ValueError("there must be two rows at least")
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def acceleration(p, x, y, z, u, v, w):
     """Acceleration [m/s2] felt at a place (3) by what moves with a velocity (3) in the frame: Eq. 15."""
     if len(p) == 0:

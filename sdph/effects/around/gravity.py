@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from numba import njit
-
 from sdph.effects.effect import Effect, Judgement
+from sdph.laws.compiled import serial
 from sdph.schema import record
 
 
@@ -27,7 +26,7 @@ def kernel(case) -> GravityP:
     return GravityP(*(*case.domain.gravity, 0.0)[:3])
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def acceleration(p):
     if len(p) == 0:
         return 0.0, 0.0, 0.0

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from sdph.effects.around import rates
 from sdph.engine.rows import entry, place
+from sdph.laws.compiled import serial
 from sdph.schema import CaseError
 
 ROUND_OFF = 1e-9  # of a spacing
@@ -171,7 +171,7 @@ def cell_radius(pitch: float, dimensions: int) -> float:
     return 0.5 * pitch * (1.0 + ROUND_OFF) if dimensions == 2 else pitch / math.sqrt(math.pi)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def without(gone, rows):
     """Take the entries that are `gone` (W,) out of rows."""
     for i in range(len(rows.number)):

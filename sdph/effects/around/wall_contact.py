@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from sdph.effects.around.walls import against
 from sdph.engine.rows import entry
 from sdph.engine.walls.dummies import offset
-from sdph.laws.compiled import inlined
+from sdph.laws.compiled import inlined, serial
 
 
 @inlined
@@ -25,7 +23,7 @@ def rubbed(p, wall, w, box, s, i, back):
     return -share * u, -share * v, -share * across
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def contact(p, wall, box, s, gravity, impulse, work, back_put):
     """Stops particles that came closer than `contact` to a surface; returns how many did.
 

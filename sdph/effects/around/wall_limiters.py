@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from sdph.effects import limiter
 from sdph.engine.rows import entry
 from sdph.engine.walls.dummies import offset
+from sdph.laws.compiled import serial
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def nearer(p, wall, box, s, found):
     """Mark (N,) the particles that are nearer than contact to a wall that grips; see `grip` of the walls."""
     for i in range(len(found)):

@@ -15,7 +15,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 
 from sdph.effects.around.wall_limiters import held as held_by_limiters
 from sdph.effects.effect import Effect, Judgement
@@ -24,7 +24,7 @@ from sdph.engine.ledger import Column
 from sdph.engine.rows import entry
 from sdph.engine.walls.dummies import CONTACT, distance, normal_part, offset
 from sdph.laws import granular, kernels
-from sdph.laws.compiled import inlined
+from sdph.laws.compiled import inlined, parallel, serial
 from sdph.laws.friction import johnson_jackson_wall
 from sdph.schema import choice, file, quantity, record
 
@@ -76,7 +76,7 @@ def kernel(case) -> WallsP:
     )  # fmt: skip
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def near(p, wall, i):
     """True where particle i sees a wall. Few do; to call what follows for the others too would cost as much as the
     pairs."""
@@ -85,7 +85,7 @@ def near(p, wall, i):
     return wall.number[i] > 0
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def closure(p, box, wall, s, i, kernel):
     """Share of the kernel of particle i that lies among grains: 1 - sum V W over wall."""
     if len(p) == 0:
@@ -113,7 +113,7 @@ def against(wall, w, box, s, i):
     return s.u[i] - wall.slide_x[w], s.v[i] - wall.slide_y[w], across - wall.slide_z[w]
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def gradient(p, kernel, box, wall, s, i):
     """Share of walls in the velocity gradient (xx, xy, xz, yx, yy, yz, zx, zy, zz) [1/s] of particle i: mirrored
     velocities behind them. The adjoint of the traction of contacts in `force`, so that elastic contacts neither gain
@@ -140,7 +140,7 @@ def gradient(p, kernel, box, wall, s, i):
     return xx, xy, xz, yx, yy, yz, zx, zy, zz
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def extrapolate(kernel, box, wall, facing, s, pressure, wall_pressure, unheld, wall_velocity):
     """Pressure and mean velocity of the grains at the dummies: Adami et al. 2012, Eq. 23 and 27.
 
@@ -172,7 +172,7 @@ def extrapolate(kernel, box, wall, facing, s, pressure, wall_pressure, unheld, w
         wall_velocity[w, 2] = up / weight if found else 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def grip(p, stick, y, density, theta, shear):
     """Share of the no-slip stress: y/(y + b) at the distance y [m] from the wall, with the slip length b = mu/k of the
     law tau = k v; all of it where theta [m2/s2] is not known (nan)."""

@@ -11,12 +11,13 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 
 from sdph.effects.effect import NO_LIMIT, Effect, Judgement
 from sdph.engine.ledger import Column
 from sdph.engine.state import GRAIN
 from sdph.laws import break_up as law
+from sdph.laws.compiled import parallel
 from sdph.schema import CaseError, choice, quantity, record
 
 PRODUCTS = ("equal", "chi_squared")
@@ -62,7 +63,7 @@ def kernel(case) -> BreakUpP:
     )  # fmt: skip
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def advance(p, s, slip, gas_density, dt, swing, speed, weber, diameter, variance, surface, parted):
     """All drops through a window of `dt` [s]. Of each particle: deformation, its rate, Weber number, number mean [m]
     and variance [m2] of the diameters after it; energy of the surface that the drops gained, 0 where none broke, and of

@@ -5,12 +5,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numba import njit
-
 from sdph.effects.effect import Effect, Judgement
 from sdph.effects.gas import sizes
 from sdph.laws import drag as law
-from sdph.laws.compiled import inlined
+from sdph.laws.compiled import inlined, serial
 from sdph.schema import choice, record
 
 LAWS = (
@@ -45,7 +43,7 @@ def kernel(case) -> DragP:
     return DragP(LAWS.index(case.parameters["drag"].law), case.gas.viscosity, case.grains.density)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def coefficient(p, alpha_p, slip, d, gas_density):
     """beta/alpha_p [kg/m3/s] of the law chosen."""
     mu = p.viscosity

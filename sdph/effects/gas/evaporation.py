@@ -6,13 +6,12 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numba import njit
-
 from sdph.effects.effect import Effect, Judgement
 from sdph.effects.gas import film
 from sdph.engine.ledger import Column
 from sdph.laws import evaporation as law
 from sdph.laws import grain_loss
+from sdph.laws.compiled import serial
 from sdph.schema import CaseError, choice, quantity, record, vector
 
 LAWS = ("linear", "spalding")
@@ -115,7 +114,7 @@ def _boiling(own, p, pressure: float) -> float:
     return law.boiling_temperature(pressure, p)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def saturation_pressure(p, temperature):
     """p_sat [Pa]."""
     own = (p.first, p.second, p.third, p.fourth)
@@ -126,7 +125,7 @@ def saturation_pressure(p, temperature):
     return law.saturation_clausius_clapeyron(temperature, own)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def driving_force(p, temperature, concentration, gas_temperature, gas_density):
     """Mass flux over k_c [kg/m3], negative where vapour would condense; concentration [kmol/m3] in the gas."""
     pressure = saturation_pressure(p, temperature)
@@ -143,7 +142,7 @@ def driving_force(p, temperature, concentration, gas_temperature, gas_density):
     return law.driving_force_spalding(y_s, y_g, gas_density)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def saturated(p, temperature, gas_temperature):
     """Vapour [kmol/m3] in the gas at which a droplet gives no more; of Spalding's law that at its surface."""
     return law.vapour_concentration(
@@ -151,13 +150,13 @@ def saturated(p, temperature, gas_temperature):
     )
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def past_boiling(p, temperature):
     """True where the mole fraction of vapour at the surface is held below 1, short of the pole of Spalding's law."""
     return p.law == 1 and saturation_pressure(p, temperature) / p.operating_pressure > 1.0 - BOILING_MARGIN
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def ventilation(p, slip, gas_density):
     """c [m^-1/2] of sdph.laws.grain_loss."""
     schmidt = law.schmidt_number(gas_density, p.gas_viscosity, p.diffusivity)

@@ -5,12 +5,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numba import njit
-
 from sdph.effects.effect import Effect, Judgement
 from sdph.effects.gas import sizes
 from sdph.laws import heat as law
-from sdph.laws.compiled import inlined
+from sdph.laws.compiled import inlined, serial
 from sdph.schema import choice, record
 
 LAWS = ("gunn", "gunn_interstitial", "ranz_marshall")
@@ -41,7 +39,7 @@ def kernel(case) -> HeatP:
     return HeatP(*places, gas.conductivity, gas.viscosity, prandtl, case.grains.density)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def nusselt(p, alpha_g, reynolds):
     if p.law == 0:
         return law.gunn(alpha_g, reynolds, p.prandtl)

@@ -5,12 +5,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numba import njit
-
 from sdph.effects.effect import Effect, Judgement
 from sdph.effects.gas import sizes
 from sdph.laws import lift as law
-from sdph.laws.compiled import inlined
+from sdph.laws.compiled import inlined, serial
 from sdph.schema import choice, record
 
 LAWS = ("saffman_mei", "saffman")
@@ -33,7 +31,7 @@ def kernel(case) -> LiftP:
     return LiftP(LAWS.index(case.parameters["lift"].law), case.gas.viscosity, case.grains.density)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def coefficient(p, slip, spin, d, gas_density):
     """L [kg/m3] of the law chosen."""
     if p.law == 0:

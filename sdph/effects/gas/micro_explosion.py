@@ -12,13 +12,14 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 
 from sdph.effects.effect import NO_LIMIT, Effect, Judgement
 from sdph.effects.gas import gel
 from sdph.engine.ledger import Column
 from sdph.engine.state import GRAIN
 from sdph.laws import bursting, cavities, gel_droplet, real_gas, shells, strength, swelling
+from sdph.laws.compiled import parallel, serial
 from sdph.schema import CaseError, quantity, record
 
 SHELL = ("shell_flow", "shell_hard", "shell_harm", "shell_swell")
@@ -118,7 +119,7 @@ def _refuse(case, own: MicroExplosion) -> None:
         raise CaseError(f"{given}; inside the shell there is {inside:.3g} of the diameter: less bubble or less shell")
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def advance(own, vapour, plastic, damage, around, s, dt, torn, made):
     """All through dt [s] of the heat that they received in it: droplets that tear (N,) and droplets made of them (N,).
 
@@ -132,7 +133,7 @@ def advance(own, vapour, plastic, damage, around, s, dt, torn, made):
                 torn[i], made[i] = tear(own, around.tension, s, i, wall)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def tear(own, tension, s, i, wall):
     """Turn the droplets of particle i, whose walls [m] tear, into smaller ones; their number, and how many more there
     are. What their bubbles hold becomes superheat."""
@@ -149,7 +150,7 @@ def tear(own, tension, s, i, wall):
     return number, number * (more - 1.0)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def grow(own, v, plastic, damage, around, s, i, dt):
     """Grow the bubbles of particle i through dt [s]; the wall of its droplets [m] where they tear, else 0."""
     diameter = bursting.sauter(s.diameter[i], s.diameter_variance[i])
@@ -174,7 +175,7 @@ def grow(own, v, plastic, damage, around, s, i, dt):
     return wall
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def begin(v, around, s, i, d, power, dt):
     """Time [s] that is left of dt when the middle of the gel boils, which makes the first bubble; 0 if it does not."""
     boiling = swelling.nucleus(v, around, d.first)
@@ -186,7 +187,7 @@ def begin(v, around, s, i, d, power, dt):
     return min(dt, d.capacity * beyond / power) if power > 0.0 else dt
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def take_up(s, i, shell, spot):
     """Rows of shell (4, 1) and spot (4,) of particle i, in the order of `sdph.laws.shells`."""
     shell[shells.FLOW, 0], spot[shells.FLOW] = s.shell_flow[i], s.spot_flow[i]
@@ -195,7 +196,7 @@ def take_up(s, i, shell, spot):
     shell[shells.SWELL, 0], spot[shells.SWELL] = s.shell_swell[i], s.spot_swell[i]
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def put_back(s, i, shell, spot):
     """The reverse of `take_up`."""
     s.shell_flow[i], s.spot_flow[i] = shell[shells.FLOW, 0], spot[shells.FLOW]

@@ -12,13 +12,13 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 
 from sdph.effects.effect import NO_LIMIT, Effect, Judgement
 from sdph.effects.gas import sizes
 from sdph.engine.state import GRAIN
 from sdph.laws import radiation as law
-from sdph.laws.compiled import inlined
+from sdph.laws.compiled import inlined, parallel, serial
 from sdph.laws.constants import STEFAN_BOLTZMANN
 from sdph.schema import quantity, record
 
@@ -57,7 +57,7 @@ def kernel(case) -> RadiationP:
     return RadiationP(*shares, own.surroundings_temperature, grains.density, grains.heat_capacity)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def surface(sizes_p, s, i):
     """Surface of the grains of particle i over their volume [1/m]: 6/d, the mass average over its sizes."""
     total = whole = 0.0
@@ -80,14 +80,14 @@ def conductance(p, sizes_p, s, i, gas_temperature):
     return p.to_gas * area * law.exchange_coefficient(s.temperature[i], gas_temperature)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def cooled(p, sizes_p, s, i, temperature, dt):
     """Temperature [K] of particle i after dt [s] of radiation to the surroundings alone."""
     rate = p.to_surroundings * STEFAN_BOLTZMANN * surface(sizes_p, s, i) / (p.grain_density * p.grain_heat_capacity)
     return law.cooled(temperature, p.surroundings, rate, dt)
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def cool(p, sizes_p, s, temperature, dt, out):
     """Temperatures (N,) [K] after dt [s] of radiation to the surroundings alone, into out (N,)."""
     for i in prange(len(s.x)):

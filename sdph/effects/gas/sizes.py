@@ -14,11 +14,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numba import njit
-
 from sdph.effects.around.sizes import spread
 from sdph.effects.effect import OFF
 from sdph.laws import grain_loss, grain_sizes
+from sdph.laws.compiled import serial
 
 CLASSES = 16  # points of the rule: mass to 1e-6, mean diameter to 3e-4 (tests/effects/gas/test_sizes.py)
 STEP = 1.0  # of u between them
@@ -53,7 +52,7 @@ def kernel(case):
     return Sizes(int("evaporation" in case.effects)) if differ else OFF
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def classes(p):
     """Number of size classes to sum over."""
     if len(p) == 0:
@@ -61,7 +60,7 @@ def classes(p):
     return CLASSES
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def birth(p, s, i):
     """Quantities that give the size classes of particle i."""
     if len(p) == 0:
@@ -71,7 +70,7 @@ def birth(p, s, i):
     return birth_of(s.born_diameter[i], s.born_variance[i], s.lost_still[i], s.lost_moving[i])
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def birth_of(diameter, variance, lost_still, lost_moving):
     """The same from mean [m] and variance [m2] at birth, and the integrals of a dt [m2] and of a c dt [m^(3/2)]."""
     deviation = math.sqrt(variance)
@@ -86,7 +85,7 @@ def birth_of(diameter, variance, lost_still, lost_moving):
     return Birth(mean, std, lost_still, ventilation, cut, reach + math.log(-math.expm1(-reach)))
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def by_number(own, q):
     """Diameter now [m] and number (of one grain at birth) of size class q."""
     u = own.top - STEP * q
@@ -98,7 +97,7 @@ def by_number(own, q):
     return math.sqrt(square), share
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def grain(p, s, i, own, q):
     """Diameter [m] and mass (in a unit common to the classes of i) of size class q."""
     if len(p) == 0:
@@ -107,7 +106,7 @@ def grain(p, s, i, own, q):
     return d, number * d * d * d
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def remaining(own):
     """Mass [m3 a grain at birth], number mean [m] and variance [m2] of the diameters of the grains that are left."""
     count = first = second = third = 0.0

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from numba import njit
-
 from sdph.effects import limiter
 from sdph.effects.effect import Effect, Judgement
 from sdph.laws import viscosity
+from sdph.laws.compiled import serial
 from sdph.schema import quantity, record
 
 
@@ -28,7 +27,7 @@ def kernel(case) -> ArtificialP:
     return ArtificialP(own.alpha, own.beta)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def pair(p, h, approach, r_squared, c_i, c_j, rho_i, rho_j):
     """Pi_ij [m5/(kg s2)]; approach = v_ij.r_ij [m2/s]."""
     if len(p) == 0:

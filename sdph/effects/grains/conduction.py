@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numba import njit
-
 from sdph.effects import limiter
 from sdph.effects.effect import NO_LIMIT, Effect, Judgement
 from sdph.laws import exchange as law
+from sdph.laws.compiled import serial
 from sdph.laws.constants import SOFTENING
 from sdph.schema import record
 
@@ -32,7 +31,7 @@ def kernel(case) -> ConductionP:
     return ConductionP(case.grains.conductivity, case.grains.density)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def pair(p, h, s, i, j, r_squared, pull):
     """Heat per mass and time [W/kg] that i gets from j; `pull` is m_j (dW/dr)/r [kg/m^(d+2)]."""
     if len(p) == 0:

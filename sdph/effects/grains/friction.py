@@ -13,14 +13,13 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from sdph.effects import limiter
 from sdph.effects.effect import DIFFUSIVE, Effect, Judgement
 from sdph.engine.geometry import deep
 from sdph.laws import constants, granular
 from sdph.laws import friction as law
-from sdph.laws.compiled import inlined
+from sdph.laws.compiled import inlined, serial
 from sdph.schema import quantity, record
 
 ARRAYS = ("contact_xx", "contact_yy", "contact_xy", "contact_yz", "contact_zx")  # of the state [Pa]
@@ -66,7 +65,7 @@ def kernel(case) -> FrictionP:
     )
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def pressure(p, alpha_p):
     """p_fr [Pa] and its slope [Pa]; goes on along its tangent past PACKING_MARGIN below the limit, where it has a
     pole."""
@@ -78,7 +77,7 @@ def pressure(p, alpha_p):
     return own + slope * (alpha_p - a), slope
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def sound_squared(p, slope):
     """c^2 [m2/s2] of a wave along which contacts are strained elastically: bulk modulus, by the slope of their pressure
     [Pa], and 4/3 of the shear modulus."""
@@ -108,7 +107,7 @@ def stress(p, pressures, s, box, i, D, spin, dt):
     return (share * xx, share * yy, share * zz, share * xy, share * yz, share * zx), share * mu
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def stiffest(p, density, dt):
     """Most viscosity [Pa s] that a step of dt [s] bears at a density [kg/m3]."""
     return DIFFUSIVE * p.h * p.h / dt * density
@@ -131,7 +130,7 @@ def trial(s, box, i, D, spin, modulus, dt):
     )
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def power(tau, D):
     """tau:D [W/m3]."""
     return tau[0] * D[0] + tau[1] * D[1] + tau[2] * D[2] + 2.0 * (tau[3] * D[3] + tau[4] * D[4] + tau[5] * D[5])

@@ -17,13 +17,14 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 
 from sdph.effects import limiter
 from sdph.effects.effect import Effect, Judgement
 from sdph.engine import state as particles
 from sdph.engine.geometry import nearest_image
 from sdph.engine.rows import entry
+from sdph.laws.compiled import parallel
 from sdph.schema import quantity, record
 
 WORTH = 0.006  # of the heat to the grains: what it changed in the bubbling bed
@@ -50,7 +51,7 @@ def kernel(case) -> ShiftingP:
     )
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def shift(p, s, rows, box, dt, moved):
     """moved (N, 3) [m] of every particle within dt [s]."""
     for i in prange(len(s.x)):

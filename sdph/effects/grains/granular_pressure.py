@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from numba import njit
-
 from sdph.effects import limiter
 from sdph.effects.effect import Effect, Judgement
 from sdph.laws import granular
+from sdph.laws.compiled import serial
 from sdph.schema import record
 
 SOURCE = "Elghobashi 1994: collisions matter where a grain meets others within the time looked at"
@@ -34,7 +33,7 @@ def kernel(case) -> PressureP:
     return PressureP(case.grains.restitution, case.grains.packing_limit, case.grains.density, isentropic)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def pressure(p, alpha_p, theta, g0):
     """p_p [Pa]; the pole of g0 (sdph.laws.granular.crowding) is met at most PACKING_MARGIN below the packing limit."""
     if len(p) == 0:
@@ -42,7 +41,7 @@ def pressure(p, alpha_p, theta, g0):
     return granular.lun_pressure(alpha_p, theta, p.restitution, g0, p.grain_density)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def sound_squared(p, alpha_p, theta, g0):
     """c^2 [m2/s2] of the agitated grains, their heating by compression included where theta follows it."""
     if len(p) == 0:

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numba import njit, prange
+from numba import prange
 
 from sdph.effects import limiter
 from sdph.effects.effect import NO_LIMIT, Effect, Judgement, diffusive_limit, found
 from sdph.laws import granular
+from sdph.laws.compiled import parallel, serial
 from sdph.laws.exchange import harmonic_mean
 from sdph.schema import choice, flag, quantity, record
 
@@ -51,7 +52,7 @@ def kernel(case) -> TemperatureP:
     )
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def conductivity(p, alpha_p, theta, diameter, g0):
     """k_theta [kg/m/s] (paper section 2.1) where grains crowd by g0 (sdph.laws.granular.crowding); the kinetic part by
     `granular.streaming_share` where they are few."""
@@ -63,7 +64,7 @@ def conductivity(p, alpha_p, theta, diameter, g0):
     return granular.gidaspow_conductivity(a, theta, e, g0, rho, diameter, share)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def diffusivity(p, k, density):
     """Diffusivity of theta [m2/s], from its conductivity [kg/m/s] and the density of the particle [kg/m3]."""
     if len(p) == 0:
@@ -71,7 +72,7 @@ def diffusivity(p, k, density):
     return k / (1.5 * density)
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def largest(p, density, theta, diameter):
     """Largest diffusivity of theta [m2/s] of particles of `density` (N,) [kg/m3]."""
     most = 0.0
@@ -95,7 +96,7 @@ def held(p, method) -> dict[str, float]:
     return found | limiter.streaming(p, s, factor, "conductivity") | limiter.capped(p, s)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def pair(p, stress, s, i, j, squeeze_work, artificial_work, scale):
     """Rate of theta of i by the pair, per mass [W/kg]: work of agitation, and diffusion with the harmonic mean.
 
@@ -110,13 +111,13 @@ def pair(p, stress, s, i, j, squeeze_work, artificial_work, scale):
     return made + 2.0 * harmonic_mean(k_i, k_j) * (s.theta[i] - s.theta[j]) * scale
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def fed(p, lost):
     """Share of what viscosity takes from the motion [W/kg] that feeds theta: all, where there is this effect."""
     return lost if len(p) else 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def rest(p, artificial_work):
     """Share of the artificial viscosity's work that does not feed theta and heats the grains [W/kg]."""
     if len(p) == 0:
@@ -124,7 +125,7 @@ def rest(p, artificial_work):
     return (1.0 - p.artificial) * artificial_work
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def advance(p, alpha_p, theta, heating, damping, diameter, shear_squared, divergence, g0, dt):
     """theta after dt [m2/s2] by `heating` [W/kg], dissipation and damping = beta/(alpha_p rho_p) [1/s].
 
@@ -153,7 +154,7 @@ def advance(p, alpha_p, theta, heating, damping, diameter, shear_squared, diverg
     return held, mended + held - free, collided, gone
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def transported(theta, fed, cooling, damped, dt):
     """theta [m2/s2] after dt in which it is fed [m2/s2], cools and is damped; what was needed to keep it from below 0,
     and what went into collisions and into the gas.
@@ -176,7 +177,7 @@ def transported(theta, fed, cooling, damped, dt):
     return theta, mended, collided, gone
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def lost(begun, decayed, cooling, damped):
     """Loss of theta to collisions and to the gas [m2/s2], shared by their rates at the mean of sqrt(theta)."""
     colliding = 0.5 * cooling * (math.sqrt(begun) + math.sqrt(decayed))
@@ -184,7 +185,7 @@ def lost(begun, decayed, cooling, damped):
     return (1.0 - share) * (begun - decayed), share * (begun - decayed)
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def advance_all(p, s, heating, damping, shear_squared, divergence, crowd, dt, theta, held, collided, damped):
     """theta (N,) [m2/s2] of all particles after dt, where they crowd by g0 = crowd (N,) [-]; by bounds, collisions and
     gas it lost or got the others (N,) [m2/s2]."""

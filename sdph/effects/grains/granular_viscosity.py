@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numba import njit, prange
+from numba import prange
 
 from sdph.effects import limiter
 from sdph.effects.effect import Effect, Judgement, diffusive_limit, found
 from sdph.laws import granular
+from sdph.laws.compiled import parallel, serial
 from sdph.schema import record
 
 SOURCE = "diffusion of momentum, Gidaspow 1994 viscosity"
@@ -33,7 +34,7 @@ def kernel(case) -> ViscosityP:
     return ViscosityP(case.grains.restitution, case.grains.packing_limit, case.grains.density, case.smoothing_length)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def viscosities(p, alpha_p, theta, diameter, g0):
     """Total shear and bulk viscosity [Pa s] where grains crowd by g0 (sdph.laws.granular.crowding); the kinetic part by
     `granular.streaming_share` where they are few."""
@@ -46,7 +47,7 @@ def viscosities(p, alpha_p, theta, diameter, g0):
     return shear, granular.lun_bulk_viscosity(a, theta, e, g0, rho, diameter)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def diffusivity(p, shear, bulk, density):
     """Diffusivity of momentum [m2/s], that of sound: 4/3 mu + lambda over the density [kg/m3]."""
     if len(p) == 0:
@@ -54,7 +55,7 @@ def diffusivity(p, shear, bulk, density):
     return (4.0 / 3.0 * shear + bulk) / density
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def largest(p, density, theta, diameter):
     """Largest diffusivity of momentum [m2/s] of particles of `density` (N,) [kg/m3]."""
     most = 0.0

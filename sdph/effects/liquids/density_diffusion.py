@@ -8,9 +8,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from numba import njit
-
 from sdph.effects.effect import Effect, Judgement
+from sdph.laws.compiled import serial
 from sdph.schema import choice, quantity, record
 
 FORMS = ("antuono", "molteni")
@@ -34,7 +33,7 @@ def kernel(case) -> DiffusionP:
     return DiffusionP(own.delta * case.smoothing_length / case.liquid.sound_speed, 1.0 - FORMS.index(own.form))
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def pair(p, rise, along):
     """Over V_j (dW/dr)/r: rise = p_j - p_i [Pa], along = (grad p_i + grad p_j).r_ij [Pa].
 

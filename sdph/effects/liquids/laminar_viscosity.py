@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numba import njit
-
 from sdph.effects.effect import Effect, Judgement, diffusive_limit
 from sdph.engine.state import LIQUID
+from sdph.laws.compiled import serial
 from sdph.laws.constants import TINY
 from sdph.laws.exchange import harmonic_mean
 from sdph.schema import record
@@ -48,7 +47,7 @@ def dt_limit(p, case, state) -> float:
     return diffusive_limit(case.smoothing_length, nu)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def pair(p, s, i, j):
     """Over V_j (dW/dr)/r v_ij/rho_i: 2 mu [Pa s]; of a wall j is i. Morris, Fox & Zhu 1997, Eq. 22; of equal densities
     the form of Lo & Shao 2002, Appl. Ocean Res. 24, 275, which the sloshing paper takes (Eq. 8).
@@ -62,7 +61,7 @@ def pair(p, s, i, j):
     return 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def central(p, s, i, j, kind_i, kind_j, closing, r2):
     """Pressure [Pa] added to p_i + p_j of a pair of two phases; closing = v_ij.r_ij [m2/s]. Of a wall j is i, what it
     takes over.

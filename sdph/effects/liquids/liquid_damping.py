@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numba import njit
-
 from sdph.effects.effect import Effect, Judgement
+from sdph.laws.compiled import serial
 from sdph.laws.constants import SOFTENING
 from sdph.schema import choice, quantity, record
 
@@ -45,7 +44,7 @@ def kernel(case) -> LinearP | RiemannP:
     )
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def pair(p, closing, r2, inverse_r):
     """Pressure [Pa] added to p_i + p_j of a pair; closing = v_ij.r_ij [m2/s].
 

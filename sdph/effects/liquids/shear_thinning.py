@@ -13,15 +13,16 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 
 from sdph.effects.effect import Effect, Judgement, diffusive_limit
 from sdph.engine import kernels as smoothing
-from sdph.engine.geometry import FAST, apart, faster
+from sdph.engine.geometry import apart, faster
 from sdph.engine.gradients import NO_MATRIX, NO_SUMS, added, divided, in_plane
 from sdph.engine.rows import entry, length
 from sdph.engine.state import LIQUID
 from sdph.laws import thinning as law
+from sdph.laws.compiled import fast_parallel, parallel, serial
 from sdph.schema import CaseError, choice, quantity, record
 
 MODELS = ("power_law", "carreau", "herschel_bulkley")
@@ -77,7 +78,7 @@ def _constants(case, own) -> ThinningP:
     return ThinningP(MODELS.index(own.model), case.liquid.viscosity, own.index, *limits, *more)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def viscosity(p, shear_rate):
     """Viscosity [Pa s] at a shear rate [1/s], within the limits."""
     if p.model == 0:
@@ -89,7 +90,7 @@ def viscosity(p, shear_rate):
     return min(max(found, p.least), p.most)
 
 
-@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+@fast_parallel
 def images(kernel, s, rows, box, walls, volume, out):
     """Points at which a linear flow has the velocity of wall particles (sdph.methods.liquids.walls, the mean of the
     liquid in front, turned round): the mirror image of the middle of that liquid, from the particle, into out (N, 3)
@@ -110,7 +111,7 @@ def images(kernel, s, rows, box, walls, volume, out):
         out[i, 0], out[i, 1], out[i, 2] = scale * x, scale * y, scale * z
 
 
-@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+@fast_parallel
 def shear_rates(kernel, s, rows, box, active, volume, stick, image, out):
     """sqrt(2 D:D) [1/s] of the particles `active`, into out (N,); walls count `stick`, at their images; 0 where too few
     are near."""
@@ -130,7 +131,7 @@ def shear_rates(kernel, s, rows, box, active, volume, stick, image, out):
         out[i] = math.sqrt(2.0 * (ux * ux + vy * vy + wz * wz) + across)
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def thin(p, active, out):
     """Shear rates (N,) [1/s] of the particles `active` become their viscosities [Pa s], in place."""
     for n in prange(len(active)):

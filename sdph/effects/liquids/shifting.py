@@ -9,10 +9,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numba import njit
-
 from sdph.effects.effect import Effect, Judgement
 from sdph.engine import kernels as smoothing
+from sdph.laws.compiled import serial
 from sdph.schema import choice, flag, quantity, record
 
 CROWDING, POWER_OF = 0.2, 4  # R and n of the term that separates pairs, Monaghan 2000, J. Comput. Phys. 159, 290
@@ -80,7 +79,7 @@ def kernel(case) -> ShiftingP:
     )
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def weight(p, value):
     """1 + R (W/W(dx))^n; value = W_ij."""
     if len(p) == 0:
@@ -89,7 +88,7 @@ def weight(p, value):
     return 1.0 + CROWDING * (q * q) * (q * q)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def sign(p, pressure, least):
     """Factor of p_i in p_j + p_i: -1 under tension inside the liquid, else 1."""
     if len(p) == 0:

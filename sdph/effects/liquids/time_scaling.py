@@ -3,7 +3,9 @@
     tau = t/S: heat, rates of strain and boiling go S times as fast, stresses stay (gel-droplet.md, section 2)
 
 S = min(S_max, v_cap S/|dr/dtau|): the wall of the shell moves no faster than v_cap in the motion's own time, so that
-inertia and the viscosity of the gel, which are not scaled, stay small beside the pressure; 1 from the first cut on.
+inertia and the viscosity of the gel, which are not scaled, stay small beside the pressure; 1 from the first cut on. Nor
+does any of the gel pass a tenth of its speed of sound, within which a weakly compressible liquid is one (Monaghan 1994):
+what a closing bubble throws moves fast though the wall does not.
 When S changes velocities change with it, v S_new/S_old: the motion in real time goes on as it was.
 
 The specification has mu/S: a gel of 0.1 Pa s is then one of 1e-4, and nothing holds the face of the bubble round while
@@ -18,6 +20,8 @@ from typing import NamedTuple
 from sdph.effects.effect import Effect, Judgement
 from sdph.schema import CaseError, quantity, record
 
+MACH = 0.1  # largest speed of a weakly compressible liquid over its sound's: 1 % of compression (Monaghan 1994)
+
 
 @record
 class TimeScaling:
@@ -30,9 +34,10 @@ class TimeScaling:
 
 
 class TimeScalingP(NamedTuple):
-    """v_cap [m/s], S_max, averaging time [s], time after a tear [s]."""
+    """v_cap [m/s], the gel's highest speed [m/s], S_max, averaging time [s], time after a tear [s]."""
 
     cap: float
+    fastest: float
     largest: float
     averaging: float
     after_tear: float
@@ -40,7 +45,7 @@ class TimeScalingP(NamedTuple):
 
 def kernel(case) -> TimeScalingP:
     own = case.parameters["time_scaling"]
-    return TimeScalingP(own.wall_speed_cap, own.largest, own.averaging, own.after_tear)
+    return TimeScalingP(own.wall_speed_cap, MACH * case.liquid.sound_speed, own.largest, own.averaging, own.after_tear)
 
 
 def check(case) -> None:
@@ -56,10 +61,11 @@ def check(case) -> None:
             raise CaseError(f"effects holds {name} and time_scaling, and {name} is not scaled: leave one out")
 
 
-def pace(p: TimeScalingP, speed: float, before: float) -> float:
-    """S of a wall speed [m/s] in the motion's own time under the S `before`; 1 at least."""
-    wanted = p.cap * before / abs(speed) if speed else p.largest
-    return max(1.0, min(p.largest, wanted))
+def pace(p: TimeScalingP, speed: float, fastest: float, before: float) -> float:
+    """S of the speeds [m/s] of the wall and of the fastest gel in the motion's own time under the S `before`; 1 at
+    least."""
+    wanted = [most * before / own for most, own in ((p.cap, abs(speed)), (p.fastest, fastest)) if own]
+    return max(1.0, min([p.largest, *wanted]))
 
 
 def pressure(density: float, inner: float, outer: float, speed: float, rate: float) -> float:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from numba import njit
-
 from sdph.effects.effect import Effect, Judgement
+from sdph.laws.compiled import serial
 from sdph.schema import quantity, record
 
 
@@ -29,7 +28,7 @@ def kernel(case) -> XsphP:
     return XsphP(case.parameters["xsph"].strength)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def share(p, m_j, rho_i, rho_j, value):
     """Share of v_j - v_i that particle i moves with: eps m_j W/rho_ij, rho_ij the mean. Monaghan 1992, Annu. Rev.
     Astron. Astrophys. 30, 543, Eq. 2.12."""

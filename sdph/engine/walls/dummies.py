@@ -6,11 +6,10 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from sdph.engine.geometry import deep, nearest_image
 from sdph.engine.rows import Rows, entry
-from sdph.laws.compiled import inlined
+from sdph.laws.compiled import inlined, serial
 
 CONTACT = 0.25  # spacings between a particle and the surface at which they touch; our choice, half of the start's
 
@@ -43,7 +42,7 @@ def seen(dummies: Dummies, rows) -> Wall:
     return Wall(*dummies, *rows, np.zeros(len(dummies.x)), np.zeros((len(dummies.x), 3)))
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def turned(rows, count):
     """Rows of the `count` fixed points that `rows` lists for particles: for each the particles that see it, in their
     order; not filled up."""

@@ -8,9 +8,9 @@ Contact has put every particle in front of its surface by then, a quarter of a s
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from sdph.engine.rows import entry, place, shorten
+from sdph.laws.compiled import serial
 
 AROUND = 0.75  # spacings about a surface point that count as its own: points stand one spacing apart or closer
 
@@ -20,14 +20,14 @@ def three(axes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return (*axes, np.zeros(len(axes[0])))[:3]
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def height(dummies, w, x, y, z):
     """Height [m] of a place over the surface that dummy w is behind."""
     along = (x - dummies.x[w]) * dummies.normal_x[w] + (y - dummies.y[w]) * dummies.normal_y[w]
     return along + (z - dummies.z[w]) * dummies.normal_z[w] - dummies.depth[w]
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def keep_in_front(dummies, of_mesh, places, rows):
     """Take the dummies of a mesh out of the rows of particles that stand behind its surface."""
     x, y, z = places
@@ -41,7 +41,7 @@ def keep_in_front(dummies, of_mesh, places, rows):
         rows.number[i] = kept
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def part(dummies, of_mesh, spacing, places, wall_rows, rows):
     """Take the neighbours out of the particles' rows that stand on the other side of a mesh."""
     for i in range(len(places[0])):
@@ -57,7 +57,7 @@ def part(dummies, of_mesh, spacing, places, wall_rows, rows):
         shorten(rows, i, kept)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def parted(dummies, of_mesh, spacing, places, wall_rows, i, j):
     """True where the way from i, in front of a surface, to j, behind it, goes through one of its points."""
     x, y, z = places

@@ -11,10 +11,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from sdph.engine.ledger import vector
 from sdph.engine.state import INFLOW
+from sdph.laws.compiled import serial
 
 # of `Account.impulses` and `Account.works`, and their places there
 IMPULSES, (WALLS, INLET) = ("walls", "inflow"), range(2)
@@ -56,7 +56,7 @@ def columns(account: Account) -> dict[str, float]:
     return found
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def kick(s, acceleration, of_walls, agitation, heating, gravity, dt, impulses, works):
     """Velocities after dt [s]; what the sub-step adds to an account.
 
@@ -103,7 +103,7 @@ def kick(s, acceleration, of_walls, agitation, heating, gravity, dt, impulses, w
         works[NUMERICAL] += m * (ax * gx + ay * gy + az * gz)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def warm(p, s, work, dt, window, heat_capacity, heats):
     """theta and temperatures after dt [s] of a window [s], and their sums [J]; `work` of sdph.methods.grains.sub_step.
 
@@ -127,7 +127,7 @@ def warm(p, s, work, dt, window, heat_capacity, heats):
             s.temperature[i] += (collided + (work.heating[i] + s.warmth[i] / window / m) * dt) / heat_capacity
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def drift(s, dt):
     """Places after dt [s]."""
     for i in range(len(s.x)):

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from sdph.engine import state as particles
 from sdph.engine.guard import DENSE, FAR, RUNAWAY, TINY, Watch, outside
 from sdph.engine.kept import Unfit
+from sdph.laws.compiled import serial
 from sdph.laws.constants import ADIABATIC, GAS_CONSTANT
 from sdph.methods.grains.scales import scales_of
 
@@ -107,7 +107,7 @@ class Guard(Watch):
         return f"coupling.window_largest_s below {self.length:.3g} (the window was ruled by {self.cause})"
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def within(s, sound, fastest, loudest, coldest, hottest):
     """True where no particle is faster or louder [m/s], colder or hotter [K] than that, nor is anything of it no
     number."""

@@ -13,10 +13,9 @@ from sdph.effects.around import walls
 from sdph.effects.grains import friction
 from sdph.engine.geometry import apart, deep, faster
 from sdph.engine.rows import entry, length, place
-from sdph.laws.compiled import inlined
+from sdph.laws.compiled import fast_parallel, inlined
 from sdph.laws.friction import second_invariant
 from sdph.methods.grains import stress
-from sdph.methods.grains.equations import loop
 
 NOTHING = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
@@ -80,7 +79,7 @@ def deviator(G):
     return rate, (xx - rate / 3.0, yy - rate / 3.0, zz - rate / 3.0, xy, yz, zx)
 
 
-@loop
+@fast_parallel
 def shear(
     kernel, s, rows, box, scratch, walls_p, wall, friction_p, viscous_p, dt,
     contact, traction, rubbing, bearing, works, strain,

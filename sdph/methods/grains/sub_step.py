@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from sdph.effects.around import walls
 from sdph.effects.grains import friction, granular_temperature
+from sdph.laws.compiled import serial
 from sdph.methods.grains import account, contacts, equations
 
 
@@ -49,7 +49,7 @@ def work(count: int, rubs: bool) -> Work:
     )  # fmt: skip
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def advance(
     kernel, s, rows, box, scratch, terms, walls_p, wall, facing, unheld, work, gravity, steps, heat_capacity, sums
 ):  # fmt: skip
@@ -75,7 +75,7 @@ def advance(
     account.drift(s, dt)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def strain_grains(kernel, s, rows, box, scratch, shears, friction_p, viscous_p, walls_p, wall, work, dt):
     """Shear of the grains, where somebody asks for it; where there is friction contacts are strained over dt [s]."""
     if len(shears):
@@ -89,7 +89,7 @@ def strain_grains(kernel, s, rows, box, scratch, shears, friction_p, viscous_p, 
                 s.contact_yz[:], s.contact_zx[:] = work.contact[3], work.contact[4]
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def agitate(p, s, scratch, work, dt):
     """theta after dt [s], where it is followed, and what it lost to whom, into `work`."""
     if len(p):

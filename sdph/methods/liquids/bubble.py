@@ -14,15 +14,16 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 
 from sdph.effects.liquids import bubble
 from sdph.engine import kernels as smoothing
 from sdph.engine import polygons
 from sdph.engine import state as particles
-from sdph.engine.geometry import FAST, apart
+from sdph.engine.geometry import apart
 from sdph.engine.rows import entry, length
 from sdph.laws import cavities
+from sdph.laws.compiled import fast_parallel
 from sdph.methods.liquids import totals
 from sdph.methods.liquids.content import Content
 
@@ -184,7 +185,7 @@ def face_radius(r, turn, within) -> np.ndarray:
     return np.interp(turn, middle[seen], nearest[seen], period=2.0 * math.pi)
 
 
-@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+@fast_parallel
 def press(kernel, s, rows, box, active, volume, outside, inflating, facing):
     """inflating (N, 3) [m/s2] = 2 p_b/rho sum V_j grad W of a pressure `outside` (N,) [Pa]; facing (N,) [1/m] the
     length of that sum."""

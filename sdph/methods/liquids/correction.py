@@ -14,11 +14,12 @@ from __future__ import annotations
 
 import math
 
-from numba import njit, prange
+from numba import prange
 
 from sdph.engine import kernels as smoothing
-from sdph.engine.geometry import FAST, apart
+from sdph.engine.geometry import apart
 from sdph.engine.rows import entry, length
+from sdph.laws.compiled import fast_parallel, serial
 
 # of det M, 1 inside: below it a particle is left as it is. In a lattice 0.34 to 0.37 in the first layer at a free
 # surface, 0.65 (h = 2 dx) or 0.82 (1.5 dx) in the second; our choice, made with the periods of boxes in view: at h = 2
@@ -26,7 +27,7 @@ from sdph.engine.rows import entry, length
 SURFACE = 0.5
 
 
-@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+@fast_parallel
 def surround(kernel, s, rows, box, active, volume, xx, yy, zz, xy, yz, zx):
     """B - 1 (six components, (N,) each) of the particles `active`; walls count among the neighbours."""
     for n in prange(len(active)):
@@ -56,7 +57,7 @@ def surround(kernel, s, rows, box, active, volume, xx, yy, zz, xy, yz, zx):
         zx[i] = scale * third
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def extra(excess, i, j, p_i, p_j, dx, dy, dz):
     """[p_i (B_i - 1) + p_j (B_j - 1)] r [Pa m], three components; `excess`: what `surround` gave, or () without
     correction."""

@@ -11,12 +11,13 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 
 from sdph.effects.liquids import density_diffusion, laminar_viscosity, liquid_damping, shifting
 from sdph.engine import kernels as smoothing
-from sdph.engine.geometry import FAST, apart, deep, faster
+from sdph.engine.geometry import apart, deep, faster
 from sdph.engine.rows import entry, length
+from sdph.laws.compiled import fast_inlined, fast_parallel, parallel, serial
 from sdph.laws.constants import TINY
 from sdph.laws.eos import tait_pressure
 from sdph.laws.matrices import solved
@@ -35,14 +36,14 @@ class Flow(NamedTuple):
     enclosure: np.ndarray
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def pressure_at(fluids, kind, rho):
     """Pressure [Pa] of a kind at a density [kg/m3], as in `state_of`."""
     tension = fluids[4, kind] * rho * rho  # of Van der Waals
     return tait_pressure(rho / fluids[0, kind], fluids[1, kind], fluids[2, kind], fluids[3, kind]) - tension
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def state_of(fluids, s, active, pressure, volume):
     """Pressure [Pa] and volume [m^d] of liquid particles; `fluids` (5, K): rho_0, stiffness, exponent, background,
     cohesion by kind."""
@@ -52,7 +53,7 @@ def state_of(fluids, s, active, pressure, volume):
         volume[i] = s.mass[i] / s.density[i]
 
 
-@njit(cache=True, error_model="numpy", fastmath=FAST, forceinline=True)
+@fast_inlined
 def by_pair(kernel, s, box, flow, wall_p, laminar_p, damping_p, phases_p, excess, i, j, own, outside):
     """Terms of a liquid particle i by another, j: force per volume (3 values) [N/m3]; share V_j (dW/dr)/r of liquid of
     its kind [1/m2], the rise of pressure to j [Pa], and r_ij (3 values) [m].
@@ -88,7 +89,7 @@ def by_pair(kernel, s, box, flow, wall_p, laminar_p, damping_p, phases_p, excess
     return fx, fy, fz, wet * slope * phases.like(phases_p, s.kind[i], kind_j), p_j - p_i, dx, dy, dz
 
 
-@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+@fast_parallel
 def push(
     kernel, s, rows, box, flow, wall_p, gravity_p, frame_p, laminar_p, damping_p, diffusion_p, shifting_p, phases_p,
     excess, acceleration, gradient,
@@ -128,7 +129,7 @@ def push(
             gradient[i, 2] = steep[2]
 
 
-@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+@fast_parallel
 def sum_up(kernel, s, rows, box, active, lattice, density):
     """rho (N,) [kg/m3] = m sum W, walls included, over what the sum is on a lattice: Hu & Adams 2006, Eq. 7."""
     for n in prange(len(active)):
@@ -140,7 +141,7 @@ def sum_up(kernel, s, rows, box, active, lattice, density):
         density[i] = s.mass[i] * number / lattice
 
 
-@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+@fast_parallel
 def compress(kernel, s, rows, box, flow, wall_p, moving, diffusion_p, phases_p, gradient, rate):
     """d rho/dt (N,) [kg/m3/s] = rho_i sum V_j v_ij.grad W + delta h c sum V_j psi_ij.grad W (Antuono et al. 2010)."""
     for n in prange(len(flow.active)):

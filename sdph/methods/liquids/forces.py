@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from sdph.effects.around import frame, gravity
-from sdph.laws.compiled import inlined
+from sdph.laws.compiled import inlined, serial
 
 
 class Moving(NamedTuple):
@@ -27,7 +26,7 @@ def velocity(wall_p, moving, j):
     return moving.u[j], moving.v[j], moving.w[j]
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def held_off(wall_p, signed, rho, r):
     """Pressure [Pa] by which a wall particle holds off liquid of density rho that came nearer to it than it stands at
     rest.
@@ -39,7 +38,7 @@ def held_off(wall_p, signed, rho, r):
     return 0.0 if signed > 0.0 else over
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def body(gravity_p, frame_p, s, i, still):
     """Acceleration [m/s2] from outside of particle i, or at its place of what stands `still` in the frame."""
     gx, gy, gz = gravity.acceleration(gravity_p)

@@ -16,12 +16,12 @@ import math
 
 import numpy as np
 import scipy
-from numba import njit
 
 from sdph.effects.liquids import liquid_heat
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import apart
 from sdph.laws import exchange
+from sdph.laws.compiled import serial
 from sdph.laws.constants import SOFTENING
 
 FACE = 0.5  # of h: how far the liquid that faces a void lies behind its face, in the mean; our choice
@@ -170,7 +170,7 @@ def _pairs(built, filled, reach: float) -> np.ndarray:
     return pairs[np.lexsort(pairs.T)]
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def conduct(kernel, s, box, pairs, volume, conductivity, temperature, gained):
     """Add to gained (N,) [W] what pairs (M, 2) conduct: equal and opposite."""
     soft = SOFTENING * kernel.h * kernel.h

@@ -11,17 +11,18 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 
 from sdph.engine import kernels as smoothing
-from sdph.engine.geometry import FAST, apart
+from sdph.engine.geometry import apart
 from sdph.engine.gradients import NO_MATRIX, NO_SUMS, added, divided, in_plane
 from sdph.engine.rows import entry
 from sdph.engine.state import LIQUID
+from sdph.laws.compiled import fast_parallel, serial
 from sdph.methods.liquids import wetting
 
 
-@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+@fast_parallel
 def orient(kernel, s, rows, box, active, tension_p, volume, line, normal):
     """normal (N, 3): direction of sum V_j grad W over the particles of the other phase, out of the own; 0 off the
     interface. line: what walls stand for, or ()."""
@@ -43,13 +44,13 @@ def orient(kernel, s, rows, box, active, tension_p, volume, line, normal):
         normal[i, 0], normal[i, 1], normal[i, 2] = inverse * gx, inverse * gy, inverse * gz
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def on_interface(normal, i):
     """True where particle i has a normal."""
     return normal[i, 0] != 0.0 or normal[i, 1] != 0.0 or normal[i, 2] != 0.0
 
 
-@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+@fast_parallel
 def bend(kernel, s, rows, box, active, volume, line, normal, curvature):
     """curvature (N,) [1/m]: div n, above 0 around a drop on both sides; over particles with normals, those of the other
     phase turned (Eq. 20), and those of walls where they are met."""
@@ -83,7 +84,7 @@ def bend(kernel, s, rows, box, active, volume, line, normal, curvature):
         curvature[i] = (found[0] + found[4] + found[8]) * (1.0 if s.kind[i] == LIQUID else -1.0)
 
 
-@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+@fast_parallel
 def pull(kernel, s, rows, box, active, tension_p, volume, normal, curvature, acceleration):
     """a -= sigma kappa grad c/rho (Eq. 14), grad c with the inter-particle average of the pressure (Eq. 13)."""
     for n in prange(len(active)):

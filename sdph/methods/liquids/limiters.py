@@ -5,17 +5,17 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from sdph.effects.liquids import liquid_damping, shifting
 from sdph.engine import softening
 from sdph.engine.geometry import apart
 from sdph.engine.rows import entry
 from sdph.engine.state import GAS
+from sdph.laws.compiled import serial
 from sdph.methods.liquids import sparse
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def in_front(s, rows, box, walls, near, support, volume, wets, holds):
     """Mark the wall particles (W,) that have liquid within the kernel's `support` [m], and those that hold some off,
     nearer than 1/near [m]."""

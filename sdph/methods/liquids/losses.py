@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import math
 
-from numba import njit, prange
+from numba import prange
 
 from sdph.effects.liquids import density_diffusion, laminar_viscosity, liquid_damping, shifting
 from sdph.engine import kernels as smoothing
-from sdph.engine.geometry import FAST, apart, deep, faster
+from sdph.engine.geometry import apart, deep, faster
 from sdph.engine.rows import entry, length
-from sdph.laws.compiled import inlined
+from sdph.laws.compiled import fast_parallel, inlined, serial
 from sdph.laws.constants import TINY
 from sdph.methods.liquids import correction, phases
 
@@ -23,7 +23,7 @@ from sdph.methods.liquids import correction, phases
 CAUSES = ("viscosity_J", "damping_J", "diffusion_J", "tension_control_J", "gradient_correction_J")
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def rubbed(laminar_p, damping_p, phases_p, s, i, j, signed, d, dv, v):
     """Losses of a pair, over V_i V_j (dW/dr)/r stick: power [J m2/s] lost to the viscosity of the liquid, and to the
     artificial one; d, dv = r_ij, v_ij; v velocity of i, past a body that over the body's."""
@@ -49,7 +49,7 @@ def moved(moving, j):
     return moving.u[j], moving.v[j], moving.w[j]
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def spread(diffusion_p, phases_p, box, s, pressure, gradient, i, j, d):
     """Spread by a pair, over V_j (dW/dr)/r: what diffusion of density does to the density of i (`compress`)."""
     if len(diffusion_p) == 0:
@@ -60,7 +60,7 @@ def spread(diffusion_p, phases_p, box, s, pressure, gradient, i, j, d):
     return alike * density_diffusion.pair(diffusion_p, pressure[j] - pressure[i], ramp)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def unmatched(excess, phases_p, s, pressure, i, j, sign_i, d, v):
     """Loss of a pair of liquid, over V_i V_j (dW/dr)/r: power lost by the corrected gradient of pressure."""
     if len(excess) == 0:
@@ -71,7 +71,7 @@ def unmatched(excess, phases_p, s, pressure, i, j, sign_i, d, v):
     return ex * v[0] + ey * v[1] + ez * v[2]
 
 
-@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+@fast_parallel
 def losses(
     kernel, s, rows, box, flow, wall_p, laminar_p, damping_p, diffusion_p, shifting_p, phases_p, excess, gradient,
     acceleration, moving, ahead,

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 
 from sdph import effects
 from sdph.effects.around import outflow
@@ -23,6 +23,7 @@ from sdph.engine import state as particles
 from sdph.engine.geometry import apart
 from sdph.engine.rows import entry
 from sdph.engine.state import INFLOW, LIQUID
+from sdph.laws.compiled import parallel
 from sdph.methods.liquids.equations import by_pair
 from sdph.methods.liquids.forces import body
 from sdph.methods.liquids.totals import specific_energies
@@ -87,7 +88,7 @@ class Openings:
         self.passed[way] += np.concatenate(([mass.sum()], mass @ velocity, [energy]))
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def meet(
     kernel, s, rows, box, waiting, gravity_p, frame_p, liquid, pressure, volume, density, gradient, enclosure,
 ):  # fmt: skip
@@ -116,7 +117,7 @@ def meet(
             enclosure[i] = 1.0
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def press(
     kernel, s, rows, box, flow, wall_p, laminar_p, damping_p, shifting_p, phases_p, excess, waiting, gain, given,
 ):  # fmt: skip

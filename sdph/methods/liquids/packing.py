@@ -12,15 +12,16 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 
 from sdph.effects.around import tank
 from sdph.engine import kernels as smoothing
 from sdph.engine import motion
 from sdph.engine import state as particles
-from sdph.engine.geometry import FAST, apart
+from sdph.engine.geometry import apart
 from sdph.engine.rows import Neighbours, entry, length
 from sdph.engine.state import LIQUID, WALL
+from sdph.laws.compiled import fast_parallel, parallel
 from sdph.laws.constants import TINY
 
 RETURNS = 8  # rounds at most after which none is put back into its tank any more; our choice: one does as a rule
@@ -57,7 +58,7 @@ def pack(case, points, walls, lid, slab, shape) -> np.ndarray:
     return places + _back(shape, places, case.resolution.spacing)
 
 
-@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+@fast_parallel
 def spread(kernel, s, rows, box, active, acceleration):
     """acceleration (N, 3) [1/m] = -2 sum V grad W, away from where particles and walls are dense; V is their mass."""
     for n in prange(len(active)):
@@ -75,7 +76,7 @@ def spread(kernel, s, rows, box, active, acceleration):
         acceleration[i, 2] = 2.0 * az
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def clear(s, rows, box, active, near, way):
     """way (N, 3) [m] of particles to where they are `near` [m] away from the wall particles that are nearer."""
     for n in prange(len(active)):

@@ -10,10 +10,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from numba import njit
-
 from sdph.effects.effect import OFF
 from sdph.engine.state import LIQUID
+from sdph.laws.compiled import serial
 
 
 class PhasesP(NamedTuple):
@@ -32,7 +31,7 @@ def kernel(case) -> PhasesP | tuple:
     return PhasesP(float(gas.interaction == "riemann"), liquid.density, liquid.sound_speed / gas.speed_of_sound(liquid))
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def pressure(p, p_i, p_j, rho_i, rho_j):
     """Twice the pressure [Pa] between two particles: p_i + p_j, or 2 (rho_j p_i + rho_i p_j)/(rho_i + rho_j)."""
     if len(p) == 0:
@@ -42,7 +41,7 @@ def pressure(p, p_i, p_j, rho_i, rho_j):
     return 2.0 * (rho_j * p_i + rho_i * p_j) / (rho_i + rho_j)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def behind(p, signed, p_j, mirrored):
     """Pressure [Pa] of a neighbour: of a wall among two phases what particle i itself would have there."""
     if len(p) == 0:
@@ -50,7 +49,7 @@ def behind(p, signed, p_j, mirrored):
     return p_j if signed > 0.0 else mirrored
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def density(p, signed, rho_i, rho_j):
     """Density [kg/m3] of a neighbour; a wall takes that of particle i."""
     if len(p) == 0:
@@ -58,7 +57,7 @@ def density(p, signed, rho_i, rho_j):
     return rho_j if signed > 0.0 else rho_i
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def kind(p, signed, kind_i, kind_j):
     """Phase of a neighbour; a wall takes that of particle i."""
     if len(p) == 0:
@@ -66,7 +65,7 @@ def kind(p, signed, kind_i, kind_j):
     return kind_j if signed > 0.0 else kind_i
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def harmonic(p, rho_i, rho_j):
     """Harmonic mean of two densities over that of the liquid."""
     if len(p) == 0:
@@ -74,7 +73,7 @@ def harmonic(p, rho_i, rho_j):
     return 2.0 * rho_i * rho_j / ((rho_i + rho_j) * p.density)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def share(p, rho_i, rho_j):
     """Share of v_ij that the continuity equation of i takes: 1, or 2 rho_j/(rho_i + rho_j): a light particle yields to
     a heavy one."""
@@ -83,7 +82,7 @@ def share(p, rho_i, rho_j):
     return 2.0 * rho_j / (rho_i + rho_j) if p.weighted > 0.0 else 1.0
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def like(p, kind_i, kind_j):
     """1 between particles of one phase, else 0."""
     if len(p) == 0:
@@ -91,7 +90,7 @@ def like(p, kind_i, kind_j):
     return 1.0 if kind_i == kind_j else 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def slowness(p, kind_i):
     """Sound speed of the liquid over that of a particle's phase."""
     if len(p) == 0:

@@ -7,7 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 import scipy
-from numba import njit
+
+from sdph.laws.compiled import serial
 
 FINE = 0.5  # spacings: a cell; gel-droplet.md, section 2
 # spacings: how far a particle fills; a lattice of one spacing fills its emptiest place to 0.97; our choice
@@ -43,7 +44,7 @@ def find(points, volume, spacing: float) -> Rooms:
     return Rooms(label, int(label[0, 0]), empty, corner, cell)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def fill(x, y, volume, cell, reach, filled):
     """Add to filled (X, Y) [-] what particles spread about them, 3 V/(pi a^2) (1 - r^2/a^2)^2 within a = reach."""
     wide, high = filled.shape

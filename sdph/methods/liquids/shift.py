@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import math
 
-from numba import njit, prange
+from numba import prange
 
 from sdph.effects.liquids import shifting, xsph
 from sdph.engine import kernels as smoothing
-from sdph.engine.geometry import FAST, apart, faster
+from sdph.engine.geometry import apart, faster
 from sdph.engine.gradients import NO_MATRIX, NO_SUMS, added, divided, in_plane
 from sdph.engine.rows import entry, length
 from sdph.engine.state import GAS
+from sdph.laws.compiled import fast_parallel, parallel
 from sdph.laws.matrices import smallest
 from sdph.methods.liquids import phases
 from sdph.methods.liquids.equations import pressure_at
 
 
-@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+@fast_parallel
 def surround(kernel, s, rows, box, active, shifting_p, phases_p, volume, enclosure, shift, twist):
     """Survey how neighbours lie around each particle, and how fast they go.
 
@@ -49,7 +50,7 @@ def surround(kernel, s, rows, box, active, shifting_p, phases_p, volume, enclosu
         twist[i, 6], twist[i, 7], twist[i, 8] = found[6], found[7], found[8]
 
 
-@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+@fast_parallel
 def mingle(kernel, s, rows, box, active, xsph_p, phases_p, volume, extra_u, extra_v, extra_w):
     """extra (N,) x 3 [m/s]: mean velocity of the own phase around each particle over its own, weighted (XSPH)."""
     for n in prange(len(active)):
@@ -72,7 +73,7 @@ def mingle(kernel, s, rows, box, active, xsph_p, phases_p, volume, extra_u, extr
             extra_w[i] = w
 
 
-@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+@fast_parallel
 def along_surface(kernel, s, rows, box, active, volume, enclosure, shift):
     """Takes out of the shift (N, 3) of particles at a surface what leads through it; spray is not shifted at all.
 
@@ -102,7 +103,7 @@ def along_surface(kernel, s, rows, box, active, volume, enclosure, shift):
         shift[i, 2] = kept * (shift[i, 2] - through * nz)
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def displace(p, fluids, s, active, shift, gradient, twist, compliance, dt, x, y, z, u, v, w, density):
     """r -= dt D sum V_j (1 + R (W/W0)^4) grad W, no faster than the parameters allow.
 

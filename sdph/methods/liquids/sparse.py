@@ -5,18 +5,19 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 
 from sdph.effects.liquids import shear_thinning
 from sdph.engine import kernels as smoothing
-from sdph.engine.geometry import FAST, apart
+from sdph.engine.geometry import apart
 from sdph.engine.gradients import NO_MATRIX, NO_SUMS, added, in_plane
 from sdph.engine.rows import entry, length
+from sdph.laws.compiled import fast_parallel, serial
 from sdph.laws.matrices import SINGULAR, determinant
 from sdph.methods.liquids import phases
 
 
-@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+@fast_parallel
 def lonely(kernel, s, rows, box, chosen, weight, image, phases_p, lone):
     """lone (C,): True of the `chosen` (C,) whose gradients are 0, as the determinant of their neighbours is below
     SINGULAR; weight (N,) [m^d] of neighbours, which lie at their `image` (N, 3) [m] from where they are."""
@@ -32,7 +33,7 @@ def lonely(kernel, s, rows, box, chosen, weight, image, phases_p, lone):
         lone[n] = determinant(*in_plane(matrix, len(s.z) == 0)) < SINGULAR
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def facing(s, rows, box, active, support, volume, faces):
     """faces (A,): True of the particles that see one of the other phase within the kernel's `support` [m]."""
     for n in range(len(active)):

@@ -9,14 +9,15 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 
 from sdph.effects.around import frame, gravity
 from sdph.effects.liquids import laminar_viscosity, liquid_damping, shifting
 from sdph.engine import kernels as smoothing
-from sdph.engine.geometry import FAST, apart, faster
+from sdph.engine.geometry import apart, faster
 from sdph.engine.rows import entry
 from sdph.engine.state import INFLOW
+from sdph.laws.compiled import fast_parallel, serial
 from sdph.laws.constants import TINY
 from sdph.methods.liquids import correction, phases
 from sdph.methods.liquids.forces import body, held_off, velocity
@@ -38,7 +39,7 @@ class WallP(NamedTuple):
     stiffness: float
 
 
-@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+@fast_parallel
 def extrapolate(
     kernel, s, rows, box, walls, wall_p, moving, gravity_p, frame_p, volume, pressure, wall_u, wall_v, wall_w
 ):
@@ -70,7 +71,7 @@ def extrapolate(
             wall_w[i] = 2.0 * own[2] - w * inverse
 
 
-@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+@fast_parallel
 def wall_force(
     kernel, s, rows, box, flow, walls, wall_p, laminar_p, damping_p, shifting_p, phases_p, gravity_p, frame_p, excess,
     gain, felt,
@@ -123,7 +124,7 @@ def wall_force(
         felt[n, 4] = held
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def reaction(s, active, gravity_p, frame_p, acceleration, ahead, load):
     """load (11,): force [N] and moment [N m] of the liquid on its walls, -sum m (a - body), -sum r x m (a - body); of
     velocities that the accelerations lead to in `ahead` [s] the body force, sum m body [N], and the power of gravity

@@ -16,13 +16,13 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 
 from sdph.engine import kernels as smoothing
-from sdph.engine.geometry import FAST, apart
+from sdph.engine.geometry import apart
 from sdph.engine.rows import entry
 from sdph.engine.state import LIQUID
-from sdph.laws.compiled import inlined
+from sdph.laws.compiled import fast_parallel, inlined, serial
 from sdph.laws.constants import TINY
 
 ROUNDS = 30  # of the search for a plane, each halves what is left of 8 h: our choice
@@ -41,7 +41,7 @@ class Line(NamedTuple):
     share: np.ndarray
 
 
-@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+@fast_parallel
 def face(kernel, s, rows, box, active, wetting_p, volume, facing, height):
     """facing (N, 3), height (N,): as in Line, of particles of the fluid; 0 where no wall is near."""
     for n in prange(len(active)):
@@ -64,7 +64,7 @@ def face(kernel, s, rows, box, active, wetting_p, volume, facing, height):
         height[i] = max(inverse * (wx * nx + wy * ny + wz * nz) - 0.5 * wetting_p.spacing, 0.0)
 
 
-@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+@fast_parallel
 def lean(kernel, s, rows, box, walls, wetting_p, normal, facing, share):
     """normal (N, 3) of wall particles where the interface meets them, out of the liquid, else 0; share (N,) of liquid
     that they stand for."""
@@ -96,7 +96,7 @@ def lean(kernel, s, rows, box, walls, wetting_p, normal, facing, share):
             share[j] = filled(parting(kernel, s, rows, box, j, ox, oy, oz, liquid, wetting_p.spacing))
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def filled(way):
     """Share of a cell whose middle lies `way` cells inside of a plane, taken as parallel to it."""
     return min(max(0.5 + way, 0.0), 1.0)

@@ -10,16 +10,14 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 
 from sdph.engine.geometry import apart, deep, faster
 from sdph.engine.linear import Matrix
 from sdph.engine.rows import entry
 from sdph.laws import moving_particles
-from sdph.laws.compiled import inlined
+from sdph.laws.compiled import inlined, parallel
 from sdph.methods.mps.tanks import grip, solid
-
-loop = njit(cache=True, parallel=True, error_model="numpy")
 
 # a particle sees the surface where n is below SPARSE n_0, or below THIN n_0 with neighbours ASIDE n_0 to one side (5),
 # or where it has fewer than FEW neighbours for each dimension: two that touch have no n that tells; our choice
@@ -46,7 +44,7 @@ def seen(cloud, s, box, i, j):
     return dx, dy, dz, r, moving_particles.weight(r / cloud.spacing, cloud.reach / cloud.spacing)
 
 
-@loop
+@parallel
 def look(cloud, walls, s, rows, box, number, surface, speed):
     """number (N,): n; surface (N,): 1 where it sees the surface; speed (N,) [m/s]: the most by which a neighbour
     within r_e goes faster."""
@@ -76,7 +74,7 @@ def look(cloud, walls, s, rows, box, number, surface, speed):
         surface[i] = 1 if n < SPARSE * cloud.number or open_side or few else 0
 
 
-@loop
+@parallel
 def diverge(cloud, walls, s, rows, box, divergence):
     """divergence (N,) [1/s]: (d/n_0) sum u_ij.r_ij w/r^2 (4)."""
     for i in prange(len(s.x)):
@@ -91,7 +89,7 @@ def diverge(cloud, walls, s, rows, box, divergence):
         divergence[i] = cloud.dimensions / cloud.number * total
 
 
-@loop
+@parallel
 def near_surface(cloud, walls, s, rows, box, surface, beside):
     """beside (N,): 1 where the particle or a neighbour of it within r_e sees the surface."""
     for i in prange(len(s.x)):
@@ -103,7 +101,7 @@ def near_surface(cloud, walls, s, rows, box, surface, beside):
         beside[i] = found
 
 
-@loop
+@parallel
 def equations_of(cloud, walls, s, rows, box, number, surface, start, diagonal, column, value):
     """Fill the matrix of (2 d/(lambda n_0)) sum (p_j - p_i) w times -lambda n_0/(2 d), of which start (N + 1,) is
     known: a particle at the surface has n_0 on the diagonal, as if what it lacks were there with p = 0. Walls are
@@ -122,7 +120,7 @@ def equations_of(cloud, walls, s, rows, box, number, surface, start, diagonal, c
         diagonal[i] = held * (1.0 + BURST)
 
 
-@loop
+@parallel
 def count(cloud, walls, s, rows, box, found):
     """found (N,): neighbours within r_e."""
     for i in prange(len(s.x)):
@@ -145,7 +143,7 @@ def matrix(cloud, walls, s, rows, box, number, surface) -> Matrix:
     return Matrix(diagonal, start, column, value)
 
 
-@loop
+@parallel
 def press(cloud, walls, s, rows, box, pressure, acceleration):
     """acceleration (N, 3) [m/s2]: -(1/rho) (d/n_0) sum (p_i + p_j) r_ij w/r^2 (6)."""
     factor = cloud.dimensions / (cloud.density * cloud.number)
@@ -161,7 +159,7 @@ def press(cloud, walls, s, rows, box, pressure, acceleration):
         acceleration[i, 0], acceleration[i, 1], acceleration[i, 2] = ax, ay, az
 
 
-@loop
+@parallel
 def rub(cloud, walls, s, rows, box, viscosity, acceleration):
     """acceleration (N, 3) [m/s2]: nu (2 d/(lambda n_0)) sum u_ij w (3, 7), nu [m2/s]."""
     factor = viscosity * 2.0 * cloud.dimensions / (cloud.spread * cloud.number)
@@ -181,7 +179,7 @@ def rub(cloud, walls, s, rows, box, viscosity, acceleration):
         acceleration[i, 0], acceleration[i, 1], acceleration[i, 2] = factor * ax, factor * ay, factor * az
 
 
-@loop
+@parallel
 def pull(cloud, tension_p, s, rows, box, acceleration, energy):
     """acceleration (N, 3) [m/s2] by tension, F/(rho l0^d) (8), and energy (N,) [J] of the pairs, half to each."""
     unit, reach = cloud.spacing, tension_p.reach / cloud.spacing
@@ -201,7 +199,7 @@ def pull(cloud, tension_p, s, rows, box, acceleration, energy):
         acceleration[i, 0], acceleration[i, 1], acceleration[i, 2], energy[i] = ax, ay, az, -bound
 
 
-@loop
+@parallel
 def meet(walls, s, rows, box, distance, meeting):
     """meeting (N,): neighbours nearer than `distance` [m] that approach."""
     for i in prange(len(s.x)):
@@ -222,7 +220,7 @@ def _approach(s, box, i, j, distance):
     return dx / r, dy / r, dz / r, (du * dx + dv * dy + dw * dz) / r
 
 
-@loop
+@parallel
 def collide(walls, s, rows, box, distance, restitution, meeting, change):
     """change (N, 3) [m/s] of velocity: of a pair that approaches each loses (1 + e)/2 of it, shared by the larger
     number of contacts of the two (9)."""

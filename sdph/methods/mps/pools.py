@@ -10,9 +10,9 @@ from numba import prange
 
 from sdph.engine.geometry import faster
 from sdph.engine.rows import entry
-from sdph.laws.compiled import inlined
+from sdph.laws.compiled import inlined, parallel
 from sdph.laws.matrices import SINGULAR, solved
-from sdph.methods.mps.equations import loop, seen
+from sdph.methods.mps.equations import seen
 from sdph.methods.mps.tanks import across, least, rise, solid
 
 
@@ -23,7 +23,7 @@ def determinant(m):
     return m[0] * a + m[3] * b + m[5] * c
 
 
-@loop
+@parallel
 def diverge(cloud, walls, s, rows, box, beside, divergence):
     """divergence (N,) [1/s] of the liquid as if it went on behind walls as it does in front: `equations.diverge`
     without walls; beside them, away from the surface, by differences that are exact of linear fields."""
@@ -59,7 +59,7 @@ def diverge(cloud, walls, s, rows, box, beside, divergence):
                 divergence[i] = share * found
 
 
-@loop
+@parallel
 def lean(cloud, walls, s, rows, box, scale, right):
     """Add what walls give to the pressure's equations, sum w (p_j - p_i) over them, to right (N,); of walls it is
     0."""
@@ -74,7 +74,7 @@ def lean(cloud, walls, s, rows, box, scale, right):
                 right[i] += w * rise(s, scale, i, *across(walls, s, j, dx, dy, dz))
 
 
-@loop
+@parallel
 def press(cloud, walls, s, rows, box, pressure, beside, scale, acceleration, borne):
     """acceleration (N, 3) [m/s2] by the pressure, and borne (N, 3): what of it walls would give by pairs, which is
     their load; scale: rho/dt.
@@ -119,7 +119,7 @@ def press(cloud, walls, s, rows, box, pressure, beside, scale, acceleration, bor
         borne[i, 0], borne[i, 1], borne[i, 2] = light * bx, light * by, light * bz
 
 
-@loop
+@parallel
 def keep_apart(cloud, walls, s, rows, box, beside, strength, way):
     """way (N, 3) [m] towards where neighbours are few: -strength sum (w/n_0) r_ij/r, strength [m]; 0 beside the
     surface and of walls."""

@@ -11,12 +11,12 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 
 from sdph.engine import kernels as smoothing
-from sdph.engine.geometry import FAST
 from sdph.engine.rows import place
 from sdph.laws import strength
+from sdph.laws.compiled import fast_parallel, parallel, serial
 from sdph.laws.matrices import principal
 
 
@@ -45,7 +45,7 @@ class Reference(NamedTuple):
     free: np.ndarray
 
 
-@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+@fast_parallel
 def deform(x, y, z, rows, ref, gradient):
     """F (N, 9) = I + sum (u_j - u_i) g_ij^T, u displacements: exact for any linear map. z has no length in a plane."""
     for i in prange(len(gradient)):
@@ -77,7 +77,7 @@ def deform(x, y, z, rows, ref, gradient):
             gradient[i, 4 * b] += 1.0
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def inverse(F):
     """(det F, F^-1) of nine elements; the inverse in nine."""
     a, b, c = F[4] * F[8] - F[5] * F[7], F[5] * F[6] - F[3] * F[8], F[3] * F[7] - F[4] * F[6]
@@ -90,14 +90,14 @@ def inverse(F):
     )  # fmt: skip
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def row(F, a, c):
     """Row a of F c, three elements, of a symmetric c (xx, yy, zz, xy, yz, zx)."""
     x, y, z = F[3 * a], F[3 * a + 1], F[3 * a + 2]
     return x * c[0] + y * c[3] + z * c[5], x * c[3] + y * c[1] + z * c[4], x * c[5] + y * c[4] + z * c[2]
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def carried(F, c):
     """F c F^T of a symmetric c (xx, yy, zz, xy, yz, zx), in the same order."""
     p, q, r = row(F, 0, c), row(F, 1, c), row(F, 2, c)
@@ -108,7 +108,7 @@ def carried(F, c):
     )  # fmt: skip
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def composed(axes, a, b, c):
     """Symmetric matrix (xx, yy, zz, xy, yz, zx) of eigenvalues a, b, c along the axes, nine elements."""
     n = axes
@@ -119,7 +119,7 @@ def composed(axes, a, b, c):
     )  # fmt: skip
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def flowed(material, plastic, damage, q, volume, jacobian, state, dt):
     """(share of the deviator that is left, dp, dD) of a trial stress q [Pa] and ln J_e; `state` is p, r, D."""
     p, r, harm = state
@@ -135,14 +135,14 @@ def flowed(material, plastic, damage, q, volume, jacobian, state, dt):
     return left / q, flow, strength.damage_growth(damage, p + flow, flow, failure)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def equivalent(tau):
     """Equivalent stress [Pa] of a symmetric tensor (6,)."""
     a, b, c = tau[0] - tau[1], tau[1] - tau[2], tau[2] - tau[0]
     return math.sqrt(0.5 * (a * a + b * b + c * c) + 3.0 * (tau[3] * tau[3] + tau[4] * tau[4] + tau[5] * tau[5]))
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def unload(back, axes, a, b, c, unloaded):
     """C_p^-1 = F^-1 b_e F^-T (6,) of principal elastic log strains a, b, c; `back` is F^-1."""
     now = carried(back, composed(axes, math.exp(2.0 * a), math.exp(2.0 * b), math.exp(2.0 * c)))
@@ -150,7 +150,7 @@ def unload(back, axes, a, b, c, unloaded):
         unloaded[k] = now[k]
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def drawn(tau, back, L, stress):
     """P L (9,) [Pa] of P = tau F^-T, `back` being F^-1."""
     full = (tau[0], tau[3], tau[5], tau[3], tau[1], tau[4], tau[5], tau[4], tau[2])
@@ -163,7 +163,7 @@ def drawn(tau, back, L, stress):
             stress[3 * a + b] = p * L[b] + q * L[3 + b] + r * L[6 + b]
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def least_stretch(back):
     """Bound from below on the stretch of any line element: of (F F^T)^-1 the largest sum of a row is 1/stretch^2 or
     more. `back` is F^-1."""
@@ -176,7 +176,7 @@ def least_stretch(back):
     return 1.0 / math.sqrt(most)
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def load(material, plastic, damage, ref, dt, gradient, unloaded, strained, hardened, harm, stress, kirchhoff, amounts):
     """Stress after a step of dt [s]: P L (N, 9) [Pa] for the forces, Kirchhoff's tau (N, 6) [Pa].
 
@@ -216,7 +216,7 @@ def load(material, plastic, damage, ref, dt, gradient, unloaded, strained, harde
         amounts[i, 2] = least_stretch(back)
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def across(tensor, i, j, X, Y, Z):
     """(T_i + T_j) X of tensors (N, 9)."""
     return (
@@ -226,7 +226,7 @@ def across(tensor, i, j, X, Y, Z):
     )
 
 
-@njit(cache=True, parallel=True, error_model="numpy", fastmath=FAST)
+@fast_parallel
 def push(kernel, material, x, y, z, u, v, w, rows, ref, gradient, stress, acceleration, steadying, friction):
     """Accelerations (N, 3) [m/s2] by stress, hourglass control and viscosity; of the last two also alone.
 
@@ -271,7 +271,7 @@ def push(kernel, material, x, y, z, u, v, w, rows, ref, gradient, stress, accele
         friction[i, 0], friction[i, 1], friction[i, 2] = scale * fx, scale * fy, scale * fz
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def kick(mass, active, acceleration, steadying, friction, pressed, dt, u, v, w):
     """v += a dt of the particles that move; work [J] in it of all forces, of hourglass control, of viscosity, and of
     pressure (N, 3) where there is one: force times dt times the mean of the velocities before and after it."""

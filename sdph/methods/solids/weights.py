@@ -13,11 +13,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 
 from sdph.engine import kernels as smoothing
 from sdph.engine.rows import Neighbours, entry, place
 from sdph.engine.state import SOLID
+from sdph.laws.compiled import parallel
 from sdph.laws.matrices import SINGULAR
 
 LOOSE = 0.15  # det M below which cuts free a particle; an uncut square corner has 0.137: gel-droplet.md, section 2
@@ -58,7 +59,7 @@ class Weights:
         self.correction[self.free != 0] = 0.0
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def _slopes(kernel, places, body, rows, slope):
     """Kernel slopes along the rows; 0 between bodies."""
     for i in prange(len(places)):
@@ -71,7 +72,7 @@ def _slopes(kernel, places, body, rows, slope):
                 slope[place(rows, i, k)] = smoothing.slope(kernel, math.sqrt(r2))
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def _sum_moments(places, volume, rows, slope, moments):
     """M (N, 9) = -sum V_j slope X_ij X_ij^T."""
     for i in prange(len(places)):
@@ -83,7 +84,7 @@ def _sum_moments(places, volume, rows, slope, moments):
                     moments[i, 3 * a + b] += weight * (places[i, a] - places[j, a]) * (places[i, b] - places[j, b])
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@parallel
 def _cut(rows, free, slope, torn):
     """Set the slopes of all links of free particles to 0, and mark those that have lost one."""
     for i in prange(len(free)):

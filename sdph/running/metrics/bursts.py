@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from sdph.effects.gas import sizes
+from sdph.laws.compiled import serial
 
 
 def metrics(simulation) -> dict[str, float]:
@@ -23,7 +23,7 @@ def metrics(simulation) -> dict[str, float]:
     }
 
 
-@njit(cache=True, error_model="numpy")
+@serial
 def moments(density, s, number, second, third):
     """Moments of each particle: number of droplets that are left (N,), their mean d^2 (N,) [m2] and d^3 (N,) [m3]."""
     for i in range(len(s.x)):
