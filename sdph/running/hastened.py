@@ -60,7 +60,7 @@ class Hastened(Together):
 
     def start(self) -> None:
         super().start()
-        self._hasten(time_scaling.pace(self.p, self.speed, self._fastest(), self.pace))
+        self._hasten(time_scaling.pace(self.p, self.speed, self._mach(), self.pace))
 
     def _advance(self) -> None:
         self.bodies.begin()
@@ -89,7 +89,7 @@ class Hastened(Together):
         self.most["pressure_max_Pa"] = max(self.most["pressure_max_Pa"], self.stepper.void.pressure)
         self.most["diameter_ratio_max"] = max(self.most["diameter_ratio_max"], self.diameter_ratio())
         self._weigh(old, passed)
-        self._hasten(time_scaling.pace(self.p, self.speed, self._fastest(), self.pace))
+        self._hasten(time_scaling.pace(self.p, self.speed, self._mach(), self.pace))
 
     def _weigh(self, old: float, passed: float) -> None:
         """Mean pressure that inertia takes, and the most over that of the bubble."""
@@ -124,10 +124,10 @@ class Hastened(Together):
         clock.landmarks = np.union1d(clock.landmarks[clock.landmarks <= tear], np.union1d(ways, shows))
         clock.shortest = 1e-9 * last
 
-    def _fastest(self) -> float:
-        """Highest speed [m/s] of the gel."""
+    def _mach(self) -> float:
+        """Highest speed of the gel over its sound's [-]."""
         own = self.stepper
-        return math.sqrt(motion.fastest(own.state, own.active, own.acceleration)[0])
+        return math.sqrt(motion.fastest(own.state, own.active, own.acceleration)[0]) / self.case.liquid.sound_speed
 
     def _inner(self) -> float:
         """Radius [m] of a circle as large as the shell's lining."""

@@ -38,7 +38,7 @@ def test_a_flaw_takes_its_share_of_the_ring_and_leaves_the_inner_face():
 
 
 def test_pace_holds_the_wall_at_its_cap():
-    p = time_scaling.TimeScalingP(0.2, 10.0, 1000.0, 25e-6, 2e-4)
+    p = time_scaling.TimeScalingP(0.2, 1000.0, 25e-6, 2e-4)
     assert time_scaling.pace(p, 0.0, 0.0, 1.0) == 1000.0
     assert time_scaling.pace(p, 0.4, 0.0, 1000.0) == pytest.approx(500.0)
     assert time_scaling.pace(p, -0.4, 0.0, 1000.0) == pytest.approx(500.0)
@@ -46,10 +46,10 @@ def test_pace_holds_the_wall_at_its_cap():
 
 
 def test_pace_holds_what_a_closing_bubble_throws():
-    p = time_scaling.TimeScalingP(0.2, 10.0, 1000.0, 25e-6, 2e-4)
-    assert time_scaling.pace(p, 0.1, 40.0, 1000.0) == pytest.approx(250.0)
-    assert time_scaling.pace(p, 0.1, 10.0, 250.0) == pytest.approx(250.0)
-    assert time_scaling.pace(p, 0.4, 5.0, 1000.0) == pytest.approx(500.0)
+    p = time_scaling.TimeScalingP(0.2, 1000.0, 25e-6, 2e-4)
+    assert time_scaling.pace(p, 0.1, 0.4, 1000.0) == pytest.approx(250.0)
+    assert time_scaling.pace(p, 0.1, 0.1, 250.0) == pytest.approx(250.0)
+    assert time_scaling.pace(p, 0.4, 0.05, 1000.0) == pytest.approx(500.0)
 
 
 def test_inertia_of_a_cylinder_is_that_of_rayleigh():

@@ -4,7 +4,7 @@
 
 S = min(S_max, v_cap S/|dr/dtau|): the wall of the shell moves no faster than v_cap in the motion's own time, so that
 inertia and the viscosity of the gel, which are not scaled, stay small beside the pressure; 1 from the first cut on. Nor
-does any of the gel pass a tenth of its speed of sound, within which a weakly compressible liquid is one (Monaghan 1994):
+does any gel pass a tenth of its speed of sound, within which a weakly compressible liquid is one (Monaghan 1994):
 what a closing bubble throws moves fast though the wall does not.
 When S changes velocities change with it, v S_new/S_old: the motion in real time goes on as it was.
 
@@ -34,10 +34,9 @@ class TimeScaling:
 
 
 class TimeScalingP(NamedTuple):
-    """v_cap [m/s], the gel's highest speed [m/s], S_max, averaging time [s], time after a tear [s]."""
+    """v_cap [m/s], S_max, averaging time [s], time after a tear [s]."""
 
     cap: float
-    fastest: float
     largest: float
     averaging: float
     after_tear: float
@@ -45,7 +44,7 @@ class TimeScalingP(NamedTuple):
 
 def kernel(case) -> TimeScalingP:
     own = case.parameters["time_scaling"]
-    return TimeScalingP(own.wall_speed_cap, MACH * case.liquid.sound_speed, own.largest, own.averaging, own.after_tear)
+    return TimeScalingP(own.wall_speed_cap, own.largest, own.averaging, own.after_tear)
 
 
 def check(case) -> None:
@@ -61,10 +60,10 @@ def check(case) -> None:
             raise CaseError(f"effects holds {name} and time_scaling, and {name} is not scaled: leave one out")
 
 
-def pace(p: TimeScalingP, speed: float, fastest: float, before: float) -> float:
-    """S of the speeds [m/s] of the wall and of the fastest gel in the motion's own time under the S `before`; 1 at
-    least."""
-    wanted = [most * before / own for most, own in ((p.cap, abs(speed)), (p.fastest, fastest)) if own]
+def pace(p: TimeScalingP, speed: float, mach: float, before: float) -> float:
+    """S of a wall speed [m/s] and of the fastest gel's over its sound's [-], in the motion's own time under the S
+    `before`; 1 at least."""
+    wanted = [most * before / own for most, own in ((p.cap, abs(speed)), (MACH, mach)) if own]
     return max(1.0, min([p.largest, *wanted]))
 
 
