@@ -75,8 +75,7 @@ class Tree:
 
 
 def _compiles(file: Path) -> bool:
-    text = file.read_bytes()
-    return b"njit" in text or b"@law" in text or b"loop" in text
+    return b"compiled" in file.read_bytes()
 
 
 def _imports(root: Path) -> dict[str, set[str]]:
