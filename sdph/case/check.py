@@ -110,8 +110,9 @@ def _check_method(case: Case) -> None:
             raise CaseError(
                 "liquid.sound_speed_m_s is missing; a weakly compressible liquid needs it, ten times its speed"
             )
-        if "free_energy_tension" in case.effects:
-            raise CaseError('effects holds free_energy_tension, which is of moving particles; set method.name = "mps"')
+        for name in ("free_energy_tension", "perforation", "suction"):
+            if name in case.effects:
+                raise CaseError(f'effects holds {name}, which is of moving particles; set method.name = "mps"')
         return
     for name in case.effects:
         if name not in KNOWN:

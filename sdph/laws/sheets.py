@@ -9,6 +9,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import scipy
+
+from sdph.laws.compiled import law
+
+TORN = 12.0  # ln(eta_b/eta_0) at which a sheet breaks: Dombrowski & Johns 1963; Senecal et al. 1999
+BISECTIONS = 12  # of an interval of 1/6: 4e-5 of it, and at a maximum 1e-8 of the growth
+STEPS = 4000  # of an integral along a sheet
 
 
 def ballistic_radius(z, r_0: float, alpha: float):
@@ -16,9 +23,72 @@ def ballistic_radius(z, r_0: float, alpha: float):
     return np.sqrt(r_0**2 + (alpha * np.asarray(z)) ** 2)
 
 
+def thickness(z, r_0: float, h_0: float, alpha: float):
+    """h [m] of the sheet, normal to it, at z [m], by straight flight: h_0 r_0/(r sqrt(1 + (alpha^2 z/r)^2))."""
+    r = ballistic_radius(z, r_0, alpha)
+    return h_0 * r_0 / (r * np.sqrt(1.0 + (alpha**2 * np.asarray(z) / r) ** 2))
+
+
+def distance_of_thickness(h: float, r_0: float, h_0: float, alpha: float) -> float:
+    """z [m] at which the sheet has thinned to h [m]: `thickness` turned round; inf of one that never thins so far."""
+    if h >= h_0:
+        return 0.0
+    return r_0 * math.sqrt((h_0 / h) ** 2 - 1.0) / (alpha * math.sqrt(1.0 + alpha**2)) if alpha else math.inf
+
+
+@law
+def wave_growth(number, half, speed, density, gas_density, sigma):
+    """omega [1/s] of sinuous waves, k = number [1/m], on a sheet of half thickness h [m] that slips at U through gas:
+    sqrt((rho_g U^2 k^2 - sigma k^3)/(rho tanh(k h))), 0 where they do not grow.
+
+    Squire 1953, Br. J. Appl. Phys. 4, 167; Dombrowski & Johns 1963, Chem. Eng. Sci. 18, 203, without viscosity, and
+    the gas light: rho_g/rho << tanh(k h).
+    """
+    drive = (gas_density * speed * speed - sigma * number) * number * number
+    return math.sqrt(drive / (density * math.tanh(number * half))) if drive > 0.0 else 0.0
+
+
+@law
+def fastest_wave(half, speed, gas_density, sigma):
+    """k [1/m] of the wave that grows fastest: from rho_g U^2/(2 sigma) of a thin sheet to 2/3 rho_g U^2/sigma of a
+    thick one, as We = rho_g U^2 h/sigma goes from 0 to infinity."""
+    unit = gas_density * speed * speed / sigma
+    weber, low, high = unit * half, 0.5, 2.0 / 3.0
+    for _ in range(BISECTIONS):
+        share = 0.5 * (low + high)
+        t = math.tanh(share * weber)
+        rises = (2.0 - 3.0 * share) * t > share * (1.0 - share) * weber * (1.0 - t * t)
+        low, high = (share, high) if rises else (low, share)
+    return 0.5 * (low + high) * unit
+
+
+def suction_length(r_0, h_0, speed, alpha, density, gas_density, sigma) -> float:
+    """z [m] at which the sheet breaks by suction of gas at rest: the integral of the fastest growth along the path, as
+    the sheet thins, is TORN there (swirl-sheet.md, section 6, b; LISA: Senecal et al. 1999, Int. J. Multiph. Flow 25,
+    1073)."""
+    slip = speed * math.hypot(1.0, alpha)
+
+    def growth(half):
+        k = fastest_wave(half, slip, gas_density, sigma)
+        return wave_growth(k, half, slip, density, gas_density, sigma)
+
+    z = np.linspace(0.0, TORN * speed / growth(0.5 * h_0), STEPS + 1)  # it grows ever faster
+    rate = np.array([growth(0.5 * h) for h in thickness(z, r_0, h_0, alpha)]) / speed
+    total = np.concatenate(([0.0], np.cumsum(0.5 * (rate[1:] + rate[:-1]) * np.diff(z))))
+    return float(np.interp(TORN, total, z))
+
+
 def taylor_culick(sigma: float, density: float, thickness: float) -> float:
     """Speed [m/s] of the rim of a film: sqrt(2 sigma/(rho h)). Taylor 1959, Proc. R. Soc. A 253, 313; Culick 1960."""
     return math.sqrt(2.0 * sigma / (density * thickness))
+
+
+def rayleigh_plateau(k):
+    """Growth [sqrt(sigma/(rho a^3))] of a wave k [1/a] on a thread of radius a: sqrt(k (1 - k^2) I_1(k)/I_0(k)).
+
+    Rayleigh 1878, Proc. Lond. Math. Soc. 10, 4; k below 1.
+    """
+    return math.sqrt(k * (1.0 - k * k) * scipy.special.iv(1, k) / scipy.special.iv(0, k))
 
 
 def diameter_of(volume, dimensions: int):

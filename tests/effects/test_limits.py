@@ -47,6 +47,8 @@ WITH = {
         "evaporating_jet", "",
         ("break_up.liquid_viscosity_Pa_s=1e-3", "break_up.products='equal'", "grains.surface_tension_N_m=0.02"),
     ),
+    "perforation": ("swirl_sheet", "", ("perforation.thickness_um=100",)),
+    "suction": ("swirl_sheet", "", ("suction.gas_density_kg_m3=1.2",)),
     "xsph": ("taylor_green", "", ()),
     "shear_thinning": (
         "taylor_green", "laminar_viscosity",

@@ -16,10 +16,11 @@ from sdph.engine.state import INFLOW, LIQUID
 from sdph.laws import moving_particles
 from sdph.methods.mps import equations, pools, start, tanks
 from sdph.methods.mps.bounds import MpsGuard
+from sdph.methods.mps.holes import Holes
 from sdph.methods.mps.openings import Openings
 from sdph.schema import CaseError
 
-WORKS = ("gravity", "viscosity", "tension", "pressure", "collisions")
+WORKS = ("gravity", "viscosity", "tension", "pressure", "collisions", "holes")
 RELATIVE = 0.2  # of l0 that neighbours may move to each other in a step; swirl-sheet.md, section 2, 12
 COURANT = 0.2  # of l0 that a particle of a pool moves in a step, whose way is bent: Koshizuka & Oka 1996
 FALL = 0.1  # of sqrt(l0/g), so that a fall from rest by a step is 0.005 l0; our choice
@@ -31,7 +32,7 @@ class MpsStepper:
     # see sdph.engine.kept
     KEPT = (
         "state", "neighbours", "time", "steps", "limit", "works", "impulses", "iterations", "clipped",
-        "openings", "load", "moved",
+        "openings", "load", "moved", "holes",
     )  # fmt: skip
     FORMS = {"state": GROWING}
     # what loops take from neighbours, fresh, of `state` and of what `_look` finds; the pressure is solved for by all
@@ -47,6 +48,7 @@ class MpsStepper:
         self.openings = Openings(case, self.state) if self.p["inflow"] or self.p["outflow"] else None
         if self.openings:
             self.state = self.openings.begin(self.state)
+        self.holes = Holes(case, self.p) if self.p["perforation"] or self.p["suction"] else None
         pulled = self.p["free_energy_tension"]
         reach = max(self.cloud.reach, pulled.reach if pulled else 0.0, self.own.piece * unit)
         self.neighbours = Neighbours(reach, start.period(case), case.resolution.neighbour_skin)
@@ -93,6 +95,8 @@ class MpsStepper:
             self._kick(name, acceleration, dt, active)
         self._kick("pressure", self._pressed(dt), dt, active)
         self._collide(active)
+        if self.holes:
+            self._kick("holes", self.holes.advance(self, dt), 1.0, active)
         s = self.state
         motion.drift(active, s.u, s.v, s.w, dt, s.x, s.y, s.z)
         if self.pool:

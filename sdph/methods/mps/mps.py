@@ -103,6 +103,10 @@ class Mps(Stepped):
             found |= pieces.sizes(self.diameters, whole)
         if sheet.nozzle_of(self.case):
             found |= sheet.told(self.case, particles.positions(self.inside()))
+        if holes := self.stepper.holes:
+            found |= holes.told()
+            if sheet.nozzle_of(self.case):
+                found |= sheet.torn(self.case, holes.opened.middle)
         return found
 
     def warnings(self) -> list[str]:

@@ -10,7 +10,7 @@ from sdph import effects
 from sdph.methods.mps.start import fill
 
 # effects that moving particles know
-KNOWN = ("gravity", "laminar_viscosity", "free_energy_tension", "tank", "inflow", "outflow")
+KNOWN = ("gravity", "laminar_viscosity", "free_energy_tension", "perforation", "suction", "tank", "inflow", "outflow")
 
 
 class MpsScales:

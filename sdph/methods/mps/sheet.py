@@ -127,3 +127,10 @@ def told(case, places) -> dict[str, float]:
         "break_up_length_m": slant(nozzle) * break_up(seen, spacing),
         "break_up_length_ballistic_m": slant(nozzle) * break_up(ballistic(case, length), spacing),
     }
+
+
+def torn(case, middles) -> dict[str, float]:
+    """Summary of holes: mean way [m] along the path from the mouth to where they opened, middles (M, 3) [m]; nan of
+    none."""
+    found = slant(nozzle_of(case)) * about_axis(case, middles)[:, 2]
+    return {"holes_way_m": float(found.mean()) if len(found) else math.nan}
