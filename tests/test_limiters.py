@@ -88,6 +88,8 @@ HARMLESS = {
     "sdph/methods/mps/equations.py:look": "the largest of all",
     "sdph/methods/mps/method.py:MpsStepper.__init__": "the widest reach",
     "sdph/methods/mps/mps.py:Mps.summary": "means of a run without a step",
+    "sdph/methods/mps/holes.py:Holes._waves": "room for numbers of particles",
+    "sdph/effects/liquids/perforation.py:way": "judges for `sdph explain`; no run takes anything from it",
     "sdph/methods/mps/sheet.py:*": "counts of pixels, and a length to draw a curve over",
     "sdph/methods/solids/start.py:*": "counts of points",
     "sdph/methods/solids/equations.py:least_stretch": "the largest of all",

@@ -1,4 +1,4 @@
-"""What a particle sees of the sheet that it is of: how thick it is there, how fast waves grow on it."""
+"""Thickness of a sheet as its particles see it, and how fast waves grow on it."""
 
 from __future__ import annotations
 
