@@ -1,4 +1,4 @@
-"""How functions are compiled: `law` and `serial` (one thread), `inlined` (part of a loop), `parallel`; cached on disk,
+"""Decorators of compiled functions: `law` and `serial` (one thread), `inlined` (part of a loop), `parallel`; cached on disk,
 IEEE division (1/0 is inf, as in numpy); `fast_` ones may sum in any order.
 
 numba spends two thirds of a cold start on what nobody needs, because a State has about eighty arrays: a way in from

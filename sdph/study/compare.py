@@ -1,4 +1,4 @@
-"""What comparisons are made of: a finished run, checks, and the scene's own validation/<scene>/compare.py."""
+"""Parts of a comparison: a finished run, checks, and the scene's own validation/<scene>/compare.py."""
 
 from __future__ import annotations
 

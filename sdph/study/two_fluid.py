@@ -75,7 +75,7 @@ def _along_gravity(case, late, own: Cells, other: Cells, weights) -> list[dict]:
 
 
 def _start(case, first) -> Start:
-    """How the grains stand in the first output; in each cell those of the nearest particle."""
+    """Grains as the first output has them; velocity and temperature of a cell are those of the nearest particle."""
     centres = np.asarray(first.gas.cell_centers().points)[:, : case.dimensions]
     nearest = cKDTree(np.asarray(first.particles.points)[:, : case.dimensions]).query(centres)[1]
     velocity, warmth = np.asarray(first.particles["velocity"])[nearest], _temperature(case, first)[nearest]

@@ -1,4 +1,4 @@
-"""How the grains of a run stand at its start, cell by cell."""
+"""Grains of a run at its start, cell by cell."""
 
 from __future__ import annotations
 
