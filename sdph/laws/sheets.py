@@ -86,7 +86,7 @@ def taylor_culick(sigma: float, density: float, thickness: float) -> float:
 def rayleigh_plateau(k):
     """Growth [sqrt(sigma/(rho a^3))] of a wave k [1/a] on a thread of radius a: sqrt(k (1 - k^2) I_1(k)/I_0(k)).
 
-    Rayleigh 1878, Proc. Lond. Math. Soc. 10, 4; k below 1.
+    Rayleigh 1878, Proc. London Math. Soc. 10, 4; k below 1.
     """
     return math.sqrt(k * (1.0 - k * k) * scipy.special.iv(1, k) / scipy.special.iv(0, k))
 

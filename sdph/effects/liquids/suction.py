@@ -1,6 +1,6 @@
 """Gas at rest sucks at the crests of waves on a sheet of moving particles, and tears it where they have grown by e^12.
 
-Waves are 0.15 to 0.5 mm long and begin e^12 times smaller than the sheet's break: no particle shows them. So each
+Waves are 0.15 to 0.55 mm long and begin e^12 times smaller than the sheet's break: no particle shows them. So each
 particle adds up the growth of the fastest wave along its path, with the thickness and the speed that it has, and
 where the sum is ln(eta_b/eta_0) = 12 the sheet is perforated, a hole on each square of a wave's length (swirl-sheet.md,
 section 6, b; Senecal et al. 1999, Int. J. Multiph. Flow 25, 1073).
