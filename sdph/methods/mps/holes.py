@@ -1,7 +1,7 @@
 """Holes of a sheet: where they begin, and how their rims go.
 
-Tension of pairs moves a rim at 0.15 to 0.43 of the speed of Taylor and Culick (validation/moving_particles), and a sheet
-thinner than a layer is hardly pulled. So a rim is carried: within a circle that grows at that speed u from half the
+Tension of pairs moves a rim at 0.15 to 0.43 of the speed of Taylor and Culick (validation/moving_particles), and hardly
+pulls a sheet thinner than a layer. So a rim is carried: within a circle that grows at that speed u from half the
 thickness on, about a middle that flies with the sheet, whatever goes outward slower than u goes at u. What one particle
 gains the others of the circle lose: the kicks of a hole have no sum.
 
