@@ -51,6 +51,9 @@ def reached() -> tuple[set, set]:
         own = defined(tree)
         members |= {name: (file.stem, name) for name in own}
         needs |= {(file.stem, name): used(node, modules, members) for name, node in own.items()}
+        for node in tree.body:
+            if isinstance(node, ast.Expr):  # called as the module is imported
+                seen |= used(node, modules, members)
     for room in USERS:
         for file in (ROOT / room).rglob("*.py"):
             if LAWS not in file.parents:
