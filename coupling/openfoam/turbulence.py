@@ -34,7 +34,7 @@ def write_properties(case, folder: Path) -> None:
 
 
 def fields(case) -> dict[str, str]:
-    """Field -> its value at the start, of those that the model of the case solves for, and nut; none of a laminar gas."""
+    """Field -> its value at the start, of those that the model solves for, and nut; none of a laminar gas."""
     return {name: repr(value) for name, value in brought(case).items()} | {"nut": "0"} if case.gas.turbulent else {}
 
 

@@ -6,7 +6,8 @@ from sdph.laws import turbulence as law
 from sdph.schema import CaseError
 
 SECTION = "gas.turbulence"
-RATES = {"kEpsilon": ("epsilon", "epsilon_m2_s3"), "kOmegaSST": ("omega", "omega_1_s")}  # model -> what it solves for beside k
+# model -> what it solves for beside k, and its key
+RATES = {"kEpsilon": ("epsilon", "epsilon_m2_s3"), "kOmegaSST": ("omega", "omega_1_s")}
 OF_RATES = {"epsilon": law.dissipation, "omega": law.frequency}
 GIVEN = {"k": "k_m2_s2", "epsilon": "epsilon_m2_s3", "omega": "omega_1_s", "mixing_length": "mixing_length_m"}
 
@@ -20,14 +21,15 @@ def check(case) -> None:
     for name in GIVEN:
         known = rate is not None and name in ("k", rate, "mixing_length")
         if getattr(own, name) is not None and not known:
-            raise CaseError(f'{SECTION}.{GIVEN[name]} is given, but model = "{own.model}" does not take it; leave it out')
+            given = f"{SECTION}.{GIVEN[name]} is given"
+            raise CaseError(f'{given}, but model = "{own.model}" does not take it; leave it out')
     if rate is None:
         return
     if (getattr(own, rate) is None) == (own.mixing_length is None):
         raise CaseError(f'{SECTION}: model = "{own.model}" needs mixing_length_m or {key}; give one of them')
     if own.k is None and not fastest_inlet(case):
         raise CaseError(
-            f"{SECTION}.k_m2_s2 is missing; without a velocity_inlet that flows, intensity tells of no turbulence: give it"
+            f"{SECTION}.k_m2_s2 is missing; without a velocity_inlet that flows, intensity tells of none: give it"
         )
 
 
@@ -42,8 +44,8 @@ def speed(boundary) -> float:
 
 
 def brought(case, inlet=None) -> dict[str, float]:
-    """k [m2/s2] and epsilon [m2/s3] or omega [1/s] of the gas that an inlet brings; without one (or with one at rest) as
-    of the fastest, which the gas has at the start too. Nothing of a model that solves for neither."""
+    """k [m2/s2] and epsilon [m2/s3] or omega [1/s] of the gas that an inlet brings; without one (or with one at rest)
+    as of the fastest, which the gas has at the start too. Nothing of a model that solves for neither."""
     own = case.gas.turbulence
     if own.model not in RATES:
         return {}

@@ -18,7 +18,7 @@ MODELS = {"kEpsilon": "epsilon", "kOmegaSST": "omega", "WALE": None}  # model ->
 BOUNDARIES = {
     "inlet": {"kind": "velocity_inlet", "side": "left", "velocity_m_s": [SPEED, 0.0, 0.0]},
     "outlet": {"kind": "pressure_outlet", "side": "right", "pressure_Pa": 0.0},
-    "lid": {"kind": "wall", "side": "top", "velocity_m_s": [0.5, 0.3, 0.0]},
+    "lid": {"kind": "wall", "side": "top", "velocity_m_s": [0.5, 0.0, 0.3]},
     "slide": {"kind": "slip_wall", "side": "front"},
     "walls": {"kind": "wall"},
 }

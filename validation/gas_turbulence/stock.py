@@ -27,7 +27,7 @@ divSchemes
 {
     default Gauss linear;
     div(phi,U) Gauss linearUpwind grad(U);
-    "div\\(phi,(k|epsilon|omega)\\)" Gauss vanLeer;
+    "div\\(phi,(k|epsilon|omega)\\)" Gauss limitedLinear 1;
 }
 laplacianSchemes { default Gauss linear corrected; }
 interpolationSchemes { default linear; }
@@ -92,11 +92,11 @@ def _holding(text: str, values: np.ndarray) -> str:
     return re.sub(r"internalField uniform [^;]*;", lambda _: inside, text)
 
 
-def remembered(gas, folder: Path) -> dict[str, np.ndarray]:
-    """Fields of the gas, which runs on one rank, as its checkpoint has them."""
+def remembered(gas, folder: Path, names: tuple[str, ...] = OWN) -> dict[str, np.ndarray]:
+    """Fields of the gas, which runs on one rank, as its checkpoint has them; name.2 is that on the third patch."""
     gas.checkpoint(folder)
     values = decode((folder / "gas.0").read_bytes()).values
-    return {name: np.asarray(values[name]) for name in OWN if name in values}
+    return {name: np.asarray(values[name]) for name in names if name in values}
 
 
 def pimple(gas, own, folder: Path, dt: float, steps: int, control: str = FREE) -> dict[str, np.ndarray]:

@@ -72,7 +72,7 @@ public:
     virtual void correct(volScalarField& field)
     {
         const scalarField& values = field.primitiveField();
-        share_ = max(share_, -gSum(scalarField(min(values, scalar(0))))/max(gSum(mag(values)()), VSMALL));
+        share_ = max(share_, gSum(scalarField(max(-values, scalar(0))))/max(gSum(mag(values)()), VSMALL));
     }
 };
 
