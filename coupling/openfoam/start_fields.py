@@ -59,11 +59,11 @@ def _text(name: str, kind: tuple[str, str], inside: str, conditions: dict[str, s
     return f"{head}dimensions {dimensions};\ninternalField uniform {inside};\nboundaryField\n{{\n{patches}}}\n"
 
 
-def _fixed(value) -> str:
+def fixed(value) -> str:
     return f"type fixedValue; value uniform {value};"
 
 
-def _vector(case, velocity) -> str:
+def vector(case, velocity) -> str:
     components = [*(velocity or [0.0] * case.dimensions), 0.0][:3]
     return f"({' '.join(repr(c) for c in components)})"
 
@@ -71,9 +71,9 @@ def _vector(case, velocity) -> str:
 def _wall(case, boundary, name: str) -> dict[str, str]:
     return {
         "alpha_g": ZERO_GRADIENT,
-        "U": _fixed(_vector(case, boundary.velocity)),
+        "U": fixed(vector(case, boundary.velocity)),
         "p_rgh": GIVEN_FLUX,
-        "T": ZERO_GRADIENT if boundary.temperature is None else _fixed(boundary.temperature),
+        "T": ZERO_GRADIENT if boundary.temperature is None else fixed(boundary.temperature),
         "Y": ZERO_GRADIENT,
     }
 
@@ -87,11 +87,11 @@ def _velocity_inlet(case, boundary, name: str) -> dict[str, str]:
     if boundary.velocity is None:
         raise CaseError(f"boundaries.{name}.velocity_m_s is missing; a velocity_inlet needs it")
     return {
-        "alpha_g": _fixed(1),
-        "U": _fixed(_vector(case, boundary.velocity)),
+        "alpha_g": fixed(1),
+        "U": fixed(vector(case, boundary.velocity)),
         "p_rgh": GIVEN_FLUX,
-        "T": _fixed(boundary.temperature or case.gas.temperature),
-        "Y": _fixed(boundary.vapour_mass_fraction or 0.0),
+        "T": fixed(boundary.temperature or case.gas.temperature),
+        "Y": fixed(boundary.vapour_mass_fraction or 0.0),
     }
 
 
@@ -101,7 +101,7 @@ def _pressure_outlet(case, boundary, name: str) -> dict[str, str]:
     return {
         "alpha_g": ZERO_GRADIENT,
         "U": "type pressureInletOutletVelocity; value uniform (0 0 0);",
-        "p_rgh": _fixed(boundary.pressure or 0.0),
+        "p_rgh": fixed(boundary.pressure or 0.0),
         **{
             field: f"type inletOutlet; inletValue uniform {value}; value uniform {value};"
             for field, value in back.items()

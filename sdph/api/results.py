@@ -16,7 +16,8 @@ from sdph.api.case import Case
 from sdph.running import output
 from sdph.schema import CaseError
 from sdph.show import timeline
-from sdph.study import compare, sampling
+from sdph.study import against as comparison
+from sdph.study import sampling
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -127,7 +128,7 @@ class Run:
         """Checks against `tfm`, `dpm` or `exact`: name, value, reference, tolerance, ok."""
         import pandas
 
-        return pandas.DataFrame(compare.compare(self.folder, against))
+        return pandas.DataFrame(comparison.compare(self.folder, against))
 
     def __repr__(self) -> str:
         return f"<sdph.Run {self.folder}: {'finished' if self.finished else 'not finished'}>"

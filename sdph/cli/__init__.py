@@ -166,9 +166,9 @@ def cost_of_accuracy(options) -> int:
 
 def compare_run(options) -> int:
     from sdph.running import output
-    from sdph.study import compare
+    from sdph.study import against, compare
 
-    checks = compare.compare(options.run, options.against)
+    checks = against.compare(options.run, options.against)
     print(output.strict_json({"checks": checks}) if options.json else compare.table(checks))
     return FINE if all(check["ok"] for check in checks) else CHECK_FAILED
 

@@ -1,5 +1,5 @@
-"""How functions are compiled: `law` and `serial` (one thread), `inlined` (part of a loop), `parallel`; cached on disk,
-IEEE division (1/0 is inf, as in numpy); `fast_` ones may sum in any order.
+"""Decorators of compiled functions: `law` and `serial` (one thread), `inlined` (part of a loop), `parallel`; all are
+cached on disk, with IEEE division (1/0 is inf, as in numpy); `fast_` ones may sum in any order.
 
 numba spends two thirds of a cold start on what nobody needs, because a State has about eighty arrays: a way in from
 Python for functions that only loops call, and copies of the whole State that LLVM takes to pieces one by one. Neither

@@ -1,4 +1,4 @@
-"""`sdph compare`: a run against a reference. What is compared is the scene's own: validation/<scene>/compare.py."""
+"""Parts of a comparison: a finished run, checks, and the scene's own validation/<scene>/compare.py."""
 
 from __future__ import annotations
 
@@ -74,31 +74,6 @@ def check(name: str, value: float, reference: float, tolerance: float, relative:
         "tolerance": allowed,
         "ok": bool(abs(value - reference) <= allowed),
     }
-
-
-def compare(folder: Path, against: str) -> list[dict]:
-    """The checks of a run's scene against `tfm`, `dpm` or `exact`; the figure goes to the run folder."""
-    run = open_run(folder)
-    module = scene_module(run.case.scene)
-    function = getattr(module, against, None)
-    if function is None:
-        known = [name for name in ("exact", "tfm", "dpm") if hasattr(module, name)]
-        raise CaseError(
-            f"--against {against}: {run.case.scene or 'this case'} has no such reference; it has: "
-            f"{', '.join(known) or 'none'}"
-        )
-    try:
-        checks = function(run)
-    except KeyError as error:  # regions, effects and arrays go by the names that the scene gives them
-        lacks = f"{folder} cannot be compared as {run.case.scene}: it has no {error}"
-        raise CaseError(f"{lacks}; compare a run of the scene as it is") from None
-    if not checks:
-        raise CaseError(
-            f"the run ends at {run.summary['time_s']:g} s, before the first time that its reference tells of; go on "
-            f"with: sdph run --resume {folder} --until T"
-        )
-    output.write_json(folder / f"compare_{against}.json", {"checks": checks})
-    return checks
 
 
 def scene_module(scene: str):

@@ -1,8 +1,9 @@
 """Reference runs of stock OpenFOAM solvers on the same case: twoPhaseEulerFoam (two fluids), reactingParcelFoam
 (droplets).
 
-A run takes its files from `openfoam_case_templates/<scene>/{tfm,dpm}`; every physical number reaches it from the case
-by macros. A finished run is kept in the user's cache, so that it is made once.
+A run takes its files from `openfoam_case_templates/<scene>/{tfm,dpm}`, two fluids of what a scene has not from
+`two_fluid` beside them; every physical number reaches it from the case by macros. A finished run is kept in the user's
+cache, so that it is made once.
 """
 
 from __future__ import annotations
@@ -18,8 +19,9 @@ import numpy as np
 
 from coupling.openfoam import fields
 from coupling.openfoam.case import HEAD, write_case
-from coupling.openfoam.comparators import droplet_numbers, two_fluid_numbers
+from coupling.openfoam.comparators import droplet_numbers, two_fluid_fields, two_fluid_numbers
 from coupling.openfoam.comparators.reference import Reference, keep, key, load
+from coupling.openfoam.comparators.start import Start
 from coupling.openfoam.programs import barrier, build, install
 from coupling.openfoam.programs import run as programs
 from coupling.openfoam.programs.run import Progress
@@ -28,6 +30,7 @@ from sdph.scenes import paths
 from sdph.schema import CaseError
 
 PARCEL_FILES = {"d": "diameter", "T": "temperature", "nParticle": "count", "rho": "density", "U": "velocity"}
+SHARED = paths.data("openfoam_case_templates") / "two_fluid"
 CLOUD = "lagrangian/reactingCloud1"
 # folders of a case; numbers are times
 OPENFOAM = re.compile(r"system|constant|dynamicCode|postProcessing|processor.*|[-+.\d].*|inf.*|nan.*")
@@ -79,13 +82,16 @@ def run_two_fluid(
     ranks: int = 1,
     progress: Progress | None = None,
     courant: float = two_fluid_numbers.COURANT,
+    start: Start | None = None,
 ) -> Reference:
     """Run twoPhaseEulerFoam on the case in `folder`, or take what it gave from the cache.
 
     `progress(time, end)` [s] hears where the run is; `courant` is the largest Courant number of inlets and of grains
-    at the start. `GasError` when OpenFOAM fails.
+    at the start. `start` says how the grains stand then; without it the scene's template does. `GasError` when OpenFOAM
+    fails.
     """
-    return _run(TWO_FLUID, case, folder, ranks, {TWO_FLUID.macros: two_fluid_numbers.macros(case, courant)}, progress)
+    files = {TWO_FLUID.macros: two_fluid_numbers.macros(case, courant)}
+    return _run(TWO_FLUID, case, folder, ranks, files, progress, start)
 
 
 def run_droplets(
@@ -105,17 +111,24 @@ def run_droplets(
     return _run(DROPLETS, case, folder, 1, files, progress)
 
 
-def _run(solver: Solver, case: Case, folder: Path, ranks: int, files: dict, progress: Progress | None) -> Reference:
+def _run(
+    solver: Solver, case: Case, folder: Path, ranks: int, files: dict, progress: Progress | None,
+    start: Start | None = None,
+) -> Reference:  # fmt: skip
     environment = _environment()
     _clear(folder)
-    write_case(case, template(case, solver.kind), folder, ranks, allow_code=True)  # our own template, our own library
+    _write(solver, case, folder, ranks, start)
     for name, content in files.items():
         (folder / "constant" / name).write_text(HEAD.format(name=name) + _text(content), encoding="utf-8")
-    kept = shelf() / f"{key(folder, f'{solver.name} {_made_with()}')}.npz"
+    begun = start.digest if start else ""
+    kept = shelf() / f"{key(folder, f'{solver.name} {_made_with()} {begun}')}.npz"
     if kept.exists():
         return load(kept)
-    for program in solver.prepare:
+    for program in solver.prepare if start is None else ("blockMesh",):
         programs.run([program], folder, folder / f"log.{program}", environment)
+    if start:
+        _cells(folder, environment)
+        two_fluid_fields.tell_start(folder, start)
     began = time.perf_counter()
     programs.run_solver(
         solver.name, folder, folder / f"log.{solver.name}", case.run.end_time, progress, environment, ranks
@@ -123,6 +136,26 @@ def _run(solver: Solver, case: Case, folder: Path, ranks: int, files: dict, prog
     reference = _read(solver, folder, environment, time.perf_counter() - began)
     keep(reference, kept)
     return reference
+
+
+def _write(solver: Solver, case: Case, folder: Path, ranks: int, start: Start | None) -> None:
+    """The case of OpenFOAM, less its macros of a solver: files that all cases share, what the scene has of its own, and
+    start fields where it has none. Our own templates, our own library: code in them is allowed."""
+    own = template(case, solver.kind) if start is None else SHARED
+    if not (own / "system" / "controlDict").exists():
+        shutil.copytree(own, folder, dirs_exist_ok=True)
+        own = SHARED
+    if own == SHARED:
+        (folder / "0").mkdir(parents=True, exist_ok=True)
+        for name, text in two_fluid_fields.start_fields(case).items():
+            (folder / "0" / name).write_text(text, encoding="utf-8")
+    write_case(case, own, folder, ranks, allow_code=True)
+
+
+def _cells(folder: Path, environment: dict[str, str]) -> None:
+    """Write middles and volumes of the cells into `0/C` and `0/V`."""
+    for function in ("writeCellCentres", "writeCellVolumes"):
+        programs.run(["postProcess", "-func", function, "-time", "0"], folder, folder / f"log.{function}", environment)
 
 
 def _clear(folder: Path) -> None:
@@ -165,8 +198,7 @@ def _made_with() -> str:
 
 
 def _read(solver: Solver, folder: Path, environment: dict[str, str], wall: float) -> Reference:
-    for function in ("writeCellCentres", "writeCellVolumes"):
-        programs.run(["postProcess", "-func", function, "-time", "0"], folder, folder / f"log.{function}", environment)
+    _cells(folder, environment)
     cells = fields.cell_count(folder)
     outputs = fields.times(folder)
     present = {file: name for file, name in solver.fields.items() if (outputs[-1][1] / file).exists()}

@@ -24,6 +24,12 @@ HEAT_MODELS = {
 }
 
 
+DRAG_MODELS = {  # drag.law -> OpenFOAM's model
+    "gidaspow": "blendedGidaspow", "gidaspow_switch": "GidaspowErgunWenYu", "ergun": "Ergun", "wen_yu": "WenYu",
+}  # fmt: skip
+NO_DRAG = "none"  # of a scene whose template has no drag
+
+
 def macros(case: Case, courant: float = COURANT) -> dict[str, str]:
     """Macros of the two-fluid templates: name -> text."""
     gas, grains = case.gas, case.grains
@@ -31,13 +37,13 @@ def macros(case: Case, courant: float = COURANT) -> dict[str, str]:
         raise CaseError(
             f"gas.equation_of_state = {gas.equation_of_state!r}; the two-fluid reference is laid out for 'constant'"
         )
-    if "heat" not in case.effects:
-        raise CaseError(f"effects = {list(case.effects)}; the two-fluid reference exchanges heat: add 'heat'")
+    _refuse_what_has_no_reference(case)
     return {
         "gas_prandtl": repr(heat_law.prandtl_number(gas.viscosity, gas.heat_capacity, gas.conductivity)),
         "gas_enthalpy": repr(gas.heat_capacity * gas.temperature),
         "grains_kappa_by_cp": repr(grains.conductivity / grains.heat_capacity),
         "one_way": _switch(case.coupling.one_way),
+        "drag_model": DRAG_MODELS[case.parameters["drag"].law] if "drag" in case.effects else NO_DRAG,
         **_heat_exchange(case),
         **_friction(case),
         **_regions(case),
@@ -49,21 +55,37 @@ def _switch(on: bool) -> str:
     return "yes" if on else "no"
 
 
+def _refuse_what_has_no_reference(case: Case) -> None:
+    """CaseError where the two fluids of OpenFOAM lack what a case has."""
+    if "drag" in case.effects and (law := case.parameters["drag"].law) not in DRAG_MODELS:
+        raise CaseError(f"drag.law = {law!r}; the two-fluid reference has: {', '.join(DRAG_MODELS)}")
+    alien = sorted({"evaporation", "inflow", "lift", "radiation", "electric_field"} & set(case.effects))
+    if alien:
+        raise CaseError(f"effects holds {', '.join(alien)}; the two-fluid reference has none: leave it out to compare")
+
+
 def _heat_exchange(case: Case) -> dict[str, str]:
+    if "heat" not in case.effects:
+        return {"heat_transfer": "((particles in gas) { type RanzMarshall; })"}  # asked for; it moves no grains
     heat = case.parameters["heat"]
     if heat.law == "ranz_marshall" and heat.closure == "paper":
         raise CaseError(
             "heat.law = 'ranz_marshall' with heat.closure = 'paper'; OpenFOAM's has no alpha_g: give 'geometric'"
         )
     model, reynolds = HEAT_MODELS[heat.law]
-    return {"heat_model": model, "heat_reynolds": reynolds, "heat_alpha_gas": _switch(heat.closure == "paper")}
+    own = {"heat_model": model, "heat_reynolds": reynolds, "heat_alpha_gas": _switch(heat.closure == "paper")}
+    words = f"type {model}; reynolds {reynolds}; alphaGas {own['heat_alpha_gas']};"  # the last two of gunn alone
+    return own | {"heat_transfer": f"((particles in gas) {{ {words} }})"}
 
 
 def _friction(case: Case) -> dict[str, str]:
+    margin = {"friction_margin": repr(constants.PACKING_MARGIN)}
     if "friction" not in case.effects:
-        return {}
-    angle = math.degrees(case.parameters["friction"].angle)
-    return {"friction_angle_degrees": repr(angle), "friction_margin": repr(constants.PACKING_MARGIN)}
+        packed = repr(case.grains.packing_limit)
+        return margin | {"friction_angle_degrees": "0", "friction_begins": packed, "friction_strength": "0"}
+    own = case.parameters["friction"]
+    begins = {"friction_begins": repr(own.onset), "friction_strength": repr(own.fr)}
+    return margin | begins | {"friction_angle_degrees": repr(math.degrees(own.angle))}
 
 
 def _regions(case: Case) -> dict[str, str]:
@@ -84,12 +106,15 @@ def _point(place, z: float) -> str:
 
 
 def _time_steps(case: Case, courant: float) -> dict[str, str]:
-    """`first_time_step` and `time_steps`, a table of steps against time, for a case that rests; else `time_step`."""
+    """`first_time_step` and `time_steps`, a table of steps against time, for a case that rests; else `time_step`: of
+    the fastest that comes in or is there at the start, or of what falls through the domain."""
     given = (*case.boundaries.values(), *case.particles.values())
-    speeds = [math.hypot(*one.velocity) for one in given if one.velocity]
+    speeds = [speed for one in given if one.velocity and (speed := math.hypot(*one.velocity))]
+    if fall := sum(abs(g) * size for g, size in zip(case.domain.gravity, case.domain.size)):
+        speeds.append(math.sqrt(2.0 * fall))
     if speeds:
         return {"time_step": repr(divided(case.run.output_interval, courant * case.resolution.cell / max(speeds)))}
-    table = resting_steps(case)
+    table = resting_steps(case) if "heat" in case.effects else [(0.0, case.run.output_interval / 10.0)]
     return {
         "first_time_step": repr(table[0][1]),
         "time_steps": "(" + " ".join(f"({t!r} {dt!r})" for t, dt in table) + ")",

@@ -2,8 +2,9 @@
 
 All voids together are what one bubble's is (sdph.methods.liquids.bubble). Each has the share of it that its room has on
 a grid (sdph.methods.liquids.rooms), whose radius is corrected by what the grid missed at the start. Two in one room
-merge: masses and heat add up. One whose room is gone is closed: its vapour condenses on the liquid there, which gets
-mass and latent heat. The pressure at a particle is that of the bubble whose face is nearest.
+merge: masses and heat add up. One whose room is gone, or that has shrunk to less than a particle, is closed: its vapour
+condenses on the liquid there, which gets mass and latent heat. (Particles cannot tell so small a void from a gap of
+theirs: none would ever fill it.) The pressure at a particle is that of the bubble whose face is nearest.
 """
 
 from __future__ import annotations
@@ -99,13 +100,13 @@ class Voids(Void):
         return pressure[nearest] * np.clip(2.0 - depth / reach, 0.0, 1.0)
 
     def _tell_apart(self, stepper, found: rooms.Rooms) -> None:
-        """Give each its share of the area; merge those in one room, close those that have none."""
+        """Give each its share of the area; merge those in one room, close those that have none, or no particle's."""
         whose, wanted, open_to_air = {}, {}, self.carrier and self.carrier.torn
         for part in sorted(self.left, key=lambda part: -part.area):
             room = rooms.of(found, part.rim, part.radius)
             if room in whose:
                 self._merge(whose[room], part)
-            elif room:
+            elif room and part.area > self.spacing**2:
                 whose[room], (size, part.rim) = part, rooms.measure(found, room)
                 wanted[id(part)] = math.pi * (math.sqrt(size / math.pi) + part.missed) ** 2
             elif not open_to_air and len(self.left) > 1:

@@ -109,6 +109,19 @@ def test_a_bubble_whose_room_is_gone_leaves_mass_and_heat_to_the_liquid(tmp_path
     assert void.row()["bubbles_left"] == 1 and void.row()["bubble_2_kg"] == 0.0
 
 
+def test_a_bubble_smaller_than_a_particle_is_closed(tmp_path):
+    run = Alone(case_of(END, DISC, "liquid_heat", **PAIR), tmp_path / "ledger.csv")
+    run.start()
+    void = run.method.stepper.void
+    large, small = void.parts
+    large.area, small.area = 1.1 * SPACING**2, 0.9 * SPACING**2
+    run.window()
+    assert (large.held, small.held, void.closed) == (True, False, 1)
+    assert void.row()["bubble_2_kg"] == 0.0
+    told = run.ledger.summary() | run.method.stepper.heat.summary()
+    assert max(told["mass_drift_rel"], told["momentum_drift_rel"], told["heat_drift_rel"]) < 1e-11
+
+
 def test_bubbles_that_meet_are_one_with_all_their_mass_and_heat(tmp_path):
     near = PAIR | {"centres_m": [[MIDDLE, MIDDLE - 1.01e-4], [MIDDLE, MIDDLE + 1.01e-4]]}
     run = Alone(case_of(END, DISC, "liquid_heat", **near), tmp_path / "ledger.csv")

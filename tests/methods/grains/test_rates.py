@@ -17,6 +17,7 @@ from sdph.engine import state as particles
 from sdph.engine.geometry import box_of
 from sdph.engine.rows import Neighbours, entry
 from sdph.laws import kernels
+from sdph.laws.compiled import fast_parallel
 from sdph.laws.constants import SOFTENING
 from sdph.methods.grains import equations as rates
 from sdph.methods.grains import sound
@@ -151,7 +152,7 @@ def lattice_rate(kernel, dx, k):
     return -2.0 * dx**2 * (slope * r**2 / (r**2 + SOFTENING * kernel.h**2) * (1.0 - np.cos(k * x))).sum() / k**2
 
 
-@rates.loop
+@fast_parallel
 def by_hand(h, sigma, s, rows, box, conductivity, grain_density, on, heating):
     """The loop with conduction written in, and nothing else."""
     for i in prange(len(s.x)):

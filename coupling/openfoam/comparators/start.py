@@ -1,0 +1,32 @@
+"""Grains of a run at its start, cell by cell."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+
+@dataclass(frozen=True)
+class Start:
+    """C cells of D dimensions: centres (C, D) [m], alpha_p (C,) [-], velocity (C, 3) [m/s], temperature (C,) [K]."""
+
+    centres: np.ndarray
+    alpha_p: np.ndarray
+    velocity: np.ndarray
+    temperature: np.ndarray
+
+    def at(self, places: np.ndarray) -> Start:
+        """The same at other places (M, D) [m]: of the nearest cell each."""
+        nearest = cKDTree(self.centres).query(places)[1]
+        return Start(places, self.alpha_p[nearest], self.velocity[nearest], self.temperature[nearest])
+
+    @property
+    def digest(self) -> str:
+        """Hash of all values."""
+        own = hashlib.sha256()
+        for values in (self.centres, self.alpha_p, self.velocity, self.temperature):
+            own.update(np.ascontiguousarray(values).tobytes())
+        return own.hexdigest()
