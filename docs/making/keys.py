@@ -17,8 +17,8 @@ from sdph.study.gel_droplet.sections import CLASSES
 
 MEANINGS = Path(__file__).parents[1] / "keys.toml"
 SINGLE = {
-    "gas.turbulence": declared.Turbulence, "coupling": declared.Coupling, "vapour": declared.Vapour, "liquid": declared.Liquid,
-    "method": declared.LiquidMethod, "gas_phase": declared.GasPhase, "solid": declared.Solid,
+    "gas.turbulence": declared.Turbulence, "coupling": declared.Coupling, "vapour": declared.Vapour,
+    "liquid": declared.Liquid, "method": declared.LiquidMethod, "gas_phase": declared.GasPhase, "solid": declared.Solid,
 }  # fmt: skip
 WRITTEN = {  # unit in a key -> as it is written
     "": "1", "kg_m3": "kg/m³", "Pa_s": "Pa s", "W_m_K": "W/(m K)", "J_kg_K": "J/(kg K)", "J_kg": "J/kg", "m_s": "m/s",

@@ -1,5 +1,6 @@
 """Turbulence in sdphGasFoam: what its eddy viscosity does to heat and vapour, voidage, restart, files, and refusals."""
 
+import dataclasses
 import re
 from pathlib import Path
 
@@ -7,11 +8,13 @@ import numpy as np
 import pytest
 from gas_boxes import AIR, box, box_case, template
 
+from coupling import choice
 from coupling.gas import GasError
 from coupling.openfoam.block_mesh import block_mesh
 from coupling.openfoam.solver import OpenFoamGas
 from coupling.openfoam.start_fields import start_fields
 from coupling.transport.messages import decode
+from sdph.schema import CaseError
 
 RHO, CP, K = AIR["density_kg_m3"], AIR["heat_capacity_J_kg_K"], AIR["conductivity_W_m_K"]
 SLIP = {"walls": {"kind": "slip_wall"}}
@@ -203,3 +206,11 @@ def test_each_side_has_its_conditions():
 def test_a_slip_wall_is_no_wall_that_distance_is_taken_to():
     text = block_mesh(box_case((0.1, 0.05), 0.01, boundaries=BLOWN), 1.0)
     assert re.search(r"slide \{ type patch;", text) and re.search(r"walls \{ type wall;", text)
+
+
+def test_the_embedded_gas_refuses_turbulence(tmp_path):
+    case = box_case((0.1, 0.05), 0.01, boundaries=BLOWN, turbulence=MODELS["WALE"])
+    case = dataclasses.replace(case, coupling=dataclasses.replace(case.coupling, gas="embedded"))
+    for asked in (choice.expected, lambda one: choice.open_gas(one, tmp_path, None, print)):
+        with pytest.raises(CaseError, match='turbulence.model = "WALE", but the embedded gas is laminar; give --gas'):
+            asked(case)
