@@ -214,3 +214,16 @@ def test_the_embedded_gas_refuses_turbulence(tmp_path):
     for asked in (choice.expected, lambda one: choice.open_gas(one, tmp_path, None, print)):
         with pytest.raises(CaseError, match='turbulence.model = "WALE", but the embedded gas is laminar; give --gas'):
             asked(case)
+
+
+@pytest.mark.openfoam
+@pytest.mark.parametrize(("line", "told"), [
+    ("gas_turbulence_model laminar;", "gas_turbulence_model = laminar; case.toml has kEpsilon: make them the same"),
+    ("gas_turbulence_schmidt_number 0.5;", "gas_turbulence_schmidt_number = 0.5; case.toml has 0.7: make them the same"),
+])  # fmt: skip
+def test_properties_that_differ_from_the_case_are_refused(tmp_path, line, told):
+    own = template(tmp_path)
+    with (own / "constant" / "gasProperties").open("a") as file:
+        file.write(f"\n{line}\n")
+    with pytest.raises(CaseError, match=re.escape(told)):
+        OpenFoamGas(box_case((0.1, 0.05), 0.01, boundaries=BLOWN, turbulence=MODELS["kEpsilon"]), tmp_path / "gas", own)
