@@ -15,8 +15,8 @@ RANS = 'gas.turbulence={model="kEpsilon", k_m2_s2=0.01, mixing_length_m=0.002}'
 @pytest.mark.parametrize(
     ("given", "told"),
     [
-        ('{model="kEpsilom"}', "gas.turbulence.model = 'kEpsilom'; allowed: laminar, kEpsilon, kOmegaSST, WALE"),
-        ('{modell="WALE"}', "unknown key gas.turbulence.modell; did you mean gas.turbulence.model?"),
+        ('{model="k-epsilon"}', "gas.turbulence.model = 'k-epsilon'; allowed: laminar, kEpsilon, kOmegaSST, WALE"),
+        ('{models="WALE"}', "unknown key gas.turbulence.models; did you mean gas.turbulence.model?"),
         ('"WALE"', "it must be a section, [gas.turbulence]"),
         ('{model="WALE", schmidt_number=0}', "gas.turbulence.schmidt_number = 0.0; it must be above 0"),
         ('{model="kEpsilon", k_m2_s2=0.01}', 'model = "kEpsilon" needs mixing_length_m or epsilon_m2_s3; give one'),
