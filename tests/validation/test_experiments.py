@@ -43,6 +43,16 @@ def test_minimum_fluidisation_off_by_more_than_the_bar_is_told(tmp_path, monkeyp
     assert verdicts(powders.checks(tmp_path)) == [ok] * 6
 
 
+def test_velocities_that_lift_a_powder_are_those_of_the_laws(tmp_path):
+    """Fine grains: U_mf is a hundredth of (rho_p - rho_g) g d^2/mu, by Wen & Yu 0.0408/(2 33.7) of it; and all run."""
+    powders = validate.part(validate.EXPERIMENTS, "minimum_fluidisation")
+    weight = (2500.0 - powders.AIR[0]) * powders.measured.GRAVITY * (20e-6) ** 2 / powders.AIR[1]
+    assert powders.wen_yu(2500.0, 20e-6) == pytest.approx(0.0408 / 67.4 * weight, rel=1e-3)
+    voidage = 1.0 - 0.6  # at the default onset of friction
+    assert powders.ergun_at_onset(2500.0, 20e-6) == pytest.approx(voidage**3 / (150.0 * 0.6) * weight, rel=1e-3)
+    assert len(powders.checks(tmp_path)) == 12
+
+
 def test_index_of_laws_that_are_known():
     """Stokes without crowding: U = eps s, s as the weight of the suspension, eps. Wen & Yu at rest: eps^(2 + 2.65)."""
     liquid = validate.part(validate.EXPERIMENTS, "liquid_fluidisation")

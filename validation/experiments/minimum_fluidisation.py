@@ -3,6 +3,7 @@ the first of them."""
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import numpy as np
@@ -25,8 +26,10 @@ def ergun_at_onset(density: float, diameter: float) -> float:
 
 
 def wen_yu(density: float, diameter: float) -> float:
-    """U_mf [m/s] by Wen & Yu 1966, who need no alpha_p."""
-    return exact.wen_yu_minimum_fluidisation(density, measured.GRAVITY, diameter, *AIR)
+    """U_mf [m/s] = (sqrt(33.7^2 + 0.0408 Ar) - 33.7) mu_g/(rho_g d). Wen & Yu 1966, AIChE J. 12, 610."""
+    gas_density, viscosity = AIR
+    archimedes = gas_density * (density - gas_density) * measured.GRAVITY * diameter**3 / viscosity**2
+    return (math.sqrt(33.7**2 + 0.0408 * archimedes) - 33.7) * viscosity / (gas_density * diameter)
 
 
 LAWS = {"Ergun at onset": ergun_at_onset, "Wen & Yu": wen_yu}

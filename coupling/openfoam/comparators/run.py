@@ -2,7 +2,7 @@
 (droplets).
 
 A run takes its files from `openfoam_case_templates/<scene>/{tfm,dpm}`, two fluids of what a scene has not from
-`two_fluid` beside them; every physical number reaches it from the case by macros. A finished run is kept in the user's
+`two_fluid/tfm` there; every physical number reaches it from the case by macros. A finished run is kept in the user's
 cache, so that it is made once.
 """
 
@@ -30,7 +30,7 @@ from sdph.scenes import paths
 from sdph.schema import CaseError
 
 PARCEL_FILES = {"d": "diameter", "T": "temperature", "nParticle": "count", "rho": "density", "U": "velocity"}
-SHARED = paths.data("openfoam_case_templates") / "two_fluid"
+SHARED = paths.data("openfoam_case_templates") / "two_fluid" / "tfm"
 CLOUD = "lagrangian/reactingCloud1"
 # folders of a case; numbers are times
 OPENFOAM = re.compile(r"system|constant|dynamicCode|postProcessing|processor.*|[-+.\d].*|inf.*|nan.*")
