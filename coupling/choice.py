@@ -36,11 +36,13 @@ def open_gas(case, folder: Path, template: Path | None, status, allow_code: bool
 def expected(case) -> str:
     """ "openfoam" or "embedded": which solver a case gets if what is there can be used, which is not tried."""
     _refuse_periodic(case)
-    if case.coupling.gas != "auto":
-        return case.coupling.gas
     from coupling.openfoam.programs import install
 
-    return "openfoam" if install.find() else "embedded"
+    given = case.coupling.gas
+    chosen = given if given != "auto" else "openfoam" if install.find() else "embedded"
+    if chosen == "embedded":
+        _refuse_turbulence(case)
+    return chosen
 
 
 def _refuse_periodic(case) -> None:
@@ -55,7 +57,14 @@ def _openfoam(case, folder: Path, template: Path | None, status, allow_code: boo
     return OpenFoamGas(case, folder / "gas", template, status=status, allow_code=allow_code)
 
 
+def _refuse_turbulence(case) -> None:
+    if case.gas.turbulent:
+        given = f'gas.turbulence.model = "{case.gas.turbulence.model}", but the embedded gas is laminar'
+        raise CaseError(f"{given}; give --gas openfoam (sdph openfoam setup --install gets it), or leave it out")
+
+
 def _embedded(case):
+    _refuse_turbulence(case)
     from coupling.embedded import EmbeddedGas
 
     return EmbeddedGas(case)

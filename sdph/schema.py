@@ -18,7 +18,7 @@ UNITS = {
     "": 1.0, "s": 1.0, "ms": 1e-3, "us": 1e-6, "m": 1.0, "mm": 1e-3, "um": 1e-6, "K": 1.0, "Pa": 1.0,
     "deg": math.pi / 180.0, "kg_m3": 1.0, "Pa_s": 1.0, "W_m_K": 1.0, "J_kg_K": 1.0, "J_kg": 1.0, "m_s": 1.0,
     "m_s2": 1.0, "m2_s": 1.0, "m2_s2": 1.0, "kg_kmol": 1.0, "kg_s": 1.0, "N_m": 1.0, "Pa_m6_kg2": 1.0, "rad_s": 1.0,
-    "kg": 1.0, "Hz": 1.0, "1_s": 1.0, "W_m2": 1.0, "V_m": 1.0, "C_m2": 1.0,
+    "kg": 1.0, "Hz": 1.0, "1_s": 1.0, "W_m2": 1.0, "V_m": 1.0, "C_m2": 1.0, "m2_s3": 1.0,
 }  # fmt: skip
 SAME_AS = {"ms": "s", "us": "s", "mm": "m", "um": "m"}  # unit -> the one that its bounds stand under
 
@@ -36,6 +36,7 @@ PLAUSIBLE = {
     "m_s2": (0.0, 1e12, "the surface of a neutron star"),
     "m2_s": (1e-18, 1e6, "from diffusion in a solid to that in a star"),
     "m2_s2": (1e-18, 1e12, "a speed of 1000 km/s, squared"),
+    "m2_s3": (1e-18, 1e18, "more heat than a gram of anything takes in a nanosecond"),
     "kg": (1e-27, 1e27, "from an atom to a planet"),
     "kg_s": (1e-27, 1e15, "from an atom a second to a mountain a second"),
     "kg_m3": (1e-20, 1e6, "from the space between planets to 40 times osmium"),
@@ -119,6 +120,11 @@ def file(default=""):
     return _declare(Kind(of=Path), default)
 
 
+def section(cls: type):
+    """A section of its own within this one, of a dataclass declared with this module; None where it is left out."""
+    return _declare(Kind(of=cls), None)
+
+
 def words(default=REQUIRED):
     """A text, or a list of texts; one text alone where the default is one."""
     return _declare(Kind(of=str, components=0 if isinstance(default, str) else None), default)
@@ -186,6 +192,8 @@ def _chosen(kind: Kind, value: Any, key: str) -> Any:
 def _value(kind: Kind, value: Any, key: str) -> Any:
     if kind.choices:
         return _chosen(kind, value, key)
+    if dataclasses.is_dataclass(kind.of):
+        return read(kind.of, value, key)
     if kind.of is bool:
         return _typed(value, bool, key, "true or false")
     if kind.of is int:
@@ -237,6 +245,8 @@ def _bounded(kind: Kind, value: float, key: str) -> float:
 def plausible(record: Any, where: str):
     """The record as it is; `CaseError` where a quantity of it is of no size that makes sense (see PLAUSIBLE)."""
     for key, (name, kind) in fields(type(record)).items():
+        if dataclasses.is_dataclass(getattr(record, name)):
+            plausible(getattr(record, name), f"{where}.{key}")
         for value in _numbers_of(getattr(record, name)):
             refuse_implausible(value, kind.unit, f"{where}.{key}", kind.above == 0.0 and not kind.tiny)
     return record
@@ -275,6 +285,8 @@ def _in_unit(value: Any, unit: float) -> Any:
     """A value in SI as it is written: the shortest number that reads back as the same value, to the last bit."""
     if isinstance(value, tuple):
         return [_in_unit(v, unit) for v in value]
+    if dataclasses.is_dataclass(value):
+        return write(value)
     if not isinstance(value, float) or unit == 1.0:
         return value
     near = value / unit

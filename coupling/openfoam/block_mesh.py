@@ -120,7 +120,7 @@ def _owner(case, block, axis: int, upper: int, edges) -> tuple[str, str]:
         raise CaseError(
             f"a part of the {side} side {says}; give `side` and `span_m`, or one boundary without a side for the rest"
         )
-    return best[0], "wall" if case.boundaries[best[0]].kind in ("wall", "slip_wall") else "patch"
+    return best[0], "wall" if case.boundaries[best[0]].kind == "wall" else "patch"  # no distance is that to a slip_wall
 
 
 def _patch(name: str, kind: str, faces: list[str]) -> str:

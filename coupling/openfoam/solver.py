@@ -67,6 +67,7 @@ class OpenFoamGas:
             self._refuse_code(Path(folder))
         files.sweep(self._folder)
         program = install.gas_solver(status)
+        self._turbulence = install.gas_turbulence(status) if case.gas.turbulent else None
         if template is not None:
             case_files.write_case(case, Path(template), self._folder, case.coupling.gas_ranks, allow_code, self._known)
             self._make_mesh()
@@ -122,6 +123,8 @@ class OpenFoamGas:
     def _start(self, program: Path, address: str, secret: str) -> subprocess.Popen:
         ranks = self._case.coupling.gas_ranks
         command = [str(program), "-case", str(self._folder), "-address", address, "-watch", str(os.getpid())]
+        if self._turbulence:
+            command += ["-turbulence", str(self._turbulence)]
         if ranks > 1:
             command = [*install.mpirun(ranks), *command, "-parallel"]
         # a result that is not a number is named and reported by the solver, not trapped by the processor
@@ -269,9 +272,19 @@ class OpenFoamGas:
             section, _, key = name.partition("_")
             if section not in ("gas", "vapour"):
                 continue
-            ours = getattr(getattr(self._case, section), key, None)
+            ours = _ours(self._case, section, key)
             value = told[name] if isinstance(told[name], str) else told.number(name)
             if ours != value:
                 raise CaseError(
                     f"constant/gasProperties has {name} = {value}; case.toml has {ours}: make them the same"
                 )
+
+
+def _ours(case, section: str, key: str):
+    """Value of a case that the solver tells under `section`_`key`; None where the case has none."""
+    own = getattr(case, section)
+    if key == "turbulence_model":
+        return own.turbulence.model if own.turbulence else "laminar"
+    if key.startswith("turbulence_"):
+        own, key = own.turbulence, key.removeprefix("turbulence_")
+    return getattr(own, key, None)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from coupling.openfoam import turbulence
 from sdph.case.sections import Boundary
 from sdph.schema import CaseError
 
@@ -32,18 +33,28 @@ def start_fields(case, others: dict[str, str] | None = None) -> dict[str, str]:
         others = {"frontAndBack": EMPTY} if case.dimensions == 2 else {}
     names = [name for name in FIELDS if name != "Y" or case.vapour is not None]
     inside = {"alpha_g": "1", "U": "(0 0 0)", "p_rgh": "0", "T": repr(case.gas.temperature), "Y": "0"}
-    return {name: _field(case, name, inside[name], others) for name in names}
+    made = {name: _field(case, name, inside[name], others) for name in names}
+    return made | {name: _turbulent(case, name, own, others) for name, own in turbulence.fields(case).items()}
 
 
 def _field(case, name: str, inside: str, others: dict[str, str]) -> str:
-    cls, dimensions = FIELDS[name]
-    patches = "".join(
-        f"    {patch} {{ {KINDS[b.kind](case, b, patch)[name]} }}\n" for patch, b in case.boundaries.items()
-    )
-    still = _wall(case, STILL, name)[name]
-    patches += "".join(
-        f"    {patch} {{ {f'type {EMPTY};' if kind == EMPTY else still} }}\n" for patch, kind in others.items()
-    )
+    conditions = {patch: KINDS[b.kind](case, b, patch)[name] for patch, b in case.boundaries.items()}
+    return _text(name, FIELDS[name], inside, conditions | _of_others(others, _wall(case, STILL, name)[name]))
+
+
+def _turbulent(case, name: str, inside: str, others: dict[str, str]) -> str:
+    conditions = {patch: turbulence.condition(case, b, name) for patch, b in case.boundaries.items()}
+    still = turbulence.condition(case, STILL, name)
+    return _text(name, ("volScalarField", turbulence.FIELDS[name][0]), inside, conditions | _of_others(others, still))
+
+
+def _of_others(others: dict[str, str], still: str) -> dict[str, str]:
+    return {patch: f"type {EMPTY};" if kind == EMPTY else still for patch, kind in others.items()}
+
+
+def _text(name: str, kind: tuple[str, str], inside: str, conditions: dict[str, str]) -> str:
+    cls, dimensions = kind
+    patches = "".join(f"    {patch} {{ {condition} }}\n" for patch, condition in conditions.items())
     head = HEAD.format(cls=cls, name=name)
     return f"{head}dimensions {dimensions};\ninternalField uniform {inside};\nboundaryField\n{{\n{patches}}}\n"
 

@@ -17,14 +17,14 @@ from sdph.study.gel_droplet.sections import CLASSES
 
 MEANINGS = Path(__file__).parents[1] / "keys.toml"
 SINGLE = {
-    "coupling": declared.Coupling, "vapour": declared.Vapour, "liquid": declared.Liquid,
-    "method": declared.LiquidMethod, "gas_phase": declared.GasPhase, "solid": declared.Solid,
+    "gas.turbulence": declared.Turbulence, "coupling": declared.Coupling, "vapour": declared.Vapour,
+    "liquid": declared.Liquid, "method": declared.LiquidMethod, "gas_phase": declared.GasPhase, "solid": declared.Solid,
 }  # fmt: skip
 WRITTEN = {  # unit in a key -> as it is written
     "": "1", "kg_m3": "kg/m³", "Pa_s": "Pa s", "W_m_K": "W/(m K)", "J_kg_K": "J/(kg K)", "J_kg": "J/kg", "m_s": "m/s",
     "m_s2": "m/s²", "m2_s": "m²/s", "m2_s2": "m²/s²", "kg_kmol": "kg/kmol", "kg_s": "kg/s", "N_m": "N/m",
     "Pa_m6_kg2": "Pa m⁶/kg²", "rad_s": "rad/s", "1_s": "1/s", "W_m2": "W/m²", "deg": "degrees",
-    "V_m": "V/m", "C_m2": "C/m²",
+    "V_m": "V/m", "C_m2": "C/m²", "m2_s3": "m²/s³",
 }  # fmt: skip
 HEAD = "| key | meaning | unit | default | allowed |\n|--|--|--|--|--|"
 KINDS = {bool: "true, false", int: "whole number", str: "text", Path: "path of a file, from the folder of the case"}
@@ -64,7 +64,7 @@ def _section(name: str, cls: type, told: dict[str, str], intro: str) -> str:
     own = "" if (cls.__doc__ or "").startswith(f"{cls.__name__}(") else escaped(" ".join((cls.__doc__ or "").split()))
     rows = [_row(cls, key, attribute, kind, told[key]) for key, (attribute, kind) in fields(cls).items()]
     table = "\n".join([HEAD, *rows]) if rows else "No keys."
-    label = "keys-" + name.replace("droplet: ", "droplet-").replace(".NAME", "").replace("_", "-")
+    label = "keys-" + name.replace("droplet: ", "droplet-").replace(".NAME", "").replace("_", "-").replace(".", "-")
     return "\n\n".join(filter(None, [f"({label})=\n### [{name.removeprefix('droplet: ')}]", intro, own, table])) + "\n"
 
 
@@ -93,6 +93,8 @@ def _allowed(kind) -> str:
     what = KINDS.get(kind.of, "number" if kind.components == 0 else "list of numbers")
     if kind.of is str and kind.components is None:
         what = "text or list of texts"
+    if dataclasses.is_dataclass(kind.of):
+        return "a section"
     if kind.of is None and kind.components:
         what = f"list of {kind.components} numbers"
     return escaped(" ".join([what, ", ".join(bounds)]).strip())

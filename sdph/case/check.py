@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 
 from sdph import effects, scenes
-from sdph.case import beside, bodies, periods, probed, regions
+from sdph.case import beside, bodies, periods, probed, regions, turbulent
 from sdph.case.extents import SAME, inside, mouth, probe, side
 from sdph.case.sections import Case, Region
 from sdph.methods.liquids.sections import Pool
@@ -78,6 +78,7 @@ def _check_one(case: Case) -> None:
                 f"{name}.mesh_scale = {own.mesh_scale:g}, and {name} names no mesh; name it, or leave it out"
             )
     periods.of_domain(case)
+    turbulent.check(case)
     if any(isinstance(t, tuple) or t <= 0.0 for t in case.run.report_at):
         raise CaseError(f"run.report_at_s = {list(case.run.report_at)}; it must be a list of times above 0")
     _check_outputs(case)

@@ -11,7 +11,7 @@ from sdph.engine.rows import SKIN
 from sdph.methods.liquids.sections import GasPhase, Liquid, Pool
 from sdph.methods.mps.sections import LiquidMethod
 from sdph.methods.solids.sections import Body, Solid
-from sdph.schema import choice, file, flag, quantity, record, vector, whole, words
+from sdph.schema import choice, file, flag, quantity, record, section, vector, whole, words
 
 OPENINGS = ("inflow", "outflow")  # effects that act on the grains alone where grains and a liquid are side by side
 HEATING = {"heat", "conduction", "radiation", "evaporation", "micro_explosion"}
@@ -72,6 +72,21 @@ class Resolution:
 
 
 @record
+class Turbulence:
+    """Turbulence of the gas by a model of OpenFOAM's library: eddy viscosity, and with it diffusion and conduction. k,
+    epsilon and omega are those of gas that flows in, and of all of it at the start."""
+
+    model: str = choice("laminar", "kEpsilon", "kOmegaSST", "WALE")
+    schmidt_number: float = quantity("", 0.7, above=0.0)  # Fluent's default (theory guide)
+    prandtl_number: float = quantity("", 0.85, above=0.0)  # the same
+    intensity: float = quantity("", 0.05, above=0.0, most=10.0)  # medium, as in Fluent and OpenFOAM's tutorials
+    mixing_length: float | None = quantity("m", None, above=0.0)
+    k: float | None = quantity("m2_s2", None, above=0.0)
+    epsilon: float | None = quantity("m2_s3", None, above=0.0)
+    omega: float | None = quantity("1_s", None, above=0.0)
+
+
+@record
 class GasProperties:
     fluid: str = words("")  # of CoolProp: fills what is left out (sdph.case.fluids)
     density: float = quantity("kg_m3", above=0.0)
@@ -82,6 +97,12 @@ class GasProperties:
     equation_of_state: str = choice("constant", "operating", "ideal")
     molar_mass: float = quantity("kg_kmol", 28.96, above=0.0)  # dry air, ISO 2533
     operating_pressure: float = quantity("Pa", STANDARD_ATMOSPHERE, above=0.0)
+    turbulence: Turbulence | None = section(Turbulence)
+
+    @property
+    def turbulent(self) -> bool:
+        """True where a model of turbulence is on."""
+        return self.turbulence is not None and self.turbulence.model != "laminar"
 
 
 @record

@@ -5,7 +5,8 @@ name in VARIANTS what else is to be run: name -> (overrides, references to check
 and no scene stands for is under `experiments`, the kinetic theory of grains under `kinetic_theory`, grains
 that heap up and flow out under `granular_piles`, a plug of spray under `spray_plug`, a gel droplet without particles
 under `gel_droplet_reduced`, free bodies of moving particles under `moving_particles`, pools by them and by the weakly
-compressible method under `two_methods`, vessels of any mesh under `own_vessel`: each is a folder of validation/ with a
+compressible method under `two_methods`, vessels of any mesh under `own_vessel`, turbulence of the gas under
+`gas_turbulence`: each is a folder of validation/ with a
 module for each part of it.
 """
 
@@ -30,6 +31,7 @@ EXPERIMENTS = "experiments"
 STUDIES = {
     EXPERIMENTS: ("coupling.",), "kinetic_theory": (), "granular_piles": (), "spray_plug": (),
     "gel_droplet_reduced": (), "moving_particles": (), "two_methods": (), "own_vessel": (),
+    "gas_turbulence": (),
 }  # fmt: skip
 
 

@@ -17,6 +17,7 @@ RECORDS = (
     | {
         "coupling": sections.Coupling,
         "vapour": sections.Vapour,
+        "gas.turbulence": sections.Turbulence,
         "liquid": Liquid,
         "gas_phase": GasPhase,
         "solid": Solid,

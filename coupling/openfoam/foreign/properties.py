@@ -135,12 +135,12 @@ def level(files: Files) -> dict[str, float]:
 
 
 def turbulence(files: Files, notes: list[str]) -> None:
-    """Tell that a model of turbulence is left out: the gas of sdph has none."""
+    """Tell that a model of turbulence is left out."""
     own = files.first(*(f"constant/{name}{end}" for end in (f".{files.phase}", "")
                         for name in ("turbulenceProperties", "momentumTransport")))  # fmt: skip
     kind = word(own.get("simulationType"))
     if kind not in ("", "laminar"):
-        notes.append(f"turbulence ({kind}) is left out: the gas of sdph has no model of it")
+        notes.append(f"turbulence ({kind}) is left out: give [gas.turbulence] where the gas is to have it")
 
 
 def _filled(found: dict, defaults: dict, section: str, notes: list[str]) -> dict:

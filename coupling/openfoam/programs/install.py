@@ -17,6 +17,7 @@ HERE = Path(__file__).parents[1]
 GAS_SOLVER = HERE / "sdphGasFoam"
 TWO_FLUID_CLOSURES = HERE / "twoFluidClosures"
 CODE_GUARD = HERE / "codeGuard"
+GAS_TURBULENCE = HERE / "gasTurbulence"
 
 __all__ = [
     "Row",
@@ -26,6 +27,7 @@ __all__ = [
     "environment",
     "find",
     "gas_solver",
+    "gas_turbulence",
     "mpirun",
     "require",
     "setup",
@@ -41,6 +43,11 @@ def gas_solver(status: Callable[[str], None] = silent) -> Path:
 def two_fluid_closures(status: Callable[[str], None] = silent) -> Path:
     """The library of closures for twoPhaseEulerFoam, compiled if it must be."""
     return build(TWO_FLUID_CLOSURES, status)
+
+
+def gas_turbulence(status: Callable[[str], None] = silent) -> Path:
+    """The library of the turbulence of sdphGasFoam, compiled if it must be."""
+    return build(GAS_TURBULENCE, status)
 
 
 def code_guard(status: Callable[[str], None] = silent) -> Path:
@@ -65,7 +72,8 @@ def setup(install: bool = False, status: Callable[[str], None] = print) -> None:
         _apt_install(status)
     found = require()
     status(f"OpenFOAM {found.version} in {found.project}")
-    for product in (gas_solver(status), two_fluid_closures(status), code_guard(status)):
+    for made in (gas_solver, two_fluid_closures, code_guard):
+        product = made(status)
         status(f"{product.name} is ready: {product}")
 
 

@@ -148,12 +148,12 @@ void greet(Channel* channel, const std::string& secret)
     send(channel, message);
 }
 
-void run(const argList& args, Channel* channel)
+void run(const argList& args, Channel* channel, const std::string& turbulence)
 {
     Time time(Time::controlDictName, args);
     fvMesh mesh(IOobject(fvMesh::defaultRegion, compat::timeName(time), time, IOobject::MUST_READ));
     const Exchange exchange(mesh);
-    GasSolver solver(mesh);
+    GasSolver solver(mesh, turbulence);
     send(channel, exchange.told(solver));
     if (channel) channel->limit = exchange.messageLimit();
     serve(channel, solver, exchange, time);
@@ -178,6 +178,7 @@ void report(Channel* channel, const std::string& text)
 int main(int argc, char* argv[])
 {
     argList::addOption("address", "address", "where sdph listens: unix:<path>, tcp:<host>:<port> or file:<folder>");
+    argList::addOption("turbulence", "library", "gasTurbulence, for a gas that is not laminar");
     argList::addOption("watch", "pid", "end when this process ends");
     // Fields come and go in every step: keep their memory rather than have the system give and clear it each time
     mallopt(M_MMAP_THRESHOLD, 1 << 30);
@@ -185,6 +186,7 @@ int main(int argc, char* argv[])
     const argList args(argc, argv);
     if (!args.checkRootCase()) return 1;
     if (args.options().found("watch")) endWith(std::stol(args.options()["watch"]));
+    const std::string turbulence = args.options().found("turbulence") ? args.options()["turbulence"] : "";
     std::unique_ptr<Channel> channel;
     std::string text;
     compat::throwErrors();
@@ -192,7 +194,7 @@ int main(int argc, char* argv[])
     {
         if (Pstream::master()) channel = Channel::open(args.options()["address"]);
         greet(channel.get(), getEnv("SDPH_SECRET"));
-        run(args, channel.get());
+        run(args, channel.get(), turbulence);
         return 0;
     }
     catch (const Foam::error& error) { text = error.message(); }

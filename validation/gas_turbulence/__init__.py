@@ -1,0 +1,7 @@
+"""Turbulence of the gas: sdphGasFoam against OpenFOAM's own pimpleFoam, on the same mesh with the same fields.
+
+frozen     the same eddy viscosity of the same velocity, which stands still
+channel    a channel that turbulent gas flows through, at Re_tau = 395
+"""
+
+NAMES = ("frozen", "channel")
