@@ -111,6 +111,7 @@ def test_every_boundary_says_what_it_asks():
     ("change", "said"),
     [
         ({"drag": {"law": "beetstra"}}, "drag.law = 'beetstra'; the two-fluid reference has: gidaspow"),
+        ({"gas": table()["gas"] | {"turbulence": {"model": "WALE"}}}, "the two-fluid reference is laminar"),
         ({"effects": [*EFFECTS, "lift"]}, "effects holds lift; the two-fluid reference has none"),
     ],
 )
