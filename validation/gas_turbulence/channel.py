@@ -67,7 +67,7 @@ def checks(folder: Path, _=(), reporter=None) -> list[dict]:
     """Checks of both models of the mean flow."""
     rows = []
     for model in ("kEpsilon", "kOmegaSST"):
-        found = profiles(model, folder / model)
+        found = profiles(model, folder / "channel" / model)
         rows += [
             check(f"{model}, velocity of a channel over pimpleFoam's, furthest from 1", _furthest(found), 1.0, SAME),
             check(f"{model}, Re_tau of a channel", found.reynolds, REYNOLDS, DEVELOPED, True),

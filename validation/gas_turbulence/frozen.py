@@ -66,5 +66,5 @@ def checks(folder: Path, _=(), reporter=None) -> list[dict]:
     return [
         check(f"{model}, {name} of a frozen flow over pimpleFoam's, less 1", value, 0.0, SAME)
         for model in MODELS
-        for name, value in apart(model, folder / model).items()
+        for name, value in apart(model, folder / "frozen" / model).items()
     ]
