@@ -120,10 +120,19 @@ def test_what_two_fluids_lack_is_said(change, said):
         macros(case(**change))
 
 
-def test_without_drag_two_fluids_are_refused():
-    still = [name for name in EFFECTS if name not in ("drag", "gas_pressure")]
-    with pytest.raises(CaseError, match="add 'drag'"):
-        start_fields(case(effects=still))
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"effects": [n for n in EFFECTS if n not in ("drag", "gas_pressure")]}, "effects without drag"),
+        ({"effects": [n for n in EFFECTS if n != "gravity"]}, "gravity in domain, none in effects"),
+        ({"grains": table()["grains"] | {"diameter_std_mm": 0.1}}, "grains.diameter_std_mm above 0"),
+        ({"coupling": {"one_way": True}}, "coupling.one_way = true"),
+        ({"coupling": {"voidage": False}}, "coupling.voidage = false"),
+    ],
+)
+def test_what_the_shared_template_would_run_otherwise_is_refused(change, said):
+    with pytest.raises(CaseError, match=f"^{said}: the two-fluid reference"):
+        start_fields(case(**change))
 
 
 @pytest.mark.openfoam

@@ -37,8 +37,7 @@ STARTED = ("alpha.particles", "U.particles", "T.particles")  # of which a start 
 
 def start_fields(case) -> dict[str, str]:
     """File name -> text, even inside; `tell_start` says how the grains stand."""
-    if "drag" not in case.effects:
-        raise CaseError(f"effects = {list(case.effects)}; the two-fluid reference has drag: add 'drag'")
+    _refuse_what_differs(case)
     given = [region.temperature for region in case.particles.values() if region.temperature is not None]
     inside = {
         "T.gas": repr(case.gas.temperature), "T.particles": repr(given[0] if given else case.gas.temperature),
@@ -46,6 +45,20 @@ def start_fields(case) -> dict[str, str]:
         "p_rgh": repr(case.gas.operating_pressure), "U.gas": "(0 0 0)", "U.particles": "(0 0 0)",
     }  # fmt: skip
     return {name: _field(case, name, inside.get(name, "0")) for name in FIELDS}
+
+
+def _refuse_what_differs(case) -> None:
+    """CaseError where the template that all cases share would run another case."""
+    asked = {
+        "effects without drag": "drag" not in case.effects,
+        "gravity in domain, none in effects": any(case.domain.gravity) and "gravity" not in case.effects,
+        "grains.diameter_std_mm above 0": case.grains.diameter_std > 0.0,
+        "coupling.one_way = true": case.coupling.one_way,
+        "coupling.voidage = false": not case.coupling.voidage,
+    }
+    found = [what for what, there in asked.items() if there]
+    if found:
+        raise CaseError(f"{', '.join(found)}: the two-fluid reference has drag, gravity, one size, and both ways")
 
 
 def tell_start(folder: Path, start: Start) -> None:

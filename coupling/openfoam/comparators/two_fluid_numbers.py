@@ -61,7 +61,9 @@ def _refuse_what_has_no_reference(case: Case) -> None:
         raise CaseError(f"drag.law = {law!r}; the two-fluid reference has: {', '.join(DRAG_MODELS)}")
     if case.gas.turbulent:
         raise CaseError(f"gas.turbulence.model = {case.gas.turbulence.model!r}; the two-fluid reference is laminar")
-    alien = sorted({"evaporation", "inflow", "lift", "radiation", "electric_field"} & set(case.effects))
+    alien = sorted(
+        {"evaporation", "inflow", "lift", "radiation", "electric_field", "frame", "break_up"} & set(case.effects)
+    )
     if alien:
         raise CaseError(f"effects holds {', '.join(alien)}; the two-fluid reference has none: leave it out to compare")
 
