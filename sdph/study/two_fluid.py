@@ -69,7 +69,7 @@ def _along_gravity(case, late, own: Cells, other: Cells, weights) -> list[dict]:
     means = [cells.pressure[late].mean(axis=0) for cells in (own, other)]
     falls = [mean[floor].mean() - mean[lid].mean() for mean in means]
     return [
-        check("middle of the grains over the floor [m]", *middles, PLACE, True),
+        check("middle of the grains over the lowest cells [m]", *middles, PLACE, True),
         check("pressure of the gas from floor to lid [Pa]", *falls, BAR, True),
     ]
 

@@ -91,8 +91,14 @@ def test_what_differs_is_seen(sides, field, change, seen):
 
 def test_the_first_half_counts_for_nothing(sides):
     own, other = sides
-    own.alpha_p[0] *= 3.0
-    assert failed(own, other) == set()
+    first = own.alpha_p * np.array([3.0, 1.0, 1.0])[:, None]
+    assert failed(own._replace(alpha_p=first), other) == set()
+
+
+def test_heights_and_pressures_are_those_along_gravity(sides):
+    told = {row["name"].split()[0]: row["value"] for row in two_fluid.checks(case(), [1, 2], *sides)}
+    assert told["middle"] == pytest.approx(0.5 * (0.0125 + 0.0875) - 0.0125)
+    assert told["pressure"] == pytest.approx(5000.0 * 0.175)
 
 
 def test_every_boundary_says_what_it_asks():
@@ -144,6 +150,9 @@ def test_a_column_without_heat_runs_as_two_fluids(tmp_path, monkeypatch):
     start = Start(centres, bed, np.zeros((200, 3)), np.full(200, 300.0))
     run = comparators.run_two_fluid(own, tmp_path / "run", start=start)
     assert run.fields[max(run.fields)]["alpha_p"] @ run.volumes == pytest.approx(bed.sum() * 1e-4, rel=1e-6)
+    half = dataclasses.replace(start, alpha_p=0.5 * bed)
+    run = comparators.run_two_fluid(own, tmp_path / "half", start=half)  # not the kept one of the other start
+    assert run.fields[max(run.fields)]["alpha_p"] @ run.volumes == pytest.approx(0.5 * bed.sum() * 1e-4, rel=1e-6)
 
 
 def test_places_take_what_the_nearest_cell_has():
