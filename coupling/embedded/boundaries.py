@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from coupling.embedded.grid import Grid, indices
+from sdph.case import profiles
 from sdph.case.gas_cells import nearest_edge
 from sdph.engine.geometry import SIDES
 from sdph.schema import CaseError
@@ -63,6 +64,11 @@ def _side(case, grid: Grid, axis: int, upper: int) -> dict[str, np.ndarray]:
     rows = [_row(case, name) for name in case.boundaries]
     step = grid.strides[axis] * (1 if upper else -1)
     each = {key: np.array([row[key] for row in rows])[owner] for key in rows[0]}
+    for number, boundary in enumerate(case.boundaries.values()):
+        if boundary.profile != "uniform":
+            mine = owner == number
+            middle = 0.5 * (grid.edges[1 - axis][1:] + grid.edges[1 - axis][:-1])
+            each["velocity"][mine] *= profiles.over_mean(case, boundary, middle[mine])[:, None]
     return each | {
         "face": cell + grid.strides[axis] * upper, "cell": cell, "ghost": cell + step,
         "axis": np.full(len(cell), axis), "sign": np.full(len(cell), 2.0 * upper - 1.0),
