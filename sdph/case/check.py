@@ -121,6 +121,13 @@ def _check_method(case: Case) -> None:
             raise CaseError(
                 f'effects holds {name}; with method.name = "mps" there are {", ".join(KNOWN)}: leave it out'
             )
+    tension = case.parameters.get("free_energy_tension")
+    held = tension is not None and tension.coefficient > 0.0 and "tank" not in case.effects
+    if case.method.pressure == "weakly_compressible" and (not held or case.method.of_pools(case)):
+        raise CaseError(
+            'method.pressure = "weakly_compressible" is of sheets and drops that free_energy_tension holds, whose '
+            'cohesion gives it its speed of sound; leave it out, or set method.name = "weakly_compressible"'
+        )
     if case.gas_phase:
         raise CaseError('method.name = "mps" moves one liquid: leave [gas_phase] and pools of gas out')
     if any(case.liquid.periodic or ()) and case.nozzles:

@@ -29,6 +29,7 @@ HAN_GAS, HAN_ANGLE = 1.2, 43.0  # kg/m3, deg: swirl-sheet.md, section 3
 # the other speeds of the paper, up to WAY
 SLOWER = ("nozzles.mouth.speed_m_s=15.0", "run.end_time_s=8e-4")
 FASTER = ("nozzles.mouth.speed_m_s=25.0", "run.end_time_s=4.8e-4", "run.output_interval_s=4.8e-5")
+OTHER = ("method.pressure=weakly_compressible",)  # the same without an equation to solve for the pressure
 # waves that gas makes grow, up to 14 mm, coarse: particles tell thickness and speed alone
 ON = 'effects=["laminar_viscosity","free_energy_tension","inflow","outflow",%s]'
 COARSE = ("resolution.spacing_mm=0.1", "run.output_interval_s=1e-4")
@@ -40,7 +41,8 @@ PIERCED = (
     "run.output_interval_s=5e-5",
 )  # fmt: skip
 VARIANTS = {
-    "swirl_sheet": ((), ["exact"]), "at_15": (SLOWER, ["angles"]), "at_25": (FASTER, ["angles"]),
+    "swirl_sheet": ((), ["exact"]), "weakly_compressible": (OTHER, ["exact"]),
+    "at_15": (SLOWER, ["angles"]), "at_25": (FASTER, ["angles"]),
     **{f"suction_{u}": (own, ["suction"]) for u, own in AT.items()}, "perforation": (PIERCED, ["perforation"]),
 }  # fmt: skip
 PLACE = 0.1  # of the way to where the law has holes; our choice, as thickness is told by 6 to 60 neighbours
@@ -176,7 +178,8 @@ def _straight(case, end: float) -> _Sheet:
     own = dataclasses.replace(case.parameters["free_energy_tension"], coefficient=0.0)
     case = dataclasses.replace(
         case, parameters=case.parameters | {"free_energy_tension": own},
-        liquid=dataclasses.replace(case.liquid, viscosity=0.0), run=dataclasses.replace(case.run, end_time=end),
+        liquid=dataclasses.replace(case.liquid, viscosity=0.0),
+        method=dataclasses.replace(case.method, pressure="poisson"), run=dataclasses.replace(case.run, end_time=end),
     )  # fmt: skip
     with tempfile.TemporaryDirectory(prefix="sdph-sheet-") as folder:
         alone = Alone(case, Path(folder) / "ledger.csv")

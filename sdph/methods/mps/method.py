@@ -14,7 +14,7 @@ from sdph.engine.kept import GROWING
 from sdph.engine.rows import Neighbours
 from sdph.engine.state import INFLOW, LIQUID
 from sdph.laws import moving_particles
-from sdph.methods.mps import equations, pools, start, tanks
+from sdph.methods.mps import compressible, equations, pools, start, tanks
 from sdph.methods.mps.bounds import MpsGuard
 from sdph.methods.mps.holes import Holes
 from sdph.methods.mps.openings import Openings
@@ -124,7 +124,11 @@ class MpsStepper:
         return found
 
     def _pressed(self, dt: float) -> np.ndarray:
-        """Acceleration (N, 3) [m/s2] by the pressure that takes the divergence out of the velocities (7)."""
+        """Acceleration (N, 3) [m/s2] by the pressure that takes the divergence out of the velocities (7), or answers
+        it."""
+        if self.own.pressure == "weakly_compressible":
+            self.clipped += compressible.pressed(self, dt)
+            return self._pushed(self.cloud.density / dt, None)
         cloud, own, count = self.cloud, self.own, len(self.state.x)
         divergence, beside = np.empty(count), np.empty(count, np.int8)
         equations.near_surface(*self.around, self.surface, beside)
@@ -242,6 +246,9 @@ def limits(case, parameters, state, relative: float) -> dict[str, float]:
     own = {"relative motion": RELATIVE * unit / relative} if relative else {}
     if gravity:
         own["gravity"] = FALL * math.sqrt(unit / gravity)
+    if case.method.pressure == "weakly_compressible":
+        sound = compressible.sound_speed(case, parameters["free_energy_tension"])
+        own["sound"] = compressible.COURANT * unit / sound
     if case.method.of_pools(case) and (speed := float(particles.lengths(particles.velocities(state)).max(initial=0.0))):
         own["motion"] = COURANT * unit / speed
     return own | effects.limits(parameters, case, state)

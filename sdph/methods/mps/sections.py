@@ -16,6 +16,8 @@ class LiquidMethod:
 
     name: str = choice(*NAMES)
     reach: float = quantity("", 2.1, above=1.5, most=4.1)  # r_e; 3.1 for drops in two dimensions (swirl-sheet.md)
+    # `weakly_compressible`: by the density that follows the velocities, a cross-check of sheets and drops
+    pressure: str = choice("poisson", "weakly_compressible")
     # gamma: share of a surplus of n that the pressure takes out in a step
     compression: float | None = quantity("", None, least=0.0, most=1.0)  # None: 0.01 in pools, else 0.05
     tolerance: float = quantity("", 1e-3, above=0.0, most=0.1)  # of the pressure's equations

@@ -1,6 +1,8 @@
 """Moving particles: operators on the lattice, conservation of free bodies, pressure that keeps the density."""
 
+import dataclasses
 import math
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -8,9 +10,18 @@ from moving import SPACING, case, started
 
 from sdph.engine import state as particles
 from sdph.laws import moving_particles
-from sdph.methods.mps import equations
+from sdph.methods.mps import compressible, equations
 from sdph.methods.mps.method import MpsStepper
 from sdph.schema import CaseError
+
+
+class Cohesion(NamedTuple):
+    """Of a tension's parameters what its sound asks for [Pa]."""
+
+    cohesion: float
+
+
+PRESSURES = ("poisson", "weakly_compressible")
 
 
 def block(velocity, dimensions=3):
@@ -64,10 +75,11 @@ def test_a_lattice_has_its_numbers():
     assert not stepper.surface[inside].any() and stepper.surface[~inside].any()
 
 
+@pytest.mark.parametrize("pressure", PRESSURES)
 @pytest.mark.parametrize("dimensions", [2, 3])
-def test_a_free_drop_keeps_mass_momentum_and_energy(tmp_path, dimensions):
+def test_a_free_drop_keeps_mass_momentum_and_energy(tmp_path, dimensions, pressure):
     """It rings, is stretched and turned; what tension does is told."""
-    run = started(tmp_path, case(dimensions=dimensions))
+    run = started(tmp_path, case(sections={"method": {"pressure": pressure}}, dimensions=dimensions))
     s = run.state
     s.u[:] += 300.0 * (s.x - 4e-3) - 200.0 * (s.y - 4e-3) + 0.3
     s.v[:] += 200.0 * (s.x - 4e-3) - 300.0 * (s.y - 4e-3)
@@ -94,8 +106,9 @@ def test_a_squeezed_drop_does_not_give_way(tmp_path):
     assert np.ptp(s.x) > 7.3e-4 > 6.7e-4 > np.ptp(s.z) and run.stepper.number.max() < 1.1 * run.stepper.cloud.number
 
 
-def test_tension_holds_a_drop_together_and_the_gauge_leaves_cohesion_out(tmp_path):
-    run = started(tmp_path, case())
+@pytest.mark.parametrize("pressure", PRESSURES)
+def test_tension_holds_a_drop_together_and_the_gauge_leaves_cohesion_out(tmp_path, pressure):
+    run = started(tmp_path, case(sections={"method": {"pressure": pressure}}))
     for _ in range(200):
         run.stepper.step(5e-6)
     inside = run.stepper.surface == 0
@@ -122,6 +135,7 @@ def test_two_that_meet_lose_what_they_approach_by(tmp_path):
     (("frame",), {}, 'effects holds frame; with method.name = "mps" there are gravity'),
     ((), {"method": {"name": "weakly_compressible"}}, "liquid.sound_speed_m_s is missing"),
     ((), {"method": {"reach": 9.0}}, "method.reach"),
+    ((), {"method": {"pressure": "weakly_compressible"}}, "of sheets and drops that free_energy_tension holds"),
 ])  # fmt: skip
 def test_what_does_not_fit_is_told_in_one_line(effects, sections, told):
     with pytest.raises(CaseError, match=told.replace("(", r"\(")):
@@ -135,3 +149,40 @@ def test_steps_follow_the_motion_between_neighbours(tmp_path):
     assert run.stepper.next_step(1.0) == pytest.approx(0.2 * SPACING / (1e3 * 2.0 * SPACING), rel=1e-3)
     assert run.stepper.limit == "relative motion"
     assert math.isclose(run.stepper.speed.max(), 0.2, rel_tol=1e-9)
+
+
+def test_density_follows_the_velocities_and_evens_out():
+    """Weakly compressible: a rise of rho by -rho div u dt, exact on the lattice, and c^2 of it as pressure; a wave of
+    density fades by delta l0 c k^2."""
+    stepper, inside = block(lambda r: 0.0 * r)
+    s, rest, dt = stepper.state, stepper.cloud.density, 1e-6
+    stepper.p["free_energy_tension"], stepper.own = Cohesion(-800.0), dataclasses.replace(stepper.own, suction="full")
+    c = 10.0 * math.sqrt(800.0 / rest)
+    s.u[:], s.v[:], s.w[:] = -30.0 * s.x, -10.0 * s.y, -20.0 * s.z
+    assert compressible.pressed(stepper, dt) == 0.0
+    np.testing.assert_allclose(s.density[inside], rest * (1.0 + 60.0 * dt), rtol=1e-12)
+    np.testing.assert_allclose(s.pressure[inside], c * c * rest * 60.0 * dt, rtol=1e-8)
+    s.u[:] = s.v[:] = s.w[:] = 0.0
+    k = 2.0 * math.pi / (20.0 * 2e-4)
+    s.density[:] = rest * (1.0 + 1e-3 * np.sin(k * s.x))
+    before = s.density - rest
+    compressible.pressed(stepper, dt)
+    faded = np.sum((s.density - rest - before)[inside] * before[inside]) / np.sum(before[inside] ** 2) / dt
+    assert faded == pytest.approx(-0.1 * 2e-4 * c * k * k, rel=0.02)
+
+
+def test_what_is_drawn_apart_has_no_pressure_and_is_counted():
+    stepper, _ = block(lambda r: 0.0 * r)
+    s, rest = stepper.state, stepper.cloud.density
+    stepper.p["free_energy_tension"] = Cohesion(-800.0)
+    stepper.own = dataclasses.replace(stepper.own, suction="none")
+    s.u[:] = 30.0 * s.x
+    assert compressible.pressed(stepper, 1e-6) > 0.0
+    assert (s.pressure == 0.0).all() and (s.density == rest).all()
+
+
+def test_steps_hold_sound(tmp_path):
+    run = started(tmp_path, case(sections={"method": {"pressure": "weakly_compressible"}}))
+    sound = compressible.sound_speed(run.case, run.stepper.p["free_energy_tension"])
+    assert run.stepper.next_step(1.0) == pytest.approx(0.5 * SPACING / sound, rel=1e-3)
+    assert run.stepper.limit == "sound"
