@@ -47,6 +47,7 @@ def test_wall_that_slides(tmp_path, solver):
     hand = 2.0 * RHO * speed * math.sqrt(mu / RHO * t / math.pi) * length
     print(f"{solver}: walls {found['impulse_walls'][0]:.5e}, by hand {hand:.5e}, numerical {found['numerical'][0]:.1e}")
     assert found["impulse_walls"][0] == pytest.approx(hand, rel=0.01)
+    assert state.budget.patches["lid"][1][0] / gas.mesh.depth == pytest.approx(hand, rel=0.01)
     assert found["momentum"][0] == pytest.approx(hand, rel=0.01)
     others = set(found) - {"impulse_walls", "momentum"}
     assert max(abs(found[name][0]) for name in others) < 1e-3 * hand
