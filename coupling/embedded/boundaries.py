@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from coupling.embedded.grid import Grid, indices
+from sdph.case import profiles
 from sdph.case.gas_cells import nearest_edge
 from sdph.engine.geometry import SIDES
 from sdph.schema import CaseError
@@ -70,6 +71,10 @@ def _side(case, grid: Grid, axis: int, upper: int) -> dict[str, np.ndarray]:
     place[grid.cells] = grid.centres
     middle = place[cell]
     middle[:, axis] = grid.edges[axis][-1 if upper else 0]
+    for number, boundary in enumerate(case.boundaries.values()):
+        if boundary.profile != "uniform":
+            mine = owner == number
+            each["velocity"][mine] *= profiles.over_mean(case, boundary, middle[mine, 1 - axis])[:, None]
     return each | {
         "owner": owner, "middle": middle,
         "face": cell + grid.strides[axis] * upper, "cell": cell, "ghost": cell + step,

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from coupling.openfoam import turbulence
+from sdph.case import profiles
 from sdph.case.sections import Boundary
 from sdph.schema import CaseError
 
@@ -88,11 +89,23 @@ def _velocity_inlet(case, boundary, name: str) -> dict[str, str]:
         raise CaseError(f"boundaries.{name}.velocity_m_s is missing; a velocity_inlet needs it")
     return {
         "alpha_g": fixed(1),
-        "U": fixed(vector(case, boundary.velocity)),
+        "U": let_in(case, boundary),
         "p_rgh": GIVEN_FLUX,
         "T": fixed(boundary.temperature or case.gas.temperature),
         "Y": fixed(boundary.vapour_mass_fraction or 0.0),
     }
+
+
+def let_in(case, boundary) -> str:
+    """Velocity of the gas that comes in: the same everywhere, or `sdph.case.profiles.over_mean` times the mean, as a
+    polynomial of the way along the side."""
+    if boundary.profile == "uniform":
+        return fixed(vector(case, boundary.velocity))
+    axis, low, high = profiles.extent(case, boundary)
+    slope = [6.0 * u / (high - low) for u in boundary.velocity]
+    terms = f"({vector(case, slope)} (1 1 1)) ({vector(case, [-s / (high - low) for s in slope])} (2 2 2))"
+    along = vector(case, [float(a == axis) for a in range(2)])
+    return f"type fixedProfile; direction {along}; origin {low!r}; profile polynomial ({terms});"
 
 
 def _pressure_outlet(case, boundary, name: str) -> dict[str, str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 
 from sdph import effects, scenes
-from sdph.case import beside, bodies, periods, probed, regions, turbulent
+from sdph.case import beside, bodies, periods, probed, profiles, regions, turbulent
 from sdph.case.extents import SAME, inside, mouth, probe, side
 from sdph.case.sections import Case, Region
 from sdph.methods.liquids.sections import Pool
@@ -92,6 +92,7 @@ def _check_one(case: Case) -> None:
         bodies.check(case)
     for name, boundary in case.boundaries.items():
         side(case, f"boundaries.{name}", boundary)
+        profiles.check(case, f"boundaries.{name}", boundary)
     for name, region in case.particles.items():
         _check_region(case, name, region)
     for name, point in case.probes.items():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 
 from sdph.effects import REGISTRY
 from sdph.effects.around.nozzles import Nozzle
@@ -16,6 +17,7 @@ from sdph.schema import choice, file, flag, quantity, record, section, vector, w
 OPENINGS = ("inflow", "outflow")  # effects that act on the grains alone where grains and a liquid are side by side
 HEATING = {"heat", "conduction", "radiation", "evaporation", "micro_explosion"}
 STANDARD_ATMOSPHERE = 101325.0  # Pa, ISO 2533
+PEAK = {"uniform": 1.0, "parabolic": 1.5}  # profile of an inlet -> its largest velocity over the mean
 
 
 @record
@@ -169,9 +171,15 @@ class Boundary:
     side: str | None = choice(*SIDES, default=None)
     span: tuple | None = vector("m", None)
     velocity: tuple | None = vector("m_s", None)  # of the gas that comes in, or with which a wall slides along itself
+    profile: str = choice(*PEAK)  # of that gas along its side (sdph.case.profiles); `velocity` is its mean
     temperature: float | None = quantity("K", None, above=0.0)
     vapour_mass_fraction: float | None = quantity("", None, least=0.0, most=1.0)
     pressure: float | None = quantity("Pa", None)
+
+    @property
+    def fastest(self) -> float:
+        """Largest speed [m/s] of the gas that comes in, or of the wall."""
+        return PEAK[self.profile] * math.hypot(*(self.velocity or ()))
 
 
 @record

@@ -161,9 +161,7 @@ def opening(case) -> dict[str, float]:
     """Limits [s] of the first window from the speeds that the case gives: gas that is let in, as fast as it is between
     the grains, and grains that are thrown at the start or by a nozzle. Later windows are told what moves how fast."""
     packed = max((region.volume_fraction for region in case.particles.values()), default=0.0)
-    let_in = max((math.hypot(*b.velocity) for b in case.boundaries.values() if b.velocity), default=0.0) / (
-        1.0 - packed
-    )
+    let_in = max((b.fastest for b in case.boundaries.values()), default=0.0) / (1.0 - packed)
     thrown = (
         [math.hypot(*region.velocity) for region in case.particles.values() if region.velocity]
         if effects.moving(case)

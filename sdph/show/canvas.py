@@ -62,7 +62,7 @@ class Sheet:
 
         factor, unit = style.prefixed("m", float(np.max(np.abs([low, high]))))
         for axis, name, length in zip((self.axes.xaxis, self.axes.yaxis), names, self.own):
-            axis.set_major_locator(_round_ticks(factor, max(2, round(length / 1.1))))
+            axis.set_major_locator(_round_ticks(factor, max(1, round(length / 1.1))))
             axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: style.digits(value / factor)))
             axis.set_label_text(f"{name} [{unit}]", color=self.theme.ink, fontsize=10)
         self.axes.set_xlim(low[0], high[0])
@@ -99,6 +99,7 @@ def _round_ticks(factor: float, count: int):
 
     class Locator(ticker.MaxNLocator):
         def tick_values(self, low, high):
-            return super().tick_values(low / factor, high / factor) * factor
+            ends = (float(f"{end / factor:.6g}") for end in (low, high))  # files hold them in single precision
+            return super().tick_values(*ends) * factor
 
     return Locator(nbins=count, steps=TICKS)

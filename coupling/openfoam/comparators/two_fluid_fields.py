@@ -13,7 +13,7 @@ import numpy as np
 
 from coupling.openfoam import fields
 from coupling.openfoam.comparators.start import Start
-from coupling.openfoam.start_fields import EMPTY, HEAD, STILL, ZERO_GRADIENT, fixed, vector
+from coupling.openfoam.start_fields import EMPTY, HEAD, STILL, ZERO_GRADIENT, fixed, let_in, vector
 from sdph.schema import CaseError
 
 # field -> (class, dimensions)
@@ -117,7 +117,7 @@ def _velocity_inlet(case, own) -> dict[str, str]:
     """Nothing but gas comes in, at its superficial velocity."""
     return _wall(case, STILL) | {
         "alpha.particles": fixed(0),
-        "U.gas": fixed(vector(case, own.velocity)),
+        "U.gas": let_in(case, own),
         "T.gas": fixed(own.temperature or case.gas.temperature),
     }
 

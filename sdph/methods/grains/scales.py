@@ -55,7 +55,7 @@ class Scales:
     def jet(self) -> float:
         """Fastest gas that enters [m/s], as fast as it still is where it meets grains."""
         fed = [b for b in self.case.boundaries.values() if b.velocity]
-        return max((math.hypot(*b.velocity) * ways.strength(self.case, b, self.patches) for b in fed), default=0.0)
+        return max((b.fastest * ways.strength(self.case, b, self.patches) for b in fed), default=0.0)
 
     @cached_property
     def thrown(self) -> float:

@@ -111,7 +111,7 @@ class Driven:
 
 def later(case, s) -> dict[str, float]:
     """Longest windows [s] by what moves once the start is over, of gas and of grains."""
-    let_in = max((math.hypot(*b.velocity) for b in case.boundaries.values() if b.velocity), default=0.0)
+    let_in = max((b.fastest for b in case.boundaries.values()), default=0.0)
     speeds = {"courant": max(let_in, s.rush), "particles": s.speed if effects.moving(case) else 0.0}
     reach = case.coupling.courant * smallest_cell(case)
     return {cause: reach / speed for cause, speed in speeds.items() if speed}
