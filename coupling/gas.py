@@ -92,6 +92,9 @@ class Budget:
     these and `momentum_in` is numerical. `courant` is the largest Courant number of the last step.
     `residuals` names the final linear-solver residual of each equation, `held` what limiters of the gas took in the
     last step, by column of history.csv, each 0 or more (docs/limiters.md).
+
+    `patches` has by name of a boundary (3, 3) what it gave since the start: its parts of `impulse_pressure` and of
+    `impulse_walls` [kg m/s], and the moment of both about the origin [kg m2/s].
     """
 
     mass: float
@@ -116,6 +119,7 @@ class Budget:
     impulse_room: tuple[float, float, float] = NOTHING
     residuals: dict[str, float] = field(default_factory=dict)
     held: dict[str, float] = field(default_factory=dict)
+    patches: dict[str, list] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

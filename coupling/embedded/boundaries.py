@@ -30,8 +30,11 @@ KINDS = {
 class Faces:
     """The boundary faces, (B,) each: padded indices of face, inner cell and ghost; axis; outward sign;
     `open` and `held` temperature, vapour (bool); and what the boundary says there: velocity (B, d) [m/s],
-    temperature [K], vapour mass fraction, pressure [Pa]. `names[owner]` is the boundary of a face."""
+    temperature [K], vapour mass fraction, pressure [Pa]; the number of the boundary among those of the case, and the
+    middle of the face (B, d) [m]."""
 
+    owner: np.ndarray
+    middle: np.ndarray
     face: np.ndarray
     cell: np.ndarray
     ghost: np.ndarray
@@ -64,12 +67,16 @@ def _side(case, grid: Grid, axis: int, upper: int) -> dict[str, np.ndarray]:
     rows = [_row(case, name) for name in case.boundaries]
     step = grid.strides[axis] * (1 if upper else -1)
     each = {key: np.array([row[key] for row in rows])[owner] for key in rows[0]}
+    place = np.zeros((grid.size, grid.dimensions))
+    place[grid.cells] = grid.centres
+    middle = place[cell]
+    middle[:, axis] = grid.edges[axis][-1 if upper else 0]
     for number, boundary in enumerate(case.boundaries.values()):
         if boundary.profile != "uniform":
             mine = owner == number
-            middle = 0.5 * (grid.edges[1 - axis][1:] + grid.edges[1 - axis][:-1])
-            each["velocity"][mine] *= profiles.over_mean(case, boundary, middle[mine])[:, None]
+            each["velocity"][mine] *= profiles.over_mean(case, boundary, middle[mine, 1 - axis])[:, None]
     return each | {
+        "owner": owner, "middle": middle,
         "face": cell + grid.strides[axis] * upper, "cell": cell, "ghost": cell + step,
         "axis": np.full(len(cell), axis), "sign": np.full(len(cell), 2.0 * upper - 1.0),
     }  # fmt: skip
@@ -198,11 +205,7 @@ def resting_pressure(faces: Faces, grid: Grid, gravity, density: float) -> tuple
     The given pressure of an opening holds at the centre of all openings, so that openings at different heights drive
     no flow by themselves; a closed box has zero mean.
     """
-    place, rows = np.zeros((grid.size, grid.dimensions)), np.arange(len(faces.cell))
-    place[grid.cells] = grid.centres
-    centre = place[faces.cell]
-    centre[rows, faces.axis] += 0.5 * faces.sign * grid.geometry.width[faces.axis, faces.cell]
-    outside, inside = centre @ np.asarray(gravity), grid.centres @ np.asarray(gravity)
+    outside, inside = faces.middle @ np.asarray(gravity), grid.centres @ np.asarray(gravity)
     if not faces.open.any():
         return density * (outside - inside.mean()), density * (inside - inside.mean())
     area = grid.geometry.area[faces.axis, faces.face] * faces.open

@@ -22,7 +22,7 @@ class Box:
     def __init__(self, case, grid: Grid, limited: bool):
         self.grid, self.limited = grid, limited
         self.properties = Properties(case)
-        self.faces = boundaries.boundary_faces(case, grid)
+        self.faces, self.names = boundaries.boundary_faces(case, grid), tuple(case.boundaries)
         self.gravity = case.domain.gravity
         self.tolerance = case.coupling.gas_tolerance
         self.temperature = case.gas.temperature
@@ -45,7 +45,7 @@ class Flow:
     """All that the next window needs. Cells (S,): alpha, mass, vapour [kg], temperature [K], pressure [Pa];
     faces (d, S): velocity [m/s], flux [kg/s]; `ratio` of the density to the equation of state; what came in
     through the boundary since the start [kg, J, kg, J]; works since the start [J], see `coupling.gas.Budget`, and the
-    `impulses` (6, 3) [kg m/s] of `coupling.gas.IMPULSES`."""
+    `impulses` (6, 3) [kg m/s] of `coupling.gas.IMPULSES`; on_patches (P, 3, 3), those of each boundary."""
 
     time: float
     alpha: np.ndarray
@@ -56,6 +56,7 @@ class Flow:
     velocity: np.ndarray
     flux: np.ndarray
     impulses: np.ndarray
+    on_patches: np.ndarray
     ratio: float = 1.0
     mass_in: float = 0.0
     energy_in: float = 0.0
@@ -75,7 +76,7 @@ def restored(box: Box, saved: dict[str, np.ndarray]) -> Flow:
     """The flow from its saved attributes (name -> array); ValueError where they are not of this box or no gas is like
     that."""
     cells, faces = (box.grid.size,), (box.grid.dimensions, box.grid.size)
-    shapes = {"velocity": faces, "flux": faces, "impulses": (len(IMPULSES), 3)}
+    shapes = {"velocity": faces, "flux": faces, "impulses": (len(IMPULSES), 3), "on_patches": (len(box.names), 3, 3)}
     for field in dataclasses.fields(Flow):
         value = saved[field.name]
         shape = () if field.type == "float" else shapes.get(field.name, cells)

@@ -130,7 +130,7 @@ class Momentum:
 
     def predict(self, old: Flow, window: Window, mass: np.ndarray, fraction: np.ndarray):
         """Velocity (d, S) under the old pressure, the diagonal D (d, S) [kg] of its equation, the largest residual,
-        what crossed the rims (3, d) [kg m/s], see `impulses.crossed`, and the impulses of viscosity (d, S) [kg m/s] on
+        what crossed the rims along each axis, see `impulses.crossed`, and the impulses of viscosity (d, S) [kg m/s] on
         the faces that move freely. mass (S,): of the cells, at the end."""
         grid = self.box.grid
         inside = grid.geometry.volume > 0.0
@@ -154,7 +154,7 @@ class Momentum:
             residual = max(residual, error)
             over.append(crossed(self.rims[a], carried[a], rubbed, window.dt * stress))
             viscous_impulse(grid.wide, a, active, mass, rubbed, window.dt * stress, impulse[a])
-        return velocity, diagonal, residual, np.array(over).T, impulse
+        return velocity, diagonal, residual, [np.array(part) for part in zip(*over)], impulse
 
     def convected(self, old: Flow, dt: float) -> tuple[np.ndarray, np.ndarray]:
         """The old velocity (d, S) carried on by the old mass fluxes, and what of that along each axis every face let

@@ -33,7 +33,7 @@ import numpy as np
 
 from coupling.embedded.box import Box, Flow, restored, window_of
 from coupling.embedded.grid import build_grid
-from coupling.embedded.impulses import impulses
+from coupling.embedded.impulses import impulses, of_patches, on_faces
 from coupling.embedded.linear import not_converged
 from coupling.embedded.momentum import Momentum
 from coupling.embedded.output import budget, cell_fields
@@ -77,7 +77,7 @@ class EmbeddedGas:
         mass[grid.cells] = alpha[grid.cells] * grid.geometry.volume[grid.cells] * density
         pressure = self.pressure.at_start()
         velocity = self.pressure.standing.copy()
-        moving = velocity, grid.zeros(grid.dimensions), np.zeros((len(IMPULSES), 3))
+        moving = velocity, grid.zeros(grid.dimensions), np.zeros((len(IMPULSES), 3)), np.zeros((len(box.names), 3, 3))
         self.flow = Flow(0.0, alpha, mass, grid.zeros(), temperature, pressure, *moving)
         self.state = self._state()
         return self.state
@@ -98,7 +98,9 @@ class EmbeddedGas:
         came, lifted = through_motion(self.box, old, new, dt)
         sums = {"kinetic_in": old.kinetic_in + came, "gravity_work": old.gravity_work + lifted}
         sums["viscous_work"] = old.viscous_work + viscous_work(self.box, old, new, rubbed)
-        sums["impulses"] = old.impulses + impulses(self.box, old, window, new, over)
+        pressed, rubbed = on_faces(self.box, old, window, new, over)
+        sums["impulses"] = old.impulses + impulses(self.box, window, new, over[0], pressed, rubbed)
+        sums["on_patches"] = old.on_patches + of_patches(self.box, pressed, rubbed)
         self.flow = dataclasses.replace(new, **sums)
         found = self._state()
         found.fields["power"] = power(self.box, old, window, new) / self.mesh.volumes

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     import pandas
+    import xarray
 
 
 class Run:
@@ -104,6 +105,12 @@ class Run:
         """Arrays of the gas by name, a value a cell: `centre` (M, 3) [m], `temperature` [K], `velocity` [m/s], ..."""
         return cells(self.fields(time).gas, self.folder)
 
+    def gas_on_axes(self, time: float | None = None) -> xarray.Dataset:
+        """The same in a box of gas, over its axes x, y (and z) [m], vectors over `component` too, as xarray has it
+        (`pip install 'sdph[xarray]'`); `CaseError` on a mesh that is no box."""
+        instant = self.fields(time)
+        return on_axes(cells(instant.gas, self.folder), instant.time, self.case["dimensions"], self.folder)
+
     def line(
         self, start: Sequence[float], end: Sequence[float], count: int = 100, time: float | None = None
     ) -> pandas.DataFrame:
@@ -151,3 +158,27 @@ def cells(mesh: Any, folder: Path) -> dict[str, np.ndarray]:
         raise CaseError(f"{folder} is a run without a gas; its particles are all it has")
     own = {name: np.asarray(mesh.cell_data[name]) for name in mesh.cell_data}
     return {"centre": np.asarray(mesh.cell_centers().points), **own}
+
+
+def on_axes(fields: dict[str, np.ndarray], time: float, dimensions: int, folder: Path) -> xarray.Dataset:
+    """Fields (M,) or (M, 3) of cells that fill a box, over its axes; they are known by their `centre` (M, 3) [m]."""
+    try:
+        import xarray
+    except ImportError:
+        raise CaseError("gas_on_axes needs xarray: pip install 'sdph[xarray]', or take gas()") from None
+    places = fields.pop("centre")[:, :dimensions]
+    near = 1e-6 * np.ptp(places)  # what is nearer is one coordinate: files hold them in single precision
+    axes, order = {}, np.zeros(len(places), int)
+    for name, along in zip("xyz", places.T):
+        ranked = np.argsort(along)
+        new, number = np.diff(along[ranked], prepend=-np.inf) > near, np.empty(len(along), int)
+        number[ranked] = np.cumsum(new) - 1
+        axes[name], order = along[ranked][new], order * new.sum() + number
+    if not np.array_equal(np.sort(order), np.arange(np.prod([len(axis) for axis in axes.values()]))):
+        raise CaseError(f"the gas of {folder} has no box of cells, and so no axes; take gas(), line() or plane()")
+    shape, sorted_ = tuple(len(axis) for axis in axes.values()), np.argsort(order)
+    arrays = {
+        name: ((*axes, *("component",) * (values.ndim - 1)), values[sorted_].reshape(*shape, *values.shape[1:]))
+        for name, values in fields.items()
+    }
+    return xarray.Dataset(arrays, {**axes, "time": time})

@@ -44,6 +44,7 @@ def check(case: Case) -> None:
     beside.check(case)
     if case.liquid and (case.gas is None) != (case.grains is None):
         raise CaseError("a liquid stands alone, or beside grains in a gas: give both [grains] and [gas], or neither")
+    _check_forces(case)
     for name in case.effects:
         if not set(effects.REGISTRY[name].matter) & set(case.matters):
             what = {"liquid": "a liquid", "solid": "a solid"}.get(case.matters[0], "grains")
@@ -166,6 +167,22 @@ def _check_components(case: Case) -> None:
             raise CaseError(
                 f"{key} has {len(value)} components; dimensions = {case.dimensions} asks for {case.dimensions}"
             )
+
+
+def _check_forces(case: Case) -> None:
+    """Forces are those of a gas, on boundaries that the case names, each once."""
+    for name in case.run.forces:
+        if case.gas is None:
+            raise CaseError(
+                f"run.forces holds {name!r}, and the case has no gas; a liquid's loads on its tank are in history.csv "
+                "anyway: leave it out"
+            )
+        if name not in case.boundaries:
+            raise CaseError(
+                f"run.forces holds {name!r}, which is no boundary of the case; it has {', '.join(case.boundaries)}"
+            )
+    if len(set(case.run.forces)) < len(case.run.forces):
+        raise CaseError(f"run.forces = {list(case.run.forces)}; name each boundary once")
 
 
 def _check_outputs(case: Case) -> None:

@@ -29,6 +29,7 @@ class Run:
     accuracy: float = quantity("", 0.01, above=0.0, most=1.0)
     report_at: tuple = vector("s", ())  # times that a window ends at, so that history.csv has them
     metrics: tuple = words(())  # of sdph.running.metrics, for metrics.csv and the summary
+    forces: tuple = words(())  # boundaries on which history.csv and the summary have the forces of the gas
     checkpoint_interval: float = quantity("s", 600.0, above=0.0)  # of wall time; our choice
     checkpoint_windows: int | None = whole(None, least=1)  # and after so many windows, where it is given
 

@@ -16,7 +16,7 @@ from sdph.engine.kept import Unfit
 from sdph.exchange.exchange import Exchange
 from sdph.exchange.window import Window, learned
 from sdph.methods.grains.grains import Grains
-from sdph.running import history, outlet, output
+from sdph.running import forces, history, outlet, output
 from sdph.running.beside import Beside
 from sdph.running.limiters import Limiters
 from sdph.running.work import Held
@@ -41,7 +41,7 @@ class Simulation:
         self.exchange = Exchange(case, gas.mesh, self.parameters)
         self.repeated, self.grid = 0, None
         self.notices = self.grains.notices  # for the user, until somebody has passed them on
-        self._weights_now = None
+        self._weights_now, self.pressed = None, {}  # forces of the gas on boundaries in the last window
         self.beside, self.limiters = Beside(), Limiters()  # other methods; what limiters hold
         recorded = "outflow" in case.effects and ledger.table  # beside the ledger, where that is on disk
         self.outlet = outlet.Outlet(case, Path(ledger.table.file.name).with_name(outlet.FILE)) if recorded else None
@@ -101,6 +101,7 @@ class Simulation:
             self.clock.thicken(1.0, thickening)
             self.clock.hold(grip)
         self.ledger.open(self._totals(), self.gas_state.budget)
+        self.pressed = self._forces(None, 0.0)
         held = self.exchange.held(self.state, self.weights, self.gas_state)
         self._hear(held | self.gas_state.budget.held)
         self.beside.start()
@@ -127,8 +128,10 @@ class Simulation:
 
     def window(self) -> None:
         """One window: exchange prepared, gas advanced, reaction taken, particles advanced and renewed."""
+        before = self.gas_state.budget
         end, handed = self._with_gas(self.clock.choose(self.time))
         dt = end - self.time
+        self.pressed = self._forces(before, dt)
         taken = self._timed("exchange", self.exchange.take, self.state, handed, self.gas_state)
         changed = learned(self.state, taken.heat, dt)
         self.clock.hold(self.exchange.grip(self.state, handed.damping))
@@ -213,9 +216,13 @@ class Simulation:
             return str(failure)
         return self.stepper.guard.gas(self.gas_state.fields, self.gas.mesh.centres)
 
+    def _forces(self, before, time: float) -> dict[str, float]:
+        """Mean forces of the gas on boundaries over `time` [s], from a budget on (None: since the start)."""
+        return forces.mean(self.case, self.gas.mesh.depth, before, self.gas_state.budget, time)
+
     def row(self) -> dict[str, float]:
         """Columns of history.csv; those of other methods begin with their matter."""
-        return history.row(self) | self.limiters.now | self.beside.named(lambda method: method.row())
+        return history.row(self) | self.pressed | self.limiters.now | self.beside.named(lambda method: method.row())
 
     def meshes(self) -> dict:
         """Particles and gas for the timeline."""
@@ -234,6 +241,7 @@ class Simulation:
         """summary.json, its own part; what probes rose by is told from the first and the last row of the history."""
         own = {"cells": len(self.gas.mesh.volumes)} | self.grains.summary() | {"windows_repeated": self.repeated}
         own |= self.limiters.summary() | (self.outlet.summary() if self.outlet else {})
+        own |= {f"mean_{name}": value for name, value in self._forces(None, self.time).items()}
         for name, probe in self.case.probes.items():
             keys = (f"{name}_{column}" for column in probed.columns(self.case, probe))
             own |= {key: out.last[key] for key in keys if key in out.last}

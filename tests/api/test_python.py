@@ -126,6 +126,25 @@ def test_results_are_arrays_and_meshes(told):
         run.table("outlet")
 
 
+def test_a_box_of_gas_has_axes(told, monkeypatch):
+    """Each cell stands where its centre is, whatever the order of cells; without xarray one line says so."""
+    xarray, (run, _) = pytest.importorskip("xarray"), told
+    gas, fields = run.gas(0.001), run.gas_on_axes(0.001)
+    assert isinstance(fields, xarray.Dataset) and fields.sizes == {"x": 10, "y": 10, "component": 3}
+    for place, heat, speed in zip(gas["centre"][::7], gas["temperature"][::7], gas["velocity"][::7]):
+        here = fields.sel(x=place[0], y=place[1], method="nearest")
+        assert float(here.temperature) == heat and here.velocity.values.tolist() == speed.tolist()
+        assert abs(float(here.x) - place[0]) < 1e-6
+    corner = run.fields(0.001)._replace(gas=run.fields(0.001).gas.extract_cells([0, 1, 12]))
+    monkeypatch.setattr(run, "fields", lambda time: corner)
+    with pytest.raises(sdph.CaseError, match="no box of cells"):
+        run.gas_on_axes()
+    monkeypatch.undo()
+    monkeypatch.setitem(sys.modules, "xarray", None)
+    with pytest.raises(sdph.CaseError, match="pip install 'sdph.xarray.'"):
+        run.gas_on_axes(0.001)
+
+
 def test_tables_are_data_frames(told):
     pandas = pytest.importorskip("pandas", reason="pandas is not installed: make setup")
     run, _ = told

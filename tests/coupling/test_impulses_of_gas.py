@@ -47,6 +47,7 @@ def test_wall_that_slides(tmp_path, solver):
     hand = 2.0 * RHO * speed * math.sqrt(mu / RHO * t / math.pi) * length
     print(f"{solver}: walls {found['impulse_walls'][0]:.5e}, by hand {hand:.5e}, numerical {found['numerical'][0]:.1e}")
     assert found["impulse_walls"][0] == pytest.approx(hand, rel=0.01)
+    assert state.budget.patches["lid"][1][0] / gas.mesh.depth == pytest.approx(hand, rel=0.01)
     assert found["momentum"][0] == pytest.approx(hand, rel=0.01)
     others = set(found) - {"impulse_walls", "momentum"}
     assert max(abs(found[name][0]) for name in others) < 1e-3 * hand
@@ -171,3 +172,39 @@ def test_numerical_impulse_is_of_first_order(tmp_path, solver):
     print(f"{solver}: numerical {', '.join(f'{rel:.1e}' for rel in found)} of what moved the gas, orders {orders}")
     assert found[-1] < 0.02
     assert min(orders) > 0.7
+
+
+@BOTH
+def test_weight_of_gas_on_each_wall(tmp_path, solver):
+    """Gas at rest: p = rho g (H/2 - y) on floor, lid and sides, and its moment about the origin, cell by cell."""
+    (length, height), g, t = (0.02, 0.04), 9.81, 1e-2
+    sides = {side: {"kind": "wall", "side": side} for side in ("left", "right", "bottom", "top")}
+    with running(solver, tmp_path, (length, height), 0.005, gravity=(0.0, -g), boundaries=sides) as gas:
+        gas.start(None, ())
+        given = gas.advance(t, {}).budget.patches
+    found = {name: np.array(values) / (t * gas.mesh.depth) for name, values in given.items()}
+    y = (np.arange(8) + 0.5) * height / 8
+    on_left = RHO * g * (0.5 * height - y) * 0.005
+    assert found["bottom"][0, 1] == pytest.approx(RHO * g * 0.5 * height * length, rel=1e-6)
+    assert found["top"][0, 1] == pytest.approx(RHO * g * 0.5 * height * length, rel=1e-6)
+    assert found["bottom"][2, 2] == pytest.approx(0.5 * length * found["bottom"][0, 1], rel=1e-6)
+    assert found["left"][2, 2] == pytest.approx(-(y * on_left).sum(), rel=1e-6)
+    assert found["right"][2, 2] == pytest.approx((y * on_left).sum(), rel=1e-6)
+    assert max(np.abs(values[1]).max() for values in found.values()) < 1e-12
+
+
+@BOTH
+def test_patches_share_what_the_boundary_gives(tmp_path, solver):
+    """Pressure and viscous stress of a stirred gas, on graded cells: patch by patch as much as in all; the lid drags,
+    the wind presses."""
+    graded = {"stretch": [2.0, 0.5]} if solver == "embedded" else {}
+    with running(solver, tmp_path, (0.1, 0.1), 0.01, **graded, **THICK) as gas:
+        first = gas.start(None, ()).budget
+        for _ in range(10):
+            now = gas.advance(2e-3, {}).budget
+    patches = {name: np.array(given) for name, given in now.patches.items() if name in STIRRED}
+    for kind, name in enumerate(("impulse_pressure", "impulse_walls")):
+        whole = np.subtract(getattr(now, name), getattr(first, name))
+        assert sum(patches.values())[kind] == pytest.approx(whole, rel=1e-10, abs=1e-13)
+    assert patches.keys() == STIRRED.keys()
+    assert patches["lid"][1, 0] > 0.0 > patches["walls"][1, 0]

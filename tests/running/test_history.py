@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 import pyvista
 from builders import disc
+from grain_boxes import started
 
+from coupling.embedded import EmbeddedGas
 from sdph import scenes
 from sdph.case import read as cases
 from sdph.running import history
@@ -15,6 +17,7 @@ from sdph.running.alone import Alone
 from sdph.schema import CaseError
 from sdph.study.explain.effect_costs import prepared
 
+TANK = scenes.HERE / "hydrostatic_tank" / "case.toml"
 COLUMN = scenes.HERE / "fluidised_column" / "case.toml"  # whose grains have no temperature
 
 
@@ -131,3 +134,39 @@ def test_two_probes_may_not_share_a_column():
         disc("probes.a.at_m=[0.25,0.25]", "probes.a_gas.at_m=[0.25,0.2]")
     with pytest.raises(CaseError, match="particle_3_temperature_K"):
         disc("probes.particle_3.at_m=[0.25,0.25]", "track.particles=[3]")
+
+
+def test_forces_of_the_gas_on_a_boundary_are_those_of_the_ledger(tmp_path):
+    """Gas at rest in a closed box: its walls bear its weight, in the last window and over the run."""
+    settings = ("resolution.spacing_mm=20", "resolution.cell_mm=50", "domain.gravity_m_s2=[0.0,-9.81]")
+    end = ("run.end_time_s=0.002", "run.forces=['walls']")
+    case = disc(*settings, *end)
+    simulation = started(case, tmp_path, EmbeddedGas(case))
+    assert math.isnan(history_of(simulation, "pressure_force_y_N"))
+    while simulation.time < case.run.end_time:
+        simulation.window()
+    row = simulation.row()
+    told, ledger = summary(simulation, row), simulation.ledger.last
+    for part, name in (("pressure", "pressure"), ("viscous", "walls")):
+        given = ledger[f"gas_impulse_{name}_y_kg_m_s"] / simulation.time
+        assert told[f"mean_walls_gas_{part}_force_y_N"] == pytest.approx(-given, rel=1e-12, abs=1e-15)
+    weight = case.gas.density * 9.81 * math.prod(case.domain.size)
+    assert history_of(simulation, "pressure_force_y_N") == pytest.approx(-weight, rel=0.02)
+    assert row["walls_gas_moment_z_Nm"] == pytest.approx(-weight * 0.5 * case.domain.size[0], rel=0.02)
+
+
+def history_of(simulation, column):
+    return simulation.row()[f"walls_gas_{column}"]
+
+
+@pytest.mark.parametrize(
+    "case, given, said",
+    [
+        (disc, "run.forces=['lid']", "run.forces holds 'lid', which is no boundary of the case; it has walls"),
+        (disc, "run.forces=['walls','walls']", "name each boundary once"),
+        (lambda key: cases.load(TANK, (key,)), "run.forces=['walls']", "the case has no gas"),
+    ],
+)
+def test_forces_that_nobody_can_tell_are_refused(case, given, said):
+    with pytest.raises(CaseError, match=said):
+        case(given)

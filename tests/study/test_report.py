@@ -1,6 +1,7 @@
 """The report: whole in one file, true for runs that failed too, and its view is drawn and follows its slider in a
 browser."""
 
+import html
 import json
 import re
 import shutil
@@ -32,6 +33,14 @@ for (const place of [slider.max, 0]) {
 document.body.setAttribute('data-seen', JSON.stringify({
   colours: seen.map(s => s.colours), labels: seen.map(s => s.label), changed: seen[0].picture !== seen[1].picture
 }));
+</script>
+"""
+
+
+WIDTHS = """
+<script>
+addEventListener('load', () => parent.document.body.setAttribute('data-seen', JSON.stringify(
+  [document.documentElement.clientWidth, document.documentElement.scrollWidth])));
 </script>
 """
 
@@ -145,16 +154,41 @@ def test_what_is_no_run_is_refused(tmp_path):
         report.write([tmp_path], tmp_path / "report.html")
 
 
-@pytest.mark.parametrize("name", ["plain", "cut"])
-def test_the_view_is_drawn_and_the_slider_works(runs, name):
+def browser(page, *options):
+    """What Chromium says of a page."""
     chromium = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
     if chromium is None:
         pytest.skip("no Chromium was found")
+    command = [chromium, "--headless", "--no-sandbox", "--disable-gpu", *options, page.as_uri()]
+    return subprocess.run(command, capture_output=True, text=True, timeout=120, check=True).stdout
+
+
+def seen_by(dom):
+    """What a script has put into the body's `data-seen`."""
+    return json.loads(re.search(r'data-seen="(.*?)"', dom).group(1).replace("&quot;", '"'))
+
+
+def test_the_report_fits_a_phone(runs):
+    """In a frame as wide as a phone (Chromium's windows are no narrower than 500) nothing stands out at its side."""
+    page, phone = report.write([runs / "paper", runs / "plain"], runs / "narrow.html"), runs / "phone.html"
+    text = html.escape(page.read_text() + WIDTHS)
+    phone.write_text(f'<body><iframe width="375" height="667" style="border: 0" srcdoc="{text}"></iframe></body>')
+    width, content = seen_by(browser(phone, "--dump-dom"))  # 375 less a bar
+    assert content == width <= 375
+
+
+def test_the_report_prints(runs):
+    page = report.write([runs / "plain"], runs / "printed.html")
+    browser(page, f"--print-to-pdf={runs / 'printed.pdf'}", "--no-pdf-header-footer")
+    pages = (runs / "printed.pdf").read_bytes().count(b"/Type /Page\n")
+    assert 2 <= pages <= 12
+
+
+@pytest.mark.parametrize("name", ["plain", "cut"])
+def test_the_view_is_drawn_and_the_slider_works(runs, name):
     page = report.write([runs / name], runs / f"{name}.html")
     page.write_text(page.read_text().replace("</body>", PROBE + "</body>"))
-    command = [chromium, "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", page.as_uri()]
-    dom = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True).stdout
-    seen = json.loads(re.search(r'data-seen="(.*?)"', dom).group(1).replace("&quot;", '"'))
+    seen = seen_by(browser(page, "--dump-dom"))
     assert min(seen["colours"]) > 20  # not blank
     assert seen["labels"][1] == "t = 0.00000 s"
     if name == "plain":
