@@ -143,3 +143,14 @@ def test_walls_fill_what_lies_behind_the_surface(shape):
         )
         sums.append(kernel.sum() * spacing**3)
     assert np.mean(sums) == pytest.approx(1.0, abs=0.08) and min(sums) > 0.6
+
+
+def test_gravity_of_a_case_weighs_what_is_in_the_tank():
+    """Mass times g, and its moment about the tank's origin."""
+    domain = TABLE["domain"] | {"gravity_m_s2": [1.0, 0.5, -9.8]}
+    own = Tank(cases.from_table(TABLE | {"domain": domain, "effects": [*TABLE["effects"], "gravity"]}))
+    wet = own.stepper.state.kind == LIQUID
+    mass, place = own.stepper.state.mass[wet], particles.positions(own.stepper.state)[wet]
+    gravity = np.array([1.0, 0.5, -9.8])
+    np.testing.assert_allclose(own._weight()[:3], mass.sum() * gravity, rtol=1e-12)
+    np.testing.assert_allclose(own._weight()[3:], np.cross(place, mass[:, None] * gravity).sum(axis=0), rtol=1e-12)

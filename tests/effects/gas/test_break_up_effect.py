@@ -146,3 +146,13 @@ def test_it_is_judged_where_the_case_has_its_section():
 def test_without_surface_tension_nothing_holds_drops():
     with pytest.raises(CaseError, match="needs grains.surface_tension_N_m"):
         break_up.kernel(box(["break_up"], break_up={"liquid_viscosity_Pa_s": 1e-3}))
+
+
+def test_without_agitation_no_product_parts():
+    """What has no theta has nowhere to put the energy of parting: the drops pay for their surface alone."""
+    s = particles.empty(1, {*break_up.EFFECT.arrays, "temperature"} - {"theta"})
+    s.mass[:], s.diameter[:], s.temperature[:] = 1.0, DIAMETER, 300.0
+    p = break_up.kernel(drops())
+    told = break_up.apply(p, s, np.array([slip(20.0)]), np.full(1, GAS), 2e-4)
+    assert told["broken_kg"] == 1.0 and told["break_up_agitation_J"] == 0.0
+    assert 300.0 - s.temperature[0] == pytest.approx(told["break_up_surface_J"] / p.heat_capacity, rel=1e-6)

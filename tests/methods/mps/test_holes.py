@@ -200,3 +200,8 @@ def test_a_rim_limits_the_step():
     row = math.sqrt(2.0 * 0.024 / (780.0 * SPACING / (math.pi * 3.1**2)))
     p.next_step(1.0)
     assert p.limit == "perforation" and p.next_step(1.0) == pytest.approx(0.2 * SPACING / row, rel=1e-3)
+
+
+def test_one_site_for_each_square_of_the_spacing():
+    stepper = film("perforation", sections=PIERCED)
+    assert stepper.p["perforation"].share == pytest.approx(SPACING**3 / (1.25 * THICK * 1e-3**2), rel=1e-12)
