@@ -71,6 +71,15 @@ def test_momentum_of_the_vapour_is_that_of_the_droplet(tmp_path):
     assert mass * 0.01 == pytest.approx(handed.loss.mass.sum(), rel=1e-12)
 
 
+def test_the_pace_of_vapour_is_what_a_short_window_brings(tmp_path):
+    """Vapour over the gas of the cell that gets most: rate at the start times a window, and what that window hands
+    over."""
+    run = started(droplet(*TWO_WAY, *MANY), tmp_path)
+    pace = run.exchange.pace(run.state, run.weights, run.gas_state)[2]
+    assert pace > 0.0
+    assert run.exchange.vapour.share(run._hand(1e-6), run.gas_state) == pytest.approx(1e-6 * pace, rel=1e-3)
+
+
 @pytest.mark.parametrize("windows", [1, 7])
 def test_a_droplet_vanishes_in_any_window(tmp_path, windows):
     """Three lives in one window or in seven: nothing left, nothing negative, nothing that is no number."""
