@@ -92,7 +92,7 @@ def _check_one(case: Case) -> None:
         bodies.check(case)
     for name, boundary in case.boundaries.items():
         side(case, f"boundaries.{name}", boundary)
-        profiles.check(case, f"boundaries.{name}", boundary)
+    profiles.check(case)
     for name, region in case.particles.items():
         _check_region(case, name, region)
     for name, point in case.probes.items():

@@ -25,12 +25,13 @@ def over_mean(case, boundary, places) -> np.ndarray:
     return 6.0 * share * (1.0 - share)
 
 
-def check(case, where: str, boundary) -> None:
-    """CaseError where a profile is asked for that is not known."""
-    if boundary.profile == "uniform":
-        return
-    if boundary.kind != "velocity_inlet" or boundary.side is None or case.dimensions != 2 or any(case.domain.corner):
-        raise CaseError(
-            f"{where}.profile = {boundary.profile!r}; it is known for a velocity_inlet on a named side of a box in two "
-            'dimensions; leave it out, or give "U" in a file of your own in gas/0'
-        )
+def check(case, own_mesh: bool = False) -> None:
+    """CaseError where a profile is asked for that is not known, as on a mesh of one's own."""
+    for name, own in case.boundaries.items():
+        known = own.kind == "velocity_inlet" and own.side is not None and case.dimensions == 2 and not own_mesh
+        if own.profile != "uniform" and not known:
+            raise CaseError(
+                f"boundaries.{name}.profile = {own.profile!r}; it is known for a velocity_inlet on a named side of a "
+                "box in two dimensions, whose mesh is made from the case; leave it out (a velocity of any form is a "
+                "file 0/U in the folder gas)"
+            )

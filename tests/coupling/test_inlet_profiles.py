@@ -10,7 +10,11 @@ from coupling.embedded import EmbeddedGas
 from coupling.embedded.boundaries import boundary_faces
 from coupling.embedded.grid import build_grid
 from coupling.openfoam import start_fields
+from coupling.openfoam.case import write_case
+from sdph import scenes
+from sdph.case import read as cases
 from sdph.case.gas_cells import cell_edges
+from sdph.scenes import paths
 from sdph.schema import CaseError
 
 SIZE, CELL, MEAN = (0.1, 0.2), 0.01, 0.5
@@ -83,6 +87,13 @@ def test_both_gases_have_the_same_flow(tmp_path):
 def test_a_profile_where_none_is_known_is_refused(boundaries):
     with pytest.raises(CaseError, match=r"profile = 'parabolic'; it is known for a velocity_inlet on a named side"):
         box_case(SIZE, CELL, boundaries={**boundaries, "rest": {"kind": "pressure_outlet", "side": "left"}})
+
+
+def test_on_a_mesh_of_ones_own_it_is_refused(tmp_path):
+    """Its patch may be narrower than the box around it."""
+    case = cases.load(scenes.find("tapered_bed")[1], ("boundaries.inlet.profile='parabolic'",))
+    with pytest.raises(CaseError, match=r"boundaries.inlet.profile = 'parabolic'; .* whose mesh is made from the case"):
+        write_case(case, paths.gas_template("tapered_bed"), tmp_path / "gas")
 
 
 def test_in_space_it_is_refused():
