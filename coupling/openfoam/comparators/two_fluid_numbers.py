@@ -63,6 +63,8 @@ def _refuse_what_has_no_reference(case: Case) -> None:
     """CaseError where the two fluids of OpenFOAM lack what a case has."""
     if "drag" in case.effects and (law := case.parameters["drag"].law) not in DRAG_MODELS:
         raise CaseError(f"drag.law = {law!r}; the two-fluid reference has: {', '.join(DRAG_MODELS)}")
+    if "drag" in case.effects and case.parameters["drag"].filter != "none":
+        raise CaseError('drag.filter = "igci"; the two-fluid reference has none: leave it out to compare')
     if case.gas.turbulent:
         raise CaseError(f"gas.turbulence.model = {case.gas.turbulence.model!r}; the two-fluid reference is laminar")
     alien = sorted(
