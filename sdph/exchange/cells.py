@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from coupling.transfer import deposit
+from coupling.transfer import deposit, gather
 
 
 class Cells:
@@ -21,3 +21,9 @@ class Cells:
         """Extensive amounts (N,) or (N, m) of the particles per volume of the cells."""
         deposited = deposit(weights, amounts)
         return deposited / (self.volumes if deposited.ndim == 1 else self.volumes[:, None])
+
+    def around(self, weights, mass, velocity) -> np.ndarray:
+        """Mean velocity (N, 3) [m/s] of the grains around each particle, as their cells have it."""
+        cells = deposit(weights, np.column_stack((mass, mass[:, None] * velocity)))
+        there = cells[:, :1] > 0.0
+        return gather(weights, np.divide(cells[:, 1:], cells[:, :1], out=np.zeros_like(cells[:, 1:]), where=there))

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from sdph.effects.gas import turbulent_dispersion
 from sdph.engine import state as particles
 from sdph.engine.guard import DENSE, FAR, RUNAWAY, TINY, Watch, outside
 from sdph.engine.kept import Unfit
@@ -29,7 +30,7 @@ class Guard(Watch):
         self.pressure = max(map(abs, pressures), default=0.0)
         blown = math.sqrt(2.0 * (max(pressures, default=0.0) - min(pressures, default=0.0)) / case.gas.density)
         agitated = math.sqrt(case.grains.granular_temperature) + scales.sound
-        self.reach = scales.jet + scales.thrown + drop + blown + agitated
+        self.reach = scales.jet + scales.eddies + scales.thrown + drop + blown + agitated
         given = case.temperatures
         slack = scales.span + LATENT * max(given) + self.reach**2 / case.grains.heat_capacity
         self.coldest, self.hottest = max(0.0, min(given) - slack), max(given) + slack
@@ -55,6 +56,7 @@ class Guard(Watch):
         bounds |= {"temperature": (self.coldest, self.hottest), "theta": (0.0, (COLLAPSE * self.reach) ** 2)}
         bounds |= {"sealed": (0.0, 1.0), "throwing": zero_on, "bubble_void": (0.0, size**3)}
         bounds |= {"deformation": (-math.inf, 1.0), "weber": zero_on}
+        bounds |= dict.fromkeys(turbulent_dispersion.AXES, (-math.inf, math.inf))
         bounds |= {"nozzle": (0, len(self.case.nozzles)), "entering": (0, 1)}
         kinds = [particles.GRAIN, particles.INFLOW]
         self.admit(state, names, bounds)
