@@ -56,7 +56,7 @@ def way(done, begun):
     return (gone + 1.0) % 2.0 - 1.0
 
 
-@pytest.mark.parametrize(("times", "count"), [(0.3, 3), (3.0, 60), (3.0, 7)])
+@pytest.mark.parametrize(("times", "count"), [(0.3, 3), (3.0, 60), (3.0, 7), (4.0, 1)])
 def test_what_follows_the_gas_spreads_by_taylors_law(tmp_path, times, count):
     """10 000 particles: one standard deviation of the mean square is 1 %."""
     run = started(case := cloud(times * MEMORY, count), tmp_path, Stirred(case, alpha_g=1.0))
