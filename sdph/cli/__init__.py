@@ -236,6 +236,7 @@ COMMANDS = {
     "init": making.init_case,
     "run": run,
     "explain": explain_case,
+    "warm": judging.warm_cases,
     "cost": cost_of_accuracy,
     "stress": judging.stress_cases,
     "compare": compare_run,

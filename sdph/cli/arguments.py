@@ -38,6 +38,10 @@ def parser() -> argparse.ArgumentParser:
     explain.add_argument(
         "--measure", action="store_true", help="measure what each effect costs on this machine; minutes the first time"
     )
+    warm = _command(commands, "warm", "compile the kernels of cases now, so that their first run need not")
+    warm.add_argument("target", nargs="*", help="scenes, case folders or case files (default: all scenes)")
+    warm.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: openfoam where it is)")
+    _workers(warm, "cases")
     _study(commands)
     _sweep(commands)
     _droplet(commands)

@@ -1,8 +1,9 @@
-"""`sdph stress` and `sdph validate`: commands that judge many things, here or by workers."""
+"""`sdph stress`, `sdph validate` and `sdph warm`: commands that do many things, here or by workers."""
 
 from __future__ import annotations
 
 import contextlib
+import functools
 import sys
 from pathlib import Path
 
@@ -69,6 +70,18 @@ def _words(name: str, options) -> tuple[str, ...]:
     if options.gas and any("coupling.gas".startswith(own) for own in validate.STUDIES.get(name, ("coupling.",))):
         more.append(("--gas", options.gas))
     return ("validate", name, *(word for pair in more for word in pair))
+
+
+def warm_cases(options) -> int:
+    """Compile the kernels of cases, here or by workers."""
+    from sdph import scenes
+    from sdph.study.warm import warm
+
+    targets = options.target or scenes.names()
+    for target in targets:
+        scenes.find(target)
+    say = functools.partial(print, file=sys.stderr, flush=True)
+    return warm(targets, options.gas, (options.workers, options.scheduler), say)
 
 
 def _by_workers(options) -> bool:
