@@ -108,6 +108,18 @@ def test_drops_off_by_a_fifth_are_told(tmp_path, monkeypatch, factor, ok):
     assert verdicts(checks) == [ok] * 20
 
 
+@pytest.mark.parametrize(("factor", "ok"), [(1.0, True), (1.1, True), (1.5, False), (0.5, False)])
+def test_transfer_in_a_bed_out_of_the_scatter_is_told(tmp_path, factor, ok):
+    """The law that the markers were brought together by, and it by a factor: the mean of each set and range."""
+    beds = validate.part(validate.EXPERIMENTS, "bed_transfer")
+    law = lambda eps, Re, Sc: 2.0 + factor * beds.wakao(eps * Re) * Sc ** (1.0 / 3.0)  # noqa: E731
+    checks = beds.checks(tmp_path, laws={"theirs": law})
+    assert verdicts(checks)[::2] == [ok] * 6
+    if factor == 1.0:
+        assert verdicts(checks) == [True] * 12
+    assert (tmp_path / "bed_transfer.png").is_file()
+
+
 def test_what_was_measured_is_not_overridden(tmp_path, capsys):
     assert cli.main(["validate", "experiments", "--set", "gas.density_kg_m3=2.0", "--out", str(tmp_path / "new")]) == 2
     assert "gas.density_kg_m3=2.0" in capsys.readouterr().err

@@ -8,6 +8,7 @@ water_drops                Ranz & Marshall 1952: rate of evaporation and wet bul
 heptane_drops              Nomura et al. 1996: d^2 of heptane in hot nitrogen, from runs
 humid_drops                Fujita et al. 2010: d^2 and temperature of water in dry and humid air, from runs
 micro_drops                Taflin et al. 1988: d^2 of micrometric water drops, from runs
+bed_transfer               Wakao & Funazkri 1978: Sherwood numbers of packed beds, laws alone
 """
 
 NAMES = (
@@ -18,4 +19,5 @@ NAMES = (
     "heptane_drops",
     "humid_drops",
     "micro_drops",
+    "bed_transfer",
 )
