@@ -9,6 +9,7 @@ heptane_drops              Nomura et al. 1996: d^2 of heptane in hot nitrogen, f
 humid_drops                Fujita et al. 2010: d^2 and temperature of water in dry and humid air, from runs
 micro_drops                Taflin et al. 1988: d^2 of micrometric water drops, from runs
 bed_transfer               Wakao & Funazkri 1978: Sherwood numbers of packed beds, laws alone
+heated_bed                 Beaulieu 2020: temperature in a packed bed of steel, from runs
 """
 
 NAMES = (
@@ -20,4 +21,5 @@ NAMES = (
     "humid_drops",
     "micro_drops",
     "bed_transfer",
+    "heated_bed",
 )
