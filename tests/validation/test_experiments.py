@@ -148,3 +148,23 @@ def test_a_heated_bed_half_a_kelvin_off_is_told(tmp_path, monkeypatch, off, ok):
 def test_what_was_measured_is_not_overridden(tmp_path, capsys):
     assert cli.main(["validate", "experiments", "--set", "gas.density_kg_m3=2.0", "--out", str(tmp_path / "new")]) == 2
     assert "gas.density_kg_m3=2.0" in capsys.readouterr().err
+
+
+def test_a_fluidised_bed_of_beads_is_carried(tmp_path, monkeypatch):
+    """The coarsest beads at their lowest velocity, for a moment: 2 % of the weight, which is the pressure measured."""
+    beds = validate.part(validate.EXPERIMENTS, "bed_pressure")
+    row = beds.picked(beds.measured.table("toomey_johnstone_1952"), 1)[0]
+    monkeypatch.setattr(beds, "STAGE", 0.6)
+    mean = beds.run(row, ())
+    assert mean["superficial_velocity_m_s"] == pytest.approx(row["U_m_s"], rel=0.01)
+    assert mean["pressure_drop_Pa"] == pytest.approx(mean["weight_Pa"], rel=0.02)
+    assert mean["weight_Pa"] == pytest.approx(row["dP_mf_Pa"], rel=0.005)
+
+
+@pytest.mark.parametrize(("factor", "ok"), [(1.0, True), (1.015, True), (1.03, False), (0.97, False)])
+def test_a_bed_that_is_not_carried_is_told(tmp_path, monkeypatch, factor, ok):
+    beds = validate.part(validate.EXPERIMENTS, "bed_pressure")
+    found = lambda row, _: {"pressure_drop_Pa": factor * row["dP_mf_Pa"], "weight_Pa": row["dP_mf_Pa"]}  # noqa: E731
+    monkeypatch.setattr(beds, "run", found)
+    assert verdicts(beds.checks(tmp_path)) == [ok] * 12
+    assert (tmp_path / "bed_pressure.png").is_file()

@@ -1,8 +1,8 @@
 """A packed bed of steel spheres that is heated from its top, Beaulieu 2020: temperature 4 cm below, from runs with the
 effect `conduction` alone.
 
-The bed is run with its mirror image above the hot top, as much over 53 C as the bed is below: between them it is 53 C at
-all times. What conducts there is the grains' conductivity times alpha_p; a case gives it. Three are run.
+The bed is run with its mirror image above the hot top, as much over 53 C as the bed is below: between them it is 53 C
+at all times. What conducts there is the conductivity of the grains times alpha_p; a case gives it. Three are run.
 """
 
 from __future__ import annotations
