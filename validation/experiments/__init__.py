@@ -10,6 +10,7 @@ humid_drops                Fujita et al. 2010: d^2 and temperature of water in d
 micro_drops                Taflin et al. 1988: d^2 of micrometric water drops, from runs
 bed_transfer               Wakao & Funazkri 1978: Sherwood numbers of packed beds, laws alone
 heated_bed                 Beaulieu 2020: temperature in a packed bed of steel, from runs
+bed_pressure               Toomey & Johnstone 1952: pressure drop of fluidised beds, from runs
 """
 
 NAMES = (
@@ -22,6 +23,7 @@ NAMES = (
     "micro_drops",
     "bed_transfer",
     "heated_bed",
+    "bed_pressure",
 )
 
 # record -> how names of its checks begin -> (who measured, what, ours): a table of the dashboard
