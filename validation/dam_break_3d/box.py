@@ -2,7 +2,7 @@
 instruments: heights at four places, pressure on the front of the box.
 
 The box is a step in the floor of the tank's mesh. Numerics are those of the scene, its sound speed again ten times the
-front's by Ritter; the spacing, a fifteenth of the depth, is what ten minutes on two cores pay for.
+front's by Ritter; the spacing, a twelfth of the depth, is what some minutes pay for.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ OVERRIDES = (
     f"run.end_time_s={END}",
     f"domain.size_m=[{LENGTH}, {WIDTH}, 1.0]",
     "domain.gravity_m_s2=[0.0, 0.0, -9.81]",
-    f"resolution.spacing_mm={1e3 * DEPTH / 15.0!r}",
+    f"resolution.spacing_mm={1e3 * DEPTH / 12.0!r}",
     "liquid.density_kg_m3=998.0",
     "liquid.sound_speed_m_s=46.5",
     f"tank={{shape='mesh', mesh={str(HERE / 'tank_with_box.off')!r}, slip='free_slip'}}",
