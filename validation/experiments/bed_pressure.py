@@ -78,11 +78,12 @@ def given(row) -> list[str]:
 
 
 def _figure(file: Path, rows, found) -> None:
-    with measured.figure(file, "pressure drop measured [Pa]", "pressure drop, SDPH [Pa]") as axes:
+    with measured.figure(file, "superficial velocity [m/s]", "pressure drop over measured [-]") as axes:
         for bead, (diameter, _) in BEADS.items():
-            own = [(row["dP_mf_Pa"], mean["pressure_drop_Pa"]) for row, mean in zip(rows, found) if row["bead"] == bead]
-            axes.plot(*np.array(own).reshape(-1, 2).T, "o", mfc="none", label=f"beads of {1e6 * diameter:g} um")
-        ends = np.array([min(row["dP_mf_Pa"] for row in rows), max(row["dP_mf_Pa"] for row in rows)])
-        axes.plot(ends, ends, "k-", lw=1, label="as measured, and 2 % either way")
+            own = [(row["U_m_s"], mean["pressure_drop_Pa"] / row["dP_mf_Pa"]) for row, mean in zip(rows, found)
+                   if row["bead"] == bead]  # fmt: skip
+            axes.semilogx(*np.array(own).reshape(-1, 2).T, "o", mfc="none", label=f"beads of {1e6 * diameter:g} um")
+        axes.axhline(1.0, c="k", lw=1, label="as measured, and 2 % either way")
         for share in (1.0 - BAR, 1.0 + BAR):
-            axes.plot(ends, share * ends, "k:", lw=1)
+            axes.axhline(share, c="k", ls=":", lw=1)
+        axes.set_ylim(0.0, 1.2)

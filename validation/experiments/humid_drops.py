@@ -63,7 +63,8 @@ def _figures(folder: Path, rows, ours) -> None:
     ):
         with measured.figure(folder / file, "t [s]", label) as axes:
             for colour, name in zip(("C0", "C1", "C2", "C3"), CASES):
-                axes.plot(*_rows(rows, name, quantity), "o", ms=4, c=colour, label=f"measured, {name}")
+                known = _rows(rows, name, quantity)
+                axes.plot(*known, "o", ms=4, c=colour, label=f"{name}, {'' if known.size else 'not '}measured")
                 for law, style in (("linear", "--"), ("spalding", "-")):
                     if (law, name) in ours:
                         axes.plot(ours[law, name][0], of(ours[law, name]), style, c=colour, lw=1)
