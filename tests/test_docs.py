@@ -12,7 +12,7 @@ import pytest
 
 from sdph import cli
 from sdph.scenes import paths
-from sdph.study import compare
+from sdph.study import compare, validate
 
 ROOT = paths.PACKAGE.parent
 DOCS = ROOT / "docs"
@@ -128,6 +128,18 @@ def test_dashboard_tells_misses_first_and_who_has_no_record(monkeypatch):
     assert "| one | 2 | 1 | 2026-11-25 | 0.1.0 | ? | embedded |" in text and "## Without a record\n\ntwo." in text
     every = text.partition("## Every check")[2]
     assert every.index("| exact: off |") < every.index("| exact: fine |")
+
+
+def test_dashboard_has_a_line_for_each_experiment_and_no_check_in_two(monkeypatch):
+    monkeypatch.syspath_prepend(str(DOCS))
+    dashboard = importlib.import_module("making.dashboard")
+    checks = [compare.check("heptane, one", 1.3, 1.0, 0.1), compare.check("heptane, two", 1.0, 1.0, 0.1)]
+    text = dashboard.measured({"experiments": {"checks": checks}})
+    assert text.count("\n") == 2
+    assert "| Nomura et al. 1996 | d^2 of heptane drops in hot nitrogen | runs | 2 | 1 | 3 | " in text
+    told = validate.part(validate.EXPERIMENTS).MEASURED["experiments"]
+    names = [check["name"] for check in dashboard.records()["experiments"]["checks"]]
+    assert [name for name in names if sum(bool(re.match(begin, name)) for begin in told) != 1] == []
 
 
 def test_a_key_without_a_meaning_ends_the_building(monkeypatch, tmp_path):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Iterable
 from functools import cache
 
@@ -44,12 +46,35 @@ def whole() -> str:
     parts = [
         f"{len(found)} of {len(found) + len(missing)} scenes and studies have a record, with {count} checks, of which "
         f"{len(misses)} miss their tolerance.",
+        "## Against what others measured", measured(found),
         "## Misses", _table(misses) if misses else "None.",
         "## Scenes and studies", _overview(found),
         "## Without a record", ", ".join(_title(name) for name in missing) + "." if missing else "None.",
         "## Every check", *(f"### {name}\n\n{_told(own)}" for name, own in found.items()),
     ]  # fmt: skip
     return "\n\n".join(parts) + "\n"
+
+
+def measured(found: dict[str, dict]) -> str:
+    """A line for each experiment of others: checks, how many miss, the farthest of them over its tolerance."""
+    told = validate.part(validate.EXPERIMENTS).MEASURED
+    rows = [
+        _experiment(name, source, what, ours, [c for c in found[name]["checks"] if re.match(begin, c["name"])])
+        for name in told if name in found for begin, (source, what, ours) in told[name].items()
+    ]  # fmt: skip
+    head = (
+        "| measured by | what | ours | checks | within | farthest off, in tolerances | more |\n|--|--|--|--|--|--|--|"
+    )
+    return "\n".join([head, *(row for row in rows if row)])
+
+
+def _experiment(name: str, source: str, what: str, ours: str, checks: list[dict]) -> str:
+    """The line of one; none where it has no checks yet."""
+    if not checks:
+        return ""
+    far = max(math.inf if check["value"] is None else abs(_off(check)) / check["tolerance"] for check in checks)
+    within = len(checks) - sum(not check["ok"] for check in checks)
+    return f"| {source} | {what} | {ours} | {len(checks)} | {within} | {far:.2g} | {_title(name)} |"
 
 
 def _missed(own: dict) -> list[dict]:

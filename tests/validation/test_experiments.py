@@ -108,6 +108,63 @@ def test_drops_off_by_a_fifth_are_told(tmp_path, monkeypatch, factor, ok):
     assert verdicts(checks) == [ok] * 20
 
 
+@pytest.mark.parametrize(("factor", "ok"), [(1.0, True), (1.1, True), (1.5, False), (0.5, False)])
+def test_transfer_in_a_bed_out_of_the_scatter_is_told(tmp_path, factor, ok):
+    """The law that the markers were brought together by, and it by a factor: the mean of each set and range."""
+    beds = validate.part(validate.EXPERIMENTS, "bed_transfer")
+    law = lambda eps, Re, Sc: 2.0 + factor * beds.wakao(eps * Re) * Sc ** (1.0 / 3.0)  # noqa: E731
+    checks = beds.checks(tmp_path, laws={"theirs": law})
+    assert verdicts(checks)[::2] == [ok] * 6
+    if factor == 1.0:
+        assert verdicts(checks) == [True] * 12
+    assert (tmp_path / "bed_transfer.png").is_file()
+
+
+def slab(depth: float, diffusivity: float, time: float, height: float) -> float:
+    """Share of the way to its hot side of a slab that is insulated on the other. Carslaw & Jaeger 1959, 3.4."""
+    k = (np.arange(500) + 0.5) * math.pi / height
+    return 1.0 - float(np.sum(2.0 / (height * k) * np.sin(k * depth) * np.exp(-diffusivity * k**2 * time)))
+
+
+def test_a_heated_bed_runs_as_the_slab_that_it_is(tmp_path):
+    """0.2 K of 33 K, at 5 mm; the law of its conductivity, worked out by hand: 15.4 times the air's."""
+    beds = validate.part(validate.EXPERIMENTS, "heated_bed")
+    conductivity = beds.conductivities()["from the record's end"]
+    times, found = beds.course(conductivity, tmp_path, (), QUIET)
+    for time in (1000.0, 2000.0, 4000.0):
+        expected = beds.COLD + (beds.TOP - beds.COLD) * slab(beds.DEPTH, beds.OWN, time, beds.HEIGHT)
+        assert np.interp(time, times, found) == pytest.approx(expected, abs=0.2)
+    assert beds.zehner_schluender(42.0, 0.027, 0.42) == pytest.approx(15.4 * 0.027, rel=5e-3)
+
+
+@pytest.mark.parametrize(("off", "ok"), [(0.0, True), (0.4, True), (0.6, False), (-0.6, False)])
+def test_a_heated_bed_half_a_kelvin_off_is_told(tmp_path, monkeypatch, off, ok):
+    beds = validate.part(validate.EXPERIMENTS, "heated_bed")
+    rows = beds.measured.table("beaulieu_2020")
+    monkeypatch.setattr(beds, "course", lambda *_: np.array([rows["t_s"], rows["T_C"] + off]))
+    assert verdicts(beds.checks(tmp_path)) == [ok] * 6
+
+
 def test_what_was_measured_is_not_overridden(tmp_path, capsys):
     assert cli.main(["validate", "experiments", "--set", "gas.density_kg_m3=2.0", "--out", str(tmp_path / "new")]) == 2
     assert "gas.density_kg_m3=2.0" in capsys.readouterr().err
+
+
+def test_a_fluidised_bed_of_beads_is_carried(tmp_path, monkeypatch):
+    """The coarsest beads at their lowest velocity, for a moment: 2 % of the weight, which is the pressure measured."""
+    beds = validate.part(validate.EXPERIMENTS, "bed_pressure")
+    row = beds.picked(beds.measured.table("toomey_johnstone_1952"), 1)[0]
+    monkeypatch.setattr(beds, "STAGE", 0.6)
+    mean = beds.run(row, ())
+    assert mean["superficial_velocity_m_s"] == pytest.approx(row["U_m_s"], rel=0.01)
+    assert mean["pressure_drop_Pa"] == pytest.approx(mean["weight_Pa"], rel=0.02)
+    assert mean["weight_Pa"] == pytest.approx(row["dP_mf_Pa"], rel=0.005)
+
+
+@pytest.mark.parametrize(("factor", "ok"), [(1.0, True), (1.015, True), (1.03, False), (0.97, False)])
+def test_a_bed_that_is_not_carried_is_told(tmp_path, monkeypatch, factor, ok):
+    beds = validate.part(validate.EXPERIMENTS, "bed_pressure")
+    found = lambda row, _: {"pressure_drop_Pa": factor * row["dP_mf_Pa"], "weight_Pa": row["dP_mf_Pa"]}  # noqa: E731
+    monkeypatch.setattr(beds, "run", found)
+    assert verdicts(beds.checks(tmp_path)) == [ok] * 12
+    assert (tmp_path / "bed_pressure.png").is_file()

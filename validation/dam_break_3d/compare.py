@@ -1,8 +1,13 @@
-"""The front of the column in a channel against the measurements of the scene dam_break."""
+"""The front of the column in a channel against the measurements of the scene dam_break; water against a box in its way
+(`box.py`)."""
 
 from __future__ import annotations
 
 from sdph.study.compare import scene_module
+
+from . import box
+
+VARIANTS = {"dam_break_3d": ((), ["exact"]), "against a box": (box.OVERRIDES, ["spheric"])}
 
 
 def metrics(run) -> dict:
@@ -12,3 +17,7 @@ def metrics(run) -> dict:
 
 def exact(run) -> list[dict]:
     return scene_module("dam_break").exact(run)
+
+
+def spheric(run) -> list[dict]:
+    return box.checks(run)

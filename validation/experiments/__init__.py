@@ -5,6 +5,55 @@ packed_bed                 Ergun 1952: friction of gas in a bed, from runs
 minimum_fluidisation       Geldart 1973: U_mf of 22 powders, laws alone
 liquid_fluidisation        Richardson & Zaki 1954: index n, laws alone
 water_drops                Ranz & Marshall 1952: rate of evaporation and wet bulb, from runs
+heptane_drops              Nomura et al. 1996: d^2 of heptane in hot nitrogen, from runs
+humid_drops                Fujita et al. 2010: d^2 and temperature of water in dry and humid air, from runs
+micro_drops                Taflin et al. 1988: d^2 of micrometric water drops, from runs
+bed_transfer               Wakao & Funazkri 1978: Sherwood numbers of packed beds, laws alone
+heated_bed                 Beaulieu 2020: temperature in a packed bed of steel, from runs
+bed_pressure               Toomey & Johnstone 1952: pressure drop of fluidised beds, from runs
 """
 
-NAMES = ("packed_bed", "minimum_fluidisation", "liquid_fluidisation", "water_drops")
+NAMES = (
+    "packed_bed",
+    "minimum_fluidisation",
+    "liquid_fluidisation",
+    "water_drops",
+    "heptane_drops",
+    "humid_drops",
+    "micro_drops",
+    "bed_transfer",
+    "heated_bed",
+    "bed_pressure",
+)
+
+# record -> how names of its checks begin -> (who measured, what, ours): a table of the dashboard
+MEASURED = {
+    "experiments": {
+        "friction": ("Ergun 1952", "friction of packed beds", "runs"),
+        "U_mf": ("Geldart 1973", "minimum fluidisation of powders", "laws"),
+        "index n": ("Richardson & Zaki 1954", "index of liquid fluidisation", "laws"),
+        "drop's rate": ("Ranz & Marshall 1952", "rate of evaporation of water drops", "runs"),
+        "drop's temperature": ("Ranz & Marshall 1952", "wet bulb of water drops", "runs"),
+        "heptane": ("Nomura et al. 1996", "d^2 of heptane drops in hot nitrogen", "runs"),
+        "water drop": ("Fujita et al. 2010", "d^2 and temperature of water drops in humid air", "runs"),
+        "micrometric drop": ("Taflin et al. 1988", "d^2 of micrometric water drops", "runs"),
+        "transfer in a bed": ("Wakao & Funazkri 1978", "Sherwood numbers of packed beds", "laws"),
+        "packed steel": ("Beaulieu 2020", "temperature in a heated bed of steel spheres", "runs"),
+        "bed of beads": ("Toomey & Johnstone 1952", "pressure drop of fluidised beds", "runs"),
+    },
+    "granular_piles": {
+        r"column.*: run-out": ("Lube et al. 2005", "run-out of columns of grains", "runs"),
+        "slot": ("Beverloo et al. 1961", "rate out of a slot", "runs"),
+    },
+    "dam_break": {
+        "dam_break, exact": ("Martin & Moyce 1952, Koshizuka & Oka 1996", "front of a collapsing column", "runs")
+    },
+    "dam_break_3d": {
+        "dam_break_3d, exact": ("Martin & Moyce 1952, Koshizuka & Oka 1996", "the same in a channel", "runs"),
+        "against a box, spheric": ("Kleefsman et al. 2005", "water against a box: heights, pressure", "runs"),
+    },
+    "dam_break_gas": {
+        "dam_break_gas, exact: front": ("Martin & Moyce 1952, Koshizuka & Oka 1996", "the same with air", "runs"),
+    },
+    "capillary_wave": {"capillary_wave, exact": ("Prosperetti 1981, exact", "height of a capillary wave", "runs")},
+}
