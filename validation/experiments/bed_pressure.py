@@ -1,9 +1,10 @@
 """Pressure drop of fluidised beds of glass beads, Toomey & Johnstone 1952, from runs of the scene fluidised_column with
 their beads.
 
-Which of the 41 are run was settled before their results: of each bead the lowest and the highest velocity, without
-those of 106 and 55 um, which take many minutes each. Drag is `gidaspow`, Ergun's where grains are dense as in the
-scene, Wen & Yu's in bubbles. The bed holds the measured mass at the alpha_p of the scene.
+Which of the 41 are run was settled before their results, after runs of 0.2 s for their cost: of each bead the lowest
+and the highest velocity, without those of 106 and 55 um, which take many minutes each. Drag is `gidaspow`, Ergun's
+where grains are dense as in the scene, Wen & Yu's in bubbles. The bed holds the measured mass at the alpha_p of the
+scene.
 """
 
 from __future__ import annotations
