@@ -121,7 +121,8 @@ class Vapour:
 
 @record
 class Grains:
-    """Grains of one material; each SPH particle carries a log-normal distribution of diameters (by number)."""
+    """Grains of one material; each SPH particle carries a log-normal distribution of diameters (by number). Of several
+    materials (sdph.case.materials) each has a section of its own."""
 
     fluid: str = words("")  # of droplets: fills what is left out, of evaporation and vapour too (sdph.case.fluids)
     density: float = quantity("kg_m3", above=0.0)
@@ -135,6 +136,12 @@ class Grains:
     # of droplets: for Weber and Bond numbers of `sdph explain`
     surface_tension: float | None = quantity("N_m", None, above=0.0)
     granular_temperature: float = quantity("m2_s2", 1e-4, least=0.0)  # at the start; the same
+
+    @property
+    def of_particles(self) -> tuple[float, float, float]:
+        """Density [kg/m3], specific heat [J/kg/K], conductivity [W/m/K]: OF_MATERIAL of sdph.engine.state, but the
+        first."""
+        return self.density, self.heat_capacity, self.conductivity
 
 
 @record
@@ -161,6 +168,7 @@ class Region:
     # particles stand off the lattice by up to so many spacings, at random: beds then are not mirror-symmetric
     disorder: float = quantity("", 0.0, least=0.0, most=0.25)
     seed: int = whole(0, least=0)  # of that chance
+    material: str = words("")  # of its grains, where there are several
 
 
 @record
@@ -219,7 +227,8 @@ class Case:
     domain: Domain
     resolution: Resolution
     gas: GasProperties | None  # None in a case without grains
-    grains: Grains | None  # the same
+    grains: Grains | None  # the same; of several materials the first
+    materials: dict[str, Grains]  # by name, in the order of the case; none where [grains] is one without a name
     liquid: Liquid | None
     method: LiquidMethod | None  # of the liquid; None: weakly compressible
     gas_phase: GasPhase | None
@@ -241,6 +250,32 @@ class Case:
         given = {"grains": self.grains, "liquid": self.liquid, "solid": self.solid}
         return tuple(matter for matter, section in given.items() if section is not None)
 
+    @property
+    def kinds(self) -> tuple[Grains, ...]:
+        """Materials of the grains."""
+        return tuple(self.materials.values()) or (self.grains,)
+
+    @property
+    def mixed(self) -> bool:
+        """True where grains are of several materials."""
+        return len(self.materials) > 1
+
+    def of(self, name: str) -> Grains:
+        """Material of a name; without one that of all grains."""
+        return self.materials[name] if name else self.grains
+
+    def number(self, name: str) -> int:
+        """Number of a material, counted from 0."""
+        return list(self.materials).index(name) if name else 0
+
+    def of_one(self, name: str) -> Case:
+        """The case if all grains were of one of its materials: for scales and numbers of each."""
+        parts = {
+            group: {key: dataclasses.replace(part, material="") for key, part in getattr(self, group).items()}
+            for group in ("particles", "nozzles")
+        }
+        return dataclasses.replace(self, grains=self.materials[name], materials={}, **parts)
+
     def only(self, matter: str) -> Case:
         """The case without its other matter, and without the effects that act on that alone."""
         if self.matters == (matter,):
@@ -249,7 +284,7 @@ class Case:
         kept = tuple(name for name in self.effects if matter in REGISTRY[name].matter and name not in given)
         left = {"effects": kept, "parameters": {name: self.parameters[name] for name in kept}}
         grains = dict.fromkeys(("gas", "grains", "vapour")) | {"track": ()}
-        grains |= {group: {} for group in ("particles", "boundaries", "probes", "nozzles")}
+        grains |= {group: {} for group in ("particles", "boundaries", "probes", "nozzles", "materials")}
         liquid, solid = dict.fromkeys(("liquid", "gas_phase")) | {"pools": {}}, {"solid": None, "bodies": {}}
         others = {"grains": liquid | solid, "liquid": grains | solid, "solid": grains | liquid}
         return dataclasses.replace(self, **left, **others[matter])

@@ -13,9 +13,10 @@ class Cells:
     def __init__(self, mesh, grain_density: float):
         self.volumes, self.grain_density = mesh.volumes / mesh.depth, grain_density
 
-    def room(self, weights, mass) -> np.ndarray:
-        """Gas volume fraction of the cells with grains of `mass` (N,) [kg] in them."""
-        return 1.0 - deposit(weights, mass / self.grain_density) / self.volumes
+    def room(self, weights, mass, densities=()) -> np.ndarray:
+        """Gas volume fraction of the cells with grains of `mass` (N,) [kg] in them; `densities` (N,) [kg/m3] of their
+        materials, where there are several."""
+        return 1.0 - deposit(weights, mass / (densities if len(densities) else self.grain_density)) / self.volumes
 
     def density(self, weights, amounts) -> np.ndarray:
         """Extensive amounts (N,) or (N, m) of the particles per volume of the cells."""

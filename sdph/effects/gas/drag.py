@@ -83,7 +83,7 @@ def damping(p, sizes_p, s, i, alpha_p, slip, gas_density):
             break
         total += mass * coefficient(p, alpha_p, slip, d, gas_density)
         whole += mass
-    return total / whole / p.grain_density
+    return total / whole / (s.grain_density[i] if len(s.grain_density) else p.grain_density)
 
 
 def call(scales) -> Judgement:

@@ -1,0 +1,22 @@
+"""What `sdph explain` shows of several materials: how each one stands to the gas alone."""
+
+from __future__ import annotations
+
+from sdph.methods.grains.scales import Scales
+
+
+def rows(case) -> list[dict]:
+    """A row for each of several materials: Archimedes number, U_mf of a bed of it (Ergun) and the velocity at which a
+    lone grain falls within the run (Gidaspow's drag)."""
+    if not case.mixed:
+        return []
+    gas, found = case.gas, []
+    for name, grains in case.materials.items():
+        s = Scales(case.of_one(name))
+        excess = gas.density * (grains.density - gas.density) * s.gravity
+        found.append({
+            "material": name, "density [kg/m3]": grains.density, "diameter [mm]": 1e3 * grains.diameter,
+            "Archimedes": excess * grains.diameter**3 / gas.viscosity**2, "U_mf [m/s]": s.minimum_fluidisation,
+            "terminal velocity [m/s]": s.falling, "drag time [s]": s.drag_time, "heat time [s]": s.heat_time,
+        })  # fmt: skip
+    return found

@@ -1,0 +1,77 @@
+"""Grains of two materials in gas: each falls at its own speed, warms by its own heat capacity, and what the gas gets is
+the opposite."""
+
+import numpy as np
+import pytest
+from grain_boxes import DENSITY, VISCOSITY, Row, go, several, started, windows
+from scipy.optimize import brentq
+
+from sdph.laws import drag
+
+SAND, CHAR = {"diameter_mm": 0.1}, {"diameter_mm": 0.15, "density_kg_m3": 1000.0, "heat_capacity_J_kg_K": 2500.0}
+WHOLE = {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.06, 0.06], "temperature_K": 300.0}
+
+
+class Still(Row):
+    """Gas at rest, whatever happens."""
+
+    def advance(self, dt, sources):
+        state = super().advance(dt, sources)
+        self.velocity[:] = 0.0
+        state.fields["velocity"][:] = 0.0
+        return state
+
+
+def mixed(effects, temperatures=(300.0, 300.0), **more):
+    parts = {
+        name: WHOLE | {"material": name, "volume_fraction": alpha_p, "temperature_K": temperature}
+        for name, alpha_p, temperature in zip(("sand", "char"), (0.03, 0.02), temperatures)
+    }
+    return several(effects, parts, {"sand": SAND, "char": CHAR}, **more)
+
+
+def test_each_falls_at_its_own_speed(tmp_path):
+    """Weight against drag at the material's own Reynolds number and the voidage of all grains."""
+    sections = windows(0.5, 1000)
+    sections["coupling"] |= {"one_way": True}
+    case = mixed(["drag", "gravity"], gravity=(0.0, -9.81), **sections)
+    run = go(started(case, tmp_path, Still(case)))
+    s = run.state
+    np.testing.assert_allclose(s.density / s.grain_density, 0.05, rtol=0.02)
+    for number, (density, diameter) in enumerate(((DENSITY, 1e-4), (1000.0, 1.5e-4))):
+        slip = brentq(lambda v: drag.gidaspow(0.05, v, diameter, 1.225, VISCOSITY) / density * v - 9.81, 1e-6, 10.0)
+        own = s.material == number
+        assert -s.v[own].mean() == pytest.approx(slip, rel=2e-3)
+        assert np.ptp(s.v[own]) < 0.01 * slip
+
+
+def test_each_warms_by_its_own_heat_capacity_and_the_gas_gets_the_opposite(tmp_path):
+    case = mixed(["drag", "heat"], temperatures=(350.0, 320.0), **windows(1e-3, 2))
+    run = started(case, tmp_path)
+    s = run.state
+    s.u[:] = np.where(s.material == 0, 0.5, -0.3)
+    before = s.mass * s.grain_capacity * s.temperature
+    momentum = float(s.mass @ s.u)
+    go(run)
+    after = run.state.mass * run.state.grain_capacity * run.state.temperature
+    sums, told = run.ledger.sums, run.ledger.summary()
+    assert sums["heat_to_particles_J"] == pytest.approx(float((after - before).sum()), rel=1e-9) != 0.0
+    assert float(run.state.mass @ run.state.u) - momentum == pytest.approx(
+        sums["impulse_to_particles_x_kg_m_s"], rel=1e-9
+    )
+    assert told["exchange_energy_mismatch_rel"] < 1e-12 and told["exchange_momentum_mismatch_rel"] < 1e-12
+    totals = run.grains.totals()
+    assert totals["particle_energy_J"] == pytest.approx(float(after.sum()), rel=1e-14)
+
+
+def test_the_gas_leaves_room_by_the_volume_of_each(tmp_path):
+    run = started(mixed(["drag"], **windows(1e-3, 1)), tmp_path)
+    np.testing.assert_allclose(run._alpha_g(), 0.95, rtol=1e-12)
+
+
+def test_history_tells_of_each(tmp_path):
+    run = started(mixed(["drag", "gravity"], gravity=(0.0, -9.81), **windows(1e-3, 1)), tmp_path)
+    row = run.row()
+    assert row["material_sand_kg"] == pytest.approx(0.03 * DENSITY * 0.06**2, rel=1e-12)
+    assert row["material_char_height_m"] == pytest.approx(0.03, rel=0.1)
+    assert row["material_char_rise_m_s"] == 0.0
