@@ -6,7 +6,7 @@ the bed as a whole (BED) stands in `[grains]` alone.
 
 from __future__ import annotations
 
-from sdph.case.sections import Grains
+from sdph.case.matter import Grains
 from sdph.schema import CaseError, fields, plausible, read, unknown, write
 
 BED = ("restitution", "packing_limit", "granular_temperature_m2_s2")  # one for all, as friction and drag are

@@ -14,8 +14,8 @@ def syamlal(restitution, friction, density_m, density_s, diameter_m, diameter_s,
     Restitution e and Coulomb friction C_f of collisions [-], densities of the materials [kg/m3], diameters [m], g0 [-]
     at contact, slip [m/s] of their mean velocities. Spheres that meet because their means differ, not by agitation:
     slip well above sqrt(theta); collisions of two. Syamlal 1987, The particle-particle drag term in a multiparticle
-    model of fluidization, DOE/MC/21353-2373; Syamlal, Rogers & O'Brien 1993, MFIX theory guide (DOE/METC-94/1004); Fluent's
-    theory guide has it as "symmetric Syamlal-O'Brien".
+    model of fluidization, DOE/MC/21353-2373; Syamlal, Rogers & O'Brien 1993, MFIX theory guide (DOE/METC-94/1004);
+    Fluent's theory guide has it as "symmetric Syamlal-O'Brien".
     """
     rough = 3.0 * (1.0 + restitution) * (0.5 * math.pi + friction * math.pi**2 / 8.0)
     inertia = 2.0 * math.pi * (density_m * diameter_m**3 + density_s * diameter_s**3)

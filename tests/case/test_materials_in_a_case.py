@@ -4,11 +4,12 @@ one."""
 import tomllib
 
 import pytest
+import tomli_w
 from grain_boxes import table
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sdph import cli
+from sdph import cli, effects
 from sdph.case import read as cases
 from sdph.schema import CaseError
 
@@ -20,12 +21,13 @@ VALUES = st.fixed_dictionaries({
     "diameter_std_mm": st.just(0.0),
 })  # fmt: skip
 FIELDS = {
-    "density_kg_m3": ("density", 1.0), "diameter_mm": ("diameter", 1e-3), "heat_capacity_J_kg_K": ("heat_capacity", 1.0),
-    "conductivity_W_m_K": ("conductivity", 1.0), "diameter_std_mm": ("diameter_std", 1e-3),
+    "density_kg_m3": ("density", 1.0), "diameter_mm": ("diameter", 1e-3),
+    "heat_capacity_J_kg_K": ("heat_capacity", 1.0), "conductivity_W_m_K": ("conductivity", 1.0),
+    "diameter_std_mm": ("diameter_std", 1e-3),
 }  # fmt: skip
 
 
-def several(grains, materials=("sand", "char"), effects=("granular_pressure",)):
+def in_halves(grains, materials=("sand", "char"), effects=("granular_pressure",)):
     """The TOML table of a box whose left and right half are of these materials."""
     given = table(effects)
     halves = (("left", 0.0, materials[0]), ("right", 0.03, materials[1]))
@@ -48,7 +50,7 @@ def test_own_keys_go_before_common_ones_and_a_case_reads_back(data, common, name
     kept = {name: data.draw(st.sets(st.sampled_from(KEYS))) for name in names}
     grains = common | {name: {key: own[name][key] for key in kept[name]} for name in names}
     used = (names[0], names[-1])
-    case = cases.from_table(several(grains, used))
+    case = cases.from_table(in_halves(grains, used))
     assert list(case.materials) == list(names) and case.mixed == (len(names) > 1)
     for name in names:
         for key, (field, unit) in FIELDS.items():
@@ -59,32 +61,36 @@ def test_own_keys_go_before_common_ones_and_a_case_reads_back(data, common, name
     assert cases.from_table(tomllib.loads(cases.dumps(case))) == case
 
 
+TWO = {"sand": {}, "char": {}}
+USED = ("sand", "char")
+
+
 @pytest.mark.parametrize(
     ("grains", "materials", "told"),
     [
-        (PLAIN | {"sand": {}, "char": {}}, ("sand", ""), "particles.right.material is missing; the case has several: sand, char"),
-        (PLAIN | {"sand": {}, "char": {}}, ("sand", "chra"), "particles.right.material: no material chra; did you mean char"),
+        (PLAIN | TWO, ("sand", ""), "particles.right.material is missing; the case has several: sand, char"),
+        (PLAIN | TWO, ("sand", "chra"), "particles.right.material: no material chra; did you mean char"),
         (PLAIN, ("sand", ""), "[grains] is one material without a name; leave it out, or name it: [grains.sand]"),
-        ({"sand": PLAIN, "char": {"density_kg_m3": 1.0}}, ("sand", "char"), "grains.char.diameter_mm is missing"),
-        (PLAIN | {"sand": {"restitution": 0.5}, "char": {}}, ("sand", "char"), "grains.sand.restitution is of all grains"),
-        (PLAIN | {"sand": {"densty_kg_m3": 0.5}, "char": {}}, ("sand", "char"), "did you mean grains.sand.density_kg_m3"),
-        (PLAIN | {"densty_kg_m3": 2.0, "sand": {}, "char": {}}, ("sand", "char"), "unknown key grains.densty_kg_m3"),
+        ({"sand": PLAIN, "char": {"density_kg_m3": 1.0}}, USED, "grains.char.diameter_mm is missing"),
+        (PLAIN | TWO | {"sand": {"restitution": 0.5}}, USED, "grains.sand.restitution is of all grains"),
+        (PLAIN | TWO | {"sand": {"densty_kg_m3": 0.5}}, USED, "did you mean grains.sand.density_kg_m3"),
+        (PLAIN | TWO | {"densty_kg_m3": 2.0}, USED, "unknown key grains.densty_kg_m3"),
         (PLAIN | {"diameter_mm": {}, "char": {}}, ("char", "char"), "grains.diameter_mm is a section"),
         (PLAIN | {"a b": {}, "char": {}}, ("char", "char"), "[grains.a b]: a material is a word"),
-        (PLAIN | {"surface_tension_N_m": 0.07, "sand": {}, "char": {}}, ("sand", "char"), "grains.surface_tension_N_m is of"),
+        (PLAIN | TWO | {"surface_tension_N_m": 0.07}, USED, "grains.surface_tension_N_m is of"),
+        (PLAIN | TWO | {"sand": {"density_kg_m3": -1.0}}, USED, "grains.sand.density_kg_m3 = -1.0"),
     ],
-)  # fmt: skip
+)
 def test_what_cannot_be_meant_is_refused_in_one_line(grains, materials, told, tmp_path, capsys):
     with pytest.raises(CaseError) as error:
-        cases.from_table(several(grains, materials))
+        cases.from_table(in_halves(grains, materials))
     assert told in str(error.value) and "\n" not in str(error.value)
-    import tomli_w
-
-    (tmp_path / "case.toml").write_text(tomli_w.dumps(several(grains, materials)))
+    (tmp_path / "case.toml").write_text(tomli_w.dumps(in_halves(grains, materials)))
     assert cli.main(["explain", str(tmp_path / "case.toml")]) == 2
     assert capsys.readouterr().err.count("\n") == 1
 
 
+RUN = {"end_time_s": 1.0, "output_interval_s": 1.0}
 BOTH = PLAIN | {"sand": {}, "char": {"density_kg_m3": 900.0}}
 
 
@@ -92,18 +98,16 @@ BOTH = PLAIN | {"sand": {}, "char": {"density_kg_m3": 900.0}}
     ("effects", "sections", "told"),
     [
         (("drag", "break_up"), {}, "effects holds break_up"),
-        (("drag",), {"run": {"end_time_s": 1.0, "output_interval_s": 1.0, "metrics": ["column"]}}, "run.metrics holds column"),
+        (("drag",), {"run": RUN | {"metrics": ["column"]}}, "run.metrics holds column"),
     ],
 )  # fmt: skip
 def test_what_knows_one_material_is_refused(effects, sections, told):
     grains = BOTH | ({"surface_tension_N_m": 0.07} if "break_up" in effects else {})
     with pytest.raises(CaseError, match=told):
-        cases.from_table(several(grains, effects=effects) | sections)
+        cases.from_table(in_halves(grains, effects=effects) | sections)
 
 
 def test_drag_between_materials_needs_two():
-    from sdph import effects
-
-    case = cases.from_table(several(PLAIN, ("", ""), effects=("grain_drag",)))
+    case = cases.from_table(in_halves(PLAIN, ("", ""), effects=("grain_drag",)))
     with pytest.raises(CaseError, match="the grains are of one"):
         effects.kernel_of(effects.REGISTRY["grain_drag"], case)

@@ -37,9 +37,13 @@ def test_each_falls_at_its_own_speed(tmp_path):
     case = mixed(["drag", "gravity"], gravity=(0.0, -9.81), **sections)
     run = go(started(case, tmp_path, Still(case)))
     s = run.state
+
+    def pull(v, density, diameter):
+        return drag.gidaspow(0.05, v, diameter, 1.225, VISCOSITY) / density * v - 9.81
+
     np.testing.assert_allclose(s.density / s.grain_density, 0.05, rtol=0.02)
     for number, (density, diameter) in enumerate(((DENSITY, 1e-4), (1000.0, 1.5e-4))):
-        slip = brentq(lambda v: drag.gidaspow(0.05, v, diameter, 1.225, VISCOSITY) / density * v - 9.81, 1e-6, 10.0)
+        slip = brentq(pull, 1e-6, 10.0, args=(density, diameter))
         own = s.material == number
         assert -s.v[own].mean() == pytest.approx(slip, rel=2e-3)
         assert np.ptp(s.v[own]) < 0.01 * slip

@@ -208,7 +208,7 @@ def force(p, kernel, box, wall, s, i, stress, friction_p):
     if len(p) == 0:
         return ax, ay, az, tx, ty, tz, slid, lost
     theta = s.theta[i] if len(s.theta) else np.nan
-    rho_p = s.grain_density[i] if len(s.grain_density) else p.grain_density
+    rho = s.grain_density[i] if len(s.grain_density) else p.grain_density
     for k in range(wall.number[i]):
         w = entry(wall, i, k)
         dx, dy, dz = offset(box, wall, w, s, i)
@@ -224,8 +224,7 @@ def force(p, kernel, box, wall, s, i, stress, friction_p):
             # mirrored velocity 2 v_wall - <v>: v_i + <v> - 2 v_wall; Morris' form of the viscous force
             nx, ny, nz = wall.normal_x[w], wall.normal_y[w], wall.normal_z[w]
             away = dx * nx + dy * ny + dz * nz
-            height = away - wall.depth[w]
-            gripped = 2.0 * grip(p, wall.stick[w], height, s.density[i], rho_p, theta, stress.shear[i])
+            gripped = 2.0 * grip(p, wall.stick[w], away - wall.depth[w], s.density[i], rho, theta, stress.shear[i])
             stick = gripped * p.volume / s.density[i] * stress.shear[i] * gradient
             du, dv, dw = against(wall, w, box, s, i)
             fx = stick * (du + wall.velocity[w, 0] - wall.slide_x[w])

@@ -129,11 +129,11 @@ def staggered(case, name: str) -> float:
 
 def among(case, name: str) -> list[str]:
     """Regions of other materials that stand in the box around a region, and it itself, in the order of the case."""
-    own, found = case.particles[name], []
+    own, found, least = case.particles[name], [], SAME * case.resolution.spacing
     low, high = extents(case, own)
     for other, region in case.particles.items():
         lower, upper = extents(case, region)
-        overlap = np.minimum(high, upper) - np.maximum(low, lower) > SAME * case.resolution.spacing
+        overlap = (high - lower > least) & (upper - low > least)
         if other == name or (case.mixed and overlap.all() and region.material != own.material):
             found.append(other)
     return found

@@ -28,7 +28,8 @@ def metrics(simulation) -> dict[str, float]:
     up = upwards(case, "segregation")
     height = (particles.positions(state) - np.array((*case.domain.corner, 0.0)[:3])) @ up
     jet, flot = ranked(case)
-    return of(height, state.mass / state.grain_density, state.material == jet, list(case.materials)[jet], list(case.materials)[flot])
+    names = list(case.materials)
+    return of(height, state.mass / state.grain_density, state.material == jet, names[jet], names[flot])
 
 
 def refuse(case) -> None:

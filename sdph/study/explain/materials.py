@@ -1,4 +1,4 @@
-"""What `sdph explain` shows of several materials: how each one stands to the gas alone."""
+"""Rows that `sdph explain` shows of several materials: each one alone in the gas."""
 
 from __future__ import annotations
 
