@@ -97,7 +97,7 @@ BOTH = PLAIN | {"sand": {}, "char": {"density_kg_m3": 900.0}}
 @pytest.mark.parametrize(
     ("effects", "sections", "told"),
     [
-        (("drag", "break_up"), {}, "effects holds break_up"),
+        (("drag", "break_up"), {"break_up": {"liquid_viscosity_Pa_s": 1e-3}}, "effects holds break_up"),
         (("drag",), {"run": RUN | {"metrics": ["column"]}}, "run.metrics holds column"),
     ],
 )  # fmt: skip

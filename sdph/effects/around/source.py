@@ -253,8 +253,9 @@ class Source:
         """Count what has come in."""
         self.mass += float(out.mass.sum())
         if len(out.temperature):
-            capacity = particles.by_material(out.grain_capacity, self.case.grains.heat_capacity)
-            self.energy += float((out.mass * out.temperature * capacity).sum())
+            warmth, capacity = out.mass * out.temperature, out.grain_capacity
+            of_one = self.case.grains.heat_capacity
+            self.energy += float(warmth @ capacity) if len(capacity) else float(warmth.sum() * of_one)
         self.motion += particles.energy_of_motion(out)
         self.momentum = self.momentum + (out.mass[:, None] * particles.velocities(out)).sum(axis=0)
 

@@ -114,8 +114,7 @@ def shear(
             A, sheared, squeezed = stress.NO_GRADIENT, square, 0.0
             if enclosed:
                 A, sheared, squeezed = stress.viscous(N, M, square, total, scratch.bulk[i])
-            own = per * mixture.heft(kernel, s, i)
-            stress.bear(bearing, i, box, own * own, total, A, tau)
+            stress.bear(bearing, i, box, per * per * mixture.heft_squared(kernel, s, i), total, A, tau)
             works[0, i] = (scratch.shear[i] * sheared + scratch.bulk[i] * squeezed) * per
             warm += mu * sheared
         works[1, i] = warm * per

@@ -51,8 +51,8 @@ def by_volume(kernel, s, i, j):
 
 
 @inlined
-def heft(kernel, s, i):
-    """rho_pi/rho_0 [-] of a particle."""
+def heft_squared(kernel, s, i):
+    """(rho_pi/rho_0)^2 [-] of a particle."""
     if len(kernel) == 2:
         return 1.0
-    return s.grain_density[i] / kernel.reference
+    return (s.grain_density[i] / kernel.reference) ** 2

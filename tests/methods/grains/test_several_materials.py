@@ -94,7 +94,7 @@ def test_unlike_materials_keep_momentum_and_energy(tmp_path):
 
 @pytest.mark.parametrize("share", [1.0, 0.5])
 def test_streams_brake_each_other_by_syamlals_law(tmp_path, share):
-    """du/dt = -beta (1/(alpha_m rho_m) + 1/(alpha_s rho_s)) u with beta ~ u: u0/(1 + k u0 t), on a way of 8 spacings."""
+    """du/dt = -beta (1/(alpha_m rho_m) + 1/(alpha_s rho_s)) u with beta ~ u: u0/(1 + k u0 t), on a way of spacings."""
     alpha_p, sizes = (0.04, 0.03), {"sand": 2.0, "char": 3.0}
     run = started(streams(share * SPACING, end=0.2, count=40, alpha_p=alpha_p, **sizes), tmp_path)
     s = run.state
@@ -156,8 +156,10 @@ def test_pairs_weigh_by_volume():
     s.grain_density[:] = 3000.0, 1000.0
     mixed, plain = mixture.MixedKernel(1.0, 1.0, 2000.0), mixture.Kernel(1.0, 1.0)
     assert mixture.by_volume(mixed, s, 0, 1) == mixture.by_volume(mixed, s, 1, 0) == pytest.approx(4.0 / 3.0)
-    assert mixture.over(mixed, s, 0, 1) == pytest.approx(3.0) and mixture.heft(mixed, s, 1) == pytest.approx(0.5)
-    assert [mixture.by_volume(plain, s, 0, 1), mixture.over(plain, s, 0, 1), mixture.heft(plain, s, 1)] == [1.0] * 3
+    assert mixture.over(mixed, s, 0, 1) == pytest.approx(3.0) and mixture.heft_squared(mixed, s, 1) == 0.25
+    assert [mixture.by_volume(plain, s, 0, 1), mixture.over(plain, s, 0, 1), mixture.heft_squared(plain, s, 1)] == [
+        1.0
+    ] * 3
 
 
 def test_alpha_p_is_of_all_grains(tmp_path):
