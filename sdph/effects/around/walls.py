@@ -186,6 +186,14 @@ def grip(p, stick, y, density, grain_density, theta, shear):
 
 
 @inlined
+def solid(p, kernel, s, i):
+    """rho_p [kg/m3] of particle i: of one material a plain kernel tells, of its own a mixed one."""
+    if len(kernel) == 2:
+        return p.grain_density
+    return s.grain_density[i]
+
+
+@inlined
 def penalty(p, kernel, box, wall, w, s, i, r):
     """Acceleration [m/s2] along the normal of a dummy: -eps 2h (v.n) W A / (rho r) where v.n < 0; A = dx^(d-1), eps =
     penalty rho."""
@@ -208,7 +216,7 @@ def force(p, kernel, box, wall, s, i, stress, friction_p):
     if len(p) == 0:
         return ax, ay, az, tx, ty, tz, slid, lost
     theta = s.theta[i] if len(s.theta) else np.nan
-    rho = s.grain_density[i] if len(s.grain_density) else p.grain_density
+    rho = solid(p, kernel, s, i)
     for k in range(wall.number[i]):
         w = entry(wall, i, k)
         dx, dy, dz = offset(box, wall, w, s, i)

@@ -90,7 +90,7 @@ def sound_squared(p, slope):
 
 
 @inlined
-def stress(p, pressures, s, box, i, D, spin, dt):
+def stress(p, pressures, kernel, s, box, i, D, spin, dt):
     """Deviator of the elastic stress of contacts [Pa] after dt (xx, yy, zz, xy, yz, zx), and their viscosity [Pa s].
 
     `pressures` is a sdph.methods.grains.equations.Scratch, D (6) the deviator of the rate of strain [1/s], spin (xy,
@@ -99,16 +99,24 @@ def stress(p, pressures, s, box, i, D, spin, dt):
     where their sum is past yield.
     """
     frictional_pressure = pressures.lasting[i] * s.density[i] ** 2
-    rho = s.grain_density[i] if len(s.grain_density) else p.grain_density
+    rho, lightest = densities(p, kernel, s, i)
     bulk = s.density[i] / rho * pressures.stiffness[i]
     xx, yy, zz, xy, yz, zx = trial(s, box, i, D, spin, 2.0 * p.stiffness * bulk, dt)
-    mu = stiffest(p, s.density[i] * (p.lightest / rho), dt)
+    mu = stiffest(p, lightest, dt)
     m = 2.0 * mu
     squared = law.second_invariant(
         xx + m * D[0], yy + m * D[1], zz + m * D[2], xy + m * D[3], yz + m * D[4], zx + m * D[5]
     )
     share = law.yield_share(frictional_pressure, p.sine, squared) * (frictional_pressure > 0.0)
     return (share * xx, share * yy, share * zz, share * xy, share * yz, share * zx), share * mu
+
+
+@inlined
+def densities(p, kernel, s, i):
+    """rho_p of a particle, and alpha_p times that of the lightest grains there are [kg/m3]."""
+    if len(kernel) == 2:
+        return p.grain_density, s.density[i]
+    return s.grain_density[i], s.density[i] * (p.lightest / s.grain_density[i])
 
 
 @serial

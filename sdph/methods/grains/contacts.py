@@ -99,7 +99,7 @@ def shear(
         per = 1.0 / s.density[i]
         if len(friction_p):
             spin = 0.5 * (G[1] - G[3]), 0.5 * (G[5] - G[7]), 0.5 * (G[6] - G[2])
-            tau, mu = friction.stress(friction_p, scratch, s, box, i, D, spin, dt)
+            tau, mu = friction.stress(friction_p, scratch, kernel, s, box, i, D, spin, dt)
             rubbing[i] = mu
             contact[0, i], contact[1, i], contact[2, i] = tau[0], tau[1], tau[3]
             contact[3, i], contact[4, i] = tau[4], tau[5]
