@@ -10,6 +10,7 @@ from scipy.optimize import brentq
 
 from sdph.laws import drag
 
+SAND_CAPACITY = 1000.0  # J/kg/K, of all grains of a box
 SAND, CHAR = {"diameter_mm": 0.1}, {"diameter_mm": 0.15, "density_kg_m3": 1000.0, "heat_capacity_J_kg_K": 2500.0}
 WHOLE = {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.06, 0.06], "temperature_K": 300.0}
 
@@ -83,3 +84,38 @@ def test_history_tells_of_each(tmp_path):
     assert row["material_sand_kg"] == pytest.approx(0.03 * DENSITY * 0.06**2, rel=1e-12)
     assert row["material_char_height_m"] == pytest.approx(0.03, rel=0.1)
     assert row["material_char_rise_m_s"] == 0.0
+
+
+def test_a_gradient_of_pressure_pushes_each_by_its_own_density(tmp_path):
+    sections = windows(1e-3, 1)
+    sections["coupling"] |= {"one_way": True}
+    case = mixed(["gas_pressure"], speeds=(0.1, 0.1), **sections)
+    run = go(started(case, tmp_path, Row(case, alpha_g=1.0, gradient=(-500.0, 0.0, 0.0))))
+    s = run.state
+    np.testing.assert_allclose(s.u - 0.1, 1e-3 * 500.0 / s.grain_density, rtol=1e-10)
+
+
+def test_nozzles_give_grains_of_their_material(tmp_path):
+    """Mass by the density of each, and their heat as it comes in."""
+    slot = {"shape": "slot", "width_m": 0.02, "direction": [1.0, 0.0], "speed_m_s": 1.0, "volume_fraction": 0.2}
+    nozzles = {
+        name: slot | {"centre_m": [0.005, y], "temperature_K": warmth, "material": name}
+        for name, y, warmth in (("sand", 0.015, 320.0), ("char", 0.045, 280.0))
+    }
+    case = several(
+        ["inflow", "outflow", "drag", "heat"], {}, {"sand": SAND, "char": CHAR}, periodic=(), nozzles=nozzles,
+        boundaries={"sides": {"kind": "pressure_outlet", "pressure_Pa": 0.0}}, **windows(0.02, 8),
+    )  # fmt: skip
+    run = go(started(case, tmp_path))
+    s = run.state
+    for number, grains in enumerate(case.kinds):
+        own = s.nozzle == number + 1
+        assert own.any() and (s.material[own] == number).all()
+        for name, value in zip(("grain_density", "grain_capacity", "grain_conductivity"), grains.of_particles):
+            assert (getattr(s, name)[own] == value).all()
+        assert (s.diameter[own] == grains.diameter).all()
+        np.testing.assert_allclose(s.mass[own], 0.2 * grains.density * 0.005**2, rtol=1e-12)
+    assert run.ledger.sums["injected_kg"] > 0.0
+    came = {number: float(s.mass[(s.nozzle == number + 1) & (s.kind == 0)].sum()) for number in (0, 1)}
+    heat = came[0] * SAND_CAPACITY * 320.0 + came[1] * 2500.0 * 280.0
+    assert run.ledger.sums["injected_J"] == pytest.approx(heat, rel=1e-12)

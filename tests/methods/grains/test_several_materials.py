@@ -8,8 +8,8 @@ from grain_boxes import DENSITY, SPACING, box, go, several, started, windows
 
 from sdph.effects.grains import grain_drag
 from sdph.engine import state as particles
+from sdph.laws import exchange, granular, kernels
 from sdph.laws import grain_drag as law
-from sdph.laws import granular, kernels
 from sdph.methods.grains import mixture
 
 # all that acts between grains and on them, but drag between materials, which tells materials apart that are alike
@@ -193,3 +193,38 @@ def test_two_materials_come_to_one_temperature(tmp_path):
     capacity = run.state.mass * run.state.grain_capacity
     np.testing.assert_allclose(run.state.temperature, mean, rtol=1e-6)
     assert float(capacity @ run.state.temperature) == pytest.approx(before, rel=1e-12)
+
+
+def test_pressure_acts_by_volume(tmp_path):
+    """Against sums written out here: m_i a_i = -sum V_i V_j (p_i/alpha_i^2 + p_j/alpha_j^2) grad W, p by its own rho_p,
+    on particles off their lattice."""
+    grains = {"sand": {}, "char": CHAR}
+    parts = {
+        name: WHOLE | {"material": name, "volume_fraction": 0.25, "disorder": 0.2, "seed": seed}
+        for seed, name in enumerate(grains)
+    }
+    run = started(several(["granular_pressure"], parts, grains, **windows(1e-3, 1)), tmp_path)
+    own, s = run.stepper, run.state
+    s.theta[:] = np.random.default_rng(1).uniform(0.5, 2.0, len(s.x)) * 1e-3
+    own._constitute()
+    loop, given = own.loops(1e-5)["rates"]
+    loop(*given)
+    alpha_p, volume = s.density / s.grain_density, s.mass / s.grain_density
+    g0 = 1.0 / (1.0 - np.cbrt(alpha_p / 0.63))
+    p = alpha_p * s.grain_density * s.theta * (1.0 + 2.0 * 1.9 * alpha_p * g0)
+    apart = np.stack([a[:, None] - a[None] - 0.06 * np.round((a[:, None] - a[None]) / 0.06) for a in (s.x, s.y)])
+    r = np.hypot(*apart)
+    slope = np.vectorize(lambda r: kernels.cubic_spline_gradient(r, own.kernel.h, own.kernel.sigma))(r)
+    both = p / alpha_p**2
+    pull = volume[:, None] * volume[None] * (both[:, None] + both[None]) * slope
+    expected = -(pull * apart).sum(axis=2) / s.mass
+    scale = np.abs(expected).max()
+    np.testing.assert_allclose(own.work.acceleration[:, :2].T, expected, rtol=0.0, atol=1e-11 * scale)
+
+
+def test_conduction_of_a_pair_of_two_materials():
+    """4 m_j/(rho_i rho_j) K_i K_j/(K_i + K_j), K = alpha_p k; of alike grains that of one material."""
+    unlike = exchange.cleary_monaghan_unlike(-3.0, 1e-4, 1e-6, 0.3 * 2.0, 0.4 * 5.0, 900.0 * 400.0)
+    assert unlike == pytest.approx(-4.0 * 3.0 / 3.6e5 * 0.6 * 2.0 / 2.6 * 1e-4 / 1.01e-4, rel=1e-12)
+    alike = exchange.cleary_monaghan_unlike(-3.0, 1e-4, 1e-6, 0.3 * 2.0, 0.4 * 2.0, 900.0 * 1200.0)
+    assert alike == pytest.approx(exchange.cleary_monaghan(-3.0, 1e-4, 1e-6, 2.0, 3000.0, 1050.0), rel=1e-12)
