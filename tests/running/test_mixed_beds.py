@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 import pyvista
 
-from sdph import cli
+from sdph import cli, scenes
+from sdph.case import read as cases
+from sdph.laws import exact
+from sdph.methods.grains.scales import fluidising
 from sdph.running.metrics import segregation
 
 WARM = (
@@ -56,7 +59,12 @@ def test_explain_tells_of_each(folder, capsys):
     assert cli.main(["explain", "segregation"]) == 0
     said = capsys.readouterr().out
     assert "MATERIALS" in said and "terminal velocity" in said
-    assert all(name in said for name in ("small", "large"))
+    case = cases.load(scenes.find("segregation")[1])
+    for grains, speed in zip(case.kinds, fluidising(case)):  # Ergun's gradient at U_mf carries the weight in gas
+        gradient = exact.ergun_gradient(0.6, speed, grains.diameter, 1.2, 1.8e-5)
+        assert gradient == pytest.approx(0.6 * (2525.0 - 1.2) * 9.81, rel=1e-9)
+        assert f"{speed:.3g}" in said
+    assert segregation.ranked(case) == (1, 0)
 
 
 def test_segregation_of_layers_and_of_a_mixture():

@@ -276,6 +276,13 @@ class Scales:
         )
 
 
+def fluidising(case) -> list[float]:
+    """U_mf [m/s] of each material alone, packed as the densest patch of the case (Ergun 1952)."""
+    s, gas = Scales(case), case.gas
+    around = gas.density, gas.viscosity
+    return [exact.minimum_fluidisation(s.capped, g.density, s.gravity, g.diameter, *around) for g in case.kinds]
+
+
 def scales_of(case) -> Scales:
     """Scales of a case as if every effect that can judge itself and needs no input had its section."""
     parameters = effects.without_input("grains") | case.parameters

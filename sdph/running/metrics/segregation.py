@@ -8,7 +8,7 @@ import numpy as np
 
 from sdph.case.gas_cells import upwards
 from sdph.engine import state as particles
-from sdph.methods.grains.scales import Scales
+from sdph.methods.grains.scales import fluidising
 from sdph.schema import CaseError
 
 TOP = 0.5  # of the grains, from above: where the mixing index is looked at; our choice
@@ -42,7 +42,7 @@ def refuse(case) -> None:
 
 def ranked(case) -> tuple[int, int]:
     """Numbers of jetsam and flotsam."""
-    speeds = [Scales(case.of_one(name)).minimum_fluidisation for name in case.materials]
+    speeds = fluidising(case)
     return int(np.argmax(speeds)), int(np.argmin(speeds))
 
 
