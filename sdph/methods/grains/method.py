@@ -34,6 +34,9 @@ class Stepper:
     KEPT, FORMS = ("state", "neighbours", "steps", "contacts", "limit"), {"state": GROWING}  # see sdph.engine.kept
     # what a sub-step takes from neighbours and theirs, fresh, of `state`: all else of a particle is its own affair
     HALO = (*"xyzuvw", "mass", "density", "temperature", "diameter", "theta", *friction.ARRAYS)
+    # and these, of several materials; for their drag on each other velocities once more, after the kick, with kind and
+    # material
+    OF_SEVERAL = ("grain_density", "grain_conductivity")
 
     def __init__(self, case, parameters, state, source=None, shortest=0.0):
         self.case, self.parameters, self.state, self.source = case, parameters, state, source
