@@ -40,6 +40,9 @@ FIELDS = {
 # What it hands back besides, where an effect asks for it at the start.
 ON_REQUEST = {
     "vorticity": ("1/s", 3, "curl of the velocity"),
+    "turbulent_energy": ("m2/s2", 1, "k of a model of turbulence"),
+    "turbulent_dissipation": ("m2/s3", 1, "epsilon of a model of turbulence"),
+    "turbulent_energy_gradient": ("m/s2", 3, "gradient of k"),
 }
 
 

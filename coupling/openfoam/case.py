@@ -128,12 +128,12 @@ def _list(values) -> str:
 def write_start_fields(case, folder: Path) -> None:
     """`0/*`, those that the folder lacks."""
     (folder / "0").mkdir(exist_ok=True)
-    for name, text in start_fields(case, _others(case, folder)).items():
+    for name, text in start_fields(case, others(case, folder)).items():
         if not (folder / "0" / name).exists():
             (folder / "0" / name).write_text(text, encoding="utf-8")
 
 
-def _others(case, folder: Path) -> dict[str, str] | None:
+def others(case, folder: Path) -> dict[str, str] | None:
     """Name -> type of the patches of an own mesh that the case does not name, as walls; None of a mesh to be made."""
     if not (folder / poly_mesh.FOLDER).is_dir():
         return None

@@ -16,6 +16,7 @@ MOST = 100  # materials: their numbers are bytes in the State; our choice
 STRANGE = {
     "evaporation": "vapour is of one species", "micro_explosion": "droplets are of one fuel",
     "break_up": "droplets are of one liquid",
+    "turbulent_dispersion": "grains fall through its eddies at one speed",
 }  # fmt: skip
 METRICS = ("column", "jet", "bursts")  # that compare with formulas of one material
 
@@ -70,6 +71,8 @@ def check(case) -> None:
     for name, why in STRANGE.items():
         if name in case.effects:
             raise CaseError(f"effects holds {name}, and {several}: {why}; leave it out, or all materials but one")
+    if "drag" in case.effects and case.parameters["drag"].filter != "none":
+        raise CaseError(f"drag.filter goes by the speed at which one material falls, and {several}: leave it out")
     for key in OF_DROPS:
         if write(case.grains).get(key):
             raise CaseError(f"grains.{key} is of droplets, and {several}: leave it out")

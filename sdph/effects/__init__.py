@@ -4,7 +4,17 @@ import dataclasses
 
 from sdph.effects.around import drain, electric_field, frame, gravity, inflow, outflow, tank, walls
 from sdph.effects.effect import NO_LIMIT, OFF, Effect, kernel_of
-from sdph.effects.gas import break_up, drag, evaporation, gas_pressure, heat, lift, micro_explosion, radiation
+from sdph.effects.gas import (
+    break_up,
+    drag,
+    evaporation,
+    gas_pressure,
+    heat,
+    lift,
+    micro_explosion,
+    radiation,
+    turbulent_dispersion,
+)
 from sdph.effects.grains import (
     artificial_viscosity,
     conduction,
@@ -37,6 +47,7 @@ from sdph.engine.state import OF_MATERIAL
 FILES = (
     drag,
     lift,
+    turbulent_dispersion,
     gas_pressure,
     gravity,
     electric_field,

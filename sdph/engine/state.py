@@ -56,6 +56,9 @@ class State(NamedTuple):
     deformation: np.ndarray
     deformation_rate: np.ndarray
     weber: np.ndarray
+    eddy_x: np.ndarray
+    eddy_y: np.ndarray
+    eddy_z: np.ndarray
     received: np.ndarray
     exchanged: np.ndarray
     viscosity: np.ndarray
@@ -122,6 +125,7 @@ FIELDS = {
     "deformation": ("1", "shift of a drop's equator over half its radius; it breaks at 1 (sdph.laws.break_up)"),
     "deformation_rate": ("1/s", "its rate"),
     "weber": ("1", "Weber number of the radius in the last window"),
+    **{f"eddy_{a}": ("1", "velocity of the eddy that it is in, over the mean fluctuation") for a in "xyz"},
     "received": ("W", "heat from the gas in the last window"),
     "exchanged": ("1", "1 if it was in the gas in the last window"),
     "viscosity": ("Pa s", "viscosity of a liquid where it is not the same everywhere"),
@@ -148,7 +152,7 @@ FIELDS = {
     "row": ("1", "row that the particle had when the window began"),
 }  # fmt: skip
 ALWAYS = ("x", "y", "u", "v", "mass", "density", "ident", "kind")
-IN_SPACE = {"z", "w", "contact_yz", "contact_zx", "push_z", "way_z"}  # of length zero in two dimensions
+IN_SPACE = {"z", "w", "contact_yz", "contact_zx", "eddy_z", "push_z", "way_z"}  # of length zero in two dimensions
 OF_MATERIAL = ("material", "grain_density", "grain_capacity", "grain_conductivity")  # there where grains are of several
 INTEGERS = {
     "ident": np.int64,

@@ -42,14 +42,15 @@ class Loss:
 class Handed:
     """Amounts that one window hands over: what the gas is told, and what the reaction is computed from.
 
-    heat (N,) [W/K] and pull (N,) [W]: the particle takes heat * (T'_g - origin) - pull; drag (N,) [kg/s] is m_k f_k/dt;
-    force (N, 3) [N] what the gas does besides, held over the window (no row where no effect does); temperature and
-    velocity are those of the particles when they were computed; damping (N,) [1/s] is beta/(alpha_p rho_p); mass (N,)
-    [kg] what is in the gas at the window's end. terms (C,) or (C, 3) per volume of the cells, by quantity and by what
-    it comes from: a sum over effects ("conductance", counted from origin [K] on, "drag", "force"), or an effect;
-    alpha_g (C,) at the window's end, where the gas is told; gone [kg m/s] the held impulse, summed by its length, of
-    droplets that are gone at the window's end and do not get it; around: slip (N,) [m/s] and density (N,) [kg/m3] of
-    the gas.
+    heat (N,) [W/K] and pull (N,) [W]: the particle takes heat * (T'_g - origin) - pull; drag (N,) [kg/s] is m_k
+    f_k/dt; force (N, 3) [N] what the gas does besides, held over the window (no row where no effect does);
+    temperature and velocity are those of the particles when they were computed; against (N, 3) [m/s] is that
+    velocity less the eddies', which drag pulls to that of the gas, and eddies (N, 3) what turbulent_dispersion
+    keeps; damping (N,) [1/s] is beta/(alpha_p rho_p); mass (N,) [kg] what is in the gas at the window's end. terms
+    (C,) or (C, 3) per volume of the cells, by quantity and by what it comes from: a sum over effects
+    ("conductance", counted from origin [K] on, "drag", "force"), or an effect; alpha_g (C,) at the window's end,
+    where the gas is told; gone [kg m/s] the held impulse, summed by its length, of droplets that are gone at the
+    window's end and do not get it; around: slip (N,) [m/s] and density (N,) [kg/m3] of the gas.
     """
 
     dt: float
@@ -68,6 +69,8 @@ class Handed:
     alpha_g: np.ndarray | None = None
     gone: float = 0.0
     around: tuple = ()
+    against: np.ndarray | None = None
+    eddies: np.ndarray | None = None
 
     def columns(self) -> dict[str, float]:
         """Amounts that were held back or given at once, for the ledger."""

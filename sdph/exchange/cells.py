@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from coupling.transfer import deposit
+from coupling.transfer import deposit, gather
+from sdph.engine.state import by_material
 
 
 class Cells:
@@ -22,3 +23,14 @@ class Cells:
         """Extensive amounts (N,) or (N, m) of the particles per volume of the cells."""
         deposited = deposit(weights, amounts)
         return deposited / (self.volumes if deposited.ndim == 1 else self.volumes[:, None])
+
+    def around(self, weights, mass, velocity) -> np.ndarray:
+        """Mean velocity (N, 3) [m/s] of the grains around each particle, as their cells have it."""
+        cells = deposit(weights, np.column_stack((mass, mass[:, None] * velocity)))
+        there = cells[:, :1] > 0.0
+        return gather(weights, np.divide(cells[:, 1:], cells[:, :1], out=np.zeros_like(cells[:, 1:]), where=there))
+
+
+def capacity_of(case, state):
+    """Specific heat [J/kg/K] of the particles (N,), or the one of all."""
+    return by_material(state.grain_capacity, case.grains.heat_capacity)

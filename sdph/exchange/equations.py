@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+
 import numpy as np
 from numba import prange
 
@@ -29,6 +31,13 @@ class Seen:
         self.apart = velocity - self.own
         self.slip = particles.lengths(self.apart)
         self.fields = {name: gather(weights, gas_state.fields[name]) for name in fields}
+
+    def stirred(self, eddies) -> Seen:
+        """The same with the velocity of eddies (N, 3) [m/s] on top of the gas's."""
+        found = copy.copy(self)
+        found.apart = self.apart + eddies
+        found.slip = particles.lengths(found.apart)
+        return found
 
 
 def vapour_concentration(p, gas_state) -> np.ndarray:

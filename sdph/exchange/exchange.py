@@ -28,11 +28,11 @@ from coupling.transfer import gather
 from sdph import effects
 from sdph.effects import OFF
 from sdph.effects.around import electric_field
-from sdph.effects.gas import break_up, film, radiation, sizes
+from sdph.effects.gas import break_up, film, radiation, sizes, turbulent_dispersion
 from sdph.engine.state import GRAIN, by_material, lengths
 from sdph.exchange import bursts, equations
 from sdph.exchange.amounts import Handed, Taken
-from sdph.exchange.cells import Cells
+from sdph.exchange.cells import Cells, capacity_of
 from sdph.exchange.equations import Seen, temperature_span, vapour_concentration
 from sdph.exchange.vapour import Vapour
 from sdph.exchange.window import settling
@@ -73,7 +73,12 @@ class Exchange:
         """
         thrown = bursts.throw(self.bursting.own, state, dt) if self.bursting else None
         state = state._replace(**thrown.after) if thrown else state
-        seen = Seen(weights, gas_state, state, self.fields)
+        seen, stirring = Seen(weights, gas_state, state, self.fields), self.parameters["turbulent_dispersion"]
+        against, eddies = seen.own, None
+        if stirring:
+            drift = lengths(seen.apart + seen.own - self.cells.around(weights, state.mass, seen.own))
+            pushed, eddies = turbulent_dispersion.stir(stirring, state, seen, drift, gas_state.time, dt)
+            seen, against = seen.stirred(pushed), seen.own - pushed
         conductance, damping, force = self._rates(state, seen)
         loss = None
         if self.vapour:
@@ -105,7 +110,8 @@ class Exchange:
         )
         alpha_g = self.cells.room(there, kept * inside, state.grain_density) if "alpha_g" in self.sources else None
         around = (seen.slip, seen.density)
-        return replace(handed, terms=self._terms(handed), alpha_g=alpha_g, gone=missed, around=around)
+        handed = replace(handed, alpha_g=alpha_g, gone=missed, around=around, against=against, eddies=eddies)
+        return replace(handed, terms=self._terms(handed))
 
     def _rates(self, state, seen) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Rates of every particle now: heat conductance to the gas [W/K], beta/(alpha_p rho_p) [1/s], and the force
@@ -126,7 +132,7 @@ class Exchange:
         if "momentum_coefficient" in self.sources:
             given |= {
                 ("momentum_coefficient", "drag"): handed.drag,
-                ("momentum", "drag"): handed.drag[:, None] * handed.velocity,
+                ("momentum", "drag"): handed.drag[:, None] * handed.against,
             }
         return given | ({("momentum", "force"): -handed.force} if len(handed.force) else {})
 
@@ -179,7 +185,7 @@ class Exchange:
 
     def _resistance(self, state, weights, gas_state) -> tuple[np.ndarray, np.ndarray]:
         """Mask of the cells with grains, and 1/C_p + 1/C_g of these [m3 K/J]."""
-        content = self.cells.density(weights, state.mass * (state.kind == GRAIN) * self._capacity(state))
+        content = self.cells.density(weights, state.mass * (state.kind == GRAIN) * capacity_of(self.case, state))
         gas = (
             self.cells.room(weights, state.mass * (state.kind == GRAIN), state.grain_density)
             * gas_state.fields["density"]
@@ -187,10 +193,6 @@ class Exchange:
         )
         full = content > 0.0
         return full, 1.0 / content[full] + 1.0 / gas[full]
-
-    def _capacity(self, state):
-        """Specific heat [J/kg/K] of the particles (N,), or of all."""
-        return by_material(state.grain_capacity, self.case.grains.heat_capacity)
 
     def take(self, state, handed: Handed, gas_state) -> Taken:
         """The reaction on the particles, still as they were handed, from the new gas state with the old weights."""
@@ -212,9 +214,11 @@ class Exchange:
         return self._with_radiation(taken, state, handed) if self.parameters["radiation"] else taken
 
     def settle(self, state, handed: Handed) -> dict[str, float]:
-        """Take from the particles what evaporated, and let drops break; columns of the ledger."""
+        """Take from the particles what evaporated, keep their eddies, and let drops break; columns of the ledger."""
         if self.vapour:
             self.vapour.settle(state, handed)
+        if handed.eddies is not None:
+            turbulent_dispersion.apply(state, handed.eddies)
         if not self.parameters["break_up"]:
             return dict(break_up.NOTHING_BROKEN)
         return break_up.apply(self.parameters["break_up"], state, *handed.around, handed.dt)
@@ -223,7 +227,7 @@ class Exchange:
         """Impulse (N, 3) [kg m/s] of drag and held force, and the force (C, 3) [N/m3] by which the gas gave it."""
         given, impulse = np.zeros_like(velocity), np.zeros_like(handed.velocity)
         if ("momentum", "drag") in handed.terms:
-            apart = gather(handed.weights, velocity) - handed.velocity
+            apart = gather(handed.weights, velocity) - handed.against
             impulse += handed.dt * handed.drag[:, None] * apart
             given += handed.terms["momentum_coefficient", "drag"][:, None] * velocity - handed.terms["momentum", "drag"]
         if ("momentum", "force") in handed.terms:
@@ -250,7 +254,7 @@ class Exchange:
     def _with_radiation(self, taken: Taken, state, handed: Handed) -> Taken:
         """The same with what leaves to the surroundings, half of it before and half of it after the exchange with the
         gas."""
-        capacity, half = handed.mass * self._capacity(state), 0.5 * handed.dt
+        capacity, half = handed.mass * capacity_of(self.case, state), 0.5 * handed.dt
         before = self._radiated(state, handed.temperature, half)
         between = before + np.divide(taken.warming, capacity, out=np.zeros_like(capacity), where=capacity > 0.0)
         lost = capacity * (handed.temperature - before + between - self._radiated(state, between, half))

@@ -1,4 +1,4 @@
-"""Any case of grains in a gas beside stock twoPhaseEulerFoam: same mesh, boundaries, closures and start.
+"""Any case of grains in a gas beside twoPhaseEulerFoam: same mesh, boundaries, closures and start.
 
 A scene with a comparison of its own (validation/<scene>/compare.py) takes that. This one measures what every bed has,
 by one function on the cells of both, as means over the second half of the run: a bubbling bed never repeats, and one
@@ -7,6 +7,7 @@ moment of it is chance. The bars are ours: a tenth, and for the place of the gra
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -37,10 +38,10 @@ class Cells(NamedTuple):
 def tfm(run) -> list[dict]:
     """Checks of a run against two fluids, and `compare_tfm.png`."""
     first = run.fields(0.0)
-    if first.gas is None or first.gas.GetClassName() != "vtkRectilinearGrid":
-        what = "has no gas" if first.gas is None else "has a gas mesh of its own, on which stock twoPhaseEulerFoam errs"
-        raise CaseError(f"{run.folder} {what}; two fluids are compared in a box with its gas")
-    start = _start(run.case, first)
+    if first.gas is None:
+        raise CaseError(f"{run.folder} has no gas; two fluids are compared with grains in a gas")
+    box = first.gas.GetClassName() == "vtkRectilinearGrid"
+    start = replace(_start(run.case, first), mesh=None if box else run.folder / "gas")
     reference = run_two_fluid(run.case, run.folder / "tfm", start=start)
     times = [t for t in sorted(reference.fields) if t <= run.summary["time_s"] * (1.0 + 1e-9)]
     own, other = _own(run, times, reference), _other(run.case, times, start, reference)
@@ -65,9 +66,10 @@ def _along_gravity(case, late, own: Cells, other: Cells, weights) -> list[dict]:
     """Height of the grains' middle, and the gas's pressure from floor to lid."""
     heights = own.centres @ -np.asarray(case.domain.gravity) / np.linalg.norm(case.domain.gravity)
     middles = [weight @ heights / weight.sum() - heights.min() for weight in weights]
-    floor, lid = (np.isclose(heights, end) for end in (heights.min(), heights.max()))
+    ends = [np.abs(heights - end) < 0.5 * case.resolution.cell for end in (heights.min(), heights.max())]
     means = [cells.pressure[late].mean(axis=0) for cells in (own, other)]
-    falls = [mean[floor].mean() - mean[lid].mean() for mean in means]
+    floors, lids = ([np.average(mean[at], weights=own.volumes[at]) for mean in means] for at in ends)
+    falls = np.subtract(floors, lids)
     return [
         check("middle of the grains over the lowest cells [m]", *middles, PLACE, True),
         check("pressure of the gas from floor to lid [Pa]", *falls, BAR, True),
@@ -117,20 +119,21 @@ def _other(case, times, start: Start, reference) -> Cells:
 
 
 def picture(run, times, own: Cells, other: Cells) -> None:
-    """alpha_p of both sides at four times, the run above; of a box in three dimensions its middle layer of cells."""
+    """alpha_p of both sides at four times, the run above; in three dimensions on an upright cut through the middle."""
     import matplotlib
 
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
+    pieces, numbers = _cut(run.case, run.fields(0.0).gas)
+    numbers = cKDTree(own.centres).query(numbers)[1]
+    width, height = np.ptp(np.concatenate(pieces), axis=0)
     shown = sorted({round(k) for k in np.linspace(0, len(times) - 1, SHOWN)})
-    width, height = run.case.domain.size[:2]
     size = (2.2 * len(shown) + 1.2, 2 * max(1.2, min(4.0, 2.2 * height / width)) + 0.8)
     figure, axes = pyplot.subplots(2, len(shown), figsize=size, layout="constrained", squeeze=False)
-    limits = {"vmin": 0.0, "vmax": run.case.grains.packing_limit, "cmap": style.map_of(style.QUANTITIES["alpha_p"].map)}
     for column, k in enumerate(shown):
         for row, cells in enumerate((own, other)):
-            image = _layer(axes[row, column], cells, k, limits)
+            image = _painted(axes[row, column], pieces, cells.alpha_p[k][numbers], run.case.grains.packing_limit)
         axes[0, column].set_title(f"{times[k]:.3g} s")
     for axis, name in zip(axes[:, 0], ("SDPH", "two fluids")):
         axis.set_ylabel(name)
@@ -139,14 +142,34 @@ def picture(run, times, own: Cells, other: Cells) -> None:
     pyplot.close(figure)
 
 
-def _layer(axis, cells: Cells, k: int, limits):
-    """Cells of one layer as squares."""
-    there = np.ones(len(cells.volumes), bool)
-    if cells.centres.shape[1] == 3:
-        levels = np.unique(cells.centres[:, 2])
-        there = cells.centres[:, 2] == levels[len(levels) // 2]
-    (x, column), (y, row) = (np.unique(cells.centres[there, a].round(12), return_inverse=True) for a in (0, 1))
-    values = np.full((len(y), len(x)), np.nan)
-    values[row, column] = cells.alpha_p[k][there]
+def _cut(case, grid) -> tuple[list[np.ndarray], np.ndarray]:
+    """Polygons (corners, 2) [m] of the cells that are seen, sideways and up, and the centres (P, D) [m] of these
+    cells."""
+    up = int(np.argmax(np.abs(case.domain.gravity))) if any(case.domain.gravity) else 1
+    along, across = [axis for axis in range(3) if axis != up] if case.dimensions == 3 else (1 - up, 2)
+    grid = grid.copy()
+    grid.cell_data["centre"] = np.asarray(grid.cell_centers().points)
+    if np.ptp(np.asarray(grid.bounds)[2 * across : 2 * across + 2]) > 0.0:
+        middle = np.array(grid.center)
+        middle[across] += 0.25 * case.resolution.cell  # not between two layers of a box
+        grid = grid.slice(normal="xyz"[across], origin=middle if case.dimensions == 3 else grid.center)
+    pieces = [np.asarray(grid.get_cell(i).points)[:, [along, up]] for i in range(grid.n_cells)]
+    return [_round(piece) for piece in pieces], np.asarray(grid.cell_data["centre"])[:, : case.dimensions]
+
+
+def _round(corners: np.ndarray) -> np.ndarray:
+    """Corners (n, 2) of a convex piece, in turn."""
+    way = corners - corners.mean(axis=0)
+    return corners[np.argsort(np.arctan2(way[:, 1], way[:, 0]))]
+
+
+def _painted(axis, pieces, values, most: float):
+    """Polygons in the colours of a volume fraction."""
+    from matplotlib.collections import PolyCollection
+
+    image = PolyCollection(pieces, array=values, cmap=style.map_of(style.QUANTITIES["alpha_p"].map), edgecolors="face")
+    image.set_clim(0.0, most)
+    axis.add_collection(image)
+    axis.autoscale_view()
     axis.set(aspect="equal", xticks=[], yticks=[])
-    return axis.pcolormesh(x, y, values, shading="nearest", **limits)
+    return image

@@ -98,6 +98,8 @@ BOTH = PLAIN | {"sand": {}, "char": {"density_kg_m3": 900.0}}
     ("effects", "sections", "told"),
     [
         (("drag", "break_up"), {"break_up": {"liquid_viscosity_Pa_s": 1e-3}}, "effects holds break_up"),
+        (("drag",), {"drag": {"filter": "igci"}}, "drag.filter goes by the speed"),
+        (("drag", "turbulent_dispersion"), {}, "effects holds turbulent_dispersion"),
         (("drag",), {"run": RUN | {"metrics": ["column"]}}, "run.metrics holds column"),
     ],
 )  # fmt: skip

@@ -37,6 +37,10 @@ COARSE = {
 WITH = {
     "grain_shifting": ("bubbling_bed", "", ()),
     "lift": ("bubbling_bed", "", ("lift.law='saffman_mei'",)),
+    "turbulent_dispersion": (
+        "bubbling_bed", "",
+        ("gas.turbulence.model='kEpsilon'", "gas.turbulence.k_m2_s2=1", "gas.turbulence.mixing_length_m=0.01"),
+    ),
     "electric_field": (
         "bubbling_bed", "", ("electric_field.strength_V_m=[0.0,1e4]", "electric_field.surface_charge_C_m2=1e-6"),
     ),

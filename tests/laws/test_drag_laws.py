@@ -150,3 +150,34 @@ def test_beetstra_is_too_large_for_lone_fast_spheres():
         slip = reynolds * AIR[1] / (AIR[0] * 1e-3)
         lone = drag.schiller_naumann(0.0, slip, 1e-3, *AIR)
         assert drag.beetstra(0.0, slip, 1e-3, *AIR) == pytest.approx(ratio * lone, rel=3e-3)
+
+
+def test_terminal_velocity_of_the_grains_of_igci():
+    """75 um, 1500 kg/m3 in air of 1.3 kg/m3 and 1.8e-5 Pa s fall at 0.2184 m/s (Igci et al. 2008, table 1)."""
+    assert drag.terminal_velocity(75e-6, 1500.0 - 1.3, 1.3, 1.8e-5, 9.80665) == pytest.approx(0.2184, rel=1e-3)
+    assert drag.terminal_velocity(1e-3, -1.0, 1.3, 1.8e-5, 9.81) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("alpha_p", "share"), [(5e-4, 0.1818), (0.005, 0.5043), (0.1, 0.7912), (0.3, 0.7690), (0.5, 0.1687), (0.6, 0.0)]
+)
+def test_share_lost_to_clusters(alpha_p, share):
+    """h g by hand from the printed pieces, one of each."""
+    assert drag.igci_clusters(alpha_p) == pytest.approx(share, abs=1e-4)
+
+
+@pytest.mark.parametrize("alpha_p", [0.0012, 0.014, 0.18, 0.25, 0.455, 0.59])
+def test_pieces_of_the_share_meet(alpha_p):
+    below, above = (drag.igci_clusters(alpha_p * (1.0 + side)) for side in (-1e-9, 1e-9))
+    assert above == pytest.approx(below, abs=6e-3)
+
+
+@given(alpha_p=st.floats(0.0, 0.65), width=st.floats(0.0, 1e4))
+def test_filtered_drag_is_a_part_of_the_drag(alpha_p, width):
+    assert 0.0 <= drag.igci_filter(width) * drag.igci_clusters(alpha_p) < 1.0
+
+
+def test_wider_filters_take_more():
+    assert drag.igci_filter(0.0) == 0.0
+    assert drag.igci_filter(2.056) == pytest.approx(0.8880, abs=1e-4)
+    assert drag.igci_filter(1e6) == pytest.approx(1.0, abs=1e-6)

@@ -9,7 +9,7 @@ import pyvista
 from sdph import cli, scenes
 from sdph.case import read as cases
 from sdph.laws import exact
-from sdph.methods.grains.scales import fluidising
+from sdph.methods.grains.materials import fluidising
 from sdph.running.metrics import segregation
 
 WARM = (

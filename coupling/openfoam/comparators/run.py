@@ -17,8 +17,9 @@ from pathlib import Path
 
 import numpy as np
 
-from coupling.openfoam import fields
-from coupling.openfoam.case import HEAD, write_case
+from coupling.openfoam import fields, poly_mesh
+from coupling.openfoam.case import HEAD, others, write_case
+from coupling.openfoam.code import refuse_code
 from coupling.openfoam.comparators import droplet_numbers, two_fluid_fields, two_fluid_numbers
 from coupling.openfoam.comparators.reference import Reference, keep, key, load
 from coupling.openfoam.comparators.start import Start
@@ -87,10 +88,11 @@ def run_two_fluid(
     """Run twoPhaseEulerFoam on the case in `folder`, or take what it gave from the cache.
 
     `progress(time, end)` [s] hears where the run is; `courant` is the largest Courant number of inlets and of grains
-    at the start. `start` says how the grains stand then; without it the scene's template does. `GasError` when OpenFOAM
-    fails.
+    at the start. `start` says how the grains stand then, and on which mesh; without it the scene's template does.
+    `GasError` when OpenFOAM fails.
     """
-    files = {TWO_FLUID.macros: two_fluid_numbers.macros(case, courant)}
+    mesh = poly_mesh.read(start.mesh) if start and start.mesh else None
+    files = {TWO_FLUID.macros: two_fluid_numbers.macros(case, courant, mesh)}
     return _run(TWO_FLUID, case, folder, ranks, files, progress, start)
 
 
@@ -120,19 +122,18 @@ def _run(
     _write(solver, case, folder, ranks, start)
     for name, content in files.items():
         (folder / "constant" / name).write_text(HEAD.format(name=name) + _text(content), encoding="utf-8")
-    begun = start.digest if start else ""
-    kept = shelf() / f"{key(folder, f'{solver.name} {_made_with()} {begun}')}.npz"
+    mesh, begun = (start.mesh, start.digest) if start else (None, "")
+    program = str(install.two_fluid_solver()) if mesh else solver.name  # stock is right on boxes alone
+    kept = shelf() / f"{key(folder, f'{program} {_made_with()} {begun}')}.npz"
     if kept.exists():
         return load(kept)
-    for program in solver.prepare if start is None else ("blockMesh",):
-        programs.run([program], folder, folder / f"log.{program}", environment)
+    for tool in solver.prepare if start is None else () if mesh else ("blockMesh",):
+        programs.run([tool], folder, folder / f"log.{tool}", environment)
     if start:
         _cells(folder, environment)
         two_fluid_fields.tell_start(folder, start)
     began = time.perf_counter()
-    programs.run_solver(
-        solver.name, folder, folder / f"log.{solver.name}", case.run.end_time, progress, environment, ranks
-    )
+    programs.run_solver(program, folder, folder / f"log.{solver.name}", case.run.end_time, progress, environment, ranks)
     reference = _read(solver, folder, environment, time.perf_counter() - began)
     keep(reference, kept)
     return reference
@@ -142,12 +143,16 @@ def _write(solver: Solver, case: Case, folder: Path, ranks: int, start: Start | 
     """The case of OpenFOAM, less its macros of a solver: files that all cases share, what the scene has of its own, and
     start fields where it has none. Our own templates, our own library: code in them is allowed."""
     own = template(case, solver.kind) if start is None else SHARED
+    mesh = start.mesh if start else None
+    if mesh:  # it may come from elsewhere
+        shutil.copytree(mesh / poly_mesh.FOLDER, folder / poly_mesh.FOLDER)
+        refuse_code(folder)
     if not (own / "system" / "controlDict").exists():
         shutil.copytree(own, folder, dirs_exist_ok=True)
         own = SHARED
     if own == SHARED:
         (folder / "0").mkdir(parents=True, exist_ok=True)
-        for name, text in two_fluid_fields.start_fields(case).items():
+        for name, text in two_fluid_fields.start_fields(case, others(case, folder) if mesh else None).items():
             (folder / "0" / name).write_text(text, encoding="utf-8")
     write_case(case, own, folder, ranks, allow_code=True)
 

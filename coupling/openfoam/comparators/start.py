@@ -4,19 +4,26 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from scipy.spatial import cKDTree
 
+from coupling.openfoam import poly_mesh
+
 
 @dataclass(frozen=True)
 class Start:
-    """C cells of D dimensions: centres (C, D) [m], alpha_p (C,) [-], velocity (C, 3) [m/s], temperature (C,) [K]."""
+    """C cells of D dimensions: centres (C, D) [m], alpha_p (C,) [-], velocity (C, 3) [m/s], temperature (C,) [K].
+
+    mesh   OpenFOAM case with the mesh that two fluids run on; without it that of the case's box is made
+    """
 
     centres: np.ndarray
     alpha_p: np.ndarray
     velocity: np.ndarray
     temperature: np.ndarray
+    mesh: Path | None = None
 
     def at(self, places: np.ndarray) -> Start:
         """The same at other places (M, D) [m]: of the nearest cell each."""
@@ -25,8 +32,10 @@ class Start:
 
     @property
     def digest(self) -> str:
-        """Hash of all values."""
+        """Hash of all values, and of the mesh."""
         own = hashlib.sha256()
         for values in (self.centres, self.alpha_p, self.velocity, self.temperature):
             own.update(np.ascontiguousarray(values).tobytes())
+        for path in sorted((self.mesh / poly_mesh.FOLDER).iterdir()) if self.mesh else ():
+            own.update(path.name.encode() + b"\0" + path.read_bytes())
         return own.hexdigest()

@@ -35,8 +35,11 @@ GIVEN_FLUX = "type fixedFluxPressure; value $internalField;"
 STARTED = ("alpha.particles", "U.particles", "T.particles")  # of which a start tells cell by cell
 
 
-def start_fields(case) -> dict[str, str]:
-    """File name -> text, even inside; `tell_start` says how the grains stand."""
+def start_fields(case, others: dict[str, str] | None = None) -> dict[str, str]:
+    """File name -> text, even inside; `tell_start` says how the grains stand. `others`: name -> type of the patches
+    that the case does not name; with None those of the mesh that is made."""
+    if others is None:
+        others = {"frontAndBack": EMPTY} if case.dimensions == 2 else {}
     _refuse_what_differs(case)
     given = [region.temperature for region in case.particles.values() if region.temperature is not None]
     inside = {
@@ -44,7 +47,7 @@ def start_fields(case) -> dict[str, str]:
         "Theta.particles": repr(case.grains.granular_temperature), "p": repr(case.gas.operating_pressure),
         "p_rgh": repr(case.gas.operating_pressure), "U.gas": "(0 0 0)", "U.particles": "(0 0 0)",
     }  # fmt: skip
-    return {name: _field(case, name, inside.get(name, "0")) for name in FIELDS}
+    return {name: _field(case, name, inside.get(name, "0"), others) for name in FIELDS}
 
 
 def _refuse_what_differs(case) -> None:
@@ -80,10 +83,11 @@ def _list(values: np.ndarray) -> str:
     return f"nonuniform List<{kind}> {len(values)}\n(\n" + "\n".join(rows) + "\n)"
 
 
-def _field(case, name: str, inside: str) -> str:
+def _field(case, name: str, inside: str, others: dict[str, str]) -> str:
     cls, dimensions = FIELDS[name]
     sides = {patch: (SAME | KINDS[own.kind](case, own))[name] for patch, own in case.boundaries.items()}
-    sides |= {"frontAndBack": f"type {EMPTY};"} if case.dimensions == 2 else {}
+    still = (SAME | _wall(case, STILL))[name]
+    sides |= {patch: f"type {EMPTY};" if kind == EMPTY else still for patch, kind in others.items()}
     patches = "".join(f"    {patch} {{ {condition} }}\n" for patch, condition in sides.items())
     head = '#include "$FOAM_CASE/constant/sdphCase"\n' + f"dimensions {dimensions};\n"
     body = f"internalField uniform {inside};\nboundaryField\n{{\n{patches}}}\n"

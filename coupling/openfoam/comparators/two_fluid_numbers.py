@@ -7,6 +7,9 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
+from coupling.openfoam.poly_mesh import PolyMesh
 from sdph.case.sections import Case
 from sdph.laws import constants, exact
 from sdph.laws import heat as heat_law
@@ -30,8 +33,8 @@ DRAG_MODELS = {  # drag.law -> OpenFOAM's model
 NO_DRAG = "none"  # of a scene whose template has no drag
 
 
-def macros(case: Case, courant: float = COURANT) -> dict[str, str]:
-    """Macros of the two-fluid templates: name -> text."""
+def macros(case: Case, courant: float = COURANT, mesh: PolyMesh | None = None) -> dict[str, str]:
+    """Macros of the two-fluid templates: name -> text; `mesh` is one of the case's own."""
     gas, grains = case.gas, case.grains
     if gas.equation_of_state != "constant":
         raise CaseError(
@@ -47,7 +50,8 @@ def macros(case: Case, courant: float = COURANT) -> dict[str, str]:
         **_heat_exchange(case),
         **_friction(case),
         **_regions(case),
-        **_time_steps(case, courant),
+        **_time_steps(case, courant, finest(case, mesh)),
+        "non_orthogonal": "corrected" if mesh else "uncorrected",
     }
 
 
@@ -59,6 +63,8 @@ def _refuse_what_has_no_reference(case: Case) -> None:
     """CaseError where the two fluids of OpenFOAM lack what a case has."""
     if "drag" in case.effects and (law := case.parameters["drag"].law) not in DRAG_MODELS:
         raise CaseError(f"drag.law = {law!r}; the two-fluid reference has: {', '.join(DRAG_MODELS)}")
+    if "drag" in case.effects and case.parameters["drag"].filter != "none":
+        raise CaseError('drag.filter = "igci"; the two-fluid reference has none: leave it out to compare')
     if case.gas.turbulent:
         raise CaseError(f"gas.turbulence.model = {case.gas.turbulence.model!r}; the two-fluid reference is laminar")
     alien = sorted(
@@ -97,6 +103,8 @@ def _regions(case: Case) -> dict[str, str]:
     points = {}
     for name, region in case.particles.items():
         lower, upper = (region.lower, region.upper) if region.shape == "box" else (region.centre, region.centre)
+        if lower is None:  # templates select boxes and round ones alone
+            continue
         middle = [0.5 * (a + b) for a, b in zip(lower, upper)]
         points[f"particles_{name}_front"] = _point(lower, -OUTSIDE)
         points[f"particles_{name}_middle"] = _point(middle, 0.5)
@@ -109,7 +117,7 @@ def _point(place, z: float) -> str:
     return f"({x[0]!r} {x[1]!r} {x[2]!r})"
 
 
-def _time_steps(case: Case, courant: float) -> dict[str, str]:
+def _time_steps(case: Case, courant: float, cell: float) -> dict[str, str]:
     """`first_time_step` and `time_steps`, a table of steps against time, for a case that rests; else `time_step`: of
     the fastest that comes in or is there at the start, or of what falls through the domain."""
     given = (*case.boundaries.values(), *case.particles.values())
@@ -117,12 +125,20 @@ def _time_steps(case: Case, courant: float) -> dict[str, str]:
     if fall := sum(abs(g) * size for g, size in zip(case.domain.gravity, case.domain.size)):
         speeds.append(math.sqrt(2.0 * fall))
     if speeds:
-        return {"time_step": repr(divided(case.run.output_interval, courant * case.resolution.cell / max(speeds)))}
+        return {"time_step": repr(divided(case.run.output_interval, courant * cell / max(speeds)))}
     table = resting_steps(case) if "heat" in case.effects else [(0.0, case.run.output_interval / 10.0)]
     return {
         "first_time_step": repr(table[0][1]),
         "time_steps": "(" + " ".join(f"({t!r} {dt!r})" for t, dt in table) + ")",
     }
+
+
+def finest(case: Case, mesh: PolyMesh | None) -> float:
+    """Width [m] of the smallest cell, or of all in a box."""
+    if mesh is None:
+        return case.resolution.cell
+    depth = np.ptp(mesh.points[:, 2]) if case.dimensions == 2 else 1.0
+    return float((mesh.volumes.min() / depth) ** (1.0 / case.dimensions))
 
 
 def divided(interval: float, step: float) -> float:

@@ -98,6 +98,8 @@ public:
     }
 
     const volScalarField& nut() const { return mesh_.lookupObject<volScalarField>("nut"); }
+    tmp<volScalarField> energy() const { return model_().k(); }
+    tmp<volScalarField> dissipation() const { return model_().epsilon(); }
 
     void begin() { model_().validate(); }
 

@@ -15,6 +15,7 @@ from coupling.openfoam.programs.installation import INSTALL_LINE, Installation, 
 
 HERE = Path(__file__).parents[1]
 GAS_SOLVER = HERE / "sdphGasFoam"
+TWO_FLUID_SOLVER = HERE / "twoPhaseEulerFoam"
 TWO_FLUID_CLOSURES = HERE / "twoFluidClosures"
 CODE_GUARD = HERE / "codeGuard"
 GAS_TURBULENCE = HERE / "gasTurbulence"
@@ -32,12 +33,18 @@ __all__ = [
     "require",
     "setup",
     "two_fluid_closures",
+    "two_fluid_solver",
 ]
 
 
 def gas_solver(status: Callable[[str], None] = silent) -> Path:
     """sdphGasFoam, compiled if it must be."""
     return build(GAS_SOLVER, status)
+
+
+def two_fluid_solver(status: Callable[[str], None] = silent) -> Path:
+    """twoPhaseEulerFoam as it must be on cells that are no boxes, compiled if it must be."""
+    return build(TWO_FLUID_SOLVER, status)
 
 
 def two_fluid_closures(status: Callable[[str], None] = silent) -> Path:
@@ -72,7 +79,7 @@ def setup(install: bool = False, status: Callable[[str], None] = print) -> None:
         _apt_install(status)
     found = require()
     status(f"OpenFOAM {found.version} in {found.project}")
-    for made in (gas_solver, two_fluid_closures, code_guard):
+    for made in (gas_solver, two_fluid_solver, two_fluid_closures, code_guard):
         product = made(status)
         status(f"{product.name} is ready: {product}")
 
@@ -108,7 +115,7 @@ def doctor() -> list[Row]:
     rows = [Row("OpenFOAM", found is not None, f"{found.version} in {found.project}" if found else "", get)]
     rows += [_program(name, get) for name in ("blockMesh", "mpirun")]
     rows.append(_compiler(found, get))
-    rows += [_product(source, found) for source in (GAS_SOLVER, TWO_FLUID_CLOSURES, CODE_GUARD)]
+    rows += [_product(source, found) for source in (GAS_SOLVER, TWO_FLUID_SOLVER, TWO_FLUID_CLOSURES, CODE_GUARD)]
     return rows
 
 

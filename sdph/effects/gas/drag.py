@@ -9,7 +9,7 @@ from sdph.effects.effect import Effect, Judgement
 from sdph.effects.gas import sizes
 from sdph.laws import drag as law
 from sdph.laws.compiled import inlined, serial
-from sdph.schema import choice, record
+from sdph.schema import CaseError, choice, quantity, record
 
 LAWS = (
     "gidaspow",
@@ -29,18 +29,37 @@ LAWS = (
 @record
 class Drag:
     law: str = choice(*LAWS)
+    filter: str = choice("none", "igci")
+    filter_cells: float = quantity("", 2.0, above=0.0)  # as MFIX
 
 
 class DragP(NamedTuple):
-    """Law as a place in LAWS; gas viscosity [Pa s]; grain density [kg/m3]."""
+    """Law as a place in LAWS; gas viscosity [Pa s]; grain density [kg/m3]; share of clusters
+    that cells do not resolve [-] (sdph.laws.drag.igci_filter)."""
 
     law: int
     viscosity: float
     grain_density: float
+    unresolved: float = 0.0
 
 
 def kernel(case) -> DragP:
-    return DragP(LAWS.index(case.parameters["drag"].law), case.gas.viscosity, case.grains.density)
+    own = case.parameters["drag"]
+    unresolved = law.igci_filter(filter_width(case)) if own.filter == "igci" else 0.0
+    return DragP(LAWS.index(own.law), case.gas.viscosity, case.grains.density, unresolved)
+
+
+def filter_width(case) -> float:
+    """Width of the filter g Delta/v_t^2 [-], Delta of `filter_cells` cells; those of an own mesh count with the width
+    that the case gives."""
+    gas, grains, gravity = case.gas, case.grains, math.hypot(*case.domain.gravity)
+    terminal = law.terminal_velocity(grains.diameter, grains.density - gas.density, gas.density, gas.viscosity, gravity)
+    if not terminal:
+        raise CaseError(
+            'drag.filter = "igci" goes by the speed at which a grain falls, and here it does not: give '
+            "domain.gravity_m_s2 and grains heavier than the gas, or leave it out"
+        )
+    return gravity * case.parameters["drag"].filter_cells * case.resolution.cell / terminal**2
 
 
 @serial
@@ -83,7 +102,8 @@ def damping(p, sizes_p, s, i, alpha_p, slip, gas_density):
             break
         total += mass * coefficient(p, alpha_p, slip, d, gas_density)
         whole += mass
-    return total / whole / (s.grain_density[i] if len(s.grain_density) else p.grain_density)
+    found = total / whole / (s.grain_density[i] if len(s.grain_density) else p.grain_density)
+    return found * (1.0 - p.unresolved * law.igci_clusters(alpha_p)) if p.unresolved else found
 
 
 def call(scales) -> Judgement:

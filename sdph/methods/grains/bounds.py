@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from sdph.effects.gas import turbulent_dispersion
 from sdph.engine import state as particles
 from sdph.engine.guard import DENSE, FAR, RUNAWAY, TINY, Watch, outside
 from sdph.engine.kept import Unfit
@@ -29,7 +30,7 @@ class Guard(Watch):
         self.pressure = max(map(abs, pressures), default=0.0)
         blown = math.sqrt(2.0 * (max(pressures, default=0.0) - min(pressures, default=0.0)) / case.gas.density)
         agitated = math.sqrt(case.grains.granular_temperature) + scales.sound
-        self.reach = scales.jet + scales.thrown + drop + blown + agitated
+        self.reach = scales.jet + scales.eddies + scales.thrown + drop + blown + agitated
         given = case.temperatures
         stored = min(grains.heat_capacity for grains in case.kinds)
         slack = scales.span + LATENT * max(given) + self.reach**2 / stored
@@ -60,6 +61,7 @@ class Guard(Watch):
             name: (min(own), max(own))
             for name, own in zip(particles.OF_MATERIAL[1:], zip(*(grains.of_particles for grains in self.case.kinds)))
         }
+        bounds |= dict.fromkeys(turbulent_dispersion.AXES, (-math.inf, math.inf))
         bounds |= {"nozzle": (0, len(self.case.nozzles)), "entering": (0, 1)}
         kinds = [particles.GRAIN, particles.INFLOW]
         self.admit(state, names, bounds)

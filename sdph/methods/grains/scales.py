@@ -14,7 +14,8 @@ import numpy as np
 
 from sdph import effects
 from sdph.effects.around.streams import Patch
-from sdph.laws import drag, exact, granular, heat
+from sdph.effects.gas.turbulent_dispersion import begins_with
+from sdph.laws import dispersion, drag, exact, granular, heat
 from sdph.methods.grains import start, ways
 
 SHEAR = 0.5  # sqrt(I2D) over the rate of a simple shear: D_xy is half of it
@@ -79,7 +80,14 @@ class Scales:
     @cached_property
     def slip(self) -> float:
         """Largest velocity between grains and gas [m/s]; 0 where nothing drives either."""
-        return max(self.jet, self.thrown, self.falling, self.rush) if self.patches else 0.0
+        return max(self.jet, self.thrown, self.falling, self.rush, self.eddies) if self.patches else 0.0
+
+    @cached_property
+    def eddies(self) -> float:
+        """Mean fluctuation [m/s] of a turbulent gas at its start, where grains feel it."""
+        if "turbulent_dispersion" not in self.case.effects:
+            return 0.0
+        return dispersion.fluctuation(begins_with(self.gas, self.jet)[0])
 
     @cached_property
     def rush(self) -> float:
@@ -274,13 +282,6 @@ class Scales:
                 self.capped, self.theta, grains.restitution, self.g0, slope, grains.density, 0.0
             )
         )
-
-
-def fluidising(case) -> list[float]:
-    """U_mf [m/s] of each material alone, packed as the densest patch of the case (Ergun 1952)."""
-    s, gas = Scales(case), case.gas
-    around = gas.density, gas.viscosity
-    return [exact.minimum_fluidisation(s.capped, g.density, s.gravity, g.diameter, *around) for g in case.kinds]
 
 
 def scales_of(case) -> Scales:

@@ -8,7 +8,7 @@ import numpy as np
 
 from sdph.case.gas_cells import upwards
 from sdph.engine import state as particles
-from sdph.methods.grains.scales import fluidising
+from sdph.methods.grains.materials import fluidising
 from sdph.schema import CaseError
 
 TOP = 0.5  # of the grains, from above: where the mixing index is looked at; our choice

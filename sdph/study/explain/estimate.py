@@ -12,6 +12,7 @@ import numpy as np
 from sdph import effects
 from sdph.case import gas_cells
 from sdph.case.judge import scales_of
+from sdph.effects.gas.drag import filter_width
 from sdph.engine import device as environment
 from sdph.engine import state as particles
 from sdph.exchange.window import opening
@@ -40,6 +41,7 @@ CELLS_WHY = (
     "windows and cost "
     "(h/cell)^(dimensions + 1); in larger ones a particle that crosses a face makes alpha_p jump"
 )
+FILTER_WHY = "the drag of clusters was fitted to filters of these widths (drag.filter)"
 GRAINS_WHY = (
     "drag and heat laws are means over many grains; in smaller cells a grain meets gas that it has slowed or "
     "cooled itself, and both come out too small"
@@ -116,6 +118,8 @@ def ratios(case) -> list[dict]:
     if "electric_field" in case.effects:
         own = case.parameters["electric_field"].own_field(case.grains, scales_of(case).alpha_p, extent)
         rows.append(("own field / given field", own, 0.0, OWN_FIELD, OWN_FIELD_WHY))
+    if "drag" in case.effects and case.parameters["drag"].filter != "none":
+        rows.append(("filter g / v_t^2", filter_width(case), 2.0, 16.0, FILTER_WHY))
     if "gas_pressure" in case.effects and not case.coupling.one_way:
         rows.append(("gas pushed aside / packed grains", pushed_aside(case), 0.0, ADDED_MASS, ADDED_MASS_WHY))
         if height := blown_height(case):

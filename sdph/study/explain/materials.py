@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from sdph.methods.grains.scales import Scales, fluidising
+from sdph.methods.grains.materials import fluidising
+from sdph.methods.grains.scales import Scales
 
 
 def rows(case) -> list[dict]:

@@ -54,6 +54,17 @@ def taper(floor: float, lid: float, height: float, across: int, along: int) -> s
     return _block_mesh(points, hexes, faces, "")
 
 
+def turned_box(width: float, height: float, across: int, along: int, angle: float) -> str:
+    """blockMeshDict of a plane box, turned by `angle` [rad] about its lower left corner; patches as of `taper`."""
+    corners = [(0.0, 0.0), (width, 0.0), (0.0, height), (width, height)]
+    points = [
+        (x * cos(angle) - y * sin(angle), x * sin(angle) + y * cos(angle), z) for z in (0.0, 1.0) for x, y in corners
+    ]
+    hexes = _hex((0, 1, 3, 2, 4, 5, 7, 6), (across, along, 1))
+    faces = {"frontAndBack": BOX[:2], "wall": BOX[2:4], "inlet": BOX[4:5], "outlet": BOX[5:]}
+    return _block_mesh(points, hexes, faces, "")
+
+
 def _block_mesh(points, hexes: str, patches, edges: str) -> str:
     vertices = "".join(f"    ({_words(map(float, point))})\n" for point in points)
     boundary = "".join(
