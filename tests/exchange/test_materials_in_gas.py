@@ -8,7 +8,7 @@ import pytest
 from grain_boxes import DENSITY, VISCOSITY, Row, go, several, started, windows
 from scipy.optimize import brentq
 
-from sdph.laws import drag
+from sdph.laws import drag, heat
 
 SAND_CAPACITY = 1000.0  # J/kg/K, of all grains of a box
 SAND, CHAR = {"diameter_mm": 0.1}, {"diameter_mm": 0.15, "density_kg_m3": 1000.0, "heat_capacity_J_kg_K": 2500.0}
@@ -117,5 +117,16 @@ def test_nozzles_give_grains_of_their_material(tmp_path):
         np.testing.assert_allclose(s.mass[own], 0.2 * grains.density * 0.005**2, rtol=1e-12)
     assert run.ledger.sums["injected_kg"] > 0.0
     came = {number: float(s.mass[(s.nozzle == number + 1) & (s.kind == 0)].sum()) for number in (0, 1)}
-    heat = came[0] * SAND_CAPACITY * 320.0 + came[1] * 2500.0 * 280.0
-    assert run.ledger.sums["injected_J"] == pytest.approx(heat, rel=1e-12)
+    brought = came[0] * SAND_CAPACITY * 320.0 + came[1] * 2500.0 * 280.0
+    assert run.ledger.sums["injected_J"] == pytest.approx(brought, rel=1e-12)
+
+
+def test_each_takes_the_temperature_of_the_gas_in_its_own_time(tmp_path):
+    """exp(-eps t/(alpha_p rho_p c_p)) of the material's own rho_p, c_p and d, in windows as long as that time."""
+    run = go(started(mixed(["heat"], temperatures=(400.0, 400.0), **windows(0.2, 2)), tmp_path))
+    s, nusselt = run.state, heat.gunn(0.95, 0.0, heat.prandtl_number(VISCOSITY, 1006.43, 0.0242))
+    for number, (density, capacity, diameter) in enumerate(((DENSITY, SAND_CAPACITY, 1e-4), (1000.0, 2500.0, 1.5e-4))):
+        rate = heat.exchange_geometric(0.95, nusselt, 0.0242, diameter) / (density * capacity)
+        left = (s.temperature[s.material == number] - 300.0) / 100.0
+        assert 0.05 < left.mean() < 0.5
+        np.testing.assert_allclose(np.log(left), -0.2 * rate, rtol=0.01)
