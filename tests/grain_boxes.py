@@ -39,6 +39,12 @@ def box(*args, **kwargs):
     return cases.from_table(table(*args, **kwargs))
 
 
+def several(effects, particles, grains, **more):
+    """A box of grains of several materials: these regions, not the one that fills it."""
+    given = table(list(effects), grains=grains, **more)
+    return cases.from_table(given | {"particles": particles})
+
+
 def windows(end, count):
     """Sections of a run to `end` [s] in `count` equal windows."""
     return {"run": {"end_time_s": end, "output_interval_s": end},

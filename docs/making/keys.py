@@ -11,13 +11,14 @@ from pathlib import Path
 
 from making.docstrings import escaped
 from sdph import effects
+from sdph.case import matter
 from sdph.case import sections as declared
 from sdph.schema import PLAUSIBLE, SAME_AS, fields, write
 from sdph.study.gel_droplet.sections import CLASSES
 
 MEANINGS = Path(__file__).parents[1] / "keys.toml"
 SINGLE = {
-    "gas.turbulence": declared.Turbulence, "coupling": declared.Coupling, "vapour": declared.Vapour,
+    "gas.turbulence": matter.Turbulence, "coupling": declared.Coupling, "vapour": declared.Vapour,
     "liquid": declared.Liquid, "method": declared.LiquidMethod, "gas_phase": declared.GasPhase, "solid": declared.Solid,
 }  # fmt: skip
 WRITTEN = {  # unit in a key -> as it is written

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 
 from sdph import effects, scenes
-from sdph.case import beside, bodies, periods, probed, profiles, regions, turbulent
+from sdph.case import beside, bodies, materials, periods, probed, profiles, regions, turbulent
 from sdph.case.extents import SAME, inside, mouth, probe, side
 from sdph.case.sections import Case, Region
 from sdph.methods.liquids.sections import Pool
@@ -42,6 +42,8 @@ def flow(case, where: str, pool) -> None:
 def check(case: Case) -> None:
     """Check what several keys decide together: `CaseError` where they do not fit."""
     beside.check(case)
+    if case.grains:
+        materials.check(case)
     if case.liquid and (case.gas is None) != (case.grains is None):
         raise CaseError("a liquid stands alone, or beside grains in a gas: give both [grains] and [gas], or neither")
     _check_forces(case)

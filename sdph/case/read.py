@@ -14,7 +14,7 @@ from pathlib import Path
 import tomli_w
 
 from sdph import effects, scenes
-from sdph.case import fluids, judge, moving
+from sdph.case import fluids, judge, materials, moving
 from sdph.case.check import check
 from sdph.case.sections import GROUPS, SECTIONS, Case, Coupling, Vapour
 from sdph.methods.liquids.sections import GasPhase, Liquid
@@ -147,7 +147,11 @@ def from_table(table: dict) -> Case:
             raise CaseError(unknown(key, head | SECTIONS.keys() | GROUPS.keys() | effects.REGISTRY.keys()))
     spared = {"gas", "grains"} if table.keys() & {"liquid", "solid"} else set()
     given = {name: cls for name, cls in SECTIONS.items() if name not in spared - table.keys()}
+    kinds = materials.materials(table)
+    if kinds:
+        del given["grains"]
     sections = dict.fromkeys(SECTIONS) | {name: _section(cls, table.get(name, {}), name) for name, cls in given.items()}
+    sections |= {"grains": next(iter(kinds.values()))} if kinds else {}
     groups = {name: _group(cls, table.get(name, {}), name) for name, cls in GROUPS.items()}
     on = _effects(table)
     case = Case(
@@ -159,6 +163,7 @@ def from_table(table: dict) -> Case:
         **{name: _section(cls, table[name], name) if name in table else None for name, cls in METHODS.items()},
         vapour=_section(Vapour, table["vapour"], "vapour") if "vapour" in table else None,
         track=_track(table),
+        materials=kinds,
         parameters={name: _section(effects.REGISTRY[name].parameters, table.get(name, {}), name) for name in on},
         **sections,
         **groups,
@@ -241,6 +246,7 @@ def to_table(case: Case) -> dict:
     """The TOML table of a case, every value resolved."""
     table = {"title": case.title, "scene": case.scene, "dimensions": case.dimensions, "effects": list(case.effects)}
     table |= {name: write(getattr(case, name)) for name in (*SECTIONS, "coupling", *METHODS) if getattr(case, name)}
+    table |= {"grains": materials.tables(case)} if case.materials else {}
     table |= {group: {name: write(entry) for name, entry in getattr(case, group).items()} for group in GROUPS}
     table |= {name: write(parameters) for name, parameters in case.parameters.items() if write(parameters)}
     if case.vapour:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 
+from sdph.case.matter import GasProperties, Grains, Vapour
 from sdph.effects import REGISTRY
 from sdph.effects.around.nozzles import Nozzle
 from sdph.engine.geometry import SIDES
@@ -12,11 +13,10 @@ from sdph.engine.rows import SKIN
 from sdph.methods.liquids.sections import GasPhase, Liquid, Pool
 from sdph.methods.mps.sections import LiquidMethod
 from sdph.methods.solids.sections import Body, Solid
-from sdph.schema import choice, file, flag, quantity, record, section, vector, whole, words
+from sdph.schema import choice, file, flag, quantity, record, vector, whole, words
 
 OPENINGS = ("inflow", "outflow")  # effects that act on the grains alone where grains and a liquid are side by side
 HEATING = {"heat", "conduction", "radiation", "evaporation", "micro_explosion"}
-STANDARD_ATMOSPHERE = 101325.0  # Pa, ISO 2533
 PEAK = {"uniform": 1.0, "parabolic": 1.5}  # profile of an inlet -> its largest velocity over the mean
 
 
@@ -75,69 +75,6 @@ class Resolution:
 
 
 @record
-class Turbulence:
-    """Turbulence of the gas by a model of OpenFOAM's library: eddy viscosity, and with it diffusion and conduction. k,
-    epsilon and omega are those of gas that flows in, and of all of it at the start."""
-
-    model: str = choice("laminar", "kEpsilon", "kOmegaSST", "WALE")
-    schmidt_number: float = quantity("", 0.7, above=0.0)  # Fluent's default (theory guide)
-    prandtl_number: float = quantity("", 0.85, above=0.0)  # the same
-    intensity: float = quantity("", 0.05, above=0.0, most=10.0)  # medium, as in Fluent and OpenFOAM's tutorials
-    mixing_length: float | None = quantity("m", None, above=0.0)
-    k: float | None = quantity("m2_s2", None, above=0.0)
-    epsilon: float | None = quantity("m2_s3", None, above=0.0)
-    omega: float | None = quantity("1_s", None, above=0.0)
-
-
-@record
-class GasProperties:
-    fluid: str = words("")  # of CoolProp: fills what is left out (sdph.case.fluids)
-    density: float = quantity("kg_m3", above=0.0)
-    viscosity: float = quantity("Pa_s", above=0.0)
-    conductivity: float = quantity("W_m_K", above=0.0)
-    heat_capacity: float = quantity("J_kg_K", above=0.0)
-    temperature: float = quantity("K", above=0.0)
-    equation_of_state: str = choice("constant", "operating", "ideal")
-    molar_mass: float = quantity("kg_kmol", 28.96, above=0.0)  # dry air, ISO 2533
-    operating_pressure: float = quantity("Pa", STANDARD_ATMOSPHERE, above=0.0)
-    turbulence: Turbulence | None = section(Turbulence)
-
-    @property
-    def turbulent(self) -> bool:
-        """True where a model of turbulence is on."""
-        return self.turbulence is not None and self.turbulence.model != "laminar"
-
-
-@record
-class Vapour:
-    """The species that grains or droplets give to the gas."""
-
-    molar_mass: float = quantity("kg_kmol", above=0.0)
-    diffusivity: float = quantity("m2_s", above=0.0)
-    heat_capacity: float = quantity("J_kg_K", above=0.0)
-    conductivity: float = quantity("W_m_K", above=0.0)
-    viscosity: float = quantity("Pa_s", above=0.0)
-
-
-@record
-class Grains:
-    """Grains of one material; each SPH particle carries a log-normal distribution of diameters (by number)."""
-
-    fluid: str = words("")  # of droplets: fills what is left out, of evaporation and vapour too (sdph.case.fluids)
-    density: float = quantity("kg_m3", above=0.0)
-    diameter: float = quantity("mm", above=0.0)
-    heat_capacity: float = quantity("J_kg_K", above=0.0)
-    conductivity: float = quantity("W_m_K", above=0.0, tiny=True)  # grains may insulate
-    diameter_std: float = quantity("mm", 0.0, least=0.0)
-    # not in the paper: Fluent's default (sdph-notes, section 2)
-    restitution: float = quantity("", 0.9, least=0.0, most=0.9999)
-    packing_limit: float = quantity("", 0.63, above=0.0, most=0.74)  # the same
-    # of droplets: for Weber and Bond numbers of `sdph explain`
-    surface_tension: float | None = quantity("N_m", None, above=0.0)
-    granular_temperature: float = quantity("m2_s2", 1e-4, least=0.0)  # at the start; the same
-
-
-@record
 class Region:
     """Region that particles fill at the start: a disc or sphere (centre, radius), a box (lower, upper), a cylinder or a
     cone along an axis about its centre, the inside of a closed mesh, or of the walls. What is not in front of
@@ -161,6 +98,7 @@ class Region:
     # particles stand off the lattice by up to so many spacings, at random: beds then are not mirror-symmetric
     disorder: float = quantity("", 0.0, least=0.0, most=0.25)
     seed: int = whole(0, least=0)  # of that chance
+    material: str = words("")  # of its grains, where there are several
 
 
 @record
@@ -219,7 +157,8 @@ class Case:
     domain: Domain
     resolution: Resolution
     gas: GasProperties | None  # None in a case without grains
-    grains: Grains | None  # the same
+    grains: Grains | None  # the same; of several materials the first
+    materials: dict[str, Grains]  # by name, in the order of the case; none where [grains] is one without a name
     liquid: Liquid | None
     method: LiquidMethod | None  # of the liquid; None: weakly compressible
     gas_phase: GasPhase | None
@@ -241,6 +180,32 @@ class Case:
         given = {"grains": self.grains, "liquid": self.liquid, "solid": self.solid}
         return tuple(matter for matter, section in given.items() if section is not None)
 
+    @property
+    def kinds(self) -> tuple[Grains, ...]:
+        """Materials of the grains."""
+        return tuple(self.materials.values()) or (self.grains,)
+
+    @property
+    def mixed(self) -> bool:
+        """True where grains are of several materials."""
+        return len(self.materials) > 1
+
+    def of(self, name: str) -> Grains:
+        """Material of a name; without one that of all grains."""
+        return self.materials[name] if name else self.grains
+
+    def number(self, name: str) -> int:
+        """Number of a material, counted from 0."""
+        return list(self.materials).index(name) if name else 0
+
+    def of_one(self, name: str) -> Case:
+        """The case if all grains were of one of its materials: for scales and numbers of each."""
+        parts = {
+            group: {key: dataclasses.replace(part, material="") for key, part in getattr(self, group).items()}
+            for group in ("particles", "nozzles")
+        }
+        return dataclasses.replace(self, grains=self.materials[name], materials={}, **parts)
+
     def only(self, matter: str) -> Case:
         """The case without its other matter, and without the effects that act on that alone."""
         if self.matters == (matter,):
@@ -249,7 +214,7 @@ class Case:
         kept = tuple(name for name in self.effects if matter in REGISTRY[name].matter and name not in given)
         left = {"effects": kept, "parameters": {name: self.parameters[name] for name in kept}}
         grains = dict.fromkeys(("gas", "grains", "vapour")) | {"track": ()}
-        grains |= {group: {} for group in ("particles", "boundaries", "probes", "nozzles")}
+        grains |= {group: {} for group in ("particles", "boundaries", "probes", "nozzles", "materials")}
         liquid, solid = dict.fromkeys(("liquid", "gas_phase")) | {"pools": {}}, {"solid": None, "bodies": {}}
         others = {"grains": liquid | solid, "liquid": grains | solid, "solid": grains | liquid}
         return dataclasses.replace(self, **left, **others[matter])

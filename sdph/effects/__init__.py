@@ -19,6 +19,7 @@ from sdph.effects.grains import (
     artificial_viscosity,
     conduction,
     friction,
+    grain_drag,
     grain_shifting,
     granular_pressure,
     granular_temperature,
@@ -41,6 +42,7 @@ from sdph.effects.liquids import (
 )
 from sdph.effects.solids import inflation, rigid_sides
 from sdph.engine.ledger import Column
+from sdph.engine.state import OF_MATERIAL
 
 FILES = (
     drag,
@@ -54,6 +56,7 @@ FILES = (
     granular_viscosity,
     granular_temperature,
     artificial_viscosity,
+    grain_drag,
     grain_shifting,
     walls,
     heat,
@@ -98,8 +101,9 @@ def limits(parameters, case, state) -> dict[str, float]:
 
 
 def arrays(case) -> set[str]:
-    """Arrays of the state that the effects that are on need."""
-    return {name for effect in case.effects for name in REGISTRY[effect].arrays}
+    """Arrays of the state that the effects that are on need, and grains of several materials."""
+    of_grains = (*OF_MATERIAL, "diameter", "diameter_variance") if case.mixed else ()
+    return {*of_grains, *(name for effect in case.effects for name in REGISTRY[effect].arrays)}
 
 
 def window_limits(parameters, case, state) -> dict[str, float]:

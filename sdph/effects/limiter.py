@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from sdph.engine import softening
-from sdph.engine.state import GRAIN
+from sdph.engine.state import GRAIN, by_material
 from sdph.laws import granular
 from sdph.laws.compiled import serial
 
@@ -21,7 +21,9 @@ def share(state, held) -> float:
 def capped(p, state) -> dict[str, float]:
     """Share of the particles that closures take for less packed than they are (sdph.laws.granular.capped_fraction)."""
     most = granular.capped_fraction(1.0, p.packing)
-    return {"alpha_p_capped_share": share(state, state.density / p.grain_density > most)}
+    return {
+        "alpha_p_capped_share": share(state, state.density / by_material(state.grain_density, p.grain_density) > most)
+    }
 
 
 def softened(p, method) -> dict[str, float]:
@@ -34,7 +36,7 @@ def streaming(p, state, factor: float, name: str) -> dict[str, float]:
     """Share of the particles whose free path `granular.streaming_share` limits, and the mean part of the kinetic
     coefficient `name` that this takes away."""
     taken = np.empty(len(state.x))
-    _taken(p, state.density / p.grain_density, state.diameter, factor, taken)
+    _taken(p, state.density / by_material(state.grain_density, p.grain_density), state.diameter, factor, taken)
     return {f"knudsen_{name}_share": share(state, taken > 0.0), f"knudsen_{name}_rel": share(state, taken)}
 
 

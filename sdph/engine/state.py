@@ -37,6 +37,10 @@ class State(NamedTuple):
     temperature: np.ndarray
     diameter: np.ndarray
     diameter_variance: np.ndarray
+    material: np.ndarray
+    grain_density: np.ndarray
+    grain_capacity: np.ndarray
+    grain_conductivity: np.ndarray
     theta: np.ndarray
     contact_xx: np.ndarray
     contact_yy: np.ndarray
@@ -97,7 +101,7 @@ FIELDS = {
     "x": ("m", "position"), "y": ("m", "position"), "z": ("m", "position"),
     "u": ("m/s", "velocity"), "v": ("m/s", "velocity"), "w": ("m/s", "velocity"),
     "mass": ("kg", "mass, per metre of depth in two dimensions"),
-    "density": ("kg/m3", "alpha_p rho_p, by summation"),
+    "density": ("kg/m3", "alpha_p of all grains times rho_p of its own, by summation"),
     "ident": ("1", "number that a particle keeps for life"),
     "kind": ("1", "0 grain, 1 wall, 2 liquid, 3 gas beside a liquid, 4 grain upstream of its nozzle, 5 solid"),
     "nozzle": ("1", "number of the nozzle that it comes from, counted from 1; 0: of none"),
@@ -105,6 +109,10 @@ FIELDS = {
     "temperature": ("K", "temperature of the grains"),
     "diameter": ("m", "number mean of the grain diameters"),
     "diameter_variance": ("m2", "number variance of the grain diameters"),
+    "material": ("1", "number of its material, counted from 0; of grains of several, as the next three"),
+    "grain_density": ("kg/m3", "density rho_p of its material"),
+    "grain_capacity": ("J/kg/K", "specific heat of its material"),
+    "grain_conductivity": ("W/m/K", "conductivity of its material"),
     "theta": ("m2/s2", "granular temperature"),
     **{f"contact_{ab}": ("Pa", f"deviator of the stress of lasting contacts, {ab}") for ab in ("xx", "yy", "xy", "yz",
     "zx")},
@@ -145,9 +153,11 @@ FIELDS = {
 }  # fmt: skip
 ALWAYS = ("x", "y", "u", "v", "mass", "density", "ident", "kind")
 IN_SPACE = {"z", "w", "contact_yz", "contact_zx", "eddy_z", "push_z", "way_z"}  # of length zero in two dimensions
+OF_MATERIAL = ("material", "grain_density", "grain_capacity", "grain_conductivity")  # there where grains are of several
 INTEGERS = {
     "ident": np.int64,
     "kind": np.int8,
+    "material": np.int8,
     "nozzle": np.int32,
     "entering": np.int8,
     "exchanged": np.int8,
@@ -217,6 +227,11 @@ def vectors(a, b, c) -> np.ndarray:
     if len(c):
         out[:, 2] = c
     return out
+
+
+def by_material(values: np.ndarray, common: float):
+    """Values (N,) of each particle's own material, or the one of all grains where they are of one."""
+    return values if len(values) else common
 
 
 def energy_of_motion(state: State) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from coupling.transfer import deposit, gather
+from sdph.engine.state import by_material
 
 
 class Cells:
@@ -13,9 +14,10 @@ class Cells:
     def __init__(self, mesh, grain_density: float):
         self.volumes, self.grain_density = mesh.volumes / mesh.depth, grain_density
 
-    def room(self, weights, mass) -> np.ndarray:
-        """Gas volume fraction of the cells with grains of `mass` (N,) [kg] in them."""
-        return 1.0 - deposit(weights, mass / self.grain_density) / self.volumes
+    def room(self, weights, mass, densities=()) -> np.ndarray:
+        """Gas volume fraction of the cells with grains of `mass` (N,) [kg] in them; `densities` (N,) [kg/m3] of their
+        materials, where there are several."""
+        return 1.0 - deposit(weights, mass / (densities if len(densities) else self.grain_density)) / self.volumes
 
     def density(self, weights, amounts) -> np.ndarray:
         """Extensive amounts (N,) or (N, m) of the particles per volume of the cells."""
@@ -27,3 +29,8 @@ class Cells:
         cells = deposit(weights, np.column_stack((mass, mass[:, None] * velocity)))
         there = cells[:, :1] > 0.0
         return gather(weights, np.divide(cells[:, 1:], cells[:, :1], out=np.zeros_like(cells[:, 1:]), where=there))
+
+
+def capacity_of(case, state):
+    """Specific heat [J/kg/K] of the particles (N,), or the one of all."""
+    return by_material(state.grain_capacity, case.grains.heat_capacity)

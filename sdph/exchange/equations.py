@@ -63,7 +63,7 @@ def rates(
     for i in prange(len(s.x)):
         conductance[i] = damping[i] = 0.0
         if s.kind[i] == GRAIN:
-            alpha_p = s.density[i] / grain_density
+            alpha_p = s.density[i] / (s.grain_density[i] if len(s.grain_density) else grain_density)
             r = film.ratio(film_p, s, i, gas_temperature[i])
             around = gas_density[i] * (r * r)
             conductance[i] += heat.conductance(heat_p, sizes_p, s, i, alpha_p, slip[i], around) / r
@@ -88,7 +88,7 @@ def shares(s, temperature, heat_capacity, origin, dt, conductance, damping, kept
     """
     for i in prange(len(s.x)):
         heat_share[i] = pull[i] = 0.0
-        capacity = kept[i] * heat_capacity
+        capacity = kept[i] * (s.grain_capacity[i] if len(s.grain_capacity) else heat_capacity)
         if conductance[i] > 0.0:
             heat_share[i] = (
                 capacity * exponential_fraction(dt * conductance[i] / capacity) / dt if capacity > 0.0 else 0.0

@@ -29,10 +29,10 @@ from sdph import effects
 from sdph.effects import OFF
 from sdph.effects.around import electric_field
 from sdph.effects.gas import break_up, film, radiation, sizes, turbulent_dispersion
-from sdph.engine.state import GRAIN, lengths
+from sdph.engine.state import GRAIN, by_material, lengths
 from sdph.exchange import bursts, equations
 from sdph.exchange.amounts import Handed, Taken
-from sdph.exchange.cells import Cells
+from sdph.exchange.cells import Cells, capacity_of
 from sdph.exchange.equations import Seen, temperature_span, vapour_concentration
 from sdph.exchange.vapour import Vapour
 from sdph.exchange.window import settling
@@ -63,7 +63,7 @@ class Exchange:
 
     def alpha_g(self, state, weights, inside=1.0) -> np.ndarray:
         """Gas volume fraction of the cells; `inside` (N,) is the share of each particle that is in the gas."""
-        return self.cells.room(weights, state.mass * inside)
+        return self.cells.room(weights, state.mass * inside, state.grain_density)
 
     def hand(self, state, weights, ahead, gas_state, dt) -> Handed:
         """Coefficients from the old gas state, and the sources for the gas.
@@ -108,7 +108,7 @@ class Exchange:
             loss,
             self.origin,
         )
-        alpha_g = self.cells.room(there, kept * inside) if "alpha_g" in self.sources else None
+        alpha_g = self.cells.room(there, kept * inside, state.grain_density) if "alpha_g" in self.sources else None
         around = (seen.slip, seen.density)
         handed = replace(handed, alpha_g=alpha_g, gone=missed, around=around, against=against, eddies=eddies)
         return replace(handed, terms=self._terms(handed))
@@ -185,9 +185,9 @@ class Exchange:
 
     def _resistance(self, state, weights, gas_state) -> tuple[np.ndarray, np.ndarray]:
         """Mask of the cells with grains, and 1/C_p + 1/C_g of these [m3 K/J]."""
-        content = self.cells.density(weights, state.mass * (state.kind == GRAIN) * self.case.grains.heat_capacity)
+        content = self.cells.density(weights, state.mass * (state.kind == GRAIN) * capacity_of(self.case, state))
         gas = (
-            self.cells.room(weights, state.mass * (state.kind == GRAIN))
+            self.cells.room(weights, state.mass * (state.kind == GRAIN), state.grain_density)
             * gas_state.fields["density"]
             * self.case.gas.heat_capacity
         )
@@ -254,7 +254,7 @@ class Exchange:
     def _with_radiation(self, taken: Taken, state, handed: Handed) -> Taken:
         """The same with what leaves to the surroundings, half of it before and half of it after the exchange with the
         gas."""
-        capacity, half = handed.mass * self.case.grains.heat_capacity, 0.5 * handed.dt
+        capacity, half = handed.mass * capacity_of(self.case, state), 0.5 * handed.dt
         before = self._radiated(state, handed.temperature, half)
         between = before + np.divide(taken.warming, capacity, out=np.zeros_like(capacity), where=capacity > 0.0)
         lost = capacity * (handed.temperature - before + between - self._radiated(state, between, half))
@@ -277,7 +277,8 @@ class Exchange:
         mass = state.mass * (state.kind == GRAIN)
         if not self.parameters["gas_pressure"] or self.case.coupling.one_way or not mass.any():
             return 0.0
-        alpha_p = np.minimum(state.density / self.case.grains.density, self.case.grains.packing_limit)
+        own = by_material(state.grain_density, self.case.grains.density)
+        alpha_p = np.minimum(state.density / own, self.case.grains.packing_limit)
         return float(np.average(damping / (1.0 - alpha_p) ** 2, weights=mass))
 
     def settling(self, state, damping, own, slip) -> float:

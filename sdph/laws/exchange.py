@@ -42,6 +42,13 @@ def cleary_monaghan(pull, r_squared, eta_squared, conductivity, grain_density, d
 
 
 @law
+def cleary_monaghan_unlike(pull, r_squared, eta_squared, k_i, k_j, densities):
+    """The same of grains of two materials: 4 m_j/(rho_i rho_j) K_i K_j/(K_i + K_j) r.grad_i W/(r^2 + eta^2), with K =
+    alpha_p k [W/(m K)] of each and `densities` rho_i rho_j [kg2/m6]. Cleary & Monaghan 1999 (as above)."""
+    return 2.0 * harmonic_mean(k_i, k_j) * pull * r_squared / (r_squared + eta_squared) / densities
+
+
+@law
 def mean_rise(power, conductance, capacity, dt):
     """Mean over dt [s] of the rise [K] of a body of `capacity` [J/K] heated with power - conductance * rise [W]."""
     if conductance * dt <= SHORT * capacity:

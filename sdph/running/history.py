@@ -75,7 +75,9 @@ def _of_grains(case, state, field: str) -> np.ndarray:
     """A field (N,) or (N, 3) of the grains."""
     if field == "velocity":
         return particles.velocities(state)
-    return state.density / case.grains.density if field == "alpha_p" else getattr(state, field)
+    if field != "alpha_p":
+        return getattr(state, field)
+    return state.density / particles.by_material(state.grain_density, case.grains.density)
 
 
 def _place(point) -> np.ndarray:

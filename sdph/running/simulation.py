@@ -12,6 +12,7 @@ from coupling.transfer import Transfer, gather
 from sdph import effects
 from sdph.case import probed
 from sdph.effects.around import electric_field
+from sdph.engine import state as particles
 from sdph.engine.kept import Unfit
 from sdph.exchange.exchange import Exchange
 from sdph.exchange.window import Window, learned
@@ -270,7 +271,8 @@ class Simulation:
         """Gravity (3,), the gas's pressure gradient and the electric field (N, 3), held over the window [m/s2]."""
         pressed = np.zeros((len(self.state.x), 3))
         if self.parameters["gas_pressure"]:
-            pressed -= gather(handed.weights, self.gas_state.fields["pressure_gradient"]) / self.case.grains.density
+            own = particles.by_material(self.state.grain_density[:, None], self.case.grains.density)
+            pressed -= gather(handed.weights, self.gas_state.fields["pressure_gradient"]) / own
         return self.stepper.gravity, pressed, electric_field.acceleration(self.parameters["electric_field"], self.state)
 
     def _timed(self, part: str, function, *arguments):

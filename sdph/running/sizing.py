@@ -74,13 +74,14 @@ def metrics(simulation) -> dict[str, float]:
 def tally(p, density, s, number, first, second, third, volume):
     """Fill a Census; `p` of the sizes, density [kg/m3]. What lies beyond LEAST and MOST counts as of them."""
     for i in range(len(s.x)):
+        rho = s.grain_density[i] if len(s.grain_density) else density
         if len(p) == 0:
             d = s.diameter[i]
             first[i], second[i], third[i] = d, d * d, d * d * d
-            volume[place(d)] += s.mass[i] / density
+            volume[place(d)] += s.mass[i] / rho
         else:
-            share(sizes.birth(p, s, i), s.mass[i] / density, i, first, second, third, volume)
-        number[i] = s.mass[i] / (density * math.pi / 6.0 * third[i]) if third[i] > 0.0 else 0.0
+            share(sizes.birth(p, s, i), s.mass[i] / rho, i, first, second, third, volume)
+        number[i] = s.mass[i] / (rho * math.pi / 6.0 * third[i]) if third[i] > 0.0 else 0.0
 
 
 @serial

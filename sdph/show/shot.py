@@ -161,7 +161,8 @@ def chosen(shots: list[Shot], field: str | None) -> str:
     return field or _subject(shots, known)
 
 
-TOLD_BY = {"bubble": "alpha_p", "column": "alpha_p", "agitation": "theta"}  # metrics of a case -> what it is about
+# metrics of a case -> what it is about
+TOLD_BY = {"bubble": "alpha_p", "column": "alpha_p", "agitation": "theta", "segregation": "material"}
 WARM = 1.0  # K that temperatures must differ by to be a subject; our choice
 SLOW = 1e-3  # of the speed of sound: a liquid that moves no faster than that is about its pressure; our choice
 

@@ -30,6 +30,7 @@ QUANTITIES = {
     "ident": Quantity("number", "1"),
     "kind": Quantity("kind", "1"),
     "sealed": Quantity("sealed", "1"),
+    "material": Quantity("material", "1"),
     "piece": Quantity("piece", "1"),
     "body": Quantity("body", "1"),
     "free": Quantity("torn off", "1"),

@@ -13,6 +13,11 @@ from sdph.study.compare import open_run, scene_module
 def compare(folder: Path, against: str) -> list[dict]:
     """The checks of a run against `tfm`, `dpm` or `exact`, the scene's own first; the figure goes to the run folder."""
     run = open_run(folder)
+    if run.case.mixed and against != "exact":
+        raise CaseError(
+            f"--against {against}: its grains are of one material, and those of {folder} of several "
+            f"({', '.join(run.case.materials)}); compare a run of one"
+        )
     module = scene_module(run.case.scene)
     shared = {"tfm": two_fluid.tfm} if run.case.grains and not run.case.vapour else {}
     function = getattr(module, against, shared.get(against))

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from grain_boxes import box, started
+from grain_boxes import box, several, started
 
 from sdph import scenes
 from sdph.case import read as cases
@@ -13,6 +13,7 @@ from sdph.methods.liquids.method import LiquidStepper
 
 BED = ["granular_pressure", "granular_viscosity", "granular_temperature", "friction", "artificial_viscosity",
        "conduction"]  # fmt: skip
+WHOLE = {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.1, 0.1], "volume_fraction": 0.61, "temperature_K": 300.0}
 THIN = ["effects=['gravity', 'density_diffusion', 'shear_thinning', 'tank']", "shear_thinning.model='power_law'",
         "shear_thinning.index=0.5", "shear_thinning.least_viscosity_Pa_s=1e-3",
         "shear_thinning.most_viscosity_Pa_s=1.0", "liquid.viscosity_Pa_s=0.1"]  # fmt: skip
@@ -66,10 +67,27 @@ def liquid_answer(name, extra=()):
     return np.column_stack((rate, own.acceleration))[inside & (own.volume > 0.0)]
 
 
-def grain_answer(folder, extra=()):
+def of_two(own):
+    """Sand and char, particle by particle."""
+    s = own.state
+    s.material[:] = s.ident % 2
+    for name, char in (("grain_density", 1000.0), ("grain_capacity", 500.0), ("grain_conductivity", 3.0)):
+        getattr(s, name)[s.material == 1] = char
+    s.mass[s.material == 1] *= 1000.0 / 3060.0
+    own.prepare()
+
+
+def grain_answer(folder, extra=(), mixed=False):
     """Density, then velocities, theta, temperature and stress of contacts of the own grains after a sub-step."""
-    case = box(BED, size=(0.1, 0.1), alpha_p=0.61)
+    if mixed:
+        parts = {"bed": WHOLE | {"material": "sand"}}
+        case = several(BED, parts, {"sand": {}, "char": {"density_kg_m3": 1000.0}}, size=(0.1, 0.1))
+    else:
+        case = box(BED, size=(0.1, 0.1), alpha_p=0.61)
     own = started(case, folder).stepper
+    if mixed:
+        of_two(own)
+    halo = (*own.HALO, *own.OF_SEVERAL) if mixed else own.HALO
     s, zeros = own.state, np.zeros(len(own.state.x))
     own.force(zeros, np.zeros((len(zeros), 3)), zeros)
     s, inside, rng = own.state, strewn(own.state), np.random.default_rng(1)
@@ -78,7 +96,7 @@ def grain_answer(folder, extra=()):
     s.temperature[:] += rng.random(len(zeros))
     s.theta[:] *= 1.0 + rng.random(len(zeros))
     if extra is not None:
-        poison(own, (*(name for name in s._fields if name not in own.HALO), *extra), ~inside)
+        poison(own, (*(name for name in s._fields if name not in halo), *extra), ~inside)
     density = np.empty(len(zeros))
     own._sum(density)
     own._constitute()
@@ -99,6 +117,16 @@ def test_grains_take_what_they_declare_and_nothing_else(tmp_path):
     whole = grain_answer(tmp_path, None)
     assert np.isfinite(whole).all()
     np.testing.assert_array_equal(grain_answer(tmp_path / "poisoned"), whole)
+
+
+def test_grains_of_several_materials_take_these_besides(tmp_path):
+    (tmp_path / "poisoned").mkdir()
+    whole = grain_answer(tmp_path, None, mixed=True)
+    assert np.isfinite(whole).all()
+    np.testing.assert_array_equal(grain_answer(tmp_path / "poisoned", mixed=True), whole)
+    for field in Stepper.OF_SEVERAL:
+        (tmp_path / field).mkdir()
+        assert not np.array_equal(grain_answer(tmp_path / field, (field,), mixed=True), whole), field
 
 
 def test_liquids_declare_nothing_for_nothing():

@@ -86,6 +86,7 @@ SHORT = {
     "tank_with_flap": (("resolution.spacing_mm=6.25", "run.end_time_s=0.3"), ("exact",)),
     "cylindrical_bed": (("resolution.spacing_mm=9.0", "run.end_time_s=0.5"), ("exact",)),
     "tapered_bed": (("resolution.spacing_mm=9.0", "run.end_time_s=1.0"), ("exact",)),
+    "segregation": (("run.end_time_s=3.0",), ("paper",)),
     "bed_with_tube": (("resolution.spacing_mm=8.0", "run.end_time_s=1.0"), ("exact",)),
 }
 # scene -> how the checks begin that such a run misses, and why

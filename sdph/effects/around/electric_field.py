@@ -15,6 +15,7 @@ import numpy as np
 
 from sdph.effects.effect import NO_LIMIT, Effect, Judgement
 from sdph.engine.ledger import Column
+from sdph.engine.state import by_material
 from sdph.laws import electrostatics as law
 from sdph.laws.break_up import sauter_diameter
 from sdph.schema import CaseError, quantity, record, vector
@@ -74,7 +75,7 @@ def acceleration(p, state) -> np.ndarray:
 
 def _charge_per_mass(p, state) -> np.ndarray:
     """(N,) [C/kg]."""
-    return law.charge_per_mass(p.surface_charge, _d32(state), p.grain_density)
+    return law.charge_per_mass(p.surface_charge, _d32(state), by_material(state.grain_density, p.grain_density))
 
 
 def _d32(state) -> np.ndarray:

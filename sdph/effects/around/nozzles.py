@@ -8,7 +8,7 @@ from sdph.effects.around import rates, sizes
 from sdph.effects.around.streams import ROUND_OFF, Streams, layers_of, streams_of
 from sdph.schema import CaseError, choice, file, quantity, record, vector, whole, words
 
-OF_GRAINS = ("temperature", "volume_fraction", "rate", *sizes.OF_LAW)
+OF_GRAINS = ("temperature", "volume_fraction", "rate", "material", *sizes.OF_LAW)
 
 
 @record
@@ -50,6 +50,7 @@ class Nozzle:
     most_diameter: float | None = quantity("mm", None, above=0.0)  # largest; none: no bound
     diameters: tuple = vector("mm", ())  # of sizes = "given", one by one
     shares: tuple = vector("", ())  # of the mass, of each of them; none: equal
+    material: str = words("")  # of its grains, where there are several
     start: float = quantity("s", 0.0, least=0.0)
     end: float | None = quantity("s", None, above=0.0)
 
@@ -124,7 +125,7 @@ def _check_grains(case, where: str, nozzle: Nozzle) -> None:
 def _check_liquid(case, where: str, nozzle: Nozzle) -> None:
     """CaseError where a nozzle of liquid has what only grains have, or a second phase is there."""
     for key in OF_GRAINS:
-        if getattr(nozzle, key) not in (None, ()):
+        if getattr(nozzle, key) not in (None, (), ""):
             raise CaseError(f"{where}.{key} is of grains; a nozzle of liquid has its speed and its mouth: leave it out")
     if case.gas_phase is not None:
         raise CaseError(f"{where}: liquid comes in where there is one phase; leave out [gas_phase] or the nozzle")

@@ -40,7 +40,7 @@ def of_nozzle(case, nozzle) -> Sizes:
         d = np.array(nozzle.diameters)
         shares = np.array(nozzle.shares or (1.0,) * len(d))
         return Sizes(shares / shares.sum(), d, np.zeros(len(d)))
-    diameter, variance = np.array(_classes(case.grains, nozzle)).T
+    diameter, variance = np.array(_classes(case.of(nozzle.material), nozzle)).T
     return Sizes(np.full(len(diameter), 1.0 / len(diameter)), diameter, variance)
 
 
@@ -75,7 +75,7 @@ def check(case, where: str, nozzle) -> None:
     if nozzle.size_classes > MOST or (nozzle.sizes == "given" and nozzle.size_classes > 1):
         allowed = "1, as each size given is one" if nozzle.sizes == "given" else f"{MOST} at most: each is a particle"
         raise CaseError(f"{where}.size_classes = {nozzle.size_classes}; it must be {allowed}")
-    if nozzle.sizes == "log_normal" and nozzle.size_classes > 1 and not _std(case.grains, nozzle):
+    if nozzle.sizes == "log_normal" and nozzle.size_classes > 1 and not _std(case.of(nozzle.material), nozzle):
         alike = "the grains are all alike: give diameter_std_mm"
         raise CaseError(f"{where}.size_classes = {nozzle.size_classes}, but {alike}, or leave it out")
     {"rosin_rammler": _check_rosin_rammler, "given": _check_given}.get(nozzle.sizes, lambda *_: None)(where, nozzle)

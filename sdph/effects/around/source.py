@@ -17,7 +17,16 @@ import scipy
 
 from sdph.effects.around import rates, sizes
 from sdph.effects.around.drops import Replays
-from sdph.effects.around.streams import ROUND_OFF, cell_radius, layers_of, streams_of, swirling, turned, without
+from sdph.effects.around.streams import (
+    ROUND_OFF,
+    cell_radius,
+    layers_of,
+    matter_of,
+    streams_of,
+    swirling,
+    turned,
+    without,
+)
 from sdph.engine import state as particles
 from sdph.engine.kept import Unfit
 from sdph.engine.state import GRAIN, INFLOW, LIQUID
@@ -75,13 +84,16 @@ class Source:
 
     def _columns(self) -> dict[str, list]:
         """Array of the state -> what a particle of each nozzle has there."""
-        matter = self.case.grains or self.case.liquid
         found = {
             "mass": [s.mass for s in self.streams],
-            "density": [s.alpha_p * matter.density for s in self.streams],
+            "density": [s.alpha_p * matter_of(self.case, n).density for n, s in zip(self.nozzles, self.streams)],
             "nozzle": list(range(1, len(self.nozzles) + 1)),
         }
-        return found | {"temperature": [n.temperature for n in self.nozzles]} if self.case.grains else found
+        if not self.case.grains:
+            return found
+        own = [(self.case.number(n.material), *self.case.of(n.material).of_particles) for n in self.nozzles]
+        found |= dict(zip(particles.OF_MATERIAL, zip(*own)))
+        return found | {"temperature": [n.temperature for n in self.nozzles]}
 
     def fill(self, state, time: float, dt: float):
         """The state with the layers that the window from `time` of `dt` [s] needs, and what tables give till then."""
@@ -241,7 +253,9 @@ class Source:
         """Count what has come in."""
         self.mass += float(out.mass.sum())
         if len(out.temperature):
-            self.energy += float((out.mass * out.temperature).sum() * self.case.grains.heat_capacity)
+            warmth, capacity = out.mass * out.temperature, out.grain_capacity
+            of_one = self.case.grains.heat_capacity
+            self.energy += float(warmth @ capacity) if len(capacity) else float(warmth.sum() * of_one)
         self.motion += particles.energy_of_motion(out)
         self.momentum = self.momentum + (out.mass[:, None] * particles.velocities(out)).sum(axis=0)
 

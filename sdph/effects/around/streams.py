@@ -38,6 +38,11 @@ class Streams(NamedTuple):
     alpha_p: float
 
 
+def matter_of(case, nozzle):
+    """The grains, or the liquid, that a nozzle gives."""
+    return case.of(nozzle.material) if case.grains else case.liquid
+
+
 def streams_of(case, nozzle) -> Streams:
     """The streams of a nozzle, on a lattice of the case's spacing that is fitted to the area of the mouth."""
     spacing, axis = case.resolution.spacing, unit(nozzle.direction)
@@ -60,7 +65,7 @@ def streams_of(case, nozzle) -> Streams:
     if nozzle.shape == "annulus":
         velocity = velocity + nozzle.swirl * nozzle.speed * np.cross(axis, outward)
     speed = speed * np.cos(angle)
-    density = (case.grains or case.liquid).density
+    density = matter_of(case, nozzle).density
     alpha_p = 1.0
     if case.grains:
         alpha_p = nozzle.volume_fraction or rates.largest(nozzle) / (density * area * speed.mean())

@@ -173,16 +173,24 @@ def extrapolate(kernel, box, wall, facing, s, pressure, wall_pressure, unheld, w
 
 
 @serial
-def grip(p, stick, y, density, theta, shear):
+def grip(p, stick, y, density, grain_density, theta, shear):
     """Share of the no-slip stress: y/(y + b) at the distance y [m] from the wall, with the slip length b = mu/k of the
     law tau = k v; all of it where theta [m2/s2] is not known (nan)."""
     if p.specularity < 0.0 or stick == 0.0 or math.isnan(theta):
         return stick * (p.specularity != 0.0)
     y = max(y, p.contact)
-    a = granular.capped_fraction(density / p.grain_density, p.packing)
+    a = granular.capped_fraction(density / grain_density, p.packing)
     g0 = granular.sinclair_jackson(a, p.packing)
-    k = johnson_jackson_wall(p.specularity, a, theta, g0, p.grain_density, p.packing)
+    k = johnson_jackson_wall(p.specularity, a, theta, g0, grain_density, p.packing)
     return k * y / (k * y + shear) if k > 0.0 else 0.0
+
+
+@inlined
+def solid(p, kernel, s, i):
+    """rho_p [kg/m3] of particle i: of one material a plain kernel tells, of its own a mixed one."""
+    if len(kernel) == 2:
+        return p.grain_density
+    return s.grain_density[i]
 
 
 @inlined
@@ -208,6 +216,7 @@ def force(p, kernel, box, wall, s, i, stress, friction_p):
     if len(p) == 0:
         return ax, ay, az, tx, ty, tz, slid, lost
     theta = s.theta[i] if len(s.theta) else np.nan
+    rho = solid(p, kernel, s, i)
     for k in range(wall.number[i]):
         w = entry(wall, i, k)
         dx, dy, dz = offset(box, wall, w, s, i)
@@ -223,7 +232,7 @@ def force(p, kernel, box, wall, s, i, stress, friction_p):
             # mirrored velocity 2 v_wall - <v>: v_i + <v> - 2 v_wall; Morris' form of the viscous force
             nx, ny, nz = wall.normal_x[w], wall.normal_y[w], wall.normal_z[w]
             away = dx * nx + dy * ny + dz * nz
-            gripped = 2.0 * grip(p, wall.stick[w], away - wall.depth[w], s.density[i], theta, stress.shear[i])
+            gripped = 2.0 * grip(p, wall.stick[w], away - wall.depth[w], s.density[i], rho, theta, stress.shear[i])
             stick = gripped * p.volume / s.density[i] * stress.shear[i] * gradient
             du, dv, dw = against(wall, w, box, s, i)
             fx = stick * (du + wall.velocity[w, 0] - wall.slide_x[w])

@@ -102,7 +102,7 @@ def damping(p, sizes_p, s, i, alpha_p, slip, gas_density):
             break
         total += mass * coefficient(p, alpha_p, slip, d, gas_density)
         whole += mass
-    found = total / whole / p.grain_density
+    found = total / whole / (s.grain_density[i] if len(s.grain_density) else p.grain_density)
     return found * (1.0 - p.unresolved * law.igci_clusters(alpha_p)) if p.unresolved else found
 
 

@@ -66,7 +66,8 @@ def conductance(p, sizes_p, s, i, alpha_p, slip, gas_density):
             eps = law.exchange_paper(alpha_g, nu, p.conductivity, d)
         total += mass * eps
         whole += mass
-    return s.mass[i] / p.grain_density * total / whole
+    rho = s.grain_density[i] if len(s.grain_density) else p.grain_density
+    return s.mass[i] / rho * total / whole
 
 
 def call(scales) -> Judgement:

@@ -53,7 +53,8 @@ def force(p, sizes_p, s, i, apart, slip, vorticity, gas_density):
             break
         total += mass * coefficient(p, slip, spin, d, gas_density)
         whole += mass
-    push, u, v, w = s.mass[i] / p.grain_density * total / whole, apart[i, 0], apart[i, 1], apart[i, 2]
+    rho = s.grain_density[i] if len(s.grain_density) else p.grain_density
+    push, u, v, w = s.mass[i] / rho * total / whole, apart[i, 0], apart[i, 1], apart[i, 2]
     return push * (v * z - w * y), push * (w * x - u * z), push * (u * y - v * x)
 
 

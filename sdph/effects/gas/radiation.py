@@ -76,14 +76,17 @@ def conductance(p, sizes_p, s, i, gas_temperature):
     """Heat exchanged with the gas per kelvin [W/K] by the grains of particle i, at the temperatures of now."""
     if len(p) == 0:
         return 0.0
-    area = s.mass[i] / p.grain_density * surface(sizes_p, s, i)
+    rho = s.grain_density[i] if len(s.grain_density) else p.grain_density
+    area = s.mass[i] / rho * surface(sizes_p, s, i)
     return p.to_gas * area * law.exchange_coefficient(s.temperature[i], gas_temperature)
 
 
 @serial
 def cooled(p, sizes_p, s, i, temperature, dt):
     """Temperature [K] of particle i after dt [s] of radiation to the surroundings alone."""
-    rate = p.to_surroundings * STEFAN_BOLTZMANN * surface(sizes_p, s, i) / (p.grain_density * p.grain_heat_capacity)
+    rho = s.grain_density[i] if len(s.grain_density) else p.grain_density
+    c = s.grain_capacity[i] if len(s.grain_capacity) else p.grain_heat_capacity
+    rate = p.to_surroundings * STEFAN_BOLTZMANN * surface(sizes_p, s, i) / (rho * c)
     return law.cooled(temperature, p.surroundings, rate, dt)
 
 
@@ -101,7 +104,8 @@ def window_limit(p, case, state) -> float:
     hottest = max(float(state.temperature.max()), p.surroundings)
     finest = float(np.min(state.diameter, where=state.diameter > 0.0, initial=case.grains.diameter))
     rate = (p.to_gas + p.to_surroundings) * law.exchange_coefficient(hottest, hottest) * 6.0 / finest
-    return SPLIT * p.grain_density * p.grain_heat_capacity / rate
+    stored = min(grains.density * grains.heat_capacity for grains in case.kinds)
+    return SPLIT * stored / rate
 
 
 def call(scales) -> Judgement:

@@ -48,7 +48,8 @@ def kernel(case):
     """The sizes for kernels; OFF where all grains are alike."""
     products = case.parameters.get("break_up")
     differ = "micro_explosion" in case.effects or (products is not None and products.products != "equal")
-    differ = differ or case.grains.diameter_std > 0.0 or any(spread(nozzle) for nozzle in case.nozzles.values())
+    differ = differ or any(grains.diameter_std > 0.0 for grains in case.kinds)
+    differ = differ or any(spread(nozzle) for nozzle in case.nozzles.values())
     return Sizes(int("evaporation" in case.effects)) if differ else OFF
 
 

@@ -27,7 +27,15 @@ class ConductionP(NamedTuple):
     grain_density: float
 
 
-def kernel(case) -> ConductionP:
+class MixedP(NamedTuple):
+    """Largest conductivity [W/m/K] of several materials: what each has is in the State."""
+
+    most: float
+
+
+def kernel(case) -> ConductionP | MixedP:
+    if case.mixed:
+        return MixedP(max(grains.conductivity for grains in case.kinds))
     return ConductionP(case.grains.conductivity, case.grains.density)
 
 
@@ -36,15 +44,24 @@ def pair(p, h, s, i, j, r_squared, pull):
     """Heat per mass and time [W/kg] that i gets from j; `pull` is m_j (dW/dr)/r [kg/m^(d+2)]."""
     if len(p) == 0:
         return 0.0
+    if len(p) == 1:
+        k_i = s.density[i] / s.grain_density[i] * s.grain_conductivity[i]
+        k_j = s.density[j] / s.grain_density[j] * s.grain_conductivity[j]
+        unlike = law.cleary_monaghan_unlike(pull, r_squared, SOFTENING * h * h, k_i, k_j, s.density[i] * s.density[j])
+        return unlike * (s.temperature[i] - s.temperature[j])
     mean = 0.5 * (s.density[i] + s.density[j])
     coefficient = law.cleary_monaghan(pull, r_squared, SOFTENING * h * h, p.conductivity, p.grain_density, mean)
     return coefficient * (s.temperature[i] - s.temperature[j])
 
 
 def dt_limit(p, case, state) -> float:
-    if p.conductivity == 0.0:
+    """Sub-step limit [s] by the largest diffusivity; among others a grain's own k is up to twice that (harmonic
+    mean)."""
+    most = max(grains.conductivity for grains in case.kinds)
+    if most == 0.0:
         return NO_LIMIT
-    diffusivity = p.conductivity / (case.grains.density * case.grains.heat_capacity)
+    among = [law.harmonic_mean(grains.conductivity, most) for grains in case.kinds]
+    diffusivity = max(k / (grains.density * grains.heat_capacity) for k, grains in zip(among, case.kinds))
     return STABLE * case.smoothing_length**2 / diffusivity
 
 

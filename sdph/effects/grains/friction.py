@@ -17,6 +17,7 @@ import numpy as np
 from sdph.effects import limiter
 from sdph.effects.effect import DIFFUSIVE, Effect, Judgement
 from sdph.engine.geometry import deep
+from sdph.engine.state import by_material
 from sdph.laws import constants, granular
 from sdph.laws import friction as law
 from sdph.laws.compiled import inlined, serial
@@ -39,7 +40,7 @@ class Friction:
 
 class FrictionP(NamedTuple):
     """Onset [-], packing limit [-], Fr [Pa], sine of the friction angle, grain density [kg/m3], shear over bulk modulus
-    [-], h [m]."""
+    [-], h [m], density of the lightest grains [kg/m3]."""
 
     onset: float
     packing: float
@@ -48,6 +49,7 @@ class FrictionP(NamedTuple):
     grain_density: float
     stiffness: float
     h: float
+    lightest: float
 
 
 def kernel(case) -> FrictionP:
@@ -62,6 +64,7 @@ def kernel(case) -> FrictionP:
         density,
         stiffness,
         case.smoothing_length,
+        min(grains.density for grains in case.kinds),
     )
 
 
@@ -87,7 +90,7 @@ def sound_squared(p, slope):
 
 
 @inlined
-def stress(p, pressures, s, box, i, D, spin, dt):
+def stress(p, pressures, kernel, s, box, i, D, spin, dt):
     """Deviator of the elastic stress of contacts [Pa] after dt (xx, yy, zz, xy, yz, zx), and their viscosity [Pa s].
 
     `pressures` is a sdph.methods.grains.equations.Scratch, D (6) the deviator of the rate of strain [1/s], spin (xy,
@@ -96,9 +99,10 @@ def stress(p, pressures, s, box, i, D, spin, dt):
     where their sum is past yield.
     """
     frictional_pressure = pressures.lasting[i] * s.density[i] ** 2
-    bulk = s.density[i] / p.grain_density * pressures.stiffness[i]
+    rho, lightest = densities(p, kernel, s, i)
+    bulk = s.density[i] / rho * pressures.stiffness[i]
     xx, yy, zz, xy, yz, zx = trial(s, box, i, D, spin, 2.0 * p.stiffness * bulk, dt)
-    mu = stiffest(p, s.density[i], dt)
+    mu = stiffest(p, lightest, dt)
     m = 2.0 * mu
     squared = law.second_invariant(
         xx + m * D[0], yy + m * D[1], zz + m * D[2], xy + m * D[3], yz + m * D[4], zx + m * D[5]
@@ -107,9 +111,17 @@ def stress(p, pressures, s, box, i, D, spin, dt):
     return (share * xx, share * yy, share * zz, share * xy, share * yz, share * zx), share * mu
 
 
+@inlined
+def densities(p, kernel, s, i):
+    """rho_p of a particle, and alpha_p times that of the lightest grains there are [kg/m3]."""
+    if len(kernel) == 2:
+        return p.grain_density, s.density[i]
+    return s.grain_density[i], s.density[i] * (p.lightest / s.grain_density[i])
+
+
 @serial
 def stiffest(p, density, dt):
-    """Most viscosity [Pa s] that a step of dt [s] bears at a density [kg/m3]."""
+    """Most viscosity [Pa s] that a step of dt [s] bears at a density [kg/m3], of the lightest grains there."""
     return DIFFUSIVE * p.h * p.h / dt * density
 
 
@@ -142,7 +154,8 @@ def held(p, method) -> dict[str, float]:
     s, found = method.state, limiter.capped(p, method.state)
     stiff = np.zeros(len(s.x), bool)
     if method.step:
-        stiff = method.scratch.rubbing >= (1.0 - SAME) * stiffest(p, s.density, method.step)
+        density = s.density * (p.lightest / by_material(s.grain_density, p.grain_density))
+        stiff = method.scratch.rubbing >= (1.0 - SAME) * stiffest(p, density, method.step)
     return found | {"contact_viscosity_share": limiter.share(s, stiff)}
 
 

@@ -36,10 +36,12 @@ class GrainShifting:
 
 
 class ShiftingP(NamedTuple):
-    """Strength [-]; mass of grains over the volume that they take when packed [kg/m3]; dimensions."""
+    """Strength [-]; mass of grains over the volume that they take when packed [kg/m3], of several materials of the
+    first; that material's density [kg/m3]; dimensions."""
 
     strength: float
     packed: float
+    grain_density: float
     dimensions: float
 
 
@@ -47,6 +49,7 @@ def kernel(case) -> ShiftingP:
     return ShiftingP(
         case.parameters["grain_shifting"].strength,
         case.grains.packing_limit * case.grains.density,
+        case.grains.density,
         float(case.dimensions),
     )
 
@@ -60,7 +63,10 @@ def shift(p, s, rows, box, dt, moved):
             j = entry(rows, i, k)
             dx, dy, dz = nearest_image(box, s.x[i] - s.x[j], s.y[i] - s.y[j], s.z[i] - s.z[j] if len(s.z) else 0.0)
             r = math.sqrt(dx * dx + dy * dy + dz * dz)
-            reach = (0.5 * (s.mass[i] + s.mass[j]) / p.packed) ** (1.0 / p.dimensions)
+            whole = s.mass[i] + s.mass[j]
+            if len(s.grain_density):
+                whole = p.grain_density * (s.mass[i] / s.grain_density[i] + s.mass[j] / s.grain_density[j])
+            reach = (0.5 * whole / p.packed) ** (1.0 / p.dimensions)
             if r >= reach or r == 0.0:
                 continue
             dw = s.w[i] - s.w[j] if len(s.z) else 0.0

@@ -9,6 +9,7 @@ from numba import prange
 
 from sdph.effects import limiter
 from sdph.effects.effect import NO_LIMIT, Effect, Judgement, diffusive_limit, found
+from sdph.engine.state import by_material
 from sdph.laws import granular
 from sdph.laws.compiled import parallel, serial
 from sdph.laws.exchange import harmonic_mean
@@ -190,8 +191,9 @@ def advance_all(p, s, heating, damping, shear_squared, divergence, crowd, dt, th
     """theta (N,) [m2/s2] of all particles after dt, where they crowd by g0 = crowd (N,) [-]; by bounds, collisions and
     gas it lost or got the others (N,) [m2/s2]."""
     for i in prange(len(s.x)):
+        rho = s.grain_density[i] if len(s.grain_density) else p.grain_density
         theta[i], held[i], collided[i], damped[i] = advance(
-            p, s.density[i] / p.grain_density, s.theta[i], heating[i], damping[i], s.diameter[i], shear_squared[i],
+            p, s.density[i] / rho, s.theta[i], heating[i], damping[i], s.diameter[i], shear_squared[i],
             divergence[i], crowd[i], dt,
         )  # fmt: skip
 
@@ -201,7 +203,10 @@ def dt_limit(p, case, state) -> float:
     if p.model == 1:
         return NO_LIMIT
     most = found(state, EFFECT.name)
-    return diffusive_limit(p.h, largest(p, state.density, state.theta, state.diameter) if most is None else most)
+    if most is None:
+        density = state.density * (p.grain_density / by_material(state.grain_density, p.grain_density))
+        most = largest(p, density, state.theta, state.diameter)
+    return diffusive_limit(p.h, most)
 
 
 def call(scales) -> Judgement:

@@ -9,6 +9,7 @@ from numba import prange
 
 from sdph.effects import limiter
 from sdph.effects.effect import Effect, Judgement, diffusive_limit, found
+from sdph.engine.state import by_material
 from sdph.laws import granular
 from sdph.laws.compiled import parallel, serial
 from sdph.schema import record
@@ -77,7 +78,10 @@ def held(p, method) -> dict[str, float]:
 def dt_limit(p, case, state) -> float:
     """Sub-step limit [s] by the largest viscosity."""
     most = found(state, EFFECT.name)
-    return diffusive_limit(p.h, largest(p, state.density, state.theta, state.diameter) if most is None else most)
+    if most is None:
+        density = state.density * (p.grain_density / by_material(state.grain_density, p.grain_density))
+        most = largest(p, density, state.theta, state.diameter)
+    return diffusive_limit(p.h, most)
 
 
 def call(scales) -> Judgement:

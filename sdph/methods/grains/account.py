@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from sdph.effects.grains import granular_temperature
 from sdph.engine.ledger import vector
 from sdph.engine.state import INFLOW
 from sdph.laws.compiled import serial
@@ -31,6 +32,7 @@ AGITATION, COLLISIONS, DAMPING, BOUNDS, RUBBING = map(
     HEATS.index, ("agitation_J", "collision_heat_J", "damping_heat_J", "bounds_work_J", "mechanical_heat_J")
 )
 BACK_PUT = ("contact_way_m", "contact_lift_J")  # by contact with walls: ways of all grains, energy that they got by it
+SLOWED = ("grain_drag_J",)  # of motion by drag between materials; agitation_J or mechanical_heat_J have it too
 
 
 class Account(NamedTuple):
@@ -40,16 +42,17 @@ class Account(NamedTuple):
     works: np.ndarray
     heats: np.ndarray
     back_put: np.ndarray
+    slowed: np.ndarray
 
 
 def opened() -> Account:
     """An account with nothing in it."""
-    return Account(np.zeros((len(IMPULSES), 3)), *(np.zeros(len(names)) for names in (WORKS, HEATS, BACK_PUT)))
+    return Account(np.zeros((len(IMPULSES), 3)), *(np.zeros(len(names)) for names in (WORKS, HEATS, BACK_PUT, SLOWED)))
 
 
 def columns(account: Account) -> dict[str, float]:
     """Ledger columns [J], [kg m/s], [m]."""
-    pairs = ((WORKS, account.works), (HEATS, account.heats), (BACK_PUT, account.back_put))
+    pairs = ((WORKS, account.works), (HEATS, account.heats), (BACK_PUT, account.back_put), (SLOWED, account.slowed))
     found = {name: float(value) for names, values in pairs for name, value in zip(names, values)}
     for name, impulse in zip(IMPULSES, account.impulses):
         found |= vector(f"impulse_of_{name}", impulse)
@@ -112,6 +115,7 @@ def warm(p, s, work, dt, window, heat_capacity, heats):
     """
     for i in range(len(s.x)):
         m, collided = s.mass[i], 0.0
+        capacity = s.grain_capacity[i] if len(s.grain_capacity) else heat_capacity
         heats[AGITATION] += m * work.agitation[i] * dt
         heats[RUBBING] += m * work.heating[i] * dt
         if len(p) == 0:
@@ -124,7 +128,22 @@ def warm(p, s, work, dt, window, heat_capacity, heats):
             heats[COLLISIONS] += 1.5 * m * work.collided[i]
             heats[DAMPING] += 1.5 * m * work.damped[i]
         if len(s.temperature):
-            s.temperature[i] += (collided + (work.heating[i] + s.warmth[i] / window / m) * dt) / heat_capacity
+            s.temperature[i] += (collided + (work.heating[i] + s.warmth[i] / window / m) * dt) / capacity
+
+
+@serial
+def brake(p, s, work, dt, slowed):
+    """Velocities after drag between materials over dt [s]; what the motion loses joins what viscosity gives theta, or
+    heats the grains where there is none (p are the parameters of theta), and its sum [J] is counted."""
+    for i in range(len(s.x)):
+        s.u[i] += work.moved[i, 0]
+        s.v[i] += work.moved[i, 1]
+        if len(s.z):
+            s.w[i] += work.moved[i, 2]
+        fed = granular_temperature.fed(p, work.lost[i])
+        work.agitation[i] += fed / dt
+        work.heating[i] += (work.lost[i] - fed) / dt
+        slowed[0] += s.mass[i] * work.lost[i]
 
 
 @serial

@@ -32,7 +32,8 @@ class Guard(Watch):
         agitated = math.sqrt(case.grains.granular_temperature) + scales.sound
         self.reach = scales.jet + scales.eddies + scales.thrown + drop + blown + agitated
         given = case.temperatures
-        slack = scales.span + LATENT * max(given) + self.reach**2 / case.grains.heat_capacity
+        stored = min(grains.heat_capacity for grains in case.kinds)
+        slack = scales.span + LATENT * max(given) + self.reach**2 / stored
         self.coldest, self.hottest = max(0.0, min(given) - slack), max(given) + slack
         self.sound = math.sqrt(ADIABATIC * GAS_CONSTANT / case.gas.molar_mass * max(given))
         self.cause, self.length = "largest", case.coupling.window_largest  # until the first window begins
@@ -44,18 +45,22 @@ class Guard(Watch):
     def admit_grains(self, state: dict, names, heaviest: float) -> None:
         """`admit` of grains, none of more than `heaviest` [kg]."""
         speed, positive, zero_on = (-RUNAWAY * self.reach, RUNAWAY * self.reach), (TINY, math.inf), (0.0, math.inf)
-        size = FAR * self.case.grains.diameter
+        size = FAR * max(grains.diameter for grains in self.case.kinds)
         bounds = dict.fromkeys("uvw", speed) | dict.fromkeys(("diameter", "born_diameter"), (TINY, size))
         bounds |= dict.fromkeys(("diameter_variance", "born_variance", "lost_still"), (0.0, size**2))
         bounds |= {"born_mass": positive, "lost_moving": zero_on}
         bounds |= {
             "mass": (TINY, heaviest),
-            "density": (0.0, DENSE * self.case.grains.density),
+            "density": (0.0, DENSE * max(grains.density for grains in self.case.kinds)),
             "evaporating": (0.0, 1.0),
         }
         bounds |= {"temperature": (self.coldest, self.hottest), "theta": (0.0, (COLLAPSE * self.reach) ** 2)}
         bounds |= {"sealed": (0.0, 1.0), "throwing": zero_on, "bubble_void": (0.0, size**3)}
         bounds |= {"deformation": (-math.inf, 1.0), "weber": zero_on}
+        bounds |= {"material": (0, len(self.case.kinds) - 1)} | {
+            name: (min(own), max(own))
+            for name, own in zip(particles.OF_MATERIAL[1:], zip(*(grains.of_particles for grains in self.case.kinds)))
+        }
         bounds |= dict.fromkeys(turbulent_dispersion.AXES, (-math.inf, math.inf))
         bounds |= {"nozzle": (0, len(self.case.nozzles)), "entering": (0, 1)}
         kinds = [particles.GRAIN, particles.INFLOW]

@@ -15,22 +15,24 @@ from sdph.engine.geometry import apart, deep, faster
 from sdph.engine.rows import entry, length, place
 from sdph.laws.compiled import fast_parallel, inlined
 from sdph.laws.friction import second_invariant
-from sdph.methods.grains import stress
+from sdph.methods.grains import mixture, stress
 
 NOTHING = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @inlined
-def moments(s, rows, box, pull, i):
+def moments(kernel, s, rows, box, pull, i):
     """N = (1/rho_i) sum m_j (v_j - v_i)_a dW/dx_b [1/s]: xx, xy, xz, yx, yy, yz, zx, zy, zz; M, of r_ij for v_ij [-]:
-    xx, yy, zz (1 in two dimensions), xy, yz, zx; and -(1/rho_i) sum m_j |v_ij|^2 (dW/dr)/r [1/s2]."""
+    xx, yy, zz (1 in two dimensions), xy, yz, zx; and -(1/rho_i) sum m_j |v_ij|^2 (dW/dr)/r [1/s2].
+
+    Of several materials rho_pi/rho_pj m_j stands for m_j (sdph.methods.grains.mixture)."""
     xx = xy = xz = yx = yy = yz = zx = zy = zz = square = 0.0
     mxx = myy = mzz = mxy = myz = mzx = 0.0
     for k in range(length(rows, i)):
         j = entry(rows, i, k)
         dx, dy, dz = apart(s, box, i, j)
         du, dv, dw = faster(s, box, i, j)
-        g = -pull[place(rows, i, k)]
+        g = -pull[place(rows, i, k)] * mixture.over(kernel, s, i, j)
         gx, gy = g * dx, g * dy
         xx += gx * du
         xy += gy * du
@@ -87,7 +89,7 @@ def shear(
     """Shear of velocities as they are (see `equations.Scratch`); contact (5, N) [Pa]: stress of contacts of the state
     once they are strained over dt [s]."""
     for i in prange(len(s.x)):
-        N, M, square = moments(s, rows, box, scratch.pull, i)
+        N, M, square = moments(kernel, s, rows, box, scratch.pull, i)
         beside = walls.near(walls_p, wall, i)
         behind = walls.gradient(walls_p, kernel, box, wall, s, i) if beside else stress.NO_GRADIENT
         G = added(N, behind)
@@ -97,7 +99,7 @@ def shear(
         per = 1.0 / s.density[i]
         if len(friction_p):
             spin = 0.5 * (G[1] - G[3]), 0.5 * (G[5] - G[7]), 0.5 * (G[6] - G[2])
-            tau, mu = friction.stress(friction_p, scratch, s, box, i, D, spin, dt)
+            tau, mu = friction.stress(friction_p, scratch, kernel, s, box, i, D, spin, dt)
             rubbing[i] = mu
             contact[0, i], contact[1, i], contact[2, i] = tau[0], tau[1], tau[3]
             contact[3, i], contact[4, i] = tau[4], tau[5]
@@ -112,7 +114,7 @@ def shear(
             A, sheared, squeezed = stress.NO_GRADIENT, square, 0.0
             if enclosed:
                 A, sheared, squeezed = stress.viscous(N, M, square, total, scratch.bulk[i])
-            stress.bear(bearing, i, box, per * per, total, A, tau)
+            stress.bear(bearing, i, box, per * per * mixture.heft_squared(kernel, s, i), total, A, tau)
             works[0, i] = (scratch.shear[i] * sheared + scratch.bulk[i] * squeezed) * per
             warm += mu * sheared
         works[1, i] = warm * per

@@ -26,30 +26,27 @@ from sdph.engine.geometry import apart, faster, squared
 from sdph.engine.rows import entry, length, place
 from sdph.laws import granular, kernels
 from sdph.laws.compiled import fast_inlined, fast_parallel, inlined, parallel
-from sdph.methods.grains import stress
+from sdph.methods.grains import mixture, stress
+from sdph.methods.grains.mixture import Kernel, MixedKernel
 from sdph.methods.grains.sound import swing
 
 
-class Kernel(NamedTuple):
-    """Cubic spline: h [m], sigma [1/m^d], divided by the lattice sum so that a perfect lattice has its own density."""
-
-    h: float
-    sigma: float
-
-
-def kernel_of(case) -> Kernel:
+def kernel_of(case) -> Kernel | MixedKernel:
     """Kernel of a case. The correction by the lattice sum (+0.344 % at h = 1.5 dx in 2-D) is our choice."""
     lattice = kernels.lattice_factor("cubic_spline", case.dimensions, case.resolution.smoothing_ratio)
     sigma = kernels.normalisation("cubic_spline", case.dimensions, case.smoothing_length)
-    return Kernel(case.smoothing_length, sigma / lattice)
+    smooth = case.smoothing_length, sigma / lattice
+    return MixedKernel(*smooth, case.grains.density) if case.mixed else Kernel(*smooth)
 
 
 class Scratch(NamedTuple):
     """Values that one loop of a sub-step leaves to the next, in one flat group.
 
     pull (E,) of `sum_density`; per particle, by `constitutive`: pressure [Pa], its parts by agitation and by lasting
-    contacts over density squared [Pa m6/kg2], slope of the latter's pressure against alpha_p [Pa], shear and bulk
-    viscosity of agitation [Pa s], conductivity of theta [kg/m/s], sound speed [m/s], g0 [-]; by `contacts.shear`:
+    pull (E,) of `sum_density`; per particle, by `constitutive`: pressure [Pa], its parts by agitation and by lasting
+    contacts over density squared [Pa m6/kg2] (of several materials over the square of rho_0 alpha_p), slope of the
+    latter's pressure against alpha_p [Pa], shear and bulk viscosity
+    of agitation [Pa s], conductivity of theta [kg/m/s], sound speed [m/s], g0 [-]; by `contacts.shear`:
     stress of contacts, elastic and viscous, over density squared (N, 6) [Pa m6/kg2], xx, yy, zz, xy, yz, zx, their
     viscosity (N,) [Pa s], both without length where there is no friction; bearing (N, 5) or (N, 10) of `stress.pair`,
     over density squared; works (2, N) [W/kg] of viscosity into theta, and of contacts and what rubs on walls into heat;
@@ -95,7 +92,8 @@ def scratch(count: int, entries: int, friction: bool, deep: bool = False) -> Scr
 
 @fast_parallel
 def sum_density(kernel, s, rows, box, walls_p, wall, density, pull):
-    """rho_i = sum m_j W_ij, i itself included (Eq. 25), over the share of the kernel that lies among grains.
+    """rho_i = sum m_j W_ij, i itself included (Eq. 25), over the share of the kernel that lies among grains; of several
+    materials rho_pi sum V_j W_ij (sdph.methods.grains.mixture).
 
     pull (E,) [kg/m^(d+2)] is m_j (dW/dr)/r of every entry of the rows, for the other loops.
     """
@@ -105,7 +103,7 @@ def sum_density(kernel, s, rows, box, walls_p, wall, density, pull):
         for k in range(entries):
             j = entry(rows, i, k)
             r, m_j = math.sqrt(squared(*apart(s, box, i, j))), s.mass[j]
-            rho += m_j * kernels.cubic_spline(r, kernel.h, kernel.sigma)
+            rho += m_j * mixture.over(kernel, s, i, j) * kernels.cubic_spline(r, kernel.h, kernel.sigma)
             pull[place(rows, i, k)] = m_j * kernels.cubic_spline_gradient(r, kernel.h, kernel.sigma)
         share = walls.closure(walls_p, box, wall, s, i, kernel) if walls.near(walls_p, wall, i) else 1.0
         density[i] = rho / share
@@ -117,36 +115,55 @@ def constitutive(
     pressure, agitated, lasting, stiffness, shear, bulk, conductivity, sound, crowd,
 ):  # fmt: skip
     """Stress and sound of every particle (see `Scratch`) from its density and theta; grains: their density [kg/m3] and
-    packing limit [-].
+    packing limit [-], of several materials that of the first, and the largest density [kg/m3] and diameter [m].
+
+    A material's own coefficients are those of the laws for rho_p = 1, times its own rho_p: all are linear in it. Limits
+    of a mixture are of the lightest and finest grains pressed by the heaviest and largest.
 
     Returns what limits sub-steps, the largest of all: pace omega h + 2 v [m/s] (sdph.methods.grains.sound), and
     diffusivities [m2/s] of momentum, of sound, and of theta.
     """
     pace = momentum = agitation = 0.0
     for i in prange(len(s.x)):
-        alpha_p = s.density[i] / grains[0]
+        own = s.grain_density[i] if len(s.grain_density) else grains[0]
+        alpha_p, heft = s.density[i] / own, own / grains[0]
         g0 = crowd[i] = granular.crowding(alpha_p, grains[1])
         theta = s.theta[i] if len(s.theta) else 0.0
         diameter = s.diameter[i] if len(s.diameter) else 0.0
         kinetic, (frictional, stiffness[i]) = (
-            granular_pressure.pressure(pressure_p, alpha_p, theta, g0),
+            heft * granular_pressure.pressure(pressure_p, alpha_p, theta, g0),
             friction.pressure(friction_p, alpha_p),
         )
         pressure[i] = kinetic + frictional
-        agitated[i], lasting[i] = kinetic / s.density[i] ** 2, frictional / s.density[i] ** 2
-        squared = granular_pressure.sound_squared(pressure_p, alpha_p, theta, g0) + friction.sound_squared(
-            friction_p, stiffness[i]
+        agitated[i] = heft * heft * kinetic / s.density[i] ** 2
+        lasting[i] = heft * heft * frictional / s.density[i] ** 2
+        most, wide = heaviest(grains, own, diameter)
+        squared = (
+            most * granular_pressure.sound_squared(pressure_p, alpha_p, theta, g0)
+            + friction.sound_squared(friction_p, stiffness[i]) / heft
         )
         sound[i] = math.sqrt(squared)
         shear[i], bulk[i] = granular_viscosity.viscosities(viscosity_p, alpha_p, theta, diameter, g0)
-        conductivity[i] = granular_temperature.conductivity(temperature_p, alpha_p, theta, diameter, g0)
+        shear[i], bulk[i] = heft * shear[i], heft * bulk[i]
+        conductivity[i] = heft * granular_temperature.conductivity(temperature_p, alpha_p, theta, diameter, g0)
         w = s.w[i] if len(s.w) else 0.0
         speed = math.sqrt(s.u[i] * s.u[i] + s.v[i] * s.v[i] + w * w)
-        pace = max(pace, swing(waves, squared, pressure[i] / s.density[i]) + 2.0 * speed)
+        pace = max(pace, swing(waves, squared, most * pressure[i] / s.density[i]) + 2.0 * speed)
         if s.density[i] > 0.0:
-            momentum = max(momentum, granular_viscosity.diffusivity(viscosity_p, shear[i], bulk[i], s.density[i]))
+            of_momentum = granular_viscosity.diffusivity(viscosity_p, shear[i], bulk[i], s.density[i])
+            momentum = max(momentum, wide * of_momentum)
             agitation = max(agitation, granular_temperature.diffusivity(temperature_p, conductivity[i], s.density[i]))
     return pace, momentum, agitation
+
+
+@inlined
+def heaviest(grains, own, diameter):
+    """Density [-] of the heaviest grains over that of this particle's own [kg/m3], and that times the largest diameter
+    over its own [m]; 1 of one material."""
+    if len(grains) == 2:
+        return 1.0, 1.0
+    most = grains[2] / own
+    return most, most * grains[3] / diameter if diameter > 0.0 else most
 
 
 @fast_inlined
@@ -179,9 +196,10 @@ def by_pair(
     r2 = squared(dx, dy, dz)
     closing, scale = du * dx + dv * dy + dw * dz, pull_ij / (rho_i * rho_j)
 
-    # section 2.1, corrected: -m_j (S_i/rho_i^2 + S_j/rho_j^2 + Pi_ij) grad W, S = p I - tau
-    agitated = pull_ij * (scratch.agitated[i] + scratch.agitated[j])
-    lasting = pull_ij * (scratch.lasting[i] + scratch.lasting[j])
+    # section 2.1, corrected: -m_j (S_i/rho_i^2 + S_j/rho_j^2 + Pi_ij) grad W, S = p I - tau; S by volume
+    pressed = pull_ij * mixture.by_volume(kernel, s, i, j)
+    agitated = pressed * (scratch.agitated[i] + scratch.agitated[j])
+    lasting = pressed * (scratch.lasting[i] + scratch.lasting[j])
     ringing = pull_ij * artificial_viscosity.pair(
         artificial_p, kernel.h, closing, r2, scratch.sound[i], scratch.sound[j], rho_i, rho_j
     )
@@ -190,9 +208,9 @@ def by_pair(
 
     work = granular_temperature.pair(temperature_p, scratch, s, i, j, agitated * closing, ringing * closing, scale)
     return (
-        push * dx + pull_ij * fx,
-        push * dy + pull_ij * fy,
-        push * dz + pull_ij * fz,
+        push * dx + pressed * fx,
+        push * dy + pressed * fy,
+        push * dz + pressed * fz,
         work,
         0.5 * (lasting * closing + granular_temperature.rest(temperature_p, ringing * closing)),
         conduction.pair(conduction_p, kernel.h, s, i, j, r2, pull_ij),

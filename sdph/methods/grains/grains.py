@@ -17,7 +17,7 @@ from sdph.engine.ledger import vector
 from sdph.engine.state import INFLOW
 from sdph.engine.walls import facets
 from sdph.methods.grains import account, start
-from sdph.methods.grains.history import tracked
+from sdph.methods.grains.history import of_materials, tracked
 from sdph.methods.grains.method import Stepper
 
 NOTHING_LEFT = {"left_kg": 0.0, "left_J": 0.0, "left_motion_J": 0.0} | vector("impulse_of_outflow", np.zeros(3))
@@ -30,8 +30,7 @@ class Grains:
     KEPT = ("time", "windows", "stepper", "source")  # see sdph.engine.kept
 
     def __init__(self, case):
-        rows = [effects.REGISTRY[name] for name in case.effects]
-        names = {name for row in rows for name in row.arrays}
+        names = effects.arrays(case)
         self.case, self.moves = case, effects.moving(case)
         self.parameters = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
         self.notices: list[str] = []  # on how the case was filled
@@ -158,7 +157,7 @@ class Grains:
 
     def row(self) -> dict[str, float]:
         """Columns of history.csv."""
-        return tracked(self.case, self.stepper)
+        return tracked(self.case, self.stepper) | of_materials(self.case, self.inside)
 
     def held(self) -> dict[str, float]:
         """Shares that its limiters hold, by column of history.csv."""
@@ -173,8 +172,8 @@ class Grains:
         if not points.n_points:  # pyvista knows no empty arrays
             return points
         points["velocity"] = particles.velocities(state)
-        points["alpha_p"] = state.density / self.case.grains.density
-        for name in ("ident", "kind", "mass", "density", "temperature", "diameter", "theta", "sealed"):
+        points["alpha_p"] = state.density / particles.by_material(state.grain_density, self.case.grains.density)
+        for name in ("ident", "kind", "mass", "density", "temperature", "diameter", "material", "theta", "sealed"):
             if len(getattr(state, name)):
                 points[name] = getattr(state, name)
         return points
@@ -195,7 +194,8 @@ class Grains:
     def _enthalpy(self, state) -> np.ndarray:
         if not len(state.temperature):
             return np.zeros(1)
-        own = state.mass * state.temperature * self.case.grains.heat_capacity
+        capacity = particles.by_material(state.grain_capacity, self.case.grains.heat_capacity)
+        own = state.mass * state.temperature * capacity
         return own + state.bubble_heat if len(state.bubble_heat) else own
 
     def _came_in(self):

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from sdph.effects import REGISTRY
+from sdph import effects
 from sdph.engine import state as particles
 
 TRACKED = {
@@ -34,5 +34,23 @@ def tracked(case, stepper) -> dict[str, float]:
 
 def carried(case) -> set[str]:
     """Names of the arrays that particles of a case have, were there any: so that every row has the same columns."""
-    names = {name for effect in case.effects for name in REGISTRY[effect].arrays}
+    names = effects.arrays(case)
     return {name for name, values in particles.empty(1, names, case.dimensions)._asdict().items() if len(values)}
+
+
+def of_materials(case, state) -> dict[str, float]:
+    """Mass [kg] of each of several materials in the gas, its mean height [m] against gravity over the domain's corner
+    (nan without gravity or grains), and its mean velocity [m/s] along it."""
+    if not case.mixed:
+        return {}
+    found, gravity = {}, np.array((*case.domain.gravity, 0.0)[:3])
+    up = -gravity / np.linalg.norm(gravity) if gravity.any() else np.full(3, math.nan)
+    height = (particles.positions(state) - np.array((*case.domain.corner, 0.0)[:3])) @ up
+    rise = particles.velocities(state) @ up
+    for number, name in enumerate(case.materials):
+        mass = state.mass * (state.material == number)
+        total = float(mass.sum())
+        found[f"material_{name}_kg"] = total
+        found[f"material_{name}_height_m"] = float(mass @ height) / total if total else math.nan
+        found[f"material_{name}_rise_m_s"] = float(mass @ rise) / total if total else math.nan
+    return found

@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from sdph import effects
-from sdph.effects import OFF, REGISTRY
+from sdph.effects import OFF
 from sdph.effects.around import wall_contact
 from sdph.effects.effect import Live
 from sdph.effects.grains import friction, grain_shifting
@@ -34,6 +34,9 @@ class Stepper:
     KEPT, FORMS = ("state", "neighbours", "steps", "contacts", "limit"), {"state": GROWING}  # see sdph.engine.kept
     # what a sub-step takes from neighbours and theirs, fresh, of `state`: all else of a particle is its own affair
     HALO = (*"xyzuvw", "mass", "density", "temperature", "diameter", "theta", *friction.ARRAYS)
+    # and these, of several materials; for their drag on each other velocities once more, after the kick, with kind and
+    # material
+    OF_SEVERAL = ("grain_density", "grain_conductivity")
 
     def __init__(self, case, parameters, state, source=None, shortest=0.0):
         self.case, self.parameters, self.state, self.source = case, parameters, state, source
@@ -66,7 +69,7 @@ class Stepper:
     def admit(self, kept: dict) -> None:
         """Unfit where the particles cannot be of this case, or their rows were not made near to where they are."""
         state, built = kept["state"], kept["neighbours"]["built"]
-        names = {name for effect in self.case.effects for name in REGISTRY[effect].arrays}
+        names = effects.arrays(self.case)
         born = self.source.heaviest if self.source else 0.0
         self.guard.admit_grains(state, names, max(self.state.mass.max(initial=0.0), born))
         here = [state[axis] for axis in "xyz"[: self.case.dimensions]]
@@ -94,7 +97,7 @@ class Stepper:
         rubs = bool(self.parameters["friction"])
         if (count, len(self.rows.entries)) != (len(self.scratch.pressure), len(self.scratch.pull)):
             self.scratch = rates.scratch(count, len(self.rows.entries), rubs, self.case.dimensions == 3)
-            self.work = sub_step.work(count, rubs)
+            self.work = sub_step.work(count, rubs, bool(self.parameters["grain_drag"]))
         self.work.of_walls[:] = 0.0  # loops write the rows of those that see a wall
         if self.boundary:
             rows = self.boundary.rows(built)
@@ -189,9 +192,9 @@ class Stepper:
         return rates.constitutive(*self._of_stress())
 
     def _of_stress(self) -> tuple:
-        p, grains = self.parameters, self.case.grains
+        p = self.parameters
         return (
-            self.state, self.waves, (grains.density, grains.packing_limit), p["granular_pressure"], p["friction"],
+            self.state, self.waves, bounds_of(self.case), p["granular_pressure"], p["friction"],
             p["granular_viscosity"], p["granular_temperature"], *self.scratch.stress,
         )  # fmt: skip
 
@@ -223,7 +226,9 @@ class Stepper:
         """Put heat per mass (N,) [J/kg] into the temperature, where there is one."""
         if not len(self.state.temperature):
             return
-        self.state.temperature[:] += heat / self.case.grains.heat_capacity
+        self.state.temperature[:] += heat / particles.by_material(
+            self.state.grain_capacity, self.case.grains.heat_capacity
+        )
 
     def _settle(self, dt: float) -> None:
         """Shift particles and stop them at walls, after they have gone for `dt` [s]."""
@@ -258,7 +263,17 @@ def terms_of(parameters) -> sub_step.Terms:
     """Parameters of the effects between grains; an algebraic theta asks for their shear too."""
     viscous, rubs, theta = (parameters[name] for name in ("granular_viscosity", "friction", "granular_temperature"))
     shears = (1.0,) if viscous or rubs or (theta and theta.model == 1) else OFF
-    return sub_step.Terms(viscous, rubs, parameters["artificial_viscosity"], theta, parameters["conduction"], shears)
+    beside = (parameters[name] for name in ("conduction", "grain_drag"))
+    return sub_step.Terms(viscous, rubs, parameters["artificial_viscosity"], theta, *beside, shears)
+
+
+def bounds_of(case) -> tuple[float, ...]:
+    """Density [kg/m3] and packing limit [-] of the grains as `equations.constitutive` takes them; of several materials
+    the largest density and diameter [m] too."""
+    of_one = case.grains.density, case.grains.packing_limit
+    if not case.mixed:
+        return of_one
+    return *of_one, max(grains.density for grains in case.kinds), max(grains.diameter for grains in case.kinds)
 
 
 def limits(case, parameters, state, pace: float) -> dict[str, float]:

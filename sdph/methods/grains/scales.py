@@ -27,12 +27,12 @@ SETTLED = 0.95  # of the onset of lasting contacts, from which on grains lie on 
 
 
 class Scales:
-    """Scales of a case. SI; see the properties for meaning."""
+    """Scales of a case. SI; see the properties for meaning. Of several materials they are those of the first."""
 
     def __init__(self, case):
         self.case, self.gas, self.grains = case, case.gas, case.grains
         self.end = case.run.end_time
-        self.patches = [_patch(case, region) for region in case.particles.values()]
+        self.patches = [_patch(case, name, region) for name, region in case.particles.items()]
         self.patches += [
             patch for own in case.parameters.values() if hasattr(own, "patches") for patch in own.patches(case)
         ]
@@ -290,6 +290,8 @@ def scales_of(case) -> Scales:
     return Scales(dataclasses.replace(case, effects=tuple(parameters), parameters=parameters))
 
 
-def _patch(case, region) -> Patch:
+def _patch(case, name: str, region) -> Patch:
+    """Patch of a region, with what stands in it of other materials."""
     lower, upper = map(tuple, start.extents(case, region))
-    return Patch(region.volume_fraction, region.temperature, region.velocity or (0.0,) * case.dimensions, lower, upper)
+    alpha_p = sum(case.particles[other].volume_fraction for other in start.among(case, name))
+    return Patch(alpha_p, region.temperature, region.velocity or (0.0,) * case.dimensions, lower, upper)

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from sdph.engine import regions
-from sdph.engine.state import State, axes, born, empty, join, positions
+from sdph.engine.state import OF_MATERIAL, State, axes, born, empty, join, positions
 from sdph.engine.walls import facets
 from sdph.engine.walls.sides import LAYERS
 from sdph.schema import CaseError
@@ -97,8 +97,9 @@ def _region(case, name: str, region, names, notices) -> State:
             f'particles.{name}.shape = "walls", and the walls are the sides of the domain: give a box, or walls.mesh, '
             "or a mesh of the gas of your own in the folder gas"
         )
-    points = regions.points(region, spacing, d, walls)
-    density = region.volume_fraction * case.grains.density
+    grains = case.of(region.material)
+    points = regions.points(region, spacing, d, walls) + spacing * staggered(case, name)
+    density = region.volume_fraction * grains.density
     volume = regions.volume(region, spacing, d, len(points)) if len(points) else 0.0
     points = _reached(case, f"particles.{name}", region, points, walls, density * volume, notices)
     state = empty(len(points), names, d)
@@ -110,12 +111,32 @@ def _region(case, name: str, region, names, notices) -> State:
     state.mass[:] = density * volume if region.mass is None else region.mass / len(points)
     for key, value in (
         ("temperature", region.temperature),
-        ("diameter", case.grains.diameter),
-        ("theta", case.grains.granular_temperature),
+        ("diameter", grains.diameter),
+        ("diameter_variance", grains.diameter_std**2),
+        ("theta", grains.granular_temperature),
+        *zip(OF_MATERIAL, (case.number(region.material), *grains.of_particles)),
     ):
         getattr(state, key)[:] = value
-    state.diameter_variance[:] = case.grains.diameter_std**2
     return born(state)
+
+
+def staggered(case, name: str) -> float:
+    """Spacings by which the lattice of a region is shifted along each axis: those of k regions of different materials
+    that stand among each other are 1/k apart, so that no particle stands on another."""
+    names = among(case, name)
+    return (names.index(name) + 0.5) / len(names) - 0.5
+
+
+def among(case, name: str) -> list[str]:
+    """Regions of other materials that stand in the box around a region, and it itself, in the order of the case."""
+    own, found, least = case.particles[name], [], SAME * case.resolution.spacing
+    low, high = extents(case, own)
+    for other, region in case.particles.items():
+        lower, upper = extents(case, region)
+        overlap = (high - lower > least) & (upper - low > least)
+        if other == name or (case.mixed and overlap.all() and region.material != own.material):
+            found.append(other)
+    return found
 
 
 def _reached(case, where: str, region, points, walls, each: float, notices) -> np.ndarray:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sdph.effects.around import walls
-from sdph.effects.grains import friction, granular_temperature
+from sdph.effects.grains import friction, grain_drag, granular_temperature
 from sdph.laws.compiled import serial
 from sdph.methods.grains import account, contacts, equations
 
@@ -21,13 +21,14 @@ class Terms(NamedTuple):
     artificial: tuple
     temperature: tuple
     conduction: tuple
+    slip: tuple
     shears: tuple
 
 
 class Work(NamedTuple):
     """Arrays that a sub-step leaves to nobody: acceleration (N, 3) [m/s2] and of_walls (N, 7) as `account.kick` takes
     them, agitation and heating (N,) [W/kg], contact (5, N) [Pa]; theta (N,) after it and what went by bounds,
-    collisions and gas (N,) [m2/s2]."""
+    collisions and gas (N,) [m2/s2]; of `grain_drag` stiff (N,) [-], moved (N, 3) [m/s] and lost (N,) [J/kg]."""
 
     acceleration: np.ndarray
     of_walls: np.ndarray
@@ -38,14 +39,18 @@ class Work(NamedTuple):
     held: np.ndarray
     collided: np.ndarray
     damped: np.ndarray
+    stiff: np.ndarray
+    moved: np.ndarray
+    lost: np.ndarray
 
 
-def work(count: int, rubs: bool) -> Work:
-    """Room for `count` particles, with contacts where they rub."""
+def work(count: int, rubs: bool, drags: bool = False) -> Work:
+    """Room for `count` particles, with contacts where they rub, and drag between materials."""
+    dragged = count if drags else 0
     contact = np.empty((len(friction.ARRAYS), count if rubs else 0))
     return Work(
         np.empty((count, 3)), np.zeros((count, 7)), np.empty(count), np.empty(count), contact,
-        *(np.zeros(count) for _ in range(4)),
+        *(np.zeros(count) for _ in range(4)), np.empty(dragged), np.empty((dragged, 3)), np.empty(dragged),
     )  # fmt: skip
 
 
@@ -70,6 +75,7 @@ def advance(
     account.kick(
         s, work.acceleration, work.of_walls, work.agitation, work.heating, gravity, dt, sums.impulses, sums.works
     )
+    slip(terms.slip, terms.temperature, kernel, s, rows, box, scratch, work, dt, sums.slowed)
     agitate(terms.temperature, s, scratch, work, dt)
     account.warm(terms.temperature, s, work, dt, window, heat_capacity, sums.heats)
     account.drift(s, dt)
@@ -87,6 +93,15 @@ def strain_grains(kernel, s, rows, box, scratch, shears, friction_p, viscous_p, 
             s.contact_xx[:], s.contact_yy[:], s.contact_xy[:] = work.contact[0], work.contact[1], work.contact[2]
             if len(s.z):
                 s.contact_yz[:], s.contact_zx[:] = work.contact[3], work.contact[4]
+
+
+@serial
+def slip(p, temperature_p, kernel, s, rows, box, scratch, work, dt, slowed):
+    """Velocities after materials have braked each other for dt [s]; what their motion loses goes into `work`."""
+    if len(p):
+        grain_drag.stiffen(p, kernel, s, rows, box, scratch.crowd, dt, work.stiff)
+        grain_drag.exchange(p, kernel, s, rows, box, scratch.crowd, dt, work.stiff, work.moved, work.lost)
+        account.brake(temperature_p, s, work, dt, slowed)
 
 
 @serial
@@ -117,6 +132,6 @@ def loops(
         )
     found["rates"] = (
         equations.rates,
-        (*head, *terms[:-1], walls_p, wall, work.acceleration, work.of_walls, work.agitation, work.heating),
+        (*head, *terms[:5], walls_p, wall, work.acceleration, work.of_walls, work.agitation, work.heating),
     )
     return found

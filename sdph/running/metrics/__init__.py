@@ -3,9 +3,15 @@
 from __future__ import annotations
 
 from sdph.case.gas_cells import upwards
+from sdph.engine.state import by_material
 from sdph.running import sizing
-from sdph.running.metrics import agitation, bubble, bursts, column, jet
+from sdph.running.metrics import agitation, bubble, bursts, column, jet, segregation
 from sdph.schema import CaseError
+
+
+def fractions(case, state):
+    """alpha_p (N,) [-] of all grains where the particles are."""
+    return state.density / by_material(state.grain_density, case.grains.density)
 
 
 def bed(simulation) -> dict[str, float]:
@@ -15,9 +21,7 @@ def bed(simulation) -> dict[str, float]:
     if mesh.dimensions == 3:
         cells = bubble.through_depth(simulation.case.domain.size[2], *cells, up=up)
     row = bubble.metrics(*cells, up)
-    return row | {
-        "alpha_p_max": float(simulation.grains.inside.density.max(initial=0.0) / simulation.case.grains.density)
-    }
+    return row | {"alpha_p_max": float(fractions(simulation.case, simulation.grains.inside).max(initial=0.0))}
 
 
 def bed_in_the_end(rows: list[dict]) -> dict[str, float]:
@@ -30,6 +34,7 @@ AT_OUTPUTS = {
     "bursts": bursts.metrics,
     "column": column.metrics,
     "jet": jet.metrics,
+    "segregation": segregation.metrics,
     "sizes": sizing.metrics,
 }
 IN_THE_END = {"bubble": bed_in_the_end}
@@ -59,6 +64,8 @@ def refuse_unknown(case) -> None:
             raise CaseError(f"run.metrics = {name!r}; known for grains: {', '.join(AT_OUTPUTS)}, {none}")
     if "bursts" in case.run.metrics and "micro_explosion" not in case.effects:
         raise CaseError("run.metrics holds bursts, which tells of droplets that burst; add micro_explosion to effects")
+    if "segregation" in case.run.metrics:
+        segregation.refuse(case)
     if "jet" in case.run.metrics and not case.nozzles:
         mend = "leave it out, or give one in [nozzles.some_name]"
         raise CaseError(f"run.metrics holds jet, but the case has no nozzle; {mend}")

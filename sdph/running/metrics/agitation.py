@@ -28,4 +28,5 @@ def of_run(simulation) -> dict[str, float]:
     state = simulation.grains.inside
     theta = state.theta if len(state.theta) else np.zeros(len(state.x))
     found = metrics(particles.positions(state), state.mass, particles.velocities(state), theta)
-    return found | {"alpha_p_max": float(state.density.max(initial=0.0) / simulation.case.grains.density)}
+    own = particles.by_material(state.grain_density, simulation.case.grains.density)
+    return found | {"alpha_p_max": float((state.density / own).max(initial=0.0))}

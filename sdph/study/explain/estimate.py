@@ -104,7 +104,8 @@ def ratios(case) -> list[dict]:
     liquid."""
     if case.grains is None:
         return []
-    h, spacing, cell, d = case.smoothing_length, case.resolution.spacing, case.resolution.cell, case.grains.diameter
+    h, spacing, cell = case.smoothing_length, case.resolution.spacing, case.resolution.cell
+    d = max(grains.diameter for grains in case.kinds)
     extent = _extent(case)
     rows = [
         ("cell / h", cell / h, 0.25, 4.0, CELLS_WHY),
@@ -133,7 +134,7 @@ def pushed_aside(case) -> float:
     """r = alpha_p rho_g / (alpha_g rho_p) at the packing limit: inertia of the gas that moves the other way, over that
     of the grains."""
     alpha_p = case.grains.packing_limit
-    return alpha_p * case.gas.density / ((1.0 - alpha_p) * case.grains.density)
+    return alpha_p * case.gas.density / ((1.0 - alpha_p) * min(grains.density for grains in case.kinds))
 
 
 def blown_height(case) -> float:
@@ -149,7 +150,8 @@ def blown_height(case) -> float:
         low, high = start.extents(case, region)
         height = float(abs(g @ (np.array(high) - low)) / np.linalg.norm(g))
         if region.mass is not None:
-            height *= region.mass / (region.volume_fraction * case.grains.density * float(np.prod(high - low)))
+            density = region.volume_fraction * case.of(region.material).density
+            height *= region.mass / (density * float(np.prod(high - low)))
         tallest = max(tallest, height)
     return tallest
 

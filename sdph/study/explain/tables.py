@@ -9,7 +9,7 @@ from sdph.case import judge
 from sdph.laws.constants import ADIABATIC, GAS_CONSTANT
 from sdph.methods.grains import start
 from sdph.methods.grains.scales import THIN
-from sdph.study.explain import droplets, estimate, liquids, mps, solids
+from sdph.study.explain import droplets, estimate, liquids, materials, mps, solids
 
 OF = {
     "liquid": liquids,
@@ -47,6 +47,7 @@ def _of_grains(case, scales, priced) -> dict[str, list]:
     limits, expected = estimate.limits(case, scales), estimate.expected(case, scales, priced)
     return {
         "numbers": numbers(scales, case.warm),
+        "materials": materials.rows(case),
         "ratios": estimate.ratios(case),
         "limits": limits,
         "expected": expected,

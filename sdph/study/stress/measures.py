@@ -48,7 +48,8 @@ class Measures(Extremes):
     def window(self, simulation) -> None:
         """Take the figures after a window. The box around the grains that each region began with is kept as NAME_x_m
         and so on."""
-        s, fields, density = simulation.grains.inside, simulation.gas_state.fields, self.case.grains.density
+        s, fields = simulation.grains.inside, simulation.gas_state.fields
+        density = particles.by_material(s.grain_density, self.case.grains.density)
         speed = np.sqrt((particles.velocities(s) ** 2).sum(axis=1))
         self._take("speed_m_s", speed)
         self._take("alpha_p", s.density / density)

@@ -83,7 +83,7 @@ def test_work_of_contacts_is_what_their_force_takes(block):
             g = s.mass[i] * s.mass[j] * kernels.cubic_spline_gradient(math.sqrt(r2), block.kernel.h, block.kernel.sigma)
             power += g * (pull[0] * s.u[i] + pull[1] * s.v[i])
     for i in range(len(s.x)):
-        N = contacts.moments(s, block.rows, block.neighbours.box, out.pull, i)[0]
+        N = contacts.moments(block.kernel, s, block.rows, block.neighbours.box, out.pull, i)[0]
         work += s.mass[i] / s.density[i] * friction.power(tuple(tau[:, i]), contacts.deviator(N)[1])
     assert np.abs(s.contact_xy - before).max() > 0.0
     assert power == pytest.approx(-work, rel=1e-10)
