@@ -150,16 +150,18 @@ class OpenFoamGas:
 
     def advance(self, dt: float, sources: dict[str, np.ndarray]) -> GasState:
         """See `Gas.advance`."""
+        self._heard = False
         if "alpha_g" in sources:
             refuse_full_cells(sources["alpha_g"], self.mesh.centres)
+        self._heard = True
         units = {name: SOURCES[name][0] for name in sources} | {"dt": "s"}
         return self._ask(
             Message(Kind.ADVANCE, {"dt": float(dt), "write": self._clock.writes(self._time + dt), **sources}, units)
         )
 
     def retreat(self) -> GasState:
-        """See `Gas.retreat`."""
-        return self._ask(Message(Kind.RETREAT))
+        """See `Gas.retreat`. Of a window that was refused here the solver has not heard: it stands at its start."""
+        return self._ask(Message(Kind.RETREAT)) if self._heard else self._state
 
     def checkpoint(self, folder: Path) -> None:
         """See `Gas.checkpoint`."""
@@ -199,7 +201,7 @@ class OpenFoamGas:
             lambda alive: told_by.state(answer, len(self.mesh.volumes), self._case.vapour is not None, self._fields),
             f"for {message.kind.name}",
         )
-        self._time = state.time
+        self._time, self._state = state.time, state
         return state
 
     def _request(self, message: Message, answer: Kind) -> Message:

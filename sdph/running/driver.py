@@ -220,6 +220,7 @@ class Run:
         self.simulation, self.out = simulation, Outputs(self.folder, simulation)
         if checkpoint is None:
             vessel.refuse_outside(self.case, gas, simulation.state)
+            vessel.refuse_mouths_outside(self.case, gas)
             simulation.start()
             self.out.start()
             self._save()

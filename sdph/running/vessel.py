@@ -10,6 +10,7 @@ import numpy as np
 from coupling.choice import OWN_MESH
 from coupling.openfoam import patches, poly_mesh
 from sdph.case import read as cases
+from sdph.effects.around.streams import streams_of
 from sdph.engine import state as particles
 from sdph.engine.walls import facets
 from sdph.methods.grains import start
@@ -66,6 +67,30 @@ def refuse_outside(case, gas, state) -> None:
                 f"particles.{name} holds {len(own)} particles in no cell of the gas, the first at ({place}) m; move or "
                 "shrink it, or leave what lies behind walls out by walls"
             )
+
+
+def refuse_mouths_outside(case, gas) -> None:
+    """CaseError where a nozzle of grains has a part of its mouth outside the gas: what comes in there leaves at once,
+    or flies beside it. Streams are looked at half a spacing past the mouth."""
+    for name, nozzle in case.nozzles.items():
+        own = streams_of(case, nozzle)
+        places = own.mouth + 0.5 * case.resolution.spacing * own.axis
+        beside = _outside(case, gas, places)
+        if beside.any():
+            place = ", ".join(f"{a:.4g}" for a in places[beside][0])
+            raise CaseError(
+                f"nozzles.{name}: {np.count_nonzero(beside)} of its {len(places)} streams come in outside the gas, the "
+                f"first at ({place}) m; move the mouth in, make it smaller, or square to the wall that it is in"
+            )
+
+
+def _outside(case, gas, places) -> np.ndarray:
+    """Mask of places (N, d) [m] that are in no cell of the gas."""
+    grid = output.gas_grid(gas)[0] if hasattr(gas, "case_folder") else None
+    if grid is None or grid.__class__.__name__ == "RectilinearGrid":  # fills the domain
+        free = np.array([not period for period in case.domain.period])
+        return (((places < case.domain.corner) | (places > case.domain.upper)) & free).any(axis=1)
+    return np.asarray(grid.find_containing_cell(np.pad(places, ((0, 0), (0, 3 - places.shape[1]))))) < 0
 
 
 def _in_space(corner) -> np.ndarray:

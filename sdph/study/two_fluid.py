@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial import cKDTree
 
+from coupling.openfoam.comparators import two_fluid_numbers
 from coupling.openfoam.comparators.run import run_two_fluid
 from coupling.openfoam.comparators.start import Start
 from sdph.schema import CaseError
@@ -40,6 +41,9 @@ def tfm(run) -> list[dict]:
     first = run.fields(0.0)
     if first.gas is None:
         raise CaseError(f"{run.folder} has no gas; two fluids are compared with grains in a gas")
+    two_fluid_numbers.macros(run.case)  # refuses what two fluids lack before anything is read
+    if not first.particles.n_points:
+        raise CaseError(f"{run.folder} has no grains at its start; two fluids begin with some")
     box = first.gas.GetClassName() == "vtkRectilinearGrid"
     start = replace(_start(run.case, first), mesh=None if box else run.folder / "gas")
     reference = run_two_fluid(run.case, run.folder / "tfm", start=start)

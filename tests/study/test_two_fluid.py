@@ -1,6 +1,7 @@
 """Any case beside two fluids: what the checks see, what is refused, and a case of nobody's through OpenFOAM."""
 
 import dataclasses
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -182,6 +183,13 @@ def test_a_case_of_nobodys_runs_beside_two_fluids(tmp_path, monkeypatch, capsys)
     assert np.all(begun["T.particles"][lump] == 400.0) and np.all(begun["T.particles"][bed] == 300.0)
     assert begun["alpha.particles"][lump] == pytest.approx(0.3, abs=0.02)
     assert begun["alpha.particles"][bed] == pytest.approx(0.55, abs=0.03)
+
+
+def test_what_two_fluids_lack_is_said_before_a_run_is_read():
+    """Grains that come by a nozzle: there are none at the start, which nothing may trip over."""
+    run = SimpleNamespace(case=case(effects=[*EFFECTS, "lift"]), folder=None, fields=lambda t: SimpleNamespace(gas=1))
+    with pytest.raises(CaseError, match="effects holds lift"):
+        two_fluid.tfm(run)
 
 
 @pytest.mark.openfoam

@@ -202,6 +202,12 @@ class Mesh:
         surface = pyvista.PolyData(points, np.insert(faces, 0, 3, axis=1).ravel()).clean()
         if surface.n_open_edges:
             raise CaseError(f"{self.key} = {self.path!r} has {surface.n_open_edges} open edges; it must be closed")
+        a, b, c = np.moveaxis(np.asarray(surface.points, float)[surface.faces.reshape(-1, 4)[:, 1:]], 1, 0)
+        if np.einsum("ij,ij->", a, np.cross(b, c)) < 0.0:  # six times the volume
+            raise CaseError(
+                f"{self.key} = {self.path!r} is inside out: its normals point into it; they must point out of it, so "
+                "flip them"
+            )
         return surface
 
     def distance(self, points):

@@ -117,8 +117,13 @@ class Grains:
         return changed or self.moves
 
     def share_inside(self, after: float = 0.0) -> np.ndarray:
-        """Share of each particle (N,) that is in the gas, or will be `after` [s]."""
-        return self.source.inside(self.state, after) if self.source else np.ones(len(self.state.x))
+        """Share of each particle (N,) that is in the gas, or will be `after` [s]: none of those that will have left."""
+        share = self.source.inside(self.state, after) if self.source else np.ones(len(self.state.x))
+        if after and self.parameters["outflow"]:
+            s = self.state
+            ways = {x: getattr(s, x) + after * getattr(s, u) for x, u in zip("xyz", "uvw")}
+            share[leaving(self.case, s._replace(**ways))] = 0.0
+        return share
 
     def places(self, after: float = 0.0) -> np.ndarray:
         """Positions (N, 3) [m] where the particles are, or will be `after` [s]. Those upstream of a nozzle exchange

@@ -28,7 +28,8 @@ def metrics(simulation) -> dict[str, float]:
     floor, lid = rows.at_ends(pressure)
     flux = rows.mean((1.0 - fields["alpha_p"]) * (fields["velocity"] @ up))
     through = flux[0] * rows.area[0] / rows.area
-    height = 2.0 * float(mass @ (particles.positions(simulation.state) @ up - rows.floor) / mass.sum())
+    whole = float(mass.sum()) or math.nan  # of a vessel without grains what is told of them is not a number
+    height = 2.0 * float(mass @ (particles.positions(simulation.state) @ up - rows.floor)) / whole
     inside = (rows.place > INSIDE[0] * height) & (rows.place < INSIDE[1] * height)
     seen = np.count_nonzero(inside) > 1
     speed = particles.lengths(particles.velocities(simulation.state))
@@ -40,10 +41,10 @@ def metrics(simulation) -> dict[str, float]:
         "weight_Pa": weight(case, float(mass.sum()), float(mesh.volumes.sum()) / mesh.depth / rows.top),
         "gradient_Pa_m": float(-np.polyfit(rows.place[inside], pressure[inside], 1)[0]) if seen else math.nan,
         "alpha_p_inside": float(alpha_p[inside].mean()) if seen else math.nan,
-        "speed_max_m_s": float(speed.max()),
-        "speed_rms_m_s": float(np.sqrt((speed**2).mean())),
-        "alpha_p_mean": float(fraction @ mass / mass.sum()),
-        "alpha_p_max": float(fraction.max()),
+        "speed_max_m_s": float(speed.max(initial=0.0)),
+        "speed_rms_m_s": math.sqrt(float(speed @ speed) / max(len(speed), 1)),
+        "alpha_p_mean": float(fraction @ mass) / whole,
+        "alpha_p_max": float(fraction.max(initial=0.0)),
         "bed_height_m": height,
     }
 

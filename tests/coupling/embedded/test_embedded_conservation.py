@@ -8,7 +8,7 @@ import pytest
 from gas_cases import OIL, SIDES, gas_case, gas_of
 
 from coupling.embedded import EmbeddedGas
-from coupling.gas import SOURCES, Gas, GasError
+from coupling.gas import SOURCES, Gas, GasError, Unfinished
 from sdph.case.read import CaseError
 
 ALL = tuple(SOURCES)
@@ -266,3 +266,13 @@ def test_sources_it_cannot_take(sources, says):
     gas.start(None, ("alpha_g", "heat_coefficient"))
     with pytest.raises(GasError, match=re.escape(says)):
         gas.advance(1e-3, sources)
+
+
+def test_a_window_that_is_refused_leaves_the_gas_where_it_was():
+    gas = gas_of((0.4, 0.4), 8, boundaries=open_box(2))
+    gas.start(np.full(64, 1.0), ("alpha_g",))
+    gas.advance(1e-3, {"alpha_g": np.full(64, 1.0)})
+    now = gas.advance(1e-3, {"alpha_g": np.full(64, 1.0)})
+    with pytest.raises(Unfinished, match="over-packed"):
+        gas.advance(1e-3, {"alpha_g": np.full(64, -0.1)})
+    assert gas.retreat() is now

@@ -74,7 +74,7 @@ def test_ranks_and_files_conserve_energy_too(tmp_path, ranks):
 
 @pytest.mark.parametrize("ranks, equation", [(1, "constant"), (2, "constant"), (1, "ideal")])
 def test_a_retreat_goes_back_bit_for_bit(tmp_path, ranks, equation):
-    """After a step that could be finished, and after one that could not: as if neither had been tried."""
+    """After steps that could be finished, could not, and were not begun: as if none of them had been tried."""
     options = {"boundaries": INLET, "ranks": ranks, "equation_of_state": equation}
     with box(tmp_path / "a", (0.1, 0.06), 0.005, **options) as gas:
         expected = busy(started(gas), 6)
@@ -88,6 +88,10 @@ def test_a_retreat_goes_back_bit_for_bit(tmp_path, ranks, equation):
         with pytest.raises(Unfinished, match="temperature is .* in cell|residual of T is not a number"):
             gas.advance(1e-3, frozen)
         gas.retreat()
+        full = busy_sources(gas, 4) | {"alpha_g": np.full(len(gas.mesh.volumes), -0.1)}  # refused before it is sent
+        with pytest.raises(Unfinished, match="over-packed"):
+            gas.advance(1e-3, full)
+        assert gas.retreat().time == began[-1].time
         after = busy(gas, 3, begin=3)
     assert all(same(a, b) for a, b in zip(after, expected[3:], strict=True))
 

@@ -67,3 +67,19 @@ def test_walls_beside_a_mouth_take_nothing_from_grains_that_wait(tmp_path):
     done = until(begun(case(nozzles, effects=effects, boundaries=CLOSED), tmp_path), 0.06)
     assert done.grains.source.mass > 0.0 and done.ledger.sums["work_of_inflow_J"] != 0.0
     assert done.ledger.summary()["motion_drift_rel"] < 1e-12
+
+
+def test_grains_that_will_have_left_take_no_room(tmp_path):
+    """Those that fall through an open side within a window are not in the gas at its end; beside a wall they are."""
+    bed = {"shape": "box", "lower_m": [0.3, 0.02], "upper_m": [0.7, 0.06], "volume_fraction": ALPHA,
+           "temperature_K": 300.0, "velocity_m_s": [0.0, -1.0]}  # fmt: skip
+    shares = {}
+    for kind in ("pressure_outlet", "wall"):
+        sides = {"below": {"kind": kind, "side": "bottom"}, "walls": {"kind": "wall"}}
+        own = case({}, effects=["outflow", "drag"], boundaries=sides, particles={"bed": bed})
+        (tmp_path / kind).mkdir()
+        done = begun(own, tmp_path / kind)
+        shares[kind] = done.grains.share_inside(0.04), done.state.y
+    share, y = shares["pressure_outlet"]
+    assert np.array_equal(share == 0.0, y < 0.04) and 0 < (share == 0.0).sum() < len(y)
+    assert (shares["wall"][0] == 1.0).all()

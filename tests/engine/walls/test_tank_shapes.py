@@ -95,6 +95,15 @@ def test_a_mesh_that_cannot_be_a_tank_is_refused(tmp_path):
         settled({"shape": "mesh", "mesh": str(path)}, 0.1, 0.0)
     with pytest.raises(CaseError, match="cannot be read"):
         settled({"shape": "mesh", "mesh": str(tmp_path / "none.stl")}, 0.1, 0.0)
+    corners = np.vstack((np.zeros(3), np.eye(3))) + 5.0  # far from the origin: the sign is the volume's
+    inwards = np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]])
+    for faces, right in ((inwards, False), (inwards[:, ::-1], True)):
+        meshio.write_points_cells(str(path), corners, [("triangle", faces)])
+        if right:
+            assert shapes.Mesh(str(path)).distance(np.full((1, 3), 5.1)) < 0.0
+            continue
+        with pytest.raises(CaseError, match="is inside out: its normals point into it"):
+            _ = shapes.Mesh(str(path)).triangles
 
 
 MIDDLE = np.array([0.5, 0.5, 0.5])
