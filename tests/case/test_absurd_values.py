@@ -6,7 +6,7 @@ import pytest
 from discs import refusal
 
 from sdph import effects, schema
-from sdph.case import sections
+from sdph.case import matter, sections
 from sdph.methods.liquids.sections import GasPhase, Liquid
 from sdph.methods.solids.sections import Solid
 from sdph.schema import CaseError
@@ -17,7 +17,7 @@ RECORDS = (
     | {
         "coupling": sections.Coupling,
         "vapour": sections.Vapour,
-        "gas.turbulence": sections.Turbulence,
+        "gas.turbulence": matter.Turbulence,
         "liquid": Liquid,
         "gas_phase": GasPhase,
         "solid": Solid,

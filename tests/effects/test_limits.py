@@ -24,6 +24,7 @@ COARSE = {
     "disc_cluster": ("resolution.spacing_mm=20", "resolution.cell_mm=50"),
     "bubbling_bed": ("resolution.spacing_mm=20", "resolution.cell_mm=50"),
     "evaporating_jet": ("resolution.spacing_mm=50", "resolution.cell_mm=100"),
+    "segregation": ("resolution.spacing_mm=15", "resolution.cell_mm=30"),
     "bubble_rise": ("resolution.spacing_mm=100",),
     "sloshing_sphere": ("resolution.spacing_mm=100",),
     "taylor_green": ("resolution.spacing_mm=100",),

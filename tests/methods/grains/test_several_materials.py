@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from grain_boxes import DENSITY, SPACING, box, go, several, started, windows
+from scipy.spatial import cKDTree
 
 from sdph.effects.grains import grain_drag
 from sdph.engine import state as particles
@@ -193,6 +194,14 @@ def test_two_materials_come_to_one_temperature(tmp_path):
     capacity = run.state.mass * run.state.grain_capacity
     np.testing.assert_allclose(run.state.temperature, mean, rtol=1e-6)
     assert float(capacity @ run.state.temperature) == pytest.approx(before, rel=1e-12)
+
+
+def test_regions_at_one_place_are_staggered(tmp_path):
+    """No particle of the one stands on one of the other: they are a diagonal of half a spacing apart."""
+    s = started(streams(), tmp_path).state
+    first, second = (np.column_stack((s.x, s.y))[s.material == number] for number in (0, 1))
+    nearest, _ = cKDTree(first, boxsize=0.06).query(second)
+    np.testing.assert_allclose(nearest, math.sqrt(0.5) * SPACING, rtol=1e-9)
 
 
 def test_pressure_acts_by_volume(tmp_path):
