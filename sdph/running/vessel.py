@@ -88,7 +88,7 @@ def _outside(case, gas, places) -> np.ndarray:
     """Mask of places (N, d) [m] that are in no cell of the gas."""
     grid = output.gas_grid(gas)[0] if hasattr(gas, "case_folder") else None
     if grid is None or grid.__class__.__name__ == "RectilinearGrid":  # fills the domain
-        free = np.array([not period for period in case.domain.period])
+        free = np.array([not period for period in case.domain.period[: case.dimensions]])
         return (((places < case.domain.corner) | (places > case.domain.upper)) & free).any(axis=1)
     return np.asarray(grid.find_containing_cell(np.pad(places, ((0, 0), (0, 3 - places.shape[1]))))) < 0
 

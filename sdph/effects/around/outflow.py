@@ -31,8 +31,9 @@ def kernel(case) -> OutflowP:
     return OutflowP(int("walls" in case.effects))
 
 
-def leaving(case, state) -> np.ndarray:
-    """Mask of the grains that are out of the domain through an open side."""
+def leaving(case, state, foreseen: bool = False) -> np.ndarray:
+    """Mask of the grains that are out of the domain through an open side. `foreseen` places are those of grains that no
+    wall has turned back yet: only outlets with a side count then."""
     gone = np.zeros(len(state.x), bool)
     if not len(gone):
         return gone
@@ -43,7 +44,7 @@ def leaving(case, state) -> np.ndarray:
             continue
         for side, out in zip(sides, (places[axis] < low, places[axis] > high)):
             if out.any():
-                gone |= out & _open(case, side, axis, places)
+                gone |= out & (_outlets if foreseen else _open)(case, side, axis, places)
     return gone & (state.kind == GRAIN)
 
 
@@ -91,6 +92,10 @@ def _open(case, side: str, axis: int, places) -> np.ndarray:
     own = case.parameters.get("walls")
     if own is None or (own.mesh and own.source == "gas"):  # patches hold grains wherever they are no outlet
         return np.ones(len(places[0]), bool)
+    return _outlets(case, side, axis, places)
+
+
+def _outlets(case, side: str, axis: int, places) -> np.ndarray:
     tangential = [place for a, place in enumerate(places) if a != axis]
     found = np.zeros(len(places[0]), bool)
     for boundary in case.boundaries.values():

@@ -122,7 +122,7 @@ class Grains:
         if after and self.parameters["outflow"]:
             s = self.state
             ways = {x: getattr(s, x) + after * getattr(s, u) for x, u in zip("xyz", "uvw")}
-            share[leaving(self.case, s._replace(**ways))] = 0.0
+            share[leaving(self.case, s._replace(**ways), foreseen=True)] = 0.0
         return share
 
     def places(self, after: float = 0.0) -> np.ndarray:

