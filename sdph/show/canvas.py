@@ -68,8 +68,9 @@ class Sheet:
         self.axes.set_xlim(low[0], high[0])
         self.axes.set_ylim(low[1], high[1])
 
-    def bar(self, scale: Scale) -> None:
-        """Bar of a scale: beside the picture, or below one that is wide."""
+    def bar(self, scale: Scale, words: tuple[str, ...] = ()) -> None:
+        """Bar of a scale: beside the picture, or below one that is wide; of numbers that stand for `words`, from 0 on,
+        a field of its own each."""
         from matplotlib import cm, colors, ticker
 
         if self.flat:
@@ -77,12 +78,19 @@ class Sheet:
         else:
             place = np.array([self.corner[0] + self.own[0] + 0.18, self.corner[1], 0.17, self.own[1]])
         inset = self.figure.add_axes(place / np.tile(self.size, 2))
-        mapped = cm.ScalarMappable(colors.Normalize(scale.low, scale.high), style.map_of(scale.map))
+        shades, norm = style.map_of(scale.map), colors.Normalize(scale.low, scale.high)
+        if words:
+            shades = colors.ListedColormap([shades(norm(n)) for n in range(len(words))])
+            norm = colors.Normalize(-0.5, len(words) - 0.5)
+        mapped = cm.ScalarMappable(norm, shades)
         drawn = self.figure.colorbar(
             mapped, cax=inset, orientation="horizontal" if self.flat else "vertical", extend=scale.extend,
             extendfrac=0.03, ticks=ticker.MaxNLocator(6, steps=TICKS),
             format=ticker.FuncFormatter(style.digits),
         )  # fmt: skip
+        if words:
+            drawn.set_ticks(range(len(words)), labels=words)
+            drawn.ax.tick_params(length=0.0)
         drawn.outline.set_edgecolor(self.theme.faint)
         drawn.ax.tick_params(colors=self.theme.ink, labelsize=9)
         drawn.set_label(scale.title, color=self.theme.ink, fontsize=10)

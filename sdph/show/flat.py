@@ -38,7 +38,7 @@ def draw(shot: Shot, look: Look, scale: Scale, field: str, last: float, fine: in
         _arrows(sheet, shot)
     sheet.head(shot.title, shot.time, last)
     sheet.rule(low, high, ("xyz"[right], "xyz"[up]))
-    sheet.bar(scale)
+    sheet.bar(scale, shot.words(field))
     return sheet
 
 

@@ -53,6 +53,10 @@ class Shot:
         own += [(self.gas, self.gas.cell_data)] if self.gas is not None else []
         return [numbers(data[field]) for _, data in own if field in data]
 
+    def words(self, field: str) -> tuple[str, ...]:
+        """Names that the numbers of a field stand for, from 0 on; none of others."""
+        return tuple(self.case.materials) if field == "material" and self.case else ()
+
     def sizes(self) -> np.ndarray:
         """(N,) edge [m] of the square or cube that each particle stands for, at most a spacing: in a spray particles
         have moved apart, and the sum of the density knows but one."""

@@ -39,7 +39,7 @@ def draw(shot: Shot, look: Look, scale: Scale, field: str, last: float, fine: in
     sheet.axes.set_ylim(low[1], high[1])
     eye.rule(sheet, shot.box, view)
     sheet.head(shot.title, shot.time, last)
-    sheet.bar(scale)
+    sheet.bar(scale, shot.words(field))
     return sheet
 
 

@@ -281,3 +281,11 @@ def test_the_window_follows_time_and_field(tmp_path):
     assert window._clipped(stage.shot, stage.clip).particles.n_points == 32
     assert np.abs(stage.plotter.screenshot(return_img=True).astype(float) - whole).max() > 50.0
     stage.plotter.close()
+
+
+def test_numbers_that_stand_for_words_are_told_by_them():
+    sheet = canvas.Sheet(1.0, 1.0, style.THEMES["light"])
+    sheet.bar(style.Scale("material", "viridis", 0.0, 2.0, 0.0, 1.0, "neither"), ("sand", "char", "ash"))
+    bar = sheet.figure.axes[-1]
+    assert [label.get_text() for label in bar.get_yticklabels()] == ["sand", "char", "ash"]
+    assert np.array_equal(bar.get_yticks(), [0.0, 1.0, 2.0]) and bar.get_ylim() == (-0.5, 2.5)
