@@ -61,6 +61,7 @@ class OpenFoamGas:
         self.ranks = case.coupling.gas_ranks
         self._process, self._connection, self._asking = None, None, False
         self._time, self._clock, self._fields = 0.0, Clock(case.run), ()
+        self._heard = True  # the solver, of the last window
         self._allow_code, self._known = allow_code, {}
         case_files.refuse_path(self._folder)
         if template is None:

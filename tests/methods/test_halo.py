@@ -45,7 +45,9 @@ def poisoned(array, rows):
 def poison(stepper, names, far):
     """Poison fields of the state and arrays of rows, of particles that are `far` (N,)."""
     for name in names:
-        own = getattr(stepper if hasattr(stepper, name) else stepper.state, name)
+        rows = getattr(stepper, name, None)  # a stepper may call a number so
+        arrays = isinstance(rows, np.ndarray) or (isinstance(rows, tuple) and isinstance((*rows, 0.0)[0], np.ndarray))
+        own = rows if arrays else getattr(stepper.state, name)
         for array in own if isinstance(own, tuple) else (own,):
             if len(array):
                 poisoned(array, far)

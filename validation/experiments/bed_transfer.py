@@ -40,7 +40,7 @@ def reduced(law, reynolds, schmidt: float) -> np.ndarray:
 
 
 def checks(folder: Path, overrides=(), reporter=None, laws=None) -> list[dict]:
-    """Of each law, set and range of Re: the mean over the markers, and the share of them in its band."""
+    """Mean over the markers, and the share of them in its band, of each law, set and range of Re."""
     laws, markers = laws or heat.LAWS, measured.table("wakao_1978")
     _figure(folder / "bed_transfer.png", markers, laws)
     return [

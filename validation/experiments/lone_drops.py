@@ -25,7 +25,7 @@ ICE = 273.15  # K
 
 
 class Drop(NamedTuple):
-    """What was measured: fluids by their names; diameter [m], temperatures [K], pressure [Pa]; the stream's speed [m/s]
+    """A drop that was measured: fluids by their names; diameter [m], temperatures [K], pressure [Pa]; the stream's speed [m/s]
     and mass fraction of vapour [-]; time [s] over which it was followed."""
 
     liquid: str

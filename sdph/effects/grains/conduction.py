@@ -62,7 +62,7 @@ def dt_limit(p, case, state) -> float:
         return NO_LIMIT
     among = [law.harmonic_mean(grains.conductivity, most) for grains in case.kinds]
     diffusivity = max(k / (grains.density * grains.heat_capacity) for k, grains in zip(among, case.kinds))
-    return STABLE * case.smoothing_length**2 / diffusivity
+    return STABLE * case.smoothing_length**2 / diffusivity if diffusivity else NO_LIMIT
 
 
 def call(scales) -> Judgement:
