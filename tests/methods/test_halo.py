@@ -46,7 +46,7 @@ def poison(stepper, names, far):
     """Poison fields of the state and arrays of rows, of particles that are `far` (N,)."""
     for name in names:
         rows = getattr(stepper, name, None)  # a stepper may call a number so
-        arrays = isinstance(rows, np.ndarray) or (isinstance(rows, tuple) and isinstance((*rows, 0.0)[0], np.ndarray))
+        arrays = all(isinstance(own, np.ndarray) for own in (rows if isinstance(rows, tuple) else (rows,)))
         own = rows if arrays else getattr(stepper.state, name)
         for array in own if isinstance(own, tuple) else (own,):
             if len(array):

@@ -25,8 +25,8 @@ ICE = 273.15  # K
 
 
 class Drop(NamedTuple):
-    """A drop that was measured: fluids by their names; diameter [m], temperatures [K], pressure [Pa]; the stream's speed [m/s]
-    and mass fraction of vapour [-]; time [s] over which it was followed."""
+    """A drop that was measured: fluids by their names; diameter [m], temperatures [K], pressure [Pa]; the stream's
+    speed [m/s] and mass fraction of vapour [-]; time [s] over which it was followed."""
 
     liquid: str
     gas: str

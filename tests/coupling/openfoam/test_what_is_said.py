@@ -19,7 +19,7 @@ def gas(tmp_path):
 
     def answering(kind, text):
         gas = OpenFoamGas.__new__(OpenFoamGas)
-        gas._log, gas._process, gas._fields = tmp_path / "log", None, ()
+        gas._log, gas._process, gas._fields, gas._heard = tmp_path / "log", None, (), True
         gas._connection = FileConnection(tmp_path / "exchange")
         gas._watch = lambda: lambda: True
         gas._say_goodbye = lambda: None
