@@ -17,7 +17,7 @@ from sdph.laws import grain_loss
 from sdph.laws.compiled import serial
 from sdph.methods.grains.history import carried
 
-FINER = 8  # nodes for each of the rule of sizes: quantiles to 0.3 % (tests/running/test_sizing.py); our choice
+FINER = 8  # nodes for each of the rule of sizes: quantiles to 0.3 %, of equal drops to half a bin; our choice
 LEAST, MOST, PER_DECADE = 1e-9, 10.0, 200  # diameters [m] that are told apart, by 1.2 %: from a molecule to a boulder
 BINS = round(PER_DECADE * math.log10(MOST / LEAST))
 SHARES = {"Dv10_m": 0.1, "Dv50_m": 0.5, "Dv90_m": 0.9}
