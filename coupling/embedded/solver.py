@@ -84,8 +84,8 @@ class EmbeddedGas:
 
     def advance(self, dt: float, sources: dict[str, np.ndarray]) -> GasState:
         """Advance one window: mass to be reached, momentum predictor, pressure projection, transport of scalars."""
-        self.before = self.flow, self.state  # also of a window that is refused: retreat goes back to its start
         self._check(dt, sources)
+        self.before = self.flow, self.state
         old = new = self.flow
         window = window_of(self.box, old, dt, sources)
         for _ in range(PASSES if self.box.properties.varies else 1):

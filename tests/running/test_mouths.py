@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import pyvista
 
 from sdph import scenes
 from sdph.case import read as cases
@@ -38,3 +39,16 @@ def test_what_is_periodic_has_no_outside():
     case = sprayed(centre=(1.0, -0.1))
     domain = dataclasses.replace(case.domain, periodic=("y",))
     vessel.refuse_mouths_outside(dataclasses.replace(case, domain=domain), BOX)
+
+
+def test_a_mouth_beside_a_mesh_of_ones_own_is_refused(monkeypatch):
+    """The mesh fills the left half of the domain alone."""
+    size = sprayed().domain.size
+    cells = pyvista.ImageData(
+        dimensions=(3, 3, 2), spacing=(size[0] / 4.0, size[1] / 2.0, 1.0), origin=(0.0, 0.0, -0.5)
+    )
+    monkeypatch.setattr(vessel.output, "gas_grid", lambda gas: (cells.cast_to_unstructured_grid(), None))
+    own = SimpleNamespace(case_folder="gas")
+    vessel.refuse_mouths_outside(sprayed(), own)
+    with pytest.raises(CaseError, match="come in outside the gas"):
+        vessel.refuse_mouths_outside(sprayed(centre=(0.6 * size[0], 0.5 * size[1])), own)
