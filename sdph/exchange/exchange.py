@@ -273,8 +273,8 @@ class Exchange:
         (N,) [1/s].
 
         With alpha_g v_g + alpha_p v_p given, drag and pressure gradient together are beta/alpha_g^2 v_p, so that grains
-        stop at the rate beta/(alpha_g^2 alpha_p rho_p). Drag alone, beta/(alpha_p rho_p), is exact over a window; what is
-        left is of the gas that a window holds. 0 where the gas does not feel the volume of the grains.
+        stop at the rate beta/(alpha_g^2 alpha_p rho_p). Drag alone, beta/(alpha_p rho_p), is exact over a window; the
+        rest is of the gas that a window holds. 0 where the gas does not feel the volume of the grains.
         """
         mass = state.mass * (state.kind == GRAIN)
         if not self.parameters["gas_pressure"] or self.case.coupling.one_way or not mass.any():

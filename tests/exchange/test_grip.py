@@ -1,4 +1,4 @@
-"""Windows in which a plug of grains stops in a closed column: the gas has to flow past it, and a window holds the gas."""
+"""Windows in which a plug of grains stops in a closed column: gas flows past it, and a window holds that gas."""
 
 import csv
 import math
