@@ -269,12 +269,11 @@ class Exchange:
         return cooled
 
     def grip(self, state, damping) -> float:
-        """Rate [1/s] at which gas that cannot give way stops grains beyond what drag alone does, mean by mass; damping
-        (N,) [1/s].
+        """Rate [1/s], mean by mass, at which gas that cannot give way stops grains beyond drag; damping (N,) [1/s].
 
         With alpha_g v_g + alpha_p v_p given, drag and pressure gradient together are beta/alpha_g^2 v_p, so that grains
-        stop at the rate beta/(alpha_g^2 alpha_p rho_p). Drag alone, beta/(alpha_p rho_p), is exact over a window; the
-        rest is of the gas that a window holds. 0 where the gas does not feel the volume of the grains.
+        stop at the rate beta/(alpha_g^2 alpha_p rho_p); drag alone, beta/(alpha_p rho_p), is exact over a window. 0
+        where the gas does not feel the volume of the grains.
         """
         mass = state.mass * (state.kind == GRAIN)
         if not self.parameters["gas_pressure"] or self.case.coupling.one_way or not mass.any():

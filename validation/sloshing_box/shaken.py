@@ -33,7 +33,7 @@ SPACINGS = tuple(1e3 * LENGTH / n for n in (43, 87, 173))  # mm
 
 
 def overrides(spacing: float) -> tuple[str, ...]:
-    """What the scene becomes at a spacing [mm]."""
+    """Keys by which the scene becomes the tank, at a spacing [mm]."""
     omega = 2.0 * math.pi / PERIOD
     return (
         "run.end_time_s=10.0",
