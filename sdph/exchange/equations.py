@@ -15,8 +15,9 @@ from sdph.laws import evaporation
 from sdph.laws.compiled import parallel
 from sdph.laws.exchange import exponential_fraction
 
-# of the temperature: smaller differences need not be resolved (round-off else rules the window); our choice
-NEGLIGIBLE = 1e-6
+# K, least difference of temperatures that the length of a window takes a case to have: where there is none, drag warms
+# gas and grains by some mK, and that need not be resolved to a thousandth; our choice
+LEAST_SPAN = 10.0
 
 
 class Seen:
@@ -48,9 +49,8 @@ def vapour_concentration(p, gas_state) -> np.ndarray:
 
 
 def temperature_span(case) -> float:
-    """Hottest less coldest of all that the case gives a temperature [K], and where they are alike a negligible part of
-    it."""
-    return max(max(case.temperatures) - min(case.temperatures), NEGLIGIBLE * max(case.temperatures))
+    """Hottest less coldest of all that the case gives a temperature [K], LEAST_SPAN at least."""
+    return max(max(case.temperatures) - min(case.temperatures), LEAST_SPAN)
 
 
 @parallel
