@@ -117,8 +117,8 @@ def spalding_wet_bulb(
     """T [K] < T_g of a drop with Stefan flow in mass and heat, and its B_T: 1 + B_T = (1 + B_M)^phi, B_T = c_pv (T_g -
     T)/L; m' = pi d Nu k_g/c_pv ln(1 + B_T).
 
-    `mass_number(T)` is B_M, inf from boiling on; exponent phi = Sh rho_g D c_pv/(Nu k_g), 1 of Lewis number 1. Spalding 1953, 4th Symp.
-    (Int.) Combust., 847; Abramzon & Sirignano 1989, Int. J. Heat Mass Transfer 32, 1605, without F.
+    `mass_number(T)` is B_M, inf from boiling on; exponent phi = Sh rho_g D c_pv/(Nu k_g), 1 of Lewis number 1. Spalding
+    1953, 4th Symp. (Int.) Combust., 847; Abramzon & Sirignano 1989, Int. J. Heat Mass Transfer 32, 1605, without F.
     """
 
     def heat_number(temperature):

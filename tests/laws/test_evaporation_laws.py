@@ -119,7 +119,7 @@ def test_a_drop_above_boiling_comes_down_to_it_in_a_step_without_heat_too(relaxa
 
 @pytest.mark.parametrize("blown", [1e-9, 0.1, 1.0, 3.0, 20.0])
 def test_heat_that_gets_past_the_vapour_is_that_of_the_profile_around_a_drop(blown):
-    """-4 pi k dT/ds = m' c (T - T_s) + Q, s = 1/r, integrated from the surface to far away: Q over 2 pi d k (T_g - T_s);
+    """-4 pi k dT/ds = m' c (T - T_s) + Q, s = 1/r, integrated from the surface on: Q over 2 pi d k (T_g - T_s);
     and ln(1 + B)/B with B = m' c (T_g - T_s)/Q."""
     conductance = 2.0 * math.pi * 1e-3 * 0.025
     flow = blown * conductance  # W/K

@@ -34,9 +34,7 @@ def numbers(s) -> list[tuple]:
     if "evaporation" in s.case.parameters and s.case.vapour and s.patches:
         (mass, heat_number, spent), own = spalding(s), s.case.parameters["evaporation"]
         rows.append(("Spalding B of mass", mass, 0.1, "the vapour's own outflow slows evaporation", "Spalding 1953"))
-        rows.append(
-            ("Spalding B of heat", heat_number, 0.1, OF_HEAT[own.law], "Spalding 1953")
-        )
+        rows.append(("Spalding B of heat", heat_number, 0.1, OF_HEAT[own.law], "Spalding 1953"))
         rows.append(("run / evaporation time", spent, 1.0, "droplets are gone", "d2 law, Spalding 1953"))
     return rows
 

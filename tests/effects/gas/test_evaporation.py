@@ -210,7 +210,7 @@ def lost(case, state, window, share):
 
 @pytest.mark.parametrize("share", [1.0, 0.4])
 def test_vapour_holds_back_heat_of_convection_alone(share):
-    """Of the part that is convection z/(exp(z) - 1), z = m' c_pv/(h A); of radiation nothing. The linear law has none."""
+    """Of the part that is convection z/(exp(z) - 1), z = m' c_pv/(h A); of radiation nothing. Linear has none."""
     case = droplet("evaporation.law='spalding'")
     mass, _, mean = lost(case, one(390.0), 1e-6, share)
     z = mass / 1e-6 * case.vapour.heat_capacity / (share * 1e-6)
