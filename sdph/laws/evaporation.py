@@ -11,8 +11,6 @@ Quoted as "Chen et al. 2014": Chen, Qiang & Gao, Acta Phys. Sin. 63, 230206 (equ
 
 import math
 
-import numpy as np
-
 from sdph.laws.compiled import law
 from sdph.laws.constants import GAS_CONSTANT, TINY
 from sdph.laws.exchange import SHORT
@@ -143,12 +141,12 @@ def heat_share(blown):
 
     blown is z = m' c_pv/(h A) = ln(1 + B_T) [-]: m' [kg/s] the vapour, c_pv [J/(kg K)] its heat capacity, h A [W/K]
     the drop's conductance without it; in gas at rest z = m' c_pv/(2 pi d k_g). What is missing warms the vapour on its
-    way from T_p to T_g. Numbers or arrays. Exact for an even film of even properties: Spalding 1953, 4th Symp. (Int.)
+    way from T_p to T_g. Exact for an even film of even properties: Spalding 1953, 4th Symp. (Int.)
     Combust., 847; Bird, Stewart & Lightfoot 2002, section 22.8; f_2 of Miller, Harstad & Bellan 1998, Int. J.
     Multiphase Flow 24, 1025.
     """
     z = blown + TINY  # the limit at 0 is 1
-    return z / np.expm1(z)
+    return z / math.expm1(z)
 
 
 @law

@@ -12,8 +12,6 @@ from collections.abc import Callable
 from sdph.laws import evaporation
 from sdph.laws.constants import GAS_CONSTANT
 
-FAR = 1e3  # ln(1 + B) that no drop has, in the place of inf, of which a root cannot be sought; our choice
-
 
 def _root(function: Callable[[float], float], low: float, high: float) -> float:
     """Find where a function changes its sign, to round-off."""
@@ -112,20 +110,16 @@ def wet_bulb_temperature(
 
 
 def spalding_wet_bulb(
-    gas_temperature: float, mass_number: Callable[[float], float], exponent: float, latent_heat: float, capacity: float
-) -> tuple[float, float]:
-    """T [K] < T_g of a drop with Stefan flow in mass and heat, and its B_T: 1 + B_T = (1 + B_M)^phi, B_T = c_pv (T_g -
-    T)/L; m' = pi d Nu k_g/c_pv ln(1 + B_T).
+    gas_temperature: float, hottest: float, mass_number: Callable[[float], float], exponent: float, heat: float
+) -> float:
+    """T [K] of a drop with Stefan flow in mass and heat: 1 + B_T = (1 + B_M)^phi, B_T = c_pv (T_g - T)/L.
 
-    `mass_number(T)` is B_M, inf from boiling on; exponent phi = Sh rho_g D c_pv/(Nu k_g), 1 of Lewis number 1. Spalding
-    1953, 4th Symp. (Int.) Combust., 847; Abramzon & Sirignano 1989, Int. J. Heat Mass Transfer 32, 1605, without F.
+    Sought in [T_g/2, hottest], below boiling. `mass_number(T)` is B_M, exponent phi = Sh rho_g D c_pv/(Nu k_g), heat
+    L/c_pv [K]. m' = pi d Nu k_g/c_pv ln(1 + B_T). Spalding 1953, 4th Symp. (Int.) Combust., 847; Abramzon & Sirignano
+    1989, Int. J. Heat Mass Transfer 32, 1605, without F.
     """
 
-    def heat_number(temperature):
-        return capacity * (gas_temperature - temperature) / latent_heat
+    def more(T):  # vapour than heat
+        return exponent * math.log1p(mass_number(T)) - math.log1p((gas_temperature - T) / heat)
 
-    def more(temperature):  # vapour than heat
-        return min(exponent * math.log1p(mass_number(temperature)), FAR) - math.log1p(heat_number(temperature))
-
-    temperature = _root(more, 0.5 * gas_temperature, gas_temperature)
-    return temperature, heat_number(temperature)
+    return _root(more, 0.5 * gas_temperature, hottest)

@@ -4,15 +4,16 @@ A bed of conductivity k_bed has gas and grains at one temperature. The gas is so
 (docs/theory/gas.md), so that the grains have what is left: K = k_bed - alpha_g k_g. Both together are the bed, and a
 cloud of few grains conducts as the gas: K/alpha_p -> k_g. Syamlal & Gidaspow 1985, AIChE J. 31, 127, and Kuipers,
 Prins & van Swaaij 1992, AIChE J. 38, 1079, give the gas (1 - sqrt(alpha_p)) k_g: that needs a gas that conducts so, and
-their K/alpha_p has no limit. All take numbers or arrays; 0 < alpha_p < 1, grains that conduct no less than the gas.
+their K/alpha_p has no limit. All for 0 < alpha_p < 1 and grains that conduct no less than the gas.
 """
 
-import numpy as np
+import math
 
 from sdph.laws.compiled import law
 
 SPHERES = 1.25  # C of B = C (alpha_p/alpha_g)^(10/9): Zehner & Schluender 1970
 NEAR = 0.03  # of N = 1 - B k_g/k_p, below which the closed form loses more digits than its series; our choice
+TERMS = 8  # of that series: NEAR^8 is 7e-13
 
 
 @law
@@ -20,19 +21,15 @@ def zehner_schluender_core(alpha_p, ratio):
     """Conductivity of the inner part of Zehner & Schluender's cell over that of the gas [-], ratio = k_p/k_g [-].
 
     2/N [(B/N^2)(1 - 1/ratio) ln(ratio/B) - (B + 1)/2 - (B - 1)/N], N = 1 - B/ratio, B = 1.25 (alpha_p/alpha_g)^(10/9);
-    its series in N about N = 0, where it is 0/0. Points of contact, radiation and gas in narrow gaps (Knudsen) are left
-    out.
+    its series in N about N = 0, where it is 0/0. Contact areas, radiation and narrow gaps (Knudsen) are left out.
     """
     B = SPHERES * (alpha_p / (1.0 - alpha_p)) ** (10.0 / 9.0)
-    N = 1.0 - B / ratio
-    near = 1.0 * (np.abs(N) < NEAR)
-    M = N + near  # what is not taken is finite
-    closed = 2.0 / M * (B / M**2 * (1.0 - 1.0 / ratio) * np.log(ratio / B) - 0.5 * (B + 1.0) - (B - 1.0) / M)
-    series, power = 0.0 * N, 1.0 + 0.0 * N
-    for k in range(1, 9):
-        series = series + 2.0 * power * ((B - 1.0) / (k + 2.0) + 1.0 / (k + 1.0))
-        power = power * N
-    return near * series + (1.0 - near) * closed
+    N, found = 1.0 - B / ratio, 0.0
+    if abs(N) < NEAR:
+        for k in range(TERMS, 0, -1):
+            found = found * N + 2.0 * ((B - 1.0) / (k + 2.0) + 1.0 / (k + 1.0))
+        return found
+    return 2.0 / N * (B / N**2 * (1.0 - 1.0 / ratio) * math.log(ratio / B) - 0.5 * (B + 1.0) - (B - 1.0) / N)
 
 
 @law
@@ -41,12 +38,12 @@ def zehner_schluender(alpha_p, grains, gas):
 
     Zehner & Schluender 1970, Chem.-Ing.-Tech. 42, 933.
     """
-    root = np.sqrt(alpha_p)
+    root = math.sqrt(alpha_p)
     return gas * (1.0 - root + root * zehner_schluender_core(alpha_p, grains / gas))
 
 
 @law
 def beside_gas(alpha_p, grains, gas):
     """K [W/(m K)] = k_bed - alpha_g k_g = k_g sqrt(alpha_p) [sqrt(alpha_p) + core - 1]: what the grains have of it."""
-    root = np.sqrt(alpha_p)
+    root = math.sqrt(alpha_p)
     return gas * root * (root + zehner_schluender_core(alpha_p, grains / gas) - 1.0)

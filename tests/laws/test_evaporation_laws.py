@@ -1,6 +1,5 @@
 import math
 
-import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -113,7 +112,7 @@ def test_at_boiling_a_drop_takes_what_ends_the_step_there(gas, start, relaxation
 @pytest.mark.parametrize("relaxations", [0.0, 1e-12, 0.9e-8, 1.1e-8])
 def test_a_drop_above_boiling_comes_down_to_it_in_a_step_without_heat_too(relaxations):
     """Heat over latent heat, C (T - T_b) and what little comes in, on both sides of where the law takes its limit."""
-    force = evaporation.boiling_force(460.0, 1000.0, 447.0, relaxations * 2e-3 / 0.5, 2e-3, 3.0, 0.1, 0.5)
+    force = evaporation.boiling_force(460.0, 1000.0, 447.0, relaxations * 2e-3 / 0.5, 2e-3, 3.0, 1e-3, 0.5)
     assert force == pytest.approx(2e-3 * (13.0 + relaxations * 540.0) / (3.0 * 0.5), rel=1e-7)
 
 
@@ -130,19 +129,16 @@ def test_heat_that_gets_past_the_vapour_is_that_of_the_profile_around_a_drop(blo
     assert share == pytest.approx(math.log1p(flow * span) / (flow * span), rel=1e-8)
 
 
-def test_without_vapour_all_heat_gets_there_and_arrays_are_taken():
-    shares = evaporation.heat_share(np.array([0.0, 1e-300, 1e3]))
-    np.testing.assert_array_equal(shares, [1.0, 1.0, 0.0])
-    assert evaporation.heat_share(0.0) == 1.0
+def test_without_vapour_all_heat_gets_there():
+    assert [evaporation.heat_share(z) for z in (0.0, 1e-300, 1e3)] == [1.0, 1.0, 0.0]
 
 
 def test_wet_bulb_with_stefan_flow_balances_heat_and_vapour():
-    """In a slow case it is the one without; in hot gas both sides of the balance at the surface are the same."""
+    """Heat that gets past the vapour evaporates it."""
     vapour = lambda T: math.exp(0.05 * (T - 500.0))  # noqa: E731
-    T, number = exact.spalding_wet_bulb(900.0, vapour, 0.7, 3e5, 2000.0)
+    T = exact.spalding_wet_bulb(900.0, 890.0, vapour, 0.7, 150.0)
     flow = 0.7 * math.log1p(vapour(T))  # m' c_pv/(h A)
-    assert 2000.0 * (900.0 - T) * evaporation.heat_share(flow) == pytest.approx(3e5 * flow, rel=1e-9)
-    assert number == pytest.approx(2000.0 * (900.0 - T) / 3e5, rel=1e-12)
+    assert (900.0 - T) * evaporation.heat_share(flow) == pytest.approx(150.0 * flow, rel=1e-9)
 
 
 def test_wet_bulb_balances_heat_and_vapour():

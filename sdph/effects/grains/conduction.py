@@ -64,24 +64,29 @@ def _packed(case) -> PackedP:
 
 
 @serial
-def pair(p, h, s, i, j, r_squared, pull):
-    """Heat per mass and time [W/kg] that i gets from j; `pull` is m_j (dW/dr)/r [kg/m^(d+2)]."""
+def pair(p, own, h, s, i, j, r_squared, pull):
+    """Heat per mass and time [W/kg] that i gets from j; `pull` is m_j (dW/dr)/r [kg/m^(d+2)], own (N,) [W/m/K] what
+    `packed` gives, where the law is one of packed beds."""
     if len(p) == 0:
         return 0.0
-    if len(p) != 2:
-        k_i, k_j = own(p, s, i), own(p, s, j)
-        unlike = law.cleary_monaghan_unlike(pull, r_squared, SOFTENING * h * h, k_i, k_j, s.density[i] * s.density[j])
-        return unlike * (s.temperature[i] - s.temperature[j])
-    mean = 0.5 * (s.density[i] + s.density[j])
-    coefficient = law.cleary_monaghan(pull, r_squared, SOFTENING * h * h, p.conductivity, p.grain_density, mean)
-    return coefficient * (s.temperature[i] - s.temperature[j])
+    if len(p) == 2:
+        mean = 0.5 * (s.density[i] + s.density[j])
+        coefficient = law.cleary_monaghan(pull, r_squared, SOFTENING * h * h, p.conductivity, p.grain_density, mean)
+        return coefficient * (s.temperature[i] - s.temperature[j])
+    if len(p) == 3:
+        k_i, k_j = own[i], own[j]
+    else:
+        k_i = s.density[i] / s.grain_density[i] * s.grain_conductivity[i]
+        k_j = s.density[j] / s.grain_density[j] * s.grain_conductivity[j]
+    unlike = law.cleary_monaghan_unlike(pull, r_squared, SOFTENING * h * h, k_i, k_j, s.density[i] * s.density[j])
+    return unlike * (s.temperature[i] - s.temperature[j])
 
 
 @serial
-def own(p, s, i):
-    """K [W/m/K] of the grains of particle i, which is not that of a single material by itself."""
-    if len(p) == 1:
-        return s.density[i] / s.grain_density[i] * s.grain_conductivity[i]
+def packed(p, s, i):
+    """K [W/m/K] of the grains of particle i beside the gas, by the law of packed beds."""
+    if len(p) != 3:
+        return 0.0
     if len(s.grain_density):
         return packed_beds.beside_gas(s.density[i] / s.grain_density[i], s.grain_conductivity[i], p.gas_conductivity)
     return packed_beds.beside_gas(s.density[i] / p.grain_density, p.conductivity, p.gas_conductivity)
@@ -101,13 +106,12 @@ def _of_materials(case) -> float:
 
 
 def _of_packed(p, case, state) -> float:
-    """Largest diffusivity [m2/s] of the particles as they are."""
+    """Twice the largest diffusivity [m2/s], that of the densest, as K/alpha_p rises with alpha_p."""
     if not len(state.density):
         return 0.0
-    alpha_p = state.density / by_material(state.grain_density, p.grain_density)
-    k = packed_beds.beside_gas(alpha_p, by_material(state.grain_conductivity, p.conductivity), p.gas_conductivity)
-    capacity = by_material(state.grain_capacity, case.grains.heat_capacity)
-    return float((2.0 * k * k.max() / (k + k.max()) / (state.density * capacity)).max())
+    densest = float((state.density / by_material(state.grain_density, p.grain_density)).max())
+    stored = ((grains.conductivity, grains.density * grains.heat_capacity) for grains in case.kinds)
+    return 2.0 * max(packed_beds.beside_gas(densest, k, p.gas_conductivity) / densest / c for k, c in stored)
 
 
 def conductivity(case, alpha_p: float) -> float:

@@ -1,9 +1,18 @@
-"""Rows that `sdph explain` shows of several materials: each one alone in the gas."""
+"""Rows that `sdph explain` shows of several materials, each one alone in the gas, and of grains that touch."""
 
 from __future__ import annotations
 
+from sdph.effects.grains import conduction
 from sdph.methods.grains.materials import fluidising
 from sdph.methods.grains.scales import Scales
+
+PACKED = "conduction over that of a packed bed"
+
+
+def packed(s) -> list[tuple]:
+    """Rows, as in `sdph.study.explain.tables.numbers`, of grains that touch."""
+    what = "grains touch in points: conduction.law = 'zehner_schluender'"
+    return [(PACKED, conduction.over_packed(s), 1.5, what, "Zehner & Schluender 1970")] if s.collides else []
 
 
 def rows(case) -> list[dict]:

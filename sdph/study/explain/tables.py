@@ -17,8 +17,7 @@ OF = {
     "mps": mps,
     "solid": solids,
 }  # method -> module with `explain` and `warnings`; grains have their own
-PACKED = "conduction over that of a packed bed"
-OF_HEAT = ("Biot", "heat loading", "Peclet of conduction", "run / heat time", "run / gas's heat time", PACKED)
+OF_HEAT = ("Biot", "heat loading", "Peclet of conduction", "run / heat time", "run / gas's heat time", materials.PACKED)
 
 
 def explain(case, priced=None) -> dict[str, list[dict]]:
@@ -106,16 +105,7 @@ def numbers(s, warm: bool = True) -> list[tuple]:
         ),
         ("run / collision time", end / s.collision_time, 1.0, "every grain has collided", "Gidaspow 1994"),
     ]
-    if s.collides:
-        rows.append(
-            (
-                PACKED,
-                conduction.over_packed(s),
-                1.5,
-                "grains touch in points: conduction.law = 'zehner_schluender'",
-                "Zehner & Schluender 1970",
-            )
-        )
+    rows += materials.packed(s)
     return [row for row in rows if warm or row[0] not in OF_HEAT] + droplets.numbers(s)
 
 

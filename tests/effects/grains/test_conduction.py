@@ -26,6 +26,10 @@ def uneven(count=60):
     return cloud(rng.uniform(0.0, 0.02, (count, 2)), **own)
 
 
+def packed(alpha_p):
+    return np.array([packed_beds.beside_gas(a, K, GAS) for a in alpha_p])
+
+
 def kernel():
     return rates.Kernel(4e-3, kernels.normalisation("cubic_spline", 2, 4e-3))
 
@@ -37,7 +41,7 @@ def test_uneven_pairs_keep_the_heat_and_are_those_of_the_law():
     power = state.mass * heating
     assert abs(math.fsum(power)) <= 1e-13 * np.abs(power).sum()
     alpha_p = state.density / RHO
-    own = packed_beds.beside_gas(alpha_p, K, GAS)
+    own = packed(alpha_p)
     r = np.hypot(*(a[:, None] - a[None] for a in (state.x, state.y)))
     slope = np.vectorize(lambda r: kernels.cubic_spline_gradient(r, kernel().h, kernel().sigma))(r)
     mean = 4.0 * own[:, None] * own[None] / (own[:, None] + own[None])
@@ -62,14 +66,15 @@ def test_a_bed_conducts_as_its_law_and_not_as_one_piece():
     assert own < 0.003 * 0.6 * K
 
 
-def test_limit_is_that_of_the_densest_and_those_beside_it():
+def test_limit_is_that_of_the_densest_and_holds_for_all_pairs():
     case, row = disc(PACKED), effects.REGISTRY["conduction"]
     state = uneven()
     state.density[:] = RHO * np.linspace(0.01, 0.6, len(state.x))
-    own = packed_beds.beside_gas(state.density / RHO, K, GAS)
-    among = 2.0 * own * own[-1] / (own + own[-1]) / (state.density * 2470.0)
     limit = row.dt_limit(row.kernel(case), case, state)
-    assert limit == pytest.approx(0.1 * case.smoothing_length**2 / among.max(), rel=1e-12)
+    own = packed(state.density / RHO)
+    assert limit == pytest.approx(0.1 * case.smoothing_length**2 / (2.0 * own[-1] / (0.6 * RHO * 2470.0)), rel=1e-12)
+    pairs = 2.0 * own[:, None] * own[None] / (own[:, None] + own[None]) / (state.density[:, None] * 2470.0)
+    assert limit <= 0.1 * case.smoothing_length**2 / pairs.max()
 
 
 def test_explain_judges_by_the_law_and_tells_what_one_piece_would_conduct():
