@@ -114,9 +114,9 @@ def spalding_wet_bulb(
 ) -> float:
     """T [K] of a drop with Stefan flow in mass and heat: 1 + B_T = (1 + B_M)^phi, B_T = c_pv (T_g - T)/L.
 
-    Sought in [hottest/2, hottest], below boiling. `mass_number(T)` is B_M, exponent phi = Sh rho_g D c_pv/(Nu k_g), heat
-    L/c_pv [K]. m' = pi d Nu k_g/c_pv ln(1 + B_T). Spalding 1953, 4th Symp. (Int.) Combust., 847; Abramzon & Sirignano
-    1989, Int. J. Heat Mass Transfer 32, 1605, without F.
+    Sought in [hottest/2, hottest], below boiling. `mass_number(T)` is B_M, exponent phi = Sh rho_g D c_pv/(Nu k_g),
+    heat L/c_pv [K]. m' = pi d Nu k_g/c_pv ln(1 + B_T). Spalding 1953, 4th Symp. (Int.) Combust., 847; Abramzon &
+    Sirignano 1989, Int. J. Heat Mass Transfer 32, 1605, without F.
     """
 
     def more(T):  # vapour than heat

@@ -84,16 +84,17 @@ def run_two_fluid(
     progress: Progress | None = None,
     courant: float = two_fluid_numbers.COURANT,
     start: Start | None = None,
+    again: bool = False,
 ) -> Reference:
     """Run twoPhaseEulerFoam on the case in `folder`, or take what it gave from the cache.
 
     `progress(time, end)` [s] hears where the run is; `courant` is the largest Courant number of inlets and of grains
     at the start. `start` says how the grains stand then, and on which mesh; without it the scene's template does.
-    `GasError` when OpenFOAM fails.
+    `again`: run whatever the cache has. `GasError` when OpenFOAM fails.
     """
     mesh = poly_mesh.read(start.mesh) if start and start.mesh else None
     files = {TWO_FLUID.macros: two_fluid_numbers.macros(case, courant, mesh)}
-    return _run(TWO_FLUID, case, folder, ranks, files, progress, start)
+    return _run(TWO_FLUID, case, folder, ranks, files, progress, start, again)
 
 
 def run_droplets(
@@ -115,7 +116,7 @@ def run_droplets(
 
 def _run(
     solver: Solver, case: Case, folder: Path, ranks: int, files: dict, progress: Progress | None,
-    start: Start | None = None,
+    start: Start | None = None, again: bool = False,
 ) -> Reference:  # fmt: skip
     environment = _environment()
     _clear(folder)
@@ -125,7 +126,7 @@ def _run(
     mesh, begun = (start.mesh, start.digest) if start else (None, "")
     program = str(install.two_fluid_solver()) if mesh else solver.name  # stock is right on boxes alone
     kept = shelf() / f"{key(folder, f'{program} {_made_with()} {begun}')}.npz"
-    if kept.exists():
+    if kept.exists() and not again:
         return load(kept)
     for tool in solver.prepare if start is None else () if mesh else ("blockMesh",):
         programs.run([tool], folder, folder / f"log.{tool}", environment)
