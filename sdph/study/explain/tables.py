@@ -17,7 +17,15 @@ OF = {
     "mps": mps,
     "solid": solids,
 }  # method -> module with `explain` and `warnings`; grains have their own
-OF_HEAT = ("Biot", "heat loading", "Peclet of conduction", "run / heat time", "run / gas's heat time", materials.PACKED)
+OF_HEAT = (
+    "Biot",
+    "heat loading",
+    "Peclet of conduction",
+    "run / heat time",
+    "run / gas's heat time",
+    materials.PACKED,
+    materials.SPREAD,
+)
 
 
 def explain(case, priced=None) -> dict[str, list[dict]]:
@@ -105,7 +113,7 @@ def numbers(s, warm: bool = True) -> list[tuple]:
         ),
         ("run / collision time", end / s.collision_time, 1.0, "every grain has collided", "Gidaspow 1994"),
     ]
-    rows += materials.packed(s)
+    rows += materials.touching(s)
     return [row for row in rows if warm or row[0] not in OF_HEAT] + droplets.numbers(s)
 
 

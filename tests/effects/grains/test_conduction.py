@@ -8,7 +8,7 @@ from builders import cloud, conduction_heating, disc
 
 from sdph import effects
 from sdph.effects.grains import conduction
-from sdph.laws import kernels, packed_beds
+from sdph.laws import heat, kernels, packed_beds
 from sdph.methods.grains import equations as rates
 from sdph.methods.grains.scales import Scales
 from sdph.schema import CaseError
@@ -78,7 +78,7 @@ def test_limit_is_that_of_the_densest_and_holds_for_all_pairs():
 
 
 def test_explain_judges_by_the_law_and_tells_what_one_piece_would_conduct():
-    """The Fourier number is that of the law; alpha_p k over the bed's as by hand."""
+    """The Fourier number is that of the law; alpha_p k over the bed's, and 0.3 eps h_c^2 over K, as by hand."""
     one, bed = (conduction.call(Scales(disc(*sets))).number for sets in ((), (PACKED,)))
     own = packed_beds.beside_gas(0.6, K, GAS)
     assert bed / one == pytest.approx(own / (0.6 * K), rel=1e-9)
@@ -86,6 +86,9 @@ def test_explain_judges_by_the_law_and_tells_what_one_piece_would_conduct():
         rows = {row["number"]: row for row in tables.explain(disc(*sets))["numbers"]}
         told = rows["conduction over that of a packed bed"]["value"]
         assert told == pytest.approx(k / packed_beds.zehner_schluender(0.6, K, GAS), rel=1e-9)
+        eps = 6.0 * 0.6 * heat.gunn(0.4, 0.0, 1.7895e-5 * 1006.43 / GAS) * GAS / 0.285e-3**2
+        spread = rows["heat spread by cells over conduction"]["value"]
+        assert spread == pytest.approx(0.3 * eps * 5e-3**2 / (k - 0.4 * GAS), rel=1e-6)
 
 
 def test_grains_that_insulate_are_refused():
