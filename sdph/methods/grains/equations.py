@@ -25,7 +25,7 @@ from sdph.effects.grains import (
 from sdph.engine.geometry import apart, faster, squared
 from sdph.engine.rows import entry, length, place
 from sdph.laws import granular, kernels
-from sdph.laws.compiled import fast_inlined, fast_parallel, inlined, parallel
+from sdph.laws.compiled import fast_inlined, fast_parallel, inlined, parallel, serial
 from sdph.methods.grains import mixture, stress
 from sdph.methods.grains.mixture import Kernel, MixedKernel
 from sdph.methods.grains.sound import swing
@@ -166,13 +166,13 @@ def heaviest(grains, own, diameter):
     return most, most * grains[3] / diameter if diameter > 0.0 else most
 
 
-@parallel
+@serial
 def packed(conduction_p, s):
     """K (N,) [W/m/K] of each particle by a law of packed beds, which is too dear for every pair; else no entry."""
     if len(conduction_p) != 3:
         return np.empty(0)
     own = np.empty(len(s.x))
-    for i in prange(len(s.x)):
+    for i in range(len(s.x)):
         own[i] = conduction.packed(conduction_p, s, i)
     return own
 
