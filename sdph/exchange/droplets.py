@@ -1,14 +1,16 @@
 """Evaporation of droplets in a window: what they lose, and what becomes of them.
 
 Over a window the heat of evaporation L is held, so that heat exchange integrates in closed form (`exchange.py`). The
-rate is that of the mean temperature in the window, from the linearised balance of heat with the gas as it is; grains
-shrink exactly by their law (sdph.laws.grain_loss). So a window may be longer than a droplet lives. `p` is the
-`EvaporationP` of sdph.effects.gas.evaporation.
+rate is that of the mean temperature in the window, from the linearised balance of heat with the gas as it is. By
+Spalding's law the flow of the vapour holds back heat, and rate and heat are found together. Grains shrink exactly by
+their law (sdph.laws.grain_loss). So a window may be longer than a droplet lives. `p` is the `EvaporationP` of
+sdph.effects.gas.evaporation.
 """
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numba import prange
@@ -23,6 +25,28 @@ from sdph.laws.exchange import mean_rise
 
 PROBE = 1e-3  # K, step of the slope of the rate with temperature
 FINISHED = 1e-9  # of the mass at birth, below which a particle has evaporated; our choice
+# of the force, within which rate and heat are found together, and the steps that it may take; our choice
+CLOSE, TRIES = 1e-12, 60
+
+
+class Balance(NamedTuple):
+    """Linearised balance of heat of a particle in a window of dt [s].
+
+    Driving force `now` [kg/m3] and its slope [kg/m3/K] with the particle's temperature [K]; that of the gas;
+    conductance to it [W/K], of which vapour may hold back the part `hindered`; heat capacity [J/K]; heat that
+    evaporation takes [W m3/kg], and z of `sdph.laws.evaporation.heat_share` [m3/kg], both over the force.
+    """
+
+    now: float
+    slope: float
+    temperature: float
+    gas_temperature: float
+    conductance: float
+    hindered: float
+    capacity: float
+    latent: float
+    blowing: float
+    dt: float
 
 
 @serial
@@ -95,6 +119,7 @@ def losses(
     gas_temperature,
     concentration,
     dt,
+    convection,
     conductance,
     loss,
     still,
@@ -105,7 +130,8 @@ def losses(
     """Losses of each particle in dt: mass lost [kg]; its integrals of a dt [m2], a c dt [m^3/2]; condensation refused
     [kg]; rest [kg] of a droplet that has finished, which is lost at once.
 
-    `conductance` becomes the mean over the window: it shrinks with the grains as evaporation does.
+    `conductance` becomes the mean over the window: it shrinks with the grains as evaporation does, and of its part
+    `convection` the vapour holds some back.
     """
     for i in prange(len(s.x)):
         loss[i] = still[i] = moving[i] = refused[i] = rest[i] = 0.0
@@ -113,20 +139,9 @@ def losses(
         if time > 0.0:
             c = ventilation(p, slip[i], gas_density[i])
             rate = transfer(p, sizes_p, s, i, c)
-            force = window_force(
-                p,
-                sizes_p,
-                s,
-                i,
-                rate,
-                c,
-                gas_density[i],
-                gas_temperature[i],
-                concentration[i],
-                time,
-                dt,
-                conductance[i],
-            )
+            around = gas_density[i], gas_temperature[i], concentration[i]
+            balance = balance_of(p, sizes_p, s, i, rate, c, around, time, dt, convection[i], conductance[i])
+            force = window_force(p, balance)
             refused[i] = max(0.0, -force) * rate * time
             still[i] = law.regression_rate(force, p.diffusivity, p.grain_density) * time
             moving[i] = c * still[i]
@@ -134,6 +149,7 @@ def losses(
             rest[i] = 0.0 if left > FINISHED * s.born_mass[i] else left
             loss[i] = s.mass[i] - (left - rest[i])
             if force > 0.0:
+                conductance[i] -= convection[i] * (time / dt) * held_back(balance, force)
                 conductance[i] *= shrinkage(loss[i], rate * force * time)
 
 
@@ -155,9 +171,10 @@ def shrinkage(loss, unshrunk):
 
 
 @serial
-def window_force(p, sizes_p, s, i, rate, c, gas_density, gas_temperature, concentration, time, dt, conductance):
-    """Driving force [kg/m3] at the mean temperature of the window; at boiling what the heat that comes in
-    evaporates."""
+def balance_of(p, sizes_p, s, i, rate, c, around, time, dt, convection, conductance):
+    """Balance of heat of particle i, which evaporates for `time` of dt [s]; `around`: density [kg/m3], temperature [K]
+    and vapour [kmol/m3] of the gas."""
+    gas_density, gas_temperature, concentration = around
     temperature = s.temperature[i]
     now = driving_force(p, temperature, concentration, gas_temperature, gas_density)
     slope = max(0.0, slope_of(p, temperature, concentration, gas_temperature, gas_density, now))
@@ -165,13 +182,55 @@ def window_force(p, sizes_p, s, i, rate, c, gas_density, gas_temperature, concen
     kept = kept_share(sizes_p, s, i, still, c * still)
     share = shrinkage(s.mass[i] * (1.0 - kept), rate * now * time) if now > 0.0 else 1.0
     capacity = s.mass[i] * kept * p.grain_heat_capacity
-    latent = p.latent_heat * rate * share * time / dt  # W per unit of force
-    warmth = conductance * share
-    rise = mean_rise(
-        warmth * (gas_temperature - temperature) - latent * max(0.0, now), warmth + latent * slope, capacity, dt
+    latent = p.latent_heat * rate * share * time / dt
+    hindered = convection * share * (time / dt)
+    blowing = p.blowing * rate / convection if convection > 0.0 else 0.0
+    return Balance(
+        now, slope, temperature, gas_temperature, conductance * share, hindered, capacity, latent, blowing, dt
     )
-    force = now + slope * rise
-    return max(force, boiling_force(p, temperature, gas_temperature, warmth, capacity, latent, force, dt))
+
+
+@serial
+def window_force(p, balance):
+    """Driving force [kg/m3] at the mean temperature of the window; at boiling what the heat that comes in evaporates.
+
+    Where vapour holds heat back the force is the one that lets in the heat that makes it. It lies between those of all
+    heat and of none past the vapour (regula falsi, Illinois: Dowell & Jarratt 1971, BIT 11, 168).
+    """
+    high = force_by(p, balance, 0.0)
+    if balance.blowing == 0.0 or high <= 0.0:
+        return high
+    low = force_by(p, balance, 1.0)
+    off_low = low - force_by(p, balance, held_back(balance, low))
+    off_high = high - force_by(p, balance, held_back(balance, high))
+    for _ in range(TRIES):
+        if abs(off_high) <= CLOSE * high or off_low == off_high:
+            break
+        middle = (low * off_high - high * off_low) / (off_high - off_low)
+        off = middle - force_by(p, balance, held_back(balance, middle))
+        if off * off_high < 0.0:
+            low, off_low = high, off_high
+        else:
+            off_low *= 0.5
+        high, off_high = middle, off
+    return high
+
+
+@serial
+def held_back(balance, force):
+    """Share of the heat that vapour of a driving force [kg/m3] holds back."""
+    return 1.0 - law.heat_share(balance.blowing * max(0.0, force))
+
+
+@serial
+def force_by(p, balance, without):
+    """Driving force [kg/m3] at the mean temperature of the window if vapour holds back the share `without`."""
+    b = balance
+    warmth = b.conductance - b.hindered * without
+    power = warmth * (b.gas_temperature - b.temperature) - b.latent * max(0.0, b.now)
+    force = b.now + b.slope * mean_rise(power, warmth + b.latent * b.slope, b.capacity, b.dt)
+    held = boiling_force(p, b.temperature, b.gas_temperature, warmth, b.capacity, b.latent, force, b.dt)
+    return max(force, held)
 
 
 @serial
@@ -193,7 +252,7 @@ def held(p, s, gas_density, gas_temperature, concentration, flat, boiling):
 @serial
 def boiling_force(p, temperature, gas_temperature, warmth, capacity, latent, force, dt):
     """Driving force [kg/m3] that holds the end of the window at the boiling temperature; `force` if it stays below."""
-    if warmth == 0.0 or latent == 0.0 or gas_temperature <= p.boiling_temperature:
+    if latent == 0.0 or gas_temperature <= p.boiling_temperature:
         return force
     return law.boiling_force(temperature, gas_temperature, p.boiling_temperature, warmth, capacity, latent, force, dt)
 

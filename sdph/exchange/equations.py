@@ -56,18 +56,18 @@ def temperature_span(case) -> float:
 @parallel
 def rates(
     drag_p, heat_p, radiation_p, lift_p, film_p, sizes_p, s, grain_density, apart, slip, gas_density, gas_temperature,
-    vorticity, conductance, damping, force,
+    vorticity, convection, conductance, damping, force,
 ):  # fmt: skip
-    """Rates of every particle as it is: heat to the gas per kelvin [W/K], beta/(alpha_p rho_p) [1/s], and force of the
-    gas that is held (N, 3) [N], where an effect makes one."""
+    """Rates of every particle as it is: heat to the gas per kelvin [W/K], by convection and in all, beta/(alpha_p
+    rho_p) [1/s], and force of the gas that is held (N, 3) [N], where an effect makes one."""
     for i in prange(len(s.x)):
-        conductance[i] = damping[i] = 0.0
+        convection[i] = conductance[i] = damping[i] = 0.0
         if s.kind[i] == GRAIN:
             alpha_p = s.density[i] / (s.grain_density[i] if len(s.grain_density) else grain_density)
             r = film.ratio(film_p, s, i, gas_temperature[i])
             around = gas_density[i] * (r * r)
-            conductance[i] += heat.conductance(heat_p, sizes_p, s, i, alpha_p, slip[i], around) / r
-            conductance[i] += radiation.conductance(radiation_p, sizes_p, s, i, gas_temperature[i])
+            convection[i] = heat.conductance(heat_p, sizes_p, s, i, alpha_p, slip[i], around) / r
+            conductance[i] = convection[i] + radiation.conductance(radiation_p, sizes_p, s, i, gas_temperature[i])
             damping[i] = drag.damping(drag_p, sizes_p, s, i, alpha_p, slip[i], around) / r
             if len(force):
                 x, y, z = lift.force(lift_p, sizes_p, s, i, apart, slip[i], vorticity, gas_density[i])

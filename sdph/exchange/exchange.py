@@ -79,10 +79,10 @@ class Exchange:
             drift = lengths(seen.apart + seen.own - self.cells.around(weights, state.mass, seen.own))
             pushed, eddies = turbulent_dispersion.stir(stirring, state, seen, drift, gas_state.time, dt)
             seen, against = seen.stirred(pushed), seen.own - pushed
-        conductance, damping, force = self._rates(state, seen)
+        convection, conductance, damping, force = self._rates(state, seen)
         loss = None
         if self.vapour:
-            loss = self.vapour.evaporate(state, weights, gas_state, seen, conductance, dt, thrown)
+            loss = self.vapour.evaporate(state, weights, gas_state, seen, convection, conductance, dt, thrown)
         kept = state.mass - loss.mass if loss else state.mass
         power = self.parameters["evaporation"].latent_heat / -dt * loss.mass if loss else OFF
         gone = kept == 0.0 if loss and len(force) else np.zeros(len(force), bool)
@@ -113,16 +113,16 @@ class Exchange:
         handed = replace(handed, alpha_g=alpha_g, gone=missed, around=around, against=against, eddies=eddies)
         return replace(handed, terms=self._terms(handed))
 
-    def _rates(self, state, seen) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Rates of every particle now: heat conductance to the gas [W/K], beta/(alpha_p rho_p) [1/s], and the force
-        that is held [N]."""
+    def _rates(self, state, seen) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Rates of every particle now: heat conductance to the gas [W/K] by convection and in all, beta/(alpha_p rho_p)
+        [1/s], and the force that is held [N]."""
         p, count, vorticity = self.parameters, len(state.x), seen.fields.get("vorticity", OFF)
-        conductance, damping, force = np.empty(count), np.empty(count), np.zeros((count if self.holds else 0, 3))
+        found = *(np.empty(count) for _ in range(3)), np.zeros((count if self.holds else 0, 3))
         equations.rates(
             p["drag"], p["heat"], p["radiation"], p["lift"], self.film_p, self.sizes_p, state, self.case.grains.density,
-            seen.apart, seen.slip, seen.density, seen.temperature, vorticity, conductance, damping, force,
+            seen.apart, seen.slip, seen.density, seen.temperature, vorticity, *found,
         )  # fmt: skip
-        return conductance, damping, force
+        return found
 
     def _sums(self, handed: Handed) -> dict[tuple[str, str], np.ndarray]:
         """Amounts that each particle gives of what effects add up to; the keys as of `_terms`."""
@@ -156,7 +156,7 @@ class Exchange:
         """Pace at the start: rate [1/s] at which the fastest cell takes the grains' temperature, `stake` [J], rate
         [1/s] at which vapour comes into the fastest cell, over the gas in it, `grip` [1/s] and `settling` [s]."""
         seen = Seen(weights, gas_state, state, self.fields)
-        conductance, damping, _ = self._rates(state, seen)
+        _, conductance, damping, _ = self._rates(state, seen)
         full, resistance = self._resistance(state, weights, gas_state)
         rate = (
             float((self.cells.density(weights, conductance)[full] * resistance).max(initial=0.0))

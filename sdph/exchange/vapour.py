@@ -23,8 +23,9 @@ class Vapour:
     def __init__(self, case, p, sizes_p, cells):
         self.case, self.p, self.sizes_p, self.cells = case, p, sizes_p, cells
 
-    def evaporate(self, state, weights, gas_state, seen, conductance, dt, thrown) -> Loss:
-        """Evaporation in a window; the heat conductance (N,) [W/K] becomes the mean over it. The state is that after
+    def evaporate(self, state, weights, gas_state, seen, convection, conductance, dt, thrown) -> Loss:
+        """Evaporation in a window; the heat conductance (N,) [W/K], of which convection (N,) is the part that flowing
+        vapour hinders, becomes the mean over it. The state is that after
         torn droplets have `thrown` their vapour, where there are any.
 
         The vapour in each cell is taken as it would be at the window's end if no flow carried it: fast exchange
@@ -51,6 +52,7 @@ class Vapour:
             *around,
             concentration,
             dt,
+            convection,
             conductance,
             loss.mass,
             loss.still,

@@ -12,7 +12,8 @@ Quoted as "Chen et al. 2014": Chen, Qiang & Gao, Acta Phys. Sin. 63, 230206 (equ
 import math
 
 from sdph.laws.compiled import law
-from sdph.laws.constants import GAS_CONSTANT
+from sdph.laws.constants import GAS_CONSTANT, TINY
+from sdph.laws.exchange import SHORT
 
 
 @law
@@ -135,6 +136,20 @@ def driving_force_spalding(surface_mass_fraction, gas_mass_fraction, gas_density
 
 
 @law
+def heat_share(blown):
+    """Share of its heat that reaches a drop against the vapour that flows off it: z/(exp(z) - 1) = ln(1 + B_T)/B_T [-].
+
+    blown is z = m' c_pv/(h A) = ln(1 + B_T) [-]: m' [kg/s] the vapour, c_pv [J/(kg K)] its heat capacity, h A [W/K]
+    the drop's conductance without it; in gas at rest z = m' c_pv/(2 pi d k_g). What is missing warms the vapour on its
+    way from T_p to T_g. Exact for an even film of even properties: Spalding 1953, 4th Symp. (Int.)
+    Combust., 847; Bird, Stewart & Lightfoot 2002, section 22.8; f_2 of Miller, Harstad & Bellan 1998, Int. J.
+    Multiphase Flow 24, 1025.
+    """
+    z = blown + TINY  # the limit at 0 is 1
+    return z / math.expm1(z)
+
+
+@law
 def gas_exchanged(volume, diameter, ventilation, diffusivity):
     """k_c A [m3/s] of spheres of `diameter` [m] and together of `volume` [m3]: 6 V k_c/d = 12 V (1 + c sqrt(d)) D/d^2.
 
@@ -160,6 +175,9 @@ def boiling_force(
 
     A drop of `capacity` [J/K] takes conductance (T_g - T) [W] and gives latent_power F; latent_power [W m3/kg].
     """
+    if conductance * dt <= SHORT * capacity:
+        excess = conductance * (gas_temperature - temperature) + capacity / dt * (temperature - boiling_temperature)
+        return max(driving_force, excess / latent_power)
     fraction = -math.expm1(-conductance * dt / capacity)
     cooling = latent_power * max(0.0, driving_force) / conductance
     end = temperature + (gas_temperature - temperature - cooling) * fraction

@@ -107,3 +107,19 @@ def wet_bulb_temperature(
     if cooling(0.5 * gas_temperature) > 0.0:
         raise ValueError(f"no wet-bulb temperature above half of {gas_temperature} K: evaporation cools too strongly")
     return _root(cooling, 0.5 * gas_temperature, gas_temperature)
+
+
+def spalding_wet_bulb(
+    gas_temperature: float, hottest: float, mass_number: Callable[[float], float], exponent: float, heat: float
+) -> float:
+    """T [K] of a drop with Stefan flow in mass and heat: 1 + B_T = (1 + B_M)^phi, B_T = c_pv (T_g - T)/L.
+
+    Sought in [hottest/2, hottest], below boiling. `mass_number(T)` is B_M, exponent phi = Sh rho_g D c_pv/(Nu k_g),
+    heat L/c_pv [K]. m' = pi d Nu k_g/c_pv ln(1 + B_T). Spalding 1953, 4th Symp. (Int.) Combust., 847; Abramzon &
+    Sirignano 1989, Int. J. Heat Mass Transfer 32, 1605, without F.
+    """
+
+    def more(T):  # vapour than heat
+        return exponent * math.log1p(mass_number(T)) - math.log1p((gas_temperature - T) / heat)
+
+    return _root(more, 0.5 * hottest, hottest)

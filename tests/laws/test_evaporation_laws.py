@@ -4,6 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from reference_values import GAS, JET
+from scipy.integrate import solve_ivp
 
 from sdph.laws import evaporation, exact
 from sdph.laws.constants import GAS_CONSTANT
@@ -106,6 +107,38 @@ def test_at_boiling_a_drop_takes_what_ends_the_step_there(gas, start, relaxation
     free = gas + (start - gas) * math.exp(-relaxations)
     assert end == pytest.approx(min(free, 447.0), rel=1e-10)
     assert (force > 0.0) == (free > 447.0)
+
+
+@pytest.mark.parametrize("relaxations", [0.0, 1e-12, 0.9e-8, 1.1e-8])
+def test_a_drop_above_boiling_comes_down_to_it_in_a_step_without_heat_too(relaxations):
+    """Heat over latent heat, C (T - T_b) and what little comes in, on both sides of where the law takes its limit."""
+    force = evaporation.boiling_force(460.0, 1000.0, 447.0, relaxations * 2e-3 / 0.5, 2e-3, 3.0, 1e-3, 0.5)
+    assert force == pytest.approx(2e-3 * (13.0 + relaxations * 540.0) / (3.0 * 0.5), rel=1e-7)
+
+
+@pytest.mark.parametrize("blown", [1e-9, 0.1, 1.0, 3.0, 20.0])
+def test_heat_that_gets_past_the_vapour_is_that_of_the_profile_around_a_drop(blown):
+    """-4 pi k dT/ds = m' c (T - T_s) + Q, s = 1/r, integrated from the surface on: Q over 2 pi d k (T_g - T_s);
+    and ln(1 + B)/B with B = m' c (T_g - T_s)/Q."""
+    conductance = 2.0 * math.pi * 1e-3 * 0.025
+    flow = blown * conductance  # W/K
+    profile = solve_ivp(lambda s, T: -(flow * T + 1.0) / (4.0 * math.pi * 0.025), (2e3, 0.0), [0.0], rtol=1e-11)
+    span = profile.y[0, -1]  # K, for Q = 1 W
+    share = evaporation.heat_share(blown)
+    assert share == pytest.approx(1.0 / (conductance * span), rel=1e-8)
+    assert share == pytest.approx(math.log1p(flow * span) / (flow * span), rel=1e-8)
+
+
+def test_without_vapour_all_heat_gets_there():
+    assert [evaporation.heat_share(z) for z in (0.0, 1e-300, 1e3)] == [1.0, 1.0, 0.0]
+
+
+def test_wet_bulb_with_stefan_flow_balances_heat_and_vapour():
+    """Heat that gets past the vapour evaporates it."""
+    vapour = lambda T: math.exp(0.05 * (T - 500.0))  # noqa: E731
+    T = exact.spalding_wet_bulb(900.0, 890.0, vapour, 0.7, 150.0)
+    flow = 0.7 * math.log1p(vapour(T))  # m' c_pv/(h A)
+    assert (900.0 - T) * evaporation.heat_share(flow) == pytest.approx(150.0 * flow, rel=1e-9)
 
 
 def test_wet_bulb_balances_heat_and_vapour():

@@ -19,14 +19,14 @@ def verdicts(checks) -> list[bool]:
 
 
 def test_a_run_of_heptane_has_the_rate_of_the_balance_apart(tmp_path):
-    """0.5 %; without weight, the vapour's flow and numbers that follow the temperature."""
+    """0.5 %; without weight and numbers that follow the temperature."""
     drops, balance = part("heptane_drops"), part("drop_balance")
     place = 1.0, 741.0
     (told,) = drops.checks(tmp_path, (), QUIET, ("spalding",), (place,))
     assert (tmp_path / "heptane_drops.png").is_file()
     rows = drops.measured.table("nomura_1996")
     rows = rows[(rows["p_atm"] == place[0]) & (rows["T_gas_K"] == place[1])]
-    times, squares, _ = balance.course(drops._drop(place, rows))
+    times, squares, _ = balance.course(drops._drop(place, rows), (balance.STEFAN,))
     assert told["value"] == pytest.approx(drops.constant(times / drops.SCALE, squares, drops.TO), rel=5e-3)
     assert told["reference"] == pytest.approx(0.382, abs=5e-4)  # as the head of the data has it
 

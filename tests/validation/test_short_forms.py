@@ -164,6 +164,13 @@ def test_short_form(tmp_path, scene):
     assert {name for check in failed for name in named(scene, check)} == set(MISSED.get(scene, ()))
 
 
+def test_a_drop_in_hot_gas_has_the_closed_form_of_stefan_flow(tmp_path):
+    """B_T = 5.5: without the flow of the vapour in its heat it is 2.9 times as fast, and 1.9 times without either."""
+    drop = compare.scene_module("single_droplet")
+    rows = checks(tmp_path / "run", "single_droplet", *drop.VARIANTS["Stefan flow"])
+    assert len(rows) > 4 and [check for check in rows if not check["ok"]] == []
+
+
 def test_short_ramp_of_the_column():
     """One velocity below U_mf, one above, and down again; grains of 7.5 mm."""
     column = compare.scene_module("fluidised_column")

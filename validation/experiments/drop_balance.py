@@ -1,10 +1,10 @@
 """Balance of mass and heat of a lone drop, written down apart from the code: what of a rate is the model's.
 
-With nothing in `more` it is the model as runs have it (`lone_drops`): constants of the start, Spalding's flux, heat
-Nu k (T_g - T)/d without the flow of the vapour against it. `more` names what is added: LATENT, the latent heat at the
-drop's temperature; LIQUID, its density and heat capacity there; GAS, diffusivity and numbers of the gas at the film of
-the moment; STEFAN, the flow of the vapour, which takes x/(exp(x) - 1) of the heat, x = m' cp_v/(Nu pi d k) (Spalding
-1953, 4th Symp. (Int.) Combust., 847).
+With AS_RUN it is the model as runs by Spalding's law have it (`lone_drops`): constants of the start, Spalding's flux,
+heat Nu k (T_g - T)/d, of which the flow of the vapour lets x/(exp(x) - 1) through, x = m' cp_v/(Nu pi d k) (Spalding
+1953, 4th Symp. (Int.) Combust., 847): that is STEFAN of what `more` may name. The others are LATENT, the latent heat at
+the drop's temperature; LIQUID, its density and heat capacity there; GAS, diffusivity and numbers of the gas at the film
+of the moment.
 """
 
 from __future__ import annotations
@@ -20,7 +20,8 @@ from sdph.laws import diffusion, evaporation, heat
 
 from .lone_drops import Drop
 
-LATENT, LIQUID, GAS, STEFAN = WHOLE = ("latent", "liquid", "gas", "stefan")
+STEFAN, LATENT, LIQUID, GAS = WHOLE = ("stefan", "latent", "liquid", "gas")
+AS_RUN = (STEFAN,)
 NEAREST = 0.1  # K from boiling, where a drop is held, and from freezing; our choice
 LEFT = 0.02  # of the mass, at which a course ends
 
@@ -56,7 +57,7 @@ class _Numbers:
         return (6.0 * mass / (math.pi * self("density", temperature))) ** (1.0 / 3.0)
 
 
-def course(drop: Drop, more=()) -> np.ndarray:
+def course(drop: Drop, more=AS_RUN) -> np.ndarray:
     """Times [s], squares of the diameter over the first, temperatures [K], until all but LEFT of the mass is gone."""
     numbers = _Numbers(drop, more)
     first = math.pi / 6.0 * drop.diameter**3 * numbers("density", drop.cold)

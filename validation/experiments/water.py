@@ -47,7 +47,7 @@ def air(temperature: float, pressure: float) -> dict[str, float]:
 
 
 def vapour(film: float, pressure: float) -> dict[str, float]:
-    """Keys of [vapour]; heat capacity and conductivity at 300 K (Incropera) are asked for, and unused by one drop."""
+    """Keys of [vapour]; heat capacity at 300 K (Incropera), as is conductivity, which one drop does not use."""
     return {
         "molar_mass_kg_kmol": MOLAR_MASS,
         "diffusivity_m2_s": diffusivity(film, pressure),

@@ -43,7 +43,8 @@ class Evaporation:
 class EvaporationP(NamedTuple):
     """law, onset and saturation by their places; temperatures [K]; latent heat [J/kg]; vapour; gas; grains; feedback.
 
-    first to fourth: the numbers of the saturation law, as sdph.laws.evaporation takes them.
+    first to fourth: the numbers of the saturation law, as sdph.laws.evaporation takes them. blowing: heat capacity
+    [J/(kg K)] of the vapour that heat has to get past, 0 where the law has no Stefan flow.
     """
 
     law: int
@@ -63,6 +64,7 @@ class EvaporationP(NamedTuple):
     operating_pressure: float
     grain_density: float
     grain_heat_capacity: float
+    blowing: float
 
 
 def kernel(case) -> EvaporationP:
@@ -83,6 +85,7 @@ def kernel(case) -> EvaporationP:
     return EvaporationP(
         *places, *p, own.onset_temperature or ALWAYS, boiling, own.latent_heat, vapour.molar_mass, vapour.diffusivity,
         gas.molar_mass, gas.viscosity, gas.operating_pressure, grains.density, grains.heat_capacity,
+        vapour.heat_capacity if own.law == "spalding" else 0.0,
     )  # fmt: skip
 
 

@@ -25,7 +25,7 @@ from sdph.effects.grains import (
 from sdph.engine.geometry import apart, faster, squared
 from sdph.engine.rows import entry, length, place
 from sdph.laws import granular, kernels
-from sdph.laws.compiled import fast_inlined, fast_parallel, inlined, parallel
+from sdph.laws.compiled import fast_inlined, fast_parallel, inlined, parallel, serial
 from sdph.methods.grains import mixture, stress
 from sdph.methods.grains.mixture import Kernel, MixedKernel
 from sdph.methods.grains.sound import swing
@@ -166,30 +166,42 @@ def heaviest(grains, own, diameter):
     return most, most * grains[3] / diameter if diameter > 0.0 else most
 
 
+@serial
+def packed(conduction_p, s):
+    """K (N,) [W/m/K] of each particle by a law of packed beds, which is too dear for every pair; else no entry."""
+    if len(conduction_p) != 3:
+        return np.empty(0)
+    own = np.empty(len(s.x))
+    for i in range(len(s.x)):
+        own[i] = conduction.packed(conduction_p, s, i)
+    return own
+
+
 @fast_inlined
-def conducted(kernel, s, rows, box, pull, conduction_p, i):
-    """Heat [W/kg] that particle i gets from its neighbours."""
+def conducted(kernel, s, rows, box, pull, conduction_p, own, i):
+    """Heat [W/kg] that particle i gets from its neighbours; own (N,) of `packed`."""
     warmth = 0.0
     for k in range(length(rows, i)):
         j = entry(rows, i, k)
         r2 = squared(*apart(s, box, i, j))
-        warmth += conduction.pair(conduction_p, kernel.h, s, i, j, r2, pull[place(rows, i, k)])
+        warmth += conduction.pair(conduction_p, own, kernel.h, s, i, j, r2, pull[place(rows, i, k)])
     return warmth
 
 
 @fast_parallel
 def conduct(kernel, s, rows, box, pull, conduction_p, heating):
     """Conduction among grains that do not move: heating (N,) [W/kg]."""
+    own = packed(conduction_p, s)
     for i in prange(len(s.x)):
-        heating[i] = conducted(kernel, s, rows, box, pull, conduction_p, i)
+        heating[i] = conducted(kernel, s, rows, box, pull, conduction_p, own, i)
 
 
 @inlined
 def by_pair(
-    kernel, s, box, scratch, viscous_p, friction_p, artificial_p, temperature_p, conduction_p, i, j, pull_ij
+    kernel, s, box, scratch, viscous_p, friction_p, artificial_p, temperature_p, conduction_p, own, i, j, pull_ij
 ):  # fmt: skip
     """Terms of a particle i by another, j: acceleration (3 values) [m/s2], rate of theta, and heat by rubbing and by
-    conduction [W/kg]; pull_ij = m_j (dW/dr)/r."""
+    conduction [W/kg]; pull_ij = m_j (dW/dr)/r, own (N,) of `packed`."""
     rho_i, rho_j = s.density[i], s.density[j]
     dx, dy, dz = apart(s, box, i, j)
     du, dv, dw = faster(s, box, i, j)
@@ -213,7 +225,7 @@ def by_pair(
         push * dz + pressed * fz,
         work,
         0.5 * (lasting * closing + granular_temperature.rest(temperature_p, ringing * closing)),
-        conduction.pair(conduction_p, kernel.h, s, i, j, r2, pull_ij),
+        conduction.pair(conduction_p, own, kernel.h, s, i, j, r2, pull_ij),
     )
 
 
@@ -224,6 +236,7 @@ def rates(
 ):  # fmt: skip
     """Rates of grains that move: acceleration (N, 3) [m/s2] by each other; of_walls (N, 7) as `account.kick` takes it;
     agitation (N,) [W/kg] that feeds theta, heating (N,) [W/kg]."""
+    own = packed(conduction_p, s)
     for i in prange(len(s.x)):
         ax = ay = az = 0.0
         work, warmth = scratch.works[0, i], scratch.works[1, i]
@@ -240,7 +253,7 @@ def rates(
             warmth += lost - granular_temperature.fed(temperature_p, lost)
         for k in range(length(rows, i)):
             px, py, pz, made, rubbed, conducted = by_pair(
-                kernel, s, box, scratch, viscous_p, friction_p, artificial_p, temperature_p, conduction_p, i,
+                kernel, s, box, scratch, viscous_p, friction_p, artificial_p, temperature_p, conduction_p, own, i,
                 entry(rows, i, k), scratch.pull[place(rows, i, k)],
             )  # fmt: skip
             ax += px

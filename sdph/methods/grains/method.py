@@ -168,9 +168,9 @@ class Stepper:
 
     def conduction_rate(self, i: int) -> float:
         """Heat [W] that particle i gets from its neighbours now."""
-        heating = rates.conducted(
-            self.kernel, self.state, self.rows, self.neighbours.box, self.scratch.pull, self.parameters["conduction"], i
-        )
+        p = self.parameters["conduction"]
+        own = rates.packed(p, self.state)
+        heating = rates.conducted(self.kernel, self.state, self.rows, self.neighbours.box, self.scratch.pull, p, own, i)
         return heating * self.state.mass[i]
 
     def _sub_step(self, left: float) -> float:

@@ -8,6 +8,12 @@ from sdph.effects.gas import evaporation
 from sdph.laws import evaporation as law
 from sdph.laws.constants import GAS_CONSTANT
 
+# law of evaporation -> what B of heat above its threshold means
+OF_HEAT = {
+    "linear": "vapour would hold back heat, which law = 'linear' leaves out; take 'spalding'",
+    "spalding": "vapour holds back some of the heat on its way",
+}
+
 
 def numbers(s) -> list[tuple]:
     """Rows, as in `sdph.study.explain.tables.numbers`, of what has a surface tension, and of what evaporates."""
@@ -26,11 +32,9 @@ def numbers(s) -> list[tuple]:
         )
         rows.append(("Bond", weight / pull, 0.4, "droplets are no spheres", "Clift, Grace & Weber 1978, fig. 2.5"))
     if "evaporation" in s.case.parameters and s.case.vapour and s.patches:
-        mass, heat_number, spent = spalding(s)
+        (mass, heat_number, spent), own = spalding(s), s.case.parameters["evaporation"]
         rows.append(("Spalding B of mass", mass, 0.1, "the vapour's own outflow slows evaporation", "Spalding 1953"))
-        rows.append(
-            ("Spalding B of heat", heat_number, 0.1, "vapour carries off some of the heat on its way", "Spalding 1953")
-        )
+        rows.append(("Spalding B of heat", heat_number, 0.1, OF_HEAT[own.law], "Spalding 1953"))
         rows.append(("run / evaporation time", spent, 1.0, "droplets are gone", "d2 law, Spalding 1953"))
     return rows
 

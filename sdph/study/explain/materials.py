@@ -1,9 +1,28 @@
-"""Rows that `sdph explain` shows of several materials: each one alone in the gas."""
+"""Rows that `sdph explain` shows of several materials, each one alone in the gas, and of grains that touch."""
 
 from __future__ import annotations
 
+from sdph.effects.grains import conduction
 from sdph.methods.grains.materials import fluidising
 from sdph.methods.grains.scales import Scales
+
+PACKED, SPREAD = "conduction over that of a packed bed", "heat spread by cells over conduction"
+MOMENT = 0.3  # of h_c^2: second moment along an axis of the kernel between particles and cells, 31/98 in 2-D
+
+
+def touching(s) -> list[tuple]:
+    """Rows, as in `sdph.study.explain.tables.numbers`, of grains that touch: what they conduct, and what exchange with
+    cells spreads besides (docs/theory/grains.md)."""
+    if not s.collides:
+        return []
+    what = "grains touch in points: conduction.law = 'zehner_schluender'"
+    wide = max(s.case.smoothing_length, s.case.resolution.cell)
+    conducted = conduction.conductivity(s.case, s.alpha_p) / (s.grains.density * s.grains.heat_capacity)
+    spread = MOMENT * wide**2 / s.heat_time / conducted
+    return [
+        (PACKED, conduction.over_packed(s), 1.5, what, "Zehner & Schluender 1970"),
+        (SPREAD, spread, 1.0, "exchange with cells spreads more heat than grains conduct", "measured, packed steel"),
+    ]
 
 
 def rows(case) -> list[dict]:

@@ -6,6 +6,7 @@ import math
 
 from sdph import effects
 from sdph.case import judge
+from sdph.effects.grains import conduction
 from sdph.laws.constants import ADIABATIC, GAS_CONSTANT
 from sdph.methods.grains import start
 from sdph.methods.grains.scales import THIN
@@ -16,7 +17,15 @@ OF = {
     "mps": mps,
     "solid": solids,
 }  # method -> module with `explain` and `warnings`; grains have their own
-OF_HEAT = ("Biot", "heat loading", "Peclet of conduction", "run / heat time", "run / gas's heat time")
+OF_HEAT = (
+    "Biot",
+    "heat loading",
+    "Peclet of conduction",
+    "run / heat time",
+    "run / gas's heat time",
+    materials.PACKED,
+    materials.SPREAD,
+)
 
 
 def explain(case, priced=None) -> dict[str, list[dict]]:
@@ -70,7 +79,7 @@ def numbers(s, warm: bool = True) -> list[tuple]:
     biot = s.nusselt * gas.conductivity / (6.0 * grains.conductivity) if grains.conductivity else math.inf
     archimedes = gas.density * (grains.density - gas.density) * s.gravity * grains.diameter**3 / gas.viscosity**2
     sound = math.sqrt(ADIABATIC * GAS_CONSTANT / gas.molar_mass * gas.temperature)
-    diffusivity = grains.conductivity / (grains.density * grains.heat_capacity)
+    diffusivity = conduction.conductivity(s.case, s.alpha_p) / (grains.density * grains.heat_capacity)
     peclet = s.speed * s.length / diffusivity if diffusivity else math.inf
     fed = s.jet / s.minimum_fluidisation if s.jet else 0.0
     rows = [
@@ -104,6 +113,7 @@ def numbers(s, warm: bool = True) -> list[tuple]:
         ),
         ("run / collision time", end / s.collision_time, 1.0, "every grain has collided", "Gidaspow 1994"),
     ]
+    rows += materials.touching(s)
     return [row for row in rows if warm or row[0] not in OF_HEAT] + droplets.numbers(s)
 
 

@@ -44,6 +44,7 @@ def finished(case, folder):
 @pytest.mark.parametrize("more", [
     (),
     ("evaporation.law='spalding'",),
+    ("evaporation.law='spalding'", "gas.temperature_K=1000"),
     ("grains.diameter_std_mm=0.4",),
     ("evaporation.saturation='constant'",),
     ("vapour.heat_capacity_J_kg_K=1500",),
@@ -179,12 +180,12 @@ def test_rate_is_ranz_and_marshall_in_a_stream():
     case = droplet()
     p, state, dry = evaporation.kernel(case), one(330.0), np.zeros(1)
     around = np.full(1, 3.0), np.full(1, 1.225), np.full(1, 350.0)
-    conductance, damping = np.empty(1), np.empty(1)
+    convection, conductance, damping = (np.empty(1) for _ in range(3))
     nothing, apart = np.zeros((0, 3)), np.zeros((1, 3))
     off = (OFF, heat.kernel(case), OFF, OFF, OFF, OFF)
-    exchange.rates(*off, state, 700.0, apart, *around, OFF, conductance, damping, nothing)
+    exchange.rates(*off, state, 700.0, apart, *around, OFF, convection, conductance, damping, nothing)
     loss, rate, *others = (np.empty(1) for _ in range(6))
-    droplet_loss.losses(p, OFF, state, *around, dry, 1e-6, conductance, loss, *others)
+    droplet_loss.losses(p, OFF, state, *around, dry, 1e-6, convection, conductance, loss, *others)
     droplet_loss.rates(p, OFF, state, *around, dry, rate)
     reynolds = 1.225 * 3.0 * 1e-3 / case.gas.viscosity
     sherwood = law.sherwood_ranz_marshall(reynolds, law.schmidt_number(1.225, case.gas.viscosity, 3.79e-6))
@@ -192,6 +193,58 @@ def test_rate_is_ranz_and_marshall_in_a_stream():
     flux = sherwood * 3.79e-6 / 1e-3 * 142.284 * surface  # kg/(m2 s)
     expected = 6.0 * flux / (700.0 * 1e-3) * 1e-9 * 1e-6
     assert loss[0] == pytest.approx(expected, rel=1e-4) and 1e-6 * rate[0] == pytest.approx(expected, rel=1e-4)
+
+
+def lost(case, state, window, share):
+    """Mass lost in a window [s], its force [kg/m3] and the mean conductance over that at the start, in gas of 1000 K;
+    `share` of the conductance is by convection."""
+    p, dry = evaporation.kernel(case), np.zeros(1)
+    around = np.full(1, 3.0), np.full(1, 0.35), np.full(1, 1000.0)
+    conductance = np.full(1, 1e-6)
+    convection = share * conductance
+    loss, still, *others = (np.empty(1) for _ in range(5))
+    droplet_loss.losses(p, OFF, state, *around, dry, window, convection, conductance, loss, still, *others)
+    force = still[0] * p.grain_density / (8.0 * p.diffusivity * window)
+    return loss[0], force, conductance[0] / 1e-6
+
+
+@pytest.mark.parametrize("share", [1.0, 0.4])
+def test_vapour_holds_back_heat_of_convection_alone(share):
+    """Of the part that is convection z/(exp(z) - 1), z = m' c_pv/(h A); of radiation nothing. Linear has none."""
+    case = droplet("evaporation.law='spalding'")
+    mass, _, mean = lost(case, one(390.0), 1e-6, share)
+    z = mass / 1e-6 * case.vapour.heat_capacity / (share * 1e-6)
+    assert z > 0.5
+    assert mean == pytest.approx(1.0 - share * (1.0 - z / math.expm1(z)), rel=1e-4)
+    assert lost(droplet(), one(390.0), 1e-6, share)[2] == pytest.approx(1.0, rel=1e-4)
+
+
+@pytest.mark.parametrize("temperature", [300.0, 390.0, 402.6, 420.0])
+@pytest.mark.parametrize("window", [1e-6, 0.01, 1.0, 100.0])
+def test_rate_and_heat_of_a_window_belong_together(temperature, window):
+    """Vapour of the force that was found leaves the heat that makes it, in any window; boiling, cold, or gone in it."""
+    p, state, dry = evaporation.kernel(droplet("evaporation.law='spalding'")), one(temperature), np.zeros(1)
+    c = evaporation.ventilation(p, 3.0, 0.35)
+    rate = droplet_loss.transfer(p, OFF, state, 0, c)
+    balance = droplet_loss.balance_of(p, OFF, state, 0, rate, c, (0.35, 1000.0, dry[0]), window, window, 1e-6, 1e-6)
+    force = droplet_loss.window_force(p, balance)
+    free, none = (droplet_loss.force_by(p, balance, without) for without in (0.0, 1.0))
+    assert none <= force <= free
+    assert droplet_loss.force_by(p, balance, droplet_loss.held_back(balance, force)) == pytest.approx(force, rel=1e-10)
+
+
+def test_a_drop_that_boils_in_steady_heat_has_spaldings_closed_form():
+    """m' = h A/c_pv ln(1 + c_pv (T_g - T_b)/L) at the end of a long window, in which it does not shrink."""
+    case = droplet("evaporation.law='spalding'")
+    p = evaporation.kernel(case)
+    capacity, conductance, latent = 1e-9, 1e-6, 2.0
+    blowing = p.blowing / (p.latent_heat / latent) / conductance
+    balance = droplet_loss.Balance(
+        0.0, 0.0, p.boiling_temperature, 1000.0, conductance, conductance, capacity, latent, blowing, 1e3
+    )
+    rate = droplet_loss.window_force(p, balance) * latent / p.latent_heat
+    number = p.blowing * (1000.0 - p.boiling_temperature) / p.latent_heat
+    assert rate == pytest.approx(conductance / p.blowing * math.log1p(number), rel=1e-9)
 
 
 def test_spaldings_force_is_what_drives_a_droplet():

@@ -79,7 +79,7 @@ def test_a_held_force_on_a_droplet_that_goes_is_counted(tmp_path, share, gone):
     case, window = warm(share)
     run = started(case, tmp_path)
     rates = run.exchange._rates
-    run.exchange._rates = lambda *seen: (*rates(*seen)[:2], np.array([[3e-9, 0.0, 4e-9]]))
+    run.exchange._rates = lambda *seen: (*rates(*seen)[:3], np.array([[3e-9, 0.0, 4e-9]]))
     handed = run._hand(window + 1e-6)
     assert handed.columns()["impulse_of_gone_kg_m_s"] == pytest.approx(5e-9 * handed.dt if gone else 0.0)
     assert handed.force.any() != gone

@@ -38,7 +38,8 @@ def radiating(surroundings, *more, on=("radiation",), absorptivity=0.0, windows=
             *more,
         )
     )
-    table.pop("heat")
+    for name in ("heat", "conduction"):
+        del table[name]
     table["effects"], table["radiation"] = (
         list(on),
         {"emissivity": 0.8, "surroundings_temperature_K": surroundings, "gas_absorptivity": absorptivity},

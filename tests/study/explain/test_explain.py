@@ -164,6 +164,9 @@ def test_numbers_of_droplets_by_hand():
     assert rows["Spalding B of heat"]["value"] == pytest.approx(2470.0 * 56.0 / 277000.0, rel=1e-6)
     fraction = 1329.0 / 101325.0 * 142.284 / (1329.0 / 101325.0 * 142.284 + (1.0 - 1329.0 / 101325.0) * 28.96)
     assert rows["Spalding B of mass"]["value"] == pytest.approx(fraction / (1.0 - fraction), rel=1e-3)
+    assert "take 'spalding'" in rows["Spalding B of heat"]["meaning"]
+    own = cases.load(scenes.find("spray_cone")[1])  # Spalding's law
+    assert "take" not in rows_by(tables.explain(own)["numbers"], "number")["Spalding B of heat"]["meaning"]
     assert not any(
         name.startswith("Spalding") for name in rows_by(tables.explain(cases.load(BED))["numbers"], "number")
     )
