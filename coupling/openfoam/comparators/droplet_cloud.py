@@ -7,6 +7,7 @@ from coupling.openfoam.comparators import droplet_sources
 from coupling.openfoam.comparators.droplet_numbers import GAS_LAWS
 from coupling.openfoam.comparators.droplet_sources import Injector
 from sdph.case.sections import Case
+from sdph.effects.around import sizes
 from sdph.schema import CaseError
 
 ALIEN = {  # effects that change what droplets do, and that the reference lacks
@@ -95,10 +96,20 @@ def unlike(case: Case) -> list[str]:
             "OpenFOAM takes the gas around a droplet at (2 T_droplet + T_gas)/3, the run as it is (coupling.film=true)"
         )
     lines += _of_evaporation(case, own) if own else []
+    if mixed := [name for name, nozzle in case.nozzles.items() if together(case, nozzle)]:
+        lines.append(
+            f"OpenFOAM's small and large droplets of {', '.join(mixed)} part in flight, those of the run fly together "
+            f"in one particle (size_classes={droplet_sources.PARTS})"
+        )
     touching = [name for name in CONTACT if name in case.effects]
     if touching:
         lines.append(f"OpenFOAM's droplets pass through each other, those of the run have {', '.join(touching)}")
     return lines
+
+
+def together(case: Case, nozzle) -> bool:
+    """Tell whether a nozzle gives droplets of several sizes, and these in one particle."""
+    return len((own := sizes.of_nozzle(case, nozzle)).share) < droplet_sources.PARTS and bool(own.variance.any())
 
 
 def _own_room(case: Case) -> str:
