@@ -51,7 +51,7 @@ def _shared(case) -> dict:
 
 
 def _told(case, against: str) -> dict:
-    """What a reference does otherwise than the case, in plain words, where it tells of it."""
+    """Words of what a reference does otherwise than the case, where it tells of it."""
     return {"unlike": droplet_cloud.unlike(case)} if against == "dpm" else {}
 
 

@@ -34,8 +34,8 @@ OPENFOAM = {"temperature": "gas_temperature"}
 
 
 class Air(NamedTuple):
-    """What is in the air at a time: places (P, D) [m], masses (P,) [kg], speeds (P,) [m/s] and temperatures (P,) [K] of
-    droplets, their Sauter mean [m] (nan: none, or not told), fields of the gas, name -> (C,)."""
+    """Droplets in the air at a time, and the gas: places (P, D) [m], masses (P,) [kg], speeds (P,) [m/s], temperatures
+    (P,) [K], Sauter mean [m] (nan: none, or not told); fields of the gas, name -> (C,)."""
 
     place: np.ndarray
     mass: np.ndarray
@@ -116,14 +116,12 @@ def ways(case, drops: Drops) -> list[Way]:
 
 def checks(case, along: list[Way], own: Side, other: Side) -> list[dict]:
     """Checks of both sides."""
-    found = []
+    within = CAME_IN * other.came + half_layer(case)
+    found = [check("liquid that came in, or was there [kg]", own.came, other.came, within)]
     if "evaporation" in case.effects:
         fit = droplet_liquid.fitted(case)
         name = f"largest error of OpenFOAM's pressure of saturation, {fit.low:.0f} to {fit.high:.0f} K"
         found.append(check(name, fit.error, 0.0, droplet_liquid.LARGEST))
-    row = check("liquid that came in, or was there [kg]", own.came, other.came, CAME_IN * other.came + half_layer(case))
-    found.append(row)
-    if "evaporation" in case.effects:
         found.append(check("evaporated mass [kg]", own.evaporated, other.evaporated, EVAPORATED, True))
     if all(len(side.air[-1].mass) for side in (own, other)):
         for way in along:
@@ -212,12 +210,16 @@ def _own(run, drops: Drops, times: list[float], reference) -> Side:
         ]
         cells = {name: np.asarray(gas[name])[same] for name in FIELDS if name in gas.array_names}
         sauter = metrics["D32_m"][np.argmin(np.abs(metrics["time_s"] - t))] if "D32_m" in metrics else np.nan
-        place, mass, speed, warmth = np.zeros((0, dimensions)), *(np.zeros(0),) * 3
-        if particles.n_points:
-            place, mass = np.asarray(particles.points)[:, :dimensions], np.asarray(particles["mass"])
-            speed, warmth = np.linalg.norm(particles["velocity"], axis=1), _temperature(run.case, particles)
-        air.append(Air(place, mass, speed, warmth, float(sauter), cells))
+        air.append(_particles(run.case, particles, float(sauter), cells))
     return Side(float(came), float(ledger["evaporated_kg"][rows].sum()), air, reference.volumes)
+
+
+def _particles(case, particles, sauter: float, cells: dict) -> Air:
+    """The run's droplets at a time."""
+    if not particles.n_points:
+        return Air(np.zeros((0, case.dimensions)), *(np.zeros(0),) * 3, np.nan, cells)
+    place, speed = np.asarray(particles.points)[:, : case.dimensions], np.linalg.norm(particles["velocity"], axis=1)
+    return Air(place, np.asarray(particles["mass"]), speed, _temperature(case, particles), sauter, cells)
 
 
 def _other(case, times: list[float], reference, coarse) -> Side:

@@ -102,7 +102,8 @@ def test_ways_are_those_of_the_nozzles_or_of_what_is_there():
 
 @pytest.mark.openfoam
 def test_a_spray_of_nobody_s_runs_beside_openfoam_s_droplets(tmp_path, shelf, capsys):
-    (tmp_path / "case.toml").write_text(cases.dumps(case()), encoding="utf-8")
+    own = case(coupling={"film": True, "voidage": False})
+    (tmp_path / "case.toml").write_text(cases.dumps(own), encoding="utf-8")
     folder = tmp_path / "run"
     assert main(["run", str(tmp_path / "case.toml"), "--gas", "embedded", "--out", str(folder)]) == 0
     capsys.readouterr()
@@ -178,7 +179,7 @@ def sprayed(folder, angle: float):
 
 @pytest.mark.openfoam
 def test_a_turned_vessel_has_the_same_spray(tmp_path, shelf):
-    """OpenFOAM as it is packaged has other gas here."""
+    """OpenFOAM as it is packaged ends in a floating point exception here."""
     upright, first = sprayed(tmp_path / "upright", 0.0)
     turned, second = sprayed(tmp_path / "turned", pi / 6.0)
     assert second.history["evaporated_kg"][-1] == pytest.approx(first.history["evaporated_kg"][-1], rel=2e-3)

@@ -33,7 +33,7 @@ def cloud(case: Case, injectors: list[Injector], patches: list[str], step: float
 
 
 def _meeting(case: Case, patch: str) -> str:
-    """What happens to droplets at a patch: `walls` holds them everywhere but at an outlet of `outflow`; without
+    """Fate of droplets at a patch: `walls` holds them everywhere but at an outlet of `outflow`; without
     `walls` they leave."""
     own = case.boundaries.get(patch)
     outlet = own is not None and own.kind == "pressure_outlet" and "outflow" in case.effects
@@ -67,26 +67,40 @@ def refuse(case: Case) -> None:
 def _refuse_gas(case: Case) -> None:
     """CaseError where the gas of the reference would be another."""
     gas = case.gas
-    if gas.equation_of_state not in GAS_LAWS:
-        known = ", ".join(GAS_LAWS)
-        raise CaseError(f"gas.equation_of_state = {gas.equation_of_state!r}; the droplet reference has: {known}")
-    if gas.turbulent:
-        raise CaseError(f"gas.turbulence.model = {gas.turbulence.model!r}; the droplet reference is laminar")
-    if case.domain.periodic:
-        raise CaseError("domain.periodic: droplets come in again there, and in the droplet reference they do not")
-    if any(case.domain.gravity) and "gravity" not in case.effects:
-        raise CaseError("gravity in domain, none in effects: the droplet reference has it for gas and droplets alike")
-    if not any(boundary.kind == "pressure_outlet" for boundary in case.boundaries.values()):
-        raise CaseError(
-            "no boundary is a pressure_outlet: the gas of the droplet reference has a density that no pressure "
-            "changes, and vapour needs a way out"
-        )
+    known, outlets = ", ".join(GAS_LAWS), [b for b in case.boundaries.values() if b.kind == "pressure_outlet"]
+    found = {
+        f"gas.equation_of_state = {gas.equation_of_state!r}; the droplet reference has: {known}":
+            gas.equation_of_state not in GAS_LAWS,
+        "gas.turbulence: the droplet reference is laminar": gas.turbulent,
+        "domain.periodic: droplets come in again there, and in the droplet reference they do not": case.domain.periodic,
+        "gravity in domain, none in effects: the droplet reference has it for gas and droplets alike":
+            any(case.domain.gravity) and "gravity" not in case.effects,
+        "no boundary is a pressure_outlet: the gas of the droplet reference has a density that no pressure changes, "
+        "and vapour needs a way out": not outlets,
+    }  # fmt: skip
+    for said, there in found.items():
+        if there:
+            raise CaseError(said)
 
 
 def unlike(case: Case) -> list[str]:
-    """What the reference does otherwise than the case asks, in plain words, a line each."""
+    """Lines, in plain words, of what the reference does otherwise than the case asks."""
     lines = ["OpenFOAM's gas does not know of the room that droplets take" + _own_room(case)]
-    drag, heat, own = (case.parameters.get(name) for name in ("drag", "heat", "evaporation"))
+    lines += _of_closures(case)
+    if "evaporation" in case.effects:
+        lines += _of_evaporation(case, case.parameters["evaporation"])
+    if mixed := [name for name, nozzle in case.nozzles.items() if together(case, nozzle)]:
+        lines.append(
+            f"OpenFOAM's small and large droplets of {', '.join(mixed)} part in flight, those of the run fly together "
+            f"in one particle (size_classes={droplet_sources.PARTS})"
+        )
+    if touching := [name for name in CONTACT if name in case.effects]:
+        lines.append(f"OpenFOAM's droplets pass through each other, those of the run have {', '.join(touching)}")
+    return lines
+
+
+def _of_closures(case: Case) -> list[str]:
+    lines, drag, heat = [], case.parameters.get("drag"), case.parameters.get("heat")
     if drag and drag.law != "putnam":
         lines.append(f"OpenFOAM's drag is that of one sphere (Putnam), the run's {drag.law}")
     if heat and heat.law != "ranz_marshall":
@@ -95,15 +109,6 @@ def unlike(case: Case) -> list[str]:
         lines.append(
             "OpenFOAM takes the gas around a droplet at (2 T_droplet + T_gas)/3, the run as it is (coupling.film=true)"
         )
-    lines += _of_evaporation(case, own) if own else []
-    if mixed := [name for name, nozzle in case.nozzles.items() if together(case, nozzle)]:
-        lines.append(
-            f"OpenFOAM's small and large droplets of {', '.join(mixed)} part in flight, those of the run fly together "
-            f"in one particle (size_classes={droplet_sources.PARTS})"
-        )
-    touching = [name for name in CONTACT if name in case.effects]
-    if touching:
-        lines.append(f"OpenFOAM's droplets pass through each other, those of the run have {', '.join(touching)}")
     return lines
 
 

@@ -21,6 +21,7 @@ EXACT = 1e-9  # relative: the form has the law
 # Relative. The rate goes as the difference of this pressure and that of the vapour around: a hundredth of it is a
 # fifteenth of the bar for the evaporated mass (sdph.study.droplets).
 LARGEST = 0.01
+FORMS = (np.ones_like, np.reciprocal, np.log, np.positive)  # of T over a mean, those of ln p
 NOT_SO_HOT = 1e4  # K: where a liquid never boils
 
 
@@ -62,8 +63,7 @@ def least_squares(temperature, pressure) -> tuple[tuple[float, float, float, flo
     temperature (n,) [K], pressure (n,) [Pa].
     """
     middle, wanted = float(np.mean(temperature)), np.log(pressure)
-    scaled = temperature / middle
-    terms = np.stack([np.ones_like(scaled), 1.0 / scaled, np.log(scaled), scaled], axis=1)
+    terms = np.stack([form(temperature / middle) for form in FORMS], axis=1)
     for count in range(1, 5):
         found = np.zeros(4)
         found[:count] = np.linalg.lstsq(terms[:, :count], wanted, rcond=None)[0]

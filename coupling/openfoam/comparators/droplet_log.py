@@ -1,4 +1,4 @@
-"""What the cloud of reactingParcelFoam says in its log, step by step: masses that its fields do not tell."""
+"""Masses that the cloud of reactingParcelFoam tells in its log, step by step, and its fields do not."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where reactingParcelFoam's parcels come from: tables of injectors, one for all rows of the same mass.
+"""Sources of reactingParcelFoam's parcels: tables of injectors, one for all rows of the same mass.
 
 Each place of a nozzle's mouth that gives particles gives parcels, one a step, with the velocity that particles leave it
 with: so slots, discs and cones are the same to OpenFOAM. Droplets that are there at the start come in before anything
@@ -52,11 +52,9 @@ class Rows(NamedTuple):
 
 
 class Injector(NamedTuple):
-    """A table of OpenFOAM's: name, number of its nozzle from 1 (0: the start), rows, start and duration [s], mass of
-    all that it gives [kg]."""
+    """A table of OpenFOAM's: name, rows, start and duration [s], mass of all that it gives [kg]."""
 
     name: str
-    nozzle: int
     rows: Rows
     start: float
     duration: float
@@ -81,29 +79,31 @@ def injectors(case: Case, drops: Drops, step: float) -> list[Injector]:
     if len(drops.mass):
         started, taken = _divided(drops), AT_ONCE * step
         found += [
-            Injector(f"start{k}", 0, rows, 0.0, taken, AT_ONCE * float(rows.mass.sum()))
+            Injector(f"start{k}", rows, 0.0, taken, AT_ONCE * float(rows.mass.sum()))
             for k, rows in enumerate(_alike(started))
         ]
     for number, (name, nozzle) in enumerate(case.nozzles.items(), 1):
-        end = case.run.end_time if nozzle.end is None else min(nozzle.end, case.run.end_time)
-        first, steps = round(nozzle.start / step), round(end / step) - round(nozzle.start / step)
-        start, duration = max(0.0, (first - SURE) * step), (steps - SURE) * step
-        for k, rows in enumerate(_alike(_of_nozzle(case, name, nozzle))) if steps > 0 else ():
-            found.append(
-                Injector(f"nozzle{number}_{k}", number, rows, start, duration, duration * float(rows.mass.sum()))
-            )
+        rows = _of_nozzle(case, name, nozzle)
+        found += _open(f"nozzle{number}", nozzle, _alike(rows), step, case.run.end_time)
     return found
+
+
+def _open(name: str, nozzle, alike: list[Rows], step: float, last: float) -> list[Injector]:
+    """Tables of a nozzle as long as it is open, in whole steps, until `last` [s]: the mass is that of its own times."""
+    end = last if nozzle.end is None else min(nozzle.end, last)
+    opened = end - nozzle.start
+    first, steps = round(nozzle.start / step), max(1, round(end / step) - round(nozzle.start / step))
+    times = max(0.0, (first - SURE) * step), (steps - SURE) * step
+    return [
+        Injector(f"{name}_{k}", rows, *times, opened * float(rows.mass.sum()))
+        for k, rows in enumerate(alike if opened > 0.0 else ())
+    ]
 
 
 def _of_nozzle(case: Case, name: str, nozzle) -> Rows:
     """Parcels of a step from a nozzle: every place of its mouth, every size."""
     streams, own = streams_of(case, nozzle), sizes.of_nozzle(case, nozzle)
-    place = streams.mouth + INSIDE * unit(nozzle.direction)
-    if ((place < np.array(case.domain.corner)) | (place > np.array(case.domain.upper))).any():
-        raise CaseError(
-            f"nozzles.{name}: a part of its mouth is outside of the gas, where the droplet reference has no cells; "
-            "move it in, or make it smaller"
-        )
+    place = _within(case, name, streams.mouth + INSIDE * unit(nozzle.direction))
     parts = max(1, math.ceil(PARTS / len(own.share)))
     kinds = [(s / parts if v else s, d, v) for s, d, v in zip(*own)]
     kinds = [(s, part) for s, d, v in kinds for part in _parts(d, v, parts)]
@@ -112,6 +112,16 @@ def _of_nozzle(case: Case, name: str, nozzle) -> Rows:
     at, which = (index.ravel() for index in np.meshgrid(np.arange(len(flow)), np.arange(len(share)), indexing="ij"))
     temperature = np.full(len(at), nozzle.temperature)
     return Rows(place[at], streams.velocity[at], temperature, diameter[which], flow[at] * share[which])
+
+
+def _within(case: Case, name: str, place) -> np.ndarray:
+    """The places (R, d) [m] of a mouth; `CaseError` where one is outside of the box of the gas."""
+    if ((place < np.array(case.domain.corner)) | (place > np.array(case.domain.upper))).any():
+        raise CaseError(
+            f"nozzles.{name}: a part of its mouth is outside of the gas, where the droplet reference has no cells; "
+            "move it in, or make it smaller"
+        )
+    return place
 
 
 def _divided(drops: Drops) -> Rows:
@@ -158,8 +168,8 @@ def entry(injector: Injector, step: float, depth: float) -> str:
     """Entry of an injector among OpenFOAM's injectionModels."""
     return (
         f"    {injector.name}\n    {{\n        type reactingMultiphaseLookupTableInjection;\n"
-        f"        injectorID {injector.nozzle};\n        inputFile \"{injector.name}\";\n"
-        f"        massTotal {depth * injector.mass!r};\n        parcelBasisType mass;\n"
-        f"        minParticlesPerParcel 0;\n        SOI {injector.start!r};\n        duration {injector.duration!r};\n"
+        f"        inputFile \"{injector.name}\";\n        massTotal {depth * injector.mass!r};\n"
+        f"        parcelBasisType mass;\n        minParticlesPerParcel 0;\n"
+        f"        SOI {injector.start!r};\n        duration {injector.duration!r};\n"
         f"        parcelsPerSecond {(1.0 + SURE) / step!r};\n        randomise false;\n    }}\n"
     )  # fmt: skip

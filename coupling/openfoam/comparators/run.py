@@ -42,9 +42,7 @@ from sdph.case.sections import Case, Coupling
 from sdph.scenes import paths
 from sdph.schema import CaseError
 
-PARCEL_FILES = {
-    "d": "diameter", "T": "temperature", "nParticle": "count", "rho": "density", "U": "velocity", "typeId": "nozzle",
-}  # fmt: skip
+PARCEL_FILES = {"d": "diameter", "T": "temperature", "nParticle": "count", "rho": "density", "U": "velocity"}
 TEMPLATES = paths.data("openfoam_case_templates")
 SHARED = {"tfm": TEMPLATES / "two_fluid" / "tfm", "dpm": TEMPLATES / "droplets" / "dpm"}
 CLOUD = "lagrangian/reactingCloud1"
@@ -139,21 +137,25 @@ def run_droplets(
     """
     droplet_cloud.refuse(case)
     drops = droplet_sources.none(case.dimensions) if drops is None else drops
-    own = poly_mesh.read(mesh) if mesh else None
-    numbers = droplet_numbers.macros(case, drops, courant, own)
-    step, depth, middle = float(numbers["time_step"]), DEPTH, 0.5 * DEPTH
+    own, depth = poly_mesh.read(mesh) if mesh else None, DEPTH
     if own and case.dimensions == 2:
-        depth, middle = float(np.ptp(own.points[:, 2])), float(own.points[:, 2].mean())
-    injectors = droplet_sources.injectors(case, drops, step)
-    patches = [name for name, patch in own.patches.items() if patch.kind != EMPTY] if own else list(case.boundaries)
-    files = {
-        DROPLETS.macros: _macros(DROPLETS.macros, numbers),
-        "sdphCloud": droplet_cloud.cloud(case, injectors, patches, step, depth),
-    }
-    for each in injectors:
-        files[each.name] = HEAD.format(name=each.name) + droplet_sources.table(case, each, middle, depth)
+        depth = float(np.ptp(own.points[:, 2]))
+    files = _droplet_files(case, drops, courant, own, depth)
     found = _run(DROPLETS, _less(case), folder, 1, files, progress, mesh=mesh)
     return found if depth == DEPTH else droplet_log.by_the_metre(found, depth)
+
+
+def _droplet_files(case: Case, drops: Drops, courant: float, mesh, depth: float) -> dict[str, str]:
+    """Files in `constant` that tell of the droplets; `depth` [m] is that of a plane mesh."""
+    numbers = droplet_numbers.macros(case, drops, courant, mesh)
+    step, middle = float(numbers["time_step"]), float(mesh.points[:, 2].mean()) if mesh else 0.5 * depth
+    injectors = droplet_sources.injectors(case, drops, step)
+    patches = [name for name, patch in mesh.patches.items() if patch.kind != EMPTY] if mesh else list(case.boundaries)
+    tables = {
+        each.name: HEAD.format(name=each.name) + droplet_sources.table(case, each, middle, depth) for each in injectors
+    }
+    cloud = droplet_cloud.cloud(case, injectors, patches, step, depth)
+    return tables | {DROPLETS.macros: _macros(DROPLETS.macros, numbers), "sdphCloud": cloud}
 
 
 def _less(case: Case) -> Case:
