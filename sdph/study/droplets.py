@@ -28,7 +28,7 @@ EVAPORATED, FRONT, SPEED, SIZE, RICHEST = 0.15, 0.05, 0.10, 0.05, 0.20  # relati
 CAME_IN = 0.01  # relative, and half a layer of particles
 WARMTH, COLDEST = 0.05, 0.10  # of the temperatures between which all happens
 AHEAD = 0.95  # of the mass in the air, that has not come further than the front
-PICTURE = "compare_dpm.png"
+PICTURE, DOTS = "compare_dpm.png", 2000  # most droplets that are drawn
 FIELDS = ("temperature", "vapour_mass_fraction", "density")  # of the gas; OpenFOAM's temperature has another name
 OPENFOAM = {"temperature": "gas_temperature"}
 
@@ -246,7 +246,7 @@ def _parcels(case, drops: dict | None, cells: dict) -> Air:
 
 
 def picture(run, times: list[float], own: Side, other: Side) -> None:
-    """Temperature of the gas in a cut and the droplets at the end: the run above OpenFOAM's."""
+    """Vapour, or where nothing evaporates temperature of the gas in a cut, and the droplets: both sides at the end."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -259,10 +259,14 @@ def picture(run, times: list[float], own: Side, other: Side) -> None:
     field = "vapour_mass_fraction" if "evaporation" in run.case.effects else "temperature"
     values = [side.air[-1].gas[field] for side in (own, other)]
     limits = min(v.min() for v in values), max(v.max() for v in values)
-    figure, axes = pyplot.subplots(1, 2, figsize=(9.0, 4.5), layout="constrained")
+    width, height = np.ptp(np.concatenate(pieces), axis=0)
+    size = (9.0, max(2.0, min(9.0, 3.8 * height / width)) + 0.8)
+    figure, axes = pyplot.subplots(1, 2, figsize=size, layout="constrained")
     for axis, side, shown, name in zip(axes, (own, other), values, ("SDPH", "OpenFOAM's droplets")):
         image = cuts.painted(axis, pieces, shown[numbers], limits, field)
-        axis.plot(*side.air[-1].place[:, seen].T, ".", color="tab:cyan", markersize=1.0)
+        place = side.air[-1].place[:, seen]
+        some = np.random.default_rng(0).permutation(len(place))[:DOTS]  # any, or rows of parcels would be left out
+        axis.plot(*place[some].T, ".", color="tab:cyan", markersize=1.5)
         axis.set_title(f"{name}, {times[-1]:.3g} s")
     figure.colorbar(image, ax=axes, label=field.replace("_", " "))
     figure.savefig(run.folder / PICTURE, dpi=120)

@@ -11,6 +11,7 @@ from coupling.gas import GasError
 from coupling.openfoam import poly_mesh
 from coupling.openfoam.comparators import run as comparators
 from coupling.openfoam.comparators.droplet_sources import Drops
+from coupling.openfoam.comparators.reference import Reference
 from coupling.openfoam.programs import barrier
 from coupling.openfoam.programs import run as programs
 from sdph.case import read as cases
@@ -98,6 +99,18 @@ def test_ways_are_those_of_the_nozzles_or_of_what_is_there():
     (way,) = droplets.ways(still, drops._replace(velocity=np.zeros((2, 2))))
     assert tuple(way.direction) == (0.0, -1.0)
     assert droplets.front(air(), WAY) == pytest.approx(0.95, abs=0.01)
+    assert droplets.front(air(), WAY._replace(origin=np.array([0.5, 0.0]))) == pytest.approx(0.45, abs=0.01)
+
+
+def test_openfoam_s_evaporated_mass_is_that_of_no_step():
+    """Of first order: 3 with a step, 4 with two of it, 2 with none."""
+    fields = {1.0: {"gas_temperature": np.ones(1), "density": np.ones(1), "vapour_mass_fraction": np.zeros(1)}}
+    histories = ({"time_s": np.array([0.0, 1.0]), "evaporated_kg": np.array([0.0, m])} for m in (3.0, 4.0))
+    fine, coarse = (
+        Reference("some", 1.0, np.zeros((1, 3)), np.ones(1), fields, own | {"injected_kg": np.ones(2)}, {})
+        for own in histories
+    )
+    assert droplets._other(case(), [1.0], fine, coarse).evaporated == 2.0
 
 
 @pytest.mark.openfoam
