@@ -94,6 +94,8 @@ def unlike(case: Case) -> list[str]:
             f"OpenFOAM's small and large droplets of {', '.join(mixed)} part in flight, those of the run fly together "
             f"in one particle (size_classes={droplet_sources.PARTS})"
         )
+    if not {"outflow", "walls"} & set(case.effects):
+        lines.append("OpenFOAM's droplets leave at every side, those of the run fly on outside of the gas (outflow)")
     if touching := [name for name in CONTACT if name in case.effects]:
         lines.append(f"OpenFOAM's droplets pass through each other, those of the run have {', '.join(touching)}")
     return lines
