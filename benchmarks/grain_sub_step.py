@@ -12,24 +12,10 @@ import time
 import numba
 import numpy as np
 
-from sdph import scenes
-from sdph.case import read as cases
-from sdph.running.simulation import Simulation
+from sdph.study.bench import bed
 
 WINDOWS = 30
 WHOLE = ("_sub_step", "_advance", "prepare")  # of a stepper: what a sub-step goes through
-
-
-class NoLedger:
-    """Takes the rows and forgets them."""
-
-    table = None
-
-    def open(self, *row) -> None:
-        pass
-
-    def close_window(self, *row) -> None:
-        pass
 
 
 class Timer:
@@ -50,18 +36,6 @@ class Timer:
         spent = Timer.clock() - started
         self.least, self.sum = min(self.least, spent), self.sum + spent
         return result
-
-
-def bed(until: float, spacing: float = 5.0) -> Simulation:
-    from coupling.embedded import EmbeddedGas
-
-    sets = (f"resolution.spacing_mm={spacing}", f"resolution.cell_mm={10.0 if spacing < 10.0 else 20.0}")
-    case = cases.load(scenes.HERE / "bubbling_bed" / "case.toml", sets)
-    simulation = Simulation(case, EmbeddedGas(case), NoLedger())
-    simulation.start()
-    while simulation.time < until:
-        simulation.window()
-    return simulation
 
 
 def timed(simulation) -> dict[str, Timer]:
@@ -103,7 +77,7 @@ def measured(simulation, timers) -> dict[str, float]:
 
 if __name__ == "__main__":
     spacing, until = (float(given) for given in (*sys.argv[1:], *("5.0", "0.01")[len(sys.argv) - 1 :]))
-    simulation, times = bed(until, spacing), {}
+    simulation, times = bed(spacing, 10.0 if spacing < 10.0 else 20.0, until), {}
     timers = timed(simulation)
     for threads in range(1, numba.config.NUMBA_NUM_THREADS + 1):
         numba.set_num_threads(threads)

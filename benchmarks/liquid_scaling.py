@@ -11,44 +11,19 @@ particle. 3-D is the same column, as deep as it is wide. Threads: NUMBA_NUM_THRE
 import math
 import subprocess
 import sys
-import time
 
 import numba
 import numpy as np
 
-from sdph import scenes
-from sdph.case import read as cases
-from sdph.methods.liquids.method import LiquidStepper
+from sdph.study.bench import step_time, tank
 
-WIDTH = 0.05715  # m, of the column; twice as high
 DEFAULT = ("2:1e4", "2:1e5", "3:1e5")
-STEPS = 6  # between two lists of neighbours
-DEEP = (
-    "dimensions=3", f"domain.size_m=[{5 * WIDTH}, {3 * WIDTH}, {WIDTH}]", "domain.gravity_m_s2=[0.0, -9.81, 0.0]",
-    "pools.column.lower_m=[0.0, 0.0, 0.0]", f"pools.column.upper_m=[{WIDTH}, {2 * WIDTH}, {WIDTH}]",
-)  # fmt: skip
 
 
 def held(what: str) -> float:
     """VmRSS or VmHWM of this process [bytes], as Linux tells."""
     with open("/proc/self/status", encoding="ascii") as status:
         return next(1024.0 * float(line.split()[1]) for line in status if line.startswith(what))
-
-
-def tank(dimensions: int, count: float) -> LiquidStepper:
-    """A dam break of about `count` particles of liquid."""
-    spacing = (2.0 * WIDTH**dimensions / count) ** (1.0 / dimensions) * 1e3
-    given = (f"resolution.spacing_mm={spacing}", *(DEEP if dimensions == 3 else ()))
-    return LiquidStepper(cases.load(scenes.HERE / "dam_break" / "case.toml", given))
-
-
-def step_time(stepper) -> float:
-    """Mean wall time [s] of a step, the rows made anew once."""
-    started = time.perf_counter()
-    stepper.neighbours.built = ()
-    for _ in range(STEPS):
-        stepper.step(1.0)
-    return (time.perf_counter() - started) / STEPS
 
 
 def measured(dimensions: int, count: float) -> str:

@@ -13,7 +13,7 @@ import sys
 import time
 
 import numpy as np
-from liquid_scaling import held, step_time, tank
+from liquid_scaling import held
 
 from sdph import scenes
 from sdph.case import read as cases
@@ -22,6 +22,7 @@ from sdph.engine import state as particles
 from sdph.engine.state import LIQUID
 from sdph.methods.mps import sheet
 from sdph.methods.mps.method import MpsStepper
+from sdph.study.bench import step_time, tank
 
 SPACING, LENGTH, STEPS, ROUNDS, FIRST = 0.0666, 0.02, 6, 3, 6  # mm, m
 

@@ -5,7 +5,7 @@ Both on the embedded gas and from the same moment of the same run; cost is wall 
 
 import time
 
-from grain_sub_step import bed
+from sdph.study.bench import LARGE, bed
 
 PAPER = 5e-6  # s, Chen, Qiang & Gao 2014, section 4.2: particles and gas alike
 START, OURS, THEIRS = 0.02, 0.01, 0.002  # s of bed: before, and looked at each way
@@ -26,7 +26,7 @@ def cost(simulation, duration: float) -> tuple[float, int, int]:
 
 
 if __name__ == "__main__":
-    simulation = bed(START)
+    simulation = bed(*LARGE, START)
     ours = cost(simulation, OURS)
     simulation.clock.limits["largest"] = PAPER
     theirs = cost(simulation, THEIRS)

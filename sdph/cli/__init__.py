@@ -241,6 +241,7 @@ COMMANDS = {
     "run": run,
     "explain": explain_case,
     "warm": judging.warm_cases,
+    "bench": judging.bench,
     "cost": cost_of_accuracy,
     "stress": judging.stress_cases,
     "compare": compare_run,

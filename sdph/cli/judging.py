@@ -1,4 +1,4 @@
-"""`sdph stress`, `sdph validate` and `sdph warm`: commands that do many things, here or by workers."""
+"""`sdph stress`, `sdph validate`, `sdph warm` and `sdph bench`: commands that do many things, here or by workers."""
 
 from __future__ import annotations
 
@@ -82,6 +82,16 @@ def warm_cases(options) -> int:
         scenes.find(target)
     say = functools.partial(print, file=sys.stderr, flush=True)
     return warm(targets, options.gas, (options.workers, options.scheduler), say)
+
+
+def bench(options) -> int:
+    """Measure the main ratios of speed."""
+    from sdph.running import output
+    from sdph.study import bench
+
+    rows = bench.rows(functools.partial(print, file=sys.stderr, flush=True))
+    print(output.strict_json(bench.record(rows)) if options.json else bench.table(rows))
+    return FINE
 
 
 def _by_workers(options) -> bool:

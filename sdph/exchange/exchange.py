@@ -269,17 +269,18 @@ class Exchange:
         return cooled
 
     def grip(self, state, damping) -> float:
-        """Rate [1/s] at which gas that cannot give way stops grains that move as one, mean by mass; damping (N,) [1/s].
+        """Rate [1/s], mean by mass, at which gas that cannot give way stops grains beyond drag; damping (N,) [1/s].
 
-        With alpha_g v_g + alpha_p v_p given, drag and pressure gradient together are beta/alpha_g^2 v_p: the rate is
-        beta/(alpha_g^2 alpha_p rho_p). 0 where the gas does not feel the volume of the grains.
+        With alpha_g v_g + alpha_p v_p given, drag and pressure gradient together are beta/alpha_g^2 v_p, so that grains
+        stop at the rate beta/(alpha_g^2 alpha_p rho_p); drag alone, beta/(alpha_p rho_p), is exact over a window. 0
+        where the gas does not feel the volume of the grains.
         """
         mass = state.mass * (state.kind == GRAIN)
         if not self.parameters["gas_pressure"] or self.case.coupling.one_way or not mass.any():
             return 0.0
         own = by_material(state.grain_density, self.case.grains.density)
         alpha_p = np.minimum(state.density / own, self.case.grains.packing_limit)
-        return float(np.average(damping / (1.0 - alpha_p) ** 2, weights=mass))
+        return float(np.average(damping * ((1.0 - alpha_p) ** -2 - 1.0), weights=mass))
 
     def settling(self, state, damping, own, slip) -> float:
         """Longest window [s] in which grains drift right, by means of theirs by mass (`sdph.exchange.window.settling`):

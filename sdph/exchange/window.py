@@ -21,8 +21,8 @@ from sdph.engine.state import GRAIN
 SAFETY, GROWTH, SHRINK = 0.9, 2.0, 0.3  # usual bounds of a step controller (Hairer, Norsett & Wanner, II.4); our choice
 # of the gas in a cell: most vapour that comes into it in a window, so that it is carried away as it comes; our choice
 VAPOUR = 0.1
-# of the time in which gas stops a bed, most that its force may be held: a held force drives the bed's oscillations; our
-# choice
+# of the time in which gas that gives way stops grains beyond what their own drag does, most that it may be held: a bed
+# then slows at a rate that is up to half of that, 5 %, too high, whatever its volume fraction; our choice
 GRIP = 0.1
 # limit -> what a user can change about it
 KEYS = {

@@ -1,4 +1,4 @@
-"""The first sloshing period of a box that is let go, and its loads."""
+"""The first sloshing period of a box that is let go, and its loads; a tank that is shaken (`shaken.py`)."""
 
 from __future__ import annotations
 
@@ -8,6 +8,11 @@ from sdph.laws import liquids
 from sdph.running.metrics.periods import ringing
 from sdph.study.compare import check
 
+from . import shaken
+
+VARIANTS = {"sloshing_box": ((), ["exact"])} | {
+    f"shaken, {spacing:g} mm": (shaken.overrides(spacing), ["measured"]) for spacing in shaken.SPACINGS
+}
 PERIOD = 0.01  # at half a length of 25 spacings: issue
 
 
@@ -41,3 +46,7 @@ def exact(run) -> list[dict]:
         check("mean downward force over the weight", -h["mean_force_y_N"][free].mean() / weight, 1.0, 1e-3),
         check("force by momentum less force by walls, rms over the weight", scatter, 0.0, 0.01),
     ]
+
+
+def measured(run) -> list[dict]:
+    return shaken.checks(run)

@@ -109,16 +109,17 @@ def run_two_fluid(
     progress: Progress | None = None,
     courant: float = two_fluid_numbers.COURANT,
     start: Start | None = None,
+    again: bool = False,
 ) -> Reference:
     """Run twoPhaseEulerFoam on the case in `folder`, or take what it gave from the cache.
 
     `progress(time, end)` [s] hears where the run is; `courant` is the largest Courant number of inlets and of grains
     at the start. `start` says how the grains stand then, and on which mesh; without it the scene's template does.
-    `GasError` when OpenFOAM fails.
+    `again`: run whatever the cache has. `GasError` when OpenFOAM fails.
     """
     mesh = poly_mesh.read(start.mesh) if start and start.mesh else None
     files = {TWO_FLUID.macros: _macros(TWO_FLUID.macros, two_fluid_numbers.macros(case, courant, mesh))}
-    return _run(TWO_FLUID, case, folder, ranks, files, progress, start, start.mesh if start else None)
+    return _run(TWO_FLUID, case, folder, ranks, files, progress, start, start.mesh if start else None, again)
 
 
 def run_droplets(
@@ -169,7 +170,7 @@ def _less(case: Case) -> Case:
 
 def _run(
     solver: Solver, case: Case, folder: Path, ranks: int, files: dict[str, str], progress: Progress | None,
-    start: Start | None = None, mesh: Path | None = None,
+    start: Start | None = None, mesh: Path | None = None, again: bool = False,
 ) -> Reference:  # fmt: skip
     environment = _environment()
     _clear(folder)
@@ -180,7 +181,7 @@ def _run(
     begun = start.digest if start else digest_of_mesh(mesh)
     program = str(solver.off_boxes()) if mesh else solver.name  # stock is right on boxes alone
     kept = shelf() / f"{key(folder, f'{program} {_made_with()} {begun}')}.npz"
-    if kept.exists():
+    if kept.exists() and not again:
         return load(kept)
     for tool in () if mesh else ("blockMesh",) if start else solver.prepare:
         programs.run([tool], folder, folder / f"log.{tool}", environment)

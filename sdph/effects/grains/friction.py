@@ -160,10 +160,10 @@ def held(p, method) -> dict[str, float]:
 
 
 def call(scales) -> Judgement:
-    """Volume fraction over the onset of contacts; the error by what presses grains on each other: their weight on a
-    wall, or the gas that holds up the foremost."""
+    """Volume fraction over the onset of contacts, which it gets to where grains settle; the error by what presses them
+    on each other: their weight on a wall, or the gas that holds up the foremost."""
     onset = scales.case.parameters["friction"].onset
-    ratio = scales.alpha_p / onset
+    ratio = max(scales.alpha_p / onset, 1.0 if scales.settles(onset) else 0.0)
     fall = scales.gravity * scales.end
     weight = fall / (fall + scales.speed) if fall and scales.to_walls.over_gap >= 1.0 else 0.0
     held_up = scales.rim * -math.expm1(-scales.end / scales.drag_time) if scales.thrown else 0.0

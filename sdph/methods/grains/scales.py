@@ -20,9 +20,7 @@ from sdph.methods.grains import start, ways
 
 SHEAR = 0.5  # sqrt(I2D) over the rate of a simple shear: D_xy is half of it
 DILUTE = 1e-3  # alpha_p below which grains do not meet often enough to matter, Elghobashi 1994
-THIN = (
-    0.1  # free path over h above which grains are no fluid (Bird 1994, ch. 1: continuum up to a Knudsen number of 0.1)
-)
+THIN = 0.1  # free path over h above which grains are no fluid; a continuum up to that Knudsen number (Bird 1994, ch. 1)
 SETTLED = 0.95  # of the onset of lasting contacts, from which on grains lie on each other; our choice
 
 
@@ -221,6 +219,10 @@ class Scales:
     def to_outlets(self) -> ways.Reach:
         """Way of the grains to the nearest pressure outlet."""
         return ways.reach(self, True)
+
+    def settles(self, onset: float) -> bool:
+        """True where grains come to lie at the volume fraction `onset` (`ways.settles`)."""
+        return ways.settles(self, onset)
 
     @cached_property
     def collides(self) -> bool:

@@ -46,16 +46,45 @@ def _aside(patch, axis: int, span) -> float:
 
 
 def reach(s, out: bool) -> Reach:
-    """The farthest that grains get, relative to the gap, towards sides that are open (`out`) or closed; `s`: scales."""
-    found = [Reach(0.0, 0.0)]
+    """The farthest that grains get, relative to the gap, towards sides that are open (`out`), in part or whole, or
+    closed; those that stand within walls of their own are at them. `s`: scales."""
+    found, spacing = [Reach(0.0, 0.0)], s.case.resolution.spacing
+    within = not out and enclosed(s.case)
+    for patch, axis, side, room, outward in _sides(s):
+        if within or (outlets(s.case, side) if out else not opened(s.case, side)):
+            way = towards(s, patch, axis, outward)
+            found.append(Reach(way, way / max(0.0 if within else room, 0.5 * spacing)))
+    return max(found, key=lambda row: row.over_gap)
+
+
+def settles(s, onset: float) -> bool:
+    """True where nothing but their weight moves grains, and within the run it takes them to a closed side, or a wall
+    of their own, and on to the volume fraction `onset`."""
+    lifted = s.thrown or (s.jet and not s.jet < s.minimum_fluidisation)
+    if lifted or not s.collides:
+        return False
+    for patch, axis, side, room, outward in _sides(s):
+        within, down = enclosed(s.case), outward * s.case.domain.gravity[axis] > 0.0
+        if down and (within or not opened(s.case, side)):
+            closer = max(0.0, 1.0 - patch.alpha_p / onset) * (patch.upper[axis] - patch.lower[axis])
+            if s.falling * s.end >= closer + (0.0 if within else room):
+                return True
+    return False
+
+
+def _sides(s):
+    """(patch, axis, name of the side, its distance [m] from the grains, -1 or 1: where it lies) of all patches."""
     domain = s.case.domain
     for patch, (axis, ends) in itertools.product(s.patches, enumerate(zip(domain.corner, domain.upper))):
         rooms = patch.lower[axis] - ends[0], ends[1] - patch.upper[axis]
         for side, room, outward in zip(PAIRS[axis], rooms, (-1.0, 1.0)):
-            if opened(s.case, side) == out:
-                way = towards(s, patch, axis, outward)
-                found.append(Reach(way, way / max(room, 0.5 * s.case.resolution.spacing)))
-    return max(found, key=lambda row: row.over_gap)
+            yield patch, axis, side, room, outward
+
+
+def enclosed(case) -> bool:
+    """True where grains fill what walls enclose, or walls have a mesh: nearer than the sides of the domain."""
+    own = case.parameters["walls"] if "walls" in case.effects else None
+    return any(region.shape == "walls" for region in case.particles.values()) or bool(own and own.mesh)
 
 
 def lie(case, patches) -> bool:
@@ -67,9 +96,14 @@ def lie(case, patches) -> bool:
     return not opened(case, PAIRS[axis][end]) and min(rooms, default=math.inf) < case.resolution.spacing
 
 
+def outlets(case, side: str) -> list:
+    """Pressure outlets on a side."""
+    return [b for b in case.boundaries.values() if b.side == side and b.kind == "pressure_outlet"]
+
+
 def opened(case, side: str) -> bool:
     """True where the whole of a side is a pressure outlet."""
-    return any(b.side == side and b.kind == "pressure_outlet" and b.span is None for b in case.boundaries.values())
+    return any(b.span is None for b in outlets(case, side))
 
 
 def towards(s, patch, axis: int, outward: float) -> float:

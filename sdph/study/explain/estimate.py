@@ -199,7 +199,7 @@ def _windows(case, s) -> list[tuple]:
         for cause, value in pace.later(case, s).items()
     ]
     how = {
-        "grip": "of the time in which the gas stops packed grains",
+        "grip": "of the time in which gas that has to flow past stops grains, beyond their own drag",
         "settling": "run.accuracy of what moves, over the error of a drift by weight or field",
     }
     asked = pace.asked(case, s, _state(case))

@@ -3,8 +3,8 @@
 What rules later differs from the start in three ways, each by an argument from the case alone:
 - gas that is let in has blown its mouth free, so that the Courant number is that of its own speed, not of that
   between packed grains;
-- packed grains that the gas grips as one bear `sdph.exchange.window.GRIP` of the time in which it stops them, at the
-  slip that carries their weight;
+- grains that the gas grips as one bear `sdph.exchange.window.GRIP` of the time in which it stops them beyond their own
+  drag, at the slip that carries their weight;
 - lasting contacts of packed grains become as stiff as what they carry asks for: the weight that the gas leaves to
   them, or the dynamic pressure alpha_p rho_p v^2/2 of grains that are thrown and brought to rest.
 """
@@ -137,7 +137,8 @@ def grip(case, s) -> float:
     carrying = s.minimum_fluidisation / (1.0 - s.capped)
     slip = s.slip if math.isnan(carrying) else min(s.slip, carrying)
     rate = drag.gidaspow(s.alpha_p, slip, s.grains.diameter, s.gas.density, s.gas.viscosity) / s.grains.density
-    return GRIP * (1.0 - s.capped) ** 2 / rate if rate else math.inf
+    held = rate * ((1.0 - s.capped) ** -2 - 1.0)
+    return GRIP / held if held else math.inf
 
 
 def sub_steps(case, s, state) -> dict[str, float]:
