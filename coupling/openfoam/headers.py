@@ -16,10 +16,12 @@ from pathlib import Path
 
 from coupling.gas import GasError
 
-# of the source tree: what sdphGasFoam and the closures of the two-fluid solver include
+# of the source tree: what sdphGasFoam and the solvers of the comparisons include
 NEEDED = (
     "src/OpenFOAM/", "src/OSspecific/POSIX/", "src/finiteVolume/", "src/meshTools/", "src/thermophysicalModels/",
-    "src/TurbulenceModels/", "src/transportModels/", "applications/solvers/multiphase/twoPhaseEulerFoam/",
+    "src/TurbulenceModels/", "src/transportModels/", "src/lagrangian/", "src/regionModels/", "src/ODE/",
+    "src/combustionModels/", "src/sampling/", "applications/solvers/multiphase/twoPhaseEulerFoam/",
+    "applications/solvers/lagrangian/reactingParcelFoam/", "applications/solvers/combustion/reactingFoam/",
 )  # fmt: skip
 ARCHIVES = {"debian": "http://deb.debian.org/debian", "ubuntu": "http://archive.ubuntu.com/ubuntu"}
 KEYRINGS = {name: Path(f"/usr/share/keyrings/{name}-archive-keyring.gpg") for name in ARCHIVES}

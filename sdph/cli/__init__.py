@@ -169,7 +169,11 @@ def compare_run(options) -> int:
     from sdph.study import against, compare
 
     checks = against.compare(options.run, options.against)
-    print(output.strict_json({"checks": checks}) if options.json else compare.table(checks))
+    unlike = against.unlike(options.run, options.against)
+    if options.json:
+        print(output.strict_json({"checks": checks, "unlike": unlike}))
+    else:
+        print("\n".join([compare.table(checks), *(["", "not alike:", *unlike] if unlike else [])]))
     return FINE if all(check["ok"] for check in checks) else CHECK_FAILED
 
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
+from coupling.openfoam.comparators import droplet_cloud
 from sdph.running import output
 from sdph.schema import CaseError
-from sdph.study import two_fluid
+from sdph.study import droplets, two_fluid
 from sdph.study.compare import open_run, scene_module
 
 
@@ -19,7 +21,7 @@ def compare(folder: Path, against: str) -> list[dict]:
             f"({', '.join(run.case.materials)}); compare a run of one"
         )
     module = scene_module(run.case.scene)
-    shared = {"tfm": two_fluid.tfm} if run.case.grains and not run.case.vapour else {}
+    shared = _shared(run.case)
     function = getattr(module, against, shared.get(against))
     if function is None:
         known = [name for name in ("exact", "tfm", "dpm") if hasattr(module, name) or name in shared]
@@ -37,5 +39,22 @@ def compare(folder: Path, against: str) -> list[dict]:
             f"the run ends at {run.summary['time_s']:g} s, before the first time that its reference tells of; go on "
             f"with: sdph run --resume {folder} --until T"
         )
-    output.write_json(folder / f"compare_{against}.json", {"checks": checks})
+    output.write_json(folder / f"compare_{against}.json", {"checks": checks} | _told(run.case, against))
     return checks
+
+
+def _shared(case) -> dict:
+    """References that any case of its kind has: two fluids for grains, OpenFOAM's droplets for what flies in a gas."""
+    if not case.grains:
+        return {}
+    return {"dpm": droplets.dpm} | ({} if case.vapour else {"tfm": two_fluid.tfm})
+
+
+def _told(case, against: str) -> dict:
+    """Words of what a reference does otherwise than the case, where it tells of it."""
+    return {"unlike": droplet_cloud.unlike(case)} if against == "dpm" else {}
+
+
+def unlike(folder: Path, against: str) -> list[str]:
+    """The same of a comparison that was made."""
+    return json.loads((folder / f"compare_{against}.json").read_text(encoding="utf-8")).get("unlike", [])

@@ -17,7 +17,7 @@ from coupling.openfoam.comparators import two_fluid_numbers
 from coupling.openfoam.comparators.run import run_two_fluid
 from coupling.openfoam.comparators.start import Start
 from sdph.schema import CaseError
-from sdph.show import style
+from sdph.study import cuts
 from sdph.study.compare import check
 
 BAR, PLACE, MASS, APART = 0.10, 0.05, 0.01, 0.20  # relative; APART: of the grains, how many stand in other cells
@@ -129,7 +129,7 @@ def picture(run, times, own: Cells, other: Cells) -> None:
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    pieces, numbers = _cut(run.case, run.fields(0.0).gas)
+    pieces, numbers = cuts.cut(run.case, run.fields(0.0).gas)
     numbers = cKDTree(own.centres).query(numbers)[1]
     width, height = np.ptp(np.concatenate(pieces), axis=0)
     shown = sorted({round(k) for k in np.linspace(0, len(times) - 1, SHOWN)})
@@ -137,43 +137,11 @@ def picture(run, times, own: Cells, other: Cells) -> None:
     figure, axes = pyplot.subplots(2, len(shown), figsize=size, layout="constrained", squeeze=False)
     for column, k in enumerate(shown):
         for row, cells in enumerate((own, other)):
-            image = _painted(axes[row, column], pieces, cells.alpha_p[k][numbers], run.case.grains.packing_limit)
+            values, most = cells.alpha_p[k][numbers], run.case.grains.packing_limit
+            image = cuts.painted(axes[row, column], pieces, values, (0.0, most), "alpha_p")
         axes[0, column].set_title(f"{times[k]:.3g} s")
     for axis, name in zip(axes[:, 0], ("SDPH", "two fluids")):
         axis.set_ylabel(name)
     figure.colorbar(image, ax=axes, label="volume fraction of grains [-]")
     figure.savefig(run.folder / PICTURE, dpi=120)
     pyplot.close(figure)
-
-
-def _cut(case, grid) -> tuple[list[np.ndarray], np.ndarray]:
-    """Polygons (corners, 2) [m] of the cells that are seen, sideways and up, and the centres (P, D) [m] of these
-    cells."""
-    up = int(np.argmax(np.abs(case.domain.gravity))) if any(case.domain.gravity) else 1
-    along, across = [axis for axis in range(3) if axis != up] if case.dimensions == 3 else (1 - up, 2)
-    grid = grid.copy()
-    grid.cell_data["centre"] = np.asarray(grid.cell_centers().points)
-    if np.ptp(np.asarray(grid.bounds)[2 * across : 2 * across + 2]) > 0.0:
-        middle = np.array(grid.center)
-        middle[across] += 0.25 * case.resolution.cell  # not between two layers of a box
-        grid = grid.slice(normal="xyz"[across], origin=middle if case.dimensions == 3 else grid.center)
-    pieces = [np.asarray(grid.get_cell(i).points)[:, [along, up]] for i in range(grid.n_cells)]
-    return [_round(piece) for piece in pieces], np.asarray(grid.cell_data["centre"])[:, : case.dimensions]
-
-
-def _round(corners: np.ndarray) -> np.ndarray:
-    """Corners (n, 2) of a convex piece, in turn."""
-    way = corners - corners.mean(axis=0)
-    return corners[np.argsort(np.arctan2(way[:, 1], way[:, 0]))]
-
-
-def _painted(axis, pieces, values, most: float):
-    """Polygons in the colours of a volume fraction."""
-    from matplotlib.collections import PolyCollection
-
-    image = PolyCollection(pieces, array=values, cmap=style.map_of(style.QUANTITIES["alpha_p"].map), edgecolors="face")
-    image.set_clim(0.0, most)
-    axis.add_collection(image)
-    axis.autoscale_view()
-    axis.set(aspect="equal", xticks=[], yticks=[])
-    return image

@@ -12,7 +12,6 @@ import math
 import numpy as np
 
 from coupling.openfoam.comparators.droplet_numbers import COURANT
-from sdph.case.sections import Coupling
 from sdph.study.compare import check
 
 MASS = 0.15  # of the evaporated mass in the limit of the droplet solver's step (issues 4 and 19)
@@ -172,20 +171,9 @@ def nearest(reference, time: float) -> float:
 
 
 def _droplet_run(case, folder, courant: float = COURANT):
-    from coupling.openfoam.comparators.droplet_numbers import Liquid
-    from coupling.openfoam.comparators.droplet_numbers import Nozzle as Slot
     from coupling.openfoam.comparators.run import run_droplets
 
-    nozzle, own = case.nozzles["jet"], case.parameters["evaporation"]
-    slot = Slot(nozzle.centre[1], nozzle.width, nozzle.speed, nozzle.temperature, nozzle.volume_fraction)
-    liquid = Liquid(own.onset_temperature, own.saturation_pressure, own.latent_heat)
-    return run_droplets(_for_droplets(case), slot, liquid, folder, courant=courant)
-
-
-def _for_droplets(case):
-    """The case less what the droplet solver knows nothing of, so that one run of it serves all of ours."""
-    ours = {"effects": (), "parameters": {}, "probes": {}, "track": (), "title": "", "coupling": Coupling()}
-    return dataclasses.replace(case, **ours, run=dataclasses.replace(case.run, metrics=(), report_at=()))
+    return run_droplets(case, folder, courant=courant)
 
 
 def _figure(run, reference, number: int, what: str, label: str, times) -> None:

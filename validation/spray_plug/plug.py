@@ -7,7 +7,6 @@ moves the gas, with the distance from the plug's rear.
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from functools import partial
 
@@ -141,19 +140,26 @@ def ours(run) -> dict[str, float]:
 
 def droplets(case, folder) -> dict[str, float]:
     """The same of the droplet solver."""
-    from coupling.openfoam.comparators.droplet_numbers import Liquid, Plug
     from coupling.openfoam.comparators.run import run_droplets
 
-    own = case.parameters["evaporation"]
-    plug = Plug(BODY, SPEED, TEMPERATURE, ALPHA_P)
-    plain = dataclasses.replace(case, effects=(), parameters={}, particles={})
-    liquid = Liquid(own.onset_temperature, own.saturation_pressure, own.latent_heat)
-    reference = run_droplets(plain, plug, liquid, folder)
+    reference = run_droplets(case, folder, at_start(case))
     drops, fields = reference.parcels[max(reference.parcels)], reference.fields[max(reference.fields)]
     return means(
         drops["position"], drops["velocity"][:, 0], drops["temperature"], drops["diameter"],
         reference.centres, fields["gas_temperature"], fields["vapour_mass_fraction"], case,
     )  # fmt: skip
+
+
+def at_start(case):
+    """The plug as droplets that the droplet solver starts with: a lattice of the case's spacing."""
+    from coupling.openfoam.comparators.droplet_sources import Drops
+
+    dx, (begin, end) = case.resolution.spacing, BODY
+    x, y = np.meshgrid(np.arange(begin + 0.5 * dx, end, dx), np.arange(0.5 * dx, HEIGHT, dx))
+    place, each = np.stack([x.ravel(), y.ravel()], axis=1), np.ones(x.size)
+    mass = ALPHA_P * case.grains.density * dx**2 * each
+    velocity = np.stack([SPEED * each, 0.0 * each], axis=1)
+    return Drops(place, velocity, TEMPERATURE * each, mass, case.grains.diameter * each, 0.0 * each)
 
 
 def means(places, speed, temperature, diameter, centres, gas, vapour, case) -> dict[str, float]:

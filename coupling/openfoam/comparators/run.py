@@ -1,37 +1,50 @@
 """Reference runs of stock OpenFOAM solvers on the same case: twoPhaseEulerFoam (two fluids), reactingParcelFoam
 (droplets).
 
-A run takes its files from `openfoam_case_templates/<scene>/{tfm,dpm}`, two fluids of what a scene has not from
-`two_fluid/tfm` there; every physical number reaches it from the case by macros. A finished run is kept in the user's
-cache, so that it is made once.
+Two fluids take their files from `openfoam_case_templates/<scene>/tfm`, what a scene has not from `two_fluid/tfm`
+there, droplets from `droplets/dpm`; every physical number reaches them from the case. A finished run is kept in the
+user's cache, so that it is made once.
 """
 
 from __future__ import annotations
 
+import dataclasses
 import os
 import re
 import shutil
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from coupling.openfoam import fields, poly_mesh
-from coupling.openfoam.case import HEAD, others, write_case
+from coupling.openfoam.case import DEPTH, HEAD, others, write_case
 from coupling.openfoam.code import refuse_code
-from coupling.openfoam.comparators import droplet_numbers, two_fluid_fields, two_fluid_numbers
+from coupling.openfoam.comparators import (
+    droplet_cloud,
+    droplet_fields,
+    droplet_log,
+    droplet_numbers,
+    droplet_sources,
+    two_fluid_fields,
+    two_fluid_numbers,
+)
+from coupling.openfoam.comparators.droplet_sources import Drops
 from coupling.openfoam.comparators.reference import Reference, keep, key, load
-from coupling.openfoam.comparators.start import Start
+from coupling.openfoam.comparators.start import Start, digest_of_mesh
 from coupling.openfoam.programs import barrier, build, install
 from coupling.openfoam.programs import run as programs
 from coupling.openfoam.programs.run import Progress
-from sdph.case.sections import Case
+from coupling.openfoam.start_fields import EMPTY
+from sdph.case.sections import Case, Coupling
 from sdph.scenes import paths
 from sdph.schema import CaseError
 
 PARCEL_FILES = {"d": "diameter", "T": "temperature", "nParticle": "count", "rho": "density", "U": "velocity"}
-SHARED = paths.data("openfoam_case_templates") / "two_fluid" / "tfm"
+TEMPLATES = paths.data("openfoam_case_templates")
+SHARED = {"tfm": TEMPLATES / "two_fluid" / "tfm", "dpm": TEMPLATES / "droplets" / "dpm"}
 CLOUD = "lagrangian/reactingCloud1"
 # folders of a case; numbers are times
 OPENFOAM = re.compile(r"system|constant|dynamicCode|postProcessing|processor.*|[-+.\d].*|inf.*|nan.*")
@@ -39,23 +52,27 @@ OPENFOAM = re.compile(r"system|constant|dynamicCode|postProcessing|processor.*|[
 
 @dataclass(frozen=True)
 class Solver:
-    """A stock solver: its name, the kind of template, the macro file it needs besides the case's, the programs that
-    prepare a run, its fields (file -> name here) and the probes that a template may ask for (name -> file ->
-    column)."""
+    """A stock solver: its name, the solver as it must be on cells that are no boxes, the kind of template, the macro
+    file it needs besides the case's, the programs that prepare a run, its start fields, its fields (file -> name here)
+    and the probes that a template may ask for (name -> file -> column)."""
 
     name: str
+    off_boxes: Callable[[], Path]
     kind: str
     macros: str
     prepare: tuple[str, ...]
+    start_fields: Callable[..., dict[str, str]]
     fields: dict[str, str]
     probes: dict[str, dict[str, str]]
 
 
 TWO_FLUID = Solver(
     name="twoPhaseEulerFoam",
+    off_boxes=install.two_fluid_solver,
     kind="tfm",
     macros="sdphTwoFluid",
     prepare=("blockMesh", "setFields"),
+    start_fields=two_fluid_fields.start_fields,
     fields={
         "alpha.particles": "alpha_p",
         "T.particles": "particle_temperature",
@@ -69,10 +86,18 @@ TWO_FLUID = Solver(
 )
 DROPLETS = Solver(
     name="reactingParcelFoam",
+    off_boxes=install.droplet_solver,
     kind="dpm",
     macros="sdphDroplets",
     prepare=("blockMesh",),
-    fields={"T": "gas_temperature", "U": "gas_velocity", "p": "pressure", "C10H22": "vapour_mass_fraction"},
+    start_fields=droplet_fields.start_fields,
+    fields={
+        "T": "gas_temperature",
+        "U": "gas_velocity",
+        "p": "pressure",
+        "rho": "density",
+        droplet_fields.VAPOUR: "vapour_mass_fraction",
+    },
     probes={},
 )
 
@@ -93,42 +118,72 @@ def run_two_fluid(
     `again`: run whatever the cache has. `GasError` when OpenFOAM fails.
     """
     mesh = poly_mesh.read(start.mesh) if start and start.mesh else None
-    files = {TWO_FLUID.macros: two_fluid_numbers.macros(case, courant, mesh)}
-    return _run(TWO_FLUID, case, folder, ranks, files, progress, start, again)
+    files = {TWO_FLUID.macros: _macros(TWO_FLUID.macros, two_fluid_numbers.macros(case, courant, mesh))}
+    return _run(TWO_FLUID, case, folder, ranks, files, progress, start, start.mesh if start else None, again)
 
 
 def run_droplets(
     case: Case,
-    source: droplet_numbers.Nozzle | droplet_numbers.Plug,
-    liquid: droplet_numbers.Liquid,
     folder: Path,
+    drops: Drops | None = None,
     progress: Progress | None = None,
     courant: float = droplet_numbers.COURANT,
+    mesh: Path | None = None,
 ) -> Reference:
-    """Run reactingParcelFoam on the case in `folder`, or take what it gave from the cache; `courant` is that of the
-    droplets. Serial: parcels enter on one rank."""
-    files = {
-        DROPLETS.macros: droplet_numbers.macros(case, source, liquid, courant),
-        "nozzle": droplet_numbers.source_rows(case, source),
+    """Run reactingParcelFoam on the case in `folder`, or take what it gave from the cache.
+
+    `drops` are those at the start; `courant` is that of the fastest droplet or inlet; `mesh` is an OpenFOAM case whose
+    mesh is taken, without it that of the case's box. Serial: parcels enter on one rank. Masses of a plane case are by
+    the metre. `CaseError` where the case has what the reference lacks, `GasError` when OpenFOAM fails.
+    """
+    droplet_cloud.refuse(case)
+    drops = droplet_sources.none(case.dimensions) if drops is None else drops
+    own, depth = poly_mesh.read(mesh) if mesh else None, DEPTH
+    if own and case.dimensions == 2:
+        depth = float(np.ptp(own.points[:, 2]))
+    files = _droplet_files(case, drops, courant, own, depth)
+    found = _run(DROPLETS, _less(case), folder, 1, files, progress, mesh=mesh)
+    return found if depth == DEPTH else droplet_log.by_the_metre(found, depth)
+
+
+def _droplet_files(case: Case, drops: Drops, courant: float, mesh, depth: float) -> dict[str, str]:
+    """Files in `constant` that tell of the droplets; `depth` [m] is that of a plane mesh."""
+    numbers = droplet_numbers.macros(case, drops, courant, mesh)
+    step, middle = float(numbers["time_step"]), float(mesh.points[:, 2].mean()) if mesh else 0.5 * depth
+    injectors = droplet_sources.injectors(case, drops, step)
+    patches = [name for name, patch in mesh.patches.items() if patch.kind != EMPTY] if mesh else list(case.boundaries)
+    tables = {
+        each.name: HEAD.format(name=each.name) + droplet_sources.table(case, each, middle, depth) for each in injectors
     }
-    return _run(DROPLETS, case, folder, 1, files, progress)
+    cloud = droplet_cloud.cloud(case, injectors, patches, step, depth)
+    return tables | {DROPLETS.macros: _macros(DROPLETS.macros, numbers), "sdphCloud": cloud}
+
+
+def _less(case: Case) -> Case:
+    """The case less what reaches the droplets otherwise or not at all, so that one run of them serves all of ours."""
+    groups = {"particles": {}, "nozzles": {}, "probes": {}, "parameters": {}, "effects": (), "track": ()}
+    run = dataclasses.replace(case.run, metrics=(), report_at=(), forces=())
+    resolution = dataclasses.replace(case.resolution, spacing=case.resolution.cell)
+    more = {"title": "", "scene": "", "coupling": Coupling(), "run": run, "resolution": resolution}
+    return dataclasses.replace(case, **groups, **more)
 
 
 def _run(
-    solver: Solver, case: Case, folder: Path, ranks: int, files: dict, progress: Progress | None,
-    start: Start | None = None, again: bool = False,
+    solver: Solver, case: Case, folder: Path, ranks: int, files: dict[str, str], progress: Progress | None,
+    start: Start | None = None, mesh: Path | None = None, again: bool = False,
 ) -> Reference:  # fmt: skip
     environment = _environment()
     _clear(folder)
-    _write(solver, case, folder, ranks, start)
-    for name, content in files.items():
-        (folder / "constant" / name).write_text(HEAD.format(name=name) + _text(content), encoding="utf-8")
-    mesh, begun = (start.mesh, start.digest) if start else (None, "")
-    program = str(install.two_fluid_solver()) if mesh else solver.name  # stock is right on boxes alone
+    made = start is not None or solver is DROPLETS  # from the files that all cases share
+    _write(solver, case, folder, ranks, SHARED[solver.kind] if made else template(case, solver.kind), mesh)
+    for name, text in files.items():
+        (folder / "constant" / name).write_text(text, encoding="utf-8")
+    begun = start.digest if start else digest_of_mesh(mesh)
+    program = str(solver.off_boxes()) if mesh else solver.name  # stock is right on boxes alone
     kept = shelf() / f"{key(folder, f'{program} {_made_with()} {begun}')}.npz"
     if kept.exists() and not again:
         return load(kept)
-    for tool in solver.prepare if start is None else () if mesh else ("blockMesh",):
+    for tool in () if mesh else ("blockMesh",) if start else solver.prepare:
         programs.run([tool], folder, folder / f"log.{tool}", environment)
     if start:
         _cells(folder, environment)
@@ -140,20 +195,19 @@ def _run(
     return reference
 
 
-def _write(solver: Solver, case: Case, folder: Path, ranks: int, start: Start | None) -> None:
-    """The case of OpenFOAM, less its macros of a solver: files that all cases share, what the scene has of its own, and
-    start fields where it has none. Our own templates, our own library: code in them is allowed."""
-    own = template(case, solver.kind) if start is None else SHARED
-    mesh = start.mesh if start else None
+def _write(solver: Solver, case: Case, folder: Path, ranks: int, own: Path, mesh: Path | None) -> None:
+    """The case of OpenFOAM, less its macros of a solver: files that all cases share, what a scene has of its own in
+    `own`, and start fields where it has none. Our own templates, our own library: code in them is allowed."""
+    shared = SHARED[solver.kind]
     if mesh:  # it may come from elsewhere
         shutil.copytree(mesh / poly_mesh.FOLDER, folder / poly_mesh.FOLDER)
         refuse_code(folder)
     if not (own / "system" / "controlDict").exists():
         shutil.copytree(own, folder, dirs_exist_ok=True)
-        own = SHARED
-    if own == SHARED:
+        own = shared
+    if own == shared:
         (folder / "0").mkdir(parents=True, exist_ok=True)
-        for name, text in two_fluid_fields.start_fields(case, others(case, folder) if mesh else None).items():
+        for name, text in solver.start_fields(case, others(case, folder) if mesh else None).items():
             (folder / "0" / name).write_text(text, encoding="utf-8")
     write_case(case, own, folder, ranks, allow_code=True)
 
@@ -181,15 +235,16 @@ def shelf() -> Path:
 
 
 def template(case: Case, kind: str) -> Path:
-    """The folder of OpenFOAM files of a case's scene, `kind` "tfm" or "dpm"."""
-    folder = paths.data("openfoam_case_templates") / case.scene / kind
+    """The folder of OpenFOAM files of a case's scene, of a kind."""
+    folder = TEMPLATES / case.scene / kind
     if not case.scene or not folder.is_dir():
         raise CaseError(f"scene = {case.scene!r} has no OpenFOAM reference of kind {kind!r}")
     return folder
 
 
-def _text(content: dict[str, str] | str) -> str:
-    return content if isinstance(content, str) else "".join(f"{name} {value};\n" for name, value in content.items())
+def _macros(name: str, values: dict[str, str]) -> str:
+    """Text of a file of macros."""
+    return HEAD.format(name=name) + "".join(f"{key} {value};\n" for key, value in values.items())
 
 
 def _environment() -> dict[str, str]:
@@ -216,7 +271,7 @@ def _read(solver: Solver, folder: Path, environment: dict[str, str], wall: float
         fields={
             when: {name: fields.read(path / file, cells) for file, name in present.items()} for when, path in outputs
         },
-        history=_history(solver, folder),
+        history=droplet_log.history(folder / f"log.{solver.name}") if solver is DROPLETS else _history(solver, folder),
         parcels={when: _parcels(path / CLOUD) for when, path in outputs if (path / CLOUD).is_dir()},
     )
 

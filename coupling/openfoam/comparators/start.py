@@ -36,6 +36,14 @@ class Start:
         own = hashlib.sha256()
         for values in (self.centres, self.alpha_p, self.velocity, self.temperature):
             own.update(np.ascontiguousarray(values).tobytes())
-        for path in sorted((self.mesh / poly_mesh.FOLDER).iterdir()) if self.mesh else ():
-            own.update(path.name.encode() + b"\0" + path.read_bytes())
-        return own.hexdigest()
+        return own.hexdigest() + digest_of_mesh(self.mesh)
+
+
+def digest_of_mesh(case: Path | None) -> str:
+    """Hash of the mesh of an OpenFOAM case; empty without one."""
+    if case is None:
+        return ""
+    own = hashlib.sha256()
+    for path in sorted((case / poly_mesh.FOLDER).iterdir()):
+        own.update(path.name.encode() + b"\0" + path.read_bytes())
+    return own.hexdigest()

@@ -90,8 +90,9 @@ def _gxx(copy: Path, product: Path, installation: Installation, status: Callable
 
 
 def header_folder(installation: Installation) -> Path:
-    """Folder of the headers of an installation without its own."""
-    return cache() / f"headers-{installation.package}"
+    """Folder of the headers of an installation without its own, named by its version and a hash of what is taken."""
+    taken = hashlib.sha256(repr(headers.NEEDED).encode()).hexdigest()[:8]
+    return cache() / f"headers-{installation.package}-{taken}"
 
 
 def gxx_command(copy: Path, product: Path, installation: Installation, tree: Path) -> list[str]:

@@ -16,6 +16,7 @@ from coupling.openfoam.programs.installation import INSTALL_LINE, Installation, 
 HERE = Path(__file__).parents[1]
 GAS_SOLVER = HERE / "sdphGasFoam"
 TWO_FLUID_SOLVER = HERE / "twoPhaseEulerFoam"
+DROPLET_SOLVER = HERE / "reactingParcelFoam"
 TWO_FLUID_CLOSURES = HERE / "twoFluidClosures"
 CODE_GUARD = HERE / "codeGuard"
 GAS_TURBULENCE = HERE / "gasTurbulence"
@@ -25,6 +26,7 @@ __all__ = [
     "build",
     "code_guard",
     "doctor",
+    "droplet_solver",
     "environment",
     "find",
     "gas_solver",
@@ -45,6 +47,11 @@ def gas_solver(status: Callable[[str], None] = silent) -> Path:
 def two_fluid_solver(status: Callable[[str], None] = silent) -> Path:
     """twoPhaseEulerFoam as it must be on cells that are no boxes, compiled if it must be."""
     return build(TWO_FLUID_SOLVER, status)
+
+
+def droplet_solver(status: Callable[[str], None] = silent) -> Path:
+    """reactingParcelFoam as it must be on cells that are no boxes, compiled if it must be."""
+    return build(DROPLET_SOLVER, status)
 
 
 def two_fluid_closures(status: Callable[[str], None] = silent) -> Path:
@@ -79,7 +86,7 @@ def setup(install: bool = False, status: Callable[[str], None] = print) -> None:
         _apt_install(status)
     found = require()
     status(f"OpenFOAM {found.version} in {found.project}")
-    for made in (gas_solver, two_fluid_solver, two_fluid_closures, code_guard):
+    for made in (gas_solver, two_fluid_solver, two_fluid_closures, droplet_solver, code_guard):
         product = made(status)
         status(f"{product.name} is ready: {product}")
 
@@ -115,7 +122,8 @@ def doctor() -> list[Row]:
     rows = [Row("OpenFOAM", found is not None, f"{found.version} in {found.project}" if found else "", get)]
     rows += [_program(name, get) for name in ("blockMesh", "mpirun")]
     rows.append(_compiler(found, get))
-    rows += [_product(source, found) for source in (GAS_SOLVER, TWO_FLUID_SOLVER, TWO_FLUID_CLOSURES, CODE_GUARD)]
+    made = (GAS_SOLVER, TWO_FLUID_SOLVER, TWO_FLUID_CLOSURES, DROPLET_SOLVER, CODE_GUARD)
+    rows += [_product(source, found) for source in made]
     return rows
 
 

@@ -8,7 +8,6 @@ import pytest
 from coupling.gas import GasError
 from coupling.openfoam.comparators import reference, two_fluid_numbers
 from coupling.openfoam.comparators import run as comparators
-from coupling.openfoam.comparators.droplet_numbers import Liquid, Nozzle
 from coupling.openfoam.programs import install
 from coupling.openfoam.programs import run as programs
 from sdph import scenes
@@ -229,9 +228,9 @@ def test_a_gradient_of_agitation_pushes_grains_by_that_of_their_pressure(tmp_pat
 
 
 def test_droplets_come_in_evaporate_and_nothing_is_lost(tmp_path):
-    nozzle, liquid = Nozzle(1.0, 0.5, 10.0, 295.0, 0.6), Liquid(294.3, 1329.0, 277000.0)
     case = cases.from_table({
-        "title": "jet", "scene": "evaporating_jet", "dimensions": 2, "effects": [],
+        "title": "jet", "scene": "evaporating_jet", "dimensions": 2,
+        "effects": ["inflow", "outflow", "drag", "gravity", "heat", "evaporation"],
         "run": {"end_time_s": 0.02, "output_interval_s": 0.01},
         "domain": {"size_m": [2.0, 2.0], "gravity_m_s2": [0.0, -9.81]},
         "resolution": {"spacing_mm": 50.0, "cell_mm": 100.0},
@@ -244,8 +243,16 @@ def test_droplets_come_in_evaporate_and_nothing_is_lost(tmp_path):
             "walls": {"kind": "wall", "side": "left"},
             "sides": {"kind": "pressure_outlet", "pressure_Pa": 0.0, "temperature_K": 350.0},
         },
+        "nozzles": {"jet": {
+            "shape": "slot", "centre_m": [0.0, 1.0], "width_m": 0.5, "direction": [1.0, 0.0], "speed_m_s": 10.0,
+            "volume_fraction": 0.6, "temperature_K": 295.0,
+        }},
+        "evaporation": {
+            "onset": "paper", "onset_temperature_K": 294.3, "saturation": "constant",
+            "saturation_pressure_Pa": 1329.0, "latent_heat_J_kg": 277000.0,
+        },
     })  # fmt: skip
-    run = comparators.run_droplets(case, nozzle, liquid, tmp_path / "run")
+    run = comparators.run_droplets(case, tmp_path / "run")
     drops = run.parcels[max(run.parcels)]
     mass = np.sum(drops["count"] * drops["density"] * np.pi / 6.0 * drops["diameter"] ** 3)
     vapour = np.sum(last(run)["vapour_mass_fraction"] * 1.225 * run.volumes)
@@ -253,13 +260,17 @@ def test_droplets_come_in_evaporate_and_nothing_is_lost(tmp_path):
     assert mass + vapour == pytest.approx(0.02 * 0.6 * 700.0 * 10.0 * 0.5, rel=1e-6)
     assert 0.19 < drops["position"][:, 0].max() < 0.202 and drops["position"].shape[1] == 3
     assert drops["velocity"][:, 0].max() < 10.5
+    assert run.history["evaporated_kg"][-1] == pytest.approx(vapour, rel=1e-3)
+    assert run.history["injected_kg"][-1] == pytest.approx(mass + vapour, rel=1e-6)
 
 
 def test_what_cannot_be_run_says_so(tmp_path):
     with pytest.raises(CaseError, match="equation_of_state"):
         comparators.run_two_fluid(disc("gas.equation_of_state='ideal'"), tmp_path / "ideal")
-    with pytest.raises(CaseError, match="no OpenFOAM reference of kind 'dpm'"):
-        comparators.template(disc(), "dpm")
+    with pytest.raises(CaseError, match="no OpenFOAM reference of kind 'tfm'"):
+        comparators.template(cases.load(scenes.find("spray_cone")[1]), "tfm")
+    with pytest.raises(CaseError, match="neither evaporation nor inflow"):
+        comparators.run_droplets(disc(), tmp_path / "disc")
     (tmp_path / "empty").mkdir()
     with pytest.raises(GasError, match="blockMesh ended with code 1.*log"):
         programs.run(["blockMesh"], tmp_path / "empty", tmp_path / "log.blockMesh")
