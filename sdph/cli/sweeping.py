@@ -11,6 +11,7 @@ from sdph.schema import CaseError
 def sweep(options) -> int:
     """Do what is left of a sweep; 1 where a run of it has failed."""
     from sdph.running import output
+    from sdph.study import apart
     from sdph.study.sweep import table
     from sdph.study.sweep.sweep import Wish, sweep
 
@@ -24,7 +25,8 @@ def sweep(options) -> int:
         flags=("--allow-code",) * options.allow_code, workers=options.workers, scheduler=options.scheduler,
         metrics=tuple(options.plot), over=options.over, again=options.again,
     )  # fmt: skip
-    rows = sweep(wish, lambda text: print(text, file=sys.stderr, flush=True))
+    with apart.stopped_together():
+        rows = sweep(wish, lambda text: print(text, file=sys.stderr, flush=True))
     failed = [row for row in rows if row["exit_code"] != 0]
     for row in failed:
         print(f"failed with {row['exit_code']}: {row['run']}: {row['reason']}", file=sys.stderr)

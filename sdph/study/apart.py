@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
+import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from sdph.study import pool
 
 FINE, CHECK_FAILED = 0, 1  # exit codes of commands that judge
 LINGER = 30.0  # s that a run has to stop after Ctrl-C; our choice
+_LIVE: set[subprocess.Popen] = set()  # commands of `ended` that are on their way
 
 
 @dataclass(frozen=True)
@@ -55,15 +58,36 @@ def checked(job: Command) -> dict:
 
 
 def ended(command: list[str], **more) -> int:
-    """Exit code of a command, 128 + signal where one ended it. Ctrl-C is the run's too: it may still write its
-    checkpoint."""
+    """Exit code of a command, 128 + signal where one ended it. Ctrl-C is the run's too, and SIGTERM within
+    `stopped_together`: it may still write its checkpoint."""
     with subprocess.Popen(command, stdin=subprocess.DEVNULL, **more) as process:
+        _LIVE.add(process)
         try:
             code = process.wait()
-        except KeyboardInterrupt:
+        except (KeyboardInterrupt, SystemExit):
             process.wait(LINGER)
             raise
+        finally:
+            _LIVE.discard(process)
     return _exit_code(code)
+
+
+@contextlib.contextmanager
+def stopped_together() -> Iterator[None]:
+    """SIGTERM and SIGHUP to this process are those of the commands that it waits for, too; then it exits by 128 +
+    signal."""
+
+    def stop(number, _) -> None:
+        for process in tuple(_LIVE):
+            process.send_signal(number)
+        raise SystemExit(128 + number)
+
+    before = {number: signal.signal(number, stop) for number in (signal.SIGTERM, signal.SIGHUP)}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 def _exit_code(code: int) -> int:

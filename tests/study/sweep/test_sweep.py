@@ -2,7 +2,10 @@
 
 import csv
 import json
+import signal
+import subprocess
 import sys
+import time
 import types
 from concurrent.futures import ThreadPoolExecutor, as_completed
 
@@ -200,3 +203,29 @@ def test_workers_of_the_real_dask(tmp_path):
         ]
     )
     assert code == 0 and [row["exit_code"] for row in rows_of(tmp_path)] == ["0", "0"]
+
+
+def test_a_sweep_that_is_ended_ends_its_run(tmp_path):
+    """SIGTERM to the sweep is the run's too: it stops, with its checkpoint, and the next call goes on."""
+    out = tmp_path / "out"
+    words = [
+        "sweep",
+        "dam_break",
+        "--set",
+        "liquid.courant=0.2,0.25",
+        "--set",
+        "resolution.spacing_mm=0.7",
+        "--out",
+        out,
+    ]
+    sweep = subprocess.Popen([sys.executable, "-m", "sdph.cli", *map(str, words)], stderr=subprocess.DEVNULL)
+    deadline = time.monotonic() + 200.0
+    while not (begun := [path for path in out.rglob("ledger.csv") if len(path.read_text().splitlines()) > 3]):
+        assert time.monotonic() < deadline
+        time.sleep(0.2)
+    sweep.terminate()
+    assert sweep.wait(60.0) == 128 + signal.SIGTERM
+    size = begun[0].stat().st_size
+    time.sleep(2.0)
+    assert begun[0].stat().st_size == size
+    assert list(begun[0].parent.glob("checkpoints/*"))
