@@ -131,7 +131,7 @@ class Probe:
 
 @record
 class Part:
-    """What of the walls' surface lies in a box, as a name of `run.forces`."""
+    """Part of the walls' surface that lies in a box, as a name of `run.forces`."""
 
     lower: tuple = vector("m")
     upper: tuple = vector("m")

@@ -23,6 +23,19 @@ def rubbed(p, wall, w, box, s, i, back):
     return -share * u, -share * v, -share * across
 
 
+@inlined
+def tell(felt, w, mass, px, py, pz, rx, ry, rz):
+    """Take from felt[0] (W, 6) of dummy w what it gives a mass [kg] by its push and by its rub [m/s]; nothing where
+    felt is empty."""
+    if len(felt):
+        felt[0][w, 0] -= mass * px
+        felt[0][w, 1] -= mass * py
+        felt[0][w, 2] -= mass * pz
+        felt[0][w, 3] -= mass * rx
+        felt[0][w, 4] -= mass * ry
+        felt[0][w, 5] -= mass * rz
+
+
 @serial
 def contact(p, wall, box, s, gravity, impulse, work, back_put, felt):
     """Stops particles that came closer than `contact` to a surface; returns how many did.
@@ -61,13 +74,7 @@ def contact(p, wall, box, s, gravity, impulse, work, back_put, felt):
             impulse[0] += s.mass[i] * bx
             impulse[1] += s.mass[i] * by
             impulse[2] += s.mass[i] * bz
-            if len(felt):
-                felt[0][w, 0] -= s.mass[i] * back * nx
-                felt[0][w, 1] -= s.mass[i] * back * ny
-                felt[0][w, 2] -= s.mass[i] * back * nz
-                felt[0][w, 3] -= s.mass[i] * rx
-                felt[0][w, 4] -= s.mass[i] * ry
-                felt[0][w, 5] -= s.mass[i] * rz
+            tell(felt, w, s.mass[i], back * nx, back * ny, back * nz, rx, ry, rz)
             across = s.w[i] if len(s.z) else 0.0
             after = bx * (s.u[i] + 0.5 * bx) + by * (s.v[i] + 0.5 * by) + bz * (across + 0.5 * bz)
             work[0] += s.mass[i] * after

@@ -1,4 +1,4 @@
-"""What each dummy feels of the grains in front of it, where `run.forces` names walls: the forces of
+"""Force on each dummy by the grains in front of it, where `run.forces` names walls: the forces of
 sdph.effects.around.walls once more, summed by dummy instead of by grain."""
 
 from __future__ import annotations

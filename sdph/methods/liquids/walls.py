@@ -104,9 +104,7 @@ def wall_force(
             along = -V * (p_i + sign_j * p_j + wall_p.stick * (ringing + friction) + over)
             across = V * wall_p.stick * laminar_viscosity.pair(laminar_p, s, j, j)
             drag = -V * wall_p.stick * (ringing + friction)
-            rx += drag * dx + across * du
-            ry += drag * dy + across * dv
-            rz += drag * dz + across * dw
+            rx, ry, rz = rx + drag * dx + across * du, ry + drag * dy + across * dv, rz + drag * dz + across * dw
             fx += along * dx + across * du
             fy += along * dy + across * dv
             fz += along * dz + across * dw
@@ -121,14 +119,9 @@ def wall_force(
                 fx -= V * ex
                 fy -= V * ey
                 fz -= V * ez
-        felt[n, 0] = fx
-        felt[n, 1] = fy
-        felt[n, 2] = fz
-        felt[n, 3] = worked
-        felt[n, 4] = held
-        felt[n, 5] = rx
-        felt[n, 6] = ry
-        felt[n, 7] = rz
+        felt[n, 0], felt[n, 1], felt[n, 2] = fx, fy, fz
+        felt[n, 3], felt[n, 4] = worked, held
+        felt[n, 5], felt[n, 6], felt[n, 7] = rx, ry, rz
 
 
 @serial
