@@ -109,7 +109,8 @@ class Row:
         kinetic = 0.5 * self.mass * float(self.mesh.volumes @ (self.velocity**2).sum(axis=1))
         own = self.mass * self.mesh.volumes.sum(), self.heat, 0.0, tuple(total), 0.0, 0.0, 0.0, 0.0
         told = {name: tuple(impulse.tolist()) for name, impulse in self.impulses.items()}
-        budget = Budget(*own, kinetic=kinetic, **told)
+        still = {name: np.zeros((3, 3)).tolist() for name in self.case.boundaries}
+        budget = Budget(*own, kinetic=kinetic, patches=still, **told)
         fields = {
             "velocity": self.velocity.copy(), "pressure": zeros,
             "pressure_gradient": np.tile(self.gradient, (cells, 1)), "temperature": zeros + 300.0,

@@ -32,8 +32,9 @@ def mesh_reader(folder: Path):
     return reader
 
 
-def holding(folder: Path, boundaries: dict, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
-    """Corners (F, d, d) [m] of the facets of patches that hold grains back, and whether these slip on them (F,).
+def holding(folder: Path, boundaries: dict, dimensions: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Corners (F, d, d) [m] of the facets of patches that hold grains back, whether these slip on them (F,), and the
+    number (F,) of the boundary that each is of, -1 where `boundaries` has none of its name.
 
     A patch that `boundaries` (name -> its section of the case) names holds them unless it is a pressure outlet, others
     where OpenFOAM calls them a wall. `folder` is a case with case.foam and a mesh.
@@ -41,20 +42,26 @@ def holding(folder: Path, boundaries: dict, dimensions: int) -> tuple[np.ndarray
     reader = mesh_reader(folder)
     reader.enable_all_patch_arrays()
     patches = reader.read()["boundary"]
-    corners, slips = [np.zeros((0, dimensions, dimensions))], [np.zeros(0, bool)]
+    corners, slips, owners = [np.zeros((0, dimensions, dimensions))], [np.zeros(0, bool)], [np.zeros(0, int)]
     for name, kind in types(folder).items():
         kind = boundaries[name].kind if name in boundaries and kind != FLAT else kind
         if kind not in HOLDING or name not in patches.keys() or not patches[name].n_cells:  # noqa: SIM118  (MultiBlock)
             continue
         corners.append(_lines(name, patches[name]) if dimensions == 2 else _triangles(patches[name]))
         slips.append(np.full(len(corners[-1]), kind == "slip_wall"))
-    return np.concatenate(corners), np.concatenate(slips)
+        owners.append(np.full(len(corners[-1]), _number(name, boundaries)))
+    return np.concatenate(corners), np.concatenate(slips), np.concatenate(owners)
 
 
-def of_mesh(mesh, boundaries: dict, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
+def _number(name: str, boundaries: dict) -> int:
+    """Number of the boundary that a patch is, -1 where it is none."""
+    return list(boundaries).index(name) if name in boundaries else -1
+
+
+def of_mesh(mesh, boundaries: dict, dimensions: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The same of a `PolyMesh`, before there is a case to be read: faces as fans about their first corner, of a plane
     mesh the edges that lie at its lower side."""
-    corners, slips = [np.zeros((0, dimensions, dimensions))], []
+    corners, slips, owners = [np.zeros((0, dimensions, dimensions))], [], []
     low = mesh.points[:, 2].min() + 0.5 * np.ptp(mesh.points[:, 2])
     for name, patch in mesh.patches.items():
         kind = boundaries[name].kind if name in boundaries and patch.kind != FLAT else patch.kind
@@ -67,7 +74,8 @@ def of_mesh(mesh, boundaries: dict, dimensions: int) -> tuple[np.ndarray, np.nda
                 found = [(a[:2], b[:2]) for a, b in pairs if a[2] < low and b[2] < low]
             corners.append(np.array(found))
             slips += [kind == "slip_wall"] * len(found)
-    return np.concatenate(corners), np.array(slips, bool)
+            owners += [_number(name, boundaries)] * len(found)
+    return np.concatenate(corners), np.array(slips, bool), np.array(owners, int)
 
 
 def _triangles(patch) -> np.ndarray:

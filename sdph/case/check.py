@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections import Counter
 
 from sdph import effects, scenes
-from sdph.case import beside, bodies, materials, periods, probed, profiles, regions, turbulent
+from sdph.case import beside, bodies, forces, materials, periods, probed, profiles, regions, turbulent
 from sdph.case.extents import SAME, inside, mouth, probe, side
-from sdph.case.sections import Case, Region
+from sdph.case.sections import Case, Part, Region
 from sdph.methods.liquids.sections import Pool
 from sdph.methods.mps.scales import KNOWN
 from sdph.methods.solids.sections import Body
@@ -46,7 +46,7 @@ def check(case: Case) -> None:
         materials.check(case)
     if case.liquid and (case.gas is None) != (case.grains is None):
         raise CaseError("a liquid stands alone, or beside grains in a gas: give both [grains] and [gas], or neither")
-    _check_forces(case)
+    forces.check(case)
     for name in case.effects:
         if not set(effects.REGISTRY[name].matter) & set(case.matters):
             what = {"liquid": "a liquid", "solid": "a solid"}.get(case.matters[0], "grains")
@@ -97,6 +97,7 @@ def _check_one(case: Case) -> None:
     profiles.check(case)
     for name, region in case.particles.items():
         _check_region(case, name, region)
+    forces.check_parts(case)
     for name, point in case.probes.items():
         probe(case, f"probes.{name}", point)
     for name, nozzle in case.nozzles.items():
@@ -146,6 +147,7 @@ def _check_components(case: Case) -> None:
         "resolution.stretch": case.resolution.stretch,
     }
     groups = ("particles", case.particles, Region), ("pools", case.pools, Pool), ("bodies", case.bodies, Body)
+    groups += (("parts", case.parts, Part),)
     for group, places, cls in groups:
         for name, place in places.items():
             vectors |= {
@@ -169,22 +171,6 @@ def _check_components(case: Case) -> None:
             raise CaseError(
                 f"{key} has {len(value)} components; dimensions = {case.dimensions} asks for {case.dimensions}"
             )
-
-
-def _check_forces(case: Case) -> None:
-    """Forces are those of a gas, on boundaries that the case names, each once."""
-    for name in case.run.forces:
-        if case.gas is None:
-            raise CaseError(
-                f"run.forces holds {name!r}, and the case has no gas; a liquid's loads on its tank are in history.csv "
-                "anyway: leave it out"
-            )
-        if name not in case.boundaries:
-            raise CaseError(
-                f"run.forces holds {name!r}, which is no boundary of the case; it has {', '.join(case.boundaries)}"
-            )
-    if len(set(case.run.forces)) < len(case.run.forces):
-        raise CaseError(f"run.forces = {list(case.run.forces)}; name each boundary once")
 
 
 def _check_outputs(case: Case) -> None:

@@ -238,7 +238,10 @@ def _effects(table: dict) -> tuple[str, ...]:
 def _automatic(table: dict) -> tuple[str, ...]:
     """The effects that a case calls for, and those that cannot judge themselves but have a section."""
     given = [name for name in effects.REGISTRY if name in table]
-    called = judge.called_for(from_table(table | {"effects": given}))
+    bare = table | {"effects": given}
+    if isinstance(table.get("run"), dict):  # walls that forces are asked of may not be there yet
+        bare |= {"run": {key: value for key, value in table["run"].items() if key != "forces"}}
+    called = judge.called_for(from_table(bare))
     return tuple(name for name, row in effects.REGISTRY.items() if name in called or (name in given and not row.call))
 
 

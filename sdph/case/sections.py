@@ -29,7 +29,7 @@ class Run:
     accuracy: float = quantity("", 0.01, above=0.0, most=1.0)
     report_at: tuple = vector("s", ())  # times that a window ends at, so that history.csv has them
     metrics: tuple = words(())  # of sdph.running.metrics, for metrics.csv and the summary
-    forces: tuple = words(())  # boundaries on which history.csv and the summary have the forces of the gas
+    forces: tuple = words(())  # names of sdph.case.forces, on which history.csv and the summary have forces
     checkpoint_interval: float = quantity("s", 600.0, above=0.0)  # of wall time; our choice
     checkpoint_windows: int | None = whole(None, least=1)  # and after so many windows, where it is given
 
@@ -130,6 +130,14 @@ class Probe:
 
 
 @record
+class Part:
+    """Part of the walls' surface that lies in a box, as a name of `run.forces`."""
+
+    lower: tuple = vector("m")
+    upper: tuple = vector("m")
+
+
+@record
 class Coupling:
     gas: str = choice("auto", "openfoam", "embedded")
     transport: str = choice("socket", "file")
@@ -168,6 +176,7 @@ class Case:
     particles: dict[str, Region]
     boundaries: dict[str, Boundary]
     probes: dict[str, Probe]
+    parts: dict[str, Part]
     nozzles: dict[str, Nozzle]
     coupling: Coupling
     vapour: Vapour | None
@@ -258,5 +267,6 @@ class Case:
 
 SECTIONS = {"run": Run, "domain": Domain, "resolution": Resolution, "gas": GasProperties, "grains": Grains}
 GROUPS = {
-    "particles": Region, "pools": Pool, "bodies": Body, "boundaries": Boundary, "probes": Probe, "nozzles": Nozzle,
+    "particles": Region, "pools": Pool, "bodies": Body, "boundaries": Boundary, "probes": Probe, "parts": Part,
+    "nozzles": Nozzle,
 }  # fmt: skip

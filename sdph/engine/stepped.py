@@ -10,6 +10,8 @@ from sdph.engine.kept import Unfit
 class Stepped:
     """State, time and steps are those of `stepper`; `advance` counts `windows`; `ledger` has a row a window."""
 
+    pushed = None  # no walls of it have names
+
     @property
     def state(self):
         return self.stepper.state

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Protocol, runtime_checkable
 
 from sdph.engine.state import State
+from sdph.engine.walls.parts import Pushed
 
 
 @runtime_checkable
@@ -15,6 +16,7 @@ class Method(Protocol):
     KEPT     what a checkpoint holds of it (sdph.engine.kept); `admit` refuses what cannot be
     state    its particles; what pushes them from outside over a window is in `push_x` to `push_z` (sdph.engine.state)
     steps, limit   sub-steps so far, and what ruled the last one
+    pushed   forces on walls that `run.forces` names (sdph.engine.walls.parts.Pushed); None where none has a name
 
     Steppers say in HALO what their loops take, fresh, from neighbours (tests/methods/test_halo.py): what a domain must
     tell the next.
@@ -26,6 +28,7 @@ class Method(Protocol):
     time: float
     steps: int
     limit: str
+    pushed: Pushed | None
 
     def start(self) -> None:
         """Begin: what comes in at once is there, a ledger of its own is open."""

@@ -10,7 +10,7 @@ from sdph.engine.kept import Unfit
 from sdph.methods.liquids.liquid import Liquid
 from sdph.methods.mps.mps import Mps
 from sdph.methods.solids.solid import Solids
-from sdph.running import history
+from sdph.running import forces, history
 from sdph.running.limiters import Limiters
 
 SAMPLES = 10  # rows of history.csv for each output of fields, where the case says nothing
@@ -47,6 +47,11 @@ class Alone:
     @property
     def stepper(self):
         return self.method.stepper
+
+    @property
+    def methods(self) -> list:
+        """The one."""
+        return [self.method]
 
     @property
     def ledger(self):
@@ -105,7 +110,7 @@ class Alone:
     def row(self) -> dict[str, float]:
         """Columns of history.csv."""
         probes = history.of_liquid(self.case, self.method.points()) if self.case.probes else {}
-        return {"time_s": self.time} | self.method.row() | probes | self.limiters.now
+        return {"time_s": self.time} | self.method.row() | forces.row(self.methods) | probes | self.limiters.now
 
     def meshes(self) -> dict:
         """Particles for the timeline."""
@@ -117,7 +122,8 @@ class Alone:
 
     def summary(self, out) -> dict[str, float]:
         """summary.json, its own part."""
-        return {"sub_steps": self.method.steps} | self.method.summary() | self.limiters.summary()
+        own = self.method.summary() | forces.summary(self.methods)
+        return {"sub_steps": self.method.steps} | own | self.limiters.summary()
 
     def warnings(self) -> list[str]:
         """Notes for the user on how the run went."""

@@ -29,7 +29,7 @@ from sdph.engine.guard import Unstable
 from sdph.engine.kept import Maybe, Unfit
 from sdph.engine.ledger import Ledger
 from sdph.methods.liquids.liquid import Liquid
-from sdph.running import balances, chain, compiling, hastened, inputs, metrics, output, vessel
+from sdph.running import balances, chain, compiling, forces, hastened, inputs, metrics, output, vessel
 from sdph.running.interruption import Stopped, listening
 from sdph.running.outputs import Outputs
 from sdph.running.simulation import Simulation
@@ -219,6 +219,7 @@ class Run:
         simulation = simulation_of(self.case, gas, self.folder / "ledger.csv")
         self.simulation, self.out = simulation, Outputs(self.folder, simulation)
         if checkpoint is None:
+            forces.refuse_nowhere(self.case, simulation.methods)
             vessel.refuse_outside(self.case, gas, simulation.state)
             vessel.refuse_mouths_outside(self.case, gas)
             simulation.start()

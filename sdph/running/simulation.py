@@ -80,6 +80,11 @@ class Simulation:
         return self.grains.stepper
 
     @property
+    def methods(self) -> list:
+        """Grains, and other methods beside them."""
+        return [self.grains, *self.beside.methods.values()]
+
+    @property
     def weights(self):
         """Transfer weights of where the particles are between windows, made when somebody asks."""
         if self._weights_now is None:
@@ -223,7 +228,8 @@ class Simulation:
 
     def row(self) -> dict[str, float]:
         """Columns of history.csv; those of other methods begin with their matter."""
-        return history.row(self) | self.pressed | self.limiters.now | self.beside.named(lambda method: method.row())
+        own = history.row(self) | self.pressed | forces.row(self.methods) | self.limiters.now
+        return own | self.beside.named(lambda method: method.row())
 
     def meshes(self) -> dict:
         """Particles and gas for the timeline."""
@@ -243,6 +249,7 @@ class Simulation:
         own = {"cells": len(self.gas.mesh.volumes)} | self.grains.summary() | {"windows_repeated": self.repeated}
         own |= self.limiters.summary() | (self.outlet.summary() if self.outlet else {})
         own |= {f"mean_{name}": value for name, value in self._forces(None, self.time).items()}
+        own |= forces.summary(self.methods)
         for name, probe in self.case.probes.items():
             keys = (f"{name}_{column}" for column in probed.columns(self.case, probe))
             own |= {key: out.last[key] for key in keys if key in out.last}

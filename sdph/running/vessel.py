@@ -9,6 +9,7 @@ import numpy as np
 
 from coupling.choice import OWN_MESH
 from coupling.openfoam import patches, poly_mesh
+from sdph.case import forces
 from sdph.case import read as cases
 from sdph.effects.around.streams import streams_of
 from sdph.engine import state as particles
@@ -29,7 +30,7 @@ def walled(case, gas, folder: Path):
     own = case.parameters.get("walls")
     if own is None or own.source == "mesh" or own.mesh:
         return case
-    corners, slips = patches.holding(gas.case_folder, case.boundaries, case.dimensions)
+    corners, slips, owners = patches.holding(gas.case_folder, case.boundaries, case.dimensions)
     if not len(corners):
         raise CaseError(
             'walls.source = "gas", and no patch of its mesh holds grains back: call some of type wall, name them in '
@@ -37,9 +38,16 @@ def walled(case, gas, folder: Path):
         )
     path = folder / inputs.place("walls.mesh", Path(FILE))
     path.parent.mkdir(parents=True, exist_ok=True)
-    facets.save(path, corners, slips)
-    made = dataclasses.replace(own, source="gas", mesh=str(path.absolute()))
-    return dataclasses.replace(case, parameters=case.parameters | {"walls": made})
+    facets.save(path, corners, slips, owners)
+    return _with(case, path)
+
+
+def _with(case, path: Path):
+    """The case with the walls of a mesh that was made of its patches."""
+    made = dataclasses.replace(case.parameters["walls"], source="gas", mesh=str(path.absolute()))
+    found = dataclasses.replace(case, parameters=case.parameters | {"walls": made})
+    forces.check(found)
+    return found
 
 
 def _refuse_unknown(case, known) -> None:
@@ -127,10 +135,8 @@ def foreseen(case, template: Path, folder: Path):
     case = dataclasses.replace(case, boundaries=_on_sides(case, mesh))
     if own is None or own.source == "mesh" or own.mesh:
         return case
-    corners, slips = patches.of_mesh(mesh, case.boundaries, case.dimensions)
-    facets.save(folder / FILE, corners, slips)
-    made = dataclasses.replace(own, source="gas", mesh=str((folder / FILE).absolute()))
-    return dataclasses.replace(case, parameters=case.parameters | {"walls": made})
+    facets.save(folder / FILE, *patches.of_mesh(mesh, case.boundaries, case.dimensions))
+    return _with(case, folder / FILE)
 
 
 def _on_sides(case, mesh) -> dict:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
+from sdph.case import forces
 from sdph.running import vessel
 from sdph.study import inlets, rehearsal
 from sdph.study.explain import tables
@@ -21,6 +22,7 @@ def explained(case, template: Path, *, allow_code: bool = False) -> dict[str, li
         parts = tables.explain(seen, rehearsal.priced(case, mesh))
         last = next(name for name in parts if name.startswith("warnings"))  # grains come first
         parts[last] += [{"warning": text} for text in inlets.warnings(case, mesh)]
+        parts["forces"] = forces.rows(seen)
     return parts
 
 

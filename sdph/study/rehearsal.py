@@ -10,10 +10,14 @@ from pathlib import Path
 
 from coupling.choice import OWN_MESH, expected
 from coupling.openfoam import poly_mesh
+from sdph.case import forces
 from sdph.case.gas_cells import cell_edges, cells
+from sdph.engine import state as particles
+from sdph.engine.state import WALL
 from sdph.exchange.window import Window
 from sdph.methods.grains import start
 from sdph.methods.grains.grains import Grains
+from sdph.methods.liquids.parts import shares
 from sdph.methods.liquids.start import parts_of as parts_of_liquid
 from sdph.methods.mps.method import MpsStepper
 from sdph.methods.solids.method import SolidStepper
@@ -50,9 +54,23 @@ def rehearsed(case, template: Path, *, allow_code: bool = False, whole: bool = F
     with _looked_at(case, template, allow_code) as mesh:
         if whole:
             own = any((mesh / name).exists() for name in OWN_MESH)  # walls that the run will know by it
-            for matter in case.matters:
-                MADE[case.moved_by(matter)]((start.assumed(case) if own else case).only(matter))
+            known = start.assumed(case) if own else case
+            made = {matter: MADE[case.moved_by(matter)](known.only(matter)) for matter in case.matters}
+            if case.run.forces and not own:
+                forces.refuse_nowhere(
+                    case, {name for matter, one in made.items() for name in _named(case, matter, one)}
+                )
         yield mesh
+
+
+def _named(case, matter: str, made) -> tuple[str, ...]:
+    """Names of `run.forces` that are walls of what was made for a matter."""
+    if matter == "grains":
+        return made[0].pushed.names
+    if case.moved_by(matter) != "liquid":
+        return ()
+    _, state, _ = made
+    return tuple(shares(case, particles.positions(state)[state.kind == WALL, : case.dimensions]))
 
 
 @contextlib.contextmanager

@@ -97,7 +97,7 @@ def same_run(one, other):
     ("scene", "gas", "after", "more"),
     [
         ("disc_cluster", "embedded", 10, ()),
-        ("bubbling_bed", "embedded", 10, ()),
+        ("bubbling_bed", "embedded", 10, ("run.forces=['left','bottom']",)),
         ("evaporating_jet", "embedded", 29, ()),
         ("evaporating_jet", "embedded", 29, SECOND),
         ("evaporating_jet", "embedded", 29, BREAKING),

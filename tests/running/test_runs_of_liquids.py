@@ -18,7 +18,7 @@ from sdph.schema import CaseError
 from sdph.show import shot, view
 
 COARSE = {
-    "dam_break": ("resolution.spacing_mm=8", "run.end_time_s=0.06"),
+    "dam_break": ("resolution.spacing_mm=8", "run.end_time_s=0.06", "run.forces=['bottom','tank']"),
     "square_patch": ("resolution.spacing_mm=50", "run.end_time_s=0.1", "run.output_interval_s=0.05"),
     "sloshing_sphere": (
         "resolution.spacing_mm=70", "run.end_time_s=0.2", "run.output_interval_s=0.1", "liquid.history_interval_s=0.05",

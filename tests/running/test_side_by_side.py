@@ -19,7 +19,10 @@ TABLE = {
         "drag", "gas_pressure", "gravity", "granular_pressure", "walls", "density_diffusion", "liquid_damping", "tank",
         "outflow",
     ],
-    "run": {"end_time_s": 0.06, "output_interval_s": 0.03, "checkpoint_windows": 20},
+    "run": {
+        "end_time_s": 0.06, "output_interval_s": 0.03, "checkpoint_windows": 20,
+        "forces": ["rest", "top", "bottom", "left", "right", "tank", "low"],
+    },
     "domain": {"size_m": [0.4, 0.5], "gravity_m_s2": [0.0, -9.81]},
     "resolution": {"spacing_mm": 20.0, "cell_mm": 50.0},
     "gas": {
@@ -39,6 +42,7 @@ TABLE = {
     "boundaries": {"top": {"kind": "pressure_outlet", "side": "top", "pressure_Pa": 0.0}, "rest": {"kind": "wall"}},
     "liquid": {"density_kg_m3": 1000.0, "sound_speed_m_s": 15.0},
     "tank": {"shape": "box", "open_sides": ["top"]},
+    "parts": {"low": {"lower_m": [0.0, 0.0], "upper_m": [0.0, 0.1]}},
     "pools": {"water": {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.4, 0.14]}},
 }  # fmt: skip
 
@@ -56,6 +60,17 @@ def column(file, name) -> np.ndarray:
         return np.array([float(row[name]) for row in csv.DictReader(rows)])
 
 
+def forces(on, axis) -> list[np.ndarray]:
+    """Forces [N] of each window by the history: of pressure, and of friction."""
+    rubs = "friction" if on.endswith("grain") else "viscous"
+    return [column("run/history.csv", f"{on}_{kind}_force_{axis}_N")[1:] for kind in ("pressure", rubs)]
+
+
+def of_walls(ledger) -> np.ndarray:
+    """Force [N] of the walls in each window by a ledger."""
+    return column(ledger, "impulse_of_walls_y_kg_m_s")[1:] / column(ledger, "window_s")[1:]
+
+
 def test_grains_fall_into_a_pool(folder, capsys):
     """What contact takes from the grains the liquid gets, window by window; both ledgers close."""
     assert cli.main(["run", "mine", "--gas", "embedded", "--out", "run", "--json"]) == 0
@@ -67,11 +82,21 @@ def test_grains_fall_into_a_pool(folder, capsys):
     taken = column("run/ledger_liquid.csv", "impulse_of_contact_y_kg_m_s")
     assert np.abs(given).sum() > 1e-3
     np.testing.assert_allclose(given, -taken, atol=1e-12 * np.abs(given).sum())
+    grains = sum(forces("rest_grain", "y"))
+    np.testing.assert_allclose(grains, -of_walls("run/ledger.csv"), atol=1e-12 * np.abs(grains).sum())
+    for names in (("bottom", "left", "right"), ("tank",)):
+        liquid = sum(force for name in names for force in forces(f"{name}_liquid", "y"))
+        np.testing.assert_allclose(liquid, -of_walls("run/ledger_liquid.csv"), rtol=1e-10)
+    assert np.abs(column("run/history.csv", "low_liquid_pressure_force_x_N")[1:]).min() > 0.0
+    assert "mean_tank_liquid_moment_z_Nm" in summary and "mean_left_grain_pressure_force_x_N" in summary
+    assert [key for key in summary if "_top_" in key] == [key for key in summary if key.startswith("mean_top_gas_")]
     heights = column("run/history.csv", "liquid_largest_y_m")
     assert heights[0] < 0.14 and (folder / "run" / "fields" / "liquid_00001.vtp").is_file()
     assert cli.main(["report", "run"]) == 0 and cli.main(["view", "run", "--png", "run.png"]) == 0
     assert cli.main(["explain", "mine"]) == 0
     said = capsys.readouterr().out
+    words = " ".join(said.split())
+    assert "rest gas, grains top gas bottom grains, liquid" in words and "tank liquid low grains, liquid" in words
     assert "(GRAINS)" in said and "(LIQUID)" in said
 
 

@@ -12,11 +12,13 @@ from test_own_meshes import round_vessel
 
 from sdph.case import read as cases
 from sdph.cli import main
+from sdph.engine import table
 from sdph.methods.grains import start
 from sdph.running import vessel
 from sdph.schema import CaseError
 from sdph.show import timeline
 
+KINDS = ("pressure", "friction")
 INSIDE = {"shape": "walls", "mass_kg": 2.0, "volume_fraction": 0.6, "temperature_K": 350.0, "disorder": 0.1}
 
 
@@ -31,11 +33,17 @@ def filled(folder, region, **more):
 
 @pytest.mark.openfoam
 def test_a_round_vessel_is_filled_to_a_mass_and_its_patches_hold_it(tmp_path, capsys):
-    own, out = filled(tmp_path / "own", INSIDE), tmp_path / "out"
+    run = {"end_time_s": 1e-4, "output_interval_s": 1e-4, "forces": ["inlet", "outlet", "wall"]}
+    own, out = filled(tmp_path / "own", INSIDE, run=run), tmp_path / "out"
     assert main(["explain", str(own)]) == 0
+    assert "inlet gas, grains outlet gas wall gas, grains" in " ".join(capsys.readouterr().out.split())
+    assert main(["explain", str(own), "--set", "run.forces=['left']"]) == 2  # a vessel has patches, no sides
+    assert "'left', which is no boundary or wall of the case; it has inlet" in capsys.readouterr().err
     assert main(["run", str(own), "--gas", "openfoam", "--out", str(out)]) == 0, capsys.readouterr().err
     summary = json.loads((out / "summary.json").read_text())
     assert summary["outside_mesh_particles"] == 0 if "outside_mesh_particles" in summary else True
+    of_walls = ("time_s", *(f"impulse_of_walls_{a}_kg_m_s" for a in "xyz"))
+    bears_its_ledger(summary, table.numbers(out / "ledger.csv", of_walls)[1])
     _, cloud, _ = timeline.state_at(timeline.read(out), 0.0)
     assert cloud["mass"].sum() == pytest.approx(2.0, rel=1e-12)
     off = np.hypot(*(cloud.points[:, :2] - 0.1).T)
@@ -46,6 +54,16 @@ def test_a_round_vessel_is_filled_to_a_mass_and_its_patches_hold_it(tmp_path, ca
     again = cases.load(out / "case.toml")
     assert vessel.walled(again, None, out) is again  # what was found is kept
     assert len(start.fill(again, ()).x) == cloud.n_points
+
+
+def bears_its_ledger(summary, ledger):
+    """Patches bear together what the ledger has; the outlet, which lets grains through, has no force of theirs."""
+    for a in "xyz":
+        force = [summary[f"mean_{name}_grain_{kind}_force_{a}_N"] for name in ("inlet", "wall") for kind in KINDS]
+        given = -ledger[f"impulse_of_walls_{a}_kg_m_s"].sum() / ledger["time_s"][-1]
+        assert sum(force) == pytest.approx(given, rel=1e-9, abs=1e-9 * sum(map(abs, force)))
+    assert summary["mean_wall_grain_pressure_force_x_N"] != 0.0 != summary["mean_inlet_grain_pressure_force_z_N"]
+    assert not [key for key in summary if key.startswith("mean_outlet_grain_")]
 
 
 @pytest.mark.openfoam

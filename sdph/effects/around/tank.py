@@ -15,6 +15,8 @@ from sdph.engine.geometry import SIDES
 from sdph.engine.walls import shapes
 from sdph.schema import CaseError, choice, file, quantity, record, vector, words
 
+ALL = "tank"  # name of all walls of a tank in `run.forces`
+
 
 @record
 class Tank:
@@ -127,17 +129,32 @@ def _with_outlet(own, tank, bottom: float, reach: float):
 
 
 def _box(case, own):
+    lower, upper = own.lower or (0.0,) * case.dimensions, own.upper or case.domain.size
+    if any(high - low < case.resolution.spacing * (1.0 - 1e-9) for low, high in zip(lower, upper)):
+        given = f"tank: from lower_m = {list(lower)} to upper_m = {list(upper)}"
+        raise CaseError(f"{given} it is narrower than resolution.spacing_mm along an axis; widen it")
+    return shapes.Box(np.array(lower), np.array(upper), tuple(_open_ends(case, own)))
+
+
+def names(case) -> list[str]:
+    """Names of walls that `run.forces` may hold: sides of a box that have one, `tank` for all but the outlet pipe's,
+    the parts of the case."""
+    own = case.parameters.get("tank")
+    if own is None:
+        return []
+    open_ends = _open_ends(case, own) if own.shape == "box" else set(SIDES.values())
+    closed = [side for side, (axis, end) in SIDES.items() if axis < case.dimensions and (axis, end) not in open_ends]
+    return [*closed, ALL, *case.parts]
+
+
+def _open_ends(case, own) -> set[tuple[int, int]]:
+    """(axis, end) of the sides of a box that have no wall."""
     periodic = case.liquid.periodic or (0,) * case.dimensions
     sides = [own.open_sides] if isinstance(own.open_sides, str) else own.open_sides
     for side in sides:
         if side not in SIDES:
             raise CaseError(f"tank.open_sides holds {side!r}; allowed: {', '.join(SIDES)}")
-    open_ends = {SIDES[side] for side in sides} | {(a, end) for a, on in enumerate(periodic) if on for end in (0, 1)}
-    lower, upper = own.lower or (0.0,) * case.dimensions, own.upper or case.domain.size
-    if any(high - low < case.resolution.spacing * (1.0 - 1e-9) for low, high in zip(lower, upper)):
-        given = f"tank: from lower_m = {list(lower)} to upper_m = {list(upper)}"
-        raise CaseError(f"{given} it is narrower than resolution.spacing_mm along an axis; widen it")
-    return shapes.Box(np.array(lower), np.array(upper), tuple(open_ends))
+    return {SIDES[side] for side in sides} | {(a, end) for a, on in enumerate(periodic) if on for end in (0, 1)}
 
 
 def wall_volume(case) -> float:

@@ -23,14 +23,28 @@ def rubbed(p, wall, w, box, s, i, back):
     return -share * u, -share * v, -share * across
 
 
+@inlined
+def tell(felt, w, mass, px, py, pz, rx, ry, rz):
+    """Take from felt[0] (W, 6) of dummy w what it gives a mass [kg] by its push and by its rub [m/s]; nothing where
+    felt is empty."""
+    if len(felt):
+        felt[0][w, 0] -= mass * px
+        felt[0][w, 1] -= mass * py
+        felt[0][w, 2] -= mass * pz
+        felt[0][w, 3] -= mass * rx
+        felt[0][w, 4] -= mass * ry
+        felt[0][w, 5] -= mass * rz
+
+
 @serial
-def contact(p, wall, box, s, gravity, impulse, work, back_put):
+def contact(p, wall, box, s, gravity, impulse, work, back_put, felt):
     """Stops particles that came closer than `contact` to a surface; returns how many did.
 
     The place is put back to the contact distance, the normal velocity reversed with the restitution, and that along the
     wall taken away, by `rubs` times as much at most. Those that come through a nozzle pass. Adds to impulse (3,)
     [kg m/s] and work (1,) [J] of the walls on the grains, and to back_put (2,) the ways that places were put back [m]
-    and the energy that they got by it under gravity (3,) [m/s2], [J].
+    and the energy that they got by it under gravity (3,) [m/s2], [J]. Where felt is not empty it adds to felt[0]
+    (W, 6) [kg m/s] what pushes and what rubs each dummy.
     """
     touched = 0
     for i in range(len(s.x)):
@@ -60,6 +74,7 @@ def contact(p, wall, box, s, gravity, impulse, work, back_put):
             impulse[0] += s.mass[i] * bx
             impulse[1] += s.mass[i] * by
             impulse[2] += s.mass[i] * bz
+            tell(felt, w, s.mass[i], back * nx, back * ny, back * nz, rx, ry, rz)
             across = s.w[i] if len(s.z) else 0.0
             after = bx * (s.u[i] + 0.5 * bx) + by * (s.v[i] + 0.5 * by) + bz * (across + 0.5 * bz)
             work[0] += s.mass[i] * after

@@ -204,6 +204,42 @@ def penalty(p, kernel, box, wall, w, s, i, r):
 
 
 @inlined
+def pair(p, kernel, box, wall, w, s, i, rho, theta, stress, friction_p):
+    """Accelerations [m/s2] of particle i, of rho_p [kg/m3] and theta, by dummy w: by its push and by its grip, three
+    components each; power of viscosity there on the motion [W/kg]."""
+    fx = fy = fz = power = 0.0
+    dx, dy, dz = offset(box, wall, w, s, i)
+    r = math.sqrt(dx * dx + dy * dy + dz * dz)
+    if p.paper == 1:
+        push = penalty(p, kernel, box, wall, w, s, i, r)
+        px, py, pz = push * wall.normal_x[w], push * wall.normal_y[w], push * wall.normal_z[w]
+    else:
+        gradient = kernels.cubic_spline_gradient(r, kernel.h, kernel.sigma)
+        push = -p.volume / s.density[i] * (stress.pressure[i] + wall.pressure[w]) * gradient
+        # mirrored velocity 2 v_wall - <v>: v_i + <v> - 2 v_wall; Morris' form of the viscous force
+        nx, ny, nz = wall.normal_x[w], wall.normal_y[w], wall.normal_z[w]
+        away = dx * nx + dy * ny + dz * nz
+        gripped = 2.0 * grip(p, wall.stick[w], away - wall.depth[w], s.density[i], rho, theta, stress.shear[i])
+        stick = gripped * p.volume / s.density[i] * stress.shear[i] * gradient
+        du, dv, dw = against(wall, w, box, s, i)
+        fx = stick * (du + wall.velocity[w, 0] - wall.slide_x[w])
+        fy = stick * (dv + wall.velocity[w, 1] - wall.slide_y[w])
+        fz = stick * (dw + wall.velocity[w, 2] - wall.slide_z[w])
+        power = fx * du + fy * dv + fz * dw
+        # pressure acts along the normal: a row of dummies is no row of teeth
+        along = push * away
+        corner = push * (1.0 - (nx * nx + ny * ny + nz * nz))
+        px = along * nx + corner * dx
+        py = along * ny + corner * dy
+        pz = along * nz + corner * dz
+        if len(friction_p):
+            rub = 2.0 * p.volume * s.density[i] * gradient
+            rx, ry, rz = rubbing(p, wall, w, stress.traction, i, dx, dy, dz)
+            fx, fy, fz = fx + rub * rx, fy + rub * ry, fz + rub * rz
+    return px, py, pz, fx, fy, fz, power
+
+
+@inlined
 def force(p, kernel, box, wall, s, i, stress, friction_p):
     """Accelerations [m/s2] of particle i by the wall: by its push, and by its grip; power of the grip by the sliding of
     the wall, and what viscosity takes there from the motion of the grains [W/kg].
@@ -219,40 +255,15 @@ def force(p, kernel, box, wall, s, i, stress, friction_p):
     rho = solid(p, kernel, s, i)
     for k in range(wall.number[i]):
         w = entry(wall, i, k)
-        dx, dy, dz = offset(box, wall, w, s, i)
-        r = math.sqrt(dx * dx + dy * dy + dz * dz)
-        if p.paper == 1:
-            push = penalty(p, kernel, box, wall, w, s, i, r)
-            ax += push * wall.normal_x[w]
-            ay += push * wall.normal_y[w]
-            az += push * wall.normal_z[w]
-        else:
-            gradient = kernels.cubic_spline_gradient(r, kernel.h, kernel.sigma)
-            push = -p.volume / s.density[i] * (stress.pressure[i] + wall.pressure[w]) * gradient
-            # mirrored velocity 2 v_wall - <v>: v_i + <v> - 2 v_wall; Morris' form of the viscous force
-            nx, ny, nz = wall.normal_x[w], wall.normal_y[w], wall.normal_z[w]
-            away = dx * nx + dy * ny + dz * nz
-            gripped = 2.0 * grip(p, wall.stick[w], away - wall.depth[w], s.density[i], rho, theta, stress.shear[i])
-            stick = gripped * p.volume / s.density[i] * stress.shear[i] * gradient
-            du, dv, dw = against(wall, w, box, s, i)
-            fx = stick * (du + wall.velocity[w, 0] - wall.slide_x[w])
-            fy = stick * (dv + wall.velocity[w, 1] - wall.slide_y[w])
-            fz = stick * (dw + wall.velocity[w, 2] - wall.slide_z[w])
-            lost -= fx * du + fy * dv + fz * dw
-            # pressure acts along the normal: a row of dummies is no row of teeth
-            along = push * away
-            corner = push * (1.0 - (nx * nx + ny * ny + nz * nz))
-            ax += along * nx + corner * dx
-            ay += along * ny + corner * dy
-            az += along * nz + corner * dz
-            if len(friction_p):
-                rub = 2.0 * p.volume * s.density[i] * gradient
-                rx, ry, rz = rubbing(p, wall, w, stress.traction, i, dx, dy, dz)
-                fx, fy, fz = fx + rub * rx, fy + rub * ry, fz + rub * rz
-            tx += fx
-            ty += fy
-            tz += fz
-            slid += fx * wall.slide_x[w] + fy * wall.slide_y[w] + fz * wall.slide_z[w]
+        px, py, pz, fx, fy, fz, power = pair(p, kernel, box, wall, w, s, i, rho, theta, stress, friction_p)
+        ax += px
+        ay += py
+        az += pz
+        tx += fx
+        ty += fy
+        tz += fz
+        slid += fx * wall.slide_x[w] + fy * wall.slide_y[w] + fz * wall.slide_z[w]
+        lost -= power
     return ax, ay, az, tx, ty, tz, slid, lost
 
 

@@ -26,21 +26,32 @@ def read(path: str, dimensions: int, scale: float = 1.0) -> np.ndarray:
 
 def slips(path: str, dimensions: int) -> np.ndarray:
     """(F,) whether grains slip on each facet of `read`: cells with a value `slip` that is not 0."""
+    return _given(path, dimensions, "slip", 0) != 0
+
+
+def owners(path: str, dimensions: int) -> np.ndarray:
+    """(F,) number of the boundary of the case whose patch each facet of `read` is of; -1 where of none."""
+    return _given(path, dimensions, "boundary", -1)
+
+
+def _given(path: str, dimensions: int, name: str, otherwise: int) -> np.ndarray:
+    """(F,) values of a name that the cells of a mesh have."""
     mesh, kind = _mesh(path, dimensions)
-    given = mesh.cell_data_dict.get("slip", {}).get(kind, np.zeros(len(mesh.cells_dict[kind])))
+    given = mesh.cell_data_dict.get(name, {}).get(kind, np.full(len(mesh.cells_dict[kind]), otherwise))
     places, facets = _cells(path, dimensions)
-    return np.asarray(given != 0)[sizes(places[facets][:, :, :dimensions]) > 0.0]
+    return np.asarray(given)[sizes(places[facets][:, :, :dimensions]) > 0.0]
 
 
-def save(path, corners: np.ndarray, slip: np.ndarray) -> None:
-    """Facets (F, d, d) [m] as a surface mesh in VTK's format, with `slip` (F,) of `slips`."""
+def save(path, corners: np.ndarray, slip: np.ndarray, owner: np.ndarray) -> None:
+    """Facets (F, d, d) [m] as a surface mesh in VTK's format, with `slip` (F,) of `slips`, `owner` (F,) of `owners`."""
     import meshio
 
     count, d = corners.shape[:2]
     points = np.pad(corners.reshape(-1, d), ((0, 0), (0, 3 - d)))
     cells = np.arange(count * d).reshape(count, d)
     kind = "line" if d == 2 else "triangle"
-    meshio.write_points_cells(path, points, {kind: cells}, cell_data={"slip": [slip.astype(np.int32)]})
+    data = {"slip": [slip.astype(np.int32)], "boundary": [owner.astype(np.int32)]}
+    meshio.write_points_cells(path, points, {kind: cells}, cell_data=data)
 
 
 def drawn(path: str, dimensions: int, scale: float = 1.0):
@@ -125,10 +136,11 @@ def _turned(corners: np.ndarray) -> np.ndarray:
     return np.cross(edges[:, 0], edges[:, 1])
 
 
-def spread(corners: np.ndarray, spacing: float) -> tuple[np.ndarray, np.ndarray]:
-    """Points (P, d) [m] on facets (F, d, d) and the normals (P, d) there: one for each spacing^(d-1) of all facets
-    together, whatever size each of them has."""
-    corners = chained(corners) if corners.shape[2] == 2 else corners
+def spread(corners: np.ndarray, spacing: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Points (P, d) [m] on facets (F, d, d), the normals (P, d) there, and which facet each is on (P,): one for each
+    spacing^(d-1) of all facets together, whatever size each of them has."""
+    order = chained(corners) if corners.shape[2] == 2 else np.arange(len(corners))
+    corners = corners[order]
     size = sizes(corners)
     ends = np.cumsum(size)
     count = max(1, round(ends[-1] / spacing ** (corners.shape[2] - 1)))
@@ -137,14 +149,15 @@ def spread(corners: np.ndarray, spacing: float) -> tuple[np.ndarray, np.ndarray]
     if corners.shape[2] == 2:
         share = (along - ends[own] + size[own]) / size[own]
         points = corners[own, 0] + share[:, None] * (corners[own, 1] - corners[own, 0])
-        return points, normals(corners)[own]
-    places, facing = _strewn(corners, ends, size, SAMPLES * count)
-    return _evened(places, facing, count, spacing)
+        return points, normals(corners)[own], order[own]
+    places, facing, own = _strewn(corners, ends, size, SAMPLES * count)
+    points, normal, nearest = _evened(places, facing, count, spacing)
+    return points, normal, own[nearest]
 
 
 def chained(corners: np.ndarray) -> np.ndarray:
-    """Facets (F, 2, 2) of a plane wall one after the other: each begins where the one before ends, where one does. In
-    any other order points of neighbours may be two facets apart, and grains slip through."""
+    """Order (F,) of the facets (F, 2, 2) of a plane wall: each begins where the one before ends, where one does. In any
+    other points of neighbours may be two facets apart, and grains slip through."""
     ends = corners.reshape(-1, 2)
     near = SAME * np.ptp(ends, axis=0).max()
     point = np.unique(np.round(ends / near), axis=0, return_inverse=True)[1].reshape(-1, 2)
@@ -156,20 +169,21 @@ def chained(corners: np.ndarray) -> np.ndarray:
         while facet is not None and facet not in order:
             order[facet] = None
             facet = follower.get(int(point[facet, 1]))
-    return corners[list(order)]
+    return np.array(list(order))
 
 
-def _strewn(corners, ends, size, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Places (N, 3) that lie on triangles in proportion to their areas, `ends` their sums, and the normals there."""
+def _strewn(corners, ends, size, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Places (N, 3) that lie on triangles in proportion to their areas, `ends` their sums, the normals there, and on
+    which triangle each is."""
     own = np.minimum(np.searchsorted(ends, (np.arange(count) + 0.5) * (ends[-1] / count), side="right"), len(size) - 1)
     a, b = np.modf(np.arange(1, count + 1)[:, None] * EVEN)[0].T
     a, b = np.where(a + b > 1.0, (1.0 - a, 1.0 - b), (a, b))
     edges = corners[own, 1:] - corners[own, :1]
-    return corners[own, 0] + a[:, None] * edges[:, 0] + b[:, None] * edges[:, 1], normals(corners)[own]
+    return corners[own, 0] + a[:, None] * edges[:, 0] + b[:, None] * edges[:, 1], normals(corners)[own], own
 
 
-def _evened(places, facing, count: int, spacing: float) -> tuple[np.ndarray, np.ndarray]:
-    """Points (P, 3) of `count` parts of a surface that are alike in area, and their normals.
+def _evened(places, facing, count: int, spacing: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Points (P, 3) of `count` parts of a surface that are alike in area, their normals, and the nearest sample.
 
     The parts are those of the samples that are nearest to each point, which moves to their middle (Lloyd 1982, IEEE
     Trans. Inf. Theory 28, 129). Normals count as lengths, so that no part goes round an edge or through a plate.
@@ -184,4 +198,4 @@ def _evened(places, facing, count: int, spacing: float) -> tuple[np.ndarray, np.
     nearest = scipy.spatial.cKDTree(samples).query(points)[1]
     normal = facing[nearest]
     off = np.einsum("ij,ij->i", points[:, :3] - places[nearest], normal)
-    return points[:, :3] - off[:, None] * normal, normal
+    return points[:, :3] - off[:, None] * normal, normal, nearest

@@ -8,12 +8,14 @@ import numpy as np
 
 from sdph.engine.geometry import SIDES
 from sdph.engine.rows import Neighbours, Rows
-from sdph.engine.walls import facets
+from sdph.engine.walls import facets, parts
 from sdph.engine.walls import mesh as sides
 from sdph.engine.walls.dummies import Dummies, Wall, seen, turned
 from sdph.laws.kernels import SUPPORT
 
 LAYERS = 3  # the support of the kernel is 2 h = 3 spacings
+MESH = "mesh"  # name of all of `walls.mesh` in `run.forces`
+OWNED = 2  # of a dummy of the first boundary; those of a mesh that no boundary is are 1
 
 
 class Boundary:
@@ -24,7 +26,8 @@ class Boundary:
         table, self.spacing = dummies(case), case.resolution.spacing
         order = self.search.sort(tuple(np.ascontiguousarray(column) for column in table[:, : case.dimensions].T))
         self.dummies = Dummies(*(np.ascontiguousarray(column) for column in table[order, :-1].T))
-        self.of_mesh = table[order, -1] > 0.0
+        self.whose = table[order, -1].astype(int)
+        self.of_mesh = self.whose > 0
 
     def rows(self, state_axes):
         """Dummies near each particle; valid as long as the particles' own rows."""
@@ -42,24 +45,70 @@ class Boundary:
         if self.of_mesh.any():
             sides.part(self.dummies, self.of_mesh, self.spacing, sides.three(state_axes), wall_rows, rows)
 
+    def shares(self, case) -> dict[str, np.ndarray]:
+        """Share (W, 3) in the force on each dummy, by its components, of those names of `run.forces` that are walls of
+        grains (sdph.engine.walls.parts)."""
+        points, known = np.stack(_axes(self.dummies, case.dimensions), axis=1), names(case)
+        of_box = parts.sides(points, case.domain.corner, case.domain.upper)
+        of_box = {side: share * ~self.of_mesh[:, None] for side, share in of_box.items()}
+        found = {name: self._share(case, name, points, of_box) for name in case.run.forces if name in known}
+        return {name: share for name, share in found.items() if share.any()}
+
+    def _share(self, case, name: str, points, of_box: dict) -> np.ndarray:
+        """The share (W, 3) of one name; dummies stand at `points` (W, d) [m], and `of_box` are shares of its sides."""
+        if name in case.boundaries:
+            number = list(case.boundaries).index(name)
+            own = [share * (_owners(case, points, side) == number)[:, None] for side, share in of_box.items()]
+            return sum(own, np.repeat(self.whose[:, None] == OWNED + number, 3, axis=1) * 1.0)
+        if name in case.parts:
+            return parts.within(case.parts[name], self.feet(case)[:, : case.dimensions], self.spacing)
+        return of_box[name] if name in of_box else np.repeat(self.of_mesh[:, None], 3, axis=1) * 1.0
+
+    def feet(self, case) -> np.ndarray:
+        """(W, 3) [m] of the surface in front of each dummy: what presses it acts there."""
+        own, d = self.dummies, case.dimensions
+        places, normals = np.stack(own[:3], axis=1), np.stack(own[3:6], axis=1)
+        of_box = places.copy()
+        of_box[:, :d] = np.clip(places[:, :d], case.domain.corner, case.domain.upper)  # corners have no normal
+        return np.where(self.of_mesh[:, None], places + own.depth[:, None] * normals, of_box)
+
+
+def names(case) -> list[str]:
+    """Names of walls of grains that `run.forces` may hold: boundaries that hold grains back, sides of the domain that
+    are walls, `mesh` for all of `walls.mesh`, parts."""
+    own, period = case.parameters.get("walls"), case.domain.period
+    if own is None:
+        return []
+    found = [name for name, boundary in case.boundaries.items() if boundary.kind != "pressure_outlet"]
+    if not _vessel(own):
+        closed = [side for side, (axis, _) in SIDES.items() if axis < case.dimensions and not period[axis]]
+        found += [name for name in (*closed, *([MESH] if own.mesh else [])) if name not in case.boundaries]
+    return [*found, *case.parts]
+
+
+def _vessel(own) -> bool:
+    """True where all walls are a mesh's, that of the gas."""
+    return bool(own.mesh) and own.source == "gas"
+
 
 def _axes(dummies: Dummies, dimensions: int):
     return (dummies.x, dummies.y, dummies.z)[:dimensions]
 
 
 def dummies(case) -> np.ndarray:
-    """(W, 12) columns of `Dummies` of all dummies of a case; 1 for those of a mesh."""
+    """(W, 12) columns of `Dummies` of all dummies of a case; 0 for those of the domain's sides, 1 for those of a mesh,
+    OWNED and more for those of a boundary's patch."""
     own, d = case.parameters["walls"], case.dimensions
-    vessel = own.mesh and own.source == "gas"  # then all walls are the mesh's
-    parts = [] if vessel else [np.pad(_box(case), ((0, 0), (0, 1)))]
+    found = [] if _vessel(own) else [np.pad(_box(case), ((0, 0), (0, 1)))]
     if own.mesh:
         corners, slip = facets.read(own.mesh, d, own.mesh_scale), facets.slips(own.mesh, d)
-        parts += [
-            np.pad(_behind_facets(corners[slip == slips], case, slips), ((0, 0), (0, 1)), constant_values=1.0)
+        whose = OWNED + facets.owners(own.mesh, d) if _vessel(own) else np.full(len(slip), 1)
+        found += [
+            _behind_facets(corners[slip == slips], whose[slip == slips], case, slips)
             for slips in (False, True)
             if (slip == slips).any()
         ]
-    return np.concatenate(parts)
+    return np.concatenate(found)
 
 
 def _box(case) -> np.ndarray:
@@ -101,14 +150,20 @@ def _closed(case, points, side: str) -> np.ndarray:
 
 def _behind(case, points, side: str, kind: str) -> np.ndarray:
     """Mask of the points in front of which a side is a boundary of `kind`."""
+    owners = _owners(case, points, side)
+    return np.isin(owners, [number for number, own in enumerate(case.boundaries.values()) if own.kind == kind])
+
+
+def _owners(case, points, side: str) -> np.ndarray:
+    """Number (P,) of the boundary that a side is in front of each of the points; -1 where it is none."""
     axis, _ = SIDES[side]
-    mask, rank = np.zeros(len(points), bool), np.zeros(len(points), int)
-    for boundary in case.boundaries.values():  # a span before a whole side before what is left over
+    owners, rank = np.full(len(points), -1), np.zeros(len(points), int)
+    for number, boundary in enumerate(case.boundaries.values()):  # a span before a whole side before what is left over
         if boundary.side in (side, None):
             level = 1 if boundary.side is None else 2 if boundary.span is None else 3
             own = _within(points, axis, boundary.span) & (rank < level)
-            mask[own], rank[own] = boundary.kind == kind, level
-    return mask
+            owners[own], rank[own] = number, level
+    return owners
 
 
 def _within(points, axis: int, span) -> np.ndarray:
@@ -122,13 +177,14 @@ def _within(points, axis: int, span) -> np.ndarray:
     )
 
 
-def _behind_facets(corners: np.ndarray, case, slips: bool) -> np.ndarray:
-    """Dummies in LAYERS behind facets (F, d, d) [m], which let grains slip or not."""
+def _behind_facets(corners: np.ndarray, whose: np.ndarray, case, slips: bool) -> np.ndarray:
+    """Dummies in LAYERS behind facets (F, d, d) [m], which let grains slip or not, and whose (F,) each is."""
     spacing, d = case.resolution.spacing, case.dimensions
-    points, normals = facets.spread(corners, spacing)
+    points, normals, facet = facets.spread(corners, spacing)
     depth = (np.repeat(np.arange(LAYERS), len(points)) + 0.5) * spacing
     normal = np.tile(normals, (LAYERS, 1))
-    table = np.zeros((len(depth), len(Dummies._fields)))
+    table = np.zeros((len(depth), len(Dummies._fields) + 1))
+    table[:, -1] = np.tile(whose[facet], LAYERS)
     table[:, :d] = np.tile(points, (LAYERS, 1)) - depth[:, None] * normal
     table[:, 3 : 3 + d], table[:, 6], table[:, 7] = normal, depth, 0.0 if slips else 1.0
     return table

@@ -36,18 +36,22 @@ SLOWED = ("grain_drag_J",)  # of motion by drag between materials; agitation_J o
 
 
 class Account(NamedTuple):
-    """Sums since the window began."""
+    """Sums since the window began; felt holds what pushes and what rubs each dummy of the walls, (W, 6) [kg m/s], where
+    somebody asks, else nothing."""
 
     impulses: np.ndarray
     works: np.ndarray
     heats: np.ndarray
     back_put: np.ndarray
     slowed: np.ndarray
+    felt: tuple
 
 
-def opened() -> Account:
-    """An account with nothing in it."""
-    return Account(np.zeros((len(IMPULSES), 3)), *(np.zeros(len(names)) for names in (WORKS, HEATS, BACK_PUT, SLOWED)))
+def opened(dummies: int = 0) -> Account:
+    """An account with nothing in it; with room for what so many `dummies` feel."""
+    felt = (np.zeros((dummies, 6)),) if dummies else ()
+    sums = (np.zeros(len(names)) for names in (WORKS, HEATS, BACK_PUT, SLOWED))
+    return Account(np.zeros((len(IMPULSES), 3)), *sums, felt)
 
 
 def columns(account: Account) -> dict[str, float]:

@@ -16,6 +16,7 @@ from sdph.engine.kept import Unfit
 from sdph.engine.ledger import vector
 from sdph.engine.state import INFLOW
 from sdph.engine.walls import facets
+from sdph.engine.walls.parts import Pushed
 from sdph.methods.grains import account, start
 from sdph.methods.grains.history import of_materials, tracked
 from sdph.methods.grains.method import Stepper
@@ -27,7 +28,7 @@ class Grains:
     """Grains of a case and what they do in a window; their ledger is that of the gas too, which the run keeps."""
 
     matter = "grains"
-    KEPT = ("time", "windows", "stepper", "source")  # see sdph.engine.kept
+    KEPT = ("time", "windows", "stepper", "source", "pushed")  # see sdph.engine.kept
 
     def __init__(self, case):
         names = effects.arrays(case)
@@ -38,6 +39,7 @@ class Grains:
         self.source = Source(case, names, len(state.x) + 1) if self.parameters["inflow"] else None
         self.stepper = Stepper(case, self.parameters, state, self.source, Clock(case.run).shortest)
         self.time, self.windows, self.came, self.left = 0.0, 0, self._came_in(), NOTHING_LEFT
+        self.pushed = Pushed("grain", "friction", self.stepper.parts, case.dimensions)
         self.gone = None  # State of what has left in the window
         self.torn = dict(micro_explosion.NOTHING_TORN)  # in the window
 
@@ -76,6 +78,7 @@ class Grains:
         """Remember the state to go back to, before a window."""
         self.stepper.guard.begin(self)
         self.came, self.left, self.gone = self._came_in(), NOTHING_LEFT, None
+        self.begun = self.time
 
     def force(self, warmth, push, damping) -> None:
         """Take heat (N,) [J], acceleration (N, 3) [m/s2] and damping (N,) [1/s] of theta that hold over the window;
@@ -93,7 +96,9 @@ class Grains:
         self.time, self.windows = end, self.windows + 1
 
     def close(self) -> None:
-        """End the window; `way` and `damped` are what `Stepper.release` tells of it."""
+        """End the window, of which the history has a row; `way` and `damped` are what `Stepper.release` tells of it."""
+        self.pushed.new_row()
+        self.pushed.add(self.stepper.pushed(), self.time - self.begun)
         self.way, self.damped = self.stepper.release()
 
     def renew(self, longest: float) -> bool:

@@ -19,6 +19,7 @@ from sdph.engine.clock import count_of_parts
 from sdph.engine.kept import GROWING, Unfit
 from sdph.engine.rows import Neighbours
 from sdph.engine.state import INFLOW
+from sdph.engine.walls.parts import gathered
 from sdph.engine.walls.sides import Boundary
 from sdph.laws.kernels import SUPPORT
 from sdph.methods.grains import account, sound, sub_step
@@ -50,7 +51,8 @@ class Stepper:
         self.shortest = shortest  # sub-step [s] below which the run gets nowhere
         self.length = self.step = 0.0  # [s] that the last sub-step was limited to, and was
         self.held: dict[str, float] = {}  # what limiters hold (sdph.effects.held)
-        self.wall, self.scratch, self.account = OFF, rates.scratch(0, 0, False), account.opened()
+        self.parts = self.boundary.shares(case) if self.boundary and case.run.forces else {}  # of walls, by name
+        self.wall, self.scratch, self.account = OFF, rates.scratch(0, 0, False), self._opened()
         self.facing, self.work = OFF, sub_step.work(0, False)  # rows of the dummies
         # pressure [Pa] of the walls before it is held, and what the last sub-step shifted (N, 3) [m]
         self.unheld, self.shifted = np.zeros(0), np.zeros((0, 3))
@@ -117,7 +119,18 @@ class Stepper:
         """Take what holds over the next window: heat (N,) [J] from the gas, push (N, 3) [m/s2] from outside, damping
         (N,) [1/s] of theta; begin its account."""
         self.state = particles.followed(particles.forced(self.state, warmth, push, damping))
-        self.account, self.rows_before = account.opened(), len(self.state.x)
+        self.account, self.rows_before = self._opened(), len(self.state.x)
+
+    def _opened(self) -> account.Account:
+        return account.opened(len(self.boundary.dummies.x) if self.parts else 0)
+
+    def pushed(self) -> np.ndarray:
+        """(n, 3, 3) of what has pushed the named parts of the walls since the window began
+        (sdph.engine.walls.parts.gathered)."""
+        if not self.parts:
+            return np.zeros((0, 3, 3))
+        felt = self.account.felt[0]
+        return gathered(np.array(list(self.parts.values())), self.boundary.feet(self.case), felt[:, :3], felt[:, 3:])
 
     def release(self) -> tuple[np.ndarray, np.ndarray]:
         """End the window: way (N, 3) [m] of the particles in it, and what their theta lost to the gas (N,) [J], in the
@@ -241,7 +254,7 @@ class Stepper:
             own = self.account
             self.contacts += wall_contact.contact(
                 *self._walls(), self.neighbours.box, s, self.gravity, own.impulses[account.WALLS],
-                own.works[account.BY_WALLS :], own.back_put,
+                own.works[account.BY_WALLS :], own.back_put, own.felt,
             )  # fmt: skip
 
     def _shift(self, dt: float) -> None:

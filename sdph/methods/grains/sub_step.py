@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sdph.effects.around import walls
+from sdph.effects.around import wall_parts, walls
 from sdph.effects.grains import friction, grain_drag, granular_temperature
 from sdph.laws.compiled import serial
 from sdph.methods.grains import account, contacts, equations
@@ -72,6 +72,7 @@ def advance(
         kernel, s, rows, box, scratch, terms.viscous, terms.friction, terms.artificial, terms.temperature,
         terms.conduction, walls_p, wall, work.acceleration, work.of_walls, work.agitation, work.heating,
     )  # fmt: skip
+    wall_parts.tell(sums.felt, walls_p, kernel, box, wall, facing, s, scratch, terms.friction, dt)
     account.kick(
         s, work.acceleration, work.of_walls, work.agitation, work.heating, gravity, dt, sums.impulses, sums.works
     )

@@ -31,13 +31,14 @@ SIZE = SINCE + 1
 
 
 def rates(stepper, ahead: float, last: np.ndarray | None) -> np.ndarray:
-    """(SIZE,) of now, before a kick by `ahead` [s]; `last` is what was told in the step before, None where nothing."""
-    now = np.zeros(SIZE)
+    """(SIZE,) of now, before a kick by `ahead` [s], and what pushes named parts of the tank, nine numbers each
+    (sdph.methods.liquids.parts); `last` is what was told in the step before, None where nothing."""
+    now, felt = np.zeros(SIZE), np.zeros((0, 8))
     now[: FRAME + 1] = loads.balance(stepper, ahead)
     if len(stepper.walls):
         felt = walls.feel(stepper, stepper.walls, ahead)
         of_bodies = stepper.bodies.among(stepper.walls) if stepper.bodies else np.zeros(len(felt), bool)
-        now[WALLS], now[BY_WALLS : HELD_OFF + 1] = -felt[~of_bodies, :3].sum(axis=0), felt[:, 3:].sum(axis=0)
+        now[WALLS], now[BY_WALLS : HELD_OFF + 1] = -felt[~of_bodies, :3].sum(axis=0), felt[:, 3:5].sum(axis=0)
         now[LOADS] -= loads.of_forces(stepper, stepper.walls[of_bodies], felt[of_bodies, :3])  # they are no tank
     if stepper.bodies:
         own = stepper.active
@@ -58,11 +59,11 @@ def rates(stepper, ahead: float, last: np.ndarray | None) -> np.ndarray:
         now[LOST] = _lost(stepper, ahead)
     else:
         now[LOST], now[SINCE] = last[LOST], last[SINCE] + 2.0 * ahead
-    return now
+    return np.append(now, stepper.parts.pushed(stepper, felt)) if stepper.parts else now
 
 
 def between(before: np.ndarray, now: np.ndarray, dt: float) -> np.ndarray:
-    """(SIZE,) [N s], [J] of a step of `dt` [s]; a look makes up for what held since the one before."""
+    """Integral [N s], [J] of `rates` over a step of `dt` [s]; a look makes up for what held since the one before."""
     sums = 0.5 * dt * (before + now)
     if now[SINCE] == 0.0:
         sums[LOST] += 0.5 * before[SINCE] * (now[LOST] - before[LOST])

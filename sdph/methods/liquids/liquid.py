@@ -10,6 +10,7 @@ from sdph.effects.around import drain, tank
 from sdph.engine import state as particles
 from sdph.engine.kept import Unfit
 from sdph.engine.stepped import Stepped
+from sdph.engine.walls.parts import Pushed
 from sdph.methods.liquids import account, history, limiters
 from sdph.methods.liquids.bodies import Carrier
 from sdph.methods.liquids.loads import kinetic_energy
@@ -28,7 +29,7 @@ class Liquid(Stepped):
     matter = "liquid"
     # see sdph.engine.kept
     KEPT = (
-        "windows", "stepper", "outlet", "ledger", "rates", "impulse", "since", "pace", "scaled",
+        "windows", "stepper", "outlet", "ledger", "rates", "impulse", "since", "pace", "scaled", "pushed",
     )  # fmt: skip
 
     def __init__(self, case, ledger: Path, shortest: float, carrier: Carrier | None = None):
@@ -39,6 +40,8 @@ class Liquid(Stepped):
         self.rates = account.rates(self.stepper, 0.0, None)  # what acts now
         self.scaled = np.zeros(4)  # impulse [N s] and energy [J] by `hasten` since the last window
         self.pace = 1.0  # seconds that pass for heat in one of the motion: sdph.effects.liquids.time_scaling
+        named = self.stepper.parts.names if self.stepper.parts else ()
+        self.pushed = Pushed("liquid", "viscous", named, case.dimensions)
         self.impulse, self.since = np.zeros(6), 0.0  # force and moment on the tank since the last row, and its time [s]
 
     def admit(self, kept: dict) -> None:
@@ -67,6 +70,7 @@ class Liquid(Stepped):
     def close(self) -> None:
         self.stepper.guard.look(self.stepper)
         self.impulse = self.impulse + self.tally.sums[account.LOADS]
+        self.pushed.add(self.tally.sums[account.SIZE :].reshape(-1, 3, 3), self.time - self.begun)
         self.ledger.close_window(self.stepper, self.time - self.begun, *self.tally.amounts())
         self.scaled = np.zeros(4)
         self.stepper.state = particles.released(self.state)
@@ -84,6 +88,7 @@ class Liquid(Stepped):
     def new_row(self) -> None:
         """Begin the mean of the loads anew: the history has a row of now."""
         self.impulse, self.since = np.zeros(6), self.time
+        self.pushed.new_row()
 
     def row(self) -> dict[str, float]:
         return history.row(self)

@@ -21,7 +21,7 @@ from sdph.engine.rows import Neighbours
 from sdph.engine.state import GAS, INFLOW, LIQUID, WALL
 from sdph.laws import kernels
 from sdph.methods.liquids import bodies as immersion
-from sdph.methods.liquids import bubbles, correction, interface, openings, phases, shift, start, walls
+from sdph.methods.liquids import bubbles, correction, interface, openings, parts, phases, shift, start, walls
 from sdph.methods.liquids import equations as rates
 from sdph.methods.liquids.bounds import LiquidGuard, limits
 from sdph.methods.liquids.heat import Heat
@@ -64,6 +64,7 @@ class LiquidStepper:
             self.state = self.bodies.immersed(case, self.state)
             first_of_pipe = self.bodies.first  # beside bodies there is no pipe
         self.own_walls = range(int((self.state.kind != WALL).sum()), first_of_pipe)  # numbers of the tank's own
+        self.parts = parts.Parts(case, self.state, self.own_walls) if case.run.forces else None
         self.openings = openings.Openings(case, self.state) if self.p["inflow"] or self.p["outflow"] else None
         if self.openings:
             self.state = self.openings.begin(self.state)

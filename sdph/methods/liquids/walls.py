@@ -76,13 +76,13 @@ def wall_force(
     kernel, s, rows, box, flow, walls, wall_p, laminar_p, damping_p, shifting_p, phases_p, gravity_p, frame_p, excess,
     gain, felt,
 ):  # fmt: skip
-    """felt (W, 5) by each wall particle: force (3 columns) [N], what `push` gives the liquid in front of it with the
-    sign turned, and power [W] that its pressure and its holding off give the liquid as it moves against the wall, with
+    """felt (W, 8) by each wall particle: force (3 columns) [N], what `push` gives the liquid in front of it with the
+    sign turned, power [W] that its pressure and its holding off give the liquid as it moves against the wall, with
     the velocities that it has after a gain (N, 3) [m/s], which of a body's particle is its velocity; compression pays
-    for the liquid's own pressure."""
+    for the liquid's own pressure. The last three columns are what of the force is friction."""
     for n in prange(len(walls)):
         i = walls[n]
-        fx = fy = fz = worked = held = 0.0
+        fx = fy = fz = worked = held = rx = ry = rz = 0.0
         for k in range(rows.number[i]):
             j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
@@ -103,6 +103,8 @@ def wall_force(
             over, p_j = held_off(wall_p, -1.0, rho_j, r), flow.pressure[j]
             along = -V * (p_i + sign_j * p_j + wall_p.stick * (ringing + friction) + over)
             across = V * wall_p.stick * laminar_viscosity.pair(laminar_p, s, j, j)
+            drag = -V * wall_p.stick * (ringing + friction)
+            rx, ry, rz = rx + drag * dx + across * du, ry + drag * dy + across * dv, rz + drag * dz + across * dw
             fx += along * dx + across * du
             fy += along * dy + across * dv
             fz += along * dz + across * dw
@@ -117,11 +119,9 @@ def wall_force(
                 fx -= V * ex
                 fy -= V * ey
                 fz -= V * ez
-        felt[n, 0] = fx
-        felt[n, 1] = fy
-        felt[n, 2] = fz
-        felt[n, 3] = worked
-        felt[n, 4] = held
+        felt[n, 0], felt[n, 1], felt[n, 2] = fx, fy, fz
+        felt[n, 3], felt[n, 4] = worked, held
+        felt[n, 5], felt[n, 6], felt[n, 7] = rx, ry, rz
 
 
 @serial
@@ -153,8 +153,8 @@ def reaction(s, active, gravity_p, frame_p, acceleration, ahead, load):
 
 
 def feel(stepper, chosen, ahead: float) -> np.ndarray:
-    """(W, 5) of the wall particles `chosen` of a stepper, as `wall_force` has it; `ahead` [s] of a kick."""
-    p, felt, gain = stepper.p, np.zeros((len(chosen), 5)), ahead * stepper.acceleration
+    """(W, 8) of the wall particles `chosen` of a stepper, as `wall_force` has it; `ahead` [s] of a kick."""
+    p, felt, gain = stepper.p, np.zeros((len(chosen), 8)), ahead * stepper.acceleration
     if stepper.bodies:
         stepper.bodies.add_velocities(gain)
     wall_force(

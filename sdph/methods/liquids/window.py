@@ -17,7 +17,7 @@ class Tally:
     def __init__(self, run):
         self.run, self.stepper = run, run.stepper
         self.stepper.look, self.now = self._look, run.rates
-        self.sums = np.zeros(account.SIZE)  # integral of sdph.methods.liquids.account.rates [N s, N m s, J]
+        self.sums = np.zeros_like(run.rates)  # integral of sdph.methods.liquids.account.rates [N s, N m s, J]
         self.shifted, self.eased = self.stepper.shifted, self.stepper.eased
         self.gone = run.outlet.gone.copy() if run.outlet else np.zeros(8)
         self.passed, self.given = _passed(self.stepper), _given(self.stepper)

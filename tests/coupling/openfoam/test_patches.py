@@ -27,9 +27,10 @@ def tetrahedra(tmp_path, **boundaries):
 
 
 def test_a_cube_of_tetrahedra_is_closed_and_faces_inwards(tmp_path):
-    corners, slips = tetrahedra(tmp_path, all=WALL)
+    corners, slips, owners = tetrahedra(tmp_path, all=WALL)
     surface = facets.Surface(corners)
     assert facets.sizes(corners).sum() == pytest.approx(6e-2) and surface.closed and not slips.any()
+    assert not owners.any()  # the first boundary
     assert surface.distance(np.array([[0.05, 0.05, 0.03], [0.05, 0.05, -0.01]])) == pytest.approx([0.03, -0.01])
 
 
@@ -43,9 +44,11 @@ def test_kinds_of_the_case_decide_then_types_of_the_mesh(tmp_path):
 def test_what_is_kept_is_read_again(tmp_path):
     corners = tetrahedra(tmp_path, all=WALL)[0]
     slips = np.arange(len(corners)) % 2 == 0
-    facets.save(tmp_path / "a.vtk", corners, slips)
+    owners = np.arange(len(corners)) % 3 - 1
+    facets.save(tmp_path / "a.vtk", corners, slips, owners)
     np.testing.assert_array_equal(facets.read(str(tmp_path / "a.vtk"), 3), corners)
     np.testing.assert_array_equal(facets.slips(str(tmp_path / "a.vtk"), 3), slips)
+    np.testing.assert_array_equal(facets.owners(str(tmp_path / "a.vtk"), 3), owners)
 
 
 def blocks(tmp_path, text):
@@ -60,7 +63,8 @@ def blocks(tmp_path, text):
 @pytest.mark.openfoam
 def test_a_plane_vessel_has_lines_with_itself_to_their_left(tmp_path):
     own = blocks(tmp_path, own_meshes.taper(0.2, 0.4, 0.3, 4, 6))
-    corners, _ = patches.holding(own, {"inlet": INLET, "outlet": OUTLET, "wall": WALL}, 2)
+    corners, _, owners = patches.holding(own, {"inlet": INLET, "outlet": OUTLET, "wall": WALL}, 2)
+    assert facets.sizes(corners[owners == 0]).sum() == pytest.approx(0.2) and set(owners) == {0, 2}
     assert facets.sizes(corners).sum() == pytest.approx(0.2 + 2.0 * np.hypot(0.1, 0.3))
     inside = facets.Surface(corners).distance(np.array([[0.2, 0.02], [0.08, 0.15], [0.02, 0.1]]))
     assert inside[0] == pytest.approx(0.02) and inside[1] > 0.0 > inside[2]
@@ -75,8 +79,9 @@ def test_walls_are_foreseen_as_they_will_be(tmp_path, dimensions, text):
     made, foreseen = patches.holding(own, kinds, dimensions), patches.of_mesh(PolyMesh(own), kinds, dimensions)
     assert facets.sizes(foreseen[0]).sum() == pytest.approx(facets.sizes(made[0]).sum(), rel=1e-6)
     assert foreseen[1].sum() == made[1].sum() > 0
+    assert set(foreseen[2]) == set(made[2]) == {0, 2}
     places = np.array([[0.15, 0.02, 0.1], [0.1, 0.18, 0.2], [0.02, 0.1, 0.3]])[:, :dimensions]
-    off = [facets.Surface(corners).distance(places) for corners, _ in (made, foreseen)]
+    off = [facets.Surface(corners).distance(places) for corners, *_ in (made, foreseen)]
     np.testing.assert_allclose(*off, atol=1e-7)
 
 
@@ -96,6 +101,6 @@ def test_fields_that_leave_the_sides_of_a_plane_mesh_out_flood_no_terminal(tmp_p
 @pytest.mark.openfoam
 def test_a_round_vessel_has_its_area(tmp_path):
     own = blocks(tmp_path, own_meshes.cylinder(0.1, 0.4, 4, 8))
-    corners, _ = patches.holding(own, {}, 3)  # its type alone: wall
+    corners, *_ = patches.holding(own, {}, 3)  # its type alone: wall
     assert facets.sizes(corners).sum() == pytest.approx(2.0 * np.pi * 0.1 * 0.4, rel=0.03)  # chords for arcs
     assert facets.Surface(corners).distance(np.array([[0.1, 0.1, 0.2]])) == pytest.approx([0.1], rel=0.05)

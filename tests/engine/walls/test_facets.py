@@ -33,7 +33,7 @@ def ball(rounds: int) -> np.ndarray:
     ids=["slivers", "thinner slivers", "large", "like the spacing", "0.2 of the spacing", "two triangles"],
 )
 def test_points_stand_one_spacing_apart(corners):
-    points, normals = facets.spread(corners, SPACING)
+    points, normals, _ = facets.spread(corners, SPACING)
     area = facets.sizes(corners).sum()
     assert len(points) == round(area / SPACING**2)
     apart = cKDTree(points).query(points, k=2)[0][:, 1] / SPACING
@@ -44,7 +44,7 @@ def test_points_stand_one_spacing_apart(corners):
 
 
 def test_points_lie_on_a_ball_and_their_normals_point_outwards():
-    points, normals = facets.spread(ball(4), SPACING)
+    points, normals, _ = facets.spread(ball(4), SPACING)
     radius = np.linalg.norm(points, axis=1)
     assert radius.min() > 0.498 and radius.max() < 0.501  # of facets, and planes through them
     assert np.einsum("ij,ij->i", points, normals).min() > 0.49
@@ -56,7 +56,7 @@ def test_a_chain_of_lines_is_strewn_evenly(lengths, seed):
     angles = np.cumsum(np.random.default_rng(seed).uniform(-0.1, 0.1, len(lengths)))
     steps = np.array(lengths)[:, None] * np.stack([np.cos(angles), np.sin(angles)], axis=1)
     ends = np.concatenate([np.zeros((1, 2)), np.cumsum(steps, axis=0)])
-    points, normals = facets.spread(np.stack([ends[:-1], ends[1:]], axis=1), SPACING)
+    points, normals, _ = facets.spread(np.stack([ends[:-1], ends[1:]], axis=1), SPACING)
     assert len(points) == max(1, round(sum(lengths) / SPACING))
     step = np.linalg.norm(np.diff(points, axis=0), axis=1)
     even = sum(lengths) / len(points)
@@ -79,7 +79,7 @@ def test_plane_facets_in_any_order_leave_no_gap(seed):
     corners = np.concatenate([np.stack([ends[:-1], ends[1:]], axis=1) for ends in rings])
     corners = corners[np.random.default_rng(seed).permutation(len(corners))]
     spacing = facets.sizes(corners).mean() / 1.3
-    points, _ = facets.spread(corners, spacing)
+    points, _, _ = facets.spread(corners, spacing)
     assert len(points) == round(facets.sizes(corners).sum() / spacing)
     round_it = points[np.hypot(*points.T) < 1.5]
     turns = np.sort(np.arctan2(round_it[:, 1], round_it[:, 0]))

@@ -1,0 +1,88 @@
+"""Named parts of walls: which share of the force on each of their particles is theirs, and what has pushed them.
+
+A corner of a box is a part of the sides that meet there: each has of its force what is along its own normal, and an
+equal share of what is along the edge. So all sides together have all of it, once.
+"""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+
+from sdph.engine.geometry import SIDES
+
+WIDER = 0.25  # spacings by which the box of a part is wider: round-off of surfaces that its faces lie in; our choice
+
+
+def sides(points: np.ndarray, low, high) -> dict[str, np.ndarray]:
+    """Share (P, 3) of each side of a box, from `low` to `high` (d,) [m], in a force on points (P, d) [m], by its
+    components; 0 of points that it is not in front of."""
+    outside = np.stack([points < low, points > high], axis=-1)  # (P, d, end)
+    behind = outside.any(axis=-1)
+    along = np.where(behind, 0.0, 1.0 / np.maximum(behind.sum(axis=1, keepdims=True), 1))
+    found = {}
+    for side, (axis, end) in itertools.islice(SIDES.items(), 2 * points.shape[1]):
+        share = np.zeros((len(points), 3))
+        share[:, : points.shape[1]] = along
+        share[:, axis] = 1.0
+        found[side] = share * outside[:, axis, end, None]
+    return found
+
+
+def within(part, places: np.ndarray, spacing: float) -> np.ndarray:
+    """Share (P, 3) of a part of a case in a force on each of `places` (P, d) [m]: all or nothing."""
+    room = WIDER * spacing
+    inside = ((places >= np.array(part.lower) - room) & (places <= np.array(part.upper) + room)).all(axis=1)
+    return np.repeat(inside[:, None], 3, axis=1) * 1.0
+
+
+def gathered(shares: np.ndarray, places: np.ndarray, pressed: np.ndarray, rubbed: np.ndarray) -> np.ndarray:
+    """(n, 3, 3) of n parts with `shares` (n, W, 3): what presses and what rubs them of forces (W, 3) [N] at `places`
+    (W, 3) [m], and the moment of both about the origin [N m]; of impulses [N s] and [N m s]."""
+    moments = np.cross(places, shares * (pressed + rubbed)).sum(axis=1)
+    return np.stack([(shares * pressed).sum(axis=1), (shares * rubbed).sum(axis=1), moments], axis=1)
+
+
+def told(name: str, matter: str, rubs: str, force: np.ndarray, dimensions: int) -> dict[str, float]:
+    """Columns of the force of a matter on a part: (3, 3) as of `gathered`; `rubs` is what its second row is of."""
+    found, axes = {}, "xyz"[:dimensions]
+    for kind, own in zip(("pressure", rubs), force):
+        found |= {f"{name}_{matter}_{kind}_force_{a}_N": float(value) for a, value in zip(axes, own)}
+    about = zip("xyz", force[2]) if dimensions == 3 else [("z", force[2][2])]
+    return found | {f"{name}_{matter}_moment_{a}_Nm": float(value) for a, value in about}
+
+
+class Pushed:
+    """Impulses [N s] of a matter on named parts, and their moments about the origin [N m s]: since the last row of the
+    history, and since the start; per metre of depth in two dimensions."""
+
+    KEPT = ("sums", "times")  # see sdph.engine.kept
+
+    def __init__(self, matter: str, rubs: str, names, dimensions: int):
+        self.matter, self.rubs, self.names, self.dimensions = matter, rubs, tuple(names), dimensions
+        self.sums, self.times = np.zeros((2, len(self.names), 3, 3)), np.zeros(2)  # times [s]
+
+    def new_row(self) -> None:
+        """Begin anew: the history has a row of now."""
+        self.sums[0], self.times[0] = 0.0, 0.0
+
+    def add(self, given: np.ndarray, dt: float) -> None:
+        """Take what `dt` [s] brought, (n, 3, 3) as of `gathered`."""
+        self.sums += given
+        self.times += dt
+
+    def row(self) -> dict[str, float]:
+        """Means since the last row by column; nan of no time."""
+        return self._means(0)
+
+    def summary(self) -> dict[str, float]:
+        """Means since the start."""
+        return {f"mean_{key}": value for key, value in self._means(1).items()}
+
+    def _means(self, since: int) -> dict[str, float]:
+        time = self.times[since] or np.nan
+        found = {}
+        for name, own in zip(self.names, self.sums[since]):
+            found |= told(name, self.matter, self.rubs, own / time, self.dimensions)
+        return found
