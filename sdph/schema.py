@@ -219,8 +219,13 @@ def _words(value: Any, key: str) -> Any:
     return _typed(value, str, key, "a text")
 
 
+def spelled(unit: str) -> str:
+    """A unit of keys as one writes it: m/s2 of m_s2; 1 of none."""
+    return {"": "1", "Pa_s": "Pa s", "Pa_m6_kg2": "Pa m6/kg2"}.get(unit, unit.replace("_", "/"))
+
+
 def _number(value: Any, key: str, kind: Kind) -> float:
-    unit = kind.unit.replace("_", " ") or "1"
+    unit = spelled(kind.unit)
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise CaseError(f"{key} = {value!r}; it must be a number in {unit}, without the unit")
     if not abs(value) <= sys.float_info.max:  # nan, inf, and whole numbers too long for a float
@@ -273,7 +278,7 @@ def _numbers_of(value: Any) -> list[float]:
 
 def _vector(kind: Kind, value: Any, key: str) -> tuple:
     if not isinstance(value, list):
-        raise CaseError(f"{key} = {value!r}; it must be a list of numbers in {kind.unit.replace('_', ' ') or '1'}")
+        raise CaseError(f"{key} = {value!r}; it must be a list of numbers in {spelled(kind.unit)}")
     if kind.components and (len(value) != kind.components or any(isinstance(v, list) for v in value)):
         raise CaseError(f"{key} = {str(value)[:80]}; it must have {kind.components} components")
     return tuple(

@@ -131,7 +131,8 @@ def explain_case(options) -> int:
     from sdph.study.explain import tables
 
     name, file = scenes.find(options.target)
-    case = vessel.load(file, tuple(options.set))
+    gas = (f'coupling.gas="{options.gas}"',) if options.gas else ()
+    case = vessel.load(file, (*options.set, *gas))
     template = driver.template_of(case, name, file)
     parts = {}
     with compiling.told(_say):

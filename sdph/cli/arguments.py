@@ -35,6 +35,7 @@ def parser() -> argparse.ArgumentParser:
     explain = _command(commands, "explain", "what a case calls for, its limits and its cost, before it runs")
     _case_options(explain)
     _code_option(explain)
+    explain.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: as `run` has it)")
     explain.add_argument(
         "--measure", action="store_true", help="measure what each effect costs on this machine; minutes the first time"
     )

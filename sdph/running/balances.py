@@ -45,5 +45,5 @@ def missed(summary: dict) -> list[str]:
 
 def _remedy(name: str) -> str:
     if name.endswith("numerical_work_rel"):
-        return "shorter steps (run.step_factor below 1) or finer particles lower what explicit steps do"
+        return "shorter steps (run.step_factor below 1) lower what explicit steps do"
     return "something was made or lost; docs/results.md says what the column counts"

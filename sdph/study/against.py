@@ -32,8 +32,9 @@ def compare(folder: Path, against: str) -> list[dict]:
     try:
         checks = function(run)
     except KeyError as error:  # regions, effects and arrays go by the names that the scene gives them
-        lacks = f"{folder} cannot be compared as {run.case.scene}: it has no {error}"
-        raise CaseError(f"{lacks}; compare a run of the scene as it is") from None
+        lacks = f"{folder} cannot be compared as {run.case.scene}: it lacks {error.args[0]}"
+        how = "compare a run of the scene as it is, or one whose case names no scene"
+        raise CaseError(f"{lacks}; {how}") from None
     if not checks:
         raise CaseError(
             f"the run ends at {run.summary['time_s']:g} s, before the first time that its reference tells of; go on "

@@ -87,6 +87,13 @@ def enclosed(case) -> bool:
     return any(region.shape == "walls" for region in case.particles.values()) or bool(own and own.mesh)
 
 
+def slowest(case) -> float:
+    """Slowest gas [m/s] of those that are let in, as far as it goes against gravity; 0 where none does."""
+    up = max(range(case.dimensions), key=lambda a: abs(case.domain.gravity[a]))
+    against = -math.copysign(1.0, case.domain.gravity[up])
+    return max(0.0, min((b.velocity[up] * against for b in case.boundaries.values() if b.velocity), default=0.0))
+
+
 def lie(case, patches) -> bool:
     """True where grains lie on a closed side that gravity points to."""
     axis = max(range(case.dimensions), key=lambda a: abs(case.domain.gravity[a]))

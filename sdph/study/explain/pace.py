@@ -181,16 +181,14 @@ def carried(case, s) -> float:
     weight = 0.0
     if s.gravity and s.patches and ways.lie(case, s.patches):
         height = max(patch.upper[up] - patch.lower[up] for patch in s.patches)
-        weight = density * s.gravity * height * (1.0 - lifted(case, s, up))
+        weight = density * s.gravity * height * (1.0 - lifted(case, s))
     return max(0.5 * density * s.thrown**2, weight)
 
 
-def lifted(case, s, up: int) -> float:
+def lifted(case, s) -> float:
     """Share of the weight that gas carries which is let in against gravity: U/U_mf of the slowest inlet, as a jet
     beside it lifts what lies before it only; Ergun's law is all but linear there."""
-    against = -math.copysign(1.0, case.domain.gravity[up])
-    speeds = [b.velocity[up] * against for b in case.boundaries.values() if b.velocity]
-    return min(1.0, max(0.0, min(speeds, default=0.0)) / s.minimum_fluidisation)
+    return min(1.0, ways.slowest(case) / s.minimum_fluidisation)
 
 
 def packed_by(p, pressure: float) -> float:

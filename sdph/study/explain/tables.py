@@ -8,7 +8,7 @@ from sdph import effects
 from sdph.case import judge
 from sdph.effects.grains import conduction
 from sdph.laws.constants import ADIABATIC, GAS_CONSTANT
-from sdph.methods.grains import start
+from sdph.methods.grains import start, ways
 from sdph.methods.grains.scales import THIN
 from sdph.study.explain import droplets, estimate, liquids, materials, mps, solids
 
@@ -81,12 +81,13 @@ def numbers(s, warm: bool = True) -> list[tuple]:
     sound = math.sqrt(ADIABATIC * GAS_CONSTANT / gas.molar_mass * gas.temperature)
     diffusivity = conduction.conductivity(s.case, s.alpha_p) / (grains.density * grains.heat_capacity)
     peclet = s.speed * s.length / diffusivity if diffusivity else math.inf
-    fed = s.jet / s.minimum_fluidisation if s.jet else 0.0
+    fed, slowest = (speed / s.minimum_fluidisation if speed else 0.0 for speed in (s.jet, ways.slowest(s.case)))
     rows = [
         ("particle Re", s.reynolds, 1.0, "drag is no longer Stokes'", "Clift, Grace & Weber 1978"),
         ("Stokes", s.drag_time * s.slip / s.length, 0.1, "grains leave the gas's path", "Crowe et al. 1998, ch. 2"),
         ("Archimedes", archimedes, 88.5, "grains of Geldart's group B: bubbles from the onset on", "Goossens 1998"),
-        ("U/U_mf", fed, 1.0, "gas that is let in lifts packed grains", "Ergun 1952"),
+        ("U/U_mf", fed, 1.0, "the fastest gas that meets grains lifts packed ones", "Ergun 1952"),
+        ("U/U_mf of the slowest inlet", slowest, 1.0, "gas lifts packed grains beside a jet too", "Ergun 1952"),
         ("Biot", biot, 0.1, "grains are not of one temperature inside", "Incropera, ch. 5.1"),
         ("Mach of the gas", s.slip / sound, 0.3, "gas is compressed by its own motion", "Anderson 2003"),
         ("1/Froude, g t/U", s.gravity * end / s.slip if s.slip else 0.0, 0.01, "gravity matters", "by its definition"),
