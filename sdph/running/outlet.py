@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from sdph.effects.around import outflow
 from sdph.engine import state as particles
 from sdph.engine.table import Table
 from sdph.methods.grains.history import carried
@@ -22,8 +23,9 @@ class Outlet:
 
     def __init__(self, case, path: Path):
         self.case, self.table = case, Table(path)
-        self.arrays = carried(case)
-        self.left, self.sums, self.volume = 0, np.zeros(4), np.zeros(sizing.BINS)
+        self.arrays, self.exits = carried(case), outflow.exits(case)
+        self.left = 0
+        self.sums, self.volume = (np.zeros((len(self.exits), count)) for count in (4, sizing.BINS))
 
     def start(self) -> None:
         """Name the columns, so that a table of none is a table."""
@@ -39,26 +41,40 @@ class Outlet:
 
     def _columns(self, time: float, gone) -> dict[str, list]:
         """Name -> a value a particle; sizes are counted."""
+        way = outflow.through(self.case, gone)
         found = {"time_s": [time] * len(gone.x), "particle": gone.ident.tolist()}
+        found["outlet"] = [self.exits[number] for number in way]
         axes = "xyz"[: self.case.dimensions]
         found |= {f"{a}_m": values.tolist() for a, values in zip(axes, (gone.x, gone.y, gone.z))}
         found |= {f"velocity_{a}_m_s": values.tolist() for a, values in zip(axes, (gone.u, gone.v, gone.w))}
         if "temperature" in self.arrays:
             found["temperature_K"] = gone.temperature.tolist()
         found["mass_kg"] = gone.mass.tolist()
-        return found | (self._sizes(gone) if "diameter" in self.arrays else {})
+        return found | (self._sizes(gone, way) if "diameter" in self.arrays else {})
 
-    def _sizes(self, gone) -> dict[str, list]:
+    def _sizes(self, gone, way) -> dict[str, list]:
+        for number in np.unique(way):
+            part = sizing.census(self.case, particles.take(gone, way == number))
+            self.sums[number] += sizing.sums_of(part)
+            self.volume[number] += part.volume
         own = sizing.census(self.case, gone)
-        self.sums += sizing.sums_of(own)
-        self.volume += own.volume
         deviation = [math.sqrt(max(0.0, square - mean**2)) for mean, square in zip(own.first, own.second)]
         return {"diameter_m": own.first.tolist(), "diameter_std_m": deviation, "count": own.number.tolist()}
 
     def summary(self) -> dict[str, float]:
-        """Number of drops or grains that left, and their diameters."""
+        """Number of drops or grains that left, and their diameters; of each outlet too where they left by several."""
         found = {"outflow_particles": self.left}
         if "diameter" not in self.arrays:
             return found
-        own = sizing.diameters(self.sums, self.volume)
-        return found | {"outflow_count": float(self.sums[0])} | {f"outflow_{key}": own[key] for key in own}
+        found |= _told("outflow", self.sums.sum(axis=0), self.volume.sum(axis=0))
+        used = np.flatnonzero(self.sums[:, 0])
+        for number in used if len(used) > 1 else ():
+            found |= _told(f"outflow_{self.exits[number]}", self.sums[number], self.volume[number])
+        return found
+
+
+def _told(name: str, sums, volume) -> dict[str, float]:
+    """Number and diameters of drops, each key with `name` before it."""
+    return {f"{name}_count": float(sums[0])} | {
+        f"{name}_{key}": value for key, value in sizing.diameters(sums, volume).items()
+    }

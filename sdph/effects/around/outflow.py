@@ -34,18 +34,38 @@ def kernel(case) -> OutflowP:
 def leaving(case, state, foreseen: bool = False) -> np.ndarray:
     """Mask of the grains that are out of the domain through an open side. `foreseen` places are those of grains that no
     wall has turned back yet: only outlets with a side count then."""
-    gone = np.zeros(len(state.x), bool)
-    if not len(gone):
-        return gone
-    places = particles.axes(state)
+    gone, places = np.zeros(len(state.x), bool), particles.axes(state)
+    for side, axis, out in _beyond(case, places):
+        gone |= out & (_outlets if foreseen else _open)(case, side, axis, places)
+    return gone & (state.kind == GRAIN)
+
+
+def exits(case) -> list[str]:
+    """Names of what grains can leave through: pressure outlets on sides, then sides as such, `left_side` and so on."""
+    outlets = [name for name, own in case.boundaries.items() if own.kind == "pressure_outlet" and own.side]
+    return outlets + [f"{side}_side" for pair in PAIRS[: case.dimensions] for side in pair]
+
+
+def through(case, state) -> np.ndarray:
+    """Number among `exits` (N,) of what each of the grains that left went through: an outlet where it is beyond one."""
+    names, places = exits(case), particles.axes(state)
+    found = np.full(len(state.x), -1)
+    for side, axis, out in _beyond(case, places):
+        found[out & (found < 0) & _open(case, side, axis, places)] = names.index(f"{side}_side")
+    for side, axis, out in _beyond(case, places):
+        for name, outlet in _outlets_of(case, side):
+            found[out & _within(outlet, axis, places)] = names.index(name)
+    return found
+
+
+def _beyond(case, places):
+    """(side, its axis, mask (N,) of what is beyond it) of the sides of the domain that something is beyond; who is
+    beyond a periodic one for a moment is on its way round."""
     ends = zip(case.domain.corner, case.domain.upper)
     for axis, (sides, (low, high), period) in enumerate(zip(PAIRS, ends, case.domain.period)):
-        if period:  # who is beyond it for a moment is on its way round
-            continue
         for side, out in zip(sides, (places[axis] < low, places[axis] > high)):
-            if out.any():
-                gone |= out & (_outlets if foreseen else _open)(case, side, axis, places)
-    return gone & (state.kind == GRAIN)
+            if not period and out.any():
+                yield side, axis, out
 
 
 def left(case, state) -> np.ndarray:
@@ -96,13 +116,22 @@ def _open(case, side: str, axis: int, places) -> np.ndarray:
 
 
 def _outlets(case, side: str, axis: int, places) -> np.ndarray:
-    tangential = [place for a, place in enumerate(places) if a != axis]
     found = np.zeros(len(places[0]), bool)
-    for boundary in case.boundaries.values():
-        if boundary.side == side and boundary.kind == "pressure_outlet":
-            spans = _spans(boundary.span, len(tangential))
-            found |= np.logical_and.reduce([(t >= low) & (t <= high) for t, (low, high) in zip(tangential, spans)])
+    for _, outlet in _outlets_of(case, side):
+        found |= _within(outlet, axis, places)
     return found
+
+
+def _outlets_of(case, side: str) -> list:
+    """(name, boundary) of the pressure outlets on a side."""
+    return [(name, b) for name, b in case.boundaries.items() if b.side == side and b.kind == "pressure_outlet"]
+
+
+def _within(boundary, axis: int, places) -> np.ndarray:
+    """Mask (N,) of what is within the span of a boundary whose side is across an axis."""
+    tangential = [place for a, place in enumerate(places) if a != axis]
+    spans = _spans(boundary.span, len(tangential))
+    return np.logical_and.reduce([(t >= low) & (t <= high) for t, (low, high) in zip(tangential, spans)])
 
 
 def _spans(span, count: int):

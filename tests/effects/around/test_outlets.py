@@ -1,0 +1,48 @@
+"""What grains left through: outlets by their names, sides as such, each with the sizes of what went there."""
+
+import pytest
+from builders import simulation
+from test_inflow import SLOT, case, recorded
+
+from sdph.effects.around import outflow
+
+LOW = SLOT | {"speed_m_s": 8.0, "centre_m": [0.0, 0.4], "diameter_mm": 1.0}  # both from the left to the right
+HIGH = LOW | {"centre_m": [0.0, 0.85], "diameter_mm": 2.0}
+OUTLET = {"kind": "pressure_outlet", "pressure_Pa": 0.0, "temperature_K": 300.0, "side": "right"}
+
+
+def run(folder, span):
+    """Two streams to the right, through the outlet where it is, else through the side."""
+    more = {"nozzles": {"low": LOW, "high": HIGH}, "boundaries": {"chimney": OUTLET | {"span_m": span}}}
+    done = simulation(case(SLOT, **more), folder, cells=(4, 4))
+    while done.time < 0.2:
+        done.window()
+    return done
+
+
+def test_each_outlet_has_its_own(tmp_path):
+    done = run(tmp_path, [0.0, 0.6])
+    gone, told = recorded(done, tmp_path), done.outlet.summary()
+    low = gone["y_m"] < 0.6
+    assert set(gone["outlet"][low]) == {"chimney"} and set(gone["outlet"][~low]) == {"right_side"}
+    assert told["outflow_chimney_D10_m"] == pytest.approx(1e-3)
+    assert told["outflow_right_side_D32_m"] == pytest.approx(2e-3)
+    counts = [told[f"outflow_{name}_count"] for name in ("chimney", "right_side")]
+    assert sum(counts) == pytest.approx(told["outflow_count"], rel=1e-12) and min(counts) > 0.0
+    assert counts[0] == pytest.approx(gone["count"][low].sum(), rel=1e-12)
+    assert 1e-3 < told["outflow_D10_m"] < 2e-3 and "outflow_left_side_count" not in told
+
+
+def test_who_misses_an_outlet_leaves_by_its_side(tmp_path):
+    done = run(tmp_path, [0.3, 0.4])
+    gone = recorded(done, tmp_path)
+    within = (gone["y_m"] >= 0.3) & (gone["y_m"] <= 0.4)
+    assert within.any() and all((gone["outlet"] == "chimney") == within)
+    assert outflow.exits(done.case) == ["chimney", "left_side", "right_side", "bottom_side", "top_side"]
+
+
+def test_where_all_leave_by_one_it_is_not_told_twice(tmp_path):
+    done = simulation(case(LOW), tmp_path, cells=(4, 4))
+    while done.time < 0.3:
+        done.window()
+    assert not [key for key in done.outlet.summary() if "side" in key]
