@@ -15,6 +15,7 @@ from sdph.show.style import Scale, digits
 ARROWS = 24  # along the longer side; our choice
 LONG = 1.15  # of their distance: arrows as long as that stand for the fastest
 EDGE = "#a0a0a0c0"  # colour of the line around particles in a gas
+WIDE = 3.0  # spacings: lone particles and gaps that are smaller have no line around them; our choice
 FASTEST = 0.98  # quantile of the speeds that is drawn so long: a few fast ones would shrink all others; our choice
 
 
@@ -26,8 +27,9 @@ def draw(shot: Shot, look: Look, scale: Scale, field: str, last: float, fine: in
     grid = raster.pixels(shot, int(fine * max(sheet.own) * DPI))
     colours, covered, light = _painted(shot, grid, field, scale, look)
     sheet.axes.imshow(colours, extent=grid.edges, origin="lower", interpolation="antialiased", aspect="auto")
-    if shot.gas is not None and covered.any():  # of one colour both could not be told apart
-        sheet.axes.contour(*_ticks(grid), covered.astype(float), [0.5], colors=[EDGE], linewidths=0.8)
+    bulk = raster.bulk(covered, (WIDE * shot.spacing) ** 2 / np.prod(grid.step))
+    if shot.gas is not None and bulk.any() and not bulk.all():  # of one colour both could not be told apart
+        sheet.axes.contour(*_ticks(grid), bulk.astype(float), [0.5], colors=[EDGE], linewidths=0.8)
     if light.any():
         _line(sheet, grid, raster.surface(shot, grid), sampled.INSIDE)
     if shot.walls is not None:

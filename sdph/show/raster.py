@@ -75,7 +75,7 @@ def _nearest(shot: Shot, grid: Pixels) -> tuple[np.ndarray, np.ndarray]:
     from scipy.ndimage import distance_transform_edt
     from scipy.spatial import cKDTree
 
-    places, sizes = np.asarray(shot.particles.points), shot.sizes()
+    places, sizes = np.asarray(shot.particles.points), shot.drawn()
     seen = np.flatnonzero(np.abs(places[:, shot.across] - shot.level) <= 0.5 * shot.spacing) if len(places) else []
     if not len(seen):
         return np.zeros(grid.shape, bool), np.zeros(grid.shape, int)
@@ -87,6 +87,18 @@ def _nearest(shot: Shot, grid: Pixels) -> tuple[np.ndarray, np.ndarray]:
     if covered.all():
         return covered, number
     return distance_transform_edt(covered, grid.step) > CLOSED * sizes[number], number
+
+
+def bulk(covered: np.ndarray, least: float) -> np.ndarray:
+    """A mask (rows, columns) without its islands, and then without its gaps, of fewer than `least` pixels."""
+    from scipy.ndimage import label
+
+    for part in (True, False):
+        numbered, _ = label(covered == part)
+        small = np.bincount(numbered.ravel()) < least
+        small[0] = False  # of the other part
+        covered = covered ^ small[numbered]
+    return covered
 
 
 def _smooth(shot: Shot, grid: Pixels, values, found, near) -> tuple[np.ndarray, np.ndarray]:

@@ -14,6 +14,10 @@ from sdph.schema import CaseError
 from sdph.show import style, timeline
 
 SLAB = 0.25  # of the next longer side: a gas box so thin is looked at across, as a picture of two dimensions
+THIN, DOT = (
+    0.01,
+    0.3,
+)  # alpha_p below which droplets of a nozzle are dots, so large over what else they would be; our choice
 MARGIN = 0.04  # of its longest side, around particles that have neither gas nor walls around them; our choice
 
 
@@ -65,6 +69,13 @@ class Shot:
             return np.full(self.particles.n_points, self.spacing)
         edge = (np.asarray(data["mass"]) / np.asarray(data["density"])) ** (1.0 / self.dimensions)
         return np.minimum(edge, self.spacing)
+
+    def drawn(self) -> np.ndarray:
+        """The same as flat pictures draw it: of a thin spray dots, between which the gas is seen."""
+        sizes, own = self.sizes(), self.case.grains if self.case else None
+        if not own or not self.case.nozzles or "density" not in self.particles.point_data:
+            return sizes
+        return np.where(np.asarray(self.particles.point_data["density"]) < THIN * own.density, DOT, 1.0) * sizes
 
     def light(self) -> np.ndarray:
         """(N,) mask of the particles of a gas beside a liquid."""

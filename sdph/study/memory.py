@@ -74,7 +74,7 @@ def _around(case, region) -> float:
 def _waiting(case, nozzle) -> float:
     """Particles upstream of a nozzle, made for the longest window there can be."""
     depth = DEPTH * case.smoothing_length + nozzle.speed * case.coupling.window_largest
-    return estimate.mouth(case, nozzle) * depth / case.resolution.spacing**case.dimensions
+    return nozzle.size_classes * estimate.mouth(case, nozzle) * depth / case.resolution.spacing**case.dimensions
 
 
 def _looked_at(case) -> float:

@@ -266,7 +266,8 @@ def _incoming(case) -> int:
     coming = 0.0
     for nozzle in case.nozzles.values():
         lasting = max(0.0, min(nozzle.end or case.run.end_time, case.run.end_time) - nozzle.start)
-        coming += mouth(case, nozzle) * nozzle.speed * lasting / case.resolution.spacing**case.dimensions
+        layer = nozzle.size_classes * mouth(case, nozzle) / case.resolution.spacing ** (case.dimensions - 1)
+        coming += layer * nozzle.speed * lasting / case.resolution.spacing
     return math.ceil(coming)
 
 

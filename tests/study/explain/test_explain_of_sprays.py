@@ -5,6 +5,7 @@ import pytest
 from sdph import scenes
 from sdph.case import judge
 from sdph.case import read as cases
+from sdph.study.explain import estimate
 
 
 def case_of(scene, *more):
@@ -30,3 +31,12 @@ def test_a_thin_spray_has_no_shocks_and_a_dense_jet_has():
     assert scales.collides and scales.free_path > 0.1 * thin.smoothing_length  # told of shocks by its volume fraction
     assert not [text for text in judge.missing(thin) if "artificial_viscosity" in text]
     assert judge.judgements(case_of("evaporating_jet"))["artificial_viscosity"].error_if_off > 0.05
+
+
+def test_classes_of_sizes_are_particles_each():
+    """Five at each place of the mouth: five times as many in the end, and as many more that wait upstream."""
+    (name,) = case_of("spray_cone").nozzles
+    wide = f"nozzles.{name}.diameter_std_mm=0.01"
+    one, five = (case_of("spray_cone", wide, f"nozzles.{name}.size_classes={number}") for number in (1, 5))
+    counts = [estimate.expected(case, judge.scales_of(case))[0]["value"] for case in (one, five)]
+    assert counts[1] == pytest.approx(5.0 * counts[0], rel=0.01)
