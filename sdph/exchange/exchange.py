@@ -35,7 +35,7 @@ from sdph.exchange.amounts import Handed, Taken
 from sdph.exchange.cells import Cells, capacity_of
 from sdph.exchange.equations import Seen, temperature_span, vapour_concentration
 from sdph.exchange.vapour import Vapour
-from sdph.exchange.window import settling
+from sdph.exchange.window import held, settling
 
 
 class Exchange:
@@ -269,18 +269,14 @@ class Exchange:
         return cooled
 
     def grip(self, state, damping) -> float:
-        """Rate [1/s], mean by mass, at which gas that cannot give way stops grains beyond drag; damping (N,) [1/s].
-
-        With alpha_g v_g + alpha_p v_p given, drag and pressure gradient together are beta/alpha_g^2 v_p, so that grains
-        stop at the rate beta/(alpha_g^2 alpha_p rho_p); drag alone, beta/(alpha_p rho_p), is exact over a window. 0
-        where the gas does not feel the volume of the grains.
-        """
+        """Rate [1/s], mean by mass, at which gas that a window holds stops grains (`sdph.exchange.window.held`);
+        damping (N,) [1/s]. 0 where the gas does not feel the volume of the grains."""
         mass = state.mass * (state.kind == GRAIN)
         if not self.parameters["gas_pressure"] or self.case.coupling.one_way or not mass.any():
             return 0.0
         own = by_material(state.grain_density, self.case.grains.density)
         alpha_p = np.minimum(state.density / own, self.case.grains.packing_limit)
-        return float(np.average(damping * ((1.0 - alpha_p) ** -2 - 1.0), weights=mass))
+        return float(np.average(damping * held(alpha_p, self.case.gas.density / own), weights=mass))
 
     def settling(self, state, damping, own, slip) -> float:
         """Longest window [s] in which grains drift right, by means of theirs by mass (`sdph.exchange.window.settling`):

@@ -24,6 +24,8 @@ VAPOUR = 0.1
 # of the time in which gas that gives way stops grains beyond what their own drag does, most that it may be held: a bed
 # then slows at a rate that is up to half of that, 5 %, too high, whatever its volume fraction; our choice
 GRIP = 0.1
+# gas that is pushed aside answers an acceleration a by r (2 a - a_before), a window later: at most so much of r a
+ANSWER = 3.0
 # limit -> what a user can change about it
 KEYS = {
     "largest": "coupling.window_largest_s", "heat exchange": "coupling.window_tolerance", "courant": "coupling.courant",
@@ -31,6 +33,17 @@ KEYS = {
     "settling": "run.accuracy",
     "contact": "liquid.sound_speed_m_s, whose square is the stiffness of contacts",
 }  # fmt: skip
+
+
+def held(alpha_p, ratio):
+    """Share of drag's rate beta/(alpha_p rho_p) that is of gas which a window holds, `ratio` being rho_g/rho_p.
+
+    With alpha_g v_g + alpha_p v_p given, drag and pressure gradient together are beta/alpha_g^2 v_p: grains that move
+    as one stop at the rate beta/(alpha_g^2 alpha_p rho_p). Drag alone is exact over a window, the rest is held; so is
+    the answer of the gas that is pushed aside, r = alpha_p rho_g/(alpha_g rho_p) times their inertia, to drag itself.
+    """
+    alpha_g = 1.0 - alpha_p
+    return alpha_g**-2 - 1.0 + ANSWER * ratio * alpha_p / alpha_g
 
 
 class Control:

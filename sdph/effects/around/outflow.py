@@ -61,6 +61,8 @@ def through(case, state) -> np.ndarray:
 def _beyond(case, places):
     """(side, its axis, mask (N,) of what is beyond it) of the sides of the domain that something is beyond; who is
     beyond a periodic one for a moment is on its way round."""
+    if not len(places[0]):
+        return
     ends = zip(case.domain.corner, case.domain.upper)
     for axis, (sides, (low, high), period) in enumerate(zip(PAIRS, ends, case.domain.period)):
         for side, out in zip(sides, (places[axis] < low, places[axis] > high)):

@@ -15,7 +15,7 @@ from sdph.case.judge import scales_of
 from sdph.effects.gas.drag import filter_width
 from sdph.engine import device as environment
 from sdph.engine import state as particles
-from sdph.exchange.window import opening
+from sdph.exchange.window import ANSWER, opening
 from sdph.laws import kernels
 from sdph.methods.grains import start
 from sdph.methods.grains.sound import SWING
@@ -48,7 +48,7 @@ GRAINS_WHY = (
 )
 # of pushed_aside, r. What a window hands to the grains is the pressure gradient of gas that made way, in the window
 # before, to where they would be without it: a_next = -r (2 a - a_before), bounded up to this r.
-ADDED_MASS = 1.0 / 3.0
+ADDED_MASS = 1.0 / ANSWER
 ADDED_MASS_WHY = (
     "the gas that light grains push aside swings them by its pressure gradient, each window further than the one "
     "before, however short; make the grains heavier, or leave out gas_pressure"

@@ -19,7 +19,7 @@ import numpy as np
 from sdph import effects
 from sdph.effects.grains import friction, granular_pressure
 from sdph.engine.clock import count_of_parts
-from sdph.exchange.window import GRIP, Window, settling, smallest_cell
+from sdph.exchange.window import GRIP, Window, held, settling, smallest_cell
 from sdph.laws import drag
 from sdph.methods.grains import ways
 from sdph.methods.grains.method import limits as limits_of_step
@@ -137,8 +137,8 @@ def grip(case, s) -> float:
     carrying = s.minimum_fluidisation / (1.0 - s.capped)
     slip = s.slip if math.isnan(carrying) else min(s.slip, carrying)
     rate = drag.gidaspow(s.alpha_p, slip, s.grains.diameter, s.gas.density, s.gas.viscosity) / s.grains.density
-    held = rate * ((1.0 - s.capped) ** -2 - 1.0)
-    return GRIP / held if held else math.inf
+    rate *= held(s.capped, s.gas.density / s.grains.density)
+    return GRIP / rate if rate else math.inf
 
 
 def sub_steps(case, s, state) -> dict[str, float]:
