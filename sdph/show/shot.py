@@ -71,7 +71,7 @@ class Shot:
         return np.minimum(edge, self.spacing)
 
     def drawn(self) -> np.ndarray:
-        """The same as flat pictures draw it: of a thin spray dots, between which the gas is seen."""
+        """The same as pictures draw it: of a thin spray dots, between which the gas is seen."""
         sizes, own = self.sizes(), self.case.grains if self.case else None
         if not own or not self.case.nozzles or "density" not in self.particles.point_data:
             return sizes

@@ -197,7 +197,7 @@ def _liquid(plotter, shot: Shot, liquid, scale, field: str, theme) -> None:
 
 
 def _balls(plotter, shot: Shot, drawn, scale, field: str, theme) -> None:
-    """Particles as balls of their size."""
+    """Particles as balls of their size, droplets of a thin spray smaller."""
     if not drawn.any():
         return
     import pyvista
@@ -206,7 +206,7 @@ def _balls(plotter, shot: Shot, drawn, scale, field: str, theme) -> None:
 
     data = shot.particles.point_data
     cloud = pyvista.PolyData(np.asarray(shot.particles.points)[drawn])
-    radii = (BALL if shot.dimensions == 3 else DISC) * shot.sizes()[drawn]
+    radii = (BALL if shot.dimensions == 3 else DISC) * shot.drawn()[drawn]
     cloud["radius"] = radii.astype(np.float32)  # VTK ends the process with doubles
     values = numbers(data[field])[drawn] if field in data else np.full(cloud.n_points, np.nan)
     cloud["colour"] = np.round(255.0 * coloured(values, scale, theme)).astype(np.uint8)
