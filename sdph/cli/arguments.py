@@ -43,7 +43,7 @@ def parser() -> argparse.ArgumentParser:
     warm.add_argument("target", nargs="*", help="scenes, case folders or case files (default: all scenes)")
     warm.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: openfoam where it is)")
     _workers(warm, "cases")
-    bench = _command(commands, "bench", "main ratios of speed on this machine, beside those on ours: three minutes")
+    bench = _command(commands, "bench", "main ratios of speed on this machine, beside those on ours: a minute or two")
     bench.add_argument("--json", action="store_true", help="print them as JSON")
     _study(commands)
     _sweep(commands)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+from typing import NamedTuple
 
 import numpy as np
 from numba import prange
@@ -16,8 +17,17 @@ from sdph.laws.compiled import parallel
 from sdph.laws.exchange import exponential_fraction
 
 # K, least difference of temperatures that the length of a window takes a case to have: where there is none, drag warms
-# gas and grains by some mK, and that need not be resolved to a thousandth; our choice
+# gas and grains by some mK, and that need not be resolved; `coupling.window_tolerance` of it is 0.01 K; our choice
 LEAST_SPAN = 10.0
+
+
+class Around(NamedTuple):
+    """The gas around N particles: its velocity from theirs (N, 3), slip [m/s], density [kg/m3], temperature [K]."""
+
+    apart: np.ndarray
+    slip: np.ndarray
+    density: np.ndarray
+    temperature: np.ndarray
 
 
 class Seen:
@@ -32,6 +42,11 @@ class Seen:
         self.apart = velocity - self.own
         self.slip = particles.lengths(self.apart)
         self.fields = {name: gather(weights, gas_state.fields[name]) for name in fields}
+
+    @property
+    def around(self) -> Around:
+        """The same for loops."""
+        return Around(self.apart, self.slip, self.density, self.temperature)
 
     def stirred(self, eddies) -> Seen:
         """The same with the velocity of eddies (N, 3) [m/s] on top of the gas's."""
@@ -55,22 +70,23 @@ def temperature_span(case) -> float:
 
 @parallel
 def rates(
-    drag_p, heat_p, radiation_p, lift_p, film_p, sizes_p, s, grain_density, apart, slip, gas_density, gas_temperature,
-    vorticity, convection, conductance, damping, force,
+    drag_p, heat_p, radiation_p, lift_p, film_p, sizes_p, s, grain_density, around, vorticity, convection, conductance,
+    damping, force,
 ):  # fmt: skip
-    """Rates of every particle as it is: heat to the gas per kelvin [W/K], by convection and in all, beta/(alpha_p
-    rho_p) [1/s], and force of the gas that is held (N, 3) [N], where an effect makes one."""
+    """Rates of every particle as it is, in the gas `around`: heat to it per kelvin [W/K], by convection and in all,
+    beta/(alpha_p rho_p) [1/s], and force of the gas that is held (N, 3) [N], where an effect makes one."""
     for i in prange(len(s.x)):
         convection[i] = conductance[i] = damping[i] = 0.0
         if s.kind[i] == GRAIN:
             alpha_p = s.density[i] / (s.grain_density[i] if len(s.grain_density) else grain_density)
-            r = film.ratio(film_p, s, i, gas_temperature[i])
-            around = gas_density[i] * (r * r)
-            convection[i] = heat.conductance(heat_p, sizes_p, s, i, alpha_p, slip[i], around) / r
-            conductance[i] = convection[i] + radiation.conductance(radiation_p, sizes_p, s, i, gas_temperature[i])
-            damping[i] = drag.damping(drag_p, sizes_p, s, i, alpha_p, slip[i], around) / r
+            temperature, slip = around.temperature[i], around.slip[i]
+            r = film.ratio(film_p, s, i, temperature)
+            density = around.density[i] * (r * r)
+            convection[i] = heat.conductance(heat_p, sizes_p, s, i, alpha_p, slip, density) / r
+            conductance[i] = convection[i] + radiation.conductance(radiation_p, sizes_p, s, i, temperature)
+            damping[i] = drag.damping(drag_p, sizes_p, s, i, alpha_p, slip, density) / r
             if len(force):
-                x, y, z = lift.force(lift_p, sizes_p, s, i, apart, slip[i], vorticity, gas_density[i])
+                x, y, z = lift.force(lift_p, sizes_p, s, i, around.apart, slip, vorticity, around.density[i])
                 force[i, 0] += x
                 force[i, 1] += y
                 force[i, 2] += z

@@ -120,7 +120,7 @@ class Exchange:
         found = *(np.empty(count) for _ in range(3)), np.zeros((count if self.holds else 0, 3))
         equations.rates(
             p["drag"], p["heat"], p["radiation"], p["lift"], self.film_p, self.sizes_p, state, self.case.grains.density,
-            seen.apart, seen.slip, seen.density, seen.temperature, vorticity, *found,
+            seen.around, vorticity, *found,
         )  # fmt: skip
         return found
 

@@ -123,6 +123,8 @@ def test_unknown_key_names_the_nearest(override, named):
         (("coupling.one_way='yes'",), ("coupling.one_way", "true or false")),
         (("coupling.transport='pigeon'",), ("coupling.transport", "pigeon", "socket, file")),
         (("domain.size_m=0.5",), ("domain.size_m", "list of numbers in m")),
+        (("domain.gravity_m_s2=-9.81",), ("domain.gravity_m_s2", "list of numbers in m/s2")),
+        (("gas.viscosity_Pa_s='thin'",), ("gas.viscosity_Pa_s", "number in Pa s")),
         (("domain.size_m=[0.5]",), ("domain.size_m", "1 components", "2")),
         (("domain.gravity_m_s2=[]",), ("domain.gravity_m_s2", "0 components", "2")),
         (("probes.centre.at_m=[0.1,0.1,0.1]",), ("probes.centre.at_m", "3 components", "2")),

@@ -53,7 +53,7 @@ def through(case, state) -> np.ndarray:
     for side, axis, out in _beyond(case, places):
         found[out & (found < 0) & _open(case, side, axis, places)] = names.index(f"{side}_side")
     for side, axis, out in _beyond(case, places):
-        for name, outlet in _outlets_of(case, side):
+        for name, outlet in outlets_of(case, side):
             found[out & _within(outlet, axis, places)] = names.index(name)
     return found
 
@@ -119,12 +119,12 @@ def _open(case, side: str, axis: int, places) -> np.ndarray:
 
 def _outlets(case, side: str, axis: int, places) -> np.ndarray:
     found = np.zeros(len(places[0]), bool)
-    for _, outlet in _outlets_of(case, side):
+    for _, outlet in outlets_of(case, side):
         found |= _within(outlet, axis, places)
     return found
 
 
-def _outlets_of(case, side: str) -> list:
+def outlets_of(case, side: str) -> list:
     """(name, boundary) of the pressure outlets on a side."""
     return [(name, b) for name, b in case.boundaries.items() if b.side == side and b.kind == "pressure_outlet"]
 

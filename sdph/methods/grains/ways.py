@@ -7,6 +7,7 @@ import itertools
 import math
 from typing import NamedTuple
 
+from sdph.effects.around.outflow import outlets_of
 from sdph.engine.geometry import PAIRS
 
 CAVITY = 4.2  # a stream past a cavity of width w fades in it as exp(-4.2 y/w): Moffatt 1964, J. Fluid Mech. 18, 1
@@ -51,7 +52,7 @@ def reach(s, out: bool) -> Reach:
     found, spacing = [Reach(0.0, 0.0)], s.case.resolution.spacing
     within = not out and enclosed(s.case)
     for patch, axis, side, room, outward in _sides(s):
-        if within or (outlets(s.case, side) if out else not opened(s.case, side)):
+        if within or (outlets_of(s.case, side) if out else not opened(s.case, side)):
             way = towards(s, patch, axis, outward)
             found.append(Reach(way, way / max(0.0 if within else room, 0.5 * spacing)))
     return max(found, key=lambda row: row.over_gap)
@@ -89,28 +90,28 @@ def enclosed(case) -> bool:
 
 def slowest(case) -> float:
     """Slowest gas [m/s] of those that are let in, as far as it goes against gravity; 0 where none does."""
-    up = max(range(case.dimensions), key=lambda a: abs(case.domain.gravity[a]))
+    up = upright(case)
     against = -math.copysign(1.0, case.domain.gravity[up])
     return max(0.0, min((b.velocity[up] * against for b in case.boundaries.values() if b.velocity), default=0.0))
 
 
 def lie(case, patches) -> bool:
     """True where grains lie on a closed side that gravity points to."""
-    axis = max(range(case.dimensions), key=lambda a: abs(case.domain.gravity[a]))
+    axis = upright(case)
     end = int(case.domain.gravity[axis] > 0.0)
     low, high = case.domain.corner[axis], case.domain.upper[axis]
     rooms = [high - patch.upper[axis] if end else patch.lower[axis] - low for patch in patches]
     return not opened(case, PAIRS[axis][end]) and min(rooms, default=math.inf) < case.resolution.spacing
 
 
-def outlets(case, side: str) -> list:
-    """Pressure outlets on a side."""
-    return [b for b in case.boundaries.values() if b.side == side and b.kind == "pressure_outlet"]
+def upright(case) -> int:
+    """The axis that gravity pulls along most."""
+    return max(range(case.dimensions), key=lambda a: abs(case.domain.gravity[a]))
 
 
 def opened(case, side: str) -> bool:
     """True where the whole of a side is a pressure outlet."""
-    return any(b.span is None for b in outlets(case, side))
+    return any(outlet.span is None for _, outlet in outlets_of(case, side))
 
 
 def towards(s, patch, axis: int, outward: float) -> float:

@@ -177,7 +177,7 @@ def stiffness(case, s) -> tuple[float, float]:
 def carried(case, s) -> float:
     """Pressure [Pa] that lasting contacts carry: the weight of grains on a floor that gas from below does not, or the
     dynamic pressure (Bernoulli's) of those that are thrown."""
-    density, up = s.alpha_p * s.grains.density, max(range(case.dimensions), key=lambda a: abs(case.domain.gravity[a]))
+    density, up = s.alpha_p * s.grains.density, ways.upright(case)
     weight = 0.0
     if s.gravity and s.patches and ways.lie(case, s.patches):
         height = max(patch.upper[up] - patch.lower[up] for patch in s.patches)

@@ -7,6 +7,7 @@ from builders import DISC, simulation
 from sdph import effects, scenes
 from sdph.case import judge
 from sdph.case import read as cases
+from sdph.cli import main
 from sdph.methods.grains.scales import Scales
 from sdph.study.explain import estimate, tables
 
@@ -191,3 +192,18 @@ def test_auto_holds_what_the_scenes_were_given_by_hand(scene):
     judged = judge.judgements(case)
     assert set(auto.effects) <= set(case.effects)
     assert all(judged[name].error_if_off <= case.run.accuracy for name in set(case.effects) - set(auto.effects))
+
+
+def test_the_gas_that_is_asked_for_is_rehearsed(capsys):
+    """`--gas embedded` refuses what a run on the embedded gas would, and prices it."""
+    own = ("explain", "bubbling_bed", "--gas", "embedded")
+    assert main([*own, "--set", "boundaries.jet.span_m=[0.123,0.3]"]) == 2
+    assert "no edge of a gas cell" in capsys.readouterr().err
+    assert main([*own]) == 0 and "embedded gas, warm" in capsys.readouterr().out
+
+
+def test_the_slowest_inlet_is_told_beside_a_jet():
+    """A jet of 10 m/s beside a distributor of 0.08 m/s; U_mf is 0.086 m/s (Ergun, alpha_p = 0.6)."""
+    found = rows_by(tables.explain(cases.load(BED))["numbers"], "number")
+    assert found["U/U_mf"]["value"] > 50.0
+    assert found["U/U_mf of the slowest inlet"]["value"] == pytest.approx(0.08 / 0.086, rel=0.1)
