@@ -162,12 +162,6 @@ def table(found: list[Row]) -> str:
 
 
 def record(found: list[Row]) -> dict:
-    """The same for a program: {"rows": [{"name", "what", "value", "ours"}, ...]}; null where nothing was measured."""
-    known = ours()["values"]
-    keys = ("name", "what", "value", "ours")
-    return {
-        "rows": [
-            dict(zip(keys, (row.key, row.what, None if math.isnan(row.value) else row.value, known[row.key])))
-            for row in found
-        ]
-    }
+    """The same for a program: {"rows": [{"name", "what", "value", "ours"}, ...]}; nan where nothing was measured."""
+    known, keys = ours()["values"], ("name", "what", "value", "ours")
+    return {"rows": [dict(zip(keys, (row.key, row.what, row.value, known[row.key]))) for row in found]}

@@ -43,3 +43,7 @@ def test_the_least_of_several_counts(monkeypatch):
     spent = iter([[3.0, 1.0], [2.0, 5.0], [4.0, 4.0], [0.0, 0.0]])
     monkeypatch.setattr(bench, "SECONDS", 0.0)
     assert list(bench.least(lambda: next(spent))) == [2.0, 1.0]
+    clock, spent = iter(range(100)), iter([[3.0], [3.0], [3.0], [2.0], [1.0], [0.0]])
+    monkeypatch.setattr(bench.time, "monotonic", lambda: next(clock))
+    monkeypatch.setattr(bench, "SECONDS", 2.5)  # told after the third, the fourth and the fifth
+    assert list(bench.least(lambda: next(spent))) == [1.0]
