@@ -32,6 +32,8 @@ class Run:
     forces: tuple = words(())  # names of sdph.case.forces, on which history.csv and the summary have forces
     checkpoint_interval: float = quantity("s", 600.0, above=0.0)  # of wall time; our choice
     checkpoint_windows: int | None = whole(None, least=1)  # and after so many windows, where it is given
+    # what starts the processes of `--ranks N`, which it is told by -n N: "srun", "mpirun --hostfile hosts"; mpirun
+    launcher: str = words("")
 
 
 @record

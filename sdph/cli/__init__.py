@@ -15,6 +15,7 @@ from sdph.cli.arguments import parser
 from sdph.cli.sweeping import sweep
 from sdph.schema import CaseError
 
+MARK = "SDPH_RANKS"  # as sdph.engine.world has it
 FINE, CHECK_FAILED, BAD_INPUT, GAS_FAILED, CANNOT_WRITE, WENT_UNSTABLE = 0, 1, 2, 3, 4, 5
 
 
@@ -58,6 +59,12 @@ def _failed(message, code: int) -> int:
     from sdph.engine.reading import one_line
 
     text = " ".join([str(message), *getattr(message, "__notes__", ())])
+    if MARK in os.environ:
+        from sdph.running import ranks
+
+        ranks.wait_for_the_first()
+        print(f"sdph: {one_line(text)}", file=sys.stderr)
+        ranks.end(code)
     print(f"sdph: {one_line(text)}", file=sys.stderr)
     return code
 
@@ -73,16 +80,22 @@ def list_scenes(options) -> int:
 def run(options) -> int:
     from sdph import scenes
     from sdph.api import launch
-    from sdph.running import driver, output, vessel
+    from sdph.engine import world
+    from sdph.running import driver, output, ranks, vessel
     from sdph.running.progress import Reporter
     from sdph.show import watch
     from sdph.study.cost import choice
 
-    overrides = tuple(options.set) + _overrides(options)
-    with contextlib.closing(Reporter(line=not options.json)) as reporter:
+    overrides, here = tuple(options.set) + _overrides(options), world.here()
+    several = options.ranks and options.ranks > 1
+    if several:
+        _refuse(options, ("watch",), "a page is of one process")
+    with contextlib.closing(Reporter(quiet=not here.chief, line=not options.json)) as reporter:
         if options.resume:
             folder = options.resume
             _refuse(options, ("out", "accuracy"), "--resume goes on with a run as it was begun")
+            if several:
+                return ranks.resume(folder, options.ranks, overrides, _handed(options, overrides))
             reporter.page = watch.Page(folder) if options.watch else None
             summary = driver.resume(folder, overrides, reporter, allow_code=options.allow_code)
         else:
@@ -95,10 +108,18 @@ def run(options) -> int:
             for warning in launch.looked_at(case, template, allow_code=options.allow_code):
                 reporter.status(f"warning: {warning}")
             folder = options.out or output.free_name(Path("runs") / name)
+            if several:
+                return ranks.run(case, folder, options.ranks, _handed(options, ()))
             reporter.page = watch.Page(folder) if options.watch else None
             summary = driver.run(case, name, folder, template, reporter, allow_code=options.allow_code)
-    print(output.strict_json(summary) if options.json else f"{_table(summary)}\nrun folder: {folder}")
+    if here.chief:
+        print(output.strict_json(summary) if options.json else f"{_table(summary)}\nrun folder: {folder}")
     return FINE
+
+
+def _handed(options, overrides: tuple[str, ...]) -> list[str]:
+    """Options of the processes that share a run."""
+    return [part for value in overrides for part in ("--set", value)] + ["--json"] * options.json
 
 
 def _refuse(options, names, why: str) -> None:

@@ -31,7 +31,9 @@ FORMAT = 9  # of the files of a checkpoint
 FOLDER = "checkpoints"
 LASTING = 2  # checkpoints that are kept, so that there is one when the newest is damaged
 # keys that may change between the parts of a run
-FREE = ("run.end_time_s", "run.output_interval_s", "run.checkpoint_interval_s", "run.checkpoint_windows")
+FREE = (
+    "run.end_time_s", "run.output_interval_s", "run.checkpoint_interval_s", "run.checkpoint_windows", "run.launcher",
+)  # fmt: skip
 # in a run folder, what a run that goes on writes into
 WRITTEN = ("fields", "gas", "ledger.csv", "history.csv", "metrics.csv")
 MANIFEST, NUMBERS, ARRAYS, GAS = "manifest.json", "numbers.json", "arrays.npz", "gas"

@@ -16,9 +16,11 @@ from numba import prange
 from sdph.engine import motion
 from sdph.engine import state as particles
 from sdph.engine.cells import Grid, halves, order, span, starts, turned
+from sdph.engine.domain import Domain
 from sdph.engine.geometry import OPEN, OPEN_PLANE, box_of, nearest_image
 from sdph.engine.kept import Many
 from sdph.engine.state import WALL
+from sdph.engine.world import ALONE
 from sdph.laws.compiled import inlined, parallel, serial
 
 SKIN = 0.1  # of the reach; our choice: 0.2 h measured best (about 5-8 steps per list), and the reach is 2 h
@@ -42,7 +44,7 @@ class Neighbours:
 
     KEPT, FORMS = ("built",), {"built": Many(np.zeros(0))}  # see sdph.engine.kept
 
-    def __init__(self, reach: float, period=(OPEN, OPEN, OPEN), skin: float = SKIN):
+    def __init__(self, reach: float, period=(OPEN, OPEN, OPEN), skin: float = SKIN, world=ALONE):
         if any(0.0 < length < 2.0 * reach for length in period):
             raise ValueError(
                 f"periods {tuple(period)} m: a periodic box must be at least two reaches ({2.0 * reach:g} m) wide, or "
@@ -50,27 +52,35 @@ class Neighbours:
             )
         self.reach, self.skin = reach, skin
         self.period = np.array([*period, OPEN][:3])
+        self.world, self.domain = world, Domain(world, reach * (1.0 + skin), self.period)
         self.box = OPEN_PLANE  # of the particles that rows were last made for
         self.built = ()  # positions at the last build
         self.room = np.empty(0, np.uint32)
 
     def update(self, state):
         """The state (reordered where the list had to be rebuilt) and its rows."""
-        here = particles.axes(state)
-        if self._holds(here):
+        if not self.world.any(not self._holds(particles.axes(state))):
             return state, self.rows
-        for axis, period in zip(here, self.period):
+        for axis, period in zip(particles.axes(state), self.period):
             if period:
                 np.mod(axis, period, out=axis)
-        grid = self._grid(here)
-        state = particles.take(state, order(halves(grid, *three(here), state.kind == WALL), 2 * int(grid.shape.prod())))
+        state = self.domain.share(state)
+        rows = self.by_cell(particles.axes(state), state.kind == WALL)
+        self.domain.sort(rows)
+        state = particles.take(state, rows)
         self.built = tuple(axis.copy() for axis in particles.axes(state))
         return state, self.relist(state.kind)
+
+    def by_cell(self, here, solid) -> np.ndarray:
+        """Rows of the places `here` cell by cell, in each of them those of `solid` (N,) last."""
+        grid = self._grid(here)
+        return order(halves(grid, *three(here), solid), 2 * int(grid.shape.prod()))
 
     def relist(self, kind) -> Rows:
         """Rows of the particles at the last build, of these kinds."""
         solid = kind == WALL
         self.rows = self._rows(self.built, solid, self.built, solid, True)
+        self.domain.weigh(self.rows.number)
         return self.rows
 
     def _holds(self, here) -> bool:
@@ -116,8 +126,7 @@ class Neighbours:
 
     def sort(self, here) -> np.ndarray:
         """Order in which fixed points have to stand for `seen_from`."""
-        grid = self._grid(here)
-        return order(halves(grid, *three(here), np.zeros(len(here[0]), bool)), 2 * int(grid.shape.prod()))
+        return self.by_cell(here, np.zeros(len(here[0]), bool))
 
     def seen_from(self, here, at) -> Rows:
         """Rows of fixed points `here`, in the order of `sort`, for the points `at`; they are not filled up."""

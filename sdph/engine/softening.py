@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import apart
 from sdph.engine.rows import entry
@@ -14,9 +16,9 @@ SAMPLE = 8  # of so many particles one is looked at: a mean over a cloud, which 
 
 
 @serial
-def taken(kernel, s, rows, box, chosen, weight, eta_squared):
-    """Part [-] of sum_i sum_j w_j r^2 (dW/dr)/r, a diffusion's own weights, that eta_squared [m2] in r^2/(r^2 + eta^2)
-    takes away; over the `chosen` (C,) particles and neighbours of weight (N,)."""
+def left_of(kernel, s, rows, box, chosen, weight, eta_squared):
+    """sum_i sum_j w_j r^2 (dW/dr)/r, a diffusion's own weights, and what eta_squared [m2] in r^2/(r^2 + eta^2) leaves of
+    it; over the `chosen` (C,) particles and neighbours of weight (N,)."""
     whole = left = 0.0
     for i in chosen:
         for k in range(rows.number[i]):
@@ -26,7 +28,7 @@ def taken(kernel, s, rows, box, chosen, weight, eta_squared):
             share = weight[j] * smoothing.slope(kernel, math.sqrt(r2)) * r2
             whole += share
             left += share * r2 / (r2 + eta_squared)
-    return 1.0 - left / whole if whole != 0.0 else 0.0
+    return whole, left
 
 
 def held(method, name, chosen, weight) -> dict[str, float]:
@@ -39,4 +41,6 @@ def held(method, name, chosen, weight) -> dict[str, float]:
         method.rows,
         method.neighbours.box,
     )
-    return {"softened_rel": float(taken(*around, chosen[::SAMPLE], weight, eta_squared))}
+    sums = left_of(*around, chosen[::SAMPLE], weight, eta_squared)
+    whole, left = method.neighbours.world.sum(np.array(sums))
+    return {"softened_rel": float(1.0 - left / whole) if whole != 0.0 else 0.0}

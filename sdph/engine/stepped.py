@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+
 import numpy as np
 
 from sdph.engine.kept import Unfit
@@ -39,6 +41,10 @@ class Stepped:
         """Unfit where time is not that of the ledger."""
         if kept["stepper"]["time"] != kept["ledger"]["last"]["time_s"]:
             raise Unfit("its time is not that of the ledger")
+
+    def whole(self):
+        """Context in which the first process holds all particles; True there."""
+        return contextlib.nullcontext(True)
 
     def begin(self) -> None:
         self.stepper.guard.begin(self)

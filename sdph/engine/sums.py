@@ -18,7 +18,7 @@ class Sums:
     KEPT, FORMS = ("sums", "first", "last", "table"), {"first": Maybe(ROW), "last": Maybe(ROW)}  # see sdph.engine.kept
     AMOUNTS: tuple[str, ...] = ()
 
-    def __init__(self, path: Path):
+    def __init__(self, path: Path | None):
         self.sums = dict.fromkeys(self.AMOUNTS, 0.0)
         self.first = self.last = None
         self.table = Table(path)

@@ -6,6 +6,7 @@ import csv
 import io
 import math
 import os
+import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -134,12 +135,17 @@ class Table:
 
     KEPT, FORMS = ("columns", "place"), {"columns": Many("")}  # see sdph.engine.kept
 
-    def __init__(self, path: Path):
-        self.file = open(path, "a", newline="", encoding="utf-8")  # noqa: SIM115  (`close` closes it)
+    def __init__(self, path: Path | None):
+        """A table at a path, or one that nobody keeps."""
+        self.lasts = path is not None
+        how = {"mode": "a", "newline": "", "encoding": "utf-8"}
+        self.file = open(path, **how) if self.lasts else tempfile.TemporaryFile(**how)  # noqa: SIM115  (see `close`)
         self.columns: tuple[str, ...] = ()
 
     def admit(self, kept: dict) -> None:
         """CaseError where the file is shorter than it was, Unfit where it is another."""
+        if not self.lasts:
+            return
         name, length = self.file.name, kept["place"]
         if self.place < length:
             raise CaseError(f"{name} has lost rows that its checkpoint counts on; run anew")

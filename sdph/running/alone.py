@@ -26,7 +26,7 @@ class Alone:
     gas = None
     KEPT = ("windows", "wall", "clock", "method", "limiters")  # see sdph.engine.kept
 
-    def __init__(self, case, ledger: Path):
+    def __init__(self, case, ledger: Path | None):
         self.case = case
         self.matter = case.matters[0]
         interval = getattr(case, self.matter).history_interval
@@ -36,7 +36,7 @@ class Alone:
         self.limiters.hear(self.method.held())
         self.windows, self.wall, self.notices = 0, {"particles": 0.0}, []
 
-    def _make(self, ledger: Path):
+    def _make(self, ledger: Path | None):
         """The method of the case."""
         return METHODS[self.case.moved_by(self.matter)](self.case, ledger, self.clock.shortest)
 
@@ -60,6 +60,10 @@ class Alone:
     @property
     def time(self) -> float:
         return self.method.time
+
+    def whole(self):
+        """Context in which the first process holds all particles; True there."""
+        return self.method.whole()
 
     @property
     def at_row(self) -> bool:

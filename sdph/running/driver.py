@@ -22,14 +22,14 @@ from coupling.choice import open_gas
 from coupling.gas import CheckpointError, GasError
 from sdph import effects
 from sdph.case import read as cases
-from sdph.engine import contact, restart
+from sdph.engine import contact, restart, world
 from sdph.engine import device as environment
 from sdph.engine import state as particles
 from sdph.engine.guard import Unstable
 from sdph.engine.kept import Maybe, Unfit
 from sdph.engine.ledger import Ledger
 from sdph.methods.liquids.liquid import Liquid
-from sdph.running import balances, chain, compiling, forces, hastened, inputs, metrics, output, vessel
+from sdph.running import balances, chain, compiling, forces, hastened, inputs, metrics, output, ranks, vessel
 from sdph.running.interruption import Stopped, listening
 from sdph.running.outputs import Outputs
 from sdph.running.simulation import Simulation
@@ -91,8 +91,9 @@ def resume(folder: Path, overrides: tuple[str, ...], reporter, *, allow_code: bo
         raise CaseError(f"{folder} holds no run to go on with; run it anew")
     case = cases.load(folder / output.MARK, overrides)
     inputs.check(case)
-    with output.claimed(folder):
-        restart.prepare(folder)
+    with ranks.claimed(folder):
+        if world.here().chief:
+            restart.prepare(folder)
         checkpoint = restart.newest(folder, reporter.status)
         if checkpoint:
             checkpoint.refuse_other(cases.to_table(inputs.seen_from(case, folder)))
@@ -101,16 +102,18 @@ def resume(folder: Path, overrides: tuple[str, ...], reporter, *, allow_code: bo
                 f"{folder} has no whole checkpoint; to begin again remove {folder / restart.FOLDER}, or run anew"
             )
         else:
-            reporter.status(f"{folder} has no checkpoint: it begins again")
-            output.clear(folder)
+            if world.here().number == 1:
+                reporter.status(f"{folder} has no checkpoint: it begins again")
+            if world.here().chief:
+                output.clear(folder)
             case = chain.made(inputs.keep(case, folder), folder, run, resume, reporter)
         template = None if checkpoint else inputs.gas_of(folder)
         return _to_its_end(_guarded(Run(case, folder, reporter), checkpoint, template, allow_code))
 
 
-def simulation_of(case, gas, ledger: Path):
+def simulation_of(case, gas, ledger: Path | None):
     """Simulation of a case: a liquid or solids alone (`gas` is None), or grains in a gas, beside a liquid where the
-    case has one; its ledgers go to new files."""
+    case has one; its ledgers go to new files, or to none."""
     if "grains" not in case.matters:
         return hastened.of(case, ledger)
     simulation = Simulation(case.only("grains"), gas, Ledger(ledger, case, gas.mesh.depth, *effects.in_ledger(case)))
@@ -148,7 +151,7 @@ class Run:
     KEPT, FORMS = ("simulation", "out", "spent", "first"), {"first": Maybe(0.0)}  # see sdph.engine.kept
 
     def __init__(self, case, folder: Path, reporter):
-        self.case, self.folder, self.reporter = case, folder, reporter
+        self.case, self.folder, self.reporter, self.world = case, folder, reporter, world.here()
         self.begun, self.goes = time.perf_counter(), False
         self.simulation, self.elapsed = None, 0.0  # wall time [s] of the parts of the run before this one
         self.first = None  # wall time [s] to the end of the first window
@@ -166,19 +169,23 @@ class Run:
     def go(self, gas, checkpoint, wish):
         """Run from the start, or from a checkpoint, window by window to the summary; `gas` None without grains."""
         self._begin(gas, checkpoint)
-        output.write_text(self.folder / output.MARK, cases.dumps(inputs.seen_from(self.case, self.folder)))
-        (self.folder / output.FAILURE).unlink(missing_ok=True)
+        if self.world.chief:
+            output.write_text(self.folder / output.MARK, cases.dumps(inputs.seen_from(self.case, self.folder)))
+            (self.folder / output.FAILURE).unlink(missing_ok=True)
         self.goes = wish.patient = True
         with contextlib.closing(self.out):
             while not self.simulation.clock.over(self.simulation.time):
                 self._window()
                 yield from self._shown()
-                if wish.number is not None or self._due():
+                asked = self.world.most(wish.number or 0) or None  # one is asked to stop: all are
+                if asked or self._due():
                     self._save()
+                wish.number = asked
                 wish.obey()
             self._save()
         summary = _summary(self.simulation, self.out) | {"start_to_first_window_s": self.first, "wall_s": self.spent}
-        output.write_summary(self.folder, summary)
+        if self.world.chief:
+            output.write_summary(self.folder, summary)
         for warning in (*environment.warnings(), *self.simulation.warnings(), *balances.missed(summary)):
             self.reporter.status(f"warning: {warning}")
         return summary
@@ -196,6 +203,7 @@ class Run:
         was."""
         if isinstance(error, CaseError) and not self.goes:
             return error
+        ranks.wait_for_the_first()
         checkpoint = restart.newest(self.folder)
         full = shutil.disk_usage(self.folder).free < FULL
         if isinstance(error, GasError) and (full or any(why in str(error) for why in NO_ROOM)):
@@ -216,8 +224,9 @@ class Run:
 
     def _begin(self, gas, checkpoint) -> None:
         self.case = vessel.walled(self.case, gas, self.folder)
-        simulation = simulation_of(self.case, gas, self.folder / "ledger.csv")
-        self.simulation, self.out = simulation, Outputs(self.folder, simulation)
+        written = self.folder if self.world.chief else None
+        simulation = simulation_of(self.case, gas, written and written / "ledger.csv")
+        self.simulation, self.out = simulation, Outputs(written, simulation)
         if checkpoint is None:
             forces.refuse_nowhere(self.case, simulation.methods)
             vessel.refuse_outside(self.case, gas, simulation.state)
@@ -263,18 +272,22 @@ class Run:
     def _due(self) -> bool:
         """True where it is time for a checkpoint."""
         windows = self.case.run.checkpoint_windows or math.inf
-        apart = time.monotonic() - self.saved_time
-        return apart >= self.case.run.checkpoint_interval or self.simulation.windows - self.saved_window >= windows
+        late = time.monotonic() - self.saved_time >= self.case.run.checkpoint_interval
+        return self.world.told(late) or self.simulation.windows - self.saved_window >= windows
 
     def _save(self) -> None:
-        table = cases.to_table(inputs.seen_from(self.case, self.folder))
-        restart.write(self.folder, self.simulation.windows, self.simulation.time, table, self, self.simulation.gas)
+        table, now = cases.to_table(inputs.seen_from(self.case, self.folder)), self.simulation
+        with now.whole() as chief:
+            if chief:
+                restart.write(self.folder, now.windows, now.time, table, self, now.gas)
+        self.world.told(None)  # all wait until it is there
         self.saved_time, self.saved_window = time.monotonic(), self.simulation.windows
 
 
 def _summary(simulation, out: Outputs) -> dict:
     """summary.json, less the wall time of the whole."""
-    case, count = simulation.case, particles.count(simulation.state)
+    with simulation.whole():
+        case, count = simulation.case, particles.count(simulation.state)
     summary = {"title": case.title, "time_s": simulation.time, "particles": count, "windows": simulation.windows}
     summary |= simulation.summary(out) | metrics.summary(case, out.rows) | simulation.ledger.summary()
     summary |= {f"wall_{part}_s": spent for part, spent in simulation.wall.items()}

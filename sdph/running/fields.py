@@ -88,7 +88,8 @@ class Fields:
 
     KEPT, FORMS = ("entries",), {"entries": Many("")}  # see sdph.engine.kept
 
-    def __init__(self, folder: Path):
+    def __init__(self, folder: Path | None):
+        """Fields into a folder; None: into none."""
         self.folder = folder
         self.entries: list[str] = []
 
@@ -106,7 +107,7 @@ class Fields:
         """`meshes` (name -> pyvista mesh, the same names each time) at `time` [s], and the timeline up to there."""
         number = len(self.entries) // len(meshes)
         files = {f"fields/{name}_{number:05d}.{SUFFIXES[mesh.GetClassName()]}": mesh for name, mesh in meshes.items()}
-        for name, mesh in files.items():
+        for name, mesh in files.items() if self.folder else ():
             save(mesh, self.folder / name)
         parts = [PARTS[name] for name in meshes]
         self.entries += [
@@ -116,11 +117,12 @@ class Fields:
 
     def write_walls(self, walls) -> None:
         """A pyvista surface that holds for all times; nothing where it is None."""
-        if walls is not None:
+        if walls is not None and self.folder:
             save(walls, self.folder / WALLS)
 
     def _write_timeline(self) -> None:
-        write_text(self.folder / "run.pvd", PVD.format("\n".join(self.entries)))
+        if self.folder:
+            write_text(self.folder / "run.pvd", PVD.format("\n".join(self.entries)))
 
 
 def save(mesh, path: Path) -> None:

@@ -32,6 +32,7 @@ class Wish:
         self.number, self.patient, self.timer = None, False, None
 
     def __call__(self, number: int, frame) -> None:
+        number = signal.SIGTERM if number == signal.SIGUSR1 else number  # as several processes are asked to stop
         if self.number is None and self.patient:
             self.number, self.timer = number, threading.Timer(PATIENCE, os.kill, (os.getpid(), number))
             self.timer.daemon = True
@@ -66,7 +67,7 @@ def listening():
     if threading.current_thread() is not threading.main_thread():
         yield wish  # Python hands signals to the main thread alone
         return
-    before = {number: signal.signal(number, wish) for number in SIGNALS}
+    before = {number: signal.signal(number, wish) for number in (*SIGNALS, signal.SIGUSR1)}
     try:
         yield wish
     finally:

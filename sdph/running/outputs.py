@@ -16,9 +16,10 @@ class Outputs:
     KEPT = ("fields", "history", "metrics", "first", "last", "rows")  # see sdph.engine.kept
     FORMS = {"first": ROW, "last": ROW, "rows": Many(ROW)}
 
-    def __init__(self, folder: Path, simulation):
+    def __init__(self, folder: Path | None, simulation):
+        """Outputs into a folder; None of a process that takes part in a run, and does not write."""
         self.simulation, self.fields = simulation, Fields(folder)
-        self.history, self.metrics = Table(folder / "history.csv"), Table(folder / "metrics.csv")
+        self.history, self.metrics = (Table(folder and folder / name) for name in ("history.csv", "metrics.csv"))
         self.first, self.last, self.rows = {}, {}, []
 
     def admit(self, kept: dict) -> None:

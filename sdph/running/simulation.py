@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import time as clock
 from pathlib import Path
 
@@ -78,6 +79,10 @@ class Simulation:
     @property
     def stepper(self):
         return self.grains.stepper
+
+    def whole(self):
+        """Context in which the first process holds all particles, as of a liquid alone; True there."""
+        return contextlib.nullcontext(True)
 
     @property
     def methods(self) -> list:

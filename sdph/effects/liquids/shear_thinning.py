@@ -146,8 +146,10 @@ def renew(p, method) -> None:
         np.zeros((len(method.state.x), 3)),
     )
     images(*common, method.walls, method.volume, image)
+    method.domain.refresh(image)
     shear_rates(*common, method.active, method.volume, method.wall.stick, image, s.viscosity)
     thin(p, method.active, s.viscosity)
+    method.domain.refresh(s.viscosity)
 
 
 def dt_limit(p, case, state) -> float:

@@ -55,11 +55,14 @@ def rates(stepper, ahead: float, last: np.ndarray | None) -> np.ndarray:
     if len(stepper.waiting):
         now[INLET], moment, now[BY_INLET] = openings.given(stepper, ahead)
         now[LOADS] += np.concatenate((now[INLET], moment))  # what waits is no tank
-    if last is None or (ahead and stepper.steps % EVERY == 0):
+    looks = last is None or (ahead and stepper.steps % EVERY == 0)
+    if looks:
         now[LOST] = _lost(stepper, ahead)
-    else:
+    now = np.append(now, stepper.parts.pushed(stepper, felt)) if stepper.parts else now
+    now = stepper.world.sum(now)
+    if not looks:
         now[LOST], now[SINCE] = last[LOST], last[SINCE] + 2.0 * ahead
-    return np.append(now, stepper.parts.pushed(stepper, felt)) if stepper.parts else now
+    return now
 
 
 def between(before: np.ndarray, now: np.ndarray, dt: float) -> np.ndarray:

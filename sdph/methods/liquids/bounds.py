@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import sys
+from typing import NamedTuple
 
 import numpy as np
 
@@ -20,21 +21,36 @@ from sdph.engine.state import GAS, INFLOW, LIQUID, WALL
 FORCE = 0.25  # of sqrt(h/|a|), liquids.md, shared core
 
 
+class Born(NamedTuple):
+    """Particles that a liquid and its walls began with, the largest mass [kg], and the ends of their densities
+    [kg/m3]."""
+
+    particles: int
+    heaviest: float
+    thinnest: float
+    densest: float
+
+
+def born(state) -> Born:
+    """`Born` of a State of the start."""
+    return Born(len(state.x), float(state.mass.max()), float(state.density.min()), float(state.density.max()))
+
+
 class LiquidGuard(Watch):
     """Looks at all particles after every window, and at once when the fastest outruns sound."""
 
-    def admit_liquid(self, state: dict, fresh, kinds, number_of_last: int) -> None:
-        """`admit` of a liquid and its walls that began as the State `fresh`; `kinds` that there are, and the number of
-        the particle that was made last."""
+    def admit_liquid(self, state: dict, born: Born, kinds, number_of_last: int) -> None:
+        """`admit` of a liquid and its walls that began so; `kinds` that there are, and the number of the particle that
+        was made last."""
         fast = RUNAWAY * self.case.fastest_sound
         bounds = dict.fromkeys("uvw", (-fast, fast)) | {
-            "mass": (TINY, fresh.mass.max()),
+            "mass": (TINY, born.heaviest),
             "ident": (0, number_of_last),
         }
         self.admit(
             state,
             effects.arrays(self.case),
-            bounds | {"density": (fresh.density.min() / DENSE, fresh.density.max() * DENSE)},
+            bounds | {"density": (born.thinnest / DENSE, born.densest * DENSE)},
         )
         if not np.isin(state["kind"], kinds).all():
             raise Unfit("a particle is of no phase and of no wall")
@@ -43,8 +59,8 @@ class LiquidGuard(Watch):
         """Unfit where what was kept of a LiquidStepper cannot be of this case; `own` is a fresh one."""
         state, built = kept["state"], kept["neighbours"]["built"]
         gas, inflow = (GAS,) if self.case.gas_phase else (), (INFLOW,) if own.p["inflow"] else ()
-        made = kept["openings"]["source"]["next_ident"] if own.p["inflow"] else len(own.state.x)
-        self.admit_liquid(state, own.state, (WALL, LIQUID, *gas, *inflow), made - 1)
+        made = kept["openings"]["source"]["next_ident"] if own.p["inflow"] else own.born.particles
+        self.admit_liquid(state, own.born, (WALL, LIQUID, *gas, *inflow), made - 1)
         count = len(state["x"])
         if [len(axis) for axis in built] != [count] * self.case.dimensions:
             raise Unfit("rows of neighbours are of other particles")

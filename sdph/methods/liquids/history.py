@@ -14,7 +14,7 @@ from sdph.methods.liquids.loads import kinetic_energy, pipe_energy, pipe_loads, 
 
 
 def row(run) -> dict[str, float]:
-    """Columns of history.csv: sums over the liquid, and loads on the tank."""
+    """Columns of history.csv: sums over the whole liquid (sdph.methods.liquids.gathered)."""
     stepper, case = run.stepper, run.case
     wet = stepper.active
     mass, pressure = run.state.mass[wet], stepper.pressure[wet]
@@ -33,7 +33,7 @@ def row(run) -> dict[str, float]:
         values[f"momentum_{name}_kg_m_s"] = float((mass * velocities[:, a]).sum())
         values[f"largest_{name}_m"] = float(places[:, a].max()) if len(mass) else math.nan
     values |= stepper.void.row() if stepper.void else {}
-    return values | columns(stepper) | _drained(run) | _loads(run) | _told(stepper)
+    return values | columns(stepper) | _drained(run) | _told(stepper)
 
 
 def _told(stepper) -> dict[str, float]:
@@ -57,16 +57,16 @@ def _drained(run) -> dict[str, float]:
     }
 
 
-def _loads(run) -> dict[str, float]:
-    """On the tank: the mean since the last row by the momentum theorem, and what the walls feel now."""
+def loads(run) -> dict[str, float]:
+    """Columns of loads on the tank: the mean since the last row by the momentum theorem, and what the walls feel now."""
     if "tank" not in run.case.effects:
         return {}
     mean = run.impulse / (run.time - run.since) if run.time > run.since else run.rates[account.LOADS]
     names = ("force_x_N", "force_y_N", "force_z_N", "moment_x_Nm", "moment_y_Nm", "moment_z_Nm")
-    loads = {"mean": mean, "wall": wall_loads(run.stepper)}
+    found = {"mean": mean, "wall": wall_loads(run.stepper)}
     if run.case.parameters["tank"].outlet_radius:
-        loads["pipe"] = pipe_loads(run.stepper)  # the part of "wall" that the outlet pipe feels
-    return {f"{kind}_{name}": float(value) for kind, load in loads.items() for name, value in zip(names, load)}
+        found["pipe"] = pipe_loads(run.stepper)  # the part of "wall" that the outlet pipe feels
+    return {f"{kind}_{name}": float(value) for kind, load in found.items() for name, value in zip(names, load)}
 
 
 def columns(stepper) -> dict[str, float]:

@@ -119,11 +119,17 @@ def tighten(stepper) -> None:
     around = stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box
     line, before = (), stepper.acceleration.copy()
     orient(*around, stepper.active, own, volume, line, normal)
-    if len(own) > 2 and len(stepper.walls):
+    refresh = stepper.domain.refresh
+    refresh(normal)
+    if len(own) > 2 and stepper.world.any(len(stepper.walls) > 0):
         line = wetting.Line(np.zeros_like(normal), np.zeros(len(volume)), np.zeros(len(volume)))
         wetting.face(*around, stepper.active, own, volume, line.facing, line.height)
+        refresh(line.facing, line.height)
         wetting.lean(*around, stepper.walls, own, normal, line.facing, line.share)
+        refresh(line.share)
         orient(*around, stepper.active, own, volume, line, normal)
+        refresh(normal)
     bend(*around, stepper.active, volume, line, normal, stepper.curvature)
+    refresh(stepper.curvature)
     pull(*around, stepper.active, own, volume, normal, stepper.curvature, stepper.acceleration)
     stepper.tightening = stepper.acceleration - before

@@ -44,23 +44,23 @@ def _by_walls(stepper) -> dict[str, float]:
         stepper.state, stepper.rows, stepper.neighbours.box, stepper.walls, stepper.wall.near, 2.0 * stepper.kernel.h,
         stepper.volume, wets, holds,
     )  # fmt: skip
-    found = {"wall_holds_off_share": _share(holds[wets])}
+    found = {"wall_holds_off_share": stepper.world.mean(holds[wets])}
     if stepper.wall.least == 0.0:
-        found["walls_held_share"] = _share(stepper.pressure[stepper.walls[wets]] == 0.0)
+        found["walls_held_share"] = stepper.world.mean(stepper.pressure[stepper.walls[wets]] == 0.0)
     return found
 
 
 def _by_shifting(stepper) -> dict[str, float]:
-    p, own = stepper.p["shifting"], stepper.active
+    p, own, mean = stepper.p["shifting"], stepper.active, stepper.world.mean
     if not p:
         return {}
     moved = own if p.liquid > 0.0 else own[stepper.state.kind[own] == GAS]
     speed, least = p.strength * np.sqrt((stepper.shift[moved] ** 2).sum(axis=1)), stepper.state.enclosure[own]
-    found = {"shift_held_share": _share(speed > p.largest)}
+    found = {"shift_held_share": mean(speed > p.largest)}
     if p.tension > 0.0:
-        found["tension_controlled_share"] = _share((stepper.pressure[own] < 0.0) & (least > shifting.INTERIOR))
+        found["tension_controlled_share"] = mean((stepper.pressure[own] < 0.0) & (least > shifting.INTERIOR))
     if not stepper.phases:
-        found["shift_at_surface_share"] = _share(least <= shifting.INTERIOR)
+        found["shift_at_surface_share"] = mean(least <= shifting.INTERIOR)
     return found
 
 
@@ -68,7 +68,7 @@ def _by_correction(stepper) -> dict[str, float]:
     if not stepper.excess:
         return {}
     left = ~np.any([part[stepper.active] != 0.0 for part in stepper.excess], axis=0)
-    return {"uncorrected_share": _share(left)}
+    return {"uncorrected_share": stepper.world.mean(left)}
 
 
 def _by_damping(stepper) -> dict[str, float]:
@@ -77,6 +77,3 @@ def _by_damping(stepper) -> dict[str, float]:
         return {}
     return softening.held(stepper, stepper.case.liquid.kernel, stepper.active, np.maximum(stepper.volume, 0.0))
 
-
-def _share(held) -> float:
-    return float(held.mean()) if len(held) else 0.0

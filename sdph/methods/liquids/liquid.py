@@ -11,7 +11,7 @@ from sdph.engine import state as particles
 from sdph.engine.kept import Unfit
 from sdph.engine.stepped import Stepped
 from sdph.engine.walls.parts import Pushed
-from sdph.methods.liquids import account, history, limiters
+from sdph.methods.liquids import account, gathered, history, limiters
 from sdph.methods.liquids.bodies import Carrier
 from sdph.methods.liquids.loads import kinetic_energy
 from sdph.methods.liquids.method import LiquidStepper
@@ -32,7 +32,7 @@ class Liquid(Stepped):
         "windows", "stepper", "outlet", "ledger", "rates", "impulse", "since", "pace", "scaled", "pushed",
     )  # fmt: skip
 
-    def __init__(self, case, ledger: Path, shortest: float, carrier: Carrier | None = None):
+    def __init__(self, case, ledger: Path | None, shortest: float, carrier: Carrier | None = None):
         self.case, self.windows = case, 0
         self.stepper, self.ledger = LiquidStepper(case, shortest, carrier), LiquidLedger(ledger)
         self.outlet = Outlet(self.stepper) if "drain" in case.effects else None
@@ -90,14 +90,23 @@ class Liquid(Stepped):
         self.impulse, self.since = np.zeros(6), self.time
         self.pushed.new_row()
 
+    def whole(self):
+        return gathered.whole(self.stepper)
+
     def row(self) -> dict[str, float]:
-        return history.row(self)
+        loads = history.loads(self)
+        with self.whole() as chief:
+            return history.row(self) | loads if chief else {}
 
     def held(self) -> dict[str, float]:
         """Shares that limiters hold now, by column of history.csv."""
         return limiters.held(self.stepper)
 
     def points(self):
+        with self.whole():
+            return self._points()
+
+    def _points(self):
         import pyvista
 
         wet = self.stepper.active
@@ -113,7 +122,10 @@ class Liquid(Stepped):
         return tank.shape_of(self.case).surface() if "tank" in self.case.effects else None
 
     def summary(self) -> dict[str, float]:
-        own = {"liquid_particles": len(self.stepper.active), "kinetic_energy_J": kinetic_energy(self.state)}
+        with self.whole():
+            own = {"liquid_particles": len(self.stepper.active), "kinetic_energy_J": kinetic_energy(self.state)}
+        domain = self.stepper.domain
+        own |= {"ranks": domain.world.number, "imbalance": domain.imbalance, "halo_share": domain.halo}
         parts = [part.summary() for part in (self.stepper.void, self.stepper.heat) if part]
         return own | {name: value for part in parts for name, value in part.items()}
 

@@ -33,7 +33,7 @@ def wall_loads(stepper, chosen=None) -> np.ndarray:
     chosen = stepper.walls if chosen is None else chosen
     if stepper.bodies:
         chosen = chosen[~stepper.bodies.among(chosen)]
-    return of_forces(stepper, chosen, walls.feel(stepper, chosen, 0.0)[:, :3])
+    return stepper.world.sum(of_forces(stepper, chosen, walls.feel(stepper, chosen, 0.0)[:, :3]))
 
 
 def of_forces(stepper, chosen, force) -> np.ndarray:

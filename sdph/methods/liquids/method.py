@@ -13,7 +13,7 @@ from sdph import effects
 from sdph.effects import OFF
 from sdph.effects.around import frame, tank
 from sdph.engine import kernels as smoothing
-from sdph.engine import motion
+from sdph.engine import motion, world
 from sdph.engine import state as particles
 from sdph.engine.clock import count_of_parts
 from sdph.engine.kept import GROWING
@@ -21,9 +21,9 @@ from sdph.engine.rows import Neighbours
 from sdph.engine.state import GAS, INFLOW, LIQUID, WALL
 from sdph.laws import kernels
 from sdph.methods.liquids import bodies as immersion
-from sdph.methods.liquids import bubbles, correction, interface, openings, parts, phases, shift, start, walls
+from sdph.methods.liquids import bubbles, correction, gathered, interface, openings, parts, phases, shift, start, walls
 from sdph.methods.liquids import equations as rates
-from sdph.methods.liquids.bounds import LiquidGuard, limits
+from sdph.methods.liquids.bounds import LiquidGuard, born, limits
 from sdph.methods.liquids.heat import Heat
 from sdph.methods.liquids.start import fluids, parts_of
 from sdph.methods.liquids.walls import WallP
@@ -55,7 +55,9 @@ class LiquidStepper:
         self.kernel = smoothing.smoothing(case.liquid.kernel, d, case.smoothing_length)
         periodic = case.liquid.periodic or (0.0,) * d
         period = tuple(length * bool(on) for length, on in zip(case.domain.size, periodic))
-        self.neighbours = Neighbours(2.0 * SLACK * self.kernel.h, period, case.resolution.neighbour_skin)
+        reach, self.world = 2.0 * SLACK * self.kernel.h, world.here()
+        self.neighbours = Neighbours(reach, period, case.resolution.neighbour_skin, self.world)
+        self.domain = self.neighbours.domain
         self.fluids, self.phases = fluids(case), phases.kernel(case)
         self.bodies, self.moving = immersion.Bodies(carrier, case) if carrier else None, ()
         # walls follow the liquid, those of the outlet pipe come last
@@ -81,15 +83,19 @@ class LiquidStepper:
         self.heat = None  # until it is known what there is to heat
         self.void = bubbles.of(case, self.p["bubble"], self.state, self.bodies) if self.p["bubble"] else None
         self.look = None  # who is told of new forces, with the length [s] of the kick to come
+        self.born = born(self.state)
         self.forces()
         self.heat = Heat(self, self.p["liquid_heat"]) if self.p["liquid_heat"] else None
         if self.bodies:
             carrier.meet(self.bodies.force(self))
 
     def revive(self) -> None:
-        """Make anew what a checkpoint does not hold, once it was put back."""
-        self.rows = self.neighbours.relist(self.state.kind)
-        self.tell_apart()
+        """Make anew what a checkpoint does not hold, once it was put back; it holds the particles of all processes."""
+        if self.domain.alone:
+            self.rows = self.neighbours.relist(self.state.kind)
+            self.tell_apart()
+        else:
+            gathered.take_part(self, self._allocate)
         self.aim(self.time)
 
     def admit(self, kept: dict) -> None:
@@ -108,6 +114,7 @@ class LiquidStepper:
             self.bodies.set_off(dt)
         self._kick(0.5 * dt)
         self._drift(0.5 * dt)
+        self.domain.refresh(*self._places())
         if not self.summed:
             self._densify(dt)
         self._drift(0.5 * dt)
@@ -130,13 +137,14 @@ class LiquidStepper:
 
     def next_step(self, left: float) -> float:
         """Length [s] of the next step: `left` in equal parts no longer than the shortest limit; `limit` names it."""
-        speed, force = motion.fastest(self.state, self.active, self.acceleration)
+        speed, force = self.world.most(np.array(motion.fastest(self.state, self.active, self.acceleration)))
         c = self.case.fastest_sound
         if not speed + 0.0 * force <= c * c:  # or one of them is no number
             self.guard.look(self)
         found = limits(self.case, self.p, self.state, math.sqrt(speed), math.sqrt(force))
         if self.bodies:
             found |= self.bodies.limits(self.state)
+        found = dict(zip(found, self.world.least(np.array([*found.values()]))))
         self.limit = min(found, key=found.get)
         longest = self.case.run.step_factor * found[self.limit]
         return left / count_of_parts(
@@ -182,6 +190,7 @@ class LiquidStepper:
         built = self.neighbours.built
         if self.bodies and self.moving:
             self.bodies.place(self.state)
+        self.domain.refresh(*self._places(), self.state.density)
         self.state, self.rows = self.neighbours.update(self.state)
         if built is not self.neighbours.built:
             self._allocate()
@@ -191,10 +200,11 @@ class LiquidStepper:
         around = self.kernel, s, self.rows, self.neighbours.box, self.active
         if self.summed:
             rates.sum_up(*around, self.lattice, s.density)
-        rates.state_of(self.fluids, s, self.active, self.pressure, self.volume)
+            self.domain.refresh(s.density)
+        rates.state_of(self.fluids, s, self.wet, self.pressure, self.volume)
         if p["bubble"] and p["bubble"].vapour and ahead:
             self.void.boil(self, 2.0 * ahead)
-            rates.state_of(self.fluids, s, self.active, self.pressure, self.volume)
+            rates.state_of(self.fluids, s, self.wet, self.pressure, self.volume)
         if len(self.waiting):
             openings.meet(
                 *around[:-1], self.waiting, p["gravity"], self.frame, self.fluids[:, LIQUID], self.pressure,
@@ -205,10 +215,12 @@ class LiquidStepper:
                 self.kernel, s, self.rows, self.neighbours.box, self.walls, self.wall, self.moving, p["gravity"],
                 self.frame, self.volume, self.pressure, s.u, s.v, s.w,
             )  # fmt: skip
+        self.domain.refresh(self.pressure, s.u, s.v, s.w)
         for row, own in self.renewing:
             row.renew(own, self)
         if self.excess:
             correction.surround(*around, self.volume, *self.excess)
+            self.domain.refresh(*self.excess)
         rates.push(
             self.kernel, s, self.rows, self.neighbours.box, self.flow, self.wall, p["gravity"], self.frame,
             self.viscous, p["liquid_damping"], p["density_diffusion"], p["shifting"], self.phases, self.excess,
@@ -220,6 +232,7 @@ class LiquidStepper:
             self.void.press(self)
         if self.bodies:
             self.bodies.keep_off(self)
+        self.domain.refresh(self.acceleration, self.gradient)
         shift.prepare(self, around)
         if self.look:
             self.look(ahead)
@@ -243,8 +256,9 @@ class LiquidStepper:
         from the last."""
         s = self.state
         self.waiting = np.flatnonzero(s.kind == INFLOW).astype(np.int32)
-        self.active = np.flatnonzero(particles.wet(s)).astype(np.int32)
-        self.walls = np.flatnonzero((s.kind == WALL) & (self.rows.number > 0)).astype(np.int32)
+        self.wet = np.flatnonzero(particles.wet(s)).astype(np.int32)  # copies too
+        self.active = self.domain.mine(particles.wet(s))
+        self.walls = self.domain.mine((s.kind == WALL) & (self.rows.number > 0))
         self.moving = self.bodies.find(s) if self.bodies else ()
         if self.bodies:
             self.bodies.look(self)
@@ -287,10 +301,15 @@ class LiquidStepper:
         if state is not self.state:
             self.state, self.neighbours.built = state, ()
 
+    def _places(self) -> tuple[np.ndarray, ...]:
+        s = self.state
+        return s.x, s.y, s.z, s.u, s.v, s.w
+
     def _shift(self, dt: float) -> None:
         s, before = self.state, np.array(motion.momentum(self.state, self.active))
-        self.eased += shift.displace(
+        eased = shift.displace(
             self.p["shifting"], self.fluids, s, self.active, self.shift, self.gradient, self.twist, self.compliance, dt,
             s.x, s.y, s.z, s.u, s.v, s.w, s.density,
         )  # fmt: skip
-        self.shifted = self.shifted + motion.momentum(s, self.active) - before
+        given = self.world.sum(np.array([*(motion.momentum(s, self.active) - before), eased]))
+        self.shifted, self.eased = self.shifted + given[:3], self.eased + float(given[3])

@@ -147,5 +147,6 @@ def prepare(stepper, around) -> None:
     if p["shifting"]:
         own = stepper.volume, s.enclosure, stepper.shift
         surround(*around, p["shifting"], stepper.phases, *own, stepper.twist)
+        stepper.domain.refresh(s.enclosure)
         if not stepper.phases:
             along_surface(*around, *own)

@@ -59,7 +59,7 @@ def _lonely(stepper, chosen, weight, image=None, phases_p=()) -> float:
     lonely(
         stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, chosen, weight, image, phases_p, lone
     )  # fmt: skip
-    return float(lone.mean()) if len(lone) else 0.0
+    return stepper.world.mean(lone)
 
 
 def _gradients(stepper) -> dict[str, float]:
@@ -70,6 +70,7 @@ def _gradients(stepper) -> dict[str, float]:
         image = np.zeros((len(stepper.state.x), 3))
         around = stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box
         shear_thinning.images(*around, stepper.walls, stepper.volume, image)
+        stepper.domain.refresh(image)
         weight = np.where(stepper.volume > 0.0, stepper.volume, -stepper.wall.stick * stepper.volume)
         found["no_shear_rate_share"] = _lonely(stepper, stepper.active, weight, image)
     return found
@@ -84,5 +85,5 @@ def _tension(stepper) -> dict[str, float]:
     bent = np.where(has, np.maximum(stepper.volume, 0.0), 0.0)
     return {
         "no_curvature_share": _lonely(stepper, own[has[own]], bent),
-        "no_normal_share": float((~has[own[faces]]).mean()) if faces.any() else 0.0,
+        "no_normal_share": stepper.world.mean(~has[own[faces]]),
     }

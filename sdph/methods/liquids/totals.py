@@ -41,7 +41,7 @@ class LiquidLedger(Sums):
     KEPT = (*Sums.KEPT, "impulses", "scale", "most", "moved", "made", "mach")  # see sdph.engine.kept
     AMOUNTS = AMOUNTS
 
-    def __init__(self, path: Path):
+    def __init__(self, path: Path | None):
         super().__init__(path)
         self.impulses = np.zeros((len(IMPULSES), 3))  # since the start [kg m/s]
         self.scale = {"kg_m_s": 0.0, "J": 0.0}  # impulses, and energy that could fall and work that was done
@@ -94,10 +94,13 @@ class LiquidLedger(Sums):
     def _totals(self, stepper) -> dict[str, float]:
         s, own = stepper.state, stepper.active
         velocity, (kinetic, elastic) = particles.velocities(s)[own], energies(stepper)
-        speed = math.sqrt(float((velocity**2).sum(axis=1).max(initial=0.0)))
-        row = {"particles": len(own), "mass_kg": float(s.mass[own].sum())} | vector("momentum", s.mass[own] @ velocity)
-        weight = s.mass[own] * (particles.positions(s)[own] @ np.array(stepper.p["gravity"] or (0.0, 0.0, 0.0)))
-        row |= {"kinetic_energy_J": kinetic, "elastic_energy_J": elastic, "potential_energy_J": -float(weight.sum())}
+        world, mass = stepper.world, s.mass[own]
+        speed = math.sqrt(world.most(float((velocity**2).sum(axis=1).max(initial=0.0))))
+        row = {"particles": world.sum(len(own)), "mass_kg": float(world.total(mass))}
+        row |= vector("momentum", world.total(mass[:, None] * velocity))
+        weight = mass * (particles.positions(s)[own] @ np.array(stepper.p["gravity"] or (0.0, 0.0, 0.0)))
+        potential = -float(world.total(weight))
+        row |= {"kinetic_energy_J": kinetic, "elastic_energy_J": elastic, "potential_energy_J": potential}
         springs = {"contact_energy_J": stepper.bodies.springs} if stepper.bodies else {}
         return row | {"fastest_m_s": speed} | springs
 
@@ -114,7 +117,8 @@ def _falling(stepper) -> float:
     """Energy [J] that the liquid would set free if it fell to its lowest place."""
     gravity = np.array(stepper.p["gravity"] or (0.0, 0.0, 0.0))
     depth = -(particles.positions(stepper.state)[stepper.active] @ gravity)
-    return float(stepper.state.mass[stepper.active] @ (depth - depth.min(initial=math.inf))) if len(depth) else 0.0
+    least = stepper.world.least(float(depth.min(initial=math.inf)))
+    return float(stepper.world.total(stepper.state.mass[stepper.active] * (depth - least)))
 
 
 def _energy(row: dict) -> float:
@@ -124,7 +128,7 @@ def _energy(row: dict) -> float:
 def energies(stepper) -> tuple[float, float]:
     """Kinetic and elastic energy [J] of the liquid."""
     mass, (kinetic, elastic) = stepper.state.mass[stepper.active], specific_energies(stepper, stepper.active)
-    return float(mass @ kinetic), float(mass @ elastic)
+    return float(stepper.world.total(mass * kinetic)), float(stepper.world.total(mass * elastic))
 
 
 def specific_energies(stepper, own) -> tuple[np.ndarray, np.ndarray]:
@@ -147,6 +151,5 @@ def mach(stepper) -> float:
     """Largest speed over the speed of sound of the particle's phase, c^2 = gamma stiffness/rho_0 (Tait)."""
     s, own = stepper.state, stepper.active
     rho_0, stiffness, gamma = stepper.fluids[:3, s.kind[own]]
-    return math.sqrt(
-        float(((particles.velocities(s)[own] ** 2).sum(axis=1) * rho_0 / (gamma * stiffness)).max(initial=0.0))
-    )
+    squared = (particles.velocities(s)[own] ** 2).sum(axis=1) * rho_0 / (gamma * stiffness)
+    return math.sqrt(stepper.world.most(float(squared.max(initial=0.0))))

@@ -1,0 +1,142 @@
+"""Particles of one process among several: its own, and copies of those of others within reach of them.
+
+Whenever rows are made anew, particles go to the process in whose part of space they are, and copies are made; between,
+`refresh` brings values of the copies up to date. Loops go over own particles, their rows hold copies too.
+"""
+
+from __future__ import annotations
+
+import functools
+
+import numpy as np
+
+from sdph.engine import cuts
+from sdph.engine import state as particles
+from sdph.engine.state import WALL
+
+UNEVEN = 1.1  # pairs of the busiest process over their mean, from which on space is cut anew (issue 26)
+OF_WALL = 0.1  # weight of a wall particle beside one of liquid's, before rows are known; our choice
+
+
+class Domain:
+    """Own particles and copies within `reach` [m] of them, in a box with `period` (d,) [m], 0 where open; with one
+    process all are its own, and nothing is done."""
+
+    def __init__(self, world, reach: float, period):
+        self.world, self.reach, self.period = world, reach, period
+        self.alone = world.number == 1
+        self.tree, self.own, self.weight = None, None, None  # mask (N,) of own particles; their pairs (N,)
+        self.sends, self.gets = {}, {}  # rows by rank: own ones that it has copies of, copies of its
+        self.imbalance, self.halo = 1.0, 0.0  # pairs of the busiest over their mean; copies over own particles
+
+    def mine(self, mask: np.ndarray) -> np.ndarray:
+        """Rows of the own particles among those of a mask (N,)."""
+        return np.flatnonzero(mask if self.alone else mask & self.own).astype(np.int32)
+
+    def share(self, state):
+        """Own particles and fresh copies; at first each process has all particles, and keeps its own."""
+        if self.alone:
+            return state
+        if self.tree is None:
+            places = _places(state)
+            self.tree = cuts.cut(self.world, places, np.where(state.kind == WALL, OF_WALL, 1.0))
+            own = particles.take(state, cuts.owner(self.tree, places) == self.world.rank)
+        else:
+            own = particles.take(state, self.own)
+            if self.imbalance > UNEVEN:
+                self.tree = cuts.cut(self.world, _places(own), self.weight[self.own])
+            own = self._moved(own)
+        return self._with_copies(own)
+
+    def sort(self, order: np.ndarray) -> None:
+        """Take note that row n is now what was row order[n]."""
+        if self.alone:
+            return
+        place = np.empty(len(order), np.int64)
+        place[order] = np.arange(len(order))
+        self.sends = {rank: place[rows] for rank, rows in self.sends.items()}
+        self.gets = {rank: place[rows] for rank, rows in self.gets.items()}
+        self.own = self.own[order]
+
+    def weigh(self, pairs: np.ndarray) -> None:
+        """Take note of how many neighbours each particle (N,) has."""
+        if self.alone:
+            return
+        self.weight = 1.0 + pairs
+        own = float(self.weight[self.own].sum())
+        self.imbalance = self.world.most(own) * self.world.number / self.world.sum(own)
+        copies, mine = self.world.sum(np.array([(~self.own).sum(), self.own.sum()]))
+        self.halo = float(copies / mine)
+
+    def refresh(self, *arrays: np.ndarray) -> None:
+        """Bring the copies in arrays (N,) or (N, k) up to date; those without length are passed over."""
+        arrays = [array for array in arrays if len(array)]
+        if self.alone or not (self.sends or self.gets):
+            return
+        comm, sent, inbox = self.world.comm, [], {}
+        for rank, rows in self.gets.items():
+            inbox[rank] = np.empty(sum(len(rows) * (array.size // len(array)) for array in arrays))
+            sent.append(comm.Irecv(inbox[rank], rank))
+        for rank, rows in self.sends.items():
+            sent.append(comm.Isend(np.concatenate([array[rows].ravel() for array in arrays]), rank))
+        type(sent[0]).Waitall(sent)
+        for rank, rows in self.gets.items():
+            self._put(arrays, rows, inbox[rank])
+
+    @staticmethod
+    def _put(arrays, rows, values) -> None:
+        begin = 0
+        for array in arrays:
+            shape = (len(rows), *array.shape[1:])
+            end = begin + int(np.prod(shape))
+            array[rows] = values[begin:end].reshape(shape)
+            begin = end
+
+    def gather(self, state, arrays: list) -> tuple | None:
+        """State and arrays (N, ...) of all particles, at the chief; None elsewhere."""
+        own = particles.take(state, self.own)
+        parts = self.world.gather((own, [array[self.own] if len(array) else array for array in arrays]))
+        if parts is None:
+            return None
+        states, others = zip(*parts)
+        return _joined(states), [np.concatenate(same) for same in zip(*others)]
+
+    def _moved(self, own):
+        """The particles that are in this part of space now."""
+        to = cuts.owner(self.tree, _places(own))
+        if not self.world.any(bool((to != self.world.rank).any())):
+            return own
+        return _joined(self.world.exchange([particles.take(own, to == rank) for rank in range(self.world.number)]))
+
+    def _with_copies(self, own):
+        places = _places(own)
+        ends = self.world.everywhere((places.min(axis=0, initial=np.inf), places.max(axis=0, initial=-np.inf)))
+        found = [np.flatnonzero(self._near(places, *box)) for box in ends]
+        found[self.world.rank] = np.zeros(0, int)
+        copies = self.world.exchange([particles.take(own, rows) if len(rows) else None for rows in found])
+        self.sends = {rank: rows for rank, rows in enumerate(found) if len(rows)}
+        self.gets, count = {}, len(own.x)
+        for rank, part in enumerate(copies):
+            if part is not None:
+                self.gets[rank] = np.arange(count, count + len(part.x))
+                count += len(part.x)
+        self.own = np.arange(count) < len(own.x)
+        return _joined([own, *(part for part in copies if part is not None)])
+
+    def _near(self, places, low, high) -> np.ndarray:
+        """Mask (N,) of the places within reach of a box."""
+        near = np.ones(len(places), bool)
+        for a, period in zip(range(places.shape[1]), self.period):
+            begin, width = low[a] - self.reach, high[a] - low[a] + 2.0 * self.reach
+            off = places[:, a] - begin
+            near &= (np.mod(off, period) if period else off) <= width
+            near &= off >= 0.0 if not period else True
+        return near & (low <= high).all()
+
+
+def _places(state) -> np.ndarray:
+    return np.stack(particles.axes(state), axis=1)
+
+
+def _joined(states):
+    return functools.reduce(particles.join, states)

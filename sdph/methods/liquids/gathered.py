@@ -1,0 +1,59 @@
+"""Particles of a liquid that several processes share: all of them at the chief for a while, and a part of them again."""
+
+from __future__ import annotations
+
+import contextlib
+
+import numpy as np
+
+from sdph.engine import state as particles
+from sdph.engine.state import WALL
+
+
+@contextlib.contextmanager
+def whole(stepper):
+    """Hold the particles of all processes at the chief, as one process alone has them, for outputs and checkpoints;
+    True there."""
+    if stepper.domain.alone:
+        yield True
+        return
+    before = stepper.state, stepper.neighbours.built, stepper.active, _rows(stepper)
+    built = stepper.neighbours.built
+    found = stepper.domain.gather(stepper.state, [*built, *before[3]])
+    if found:
+        (state, arrays), d = found, len(built)
+        order = stepper.neighbours.by_cell(tuple(arrays[:d]), state.kind == WALL)
+        arrays = [own[order] if len(own) else own for own in arrays]
+        stepper.state, stepper.neighbours.built = particles.take(state, order), tuple(arrays[:d])
+        stepper.active = np.flatnonzero(particles.wet(stepper.state)).astype(np.int32)
+        _put(stepper, arrays[d:])
+    try:
+        yield bool(found)
+    finally:
+        stepper.state, stepper.neighbours.built, stepper.active, arrays = before
+        _put(stepper, arrays)
+
+
+def take_part(stepper, allocate) -> None:
+    """Keep the own ones of all particles, which each process has just read, and copies; `allocate()` makes room."""
+    number, arrays = stepper.state.ident, _rows(stepper)
+    stepper.neighbours.built, stepper.domain.tree = (), None
+    stepper.state, stepper.rows = stepper.neighbours.update(stepper.state)
+    allocate()
+    sorter = np.argsort(number)
+    chosen = sorter[np.searchsorted(number, stepper.state.ident, sorter=sorter)]
+    _put(stepper, [own[chosen] if len(own) else own for own in arrays])
+
+
+def _rows(stepper) -> list[np.ndarray]:
+    """The arrays that ROWS of a stepper names."""
+    named = (getattr(stepper, name) for name in stepper.ROWS)
+    return [array for row in named for array in (row if isinstance(row, tuple) else (row,))]
+
+
+def _put(stepper, arrays: list[np.ndarray]) -> None:
+    """Put arrays in the place of those."""
+    rest = iter(arrays)
+    for name in stepper.ROWS:
+        own = getattr(stepper, name)
+        setattr(stepper, name, tuple(next(rest) for _ in own) if isinstance(own, tuple) else next(rest))

@@ -1,0 +1,119 @@
+"""`sdph run --ranks N`: a run whose particles N processes share, each those of its part of space.
+
+The process that was asked prepares the run folder, starts the others by MPI's own launcher, and waits. They go on with
+that folder as with any run that has no checkpoint yet; the first of them writes.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib.util
+import os
+import shlex
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from coupling.openfoam.programs import install
+from sdph.case import read as cases
+from sdph.engine import restart, world
+from sdph.running import inputs, output
+from sdph.running.interruption import SIGNALS
+from sdph.schema import CaseError
+
+# effects whose loops are told what particles of others are like (HALO, and what they refresh themselves)
+SHARED = (
+    "density_diffusion", "frame", "gravity", "laminar_viscosity", "liquid_damping", "shear_thinning", "shifting",
+    "surface_tension", "tank", "xsph",
+)  # fmt: skip
+GRACE = 3.0  # s that others wait for what the first process has to say; all are ended within 5 s (issue 26)
+
+
+def refuse(case, number: int) -> None:
+    """CaseError where these processes cannot share the particles of a case."""
+    given, mend = f"--ranks {number}", "leave --ranks out, and the run has one process with threads"
+    if case.moved_by(case.matters[0]) != "liquid" or len(case.matters) > 1:
+        raise CaseError(f"{given}: only liquids alone are shared among processes; {mend}")
+    if left := sorted(set(case.effects) - set(SHARED)):
+        raise CaseError(f"{given}: {left[0]} is not shared among processes; known: {', '.join(SHARED)}; {mend}")
+    if importlib.util.find_spec("mpi4py") is None:
+        raise CaseError(f"{given} needs mpi4py, which is not installed: pip install 'sdph[mpi]'; or {mend}")
+    program = launcher(case, number)[0]
+    if shutil.which(program) is None:
+        raise CaseError(f"{given}: there is no {program}; install Open MPI (apt install openmpi-bin), or {mend}")
+
+
+def launcher(case, number: int) -> list[str]:
+    """Head of the command that starts so many processes: `run.launcher`, or Open MPI's mpirun."""
+    if case.run.launcher:
+        return [*shlex.split(case.run.launcher), "-n", str(number)]
+    return [*install.mpirun(number), "--bind-to", "none", "--quiet"]
+
+
+def run(case, folder: Path, number: int, options: list[str]) -> int:
+    """Run a case in a new folder by so many processes, with `options` of the command line; the exit code."""
+    refuse(case, number)
+    inputs.check(case)
+    with output.claimed(output.create(folder)):
+        case = inputs.keep(case, folder)
+        output.write_origin(folder)
+        output.write_text(folder / output.MARK, cases.dumps(inputs.seen_from(case, folder)))
+        code = _started(case, folder, number, options)
+    if code == 2 and not restart.numbered(folder):  # the case cannot be run: as if it had not been tried
+        shutil.rmtree(folder)
+    return code
+
+
+def resume(folder: Path, number: int, overrides: tuple[str, ...], options: list[str]) -> int:
+    """Go on with a run by so many processes, with `options` of the command line; the exit code."""
+    case = cases.load(folder / output.MARK, overrides)
+    refuse(case, number)
+    with output.claimed(folder):
+        return _started(case, folder, number, options)
+
+
+def _started(case, folder: Path, number: int, options: list[str]) -> int:
+    """The exit code of the processes; a signal to this one asks them to stop."""
+    threads = str(max(1, (os.cpu_count() or 1) // number))
+    environment = {"NUMBA_NUM_THREADS": threads, **os.environ, world.MARK: str(number)}
+    command = [*launcher(case, number), sys.executable, "-m", "sdph.cli", "run", "--resume", str(folder), *options]
+    heard = []
+    with subprocess.Popen(command, env=environment, start_new_session=True) as processes:
+
+        def ask(signum: int, frame) -> None:
+            heard.append(signum)
+            processes.send_signal(signal.SIGUSR1)  # which mpirun hands on
+
+        before = {signum: signal.signal(signum, ask) for signum in SIGNALS}
+        try:
+            code = processes.wait()
+        finally:
+            for signum, handler in before.items():
+                signal.signal(signum, handler)
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(processes.pid, signal.SIGKILL)
+    return 128 + heard[0] if code and heard else code if code >= 0 else 128 - code
+
+
+@contextlib.contextmanager
+def claimed(folder: Path):
+    """Keep other runs out of a folder; of several processes the one that started them does."""
+    with output.claimed(folder) if world.here().number == 1 else contextlib.nullcontext():
+        yield
+
+
+def wait_for_the_first() -> None:
+    """Wait, in another process than the first one, for it to end this one: what fails everywhere is told once."""
+    if not world.here().chief:
+        time.sleep(GRACE)
+
+
+def end(code: int) -> None:
+    """End all processes with a code, at once; nothing where there is one alone."""
+    if world.here().number > 1:
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(code)
