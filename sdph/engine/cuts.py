@@ -46,5 +46,6 @@ def _quantile(world, along: np.ndarray, weight: np.ndarray, ends: tuple[float, f
         bins, edges = np.histogram(along[inside], BINS, (low, high), weights=weight[inside])
         sums = before + np.cumsum(world.sum(bins))
         chosen = min(int(np.searchsorted(sums, wanted)), BINS - 1)
-        before, low, high = float(sums[chosen - 1]) if chosen else before, float(edges[chosen]), float(edges[chosen + 1])
+        before = float(sums[chosen - 1]) if chosen else before
+        low, high = float(edges[chosen]), float(edges[chosen + 1])
     return high

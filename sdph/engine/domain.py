@@ -13,6 +13,7 @@ import numpy as np
 from sdph.engine import cuts
 from sdph.engine import state as particles
 from sdph.engine.state import WALL
+from sdph.schema import CaseError
 
 UNEVEN = 1.1  # pairs of the busiest process over their mean, from which on space is cut anew (issue 26)
 OF_WALL = 0.1  # weight of a wall particle beside one of liquid's, before rows are known; our choice
@@ -25,54 +26,65 @@ class Domain:
     def __init__(self, world, reach: float, period):
         self.world, self.reach, self.period = world, reach, period
         self.alone = world.number == 1
-        self.tree, self.own, self.weight = None, None, None  # mask (N,) of own particles; their pairs (N,)
+        self.tree, self.pairs = None, np.zeros(0)  # cuts; neighbours of each particle (N,)
         self.sends, self.gets = {}, {}  # rows by rank: own ones that it has copies of, copies of its
         self.imbalance, self.halo = 1.0, 0.0  # pairs of the busiest over their mean; copies over own particles
 
-    def mine(self, mask: np.ndarray) -> np.ndarray:
+    def refuse_crowd(self, state) -> None:
+        """CaseError where there are more processes than particles to share."""
+        count = int((state.kind != WALL).sum())
+        if self.world.number > count:
+            raise CaseError(f"--ranks {self.world.number}: there are {count} particles; give no more ranks than these")
+
+    def mine(self, state, mask: np.ndarray) -> np.ndarray:
         """Rows of the own particles among those of a mask (N,)."""
-        return np.flatnonzero(mask if self.alone else mask & self.own).astype(np.int32)
+        return np.flatnonzero(mask if self.alone else mask & (state.copy == 0)).astype(np.int32)
 
     def share(self, state):
         """Own particles and fresh copies; at first each process has all particles, and keeps its own."""
         if self.alone:
             return state
         if self.tree is None:
-            places = _places(state)
-            self.tree = cuts.cut(self.world, places, np.where(state.kind == WALL, OF_WALL, 1.0))
-            own = particles.take(state, cuts.owner(self.tree, places) == self.world.rank)
+            self.tree = cuts.cut(self.world, _places(state), np.where(state.kind == WALL, OF_WALL, 1.0))
+            own = particles.take(state, self._here(state))
         else:
-            own = particles.take(state, self.own)
-            if self.imbalance > UNEVEN:
-                self.tree = cuts.cut(self.world, _places(own), self.weight[self.own])
+            own = _own(state)
+            if self.imbalance > UNEVEN and len(self.pairs) == len(state.x):
+                self.tree = cuts.cut(self.world, _places(own), 1.0 + self.pairs[state.copy == 0])
             own = self._moved(own)
         return self._with_copies(own)
 
+    def admitted(self, state):
+        """The state without those of its last rows, new ones that every process has, that are others' own."""
+        old = len(state.copy)
+        if self.alone or self.tree is None or old == len(state.x):
+            return state
+        here = self._here(state)
+        here[:old] = True
+        known = np.concatenate((state.copy, np.zeros(len(state.x) - old, state.copy.dtype)))
+        return particles.take(state._replace(copy=known), here)
+
     def sort(self, order: np.ndarray) -> None:
         """Take note that row n is now what was row order[n]."""
-        if self.alone:
-            return
         place = np.empty(len(order), np.int64)
         place[order] = np.arange(len(order))
         self.sends = {rank: place[rows] for rank, rows in self.sends.items()}
         self.gets = {rank: place[rows] for rank, rows in self.gets.items()}
-        self.own = self.own[order]
 
-    def weigh(self, pairs: np.ndarray) -> None:
+    def weigh(self, state, pairs: np.ndarray) -> None:
         """Take note of how many neighbours each particle (N,) has."""
         if self.alone:
             return
-        self.weight = 1.0 + pairs
-        own = float(self.weight[self.own].sum())
-        self.imbalance = self.world.most(own) * self.world.number / self.world.sum(own)
-        copies, mine = self.world.sum(np.array([(~self.own).sum(), self.own.sum()]))
-        self.halo = float(copies / mine)
+        self.pairs, own = pairs.copy(), state.copy == 0
+        work, copies, mine = float(len(own) + pairs[own].sum()), float((~own).sum()), float(own.sum())
+        whole, copies, mine = self.world.sum(np.array([work, copies, mine]))
+        self.imbalance, self.halo = float(self.world.most(work) * self.world.number / whole), float(copies / mine)
 
     def refresh(self, *arrays: np.ndarray) -> None:
         """Bring the copies in arrays (N,) or (N, k) up to date; those without length are passed over."""
-        arrays = [array for array in arrays if len(array)]
         if self.alone or not (self.sends or self.gets):
             return
+        arrays = [array for array in arrays if len(array)]
         comm, sent, inbox = self.world.comm, [], {}
         for rank, rows in self.gets.items():
             inbox[rank] = np.empty(sum(len(rows) * (array.size // len(array)) for array in arrays))
@@ -94,12 +106,16 @@ class Domain:
 
     def gather(self, state, arrays: list) -> tuple | None:
         """State and arrays (N, ...) of all particles, at the chief; None elsewhere."""
-        own = particles.take(state, self.own)
-        parts = self.world.gather((own, [array[self.own] if len(array) else array for array in arrays]))
+        mine = state.copy == 0
+        parts = self.world.gather((_own(state), [array[mine] if len(array) else array for array in arrays]))
         if parts is None:
             return None
         states, others = zip(*parts)
         return _joined(states), [np.concatenate(same) for same in zip(*others)]
+
+    def _here(self, state) -> np.ndarray:
+        """Mask (N,) of what is in this part of space."""
+        return cuts.owner(self.tree, _places(state)) == self.world.rank
 
     def _moved(self, own):
         """The particles that are in this part of space now."""
@@ -120,8 +136,8 @@ class Domain:
             if part is not None:
                 self.gets[rank] = np.arange(count, count + len(part.x))
                 count += len(part.x)
-        self.own = np.arange(count) < len(own.x)
-        return _joined([own, *(part for part in copies if part is not None)])
+        mark = (np.arange(count) >= len(own.x)).astype(np.int8)
+        return _joined([own, *(part for part in copies if part is not None)])._replace(copy=mark)
 
     def _near(self, places, low, high) -> np.ndarray:
         """Mask (N,) of the places within reach of a box."""
@@ -132,6 +148,11 @@ class Domain:
             near &= (np.mod(off, period) if period else off) <= width
             near &= off >= 0.0 if not period else True
         return near & (low <= high).all()
+
+
+def _own(state):
+    """The particles that are no copies, without the mark."""
+    return particles.take(state, state.copy == 0)._replace(copy=state.copy[:0])
 
 
 def _places(state) -> np.ndarray:

@@ -57,9 +57,11 @@ class Neighbours:
         self.built = ()  # positions at the last build
         self.room = np.empty(0, np.uint32)
 
-    def update(self, state):
-        """The state (reordered where the list had to be rebuilt) and its rows."""
+    def update(self, state, *stale):
+        """The state (reordered where the list had to be rebuilt) and its rows; copies of particles of other processes
+        are as these are, in the arrays `stale` of the state at least."""
         if not self.world.any(not self._holds(particles.axes(state))):
+            self.domain.refresh(*stale)
             return state, self.rows
         for axis, period in zip(particles.axes(state), self.period):
             if period:
@@ -69,7 +71,9 @@ class Neighbours:
         self.domain.sort(rows)
         state = particles.take(state, rows)
         self.built = tuple(axis.copy() for axis in particles.axes(state))
-        return state, self.relist(state.kind)
+        rows = self.relist(state.kind)
+        self.domain.weigh(state, rows.number)
+        return state, rows
 
     def by_cell(self, here, solid) -> np.ndarray:
         """Rows of the places `here` cell by cell, in each of them those of `solid` (N,) last."""
@@ -80,7 +84,6 @@ class Neighbours:
         """Rows of the particles at the last build, of these kinds."""
         solid = kind == WALL
         self.rows = self._rows(self.built, solid, self.built, solid, True)
-        self.domain.weigh(self.rows.number)
         return self.rows
 
     def _holds(self, here) -> bool:

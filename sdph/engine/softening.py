@@ -17,8 +17,8 @@ SAMPLE = 8  # of so many particles one is looked at: a mean over a cloud, which 
 
 @serial
 def left_of(kernel, s, rows, box, chosen, weight, eta_squared):
-    """sum_i sum_j w_j r^2 (dW/dr)/r, a diffusion's own weights, and what eta_squared [m2] in r^2/(r^2 + eta^2) leaves of
-    it; over the `chosen` (C,) particles and neighbours of weight (N,)."""
+    """sum_i sum_j w_j r^2 (dW/dr)/r, a diffusion's own weights, and what eta_squared [m2] in r^2/(r^2 + eta^2) leaves
+    of it; over the `chosen` (C,) particles and neighbours of weight (N,)."""
     whole = left = 0.0
     for i in chosen:
         for k in range(rows.number[i]):
@@ -33,7 +33,7 @@ def left_of(kernel, s, rows, box, chosen, weight, eta_squared):
 
 def held(method, name, chosen, weight) -> dict[str, float]:
     """Column of history.csv of a stepper with the kernel `name`; chosen (A,) rows of its particles, of which one in
-    SAMPLE counts."""
+    SAMPLE, by its number, counts."""
     case, eta_squared = method.case, SOFTENING * method.case.smoothing_length**2
     around = (
         smoothing.smoothing(name, case.dimensions, case.smoothing_length),
@@ -41,6 +41,7 @@ def held(method, name, chosen, weight) -> dict[str, float]:
         method.rows,
         method.neighbours.box,
     )
-    sums = left_of(*around, chosen[::SAMPLE], weight, eta_squared)
+    sampled = chosen[method.state.ident[chosen] % SAMPLE == 0]  # whatever their order, and whoever has them
+    sums = left_of(*around, sampled, weight, eta_squared)
     whole, left = method.neighbours.world.sum(np.array(sums))
     return {"softened_rel": float(1.0 - left / whole) if whole != 0.0 else 0.0}

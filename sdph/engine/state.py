@@ -89,6 +89,7 @@ class State(NamedTuple):
     way_y: np.ndarray
     way_z: np.ndarray
     row: np.ndarray
+    copy: np.ndarray
 
 
 # there within a window alone
@@ -150,6 +151,7 @@ FIELDS = {
     "damped": ("J", "energy of theta that went into the gas"),
     **{f"way_{a}": ("m", "mean velocity of every sub-step times its length") for a in "xyz"},
     "row": ("1", "row that the particle had when the window began"),
+    "copy": ("1", "1 of a particle that another process has, of those that share a run (sdph.engine.domain)"),
 }  # fmt: skip
 ALWAYS = ("x", "y", "u", "v", "mass", "density", "ident", "kind")
 IN_SPACE = {"z", "w", "contact_yz", "contact_zx", "eddy_z", "push_z", "way_z"}  # of length zero in two dimensions
@@ -162,6 +164,7 @@ INTEGERS = {
     "entering": np.int8,
     "exchanged": np.int8,
     "row": np.int64,
+    "copy": np.int8,
 }
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import importlib.util
 import os
+import re
 import shlex
 import shutil
 import signal
@@ -17,6 +18,7 @@ import sys
 import time
 from pathlib import Path
 
+from coupling.gas import GasError
 from coupling.openfoam.programs import install
 from sdph.case import read as cases
 from sdph.engine import restart, world
@@ -26,9 +28,13 @@ from sdph.schema import CaseError
 
 # effects whose loops are told what particles of others are like (HALO, and what they refresh themselves)
 SHARED = (
-    "density_diffusion", "frame", "gravity", "laminar_viscosity", "liquid_damping", "shear_thinning", "shifting",
-    "surface_tension", "tank", "xsph",
+    "density_diffusion", "drain", "frame", "gravity", "inflow", "laminar_viscosity", "liquid_damping", "outflow",
+    "shear_thinning", "shifting", "surface_tension", "tank", "xsph",
 )  # fmt: skip
+KNOWN = range(6)  # codes that a process ends with of itself
+RULE = "-" * 20  # about what mpirun has to say
+DIED = re.compile(r"process rank (\d+) .*exited on (signal \d+ \([^)]*\))")
+CROWD = 16  # processes a core at most, where no launcher of one's own knows better; our choice
 GRACE = 3.0  # s that others wait for what the first process has to say; all are ended within 5 s (issue 26)
 
 
@@ -39,6 +45,9 @@ def refuse(case, number: int) -> None:
         raise CaseError(f"{given}: only liquids alone are shared among processes; {mend}")
     if left := sorted(set(case.effects) - set(SHARED)):
         raise CaseError(f"{given}: {left[0]} is not shared among processes; known: {', '.join(SHARED)}; {mend}")
+    most = CROWD * (os.cpu_count() or 1)
+    if number > most and not case.run.launcher:
+        raise CaseError(f"{given}: this machine has room for {most} processes; give fewer, or a run.launcher")
     if importlib.util.find_spec("mpi4py") is None:
         raise CaseError(f"{given} needs mpi4py, which is not installed: pip install 'sdph[mpi]'; or {mend}")
     program = launcher(case, number)[0]
@@ -50,7 +59,7 @@ def launcher(case, number: int) -> list[str]:
     """Head of the command that starts so many processes: `run.launcher`, or Open MPI's mpirun."""
     if case.run.launcher:
         return [*shlex.split(case.run.launcher), "-n", str(number)]
-    return [*install.mpirun(number), "--bind-to", "none", "--quiet"]
+    return [*install.mpirun(number), "--bind-to", "none"]
 
 
 def run(case, folder: Path, number: int, options: list[str]) -> int:
@@ -80,8 +89,8 @@ def _started(case, folder: Path, number: int, options: list[str]) -> int:
     threads = str(max(1, (os.cpu_count() or 1) // number))
     environment = {"NUMBA_NUM_THREADS": threads, **os.environ, world.MARK: str(number)}
     command = [*launcher(case, number), sys.executable, "-m", "sdph.cli", "run", "--resume", str(folder), *options]
-    heard = []
-    with subprocess.Popen(command, env=environment, start_new_session=True) as processes:
+    heard, piped = [], subprocess.PIPE
+    with subprocess.Popen(command, env=environment, start_new_session=True, stderr=piped, text=True) as processes:
 
         def ask(signum: int, frame) -> None:
             heard.append(signum)
@@ -89,13 +98,44 @@ def _started(case, folder: Path, number: int, options: list[str]) -> int:
 
         before = {signum: signal.signal(signum, ask) for signum in SIGNALS}
         try:
+            told = _passed_on(processes.stderr)
             code = processes.wait()
         finally:
             for signum, handler in before.items():
                 signal.signal(signum, handler)
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(processes.pid, signal.SIGKILL)
-    return 128 + heard[0] if code and heard else code if code >= 0 else 128 - code
+    if heard and code:
+        return 128 + heard[0]
+    if died := DIED.search(" ".join(told)):
+        raise _lost(folder, f"process {died[1]} of {number} ended by {died[2]}")
+    if code not in KNOWN:
+        raise _lost(folder, f"{command[0]} ended with code {code}: {' '.join(told) or 'it does not say why'}")
+    return code
+
+
+def _passed_on(lines) -> list[str]:
+    """Pass on what processes say; what their launcher says, between lines of dashes, is returned."""
+    told, within = [], False
+    for line in lines:
+        if line.startswith(RULE):
+            within = not within
+        elif within:
+            told.append(line.strip())
+        else:
+            print(line, end="", file=sys.stderr, flush=True)
+    return told
+
+
+def _lost(folder: Path, why: str) -> GasError:
+    """Error of a run whose processes are gone, with how to go on."""
+    error, checkpoint = GasError(f"the particles' side failed: {why} (by somebody, or for lack of memory)"), None
+    with contextlib.suppress(CaseError):
+        checkpoint = restart.newest(folder)
+    output.write_json(folder / output.FAILURE, {"what": str(error), "kind": "GasError", "time_s": None})
+    if checkpoint:
+        error.add_note(f"(last checkpoint: {checkpoint.folder}; go on with: sdph run --resume {folder})")
+    return error
 
 
 @contextlib.contextmanager

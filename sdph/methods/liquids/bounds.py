@@ -22,18 +22,22 @@ FORCE = 0.25  # of sqrt(h/|a|), liquids.md, shared core
 
 
 class Born(NamedTuple):
-    """Particles that a liquid and its walls began with, the largest mass [kg], and the ends of their densities
-    [kg/m3]."""
+    """Particles that a liquid and its walls began with, their mass, the largest one, and that of liquid [kg], and the
+    ends of their densities [kg/m3]."""
 
     particles: int
+    mass: float
     heaviest: float
+    heaviest_liquid: float
     thinnest: float
     densest: float
 
 
 def born(state) -> Born:
     """`Born` of a State of the start."""
-    return Born(len(state.x), float(state.mass.max()), float(state.density.min()), float(state.density.max()))
+    liquid = state.mass[particles.wet(state)].max(initial=0.0)
+    ends = float(state.density.min()), float(state.density.max())
+    return Born(len(state.x), float(state.mass.sum()), float(state.mass.max()), float(liquid), *ends)
 
 
 class LiquidGuard(Watch):

@@ -1,4 +1,4 @@
-"""Particles of a liquid that several processes share: all of them at the chief for a while, and a part of them again."""
+"""Particles of a liquid that several processes share: all of them at the chief for a while, and parts again."""
 
 from __future__ import annotations
 

@@ -58,7 +58,7 @@ def _drained(run) -> dict[str, float]:
 
 
 def loads(run) -> dict[str, float]:
-    """Columns of loads on the tank: the mean since the last row by the momentum theorem, and what the walls feel now."""
+    """Columns of loads on the tank: mean since the last row by the momentum theorem, and what the walls feel now."""
     if "tank" not in run.case.effects:
         return {}
     mean = run.impulse / (run.time - run.since) if run.time > run.since else run.rates[account.LOADS]

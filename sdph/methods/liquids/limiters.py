@@ -76,4 +76,3 @@ def _by_damping(stepper) -> dict[str, float]:
     if not isinstance(p, liquid_damping.LinearP):
         return {}
     return softening.held(stepper, stepper.case.liquid.kernel, stepper.active, np.maximum(stepper.volume, 0.0))
-

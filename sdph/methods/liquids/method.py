@@ -84,6 +84,7 @@ class LiquidStepper:
         self.void = bubbles.of(case, self.p["bubble"], self.state, self.bodies) if self.p["bubble"] else None
         self.look = None  # who is told of new forces, with the length [s] of the kick to come
         self.born = born(self.state)
+        self.domain.refuse_crowd(self.state)
         self.forces()
         self.heat = Heat(self, self.p["liquid_heat"]) if self.p["liquid_heat"] else None
         if self.bodies:
@@ -190,8 +191,7 @@ class LiquidStepper:
         built = self.neighbours.built
         if self.bodies and self.moving:
             self.bodies.place(self.state)
-        self.domain.refresh(*self._places(), self.state.density)
-        self.state, self.rows = self.neighbours.update(self.state)
+        self.state, self.rows = self.neighbours.update(self.state, *self._places(), self.state.density)
         if built is not self.neighbours.built:
             self._allocate()
         s, p = self.state, self.p
@@ -210,6 +210,8 @@ class LiquidStepper:
                 *around[:-1], self.waiting, p["gravity"], self.frame, self.fluids[:, LIQUID], self.pressure,
                 self.volume, s.density, self.gradient, s.enclosure,
             )  # fmt: skip
+        if self.openings:
+            self.domain.refresh(self.pressure, self.volume, s.density, s.enclosure)
         if len(self.walls):
             walls.extrapolate(
                 self.kernel, s, self.rows, self.neighbours.box, self.walls, self.wall, self.moving, p["gravity"],
@@ -255,10 +257,10 @@ class LiquidStepper:
         """Tell liquid particles, those that wait, those of the walls that liquid is near; arrays that no step takes
         from the last."""
         s = self.state
-        self.waiting = np.flatnonzero(s.kind == INFLOW).astype(np.int32)
+        self.waiting = self.domain.mine(s, s.kind == INFLOW)
         self.wet = np.flatnonzero(particles.wet(s)).astype(np.int32)  # copies too
-        self.active = self.domain.mine(particles.wet(s))
-        self.walls = self.domain.mine((s.kind == WALL) & (self.rows.number > 0))
+        self.active = self.domain.mine(s, particles.wet(s))
+        self.walls = self.domain.mine(s, (s.kind == WALL) & (self.rows.number > 0))
         self.moving = self.bodies.find(s) if self.bodies else ()
         if self.bodies:
             self.bodies.look(self)
@@ -273,25 +275,6 @@ class LiquidStepper:
         """Mass [kg] of the liquid that would fill the tank, its outlet pipe left out."""
         return self.case.liquid.density * tank.shape_of(self.case).volume
 
-    def remove(self, i: int) -> None:
-        """Takes particle i out; neighbours and forces are made anew."""
-        keep = np.ones(len(self.state.x), bool)
-        keep[i] = False
-        self.leave(keep)
-        self.forces()
-
-    def set_aside(self, i: int) -> None:
-        """Particle i becomes a piece of wall; neighbours and forces are made anew."""
-        self.state.kind[i] = WALL
-        self.neighbours.built = ()
-        self.forces()
-
-    def move_wall(self, i: int, height: float, mass: float) -> None:
-        """Take a piece of wall, particle i, to a height [m] along the last axis, where it has a mass [kg]."""
-        s = self.state
-        particles.axes(s)[-1][i], s.mass[i] = height, mass
-        self.volume[i] = -s.mass[i] / s.density[i]
-
     def leave(self, keep) -> None:
         """Take the particles out that are not kept (N,); the next forces make neighbours anew."""
         self.replace(particles.take(self.state, keep))
@@ -299,7 +282,7 @@ class LiquidStepper:
     def replace(self, state) -> None:
         """Go on with another state; the next forces make neighbours anew."""
         if state is not self.state:
-            self.state, self.neighbours.built = state, ()
+            self.state, self.neighbours.built = self.domain.admitted(state), ()
 
     def _places(self) -> tuple[np.ndarray, ...]:
         s = self.state

@@ -69,23 +69,28 @@ class Openings:
 
     def renew(self, stepper) -> None:
         """Let go of what is through its mouth, fill up the streams, take out what has left."""
+        now = np.zeros((2, 5))
         if self.source:
             waiting = np.flatnonzero(stepper.state.kind == INFLOW)
             self.source.release(stepper.state)
             through = waiting[stepper.state.kind[waiting] == LIQUID]
             if len(through):
-                self._count(IN, stepper, through)
+                now[IN] = _amounts(stepper, through)
                 stepper.tell_apart()
             stepper.replace(self.source.fill(stepper.state, stepper.time, 0.0))
         gone = outflow.left(self.case, stepper.state) if self.leave else np.zeros(0, bool)
         if gone.any():
-            self._count(OUT, stepper, np.flatnonzero(gone))
+            now[OUT] = _amounts(stepper, np.flatnonzero(gone))
             stepper.leave(~gone)
+        self.passed += stepper.world.sum(now)
 
-    def _count(self, way: int, stepper, rows) -> None:
-        mass, velocity = stepper.state.mass[rows], particles.velocities(stepper.state)[rows]
-        energy = mass @ sum(specific_energies(stepper, rows))
-        self.passed[way] += np.concatenate(([mass.sum()], mass @ velocity, [energy]))
+
+def _amounts(stepper, rows) -> np.ndarray:
+    """(5,) mass [kg], momentum (3) [kg m/s] and energy [J] of the own particles among `rows` (n,)."""
+    s = stepper.state
+    rows = rows[s.copy[rows] == 0] if len(s.copy) else rows
+    mass, velocity = s.mass[rows], particles.velocities(s)[rows]
+    return np.concatenate(([mass.sum()], mass @ velocity, [mass @ sum(specific_energies(stepper, rows))]))
 
 
 @parallel

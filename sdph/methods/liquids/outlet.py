@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,6 +16,19 @@ from sdph.methods.liquids.totals import specific_energies
 ROUND_OFF = 1e-12  # of a particle's mass: less than that is nothing
 
 
+class Lowest(NamedTuple):
+    """The lowest particle of liquid: height [m], number, mass [kg], energy [J/kg], place (3,) [m], velocity (3,) [m/s],
+    acceleration (3,) [m/s2]."""
+
+    height: float
+    ident: int
+    mass: float
+    energy: float
+    place: np.ndarray
+    velocity: np.ndarray
+    acceleration: np.ndarray
+
+
 class Outlet:
     """Takes from a stepper's liquid what is commanded; sums up what has gone: mass, momentum, angular momentum,
     energy."""
@@ -25,9 +39,9 @@ class Outlet:
         case = stepper.case
         self.stepper, own = stepper, case.parameters.get("drain")
         self.form, self.interval = (own.form, own.interval) if own else (drain.FORMS[0], 0.0)
-        self.particle = float(stepper.state.mass[stepper.active].max())
+        self.particle = stepper.born.heaviest_liquid
         self.fill = next((pool.fill for pool in case.pools.values() if pool.fill), 1.0)
-        lowest = particles.axes(stepper.state)[-1].min()
+        lowest = stepper.world.least(float(particles.axes(stepper.state)[-1].min(initial=np.inf)))
         self.end = lowest + (tank.layers(case) - 0.5) * case.resolution.spacing  # height of the outlet's end [m]
         self.place = np.zeros(3)  # where the last of it went [m]
         # mass [kg], momentum (3) [kg m/s], angular momentum (3) [kg m2/s], energy [J], in the frame
@@ -41,7 +55,7 @@ class Outlet:
         number, _, begun, mass = kept["leaving"].T
         walls = state["ident"][state["kind"] == WALL]
         on_the_way = np.isin(number, walls) & (begun >= 0.0) & (begun <= time) & (mass > 0.0) & (mass <= self.particle)
-        if not on_the_way.all() or not 0.0 <= kept["gone"][0] <= self.stepper.state.mass.sum():
+        if not on_the_way.all() or not 0.0 <= kept["gone"][0] <= self.stepper.born.mass:
             raise Unfit("what has left through the outlet, or is about to, was never there")
 
     def command(self, fill: float) -> None:
@@ -52,36 +66,49 @@ class Outlet:
         if self.form == "paper":
             owed = self.particle * np.floor(owed / self.particle + 0.5)
         # a tank of whole particles may hold half a one less
-        while owed > ROUND_OFF * self.particle and len(self.stepper.active):
-            owed -= self._take(owed)
+        while owed > ROUND_OFF * self.particle and (lowest := self._lowest()) is not None:
+            owed -= self._take(lowest, owed)
 
-    def _take(self, owed: float) -> float:
+    def _lowest(self) -> Lowest | None:
+        """The lowest particle, which one process has; None where there is none."""
+        st, s = self.stepper, self.stepper.state
+        heights, found = particles.axes(s)[-1][st.active], None
+        if len(heights):
+            i = st.active[np.argmin(heights)]
+            energy = float(sum(specific_energies(st, [i]))[0])
+            moves = particles.positions(s)[i], particles.velocities(s)[i], st.acceleration[i].copy()
+            found = Lowest(float(heights.min()), int(s.ident[i]), float(s.mass[i]), energy, *moves)
+        return min((one for one in st.world.everywhere(found) if one), key=lambda one: one[:2], default=None)
+
+    def _take(self, lowest: Lowest, owed: float) -> float:
         """Mass [kg] taken out of the lowest particle, `owed` at most."""
-        st = self.stepper
-        s = st.state
-        i = st.active[np.argmin(particles.axes(s)[-1][st.active])]
-        taken = min(owed, float(s.mass[i]))
-        velocity, place = particles.velocities(s)[i], particles.positions(s)[i]
-        self.place = place
-        energy = sum(specific_energies(st, [i]))
-        self.gone += taken * np.concatenate(([1.0], velocity, np.cross(place, velocity), energy))
-        if s.mass[i] - taken > ROUND_OFF * self.particle:
-            s.mass[i] -= taken
-            self.pushed = self.pushed + taken * st.acceleration[i]
-        elif self.form == "paper":
-            self._release(i)
-            self.pushed = np.zeros(3)
+        taken, st = min(owed, lowest.mass), self.stepper
+        self.place = lowest.place
+        moment = np.cross(lowest.place, lowest.velocity)
+        self.gone += taken * np.concatenate(([1.0], lowest.velocity, moment, [lowest.energy]))
+        if lowest.mass - taken > ROUND_OFF * self.particle:
+            for i in self._rows(lowest.ident):
+                st.state.mass[i] -= taken
+            self.pushed = self.pushed + taken * lowest.acceleration
+            return taken
+        if self.form == "paper":
+            self._release(lowest)
         else:
-            st.remove(i)
-            self.pushed = np.zeros(3)
+            self._remove(self._rows(lowest.ident))
+        self.pushed = np.zeros(3)
         return taken
 
-    def _release(self, i: int) -> None:
-        """Particle i goes out as a piece of wall, whose push fades."""
-        st, s = self.stepper, self.stepper.state
-        way = float(particles.axes(s)[-1][i]) - self.end
-        self.leaving = np.vstack((self.leaving, (s.ident[i], way, st.time, s.mass[i])))
-        st.set_aside(i)
+    def _rows(self, ident: int) -> np.ndarray:
+        """Row of a particle, or of its copy; none in processes that have neither."""
+        return np.flatnonzero(self.stepper.state.ident == ident)
+
+    def _release(self, lowest: Lowest) -> None:
+        """The lowest particle goes out as a piece of wall, whose push fades."""
+        way = lowest.height - self.end
+        self.leaving = np.vstack((self.leaving, (lowest.ident, way, self.stepper.time, lowest.mass)))
+        self.stepper.state.kind[self._rows(lowest.ident)] = WALL
+        self.stepper.neighbours.built = ()
+        self.stepper.forces()
 
     def _fade(self) -> None:
         """Moves what leaves to the outlet's end at an even speed; its volume goes with xi of what is left of the
@@ -89,12 +116,20 @@ class Outlet:
         st = self.stepper
         for row in self.leaving:
             number, way, begun, mass = row
-            i, left = int(np.flatnonzero(st.state.ident == int(number))[0]), 1.0 - (st.time - begun) / self.interval
+            rows, left = self._rows(int(number)), 1.0 - (st.time - begun) / self.interval
             if left <= 0.0 or way <= 0.0:
-                st.remove(i)
+                self._remove(rows)
                 self.leaving = self.leaving[self.leaving[:, 0] != number]
                 continue
-            st.move_wall(i, self.end + left * way, mass * fading(left))
+            particles.axes(st.state)[-1][rows], st.state.mass[rows] = self.end + left * way, mass * fading(left)
+            st.volume[rows] = -st.state.mass[rows] / st.state.density[rows]
+
+    def _remove(self, rows) -> None:
+        """Take particles out; neighbours and forces are made anew."""
+        keep = np.ones(len(self.stepper.state.x), bool)
+        keep[rows] = False
+        self.stepper.leave(keep)
+        self.stepper.forces()
 
 
 def fading(left: float) -> float:
