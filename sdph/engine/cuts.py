@@ -40,6 +40,8 @@ def owner(tree, places: np.ndarray) -> np.ndarray:
 def _quantile(world, along: np.ndarray, weight: np.ndarray, ends: tuple[float, float], share: float) -> float:
     """Place [m] below which lies that share of the weight."""
     low, high = ends
+    if not low < high:  # all are at one place, or there are none
+        return float(high) if np.isfinite(high) else 0.0
     wanted, before = share * world.sum(float(weight.sum())), 0.0
     for _ in range(ROUNDS):
         inside = (along >= low) & (along <= high)

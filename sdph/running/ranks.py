@@ -122,7 +122,7 @@ def _passed_on(lines) -> list[str]:
             within = not within
         elif within:
             told.append(line.strip())
-        else:
+        elif not line.startswith("mpirun: "):
             print(line, end="", file=sys.stderr, flush=True)
     return told
 

@@ -1,0 +1,159 @@
+"""A liquid that several processes share goes as by one process, ends as by one, and a process that dies is told of."""
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import pyvista
+
+from sdph.cli import main
+
+SDPH = (sys.executable, "-m", "sdph.cli", "run")
+COARSE = ("--set", "resolution.spacing_mm=5.715", "--until", "0.02")
+CASES = {  # name -> scene and options: what is shared of an effect at least once, in two dimensions and in three
+    "front": (2, "dam_break", *COARSE),
+    "shifting, corrected": (3, "square_patch", "--until", "0.05", "--set", "resolution.spacing_mm=50",
+                            "--set", "liquid.pressure_gradient=corrected"),
+    "two phases at a wall": (2, "drop_on_plate", "--until", "1e-4"),
+    "thinning, periodic": (3, "power_law_poiseuille", "--until", "0.01"),
+    "nozzle, open side": (3, "channel_bore", "--until", "0.02"),
+    "drain, frame, in space": (2, "sloshing_cassini", "--until", "0.02"),
+}  # fmt: skip
+NOT_ALIKE = ("ranks", "imbalance", "halo_share")  # in the summary, and all that is of time or a drift
+
+
+def run(*options, ranks=1, **more):
+    """The finished process of `sdph run`."""
+    given = (*SDPH, *map(str, options), *(("--ranks", str(ranks)) if ranks > 1 else ()))
+    return subprocess.run(given, capture_output=True, text=True, timeout=300, check=False, **more)
+
+
+def fine(folder: Path, *options, ranks=1) -> Path:
+    """The folder of a run that went well."""
+    done = run(*options, ranks=ranks) if "--resume" in options else run(*options, "--out", folder, ranks=ranks)
+    assert done.returncode == 0, done.stderr
+    return folder
+
+
+def particles(folder: Path):
+    """The last particles, by number."""
+    last = pyvista.read(sorted(folder.glob("fields/particles_*"))[-1])
+    order = np.argsort(last["ident"])
+    return {"place": last.points[order]} | {name: last[name][order] for name in last.array_names}
+
+
+def alike(found: Path, one: Path, bar: float = 1e-11) -> None:
+    """Fields, history, ledger and summary are those of one process."""
+    ours, theirs = particles(found), particles(one)
+    np.testing.assert_array_equal(ours["ident"], theirs["ident"])
+    for name, values in theirs.items():
+        assert np.abs(ours[name] - values).max() <= bar * max(np.abs(values).max(), 1e-300), name
+    for table in ("history.csv", "ledger.csv"):
+        a, b = (list(csv.reader((folder / table).read_text().splitlines())) for folder in (found, one))
+        assert len(a) == len(b) and a[0] == b[0], table
+    a, b = (json.loads((folder / "summary.json").read_text()) for folder in (found, one))
+    assert a.keys() == b.keys()
+    for key in ("sub_steps", "particles", "mass_kg", "liquid_particles"):
+        assert a.get(key) == b.get(key), key
+    for key in ("work_of_gravity_J", "kinetic_energy_J", "dissipated_J", "drained_kg", "injected_kg", "left_kg"):
+        assert a[key] == pytest.approx(b[key], rel=1e-9, abs=1e-15), key
+    assert a["mass_drift_rel"] < 1e-12 and a["momentum_drift_rel"] < 1e-12
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_shared_liquid_goes_as_one_process_takes_it(tmp_path, name):
+    ranks, *options = CASES[name]
+    alike(fine(tmp_path / "shared", *options, ranks=ranks), fine(tmp_path / "one", *options))
+    told = json.loads((tmp_path / "shared/summary.json").read_text())
+    assert told["ranks"] == ranks and 1.0 <= told["imbalance"] < 1.3 and told["halo_share"] > 0.0
+
+
+def test_a_run_goes_on_by_other_processes_or_by_one_and_repeats(tmp_path):
+    whole = fine(tmp_path / "whole", "dam_break", *COARSE)
+    part = ("dam_break", *COARSE[:2], "--until", "0.01")
+    for name, ranks in (("three", 3), ("one", 1)):
+        cut = fine(tmp_path / name, *part, ranks=4)
+        alike(fine(cut, "--resume", cut, "--until", "0.02", ranks=ranks), whole)
+    first, again = (particles(fine(tmp_path / f"r{n}", *part, ranks=4)) for n in range(2))
+    for name, values in first.items():
+        np.testing.assert_array_equal(again[name], values)
+
+
+LONG = ("dam_break", "--set", "resolution.spacing_mm=3", "--set", "run.checkpoint_windows=1", "--ranks", "3")
+
+
+def begun(folder: Path) -> subprocess.Popen:
+    """A run by three processes that has left a checkpoint of its own."""
+    going = subprocess.Popen((*SDPH, *LONG, "--out", str(folder)), stderr=subprocess.PIPE, text=True)
+    end = time.monotonic() + 120.0
+    while not list(folder.glob("checkpoints/00000000[1-9]")):
+        assert time.monotonic() < end and going.poll() is None
+        time.sleep(0.05)
+    return going
+
+
+def shared_by(folder: Path) -> list[int]:
+    """Numbers of the processes that share a run."""
+    found = []
+    for entry in Path("/proc").glob("[0-9]*"):
+        try:
+            words = (entry / "cmdline").read_bytes().decode().split("\0")
+        except OSError:
+            continue
+        if "--resume" in words and str(folder) in words and "python" in words[0]:
+            found.append(int(entry.name))
+    return found
+
+
+def test_when_one_process_dies_all_end_and_the_run_says_how_to_go_on(tmp_path):
+    going = begun(tmp_path / "run")
+    os.kill(max(shared_by(tmp_path / "run")), signal.SIGKILL)
+    told = going.communicate(timeout=10.0)[1]
+    assert going.returncode == 3 and "signal 9" in told and "of 3" in told and "go on with: sdph run --resume" in told
+    assert "Traceback" not in told and not shared_by(tmp_path / "run")
+    assert fine(tmp_path / "run", "--resume", tmp_path / "run", "--until", "0.02", ranks=2)
+
+
+def test_a_run_that_is_asked_to_stop_leaves_a_checkpoint(tmp_path):
+    going = begun(tmp_path / "run")
+    going.terminate()
+    told = going.communicate(timeout=20.0)[1]
+    assert going.returncode == 128 + signal.SIGTERM and told.count("stopped by SIGTERM") == 1
+    assert "last checkpoint" in told and not shared_by(tmp_path / "run")
+
+
+def test_what_goes_unstable_is_told_once_with_its_own_code(tmp_path):
+    done = run("dam_break", *COARSE, "--set", "run.step_factor=1000", "--out", tmp_path / "run", ranks=3)
+    assert done.returncode == 5 and done.stderr.count("went unstable") == 1 and "Traceback" not in done.stderr
+    assert json.loads((tmp_path / "run/failure.json").read_text())["kind"] == "Unstable"
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (("bubbling_bed", "--ranks", "2"), "only liquids alone are shared"),
+        (("swirl_sheet", "--ranks", "2"), "only liquids alone are shared"),
+        (("dam_break", "--ranks", "0"), "a whole number, at least 1"),
+        (("dam_break", "--ranks", "100000"), "room for"),
+        (("dam_break", "--ranks", "2", "--set", "run.launcher=no_such_launcher"), "there is no no_such_launcher"),
+        (("dam_break", "--ranks", "2", "--watch"), "a page is of one process"),
+    ],
+)
+def test_what_cannot_be_shared_is_refused_in_one_line(tmp_path, options, told, capsys):
+    assert main(["run", *options, "--out", str(tmp_path / "run")]) == 2
+    said = capsys.readouterr().err
+    assert told in said and said.count("\n") == 1 and not (tmp_path / "run").exists()
+
+
+def test_more_processes_than_particles_are_refused(tmp_path):
+    few = ("dam_break", "--set", "resolution.spacing_mm=40", "--set", "pools.column.upper_m=[0.05715,0.05715]")
+    done = run(*few, "--out", tmp_path / "run", ranks=7)
+    assert done.returncode == 2 and "no more ranks than these" in done.stderr and "Traceback" not in done.stderr
+    assert not (tmp_path / "run").exists()
