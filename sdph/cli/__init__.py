@@ -162,6 +162,10 @@ def explain_case(options) -> int:
 
             parts["cost of effects, bubbling bed"] = effect_costs.table(_say)
         parts |= explained.explained(case, template, allow_code=options.allow_code)
+        if options.ranks:
+            from sdph.study import sharing
+
+            parts["ranks"] = sharing.rows(case, options.ranks)
     print(output.strict_json(parts) if options.json else f"{case.title}\n\n{tables.text(parts)}")
     return FINE
 

@@ -31,11 +31,13 @@ def parser() -> argparse.ArgumentParser:
         "--from-openfoam", type=Path, metavar="CASE", help="take mesh, patches, conditions and properties of this case"
     )
     init.add_argument("folder", type=Path)
+    init.add_argument("--slurm", action="store_true", help="a script for SLURM beside the case, to be edited: job.sh")
     _run_options(_command(commands, "run", "run a scene, a case folder or a case file"))
     explain = _command(commands, "explain", "what a case calls for, its limits and its cost, before it runs")
     _case_options(explain)
     _code_option(explain)
     explain.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: as `run` has it)")
+    explain.add_argument("--ranks", type=count, metavar="N", help="how so many processes would share the particles")
     explain.add_argument(
         "--measure", action="store_true", help="measure what each effect costs on this machine; minutes the first time"
     )

@@ -4,6 +4,21 @@ from __future__ import annotations
 
 from sdph.schema import CaseError
 
+JOB = "job.sh"
+SCRIPT = """#!/bin/sh
+#SBATCH --nodes=1
+#SBATCH --ntasks=16
+#SBATCH --cpus-per-task=1
+#SBATCH --time=12:00:00
+# A job that was cut goes on from its last checkpoint when it is sent again.
+export NUMBA_NUM_THREADS=$SLURM_CPUS_PER_TASK
+if [ -d run/checkpoints ]; then
+    sdph run --resume run --ranks $SLURM_NTASKS
+else
+    sdph run case.toml --out run --ranks $SLURM_NTASKS --set run.launcher="srun --mpi=pmix"
+fi
+"""
+
 
 def init_case(options) -> int:
     """Make the folder; returns the exit code."""
@@ -21,6 +36,9 @@ def init_case(options) -> int:
     inputs.copy_case(file, folder)
     output.copy_template(own if own.is_dir() else paths.gas_template(name), folder / "gas")
     print(f"{folder}/case.toml and {folder}/gas are yours to edit; run them with: sdph run {folder}")
+    if options.slurm:
+        output.write_text(folder / JOB, SCRIPT)
+        print(f"{folder}/{JOB} is for SLURM: sbatch {JOB}, from {folder}")
     return 0
 
 

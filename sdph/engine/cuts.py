@@ -37,6 +37,17 @@ def owner(tree, places: np.ndarray) -> np.ndarray:
     return out
 
 
+def near(places: np.ndarray, low, high, reach: float, period) -> np.ndarray:
+    """Mask (N,) of the places (N, d) [m] within `reach` [m] of a box, whatever the turn where `period` [m] is not 0; of
+    a box that holds nothing, whose ends are infinite, none are."""
+    found = np.full(len(places), bool((low <= high).all()))
+    for a in range(places.shape[1] if found.any() else 0):
+        off, width = places[:, a] - (low[a] - reach), high[a] - low[a] + 2.0 * reach
+        found &= (np.mod(off, period[a]) if period[a] else off) <= width
+        found &= (off >= 0.0) | (period[a] > 0.0)
+    return found
+
+
 def _quantile(world, along: np.ndarray, weight: np.ndarray, ends: tuple[float, float], share: float) -> float:
     """Place [m] below which lies that share of the weight."""
     low, high = ends

@@ -16,7 +16,7 @@ from sdph.engine.state import WALL
 from sdph.schema import CaseError
 
 UNEVEN = 1.1  # pairs of the busiest process over their mean, from which on space is cut anew (issue 26)
-OF_WALL = 0.1  # weight of a wall particle beside one of liquid's, before rows are known; our choice
+OF_WALL = 0.02  # weight of a wall particle over one of liquid's before rows are known: most have none; our choice
 
 
 class Domain:
@@ -127,7 +127,7 @@ class Domain:
     def _with_copies(self, own):
         places = _places(own)
         ends = self.world.everywhere((places.min(axis=0, initial=np.inf), places.max(axis=0, initial=-np.inf)))
-        found = [np.flatnonzero(self._near(places, *box)) for box in ends]
+        found = [np.flatnonzero(cuts.near(places, *box, self.reach, self.period)) for box in ends]
         found[self.world.rank] = np.zeros(0, int)
         copies = self.world.exchange([particles.take(own, rows) if len(rows) else None for rows in found])
         self.sends = {rank: rows for rank, rows in enumerate(found) if len(rows)}
@@ -138,16 +138,6 @@ class Domain:
                 count += len(part.x)
         mark = (np.arange(count) >= len(own.x)).astype(np.int8)
         return _joined([own, *(part for part in copies if part is not None)])._replace(copy=mark)
-
-    def _near(self, places, low, high) -> np.ndarray:
-        """Mask (N,) of the places within reach of a box."""
-        near = np.ones(len(places), bool)
-        for a, period in zip(range(places.shape[1]), self.period):
-            begin, width = low[a] - self.reach, high[a] - low[a] + 2.0 * self.reach
-            off = places[:, a] - begin
-            near &= (np.mod(off, period) if period else off) <= width
-            near &= off >= 0.0 if not period else True
-        return near & (low <= high).all()
 
 
 def _own(state):

@@ -39,6 +39,11 @@ class Rows(NamedTuple):
     number: np.ndarray
 
 
+def reach_of(reach: float, skin: float) -> float:
+    """Distance [m] up to which rows list neighbours."""
+    return reach * (1.0 + skin)
+
+
 class Neighbours:
     """Neighbour rows of a state that moves."""
 
@@ -52,7 +57,7 @@ class Neighbours:
             )
         self.reach, self.skin = reach, skin
         self.period = np.array([*period, OPEN][:3])
-        self.world, self.domain = world, Domain(world, reach * (1.0 + skin), self.period)
+        self.world, self.domain = world, Domain(world, reach_of(reach, skin), self.period)
         self.box = OPEN_PLANE  # of the particles that rows were last made for
         self.built = ()  # positions at the last build
         self.room = np.empty(0, np.uint32)
@@ -93,7 +98,7 @@ class Neighbours:
 
     def _grid(self, here) -> Grid:
         """Cells no smaller than the cutoff; larger ones where a few stray particles make the box mostly empty."""
-        cutoff = self.reach * (1.0 + self.skin)
+        cutoff = reach_of(self.reach, self.skin)
         while (grid := self._cells_of(here, cutoff)).shape.prod() > CELLS_A_PARTICLE * max(64, len(here[0])):
             cutoff *= 2.0
         return grid
@@ -112,7 +117,7 @@ class Neighbours:
         solid. With `same` both are the same points."""
         grid, self.box = self._grid(here), box_of(self.period, len(here))
         begin = starts(halves(grid, *three(here), solid), 2 * int(grid.shape.prod())).view(np.uint64)  # see _run
-        near = (grid, begin, *three(here), *three(at), blind, same, self.box, (self.reach * (1.0 + self.skin)) ** 2)
+        near = (grid, begin, *three(here), *three(at), blind, same, self.box, reach_of(self.reach, self.skin) ** 2)
         number, start = np.empty(len(blind), np.int32), np.zeros(len(blind) + 1, np.int64)
         _count(*near, number)
         np.cumsum((number // LANES + 1) * LANES, out=start[1:])

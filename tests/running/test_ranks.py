@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -15,6 +16,9 @@ import pyvista
 
 from sdph.cli import main
 
+pytestmark = pytest.mark.skipif(
+    shutil.which("mpirun") is None and "CI" not in os.environ, reason="there is no mpirun (apt install openmpi-bin)"
+)
 SDPH = (sys.executable, "-m", "sdph.cli", "run")
 COARSE = ("--set", "resolution.spacing_mm=5.715", "--until", "0.02")
 CASES = {  # name -> scene and options: what is shared of an effect at least once, in two dimensions and in three
@@ -150,6 +154,12 @@ def test_what_cannot_be_shared_is_refused_in_one_line(tmp_path, options, told, c
     assert main(["run", *options, "--out", str(tmp_path / "run")]) == 2
     said = capsys.readouterr().err
     assert told in said and said.count("\n") == 1 and not (tmp_path / "run").exists()
+
+
+def test_the_launcher_is_ones_own(tmp_path):
+    launcher = "mpirun --oversubscribe --bind-to none" + " --allow-run-as-root" * (os.geteuid() == 0)
+    fine(tmp_path / "run", "dam_break", *COARSE[:2], "--until", "1e-3", "--set", f"run.launcher={launcher}", ranks=2)
+    assert json.loads((tmp_path / "run/summary.json").read_text())["ranks"] == 2
 
 
 def test_more_processes_than_particles_are_refused(tmp_path):

@@ -32,6 +32,11 @@ SLACK = 1.0125  # reach over 2 h: a particle may move 0.025 h, half a step, afte
 NO_WALL = WallP(*[0.0] * 10)
 
 
+def reach(case) -> float:
+    """Distance [m] up to which particles of a liquid see each other for as long as rows hold."""
+    return 2.0 * SLACK * case.smoothing_length
+
+
 class LiquidStepper:
     """Liquid and wall particles of a case, and how they go forward."""
 
@@ -55,8 +60,8 @@ class LiquidStepper:
         self.kernel = smoothing.smoothing(case.liquid.kernel, d, case.smoothing_length)
         periodic = case.liquid.periodic or (0.0,) * d
         period = tuple(length * bool(on) for length, on in zip(case.domain.size, periodic))
-        reach, self.world = 2.0 * SLACK * self.kernel.h, world.here()
-        self.neighbours = Neighbours(reach, period, case.resolution.neighbour_skin, self.world)
+        self.world = world.here()
+        self.neighbours = Neighbours(reach(case), period, case.resolution.neighbour_skin, self.world)
         self.domain = self.neighbours.domain
         self.fluids, self.phases = fluids(case), phases.kernel(case)
         self.bodies, self.moving = immersion.Bodies(carrier, case) if carrier else None, ()

@@ -1,0 +1,48 @@
+"""`sdph explain CASE --ranks N`: how particles would be shared among processes at the start, and what that costs."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sdph.engine import cuts
+from sdph.engine import state as particles
+from sdph.engine.domain import OF_WALL
+from sdph.engine.rows import reach_of
+from sdph.engine.state import WALL
+from sdph.engine.world import ALONE
+from sdph.methods.liquids.method import reach
+from sdph.methods.liquids.start import parts_of
+from sdph.running import ranks
+from sdph.study.explain import estimate
+
+COPY = 0.25  # of a step's work for a particle, that for a copy: its row, its pressure; measured, benchmarks/ranks.py
+TALK = 0.4e-3  # s of a step for messages, on one machine; measured, benchmarks/ranks.py
+
+
+def rows(case, number: int) -> list[dict]:
+    """Rows of a table; `CaseError` where these processes cannot share the case."""
+    ranks.refuse(case, number)
+    state = parts_of(case)[1]
+    places, solid = np.stack(particles.axes(state), axis=1), state.kind == WALL
+    tree = cuts.cut(ALONE, places, np.where(solid, OF_WALL, 1.0), range(number))
+    owner = cuts.owner(tree, places)
+    period = np.array(case.liquid.periodic or (0.0,) * case.dimensions) * case.domain.size
+    far = reach_of(reach(case), case.resolution.neighbour_skin)
+    own, copies = np.bincount(owner, minlength=number), np.zeros(number)
+    for rank in range(number):
+        box = places[owner == rank]
+        seen = cuts.near(places, box.min(axis=0, initial=np.inf), box.max(axis=0, initial=-np.inf), far, period)
+        copies[rank] = (seen & (owner != rank)).sum()
+    wet = np.bincount(owner, ~solid, minlength=number)
+    uneven, halo = wet.max() * number / wet.sum(), copies.sum() / own.sum()
+    step = 1e-6 * estimate.speed().liquid * len(places)  # of one process [s]
+    efficiency = 1.0 / (uneven * (1.0 + COPY * halo) + TALK * number / step)
+    largest = own.max() + copies.max()
+    return [
+        {"what": "ranks", "value": number, "unit": ""},
+        {"what": "particles of a rank, walls included, at most", "value": int(own.max()), "unit": ""},
+        {"what": "copies of others', over own particles", "value": halo, "unit": ""},
+        {"what": "liquid of the fullest rank over the mean", "value": uneven, "unit": ""},
+        {"what": "memory of a rank", "value": estimate.memory(case, largest, 0) / 1e6, "unit": "MB"},
+        {"what": "expected efficiency, one thread a rank", "value": efficiency, "unit": ""},
+    ]
