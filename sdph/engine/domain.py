@@ -29,6 +29,7 @@ class Domain:
         self.tree, self.pairs = None, np.zeros(0)  # cuts; neighbours of each particle (N,)
         self.sends, self.gets = {}, {}  # rows by rank: own ones that it has copies of, copies of its
         self.imbalance, self.halo = 1.0, 0.0  # pairs of the busiest over their mean; copies over own particles
+        self.sent = np.zeros(2)  # messages of `refresh`, and bytes in them
 
     def refuse_crowd(self, state) -> None:
         """CaseError where there are more processes than particles to share."""
@@ -90,7 +91,9 @@ class Domain:
             inbox[rank] = np.empty(sum(len(rows) * (array.size // len(array)) for array in arrays))
             sent.append(comm.Irecv(inbox[rank], rank))
         for rank, rows in self.sends.items():
-            sent.append(comm.Isend(np.concatenate([array[rows].ravel() for array in arrays]), rank))
+            values = np.concatenate([array[rows].ravel() for array in arrays])
+            sent.append(comm.Isend(values, rank))
+            self.sent += 1, values.nbytes
         type(sent[0]).Waitall(sent)
         for rank, rows in self.gets.items():
             self._put(arrays, rows, inbox[rank])

@@ -27,6 +27,7 @@ SKIN = 0.1  # of the reach; our choice: 0.2 h measured best (about 5-8 steps per
 CELLS_A_PARTICLE = 16  # memory of the cells stays below that of the rows; our choice
 LANES = 4  # doubles of a vector register of 256 bit, as wide as pays on today's x86
 MOST_CELLS = 2**20  # along an axis, so that their product is an int64
+NOBODY = np.zeros(0, np.int8)
 SPARE = 16  # one entry in so many is kept free, so that a slow compaction does not ask for room each time; our choice
 
 
@@ -76,7 +77,7 @@ class Neighbours:
         self.domain.sort(rows)
         state = particles.take(state, rows)
         self.built = tuple(axis.copy() for axis in particles.axes(state))
-        rows = self.relist(state.kind)
+        rows = self.relist(state.kind, state.copy)
         self.domain.weigh(state, rows.number)
         return state, rows
 
@@ -85,10 +86,10 @@ class Neighbours:
         grid = self._grid(here)
         return order(halves(grid, *three(here), solid), 2 * int(grid.shape.prod()))
 
-    def relist(self, kind) -> Rows:
-        """Rows of the particles at the last build, of these kinds."""
+    def relist(self, kind, copy=NOBODY) -> Rows:
+        """Rows of the particles at the last build, of these kinds; those of copies are empty."""
         solid = kind == WALL
-        self.rows = self._rows(self.built, solid, self.built, solid, True)
+        self.rows = self._rows(self.built, solid, self.built, solid, True, copy)
         return self.rows
 
     def _holds(self, here) -> bool:
@@ -112,12 +113,22 @@ class Neighbours:
             size[a] = (high - low) / cells if self.period[a] else max(cutoff, (high - low) / cells * (1.0 + 1e-12))
         return Grid(origin, size, shape, self.period)
 
-    def _rows(self, here, solid, at, blind, same: bool) -> Rows:
+    def _rows(self, here, solid, at, blind, same: bool, idle=NOBODY) -> Rows:
         """Rows of the points `here`, sorted by cell, `solid` ones last, for the points `at`; `blind` ones see nothing
-        solid. With `same` both are the same points."""
+        solid, `idle` ones nothing. With `same` both are the same points."""
         grid, self.box = self._grid(here), box_of(self.period, len(here))
         begin = starts(halves(grid, *three(here), solid), 2 * int(grid.shape.prod())).view(np.uint64)  # see _run
-        near = (grid, begin, *three(here), *three(at), blind, same, self.box, reach_of(self.reach, self.skin) ** 2)
+        near = (
+            grid,
+            begin,
+            *three(here),
+            *three(at),
+            blind,
+            idle,
+            same,
+            self.box,
+            reach_of(self.reach, self.skin) ** 2,
+        )
         number, start = np.empty(len(blind), np.int32), np.zeros(len(blind) + 1, np.int64)
         _count(*near, number)
         np.cumsum((number // LANES + 1) * LANES, out=start[1:])
@@ -218,10 +229,13 @@ def _listed(x, y, z, box, xi, yi, zi, own, cutoff2, first, last, entries, end):
 
 
 @parallel
-def _count(grid, begin, x, y, z, at_x, at_y, at_z, blind, same, box, cutoff2, number):
+def _count(grid, begin, x, y, z, at_x, at_y, at_z, blind, idle, same, box, cutoff2, number):
     """number (n,) of neighbours (x, y, z), sorted by cell, of the points at_x, at_y, at_z; with `same` i is not its
     own."""
     for i in prange(len(at_x)):
+        if len(idle) > 0 and idle[i]:
+            number[i] = 0
+            continue
         found = -1 if same and not blind[i] else 0  # who sees itself
         xi, yi, zi = at_x[i], at_y[i], at_z[i] if len(z) else 0.0
         z0, z1 = span(grid, 2, zi) if len(z) else (0, 1)
@@ -238,7 +252,7 @@ def _count(grid, begin, x, y, z, at_x, at_y, at_z, blind, same, box, cutoff2, nu
 
 
 @parallel
-def _fill(grid, begin, x, y, z, at_x, at_y, at_z, blind, same, box, cutoff2, start, number, entries):
+def _fill(grid, begin, x, y, z, at_x, at_y, at_z, blind, idle, same, box, cutoff2, start, number, entries):
     """entries: the rows, each from its start on, of what `_count` has counted."""
     for i in prange(len(at_x)):
         if number[i] == 0:

@@ -11,7 +11,7 @@ from sdph.engine.rows import reach_of
 from sdph.engine.state import WALL
 from sdph.engine.world import ALONE
 from sdph.methods.liquids.method import reach
-from sdph.methods.liquids.start import parts_of
+from sdph.methods.liquids.start import parts_of, period
 from sdph.running import ranks
 from sdph.study.explain import estimate
 
@@ -26,12 +26,11 @@ def rows(case, number: int) -> list[dict]:
     places, solid = np.stack(particles.axes(state), axis=1), state.kind == WALL
     tree = cuts.cut(ALONE, places, np.where(solid, OF_WALL, 1.0), range(number))
     owner = cuts.owner(tree, places)
-    period = np.array(case.liquid.periodic or (0.0,) * case.dimensions) * case.domain.size
     far = reach_of(reach(case), case.resolution.neighbour_skin)
     own, copies = np.bincount(owner, minlength=number), np.zeros(number)
     for rank in range(number):
         box = places[owner == rank]
-        seen = cuts.near(places, box.min(axis=0, initial=np.inf), box.max(axis=0, initial=-np.inf), far, period)
+        seen = cuts.near(places, box.min(axis=0, initial=np.inf), box.max(axis=0, initial=-np.inf), far, period(case))
         copies[rank] = (seen & (owner != rank)).sum()
     wet = np.bincount(owner, ~solid, minlength=number)
     uneven, halo = wet.max() * number / wet.sum(), copies.sum() / own.sum()

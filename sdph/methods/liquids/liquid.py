@@ -124,8 +124,11 @@ class Liquid(Stepped):
     def summary(self) -> dict[str, float]:
         with self.whole():
             own = {"liquid_particles": len(self.stepper.active), "kinetic_energy_J": kinetic_energy(self.state)}
-        domain = self.stepper.domain
-        own |= {"ranks": domain.world.number, "imbalance": domain.imbalance, "halo_share": domain.halo}
+        domain, world = self.stepper.domain, self.stepper.world
+        own |= {"ranks": world.number, "imbalance": domain.imbalance, "halo_share": domain.halo}
+        # means by rank and step, of this part of the run
+        sent = world.sum(domain.sent) / world.number / max(1, self.steps - self.stepper.steps_before)
+        own |= {"messages_per_step": float(sent[0]), "halo_bytes_per_step": float(sent[1])}
         parts = [part.summary() for part in (self.stepper.void, self.stepper.heat) if part]
         return own | {name: value for part in parts for name, value in part.items()}
 

@@ -58,10 +58,8 @@ class LiquidStepper:
         self.viscous = self.p["shear_thinning"] or self.p["laminar_viscosity"]  # parameters of friction, for the loops
         self.renewing = [(row, self.p[name]) for name in case.effects if (row := effects.REGISTRY[name]).renew]
         self.kernel = smoothing.smoothing(case.liquid.kernel, d, case.smoothing_length)
-        periodic = case.liquid.periodic or (0.0,) * d
-        period = tuple(length * bool(on) for length, on in zip(case.domain.size, periodic))
         self.world = world.here()
-        self.neighbours = Neighbours(reach(case), period, case.resolution.neighbour_skin, self.world)
+        self.neighbours = Neighbours(reach(case), start.period(case), case.resolution.neighbour_skin, self.world)
         self.domain = self.neighbours.domain
         self.fluids, self.phases = fluids(case), phases.kernel(case)
         self.bodies, self.moving = immersion.Bodies(carrier, case) if carrier else None, ()
@@ -79,9 +77,8 @@ class LiquidStepper:
         self.wall = WallP(*[0.0] * 6, *own) if own else NO_WALL
         self.summed = case.gas_phase is not None and case.gas_phase.density_by == "summation"
         self.lattice = kernels.lattice_factor(case.liquid.kernel, d, case.resolution.smoothing_ratio)
-        self.limit, self.steps, self.time = "", 0, 0.0
-        self.shifted = np.zeros(3)  # momentum that shifting has given [kg m/s]
-        self.eased = 0.0  # energy that shifting has taken [J]
+        self.limit, self.steps, self.time, self.steps_before = "", 0, 0.0, 0
+        self.shifted, self.eased = np.zeros(3), 0.0  # momentum [kg m/s] that shifting gave, energy [J] that it took
         self.tightening = np.zeros((0, 3))  # acceleration by surface tension [m/s2]
         self.compliance = np.array([self._compliance(kind) for kind in range(GAS + 1)])
         self.aim(0.0)
@@ -97,6 +94,7 @@ class LiquidStepper:
 
     def revive(self) -> None:
         """Make anew what a checkpoint does not hold, once it was put back; it holds the particles of all processes."""
+        self.steps_before = self.steps
         if self.domain.alone:
             self.rows = self.neighbours.relist(self.state.kind)
             self.tell_apart()
@@ -120,7 +118,7 @@ class LiquidStepper:
             self.bodies.set_off(dt)
         self._kick(0.5 * dt)
         self._drift(0.5 * dt)
-        self.domain.refresh(*self._places())
+        self.domain.refresh(*self.state[:6])  # places and velocities
         if not self.summed:
             self._densify(dt)
         self._drift(0.5 * dt)
@@ -196,7 +194,7 @@ class LiquidStepper:
         built = self.neighbours.built
         if self.bodies and self.moving:
             self.bodies.place(self.state)
-        self.state, self.rows = self.neighbours.update(self.state, *self._places(), self.state.density)
+        self.state, self.rows = self.neighbours.update(self.state, *self.state[:6], self.state.density)
         if built is not self.neighbours.built:
             self._allocate()
         s, p = self.state, self.p
@@ -288,10 +286,6 @@ class LiquidStepper:
         """Go on with another state; the next forces make neighbours anew."""
         if state is not self.state:
             self.state, self.neighbours.built = self.domain.admitted(state), ()
-
-    def _places(self) -> tuple[np.ndarray, ...]:
-        s = self.state
-        return s.x, s.y, s.z, s.u, s.v, s.w
 
     def _shift(self, dt: float) -> None:
         s, before = self.state, np.array(motion.momentum(self.state, self.active))
