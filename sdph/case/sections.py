@@ -240,6 +240,12 @@ class Case:
         return "mps" if matter == "liquid" and self.incompressible else matter
 
     @property
+    def liquid_period(self) -> tuple[float, ...]:
+        """Length (d,) [m] of each axis that is periodic for a liquid, else 0."""
+        on = self.liquid.periodic or (0.0,) * self.dimensions
+        return tuple(length * bool(periodic) for length, periodic in zip(self.domain.size, on))
+
+    @property
     def smoothing_length(self) -> float:
         return self.resolution.smoothing_ratio * self.resolution.spacing
 

@@ -11,7 +11,7 @@ from sdph.engine.rows import reach_of
 from sdph.engine.state import WALL
 from sdph.engine.world import ALONE
 from sdph.methods.liquids.method import reach
-from sdph.methods.liquids.start import parts_of, period
+from sdph.methods.liquids.start import parts_of
 from sdph.running import ranks
 from sdph.study.explain import estimate
 
@@ -30,7 +30,9 @@ def rows(case, number: int) -> list[dict]:
     own, copies = np.bincount(owner, minlength=number), np.zeros(number)
     for rank in range(number):
         box = places[owner == rank]
-        seen = cuts.near(places, box.min(axis=0, initial=np.inf), box.max(axis=0, initial=-np.inf), far, period(case))
+        seen = cuts.near(
+            places, box.min(axis=0, initial=np.inf), box.max(axis=0, initial=-np.inf), far, case.liquid_period
+        )
         copies[rank] = (seen & (owner != rank)).sum()
     wet = np.bincount(owner, ~solid, minlength=number)
     uneven, halo = wet.max() * number / wet.sum(), copies.sum() / own.sum()

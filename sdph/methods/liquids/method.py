@@ -59,7 +59,7 @@ class LiquidStepper:
         self.renewing = [(row, self.p[name]) for name in case.effects if (row := effects.REGISTRY[name]).renew]
         self.kernel = smoothing.smoothing(case.liquid.kernel, d, case.smoothing_length)
         self.world = world.here()
-        self.neighbours = Neighbours(reach(case), start.period(case), case.resolution.neighbour_skin, self.world)
+        self.neighbours = Neighbours(reach(case), case.liquid_period, case.resolution.neighbour_skin, self.world)
         self.domain = self.neighbours.domain
         self.fluids, self.phases = fluids(case), phases.kernel(case)
         self.bodies, self.moving = immersion.Bodies(carrier, case) if carrier else None, ()

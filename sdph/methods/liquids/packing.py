@@ -33,10 +33,7 @@ def pack(case, points, walls, lid, slab, shape) -> np.ndarray:
     same, which stand still. Those that got out of it, through walls that meet at a sharp edge, are put back and go
     on."""
     kernel = smoothing.smoothing(case.liquid.kernel, case.dimensions, case.smoothing_length)
-    period = [
-        length * bool(on) for length, on in zip(case.domain.size, case.liquid.periodic or (0.0,) * case.dimensions)
-    ]
-    neighbours = Neighbours(2.0 * kernel.h, period, case.resolution.neighbour_skin)
+    neighbours = Neighbours(2.0 * kernel.h, case.liquid_period, case.resolution.neighbour_skin)
     state, dt, near = _state(case, points, walls, lid), case.liquid.courant * kernel.h, 1.0 / tank.kernel(case).near
     rounds = math.ceil(np.ptp(points, axis=0).max() / dt)
     for number in range(rounds + RETURNS):

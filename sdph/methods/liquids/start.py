@@ -39,12 +39,6 @@ def fill(case) -> particles.State:
     return state
 
 
-def period(case) -> tuple[float, ...]:
-    """Lengths (d,) [m] of the periodic axes, 0 of the others."""
-    periodic = case.liquid.periodic or (False,) * case.dimensions
-    return tuple(length * bool(on) for length, on in zip(case.domain.size, periodic))
-
-
 def _walls(case) -> particles.State:
     shape = tank.shape_of(case)
     points = shapes.wall_points(shape, case.resolution.spacing, tank.layers(case))

@@ -21,7 +21,6 @@ from sdph.engine.kept import GROWING, Unfit
 from sdph.engine.state import LIQUID
 from sdph.laws import sheets
 from sdph.methods.mps import films
-from sdph.methods.mps.start import period
 
 # of the reach: a sheet goes on all round where the middle of the neighbours, along it, is nearer; an edge has 0.42
 ALL_ROUND = 0.25
@@ -70,7 +69,7 @@ class Holes:
         self.case, self.perforation, self.suction = case, p["perforation"], p["suction"]
         self.reach, self.unit = p["free_energy_tension"].reach, case.resolution.spacing
         self.sigma = case.parameters["free_energy_tension"].coefficient
-        self.period = np.array(period(case))
+        self.period = np.array(case.liquid_period)
         self.opened, self.growth = nothing(), np.zeros(0)
 
     def admit(self, kept: dict) -> None:

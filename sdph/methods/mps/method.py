@@ -51,7 +51,7 @@ class MpsStepper:
         self.holes = Holes(case, self.p) if self.p["perforation"] or self.p["suction"] else None
         pulled = self.p["free_energy_tension"]
         reach = max(self.cloud.reach, pulled.reach if pulled else 0.0, self.own.piece * unit)
-        self.neighbours = Neighbours(reach, start.period(case), case.resolution.neighbour_skin)
+        self.neighbours = Neighbours(reach, case.liquid_period, case.resolution.neighbour_skin)
         self.energy = np.zeros(0)
         self.time, self.steps, self.limit = 0.0, 0, ""
         self.works, self.impulses = np.zeros(len(WORKS)), np.zeros((2, 3))  # of gravity, of what waits

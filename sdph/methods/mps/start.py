@@ -60,9 +60,3 @@ def _velocity(pool, points) -> np.ndarray:
     if pool.flow == "quadrupole":
         velocity += quadrupole(points - np.array(pool.centre), pool.radius, pool.speed)
     return velocity
-
-
-def period(case) -> tuple[float, ...]:
-    """Length (d,) [m] of each axis that is periodic, else 0."""
-    on = case.liquid.periodic or (0.0,) * case.dimensions
-    return tuple(length * bool(periodic) for length, periodic in zip(case.domain.size, on))
