@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from sdph.effects.gas import turbulent_dispersion
+from sdph.effects.gas import reaction, turbulent_dispersion
 from sdph.engine import state as particles
 from sdph.engine.guard import DENSE, FAR, RUNAWAY, TINY, Watch, outside
 from sdph.engine.kept import Unfit
@@ -33,7 +33,7 @@ class Guard(Watch):
         self.reach = scales.jet + scales.eddies + scales.thrown + drop + blown + agitated
         given = case.temperatures
         stored = min(grains.heat_capacity for grains in case.kinds)
-        slack = scales.span + LATENT * max(given) + self.reach**2 / stored
+        slack = scales.span + LATENT * max(given) + self.reach**2 / stored + reaction.rise(case)
         self.coldest, self.hottest = max(0.0, min(given) - slack), max(given) + slack
         self.sound = math.sqrt(ADIABATIC * GAS_CONSTANT / case.gas.molar_mass * max(given))
         self.cause, self.length = "largest", case.coupling.window_largest  # until the first window begins
@@ -48,7 +48,7 @@ class Guard(Watch):
         size = FAR * max(grains.diameter for grains in self.case.kinds)
         bounds = dict.fromkeys("uvw", speed) | dict.fromkeys(("diameter", "born_diameter"), (TINY, size))
         bounds |= dict.fromkeys(("diameter_variance", "born_variance", "lost_still"), (0.0, size**2))
-        bounds |= {"born_mass": positive, "lost_moving": zero_on}
+        bounds |= {"born_mass": positive, "lost_moving": zero_on, "lost_kinetic": zero_on}
         bounds |= {
             "mass": (TINY, heaviest),
             "density": (0.0, DENSE * max(grains.density for grains in self.case.kinds)),
