@@ -23,7 +23,7 @@ from sdph.exchange.amounts import Handed, Loss, Taken
 from sdph.exchange.droplets import FINISHED
 from sdph.laws import burn_off
 from sdph.laws import evaporation as law
-from sdph.laws.compiled import parallel
+from sdph.laws.compiled import parallel, serial
 
 
 class Burning:
@@ -64,8 +64,8 @@ class Burning:
         return self.cells.density(weights, stripped) / self.cells.room(weights, state.mass * (state.kind == GRAIN))
 
     def _terms(self, weights, there, stripped, temperature, velocity) -> dict:
-        """What the gas is told, per volume of the cells: the oxidant that leaves, the products that come with the
-        temperature of the grains, the motion of what was solid, and the gas's share of the heat."""
+        """Sources by volume of the cells: the oxidant that leaves, the products that come with the temperature of the
+        grains, the motion of what was solid, and the gas's share of the heat."""
         p = self.p
         given = np.column_stack((stripped, stripped * temperature, stripped[:, None] * velocity))
         taken = there[:, None] * self.cells.density(weights, given)
@@ -151,12 +151,19 @@ def burn(
             continue
         still[i] = law.regression_rate(oxidant[i] / p.ratio, p.diffusivity, p.grain_density) * dt
         moving[i] = ventilation(p, slip[i], gas_density[i]) * still[i]
-        left = s.mass[i] * reaction.remaining(p, sizes_p, s, i, still[i], moving[i], slow[i] * still[i])[0]
-        rest[i] = 0.0 if left > FINISHED * s.born_mass[i] else left
-        loss[i] = s.mass[i] - (left - rest[i])
+        loss[i], rest[i] = taken_from(p, sizes_p, s, i, still[i], moving[i], slow[i] * still[i])
         mean = loss[i] * p.ratio / (oxidant[i] * dt)
         conductance[i] *= min(1.0, mean / stripped[i])
         stripped[i] = mean
+
+
+@serial
+def taken_from(p, sizes_p, s, i, still, moving, slow):
+    """Mass that particle i loses, and the rest [kg] among it that burns at once; its integrals as in
+    `reaction.remaining`."""
+    left = s.mass[i] * reaction.remaining(p, sizes_p, s, i, still, moving, slow)[0]
+    rest = 0.0 if left > FINISHED * s.born_mass[i] else left
+    return s.mass[i] - (left - rest), rest
 
 
 @parallel

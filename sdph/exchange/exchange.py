@@ -144,7 +144,9 @@ class Exchange:
         ends = np.cumsum([column.shape[1] for column in columns])
         cells = np.split(self.cells.density(handed.weights, np.concatenate(columns, axis=1)), ends[:-1], axis=1)
         terms = {key: cell[:, 0] if own.ndim == 1 else cell for (key, own), cell in zip(given.items(), cells)}
-        return terms | own_terms | ({("heat", "friction"): self.pending / handed.dt} if "momentum" in self.sources else {})
+        return (
+            terms | own_terms | ({("heat", "friction"): self.pending / handed.dt} if "momentum" in self.sources else {})
+        )
 
     def pace(self, state, weights, gas_state) -> tuple:
         """Pace at the start: rate [1/s] at which the fastest cell takes the grains' temperature, `stake` [J], what
@@ -162,7 +164,7 @@ class Exchange:
         return rate, self.stake(state, weights, gas_state), losing, *held
 
     def lost(self, handed: Handed, gas_state) -> tuple:
-        """What `Window.thicken` is told of a window."""
+        """Share and cause that `Window.thicken` is told of a window."""
         return (self.losing.share(handed, gas_state), self.losing.name) if self.losing else (0.0,)
 
     def stake(self, state, weights, gas_state) -> float:
@@ -209,7 +211,7 @@ class Exchange:
         return self._with_radiation(taken, state, handed) if self.parameters["radiation"] else taken
 
     def settle(self, state, handed: Handed) -> dict[str, float]:
-        """Take from the particles what evaporated or burned, keep their eddies, and let drops break; columns of the ledger."""
+        """Take from the particles what they lose, keep their eddies, and let drops break; columns of the ledger."""
         if self.losing:
             self.losing.settle(state, handed)
         if handed.eddies is not None:

@@ -81,7 +81,9 @@ class Vapour:
 
     def held_at_start(self, state, weights, gas_state) -> dict[str, float]:
         """The same before the first window."""
-        return self.held(state, Seen(weights, gas_state, state), gather(weights, vapour_concentration(self.p, gas_state)))
+        return self.held(
+            state, Seen(weights, gas_state, state), gather(weights, vapour_concentration(self.p, gas_state))
+        )
 
     def power(self, loss: Loss, dt) -> np.ndarray:
         """Heat (N,) [W] that evaporation gives the particles, held over the window: below 0."""

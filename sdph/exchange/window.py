@@ -30,7 +30,8 @@ ANSWER = 3.0
 # limit -> what a user can change about it
 KEYS = {
     "largest": "coupling.window_largest_s", "heat exchange": "coupling.window_tolerance", "courant": "coupling.courant",
-    "particles": "coupling.courant", "evaporation": "the rate of evaporation", "reaction": "the rate of the reaction", "grip": "the drag on packed grains",
+    "particles": "coupling.courant", "evaporation": "the rate of evaporation",
+    "reaction": "the rate of the reaction", "grip": "the drag on packed grains",
     "settling": "run.accuracy",
     "contact": "liquid.sound_speed_m_s, whose square is the stiffness of contacts",
 }  # fmt: skip

@@ -49,12 +49,10 @@ def diameter_of_scale(of, kinetic, ventilation, film):
     0 for S <= 0. kinetic above 0."""
     if of <= 0.0:
         return 0.0
-    d = of / (4.0 * kinetic)
-    if film == 0.0:
-        return d
-    d = min(d, math.sqrt(grain_loss.square_of_scale(of, ventilation)))
+    slowest = of / (4.0 * kinetic)
+    d = slowest if film == 0.0 else min(slowest, math.sqrt(grain_loss.square_of_scale(of, ventilation)))
     for _ in range(STEPS):
-        slope = 4.0 * kinetic + 2.0 * d / (1.0 + ventilation * math.sqrt(d))
+        slope = 4.0 * kinetic + film * 2.0 * d / (1.0 + ventilation * math.sqrt(d))
         step = (scale(d, kinetic, ventilation, film) - of) / slope
         d -= step
         if step <= ROUND_OFF * d:

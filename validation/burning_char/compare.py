@@ -19,8 +19,8 @@ STEP, CELLS = 2e-3, 400  # s and cells of the column: half of both change its nu
 
 
 def flux(case, d, hot, slip, oxidant):
-    """Oxidant [kg/(m2 s)] on grains of d [m] and `hot` [K] in gas of slip [m/s] with Y, and their h [W/(m2 K)]: Arrhenius,
-    Ranz & Marshall, both in series."""
+    """Oxidant [kg/(m2 s)] on grains of d [m] and `hot` [K] in gas of slip [m/s] with Y, and their h [W/(m2 K)]:
+    Arrhenius, Ranz & Marshall, both in series."""
     own, gas, vapour = case.parameters["reaction"], case.gas, case.vapour
     root = np.sqrt(gas.density * slip * d / gas.viscosity)
     schmidt = gas.viscosity / (gas.density * vapour.diffusivity)
@@ -39,7 +39,9 @@ def lone(case, end: float):
         d, hot = y
         taken, h = flux(case, d, hot, inlet.velocity[1], inlet.vapour_mass_fraction)
         heat = own.heat * taken / own.oxidant_ratio - h * (hot - inlet.temperature)
-        return -2.0 * taken / (own.oxidant_ratio * grains.density), 6.0 * heat / (d * grains.density * grains.heat_capacity)
+        return -2.0 * taken / (own.oxidant_ratio * grains.density), 6.0 * heat / (
+            d * grains.density * grains.heat_capacity
+        )
 
     start = grains.diameter, case.particles["lone"].temperature
     return solve_ivp(change, (0.0, end), start, method="LSODA", rtol=1e-9, atol=1e-13).y[:, -1]
@@ -88,8 +90,8 @@ def _grains(case, d, hot, warm, taken, h):
 
 
 def _carried(spread, density, through, dx, before, taken, given, inlet, grown=0.0):
-    """One implicit step of rho Y or rho T: carried upwind but for half of what upwinding smears, spread [kg/(m s)], taken
-    [kg/(m3 s)] times the new value, given; `grown` [kg/(m3 s)], the new mass of a value's own."""
+    """One implicit step of rho Y or rho T: carried upwind, less what that smears of the spread [kg/(m s)]; taken
+    [kg/(m3 s)] times the new value, and given; `grown` [kg/(m3 s)], the new mass of a value's own."""
     low, high = through[:-1], through[1:]
     spread = np.full(len(low) + 1, spread - 0.5 * low.mean() * dx)  # upwinding smears by u dx/2
     spread[-1] = 0.0
@@ -125,7 +127,11 @@ def exact(run) -> list[dict]:
         gas = run.fields(end)[2]
         top = np.asarray(gas.cell_centers().points)[:, 1]
         rise = np.asarray(gas.cell_data["temperature"])[top > top.max() - 1e-6].mean() - case.gas.temperature
-        rows.append(check(f"gas behind the cloud, risen by [K] at {end:g} s", rise, behind - case.gas.temperature, CLOUD, True))
+        rows.append(
+            check(f"gas behind the cloud, risen by [K] at {end:g} s", rise, behind - case.gas.temperature, CLOUD, True)
+        )
     told = run.summary
     names = {"mass": "exchange_mass_mismatch_rel", "species": "species_drift_rel", "energy": "energy_drift_rel"}
-    return rows + [check(f"{what}, what one side gives and the other gets", told[key], 0.0, SAME) for what, key in names.items()]
+    return rows + [
+        check(f"{what}, what one side gives and the other gets", told[key], 0.0, SAME) for what, key in names.items()
+    ]

@@ -1,8 +1,8 @@
 """Burn-off of grains: a reaction of first order between their solid and one species of the gas, that of [vapour].
 
-Of each kilogram of solid `oxidant_ratio` kilograms of that species leave the gas, and all of both comes back as products,
-which are of the carrier, the rest of the gas. What a window takes follows in `sdph.exchange.burning`, the diameters in
-`sdph.laws.burn_off`. The heat of the reaction goes to the grains, at whose surface it is set free, but for `gas_share`:
+For each kilogram of solid `oxidant_ratio` kilograms of that species leave the gas, and all of both comes back as
+products, which are of the carrier, the rest of the gas. What a window takes follows in `sdph.exchange.burning`, the
+diameters in `sdph.laws.burn_off`. The heat goes to the grains, at whose surface it is set free, but for `gas_share`:
 where part of it burns in the gas around (CO to CO2), that part is the gas's.
 """
 
@@ -13,13 +13,14 @@ from typing import NamedTuple
 
 from sdph.effects.effect import Effect, Judgement
 from sdph.effects.gas import sizes
-from sdph.effects.gas.evaporation import ventilation
 from sdph.engine.ledger import Column
 from sdph.laws import burn_off as law
 from sdph.laws import evaporation, grain_loss
 from sdph.laws.compiled import serial
 from sdph.schema import CaseError, flag, quantity, record
 
+# effects that it does not go with, and why
+STRANGE = {"evaporation": "[vapour] is one species, given off or used up", "break_up": "grains that burn are solid"}
 SPENT, SOURCE = "run / burn-out time", "Levenspiel 1999, ch. 25"
 
 
@@ -34,8 +35,8 @@ class Reaction:
 
 
 class ReactionP(NamedTuple):
-    """Oxidant ratio [-], k_0 [m/s], T_a [K], film 1.0 or 0.0; diffusivity [m2/s]; gas viscosity [Pa s]; density of the
-    grains [kg/m3]. Heat [J/kg] to the grains, and to the gas; heat capacities [J/(kg K)] of grains, carrier, oxidant."""
+    """Oxidant ratio [-], k_0 [m/s], T_a [K], film 1.0 or 0.0; diffusivity [m2/s]; gas viscosity [Pa s]; density of
+    grains [kg/m3]. Heat [J/kg] to grains, and to the gas; heat capacities [J/(kg K)] of grains, carrier, oxidant."""
 
     ratio: float
     rate: float
@@ -70,17 +71,16 @@ def _refuse(case, own: Reaction) -> None:
     """`CaseError` where the case lacks what a reaction needs, or has what it does not go with."""
     if case.vapour is None:
         raise CaseError("the effect reaction needs [vapour], its oxidant: mass_fraction, diffusivity_m2_s, ...; add it")
-    for name, why in (
-        ("evaporation", "[vapour] is one species, given off or used up"),
-        ("break_up", "grains that burn are solid"),
-    ):
+    for name, why in STRANGE.items():
         if name in case.effects:
             raise CaseError(f"effects holds reaction and {name}: {why}; leave one of the two out")
     if own.heat and "heat" not in case.effects:
         given = f"reaction.heat_J_kg is {own.heat:g}"
         raise CaseError(f"{given}, but grains give no heat to the gas; add heat to effects, or set it to 0")
     if case.coupling.film:
-        raise CaseError("coupling.film takes no part in reaction, whose film has the gas's own diffusivity; set it false")
+        raise CaseError(
+            "coupling.film takes no part in reaction, whose film has the gas's own diffusivity; set it false"
+        )
 
 
 @serial
@@ -134,7 +134,7 @@ def rise(case) -> float:
 
 
 def spent(s, temperature: float) -> float:
-    """Run over the time in which a grain of `temperature` [K] burns out in the richest gas of the case (closed form)."""
+    """Run over the time in which a grain of `temperature` [K] burns out in the richest gas of the case."""
     p, d = kernel(s.case), s.grains.diameter
     schmidt = evaporation.schmidt_number(s.gas.density, s.gas.viscosity, p.diffusivity)
     c = grain_loss.ventilation(s.gas.density * s.slip / s.gas.viscosity, schmidt)

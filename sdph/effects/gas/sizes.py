@@ -2,7 +2,8 @@
 every grain.
 
 A grain of diameter d_0 at birth has d^2 = `square_after(d_0^2, loss, c)` now (sdph.laws.grain_loss), or one that burns
-d = `diameter_after(d_0, loss, l, c, film)` (sdph.laws.burn_off): small grains vanish first, and no moments need closing. Sums over the grains that are left are trapezoidal in a variable u,
+d = `diameter_after(d_0, loss, l, c, film)` (sdph.laws.burn_off): small grains vanish first, and no moments need
+closing. Sums over the grains that are left are trapezoidal in a variable u,
 
     ln d_0 = m + s z,    z = z_cut + ln(1 + exp(u)),
 
