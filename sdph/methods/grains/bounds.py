@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from sdph.effects.gas import reaction, turbulent_dispersion
+from sdph.effects.gas import turbulent_dispersion
 from sdph.engine import state as particles
 from sdph.engine.guard import DENSE, FAR, RUNAWAY, TINY, Watch, outside
 from sdph.engine.kept import Unfit
@@ -33,7 +33,7 @@ class Guard(Watch):
         self.reach = scales.jet + scales.eddies + scales.thrown + drop + blown + agitated
         given = case.temperatures
         stored = min(grains.heat_capacity for grains in case.kinds)
-        slack = scales.span + LATENT * max(given) + self.reach**2 / stored + reaction.rise(case)
+        slack = scales.span + LATENT * max(given) + self.reach**2 / stored
         self.coldest, self.hottest = max(0.0, min(given) - slack), max(given) + slack
         self.sound = math.sqrt(ADIABATIC * GAS_CONSTANT / case.gas.molar_mass * max(given))
         self.cause, self.length = "largest", case.coupling.window_largest  # until the first window begins
