@@ -75,9 +75,11 @@ class Scalars:
     def _left(self, old: Flow, window: Window) -> np.ndarray:
         """Mass fraction (S,) of the vapour when what a window uses up is gone, before any flow carries it away."""
         fraction, cells = old.fraction(), self.box.grid.cells
-        fraction[cells] -= window.dt * (window.given - window.vapour)[cells] / old.mass[cells]
-        if not fraction[cells].min() >= -USED_UP:
-            cell = int(np.argmin(fraction[cells]))
+        used = (window.given - window.vapour)[cells]
+        fraction[cells] -= window.dt * used / old.mass[cells]
+        lacking = (used > 0.0) & (fraction[cells] < -USED_UP)
+        if lacking.any():
+            cell = int(np.argmax(lacking))
             raise Unfinished(f"cell {cell} has less vapour than one window uses up there; shorten the window")
         return fraction
 
