@@ -19,12 +19,15 @@ import numpy as np
 # name -> (unit, components, meaning)
 SOURCES = {
     "alpha_g": ("1", 1, "gas volume fraction at the end of the window"),
-    "momentum": ("N/m3", 3, "momentum that enters the gas: beta v_p of drag, Gamma v_p of vapour"),
+    "momentum": ("N/m3", 3, "momentum that enters the gas: beta v_p of drag, Gamma v_p of mass"),
     "momentum_coefficient": ("kg/m3/s", 1, "beta, taken times the new velocity of the gas from that"),
-    "heat": ("W/m3", 1, "heat that enters the gas: eps T_p, heat of drag, enthalpy Gamma cp_v T_p of vapour"),
+    "heat": ("W/m3", 1, "heat that enters the gas: eps T_p, heat of drag, enthalpy Gamma cp_v T_p of mass"),
     "heat_coefficient": ("W/m3/K", 1, "eps, taken times the new temperature of the gas from that"),
-    "vapour": ("kg/m3/s", 1, "mass of vapour Gamma that enters the gas"),
+    "vapour": ("kg/m3/s", 1, "mass of vapour Gamma that enters the gas; below 0 what is used up, before it flows on"),
+    "carrier": ("kg/m3/s", 1, "mass of the rest of the gas that enters it; mass of the gas grows by both"),
 }
+
+USED_UP = 1e-9  # of the gas in a cell: most of its vapour that it may lack when some is used up; round-off, our choice
 
 # What the gas hands back after a step.
 FIELDS = {

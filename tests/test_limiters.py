@@ -33,6 +33,8 @@ HARMLESS = {
     "sdph/exchange/exchange.py:Exchange.grip": "a limit of windows",
     "sdph/exchange/exchange.py:Exchange.settling": "a limit of windows",
     "sdph/effects/gas/radiation.py:window_limit": "a limit of windows",
+    "sdph/effects/gas/reaction.py:richest": "the largest that the case gives",
+    "sdph/effects/gas/reaction.py:rise": "a scale for the length of windows, and bounds past which a run is stopped",
     "sdph/effects/gas/micro_explosion.py:tear": "takes the ratio of the case where it gives one",
     "sdph/effects/gas/break_up.py:advance": "what is left of the window, or less of it",
     "sdph/laws/break_up.py:*": "times: the sooner of two, a phase within a turn",
@@ -110,7 +112,7 @@ SEVERAL = {
     "coupling/transfer.py:_spline": 2,
     "sdph/effects/around/drain.py:command.fill": 2,
     "sdph/effects/around/walls.py:extrapolate": 2,
-    "sdph/effects/gas/sizes.py:birth_of": 3,
+    "sdph/effects/gas/sizes.py:birth_of_burnt": 4,
     "sdph/effects/grains/granular_temperature.py:advance": 3,
     "sdph/effects/grains/granular_temperature.py:transported": 4,
     "sdph/effects/liquids/liquid_damping.py:pair": 2,
@@ -127,8 +129,8 @@ SEVERAL = {
     "sdph/laws/strength.py:failure_strain": 2,
 }
 CALL = re.compile(r"\b(?:min|max|clip|clamp|bound)\s*\(")
-# `carry`, which the page names; the largest of two correctors; sleep between two looks at a file
-OPENFOAM = {"gasSolverStep.H": 2, "pEqn.H": 1, "channel.C": 1}
+# `carry` and `vapourGiven`, which the page names; the largest of two correctors; sleep between two looks at a file
+OPENFOAM = {"gasSolverStep.H": 3, "pEqn.H": 1, "channel.C": 1}
 
 
 def files() -> list:

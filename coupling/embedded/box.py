@@ -107,15 +107,26 @@ def restored(box: Box, saved: dict[str, np.ndarray]) -> Flow:
 @dataclasses.dataclass(frozen=True)
 class Window:
     """One window: dt [s], alpha (S,) at its end, and per cell, not per volume, what the particles do:
-    pull (S,) [kg/s] and push (d, S) [N], vapour (S,) [kg/s], cling (S,) [W/K], warmth (S,) [W]."""
+    pull (S,) [kg/s] and push (d, S) [N], vapour and carrier (S,) [kg/s], cling (S,) [W/K], warmth (S,) [W]."""
 
     dt: float
     alpha: np.ndarray
     pull: np.ndarray
     push: np.ndarray
     vapour: np.ndarray
+    carrier: np.ndarray
     cling: np.ndarray
     warmth: np.ndarray
+
+    @property
+    def mass(self) -> np.ndarray:
+        """Mass (S,) [kg/s] that enters the gas."""
+        return self.vapour + self.carrier
+
+    @property
+    def given(self) -> np.ndarray:
+        """Vapour (S,) [kg/s] that enters the gas where none is used up."""
+        return np.maximum(self.vapour, 0.0)
 
 
 def window_of(box: Box, flow: Flow, dt: float, sources: dict[str, np.ndarray]) -> Window:
@@ -134,6 +145,6 @@ def window_of(box: Box, flow: Flow, dt: float, sources: dict[str, np.ndarray]) -
     alpha = grid.extended(grid.padded(sources["alpha_g"])) if "alpha_g" in sources else flow.alpha
     refuse_full_cells(alpha[grid.cells], grid.centres)
     return Window(
-        dt=dt, alpha=alpha, pull=total("momentum_coefficient", "vapour"), vapour=total("vapour"),
-        cling=total("heat_coefficient"), push=push(), warmth=total("heat"),
+        dt=dt, alpha=alpha, pull=total("momentum_coefficient", "vapour", "carrier"), vapour=total("vapour"),
+        carrier=total("carrier"), cling=total("heat_coefficient"), push=push(), warmth=total("heat"),
     )  # fmt: skip

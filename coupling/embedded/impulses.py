@@ -104,7 +104,7 @@ def impulses(box: Box, window: Window, flow: Flow, came, pressed, rubbed) -> np.
     cells, dt, d = box.grid.cells, window.dt, box.grid.dimensions
     velocity, room = cell_velocity(box, flow)[:, :d], (1.0 - flow.alpha[cells]) * box.grid.geometry.volume[cells]
     weight = dt * flow.mass[cells].sum() * np.array(box.gravity)
-    given = dt * (window.push[:, cells].sum(axis=1) - (window.pull - window.vapour)[cells] @ velocity)
+    given = dt * (window.push[:, cells].sum(axis=1) - (window.pull - window.mass)[cells] @ velocity)
     leant = dt * (room @ pressure_gradient(box, flow)[:, :d])
     found = np.zeros((6, 3))
     found[:, :d] = *(part.sum(axis=1) for part in (came, pressed, rubbed)), weight, given, leant

@@ -93,7 +93,8 @@ class Pressure:
         """(S,) pressure of the gas of the case at rest; on the boundary it is in the ghosts, and in openings it
         stays."""
         box = self.box
-        density = float(box.properties.density(np.array([box.temperature]), 0.0)[0])
+        fraction = box.vapour.mass_fraction if box.vapour else 0.0
+        density = float(box.properties.density(np.array([box.temperature]), fraction)[0])
         outside, inside = resting_pressure(box.faces, box.grid, box.gravity, density)
         pressure = box.grid.padded(inside)
         pressure[box.faces.ghost] = outside
@@ -107,7 +108,7 @@ class Pressure:
         mass[cells] = window.alpha[cells] * self.box.grid.geometry.volume[cells] * state
         outward, ratio = self.inlet * self.density * old.ratio, 1.0
         if self.box.closed:
-            ratio = (old.mass[cells].sum() + window.dt * (window.vapour[cells].sum() - outward.sum())) / mass.sum()
+            ratio = (old.mass[cells].sum() + window.dt * (window.mass[cells].sum() - outward.sum())) / mass.sum()
         return Aim(mass * ratio, ratio, outward)
 
     def project(self, old: Flow, window: Window, aim: Aim, velocity: np.ndarray, diagonal: np.ndarray):
@@ -118,7 +119,7 @@ class Pressure:
         density = grid.per_volume(aim.mass)
         setting = grid.wide, self.active, grid.geometry, window.alpha
         face_fluxes(*setting, density, diagonal, velocity, dt, flux, fine)
-        balance(grid.inner, flux, window.vapour, old.mass, dt, mass)
+        balance(grid.inner, flux, window.mass, old.mass, dt, mass)
         excess = mass - aim.mass
         tolerance = CONTINUITY * box.tolerance
         _, error = solve_pressure(self.levels, grid.inner, self.work, excess, aim.mass, correction, tolerance)
@@ -127,7 +128,7 @@ class Pressure:
         if box.closed:
             correction[grid.cells] -= correction[grid.cells].mean()
         correct(*setting, diagonal, fine, correction, dt, velocity, flux)
-        balance(grid.inner, flux, window.vapour, old.mass, dt, mass)
+        balance(grid.inner, flux, window.mass, old.mass, dt, mass)
         self._carry_beyond(flux)
         pressure = old.pressure + correction
         self._lean(window, mass, flux, pressure)

@@ -11,7 +11,7 @@ from coupling.embedded.box import Box, Flow, Window
 from coupling.embedded.convection import Nodes, convect, substeps
 from coupling.embedded.linear import fill, solve_implicit
 from coupling.embedded.works import pressure_work
-from coupling.gas import Unfinished
+from coupling.gas import USED_UP, Unfinished
 from sdph.laws.compiled import serial
 
 NO_SHIFT = np.uint64(0)
@@ -43,9 +43,9 @@ class Scalars:
     def carry(self, old: Flow, window: Window, flow: Flow):
         """`flow` with its new vapour and temperature, its Courant number and the residuals."""
         box, grid = self.box, self.box.grid
-        carried = flow.mass - window.dt * window.vapour  # all but the new vapour
+        carried = flow.mass - window.dt * window.mass  # all but what is new
         if not carried[grid.cells].min() > 0.0:
-            raise Unfinished("the vapour of one window fills a cell all by itself; shorten the window")
+            raise Unfinished("what one window gives to the gas fills a cell all by itself; shorten the window")
         parts, courant = substeps(grid.inner, flow.flux, old.mass, carried, window.dt)
         residuals = {}
         heat = box.properties.gas.heat_capacity
@@ -63,8 +63,8 @@ class Scalars:
     def _vapour(self, old: Flow, window: Window, flow: Flow, parts: int):
         """The new flow, the vapour (d, S) [kg] through every face, and the residual."""
         diffusivity = self.box.vapour.diffusivity * self.box.grid.per_volume(flow.mass)
-        carried = (old.fraction(), old.mass.copy(), flow.flux, parts)
-        exchanged = (flow.mass, window.dt * window.vapour, window.dt * window.vapour)
+        carried = (self._left(old, window), old.mass.copy(), flow.flux, parts)
+        exchanged = (flow.mass, window.dt * (window.given + window.carrier), window.dt * window.given)
         fraction, through, error = self._transport(flow, window.dt, "vapour", carried, diffusivity, exchanged)
         vapour = np.zeros_like(flow.mass)
         cells = self.box.grid.cells
@@ -72,13 +72,24 @@ class Scalars:
         vapour_in = flow.vapour_in - float(self.box.outward(through).sum())
         return replace(flow, vapour=vapour, vapour_in=vapour_in), through, error
 
+    def _left(self, old: Flow, window: Window) -> np.ndarray:
+        """Mass fraction (S,) of the vapour when what a window uses up is gone, before any flow carries it away."""
+        fraction, cells = old.fraction(), self.box.grid.cells
+        used = (window.given - window.vapour)[cells]
+        fraction[cells] -= window.dt * used / old.mass[cells]
+        lacking = (used > 0.0) & (fraction[cells] < -USED_UP)
+        if lacking.any():
+            cell = int(np.argmax(lacking))
+            raise Unfinished(f"cell {cell} has less vapour than one window uses up there; shorten the window")
+        return fraction
+
     def _heat(self, old: Flow, window: Window, flow: Flow, heat):
         """The new flow and the residual; heat: content [J/K] before, its flux [W/K], content after, sub-steps."""
         before, carrier, after, parts = heat
         conductivity = window.alpha * self.box.properties.mixture("conductivity", flow.fraction())
-        grown = window.dt * (
-            window.cling if self.box.vapour is None else window.cling + self.box.vapour.heat_capacity * window.vapour
-        )
+        grown = window.dt * (window.cling + self.box.properties.gas.heat_capacity * window.carrier)
+        if self.box.vapour is not None:
+            grown = grown + window.dt * self.box.vapour.heat_capacity * window.vapour
         pressed, unpaid = pressure_work(self.box, old, window, flow)
         given = window.dt * window.warmth + self.box.grid.padded(pressed)
         exchanged = (after + window.dt * window.cling, grown, given)

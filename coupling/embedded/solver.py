@@ -4,13 +4,14 @@ Low-Mach equations of a gas of volume fraction alpha on a Cartesian staggered gr
 
     ddt(alpha rho)      + div(alpha rho u)      = Gamma
     ddt(alpha rho u)    + div(alpha rho u u)    = -alpha grad p + div tau + alpha rho g + beta v_p - beta u + Gamma v_p
-    ddt(alpha rho Y)    + div(alpha rho u Y)    = -div J + Gamma,    J = -alpha rho D grad Y
+    ddt(alpha rho Y)    + div(alpha rho u Y)    = -div J + Gamma_v,    J = -alpha rho D grad Y
     ddt(alpha rho cp T) + div(alpha rho u cp T) = div(alpha k grad T) - div((cp_v - cp_g) T J) + eps T_p - eps T + q
                                                   + alpha u.grad p
 
 First order in time, second in space. Convection is explicit, in as many sub-steps as the window needs, the rest
 implicit: accuracy alone limits a window. Mass, vapour and heat of a cell are what the fluxes brought, so totals
-close to round-off. Laminar. A gas of `constant` density is a low-Mach ideal gas: h = cp T, so that the pressure works
+close to round-off; Gamma is vapour Gamma_v and the rest of the gas, and vapour that is used up is gone before any flows
+on. Laminar. A gas of `constant` density is a low-Mach ideal gas: h = cp T, so that the pressure works
 on it (Eq. 30 of the closure sheet): with the heat of drag, q, a throttled gas keeps its temperature. Of Dp/Dt the
 rate dp/dt is left out: without sound the pressure is as high for an instant as any sudden motion asks for.
 
@@ -68,17 +69,18 @@ class EmbeddedGas:
         self.mesh = Mesh(centres, grid.geometry.volume[grid.cells], grid.dimensions)
 
     def start(self, alpha_g: np.ndarray | None, sources: tuple[str, ...], fields: tuple[str, ...] = ()) -> GasState:
-        """Gas at rest at the temperature of the case, without vapour."""
+        """Gas at rest at the temperature of the case, with the vapour of its start."""
         self.sources, self.fields = _known(sources, self.box), known_fields(fields)
         box, grid = self.box, self.box.grid
         alpha = grid.extended(grid.padded(np.ones(len(grid.cells)) if alpha_g is None else alpha_g))
         temperature = np.full(grid.size, box.temperature)
-        mass, density = grid.zeros(), box.properties.density(temperature[grid.cells], 0.0)
+        fraction = box.vapour.mass_fraction if box.vapour else 0.0
+        mass, density = grid.zeros(), box.properties.density(temperature[grid.cells], fraction)
         mass[grid.cells] = alpha[grid.cells] * grid.geometry.volume[grid.cells] * density
         pressure = self.pressure.at_start()
         velocity = self.pressure.standing.copy()
         moving = velocity, grid.zeros(grid.dimensions), np.zeros((len(IMPULSES), 3)), np.zeros((len(box.names), 3, 3))
-        self.flow = Flow(0.0, alpha, mass, grid.zeros(), temperature, pressure, *moving)
+        self.flow = Flow(0.0, alpha, mass, fraction * mass, temperature, pressure, *moving)
         self.state = self._state()
         return self.state
 
@@ -185,5 +187,5 @@ def _known(sources: tuple[str, ...], box: Box) -> tuple[str, ...]:
         if name not in SOURCES:
             raise GasError(f"unknown source {name!r}; a gas solver knows {', '.join(SOURCES)}")
     if "vapour" in sources and box.vapour is None:
-        raise GasError("the particles give off vapour, but the case has no [vapour]")
+        raise GasError("the particles give off vapour or use it up, but the case has no [vapour]")
     return tuple(sources)

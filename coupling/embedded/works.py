@@ -71,10 +71,10 @@ def pressure_work(box: Box, old: Flow, window: Window, flow: Flow) -> tuple[np.n
 
 def _given(box: Box, old: Flow, window: Window, flow: Flow):
     """Function (axis, faces, cells) -> power [W] of what the particles in these cells give the gas on these faces; that
-    new vapour takes the velocity of the gas is no part of it."""
+    new mass takes the velocity of the gas is no part of it."""
     after = inside(box, flow)
     mean = 0.5 * (inside(box, old) + after)
-    push, pull = window.push, window.pull - window.vapour
+    push, pull = window.push, window.pull - window.mass
     return lambda a, face, cell: (push[a, cell] - pull[cell] * after[a, face]) * mean[a, face]
 
 

@@ -33,7 +33,8 @@ def start_fields(case, others: dict[str, str] | None = None) -> dict[str, str]:
     if others is None:
         others = {"frontAndBack": EMPTY} if case.dimensions == 2 else {}
     names = [name for name in FIELDS if name != "Y" or case.vapour is not None]
-    inside = {"alpha_g": "1", "U": "(0 0 0)", "p_rgh": "0", "T": repr(case.gas.temperature), "Y": "0"}
+    inside = {"alpha_g": "1", "U": "(0 0 0)", "p_rgh": "0", "T": repr(case.gas.temperature)}
+    inside |= {"Y": repr(case.vapour.mass_fraction)} if case.vapour else {}
     made = {name: _field(case, name, inside[name], others) for name in names}
     return made | {name: _turbulent(case, name, own, others) for name, own in turbulence.fields(case).items()}
 

@@ -15,7 +15,7 @@ MOST = 100  # materials: their numbers are bytes in the State; our choice
 # effects that know one material, and why
 STRANGE = {
     "evaporation": "vapour is of one species", "micro_explosion": "droplets are of one fuel",
-    "break_up": "droplets are of one liquid",
+    "break_up": "droplets are of one liquid", "reaction": "all grains would burn",
     "turbulent_dispersion": "grains fall through its eddies at one speed",
 }  # fmt: skip
 METRICS = ("column", "jet", "bursts")  # that compare with formulas of one material

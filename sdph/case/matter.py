@@ -43,8 +43,9 @@ class GasProperties:
 
 @record
 class Vapour:
-    """The species that grains or droplets give to the gas."""
+    """The species of the gas that droplets give to it, or that burns grains."""
 
+    mass_fraction: float = quantity("", 0.0, least=0.0, most=1.0)  # of the gas at the start
     molar_mass: float = quantity("kg_kmol", above=0.0)
     diffusivity: float = quantity("m2_s", above=0.0)
     heat_capacity: float = quantity("J_kg_K", above=0.0)

@@ -16,7 +16,7 @@ from sdph.methods.solids.sections import Body, Solid
 from sdph.schema import choice, file, flag, quantity, record, vector, whole, words
 
 OPENINGS = ("inflow", "outflow")  # effects that act on the grains alone where grains and a liquid are side by side
-HEATING = {"heat", "conduction", "radiation", "evaporation", "micro_explosion"}
+HEATING = {"heat", "conduction", "radiation", "evaporation", "micro_explosion", "reaction"}
 PEAK = {"uniform": 1.0, "parabolic": 1.5}  # profile of an inlet -> its largest velocity over the mean
 
 

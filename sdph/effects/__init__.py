@@ -13,6 +13,7 @@ from sdph.effects.gas import (
     lift,
     micro_explosion,
     radiation,
+    reaction,
     turbulent_dispersion,
 )
 from sdph.effects.grains import (
@@ -80,6 +81,7 @@ FILES = (
     drain,
     evaporation,
     micro_explosion,
+    reaction,
     break_up,
     inflow,
     outflow,

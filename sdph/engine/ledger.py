@@ -21,7 +21,7 @@ VECTORS = (
 )  # fmt: skip
 AMOUNTS = (
     "heat_to_particles_J", "heat_to_gas_J", "drag_heat_J", "friction_J", "mechanical_heat_J", "evaporated_kg",
-    "vapour_to_gas_kg", "heat_to_surroundings_J", "vapour_motion_J",
+    "vapour_to_gas_kg", "reacted_kg", "carrier_to_gas_kg", "heat_to_surroundings_J", "vapour_motion_J",
     "injected_kg", "injected_J", "injected_motion_J", "left_kg", "left_J", "left_motion_J",
     "work_of_drag_J", "work_of_pressure_J", "work_of_gravity_J", "work_of_walls_J", "work_of_contact_J",
     "work_of_inflow_J", "agitation_J", "collision_heat_J", "damping_heat_J", "bounds_work_J", "numerical_work_J",
@@ -115,7 +115,9 @@ class Ledger:
         self.sums["heat_exchanged_J"] += abs(exchanged["heat_to_particles_J"])
         self.sums["work_exchanged_J"] += sum(abs(exchanged[key]) for key in self.motion)
         self.heat_mismatch = max(self.heat_mismatch, abs(exchanged["heat_to_particles_J"] + exchanged["heat_to_gas_J"]))
-        self.mass_mismatch = max(self.mass_mismatch, abs(exchanged["evaporated_kg"] - exchanged["vapour_to_gas_kg"]))
+        lost, got = ("evaporated_kg", "reacted_kg"), ("vapour_to_gas_kg", "carrier_to_gas_kg")
+        unequal = sum(exchanged[key] for key in lost) - sum(exchanged[key] for key in got)
+        self.mass_mismatch = max(self.mass_mismatch, abs(unequal))
         columns = [key for key in self.last if key.endswith("kg_m_s")]
         unequal = self._hear_impulses(exchanged, {key: self.last[key] - before[key] for key in columns})
         self.impulse_mismatch = max(self.impulse_mismatch, unequal)
@@ -144,7 +146,7 @@ class Ledger:
             sums["heat_to_surroundings_J"] = self.sums["heat_to_surroundings_J"]
         if self.case.coupling.one_way:  # the gas feels nothing, so there is no balance of energy to close
             return sums | drifts
-        if "evaporated_kg" in self.told:
+        if {"evaporated_kg", "reacted_kg"} & set(self.told):
             drifts |= self._species_drift()
         return (
             sums
@@ -164,21 +166,20 @@ class Ledger:
         whole = self.first["particle_mass_kg"] + self.sums["injected_kg"]
         particles = (*self._change("particle_mass_kg", 1), -came)
         gas = self._change("gas_mass_kg", 1) + self._change("gas_mass_in_kg", -1)
-        vapour = self.sums["evaporated_kg"]
-        lost = vapour if self.case.coupling.one_way else 0.0  # the gas feels nothing of it
+        away = self.sums["evaporated_kg"] + self.sums["reacted_kg"]
+        lost = away if self.case.coupling.one_way else 0.0  # the gas feels nothing of it
         return {
             "mass_drift_rel": ratio(abs(math.fsum((*particles, *gas, lost))), whole + self.first["gas_mass_kg"]),
-            "particle_mass_drift_rel": ratio(abs(math.fsum((*particles, vapour))), whole),
+            "particle_mass_drift_rel": ratio(abs(math.fsum((*particles, away))), whole),
         }
 
     def _species_drift(self) -> dict[str, float]:
-        """Growth of the vapour in the gas beyond what came in and evaporated."""
+        """Growth of the vapour in the gas beyond what came in, and evaporated or was used up."""
         vapour = self._change("gas_vapour_kg", 1) + self._change("gas_vapour_in_kg", -1)
         drift = abs(math.fsum((*vapour, -self.sums["vapour_to_gas_kg"])))
-        return {
-            "species_drift_rel": ratio(drift, self.sums["evaporated_kg"]),
-            "exchange_mass_mismatch_rel": ratio(self.mass_mismatch, self.sums["evaporated_kg"]),
-        }
+        whole = self.sums["evaporated_kg"] + self.sums["reacted_kg"]
+        mismatch = ratio(self.mass_mismatch, whole)
+        return {"species_drift_rel": ratio(drift, whole), "exchange_mass_mismatch_rel": mismatch}
 
     def _energy_drift(self) -> dict[str, float]:
         """Growth of the heat of both phases beyond what came in and was made."""

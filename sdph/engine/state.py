@@ -53,6 +53,7 @@ class State(NamedTuple):
     born_variance: np.ndarray
     lost_still: np.ndarray
     lost_moving: np.ndarray
+    lost_kinetic: np.ndarray
     deformation: np.ndarray
     deformation_rate: np.ndarray
     weber: np.ndarray
@@ -123,6 +124,7 @@ FIELDS = {
     "born_variance": ("m2", "number variance of the grain diameters then"),
     "lost_still": ("m2", "loss of d^2 as in still gas (sdph.laws.grain_loss)"),
     "lost_moving": ("m^(3/2)", "further loss by the flow around the grains (the same)"),
+    "lost_kinetic": ("m3", "loss times the length by which a reaction is slow (sdph.laws.burn_off)"),
     "deformation": ("1", "shift of a drop's equator over half its radius; it breaks at 1 (sdph.laws.break_up)"),
     "deformation_rate": ("1/s", "its rate"),
     "weber": ("1", "Weber number of the radius in the last window"),

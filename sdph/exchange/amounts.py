@@ -13,10 +13,11 @@ from sdph.exchange import bursts
 
 @dataclass(frozen=True)
 class Loss:
-    """Evaporation in one window, of each particle: mass [kg], its effect on the sizes (see sdph.exchange.droplets),
-    condensation that was refused [kg], the rest of finished droplets [kg], and the energy of motion that the vapour has
-    [J]; `held`, shares of the particles that its limiters hold; `thrown`, vapour of torn droplets, where there are
-    any."""
+    """Evaporation or burn-off in one window, of each particle: mass [kg], its effect on the sizes (see
+    sdph.exchange.droplets and burning), condensation that was refused [kg], the rest of those that have finished [kg],
+    and the energy of motion that goes with it [J]; `held`, shares of the particles that its limiters hold; `thrown`,
+    vapour of torn droplets, where there are any; `slow`, a third effect on the sizes, of burn-off, and `terms`, what
+    that tells the gas, as in `Handed`."""
 
     mass: np.ndarray
     still: np.ndarray
@@ -26,6 +27,8 @@ class Loss:
     motion: np.ndarray
     held: dict[str, float] = field(default_factory=dict)
     thrown: bursts.Thrown | None = None
+    slow: np.ndarray | None = None
+    terms: dict[tuple[str, str], np.ndarray] = field(default_factory=dict)
 
     @property
     def vapour(self) -> np.ndarray:
@@ -99,10 +102,10 @@ class Taken:
     sum, of momentum by its force (C, 3) [N/m3] too.
 
     lost (N,) [J] is what leaves the system to its surroundings (no entry where no effect gives any); warming (N,) [J]
-    the heat less that and less that of evaporation; vapour and vapour_to_gas [kg] what left particles and what the
-    gas got; latent_heat [J] and capacity_heat [J] what evaporation binds, and what the vapour's other heat capacity
-    does; vapour_motion [J] the energy of motion that went with it, vapour_impulse (3,) [kg m/s]
-    what it brought to the gas.
+    the heat less that and less that of evaporation, or with that of a reaction; vapour and reacted [kg] what left
+    particles, vapour_to_gas and carrier_to_gas [kg] what the gas got; latent_heat [J] and capacity_heat [J] what
+    evaporation binds, and what the other heat capacity of what comes does, reaction_heat [J] what is set free;
+    vapour_motion [J] the energy of motion that went with it, vapour_impulse (3,) [kg m/s] what it brought to the gas.
     """
 
     heat: np.ndarray
@@ -114,6 +117,9 @@ class Taken:
     lost: np.ndarray = field(default_factory=lambda: np.zeros(0))
     vapour: float = 0.0
     vapour_to_gas: float = 0.0
+    reacted: float = 0.0
+    carrier_to_gas: float = 0.0
+    reaction_heat: float = 0.0
     latent_heat: float = 0.0
     capacity_heat: float = 0.0
     refused: float = 0.0
@@ -128,6 +134,9 @@ class Taken:
             "vapour_to_gas_kg": self.vapour_to_gas,
             "condensation_refused_kg": self.refused,
             "vapour_motion_J": self.vapour_motion,
+            "reacted_kg": self.reacted,
+            "carrier_to_gas_kg": self.carrier_to_gas,
+            "reaction_heat_J": self.reaction_heat,
         }
         bound = {"latent_heat_J": self.latent_heat, "capacity_heat_J": self.capacity_heat}
         bound |= {"heat_to_surroundings_J": float(self.lost.sum())}

@@ -9,7 +9,7 @@ import numpy as np
 from numba import prange
 
 from coupling.transfer import gather
-from sdph.effects.gas import drag, film, heat, lift, radiation
+from sdph.effects.gas import drag, film, heat, lift, radiation, reaction
 from sdph.engine import state as particles
 from sdph.engine.state import GRAIN
 from sdph.laws import evaporation
@@ -64,8 +64,9 @@ def vapour_concentration(p, gas_state) -> np.ndarray:
 
 
 def temperature_span(case) -> float:
-    """Hottest less coldest of all that the case gives a temperature [K], LEAST_SPAN at least."""
-    return max(max(case.temperatures) - min(case.temperatures), LEAST_SPAN)
+    """Hottest less coldest of all that the case gives a temperature [K], or what a reaction warms it by; LEAST_SPAN at
+    least."""
+    return max(max(case.temperatures) - min(case.temperatures), reaction.rise(case), LEAST_SPAN)
 
 
 @parallel

@@ -32,10 +32,13 @@ from sdph.effects.gas import break_up, film, radiation, sizes, turbulent_dispers
 from sdph.engine.state import GRAIN, by_material, lengths
 from sdph.exchange import bursts, equations
 from sdph.exchange.amounts import Handed, Taken
+from sdph.exchange.burning import Burning
 from sdph.exchange.cells import Cells, capacity_of
-from sdph.exchange.equations import Seen, temperature_span, vapour_concentration
+from sdph.exchange.equations import Seen, temperature_span
 from sdph.exchange.vapour import Vapour
 from sdph.exchange.window import held, settling
+
+LOSING = Vapour, Burning  # what takes mass from particles: one of them at most
 
 
 class Exchange:
@@ -49,8 +52,8 @@ class Exchange:
         self.sizes_p, self.film_p = sizes.kernel(case), film.kernel(case)
         self.cells = Cells(mesh, case.grains.density)
         self.volumes = self.cells.volumes
-        evaporation = parameters["evaporation"]
-        self.vapour = Vapour(case, evaporation, self.sizes_p, self.cells) if evaporation else None
+        made = (kind(case, parameters[kind.name], self.sizes_p, self.cells) for kind in LOSING if parameters[kind.name])
+        self.losing = next(made, None)
         self.bursting = parameters["micro_explosion"]
         rows = [effects.REGISTRY[name] for name in case.effects]
         names = dict.fromkeys(name for row in rows for name in row.sources)
@@ -81,10 +84,10 @@ class Exchange:
             seen, against = seen.stirred(pushed), seen.own - pushed
         convection, conductance, damping, force = self._rates(state, seen)
         loss = None
-        if self.vapour:
-            loss = self.vapour.evaporate(state, weights, gas_state, seen, convection, conductance, dt, thrown)
+        if self.losing:
+            loss = self.losing.lose(state, weights, gas_state, seen, convection, conductance, dt, thrown)
         kept = state.mass - loss.mass if loss else state.mass
-        power = self.parameters["evaporation"].latent_heat / -dt * loss.mass if loss else OFF
+        power = self.losing.power(loss, dt) if loss else OFF
         gone = kept == 0.0 if loss and len(force) else np.zeros(len(force), bool)
         missed = dt * float(lengths(force[gone]).sum())
         force[gone] = 0.0  # those that are gone at the window's end feel nothing in it
@@ -95,19 +98,9 @@ class Exchange:
         )  # fmt: skip
         there, inside = ahead
         handed = Handed(
-            dt,
-            weights,
-            heat_share,
-            pull,
-            shared_mass,
-            force,
-            damping,
-            state.temperature.copy(),
-            seen.own,
-            kept * (state.kind == GRAIN),
-            loss,
-            self.origin,
-        )
+            dt, weights, heat_share, pull, shared_mass, force, damping, state.temperature.copy(), seen.own,
+            kept * (state.kind == GRAIN), loss, self.origin,
+        )  # fmt: skip
         alpha_g = self.cells.room(there, kept * inside, state.grain_density) if "alpha_g" in self.sources else None
         around = (seen.slip, seen.density)
         handed = replace(handed, alpha_g=alpha_g, gone=missed, around=around, against=against, eddies=eddies)
@@ -144,17 +137,20 @@ class Exchange:
             for name, to_gas in self.to_gas.items()
             for quantity, own in to_gas(handed, self.case).items()
         }
+        own_terms = handed.loss.terms if handed.loss else {}
         if not given:
-            return {}
+            return own_terms
         columns = [own[:, None] if own.ndim == 1 else own for own in given.values()]
         ends = np.cumsum([column.shape[1] for column in columns])
         cells = np.split(self.cells.density(handed.weights, np.concatenate(columns, axis=1)), ends[:-1], axis=1)
         terms = {key: cell[:, 0] if own.ndim == 1 else cell for (key, own), cell in zip(given.items(), cells)}
-        return terms | ({("heat", "friction"): self.pending / handed.dt} if "momentum" in self.sources else {})
+        return (
+            terms | own_terms | ({("heat", "friction"): self.pending / handed.dt} if "momentum" in self.sources else {})
+        )
 
-    def pace(self, state, weights, gas_state) -> tuple[float, float, float, float, float]:
-        """Pace at the start: rate [1/s] at which the fastest cell takes the grains' temperature, `stake` [J], rate
-        [1/s] at which vapour comes into the fastest cell, over the gas in it, `grip` [1/s] and `settling` [s]."""
+    def pace(self, state, weights, gas_state) -> tuple:
+        """Pace at the start: rate [1/s] at which the fastest cell takes the grains' temperature, `stake` [J], what
+        `Window.thicken` is told of a second, `grip` [1/s] and `settling` [s]."""
         seen = Seen(weights, gas_state, state, self.fields)
         _, conductance, damping, _ = self._rates(state, seen)
         full, resistance = self._resistance(state, weights, gas_state)
@@ -163,9 +159,13 @@ class Exchange:
             if "heat_coefficient" in self.sources
             else 0.0
         )
-        thickening = self.vapour.thickening(state, weights, gas_state, seen) if self.vapour else 0.0
+        losing = (self.losing.pace(state, weights, gas_state, seen), self.losing.name) if self.losing else (0.0,)
         held = self.grip(state, damping), self.settling(state, damping, seen.own, seen.slip)
-        return rate, self.stake(state, weights, gas_state), thickening, *held
+        return rate, self.stake(state, weights, gas_state), losing, *held
+
+    def lost(self, handed: Handed, gas_state) -> tuple:
+        """Share and cause that `Window.thicken` is told of a window."""
+        return (self.losing.share(handed, gas_state), self.losing.name) if self.losing else (0.0,)
 
     def stake(self, state, weights, gas_state) -> float:
         """A scale of heat [J]: the gas among the grains, and they, brought to equilibrium through all of the
@@ -177,10 +177,7 @@ class Exchange:
 
     def held(self, state, weights, gas_state) -> dict[str, float]:
         """Columns of `Handed.held` at the start."""
-        own = {}
-        if self.vapour:
-            seen = Seen(weights, gas_state, state)
-            own = self.vapour.held(state, seen, gather(weights, vapour_concentration(self.vapour.p, gas_state)))
+        own = self.losing.held_at_start(state, weights, gas_state) if self.losing else {}
         return {"outside_mesh_particles": float(len(weights.outside))} | own
 
     def _resistance(self, state, weights, gas_state) -> tuple[np.ndarray, np.ndarray]:
@@ -210,13 +207,13 @@ class Exchange:
         given = np.einsum("ij,i->j", force, self.volumes) * handed.dt
         taken = Taken(taken_heat, taken_heat, impulse, from_gas, given, force)
         if handed.loss:
-            taken = self.vapour.taken(taken, handed)
+            taken = self.losing.taken(taken, handed)
         return self._with_radiation(taken, state, handed) if self.parameters["radiation"] else taken
 
     def settle(self, state, handed: Handed) -> dict[str, float]:
-        """Take from the particles what evaporated, keep their eddies, and let drops break; columns of the ledger."""
-        if self.vapour:
-            self.vapour.settle(state, handed)
+        """Take from the particles what they lose, keep their eddies, and let drops break; columns of the ledger."""
+        if self.losing:
+            self.losing.settle(state, handed)
         if handed.eddies is not None:
             turbulent_dispersion.apply(state, handed.eddies)
         if not self.parameters["break_up"]:
@@ -246,7 +243,7 @@ class Exchange:
             return 0.0
         made, lost = damped - np.einsum("ij,ij->i", taken.impulse, way) / handed.dt, -gas_state.fields["power"]
         if handed.loss:
-            brought = handed.terms["momentum", "evaporation"]
+            brought = handed.terms["momentum", self.losing.name]
             lost = lost + np.einsum("ij,ij->i", brought, gas_state.fields["velocity"])
         self.pending = lost * handed.dt + self.cells.density(handed.weights, made)
         return float(self.pending @ self.volumes)

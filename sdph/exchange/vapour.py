@@ -14,16 +14,18 @@ from sdph.engine.state import GRAIN
 from sdph.exchange import bursts
 from sdph.exchange import droplets as droplet_loss
 from sdph.exchange.amounts import Handed, Loss, Taken
-from sdph.exchange.equations import vapour_concentration
+from sdph.exchange.equations import Seen, vapour_concentration
 
 
 class Vapour:
     """Evaporation of a case with parameters `p`, the EvaporationP of sdph.effects.gas.evaporation."""
 
+    name = "evaporation"
+
     def __init__(self, case, p, sizes_p, cells):
         self.case, self.p, self.sizes_p, self.cells = case, p, sizes_p, cells
 
-    def evaporate(self, state, weights, gas_state, seen, convection, conductance, dt, thrown) -> Loss:
+    def lose(self, state, weights, gas_state, seen, convection, conductance, dt, thrown) -> Loss:
         """Evaporation in a window; the heat conductance (N,) [W/K], of which convection (N,) is the part that flowing
         vapour hinders, becomes the mean over it. The state is that after
         torn droplets have `thrown` their vapour, where there are any.
@@ -77,6 +79,16 @@ class Vapour:
         droplet_loss.held(self.p, state, seen.density, seen.temperature, concentration, flat, boiling)
         return {"flat_rate_share": share(state, flat), "boiling_held_share": share(state, boiling)}
 
+    def held_at_start(self, state, weights, gas_state) -> dict[str, float]:
+        """The same before the first window."""
+        return self.held(
+            state, Seen(weights, gas_state, state), gather(weights, vapour_concentration(self.p, gas_state))
+        )
+
+    def power(self, loss: Loss, dt) -> np.ndarray:
+        """Heat (N,) [W] that evaporation gives the particles, held over the window: below 0."""
+        return self.p.latent_heat / -dt * loss.mass
+
     def _relaxed(self, state, weights, gas_state, exchanged, surface) -> np.ndarray:
         """Vapour around the particles [kmol/m3] once they have exchanged so much gas (N,) [m3] with the cells."""
         deposited = deposit(weights, np.stack((exchanged, exchanged * surface), axis=1))
@@ -84,7 +96,7 @@ class Vapour:
         cells = vapour_concentration(self.p, gas_state)
         return gather(weights, (room * cells + deposited[:, 1]) / (room + deposited[:, 0]))
 
-    def thickening(self, state, weights, gas_state, seen) -> float:
+    def pace(self, state, weights, gas_state, seen) -> float:
         """Vapour that comes into a cell now, over the gas in it [1/s]; the largest of all cells."""
         p, rate = self.p, np.empty(len(state.x))
         concentration = gather(weights, vapour_concentration(p, gas_state))

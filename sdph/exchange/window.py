@@ -19,8 +19,9 @@ from sdph.engine.kept import POSITIVE, Maybe, Named, Unfit
 from sdph.engine.state import GRAIN
 
 SAFETY, GROWTH, SHRINK = 0.9, 2.0, 0.3  # usual bounds of a step controller (Hairer, Norsett & Wanner, II.4); our choice
-# of the gas in a cell: most vapour that comes into it in a window, so that it is carried away as it comes; our choice
-VAPOUR = 0.1
+# most that a window brings or takes: vapour that comes into a cell, of the gas in it, so that it is carried away as it
+# comes; oxidant that a reaction takes from one, of what the richest gas of the case holds there; our choice
+MOST = {"evaporation": 0.1, "reaction": 0.2}
 # of the time in which gas that gives way stops grains beyond what their own drag does, most that it may be held: a bed
 # then slows at a rate that is up to half of that, 5 %, too high, whatever its volume fraction; our choice
 GRIP = 0.1
@@ -29,7 +30,8 @@ ANSWER = 3.0
 # limit -> what a user can change about it
 KEYS = {
     "largest": "coupling.window_largest_s", "heat exchange": "coupling.window_tolerance", "courant": "coupling.courant",
-    "particles": "coupling.courant", "evaporation": "the rate of evaporation", "grip": "the drag on packed grains",
+    "particles": "coupling.courant", "evaporation": "the rate of evaporation",
+    "reaction": "the rate of the reaction", "grip": "the drag on packed grains",
     "settling": "run.accuracy",
     "contact": "liquid.sound_speed_m_s, whose square is the stiffness of contacts",
 }  # fmt: skip
@@ -124,10 +126,10 @@ class Window(Clock):
         """No window that `choose` picks next is longer [s]."""
         return min(self.limits.values())
 
-    def thicken(self, dt: float, share: float) -> None:
-        """Take note that in `dt` [s] vapour came into a cell of gas that was `share` of what was there, or would at the
-        rate of now."""
-        self.limits["evaporation"] = dt * min(GROWTH, VAPOUR / share) if share > 0.0 else math.inf
+    def thicken(self, dt: float, share: float, cause: str = "evaporation") -> None:
+        """Take note that in `dt` [s] vapour came into a cell of gas, or oxidant was taken from it, that was `share` of
+        what was there, or would at the rate of now; `cause` is one of MOST."""
+        self.limits[cause] = dt * min(GROWTH, MOST[cause] / share) if share > 0.0 else math.inf
 
     def hold(self, grip: float) -> None:
         """Take note that gas that cannot give way stops grains that move as one at the rate `grip` [1/s]."""

@@ -105,11 +105,11 @@ class Simulation:
         alpha_g = None if one_way or not self.case.coupling.voidage else self._alpha_g()
         self.gas_state = self.gas.start(alpha_g, () if one_way else self.exchange.sources, self.exchange.fields)
         self.clock.obey(effects.window_limits(self.parameters, self.case, self.state))
-        rate, stake, thickening, grip, settling = self.exchange.pace(self.state, self.weights, self.gas_state)
+        rate, stake, losing, grip, settling = self.exchange.pace(self.state, self.weights, self.gas_state)
         self.clock.obey({"settling": settling})
         if not one_way:
             self.clock.begin(rate, stake)
-            self.clock.thicken(1.0, thickening)
+            self.clock.thicken(1.0, *losing)
             self.clock.hold(grip)
         self.ledger.open(self._totals(), self.gas_state.budget)
         self.pressed = self._forces(None, 0.0)
@@ -158,7 +158,7 @@ class Simulation:
         exchanged |= {"drag_heat_J": self.exchange.handed_heat(handed)}
         exchanged |= {"friction_J": self.exchange.rub(handed, taken, self.gas_state, way, self.grains.damped)}
         self.clock.learn(dt, *changed, self.gas_state.budget.courant, self.grains.fastest())
-        self.clock.thicken(dt, self.exchange.vapour.share(handed, self.gas_state) if self.exchange.vapour else 0.0)
+        self.clock.thicken(dt, *self.exchange.lost(handed, self.gas_state))
         self.clock.obey(effects.window_limits(self.parameters, self.case, self.state))
         self._timed("exchange", self._renew)
         self.clock.obey({"contact": self.beside.limit(self.state)})
@@ -167,7 +167,7 @@ class Simulation:
 
     def _react(self, handed, taken, dt: float) -> Held:
         """Put on the particles what holds over a window of `dt` [s]: the answer of the gas, gravity, contact."""
-        if self.exchange.vapour:
+        if self.exchange.losing:
             self.stepper.prepare()  # pairs of the masses that are left: else what one gives the other does not get
         body, touched = self._body(handed), self.beside.touch(self.state, dt)
         held = Held(self.state, dt, taken.impulse, touched, *body)

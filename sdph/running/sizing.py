@@ -37,7 +37,7 @@ class Census(NamedTuple):
 
 def told(case) -> bool:
     """True where a case has drops, or grains, whose sizes differ or change."""
-    sprayed = "evaporation" in case.effects or "break_up" in case.effects
+    sprayed = bool({"evaporation", "break_up", "reaction"} & set(case.effects))
     return "diameter" in carried(case) and (sprayed or bool(sizes.kernel(case)))
 
 

@@ -48,6 +48,12 @@ WITH = {
     "radiation": (
         "bubbling_bed", "", ("radiation.emissivity=0.8", "radiation.surroundings_temperature_K=300"),
     ),
+    "reaction": (
+        "bubbling_bed", "",
+        ("vapour={molar_mass_kg_kmol=32,diffusivity_m2_s=2e-4,heat_capacity_J_kg_K=1e3,conductivity_W_m_K=0.07,"
+         "viscosity_Pa_s=4e-5,mass_fraction=0.2}",
+         "reaction.oxidant_ratio=2.667", "reaction.rate_m_s=0.1", "reaction.heat_J_kg=0"),
+    ),
     "break_up": (
         "evaporating_jet", "",
         ("break_up.liquid_viscosity_Pa_s=1e-3", "break_up.products='equal'", "grains.surface_tension_N_m=0.02"),

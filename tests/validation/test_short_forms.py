@@ -26,6 +26,7 @@ SHORT = {
     "poiseuille": (("run.end_time_s=2.0",), ("exact",)),
     "power_law_poiseuille": (("resolution.spacing_mm=50.0",), ("exact",)),
     "lifted_grains": (("run.end_time_s=0.5",), ("exact",)),
+    "burning_char": (("resolution.cell_mm=5.0", "run.end_time_s=8.0"), ("exact",)),
     "radiating_grains": (("coupling.window_largest_s=1.0",), ("exact",)),
     "taylor_green": (("resolution.spacing_mm=20.0", "run.end_time_s=1.0"), ("exact",)),
     "square_patch": (("resolution.spacing_mm=20.0",), ("exact",)),

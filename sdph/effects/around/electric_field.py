@@ -56,7 +56,7 @@ class ElectricFieldP(NamedTuple):
 
 def kernel(case) -> ElectricFieldP:
     own = case.parameters["electric_field"]
-    for name in ("evaporation", "break_up"):
+    for name in ("evaporation", "break_up", "reaction"):
         if name in case.effects:
             raise CaseError(
                 f"electric_field: what charge a droplet has that shrinks or breaks is not known here; leave {name} or "

@@ -25,7 +25,7 @@ from sdph.schema import quantity, record
 # Of the time in which grains cool by radiation, most that a window takes it apart from the rest; our choice: errs by
 # 2.5e-5 of the cooling (tests/effects/gas/test_radiation_effect.py)
 SPLIT = 0.1
-BESIDE = ("heat", "conduction", "evaporation")  # what changes the temperature of grains too
+BESIDE = ("heat", "conduction", "evaporation", "reaction")  # what changes the temperature of grains too
 TIMES, SOURCE = "run / radiative response time", "Incropera & DeWitt, section 5.3"
 
 

@@ -48,7 +48,7 @@ class Guard(Watch):
         size = FAR * max(grains.diameter for grains in self.case.kinds)
         bounds = dict.fromkeys("uvw", speed) | dict.fromkeys(("diameter", "born_diameter"), (TINY, size))
         bounds |= dict.fromkeys(("diameter_variance", "born_variance", "lost_still"), (0.0, size**2))
-        bounds |= {"born_mass": positive, "lost_moving": zero_on}
+        bounds |= {"born_mass": positive, "lost_moving": zero_on, "lost_kinetic": zero_on}
         bounds |= {
             "mass": (TINY, heaviest),
             "density": (0.0, DENSE * max(grains.density for grains in self.case.kinds)),

@@ -82,7 +82,7 @@ class Grains:
 
     def force(self, warmth, push, damping) -> None:
         """Take heat (N,) [J], acceleration (N, 3) [m/s2] and damping (N,) [1/s] of theta that hold over the window;
-        what has evaporated is taken out."""
+        what has evaporated or burned is taken out."""
         self.stepper.force(warmth, push, damping)
         left = self.state.mass > 0.0
         if not left.all():
@@ -116,7 +116,7 @@ class Grains:
         replaced = state is not self.state
         if replaced:
             self.stepper.replace(state)
-        changed = replaced or bool(self.parameters["evaporation"])
+        changed = replaced or bool(self.parameters["evaporation"] or self.parameters["reaction"])
         if changed or self.windows == 0:  # those that moved are prepared
             self.stepper.prepare()
         return changed or self.moves

@@ -14,6 +14,7 @@ import numpy as np
 
 from sdph import effects
 from sdph.effects.around.streams import Patch
+from sdph.effects.gas import reaction
 from sdph.effects.gas.turbulent_dispersion import begins_with
 from sdph.laws import dispersion, drag, exact, granular, heat
 from sdph.methods.grains import start, ways
@@ -155,8 +156,8 @@ class Scales:
 
     @cached_property
     def span(self) -> float:
-        """Difference of the hottest and the coldest of the case [K]."""
-        return max(self.case.temperatures) - min(self.case.temperatures)
+        """Difference of the hottest and the coldest of the case [K], or more, what a reaction warms it by."""
+        return max(max(self.case.temperatures) - min(self.case.temperatures), reaction.rise(self.case))
 
     @cached_property
     def speed(self) -> float:

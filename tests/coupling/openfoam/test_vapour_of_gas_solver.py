@@ -5,6 +5,8 @@ import pytest
 from gas_boxes import box, total
 from gas_columns import CP, OPEN, RHO, gas_volume
 
+from coupling.gas import Unfinished
+
 VAPOUR = {
     "molar_mass_kg_kmol": 142.284, "diffusivity_m2_s": 3.79e-6, "heat_capacity_J_kg_K": 2470.0,
     "conductivity_W_m_K": 0.0178, "viscosity_Pa_s": 7e-6,
@@ -88,3 +90,41 @@ def test_closed_box_of_constant_density_takes_the_vapour(tmp_path):
     given = 1e-2 * total(gas, vapour)
     assert state.budget.mass - start.budget.mass == pytest.approx(given, rel=1e-11)
     assert state.fields["density"] == pytest.approx(RHO + given / gas_volume(gas), rel=1e-6)
+
+
+@pytest.mark.parametrize("equation", ["constant", "operating"])
+def test_vapour_that_is_used_up(tmp_path, equation):
+    """What a reaction takes of it and gives of the rest of the gas, at 300 K, in an open box: mass, vapour and energy
+    are those given, no temperature changes but by the works, and none is left where nearly all is taken."""
+    dt, steps, more = 1e-3, 5, {"equation_of_state": equation}
+    with box(tmp_path, (0.1, 0.1), 0.005, boundaries=OPEN, vapour=VAPOUR | {"mass_fraction": 0.1}, **more) as gas:
+        x = gas.mesh.centres[:, 0]
+        start = gas.start(None, ("vapour", "carrier", "heat"))
+        used, totals = 0.0, 0.0
+        state = start
+        for _ in range(steps):
+            there = state.fields["density"] * state.fields["vapour_mass_fraction"]
+            taken = (0.1 + 0.899 * (x > 0.08)) * there / dt
+            heat = (1.4 * CP - 2470.0) * taken * 300.0
+            state = gas.advance(dt, {"vapour": -taken, "carrier": 1.4 * taken, "heat": heat})
+            used, totals = used + dt * total(gas, taken), totals + dt * total(gas, heat)
+    now, then = state.budget, start.budget
+    assert now.vapour - then.vapour == pytest.approx(now.vapour_in - used, rel=1e-9)
+    assert now.mass - then.mass == pytest.approx(now.mass_in + 0.4 * used, rel=1e-9, abs=1e-12 * then.mass)
+    gained = now.energy - then.energy - now.energy_in - now.pressure_work
+    assert gained == pytest.approx(totals, rel=1e-8, abs=1e-11 * then.energy)
+    assert state.fields["vapour_mass_fraction"].min() > -1e-12
+    works = np.abs(state.fields["velocity"]).max() ** 2 / CP if equation == "constant" else 300.0 * 1e-10
+    assert works < 1e-3 and state.fields["temperature"] == pytest.approx(300.0, abs=works)
+
+
+def test_more_vapour_than_there_is_cannot_be_used_up(tmp_path):
+    with box(tmp_path, (0.1, 0.1), 0.02, boundaries=OPEN, vapour=VAPOUR | {"mass_fraction": 0.1}) as gas:
+        start = gas.start(None, ("vapour", "carrier"))
+        taken = 1.01 * 0.1 * start.fields["density"] / 1e-3
+        with pytest.raises(Unfinished, match="less vapour than"):
+            gas.advance(1e-3, {"vapour": -taken, "carrier": taken})
+        again = gas.retreat()
+        np.testing.assert_array_equal(again.fields["vapour_mass_fraction"], start.fields["vapour_mass_fraction"])
+        state = gas.advance(1e-3, {"vapour": -0.5 * taken, "carrier": 0.5 * taken})
+    assert state.fields["vapour_mass_fraction"].max() < 0.06
