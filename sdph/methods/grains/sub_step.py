@@ -90,8 +90,8 @@ def advance(
     )
     slip(terms.slip, terms.temperature, kernel, s, rows, box, scratch, work, dt, sums.slowed)
     agitate(terms.temperature, s, scratch, work, dt)
-    account.warm(terms.temperature, s, work, dt, window, heat_capacity, sums.heats)
     wall_heat.exchange(terms.wall_heat, terms.conduction, kernel, box, heated, s, dt, sums.gave)
+    account.warm(terms.temperature, s, work, dt, window, heat_capacity, sums.heats)
     account.drift(s, dt)
 
 

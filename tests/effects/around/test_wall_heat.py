@@ -37,6 +37,11 @@ def half_space(h, y, time):
     return share, K * STORED / h * (erfcx(x) - 1.0 + 2.0 * x / math.sqrt(math.pi))
 
 
+def inside(run):
+    """Mask of the particles whose kernel no side wall cuts: conduction there has no mirror."""
+    return np.abs(run.state.x - 0.02) < 0.02 - 2.0 * run.case.smoothing_length
+
+
 @pytest.mark.parametrize(
     ("diameter", "spacing", "heat", "apart"),
     [(0.285, 4.0, 0.015, 0.03), (0.285, 2.0, 0.015, 0.02), (6.0, 4.0, 0.02, 0.03), (6.0, 2.0, 0.01, 0.03)],
@@ -49,7 +54,7 @@ def test_a_bed_beside_a_hot_wall_is_a_half_space_behind_a_contact(tmp_path, diam
     expected, came = half_space(h, run.state.y, 400.0)
     own = run.grains.warmed
     found = own.sums[1, 0, 0] / own.hot.areas[0] / 100.0
-    off = (run.state.temperature - 300.0) / 100.0 - expected
+    off = ((run.state.temperature - 300.0) / 100.0 - expected)[inside(run)]
     print(f"h {h:.4g} W/(m2 K), heat over exact {found / came:.4f}, temperatures off by {np.abs(off).max():.4f}")
     assert found == pytest.approx(came, rel=heat)
     assert np.abs(off).max() < apart
@@ -66,7 +71,7 @@ def test_a_layer_that_is_thinner_than_a_spacing_takes_what_a_half_space_would(tm
 
 
 def test_a_slope_between_two_walls_stays(tmp_path):
-    """Floor and lid, contacts among the way: no particle leaves it by more than the softened pairs make it (2 %)."""
+    """Floor and lid, contacts in the way: it is steady, but for the 2 % that softened pairs conduct less."""
     walls = {
         "hot": HOT["hot"],
         "cold": {"kind": "wall", "side": "top", "temperature_K": 300.0},
@@ -81,7 +86,7 @@ def test_a_slope_between_two_walls_stays(tmp_path):
     before = run.state.temperature.copy(), run.state.ident.copy()
     go(run)
     order, was = np.argsort(run.state.ident), before[0][np.argsort(before[1])]
-    assert np.abs(run.state.temperature[order] - was).max() < 0.5
+    assert np.abs((run.state.temperature[order] - was)[inside(run)[order]]).max() < 0.2
     row = run.row()
     assert row["hot_grain_heat_W"] == pytest.approx(0.04 * flux, rel=0.02)
     assert row["cold_grain_heat_W"] == pytest.approx(-0.04 * flux, rel=0.02)
@@ -207,7 +212,7 @@ def test_it_is_off_without_a_trace(tmp_path):
     run.window()
     assert not len(run.state.wall_age) and not len(run.stepper.account.gave) and run.stepper.hot is None
     assert run.ledger.last["heat_of_walls_J"] == 0.0  # columns are the same in all cases
-    assert not [key for key in (*run.row(), *run.summary()) if "hot" in key]
+    assert not [key for key in (*run.row(), *run.grains.summary()) if "hot" in key or "area" in key]
 
 
 def test_what_it_needs_is_said():
@@ -292,9 +297,9 @@ def _table(kinds):
 
 def test_areas_and_means_are_told(tmp_path):
     run = go(started(bed(count=2), tmp_path))
-    row, summary = run.row(), run.summary()
+    row, summary = run.row(), run.grains.summary()
     assert summary["hot_area_m2"] == pytest.approx(0.04, rel=1e-12)
     assert summary["mean_hot_grain_heat_W"] == pytest.approx(run.ledger.sums["heat_of_walls_J"] / 1.0, rel=1e-12)
     assert row["hot_grain_heat_W"] == pytest.approx(run.ledger.last["heat_of_walls_J"] / 0.5, rel=1e-12)
     assert row["hot_covered"] == pytest.approx(1.0, abs=0.02) and dataclasses.is_dataclass(run.case)
-    assert summary["heat_of_walls_J"] == run.ledger.sums["heat_of_walls_J"]
+    assert run.ledger.summary()["heat_of_walls_J"] == run.ledger.sums["heat_of_walls_J"]
