@@ -225,6 +225,7 @@ def test_what_it_needs_is_said():
     with pytest.raises(CaseError, match="parts.far.temperature_K is given, and no wall of grains is there"):
         forces.refuse_cold(bed(parts=part), {"hot"})
     forces.refuse_cold(bed(parts=part), {"hot", "far"})
+    assert bed(parts=part | {"far": part["far"] | {"temperature_K": 470.0}}).temperatures.count(470.0) == 1
 
 
 def test_explain_judges_it_where_a_wall_is_hotter_than_grains():
