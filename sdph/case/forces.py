@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from sdph.effects.around import tank
 from sdph.engine.geometry import SIDES
-from sdph.engine.walls import sides
+from sdph.engine.walls import faces, sides
 from sdph.schema import CaseError
 
 
@@ -36,9 +36,19 @@ def check_parts(case) -> None:
     for name, part in case.parts.items():
         if name in {*case.boundaries, *SIDES, sides.MESH, tank.ALL}:
             raise CaseError(f"parts.{name} has the name of a boundary, a side or a mesh; rename it")
+        if part.temperature and "wall_heat" not in case.effects:
+            raise CaseError(f"parts.{name}.temperature_K is of the effect wall_heat; add it to effects, or leave it")
         if any(low > high for low, high in zip(part.lower, part.upper)):
             given = f"upper_m = {list(part.upper)} lies below lower_m = {list(part.lower)}"
             raise CaseError(f"parts.{name}: {given} along an axis; exchange them")
+
+
+def refuse_cold(case, found: set[str]) -> None:
+    """CaseError where the effect wall_heat is on, and no wall was `found` of a name that has a temperature."""
+    for name in faces.temperatures(case) if "wall_heat" in case.effects else ():
+        if name not in found:
+            group = "parts" if name in case.parts else "boundaries"
+            raise CaseError(f"{group}.{name}.temperature_K is given, and no wall of grains is there; leave it out")
 
 
 def refuse_nowhere(case, found: set[str]) -> None:

@@ -16,7 +16,7 @@ from sdph.methods.solids.sections import Body, Solid
 from sdph.schema import choice, file, flag, quantity, record, vector, whole, words
 
 OPENINGS = ("inflow", "outflow")  # effects that act on the grains alone where grains and a liquid are side by side
-HEATING = {"heat", "conduction", "radiation", "evaporation", "micro_explosion", "reaction"}
+HEATING = {"heat", "conduction", "radiation", "evaporation", "micro_explosion", "reaction", "wall_heat"}
 PEAK = {"uniform": 1.0, "parabolic": 1.5}  # profile of an inlet -> its largest velocity over the mean
 
 
@@ -133,10 +133,12 @@ class Probe:
 
 @record
 class Part:
-    """Part of the walls' surface that lies in a box, as a name of `run.forces`."""
+    """Part of the walls' surface that lies in a box, as a name of `run.forces`, or with a temperature for the grains
+    (sdph.engine.walls.faces)."""
 
     lower: tuple = vector("m")
     upper: tuple = vector("m")
+    temperature: float | None = quantity("K", None, above=0.0)
 
 
 @record
@@ -251,13 +253,14 @@ class Case:
 
     @property
     def temperatures(self) -> list[float]:
-        """All that the case gives [K]: of the gas, particles, nozzles, boundaries, and `temperatures` of sections of
-        effects."""
+        """All that the case gives [K]: of the gas, particles, nozzles, boundaries, parts, and `temperatures` of
+        sections of effects."""
         given = [
             self.gas.temperature,
             *(part.temperature for part in (*self.particles.values(), *self.nozzles.values()) if part.temperature),
         ]
-        given += [boundary.temperature for boundary in self.boundaries.values() if boundary.temperature]
+        walls = (*self.boundaries.values(), *self.parts.values())
+        given += [wall.temperature for wall in walls if wall.temperature]
         return given + [one for own in self.parameters.values() for one in getattr(own, "temperatures", ())]
 
     @property

@@ -2,7 +2,7 @@
 
 import dataclasses
 
-from sdph.effects.around import drain, electric_field, frame, gravity, inflow, outflow, tank, walls
+from sdph.effects.around import drain, electric_field, frame, gravity, inflow, outflow, tank, wall_heat, walls
 from sdph.effects.effect import NO_LIMIT, OFF, Effect, kernel_of
 from sdph.effects.gas import (
     break_up,
@@ -63,6 +63,7 @@ FILES = (
     heat,
     radiation,
     conduction,
+    wall_heat,
     density_diffusion,
     laminar_viscosity,
     shear_thinning,

@@ -60,6 +60,7 @@ class State(NamedTuple):
     eddy_x: np.ndarray
     eddy_y: np.ndarray
     eddy_z: np.ndarray
+    wall_age: np.ndarray
     received: np.ndarray
     exchanged: np.ndarray
     viscosity: np.ndarray
@@ -129,6 +130,7 @@ FIELDS = {
     "deformation_rate": ("1/s", "its rate"),
     "weber": ("1", "Weber number of the radius in the last window"),
     **{f"eddy_{a}": ("1", "velocity of the eddy that it is in, over the mean fluctuation") for a in "xyz"},
+    "wall_age": ("s", "time that it has been beside a wall that heats it; 0 elsewhere"),
     "received": ("W", "heat from the gas in the last window"),
     "exchanged": ("1", "1 if it was in the gas in the last window"),
     "viscosity": ("Pa s", "viscosity of a liquid where it is not the same everywhere"),

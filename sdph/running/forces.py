@@ -33,8 +33,9 @@ def summary(methods) -> dict[str, float]:
 
 
 def refuse_nowhere(case, methods) -> None:
-    """CaseError where a name is of walls that none of these methods has."""
+    """CaseError where a name is of walls that none of these methods has, or a temperature of such."""
     names.refuse_nowhere(case, {name for own in _pushed(methods) for name in own.names})
+    names.refuse_cold(case, {name for own in methods for name in getattr(own, "heated", ())})
 
 
 def _pushed(methods) -> list:

@@ -56,10 +56,11 @@ def rehearsed(case, template: Path, *, allow_code: bool = False, whole: bool = F
             own = any((mesh / name).exists() for name in OWN_MESH)  # walls that the run will know by it
             known = start.assumed(case) if own else case
             made = {matter: MADE[case.moved_by(matter)](known.only(matter)) for matter in case.matters}
-            if case.run.forces and not own:
+            if not own:
                 forces.refuse_nowhere(
                     case, {name for matter, one in made.items() for name in _named(case, matter, one)}
                 )
+                forces.refuse_cold(case, set(made["grains"][0].heated) if "grains" in made else set())
         yield mesh
 
 

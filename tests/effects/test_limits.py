@@ -45,6 +45,9 @@ WITH = {
     "electric_field": (
         "bubbling_bed", "", ("electric_field.strength_V_m=[0.0,1e4]", "electric_field.surface_charge_C_m2=1e-6"),
     ),
+    "wall_heat": (
+        "bubbling_bed", "", ("boundaries.walls.temperature_K=400",),
+    ),
     "radiation": (
         "bubbling_bed", "", ("radiation.emissivity=0.8", "radiation.surroundings_temperature_K=300"),
     ),

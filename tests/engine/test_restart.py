@@ -45,6 +45,10 @@ BREAKING = (  # droplets that come in so thin that they feel the gas break on th
     "'evaporation','break_up']",
     "break_up.liquid_viscosity_Pa_s=9e-4", "break_up.products='chi_squared'",
 )  # fmt: skip
+HOT = (  # walls that heat grains by how long they have been there
+    "effects=['gravity','granular_pressure','friction','walls','heat','conduction','wall_heat']",
+    "boundaries.walls.temperature_K=400",
+)
 
 
 class Cut(RuntimeError):
@@ -98,6 +102,7 @@ def same_run(one, other):
     [
         ("disc_cluster", "embedded", 10, ()),
         ("bubbling_bed", "embedded", 10, ("run.forces=['left','bottom']",)),
+        ("bubbling_bed", "embedded", 10, HOT),
         ("evaporating_jet", "embedded", 29, ()),
         ("evaporating_jet", "embedded", 29, SECOND),
         ("evaporating_jet", "embedded", 29, BREAKING),

@@ -10,6 +10,7 @@ humid_drops                Fujita et al. 2010: d^2 and temperature of water in d
 micro_drops                Taflin et al. 1988: d^2 of micrometric water drops, from runs
 bed_transfer               Wakao & Funazkri 1978: Sherwood numbers of packed beds, laws alone
 heated_bed                 Beaulieu 2020: temperature in a packed bed of steel, from runs
+hot_tube                   Zhang et al. 2014, Grewal & Saxena 1980: heat from a tube to a bed, from runs with OpenFOAM
 bed_pressure               Toomey & Johnstone 1952: pressure drop of fluidised beds, from runs
 """
 
@@ -23,6 +24,7 @@ NAMES = (
     "micro_drops",
     "bed_transfer",
     "heated_bed",
+    "hot_tube",
     "bed_pressure",
 )
 
@@ -39,6 +41,7 @@ MEASURED = {
         "micrometric drop": ("Taflin et al. 1988", "d^2 of micrometric water drops", "runs"),
         "transfer in a bed": ("Wakao & Funazkri 1978", "Sherwood numbers of packed beds", "laws"),
         "packed steel": ("Beaulieu 2020", "temperature in a heated bed of steel spheres", "runs"),
+        "hot tube": ("Zhang et al. 2014, Grewal & Saxena 1980", "heat from a tube to a bed, laws of others", "runs"),
         "bed of beads": ("Toomey & Johnstone 1952", "pressure drop of fluidised beds", "runs"),
     },
     "granular_piles": {

@@ -92,6 +92,16 @@ def packed(p, s, i):
     return packed_beds.beside_gas(s.density[i] / p.grain_density, p.conductivity, p.gas_conductivity)
 
 
+@serial
+def conducted(p, s, i):
+    """k [W/m/K] that the grains of particle i conduct with, by any law."""
+    if len(p) == 3:
+        return packed(p, s, i)
+    if len(p) == 2:
+        return s.density[i] / p.grain_density * p.conductivity
+    return s.density[i] / s.grain_density[i] * s.grain_conductivity[i]
+
+
 def dt_limit(p, case, state) -> float:
     """Sub-step limit [s] by the largest diffusivity; among others a grain's own k is up to twice that (harmonic
     mean)."""

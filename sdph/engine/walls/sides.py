@@ -25,8 +25,8 @@ class Boundary:
         self.search = Neighbours(SUPPORT * case.smoothing_length, case.domain.period, case.resolution.neighbour_skin)
         table, self.spacing = dummies(case), case.resolution.spacing
         order = self.search.sort(tuple(np.ascontiguousarray(column) for column in table[:, : case.dimensions].T))
-        self.dummies = Dummies(*(np.ascontiguousarray(column) for column in table[order, :-1].T))
-        self.whose = table[order, -1].astype(int)
+        self.dummies = Dummies(*(np.ascontiguousarray(column) for column in table[order, :-2].T))
+        self.area, self.whose = table[order, -2], table[order, -1].astype(int)
         self.of_mesh = self.whose > 0
 
     def rows(self, state_axes):
@@ -45,13 +45,13 @@ class Boundary:
         if self.of_mesh.any():
             sides.part(self.dummies, self.of_mesh, self.spacing, sides.three(state_axes), wall_rows, rows)
 
-    def shares(self, case) -> dict[str, np.ndarray]:
-        """Share (W, 3) in the force on each dummy, by its components, of those names of `run.forces` that are walls of
+    def shares(self, case, chosen) -> dict[str, np.ndarray]:
+        """Share (W, 3) in the force on each dummy, by its components, of those of `chosen` names that are walls of
         grains (sdph.engine.walls.parts)."""
         points, known = np.stack(_axes(self.dummies, case.dimensions), axis=1), names(case)
         of_box = parts.sides(points, case.domain.corner, case.domain.upper)
         of_box = {side: share * ~self.of_mesh[:, None] for side, share in of_box.items()}
-        found = {name: self._share(case, name, points, of_box) for name in case.run.forces if name in known}
+        found = {name: self._share(case, name, points, of_box) for name in chosen if name in known}
         return {name: share for name, share in found.items() if share.any()}
 
     def _share(self, case, name: str, points, of_box: dict) -> np.ndarray:
@@ -96,8 +96,8 @@ def _axes(dummies: Dummies, dimensions: int):
 
 
 def dummies(case) -> np.ndarray:
-    """(W, 12) columns of `Dummies` of all dummies of a case; 0 for those of the domain's sides, 1 for those of a mesh,
-    OWNED and more for those of a boundary's patch."""
+    """(W, 13) columns of `Dummies` of all dummies of a case; area [m^(d-1)] of a mesh in front, of its first layer;
+    0 for those of the domain's sides, 1 for those of a mesh, OWNED and more for those of a boundary's patch."""
     own, d = case.parameters["walls"], case.dimensions
     found = [] if _vessel(own) else [np.pad(_box(case), ((0, 0), (0, 1)))]
     if own.mesh:
@@ -111,11 +111,16 @@ def dummies(case) -> np.ndarray:
     return np.concatenate(found)
 
 
+def lattice(case) -> tuple[list[int], list[float]]:
+    """Number of particles along each axis of the box, and their distances [m]."""
+    counts = [max(1, round(length / case.resolution.spacing)) for length in case.domain.size]
+    return counts, [length / n for length, n in zip(case.domain.size, counts)]
+
+
 def _box(case) -> np.ndarray:
     """Lattice points outside the box that lie behind a closed side, at most LAYERS deep."""
-    d, spacing = case.dimensions, case.resolution.spacing
-    counts = [max(1, round(length / spacing)) for length in case.domain.size]
-    steps = [length / n for length, n in zip(case.domain.size, counts)]
+    d = case.dimensions
+    counts, steps = lattice(case)
     layers = [0 if period else LAYERS for period in case.domain.period]
     ticks = [(np.arange(-more, n + more) + 0.5) * step for n, step, more in zip(counts, steps, layers)]
     low, high = np.array(case.domain.corner), np.array(case.domain.upper)
@@ -126,7 +131,7 @@ def _box(case) -> np.ndarray:
         -1, d, 2
     )
     keep = outside.any(axis=(1, 2)) & (~outside | closed).all(axis=(1, 2))
-    table = np.zeros((int(keep.sum()), len(Dummies._fields)))
+    table = np.zeros((int(keep.sum()), len(Dummies._fields) + 1))  # the area is that of faces (sdph.engine.walls.faces)
     table[:, :d] = points[keep]
     single = outside[keep].sum(axis=(1, 2)) == 1
     table[:, 3 : 3 + d] = np.where(single[:, None], outside[keep, :, 0] * 1.0 - outside[keep, :, 1] * 1.0, 0.0)
@@ -183,7 +188,8 @@ def _behind_facets(corners: np.ndarray, whose: np.ndarray, case, slips: bool) ->
     points, normals, facet = facets.spread(corners, spacing)
     depth = (np.repeat(np.arange(LAYERS), len(points)) + 0.5) * spacing
     normal = np.tile(normals, (LAYERS, 1))
-    table = np.zeros((len(depth), len(Dummies._fields) + 1))
+    table = np.zeros((len(depth), len(Dummies._fields) + 2))
+    table[: len(points), -2] = facets.sizes(corners).sum() / len(points)
     table[:, -1] = np.tile(whose[facet], LAYERS)
     table[:, :d] = np.tile(points, (LAYERS, 1)) - depth[:, None] * normal
     table[:, 3 : 3 + d], table[:, 6], table[:, 7] = normal, depth, 0.0 if slips else 1.0

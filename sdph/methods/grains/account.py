@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from sdph.effects.around import wall_heat
 from sdph.effects.grains import granular_temperature
 from sdph.engine.ledger import vector
 from sdph.engine.state import INFLOW
@@ -37,7 +38,7 @@ SLOWED = ("grain_drag_J",)  # of motion by drag between materials; agitation_J o
 
 class Account(NamedTuple):
     """Sums since the window began; felt holds what pushes and what rubs each dummy of the walls, (W, 6) [kg m/s], where
-    somebody asks, else nothing."""
+    somebody asks, else nothing; gave (F, 2) what faces of walls gave (sdph.effects.around.wall_heat)."""
 
     impulses: np.ndarray
     works: np.ndarray
@@ -45,19 +46,21 @@ class Account(NamedTuple):
     back_put: np.ndarray
     slowed: np.ndarray
     felt: tuple
+    gave: np.ndarray
 
 
-def opened(dummies: int = 0) -> Account:
-    """An account with nothing in it; with room for what so many `dummies` feel."""
+def opened(dummies: int = 0, faces: int = 0) -> Account:
+    """An account with nothing in it; with room for what so many `dummies` feel and so many `faces` give."""
     felt = (np.zeros((dummies, 6)),) if dummies else ()
     sums = (np.zeros(len(names)) for names in (WORKS, HEATS, BACK_PUT, SLOWED))
-    return Account(np.zeros((len(IMPULSES), 3)), *sums, felt)
+    return Account(np.zeros((len(IMPULSES), 3)), *sums, felt, np.zeros((faces, 2)))
 
 
 def columns(account: Account) -> dict[str, float]:
     """Ledger columns [J], [kg m/s], [m]."""
     pairs = ((WORKS, account.works), (HEATS, account.heats), (BACK_PUT, account.back_put), (SLOWED, account.slowed))
     found = {name: float(value) for names, values in pairs for name, value in zip(names, values)}
+    found["heat_of_walls_J"] = wall_heat.received(account.gave)
     for name, impulse in zip(IMPULSES, account.impulses):
         found |= vector(f"impulse_of_{name}", impulse)
     return found

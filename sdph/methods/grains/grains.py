@@ -18,7 +18,7 @@ from sdph.engine.state import INFLOW
 from sdph.engine.walls import facets
 from sdph.engine.walls.parts import Pushed
 from sdph.methods.grains import account, start
-from sdph.methods.grains.history import of_materials, tracked
+from sdph.methods.grains.history import Warmed, of_materials, tracked
 from sdph.methods.grains.method import Stepper
 
 NOTHING_LEFT = {"left_kg": 0.0, "left_J": 0.0, "left_motion_J": 0.0} | vector("impulse_of_outflow", np.zeros(3))
@@ -28,7 +28,7 @@ class Grains:
     """Grains of a case and what they do in a window; their ledger is that of the gas too, which the run keeps."""
 
     matter = "grains"
-    KEPT = ("time", "windows", "stepper", "source", "pushed")  # see sdph.engine.kept
+    KEPT = ("time", "windows", "stepper", "source", "pushed", "warmed")  # see sdph.engine.kept
 
     def __init__(self, case):
         names = effects.arrays(case)
@@ -40,6 +40,7 @@ class Grains:
         self.stepper = Stepper(case, self.parameters, state, self.source, Clock(case.run).shortest)
         self.time, self.windows, self.came, self.left = 0.0, 0, self._came_in(), NOTHING_LEFT
         self.pushed = Pushed("grain", "friction", self.stepper.parts, case.dimensions)
+        self.warmed = Warmed(self.stepper.hot)
         self.gone = None  # State of what has left in the window
         self.torn = dict(micro_explosion.NOTHING_TORN)  # in the window
 
@@ -55,6 +56,11 @@ class Grains:
     @property
     def steps(self) -> int:
         return self.stepper.steps
+
+    @property
+    def heated(self) -> tuple[str, ...]:
+        """Names of the walls that heat them."""
+        return self.warmed.names
 
     @property
     def limit(self) -> str:
@@ -99,6 +105,7 @@ class Grains:
         """End the window, of which the history has a row; `way` and `damped` are what `Stepper.release` tells of it."""
         self.pushed.new_row()
         self.pushed.add(self.stepper.pushed(), self.time - self.begun)
+        self.warmed.add(self.stepper.account.gave, self.time - self.begun)
         self.way, self.damped = self.stepper.release()
 
     def renew(self, longest: float) -> bool:
@@ -167,7 +174,7 @@ class Grains:
 
     def row(self) -> dict[str, float]:
         """Columns of history.csv."""
-        return tracked(self.case, self.stepper) | of_materials(self.case, self.inside)
+        return tracked(self.case, self.stepper) | of_materials(self.case, self.inside) | self.warmed.row()
 
     def held(self) -> dict[str, float]:
         """Shares that its limiters hold, by column of history.csv."""
@@ -195,7 +202,7 @@ class Grains:
 
     def summary(self) -> dict[str, float]:
         """Its part of summary.json."""
-        return {"sub_steps": self.steps, "wall_contacts": self.stepper.contacts}
+        return {"sub_steps": self.steps, "wall_contacts": self.stepper.contacts} | self.warmed.summary()
 
     def warnings(self) -> list[str]:
         """Nothing that the ledger does not tell."""

@@ -1,4 +1,4 @@
-"""Columns of history.csv of grains: the particles that `[track]` names."""
+"""Columns of history.csv of grains: the particles that `[track]` names, materials, heat from walls."""
 
 from __future__ import annotations
 
@@ -54,3 +54,38 @@ def of_materials(case, state) -> dict[str, float]:
         found[f"material_{name}_height_m"] = float(mass @ height) / total if total else math.nan
         found[f"material_{name}_rise_m_s"] = float(mass @ rise) / total if total else math.nan
     return found
+
+
+class Warmed:
+    """Heat [J] that each wall with a temperature gave the grains, and the area that they covered of it, times time
+    [m2 s]: in the last window, and since the start; per metre of depth in two dimensions."""
+
+    KEPT = ("sums", "times")  # see sdph.engine.kept
+
+    def __init__(self, hot):
+        self.hot, self.names = hot, hot.names if hot else ()
+        self.sums, self.times = np.zeros((2, len(self.names), 2)), np.zeros(2)  # times [s]
+
+    def add(self, gave: np.ndarray, dt: float) -> None:
+        """Take what a window of `dt` [s] brought, (F, 2) of each face."""
+        self.times = np.array([dt, self.times[1] + dt])
+        if self.hot:
+            own = self.hot.owners @ gave
+            self.sums = np.array([own, self.sums[1] + own])
+
+    def row(self) -> dict[str, float]:
+        """Means of the window by column: heat [W], share of the area that grains cover; nan of no time."""
+        return self._means(0)
+
+    def summary(self) -> dict[str, float]:
+        """Means since the start, and areas [m2]."""
+        areas = zip(self.names, self.hot.areas) if self.hot else ()
+        sizes = {f"{name}_area_m2": float(area) for name, area in areas}
+        return {f"mean_{key}": value for key, value in self._means(1).items()} | sizes
+
+    def _means(self, since: int) -> dict[str, float]:
+        time, found = self.times[since] or math.nan, {}
+        for n, name in enumerate(self.names):
+            heat, covered = self.sums[since, n] / time
+            found |= {f"{name}_grain_heat_W": float(heat), f"{name}_covered": float(covered / self.hot.areas[n])}
+        return found

@@ -19,6 +19,7 @@ from sdph.engine.clock import count_of_parts
 from sdph.engine.kept import GROWING, Unfit
 from sdph.engine.rows import Neighbours
 from sdph.engine.state import INFLOW
+from sdph.engine.walls.faces import Heated
 from sdph.engine.walls.parts import gathered
 from sdph.engine.walls.sides import Boundary
 from sdph.laws.kernels import SUPPORT
@@ -45,15 +46,16 @@ class Stepper:
         self.neighbours = Neighbours(SUPPORT * self.kernel.h, case.domain.period, case.resolution.neighbour_skin)
         self.boundary = Boundary(case) if parameters["walls"] else None
         self.mouths = source.mouths(self.boundary.dummies) if source and self.boundary else None  # nozzle of each dummy
-        self.waves, self.terms = sound.waves_of(case), terms_of(parameters)
+        self.waves, self.terms = sound.waves_of(case), sub_step.terms_of(parameters)
         self.gravity = np.array(parameters["gravity"] or (0.0, 0.0, 0.0))
         self.steps, self.contacts, self.limit = 0, 0, ""
         self.shortest = shortest  # sub-step [s] below which the run gets nowhere
         self.length = self.step = 0.0  # [s] that the last sub-step was limited to, and was
         self.held: dict[str, float] = {}  # what limiters hold (sdph.effects.held)
-        self.parts = self.boundary.shares(case) if self.boundary and case.run.forces else {}  # of walls, by name
+        self.parts = self.boundary.shares(case, case.run.forces) if self.boundary else {}  # of walls, by name
+        self.hot = Heated(case, self.boundary) if parameters["wall_heat"] else None  # walls with a temperature
         self.wall, self.scratch, self.account = OFF, rates.scratch(0, 0, False), self._opened()
-        self.facing, self.work = OFF, sub_step.work(0, False)  # rows of the dummies
+        self.facing, self.heated, self.work = OFF, OFF, sub_step.work(0, False)  # rows of the dummies; of hot faces
         # pressure [Pa] of the walls before it is held, and what the last sub-step shifted (N, 3) [m]
         self.unheld, self.shifted = np.zeros(0), np.zeros((0, 3))
 
@@ -108,6 +110,8 @@ class Stepper:
             self.boundary.part(self.rows, rows, built)
             self.wall, self.facing = self.boundary.seen(rows)
             self.unheld = np.full(len(self.wall.x), np.nan)
+        if self.hot:
+            self.heated = self.hot.seen(built)
 
     def _sum(self, density) -> None:
         rates.sum_density(*self._of_density(density))
@@ -122,7 +126,8 @@ class Stepper:
         self.account, self.rows_before = self._opened(), len(self.state.x)
 
     def _opened(self) -> account.Account:
-        return account.opened(len(self.boundary.dummies.x) if self.parts else 0)
+        faces = len(self.hot.faces.x) if self.hot else 0
+        return account.opened(len(self.boundary.dummies.x) if self.parts else 0, faces)
 
     def pushed(self) -> np.ndarray:
         """(n, 3, 3) of what has pushed the named parts of the walls since the window began
@@ -222,8 +227,8 @@ class Stepper:
         """Arguments of a sub-step of `dt` of a `window` [s]."""
         return (
             self.kernel, self.state, self.rows, self.neighbours.box, self.scratch, self.terms, *self._walls(),
-            self.facing, self.unheld, self.work, self.gravity, (dt, window), self.case.grains.heat_capacity,
-            self.account,
+            self.facing, self.unheld, self.heated, self.work, self.gravity, (dt, window),
+            self.case.grains.heat_capacity, self.account,
         )  # fmt: skip
 
     def loops(self, dt: float) -> dict[str, tuple]:
@@ -270,14 +275,6 @@ class Stepper:
     def _walls(self):
         """Walls for kernels: parameters and dummies."""
         return self.parameters["walls"], self.wall
-
-
-def terms_of(parameters) -> sub_step.Terms:
-    """Parameters of the effects between grains; an algebraic theta asks for their shear too."""
-    viscous, rubs, theta = (parameters[name] for name in ("granular_viscosity", "friction", "granular_temperature"))
-    shears = (1.0,) if viscous or rubs or (theta and theta.model == 1) else OFF
-    beside = (parameters[name] for name in ("conduction", "grain_drag"))
-    return sub_step.Terms(viscous, rubs, parameters["artificial_viscosity"], theta, *beside, shears)
 
 
 def bounds_of(case) -> tuple[float, ...]:

@@ -6,7 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sdph.effects.around import wall_parts, walls
+from sdph.effects import OFF
+from sdph.effects.around import wall_heat, wall_parts, walls
 from sdph.effects.grains import friction, grain_drag, granular_temperature
 from sdph.laws.compiled import serial
 from sdph.methods.grains import account, contacts, equations
@@ -23,6 +24,16 @@ class Terms(NamedTuple):
     conduction: tuple
     slip: tuple
     shears: tuple
+    wall_heat: tuple
+
+
+def terms_of(parameters) -> Terms:
+    """Parameters of the effects between grains; an algebraic theta asks for their shear too."""
+    viscous, rubs, theta = (parameters[name] for name in ("granular_viscosity", "friction", "granular_temperature"))
+    shears = (1.0,) if viscous or rubs or (theta and theta.model == 1) else OFF
+    beside = (parameters[name] for name in ("conduction", "grain_drag"))
+    heated = parameters["wall_heat"]
+    return Terms(viscous, rubs, parameters["artificial_viscosity"], theta, *beside, shears, heated)
 
 
 class Work(NamedTuple):
@@ -56,11 +67,12 @@ def work(count: int, rubs: bool, drags: bool = False) -> Work:
 
 @serial
 def advance(
-    kernel, s, rows, box, scratch, terms, walls_p, wall, facing, unheld, work, gravity, steps, heat_capacity, sums
+    kernel, s, rows, box, scratch, terms, walls_p, wall, facing, unheld, heated, work, gravity, steps, heat_capacity,
+    sums,
 ):  # fmt: skip
     """Stress, walls, rates, then velocity, theta, temperature and place after the sub-step; sums of `account`.
 
-    steps: its length and that of its window [s].
+    heated: as `wall_heat.exchange` takes it; steps: its length and that of its window [s].
     """
     dt, window = steps
     strain_grains(kernel, s, rows, box, scratch, terms.shears, terms.friction, terms.viscous, walls_p, wall, work, dt)
@@ -78,6 +90,7 @@ def advance(
     )
     slip(terms.slip, terms.temperature, kernel, s, rows, box, scratch, work, dt, sums.slowed)
     agitate(terms.temperature, s, scratch, work, dt)
+    wall_heat.exchange(terms.wall_heat, terms.conduction, kernel, box, heated, s, dt, sums.gave)
     account.warm(terms.temperature, s, work, dt, window, heat_capacity, sums.heats)
     account.drift(s, dt)
 
@@ -116,7 +129,8 @@ def agitate(p, s, scratch, work, dt):
 
 
 def loops(
-    kernel, s, rows, box, scratch, terms, walls_p, wall, facing, unheld, work, gravity, steps, heat_capacity, sums
+    kernel, s, rows, box, scratch, terms, walls_p, wall, facing, unheld, heated, work, gravity, steps, heat_capacity,
+    sums,
 ) -> dict[str, tuple]:  # fmt: skip
     """Loops over particles of `advance`, by name, each with its arguments: for who times one or looks into it."""
     head = kernel, s, rows, box, scratch
