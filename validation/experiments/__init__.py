@@ -11,6 +11,8 @@ micro_drops                Taflin et al. 1988: d^2 of micrometric water drops, f
 bed_transfer               Wakao & Funazkri 1978: Sherwood numbers of packed beds, laws alone
 heated_bed                 Beaulieu 2020: temperature in a packed bed of steel, from runs
 bed_pressure               Toomey & Johnstone 1952: pressure drop of fluidised beds, from runs
+bed_profiles               Mueller et al. 2009: voidage and velocity across a bubbling bed, from runs
+drop_spread                Pasandideh-Fard et al. 1996, Roisman 2009: largest spread of a drop on a wall, from runs
 """
 
 NAMES = (
@@ -24,6 +26,8 @@ NAMES = (
     "bed_transfer",
     "heated_bed",
     "bed_pressure",
+    "bed_profiles",
+    "drop_spread",
 )
 
 # record -> how names of its checks begin -> (who measured, what, ours): a table of the dashboard
@@ -40,6 +44,8 @@ MEASURED = {
         "transfer in a bed": ("Wakao & Funazkri 1978", "Sherwood numbers of packed beds", "laws"),
         "packed steel": ("Beaulieu 2020", "temperature in a heated bed of steel spheres", "runs"),
         "bed of beads": ("Toomey & Johnstone 1952", "pressure drop of fluidised beds", "runs"),
+        "bed of seeds": ("Mueller et al. 2009", "voidage and velocity of grains across a bubbling bed", "runs"),
+        "spread of a drop": ("Pasandideh-Fard et al. 1996, Roisman 2009", "largest spread of a drop on a wall", "runs"),
     },
     "granular_piles": {
         r"column.*: run-out": ("Lube et al. 2005", "run-out of columns of grains", "runs"),
