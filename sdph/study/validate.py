@@ -7,7 +7,7 @@ that heap up and flow out under `granular_piles`, a plug of spray under `spray_p
 under `gel_droplet_reduced`, free bodies of moving particles under `moving_particles`, pools by them and by the weakly
 compressible method under `two_methods`, vessels of any mesh under `own_vessel`, turbulence of the gas under
 `gas_turbulence`: each is a folder of validation/ with a
-module for each part of it, which STUDY.PART runs alone.
+module for each part of it, which STUDY.PART runs alone; those named in LONG are run so only.
 """
 
 from __future__ import annotations
@@ -66,11 +66,12 @@ def _parts(study: str, name: str, overrides: tuple[str, ...], reporter, folder: 
     for text in overrides:
         if not text.startswith(STUDIES[study]):
             raise CaseError(f"--set {text}: {study} is run as it is; leave it out")
-    known = part(study).NAMES
+    names = part(study).NAMES
+    known = (*names, *getattr(part(study), "LONG", ()))
     if name and name not in known:
         raise CaseError(f"{study}.{name}: {study} has no such part; it has: {', '.join(known)}")
     folder.mkdir(parents=True, exist_ok=True)
-    own = [part(study, name) for name in ([name] if name else known)]
+    own = [part(study, name) for name in ([name] if name else names)]
     return [check for module in own for check in module.checks(folder, overrides, reporter)]
 
 

@@ -27,8 +27,8 @@ NAMES = (
     "heated_bed",
     "bed_pressure",
     "bed_profiles",
-    "drop_spread",
 )
+LONG = ("drop_spread",)  # an hour and more: run by name alone, `sdph validate experiments.drop_spread`
 
 # record -> how names of its checks begin -> (who measured, what, ours): a table of the dashboard
 MEASURED = {
