@@ -63,8 +63,8 @@ def averages(beds, alpha_p, rise):
 
 
 def test_profiles_of_known_fields(beds):
-    """Linear in height, even or odd about the middle: what is odd vanishes in the mean of both halves; within what a row
-    of straight pieces is off."""
+    """Linear in height, even or odd about the middle: what is odd vanishes in the mean of both halves; to what straight
+    pieces are off."""
     middle = 0.5 * beds.SIZE[0]
     known = averages(beds, lambda x, y: 0.6 - 5.0 * y + (x - middle), lambda x, y: 4.0 * y - 900.0 * (x - middle) ** 2)
     for (name, y), own in beds.profiles(known).items():
@@ -90,9 +90,7 @@ def test_the_mean_of_both_halves_is_what_was_measured(beds):
 def test_profiles_off_by_more_than_the_bar_are_told(tmp_path, monkeypatch, beds, bars, ok):
     """Bars by hand: 0.05 of voidage; of the speed 0.05 m/s, or 30 % of it where that is more."""
     off = {"voidage": lambda v: 0.05, "uy_particle": lambda v: np.maximum(0.05, 0.3 * np.abs(v))}
-    ours = {
-        key: own._replace(values=own.values + bars * off[key[0]](own.values)) for key, own in beds.found().items()
-    }
+    ours = {key: own._replace(values=own.values + bars * off[key[0]](own.values)) for key, own in beds.found().items()}
     monkeypatch.setattr(beds, "means", lambda *_: [ours, ours, ours])
     monkeypatch.setattr(beds.driver, "run", lambda *_: None)
     checks = beds.checks(tmp_path)

@@ -1,4 +1,4 @@
-"""Short forms of the drop that hits a wall of `sdph validate experiments`: its case has Weber and Reynolds number of the
+"""Short forms of the drop that hits a wall of `sdph validate experiments.drop_spread`: its case has the numbers of the
 row, the table has both laws, the width of known clouds is right, a short run spreads and keeps its balances."""
 
 import math
@@ -58,7 +58,8 @@ def test_the_width_is_that_of_the_outermost_liquid_of_each_sector(monkeypatch, d
     """A disc; a lone particle far out counts in its sector alone, gas not at all."""
     angles = (np.arange(drops.SECTORS) + 0.5) * 2.0 * math.pi / drops.SECTORS
     rim = np.column_stack([np.cos(angles), np.sin(angles), 0.0 * angles])
-    cloud = pyvista.PolyData(np.concatenate([0.5 * rim, rim, [2.0 * rim[0]], 9.0 * rim]) + [3.0, 3.0, 0.0])
+    places = np.concatenate([0.5 * rim, rim, [2.0 * rim[0]], 9.0 * rim])
+    cloud = pyvista.PolyData(places + np.array([3.0, 3.0, 0.0]))
     cloud["kind"] = np.repeat([LIQUID, LIQUID, LIQUID, GAS], [len(rim), len(rim), 1, len(rim)])
     monkeypatch.setattr(drops.timeline, "read", lambda folder: None)
     monkeypatch.setattr(drops.timeline, "state_at", lambda *_: types.SimpleNamespace(particles=cloud))
@@ -81,8 +82,7 @@ def test_a_spread_outside_the_laws_is_told(tmp_path, monkeypatch, drops, value, 
 
 
 def test_a_coarse_drop_spreads_and_keeps_its_balances(tmp_path, drops):
-    """Eight spacings in the diameter, until 0.6 D_0/U: what is within the sphere's shadow is there at first, and the foot
-    grows beyond it no faster than a jet of an inviscid liquid, sqrt(3 t) of the radius (Wagner)."""
+    """Eight spacings in the diameter, until 0.6 D_0/U."""
     times, widths = drops.course(20.0, 8, tmp_path / "drop", (), QUIET, 0.6)
     assert widths[0] == pytest.approx(1.0, abs=0.1) and 1.1 < widths[-1] < 2.0
     assert np.all(np.diff(widths[times > 0.2]) > -0.02)

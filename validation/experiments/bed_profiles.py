@@ -102,9 +102,7 @@ def profiles(averages) -> dict[tuple[str, float], Profile]:
     cells, up = _layers(gas.cell_centers().points, np.asarray(gas.cell_data["alpha_p_mean"]))
     points, moving = _layers(np.asarray(grid.points), np.asarray(grid["velocity_mean"])[:, 1])
     known = {"voidage": (cells, 1.0 - up), "uy_particle": (points, moving)}
-    return {
-        (name, y): Profile(own.x, _both(own.x, *_row(*known[name], y))) for (name, y), own in found().items()
-    }
+    return {(name, y): Profile(own.x, _both(own.x, *_row(*known[name], y))) for (name, y), own in found().items()}
 
 
 def _layers(places, values):

@@ -1,13 +1,14 @@
-"""Largest spread of a drop on a dry smooth wall that it hits, from runs in three dimensions, against two laws that others
-fitted to their drops: Pasandideh-Fard et al. 1996 and Roisman 2009.
+"""Largest spread of a drop on a dry smooth wall that it hits, from runs in three dimensions, against two laws that
+others fitted to their drops: Pasandideh-Fard et al. 1996 and Roisman 2009.
 
 What is settled, before any result: the drop is of water, whose diameter and speed Weber and Reynolds number give. The
 scene drop_on_plate in space, with its numerics. Walls slip, by the rule of docs/liquid-numerics.md: in the time of the
-run the wall's layer, sqrt(nu t), stays below two spacings. A quarter of the drop is run, between planes of symmetry that
-are sides which slip too. All sides have one contact angle, and the interface meets a plane of symmetry at 90 degrees: so
-rows of 90 degrees are run, and those of 60 and 110 are not. Weight is left out, as the laws do. The table has Roisman's
-second term over We, as the documents that it was found in have it; his paper, as we remember it (it was not at hand), has
-it over the root of We. Spans of both are checked.
+run the wall's layer, sqrt(nu t), stays below two spacings. Rows of 90 degrees are run, to We 50: the faster the drop,
+the thinner it gets. The whole drop is run, since a pool that reaches out of its tank is not cut off. Weight is left
+out, as the laws do.
+
+The table has Roisman's second term over We, as the documents that it was found in have it; his paper, as we remember it
+(it was not at hand), has it over the root of We. Spans of both are checked.
 """
 
 from __future__ import annotations
@@ -134,5 +135,5 @@ def _figure(file: Path, drawn) -> None:
             for (law, value), style in zip(laws.items(), ("--", ":", "-.")):
                 axes.axhline(value, c=f"C{k}", ls=style, lw=1, label=f"{law}, We {weber:g}")
             for _, fine, curve in (one for one in drawn if one[0] == weber):
-                axes.plot(*curve, c=f"C{k}", lw=1.0 if fine == RUNS[0][1] else 2.5, label=f"SDPH, We {weber:g}, 1/{fine}")
+                axes.plot(*curve, c=f"C{k}", lw=fine / 8.0, label=f"SDPH, We {weber:g}, D_0/dx {fine}")
         axes.set_ylim(0.0)
