@@ -96,8 +96,8 @@ def _study(commands) -> None:
     check.add_argument(
         "scene",
         nargs="?",
-        help="or experiments, granular_piles: what others measured, kinetic_theory or spray_plug (default: all these "
-        "and every scene that has a validation)",
+        help="or experiments, granular_piles: what others measured, kinetic_theory or spray_plug, or a part of one, "
+        "experiments.bed_profiles (default: all these and every scene that has a validation)",
     )
     check.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override a key of the case")
     check.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: openfoam where it is)")

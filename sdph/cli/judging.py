@@ -48,6 +48,10 @@ def validate_scene(options) -> int:
 
     if options.record and options.set:
         raise CaseError(f"--record {options.record}: a record is of the scene as it is; leave --set out")
+    if options.record and "." in (options.scene or ""):
+        raise CaseError(
+            f"--record {options.record}: a record is of all of {options.scene.partition('.')[0]}; give that"
+        )
     if options.scene is None:
         return _apart(validate.validated(), lambda name: _words(name, options), options)
     if _by_workers(options):

@@ -7,7 +7,7 @@ that heap up and flow out under `granular_piles`, a plug of spray under `spray_p
 under `gel_droplet_reduced`, free bodies of moving particles under `moving_particles`, pools by them and by the weakly
 compressible method under `two_methods`, vessels of any mesh under `own_vessel`, turbulence of the gas under
 `gas_turbulence`: each is a folder of validation/ with a
-module for each part of it.
+module for each part of it, which STUDY.PART runs alone; those named in LONG are run so only.
 """
 
 from __future__ import annotations
@@ -37,14 +37,14 @@ STUDIES = {
 
 def validate(scene: str, overrides: tuple[str, ...], reporter, folder: Path | None = None) -> list[dict]:
     """The checks of a scene and its variants, each run anew under `folder` (None: one that goes when done)."""
-    module = compare.scene_module(scene)
-    if module is None and scene not in STUDIES:
+    module, (study, _, name) = compare.scene_module(scene), scene.partition(".")
+    if module is None and study not in STUDIES:
         raise CaseError(f"{scene} has no validation; those that have: {', '.join(validated())}")
     if folder is None:
         with tempfile.TemporaryDirectory(prefix="sdph-validate-") as temporary:
             return validate(scene, overrides, reporter, Path(temporary))
-    if scene in STUDIES:
-        return _parts(scene, overrides, reporter, folder)
+    if study in STUDIES:
+        return _parts(study, name, overrides, reporter, folder)
     whole = {scene: ((), [name for name in REFERENCES if hasattr(module, name)])}
     checks = []
     for name, (own, references) in getattr(module, "VARIANTS", whole).items():
@@ -61,13 +61,17 @@ def validate(scene: str, overrides: tuple[str, ...], reporter, folder: Path | No
     return checks
 
 
-def _parts(study: str, overrides: tuple[str, ...], reporter, folder: Path) -> list[dict]:
-    """The checks of all parts of a study; their runs and figures go to `folder`."""
+def _parts(study: str, name: str, overrides: tuple[str, ...], reporter, folder: Path) -> list[dict]:
+    """The checks of a part of a study, or without its name of all; their runs and figures go to `folder`."""
     for text in overrides:
         if not text.startswith(STUDIES[study]):
             raise CaseError(f"--set {text}: {study} is run as it is; leave it out")
+    names = part(study).NAMES
+    known = (*names, *getattr(part(study), "LONG", ()))
+    if name and name not in known:
+        raise CaseError(f"{study}.{name}: {study} has no such part; it has: {', '.join(known)}")
     folder.mkdir(parents=True, exist_ok=True)
-    own = [part(study, name) for name in part(study).NAMES]
+    own = [part(study, name) for name in ([name] if name else names)]
     return [check for module in own for check in module.checks(folder, overrides, reporter)]
 
 

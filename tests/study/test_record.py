@@ -52,6 +52,12 @@ def test_no_record_of_a_scene_that_was_changed(tmp_path, capsys):
     assert "a record is of the scene as it is" in capsys.readouterr().err and not (tmp_path / "new").exists()
 
 
+def test_no_record_of_a_part_of_a_study(tmp_path, capsys):
+    words = ["validate", "experiments.bed_profiles", "--record", str(tmp_path / "new")]
+    assert cli.main(words) == cli.BAD_INPUT
+    assert "a record is of all of experiments" in capsys.readouterr().err and not (tmp_path / "new").exists()
+
+
 @pytest.mark.parametrize(
     "path", sorted((paths.data("validation") / "record").glob("*.json")), ids=lambda path: path.stem
 )

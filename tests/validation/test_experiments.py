@@ -10,6 +10,7 @@ from scipy.optimize import brentq
 from sdph import cli
 from sdph.laws import drag, evaporation, heat
 from sdph.running.progress import Reporter
+from sdph.schema import CaseError
 from sdph.study import validate
 
 QUIET = Reporter(quiet=True)
@@ -149,6 +150,25 @@ def test_a_heated_bed_half_a_kelvin_off_is_told(tmp_path, monkeypatch, off, ok):
 def test_what_was_measured_is_not_overridden(tmp_path, capsys):
     assert cli.main(["validate", "experiments", "--set", "gas.density_kg_m3=2.0", "--out", str(tmp_path / "new")]) == 2
     assert "gas.density_kg_m3=2.0" in capsys.readouterr().err
+
+
+def test_one_part_of_a_study_is_run_alone(tmp_path):
+    """Laws alone, its figure; what is run by its name only is known too."""
+    checks = validate.validate("experiments.liquid_fluidisation", (), QUIET, tmp_path)
+    assert {check["name"].partition(",")[0] for check in checks} == {"index n"}
+    assert [path.name for path in tmp_path.iterdir()] == ["liquid_fluidisation.png"]
+    with pytest.raises(CaseError, match=r"experiments.nothing: experiments has no such part; it has: .*drop_spread"):
+        validate.validate("experiments.nothing", (), QUIET, tmp_path)
+
+
+def test_what_takes_an_hour_is_run_by_name_alone(tmp_path, monkeypatch):
+    package, run = validate.part(validate.EXPERIMENTS), []
+    for name in (*package.NAMES, *package.LONG):
+        monkeypatch.setattr(
+            validate.part(validate.EXPERIMENTS, name), "checks", lambda *_, name=name: run.append(name) or []
+        )
+    validate.validate("experiments", (), QUIET, tmp_path)
+    assert run == list(package.NAMES) and package.LONG
 
 
 def test_a_fluidised_bed_of_beads_is_carried(tmp_path, monkeypatch):

@@ -12,6 +12,8 @@ bed_transfer               Wakao & Funazkri 1978: Sherwood numbers of packed bed
 heated_bed                 Beaulieu 2020: temperature in a packed bed of steel, from runs
 hot_tube                   Zhang et al. 2014, Grewal & Saxena 1980: heat from a tube to a bed, from runs with OpenFOAM
 bed_pressure               Toomey & Johnstone 1952: pressure drop of fluidised beds, from runs
+bed_profiles               Mueller et al. 2009: voidage and velocity across a bubbling bed, from runs
+drop_spread                Pasandideh-Fard et al. 1996, Roisman 2009: largest spread of a drop on a wall, from runs
 """
 
 NAMES = (
@@ -26,7 +28,9 @@ NAMES = (
     "heated_bed",
     "hot_tube",
     "bed_pressure",
+    "bed_profiles",
 )
+LONG = ("drop_spread",)  # an hour and more: run by name alone, `sdph validate experiments.drop_spread`
 
 # record -> how names of its checks begin -> (who measured, what, ours): a table of the dashboard
 MEASURED = {
@@ -43,6 +47,8 @@ MEASURED = {
         "packed steel": ("Beaulieu 2020", "temperature in a heated bed of steel spheres", "runs"),
         "hot tube": ("Zhang et al. 2014, Grewal & Saxena 1980", "heat from a tube to a bed, laws of others", "runs"),
         "bed of beads": ("Toomey & Johnstone 1952", "pressure drop of fluidised beds", "runs"),
+        "bed of seeds": ("Mueller et al. 2009", "voidage and velocity of grains across a bubbling bed", "runs"),
+        "spread of a drop": ("Pasandideh-Fard et al. 1996, Roisman 2009", "largest spread of a drop on a wall", "runs"),
     },
     "granular_piles": {
         r"column.*: run-out": ("Lube et al. 2005", "run-out of columns of grains", "runs"),
