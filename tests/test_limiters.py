@@ -40,6 +40,7 @@ HARMLESS = {
     "sdph/laws/break_up.py:*": "times: the sooner of two, a phase within a turn",
     "sdph/engine/clock.py:count_of_parts": "number of steps",
     "sdph/engine/cells.py:*": "indices of cells",
+    "sdph/engine/cuts.py:_quantile": "indices of bins",
     "sdph/engine/rows.py:*": "indices of entries",
     "sdph/engine/reading.py:*": "sizes of files",
     "sdph/engine/motion.py:*": "the largest of all",

@@ -19,12 +19,8 @@ def cut(world, places: np.ndarray, weight: np.ndarray, ranks: range | None = Non
     axis, half = int(np.argmax(high - low)), len(ranks) // 2
     value = _quantile(world, places[:, axis], weight, (low[axis], high[axis]), half / len(ranks))
     below = places[:, axis] < value
-    return (
-        axis,
-        value,
-        cut(world, places[below], weight[below], ranks[:half]),
-        cut(world, places[~below], weight[~below], ranks[half:]),
-    )
+    sides = (below, ranks[:half]), (~below, ranks[half:])
+    return axis, value, *(cut(world, places[side], weight[side], own) for side, own in sides)
 
 
 def owner(tree, places: np.ndarray) -> np.ndarray:

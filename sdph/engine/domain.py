@@ -95,17 +95,17 @@ class Domain:
             sent.append(comm.Isend(values, rank))
             self.sent += 1, values.nbytes
         type(sent[0]).Waitall(sent)
-        for rank, rows in self.gets.items():
-            self._put(arrays, rows, inbox[rank])
+        self._put(arrays, inbox)
 
-    @staticmethod
-    def _put(arrays, rows, values) -> None:
-        begin = 0
-        for array in arrays:
-            shape = (len(rows), *array.shape[1:])
-            end = begin + int(np.prod(shape))
-            array[rows] = values[begin:end].reshape(shape)
-            begin = end
+    def _put(self, arrays, inbox: dict) -> None:
+        """Put the values that ranks have sent in the rows of their copies."""
+        for rank, rows in self.gets.items():
+            begin = 0
+            for array in arrays:
+                shape = (len(rows), *array.shape[1:])
+                end = begin + int(np.prod(shape))
+                array[rows] = inbox[rank][begin:end].reshape(shape)
+                begin = end
 
     def gather(self, state, arrays: list) -> tuple | None:
         """State and arrays (N, ...) of all particles, at the chief; None elsewhere."""

@@ -19,21 +19,23 @@ COPY = 0.25  # of a step's work for a particle, that for a copy: its row, its pr
 TALK = 0.4e-3  # s of a step for messages, on one machine; measured, benchmarks/ranks.py
 
 
+def _copies(case, places, owner, number: int) -> np.ndarray:
+    """Copies that each rank has, by the owner (N,) of the places (N, d) [m]."""
+    far, found = reach_of(reach(case), case.resolution.neighbour_skin), np.zeros(number)
+    for rank in range(number):
+        box = places[owner == rank]
+        ends = box.min(axis=0, initial=np.inf), box.max(axis=0, initial=-np.inf)
+        found[rank] = (cuts.near(places, *ends, far, case.liquid_period) & (owner != rank)).sum()
+    return found
+
+
 def rows(case, number: int) -> list[dict]:
     """Rows of a table; `CaseError` where these processes cannot share the case."""
     ranks.refuse(case, number)
     state = parts_of(case)[1]
     places, solid = np.stack(particles.axes(state), axis=1), state.kind == WALL
-    tree = cuts.cut(ALONE, places, np.where(solid, OF_WALL, 1.0), range(number))
-    owner = cuts.owner(tree, places)
-    far = reach_of(reach(case), case.resolution.neighbour_skin)
-    own, copies = np.bincount(owner, minlength=number), np.zeros(number)
-    for rank in range(number):
-        box = places[owner == rank]
-        seen = cuts.near(
-            places, box.min(axis=0, initial=np.inf), box.max(axis=0, initial=-np.inf), far, case.liquid_period
-        )
-        copies[rank] = (seen & (owner != rank)).sum()
+    owner = cuts.owner(cuts.cut(ALONE, places, np.where(solid, OF_WALL, 1.0), range(number)), places)
+    own, copies = np.bincount(owner, minlength=number), _copies(case, places, owner, number)
     wet = np.bincount(owner, ~solid, minlength=number)
     uneven, halo = wet.max() * number / wet.sum(), copies.sum() / own.sum()
     step = 1e-6 * estimate.speed().liquid * len(places)  # of one process [s]

@@ -130,7 +130,7 @@ def _both(x, places, values) -> np.ndarray:
 
 
 def found() -> dict[tuple[str, float], Profile]:
-    """What was measured, by quantity and height [m], at the places of the left half: the mean of both halves, of the
+    """Measured profiles, by quantity and height [m], at the places of the left half: the mean of both halves, of the
     left alone where the right one was not measured as near to its wall."""
     rows, told = measured.table("mueller_2009"), {}
     for name in QUANTITIES:
@@ -163,7 +163,7 @@ def apart(one, other, key) -> np.ndarray:
 
 
 def scatter(parts, key) -> float:
-    """How far the means of both halves of the time lie apart, rms in bars; independent, it is twice the error of the
+    """Distance between the means of both halves of the time, rms in bars; independent, it is twice the error of the
     whole."""
     return float(np.sqrt(np.mean(apart(parts[1], parts[2], key) ** 2)))
 

@@ -127,7 +127,7 @@ class Liquid(Stepped):
         domain, world = self.stepper.domain, self.stepper.world
         own |= {"ranks": world.number, "imbalance": domain.imbalance, "halo_share": domain.halo}
         # means by rank and step, of this part of the run
-        sent = world.sum(domain.sent) / world.number / max(1, self.steps - self.stepper.steps_before)
+        sent = world.sum(domain.sent) / world.number / (self.steps - self.stepper.steps_before or 1)
         own |= {"messages_per_step": float(sent[0]), "halo_bytes_per_step": float(sent[1])}
         parts = [part.summary() for part in (self.stepper.void, self.stepper.heat) if part]
         return own | {name: value for part in parts for name, value in part.items()}

@@ -18,7 +18,7 @@ from sdph.engine import state as particles
 from sdph.engine.clock import count_of_parts
 from sdph.engine.kept import GROWING
 from sdph.engine.rows import Neighbours
-from sdph.engine.state import GAS, INFLOW, LIQUID, WALL
+from sdph.engine.state import GAS, INFLOW, WALL
 from sdph.laws import kernels
 from sdph.methods.liquids import bodies as immersion
 from sdph.methods.liquids import bubbles, correction, gathered, interface, openings, parts, phases, shift, start, walls
@@ -208,13 +208,8 @@ class LiquidStepper:
         if p["bubble"] and p["bubble"].vapour and ahead:
             self.void.boil(self, 2.0 * ahead)
             rates.state_of(self.fluids, s, self.wet, self.pressure, self.volume)
-        if len(self.waiting):
-            openings.meet(
-                *around[:-1], self.waiting, p["gravity"], self.frame, self.fluids[:, LIQUID], self.pressure,
-                self.volume, s.density, self.gradient, s.enclosure,
-            )  # fmt: skip
         if self.openings:
-            self.domain.refresh(self.pressure, self.volume, s.density, s.enclosure)
+            openings.wait(self, around[:-1])
         if len(self.walls):
             walls.extrapolate(
                 self.kernel, s, self.rows, self.neighbours.box, self.walls, self.wall, self.moving, p["gravity"],

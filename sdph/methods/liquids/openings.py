@@ -122,6 +122,17 @@ def meet(
             enclosure[i] = 1.0
 
 
+def wait(stepper, around) -> None:
+    """Give what waits the pressure of the liquid in front; `around` is what the loops of a stepper take."""
+    s, p = stepper.state, stepper.p
+    if len(stepper.waiting):
+        meet(
+            *around, stepper.waiting, p["gravity"], stepper.frame, stepper.fluids[:, LIQUID], stepper.pressure,
+            stepper.volume, s.density, stepper.gradient, s.enclosure,
+        )  # fmt: skip
+    stepper.domain.refresh(stepper.pressure, stepper.volume, s.density, s.enclosure)
+
+
 @parallel
 def press(
     kernel, s, rows, box, flow, wall_p, laminar_p, damping_p, shifting_p, phases_p, excess, waiting, gain, given,

@@ -83,12 +83,10 @@ class Outlet:
     def _take(self, lowest: Lowest, owed: float) -> float:
         """Mass [kg] taken out of the lowest particle, `owed` at most."""
         taken, st = min(owed, lowest.mass), self.stepper
-        self.place = lowest.place
-        moment = np.cross(lowest.place, lowest.velocity)
+        self.place, moment = lowest.place, np.cross(lowest.place, lowest.velocity)
         self.gone += taken * np.concatenate(([1.0], lowest.velocity, moment, [lowest.energy]))
         if lowest.mass - taken > ROUND_OFF * self.particle:
-            for i in self._rows(lowest.ident):
-                st.state.mass[i] -= taken
+            st.state.mass[self._rows(lowest.ident)] -= taken
             self.pushed = self.pushed + taken * lowest.acceleration
             return taken
         if self.form == "paper":
