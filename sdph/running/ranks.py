@@ -7,6 +7,7 @@ that folder as with any run that has no checkpoint yet; the first of them writes
 from __future__ import annotations
 
 import contextlib
+import functools
 import importlib.util
 import os
 import re
@@ -108,7 +109,7 @@ def _started(case, folder: Path, number: int, options: list[str]) -> int:
     if heard and code:
         return 128 + heard[0]
     if died := DIED.search(" ".join(told)):
-        raise _lost(folder, f"process {died[1]} of {number} ended by {died[2]}")
+        raise _lost(folder, f"rank {died[1]} (from 0) of {number} was ended by {died[2]}")
     if code not in KNOWN:
         raise _lost(folder, f"{command[0]} ended with code {code}: {' '.join(told) or 'it does not say why'}")
     return code
@@ -145,8 +146,9 @@ def claimed(folder: Path):
         yield
 
 
+@functools.cache
 def wait_for_the_first() -> None:
-    """Wait, in another process than the first one, for it to end this one: what fails everywhere is told once."""
+    """Wait once, in another process than the first one, for it to end this one: what fails everywhere is told once."""
     if not world.here().chief:
         time.sleep(GRACE)
 
