@@ -139,11 +139,9 @@ def _lost(folder: Path, why: str) -> GasError:
     return error
 
 
-@contextlib.contextmanager
 def claimed(folder: Path):
-    """Keep other runs out of a folder; of several processes the one that started them does."""
-    with output.claimed(folder) if world.here().number == 1 else contextlib.nullcontext():
-        yield
+    """Context that keeps other runs out of a folder; of several processes the one that started them does."""
+    return output.claimed(folder) if world.here().number == 1 else contextlib.nullcontext()
 
 
 @functools.cache
