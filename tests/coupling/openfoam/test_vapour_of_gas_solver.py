@@ -56,7 +56,7 @@ def test_vapour_of_the_gas_temperature_changes_no_temperature(tmp_path, equation
             state = gas.advance(1e-3, {"vapour": vapour, "heat": vapour * 2470.0 * 300.0})
     assert state.fields["vapour_mass_fraction"].max() > 0.01
     # on gas of constant density the pressure works, by the order of U^2/cp [K]
-    works = np.abs(state.fields["velocity"]).max() ** 2 / CP if equation == "constant" else 300.0 * 1e-10
+    works = fastest**2 / CP if equation == "constant" else 300.0 * 1e-10
     assert works < 1e-3 and state.fields["temperature"] == pytest.approx(300.0, abs=works)
 
 
@@ -100,7 +100,7 @@ def test_vapour_that_is_used_up(tmp_path, equation):
     with box(tmp_path, (0.1, 0.1), 0.005, boundaries=OPEN, vapour=VAPOUR | {"mass_fraction": 0.1}, **more) as gas:
         x = gas.mesh.centres[:, 0]
         start = gas.start(None, ("vapour", "carrier", "heat"))
-        used, totals = 0.0, 0.0
+        used, totals, fastest = 0.0, 0.0, 0.0
         state = start
         for _ in range(steps):
             there = state.fields["density"] * state.fields["vapour_mass_fraction"]
@@ -108,13 +108,14 @@ def test_vapour_that_is_used_up(tmp_path, equation):
             heat = (1.4 * CP - 2470.0) * taken * 300.0
             state = gas.advance(dt, {"vapour": -taken, "carrier": 1.4 * taken, "heat": heat})
             used, totals = used + dt * total(gas, taken), totals + dt * total(gas, heat)
+            fastest = max(fastest, np.abs(state.fields["velocity"]).max())
     now, then = state.budget, start.budget
     assert now.vapour - then.vapour == pytest.approx(now.vapour_in - used, rel=1e-9)
     assert now.mass - then.mass == pytest.approx(now.mass_in + 0.4 * used, rel=1e-9, abs=1e-12 * then.mass)
     gained = now.energy - then.energy - now.energy_in - now.pressure_work
     assert gained == pytest.approx(totals, rel=1e-8, abs=1e-11 * then.energy)
     assert state.fields["vapour_mass_fraction"].min() > -1e-12
-    works = np.abs(state.fields["velocity"]).max() ** 2 / CP if equation == "constant" else 300.0 * 1e-10
+    works = fastest**2 / CP if equation == "constant" else 300.0 * 1e-10
     assert works < 1e-3 and state.fields["temperature"] == pytest.approx(300.0, abs=works)
 
 
