@@ -33,7 +33,7 @@ def drops(*kinds, mass=1e-9, still=0.0, moving=0.0):
 
 
 def test_a_log_normal_has_the_diameters_of_its_closed_form():
-    found, own = told(Sizes(1), drops((MEAN, STD)))
+    found, own = told(Sizes(1, 1.0), drops((MEAN, STD)))
     m, s = grain_sizes.log_mean(MEAN, STD), grain_sizes.log_std(MEAN, STD)
     assert own["D10_m"] == pytest.approx(MEAN, rel=1e-4)
     third, second = (lognormal.raw_moment(k, MEAN, STD) for k in (3, 2))
@@ -47,7 +47,7 @@ def test_a_log_normal_has_the_diameters_of_its_closed_form():
 def test_what_evaporation_left_of_it_is_a_sum_over_many_drops():
     """Small drops are gone; 200 000 of them, each by its own law."""
     still, c = (0.8 * MEAN) ** 2, 20.0
-    _, own = told(Sizes(1), drops((MEAN, STD), still=still, moving=c * still))
+    _, own = told(Sizes(1, 1.0), drops((MEAN, STD), still=still, moving=c * still))
     m, s = grain_sizes.log_mean(MEAN, STD), grain_sizes.log_std(MEAN, STD)
     shares = (np.arange(200_000) + 0.5) / 200_000
     quantile = np.interp(shares, [NormalDist().cdf(z) for z in np.linspace(-8, 8, 4001)], np.linspace(-8, 8, 4001))
@@ -71,4 +71,4 @@ def test_drops_that_are_alike_within_a_particle():
 
 
 def test_where_no_drop_is_there_is_no_size():
-    assert all(math.isnan(value) for value in told(Sizes(1), drops())[1].values())
+    assert all(math.isnan(value) for value in told(Sizes(1, 1.0), drops())[1].values())
