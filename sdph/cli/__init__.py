@@ -15,7 +15,6 @@ from sdph.cli.arguments import parser
 from sdph.cli.sweeping import sweep
 from sdph.schema import CaseError
 
-MARK = "SDPH_RANKS"  # as sdph.engine.world has it
 FINE, CHECK_FAILED, BAD_INPUT, GAS_FAILED, CANNOT_WRITE, WENT_UNSTABLE = 0, 1, 2, 3, 4, 5
 
 
@@ -56,17 +55,18 @@ def main(given: list[str] | None = None) -> int:
 
 def _failed(message, code: int) -> int:
     """One line, with how to go on where that is known."""
+    from sdph.engine import world
     from sdph.engine.reading import one_line
 
     text = " ".join([str(message), *getattr(message, "__notes__", ())])
-    if MARK in os.environ:
-        from sdph.running import ranks
-
-        ranks.wait_for_the_first()
+    if world.here().number == 1:
         print(f"sdph: {one_line(text)}", file=sys.stderr)
-        ranks.end(code)
+        return code
+    from sdph.running import ranks
+
+    ranks.wait_for_the_first()
     print(f"sdph: {one_line(text)}", file=sys.stderr)
-    return code
+    return ranks.end(code)
 
 
 def list_scenes(options) -> int:

@@ -15,7 +15,7 @@ from sdph.engine import state as particles
 from sdph.engine.state import WALL
 from sdph.schema import CaseError
 
-UNEVEN = 1.1  # pairs of the busiest process over their mean, from which on space is cut anew (issue 26)
+UNEVEN = 1.1  # pairs of the busiest process over their mean, from which on space is cut anew; our choice
 OF_WALL = 0.02  # weight of a wall particle over one of liquid's before rows are known: most have none; our choice
 
 

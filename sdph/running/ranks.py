@@ -18,6 +18,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import NoReturn
 
 from coupling.gas import GasError
 from coupling.openfoam.programs import install
@@ -36,7 +37,7 @@ KNOWN = range(6)  # codes that a process ends with of itself
 RULE = "-" * 20  # about what mpirun has to say
 DIED = re.compile(r"process rank (\d+) .*exited on (signal \d+ \([^)]*\))")
 CROWD = 16  # processes a core at most, where no launcher of one's own knows better; our choice
-GRACE = 3.0  # s that others wait for what the first process has to say; all are ended within 5 s (issue 26)
+GRACE = 3.0  # s that others wait for what the first process has to say; so that all end within 5 s; our choice
 
 
 def refuse(case, number: int) -> None:
@@ -151,9 +152,8 @@ def wait_for_the_first() -> None:
         time.sleep(GRACE)
 
 
-def end(code: int) -> None:
-    """End all processes with a code, at once; nothing where there is one alone."""
-    if world.here().number > 1:
-        sys.stdout.flush()
-        sys.stderr.flush()
-        os._exit(code)
+def end(code: int) -> NoReturn:
+    """End this process with a code, without a word to the others: their launcher then ends them too."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(code)

@@ -15,8 +15,9 @@ from sdph.methods.liquids.start import parts_of
 from sdph.running import ranks
 from sdph.study.explain import estimate
 
-COPY = 0.25  # of a step's work for a particle, that for a copy: its row, its pressure; measured, benchmarks/ranks.py
-TALK = 0.4e-3  # s of a step for messages, on one machine; measured, benchmarks/ranks.py
+# work of a copy over that of a particle, and time [s] of a step for messages: both from two runs on two ranks of one
+# machine (benchmarks/README.md)
+COPY, TALK = 2.1, 0.5e-3
 
 
 def _copies(case, places, owner, number: int) -> np.ndarray:
