@@ -15,6 +15,9 @@ import pytest
 import pyvista
 
 from sdph.cli import main
+from sdph.engine import world
+from sdph.engine.world import World
+from sdph.running import ranks
 
 pytestmark = pytest.mark.skipif(
     shutil.which("mpirun") is None and "CI" not in os.environ, reason="there is no mpirun (apt install openmpi-bin)"
@@ -82,9 +85,9 @@ def test_a_shared_liquid_goes_as_one_process_takes_it(tmp_path, name):
 def test_a_run_goes_on_by_other_processes_or_by_one_and_repeats(tmp_path):
     whole = fine(tmp_path / "whole", "dam_break", *COARSE)
     part = ("dam_break", *COARSE[:2], "--until", "0.01")
-    for name, ranks in (("three", 3), ("one", 1)):
+    for name, several in (("three", 3), ("one", 1)):
         cut = fine(tmp_path / name, *part, ranks=4)
-        alike(fine(cut, "--resume", cut, "--until", "0.02", ranks=ranks), whole)
+        alike(fine(cut, "--resume", cut, "--until", "0.02", ranks=several), whole)
     first, again = (particles(fine(tmp_path / f"r{n}", *part, ranks=4)) for n in range(2))
     for name, values in first.items():
         np.testing.assert_array_equal(again[name], values)
@@ -137,6 +140,18 @@ def test_what_goes_unstable_is_told_once_with_its_own_code(tmp_path):
     done = run("dam_break", *COARSE, "--set", "run.step_factor=1000", "--out", tmp_path / "run", ranks=3)
     assert done.returncode == 5 and done.stderr.count("went unstable") == 1 and "Traceback" not in done.stderr
     assert json.loads((tmp_path / "run/failure.json").read_text())["kind"] == "Unstable"
+
+
+def test_others_wait_once_for_what_the_first_has_to_say(monkeypatch):
+    other, slept = World(), []
+    other.chief = False
+    monkeypatch.setattr(world, "here", lambda: other)
+    monkeypatch.setattr(time, "sleep", slept.append)
+    ranks.wait_for_the_first.cache_clear()
+    ranks.wait_for_the_first()
+    ranks.wait_for_the_first()
+    ranks.wait_for_the_first.cache_clear()
+    assert slept == [ranks.GRACE] and ranks.GRACE < 5.0
 
 
 @pytest.mark.parametrize(
