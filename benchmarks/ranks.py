@@ -1,9 +1,10 @@
-"""Processes that share a liquid: one, then several of one thread each, and as many threads in one process, in turn.
+"""Processes that share particles: one, then several of one thread each, and as many threads in one process, in turn.
 
-    python benchmarks/ranks.py [RANKS] [SPACING_MM ...]
+    python benchmarks/ranks.py [RANKS] [SCENE] [SPACING_MM ...]
 
-The 3-D dam break, its first 200 steps or so. Prints particles, ms a step, efficiency (time of one process over that of
-N, over N), and the same of threads. Wants a machine with nothing else on it.
+The first steps of the 3-D dam break, or of a bed in 3-D (bubbling_bed_3d; the particles' side alone). Prints
+particles, ms a step, efficiency (time of one process over that of N, over N), and the same of threads. Wants a machine
+with nothing else on it.
 """
 
 import json
@@ -14,26 +15,33 @@ import tempfile
 from pathlib import Path
 
 TIMES = 3  # rounds, of which the best counts
-UNTIL = {"run.output_interval_s": 0.01, "run.end_time_s": 0.01}
+UNTIL = {"dam_break_3d": 0.01, "bubbling_bed_3d": 0.002}  # s
+SPACINGS = {"dam_break_3d": [6.0, 2.8575], "bubbling_bed_3d": [7.5, 5.0]}  # mm
 
 
-def measured(ranks: int, threads: int, spacing: float) -> dict:
+def measured(scene: str, ranks: int, threads: int, spacing: float) -> dict:
     """Summary of a run."""
     with tempfile.TemporaryDirectory() as folder:
-        sets = [f"--set={key}={value}" for key, value in (UNTIL | {"resolution.spacing_mm": spacing}).items()]
-        command = [sys.executable, "-m", "sdph.cli", "run", "dam_break_3d", *sets, "--json", "--out", f"{folder}/run"]
+        given = {
+            "run.output_interval_s": UNTIL[scene],
+            "run.end_time_s": UNTIL[scene],
+            "resolution.spacing_mm": spacing,
+        }
+        sets = [f"--set={key}={value}" for key, value in given.items()]
+        command = [sys.executable, "-m", "sdph.cli", "run", scene, *sets, "--json", "--out", f"{folder}/run"]
+        command += ["--gas", "embedded"] if scene == "bubbling_bed_3d" else []
         command += ["--ranks", str(ranks)] if ranks > 1 else []
         environment = os.environ | {"NUMBA_NUM_THREADS": str(threads)}
         done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True, cwd=Path.cwd())
         return json.loads(done.stdout)
 
 
-def main(ranks: int, spacings: list[float]) -> None:
+def main(ranks: int, scene: str, spacings: list[float]) -> None:
     for spacing in spacings:
         best = {}
         for _ in range(TIMES):
             for who in ((1, 1), (ranks, 1), (1, ranks)):
-                told = measured(*who, spacing)
+                told = measured(scene, *who, spacing)
                 step = 1e3 * told["wall_particles_s"] / told["sub_steps"]
                 best[who] = min(best.get(who, (step, told)), (step, told), key=lambda one: one[0])
         one, shared, threaded = (best[who][0] for who in ((1, 1), (ranks, 1), (1, ranks)))
@@ -45,4 +53,6 @@ def main(ranks: int, spacings: list[float]) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 2, [float(one) for one in sys.argv[2:]] or [6.0, 2.8575])
+    given = dict(enumerate(sys.argv))
+    chosen = given.get(2, "dam_break_3d")
+    main(int(given.get(1, 2)), chosen, [float(one) for one in sys.argv[3:]] or SPACINGS[chosen])

@@ -109,7 +109,8 @@ def run(options) -> int:
                 reporter.status(f"warning: {warning}")
             folder = options.out or output.free_name(Path("runs") / name)
             if several:
-                return ranks.run(case, folder, options.ranks, _handed(options, ()))
+                own = _handed(options, ())
+                return ranks.run(case, folder, options.ranks, template, own, allow_code=options.allow_code)
             reporter.page = watch.Page(folder) if options.watch else None
             summary = driver.run(case, name, folder, template, reporter, allow_code=options.allow_code)
     if here.chief:
@@ -119,7 +120,11 @@ def run(options) -> int:
 
 def _handed(options, overrides: tuple[str, ...]) -> list[str]:
     """Options of the processes that share a run."""
-    return [part for value in overrides for part in ("--set", value)] + ["--json"] * options.json
+    return (
+        [part for value in overrides for part in ("--set", value)]
+        + ["--json"] * options.json
+        + (["--allow-code"] * options.allow_code)
+    )
 
 
 def _refuse(options, names, why: str) -> None:

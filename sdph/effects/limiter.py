@@ -6,16 +6,18 @@ import numpy as np
 
 from sdph.engine import softening
 from sdph.engine.state import GRAIN, by_material
+from sdph.engine.world import here
 from sdph.laws import granular
 from sdph.laws.compiled import serial
 
 
 def share(state, held) -> float:
-    """Mean of `held` (N,), true or false or a part of 1, over the particles in the gas; 0 where there are none."""
+    """Mean of `held` (N,), true or false or a part of 1, over the particles in the gas, of all processes; 0 where there
+    are none."""
     inside = state.kind == GRAIN
-    if inside.all() and len(inside):
-        return float(held.mean())
-    return float(held[inside].mean()) if inside.any() else 0.0
+    if len(state.copy):
+        inside &= state.copy == 0
+    return here().mean(held[inside])
 
 
 def capped(p, state) -> dict[str, float]:

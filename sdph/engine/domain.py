@@ -16,6 +16,7 @@ from sdph.engine.state import WALL
 from sdph.schema import CaseError
 
 UNEVEN = 1.1  # pairs of the busiest process over their mean, from which on space is cut anew; our choice
+OF_ROW = 40  # bits that the number of a row takes
 OF_WALL = 0.02  # weight of a wall particle over one of liquid's before rows are known: most have none; our choice
 
 
@@ -31,7 +32,7 @@ class Domain:
         self.imbalance, self.halo = 1.0, 0.0  # pairs of the busiest over their mean; copies over own particles
         self.sent = np.zeros(2)  # messages of `refresh`, and bytes in them
 
-    def refuse_crowd(self, state) -> None:
+    def _refuse_crowd(self, state) -> None:
         """CaseError where there are more processes than particles to share."""
         count = int((state.kind != WALL).sum())
         if self.world.number > count:
@@ -46,6 +47,7 @@ class Domain:
         if self.alone:
             return state
         if self.tree is None:
+            self._refuse_crowd(state)
             self.tree = cuts.cut(self.world, _places(state), np.where(state.kind == WALL, OF_WALL, 1.0))
             own = particles.take(state, self._here(state))
         else:
@@ -65,6 +67,14 @@ class Domain:
         known = np.concatenate((state.copy, np.zeros(len(state.x) - old, state.copy.dtype)))
         return particles.take(state._replace(copy=known), here)
 
+    def own_first(self, state, order: np.ndarray) -> np.ndarray:
+        """An order of rows with those of own particles before those of copies."""
+        return order if self.alone else order[np.argsort(state.copy[order], kind="stable")]
+
+    def own(self, state):
+        """The own particles of a state that stands so: what is written there, is written in the state."""
+        return state if not len(state.copy) else particles.first(state, int(np.count_nonzero(state.copy == 0)))
+
     def sort(self, order: np.ndarray) -> None:
         """Take note that row n is now what was row order[n]."""
         place = np.empty(len(order), np.int64)
@@ -80,6 +90,26 @@ class Domain:
         work, copies, mine = float(len(own) + pairs[own].sum()), float((~own).sum()), float(own.sum())
         whole, copies, mine = self.world.sum(np.array([work, copies, mine]))
         self.imbalance, self.halo = float(self.world.most(work) * self.world.number / whole), float(copies / mine)
+
+    def with_room(self, values: np.ndarray, state) -> np.ndarray:
+        """Values (n,) or (n, k) of the own particles of a state, with 0 for its copies behind them."""
+        if self.alone:
+            return values
+        return np.concatenate((values, np.zeros((len(state.x) - len(values), *values.shape[1:]))))
+
+    def marked(self, state):
+        """The state with this process in the number `row` of each particle, for `home`."""
+        if not self.alone:
+            state.row[:] += self.world.rank << OF_ROW
+        return state
+
+    def home(self, number: np.ndarray, values: np.ndarray) -> list:
+        """(rows (n,), values (n, k)) of the particles that were in these rows here when they were `marked`, from where
+        they are now; number (N,) and values (N, k) are of own ones."""
+        if self.alone:
+            return [(number, values)]
+        rank, row = number >> OF_ROW, number & ((1 << OF_ROW) - 1)
+        return self.world.exchange([(row[rank == n], values[rank == n]) for n in range(self.world.number)])
 
     def refresh(self, *arrays: np.ndarray) -> None:
         """Bring the copies in arrays (N,) or (N, k) up to date; those without length are passed over."""
@@ -115,6 +145,12 @@ class Domain:
             return None
         states, others = zip(*parts)
         return _joined(states), [np.concatenate(same) for same in zip(*others)]
+
+    def summary(self, steps: int) -> dict[str, float]:
+        """Keys of summary.json; messages and bytes are means by process and step of the `steps` taken."""
+        sent = self.world.sum(self.sent) / self.world.number / (steps or 1)
+        found = {"ranks": self.world.number, "imbalance": self.imbalance, "halo_share": self.halo}
+        return found | {"messages_per_step": float(sent[0]), "halo_bytes_per_step": float(sent[1])}
 
     def _here(self, state) -> np.ndarray:
         """Mask (N,) of what is in this part of space."""

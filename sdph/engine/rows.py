@@ -50,7 +50,7 @@ class Neighbours:
 
     KEPT, FORMS = ("built",), {"built": Many(np.zeros(0))}  # see sdph.engine.kept
 
-    def __init__(self, reach: float, period=(OPEN, OPEN, OPEN), skin: float = SKIN, world=ALONE):
+    def __init__(self, reach: float, period=(OPEN, OPEN, OPEN), skin: float = SKIN, world=ALONE, halo: float = 1.0):
         if any(0.0 < length < 2.0 * reach for length in period):
             raise ValueError(
                 f"periods {tuple(period)} m: a periodic box must be at least two reaches ({2.0 * reach:g} m) wide, or "
@@ -58,7 +58,7 @@ class Neighbours:
             )
         self.reach, self.skin = reach, skin
         self.period = np.array([*period, OPEN][:3])
-        self.world, self.domain = world, Domain(world, reach_of(reach, skin), self.period)
+        self.world, self.domain = world, Domain(world, halo * reach_of(reach, skin), self.period)
         self.box = OPEN_PLANE  # of the particles that rows were last made for
         self.built = ()  # positions at the last build
         self.room = np.empty(0, np.uint32)
@@ -73,7 +73,7 @@ class Neighbours:
             if period:
                 np.mod(axis, period, out=axis)
         state = self.domain.share(state)
-        rows = self.by_cell(particles.axes(state), state.kind == WALL)
+        rows = self.domain.own_first(state, self.by_cell(particles.axes(state), state.kind == WALL))
         self.domain.sort(rows)
         state = particles.take(state, rows)
         self.built = tuple(axis.copy() for axis in particles.axes(state))
@@ -88,8 +88,13 @@ class Neighbours:
 
     def relist(self, kind, copy=NOBODY) -> Rows:
         """Rows of the particles at the last build, of these kinds; those of copies are empty."""
-        solid = kind == WALL
-        self.rows = self._rows(self.built, solid, self.built, solid, True, copy)
+        solid, here = kind == WALL, self.built
+        if not len(copy):
+            self.rows = self._rows(here, solid, here, solid, True)
+            return self.rows
+        cells = self.by_cell(here, solid)  # rows are made of particles cell by cell; of these own ones come first
+        here, solid = tuple(axis[cells] for axis in here), solid[cells]
+        self.rows = _renumbered(self._rows(here, solid, here, solid, True, copy[cells]), cells)
         return self.rows
 
     def _holds(self, here) -> bool:
@@ -159,6 +164,20 @@ def three(here):
 
 def _extent(axis):
     return (float(axis.min()), float(axis.max())) if len(axis) else (0.0, 0.0)
+
+
+def _renumbered(rows: Rows, order) -> Rows:
+    """Rows of the particles whose n-th is order[n] from now on, and so are their entries."""
+    place = np.empty(len(order), np.int64)
+    place[order] = np.arange(len(order))
+    _renumber(rows.entries, int(rows.start[-1]), order)
+    return Rows(rows.entries, rows.start[place], rows.number[place])
+
+
+@parallel
+def _renumber(entries, many, order):
+    for e in prange(many):
+        entries[e] = order[entries[e]]
 
 
 @inlined

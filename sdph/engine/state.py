@@ -14,8 +14,7 @@ from numba import prange
 
 from sdph.laws.compiled import parallel
 
-# values of `kind`, of all methods alike; INFLOW: still upstream of its nozzle. Files hold them: they stay as
-# they are
+# values of `kind`, of all methods alike; INFLOW: still upstream of its nozzle. Files hold them: they stay as they are
 GRAIN, WALL, LIQUID, GAS, INFLOW, SOLID = range(6)
 
 
@@ -186,6 +185,11 @@ def take(state: State, rows: np.ndarray) -> State:
     """The given rows (indices or mask) of every array: sorting, removing, choosing."""
     rows = np.flatnonzero(rows) if rows.dtype == bool else rows
     return _map(lambda array: _taken(array, rows), state)
+
+
+def first(state: State, count: int) -> State:
+    """The first `count` particles: a view, so that what is written there is written in the state."""
+    return State(*(array[:count] for array in state))
 
 
 @parallel

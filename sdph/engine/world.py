@@ -7,6 +7,7 @@ processes, in the same order.
 from __future__ import annotations
 
 import functools
+import math
 import os
 
 import numpy as np
@@ -45,6 +46,32 @@ class World:
             return float(np.mean(values)) if len(values) else 0.0
         whole, many = self.sum(np.array([float(np.sum(values)), float(len(values))]))
         return float(whole / many) if many else 0.0
+
+    def known(self, row: dict[str, float]) -> dict[str, float]:
+        """A row with each number from a process that knows it: one that does not has nan."""
+        if self.number == 1 or not row:
+            return row
+        rows = self.everywhere(row)
+        return {name: next((own[name] for own in rows if own[name] == own[name]), math.nan) for name in row}
+
+    def average(self, values, weights) -> float:
+        """Mean by `weights` (n,) of the values (n,) of all processes."""
+        if self.number == 1:
+            return float(np.average(values, weights=weights))
+        whole, weight = self.sum(np.array([float(np.sum(weights * values)), float(np.sum(weights))]))
+        return float(whole / weight)
+
+    def sums(self, row: dict[str, float]) -> dict[str, float]:
+        """Sum of each of the numbers of a row, by their names, which all processes have in this order."""
+        return dict(zip(row, self.sum(np.array([*row.values()])).tolist())) if self.number > 1 and row else row
+
+    def leasts(self, row: dict[str, float]) -> dict[str, float]:
+        """Least of each of them."""
+        return dict(zip(row, self.least(np.array([*row.values()])).tolist())) if self.number > 1 and row else row
+
+    def exact(self, values) -> float:
+        """Sum of the values (n,) of all processes, each of them counted to its last digit."""
+        return math.fsum(values.tolist()) if self.number == 1 else float(self.total(values))
 
     def total(self, values):
         """Sum (k,) of all rows (n, k), or of all values (n,), of all processes; with several of them it depends neither

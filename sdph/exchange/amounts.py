@@ -8,6 +8,7 @@ import numpy as np
 
 from coupling.transfer import Weights
 from sdph.engine.ledger import vector
+from sdph.engine.world import here
 from sdph.exchange import bursts
 
 
@@ -83,7 +84,7 @@ class Handed:
 
     def held(self) -> dict[str, float]:
         """Particles beside the mesh and shares that limiters of the exchange hold, by column of history.csv."""
-        return {"outside_mesh_particles": float(len(self.weights.outside))} | (self.loss.held if self.loss else {})
+        return outside(self.weights) | (self.loss.held if self.loss else {})
 
     @property
     def sources(self) -> dict[str, np.ndarray]:
@@ -94,6 +95,11 @@ class Handed:
         if "heat_coefficient" in told:
             told["heat"] = told["heat"] + self.origin * told["heat_coefficient"]
         return {name: np.ascontiguousarray(values) for name, values in told.items()}
+
+
+def outside(weights) -> dict[str, float]:
+    """Particles that cover no cell of the mesh, of all processes: a column of history.csv."""
+    return {"outside_mesh_particles": float(here().sum(len(weights.outside)))}
 
 
 @dataclass(frozen=True)
@@ -127,19 +133,21 @@ class Taken:
     vapour_impulse: np.ndarray = field(default_factory=lambda: np.zeros(3))
 
     def columns(self) -> dict[str, float]:
-        """Both sides of the exchange for the ledger."""
-        heat = {"heat_to_particles_J": float(self.heat.sum()), "heat_to_gas_J": -self.heat_from_gas}
+        """The particles' side of the exchange for the ledger."""
         vapour = {
+            "heat_to_particles_J": float(self.heat.sum()),
             "evaporated_kg": self.vapour,
-            "vapour_to_gas_kg": self.vapour_to_gas,
             "condensation_refused_kg": self.refused,
             "vapour_motion_J": self.vapour_motion,
             "reacted_kg": self.reacted,
-            "carrier_to_gas_kg": self.carrier_to_gas,
             "reaction_heat_J": self.reaction_heat,
         }
         bound = {"latent_heat_J": self.latent_heat, "capacity_heat_J": self.capacity_heat}
         bound |= {"heat_to_surroundings_J": float(self.lost.sum())}
-        own, other = np.einsum("ij->j", self.impulse), -self.impulse_from_gas
-        impulses = vector("impulse_to_particles", own) | vector("impulse_to_gas", other)
-        return heat | vapour | bound | impulses | vector("impulse_of_vapour", self.vapour_impulse)
+        return vapour | bound | vector("impulse_to_particles", np.einsum("ij->j", self.impulse))
+
+    def columns_of_gas(self) -> dict[str, float]:
+        """The gas's side, by its own sums over the cells."""
+        got = {"heat_to_gas_J": -self.heat_from_gas, "vapour_to_gas_kg": self.vapour_to_gas}
+        got |= {"carrier_to_gas_kg": self.carrier_to_gas}
+        return got | vector("impulse_to_gas", -self.impulse_from_gas) | vector("impulse_of_vapour", self.vapour_impulse)

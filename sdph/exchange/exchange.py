@@ -31,7 +31,7 @@ from sdph.effects.around import electric_field
 from sdph.effects.gas import break_up, film, radiation, sizes, turbulent_dispersion
 from sdph.engine.state import GRAIN, by_material, lengths
 from sdph.exchange import bursts, equations
-from sdph.exchange.amounts import Handed, Taken
+from sdph.exchange.amounts import Handed, Taken, outside
 from sdph.exchange.burning import Burning
 from sdph.exchange.cells import Cells, capacity_of
 from sdph.exchange.equations import Seen, temperature_span
@@ -51,7 +51,7 @@ class Exchange:
         self.parameters = parameters
         self.sizes_p, self.film_p = sizes.kernel(case), film.kernel(case)
         self.cells = Cells(mesh, case.grains.density)
-        self.volumes = self.cells.volumes
+        self.volumes, self.world = self.cells.volumes, self.cells.world
         made = (kind(case, parameters[kind.name], self.sizes_p, self.cells) for kind in LOSING if parameters[kind.name])
         self.losing = next(made, None)
         self.bursting = parameters["micro_explosion"]
@@ -178,7 +178,7 @@ class Exchange:
     def held(self, state, weights, gas_state) -> dict[str, float]:
         """Columns of `Handed.held` at the start."""
         own = self.losing.held_at_start(state, weights, gas_state) if self.losing else {}
-        return {"outside_mesh_particles": float(len(weights.outside))} | own
+        return outside(weights) | own
 
     def _resistance(self, state, weights, gas_state) -> tuple[np.ndarray, np.ndarray]:
         """Mask of the cells with grains, and 1/C_p + 1/C_g of these [m3 K/J]."""
@@ -269,22 +269,22 @@ class Exchange:
         """Rate [1/s], mean by mass, at which gas that a window holds stops grains (`sdph.exchange.window.held`);
         damping (N,) [1/s]. 0 where the gas does not feel the volume of the grains."""
         mass = state.mass * (state.kind == GRAIN)
-        if not self.parameters["gas_pressure"] or self.case.coupling.one_way or not mass.any():
+        if not self.parameters["gas_pressure"] or self.case.coupling.one_way or not self.world.any(bool(mass.any())):
             return 0.0
         own = by_material(state.grain_density, self.case.grains.density)
         alpha_p = np.minimum(state.density / own, self.case.grains.packing_limit)
-        return float(np.average(damping * held(alpha_p, self.case.gas.density / own), weights=mass))
+        return self.world.average(damping * held(alpha_p, self.case.gas.density / own), mass)
 
     def settling(self, state, damping, own, slip) -> float:
         """Longest window [s] in which grains drift right, by means of theirs by mass (`sdph.exchange.window.settling`):
         weight and field, damping (N,) [1/s], their velocity (N, 3) and slip (N,) [m/s]."""
         felt = (state.kind == GRAIN) & (damping > 0.0)
-        if not felt.any():
+        if not self.world.any(bool(felt.any())):
             return math.inf
         gravity, field = np.asarray(self.parameters["gravity"] or (0.0, 0.0, 0.0)), self.parameters["electric_field"]
         pull = lengths(gravity + electric_field.acceleration(field, state))[felt]
         means = pull, 1.0 / damping[felt], np.maximum(lengths(own), slip)[felt]
-        return settling(self.case, *(float(np.average(each, weights=state.mass[felt])) for each in means))
+        return settling(self.case, *(self.world.average(each, state.mass[felt]) for each in means))
 
     def handed_heat(self, handed: Handed) -> float:
         """Heat of motion [J] that the gas was handed."""

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from coupling.transfer import deposit, gather
+from coupling.transfer import gather
 from sdph.effects.gas import film
 from sdph.effects.limiter import share
 from sdph.engine import state as particles
@@ -91,7 +91,7 @@ class Vapour:
 
     def _relaxed(self, state, weights, gas_state, exchanged, surface) -> np.ndarray:
         """Vapour around the particles [kmol/m3] once they have exchanged so much gas (N,) [m3] with the cells."""
-        deposited = deposit(weights, np.stack((exchanged, exchanged * surface), axis=1))
+        deposited = self.cells.sums(weights, np.stack((exchanged, exchanged * surface), axis=1))
         room = self.cells.room(weights, state.mass * (state.kind == GRAIN)) * self.cells.volumes
         cells = vapour_concentration(self.p, gas_state)
         return gather(weights, (room * cells + deposited[:, 1]) / (room + deposited[:, 0]))

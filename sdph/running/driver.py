@@ -20,6 +20,7 @@ from pathlib import Path
 
 from coupling.choice import open_gas
 from coupling.gas import CheckpointError, GasError
+from coupling.shared import SharedGas
 from sdph import effects
 from sdph.case import read as cases
 from sdph.engine import contact, restart, world
@@ -64,11 +65,7 @@ def stepping(case, name: str, folder: Path, gas_folder: Path | None, reporter, *
     inputs.check(case)
     with output.claimed(output.create(folder)):
         try:
-            case = inputs.keep(case, folder)
-            if "grains" in case.matters and case.coupling.gas != "embedded":
-                inputs.keep_gas(template, folder, allow_code)
-            output.write_origin(folder)
-            output.write_text(folder / output.MARK, cases.dumps(inputs.seen_from(case, folder)))
+            case = inputs.prepare(case, folder, template, allow_code)
             case = chain.made(case, folder, run, resume, reporter)
             return (yield from _guarded(Run(case, folder, reporter), None, inputs.gas_of(folder), allow_code))
         except CaseError:
@@ -142,7 +139,9 @@ def _gas_of(run: Run, template: Path | None, allow_code: bool):
     """A context with the gas of a run, closed in the end; None where there is none."""
     if "grains" not in run.case.matters:
         return contextlib.nullcontext()
-    return contextlib.closing(open_gas(run.case.only("grains"), run.folder, template, run.reporter.status, allow_code))
+    own = run.world
+    gas = own.chief and open_gas(run.case.only("grains"), run.folder, template, run.reporter.status, allow_code)
+    return contextlib.closing(gas if own.number == 1 else SharedGas(gas, own))
 
 
 class Run:
@@ -223,7 +222,7 @@ class Run:
         return error
 
     def _begin(self, gas, checkpoint) -> None:
-        self.case = vessel.walled(self.case, gas, self.folder)
+        self.case = self.world.told(self.world.chief and vessel.walled(self.case, gas, self.folder))
         written = self.folder if self.world.chief else None
         simulation = simulation_of(self.case, gas, written and written / "ledger.csv")
         self.simulation, self.out = simulation, Outputs(written, simulation)

@@ -105,9 +105,11 @@ class Fields:
 
     def write(self, time: float, meshes: dict) -> None:
         """`meshes` (name -> pyvista mesh, the same names each time) at `time` [s], and the timeline up to there."""
+        if self.folder is None:
+            return
         number = len(self.entries) // len(meshes)
         files = {f"fields/{name}_{number:05d}.{SUFFIXES[mesh.GetClassName()]}": mesh for name, mesh in meshes.items()}
-        for name, mesh in files.items() if self.folder else ():
+        for name, mesh in files.items():
             save(mesh, self.folder / name)
         parts = [PARTS[name] for name in meshes]
         self.entries += [

@@ -8,6 +8,7 @@ from coupling.transfer import gather
 from sdph.case import probed
 from sdph.case.sections import Probe
 from sdph.engine import state as particles
+from sdph.engine.world import ALONE
 from sdph.laws.kernels import SUPPORT
 
 
@@ -19,6 +20,17 @@ def row(simulation) -> dict[str, float]:
     return columns | simulation.grains.row()
 
 
+def in_the_end(case, first: dict[str, float], last: dict[str, float]) -> dict[str, float]:
+    """What probes show in the last row, and by how much their temperature rose since the first."""
+    found = {}
+    for name, probe in case.probes.items():
+        keys = (f"{name}_{column}" for column in probed.columns(case, probe))
+        found |= {key: last[key] for key in keys if key in last}
+        if (key := f"{name}_temperature_K") in last:
+            found[f"{name}_rise_K"] = last[key] - first[key]
+    return found
+
+
 def probe(simulation, point, fields: tuple[str, ...] = ()) -> dict[str, float]:
     """Values at a point of `fields`, without any the temperatures, by kernel interpolation: of particles where they
     have it, nan if none are near."""
@@ -26,7 +38,7 @@ def probe(simulation, point, fields: tuple[str, ...] = ()) -> dict[str, float]:
     chosen, here = probed.fields(case, Probe(at=point, fields=fields)), _place(point)
     state = simulation.grains.inside
     arrays = {name: _of_grains(case, state, name) for name in chosen["particles"]}
-    found = near(case, particles.positions(state), state.mass, arrays, here)
+    found = near(case, particles.positions(state), state.mass, arrays, here, simulation.world)
     weights = simulation.transfer.weights(here)
     cells = simulation.cell_fields() if "alpha_p" in chosen["gas"] else simulation.gas_state.fields
     return found | _named(case, "gas", {name: gather(weights, cells[name])[0] for name in chosen["gas"]})
@@ -49,15 +61,16 @@ def of_liquid(case, cloud) -> dict[str, float]:
     return columns
 
 
-def near(case, places, mass, arrays: dict, here) -> dict[str, float]:
+def near(case, places, mass, arrays: dict, here, world=ALONE) -> dict[str, float]:
     """Columns of arrays (N,) or (N, 3) of particles at `places` (N, 3) [m], by their mass [kg] and distance to `here`
-    (1, 3): sum m (1 - r/R)^2 f over sum m (1 - r/R)^2 within R, the reach of the kernel; nan if none are near."""
+    (1, 3): sum m (1 - r/R)^2 f over sum m (1 - r/R)^2 within R, the reach of the kernel, those of all processes of a
+    world; nan if none are near."""
     reach = SUPPORT * case.smoothing_length
     r = particles.lengths(places - here)
     close = np.flatnonzero(r < reach)
     weight = mass[close] * (1.0 - r[close] / reach) ** 2
-    total = weight.sum() if len(close) else np.nan
-    means = {name: (weight * values[close].T).sum(axis=-1) / total for name, values in arrays.items()}
+    total = world.sum(float(weight.sum())) or np.nan
+    means = {name: world.sum((weight * values[close].T).sum(axis=-1)) / total for name, values in arrays.items()}
     return _named(case, "particles", means)
 
 

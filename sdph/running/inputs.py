@@ -186,6 +186,17 @@ def keep_gas(template: Path, folder: Path, allow_code: bool) -> None:
         raise CaseError(f"{source} cannot be copied ({reason}); mend the OpenFOAM case {template}") from None
 
 
+def prepare(case, folder: Path, template: Path, allow_code: bool):
+    """The case with its files, and the OpenFOAM case `template` of its gas, in a new run folder, which a run can go on
+    with from then on."""
+    case = keep(case, folder)
+    if "grains" in case.matters and case.coupling.gas != "embedded":
+        keep_gas(template, folder, allow_code)
+    output.write_origin(folder)
+    output.write_text(folder / output.MARK, cases.dumps(seen_from(case, folder)))
+    return case
+
+
 def copy_case(file: Path, folder: Path) -> None:
     """case.toml in a new folder, with copies of the files that it names."""
     text = file.read_text(encoding="utf-8")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from pathlib import Path
 
@@ -21,7 +22,7 @@ class Outlet:
 
     KEPT = ("table", "left", "sums", "volume")  # see sdph.engine.kept
 
-    def __init__(self, case, path: Path):
+    def __init__(self, case, path: Path | None):
         self.case, self.table = case, Table(path)
         self.arrays, self.exits = carried(case), outflow.exits(case)
         self.left = 0
@@ -32,8 +33,16 @@ class Outlet:
         empty = particles.empty(0, self.arrays, self.case.dimensions)
         self.table.name(tuple(self._columns(0.0, empty)))
 
-    def note(self, time: float, gone) -> None:
-        """Write what is found outside at `time` [s], the end of a window: where it is then, State `gone`."""
+    def note(self, time: float, gone, world) -> None:
+        """Write what is found outside at `time` [s], the end of a window: where it is then. State `gone` is of each
+        process of a world, None where nothing is."""
+        if not world.any(gone is not None):
+            return
+        found = [own for own in world.gather(gone) or () if own is not None]
+        if found:
+            self._write(time, functools.reduce(particles.join, found))
+
+    def _write(self, time: float, gone) -> None:
         columns = self._columns(time, gone)
         for row in zip(*columns.values()):
             self.table.write(dict(zip(columns, row)))
@@ -71,6 +80,13 @@ class Outlet:
         for number in used if len(used) > 1 else ():
             found |= _told(f"outflow_{self.exits[number]}", self.sums[number], self.volume[number])
         return found
+
+
+def beside(case, table: Table) -> Outlet | None:
+    """The record beside a ledger's `table`, where that is on disk, of a case whose particles leave."""
+    if "outflow" not in case.effects or not table:
+        return None
+    return Outlet(case, Path(table.file.name).with_name(FILE) if table.lasts else None)
 
 
 def _told(name: str, sums, volume) -> dict[str, float]:

@@ -29,10 +29,17 @@ from sdph.running.interruption import SIGNALS
 from sdph.schema import CaseError
 
 # effects whose loops are told what particles of others are like (HALO, and what they refresh themselves)
-SHARED = (
+OF_LIQUIDS = (
     "density_diffusion", "drain", "frame", "gravity", "inflow", "laminar_viscosity", "liquid_damping", "outflow",
     "shear_thinning", "shifting", "surface_tension", "tank", "xsph",
 )  # fmt: skip
+OF_GRAINS = (
+    "artificial_viscosity", "break_up", "conduction", "drag", "electric_field", "evaporation", "friction",
+    "gas_pressure", "grain_shifting", "granular_pressure", "granular_temperature", "granular_viscosity", "gravity",
+    "heat", "inflow", "lift", "micro_explosion", "outflow", "radiation", "reaction", "turbulent_dispersion",
+    "wall_heat", "walls",
+)  # fmt: skip
+SHARED = {"liquid": OF_LIQUIDS, "grains": OF_GRAINS}
 KNOWN = range(6)  # codes that a process ends with of itself
 RULE = "-" * 20  # about what mpirun has to say
 DIED = re.compile(r"process rank (\d+) .*exited on (signal \d+ \([^)]*\))")
@@ -43,10 +50,15 @@ GRACE = 3.0  # s that others wait for what the first process has to say; so that
 def refuse(case, number: int) -> None:
     """CaseError where these processes cannot share the particles of a case."""
     given, mend = f"--ranks {number}", "leave --ranks out, and the run has one process with threads"
-    if case.moved_by(case.matters[0]) != "liquid" or len(case.matters) > 1:
-        raise CaseError(f"{given}: only liquids alone are shared among processes; {mend}")
-    if left := sorted(set(case.effects) - set(SHARED)):
-        raise CaseError(f"{given}: {left[0]} is not shared among processes; known: {', '.join(SHARED)}; {mend}")
+    known = SHARED.get(case.moved_by(case.matters[0]), ())
+    if not known or len(case.matters) > 1:
+        raise CaseError(f"{given}: only grains in a gas or a liquid alone are shared among processes; {mend}")
+    if case.mixed:
+        raise CaseError(f"{given}: grains of several materials are not shared among processes; {mend}")
+    if name := next((name for name, own in case.nozzles.items() if own.record and not own.table), None):
+        raise CaseError(f"{given}: nozzles.{name} records a run, which is of one process; run it first, or {mend}")
+    if left := sorted(set(case.effects) - set(known)):
+        raise CaseError(f"{given}: {left[0]} is not shared among processes; known: {', '.join(known)}; {mend}")
     most = CROWD * (os.cpu_count() or 1)
     if number > most and not case.run.launcher:
         raise CaseError(f"{given}: this machine has room for {most} processes; give fewer, or a run.launcher")
@@ -64,14 +76,13 @@ def launcher(case, number: int) -> list[str]:
     return [*install.mpirun(number), "--bind-to", "none"]
 
 
-def run(case, folder: Path, number: int, options: list[str]) -> int:
-    """Run a case in a new folder by so many processes, with `options` of the command line; the exit code."""
+def run(case, folder: Path, number: int, template: Path, options: list[str], *, allow_code: bool) -> int:
+    """Run a case in a new folder by so many processes, with `options` of the command line; the exit code. `template` is
+    the OpenFOAM case of its gas."""
     refuse(case, number)
     inputs.check(case)
     with output.claimed(output.create(folder)):
-        case = inputs.keep(case, folder)
-        output.write_origin(folder)
-        output.write_text(folder / output.MARK, cases.dumps(inputs.seen_from(case, folder)))
+        case = inputs.prepare(case, folder, template, allow_code)
         code = _started(case, folder, number, options)
     if code == 2 and not restart.numbered(folder):  # the case cannot be run: as if it had not been tried
         shutil.rmtree(folder)

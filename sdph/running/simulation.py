@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import contextlib
 import time as clock
-from pathlib import Path
 
 import numpy as np
 
 from coupling.gas import GasError, Unfinished
 from coupling.transfer import Transfer, gather
 from sdph import effects
-from sdph.case import probed
 from sdph.effects.around import electric_field
+from sdph.engine import gathered
 from sdph.engine import state as particles
 from sdph.engine.kept import Unfit
 from sdph.exchange.exchange import Exchange
@@ -41,12 +40,11 @@ class Simulation:
         self.parameters = self.grains.parameters
         self.transfer = Transfer(gas.mesh, case.smoothing_length, case.domain.size, case.domain.corner)
         self.exchange = Exchange(case, gas.mesh, self.parameters)
-        self.repeated, self.grid = 0, None
+        self.repeated, self.grid, self.world = 0, None, self.stepper.world
         self.notices = self.grains.notices  # for the user, until somebody has passed them on
         self._weights_now, self.pressed = None, {}  # forces of the gas on boundaries in the last window
         self.beside, self.limiters = Beside(), Limiters()  # other methods; what limiters hold
-        recorded = "outflow" in case.effects and ledger.table  # beside the ledger, where that is on disk
-        self.outlet = outlet.Outlet(case, Path(ledger.table.file.name).with_name(outlet.FILE)) if recorded else None
+        self.outlet = outlet.beside(case, ledger.table)
         self.wall = {"particles": 0.0, "exchange": 0.0, "gas": 0.0}
 
     @staticmethod
@@ -74,15 +72,21 @@ class Simulation:
 
     @property
     def state(self):
+        """The particles of this process."""
         return self.grains.state
 
     @property
     def stepper(self):
         return self.grains.stepper
 
+    @contextlib.contextmanager
     def whole(self):
-        """Context in which the first process holds all particles, as of a liquid alone; True there."""
-        return contextlib.nullcontext(True)
+        """Context in which the first process holds all particles, and no other any; True there."""
+        kept = self._weights_now
+        with gathered.whole(self.stepper) as chief:
+            self._weights_now = kept if self.world.number == 1 else None
+            yield chief
+        self._weights_now = kept
 
     @property
     def methods(self) -> list:
@@ -104,7 +108,7 @@ class Simulation:
         one_way = self.case.coupling.one_way
         alpha_g = None if one_way or not self.case.coupling.voidage else self._alpha_g()
         self.gas_state = self.gas.start(alpha_g, () if one_way else self.exchange.sources, self.exchange.fields)
-        self.clock.obey(effects.window_limits(self.parameters, self.case, self.state))
+        self._obey_effects()
         rate, stake, losing, grip, settling = self.exchange.pace(self.state, self.weights, self.gas_state)
         self.clock.obey({"settling": settling})
         if not one_way:
@@ -144,7 +148,7 @@ class Simulation:
         dt = end - self.time
         self.pressed = self._forces(before, dt)
         taken = self._timed("exchange", self.exchange.take, self.state, handed, self.gas_state)
-        changed = learned(self.state, taken.heat, dt)
+        changed = self.world.sum(np.array(learned(self.state, taken.heat, dt))).tolist()
         self.clock.hold(self.exchange.grip(self.state, handed.damping))
         settling = self.exchange.settling(self.state, handed.damping, handed.velocity, handed.around[0])
         self.clock.obey({"settling": settling})
@@ -154,16 +158,21 @@ class Simulation:
         self.grains.close()
         way = self.grains.way
         self._hear(handed.held() | self.gas_state.budget.held)
-        exchanged = taken.columns() | handed.columns() | held.columns(way) | broken
+        exchanged = self.world.sums(taken.columns() | handed.columns() | held.columns(way) | broken)
+        exchanged |= taken.columns_of_gas()
         exchanged |= {"drag_heat_J": self.exchange.handed_heat(handed)}
         exchanged |= {"friction_J": self.exchange.rub(handed, taken, self.gas_state, way, self.grains.damped)}
         self.clock.learn(dt, *changed, self.gas_state.budget.courant, self.grains.fastest())
         self.clock.thicken(dt, *self.exchange.lost(handed, self.gas_state))
-        self.clock.obey(effects.window_limits(self.parameters, self.case, self.state))
+        self._obey_effects()
         self._timed("exchange", self._renew)
         self.clock.obey({"contact": self.beside.limit(self.state)})
         exchanged |= self.grains.columns()
         self.ledger.close_window(end, dt, self.clock.limit, self._totals(), self.gas_state.budget, exchanged)
+
+    def _obey_effects(self) -> None:
+        """Take note of the longest windows that effects bear now."""
+        self.clock.obey(self.world.leasts(effects.window_limits(self.parameters, self.case, self.state)))
 
     def _react(self, handed, taken, dt: float) -> Held:
         """Put on the particles what holds over a window of `dt` [s]: the answer of the gas, gravity, contact."""
@@ -183,8 +192,8 @@ class Simulation:
         """Take, between windows, particles that come and go; there may be more to exchange then."""
         if self.grains.renew(self.clock.longest()):
             self._weights_now = None
-        if self.outlet and self.grains.gone is not None:
-            self.outlet.note(self.time, self.grains.gone)
+        if self.outlet:
+            self.outlet.note(self.time, self.grains.gone, self.world)
         if self.grains.source:
             self.clock.stake(self.exchange.stake(self.state, self.weights, self.gas_state))
 
@@ -238,11 +247,13 @@ class Simulation:
 
     def meshes(self) -> dict:
         """Particles and gas for the timeline."""
-        self.grid = self.grid or output.gas_grid(self.gas)
-        return {
-            "particles": self.grains.points(),
-            "gas": output.with_fields(*self.grid, self.cell_fields()),
-        } | self.beside.points()
+        fields = self.cell_fields()
+        with self.whole() as chief:
+            if not chief:
+                return {}
+            self.grid = self.grid or output.gas_grid(self.gas)
+            own = {"particles": self.grains.points(), "gas": output.with_fields(*self.grid, fields)}
+        return own | self.beside.points()
 
     def walls(self):
         """Surfaces of walls for pictures (pyvista); None where there are none."""
@@ -250,16 +261,11 @@ class Simulation:
         return parts[0].append_polydata(*parts[1:]) if parts else None
 
     def summary(self, out) -> dict[str, float]:
-        """summary.json, its own part; what probes rose by is told from the first and the last row of the history."""
+        """summary.json, its own part."""
         own = {"cells": len(self.gas.mesh.volumes)} | self.grains.summary() | {"windows_repeated": self.repeated}
         own |= self.limiters.summary() | (self.outlet.summary() if self.outlet else {})
         own |= {f"mean_{name}": value for name, value in self._forces(None, self.time).items()}
-        own |= forces.summary(self.methods)
-        for name, probe in self.case.probes.items():
-            keys = (f"{name}_{column}" for column in probed.columns(self.case, probe))
-            own |= {key: out.last[key] for key in keys if key in out.last}
-            if (key := f"{name}_temperature_K") in out.last:
-                own[f"{name}_rise_K"] = out.last[key] - out.first[key]
+        own |= forces.summary(self.methods) | history.in_the_end(self.case, out.first, out.last)
         return own | self.beside.named(lambda method: method.summary() | method.ledger.summary())
 
     def warnings(self) -> list[str]:

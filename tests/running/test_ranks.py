@@ -3,26 +3,21 @@
 import csv
 import json
 import os
-import shutil
 import signal
 import subprocess
-import sys
 import time
 from pathlib import Path
 
 import numpy as np
 import pytest
-import pyvista
 
 from sdph.cli import main
 from sdph.engine import world
 from sdph.engine.world import World
 from sdph.running import ranks
+from tests.of_ranks import SDPH, WITH_MPI, fine, particles, run, shared_by
 
-pytestmark = pytest.mark.skipif(
-    shutil.which("mpirun") is None and "CI" not in os.environ, reason="there is no mpirun (apt install openmpi-bin)"
-)
-SDPH = (sys.executable, "-m", "sdph.cli", "run")
+pytestmark = WITH_MPI
 COARSE = ("--set", "resolution.spacing_mm=5.715", "--until", "0.02")
 CASES = {  # name -> scene and options: what is shared of an effect at least once, in two dimensions and in three
     "front": (2, "dam_break", *COARSE),
@@ -34,26 +29,6 @@ CASES = {  # name -> scene and options: what is shared of an effect at least onc
     "drain, frame, in space": (2, "sloshing_cassini", "--until", "0.02"),
 }  # fmt: skip
 NOT_ALIKE = ("ranks", "imbalance", "halo_share")  # in the summary, and all that is of time or a drift
-
-
-def run(*options, ranks=1, **more):
-    """The finished process of `sdph run`."""
-    given = (*SDPH, *map(str, options), *(("--ranks", str(ranks)) if ranks > 1 else ()))
-    return subprocess.run(given, capture_output=True, text=True, timeout=300, check=False, **more)
-
-
-def fine(folder: Path, *options, ranks=1) -> Path:
-    """The folder of a run that went well."""
-    done = run(*options, ranks=ranks) if "--resume" in options else run(*options, "--out", folder, ranks=ranks)
-    assert done.returncode == 0, done.stderr
-    return folder
-
-
-def particles(folder: Path):
-    """The last particles, by number."""
-    last = pyvista.read(sorted(folder.glob("fields/particles_*"))[-1])
-    order = np.argsort(last["ident"])
-    return {"place": last.points[order]} | {name: last[name][order] for name in last.array_names}
 
 
 def alike(found: Path, one: Path, bar: float = 1e-11) -> None:
@@ -106,19 +81,6 @@ def begun(folder: Path) -> subprocess.Popen:
     return going
 
 
-def shared_by(folder: Path) -> list[int]:
-    """Numbers of the processes that share a run."""
-    found = []
-    for entry in Path("/proc").glob("[0-9]*"):
-        try:
-            words = (entry / "cmdline").read_bytes().decode().split("\0")
-        except OSError:
-            continue
-        if "--resume" in words and str(folder) in words and "python" in words[0]:
-            found.append(int(entry.name))
-    return found
-
-
 def test_when_one_process_dies_all_end_and_the_run_says_how_to_go_on(tmp_path):
     going = begun(tmp_path / "run")
     os.kill(max(shared_by(tmp_path / "run")), signal.SIGKILL)
@@ -157,8 +119,10 @@ def test_others_wait_once_for_what_the_first_has_to_say(monkeypatch):
 @pytest.mark.parametrize(
     ("options", "told"),
     [
-        (("bubbling_bed", "--ranks", "2"), "only liquids alone are shared"),
-        (("swirl_sheet", "--ranks", "2"), "only liquids alone are shared"),
+        (("segregation", "--ranks", "2"), "grains of several materials are not shared"),
+        (("swirl_spray", "--ranks", "2"), "records a run"),
+        (("bed_with_tube", "--ranks", "2", "--watch"), "a page is of one process"),
+        (("swirl_sheet", "--ranks", "2"), "only grains in a gas or a liquid alone are shared"),
         (("dam_break", "--ranks", "0"), "a whole number, at least 1"),
         (("dam_break", "--ranks", "100000"), "room for"),
         (("dam_break", "--ranks", "2", "--set", "run.launcher=no_such_launcher"), "there is no no_such_launcher"),

@@ -23,7 +23,7 @@ def told(number: int) -> dict:
 
 def test_shares_are_even_and_copies_grow_with_the_ranks():
     two, four = told(2), told(4)
-    assert two["liquid of the fullest rank over the mean"] < 1.06 > four["liquid of the fullest rank over the mean"]
+    assert two["fullest rank over the mean, walls left out"] < 1.06 > four["fullest rank over the mean, walls left out"]
     assert 0.0 < two["copies of others', over own particles"] < four["copies of others', over own particles"]
     assert four["memory of a rank"] < two["memory of a rank"]
     assert 1.0 > two["expected efficiency, one thread a rank"] > four["expected efficiency, one thread a rank"] > 0.0
@@ -42,8 +42,8 @@ def test_the_run_has_the_copies_that_were_foreseen(tmp_path):
 def test_explain_prints_it_and_refuses_what_run_refuses(capsys):
     assert main(["explain", PATCH[0], "--set", PATCH[1], "--ranks", "2", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["ranks"][0] == {"what": "ranks", "value": 2, "unit": ""}
-    with pytest.raises(CaseError, match="only liquids alone"):
-        sharing.rows(cases.load(scenes.HERE / "disc_cluster" / "case.toml"), 2)
+    with pytest.raises(CaseError, match="only grains in a gas or a liquid alone"):
+        sharing.rows(cases.load(scenes.HERE / "thick_ring" / "case.toml"), 2)
 
 
 def test_a_script_for_slurm_stands_beside_the_case(tmp_path):

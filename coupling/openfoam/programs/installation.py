@@ -10,11 +10,13 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
+from sdph.engine import world
 from sdph.schema import CaseError
 
 DEBIAN_PROJECT = Path("/usr/share/openfoam")
 # packages of openfoam.com and openfoam.org
 PACKAGED = ("/usr/lib/openfoam/openfoam*/etc/bashrc", "/opt/openfoam*/etc/bashrc")
+OF_RANK = re.compile(r"OMPI_(?!ALLOW_RUN_AS_ROOT)|PMIX_|PRTE_")  # what MPI tells one process, and is not of its own
 INSTALL_LINE = "apt-get install --no-install-recommends openfoam openmpi-bin g++ libc6-dev"
 
 
@@ -34,9 +36,11 @@ class Installation:
 
     def environment(self) -> dict[str, str]:
         """Environment variables for its programs."""
-        if self.bashrc is not None:
-            return dict(_sourced(self.bashrc))
-        return dict(os.environ) | {"WM_PROJECT_DIR": str(self.project)}
+        found = dict(_sourced(self.bashrc)) if self.bashrc is not None else dict(os.environ)
+        found |= {} if self.bashrc is not None else {"WM_PROJECT_DIR": str(self.project)}
+        if world.here().number == 1:
+            return found
+        return {name: value for name, value in found.items() if not OF_RANK.match(name)}
 
 
 def find() -> Installation | None:

@@ -47,10 +47,11 @@ def kernel(case) -> InflowP:
 
 def held(p, method) -> dict[str, float]:
     """Number of particles upstream of a nozzle, outside the domain, which stand in for its edge in the gas."""
-    s = method.state
+    s = method.domain.own(method.state)
     places, domain = particles.positions(s)[s.kind == INFLOW], method.case.domain
     low, high = (*domain.corner, 0.0)[:3], (*domain.upper, 0.0)[:3]
-    return {"upstream_particles": float(((places < low) | (places > high)).any(axis=1).sum())}
+    beside = int(((places < low) | (places > high)).any(axis=1).sum())
+    return {"upstream_particles": float(method.world.sum(beside))}
 
 
 def call(scales) -> Judgement:

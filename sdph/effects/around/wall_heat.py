@@ -123,13 +123,14 @@ def given(p, conduction_p, kernel, box, faces, f, s, i):
 def give(p, conduction_p, kernel, box, faces, facing, s, dt, gave):
     """Add to gave (F, 2) what each face gives in dt [s]: heat [J], and the area that is covered times dt [m^(d-1) s].
 
-    `facing` are the rows of the faces. A particle upstream of a nozzle meets no wall.
+    `facing` are the rows of the faces. A particle upstream of a nozzle meets no wall; what a copy gets is told where
+    it is no copy.
     """
     for f in prange(len(gave)):
         heat = covered = 0.0
         for n in range(facing.number[f]):
             i = entry(facing, f, n)
-            if s.kind[i] == INFLOW:
+            if s.kind[i] == INFLOW or (len(s.copy) > 0 and s.copy[i]):
                 continue
             got, area = given(p, conduction_p, kernel, box, faces, f, s, i)
             heat += got

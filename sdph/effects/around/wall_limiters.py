@@ -22,15 +22,30 @@ def nearer(p, wall, box, s, found):
             found[i] |= wall.stick[w] > 0.0 and y < p.contact
 
 
+def pressures(method) -> tuple[np.ndarray, np.ndarray]:
+    """Pressure (W,) [Pa] of the dummies before it is held, nan without grains near, and after; of several processes
+    from one whose own particles see the dummy, which has all that press it."""
+    found = method.unheld, method.wall.pressure
+    if method.domain.alone:
+        return found
+    facing, first = method.facing, np.full(len(method.unheld), len(method.state.x), np.int64)
+    some = facing.number > 0
+    first[some] = facing.entries[facing.start[:-1][some]]  # rows begin with own particles
+    mine = (first < len(method.own.x)) & ~np.isnan(method.unheld)
+    told = method.world.most(np.where(mine, found, -np.inf))
+    return np.where(np.isinf(told[0]), np.nan, told[0]), told[1]
+
+
 def held(p, method) -> dict[str, float]:
     """Share of the dummies with grains in front whose pressure is held, and the largest suction [Pa] that is taken
     away; with a specularity the share of the grains whose distance is held, and of those past the cap of g0."""
     if p.paper == 1:
         return {}
-    told = ~np.isnan(method.unheld)
-    pressure = method.unheld[told]
+    unheld, own = pressures(method)
+    told = ~np.isnan(unheld)
+    pressure = unheld[told]
     found = {
-        "walls_held_share": float((pressure != method.wall.pressure[told]).mean()) if len(pressure) else 0.0,
+        "walls_held_share": float((pressure != own[told]).mean()) if len(pressure) else 0.0,
         "wall_suction_Pa": float((-pressure).max(initial=0.0)),
     }
     if p.specularity < 0.0:

@@ -23,12 +23,12 @@ def tell(felt, p, kernel, box, wall, facing, s, stress, friction_p, dt):
 @parallel
 def feel(p, kernel, box, wall, facing, s, stress, friction_p, dt, felt):
     """Add to felt (W, 6) [kg m/s]; `facing` are the rows of the dummies. A particle upstream of a nozzle feels no wall
-    and presses none."""
+    and presses none; what a copy presses is told where it is no copy."""
     for w in prange(len(wall.x)):
         ax = ay = az = tx = ty = tz = 0.0
         for k in range(facing.number[w]):
             i = entry(facing, w, k)
-            if s.kind[i] == INFLOW:
+            if s.kind[i] == INFLOW or (len(s.copy) > 0 and s.copy[i]):
                 continue
             rho, theta = solid(p, kernel, s, i), s.theta[i] if len(s.theta) else np.nan
             px, py, pz, fx, fy, fz, _ = pair(p, kernel, box, wall, w, s, i, rho, theta, stress, friction_p)

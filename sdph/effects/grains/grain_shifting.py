@@ -83,7 +83,7 @@ def held(p, method) -> dict[str, float]:
     far = particles.lengths(method.shifted) if len(method.shifted) else np.zeros(len(method.state.x))
     return {
         "shifted_share": limiter.share(method.state, far > 0.0),
-        "shift_m": float(far.max(initial=0.0)),
+        "shift_m": method.world.most(float(far.max(initial=0.0))),
     }
 
 

@@ -83,8 +83,9 @@ class Guard(Watch):
 
     def sub_step(self, stepper) -> None:
         """Look, after a sub-step, for NaN, speed, temperature of the particles."""
-        s, most = stepper.state, RUNAWAY * self.reach
-        if within(s, stepper.scratch.sound, most, COLLAPSE * self.reach, self.coldest, self.hottest):
+        s, most = stepper.own, RUNAWAY * self.reach
+        sound = stepper.scratch.sound[: len(s.x)]
+        if within(s, sound, most, COLLAPSE * self.reach, self.coldest, self.hottest):
             return
         ruled = f"the sub-step was ruled by {stepper.limit or 'the window'}"
         lower = f"run.step_factor (now {self.case.run.step_factor:g}; {ruled}), then {self._shorter()}"
@@ -94,7 +95,7 @@ class Guard(Watch):
             self.hold("temperature", s.temperature, (self.coldest, self.hottest, "K"), s, lower)
         self.hold("density", s.density, (0.0, math.inf, "kg/m3"), s, lower)
         collapse = f"what packs the grains: the sub-step has fallen to {stepper.length:.2g} s"
-        self.hold("speed of sound", stepper.scratch.sound, (0.0, COLLAPSE * self.reach, "m/s"), s, collapse)
+        self.hold("speed of sound", sound, (0.0, COLLAPSE * self.reach, "m/s"), s, collapse)
 
     def gas(self, fields: dict, centres) -> str | None:
         """Name what is out of bounds in the gas after a window, NaN, speed or temperature; None where nothing is."""

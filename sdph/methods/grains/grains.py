@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from sdph import effects
@@ -21,6 +19,7 @@ from sdph.methods.grains import account, start
 from sdph.methods.grains.history import Warmed, of_materials, tracked
 from sdph.methods.grains.method import Stepper
 
+CAME_IN = ("mass", "energy", "motion", "momentum")  # what a source counts
 NOTHING_LEFT = {"left_kg": 0.0, "left_J": 0.0, "left_motion_J": 0.0} | vector("impulse_of_outflow", np.zeros(3))
 
 
@@ -38,6 +37,7 @@ class Grains:
         state = start.fill(case, names, self.notices)
         self.source = Source(case, names, len(state.x) + 1) if self.parameters["inflow"] else None
         self.stepper = Stepper(case, self.parameters, state, self.source, Clock(case.run).shortest)
+        self.world = self.stepper.world
         self.time, self.windows, self.came, self.left = 0.0, 0, self._came_in(), NOTHING_LEFT
         self.pushed = Pushed("grain", "friction", self.stepper.parts, case.dimensions)
         self.warmed = Warmed(self.stepper.hot)
@@ -46,11 +46,12 @@ class Grains:
 
     @property
     def state(self):
-        return self.stepper.state
+        """The particles of this process."""
+        return self.stepper.own
 
     @property
     def inside(self):
-        """The particles that are in the gas."""
+        """Those of them that are in the gas."""
         return particles.grains(self.state)
 
     @property
@@ -91,7 +92,7 @@ class Grains:
         what has evaporated or burned is taken out."""
         self.stepper.force(warmth, push, damping)
         left = self.state.mass > 0.0
-        if not left.all():
+        if self.world.any(not left.all()):
             self.stepper.replace(particles.take(self.state, left))
             self.stepper.prepare()
 
@@ -105,8 +106,12 @@ class Grains:
         """End the window, of which the history has a row; `way` and `damped` are what `Stepper.release` tells of it."""
         self.pushed.new_row()
         self.pushed.add(self.stepper.pushed(), self.time - self.begun)
-        self.warmed.add(self.stepper.account.gave, self.time - self.begun)
+        self.warmed.add(self.world.sum(self.stepper.account.gave), self.time - self.begun)
         self.way, self.damped = self.stepper.release()
+        if self.source and self.world.number > 1:
+            for name, before in zip(CAME_IN, self.came):  # through the mouths of all processes
+                came = self.world.sum(getattr(self.source, name) - before)
+                setattr(self.source, name, before + came)
 
     def renew(self, longest: float) -> bool:
         """Take out what has left, and make what comes in within `longest` [s]; tell whether particles are others, or
@@ -119,8 +124,8 @@ class Grains:
             self.left = self._of(self.gone)
             state = particles.take(state, ~gone)
         if self.source:
-            state = self.source.fill(state, self.time, longest)
-        replaced = state is not self.state
+            state = self.stepper.domain.admitted(self.source.fill(state, self.time, longest))
+        replaced = self.world.any(len(state.x) != len(self.state.x) or bool(gone.any()))
         if replaced:
             self.stepper.replace(state)
         changed = replaced or bool(self.parameters["evaporation"] or self.parameters["reaction"])
@@ -149,28 +154,30 @@ class Grains:
 
     def fastest(self) -> float:
         """Speed of the fastest particle [m/s]."""
-        return float(particles.lengths(particles.velocities(self.state)).max(initial=0.0)) if self.moves else 0.0
+        speed = float(particles.lengths(particles.velocities(self.state)).max(initial=0.0)) if self.moves else 0.0
+        return self.world.most(speed)
 
     def columns(self) -> dict[str, float]:
         """Ledger columns of the window: what the grains got from where, and what came and left."""
-        found = account.columns(self.stepper.account)
+        found = self.world.sums(account.columns(self.stepper.account) | self.torn | self.left)
         names = ("injected_kg", "injected_J", "injected_motion_J")
         found |= {name: now - before for name, now, before in zip(names, self._came_in(), self.came)}
         momentum = self._came_in()[-1] - self.came[-1]
         found |= {key: found[key] + value for key, value in vector("impulse_of_inflow", momentum).items()}
-        return found | self.torn | self.left
+        return found
 
     def totals(self) -> dict[str, float]:
         """Ledger columns of what there is in the gas: mass, thermal energy, motion, agitation, momentum."""
         state = self.inside
         velocity = particles.velocities(state)
-        row = {"particles": len(state.x), "particle_mass_kg": float(state.mass.sum())}
-        row["particle_energy_J"] = math.fsum(self._enthalpy(state).tolist())
+        row = {"particle_mass_kg": float(state.mass.sum())}
         row["particle_kinetic_energy_J"] = float(0.5 * np.einsum("i,ij,ij->", state.mass, velocity, velocity))
         row["particle_fluctuation_energy_J"] = float(1.5 * state.mass @ state.theta) if len(state.theta) else 0.0
         gravity = -np.asarray(self.parameters["gravity"] or (0.0, 0.0, 0.0))
         row["particle_potential_energy_J"] = float(state.mass @ (particles.positions(state) @ gravity))
-        return row | vector("particle_momentum", np.einsum("i,ij->j", state.mass, velocity))
+        row |= vector("particle_momentum", np.einsum("i,ij->j", state.mass, velocity))
+        thermal = self.world.exact(self._enthalpy(state))
+        return {"particles": self.world.sum(len(state.x)), "particle_energy_J": thermal} | self.world.sums(row)
 
     def row(self) -> dict[str, float]:
         """Columns of history.csv."""
@@ -202,7 +209,8 @@ class Grains:
 
     def summary(self) -> dict[str, float]:
         """Its part of summary.json."""
-        return {"sub_steps": self.steps, "wall_contacts": self.stepper.contacts} | self.warmed.summary()
+        own = {"sub_steps": self.steps, "wall_contacts": self.stepper.contacts} | self.warmed.summary()
+        return own | self.stepper.domain.summary(self.steps - self.stepper.steps_before)
 
     def warnings(self) -> list[str]:
         """Nothing that the ledger does not tell."""
@@ -218,7 +226,7 @@ class Grains:
     def _came_in(self):
         """Mass [kg], enthalpy, energy of motion [J] and momentum [kg m/s] through the nozzles since the start."""
         own = self.source
-        return (own.mass, own.energy, own.motion, own.momentum) if own else (0.0, 0.0, 0.0, np.zeros(3))
+        return tuple(getattr(own, name) for name in CAME_IN) if own else (0.0, 0.0, 0.0, np.zeros(3))
 
     def _of(self, left) -> dict[str, float]:
         """Ledger columns of the grains that left."""

@@ -21,7 +21,7 @@ def tracked(case, stepper) -> dict[str, float]:
     come in and once they are gone."""
     if not case.track:
         return {}
-    state, columns, arrays = stepper.state, {}, carried(case)
+    state, columns, arrays = stepper.own, {}, carried(case)
     fields = {key: getattr(state, name) for key, name in TRACKED.items() if name in arrays}
     fields["convective_heat_W"] = state.received if len(state.received) else np.zeros(len(state.x))
     for ident in case.track:
@@ -29,7 +29,7 @@ def tracked(case, stepper) -> dict[str, float]:
         found = {key: float(values[place[0]]) if len(place) else math.nan for key, values in fields.items()}
         found["conductive_heat_W"] = float(stepper.conduction_rate(place[0])) if len(place) else math.nan
         columns |= {f"particle_{ident}_{key}": value for key, value in found.items()}
-    return columns
+    return stepper.world.known(columns)
 
 
 def carried(case) -> set[str]:

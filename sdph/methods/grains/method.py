@@ -13,42 +13,51 @@ from sdph import effects
 from sdph.effects import OFF
 from sdph.effects.around import wall_contact
 from sdph.effects.effect import Live
-from sdph.effects.grains import friction, grain_shifting
+from sdph.effects.grains import grain_shifting
+from sdph.engine import gathered, world
 from sdph.engine import state as particles
 from sdph.engine.clock import count_of_parts
 from sdph.engine.kept import GROWING, Unfit
 from sdph.engine.rows import Neighbours
 from sdph.engine.state import INFLOW
 from sdph.engine.walls.faces import Heated
-from sdph.engine.walls.parts import gathered
 from sdph.engine.walls.sides import Boundary
 from sdph.laws.kernels import SUPPORT
 from sdph.methods.grains import account, sound, sub_step
 from sdph.methods.grains import equations as rates
 from sdph.methods.grains.bounds import Guard
+from sdph.methods.grains.windowed import Windowed
 
 SAME_DENSITY = 1e-6  # of a density: what is summed twice differs by round-off at most; our choice
 
 
-class Stepper:
+class Stepper(Windowed):
     """State of the particles, and how it goes forward."""
 
     KEPT, FORMS = ("state", "neighbours", "steps", "contacts", "limit"), {"state": GROWING}  # see sdph.engine.kept
-    # what a sub-step takes from neighbours and theirs, fresh, of `state`: all else of a particle is its own affair
-    HALO = (*"xyzuvw", "mass", "density", "temperature", "diameter", "theta", *friction.ARRAYS)
-    # and these, of several materials; for their drag on each other velocities once more, after the kick, with kind and
-    # material
+    ROWS = ()  # arrays of a row a particle that a checkpoint holds beside the state (sdph.engine.gathered)
+    # what a sub-step takes from neighbours and theirs, fresh, of `state`, beside their density and `scratch.bearing`;
+    # only the first change by a sub-step. Of several materials for their drag on each other velocities once more, after
+    # the kick, with kind and material
+    MOVING, HALO = (*"xyzuvw", "temperature", "theta"), ("mass", "diameter")
     OF_SEVERAL = ("grain_density", "grain_conductivity")
 
     def __init__(self, case, parameters, state, source=None, shortest=0.0):
         self.case, self.parameters, self.state, self.source = case, parameters, state, source
         self.kernel, self.guard = rates.kernel_of(case), Guard(case)
-        self.neighbours = Neighbours(SUPPORT * self.kernel.h, case.domain.period, case.resolution.neighbour_skin)
+        self.world, walled = world.here(), bool(parameters["walls"])
+        # of others a process needs all that press the walls which its own see: those within two reaches
+        self.neighbours = Neighbours(
+            SUPPORT * self.kernel.h, case.domain.period, case.resolution.neighbour_skin, self.world, 1.0 + walled
+        )
+        self.domain = self.neighbours.domain
         self.boundary = Boundary(case) if parameters["walls"] else None
         self.mouths = source.mouths(self.boundary.dummies) if source and self.boundary else None  # nozzle of each dummy
         self.waves, self.terms = sound.waves_of(case), sub_step.terms_of(parameters)
         self.gravity = np.array(parameters["gravity"] or (0.0, 0.0, 0.0))
         self.steps, self.contacts, self.limit = 0, 0, ""
+        self.steps_before = 0  # of the run before this part of it
+        self.touched = 0  # contacts of own particles in the window
         self.shortest = shortest  # sub-step [s] below which the run gets nowhere
         self.length = self.step = 0.0  # [s] that the last sub-step was limited to, and was
         self.held: dict[str, float] = {}  # what limiters hold (sdph.effects.held)
@@ -61,13 +70,18 @@ class Stepper:
 
     def revive(self) -> None:
         """Make anew what a checkpoint does not hold, once it was put back."""
-        if not self.neighbours.built:  # particles came or went: the next step begins with new rows
+        known, self.steps_before = bool(self.neighbours.built), self.steps
+        if not self.domain.alone:
+            gathered.take_part(self)
+        elif known:
+            self.neighbours.relist(self.state.kind)
+        else:  # particles came or went: the next step begins with new rows
             return
-        self.neighbours.relist(self.state.kind)
         self._look_around()
         density = np.empty(len(self.state.x))
         self._sum(density)
-        if not np.allclose(density, self.state.density, rtol=SAME_DENSITY, atol=0.0):
+        self.domain.refresh(density)
+        if known and not np.allclose(density, self.state.density, rtol=SAME_DENSITY, atol=0.0):
             raise Unfit("the density of the particles is not that of where they are")
 
     def admit(self, kept: dict) -> None:
@@ -87,13 +101,22 @@ class Stepper:
         """Other particles than before: some are gone, some are new."""
         self.state, self.neighbours.built = state, ()
 
-    def prepare(self) -> None:
-        """Neighbours and density of where the particles are now."""
+    @property
+    def own(self):
+        """The particles of this process: a view of `state`."""
+        return self.domain.own(self.state)
+
+    def _arrays(self, names=MOVING + HALO) -> list[np.ndarray]:
+        return [getattr(self.state, name) for name in names]
+
+    def prepare(self, changed: tuple[str, ...] = MOVING + HALO) -> None:
+        """Neighbours and density of where the particles are now; of others' what has `changed` at most."""
         before = self.neighbours.built
-        self.state, _ = self.neighbours.update(self.state)
+        self.state, _ = self.neighbours.update(self.state, *self._arrays(changed))
         if before is not self.neighbours.built:
             self._look_around()
         self._sum(self.state.density)
+        self.domain.refresh(self.state.density)
 
     def _look_around(self) -> None:
         """Make what belongs to neighbour rows just made."""
@@ -119,35 +142,6 @@ class Stepper:
     def _of_density(self, density) -> tuple:
         return self.kernel, self.state, self.rows, self.neighbours.box, *self._walls(), density, self.scratch.pull
 
-    def force(self, warmth, push, damping) -> None:
-        """Take what holds over the next window: heat (N,) [J] from the gas, push (N, 3) [m/s2] from outside, damping
-        (N,) [1/s] of theta; begin its account."""
-        self.state = particles.followed(particles.forced(self.state, warmth, push, damping))
-        self.account, self.rows_before = self._opened(), len(self.state.x)
-
-    def _opened(self) -> account.Account:
-        faces = len(self.hot.faces.x) if self.hot else 0
-        return account.opened(len(self.boundary.dummies.x) if self.parts else 0, faces)
-
-    def pushed(self) -> np.ndarray:
-        """(n, 3, 3) of what has pushed the named parts of the walls since the window began
-        (sdph.engine.walls.parts.gathered)."""
-        if not self.parts:
-            return np.zeros((0, 3, 3))
-        felt = self.account.felt[0]
-        return gathered(np.array(list(self.parts.values())), self.boundary.feet(self.case), felt[:, :3], felt[:, 3:])
-
-    def release(self) -> tuple[np.ndarray, np.ndarray]:
-        """End the window: way (N, 3) [m] of the particles in it, and what their theta lost to the gas (N,) [J], in the
-        rows that they had when it began; 0 for those that were taken out since."""
-        s = self.state
-        damped = s.damped if len(s.damped) else np.zeros(len(s.x))
-        moved = np.column_stack((particles.vectors(s.way_x, s.way_y, s.way_z), damped))
-        before = np.zeros((self.rows_before, moved.shape[1]))
-        before[s.row] = moved
-        self.state = particles.released(s)
-        return before[:, :3], before[:, 3]
-
     def conduct(self, dt: float) -> None:
         """Grains at rest through a window of `dt` [s]: conduction, and heat from the gas spread evenly."""
         left = dt
@@ -159,10 +153,6 @@ class Stepper:
             left = 0.0 if step >= left else left - step
         self.tell()
 
-    def tell(self) -> None:
-        """See what limiters hold now, before rows are made anew."""
-        self.held = effects.held(self.parameters, self.case, self)
-
     def move(self, dt: float) -> None:
         """Grains that move through a window of `dt` [s]."""
         left = dt
@@ -173,7 +163,7 @@ class Stepper:
             left = 0.0 if step >= left else left - step
             if left == 0.0:
                 self.tell()
-            self.prepare()
+            self.prepare(self.MOVING)
 
     def _conducted(self) -> np.ndarray:
         """Heat (N,) [W/kg] that the particles get from their neighbours now."""
@@ -193,13 +183,13 @@ class Stepper:
 
     def _sub_step(self, left: float) -> float:
         """The next sub-step [s]: what is left of the window, in equal parts."""
-        pace, momentum, agitation = self._constitute()
+        pace, momentum, agitation = self.world.most(np.array(self._constitute())).tolist()
         known = {"granular_viscosity": momentum, "granular_temperature": agitation}
-        return left / self._parts(left, Live(self.state, known), pace)
+        return left / self._parts(left, Live(self.own, known), pace)
 
     def _parts(self, left: float, state, pace: float = 0.0) -> int:
         """Number of equal sub-steps for `left` [s], none longer than the shortest limit times run.step_factor."""
-        found = limits(self.case, self.parameters, state, pace)
+        found = self.world.leasts(limits(self.case, self.parameters, state, pace))
         self.limit = min(found, key=found.get, default="")
         self.length = self.case.run.step_factor * found.get(self.limit, math.inf)
         return count_of_parts(
@@ -219,9 +209,21 @@ class Stepper:
     def _advance(self, dt: float, window: float) -> None:
         """One sub-step of `dt` of a `window` [s]: stress, walls, rates, then velocity, theta, heat, place."""
         self.step = dt
-        sub_step.advance(*self._given(dt, window))
+        if self.domain.alone:
+            sub_step.advance(*self._given(dt, window))
+        else:
+            self._advance_own(*self._given(dt, window))
         self._settle(dt)
         self.steps += 1
+
+    def _advance_own(self, kernel, s, rows, box, scratch, terms, walls_p, wall, *rest) -> None:
+        """The same for own particles, which need what others' are strained by."""
+        work, dt = self.work, self.step
+        sub_step.strain_grains(
+            kernel, s, rows, box, scratch, terms.shears, terms.friction, terms.viscous, walls_p, wall, work, dt
+        )
+        self.domain.refresh(scratch.bearing)
+        sub_step.go(kernel, s, self.own, rows, box, scratch, terms, walls_p, wall, *rest)
 
     def _given(self, dt: float, window: float) -> tuple:
         """Arguments of a sub-step of `dt` of a `window` [s]."""
@@ -247,23 +249,25 @@ class Stepper:
         self.state.temperature[:] += heat / particles.by_material(
             self.state.grain_capacity, self.case.grains.heat_capacity
         )
+        self.domain.refresh(self.state.temperature)
 
     def _settle(self, dt: float) -> None:
         """Shift particles and stop them at walls, after they have gone for `dt` [s]."""
-        s = self.state
+        s = self.own
         if self.parameters["grain_shifting"]:
             self._shift(dt)
         if self.source:
             self.source.release(s)
         if self.boundary:
             own = self.account
-            self.contacts += wall_contact.contact(
+            self.touched += wall_contact.contact(
                 *self._walls(), self.neighbours.box, s, self.gravity, own.impulses[account.WALLS],
                 own.works[account.BY_WALLS :], own.back_put, own.felt,
             )  # fmt: skip
 
     def _shift(self, dt: float) -> None:
         s = self.state
+        self.domain.refresh(*particles.axes(s), s.u, s.v, s.w)
         moved = np.empty((len(s.x), 3))
         grain_shifting.shift(self.parameters["grain_shifting"], s, self.rows, self.neighbours.box, dt, moved)
         moved[s.kind == INFLOW] = 0.0

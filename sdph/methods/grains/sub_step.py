@@ -74,8 +74,22 @@ def advance(
 
     heated: as `wall_heat.exchange` takes it; steps: its length and that of its window [s].
     """
+    strain_grains(
+        kernel, s, rows, box, scratch, terms.shears, terms.friction, terms.viscous, walls_p, wall, work, steps[0]
+    )
+    go(
+        kernel, s, s, rows, box, scratch, terms, walls_p, wall, facing, unheld, heated, work, gravity, steps,
+        heat_capacity, sums,
+    )  # fmt: skip
+
+
+@serial
+def go(
+    kernel, s, own, rows, box, scratch, terms, walls_p, wall, facing, unheld, heated, work, gravity, steps,
+    heat_capacity, sums,
+):  # fmt: skip
+    """The same from the strain on; `own` are the particles of s that go: those of this process."""
     dt, window = steps
-    strain_grains(kernel, s, rows, box, scratch, terms.shears, terms.friction, terms.viscous, walls_p, wall, work, dt)
     if len(walls_p):
         walls.extrapolate(
             kernel, box, wall, facing, s, scratch.pressure, wall.pressure, unheld, wall.velocity
@@ -86,13 +100,13 @@ def advance(
     )  # fmt: skip
     wall_parts.tell(sums.felt, walls_p, kernel, box, wall, facing, s, scratch, terms.friction, dt)
     account.kick(
-        s, work.acceleration, work.of_walls, work.agitation, work.heating, gravity, dt, sums.impulses, sums.works
+        own, work.acceleration, work.of_walls, work.agitation, work.heating, gravity, dt, sums.impulses, sums.works
     )
     slip(terms.slip, terms.temperature, kernel, s, rows, box, scratch, work, dt, sums.slowed)
-    agitate(terms.temperature, s, scratch, work, dt)
+    agitate(terms.temperature, own, scratch, work, dt)
     wall_heat.exchange(terms.wall_heat, terms.conduction, kernel, box, heated, s, dt, sums.gave)
-    account.warm(terms.temperature, s, work, dt, window, heat_capacity, sums.heats)
-    account.drift(s, dt)
+    account.warm(terms.temperature, own, work, dt, window, heat_capacity, sums.heats)
+    account.drift(own, dt)
 
 
 @serial

@@ -14,7 +14,7 @@ from sdph.methods.liquids.loads import kinetic_energy, pipe_energy, pipe_loads, 
 
 
 def row(run) -> dict[str, float]:
-    """Columns of history.csv: sums over the whole liquid (sdph.methods.liquids.gathered)."""
+    """Columns of history.csv: sums over the whole liquid (sdph.engine.gathered)."""
     stepper, case = run.stepper, run.case
     wet = stepper.active
     mass, pressure = run.state.mass[wet], stepper.pressure[wet]

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import contextlib
 from pathlib import Path
 
 import numpy as np
 
 from sdph.effects.around import drain, tank
+from sdph.engine import gathered
 from sdph.engine import state as particles
 from sdph.engine.kept import Unfit
 from sdph.engine.stepped import Stepped
 from sdph.engine.walls.parts import Pushed
-from sdph.methods.liquids import account, gathered, history, limiters
+from sdph.methods.liquids import account, history, limiters
 from sdph.methods.liquids.bodies import Carrier
 from sdph.methods.liquids.loads import kinetic_energy
 from sdph.methods.liquids.method import LiquidStepper
@@ -90,8 +92,17 @@ class Liquid(Stepped):
         self.impulse, self.since = np.zeros(6), self.time
         self.pushed.new_row()
 
+    @contextlib.contextmanager
     def whole(self):
-        return gathered.whole(self.stepper)
+        stepper = self.stepper
+        before = stepper.active
+        with gathered.whole(stepper) as chief:
+            if chief:
+                stepper.active = np.flatnonzero(particles.wet(stepper.state)).astype(before.dtype)
+            try:
+                yield chief
+            finally:
+                stepper.active = before
 
     def row(self) -> dict[str, float]:
         loads = history.loads(self)
@@ -124,11 +135,7 @@ class Liquid(Stepped):
     def summary(self) -> dict[str, float]:
         with self.whole():
             own = {"liquid_particles": len(self.stepper.active), "kinetic_energy_J": kinetic_energy(self.state)}
-        domain, world = self.stepper.domain, self.stepper.world
-        own |= {"ranks": world.number, "imbalance": domain.imbalance, "halo_share": domain.halo}
-        # means by rank and step, of this part of the run
-        sent = world.sum(domain.sent) / world.number / (self.steps - self.stepper.steps_before or 1)
-        own |= {"messages_per_step": float(sent[0]), "halo_bytes_per_step": float(sent[1])}
+        own |= self.stepper.domain.summary(self.steps - self.stepper.steps_before)
         parts = [part.summary() for part in (self.stepper.void, self.stepper.heat) if part]
         return own | {name: value for part in parts for name, value in part.items()}
 

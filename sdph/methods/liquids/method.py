@@ -12,8 +12,8 @@ import numpy as np
 from sdph import effects
 from sdph.effects import OFF
 from sdph.effects.around import frame, tank
+from sdph.engine import gathered, motion, world
 from sdph.engine import kernels as smoothing
-from sdph.engine import motion, world
 from sdph.engine import state as particles
 from sdph.engine.clock import count_of_parts
 from sdph.engine.kept import GROWING
@@ -21,7 +21,7 @@ from sdph.engine.rows import Neighbours
 from sdph.engine.state import GAS, INFLOW, WALL
 from sdph.laws import kernels
 from sdph.methods.liquids import bodies as immersion
-from sdph.methods.liquids import bubbles, correction, gathered, interface, openings, parts, phases, shift, start, walls
+from sdph.methods.liquids import bubbles, correction, interface, openings, parts, phases, shift, start, walls
 from sdph.methods.liquids import equations as rates
 from sdph.methods.liquids.bounds import LiquidGuard, born, limits
 from sdph.methods.liquids.heat import Heat
@@ -86,7 +86,6 @@ class LiquidStepper:
         self.void = bubbles.of(case, self.p["bubble"], self.state, self.bodies) if self.p["bubble"] else None
         self.look = None  # who is told of new forces, with the length [s] of the kick to come
         self.born = born(self.state)
-        self.domain.refuse_crowd(self.state)
         self.forces()
         self.heat = Heat(self, self.p["liquid_heat"]) if self.p["liquid_heat"] else None
         if self.bodies:
@@ -148,7 +147,7 @@ class LiquidStepper:
         found = limits(self.case, self.p, self.state, math.sqrt(speed), math.sqrt(force))
         if self.bodies:
             found |= self.bodies.limits(self.state)
-        found = dict(zip(found, self.world.least(np.array([*found.values()]))))
+        found = self.world.leasts(found)
         self.limit = min(found, key=found.get)
         longest = self.case.run.step_factor * found[self.limit]
         return left / count_of_parts(

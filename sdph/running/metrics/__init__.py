@@ -44,8 +44,10 @@ def row(simulation) -> dict[str, float]:
     """All metrics of the case now."""
     refuse_unknown(simulation.case)
     columns = {"time_s": simulation.time}
-    for name in names(simulation.case):
-        columns |= AT_OUTPUTS[name](simulation)
+    if own := names(simulation.case):
+        with simulation.whole():
+            for name in own:
+                columns |= AT_OUTPUTS[name](simulation)
     return columns
 
 

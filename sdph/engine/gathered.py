@@ -1,4 +1,8 @@
-"""Particles of a liquid that several processes share: all of them at the chief for a while, and parts again."""
+"""Particles of a method that several processes share: all of them at the chief for a while, and parts again.
+
+A stepper has `state`, `neighbours`, `domain`, and names in ROWS its arrays, or tuples of them, of a row a particle that
+are kept beside the state.
+"""
 
 from __future__ import annotations
 
@@ -13,28 +17,29 @@ from sdph.engine.state import WALL
 @contextlib.contextmanager
 def whole(stepper):
     """Hold the particles of all processes at the chief, as one process alone has them, for outputs and checkpoints;
-    True there."""
+    True there, and none elsewhere."""
     if stepper.domain.alone:
         yield True
         return
-    before = stepper.state, stepper.neighbours.built, stepper.active, _rows(stepper)
+    before = stepper.state, stepper.neighbours.built, _rows(stepper)
     built = stepper.neighbours.built
-    found = stepper.domain.gather(stepper.state, [*built, *before[3]])
+    found = stepper.domain.gather(stepper.state, [*built, *before[2]])
     if found:
         (state, arrays), d = found, len(built)
         order = stepper.neighbours.by_cell(tuple(arrays[:d]), state.kind == WALL)
         arrays = [own[order] if len(own) else own for own in arrays]
         stepper.state, stepper.neighbours.built = particles.take(state, order), tuple(arrays[:d])
-        stepper.active = np.flatnonzero(particles.wet(stepper.state)).astype(np.int32)
         _put(stepper, arrays[d:])
+    else:
+        stepper.state = particles.first(stepper.state, 0)
     try:
         yield bool(found)
     finally:
-        stepper.state, stepper.neighbours.built, stepper.active, arrays = before
+        stepper.state, stepper.neighbours.built, arrays = before
         _put(stepper, arrays)
 
 
-def take_part(stepper, allocate) -> None:
+def take_part(stepper, allocate=lambda: None) -> None:
     """Keep the own ones of all particles, which each process has just read, and copies; `allocate()` makes room."""
     number, arrays = stepper.state.ident, _rows(stepper)
     stepper.neighbours.built, stepper.domain.tree = (), None
