@@ -126,18 +126,15 @@ def keep(found: list[dict]) -> None:
         writer.writerows(rows_of.values())
 
 
-def variants() -> tuple[list[tuple], list[tuple]]:
-    """Rows that `effects_table` and `counts_table` take of the stored variants."""
-    effects, counts, stored = [], [], kept()
+def variants() -> list[tuple]:
+    """Rows that `effects_table` takes of the stored variants."""
+    found, stored = [], [row for row in kept() if row["effect"] != ladder.ALL]
     for name, (scene, changes) in VARIANTS.items():
         own = varied(scene, changes)
         judged = judge.judgements(cases.load(scenes.find(scene)[1], (*own.settings, *own.excerpt)))
         for row in (row for row in stored if row["variant"] == name):
-            if row["effect"] == ladder.ALL:
-                counts.append(counted(name, ladder.case_of(scene, own, own.middle), row))
-            else:
-                effects.append((name, row["effect"], float(row["change"]), judged[row["effect"]].error_if_off))
-    return effects, counts
+            found.append((name, row["effect"], float(row["change"]), judged[row["effect"]].error_if_off))
+    return found
 
 
 def shipped() -> list[tuple]:
@@ -157,7 +154,7 @@ def counted(name: str, case, row: dict) -> tuple:
 
 
 def runs() -> list[tuple]:
-    """(name, scene, case, row of its ladder's cost.csv or None) of every level and whole bed."""
+    """(name, scene, case, row of its ladder's cost.csv or None) of every level, whole bed and variant."""
     found = []
     for scene in ladder.with_ladder():
         own, measured = ladder.declared(scene), rows.read(HERE / scene / "cost.csv")
@@ -165,11 +162,15 @@ def runs() -> list[tuple]:
             case = ladder.case_of(scene, own, own.level(n))
             at_level = [row for row in measured if rows.has(row, own.level(n))]
             found += [(f"`{scene}`, {own.keys[0]} = {own.steps[n]:g}", scene, case, row) for row in at_level]
-    return found + [(f"`{scene}`, whole", scene, cases.load(scenes.find(scene)[1]), None) for scene in WHOLE]
+    found += [(f"`{scene}`, whole", scene, cases.load(scenes.find(scene)[1]), None) for scene in WHOLE]
+    for name, (scene, changes) in VARIANTS.items():
+        own = varied(scene, changes)
+        found.append((name, scene, ladder.case_of(scene, own, own.middle), None))
+    return found
 
 
 def levels() -> list[tuple]:
-    """`counted` of every level and whole bed."""
+    """`counted` of every one of `runs`."""
     stored = {row["variant"]: row for row in kept() if row["effect"] == ladder.ALL}
     return [counted(name, case, stored.get(name, row)) for name, _, case, row in runs()]
 
@@ -214,14 +215,13 @@ def counts_table(found: list[tuple]) -> str:
 
 def page() -> str:
     """estimates.md."""
-    effects, counts = variants()
     return TEXT.format(
         factor=report.FACTOR,
         least=report.NEGLIGIBLE,
         within=100 * WITHIN,
         shipped=effects_table(shipped()),
-        variants=effects_table(effects),
-        counts=counts_table([*levels(), *counts]),
+        variants=effects_table(variants()),
+        counts=counts_table(levels()),
     )
 
 

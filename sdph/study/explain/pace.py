@@ -6,8 +6,9 @@ What rules later differs from the start in three ways, each by an argument from 
 - grains that the gas grips as one bear `sdph.exchange.window.GRIP` of the time in which it stops them beyond their own
   drag, at the slip that carries their weight;
 - lasting contacts of packed grains become as stiff as what they carry asks for: the weight that the gas leaves to
-  them, all of it where gas passes in bubbles, or the dynamic pressure alpha_p rho_p v^2/2 of grains that are thrown
-  and brought to rest. Grains that gas blows along, or that fall, are not those that carry.
+  them, all of it where gas passes in bubbles, as soon as grains can have fallen through the bed, or the dynamic
+  pressure alpha_p rho_p v^2/2 of grains that are thrown and brought to rest. Grains that gas blows along, or that
+  fall, are not those that carry.
 """
 
 from __future__ import annotations
@@ -40,11 +41,15 @@ class Pace(NamedTuple):
 
 def expected(case, s, state) -> Pace:
     """Counts for the case with scales `s` and particles as in `state` at the start."""
-    limit = case.run.step_factor * min(sub_steps(case, s, state).values(), default=math.inf)
-    moving, windows, steps = effects.moving(case), 0, 0.0
+    early, late = (
+        case.run.step_factor * min(sub_steps(case, s, state, come_down).values(), default=math.inf)
+        for come_down in (False, True)
+    )
+    moving, windows, steps, time, falling = effects.moving(case), 0, 0.0, 0.0, coming_down(case, s)
     for length, number in lengths(case, s, state):
         windows += number
-        steps += number * parts(length, limit, moving)
+        steps += number * parts(length, early if time < falling else late, moving)
+        time += number * length
     return Pace(windows, math.ceil(steps))
 
 
@@ -143,18 +148,19 @@ def grip(case, s) -> float:
     return GRIP / rate if rate else math.inf
 
 
-def sub_steps(case, s, state) -> dict[str, float]:
-    """Longest sub-steps [s] by cause, before run.step_factor."""
-    pace = fastest(case, s) if effects.moving(case) else 0.0
+def sub_steps(case, s, state, come_down: bool = True) -> dict[str, float]:
+    """Longest sub-steps [s] by cause, before run.step_factor, once grains have `come_down` or before
+    (`coming_down`)."""
+    pace = fastest(case, s, come_down) if effects.moving(case) else 0.0
     return limits_of_step(case, parameters(case), state, pace)
 
 
-def fastest(case, s) -> float:
+def fastest(case, s, come_down: bool) -> float:
     """omega h + 2 v [m/s] of grains that carry, which go no faster than they are thrown, or of the fastest, whose
     contacts do not last."""
-    waves = waves_of(case)
+    waves, carrying = waves_of(case), stiffness(case, s, come_down or not bubbles(case, s))
     agitated = stiffness(case, s, lasting=False)
-    return max(swing(waves, *stiffness(case, s)) + 2.0 * s.thrown, swing(waves, *agitated) + 2.0 * s.speed)
+    return max(swing(waves, *carrying) + 2.0 * s.thrown, swing(waves, *agitated) + 2.0 * s.speed)
 
 
 def parameters(case) -> dict:
@@ -187,12 +193,16 @@ def stiffness(case, s, lasting: bool = True) -> tuple[float, float]:
 def carried(case, s) -> float:
     """Pressure [Pa] that lasting contacts carry: the weight of grains on a floor that gas from below does not, or the
     dynamic pressure (Bernoulli's) of those that are thrown."""
-    density, up = s.alpha_p * s.grains.density, ways.upright(case)
-    weight = 0.0
+    density, weight = s.alpha_p * s.grains.density, 0.0
     if s.gravity and s.patches and ways.lie(case, s.patches):
-        height = max(patch.upper[up] - patch.lower[up] for patch in s.patches)
-        weight = density * s.gravity * height * (1.0 - lifted(case, s))
+        weight = density * s.gravity * height(case, s) * (1.0 - lifted(case, s))
     return max(0.5 * density * s.thrown**2, weight)
+
+
+def height(case, s) -> float:
+    """Height [m] of the tallest region of grains."""
+    up = ways.upright(case)
+    return max(patch.upper[up] - patch.lower[up] for patch in s.patches)
 
 
 def lifted(case, s) -> float:
@@ -207,6 +217,12 @@ def bubbles(case, s) -> bool:
     Johnstone 1952, Chem. Eng. Prog. 48, 220), and slower than carries them away."""
     wide = s.length >= ACROSS * case.smoothing_length
     return wide and ways.lie(case, s.patches) and s.minimum_fluidisation < ways.slowest(case) < s.falling
+
+
+def coming_down(case, s) -> float:
+    """Time [s] in which grains fall as far as a bed is high that gas bubbles through; none in others. Before, what the
+    gas has lifted cannot be back."""
+    return math.sqrt(2.0 * height(case, s) / s.gravity) if bubbles(case, s) else 0.0
 
 
 def packed_by(p, pressure: float) -> float:
