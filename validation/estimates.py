@@ -3,6 +3,8 @@ in variants (estimates.csv); windows and sub-steps against those of the ladders'
 
     python validation/estimates.py                 makes estimates.md of what was measured
     python validation/estimates.py --run           runs the variants anew before, into estimates.csv
+    python validation/estimates.py --count [NAME]  counts windows and sub-steps of cases of grains anew, into the same
+                                                   file: those whose name holds NAME
 """
 
 from __future__ import annotations
@@ -10,11 +12,14 @@ from __future__ import annotations
 import csv
 import dataclasses
 import sys
+import tempfile
 from pathlib import Path
 
 from sdph import scenes
 from sdph.case import judge
 from sdph.case import read as cases
+from sdph.running import driver
+from sdph.running.progress import Reporter
 from sdph.study.cost import climb, ladder, report, rows
 from sdph.study.explain import tables
 
@@ -48,6 +53,8 @@ VARIANTS = {  # name -> scene, what is changed
         ("run.end_time_s=0.002", "run.output_interval_s=0.001", "run.report_at_s=[]", "grains.conductivity_W_m_K=5e4"),
     ),
 }
+# Beds as they are shipped, to their end; those in vessels need OpenFOAM and minutes each
+WHOLE = ("bubbling_bed", "tapered_bed", "bed_with_tube", "cylindrical_bed")
 ON_SHORT_RUNS = {"disc_cluster": ["centre_rise_K", "heat_exchanged_J"]}  # in place of metrics at fixed times
 STORED = HERE / "estimates.csv"
 COLUMNS = ("variant", "effect", "change", "windows", "sub_steps")
@@ -73,8 +80,21 @@ Variants that were put together before the estimates were compared with them; no
 {variants}
 
 ## Windows and sub-steps
-Predicted before the run over counted in it, at every level of the scenes' ladders; right is within {within:g} %. The
-steps of liquids stand as sub-steps; their windows are not predicted.
+Predicted before the run over counted in it, at every level of the scenes' ladders; right is within {within:g} %. Those
+of grains are counted apart from the ladders' times (`--count`), and of beds as they are shipped too. The steps of
+liquids stand as sub-steps; their windows are not predicted.
+
+What misses, by what was seen in the runs (the particle that rules each sub-step, and what presses on it):
+- `bubbling_bed_3d` with particles of 14.1 mm: they do not fit the slab's depth of 40 mm, so that its bed begins denser
+  than its volume fraction says (0.626 in place of 0.60) and is pressed apart for the first 0.02 s, by 1 MPa where the
+  bed weighs 9 kPa.
+- `cylindrical_bed`: once it bubbles the stiffest contacts carry 4 to 7 kPa, pulses of half a millisecond anywhere in
+  the bed, where it weighs 1.3 kPa. Not the facets: in a box with flat walls it is the same. Plane
+  beds carry 1 to 2 times their weight. Why it is more in space is not known.
+- Windows of `bed_with_tube`: the gas in the small cells around the tube rules them (`courant`), which `explain` does
+  not look for.
+- The fluidised column is too narrow for bubbles: it begins at 0.61, where contacts press, and eases for as long as
+  the run lasts.
 
 {counts}
 """
@@ -99,21 +119,30 @@ def run(name: str) -> list[dict]:
     return [dict(zip(COLUMNS, row)) for row in found]
 
 
-def variants() -> tuple[list[tuple], list[tuple]]:
-    """Rows that `effects_table` and `counts_table` take of the stored variants."""
-    effects, counts = [], []
+def kept() -> list[dict]:
+    """Rows of estimates.csv."""
     with open(STORED, encoding="utf-8") as opened:
-        stored = list(csv.DictReader(opened))
+        return list(csv.DictReader(opened))
+
+
+def keep(found: list[dict]) -> None:
+    """Put rows into estimates.csv, in place of those of the same variant and effect."""
+    rows_of = {(row["variant"], row["effect"]): row for row in [*kept(), *found]}
+    with open(STORED, "w", newline="", encoding="utf-8") as opened:
+        writer = csv.DictWriter(opened, COLUMNS, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows_of.values())
+
+
+def variants() -> list[tuple]:
+    """Rows that `effects_table` takes of the stored variants."""
+    found, stored = [], [row for row in kept() if row["effect"] != ladder.ALL]
     for name, (scene, changes) in VARIANTS.items():
         own = varied(scene, changes)
         judged = judge.judgements(cases.load(scenes.find(scene)[1], (*own.settings, *own.excerpt)))
         for row in (row for row in stored if row["variant"] == name):
-            if row["effect"] == ladder.ALL:
-                numbers = {key: float(row[key]) for key in ("windows", "sub_steps")}
-                counts.append(counted(name, ladder.case_of(scene, own, own.middle), numbers))
-            else:
-                effects.append((name, row["effect"], float(row["change"]), judged[row["effect"]].error_if_off))
-    return effects, counts
+            found.append((name, row["effect"], float(row["change"]), judged[row["effect"]].error_if_off))
+    return found
 
 
 def shipped() -> list[tuple]:
@@ -132,16 +161,36 @@ def counted(name: str, case, row: dict) -> tuple:
     return name, windows, float(row["windows"]), steps, float(row["sub_steps"])
 
 
-def levels() -> list[tuple]:
-    """`counted` of every level that was measured."""
+def runs() -> list[tuple]:
+    """(name, scene, case, row of its ladder's cost.csv or None) of every level, whole bed and variant."""
     found = []
     for scene in ladder.with_ladder():
         own, measured = ladder.declared(scene), rows.read(HERE / scene / "cost.csv")
         for n in range(own.count):
             case = ladder.case_of(scene, own, own.level(n))
             at_level = [row for row in measured if rows.has(row, own.level(n))]
-            found += [counted(f"`{scene}`, {own.keys[0]} = {own.steps[n]:g}", case, row) for row in at_level]
+            found += [(f"`{scene}`, {own.keys[0]} = {own.steps[n]:g}", scene, case, row) for row in at_level]
+    found += [(f"`{scene}`, whole", scene, cases.load(scenes.find(scene)[1]), None) for scene in WHOLE]
+    for name, (scene, changes) in VARIANTS.items():
+        own = varied(scene, changes)
+        found.append((name, scene, ladder.case_of(scene, own, own.middle), None))
     return found
+
+
+def levels() -> list[tuple]:
+    """`counted` of every one of `runs`."""
+    stored = {row["variant"]: row for row in kept() if row["effect"] == ladder.ALL}
+    return [counted(name, case, stored.get(name, row)) for name, _, case, row in runs()]
+
+
+def count(part: str) -> None:
+    """Run the cases of grains whose name holds `part`, and keep what they count."""
+    for name, scene, case, _ in runs():
+        if part in name and case.grains is not None:
+            with tempfile.TemporaryDirectory() as folder:
+                made = driver.run(case, scene, Path(folder) / "run", None, Reporter(quiet=True))
+            keep([dict(zip(COLUMNS, (name, ladder.ALL, 0.0, made["windows"], made["sub_steps"])))])
+            print(name, made["windows"], made["sub_steps"], flush=True)
 
 
 def effects_table(found: list[tuple]) -> str:
@@ -174,24 +223,22 @@ def counts_table(found: list[tuple]) -> str:
 
 def page() -> str:
     """estimates.md."""
-    effects, counts = variants()
     return TEXT.format(
         factor=report.FACTOR,
         least=report.NEGLIGIBLE,
         within=100 * WITHIN,
         shipped=effects_table(shipped()),
-        variants=effects_table(effects),
-        counts=counts_table([*levels(), *counts]),
+        variants=effects_table(variants()),
+        counts=counts_table(levels()),
     )
 
 
 def main() -> None:
     if "--run" in sys.argv[1:]:
-        found = [row for name in VARIANTS for row in run(name)]
-        with open(STORED, "w", newline="", encoding="utf-8") as opened:
-            writer = csv.DictWriter(opened, COLUMNS, lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(found)
+        for name in VARIANTS:
+            keep(run(name))
+    if "--count" in sys.argv[1:]:
+        count(*sys.argv[2:] or ("",))
     (HERE / "estimates.md").write_text(page(), encoding="utf-8")
 
 

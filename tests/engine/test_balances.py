@@ -13,10 +13,10 @@ from sdph.engine.ledger import IMPULSES_OF_GAS
 SPEED = 0.3
 
 
-def dusty(folder, count, gas=Row, gravity=(0.0, 0.0)):
-    """Grains that drift through gas at rest in a closed row, for ten relaxation times of the drag, in `count` windows:
-    the run when it is over."""
-    own = table(["drag", "gravity"], alpha_p=4e-4, gravity=gravity, **windows(0.5, count))
+def dusty(folder, count, gas=Row, gravity=(0.0, 0.0), more=()):
+    """Grains that drift through gas at rest in a closed row, for ten relaxation times of the drag, in `count` windows,
+    with `more` effects: the run when it is over."""
+    own = table(["drag", "gravity", *more], alpha_p=4e-4, gravity=gravity, **windows(0.5, count))
     own["particles"]["bed"]["velocity_m_s"] = [SPEED, 0.0]
     case = cases.from_table(own)
     run = started(case, folder, gas(case))
@@ -42,6 +42,15 @@ def test_what_motion_loses_in_a_dusty_box_is_heat(tmp_path, count):
     assert abs(summary["gas_dissipation_J"]) < 1e-10 * lost
     assert summary["exchange_momentum_mismatch_rel"] < 1e-12 and summary["gas_momentum_drift_rel"] < 1e-12
     assert summary["gas_momentum_drift_kg_m_s"] < 1e-12 * abs(own.last["gas_impulse_exchange_x_kg_m_s"])
+
+
+def test_what_agitation_loses_to_the_gas_is_heat_of_the_gas(tmp_path):
+    own = dusty(tmp_path, 7, more=("granular_temperature",)).ledger
+    agitated, damped = own.first["particle_fluctuation_energy_J"], own.sums["damping_heat_J"]
+    heat = own.last["gas_energy_J"] + own.last["heat_on_its_way_J"]
+    assert damped > 0.1 * agitated > 0.0
+    assert heat == pytest.approx(motion(own.first) - motion(own.last) + damped, rel=1e-10)
+    assert abs(own.summary()["gas_dissipation_J"]) < 1e-10 * damped
 
 
 class Cheat(Row):

@@ -112,7 +112,7 @@ def ratios(case) -> list[dict]:
         ("cell / grain", cell / d, 3.0, math.inf, GRAINS_WHY),
         ("h / spacing", h / spacing, 1.2, 2.0, "fewer neighbours make noise, more blur"),
         ("spacing / grain", spacing / d, 1.0, math.inf, "an SPH particle stands for one grain or more"),
-        ("grains' width / h", extent / h, 6.0, math.inf, "less than three kernels across is all rim"),
+        ("grains' width / h", extent / h, pace.ACROSS, math.inf, "less than three kernels across is all rim"),
         ("domain / cell", min(case.domain.size) / cell, 10.0, math.inf, "coarser gas shows no flow"),
     ]
     if "electric_field" in case.effects:

@@ -6,7 +6,9 @@ What rules later differs from the start in three ways, each by an argument from 
 - grains that the gas grips as one bear `sdph.exchange.window.GRIP` of the time in which it stops them beyond their own
   drag, at the slip that carries their weight;
 - lasting contacts of packed grains become as stiff as what they carry asks for: the weight that the gas leaves to
-  them, or the dynamic pressure alpha_p rho_p v^2/2 of grains that are thrown and brought to rest.
+  them, all of it where gas passes in bubbles, as soon as grains can have fallen through the bed, or the dynamic
+  pressure alpha_p rho_p v^2/2 of grains that are thrown and brought to rest. Grains that gas blows along, or that
+  fall, are not those that carry.
 """
 
 from __future__ import annotations
@@ -26,6 +28,7 @@ from sdph.methods.grains.method import limits as limits_of_step
 from sdph.methods.grains.scales import SETTLED
 from sdph.methods.grains.sound import swing, waves_of
 
+ACROSS = 6.0  # smoothing lengths: grains less than three kernels across are all rim, and hold no bubble
 HALVINGS = 60  # of the bracket of a volume fraction: to round-off
 
 
@@ -38,11 +41,15 @@ class Pace(NamedTuple):
 
 def expected(case, s, state) -> Pace:
     """Counts for the case with scales `s` and particles as in `state` at the start."""
-    limit = case.run.step_factor * min(sub_steps(case, s, state).values(), default=math.inf)
-    moving, windows, steps = effects.moving(case), 0, 0.0
+    early, late = (
+        case.run.step_factor * min(sub_steps(case, s, state, come_down).values(), default=math.inf)
+        for come_down in (False, True)
+    )
+    moving, windows, steps, time, falling = effects.moving(case), 0, 0.0, 0.0, coming_down(case, s)
     for length, number in lengths(case, s, state):
         windows += number
-        steps += number * parts(length, limit, moving)
+        steps += number * parts(length, early if time < falling else late, moving)
+        time += number * length
     return Pace(windows, math.ceil(steps))
 
 
@@ -141,10 +148,19 @@ def grip(case, s) -> float:
     return GRIP / rate if rate else math.inf
 
 
-def sub_steps(case, s, state) -> dict[str, float]:
-    """Longest sub-steps [s] by cause, before run.step_factor."""
-    pace = swing(waves_of(case), *stiffness(case, s)) + 2.0 * s.speed if effects.moving(case) else 0.0
+def sub_steps(case, s, state, come_down: bool = True) -> dict[str, float]:
+    """Longest sub-steps [s] by cause, before run.step_factor, once grains have `come_down` or before
+    (`coming_down`)."""
+    pace = fastest(case, s, come_down) if effects.moving(case) else 0.0
     return limits_of_step(case, parameters(case), state, pace)
+
+
+def fastest(case, s, come_down: bool) -> float:
+    """omega h + 2 v [m/s] of grains that carry, which go no faster than they are thrown, or of the fastest, whose
+    contacts do not last."""
+    waves, carrying = waves_of(case), stiffness(case, s, come_down or not bubbles(case, s))
+    agitated = stiffness(case, s, lasting=False)
+    return max(swing(waves, *carrying) + 2.0 * s.thrown, swing(waves, *agitated) + 2.0 * s.speed)
 
 
 def parameters(case) -> dict:
@@ -157,12 +173,12 @@ def sound(case, s) -> float:
     return math.sqrt(stiffness(case, s)[0])
 
 
-def stiffness(case, s) -> tuple[float, float]:
-    """c^2 and pressure over density [m2/s2] there."""
+def stiffness(case, s, lasting: bool = True) -> tuple[float, float]:
+    """c^2 and pressure over density [m2/s2] there, with `lasting` contacts or without."""
     squared = pressed = 0.0
-    if "friction" in case.effects:
+    if lasting and "friction" in case.effects:
         p, alpha_p = friction.kernel(case), s.alpha_p
-        if alpha_p >= SETTLED * p.onset:
+        if alpha_p >= SETTLED * p.onset or bubbles(case, s):
             alpha_p = max(alpha_p, packed_by(p, carried(case, s)))
         pressure, slope = friction.pressure(p, alpha_p)
         squared = friction.sound_squared(p, slope)
@@ -177,18 +193,36 @@ def stiffness(case, s) -> tuple[float, float]:
 def carried(case, s) -> float:
     """Pressure [Pa] that lasting contacts carry: the weight of grains on a floor that gas from below does not, or the
     dynamic pressure (Bernoulli's) of those that are thrown."""
-    density, up = s.alpha_p * s.grains.density, ways.upright(case)
-    weight = 0.0
+    density, weight = s.alpha_p * s.grains.density, 0.0
     if s.gravity and s.patches and ways.lie(case, s.patches):
-        height = max(patch.upper[up] - patch.lower[up] for patch in s.patches)
-        weight = density * s.gravity * height * (1.0 - lifted(case, s))
+        weight = density * s.gravity * height(case, s) * (1.0 - lifted(case, s))
     return max(0.5 * density * s.thrown**2, weight)
+
+
+def height(case, s) -> float:
+    """Height [m] of the tallest region of grains."""
+    up = ways.upright(case)
+    return max(patch.upper[up] - patch.lower[up] for patch in s.patches)
 
 
 def lifted(case, s) -> float:
     """Share of the weight that gas carries which is let in against gravity: U/U_mf of the slowest inlet, as a jet
-    beside it lifts what lies before it only; Ergun's law is all but linear there."""
-    return min(1.0, ways.slowest(case) / s.minimum_fluidisation)
+    beside it lifts what lies before it only; Ergun's law is all but linear there. Nothing of it for good where gas
+    passes in bubbles: grains that one has left behind come down on each other with all their weight."""
+    return 0.0 if bubbles(case, s) else min(1.0, ways.slowest(case) / s.minimum_fluidisation)
+
+
+def bubbles(case, s) -> bool:
+    """True where gas is let in under lying grains faster than lifts them, so that the rest passes in bubbles (Toomey &
+    Johnstone 1952, Chem. Eng. Prog. 48, 220), and slower than carries them away."""
+    wide = s.length >= ACROSS * case.smoothing_length
+    return wide and ways.lie(case, s.patches) and s.minimum_fluidisation < ways.slowest(case) < s.falling
+
+
+def coming_down(case, s) -> float:
+    """Time [s] in which grains fall as far as a bed is high that gas bubbles through; none in others. Before, what the
+    gas has lifted cannot be back."""
+    return math.sqrt(2.0 * height(case, s) / s.gravity) if bubbles(case, s) else 0.0
 
 
 def packed_by(p, pressure: float) -> float:

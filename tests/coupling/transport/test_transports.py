@@ -8,6 +8,7 @@ import sys
 import tempfile
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -263,3 +264,16 @@ def test_a_file_is_never_seen_half_written(tmp_path):
     peer.send(hello())
     assert server.accept(5.0)[1].kind is Kind.HELLO
     assert not os.listdir(tmp_path / "exchange" / "to_sdph")
+
+
+@pytest.mark.parametrize("tcp", [False, True])
+def test_a_gas_that_takes_its_time_to_call_is_waited_for(tcp):
+    with contextlib.closing(SocketServer(SECRET, tcp)) as server, ThreadPoolExecutor(1) as other:
+        waited = other.submit(server.accept, 20.0)
+        time.sleep(0.3)
+        assert not waited.done()
+        peer = call(server.address)
+        peer.send(hello())
+        ours, _ = waited.result(20.0)
+        for end in (ours, peer):
+            end.close()

@@ -61,3 +61,21 @@ def test_those_that_are_close_are_parted(crowd):
 def test_grains_that_move_together_are_left(crowd):
     crowd.state.u[:], crowd.state.v[:] = 3.0, -1.0
     assert np.abs(moved(crowd, 1e-3)).max() == 0.0
+
+
+def test_speed_counts_along_z_as_along_x(tmp_path):
+    own = {"size": (0.05, 0.05, 0.05), "periodic": ("x", "y", "z"), "gravity": (0.0, 0.0, 0.0)}
+    case = box(["granular_pressure", "grain_shifting"], **own)
+    stepper, rng = started(case, tmp_path).stepper, np.random.default_rng(4)
+    s = stepper.state
+    for axis in (s.x, s.y, s.z):
+        axis += rng.uniform(-3e-3, 3e-3, len(axis))
+    stepper.neighbours.built = ()
+    stepper.prepare()
+    s, found = stepper.state, []
+    for along in ("u", "w"):
+        for axis in ("u", "v", "w"):
+            getattr(s, axis)[:] = np.random.default_rng(5).uniform(-0.5, 0.5, len(s.x)) * (axis == along)
+        found.append(moved(stepper, 1e-3))
+    assert np.abs(found[0]).max() > 0.0
+    np.testing.assert_allclose(found[1], found[0], rtol=1e-12)

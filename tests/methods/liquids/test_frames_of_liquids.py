@@ -96,3 +96,15 @@ def test_free_liquid_flies_the_same_way_seen_from_a_turning_frame(turn):
     place = [particles.positions(own.state)[np.argsort(own.state.ident)] for own in (still, turned)]
     back = Rotation.from_rotvec(omega * end).apply(place[1])
     assert np.linalg.norm(place[0] - back, axis=1).max() < 1e-5 * np.linalg.norm(place[1] - place[0], axis=1).max()
+
+
+def test_the_pressure_of_a_wall_knows_no_coriolis_force():
+    """A wall stands still in its frame: what velocity it takes over from the liquid presses nothing on it."""
+    own = box(LiquidStepper, "frame", frame={"spin_rad_s": [0.0, 0.0, 3.0]})
+    wall, pressed = own.state.kind == particles.WALL, []
+    for speed in (0.0, 2.0):
+        own.state.u[wall], own.state.v[wall] = speed, -speed
+        own.forces()
+        pressed.append(own.pressure[wall].copy())
+    assert pressed[0].max() > 1000.0
+    np.testing.assert_array_equal(*pressed)

@@ -10,6 +10,7 @@ from sdph.case import judge
 from sdph.case import read as cases
 from sdph.effects.grains import friction
 from sdph.engine import state as particles
+from sdph.methods.grains.sound import swing, waves_of
 from sdph.running import driver
 from sdph.running.progress import Reporter
 from sdph.study.explain import pace, tables
@@ -23,10 +24,14 @@ RUNS = [
     ("fluidised_column", "run.end_time_s=0.1", "resolution.spacing_mm=7.5", "resolution.cell_mm=15"),
     ("bubbling_bed", "run.end_time_s=0.1", "resolution.spacing_mm=20", "resolution.cell_mm=20"),
     ("bubbling_bed", "run.end_time_s=0.05", "resolution.spacing_mm=10", "resolution.cell_mm=10"),
+    (
+        "bubbling_bed", "boundaries.distributor.velocity_m_s=[0.0,0.15]", "run.end_time_s=0.8",
+        "resolution.spacing_mm=20", "resolution.cell_mm=20",
+    ),
     ("evaporating_jet", "run.end_time_s=0.1", "resolution.spacing_mm=50", "resolution.cell_mm=100"),
     ("spray_cone", "resolution.spacing_mm=16", "resolution.cell_mm=40", "coupling.window_tolerance=4e-3"),
     ("stefan_tube", "run.end_time_s=20.0"),
-]
+]  # fmt: skip
 
 
 def load(scene, *more):
@@ -93,11 +98,37 @@ def test_the_grip_is_that_of_the_exchange(tmp_path):
 
 
 def test_contacts_carry_the_weight_that_the_gas_leaves_them():
-    """0.61 x 3060 kg/m3 x 9.81 m/s2 x 0.3 m, and (1 - U/U_mf) of it at U = 0.04 m/s; nothing above U_mf."""
+    """0.61 x 3060 kg/m3 x 9.81 m/s2 x 0.3 m, and (1 - U/U_mf) of it at U = 0.04 m/s; nothing above U_mf, as the column
+    is too narrow for bubbles."""
     weight = 0.61 * 3060.0 * 9.81 * 0.3
     for speed, share in ((0.0, 1.0), (0.04, 1.0 - 0.04 / 0.0855), (0.2, 0.0)):
         case = load("fluidised_column", f"boundaries.distributor.velocity_m_s=[0.0,{speed}]")
         assert pace.carried(case, judge.scales_of(case)) == pytest.approx(share * weight, rel=1e-2, abs=1e-9)
+
+
+def test_a_bed_that_bubbles_carries_its_whole_weight_once_grains_have_fallen_through_it():
+    """0.6 x 3060 kg/m3 x 9.81 m/s2 x 0.5 m, after sqrt(2 x 0.5 m/9.81 m/s2); not below U_mf, nor where grains fly."""
+    case, below, beyond = (
+        load("bubbling_bed", f"boundaries.distributor.velocity_m_s=[0.0,{speed}]") for speed in (0.15, 0.08, 5.0)
+    )
+    s, state = judge.scales_of(case), start(case)
+    assert pace.bubbles(case, s) and pace.carried(case, s) == pytest.approx(0.6 * 3060.0 * 9.81 * 0.5)
+    assert pace.coming_down(case, s) == pytest.approx(math.sqrt(1.0 / 9.81))
+    early, late = (pace.sub_steps(case, s, state, come_down)["sound"] for come_down in (False, True))
+    assert late < 0.5 * early
+    for other in (below, beyond):
+        own = judge.scales_of(other)
+        assert not pace.bubbles(other, own) and pace.coming_down(other, own) == 0.0
+
+
+def test_grains_that_carry_are_not_those_that_a_jet_blows_along():
+    """The bed weighs on contacts at rest: its step is longer than that of waves there that go with the jet."""
+    case = load("bubbling_bed")
+    s = judge.scales_of(case)
+    waves, packed = waves_of(case), pace.stiffness(case, s)
+    assert s.speed > 2.0 and s.thrown == 0.0
+    assert pace.fastest(case, s, True) == pytest.approx(swing(waves, *packed))
+    assert pace.fastest(case, s, True) > swing(waves, *pace.stiffness(case, s, lasting=False)) + 2.0 * s.speed
 
 
 def test_thrown_grains_press_with_their_dynamic_pressure():
