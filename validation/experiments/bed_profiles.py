@@ -2,10 +2,10 @@
 et al. 2008, 2009), from a run in three dimensions and, beside it, one in two.
 
 What is settled, before any result: grains and gas are those of the head of the data. Seeds rub each other (0.1 there),
-and kinetic theory knows smooth grains, so their restitution is that of `granular_piles.alone`. They begin at the onset
-of lasting contacts, off their lattice by chance, so that the bed has no mirror. Cells are three grains wide, the finest
-that `sdph explain` calls safe, and particles two grains, which 11 s of can be borne. Sides hold grains; front and back,
-8 grains apart, let them slide, as in the scene bubbling_bed_3d. Everything else is as it comes.
+and kinetic theory knows smooth grains, so their restitution is that of `granular_piles.alone`. They rub all walls as
+much (`walls.friction`). They begin at the onset of lasting contacts, off their lattice by chance, so that the bed has
+no mirror. Cells are three grains wide, the finest that `sdph explain` calls safe, and particles two grains, which 11 s
+of can be borne. Everything else is as it comes.
 """
 
 from __future__ import annotations
@@ -54,7 +54,6 @@ def case(dimensions: int, end: float = END, spacing: float = SPACING):
     height = solid / (PACKED * SIZE[0] * SIZE[2])
     inlet = {"kind": "velocity_inlet", "side": "bottom", "velocity_m_s": [0.0, BLOWN, 0.0][:dimensions]}
     outlet = {"kind": "pressure_outlet", "side": "top", "pressure_Pa": 0.0}
-    faces = {side: {"kind": "slip_wall", "side": side} for side in ("front", "back")} if dimensions == 3 else {}
     return cases.from_table({
         "title": "Bed of poppy seeds", "dimensions": dimensions, "effects": list(EFFECTS),
         "run": {"end_time_s": end, "output_interval_s": min(EVERY, end), "metrics": ["column"]},
@@ -67,7 +66,8 @@ def case(dimensions: int, end: float = END, spacing: float = SPACING):
         "particles": {"bed": {"shape": "box", "lower_m": [0.0] * dimensions,
                               "upper_m": [size[0], height, *size[2:]], "volume_fraction": PACKED,
                               "temperature_K": 293.0, "disorder": 0.1, "seed": 1}},
-        "boundaries": {"distributor": inlet, "outlet": outlet, **faces, "walls": {"kind": "wall"}},
+        "boundaries": {"distributor": inlet, "outlet": outlet, "walls": {"kind": "wall"}},
+        "walls": {"friction": RUBBING},
         "coupling": {"gas": "embedded"},
     })  # fmt: skip
 
