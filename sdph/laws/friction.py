@@ -11,6 +11,7 @@ from sdph.laws.compiled import law
 STICKING = -0.00125963407, 0.106455101, -0.0428147645, 0.00975940218, -0.00125082579, 8.36982963e-5, -2.26955057e-6
 STICKING_STRAIGHT, STICKING_SLOPE = 0.2, 0.0909456818
 
+
 @law
 def johnson_jackson_pressure(alpha_p, alpha_fr, alpha_max, fr, eta, p):
     """p_fr [Pa] = Fr (alpha_p - alpha_fr)^eta/(alpha_max - alpha_p)^p, 0 below alpha_fr. alpha_p < alpha_max (pole).

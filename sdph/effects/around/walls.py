@@ -5,8 +5,9 @@ extrapolated from the grains in front of them, and drag with a mirrored velocity
 leaves the stress of Johnson & Jackson 1987 at the wall, or not at all (`specularity` 0, or a side of the domain that is
 a slip_wall). A wall may slide along itself. What its grip takes from the motion of grains feeds their agitation.
 Pressure vanishes where grains are few, so a grain that comes closer than `contact` to the surface is stopped there: its
-normal velocity is reversed with `restitution`. A wall that grips rubs it then by Coulomb's law, with sin(phi) of
-`friction`, the ratio of shear stress to pressure at which Schaeffer's grains slide along a plane.
+normal velocity is reversed with `restitution`. A wall that grips rubs it then by Coulomb's law, with sin(phi) of the
+effect `friction`, the ratio of shear stress to pressure at which Schaeffer's grains slide along a plane, or with its
+own `friction`, by which its specularity goes too (sdph.effects.around.wall_grip).
 """
 
 from __future__ import annotations
