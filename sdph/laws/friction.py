@@ -7,6 +7,10 @@ import math
 
 from sdph.laws.compiled import law
 
+# phi_0 [-] by powers of k from 0 on, and k to which and slope with which it begins straight: Li & Benyahia 2012
+STICKING = -0.00125963407, 0.106455101, -0.0428147645, 0.00975940218, -0.00125082579, 8.36982963e-5, -2.26955057e-6
+STICKING_STRAIGHT, STICKING_SLOPE = 0.2, 0.0909456818
+
 
 @law
 def johnson_jackson_pressure(alpha_p, alpha_fr, alpha_max, fr, eta, p):
@@ -57,6 +61,40 @@ def johnson_jackson_wall(specularity, alpha_p, theta, g0, density, alpha_max):
     specularity phi [-], 0 smooth to 1 rough; theta [m2/s2], density rho_p [kg/m3]. Johnson & Jackson 1987.
     """
     return specularity * math.pi * density * alpha_p * g0 * math.sqrt(3.0 * theta) / (6.0 * alpha_max)
+
+
+def sliding(friction, restitution):
+    """Coefficient of a collision with a wall k [-] = 7/2 mu (1 + e), mu Coulomb's coefficient and e the restitution of
+    a grain on it: a grain slides where its speed along the wall is more than k times that towards it.
+
+    Li & Benyahia 2012, AIChE J. 58, 2058.
+    """
+    return 3.5 * friction * (1.0 + restitution)
+
+
+def sticking_specularity(friction, restitution):
+    """Specularity phi_0 [-] of a wall that grains do not slide along, by its friction [-] and restitution [-]: a fit of
+    sixth degree in k of `sliding`, below 0.2 its straight beginning.
+
+    Li & Benyahia 2012, AIChE J. 58, 2058; coefficients as in MFIX.
+    """
+    k = sliding(friction, restitution)
+    return STICKING_SLOPE * k if k <= STICKING_STRAIGHT else sum(c * k**n for n, c in enumerate(STICKING))
+
+
+@law
+def sliding_specularity(sticking, k, slip, theta):
+    """Specularity [-] of a wall that grains of theta [m2/s2] slide along at `slip` [m/s]: with r = slip/sqrt(3 theta)
+
+        phi_0 - 7 sqrt(6 pi) phi_0^2 r/(8 k)   up to r = 4 k/(7 sqrt(6 pi) phi_0), where it is half of phi_0,
+        2 k/(7 sqrt(6 pi) r)                   beyond: the stress no longer grows with slip, all grains slide.
+
+    sticking = phi_0 by `sticking_specularity`, k by `sliding`. Li & Benyahia 2012, AIChE J. 58, 2058.
+    """
+    agitation, turn = math.sqrt(3.0 * theta), 7.0 * math.sqrt(6.0 * math.pi)
+    if slip * turn * sticking <= 4.0 * k * agitation:
+        return sticking - (turn * sticking * sticking * slip / (8.0 * k * agitation) if slip > 0.0 else 0.0)
+    return 2.0 * k * agitation / (turn * slip)
 
 
 @law

@@ -69,3 +69,31 @@ def test_slope_starts_at_the_yield_angle():
     assert exact.slope_acceleration(start - 1e-6, angle, 9.81) == 0.0
     assert exact.slope_acceleration(start + 1e-6, angle, 9.81) > 0.0
     assert exact.slope_acceleration(math.pi / 2.0, angle, 9.81) == pytest.approx(9.81, rel=1e-12)
+
+
+@pytest.mark.parametrize(("friction_of_wall", "restitution", "phi"), [(0.1, 0.9, 0.0532), (0.2, 0.7, 0.0789)])
+def test_specularity_of_a_wall_that_grains_stick_to(friction_of_wall, restitution, phi):
+    """Li & Benyahia's polynomial of k = 7/2 mu (1 + e), 0.665 and 1.19, written out by hand to four digits."""
+    assert friction.sliding(friction_of_wall, restitution) == pytest.approx(
+        3.5 * friction_of_wall * (1.0 + restitution)
+    )
+    assert friction.sticking_specularity(friction_of_wall, restitution) == pytest.approx(phi, abs=1e-4)
+
+
+def test_smooth_walls_begin_straight():
+    """From no friction on; at k = 0.2 the fit goes on within 2 %."""
+    assert friction.sticking_specularity(0.0, 0.9) == 0.0
+    below, above = (friction.sticking_specularity((0.2 + s) / 7.0, 1.0) for s in (-1e-9, 1e-9))
+    assert below == pytest.approx(0.2 * 0.0909457, rel=1e-6) and above == pytest.approx(below, rel=0.02)
+
+
+@given(mu=st.floats(0.01, 1.0), theta=st.floats(1e-6, 1.0), fast=st.floats(1.0, 100.0))
+def test_the_stress_of_grains_that_all_slide_does_not_grow(mu, theta, fast):
+    """phi falls as one over the slip beyond the turn, where it is half of what it is without, and meets there."""
+    k, phi = friction.sliding(mu, 0.9), friction.sticking_specularity(mu, 0.9)
+    turn = 4.0 * k / (7.0 * math.sqrt(6.0 * math.pi) * phi) * math.sqrt(3.0 * theta)
+    before, beyond = (friction.sliding_specularity(phi, k, turn * s, theta) for s in (1.0 - 1e-9, 1.0 + 1e-9))
+    assert before == pytest.approx(0.5 * phi, rel=1e-6) and beyond == pytest.approx(before, rel=1e-6)
+    assert friction.sliding_specularity(phi, k, turn * fast, theta) * fast == pytest.approx(0.5 * phi, rel=1e-6)
+    assert friction.sliding_specularity(phi, k, 0.5 * turn, theta) == pytest.approx(0.75 * phi, rel=1e-9)
+    assert [friction.sliding_specularity(phi, k, slip, 0.0) for slip in (0.0, fast)] == [phi, 0.0]

@@ -13,6 +13,7 @@ from coupling.openfoam.comparators.two_fluid_fields import start_fields
 from coupling.openfoam.comparators.two_fluid_numbers import macros
 from sdph.case import read as cases
 from sdph.cli import main
+from sdph.laws.friction import sticking_specularity
 from sdph.schema import CaseError
 from sdph.study import two_fluid
 
@@ -112,6 +113,9 @@ def test_every_boundary_says_what_it_asks():
     assert "outlet { type zeroGradient; }" in leaves["U.particles"]
     rough = start_fields(case(walls={"specularity": 0.3}))
     assert "walls { type JohnsonJacksonParticleSlip; specularityCoefficient 0.3;" in rough["U.particles"]
+    rubbed = case(walls={"friction": 0.1})
+    sticking = sticking_specularity(0.1, rubbed.grains.restitution)
+    assert f"specularityCoefficient {sticking!r};" in start_fields(rubbed)["U.particles"]
 
 
 @pytest.mark.parametrize(

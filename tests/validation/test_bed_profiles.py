@@ -32,6 +32,14 @@ def test_seeds_that_rub_lose_more_than_smooth_ones(beds):
     assert beds.restitution() == pytest.approx(0.8689, abs=1e-4)
 
 
+@pytest.mark.parametrize("dimensions", [3, 2])
+def test_all_walls_are_rubbed_as_in_the_data(beds, dimensions):
+    """0.1 on every side that holds seeds (head of the data): none grips without slip, none is smooth."""
+    case = beds.case(dimensions)
+    assert case.parameters["walls"].friction == 0.1 and case.parameters["walls"].specularity is None
+    assert {own.kind for own in case.boundaries.values()} == {"wall", "velocity_inlet", "pressure_outlet"}
+
+
 def test_a_short_run_keeps_its_balances_and_its_seeds(tmp_path, beds):
     """0.3 s in two dimensions, the first slug: the bed is blown up and stays in its column, air flows as asked; what it
     misses is the numerical work."""
@@ -71,6 +79,8 @@ def test_profiles_of_known_fields(beds):
     for (name, y), own in beds.profiles(known).items():
         if name == "voidage":
             assert own.values == pytest.approx(np.full(len(own.x), 0.4 + 5.0 * y), abs=1e-6)
+            assert own.lean[1:] == pytest.approx(own.x[1:] - middle, abs=1e-6)  # the first is nearer than any cell
+            assert beds.leaning({(name, y): own._replace(lean=0.1)}, (name, y)) == pytest.approx(2.0)  # bars of 0.05
         else:
             assert own.values == pytest.approx(4.0 * y - 900.0 * (own.x - middle) ** 2, abs=2e-3)
 

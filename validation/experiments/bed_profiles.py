@@ -2,10 +2,10 @@
 et al. 2008, 2009), from a run in three dimensions and, beside it, one in two.
 
 What is settled, before any result: grains and gas are those of the head of the data. Seeds rub each other (0.1 there),
-and kinetic theory knows smooth grains, so their restitution is that of `granular_piles.alone`. They begin at the onset
-of lasting contacts, off their lattice by chance, so that the bed has no mirror. Cells are three grains wide, the finest
-that `sdph explain` calls safe, and particles two grains, which 11 s of can be borne. Sides hold grains; front and back,
-8 grains apart, let them slide, as in the scene bubbling_bed_3d. Everything else is as it comes.
+and kinetic theory knows smooth grains, so their restitution is that of `granular_piles.alone`. They rub all walls as
+much (`walls.friction`). They begin at the onset of lasting contacts, off their lattice by chance, so that the bed has
+no mirror. Cells are three grains wide, the finest that `sdph explain` calls safe, and particles two grains, which 11 s
+of can be borne. Everything else is as it comes.
 """
 
 from __future__ import annotations
@@ -41,10 +41,12 @@ QUANTITIES = {"voidage": "voidage [-]", "uy_particle": "velocity of the grains, 
 
 
 class Profile(NamedTuple):
-    """Places x (P,) [m] on the left half, and values there of both halves' mean, as measured."""
+    """Places x (P,) [m] on the left half; values there, the mean of both halves, as measured; and `lean`, half of what
+    the right one has more, which this mean does not see: a vortex that turns one way has nothing else."""
 
     x: np.ndarray
     values: np.ndarray
+    lean: np.ndarray
 
 
 def case(dimensions: int, end: float = END, spacing: float = SPACING):
@@ -54,7 +56,6 @@ def case(dimensions: int, end: float = END, spacing: float = SPACING):
     height = solid / (PACKED * SIZE[0] * SIZE[2])
     inlet = {"kind": "velocity_inlet", "side": "bottom", "velocity_m_s": [0.0, BLOWN, 0.0][:dimensions]}
     outlet = {"kind": "pressure_outlet", "side": "top", "pressure_Pa": 0.0}
-    faces = {side: {"kind": "slip_wall", "side": side} for side in ("front", "back")} if dimensions == 3 else {}
     return cases.from_table({
         "title": "Bed of poppy seeds", "dimensions": dimensions, "effects": list(EFFECTS),
         "run": {"end_time_s": end, "output_interval_s": min(EVERY, end), "metrics": ["column"]},
@@ -67,7 +68,8 @@ def case(dimensions: int, end: float = END, spacing: float = SPACING):
         "particles": {"bed": {"shape": "box", "lower_m": [0.0] * dimensions,
                               "upper_m": [size[0], height, *size[2:]], "volume_fraction": PACKED,
                               "temperature_K": 293.0, "disorder": 0.1, "seed": 1}},
-        "boundaries": {"distributor": inlet, "outlet": outlet, **faces, "walls": {"kind": "wall"}},
+        "boundaries": {"distributor": inlet, "outlet": outlet, "walls": {"kind": "wall"}},
+        "walls": {"friction": RUBBING},
         "coupling": {"gas": "embedded"},
     })  # fmt: skip
 
@@ -102,7 +104,7 @@ def profiles(averages) -> dict[tuple[str, float], Profile]:
     cells, up = _layers(gas.cell_centers().points, np.asarray(gas.cell_data["alpha_p_mean"]))
     points, moving = _layers(np.asarray(grid.points), np.asarray(grid["velocity_mean"])[:, 1])
     known = {"voidage": (cells, 1.0 - up), "uy_particle": (points, moving)}
-    return {(name, y): Profile(own.x, _both(own.x, *_row(*known[name], y))) for (name, y), own in found().items()}
+    return {(name, y): Profile(own.x, *_both(own.x, *_row(*known[name], y))) for (name, y), own in found().items()}
 
 
 def _layers(places, values):
@@ -124,9 +126,10 @@ def _row(axes, values, y: float):
     return axes[0][np.isfinite(values).any(axis=1)], row
 
 
-def _both(x, places, values) -> np.ndarray:
-    """Mean at x (P,) [m] from the left and from the right wall."""
-    return 0.5 * (np.interp(x, places, values) + np.interp(SIZE[0] - x, places, values))
+def _both(x, places, values) -> tuple[np.ndarray, np.ndarray]:
+    """Mean at x (P,) [m] from the left and from the right wall, and half of what the right has more."""
+    left, right = (np.interp(at, places, values) for at in (x, SIZE[0] - x))
+    return 0.5 * (left + right), 0.5 * (right - left)
 
 
 def found() -> dict[tuple[str, float], Profile]:
@@ -138,7 +141,7 @@ def found() -> dict[tuple[str, float], Profile]:
             own = rows[(rows["quantity"] == name) & (rows["y_m"] == y)]
             left = own["x_m"][own["x_m"] < 0.5 * SIZE[0]]
             halves = [np.interp(x, own["x_m"], own["value"], np.nan, np.nan) for x in (left, SIZE[0] - left)]
-            told[name, float(y)] = Profile(left, np.nanmean(halves, axis=0))
+            told[name, float(y)] = Profile(left, np.nanmean(halves, axis=0), 0.5 * (halves[1] - halves[0]))
     return told
 
 
@@ -157,15 +160,23 @@ def against(parts, name: str) -> list[dict]:
 
 def apart(one, other, key) -> np.ndarray:
     """(P,) how far a profile is from another, in bars."""
-    measured_there = found()[key].values
-    bars = np.maximum(SPEED, SHARE * np.abs(measured_there)) if key[0] == "uy_particle" else VOIDAGE
-    return (one[key].values - other[key].values) / bars
+    return (one[key].values - other[key].values) / _bars(key)
+
+
+def _bars(key):
+    """Bars at the places of a profile, in its unit."""
+    return np.maximum(SPEED, SHARE * np.abs(found()[key].values)) if key[0] == "uy_particle" else VOIDAGE
 
 
 def scatter(parts, key) -> float:
     """Distance between the means of both halves of the time, rms in bars; independent, it is twice the error of the
     whole."""
     return float(np.sqrt(np.mean(apart(parts[1], parts[2], key) ** 2)))
+
+
+def leaning(own, key) -> float:
+    """Distance of both halves of the width from their mean, rms in bars."""
+    return float(np.sqrt(np.nanmean((own[key].lean / _bars(key)) ** 2)))
 
 
 def _figure(file: Path, drawn) -> None:
@@ -183,9 +194,10 @@ def _figure(file: Path, drawn) -> None:
             line = axis.plot(1e3 * whole[key].x, whole[key].values, "-", label=f"SDPH, {dimensions}-D")[0]
             for half in halves:
                 axis.plot(1e3 * half[key].x, half[key].values, ":", c=line.get_color(), lw=1)
-        halves = ", ".join(f"{scatter(parts, key):.2f}" for parts in drawn.values())
+        halves = ", ".join(f"{scatter(parts, key):.1f}" for parts in drawn.values())
+        leans = ", ".join(f"{leaning(parts[0], key):.1f}" for parts in drawn.values())
         axis.set(xlabel="x [mm]", ylabel=QUANTITIES[key[0]])
-        axis.set_title(f"y = {1e3 * key[1]:g} mm, halves {halves} bars apart", fontsize=8)
+        axis.set_title(f"y = {1e3 * key[1]:g} mm\nhalves of time {halves}, lean {leans} bars", fontsize=8)
     axes[0].legend(fontsize=8)
     figure.savefig(file, dpi=80)
     pyplot.close(figure)

@@ -1,7 +1,8 @@
 """The start fields `0/*` of twoPhaseEulerFoam with the boundaries of case.toml, for templates that have none.
 
 Each kind of boundary is a row: what it asks of every field. Grains meet a wall as they do in the run: a wall holds
-them, a slip wall lets them slide, and `walls.specularity` is Johnson and Jackson's.
+them, a slip wall lets them slide, and `walls.specularity` is Johnson and Jackson's, by `walls.friction` that of grains
+which stick.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import numpy as np
 from coupling.openfoam import fields
 from coupling.openfoam.comparators.start import Start
 from coupling.openfoam.start_fields import EMPTY, HEAD, STILL, ZERO_GRADIENT, fixed, let_in, vector
+from sdph.effects.around import wall_grip
 from sdph.schema import CaseError
 
 # field -> (class, dimensions)
@@ -108,9 +110,10 @@ def _wall(case, own) -> dict[str, str]:
 def _grip(case, own) -> str:
     """Condition of the grains' velocity at a wall."""
     walls = case.parameters.get("walls") if "walls" in case.effects else None
-    if walls is None or walls.specularity is None:
+    share = wall_grip.NO_SLIP if walls is None else wall_grip.specularity(walls, case.grains.restitution)[0]
+    if share == wall_grip.NO_SLIP:
         return fixed(vector(case, own.velocity))
-    return f"type JohnsonJacksonParticleSlip; specularityCoefficient {walls.specularity!r}; value uniform (0 0 0);"
+    return f"type JohnsonJacksonParticleSlip; specularityCoefficient {share!r}; value uniform (0 0 0);"
 
 
 def _slip_wall(case, own) -> dict[str, str]:

@@ -5,8 +5,9 @@ extrapolated from the grains in front of them, and drag with a mirrored velocity
 leaves the stress of Johnson & Jackson 1987 at the wall, or not at all (`specularity` 0, or a side of the domain that is
 a slip_wall). A wall may slide along itself. What its grip takes from the motion of grains feeds their agitation.
 Pressure vanishes where grains are few, so a grain that comes closer than `contact` to the surface is stopped there: its
-normal velocity is reversed with `restitution`. A wall that grips rubs it then by Coulomb's law, with sin(phi) of
-`friction`, the ratio of shear stress to pressure at which Schaeffer's grains slide along a plane.
+normal velocity is reversed with `restitution`. A wall that grips rubs it then by Coulomb's law, with sin(phi) of the
+effect `friction`, the ratio of shear stress to pressure at which Schaeffer's grains slide along a plane, or with its
+own `friction`, by which its specularity goes too (sdph.effects.around.wall_grip).
 """
 
 from __future__ import annotations
@@ -17,26 +18,26 @@ from typing import NamedTuple
 import numpy as np
 from numba import prange
 
+from sdph.effects.around.wall_grip import coulomb, grip, held, slip, specularity
 from sdph.effects.around.wall_limiters import held as held_by_limiters
 from sdph.effects.effect import Effect, Judgement
 from sdph.engine.geometry import deep
 from sdph.engine.ledger import Column
 from sdph.engine.rows import entry
 from sdph.engine.walls.dummies import CONTACT, distance, normal_part, offset
-from sdph.laws import granular, kernels
+from sdph.laws import kernels
 from sdph.laws.compiled import inlined, parallel, serial
-from sdph.laws.friction import johnson_jackson_wall
 from sdph.schema import choice, file, quantity, record
 
 MODELS = ("dummy", "paper")
-NO_SLIP = -1.0
 
 
 @record
 class Walls:
     model: str = choice(*MODELS)
-    # share of collisions that are diffuse; None: no slip
+    # share of collisions that are diffuse; None: by `friction`, or no slip without it
     specularity: float | None = quantity("", None, least=0.0, most=1.0)
+    friction: float | None = quantity("", None, least=0.0, most=1.0)  # of a grain on the wall; None: it is rough
     # of a contact; SPH particles are many grains: no bounce
     restitution: float = quantity("", 0.0, least=0.0, most=1.0)
     # eps of the paper's force in grain densities times sqrt(g h)/h; not given there
@@ -49,10 +50,12 @@ class Walls:
 
 
 class WallsP(NamedTuple):
-    """Specularity (-1: no slip), restitution, contact distance and spacing [m], volume of a dummy [m^d], penalty [1/s],
-    1 for the paper's force, packing limit, grain density [kg/m3], Coulomb's coefficient of a contact [-]."""
+    """Specularity (-1: no slip) and what it changes by as grains slide, restitution, contact distance and spacing [m],
+    volume of a dummy [m^d], penalty [1/s], 1 for the paper's force, packing limit, grain density [kg/m3], Coulomb's
+    coefficient of a contact and the share of the traction of contacts that a wall that grips takes [-]."""
 
     specularity: float
+    sliding: float
     restitution: float
     contact: float
     spacing: float
@@ -62,17 +65,17 @@ class WallsP(NamedTuple):
     packing: float
     grain_density: float
     rubs: float
+    bears: float
 
 
 def kernel(case) -> WallsP:
     own, spacing = case.parameters["walls"], case.resolution.spacing
     gravity = float(np.linalg.norm(case.domain.gravity)) or 1.0
     penalty = own.penalty * math.sqrt(gravity / case.smoothing_length)
-    specularity = NO_SLIP if own.specularity is None else own.specularity
-    rubs = math.sin(case.parameters["friction"].angle) if "friction" in case.effects and specularity != 0.0 else 0.0
     return WallsP(
-        specularity, own.restitution, CONTACT * spacing, spacing, spacing**case.dimensions, penalty,
-        MODELS.index(own.model), case.grains.packing_limit, case.grains.density, rubs,
+        *specularity(own, case.grains.restitution), own.restitution, CONTACT * spacing, spacing,
+        spacing**case.dimensions, penalty, MODELS.index(own.model), case.grains.packing_limit, case.grains.density,
+        *coulomb(case, own),
     )  # fmt: skip
 
 
@@ -95,15 +98,6 @@ def closure(p, box, wall, s, i, kernel):
         r = distance(box, wall, entry(wall, i, k), s, i)
         share -= p.volume * kernels.cubic_spline(r, kernel.h, kernel.sigma)
     return share
-
-
-@inlined
-def held(p, wall, w, x, y, z):
-    """Part of a vector (velocity or traction of contacts) that a wall takes hold of: all of it where it grips, else
-    that along the normal."""
-    nx, ny, nz = normal_part(wall, w, x, y, z)
-    grips = wall.stick[w] * (p.specularity != 0.0)
-    return nx + grips * (x - nx), ny + grips * (y - ny), nz + grips * (z - nz)
 
 
 @inlined
@@ -172,19 +166,6 @@ def extrapolate(kernel, box, wall, facing, s, pressure, wall_pressure, unheld, w
         wall_velocity[w, 2] = up / weight if found else 0.0
 
 
-@serial
-def grip(p, stick, y, density, grain_density, theta, shear):
-    """Share of the no-slip stress: y/(y + b) at the distance y [m] from the wall, with the slip length b = mu/k of the
-    law tau = k v; all of it where theta [m2/s2] is not known (nan)."""
-    if p.specularity < 0.0 or stick == 0.0 or math.isnan(theta):
-        return stick * (p.specularity != 0.0)
-    y = max(y, p.contact)
-    a = granular.capped_fraction(density / grain_density, p.packing)
-    g0 = granular.sinclair_jackson(a, p.packing)
-    k = johnson_jackson_wall(p.specularity, a, theta, g0, grain_density, p.packing)
-    return k * y / (k * y + shear) if k > 0.0 else 0.0
-
-
 @inlined
 def solid(p, kernel, s, i):
     """rho_p [kg/m3] of particle i: of one material a plain kernel tells, of its own a mixed one."""
@@ -219,9 +200,10 @@ def pair(p, kernel, box, wall, w, s, i, rho, theta, stress, friction_p):
         # mirrored velocity 2 v_wall - <v>: v_i + <v> - 2 v_wall; Morris' form of the viscous force
         nx, ny, nz = wall.normal_x[w], wall.normal_y[w], wall.normal_z[w]
         away = dx * nx + dy * ny + dz * nz
-        gripped = 2.0 * grip(p, wall.stick[w], away - wall.depth[w], s.density[i], rho, theta, stress.shear[i])
-        stick = gripped * p.volume / s.density[i] * stress.shear[i] * gradient
         du, dv, dw = against(wall, w, box, s, i)
+        speed = slip(nx, ny, nz, du, dv, dw)
+        gripped = 2.0 * grip(p, wall.stick[w], away - wall.depth[w], s.density[i], rho, theta, stress.shear[i], speed)
+        stick = gripped * p.volume / s.density[i] * stress.shear[i] * gradient
         fx = stick * (du + wall.velocity[w, 0] - wall.slide_x[w])
         fy = stick * (dv + wall.velocity[w, 1] - wall.slide_y[w])
         fz = stick * (dw + wall.velocity[w, 2] - wall.slide_z[w])

@@ -33,6 +33,18 @@ def test_a_floor_rubs_by_sin_phi_of_what_it_pushes(tmp_path, restitution):
     assert state.u[0] == pytest.approx(SPEED - (1.0 + restitution) * RUBBED, rel=1e-12)
 
 
+@pytest.mark.parametrize(("effects", "given", "rubs"), [
+    (EFFECTS, 0.1, 0.1),
+    (EFFECTS, 0.9, math.sin(math.radians(ANGLE))),
+    (EFFECTS, 0.0, 0.0),
+    (["walls"], 0.1, 0.1),
+])  # fmt: skip
+def test_a_floor_that_has_a_friction_rubs_by_it(tmp_path, effects, given, rubs):
+    """By no more than grains rub each other, where they do."""
+    state = flung(tmp_path, effects=effects, walls={"friction": given}).state
+    assert state.u[0] == pytest.approx(SPEED - rubs * FALL, rel=1e-12)
+
+
 def test_friction_of_a_contact_does_the_work_that_is_booked(tmp_path):
     stepper = flung(tmp_path)
     account, mass, speed = columns_of(stepper.account), stepper.state.mass[0], stepper.state.u[0]

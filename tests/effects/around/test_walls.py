@@ -1,12 +1,15 @@
 """Walls: what grains feel along them, and that none gets through."""
 
+import math
+
 import meshio
 import numpy as np
 import pytest
-from grain_boxes import DENSITY, DIAMETER, box, go, started, windows
+from grain_boxes import DENSITY, DIAMETER, SPACING, box, go, started, windows
+from scipy.optimize import brentq
 
 from sdph.engine.walls import facets
-from sdph.laws import granular
+from sdph.laws import friction, granular
 
 ALPHA_P, THETA, HEIGHT = 0.5, 1.0, 0.06
 G0 = granular.sinclair_jackson(ALPHA_P, 0.63)
@@ -78,6 +81,49 @@ def test_specular_plates_hold_back_with_the_stress_of_johnson_and_jackson(tmp_pa
     print(f"slip {np.mean(u - poiseuille(y, 1.0)):.4f} m/s, exact {slip:.4f}")
     assert slip > 0.3 * poiseuille(0.5 * HEIGHT, 1.0)
     np.testing.assert_allclose(u, slip + poiseuille(y, 1.0), atol=0.06 * (slip + poiseuille(0.5 * HEIGHT, 1.0)))
+
+
+def test_plates_of_a_friction_hold_back_by_li_and_benyahia(tmp_path):
+    """A stress k u with the specularity of that slip, or of the speed of the grains that a plate sees, a spacing and a
+    half away at most; grains that stuck to it would slip by 15 % less."""
+    mu, push = 0.02, 5.0
+    sliding, sticking = 3.5 * mu * 1.9, friction.sticking_specularity(mu, 0.9)
+    stress = 0.5 * ALPHA_P * DENSITY * HEIGHT * push
+    per = np.pi * DENSITY * ALPHA_P * G0 * np.sqrt(3.0 * THETA) / (6.0 * 0.63)  # k over the specularity [Pa s/m]
+
+    def slip(height):
+        faster = poiseuille(height, push)
+        return brentq(
+            lambda u: per * friction.sliding_specularity(sticking, sliding, u + faster, THETA) * u - stress, 0.0, 2.0
+        )
+
+    least, most = slip(0.0), slip(1.5 * SPACING)
+    assert least > 1.15 * stress / (per * sticking)
+    y, u = channel(tmp_path, push, 5.0 * (RELAXATION + stress / (push * per * sticking)), friction=mu)
+    ours = np.mean(u - poiseuille(y, push))
+    print(f"slip {ours:.4f} m/s, exact {least:.4f} to {most:.4f}")
+    assert 0.98 * least < ours < 1.02 * most
+
+
+@pytest.mark.parametrize(("given", "slows"), [(0.1, 0.1), (None, math.sin(math.radians(28.5)))])
+def test_a_bed_that_slides_on_a_floor_is_slowed_by_its_friction(tmp_path, given, slows):
+    """Grains at rest on each other slide as a slab: mu g; on a rough floor as grains on grains, sin(phi) g."""
+    gravity, speed, end = 9.81, 1.0, 0.05
+    case = box(
+        ["gravity", "granular_pressure", "friction", "walls"], size=(0.06, 0.06), alpha_p=0.605, periodic=("x",),
+        fill=(0.06, 0.03), gravity=(0.0, -gravity), walls={} if given is None else {"friction": given},
+        grains={"granular_temperature_m2_s2": 1e-10}, **windows(end, 1),
+    )  # fmt: skip
+    stepper = started(case, tmp_path).stepper
+    zeros = np.zeros(len(stepper.state.x))
+    push = np.tile((0.0, -gravity, 0.0), (len(zeros), 1))
+    for step, length in enumerate((0.3, end)):
+        stepper.force(zeros, push, zeros)
+        stepper.state.u[:] = step * speed
+        stepper.move(length)
+    slowed = (speed - np.average(stepper.state.u, weights=stepper.state.mass)) / (end * gravity)
+    print(f"slows by {slowed:.3f} g")
+    assert slowed == pytest.approx(slows, rel=0.15)
 
 
 def wedge(folder, lower, upper):
