@@ -88,6 +88,8 @@ def run(options) -> int:
 
     overrides, here = tuple(options.set) + _overrides(options), world.here()
     several = options.ranks and options.ranks > 1
+    if here.number > 1:
+        sys.excepthook = ranks.end_all
     if several:
         _refuse(options, ("watch",), "a page is of one process")
     with contextlib.closing(Reporter(quiet=not here.chief, line=not options.json)) as reporter:

@@ -35,8 +35,8 @@ OF_LIQUIDS = (
 )  # fmt: skip
 OF_GRAINS = (
     "artificial_viscosity", "break_up", "conduction", "drag", "electric_field", "evaporation", "friction",
-    "gas_pressure", "grain_shifting", "granular_pressure", "granular_temperature", "granular_viscosity", "gravity",
-    "heat", "inflow", "lift", "micro_explosion", "outflow", "radiation", "reaction", "turbulent_dispersion",
+    "gas_pressure", "grain_drag", "grain_shifting", "granular_pressure", "granular_temperature", "granular_viscosity",
+    "gravity", "heat", "inflow", "lift", "micro_explosion", "outflow", "radiation", "reaction", "turbulent_dispersion",
     "wall_heat", "walls",
 )  # fmt: skip
 SHARED = {"liquid": OF_LIQUIDS, "grains": OF_GRAINS}
@@ -53,8 +53,6 @@ def refuse(case, number: int) -> None:
     known = SHARED.get(case.moved_by(case.matters[0]), ())
     if not known or len(case.matters) > 1:
         raise CaseError(f"{given}: only grains in a gas or a liquid alone are shared among processes; {mend}")
-    if case.mixed:
-        raise CaseError(f"{given}: grains of several materials are not shared among processes; {mend}")
     if name := next((name for name, own in case.nozzles.items() if own.record and not own.table), None):
         raise CaseError(f"{given}: nozzles.{name} records a run, which is of one process; run it first, or {mend}")
     if left := sorted(set(case.effects) - set(known)):
@@ -161,6 +159,12 @@ def wait_for_the_first() -> None:
     """Wait once, in another process than the first one, for it to end this one: what fails everywhere is told once."""
     if not world.here().chief:
         time.sleep(GRACE)
+
+
+def end_all(kind, error, trace) -> NoReturn:
+    """Take the place of sys.excepthook: others would wait for ever for a process that a fault in the code has ended."""
+    sys.__excepthook__(kind, error, trace)
+    end(1)
 
 
 def end(code: int) -> NoReturn:

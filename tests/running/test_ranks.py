@@ -104,6 +104,13 @@ def test_what_goes_unstable_is_told_once_with_its_own_code(tmp_path):
     assert json.loads((tmp_path / "run/failure.json").read_text())["kind"] == "Unstable"
 
 
+def test_a_fault_of_ours_in_one_process_ends_all(monkeypatch, capsys):
+    ended = []
+    monkeypatch.setattr(ranks, "end", ended.append)
+    ranks.end_all(ZeroDivisionError, ZeroDivisionError("a fault"), None)
+    assert ended == [1] and "a fault" in capsys.readouterr().err
+
+
 def test_others_wait_once_for_what_the_first_has_to_say(monkeypatch):
     other, slept = World(), []
     other.chief = False
@@ -119,7 +126,6 @@ def test_others_wait_once_for_what_the_first_has_to_say(monkeypatch):
 @pytest.mark.parametrize(
     ("options", "told"),
     [
-        (("segregation", "--ranks", "2"), "grains of several materials are not shared"),
         (("swirl_spray", "--ranks", "2"), "records a run"),
         (("bed_with_tube", "--ranks", "2", "--watch"), "a page is of one process"),
         (("swirl_sheet", "--ranks", "2"), "only grains in a gas or a liquid alone are shared"),

@@ -39,6 +39,7 @@ CASES = {  # name -> processes, scene and options: each effect at least once, in
                          "grains.surface_tension_N_m=0.02", "--set", "break_up.liquid_viscosity_Pa_s=1e-3"),
     "gel droplets": (2, "gel_spray", *EMBEDDED, "--until", "0.004"),
     "char that burns": (2, "burning_char", *EMBEDDED, "--until", "0.01"),
+    "two materials": (2, "segregation", *EMBEDDED, "--until", "0.004"),
     "walls that heat, shifting": (2, *BED, "--until", "0.002", "--set", "boundaries.walls.temperature_K=400",
                                   *on(*BEDDED, "wall_heat", "grain_shifting")),
     "cylinder of an OpenFOAM mesh": (2, "cylindrical_bed", "--gas", "openfoam", "--np", "2", "--until", "0.004"),

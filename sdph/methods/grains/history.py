@@ -8,6 +8,7 @@ import numpy as np
 
 from sdph import effects
 from sdph.engine import state as particles
+from sdph.engine.world import here
 
 TRACKED = {
     "x_m": "x", "y_m": "y", "z_m": "z", "u_m_s": "u", "v_m_s": "v", "w_m_s": "w", "temperature_K": "temperature",
@@ -49,10 +50,9 @@ def of_materials(case, state) -> dict[str, float]:
     rise = particles.velocities(state) @ up
     for number, name in enumerate(case.materials):
         mass = state.mass * (state.material == number)
-        total = float(mass.sum())
-        found[f"material_{name}_kg"] = total
-        found[f"material_{name}_height_m"] = float(mass @ height) / total if total else math.nan
-        found[f"material_{name}_rise_m_s"] = float(mass @ rise) / total if total else math.nan
+        total, *sums = here().sum(np.array([mass.sum(), mass @ height, mass @ rise])).tolist()
+        means = (own / total if total else math.nan for own in sums)
+        found |= dict(zip((f"material_{name}_{key}" for key in ("kg", "height_m", "rise_m_s")), (total, *means)))
     return found
 
 

@@ -13,7 +13,7 @@ from sdph import effects
 from sdph.effects import OFF
 from sdph.effects.around import wall_contact
 from sdph.effects.effect import Live
-from sdph.effects.grains import grain_shifting
+from sdph.effects.grains import friction, grain_shifting
 from sdph.engine import gathered, world
 from sdph.engine import state as particles
 from sdph.engine.clock import count_of_parts
@@ -36,11 +36,12 @@ class Stepper(Windowed):
 
     KEPT, FORMS = ("state", "neighbours", "steps", "contacts", "limit"), {"state": GROWING}  # see sdph.engine.kept
     ROWS = ()  # arrays of a row a particle that a checkpoint holds beside the state (sdph.engine.gathered)
-    # what a sub-step takes from neighbours and theirs, fresh, of `state`, beside their density and `scratch.bearing`;
-    # only the first change by a sub-step. Of several materials for their drag on each other velocities once more, after
-    # the kick, with kind and material
-    MOVING, HALO = (*"xyzuvw", "temperature", "theta"), ("mass", "diameter")
+    # what a sub-step takes from neighbours and theirs, fresh, of `state`: all else of a particle is its own affair
+    HALO = (*"xyzuvw", "mass", "density", "temperature", "diameter", "theta", *friction.ARRAYS)
+    # and these, of several materials; for their drag on each other velocities once more, after the kick, with kind and
+    # material
     OF_SEVERAL = ("grain_density", "grain_conductivity")
+    MOVING = (*"xyzuvw", "temperature", "theta", "kind")  # what a sub-step changes of them, beside their density
 
     def __init__(self, case, parameters, state, source=None, shortest=0.0):
         self.case, self.parameters, self.state, self.source = case, parameters, state, source
@@ -106,10 +107,10 @@ class Stepper(Windowed):
         """The particles of this process: a view of `state`."""
         return self.domain.own(self.state)
 
-    def _arrays(self, names=MOVING + HALO) -> list[np.ndarray]:
+    def _arrays(self, names=HALO) -> list[np.ndarray]:
         return [getattr(self.state, name) for name in names]
 
-    def prepare(self, changed: tuple[str, ...] = MOVING + HALO) -> None:
+    def prepare(self, changed: tuple[str, ...] = (*HALO, "kind")) -> None:
         """Neighbours and density of where the particles are now; of others' what has `changed` at most."""
         before = self.neighbours.built
         self.state, _ = self.neighbours.update(self.state, *self._arrays(changed))
@@ -213,18 +214,9 @@ class Stepper(Windowed):
         if self.domain.alone:
             sub_step.advance(*self._given(dt, window))
         else:
-            self._advance_own(*self._given(dt, window))
+            sub_step.advance_own(self.domain, self.own, *self._given(dt, window))
         self._settle(dt)
         self.steps += 1
-
-    def _advance_own(self, kernel, s, rows, box, scratch, terms, walls_p, wall, *rest) -> None:
-        """The same for own particles, which need what others' are strained by."""
-        work, dt = self.work, self.step
-        sub_step.strain_grains(
-            kernel, s, rows, box, scratch, terms.shears, terms.friction, terms.viscous, walls_p, wall, work, dt
-        )
-        self.domain.refresh(scratch.bearing)
-        sub_step.go(kernel, s, self.own, rows, box, scratch, terms, walls_p, wall, *rest)
 
     def _given(self, dt: float, window: float) -> tuple:
         """Arguments of a sub-step of `dt` of a `window` [s]."""

@@ -77,19 +77,33 @@ def advance(
     strain_grains(
         kernel, s, rows, box, scratch, terms.shears, terms.friction, terms.viscous, walls_p, wall, work, steps[0]
     )
-    go(
-        kernel, s, s, rows, box, scratch, terms, walls_p, wall, facing, unheld, heated, work, gravity, steps,
-        heat_capacity, sums,
-    )  # fmt: skip
+    push(kernel, s, s, rows, box, scratch, terms, walls_p, wall, facing, unheld, work, gravity, steps[0], sums)
+    if len(terms.slip):
+        grain_drag.stiffen(terms.slip, kernel, s, rows, box, scratch.crowd, steps[0], work.stiff)
+        slip(terms.slip, terms.temperature, kernel, s, s, rows, box, scratch, work, steps[0], sums.slowed)
+    settle(kernel, s, s, box, scratch, terms, heated, work, steps, heat_capacity, sums)
+
+
+def advance_own(
+    domain, own, kernel, s, rows, box, scratch, terms, walls_p, wall, facing, unheld, heated, work, gravity, steps,
+    heat_capacity, sums,
+) -> None:  # fmt: skip
+    """The same for the `own` particles of a process, which need what others' are strained by, and what brakes them."""
+    dt, walled = steps[0], (walls_p, wall)
+    strain_grains(kernel, s, rows, box, scratch, terms.shears, terms.friction, terms.viscous, *walled, work, dt)
+    domain.refresh(scratch.bearing)
+    push(kernel, s, own, rows, box, scratch, terms, *walled, facing, unheld, work, gravity, dt, sums)
+    if terms.slip:
+        domain.refresh(s.u, s.v, s.w)
+        grain_drag.stiffen(terms.slip, kernel, s, rows, box, scratch.crowd, dt, work.stiff)
+        domain.refresh(work.stiff)
+        slip(terms.slip, terms.temperature, kernel, s, own, rows, box, scratch, work, dt, sums.slowed)
+    settle(kernel, s, own, box, scratch, terms, heated, work, steps, heat_capacity, sums)
 
 
 @serial
-def go(
-    kernel, s, own, rows, box, scratch, terms, walls_p, wall, facing, unheld, heated, work, gravity, steps,
-    heat_capacity, sums,
-):  # fmt: skip
-    """The same from the strain on; `own` are the particles of s that go: those of this process."""
-    dt, window = steps
+def push(kernel, s, own, rows, box, scratch, terms, walls_p, wall, facing, unheld, work, gravity, dt, sums):
+    """Rates, and velocities after dt [s], of `own`: the particles of s that are of this process."""
     if len(walls_p):
         walls.extrapolate(
             kernel, box, wall, facing, s, scratch.pressure, wall.pressure, unheld, wall.velocity
@@ -102,7 +116,12 @@ def go(
     account.kick(
         own, work.acceleration, work.of_walls, work.agitation, work.heating, gravity, dt, sums.impulses, sums.works
     )
-    slip(terms.slip, terms.temperature, kernel, s, rows, box, scratch, work, dt, sums.slowed)
+
+
+@serial
+def settle(kernel, s, own, box, scratch, terms, heated, work, steps, heat_capacity, sums):
+    """theta, temperature and place of `own` after the sub-step."""
+    dt, window = steps
     agitate(terms.temperature, own, scratch, work, dt)
     wall_heat.exchange(terms.wall_heat, terms.conduction, kernel, box, heated, s, dt, sums.gave)
     account.warm(terms.temperature, own, work, dt, window, heat_capacity, sums.heats)
@@ -124,12 +143,11 @@ def strain_grains(kernel, s, rows, box, scratch, shears, friction_p, viscous_p, 
 
 
 @serial
-def slip(p, temperature_p, kernel, s, rows, box, scratch, work, dt, slowed):
-    """Velocities after materials have braked each other for dt [s]; what their motion loses goes into `work`."""
-    if len(p):
-        grain_drag.stiffen(p, kernel, s, rows, box, scratch.crowd, dt, work.stiff)
-        grain_drag.exchange(p, kernel, s, rows, box, scratch.crowd, dt, work.stiff, work.moved, work.lost)
-        account.brake(temperature_p, s, work, dt, slowed)
+def slip(p, temperature_p, kernel, s, own, rows, box, scratch, work, dt, slowed):
+    """Velocities of `own` after materials have braked each other for dt [s]; what their motion loses goes into
+    `work`."""
+    grain_drag.exchange(p, kernel, s, rows, box, scratch.crowd, dt, work.stiff, work.moved, work.lost)
+    account.brake(temperature_p, own, work, dt, slowed)
 
 
 @serial

@@ -97,7 +97,7 @@ class Liquid(Stepped):
         stepper = self.stepper
         before = stepper.active
         with gathered.whole(stepper) as chief:
-            if chief:
+            if not stepper.domain.alone:
                 stepper.active = np.flatnonzero(particles.wet(stepper.state)).astype(before.dtype)
             try:
                 yield chief
