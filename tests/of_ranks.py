@@ -19,7 +19,7 @@ SDPH = (sys.executable, "-m", "sdph.cli", "run")
 def run(*options, ranks=1, **more):
     """The finished process of `sdph run`."""
     given = (*SDPH, *map(str, options), *(("--ranks", str(ranks)) if ranks > 1 else ()))
-    return subprocess.run(given, capture_output=True, text=True, timeout=300, check=False, **more)
+    return subprocess.run(given, capture_output=True, text=True, timeout=900, check=False, **more)
 
 
 def fine(folder: Path, *options, ranks=1) -> Path:

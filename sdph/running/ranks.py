@@ -7,6 +7,7 @@ that folder as with any run that has no checkpoint yet; the first of them writes
 from __future__ import annotations
 
 import contextlib
+import ctypes
 import functools
 import importlib.util
 import os
@@ -40,6 +41,7 @@ OF_GRAINS = (
     "wall_heat", "walls",
 )  # fmt: skip
 SHARED = {"liquid": OF_LIQUIDS, "grains": OF_GRAINS}
+PR_SET_PDEATHSIG = 1  # linux/prctl.h
 KNOWN = range(6)  # codes that a process ends with of itself
 RULE = "-" * 20  # about what mpirun has to say
 DIED = re.compile(r"process rank (\d+) .*exited on (signal \d+ \([^)]*\))")
@@ -100,8 +102,8 @@ def _started(case, folder: Path, number: int, options: list[str]) -> int:
     threads = str(max(1, (os.cpu_count() or 1) // number))
     environment = {"NUMBA_NUM_THREADS": threads, **os.environ, world.MARK: str(number)}
     command = [*launcher(case, number), sys.executable, "-m", "sdph.cli", "run", "--resume", str(folder), *options]
-    heard, piped = [], subprocess.PIPE
-    with subprocess.Popen(command, env=environment, start_new_session=True, stderr=piped, text=True) as processes:
+    heard, how = [], {"start_new_session": True, "stderr": subprocess.PIPE, "text": True, "preexec_fn": _end_with_us}
+    with subprocess.Popen(command, env=environment, **how) as processes:
 
         def ask(signum: int, frame) -> None:
             heard.append(signum)
@@ -123,6 +125,12 @@ def _started(case, folder: Path, number: int, options: list[str]) -> int:
     if code not in KNOWN:
         raise _lost(folder, f"{command[0]} ended with code {code}: {' '.join(told) or 'it does not say why'}")
     return code
+
+
+def _end_with_us() -> None:
+    """Have the launcher, and so its processes, asked to end once this process is gone (prctl of Linux)."""
+    with contextlib.suppress(OSError, AttributeError):
+        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
 
 
 def _passed_on(lines) -> list[str]:

@@ -90,6 +90,16 @@ def test_when_one_process_dies_all_end_and_the_run_says_how_to_go_on(tmp_path):
     assert fine(tmp_path / "run", "--resume", tmp_path / "run", "--until", "0.02", ranks=2)
 
 
+def test_when_the_process_that_was_asked_is_killed_the_others_end(tmp_path):
+    going = begun(tmp_path / "run")
+    going.kill()
+    going.communicate(timeout=30.0)
+    end = time.monotonic() + 20.0  # each leaves a checkpoint, as when it is asked to stop
+    while left := shared_by(tmp_path / "run"):
+        assert time.monotonic() < end, left
+        time.sleep(0.1)
+
+
 def test_a_run_that_is_asked_to_stop_leaves_a_checkpoint(tmp_path):
     going = begun(tmp_path / "run")
     going.terminate()

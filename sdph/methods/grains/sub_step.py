@@ -78,9 +78,8 @@ def advance(
         kernel, s, rows, box, scratch, terms.shears, terms.friction, terms.viscous, walls_p, wall, work, steps[0]
     )
     push(kernel, s, s, rows, box, scratch, terms, walls_p, wall, facing, unheld, work, gravity, steps[0], sums)
-    if len(terms.slip):
-        grain_drag.stiffen(terms.slip, kernel, s, rows, box, scratch.crowd, steps[0], work.stiff)
-        slip(terms.slip, terms.temperature, kernel, s, s, rows, box, scratch, work, steps[0], sums.slowed)
+    stiffen(terms.slip, kernel, s, rows, box, scratch, work, steps[0])
+    slip(terms.slip, terms.temperature, kernel, s, s, rows, box, scratch, work, steps[0], sums.slowed)
     settle(kernel, s, s, box, scratch, terms, heated, work, steps, heat_capacity, sums)
 
 
@@ -95,7 +94,7 @@ def advance_own(
     push(kernel, s, own, rows, box, scratch, terms, *walled, facing, unheld, work, gravity, dt, sums)
     if terms.slip:
         domain.refresh(s.u, s.v, s.w)
-        grain_drag.stiffen(terms.slip, kernel, s, rows, box, scratch.crowd, dt, work.stiff)
+        stiffen(terms.slip, kernel, s, rows, box, scratch, work, dt)
         domain.refresh(work.stiff)
         slip(terms.slip, terms.temperature, kernel, s, own, rows, box, scratch, work, dt, sums.slowed)
     settle(kernel, s, own, box, scratch, terms, heated, work, steps, heat_capacity, sums)
@@ -143,11 +142,19 @@ def strain_grains(kernel, s, rows, box, scratch, shears, friction_p, viscous_p, 
 
 
 @serial
+def stiffen(p, kernel, s, rows, box, scratch, work, dt):
+    """How stiff drag between materials is over dt [s], into `work`."""
+    if len(p):
+        grain_drag.stiffen(p, kernel, s, rows, box, scratch.crowd, dt, work.stiff)
+
+
+@serial
 def slip(p, temperature_p, kernel, s, own, rows, box, scratch, work, dt, slowed):
     """Velocities of `own` after materials have braked each other for dt [s]; what their motion loses goes into
     `work`."""
-    grain_drag.exchange(p, kernel, s, rows, box, scratch.crowd, dt, work.stiff, work.moved, work.lost)
-    account.brake(temperature_p, own, work, dt, slowed)
+    if len(p):
+        grain_drag.exchange(p, kernel, s, rows, box, scratch.crowd, dt, work.stiff, work.moved, work.lost)
+        account.brake(temperature_p, own, work, dt, slowed)
 
 
 @serial
