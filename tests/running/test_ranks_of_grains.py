@@ -34,7 +34,7 @@ CASES = {  # name -> processes, scene and options: each effect at least once, in
     "bed: walls, contacts, theta, heat, tracks": (2, *BED, "--until", "0.004"),
     "disc at rest, heated, probes": (2, "disc_cluster", *EMBEDDED, "--until", "2e-4"),
     "jet of a nozzle": (2, "evaporating_jet", *EMBEDDED, "--until", "0.02"),
-    "spray: evaporates, leaves": (2, *SPRAY, "--until", "0.03"),
+    "spray: evaporates, leaves": (2, *SPRAY, "--until", "0.05"),
     "drops that break": (2, *SPRAY, "--until", "0.01", *on(*SPRAYED, "break_up"), "--set",
                          "grains.surface_tension_N_m=0.02", "--set", "break_up.liquid_viscosity_Pa_s=1e-3"),
     "gel droplets": (2, "gel_spray", *EMBEDDED, "--until", "0.004"),
@@ -87,7 +87,7 @@ def alike(found: Path, one: Path, bar: float = 1e-11) -> None:
     for table in ("history.csv", "ledger.csv"):
         table_alike(columns(found / table), columns(one / table))
     left = [columns(folder / "outflow.csv") for folder in (found, one) if (folder / "outflow.csv").is_file()]
-    assert sorted(left[0]["particle"]) == sorted(left[1]["particle"]) if left else True
+    assert not left or sorted(left[0].get("particle", ())) == sorted(left[1].get("particle", ()))
     a, b = (json.loads((folder / "summary.json").read_text()) for folder in (found, one))
     assert a.keys() == b.keys()
     for key in ("sub_steps", "windows", "particles", "wall_contacts", "outflow_particles", "detachment_time_s"):
