@@ -35,7 +35,7 @@ class SharedGas:
             self.gas.close()
 
     def _told(self, step: str, *given):
-        """What the chief's solver hands back of a step; a window that it could not finish is so everywhere."""
+        """Hand out what the chief's solver gives after a step; a window that it could not finish is so everywhere."""
         found = None
         if self.world.chief:
             try:

@@ -21,7 +21,7 @@ def row(simulation) -> dict[str, float]:
 
 
 def in_the_end(case, first: dict[str, float], last: dict[str, float]) -> dict[str, float]:
-    """What probes show in the last row, and by how much their temperature rose since the first."""
+    """Values of probes in the last row, and by how much their temperature rose since the first."""
     found = {}
     for name, probe in case.probes.items():
         keys = (f"{name}_{column}" for column in probed.columns(case, probe))

@@ -51,7 +51,7 @@ class Grains:
 
     @property
     def inside(self):
-        """Those of them that are in the gas."""
+        """Particles of this process that are in the gas."""
         return particles.grains(self.state)
 
     @property

@@ -143,7 +143,7 @@ def strain_grains(kernel, s, rows, box, scratch, shears, friction_p, viscous_p, 
 
 @serial
 def stiffen(p, kernel, s, rows, box, scratch, work, dt):
-    """How stiff drag between materials is over dt [s], into `work`."""
+    """Put into `work` by how much drag between materials is stiff over dt [s]."""
     if len(p):
         grain_drag.stiffen(p, kernel, s, rows, box, scratch.crowd, dt, work.stiff)
 

@@ -1,4 +1,4 @@
-"""What holds for grains over a window, and what their sub-steps in it add up to."""
+"""Grains through a window: forces that hold over it, and sums of its sub-steps."""
 
 from __future__ import annotations
 
