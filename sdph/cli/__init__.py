@@ -122,11 +122,8 @@ def run(options) -> int:
 
 def _handed(options, overrides: tuple[str, ...]) -> list[str]:
     """Options of the processes that share a run."""
-    return (
-        [part for value in overrides for part in ("--set", value)]
-        + ["--json"] * options.json
-        + (["--allow-code"] * options.allow_code)
-    )
+    flags = ["--json"] * options.json + ["--allow-code"] * options.allow_code
+    return [part for value in overrides for part in ("--set", value)] + flags
 
 
 def _refuse(options, names, why: str) -> None:

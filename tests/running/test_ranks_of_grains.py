@@ -106,6 +106,14 @@ def test_shared_grains_go_as_one_process_takes_them(tmp_path, name):
     assert told["ranks"] == ranks and 1.0 <= told["imbalance"] < 1.5 and told["halo_share"] > 0.0
 
 
+def test_a_run_goes_on_by_other_processes_or_by_one(tmp_path):
+    whole = fine(tmp_path / "whole", *BED, "--until", "0.004")
+    fine(whole, "--resume", whole, "--until", "0.008")
+    for name, before, after in (("more", 2, 3), ("one", 2, 1), ("several", 1, 2)):
+        cut = fine(tmp_path / name, *BED, "--until", "0.004", ranks=before)
+        alike(fine(cut, "--resume", cut, "--until", "0.008", ranks=after), whole)
+
+
 def test_a_run_by_the_same_processes_repeats_bit_for_bit(tmp_path):
     first, again = (particles(fine(tmp_path / f"r{n}", *BED, "--until", "0.004", ranks=2)) for n in range(2))
     for name, values in first.items():

@@ -36,8 +36,10 @@ class Installation:
 
     def environment(self) -> dict[str, str]:
         """Environment variables for its programs."""
-        found = dict(_sourced(self.bashrc)) if self.bashrc is not None else dict(os.environ)
-        found |= {} if self.bashrc is not None else {"WM_PROJECT_DIR": str(self.project)}
+        if self.bashrc is not None:
+            found = dict(_sourced(self.bashrc))
+        else:
+            found = dict(os.environ) | {"WM_PROJECT_DIR": str(self.project)}
         if world.here().number == 1:
             return found
         return {name: value for name, value in found.items() if not OF_RANK.match(name)}

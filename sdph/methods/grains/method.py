@@ -214,7 +214,7 @@ class Stepper(Windowed):
         if self.domain.alone:
             sub_step.advance(*self._given(dt, window))
         else:
-            sub_step.advance_own(self.domain, self.own, *self._given(dt, window))
+            sub_step.advance_own(self.domain, self.own, self._given(dt, window))
         self._settle(dt)
         self.steps += 1
 

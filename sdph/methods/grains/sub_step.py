@@ -83,12 +83,11 @@ def advance(
     settle(kernel, s, s, box, scratch, terms, heated, work, steps, heat_capacity, sums)
 
 
-def advance_own(
-    domain, own, kernel, s, rows, box, scratch, terms, walls_p, wall, facing, unheld, heated, work, gravity, steps,
-    heat_capacity, sums,
-) -> None:  # fmt: skip
-    """The same for the `own` particles of a process, which need what others' are strained by, and what brakes them."""
-    dt, walled = steps[0], (walls_p, wall)
+def advance_own(domain, own, given: tuple) -> None:
+    """The same, as `given` to `advance`, for the `own` particles of a process: they need what those of others are
+    strained by, and what brakes them."""
+    kernel, s, rows, box, scratch, terms, walls_p, wall, facing, unheld, heated, work, gravity, steps, *rest = given
+    (heat_capacity, sums), dt, walled = rest, steps[0], (walls_p, wall)
     strain_grains(kernel, s, rows, box, scratch, terms.shears, terms.friction, terms.viscous, *walled, work, dt)
     domain.refresh(scratch.bearing)
     push(kernel, s, own, rows, box, scratch, terms, *walled, facing, unheld, work, gravity, dt, sums)
