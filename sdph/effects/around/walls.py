@@ -80,12 +80,23 @@ def kernel(case) -> WallsP:
 
 
 @serial
-def near(p, wall, i):
-    """True where particle i sees a wall. Few do; to call what follows for the others too would cost as much as the
-    pairs."""
+def listed(p, wall, i):
+    """True where a wall may reach into the kernel of particle i, which moves between new rows. Few have one; to call
+    what follows for the others too would cost as much as the pairs."""
     if len(p) == 0:
         return False
     return wall.number[i] > 0
+
+
+@serial
+def near(p, kernel, box, wall, s, i):
+    """True where a wall reaches into the kernel of particle i."""
+    if len(p) == 0:
+        return False
+    for k in range(wall.number[i]):
+        if distance(box, wall, entry(wall, i, k), s, i) < kernels.SUPPORT * kernel.h:
+            return True
+    return False
 
 
 @serial

@@ -90,7 +90,7 @@ def shear(
     once they are strained over dt [s]."""
     for i in prange(len(s.x)):
         N, M, square = moments(kernel, s, rows, box, scratch.pull, i)
-        beside = walls.near(walls_p, wall, i)
+        beside = walls.near(walls_p, kernel, box, wall, s, i)
         behind = walls.gradient(walls_p, kernel, box, wall, s, i) if beside else stress.NO_GRADIENT
         G = added(N, behind)
         rate, D = deviator(G)

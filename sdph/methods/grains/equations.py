@@ -105,7 +105,7 @@ def sum_density(kernel, s, rows, box, walls_p, wall, density, pull):
             r, m_j = math.sqrt(squared(*apart(s, box, i, j))), s.mass[j]
             rho += m_j * mixture.over(kernel, s, i, j) * kernels.cubic_spline(r, kernel.h, kernel.sigma)
             pull[place(rows, i, k)] = m_j * kernels.cubic_spline_gradient(r, kernel.h, kernel.sigma)
-        share = walls.closure(walls_p, box, wall, s, i, kernel) if walls.near(walls_p, wall, i) else 1.0
+        share = walls.closure(walls_p, box, wall, s, i, kernel) if walls.listed(walls_p, wall, i) else 1.0
         density[i] = rho / share
 
 
@@ -240,7 +240,7 @@ def rates(
     for i in prange(len(s.x)):
         ax = ay = az = 0.0
         work, warmth = scratch.works[0, i], scratch.works[1, i]
-        if len(walls_p) and walls.near(walls_p, wall, i):
+        if len(walls_p) and walls.listed(walls_p, wall, i):
             wx, wy, wz, tx, ty, tz, slid, lost = walls.force(walls_p, kernel, box, wall, s, i, scratch, friction_p)
             of_walls[i, 0] = wx
             of_walls[i, 1] = wy

@@ -161,6 +161,7 @@ def storm(folder, case, steps, corners=None):
             velocity[:] = rng.uniform(-20.0, 20.0, len(velocity))
         stepper.force(np.zeros(count), np.zeros((count, 3)), np.zeros(count))
         stepper.move(2e-3)
+        stepper.release()
         here = [axis for axis in (stepper.state.x, stepper.state.y, stepper.state.z) if len(axis)]
         out = np.any([(axis < 0.0) | (axis > length) for axis, length in zip(here, case.domain.size)], axis=0)
         if corners is not None:
@@ -199,3 +200,23 @@ def test_a_mesh_is_drawn_as_it_is(tmp_path):
 @pytest.mark.parametrize("restitution", [0.0, 0.9])
 def test_nothing_leaks_in_space(tmp_path, restitution):
     assert storm(tmp_path, stormy((0.04, 0.04, 0.04), restitution=restitution), 100_000) == 0
+
+
+def test_grains_do_not_depend_on_when_their_rows_were_made(tmp_path):
+    """A wall counts where it reaches into the kernel, not where the skin of a row reaches it."""
+
+    def fallen(skin):
+        case = box(
+            ["gravity", "granular_pressure", "granular_viscosity", "friction", "walls"], size=(0.04, 0.06),
+            fill=(0.04, 0.05), alpha_p=0.6, periodic=(), gravity=(5.0, -9.81), boundaries={"around": {"kind": "wall"}},
+            resolution={"neighbour_skin": skin}, **windows(1e-2, 5),
+        )  # fmt: skip
+        folder = tmp_path / str(skin)
+        folder.mkdir()
+        state = go(started(case, folder)).state
+        order = np.argsort(state.ident)
+        return np.array([state.u, state.v])[:, order]
+
+    few, often = fallen(0.5), fallen(0.01)
+    print(f"{np.abs(few - often).max():.1e} of {np.abs(often).max():.1e} m/s")
+    np.testing.assert_allclose(few, often, rtol=0.0, atol=1e-10 * np.abs(often).max())
