@@ -188,3 +188,10 @@ def test_spelling():
         files = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs", "sdph", "validation"]
     found = subprocess.run([sys.executable, "-m", "codespell_lib", *files], cwd=ROOT, capture_output=True, text=True)
     assert found.returncode == 0, found.stdout
+
+
+def test_the_page_of_scaling_has_what_its_model_gives():
+    made = subprocess.run(
+        [sys.executable, ROOT / "benchmarks" / "scaling.py"], capture_output=True, text=True, check=True
+    ).stdout
+    assert made in (DOCS / "scaling.md").read_text(encoding="utf-8")

@@ -46,6 +46,7 @@ def parser() -> argparse.ArgumentParser:
     warm.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: openfoam where it is)")
     _workers(warm, "cases")
     bench = _command(commands, "bench", "main ratios of speed on this machine, beside those on ours: a minute or two")
+    bench.add_argument("--ranks", type=count, metavar="N", help="those of N processes that share particles instead")
     bench.add_argument("--json", action="store_true", help="print them as JSON")
     _study(commands)
     _sweep(commands)

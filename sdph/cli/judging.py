@@ -89,11 +89,12 @@ def warm_cases(options) -> int:
 
 
 def bench(options) -> int:
-    """Measure the main ratios of speed."""
+    """Measure the main ratios of speed, or those of several processes."""
     from sdph.running import output
-    from sdph.study import bench
+    from sdph.study import bench, bench_ranks
 
-    rows = bench.rows(functools.partial(print, file=sys.stderr, flush=True))
+    say = functools.partial(print, file=sys.stderr, flush=True)
+    rows = bench_ranks.rows(options.ranks, say) if options.ranks else bench.rows(say)
     print(output.strict_json(bench.record(rows)) if options.json else bench.table(rows))
     return FINE
 

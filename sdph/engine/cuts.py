@@ -44,6 +44,22 @@ def near(places: np.ndarray, low, high, reach: float, period) -> np.ndarray:
     return found
 
 
+def beside(ends: np.ndarray, rank: int, reach: float, period) -> np.ndarray:
+    """Mask (P,) of the other boxes, of ends (P, 2, d) [m], that come within `reach` [m] of that of a rank; a box that
+    holds nothing has infinite ends."""
+    found = np.isfinite(ends).all(axis=(1, 2))
+    ends = np.where(found[:, None, None], ends, 0.0)
+    found &= found[rank] & (np.arange(len(ends)) != rank)
+    (low, high), width = ends[rank], ends[:, 1] - ends[:, 0]
+    for a in range(ends.shape[2]):
+        off, most = ends[:, 0, a] - (low[a] - reach), high[a] - low[a] + 2.0 * reach
+        back = -off
+        if period[a]:
+            off, back = np.mod(off, period[a]), np.mod(back, period[a])
+        found &= ((off >= 0.0) & (off <= most)) | ((back >= 0.0) & (back <= width[:, a]))
+    return found
+
+
 def _quantile(world, along: np.ndarray, weight: np.ndarray, ends: tuple[float, float], share: float) -> float:
     """Place [m] below which lies that share of the weight."""
     low, high = ends

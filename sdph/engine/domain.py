@@ -108,8 +108,8 @@ class Domain:
         they are now; number (N,) and values (N, k) are of own ones."""
         if self.alone:
             return [(number, values)]
-        rank, row = number >> OF_ROW, number & ((1 << OF_ROW) - 1)
-        return self.world.exchange([(row[rank == n], values[rank == n]) for n in range(self.world.number)])
+        row = number & ((1 << OF_ROW) - 1)
+        return self.world.exchange([(row[rows], values[rows]) for rows in self._by_rank(number >> OF_ROW)])
 
     def refresh(self, *arrays: np.ndarray) -> None:
         """Bring the copies in arrays (N,) or (N, k) up to date; those without length are passed over."""
@@ -161,13 +161,20 @@ class Domain:
         to = cuts.owner(self.tree, _places(own))
         if not self.world.any(bool((to != self.world.rank).any())):
             return own
-        return _joined(self.world.exchange([particles.take(own, to == rank) for rank in range(self.world.number)]))
+        parts = [particles.take(own, rows) if len(rows) else None for rows in self._by_rank(to)]
+        return _joined([particles.first(own, 0), *_some(self.world.exchange(parts))])
+
+    def _by_rank(self, rank: np.ndarray) -> list[np.ndarray]:
+        """Rows of each rank among ranks (N,); what each of thousands looks through once is looked through once here."""
+        order = np.argsort(rank, kind="stable")
+        return np.split(order, np.searchsorted(rank[order], np.arange(1, self.world.number)))
 
     def _with_copies(self, own):
         places = _places(own)
-        ends = self.world.everywhere((places.min(axis=0, initial=np.inf), places.max(axis=0, initial=-np.inf)))
-        found = [np.flatnonzero(cuts.near(places, *box, self.reach, self.period)) for box in ends]
-        found[self.world.rank] = np.zeros(0, int)
+        own_ends = places.min(axis=0, initial=np.inf), places.max(axis=0, initial=-np.inf)
+        ends, found = np.array(self.world.everywhere(own_ends)), [np.zeros(0, int)] * self.world.number
+        for rank in np.flatnonzero(cuts.beside(ends, self.world.rank, self.reach, self.period)):
+            found[rank] = np.flatnonzero(cuts.near(places, *ends[rank], self.reach, self.period))
         copies = self.world.exchange([particles.take(own, rows) if len(rows) else None for rows in found])
         self.sends = {rank: rows for rank, rows in enumerate(found) if len(rows)}
         self.gets, count = {}, len(own.x)
@@ -176,7 +183,7 @@ class Domain:
                 self.gets[rank] = np.arange(count, count + len(part.x))
                 count += len(part.x)
         mark = (np.arange(count) >= len(own.x)).astype(np.int8)
-        return _joined([own, *(part for part in copies if part is not None)])._replace(copy=mark)
+        return _joined([own, *_some(copies)])._replace(copy=mark)
 
 
 def _own(state):
@@ -186,6 +193,11 @@ def _own(state):
 
 def _places(state) -> np.ndarray:
     return np.stack(particles.axes(state), axis=1)
+
+
+def _some(parts: list) -> list:
+    """Those that are there."""
+    return [part for part in parts if part is not None]
 
 
 def _joined(states):

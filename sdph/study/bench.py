@@ -155,13 +155,16 @@ def table(found: list[Row]) -> str:
     """Lines for a reader: here, and ours."""
     known, lines = ours(), [f"{'':68s}{'here':>9s}{'ours':>9s}"]
     for row in found:
-        here = "-" if math.isnan(row.value) else f"{row.value:.3g}"
-        lines.append(f"{row.what:68s}{here:>9s}{known['values'][row.key]:>9.3g}")
+        here, there = (
+            "-" if math.isnan(own) else f"{own:.3g}" for own in (row.value, known["values"].get(row.key, math.nan))
+        )
+        lines.append(f"{row.what:68s}{here:>9s}{there:>9s}")
         lines += [f"    not measured: {row.note}"] if row.note else []
     return "\n".join([*lines, f"ours: {known['machine']}, {known['date']}"])
 
 
 def record(found: list[Row]) -> dict:
-    """The same for a program: {"rows": [{"name", "what", "value", "ours"}, ...]}; nan where nothing was measured."""
+    """The same for a program: {"rows": [{"name", "what", "value", "ours"}, ...]}; nan where nothing was measured, None
+    where nothing was on ours."""
     known, keys = ours()["values"], ("name", "what", "value", "ours")
-    return {"rows": [dict(zip(keys, (row.key, row.what, row.value, known[row.key]))) for row in found]}
+    return {"rows": [dict(zip(keys, (row.key, row.what, row.value, known.get(row.key)))) for row in found]}

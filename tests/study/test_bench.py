@@ -4,10 +4,11 @@ import json
 import math
 
 import pytest
+from of_ranks import WITH_MPI
 
 from sdph.cli import main
 from sdph.schema import CaseError
-from sdph.study import bench
+from sdph.study import bench, bench_ranks
 
 
 @pytest.fixture
@@ -28,7 +29,7 @@ def small(monkeypatch):
 def test_all_rows_are_told(small, capsys):
     assert main(["bench", "--json"]) == 0
     rows = {row["name"]: row for row in json.loads(capsys.readouterr().out)["rows"]}
-    assert set(rows) == set(bench.ours()["values"])
+    assert set(rows) == {key for key in bench.ours()["values"] if "_2_" not in key}
     assert rows.pop("bed_over_two_fluids")["value"] is None
     assert all(row["value"] > 0.0 and row["ours"] > 0.0 for row in rows.values())
     assert rows["grains_over_liquid"]["value"] == rows["grains_us"]["value"] / rows["liquid_2d_us"]["value"]
@@ -47,3 +48,19 @@ def test_the_least_of_several_counts(monkeypatch):
     monkeypatch.setattr(bench.time, "monotonic", lambda: next(clock))
     monkeypatch.setattr(bench, "SECONDS", 2.5)  # told after the third, the fourth and the fifth
     assert list(bench.least(lambda: next(spent))) == [1.0]
+
+
+@WITH_MPI
+def test_ranks_are_measured(monkeypatch, capsys):
+    monkeypatch.setattr(bench_ranks, "CASES", {"liquid": ("dam_break_3d", 19.05)})
+    assert main(["bench", "--ranks", "2", "--json"]) == 0
+    rows = {row["name"]: row for row in json.loads(capsys.readouterr().out)["rows"]}
+    assert set(rows) == {"liquid_2_ranks", "liquid_2_threads"}
+    assert all(math.isfinite(row["value"]) and row["ours"] > 1.0 for row in rows.values())
+
+
+@pytest.mark.parametrize(("number", "why"), [("1", "at least 2"), ("99999", "room for")])
+def test_ranks_that_cannot_be_measured_say_why(number, why, capsys):
+    assert main(["bench", "--ranks", number]) == 2
+    told = [line for line in capsys.readouterr().err.splitlines() if line.startswith("sdph:")]
+    assert len(told) == 1 and why in told[0]

@@ -24,7 +24,7 @@ from sdph.effects.effect import Effect, Judgement
 from sdph.engine.geometry import deep
 from sdph.engine.ledger import Column
 from sdph.engine.rows import entry
-from sdph.engine.walls.dummies import CONTACT, distance, normal_part, offset
+from sdph.engine.walls.dummies import BESIDE, CONTACT, distance, normal_part, offset
 from sdph.laws import kernels
 from sdph.laws.compiled import inlined, parallel, serial
 from sdph.schema import choice, file, quantity, record
@@ -90,11 +90,11 @@ def listed(p, wall, i):
 
 @serial
 def near(p, kernel, box, wall, s, i):
-    """True where a wall reaches into the kernel of particle i."""
+    """True where particle i is beside a wall."""
     if len(p) == 0:
         return False
     for k in range(wall.number[i]):
-        if distance(box, wall, entry(wall, i, k), s, i) < kernels.SUPPORT * kernel.h:
+        if distance(box, wall, entry(wall, i, k), s, i) < BESIDE * kernels.SUPPORT * kernel.h:
             return True
     return False
 

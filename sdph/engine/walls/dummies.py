@@ -8,10 +8,13 @@ from typing import NamedTuple
 import numpy as np
 
 from sdph.engine.geometry import deep, nearest_image
-from sdph.engine.rows import Rows, entry
+from sdph.engine.rows import SKIN, Rows, entry
 from sdph.laws.compiled import inlined, serial
 
 CONTACT = 0.25  # spacings between a particle and the surface at which they touch; our choice, half of the start's
+# reaches of the kernel within which a particle is beside a wall: as far as rows look that were just made. At one reach
+# stands the third row of a lattice of h = 1.5 spacings, which round-off would move in and out; our choice
+BESIDE = 1.0 + SKIN
 
 
 class Dummies(NamedTuple):

@@ -10,7 +10,7 @@ from sdph.engine.geometry import SIDES
 from sdph.engine.rows import Neighbours, Rows
 from sdph.engine.walls import facets, parts
 from sdph.engine.walls import mesh as sides
-from sdph.engine.walls.dummies import Dummies, Wall, seen, turned
+from sdph.engine.walls.dummies import BESIDE, Dummies, Wall, seen, turned
 from sdph.laws.kernels import SUPPORT
 
 LAYERS = 3  # the support of the kernel is 2 h = 3 spacings
@@ -22,7 +22,9 @@ class Boundary:
     """The dummies of a case and which of them each particle sees: none of a mesh that it stands behind."""
 
     def __init__(self, case):
-        self.search = Neighbours(SUPPORT * case.smoothing_length, case.domain.period, case.resolution.neighbour_skin)
+        own = case.resolution.neighbour_skin
+        skin = max(own, BESIDE - 1.0 + 0.5 * own)  # who is beside a wall is listed, until particles' rows are made anew
+        self.search = Neighbours(SUPPORT * case.smoothing_length, case.domain.period, skin)
         table, self.spacing = dummies(case), case.resolution.spacing
         order = self.search.sort(tuple(np.ascontiguousarray(column) for column in table[:, : case.dimensions].T))
         self.dummies = Dummies(*(np.ascontiguousarray(column) for column in table[order, :-2].T))
