@@ -90,6 +90,7 @@ def run(options) -> int:
     several = options.ranks and options.ranks > 1
     if here.number > 1:
         sys.excepthook = ranks.end_all
+        ranks.agree(here)
     if several:
         _refuse(options, ("watch",), "a page is of one process")
     with contextlib.closing(Reporter(quiet=not here.chief, line=not options.json)) as reporter:

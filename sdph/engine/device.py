@@ -24,7 +24,7 @@ def prepare() -> None:
         features = llvmlite.binding.get_host_cpu_features().flatten()
         os.environ.setdefault("NUMBA_CPU_FEATURES", f"{features},+prefer-no-gather,+prefer-256-bit")
     os.environ.setdefault("NUMBA_THREADING_LAYER_PRIORITY", "omp tbb workqueue")
-    os.environ.setdefault("NUMBA_CACHE_DIR", str(CACHE / "kernels" / _sources()))
+    os.environ.setdefault("NUMBA_CACHE_DIR", str(CACHE / "kernels" / sources(of_kernels=True)))
     os.environ.setdefault("OMP_WAIT_POLICY", "passive")
     if "numba" in sys.modules:  # who imports numba before sdph would else share kernels between versions
         sys.modules["numba"].config.reload_config()
@@ -54,13 +54,13 @@ def _has_avx512() -> bool:
     return "avx512f" in described
 
 
-def _sources() -> str:
-    """Hash of every source file that holds a kernel or a law."""
+def sources(*, of_kernels: bool = False) -> str:
+    """Hash of all our source files, or of those that hold a kernel or a law."""
     package = Path(__file__).parents[1]
     digest = hashlib.sha256()
     for folder in (package, package.parent / "coupling"):
         for file in sorted(folder.rglob("*.py")):
             source = file.read_bytes()
-            if any(mark in source for mark in (b"laws.compiled", b"CPUDispatcher")):
+            if not of_kernels or any(mark in source for mark in (b"laws.compiled", b"CPUDispatcher")):
                 digest.update(source)
     return digest.hexdigest()[:16]

@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import functools
+import importlib.metadata
 import importlib.util
 import os
 import re
@@ -24,10 +25,11 @@ from typing import NoReturn
 from coupling.gas import GasError
 from coupling.openfoam.programs import install
 from sdph.case import read as cases
-from sdph.engine import restart, world
+from sdph.engine import device, restart, world
 from sdph.running import inputs, output
 from sdph.running.interruption import SIGNALS
 from sdph.schema import CaseError
+from sdph.version import __version__
 
 # effects whose loops are told what particles of others are like (HALO, and what they refresh themselves)
 OF_LIQUIDS = (
@@ -155,6 +157,18 @@ def _lost(folder: Path, why: str) -> GasError:
     if checkpoint:
         error.add_note(f"(last checkpoint: {checkpoint.folder}; go on with: sdph run --resume {folder})")
     return error
+
+
+def agree(here: world.World) -> None:
+    """CaseError where processes do not run the same programs: they would wait for each other for ever, or differ."""
+    versions = {name: importlib.metadata.version(name) for name in ("numpy", "numba", "mpi4py")}
+    own = ", ".join(f"{name} {version}" for name, version in versions.items())
+    known = here.everywhere(f"sdph {__version__} of sources {device.sources()}, {own}")
+    if other := next(((rank, told) for rank, told in enumerate(known) if told != known[0]), None):
+        raise CaseError(
+            f"--ranks {here.number}: rank {other[0]} (from 0) runs {other[1]}, the first one {known[0]}; install the "
+            "same on every machine"
+        )
 
 
 def claimed(folder: Path):

@@ -126,15 +126,15 @@ def test_an_edited_law_gets_kernels_of_its_own(monkeypatch, tmp_path):
     (package / "engine").mkdir(parents=True)
     (package / "law.py").write_text(f"{USES}@law\ndef drag(): return 1\n")
     monkeypatch.setattr(environment, "__file__", str(package / "engine" / "device.py"))
-    before = environment._sources()
+    before = environment.sources(of_kernels=True)
     (package / "law.py").write_text(f"{USES}@law\ndef drag(): return 2\n")
-    assert environment._sources() != before
+    assert environment.sources(of_kernels=True) != before
 
 
 def test_numba_imported_first_caches_by_the_sources_too():
     told = (
         "import numba, sdph; from sdph.engine import device as environment; "
-        "print(numba.config.CACHE_DIR.endswith(environment._sources()))"
+        "print(numba.config.CACHE_DIR.endswith(environment.sources(of_kernels=True)))"
     )
     variables = {name: value for name, value in os.environ.items() if name != "NUMBA_CACHE_DIR"}
     found = subprocess.run([sys.executable, "-c", told], capture_output=True, text=True, check=True, env=variables)

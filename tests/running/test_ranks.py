@@ -15,6 +15,7 @@ from sdph.cli import main
 from sdph.engine import world
 from sdph.engine.world import World
 from sdph.running import ranks
+from sdph.schema import CaseError
 from tests.of_ranks import SDPH, WITH_MPI, fine, particles, run, shared_by
 
 pytestmark = WITH_MPI
@@ -74,7 +75,7 @@ LONG = ("dam_break", "--set", "resolution.spacing_mm=3", "--set", "run.checkpoin
 def begun(folder: Path) -> subprocess.Popen:
     """A run by three processes that has left a checkpoint of its own."""
     going = subprocess.Popen((*SDPH, *LONG, "--out", str(folder)), stderr=subprocess.PIPE, text=True)
-    end = time.monotonic() + 120.0
+    end = time.monotonic() + 300.0  # kernels may have to be compiled
     while not list(folder.glob("checkpoints/00000000[1-9]")):
         assert time.monotonic() < end and going.poll() is None
         time.sleep(0.05)
@@ -119,6 +120,16 @@ def test_a_fault_of_ours_in_one_process_ends_all(monkeypatch, capsys):
     monkeypatch.setattr(ranks, "end", ended.append)
     ranks.end_all(ZeroDivisionError, ZeroDivisionError("a fault"), None)
     assert ended == [1] and "a fault" in capsys.readouterr().err
+
+
+def test_processes_of_other_programs_are_refused_in_one_line(monkeypatch):
+    here, told = World(), []
+    here.everywhere = lambda own: told.append(own) or [own, own.replace("sources ", "sources 0")]
+    with pytest.raises(CaseError, match=r"rank 1 \(from 0\) runs sdph .* of sources 0.*install the same"):
+        ranks.agree(here)
+    here.everywhere = lambda own: [own, own]
+    ranks.agree(here)
+    assert all(name in told[0] for name in ("numpy", "numba", "mpi4py"))
 
 
 def test_others_wait_once_for_what_the_first_has_to_say(monkeypatch):
