@@ -196,7 +196,7 @@ def _places(state) -> np.ndarray:
 
 
 def _some(parts: list) -> list:
-    """Those that are there."""
+    """Parts that hold something."""
     return [part for part in parts if part is not None]
 
 
