@@ -1,4 +1,5 @@
-"""Sides of a mesh that particles stand on: thin walls part the grains on their two sides from each other.
+"""Sides of a mesh that particles stand on: thin walls part the grains on their two sides from each other, and what lies
+behind two facets at an edge is there once.
 
 A mesh closes off what lies behind it, so that of a plate thinner than the kernel's reach both faces are near every
 particle. Rows of neighbours are cleared of what a particle cannot meet when they are built; no kernel asks again.
@@ -7,12 +8,19 @@ Contact has put every particle in front of its surface by then, a quarter of a s
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
+import scipy
 
 from sdph.engine.rows import entry, place, shorten
 from sdph.laws.compiled import serial
 
 AROUND = 0.75  # spacings about a surface point that count as its own: points stand one spacing apart or closer
+EDGE = math.cos(math.pi / 4.0)  # of the angle between normals from which on facets meet at an edge; our choice
+FEET = 16  # of the dummies nearest to one that are asked for a facet beyond an edge; our choice
+SAME = 1e-6  # of a depth: round-off; our choice
+ORDER = np.array([1.0, 2.0**0.5, 3.0**0.5])  # by which one of two facets comes first
 
 
 def three(axes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -27,15 +35,39 @@ def height(dummies, w, x, y, z):
     return along + (z - dummies.z[w]) * dummies.normal_z[w] - dummies.depth[w]
 
 
+def nearer_facets(dummies, of_mesh) -> np.ndarray:
+    """(W, 4) normal, and depth [m] behind it, of the facet beyond an edge that a dummy of a mesh is nearer to than to
+    its own; 0 where there is none. Of two that are as near, one owns the dummies of both."""
+    found = np.zeros((len(dummies.x), 4))
+    own = np.flatnonzero(of_mesh)
+    places = np.stack((dummies.x, dummies.y, dummies.z), axis=1)[own]
+    normals = np.stack((dummies.normal_x, dummies.normal_y, dummies.normal_z), axis=1)[own]
+    depths = dummies.depth[own]
+    first = depths <= depths.min(initial=np.inf) * (1.0 + SAME)
+    feet = places[first] + depths[first, None] * normals[first]
+    nearest = scipy.spatial.cKDTree(feet).query(places, range(1, min(FEET, len(feet)) + 1))[1]
+    depth = np.einsum("ijk,ijk->ij", feet[nearest] - places[:, None], normals[first][nearest])
+    beyond = (np.einsum("ijk,ik->ij", normals[first][nearest], normals) < EDGE) & (depth > 0.0)
+    one = np.arange(len(own)), beyond.argmax(axis=1)
+    normal, depth = normals[first][nearest][one], depth[one]
+    as_near = np.abs(depth - depths) < SAME * depths
+    chosen = beyond[one] & np.where(as_near, normal @ ORDER > normals @ ORDER, depth < depths)
+    found[own[chosen]] = np.column_stack((normal, depth))[chosen]
+    return found
+
+
 @serial
-def keep_in_front(dummies, of_mesh, places, rows):
-    """Take the dummies of a mesh out of the rows of particles that stand behind its surface."""
+def keep_in_front(dummies, of_mesh, nearer, places, rows):
+    """Take the dummies of a mesh out of the rows of particles that stand behind its surface, or in front of a facet
+    that the dummy is nearer to, whose own dummies stand there (`nearer_facets`)."""
     x, y, z = places
     for i in range(len(x)):
         kept = 0
         for k in range(rows.number[i]):
             w = entry(rows, i, k)
-            if not of_mesh[w] or height(dummies, w, x[i], y[i], z[i]) > 0.0:
+            over = (x[i] - dummies.x[w]) * nearer[w, 0] + (y[i] - dummies.y[w]) * nearer[w, 1]
+            over += (z[i] - dummies.z[w]) * nearer[w, 2] - nearer[w, 3]
+            if not of_mesh[w] or (height(dummies, w, x[i], y[i], z[i]) > 0.0 and not over > 0.0):
                 rows.entries[place(rows, i, kept)] = w
                 kept += 1
         rows.number[i] = kept

@@ -30,12 +30,13 @@ class Boundary:
         self.dummies = Dummies(*(np.ascontiguousarray(column) for column in table[order, :-2].T))
         self.area, self.whose = table[order, -2], table[order, -1].astype(int)
         self.of_mesh = self.whose > 0
+        self.nearer = sides.nearer_facets(self.dummies, self.of_mesh) if self.of_mesh.any() else None
 
     def rows(self, state_axes):
         """Dummies near each particle; valid as long as the particles' own rows."""
         rows = self.search.seen_from(_axes(self.dummies, len(state_axes)), state_axes)
         if self.of_mesh.any():
-            sides.keep_in_front(self.dummies, self.of_mesh, sides.three(state_axes), rows)
+            sides.keep_in_front(self.dummies, self.of_mesh, self.nearer, sides.three(state_axes), rows)
         return rows
 
     def seen(self, rows) -> tuple[Wall, Rows]:
