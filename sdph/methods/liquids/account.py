@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 
 from sdph.engine import state as particles
-from sdph.methods.liquids import loads, losses, openings, walls
+from sdph.methods.liquids import equations, loads, losses, openings, walls
 
 EVERY = 32  # steps; our choice: 2 % of the time of a step
 
@@ -26,7 +26,8 @@ TENSION, BY_TENSION = slice(16, 19), 19
 INLET, BY_INLET = slice(20, 23), 23
 LOST = slice(24, 24 + len(losses.CAUSES))
 BUBBLE, BY_BUBBLE = slice(LOST.stop, LOST.stop + 3), LOST.stop + 3
-SINCE = BY_BUBBLE + 1  # time [s] since the last look
+CONTROL = slice(BY_BUBBLE + 1, BY_BUBBLE + 4)
+SINCE = CONTROL.stop  # time [s] since the last look
 SIZE = SINCE + 1
 
 
@@ -55,6 +56,10 @@ def rates(stepper, ahead: float, last: np.ndarray | None) -> np.ndarray:
     if len(stepper.waiting):
         now[INLET], moment, now[BY_INLET] = openings.given(stepper, ahead)
         now[LOADS] += np.concatenate((now[INLET], moment))  # what waits is no tank
+    if stepper.p["shifting"] and stepper.p["shifting"].tension:
+        force = _unreturned(stepper)
+        now[CONTROL], held = force.sum(axis=0), np.flatnonzero(force.any(axis=1))
+        now[LOADS] += loads.of_forces(stepper, held, force[held])  # what no tank gives
     looks = last is None or (ahead and stepper.steps % EVERY == 0)
     if looks:
         now[LOST] = _lost(stepper, ahead)
@@ -71,6 +76,16 @@ def between(before: np.ndarray, now: np.ndarray, dt: float) -> np.ndarray:
     if now[SINCE] == 0.0:
         sums[LOST] += 0.5 * before[SINCE] * (now[LOST] - before[LOST])
     return sums
+
+
+def _unreturned(stepper) -> np.ndarray:
+    """(N, 3) force [N] by which control of tension pushes each particle and nobody back."""
+    force = np.zeros((len(stepper.state.x), 3))
+    equations.unreturned(
+        stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, stepper.flow, stepper.p["shifting"],
+        stepper.excess, force,
+    )  # fmt: skip
+    return force
 
 
 def _lost(stepper, ahead: float) -> tuple:

@@ -17,6 +17,7 @@ from sdph.effects.liquids import density_diffusion, laminar_viscosity, liquid_da
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import apart, deep, faster
 from sdph.engine.rows import entry, length
+from sdph.engine.state import INFLOW
 from sdph.laws.compiled import fast_inlined, fast_parallel, parallel, serial
 from sdph.laws.constants import TINY
 from sdph.laws.eos import tait_pressure
@@ -127,6 +128,31 @@ def push(
             gradient[i, 0] = steep[0]
             gradient[i, 1] = steep[1]
             gradient[i, 2] = steep[2]
+
+
+@fast_parallel
+def unreturned(kernel, s, rows, box, flow, shifting_p, excess, force):
+    """Force (N, 3) [N] on each particle that no other of the liquid gets back, (1 - sign_i) p_i B_i V_i sum V_j grad W.
+
+    Under control of tension a pair pushes i by p_j - p_i and j by p_i - p_j: both the same way. Walls and what waits
+    get what they give."""
+    for n in prange(len(flow.active)):
+        i = flow.active[n]
+        p_i = flow.pressure[i]
+        odd = (1.0 - shifting.sign(shifting_p, p_i, flow.enclosure[i])) * p_i * flow.volume[i]
+        if odd == 0.0:
+            continue
+        x = y = z = 0.0
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
+            dx, dy, dz = apart(s, box, i, j)
+            share = max(flow.volume[j], 0.0) * smoothing.slope(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
+            share = 0.0 if s.kind[j] == INFLOW else share
+            x += share * dx
+            y += share * dy
+            z += share * dz
+        ex, ey, ez = correction.extra(excess, i, i, odd, 0.0, x, y, z)
+        force[i, 0], force[i, 1], force[i, 2] = odd * x + ex, odd * y + ey, odd * z + ez
 
 
 @fast_parallel

@@ -53,7 +53,7 @@ class Tally:
         impulses = (
             sums[account.BODY], sums[account.WALLS], sums[account.TENSION], shifted, -gone[1:4] - self.spared,
             self.contact + given[:3], sums[account.INLET] + came[1:4], -left[1:4],
-            sums[account.BUBBLE] - boiled[1:4], self.scaled[:3],
+            sums[account.BUBBLE] - boiled[1:4], self.scaled[:3], sums[account.CONTROL],
         )  # fmt: skip
         amounts = {"drained_kg": gone[0], "drained_J": gone[7], "work_of_contact_J": self.pressed + given[3]}
         amounts |= {"boiled_kg": boiled[0], "boiled_J": boiled[4]}

@@ -150,7 +150,7 @@ def run(hard: Hard, *changes: dict) -> Verdict:
                 simulation = _next(
                     simulation, changed, Path(folder) / str(number), measures, stage.get("windows", 10**9)
                 )
-        except (Unstable, GasError) as error:
+        except (CaseError, GasError, Unstable) as error:
             stopped = str(error)
     return Verdict(hard.name, _judged(hard, measures, stopped), time.perf_counter() - started, stopped)
 

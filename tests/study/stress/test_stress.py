@@ -58,6 +58,15 @@ def test_an_unknown_measure_is_told(tmp_path):
         suite.run(suite.Hard(**{**vars(hard), "at_most": {"temperature_K_maxx": 280.0}}))
 
 
+def test_a_case_that_its_run_refuses_fails():
+    """Grains that leave through a side without `outflow` end one case, not all of them."""
+    (hard,) = suite.chosen(["limit_agitation"], False)
+    effects = [name for name in hard.case["effects"] if name != "outflow"]
+    thrown = {"particles": {"bed": {"velocity_m_s": [0.0, 20.0]}}, "resolution": {"spacing_mm": 50.0, "cell_mm": 50.0}}
+    verdict = suite.run(hard, {"effects": effects} | thrown)
+    assert not verdict.ok and "outflow" in verdict.stopped
+
+
 def test_conduction_past_its_limit_is_caught_within_20_sub_steps(tmp_path):
     """From the first sub-step that leaves the temperatures of the case (288 to 350 K) to the stop."""
     run = simulation(disc(*PAST_LIMIT), tmp_path)
