@@ -26,8 +26,8 @@ TENSION, BY_TENSION = slice(16, 19), 19
 INLET, BY_INLET = slice(20, 23), 23
 LOST = slice(24, 24 + len(losses.CAUSES))
 BUBBLE, BY_BUBBLE = slice(LOST.stop, LOST.stop + 3), LOST.stop + 3
-CONTROL = slice(BY_BUBBLE + 1, BY_BUBBLE + 4)
-SINCE = CONTROL.stop  # time [s] since the last look
+CONTROL, BY_CONTROL = slice(BY_BUBBLE + 1, BY_BUBBLE + 4), BY_BUBBLE + 4
+SINCE = BY_CONTROL + 1  # time [s] since the last look
 SIZE = SINCE + 1
 
 
@@ -57,9 +57,10 @@ def rates(stepper, ahead: float, last: np.ndarray | None) -> np.ndarray:
         now[INLET], moment, now[BY_INLET] = openings.given(stepper, ahead)
         now[LOADS] += np.concatenate((now[INLET], moment))  # what waits is no tank
     if stepper.p["shifting"] and stepper.p["shifting"].tension:
-        force = _unreturned(stepper)
-        now[CONTROL], held = force.sum(axis=0), np.flatnonzero(force.any(axis=1))
-        now[LOADS] += loads.of_forces(stepper, held, force[held])  # what no tank gives
+        made = _unreturned(stepper, ahead)
+        held = np.flatnonzero(made[:, :3].any(axis=1))
+        now[CONTROL.start : BY_CONTROL + 1] = made.sum(axis=0)
+        now[LOADS] += loads.of_forces(stepper, held, made[held, :3])  # what no tank gives
     looks = last is None or (ahead and stepper.steps % EVERY == 0)
     if looks:
         now[LOST] = _lost(stepper, ahead)
@@ -78,14 +79,14 @@ def between(before: np.ndarray, now: np.ndarray, dt: float) -> np.ndarray:
     return sums
 
 
-def _unreturned(stepper) -> np.ndarray:
-    """(N, 3) force [N] by which control of tension pushes each particle and nobody back."""
-    force = np.zeros((len(stepper.state.x), 3))
+def _unreturned(stepper, ahead: float) -> np.ndarray:
+    """(N, 4) force [N] by which control of tension pushes each particle and nobody back, and the power [W] it takes."""
+    made = np.zeros((len(stepper.state.x), 4))
     equations.unreturned(
         stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, stepper.flow, stepper.p["shifting"],
-        stepper.excess, force,
+        stepper.excess, ahead * stepper.acceleration, made,
     )  # fmt: skip
-    return force
+    return made
 
 
 def _lost(stepper, ahead: float) -> tuple:
@@ -93,6 +94,6 @@ def _lost(stepper, ahead: float) -> tuple:
     p = stepper.p
     return losses.losses(
         stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, stepper.flow, stepper.wall,
-        stepper.viscous, p["liquid_damping"], () if stepper.summed else p["density_diffusion"], p["shifting"],
+        stepper.viscous, p["liquid_damping"], () if stepper.summed else p["density_diffusion"],
         stepper.phases, stepper.excess, stepper.gradient, stepper.acceleration, stepper.moving, ahead,
     )  # fmt: skip

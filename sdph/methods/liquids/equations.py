@@ -131,28 +131,34 @@ def push(
 
 
 @fast_parallel
-def unreturned(kernel, s, rows, box, flow, shifting_p, excess, force):
-    """Force (N, 3) [N] on each particle that no other of the liquid gets back, (1 - sign_i) p_i B_i V_i sum V_j grad W.
+def unreturned(kernel, s, rows, box, flow, shifting_p, excess, gain, made):
+    """made (N, 4) by control of tension: force (3 columns) [N] on each particle that no other of the liquid gets back,
+    (1 - sign_i) p_i B_i V_i sum V_j grad W, and power [W] that it takes, with velocities after a gain (N, 3) [m/s].
 
-    Under control of tension a pair pushes i by p_j - p_i and j by p_i - p_j: both the same way. Walls and what waits
-    get what they give."""
+    A pair pushes i by p_j - p_i and j by p_i - p_j: both the same way. Walls and what waits get what they give."""
     for n in prange(len(flow.active)):
         i = flow.active[n]
         p_i = flow.pressure[i]
         odd = (1.0 - shifting.sign(shifting_p, p_i, flow.enclosure[i])) * p_i * flow.volume[i]
         if odd == 0.0:
             continue
-        x = y = z = 0.0
+        x = y = z = waiting_x = waiting_y = waiting_z = 0.0
         for k in range(rows.number[i]):
             j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
             share = max(flow.volume[j], 0.0) * smoothing.slope(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
-            share = 0.0 if s.kind[j] == INFLOW else share
-            x += share * dx
-            y += share * dy
-            z += share * dz
-        ex, ey, ez = correction.extra(excess, i, i, odd, 0.0, x, y, z)
-        force[i, 0], force[i, 1], force[i, 2] = odd * x + ex, odd * y + ey, odd * z + ez
+            waits = share if s.kind[j] == INFLOW else 0.0
+            x, y, z = x + share * dx, y + share * dy, z + share * dz
+            waiting_x, waiting_y, waiting_z = waiting_x + waits * dx, waiting_y + waits * dy, waiting_z + waits * dz
+        ax, ay, az = correction.extra(excess, i, i, odd, 0.0, x, y, z)
+        bx, by, bz = correction.extra(excess, i, i, odd, 0.0, waiting_x, waiting_y, waiting_z)
+        fx, fy, fz = odd * x + ax, odd * y + ay, odd * z + az
+        made[i, 0] = fx - odd * waiting_x - bx
+        made[i, 1] = fy - odd * waiting_y - by
+        made[i, 2] = fz - odd * waiting_z - bz
+        made[i, 3] = -fx * (s.u[i] + gain[i, 0]) - fy * (s.v[i] + gain[i, 1])
+        if deep(box):
+            made[i, 3] -= fz * (s.w[i] + gain[i, 2])
 
 
 @fast_parallel

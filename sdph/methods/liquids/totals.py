@@ -32,7 +32,7 @@ WORKS = (
     "work_of_gravity_J", "work_of_frame_J", "work_of_walls_J", "work_of_surface_tension_J", "work_of_contact_J",
     "work_of_inflow_J", "work_of_bubble_J", "work_of_scaling_J",
 )  # fmt: skip
-LOSSES = (*CAUSES, "held_off_J", "shifting_J")
+LOSSES = (*CAUSES, "tension_control_J", "held_off_J", "shifting_J")
 PASSED = ("drained_kg", "drained_J", "injected_kg", "injected_J", "left_kg", "left_J", "boiled_kg", "boiled_J")
 AMOUNTS = (*PASSED, *WORKS, *LOSSES, "dissipated_J", "numerical_work_J")
 

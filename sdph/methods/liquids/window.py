@@ -63,7 +63,7 @@ class Tally:
         amounts |= {"work_of_gravity_J": sums[account.GRAVITY], "work_of_frame_J": sums[account.FRAME]}
         amounts |= {"work_of_walls_J": sums[account.BY_WALLS], "work_of_surface_tension_J": sums[account.BY_TENSION]}
         amounts |= {"held_off_J": -sums[account.HELD_OFF], "shifting_J": self.stepper.eased - self.eased}
-        amounts |= dict(zip(CAUSES, sums[account.LOST]))
+        amounts |= {"tension_control_J": sums[account.BY_CONTROL]} | dict(zip(CAUSES, sums[account.LOST]))
         return dict(zip(IMPULSES, impulses)), {name: float(value) for name, value in amounts.items()}
 
 

@@ -204,7 +204,7 @@ def _go(simulation, measures, windows: int):
     """Run up to so many windows, or to the end of the case; every one is measured."""
     try:
         for _ in range(windows):
-            if simulation.time >= simulation.case.run.end_time:
+            if simulation.clock.over(simulation.time):  # a droplet that tears ends soon after
                 break
             simulation.window()
             measures.window(simulation)
