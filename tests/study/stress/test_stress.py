@@ -62,8 +62,7 @@ def test_a_case_that_its_run_refuses_fails():
     """Grains that leave through a side without `outflow` end one case, not all of them."""
     (hard,) = suite.chosen(["limit_agitation"], False)
     effects = [name for name in hard.case["effects"] if name != "outflow"]
-    thrown = {"particles": {"bed": {"velocity_m_s": [0.0, 20.0]}}, "resolution": {"spacing_mm": 50.0, "cell_mm": 50.0}}
-    verdict = suite.run(hard, {"effects": effects} | thrown)
+    verdict = suite.run(hard, {"effects": effects, "particles": {"bed": {"velocity_m_s": [0.0, 20.0]}}})
     assert not verdict.ok and "outflow" in verdict.stopped
 
 
