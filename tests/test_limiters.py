@@ -72,6 +72,7 @@ HARMLESS = {
     "sdph/methods/liquids/wetting.py:filled": "share of a cell inside a plane",
     "sdph/methods/liquids/wetting.py:opposite": "chooses walls by the sign of the volume",
     "sdph/methods/liquids/losses.py:losses": "the same as `compress`",
+    "sdph/methods/liquids/equations.py:unreturned": "the same",
     "sdph/methods/liquids/*:compress": "takes the liquid among neighbours: volumes of walls are negative",
     "sdph/methods/liquids/interface.py:*": "the same",
     "sdph/methods/liquids/shift.py:surround": "the same",

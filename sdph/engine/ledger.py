@@ -182,15 +182,16 @@ class Ledger:
         return {"species_drift_rel": ratio(drift, whole), "exchange_mass_mismatch_rel": mismatch}
 
     def _energy_drift(self) -> dict[str, float]:
-        """Growth of the heat of both phases beyond what came in and was made."""
+        """Growth of the heat of both phases beyond what came in and was made; relative to all that was exchanged, came
+        in, left or was made, each over the run."""
         pairs = {"particle_energy_J": 1, "gas_energy_J": 1, "heat_on_its_way_J": 1}
         pairs |= {"gas_energy_in_J": -1, "gas_pressure_work_J": -1}
         warm = self.last["particle_energy_J"] + self.sums["left_J"] > 0.0  # else no heat of the grains is kept
         kept = {key: sign for key, sign in self.heat.items() if warm or key not in self.in_grains}
         moved = [sign * self.sums[key] for key, sign in kept.items()]
         drift = math.fsum((*(c for key, sign in pairs.items() for c in self._change(key, sign)), *(-m for m in moved)))
-        scale = self.sums["heat_exchanged_J"] + sum(abs(self.sums[key]) for key in ("friction_J", "injected_J"))
-        scale += abs(self.sums["heat_to_surroundings_J"]) + abs(sum(self._change("gas_pressure_work_J", 1)))
+        brought = (abs(math.fsum(self._change(key, 1))) for key in ("gas_energy_in_J", "gas_pressure_work_J"))
+        scale = math.fsum((self.sums["heat_exchanged_J"], *map(abs, moved), *brought))
         return {"energy_drift_J": abs(drift), "energy_drift_rel": ratio(abs(drift), scale)}
 
     def _gas_motion(self) -> dict[str, float]:

@@ -69,6 +69,16 @@ def test_a_leak_with_nothing_exchanged_shows(tmp_path):
     assert run.ledger.summary()["energy_drift_rel"] == pytest.approx(3.0, rel=1e-6)
 
 
+def test_a_drift_is_related_to_what_came_in_through_the_boundary(tmp_path):
+    """Gas at rest that its boundary warms exchanges nothing: round-off of it was judged by 1e-16 J of pressure."""
+    run = simulation(disc(*SHORT), tmp_path)
+    totals, budget = run.grains.totals() | {"heat_on_its_way_J": 0.0}, run.gas_state.budget
+    warmed = dataclasses.replace(budget, energy=budget.energy + 4.99, energy_in=budget.energy_in + 5.0)
+    warmed = dataclasses.replace(warmed, pressure_work=warmed.pressure_work + 1e-16)
+    run.ledger.close_window(1e-3, 1e-3, "largest", totals, warmed, run.ledger.nothing)
+    assert run.ledger.summary()["energy_drift_rel"] == pytest.approx(0.01 / 5.0, rel=1e-6)
+
+
 def test_numerical_work_is_told_beside_what_is_dissipated(tmp_path):
     run = simulation(disc(*SHORT), tmp_path)
     totals = run.grains.totals() | {"heat_on_its_way_J": 0.0}

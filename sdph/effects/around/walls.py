@@ -124,7 +124,7 @@ def gradient(p, kernel, box, wall, s, i):
     velocities behind them. The adjoint of the traction of contacts in `force`, so that elastic contacts neither gain
     nor lose."""
     xx = xy = xz = yx = yy = yz = zx = zy = zz = 0.0
-    if len(p) == 0:
+    if len(p) == 0 or p.paper == 1:  # a penalty bears no traction
         return xx, xy, xz, yx, yy, yz, zx, zy, zz
     for k in range(wall.number[i]):
         w = entry(wall, i, k)
@@ -219,12 +219,8 @@ def pair(p, kernel, box, wall, w, s, i, rho, theta, stress, friction_p):
         fy = stick * (dv + wall.velocity[w, 1] - wall.slide_y[w])
         fz = stick * (dw + wall.velocity[w, 2] - wall.slide_z[w])
         power = fx * du + fy * dv + fz * dw
-        # pressure acts along the normal: a row of dummies is no row of teeth
-        along = push * away
-        corner = push * (1.0 - (nx * nx + ny * ny + nz * nz))
-        px = along * nx + corner * dx
-        py = along * ny + corner * dy
-        pz = along * nz + corner * dz
+        # pressure acts along the normal: a row of dummies is no row of teeth, a corner pushes nobody (`normal_part`)
+        px, py, pz = push * away * nx, push * away * ny, push * away * nz
         if len(friction_p):
             rub = 2.0 * p.volume * s.density[i] * gradient
             rx, ry, rz = rubbing(p, wall, w, stress.traction, i, dx, dy, dz)

@@ -78,7 +78,8 @@ def distance(box, dummies, w, s, i):
 
 @inlined
 def normal_part(dummies, w, dx, dy, dz):
-    """The part of a vector along the normal of a wall, or all of it in a corner, where none is known."""
+    """The part of a vector along the normal of a wall: nothing in a corner, which has none. Under one pressure what a
+    corner adds along a side is what the rows behind that side, which end there, add along it with the other sign."""
     nx, ny, nz = dummies.normal_x[w], dummies.normal_y[w], dummies.normal_z[w]
-    along, corner = dx * nx + dy * ny + dz * nz, 1.0 - (nx * nx + ny * ny + nz * nz)
-    return along * nx + corner * dx, along * ny + corner * dy, along * nz + corner * dz
+    along = dx * nx + dy * ny + dz * nz
+    return along * nx, along * ny, along * nz

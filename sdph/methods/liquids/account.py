@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 
 from sdph.engine import state as particles
-from sdph.methods.liquids import loads, losses, openings, walls
+from sdph.methods.liquids import equations, loads, losses, openings, walls
 
 EVERY = 32  # steps; our choice: 2 % of the time of a step
 
@@ -26,7 +26,8 @@ TENSION, BY_TENSION = slice(16, 19), 19
 INLET, BY_INLET = slice(20, 23), 23
 LOST = slice(24, 24 + len(losses.CAUSES))
 BUBBLE, BY_BUBBLE = slice(LOST.stop, LOST.stop + 3), LOST.stop + 3
-SINCE = BY_BUBBLE + 1  # time [s] since the last look
+CONTROL, BY_CONTROL = slice(BY_BUBBLE + 1, BY_BUBBLE + 4), BY_BUBBLE + 4
+SINCE = BY_CONTROL + 1  # time [s] since the last look
 SIZE = SINCE + 1
 
 
@@ -55,6 +56,11 @@ def rates(stepper, ahead: float, last: np.ndarray | None) -> np.ndarray:
     if len(stepper.waiting):
         now[INLET], moment, now[BY_INLET] = openings.given(stepper, ahead)
         now[LOADS] += np.concatenate((now[INLET], moment))  # what waits is no tank
+    if stepper.p["shifting"] and stepper.p["shifting"].tension:
+        made = _unreturned(stepper, ahead)
+        held = np.flatnonzero(made[:, :3].any(axis=1))
+        now[CONTROL.start : BY_CONTROL + 1] = made.sum(axis=0)
+        now[LOADS] += loads.of_forces(stepper, held, made[held, :3])  # what no tank gives
     looks = last is None or (ahead and stepper.steps % EVERY == 0)
     if looks:
         now[LOST] = _lost(stepper, ahead)
@@ -73,11 +79,21 @@ def between(before: np.ndarray, now: np.ndarray, dt: float) -> np.ndarray:
     return sums
 
 
+def _unreturned(stepper, ahead: float) -> np.ndarray:
+    """(N, 4) force [N] by which control of tension pushes each particle and nobody back, and the power [W] it takes."""
+    made = np.zeros((len(stepper.state.x), 4))
+    equations.unreturned(
+        stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, stepper.flow, stepper.p["shifting"],
+        stepper.excess, ahead * stepper.acceleration, made,
+    )  # fmt: skip
+    return made
+
+
 def _lost(stepper, ahead: float) -> tuple:
     """Power [W] that pairs lose by the causes of sdph.methods.liquids.losses."""
     p = stepper.p
     return losses.losses(
         stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, stepper.flow, stepper.wall,
-        stepper.viscous, p["liquid_damping"], () if stepper.summed else p["density_diffusion"], p["shifting"],
+        stepper.viscous, p["liquid_damping"], () if stepper.summed else p["density_diffusion"],
         stepper.phases, stepper.excess, stepper.gradient, stepper.acceleration, stepper.moving, ahead,
     )  # fmt: skip

@@ -17,6 +17,7 @@ from sdph.effects.liquids import density_diffusion, laminar_viscosity, liquid_da
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import apart, deep, faster
 from sdph.engine.rows import entry, length
+from sdph.engine.state import INFLOW
 from sdph.laws.compiled import fast_inlined, fast_parallel, parallel, serial
 from sdph.laws.constants import TINY
 from sdph.laws.eos import tait_pressure
@@ -127,6 +128,37 @@ def push(
             gradient[i, 0] = steep[0]
             gradient[i, 1] = steep[1]
             gradient[i, 2] = steep[2]
+
+
+@fast_parallel
+def unreturned(kernel, s, rows, box, flow, shifting_p, excess, gain, made):
+    """made (N, 4) by control of tension: force (3 columns) [N] on each particle that no other of the liquid gets back,
+    (1 - sign_i) p_i B_i V_i sum V_j grad W, and power [W] that it takes, with velocities after a gain (N, 3) [m/s].
+
+    A pair pushes i by p_j - p_i and j by p_i - p_j: both the same way. Walls and what waits get what they give."""
+    for n in prange(len(flow.active)):
+        i = flow.active[n]
+        p_i = flow.pressure[i]
+        odd = (1.0 - shifting.sign(shifting_p, p_i, flow.enclosure[i])) * p_i * flow.volume[i]
+        if odd == 0.0:
+            continue
+        x = y = z = waiting_x = waiting_y = waiting_z = 0.0
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
+            dx, dy, dz = apart(s, box, i, j)
+            share = max(flow.volume[j], 0.0) * smoothing.slope(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
+            waits = share if s.kind[j] == INFLOW else 0.0
+            x, y, z = x + share * dx, y + share * dy, z + share * dz
+            waiting_x, waiting_y, waiting_z = waiting_x + waits * dx, waiting_y + waits * dy, waiting_z + waits * dz
+        ax, ay, az = correction.extra(excess, i, i, odd, 0.0, x, y, z)
+        bx, by, bz = correction.extra(excess, i, i, odd, 0.0, waiting_x, waiting_y, waiting_z)
+        fx, fy, fz = odd * x + ax, odd * y + ay, odd * z + az
+        made[i, 0] = fx - odd * waiting_x - bx
+        made[i, 1] = fy - odd * waiting_y - by
+        made[i, 2] = fz - odd * waiting_z - bz
+        made[i, 3] = -fx * (s.u[i] + gain[i, 0]) - fy * (s.v[i] + gain[i, 1])
+        if deep(box):
+            made[i, 3] -= fz * (s.w[i] + gain[i, 2])
 
 
 @fast_parallel

@@ -10,7 +10,7 @@ import math
 
 from numba import prange
 
-from sdph.effects.liquids import density_diffusion, laminar_viscosity, liquid_damping, shifting
+from sdph.effects.liquids import density_diffusion, laminar_viscosity, liquid_damping
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import apart, deep, faster
 from sdph.engine.rows import entry, length
@@ -18,9 +18,8 @@ from sdph.laws.compiled import fast_parallel, inlined, serial
 from sdph.laws.constants import TINY
 from sdph.methods.liquids import correction, phases
 
-# of their sum: viscosity of the liquid, artificial viscosity, diffusion of density, control of tension, corrected
-# gradient of pressure
-CAUSES = ("viscosity_J", "damping_J", "diffusion_J", "tension_control_J", "gradient_correction_J")
+# of their sum: viscosity of the liquid, artificial viscosity, diffusion of density, corrected gradient of pressure
+CAUSES = ("viscosity_J", "damping_J", "diffusion_J", "gradient_correction_J")
 
 
 @serial
@@ -61,11 +60,11 @@ def spread(diffusion_p, phases_p, box, s, pressure, gradient, i, j, d):
 
 
 @serial
-def unmatched(excess, phases_p, s, pressure, i, j, sign_i, d, v):
+def unmatched(excess, phases_p, s, pressure, i, j, d, v):
     """Loss of a pair of liquid, over V_i V_j (dW/dr)/r: power lost by the corrected gradient of pressure."""
     if len(excess) == 0:
         return 0.0
-    own = phases.share(phases_p, s.density[i], s.density[j]) * sign_i * pressure[i]
+    own = phases.share(phases_p, s.density[i], s.density[j]) * pressure[i]
     other = phases.share(phases_p, s.density[j], s.density[i]) * pressure[j]
     ex, ey, ez = correction.extra(excess, i, j, own, other, d[0], d[1], d[2])
     return ex * v[0] + ey * v[1] + ez * v[2]
@@ -73,18 +72,17 @@ def unmatched(excess, phases_p, s, pressure, i, j, sign_i, d, v):
 
 @fast_parallel
 def losses(
-    kernel, s, rows, box, flow, wall_p, laminar_p, damping_p, diffusion_p, shifting_p, phases_p, excess, gradient,
-    acceleration, moving, ahead,
+    kernel, s, rows, box, flow, wall_p, laminar_p, damping_p, diffusion_p, phases_p, excess, gradient, acceleration,
+    moving, ahead,
 ):  # fmt: skip
     """Power [W] lost by the CAUSES: forces of now, times velocities that the accelerations lead to in `ahead` [s]."""
-    by_viscosity = by_damping = by_diffusion = by_control = by_correction = 0.0
+    by_viscosity = by_damping = by_diffusion = by_correction = 0.0
     for n in prange(len(flow.active)):
         i = flow.active[n]
         p_i, V_i = flow.pressure[i], flow.volume[i]
-        sign_i = shifting.sign(shifting_p, p_i, flow.enclosure[i] if len(flow.enclosure) else 1.0)
         w = s.w[i] + ahead * acceleration[i, 2] if deep(box) else 0.0
         v = (s.u[i] + ahead * acceleration[i, 0], s.v[i] + ahead * acceleration[i, 1], w)
-        viscous = damped = diffused = controlled = corrected = 0.0
+        viscous = damped = diffused = corrected = 0.0
         for k in range(length(rows, i)):
             j = entry(rows, i, k)
             d, dv = apart(s, box, i, j), faster(s, box, i, j)
@@ -97,11 +95,9 @@ def losses(
             viscous += grip * friction
             damped += grip * ringing
             diffused -= wet * spread(diffusion_p, phases_p, box, s, flow.pressure, gradient, i, j, d)
-            controlled += wet * (sign_i - 1.0) * p_i * (d[0] * v[0] + d[1] * v[1] + d[2] * v[2])
-            corrected += wet * unmatched(excess, phases_p, s, flow.pressure, i, j, sign_i, d, v)
+            corrected += wet * unmatched(excess, phases_p, s, flow.pressure, i, j, d, v)
         by_viscosity += V_i * viscous
         by_damping += V_i * damped
         by_diffusion += V_i * p_i / s.density[i] * diffused
-        by_control += V_i * controlled
         by_correction += V_i * corrected
-    return by_viscosity, by_damping, by_diffusion, by_control, by_correction
+    return by_viscosity, by_damping, by_diffusion, by_correction

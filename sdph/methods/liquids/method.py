@@ -99,6 +99,7 @@ class LiquidStepper:
             self.tell_apart()
         else:
             gathered.take_part(self, self._allocate)
+        self.enclosed = self.state.enclosure
         self.aim(self.time)
 
     def admit(self, kept: dict) -> None:
@@ -108,7 +109,7 @@ class LiquidStepper:
     @property
     def flow(self) -> rates.Flow:
         """Values that loops share."""
-        return rates.Flow(self.active, self.pressure, self.volume, self.state.enclosure)
+        return rates.Flow(self.active, self.pressure, self.volume, self.enclosed)
 
     def step(self, most: float) -> float:
         """One step, no longer than `most` [s]; returns its length."""
@@ -220,6 +221,7 @@ class LiquidStepper:
         if self.excess:
             correction.surround(*around, self.volume, *self.excess)
             self.domain.refresh(*self.excess)
+        self.enclosed = s.enclosure.copy()  # what pairs go by until the next forces: shifting looks around anew
         rates.push(
             self.kernel, s, self.rows, self.neighbours.box, self.flow, self.wall, p["gravity"], self.frame,
             self.viscous, p["liquid_damping"], p["density_diffusion"], p["shifting"], self.phases, self.excess,

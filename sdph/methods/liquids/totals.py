@@ -1,7 +1,8 @@
 """The ledger of a liquid: mass, momentum and energy, and who gave and took them, one row a window.
 
 Momentum comes from body forces, walls, surface tension, contact, shifting and nozzles, and goes through the drain and
-open sides; walls are summed over their particles, so that what pairs do not give back to each other is a drift. Energy
+open sides; control of tension makes some, as its pairs push both particles the same way. Walls are summed over their
+particles and control over its own, so that what else pairs do not give back to each other is a drift. Energy
 is kinetic and elastic (of compression), beside bodies also that of the springs of their polyline. Gravity, the frame,
 the pressure of walls and of nozzles, surface tension and contact work on it; what comes in brings some, the drain and
 open sides take their share. Dissipation is the sum of its causes (LOSSES), each taken where its force acts; what
@@ -25,12 +26,13 @@ from sdph.methods.liquids.losses import CAUSES
 
 IMPULSES = (
     "body_forces", "walls", "surface_tension", "shifting", "drain", "contact", "inflow", "outflow", "bubble", "scaling",
+    "tension_control",
 )  # fmt: skip
 WORKS = (
     "work_of_gravity_J", "work_of_frame_J", "work_of_walls_J", "work_of_surface_tension_J", "work_of_contact_J",
     "work_of_inflow_J", "work_of_bubble_J", "work_of_scaling_J",
 )  # fmt: skip
-LOSSES = (*CAUSES, "held_off_J", "shifting_J")
+LOSSES = (*CAUSES, "tension_control_J", "held_off_J", "shifting_J")
 PASSED = ("drained_kg", "drained_J", "injected_kg", "injected_J", "left_kg", "left_J", "boiled_kg", "boiled_J")
 AMOUNTS = (*PASSED, *WORKS, *LOSSES, "dissipated_J", "numerical_work_J")
 
@@ -74,17 +76,19 @@ class LiquidLedger(Sums):
         return sum(amounts[name] for name in WORKS) + amounts["injected_J"] - gone
 
     def summary(self) -> dict[str, float]:
-        """Closure of the run: mass and momentum relative to what there was, energy to the largest of motion; the
-        largest Mach number."""
+        """Closure of the run: mass and momentum relative to what there was, and so is the momentum that control of
+        tension made; energy to the largest of motion; the largest Mach number."""
         there = self.first["mass_kg"] + self.sums["injected_kg"]
         inertia = math.sqrt(2.0 * there * (self.scale["J"] + self.most))  # of all with all that energy
         gone = self.sums["drained_kg"] + self.sums["left_kg"] + self.sums["boiled_kg"]
         came = self.sums["injected_kg"] - gone
         mass = self.last["mass_kg"] - self.first["mass_kg"] - came
         drift = float(np.linalg.norm(self.gained() - self.impulses.sum(axis=0)))
+        made = float(np.linalg.norm(self.impulses[IMPULSES.index("tension_control")]))
         return self.sums | {
             "mass_drift_rel": abs(mass) / there,
             "momentum_drift_rel": ratio(drift, self.scale["kg_m_s"] + inertia),
+            "momentum_made_rel": ratio(made, self.scale["kg_m_s"] + inertia),
             "energy_made_J": self.made,
             "energy_made_rel": ratio(self.made, self.moved),
             "numerical_work_rel": ratio(abs(self.sums["numerical_work_J"]), abs(self.sums["dissipated_J"])),

@@ -53,7 +53,7 @@ class Tally:
         impulses = (
             sums[account.BODY], sums[account.WALLS], sums[account.TENSION], shifted, -gone[1:4] - self.spared,
             self.contact + given[:3], sums[account.INLET] + came[1:4], -left[1:4],
-            sums[account.BUBBLE] - boiled[1:4], self.scaled[:3],
+            sums[account.BUBBLE] - boiled[1:4], self.scaled[:3], sums[account.CONTROL],
         )  # fmt: skip
         amounts = {"drained_kg": gone[0], "drained_J": gone[7], "work_of_contact_J": self.pressed + given[3]}
         amounts |= {"boiled_kg": boiled[0], "boiled_J": boiled[4]}
@@ -63,7 +63,7 @@ class Tally:
         amounts |= {"work_of_gravity_J": sums[account.GRAVITY], "work_of_frame_J": sums[account.FRAME]}
         amounts |= {"work_of_walls_J": sums[account.BY_WALLS], "work_of_surface_tension_J": sums[account.BY_TENSION]}
         amounts |= {"held_off_J": -sums[account.HELD_OFF], "shifting_J": self.stepper.eased - self.eased}
-        amounts |= dict(zip(CAUSES, sums[account.LOST]))
+        amounts |= {"tension_control_J": sums[account.BY_CONTROL]} | dict(zip(CAUSES, sums[account.LOST]))
         return dict(zip(IMPULSES, impulses)), {name: float(value) for name, value in amounts.items()}
 
 

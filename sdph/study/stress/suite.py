@@ -43,6 +43,10 @@ FOLDER = "validation"
 ALWAYS = {"lost_through_walls": 0.0} | {k: bar for k, bar in balances.BARS.items() if bar != balances.NUMERICAL}
 
 
+class Refused(RuntimeError):
+    """A run that its case does not allow to go on, by what has become of it."""
+
+
 @dataclass(frozen=True)
 class Hard:
     """One hard case, as its file says."""
@@ -150,7 +154,7 @@ def run(hard: Hard, *changes: dict) -> Verdict:
                 simulation = _next(
                     simulation, changed, Path(folder) / str(number), measures, stage.get("windows", 10**9)
                 )
-        except (Unstable, GasError) as error:
+        except (GasError, Refused, Unstable) as error:
             stopped = str(error)
     return Verdict(hard.name, _judged(hard, measures, stopped), time.perf_counter() - started, stopped)
 
@@ -204,10 +208,12 @@ def _go(simulation, measures, windows: int):
     """Run up to so many windows, or to the end of the case; every one is measured."""
     try:
         for _ in range(windows):
-            if simulation.time >= simulation.case.run.end_time:
+            if simulation.clock.over(simulation.time):  # a droplet that tears ends soon after
                 break
             simulation.window()
             measures.window(simulation)
+    except CaseError as error:
+        raise Refused(str(error)) from None
     finally:
         measures.finish(simulation)
         simulation.ledger.table.close()

@@ -58,6 +58,22 @@ def test_an_unknown_measure_is_told(tmp_path):
         suite.run(suite.Hard(**{**vars(hard), "at_most": {"temperature_K_maxx": 280.0}}))
 
 
+def test_a_case_that_its_run_refuses_fails():
+    """Grains that leave through a side without `outflow` end one case, not all of them."""
+    (hard,) = suite.chosen(["limit_agitation"], False)
+    effects = [name for name in hard.case["effects"] if name != "outflow"]
+    verdict = suite.run(hard, {"effects": effects, "particles": {"bed": {"velocity_m_s": [0.0, 20.0]}}})
+    assert not verdict.ok and "outflow" in verdict.stopped
+
+
+def test_a_case_is_over_when_its_clock_is(tmp_path):
+    """A droplet that has torn ends sooner than its case says."""
+    run = simulation(disc("resolution.spacing_mm=10", "resolution.cell_mm=25"), tmp_path)
+    run.clock.end = 0.5 * run.case.run.end_time
+    suite._go(run, suite._measures(run.case), 10**9)
+    assert run.clock.over(run.time) and run.time < 0.9 * run.case.run.end_time
+
+
 def test_conduction_past_its_limit_is_caught_within_20_sub_steps(tmp_path):
     """From the first sub-step that leaves the temperatures of the case (288 to 350 K) to the stop."""
     run = simulation(disc(*PAST_LIMIT), tmp_path)
