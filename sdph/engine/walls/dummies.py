@@ -34,15 +34,16 @@ class Dummies(NamedTuple):
     slide_z: np.ndarray
 
 
-OF_ROWS = ("entries", "start", "number", "pressure", "velocity")
+OF_ROWS = ("entries", "start", "number", "every", "pressure", "velocity")
 Wall = NamedTuple("Wall", [(name, np.ndarray) for name in (*Dummies._fields, *OF_ROWS)])
 Wall.__doc__ = """Dummies as loops take them, in one flat group: their fields, the rows of the particles that see them,
-pressure (W,) [Pa] and velocity (W, 3) [m/s] that they have from the grains in front."""
+how many of a row count and how many contact asks (N,), pressure (W,) [Pa] and velocity (W, 3) [m/s] that they have from
+the grains in front."""
 
 
-def seen(dummies: Dummies, rows) -> Wall:
-    """Dummies of which particles see those in `rows`."""
-    return Wall(*dummies, *rows, np.zeros(len(dummies.x)), np.zeros((len(dummies.x), 3)))
+def seen(dummies: Dummies, rows, every) -> Wall:
+    """Dummies of which particles see those in `rows`, and touch `every` (N,) of them."""
+    return Wall(*dummies, *rows, every, np.zeros(len(dummies.x)), np.zeros((len(dummies.x), 3)))
 
 
 @serial

@@ -57,20 +57,39 @@ def nearer_facets(dummies, of_mesh) -> np.ndarray:
 
 
 @serial
-def keep_in_front(dummies, of_mesh, nearer, places, rows):
-    """Take the dummies of a mesh out of the rows of particles that stand behind its surface, or in front of a facet
-    that the dummy is nearer to, whose own dummies stand there (`nearer_facets`)."""
+def keep_in_front(dummies, of_mesh, places, rows):
+    """Take the dummies of a mesh out of the rows of particles that stand behind its surface."""
     x, y, z = places
     for i in range(len(x)):
         kept = 0
         for k in range(rows.number[i]):
             w = entry(rows, i, k)
-            over = (x[i] - dummies.x[w]) * nearer[w, 0] + (y[i] - dummies.y[w]) * nearer[w, 1]
-            over += (z[i] - dummies.z[w]) * nearer[w, 2] - nearer[w, 3]
-            if not of_mesh[w] or (height(dummies, w, x[i], y[i], z[i]) > 0.0 and not over > 0.0):
+            if not of_mesh[w] or height(dummies, w, x[i], y[i], z[i]) > 0.0:
                 rows.entries[place(rows, i, kept)] = w
                 kept += 1
         rows.number[i] = kept
+
+
+@serial
+def count_once(dummies, nearer, places, rows):
+    """Put behind the end of a particle's row the dummies that are nearer to another facet that it is in front of, whose
+    own dummies stand there (`nearer_facets`): sums count what lies behind an edge once, contact asks for all of them.
+    Returns how many all are (N,)."""
+    x, y, z = places
+    every = rows.number.copy()
+    for i in range(len(x)):
+        k = 0
+        while k < rows.number[i]:
+            w = entry(rows, i, k)
+            over = (x[i] - dummies.x[w]) * nearer[w, 0] + (y[i] - dummies.y[w]) * nearer[w, 1]
+            over += (z[i] - dummies.z[w]) * nearer[w, 2] - nearer[w, 3]
+            if over > 0.0:
+                rows.number[i] -= 1
+                last = place(rows, i, rows.number[i])
+                rows.entries[place(rows, i, k)], rows.entries[last] = rows.entries[last], w
+            else:
+                k += 1
+    return every
 
 
 @serial

@@ -36,12 +36,15 @@ class Boundary:
         """Dummies near each particle; valid as long as the particles' own rows."""
         rows = self.search.seen_from(_axes(self.dummies, len(state_axes)), state_axes)
         if self.of_mesh.any():
-            sides.keep_in_front(self.dummies, self.of_mesh, self.nearer, sides.three(state_axes), rows)
+            sides.keep_in_front(self.dummies, self.of_mesh, sides.three(state_axes), rows)
         return rows
 
-    def seen(self, rows) -> tuple[Wall, Rows]:
+    def seen(self, rows, state_axes) -> tuple[Wall, Rows]:
         """Dummies for loops, and the rows of the particles that each of them has in front."""
-        return seen(self.dummies, rows), turned(rows, len(self.dummies.x))
+        every = rows.number
+        if self.of_mesh.any():
+            every = sides.count_once(self.dummies, self.nearer, sides.three(state_axes), rows)
+        return seen(self.dummies, rows, every), turned(rows, len(self.dummies.x))
 
     def part(self, rows, wall_rows, state_axes) -> None:
         """Take the pairs out of the particles' rows that a mesh lies between."""

@@ -132,7 +132,7 @@ class Stepper(Windowed):
             if self.source:
                 self.source.open(self.state, self.mouths, rows)
             self.boundary.part(self.rows, rows, built)
-            self.wall, self.facing = self.boundary.seen(rows)
+            self.wall, self.facing = self.boundary.seen(rows, built)
             self.wall.number[len(self.own.x) :] = 0  # dummies see copies, copies feel no wall
             self.unheld = np.full(len(self.wall.x), np.nan)
         if self.hot:
