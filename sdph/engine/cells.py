@@ -1,6 +1,7 @@
 """Cells that particles are sorted into, and which of them a particle has to look at.
 
-A counting sort by cell leaves the particles of one cell together; what is solid lies behind the rest of its cell.
+A counting sort by cell (sdph.engine.arrays) leaves the particles of one cell together; what is solid lies behind the
+rest of its cell.
 """
 
 from __future__ import annotations
@@ -29,36 +30,14 @@ def _place(grid, a, value):
 
 
 @parallel
-def halves(grid, x, y, z, solid):
-    """Half of a cell that each particle is in, (N,): twice the number of the cell, x fastest, and one more for what is
-    solid."""
-    number = np.empty(len(x), np.int64)
+def halves(grid, x, y, z, solid, number):
+    """Half of a cell that each particle is in, number (N,): twice the number of the cell, x fastest, and one more for
+    what is solid."""
     for i in prange(len(x)):
         layer = _place(grid, 2, z[i]) if len(z) else 0
         number[i] = (
             2 * ((layer * grid.shape[1] + _place(grid, 1, y[i])) * grid.shape[0] + _place(grid, 0, x[i])) + solid[i]
         )
-    return number
-
-
-@serial
-def starts(number, total):
-    """First particle of each cell, (total + 1,), from their cell numbers."""
-    start = np.zeros(total + 1, np.int64)
-    for cell in number:
-        start[cell + 1] += 1
-    return np.cumsum(start)
-
-
-@serial
-def order(number, total):
-    """Row of each particle after a stable counting sort by cell."""
-    start = starts(number, total)
-    rows = np.empty(len(number), np.int64)
-    for i, cell in enumerate(number):
-        rows[start[cell]] = i
-        start[cell] += 1
-    return rows
 
 
 @serial

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import prange
 
+from sdph.engine import arrays
 from sdph.laws.compiled import parallel
 
 # values of `kind`, of all methods alike; INFLOW: still upstream of its nozzle. Files hold them: they stay as they are
@@ -178,7 +179,7 @@ def empty(count: int, names=ALWAYS, dimensions: int = 2) -> State:
 
 
 def _map(function, *states: State) -> State:
-    return State(*(function(*arrays) if any(len(a) for a in arrays) else arrays[0] for arrays in zip(*states)))
+    return State(*(function(*same) if any(len(a) for a in same) else same[0] for same in zip(*states)))
 
 
 def take(state: State, rows: np.ndarray) -> State:
@@ -192,13 +193,17 @@ def first(state: State, count: int) -> State:
     return State(*(array[:count] for array in state))
 
 
-@parallel
 def _taken(array, rows):
     """array[rows]."""
-    out = np.empty(len(rows), array.dtype)
+    out = arrays.empty(len(rows), array, array.dtype)
+    _take(array, rows, out)
+    return out
+
+
+@parallel
+def _take(array, rows, out):
     for i in prange(len(rows)):
         out[i] = array[rows[i]]
-    return out
 
 
 def join(first: State, second: State) -> State:
@@ -291,7 +296,7 @@ def released(state: State) -> State:
 
 def count(state: State) -> int:
     """Particles that there are, less those upstream of a nozzle."""
-    return int((state.kind != INFLOW).sum())
+    return int((arrays.brought(state.kind) != INFLOW).sum())
 
 
 def grains(state: State) -> State:
