@@ -6,8 +6,10 @@ Without that package numba has a part of the same name, whose simulator runs ker
 
 from __future__ import annotations
 
+import types
 import warnings
 
+import numba
 import numpy as np
 from numba import config, cuda
 
@@ -40,3 +42,19 @@ def strict() -> None:
         from numba.cuda.core.errors import NumbaPerformanceWarning
 
         warnings.simplefilter("error", NumbaPerformanceWarning)
+
+
+def assembly(function, taken: tuple, capability: tuple[int, int], *, parts: bool) -> str:
+    """PTX of a kernel for arguments of these types, without a device; with `parts` the arguments are one tuple behind
+    an array (T, K) of float64, as of sdph.engine.gpu.translation.function_of.
+
+    numba-cuda 0.30 asks for the device that is there as soon as a kernel calls a function: it is told this one.
+    """
+    own, dispatcher = types.SimpleNamespace(compute_capability=capability), cuda.dispatcher
+    given = (numba.float64[:, ::1], numba.types.Tuple(taken)) if parts else taken
+    before, dispatcher.get_current_device = dispatcher.get_current_device, lambda: own
+    try:
+        text, _ = cuda.compile(function, given, device=False, cc=capability, abi="numba", output="ptx")
+    finally:
+        dispatcher.get_current_device = before
+    return text if isinstance(text, str) else text.decode()
