@@ -1,0 +1,103 @@
+"""Kernels of scenes compile for a device that is not there, in registers and without spills; effects that are off
+vanish from them."""
+
+import importlib.util
+import re
+
+import numpy as np
+import pytest
+from numba import typeof
+
+from sdph.scenes import paths
+
+pytest.importorskip("numba_cuda", reason="needs numba-cuda and nvidia-cuda-nvcc: pip install 'sdph[cuda]'")
+
+from sdph.engine.gpu import assembled, sorting, toolkit
+
+if assembled.assembler() is None:
+    pytest.skip("needs ptxas: pip install nvidia-cuda-nvcc", allow_module_level=True)
+
+specification = importlib.util.spec_from_file_location(
+    "cuda_kernels", paths.PACKAGE.parent / "benchmarks/cuda_kernels.py"
+)
+kernels = importlib.util.module_from_spec(specification)
+specification.loader.exec_module(kernels)
+
+MOST = 128  # registers of a thread: 512 threads of a multiprocessor; the issue's bar for `push`
+COARSE = {
+    "dam_break": ("resolution.spacing_mm=5.715",),
+    "dam_break_3d": ("resolution.spacing_mm=5.715",),
+    "dam_break_gas": ("resolution.spacing_mm=5.715",),
+}
+ARRAY, WHOLE = typeof(np.zeros(3)), typeof(np.zeros(3, np.int64))
+TABLE = typeof(np.zeros((3, 2)))
+
+
+@pytest.mark.parametrize("scene", kernels.LIQUIDS)
+def test_every_kernel_of_a_scene_compiles_without_spills(scene):
+    loops = kernels.loops_of(scene, *COARSE.get(scene, ()))
+    names = {assembled.name_of(loop) for loop, _ in loops}
+    expected = {"push", "compress", "state_of", "losses", "reaction", "fastest", "kick", "drift", "_count", "_fill"}
+    assert expected <= {name.split(".")[-1] for name in names}
+    for loop, taken in loops:
+        found = assembled.assembled(loop, taken)
+        assert found.spills == found.stack == 0, assembled.name_of(loop)
+        assert found.registers <= MOST, assembled.name_of(loop)
+
+
+def text_of(scene: str, name: str, *keys: str) -> str:
+    """PTX of a loop of a scene."""
+    found = [own for own in kernels.loops_of(scene, *keys) if own[0].__name__ == name]
+    assert len(found) == 1
+    return assembled.assembled(*found[0]).text
+
+
+def test_an_effect_that_is_off_leaves_nothing_in_a_kernel():
+    """Instructions of doubles in `push`: friction, damping and what a frame does are there or gone; a division of
+    numbers of the loop over pairs is as good as none."""
+    keys = "resolution.spacing_mm=5.715", 'effects=["gravity", "density_diffusion", "tank"]'
+    without = text_of("dam_break", "push", *keys)
+    more = [
+        text_of("dam_break", "push", keys[0], f'effects=["gravity", "density_diffusion", "tank", "{name}"]')
+        for name in ("liquid_damping", "laminar_viscosity")
+    ]
+    count = [len(re.findall(r"\.f64", text)) for text in (without, *more)]
+    assert count[0] + 5 < min(count[1:])
+    flat, deep = without, text_of("dam_break_3d", "push", keys[0], keys[1])
+    assert len(re.findall(r"ld\.global[.\w]*f64", flat)) < len(re.findall(r"ld\.global[.\w]*f64", deep))
+
+
+def test_arithmetic_is_exact_to_ieee():
+    """No flag of fast arithmetic comes with a loop: divisions and roots are rounded as those of the processor."""
+    text = text_of("dam_break", "push", "resolution.spacing_mm=5.715")
+    assert "div.rn.f64" in text and "sqrt.rn.f64" in text and "approx" not in text
+
+
+@pytest.mark.parametrize(
+    "name, taken",
+    [
+        ("fill", (ARRAY, typeof(0.0))),
+        ("times", (typeof(0.0), ARRAY, ARRAY)),
+        ("sum_parts", (TABLE, TABLE)),
+        ("most_parts", (TABLE, TABLE)),
+        ("find_ends", (ARRAY, TABLE)),
+        ("sum_runs", (WHOLE, WHOLE)),
+        ("begin_runs", (WHOLE,)),
+        ("begin_all", (WHOLE, WHOLE, WHOLE)),
+        ("sum_runs", (typeof(np.zeros(3, bool)), WHOLE)),
+        ("begin_all", (typeof(np.zeros(3, bool)), WHOLE, WHOLE)),
+        ("choose", (typeof(np.zeros(3, bool)), WHOLE, typeof(np.zeros(3, np.int32)))),
+        ("count", (WHOLE, WHOLE)),
+        ("scatter", (WHOLE, WHOLE, WHOLE)),
+        ("tidy", (WHOLE, WHOLE)),
+    ],
+)
+def test_kernels_of_sorting_compile(name, taken):
+    text = toolkit.assembly(getattr(sorting, name).py_func, taken, assembled.CAPABILITY, parts=False)
+    found = assembled.read(text)
+    assert found.spills == 0 and found.registers <= 64
+
+
+def test_occupancy_is_that_of_nvidias_calculator():
+    """65536 registers, 2048 threads of a multiprocessor: 32 registers let all in, 128 a quarter, 111 as many as 112."""
+    assert [assembled.occupancy(own, 128) for own in (32, 64, 128, 111, 255)] == [1.0, 0.5, 0.25, 0.25, 0.125]
