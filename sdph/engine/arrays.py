@@ -43,6 +43,11 @@ def times(factor: float, array):
     return factor * array if here(array) else card.times(factor, array)
 
 
+def at_least(low: float, array):
+    """Array (N,) of the larger of `low` and each value."""
+    return np.maximum(array, low) if here(array) else card.at_least(low, array)
+
+
 def chosen(mask):
     """Rows (int32) at which a mask (N,) of bool is set."""
     return np.flatnonzero(mask).astype(np.int32) if here(mask) else card.chosen(mask)

@@ -42,6 +42,10 @@ class Assembled(NamedTuple):
     occupancy: float
     text: str
 
+    def told(self) -> tuple:
+        """Registers, spills, calls, arguments, occupancy."""
+        return self.registers, self.spills, self.calls, self.arguments, self.occupancy
+
 
 class Heard:
     """Loops that were called, with the types of what they took: `loops` {(loop, types)}. Within its context those over
@@ -73,7 +77,7 @@ def name_of(loop) -> str:
 
 def assembled(loop, taken: tuple) -> Assembled:
     """The kernel of a loop for arguments of the types `taken`."""
-    return _read(assembly(function_of(loop), taken, CAPABILITY, parts=bool(results(loop))))
+    return read(assembly(function_of(loop), taken, CAPABILITY, parts=bool(results(loop))))
 
 
 def assembler() -> str | None:
@@ -82,7 +86,8 @@ def assembler() -> str | None:
     return next((str(file) for file in known if file.is_file()), None)
 
 
-def _read(text: str) -> Assembled:
+def read(text: str) -> Assembled:
+    """What the assembler says of a kernel in PTX."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "kernel.ptx"
         file.write_text(text, encoding="ascii")

@@ -54,6 +54,13 @@ class Card:
         self.launches += 1
         kernel[size](*arguments)
 
+    def told(self, steps: int) -> dict[str, float]:
+        """Columns of a summary: means over the steps taken."""
+        steps = steps or 1
+        moved = {"from": float(self.brought[1]) / steps, "to": float(self.sent[1]) / steps}
+        told = {f"bytes_{way}_device_per_step": many for way, many in moved.items()}
+        return {"launches_per_step": self.launches / steps} | told
+
     def _joined(self, part, largest: bool) -> np.ndarray:
         """(K,) sums, or largest values, of parts (T, K) of threads."""
         fewer = self.empty((math.prod(SUMS), part.shape[1]), np.float64)
@@ -114,6 +121,11 @@ class Card:
         out = self.empty(array.shape, array.dtype)
         if array.size:
             self._launch(sorting.times, LOOP, factor, array.reshape(array.size), out.reshape(array.size))
+        return out
+
+    def at_least(self, low: float, array):
+        out = self.empty(array.shape, array.dtype)
+        self._launch(sorting.at_least, LOOP, low, array, out)
         return out
 
     def total(self, values) -> np.ndarray:

@@ -25,6 +25,13 @@ def times(factor, array, out):
 
 
 @kernel
+def at_least(low, array, out):
+    """out (n,): the larger of `low` and array."""
+    for i in range(cuda.grid(1), len(array), cuda.gridsize(1)):
+        out[i] = max(low, array[i])
+
+
+@kernel
 def sum_parts(values, part):
     """part (T, K): sum of every T-th row of values (N, K), of each of T threads."""
     t = cuda.grid(1)

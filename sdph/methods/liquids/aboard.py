@@ -11,8 +11,8 @@ import contextlib
 from sdph.engine import arrays
 from sdph.engine import state as particles
 
-# of a stepper, what somebody reads between steps besides ROWS
-READ = ("state", "active", "walls")
+# of a stepper, what somebody reads between steps besides ROWS; rows of neighbours are large, and come where asked for
+READ, OF_PAIRS = ("state", "active", "walls"), ("rows",)
 
 
 def board(stepper) -> None:
@@ -28,25 +28,46 @@ def board(stepper) -> None:
 
 
 @contextlib.contextmanager
-def ashore(stepper):
-    """Context in which state, rows and ROWS of a stepper lie in memory."""
+def ashore(stepper, *more: str):
+    """Context in which state and ROWS of a stepper lie in memory, and `more` that is asked for."""
     if arrays.here(stepper.state.x):
         yield
         return
-    before = {name: getattr(stepper, name) for name in (*READ, "rows", *stepper.ROWS)}
-    built = stepper.neighbours.built
+    before = {name: getattr(stepper, name) for name in (*READ, *stepper.ROWS, *more)}
     now = stepper.steps, stepper.time
     if stepper.landed is None or stepper.landed[0] != now:
-        stepper.landed = now, {name: _mapped(arrays.brought, value) for name, value in before.items()}
-    for name, value in stepper.landed[1].items():
-        setattr(stepper, name, value)
-    stepper.neighbours.built = _mapped(arrays.brought, built)
+        stepper.landed = now, {}
+    copies = stepper.landed[1]
+    for name in before.keys() - copies.keys():
+        copies[name] = _mapped(arrays.brought, before[name])
+    _put(stepper, {name: copies[name] for name in before})
     try:
         yield
     finally:
-        stepper.neighbours.built = built
-        for name, value in before.items():
-            setattr(stepper, name, value)
+        _put(stepper, before)
+
+
+@contextlib.contextmanager
+def all_ashore(stepper):
+    """Context in which what a checkpoint holds lies in memory: places at the last build of rows too."""
+    near, built = stepper.neighbours, stepper.neighbours.built
+    with ashore(stepper):
+        near.built = _mapped(arrays.brought, built)
+        try:
+            yield
+        finally:
+            near.built = built
+
+
+def told(stepper) -> dict[str, float]:
+    """Columns of the summary of a run on a device."""
+    steps = stepper.steps - stepper.steps_before
+    return {} if arrays.here(stepper.state.x) else arrays.card.told(steps)
+
+
+def _put(stepper, values: dict) -> None:
+    for name, value in values.items():
+        setattr(stepper, name, value)
 
 
 def _mapped(function, value):

@@ -100,7 +100,7 @@ class Liquid(Stepped):
     def whole(self):
         stepper = self.stepper
         before = stepper.active
-        with aboard.ashore(stepper), gathered.whole(stepper) as chief:
+        with aboard.all_ashore(stepper), gathered.whole(stepper) as chief:
             if not stepper.domain.alone:
                 stepper.active = np.flatnonzero(particles.wet(stepper.state)).astype(before.dtype)
             try:
@@ -109,15 +109,14 @@ class Liquid(Stepped):
                 stepper.active = before
 
     def row(self) -> dict[str, float]:
-        with aboard.ashore(self.stepper):
+        with aboard.ashore(self.stepper, *aboard.OF_PAIRS):
             loads = history.loads(self)
         with self.whole() as chief:
             return history.row(self) | loads if chief else {}
 
     def held(self) -> dict[str, float]:
         """Shares that limiters hold now, by column of history.csv."""
-        with aboard.ashore(self.stepper):
-            return limiters.held(self.stepper)
+        return limiters.held(self.stepper)
 
     def points(self):
         with self.whole():
@@ -141,7 +140,7 @@ class Liquid(Stepped):
     def summary(self) -> dict[str, float]:
         with self.whole():
             own = {"liquid_particles": len(self.stepper.active), "kinetic_energy_J": kinetic_energy(self.state)}
-        own |= self.stepper.domain.summary(self.steps - self.stepper.steps_before)
+        own |= self.stepper.domain.summary(self.steps - self.stepper.steps_before) | aboard.told(self.stepper)
         parts = [part.summary() for part in (self.stepper.void, self.stepper.heat) if part]
         return own | {name: value for part in parts for name, value in part.items()}
 
