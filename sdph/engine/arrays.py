@@ -7,8 +7,9 @@ not numpy's has `card`'s functions done to it (sdph.engine.gpu.card).
 from __future__ import annotations
 
 import numpy as np
+from numba import prange
 
-from sdph.laws.compiled import serial
+from sdph.laws.compiled import parallel, serial
 
 card = None  # the device, once it is begun
 
@@ -43,9 +44,22 @@ def times(factor: float, array):
     return factor * array if here(array) else card.times(factor, array)
 
 
-def at_least(low: float, array):
-    """Array (N,) of the larger of `low` and each value."""
-    return np.maximum(array, low) if here(array) else card.at_least(low, array)
+def taken(array, rows):
+    """array[rows]."""
+    out = empty(len(rows), array, array.dtype)
+    _take(array, rows, out)
+    return out
+
+
+@parallel
+def _take(array, rows, out):
+    for i in prange(len(rows)):
+        out[i] = array[rows[i]]
+
+
+def positive(array):
+    """Array (N,) of the values above 0, and 0 for others: of volumes those of liquid, as walls have negative ones."""
+    return np.maximum(array, 0.0) if here(array) else card.positive(array)
 
 
 def chosen(mask):
@@ -66,7 +80,7 @@ def ends(values) -> tuple[float, float]:
 
 
 def begins(lengths):
-    """Where each of parts of these lengths (N,) begins, one behind the other, and the last one ends: (N + 1,) int64."""
+    """Begin of each of parts of these lengths (N,), one behind the other, and the end of the last: (N + 1,) int64."""
     if not here(lengths):
         return card.begins(lengths)
     begin = np.zeros(len(lengths) + 1, np.int64)

@@ -11,6 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numba import prange
 
+from sdph.engine import arrays
+from sdph.engine.state import WALL
 from sdph.laws.compiled import parallel, serial
 
 
@@ -27,6 +29,19 @@ class Grid(NamedTuple):
 def _place(grid, a, value):
     cell = int((value - grid.origin[a]) / grid.size[a])
     return min(max(cell, 0), grid.shape[a] - 1)
+
+
+def solid_of(kind):
+    """Mask (N,) of the wall particles among those of these kinds."""
+    solid = arrays.empty(len(kind), kind, np.bool_)
+    _tell_solid(kind, solid)
+    return solid
+
+
+@parallel
+def _tell_solid(kind, solid):
+    for i in prange(len(kind)):
+        solid[i] = kind[i] == WALL
 
 
 @parallel

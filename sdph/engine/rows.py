@@ -15,11 +15,10 @@ from numba import prange
 
 from sdph.engine import arrays, motion
 from sdph.engine import state as particles
-from sdph.engine.cells import Grid, halves, span, turned
+from sdph.engine.cells import Grid, halves, solid_of, span, turned
 from sdph.engine.domain import Domain
 from sdph.engine.geometry import OPEN, OPEN_PLANE, box_of, nearest_image
 from sdph.engine.kept import Many
-from sdph.engine.state import WALL
 from sdph.engine.world import ALONE
 from sdph.laws.compiled import inlined, parallel, serial
 
@@ -165,19 +164,6 @@ class Neighbours:
 def three(here):
     """Positions in three arrays; the last without length in two dimensions."""
     return here if len(here) == 3 else (*here, np.zeros(0))
-
-
-def solid_of(kind):
-    """Mask (N,) of the wall particles among those of these kinds."""
-    solid = arrays.empty(len(kind), kind, np.bool_)
-    _tell_solid(kind, solid)
-    return solid
-
-
-@parallel
-def _tell_solid(kind, solid):
-    for i in prange(len(kind)):
-        solid[i] = kind[i] == WALL
 
 
 def _renumbered(rows: Rows, order) -> Rows:

@@ -10,10 +10,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import prange
 
 from sdph.engine import arrays
-from sdph.laws.compiled import parallel
 
 # values of `kind`, of all methods alike; INFLOW: still upstream of its nozzle. Files hold them: they stay as they are
 GRAIN, WALL, LIQUID, GAS, INFLOW, SOLID = range(6)
@@ -185,25 +183,12 @@ def _map(function, *states: State) -> State:
 def take(state: State, rows: np.ndarray) -> State:
     """The given rows (indices or mask) of every array: sorting, removing, choosing."""
     rows = np.flatnonzero(rows) if rows.dtype == bool else rows
-    return _map(lambda array: _taken(array, rows), state)
+    return _map(lambda array: arrays.taken(array, rows), state)
 
 
 def first(state: State, count: int) -> State:
     """The first `count` particles: a view, so that what is written there is written in the state."""
     return State(*(array[:count] for array in state))
-
-
-def _taken(array, rows):
-    """array[rows]."""
-    out = arrays.empty(len(rows), array, array.dtype)
-    _take(array, rows, out)
-    return out
-
-
-@parallel
-def _take(array, rows, out):
-    for i in prange(len(rows)):
-        out[i] = array[rows[i]]
 
 
 def join(first: State, second: State) -> State:

@@ -23,7 +23,7 @@ def refuse(case, processes: int = 1) -> None:
 
 
 def _unknown(case, processes: int) -> str:
-    """What of a case is not taken there; empty where all is."""
+    """Reason why a case is not taken there; empty where it is."""
     if processes > 1:
         return f"a device is of one process, and these are {processes}"
     if case.moved_by(case.matters[0]) != "liquid" or len(case.matters) > 1:

@@ -87,7 +87,7 @@ def assembler() -> str | None:
 
 
 def read(text: str) -> Assembled:
-    """What the assembler says of a kernel in PTX."""
+    """Find out from the assembler what a kernel in PTX takes."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "kernel.ptx"
         file.write_text(text, encoding="ascii")

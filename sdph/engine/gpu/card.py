@@ -26,7 +26,7 @@ SMALL = 1024  # bytes of an array of the host that a loop may take along (densit
 
 
 class Card:
-    """What was launched and moved is counted: `launches`, `sent` and `brought` (number, bytes) from and to the
+    """Counts what it launches and moves: `launches`, `sent` and `brought` (number, bytes) from and to the
     host."""
 
     def __init__(self):
@@ -39,7 +39,7 @@ class Card:
         arrays.card, Loop.elsewhere = self, self.run
 
     def run(self, loop, arguments):
-        """What a loop returns; of arrays that lie in memory the processor runs it."""
+        """Run a loop and return what it does; of arrays that lie in memory the processor runs it."""
         if not any(map(_there, arguments)):
             return loop.here(*arguments)
         arguments, many = tuple(map(self._along, arguments)), results(loop)
@@ -123,9 +123,9 @@ class Card:
             self._launch(sorting.times, LOOP, factor, array.reshape(array.size), out.reshape(array.size))
         return out
 
-    def at_least(self, low: float, array):
+    def positive(self, array):
         out = self.empty(array.shape, array.dtype)
-        self._launch(sorting.at_least, LOOP, low, array, out)
+        self._launch(sorting.positive, LOOP, array, out)
         return out
 
     def total(self, values) -> np.ndarray:

@@ -10,7 +10,7 @@ GET = "pip install 'sdph[cuda]'"
 
 
 def missing() -> str | None:
-    """What lacks to run on a device, and what to do; None where nothing does."""
+    """Tell what lacks to run on a device, and what to do; None where nothing does."""
     if config.ENABLE_CUDASIM:
         return None
     if importlib.util.find_spec("numba_cuda") is None:

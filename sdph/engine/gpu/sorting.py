@@ -25,10 +25,10 @@ def times(factor, array, out):
 
 
 @kernel
-def at_least(low, array, out):
-    """out (n,): the larger of `low` and array."""
+def positive(array, out):
+    """out (n,): array where it is above 0, else 0."""
     for i in range(cuda.grid(1), len(array), cuda.gridsize(1)):
-        out[i] = max(low, array[i])
+        out[i] = max(array[i], 0.0)
 
 
 @kernel

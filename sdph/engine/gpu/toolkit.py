@@ -27,7 +27,7 @@ def kernel(function):
 
 
 def rint():
-    """What kernels take for numpy's rint, which CUDA does not know of one number."""
+    """Function that kernels take for numpy's rint, which CUDA does not know of one number."""
     return np.rint if SIMULATED else cuda.libdevice.rint
 
 

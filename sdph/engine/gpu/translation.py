@@ -50,7 +50,7 @@ def _function(dispatcher):
 
 
 def _taken_over(value):
-    """What a kernel takes in place of a global value of a loop."""
+    """Value that a kernel takes in place of a global one of a loop."""
     if value is np.rint:
         return rint()
     if isinstance(value, CPUDispatcher):

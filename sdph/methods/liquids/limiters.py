@@ -79,4 +79,4 @@ def _by_damping(stepper) -> dict[str, float]:
     p = stepper.p["liquid_damping"]
     if not isinstance(p, liquid_damping.LinearP):
         return {}
-    return softening.held(stepper, stepper.case.liquid.kernel, stepper.active, arrays.at_least(0.0, stepper.volume))
+    return softening.held(stepper, stepper.case.liquid.kernel, stepper.active, arrays.positive(stepper.volume))

@@ -64,7 +64,7 @@ def _lonely(stepper, chosen, weight, image=None, phases_p=()) -> float:
 
 
 def _gradients(stepper) -> dict[str, float]:
-    found, p, wet = {}, stepper.p, arrays.at_least(0.0, stepper.volume)
+    found, p, wet = {}, stepper.p, arrays.positive(stepper.volume)
     if p["density_diffusion"] or p["shifting"]:
         found["no_gradient_share"] = _lonely(stepper, stepper.active, wet, phases_p=stepper.phases)
     if p["shear_thinning"]:
