@@ -12,7 +12,8 @@ from sdph.scenes import paths
 
 pytest.importorskip("numba_cuda", reason="needs numba-cuda and nvidia-cuda-nvcc: pip install 'sdph[cuda]'")
 
-from sdph.engine.gpu import assembled, sorting, toolkit
+from sdph.engine.gpu import assembled, sorting, toolkit, translation
+from sdph.methods.liquids import equations
 
 if assembled.assembler() is None:
     pytest.skip("needs ptxas: pip install nvidia-cuda-nvcc", allow_module_level=True)
@@ -66,10 +67,10 @@ def test_an_effect_that_is_off_leaves_nothing_in_a_kernel():
     assert all(len(re.findall(doubles, text)) > len(re.findall(doubles, bare)) for text in (damped, rubbed, diffused))
 
 
-def test_arithmetic_is_exact_to_ieee():
-    """No flag of fast arithmetic comes with a loop: divisions and roots are rounded as those of the processor."""
-    text = text_of("dam_break", "push", "resolution.spacing_mm=5.715")
-    assert "div.rn.f64" in text and "sqrt.rn.f64" in text and "approx" not in text
+def test_flags_of_fast_arithmetic_stay_on_the_processor():
+    """numba-cuda takes any set of them for all, those that drop nan among them."""
+    assert equations.by_pair.targetoptions["fastmath"]
+    assert not translation.of_device(equations.by_pair).targetoptions.get("fastmath")
 
 
 @pytest.mark.parametrize(

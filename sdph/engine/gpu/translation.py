@@ -45,7 +45,8 @@ def _module(own) -> _Module:
 
 
 @functools.cache
-def _function(dispatcher):
+def of_device(dispatcher):
+    """Function of a device of one that loops call."""
     return device(copied(dispatcher.py_func))
 
 
@@ -54,7 +55,7 @@ def _taken_over(value):
     if value is np.rint:
         return rint()
     if isinstance(value, CPUDispatcher):
-        return _function(value)
+        return of_device(value)
     if isinstance(value, types.ModuleType) and value.__name__.split(".")[0] in OURS:
         return _module(value)
     return value
