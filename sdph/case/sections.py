@@ -34,6 +34,7 @@ class Run:
     checkpoint_windows: int | None = whole(None, least=1)  # and after so many windows, where it is given
     # what starts the processes of `--ranks N`, which it is told by -n N: "srun", "mpirun --hostfile hosts"; mpirun
     launcher: str = words("")
+    device: str = choice("cpu", "cuda")  # where loops over particles run
 
 
 @record

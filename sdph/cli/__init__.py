@@ -140,6 +140,7 @@ def _overrides(options) -> tuple[str, ...]:
         "coupling.transport": options.transport,
         "coupling.gas_ranks": options.np,
         "run.end_time_s": options.until,
+        "run.device": options.device,
     }
     return tuple(f"{key}={json.dumps(value)}" for key, value in given.items() if value is not None)
 
@@ -259,10 +260,12 @@ def complete(options) -> int:
 
 def doctor(options) -> int:
     from coupling.openfoam.programs import install
+    from sdph.engine.gpu import found
 
     rows = install.doctor()
     for row in rows:
         print(row)
+    print(f"{'CUDA device':24}{found.described()}")
     return FINE if all(row.found for row in rows) else CHECK_FAILED
 
 

@@ -1,6 +1,7 @@
 """Cells that particles are sorted into, and which of them a particle has to look at.
 
-A counting sort by cell leaves the particles of one cell together; what is solid lies behind the rest of its cell.
+A counting sort by cell (sdph.engine.arrays) leaves the particles of one cell together; what is solid lies behind the
+rest of its cell.
 """
 
 from __future__ import annotations
@@ -10,6 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numba import prange
 
+from sdph.engine import arrays
+from sdph.engine.state import WALL
 from sdph.laws.compiled import parallel, serial
 
 
@@ -28,37 +31,28 @@ def _place(grid, a, value):
     return min(max(cell, 0), grid.shape[a] - 1)
 
 
+def solid_of(kind):
+    """Mask (N,) of the wall particles among those of these kinds."""
+    solid = arrays.empty(len(kind), kind, np.bool_)
+    _tell_solid(kind, solid)
+    return solid
+
+
 @parallel
-def halves(grid, x, y, z, solid):
-    """Half of a cell that each particle is in, (N,): twice the number of the cell, x fastest, and one more for what is
-    solid."""
-    number = np.empty(len(x), np.int64)
+def _tell_solid(kind, solid):
+    for i in prange(len(kind)):
+        solid[i] = kind[i] == WALL
+
+
+@parallel
+def halves(grid, x, y, z, solid, number):
+    """Half of a cell that each particle is in, number (N,): twice the number of the cell, x fastest, and one more for
+    what is solid."""
     for i in prange(len(x)):
         layer = _place(grid, 2, z[i]) if len(z) else 0
         number[i] = (
             2 * ((layer * grid.shape[1] + _place(grid, 1, y[i])) * grid.shape[0] + _place(grid, 0, x[i])) + solid[i]
         )
-    return number
-
-
-@serial
-def starts(number, total):
-    """First particle of each cell, (total + 1,), from their cell numbers."""
-    start = np.zeros(total + 1, np.int64)
-    for cell in number:
-        start[cell + 1] += 1
-    return np.cumsum(start)
-
-
-@serial
-def order(number, total):
-    """Row of each particle after a stable counting sort by cell."""
-    start = starts(number, total)
-    rows = np.empty(len(number), np.int64)
-    for i, cell in enumerate(number):
-        rows[start[cell]] = i
-        start[cell] += 1
-    return rows
 
 
 @serial

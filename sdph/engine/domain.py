@@ -10,7 +10,7 @@ import functools
 
 import numpy as np
 
-from sdph.engine import cuts
+from sdph.engine import arrays, cuts
 from sdph.engine import state as particles
 from sdph.engine.state import WALL
 from sdph.schema import CaseError
@@ -40,7 +40,7 @@ class Domain:
 
     def mine(self, state, mask: np.ndarray) -> np.ndarray:
         """Rows of the own particles among those of a mask (N,)."""
-        return np.flatnonzero(mask if self.alone else mask & (state.copy == 0)).astype(np.int32)
+        return arrays.chosen(mask if self.alone else mask & (state.copy == 0))
 
     def share(self, state):
         """Own particles and fresh copies; at first each process has all particles, and keeps its own."""
@@ -77,6 +77,8 @@ class Domain:
 
     def sort(self, order: np.ndarray) -> None:
         """Take note that row n is now what was row order[n]."""
+        if self.alone:
+            return
         place = np.empty(len(order), np.int64)
         place[order] = np.arange(len(order))
         self.sends = {rank: place[rows] for rank, rows in self.sends.items()}

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
+from sdph.engine import arrays
 from sdph.engine import state as particles
 from sdph.engine.kept import Unfit
 
@@ -45,7 +46,7 @@ class Watch:
         self.time, self.window = simulation.time, simulation.windows
         self.last = {
             "time": simulation.time,
-            **{name: a.copy() for name, a in simulation.state._asdict().items() if len(a)},
+            **{name: arrays.copy(a) for name, a in simulation.state._asdict().items() if len(a)},
         }
 
     def _admit_rows(self, state: dict, names) -> None:
@@ -82,7 +83,7 @@ class Watch:
         found = self._told(name, which, place, value, bounds)
         raise Unstable(
             f"the run went unstable at t = {self.time:.6g} s, in window {self.window + 1}: {found}; lower {lower}",
-            self.last,
+            {name: arrays.brought(a) if name != "time" else a for name, a in self.last.items()},
         )
 
     def _told(self, name, which, place, value, bounds) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from numba import prange
 
-from sdph.laws.compiled import parallel
+from sdph.laws.compiled import parallel, parallel_largest
 
 
 @parallel
@@ -16,6 +16,13 @@ def kick(active, acceleration, dt, u, v, w):
         v[i] += dt * acceleration[i, 1]
         if len(w):
             w[i] += dt * acceleration[i, 2]
+
+
+@parallel
+def wrap(axis, period):
+    """Takes places along a periodic axis back into the box."""
+    for i in prange(len(axis)):
+        axis[i] = axis[i] % period
 
 
 @parallel
@@ -50,7 +57,7 @@ def densify(active, rate, dt, density):
         density[active[n]] += dt * rate[active[n]]
 
 
-@parallel
+@parallel_largest
 def fastest(s, active, acceleration):
     """Largest v^2 [m2/s2] and a^2 [m2/s4] of the liquid."""
     speed = force = 0.0
@@ -74,7 +81,7 @@ def momentum(s, active):
     return x, y, z
 
 
-@parallel
+@parallel_largest
 def travelled(x, y, z, x0, y0, z0):
     """Largest squared distance [m2] between two sets of places."""
     most = 0.0

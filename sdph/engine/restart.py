@@ -33,6 +33,7 @@ LASTING = 2  # checkpoints that are kept, so that there is one when the newest i
 # keys that may change between the parts of a run
 FREE = (
     "run.end_time_s", "run.output_interval_s", "run.checkpoint_interval_s", "run.checkpoint_windows", "run.launcher",
+    "run.device",
 )  # fmt: skip
 # in a run folder, what a run that goes on writes into
 WRITTEN = ("fields", "gas", "ledger.csv", "history.csv", "metrics.csv")

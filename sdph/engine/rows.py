@@ -13,13 +13,12 @@ from typing import NamedTuple
 import numpy as np
 from numba import prange
 
-from sdph.engine import motion
+from sdph.engine import arrays, motion
 from sdph.engine import state as particles
-from sdph.engine.cells import Grid, halves, order, span, starts, turned
+from sdph.engine.cells import Grid, halves, solid_of, span, turned
 from sdph.engine.domain import Domain
 from sdph.engine.geometry import OPEN, OPEN_PLANE, box_of, nearest_image
 from sdph.engine.kept import Many
-from sdph.engine.state import WALL
 from sdph.engine.world import ALONE
 from sdph.laws.compiled import inlined, parallel, serial
 
@@ -71,24 +70,29 @@ class Neighbours:
             return state, self.rows
         for axis, period in zip(particles.axes(state), self.period):
             if period:
-                np.mod(axis, period, out=axis)
+                motion.wrap(axis, period)
         state = self.domain.share(state)
-        rows = self.domain.own_first(state, self.by_cell(particles.axes(state), state.kind == WALL))
+        rows = self.domain.own_first(state, self.by_cell(particles.axes(state), solid_of(state.kind)))
         self.domain.sort(rows)
         state = particles.take(state, rows)
-        self.built = tuple(axis.copy() for axis in particles.axes(state))
+        self.built = tuple(map(arrays.copy, particles.axes(state)))
         rows = self.relist(state.kind, state.copy)
         self.domain.weigh(state, rows.number)
         return state, rows
 
     def by_cell(self, here, solid) -> np.ndarray:
         """Rows of the places `here` cell by cell, in each of them those of `solid` (N,) last."""
-        grid = self._grid(here)
-        return order(halves(grid, *three(here), solid), 2 * int(grid.shape.prod()))
+        return arrays.order(*self._halves(here, solid)[1:])
+
+    def _halves(self, here, solid) -> tuple:
+        """Grid of the places `here`, half of a cell that each is in, and how many there are."""
+        grid, number = self._grid(here), arrays.empty(len(solid), solid, np.int64)
+        halves(grid, *three(here), solid, number)
+        return grid, number, 2 * int(grid.shape.prod())
 
     def relist(self, kind, copy=NOBODY) -> Rows:
         """Rows of the particles at the last build, of these kinds; those of copies are empty."""
-        solid, here = kind == WALL, self.built
+        solid, here = solid_of(kind), self.built
         if not len(copy):
             self.rows = self._rows(here, solid, here, solid, True)
             return self.rows
@@ -112,7 +116,7 @@ class Neighbours:
     def _cells_of(self, here, cutoff: float) -> Grid:
         size, origin, shape = np.ones(3), np.zeros(3), np.ones(3, np.int64)
         for a, axis in enumerate(here):
-            low, high = (0.0, self.period[a]) if self.period[a] else _extent(axis)
+            low, high = (0.0, self.period[a]) if self.period[a] else arrays.ends(axis)
             cells = max(1, int(min((high - low) / cutoff, MOST_CELLS)))
             origin[a], shape[a] = low, cells
             size[a] = (high - low) / cells if self.period[a] else max(cutoff, (high - low) / cells * (1.0 + 1e-12))
@@ -121,8 +125,8 @@ class Neighbours:
     def _rows(self, here, solid, at, blind, same: bool, idle=NOBODY) -> Rows:
         """Rows of the points `here`, sorted by cell, `solid` ones last, for the points `at`; `blind` ones see nothing
         solid, `idle` ones nothing. With `same` both are the same points."""
-        grid, self.box = self._grid(here), box_of(self.period, len(here))
-        begin = starts(halves(grid, *three(here), solid), 2 * int(grid.shape.prod())).view(np.uint64)  # see _run
+        (grid, *found), self.box = self._halves(here, solid), box_of(self.period, len(here))
+        begin = arrays.starts(*found).view(np.uint64)  # see _run
         near = (
             grid,
             begin,
@@ -134,18 +138,18 @@ class Neighbours:
             self.box,
             reach_of(self.reach, self.skin) ** 2,
         )
-        number, start = np.empty(len(blind), np.int32), np.zeros(len(blind) + 1, np.int64)
-        _count(*near, number)
-        np.cumsum((number // LANES + 1) * LANES, out=start[1:])
-        rows = Rows(self._room(int(start[-1])), start, number)
+        number, taken = arrays.empty(len(blind), blind, np.int32), arrays.empty(len(blind), blind, np.int64)
+        _count(*near, number, taken)
+        start = arrays.begins(taken)
+        rows = Rows(self._room(int(arrays.last(start)), blind), start, number)
         _fill(*near, start, number, rows.entries)
         return rows
 
-    def _room(self, entries: int) -> np.ndarray:
+    def _room(self, entries: int, like):
         """Room for that many entries; that of the last time where they fit, which nobody needs any more."""
-        if len(self.room) < entries:
+        if len(self.room) < entries or arrays.here(self.room) != arrays.here(like):
             self.room = np.empty(0, np.uint32)  # given back before more is taken
-            self.room = np.empty(entries + entries // SPARE, np.uint32)
+            self.room = arrays.empty(entries + entries // SPARE, like, np.uint32)
         return self.room
 
     def sort(self, here) -> np.ndarray:
@@ -160,10 +164,6 @@ class Neighbours:
 def three(here):
     """Positions in three arrays; the last without length in two dimensions."""
     return here if len(here) == 3 else (*here, np.zeros(0))
-
-
-def _extent(axis):
-    return (float(axis.min()), float(axis.max())) if len(axis) else (0.0, 0.0)
 
 
 def _renumbered(rows: Rows, order) -> Rows:
@@ -248,12 +248,12 @@ def _listed(x, y, z, box, xi, yi, zi, own, cutoff2, first, last, entries, end):
 
 
 @parallel
-def _count(grid, begin, x, y, z, at_x, at_y, at_z, blind, idle, same, box, cutoff2, number):
+def _count(grid, begin, x, y, z, at_x, at_y, at_z, blind, idle, same, box, cutoff2, number, taken):
     """number (n,) of neighbours (x, y, z), sorted by cell, of the points at_x, at_y, at_z; with `same` i is not its
-    own."""
+    own; taken (n,): entries that its row takes, a multiple of LANES and one at least."""
     for i in prange(len(at_x)):
         if len(idle) > 0 and idle[i]:
-            number[i] = 0
+            number[i], taken[i] = 0, LANES
             continue
         found = -1 if same and not blind[i] else 0  # who sees itself
         xi, yi, zi = at_x[i], at_y[i], at_z[i] if len(z) else 0.0
@@ -268,6 +268,7 @@ def _count(grid, begin, x, y, z, at_x, at_y, at_z, blind, idle, same, box, cutof
                     first, last = _run(begin, line, grid.shape[0], x0, x1, blind[i], n)
                     found += _counted(x, y, z, box, xi, yi, zi, cutoff2, first, last)
         number[i] = max(found, 0)  # who is nowhere does not see itself
+        taken[i] = (number[i] // LANES + 1) * LANES
 
 
 @parallel

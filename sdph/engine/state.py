@@ -10,9 +10,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import prange
 
-from sdph.laws.compiled import parallel
+from sdph.engine import arrays
 
 # values of `kind`, of all methods alike; INFLOW: still upstream of its nozzle. Files hold them: they stay as they are
 GRAIN, WALL, LIQUID, GAS, INFLOW, SOLID = range(6)
@@ -178,27 +177,18 @@ def empty(count: int, names=ALWAYS, dimensions: int = 2) -> State:
 
 
 def _map(function, *states: State) -> State:
-    return State(*(function(*arrays) if any(len(a) for a in arrays) else arrays[0] for arrays in zip(*states)))
+    return State(*(function(*same) if any(len(a) for a in same) else same[0] for same in zip(*states)))
 
 
 def take(state: State, rows: np.ndarray) -> State:
     """The given rows (indices or mask) of every array: sorting, removing, choosing."""
     rows = np.flatnonzero(rows) if rows.dtype == bool else rows
-    return _map(lambda array: _taken(array, rows), state)
+    return _map(lambda array: arrays.taken(array, rows), state)
 
 
 def first(state: State, count: int) -> State:
     """The first `count` particles: a view, so that what is written there is written in the state."""
     return State(*(array[:count] for array in state))
-
-
-@parallel
-def _taken(array, rows):
-    """array[rows]."""
-    out = np.empty(len(rows), array.dtype)
-    for i in prange(len(rows)):
-        out[i] = array[rows[i]]
-    return out
 
 
 def join(first: State, second: State) -> State:
@@ -291,7 +281,7 @@ def released(state: State) -> State:
 
 def count(state: State) -> int:
     """Particles that there are, less those upstream of a nozzle."""
-    return int((state.kind != INFLOW).sum())
+    return int((arrays.brought(state.kind) != INFLOW).sum())
 
 
 def grains(state: State) -> State:

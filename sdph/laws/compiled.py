@@ -55,6 +55,31 @@ def _within(**options):
     return decorate
 
 
+class Loop(CPUDispatcher):
+    """A compiled loop over particles. `elsewhere`, where it is set, is called instead with the loop and what it takes:
+    of arrays that lie on a device (sdph.engine.gpu) the device runs it."""
+
+    elsewhere = None
+    largest = False  # of what threads find: the largest values are returned, not the sums
+
+    def __call__(self, *arguments):
+        return self.here(*arguments) if Loop.elsewhere is None else Loop.elsewhere(self, arguments)
+
+    here = CPUDispatcher.__call__
+
+
+def _over_particles(largest=False, parallel=True, **options):
+    """Decorator: a loop whose rounds threads share; with `parallel` False those of a device alone."""
+
+    def decorate(function) -> Loop:
+        made = Loop(function, targetoptions=dict(COMMON, **options, nopython=True, parallel=parallel))
+        made.largest = largest
+        made.enable_caching()
+        return made
+
+    return decorate
+
+
 def _combine_first() -> None:
     """Have LLVM read the fields of a struct one by one before it splits the struct.
 
@@ -80,5 +105,7 @@ law = serial = _within(**COMMON)
 # `rates` ran it 2.4 times slower.
 inlined = _within(**COMMON, forceinline=True)
 fast_inlined = _within(**COMMON, forceinline=True, fastmath=FAST)
-parallel = njit(cache=True, parallel=True, **COMMON)
-fast_parallel = njit(cache=True, parallel=True, fastmath=FAST, **COMMON)
+parallel = _over_particles()
+parallel_largest = _over_particles(largest=True)  # returns the largest of what threads find; other loops return sums
+in_order = _over_particles(parallel=False)  # sums up in the order of the particles, however many threads there are
+fast_parallel = _over_particles(fastmath=FAST)

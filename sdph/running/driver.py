@@ -30,7 +30,7 @@ from sdph.engine.guard import Unstable
 from sdph.engine.kept import Maybe, Unfit
 from sdph.engine.ledger import Ledger
 from sdph.methods.liquids.liquid import Liquid
-from sdph.running import balances, chain, compiling, forces, hastened, inputs, metrics, output, ranks, vessel
+from sdph.running import balances, chain, compiling, forces, hastened, inputs, metrics, on_device, output, ranks, vessel
 from sdph.running.interruption import Stopped, listening
 from sdph.running.outputs import Outputs
 from sdph.running.simulation import Simulation
@@ -63,6 +63,7 @@ def stepping(case, name: str, folder: Path, gas_folder: Path | None, reporter, *
     """
     template = gas_folder or template_of(case, name)
     inputs.check(case)
+    on_device.refuse(case)
     with output.claimed(output.create(folder)):
         try:
             case = inputs.prepare(case, folder, template, allow_code)
@@ -88,6 +89,7 @@ def resume(folder: Path, overrides: tuple[str, ...], reporter, *, allow_code: bo
         raise CaseError(f"{folder} holds no run to go on with; run it anew")
     case = cases.load(folder / output.MARK, overrides)
     inputs.check(case)
+    on_device.refuse(case, world.here().number)
     with ranks.claimed(folder):
         if world.here().chief:
             restart.prepare(folder)

@@ -26,7 +26,7 @@ from coupling.gas import GasError
 from coupling.openfoam.programs import install
 from sdph.case import read as cases
 from sdph.engine import device, restart, world
-from sdph.running import inputs, output
+from sdph.running import inputs, on_device, output
 from sdph.running.interruption import SIGNALS
 from sdph.schema import CaseError
 from sdph.version import __version__
@@ -54,6 +54,7 @@ GRACE = 3.0  # s that others wait for what the first process has to say; so that
 def refuse(case, number: int) -> None:
     """CaseError where these processes cannot share the particles of a case."""
     given, mend = f"--ranks {number}", "leave --ranks out, and the run has one process with threads"
+    on_device.refuse(case, number)
     known = SHARED.get(case.moved_by(case.matters[0]), ())
     if not known or len(case.matters) > 1:
         raise CaseError(f"{given}: only grains in a gas or a liquid alone are shared among processes; {mend}")

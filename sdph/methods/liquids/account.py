@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from sdph.engine import arrays
 from sdph.engine import state as particles
 from sdph.methods.liquids import equations, loads, losses, openings, walls
 
@@ -38,11 +39,13 @@ def rates(stepper, ahead: float, last: np.ndarray | None) -> np.ndarray:
     now[: FRAME + 1] = loads.balance(stepper, ahead)
     if len(stepper.walls):
         felt = walls.feel(stepper, stepper.walls, ahead)
-        of_bodies = stepper.bodies.among(stepper.walls) if stepper.bodies else np.zeros(len(felt), bool)
-        now[WALLS], now[BY_WALLS : HELD_OFF + 1] = -felt[~of_bodies, :3].sum(axis=0), felt[:, 3:5].sum(axis=0)
-        now[LOADS] -= loads.of_forces(stepper, stepper.walls[of_bodies], felt[of_bodies, :3])  # they are no tank
+        whole = arrays.total(felt)
+        now[WALLS], now[BY_WALLS : HELD_OFF + 1] = -whole[:3], whole[3:5]
     if stepper.bodies:
         own = stepper.active
+        of_bodies = stepper.bodies.among(stepper.walls)
+        now[WALLS] = -felt[~of_bodies, :3].sum(axis=0)
+        now[LOADS] -= loads.of_forces(stepper, stepper.walls[of_bodies], felt[of_bodies, :3])  # they are no tank
         now[LOADS] += loads.of_forces(stepper, own, stepper.bodies.pressed[own])
     if stepper.p["surface_tension"]:
         pull = stepper.state.mass[:, None] * stepper.tightening

@@ -17,7 +17,7 @@ from sdph.effects.liquids import density_diffusion, laminar_viscosity, liquid_da
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import apart, deep, faster
 from sdph.engine.rows import entry, length
-from sdph.engine.state import INFLOW
+from sdph.engine.state import GAS, INFLOW, LIQUID, WALL
 from sdph.laws.compiled import fast_inlined, fast_parallel, parallel, serial
 from sdph.laws.constants import TINY
 from sdph.laws.eos import tait_pressure
@@ -52,6 +52,22 @@ def state_of(fluids, s, active, pressure, volume):
         i = active[n]
         pressure[i] = pressure_at(fluids, s.kind[i], s.density[i])
         volume[i] = s.mass[i] / s.density[i]
+
+
+@parallel
+def tell(kind, number, wet, wall):
+    """Masks (N,) of liquid particles, and of those of walls that some liquid is near: `number` (N,) of neighbours."""
+    for i in prange(len(kind)):
+        wet[i] = kind[i] == LIQUID or kind[i] == GAS
+        wall[i] = kind[i] == WALL and number[i] > 0
+
+
+@parallel
+def turn_inside(s, volume):
+    """volume (N,) [m^d] of wall particles, with its sign turned."""
+    for i in prange(len(s.kind)):
+        if s.kind[i] == WALL:
+            volume[i] = -s.mass[i] / s.density[i]
 
 
 @fast_inlined

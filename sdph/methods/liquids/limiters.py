@@ -5,23 +5,25 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numba import prange
 
 from sdph.effects.liquids import liquid_damping, shifting
-from sdph.engine import softening
+from sdph.engine import arrays, softening
 from sdph.engine.geometry import apart
 from sdph.engine.rows import entry
 from sdph.engine.state import GAS
-from sdph.laws.compiled import serial
-from sdph.methods.liquids import sparse
+from sdph.laws.compiled import parallel
+from sdph.methods.liquids import aboard, sparse
 
 
-@serial
-def in_front(s, rows, box, walls, near, support, volume, wets, holds):
-    """Mark the wall particles (W,) that have liquid within the kernel's `support` [m], and those that hold some off,
-    nearer than 1/near [m]."""
-    for n in range(len(walls)):
+@parallel
+def in_front(s, rows, box, walls, near, support, volume, pressure, wets, holds, bare):
+    """Mark the wall particles (W,) that have liquid within the kernel's `support` [m], those that hold some off,
+    nearer than 1/near [m], and those without pressure."""
+    for n in prange(len(walls)):
         i = walls[n]
         wets[n] = holds[n] = False
+        bare[n] = pressure[i] == 0.0
         for k in range(rows.number[i]):
             j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
@@ -32,21 +34,23 @@ def in_front(s, rows, box, walls, near, support, volume, wets, holds):
 
 def held(stepper) -> dict[str, float]:
     """Shares of the particles of liquid, or of the wall particles that have liquid in front, that are held now."""
-    by_gradients = _by_correction(stepper) | sparse.held(stepper)
-    return _by_walls(stepper) | _by_shifting(stepper) | by_gradients | _by_damping(stepper)
+    with aboard.ashore(stepper):
+        by_shifting, by_correction = _by_shifting(stepper), _by_correction(stepper)
+    return _by_walls(stepper) | by_shifting | by_correction | sparse.held(stepper) | _by_damping(stepper)
 
 
 def _by_walls(stepper) -> dict[str, float]:
     if not (stepper.p["tank"] or stepper.bodies):
         return {}
-    wets, holds = np.zeros((2, len(stepper.walls)), bool)
+    masks = [arrays.empty(len(stepper.walls), stepper.walls, np.bool_) for _ in range(3)]
     in_front(
         stepper.state, stepper.rows, stepper.neighbours.box, stepper.walls, stepper.wall.near, 2.0 * stepper.kernel.h,
-        stepper.volume, wets, holds,
+        stepper.volume, stepper.pressure, *masks,
     )  # fmt: skip
+    wets, holds, bare = map(arrays.brought, masks)
     found = {"wall_holds_off_share": stepper.world.mean(holds[wets])}
     if stepper.wall.least == 0.0:
-        found["walls_held_share"] = stepper.world.mean(stepper.pressure[stepper.walls[wets]] == 0.0)
+        found["walls_held_share"] = stepper.world.mean(bare[wets])
     return found
 
 
@@ -75,4 +79,4 @@ def _by_damping(stepper) -> dict[str, float]:
     p = stepper.p["liquid_damping"]
     if not isinstance(p, liquid_damping.LinearP):
         return {}
-    return softening.held(stepper, stepper.case.liquid.kernel, stepper.active, np.maximum(stepper.volume, 0.0))
+    return softening.held(stepper, stepper.case.liquid.kernel, stepper.active, arrays.positive(stepper.volume))

@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 
 from sdph.effects.around import drain, tank
-from sdph.engine import gathered
+from sdph.engine import arrays, gathered
 from sdph.engine import state as particles
 from sdph.engine.kept import Unfit
 from sdph.engine.stepped import Stepped
 from sdph.engine.walls.parts import Pushed
-from sdph.methods.liquids import account, history, limiters
+from sdph.methods.liquids import aboard, account, history, limiters
 from sdph.methods.liquids.bodies import Carrier
 from sdph.methods.liquids.loads import kinetic_energy
 from sdph.methods.liquids.method import LiquidStepper
@@ -61,6 +61,8 @@ class Liquid(Stepped):
 
     def advance(self, end: float, most: float = np.inf) -> None:
         """Go to `end` [s], or as far as `most` steps get."""
+        if self.case.run.device != "cpu" and arrays.here(self.state.x):
+            aboard.board(self.stepper)
         self.tally, done = Tally(self), 0
         while self.time != end and done < most:
             self.tally.step(end)
@@ -70,12 +72,14 @@ class Liquid(Stepped):
         self.windows += 1
 
     def close(self) -> None:
-        self.stepper.guard.look(self.stepper)
         self.impulse = self.impulse + self.tally.sums[account.LOADS]
         self.pushed.add(self.tally.sums[account.SIZE :].reshape(-1, 3, 3), self.time - self.begun)
-        self.ledger.close_window(self.stepper, self.time - self.begun, *self.tally.amounts())
+        with aboard.ashore(self.stepper):
+            self.stepper.guard.look(self.stepper)
+            self.ledger.close_window(self.stepper, self.time - self.begun, *self.tally.amounts())
         self.scaled = np.zeros(4)
-        self.stepper.state = particles.released(self.state)
+        if len(self.state.push_x):
+            self.stepper.state = particles.released(self.state)
 
     def hasten(self, pace: float, kick: float) -> None:
         """Let `pace` seconds pass for heat in each second of motion from now on; velocities become `kick` times as
@@ -96,7 +100,7 @@ class Liquid(Stepped):
     def whole(self):
         stepper = self.stepper
         before = stepper.active
-        with gathered.whole(stepper) as chief:
+        with aboard.all_ashore(stepper), gathered.whole(stepper) as chief:
             if not stepper.domain.alone:
                 stepper.active = np.flatnonzero(particles.wet(stepper.state)).astype(before.dtype)
             try:
@@ -105,7 +109,8 @@ class Liquid(Stepped):
                 stepper.active = before
 
     def row(self) -> dict[str, float]:
-        loads = history.loads(self)
+        with aboard.ashore(self.stepper, *aboard.OF_PAIRS):
+            loads = history.loads(self)
         with self.whole() as chief:
             return history.row(self) | loads if chief else {}
 
@@ -135,7 +140,7 @@ class Liquid(Stepped):
     def summary(self) -> dict[str, float]:
         with self.whole():
             own = {"liquid_particles": len(self.stepper.active), "kinetic_energy_J": kinetic_energy(self.state)}
-        own |= self.stepper.domain.summary(self.steps - self.stepper.steps_before)
+        own |= self.stepper.domain.summary(self.steps - self.stepper.steps_before) | aboard.told(self.stepper)
         parts = [part.summary() for part in (self.stepper.void, self.stepper.heat) if part]
         return own | {name: value for part in parts for name, value in part.items()}
 

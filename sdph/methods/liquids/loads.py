@@ -20,11 +20,8 @@ def loads(stepper) -> np.ndarray:
 def balance(stepper, ahead: float = 0.0) -> np.ndarray:
     """(11,) the same, then the force (3) [N] of gravity and of the frame's motion and the power [W] of each, with the
     velocities that the accelerations lead to in `ahead` [s]."""
-    load = np.zeros(11)
-    walls.reaction(
-        stepper.state, stepper.active, stepper.p["gravity"], stepper.frame, stepper.acceleration, ahead, load
-    )
-    return load
+    p, found = stepper.p, (stepper.state, stepper.active)
+    return np.array(walls.reaction(*found, p["gravity"], stepper.frame, stepper.acceleration, ahead))
 
 
 def wall_loads(stepper, chosen=None) -> np.ndarray:

@@ -12,7 +12,7 @@ import numpy as np
 from sdph import effects
 from sdph.effects import OFF
 from sdph.effects.around import frame, tank
-from sdph.engine import gathered, motion, world
+from sdph.engine import arrays, gathered, motion, world
 from sdph.engine import kernels as smoothing
 from sdph.engine import state as particles
 from sdph.engine.clock import count_of_parts
@@ -20,8 +20,8 @@ from sdph.engine.kept import GROWING
 from sdph.engine.rows import Neighbours
 from sdph.engine.state import GAS, INFLOW, WALL
 from sdph.laws import kernels
+from sdph.methods.liquids import aboard, bubbles, correction, interface, openings, parts, phases, shift, start, walls
 from sdph.methods.liquids import bodies as immersion
-from sdph.methods.liquids import bubbles, correction, interface, openings, parts, phases, shift, start, walls
 from sdph.methods.liquids import equations as rates
 from sdph.methods.liquids.bounds import LiquidGuard, born, limits
 from sdph.methods.liquids.heat import Heat
@@ -84,6 +84,7 @@ class LiquidStepper:
         self.aim(0.0)
         self.heat = None  # until it is known what there is to heat
         self.void = bubbles.of(case, self.p["bubble"], self.state, self.bodies) if self.p["bubble"] else None
+        self.landed = None  # of particles on a device, see sdph.methods.liquids.aboard
         self.look = None  # who is told of new forces, with the length [s] of the kick to come
         self.born = born(self.state)
         self.forces()
@@ -144,7 +145,8 @@ class LiquidStepper:
         speed, force = self.world.most(np.array(motion.fastest(self.state, self.active, self.acceleration)))
         c = self.case.fastest_sound
         if not speed + 0.0 * force <= c * c:  # or one of them is no number
-            self.guard.look(self)
+            with aboard.ashore(self):
+                self.guard.look(self)
         found = limits(self.case, self.p, self.state, math.sqrt(speed), math.sqrt(force))
         if self.bodies:
             found |= self.bodies.limits(self.state)
@@ -243,31 +245,36 @@ class LiquidStepper:
         s = self.state
         self.tell_apart()
         count = len(s.x)
-        self.pressure, self.volume = np.zeros(count), np.zeros(count)
-        solid = s.kind == WALL
-        self.volume[solid] = -s.mass[solid] / s.density[solid]
-        self.acceleration, self.gradient = np.zeros((count, 3)), np.zeros((count, 3))
-        self.excess = tuple(np.zeros((6, count))) if self.case.liquid.pressure_gradient == "corrected" else ()
+        self.pressure, self.volume = self._room(count), self._room(count)
+        rates.turn_inside(s, self.volume)
+        self.acceleration, self.gradient = self._room((count, 3)), self._room((count, 3))
+        corrected = self.case.liquid.pressure_gradient == "corrected"
+        self.excess = tuple(self._room(count) for _ in range(6)) if corrected else ()
         shifted = count if self.p["shifting"] else 0
-        self.extra = tuple(np.zeros(count if self.p["xsph"] and len(axis) else 0) for axis in (s.x, s.y, s.z))
-        self.shift, self.twist = np.zeros((shifted, 3)), np.zeros((shifted, 9))
+        self.extra = tuple(self._room(count if self.p["xsph"] and len(axis) else 0) for axis in (s.x, s.y, s.z))
+        self.shift, self.twist = self._room((shifted, 3)), self._room((shifted, 9))
+
+    def _room(self, shape, kind=np.float64):
+        """Array of a shape, all 0, where the particles are."""
+        return arrays.zeros(shape, self.state.x, kind)
 
     def tell_apart(self) -> None:
         """Tell liquid particles, those that wait, those of the walls that liquid is near; arrays that no step takes
         from the last."""
         s = self.state
-        self.waiting = self.domain.mine(s, s.kind == INFLOW)
-        self.wet = np.flatnonzero(particles.wet(s)).astype(np.int32)  # copies too
-        self.active = self.domain.mine(s, particles.wet(s))
-        self.walls = self.domain.mine(s, (s.kind == WALL) & (self.rows.number > 0))
+        wet, wall = self._room(len(s.x), np.bool_), self._room(len(s.x), np.bool_)
+        rates.tell(s.kind, self.rows.number, wet, wall)
+        self.waiting = self.domain.mine(s, s.kind == INFLOW) if self.openings else ()
+        self.wet, self.active = arrays.chosen(wet), self.domain.mine(s, wet)  # copies too, own ones
+        self.walls = self.domain.mine(s, wall)
         self.moving = self.bodies.find(s) if self.bodies else ()
         if self.bodies:
             self.bodies.look(self)
-        self.rate = np.zeros(len(s.x))
+        self.rate = self._room(len(s.x))
         near = len(s.x) if self.p["surface_tension"] else 0
-        self.normal, self.curvature = np.zeros((near, 3)), np.zeros(near)
+        self.normal, self.curvature = self._room((near, 3)), self._room(near)
         blown = len(s.x) if self.p["bubble"] else 0
-        self.inflating, self.facing = np.zeros((blown, 3)), np.zeros(blown)  # see sdph.methods.liquids.bubble
+        self.inflating, self.facing = self._room((blown, 3)), self._room(blown)  # see sdph.methods.liquids.bubble
 
     @property
     def capacity(self) -> float:

@@ -8,6 +8,7 @@ import numpy as np
 from numba import prange
 
 from sdph.effects.liquids import shear_thinning
+from sdph.engine import arrays
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import apart
 from sdph.engine.gradients import NO_MATRIX, NO_SUMS, added, in_plane
@@ -54,16 +55,16 @@ def held(stepper) -> dict[str, float]:
 
 def _lonely(stepper, chosen, weight, image=None, phases_p=()) -> float:
     """Share of the `chosen` particles."""
-    lone = np.zeros(len(chosen), bool)
-    image = np.zeros((len(stepper.state.x), 3)) if image is None else image
+    lone = arrays.zeros(len(chosen), chosen, np.bool_)
+    image = arrays.zeros((len(stepper.state.x), 3), chosen) if image is None else image
     lonely(
         stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, chosen, weight, image, phases_p, lone
     )  # fmt: skip
-    return stepper.world.mean(lone)
+    return stepper.world.mean(arrays.brought(lone))
 
 
 def _gradients(stepper) -> dict[str, float]:
-    found, p, wet = {}, stepper.p, np.maximum(stepper.volume, 0.0)
+    found, p, wet = {}, stepper.p, arrays.positive(stepper.volume)
     if p["density_diffusion"] or p["shifting"]:
         found["no_gradient_share"] = _lonely(stepper, stepper.active, wet, phases_p=stepper.phases)
     if p["shear_thinning"]:

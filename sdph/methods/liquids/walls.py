@@ -8,16 +8,16 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy as np
 from numba import prange
 
 from sdph.effects.around import frame, gravity
 from sdph.effects.liquids import laminar_viscosity, liquid_damping, shifting
+from sdph.engine import arrays
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import apart, faster
 from sdph.engine.rows import entry
 from sdph.engine.state import INFLOW
-from sdph.laws.compiled import fast_parallel, serial
+from sdph.laws.compiled import fast_parallel, in_order
 from sdph.laws.constants import TINY
 from sdph.methods.liquids import correction, phases
 from sdph.methods.liquids.forces import body, held_off, velocity
@@ -124,37 +124,44 @@ def wall_force(
         felt[n, 5], felt[n, 6], felt[n, 7] = rx, ry, rz
 
 
-@serial
-def reaction(s, active, gravity_p, frame_p, acceleration, ahead, load):
-    """load (11,): force [N] and moment [N m] of the liquid on its walls, -sum m (a - body), -sum r x m (a - body); of
+@in_order
+def reaction(s, active, gravity_p, frame_p, acceleration, ahead):
+    """(11,) force [N] and moment [N m] of the liquid on its walls, -sum m (a - body), -sum r x m (a - body); of
     velocities that the accelerations lead to in `ahead` [s] the body force, sum m body [N], and the power of gravity
     and of the frame, sum m v.body [W]."""
     gx, gy, gz = gravity.acceleration(gravity_p)
-    for i in active:
+    x = y = z = mx = my = mz = outside_x = outside_y = outside_z = by_gravity = by_frame = 0.0
+    for n in prange(len(active)):
+        i = active[n]
         bx, by, bz = body(gravity_p, frame_p, s, i, False)
         fx = s.mass[i] * (bx - acceleration[i, 0])
         fy = s.mass[i] * (by - acceleration[i, 1])
         fz = s.mass[i] * (bz - acceleration[i, 2])
-        z = s.z[i] if len(s.z) else 0.0
-        load[0] += fx
-        load[1] += fy
-        load[2] += fz
-        load[3] += s.y[i] * fz - z * fy
-        load[4] += z * fx - s.x[i] * fz
-        load[5] += s.x[i] * fy - s.y[i] * fx
+        height = s.z[i] if len(s.z) else 0.0
+        x += fx
+        y += fy
+        z += fz
+        mx += s.y[i] * fz - height * fy
+        my += height * fx - s.x[i] * fz
+        mz += s.x[i] * fy - s.y[i] * fx
         u, v = s.u[i] + ahead * acceleration[i, 0], s.v[i] + ahead * acceleration[i, 1]
         w = s.w[i] + ahead * acceleration[i, 2] if len(s.w) else 0.0
-        ex, ey, ez = frame.acceleration(frame_p, s.x[i], s.y[i], z, u, v, w)
-        load[6] += s.mass[i] * (gx + ex)
-        load[7] += s.mass[i] * (gy + ey)
-        load[8] += s.mass[i] * (gz + ez)
-        load[9] += s.mass[i] * (gx * u + gy * v + gz * w)
-        load[10] += s.mass[i] * (ex * u + ey * v + ez * w)
+        ex, ey, ez = frame.acceleration(frame_p, s.x[i], s.y[i], height, u, v, w)
+        outside_x += s.mass[i] * (gx + ex)
+        outside_y += s.mass[i] * (gy + ey)
+        outside_z += s.mass[i] * (gz + ez)
+        by_gravity += s.mass[i] * (gx * u + gy * v + gz * w)
+        by_frame += s.mass[i] * (ex * u + ey * v + ez * w)
+    return x, y, z, mx, my, mz, outside_x, outside_y, outside_z, by_gravity, by_frame
 
 
-def feel(stepper, chosen, ahead: float) -> np.ndarray:
+def feel(stepper, chosen, ahead: float):
     """(W, 8) of the wall particles `chosen` of a stepper, as `wall_force` has it; `ahead` [s] of a kick."""
-    p, felt, gain = stepper.p, np.zeros((len(chosen), 8)), ahead * stepper.acceleration
+    p, felt, gain = (
+        stepper.p,
+        arrays.zeros((len(chosen), 8), chosen),
+        arrays.times(ahead, stepper.acceleration),
+    )
     if stepper.bodies:
         stepper.bodies.add_velocities(gain)
     wall_force(

@@ -1,0 +1,53 @@
+"""Registers, spills and occupancy of the kernels of scenes, compiled for an H100 that need not be there.
+
+    python benchmarks/cuda_kernels.py [scene ...]
+
+Needs numba-cuda and nvidia-cuda-nvcc (`pip install 'sdph[cuda]' nvidia-cuda-nvcc`). Each scene begins and takes two
+steps, in which its loops are heard of, with the types that its set of effects gives them; loops over pairs are not run.
+Columns: registers of a thread, bytes that spill, calls that were not taken in (a power is one), bytes of arguments,
+threads of a multiprocessor over the most that it holds, in blocks of 128.
+"""
+
+import sys
+
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.engine.gpu import assembled
+from sdph.running.alone import METHODS, Alone
+from sdph.study.explain.tables import table
+
+LIQUIDS = (
+    "dam_break", "dam_break_3d", "sloshing_box", "hydrostatic_tank", "square_patch", "taylor_green", "poiseuille",
+    "water_under_air", "dam_break_gas",
+)  # fmt: skip
+OTHERS = (
+    "power_law_poiseuille", "capillary_wave", "bubble_rise", "channel_bore", "free_overfall", "sloshing_cassini",
+    "swirl_sheet", "taylor_bar",
+)  # fmt: skip
+STEPS = 2
+
+
+def loops_of(scene: str, *keys: str) -> list:
+    """(loop, types of what it takes) of a scene's start and first steps."""
+    case = cases.load(scenes.find(scene)[1], keys)
+    assert case.moved_by(case.matters[0]) in METHODS
+    with assembled.Heard() as heard:
+        run = Alone(case, None)
+        run.start()
+        run.method.begin()
+        run.method.advance(run.clock.next(run.time), STEPS)
+    return list(heard.loops)
+
+
+def main(names) -> None:
+    for scene in names:
+        rows = []
+        for loop, taken in sorted(loops_of(scene), key=lambda own: assembled.name_of(own[0])):
+            found = assembled.assembled(loop, taken)
+            named = dict(zip(("registers", "spills", "calls", "arguments", "occupancy"), found.told()))
+            rows.append({"kernel": assembled.name_of(loop)} | named)
+        print(f"{scene}\n{table(rows)}\n", flush=True)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:] or (*LIQUIDS, *OTHERS))

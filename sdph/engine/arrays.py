@@ -1,0 +1,121 @@
+"""Arrays with a row a particle, in memory or on a device: made, chosen from, sorted by cells, added up.
+
+Who makes one says beside which it is to lie (`like`). Devices are told apart by what they hand out: an array that is
+not numpy's has `card`'s functions done to it (sdph.engine.gpu.card).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import prange
+
+from sdph.laws.compiled import parallel, serial
+
+card = None  # the device, once it is begun
+
+
+def here(array) -> bool:
+    """True where an array lies in memory."""
+    return isinstance(array, np.ndarray)
+
+
+def empty(shape, like, kind=np.float64):
+    """Array of a shape and a type, beside another."""
+    return np.empty(shape, kind) if here(like) else card.empty(shape, kind)
+
+
+def zeros(shape, like, kind=np.float64):
+    """The same, all 0."""
+    return np.zeros(shape, kind) if here(like) else card.filled(shape, kind, 0)
+
+
+def copy(array):
+    """The same values once more."""
+    return array.copy() if here(array) else card.copy(array)
+
+
+def brought(array) -> np.ndarray:
+    """The array, or a copy of it, in memory."""
+    return array if here(array) else card.bring(array)
+
+
+def times(factor: float, array):
+    """Array (N, k) of factor * array."""
+    return factor * array if here(array) else card.times(factor, array)
+
+
+def taken(array, rows):
+    """array[rows]."""
+    out = empty(len(rows), array, array.dtype)
+    _take(array, rows, out)
+    return out
+
+
+@parallel
+def _take(array, rows, out):
+    for i in prange(len(rows)):
+        out[i] = array[rows[i]]
+
+
+def positive(array):
+    """Array (N,) of the values above 0, and 0 for others: of volumes those of liquid, as walls have negative ones."""
+    return np.maximum(array, 0.0) if here(array) else card.positive(array)
+
+
+def chosen(mask):
+    """Rows (int32) at which a mask (N,) of bool is set."""
+    return np.flatnonzero(mask).astype(np.int32) if here(mask) else card.chosen(mask)
+
+
+def total(values):
+    """Sums (k,) of the rows of values (N, k), in memory."""
+    return values.sum(axis=0) if here(values) else card.total(values)
+
+
+def ends(values) -> tuple[float, float]:
+    """Least and largest value of an array (N,), 0 where it is empty."""
+    if not len(values):
+        return 0.0, 0.0
+    return (float(values.min()), float(values.max())) if here(values) else card.ends(values)
+
+
+def begins(lengths):
+    """Begin of each of parts of these lengths (N,), one behind the other, and the end of the last: (N + 1,) int64."""
+    if not here(lengths):
+        return card.begins(lengths)
+    begin = np.zeros(len(lengths) + 1, np.int64)
+    np.cumsum(lengths, out=begin[1:])
+    return begin
+
+
+def starts(number, total: int):
+    """First particle of each of `total` cells, (total + 1,) int64, from the particles' cells (N,)."""
+    return _starts(number, total) if here(number) else card.starts(number, total)
+
+
+def order(number, total: int):
+    """Row of each particle after a stable counting sort by cell: (N,) int64."""
+    return _order(number, total) if here(number) else card.order(number, total)
+
+
+def last(array):
+    """The last value of an array (N,)."""
+    return array[-1] if here(array) else card.value(array, len(array) - 1)
+
+
+@serial
+def _starts(number, total):
+    start = np.zeros(total + 1, np.int64)
+    for cell in number:
+        start[cell + 1] += 1
+    return np.cumsum(start)
+
+
+@serial
+def _order(number, total):
+    start = _starts(number, total)
+    rows = np.empty(len(number), np.int64)
+    for i, cell in enumerate(number):
+        rows[start[cell]] = i
+        start[cell] += 1
+    return rows

@@ -1,0 +1,129 @@
+"""Kernels that only a device needs: counting sort, running sums, sums and extremes in a fixed order.
+
+Threads of a kernel take rounds in turn, or runs of rows one behind the other, whose number is that of the threads.
+"""
+
+from __future__ import annotations
+
+import math
+
+from sdph.engine.gpu.toolkit import cuda, kernel
+
+
+@kernel
+def fill(array, value):
+    """array (n,) = value."""
+    for i in range(cuda.grid(1), len(array), cuda.gridsize(1)):
+        array[i] = value
+
+
+@kernel
+def times(factor, array, out):
+    """out (n,) = factor * array."""
+    for i in range(cuda.grid(1), len(array), cuda.gridsize(1)):
+        out[i] = factor * array[i]
+
+
+@kernel
+def positive(array, out):
+    """out (n,): array where it is above 0, else 0."""
+    for i in range(cuda.grid(1), len(array), cuda.gridsize(1)):
+        out[i] = max(array[i], 0.0)
+
+
+@kernel
+def sum_parts(values, part):
+    """part (T, K): sum of every T-th row of values (N, K), of each of T threads."""
+    t = cuda.grid(1)
+    for c in range(part.shape[1]):
+        found = 0.0
+        for i in range(t, len(values), len(part)):
+            found += values[i, c]
+        part[t, c] = found
+
+
+@kernel
+def most_parts(values, part):
+    """part (T, K): the largest of these rows."""
+    t = cuda.grid(1)
+    for c in range(part.shape[1]):
+        found = -math.inf
+        for i in range(t, len(values), len(part)):
+            found = max(found, values[i, c])
+        part[t, c] = found
+
+
+@kernel
+def find_ends(values, part):
+    """part (T, 2): least value with its sign turned, and largest one, of every T-th of values (N,)."""
+    t, low, high = cuda.grid(1), -math.inf, -math.inf
+    for i in range(t, len(values), len(part)):
+        low, high = max(low, -values[i]), max(high, values[i])
+    part[t, 0], part[t, 1] = low, high
+
+
+@kernel
+def sum_runs(lengths, part):
+    """part (T,): sum of the t-th of T runs of lengths (N,)."""
+    t = cuda.grid(1)
+    run = (len(lengths) + len(part) - 1) // len(part)
+    found = 0
+    for i in range(t * run, min((t + 1) * run, len(lengths))):
+        found += lengths[i]
+    part[t] = found
+
+
+@kernel
+def begin_runs(part):
+    """part (T,): sum of the runs before each; one thread."""
+    found = 0
+    for t in range(len(part)):
+        part[t], found = found, found + part[t]
+
+
+@kernel
+def begin_all(lengths, part, begin):
+    """begin (N + 1,): sum of the lengths (N,) before each, and of all."""
+    t = cuda.grid(1)
+    run = (len(lengths) + len(part) - 1) // len(part)
+    found, end = part[t], min((t + 1) * run, len(lengths))
+    for i in range(t * run, end):
+        begin[i] = found
+        found += lengths[i]
+    if t * run <= len(lengths) <= (t + 1) * run:
+        begin[len(lengths)] = found
+
+
+@kernel
+def choose(mask, begin, rows):
+    """rows: those at which the mask (N,) is set; begin (N + 1,) as of `begin_all`."""
+    for i in range(cuda.grid(1), len(mask), cuda.gridsize(1)):
+        if mask[i]:
+            rows[begin[i]] = i
+
+
+@kernel
+def count(number, many):
+    """many (C,) of those in each cell; number (N,) of each one's cell."""
+    for i in range(cuda.grid(1), len(number), cuda.gridsize(1)):
+        cuda.atomic.add(many, number[i], 1)
+
+
+@kernel
+def scatter(number, free, rows):
+    """rows (N,) cell by cell, in each of them as threads come; free (C + 1,): first place of each cell, afterwards
+    the one past its last."""
+    for i in range(cuda.grid(1), len(number), cuda.gridsize(1)):
+        rows[cuda.atomic.add(free, number[i], 1)] = i
+
+
+@kernel
+def tidy(start, rows):
+    """rows (N,) of each cell in their order before; start (C + 1,). A cell is a round, and holds few."""
+    for cell in range(cuda.grid(1), len(start) - 1, cuda.gridsize(1)):
+        for end in range(start[cell] + 1, start[cell + 1]):
+            own, place = rows[end], end
+            while place > start[cell] and rows[place - 1] > own:
+                rows[place] = rows[place - 1]
+                place -= 1
+            rows[place] = own

@@ -1,0 +1,35 @@
+"""`sdph run --device cuda`: which cases have their particles on a device."""
+
+from __future__ import annotations
+
+from sdph.engine.gpu import found
+from sdph.schema import CaseError
+
+# effects of a liquid whose loops, and what is between them, run there
+EFFECTS = (
+    "density_diffusion", "frame", "gravity", "laminar_viscosity", "liquid_damping", "shifting", "tank", "xsph",
+)  # fmt: skip
+
+
+def refuse(case, processes: int = 1) -> None:
+    """CaseError where the particles of a case are not taken to the device that it asks for, or there is none."""
+    if case.run.device == "cpu":
+        return
+    given, mend = f"run.device = {case.run.device!r}", 'give "cpu"'
+    if why := _unknown(case, processes):
+        raise CaseError(f"{given}: {why}; {mend}")
+    if why := found.missing():
+        raise CaseError(f"{given}: {why}; or {mend}")
+
+
+def _unknown(case, processes: int) -> str:
+    """Reason why a case is not taken there; empty where it is."""
+    if processes > 1:
+        return f"a device is of one process, and these are {processes}"
+    if case.moved_by(case.matters[0]) != "liquid" or len(case.matters) > 1:
+        return "only a liquid alone is taken to a device"
+    if left := sorted(set(case.effects) - set(EFFECTS)):
+        return f"{left[0]} is not taken to a device; known: {', '.join(EFFECTS)}"
+    if case.run.forces:
+        return "run.forces is not told of a device"
+    return ""

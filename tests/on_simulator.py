@@ -1,0 +1,42 @@
+"""`python on_simulator.py ARGUMENTS`: sdph with those arguments, its CUDA device simulated by numba.
+
+An array of a real device knows no operators and few of numpy's attributes, where the simulator's knows all: those are
+taken away here, so that what would not run on a device does not run here either.
+"""
+
+import os
+import subprocess
+import sys
+
+OPERATORS = ("eq", "ne", "lt", "le", "gt", "ge", "add", "sub", "mul", "floordiv", "truediv", "mod", "pow")
+KNOWN = {"dtype", "size", "ndim", "strides", "flags", "squeeze"}  # of numba.cuda's DeviceNDArray
+
+
+def make_strict() -> None:
+    """Take away from simulated arrays what those of a device lack."""
+    from numba.cuda.simulator.cudadrv.devicearray import FakeCUDAArray
+
+    for name in OPERATORS:
+        delattr(FakeCUDAArray, f"__{name}__")
+    FakeCUDAArray.__hash__ = object.__hash__
+    FakeCUDAArray.__getattr__ = _known
+
+
+def _known(array, name: str):
+    if name not in KNOWN:
+        raise AttributeError(f"an array of a device has no {name}")
+    return getattr(array._ary, name)
+
+
+def simulated(*words, file=__file__, **more) -> subprocess.CompletedProcess:
+    """The finished process of sdph, or of another `file` of tests, with a simulated device."""
+    around = os.environ | {"NUMBA_ENABLE_CUDASIM": "1", "NUMBA_NUM_THREADS": "1"} | more
+    command = [sys.executable, str(file), *map(str, words)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=900, check=False, env=around)
+
+
+if __name__ == "__main__":
+    from sdph import cli
+
+    make_strict()
+    sys.exit(cli.main(sys.argv[1:]))
