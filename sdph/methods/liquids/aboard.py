@@ -12,7 +12,7 @@ from sdph.engine import arrays
 from sdph.engine import state as particles
 
 # of a stepper, what somebody reads between steps besides ROWS; rows of neighbours are large, and come where asked for
-READ, OF_PAIRS = ("state", "active", "walls"), ("rows",)
+READ, OF_PAIRS = ("state", "active", "walls", "enclosed"), ("rows",)
 
 
 def board(stepper) -> None:
@@ -20,7 +20,7 @@ def board(stepper) -> None:
     from sdph.engine.gpu import card  # what it takes costs a run of the processor 0.4 s
 
     there = card.begun()
-    for name in ("state", *stepper.ROWS):
+    for name in ("state", "enclosed", *stepper.ROWS):
         setattr(stepper, name, _mapped(there.send, getattr(stepper, name)))
     stepper.neighbours.built = _mapped(there.send, stepper.neighbours.built)
     stepper.rows = stepper.neighbours.relist(stepper.state.kind)

@@ -61,9 +61,8 @@ def rates(stepper, ahead: float, last: np.ndarray | None) -> np.ndarray:
         now[LOADS] += np.concatenate((now[INLET], moment))  # what waits is no tank
     if stepper.p["shifting"] and stepper.p["shifting"].tension:
         made = _unreturned(stepper, ahead)
-        held = np.flatnonzero(made[:, :3].any(axis=1))
-        now[CONTROL.start : BY_CONTROL + 1] = made.sum(axis=0)
-        now[LOADS] += loads.of_forces(stepper, held, made[held, :3])  # what no tank gives
+        now[CONTROL], now[BY_CONTROL] = made[:3], made[6]
+        now[LOADS] += made[:6]  # what no tank gives
     looks = last is None or (ahead and stepper.steps % EVERY == 0)
     if looks:
         now[LOST] = _lost(stepper, ahead)
@@ -83,13 +82,14 @@ def between(before: np.ndarray, now: np.ndarray, dt: float) -> np.ndarray:
 
 
 def _unreturned(stepper, ahead: float) -> np.ndarray:
-    """(N, 4) force [N] by which control of tension pushes each particle and nobody back, and the power [W] it takes."""
-    made = np.zeros((len(stepper.state.x), 4))
+    """(7,) force [N] by which control of tension pushes and is not pushed back, its moment [N m], and the power [W] it
+    takes."""
+    made = arrays.zeros((len(stepper.state.x), 7), stepper.state.x)
     equations.unreturned(
         stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, stepper.flow, stepper.p["shifting"],
-        stepper.excess, ahead * stepper.acceleration, made,
+        stepper.excess, arrays.times(ahead, stepper.acceleration), made,
     )  # fmt: skip
-    return made
+    return arrays.total(made)
 
 
 def _lost(stepper, ahead: float) -> tuple:

@@ -148,8 +148,9 @@ def push(
 
 @fast_parallel
 def unreturned(kernel, s, rows, box, flow, shifting_p, excess, gain, made):
-    """made (N, 4) by control of tension: force (3 columns) [N] on each particle that no other of the liquid gets back,
-    (1 - sign_i) p_i B_i V_i sum V_j grad W, and power [W] that it takes, with velocities after a gain (N, 3) [m/s].
+    """made (N, 7) by control of tension: force (3 columns) [N] on each particle that no other of the liquid gets back,
+    (1 - sign_i) p_i B_i V_i sum V_j grad W, its moment about the origin (3) [N m], and power [W] that it takes, with
+    velocities after a gain (N, 3) [m/s].
 
     A pair pushes i by p_j - p_i and j by p_i - p_j: both the same way. Walls and what waits get what they give."""
     for n in prange(len(flow.active)):
@@ -172,9 +173,10 @@ def unreturned(kernel, s, rows, box, flow, shifting_p, excess, gain, made):
         made[i, 0] = fx - odd * waiting_x - bx
         made[i, 1] = fy - odd * waiting_y - by
         made[i, 2] = fz - odd * waiting_z - bz
-        made[i, 3] = -fx * (s.u[i] + gain[i, 0]) - fy * (s.v[i] + gain[i, 1])
-        if deep(box):
-            made[i, 3] -= fz * (s.w[i] + gain[i, 2])
+        tx, ty, tz = made[i, 0], made[i, 1], made[i, 2]
+        z_i, w_i = (s.z[i], s.w[i] + gain[i, 2]) if deep(box) else (0.0, 0.0)
+        made[i, 3], made[i, 4], made[i, 5] = s.y[i] * tz - z_i * ty, z_i * tx - s.x[i] * tz, s.x[i] * ty - s.y[i] * tx
+        made[i, 6] = -fx * (s.u[i] + gain[i, 0]) - fy * (s.v[i] + gain[i, 1]) - fz * w_i
 
 
 @fast_parallel

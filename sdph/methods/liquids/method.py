@@ -223,7 +223,7 @@ class LiquidStepper:
         if self.excess:
             correction.surround(*around, self.volume, *self.excess)
             self.domain.refresh(*self.excess)
-        self.enclosed = s.enclosure.copy()  # what pairs go by until the next forces: shifting looks around anew
+        self.enclosed = arrays.copy(s.enclosure)  # what pairs go by until the next forces: shifting looks around anew
         rates.push(
             self.kernel, s, self.rows, self.neighbours.box, self.flow, self.wall, p["gravity"], self.frame,
             self.viscous, p["liquid_damping"], p["density_diffusion"], p["shifting"], self.phases, self.excess,
