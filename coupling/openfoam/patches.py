@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from coupling.gas import GasError
+from sdph.schema import CaseError
 
 FLAT = "empty"  # type of the two sides of a plane mesh
 HOLDING = ("wall", "slip_wall", "velocity_inlet")  # kinds of boundaries that let no grains through, as sides of a box
@@ -72,6 +73,11 @@ def of_mesh(mesh, boundaries: dict, dimensions: int) -> tuple[np.ndarray, np.nda
             else:
                 pairs = itertools.pairwise([*face, face[0]])
                 found = [(a[:2], b[:2]) for a, b in pairs if a[2] < low and b[2] < low]
+                if len(found) != 1:
+                    raise CaseError(
+                        f"patch {name} of the gas's mesh is {patch.kind} and lies in the plane of a case in two "
+                        f"dimensions; give front and back of a mesh of one layer the type {FLAT}, or set dimensions = 3"
+                    )
             corners.append(np.array(found))
             slips += [kind == "slip_wall"] * len(found)
             owners += [_number(name, boundaries)] * len(found)

@@ -12,6 +12,7 @@ from coupling.openfoam.poly_mesh import PolyMesh
 from coupling.openfoam.programs import install
 from coupling.openfoam.programs import run as programs
 from sdph.engine.walls import facets
+from sdph.schema import CaseError
 
 WALL, SLIP, OUTLET, INLET = (
     SimpleNamespace(kind=kind) for kind in ("wall", "slip_wall", "pressure_outlet", "velocity_inlet")
@@ -83,6 +84,13 @@ def test_walls_are_foreseen_as_they_will_be(tmp_path, dimensions, text):
     places = np.array([[0.15, 0.02, 0.1], [0.1, 0.18, 0.2], [0.02, 0.1, 0.3]])[:, :dimensions]
     off = [facets.Surface(corners).distance(places) for corners, *_ in (made, foreseen)]
     np.testing.assert_allclose(*off, atol=1e-7)
+
+
+@pytest.mark.openfoam
+def test_front_and_back_of_a_plane_mesh_that_are_walls_are_refused_in_one_line(tmp_path):
+    own = blocks(tmp_path, own_meshes.taper(0.2, 0.4, 0.3, 4, 6).replace("type empty", "type wall"))
+    with pytest.raises(CaseError, match="lies in the plane of a case in two dimensions; give front and back"):
+        patches.of_mesh(PolyMesh(own), {"inlet": INLET, "outlet": OUTLET, "wall": WALL}, 2)
 
 
 @pytest.mark.openfoam
