@@ -51,6 +51,9 @@ IMPULSES_OF_GAS = (
     "momentum_in", "impulse_pressure", "impulse_walls", "impulse_gravity", "impulse_exchange", "impulse_room",
 )  # fmt: skip
 # sums of what was exchanged or moved in a window, without sign, which drifts are related to
+# of the heat of both phases: of less that is exchanged 1e-8 (sdph.running.balances) is below 1e-15 of all heat, the
+# round-off of its sums, so that there is nothing to relate a drift to; our choice
+TOLD = 1e-7
 RELATED = ("heat_exchanged_J", "impulse_exchanged_kg_m_s", "work_exchanged_J", "gas_impulse_moved_kg_m_s")
 NOTHING = dict.fromkeys(AMOUNTS, 0.0) | {f"{name}_{a}_kg_m_s": 0.0 for name in VECTORS for a in "xyz"}
 
@@ -183,7 +186,7 @@ class Ledger:
 
     def _energy_drift(self) -> dict[str, float]:
         """Growth of the heat of both phases beyond what came in and was made; relative to all that was exchanged, came
-        in, left or was made, each over the run."""
+        in, left or was made, each over the run, where that is more than TOLD of their heat."""
         pairs = {"particle_energy_J": 1, "gas_energy_J": 1, "heat_on_its_way_J": 1}
         pairs |= {"gas_energy_in_J": -1, "gas_pressure_work_J": -1}
         warm = self.last["particle_energy_J"] + self.sums["left_J"] > 0.0  # else no heat of the grains is kept
@@ -192,7 +195,8 @@ class Ledger:
         drift = math.fsum((*(c for key, sign in pairs.items() for c in self._change(key, sign)), *(-m for m in moved)))
         brought = (abs(math.fsum(self._change(key, 1))) for key in ("gas_energy_in_J", "gas_pressure_work_J"))
         scale = math.fsum((self.sums["heat_exchanged_J"], *map(abs, moved), *brought))
-        return {"energy_drift_J": abs(drift), "energy_drift_rel": ratio(abs(drift), scale)}
+        heat = abs(self.last["particle_energy_J"]) + abs(self.last["gas_energy_J"])
+        return {"energy_drift_J": abs(drift), "energy_drift_rel": ratio(abs(drift), scale * (scale > TOLD * heat))}
 
     def _gas_motion(self) -> dict[str, float]:
         """Work [J] that is missing in the kinetic energy of the gas: that of its own viscosity, and what is numerical,

@@ -79,6 +79,16 @@ def test_a_drift_is_related_to_what_came_in_through_the_boundary(tmp_path):
     assert run.ledger.summary()["energy_drift_rel"] == pytest.approx(0.01 / 5.0, rel=1e-6)
 
 
+def test_round_off_of_heat_that_next_to_nothing_is_exchanged_of_is_no_drift(tmp_path):
+    """A hopper in gas at rest warned of a drift of 2.7e6: 5e-12 J of 2e-18."""
+    run = simulation(disc(*SHORT), tmp_path)
+    totals, budget = run.grains.totals() | {"heat_on_its_way_J": 0.0}, run.gas_state.budget
+    off = dataclasses.replace(budget, energy=budget.energy * (1.0 + 4e-16), pressure_work=budget.pressure_work + 1e-18)
+    run.ledger.close_window(1e-3, 1e-3, "largest", totals, off, run.ledger.nothing)
+    told = run.ledger.summary()
+    assert 0.0 < told["energy_drift_rel"] == told["energy_drift_J"] < 1e-8
+
+
 def test_numerical_work_is_told_beside_what_is_dissipated(tmp_path):
     run = simulation(disc(*SHORT), tmp_path)
     totals = run.grains.totals() | {"heat_on_its_way_J": 0.0}

@@ -57,6 +57,19 @@ def test_a_bed_of_two_fluids_in_a_round_vessel(tmp_path, capsys):
 
 
 @openfoam
+def test_a_liquid_is_not_taken_for_grains(tmp_path, capsys):
+    foam = foam_cases.fluidised_bed(tmp_path / "foam", own_meshes.cylinder(0.05, 0.2, 4, 10), BLOWN, UP)
+    own = next(
+        path for path in (foam / "constant").glob("thermophysicalProperties.*") if "rhoConst" in path.read_text()
+    )
+    own.write_text(own.read_text().replace("rhoConst", "perfectFluid"))
+    assert main(["init", "--from-openfoam", str(foam), str(tmp_path / "mine")]) == 2
+    assert (
+        "a liquid (perfectFluid): no grains to import" in capsys.readouterr().err and not (tmp_path / "mine").exists()
+    )
+
+
+@openfoam
 def test_what_is_made_is_explained_and_run_wherever_the_mesh_stands(tmp_path, capsys):
     """The same vessel about the origin and away from it: the domain is the box around the mesh, and grains and gas go
     the same way."""

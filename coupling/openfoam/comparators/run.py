@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 
 from coupling.openfoam import fields, poly_mesh
-from coupling.openfoam.case import DEPTH, HEAD, others, write_case
+from coupling.openfoam.case import DEPTH, HEAD, others, refuse_path, write_case
 from coupling.openfoam.code import refuse_code
 from coupling.openfoam.comparators import (
     droplet_cloud,
@@ -172,6 +172,7 @@ def _run(
     solver: Solver, case: Case, folder: Path, ranks: int, files: dict[str, str], progress: Progress | None,
     start: Start | None = None, mesh: Path | None = None, again: bool = False,
 ) -> Reference:  # fmt: skip
+    refuse_path(folder)
     environment = _environment()
     _clear(folder)
     made = start is not None or solver is DROPLETS  # from the files that all cases share

@@ -5,6 +5,7 @@ from __future__ import annotations
 from coupling.openfoam.dictionary import number, vector, word
 from coupling.openfoam.foreign.files import Files, density
 from sdph.laws.constants import GAS_CONSTANT
+from sdph.schema import CaseError
 
 AIR = {
     "density_kg_m3": 1.225,
@@ -17,6 +18,8 @@ MOLAR_MASS = 28.96  # kg/kmol of dry air, ISO 2533
 GLASS = {"density_kg_m3": 2500.0, "diameter_mm": 0.5, "heat_capacity_J_kg_K": 840.0, "conductivity_W_m_K": 1.0}
 DRAG = {"GidaspowErgunWenYu": "gidaspow_switch", "Ergun": "ergun", "WenYu": "wen_yu", "SyamlalOBrien": "syamlal_obrien",
         "SchillerNaumann": "schiller_naumann", "Beetstra": "beetstra"}  # fmt: skip
+# equations of state of OpenFOAM that are of liquids
+LIQUID = ("adiabaticPerfectFluid", "Boussinesq", "icoPolynomial", "perfectFluid", "rPolynomial")
 STEADY = ("simpleFoam", "rhoSimpleFoam", "potentialFoam", "porousSimpleFoam", "buoyantSimpleFoam")
 BY_TIME = ("runTime", "adjustableRunTime", "adjustable")  # kinds of writeControl that count seconds
 ABSOLUTE = 1e4  # Pa, from which on a pressure is taken for an absolute one; our choice
@@ -61,6 +64,12 @@ def grains(files: Files, notes: list[str]) -> dict:
         notes.append("the case has no phase of grains: glass beads of 0.5 mm stand in [grains]; put yours there")
         return dict(GLASS)
     own, phase = files.of_phase(files.grains), files.phases.get(files.grains, {})
+    state = word(own.get("thermoType", {}).get("equationOfState"))
+    if state in LIQUID:
+        raise CaseError(
+            f"{files.folder}: its phases are {files.phase}, a gas, and {files.grains}, a liquid ({state}): no grains "
+            "to import; `sdph list` has scenes of liquids with a gas"
+        )
     mixture, model = own.get("mixture", {}), word(phase.get("diameterModel"))
     size = number(phase.get(f"{model}Coeffs", phase).get("d") or phase.get("d"))
     found = {"density_kg_m3": density(own), "diameter_mm": size and 1e3 * size,

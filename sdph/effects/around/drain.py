@@ -35,9 +35,16 @@ class DrainP(NamedTuple):
 
 
 def kernel(case) -> DrainP:
-    own = case.parameters["drain"]
-    command(own, 1.0)
+    own, first = case.parameters["drain"], filled(case)
+    command(own, first)
+    if own.fill > first:
+        raise CaseError(f"drain.fill = {own.fill:g} is more than the {first:g} that the pools fill; a drain takes out")
     return DrainP(FORMS.index(own.form))
+
+
+def filled(case) -> float:
+    """Share of the tank that the pools of a case fill at the start; 1 where they do not say."""
+    return next((pool.fill for pool in case.pools.values() if pool.fill), 1.0)
 
 
 def command(own: Drain, first: float):
@@ -55,7 +62,7 @@ def command(own: Drain, first: float):
 def call(scales) -> Judgement:
     """Share of the liquid that is to leave within the run."""
     own = scales.case.parameters["drain"]
-    first = next((pool.fill for pool in scales.case.pools.values() if pool.fill), 1.0)
+    first = filled(scales.case)
     share = 1.0 - command(own, first)(scales.end) / first
     return Judgement("share that is drained", share, 0.01, "the command", share)
 

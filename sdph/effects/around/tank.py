@@ -69,7 +69,9 @@ def shape_of(case):
     """The shape (sdph.engine.walls.shapes) of a case's tank."""
     own, d = case.parameters["tank"], case.dimensions
     if own.outlet_radius and (own.shape in ("box", "mesh") or d == 2 or own.outlet_radius >= (own.radius or math.inf)):
-        allowed = "an outlet is narrower than its tank, a sphere, cylinder or capsule in 3-D"
+        allowed = (
+            "an outlet is narrower than its tank, and that is a sphere, cylinder or capsule in 3-D, no box or mesh"
+        )
         raise CaseError(f"tank.outlet_radius_m = {own.outlet_radius:g}; {allowed}")
     if 0.0 < own.outlet_radius < 0.5 * case.resolution.spacing:
         given = f"tank.outlet_radius_m = {own.outlet_radius:g}"

@@ -40,7 +40,7 @@ class Outlet:
         self.stepper, own = stepper, case.parameters.get("drain")
         self.form, self.interval = (own.form, own.interval) if own else (drain.FORMS[0], 0.0)
         self.particle = stepper.born.heaviest_liquid
-        self.fill = next((pool.fill for pool in case.pools.values() if pool.fill), 1.0)
+        self.fill = drain.filled(case)
         lowest = stepper.world.least(float(particles.axes(stepper.state)[-1].min(initial=np.inf)))
         self.end = lowest + (tank.layers(case) - 0.5) * case.resolution.spacing  # height of the outlet's end [m]
         self.place = np.zeros(3)  # where the last of it went [m]

@@ -88,6 +88,7 @@ def _pool(case, pools: list, number: int) -> particles.State:
     if not len(points):
         mend = "enlarge it, give a finer resolution.spacing_mm, or name it before the others"
         raise CaseError(f"pools.{list(case.pools)[number]} holds no particle; {mend}")
+    _refuse_outside(case, list(case.pools)[number], points)
     state = placed(case, points + _raised(pool, points))
     state.kind[:] = GAS if pool.phase == "gas" else LIQUID
     density = phase_of(case, pool).density
@@ -97,6 +98,17 @@ def _pool(case, pools: list, number: int) -> particles.State:
     for array, value in zip((state.u, state.v, state.w), _velocity(pool, points, d).T):
         array[:] = value
     return state
+
+
+def _refuse_outside(case, name: str, points) -> None:
+    """CaseError where particles of a pool at points (N, d) [m] would stand outside the tank: nothing holds them there,
+    and no picture shows them."""
+    beyond = tank.shape_of(case).distance(points) if "tank" in case.effects else np.zeros(0)
+    if outside := int((beyond > filling.SAME * case.resolution.spacing).sum()):
+        raise CaseError(
+            f"pools.{name}: {outside} of its {len(points)} particles would stand outside the tank, up to "
+            f"{beyond.max():.3g} m from it; move the pool, or make it smaller"
+        )
 
 
 def phase_of(case, pool):

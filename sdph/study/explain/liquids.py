@@ -73,6 +73,11 @@ def warnings(s) -> list[str]:
     if s.speed > SLOW * c:
         fast = f"the liquid may reach {s.speed:.3g} m/s, {s.speed / c:.2g} of its speed of sound"
         unsafe.append(f"{fast}: raise liquid.sound_speed_m_s from {c:g} to {10.0 * s.speed:.3g}")
+    if "drain" in s.case.effects and not s.case.parameters["tank"].outlet_radius:
+        unsafe.append(
+            "a tank without an outlet pipe gives up its lowest particles, wherever on its floor they are: pressures "
+            "and loads meanwhile are not those of a drain; give tank.outlet_radius_m (sphere, cylinder, capsule)"
+        )
     return unsafe
 
 

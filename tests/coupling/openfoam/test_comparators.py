@@ -271,6 +271,9 @@ def test_what_cannot_be_run_says_so(tmp_path):
         comparators.template(cases.load(scenes.find("spray_cone")[1]), "tfm")
     with pytest.raises(CaseError, match="neither evaporation nor inflow"):
         comparators.run_droplets(disc(), tmp_path / "disc")
+    with pytest.raises(CaseError, match="takes no blanks"):
+        comparators.run_two_fluid(disc(), tmp_path / "with a blank")
+    assert not (tmp_path / "with a blank").exists()
     (tmp_path / "empty").mkdir()
     with pytest.raises(GasError, match="blockMesh ended with code 1.*log"):
         programs.run(["blockMesh"], tmp_path / "empty", tmp_path / "log.blockMesh")

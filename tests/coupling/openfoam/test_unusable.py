@@ -4,6 +4,7 @@ A comparator that cannot run is one line too, and no reason for `make demo` to f
 """
 
 import os
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -93,6 +94,8 @@ def test_a_case_that_is_wrong_is_not_taken_for_openfoam_that_is(tmp_path, tools,
     assert main([*case, "--out", str(tmp_path / "out")]) == 3
     lines = said(capsys)
     assert lines[-1].startswith("sdph: blockMesh ended with code 1") and not any(INSTEAD in line for line in lines)
+    log = Path(re.search(r"log: (.*?)\)", lines[-1])[1])
+    assert "vertices" in log.read_text()
 
 
 def test_a_program_that_is_missing_is_named(tmp_path, tools, capsys):

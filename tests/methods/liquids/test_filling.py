@@ -237,3 +237,31 @@ def test_what_cannot_be_filled_is_told():
         filled(SHAPES["sphere"], 0.1, pools=twice)
     with pytest.raises(CaseError, match="needs the effect tank, and fill"):
         filled(SHAPES["sphere"], 0.1, pools={"water": {"shape": "tank"}})
+
+
+@pytest.mark.parametrize(
+    ("middle", "outside"), [([0.5, 0.5, 2.0], "all"), ([0.5, 0.5, 1.5], "some"), ([0.5, 0.5, 1.0], "none")]
+)
+def test_a_pool_outside_its_tank_is_refused(middle, outside):
+    """Nothing would hold it there, and no picture would show it."""
+    drop = {"drop": {"shape": "sphere", "centre_m": middle, "radius_m": 0.2}}
+    own = table({"shape": "box"}, 0.05)
+    own["pools"] = drop
+    if outside == "none":
+        LiquidStepper(cases.from_table(own))
+        return
+    with pytest.raises(
+        CaseError, match=r"pools\.drop: (\d+) of its (\d+) particles would stand outside the tank, up to"
+    ) as told:
+        LiquidStepper(cases.from_table(own))
+    given, many = (int(word) for word in str(told.value).split() if word.isdigit())
+    assert (given == many) == (outside == "all")
+
+
+def test_a_drain_that_fills_is_refused():
+    drain = {"fill": 0.9, "start_s": 0.0, "end_s": 1.0}
+    own = table(SHAPES["sphere"], 0.1) | {"drain": drain}
+    own["effects"] += ["drain"]
+    with pytest.raises(CaseError, match=r"drain\.fill = 0\.9 is more than the 0\.5 that the pools fill"):
+        cases.from_table(own).parameters  # noqa: B018
+        LiquidStepper(cases.from_table(own))
