@@ -1,4 +1,5 @@
-"""Inlets whose gas goes out: OpenFOAM takes a velocity as it is given, and one that points out of the domain sucks."""
+"""Inlets whose gas goes out, or along them: OpenFOAM takes a velocity as it is given, and one that points out of the
+domain sucks, one along its side brings nothing in."""
 
 from __future__ import annotations
 
@@ -11,10 +12,13 @@ from sdph.engine.geometry import SIDES
 
 ASIDE = 1e-3  # of the velocity: one along its patch but for round-off and the facets of a round one; our choice
 
+ROUND = 0.9  # length of the mean normal from which on a patch is nearly plane; our choice
+
 
 def warnings(case, template: Path) -> list[str]:
-    """A line for each velocity_inlet through which gas leaves on balance; `template` is the OpenFOAM case with its
-    mesh, if it has one of its own. On a box, inlets without a side are not judged: they lie on several."""
+    """A line for each velocity_inlet through which gas leaves on balance, or none comes; `template` is the OpenFOAM
+    case with its mesh, if it has one of its own. On a box, inlets without a side are not judged: they lie on
+    several."""
     if "grains" not in case.matters:
         return []
     mesh = poly_mesh.read(template) if (template / poly_mesh.FOLDER).is_dir() else None
@@ -24,11 +28,18 @@ def warnings(case, template: Path) -> list[str]:
             continue
         velocity = np.array([*boundary.velocity, 0.0][:3])
         normal = _outwards(mesh, name, boundary)
-        if velocity @ normal > ASIDE * float(np.linalg.norm(velocity)):
-            outwards = ", ".join(f"{part:.2g}" for part in normal[: case.dimensions])
+        outwards, given = velocity @ normal, f"velocity_m_s = {list(boundary.velocity)}"
+        plane = float(np.linalg.norm(normal)) > ROUND  # else it goes round, and a mean says nothing
+        facing = ", ".join(f"{part:.2g}" for part in normal[: case.dimensions])
+        if outwards > ASIDE * float(np.linalg.norm(velocity)):
             told.append(
-                f"boundaries.{name} is a velocity_inlet, and velocity_m_s = {list(boundary.velocity)} points out of "
-                f"the domain, whose normal there is ({outwards}): it sucks gas out; turn its sign, unless that is meant"
+                f"boundaries.{name} is a velocity_inlet, and {given} points out of the domain, whose normal there is "
+                f"({facing}): it sucks gas out; turn its sign, unless that is meant"
+            )
+        elif plane and velocity.any() and outwards > -ASIDE * float(np.linalg.norm(velocity)):
+            told.append(
+                f"boundaries.{name} is a velocity_inlet, and {given} runs along it, whose normal is ({facing}): it "
+                "lets no gas in; turn the velocity, or name another side"
             )
     return told
 
