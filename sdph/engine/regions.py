@@ -113,6 +113,9 @@ def below(where: str, region, places, up, spacing: float, each: float) -> np.nda
     """Mask (N,) of the places up to the level of a region, `each` [kg] the mass of a particle; `up` (d,)."""
     height = places @ up
     if region.height is not None:
+        span = float(np.ptp(height)) + spacing
+        if region.height > span + spacing:
+            raise CaseError(f"{where}.height_m = {region.height:g}; its region is {span:.4g} m high: give less")
         return height <= height.min() + region.height - (HALF - SAME) * spacing
     count = max(1, round(region.mass / each))
     if count > len(places):

@@ -11,6 +11,7 @@ import pyvista
 from sdph.case.sections import Region
 from sdph.engine import regions
 from sdph.engine.walls import facets
+from sdph.schema import CaseError
 
 SPACING = 0.01
 
@@ -101,6 +102,8 @@ def test_a_level_is_that_of_its_height_or_its_mass():
     points, up = regions.points(box, SPACING, 2, None), np.array([0.0, 1.0])
     to_height = regions.below("a", dataclasses.replace(box, height=0.05), points, up, SPACING, 1.0)
     assert to_height.sum() == 50 and points[to_height][:, 1].max() < 0.05
+    with pytest.raises(CaseError, match=r"a\.height_m = 9; its region is .* m high: give less"):
+        regions.below("a", dataclasses.replace(box, height=9.0), points, up, SPACING, 1.0)
     to_mass = regions.below("a", dataclasses.replace(box, mass=54.0), points, up, SPACING, 1.0)
     layer = points[to_mass][points[to_mass][:, 1] > 0.05]
     assert to_mass.sum() == 54 and sorted(layer[:, 0].round(3)) == [0.035, 0.045, 0.055, 0.065]

@@ -92,7 +92,7 @@ def unlike(case: Case) -> list[str]:
     if mixed := [name for name, nozzle in case.nozzles.items() if together(case, nozzle)]:
         lines.append(
             f"OpenFOAM's small and large droplets of {', '.join(mixed)} part in flight, those of the run fly together "
-            f"in one particle (size_classes={droplet_sources.PARTS})"
+            f"in one particle of each class, unless there are more of these (size_classes={droplet_sources.PARTS})"
         )
     if not {"outflow", "walls"} & set(case.effects):
         lines.append("OpenFOAM's droplets leave at every side, those of the run fly on outside of the gas (outflow)")
