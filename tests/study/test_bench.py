@@ -4,11 +4,11 @@ import json
 import math
 
 import pytest
-from of_ranks import WITH_MPI
 
 from sdph.cli import main
 from sdph.schema import CaseError
 from sdph.study import bench, bench_ranks
+from tests.of_ranks import WITH_MPI
 
 
 @pytest.fixture

@@ -263,5 +263,4 @@ def test_a_drain_that_fills_is_refused():
     own = table(SHAPES["sphere"], 0.1) | {"drain": drain}
     own["effects"] += ["drain"]
     with pytest.raises(CaseError, match=r"drain\.fill = 0\.9 is more than the 0\.5 that the pools fill"):
-        cases.from_table(own).parameters  # noqa: B018
         LiquidStepper(cases.from_table(own))
