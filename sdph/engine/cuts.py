@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 BINS, ROUNDS = 256, 2  # of the search for a cut: a 65536th of the way is as near as it gets; our choice
+ROUND_OFF = 16.0 * np.finfo(float).eps  # of the largest place, more than four sums of places lose
 
 
 def cut(world, places: np.ndarray, weight: np.ndarray, ranks: range | None = None):
@@ -49,14 +50,15 @@ def beside(ends: np.ndarray, rank: int, reach: float, period) -> np.ndarray:
     holds nothing has infinite ends."""
     found = np.isfinite(ends).all(axis=(1, 2))
     ends = np.where(found[:, None, None], ends, 0.0)
+    reach = reach + ROUND_OFF * np.abs(ends).max()
     found &= found[rank] & (np.arange(len(ends)) != rank)
-    (low, high), width = ends[rank], ends[:, 1] - ends[:, 0]
+    low, width = ends[:, 0], ends[:, 1] - ends[:, 0] + 2.0 * reach
     for a in range(ends.shape[2]):
-        off, most = ends[:, 0, a] - (low[a] - reach), high[a] - low[a] + 2.0 * reach
-        back = -off
+        there, here = low[:, a] - low[rank, a] + reach, low[rank, a] - low[:, a] + reach
         if period[a]:
-            off, back = np.mod(off, period[a]), np.mod(back, period[a])
-        found &= ((off >= 0.0) & (off <= most)) | ((back >= 0.0) & (back <= width[:, a]))
+            there, here = np.mod(there, period[a]), np.mod(here, period[a])
+        ours, theirs = (there >= 0.0) & (there <= width[rank, a]), (here >= 0.0) & (here <= width[:, a])
+        found &= ours | theirs  # the same for both of a pair, to the last digit: each waits for the other
     return found
 
 
