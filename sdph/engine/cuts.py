@@ -69,6 +69,8 @@ def _quantile(world, along: np.ndarray, weight: np.ndarray, ends: tuple[float, f
         return float(high) if np.isfinite(high) else 0.0
     wanted, before = share * world.sum(float(weight.sum())), 0.0
     for _ in range(ROUNDS):
+        if high - low < 2.0 * BINS * np.spacing(max(abs(low), abs(high))):
+            break  # as near as numbers are
         inside = (along >= low) & (along <= high)
         bins, edges = np.histogram(along[inside], BINS, (low, high), weights=weight[inside])
         sums = before + np.cumsum(world.sum(bins))

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as of_arrays
 
@@ -39,6 +39,8 @@ def test_the_longest_way_is_cut():
 
 @settings(max_examples=200, deadline=None)
 @given(PLACES, st.integers(2, 7), st.floats(0.0, 1.0), st.booleans())
+@example(np.array([[1.0, -1e-66], [-1e-66, -1e-66]]), 2, 1.0, False)  # apart by the reach, less what round-off takes
+@example(np.array([[5e-324, 0.0], [0.0, 0.0]]), 2, 0.0, False)  # nothing lies between
 def test_who_has_places_near_a_box_is_beside_it(places, number, reach, turns):
     """Boxes that are not beside each other need not look for places near the other, whatever the turn."""
     if not len(places):
