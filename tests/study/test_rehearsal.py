@@ -51,7 +51,7 @@ BOX = ("tank.shape='box'", "tank.lower_m=[0,0,0]", "tank.upper_m=[1,1,1]")
         ("sloshing_box", ("run.metrics=['bubble']",), "for liquids: none"),
         ("sloshing_cassini", ("tank.outlet_radius_m=1.0",), "an outlet is narrower"),
         ("sloshing_cassini", ("tank.outlet_radius_m=5e-324",), "a pipe is a particle wide"),
-        ("sloshing_cassini", BOX, "an outlet is narrower"),
+        ("sloshing_cassini", (*BOX, "tank.outlet_centre_m=[0,0.5]"), "an outlet lies within the floor"),
         ("sloshing_cassini", ("drain.end_s=1.0", "drain.start_s=2.0"), "drain.end_s = 1 must come after"),
         ("sloshing_cassini", ("pools.propellant.fill=1e-9", "drain.fill=0.0"), "less than half a particle"),
         ("sloshing_cassini", ("tank.shape='mesh'", "tank.mesh='none.stl'", "tank.outlet_radius_m=0"), "tank.mesh = "),

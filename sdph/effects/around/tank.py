@@ -21,7 +21,7 @@ ALL = "tank"  # name of all walls of a tank in `run.forces`
 @record
 class Tank:
     """`open_sides` of a box have no wall. The outlet is a pipe at the lowest point, as full at the start as the tank
-    is."""
+    is; of a box it is in the floor, in two dimensions a slot."""
 
     shape: str = choice("box", "sphere", "cylinder", "capsule", "mesh")
     lower: tuple | None = vector("m", None)  # of a box; None: the domain
@@ -37,6 +37,7 @@ class Tank:
     suction: str | None = choice("none", "full", default=None)
     outlet_radius: float = quantity("m", 0.0, least=0.0)
     outlet_length: float = quantity("m", 0.0, least=0.0)
+    outlet_centre: tuple | None = vector("m", None)  # of a box, in its floor; None: the middle of it
 
 
 class TankP(NamedTuple):
@@ -68,16 +69,10 @@ def acts(case, stick: float, least: float) -> TankP:
 def shape_of(case):
     """The shape (sdph.engine.walls.shapes) of a case's tank."""
     own, d = case.parameters["tank"], case.dimensions
-    if own.outlet_radius and (own.shape in ("box", "mesh") or d == 2 or own.outlet_radius >= (own.radius or math.inf)):
-        allowed = (
-            "an outlet is narrower than its tank, and that is a sphere, cylinder or capsule in 3-D, no box or mesh"
-        )
-        raise CaseError(f"tank.outlet_radius_m = {own.outlet_radius:g}; {allowed}")
-    if 0.0 < own.outlet_radius < 0.5 * case.resolution.spacing:
-        given = f"tank.outlet_radius_m = {own.outlet_radius:g}"
-        raise CaseError(f"{given}; a pipe is a particle wide at least: half of resolution.spacing_mm, or 0 for none")
+    if own.outlet_radius:
+        _refuse_outlet(case, own)
     if own.shape == "box":
-        return _box(case, own)
+        return _with_slot(case, own, _box(case, own))
     if own.shape == "mesh" and d == 3:
         return _mesh(case, own.mesh, own.mesh_scale)
     if d == 2 and own.shape != "sphere":
@@ -120,6 +115,50 @@ def _mesh(case, path: str, scale: float):
     return shape
 
 
+def _refuse_outlet(case, own) -> None:
+    """CaseError where there can be no outlet pipe as it is given."""
+    given, box = f"tank.outlet_radius_m = {own.outlet_radius:g}", own.shape == "box"
+    if own.shape == "mesh":
+        raise CaseError(f"{given}; a mesh has its pipe in its file, closed at the end: give 0 here")
+    if case.dimensions == 2 and not box:
+        raise CaseError(f"{given}; in two dimensions a box has an outlet, a disc has none: give 0")
+    if not box and own.outlet_radius >= (own.radius or math.inf):
+        raise CaseError(f"{given}; an outlet is narrower than its tank, {own.radius:g} m")
+    if own.outlet_radius < 0.5 * case.resolution.spacing:
+        raise CaseError(f"{given}; a pipe is a particle wide at least: half of resolution.spacing_mm, or 0 for none")
+    if own.outlet_length < case.resolution.spacing:
+        raise CaseError(f"tank.outlet_length_m = {own.outlet_length:g}; a pipe is a spacing long at least: lengthen it")
+    if own.outlet_centre and not box:
+        raise CaseError("tank.outlet_centre_m is given; a round tank has its outlet in the middle: leave it out")
+
+
+def _with_slot(case, own, box):
+    """A box with an outlet in its floor: a round pipe, in two dimensions a slot."""
+    if not own.outlet_radius:
+        return box
+    across, d, radius = slice(0, case.dimensions - 1), case.dimensions, own.outlet_radius
+    middle = 0.5 * (box.lower + box.upper)[across] if own.outlet_centre is None else np.array(own.outlet_centre)
+    if len(middle) != d - 1:
+        raise CaseError(
+            f"tank.outlet_centre_m = {list(own.outlet_centre)}; it is a place in the floor: give {d - 1} numbers"
+        )
+    if (
+        (d - 1, 0) in box.open
+        or (middle - radius < box.lower[across]).any()
+        or (middle + radius > box.upper[across]).any()
+    ):
+        raise CaseError(
+            f"tank.outlet_radius_m = {radius:g} about tank.outlet_centre_m = {middle.tolist()}; an outlet lies within "
+            "the floor, which is a wall: move it, or make it narrower"
+        )
+    floor, reach = box.lower[-1], layers(case) * case.resolution.spacing
+    if d == 2:
+        corner = np.array([middle[0] - radius, floor - own.outlet_length])
+        return shapes.Joined(box, shapes.Box(corner, np.array([middle[0] + radius, floor]), ((1, 1),)))
+    centre = np.array([*middle, floor - 0.5 * own.outlet_length])
+    return shapes.Joined(box, shapes.Cylinder(centre, radius, own.outlet_length, reach, open_top=True))
+
+
 def _with_outlet(own, tank, bottom: float, reach: float):
     """The tank with its pipe, which reaches up into the tank by as much as the bottom is curved."""
     if not own.outlet_radius:
@@ -157,12 +196,6 @@ def _open_ends(case, own) -> set[tuple[int, int]]:
         if side not in SIDES:
             raise CaseError(f"tank.open_sides holds {side!r}; allowed: {', '.join(SIDES)}")
     return {SIDES[side] for side in sides} | {(a, end) for a, on in enumerate(periodic) if on for end in (0, 1)}
-
-
-def wall_volume(case) -> float:
-    """Volume [m^d] that a wall particle stands for; those of a box have a lattice that is fitted to its sides."""
-    shape, spacing = shape_of(case), case.resolution.spacing
-    return float(np.prod(shape.steps(spacing)[1])) if isinstance(shape, shapes.Box) else spacing**case.dimensions
 
 
 def layers(case) -> int:

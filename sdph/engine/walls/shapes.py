@@ -1,4 +1,4 @@
-"""Tanks: how far a point lies inside, where wall particles stand, and what the tank holds.
+"""Tanks: how far a point lies inside, where its surface is, and what the tank holds.
 
 A shape has `distance(points)` [m], negative inside, `shell(depth, spacing)` the points of the surface moved outwards
 by `depth`, about one spacing apart, `surface()` of its walls for pictures (pyvista, lines in two dimensions), and
@@ -252,10 +252,10 @@ class Mesh:
 
 @dataclass(frozen=True)
 class Joined:
-    """A tank and the pipe at its bottom; the pipe counts as buffer, not as volume."""
+    """A tank and the pipe at its bottom, in two dimensions a slot; the pipe counts as buffer, not as volume."""
 
     tank: object
-    pipe: Cylinder
+    pipe: Cylinder | Box
 
     def distance(self, points):
         return np.minimum(self.tank.distance(points), self.pipe.distance(points))
@@ -272,29 +272,3 @@ class Joined:
     @property
     def volume(self):
         return self.tank.volume
-
-
-def wall_points(shape, spacing: float, layers: int) -> np.ndarray:
-    """(W, d) wall particles in `layers`, the first half a spacing behind the surface; those of an outlet pipe come
-    last."""
-    own = _behind(shape.tank if isinstance(shape, Joined) else shape, shape, spacing, layers)
-    return np.concatenate([own, pipe_points(shape, spacing, layers)])
-
-
-def pipe_points(shape, spacing: float, layers: int) -> np.ndarray:
-    """(W, d) of `wall_points`, those of the outlet pipe; none where there is no pipe."""
-    return (
-        _behind(shape.pipe, shape, spacing, layers)
-        if isinstance(shape, Joined)
-        else shape.shell(0.5 * spacing, spacing)[:0]
-    )
-
-
-def _behind(part, whole, spacing: float, layers: int) -> np.ndarray:
-    """Layers of `part`; of two shapes that meet, what lies in or too near to the other is left out."""
-    points = []
-    for layer in range(layers):
-        depth = (layer + 0.5) * spacing
-        shell = part.shell(depth, spacing)
-        points.append(shell if part is whole else shell[whole.distance(shell) > depth - 0.25 * spacing])
-    return np.concatenate(points)

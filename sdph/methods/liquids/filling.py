@@ -16,7 +16,7 @@ import numpy as np
 
 from sdph.effects.around import tank
 from sdph.engine.lattice import grid
-from sdph.engine.walls import shapes
+from sdph.engine.walls import layers, shapes
 from sdph.methods.liquids import packing
 from sdph.methods.liquids.sections import Pool
 from sdph.schema import CaseError, record
@@ -87,7 +87,7 @@ def _filled(case, name: str, pool, below: float):
         )
     up = -along / np.linalg.norm(along) if along.any() else np.eye(case.dimensions)[-1]
     low, high = levels(inside, up, (below, pool.fill), case.resolution.spacing)
-    if isinstance(inside, shapes.Box) and np.abs(up).max() == 1.0:
+    if inside is shape and isinstance(inside, shapes.Box) and np.abs(up).max() == 1.0:
         return _as_box(inside, pool, up, low, high)
     return Filled(**vars(pool), inside=inside, slab=Slab(up, low if below else -math.inf, high, below, pool.fill))
 
@@ -157,7 +157,7 @@ def fill(case, pool: Filled) -> np.ndarray:
         outside[wet] = np.inf
         wet = np.concatenate([wet, _deepest(outside, _buffer(shape, slab, spacing / FINER), spacing, len(slab.up))])
     lid = (shape.distance(points) <= SAME * spacing) & (from_slab > 0.0) & (from_slab < reach)
-    walls = shapes.wall_points(shape, spacing, tank.layers(case))
+    walls = layers.wall_points(shape, spacing, tank.layers(case))
     between = slab._replace(low=slab.low + 0.5 * layer, high=slab.high - 0.5 * layer)
     return packing.pack(case, points[wet], walls, points[lid], between, shape)
 
@@ -186,9 +186,9 @@ def lattice(shape, inside, slab: Slab, spacing: float, reach: float) -> tuple[np
 
 
 def _buffer(shape, slab: Slab, spacing: float) -> float:
-    """Volume [m3] of what of an outlet pipe lies outside the tank and within the slab, from cells of that spacing
+    """Volume [m^d] of what of an outlet pipe lies outside the tank and within the slab, from cells of that spacing
     [m]."""
-    middles, steps = _cells(*bounds(shape.pipe, np.eye(3)), spacing)
+    middles, steps = _cells(*bounds(shape.pipe, np.eye(len(slab.up))), spacing)
     outside = _shares(shape.pipe, middles, steps) * (1.0 - _shares(shape.tank, middles, steps))
     return float(outside[slab.beyond(middles) <= 0.0].sum() * np.prod(steps))
 

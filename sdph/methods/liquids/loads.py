@@ -51,7 +51,7 @@ def pipe_energy(stepper) -> float:
     if not isinstance(shape, shapes.Joined):
         return 0.0
     wet = particles.take(stepper.state, stepper.active)
-    return kinetic_energy(particles.take(wet, shape.tank.distance(particles.positions(wet)) > 0.0))
+    return kinetic_energy(particles.take(wet, shape.tank.distance(np.stack(particles.axes(wet), axis=1)) > 0.0))
 
 
 def kinetic_energy(state) -> float:

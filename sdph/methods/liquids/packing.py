@@ -21,6 +21,7 @@ from sdph.engine import state as particles
 from sdph.engine.geometry import apart
 from sdph.engine.rows import Neighbours, entry, length
 from sdph.engine.state import LIQUID, WALL
+from sdph.engine.walls import layers
 from sdph.laws.compiled import fast_parallel, parallel
 from sdph.laws.constants import TINY
 
@@ -29,12 +30,16 @@ PROBE = 1e-3  # of a spacing, between the distances that a way back is the slope
 
 
 def pack(case, points, walls, lid, slab, shape) -> np.ndarray:
-    """(N, d) where `points` (N, d) come to lie within a slab of a tank's `shape`, among walls and a lid of more of the
-    same, which stand still. Those that got out of it, through walls that meet at a sharp edge, are put back and go
-    on."""
+    """(N, d) where `points` (N, d) come to lie within a slab of a tank's `shape`, among walls (as of
+    sdph.engine.walls.layers) and a lid of more of the same, which stand still. Those that got out of it, through walls
+    that meet at a sharp edge, are put back and go on."""
     kernel = smoothing.smoothing(case.liquid.kernel, case.dimensions, case.smoothing_length)
     neighbours = Neighbours(2.0 * kernel.h, case.liquid_period, case.resolution.neighbour_skin)
-    state, dt, near = _state(case, points, walls, lid), case.liquid.courant * kernel.h, 1.0 / tank.kernel(case).near
+    state, dt, near = (
+        _state(case, shape, points, walls, lid),
+        case.liquid.courant * kernel.h,
+        1.0 / tank.kernel(case).near,
+    )
     rounds = math.ceil(np.ptp(points, axis=0).max() / dt)
     for number in range(rounds + RETURNS):
         if number >= rounds:
@@ -103,14 +108,15 @@ def _back(shape, places, spacing: float) -> np.ndarray:
     return way
 
 
-def _state(case, points, walls, lid) -> particles.State:
+def _state(case, shape, points, walls, lid) -> particles.State:
     """All of them, of density 1."""
-    state = particles.empty(len(points) + len(walls) + len(lid), (), points.shape[1])
-    for axis, column in zip(particles.axes(state), np.concatenate([points, walls, lid]).T):
+    volume = layers.volumes(shape, walls, case.resolution.spacing)
+    state = particles.empty(len(points) + len(volume) + len(lid), (), points.shape[1])
+    for axis, column in zip(particles.axes(state), np.concatenate([points, *walls, lid]).T):
         axis[:] = column
     state.kind[: len(points)], state.kind[len(points) :] = LIQUID, WALL
     state.mass[:] = case.resolution.spacing**case.dimensions
-    state.mass[len(points) : len(points) + len(walls)] = tank.wall_volume(case)
+    state.mass[len(points) : len(points) + len(volume)] = volume
     state.ident[:] = np.arange(len(state.x))
     return state
 

@@ -23,7 +23,8 @@ def shares(case, places: np.ndarray) -> dict[str, np.ndarray]:
     if not asked:
         return {}
     shape = tank.shape_of(case)
-    of_box = parts.sides(places, shape.lower, shape.upper) if isinstance(shape, shapes.Box) else {}
+    inside = shape.tank if isinstance(shape, shapes.Joined) else shape
+    of_box = parts.sides(places, inside.lower, inside.upper) if isinstance(inside, shapes.Box) else {}
     found = of_box | {tank.ALL: np.ones((len(places), 3))}
     if set(asked) & case.parts.keys():
         feet = _feet(shape, places, STEP * case.resolution.spacing)

@@ -13,7 +13,7 @@ from sdph.effects.liquids import bubble
 from sdph.engine import lattice
 from sdph.engine import state as particles
 from sdph.engine.state import GAS, LIQUID, WALL
-from sdph.engine.walls import shapes
+from sdph.engine.walls import layers
 from sdph.laws import eos
 from sdph.laws.liquids import quadrupole, square_patch_pressure, taylor_green, wave
 from sdph.methods.liquids import filling
@@ -40,26 +40,27 @@ def fill(case) -> particles.State:
 
 
 def _walls(case) -> particles.State:
-    shape = tank.shape_of(case)
-    points = shapes.wall_points(shape, case.resolution.spacing, tank.layers(case))
+    shape, spacing = tank.shape_of(case), case.resolution.spacing
+    parts = layers.wall_points(shape, spacing, tank.layers(case))
+    points, volume = np.concatenate(parts), layers.volumes(shape, parts, spacing)
     if "inflow" in case.effects:
-        points = points[Source(case, (), 0).mouths(placed(case, points)) == 0]
+        walled = Source(case, (), 0).mouths(placed(case, points)) == 0
+        points, volume = points[walled], volume[walled]
     state = placed(case, points)
     if len(state.depth):
         state.depth[:] = shape.distance(points)
     state.kind[:] = WALL
     state.density[:] = case.liquid.density
-    state.mass[:] = case.liquid.density * tank.wall_volume(case)
+    state.mass[:] = case.liquid.density * volume
     return state
 
 
 def pipe_walls(case) -> int:
     """Number of wall particles of an outlet pipe; they come last."""
-    return (
-        len(shapes.pipe_points(tank.shape_of(case), case.resolution.spacing, tank.layers(case)))
-        if "tank" in case.effects
-        else 0
-    )
+    own = case.parameters.get("tank")
+    if not (own and own.outlet_radius):
+        return 0
+    return len(layers.wall_points(tank.shape_of(case), case.resolution.spacing, tank.layers(case))[1])
 
 
 def placed(case, points) -> particles.State:

@@ -24,7 +24,7 @@ def fill(case) -> particles.State:
         raise CaseError("no liquid: give it in a section such as [pools.drop], or let it in by [nozzles.mouth]")
     tanks.check(case)
     if "tank" in case.effects:
-        state = particles.join(state, tanks.stand(case, tanks.points(case)))
+        state = particles.join(state, tanks.stand(case))
     state.ident[:] = np.arange(len(state.x))
     return state
 

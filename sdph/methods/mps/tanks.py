@@ -16,7 +16,7 @@ from sdph import effects
 from sdph.effects.around import tank
 from sdph.engine import state as particles
 from sdph.engine.state import WALL
-from sdph.engine.walls import shapes
+from sdph.engine.walls import layers, shapes
 from sdph.laws.compiled import inlined
 from sdph.schema import CaseError
 
@@ -82,26 +82,28 @@ def arrays(case) -> set[str]:
     return effects.arrays(case) | {"pressure"}
 
 
-def stand(case, points) -> particles.State:
-    """Wall particles at points (W, d) [m]."""
+def stand(case) -> particles.State:
+    """Wall particles of the tank."""
+    parts = _points(case)
+    points = parts[0]
     state = particles.empty(len(points), arrays(case), case.dimensions)
     for axis, column in zip(particles.axes(state), points.T):
         axis[:] = column
     state.kind[:], state.density[:] = WALL, case.liquid.density
-    state.mass[:] = case.liquid.density * tank.wall_volume(case)
+    state.mass[:] = case.liquid.density * layers.volumes(tank.shape_of(case), parts, case.resolution.spacing)
     return state
 
 
-def points(case) -> np.ndarray:
-    """(W, d) places of the wall particles [m]."""
-    return shapes.wall_points(tank.shape_of(case), case.resolution.spacing, math.ceil(case.method.reach))
+def _points(case) -> tuple[np.ndarray, np.ndarray]:
+    """Places of the wall particles as `layers.wall_points` has them; there is no outlet (`check`)."""
+    return layers.wall_points(tank.shape_of(case), case.resolution.spacing, math.ceil(case.method.reach))
 
 
 def walls_of(case, state):
-    """WallsP of a case whose walls stand last in its state, in the order of `points`; () without a tank."""
+    """WallsP of a case whose walls stand last in its state, in the order of `stand`; () without a tank."""
     if "tank" not in case.effects:
         return ()
-    own, places = case.parameters["tank"], points(case)
+    own, places = case.parameters["tank"], _points(case)[0]
     least_pressure = -math.inf if own.suction == "full" else 0.0
     return WallsP(blocks(case, places), len(state.x) - len(places), least_pressure, float(own.slip == "no_slip"))
 

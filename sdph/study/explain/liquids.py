@@ -76,7 +76,8 @@ def warnings(s) -> list[str]:
     if "drain" in s.case.effects and not s.case.parameters["tank"].outlet_radius:
         unsafe.append(
             "a tank without an outlet pipe gives up its lowest particles, wherever on its floor they are: pressures "
-            "and loads meanwhile are not those of a drain; give tank.outlet_radius_m (sphere, cylinder, capsule)"
+            "and loads meanwhile are not those of a drain; give tank.outlet_radius_m and outlet_length_m, or a "
+            "tank.mesh with a pipe at its lowest point, closed at the end"
         )
     return unsafe
 
