@@ -152,7 +152,7 @@ class Exchange:
         """Pace at the start: rate [1/s] at which the fastest cell takes the grains' temperature, `stake` [J], what
         `Window.thicken` is told of a second, `grip` [1/s] and `settling` [s]."""
         seen = Seen(weights, gas_state, state, self.fields)
-        _, conductance, damping, _ = self._rates(state, seen)
+        _, conductance, damping, force = self._rates(state, seen)
         full, resistance = self._resistance(state, weights, gas_state)
         rate = (
             float((self.cells.density(weights, conductance)[full] * resistance).max(initial=0.0))
@@ -160,7 +160,7 @@ class Exchange:
             else 0.0
         )
         losing = (self.losing.pace(state, weights, gas_state, seen), self.losing.name) if self.losing else (0.0,)
-        held = self.grip(state, damping), self.settling(state, damping, seen.own, seen.slip)
+        held = self.grip(state, damping), self.settling(state, damping, force, seen.own, seen.slip)
         return rate, self.stake(state, weights, gas_state), losing, *held
 
     def lost(self, handed: Handed, gas_state) -> tuple:
@@ -275,14 +275,18 @@ class Exchange:
         alpha_p = np.minimum(state.density / own, self.case.grains.packing_limit)
         return self.world.average(damping * held(alpha_p, self.case.gas.density / own), mass)
 
-    def settling(self, state, damping, own, slip) -> float:
+    def settling(self, state, damping, force, own, slip) -> float:
         """Longest window [s] in which grains drift right, by means of theirs by mass (`sdph.exchange.window.settling`):
-        weight and field, damping (N,) [1/s], their velocity (N, 3) and slip (N,) [m/s]."""
+        weight, field and what else of the gas a window holds, `force` (N, 3) [N] where there is any, damping (N,)
+        [1/s], their velocity (N, 3) and slip (N,) [m/s]."""
         felt = (state.kind == GRAIN) & (damping > 0.0)
         if not self.world.any(bool(felt.any())):
             return math.inf
         gravity, field = np.asarray(self.parameters["gravity"] or (0.0, 0.0, 0.0)), self.parameters["electric_field"]
-        pull = lengths(gravity + electric_field.acceleration(field, state))[felt]
+        pulled = (gravity + electric_field.acceleration(field, state))[felt]
+        if len(force):
+            pulled = pulled + force[felt] / state.mass[felt, None]
+        pull = lengths(pulled)
         means = pull, 1.0 / damping[felt], np.maximum(lengths(own), slip)[felt]
         return settling(self.case, *(self.world.average(each, state.mass[felt]) for each in means))
 

@@ -150,7 +150,7 @@ class Simulation:
         taken = self._timed("exchange", self.exchange.take, self.state, handed, self.gas_state)
         changed = self.world.sum(np.array(learned(self.state, taken.heat, dt))).tolist()
         self.clock.hold(self.exchange.grip(self.state, handed.damping))
-        settling = self.exchange.settling(self.state, handed.damping, handed.velocity, handed.around[0])
+        settling = self.exchange.settling(self.state, handed.damping, handed.force, handed.velocity, handed.around[0])
         self.clock.obey({"settling": settling})
         broken = self.exchange.settle(self.state, handed)
         held = self._react(handed, taken, dt)

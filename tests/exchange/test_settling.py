@@ -7,6 +7,7 @@ import pytest
 from grain_boxes import DENSITY, VISCOSITY, Row, box, go, started
 
 from sdph.case import judge
+from sdph.effects import OFF
 from sdph.exchange.window import settling
 from sdph.study.explain import pace
 
@@ -87,8 +88,10 @@ def test_the_mean_is_by_mass(tmp_path):
     s.mass[:] = np.where(np.arange(len(s.x)) < 1, 3.0, 1.0)
     damping, slip = np.full(len(s.x), 1e9), np.arange(len(s.x)) < 1
     mean = 3.0 / s.mass.sum()
-    assert run.exchange.settling(s, damping, at_rest, slip.astype(float)) == pytest.approx(
+    assert run.exchange.settling(s, damping, OFF, at_rest, slip.astype(float)) == pytest.approx(
         settling(case, G, 1e-9, mean), rel=1e-12
     )
     damping[0] = 0.0
-    assert run.exchange.settling(s, damping, at_rest, slip.astype(float)) == pytest.approx(settling(case, G, 1e-9, 0.0))
+    assert run.exchange.settling(s, damping, OFF, at_rest, slip.astype(float)) == pytest.approx(
+        settling(case, G, 1e-9, 0.0)
+    )

@@ -104,8 +104,9 @@ class Outlet:
         """The lowest particle goes out as a piece of wall, whose push fades."""
         way = lowest.height - self.end
         self.leaving = np.vstack((self.leaving, (lowest.ident, way, self.stepper.time, lowest.mass)))
-        self.stepper.state.kind[self._rows(lowest.ident)] = WALL
-        self.stepper.neighbours.built = ()
+        kind = self.stepper.state.kind.copy()
+        kind[self._rows(lowest.ident)] = WALL
+        self.stepper.replace(self.stepper.state._replace(kind=kind))
         self.stepper.forces()
 
     def _fade(self) -> None:

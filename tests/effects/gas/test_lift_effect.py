@@ -61,6 +61,23 @@ def test_a_grain_in_a_uniform_shear(tmp_path, name):
     np.testing.assert_allclose(done.state.u, 0.0, atol=1e-20)
 
 
+def test_windows_are_short_enough_for_the_drift_that_lift_makes(tmp_path):
+    """Lift is held over a window beside drag, as weight is: both are of the pull that `settling` asks for."""
+    weight = {"gravity": (-0.05, 0.0)}
+    case = grain(
+        effects=("drag", "lift", "gravity"), end=1.0, drag={"law": "stokes"}, coupling={"one_way": True}, **weight
+    )
+    run = started(case, tmp_path, Sheared(case, alpha_g=1.0))
+    reynolds, shear = 1.225 * DIAMETER * SLIP / VISCOSITY, 1.225 * DIAMETER**2 * SHEAR / VISCOSITY
+    force = 1.615 * VISCOSITY * DIAMETER * SLIP * math.sqrt(shear) * law.mei_factor(reynolds, shear)
+    pull = math.hypot(0.05, force / (DENSITY * math.pi / 6.0 * DIAMETER**3))
+    assert pull > 1.2 * 0.05
+    tau = DENSITY * DIAMETER**2 / (18.0 * VISCOSITY)
+    assert run.clock.limits["settling"] == pytest.approx(
+        2.0 * case.run.accuracy * max(tau * pull, SLIP, case.smoothing_length / 1.0) / pull, rel=1e-9
+    )
+
+
 def test_in_space_lift_is_across_slip_and_vorticity():
     state = particles.empty(1, ("diameter", "diameter_variance"), 3)
     state.mass[:], state.diameter[:] = 2.0, DIAMETER
