@@ -15,7 +15,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from sdph.case import read as cases
-from sdph.running.tank import Tank
+from sdph.running.tank import DrivenTank
 
 CASE = {
     "title": "Tank of a rigid craft",
@@ -73,7 +73,7 @@ class Craft:
         return acceleration, before, omega_dot
 
 
-def coupled(craft: Craft, tank: Tank, dt: float, steps: int, thrust=None):
+def coupled(craft: Craft, tank: DrivenTank, dt: float, steps: int, thrust=None):
     """Yields (time, craft, total (6,)) after each step; thrust (3,) [N] in the craft's axes, at its centre."""
     owed = np.zeros(6)
     liquid = liquid_momentum(craft, tank)
@@ -91,7 +91,7 @@ def coupled(craft: Craft, tank: Tank, dt: float, steps: int, thrust=None):
         yield (n + 1) * dt, craft, craft.momentum() + liquid + owed
 
 
-def liquid_momentum(craft: Craft, tank: Tank) -> np.ndarray:
+def liquid_momentum(craft: Craft, tank: DrivenTank) -> np.ndarray:
     """(6,) momentum of the liquid and its angular momentum about the inertial origin."""
     return tank.momentum(craft.attitude.as_matrix(), craft.omega, craft.velocity, craft.place)
 
@@ -99,7 +99,7 @@ def liquid_momentum(craft: Craft, tank: Tank) -> np.ndarray:
 def main() -> None:
     case = cases.from_table(CASE)
     craft = Craft(mass=400.0, inertia=np.diag([90.0, 120.0, 100.0]), omega=np.array([0.02, 0.05, 0.3]))
-    tank = Tank(case)
+    tank = DrivenTank(case)
     first = None
     for time, moved, total in coupled(craft, tank, 0.01, 200):
         first = total if first is None else first

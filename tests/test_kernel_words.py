@@ -1,4 +1,5 @@
-"""Words that CUDA takes too: `math` for one number in kernels, and no field that is called as a method of tuples is."""
+"""Words that CUDA takes too, `math` for one number in kernels, no field that is called as a method of tuples is; and no
+long list of arguments."""
 
 import ast
 import math
@@ -8,6 +9,7 @@ from sdph.scenes import paths
 ROOT = paths.PACKAGE.parent
 COMPILED = {"law", "serial", "inlined", "fast_inlined", "parallel", "fast_parallel"}  # decorators
 METHODS_OF_TUPLES = {"index", "count"}
+MOST = 16  # arguments of a compiled function: of more nobody knows which is which
 FILES = [file for package in ("sdph", "coupling") for file in sorted((ROOT / package).rglob("*.py"))]
 TREES = {file.relative_to(ROOT): ast.parse(file.read_text(encoding="utf-8")) for file in FILES}
 
@@ -49,7 +51,19 @@ def test_no_field_hides_a_method_of_tuples():
     assert not [f"{file}: {field}" for file, tree in TREES.items() for field in shadowing(tree)]
 
 
+def test_no_compiled_function_takes_many_arguments():
+    found = {f"{file}:{own.name}": taken(own) for file, tree in TREES.items() for own in compiled(tree)}
+    assert max(found.values()) > 10 and not {name: count for name, count in found.items() if count > MOST}
+
+
+def taken(function) -> int:
+    """Number of arguments."""
+    own = function.args
+    return len(own.posonlyargs) + len(own.args) + len(own.kwonlyargs)
+
+
 def test_words_are_found():
     kernel = "@serial\ndef f(x):\n    return np.sqrt(x) * np.pi"
     tree = ast.parse(f"class A(NamedTuple):\n    index: int\n\n\n{kernel}")
+    assert taken(ast.parse("def f(a, /, b, *, c): pass").body[0]) == 3
     assert shadowing(tree) == ["A.index"] and [of_numpy(own) for own in compiled(tree)] == [["sqrt"]]

@@ -12,6 +12,7 @@ import numpy as np
 
 from coupling.openfoam import dictionary
 from sdph.engine.geometry import SIDES
+from sdph.laws.constants import TINY
 from sdph.schema import CaseError
 
 FOLDER, BLOCKS = "constant/polyMesh", "system/blockMeshDict"
@@ -66,7 +67,7 @@ class PolyMesh:
         """Area [m2] of a patch, and its mean unit normal (3,) out of the mesh; 0 where it is closed in itself."""
         own = self.areas[self.patches[patch].faces]
         total = own.sum(axis=0)
-        return float(np.linalg.norm(own, axis=1).sum()), total / max(float(np.linalg.norm(total)), 1e-300)
+        return float(np.linalg.norm(own, axis=1).sum()), total / max(float(np.linalg.norm(total)), TINY)
 
     def spans(self, lower, upper) -> dict[str, tuple[str, tuple | None]]:
         """Patch -> side of the box from `lower` to `upper` (d,) [m] that it lies in, with its (low, high) on each axis

@@ -25,7 +25,7 @@ OF_GAS = {"gas": "coupling.gas", "transport": "coupling.transport", "ranks": "co
 class Window:
     """A run right after one of its windows; it is of that moment, and changes nothing."""
 
-    def __init__(self, flight: driver.Run) -> None:
+    def __init__(self, flight: driver.Flight) -> None:
         self.folder: Path = flight.folder
         self._simulation = flight.simulation
 

@@ -8,7 +8,7 @@ from sdph.api.case import Case
 from sdph.running import tank
 
 
-class Tank(tank.Tank):
+class Tank(tank.DrivenTank):
     """Liquid in a tank whose motion is given from outside: `force, moment = tank.advance(dt, acceleration, omega)`."""
 
     def __init__(self, case: Case | str | os.PathLike[str]) -> None:

@@ -62,7 +62,7 @@ def upwards(case, metric: str) -> np.ndarray:
     return -gravity / np.linalg.norm(gravity)
 
 
-class Rows:
+class CellRows:
     """Cells of any mesh sorted by height along `up` (3,): `own` (C,) is the row of each cell, `above` (C,) [m] its
     height over the floor; place over the floor and height (R,) [m] of each row, which may differ, and its area [m2], of
     a plane mesh times its depth; `floor` and `top` [m], the place of the floor along `up` and the height of the vessel.

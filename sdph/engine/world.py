@@ -12,6 +12,8 @@ import os
 
 import numpy as np
 
+from sdph.laws.constants import TINY
+
 MARK = "SDPH_RANKS"  # variable of the environment of a process that is one of several
 BITS, PARTS = 34, 3  # of a summand in each of so many whole numbers: 2^29 summands stay below 2^63; our choice
 
@@ -79,7 +81,7 @@ class World:
         whole numbers of fixed places, which add up exactly)."""
         if self.number == 1:
             return values.sum(axis=0)
-        unit = np.exp2(np.ceil(np.log2(self.most(np.abs(values).max(axis=0, initial=1e-300)))) - BITS)
+        unit = np.exp2(np.ceil(np.log2(self.most(np.abs(values).max(axis=0, initial=TINY)))) - BITS)
         left, told = values / unit, 0.0
         for part in range(PARTS):
             whole = np.rint(left)

@@ -22,12 +22,14 @@ LEAST_SPAN = 10.0
 
 
 class Around(NamedTuple):
-    """The gas around N particles: its velocity from theirs (N, 3), slip [m/s], density [kg/m3], temperature [K]."""
+    """The gas around N particles: its velocity from theirs (N, 3), slip [m/s], density [kg/m3], temperature [K]; and
+    what effects ask for besides, no row where none does: vorticity (N, 3) [1/s]."""
 
     apart: np.ndarray
     slip: np.ndarray
     density: np.ndarray
     temperature: np.ndarray
+    vorticity: np.ndarray
 
 
 class Seen:
@@ -46,7 +48,8 @@ class Seen:
     @property
     def around(self) -> Around:
         """The same for loops."""
-        return Around(self.apart, self.slip, self.density, self.temperature)
+        vorticity = self.fields.get("vorticity", np.zeros((0, 3)))
+        return Around(self.apart, self.slip, self.density, self.temperature, vorticity)
 
     def stirred(self, eddies) -> Seen:
         """The same with the velocity of eddies (N, 3) [m/s] on top of the gas's."""
@@ -71,8 +74,8 @@ def temperature_span(case) -> float:
 
 @parallel
 def rates(
-    drag_p, heat_p, radiation_p, lift_p, film_p, sizes_p, s, grain_density, around, vorticity, convection, conductance,
-    damping, force,
+    drag_p, heat_p, radiation_p, lift_p, film_p, sizes_p, s, grain_density, around, convection, conductance, damping,
+    force,
 ):  # fmt: skip
     """Rates of every particle as it is, in the gas `around`: heat to it per kelvin [W/K], by convection and in all,
     beta/(alpha_p rho_p) [1/s], and force of the gas that is held (N, 3) [N], where an effect makes one."""
@@ -87,7 +90,7 @@ def rates(
             conductance[i] = convection[i] + radiation.conductance(radiation_p, sizes_p, s, i, temperature)
             damping[i] = drag.damping(drag_p, sizes_p, s, i, alpha_p, slip, density) / r
             if len(force):
-                x, y, z = lift.force(lift_p, sizes_p, s, i, around.apart, slip, vorticity, around.density[i])
+                x, y, z = lift.force(lift_p, sizes_p, s, i, around, slip)
                 force[i, 0] += x
                 force[i, 1] += y
                 force[i, 2] += z

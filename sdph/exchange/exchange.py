@@ -109,11 +109,11 @@ class Exchange:
     def _rates(self, state, seen) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Rates of every particle now: heat conductance to the gas [W/K] by convection and in all, beta/(alpha_p rho_p)
         [1/s], and the force that is held [N]."""
-        p, count, vorticity = self.parameters, len(state.x), seen.fields.get("vorticity", OFF)
+        p, count = self.parameters, len(state.x)
         found = *(np.empty(count) for _ in range(3)), np.zeros((count if self.holds else 0, 3))
         equations.rates(
             p["drag"], p["heat"], p["radiation"], p["lift"], self.film_p, self.sizes_p, state, self.case.grains.density,
-            seen.around, vorticity, *found,
+            seen.around, *found,
         )  # fmt: skip
         return found
 

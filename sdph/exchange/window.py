@@ -17,6 +17,7 @@ from sdph.effects.around.streams import streams_of
 from sdph.engine.clock import Clock
 from sdph.engine.kept import POSITIVE, Maybe, Named, Unfit
 from sdph.engine.state import GRAIN
+from sdph.laws.constants import TINY
 
 SAFETY, GROWTH, SHRINK = 0.9, 2.0, 0.3  # usual bounds of a step controller (Hairer, Norsett & Wanner, II.4); our choice
 # most that a window brings or takes: vapour that comes into a cell, of the gas in it, so that it is carried away as it
@@ -79,7 +80,7 @@ class Control:
         if before is None:
             return dt
         self.error = change * dt * dt / (dt + before) / self.scale
-        return dt * min(GROWTH, max(SHRINK, SAFETY * math.sqrt(self.tolerance / max(self.error, 1e-300))))
+        return dt * min(GROWTH, max(SHRINK, SAFETY * math.sqrt(self.tolerance / max(self.error, TINY))))
 
 
 def learned(state, heat, dt: float) -> tuple[float, float]:

@@ -59,3 +59,24 @@ class Method(Protocol):
 
     def warnings(self) -> list[str]:
         """Notes for the user on how it went."""
+
+
+@runtime_checkable
+class OwnLedger(Method, Protocol):
+    """A method that keeps its own account of mass, momentum and energy: it runs alone, or beside grains, whose account
+    is with that of their gas.
+
+    stepper   what moves it; ledger   its account
+    """
+
+    stepper: object
+    ledger: object
+
+    def tables(self) -> list:
+        """Files that grow by rows (sdph.engine.table)."""
+
+    def whole(self):
+        """Context in which the first process holds all particles, and no other any; True there."""
+
+    def new_row(self) -> None:
+        """Begin means anew that the history has a row of now."""

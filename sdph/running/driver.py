@@ -56,7 +56,7 @@ def _to_its_end(windows) -> dict:
 
 
 def stepping(case, name: str, folder: Path, gas_folder: Path | None, reporter, *, allow_code: bool = False):
-    """Run a case into a new folder and yield its `Run` after each window; who stops asking finds a checkpoint there.
+    """Run a case into a new folder and yield its `Flight` after each window; who stops asking finds a checkpoint there.
 
     `gas_folder` holds the user's own OpenFOAM case (None: the scene's template), whose dictionaries may run code only
     with `allow_code`; `reporter` shows progress.
@@ -68,7 +68,7 @@ def stepping(case, name: str, folder: Path, gas_folder: Path | None, reporter, *
         try:
             case = inputs.prepare(case, folder, template, allow_code)
             case = chain.made(case, folder, run, resume, reporter)
-            return (yield from _guarded(Run(case, folder, reporter), None, inputs.gas_of(folder), allow_code))
+            return (yield from _guarded(Flight(case, folder, reporter), None, inputs.gas_of(folder), allow_code))
         except CaseError:
             if not restart.newest(folder):  # the case cannot be run: as if it had not been tried
                 shutil.rmtree(folder)
@@ -107,7 +107,7 @@ def resume(folder: Path, overrides: tuple[str, ...], reporter, *, allow_code: bo
                 output.clear(folder)
             case = chain.made(inputs.keep(case, folder), folder, run, resume, reporter)
         template = None if checkpoint else inputs.gas_of(folder)
-        return _to_its_end(_guarded(Run(case, folder, reporter), checkpoint, template, allow_code))
+        return _to_its_end(_guarded(Flight(case, folder, reporter), checkpoint, template, allow_code))
 
 
 def simulation_of(case, gas, ledger: Path | None):
@@ -122,7 +122,7 @@ def simulation_of(case, gas, ledger: Path | None):
     return simulation
 
 
-def _guarded(run: Run, checkpoint, template: Path | None, allow_code: bool):
+def _guarded(run: Flight, checkpoint, template: Path | None, allow_code: bool):
     """The windows of a run; where it fails, the folder says why, and the error says how to go on."""
     try:
         told = compiling.told(run.reporter.status)
@@ -137,7 +137,7 @@ def _guarded(run: Run, checkpoint, template: Path | None, allow_code: bool):
         raise run.failed(error)  # noqa: B904  (the same error with a note, as a rule)
 
 
-def _gas_of(run: Run, template: Path | None, allow_code: bool):
+def _gas_of(run: Flight, template: Path | None, allow_code: bool):
     """A context with the gas of a run, closed in the end; None where there is none."""
     if "grains" not in run.case.matters:
         return contextlib.nullcontext()
@@ -146,7 +146,7 @@ def _gas_of(run: Run, template: Path | None, allow_code: bool):
     return contextlib.closing(gas if own.number == 1 else SharedGas(gas, own))
 
 
-class Run:
+class Flight:
     """A run as it goes: windows, what they leave behind, and checkpoints."""
 
     KEPT, FORMS = ("simulation", "out", "spent", "first"), {"first": Maybe(0.0)}  # see sdph.engine.kept

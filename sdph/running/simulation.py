@@ -20,7 +20,7 @@ from sdph.methods.grains.grains import Grains
 from sdph.running import forces, history, outlet, output
 from sdph.running.beside import Beside
 from sdph.running.limiters import Limiters
-from sdph.running.work import Held
+from sdph.running.work import Pushes
 
 PART = 4.0  # a window that the gas cannot finish is taken again, so much shorter (our choice),
 REPEATS = 4  # so often at most: down to 1/256
@@ -174,12 +174,12 @@ class Simulation:
         """Take note of the longest windows that effects bear now."""
         self.clock.obey(self.world.leasts(effects.window_limits(self.parameters, self.case, self.state)))
 
-    def _react(self, handed, taken, dt: float) -> Held:
+    def _react(self, handed, taken, dt: float) -> Pushes:
         """Put on the particles what holds over a window of `dt` [s]: the answer of the gas, gravity, contact."""
         if self.exchange.losing:
             self.stepper.prepare()  # pairs of the masses that are left: else what one gives the other does not get
         body, touched = self._body(handed), self.beside.touch(self.state, dt)
-        held = Held(self.state, dt, taken.impulse, touched, *body)
+        held = Pushes(self.state, dt, taken.impulse, touched, *body)
         self.grains.force(taken.warming, held.push, handed.damping)
         return held
 

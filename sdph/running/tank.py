@@ -20,7 +20,7 @@ from sdph.schema import CaseError
 REST = (0.0, 0.0, 0.0)
 
 
-class Tank:
+class DrivenTank:
     """Liquid in a tank whose motion is given from outside."""
 
     def __init__(self, case):

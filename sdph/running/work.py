@@ -7,7 +7,7 @@ import numpy as np
 from sdph.engine.ledger import vector
 
 
-class Held:
+class Pushes:
     """Accelerations of the particles of a `state` over `dt` [s]: impulse (N, 3) [kg m/s] of the exchange with the gas,
     that of contact with other methods; gravity (3,), pressure gradient and electric field (N, 3) [m/s2]. Of particles
     upstream of a nozzle they are undone by the inflow (sdph.methods.grains.account.kick)."""

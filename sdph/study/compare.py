@@ -18,7 +18,7 @@ from sdph.show import timeline
 
 
 @dataclass(frozen=True)
-class Run:
+class Finished:
     """A finished run: its case, summary and history (name -> column)."""
 
     folder: Path
@@ -45,13 +45,13 @@ class Run:
         return timeline.state_at(timeline.read(self.folder), time)
 
 
-def open_run(folder: Path) -> Run:
+def open_run(folder: Path) -> Finished:
     """Reads a run folder; `CaseError` where it holds no finished run."""
     summary = output.read_summary(folder)
     for name in (output.MARK, "history.csv"):
         if not (folder / name).is_file():
             raise CaseError(f"{folder} has lost its {name}; run it again")
-    return Run(folder, cases.load(folder / output.MARK), summary, _table(folder / "history.csv"))
+    return Finished(folder, cases.load(folder / output.MARK), summary, _table(folder / "history.csv"))
 
 
 def _table(file: Path) -> dict[str, np.ndarray]:

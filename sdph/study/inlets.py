@@ -9,6 +9,7 @@ import numpy as np
 
 from coupling.openfoam import poly_mesh
 from sdph.engine.geometry import SIDES
+from sdph.laws.constants import TINY
 
 ASIDE = 1e-3  # of the velocity: one along its patch but for round-off and the facets of a round one; our choice
 
@@ -50,7 +51,7 @@ def _outwards(mesh, name: str, boundary) -> np.ndarray:
     if mesh is not None:
         if name in mesh.patches:
             own = mesh.areas[mesh.patches[name].faces]
-            normal = own.sum(axis=0) / max(float(np.linalg.norm(own, axis=1).sum()), 1e-300)
+            normal = own.sum(axis=0) / max(float(np.linalg.norm(own, axis=1).sum()), TINY)
     elif boundary.side:
         axis, end = SIDES[boundary.side]
         normal[axis] = 2.0 * end - 1.0

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from coupling.gas import Mesh
-from sdph.case.gas_cells import Rows, graded_edges, layers, nearest_edge
+from sdph.case.gas_cells import CellRows, graded_edges, layers, nearest_edge
 from sdph.schema import CaseError
 
 
@@ -40,6 +40,6 @@ def test_rows_of_a_stretched_column():
     edges = graded_edges(0.8, 12, 5.0)
     x, y = np.meshgrid([0.1, 0.3, 0.5], 0.5 * (edges[1:] + edges[:-1]))
     volumes = 0.2 * np.repeat(np.diff(edges), 3)
-    rows = Rows(Mesh(np.stack((x.ravel(), y.ravel(), 0 * x.ravel()), axis=1), volumes, 2), (0.0, 1.0, 0.0))
+    rows = CellRows(Mesh(np.stack((x.ravel(), y.ravel(), 0 * x.ravel()), axis=1), volumes, 2), (0.0, 1.0, 0.0))
     assert rows.height == pytest.approx(np.diff(edges), rel=1e-12)
     assert rows.at_ends(rows.mean(5.0 - 3.0 * y.ravel())) == pytest.approx((5.0, 5.0 - 3.0 * 0.8), rel=1e-12)

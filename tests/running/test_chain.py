@@ -68,15 +68,15 @@ def test_what_was_cut_while_it_recorded_goes_on(sheet, tmp_path, monkeypatch):
     """The run of the sheet stops half way: `--resume` of the spray's folder goes on with it."""
     own = spray(sheet.parent / "case.toml")
     (sheet.parent / "case.toml").write_text((sheet / "case.toml").read_text(encoding="utf-8"), encoding="utf-8")
-    begun = driver.Run.go
+    begun = driver.Flight.go
 
     def cut(self, gas, checkpoint, wish):
         raise RuntimeError("the power failed")
 
-    monkeypatch.setattr(driver.Run, "go", cut)
+    monkeypatch.setattr(driver.Flight, "go", cut)
     with pytest.raises(RuntimeError, match="power"):
         driver.run(own, "swirl_spray", tmp_path / "run", None, Reporter())
-    monkeypatch.setattr(driver.Run, "go", begun)
+    monkeypatch.setattr(driver.Flight, "go", begun)
     summary = driver.resume(tmp_path / "run", (), Reporter())
     assert summary["injected_kg"] > 0.0
 

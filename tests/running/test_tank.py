@@ -12,7 +12,7 @@ from sdph.effects.around import tank as tank_effect
 from sdph.engine import state as particles
 from sdph.engine.state import LIQUID
 from sdph.methods.liquids import start
-from sdph.running.tank import Tank
+from sdph.running.tank import DrivenTank
 
 GRAVITY = np.array([0.0, 0.0, -9.8])
 TABLE = {
@@ -35,7 +35,9 @@ TABLE = {
 
 def tank(form="debt"):
     effects = [*TABLE["effects"], "drain"]
-    return Tank(cases.from_table(TABLE | {"effects": effects, "drain": {"fill": 0.0, "end_s": 1.0, "form": form}}))
+    return DrivenTank(
+        cases.from_table(TABLE | {"effects": effects, "drain": {"fill": 0.0, "end_s": 1.0, "form": form}})
+    )
 
 
 def test_a_tank_in_free_fall_feels_nothing():
@@ -70,7 +72,9 @@ def test_a_tank_drains_to_the_last_particle():
     """It held 26 particles for a fill of 26.2: the command ends where the liquid does."""
     shape = {"shape": "sphere", "centre_m": [0.0, 0.0, 0.0], "radius_m": 0.5}
     drained = {"effects": [*TABLE["effects"], "drain"], "drain": {"fill": 0.0, "end_s": 1.0}}
-    own = Tank(cases.from_table(TABLE | drained | {"tank": shape, "pools": {"water": {"shape": "tank", "fill": 0.05}}}))
+    own = DrivenTank(
+        cases.from_table(TABLE | drained | {"tank": shape, "pools": {"water": {"shape": "tank", "fill": 0.05}}})
+    )
     start = own.mass
     own.advance(0.005, -GRAVITY, fill=0.0)
     assert own.mass == 0.0 and own.outlet.gone[0] == pytest.approx(start)
@@ -105,7 +109,7 @@ def test_a_closed_loop_keeps_momentum(monkeypatch):
     spec.loader.exec_module(module)
     table = module.CASE | {"resolution": {"spacing_mm": 120.0}}
     craft = module.Craft(mass=400.0, inertia=np.diag([90.0, 120.0, 100.0]), omega=np.array([0.1, 0.3, 1.0]))
-    totals = np.array([total for _, _, total in module.coupled(craft, Tank(cases.from_table(table)), 0.01, 30)])
+    totals = np.array([total for _, _, total in module.coupled(craft, DrivenTank(cases.from_table(table)), 0.01, 30)])
     assert np.ptp(totals, axis=0).max() < 1e-9 * np.abs(totals[0]).max()
     assert np.linalg.norm(craft.omega - [0.1, 0.3, 1.0]) > 1e-4  # the liquid has turned the craft
 
@@ -148,7 +152,7 @@ def test_walls_fill_what_lies_behind_the_surface(shape):
 def test_gravity_of_a_case_weighs_what_is_in_the_tank():
     """Mass times g, and its moment about the tank's origin."""
     domain = TABLE["domain"] | {"gravity_m_s2": [1.0, 0.5, -9.8]}
-    own = Tank(cases.from_table(TABLE | {"domain": domain, "effects": [*TABLE["effects"], "gravity"]}))
+    own = DrivenTank(cases.from_table(TABLE | {"domain": domain, "effects": [*TABLE["effects"], "gravity"]}))
     wet = own.stepper.state.kind == LIQUID
     mass, place = own.stepper.state.mass[wet], particles.positions(own.stepper.state)[wet]
     gravity = np.array([1.0, 0.5, -9.8])

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from coupling.gas import Mesh
-from sdph.case.gas_cells import Rows
+from sdph.case.gas_cells import CellRows
 from sdph.running.metrics import bubble
 from sdph.schema import CaseError
 from sdph.show import timeline
@@ -237,7 +237,7 @@ def _warm_rim(run) -> float:
     _, grains, gas = run.fields(LARGEST)
     centres = gas.cell_centers().points
     sizes = np.asarray(gas.compute_cell_sizes()["Area"])
-    void = bubble.largest_void(centres, Rows(Mesh(centres, sizes, 2), bubble.UP), np.asarray(gas["alpha_p"]))
+    void = bubble.largest_void(centres, CellRows(Mesh(centres, sizes, 2), bubble.UP), np.asarray(gas["alpha_p"]))
     near = cKDTree(centres[void]).query(grains.points)[0] <= 2.0 * run.case.smoothing_length
     temperature = np.asarray(grains["temperature"])
     return float(temperature[near].mean() - temperature[~near].mean())
@@ -248,7 +248,7 @@ def _wake(run, time: float) -> float:
     _, _, gas = run.fields(time)
     centres, sizes = gas.cell_centers().points, np.asarray(gas.compute_cell_sizes()["Area"])
     order, shape = bubble.rows_of(centres)
-    rows = Rows(Mesh(centres, sizes, 2), bubble.UP)
+    rows = CellRows(Mesh(centres, sizes, 2), bubble.UP)
     void = bubble.largest_void(centres, rows, np.asarray(gas["alpha_p"]))[order].reshape(shape)
     x, y = (centres[order, a].reshape(void.shape) for a in (0, 1))
     lowest = np.where(void.any(axis=0), np.take_along_axis(y, void.argmax(axis=0)[None], 0)[0], np.nan)

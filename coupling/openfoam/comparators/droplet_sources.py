@@ -40,7 +40,7 @@ class Drops(NamedTuple):
     variance: np.ndarray
 
 
-class Rows(NamedTuple):
+class Parcels(NamedTuple):
     """R parcels of a step: place (R, d) [m], velocity (R, d) [m/s], temperature (R,) [K], diameter (R,) [m], flow
     (R,) [kg/s] or, of droplets at the start, mass [kg]."""
 
@@ -55,7 +55,7 @@ class Injector(NamedTuple):
     """A table of OpenFOAM's: name, rows, start and duration [s], mass of all that it gives [kg]."""
 
     name: str
-    rows: Rows
+    rows: Parcels
     start: float
     duration: float
     mass: float
@@ -88,7 +88,7 @@ def injectors(case: Case, drops: Drops, step: float) -> list[Injector]:
     return found
 
 
-def _open(name: str, nozzle, alike: list[Rows], step: float, last: float) -> list[Injector]:
+def _open(name: str, nozzle, alike: list[Parcels], step: float, last: float) -> list[Injector]:
     """Tables of a nozzle as long as it is open, in whole steps, until `last` [s]: the mass is that of its own times."""
     end = last if nozzle.end is None else min(nozzle.end, last)
     opened = end - nozzle.start
@@ -100,7 +100,7 @@ def _open(name: str, nozzle, alike: list[Rows], step: float, last: float) -> lis
     ]
 
 
-def _of_nozzle(case: Case, name: str, nozzle) -> Rows:
+def _of_nozzle(case: Case, name: str, nozzle) -> Parcels:
     """Parcels of a step from a nozzle: every place of its mouth, every size."""
     streams, own = streams_of(case, nozzle), sizes.of_nozzle(case, nozzle)
     place = _within(case, name, streams.mouth + INSIDE * unit(nozzle.direction))
@@ -111,7 +111,7 @@ def _of_nozzle(case: Case, name: str, nozzle) -> Rows:
     flow = streams.mass * streams.speed / streams.pitch
     at, which = (index.ravel() for index in np.meshgrid(np.arange(len(flow)), np.arange(len(share)), indexing="ij"))
     temperature = np.full(len(at), nozzle.temperature)
-    return Rows(place[at], streams.velocity[at], temperature, diameter[which], flow[at] * share[which])
+    return Parcels(place[at], streams.velocity[at], temperature, diameter[which], flow[at] * share[which])
 
 
 def _within(case: Case, name: str, place) -> np.ndarray:
@@ -124,14 +124,14 @@ def _within(case: Case, name: str, place) -> np.ndarray:
     return place
 
 
-def _divided(drops: Drops) -> Rows:
+def _divided(drops: Drops) -> Parcels:
     """Parcels of the droplets at the start, every size."""
     kinds = {pair: _parts(*pair, PARTS) for pair in set(zip(drops.diameter.tolist(), drops.variance.tolist()))}
     own = [kinds[pair] for pair in zip(drops.diameter.tolist(), drops.variance.tolist())]
     number = np.array([len(parts) for parts in own])
     at = np.repeat(np.arange(len(number)), number)
     diameter = np.array(list(itertools.chain.from_iterable(own)))
-    return Rows(drops.place[at], drops.velocity[at], drops.temperature[at], diameter, (drops.mass / number)[at])
+    return Parcels(drops.place[at], drops.velocity[at], drops.temperature[at], diameter, (drops.mass / number)[at])
 
 
 def _parts(diameter: float, variance: float, parts: int) -> list[float]:
@@ -141,10 +141,10 @@ def _parts(diameter: float, variance: float, parts: int) -> list[float]:
     return [m * (1.0 + v / m**2) ** 2 for m, v in size_classes.log_normal(diameter, math.sqrt(variance), parts)]
 
 
-def _alike(rows: Rows) -> list[Rows]:
+def _alike(rows: Parcels) -> list[Parcels]:
     """The rows, by their mass: those of the same together."""
     same = np.array([f"{mass:.{DIGITS}e}" for mass in rows.mass])
-    return [Rows(*(column[same == mass] for column in rows)) for mass in dict.fromkeys(same.tolist())]
+    return [Parcels(*(column[same == mass] for column in rows)) for mass in dict.fromkeys(same.tolist())]
 
 
 def table(case: Case, injector: Injector, middle: float, depth: float) -> str:

@@ -21,7 +21,7 @@ COLUMNS = ("time_s", "ax_m_s2", "ay_m_s2", "az_m_s2", "wx_rad_s", "wy_rad_s", "w
 
 @record
 class Frame:
-    """Sums of harmonics, or a table; the caller of `sdph.running.tank.Tank` gives its own in place of both.
+    """Sums of harmonics, or a table; the caller of `sdph.running.tank.DrivenTank` gives its own in place of both.
 
     The origin's displacement along axis a is sum A sin(w t + phase) of the rows [axis, A, w, phase] of `shake`
     (m, rad/s, rad); the angular velocity the same of `turn` (rad/s, rad/s, rad). Both begin at `start` and cease at

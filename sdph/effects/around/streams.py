@@ -12,6 +12,7 @@ import numpy as np
 from sdph.effects.around import rates
 from sdph.engine.rows import entry, place
 from sdph.laws.compiled import serial
+from sdph.laws.constants import TINY
 from sdph.schema import CaseError
 
 ROUND_OFF = 1e-9  # of a spacing
@@ -60,7 +61,7 @@ def streams_of(case, nozzle) -> Streams:
         speed = 1.0 - (along / reach) ** 2
         speed *= nozzle.speed / speed.mean()
     angle = nozzle.half_angle * distance / reach
-    outward = offsets / np.maximum(distance, 1e-300)[:, None]
+    outward = offsets / np.maximum(distance, TINY)[:, None]
     velocity = speed[:, None] * (np.cos(angle)[:, None] * axis + np.sin(angle)[:, None] * outward)
     if nozzle.shape == "annulus":
         velocity = velocity + nozzle.swirl * nozzle.speed * np.cross(axis, outward)

@@ -40,21 +40,23 @@ def coefficient(p, slip, spin, d, gas_density):
 
 
 @inlined
-def force(p, sizes_p, s, i, apart, slip, vorticity, gas_density):
-    """(x, y, z) [N] on all grains of particle i: mass average over its sizes; apart and vorticity (N, 3), v_g - v_p."""
+def force(p, sizes_p, s, i, around, slip):
+    """(x, y, z) [N] on all grains of particle i in the gas `around` (sdph.exchange.equations.Around): mass average over
+    its sizes."""
     if len(p) == 0:
         return 0.0, 0.0, 0.0
-    x, y, z = vorticity[i, 0], vorticity[i, 1], vorticity[i, 2]
+    x, y, z = around.vorticity[i, 0], around.vorticity[i, 1], around.vorticity[i, 2]
     spin, total, whole = math.sqrt(x * x + y * y + z * z), 0.0, 0.0
     own = sizes.birth(sizes_p, s, i)
     for q in range(sizes.classes(sizes_p)):
         d, mass = sizes.grain(sizes_p, s, i, own, q)
         if mass == 0.0:  # gone; what comes after is smaller still
             break
-        total += mass * coefficient(p, slip, spin, d, gas_density)
+        total += mass * coefficient(p, slip, spin, d, around.density[i])
         whole += mass
     rho = s.grain_density[i] if len(s.grain_density) else p.grain_density
-    push, u, v, w = s.mass[i] / rho * total / whole, apart[i, 0], apart[i, 1], apart[i, 2]
+    push = s.mass[i] / rho * total / whole
+    u, v, w = around.apart[i, 0], around.apart[i, 1], around.apart[i, 2]
     return push * (v * z - w * y), push * (w * x - u * z), push * (u * y - v * x)
 
 

@@ -11,6 +11,7 @@ import math
 from typing import NamedTuple
 
 from sdph.effects.effect import Effect, Judgement
+from sdph.laws.constants import TINY
 from sdph.schema import CaseError, quantity, record
 
 CAPILLARY = 0.25  # of sqrt(rho h^3/(2 pi sigma)), liquids.md, shared core; rho is the mean of both phases
@@ -63,7 +64,7 @@ def dt_limit(p, case, state) -> float:
 def call(scales) -> Judgement:
     """Capillary against dynamic and hydrostatic pressure: 1 over the larger of the Weber and Bond numbers."""
     weber, bond = scales.capillary(scales.case.parameters["surface_tension"].coefficient)
-    ratio = 1.0 / max(weber, bond, 1e-300)
+    ratio = 1.0 / max(weber, bond, TINY)
     return Judgement("1/max(Weber, Bond)", ratio, 0.01, "by their definitions", min(1.0, ratio))
 
 

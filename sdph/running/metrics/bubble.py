@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from coupling.gas import Mesh
-from sdph.case.gas_cells import SAME, Rows, layers
+from sdph.case.gas_cells import SAME, CellRows, layers
 from sdph.schema import CaseError
 
 VOID = 0.15  # alpha_p below which a cell belongs to a bubble (issue: state it; Kuipers et al. 1991)
@@ -25,7 +25,7 @@ def metrics(centres, volumes, alpha_p, gas_temperature, pressure, up=UP) -> dict
     Heights are over the floor, along `up` (3,); neck_width_m is the least width of the bubble below its widest row;
     attached is 1 while it touches the floor.
     """
-    rows = Rows(Mesh(centres, volumes, 2), up)
+    rows = CellRows(Mesh(centres, volumes, 2), up)
     own = largest_void(centres, rows, alpha_p)
     width = np.bincount(rows.own, own * volumes) / rows.height
     total, profile = float(volumes[own].sum()), rows.mean(pressure)
@@ -67,7 +67,7 @@ def rows_of(centres) -> tuple[np.ndarray, tuple[int, int]]:
     return np.lexsort((x, y)), (int(y.max()) + 1, int(x.max()) + 1)
 
 
-def largest_void(centres, rows: Rows, alpha_p) -> np.ndarray:
+def largest_void(centres, rows: CellRows, alpha_p) -> np.ndarray:
     """Mask (C,) of the largest connected region alpha_p < VOID that does not reach the last of the rows."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components

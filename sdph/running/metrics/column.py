@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from sdph.case.gas_cells import Rows, upwards
+from sdph.case.gas_cells import CellRows, upwards
 from sdph.engine import state as particles
 from sdph.laws import exact
 
@@ -23,7 +23,7 @@ def metrics(simulation) -> dict[str, float]:
     fractions."""
     case, mesh, fields = simulation.case, simulation.gas.mesh, simulation.cell_fields()
     up = upwards(case, "column")
-    rows, mass = Rows(mesh, up), simulation.state.mass
+    rows, mass = CellRows(mesh, up), simulation.state.mass
     pressure, alpha_p = rows.mean(fields["pressure"]), rows.mean(fields["alpha_p"])
     floor, lid = rows.at_ends(pressure)
     flux = rows.mean((1.0 - fields["alpha_p"]) * (fields["velocity"] @ up))

@@ -8,6 +8,7 @@ from pathlib import Path
 from sdph import scenes
 from sdph.case import judge
 from sdph.case import read as cases
+from sdph.laws.constants import TINY
 from sdph.study.cost import errors
 from sdph.study.cost import rows as measured_rows
 from sdph.study.cost.ladder import ALL, declared
@@ -93,7 +94,7 @@ def near(change: float, estimate: float) -> bool:
     share of the answer, so that a change of more than all of it counts as 1."""
     if max(change, estimate) < NEGLIGIBLE:
         return True
-    return 1.0 / FACTOR <= min(change, 1.0) / max(estimate, 1e-300) <= FACTOR
+    return 1.0 / FACTOR <= min(change, 1.0) / max(estimate, TINY) <= FACTOR
 
 
 def draw(scene: str, rows: list[dict], picture: Path) -> None:

@@ -7,8 +7,8 @@ import math
 from sdph import effects
 from sdph.methods.mps.method import limits as limits_of_step
 from sdph.study.explain import estimate
+from sdph.study.explain.liquids import WATER
 
-WATER = 0.0728  # N/m, of water in air at 20 C (IAPWS R1-76): for the Weber number of a case that gives none
 LAYERS = 3.0  # across a film: with two every particle is at a surface; swirl-sheet.md, section 2, 5
 ROWS = 2.5  # times a step of a weakly compressible liquid: the bar of issue 21, for want of a measured one
 

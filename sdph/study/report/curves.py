@@ -7,6 +7,7 @@ import re
 
 import numpy as np
 
+from sdph.study.report.bars import COLOURS
 from sdph.study.report.shown import Shown, folded, picture, section, spoken
 
 PANEL = (4.2, 2.6)  # inches of one curve
@@ -14,7 +15,6 @@ MOST = 9  # panels that are open; the rest is folded
 SIZES = re.compile(r"(outflow_)?(D\d\d|Dv\d\d)_m$")
 AXES = re.compile(r"_[xyz](?=_)|_[uvw](?=_m_s)|_(min|max|largest|lowest|highest)(?=_)")
 STYLES = ("-", "--", ":", "-.")
-COLOURS = ("#1f5fa8", "#c2561a", "#2b8a5a", "#8a3d9e", "#6b6b6b", "#b8890b")
 
 
 def curves(runs: list[Shown]) -> str:

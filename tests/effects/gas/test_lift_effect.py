@@ -14,6 +14,7 @@ from sdph.effects import OFF
 from sdph.effects.gas import lift, sizes
 from sdph.engine import state as particles
 from sdph.engine.ledger import Ledger
+from sdph.exchange.equations import Around
 from sdph.laws import lift as law
 from sdph.running.simulation import Simulation
 
@@ -78,13 +79,18 @@ def test_windows_are_short_enough_for_the_drift_that_lift_makes(tmp_path):
     )
 
 
+def around(apart, vorticity):
+    """Gas of 1.2 kg/m3 at a velocity (1, 3) [m/s] from that of a grain, with a vorticity (1, 3) [1/s]."""
+    return Around(apart, particles.lengths(apart), np.array([1.2]), np.array([300.0]), vorticity)
+
+
 def test_in_space_lift_is_across_slip_and_vorticity():
     state = particles.empty(1, ("diameter", "diameter_variance"), 3)
     state.mass[:], state.diameter[:] = 2.0, DIAMETER
     apart, vorticity, p = np.array([[0.1, -0.2, 0.4]]), np.array([[30.0, 50.0, -80.0]]), lift.kernel(grain())
     slip, spin = np.linalg.norm(apart), np.linalg.norm(vorticity)
     expected = 2.0 / DENSITY * law.saffman_mei(slip, spin, DIAMETER, 1.2, VISCOSITY) * np.cross(apart[0], vorticity[0])
-    np.testing.assert_allclose(lift.force(p, OFF, state, 0, apart, slip, vorticity, 1.2), expected, rtol=1e-13)
+    np.testing.assert_allclose(lift.force(p, OFF, state, 0, around(apart, vorticity), slip), expected, rtol=1e-13)
 
 
 def test_grains_of_all_sizes_are_lifted_by_mass():
@@ -92,8 +98,8 @@ def test_grains_of_all_sizes_are_lifted_by_mass():
     state, std = particles.empty(1, ("diameter", "diameter_variance")), 0.3 * DIAMETER
     state.mass[:], state.diameter[:], state.diameter_variance[:] = 2.0, DIAMETER, std**2
     spread = box(["lift"], lift={"law": "saffman"}, grains={"diameter_std_mm": std * 1e3})
-    around = np.array([[0.1, 0.0, 0.0]]), 0.1, np.array([[0.0, 0.0, 50.0]]), 1.2
-    found, single = (lift.force(lift.kernel(spread), p, state, 0, *around)[1] for p in (sizes.kernel(spread), OFF))
+    seen = around(np.array([[0.1, 0.0, 0.0]]), np.array([[0.0, 0.0, 50.0]]))
+    found, single = (lift.force(lift.kernel(spread), p, state, 0, seen, 0.1)[1] for p in (sizes.kernel(spread), OFF))
     assert found / single == pytest.approx(mass_moment(-1.0, DIAMETER, std) * DIAMETER, rel=1e-3)
 
 

@@ -12,7 +12,7 @@ from coupling.embedded import EmbeddedGas
 from coupling.gas import Mesh
 from sdph import scenes
 from sdph.case import read as cases
-from sdph.case.gas_cells import Rows
+from sdph.case.gas_cells import CellRows
 from sdph.engine import state as particles
 from sdph.laws import exact
 from sdph.running.metrics import column
@@ -83,7 +83,7 @@ def test_without_gravity_nothing_is_up(tmp_path):
 def test_rows_of_cells_in_no_layers():
     """Cells at random, as tetrahedra have their centres: slabs, from which a pressure that falls straight does so."""
     centres = np.random.default_rng(3).uniform(0.0, 1.0, (4000, 3)) * [0.1, 0.1, 0.4]
-    rows = Rows(Mesh(centres, np.full(4000, 1e-6), 3), (0.0, 0.0, 1.0))
+    rows = CellRows(Mesh(centres, np.full(4000, 1e-6), 3), (0.0, 0.0, 1.0))
     assert len(rows.place) == 40
     assert (rows.floor, rows.top) == pytest.approx((0.0, 0.4), abs=2e-3)
     assert rows.at_ends(rows.mean(5.0 - 10.0 * centres[:, 2])) == pytest.approx((5.0, 1.0), abs=0.02)
@@ -94,7 +94,7 @@ def test_cells_that_lean_stand_in_the_rows_of_those_beside_them():
     twenty, of which every other one would be as wide as those two alone."""
     x, y = (m.ravel() for m in np.meshgrid(np.arange(8.0) + 0.5, np.arange(10.0) + 0.5))
     lean = 0.03 * ((x < 1.0) | (x > 7.0))
-    rows = Rows(Mesh(np.stack([x, y + lean, 0.0 * x], axis=1), np.ones(80), 2), (0.0, 1.0, 0.0))
+    rows = CellRows(Mesh(np.stack([x, y + lean, 0.0 * x], axis=1), np.ones(80), 2), (0.0, 1.0, 0.0))
     assert len(rows.place) == 10 and rows.area == pytest.approx(8.0, rel=0.02)
     assert np.bincount(rows.own).tolist() == [8] * 10
 
