@@ -5,8 +5,9 @@ They are constants of a run, each at one temperature and at `gas.operating_press
 droplets at the mean of those that regions and nozzles give them; of their vapour, and of its diffusivity in the gas
 (Fuller), at that of the film, T_p + (T_g - T_p)/3 (the 1/3 rule: Hubbard, Denny & Mills 1975, Int. J. Heat Mass
 Transfer 18, 1003), all but without pressure; of [liquid] and [gas_phase] at `fluid_temperature_K`. Saturation is
-Antoine's through three points from the droplets' temperature to boiling. What a case gives itself stands; the resolved
-case has every number.
+Antoine's through three points from the droplets' temperature to boiling. Where the gas around droplets comes by name
+too it is as in their film (`coupling.film`): else its conductivity would be that of a hotter gas than the vapour diffuses
+in. What a case gives itself stands; the resolved case has every number.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ OF_GAS = {"density_kg_m3": "D", "viscosity_Pa_s": "V", "conductivity_W_m_K": "L"
 OF_DROPLETS = {key: OF_GAS[key] for key in ("density_kg_m3", "heat_capacity_J_kg_K", "conductivity_W_m_K")}
 OF_VAPOUR = {key: OF_GAS[key] for key in ("heat_capacity_J_kg_K", "conductivity_W_m_K", "viscosity_Pa_s")}
 OF_PHASES = {key: OF_GAS[key] for key in ("density_kg_m3", "viscosity_Pa_s")}
+LINEAR = "linear"  # of the laws of evaporation, the one that takes a film, and the default
 MOLAR_MASS, TENSION, DIFFUSIVITY = "molar_mass_kg_kmol", "surface_tension_N_m", "diffusivity_m2_s"
 # section with a fluid -> sections and the keys that it fills there, where the case has that effect
 FILLS = {
@@ -89,11 +91,28 @@ class Fluid:
 
 def filled(table: dict) -> dict:
     """The table of a case with the numbers of its fluids; the same one where it names none."""
+    own = table
     for name, fill in (("gas", _gas), ("grains", _droplets), ("liquid", _phase), ("gas_phase", _phase)):
         given = table.get(name)
         if isinstance(given, dict) and isinstance(given.get("fluid"), str) and given["fluid"] and _lacks(table, name):
             table = fill(table, name, Fluid(given["fluid"], name))
-    return table
+    return table if table is own else _with_film(own, table)
+
+
+def _with_film(own: dict, table: dict) -> dict:
+    """A filled `table` with the gas around droplets as in their film, where its conductivity and their vapour, which is
+    that of the film, come by name, the law is one that takes a film, and the case `own` says nothing of it."""
+    gas, grains, coupling, boils = (_section(own, name) for name in ("gas", "grains", "coupling", "evaporation"))
+    by_name = gas.get("fluid") and grains.get("fluid") and "conductivity_W_m_K" not in gas
+    asked = all(name in own.get("effects", ()) for name in ("evaporation", "heat"))
+    if not by_name or not asked or boils.get("law", LINEAR) != LINEAR or "film" in coupling:
+        return table
+    return _with(table, "coupling", {"film": True})
+
+
+def _section(table: dict, name: str) -> dict:
+    """A section of the table of a case; empty where there is none."""
+    return own if isinstance(own := table.get(name), dict) else {}
 
 
 def _lacks(table: dict, name: str) -> bool:

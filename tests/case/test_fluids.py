@@ -50,6 +50,16 @@ def test_vapour_is_that_of_the_film():
     assert vapour.diffusivity == pytest.approx(2.178e-5 * (295.433 / 273.15) ** 1.81, rel=0.05)
 
 
+def test_gas_by_name_is_that_of_the_film_too():
+    """Where the vapour is that of the film, gas at its own temperature would conduct too much; what a case says
+    stands."""
+    assert cases.from_table(droplet()).coupling.film is False  # Spalding's law takes no film
+    linear = droplet() | {"evaporation": {"law": "linear"}}
+    assert cases.from_table(linear).coupling.film is True
+    for more in ({"coupling": {"film": False}}, {"gas": NAMED["gas"] | {"conductivity_W_m_K": 0.026}}):
+        assert cases.from_table(linear | more).coupling.film is False
+
+
 @pytest.mark.parametrize(
     ("atoms", "molar_mass", "measured"),
     [
