@@ -6,8 +6,8 @@ droplets at the mean of those that regions and nozzles give them; of their vapou
 (Fuller), at that of the film, T_p + (T_g - T_p)/3 (the 1/3 rule: Hubbard, Denny & Mills 1975, Int. J. Heat Mass
 Transfer 18, 1003), all but without pressure; of [liquid] and [gas_phase] at `fluid_temperature_K`. Saturation is
 Antoine's through three points from the droplets' temperature to boiling. Where the gas around droplets comes by name
-too it is as in their film (`coupling.film`): else its conductivity would be that of a hotter gas than the vapour diffuses
-in. What a case gives itself stands; the resolved case has every number.
+too it is as in their film (`coupling.film`): else its conductivity would be that of a hotter gas than the vapour
+diffuses in. What a case gives itself stands; the resolved case has every number.
 """
 
 from __future__ import annotations

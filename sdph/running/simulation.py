@@ -7,7 +7,7 @@ import time as clock
 
 import numpy as np
 
-from coupling.gas import GasError, Unfinished
+from coupling.gas import Unfinished
 from coupling.transfer import Transfer, gather
 from sdph import effects
 from sdph.effects.around import electric_field
@@ -17,13 +17,11 @@ from sdph.engine.kept import Unfit
 from sdph.exchange.exchange import Exchange
 from sdph.exchange.window import Window, learned
 from sdph.methods.grains.grains import Grains
-from sdph.running import forces, history, outlet, output
+from sdph.running import forces, history, outlet, output, through_gas
 from sdph.running.beside import Beside
 from sdph.running.limiters import Limiters
 from sdph.running.work import Pushes
 
-PART = 4.0  # a window that the gas cannot finish is taken again, so much shorter (our choice),
-REPEATS = 4  # so often at most: down to 1/256
 SAME_TIME = 1e-6  # of the end time: the gas sums up its windows with round-off; our choice
 
 
@@ -144,31 +142,43 @@ class Simulation:
     def window(self) -> None:
         """One window: exchange prepared, gas advanced, reaction taken, particles advanced and renewed."""
         before = self.gas_state.budget
-        end, handed = self._with_gas(self.clock.choose(self.time))
+        end, handed = through_gas.advance(self, self.clock.choose(self.time))
         dt = end - self.time
+        taken = self.timed("exchange", self.exchange.take, self.state, handed, self.gas_state)
         self.pressed = self._forces(before, dt)
-        taken = self._timed("exchange", self.exchange.take, self.state, handed, self.gas_state)
-        changed = self.world.sum(np.array(learned(self.state, taken.heat, dt))).tolist()
+        changed = self._look_back(handed, taken, dt)
+        broken = self.exchange.settle(self.state, handed)
+        pushes = self._react(handed, taken, dt)
+        self.timed("particles", self._advance, end)
+        self.grains.close()
+        exchanged = self._exchanged(handed, taken, broken, pushes)
+        self._look_ahead(handed, changed, dt)
+        self.timed("exchange", self._renew)
+        self.clock.obey({"contact": self.beside.limit(self.state)})
+        totals, budget = self._totals(), self.gas_state.budget
+        self.ledger.close_window(end, dt, self.clock.limit, totals, budget, exchanged | self.grains.columns())
+
+    def _look_back(self, handed, taken, dt: float) -> list[float]:
+        """Take note of what the gas did in a window of `dt` [s] to grains as they were handed, which the next one has
+        to bear; heat [J] that they exchanged, and how its rate changed [W] (sdph.exchange.window.learned)."""
         self.clock.hold(self.exchange.grip(self.state, handed.damping))
         settling = self.exchange.settling(self.state, handed.damping, handed.force, handed.velocity, handed.around[0])
         self.clock.obey({"settling": settling})
-        broken = self.exchange.settle(self.state, handed)
-        held = self._react(handed, taken, dt)
-        self._timed("particles", self._advance, end)
-        self.grains.close()
+        return self.world.sum(np.array(learned(self.state, taken.heat, dt))).tolist()
+
+    def _exchanged(self, handed, taken, broken, pushes) -> dict[str, float]:
+        """Ledger columns of what was exchanged and has `broken`, once the grains have gone their way."""
         way = self.grains.way
         self._hear(handed.held() | self.gas_state.budget.held)
-        exchanged = self.world.sums(taken.columns() | handed.columns() | held.columns(way) | broken)
-        exchanged |= taken.columns_of_gas()
-        exchanged |= {"drag_heat_J": self.exchange.handed_heat(handed)}
-        exchanged |= {"friction_J": self.exchange.rub(handed, taken, self.gas_state, way, self.grains.damped)}
+        exchanged = self.world.sums(taken.columns() | handed.columns() | pushes.columns(way) | broken)
+        exchanged |= taken.columns_of_gas() | {"drag_heat_J": self.exchange.handed_heat(handed)}
+        return exchanged | {"friction_J": self.exchange.rub(handed, taken, self.gas_state, way, self.grains.damped)}
+
+    def _look_ahead(self, handed, changed: list[float], dt: float) -> None:
+        """Take note of how long the next window may be, from one of `dt` [s] just done and how heat `changed` in it."""
         self.clock.learn(dt, *changed, self.gas_state.budget.courant, self.grains.fastest())
         self.clock.thicken(dt, *self.exchange.lost(handed, self.gas_state))
         self._obey_effects()
-        self._timed("exchange", self._renew)
-        self.clock.obey({"contact": self.beside.limit(self.state)})
-        exchanged |= self.grains.columns()
-        self.ledger.close_window(end, dt, self.clock.limit, self._totals(), self.gas_state.budget, exchanged)
 
     def _obey_effects(self) -> None:
         """Take note of the longest windows that effects bear now."""
@@ -205,31 +215,8 @@ class Simulation:
         """Gas volume fraction of the cells now."""
         return self.exchange.alpha_g(self.state, self.weights, self.grains.share_inside())
 
-    def _with_gas(self, end: float):
-        """Gas through the window to `end` [s], or through the part of it that it can finish: where that ends, and what
-        was handed."""
-        for _ in range(REPEATS + 1):
-            self.grains.begin()
-            self.stepper.guard.rule(end - self.time, self.clock.limit)
-            handed = self._timed("exchange", self._hand, end - self.time)
-            failure = self._timed("gas", self._advance_gas, handed)
-            if failure is None:
-                return end, handed
-            self.gas_state, tried = self.gas.retreat(), end - self.time
-            end, self.repeated = self.time + tried / PART, self.repeated + 1
-            self.notices.append(
-                f"window {self.windows + 1}, t = {self.time:.6g} s: taken again, a quarter of {tried:.3g} s long, "
-                f"because {failure}"
-            )
-        keys = f"coupling.window_largest_s below {tried:.2g} or coupling.courant (now {self.case.coupling.courant:g})"
-        raise GasError(
-            f"the gas cannot finish window {self.windows + 1} at t = {self.time:.6g} s, not even {tried:.3g} s of it: "
-            f"{failure}; lower {keys}, "
-            "or look at what enters there ([boundaries], [nozzles]) and at resolution.cell_mm"
-        )
-
-    def _advance_gas(self, handed) -> str | None:
-        """Take the gas through a window; why that cannot count, or None."""
+    def advance_gas(self, handed) -> str | None:
+        """Take the gas through a window with what it is `handed`; why that cannot count, or None."""
         try:
             self.gas_state = self.gas.advance(handed.dt, {} if self.case.coupling.one_way else handed.sources)
         except Unfinished as failure:
@@ -276,7 +263,7 @@ class Simulation:
         """Fields of the gas, and alpha_p by cell."""
         return self.gas_state.fields | {"alpha_p": 1.0 - self._alpha_g()}
 
-    def _hand(self, dt: float):
+    def hand(self, dt: float):
         """The exchange of a window of `dt`, from where the particles are in its middle (second order in their motion);
         the gas is told where they will be at its end."""
         if self.grains.moves:
@@ -293,7 +280,8 @@ class Simulation:
             pressed -= gather(handed.weights, self.gas_state.fields["pressure_gradient"]) / own
         return self.stepper.gravity, pressed, electric_field.acceleration(self.parameters["electric_field"], self.state)
 
-    def _timed(self, part: str, function, *arguments):
+    def timed(self, part: str, function, *arguments):
+        """Result of a function; its wall time [s] counts for a part of `wall`."""
         start = clock.perf_counter()
         result = function(*arguments)
         self.wall[part] += clock.perf_counter() - start

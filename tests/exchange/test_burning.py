@@ -130,7 +130,7 @@ def test_momentum_of_what_was_solid_goes_along(tmp_path):
     bed = {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.02, 0.02], "volume_fraction": 1e-4}
     case = boxed(particles={"bed": bed | {"temperature_K": 1100.0, "velocity_m_s": [0.3, -0.2]}})
     run = started(case, tmp_path)
-    handed = run._hand(0.01)
+    handed = run.hand(0.01)
     volumes, burned = run.exchange.volumes, handed.loss.mass.sum()
     momentum = (handed.terms["momentum", "reaction"] * volumes[:, None]).sum(axis=0)
     np.testing.assert_allclose(0.01 * momentum, burned * np.array([0.3, -0.2, 0.0]), rtol=1e-12, atol=1e-30)
@@ -151,7 +151,7 @@ def test_no_window_takes_more_than_a_cell_holds(tmp_path):
 
 def test_a_gas_that_has_less_than_is_used_up_says_so(tmp_path):
     run = started(boxed(), tmp_path)
-    handed = run._hand(0.01)
+    handed = run.hand(0.01)
     more = handed.sources | {"vapour": -np.full(1, 0.2 * GAS / 0.01)}
     with pytest.raises(Unfinished, match="less vapour than"):
         run.gas.advance(0.01, more)

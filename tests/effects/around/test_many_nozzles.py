@@ -190,7 +190,7 @@ def test_the_grip_of_the_gas_is_of_the_grains_in_it(tmp_path):
     done = begun(case(FACING), tmp_path)
     while done.time < 0.03:
         done.window()
-    handed = done._hand(1e-3)
+    handed = done.hand(1e-3)
     lone = particles.grains(done.state)
     alone = handed.damping[done.state.kind == GRAIN]
     assert done.exchange.grip(done.state, handed.damping) == pytest.approx(done.exchange.grip(lone, alone), rel=1e-12)

@@ -62,7 +62,7 @@ def test_what_the_droplets_lose_the_gas_gains(tmp_path, more):
 def test_momentum_of_the_vapour_is_that_of_the_droplet(tmp_path):
     case = droplet(*TWO_WAY, *MANY, "particles.droplet.velocity_m_s=[0.3, -0.2]")
     run = started(case, tmp_path)
-    handed = run._hand(0.01)
+    handed = run.hand(0.01)
     volumes = run.exchange.volumes
     mass = (handed.sources["vapour"] * volumes).sum()
     momentum = (handed.terms["momentum", "evaporation"] * volumes[:, None]).sum(axis=0)
@@ -78,7 +78,7 @@ def test_the_pace_of_vapour_is_what_a_short_window_brings(tmp_path):
     run = started(droplet(*TWO_WAY, *MANY), tmp_path)
     pace, _ = run.exchange.pace(run.state, run.weights, run.gas_state)[2]
     assert pace > 0.0
-    assert run.exchange.losing.share(run._hand(1e-6), run.gas_state) == pytest.approx(1e-6 * pace, rel=1e-3)
+    assert run.exchange.losing.share(run.hand(1e-6), run.gas_state) == pytest.approx(1e-6 * pace, rel=1e-3)
 
 
 @pytest.mark.parametrize("windows", [1, 7])

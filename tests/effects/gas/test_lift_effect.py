@@ -125,7 +125,7 @@ def test_off_asks_for_nothing(tmp_path):
         started(case := grain(effects=effects), tmp_path, Sheared(case)) for effects in (("drag", "lift"), ("drag",))
     )
     assert on.gas.fields == ("vorticity",) and off.gas.fields == ()
-    assert len(on._hand(1e-4).force) == len(on.state.x) and len(off._hand(1e-4).force) == 0
+    assert len(on.hand(1e-4).force) == len(on.state.x) and len(off.hand(1e-4).force) == 0
 
 
 def work(folder, count):

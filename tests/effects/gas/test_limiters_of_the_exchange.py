@@ -56,7 +56,7 @@ def test_the_rest_of_a_droplet_is_counted(tmp_path, left, gone):
     """left^1.5 of its mass: below 1e-9 it goes at once, above it stays."""
     case, window = warm(left)
     run = started(case, tmp_path)
-    mass, handed = run.state.mass[0], run._hand(window)
+    mass, handed = run.state.mass[0], run.hand(window)
     rest = mass * left**1.5 if gone else 0.0
     assert handed.columns()["finished_kg"] == handed.loss.rest[0] == pytest.approx(rest, rel=1e-6)
     assert (handed.loss.mass[0] == mass) == gone
@@ -80,7 +80,7 @@ def test_a_held_force_on_a_droplet_that_goes_is_counted(tmp_path, share, gone):
     run = started(case, tmp_path)
     rates = run.exchange._rates
     run.exchange._rates = lambda *seen: (*rates(*seen)[:3], np.array([[3e-9, 0.0, 4e-9]]))
-    handed = run._hand(window + 1e-6)
+    handed = run.hand(window + 1e-6)
     assert handed.columns()["impulse_of_gone_kg_m_s"] == pytest.approx(5e-9 * handed.dt if gone else 0.0)
     assert handed.force.any() != gone
 

@@ -150,7 +150,7 @@ def test_its_window_is_a_part_of_its_own_time(tmp_path):
 
 def test_off_leaves_nothing(tmp_path):
     started = simulation(disc(*BOX), tmp_path)
-    handed = started._hand(1e-3)
+    handed = started.hand(1e-3)
     assert started.parameters["radiation"] == OFF
     assert len(started.exchange.take(started.state, handed, started.gas_state).lost) == 0
     assert effects.kernel_of(radiation.EFFECT, started.case) == OFF

@@ -8,7 +8,7 @@ from coupling.gas import GasError
 from sdph import cli
 from sdph.engine.guard import Unstable
 from sdph.methods.grains.bounds import Guard
-from sdph.running import simulation as running
+from sdph.running import through_gas
 from sdph.schema import CaseError
 from sdph.study.explain import estimate
 from sdph.study.stress import suite
@@ -110,7 +110,7 @@ def test_bad_gas_is_caught(tmp_path):
         GasError, match="cannot finish window 1 .*gas temperature of cell 3 .*lower coupling.window_largest_s"
     ):
         run.window()
-    assert run.repeated == len(run.notices) == running.REPEATS + 1
+    assert run.repeated == len(run.notices) == through_gas.REPEATS + 1
 
 
 def test_nothing_is_caught_in_a_sound_run(tmp_path):
