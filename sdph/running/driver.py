@@ -230,8 +230,9 @@ class Run:
         self.simulation, self.out = simulation, Outputs(written, simulation)
         if checkpoint is None:
             forces.refuse_nowhere(self.case, simulation.methods)
-            vessel.refuse_outside(self.case, gas, simulation.state)
-            vessel.refuse_mouths_outside(self.case, gas)
+            mesh = vessel.own_mesh(gas, self.folder)
+            vessel.refuse_beside(self.case, mesh)
+            vessel.refuse_outside(self.case, vessel.Cells(self.case, mesh), simulation.state)
             simulation.start()
             self.out.start()
             self._save()

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import tempfile
 from pathlib import Path
 
 from sdph.case import forces
-from sdph.running import vessel
 from sdph.study import inlets, rehearsal
 from sdph.study.explain import tables
 
@@ -14,11 +12,7 @@ from sdph.study.explain import tables
 def explained(case, template: Path, *, allow_code: bool = False) -> dict[str, list[dict]]:
     """All parts of `tables.explain`; `CaseError` where `sdph run` would end with one. Arguments as of
     `rehearsal.rehearsed`."""
-    with (
-        rehearsal.rehearsed(case, template, allow_code=allow_code, whole=True) as mesh,
-        tempfile.TemporaryDirectory() as folder,
-    ):
-        seen = vessel.foreseen(case, mesh, Path(folder))
+    with rehearsal.rehearsed(case, template, allow_code=allow_code, whole=True) as (seen, mesh):
         parts = tables.explain(seen, rehearsal.priced(case, mesh))
         last = next(name for name in parts if name.startswith("warnings"))  # grains come first
         parts[last] += [{"warning": text} for text in inlets.warnings(case, mesh)]
@@ -28,9 +22,5 @@ def explained(case, template: Path, *, allow_code: bool = False) -> dict[str, li
 
 def warned(case, template: Path, *, allow_code: bool = False, whole: bool = False) -> list[str]:
     """The warnings alone; what cannot run is refused, without `whole` but for its particles."""
-    with (
-        rehearsal.rehearsed(case, template, allow_code=allow_code, whole=whole) as mesh,
-        tempfile.TemporaryDirectory() as folder,
-    ):
-        seen = vessel.foreseen(case, mesh, Path(folder))
+    with rehearsal.rehearsed(case, template, allow_code=allow_code, whole=whole) as (seen, mesh):
         return [*tables.warnings(seen), *inlets.warnings(case, mesh)]
