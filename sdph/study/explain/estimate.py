@@ -19,7 +19,7 @@ from sdph.exchange.window import ANSWER, opening
 from sdph.laws import kernels
 from sdph.methods.grains import start
 from sdph.methods.grains.sound import SWING
-from sdph.study.explain import pace
+from sdph.study.explain import feed, pace
 
 ROW = 8  # bytes of a number and of an entry of a neighbour row
 SCRATCH = 30  # arrays of the length of the particles that a step makes
@@ -208,7 +208,10 @@ def _windows(case, s) -> list[tuple]:
         for name, limit in asked.items()
         if limit < math.inf
     ]
-    if "heat" in case.effects and s.span and not own.one_way:
+    if fed := feed.of(case, s):
+        how = "the change of the heat that droplets exchange while nozzles feed them, half-way: an estimate"
+        rows.append(("window", "heat exchange", fed.longest(own.window_tolerance), how))
+    elif "heat" in case.effects and s.span and not own.one_way:
         rate = 1.0 / s.heat_time + 1.0 / s.gas_heat_time
         first = math.sqrt(2.0 * own.window_tolerance) / rate
         rows.append(
