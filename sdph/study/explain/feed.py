@@ -1,17 +1,17 @@
-"""Heat that grains and droplets exchange while nozzles feed them, for estimates of windows: `Window.learn` is told of it
-as a run tells it.
+"""Heat that grains and droplets exchange while nozzles feed them, for estimates of windows: `Window.learn` is told of
+it as a run tells it.
 
-A run holds the change of every particle's rate of heat in a window, over the heat that there is to exchange. Of what a
-nozzle feeds at a constant rate there is C t to exchange after the time t (C for a second's, with its gas). Each second's
-share of it gives its heat at the rates of
+A run holds the change of every particle's rate of heat in a window, over the heat that there is to exchange. Of what
+a nozzle feeds at a constant rate there is C t to exchange after the time t. Each second's share gives its heat at the
+rates of
 
 - the grains, 1/(heat time), and
 - the gas among them, 1/(its heat time), thinned out as a cone spreads on half of its way; gas that is passed faster
   than that is met anew once in 2 h and a cell, as far as a particle reaches: no rate is above speed/(2 h + cell).
 
-So what is exchanged is (1 - exp(-r t)) C, and changes at the sum of the two rates, r. A jet that does not spread meets
-new gas at its rim, as thick as the gas takes to follow it or as the kernel resolves, for as long as it is there. Estimate:
-the rates are those of the speed at the mouth, and how gas and droplets mix beyond that is not known before the run.
+So what is exchanged is (1 - exp(-r t)) C, and changes at the sum r of the two rates. A jet that does not spread meets
+new gas at its rim, as thick as the gas takes to follow it or as the kernel resolves, for as long as it is there. These
+are estimates: the rates are those of the speed at the mouth, and how gas and droplets mix is not known before the run.
 """
 
 from __future__ import annotations
@@ -35,7 +35,9 @@ class Feed:
         thick = 2.0 * max(s.thrown * s.gas_drag_time, case.smoothing_length)
         self.rim = 0.0 if angle else renewed * min(1.0, thick / s.length)  # [1/s]
         # a particle is in the gas once the middle of its layer is past the mouth
-        self.start = min(nozzle.start + 0.5 * case.resolution.spacing / nozzle.speed for nozzle in case.nozzles.values())
+        self.start = min(
+            nozzle.start + 0.5 * case.resolution.spacing / nozzle.speed for nozzle in case.nozzles.values()
+        )
         self.end = max(nozzle.end or case.run.end_time for nozzle in case.nozzles.values())
         self.windows = 0  # that exchanged any
 
@@ -52,9 +54,10 @@ class Feed:
         change = flow * -math.expm1(-self.rate * dt) if self.windows > 1 else 0.0
         return flow * dt, change
 
-    def under_way(self) -> bool:
-        """True once there was a window with a change of the rate: what holds later ones is longer from then on."""
-        return self.windows > 2
+    def under_way(self, least: float, tolerance: float) -> bool:
+        """True once there was a window with a change of the rate, as what holds later ones is longer from then on; or
+        where `least` [s], of other limits, is below all that the heat asks for, as of a share that is r t at most."""
+        return self.windows > 2 or least < SAFETY * math.sqrt(tolerance) / self.rate
 
     def longest(self, tolerance: float) -> float:
         """Window [s] that the heat allows half-way."""

@@ -106,15 +106,15 @@ class Driven:
     def settled(self) -> bool:
         """True where no limit that rules will change any more: each is what it will be, or stays above the least."""
         now = self.clock.limits
-        if self.feed and not self.feed.under_way():
-            return False
         least = min(limit for cause, limit in now.items() if cause != "heat exchange")
+        if self.feed and not self.feed.under_way(least, self.clock.control.tolerance):
+            return False
         pairs = [(now.get(cause, 0.0), limit) for cause, limit in self.steady.items()]
         steady = all(math.isclose(*pair) or min(pair) > least for pair in pairs)
         return steady and now.get("heat exchange", math.inf) > least
 
     def learn(self, dt: float) -> None:
-        """A window of `dt` [s] is done; what is left of the heat has relaxed exponentially, or nozzles go on feeding."""
+        """A window of `dt` [s] is done; what is left of the heat has relaxed exponentially, or nozzles feed more."""
         courant = self.clock.courant * dt / self.steady["courant"] if "courant" in self.steady else 0.0
         if self.feed:
             self.clock.learn(dt, *self.feed.window(self.time, dt), courant, self.fastest)
