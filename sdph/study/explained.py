@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from sdph.case import forces
+from sdph.case import forces, usual
 from sdph.study import inlets, rehearsal
 from sdph.study.explain import tables
 
@@ -15,7 +15,7 @@ def explained(case, template: Path, *, allow_code: bool = False) -> dict[str, li
     with rehearsal.rehearsed(case, template, allow_code=allow_code, whole=True) as (seen, mesh):
         parts = tables.explain(seen, rehearsal.priced(case, mesh))
         last = next(name for name in parts if name.startswith("warnings"))  # grains come first
-        parts[last] += [{"warning": text} for text in inlets.warnings(case, mesh)]
+        parts[last] += [{"warning": text} for text in (*inlets.warnings(case, mesh), *usual.warnings(case))]
         parts["forces"] = forces.rows(seen)
     return parts
 
@@ -23,4 +23,4 @@ def explained(case, template: Path, *, allow_code: bool = False) -> dict[str, li
 def warned(case, template: Path, *, allow_code: bool = False, whole: bool = False) -> list[str]:
     """The warnings alone; what cannot run is refused, without `whole` but for its particles."""
     with rehearsal.rehearsed(case, template, allow_code=allow_code, whole=whole) as (seen, mesh):
-        return [*tables.warnings(seen), *inlets.warnings(case, mesh)]
+        return [*tables.warnings(seen), *inlets.warnings(case, mesh), *usual.warnings(case)]
