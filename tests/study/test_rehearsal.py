@@ -8,6 +8,7 @@ from test_cli import refused  # noqa: F401  (a fixture)
 from test_own_meshes import round_vessel
 
 from sdph import scenes
+from sdph.case import read as cases
 from sdph.cli import main
 
 EMBEDDED = "coupling.gas='embedded'"
@@ -137,3 +138,18 @@ def test_a_template_that_cannot_be_run_is_refused_by_both(refused, tmp_path):  #
     (tmp_path / "mine" / "gas" / "system" / "controlDict").write_text('libs ("mine.so");\n')
     said = refused("explain", "mine", *OPENFOAM)
     assert said == refused("run", "mine", *OPENFOAM) and "--allow-code" in said
+
+
+@pytest.mark.parametrize(
+    ("scene", "told"),
+    [
+        ("water_under_air", "[pools.air] before it takes all of its place; put [pools.water] before [pools.air]"),
+        ("bubble_rise", "pools.bubble is a disc; put [pools.bubble] before the others"),
+    ],
+)
+def test_pools_in_the_wrong_order_are_told_which_comes_first(refused, tmp_path, scene, told):  # noqa: F811
+    table = cases.parsed(scenes.find(scene)[1])
+    table["pools"] = dict(reversed(table["pools"].items()))
+    (tmp_path / "case.toml").write_text(tomli_w.dumps(table))
+    said = refused("explain", str(tmp_path))
+    assert told in said and refused("run", str(tmp_path), "--out", "out") == said
