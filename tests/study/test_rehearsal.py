@@ -68,6 +68,7 @@ BOX = ("tank.shape='box'", "tank.lower_m=[0,0,0]", "tank.upper_m=[1,1,1]")
         ("dam_break", ("tank.upper_m=[-1,1]",), "narrower than resolution.spacing_mm"),
         ("dam_break", ("pools.column.phase='gas'", "gas_phase.density_kg_m3=1.2"), "no particle of liquid"),
         ("oscillating_droplet", ("pools.drop.flow='rotation'",), "is that of a box"),
+        ("drop_on_plate", ("pools.drop.velocity_m_s=[0,-30]",), "pools.drop begins at 30 m/s, faster than sound in it"),
         ("dam_break_3d", ("pools.column.flow='taylor_green'",), "is known in two dimensions"),
     ],
 )

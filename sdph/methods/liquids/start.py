@@ -96,7 +96,9 @@ def _pool(case, pools: list, number: int) -> particles.State:
     state.density[:] = _density(case, pool, _pressure(case, pool, pools[-1], points))
     # two phases fill their space from the start
     state.mass[:] = (state.density if case.gas_phase else density) * volume
-    for array, value in zip((state.u, state.v, state.w), _velocity(pool, points, d).T):
+    velocity = _velocity(pool, points, d)
+    _refuse_fast(case, list(case.pools)[number], velocity)
+    for array, value in zip((state.u, state.v, state.w), velocity.T):
         array[:] = value
     return state
 
@@ -120,6 +122,17 @@ def _refuse_outside(case, name: str, points) -> None:
         raise CaseError(
             f"pools.{name}: {outside} of its {len(points)} particles would stand outside the tank, up to "
             f"{beyond.max():.3g} m from it; move the pool, or make it smaller"
+        )
+
+
+def _refuse_fast(case, name: str, velocity) -> None:
+    """CaseError where particles of a pool begin faster, velocity (N, d) [m/s], than the liquid's sound, if it has one: the
+    guard would stop the run at once."""
+    fastest, sound = float(np.linalg.norm(velocity, axis=1).max()), case.fastest_sound
+    if sound and fastest > sound:
+        raise CaseError(
+            f"pools.{name} begins at {fastest:.4g} m/s, faster than sound in it ({sound:g} m/s); lower its velocity, or "
+            f"raise liquid.sound_speed_m_s to ten times that ({10.0 * fastest:.3g})"
         )
 
 
