@@ -126,13 +126,13 @@ def _refuse_outside(case, name: str, points) -> None:
 
 
 def _refuse_fast(case, name: str, velocity) -> None:
-    """CaseError where particles of a pool begin faster, velocity (N, d) [m/s], than the liquid's sound, if it has one: the
-    guard would stop the run at once."""
+    """CaseError where particles of a pool begin faster, velocity (N, d) [m/s], than the liquid's sound, if it has one:
+    the guard would stop the run at once."""
     fastest, sound = float(np.linalg.norm(velocity, axis=1).max()), case.fastest_sound
     if sound and fastest > sound:
         raise CaseError(
-            f"pools.{name} begins at {fastest:.4g} m/s, faster than sound in it ({sound:g} m/s); lower its velocity, or "
-            f"raise liquid.sound_speed_m_s to ten times that ({10.0 * fastest:.3g})"
+            f"pools.{name} begins at {fastest:.4g} m/s, faster than sound in it ({sound:g} m/s); lower its velocity, "
+            f"or raise liquid.sound_speed_m_s to ten times that ({10.0 * fastest:.3g})"
         )
 
 
