@@ -125,9 +125,9 @@ What misses, by what was seen in the runs (the particle that rules each sub-step
   not look for.
 - The fluidised column is too narrow for bubbles: it begins at 0.61, where contacts press, and eases for as long as
   the run lasts.
-- Jets that do not spread: gas that they drag along mixes with them at the rim in a way that is not known before. The one
-  of 60 m/s exchanges 3.3 times the heat that is at stake in its time (`heat exchange` rules its windows), slow ones
-  less than is foreseen. Cones are met within 20 %.
+- Jets that do not spread: gas that they drag along mixes with them at the rim in a way that is not known before. The
+  one of 60 m/s exchanges 3.3 times the heat that is at stake in its time (`heat exchange` rules its windows), slow
+  ones less than is foreseen. Cones are met within 20 %.
 
 {counts}
 """

@@ -16,6 +16,7 @@ from sdph.engine import state as particles
 from sdph.engine.state import WALL
 from sdph.exchange.window import Window
 from sdph.methods.grains.grains import Grains
+from sdph.methods.liquids import bodies as immersion
 from sdph.methods.liquids.parts import shares
 from sdph.methods.liquids.start import parts_of as parts_of_liquid
 from sdph.methods.mps.method import MpsStepper
@@ -62,6 +63,9 @@ def _made(case, seen, mesh: Path) -> list[str]:
     made = {matter: MADE[case.moved_by(matter)](seen.only(matter)) for matter in case.matters}
     forces.refuse_nowhere(case, {name for matter, one in made.items() for name in _named(seen, matter, one)})
     forces.refuse_cold(case, set(made["grains"][0].heated) if "grains" in made else set())
+    if {"liquid", "solid"} <= made.keys():
+        _, wet, _ = made["liquid"]
+        immersion.beside(case.only("liquid"), wet, particles.positions(made["solid"].state))
     if _brings_its_own(case, mesh):
         vessel.refuse_outside(seen.only("grains"), vessel.Cells(seen, mesh), made["grains"][0].state)
     return made["grains"][0].notices if "grains" in made else []

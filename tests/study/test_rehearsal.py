@@ -69,6 +69,11 @@ BOX = ("tank.shape='box'", "tank.lower_m=[0,0,0]", "tank.upper_m=[1,1,1]")
         ("dam_break", ("pools.column.phase='gas'", "gas_phase.density_kg_m3=1.2"), "no particle of liquid"),
         ("oscillating_droplet", ("pools.drop.flow='rotation'",), "is that of a box"),
         ("drop_on_plate", ("pools.drop.velocity_m_s=[0,-30]",), "pools.drop begins at 30 m/s, faster than sound in it"),
+        (
+            "gel_droplet",
+            ("bodies.shell.inner_radius_m=1e-4",),
+            "no particle of the liquid is left of [pools.gel]",
+        ),
         ("dam_break_3d", ("pools.column.flow='taylor_green'",), "is known in two dimensions"),
     ],
 )
