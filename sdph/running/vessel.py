@@ -80,7 +80,7 @@ def own_mesh(gas, folder: Path) -> Path | None:
 
 
 class Cells:
-    """Where the gas has cells: all over the domain, or where an own `mesh` has some."""
+    """Places of the gas's cells: all over the domain, or those of an own `mesh`."""
 
     def __init__(self, case, mesh: Path | None):
         self.domain, self.dimensions = case.domain, case.dimensions

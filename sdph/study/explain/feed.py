@@ -22,7 +22,7 @@ from sdph.exchange.window import SAFETY, smallest_cell
 
 
 class Feed:
-    """What nozzles of a case with scales `s` feed, in units of the heat of a second of it."""
+    """Feed of the nozzles of a case with scales `s`, in units of the heat of a second of it."""
 
     def __init__(self, case, s):
         fastest = max(case.nozzles.values(), key=lambda nozzle: nozzle.speed)
@@ -42,11 +42,11 @@ class Feed:
         self.windows = 0  # that exchanged any
 
     def stake(self, time: float) -> float:
-        """What there is to exchange at a time [s]."""
+        """Heat to exchange at a time [s]."""
         return max(0.0, min(time, self.end) - self.start)
 
     def window(self, time: float, dt: float) -> tuple[float, float]:
-        """What a window of `dt` [s] from a time [s] exchanges, and the change of its rate since the last one."""
+        """Heat that a window of `dt` [s] from a time [s] exchanges, and the change of its rate since the last one."""
         fed, flow = self.stake(time), 0.0
         if fed > 0.0:
             flow = (-math.expm1(-self.rate * fed) + self.rim * fed) * math.exp(-self.rate * max(0.0, time - self.end))
