@@ -12,6 +12,7 @@ from coupling.choice import OWN_MESH
 from coupling.openfoam import patches, poly_mesh
 from sdph.case import forces
 from sdph.case import read as cases
+from sdph.effects.around import nozzles
 from sdph.effects.around.streams import streams_of
 from sdph.engine import state as particles
 from sdph.engine.walls import facets
@@ -138,6 +139,7 @@ def _refuse_mouths_outside(case, cells: Cells) -> None:
     """CaseError where a nozzle of grains has a part of its mouth outside the gas: what comes in there leaves at once,
     or flies beside it. Streams are looked at half a spacing past the mouth."""
     for name, nozzle in case.nozzles.items():
+        nozzles.check(case, name, nozzle)
         own = streams_of(case, nozzle)
         places = own.mouth + 0.5 * case.resolution.spacing * own.axis
         beside = cells.outside(places)
