@@ -52,7 +52,7 @@ HARMLESS = {
     "sdph/engine/walls/*": "geometry: distances, counts of points",
     "sdph/engine/polyline.py:*": "geometry: the nearest place of a segment",
     "sdph/engine/lattice.py:*": "counts of points",
-    "sdph/methods/grains/start.py:_refuse_overlap": "a count of points",
+    "sdph/methods/grains/start.py:_look_for_overlap": "a count of points",
     "sdph/methods/grains/start.py:extents": "geometry: the level of a region or its end, for estimates",
     "sdph/engine/regions.py:*": "counts of points, extents",
     "sdph/effects/around/streams.py:_ticks": "counts of points",

@@ -53,6 +53,31 @@ VARIANTS = {  # name -> scene, what is changed
         ("run.end_time_s=0.002", "run.output_interval_s=0.001", "run.report_at_s=[]", "grains.conductivity_W_m_K=5e4"),
     ),
 }
+SHORT, LONG = ("coupling.gas='embedded'", "run.end_time_s=0.01"), ("coupling.gas='embedded'", "run.end_time_s=0.03")
+FREE = (*LONG, "coupling.window_largest_s=1e-3")
+SPRAYS = {  # name -> scene, what is changed; counted alone: six before the estimate was made, the last four after
+    "cone in small cells": ("spray_cone", (*SHORT, "resolution.cell_mm=8")),
+    "fast cone": ("spray_cone", (*SHORT, "nozzles.cone.speed_m_s=100")),
+    "ten times the cone, into gas of 900 K": (
+        "spray_cone", (*LONG, "gas.temperature_K=900", "nozzles.cone.rate_kg_s=0.1")
+    ),
+    "fast jet": ("evaporating_jet", (*FREE, "nozzles.jet.speed_m_s=60")),
+    "jet into gas that yields": (
+        "evaporating_jet", (*FREE, "gas.equation_of_state='operating'", "gas.molar_mass_kg_kmol=28.96")
+    ),
+    "jet of fine droplets into gas of 800 K": (
+        "evaporating_jet",
+        (*FREE, "grains.diameter_mm=0.1", "nozzles.jet.volume_fraction=0.01", "gas.temperature_K=800"),
+    ),
+    "wide cone": ("spray_cone", (*LONG, "nozzles.cone.half_angle_deg=40", "nozzles.cone.speed_m_s=40")),
+    "cone of coarse droplets": ("spray_cone", (*LONG, "grains.diameter_mm=0.2", "grains.diameter_std_mm=0.05")),
+    "jet of 0.5 mm into gas of 500 K": (
+        "evaporating_jet",
+        (*FREE, "grains.diameter_mm=0.5", "nozzles.jet.volume_fraction=0.1", "nozzles.jet.speed_m_s=25",
+         "gas.temperature_K=500"),
+    ),
+    "narrow jet": ("evaporating_jet", (*FREE, "nozzles.jet.width_m=0.25", "resolution.cell_mm=25")),
+}  # fmt: skip
 # Beds as they are shipped, to their end; those in vessels need OpenFOAM and minutes each
 WHOLE = ("bubbling_bed", "tapered_bed", "bed_with_tube", "cylindrical_bed")
 ON_SHORT_RUNS = {"disc_cluster": ["centre_rise_K", "heat_exchanged_J"]}  # in place of metrics at fixed times
@@ -100,6 +125,9 @@ What misses, by what was seen in the runs (the particle that rules each sub-step
   not look for.
 - The fluidised column is too narrow for bubbles: it begins at 0.61, where contacts press, and eases for as long as
   the run lasts.
+- Jets that do not spread: gas that they drag along mixes with them at the rim in a way that is not known before. The
+  one of 60 m/s exchanges 3.3 times the heat that is at stake in its time (`heat exchange` rules its windows), slow
+  ones less than is foreseen. Cones are met within 20 %.
 
 {counts}
 """
@@ -179,7 +207,8 @@ def runs() -> list[tuple]:
     for name, (scene, changes) in VARIANTS.items():
         own = varied(scene, changes)
         found.append((name, scene, ladder.case_of(scene, own, own.middle), None))
-    return found
+    sprays = [(name, scene, cases.load(scenes.find(scene)[1], more)) for name, (scene, more) in SPRAYS.items()]
+    return found + [(*row, None) for row in sprays]
 
 
 def levels() -> list[tuple]:

@@ -33,6 +33,18 @@ def mesh_reader(folder: Path):
     return reader
 
 
+def cells(folder: Path, dimensions: int, ranks: int = 1):
+    """Cells (pyvista) of the mesh of a case with case.foam, of a plane mesh a cut through its middle, at z = 0; with
+    several `ranks` those of its parts, as they wrote them."""
+    reader = mesh_reader(folder)
+    reader.case_type = "decomposed" if ranks > 1 else "reconstructed"
+    grid = reader.read()["internalMesh"]
+    if dimensions == 2:
+        grid = grid.slice(normal="z").translate((0.0, 0.0, -grid.center[2]))
+    grid.clear_data()
+    return grid
+
+
 def holding(folder: Path, boundaries: dict, dimensions: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Corners (F, d, d) [m] of the facets of patches that hold grains back, whether these slip on them (F,), and the
     number (F,) of the boundary that each is of, -1 where `boundaries` has none of its name.

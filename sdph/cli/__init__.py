@@ -216,7 +216,8 @@ def gel_droplet(options) -> int:
     found = course.Course(sections.load(options.file, tuple(options.set)))
     folder = options.out or output.free_name(Path("runs") / "droplet")
     course.write(found, folder)
-    print(output.strict_json(found.summary) if options.json else f"{_table(found.summary)}\nfolder: {folder}")
+    text = f"{_table(found.summary)}\n{course.told_of_pressures(found)}\nfolder: {folder}"
+    print(output.strict_json(found.summary) if options.json else text)
     return FINE
 
 

@@ -64,6 +64,7 @@ def stepping(case, name: str, folder: Path, gas_folder: Path | None, reporter, *
     template = gas_folder or template_of(case, name)
     inputs.check(case)
     on_device.refuse(case)
+    alone = not folder.parent.exists()
     with output.claimed(output.create(folder)):
         try:
             case = inputs.prepare(case, folder, template, allow_code)
@@ -72,6 +73,8 @@ def stepping(case, name: str, folder: Path, gas_folder: Path | None, reporter, *
         except CaseError:
             if not restart.newest(folder):  # the case cannot be run: as if it had not been tried
                 shutil.rmtree(folder)
+                if alone and not any(folder.parent.iterdir()):
+                    folder.parent.rmdir()
             raise
 
 
@@ -230,8 +233,9 @@ class Flight:
         self.simulation, self.out = simulation, Outputs(written, simulation)
         if checkpoint is None:
             forces.refuse_nowhere(self.case, simulation.methods)
-            vessel.refuse_outside(self.case, gas, simulation.state)
-            vessel.refuse_mouths_outside(self.case, gas)
+            mesh = vessel.own_mesh(gas, self.folder)
+            vessel.refuse_beside(self.case, mesh)
+            vessel.refuse_outside(self.case, vessel.Cells(self.case, mesh), simulation.state)
             simulation.start()
             self.out.start()
             self._save()

@@ -218,12 +218,8 @@ def _polyhedra(gas):
     centres."""
     from scipy.spatial import cKDTree
 
-    reader, d = patches.mesh_reader(gas.case_folder), gas.mesh.dimensions
-    reader.case_type = "decomposed" if gas.ranks > 1 else "reconstructed"
-    grid = reader.read()["internalMesh"]
-    if d == 2:
-        grid = grid.slice(normal="z").translate((0.0, 0.0, -grid.center[2]))
-    grid.clear_data()
+    d = gas.mesh.dimensions
+    grid = patches.cells(gas.case_folder, d, gas.ranks)
     _, order = cKDTree(gas.mesh.centres[:, :d]).query(grid.cell_centers().points[:, :d])
     if len(order) != len(gas.mesh.centres) or len(np.unique(order)) != len(order):
         raise RuntimeError(f"{len(order)} cells were read for output, the solver has {len(gas.mesh.centres)}")

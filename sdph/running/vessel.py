@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from pathlib import Path
 
 import numpy as np
@@ -11,35 +12,43 @@ from coupling.choice import OWN_MESH
 from coupling.openfoam import patches, poly_mesh
 from sdph.case import forces
 from sdph.case import read as cases
+from sdph.effects.around import nozzles
 from sdph.effects.around.streams import streams_of
 from sdph.engine import state as particles
 from sdph.engine.walls import facets
 from sdph.methods.grains import start
-from sdph.running import inputs, output
+from sdph.running import inputs
 from sdph.schema import CaseError
 
 FILE, SIZE = "patches.vtk", "domain.size_m"
+SAME = 1e-6  # of a volume: as far as text files of a mesh tell it
 
 
 def walled(case, gas, folder: Path):
     """The case with walls.mesh made of the patches of `gas`, where it asks for them and OpenFOAM's mesh is its own; the
     sides of a generated mesh are known without."""
-    if not hasattr(gas, "case_folder") or not any((inputs.gas_of(folder) / name).exists() for name in OWN_MESH):
+    mesh = own_mesh(gas, folder)
+    if mesh is None:
         return case
-    _refuse_unknown(case, patches.types(gas.case_folder))
+    _refuse_unknown(case, patches.types(mesh))
     own = case.parameters.get("walls")
     if own is None or own.source == "mesh" or own.mesh:
         return case
-    corners, slips, owners = patches.holding(gas.case_folder, case.boundaries, case.dimensions)
-    if not len(corners):
+    facets_of = _refused_none(patches.holding(mesh, case.boundaries, case.dimensions))
+    path = folder / inputs.place("walls.mesh", Path(FILE))
+    path.parent.mkdir(parents=True, exist_ok=True)
+    facets.save(path, *facets_of)
+    return _with(case, path)
+
+
+def _refused_none(found: tuple) -> tuple:
+    """Facets that were found; CaseError where there are none."""
+    if not len(found[0]):
         raise CaseError(
             'walls.source = "gas", and no patch of its mesh holds grains back: call some of type wall, name them in '
             '[boundaries], give walls.mesh, or set walls.source = "mesh" for the sides of the domain'
         )
-    path = folder / inputs.place("walls.mesh", Path(FILE))
-    path.parent.mkdir(parents=True, exist_ok=True)
-    facets.save(path, corners, slips, owners)
-    return _with(case, path)
+    return found
 
 
 def _with(case, path: Path):
@@ -57,53 +66,93 @@ def _refuse_unknown(case, known) -> None:
             raise CaseError(f"boundaries.{name} is no patch of the mesh of the gas; it has {', '.join(known)}")
 
 
-def refuse_outside(case, gas, state) -> None:
+def refuse_beside(case, mesh: Path | None) -> None:
+    """CaseError where the domain or a mouth is not where the gas is: before a run, and in its rehearsal. `mesh` is the
+    OpenFOAM case with a mesh of its own; None where the gas fills the domain."""
+    if mesh:
+        _refuse_other_size(case, mesh)
+    _refuse_mouths_outside(case, Cells(case, mesh))
+
+
+def own_mesh(gas, folder: Path) -> Path | None:
+    """The OpenFOAM case of `gas` where the mesh of the run in `folder` is not made by us, but its own; else None."""
+    brought = any((inputs.gas_of(folder) / name).exists() for name in OWN_MESH)
+    return Path(gas.case_folder) if brought and hasattr(gas, "case_folder") else None
+
+
+class Cells:
+    """Places of the gas's cells: all over the domain, or those of an own `mesh`."""
+
+    def __init__(self, case, mesh: Path | None):
+        self.domain, self.dimensions = case.domain, case.dimensions
+        self.grid = None
+        if mesh and not _fills(case, mesh):
+            self.grid = patches.cells(mesh, case.dimensions)
+
+    def outside(self, places) -> np.ndarray:
+        """Mask of places (N, d) [m] that are in no cell."""
+        if self.grid is not None:
+            return np.asarray(self.grid.find_containing_cell(np.pad(places, ((0, 0), (0, 3 - places.shape[1]))))) < 0
+        free = np.array([not period for period in self.domain.period[: self.dimensions]])
+        return (((places < self.domain.corner) | (places > self.domain.upper)) & free).any(axis=1)
+
+
+def _refuse_other_size(case, mesh: Path) -> None:
+    """CaseError where the domain is another box than that around the mesh of the gas, by more than a spacing: grains
+    would leave the domain within the gas, or have a place where no gas is."""
+    low, high = (corner[: case.dimensions] for corner in poly_mesh.box(mesh))
+    off = max(np.abs(low - case.domain.corner).max(), np.abs(high - case.domain.upper).max())
+    if off > case.resolution.spacing:
+        has, given = (
+            f"from {_told(a)} to {_told(b)} m" for a, b in ((low, high), (case.domain.corner, case.domain.upper))
+        )
+        raise CaseError(
+            f"the mesh of the gas reaches {has}, and the domain {given}: leave {SIZE} and domain.lower_m out, and "
+            f"they are taken from the mesh, or make the mesh anew"
+        )
+
+
+def _fills(case, mesh: Path) -> bool:
+    """True where a mesh is the whole box of the domain."""
+    own = poly_mesh.read(mesh)
+    depth = float(np.ptp(own.points[:, 2])) if case.dimensions == 2 else 1.0
+    return math.isclose(own.volumes.sum(), math.prod(case.domain.size) * depth, rel_tol=SAME)
+
+
+def refuse_outside(case, cells: Cells, state) -> None:
     """CaseError where grains of a region stand in no cell of a mesh that is no box: region, how many, and where."""
-    if not hasattr(gas, "case_folder") or not case.particles:  # the embedded solver's box is the domain
+    if cells.grid is None or not case.particles:  # regions lie in the domain
         return
-    grid, _ = output.gas_grid(gas)
-    if grid.__class__.__name__ == "RectilinearGrid":  # fills the domain, and regions lie in that
-        return
-    places = particles.positions(state)
-    outside = places[np.asarray(grid.find_containing_cell(places)) < 0]
+    places = particles.positions(state)[:, : case.dimensions]
+    outside = places[cells.outside(places)]
     for name, region in case.particles.items():
         low, high = start.extents(case, region)
-        own = outside[((outside >= _in_space(low)) & (outside <= _in_space(high))).all(axis=1)]
+        own = outside[((outside >= low) & (outside <= high)).all(axis=1)]
         if len(own):
-            place = ", ".join(f"{a:.4g}" for a in own[0][: case.dimensions])
             raise CaseError(
-                f"particles.{name} holds {len(own)} particles in no cell of the gas, the first at ({place}) m; move or "
-                "shrink it, or leave what lies behind walls out by walls"
+                f"particles.{name} holds {len(own)} particles in no cell of the gas, the first at {_told(own[0])} m; "
+                "move or shrink it, or leave what lies behind walls out by walls"
             )
 
 
-def refuse_mouths_outside(case, gas) -> None:
+def _refuse_mouths_outside(case, cells: Cells) -> None:
     """CaseError where a nozzle of grains has a part of its mouth outside the gas: what comes in there leaves at once,
     or flies beside it. Streams are looked at half a spacing past the mouth."""
     for name, nozzle in case.nozzles.items():
+        nozzles.check(case, name, nozzle)
         own = streams_of(case, nozzle)
         places = own.mouth + 0.5 * case.resolution.spacing * own.axis
-        beside = _outside(case, gas, places)
+        beside = cells.outside(places)
         if beside.any():
-            place = ", ".join(f"{a:.4g}" for a in places[beside][0])
             raise CaseError(
                 f"nozzles.{name}: {np.count_nonzero(beside)} of its {len(places)} streams come in outside the gas, the "
-                f"first at ({place}) m; move the mouth in, make it smaller, or square to the wall that it is in"
+                f"first at {_told(places[beside][0])} m; move the mouth in, make it smaller, or square to the wall "
+                "that it is in"
             )
 
 
-def _outside(case, gas, places) -> np.ndarray:
-    """Mask of places (N, d) [m] that are in no cell of the gas."""
-    grid = output.gas_grid(gas)[0] if hasattr(gas, "case_folder") else None
-    if grid is None or grid.__class__.__name__ == "RectilinearGrid":  # fills the domain
-        free = np.array([not period for period in case.domain.period[: case.dimensions]])
-        return (((places < case.domain.corner) | (places > case.domain.upper)) & free).any(axis=1)
-    return np.asarray(grid.find_containing_cell(np.pad(places, ((0, 0), (0, 3 - places.shape[1]))))) < 0
-
-
-def _in_space(corner) -> np.ndarray:
-    """Corner (3,) of a box that a plane one is: 0 across."""
-    return np.array([*corner, 0.0][:3])
+def _told(place) -> str:
+    return f"({', '.join(f'{a:.4g}' for a in place)})"
 
 
 def load(file: Path, overrides: tuple[str, ...] = ()):
@@ -132,10 +181,11 @@ def foreseen(case, template: Path, folder: Path):
     if not (template / poly_mesh.FOLDER).is_dir() or "grains" not in case.matters:
         return case
     mesh = poly_mesh.read(template)
+    _refuse_unknown(case, mesh.patches)
     case = dataclasses.replace(case, boundaries=_on_sides(case, mesh))
     if own is None or own.source == "mesh" or own.mesh:
         return case
-    facets.save(folder / FILE, *patches.of_mesh(mesh, case.boundaries, case.dimensions))
+    facets.save(folder / FILE, *_refused_none(patches.of_mesh(mesh, case.boundaries, case.dimensions)))
     return _with(case, folder / FILE)
 
 

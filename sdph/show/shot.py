@@ -177,14 +177,14 @@ def chosen(shots: list[Shot], field: str | None) -> str:
 
 
 # metrics of a case -> what it is about
-TOLD_BY = {"bubble": "alpha_p", "column": "alpha_p", "agitation": "theta", "segregation": "material"}
+TOLD_BY = {"bubble": "alpha_p", "agitation": "theta", "segregation": "material"}
 WARM = 1.0  # K that temperatures must differ by to be a subject; our choice
 SLOW = 1e-3  # of the speed of sound: a liquid that moves no faster than that is about its pressure; our choice
 
 
 def _subject(shots: list[Shot], known: list[str]) -> str:
-    """Subject of a scene: what its metrics measure; how warm it is, where that differs; what solids bear; how fast
-    it is; and of a liquid at rest its pressure."""
+    """Subject of a scene: what its metrics measure in the picture; how warm it is, where that differs; what solids
+    bear; how dense grains lie, in a column or at rest; how fast it is; and of a liquid at rest its pressure."""
     last, case = shots[-1], shots[-1].case
     told = [TOLD_BY[name] for name in (case.run.metrics if case else ()) if TOLD_BY.get(name) in known]
     if told:
@@ -193,7 +193,8 @@ def _subject(shots: list[Shot], known: list[str]) -> str:
         values = [own[np.isfinite(own)] for own in last.values(field)]
         if (spread := [own for own in values if len(own)]) and np.ptp(np.concatenate(spread)) > least:
             return field
-    if "alpha_p" in known and last.gas is not None and not _moves(last):
+    column = case is not None and "column" in case.run.metrics
+    if "alpha_p" in known and (column or (last.gas is not None and not _moves(last))):
         return "alpha_p"
     return "velocity" if _moves(last) or "pressure" not in known else "pressure"
 

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import tempfile
 from pathlib import Path
 
-from sdph.case import forces
-from sdph.running import vessel
+from sdph.case import forces, usual
 from sdph.study import inlets, rehearsal
 from sdph.study.explain import tables
 
@@ -14,23 +12,15 @@ from sdph.study.explain import tables
 def explained(case, template: Path, *, allow_code: bool = False) -> dict[str, list[dict]]:
     """All parts of `tables.explain`; `CaseError` where `sdph run` would end with one. Arguments as of
     `rehearsal.rehearsed`."""
-    with (
-        rehearsal.rehearsed(case, template, allow_code=allow_code, whole=True) as mesh,
-        tempfile.TemporaryDirectory() as folder,
-    ):
-        seen = vessel.foreseen(case, mesh, Path(folder))
+    with rehearsal.rehearsed(case, template, allow_code=allow_code, whole=True) as (seen, mesh, told):
         parts = tables.explain(seen, rehearsal.priced(case, mesh))
         last = next(name for name in parts if name.startswith("warnings"))  # grains come first
-        parts[last] += [{"warning": text} for text in inlets.warnings(case, mesh)]
+        parts[last] += [{"warning": text} for text in (*inlets.warnings(case, mesh), *usual.warnings(case), *told)]
         parts["forces"] = forces.rows(seen)
     return parts
 
 
 def warned(case, template: Path, *, allow_code: bool = False, whole: bool = False) -> list[str]:
     """The warnings alone; what cannot run is refused, without `whole` but for its particles."""
-    with (
-        rehearsal.rehearsed(case, template, allow_code=allow_code, whole=whole) as mesh,
-        tempfile.TemporaryDirectory() as folder,
-    ):
-        seen = vessel.foreseen(case, mesh, Path(folder))
-        return [*tables.warnings(seen), *inlets.warnings(case, mesh)]
+    with rehearsal.rehearsed(case, template, allow_code=allow_code, whole=whole) as (seen, mesh, _):
+        return [*tables.warnings(seen), *inlets.warnings(case, mesh), *usual.warnings(case)]

@@ -15,13 +15,13 @@ from sdph.case.gas_cells import cell_edges, cells
 from sdph.engine import state as particles
 from sdph.engine.state import WALL
 from sdph.exchange.window import Window
-from sdph.methods.grains import start
 from sdph.methods.grains.grains import Grains
+from sdph.methods.liquids import bodies as immersion
 from sdph.methods.liquids.parts import shares
 from sdph.methods.liquids.start import parts_of as parts_of_liquid
 from sdph.methods.mps.method import MpsStepper
 from sdph.methods.solids.method import SolidStepper
-from sdph.running import inputs, metrics
+from sdph.running import inputs, metrics, vessel
 from sdph.schema import CaseError
 from sdph.study import closed_vessels
 from sdph.study import memory as room
@@ -44,24 +44,36 @@ def priced(case, template: Path):
 
 
 @contextlib.contextmanager
-def rehearsed(case, template: Path, *, allow_code: bool = False, whole: bool = False) -> Iterator[Path]:
-    """CaseError where `sdph run` would end with one; then the OpenFOAM case with the mesh that a run would have, as
-    long as the context lasts. `template` and `allow_code` as in `coupling.choice.open_gas`; `whole` makes the particles
-    too, which a run does next."""
+def rehearsed(case, template: Path, *, allow_code: bool = False, whole: bool = False) -> Iterator[tuple]:
+    """CaseError where `sdph run` would end with one; then the case with walls as a run would have them, the OpenFOAM
+    case with its mesh, as long as the context lasts, and what a run would tell of its particles. `template` and
+    `allow_code` as in `coupling.choice.open_gas`; `whole` makes the particles too, which a run does next."""
     inputs.check(case)
     room.refuse_too_large(case)
     metrics.refuse_unknown(case)
-    with _looked_at(case, template, allow_code) as mesh:
-        if whole:
-            own = any((mesh / name).exists() for name in OWN_MESH)  # walls that the run will know by it
-            known = start.assumed(case) if own else case
-            made = {matter: MADE[case.moved_by(matter)](known.only(matter)) for matter in case.matters}
-            if not own:
-                forces.refuse_nowhere(
-                    case, {name for matter, one in made.items() for name in _named(case, matter, one)}
-                )
-                forces.refuse_cold(case, set(made["grains"][0].heated) if "grains" in made else set())
-        yield mesh
+    with _looked_at(case, template, allow_code) as mesh, tempfile.TemporaryDirectory() as folder:
+        seen = vessel.foreseen(case, mesh, Path(folder))
+        vessel.refuse_beside(seen, mesh if _brings_its_own(case, mesh) else None)
+        yield seen, mesh, _made(case, seen, mesh) if whole else []
+
+
+def _made(case, seen, mesh: Path) -> list[str]:
+    """Make what a run begins with, of the case as it is given and as it is `seen`, and refuse what the run would; what
+    it would tell of how the grains fill their regions."""
+    made = {matter: MADE[case.moved_by(matter)](seen.only(matter)) for matter in case.matters}
+    forces.refuse_nowhere(case, {name for matter, one in made.items() for name in _named(seen, matter, one)})
+    forces.refuse_cold(case, set(made["grains"][0].heated) if "grains" in made else set())
+    if {"liquid", "solid"} <= made.keys():
+        _, wet, _ = made["liquid"]
+        immersion.beside(case.only("liquid"), wet, particles.positions(made["solid"].state))
+    if _brings_its_own(case, mesh):
+        vessel.refuse_outside(seen.only("grains"), vessel.Cells(seen, mesh), made["grains"][0].state)
+    return made["grains"][0].notices if "grains" in made else []
+
+
+def _brings_its_own(case, mesh: Path) -> bool:
+    """True where the OpenFOAM case has a mesh that is not to be made."""
+    return "grains" in case.matters and (mesh / poly_mesh.FOLDER).is_dir()
 
 
 def _named(case, matter: str, made) -> tuple[str, ...]:
@@ -92,9 +104,11 @@ def _looked_at(case, template: Path, allow_code: bool) -> Iterator[Path]:
 
     require()
     with meshed(grains, template, allow_code) as mesh, tempfile.TemporaryDirectory(prefix="sdph-explain-") as folder:
-        write_case(grains, mesh, Path(folder) / "gas", case.coupling.gas_ranks, allow_code)
+        made = Path(folder) / "gas"
+        write_case(grains, mesh, made, case.coupling.gas_ranks, allow_code)
         closed_vessels.refuse_filling(grains, mesh)
-        yield mesh
+        (made / "case.foam").touch()  # as a run has it, for who reads its mesh
+        yield made if (made / poly_mesh.FOLDER).is_dir() else mesh
 
 
 def _embedded(case, template: Path) -> None:

@@ -161,6 +161,27 @@ def tetrahedra(folder):
     return folder
 
 
+@openfoam
+@pytest.mark.parametrize(
+    ("condition", "told"),
+    [
+        ("type movingWallVelocity; value uniform (0 0 0);", "(U is movingWallVelocity)"),
+        ("type fixedValue; value uniform (0 0 1.5);", "(U is fixedValue (0 0 1.5) along it)"),
+    ],
+)
+def test_a_wall_that_moves_stands_still_and_is_told_of(tmp_path, capsys, condition, told):
+    source = foam_cases.fluidised_bed(tmp_path / "foam", own_meshes.cylinder(0.05, 0.2, 4, 10), BLOWN, UP)
+    velocity = source / "0" / "U.air"
+    text = velocity.read_text()
+    still = "wall { type fixedValue; value uniform (0 0 0); }"
+    assert text.count(still) == 1
+    velocity.write_text(text.replace(still, f"wall {{ {condition} }}"))
+    table = adopted(source, tmp_path / "mine")
+    assert table["boundaries"]["wall"] == {"kind": "wall"} and table["boundaries"]["inlet"]["kind"] == "velocity_inlet"
+    (line,) = [line for line in capsys.readouterr().out.splitlines() if "wall moves" in line]
+    assert line.startswith("note: boundaries.wall") and told in line and "gas/0" in line
+
+
 def refused(capsys, *given) -> str:
     assert main(["init", *map(str, given)]) == 2
     error = capsys.readouterr().err

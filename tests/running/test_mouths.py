@@ -1,7 +1,6 @@
 """Nozzles whose mouth reaches out of the gas are refused: what comes in there would be lost without a word."""
 
 import dataclasses
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -20,17 +19,19 @@ def sprayed(**nozzle):
     return dataclasses.replace(case, nozzles={"jet": own})
 
 
-BOX = SimpleNamespace()  # a gas without a case of OpenFOAM: it fills the domain
+def refuse(case, mesh=None):
+    """Refuse what a run refuses of a case; without a `mesh` of its own the gas fills the domain."""
+    vessel.refuse_beside(case, mesh)
 
 
 def test_a_mouth_in_a_wall_is_fine():
-    vessel.refuse_mouths_outside(sprayed(), BOX)
+    refuse(sprayed())
 
 
 @pytest.mark.parametrize(("nozzle", "all_of_it"), [({"direction": (1.0, 0.8)}, False), ({"centre": (-0.5, 2.0)}, True)])
 def test_a_mouth_that_reaches_out_is_refused(nozzle, all_of_it):
     with pytest.raises(CaseError, match=r"nozzles.jet: (\d+) of its (\d+) streams come in outside the gas") as said:
-        vessel.refuse_mouths_outside(sprayed(**nozzle), BOX)
+        refuse(sprayed(**nozzle))
     out, streams = (int(word) for word in np.array(str(said.value).split())[[1, 4]])
     assert 0 < out < streams or (all_of_it and out == streams)
 
@@ -38,7 +39,7 @@ def test_a_mouth_that_reaches_out_is_refused(nozzle, all_of_it):
 def test_what_is_periodic_has_no_outside():
     case = sprayed(centre=(1.0, -0.1))
     domain = dataclasses.replace(case.domain, periodic=("y",))
-    vessel.refuse_mouths_outside(dataclasses.replace(case, domain=domain), BOX)
+    refuse(dataclasses.replace(case, domain=domain))
 
 
 def test_a_mouth_beside_a_mesh_of_ones_own_is_refused(monkeypatch):
@@ -47,8 +48,9 @@ def test_a_mouth_beside_a_mesh_of_ones_own_is_refused(monkeypatch):
     cells = pyvista.ImageData(
         dimensions=(3, 3, 2), spacing=(size[0] / 4.0, size[1] / 2.0, 1.0), origin=(0.0, 0.0, -0.5)
     )
-    monkeypatch.setattr(vessel.output, "gas_grid", lambda gas: (cells.cast_to_unstructured_grid(), None))
-    own = SimpleNamespace(case_folder="gas")
-    vessel.refuse_mouths_outside(sprayed(), own)
+    monkeypatch.setattr(vessel.patches, "cells", lambda mesh, dimensions: cells.cast_to_unstructured_grid())
+    monkeypatch.setattr(vessel, "_fills", lambda case, mesh: False)
+    monkeypatch.setattr(vessel, "_refuse_other_size", lambda case, mesh: None)
+    refuse(sprayed(), "gas")
     with pytest.raises(CaseError, match="come in outside the gas"):
-        vessel.refuse_mouths_outside(sprayed(centre=(0.6 * size[0], 0.5 * size[1])), own)
+        refuse(sprayed(centre=(0.6 * size[0], 0.5 * size[1])), "gas")

@@ -143,3 +143,47 @@ def test_a_region_that_cannot_be_is_refused(region, told):
 def test_what_walls_enclose_is_refused_where_there_is_no_mesh_of_them():
     with pytest.raises(CaseError, match="the walls are the sides of the domain"):
         start.fill(grains(shape="walls"), ())
+
+
+OTHER = {"shape": "box", "lower_m": [0.05, 0.0], "upper_m": [0.1, 0.2], "temperature_K": 300.0, "volume_fraction": 0.1}
+
+
+@pytest.mark.parametrize(
+    ("other", "told"),
+    [
+        (OTHER, "100 of 100 particles of more (100%) stand among those of bed, the first at (0.055, 0.005) m"),
+        (OTHER | {"lower_m": [0.0, 0.15]}, "50 of 50 particles of more"),
+        (OTHER | {"volume_fraction": 0.2, "upper_m": [0.1, 0.1]}, "alpha_p adds up to 0.4 there"),
+    ],
+)
+def test_regions_of_one_material_that_overlap_are_told(other, told):
+    case, notices = grains(volume_fraction=0.2), []
+    more = cases.from_table(
+        cases.to_table(case) | {"particles": {"bed": cases.to_table(case)["particles"]["bed"], "more": other}}
+    )
+    start.fill(more, (), notices)
+    (line,) = notices
+    assert told in line and line.startswith("particles.bed and particles.more are the same grains and overlap")
+
+
+def test_regions_that_touch_and_mixtures_are_not_told_of():
+    case, notices = grains(volume_fraction=0.2, upper_m=[0.05, 0.2]), []
+    table = cases.to_table(case)
+    regions = {"bed": table["particles"]["bed"], "more": OTHER}
+    start.fill(cases.from_table(table | {"particles": regions}), (), notices)
+    own = {
+        key: table["grains"][key]
+        for key in ("density_kg_m3", "diameter_mm", "heat_capacity_J_kg_K", "conductivity_W_m_K")
+    }
+    kinds = {"a": own, "b": own | {"density_kg_m3": 1000.0}}
+    among = {"bed": regions["bed"] | {"material": "a"}, "more": OTHER | {"lower_m": [0.0, 0.0], "material": "b"}}
+    start.fill(cases.from_table(table | {"grains": kinds, "particles": among}), (), notices)
+    assert notices == []
+
+
+def test_explain_warns_of_regions_that_overlap(tmp_path, capsys):
+    table = cases.to_table(grains(volume_fraction=0.2))
+    table["particles"]["more"] = OTHER
+    (tmp_path / "case.toml").write_text(tomli_w.dumps(table))
+    assert main(["explain", str(tmp_path), "--gas", "embedded"]) == 0
+    assert "particles.bed and particles.more are the same grains and overlap" in capsys.readouterr().out

@@ -1,9 +1,15 @@
 """What `sdph run` refuses, `sdph explain` refuses too, in the same words, before anything is made."""
 
+import tomllib
+
 import pytest
+import tomli_w
 from test_cli import refused  # noqa: F401  (a fixture)
+from test_own_meshes import round_vessel
 
 from sdph import scenes
+from sdph.case import read as cases
+from sdph.cli import main
 
 EMBEDDED = "coupling.gas='embedded'"
 OPENFOAM = ("--set", "coupling.gas='openfoam'")
@@ -43,6 +49,7 @@ BOX = ("tank.shape='box'", "tank.lower_m=[0,0,0]", "tank.upper_m=[1,1,1]")
         ("evaporating_jet", ("nozzles.jet.direction=[0,0]",), "it must point somewhere"),
         ("evaporating_jet", ("nozzles.jet.centre_m=[-0.1,1.5]",), "reaches out of the domain"),
         ("evaporating_jet", ("nozzles.jet.direction=[-1,0]",), "reaches out of the domain"),
+        ("evaporating_jet", ("nozzles.jet.direction=[1,0.8]",), "of its 20 streams come in outside the gas"),
         ("evaporating_jet", ("nozzles.jet.speed_m_s=1e8", "coupling.window_largest_s=1.0"), "GB are free here"),
         ("evaporating_jet", ("evaporation.saturation='antoine'",), "evaporation.antoine is missing"),
         ("spray_cone", ("nozzles.cone.across=[0,0,1]", "nozzles.cone.direction=[0,0,-2]"), "it must point aside"),
@@ -61,6 +68,12 @@ BOX = ("tank.shape='box'", "tank.lower_m=[0,0,0]", "tank.upper_m=[1,1,1]")
         ("dam_break", ("tank.upper_m=[-1,1]",), "narrower than resolution.spacing_mm"),
         ("dam_break", ("pools.column.phase='gas'", "gas_phase.density_kg_m3=1.2"), "no particle of liquid"),
         ("oscillating_droplet", ("pools.drop.flow='rotation'",), "is that of a box"),
+        ("drop_on_plate", ("pools.drop.velocity_m_s=[0,-30]",), "pools.drop begins at 30 m/s, faster than sound in it"),
+        (
+            "gel_droplet",
+            ("bodies.shell.inner_radius_m=1e-4",),
+            "no particle of the liquid is left of [pools.gel]",
+        ),
         ("dam_break_3d", ("pools.column.flow='taylor_green'",), "is known in two dimensions"),
     ],
 )
@@ -95,6 +108,33 @@ def test_openfoam_that_is_not_there_is_told_by_both(refused, monkeypatch):  # no
 
 
 @pytest.mark.openfoam
+@pytest.mark.parametrize(
+    ("override", "told"),
+    [
+        ("domain.size_m=[0.2,0.2,0.3]", "the mesh of the gas reaches from (0, 0, 0) to (0.2, 0.2, 0.4) m, and the"),
+        ("domain.size_m=[0.2,0.2,0.5]", "leave domain.size_m and domain.lower_m out"),
+        ("particles.bed.lower_m=[0.0,0.0,0.0]", "particles in no cell of the gas, the first at (0.005, 0.005, 0.005)"),
+        ("nozzles.side.centre_m=[0.0,0.0,0.1]", "streams come in outside the gas"),
+        ("boundaries.flue={kind='wall'}", "boundaries.flue is no patch of the mesh of the gas"),
+    ],
+)
+def test_what_lies_beside_an_own_mesh_is_refused_by_both(tmp_path, monkeypatch, capsys, override, told):
+    monkeypatch.chdir(tmp_path)
+    mine = round_vessel(tmp_path / "mine", [])
+    case = tomllib.loads((mine / "case.toml").read_text())
+    mouth = {"centre_m": [0.1, 0.1, 0.2], "direction": [0, 0, -1], "radius_m": 0.02, "speed_m_s": 1.0}
+    case["nozzles"] = {"side": mouth | {"shape": "disc", "volume_fraction": 0.1, "temperature_K": 300.0}}
+    case["effects"] = [*case["effects"], "inflow"]
+    (mine / "case.toml").write_text(tomli_w.dumps(case))
+    capsys.readouterr()
+    assert main(["explain", "mine", "--set", override, *OPENFOAM]) == 2
+    said = capsys.readouterr().err.splitlines()
+    assert told in said[0] and len(said) == 1
+    assert main(["run", "mine", "--set", override, *OPENFOAM, "--out", "out"]) == 2
+    assert capsys.readouterr().err.splitlines()[-1] == said[0] and not (tmp_path / "out").exists()
+
+
+@pytest.mark.openfoam
 def test_a_template_that_cannot_be_run_is_refused_by_both(refused, tmp_path):  # noqa: F811
     (tmp_path / "mine" / "gas" / "system").mkdir(parents=True)
     case = tmp_path / "mine" / "case.toml"
@@ -104,3 +144,18 @@ def test_a_template_that_cannot_be_run_is_refused_by_both(refused, tmp_path):  #
     (tmp_path / "mine" / "gas" / "system" / "controlDict").write_text('libs ("mine.so");\n')
     said = refused("explain", "mine", *OPENFOAM)
     assert said == refused("run", "mine", *OPENFOAM) and "--allow-code" in said
+
+
+@pytest.mark.parametrize(
+    ("scene", "told"),
+    [
+        ("water_under_air", "[pools.air] before it takes all of its place; put [pools.water] before [pools.air]"),
+        ("bubble_rise", "pools.bubble is a disc; put [pools.bubble] before the others"),
+    ],
+)
+def test_pools_in_the_wrong_order_are_told_which_comes_first(refused, tmp_path, scene, told):  # noqa: F811
+    table = cases.parsed(scenes.find(scene)[1])
+    table["pools"] = dict(reversed(table["pools"].items()))
+    (tmp_path / "case.toml").write_text(tomli_w.dumps(table))
+    said = refused("explain", str(tmp_path))
+    assert told in said and refused("run", str(tmp_path), "--out", "out") == said

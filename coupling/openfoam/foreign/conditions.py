@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 from coupling.openfoam.dictionary import number, of_patch, vector, word
@@ -23,6 +24,13 @@ HELD = (
     "fixedMeanOutletInlet",
 )  # fmt: skip
 ASIDE = 1e-9  # of a velocity: nothing
+ALONG = 1e-3  # of a velocity, that may be across a wall which it moves along: what digits and facets leave; our choice
+PLANE_ENOUGH = 0.9  # length of the mean normal of a patch that is no wall, so that along it means something; our choice
+# velocity of a wall -> what is told
+STILL = (
+    "its wall moves in the OpenFOAM case (U is {}), and stands still here, for gas and grains: leave it if that does "
+    "not matter; to have it move the gas alone, bring your 0/U in gas/0; else this is no case for sdph"
+)
 
 
 class Condition(NamedTuple):
@@ -52,7 +60,7 @@ def _condition(files: Files, mesh: PolyMesh, name: str, own: dict, alpha_p: floa
         note = "partialSlip is taken as slip" if kind == "partialSlip" else ""
         return Condition({"kind": "slip_wall"}, note)
     if kind in STICK:
-        return Condition({"kind": "wall"}, "its wall stands still here" if kind == "movingWallVelocity" else "")
+        return Condition({"kind": "wall"}, STILL.format(kind) if kind == "movingWallVelocity" else "")
     if kind in FREE and word(own["p"].get("type")) in HELD:
         value = number(own["p"].get("p0") or own["p"].get("p") or own["p"].get("value") or own["p"].get("uniformValue"))
         return Condition({"kind": "pressure_outlet", "pressure_Pa": (value or 0.0) * properties.level(files)["factor"]})
@@ -64,7 +72,11 @@ def _condition(files: Files, mesh: PolyMesh, name: str, own: dict, alpha_p: floa
     velocity = [share * component for component in speed]
     if max(map(abs, velocity)) <= ASIDE:
         return Condition({"kind": "wall"})
-    if sum(v * n for v, n in zip(velocity, normal)) > 0.0:
+    through, size = sum(v * n for v, n in zip(velocity, normal)), math.hypot(*velocity)
+    if abs(through) <= ALONG * size and (patch == "wall" or math.hypot(*normal) > PLANE_ENOUGH):
+        told = f"{kind} ({' '.join(f'{component:g}' for component in speed)}) along it"
+        return Condition({"kind": "wall"}, STILL.format(told))
+    if through > 0.0:
         what = "gas leaves here at a given speed, which is not known: taken as pressure_outlet"
         return Condition({"kind": "pressure_outlet", "pressure_Pa": 0.0}, what)
     rounded = [float(f"{component + 0.0:.9g}") if abs(component) > ASIDE else 0.0 for component in velocity]

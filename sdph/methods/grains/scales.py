@@ -1,7 +1,7 @@
 """Orders of magnitude of a case, from the case alone: what the judgements of effects and `sdph explain` start from.
 
 One dense patch of grains (that with the largest volume fraction) meets the fastest gas of the case. Parameters of an
-effect that brings grains in (an inlet) have a method `patches(case)`.
+effect that brings grains in have a method `patches(case)`.
 """
 
 from __future__ import annotations
@@ -52,10 +52,16 @@ class Scales:
         )
 
     @cached_property
+    def fed(self) -> list[tuple[float, float]]:
+        """Speed [m/s] of gas that enters, as fast as it still is where it meets grains, and its temperature [K]."""
+        found = [b for b in self.case.boundaries.values() if b.velocity]
+        speeds = [b.fastest * ways.strength(self.case, b, self.patches) for b in found]
+        return [(speed, b.temperature or self.gas.temperature) for speed, b in zip(speeds, found)]
+
+    @cached_property
     def jet(self) -> float:
-        """Fastest gas that enters [m/s], as fast as it still is where it meets grains."""
-        fed = [b for b in self.case.boundaries.values() if b.velocity]
-        return max((b.fastest * ways.strength(self.case, b, self.patches) for b in fed), default=0.0)
+        """Fastest of it [m/s]."""
+        return max((speed for speed, _ in self.fed), default=0.0)
 
     @cached_property
     def thrown(self) -> float:
@@ -90,15 +96,8 @@ class Scales:
 
     @cached_property
     def rush(self) -> float:
-        """Speed [m/s] of gas that rushes in where grains cool it and out where they heat it; none at constant density.
-
-        The change of volume of the patch in the time in which its gas takes the grains' temperature: the most it can
-        be.
-        """
-        if self.gas.equation_of_state == "constant" or not self.alpha_p:
-            return 0.0
-        hottest = max(self.gas.temperature, *(patch.temperature for patch in self.patches))
-        return self.span / hottest * self.length / self.still_heat_time
+        """Speed [m/s] of gas that changes its volume among grains (`ways.rush`)."""
+        return ways.rush(self)
 
     @cached_property
     def still_heat_time(self) -> float:
@@ -190,12 +189,12 @@ class Scales:
 
     @cached_property
     def resting(self) -> bool:
-        """True where grains lie packed on the floor and the gas that is let in cannot lift them."""
-        onset = (
-            self.case.parameters["friction"].onset if "friction" in self.case.parameters else self.grains.packing_limit
-        )
+        """True where grains lie packed on a floor without an opening, and the gas that is let in cannot lift them."""
+        own = self.case.parameters.get("friction")
+        onset = own.onset if own else self.grains.packing_limit
         packed = self.alpha_p >= SETTLED * onset and not self.thrown and self.weight @ self.case.domain.gravity > 0.0
-        return packed and self.jet < self.minimum_fluidisation and ways.lie(self.case, self.patches)
+        held = ways.lie(self.case, self.patches) and not ways.pours(self.case, self.patches)
+        return packed and held and self.jet < self.minimum_fluidisation
 
     @cached_property
     def rim(self) -> float:
@@ -232,7 +231,7 @@ class Scales:
 
     @cached_property
     def lone(self) -> bool:
-        """True where grains are so few that an SPH particle has no neighbour."""
+        """True where grains are so few that a particle has no neighbour."""
         return self.length < 2.0 * self.case.resolution.spacing
 
     @cached_property

@@ -26,7 +26,7 @@ def fill(case, names, notices=None) -> State:
     `notices`, a list, gets a line for each region of which something is behind walls."""
     notices = [] if notices is None else notices
     parts = [_region(case, name, region, names, notices) for name, region in case.particles.items()]
-    _refuse_overlap(case, parts)
+    _look_for_overlap(case, parts, notices)
     state = parts[0] if parts else empty(0, names, case.dimensions)
     for part in parts[1:]:
         state = join(state, part)
@@ -34,8 +34,9 @@ def fill(case, names, notices=None) -> State:
     return state
 
 
-def _refuse_overlap(case, parts) -> None:
-    """CaseError where grains of two regions stand among each other, denser than they can be packed."""
+def _look_for_overlap(case, parts, notices) -> None:
+    """CaseError where grains of two regions stand among each other, denser than they can be packed; a notice where they
+    are of one material, and do so at less: they add up. Different materials are a mixture there."""
     spacing, limit = case.resolution.spacing, case.grains.packing_limit
     near = 0.5 * math.sqrt(case.dimensions) * spacing  # from the middle of a cell of a lattice to its corners
     rows = [
@@ -43,16 +44,23 @@ def _refuse_overlap(case, parts) -> None:
         for (name, region), part in zip(case.particles.items(), parts)
     ]
     for (name, region, own), (other, beside, theirs) in itertools.combinations(rows, 2):
-        dense = region.volume_fraction + beside.volume_fraction
-        if dense <= limit:
+        dense, alike = region.volume_fraction + beside.volume_fraction, region.material == beside.material
+        if dense <= limit and not alike:
             continue
         among = theirs[np.isfinite(cKDTree(own).query(theirs, distance_upper_bound=(1.0 + SAME) * near)[0])]
-        if len(among) > FEW * min(len(own), len(theirs)) + TOUCHING:
-            place = ", ".join(f"{a:.4g}" for a in among[0])
+        if len(among) <= FEW * min(len(own), len(theirs)) + TOUCHING:
+            continue
+        place = ", ".join(f"{a:.4g}" for a in among[0])
+        if dense > limit:
             raise CaseError(
                 f"particles.{name} and particles.{other} overlap: {len(among)} particles stand in both, the first at "
                 f"({place}) m, where alpha_p would be {dense:.3g} of at most {limit:g}; move or shrink one"
             )
+        notices.append(
+            f"particles.{name} and particles.{other} are the same grains and overlap: {len(among)} of {len(theirs)} "
+            f"particles of {other} ({len(among) / len(theirs):.0%}) stand among those of {name}, the first at "
+            f"({place}) m, and alpha_p adds up to {dense:.3g} there; move or shrink one, unless that is meant"
+        )
 
 
 def mesh_of_walls(case) -> np.ndarray | None:

@@ -34,6 +34,20 @@ def strength(case, boundary, patches) -> float:
     return share if share > FADED else 0.0
 
 
+def rush(s) -> float:
+    """Speed [m/s] of gas that rushes in where grains cool it and out where they heat it; none at constant density. `s`:
+    scales.
+
+    At the start it is the change of volume of the patch in the time in which its gas takes the grains' temperature, the
+    most it can be; of gas that is let in, its speed once it has that.
+    """
+    if s.gas.equation_of_state == "constant" or not s.alpha_p:
+        return 0.0
+    own, grains = s.gas.temperature, [patch.temperature for patch in s.patches]
+    at_start = max(abs(own - each) for each in grains) / max(own, *grains) * s.length / s.still_heat_time
+    return max([at_start, *(speed * max(grains) / temperature for speed, temperature in s.fed)])
+
+
 def spans_of(boundary) -> tuple:
     """(low, high) [m] of a boundary along each tangential axis of its side; none where it is the whole side."""
     if boundary.span is None:
@@ -102,6 +116,19 @@ def lie(case, patches) -> bool:
     low, high = case.domain.corner[axis], case.domain.upper[axis]
     rooms = [high - patch.upper[axis] if end else patch.lower[axis] - low for patch in patches]
     return not opened(case, PAIRS[axis][end]) and min(rooms, default=math.inf) < case.resolution.spacing
+
+
+def pours(case, patches) -> bool:
+    """True where grains lie on a side that is open under them, in part: they run out there."""
+    axis = upright(case)
+    side = PAIRS[axis][int(case.domain.gravity[axis] > 0.0)]
+    tangential = [a for a in range(case.dimensions) if a != axis]
+    asides = [
+        max((_aside(patch, a, span) for a, span in zip(tangential, spans_of(outlet))), default=0.0)
+        for patch in patches
+        for _, outlet in outlets_of(case, side)
+    ]
+    return min(asides, default=math.inf) == 0.0
 
 
 def upright(case) -> int:

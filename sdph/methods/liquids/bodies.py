@@ -20,9 +20,10 @@ import scipy
 from sdph.effects.around import tank
 from sdph.engine import contact, motion, polyline
 from sdph.engine import state as particles
-from sdph.engine.state import WALL
+from sdph.engine.state import LIQUID, WALL
 from sdph.methods.liquids import start, walls
 from sdph.methods.liquids.forces import Moving
+from sdph.schema import CaseError
 
 NEAREST = 0.75  # spacings: what stands nearer to a body at the start stands in it; our choice
 BEFORE = 0.5  # spacings: half of what a liquid particle fills, which a polyline keeps it off
@@ -84,6 +85,18 @@ class Carrier(Protocol):
         """Forces at the end of the step, (M, 3) [N] of the liquid among them, and the second half of the kick."""
 
 
+def beside(case, state, places):
+    """The liquid and walls of a case less what stands where bodies have particles, places (N, 3) [m]; `CaseError` where
+    no liquid is left."""
+    here = particles.positions(state)
+    gap, _ = scipy.spatial.cKDTree(places).query(here, distance_upper_bound=NEAREST * case.resolution.spacing)
+    left = particles.take(state, np.isinf(gap))
+    if not (left.kind == LIQUID).any():
+        pools, bodies = ", ".join(f"[pools.{name}]" for name in case.pools), "bodies take all of its places"
+        raise CaseError(f"no particle of the liquid is left of {pools}: {bodies}; move or shrink them, or the pools")
+    return left
+
+
 class Bodies:
     """Particles of a carrier within a liquid: wall particles, numbered behind all others; springs of the polyline:
     forces `pressed` (N, 3) [N] on all particles, and their energy [J]."""
@@ -101,9 +114,7 @@ class Bodies:
     def immersed(self, case, state):
         """The liquid and walls of a case less what stands in the bodies, and the bodies' particles behind them."""
         places, d = self.carrier.places(), case.dimensions
-        here = particles.positions(state)
-        gap, _ = scipy.spatial.cKDTree(places).query(here, distance_upper_bound=NEAREST * case.resolution.spacing)
-        state = particles.take(state, np.isinf(gap))
+        state = beside(case, state, places)
         own = start.placed(case, places[:, :d])
         own.kind[:], own.density[:] = WALL, case.liquid.density
         own.mass[:] = case.liquid.density * self.carrier.volume

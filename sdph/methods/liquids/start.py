@@ -83,12 +83,13 @@ def _pool(case, pools: list, number: int) -> particles.State:
         points = filling.fill(case, pool) if pool.shape == "tank" else lattice.lattice(pool, spacing, d)
     if pool.shape == "box":  # the lattice is fitted to the box
         volume = math.prod(b - a for a, b in zip(pool.lower, pool.upper)) / len(points)
-    for earlier in pools[:number]:
+    taken = []
+    for name, earlier in zip(case.pools, pools[:number]):
         left = ~_holds(earlier, points)
+        taken += [] if left.all() else [name]
         points, volume = points[left], volume if np.isscalar(volume) else volume[left]
     if not len(points):
-        mend = "enlarge it, give a finer resolution.spacing_mm, or name it before the others"
-        raise CaseError(f"pools.{list(case.pools)[number]} holds no particle; {mend}")
+        _refuse_empty(list(case.pools)[number], taken)
     _refuse_outside(case, list(case.pools)[number], points)
     state = placed(case, points + _raised(pool, points))
     state.kind[:] = GAS if pool.phase == "gas" else LIQUID
@@ -96,9 +97,22 @@ def _pool(case, pools: list, number: int) -> particles.State:
     state.density[:] = _density(case, pool, _pressure(case, pool, pools[-1], points))
     # two phases fill their space from the start
     state.mass[:] = (state.density if case.gas_phase else density) * volume
-    for array, value in zip((state.u, state.v, state.w), _velocity(pool, points, d).T):
+    velocity = _velocity(pool, points, d)
+    _refuse_fast(case, list(case.pools)[number], velocity)
+    for array, value in zip((state.u, state.v, state.w), velocity.T):
         array[:] = value
     return state
+
+
+def _refuse_empty(name: str, taken: list[str]) -> None:
+    """CaseError for a pool without a particle, of which those named before it have `taken` the places."""
+    if taken:
+        others, own = " and ".join(f"[pools.{other}]" for other in taken), f"[pools.{name}]"
+        raise CaseError(
+            f"pools.{name} holds no particle: pools fill in the order of the case, and {others} before it "
+            f"{'takes' if len(taken) == 1 else 'take'} all of its place; put {own} before {others}"
+        )
+    raise CaseError(f"pools.{name} holds no particle; enlarge it, or give a finer resolution.spacing_mm")
 
 
 def _refuse_outside(case, name: str, points) -> None:
@@ -109,6 +123,17 @@ def _refuse_outside(case, name: str, points) -> None:
         raise CaseError(
             f"pools.{name}: {outside} of its {len(points)} particles would stand outside the tank, up to "
             f"{beyond.max():.3g} m from it; move the pool, or make it smaller"
+        )
+
+
+def _refuse_fast(case, name: str, velocity) -> None:
+    """CaseError where particles of a pool begin faster, velocity (N, d) [m/s], than the liquid's sound, if it has one:
+    the guard would stop the run at once."""
+    fastest, sound = float(np.linalg.norm(velocity, axis=1).max()), case.fastest_sound
+    if sound and fastest > sound:
+        raise CaseError(
+            f"pools.{name} begins at {fastest:.4g} m/s, faster than sound in it ({sound:g} m/s); lower its velocity, "
+            f"or raise liquid.sound_speed_m_s to ten times that ({10.0 * fastest:.3g})"
         )
 
 
@@ -163,18 +188,19 @@ def _hydrostatic(case, pool, around, points) -> np.ndarray:
     )
     if pool is not around and along.any():
         top = float(np.array(pool.centre) @ along) if pool.shape in ("disc", "sphere") else top
-        outside = phase_of(case, around).density * (top - _top(around, along))
+        outside = phase_of(case, around).density * (top - _top(around, along, list(case.pools)[-1]))
     return phase_of(case, pool).density * (height - top) + outside
 
 
-def _top(pool, along) -> float:
-    """g.r [m2/s2] at the highest corner of a box, or at the level up to which a tank is filled."""
+def _top(pool, along, name: str = "") -> float:
+    """g.r [m2/s2] at the highest corner of a box, or at the level up to which a tank is filled; `name` is that of the
+    last pool, which has to be one of them."""
     if pool.shape == "tank":
         return -pool.slab.high * float(np.linalg.norm(along))
     if pool.shape != "box":
         raise CaseError(
-            'pools: the last one fills what the others leave; give it shape = "box" or "tank" instead of '
-            f"{pool.shape!r}"
+            "pools fill in the order of the case, and the last one fills what the others leave, as a box or a tank: "
+            f"pools.{name} is a {pool.shape}; put [pools.{name}] before the others, or add a pool around it"
         )
     return float(np.minimum(np.array(pool.lower) * along, np.array(pool.upper) * along).sum())
 

@@ -2,6 +2,8 @@
 
 estimate       limits, memory and time
 pace           windows and sub-steps
+feed           heat of what nozzles feed
+lockstep       steps of a liquid with bodies in it
 droplets       numbers of droplets
 liquids        those of a liquid
 solids         those of solids

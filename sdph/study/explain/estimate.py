@@ -19,7 +19,7 @@ from sdph.exchange.window import ANSWER, opening
 from sdph.laws import kernels
 from sdph.methods.grains import start
 from sdph.methods.grains.sound import SWING
-from sdph.study.explain import pace
+from sdph.study.explain import feed, pace
 
 ROW = 8  # bytes of a number and of an entry of a neighbour row
 SCRATCH = 30  # arrays of the length of the particles that a step makes
@@ -58,7 +58,8 @@ OWN_FIELD_WHY = "charged grains drive each other apart, which is left out; charg
 MEASURED = environment.CACHE / "speed.json"  # of this machine, by `sdph explain --measure`
 
 
-# Time of a particle in space over that of one in a plane: 113 neighbours in place of 28; measured in a round bed
+# Time of a particle in space over that of one in a plane: 113 neighbours in place of 28; measured in a round bed. So
+# much more a cell of the embedded gas takes, too: 3.6 to 5 us in place of 0.8 to 1.4
 IN_SPACE = 2.5
 
 
@@ -78,19 +79,20 @@ def by_openfoam(cells: int) -> Priced:
 
 
 class Speed(NamedTuple):
-    """Time of one particle and sub-step, moving or at rest, of a liquid, of a solid, and of one cell and window of the
-    embedded gas [us]."""
+    """Time of one particle and sub-step, moving or at rest, of a liquid, of a solid, of one cell and window of the
+    embedded gas, and of a window of it and of the exchange however few cells there are [us]."""
 
     moving: float
     resting: float
     liquid: float
     solid: float
     cell: float
+    window: float
     measured: str
 
 
 # One core of the machine the shipped numbers were made on; `sdph explain --measure` replaces them by yours.
-SHIPPED = Speed(2.5, 0.4, 1.0, 1.0, 2.0, "another machine; `sdph explain SCENE --measure` measures this one")
+SHIPPED = Speed(2.5, 0.4, 1.0, 1.0, 2.0, 3500.0, "another machine; `sdph explain SCENE --measure` measures this one")
 
 
 def speed() -> Speed:
@@ -208,7 +210,10 @@ def _windows(case, s) -> list[tuple]:
         for name, limit in asked.items()
         if limit < math.inf
     ]
-    if "heat" in case.effects and s.span and not own.one_way:
+    if fed := feed.of(case, s):
+        how = "the change of the heat that droplets exchange while nozzles feed them, half-way: an estimate"
+        rows.append(("window", "heat exchange", fed.longest(own.window_tolerance), how))
+    elif "heat" in case.effects and s.span and not own.one_way:
         rate = 1.0 / s.heat_time + 1.0 / s.gas_heat_time
         first = math.sqrt(2.0 * own.window_tolerance) / rate
         rows.append(
@@ -239,13 +244,14 @@ def expected(case, s, priced: Priced | None = None) -> list[dict]:
     """Particles, cells, windows, sub-steps, memory and wall time; `priced` is the gas, if it is not the embedded one's
     box."""
     own = speed()
-    priced = priced or Priced("embedded gas", int(np.prod(gas_cells.cells(case))), 0.0, own.cell)
+    in_space = IN_SPACE if case.dimensions == 3 else 1.0
+    priced = priced or Priced("embedded gas", math.prod(gas_cells.cells(case)), own.window, own.cell * in_space)
     start, cells = len(_state(case).x), priced.cells
     end = start + _incoming(case)
     count = (start + end) // 2
     windows, steps = pace.expected(case, s, _state(case))
     particle = 1e-6 * count * steps * (own.moving if effects.moving(case) else own.resting)
-    particle *= IN_SPACE if case.dimensions == 3 else 1.0
+    particle *= in_space
     gas = 1e-6 * windows * (priced.window + cells * priced.cell)
     how = f"one core, {priced.name}, warm; particles {particle:.2g} s, gas {gas:.2g} s; measured on {own.measured}"
     return [

@@ -12,10 +12,11 @@ from sdph.study.explain import estimate
 WATER = 0.0728  # N/m, of water in air at 20 C (IAPWS R1-76): for the Weber and Bond numbers of a case that gives none
 
 
-def explain(s) -> dict[str, list]:
-    """Numbers that decide, ratios, limits of the step, and what to expect: rows of a table each."""
+def explain(s, shared=None) -> dict[str, list]:
+    """Numbers that decide, ratios, limits of the step, and what to expect: rows of a table each. `shared` are the steps
+    that it has with another matter (`lockstep.Shared`), if any."""
     steps = limits(s)
-    return {"numbers": numbers(s), "ratios": ratios(s), "limits": steps, "expected": expected(s, steps)}
+    return {"numbers": numbers(s), "ratios": ratios(s), "limits": steps, "expected": expected(s, steps, shared)}
 
 
 def numbers(s) -> list[tuple]:
@@ -90,10 +91,11 @@ def limits(s) -> list[dict]:
     return [{"cause": k, "largest [s]": v, "rules": "<-" if v == least else ""} for k, v in found.items()]
 
 
-def expected(s, steps: list[dict]) -> list[dict]:
+def expected(s, steps: list[dict], shared=None) -> list[dict]:
     """Particles, steps, memory, wall time."""
     count = len(s.state.x)
-    number = math.ceil(s.end / (s.case.run.step_factor * min(row["largest [s]"] for row in steps)))
+    end, longest = shared or (s.end, min(row["largest [s]"] for row in steps))
+    number = math.ceil(end / (s.case.run.step_factor * longest))
     wall = 1e-6 * estimate.speed().liquid * count * number
     return [
         {"what": "liquid particles", "value": int(s.wet.sum()), "unit": ""},

@@ -1,6 +1,6 @@
 """Windows and sub-steps to be expected of grains: the run's own clock, driven by the scales of the case.
 
-What rules later differs from the start in three ways, each by an argument from the case alone:
+What rules later differs from the start in four ways, each by an argument from the case alone:
 - gas that is let in has blown its mouth free, so that the Courant number is that of its own speed, not of that
   between packed grains;
 - grains that the gas grips as one bear `sdph.exchange.window.GRIP` of the time in which it stops them beyond their own
@@ -27,6 +27,7 @@ from sdph.methods.grains import ways
 from sdph.methods.grains.method import limits as limits_of_step
 from sdph.methods.grains.scales import SETTLED
 from sdph.methods.grains.sound import swing, waves_of
+from sdph.study.explain import feed
 
 ACROSS = 6.0  # smoothing lengths: grains less than three kernels across are all rim, and hold no bubble
 HALVINGS = 60  # of the bracket of a volume fraction: to round-off
@@ -93,7 +94,10 @@ class Driven:
         self.clock, self.steady = clock, later(case, s)
         self.fastest = s.speed if effects.moving(case) else 0.0
         self.rate, self.flow = 0.0, None  # [1/s], and heat in the last window over its length, of all there is [1/s]
-        if "heat" in case.effects and s.span and not case.coupling.one_way:
+        self.feed, self.time = feed.of(case, s), 0.0
+        if self.feed:
+            clock.begin(0.0, 0.0)
+        elif "heat" in case.effects and s.span and not case.coupling.one_way:
             self.rate = 1.0 / s.heat_time + 1.0 / s.gas_heat_time
             clock.begin(self.rate, 1.0)
         apart = max((abs(patch.temperature - case.gas.temperature) for patch in case.particles.values()), default=0.0)
@@ -103,16 +107,23 @@ class Driven:
         """True where no limit that rules will change any more: each is what it will be, or stays above the least."""
         now = self.clock.limits
         least = min(limit for cause, limit in now.items() if cause != "heat exchange")
+        if self.feed and not self.feed.under_way(least, self.clock.control.tolerance):
+            return False
         pairs = [(now.get(cause, 0.0), limit) for cause, limit in self.steady.items()]
         steady = all(math.isclose(*pair) or min(pair) > least for pair in pairs)
         return steady and now.get("heat exchange", math.inf) > least
 
     def learn(self, dt: float) -> None:
-        """A window of `dt` [s] is done; what is left of the heat has relaxed exponentially."""
+        """A window of `dt` [s] is done; what is left of the heat has relaxed exponentially, or nozzles feed more."""
+        courant = self.clock.courant * dt / self.steady["courant"] if "courant" in self.steady else 0.0
+        if self.feed:
+            self.clock.learn(dt, *self.feed.window(self.time, dt), courant, self.fastest)
+            self.time += dt
+            self.clock.stake(self.feed.stake(self.time))
+            return
         given = self.left * -math.expm1(-self.rate * dt)
         change = abs(given / dt - self.flow) if self.flow is not None else 0.0
         self.left, self.flow = self.left - given, given / dt
-        courant = self.clock.courant * dt / self.steady["courant"] if "courant" in self.steady else 0.0
         self.clock.learn(dt, given, change, courant, self.fastest)
 
 

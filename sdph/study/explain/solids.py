@@ -10,10 +10,11 @@ from sdph.study.explain import estimate
 LAYERS = 4.0  # particles across a body: a ring of four gives Lame's stress within 3 % (gel-droplet.md, section 5)
 
 
-def explain(s) -> dict[str, list]:
-    """Numbers that decide, ratios, limits of the step, and what to expect: rows of a table each."""
+def explain(s, shared=None) -> dict[str, list]:
+    """Numbers that decide, ratios, limits of the step, and what to expect: rows of a table each. `shared` are the steps
+    that it has with another matter (`lockstep.Shared`), if any."""
     steps = limits(s)
-    return {"numbers": numbers(s), "ratios": ratios(s), "limits": steps, "expected": expected(s, steps)}
+    return {"numbers": numbers(s), "ratios": ratios(s), "limits": steps, "expected": expected(s, steps, shared)}
 
 
 def numbers(s) -> list[tuple]:
@@ -63,10 +64,11 @@ def limits(s) -> list[dict]:
     return [{"cause": k, "largest [s]": v, "rules": "<-" if v == least else ""} for k, v in found.items()]
 
 
-def expected(s, steps: list[dict]) -> list[dict]:
+def expected(s, steps: list[dict], shared=None) -> list[dict]:
     """Particles, steps, memory, wall time, as long as nothing is squeezed: a stretch below 1 shortens the step."""
     count = len(s.state.x)
-    number = math.ceil(s.end / (s.case.run.step_factor * min(row["largest [s]"] for row in steps)))
+    end, longest = shared or (s.end, min(row["largest [s]"] for row in steps))
+    number = math.ceil(end / (s.case.run.step_factor * longest))
     wall = 1e-6 * estimate.speed().solid * count * number
     return [
         {"what": "solid particles", "value": count, "unit": ""},

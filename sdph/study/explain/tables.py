@@ -10,7 +10,7 @@ from sdph.effects.grains import conduction
 from sdph.laws.constants import ADIABATIC, GAS_CONSTANT
 from sdph.methods.grains import start, ways
 from sdph.methods.grains.scales import THIN
-from sdph.study.explain import droplets, estimate, liquids, materials, mps, solids
+from sdph.study.explain import droplets, estimate, liquids, lockstep, materials, mps, solids
 
 OF = {
     "liquid": liquids,
@@ -34,14 +34,15 @@ def explain(case, priced=None) -> dict[str, list[dict]]:
     case = start.assumed(case)
     if len(case.matters) == 1:
         return _explain(case, priced)
-    found = {matter: _explain(case.only(matter), priced) for matter in case.matters}
+    shared = lockstep.of(case)
+    found = {matter: _explain(case.only(matter), priced, shared) for matter in case.matters}
     return {f"{part} ({matter})": rows for matter, parts in found.items() for part, rows in parts.items()}
 
 
-def _explain(case, priced) -> dict[str, list[dict]]:
+def _explain(case, priced, shared=None) -> dict[str, list[dict]]:
     scales = judge.scales_of(case)
     own = OF.get(case.moved_by(judge.matter(case)))
-    found = own.explain(scales) if own else _of_grains(case, scales, priced)
+    found = own.explain(scales, *([shared] if shared else [])) if own else _of_grains(case, scales, priced)
     return {
         "numbers": [
             dict(zip(("number", "value", "threshold", "meaning", "source"), row)) for row in found.pop("numbers")

@@ -59,8 +59,15 @@ def vent(model: Model, rows: list) -> None:
         rows.append(model.row())
 
 
+def told_of_pressures(course: Course) -> str:
+    """The level of the pressures in summary and history."""
+    around = course.model.own.droplet.ambient_pressure
+    return f"pressures are gauge, of the gel over that around: add ambient_pressure_Pa = {around:.9g} for absolute ones"
+
+
 def summary(course: Course) -> dict:
-    """Result, what closes to round-off, and what the model leaves out, each as a share."""
+    """Result, what closes to round-off, and what the model leaves out, each as a share; pressures are those over
+    `ambient_pressure_Pa`."""
     model, h, tear = course.model, course.history, course.tear
     grown = slice(0, tear + 1 if tear is not None else None)
     speed = np.diff(h["diameter_ratio"][grown]) / np.diff(h["time_s"][grown])
@@ -88,6 +95,7 @@ def summary(course: Course) -> dict:
         "latent_heat_of_curve_J_kg": float(
             real_gas.latent_heat_of_curve(model.vapour, float(h["bubble_K"][at]), own.gel.density)
         ),
+        "ambient_pressure_Pa": own.droplet.ambient_pressure,
         "steps": len(h["time_s"]) - 1,
     }
 
@@ -116,7 +124,7 @@ def draw(courses: dict[str, Course], file: Path) -> None:
         left.plot(h["time_s"][:last], h["diameter_ratio"][:last], label=label)
         right.plot(h["time_s"], 1e-3 * h["pressure_Pa"], label=label)
     left.set(xlabel="time [s]", ylabel="D/D$_0$")
-    right.set(xlabel="time [s]", ylabel="pressure of the gel [kPa]")
+    right.set(xlabel="time [s]", ylabel="gauge pressure of the gel [kPa]")
     if len(courses) > 1:
         left.legend()
     figure.savefig(file, dpi=100)

@@ -5,6 +5,7 @@ import pytest
 from sdph import scenes
 from sdph.case import judge
 from sdph.case import read as cases
+from sdph.study.explain import tables
 
 BED = {"shape": "box", "lower_m": [0.0, 0.1], "upper_m": [0.03, 0.3], "temperature_K": 288.0}
 
@@ -51,3 +52,16 @@ def test_walls_of_a_vessel_are_at_the_grains():
     table = cases.parsed(scenes.find("tapered_bed")[1])
     table["boundaries"]["inlet"] = outlet(side="bottom")
     assert called_for(cases.from_table(table)) == {"walls", "friction", "outflow"}
+
+
+@pytest.mark.parametrize(("boundaries", "runs_out"), [(WALLS | SLOT, True), (WALLS, False)])
+def test_a_bed_over_a_slot_runs_out_and_collides(boundaries, runs_out):
+    """The numbers of a case that pours and the judgements of its effects tell the same of it."""
+    table = cases.parsed(scenes.find("fluidised_column")[1])
+    table["particles"]["bed"] = BED | {"volume_fraction": 0.6, "lower_m": [0.0, 0.0]}
+    table["boundaries"], table["run"] = boundaries, {"end_time_s": 1.0, "output_interval_s": 1.0}
+    parts = tables.explain(cases.from_table(table))
+    numbers = {row["number"]: row["value"] for row in parts["numbers"]}
+    told = next(row["why"] for row in parts["effects"] if row["effect"] == "granular_pressure")
+    assert numbers["run / collision time"] > 1.0
+    assert ("= 0 (" not in told) is runs_out and ("outflow" in called_for(cases.from_table(table))) is runs_out

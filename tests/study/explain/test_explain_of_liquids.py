@@ -8,7 +8,7 @@ from sdph import effects, scenes
 from sdph.case import judge
 from sdph.case import read as cases
 from sdph.methods.liquids.method import LiquidStepper
-from sdph.study.explain import tables
+from sdph.study.explain import lockstep, tables
 
 LIQUIDS = [name for name in scenes.names() if cases.load(scenes.HERE / name / "case.toml").liquid]
 
@@ -86,3 +86,20 @@ def test_limits_are_the_steppers_own():
     dt = stepper.next_step(1e9)
     assert stepper.limit == "laminar_viscosity" == min(own, key=own.get)
     assert dt == pytest.approx(own["laminar_viscosity"], rel=1e-6)
+
+
+def test_a_hastened_droplet_is_counted_by_the_time_of_its_motion():
+    """The scene took 114 157 steps (validation/gel_droplet); liquid and shell go by the shorter step of the two."""
+    case = load("gel_droplet")
+    parts = tables.explain(case)
+    steps = {
+        row["value"]
+        for matter in ("liquid", "solid")
+        for row in parts[f"expected ({matter})"]
+        if row["what"] == "steps"
+    }
+    assert len(steps) == 1 and steps.pop() == pytest.approx(114_157, rel=0.3)
+    own = lockstep.motion(load("gel_droplet", "time_scaling.wall_speed_cap_m_s=0.1"))
+    way = math.sqrt(0.45**2 + (1.4**2 - 1.0) * 0.5**2) - 0.45  # mm: the shell keeps its section
+    assert own - lockstep.motion(case) == pytest.approx(1e-3 * way * (10.0 - 5.0))
+    assert lockstep.motion(load("tank_with_flap")) == load("tank_with_flap").run.end_time

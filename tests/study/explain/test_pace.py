@@ -30,6 +30,12 @@ RUNS = [
     ),
     ("evaporating_jet", "run.end_time_s=0.1", "resolution.spacing_mm=50", "resolution.cell_mm=100"),
     ("spray_cone", "resolution.spacing_mm=16", "resolution.cell_mm=40", "coupling.window_tolerance=4e-3"),
+    ("spray_cone", "run.end_time_s=0.02", "gas.temperature_K=900", "nozzles.cone.rate_kg_s=0.1"),
+    ("spray_cone", "run.end_time_s=0.01", "resolution.cell_mm=8"),
+    (
+        "evaporating_jet", "run.end_time_s=0.05", "coupling.window_largest_s=1e-3",
+        "gas.equation_of_state='operating'", "gas.molar_mass_kg_kmol=28.96",
+    ),
     ("stefan_tube", "run.end_time_s=20.0"),
 ]  # fmt: skip
 
@@ -170,3 +176,14 @@ def test_a_case_that_gets_nowhere_is_explained():
     case = load("bubbling_bed", "coupling.window_tolerance=1e-15", "resolution.spacing_mm=20", "resolution.cell_mm=20")
     windows, steps = counts(case)
     assert windows > 0 and steps >= windows
+
+
+def test_gas_that_comes_in_cold_takes_the_bed_s_temperature_and_no_more():
+    """It is twice as fast then; gas among grains of its own temperature does not rush anywhere."""
+    hot = ("gas.equation_of_state='operating'", "gas.molar_mass_kg_kmol=28.9", "gas.temperature_K=600",
+           "particles.bed.temperature_K=600", "boundaries.jet.temperature_K=300",
+           "boundaries.distributor.temperature_K=300")  # fmt: skip
+    case = load("bubbling_bed", *hot)
+    assert judge.scales_of(case).rush == pytest.approx(2.0 * case.boundaries["jet"].velocity[1])
+    apart = load("bubbling_bed", *hot, "gas.temperature_K=300")
+    assert judge.scales_of(apart).rush > 100.0 * judge.scales_of(case).rush

@@ -99,6 +99,24 @@ def test_command(tmp_path, capsys):
     assert (tmp_path / "out" / "droplet.png").is_file()
 
 
+def test_pressures_are_told_to_be_gauge(tmp_path, capsys):
+    """At the start the droplet has the pressure around; the line says what to add."""
+    short = (
+        "--set",
+        "droplet.ambient_pressure_Pa=2e5",
+        "--set",
+        "numerics.end_time_s=1e-3",
+        "--out",
+        str(tmp_path / "out"),
+    )
+    assert cli.main(["droplet", *short]) == 0
+    assert (
+        "pressures are gauge, of the gel over that around: add ambient_pressure_Pa = 200000 " in capsys.readouterr().out
+    )
+    assert json.loads((tmp_path / "out" / "summary.json").read_text())["ambient_pressure_Pa"] == 2e5
+    assert np.genfromtxt(tmp_path / "out" / "droplet.csv", delimiter=",", names=True)["pressure_Pa"][0] < 1e5
+
+
 @pytest.mark.parametrize(
     ("override", "told"),
     [

@@ -1,0 +1,98 @@
+"""Values that are possible, and far outside of what the matter of their key ever has: slips of a unit, as a rule.
+
+They are warned of and not refused: `sdph.schema.PLAUSIBLE` refuses what no case means. Liquids have no ranges, but for
+temperatures: benchmarks of them are often given in numbers without units.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from sdph.case.read import to_table
+
+CELSIUS = "degrees Celsius"
+
+
+class Range(NamedTuple):
+    """Least and most of a key, in its unit; what lies there; and units that are given by mistake, with their factor."""
+
+    least: float
+    most: float
+    what: str
+    slips: tuple = ()
+
+
+OF_GRAINS = Range(5.0, 25000.0, "from foam to gold", (("g/cm3", 1e3),))
+TEMPERATURE = Range(100.0, 5000.0, "from where air is about to liquefy to where all is vapour", ((CELSIUS, 273.15),))
+CAPACITY = Range(100.0, 20000.0, "from xenon to hydrogen", (("kJ/(kg K)", 1e3),))
+MOLAR = Range(2.0, 2000.0, "from hydrogen to a polymer", (("kg/mol", 1e3),))
+SPEED = Range(1e-6, 3000.0, "from creep to a rocket's exhaust", (("mm/s", 1e-3),))
+# pattern of a key -> its range; * is a name. Our choice: a factor of two or more beyond what tables of matter hold
+USUAL = {
+    "domain.gravity_m_s2": Range(1e-7, 200.0, "from a free fall in orbit to a fast turn", (("mm/s2", 1e-3),)),
+    "gas.temperature_K": TEMPERATURE, "particles.*.temperature_K": TEMPERATURE, "nozzles.*.temperature_K": TEMPERATURE,
+    "boundaries.*.temperature_K": TEMPERATURE, "parts.*.temperature_K": TEMPERATURE,
+    "evaporation.onset_temperature_K": TEMPERATURE, "evaporation.boiling_temperature_K": TEMPERATURE,
+    "evaporation.saturation_temperature_K": TEMPERATURE,
+    "gas.density_kg_m3": Range(1e-4, 500.0, "from a vacuum pump to carbon dioxide at 200 bar",
+                               (("g/cm3", 1e3), ("g/m3", 1e-3))),
+    "gas.viscosity_Pa_s": Range(1e-6, 5e-4, "from vapours to gas at 10 000 K",
+                                (("mPa s", 1e-3), ("uPa s", 1e-6))),
+    "gas.conductivity_W_m_K": Range(1e-3, 5.0, "from vapours to hydrogen at 3000 K", (("mW/(m K)", 1e-3),)),
+    "gas.heat_capacity_J_kg_K": CAPACITY, "vapour.heat_capacity_J_kg_K": CAPACITY,
+    "grains.heat_capacity_J_kg_K": CAPACITY, "grains.*.heat_capacity_J_kg_K": CAPACITY,
+    "gas.molar_mass_kg_kmol": MOLAR, "vapour.molar_mass_kg_kmol": MOLAR,
+    "gas.operating_pressure_Pa": Range(500.0, 1e9, "from a drying vacuum to a gun", (("bar", 1e5), ("kPa", 1e3))),
+    "vapour.viscosity_Pa_s": Range(1e-6, 5e-4, "from vapours to gas at 10 000 K", (("mPa s", 1e-3), ("uPa s", 1e-6))),
+    "vapour.conductivity_W_m_K": Range(1e-3, 5.0, "from vapours to hydrogen at 3000 K", (("mW/(m K)", 1e-3),)),
+    "vapour.diffusivity_m2_s": Range(1e-9, 0.02, "from gas at 1000 bar to hydrogen in near vacuum",
+                                     (("cm2/s", 1e-4), ("mm2/s", 1e-6))),
+    "evaporation.latent_heat_J_kg": Range(1e4, 1e8, "from helium to metals", (("kJ/kg", 1e3),)),
+    "grains.density_kg_m3": OF_GRAINS, "grains.*.density_kg_m3": OF_GRAINS,
+    "grains.diameter_mm": Range(5e-4, 100.0, "from smoke to stones", (("m", 1e3), ("um", 1e-3))),
+    "grains.*.diameter_mm": Range(5e-4, 100.0, "from smoke to stones", (("m", 1e3), ("um", 1e-3))),
+    "nozzles.*.diameter_mm": Range(5e-4, 100.0, "from smoke to stones", (("m", 1e3), ("um", 1e-3))),
+    "grains.surface_tension_N_m": Range(1e-5, 5.0, "from near the critical point to molten metal", (("mN/m", 1e-3),)),
+    "nozzles.*.speed_m_s": SPEED, "boundaries.*.velocity_m_s": SPEED, "particles.*.velocity_m_s": SPEED,
+    "solid.youngs_modulus_Pa": Range(10.0, 5e12, "from jelly to diamond", (("GPa", 1e9), ("MPa", 1e6))),
+}  # fmt: skip
+
+
+def warnings(case) -> list[str]:
+    """A line for each value of a case that is 0 in no component and far outside of its range: what was given, the
+    range, and the unit that was likely meant."""
+    table, told = to_table(case), []
+    for pattern, usual in USUAL.items():
+        for key, value in _found(table, pattern.split(".")):
+            size = float(np.linalg.norm(value))
+            if size and not usual.least <= size <= usual.most:
+                bounds = f"{usual.least:g} to {usual.most:g} ({usual.what})"
+                told.append(f"{key} = {_shown(value)} is far from usual, {bounds}{_likely(value, usual)}")
+    return told
+
+
+def _found(table, path: list[str], before: str = ""):
+    """(key, value) of all that a pattern finds in a table."""
+    name, *rest = path
+    for each in table if name == "*" and isinstance(table, dict) else [name]:
+        value = table.get(each) if isinstance(table, dict) else None
+        if not rest and isinstance(value, (int, float, list)):
+            yield f"{before}{each}", value
+        elif rest and isinstance(value, dict):
+            yield from _found(value, rest, f"{before}{each}.")
+
+
+def _likely(value, usual: Range) -> str:
+    """Units by which a value is in its range, and what it is in that of the key."""
+    told = []
+    for unit, factor in usual.slips:
+        meant = value + factor if unit == CELSIUS else np.multiply(value, factor).tolist()
+        if usual.least <= float(np.linalg.norm(meant)) <= usual.most:
+            told.append(f"if {unit} was meant, give {_shown(meant)}")
+    return "; " + ("; ".join(told) or "look at its unit, unless that is meant")
+
+
+def _shown(value) -> str:
+    return f"[{', '.join(f'{each:g}' for each in value)}]" if isinstance(value, list) else f"{value:g}"

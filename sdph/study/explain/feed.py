@@ -1,0 +1,73 @@
+"""Heat that grains and droplets exchange while nozzles feed them, for estimates of windows: `Window.learn` is told of
+it as a run tells it.
+
+A run holds the change of every particle's rate of heat in a window, over the heat that there is to exchange. Of what
+a nozzle feeds at a constant rate there is C t to exchange after the time t. Each second's share gives its heat at the
+rates of
+
+- the grains, 1/(heat time), and
+- the gas among them, 1/(its heat time), thinned out as a cone spreads on half of its way; gas that is passed faster
+  than that is met anew once in 2 h and a cell, as far as a particle reaches: no rate is above speed/(2 h + cell).
+
+So what is exchanged is (1 - exp(-r t)) C, and changes at the sum r of the two rates. A jet that does not spread meets
+new gas at its rim, as thick as the gas takes to follow it or as the kernel resolves, for as long as it is there. These
+are estimates: the rates are those of the speed at the mouth, and how gas and droplets mix is not known before the run.
+"""
+
+from __future__ import annotations
+
+import math
+
+from sdph.exchange.window import SAFETY, smallest_cell
+
+
+class Feed:
+    """Feed of the nozzles of a case with scales `s`, in units of the heat of a second of it."""
+
+    def __init__(self, case, s):
+        fastest = max(case.nozzles.values(), key=lambda nozzle: nozzle.speed)
+        angle = math.tan(fastest.half_angle)
+        way = min(s.thrown * s.coasting, *case.domain.size)
+        thinned = (s.length / (s.length + way * angle)) ** (case.dimensions - 1)
+        reach = 2.0 * case.smoothing_length + smallest_cell(case)
+        renewed = min(thinned / s.gas_heat_time, s.thrown / reach)
+        self.rate = 1.0 / s.heat_time + renewed  # r [1/s]
+        thick = 2.0 * max(s.thrown * s.gas_drag_time, case.smoothing_length)
+        self.rim = 0.0 if angle else renewed * min(1.0, thick / s.length)  # [1/s]
+        # a particle is in the gas once the middle of its layer is past the mouth
+        self.start = min(
+            nozzle.start + 0.5 * case.resolution.spacing / nozzle.speed for nozzle in case.nozzles.values()
+        )
+        self.end = max(nozzle.end or case.run.end_time for nozzle in case.nozzles.values())
+        self.windows = 0  # that exchanged any
+
+    def stake(self, time: float) -> float:
+        """Heat to exchange at a time [s]."""
+        return max(0.0, min(time, self.end) - self.start)
+
+    def window(self, time: float, dt: float) -> tuple[float, float]:
+        """Heat that a window of `dt` [s] from a time [s] exchanges, and the change of its rate since the last one."""
+        fed, flow = self.stake(time), 0.0
+        if fed > 0.0:
+            flow = (-math.expm1(-self.rate * fed) + self.rim * fed) * math.exp(-self.rate * max(0.0, time - self.end))
+            self.windows += 1
+        change = flow * -math.expm1(-self.rate * dt) if self.windows > 1 else 0.0
+        return flow * dt, change
+
+    def under_way(self, least: float, tolerance: float) -> bool:
+        """True once there was a window with a change of the rate, as what holds later ones is longer from then on; or
+        where `least` [s], of other limits, is below all that the heat asks for, as of a share that is r t at most."""
+        return self.windows > 2 or least < SAFETY * math.sqrt(tolerance) / self.rate
+
+    def longest(self, tolerance: float) -> float:
+        """Window [s] that the heat allows half-way."""
+        fed = 0.5 * (self.end - self.start)
+        share = -math.expm1(-self.rate * fed) + self.rim * fed
+        return SAFETY * math.sqrt(2.0 * tolerance * fed / (share * self.rate)) if fed > 0.0 else math.inf
+
+
+def of(case, s) -> Feed | None:
+    """The feed of a case of nozzles alone that exchanges heat both ways."""
+    if not case.nozzles or case.particles or "heat" not in case.effects or case.coupling.one_way or not s.thrown:
+        return None
+    return Feed(case, s) if s.span else None

@@ -1,0 +1,46 @@
+"""Steps of a liquid with bodies in it, for estimates: both go by the shorter step of the two, and where a droplet's
+growth is hastened by the motion's time."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from sdph.case.judge import scales_of
+from sdph.effects.liquids import time_scaling
+from sdph.study.explain import liquids, solids
+
+GROWN = 1.4  # D/D_0 at which a shell tears (Qiang et al. 2017; 1.35 to 1.47 in validation/gel_droplet)
+
+
+class Shared(NamedTuple):
+    """End of the run [s] by the time that steps go by, and the longest step [s], before run.step_factor."""
+
+    end: float
+    longest: float
+
+
+def of(case) -> Shared | None:
+    """The steps that liquid and bodies share; None where a case has not both."""
+    if not {"liquid", "solid"} <= set(case.matters):
+        return None
+    rows = [
+        row
+        for matter, own in (("liquid", liquids), ("solid", solids))
+        for row in own.limits(scales_of(case.only(matter)))
+    ]
+    return Shared(motion(case), min(row["largest [s]"] for row in rows))
+
+
+def motion(case) -> float:
+    """Time [s] of the motion in a run: all of it, or of a hastened droplet, whose wall goes at the largest speed or
+    whose time at the largest pace, whichever is slower: until its shell is `GROWN` and tears, and what is left then.
+
+    A run that ends before the tear takes less, as nearly all of the way is run through shortly before."""
+    end = case.run.end_time
+    if "time_scaling" not in case.effects:
+        return end
+    p = time_scaling.kernel(case)
+    (shell,) = [body for body in case.bodies.values() if body.shape == "ring"]
+    inner = math.sqrt(shell.inner_radius**2 + (GROWN**2 - 1.0) * shell.radius**2)  # its section keeps its area
+    return min(end, (inner - shell.inner_radius) / p.cap + end / p.largest + p.after_tear)

@@ -1,0 +1,63 @@
+"""Slips of a unit are warned of with the value that was likely meant, and no scene is."""
+
+import pytest
+import tomli_w
+
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.case import usual
+from sdph.cli import main
+
+
+def load(scene, *overrides):
+    return cases.load(scenes.find(scene)[1], overrides)
+
+
+@pytest.mark.parametrize("scene", scenes.names())
+def test_no_scene_is_warned_of(scene):
+    assert usual.warnings(load(scene)) == []
+
+
+@pytest.mark.parametrize(
+    ("scene", "override", "told"),
+    [
+        ("bubbling_bed", "gas.temperature_K=20", "if degrees Celsius was meant, give 293.15"),
+        ("bubbling_bed", "particles.bed.temperature_K=77", "if degrees Celsius was meant, give 350.15"),
+        ("bubbling_bed", "boundaries.jet.temperature_K=20", "boundaries.jet.temperature_K = 20 is far from usual"),
+        ("bubbling_bed", "domain.gravity_m_s2=[0,-9810]", "if mm/s2 was meant, give [0, -9.81]"),
+        ("bubbling_bed", "gas.viscosity_Pa_s=1e3", "look at its unit, unless that is meant"),
+        ("bubbling_bed", "gas.viscosity_Pa_s=0.018", "if mPa s was meant, give 1.8e-05"),
+        ("bubbling_bed", "gas.viscosity_Pa_s=18", "if uPa s was meant, give 1.8e-05"),
+        ("bubbling_bed", "grains.diameter_mm=3e-4", "if m was meant, give 0.3"),
+        ("bubbling_bed", "grains.diameter_mm=300", "if um was meant, give 0.3"),
+        ("bubbling_bed", "grains.density_kg_m3=2.5", "if g/cm3 was meant, give 2500"),
+        ("bubbling_bed", "grains.heat_capacity_J_kg_K=0.8", "if kJ/(kg K) was meant, give 800"),
+        ("bubbling_bed", "boundaries.jet.velocity_m_s=[0,7500]", "if mm/s was meant, give [0, 7.5]"),
+        ("spray_cone", "vapour.molar_mass_kg_kmol=0.142", "if kg/mol was meant, give 142"),
+        ("spray_cone", "gas.operating_pressure_Pa=101.3", "if kPa was meant, give 101300"),
+        ("spray_cone", "gas.operating_pressure_Pa=1", "if bar was meant, give 100000"),
+        ("spray_cone", "evaporation.latent_heat_J_kg=2257", "if kJ/kg was meant, give 2.257e+06"),
+        ("spray_cone", "grains.surface_tension_N_m=72", "if mN/m was meant, give 0.072"),
+        ("spray_cone", "vapour.diffusivity_m2_s=0.25", "if cm2/s was meant, give 2.5e-05"),
+        ("taylor_bar", "solid.youngs_modulus_Pa=5", "if GPa was meant, give 5e+09"),
+    ],
+)
+def test_a_slip_is_told_with_what_was_likely_meant(scene, override, told):
+    (line,) = usual.warnings(load(scene, override))
+    assert line.startswith(override.partition("=")[0]) and told in line and "\n" not in line
+
+
+def test_materials_are_looked_at_one_by_one():
+    (line,) = usual.warnings(load("segregation", "grains.large.density_kg_m3=2.5"))
+    assert line.startswith("grains.large.density_kg_m3 = 2.5 ")
+
+
+def test_explain_and_run_warn_of_it(tmp_path, capsys):
+    """What is possible runs: the warning is all."""
+    table = cases.parsed(scenes.find("disc_cluster")[1])
+    table["gas"]["temperature_K"], table["run"] = 20.0, {"end_time_s": 1e-4, "output_interval_s": 1e-4}
+    (tmp_path / "case.toml").write_text(tomli_w.dumps(table))
+    assert main(["explain", str(tmp_path), "--gas", "embedded"]) == 0
+    assert "gas.temperature_K = 20 is far from usual, 100 to 5000" in capsys.readouterr().out
+    assert main(["run", str(tmp_path), "--gas", "embedded", "--out", str(tmp_path / "out")]) == 0
+    assert "warning: gas.temperature_K = 20 is far from usual" in capsys.readouterr().err
