@@ -102,8 +102,19 @@ def damping(p, sizes_p, s, i, alpha_p, slip, gas_density):
             break
         total += mass * coefficient(p, alpha_p, slip, d, gas_density)
         whole += mass
-    found = total / whole / (s.grain_density[i] if len(s.grain_density) else p.grain_density)
-    return found * (1.0 - p.unresolved * law.igci_clusters(alpha_p)) if p.unresolved else found
+    return resolved(p, alpha_p) * total / whole / (s.grain_density[i] if len(s.grain_density) else p.grain_density)
+
+
+@serial
+def resolved(p, alpha_p):
+    """Share of the drag that is left by clusters which cells do not resolve; 1 without a filter."""
+    return 1.0 - p.unresolved * law.igci_clusters(alpha_p) if p.unresolved else 1.0
+
+
+def of_one_size(p, grains, alpha_p: float, slip: float, gas_density: float) -> float:
+    """beta/(alpha_p rho_p) [1/s] of the mean size of `grains`, a section of a case, in a `slip` [m/s]."""
+    found = coefficient(p, alpha_p, slip, grains.diameter, gas_density) / grains.density
+    return resolved(p, alpha_p) * found
 
 
 def call(scales) -> Judgement:

@@ -14,9 +14,11 @@ import numpy as np
 
 from sdph import effects
 from sdph.effects.around.streams import Patch
+from sdph.effects.gas import drag as of_drag
 from sdph.effects.gas import reaction
 from sdph.effects.gas.turbulent_dispersion import begins_with
 from sdph.laws import dispersion, drag, exact, granular, heat
+from sdph.laws.constants import TINY
 from sdph.methods.grains import start, ways
 
 SHEAR = 0.5  # sqrt(I2D) over the rate of a simple shear: D_xy is half of it
@@ -79,7 +81,7 @@ class Scales:
         weight = math.hypot(*self.weight)
         slip = weight * self.end
         for _ in range(50):  # fixed point, damped: drag grows with slip
-            slip = 0.5 * (slip + weight / max(self._damping(0.0, slip), weight / max(slip, 1e-300)))
+            slip = 0.5 * (slip + weight / max(self.damping(0.0, slip), weight / max(slip, TINY)))
         return slip
 
     @cached_property
@@ -106,17 +108,14 @@ class Scales:
         eps = 6.0 * nusselt * self.gas.conductivity / self.grains.diameter**2
         return self.grains.density * self.grains.heat_capacity / eps / self.heat_loading
 
-    def _damping(self, alpha_p: float, slip: float) -> float:
-        """beta/(alpha_p rho_p) [1/s] by the blended Gidaspow law, whatever law the case has."""
-        return (
-            drag.gidaspow(alpha_p, slip, self.grains.diameter, self.gas.density, self.gas.viscosity)
-            / self.grains.density
-        )
+    def damping(self, alpha_p: float, slip: float) -> float:
+        """beta/(alpha_p rho_p) [1/s] by the law of the case."""
+        return of_drag.of_one_size(of_drag.kernel(self.case), self.grains, alpha_p, slip, self.gas.density)
 
     @cached_property
     def drag_time(self) -> float:
         """a_p rp/beta [s] (sdph-notes, section 3)."""
-        return 1.0 / self._damping(self.alpha_p, self.slip)
+        return 1.0 / self.damping(self.alpha_p, self.slip)
 
     @cached_property
     def loading(self) -> float:

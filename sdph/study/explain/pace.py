@@ -22,7 +22,6 @@ from sdph import effects
 from sdph.effects.grains import friction, granular_pressure
 from sdph.engine.clock import count_of_parts
 from sdph.exchange.window import GRIP, Window, held, settling, smallest_cell
-from sdph.laws import drag
 from sdph.methods.grains import ways
 from sdph.methods.grains.method import limits as limits_of_step
 from sdph.methods.grains.scales import SETTLED
@@ -154,8 +153,7 @@ def grip(case, s) -> float:
         return math.inf
     carrying = s.minimum_fluidisation / (1.0 - s.capped)
     slip = s.slip if math.isnan(carrying) else min(s.slip, carrying)
-    rate = drag.gidaspow(s.alpha_p, slip, s.grains.diameter, s.gas.density, s.gas.viscosity) / s.grains.density
-    rate *= held(s.capped, s.gas.density / s.grains.density)
+    rate = s.damping(s.alpha_p, slip) * held(s.capped, s.gas.density / s.grains.density)
     return GRIP / rate if rate else math.inf
 
 
