@@ -169,7 +169,11 @@ def test_condensation_is_refused_and_counted(tmp_path):
     run = finished(cases.from_table(table), tmp_path)
     summary = run.ledger.summary()
     cold = run.state.temperature < 300.0
-    assert summary["condensation_refused_kg"] > 0.0
+    assert summary["condensation_refused_kg"] > 0.01 * summary["evaporated_kg"]
+    (told,) = run.warnings()
+    assert f"condensation_refused_kg = {summary['condensation_refused_kg']:.3g}, " in told
+    run.ledger.sums["evaporated_kg"] = 101.0 * summary["condensation_refused_kg"]
+    assert not run.warnings()
     assert (run.state.mass <= run.state.born_mass).all()
     assert (run.state.mass[~cold] < run.state.born_mass[~cold]).all()
     assert summary["species_drift_rel"] <= 1e-10
