@@ -23,7 +23,8 @@ LITTLE = 1e-6  # of the droplets: less condensation than that is not told of; ou
 def refusals(ledger) -> list[str]:
     """A line on a run in which more vapour than REFUSED of what evaporated would have condensed on droplets."""
     evaporated, refused = ledger.sums["evaporated_kg"], ledger.sums.get("condensation_refused_kg", 0.0)
-    if refused <= max(REFUSED * evaporated, LITTLE * (ledger.first["particle_mass_kg"] + ledger.sums["injected_kg"])):
+    there = ledger.first["particle_mass_kg"] + ledger.sums["injected_kg"]
+    if refused <= REFUSED * evaporated or refused <= LITTLE * there:
         return []
     share = f"{refused / evaporated:.0%} of what evaporated" if evaporated else "while nothing evaporated"
     return [

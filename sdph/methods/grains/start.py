@@ -78,8 +78,10 @@ def meant(case, region) -> float:
         upright = region.shape == "cylinder" and regions.AXES[along[0]] == region.axis
         if len(along) != 1 or not (upright or region.shape == "box"):
             return math.nan
-        low, high = regions.bounds(region, None, case.dimensions)
-        volume *= min(1.0, region.height / (high - low)[along[0]])
+        whole, filled = (
+            high - low for low, high in (regions.bounds(region, None, case.dimensions), extents(case, region))
+        )
+        volume *= filled[along[0]] / whole[along[0]]
     return region.volume_fraction * case.of(region.material).density * volume
 
 

@@ -68,7 +68,7 @@ class Axis(NamedTuple):
         return f"length of {self.key}" if self.component is None else f"{self.key}[{self.component}]"
 
     def place(self, row: dict) -> float | None:
-        """Where a row is drawn; None where it has no such value."""
+        """Place of a row along the axis; None where it has no such value."""
         value = row[self.key]
         if not self.vector:
             return value if _number(value) else None

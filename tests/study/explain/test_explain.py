@@ -93,7 +93,8 @@ def test_a_case_without_grains_is_warned_of():
 
 
 def test_the_mass_of_grains_is_explained_and_summed_up(capsys, tmp_path):
-    (row,) = explained.explained(cases.load(DISC), DISC.parent / "gas")["filled"]
+    embedded = cases.load(DISC, ("coupling.gas='embedded'",))
+    (row,) = explained.explained(embedded, DISC.parent / "gas")["filled"]
     run = simulation(cases.load(DISC), tmp_path)
     given = {"region": "disc", "given [kg/m]": pytest.approx(57.679641, rel=1e-6)}
     assert row == given | {"mass [kg/m]": run.grains.summary()["filled_disc_kg"]}
