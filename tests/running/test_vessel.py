@@ -178,6 +178,17 @@ def test_volumes_of_shapes_in_closed_form():
     assert found == pytest.approx({"sphere": 32.0 / 3.0, "cylinder": 12.0, "cone": 7.0, "mesh": math.nan}, nan_ok=True)
 
 
+@pytest.mark.parametrize(("axis", "meant"), [("z", 0.5 * 2500.0 * math.pi * 0.3), ("x", math.nan)])
+def test_an_upright_cylinder_is_known_up_to_its_level(axis, meant):
+    shape = {"shape": "cylinder", "centre": (0.0, 0.0, 0.5), "radius": 1.0, "end_radius": None, "length": 1.0}
+    region = types.SimpleNamespace(**shape, axis=axis, height=0.3, mass=None, volume_fraction=0.5, material="")
+    bed = types.SimpleNamespace(
+        dimensions=3, effects=(), parameters={"walls": None}, domain=types.SimpleNamespace(gravity=(0.0, 0.0, -9.81)),
+        of=lambda material: types.SimpleNamespace(density=2500.0),
+    )  # fmt: skip
+    assert start.meant(bed, region) == pytest.approx(meant, nan_ok=True)
+
+
 OTHER = {"shape": "box", "lower_m": [0.05, 0.0], "upper_m": [0.1, 0.2], "temperature_K": 300.0, "volume_fraction": 0.1}
 
 
