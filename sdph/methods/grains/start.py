@@ -72,17 +72,21 @@ def meant(case, region) -> float:
     not known in closed form."""
     if region.mass is not None:
         return region.mass
-    volume = regions.closed_form(region, case.dimensions)
+    volume, along = regions.closed_form(region, case.dimensions), np.flatnonzero(case.domain.gravity)
+    even = region.height is None or (len(along) == 1 and _of_one_width(region, along[0]))
+    if math.isnan(volume) or not even:
+        return math.nan
     if region.height is not None:
-        along = np.flatnonzero(case.domain.gravity)
-        upright = region.shape == "cylinder" and regions.AXES[along[0]] == region.axis
-        if len(along) != 1 or not (upright or region.shape == "box"):
-            return math.nan
         whole, filled = (
             high - low for low, high in (regions.bounds(region, None, case.dimensions), extents(case, region))
         )
         volume *= filled[along[0]] / whole[along[0]]
     return region.volume_fraction * case.of(region.material).density * volume
+
+
+def _of_one_width(region, along: int) -> bool:
+    """True where a region is as wide at all places along an axis."""
+    return region.shape == "box" or (region.shape == "cylinder" and regions.AXES[along] == region.axis)
 
 
 def _off(case, masses) -> list[str]:
