@@ -140,6 +140,11 @@ class Window(Clock):
         """Take note of the longest windows [s] that are borne now, by what bears them; inf where any is."""
         self.limits |= limits
 
+    @property
+    def idle(self) -> bool:
+        """True as long as there was nothing to exchange."""
+        return self.control.scale == 0.0
+
     def stake(self, heat: float) -> None:
         """There is `heat` [J] to exchange now."""
         self.control.scale = max(self.control.scale, heat)

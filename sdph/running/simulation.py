@@ -108,12 +108,7 @@ class Simulation:
         alpha_g = None if one_way or not self.case.coupling.voidage else self._alpha_g()
         self.gas_state = self.gas.start(alpha_g, () if one_way else self.exchange.sources, self.exchange.fields)
         self._obey_effects()
-        rate, stake, losing, grip, settling = self.exchange.pace(self.state, self.weights, self.gas_state)
-        self.clock.obey({"settling": settling})
-        if not one_way:
-            self.clock.begin(rate, stake)
-            self.clock.thicken(1.0, *losing)
-            self.clock.hold(grip)
+        self._begin_exchange()
         self.ledger.open(self._totals(), self.gas_state.budget)
         self.pressed = self._forces(None, 0.0)
         held = self.exchange.held(self.state, self.weights, self.gas_state)
@@ -181,6 +176,15 @@ class Simulation:
         self.clock.thicken(dt, *self.exchange.lost(handed, self.gas_state))
         self._obey_effects()
 
+    def _begin_exchange(self) -> None:
+        """Limit the first window in which there is something to exchange, by the rates of now: none is learned yet."""
+        rate, stake, losing, grip, settling = self.exchange.pace(self.state, self.weights, self.gas_state)
+        self.clock.obey({"settling": settling})
+        if not self.case.coupling.one_way:
+            self.clock.begin(rate, stake)
+            self.clock.thicken(1.0, *losing)
+            self.clock.hold(grip)
+
     def _obey_effects(self) -> None:
         """Take note of the longest windows that effects bear now."""
         self.clock.obey(self.world.leasts(effects.window_limits(self.parameters, self.case, self.state)))
@@ -205,7 +209,11 @@ class Simulation:
             self._weights_now = None
         if self.outlet:
             self.outlet.note(self.time, self.grains.gone, self.world)
-        if self.grains.source:
+        if not self.grains.source:
+            return
+        if self.clock.idle:
+            self._begin_exchange()
+        else:
             self.clock.stake(self.exchange.stake(self.state, self.weights, self.gas_state))
 
     def _totals(self) -> dict[str, float]:

@@ -35,7 +35,7 @@ def leaving(case, state, foreseen: bool = False) -> np.ndarray:
     """Mask of the grains that are out of the domain through an open side. `foreseen` places are those of grains that no
     wall has turned back yet: only outlets with a side count then."""
     gone, places = np.zeros(len(state.x), bool), particles.axes(state)
-    for side, axis, out in _beyond(case, places):
+    for side, axis, out in _beyond(case, state):
         gone |= out & (_outlets if foreseen else _open)(case, side, axis, places)
     return gone & (state.kind == GRAIN)
 
@@ -50,22 +50,24 @@ def through(case, state) -> np.ndarray:
     """Number among `exits` (N,) of what each of the grains that left went through: an outlet where it is beyond one."""
     names, places = exits(case), particles.axes(state)
     found = np.full(len(state.x), -1)
-    for side, axis, out in _beyond(case, places):
+    for side, axis, out in _beyond(case, state):
         found[out & (found < 0) & _open(case, side, axis, places)] = names.index(f"{side}_side")
-    for side, axis, out in _beyond(case, places):
+    for side, axis, out in _beyond(case, state):
         for name, outlet in outlets_of(case, side):
             found[out & _within(outlet, axis, places)] = names.index(name)
     return found
 
 
-def _beyond(case, places):
+def _beyond(case, state):
     """(side, its axis, mask (N,) of what is beyond it) of the sides of the domain that something is beyond; who is
-    beyond a periodic one for a moment is on its way round."""
-    if not len(places[0]):
+    beyond a periodic one for a moment is on its way round, and who goes inwards comes in, from a mouth that leans."""
+    if not len(state.x):
         return
-    ends = zip(case.domain.corner, case.domain.upper)
-    for axis, (sides, (low, high), period) in enumerate(zip(PAIRS, ends, case.domain.period)):
-        for side, out in zip(sides, (places[axis] < low, places[axis] > high)):
+    moves = zip(particles.axes(state), (state.u, state.v, state.w))
+    ends = zip(moves, case.domain.corner, case.domain.upper, case.domain.period)
+    for axis, ((place, speed), low, high, period) in enumerate(ends):
+        out_of_either = (place < low) & (speed <= 0.0), (place > high) & (speed >= 0.0)
+        for side, out in zip(PAIRS[axis], out_of_either):
             if not period and out.any():
                 yield side, axis, out
 
@@ -74,8 +76,8 @@ def left(case, state) -> np.ndarray:
     """Mask of the liquid that is out of the domain through an open side."""
     gone = np.zeros(len(state.x), bool)
     for axis, side in open_sides(case):
-        place = particles.axes(state)[axis]
-        gone |= place > case.domain.size[axis] if side else place < 0.0
+        place, speed = particles.axes(state)[axis], (state.u, state.v, state.w)[axis]
+        gone |= (place > case.domain.size[axis]) & (speed >= 0.0) if side else (place < 0.0) & (speed <= 0.0)
     return gone & (state.kind == LIQUID)
 
 

@@ -44,7 +44,7 @@ class DragP(NamedTuple):
 
 
 def kernel(case) -> DragP:
-    own = case.parameters["drag"]
+    own = case.parameters.get("drag") or Drag()  # who judges whether a case calls for drag asks without it
     unresolved = law.igci_filter(filter_width(case)) if own.filter == "igci" else 0.0
     return DragP(LAWS.index(own.law), case.gas.viscosity, case.grains.density, unresolved)
 

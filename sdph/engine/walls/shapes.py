@@ -24,6 +24,7 @@ UP = (0.0, 0.0, 1.0)  # axis of a round tank in space
 # cosine of facets that look away from each other, by 120 degrees or more; share of a spacing that STL rounds off: our
 # choice
 OPPOSITE, ROUND_OFF = -0.5, 1e-3
+SAME_PLACE = 1e-9  # of a depth: what is nearer to a surface is on it, and has no way from it; our choice
 
 
 @dataclass(frozen=True)
@@ -225,9 +226,12 @@ class Mesh:
         return surface_points.even_out(self._onto(points, depth), spacing, lambda moved: self._onto(moved, depth))
 
     def _onto(self, points, depth):
-        """Points moved to where they are `depth` outside."""
-        _, closest = self.triangles.find_closest_cell(points, return_closest_point=True)
-        return closest + (points - closest) * (depth / self.distance(points))[:, None]
+        """Points moved to where they are `depth` outside; those on the surface along its normal."""
+        cells, closest = self.triangles.find_closest_cell(points, return_closest_point=True)
+        away, distance = points - closest, self.distance(points)
+        on = np.abs(distance) <= SAME_PLACE * depth
+        away[on], distance[on] = self.triangles.face_normals[cells[on]], 1.0
+        return closest + away * (depth / distance)[:, None]
 
     def thin(self, spacing):
         """Places (P, 3) [m] of the surface behind which it comes back within two spacings: a plate between two rooms is

@@ -81,7 +81,7 @@ class Scales:
         weight = math.hypot(*self.weight)
         slip = weight * self.end
         for _ in range(50):  # fixed point, damped: drag grows with slip
-            slip = 0.5 * (slip + weight / max(self.damping(0.0, slip), weight / max(slip, TINY)))
+            slip = 0.5 * (slip + weight / max(self.damping(0.0, slip), weight / max(slip, TINY), TINY))
         return slip
 
     @cached_property

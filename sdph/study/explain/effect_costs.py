@@ -73,7 +73,7 @@ def step(simulation, dt: float) -> float:
     """Wall time [s] of one sub-step of `dt` [s], its exchange included."""
     simulation.grains.begin()
     count, started = len(simulation.state.x), time.perf_counter()
-    push = sum(simulation._body(simulation._hand(dt)))
+    push = sum(simulation._body(simulation.hand(dt)))
     simulation.stepper.force(np.zeros(count), push, np.zeros(count))
     simulation.stepper.move(dt)
     simulation.grains.close()

@@ -10,7 +10,7 @@ from sdph.effects.grains import conduction
 from sdph.laws.constants import ADIABATIC, GAS_CONSTANT
 from sdph.methods.grains import start, ways
 from sdph.methods.grains.scales import THIN
-from sdph.study.explain import droplets, estimate, liquids, lockstep, materials, mps, solids
+from sdph.study.explain import droplets, eddies, estimate, liquids, lockstep, materials, mps, solids
 
 OF = {
     "liquid": liquids,
@@ -70,7 +70,8 @@ def warnings(case, scales=None) -> list[str]:
         return [text for matter in case.matters for text in warnings(case.only(matter))]
     scales = scales or judge.scales_of(case)
     own = OF.get(case.moved_by(judge.matter(case)))
-    return [*judge.missing(case, scales), *(own.warnings(scales) if own else estimate.warnings(case))]
+    told = own.warnings(scales) if own else [*estimate.warnings(case), *eddies.warnings(scales)]
+    return [*judge.missing(case, scales), *told]
 
 
 def numbers(s, warm: bool = True) -> list[tuple]:

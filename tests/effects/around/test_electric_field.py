@@ -106,7 +106,7 @@ def test_explain_names_it_and_what_it_drives():
     assert rows["electric_field"]["in the case"] == "on" and rows["electric_field"]["called for"] == "yes"
     assert rows["drag"]["called for"] == rows["walls"]["called for"] == "yes"
     scales = judge.scales_of(case)
-    assert scales.falling == pytest.approx(math.hypot(*PULL) / scales._damping(0.0, scales.falling), rel=1e-3)
+    assert scales.falling == pytest.approx(math.hypot(*PULL) / scales.damping(0.0, scales.falling), rel=1e-3)
     off = {row["effect"]: row for row in tables.explain(charged(("drag",)))["effects"]}["electric_field"]
     assert (off["in the case"], off["called for"]) == ("off", "not judged")
 

@@ -5,6 +5,7 @@ from builders import simulation
 from test_inflow import SLOT, case, recorded
 
 from sdph.effects.around import outflow
+from sdph.engine.state import GRAIN
 
 LOW = SLOT | {"speed_m_s": 8.0, "centre_m": [0.0, 0.4], "diameter_mm": 1.0}  # both from the left to the right
 HIGH = LOW | {"centre_m": [0.0, 0.85], "diameter_mm": 2.0}
@@ -46,3 +47,13 @@ def test_where_all_leave_by_one_it_is_not_told_twice(tmp_path):
     while done.time < 0.3:
         done.window()
     assert not [key for key in done.outlet.summary() if "side" in key]
+
+
+def test_what_comes_in_beside_the_domain_has_not_left(tmp_path):
+    """The mouth of a nozzle that leans lies with one half outside: all of its stream comes in, and crosses."""
+    done = simulation(case(LOW | {"direction": [1.0, -0.3], "speed_m_s": 4.0}), tmp_path, cells=(4, 4))
+    while done.time < 0.1:
+        done.window()
+    inside = done.state.kind == GRAIN
+    assert inside.sum() > 10 and done.outlet.summary().get("outflow_count", 0.0) == 0.0
+    assert done.ledger.sums["injected_kg"] == pytest.approx(done.state.mass[inside].sum(), rel=1e-12)

@@ -86,6 +86,18 @@ def test_liquid_turns_with_its_tank_like_a_solid():
     assert np.abs(np.array(top) - rise - np.mean(np.array(top) - rise)).max() < spacing
 
 
+def test_walls_of_a_mesh_whose_faces_lie_on_the_lattice(tmp_path):
+    """Lattice points on a face have no way from it, and go along its normal."""
+    import pyvista
+
+    spacing, path = 0.5, tmp_path / "box.stl"
+    pyvista.Box((0.0, 5.25, 0.0, 4.0, 0.0, 4.0)).triangulate().save(path)
+    shape = shapes.Mesh(str(path))
+    for layer in range(3):
+        points = shape.shell((layer + 0.5) * spacing, spacing)
+        np.testing.assert_allclose(shape.distance(points), (layer + 0.5) * spacing, rtol=1e-5)
+
+
 def test_a_mesh_that_cannot_be_a_tank_is_refused(tmp_path):
     import meshio
 

@@ -1,0 +1,25 @@
+"""Gas that a case takes as laminar though it would be turbulent, and that few grains damp."""
+
+from __future__ import annotations
+
+from sdph.case.turbulent import SECTION, fastest_inlet
+from sdph.methods.grains.scales import DILUTE
+
+TURBULENT = 3000.0  # Reynolds number of a channel by its width and mean speed, Pope 2000, section 7.1
+
+
+def reynolds(case) -> float:
+    """U L/nu [-] of the fastest inlet and the narrowest side of the domain; 0 without an inlet."""
+    return fastest_inlet(case) * min(case.domain.size) * case.gas.density / case.gas.viscosity
+
+
+def warnings(s) -> list[str]:
+    """Note on a flow of scales `s` without a model of turbulence whose friction and mixing are those of a laminar one;
+    none where grains are dense, which is another flow."""
+    own, found = s.case.gas.turbulence, reynolds(s.case)
+    if (own is not None and own.model != "laminar") or s.alpha_p >= DILUTE or found <= TURBULENT:
+        return []
+    return [
+        f"the gas flows at Re = {found:.3g} by the narrowest side of the domain, turbulent from {TURBULENT:g} on, and "
+        f"is taken as laminar: friction on walls and mixing are too small; give [{SECTION}] (OpenFOAM's gas)"
+    ]

@@ -1,0 +1,30 @@
+"""Gas taken as laminar though it is turbulent is told of, where grains do not rule its flow."""
+
+import pytest
+
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.case.judge import scales_of
+from sdph.study.explain import eddies, tables
+
+DUCT = ("boundaries.bottom.kind='velocity_inlet'", "boundaries.bottom.velocity_m_s=[0.0,0.0,5.0]")
+
+
+def told(scene, *overrides) -> list[str]:
+    case = cases.load(scenes.HERE / scene / "case.toml", overrides)
+    return [text for text in tables.warnings(case) if "taken as laminar" in text]
+
+
+def test_a_fast_dilute_flow_is_told_of():
+    """0.3 m at 5 m/s, 0.882 kg/m3 and 2.3e-5 Pa s."""
+    (text,) = told("spray_cone", *DUCT)
+    assert "Re = 5.75e+04" in text and "[gas.turbulence]" in text
+    assert told("spray_cone") == []  # nothing flows in
+    model = "gas.turbulence={model='kEpsilon',mixing_length_m=0.02}"
+    assert told("spray_cone", *DUCT, model) == []
+
+
+@pytest.mark.parametrize("scene", ["bubbling_bed", "cylindrical_bed", "fluidised_column"])
+def test_beds_are_not(scene):
+    case = cases.load(scenes.HERE / scene / "case.toml")
+    assert eddies.reynolds(case) > 0.0 and eddies.warnings(scales_of(case)) == []
