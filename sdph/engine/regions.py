@@ -17,6 +17,7 @@ from sdph.engine.walls.dummies import CONTACT
 from sdph.schema import CaseError
 
 ALONG_AXIS = ("cylinder", "cone")
+ROUND = ("disc", "sphere")
 AXES = ("x", "y", "z")
 MESH = "mesh of particles"
 HALF = 0.5  # of a spacing between a level and the row below
@@ -40,14 +41,23 @@ def bounds(region, walls, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
     return centre - half, centre + half
 
 
+def closed_form(region, dimensions: int) -> float:
+    """Volume [m^d] of a box, a disc, a sphere, a cylinder or a cone; nan of other shapes."""
+    if region.shape == "box":
+        return math.prod(b - a for a, b in zip(region.lower, region.upper))
+    if region.shape in ALONG_AXIS:
+        a, b = _radii(region)
+        return math.pi * region.length * (a * a + a * b + b * b) / 3.0
+    if region.shape in ROUND:
+        return math.pi * region.radius**2 * (1.0 if dimensions == 2 else 4.0 / 3.0 * region.radius)
+    return math.nan
+
+
 def volume(region, spacing: float, dimensions: int, count: int) -> float:
     """[m^d] of each of the `count` points of a region: they share what is known of it, else it is that of the
     lattice."""
-    if region.shape == "box":
-        return math.prod(b - a for a, b in zip(region.lower, region.upper)) / count
-    if region.shape in ALONG_AXIS:
-        a, b = _radii(region)
-        return math.pi * region.length * (a * a + a * b + b * b) / 3.0 / count
+    if region.shape == "box" or region.shape in ALONG_AXIS:
+        return closed_form(region, dimensions) / count
     if region.shape == "mesh":
         return _surface(region).volume / count
     return spacing**dimensions
@@ -65,7 +75,7 @@ def _radii(region) -> tuple[float, float]:
 
 def points(region, spacing: float, dimensions: int, walls) -> np.ndarray:
     """(N, d) [m] of the lattice in a region, whatever stands there; `walls` as in `bounds`."""
-    if region.shape in ("box", "disc", "sphere"):
+    if region.shape in ("box", *ROUND):
         return lattice(region, spacing, dimensions)
     low, high = bounds(region, walls, dimensions)
     if region.shape in ALONG_AXIS:

@@ -16,6 +16,23 @@ from sdph.exchange import droplets as droplet_loss
 from sdph.exchange.amounts import Handed, Loss, Taken
 from sdph.exchange.equations import Seen, vapour_concentration
 
+REFUSED = 0.01  # of what evaporated, from which on what was refused to condense is told; our choice
+LITTLE = 1e-6  # of the droplets: less condensation than that is not told of; our choice
+
+
+def refusals(ledger) -> list[str]:
+    """A line on a run in which more vapour than REFUSED of what evaporated would have condensed on droplets."""
+    evaporated, refused = ledger.sums["evaporated_kg"], ledger.sums.get("condensation_refused_kg", 0.0)
+    there = ledger.first["particle_mass_kg"] + ledger.sums["injected_kg"]
+    if refused <= REFUSED * evaporated or refused <= LITTLE * there:
+        return []
+    share = f"{refused / evaporated:.0%} of what evaporated" if evaporated else "while nothing evaporated"
+    return [
+        f"condensation_refused_kg = {refused:.3g}, {share}: so much vapour would have condensed on droplets, and the "
+        "effect evaporation has no condensation: it stays in the gas, which keeps its latent heat, and no key changes "
+        "that; droplets in gas that is this humid grow and warm faster than here"
+    ]
+
 
 class Vapour:
     """Evaporation of a case with parameters `p`, the EvaporationP of sdph.effects.gas.evaporation."""

@@ -14,6 +14,7 @@ from sdph.effects.around import electric_field
 from sdph.engine import gathered
 from sdph.engine import state as particles
 from sdph.engine.kept import Unfit
+from sdph.exchange import vapour
 from sdph.exchange.exchange import Exchange
 from sdph.exchange.window import Window, learned
 from sdph.methods.grains.grains import Grains
@@ -265,7 +266,7 @@ class Simulation:
 
     def warnings(self) -> list[str]:
         """Notes for the user on how the run went."""
-        return self.grains.warnings() + self.beside.warnings()
+        return self.grains.warnings() + vapour.refusals(self.ledger) + self.beside.warnings()
 
     def cell_fields(self) -> dict[str, np.ndarray]:
         """Fields of the gas, and alpha_p by cell."""

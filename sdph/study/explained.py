@@ -6,16 +6,18 @@ from pathlib import Path
 
 from sdph.case import forces, usual
 from sdph.study import inlets, rehearsal
-from sdph.study.explain import tables
+from sdph.study.explain import materials, tables
 
 
 def explained(case, template: Path, *, allow_code: bool = False) -> dict[str, list[dict]]:
     """All parts of `tables.explain`; `CaseError` where `sdph run` would end with one. Arguments as of
     `rehearsal.rehearsed`."""
-    with rehearsal.rehearsed(case, template, allow_code=allow_code, whole=True) as (seen, mesh, told):
+    with rehearsal.rehearsed(case, template, allow_code=allow_code, whole=True) as (seen, mesh, grains):
         parts = tables.explain(seen, rehearsal.priced(case, mesh))
+        told = grains.notices if grains else []
         last = next(name for name in parts if name.startswith("warnings"))  # grains come first
         parts[last] += [{"warning": text} for text in (*inlets.warnings(case, mesh), *usual.warnings(case), *told)]
+        parts["filled"] = materials.filled(seen, grains.filled) if grains else []
         parts["forces"] = forces.rows(seen)
     return parts
 

@@ -46,7 +46,7 @@ def priced(case, template: Path):
 @contextlib.contextmanager
 def rehearsed(case, template: Path, *, allow_code: bool = False, whole: bool = False) -> Iterator[tuple]:
     """CaseError where `sdph run` would end with one; then the case with walls as a run would have them, the OpenFOAM
-    case with its mesh, as long as the context lasts, and what a run would tell of its particles. `template` and
+    case with its mesh, as long as the context lasts, and its grains, if they are made. `template` and
     `allow_code` as in `coupling.choice.open_gas`; `whole` makes the particles too, which a run does next."""
     inputs.check(case)
     room.refuse_too_large(case)
@@ -54,12 +54,12 @@ def rehearsed(case, template: Path, *, allow_code: bool = False, whole: bool = F
     with _looked_at(case, template, allow_code) as mesh, tempfile.TemporaryDirectory() as folder:
         seen = vessel.foreseen(case, mesh, Path(folder))
         vessel.refuse_beside(seen, mesh if _brings_its_own(case, mesh) else None)
-        yield seen, mesh, _made(case, seen, mesh) if whole else []
+        yield seen, mesh, _made(case, seen, mesh) if whole else None
 
 
-def _made(case, seen, mesh: Path) -> list[str]:
-    """Make what a run begins with, of the case as it is given and as it is `seen`, and refuse what the run would; what
-    it would tell of how the grains fill their regions."""
+def _made(case, seen, mesh: Path) -> Grains | None:
+    """Make what a run begins with, of the case as it is given and as it is `seen`, and refuse what the run would; the
+    grains, if it has any."""
     made = {matter: MADE[case.moved_by(matter)](seen.only(matter)) for matter in case.matters}
     forces.refuse_nowhere(case, {name for matter, one in made.items() for name in _named(seen, matter, one)})
     forces.refuse_cold(case, set(made["grains"][0].heated) if "grains" in made else set())
@@ -68,7 +68,7 @@ def _made(case, seen, mesh: Path) -> list[str]:
         immersion.beside(case.only("liquid"), wet, particles.positions(made["solid"].state))
     if _brings_its_own(case, mesh):
         vessel.refuse_outside(seen.only("grains"), vessel.Cells(seen, mesh), made["grains"][0].state)
-    return made["grains"][0].notices if "grains" in made else []
+    return made["grains"][0] if "grains" in made else None
 
 
 def _brings_its_own(case, mesh: Path) -> bool:

@@ -4,6 +4,7 @@ import dataclasses
 import json
 import math
 import tomllib
+import types
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from test_own_meshes import round_vessel
 
 from sdph.case import read as cases
 from sdph.cli import main
-from sdph.engine import table
+from sdph.engine import regions, table
 from sdph.methods.grains import start
 from sdph.running import vessel
 from sdph.schema import CaseError
@@ -93,6 +94,7 @@ def test_a_mesh_of_ones_own_is_refused_by_the_embedded_gas(tmp_path, capsys):
 
 
 def grains(**region):
+    place = {} if "shape" in region else {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.1, 0.2]}
     return cases.from_table({
         "dimensions": 2, "effects": ["gravity", "walls"], "run": {"end_time_s": 1.0, "output_interval_s": 1.0},
         "domain": {"size_m": [0.1, 0.2], "gravity_m_s2": [0.0, -9.81]},
@@ -102,8 +104,7 @@ def grains(**region):
         "grains": {"density_kg_m3": 2500.0, "diameter_mm": 0.5, "heat_capacity_J_kg_K": 800.0,
                    "conductivity_W_m_K": 1.0},
         "boundaries": {"walls": {"kind": "wall"}},
-        "particles": {"bed": {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.1, 0.2], "volume_fraction": 0.5,
-                              "temperature_K": 300.0} | region},
+        "particles": {"bed": place | {"volume_fraction": 0.5, "temperature_K": 300.0} | region},
     })  # fmt: skip
 
 
@@ -143,6 +144,49 @@ def test_a_region_that_cannot_be_is_refused(region, told):
 def test_what_walls_enclose_is_refused_where_there_is_no_mesh_of_them():
     with pytest.raises(CaseError, match="the walls are the sides of the domain"):
         start.fill(grains(shape="walls"), ())
+
+
+ROUND = {"shape": "disc", "centre_m": [0.05, 0.1]}
+
+
+@pytest.mark.parametrize(
+    ("region", "given", "told"),
+    [
+        ({}, 25.0, ""),
+        ({"mass_kg": 3.0}, 3.0, ""),
+        ({"height_m": 0.1}, 12.5, ""),
+        ({"height_m": 0.104}, 13.0, "particles.bed holds 12.5 kg, 4% less than volume_fraction of its volume, 13 kg"),
+        (ROUND | {"radius_m": 0.012}, 0.5 * 2500.0 * math.pi * 0.012**2, "12% less"),
+        (ROUND | {"radius_m": 0.016}, 0.5 * 2500.0 * math.pi * 0.016**2, "49% more"),
+        (ROUND | {"radius_m": 0.04, "height_m": 0.04}, math.nan, ""),
+    ],
+)
+def test_the_mass_of_a_region_is_told_beside_what_it_is_given(region, given, told):
+    case, notices, masses = grains(**region), [], {}
+    state = start.fill(case, (), notices, masses)
+    assert masses == {"bed": state.mass.sum()}
+    assert start.meant(case, case.particles["bed"]) == pytest.approx(given, rel=1e-12, nan_ok=True)
+    assert len(notices) == bool(told) and all(told in line for line in notices)
+
+
+def test_volumes_of_shapes_in_closed_form():
+    ball = {"shape": "sphere", "centre": (0, 0, 0), "radius": 2.0, "length": 3.0, "end_radius": 1.0}
+    shaped = {
+        shape: types.SimpleNamespace(**ball | {"shape": shape}) for shape in ("sphere", "cylinder", "cone", "mesh")
+    }
+    found = {shape: regions.closed_form(region, 3) / math.pi for shape, region in shaped.items()}
+    assert found == pytest.approx({"sphere": 32.0 / 3.0, "cylinder": 12.0, "cone": 7.0, "mesh": math.nan}, nan_ok=True)
+
+
+@pytest.mark.parametrize(("axis", "meant"), [("z", 0.5 * 2500.0 * math.pi * 0.3), ("x", math.nan)])
+def test_an_upright_cylinder_is_known_up_to_its_level(axis, meant):
+    shape = {"shape": "cylinder", "centre": (0.0, 0.0, 0.5), "radius": 1.0, "end_radius": None, "length": 1.0}
+    region = types.SimpleNamespace(**shape, axis=axis, height=0.3, mass=None, volume_fraction=0.5, material="")
+    bed = types.SimpleNamespace(
+        dimensions=3, effects=(), parameters={"walls": None}, domain=types.SimpleNamespace(gravity=(0.0, 0.0, -9.81)),
+        of=lambda material: types.SimpleNamespace(density=2500.0),
+    )  # fmt: skip
+    assert start.meant(bed, region) == pytest.approx(meant, nan_ok=True)
 
 
 OTHER = {"shape": "box", "lower_m": [0.05, 0.0], "upper_m": [0.1, 0.2], "temperature_K": 300.0, "volume_fraction": 0.1}

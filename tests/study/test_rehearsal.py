@@ -50,6 +50,7 @@ BOX = ("tank.shape='box'", "tank.lower_m=[0,0,0]", "tank.upper_m=[1,1,1]")
         ("evaporating_jet", ("nozzles.jet.centre_m=[-0.1,1.5]",), "reaches out of the domain"),
         ("evaporating_jet", ("nozzles.jet.direction=[-1,0]",), "reaches out of the domain"),
         ("evaporating_jet", ("nozzles.jet.direction=[1,0.8]",), "of its 20 streams come in outside the gas"),
+        ("evaporating_jet", ("nozzles.jet.width_m=9.0",), "streams come in outside the gas"),
         ("evaporating_jet", ("nozzles.jet.speed_m_s=1e8", "coupling.window_largest_s=1.0"), "GB are free here"),
         ("evaporating_jet", ("evaporation.saturation='antoine'",), "evaporation.antoine is missing"),
         ("spray_cone", ("nozzles.cone.across=[0,0,1]", "nozzles.cone.direction=[0,0,-2]"), "it must point aside"),

@@ -34,7 +34,8 @@ class Grains:
         self.case, self.moves = case, effects.moving(case)
         self.parameters = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
         self.notices: list[str] = []  # on how the case was filled
-        state = start.fill(case, names, self.notices)
+        self.filled: dict[str, float] = {}  # mass [kg] of each region at the start
+        state = start.fill(case, names, self.notices, self.filled)
         self.source = Source(case, names, len(state.x) + 1) if self.parameters["inflow"] else None
         self.stepper = Stepper(case, self.parameters, state, self.source, Clock(case.run).shortest)
         self.world = self.stepper.world
@@ -210,6 +211,7 @@ class Grains:
     def summary(self) -> dict[str, float]:
         """Its part of summary.json."""
         own = {"sub_steps": self.steps, "wall_contacts": self.stepper.contacts} | self.warmed.summary()
+        own |= {f"filled_{name}_kg": mass for name, mass in self.filled.items()}
         return own | self.stepper.domain.summary(self.steps - self.stepper.steps_before)
 
     def warnings(self) -> list[str]:

@@ -18,15 +18,19 @@ from sdph.schema import CaseError
 # particles of two regions that may be near where they touch: this share, and so many (a disc on a box); our choice
 FEW, TOUCHING = 0.01, 4
 SAME = 1e-9  # of a spacing: round-off
+OFF = 0.03  # of the mass of a region, from which on it is told; our choice
 
 
-def fill(case, names, notices=None) -> State:
+def fill(case, names, notices=None, masses=None) -> State:
     """The particles that a case has at the start, numbered from 1 as in the paper; mass = alpha_p rho_p dx^d.
 
-    `notices`, a list, gets a line for each region of which something is behind walls."""
-    notices = [] if notices is None else notices
+    `notices`, a list, gets a line for each region of which something is behind walls, or whose mass is another than
+    was meant; `masses`, a table, the mass of each region [kg] by its name."""
+    notices, masses = [] if notices is None else notices, {} if masses is None else masses
     parts = [_region(case, name, region, names, notices) for name, region in case.particles.items()]
     _look_for_overlap(case, parts, notices)
+    masses |= {name: float(part.mass.sum()) for name, part in zip(case.particles, parts)}
+    notices += _off(case, masses)
     state = parts[0] if parts else empty(0, names, case.dimensions)
     for part in parts[1:]:
         state = join(state, part)
@@ -61,6 +65,42 @@ def _look_for_overlap(case, parts, notices) -> None:
             f"particles of {other} ({len(among) / len(theirs):.0%}) stand among those of {name}, the first at "
             f"({place}) m, and alpha_p adds up to {dense:.3g} there; move or shrink one, unless that is meant"
         )
+
+
+def meant(case, region) -> float:
+    """Mass [kg] that a region is given: mass_kg, or volume_fraction of its volume up to its level; nan where that is
+    not known in closed form."""
+    if region.mass is not None:
+        return region.mass
+    volume, along = regions.closed_form(region, case.dimensions), np.flatnonzero(case.domain.gravity)
+    even = region.height is None or (len(along) == 1 and _of_one_width(region, along[0]))
+    if math.isnan(volume) or not even:
+        return math.nan
+    if region.height is not None:
+        whole, filled = (
+            high - low for low, high in (regions.bounds(region, None, case.dimensions), extents(case, region))
+        )
+        volume *= filled[along[0]] / whole[along[0]]
+    return region.volume_fraction * case.of(region.material).density * volume
+
+
+def _of_one_width(region, along: int) -> bool:
+    """True where a region is as wide at all places along an axis."""
+    return region.shape == "box" or (region.shape == "cylinder" and regions.AXES[along] == region.axis)
+
+
+def _off(case, masses) -> list[str]:
+    """A line for each region whose particles hold another mass than was meant."""
+    told = []
+    for name, mass in masses.items():
+        given = meant(case, case.particles[name])
+        if abs(mass - given) > OFF * given:
+            more = f"{abs(mass / given - 1.0):.0%} {'more' if mass > given else 'less'}"
+            told.append(
+                f"particles.{name} holds {mass:.4g} kg, {more} than volume_fraction of its volume, {given:.4g} kg: "
+                "particles stand on a lattice, and none within walls; a smaller resolution.spacing_mm comes nearer"
+            )
+    return told
 
 
 def mesh_of_walls(case) -> np.ndarray | None:

@@ -42,6 +42,10 @@ CELLS_WHY = (
     "(h/cell)^(dimensions + 1); in larger ones a particle that crosses a face makes alpha_p jump"
 )
 FILTER_WHY = "the drag of clusters was fitted to filters of these widths (drag.filter)"
+NO_GRAINS = (
+    "the case has no grains, neither at the start nor later: gas flows alone; give [particles.NAME] or [nozzles.NAME], "
+    "unless that is meant"
+)
 GRAINS_WHY = (
     "drag and heat laws are means over many grains; in smaller cells a grain meets gas that it has slowed or "
     "cooled itself, and both come out too small"
@@ -163,8 +167,9 @@ def _extent(case) -> float:
 
 
 def warnings(case) -> list[str]:
-    """Cells far smaller than the particles, and the other ratios that are not safe; what it does to the answer."""
-    return [
+    """No grains at all; cells far smaller than the particles, and the other ratios that are not safe; what it does to
+    the answer."""
+    return [NO_GRAINS][: not (case.particles or case.nozzles)] + [
         f"{r['ratio']} = {r['value']:.3g}, safe from {r['least']:g} to {r['most']:g}: {r['why']}"
         for r in ratios(case)
         if r["safe"] == "NO"

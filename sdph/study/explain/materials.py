@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from sdph.effects.grains import conduction
+from sdph.methods.grains import start
 from sdph.methods.grains.materials import fluidising
 from sdph.methods.grains.scales import Scales
 
@@ -40,3 +41,13 @@ def rows(case) -> list[dict]:
             "terminal velocity [m/s]": s.falling,
         })  # fmt: skip
     return found
+
+
+def filled(case, masses: dict[str, float]) -> list[dict]:
+    """A row for each region: the mass of its particles at the start, of `masses` by name, and that which it is given,
+    `start.meant`; in two dimensions by the metre."""
+    unit = "kg" if case.dimensions == 3 else "kg/m"
+    return [
+        {"region": name, f"mass [{unit}]": mass, f"given [{unit}]": start.meant(case, case.particles[name])}
+        for name, mass in masses.items()
+    ]

@@ -36,6 +36,7 @@ def sweep(wish: Wish, say: Callable[[str], None]) -> list[dict]:
         raise CaseError("a sweep needs values: give --set section.key=v1,v2 (or a:b:n), or --table FILE")
     threads = pool.threads_each(wish.workers)
     all_jobs = runs.jobs_of(wish.target, points, wish.more, wish.flags, wish.out, threads)
+    axis = table.axis(all_jobs, wish.over) if wish.metrics else None
     wish.out.mkdir(parents=True, exist_ok=True)
     outcomes, before = {}, table.read(wish.out)
     for job in all_jobs:
@@ -43,13 +44,15 @@ def sweep(wish: Wish, say: Callable[[str], None]) -> list[dict]:
             outcomes[job.name] = stands
     left = [job for job in all_jobs if job.name not in outcomes]
     say(f"{len(all_jobs)} runs, {len(left)} of them to do, in {wish.out / runs.RUNS}")
+    keys, metrics = list(points[0]), list(wish.metrics)
     found = table.write(wish.out, all_jobs, outcomes)
+    if found:
+        table.refuse_unknown(found, keys, metrics)
     for job, outcome in pool.outcomes(left, runs.done, wish.workers, wish.scheduler):
         outcomes[job.name] = outcome
         found = table.write(wish.out, all_jobs, outcomes)
         say(f"{len(outcomes)}/{len(all_jobs)} {job.name}: {outcome['reason'] or 'fine'}, {outcome['took_s']:.0f} s")
-    if wish.metrics:
-        keys = list(points[0])
-        over, metrics = table.chosen(found, keys, list(wish.metrics), wish.over)
-        say(f"{table.draw(found, keys, metrics, over, wish.out / table.FIGURE)}")
+        table.refuse_unknown(found, keys, metrics)
+    if axis:
+        say(f"{table.draw(found, keys, metrics, axis, wish.out / table.FIGURE)}")
     return found

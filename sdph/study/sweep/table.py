@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import NamedTuple
 
 from sdph.case import read as cases
 from sdph.running import output
@@ -24,8 +25,13 @@ def rows(jobs: list[Job], outcomes: dict[str, dict]) -> list[dict]:
 
 def _row(job: Job, outcome: dict) -> dict:
     row = {"run": job.name, "exit_code": outcome["exit_code"], "reason": outcome["reason"]}
-    row |= {key: cases.value_of(value) if value else "" for key, value in job.point.items()}
+    row |= _values(job)
     return row | (output.read_summary(Path(job.folder)) if outcome["exit_code"] == FINE else {})
+
+
+def _values(job: Job) -> dict:
+    """Key -> value of a point; an empty text where it leaves the case's own."""
+    return {key: cases.value_of(value) if value else "" for key, value in job.point.items()}
 
 
 def write(folder: Path, jobs: list[Job], outcomes: dict[str, dict]) -> list[dict]:
@@ -47,28 +53,79 @@ def read(folder: Path) -> dict[str, dict]:
     }
 
 
-def chosen(found: list[dict], keys: list[str], metrics: list[str], over: str | None) -> tuple[str, list[str]]:
-    """(key, metrics) to draw: what was asked for, else the first key that is a number and varies, and what the metrics
-    of the scene tell; `CaseError` where there is none."""
-    numeric = [key for key in keys if len({row[key] for row in found if _number(row[key])}) > 1]
-    over = over or next(iter(numeric), None)
-    if over not in keys:
-        raise CaseError(unknown(str(over), keys).replace("unknown key", "no varied key called", 1))
-    if over not in numeric:
-        raise CaseError(f"{over} does not take several numbers in this sweep; numbers are drawn over: {numeric}")
+class Axis(NamedTuple):
+    """A varied key that runs are drawn over, by a component of its vectors, or by their length where that is None."""
+
+    key: str
+    vector: bool = False
+    component: int | None = None
+
+    @property
+    def label(self) -> str:
+        """Words under the axis."""
+        if not self.vector:
+            return self.key
+        return f"length of {self.key}" if self.component is None else f"{self.key}[{self.component}]"
+
+    def place(self, row: dict) -> float | None:
+        """Place of a row along the axis; None where it has no such value."""
+        value = row[self.key]
+        if not self.vector:
+            return value if _number(value) else None
+        if not _vector(value):
+            return None
+        return math.hypot(*value) if self.component is None else value[self.component]
+
+
+def axis(jobs: list[Job], over: str | None) -> Axis:
+    """The axis of a figure: what was asked for, else the first key that takes several numbers, or else vectors;
+    `CaseError` where there is none."""
+    points = [_values(job) for job in jobs]
+    found = {key: own for key in points[0] if (own := _axis(key, [point[key] for point in points]))}
+    if over is None and not found:
+        raise CaseError(f"--plot: no key takes several numbers in this sweep, {', '.join(points[0])}; leave --plot out")
+    if over is None:
+        return min(found.values(), key=lambda own: own.vector)
+    if over not in points[0]:
+        raise CaseError(unknown(over, points[0]).replace("unknown key", "no varied key called", 1))
+    if over not in found:
+        told = ", ".join(found) or "none"
+        raise CaseError(f"{over} does not take several numbers in this sweep; those that do: {told}")
+    return found[over]
+
+
+def _axis(key: str, values: list) -> Axis | None:
+    """The axis of the values of a key; None where they are fewer than two numbers, or vectors of a length."""
+    if len({value for value in values if _number(value)}) > 1:
+        return Axis(key)
+    vectors = [value for value in values if _vector(value)]
+    if len({len(value) for value in vectors}) != 1:
+        return None
+    varied = [i for i, parts in enumerate(zip(*vectors)) if len(set(parts)) > 1]
+    if not varied:
+        return None
+    return Axis(key, True, varied[0] if len(varied) == 1 else None)
+
+
+def refuse_unknown(found: list[dict], keys: list[str], metrics: list[str]) -> None:
+    """CaseError where a metric is no number of each summary that there is so far."""
     good = [row for row in found if row["exit_code"] == FINE]
     known = [key for key in found[0] if key not in (*HEAD, *keys) and all(_number(row[key]) for row in good)]
-    for metric in metrics:
+    for metric in metrics if good else []:
         if metric not in known:
-            raise CaseError(unknown(metric, known).replace("unknown key", "no number of the summaries called", 1))
-    return over, metrics
+            told = unknown(metric, known).replace("unknown key", "no number of the summaries called", 1)
+            raise CaseError(f"--plot: {told}")
+
+
+def _vector(value) -> bool:
+    return isinstance(value, list) and len(value) > 1 and all(map(_number, value))
 
 
 def _number(value) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
-def draw(found: list[dict], keys: list[str], metrics: list[str], over: str, path: Path) -> Path:
+def draw(found: list[dict], keys: list[str], metrics: list[str], over: Axis, path: Path) -> Path:
     """Each metric over a key, a line for each set of the other keys; runs that failed are crosses on the axis."""
     import matplotlib
 
@@ -78,7 +135,7 @@ def draw(found: list[dict], keys: list[str], metrics: list[str], over: str, path
     figure, panels = pyplot.subplots(
         len(metrics), 1, figsize=(WIDTH, HEIGHT * len(metrics)), squeeze=False, layout="constrained"
     )
-    others = [key for key in keys if key != over and len({str(row[key]) for row in found}) > 1]
+    others = [key for key in keys if key != over.key and len({str(row[key]) for row in found}) > 1]
     for metric, axis in zip(metrics, panels[:, 0]):
         _panel(axis, found, metric, over, others)
     figure.savefig(path, dpi=150)
@@ -86,20 +143,21 @@ def draw(found: list[dict], keys: list[str], metrics: list[str], over: str, path
     return path
 
 
-def _panel(axis, found: list[dict], metric: str, over: str, others: list[str]) -> None:
+def _panel(axis, found: list[dict], metric: str, over: Axis, others: list[str]) -> None:
     lines: dict[str, list[tuple[float, float]]] = {}
-    for row in (row for row in found if row["exit_code"] == FINE and _number(row[over])):
-        label = ", ".join(f"{key} = {row[key]}" for key in others)
-        value = math.nan if row[metric] is None else row[metric]
-        lines.setdefault(label, []).append((row[over], value))
+    placed = [(at, row) for row in found if (at := over.place(row)) is not None]
+    for at, row in placed:
+        if row["exit_code"] == FINE:
+            label = ", ".join(f"{key} = {row[key]}" for key in others)
+            lines.setdefault(label, []).append((at, row[metric]))
     for label, places in sorted(lines.items()):
         axis.plot(*zip(*sorted(places)), "o-", label=label, markersize=4)
-    failed = [row[over] for row in found if row["exit_code"] != FINE and _number(row[over])]
+    failed = [at for at, row in placed if row["exit_code"] != FINE]
     if failed:
         axis.plot(
             failed, [0.03] * len(failed), "x", color="tab:red", transform=axis.get_xaxis_transform(), label="failed"
         )
-    axis.set_xlabel(over)
+    axis.set_xlabel(over.label)
     axis.set_ylabel(metric)
     if failed or others:
         axis.legend(fontsize="small")

@@ -9,6 +9,7 @@ from sdph.case import judge
 from sdph.case import read as cases
 from sdph.cli import main
 from sdph.methods.grains.scales import Scales
+from sdph.study import explained
 from sdph.study.explain import estimate, tables
 
 BED = scenes.HERE / "bubbling_bed" / "case.toml"
@@ -82,6 +83,22 @@ def test_cells_far_smaller_than_particles_are_warned_of():
     assert "cell / h = 0.24" in line and "shrink the windows" in line
     below_grains = estimate.warnings(cases.load(DISC, ("resolution.cell_mm=0.5",)))
     assert any("cell / grain" in line for line in below_grains)
+
+
+def test_a_case_without_grains_is_warned_of():
+    table = cases.to_table(cases.load(DISC))
+    assert not tables.warnings(cases.from_table(table))
+    (told,) = tables.warnings(cases.from_table({key: own for key, own in table.items() if key != "particles"}))
+    assert told.startswith("the case has no grains")
+
+
+def test_the_mass_of_grains_is_explained_and_summed_up(capsys, tmp_path):
+    embedded = cases.load(DISC, ("coupling.gas='embedded'",))
+    (row,) = explained.explained(embedded, DISC.parent / "gas")["filled"]
+    run = simulation(cases.load(DISC), tmp_path)
+    given = {"region": "disc", "given [kg/m]": pytest.approx(57.679641, rel=1e-6)}
+    assert row == given | {"mass [kg/m]": run.grains.summary()["filled_disc_kg"]}
+    assert row["mass [kg/m]"] == pytest.approx(run.state.mass.sum(), rel=1e-12)
 
 
 def test_sub_step_limits_are_the_steppers_own(tmp_path):
