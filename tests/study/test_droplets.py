@@ -115,7 +115,9 @@ def test_openfoam_s_evaporated_mass_is_that_of_no_step():
 
 @pytest.mark.openfoam
 def test_a_spray_of_nobody_s_runs_beside_openfoam_s_droplets(tmp_path, shelf, capsys):
-    own = case(coupling={"film": True, "voidage": False})
+    """Four cells across its slot. At two the evaporated mass differs by 18 %, at four by 10 % (15 % may): coarse cells
+    and the kernel spread the jet. Longer first windows once hid that at two."""
+    own = case(coupling={"film": True, "voidage": False}, resolution={"spacing_mm": 12.5, "cell_mm": 25.0})
     (tmp_path / "case.toml").write_text(cases.dumps(own), encoding="utf-8")
     folder = tmp_path / "run"
     assert main(["run", str(tmp_path / "case.toml"), "--gas", "embedded", "--out", str(folder)]) == 0
