@@ -32,8 +32,8 @@ def kernel(case) -> OutflowP:
 
 
 def leaving(case, state, foreseen: bool = False) -> np.ndarray:
-    """Mask of the grains that are out of the domain through an open side. `foreseen` places are those of grains that no
-    wall has turned back yet: only outlets with a side count then."""
+    """Mask of the grains that are out of the domain through an open side and go outwards. `foreseen` places are those
+    of grains that no wall has turned back yet: only outlets with a side count then."""
     gone, places = np.zeros(len(state.x), bool), particles.axes(state)
     for side, axis, out in _beyond(case, state):
         gone |= out & (_outlets if foreseen else _open)(case, side, axis, places)
@@ -59,8 +59,9 @@ def through(case, state) -> np.ndarray:
 
 
 def _beyond(case, state):
-    """(side, its axis, mask (N,) of what is beyond it) of the sides of the domain that something is beyond; who is
-    beyond a periodic one for a moment is on its way round, and who goes inwards comes in, from a mouth that leans."""
+    """(side, its axis, mask (N,) of what is beyond it and goes outwards) of the sides of the domain that something is
+    beyond. Who is beyond a periodic one for a moment is on its way round; who goes inwards comes from a mouth that
+    leans."""
     if not len(state.x):
         return
     moves = zip(particles.axes(state), (state.u, state.v, state.w))
@@ -73,7 +74,7 @@ def _beyond(case, state):
 
 
 def left(case, state) -> np.ndarray:
-    """Mask of the liquid that is out of the domain through an open side."""
+    """Mask of the liquid that is out of the domain through an open side and goes outwards."""
     gone = np.zeros(len(state.x), bool)
     for axis, side in open_sides(case):
         place, speed = particles.axes(state)[axis], (state.u, state.v, state.w)[axis]

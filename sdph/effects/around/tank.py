@@ -72,7 +72,7 @@ def shape_of(case):
     if own.outlet_radius:
         _refuse_outlet(case, own)
     if own.shape == "box":
-        return _with_slot(case, own, _box(case, own))
+        return _with_outlet_in_floor(case, own, _box(case, own))
     if own.shape == "mesh" and d == 3:
         return _mesh(case, own.mesh, own.mesh_scale)
     if d == 2 and own.shape != "sphere":
@@ -132,7 +132,7 @@ def _refuse_outlet(case, own) -> None:
         raise CaseError("tank.outlet_centre_m is given; a round tank has its outlet in the middle: leave it out")
 
 
-def _with_slot(case, own, box):
+def _with_outlet_in_floor(case, own, box):
     """A box with an outlet in its floor: a round pipe, in two dimensions a slot."""
     if not own.outlet_radius:
         return box
