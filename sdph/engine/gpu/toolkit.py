@@ -37,11 +37,13 @@ def lies_there(array) -> bool:
 
 
 def strict() -> None:
-    """Let a kernel that would copy arrays of the host both ways at every launch fail."""
+    """Let a kernel that would copy arrays of the host both ways at every launch fail; that small ones leave most of the
+    device idle is meant (sums of sums)."""
     if not SIMULATED:
         from numba.cuda.core.errors import NumbaPerformanceWarning
 
         warnings.simplefilter("error", NumbaPerformanceWarning)
+        warnings.filterwarnings("ignore", ".*under-utilization", NumbaPerformanceWarning)
 
 
 def assembly(function, taken: tuple, capability: tuple[int, int], *, parts: bool) -> str:
