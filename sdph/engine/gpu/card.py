@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from sdph.engine import arrays
-from sdph.engine.gpu import sorting
+from sdph.engine.gpu import products, sorting
 from sdph.engine.gpu.toolkit import SIMULATED, cuda, lies_there, strict
 from sdph.engine.gpu.translation import kernel_of, results
 from sdph.laws.compiled import Loop
@@ -163,6 +163,22 @@ class Card:
         self._launch(sorting.scatter, LOOP, number, free, rows)
         self._launch(sorting.tidy, LOOP, start, rows)
         return rows
+
+    def joined(self, one, other):
+        whole = self.empty(len(one) + len(other), one.dtype)
+        if len(one):
+            whole[: len(one)].copy_to_device(one)
+        if len(other):
+            whole[len(one) :].copy_to_device(other if lies_there(other) else self.send(other))
+        return whole
+
+    def dot(self, a, b, sums, place: int) -> None:
+        """sums[place] = sum a b; nothing comes to the host."""
+        part = self.empty((math.prod(PARTS), 1), np.float64)
+        fewer = self.empty((math.prod(SUMS), 1), np.float64)
+        self._launch(products.multiply, PARTS, a, b, part)
+        self._launch(sorting.sum_parts, SUMS, part, fewer)
+        self._launch(products.put, (1, 1), fewer, sums, place)
 
 
 def _there(value) -> bool:

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import prange
 
+from sdph.engine import arrays
 from sdph.engine.geometry import apart, deep, faster
 from sdph.engine.linear import Matrix
 from sdph.engine.rows import entry
@@ -132,13 +133,14 @@ def count(cloud, walls, s, rows, box, found):
         found[i] = n
 
 
-def matrix(cloud, walls, s, rows, box, number, surface) -> Matrix:
-    """The pressure's matrix (5), (7)."""
-    found = np.empty(len(s.x), np.int64)
+def matrix(cloud, walls, s, rows, box, number, surface, room=None) -> Matrix:
+    """The pressure's matrix (5), (7), in work arrays of a `room`."""
+    room = room or arrays.Room()
+    found, diagonal = room("links", len(s.x), s.x, np.int64), room("diagonal", len(s.x), s.x)
     count(cloud, walls, s, rows, box, found)
-    start = np.zeros(len(found) + 1, np.int64)
-    np.cumsum(found, out=start[1:])
-    column, value, diagonal = np.empty(start[-1], np.int32), np.empty(start[-1]), np.empty(len(found))
+    start = arrays.begins(found)
+    links = int(arrays.last(start))
+    column, value = room("column", links, s.x, np.int32), room("value", links, s.x)
     equations_of(cloud, walls, s, rows, box, number, surface, start, diagonal, column, value)
     return Matrix(diagonal, start, column, value)
 
@@ -201,12 +203,15 @@ def pull(cloud, tension_p, s, rows, box, acceleration, energy):
 
 @parallel
 def meet(walls, s, rows, box, distance, meeting):
-    """meeting (N,): neighbours nearer than `distance` [m] that approach."""
+    """meeting (N,): neighbours nearer than `distance` [m] that approach; the sum of it."""
+    found = 0.0
     for i in prange(len(s.x)):
         n = 0
         for k in range(rows.number[i]):
             n += 1 if _approach(s, box, i, entry(rows, i, k), distance)[3] < 0.0 else 0
         meeting[i] = n
+        found += n
+    return found
 
 
 @inlined
