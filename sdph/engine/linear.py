@@ -13,6 +13,7 @@ import numpy as np
 from numba import prange
 
 from sdph.engine import arrays
+from sdph.engine.rows import Rows, place
 from sdph.laws.compiled import parallel
 
 PART = 4096  # of a sum; our choice
@@ -20,11 +21,10 @@ WHOLE, LEFT, MOVED, WEIGHT, PLACES = 0, 1, 2, 3, 5  # among the sums of `solve`:
 
 
 class Matrix(NamedTuple):
-    """diagonal (N,), and of row i the columns and values (E,) from start[i] to start[i + 1]."""
+    """diagonal (N,), links whose entries are columns (sdph.engine.rows), and along these entries the values (E,)."""
 
     diagonal: np.ndarray
-    start: np.ndarray
-    column: np.ndarray
+    links: Rows
     value: np.ndarray
 
 
@@ -42,7 +42,7 @@ def solve(matrix: Matrix, right, x, tolerance: float, most: int, room=None) -> i
     room = room or arrays.Room()
     residual, smooth, along, moved = (room(name, len(x), x) for name in ("residual", "smooth", "along", "moved"))
     sums = arrays.zeros(PLACES, x)
-    multiply(matrix, x, moved)
+    multiply(*matrix, x, moved)
     begin(matrix.diagonal, right, moved, residual, smooth, along)
     add(right, right, sums, WHOLE)
     add(residual, residual, sums, LEFT)
@@ -53,7 +53,7 @@ def solve(matrix: Matrix, right, x, tolerance: float, most: int, room=None) -> i
     for number in range(1, most + 1):
         now = WEIGHT + (number + 1) % 2  # the weights of this iteration and of the next one stand there in turn
         then = 2 * WEIGHT + 1 - now
-        multiply(matrix, along, moved)
+        multiply(*matrix, along, moved)
         add(along, moved, sums, MOVED)
         go(matrix.diagonal, sums, now, along, moved, x, residual, smooth)
         add(residual, residual, sums, LEFT)
@@ -71,12 +71,13 @@ def _length(sums) -> float:
 
 
 @parallel
-def multiply(matrix, x, out):
-    """out (N,) = A x."""
+def multiply(diagonal, links, value, x, out):
+    """out (N,) = A x of the Matrix (diagonal, links, value)."""
     for i in prange(len(x)):
-        own = matrix.diagonal[i] * x[i]
-        for e in range(matrix.start[i], matrix.start[i + 1]):
-            own -= matrix.value[e] * x[matrix.column[e]]
+        own = diagonal[i] * x[i]
+        for k in range(links.number[i]):
+            e = place(links, i, k)
+            own -= value[e] * x[links.entries[e]]
         out[i] = own
 
 
@@ -107,25 +108,25 @@ def turn(sums, now, then, smooth, along):
         along[i] = along[i] * factor + smooth[i]
 
 
-def add(a, b, sums, place: int) -> None:
-    """sums[place] = sum a b, in one order on any number of threads."""
+def add(a, b, sums, at: int) -> None:
+    """sums[at] = sum a b, in one order on any number of threads."""
     if arrays.here(a):
-        sums[place] = dot(a, b)
+        sums[at] = dot(a, b)
     else:
-        arrays.card.dot(a, b, sums, place)
+        arrays.card.dot(a, b, sums, at)
 
 
 def dot(a, b) -> float:
     """sum a b, in parts that are the same on any number of threads."""
-    return float(_parts(a, b).sum())
+    parts = np.empty((len(a) + PART - 1) // PART)
+    _parts(a, b, parts)
+    return float(parts.sum())
 
 
 @parallel
-def _parts(a, b):
-    parts = np.zeros((len(a) + PART - 1) // PART)
+def _parts(a, b, parts):
     for k in prange(len(parts)):
         own = 0.0
         for i in range(k * PART, min((k + 1) * PART, len(a))):
             own += a[i] * b[i]
         parts[k] = own
-    return parts

@@ -291,3 +291,9 @@ def _fill(grid, begin, x, y, z, at_x, at_y, at_z, blind, idle, same, box, cutoff
                     first, last = _run(begin, line, grid.shape[0], x0, x1, blind[i], n)
                     end = _listed(x, y, z, box, xi, yi, zi, own, cutoff2, first, last, entries, end)
         _end(entries, np.int64(end), start[i + 1], i)
+
+
+def rows_of(number, room) -> Rows:
+    """Rows of these numbers of entries (N,), which are to be filled in; they are work arrays of a `room`."""
+    start = arrays.begins(number)
+    return Rows(room("entries", int(arrays.last(start)), number, np.uint32), start, number)

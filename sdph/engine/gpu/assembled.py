@@ -61,9 +61,13 @@ class Heard:
     def __exit__(self, *error) -> None:
         Loop.elsewhere = None
 
-    def hear(self, loop, arguments):
+    def note(self, loop, arguments) -> None:
         """Note a call."""
         self.loops[loop, tuple(map(typeof, arguments))] = None
+
+    def hear(self, loop, arguments):
+        """Note a call, and run it unless it is over pairs."""
+        self.note(loop, arguments)
         many = results(loop)
         if not any(isinstance(own, Rows) for own in arguments):
             return loop.here(*arguments)

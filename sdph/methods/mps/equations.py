@@ -15,7 +15,7 @@ from numba import prange
 from sdph.engine import arrays
 from sdph.engine.geometry import apart, deep, faster
 from sdph.engine.linear import Matrix
-from sdph.engine.rows import entry
+from sdph.engine.rows import entry, place, rows_of
 from sdph.laws import moving_particles
 from sdph.laws.compiled import inlined, parallel
 from sdph.methods.mps.tanks import grip, solid
@@ -103,19 +103,20 @@ def near_surface(cloud, walls, s, rows, box, surface, beside):
 
 
 @parallel
-def equations_of(cloud, walls, s, rows, box, number, surface, start, diagonal, column, value):
-    """Fill the matrix of (2 d/(lambda n_0)) sum (p_j - p_i) w times -lambda n_0/(2 d), of which start (N + 1,) is
-    known: a particle at the surface has n_0 on the diagonal, as if what it lacks were there with p = 0. Walls are
-    on the right-hand side."""
+def equations_of(cloud, walls, s, rows, box, number, surface, links, diagonal, column, value):
+    """Fill the matrix of (2 d/(lambda n_0)) sum (p_j - p_i) w times -lambda n_0/(2 d), whose links have the columns as
+    entries: a particle at the surface has n_0 on the diagonal, as if what it lacks were there with p = 0. Walls are on
+    the right-hand side."""
     for i in prange(len(s.x)):
-        e, own = start[i], 0.0
+        n, own = 0, 0.0
         for k in range(rows.number[i] if not solid(walls, s, i) else 0):
             j = entry(rows, i, k)
             w = seen(cloud, s, box, i, j)[4]
             if w > 0.0 and not solid(walls, s, j):
+                e = place(links, i, n)
                 column[e], value[e] = j, w
                 own += w
-                e += 1
+                n += 1
         missing = max(cloud.number - number[i], (1.0 - SPARSE) * cloud.number if len(walls) else 0.0)
         held = own + missing if surface[i] == 1 else max(own, BURST * cloud.number)
         diagonal[i] = held * (1.0 + BURST)
@@ -136,13 +137,12 @@ def count(cloud, walls, s, rows, box, found):
 def matrix(cloud, walls, s, rows, box, number, surface, room=None) -> Matrix:
     """The pressure's matrix (5), (7), in work arrays of a `room`."""
     room = room or arrays.Room()
-    found, diagonal = room("links", len(s.x), s.x, np.int64), room("diagonal", len(s.x), s.x)
+    found, diagonal = room("links", len(s.x), s.x, np.int32), room("diagonal", len(s.x), s.x)
     count(cloud, walls, s, rows, box, found)
-    start = arrays.begins(found)
-    links = int(arrays.last(start))
-    column, value = room("column", links, s.x, np.int32), room("value", links, s.x)
-    equations_of(cloud, walls, s, rows, box, number, surface, start, diagonal, column, value)
-    return Matrix(diagonal, start, column, value)
+    links = rows_of(found, room)
+    value = room("value", len(links.entries), s.x)
+    equations_of(cloud, walls, s, rows, box, number, surface, links, diagonal, links.entries, value)
+    return Matrix(diagonal, links, value)
 
 
 @parallel

@@ -29,10 +29,10 @@ class Mps(Stepped):
     KEPT = ("windows", "stepper", "ledger", "drops", "diameters", "counts", "impulse", "since")
     FORMS = {"diameters": GROWING, "counts": GROWING}
 
-    def __init__(self, case, ledger: Path, shortest: float):
+    def __init__(self, case, ledger: Path | None, shortest: float):
         self.case, self.windows = case, 0
         self.stepper, self.ledger = MpsStepper(case, shortest), MpsLedger(ledger)
-        self.drops = Table(ledger.with_name("droplets.csv"))  # pieces that have left
+        self.drops = Table(ledger and ledger.with_name("droplets.csv"))  # pieces that have left
         self.diameters, self.counts = np.zeros(0), np.zeros(0)  # [m] and particles of each
         # of the liquid by all but gravity at the last row [kg m/s], and its time [s]
         self.impulse, self.since = np.zeros(3), 0.0

@@ -28,7 +28,7 @@ class MpsLedger(Sums):
     KEPT = (*Sums.KEPT, "works", "impulses", "passed", "momentum", "moved")  # see sdph.engine.kept
     AMOUNTS = AMOUNTS
 
-    def __init__(self, path: Path):
+    def __init__(self, path: Path | None):
         super().__init__(path)
         # of the stepper, at the last row
         self.works, self.impulses, self.passed = np.zeros(len(WORKS)), np.zeros((2, 3)), np.zeros((2, 5))
