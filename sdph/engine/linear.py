@@ -44,9 +44,8 @@ def solve(matrix: Matrix, right, x, tolerance: float, most: int, room=None) -> i
     sums = arrays.zeros(PLACES, x)
     multiply(*matrix, x, moved)
     begin(matrix.diagonal, right, moved, residual, smooth, along)
-    add(right, right, sums, WHOLE)
-    add(residual, residual, sums, LEFT)
-    add(residual, smooth, sums, WEIGHT)
+    add(right, (right,), sums, (WHOLE,), room)
+    add(residual, (residual, smooth), sums, (LEFT, WEIGHT), room)
     whole = math.sqrt(arrays.brought(sums)[WHOLE])
     if _length(sums) <= tolerance * whole:
         return 0
@@ -54,12 +53,11 @@ def solve(matrix: Matrix, right, x, tolerance: float, most: int, room=None) -> i
         now = WEIGHT + (number + 1) % 2  # the weights of this iteration and of the next one stand there in turn
         then = 2 * WEIGHT + 1 - now
         multiply(*matrix, along, moved)
-        add(along, moved, sums, MOVED)
+        add(along, (moved,), sums, (MOVED,), room)
         go(matrix.diagonal, sums, now, along, moved, x, residual, smooth)
-        add(residual, residual, sums, LEFT)
+        add(residual, (residual, smooth), sums, (LEFT, then), room)
         if _length(sums) <= tolerance * whole:
             return number
-        add(residual, smooth, sums, then)
         turn(sums, now, then, smooth, along)
     left = _length(sums) / whole
     raise Unsolved(f"{most} iterations left a residual of {left:.3g} of the right-hand side, above {tolerance:g}")
@@ -108,12 +106,13 @@ def turn(sums, now, then, smooth, along):
         along[i] = along[i] * factor + smooth[i]
 
 
-def add(a, b, sums, at: int) -> None:
-    """sums[at] = sum a b, in one order on any number of threads."""
-    if arrays.here(a):
+def add(a, others: tuple, sums, places: tuple, room) -> None:
+    """Sums of a b for each b of others, at their places among sums, in one order on any number of threads."""
+    if not arrays.here(a):
+        arrays.card.dots(a, others, sums, places, room)
+        return
+    for b, at in zip(others, places):
         sums[at] = dot(a, b)
-    else:
-        arrays.card.dot(a, b, sums, at)
 
 
 def dot(a, b) -> float:

@@ -1,5 +1,5 @@
-"""Moving particles on a device, which numba's simulator plays, go as on the processor: a sheet whose pieces leave, pools
-with walls and without, pressure without its equations; and what is not taken there is refused in one line."""
+"""Moving particles on a device, which numba's simulator plays, go as on the processor: a sheet whose pieces leave,
+pools with walls and without, pressure without its equations; what is not taken there is refused in one line."""
 
 import json
 import shutil
@@ -27,7 +27,8 @@ SETS = {  # name -> scene, end [s] of a few steps, keys
     "without equations": ("swirl_sheet", "2e-5", *SHEET, 'method.pressure="weakly_compressible"'),
     "in a tank": ("dam_break", "0.02", MPS, "resolution.spacing_mm=9.525", "domain.size_m=[0.13335, 0.13335]",
                   "pools.column.velocity_m_s=[2.0, 0.5]"),
-    "periodic": ("taylor_green", "0.08", MPS, "resolution.spacing_mm=100"),
+    "periodic": ("taylor_green", "0.07", MPS, "resolution.spacing_mm=100", "pools.square.lower_m=[0.0, 0.3]",
+                 "pools.square.upper_m=[1.0, 0.9]"),
     "in space": ("dam_break_3d", "0.01", MPS, "resolution.spacing_mm=14.2875", "domain.size_m=[0.08, 0.12, 0.028575]",
                  "pools.column.velocity_m_s=[2.0, 0.0, 0.0]"),
 }  # fmt: skip

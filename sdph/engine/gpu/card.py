@@ -172,13 +172,14 @@ class Card:
             whole[len(one) :].copy_to_device(other if lies_there(other) else self.send(other))
         return whole
 
-    def dot(self, a, b, sums, place: int) -> None:
-        """sums[place] = sum a b; nothing comes to the host."""
-        part = self.empty((math.prod(PARTS), 1), np.float64)
-        fewer = self.empty((math.prod(SUMS), 1), np.float64)
-        self._launch(products.multiply, PARTS, a, b, part)
+    def dots(self, a, others: tuple, sums, places: tuple, room) -> None:
+        """Sums of a b for each b of others, at their places among sums, with work arrays of a room; nothing comes to
+        the host."""
+        columns = len(others)
+        part, fewer = (room(f"{columns} of {size}", (math.prod(size), columns), a) for size in (PARTS, SUMS))
+        self._launch(products.multiply, PARTS, a, others, part)
         self._launch(sorting.sum_parts, SUMS, part, fewer)
-        self._launch(products.put, (1, 1), fewer, sums, place)
+        self._launch(products.put, (1, 1), fewer, sums, places)
 
 
 def _there(value) -> bool:

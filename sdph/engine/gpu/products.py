@@ -1,4 +1,4 @@
-"""Kernels of scalar products, whose value stays on the device: threads add up in one order, which no card changes."""
+"""Kernels of scalar products, whose values stay on the device: threads add up in one order, which no card changes."""
 
 from __future__ import annotations
 
@@ -6,18 +6,21 @@ from sdph.engine.gpu.toolkit import cuda, kernel
 
 
 @kernel
-def multiply(a, b, part):
-    """part (T, 1): sum a b of every T-th of (N,), of each of T threads."""
-    t, found = cuda.grid(1), 0.0
-    for i in range(t, len(a), len(part)):
-        found += a[i] * b[i]
-    part[t, 0] = found
+def multiply(a, others, part):
+    """part (T, K): sums of a b over every T-th row, of each of T threads; others: K arrays b (N,)."""
+    t = cuda.grid(1)
+    for c in range(len(others)):
+        found = 0.0
+        for i in range(t, len(a), len(part)):
+            found += a[i] * others[c][i]
+        part[t, c] = found
 
 
 @kernel
-def put(part, sums, place):
-    """sums[place] = the sum of part (T, 1); one thread."""
-    found = 0.0
-    for t in range(len(part)):
-        found += part[t, 0]
-    sums[place] = found
+def put(part, sums, places):
+    """Sums of the columns of part (T, K), at their places among sums; one thread."""
+    for c in range(len(places)):
+        found = 0.0
+        for t in range(len(part)):
+            found += part[t, c]
+        sums[places[c]] = found
