@@ -13,7 +13,7 @@ import numpy as np
 from numba import prange
 
 from sdph.engine import arrays
-from sdph.engine.rows import Rows, place
+from sdph.engine.rows import Rows, laid, place
 from sdph.laws.compiled import parallel
 
 PART = 4096  # of a sum; our choice
@@ -26,6 +26,12 @@ class Matrix(NamedTuple):
     diagonal: np.ndarray
     links: Rows
     value: np.ndarray
+
+
+def links_of(number, room) -> Rows:
+    """Links of these numbers of entries (N,), which are to be filled in; they are a work array of a `room`."""
+    kind, start = laid(number)
+    return kind(room("entries", int(arrays.last(start)), number, np.uint32), start, number)
 
 
 class Unsolved(RuntimeError):

@@ -312,12 +312,6 @@ def _fill(grid, begin, x, y, z, at_x, at_y, at_z, blind, idle, same, box, cutoff
         _end(rows, i, rows.number[i], taken[i], entries)
 
 
-def rows_of(number, room) -> Rows:
-    """Rows of these numbers of entries (N,), which are to be filled in; they are work arrays of a `room`."""
-    kind, start = laid(number)
-    return kind(room("entries", int(arrays.last(start)), number, np.uint32), start, number)
-
-
 def laid(taken) -> tuple:
     """How rows lie that take as many entries (N,), and where each begins, and the end."""
     if arrays.here(taken):

@@ -14,8 +14,8 @@ from numba import prange
 
 from sdph.engine import arrays
 from sdph.engine.geometry import apart, deep, faster
-from sdph.engine.linear import Matrix
-from sdph.engine.rows import entry, place, rows_of
+from sdph.engine.linear import Matrix, links_of
+from sdph.engine.rows import entry, place
 from sdph.laws import moving_particles
 from sdph.laws.compiled import inlined, parallel
 from sdph.methods.mps.tanks import grip, solid
@@ -139,7 +139,7 @@ def matrix(cloud, walls, s, rows, box, number, surface, room=None) -> Matrix:
     room = room or arrays.Room()
     found, diagonal = room("links", len(s.x), s.x, np.int32), room("diagonal", len(s.x), s.x)
     count(cloud, walls, s, rows, box, found)
-    links = rows_of(found, room)
+    links = links_of(found, room)
     value = room("value", len(links.entries), s.x)
     equations_of(cloud, walls, s, rows, box, number, surface, links, diagonal, links.entries, value)
     return Matrix(diagonal, links, value)
