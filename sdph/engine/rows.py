@@ -151,11 +151,7 @@ class Neighbours:
         )
         number, taken = arrays.empty(len(blind), blind, np.int32), arrays.empty(len(blind), blind, np.int64)
         _count(*near, number, taken)
-        kind, start = (
-            (Rows, arrays.begins(taken))
-            if arrays.here(taken)
-            else (Abreast, arrays.card.begins_abreast(taken, ABREAST))
-        )
+        kind, start = laid(taken)
         rows = kind(self._room(int(arrays.last(start)), blind), start, number)
         _fill(*near, rows, taken, rows.entries)
         return rows
@@ -315,3 +311,10 @@ def _fill(grid, begin, x, y, z, at_x, at_y, at_z, blind, idle, same, box, cutoff
                     first, last = _run(begin, line, grid.shape[0], x0, x1, blind[i], n)
                     end = _listed(x, y, z, box, xi, yi, zi, own, cutoff2, first, last, rows, entries, end)
         _end(rows, i, rows.number[i], taken[i], entries)
+
+
+def laid(taken) -> tuple:
+    """How rows lie that take as many entries (N,), and where each begins, and the end."""
+    if arrays.here(taken):
+        return Rows, arrays.begins(taken)
+    return Abreast, arrays.card.begins_abreast(taken, ABREAST)

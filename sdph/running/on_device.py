@@ -9,6 +9,7 @@ from sdph.schema import CaseError
 EFFECTS = (
     "density_diffusion", "frame", "gravity", "laminar_viscosity", "liquid_damping", "shifting", "tank", "xsph",
 )  # fmt: skip
+OF_MPS = "free_energy_tension", "gravity", "inflow", "laminar_viscosity", "outflow", "tank"  # of moving particles
 
 
 def refuse(case, processes: int = 1) -> None:
@@ -26,10 +27,13 @@ def _unknown(case, processes: int) -> str:
     """Reason why a case is not taken there; empty where it is."""
     if processes > 1:
         return f"a device is of one process, and these are {processes}"
-    if case.moved_by(case.matters[0]) != "liquid" or len(case.matters) > 1:
+    known = {"liquid": EFFECTS, "mps": OF_MPS}.get(case.moved_by(case.matters[0]), ())
+    if not known or len(case.matters) > 1:
         return "only a liquid alone is taken to a device"
-    if left := sorted(set(case.effects) - set(EFFECTS)):
-        return f"{left[0]} is not taken to a device; known: {', '.join(EFFECTS)}"
+    if left := sorted(set(case.effects) - set(known)):
+        return f"{left[0]} is not taken to a device; known: {', '.join(known)}"
+    if other := next((name for name, own in case.nozzles.items() if own.shape != "annulus"), ""):
+        return f"nozzles.{other} is no annulus: others are not taken to a device"
     if case.run.forces:
         return "run.forces is not told of a device"
     return ""

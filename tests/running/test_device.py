@@ -127,7 +127,6 @@ def refusal(capsys, *given: str) -> str:
         ("channel_bore", (), "inflow is not taken"),
         ("capillary_wave", (), "surface_tension is not taken"),
         ("dam_break", ('run.forces=["tank"]',), "run.forces"),
-        ("swirl_sheet", (), "only a liquid alone"),
     ],
 )
 def test_what_is_not_taken_to_a_device_is_refused_in_one_line(capsys, tmp_path, scene, keys, why):

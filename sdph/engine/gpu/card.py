@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from sdph.engine import arrays
-from sdph.engine.gpu import sorting
+from sdph.engine.gpu import products, sorting
 from sdph.engine.gpu.toolkit import SIMULATED, Launcher, cuda, lies_there, strict
 from sdph.engine.gpu.translation import kernel_of, results
 from sdph.laws.compiled import Loop
@@ -182,6 +182,23 @@ class Card:
         self._launch(sorting.scatter, LOOP, number, free, rows)
         self._launch(sorting.tidy, LOOP, start, rows)
         return rows
+
+    def joined(self, one, other):
+        whole = self.empty(len(one) + len(other), one.dtype)
+        if len(one):
+            whole[: len(one)].copy_to_device(one)
+        if len(other):
+            whole[len(one) :].copy_to_device(other if lies_there(other) else self.send(other))
+        return whole
+
+    def dots(self, a, others: tuple, sums, places: tuple, room) -> None:
+        """Sums of a b for each b of others, at their places among sums, with work arrays of a room; nothing comes to
+        the host."""
+        columns = len(others)
+        part, fewer = (room(f"{columns} of {size}", (math.prod(size), columns), a) for size in (PARTS, SUMS))
+        self._launch(products.multiply, PARTS, a, others, part)
+        self._launch(sorting.sum_parts, SUMS, part, fewer)
+        self._launch(products.put, (1, 1), fewer, sums, places)
 
 
 def _there(value) -> bool:
