@@ -254,13 +254,16 @@ def _counted(x, y, z, box, xi, yi, zi, cutoff2, first, last):
 
 
 @serial
-def _listed(x, y, z, box, xi, yi, zi, own, cutoff2, first, last, entries, end, step):
-    """Appends those to the entries, `step` places from one to the next, and returns their end. One is written before it
-    is known to count, which saves a branch."""
+def _listed(x, y, z, box, xi, yi, zi, own, cutoff2, first, last, rows, entries, end):
+    """Appends those to the entries and returns their end. One is written before it is known to count, which saves a
+    branch; a device rather has branches than writes."""
+    step = np.uint64(stride(rows))
     for j in range(first, last):
         dx, dy, dz = nearest_image(box, xi - x[j], yi - y[j], zi - z[j] if len(z) else 0.0)
-        entries[end] = j
-        end += np.uint64((j != own) & (dx * dx + dy * dy + dz * dz < cutoff2)) * step
+        counts = (j != own) & (dx * dx + dy * dy + dz * dz < cutoff2)
+        if stride(rows) == 1 or counts:
+            entries[end] = j
+        end += np.uint64(counts) * step
     return end
 
 
@@ -306,9 +309,7 @@ def _fill(grid, begin, x, y, z, at_x, at_y, at_z, blind, idle, same, box, cutoff
                 line = (turned(kz, grid.shape[2]) * grid.shape[1] + turned(ky, grid.shape[1])) * grid.shape[0]
                 for n in range(runs[0], runs[1]):
                     first, last = _run(begin, line, grid.shape[0], x0, x1, blind[i], n)
-                    end = _listed(
-                        x, y, z, box, xi, yi, zi, own, cutoff2, first, last, entries, end, np.uint64(stride(rows))
-                    )  # fmt: skip
+                    end = _listed(x, y, z, box, xi, yi, zi, own, cutoff2, first, last, rows, entries, end)
         _end(rows, i, rows.number[i], taken[i], entries)
 
 

@@ -124,3 +124,12 @@ def test_kernels_of_sorting_and_products_compile(name, taken):
 def test_occupancy_is_that_of_nvidias_calculator():
     """65536 registers, 2048 threads of a multiprocessor: 32 registers let all in, 128 a quarter, 111 as many as 112."""
     assert [assembled.occupancy(own, 128) for own in (32, 64, 128, 111, 255)] == [1.0, 0.5, 0.25, 0.25, 0.125]
+
+
+def test_no_two_kernels_are_one_on_disk():
+    """Two loops of one name, and of one signature, are in two files: else one would be loaded for the other."""
+    from sdph.engine import motion
+    from sdph.methods.liquids import totals
+
+    one, other = (translation.kernel_of(loop)._cache._impl.filename_base for loop in (motion.fastest, totals.fastest))
+    assert one != other
