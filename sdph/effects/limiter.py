@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from sdph.engine import softening
+from sdph.engine import arrays, softening
+from sdph.engine.cells import of_kind
 from sdph.engine.state import GRAIN, by_material
 from sdph.engine.world import here
 from sdph.laws import granular
@@ -30,8 +31,8 @@ def capped(p, state) -> dict[str, float]:
 
 def softened(p, method) -> dict[str, float]:
     """The part that r^2 + 0.01 h^2 in place of r^2 takes off the pairs in the gas (sdph.engine.softening)."""
-    s = method.state
-    return softening.held(method, "cubic_spline", np.flatnonzero(s.kind == GRAIN), s.mass)
+    own = method.aboard
+    return softening.held(own, "cubic_spline", arrays.chosen(of_kind(own.state.kind, GRAIN)), own.state.mass)
 
 
 def streaming(p, state, factor: float, name: str) -> dict[str, float]:

@@ -12,6 +12,7 @@ from numba import prange
 from sdph.laws.compiled import parallel, serial
 
 card = None  # the device, once it is begun
+IN_MEMORY = np.zeros(0)  # an array that lies there, to have others beside it
 
 
 def here(array) -> bool:
@@ -98,9 +99,14 @@ def order(number, total: int):
     return _order(number, total) if here(number) else card.order(number, total)
 
 
+def value(array, n: int):
+    """The n-th value of an array (N,)."""
+    return array[n] if here(array) else card.value(array, n)
+
+
 def last(array):
     """The last value of an array (N,)."""
-    return array[-1] if here(array) else card.value(array, len(array) - 1)
+    return value(array, len(array) - 1)
 
 
 @serial
@@ -119,3 +125,11 @@ def _order(number, total):
         rows[start[cell]] = i
         start[cell] += 1
     return rows
+
+
+def fill(array, value) -> None:
+    """array[:] = value."""
+    if here(array):
+        array[:] = value
+    else:
+        card.fill(array, value)

@@ -33,15 +33,20 @@ def _place(grid, a, value):
 
 def solid_of(kind):
     """Mask (N,) of the wall particles among those of these kinds."""
-    solid = arrays.empty(len(kind), kind, np.bool_)
-    _tell_solid(kind, solid)
-    return solid
+    return of_kind(kind, WALL)
+
+
+def of_kind(kind, own: int):
+    """Mask (N,) of the particles of their `own` kind."""
+    mask = arrays.empty(len(kind), kind, np.bool_)
+    _tell(kind, own, mask)
+    return mask
 
 
 @parallel
-def _tell_solid(kind, solid):
+def _tell(kind, own, mask):
     for i in prange(len(kind)):
-        solid[i] = kind[i] == WALL
+        mask[i] = kind[i] == own
 
 
 @parallel

@@ -164,6 +164,10 @@ class Card:
         self._launch(sorting.tidy, LOOP, start, rows)
         return rows
 
+    def fill(self, array, value) -> None:
+        if array.size:
+            self._launch(sorting.fill, LOOP, array.reshape(array.size), value)
+
 
 def _there(value) -> bool:
     """True where an argument, or a part of a tuple, lies on the device."""

@@ -15,7 +15,7 @@ from sdph.engine.ledger import vector
 from sdph.engine.state import INFLOW
 from sdph.engine.walls import facets
 from sdph.engine.walls.parts import Pushed
-from sdph.methods.grains import account, start
+from sdph.methods.grains import aboard, account, start
 from sdph.methods.grains.history import Warmed, of_materials, tracked
 from sdph.methods.grains.method import Stepper
 
@@ -95,10 +95,11 @@ class Grains:
         left = self.state.mass > 0.0
         if self.world.any(not left.all()):
             self.stepper.replace(particles.take(self.state, left))
-            self.stepper.prepare()
+            self._prepare()
 
     def advance(self, end: float) -> None:
-        (self.stepper.move if self.moves else self.stepper.conduct)(end - self.time)
+        with aboard.aboard(self.stepper):
+            (self.stepper.move if self.moves else self.stepper.conduct)(end - self.time)
         if own := self.parameters["micro_explosion"]:
             self.torn = micro_explosion.swollen(own, self.state, end - self.time)
         self.time, self.windows = end, self.windows + 1
@@ -131,8 +132,12 @@ class Grains:
             self.stepper.replace(state)
         changed = replaced or bool(self.parameters["evaporation"] or self.parameters["reaction"])
         if changed or self.windows == 0:  # those that moved are prepared
-            self.stepper.prepare()
+            self._prepare()
         return changed or self.moves
+
+    def _prepare(self) -> None:
+        with aboard.aboard(self.stepper):
+            self.stepper.prepare()
 
     def share_inside(self, after: float = 0.0) -> np.ndarray:
         """Share of each particle (N,) that is in the gas, or will be `after` [s]: none of those that will have left."""
@@ -212,6 +217,7 @@ class Grains:
         """Its part of summary.json."""
         own = {"sub_steps": self.steps, "wall_contacts": self.stepper.contacts} | self.warmed.summary()
         own |= {f"filled_{name}_kg": mass for name, mass in self.filled.items()}
+        own |= aboard.told(self.stepper)
         return own | self.stepper.domain.summary(self.steps - self.stepper.steps_before)
 
     def warnings(self) -> list[str]:

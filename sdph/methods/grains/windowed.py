@@ -7,7 +7,7 @@ import numpy as np
 from sdph import effects
 from sdph.engine import state as particles
 from sdph.engine.walls import parts
-from sdph.methods.grains import account
+from sdph.methods.grains import aboard, account
 
 
 class Windowed:
@@ -50,4 +50,4 @@ class Windowed:
     def tell(self) -> None:
         """See what limiters hold now, before rows are made anew."""
         self.domain.refresh(*self._arrays(self.MOVING))
-        self.held = effects.held(self.parameters, self.case, self)
+        self.held = effects.held(self.parameters, self.case, aboard.landed(self))
