@@ -80,7 +80,8 @@ class Grains:
     def start(self) -> None:
         """Let in what the nozzles give at first."""
         self.renew(self.case.coupling.window_largest)
-        self.stepper.tell()
+        with aboard.aboard(self.stepper, change=False):
+            self.stepper.tell()
 
     def begin(self) -> None:
         """Remember the state to go back to, before a window."""
