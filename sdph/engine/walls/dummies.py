@@ -54,7 +54,7 @@ def turned(rows, count: int) -> Rows:
     order; not filled up."""
     begin = arrays.begins(rows.number)
     pairs = int(arrays.last(begin))
-    point, particle = (arrays.empty(pairs, begin, kind) for kind in (np.int64, np.uint32))
+    point, particle = (arrays.zeros(pairs, begin, kind) for kind in (np.int64, np.uint32))
     tell_pairs(rows, begin, point, particle)
     start, number = arrays.starts(point, count), arrays.empty(count, begin, np.int32)
     lengths(start, number)
