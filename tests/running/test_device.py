@@ -108,7 +108,6 @@ def refusal(capsys, *given: str) -> str:
 @pytest.mark.parametrize(
     "scene, keys, why",
     [
-        ("bubbling_bed", ('coupling.gas="embedded"',), "only a liquid alone"),
         ("channel_bore", (), "inflow is not taken"),
         ("capillary_wave", (), "surface_tension is not taken"),
         ("dam_break", ('run.forces=["tank"]',), "run.forces"),
@@ -154,4 +153,4 @@ def test_what_is_taken_is_what_is_tested():
     ran = set()
     for scene, _, *keys in SETS.values():
         ran |= set(read.load(paths.PACKAGE / "scenes" / scene / "case.toml", tuple(keys)).effects)
-    assert ran == set(on_device.EFFECTS) and "NUMBA_ENABLE_CUDASIM" not in os.environ
+    assert ran == set(on_device.EFFECTS["liquid"]) and "NUMBA_ENABLE_CUDASIM" not in os.environ
