@@ -60,3 +60,23 @@ def assembly(function, taken: tuple, capability: tuple[int, int], *, parts: bool
     finally:
         dispatcher.get_current_device = before
     return text if isinstance(text, str) else text.decode()
+
+
+def kind_of_arrays() -> type:
+    """Class of the arrays of a device."""
+    if SIMULATED:
+        from numba.cuda.simulator.cudadrv.devicearray import FakeCUDAArray
+
+        return FakeCUDAArray
+    from numba.cuda.cudadrv.devicearray import DeviceNDArray
+
+    return DeviceNDArray
+
+
+def taken_for(kind: type, array):
+    """The same array of a device as one of a class that inherits `kind_of_arrays`."""
+    if isinstance(array, kind):
+        return array
+    if SIMULATED:
+        return kind(array._ary)
+    return kind(array.shape, array.strides, array.dtype, array.stream, array.gpu_data)
