@@ -2,8 +2,9 @@
 
     python benchmarks/device_speed.py [DIMENSIONS:PARTICLES ...]
 
-Rows are made anew once in six steps, as in liquid_scaling.py. `steps` runs as a run does; `kernels` waits after each
-launch, which shows the kernels' own times. Particles are counted with walls, and those of liquid alone.
+`steps`: rows are made anew once in six, as in liquid_scaling.py. `windows`: as a run goes, with ledger, guard and
+limiters, no output. `kernels`: waits after each launch, which shows each kernel's own time and that of launching it.
+Particles per second are those with walls, and those of liquid alone. Bytes are those of a step.
 """
 
 import sys
@@ -15,77 +16,85 @@ import numpy as np
 from sdph.engine.gpu import card, found
 from sdph.engine.gpu.toolkit import cuda
 from sdph.methods.liquids import aboard
-from sdph.study.bench import STEPS, step_time, tank
+from sdph.running.alone import Alone
+from sdph.study.bench import STEPS, dam, step_time
 
-DEFAULT = ("2:1e5", "3:1e5", "2:1e6", "3:1e6")
-ROUNDS = 3
-FIELDS = ("x", "y", "z", "u", "v", "w", "density")
+DEFAULT = ("2:1e5", "3:1e5", "2:1e6", "3:1e6", "2:1e7", "3:1e7")
+ROUNDS, WINDOWS, SHOWN = 3, 3, 12
+LAUNCHING = "(to launch)"
 
 
-def of_kernels(stepper) -> dict:
-    """Time [s] and launches by kernel of STEPS steps."""
-    spent, launched = defaultdict(float), defaultdict(int)
-    launch = card.Card._launch
+def of_kernels(stepper) -> list[str]:
+    """Lines of the time and launches by kernel of STEPS steps, the longest first."""
+    spent, launched, launch = defaultdict(float), defaultdict(int), card.Card._launch
 
     def timed(self, kernel, size, *arguments):
         cuda.synchronize()
         begun = time.perf_counter()
         launch(self, kernel, size, *arguments)
-        queued = time.perf_counter()
+        spent[LAUNCHING] += time.perf_counter() - begun
         cuda.synchronize()
-        name = kernel.py_func.__name__
-        spent[name] += time.perf_counter() - begun
-        spent["(to launch)"] += queued - begun
-        launched[name] += 1
+        spent[kernel.py_func.__name__] += time.perf_counter() - begun
+        launched[kernel.py_func.__name__] += 1
 
     card.Card._launch = timed
     try:
         step_time(stepper)
     finally:
         card.Card._launch = launch
-    return {name: (spent[name], launched[name]) for name in sorted(spent, key=spent.get, reverse=True)}
+    order = sorted(spent, key=spent.get, reverse=True)[:SHOWN]
+    return [f"  {own:16s} {1e3 * spent[own] / STEPS:8.3f} ms, {launched[own] / STEPS:4.1f} launches" for own in order]
+
+
+def least(rounds: int, measure) -> float:
+    """Least of the times [s] of as many rounds."""
+    found = []
+    for _ in range(rounds):
+        cuda.synchronize()
+        begun, steps = time.perf_counter(), measure()
+        cuda.synchronize()
+        found.append((time.perf_counter() - begun) / steps)
+    return min(found)
 
 
 def measured(dimensions: int, count: float) -> None:
     begun = time.perf_counter()
-    stepper = tank(dimensions, count)
-    made = time.perf_counter()
-    small = count <= 2e5
-    if small:
-        twin = tank(dimensions, count)
+    run, there = Alone(dam(dimensions, count), None), card.begun()
+    run.start()
+    stepper = run.stepper
     aboard.board(stepper)
+    made = time.perf_counter()
+    run.window()
     step_time(stepper)
-    cuda.synchronize()
-    first = time.perf_counter()
-    if small:
-        step_time(twin)
-        ours = {name: getattr(stepper.state, name).copy_to_host() for name in FIELDS if len(getattr(stepper.state, name))}
-        for name, values in ours.items():
-            theirs = getattr(twin.state, name)
-            print(f"  {name}: {np.abs(values - theirs).max() / max(np.abs(theirs).max(), 1e-300):.1e} of the largest")
-        print(f"  processor: {min(step_time(twin) for _ in range(2)) / len(twin.active) * 1e6:.3f} us")
+    ready = time.perf_counter()
     particles, liquid = len(stepper.state.x), len(stepper.active)
-    there = arrays_card()
-    before = there.launches, there.sent.copy(), there.brought.copy()
-    times = []
-    for _ in range(ROUNDS):
-        times.append(step_time(stepper))
-        cuda.synchronize()
-    steps = ROUNDS * STEPS
-    spent = min(times)
     print(
-        f"{dimensions}-D, {particles} particles, {liquid} of liquid: {1e3 * spent:.3f} ms a step ({', '.join(f'{1e3 * t:.3f}' for t in times)}), "
-        f"{particles / spent:.3g} and {liquid / spent:.3g} particle-steps/s; launches a step "
-        f"{(there.launches - before[0]) / steps:.1f}; to, from the host a step: {(there.sent - before[1]) / steps}, {(there.brought - before[2]) / steps}; "
-        f"made in {made - begun:.1f} s, compiled and first steps {first - made:.1f} s; memory {cuda.current_context().get_memory_info()}"
+        f"{dimensions}-D: {particles} particles, {liquid} of liquid; made in {made - begun:.1f} s, ready in {ready - made:.1f} s"
     )
-    for name, (seconds, many) in list(of_kernels(stepper).items())[:25]:
-        print(f"  {name:20s} {1e3 * seconds / STEPS:9.3f} ms a step, {many / STEPS:5.1f} launches")
-    sys.stdout.flush()
 
+    def steps() -> int:
+        step_time(stepper)
+        return STEPS
 
-def arrays_card():
-    return card.begun()
+    def window() -> int:
+        before = stepper.steps
+        run.window()
+        return stepper.steps - before
+
+    for name, rounds, measure in (("steps", ROUNDS, steps), ("windows", WINDOWS, window)):
+        before = np.array([there.launches, there.sent[1], there.brought[1], stepper.steps])
+        spent = least(rounds, measure)
+        launches, sent, brought, many = (
+            np.array([there.launches, there.sent[1], there.brought[1], stepper.steps]) - before
+        )
+        print(
+            f"{name}: {1e3 * spent:.3f} ms a step, {particles / spent:.3g} and {liquid / spent:.3g} particle-steps/s; "
+            f"{launches / many:.1f} launches, {sent / many:.3g} bytes there, {brought / many:.3g} back"
+        )
+    free, whole = cuda.current_context().get_memory_info()
+    print(
+        f"{(whole - free) / particles:.0f} bytes of the device a particle", *of_kernels(stepper), sep="\n", flush=True
+    )
 
 
 if __name__ == "__main__":

@@ -3,7 +3,8 @@
 `Neighbours.update` reorders the particles so that those of one cell lie together, and lists for each particle all
 others within `reach * (1 + skin)`; the rows hold until some particle has moved half the skin. They stand one behind the
 other, so that a row takes no more room than it needs, and are counted before they are filled: to count is quick, in
-whole vectors. Within a cell walls come last, and the row of a wall particle holds what is near it and no other wall.
+whole vectors. On a device those of ABREAST particles stand side by side: their threads read what lies together. Within
+a cell walls come last, and the row of a wall particle holds what is near it and no other wall.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from sdph.laws.compiled import inlined, parallel, serial
 SKIN = 0.1  # of the reach; our choice: 0.2 h measured best (about 5-8 steps per list), and the reach is 2 h
 CELLS_A_PARTICLE = 16  # memory of the cells stays below that of the rows; our choice
 LANES = 4  # doubles of a vector register of 256 bit, as wide as pays on today's x86
+ABREAST = 32  # rows side by side: threads of a warp, which go through theirs together
 MOST_CELLS = 2**20  # along an axis, so that their product is an int64
 NOBODY = np.zeros(0, np.int8)
 SPARE = 16  # one entry in so many is kept free, so that a slow compaction does not ask for room each time; our choice
@@ -37,6 +39,15 @@ class Rows(NamedTuple):
     entries: np.ndarray
     start: np.ndarray
     number: np.ndarray
+
+
+class Abreast(NamedTuple):
+    """The same of a device: each entry of a row lies ABREAST places behind the last."""
+
+    entries: np.ndarray
+    start: np.ndarray
+    number: np.ndarray
+    abreast: int = ABREAST
 
 
 def reach_of(reach: float, skin: float) -> float:
@@ -140,9 +151,13 @@ class Neighbours:
         )
         number, taken = arrays.empty(len(blind), blind, np.int32), arrays.empty(len(blind), blind, np.int64)
         _count(*near, number, taken)
-        start = arrays.begins(taken)
-        rows = Rows(self._room(int(arrays.last(start)), blind), start, number)
-        _fill(*near, start, number, rows.entries)
+        kind, start = (
+            (Rows, arrays.begins(taken))
+            if arrays.here(taken)
+            else (Abreast, arrays.card.begins_abreast(taken, ABREAST))
+        )
+        rows = kind(self._room(int(arrays.last(start)), blind), start, number)
+        _fill(*near, rows, taken, rows.entries)
         return rows
 
     def _room(self, entries: int, like):
@@ -182,10 +197,16 @@ def _renumber(entries, many, order):
 
 
 @inlined
+def stride(rows):
+    """Places from an entry of a row to its next."""
+    return 1 if len(rows) == 3 else ABREAST
+
+
+@inlined
 def place(rows, i, k):
     """Index of the k-th entry of row i, among the entries and in arrays along them. It is unsigned: of an index that
     might be negative numba asks so each time."""
-    return np.uint64(rows.start[i] + k)
+    return np.uint64(rows.start[i] + k * stride(rows))
 
 
 @inlined
@@ -202,16 +223,16 @@ def length(rows, i):
 
 
 @serial
-def _end(entries, first, last, i):
-    for e in range(first, last):
-        entries[e] = i
+def _end(rows, i, first, last, entries):
+    for k in range(first, last):
+        entries[place(rows, i, k)] = i
 
 
 @serial
 def shorten(rows, i, number):
     """Leave row i its first `number` entries, and put i itself behind them as far as `length` goes."""
     rows.number[i] = number
-    _end(rows.entries, place(rows, i, number), place(rows, i, length(rows, i)), i)
+    _end(rows, i, number, length(rows, i), rows.entries)
 
 
 @serial
@@ -238,13 +259,13 @@ def _counted(x, y, z, box, xi, yi, zi, cutoff2, first, last):
 
 
 @serial
-def _listed(x, y, z, box, xi, yi, zi, own, cutoff2, first, last, entries, end):
-    """Appends those to the entries and returns their end. One is written before it is known to count, which saves a
-    branch."""
+def _listed(x, y, z, box, xi, yi, zi, own, cutoff2, first, last, entries, end, step):
+    """Appends those to the entries, `step` places from one to the next, and returns their end. One is written before it
+    is known to count, which saves a branch."""
     for j in range(first, last):
         dx, dy, dz = nearest_image(box, xi - x[j], yi - y[j], zi - z[j] if len(z) else 0.0)
         entries[end] = j
-        end += np.uint64((j != own) & (dx * dx + dy * dy + dz * dz < cutoff2))
+        end += np.uint64((j != own) & (dx * dx + dy * dy + dz * dz < cutoff2)) * step
     return end
 
 
@@ -273,13 +294,13 @@ def _count(grid, begin, x, y, z, at_x, at_y, at_z, blind, idle, same, box, cutof
 
 
 @parallel
-def _fill(grid, begin, x, y, z, at_x, at_y, at_z, blind, idle, same, box, cutoff2, start, number, entries):
-    """entries: the rows, each from its start on, of what `_count` has counted."""
+def _fill(grid, begin, x, y, z, at_x, at_y, at_z, blind, idle, same, box, cutoff2, rows, taken, entries):
+    """entries: those of the rows, of what `_count` has counted."""
     for i in prange(len(at_x)):
-        if number[i] == 0:
-            _end(entries, start[i], start[i + 1], i)
+        if rows.number[i] == 0:
+            _end(rows, i, 0, taken[i], entries)
             continue
-        end, own = np.uint64(start[i]), np.uint64(i if same else len(x))
+        end, own = place(rows, i, 0), np.uint64(i if same else len(x))
         xi, yi, zi = at_x[i], at_y[i], at_z[i] if len(z) else 0.0
         z0, z1 = span(grid, 2, zi) if len(z) else (0, 1)
         y0, y1 = span(grid, 1, yi)
@@ -290,5 +311,7 @@ def _fill(grid, begin, x, y, z, at_x, at_y, at_z, blind, idle, same, box, cutoff
                 line = (turned(kz, grid.shape[2]) * grid.shape[1] + turned(ky, grid.shape[1])) * grid.shape[0]
                 for n in range(runs[0], runs[1]):
                     first, last = _run(begin, line, grid.shape[0], x0, x1, blind[i], n)
-                    end = _listed(x, y, z, box, xi, yi, zi, own, cutoff2, first, last, entries, end)
-        _end(entries, np.int64(end), start[i + 1], i)
+                    end = _listed(
+                        x, y, z, box, xi, yi, zi, own, cutoff2, first, last, entries, end, np.uint64(stride(rows))
+                    )  # fmt: skip
+        _end(rows, i, rows.number[i], taken[i], entries)

@@ -12,6 +12,7 @@ import os
 
 import numpy as np
 
+from sdph.engine import arrays
 from sdph.laws.constants import TINY
 
 MARK = "SDPH_RANKS"  # variable of the environment of a process that is one of several
@@ -80,7 +81,7 @@ class World:
         on who has which row nor on their order (Demmel & Nguyen 2015, IEEE Trans. Comput. 64, 2060: a row is cut into
         whole numbers of fixed places, which add up exactly)."""
         if self.number == 1:
-            return values.sum(axis=0)
+            return arrays.total(values)
         unit = np.exp2(np.ceil(np.log2(self.most(np.abs(values).max(axis=0, initial=TINY)))) - BITS)
         left, told = values / unit, 0.0
         for part in range(PARTS):

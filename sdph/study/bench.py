@@ -63,11 +63,16 @@ def bed(spacing: float, cell: float, until: float = BEGUN) -> Simulation:
     return simulation
 
 
-def tank(dimensions: int, count: float) -> LiquidStepper:
-    """A dam break of about `count` particles of liquid, in three dimensions as deep as it is wide."""
+def dam(dimensions: int, count: float):
+    """Case of a dam break of about `count` particles of liquid, in three dimensions as deep as it is wide."""
     spacing = (2.0 * WIDTH**dimensions / count) ** (1.0 / dimensions) * 1e3
     given = (f"resolution.spacing_mm={spacing}", *(DEEP if dimensions == 3 else ()))
-    return LiquidStepper(cases.load(scenes.find("dam_break")[1], given))
+    return cases.load(scenes.find("dam_break")[1], given)
+
+
+def tank(dimensions: int, count: float) -> LiquidStepper:
+    """The same, begun."""
+    return LiquidStepper(dam(dimensions, count))
 
 
 def step_time(stepper: LiquidStepper) -> float:

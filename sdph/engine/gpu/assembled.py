@@ -17,7 +17,7 @@ from numba import typeof
 from sdph.engine.gpu.card import LOOP
 from sdph.engine.gpu.toolkit import assembly
 from sdph.engine.gpu.translation import function_of, results
-from sdph.engine.rows import Rows
+from sdph.engine.rows import Abreast, Rows
 from sdph.laws.compiled import Loop
 
 CAPABILITY = (9, 0)  # of an H100 or H200
@@ -62,8 +62,9 @@ class Heard:
         Loop.elsewhere = None
 
     def hear(self, loop, arguments):
-        """Note a call."""
-        self.loops[loop, tuple(map(typeof, arguments))] = None
+        """Note a call, with rows as they are on a device."""
+        there = (Abreast(*own) if isinstance(own, Rows) else own for own in arguments)
+        self.loops[loop, tuple(map(typeof, there))] = None
         many = results(loop)
         if not any(isinstance(own, Rows) for own in arguments):
             return loop.here(*arguments)

@@ -13,12 +13,12 @@ import numpy as np
 
 from sdph.engine import arrays
 from sdph.engine.gpu import sorting
-from sdph.engine.gpu.toolkit import SIMULATED, cuda, lies_there, strict
+from sdph.engine.gpu.toolkit import SIMULATED, Launcher, cuda, lies_there, strict
 from sdph.engine.gpu.translation import kernel_of, results
 from sdph.laws.compiled import Loop
 
 # blocks and threads of a loop, whose threads take rounds in turn; of a loop that returns values, and of the threads
-# that then add up theirs. Our choice: none was measured. Few in the simulator, and no divisor of what there is.
+# that then add up theirs. Few in the simulator, and no divisor of what there is.
 LOOP = (3, 2) if SIMULATED else (2048, 128)
 PARTS = (2, 3) if SIMULATED else (256, 128)
 SUMS = (1, 2) if SIMULATED else (1, 256)
@@ -33,6 +33,7 @@ class Card:
         strict()
         self.launches, self.sent, self.brought = 0, np.zeros(2), np.zeros(2)
         self._known = {}  # arrays that loops have taken along, by what is in them
+        self._launcher = Launcher()
 
     def begin(self) -> None:
         """Run loops here whose arrays lie here."""
@@ -52,7 +53,7 @@ class Card:
 
     def _launch(self, kernel, size: tuple[int, int], *arguments) -> None:
         self.launches += 1
-        kernel[size](*arguments)
+        self._launcher(kernel, size, arguments)
 
     def told(self, steps: int) -> dict[str, float]:
         """Columns of a summary: means over the steps taken."""
@@ -140,11 +141,23 @@ class Card:
         return -low, high
 
     def begins(self, lengths):
-        begin, part = self.empty(len(lengths) + 1, np.int64), self.empty(math.prod(PARTS), np.int64)
-        self._launch(sorting.sum_runs, PARTS, lengths, part)
-        self._launch(sorting.begin_runs, (1, 1), part)
-        self._launch(sorting.begin_all, PARTS, lengths, part, begin)
+        begin = self.empty(len(lengths) + 1, np.int64)
+        if len(lengths) <= math.prod(SUMS):
+            self._launch(sorting.begin_few, (1, 1), lengths, begin)
+            return begin
+        size = PARTS if len(lengths) > math.prod(PARTS) else SUMS
+        part = self.empty(math.prod(size), np.int64)
+        self._launch(sorting.sum_runs, size, lengths, part)
+        self._launch(sorting.begin_all, size, lengths, self.begins(part), begin)
         return begin
+
+    def begins_abreast(self, taken, abreast: int):
+        """Begin of each row of `taken` (N,) entries where `abreast` ones stand side by side, and the end: (N + 1,)."""
+        width = self.empty(-(-len(taken) // abreast), np.int64)
+        start = self.empty(len(taken) + 1, np.int64)
+        self._launch(sorting.widest, LOOP, taken, abreast, width)
+        self._launch(sorting.spread, LOOP, self.begins(width), abreast, start)
+        return start
 
     def chosen(self, mask):
         begin = self.begins(mask)

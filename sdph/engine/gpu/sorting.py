@@ -74,24 +74,44 @@ def sum_runs(lengths, part):
 
 
 @kernel
-def begin_runs(part):
-    """part (T,): sum of the runs before each; one thread."""
+def begin_few(lengths, begin):
+    """begin (N + 1,): sum of the lengths (N,) before each, and of all; one thread."""
     found = 0
-    for t in range(len(part)):
-        part[t], found = found, found + part[t]
+    for i in range(len(lengths)):
+        begin[i] = found
+        found += lengths[i]
+    begin[len(lengths)] = found
 
 
 @kernel
 def begin_all(lengths, part, begin):
-    """begin (N + 1,): sum of the lengths (N,) before each, and of all."""
-    t = cuda.grid(1)
-    run = (len(lengths) + len(part) - 1) // len(part)
+    """begin (N + 1,): the same; part (T + 1,): sum of the runs of `sum_runs` before each of T threads."""
+    t, threads = cuda.grid(1), len(part) - 1
+    run = (len(lengths) + threads - 1) // threads
     found, end = part[t], min((t + 1) * run, len(lengths))
     for i in range(t * run, end):
         begin[i] = found
         found += lengths[i]
     if t * run <= len(lengths) <= (t + 1) * run:
         begin[len(lengths)] = found
+
+
+@kernel
+def widest(taken, abreast, width):
+    """width (G,): `abreast` times the most of as many of taken (N,), group by group."""
+    for group in range(cuda.grid(1), len(width), cuda.gridsize(1)):
+        most = 0
+        for i in range(group * abreast, min((group + 1) * abreast, len(taken))):
+            most = max(most, taken[i])
+        width[group] = abreast * most
+
+
+@kernel
+def spread(begin, abreast, start):
+    """start (N + 1,): begin (G + 1,) of each one's group and its place in it; behind all, the end of the last group."""
+    last = len(start) - 1
+    for i in range(cuda.grid(1), last + 1, cuda.gridsize(1)):
+        start[i] = begin[i // abreast] + i % abreast if i < last else begin[len(begin) - 1]
 
 
 @kernel

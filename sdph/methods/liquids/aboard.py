@@ -11,8 +11,7 @@ import contextlib
 from sdph.engine import arrays
 from sdph.engine import state as particles
 
-# of a stepper, what somebody reads between steps besides ROWS; rows of neighbours are large, and come where asked for
-READ, OF_PAIRS = ("state", "active", "walls", "enclosed"), ("rows",)
+READ = ("state", "active", "walls", "enclosed")  # of a stepper, what somebody reads between steps besides ROWS
 
 
 def board(stepper) -> None:
@@ -28,12 +27,12 @@ def board(stepper) -> None:
 
 
 @contextlib.contextmanager
-def ashore(stepper, *more: str):
-    """Context in which state and ROWS of a stepper lie in memory, and `more` that is asked for."""
+def ashore(stepper):
+    """Context in which state and ROWS of a stepper lie in memory."""
     if arrays.here(stepper.state.x):
         yield
         return
-    before = {name: getattr(stepper, name) for name in (*READ, *stepper.ROWS, *more)}
+    before = {name: getattr(stepper, name) for name in (*READ, *stepper.ROWS)}
     now = stepper.steps, stepper.time
     if stepper.landed is None or stepper.landed[0] != now:
         stepper.landed = now, {}

@@ -11,12 +11,16 @@ import sys
 from typing import NamedTuple
 
 import numpy as np
+from numba import prange
 
 from sdph import effects
 from sdph.engine import state as particles
 from sdph.engine.guard import DENSE, FAR, RUNAWAY, TINY, Watch
 from sdph.engine.kept import Unfit
 from sdph.engine.state import GAS, INFLOW, LIQUID, WALL
+from sdph.laws.compiled import parallel
+from sdph.methods.liquids import aboard
+from sdph.methods.liquids.totals import squared_speed
 
 FORCE = 0.25  # of sqrt(h/|a|), liquids.md, shared core
 
@@ -84,18 +88,39 @@ class LiquidGuard(Watch):
     def look(self, stepper) -> None:
         """NaN, speed, density, acceleration."""
         s, own = stepper.state, self.case
-        self.time = stepper.time
+        self.time, sound = stepper.time, own.fastest_sound
+        if not beyond(s, stepper.active, stepper.acceleration, sound * sound):
+            return
+        with aboard.ashore(stepper):
+            self._name(stepper, sound)
+
+    def _name(self, stepper, sound: float) -> None:
+        """Unstable, by the particle that is worst."""
+        own = self.case
         lower = (
             f"run.step_factor (now {own.run.step_factor:g}; the step was ruled by {stepper.limit or 'sound'}); where "
             "the liquid is meant "
             f"to be so fast, raise liquid.sound_speed_m_s (now {own.liquid.sound_speed:g}) to ten times its speed"
         )
-        wet = particles.take(s, stepper.active)
-        speed, sound = np.sqrt((particles.velocities(wet) ** 2).sum(axis=1)), own.fastest_sound
+        wet = particles.take(stepper.state, stepper.active)
+        speed = np.sqrt((particles.velocities(wet) ** 2).sum(axis=1))
         self.hold("speed", speed, (0.0, sound, "m/s"), wet, lower)
         self.hold("density", wet.density, (sys.float_info.min, sys.float_info.max, "kg/m3"), wet, lower)
         size = np.sqrt((stepper.acceleration[stepper.active] ** 2).sum(axis=1))
         self.hold("acceleration", size, (0.0, sys.float_info.max, "m/s2"), wet, lower)
+
+
+@parallel
+def beyond(s, active, acceleration, most):
+    """Number of particles that `look` is to name: speed squared is above `most` [m2/s2], or density or acceleration is
+    no number that a step can go on with."""
+    found = 0.0
+    for n in prange(len(active)):
+        i = active[n]
+        force = acceleration[i, 0] ** 2 + acceleration[i, 1] ** 2 + acceleration[i, 2] ** 2
+        fine = squared_speed(s, i) <= most and 0.0 < s.density[i] < math.inf and force < math.inf  # false of nan
+        found += 0.0 if fine else 1.0
+    return found
 
 
 def limits(case, parameters, state, speed: float, acceleration: float) -> dict[str, float]:

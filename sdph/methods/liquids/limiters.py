@@ -13,7 +13,7 @@ from sdph.engine.geometry import apart
 from sdph.engine.rows import entry
 from sdph.engine.state import GAS
 from sdph.laws.compiled import parallel
-from sdph.methods.liquids import aboard, sparse
+from sdph.methods.liquids import sparse
 
 
 @parallel
@@ -34,9 +34,36 @@ def in_front(s, rows, box, walls, near, support, volume, pressure, wets, holds, 
 
 def held(stepper) -> dict[str, float]:
     """Shares of the particles of liquid, or of the wall particles that have liquid in front, that are held now."""
-    with aboard.ashore(stepper):
-        by_shifting, by_correction = _by_shifting(stepper), _by_correction(stepper)
-    return _by_walls(stepper) | by_shifting | by_correction | sparse.held(stepper) | _by_damping(stepper)
+    by_motion = _by_shifting(stepper) | _by_correction(stepper)
+    return _by_walls(stepper) | by_motion | sparse.held(stepper) | _by_damping(stepper)
+
+
+@parallel
+def shifted(p, s, active, shift, pressure):
+    """Numbers of particles that are shifted, that go no faster than they may, whose tension is controlled, and that lie
+    at a surface."""
+    moved = slowed = pulled = outer = 0.0
+    for n in prange(len(active)):
+        i = active[n]
+        if p.liquid > 0.0 or s.kind[i] == GAS:
+            moved += 1.0
+            size = math.sqrt(shift[i, 0] ** 2 + shift[i, 1] ** 2 + shift[i, 2] ** 2)
+            slowed += 1.0 if p.strength * size > p.largest else 0.0
+        inside = s.enclosure[i] > shifting.INTERIOR
+        pulled += 1.0 if pressure[i] < 0.0 and inside else 0.0
+        outer += 0.0 if inside else 1.0
+    return moved, slowed, pulled, outer
+
+
+@parallel
+def uncorrected(active, excess):
+    """Number of particles whose gradient is left as it is: all of `excess` (6 of N) is 0."""
+    found = 0.0
+    for n in prange(len(active)):
+        i = active[n]
+        own = abs(excess[0][i]) + abs(excess[1][i]) + abs(excess[2][i])
+        found += 1.0 if own + abs(excess[3][i]) + abs(excess[4][i]) + abs(excess[5][i]) == 0.0 else 0.0
+    return found
 
 
 def _by_walls(stepper) -> dict[str, float]:
@@ -55,24 +82,24 @@ def _by_walls(stepper) -> dict[str, float]:
 
 
 def _by_shifting(stepper) -> dict[str, float]:
-    p, own, mean = stepper.p["shifting"], stepper.active, stepper.world.mean
+    p, own = stepper.p["shifting"], stepper.active
     if not p:
         return {}
-    moved = own if p.liquid > 0.0 else own[stepper.state.kind[own] == GAS]
-    speed, least = p.strength * np.sqrt((stepper.shift[moved] ** 2).sum(axis=1)), stepper.state.enclosure[own]
-    found = {"shift_held_share": mean(speed > p.largest)}
+    found = np.array([*shifted(p, stepper.state, own, stepper.shift, stepper.pressure), len(own)])
+    moved, slowed, pulled, outer, number = stepper.world.sum(found).tolist()
+    shares = {"shift_held_share": slowed / moved if moved else 0.0}
     if p.tension > 0.0:
-        found["tension_controlled_share"] = mean((stepper.pressure[own] < 0.0) & (least > shifting.INTERIOR))
+        shares["tension_controlled_share"] = pulled / number if number else 0.0
     if not stepper.phases:
-        found["shift_at_surface_share"] = mean(least <= shifting.INTERIOR)
-    return found
+        shares["shift_at_surface_share"] = outer / number if number else 0.0
+    return shares
 
 
 def _by_correction(stepper) -> dict[str, float]:
     if not stepper.excess:
         return {}
-    left = ~np.any([part[stepper.active] != 0.0 for part in stepper.excess], axis=0)
-    return {"uncorrected_share": stepper.world.mean(left)}
+    left, number = stepper.world.sum(np.array([uncorrected(stepper.active, stepper.excess), len(stepper.active)]))
+    return {"uncorrected_share": float(left / number) if number else 0.0}
 
 
 def _by_damping(stepper) -> dict[str, float]:

@@ -74,9 +74,8 @@ class Liquid(Stepped):
     def close(self) -> None:
         self.impulse = self.impulse + self.tally.sums[account.LOADS]
         self.pushed.add(self.tally.sums[account.SIZE :].reshape(-1, 3, 3), self.time - self.begun)
-        with aboard.ashore(self.stepper):
-            self.stepper.guard.look(self.stepper)
-            self.ledger.close_window(self.stepper, self.time - self.begun, *self.tally.amounts())
+        self.stepper.guard.look(self.stepper)
+        self.ledger.close_window(self.stepper, self.time - self.begun, *self.tally.amounts())
         self.scaled = np.zeros(4)
         if len(self.state.push_x):
             self.stepper.state = particles.released(self.state)
@@ -109,8 +108,7 @@ class Liquid(Stepped):
                 stepper.active = before
 
     def row(self) -> dict[str, float]:
-        with aboard.ashore(self.stepper, *aboard.OF_PAIRS):
-            loads = history.loads(self)
+        loads = history.loads(self)
         with self.whole() as chief:
             return history.row(self) | loads if chief else {}
 

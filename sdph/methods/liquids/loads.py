@@ -6,9 +6,10 @@ from __future__ import annotations
 import numpy as np
 
 from sdph.effects.around import tank
+from sdph.engine import arrays
 from sdph.engine import state as particles
 from sdph.engine.walls import shapes
-from sdph.methods.liquids import walls
+from sdph.methods.liquids import aboard, walls
 
 
 def loads(stepper) -> np.ndarray:
@@ -30,7 +31,9 @@ def wall_loads(stepper, chosen=None) -> np.ndarray:
     chosen = stepper.walls if chosen is None else chosen
     if stepper.bodies:
         chosen = chosen[~stepper.bodies.among(chosen)]
-    return stepper.world.sum(of_forces(stepper, chosen, walls.feel(stepper, chosen, 0.0)[:, :3]))
+    felt, chosen = (arrays.brought(own) for own in (walls.feel(stepper, chosen, 0.0), chosen))
+    with aboard.ashore(stepper):
+        return stepper.world.sum(of_forces(stepper, chosen, felt[:, :3]))
 
 
 def of_forces(stepper, chosen, force) -> np.ndarray:

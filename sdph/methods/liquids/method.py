@@ -20,8 +20,8 @@ from sdph.engine.kept import GROWING
 from sdph.engine.rows import Neighbours
 from sdph.engine.state import GAS, INFLOW, WALL
 from sdph.laws import kernels
-from sdph.methods.liquids import aboard, bubbles, correction, interface, openings, parts, phases, shift, start, walls
 from sdph.methods.liquids import bodies as immersion
+from sdph.methods.liquids import bubbles, correction, interface, openings, parts, phases, shift, start, walls
 from sdph.methods.liquids import equations as rates
 from sdph.methods.liquids.bounds import LiquidGuard, born, limits
 from sdph.methods.liquids.heat import Heat
@@ -145,8 +145,7 @@ class LiquidStepper:
         speed, force = self.world.most(np.array(motion.fastest(self.state, self.active, self.acceleration)))
         c = self.case.fastest_sound
         if not speed + 0.0 * force <= c * c:  # or one of them is no number
-            with aboard.ashore(self):
-                self.guard.look(self)
+            self.guard.look(self)
         found = limits(self.case, self.p, self.state, math.sqrt(speed), math.sqrt(force))
         if self.bodies:
             found |= self.bodies.limits(self.state)

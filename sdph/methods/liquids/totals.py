@@ -18,10 +18,14 @@ import math
 from pathlib import Path
 
 import numpy as np
+from numba import prange
 
+from sdph.effects.around import gravity
+from sdph.engine import arrays
 from sdph.engine import state as particles
 from sdph.engine.ledger import ratio, vector
 from sdph.engine.sums import Sums
+from sdph.laws.compiled import parallel, parallel_largest, serial
 from sdph.methods.liquids.losses import CAUSES
 
 IMPULSES = (
@@ -96,14 +100,13 @@ class LiquidLedger(Sums):
         }
 
     def _totals(self, stepper) -> dict[str, float]:
-        s, own = stepper.state, stepper.active
-        velocity, (kinetic, elastic) = particles.velocities(s)[own], energies(stepper)
-        world, mass = stepper.world, s.mass[own]
-        speed = math.sqrt(world.most(float((velocity**2).sum(axis=1).max(initial=0.0))))
-        row = {"particles": world.sum(len(own)), "mass_kg": float(world.total(mass))}
-        row |= vector("momentum", world.total(mass[:, None] * velocity))
-        weight = mass * (particles.positions(s)[own] @ np.array(stepper.p["gravity"] or (0.0, 0.0, 0.0)))
-        potential = -float(world.total(weight))
+        s, own, world = stepper.state, stepper.active, stepper.world
+        held = arrays.empty((len(own), 7), own)
+        hold(s, own, stepper.fluids, stepper.p["gravity"], held)
+        mass, *momentum, potential, kinetic, elastic = world.total(held).tolist()
+        speed, mach = np.sqrt(world.most(np.array(fastest(s, own, stepper.fluids)))).tolist()
+        self.mach = max(self.mach, mach)
+        row = {"particles": world.sum(len(own)), "mass_kg": mass} | vector("momentum", momentum)
         row |= {"kinetic_energy_J": kinetic, "elastic_energy_J": elastic, "potential_energy_J": potential}
         springs = {"contact_energy_J": stepper.bodies.springs} if stepper.bodies else {}
         return row | {"fastest_m_s": speed} | springs
@@ -112,7 +115,6 @@ class LiquidLedger(Sums):
         row = {"time_s": stepper.time, "window_s": dt, "limit": stepper.limit} | totals
         for name, impulse in impulses.items():
             row |= vector(f"impulse_of_{name}", impulse)
-        self.mach = max(self.mach, mach(stepper))
         self.most, self.moved = max(self.most, _energy(totals)), max(self.moved, totals["kinetic_energy_J"])
         self.put(row, amounts)
 
@@ -129,31 +131,60 @@ def _energy(row: dict) -> float:
     return row["kinetic_energy_J"] + row["elastic_energy_J"] + row.get("contact_energy_J", 0.0)
 
 
-def energies(stepper) -> tuple[float, float]:
-    """Kinetic and elastic energy [J] of the liquid."""
-    mass, (kinetic, elastic) = stepper.state.mass[stepper.active], specific_energies(stepper, stepper.active)
-    return float(stepper.world.total(mass * kinetic)), float(stepper.world.total(mass * elastic))
+@serial
+def elastic_energy(fluids, kind, rho):
+    """Energy [J/kg] of compression: integral of p/rho^2 of Tait's law from rho_0 on, background and cohesion included.
+    `fluids` as in sdph.methods.liquids.equations."""
+    rho_0, gamma = fluids[0, kind], fluids[2, kind]
+    x = rho / rho_0
+    power = math.log(x) if gamma == 1.0 else (x ** (gamma - 1.0) - 1.0) / (gamma - 1.0)
+    held_in = fluids[1, kind] / rho_0 * (power + 1.0 / x - 1.0) + fluids[3, kind] / rho_0 * (1.0 - 1.0 / x)
+    return held_in - fluids[4, kind] * rho_0 * (x - 1.0)
 
 
-def specific_energies(stepper, own) -> tuple[np.ndarray, np.ndarray]:
-    """Kinetic and elastic energy (P,) [J/kg] of the particles `own`.
-
-    Elastic: integral of p/rho^2 of Tait's law from rho_0 on, background and cohesion included.
-    """
-    s = stepper.state
-    rho_0, stiffness, gamma, background, cohesion = stepper.fluids[:, s.kind[own]]
-    x = s.density[own] / rho_0
-    power = np.where(gamma == 1.0, np.log(x), (x ** (gamma - 1.0) - 1.0) / np.where(gamma == 1.0, 1.0, gamma - 1.0))
-    elastic = stiffness / rho_0 * (power + 1.0 / x - 1.0)
-    elastic += background / rho_0 * (1.0 - 1.0 / x)
-    elastic -= cohesion * rho_0 * (x - 1.0)
-    w2 = s.w[own] ** 2 if len(s.w) else 0.0
-    return 0.5 * (s.u[own] ** 2 + s.v[own] ** 2 + w2), elastic
+@serial
+def squared_speed(s, i):
+    """Squared speed [m2/s2] of particle i."""
+    w = s.w[i] if len(s.w) else 0.0
+    return s.u[i] * s.u[i] + s.v[i] * s.v[i] + w * w
 
 
-def mach(stepper) -> float:
-    """Largest speed over the speed of sound of the particle's phase, c^2 = gamma stiffness/rho_0 (Tait)."""
-    s, own = stepper.state, stepper.active
-    rho_0, stiffness, gamma = stepper.fluids[:3, s.kind[own]]
-    squared = (particles.velocities(s)[own] ** 2).sum(axis=1) * rho_0 / (gamma * stiffness)
-    return math.sqrt(stepper.world.most(float(squared.max(initial=0.0))))
+@parallel
+def hold(s, active, fluids, gravity_p, held):
+    """held (A, 7) by each particle: mass [kg], momentum (3 columns) [kg m/s], energy in gravity, of motion and of
+    compression [J]."""
+    gx, gy, gz = gravity.acceleration(gravity_p)
+    for n in prange(len(active)):
+        i = active[n]
+        mass = s.mass[i]
+        held[n, 0], held[n, 1], held[n, 2] = mass, mass * s.u[i], mass * s.v[i]
+        held[n, 3] = mass * s.w[i] if len(s.w) else 0.0
+        held[n, 4] = -mass * (s.x[i] * gx + s.y[i] * gy + (s.z[i] * gz if len(s.z) else 0.0))
+        held[n, 5] = mass * (0.5 * squared_speed(s, i))
+        held[n, 6] = mass * elastic_energy(fluids, s.kind[i], s.density[i])
+
+
+@parallel_largest
+def fastest(s, active, fluids):
+    """Largest v^2 [m2/s2], and that over the squared speed of sound of the particle's phase, gamma stiffness/rho_0."""
+    speed = mach = 0.0
+    for n in prange(len(active)):
+        i = active[n]
+        own, kind = squared_speed(s, i), s.kind[i]
+        speed = max(speed, own)
+        mach = max(mach, own * fluids[0, kind] / (fluids[2, kind] * fluids[1, kind]))
+    return speed, mach
+
+
+@parallel
+def _specific(s, own, fluids, found):
+    for n in prange(len(own)):
+        i = own[n]
+        found[0, n], found[1, n] = 0.5 * squared_speed(s, i), elastic_energy(fluids, s.kind[i], s.density[i])
+
+
+def specific_energies(stepper, own) -> np.ndarray:
+    """Kinetic and elastic energy (2, P) [J/kg] of the particles `own`."""
+    found = np.empty((2, len(own)))
+    _specific(stepper.state, np.asarray(own), stepper.fluids, found)
+    return found
