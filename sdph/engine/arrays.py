@@ -133,3 +133,36 @@ def fill(array, value) -> None:
         array[:] = value
     else:
         card.fill(array, value)
+
+
+def beside(array, like):
+    """The array, or a copy of it, where another lies."""
+    return card.send(array) if here(array) and not here(like) else array
+
+
+def ones(count: int, like):
+    """Array (N,) of 1.0 beside another."""
+    out = empty(count, like)
+    fill(out, 1.0)
+    return out
+
+
+def counted(count: int, like):
+    """Array (N,) of 0, 1, 2, ... beside another, int64."""
+    return np.arange(count) if here(like) else card.counted(count)
+
+
+def vectors(a, b, c):
+    """(N, 3) of three arrays (N,), the last of which may have no length: 0 there."""
+    if not here(a):
+        return card.stacked((a, b, c if len(c) else zeros(len(a), a)))
+    out = np.zeros((len(a), 3))
+    out[:, 0], out[:, 1] = a, b
+    if len(c):
+        out[:, 2] = c
+    return out
+
+
+def columns(table):
+    """The columns (N,) of a table (N, m)."""
+    return np.ascontiguousarray(table.T) if here(table) else card.columns(table)

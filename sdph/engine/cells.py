@@ -33,20 +33,15 @@ def _place(grid, a, value):
 
 def solid_of(kind):
     """Mask (N,) of the wall particles among those of these kinds."""
-    return of_kind(kind, WALL)
-
-
-def of_kind(kind, own: int):
-    """Mask (N,) of the particles of their `own` kind."""
-    mask = arrays.empty(len(kind), kind, np.bool_)
-    _tell(kind, own, mask)
-    return mask
+    solid = arrays.empty(len(kind), kind, np.bool_)
+    _tell_solid(kind, solid)
+    return solid
 
 
 @parallel
-def _tell(kind, own, mask):
+def _tell_solid(kind, solid):
     for i in prange(len(kind)):
-        mask[i] = kind[i] == own
+        solid[i] = kind[i] == WALL
 
 
 @parallel

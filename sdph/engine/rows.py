@@ -199,7 +199,7 @@ def _renumber(entries, many, order):
 @inlined
 def stride(rows):
     """Places from an entry of a row to its next."""
-    return 1 if len(rows) == 3 else ABREAST
+    return ABREAST if len(rows) == 4 else 1  # walls have their rows in a group of more
 
 
 @inlined

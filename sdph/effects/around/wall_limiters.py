@@ -52,9 +52,6 @@ def held(p, method) -> dict[str, float]:
     }
     if p.specularity < 0.0:
         return found
-    own = method.aboard
-    near = arrays.empty(len(own.state.x), own.state.x, np.bool_)
-    nearer(p, own.wall, own.neighbours.box, own.state, near)
-    return (
-        found | {"grip_held_share": limiter.share(method.state, arrays.brought(near))} | limiter.capped(p, method.state)
-    )
+    near = arrays.empty(len(method.state.x), method.state.x, np.bool_)
+    nearer(p, method.wall, method.neighbours.box, method.state, near)
+    return found | {"grip_held_share": limiter.share(method.state, near)} | limiter.capped(p, method.state)

@@ -85,6 +85,14 @@ def take_column(table, c, values):
 
 
 @kernel
+def put_rows(table, rows, values):
+    """table[rows] = values (N, m)."""
+    for n in range(cuda.grid(1), values.size, cuda.gridsize(1)):
+        i, c = n // values.shape[1], n % values.shape[1]
+        table[rows[i], c] = values[i, c]
+
+
+@kernel
 def count_up(out):
     """out (N,): 0, 1, 2, ..."""
     for i in range(cuda.grid(1), len(out), cuda.gridsize(1)):
@@ -105,16 +113,26 @@ class Operable(NDArrayOperatorsMixin, kind_of_arrays()):
         return HANDLED[function](*given, **named) if function in HANDLED else NotImplemented
 
     def __getitem__(self, key):
+        if isinstance(key, int | np.integer):
+            found = super().__getitem__(int(key))
+            return operable(found) if lies_there(found) else found
         if isinstance(key, Operable):
             return arrays.taken(self, arrays.chosen(key) if key.dtype == np.bool_ else key)
-        if isinstance(key, tuple) and key == (slice(None), None):
-            return operable(self.reshape(len(self), 1))
+        if isinstance(key, tuple) and len(key) == 2 and _whole(key[0]) and not _whole(key[1]):
+            if key[1] is None:
+                return operable(self.reshape(len(self), 1))
+            own = columns(self)[key[1]]
+            return stacked(own) if isinstance(own, list) else own
         found = super().__getitem__(key)
         return operable(found) if lies_there(found) else found
 
     def __setitem__(self, key, value):
-        assert key == slice(None)
-        applied(np.positive, (value,), self)
+        if isinstance(key, Operable):
+            arrays.card.launch(put_rows, self, key, value)
+        elif _whole(key):
+            applied(np.positive, (value,), self)
+        else:  # the simulator's kernels write so
+            super().__setitem__(key, value)
 
     def sum(self, axis=None):
         """Sum of all, or of each column."""
@@ -141,6 +159,10 @@ class Operable(NDArrayOperatorsMixin, kind_of_arrays()):
 
     def tolist(self) -> list:
         return arrays.brought(self).tolist()
+
+
+def _whole(key) -> bool:
+    return isinstance(key, slice) and key == slice(None)
 
 
 def operable(array) -> Operable:
@@ -288,3 +310,9 @@ def ndim(own) -> int:
 @handles(np.shape)
 def shape(own) -> tuple:
     return own.shape
+
+
+@handles(np.copyto)
+def copyto(target, own) -> None:
+    """Copy as the simulator does."""
+    np.copyto(target, own.copy_to_host())

@@ -157,3 +157,14 @@ def taken_for(kind: type, array):
     if SIMULATED:
         return kind(array._ary)
     return kind(array.shape, array.strides, array.dtype, array.stream, array.gpu_data)
+
+
+def made(kind: type, shape, dtype):
+    """A new array of a device of such a class."""
+    if SIMULATED:
+        return kind(np.empty(shape, dtype))
+    shape, dtype = (shape if isinstance(shape, tuple) else (shape,)), np.dtype(dtype)
+    strides = [dtype.itemsize]
+    for length in reversed(shape[1:]):
+        strides.append(strides[-1] * length)
+    return kind(shape, tuple(reversed(strides)), dtype)

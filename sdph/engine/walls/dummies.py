@@ -49,6 +49,16 @@ def seen(dummies: Dummies, rows, every) -> Wall:
     return Wall(*dummies, *rows, every, *(arrays.zeros(shape, dummies.x) for shape in (count, (count, 3))))
 
 
+def plain(rows) -> Rows:
+    """The same rows one behind the other, not filled up, where those of a device stand abreast."""
+    if arrays.here(rows.number):
+        return rows
+    begin = arrays.begins(rows.number)
+    entries, particle = (arrays.zeros(int(arrays.last(begin)), begin, np.uint32) for _ in range(2))
+    tell_pairs(rows, begin, entries, particle)
+    return Rows(entries, begin, rows.number)
+
+
 def turned(rows, count: int) -> Rows:
     """Rows of the `count` fixed points that `rows` lists for particles: for each the particles that see it, in their
     order; not filled up."""

@@ -90,7 +90,12 @@ class Guard(Watch):
         sound = stepper.scratch.sound[: len(s.x)]
         if not beyond(s, sound, most, COLLAPSE * self.reach, self.coldest, self.hottest):
             return
-        s, sound = aboard.landed(stepper).own, arrays.brought(sound)
+        with aboard.ashore(stepper):
+            self._name(stepper, arrays.brought(sound), most)
+
+    def _name(self, stepper, sound, most: float) -> None:
+        """Unstable, by the particle that is worst."""
+        s = stepper.own
         ruled = f"the sub-step was ruled by {stepper.limit or 'the window'}"
         lower = f"run.step_factor (now {self.case.run.step_factor:g}; {ruled}), then {self._shorter()}"
         speed = np.sqrt(s.u**2 + s.v**2 + (s.w**2 if len(s.w) else 0.0))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from sdph.engine import state as particles
-from sdph.methods.grains import aboard
 from sdph.methods.grains import equations as rates
 
 
@@ -36,8 +35,7 @@ class Conducting:
 
     def conduction_rate(self, i: int) -> float:
         """Heat [W] that particle i gets from its neighbours now."""
-        with aboard.aboard(self, change=False):
-            return rates.heat_to(*self._of_conduction(), i)
+        return rates.heat_to(*self._of_conduction(), int(i))
 
     def _warm(self, heat) -> None:
         """Put heat per mass (N,) [J/kg] into the temperature, where there is one."""

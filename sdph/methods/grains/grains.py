@@ -8,6 +8,7 @@ from sdph import effects
 from sdph.effects.around.outflow import leaving, refuse_to_leave
 from sdph.effects.around.source import Source
 from sdph.effects.gas import micro_explosion
+from sdph.engine import arrays
 from sdph.engine import state as particles
 from sdph.engine.clock import Clock
 from sdph.engine.kept import Unfit
@@ -50,6 +51,10 @@ class Grains:
         """The particles of this process."""
         return self.stepper.own
 
+    def ashore(self):
+        """Context in which the particles lie in memory, for who reads them."""
+        return aboard.ashore(self.stepper)
+
     @property
     def inside(self):
         """Particles of this process that are in the gas."""
@@ -80,11 +85,11 @@ class Grains:
     def start(self) -> None:
         """Let in what the nozzles give at first."""
         self.renew(self.case.coupling.window_largest)
-        with aboard.aboard(self.stepper, change=False):
-            self.stepper.tell()
+        self.stepper.tell()
 
     def begin(self) -> None:
-        """Remember the state to go back to, before a window."""
+        """Remember the state to go back to, before a window; the particles go where the case has them."""
+        aboard.board(self.stepper)
         self.stepper.guard.begin(self)
         self.came, self.left, self.gone = self._came_in(), NOTHING_LEFT, None
         self.begun = self.time
@@ -96,11 +101,10 @@ class Grains:
         left = self.state.mass > 0.0
         if self.world.any(not left.all()):
             self.stepper.replace(particles.take(self.state, left))
-            self._prepare()
+            self.stepper.prepare()
 
     def advance(self, end: float) -> None:
-        with aboard.aboard(self.stepper):
-            (self.stepper.move if self.moves else self.stepper.conduct)(end - self.time)
+        (self.stepper.move if self.moves else self.stepper.conduct)(end - self.time)
         if own := self.parameters["micro_explosion"]:
             self.torn = micro_explosion.swollen(own, self.state, end - self.time)
         self.time, self.windows = end, self.windows + 1
@@ -133,16 +137,12 @@ class Grains:
             self.stepper.replace(state)
         changed = replaced or bool(self.parameters["evaporation"] or self.parameters["reaction"])
         if changed or self.windows == 0:  # those that moved are prepared
-            self._prepare()
-        return changed or self.moves
-
-    def _prepare(self) -> None:
-        with aboard.aboard(self.stepper):
             self.stepper.prepare()
+        return changed or self.moves
 
     def share_inside(self, after: float = 0.0) -> np.ndarray:
         """Share of each particle (N,) that is in the gas, or will be `after` [s]: none of those that will have left."""
-        share = self.source.inside(self.state, after) if self.source else np.ones(len(self.state.x))
+        share = self.source.inside(self.state, after) if self.source else arrays.ones(len(self.state.x), self.state.x)
         if after and self.parameters["outflow"]:
             s = self.state
             ways = {x: getattr(s, x) + after * getattr(s, u) for x, u in zip("xyz", "uvw")}
@@ -196,6 +196,10 @@ class Grains:
 
     def points(self):
         """Particles in the gas as pyvista points with their arrays and alpha_p."""
+        with self.ashore():
+            return self._points()
+
+    def _points(self):
         import pyvista
 
         state = self.inside

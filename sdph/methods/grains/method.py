@@ -69,12 +69,7 @@ class Stepper(Conducting, Windowed):
         self.facing, self.heated, self.work = OFF, OFF, sub_step.work(0, False)  # rows of the dummies; of hot faces
         # pressure [Pa] of the walls before it is held, and what the last sub-step shifted (N, 3) [m]
         self.unheld, self.shifted = np.zeros(0), np.zeros((0, 3))
-        self.twin = None  # see sdph.methods.grains.aboard
-
-    @property
-    def aboard(self):
-        """The stepper itself, where its arrays are (sdph.methods.grains.aboard)."""
-        return self
+        self.landed = None  # see sdph.methods.grains.aboard
 
     def look_anew(self) -> None:
         """Make rows of the places at the last build, and what belongs to them, where the particles are."""
