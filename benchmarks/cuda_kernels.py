@@ -10,16 +10,20 @@ threads of a multiprocessor over the most that it holds, in blocks of 128.
 
 import sys
 
+import numpy as np
+
 from sdph import scenes
 from sdph.case import read as cases
 from sdph.engine.gpu import assembled
-from sdph.running.alone import METHODS, Alone
+from sdph.methods.grains.grains import Grains
+from sdph.running.alone import Alone
 from sdph.study.explain.tables import table
 
 LIQUIDS = (
     "dam_break", "dam_break_3d", "sloshing_box", "hydrostatic_tank", "square_patch", "taylor_green", "poiseuille",
     "water_under_air", "dam_break_gas",
 )  # fmt: skip
+GRAINS = ("bubbling_bed", "bubbling_bed_3d", "granular_jet", "segregation")
 OTHERS = (
     "power_law_poiseuille", "capillary_wave", "bubble_rise", "channel_bore", "free_overfall", "sloshing_cassini",
     "taylor_bar",
@@ -36,12 +40,14 @@ STEPS, BY_MPS = 2, "mps:"
 def loops_of(scene: str, *keys: str) -> list:
     """(loop, types of what it takes) of a scene's start and first steps."""
     case = cases.load(scenes.find(scene)[1], keys)
-    assert case.moved_by(case.matters[0]) in METHODS
     with assembled.Heard() as heard:
-        run = Alone(case, None)
-        run.start()
-        run.method.begin()
-        run.method.advance(run.clock.next(run.time), STEPS)
+        if case.grains:
+            of_grains(case)
+        else:
+            run = Alone(case, None)
+            run.start()
+            run.method.begin()
+            run.method.advance(run.clock.next(run.time), STEPS)
     return list(heard.loops)
 
 
@@ -65,6 +71,16 @@ def moving(scene: str) -> list:
     return list(heard.loops)
 
 
+def of_grains(case) -> None:
+    """Loops of grains that are on a device: those of a window's sub-steps."""
+    own = Grains(case)
+    own.start()
+    own.begin()
+    zeros = np.zeros(len(own.state.x))
+    own.force(zeros, np.zeros((len(zeros), 3)), zeros)
+    own.advance(1e-6)
+
+
 def main(names) -> None:
     for name in names:
         scene, rows = name.removeprefix(BY_MPS), []
@@ -77,4 +93,4 @@ def main(names) -> None:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:] or (*LIQUIDS, *OTHERS, *(BY_MPS + scene for scene in MOVING)))
+    main(sys.argv[1:] or (*LIQUIDS, *GRAINS, *OTHERS, *(BY_MPS + scene for scene in MOVING)))

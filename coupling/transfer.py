@@ -23,14 +23,20 @@ from typing import NamedTuple
 import numpy as np
 from numba import prange
 
+from coupling import by_cell
+from sdph.engine import arrays
 from sdph.laws.compiled import inlined, parallel, serial
 from sdph.laws.kernels import SUPPORT
+
+NOTHING = np.zeros(0, np.int64)
 
 
 class Weights(NamedTuple):
     """Weights of N particles: row k is cells[k, :number[k]] with weight[k, :number[k]]; of `total` cells.
 
-    `outside` names the particles that cover no cell centre and took the nearest cell.
+    `outside` names the particles that cover no cell centre and took the nearest cell. On a device, which deposits cell
+    by cell, `slot` has the entries of each cell from its `start` on, particle by particle, as if rows stood one behind
+    the other.
     """
 
     number: np.ndarray
@@ -38,6 +44,8 @@ class Weights(NamedTuple):
     weight: np.ndarray
     total: int
     outside: np.ndarray
+    start: np.ndarray = NOTHING
+    slot: np.ndarray = NOTHING
 
 
 class Transfer:
@@ -57,35 +65,49 @@ class Transfer:
         # V_c/h_c^d but for a factor that rows take over: 1/h_c^d is the part of W that r/h does not tell
         share = mesh.volumes * (self.smoothing / self.smoothing.max()) ** -mesh.dimensions
         self.bins = _bins((mesh.centres - self.corner)[:, : mesh.dimensions], self.smoothing, share)
-        self.stride = 16
+        self.stride, self.bins_there = 16, None
 
     def weights(self, positions: np.ndarray) -> Weights:
         """Weights of particles at (N, 3) positions [m]; a particle that covers no cell centre takes the nearest."""
-        positions = positions - self.corner
+        bins, count = self._bins_beside(positions), len(positions)
         while True:
-            number = np.empty(len(positions), np.int64)
-            cells, weight = np.empty((len(positions), self.stride), np.int64), np.empty((len(positions), self.stride))
-            _fill(self.bins, self.sides, positions, number, cells, weight)
-            if number.max(initial=0) < self.stride:
+            number = arrays.empty(count, positions, np.int64)
+            cells, weight = (arrays.empty((count, self.stride), positions, kind) for kind in (np.int64, np.float64))
+            _fill(bins, self.sides, self.corner, positions, number, cells, weight)
+            most = int(arrays.ends(number)[1])
+            if most < self.stride:
                 break
-            self.stride = int(number.max()) + 2
-        outside = np.flatnonzero(number == 0)
-        for k in outside:
-            cells[k, 0] = self.bins.cell[((self.bins.centres - positions[k]) ** 2).sum(axis=1).argmin()]
-            weight[k, 0] = number[k] = 1
-        return Weights(number, cells, weight, len(self.volumes), outside)
+            self.stride = most + 2
+        outside = arrays.chosen(number == 0)
+        if len(outside):
+            _nearest(bins, self.corner, positions, outside, number, cells, weight)
+        found = Weights(number, cells, weight, len(self.volumes), outside)
+        return found if arrays.here(positions) else by_cell.listed(found)
+
+    def _bins_beside(self, positions) -> Bins:
+        """The bins where the positions are."""
+        if arrays.here(positions):
+            return self.bins
+        if self.bins_there is None:
+            own = (arrays.beside(part, positions) if isinstance(part, np.ndarray) else part for part in self.bins)
+            self.bins_there = Bins(*own)
+        return self.bins_there
 
 
 def gather(weights: Weights, field: np.ndarray) -> np.ndarray:
     """Cell values (C,) or (C, m) at the particles: (N,) or (N, m)."""
-    out = np.empty((len(weights.number), *field.shape[1:]))
-    _gather(weights, _columns(field), _columns(out))
+    out = arrays.empty((len(weights.number), *field.shape[1:]), weights.number)
+    _gather(weights, arrays.beside(_columns(field), out), _columns(out))
     return out
 
 
 def deposit(weights: Weights, field: np.ndarray) -> np.ndarray:
-    """Extensive particle values (N,) or (N, m) summed into cells: (C,) or (C, m). In order, so that it repeats bit for
-    bit."""
+    """Extensive particle values (N,) or (N, m) summed into cells: (C,) or (C, m), in memory. In order, so that it
+    repeats bit for bit."""
+    if not arrays.here(weights.number):
+        out = arrays.empty((weights.total, math.prod(field.shape[1:])), weights.number)
+        by_cell.deposit(weights, arrays.beside(_columns(field), out), out)
+        return arrays.brought(out).reshape(weights.total, *field.shape[1:])
     out = np.zeros((weights.total, *field.shape[1:]))
     _deposit(weights, _columns(field), _columns(out))
     return out
@@ -93,7 +115,8 @@ def deposit(weights: Weights, field: np.ndarray) -> np.ndarray:
 
 def _columns(field):
     """(n, m) view of a field (n,) or (n, m); n may be 0."""
-    return np.ascontiguousarray(field).reshape(len(field), math.prod(field.shape[1:]))
+    shape = len(field), math.prod(field.shape[1:])
+    return np.ascontiguousarray(field).reshape(shape) if arrays.here(field) else field.reshape(shape)
 
 
 class Bins(NamedTuple):
@@ -216,9 +239,25 @@ def _weighed(bins, cells, weight, found):
 
 
 @parallel
-def _fill(bins, sides, points, number, cells, weight):
+def _fill(bins, sides, corner, points, number, cells, weight):
     for k in prange(len(points)):
-        number[k] = _row(bins, sides, points[k, 0], points[k, 1], points[k, 2], cells[k], weight[k])
+        x, y, z = points[k, 0] - corner[0], points[k, 1] - corner[1], points[k, 2] - corner[2]
+        number[k] = _row(bins, sides, x, y, z, cells[k], weight[k])
+
+
+@parallel
+def _nearest(bins, corner, points, outside, number, cells, weight):
+    """Rows of the particles `outside`: the nearest cell."""
+    for n in prange(len(outside)):
+        k, least, best = outside[n], np.inf, 0
+        x, y, z = points[k, 0] - corner[0], points[k, 1] - corner[1], points[k, 2] - corner[2]
+        for c in range(len(bins.cell)):
+            dx, dy, dz = bins.centres[c, 0] - x, bins.centres[c, 1] - y, bins.centres[c, 2] - z
+            square = dx * dx + dy * dy + dz * dz
+            if square < least:
+                least, best = square, c
+        cells[k, 0] = bins.cell[best]
+        weight[k, 0] = number[k] = 1
 
 
 @parallel

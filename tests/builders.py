@@ -117,5 +117,5 @@ def conduction_heating(kernel, state, conduction_p, period=OPEN):
         np.full(len(state.x), np.nan),
     )
     rates.sum_density(kernel, state, rows, box, OFF, OFF, np.empty(len(state.x)), pull)
-    rates.conduct(kernel, state, rows, box, pull, conduction_p, heating)
+    rates.conduct(kernel, state, rows, box, pull, conduction_p, np.empty(0), heating)
     return state, heating

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import numpy as np
+from numba import prange
 
-from sdph.engine import softening
+from sdph.engine import arrays, softening
 from sdph.engine.state import GRAIN, by_material
 from sdph.engine.world import here
 from sdph.laws import granular
-from sdph.laws.compiled import serial
+from sdph.laws.compiled import parallel
 
 
 def share(state, held) -> float:
@@ -31,20 +31,20 @@ def capped(p, state) -> dict[str, float]:
 def softened(p, method) -> dict[str, float]:
     """The part that r^2 + 0.01 h^2 in place of r^2 takes off the pairs in the gas (sdph.engine.softening)."""
     s = method.state
-    return softening.held(method, "cubic_spline", np.flatnonzero(s.kind == GRAIN), s.mass)
+    return softening.held(method, "cubic_spline", arrays.chosen(s.kind == GRAIN), s.mass)
 
 
 def streaming(p, state, factor: float, name: str) -> dict[str, float]:
     """Share of the particles whose free path `granular.streaming_share` limits, and the mean part of the kinetic
     coefficient `name` that this takes away."""
-    taken = np.empty(len(state.x))
+    taken = arrays.empty(len(state.x), state.x)
     _taken(p, state.density / by_material(state.grain_density, p.grain_density), state.diameter, factor, taken)
     return {f"knudsen_{name}_share": share(state, taken > 0.0), f"knudsen_{name}_rel": share(state, taken)}
 
 
-@serial
+@parallel
 def _taken(p, alpha_p, diameter, factor, part):
-    for i in range(len(part)):
+    for i in prange(len(part)):
         a = granular.capped_fraction(alpha_p[i], p.packing)
         g0 = granular.sinclair_jackson(a, p.packing)
         part[i] = 1.0 - granular.streaming_share(a, p.restitution, g0, diameter[i], factor, p.h)

@@ -13,6 +13,7 @@ from sdph.laws.compiled import parallel, serial
 
 card = None  # the device, once it is begun
 SPARE = 16  # one row in so many is kept free by a Room; our choice
+IN_MEMORY = np.zeros(0)  # an array that lies there, to have others beside it
 
 
 def here(array) -> bool:
@@ -104,9 +105,14 @@ def order(number, total: int):
     return _order(number, total) if here(number) else card.order(number, total)
 
 
+def value(array, n: int):
+    """The n-th value of an array (N,)."""
+    return array[n] if here(array) else card.value(array, n)
+
+
 def last(array):
     """The last value of an array (N,)."""
-    return array[-1] if here(array) else card.value(array, len(array) - 1)
+    return value(array, len(array) - 1)
 
 
 class Room:
@@ -144,3 +150,44 @@ def _order(number, total):
         rows[start[cell]] = i
         start[cell] += 1
     return rows
+
+
+def fill(array, value) -> None:
+    """array[:] = value."""
+    if here(array):
+        array[:] = value
+    else:
+        card.fill(array, value)
+
+
+def beside(array, like):
+    """The array, or a copy of it, where another lies."""
+    return card.send(array) if here(array) and not here(like) else array
+
+
+def ones(count: int, like):
+    """Array (N,) of 1.0 beside another."""
+    out = empty(count, like)
+    fill(out, 1.0)
+    return out
+
+
+def counted(count: int, like):
+    """Array (N,) of 0, 1, 2, ... beside another, int64."""
+    return np.arange(count) if here(like) else card.counted(count)
+
+
+def vectors(a, b, c):
+    """(N, 3) of three arrays (N,), the last of which may have no length: 0 there."""
+    if not here(a):
+        return card.stacked((a, b, c if len(c) else zeros(len(a), a)))
+    out = np.zeros((len(a), 3))
+    out[:, 0], out[:, 1] = a, b
+    if len(c):
+        out[:, 2] = c
+    return out
+
+
+def columns(table):
+    """The columns (N,) of a table (N, m)."""
+    return np.ascontiguousarray(table.T) if here(table) else card.columns(table)

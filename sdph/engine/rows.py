@@ -165,11 +165,12 @@ class Neighbours:
 
     def sort(self, here) -> np.ndarray:
         """Order in which fixed points have to stand for `seen_from`."""
-        return self.by_cell(here, np.zeros(len(here[0]), bool))
+        return self.by_cell(here, arrays.zeros(len(here[0]), here[0], np.bool_))
 
     def seen_from(self, here, at) -> Rows:
         """Rows of fixed points `here`, in the order of `sort`, for the points `at`; they are not filled up."""
-        return self._rows(here, np.zeros(len(here[0]), bool), at, np.zeros(len(at[0]), bool), False)
+        here_, there = (arrays.zeros(len(axes[0]), axes[0], np.bool_) for axes in (here, at))
+        return self._rows(here, here_, at, there, False)
 
 
 def three(here):
@@ -194,7 +195,7 @@ def _renumber(entries, many, order):
 @inlined
 def stride(rows):
     """Places from an entry of a row to its next."""
-    return 1 if len(rows) == 3 else ABREAST
+    return ABREAST if len(rows) == 4 else 1  # walls have their rows in a group of more
 
 
 @inlined

@@ -182,7 +182,7 @@ def _map(function, *states: State) -> State:
 
 def take(state: State, rows: np.ndarray) -> State:
     """The given rows (indices or mask) of every array: sorting, removing, choosing."""
-    rows = np.flatnonzero(rows) if rows.dtype == bool else rows
+    rows = arrays.chosen(rows) if rows.dtype == bool else rows
     return _map(lambda array: arrays.taken(array, rows), state)
 
 
@@ -228,11 +228,7 @@ def lengths(vectors: np.ndarray) -> np.ndarray:
 
 def vectors(a, b, c) -> np.ndarray:
     """(N, 3) of three arrays; the last is zero in two dimensions."""
-    out = np.zeros((len(a), 3))
-    out[:, 0], out[:, 1] = a, b
-    if len(c):
-        out[:, 2] = c
-    return out
+    return arrays.vectors(a, b, c)
 
 
 def by_material(values: np.ndarray, common: float):
@@ -267,21 +263,21 @@ def wet(state: State) -> np.ndarray:
 
 def forced(state: State, warmth, push, damping) -> State:
     """The same under what holds over a window: warmth (N,) [J], push (N, 3) [m/s2], damping (N,) [1/s]."""
-    x, y, z = np.ascontiguousarray(push.T)
+    x, y, z = arrays.columns(push)
     return state._replace(warmth=warmth, push_x=x, push_y=y, push_z=z if len(state.z) else z[:0], damping=damping)
 
 
 def followed(state: State) -> State:
     """The same with the way of each particle and what its theta loses counted from now on, and its row remembered."""
     count = len(state.x)
-    ways = {f"way_{a}": np.zeros(count if a != "z" or len(state.z) else 0) for a in "xyz"}
-    return state._replace(**ways, damped=np.zeros(len(state.theta)), row=np.arange(count))
+    ways = {f"way_{a}": arrays.zeros(count if a != "z" or len(state.z) else 0, state.x) for a in "xyz"}
+    return state._replace(**ways, damped=arrays.zeros(len(state.theta), state.x), row=arrays.counted(count, state.x))
 
 
 def released(state: State) -> State:
     """The same with nothing held over a window."""
-    nothing = np.zeros(0)
-    return state._replace(**{name: nothing.astype(INTEGERS.get(name, float)) for name in HELD})
+    kinds = {name: INTEGERS.get(name, np.float64) for name in HELD}
+    return state._replace(**{name: arrays.zeros(0, state.x, kind) for name, kind in kinds.items()})
 
 
 def count(state: State) -> int:

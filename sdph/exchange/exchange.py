@@ -29,6 +29,7 @@ from sdph import effects
 from sdph.effects import OFF
 from sdph.effects.around import electric_field
 from sdph.effects.gas import break_up, film, radiation, sizes, turbulent_dispersion
+from sdph.engine import arrays
 from sdph.engine.state import GRAIN, by_material, lengths
 from sdph.exchange import bursts, equations
 from sdph.exchange.amounts import Handed, Taken, outside
@@ -91,14 +92,14 @@ class Exchange:
         gone = kept == 0.0 if loss and len(force) else np.zeros(len(force), bool)
         missed = dt * float(lengths(force[gone]).sum())
         force[gone] = 0.0  # those that are gone at the window's end feel nothing in it
-        heat_share, pull, shared_mass = (np.empty(len(state.x)) for _ in range(3))
+        heat_share, pull, shared_mass = (arrays.empty(len(state.x), state.x) for _ in range(3))
         equations.shares(
             state, self._radiated(state, state.temperature, 0.5 * dt), self.case.grains.heat_capacity, self.origin, dt,
             conductance, damping, kept, power, heat_share, pull, shared_mass,
         )  # fmt: skip
         there, inside = ahead
         handed = Handed(
-            dt, weights, heat_share, pull, shared_mass, force, damping, state.temperature.copy(), seen.own,
+            dt, weights, heat_share, pull, shared_mass, force, damping, arrays.copy(state.temperature), seen.own,
             kept * (state.kind == GRAIN), loss, self.origin,
         )  # fmt: skip
         alpha_g = self.cells.room(there, kept * inside, state.grain_density) if "alpha_g" in self.sources else None
@@ -110,7 +111,7 @@ class Exchange:
         """Rates of every particle now: heat conductance to the gas [W/K] by convection and in all, beta/(alpha_p rho_p)
         [1/s], and the force that is held [N]."""
         p, count = self.parameters, len(state.x)
-        found = *(np.empty(count) for _ in range(3)), np.zeros((count if self.holds else 0, 3))
+        found = *(arrays.empty(count, state.x) for _ in range(3)), np.zeros((count if self.holds else 0, 3))
         equations.rates(
             p["drag"], p["heat"], p["radiation"], p["lift"], self.film_p, self.sizes_p, state, self.case.grains.density,
             seen.around, *found,
@@ -193,8 +194,8 @@ class Exchange:
 
     def take(self, state, handed: Handed, gas_state) -> Taken:
         """The reaction on the particles, still as they were handed, from the new gas state with the old weights."""
-        taken_heat, from_gas = np.zeros(len(handed.heat)), 0.0
-        impulse, force = np.zeros((len(handed.heat), 3)), np.zeros((len(self.volumes), 3))
+        taken_heat, from_gas = np.zeros_like(handed.heat), 0.0
+        impulse, force = np.zeros_like(handed.velocity), np.zeros((len(self.volumes), 3))
         if ("heat", "conductance") in handed.terms:
             temperature = gas_state.fields["temperature"] - self.origin
             taken_heat = handed.dt * (handed.heat * gather(handed.weights, temperature) - handed.pull)
@@ -283,11 +284,10 @@ class Exchange:
         if not self.world.any(bool(felt.any())):
             return math.inf
         gravity, field = np.asarray(self.parameters["gravity"] or (0.0, 0.0, 0.0)), self.parameters["electric_field"]
-        pulled = (gravity + electric_field.acceleration(field, state))[felt]
+        pulled = gravity + electric_field.acceleration(field, state)
         if len(force):
-            pulled = pulled + force[felt] / state.mass[felt, None]
-        pull = lengths(pulled)
-        means = pull, 1.0 / damping[felt], np.maximum(lengths(own), slip)[felt]
+            pulled = pulled + force / state.mass[:, None]
+        means = lengths(pulled)[felt], 1.0 / damping[felt], np.maximum(lengths(own), slip)[felt]
         return settling(self.case, *(self.world.average(each, state.mass[felt]) for each in means))
 
     def handed_heat(self, handed: Handed) -> float:

@@ -1,5 +1,6 @@
-"""Decorators of compiled functions: `law` and `serial` (one thread), `inlined` (part of a loop), `parallel`; all are
-cached on disk, with IEEE division (1/0 is inf, as in numpy); `fast_` ones may sum in any order.
+"""Decorators of compiled functions: `law` and `serial` (one thread), `inlined` (part of a loop), `parallel`, `inner`
+(a loop that compiled functions call), `in_turn` (loops one after the other); all are cached on disk, with IEEE division
+(1/0 is inf, as in numpy); `fast_` ones may sum in any order.
 
 numba spends two thirds of a cold start on what nobody needs, because a State has about eighty arrays: a way in from
 Python for functions that only loops call, and copies of the whole State that LLVM takes to pieces one by one. Neither
@@ -44,11 +45,11 @@ class Compiled(CPUDispatcher):
         return twin
 
 
-def _within(**options):
+def _within(kind=Compiled, **options):
     """Decorator: a function that other compiled ones call, and Python too."""
 
     def decorate(function) -> Compiled:
-        made = Compiled(function, targetoptions=dict(options, nopython=True, no_cpython_wrapper=True))
+        made = kind(function, targetoptions=dict(options, nopython=True, no_cpython_wrapper=True))
         made.enable_caching()
         return made
 
@@ -66,6 +67,19 @@ class Loop(CPUDispatcher):
         return self.here(*arguments) if Loop.elsewhere is None else Loop.elsewhere(self, arguments)
 
     here = CPUDispatcher.__call__
+
+
+class Inner(Loop, Compiled):
+    """A loop that compiled functions call as a rule: its way in from Python is compiled apart."""
+
+    here = Compiled.__call__
+
+
+class InTurn(Compiled):
+    """Loops one after the other, compiled as one; where `Loop.elsewhere` is set Python calls them one by one."""
+
+    def __call__(self, *arguments):
+        return super().__call__(*arguments) if Loop.elsewhere is None else self.py_func(*arguments)
 
 
 def _over_particles(largest=False, parallel=True, **options):
@@ -108,4 +122,6 @@ fast_inlined = _within(**COMMON, forceinline=True, fastmath=FAST)
 parallel = _over_particles()
 parallel_largest = _over_particles(largest=True)  # returns the largest of what threads find; other loops return sums
 in_order = _over_particles(parallel=False)  # sums up in the order of the particles, however many threads there are
+inner = _within(Inner, **COMMON)  # in that order too
+in_turn = _within(InTurn, **COMMON)
 fast_parallel = _over_particles(fastmath=FAST)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from sdph.engine import arrays
 from sdph.engine import state as particles
 from sdph.engine.contact import Contact
 from sdph.engine.kept import Unfit
@@ -44,7 +45,10 @@ class Beside:
 
     def touch(self, grains, dt: float) -> np.ndarray:
         """Impulses (N, 3) [kg m/s] of contact on the grains in a window of `dt` [s]; the others get the opposite."""
-        impulse, here, inside = np.zeros((len(grains.x), 3)), particles.positions(grains), grains.kind == GRAIN
+        impulse = arrays.zeros((len(grains.x), 3), grains.x)
+        if not self.methods:
+            return impulse
+        here, inside = particles.positions(grains), grains.kind == GRAIN
         for matter, method in self.methods.items():
             wet, there = particles.wet(method.state), particles.positions(method.state)
             own, other = self.contacts[matter].forces(here[inside], there[wet])
@@ -56,6 +60,8 @@ class Beside:
 
     def limit(self, grains) -> float:
         """Longest window [s] that contacts bear which there are or may come; inf where nothing is near."""
+        if not self.methods:
+            return np.inf
         inside, longest = grains.kind == GRAIN, np.inf
         here = particles.positions(grains)[inside]
         for matter, method in self.methods.items():

@@ -11,7 +11,7 @@ from coupling.gas import Unfinished
 from coupling.transfer import Transfer, gather
 from sdph import effects
 from sdph.effects.around import electric_field
-from sdph.engine import gathered
+from sdph.engine import arrays, gathered
 from sdph.engine import state as particles
 from sdph.engine.kept import Unfit
 from sdph.exchange import vapour
@@ -82,7 +82,7 @@ class Simulation:
     def whole(self):
         """Context in which the first process holds all particles, and no other any; True there."""
         kept = self._weights_now
-        with gathered.whole(self.stepper) as chief:
+        with self.grains.ashore(), gathered.whole(self.stepper) as chief:
             self._weights_now = kept if self.world.number == 1 else None
             yield chief
         self._weights_now = kept
@@ -283,7 +283,7 @@ class Simulation:
 
     def _body(self, handed) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Gravity (3,), the gas's pressure gradient and the electric field (N, 3), held over the window [m/s2]."""
-        pressed = np.zeros((len(self.state.x), 3))
+        pressed = arrays.zeros((len(self.state.x), 3), self.state.x)
         if self.parameters["gas_pressure"]:
             own = particles.by_material(self.state.grain_density[:, None], self.case.grains.density)
             pressed -= gather(handed.weights, self.gas_state.fields["pressure_gradient"]) / own

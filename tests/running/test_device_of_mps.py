@@ -7,12 +7,13 @@ import shutil
 
 import numpy as np
 import pytest
-from test_device import OF_DEVICE, on_cpu, on_device, refusal
+from test_device import OF_DEVICE, on_cpu, refusal
 
 from sdph.cli import main
 from sdph.methods.mps.method import WORKS
-from sdph.running import on_device as known
+from sdph.running import on_device as taken
 from tests.of_ranks import particles
+from tests.on_simulator import on_device
 
 # a nozzle of two rings, and a drop that flies out of the domain, whose end the sheet passes
 SHEET = (
@@ -114,4 +115,4 @@ def test_what_is_taken_is_what_is_tested():
     ran = set()
     for scene, _, *keys in SETS.values():
         ran |= set(read.load(paths.PACKAGE / "scenes" / scene / "case.toml", tuple(keys)).effects)
-    assert ran == set(known.OF_MPS)
+    assert ran == set(taken.EFFECTS["mps"])

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sdph.effects.effect import NO_LIMIT, Effect, Judgement
+from sdph.engine import arrays
 from sdph.engine.ledger import Column
 from sdph.engine.state import by_material
 from sdph.laws import electrostatics as law
@@ -67,7 +68,7 @@ def kernel(case) -> ElectricFieldP:
 
 def acceleration(p, state) -> np.ndarray:
     """(N, 3) [m/s2] of the particles, held over a window; 0 where the effect is off."""
-    out = np.zeros((len(state.x), 3))
+    out = arrays.zeros((len(state.x), 3), state.x)
     if p:
         out += np.array(p[:3]) * _charge_per_mass(p, state)[:, None]
     return out

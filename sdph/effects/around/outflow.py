@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sdph.effects.effect import Effect, Judgement
+from sdph.engine import arrays
 from sdph.engine import state as particles
 from sdph.engine.geometry import PAIRS, SIDES
 from sdph.engine.state import GRAIN, LIQUID
@@ -34,7 +35,7 @@ def kernel(case) -> OutflowP:
 def leaving(case, state, foreseen: bool = False) -> np.ndarray:
     """Mask of the grains that are out of the domain through an open side and go outwards. `foreseen` places are those
     of grains that no wall has turned back yet: only outlets with a side count then."""
-    gone, places = np.zeros(len(state.x), bool), particles.axes(state)
+    gone, places = arrays.zeros(len(state.x), state.x, np.bool_), particles.axes(state)
     for side, axis, out in _beyond(case, state):
         gone |= out & (_outlets if foreseen else _open)(case, side, axis, places)
     return gone & (state.kind == GRAIN)
@@ -116,12 +117,12 @@ def refuse_to_leave(case, state, gone, time: float) -> None:
 def _open(case, side: str, axis: int, places) -> np.ndarray:
     own = case.parameters.get("walls")
     if own is None or (own.mesh and own.source == "gas"):  # patches hold grains wherever they are no outlet
-        return np.ones(len(places[0]), bool)
+        return arrays.zeros(len(places[0]), places[0]) == 0.0
     return _outlets(case, side, axis, places)
 
 
 def _outlets(case, side: str, axis: int, places) -> np.ndarray:
-    found = np.zeros(len(places[0]), bool)
+    found = arrays.zeros(len(places[0]), places[0], np.bool_)
     for _, outlet in outlets_of(case, side):
         found |= _within(outlet, axis, places)
     return found

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 
+from numba import prange
+
 from sdph.effects.around.walls import against
 from sdph.engine.rows import entry
 from sdph.engine.walls.dummies import offset
-from sdph.laws.compiled import inlined, serial
+from sdph.laws.compiled import in_turn, inlined, inner
 
 
 @inlined
@@ -36,18 +38,33 @@ def tell(felt, w, mass, px, py, pz, rx, ry, rz):
         felt[0][w, 5] -= mass * rz
 
 
-@serial
-def contact(p, wall, box, s, gravity, impulse, work, back_put, felt):
+@in_turn
+def stop(p, wall, box, s, gravity, impulse, work, back_put, felt):
     """Stops particles that came closer than `contact` to a surface; returns how many did.
 
-    The place is put back to the contact distance, the normal velocity reversed with the restitution, and that along the
-    wall taken away, by `rubs` times as much at most. Those that come through a nozzle pass. Adds to impulse (3,)
-    [kg m/s] and work (1,) [J] of the walls on the grains, and to back_put (2,) the ways that places were put back [m]
-    and the energy that they got by it under gravity (3,) [m/s2], [J]. Where felt is not empty it adds to felt[0]
-    (W, 6) [kg m/s] what pushes and what rubs each dummy.
+    Adds to impulse (3,) [kg m/s] and work (1,) [J] of the walls on the grains, and to back_put (2,) the ways that
+    places were put back [m] and the energy that they got by it [J].
     """
-    touched = 0
-    for i in range(len(s.x)):
+    ix, iy, iz, worked, way, lift, touched = contact(p, wall, box, s, gravity, felt)
+    impulse[0] += ix
+    impulse[1] += iy
+    impulse[2] += iz
+    work[0] += worked
+    back_put[0] += way
+    back_put[1] += lift
+    return touched
+
+
+@inner
+def contact(p, wall, box, s, gravity, felt):
+    """Contact of each particle with the dummies that it sees; what `stop` adds up, and how many were stopped.
+
+    The place is put back to the contact distance, the normal velocity reversed with the restitution, and that along the
+    wall taken away, by `rubs` times as much at most. Those that come through a nozzle pass. gravity (3,) [m/s2]; where
+    felt is not empty it adds to felt[0] (W, 6) [kg m/s] what pushes and what rubs each dummy.
+    """
+    ix = iy = iz = work = way = lift = touched = 0.0
+    for i in prange(len(s.x)):
         before = touched
         if len(s.entering) > 0 and s.entering[i] > 0:
             continue
@@ -62,8 +79,8 @@ def contact(p, wall, box, s, gravity, impulse, work, back_put, felt):
                 continue
             s.x[i] += inside * nx
             s.y[i] += inside * ny
-            back_put[0] += inside
-            back_put[1] -= s.mass[i] * inside * (gravity[0] * nx + gravity[1] * ny + gravity[2] * nz)
+            way += inside
+            lift -= s.mass[i] * inside * (gravity[0] * nx + gravity[1] * ny + gravity[2] * nz)
             normal = s.u[i] * nx + s.v[i] * ny
             if len(s.z):
                 s.z[i] += inside * nz
@@ -71,16 +88,14 @@ def contact(p, wall, box, s, gravity, impulse, work, back_put, felt):
             back = -(1.0 + p.restitution) * min(normal, 0.0)
             rx, ry, rz = rubbed(p, wall, w, box, s, i, back)
             bx, by, bz = back * nx + rx, back * ny + ry, back * nz + rz
-            impulse[0] += s.mass[i] * bx
-            impulse[1] += s.mass[i] * by
-            impulse[2] += s.mass[i] * bz
+            ix, iy, iz = ix + s.mass[i] * bx, iy + s.mass[i] * by, iz + s.mass[i] * bz
             tell(felt, w, s.mass[i], back * nx, back * ny, back * nz, rx, ry, rz)
             across = s.w[i] if len(s.z) else 0.0
             after = bx * (s.u[i] + 0.5 * bx) + by * (s.v[i] + 0.5 * by) + bz * (across + 0.5 * bz)
-            work[0] += s.mass[i] * after
+            work += s.mass[i] * after
             s.u[i] += bx
             s.v[i] += by
             if len(s.z):
                 s.w[i] += bz
-            touched = before + 1
-    return touched
+            touched = before + 1.0
+    return ix, iy, iz, work, way, lift, touched

@@ -34,7 +34,7 @@ from sdph.engine.state import INFLOW
 from sdph.engine.walls.faces import temperatures
 from sdph.laws import kernels
 from sdph.laws import wall_heat as law
-from sdph.laws.compiled import inlined, parallel, serial
+from sdph.laws.compiled import in_turn, inlined, parallel
 from sdph.schema import CaseError, quantity, record
 
 NEEDS = ("walls", "conduction")
@@ -153,7 +153,7 @@ def take(p, conduction_p, kernel, box, faces, s, dt, temperature, age):
         age[i] = age[i] + dt if met > 0.0 else 0.0
 
 
-@serial
+@in_turn
 def exchange(p, conduction_p, kernel, box, heated, s, dt, gave):
     """Heat from walls in dt [s]: `heated` are the faces as particles see them, and the rows of these; see `give`."""
     if len(p):

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import numpy as np
+from numba import prange
 
 from sdph.effects import limiter
+from sdph.engine import arrays
 from sdph.engine.rows import entry
 from sdph.engine.walls.dummies import offset
-from sdph.laws.compiled import serial
+from sdph.laws.compiled import parallel
 
 
-@serial
+@parallel
 def nearer(p, wall, box, s, found):
     """Mark (N,) the particles that are nearer than contact to a wall that grips; see `grip` of the walls."""
-    for i in range(len(found)):
+    for i in prange(len(found)):
         found[i] = False
         for k in range(wall.number[i]):
             w = entry(wall, i, k)
@@ -50,6 +52,6 @@ def held(p, method) -> dict[str, float]:
     }
     if p.specularity < 0.0:
         return found
-    near = np.zeros(len(method.state.x), bool)
+    near = arrays.empty(len(method.state.x), method.state.x, np.bool_)
     nearer(p, method.wall, method.neighbours.box, method.state, near)
     return found | {"grip_held_share": limiter.share(method.state, near)} | limiter.capped(p, method.state)

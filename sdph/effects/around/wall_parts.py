@@ -9,10 +9,10 @@ from numba import prange
 from sdph.effects.around.walls import pair, solid
 from sdph.engine.rows import entry
 from sdph.engine.state import INFLOW
-from sdph.laws.compiled import parallel, serial
+from sdph.laws.compiled import in_turn, parallel
 
 
-@serial
+@in_turn
 def tell(felt, p, kernel, box, wall, facing, s, stress, friction_p, dt):
     """Add to felt[0] (W, 6) what pushes each dummy and what rubs it in `dt` [s], [kg m/s]; nothing where felt is
     empty."""

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from sdph.effects import limiter
 from sdph.effects.effect import NO_LIMIT, Effect, Judgement
-from sdph.engine.state import by_material
+from sdph.engine import arrays
 from sdph.laws import exchange as law
 from sdph.laws import packed_beds
 from sdph.laws.compiled import serial
@@ -119,7 +119,10 @@ def _of_packed(p, case, state) -> float:
     """Twice the largest diffusivity [m2/s], that of the densest, as K/alpha_p rises with alpha_p."""
     if not len(state.density):
         return 0.0
-    densest = float((state.density / by_material(state.grain_density, p.grain_density)).max())
+    if len(state.grain_density):
+        densest = float((state.density / state.grain_density).max())
+    else:
+        densest = arrays.ends(state.density)[1] / p.grain_density
     stored = ((grains.conductivity, grains.density * grains.heat_capacity) for grains in case.kinds)
     return 2.0 * max(packed_beds.beside_gas(densest, k, p.gas_conductivity) / densest / c for k, c in stored)
 

@@ -16,6 +16,7 @@ import numpy as np
 
 from sdph.effects import limiter
 from sdph.effects.effect import DIFFUSIVE, Effect, Judgement
+from sdph.engine import arrays
 from sdph.engine.geometry import deep
 from sdph.engine.state import by_material
 from sdph.laws import constants, granular
@@ -152,10 +153,10 @@ def held(p, method) -> dict[str, float]:
     """Shares of the particles beyond the packing at which the pressure goes on along its tangent, and of those whose
     contacts do not yield, so that their viscosity is the most that the last step bore."""
     s, found = method.state, limiter.capped(p, method.state)
-    stiff = np.zeros(len(s.x), bool)
+    stiff = arrays.zeros(len(s.x), s.x, np.bool_)
     if method.step:
         density = s.density * (p.lightest / by_material(s.grain_density, p.grain_density))
-        stiff = method.scratch.rubbing >= (1.0 - SAME) * stiffest(p, density, method.step)
+        stiff = method.scratch.rubbing >= (1.0 - SAME) * (stiffest(p, 1.0, method.step) * density)
     return found | {"contact_viscosity_share": limiter.share(s, stiff)}
 
 

@@ -187,14 +187,14 @@ def lost(begun, decayed, cooling, damped):
 
 
 @parallel
-def advance_all(p, s, heating, damping, shear_squared, divergence, crowd, dt, theta, held, collided, damped):
-    """theta (N,) [m2/s2] of all particles after dt, where they crowd by g0 = crowd (N,) [-]; by bounds, collisions and
-    gas it lost or got the others (N,) [m2/s2]."""
+def advance_all(p, s, heating, damping, strain, crowd, dt, theta, held, collided, damped):
+    """theta (N,) [m2/s2] of all particles after dt, strained as `sdph.methods.grains.equations.Scratch` tells, where
+    they crowd by g0 = crowd (N,) [-]; by bounds, collisions and gas it lost or got the others (N,) [m2/s2]."""
     for i in prange(len(s.x)):
         rho = s.grain_density[i] if len(s.grain_density) else p.grain_density
         theta[i], held[i], collided[i], damped[i] = advance(
-            p, s.density[i] / rho, s.theta[i], heating[i], damping[i], s.diameter[i], shear_squared[i],
-            divergence[i], crowd[i], dt,
+            p, s.density[i] / rho, s.theta[i], heating[i], damping[i], s.diameter[i], strain[0, i], strain[1, i],
+            crowd[i], dt,
         )  # fmt: skip
 
 

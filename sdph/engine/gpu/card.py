@@ -12,8 +12,9 @@ import math
 import numpy as np
 
 from sdph.engine import arrays
-from sdph.engine.gpu import products, sorting
-from sdph.engine.gpu.toolkit import SIMULATED, Launcher, cuda, lies_there, strict
+from sdph.engine.gpu import operators, products, sorting
+from sdph.engine.gpu.operators import Operable, operable
+from sdph.engine.gpu.toolkit import SIMULATED, Launcher, cuda, lies_there, made, strict
 from sdph.engine.gpu.translation import kernel_of, results
 from sdph.laws.compiled import Loop
 
@@ -97,7 +98,7 @@ class Card:
     def send(self, array: np.ndarray):
         """A copy of an array there."""
         self.sent += 1, array.nbytes
-        return cuda.to_device(np.ascontiguousarray(array))
+        return operable(cuda.to_device(np.ascontiguousarray(array)))
 
     def bring(self, array) -> np.ndarray:
         """A copy of an array in memory."""
@@ -110,7 +111,7 @@ class Card:
 
     def empty(self, shape, kind):
         """Array of a shape and a type (see sdph.engine.arrays, as for the rest)."""
-        return cuda.device_array(shape, kind)
+        return made(Operable, shape, kind)
 
     def filled(self, shape, kind, value):
         array = self.empty(shape, kind)
@@ -197,6 +198,26 @@ class Card:
         self._launch(products.multiply, PARTS, a, others, part)
         self._launch(sorting.sum_parts, SUMS, part, fewer)
         self._launch(products.put, (1, 1), fewer, sums, places)
+
+    def fill(self, array, value) -> None:
+        if array.size:
+            self._launch(sorting.fill, LOOP, array.reshape(array.size), value)
+
+    def counted(self, count: int):
+        out = self.empty(count, np.int64)
+        if count:
+            self._launch(operators.count_up, LOOP, out)
+        return out
+
+    def stacked(self, columns):
+        return operators.stacked(columns)
+
+    def columns(self, table):
+        return operators.columns(table)
+
+    def launch(self, kernel, *arguments) -> None:
+        """Run a kernel over all values."""
+        self._launch(kernel, LOOP, *map(self._along, arguments))
 
 
 def _there(value) -> bool:

@@ -24,8 +24,9 @@ def device(function):
 
 
 def kernel(function):
-    """A kernel, compiled when it is first launched for arguments of these types, and kept on disk."""
-    return cuda.jit(function) if SIMULATED else cuda.jit(cache=True)(function)
+    """A kernel, compiled when it is first launched for arguments of these types; kept on disk, unless it is one of
+    several of the same text."""
+    return cuda.jit(function) if SIMULATED or function.__closure__ else cuda.jit(cache=True)(function)
 
 
 class Launcher:
@@ -137,3 +138,34 @@ def assembly(function, taken: tuple, capability: tuple[int, int], *, parts: bool
     finally:
         dispatcher.get_current_device = before
     return text if isinstance(text, str) else text.decode()
+
+
+def kind_of_arrays() -> type:
+    """Class of the arrays of a device."""
+    if SIMULATED:
+        from numba.cuda.simulator.cudadrv.devicearray import FakeCUDAArray
+
+        return FakeCUDAArray
+    from numba.cuda.cudadrv.devicearray import DeviceNDArray
+
+    return DeviceNDArray
+
+
+def taken_for(kind: type, array):
+    """The same array of a device as one of a class that inherits `kind_of_arrays`."""
+    if isinstance(array, kind):
+        return array
+    if SIMULATED:
+        return kind(array._ary)
+    return kind(array.shape, array.strides, array.dtype, array.stream, array.gpu_data)
+
+
+def made(kind: type, shape, dtype):
+    """A new array of a device of such a class."""
+    if SIMULATED:
+        return kind(np.empty(shape, dtype))
+    shape, dtype = (shape if isinstance(shape, tuple) else (shape,)), np.dtype(dtype)
+    strides = [dtype.itemsize]
+    for length in reversed(shape[1:]):
+        strides.append(strides[-1] * length)
+    return kind(shape, tuple(reversed(strides)), dtype)

@@ -6,10 +6,12 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from numba import prange
 
+from sdph.engine import arrays
 from sdph.engine.geometry import deep, nearest_image
 from sdph.engine.rows import SKIN, Rows, entry
-from sdph.laws.compiled import inlined, serial
+from sdph.laws.compiled import inlined, parallel
 
 CONTACT = 0.25  # spacings between a particle and the surface at which they touch; our choice, half of the start's
 # reaches of the kernel within which a particle is beside a wall: as far as rows look that were just made. At one reach
@@ -34,7 +36,7 @@ class Dummies(NamedTuple):
     slide_z: np.ndarray
 
 
-OF_ROWS = ("entries", "start", "number", "every", "pressure", "velocity")
+OF_ROWS = (*Rows._fields, "every", "pressure", "velocity")
 Wall = NamedTuple("Wall", [(name, np.ndarray) for name in (*Dummies._fields, *OF_ROWS)])
 Wall.__doc__ = """Dummies as loops take them, in one flat group: their fields, the rows of the particles that see them,
 how many of a row count and how many contact asks (N,), pressure (W,) [Pa] and velocity (W, 3) [m/s] that they have from
@@ -43,25 +45,45 @@ the grains in front."""
 
 def seen(dummies: Dummies, rows, every) -> Wall:
     """Dummies of which particles see those in `rows`, and touch `every` (N,) of them."""
-    return Wall(*dummies, *rows, every, np.zeros(len(dummies.x)), np.zeros((len(dummies.x), 3)))
+    count = len(dummies.x)
+    return Wall(*dummies, *rows, every, *(arrays.zeros(shape, dummies.x) for shape in (count, (count, 3))))
 
 
-@serial
-def turned(rows, count):
+def plain(rows) -> Rows:
+    """The same rows one behind the other, not filled up, where those of a device stand abreast."""
+    if arrays.here(rows.number):
+        return rows
+    begin = arrays.begins(rows.number)
+    entries, particle = (arrays.zeros(int(arrays.last(begin)), begin, np.uint32) for _ in range(2))
+    tell_pairs(rows, begin, entries, particle)
+    return Rows(entries, begin, rows.number)
+
+
+def turned(rows, count: int) -> Rows:
     """Rows of the `count` fixed points that `rows` lists for particles: for each the particles that see it, in their
     order; not filled up."""
-    start = np.zeros(count + 1, np.int64)
-    for i in range(len(rows.number)):
+    begin = arrays.begins(rows.number)
+    pairs = int(arrays.last(begin))
+    point, particle = (arrays.zeros(pairs, begin, kind) for kind in (np.int64, np.uint32))
+    tell_pairs(rows, begin, point, particle)
+    start, number = arrays.starts(point, count), arrays.empty(count, begin, np.int32)
+    lengths(start, number)
+    return Rows(arrays.taken(particle, arrays.order(point, count)), start, number)
+
+
+@parallel
+def tell_pairs(rows, begin, point, particle):
+    """point and particle (E,) of each pair, row by row; begin (N + 1,): the first of each row."""
+    for i in prange(len(rows.number)):
         for k in range(rows.number[i]):
-            start[entry(rows, i, k) + 1] += 1
-    start = np.cumsum(start)
-    entries, number = np.empty(start[count], np.uint32), np.zeros(count, np.int32)
-    for i in range(len(rows.number)):
-        for k in range(rows.number[i]):
-            w = entry(rows, i, k)
-            entries[start[w] + number[w]] = i
-            number[w] += 1
-    return Rows(entries, start, number)
+            point[begin[i] + k], particle[begin[i] + k] = entry(rows, i, k), i
+
+
+@parallel
+def lengths(start, number):
+    """number (C,): lengths of parts that begin at start (C + 1,)."""
+    for c in prange(len(number)):
+        number[c] = start[c + 1] - start[c]
 
 
 @inlined

@@ -10,7 +10,7 @@ from sdph.engine.geometry import SIDES
 from sdph.engine.rows import Neighbours, Rows
 from sdph.engine.walls import facets, parts
 from sdph.engine.walls import mesh as sides
-from sdph.engine.walls.dummies import BESIDE, Dummies, Wall, seen, turned
+from sdph.engine.walls.dummies import BESIDE, Dummies, Wall, plain, seen, turned
 from sdph.laws.kernels import SUPPORT
 
 LAYERS = 3  # the support of the kernel is 2 h = 3 spacings
@@ -34,7 +34,7 @@ class Boundary:
 
     def rows(self, state_axes):
         """Dummies near each particle; valid as long as the particles' own rows."""
-        rows = self.search.seen_from(_axes(self.dummies, len(state_axes)), state_axes)
+        rows = plain(self.search.seen_from(_axes(self.dummies, len(state_axes)), state_axes))
         if self.of_mesh.any():
             sides.keep_in_front(self.dummies, self.of_mesh, sides.three(state_axes), rows)
         return rows

@@ -11,26 +11,24 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numba import prange
 
 from sdph.effects.around import wall_heat
 from sdph.effects.grains import granular_temperature
 from sdph.engine.ledger import vector
 from sdph.engine.state import INFLOW
-from sdph.laws.compiled import serial
+from sdph.laws.compiled import in_turn, inner
 
 # of `Account.impulses` and `Account.works`, and their places there
 IMPULSES, (WALLS, INLET) = ("walls", "inflow"), range(2)
 WORKS = ("work_of_walls_J", "work_of_gravity_J", "work_of_inflow_J", "numerical_work_J")
-BY_WALLS, BY_GRAVITY, BY_INFLOW, NUMERICAL = range(4)
+BY_WALLS = 0
 HEATS = (
     "mechanical_heat_J",  # of motion into the temperature of the grains: artificial viscosity, contacts
     "agitation_J",  # of motion into theta: pressure and viscosity of agitation
     "collision_heat_J",  # of theta into the temperature: inelastic collisions
     "damping_heat_J",  # of theta into the gas
     "bounds_work_J",  # into theta by its bounds, and by what holds it where it stands
-)
-AGITATION, COLLISIONS, DAMPING, BOUNDS, RUBBING = map(
-    HEATS.index, ("agitation_J", "collision_heat_J", "damping_heat_J", "bounds_work_J", "mechanical_heat_J")
 )
 BACK_PUT = ("contact_way_m", "contact_lift_J")  # by contact with walls: ways of all grains, energy that they got by it
 SLOWED = ("grain_drag_J",)  # of motion by drag between materials; agitation_J or mechanical_heat_J have it too
@@ -66,28 +64,35 @@ def columns(account: Account) -> dict[str, float]:
     return found
 
 
-@serial
-def kick(s, acceleration, of_walls, agitation, heating, gravity, dt, impulses, works):
-    """Velocities after dt [s]; what the sub-step adds to an account.
+@in_turn
+def add(sums, found):
+    """Add what a loop found (k numbers) to sums (k,)."""
+    for n in range(len(found)):
+        sums[n] += found[n]
+
+
+@inner
+def kick(s, acceleration, of_walls, agitation, heating, gravity, dt):
+    """Velocities after dt [s]; what the sub-step adds to an account: impulses of walls and of the inflow, three numbers
+    each, and the four works.
 
     acceleration (N, 3) [m/s2] is of pairs; of_walls (N, 7) of the push of walls and of their grip [m/s2], three columns
     each, and the power of the grip by the sliding of walls [W/kg]. What pairs and grip take from the motion is booked
     as `agitation` and `heating` (N,) [W/kg]. A particle upstream of a nozzle feels nothing: the inflow undoes what
     pairs and the push do to it, the grip of walls beside the mouth is not there, and nothing agitates nor heats it.
     """
-    for i in range(len(s.x)):
+    px = py = pz = qx = qy = qz = by_walls = by_gravity = by_inflow = numerical = 0.0
+    for i in prange(len(s.x)):
         m, deep = s.mass[i] * dt, len(s.z) > 0
         u, v, w = s.u[i], s.v[i], s.w[i] if deep else 0.0
         ax, ay, az = acceleration[i, 0], acceleration[i, 1], acceleration[i, 2]
         if s.kind[i] == INFLOW:
             ax, ay, az = ax + s.push_x[i], ay + s.push_y[i], az + s.push_z[i] if deep else 0.0
-            impulses[INLET, 0] -= m * ax
-            impulses[INLET, 1] -= m * ay
-            impulses[INLET, 2] -= m * az
+            qx, qy, qz = qx - m * ax, qy - m * ay, qz - m * az
             gripped = of_walls[i, 3] * u + of_walls[i, 4] * v + of_walls[i, 5] * w - of_walls[i, 6]
-            works[BY_INFLOW] -= m * (ax * u + ay * v + az * w + agitation[i] + heating[i] + gripped)
+            by_inflow -= m * (ax * u + ay * v + az * w + agitation[i] + heating[i] + gripped)
             agitation[i] = heating[i] = 0.0
-            works[BY_GRAVITY] += m * (gravity[0] * u + gravity[1] * v + gravity[2] * w)
+            by_gravity += m * (gravity[0] * u + gravity[1] * v + gravity[2] * w)
             s.way_x[i] += u * dt
             s.way_y[i] += v * dt
             if deep:
@@ -105,44 +110,47 @@ def kick(s, acceleration, of_walls, agitation, heating, gravity, dt, impulses, w
         if deep:
             s.w[i] = w + 2.0 * gz
             s.way_z[i] += (w + gz) * dt
-        impulses[WALLS, 0] += m * (wx + rx)
-        impulses[WALLS, 1] += m * (wy + ry)
-        impulses[WALLS, 2] += m * (wz + rz)
-        works[BY_WALLS] += m * (wx * (u + gx) + wy * (v + gy) + wz * (w + gz) + of_walls[i, 6])
-        works[BY_GRAVITY] += m * (gravity[0] * (u + gx) + gravity[1] * (v + gy) + gravity[2] * (w + gz))
-        works[NUMERICAL] += m * (ax * gx + ay * gy + az * gz)
+        px, py, pz = px + m * (wx + rx), py + m * (wy + ry), pz + m * (wz + rz)
+        by_walls += m * (wx * (u + gx) + wy * (v + gy) + wz * (w + gz) + of_walls[i, 6])
+        by_gravity += m * (gravity[0] * (u + gx) + gravity[1] * (v + gy) + gravity[2] * (w + gz))
+        numerical += m * (ax * gx + ay * gy + az * gz)
+    return px, py, pz, qx, qy, qz, by_walls, by_gravity, by_inflow, numerical
 
 
-@serial
-def warm(p, s, work, dt, window, heat_capacity, heats):
-    """theta and temperatures after dt [s] of a window [s], and their sums [J]; `work` of sdph.methods.grains.sub_step.
+@inner
+def warm(p, s, work, dt, window, heat_capacity):
+    """theta and temperatures after dt [s] of a window [s], and their sums, HEATS [J]; `work` of
+    sdph.methods.grains.sub_step.
 
     p are the parameters of the granular temperature: where the case has theta stand, what would raise it goes out by
     its bounds. A particle upstream of a nozzle keeps its theta.
     """
-    for i in range(len(s.x)):
+    rubbing = agitation = collisions = damping = bounds = 0.0
+    for i in prange(len(s.x)):
         m, collided = s.mass[i], 0.0
         capacity = s.grain_capacity[i] if len(s.grain_capacity) else heat_capacity
-        heats[AGITATION] += m * work.agitation[i] * dt
-        heats[RUBBING] += m * work.heating[i] * dt
+        agitation += m * work.agitation[i] * dt
+        rubbing += m * work.heating[i] * dt
         if len(p) == 0:
-            heats[BOUNDS] -= m * work.agitation[i] * dt
+            bounds -= m * work.agitation[i] * dt
         elif s.kind[i] != INFLOW:
             collided = 1.5 * work.collided[i]
             s.theta[i] = work.theta[i]
             s.damped[i] += 1.5 * m * work.damped[i]
-            heats[BOUNDS] += 1.5 * m * work.held[i]
-            heats[COLLISIONS] += 1.5 * m * work.collided[i]
-            heats[DAMPING] += 1.5 * m * work.damped[i]
+            bounds += 1.5 * m * work.held[i]
+            collisions += 1.5 * m * work.collided[i]
+            damping += 1.5 * m * work.damped[i]
         if len(s.temperature):
             s.temperature[i] += (collided + (work.heating[i] + s.warmth[i] / window / m) * dt) / capacity
+    return rubbing, agitation, collisions, damping, bounds
 
 
-@serial
-def brake(p, s, work, dt, slowed):
+@inner
+def brake(p, s, work, dt):
     """Velocities after drag between materials over dt [s]; what the motion loses joins what viscosity gives theta, or
-    heats the grains where there is none (p are the parameters of theta), and its sum [J] is counted."""
-    for i in range(len(s.x)):
+    heats the grains where there is none (p are the parameters of theta), and its sum [J] is returned."""
+    slowed = 0.0
+    for i in prange(len(s.x)):
         s.u[i] += work.moved[i, 0]
         s.v[i] += work.moved[i, 1]
         if len(s.z):
@@ -150,13 +158,14 @@ def brake(p, s, work, dt, slowed):
         fed = granular_temperature.fed(p, work.lost[i])
         work.agitation[i] += fed / dt
         work.heating[i] += (work.lost[i] - fed) / dt
-        slowed[0] += s.mass[i] * work.lost[i]
+        slowed += s.mass[i] * work.lost[i]
+    return slowed
 
 
-@serial
+@inner
 def drift(s, dt):
     """Places after dt [s]."""
-    for i in range(len(s.x)):
+    for i in prange(len(s.x)):
         s.x[i] += s.u[i] * dt
         s.y[i] += s.v[i] * dt
         if len(s.z):

@@ -5,13 +5,16 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numba import prange
 
 from sdph.effects.gas import turbulent_dispersion
+from sdph.engine import arrays
 from sdph.engine import state as particles
 from sdph.engine.guard import DENSE, FAR, RUNAWAY, TINY, Watch, outside
 from sdph.engine.kept import Unfit
-from sdph.laws.compiled import serial
+from sdph.laws.compiled import inner
 from sdph.laws.constants import ADIABATIC, GAS_CONSTANT
+from sdph.methods.grains import aboard
 from sdph.methods.grains.scales import scales_of
 
 # times what drives the grains: sound that is faster shrinks the sub-steps until a run gets nowhere; our choice
@@ -85,8 +88,14 @@ class Guard(Watch):
         """Look, after a sub-step, for NaN, speed, temperature of the particles."""
         s, most = stepper.own, RUNAWAY * self.reach
         sound = stepper.scratch.sound[: len(s.x)]
-        if within(s, sound, most, COLLAPSE * self.reach, self.coldest, self.hottest):
+        if not beyond(s, sound, most, COLLAPSE * self.reach, self.coldest, self.hottest):
             return
+        with aboard.ashore(stepper):
+            self._name(stepper, arrays.brought(sound), most)
+
+    def _name(self, stepper, sound, most: float) -> None:
+        """Unstable, by the particle that is worst."""
+        s = stepper.own
         ruled = f"the sub-step was ruled by {stepper.limit or 'the window'}"
         lower = f"run.step_factor (now {self.case.run.step_factor:g}; {ruled}), then {self._shorter()}"
         speed = np.sqrt(s.u**2 + s.v**2 + (s.w**2 if len(s.w) else 0.0))
@@ -115,16 +124,17 @@ class Guard(Watch):
         return f"coupling.window_largest_s below {self.length:.3g} (the window was ruled by {self.cause})"
 
 
-@serial
-def within(s, sound, fastest, loudest, coldest, hottest):
-    """True where no particle is faster or louder [m/s], colder or hotter [K] than that, nor is anything of it no
-    number."""
-    fine = True
-    for i in range(len(s.x)):
+@inner
+def beyond(s, sound, fastest, loudest, coldest, hottest):
+    """Number of the particles that are faster or louder [m/s], colder or hotter [K] than that, or of which something is
+    no number."""
+    found = 0.0
+    for i in prange(len(s.x)):
         w = s.w[i] if len(s.w) else 0.0
-        fine &= s.u[i] * s.u[i] + s.v[i] * s.v[i] + w * w <= fastest * fastest
+        fine = s.u[i] * s.u[i] + s.v[i] * s.v[i] + w * w <= fastest * fastest
         fine &= 0.0 <= sound[i] <= loudest
         fine &= 0.0 <= s.density[i] < math.inf
         if len(s.temperature):
             fine &= coldest <= s.temperature[i] <= hottest
-    return fine
+        found += 0.0 if fine else 1.0
+    return found

@@ -7,6 +7,7 @@ tuple inside a prange without a word.
 
 from __future__ import annotations
 
+import functools
 import math
 from typing import NamedTuple
 
@@ -22,10 +23,12 @@ from sdph.effects.grains import (
     granular_temperature,
     granular_viscosity,
 )
+from sdph.engine import arrays
+from sdph.engine.arrays import IN_MEMORY
 from sdph.engine.geometry import apart, faster, squared
 from sdph.engine.rows import entry, length, place
 from sdph.laws import granular, kernels
-from sdph.laws.compiled import fast_inlined, fast_parallel, inlined, parallel, serial
+from sdph.laws.compiled import fast_inlined, fast_parallel, inlined, inner, parallel, parallel_largest
 from sdph.methods.grains import mixture, stress
 from sdph.methods.grains.mixture import Kernel, MixedKernel
 from sdph.methods.grains.sound import swing
@@ -43,7 +46,6 @@ class Scratch(NamedTuple):
     """Values that one loop of a sub-step leaves to the next, in one flat group.
 
     pull (E,) of `sum_density`; per particle, by `constitutive`: pressure [Pa], its parts by agitation and by lasting
-    pull (E,) of `sum_density`; per particle, by `constitutive`: pressure [Pa], its parts by agitation and by lasting
     contacts over density squared [Pa m6/kg2] (of several materials over the square of rho_0 alpha_p), slope of the
     latter's pressure against alpha_p [Pa], shear and bulk viscosity
     of agitation [Pa s], conductivity of theta [kg/m/s], sound speed [m/s], g0 [-]; by `contacts.shear`:
@@ -51,7 +53,7 @@ class Scratch(NamedTuple):
     viscosity (N,) [Pa s], both without length where there is no friction; bearing (N, 5) or (N, 10) of `stress.pair`,
     over density squared; works (2, N) [W/kg] of viscosity into theta, and of contacts and what rubs on walls into heat;
     strain (3, N): I2D = dev(D):dev(D)/2 [1/s2], div v [1/s], and 1 where neighbours enclose the particle
-    (`stress.ENCLOSED`).
+    (`stress.ENCLOSED`); packed (N,) of `pack`, without length where the law of conduction is none of packed beds.
     """
 
     pull: np.ndarray
@@ -69,6 +71,7 @@ class Scratch(NamedTuple):
     bearing: np.ndarray
     works: np.ndarray
     strain: np.ndarray
+    packed: np.ndarray
 
     @property
     def stress(self) -> tuple[np.ndarray, ...]:
@@ -78,16 +81,18 @@ class Scratch(NamedTuple):
     @property
     def shearing(self) -> tuple[np.ndarray, ...]:
         """Arrays that `contacts.shear` writes."""
-        return self[10:]
+        return self[10:15]
 
 
-def scratch(count: int, entries: int, friction: bool, deep: bool = False) -> Scratch:
-    """Room for `count` particles with so many `entries` in their rows, in 3-D where `deep`; nothing is sheared."""
-    rubbed = count if friction else 0
-    constituted = [np.zeros(count) for _ in range(9)]
-    sheared = np.zeros((count, 10 if deep else 5)), np.zeros((2, count)), np.zeros((3, count))
-    sheared[2][2] = 1.0  # no particle is held to lie open before one has been looked at
-    return Scratch(np.empty(entries), *constituted, np.zeros((rubbed, 6)), np.zeros(rubbed), *sheared)
+def scratch(count: int, entries: int, friction: bool, deep: bool = False, packed=False, like=IN_MEMORY) -> Scratch:
+    """Room for `count` particles with so many `entries` in their rows, in 3-D where `deep`, for conduction of `packed`
+    beds; beside the array `like`. Nothing is sheared."""
+    zeros, rubbed = functools.partial(arrays.zeros, like=like), count if friction else 0
+    constituted = [zeros(count) for _ in range(9)]
+    sheared = zeros((count, 10 if deep else 5)), zeros((2, count)), zeros((3, count))
+    arrays.fill(sheared[2][2], 1.0)  # no particle is held to lie open before one has been looked at
+    rubs = zeros((rubbed, 6)), zeros(rubbed)
+    return Scratch(arrays.empty(entries, like), *constituted, *rubs, *sheared, zeros(count if packed else 0))
 
 
 @fast_parallel
@@ -109,7 +114,7 @@ def sum_density(kernel, s, rows, box, walls_p, wall, density, pull):
         density[i] = rho / share
 
 
-@parallel
+@parallel_largest
 def constitutive(
     s, waves, grains, pressure_p, friction_p, viscosity_p, temperature_p,
     pressure, agitated, lasting, stiffness, shear, bulk, conductivity, sound, crowd,
@@ -166,20 +171,17 @@ def heaviest(grains, own, diameter):
     return most, most * grains[3] / diameter if diameter > 0.0 else most
 
 
-@serial
-def packed(conduction_p, s):
-    """K (N,) [W/m/K] of each particle by a law of packed beds, which is too dear for every pair; else no entry."""
-    if len(conduction_p) != 3:
-        return np.empty(0)
-    own = np.empty(len(s.x))
-    for i in range(len(s.x)):
+@parallel
+def pack(conduction_p, s, own):
+    """own (N,) [W/m/K]: K of each particle by a law of packed beds, which is too dear for every pair; no entry of
+    others."""
+    for i in prange(len(own)):
         own[i] = conduction.packed(conduction_p, s, i)
-    return own
 
 
 @fast_inlined
 def conducted(kernel, s, rows, box, pull, conduction_p, own, i):
-    """Heat [W/kg] that particle i gets from its neighbours; own (N,) of `packed`."""
+    """Heat [W/kg] that particle i gets from its neighbours; own (N,) of `pack`."""
     warmth = 0.0
     for k in range(length(rows, i)):
         j = entry(rows, i, k)
@@ -189,11 +191,19 @@ def conducted(kernel, s, rows, box, pull, conduction_p, own, i):
 
 
 @fast_parallel
-def conduct(kernel, s, rows, box, pull, conduction_p, heating):
-    """Conduction among grains that do not move: heating (N,) [W/kg]."""
-    own = packed(conduction_p, s)
+def conduct(kernel, s, rows, box, pull, conduction_p, own, heating):
+    """Conduction alone: heating (N,) [W/kg]; own (N,) of `pack`."""
     for i in prange(len(s.x)):
         heating[i] = conducted(kernel, s, rows, box, pull, conduction_p, own, i)
+
+
+@inner
+def heat_to(kernel, s, rows, box, pull, conduction_p, own, i):
+    """Heat [W] that particle i gets from its neighbours; own (N,) of `pack`."""
+    heat = 0.0
+    for n in prange(1):
+        heat += conducted(kernel, s, rows, box, pull, conduction_p, own, i + n) * s.mass[i + n]
+    return heat
 
 
 @inlined
@@ -201,7 +211,7 @@ def by_pair(
     kernel, s, box, scratch, viscous_p, friction_p, artificial_p, temperature_p, conduction_p, own, i, j, pull_ij
 ):  # fmt: skip
     """Terms of a particle i by another, j: acceleration (3 values) [m/s2], rate of theta, and heat by rubbing and by
-    conduction [W/kg]; pull_ij = m_j (dW/dr)/r, own (N,) of `packed`."""
+    conduction [W/kg]; pull_ij = m_j (dW/dr)/r, own (N,) of `pack`."""
     rho_i, rho_j = s.density[i], s.density[j]
     dx, dy, dz = apart(s, box, i, j)
     du, dv, dw = faster(s, box, i, j)
@@ -236,7 +246,6 @@ def rates(
 ):  # fmt: skip
     """Rates of grains that move: acceleration (N, 3) [m/s2] by each other; of_walls (N, 7) as `account.kick` takes it;
     agitation (N,) [W/kg] that feeds theta, heating (N,) [W/kg]."""
-    own = packed(conduction_p, s)
     for i in prange(len(s.x)):
         ax = ay = az = 0.0
         work, warmth = scratch.works[0, i], scratch.works[1, i]
@@ -253,8 +262,8 @@ def rates(
             warmth += lost - granular_temperature.fed(temperature_p, lost)
         for k in range(length(rows, i)):
             px, py, pz, made, rubbed, conducted = by_pair(
-                kernel, s, box, scratch, viscous_p, friction_p, artificial_p, temperature_p, conduction_p, own, i,
-                entry(rows, i, k), scratch.pull[place(rows, i, k)],
+                kernel, s, box, scratch, viscous_p, friction_p, artificial_p, temperature_p, conduction_p,
+                scratch.packed, i, entry(rows, i, k), scratch.pull[place(rows, i, k)],
             )  # fmt: skip
             ax += px
             ay += py

@@ -8,6 +8,7 @@ from sdph import effects
 from sdph.effects.around.outflow import leaving, refuse_to_leave
 from sdph.effects.around.source import Source
 from sdph.effects.gas import micro_explosion
+from sdph.engine import arrays
 from sdph.engine import state as particles
 from sdph.engine.clock import Clock
 from sdph.engine.kept import Unfit
@@ -15,7 +16,7 @@ from sdph.engine.ledger import vector
 from sdph.engine.state import INFLOW
 from sdph.engine.walls import facets
 from sdph.engine.walls.parts import Pushed
-from sdph.methods.grains import account, start
+from sdph.methods.grains import aboard, account, start
 from sdph.methods.grains.history import Warmed, of_materials, tracked
 from sdph.methods.grains.method import Stepper
 
@@ -50,6 +51,10 @@ class Grains:
         """The particles of this process."""
         return self.stepper.own
 
+    def ashore(self):
+        """Context in which the particles lie in memory, for who reads them."""
+        return aboard.ashore(self.stepper)
+
     @property
     def inside(self):
         """Particles of this process that are in the gas."""
@@ -83,7 +88,8 @@ class Grains:
         self.stepper.tell()
 
     def begin(self) -> None:
-        """Remember the state to go back to, before a window."""
+        """Remember the state to go back to, before a window; the particles go where the case has them."""
+        aboard.board(self.stepper)
         self.stepper.guard.begin(self)
         self.came, self.left, self.gone = self._came_in(), NOTHING_LEFT, None
         self.begun = self.time
@@ -136,7 +142,7 @@ class Grains:
 
     def share_inside(self, after: float = 0.0) -> np.ndarray:
         """Share of each particle (N,) that is in the gas, or will be `after` [s]: none of those that will have left."""
-        share = self.source.inside(self.state, after) if self.source else np.ones(len(self.state.x))
+        share = self.source.inside(self.state, after) if self.source else arrays.ones(len(self.state.x), self.state.x)
         if after and self.parameters["outflow"]:
             s = self.state
             ways = {x: getattr(s, x) + after * getattr(s, u) for x, u in zip("xyz", "uvw")}
@@ -190,6 +196,10 @@ class Grains:
 
     def points(self):
         """Particles in the gas as pyvista points with their arrays and alpha_p."""
+        with self.ashore():
+            return self._points()
+
+    def _points(self):
         import pyvista
 
         state = self.inside
@@ -212,6 +222,7 @@ class Grains:
         """Its part of summary.json."""
         own = {"sub_steps": self.steps, "wall_contacts": self.stepper.contacts} | self.warmed.summary()
         own |= {f"filled_{name}_kg": mass for name, mass in self.filled.items()}
+        own |= aboard.told(self.stepper)
         return own | self.stepper.domain.summary(self.steps - self.stepper.steps_before)
 
     def warnings(self) -> list[str]:

@@ -14,7 +14,7 @@ from sdph.effects import OFF
 from sdph.effects.around import wall_contact
 from sdph.effects.effect import Live
 from sdph.effects.grains import friction, grain_shifting
-from sdph.engine import gathered, world
+from sdph.engine import arrays, gathered, world
 from sdph.engine import state as particles
 from sdph.engine.clock import count_of_parts
 from sdph.engine.kept import GROWING, Unfit
@@ -26,12 +26,13 @@ from sdph.laws.kernels import SUPPORT
 from sdph.methods.grains import account, sound, sub_step
 from sdph.methods.grains import equations as rates
 from sdph.methods.grains.bounds import Guard
+from sdph.methods.grains.conducting import Conducting
 from sdph.methods.grains.windowed import Windowed
 
 SAME_DENSITY = 1e-6  # of a density: what is summed twice differs by round-off at most; our choice
 
 
-class Stepper(Windowed):
+class Stepper(Conducting, Windowed):
     """State of the particles, and how it goes forward."""
 
     KEPT, FORMS = ("state", "neighbours", "steps", "contacts", "limit"), {"state": GROWING}  # see sdph.engine.kept
@@ -68,6 +69,13 @@ class Stepper(Windowed):
         self.facing, self.heated, self.work = OFF, OFF, sub_step.work(0, False)  # rows of the dummies; of hot faces
         # pressure [Pa] of the walls before it is held, and what the last sub-step shifted (N, 3) [m]
         self.unheld, self.shifted = np.zeros(0), np.zeros((0, 3))
+        self.landed = None  # see sdph.methods.grains.aboard
+
+    def look_anew(self) -> None:
+        """Make rows of the places at the last build, and what belongs to them, where the particles are."""
+        self.neighbours.relist(self.state.kind)
+        self._look_around()
+        self._sum(self.state.density)
 
     def revive(self) -> None:
         """Make anew what a checkpoint does not hold, once it was put back."""
@@ -123,37 +131,36 @@ class Stepper(Windowed):
         """Make what belongs to neighbour rows just made."""
         self.rows, built, count = self.neighbours.rows, self.neighbours.built, len(self.state.x)
         rubs = bool(self.parameters["friction"])
-        if (count, len(self.rows.entries)) != (len(self.scratch.pressure), len(self.scratch.pull)):
-            self.scratch = rates.scratch(count, len(self.rows.entries), rubs, self.case.dimensions == 3)
-            self.work = sub_step.work(count, rubs, bool(self.parameters["grain_drag"]))
-        self.work.of_walls[:] = 0.0  # loops write the rows of those that see a wall
+        if not self._has_room(count):
+            like, packed = self.state.x, len(self.terms.conduction) == 3
+            deep = self.case.dimensions == 3
+            self.scratch = rates.scratch(count, len(self.rows.entries), rubs, deep, packed, like)
+            self.work = sub_step.work(count, rubs, bool(self.parameters["grain_drag"]), like)
+        arrays.fill(self.work.of_walls, 0.0)  # loops write the rows of those that see a wall
         if self.boundary:
             rows = self.boundary.rows(built)
             if self.source:
                 self.source.open(self.state, self.mouths, rows)
             self.boundary.part(self.rows, rows, built)
             self.wall, self.facing = self.boundary.seen(rows, built)
-            self.wall.number[len(self.own.x) :] = 0  # dummies see copies, copies feel no wall
-            self.unheld = np.full(len(self.wall.x), np.nan)
+            if not self.domain.alone:
+                self.wall.number[len(self.own.x) :] = 0  # dummies see copies, copies feel no wall
+            self.unheld = arrays.empty(len(self.wall.x), self.wall.x)
+            arrays.fill(self.unheld, math.nan)
         if self.hot:
             self.heated = self.hot.seen(built)
+
+    def _has_room(self, count: int) -> bool:
+        """True where work arrays are those of `count` particles in these rows, and lie beside them."""
+        own = self.scratch
+        there = arrays.here(own.pressure) == arrays.here(self.state.x)
+        return there and (count, len(self.rows.entries)) == (len(own.pressure), len(own.pull))
 
     def _sum(self, density) -> None:
         rates.sum_density(*self._of_density(density))
 
     def _of_density(self, density) -> tuple:
         return self.kernel, self.state, self.rows, self.neighbours.box, *self._walls(), density, self.scratch.pull
-
-    def conduct(self, dt: float) -> None:
-        """Grains at rest through a window of `dt` [s]: conduction, and heat from the gas spread evenly."""
-        left = dt
-        while left > 0.0:
-            step = left / self._parts(left, self.state)
-            self._warm(step * self._conducted() + step / dt * self.state.warmth / self.state.mass)
-            self.steps += 1
-            self.guard.sub_step(self)
-            left = 0.0 if step >= left else left - step
-        self.tell()
 
     def move(self, dt: float) -> None:
         """Grains that move through a window of `dt` [s]."""
@@ -166,22 +173,6 @@ class Stepper(Windowed):
             if left == 0.0:
                 self.tell()
             self.prepare(self.MOVING)
-
-    def _conducted(self) -> np.ndarray:
-        """Heat (N,) [W/kg] that the particles get from their neighbours now."""
-        heating = np.zeros(len(self.state.x))
-        rates.conduct(
-            self.kernel, self.state, self.rows, self.neighbours.box, self.scratch.pull, self.parameters["conduction"],
-            heating,
-        )  # fmt: skip
-        return heating
-
-    def conduction_rate(self, i: int) -> float:
-        """Heat [W] that particle i gets from its neighbours now."""
-        p = self.parameters["conduction"]
-        own = rates.packed(p, self.state)
-        heating = rates.conducted(self.kernel, self.state, self.rows, self.neighbours.box, self.scratch.pull, p, own, i)
-        return heating * self.state.mass[i]
 
     def _sub_step(self, left: float) -> float:
         """The next sub-step [s]: what is left of the window, in equal parts."""
@@ -235,15 +226,6 @@ class Stepper(Windowed):
             **sub_step.loops(*self._given(dt, dt)),
         }
 
-    def _warm(self, heat) -> None:
-        """Put heat per mass (N,) [J/kg] into the temperature, where there is one."""
-        if not len(self.state.temperature):
-            return
-        self.state.temperature[:] += heat / particles.by_material(
-            self.state.grain_capacity, self.case.grains.heat_capacity
-        )
-        self.domain.refresh(self.state.temperature)
-
     def _settle(self, dt: float) -> None:
         """Shift particles and stop them at walls, after they have gone for `dt` [s]."""
         s = self.own
@@ -253,10 +235,10 @@ class Stepper(Windowed):
             self.source.release(s)
         if self.boundary:
             own = self.account
-            self.touched += wall_contact.contact(
+            self.touched += int(wall_contact.stop(
                 *self._walls(), self.neighbours.box, s, self.gravity, own.impulses[account.WALLS],
                 own.works[account.BY_WALLS :], own.back_put, own.felt,
-            )  # fmt: skip
+            ))  # fmt: skip
 
     def _shift(self, dt: float) -> None:
         s = self.state

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import functools
 from typing import NamedTuple
 
 import numpy as np
+from numba import prange
 
 from sdph.effects import OFF
 from sdph.effects.around import wall_heat, wall_parts, walls
 from sdph.effects.grains import friction, grain_drag, granular_temperature
-from sdph.laws.compiled import serial
+from sdph.engine import arrays
+from sdph.engine.arrays import IN_MEMORY
+from sdph.laws.compiled import in_turn, inner
 from sdph.methods.grains import account, contacts, equations
 
 
@@ -55,17 +59,17 @@ class Work(NamedTuple):
     lost: np.ndarray
 
 
-def work(count: int, rubs: bool, drags: bool = False) -> Work:
-    """Room for `count` particles, with contacts where they rub, and drag between materials."""
-    dragged = count if drags else 0
-    contact = np.empty((len(friction.ARRAYS), count if rubs else 0))
+def work(count: int, rubs: bool, drags: bool = False, like=IN_MEMORY) -> Work:
+    """Room for `count` particles, with contacts where they rub, and drag between materials; beside the array `like`."""
+    dragged, zeros = count if drags else 0, functools.partial(arrays.zeros, like=like)
+    contact = zeros((len(friction.ARRAYS), count if rubs else 0))
     return Work(
-        np.empty((count, 3)), np.zeros((count, 7)), np.empty(count), np.empty(count), contact,
-        *(np.zeros(count) for _ in range(4)), np.empty(dragged), np.empty((dragged, 3)), np.empty(dragged),
+        zeros((count, 3)), zeros((count, 7)), zeros(count), zeros(count), contact, *(zeros(count) for _ in range(4)),
+        zeros(dragged), zeros((dragged, 3)), zeros(dragged),
     )  # fmt: skip
 
 
-@serial
+@in_turn
 def advance(
     kernel, s, rows, box, scratch, terms, walls_p, wall, facing, unheld, heated, work, gravity, steps, heat_capacity,
     sums,
@@ -99,34 +103,37 @@ def advance_own(domain, own, given: tuple) -> None:
     settle(kernel, s, own, box, scratch, terms, heated, work, steps, heat_capacity, sums)
 
 
-@serial
+@in_turn
 def push(kernel, s, own, rows, box, scratch, terms, walls_p, wall, facing, unheld, work, gravity, dt, sums):
     """Rates, and velocities after dt [s], of `own`: the particles of s that are of this process."""
     if len(walls_p):
         walls.extrapolate(
             kernel, box, wall, facing, s, scratch.pressure, wall.pressure, unheld, wall.velocity
         )  # fmt: skip
+    if len(terms.conduction) == 3:
+        equations.pack(terms.conduction, s, scratch.packed)
     equations.rates(
         kernel, s, rows, box, scratch, terms.viscous, terms.friction, terms.artificial, terms.temperature,
         terms.conduction, walls_p, wall, work.acceleration, work.of_walls, work.agitation, work.heating,
     )  # fmt: skip
     wall_parts.tell(sums.felt, walls_p, kernel, box, wall, facing, s, scratch, terms.friction, dt)
-    account.kick(
-        own, work.acceleration, work.of_walls, work.agitation, work.heating, gravity, dt, sums.impulses, sums.works
-    )
+    found = account.kick(own, work.acceleration, work.of_walls, work.agitation, work.heating, gravity, dt)
+    account.add(sums.impulses[account.WALLS], found[:3])
+    account.add(sums.impulses[account.INLET], found[3:6])
+    account.add(sums.works, found[6:])
 
 
-@serial
+@in_turn
 def settle(kernel, s, own, box, scratch, terms, heated, work, steps, heat_capacity, sums):
     """theta, temperature and place of `own` after the sub-step."""
     dt, window = steps
     agitate(terms.temperature, own, scratch, work, dt)
     wall_heat.exchange(terms.wall_heat, terms.conduction, kernel, box, heated, s, dt, sums.gave)
-    account.warm(terms.temperature, own, work, dt, window, heat_capacity, sums.heats)
+    account.add(sums.heats, account.warm(terms.temperature, own, work, dt, window, heat_capacity))
     account.drift(own, dt)
 
 
-@serial
+@in_turn
 def strain_grains(kernel, s, rows, box, scratch, shears, friction_p, viscous_p, walls_p, wall, work, dt):
     """Shear of the grains, where somebody asks for it; where there is friction contacts are strained over dt [s]."""
     if len(shears):
@@ -135,34 +142,41 @@ def strain_grains(kernel, s, rows, box, scratch, shears, friction_p, viscous_p, 
             scratch.rubbing, scratch.bearing, scratch.works, scratch.strain,
         )  # fmt: skip
         if len(friction_p):
-            s.contact_xx[:], s.contact_yy[:], s.contact_xy[:] = work.contact[0], work.contact[1], work.contact[2]
-            if len(s.z):
-                s.contact_yz[:], s.contact_zx[:] = work.contact[3], work.contact[4]
+            strained(s, work.contact)
 
 
-@serial
+@inner
+def strained(s, contact):
+    """Put contact (5, N) [Pa] into the state."""
+    for i in prange(len(s.x)):
+        s.contact_xx[i], s.contact_yy[i], s.contact_xy[i] = contact[0, i], contact[1, i], contact[2, i]
+        if len(s.z):
+            s.contact_yz[i], s.contact_zx[i] = contact[3, i], contact[4, i]
+
+
+@in_turn
 def stiffen(p, kernel, s, rows, box, scratch, work, dt):
     """Put into `work` by how much drag between materials is stiff over dt [s]."""
     if len(p):
         grain_drag.stiffen(p, kernel, s, rows, box, scratch.crowd, dt, work.stiff)
 
 
-@serial
+@in_turn
 def slip(p, temperature_p, kernel, s, own, rows, box, scratch, work, dt, slowed):
     """Velocities of `own` after materials have braked each other for dt [s]; what their motion loses goes into
     `work`."""
     if len(p):
         grain_drag.exchange(p, kernel, s, rows, box, scratch.crowd, dt, work.stiff, work.moved, work.lost)
-        account.brake(temperature_p, own, work, dt, slowed)
+        slowed[0] += account.brake(temperature_p, own, work, dt)
 
 
-@serial
+@in_turn
 def agitate(p, s, scratch, work, dt):
     """theta after dt [s], where it is followed, and what it lost to whom, into `work`."""
     if len(p):
         granular_temperature.advance_all(
-            p, s, work.agitation, s.damping, scratch.strain[0], scratch.strain[1], scratch.crowd, dt, work.theta,
-            work.held, work.collided, work.damped,
+            p, s, work.agitation, s.damping, scratch.strain, scratch.crowd, dt, work.theta, work.held, work.collided,
+            work.damped,
         )  # fmt: skip
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from sdph import effects
+from sdph.engine import arrays
 from sdph.engine import state as particles
 from sdph.engine.walls import parts
 from sdph.methods.grains import account
@@ -38,9 +39,9 @@ class Windowed:
         """End the window: way (N, 3) [m] of the particles in it, and what their theta lost to the gas (N,) [J], in the
         rows that they had when it began; 0 for those that were taken out since."""
         s = self.own
-        damped = s.damped if len(s.damped) else np.zeros(len(s.x))
+        damped = s.damped if len(s.damped) else arrays.zeros(len(s.x), s.x)
         moved = np.column_stack((particles.vectors(s.way_x, s.way_y, s.way_z), damped))
-        before = np.zeros((self.rows_before, moved.shape[1]))
+        before = arrays.zeros((self.rows_before, moved.shape[1]), s.x)
         for rows, back in self.domain.home(s.row, moved):
             before[rows] = back
         self.state = particles.released(self.state)

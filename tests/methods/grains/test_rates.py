@@ -180,7 +180,7 @@ def test_effect_set_is_the_loop_written_by_hand(on):
     ours, theirs = np.full(400, np.nan), np.full(400, np.nan)
     pull = np.empty(len(rows.entries))
     rates.sum_density(kernel, state, rows, box, OFF, OFF, np.empty(400), pull)
-    rates.conduct(kernel, state, rows, box, pull, GRAINS if on else OFF, ours)
+    rates.conduct(kernel, state, rows, box, pull, GRAINS if on else OFF, np.empty(0), ours)
     by_hand(H, SIGMA[2], state, rows, box, *GRAINS, on, theirs)
     np.testing.assert_allclose(ours, theirs, rtol=1e-13, atol=1e-14 * np.abs(theirs).max())
     assert ours.any() == on

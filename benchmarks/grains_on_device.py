@@ -1,0 +1,112 @@
+"""A sub-step of the bubbling bed in space on a CUDA device: time of it and of rows made anew, by kernel too.
+
+    python benchmarks/grains_on_device.py [COLUMNS ...] [--cpu]
+
+COLUMNS of particles across the bed's 0.5 m, a multiple of 25: 100 are 80 000 particles in all, 225 are 911 250. There
+is no gas: nothing holds the particles up, and all go on with a tenth of a metre a second. `kernels` waits after
+each launch, which shows the kernels' own times; boarding and landing are what a window adds as long as the exchange is
+in memory. With --cpu the processor takes the same sub-steps; without a device the simulator would take hours.
+"""
+
+import sys
+import time
+from collections import defaultdict
+
+import numpy as np
+
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.methods.grains import aboard
+from sdph.methods.grains.grains import Grains
+
+DEFAULT, STEPS, ROUNDS, WINDOW = (100, 225), 20, 3, 1.0
+
+
+def started(columns: int, device: str) -> Grains:
+    spacing = 500.0 / columns
+    keys = f"resolution.spacing_mm={spacing}", f"resolution.cell_mm={2.0 * spacing}", f'run.device="{device}"'
+    own = Grains(cases.load(scenes.find("bubbling_bed_3d")[1], keys))
+    own.start()
+    own.state.v[:] = 0.1
+    hold(own)
+    return own
+
+
+def hold(own: Grains) -> None:
+    """Begin a window in which nothing pushes the particles."""
+    count = len(own.state.x)
+    own.begin()
+    own.force(np.zeros(count), np.zeros((count, 3)), np.ones(count))
+
+
+def step(stepper) -> None:
+    stepper._advance(stepper._sub_step(1e-5), WINDOW)
+    stepper.guard.sub_step(stepper)
+    stepper.prepare(stepper.MOVING)
+
+
+def mean(stepper, wait) -> float:
+    """Mean time [s] of STEPS sub-steps."""
+    begun = time.perf_counter()
+    for _ in range(STEPS):
+        step(stepper)
+    wait()
+    return (time.perf_counter() - begun) / STEPS
+
+
+def of_kernels(stepper, wait) -> dict:
+    """Time [s] and launches by kernel of STEPS sub-steps."""
+    from sdph.engine.gpu.card import Card
+
+    spent, launched, launch = defaultdict(float), defaultdict(int), Card._launch
+
+    def timed(self, kernel, size, *arguments):
+        wait()
+        begun = time.perf_counter()
+        launch(self, kernel, size, *arguments)
+        queued = time.perf_counter()
+        wait()
+        spent[kernel.py_func.__name__] += time.perf_counter() - begun
+        spent["(to launch)"] += queued - begun
+        launched[kernel.py_func.__name__] += 1
+
+    Card._launch = timed
+    try:
+        mean(stepper, wait)
+    finally:
+        Card._launch = launch
+    return {name: (spent[name], launched[name]) for name in sorted(spent, key=spent.get, reverse=True)}
+
+
+def measured(columns: int, device: str) -> None:
+    own = started(columns, device)
+    stepper, count, wait = own.stepper, len(own.state.x), lambda: None
+    if device == "cuda":
+        from sdph.engine.gpu.toolkit import cuda
+
+        wait = cuda.synchronize
+    with aboard.aboard(stepper):
+        mean(stepper, wait)
+        least = min(mean(stepper, wait) for _ in range(ROUNDS))
+        stepper.neighbours.built = ()
+        begun = time.perf_counter()
+        stepper.prepare()
+        wait()
+        anew = time.perf_counter() - begun
+        print(f"{count} particles on {device}: {1e3 * least:.3f} ms a sub-step, {count / least:.3g} particle-steps/s")
+        print(f"  rows made anew: {1e3 * anew:.2f} ms")
+        for name, (seconds, many) in of_kernels(stepper, wait).items() if device == "cuda" else ():
+            print(f"  {name:20s} {1e3 * seconds / STEPS:9.3f} ms a sub-step, {many / STEPS:5.1f} launches")
+    own.stepper.release()
+    hold(own)
+    begun = time.perf_counter()
+    with aboard.aboard(stepper):
+        wait()
+        there = time.perf_counter()
+    print(f"  boarding {1e3 * (there - begun):.2f} ms, landing {1e3 * (time.perf_counter() - there):.2f} ms a window\n")
+
+
+if __name__ == "__main__":
+    where = "cpu" if "--cpu" in sys.argv else "cuda"
+    for given in [int(word) for word in sys.argv[1:] if word.isdigit()] or DEFAULT:
+        measured(given, where)
