@@ -16,7 +16,7 @@ from sdph.engine import arrays
 from sdph.engine.gpu.toolkit import cuda, device, kernel, kind_of_arrays, lies_there, taken_for
 
 FORMS = {
-    np.positive: lambda a: a, np.negative: lambda a: -a, np.absolute: lambda a: abs(a), np.sqrt: math.sqrt,
+    np.positive: lambda a: a, np.negative: lambda a: -a, np.absolute: lambda a: abs(a), np.sqrt: lambda a: math.sqrt(a),
     np.isnan: lambda a: a != a, np.invert: lambda a: not a, np.add: lambda a, b: a + b, np.subtract: lambda a, b: a - b,
     np.multiply: lambda a, b: a * b, np.divide: lambda a, b: a / b, np.power: lambda a, b: a**b,
     np.minimum: lambda a, b: min(a, b), np.maximum: lambda a, b: max(a, b), np.equal: lambda a, b: a == b,
