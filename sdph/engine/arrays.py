@@ -13,6 +13,7 @@ from sdph.laws.compiled import parallel, serial
 
 card = None  # the device, once it is begun
 IN_MEMORY = np.zeros(0)  # an array that lies there, to have others beside it
+SPARE = 16  # one row in so many is kept free by a Room; our choice
 
 
 def here(array) -> bool:
@@ -38,6 +39,11 @@ def copy(array):
 def brought(array) -> np.ndarray:
     """The array, or a copy of it, in memory."""
     return array if here(array) else card.bring(array)
+
+
+def joined(one, other):
+    """Both one after the other, where the first lies."""
+    return np.concatenate((one, other)) if here(one) else card.joined(one, other)
 
 
 def times(factor: float, array):
@@ -107,6 +113,25 @@ def value(array, n: int):
 def last(array):
     """The last value of an array (N,)."""
     return value(array, len(array) - 1)
+
+
+class Room:
+    """Work arrays by name, which are handed out again as long as no more rows, no other type and no other place are
+    asked for: what was in them is in them. To get memory anew takes long on a device, and fresh pages do in memory."""
+
+    def __init__(self):
+        self._kept = {}
+
+    def __call__(self, name: str, shape, like, kind=np.float64):
+        count, *tail = shape if isinstance(shape, tuple) else (shape,)
+        whole, part = self._kept.get(name, (None, None))
+        fits = whole is not None and len(whole) >= count and whole.shape[1:] == tuple(tail) and whole.dtype == kind
+        if not fits or here(whole) != here(like):
+            whole = part = empty((count + count // SPARE, *tail), like, kind)
+        if len(part) != count:
+            part = whole[:count]
+        self._kept[name] = whole, part
+        return part
 
 
 @serial

@@ -12,74 +12,126 @@ from typing import NamedTuple
 import numpy as np
 from numba import prange
 
+from sdph.engine import arrays
+from sdph.engine.rows import Rows, laid, place
 from sdph.laws.compiled import parallel
 
 PART = 4096  # of a sum; our choice
+WHOLE, LEFT, MOVED, WEIGHT, PLACES = 0, 1, 2, 3, 5  # among the sums of `solve`: squares of right-hand side and residual
 
 
 class Matrix(NamedTuple):
-    """diagonal (N,), and of row i the columns and values (E,) from start[i] to start[i + 1]."""
+    """diagonal (N,), links whose entries are columns (sdph.engine.rows), and along these entries the values (E,)."""
 
     diagonal: np.ndarray
-    start: np.ndarray
-    column: np.ndarray
+    links: Rows
     value: np.ndarray
+
+
+def links_of(number, room) -> Rows:
+    """Links of these numbers of entries (N,), which are to be filled in; they are a work array of a `room`."""
+    kind, start = laid(number)
+    return kind(room("entries", int(arrays.last(start)), number, np.uint32), start, number)
 
 
 class Unsolved(RuntimeError):
     """Conjugate gradients that have not come to their tolerance."""
 
 
-def solve(matrix: Matrix, right, x, tolerance: float, most: int) -> int:
+def solve(matrix: Matrix, right, x, tolerance: float, most: int, room=None) -> int:
     """Put the solution into x (N,), which is the first guess, until |right - A x| <= tolerance |right|; iterations.
 
     Conjugate gradients with the diagonal before them: Hestenes & Stiefel 1952, J. Res. Nat. Bur. Stand. 49, 409.
-    `Unsolved` after `most` of them.
+    `Unsolved` after `most` of them. Work arrays are from a `room`. On a device five numbers an iteration come to the
+    host, as |right - A x|^2 is among them.
     """
-    aim = tolerance * math.sqrt(dot(right, right))
-    residual = right - multiply(matrix, x)
-    if math.sqrt(dot(residual, residual)) <= aim:
+    room = room or arrays.Room()
+    residual, smooth, along, moved = (room(name, len(x), x) for name in ("residual", "smooth", "along", "moved"))
+    sums = arrays.zeros(PLACES, x)
+    multiply(*matrix, x, moved)
+    begin(matrix.diagonal, right, moved, residual, smooth, along)
+    add(right, (right,), sums, (WHOLE,), room)
+    add(residual, (residual, smooth), sums, (LEFT, WEIGHT), room)
+    whole = math.sqrt(arrays.brought(sums)[WHOLE])
+    if _length(sums) <= tolerance * whole:
         return 0
-    smooth = residual / matrix.diagonal
-    along, weight = smooth.copy(), dot(residual, smooth)
     for number in range(1, most + 1):
-        moved = multiply(matrix, along)
-        step = weight / dot(along, moved)
-        x += step * along
-        residual -= step * moved
-        if math.sqrt(dot(residual, residual)) <= aim:
+        now = WEIGHT + (number + 1) % 2  # the weights of this iteration and of the next one stand there in turn
+        then = 2 * WEIGHT + 1 - now
+        multiply(*matrix, along, moved)
+        add(along, (moved,), sums, (MOVED,), room)
+        go(matrix.diagonal, sums, now, along, moved, x, residual, smooth)
+        add(residual, (residual, smooth), sums, (LEFT, then), room)
+        if _length(sums) <= tolerance * whole:
             return number
-        np.divide(residual, matrix.diagonal, out=smooth)
-        before, weight = weight, dot(residual, smooth)
-        along *= weight / before
-        along += smooth
-    left = math.sqrt(dot(residual, residual)) / (aim / tolerance)
+        turn(sums, now, then, smooth, along)
+    left = _length(sums) / whole
     raise Unsolved(f"{most} iterations left a residual of {left:.3g} of the right-hand side, above {tolerance:g}")
 
 
+def _length(sums) -> float:
+    """|right - A x|."""
+    return math.sqrt(arrays.brought(sums)[LEFT])
+
+
 @parallel
-def multiply(matrix, x):
-    """A x (N,)."""
-    out = np.empty(len(x))
+def multiply(diagonal, links, value, x, out):
+    """out (N,) = A x of the Matrix (diagonal, links, value)."""
     for i in prange(len(x)):
-        own = matrix.diagonal[i] * x[i]
-        for e in range(matrix.start[i], matrix.start[i + 1]):
-            own -= matrix.value[e] * x[matrix.column[e]]
+        own = diagonal[i] * x[i]
+        for k in range(links.number[i]):
+            e = place(links, i, k)
+            own -= value[e] * x[links.entries[e]]
         out[i] = own
-    return out
+
+
+@parallel
+def begin(diagonal, right, moved, residual, smooth, along):
+    """residual = right - moved, smooth and along = residual/diagonal; all (N,)."""
+    for i in prange(len(right)):
+        residual[i] = right[i] - moved[i]
+        smooth[i] = residual[i] / diagonal[i]
+        along[i] = smooth[i]
+
+
+@parallel
+def go(diagonal, sums, now, along, moved, x, residual, smooth):
+    """A step along `along`: x, the residual, and that over the diagonal; all (N,)."""
+    step = sums[now] / sums[MOVED]
+    for i in prange(len(x)):
+        x[i] += step * along[i]
+        residual[i] -= step * moved[i]
+        smooth[i] = residual[i] / diagonal[i]
+
+
+@parallel
+def turn(sums, now, then, smooth, along):
+    """along (N,) = smooth + along times the weight of then over that of now."""
+    factor = sums[then] / sums[now]
+    for i in prange(len(along)):
+        along[i] = along[i] * factor + smooth[i]
+
+
+def add(a, others: tuple, sums, places: tuple, room) -> None:
+    """Sums of a b for each b of others, at their places among sums, in one order on any number of threads."""
+    if not arrays.here(a):
+        arrays.card.dots(a, others, sums, places, room)
+        return
+    for b, at in zip(others, places):
+        sums[at] = dot(a, b)
 
 
 def dot(a, b) -> float:
     """sum a b, in parts that are the same on any number of threads."""
-    return float(_parts(a, b).sum())
+    parts = np.empty((len(a) + PART - 1) // PART)
+    _parts(a, b, parts)
+    return float(parts.sum())
 
 
 @parallel
-def _parts(a, b):
-    parts = np.zeros((len(a) + PART - 1) // PART)
+def _parts(a, b, parts):
     for k in prange(len(parts)):
         own = 0.0
         for i in range(k * PART, min((k + 1) * PART, len(a))):
             own += a[i] * b[i]
         parts[k] = own
-    return parts

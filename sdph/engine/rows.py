@@ -151,11 +151,7 @@ class Neighbours:
         )
         number, taken = arrays.empty(len(blind), blind, np.int32), arrays.empty(len(blind), blind, np.int64)
         _count(*near, number, taken)
-        kind, start = (
-            (Rows, arrays.begins(taken))
-            if arrays.here(taken)
-            else (Abreast, arrays.card.begins_abreast(taken, ABREAST))
-        )
+        kind, start = laid(taken)
         rows = kind(self._room(int(arrays.last(start)), blind), start, number)
         _fill(*near, rows, taken, rows.entries)
         return rows
@@ -259,13 +255,16 @@ def _counted(x, y, z, box, xi, yi, zi, cutoff2, first, last):
 
 
 @serial
-def _listed(x, y, z, box, xi, yi, zi, own, cutoff2, first, last, entries, end, step):
-    """Appends those to the entries, `step` places from one to the next, and returns their end. One is written before it
-    is known to count, which saves a branch."""
+def _listed(x, y, z, box, xi, yi, zi, own, cutoff2, first, last, rows, entries, end):
+    """Appends those to the entries and returns their end. One is written before it is known to count, which saves a
+    branch; a device rather has branches than writes."""
+    step = np.uint64(stride(rows))
     for j in range(first, last):
         dx, dy, dz = nearest_image(box, xi - x[j], yi - y[j], zi - z[j] if len(z) else 0.0)
-        entries[end] = j
-        end += np.uint64((j != own) & (dx * dx + dy * dy + dz * dz < cutoff2)) * step
+        counts = (j != own) & (dx * dx + dy * dy + dz * dz < cutoff2)
+        if stride(rows) == 1 or counts:
+            entries[end] = j
+        end += np.uint64(counts) * step
     return end
 
 
@@ -311,7 +310,12 @@ def _fill(grid, begin, x, y, z, at_x, at_y, at_z, blind, idle, same, box, cutoff
                 line = (turned(kz, grid.shape[2]) * grid.shape[1] + turned(ky, grid.shape[1])) * grid.shape[0]
                 for n in range(runs[0], runs[1]):
                     first, last = _run(begin, line, grid.shape[0], x0, x1, blind[i], n)
-                    end = _listed(
-                        x, y, z, box, xi, yi, zi, own, cutoff2, first, last, entries, end, np.uint64(stride(rows))
-                    )  # fmt: skip
+                    end = _listed(x, y, z, box, xi, yi, zi, own, cutoff2, first, last, rows, entries, end)
         _end(rows, i, rows.number[i], taken[i], entries)
+
+
+def laid(taken) -> tuple:
+    """How rows lie that take as many entries (N,), and where each begins, and the end."""
+    if arrays.here(taken):
+        return Rows, arrays.begins(taken)
+    return Abreast, arrays.card.begins_abreast(taken, ABREAST)

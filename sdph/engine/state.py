@@ -193,7 +193,12 @@ def first(state: State, count: int) -> State:
 
 def join(first: State, second: State) -> State:
     """Both one after the other."""
-    return _map(lambda a, b: np.concatenate((a, b)), first, second)
+    return _map(arrays.joined, first, second)
+
+
+def brought(state: State) -> State:
+    """The same in memory."""
+    return State(*map(arrays.brought, state))
 
 
 def axes(state: State) -> tuple[np.ndarray, ...]:

@@ -13,8 +13,9 @@ from sdph.scenes import paths
 
 pytest.importorskip("numba_cuda", reason="needs numba-cuda and nvidia-cuda-nvcc: pip install 'sdph[cuda]'")
 
-from sdph.engine.gpu import assembled, operators, sorting, toolkit, translation
+from sdph.engine.gpu import assembled, operators, products, sorting, toolkit, translation
 from sdph.methods.liquids import equations
+from sdph.methods.mps import annulus
 
 if assembled.assembler() is None:
     pytest.skip("needs ptxas: pip install nvidia-cuda-nvcc", allow_module_level=True)
@@ -79,6 +80,21 @@ def test_every_kernel_of_grains_compiles_without_spills(scene, keys):
         assert found.registers <= MOST_OF_GRAINS, assembled.name_of(loop)
 
 
+@pytest.mark.parametrize("scene", kernels.MOVING)
+def test_every_kernel_of_moving_particles_compiles_without_spills(scene):
+    """The sine of a helix keeps a few bytes aside, for angles larger than any here."""
+    loops = kernels.moving(scene)
+    names = {assembled.name_of(loop) for loop, _ in loops}
+    expected = {"look", "equations_of", "multiply", "go", "press", "meet", "drift", "_count", "_fill"}
+    if scene == "swirl_sheet":
+        expected |= {"rub", "pull", "collide", "turn", "let_go", "leave", "hook", "jump"}
+    assert expected <= {name.split(".")[-1] for name in names}
+    for loop, taken in loops:
+        found = assembled.assembled(loop, taken)
+        assert found.spills == 0 and found.registers <= MOST, assembled.name_of(loop)
+        assert found.stack == 0 or loop is annulus.turn, assembled.name_of(loop)
+
+
 def text_of(scene: str, name: str, *keys: str) -> str:
     """PTX of a loop of a scene."""
     found = [own for own in kernels.loops_of(scene, *keys) if own[0].__name__ == name]
@@ -126,10 +142,14 @@ def test_flags_of_fast_arithmetic_stay_on_the_processor():
         ("count", (WHOLE, WHOLE)),
         ("scatter", (WHOLE, WHOLE, WHOLE)),
         ("tidy", (WHOLE, WHOLE)),
+        ("multiply", (ARRAY, typeof((np.zeros(3),)), TABLE)),
+        ("multiply", (ARRAY, typeof((np.zeros(3),) * 2), TABLE)),
+        ("put", (TABLE, ARRAY, typeof((0, 1)))),
     ],
 )
-def test_kernels_of_sorting_compile(name, taken):
-    text = toolkit.assembly(getattr(sorting, name).py_func, taken, assembled.CAPABILITY, parts=False)
+def test_kernels_of_sorting_and_products_compile(name, taken):
+    own = getattr(sorting, name, None) or getattr(products, name)
+    text = toolkit.assembly(own.py_func, taken, assembled.CAPABILITY, parts=False)
     found = assembled.read(text)
     assert found.spills == 0 and found.registers <= 64
 
@@ -168,3 +188,12 @@ def test_kernels_of_expressions_compile(name, taken):
 def test_occupancy_is_that_of_nvidias_calculator():
     """65536 registers, 2048 threads of a multiprocessor: 32 registers let all in, 128 a quarter, 111 as many as 112."""
     assert [assembled.occupancy(own, 128) for own in (32, 64, 128, 111, 255)] == [1.0, 0.5, 0.25, 0.25, 0.125]
+
+
+def test_no_two_kernels_are_one_on_disk():
+    """Two loops of one name, and of one signature, are in two files: else one would be loaded for the other."""
+    from sdph.engine import motion
+    from sdph.methods.liquids import totals
+
+    one, other = (translation.kernel_of(loop)._cache._impl.filename_base for loop in (motion.fastest, totals.fastest))
+    assert one != other

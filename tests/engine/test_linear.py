@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sdph.engine import linear
+from sdph.engine.rows import Rows
 
 
 def drawn(count: int, seed: int):
@@ -14,9 +15,10 @@ def drawn(count: int, seed: int):
     links = np.triu(rng.uniform(0.0, 1.0, (count, count)) * (rng.random((count, count)) < 0.3), 1)
     links = links + links.T
     diagonal = links.sum(axis=1) + rng.uniform(0.01, 1.0, count)
-    start = np.concatenate(([0], np.cumsum((links > 0).sum(axis=1))))
+    number = (links > 0).sum(axis=1)
     rows, columns = np.nonzero(links)
-    return linear.Matrix(diagonal, start, columns.astype(np.int32), links[rows, columns]), np.diag(diagonal) - links
+    own = Rows(columns.astype(np.uint32), np.cumsum(number) - number, number)
+    return linear.Matrix(diagonal, own, links[rows, columns]), np.diag(diagonal) - links
 
 
 @settings(max_examples=40, deadline=None)

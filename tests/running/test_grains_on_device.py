@@ -132,4 +132,4 @@ def test_what_is_taken_is_what_is_tested():
     ran = set()
     for scene, _, *keys in SETS.values():
         ran |= set(read.load(paths.PACKAGE / "scenes" / scene / "case.toml", tuple(keys)).effects)
-    assert ran == set(on_device.EFFECTS["grains"])
+    assert ran == set(on_device.OF_GRAINS)

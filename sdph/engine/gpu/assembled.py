@@ -61,10 +61,14 @@ class Heard:
     def __exit__(self, *error) -> None:
         Loop.elsewhere = None
 
-    def hear(self, loop, arguments):
+    def note(self, loop, arguments) -> None:
         """Note a call, with rows as they are on a device."""
         there = (Abreast(*own) if isinstance(own, Rows) else own for own in arguments)
         self.loops[loop, tuple(map(typeof, there))] = None
+
+    def hear(self, loop, arguments):
+        """Note a call, and run it unless it is over pairs."""
+        self.note(loop, arguments)
         many = results(loop)
         if not any(isinstance(own, Rows) for own in arguments):
             return loop.here(*arguments)

@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from sdph.engine import arrays
-from sdph.engine.gpu import operators, sorting
+from sdph.engine.gpu import functions, operators, products, sorting
 from sdph.engine.gpu.operators import Operable, operable
 from sdph.engine.gpu.toolkit import SIMULATED, Launcher, cuda, lies_there, made, strict
 from sdph.engine.gpu.translation import kernel_of, results
@@ -34,10 +34,11 @@ class Card:
         strict()
         self.launches, self.sent, self.brought = 0, np.zeros(2), np.zeros(2)
         self._known = {}  # arrays that loops have taken along, by what is in them
-        self._launcher = Launcher()
+        self._launcher, self._rooms = Launcher(), {}
 
     def begin(self) -> None:
         """Run loops here whose arrays lie here."""
+        operators.HANDLED.update(functions.KNOWN)
         arrays.card, Loop.elsewhere = self, self.run
 
     def run(self, loop, arguments):
@@ -47,7 +48,7 @@ class Card:
         arguments, many = tuple(map(self._along, arguments)), results(loop)
         if not many:
             return self._launch(kernel_of(loop), LOOP, *arguments)
-        part = self.empty((math.prod(PARTS), many), np.float64)
+        part = self._room((math.prod(PARTS), many))
         self._launch(kernel_of(loop), PARTS, part, arguments)
         found = self._joined(part, loop.largest).tolist()
         return found[0] if many == 1 else tuple(found)
@@ -55,6 +56,12 @@ class Card:
     def _launch(self, kernel, size: tuple[int, int], *arguments) -> None:
         self.launches += 1
         self._launcher(kernel, size, arguments)
+
+    def _room(self, shape: tuple[int, int]):
+        """Array of float64 for what threads find, until the next of that shape is asked for."""
+        if shape not in self._rooms:
+            self._rooms[shape] = self.empty(shape, np.float64)
+        return self._rooms[shape]
 
     def told(self, steps: int) -> dict[str, float]:
         """Columns of a summary: means over the steps taken."""
@@ -65,7 +72,7 @@ class Card:
 
     def _joined(self, part, largest: bool) -> np.ndarray:
         """(K,) sums, or largest values, of parts (T, K) of threads."""
-        fewer = self.empty((math.prod(SUMS), part.shape[1]), np.float64)
+        fewer = self._room((math.prod(SUMS), part.shape[1]))
         self._launch(sorting.most_parts if largest else sorting.sum_parts, SUMS, part, fewer)
         values = self.bring(fewer)
         return values.max(axis=0) if largest else values.sum(axis=0)
@@ -131,12 +138,12 @@ class Card:
         return out
 
     def total(self, values) -> np.ndarray:
-        part = self.empty((math.prod(PARTS), values.shape[1]), np.float64)
+        part = self._room((math.prod(PARTS), values.shape[1]))
         self._launch(sorting.sum_parts, PARTS, values, part)
         return self._joined(part, False)
 
     def ends(self, values) -> tuple[float, float]:
-        part = self.empty((math.prod(PARTS), 2), np.float64)
+        part = self._room((math.prod(PARTS), 2))
         self._launch(sorting.find_ends, PARTS, values, part)
         low, high = self._joined(part, True).tolist()
         return -low, high
@@ -197,6 +204,23 @@ class Card:
     def launch(self, kernel, *arguments) -> None:
         """Run a kernel over all values."""
         self._launch(kernel, LOOP, *map(self._along, arguments))
+
+    def joined(self, one, other):
+        whole = self.empty(len(one) + len(other), one.dtype)
+        if len(one):
+            whole[: len(one)].copy_to_device(one)
+        if len(other):
+            whole[len(one) :].copy_to_device(other if lies_there(other) else self.send(other))
+        return whole
+
+    def dots(self, a, others: tuple, sums, places: tuple, room) -> None:
+        """Sums of a b for each b of others, at their places among sums, with work arrays of a room; nothing comes to
+        the host."""
+        columns = len(others)
+        part, fewer = (room(f"{columns} of {size}", (math.prod(size), columns), a) for size in (PARTS, SUMS))
+        self._launch(products.multiply, PARTS, a, others, part)
+        self._launch(sorting.sum_parts, SUMS, part, fewer)
+        self._launch(products.put, (1, 1), fewer, sums, places)
 
 
 def _there(value) -> bool:

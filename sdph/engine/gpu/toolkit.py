@@ -24,8 +24,8 @@ def device(function):
 
 
 def kernel(function):
-    """A kernel, compiled when it is first launched for arguments of these types."""
-    return cuda.jit(function)
+    """A kernel, compiled when it is first launched for arguments of these types, and kept on disk."""
+    return cuda.jit(function) if SIMULATED else cuda.jit(cache=True)(function)
 
 
 class Launcher:

@@ -8,6 +8,7 @@ from sdph.engine import state as particles
 from sdph.engine.guard import RUNAWAY, TINY, Unstable, Watch
 from sdph.engine.kept import Unfit
 from sdph.engine.state import INFLOW, LIQUID, WALL
+from sdph.methods.mps import alone
 
 
 class MpsGuard(Watch):
@@ -36,7 +37,10 @@ class MpsGuard(Watch):
 
     def look(self, stepper) -> None:
         """NaN, speed."""
-        s, self.time = stepper.state, stepper.time
+        self.time = stepper.time
+        if not alone.runaways(stepper.state, self.fast):
+            return
+        s = particles.brought(stepper.state)
         lower = f"run.step_factor (now {self.case.run.step_factor:g}; the step was ruled by {stepper.limit})"
         self.hold("speed", particles.lengths(particles.velocities(s)), (0.0, self.fast, "m/s"), s, lower)
 

@@ -9,12 +9,11 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
 from numba import prange
 
 from sdph.engine.rows import entry
 from sdph.engine.state import INFLOW
-from sdph.laws.compiled import parallel
+from sdph.laws.compiled import in_order, parallel
 from sdph.methods.mps.equations import diverge, seen
 
 SOUND = 10.0  # c over the speed sqrt(cohesion/rho) that tension gives, so that rho varies by 1 %: swirl-sheet.md, 4
@@ -44,15 +43,25 @@ def even(cloud, walls, s, rows, box, rate):
 def pressed(stepper, dt: float) -> float:
     """Move the density of a stepper's state by `dt` [s] with its velocities, and set its pressure; returns the sum of
     what was below 0 and left out [Pa]."""
-    s, cloud, rest = stepper.state, stepper.cloud, stepper.cloud.density
+    s, cloud = stepper.state, stepper.cloud
     c = sound_speed(stepper.case, stepper.p["free_energy_tension"])
-    divergence, evened = np.empty(len(s.x)), np.empty(len(s.x))
+    divergence, evened = (stepper.room(name, len(s.x), s.x) for name in ("divergence", "evened"))
     diverge(*stepper.around, divergence)
     even(*stepper.around, evened)
-    s.density[:] += dt * (DIFFUSION * cloud.spacing * c * evened - s.density * divergence)
-    s.density[s.kind == INFLOW] = rest
-    below = s.density < rest if stepper.own.holds(stepper.case) else np.zeros(len(s.x), bool)
-    clipped = c * c * float((rest - s.density[below]).sum())
-    s.density[below] = rest
-    s.pressure[:] = c * c * (s.density - rest)
-    return clipped
+    return c * c * condense(cloud, s, divergence, evened, c, dt, stepper.own.holds(stepper.case))
+
+
+@in_order
+def condense(cloud, s, divergence, evened, c, dt, holds):
+    """Density after `dt` [s] of its divergence (N,) [1/s] and what evens it (N,) [kg/m5], and pressure by it; what is
+    below rest is at rest where it `holds`, and its sum [kg/m3] is returned."""
+    found = 0.0
+    for i in prange(len(s.x)):
+        density = s.density[i] + dt * (DIFFUSION * cloud.spacing * c * evened[i] - s.density[i] * divergence[i])
+        if s.kind[i] == INFLOW:
+            density = cloud.density
+        if holds and density < cloud.density:
+            found += cloud.density - density
+            density = cloud.density
+        s.density[i], s.pressure[i] = density, c * c * (density - cloud.density)
+    return found

@@ -12,9 +12,10 @@ from typing import NamedTuple
 import numpy as np
 from numba import prange
 
+from sdph.engine import arrays
 from sdph.engine.geometry import apart, deep, faster
-from sdph.engine.linear import Matrix
-from sdph.engine.rows import entry
+from sdph.engine.linear import Matrix, links_of
+from sdph.engine.rows import entry, place
 from sdph.laws import moving_particles
 from sdph.laws.compiled import inlined, parallel
 from sdph.methods.mps.tanks import grip, solid
@@ -102,19 +103,20 @@ def near_surface(cloud, walls, s, rows, box, surface, beside):
 
 
 @parallel
-def equations_of(cloud, walls, s, rows, box, number, surface, start, diagonal, column, value):
-    """Fill the matrix of (2 d/(lambda n_0)) sum (p_j - p_i) w times -lambda n_0/(2 d), of which start (N + 1,) is
-    known: a particle at the surface has n_0 on the diagonal, as if what it lacks were there with p = 0. Walls are
-    on the right-hand side."""
+def equations_of(cloud, walls, s, rows, box, number, surface, links, diagonal, column, value):
+    """Fill the matrix of (2 d/(lambda n_0)) sum (p_j - p_i) w times -lambda n_0/(2 d), whose links have the columns as
+    entries: a particle at the surface has n_0 on the diagonal, as if what it lacks were there with p = 0. Walls are on
+    the right-hand side."""
     for i in prange(len(s.x)):
-        e, own = start[i], 0.0
+        n, own = 0, 0.0
         for k in range(rows.number[i] if not solid(walls, s, i) else 0):
             j = entry(rows, i, k)
             w = seen(cloud, s, box, i, j)[4]
             if w > 0.0 and not solid(walls, s, j):
+                e = place(links, i, n)
                 column[e], value[e] = j, w
                 own += w
-                e += 1
+                n += 1
         missing = max(cloud.number - number[i], (1.0 - SPARSE) * cloud.number if len(walls) else 0.0)
         held = own + missing if surface[i] == 1 else max(own, BURST * cloud.number)
         diagonal[i] = held * (1.0 + BURST)
@@ -132,15 +134,15 @@ def count(cloud, walls, s, rows, box, found):
         found[i] = n
 
 
-def matrix(cloud, walls, s, rows, box, number, surface) -> Matrix:
-    """The pressure's matrix (5), (7)."""
-    found = np.empty(len(s.x), np.int64)
+def matrix(cloud, walls, s, rows, box, number, surface, room=None) -> Matrix:
+    """The pressure's matrix (5), (7), in work arrays of a `room`."""
+    room = room or arrays.Room()
+    found, diagonal = room("links", len(s.x), s.x, np.int32), room("diagonal", len(s.x), s.x)
     count(cloud, walls, s, rows, box, found)
-    start = np.zeros(len(found) + 1, np.int64)
-    np.cumsum(found, out=start[1:])
-    column, value, diagonal = np.empty(start[-1], np.int32), np.empty(start[-1]), np.empty(len(found))
-    equations_of(cloud, walls, s, rows, box, number, surface, start, diagonal, column, value)
-    return Matrix(diagonal, start, column, value)
+    links = links_of(found, room)
+    value = room("value", len(links.entries), s.x)
+    equations_of(cloud, walls, s, rows, box, number, surface, links, diagonal, links.entries, value)
+    return Matrix(diagonal, links, value)
 
 
 @parallel
@@ -201,12 +203,15 @@ def pull(cloud, tension_p, s, rows, box, acceleration, energy):
 
 @parallel
 def meet(walls, s, rows, box, distance, meeting):
-    """meeting (N,): neighbours nearer than `distance` [m] that approach."""
+    """meeting (N,): neighbours nearer than `distance` [m] that approach; the sum of it."""
+    found = 0.0
     for i in prange(len(s.x)):
         n = 0
         for k in range(rows.number[i]):
             n += 1 if _approach(s, box, i, entry(rows, i, k), distance)[3] < 0.0 else 0
         meeting[i] = n
+        found += n
+    return found
 
 
 @inlined

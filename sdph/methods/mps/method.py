@@ -7,14 +7,14 @@ import math
 import numpy as np
 
 from sdph import effects
-from sdph.engine import linear, motion
+from sdph.engine import arrays, linear, motion
 from sdph.engine import state as particles
 from sdph.engine.clock import count_of_parts
 from sdph.engine.kept import GROWING
 from sdph.engine.rows import Neighbours
-from sdph.engine.state import INFLOW, LIQUID
+from sdph.engine.state import LIQUID
 from sdph.laws import moving_particles
-from sdph.methods.mps import compressible, equations, pools, start, tanks
+from sdph.methods.mps import alone, compressible, equations, pools, start, tanks
 from sdph.methods.mps.bounds import MpsGuard
 from sdph.methods.mps.holes import Holes
 from sdph.methods.mps.openings import Openings
@@ -37,6 +37,7 @@ class MpsStepper:
     FORMS = {"state": GROWING}
     # what loops take from neighbours, fresh, of `state` and of what `_look` finds; the pressure is solved for by all
     HALO = (*"xyzuvw", "kind", "ident", "pressure", "surface")
+    SEEN = ("number", "surface", "energy")  # arrays of the particles that outputs read
 
     def __init__(self, case, shortest: float = 0.0):
         self.case, self.own, self.guard, self.shortest = case, case.method, MpsGuard(case), shortest
@@ -52,8 +53,8 @@ class MpsStepper:
         pulled = self.p["free_energy_tension"]
         reach = max(self.cloud.reach, pulled.reach if pulled else 0.0, self.own.piece * unit)
         self.neighbours = Neighbours(reach, case.liquid_period, case.resolution.neighbour_skin)
-        self.energy = np.zeros(0)
-        self.time, self.steps, self.limit = 0.0, 0, ""
+        self.room, self.landed = arrays.Room(), None  # see sdph.engine.ashore
+        self.time, self.steps, self.steps_before, self.limit = 0.0, 0, 0, ""
         self.works, self.impulses = np.zeros(len(WORKS)), np.zeros((2, 3))  # of gravity, of what waits
         self.iterations = 0  # of all steps
         self.clipped = 0.0  # pressure below 0 that was left out, of all steps: sum of Pa
@@ -66,6 +67,7 @@ class MpsStepper:
 
     def revive(self) -> None:
         """Make anew what a checkpoint does not hold, once it was put back."""
+        self.steps_before = self.steps
         self.rows = self.neighbours.relist(self.state.kind)
         self._look()
 
@@ -74,12 +76,12 @@ class MpsStepper:
         self.guard.admit_mps(kept["state"])
 
     @property
-    def active(self) -> np.ndarray:
+    def active(self):
         """Numbers of the particles that move by the equations."""
-        return np.flatnonzero(self.state.kind == LIQUID).astype(np.int32)
+        return alone.of_kind(self.state, LIQUID)
 
     @property
-    def pressure(self) -> np.ndarray:
+    def pressure(self):
         """Pressure (N,) [Pa] of the solver, a field of the state."""
         return self.state.pressure
 
@@ -114,88 +116,90 @@ class MpsStepper:
         """(cause, acceleration (N, 3) [m/s2]) of all that acts but the pressure, with the velocities as they are."""
         found, count = [], len(self.state.x)
         if self.p["gravity"]:
-            found.append(("gravity", np.tile(np.array(self.p["gravity"]), (count, 1))))
+            falling = self._work("falling", (count, 3))
+            alone.fall(*self.p["gravity"], falling)
+            found.append(("gravity", falling))
         if self.p["laminar_viscosity"]:
-            rubbed = np.empty((count, 3))
+            rubbed = self._work("rubbed", (count, 3))
             equations.rub(*self.around, self.case.liquid.viscosity / self.case.liquid.density, rubbed)
             found.append(("viscosity", rubbed))
         if self.p["free_energy_tension"]:
             found.append(("tension", self.pulled))
         return found
 
-    def _pressed(self, dt: float) -> np.ndarray:
+    def _work(self, name: str, shape, kind=np.float64):
+        """Work array of that name, where the particles are."""
+        return self.room(name, shape, self.state.x, kind)
+
+    def _pressed(self, dt: float):
         """Acceleration (N, 3) [m/s2] by the pressure that takes the divergence out of the velocities (7), or answers
         it."""
         if self.own.pressure == "weakly_compressible":
             self.clipped += compressible.pressed(self, dt)
             return self._pushed(self.cloud.density / dt, None)
         cloud, own, count = self.cloud, self.own, len(self.state.x)
-        divergence, beside = np.empty(count), np.empty(count, np.int8)
+        divergence, beside = self._work("divergence", count), self._work("beside", count, np.int8)
         equations.near_surface(*self.around, self.surface, beside)
         if self.pool:
             pools.diverge(*self.around, beside, divergence)
         else:
             equations.diverge(*self.around, divergence)
-        surplus = (self.number - cloud.number) / cloud.number
-        surplus = np.where(beside == 1, np.maximum(surplus, 0.0), surplus)
-        source = cloud.density / dt * (divergence - own.share_taken(self.case) * surplus / dt)
-        source[self.state.kind == INFLOW] = 0.0
-        self.freed = (self.surface == 1) & (source > 0.0) & (not own.holds(self.case))
-        source[self.freed] = 0.0  # a surface that is drawn apart is not held together
-        right = -cloud.spread * cloud.number / (2.0 * cloud.dimensions) * source
+        right, holds = self._work("right", count), own.holds(self.case)
+        self.freed = self._work("freed", count, np.bool_)
+        alone.source_of(
+            cloud, self.state, divergence, self.number, beside, self.surface, dt, own.share_taken(self.case), holds,
+            right, self.freed,
+        )  # fmt: skip
         if self.walls:
             pools.lean(*self.around, cloud.density / dt, right)
-        matrix = equations.matrix(*self.around, self.number, self.surface)
+        matrix = equations.matrix(*self.around, self.number, self.surface, self.room)
         try:
-            self.iterations += linear.solve(matrix, right, self.pressure, own.tolerance, own.iterations)
+            self.iterations += linear.solve(matrix, right, self.pressure, own.tolerance, own.iterations, self.room)
         except linear.Unsolved as error:
             self.guard.unsolved(self, error)
-        pressure = self.pressure
-        below = pressure < 0.0 if own.holds(self.case) else np.zeros(count, bool)
-        self.clipped -= float(pressure[below].sum())
-        pressure[below] = 0.0
+        if holds:
+            self.clipped += alone.leave_out(self.pressure)
         self.beside = beside
         return self._pushed(cloud.density / dt, beside)
 
-    def _pushed(self, scale: float, beside) -> np.ndarray:
+    def _pushed(self, scale: float, beside):
         """Acceleration (N, 3) [m/s2] by the pressure; scale: rho/dt."""
-        pressed = np.empty((len(self.state.x), 3))
+        s, count = self.state, len(self.state.x)
+        pressed = self._work("pressed", (count, 3))
         if not self.pool:
             equations.press(*self.around, self.pressure, pressed)
             return pressed
-        borne = np.empty_like(pressed)
+        borne = self._work("borne", (count, 3))
         pools.press(*self.around, self.pressure, beside, scale, pressed, borne)
-        self.load = -self.state.mass @ np.where((self.state.kind == LIQUID)[:, None], borne, 0.0)
+        self.load = alone.summed(alone.add_load, 3, count, s, borne)
         return pressed
 
     def _keep_apart(self, active) -> None:
         """Particles inside a pool move to where there are few."""
-        s, way = self.state, np.empty((len(self.state.x), 3))
+        s, way = self.state, self._work("way", (len(self.state.x), 3))
         pools.keep_apart(*self.around, self.beside, self.own.shift * self.cloud.spacing, way)
-        self.moved = float(particles.lengths(way).max(initial=0.0)) / self.cloud.spacing
-        for axis, column in zip(particles.axes(s), way.T):
-            axis[active] += column[active]
+        self.moved = math.sqrt(alone.longest(way)) / self.cloud.spacing
+        motion.kick(active, way, 1.0, s.x, s.y, s.z)
 
     def _kick(self, name: str, acceleration, dt: float, active) -> None:
         s = self.state
-        mass, change = s.mass[active], dt * acceleration[active]
-        before = particles.velocities(s)[active]
-        self.works[WORKS.index(name)] += float(mass @ np.einsum("ij,ij->i", change, before + 0.5 * change))
-        self.impulses[0 if name == "gravity" else 1] += mass @ change
+        work, *impulse = alone.summed(alone.add_kick, 4, len(active), s, active, acceleration, dt)
+        self.works[WORKS.index(name)] += work
+        self.impulses[0 if name == "gravity" else 1] += impulse
         motion.kick(active, acceleration, dt, s.u, s.v, s.w)
 
     def _collide(self, active) -> None:
         """Pairs nearer than they lie lose what they approach by."""
         s, own, count = self.state, self.own, len(self.state.x)
-        distance, meeting, change = own.collision * self.cloud.spacing, np.empty(count), np.empty((count, 3))
-        equations.meet(self.walls, s, self.rows, self.neighbours.box, distance, meeting)
-        if meeting.any():
+        distance, meeting = own.collision * self.cloud.spacing, self._work("meeting", count)
+        if equations.meet(self.walls, s, self.rows, self.neighbours.box, distance, meeting):
+            change = self._work("change", (count, 3))
             equations.collide(self.walls, s, self.rows, self.neighbours.box, distance, own.restitution, meeting, change)
             self._kick("collisions", change, 1.0, active)
 
     def next_step(self, left: float) -> float:
         """Length [s] of the next step: `left` in equal parts no longer than the shortest limit; `limit` names it."""
-        found = limits(self.case, self.p, self.state, float(self.speed.max(initial=0.0)))
+        found = limits(self.case, self.p, self.state, arrays.ends(self.speed)[1])
         self.limit = min(found, key=found.get, default="")
         longest = self.case.run.step_factor * found.get(self.limit, math.inf)
         return left / count_of_parts(
@@ -209,11 +213,14 @@ class MpsStepper:
 
     def _look(self) -> None:
         count = len(self.state.x)
-        self.number, self.surface, self.speed = np.empty(count), np.empty(count, np.int8), np.empty(count)
+        self.number, self.speed = self._work("number", count), self._work("speed", count)
+        self.surface = self._work("surface", count, np.int8)
         equations.look(*self.around, self.number, self.surface, self.speed)
-        self.pulled, self.energy = np.zeros((count, 3)), np.zeros(count)
         if own := self.p["free_energy_tension"]:
+            self.pulled, self.energy = self._work("pulled", (count, 3)), self._work("energy", count)
             equations.pull(self.cloud, own, *self.around[2:], self.pulled, self.energy)
+        else:
+            self.pulled, self.energy = (arrays.zeros(shape, self.state.x) for shape in ((count, 3), count))
 
     @property
     def gauge(self) -> np.ndarray:
@@ -249,6 +256,6 @@ def limits(case, parameters, state, relative: float) -> dict[str, float]:
     if case.method.pressure == "weakly_compressible":
         sound = compressible.sound_speed(case, parameters["free_energy_tension"])
         own["sound"] = compressible.COURANT * unit / sound
-    if case.method.of_pools(case) and (speed := float(particles.lengths(particles.velocities(state)).max(initial=0.0))):
-        own["motion"] = COURANT * unit / speed
+    if case.method.of_pools(case) and (speed := alone.fastest(state)):
+        own["motion"] = COURANT * unit / math.sqrt(speed)
     return own | effects.limits(parameters, case, state)

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import contextlib
 from pathlib import Path
 
 import numpy as np
 
 from sdph.effects.around import tank
+from sdph.engine import arrays, ashore
 from sdph.engine import state as particles
 from sdph.engine.kept import GROWING
 from sdph.engine.state import LIQUID
 from sdph.engine.stepped import Stepped
 from sdph.engine.table import Table
-from sdph.methods.mps import history, pieces, sheet
+from sdph.methods.mps import alone, history, pieces, sheet
 from sdph.methods.mps.method import MpsStepper
 from sdph.methods.mps.totals import MpsLedger
 
@@ -27,10 +29,10 @@ class Mps(Stepped):
     KEPT = ("windows", "stepper", "ledger", "drops", "diameters", "counts", "impulse", "since")
     FORMS = {"diameters": GROWING, "counts": GROWING}
 
-    def __init__(self, case, ledger: Path, shortest: float):
+    def __init__(self, case, ledger: Path | None, shortest: float):
         self.case, self.windows = case, 0
         self.stepper, self.ledger = MpsStepper(case, shortest), MpsLedger(ledger)
-        self.drops = Table(ledger.with_name("droplets.csv"))  # pieces that have left
+        self.drops = Table(ledger and ledger.with_name("droplets.csv"))  # pieces that have left
         self.diameters, self.counts = np.zeros(0), np.zeros(0)  # [m] and particles of each
         # of the liquid by all but gravity at the last row [kg m/s], and its time [s]
         self.impulse, self.since = np.zeros(3), 0.0
@@ -38,6 +40,17 @@ class Mps(Stepped):
     def tables(self) -> list:
         """Files that grow by rows."""
         return [self.ledger.table, self.drops]
+
+    def advance(self, end: float, most: float = np.inf) -> None:
+        """Go to `end` [s], or as far as `most` steps get."""
+        if self.case.run.device != "cpu" and arrays.here(self.state.x):
+            ashore.board(self.stepper)
+        super().advance(end, most)
+
+    @contextlib.contextmanager
+    def whole(self):
+        with ashore.ashore(self.stepper):
+            yield True
 
     def close(self) -> None:
         self.stepper.guard.look(self.stepper)
@@ -56,24 +69,25 @@ class Mps(Stepped):
 
     def row(self) -> dict[str, float]:
         """Columns of history.csv."""
-        return history.row(self)
+        with self.whole():
+            return history.row(self)
 
     def held(self) -> dict[str, float]:
         """Share of the particles whose pressure would be below 0, where none is, now; of pools those at the surface
         that are drawn apart and not held, and the longest way by which particles were kept apart [l0]."""
-        inside, stepper = self.state.kind == LIQUID, self.stepper
-        clipped = stepper.own.holds(self.case)
-        found = {
-            "pressure_at_least_share": float((stepper.state.pressure[inside] == 0.0).mean())
-            if clipped and inside.any()
-            else 0.0
-        }
+        stepper = self.stepper
+        many, bare, freed = alone.shares(self.state, stepper.freed)
+        found = {"pressure_at_least_share": bare / many if stepper.own.holds(self.case) and many else 0.0}
         if stepper.pool:
-            found["surface_freed_share"] = float(stepper.freed.sum() / (inside.sum() or 1))
+            found["surface_freed_share"] = freed / (many or 1.0)
             found["kept_apart_rel"] = stepper.moved
         return found
 
     def points(self):
+        with self.whole():
+            return self._points()
+
+    def _points(self):
         import pyvista
 
         inside = self.state.kind == LIQUID
@@ -90,6 +104,11 @@ class Mps(Stepped):
         return tank.shape_of(self.case).surface() if "tank" in self.case.effects else None
 
     def summary(self) -> dict[str, float]:
+        with self.whole():
+            found = self._summary()
+        return found | ashore.told(self.stepper)
+
+    def _summary(self) -> dict[str, float]:
         opening = self.stepper.openings
         found = {
             "liquid_particles": int((self.state.kind == LIQUID).sum()),

@@ -9,13 +9,15 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numba import prange
 
 from sdph.effects.around.outflow import open_sides
 from sdph.effects.around.source import Source
-from sdph.effects.around.streams import about
+from sdph.engine import arrays
 from sdph.engine import state as particles
 from sdph.engine.state import INFLOW, LIQUID
-from sdph.methods.mps import pieces, tanks
+from sdph.laws.compiled import parallel
+from sdph.methods.mps import alone, annulus, pieces, tanks
 
 IN, OUT = 0, 1
 
@@ -31,6 +33,8 @@ class Openings:
         self.case, self.passed, self.left, self.cut = case, np.zeros((2, 5)), 0, 0
         self.source = Source(case, names, len(state.x)) if "inflow" in case.effects else None
         self.leave = "outflow" in case.effects
+        shapes = [nozzle.shape for nozzle in self.source.nozzles] if self.source else []
+        self.annuli = {k: annulus.of_source(self.source, k) for k, shape in enumerate(shapes) if shape == "annulus"}
         self.told: list[dict] = []  # pieces that have left, until somebody has written them down
 
     def begin(self, state):
@@ -41,76 +45,106 @@ class Openings:
         """Take the streams that wait from `time` [s] on by `dt` [s]: along, and around where they turn."""
         if not self.source:
             return
-        rows, source = np.flatnonzero(state.kind == INFLOW), self.source
+        source = self.source
         gone = source.gone(time + dt) - source.gone(time)
-        for k, nozzle in enumerate(source.nozzles):
-            own = rows[state.nozzle[rows] == k + 1]
-            if nozzle.shape == "annulus":
-                self._turn(state, own, k, float(gone[np.searchsorted(source.of, k)]), dt)
-            else:
-                way = gone[source.stream(state, own)]
-                for a, (place, speed) in enumerate(zip(particles.axes(state), (state.u, state.v, state.w))):
-                    place[own] += way * source.axis[k, a]
-                    speed[own] = way / dt * source.axis[k, a]
+        for k, own in self.annuli.items():
+            annulus.turn(own, state, float(gone[np.searchsorted(source.of, k)]), dt, *state[:6])
+        if len(self.annuli) < len(source.nozzles):
+            self._push(state, gone, dt)
 
-    def _turn(self, state, rows, k: int, way: float, dt: float) -> None:
-        """Particles (n,) of an annulus go `way` [m] along its axis, on helices."""
-        nozzle, axis = self.source.nozzles[k], self.source.axis[k]
-        offsets = particles.positions(state)[rows] - nozzle.centre
-        along = (offsets @ axis)[:, None] * axis
-        angle = nozzle.swirl * way / np.linalg.norm(offsets - along, axis=1)
-        moved = nozzle.centre + about(axis, offsets - along, angle) + along + way * axis
-        velocity = (moved - particles.positions(state)[rows]) / dt
-        for a, (place, speed) in enumerate(zip(particles.axes(state), (state.u, state.v, state.w))):
-            place[rows], speed[rows] = moved[:, a], velocity[:, a]
+    def _push(self, state, gone, dt: float) -> None:
+        """Take the streams that do not turn along by their ways, gone (S,) [m]."""
+        rows, source = np.flatnonzero(state.kind == INFLOW), self.source
+        for k in set(range(len(source.nozzles))) - self.annuli.keys():
+            own = rows[state.nozzle[rows] == k + 1]
+            way = gone[source.stream(state, own)]
+            for a, (place, speed) in enumerate(zip(particles.axes(state), (state.u, state.v, state.w))):
+                place[own] += way * source.axis[k, a]
+                speed[own] = way / dt * source.axis[k, a]
 
     def renew(self, stepper) -> None:
         """Let go of what is through its mouth, fill up the streams, take out what has left."""
         if self.source:
-            waiting = np.flatnonzero(stepper.state.kind == INFLOW)
-            self.source.release(stepper.state)
-            self._count(IN, stepper.state, waiting[stepper.state.kind[waiting] == LIQUID])
+            for own in self.annuli.values():
+                self._pass(IN, annulus.let_go(own, stepper.state))
+            if len(self.annuli) < len(self.source.nozzles):
+                waiting = np.flatnonzero(stepper.state.kind == INFLOW)
+                self.source.release(stepper.state)
+                released = waiting[stepper.state.kind[waiting] == LIQUID]
+                self._count(IN, particles.take(stepper.state, released))
             stepper.replace(self.source.fill(stepper.state, stepper.time, 0.0))
         if self.leave:
             self._let_out(stepper)
 
     def _let_out(self, stepper) -> None:
         s, case = stepper.state, self.case
-        out = beyond(case, s, 0.0)
-        if not (out & (s.kind == LIQUID)).any():
+        out, far, gone, lost, kept = (arrays.empty(len(s.x), s.x, np.bool_) for _ in range(5))
+        if not beyond(s, *ends(case, 0.0), out):
             return
-        label = pieces.labels(particles.positions(s), stepper.own.piece * case.resolution.spacing)
-        held = np.zeros(label.max() + 1, bool)
-        held[label[s.kind == INFLOW]] = True
-        count = np.bincount(label)
-        middle = np.bincount(label, weights=out * 1.0) > 0.5 * count  # the middle of most of it
-        gone = (middle & ~held)[label]
-        cut = beyond(case, s, 1.0) & (s.kind == LIQUID) & ~gone
-        self.cut += int(cut.sum())
-        self._tell(stepper, label, gone)
-        if (gone | cut).any():
-            self._count(OUT, s, np.flatnonzero(gone | cut))
-            stepper.take(~(gone | cut))
+        beyond(s, *ends(case, 1.0), far)
+        label = pieces.joined(particles.axes(s), stepper.own.piece * case.resolution.spacing)
+        outside, waiting = (arrays.taken(label, rows) for rows in (arrays.chosen(out), alone.of_kind(s, INFLOW)))
+        many = [arrays.starts(own, len(s.x)) for own in (label, outside, waiting)]
+        whole, cut = map(int, leave(label, *many, far, gone, lost, kept))
+        self.cut += cut
+        if whole:
+            self._tell(stepper, label, arrays.chosen(gone))
+        if whole or cut:
+            self._count(OUT, particles.brought(particles.take(s, arrays.chosen(lost))))
+            stepper.take(arrays.chosen(kept))
 
-    def _tell(self, stepper, label, gone) -> None:
-        """Rows of the pieces that leave."""
-        if gone.any():
-            taken = particles.take(stepper.state, gone)
-            found = pieces.of(taken, label[gone], self.case)
-            self.told += [{"time_s": stepper.time} | row for row in found]
-            self.left += len(found)
+    def _tell(self, stepper, label, rows) -> None:
+        """Rows of the pieces that leave, of particles (n,)."""
+        taken = particles.brought(particles.take(stepper.state, rows))
+        found = pieces.of(taken, arrays.brought(arrays.taken(label, rows)), self.case)
+        self.told += [{"time_s": stepper.time} | row for row in found]
+        self.left += len(found)
 
-    def _count(self, way: int, state, rows) -> None:
-        mass, velocity = state.mass[rows], particles.velocities(state)[rows]
-        energy = 0.5 * mass @ np.einsum("ij,ij->i", velocity, velocity)
-        self.passed[way] += np.concatenate(([mass.sum()], mass @ velocity, [energy]))
+    def _pass(self, way: int, sums) -> None:
+        """Add mass, momentum and energy of what passed."""
+        self.passed[way] += sums
+
+    def _count(self, way: int, state) -> None:
+        velocity = particles.velocities(state)
+        energy = 0.5 * state.mass @ np.einsum("ij,ij->i", velocity, velocity)
+        self._pass(way, np.concatenate(([state.mass.sum()], state.mass @ velocity, [energy])))
 
 
-def beyond(case, state, share: float) -> np.ndarray:
-    """Mask of the particles out of the domain through an open side, by `share` of its length or more; upstream of a
-    nozzle nobody is out."""
-    gone = np.zeros(len(state.x), bool)
+def ends(case, share: float) -> tuple[tuple, tuple]:
+    """Lower and upper places (3,) [m] past which one is out of the domain through an open side, by `share` of its
+    length or more; infinite where no side is open."""
+    found = [-math.inf] * 3, [math.inf] * 3
     for axis, end in open_sides(case):
-        place, size = particles.axes(state)[axis], case.domain.size[axis]
-        gone |= place > (1.0 + share) * size if end else place < -share * size - math.ulp(0.0)
-    return gone & (state.kind == LIQUID)
+        size = case.domain.size[axis]
+        found[end][axis] = (1.0 + share) * size if end else -share * size - math.ulp(0.0)
+    return tuple(map(tuple, found))
+
+
+@parallel
+def beyond(s, lower, upper, out):
+    """out (N,): liquid past these places; the number of it. Upstream of a nozzle nobody is out."""
+    found = 0.0
+    for i in prange(len(s.x)):
+        past = s.x[i] < lower[0] or s.x[i] > upper[0] or s.y[i] < lower[1] or s.y[i] > upper[1]
+        if len(s.z) > 0:
+            past = past or s.z[i] < lower[2] or s.z[i] > upper[2]
+        out[i] = past and s.kind[i] == LIQUID
+        found += 1.0 if out[i] else 0.0
+    return found
+
+
+@parallel
+def leave(label, many, outside, waiting, far, gone, lost, kept):
+    """gone (N,): particles of whole pieces that leave: most of them is out, and none waits; lost (N,): these and what
+    is far out; kept (N,): the others. Of each label (N,) there are as many, and as many outside, and that wait, as
+    sdph.engine.arrays.starts has it. The number of those gone, and of the others that are lost."""
+    whole = cut = 0.0
+    for i in prange(len(label)):
+        first, past = label[i], label[i] + 1
+        most = outside[past] - outside[first] > 0.5 * (many[past] - many[first])
+        gone[i] = most and waiting[past] == waiting[first]
+        lost[i] = gone[i] or far[i]
+        kept[i] = not lost[i]
+        whole += 1.0 if gone[i] else 0.0
+        cut += 1.0 if lost[i] and not gone[i] else 0.0
+    return whole, cut

@@ -3,17 +3,78 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy
+from numba import prange
 
+from sdph.engine import arrays
 from sdph.engine import state as particles
+from sdph.engine.cells import solid_of
+from sdph.engine.rows import Neighbours, entry
+from sdph.laws.compiled import parallel
 from sdph.laws.sheets import diameter_of
 
 
 def labels(places, distance: float) -> np.ndarray:
     """Number (N,) of the piece of each place (N, 3) [m]: two are of one where they are nearer than `distance` [m]."""
-    pairs = scipy.spatial.cKDTree(places).query_pairs(distance, output_type="ndarray")
-    graph = scipy.sparse.coo_array((np.ones(len(pairs), np.int8), pairs.T), shape=(len(places),) * 2)
-    return scipy.sparse.csgraph.connected_components(graph, directed=False)[1]
+    return np.unique(joined(tuple(map(np.ascontiguousarray, places.T)), distance), return_inverse=True)[1]
+
+
+def joined(axes, distance: float):
+    """The least row (N,) of the piece of each place, arrays (N,) [m] by axis.
+
+    Each takes the least that it knows of its neighbours, and so does the row that it had taken before; then all take
+    what that row has, until nothing changes (Shiloach & Vishkin 1982, J. Algorithms 3, 57).
+    """
+    count, near = len(axes[0]), Neighbours(distance, skin=0.0)
+    kind = arrays.zeros(count, axes[0], np.int8)
+    order = near.by_cell(axes, solid_of(kind))
+    near.built = tuple(arrays.taken(axis, order) for axis in axes)
+    rows, label = near.relist(kind), arrays.copy(order)
+    place, found = (arrays.empty(count, order, np.int64) for _ in range(2))
+    invert(order, place)
+    while hook(rows, place, label):
+        jump(place, label)
+    put_back(order, label, found)
+    return found
+
+
+@parallel
+def invert(order, place):
+    """place (N,): where each row stands in an order (N,)."""
+    for n in prange(len(order)):
+        place[order[n]] = n
+
+
+@parallel
+def put_back(order, label, found):
+    """found (N,): label (N,) of what stands in an order (N,), row by row."""
+    for n in prange(len(order)):
+        found[order[n]] = label[n]
+
+
+@parallel
+def hook(rows, place, label):
+    """label (N,): the least among its neighbours, and so for the row that it was; the number of those that changed.
+    Threads may be late to know of each other: that takes another round."""
+    changed = 0.0
+    for i in prange(len(label)):
+        own = least = label[i]
+        for k in range(rows.number[i]):
+            least = min(least, label[entry(rows, i, k)])
+        if least < own:
+            label[i] = least
+            label[place[own]] = min(least, label[place[own]])
+            changed += 1.0
+    return changed
+
+
+@parallel
+def jump(place, label):
+    """label (N,): that of the row which it is, and so on, until it is its own."""
+    for i in prange(len(label)):
+        own, over = label[i], label[place[label[i]]]
+        while over != own:
+            own, over = over, label[place[over]]
+        label[i] = own
 
 
 def of(state, label, case) -> list[dict]:

@@ -12,10 +12,9 @@ from pathlib import Path
 
 import numpy as np
 
-from sdph.engine import state as particles
 from sdph.engine.ledger import ratio, vector
-from sdph.engine.state import LIQUID
 from sdph.engine.sums import Sums
+from sdph.methods.mps import alone
 from sdph.methods.mps.method import WORKS
 from sdph.methods.mps.openings import IN, OUT
 
@@ -29,7 +28,7 @@ class MpsLedger(Sums):
     KEPT = (*Sums.KEPT, "works", "impulses", "passed", "momentum", "moved")  # see sdph.engine.kept
     AMOUNTS = AMOUNTS
 
-    def __init__(self, path: Path):
+    def __init__(self, path: Path | None):
         super().__init__(path)
         # of the stepper, at the last row
         self.works, self.impulses, self.passed = np.zeros(len(WORKS)), np.zeros((2, 3)), np.zeros((2, 5))
@@ -79,11 +78,7 @@ def _passed(stepper) -> np.ndarray:
 
 def totals(stepper) -> dict[str, float]:
     """Columns of the liquid that there is now, upstream of nozzles left out."""
-    inside = stepper.state.kind == LIQUID
-    s = particles.take(stepper.state, inside)
-    row = {"particles": len(s.x), "mass_kg": float(s.mass.sum())}
-    row |= vector("momentum", s.mass @ particles.velocities(s))
-    return row | {
-        "kinetic_energy_J": particles.energy_of_motion(s),
-        "cohesion_energy_J": float(stepper.energy[inside].sum()),
-    }
+    s = stepper.state
+    many, mass, *momentum, motion, bound = map(float, alone.summed(alone.add_all, 7, len(s.x), s, stepper.energy))
+    row = {"particles": int(many), "mass_kg": mass} | vector("momentum", momentum)
+    return row | {"kinetic_energy_J": motion, "cohesion_energy_J": bound}

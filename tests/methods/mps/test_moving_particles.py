@@ -58,11 +58,9 @@ def test_viscosity_is_exact_for_quadratic_fields(dimensions):
 def test_the_matrix_is_symmetric_and_outweighed_by_its_diagonal():
     stepper, _ = block(lambda r: 0.0 * r)
     matrix = equations.matrix(*stepper.around, stepper.number, stepper.surface)
-    whole = np.diag(matrix.diagonal)
-    for i in range(len(whole)):
-        whole[i, matrix.column[matrix.start[i] : matrix.start[i + 1]]] = -matrix.value[
-            matrix.start[i] : matrix.start[i + 1]
-        ]
+    whole, links = np.diag(matrix.diagonal), matrix.links
+    for i, (first, many) in enumerate(zip(links.start, links.number)):
+        whole[i, links.entries[first : first + many]] = -matrix.value[first : first + many]
     np.testing.assert_allclose(whole, whole.T, rtol=1e-12)
     others = np.abs(whole).sum(axis=1) - matrix.diagonal
     assert np.all(matrix.diagonal > others * (1.0 - 1e-12))
