@@ -69,7 +69,8 @@ def measured(dimensions: int, count: float) -> None:
     ready = time.perf_counter()
     particles, liquid = len(stepper.state.x), len(stepper.active)
     print(
-        f"{dimensions}-D: {particles} particles, {liquid} of liquid; made in {made - begun:.1f} s, ready in {ready - made:.1f} s"
+        f"{dimensions}-D: {particles} particles, {liquid} of liquid; made in {made - begun:.1f} s, "
+        f"ready in {ready - made:.1f} s"
     )
 
     def steps() -> int:

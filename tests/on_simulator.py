@@ -35,6 +35,20 @@ def simulated(*words, file=__file__, **more) -> subprocess.CompletedProcess:
     return subprocess.run(command, capture_output=True, text=True, timeout=900, check=False, env=around)
 
 
+def on_device(folder, *given: str):
+    """The folder of a run of sdph on a device, a simulated one where there is none."""
+    from sdph.cli import main
+    from sdph.engine.gpu import found
+
+    words = (*given, *(() if "--resume" in given else ("--out", str(folder))), "--device", "cuda")
+    if found.missing():
+        done = simulated(*words)
+        assert done.returncode == 0, done.stderr[-3000:]
+    else:
+        assert main(list(words)) == 0
+    return folder
+
+
 if __name__ == "__main__":
     from sdph import cli
 

@@ -12,8 +12,8 @@ from numba import prange
 from sdph.laws.compiled import parallel, serial
 
 card = None  # the device, once it is begun
-IN_MEMORY = np.zeros(0)  # an array that lies there, to have others beside it
 SPARE = 16  # one row in so many is kept free by a Room; our choice
+IN_MEMORY = np.zeros(0)  # an array that lies there, to have others beside it
 
 
 def here(array) -> bool:

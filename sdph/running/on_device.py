@@ -6,15 +6,17 @@ from sdph import effects
 from sdph.engine.gpu import found
 from sdph.schema import CaseError
 
-# effects of a liquid whose loops, and what is between them, run there
-EFFECTS = (
-    "density_diffusion", "frame", "gravity", "laminar_viscosity", "liquid_damping", "shifting", "tank", "xsph",
-)  # fmt: skip
-OF_MPS = "free_energy_tension", "gravity", "inflow", "laminar_viscosity", "outflow", "tank"  # of moving particles
-OF_GRAINS = (
-    "artificial_viscosity", "conduction", "drag", "friction", "gas_pressure", "grain_drag", "granular_pressure",
-    "granular_temperature", "granular_viscosity", "gravity", "heat", "walls",
-)  # fmt: skip
+# by matter, effects whose loops, and what is between them, run there
+EFFECTS = {
+    "liquid": (
+        "density_diffusion", "frame", "gravity", "laminar_viscosity", "liquid_damping", "shifting", "tank", "xsph",
+    ),
+    "mps": ("free_energy_tension", "gravity", "inflow", "laminar_viscosity", "outflow", "tank"),
+    "grains": (
+        "artificial_viscosity", "conduction", "drag", "friction", "gas_pressure", "grain_drag", "granular_pressure",
+        "granular_temperature", "granular_viscosity", "gravity", "heat", "walls",
+    ),
+}  # fmt: skip
 
 
 def refuse(case, processes: int = 1) -> None:
@@ -32,23 +34,19 @@ def _unknown(case, processes: int) -> str:
     """Reason why a case is not taken there; empty where it is."""
     if processes > 1:
         return f"a device is of one process, and these are {processes}"
-    known = {"liquid": EFFECTS, "mps": OF_MPS, "grains": OF_GRAINS}.get(case.moved_by(case.matters[0]), ())
+    known = EFFECTS.get(case.moved_by(case.matters[0]), ())
     if not known or len(case.matters) > 1:
         return "only a liquid alone, or grains in a gas, are taken to a device"
     if left := sorted(set(case.effects) - set(known)):
         return f"{left[0]} is not taken to a device; known: {', '.join(known)}"
-    if case.grains:
-        return _of_grains(case)
     if other := next((name for name, own in case.nozzles.items() if own.shape != "annulus"), ""):
         return f"nozzles.{other} is no annulus: others are not taken to a device"
     if case.run.forces:
         return "run.forces is not told of a device"
-    return ""
+    return _of_grains(case) if case.grains else ""
 
 
 def _of_grains(case) -> str:
-    if case.run.forces:
-        return "run.forces is not told of a device"
     if not effects.moving(case):
         return "grains that stay where they are are not taken to a device"
     own = case.parameters.get("walls")

@@ -14,6 +14,7 @@ from sdph.engine.gpu import found
 from sdph.running import on_device as taken
 from tests import on_simulator
 from tests.of_ranks import particles
+from tests.on_simulator import on_device
 
 SETS = {  # name -> scene, end [s] of five to fifteen steps, keys
     "front": ("dam_break", "2e-3", "resolution.spacing_mm=9.525", "domain.size_m=[0.13335, 0.13335]",
@@ -40,16 +41,6 @@ def words(name: str, *more: str) -> list[str]:
 
 def on_cpu(folder: Path, *given: str) -> Path:
     assert main([*given, "--out", str(folder)]) == 0
-    return folder
-
-
-def on_device(folder: Path, *given: str) -> Path:
-    words = (*given, *(() if "--resume" in given else ("--out", str(folder))), "--device", "cuda")
-    if found.missing():
-        done = on_simulator.simulated(*words)
-        assert done.returncode == 0, done.stderr[-3000:]
-    else:
-        assert main(list(words)) == 0
     return folder
 
 
@@ -167,4 +158,4 @@ def test_what_is_taken_is_what_is_tested():
     ran = set()
     for scene, _, *keys in SETS.values():
         ran |= set(read.load(paths.PACKAGE / "scenes" / scene / "case.toml", tuple(keys)).effects)
-    assert ran == set(taken.EFFECTS) and "NUMBA_ENABLE_CUDASIM" not in os.environ
+    assert ran == set(taken.EFFECTS["liquid"]) and "NUMBA_ENABLE_CUDASIM" not in os.environ

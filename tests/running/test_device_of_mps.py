@@ -6,12 +6,13 @@ import shutil
 
 import numpy as np
 import pytest
-from test_device import OF_DEVICE, on_cpu, refusal, simulated
+from test_device import OF_DEVICE, on_cpu, refusal
 
 from sdph.cli import main
 from sdph.methods.mps.method import WORKS
-from sdph.running import on_device
+from sdph.running import on_device as taken
 from tests.of_ranks import particles
+from tests.on_simulator import on_device
 
 # a nozzle of two rings, and a drop that flies out of the domain, whose end the sheet passes
 SHEET = (
@@ -68,7 +69,7 @@ def alike(ours, theirs) -> None:
 
 @pytest.mark.parametrize("name", SETS)
 def test_moving_particles_go_on_a_device_as_on_the_processor(tmp_path, name):
-    cpu, cuda = on_cpu(tmp_path / "cpu", *words(name)), simulated(tmp_path / "cuda", *words(name))
+    cpu, cuda = on_cpu(tmp_path / "cpu", *words(name)), on_device(tmp_path / "cuda", *words(name))
     alike(cuda, cpu)
     assert min(summary(cuda)[key] for key in OF_DEVICE) > 0.0
     if name == "sheet":
@@ -79,10 +80,10 @@ def test_moving_particles_go_on_a_device_as_on_the_processor(tmp_path, name):
 
 def test_a_run_goes_on_from_the_processor_on_a_device_and_back(tmp_path):
     whole, later = words("sheet", "1.5e-5"), ("--until", "2.5e-5")
-    cpu, cuda = on_cpu(tmp_path / "cpu", *whole), simulated(tmp_path / "cuda", *whole)
+    cpu, cuda = on_cpu(tmp_path / "cpu", *whole), on_device(tmp_path / "cuda", *whole)
     for source, copy in ((cpu, "cpu_cuda"), (cuda, "cuda_cpu"), (cpu, "cpu_cpu")):
         shutil.copytree(source, tmp_path / copy)
-    simulated(tmp_path / "cpu_cuda", "run", "--resume", str(tmp_path / "cpu_cuda"), *later)
+    on_device(tmp_path / "cpu_cuda", "run", "--resume", str(tmp_path / "cpu_cuda"), *later)
     for copy in ("cuda_cpu", "cpu_cpu"):
         assert main(["run", "--resume", str(tmp_path / copy), *later, "--device", "cpu"]) == 0
     for copy in ("cpu_cuda", "cuda_cpu"):
@@ -113,4 +114,4 @@ def test_what_is_taken_is_what_is_tested():
     ran = set()
     for scene, _, *keys in SETS.values():
         ran |= set(read.load(paths.PACKAGE / "scenes" / scene / "case.toml", tuple(keys)).effects)
-    assert ran == set(on_device.OF_MPS)
+    assert ran == set(taken.EFFECTS["mps"])

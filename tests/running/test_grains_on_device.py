@@ -11,9 +11,9 @@ import pytest
 import pyvista
 
 from sdph.cli import main
-from sdph.running import on_device
-from tests import on_simulator
+from sdph.running import on_device as taken
 from tests.of_ranks import particles
+from tests.on_simulator import on_device
 
 EMBEDDED = 'coupling.gas="embedded"'
 FEW = ("resolution.neighbour_skin=0.01", "friction.onset=0.55")  # rows hold for a millimetre
@@ -44,13 +44,6 @@ def words(name: str, *more: str) -> list[str]:
 
 def on_cpu(folder: Path, *given: str) -> Path:
     assert main([*given, "--out", str(folder)]) == 0
-    return folder
-
-
-def simulated(folder: Path, *given: str) -> Path:
-    more = () if "--resume" in given else ("--out", str(folder))
-    done = on_simulator.simulated(*given, *more, "--device", "cuda")
-    assert done.returncode == 0, done.stderr[-3000:]
     return folder
 
 
@@ -86,7 +79,7 @@ def order(folder: Path, which: int) -> list[int]:
 
 @pytest.mark.parametrize("name", SETS)
 def test_grains_go_on_a_device_as_on_the_processor(tmp_path, name):
-    ours, theirs = simulated(tmp_path / "cuda", *words(name)), on_cpu(tmp_path / "cpu", *words(name))
+    ours, theirs = on_device(tmp_path / "cuda", *words(name)), on_cpu(tmp_path / "cpu", *words(name))
     alike(ours, theirs)
     assert order(ours, -1) == order(theirs, -1)
     told = json.loads((ours / "summary.json").read_text())
@@ -95,10 +88,10 @@ def test_grains_go_on_a_device_as_on_the_processor(tmp_path, name):
 
 def test_a_run_goes_on_from_the_processor_on_a_device_and_back(tmp_path):
     whole, later = words("bed"), ("--until", "1.5e-3")
-    cpu, cuda = on_cpu(tmp_path / "cpu", *whole), simulated(tmp_path / "cuda", *whole)
+    cpu, cuda = on_cpu(tmp_path / "cpu", *whole), on_device(tmp_path / "cuda", *whole)
     for source, copy in ((cpu, "cpu_cuda"), (cuda, "cuda_cpu"), (cpu, "cpu_cpu")):
         shutil.copytree(source, tmp_path / copy)
-    simulated(tmp_path / "cpu_cuda", "run", "--resume", str(tmp_path / "cpu_cuda"), *later)
+    on_device(tmp_path / "cpu_cuda", "run", "--resume", str(tmp_path / "cpu_cuda"), *later)
     for copy in ("cuda_cpu", "cpu_cpu"):
         assert main(["run", "--resume", str(tmp_path / copy), *later, "--device", "cpu"]) == 0
     for copy in ("cpu_cuda", "cuda_cpu"):
@@ -132,4 +125,4 @@ def test_what_is_taken_is_what_is_tested():
     ran = set()
     for scene, _, *keys in SETS.values():
         ran |= set(read.load(paths.PACKAGE / "scenes" / scene / "case.toml", tuple(keys)).effects)
-    assert ran == set(on_device.OF_GRAINS)
+    assert ran == set(taken.EFFECTS["grains"])

@@ -185,6 +185,23 @@ class Card:
         self._launch(sorting.tidy, LOOP, start, rows)
         return rows
 
+    def joined(self, one, other):
+        whole = self.empty(len(one) + len(other), one.dtype)
+        if len(one):
+            whole[: len(one)].copy_to_device(one)
+        if len(other):
+            whole[len(one) :].copy_to_device(other if lies_there(other) else self.send(other))
+        return whole
+
+    def dots(self, a, others: tuple, sums, places: tuple, room) -> None:
+        """Sums of a b for each b of others, at their places among sums, with work arrays of a room; nothing comes to
+        the host."""
+        columns = len(others)
+        part, fewer = (room(f"{columns} of {size}", (math.prod(size), columns), a) for size in (PARTS, SUMS))
+        self._launch(products.multiply, PARTS, a, others, part)
+        self._launch(sorting.sum_parts, SUMS, part, fewer)
+        self._launch(products.put, (1, 1), fewer, sums, places)
+
     def fill(self, array, value) -> None:
         if array.size:
             self._launch(sorting.fill, LOOP, array.reshape(array.size), value)
@@ -204,23 +221,6 @@ class Card:
     def launch(self, kernel, *arguments) -> None:
         """Run a kernel over all values."""
         self._launch(kernel, LOOP, *map(self._along, arguments))
-
-    def joined(self, one, other):
-        whole = self.empty(len(one) + len(other), one.dtype)
-        if len(one):
-            whole[: len(one)].copy_to_device(one)
-        if len(other):
-            whole[len(one) :].copy_to_device(other if lies_there(other) else self.send(other))
-        return whole
-
-    def dots(self, a, others: tuple, sums, places: tuple, room) -> None:
-        """Sums of a b for each b of others, at their places among sums, with work arrays of a room; nothing comes to
-        the host."""
-        columns = len(others)
-        part, fewer = (room(f"{columns} of {size}", (math.prod(size), columns), a) for size in (PARTS, SUMS))
-        self._launch(products.multiply, PARTS, a, others, part)
-        self._launch(sorting.sum_parts, SUMS, part, fewer)
-        self._launch(products.put, (1, 1), fewer, sums, places)
 
 
 def _there(value) -> bool:

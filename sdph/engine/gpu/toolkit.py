@@ -24,8 +24,9 @@ def device(function):
 
 
 def kernel(function):
-    """A kernel, compiled when it is first launched for arguments of these types, and kept on disk."""
-    return cuda.jit(function) if SIMULATED else cuda.jit(cache=True)(function)
+    """A kernel, compiled when it is first launched for arguments of these types; kept on disk, unless it is one of
+    several of the same text."""
+    return cuda.jit(function) if SIMULATED or function.__closure__ else cuda.jit(cache=True)(function)
 
 
 class Launcher:
