@@ -171,7 +171,7 @@ def operable(array) -> Operable:
 
 
 def applied(ufunc, given, out=None, where=True):
-    """What an operation gives of arrays and numbers, into `out` where it is given, where a mask is set."""
+    """Result of an operation on arrays and numbers, in `out` where it is given, where a mask is set."""
     deep = max(np.ndim(own) if not isinstance(own, Operable) else own.ndim for own in given)
     tables = [_operand(own, deep) for own in given]
     if out is None:
