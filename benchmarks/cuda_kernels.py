@@ -9,12 +9,17 @@ threads of a multiprocessor over the most that it holds, in blocks of 128.
 """
 
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 
+from coupling import by_cell
+from coupling.transfer import Transfer
 from sdph import scenes
 from sdph.case import read as cases
+from sdph.case.gas_cells import cell_edges
 from sdph.engine.gpu import assembled
+from sdph.exchange.exchange import Exchange
 from sdph.methods.grains.grains import Grains
 from sdph.running.alone import Alone
 from sdph.study.explain.tables import table
@@ -51,6 +56,32 @@ def loops_of(scene: str, *keys: str) -> list:
     return list(heard.loops)
 
 
+def of_grains(case) -> None:
+    """Loops of grains that are on a device: those of a window, in a gas at rest."""
+    own, dt = Grains(case), 1e-6
+    own.start()
+    own.begin()
+    centres = np.array(np.meshgrid(*map(middles, cell_edges(case)), indexing="ij")).reshape(case.dimensions, -1).T
+    centres = np.pad(centres, ((0, 0), (0, 3 - case.dimensions)))
+    mesh = SimpleNamespace(centres=centres, volumes=np.ones(len(centres)), depth=1.0, dimensions=case.dimensions)
+    fields = {name: np.ones(len(centres)) for name in ("density", "temperature")} | {"velocity": np.zeros_like(centres)}
+    gas = SimpleNamespace(fields=fields | {"power": np.zeros(len(centres))}, time=0.0)
+    exchange = Exchange(case, mesh, own.parameters)
+    transfer = Transfer(mesh, case.smoothing_length)
+    transfer.weights(own.places() + 1e3)  # outside of the mesh
+    weights = by_cell.listed(transfer.weights(own.places()))
+    handed = exchange.hand(own.state, weights, (weights, own.share_inside()), gas, dt)
+    taken = exchange.take(own.state, handed, gas)
+    by_cell.deposit(weights, handed.velocity, np.zeros((weights.total, 3)))
+    own.force(taken.warming, np.zeros_like(handed.velocity), handed.damping)
+    own.advance(dt)
+
+
+def middles(edges):
+    """Middles of cells between edges."""
+    return 0.5 * (edges[1:] + edges[:-1])
+
+
 class Followed(assembled.Heard):
     """Loops that were called; all of them are run."""
 
@@ -69,16 +100,6 @@ def moving(scene: str) -> list:
         for _ in range(windows):
             run.window()
     return list(heard.loops)
-
-
-def of_grains(case) -> None:
-    """Loops of grains that are on a device: those of a window's sub-steps."""
-    own = Grains(case)
-    own.start()
-    own.begin()
-    zeros = np.zeros(len(own.state.x))
-    own.force(zeros, np.zeros((len(zeros), 3)), zeros)
-    own.advance(1e-6)
 
 
 def main(names) -> None:

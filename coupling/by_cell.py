@@ -1,4 +1,4 @@
-"""Deposits of a device into cells: a thread a cell, which adds up in the order of the particles, as the processor does."""
+"""Deposits of a device into cells: a thread a cell, which adds up in the order of the particles, as processors do."""
 
 from __future__ import annotations
 

@@ -161,7 +161,7 @@ def _spline(q):
 def _around(bins, a, value):
     """First and one past the last bin to look at along an axis, both from 0 to the number of bins, however far `value`
     is."""
-    place = math.floor((value - bins.low[a]) / bins.size[a])
+    place = int(math.floor((value - bins.low[a]) / bins.size[a]))  # noqa: RUF046 - a float on a device
     first = min(max(place - 1, 0), bins.shape[a])
     return first, max(min(place + 2, bins.shape[a]), first)
 

@@ -90,6 +90,7 @@ HARMLESS = {
     "sdph/engine/arrays.py:positive": "the same, of whole arrays",
     "sdph/engine/gpu/sorting.py:*": "the largest of all, ends of runs, and the same",
     "sdph/engine/gpu/assembled.py:occupancy": "threads that there are",
+    "sdph/engine/gpu/operators.py:*": "what operators of numpy mean, on a device",
     "sdph/engine/linear.py:_parts": "indices of a sum's parts",
     "sdph/methods/mps/equations.py:look": "the largest of all",
     "sdph/methods/mps/alone.py:add_*": "indices of a sum's parts",

@@ -17,7 +17,7 @@ def share(state, held) -> float:
     inside = state.kind == GRAIN
     if len(state.copy):
         inside &= state.copy == 0
-    return here().mean(held[inside])
+    return here().mean(held if inside.all() else held[inside])
 
 
 def capped(p, state) -> dict[str, float]:

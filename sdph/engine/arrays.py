@@ -6,6 +6,8 @@ not numpy's has `card`'s functions done to it (sdph.engine.gpu.card).
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numba import prange
 
@@ -77,6 +79,11 @@ def chosen(mask):
 def total(values):
     """Sums (k,) of the rows of values (N, k), in memory."""
     return values.sum(axis=0) if here(values) else card.total(values)
+
+
+def exact(values) -> float:
+    """Sum of values (N,) without round-off."""
+    return math.fsum(values.tolist()) if here(values) else card.exact(values)
 
 
 def ends(values) -> tuple[float, float]:

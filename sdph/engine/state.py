@@ -282,7 +282,7 @@ def released(state: State) -> State:
 
 def count(state: State) -> int:
     """Particles that there are, less those upstream of a nozzle."""
-    return int((arrays.brought(state.kind) != INFLOW).sum())
+    return int((state.kind != INFLOW).sum())
 
 
 def grains(state: State) -> State:

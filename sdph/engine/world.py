@@ -74,7 +74,7 @@ class World:
 
     def exact(self, values) -> float:
         """Sum of the values (n,) of all processes, each of them counted to its last digit."""
-        return math.fsum(values.tolist()) if self.number == 1 else float(self.total(values))
+        return arrays.exact(values) if self.number == 1 else float(self.total(values))
 
     def total(self, values):
         """Sum (k,) of all rows (n, k), or of all values (n,), of all processes; with several of them it depends neither

@@ -287,8 +287,9 @@ class Exchange:
         pulled = gravity + electric_field.acceleration(field, state)
         if len(force):
             pulled = pulled + force / state.mass[:, None]
-        means = lengths(pulled)[felt], 1.0 / damping[felt], np.maximum(lengths(own), slip)[felt]
-        return settling(self.case, *(self.world.average(each, state.mass[felt]) for each in means))
+        means = lengths(pulled), 1.0 / damping, np.maximum(lengths(own), slip), state.mass
+        *means, mass = means if felt.all() else (each[felt] for each in means)
+        return settling(self.case, *(self.world.average(each, mass) for each in means))
 
     def handed_heat(self, handed: Handed) -> float:
         """Heat of motion [J] that the gas was handed."""

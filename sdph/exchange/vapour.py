@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from dataclasses import replace
 
 import numpy as np
@@ -47,11 +48,13 @@ class Vapour:
         vapour hinders, becomes the mean over it. The state is that after
         torn droplets have `thrown` their vapour, where there are any.
 
-        The vapour in each cell is taken as it would be at the window's end if no flow carried it: fast exchange
-        saturates a cell and does not overshoot.
+        Vapour and temperature in each cell are taken as they would be at the window's end if no flow carried them: fast
+        exchange saturates a cell, or cools it to the droplets, and does not overshoot.
         """
         p, count = self.p, len(state.x)
         flow, surface = np.empty(count), np.empty(count)
+        if not self.case.coupling.one_way:
+            seen = self._cooled(state, weights, gas_state, seen, conductance * dt)
         around = seen.slip, self.density(state, seen), seen.temperature
         droplet_loss.survey(p, self.sizes_p, state, *around, dt, conductance, flow, surface)
         concentration = gather(weights, vapour_concentration(p, gas_state))
@@ -112,6 +115,16 @@ class Vapour:
         room = self.cells.room(weights, state.mass * (state.kind == GRAIN)) * self.cells.volumes
         cells = vapour_concentration(self.p, gas_state)
         return gather(weights, (room * cells + deposited[:, 1]) / (room + deposited[:, 0]))
+
+    def _cooled(self, state, weights, gas_state, seen, exchanged) -> Seen:
+        """The gas as the particles see it once they have exchanged so much heat (N,) [J/K] with the cells."""
+        deposited = self.cells.sums(weights, np.stack((exchanged, exchanged * state.temperature), axis=1))
+        gas = gas_state.fields["density"] * self.cells.room(weights, state.mass * (state.kind == GRAIN))
+        capacity = gas * self.cells.volumes * self.case.gas.heat_capacity
+        cells = (capacity * gas_state.fields["temperature"] + deposited[:, 1]) / (capacity + deposited[:, 0])
+        found = copy.copy(seen)
+        found.temperature = gather(weights, cells)
+        return found
 
     def pace(self, state, weights, gas_state, seen) -> float:
         """Vapour that comes into a cell now, over the gas in it [1/s]; the largest of all cells."""

@@ -35,7 +35,7 @@ def cubic_spline_gradient(r, h, sigma):
     """(dW/dr)/r [1/m^(dims+2)] of the cubic spline: grad_i W = r_ij * this. Finite (-3 sigma/h^2) at r = 0."""
     q = r / h
     far = max(2.0 - q, 0.0)
-    outer = -0.75 * far * far / max(q, TINY)  # not taken at r = 0
+    outer = -0.75 * far * far / (q + TINY)  # not taken at r = 0
     return sigma / (h * h) * (2.25 * q - 3.0 if q < 1.0 else outer)
 
 

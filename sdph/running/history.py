@@ -16,7 +16,9 @@ def row(simulation) -> dict[str, float]:
     """All columns of one instant."""
     columns = {"time_s": simulation.time}
     for name, own in simulation.case.probes.items():
-        columns |= {f"{name}_{key}": value for key, value in probe(simulation, own.at, own.fields).items()}
+        with simulation.grains.ashore():
+            found = probe(simulation, own.at, own.fields)
+        columns |= {f"{name}_{key}": value for key, value in found.items()}
     return columns | simulation.grains.row()
 
 

@@ -6,7 +6,7 @@ from sdph import effects
 from sdph.engine.gpu import found
 from sdph.schema import CaseError
 
-# by matter, effects whose loops, and what is between them, run there; of grains what acts between windows stays here
+# by matter, effects whose loops, and what is between them, run there
 EFFECTS = {
     "liquid": (
         "density_diffusion", "frame", "gravity", "laminar_viscosity", "liquid_damping", "shifting", "tank", "xsph",

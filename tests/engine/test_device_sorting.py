@@ -3,6 +3,7 @@
 The tests are functions of this file that a process of its own runs with NUMBA_ENABLE_CUDASIM=1.
 """
 
+import math
 import sys
 from pathlib import Path
 
@@ -63,6 +64,8 @@ def extremes(card) -> None:
         twin = card.copy(there)
         assert (card.bring(twin) == values).all() and twin is not there
         line = values[:, 0].copy()
+        wide = line * 10.0 ** DRAW.integers(-8, 8, many)
+        assert card.exact(card.send(wide)) == pytest.approx(math.fsum(wide), rel=1e-15)
         assert arrays.ends(card.send(line)) == arrays.ends(line)
     assert card.bring(card.filled((2, 3), np.int8, 7)).tolist() == [[7] * 3] * 2
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import functools
 import math
+import types
 
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
@@ -16,7 +17,7 @@ from sdph.engine import arrays
 from sdph.engine.gpu.toolkit import cuda, device, kernel, kind_of_arrays, lies_there, taken_for
 
 FORMS = {
-    np.positive: lambda a: a, np.negative: lambda a: -a, np.absolute: lambda a: abs(a), np.sqrt: math.sqrt,
+    np.positive: lambda a: a, np.negative: lambda a: -a, np.absolute: lambda a: abs(a), np.sqrt: lambda a: math.sqrt(a),
     np.isnan: lambda a: a != a, np.invert: lambda a: not a, np.add: lambda a, b: a + b, np.subtract: lambda a, b: a - b,
     np.multiply: lambda a, b: a * b, np.divide: lambda a, b: a / b, np.power: lambda a, b: a**b,
     np.minimum: lambda a, b: min(a, b), np.maximum: lambda a, b: max(a, b), np.equal: lambda a, b: a == b,
@@ -24,7 +25,7 @@ FORMS = {
     np.greater: lambda a, b: a > b, np.greater_equal: lambda a, b: a >= b, np.bitwise_and: lambda a, b: a & b,
     np.bitwise_or: lambda a, b: a | b,
 }  # fmt: skip
-HANDLED = {}  # numpy's function -> ours
+HANDLED = {}  # numpy's function -> ours: those of sdph.engine.gpu.functions, once a device is begun
 
 
 @device
@@ -36,28 +37,27 @@ def at(own, r, c):
     return table[r if table.shape[0] > 1 else 0, c if table.shape[1] > 1 else 0]
 
 
+def _of_one(a, b, where, out):
+    for n in range(cuda.grid(1), out.size, cuda.gridsize(1)):
+        r, c = n // out.shape[1], n % out.shape[1]
+        if len(where) == 0 or at(where, r, c):
+            out[r, c] = form__(at(a, r, c))  # noqa: F821 - a global that `_kernel_of` gives
+
+
+def _of_two(a, b, where, out):
+    for n in range(cuda.grid(1), out.size, cuda.gridsize(1)):
+        r, c = n // out.shape[1], n % out.shape[1]
+        if len(where) == 0 or at(where, r, c):
+            out[r, c] = form__(at(a, r, c), at(b, r, c))  # noqa: F821
+
+
 @functools.cache
 def _kernel_of(ufunc):
-    """Kernel of an operation: out where a mask, if any, is set."""
-    own = device(FORMS[ufunc])
-
-    if ufunc.nin == 1:
-
-        def each(a, b, where, out):
-            for n in range(cuda.grid(1), out.size, cuda.gridsize(1)):
-                r, c = n // out.shape[1], n % out.shape[1]
-                if len(where) == 0 or at(where, r, c):
-                    out[r, c] = own(at(a, r, c))
-    else:
-
-        def each(a, b, where, out):
-            for n in range(cuda.grid(1), out.size, cuda.gridsize(1)):
-                r, c = n // out.shape[1], n % out.shape[1]
-                if len(where) == 0 or at(where, r, c):
-                    out[r, c] = own(at(a, r, c), at(b, r, c))
-
-    each.__name__ = ufunc.__name__
-    return kernel(each)
+    """Kernel of an operation: out where a mask, if any, is set. It has a name of its own, by which it is kept."""
+    own, name = _of_one if ufunc.nin == 1 else _of_two, f"of_{ufunc.__name__}"
+    made = types.FunctionType(own.__code__, globals() | {"form__": device(FORMS[ufunc])}, name)
+    made.__module__, made.__qualname__ = __name__, name
+    return kernel(made)
 
 
 @kernel
@@ -109,7 +109,7 @@ class Operable(NDArrayOperatorsMixin, kind_of_arrays()):
             return NotImplemented
         return product(*given) if ufunc is np.matmul else applied(ufunc, given, out[0], where)
 
-    def __array_function__(self, function, types, given, named):
+    def __array_function__(self, function, kinds, given, named):
         return HANDLED[function](*given, **named) if function in HANDLED else NotImplemented
 
     def __getitem__(self, key):
@@ -171,7 +171,7 @@ def operable(array) -> Operable:
 
 
 def applied(ufunc, given, out=None, where=True):
-    """What an operation gives of arrays and numbers, into `out` where it is given, where a mask is set."""
+    """Result of an operation on arrays and numbers, in `out` where it is given, where a mask is set."""
     deep = max(np.ndim(own) if not isinstance(own, Operable) else own.ndim for own in given)
     tables = [_operand(own, deep) for own in given]
     if out is None:
@@ -217,42 +217,6 @@ def rows(table):
     return out
 
 
-def handles(function):
-    """Decorator: what stands for a function of numpy."""
-
-    def note(own):
-        HANDLED[function] = own
-        return own
-
-    return note
-
-
-@handles(np.einsum)
-def einsum(form: str, *own):
-    if form == "ij,ij->i":
-        return rows(own[0] * own[1])
-    if form == "ij->j":
-        return own[0].sum(axis=0)
-    if form == "ij,ij->":
-        return (own[0] * own[1]).sum()
-    if form == "i,ij->j":
-        return (own[0][:, None] * own[1]).sum(axis=0)
-    assert form == "i,ij,ij->", form
-    return (own[0] * rows(own[1] * own[2])).sum()
-
-
-@handles(np.concatenate)
-def concatenate(tables, axis: int):
-    """Tables (N, k) beside each other."""
-    assert axis == 1
-    return stacked([column for table in tables for column in columns(table)])
-
-
-@handles(np.column_stack)
-def column_stack(own):
-    return concatenate([part if part.ndim == 2 else part[:, None] for part in own], axis=1)
-
-
 def stacked(own):
     """(N, m) of m arrays (N,)."""
     table = arrays.card.empty((len(own[0]), len(own)), np.float64)
@@ -269,50 +233,3 @@ def columns(table) -> list:
         if values.size:
             arrays.card.launch(take_column, table, c, values)
     return found
-
-
-@handles(np.zeros_like)
-def zeros_like(own):
-    return arrays.zeros(own.shape, own, own.dtype)
-
-
-@handles(np.empty_like)
-def empty_like(own):
-    return arrays.empty(own.shape, own, own.dtype)
-
-
-@handles(np.average)
-def average(own, weights):
-    return (own * weights).sum() / weights.sum()
-
-
-@handles(np.mean)
-def mean(own):
-    return own.mean()
-
-
-@handles(np.sum)
-def total(own):
-    return own.sum()
-
-
-@handles(np.flatnonzero)
-def flatnonzero(mask):
-    """Rows that are set, in memory."""
-    return arrays.brought(arrays.chosen(mask)).astype(np.int64)
-
-
-@handles(np.ndim)
-def ndim(own) -> int:
-    return own.ndim
-
-
-@handles(np.shape)
-def shape(own) -> tuple:
-    return own.shape
-
-
-@handles(np.copyto)
-def copyto(target, own) -> None:
-    """Copy as the simulator does."""
-    np.copyto(target, own.copy_to_host())

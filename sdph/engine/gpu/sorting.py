@@ -43,6 +43,23 @@ def sum_parts(values, part):
 
 
 @kernel
+def cut_parts(values, unit, bits, part):
+    """part (T, 3): sums of every T-th of values (N,), each cut into three whole numbers of `bits`, the first of which
+    counts units."""
+    t, first, second, third = cuda.grid(1), 0, 0, 0
+    for i in range(t, len(values), len(part)):
+        left = values[i] / unit
+        whole = math.floor(left)
+        first += int(whole)
+        left = (left - whole) * 2.0**bits
+        whole = math.floor(left)
+        second += int(whole)
+        rest = math.floor((left - whole) * 2.0**bits)
+        third += int(rest)
+    part[t, 0], part[t, 1], part[t, 2] = first, second, third
+
+
+@kernel
 def most_parts(values, part):
     """part (T, K): the largest of these rows."""
     t = cuda.grid(1)

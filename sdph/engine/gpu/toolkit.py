@@ -98,7 +98,7 @@ def _pack(values: tuple, kinds: list, words: list) -> None:
 
 def _of_array(array) -> tuple:
     """Kind of an array, and its bytes: two unused, values and bytes of one, place, shape, strides."""
-    kind = array.dtype.str, array.ndim
+    kind = array.dtype.str, array.ndim, array.is_c_contiguous()
     numbers = 0, 0, array.size, array.dtype.itemsize, array.device_ctypes_pointer.value or 0
     array.words = kind, struct.pack(f"<{5 + 2 * array.ndim}q", *numbers, *array.shape, *array.strides)
     return array.words
