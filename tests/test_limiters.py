@@ -97,7 +97,7 @@ HARMLESS = {
     "sdph/methods/mps/alone.py:*est": "the largest of all",
     "sdph/methods/mps/pieces.py:hook": "the least number of a row",
     "sdph/methods/mps/method.py:MpsStepper.__init__": "the widest reach",
-    "sdph/methods/mps/mps.py:Mps.summary": "means of a run without a step",
+    "sdph/methods/mps/mps.py:Mps._summary": "means of a run without a step",
     "sdph/methods/mps/holes.py:Holes._waves": "room for numbers of particles",
     "sdph/effects/liquids/perforation.py:way": "judges for `sdph explain`; no run takes anything from it",
     "sdph/methods/mps/sheet.py:*": "counts of pixels, and a length to draw a curve over",

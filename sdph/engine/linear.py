@@ -50,8 +50,8 @@ def solve(matrix: Matrix, right, x, tolerance: float, most: int, room=None) -> i
     sums = arrays.zeros(PLACES, x)
     multiply(*matrix, x, moved)
     begin(matrix.diagonal, right, moved, residual, smooth, along)
-    add(right, (right,), sums, (WHOLE,), room)
-    add(residual, (residual, smooth), sums, (LEFT, WEIGHT), room)
+    add(right, (right,), sums, (WHOLE,))
+    add(residual, (residual, smooth), sums, (LEFT, WEIGHT))
     whole = math.sqrt(arrays.brought(sums)[WHOLE])
     if _length(sums) <= tolerance * whole:
         return 0
@@ -59,9 +59,9 @@ def solve(matrix: Matrix, right, x, tolerance: float, most: int, room=None) -> i
         now = WEIGHT + (number + 1) % 2  # the weights of this iteration and of the next one stand there in turn
         then = 2 * WEIGHT + 1 - now
         multiply(*matrix, along, moved)
-        add(along, (moved,), sums, (MOVED,), room)
+        add(along, (moved,), sums, (MOVED,))
         go(matrix.diagonal, sums, now, along, moved, x, residual, smooth)
-        add(residual, (residual, smooth), sums, (LEFT, then), room)
+        add(residual, (residual, smooth), sums, (LEFT, then))
         if _length(sums) <= tolerance * whole:
             return number
         turn(sums, now, then, smooth, along)
@@ -112,10 +112,10 @@ def turn(sums, now, then, smooth, along):
         along[i] = along[i] * factor + smooth[i]
 
 
-def add(a, others: tuple, sums, places: tuple, room) -> None:
+def add(a, others: tuple, sums, places: tuple) -> None:
     """Sums of a b for each b of others, at their places among sums, in one order on any number of threads."""
     if not arrays.here(a):
-        arrays.card.dots(a, others, sums, places, room)
+        arrays.card.dots(a, others, sums, places)
         return
     for b, at in zip(others, places):
         sums[at] = dot(a, b)

@@ -315,7 +315,7 @@ def _fill(grid, begin, x, y, z, at_x, at_y, at_z, blind, idle, same, box, cutoff
 
 
 def laid(taken) -> tuple:
-    """How rows lie that take as many entries (N,), and where each begins, and the end."""
+    """Kind of rows that take as many entries (N,), where each begins, and the end."""
     if arrays.here(taken):
         return Rows, arrays.begins(taken)
     return Abreast, arrays.card.begins_abreast(taken, ABREAST)

@@ -1,5 +1,6 @@
-"""Moving particles on a device, which numba's simulator plays, go as on the processor: a sheet whose pieces leave,
-pools with walls and without, pressure without its equations; what is not taken there is refused in one line."""
+"""Moving particles on a device go as on the processor: a sheet whose pieces leave, pools with walls and without,
+pressure without its equations; what is not taken there is refused in one line. Without a device numba's simulator plays
+one."""
 
 import json
 import shutil

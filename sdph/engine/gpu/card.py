@@ -205,11 +205,9 @@ class Card:
             whole[len(one) :].copy_to_device(other if lies_there(other) else self.send(other))
         return whole
 
-    def dots(self, a, others: tuple, sums, places: tuple, room) -> None:
-        """Sums of a b for each b of others, at their places among sums, with work arrays of a room; nothing comes to
-        the host."""
-        columns = len(others)
-        part, fewer = (room(f"{columns} of {size}", (math.prod(size), columns), a) for size in (PARTS, SUMS))
+    def dots(self, a, others: tuple, sums, places: tuple) -> None:
+        """Sums of a b for each b of others, at their places among sums; nothing comes to the host."""
+        part, fewer = (self._room((math.prod(size), len(others))) for size in (PARTS, SUMS))
         self._launch(products.multiply, PARTS, a, others, part)
         self._launch(sorting.sum_parts, SUMS, part, fewer)
         self._launch(products.put, (1, 1), fewer, sums, places)

@@ -46,8 +46,8 @@ def pressed(stepper, dt: float) -> float:
     s, cloud = stepper.state, stepper.cloud
     c = sound_speed(stepper.case, stepper.p["free_energy_tension"])
     divergence, evened = (stepper.room(name, len(s.x), s.x) for name in ("divergence", "evened"))
-    diverge(*stepper.around, divergence)
-    even(*stepper.around, evened)
+    diverge(*stepper.within, divergence)
+    even(*stepper.within, evened)
     return c * c * condense(cloud, s, divergence, evened, c, dt, stepper.own.holds(stepper.case))
 
 

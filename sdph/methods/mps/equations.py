@@ -9,12 +9,11 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy as np
 from numba import prange
 
 from sdph.engine import arrays
 from sdph.engine.geometry import apart, deep, faster
-from sdph.engine.linear import Matrix, links_of
+from sdph.engine.linear import Matrix
 from sdph.engine.rows import entry, place
 from sdph.laws import moving_particles
 from sdph.laws.compiled import inlined, parallel
@@ -46,21 +45,18 @@ def seen(cloud, s, box, i, j):
 
 
 @parallel
-def look(cloud, walls, s, rows, box, number, surface, speed):
+def look(cloud, walls, s, rows, box, number, surface, speed, near):
     """number (N,): n; surface (N,): 1 where it sees the surface; speed (N,) [m/s]: the most by which a neighbour
-    within r_e goes faster."""
+    within r_e goes faster; near (N,): how many are within it."""
     for i in prange(len(s.x)):
         n = ox = oy = oz = fastest = 0.0
-        near = 0
-        if solid(walls, s, i):
-            number[i], surface[i], speed[i] = cloud.number, 0, 0.0
-            continue
+        many = 0
         for k in range(rows.number[i]):
             j = entry(rows, i, k)
             dx, dy, dz, r, w = seen(cloud, s, box, i, j)
             if w == 0.0:
                 continue
-            near += 1
+            many += 1
             n += w
             per = w / r
             ox += per * dx
@@ -68,11 +64,27 @@ def look(cloud, walls, s, rows, box, number, surface, speed):
             oz += per * dz
             du, dv, dw = faster(s, box, j, i)
             fastest = max(fastest, du * du + dv * dv + dw * dw)
+        near[i] = many
+        if solid(walls, s, i):
+            number[i], surface[i], speed[i] = cloud.number, 0, 0.0
+            continue
         aside = math.sqrt(ox * ox + oy * oy + oz * oz)
         open_side = n < THIN * cloud.number and aside > ASIDE * cloud.number
-        few = near < FEW * cloud.dimensions
+        few = many < FEW * cloud.dimensions
         number[i], speed[i] = n, math.sqrt(fastest)
         surface[i] = 1 if n < SPARSE * cloud.number or open_side or few else 0
+
+
+@parallel
+def gather(cloud, walls, s, rows, box, links, entries):
+    """entries of links: of each row those within r_e, as `look` has counted them."""
+    for i in prange(len(s.x)):
+        n = 0
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
+            if seen(cloud, s, box, i, j)[4] > 0.0:
+                entries[place(links, i, n)] = j
+                n += 1
 
 
 @parallel
@@ -103,45 +115,28 @@ def near_surface(cloud, walls, s, rows, box, surface, beside):
 
 
 @parallel
-def equations_of(cloud, walls, s, rows, box, number, surface, links, diagonal, column, value):
-    """Fill the matrix of (2 d/(lambda n_0)) sum (p_j - p_i) w times -lambda n_0/(2 d), whose links have the columns as
-    entries: a particle at the surface has n_0 on the diagonal, as if what it lacks were there with p = 0. Walls are on
-    the right-hand side."""
+def equations_of(cloud, walls, s, links, box, number, surface, diagonal, value):
+    """Fill the matrix of (2 d/(lambda n_0)) sum (p_j - p_i) w times -lambda n_0/(2 d), along the links within r_e: a
+    particle at the surface has n_0 on the diagonal, as if what it lacks were there with p = 0. Walls are on the
+    right-hand side."""
     for i in prange(len(s.x)):
-        n, own = 0, 0.0
-        for k in range(rows.number[i] if not solid(walls, s, i) else 0):
-            j = entry(rows, i, k)
-            w = seen(cloud, s, box, i, j)[4]
-            if w > 0.0 and not solid(walls, s, j):
-                e = place(links, i, n)
-                column[e], value[e] = j, w
-                own += w
-                n += 1
+        own, wall = 0.0, solid(walls, s, i)
+        for k in range(links.number[i]):
+            e = place(links, i, k)
+            j = links.entries[e]
+            w = 0.0 if wall or solid(walls, s, j) else seen(cloud, s, box, i, j)[4]
+            value[e] = w
+            own += w
         missing = max(cloud.number - number[i], (1.0 - SPARSE) * cloud.number if len(walls) else 0.0)
         held = own + missing if surface[i] == 1 else max(own, BURST * cloud.number)
         diagonal[i] = held * (1.0 + BURST)
 
 
-@parallel
-def count(cloud, walls, s, rows, box, found):
-    """found (N,): neighbours within r_e."""
-    for i in prange(len(s.x)):
-        n = 0
-        for k in range(rows.number[i] if not solid(walls, s, i) else 0):
-            j = entry(rows, i, k)
-            if seen(cloud, s, box, i, j)[4] > 0.0 and not solid(walls, s, j):
-                n += 1
-        found[i] = n
-
-
-def matrix(cloud, walls, s, rows, box, number, surface, room=None) -> Matrix:
-    """The pressure's matrix (5), (7), in work arrays of a `room`."""
+def matrix(cloud, walls, s, links, box, number, surface, room=None) -> Matrix:
+    """The pressure's matrix (5), (7), of links within r_e, in work arrays of a `room`."""
     room = room or arrays.Room()
-    found, diagonal = room("links", len(s.x), s.x, np.int32), room("diagonal", len(s.x), s.x)
-    count(cloud, walls, s, rows, box, found)
-    links = links_of(found, room)
-    value = room("value", len(links.entries), s.x)
-    equations_of(cloud, walls, s, rows, box, number, surface, links, diagonal, links.entries, value)
+    diagonal, value = room("diagonal", len(s.x), s.x), room("value", len(links.entries), s.x)
+    equations_of(cloud, walls, s, links, box, number, surface, diagonal, value)
     return Matrix(diagonal, links, value)
 
 

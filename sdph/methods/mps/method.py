@@ -90,6 +90,11 @@ class MpsStepper:
         """Arguments that every loop begins with."""
         return self.cloud, self.walls, self.state, self.rows, self.neighbours.box
 
+    @property
+    def within(self):
+        """The same with rows of those within r_e, as they were at `_look`."""
+        return self.cloud, self.walls, self.state, self.links, self.neighbours.box
+
     def step(self, most: float) -> float:
         """One step, no longer than `most` [s]; returns its length."""
         dt, active = self.next_step(most), self.active
@@ -120,15 +125,15 @@ class MpsStepper:
             alone.fall(*self.p["gravity"], falling)
             found.append(("gravity", falling))
         if self.p["laminar_viscosity"]:
-            rubbed = self._work("rubbed", (count, 3))
-            equations.rub(*self.around, self.case.liquid.viscosity / self.case.liquid.density, rubbed)
+            rubbed = self._work("acceleration", (count, 3))
+            equations.rub(*self.within, self.case.liquid.viscosity / self.case.liquid.density, rubbed)
             found.append(("viscosity", rubbed))
         if self.p["free_energy_tension"]:
             found.append(("tension", self.pulled))
         return found
 
     def _work(self, name: str, shape, kind=np.float64):
-        """Work array of that name, where the particles are."""
+        """Work array of that name, where the particles are; one acceleration is done with before the next is found."""
         return self.room(name, shape, self.state.x, kind)
 
     def _pressed(self, dt: float):
@@ -139,11 +144,11 @@ class MpsStepper:
             return self._pushed(self.cloud.density / dt, None)
         cloud, own, count = self.cloud, self.own, len(self.state.x)
         divergence, beside = self._work("divergence", count), self._work("beside", count, np.int8)
-        equations.near_surface(*self.around, self.surface, beside)
+        equations.near_surface(*self.within, self.surface, beside)
         if self.pool:
-            pools.diverge(*self.around, beside, divergence)
+            pools.diverge(*self.within, beside, divergence)
         else:
-            equations.diverge(*self.around, divergence)
+            equations.diverge(*self.within, divergence)
         right, holds = self._work("right", count), own.holds(self.case)
         self.freed = self._work("freed", count, np.bool_)
         alone.source_of(
@@ -151,8 +156,8 @@ class MpsStepper:
             right, self.freed,
         )  # fmt: skip
         if self.walls:
-            pools.lean(*self.around, cloud.density / dt, right)
-        matrix = equations.matrix(*self.around, self.number, self.surface, self.room)
+            pools.lean(*self.within, cloud.density / dt, right)
+        matrix = equations.matrix(*self.within, self.number, self.surface, self.room)
         try:
             self.iterations += linear.solve(matrix, right, self.pressure, own.tolerance, own.iterations, self.room)
         except linear.Unsolved as error:
@@ -165,12 +170,12 @@ class MpsStepper:
     def _pushed(self, scale: float, beside):
         """Acceleration (N, 3) [m/s2] by the pressure; scale: rho/dt."""
         s, count = self.state, len(self.state.x)
-        pressed = self._work("pressed", (count, 3))
+        pressed = self._work("acceleration", (count, 3))
         if not self.pool:
-            equations.press(*self.around, self.pressure, pressed)
+            equations.press(*self.within, self.pressure, pressed)
             return pressed
         borne = self._work("borne", (count, 3))
-        pools.press(*self.around, self.pressure, beside, scale, pressed, borne)
+        pools.press(*self.within, self.pressure, beside, scale, pressed, borne)
         self.load = alone.summed(alone.add_load, 3, count, s, borne)
         return pressed
 
@@ -192,9 +197,11 @@ class MpsStepper:
         """Pairs nearer than they lie lose what they approach by."""
         s, own, count = self.state, self.own, len(self.state.x)
         distance, meeting = own.collision * self.cloud.spacing, self._work("meeting", count)
-        if equations.meet(self.walls, s, self.rows, self.neighbours.box, distance, meeting):
-            change = self._work("change", (count, 3))
-            equations.collide(self.walls, s, self.rows, self.neighbours.box, distance, own.restitution, meeting, change)
+        if equations.meet(self.walls, s, self.links, self.neighbours.box, distance, meeting):
+            change = self._work("acceleration", (count, 3))
+            equations.collide(
+                self.walls, s, self.links, self.neighbours.box, distance, own.restitution, meeting, change
+            )
             self._kick("collisions", change, 1.0, active)
 
     def next_step(self, left: float) -> float:
@@ -214,8 +221,10 @@ class MpsStepper:
     def _look(self) -> None:
         count = len(self.state.x)
         self.number, self.speed = self._work("number", count), self._work("speed", count)
-        self.surface = self._work("surface", count, np.int8)
-        equations.look(*self.around, self.number, self.surface, self.speed)
+        self.surface, near = self._work("surface", count, np.int8), self._work("near", count, np.int32)
+        equations.look(*self.around, self.number, self.surface, self.speed, near)
+        self.links = linear.links_of(near, self.room)
+        equations.gather(*self.around, self.links, self.links.entries)
         if own := self.p["free_energy_tension"]:
             self.pulled, self.energy = self._work("pulled", (count, 3)), self._work("energy", count)
             equations.pull(self.cloud, own, *self.around[2:], self.pulled, self.energy)

@@ -57,7 +57,7 @@ def test_viscosity_is_exact_for_quadratic_fields(dimensions):
 
 def test_the_matrix_is_symmetric_and_outweighed_by_its_diagonal():
     stepper, _ = block(lambda r: 0.0 * r)
-    matrix = equations.matrix(*stepper.around, stepper.number, stepper.surface)
+    matrix = equations.matrix(*stepper.within, stepper.number, stepper.surface)
     whole, links = np.diag(matrix.diagonal), matrix.links
     for i, (first, many) in enumerate(zip(links.start, links.number)):
         whole[i, links.entries[first : first + many]] = -matrix.value[first : first + many]
