@@ -16,6 +16,7 @@ import numpy as np
 from numba import config, cuda
 
 SIMULATED = bool(config.ENABLE_CUDASIM)
+WORD = 8  # bytes of whatever a kernel takes but truth values, which take one
 
 
 def device(function):
@@ -51,14 +52,13 @@ class Launcher:
         if SIMULATED:
             kernel[size](*arguments)
             return
-        kinds, words = [kernel], []
+        kinds, words = [kernel], bytearray()
         _pack(arguments, kinds, words)
         kinds = tuple(kinds)
         if kinds not in self._known:
             self._known[kinds] = self._compiled(kernel, arguments)
-        given = b"".join(words)
-        self._size.value = len(given)
-        ctypes.memmove(self._room, given, len(given))
+        self._size.value = len(words)
+        ctypes.memmove(self._room, bytes(words), len(words))
         blocks, threads = size
         (failed,) = self._launch(
             self._known[kinds], blocks, 1, 1, threads, 1, 1, 0, 0, 0, ctypes.addressof(self._extra)
@@ -73,27 +73,28 @@ class Launcher:
         return found._codelibrary.get_cufunc().kernel.handle
 
 
-def _pack(values: tuple, kinds: list, words: list) -> None:
-    """Append the kinds of values, and their bytes as a kernel takes them."""
+def _pack(values: tuple, kinds: list, words: bytearray) -> None:
+    """Append the kinds of values, and their bytes as a kernel takes them: each begins at a multiple of its size, which
+    is 8 but for truth values."""
     kinds += type(values), len(values)
     for value in values:
         if isinstance(value, tuple):
             _pack(value, kinds, words)
+            continue
+        if isinstance(value, bool | np.bool_):
+            kind, own = bool, struct.pack("<?", value)
         elif lies_there(value):
             kind, own = getattr(value, "words", None) or _of_array(value)
-            kinds.append(kind)
-            words.append(own)
-        elif isinstance(value, bool | np.bool_) and kinds[-1] is not bool:  # two would share a word
-            kinds.append(bool)
-            words.append(struct.pack("<?7x", value))
         elif isinstance(value, float):
-            kinds.append(float)
-            words.append(struct.pack("<d", value))
+            kind, own = float, struct.pack("<d", value)
         elif isinstance(value, int | np.int64):
-            kinds.append(int)
-            words.append(struct.pack("<q", value))
+            kind, own = int, struct.pack("<q", value)
         else:
-            raise TypeError(f"a kernel takes arrays, float64, int64 and truth values, no {type(value).__name__} here")
+            raise TypeError(f"a kernel takes arrays, float64, int64 and truth values, no {type(value).__name__}")
+        if kind is not bool:
+            words += bytes(-len(words) % WORD)
+        kinds.append(kind)
+        words += own
 
 
 def _of_array(array) -> tuple:
