@@ -11,7 +11,7 @@ from sdph.effects import OFF
 from sdph.engine import state as particles
 from sdph.engine.geometry import box_of
 from sdph.engine.ledger import Ledger
-from sdph.engine.rows import Neighbours
+from sdph.engine.neighbours import Neighbours
 from sdph.laws import kernels
 from sdph.methods.grains import equations as rates
 from sdph.running.simulation import Simulation

@@ -9,7 +9,7 @@ from sdph.case.matter import GasProperties, Grains, Vapour
 from sdph.effects import REGISTRY
 from sdph.effects.around.nozzles import Nozzle
 from sdph.engine.geometry import SIDES
-from sdph.engine.rows import SKIN
+from sdph.engine.neighbours import SKIN
 from sdph.methods.liquids.sections import GasPhase, Liquid, Pool
 from sdph.methods.mps.sections import LiquidMethod
 from sdph.methods.solids.sections import Body, Solid

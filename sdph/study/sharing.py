@@ -8,7 +8,7 @@ from sdph import effects
 from sdph.engine import cuts
 from sdph.engine import state as particles
 from sdph.engine.domain import OF_WALL
-from sdph.engine.rows import reach_of
+from sdph.engine.neighbours import reach_of
 from sdph.engine.state import WALL
 from sdph.engine.world import ALONE
 from sdph.laws.kernels import SUPPORT

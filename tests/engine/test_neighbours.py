@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 
 from sdph.engine import state as particles
 from sdph.engine.geometry import box_of, nearest_image
-from sdph.engine.rows import LANES, SKIN, Neighbours, length
+from sdph.engine.neighbours import SKIN, Neighbours
+from sdph.engine.rows import LANES, length
 
 REACH = 0.2
 

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from sdph.engine import state as particles
-from sdph.engine.rows import LANES, Neighbours
+from sdph.engine.neighbours import Neighbours
+from sdph.engine.rows import LANES
 from sdph.engine.state import LIQUID, WALL
 
 REACH, SKIN = 0.12, 0.1

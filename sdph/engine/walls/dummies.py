@@ -10,7 +10,8 @@ from numba import prange
 
 from sdph.engine import arrays
 from sdph.engine.geometry import deep, nearest_image
-from sdph.engine.rows import SKIN, Rows, entry
+from sdph.engine.neighbours import SKIN
+from sdph.engine.rows import Rows, entry
 from sdph.laws.compiled import inlined, parallel
 
 CONTACT = 0.25  # spacings between a particle and the surface at which they touch; our choice, half of the start's

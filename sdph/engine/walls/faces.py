@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sdph.engine.rows import Neighbours, Rows
+from sdph.engine.neighbours import Neighbours
+from sdph.engine.rows import Rows
 from sdph.engine.walls.dummies import turned
 from sdph.engine.walls.sides import lattice
 from sdph.laws.kernels import SUPPORT

@@ -7,7 +7,8 @@ import itertools
 import numpy as np
 
 from sdph.engine.geometry import SIDES
-from sdph.engine.rows import Neighbours, Rows
+from sdph.engine.neighbours import Neighbours
+from sdph.engine.rows import Rows
 from sdph.engine.walls import facets, parts
 from sdph.engine.walls import mesh as sides
 from sdph.engine.walls.dummies import BESIDE, Dummies, Wall, plain, seen, turned

@@ -18,7 +18,7 @@ from sdph.engine import arrays, gathered, world
 from sdph.engine import state as particles
 from sdph.engine.clock import count_of_parts
 from sdph.engine.kept import GROWING, Unfit
-from sdph.engine.rows import Neighbours
+from sdph.engine.neighbours import Neighbours
 from sdph.engine.state import INFLOW
 from sdph.engine.walls.faces import Heated
 from sdph.engine.walls.sides import Boundary

@@ -17,7 +17,7 @@ from sdph.engine import kernels as smoothing
 from sdph.engine import state as particles
 from sdph.engine.clock import count_of_parts
 from sdph.engine.kept import GROWING
-from sdph.engine.rows import Neighbours
+from sdph.engine.neighbours import Neighbours
 from sdph.engine.state import GAS, INFLOW, WALL
 from sdph.laws import kernels
 from sdph.methods.liquids import bodies as immersion

@@ -19,7 +19,8 @@ from sdph.engine import kernels as smoothing
 from sdph.engine import motion
 from sdph.engine import state as particles
 from sdph.engine.geometry import apart
-from sdph.engine.rows import Neighbours, entry, length
+from sdph.engine.neighbours import Neighbours
+from sdph.engine.rows import entry, length
 from sdph.engine.state import LIQUID, WALL
 from sdph.engine.walls import layers
 from sdph.laws.compiled import fast_parallel, parallel

@@ -11,7 +11,7 @@ from sdph.engine import arrays, linear, motion
 from sdph.engine import state as particles
 from sdph.engine.clock import count_of_parts
 from sdph.engine.kept import GROWING
-from sdph.engine.rows import Neighbours
+from sdph.engine.neighbours import Neighbours
 from sdph.engine.state import LIQUID
 from sdph.laws import moving_particles
 from sdph.methods.mps import alone, compressible, equations, pools, start, tanks

@@ -8,7 +8,8 @@ from numba import prange
 from sdph.engine import arrays
 from sdph.engine import state as particles
 from sdph.engine.cells import solid_of
-from sdph.engine.rows import Neighbours, entry
+from sdph.engine.neighbours import Neighbours
+from sdph.engine.rows import entry
 from sdph.laws.compiled import parallel
 from sdph.laws.sheets import diameter_of
 

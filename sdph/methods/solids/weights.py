@@ -16,7 +16,8 @@ import numpy as np
 from numba import prange
 
 from sdph.engine import kernels as smoothing
-from sdph.engine.rows import Neighbours, entry, place
+from sdph.engine.neighbours import Neighbours
+from sdph.engine.rows import entry, place
 from sdph.engine.state import SOLID
 from sdph.laws.compiled import parallel
 from sdph.laws.matrices import SINGULAR

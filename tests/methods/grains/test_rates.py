@@ -15,7 +15,8 @@ from sdph.effects import OFF
 from sdph.effects.grains import conduction
 from sdph.engine import state as particles
 from sdph.engine.geometry import box_of
-from sdph.engine.rows import Neighbours, entry
+from sdph.engine.neighbours import Neighbours
+from sdph.engine.rows import entry
 from sdph.laws import kernels
 from sdph.laws.compiled import fast_parallel
 from sdph.laws.constants import SOFTENING

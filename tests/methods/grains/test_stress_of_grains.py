@@ -10,7 +10,7 @@ from builders import OPEN, cloud
 from sdph.effects import OFF
 from sdph.effects.effect import DIFFUSIVE
 from sdph.engine.geometry import box_of
-from sdph.engine.rows import Neighbours
+from sdph.engine.neighbours import Neighbours
 from sdph.laws import kernels
 from sdph.methods.grains import contacts, stress
 from sdph.methods.grains import equations as rates

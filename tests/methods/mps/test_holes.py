@@ -9,7 +9,7 @@ from moving import SPACING, case
 from sdph import scenes
 from sdph.case import read as cases
 from sdph.engine import state as particles
-from sdph.engine.rows import Neighbours
+from sdph.engine.neighbours import Neighbours
 from sdph.laws import sheets
 from sdph.methods.mps import films, holes, sheet
 from sdph.methods.mps.method import MpsStepper
