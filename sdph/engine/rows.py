@@ -73,16 +73,17 @@ def length(rows, i):
 
 
 @serial
-def _end(rows, i, first, last, entries):
-    for k in range(first, last):
-        entries[place(rows, i, k)] = i
+def _end(rows, entries, first, i, number):
+    """Put i itself from the place `first` on as far as row i has `number` entries."""
+    for e in range(first, np.int64(place(rows, i, number)), stride(rows)):
+        entries[e] = i
 
 
 @serial
 def shorten(rows, i, number):
     """Leave row i its first `number` entries, and put i itself behind them as far as `length` goes."""
     rows.number[i] = number
-    _end(rows, i, number, length(rows, i), rows.entries)
+    _end(rows, rows.entries, np.int64(place(rows, i, number)), i, length(rows, i))
 
 
 @serial
@@ -151,7 +152,7 @@ def fill(grid, begin, x, y, z, at_x, at_y, at_z, blind, idle, same, box, cutoff2
     """entries: those of the rows, of what `count` has counted."""
     for i in prange(len(at_x)):
         if rows.number[i] == 0:
-            _end(rows, i, 0, taken[i], entries)
+            _end(rows, entries, np.int64(place(rows, i, 0)), i, taken[i])
             continue
         end, own = place(rows, i, 0), np.uint64(i if same else len(x))
         xi, yi, zi = at_x[i], at_y[i], at_z[i] if len(z) else 0.0
@@ -165,7 +166,7 @@ def fill(grid, begin, x, y, z, at_x, at_y, at_z, blind, idle, same, box, cutoff2
                 for n in range(runs[0], runs[1]):
                     first, last = _run(begin, line, grid.shape[0], x0, x1, blind[i], n)
                     end = _listed(x, y, z, box, xi, yi, zi, own, cutoff2, first, last, rows, entries, end)
-        _end(rows, i, rows.number[i], taken[i], entries)
+        _end(rows, entries, np.int64(end), i, taken[i])
 
 
 @parallel
