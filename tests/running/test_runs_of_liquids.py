@@ -133,7 +133,7 @@ def test_elastic_energy_is_the_work_of_the_pressure(tmp_path):
 
     def elastic(density):
         s.density[own] = density
-        return ledger.energies(run.stepper)[1]
+        return float(s.mass[own] @ ledger.specific_energies(run.stepper, own)[1])
 
     for density in (990.0, 1010.0):
         pressure = 1000.0 * 21.2**2 / 7.0 * ((density / 1000.0) ** 7 - 1.0)
