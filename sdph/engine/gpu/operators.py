@@ -54,7 +54,8 @@ def _of_two(a, b, where, out):
 @functools.cache
 def _kernel_of(ufunc):
     """Kernel of an operation: out where a mask, if any, is set. It has a name of its own, by which it is kept."""
-    own, name = _of_one if ufunc.nin == 1 else _of_two, f"of_{ufunc.__name__}"
+    own = _of_one if ufunc.nargs == 2 else _of_two  # what it takes, and what it gives
+    name = f"of_{ufunc.__name__}"
     made = types.FunctionType(own.__code__, globals() | {"form__": device(FORMS[ufunc])}, name)
     made.__module__, made.__qualname__ = __name__, name
     return kernel(made)
