@@ -15,8 +15,7 @@ from collections import defaultdict
 from coupling.embedded import EmbeddedGas
 from sdph import scenes
 from sdph.case import read as cases
-from sdph.engine import arrays
-from sdph.methods.grains import aboard
+from sdph.engine import arrays, ashore
 from sdph.methods.grains.grains import Grains
 from sdph.running.simulation import Simulation
 from sdph.study.bench import LONG
@@ -116,7 +115,7 @@ def of_windows(columns: int, device: str) -> None:
     whole, steps = time.perf_counter() - begun, run.stepper.steps - steps
     told = ", ".join(f"{name} {1e3 * (spent - before[name]) / WINDOWS:.2f}" for name, spent in run.wall.items())
     print(f"  a window of {steps / WINDOWS:.1f} sub-steps: {1e3 * whole / WINDOWS:.2f} ms, of them {told}")
-    moved = aboard.told(run.stepper)
+    moved = ashore.told(run.stepper)
     print("  " + ", ".join(f"{name} {value:.4g}" for name, value in moved.items()), flush=True)
 
 

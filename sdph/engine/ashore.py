@@ -1,8 +1,8 @@
 """Particles on a device: they go there before the first step, and copies come back for who reads them.
 
 A stepper names in SEEN its arrays of a row a particle, besides the state, that are read between steps; it has `steps`,
-`steps_before` (of the parts of the run before this one), `time` and `landed`, None at first. Nothing that comes back is
-written to: it is forgotten with the next step.
+`steps_before` (of the parts of the run before this one) and `landed`, None at first. Nothing that comes back is written
+to: it is forgotten with the next step.
 """
 
 from __future__ import annotations
@@ -10,17 +10,6 @@ from __future__ import annotations
 import contextlib
 
 from sdph.engine import arrays
-
-
-def board(stepper) -> None:
-    """Have the state on the device from now on, and walls; the stepper then makes anew the rest, as of a checkpoint."""
-    from sdph.engine.gpu import card  # what it takes costs a run of the processor 0.4 s
-
-    there, before = card.begun(), stepper.steps_before
-    stepper.state, stepper.walls = mapped(there.send, stepper.state), mapped(there.send, stepper.walls)
-    stepper.neighbours.built = mapped(there.send, stepper.neighbours.built)
-    stepper.revive()
-    stepper.steps_before = before
 
 
 @contextlib.contextmanager
@@ -31,11 +20,11 @@ def ashore(stepper):
     if arrays.here(stepper.state.x):
         yield
         return
-    before, built, now = {name: getattr(stepper, name) for name in ("state", *stepper.SEEN)}, near.built, stepper.steps
-    if stepper.landed is None or stepper.landed[0] != (now, stepper.time):
+    before, built = {name: getattr(stepper, name) for name in ("state", *stepper.SEEN)}, near.built
+    if stepper.landed is None or stepper.landed[0] is not stepper.state or stepper.landed[1] != stepper.steps:
         copies = {name: mapped(arrays.brought, value) for name, value in before.items()}
-        stepper.landed = (now, stepper.time), copies, mapped(arrays.brought, built)
-    _, copies, near.built = stepper.landed
+        stepper.landed = stepper.state, stepper.steps, copies, mapped(arrays.brought, built)
+    copies, near.built = stepper.landed[2:]
     _put(stepper, copies)
     try:
         yield

@@ -8,13 +8,12 @@ import numpy as np
 from numba import prange
 
 from sdph.effects.gas import turbulent_dispersion
-from sdph.engine import arrays
+from sdph.engine import arrays, ashore
 from sdph.engine import state as particles
 from sdph.engine.guard import DENSE, FAR, RUNAWAY, TINY, Watch, outside
 from sdph.engine.kept import Unfit
 from sdph.laws.compiled import inner
 from sdph.laws.constants import ADIABATIC, GAS_CONSTANT
-from sdph.methods.grains import aboard
 from sdph.methods.grains.scales import scales_of
 
 # times what drives the grains: sound that is faster shrinks the sub-steps until a run gets nowhere; our choice
@@ -90,7 +89,7 @@ class Guard(Watch):
         sound = stepper.scratch.sound[: len(s.x)]
         if not beyond(s, sound, most, COLLAPSE * self.reach, self.coldest, self.hottest):
             return
-        with aboard.ashore(stepper):
+        with ashore.ashore(stepper):
             self._name(stepper, arrays.brought(sound), most)
 
     def _name(self, stepper, sound, most: float) -> None:

@@ -8,7 +8,7 @@ from sdph import effects
 from sdph.effects.around.outflow import leaving, refuse_to_leave
 from sdph.effects.around.source import Source
 from sdph.effects.gas import micro_explosion
-from sdph.engine import arrays
+from sdph.engine import arrays, ashore
 from sdph.engine import state as particles
 from sdph.engine.clock import Clock
 from sdph.engine.kept import Unfit
@@ -53,7 +53,7 @@ class Grains:
 
     def ashore(self):
         """Context in which the particles lie in memory, for who reads them."""
-        return aboard.ashore(self.stepper)
+        return ashore.ashore(self.stepper)
 
     @property
     def inside(self):
@@ -222,7 +222,7 @@ class Grains:
         """Its part of summary.json."""
         own = {"sub_steps": self.steps, "wall_contacts": self.stepper.contacts} | self.warmed.summary()
         own |= {f"filled_{name}_kg": mass for name, mass in self.filled.items()}
-        own |= aboard.told(self.stepper)
+        own |= ashore.told(self.stepper)
         return own | self.stepper.domain.summary(self.steps - self.stepper.steps_before)
 
     def warnings(self) -> list[str]:

@@ -36,7 +36,8 @@ class Stepper(Conducting, Windowed):
     """State of the particles, and how it goes forward."""
 
     KEPT, FORMS = ("state", "neighbours", "steps", "contacts", "limit"), {"state": GROWING}  # see sdph.engine.kept
-    ROWS = ()  # arrays of a row a particle that a checkpoint holds beside the state (sdph.engine.gathered)
+    # arrays of a row a particle that a checkpoint holds beside the state (sdph.engine.gathered), and that others read
+    ROWS = SEEN = ()
     # what a sub-step takes from neighbours and theirs, fresh, of `state`: all else of a particle is its own affair
     HALO = (*"xyzuvw", "mass", "density", "temperature", "diameter", "theta", *friction.ARRAYS)
     # and these, of several materials; for their drag on each other velocities once more, after the kick, with kind and
@@ -69,7 +70,7 @@ class Stepper(Conducting, Windowed):
         self.facing, self.heated, self.work = OFF, OFF, sub_step.work(0, False)  # rows of the dummies; of hot faces
         # pressure [Pa] of the walls before it is held, and what the last sub-step shifted (N, 3) [m]
         self.unheld, self.shifted = np.zeros(0), np.zeros((0, 3))
-        self.landed = None  # see sdph.methods.grains.aboard
+        self.landed = None  # see sdph.engine.ashore
 
     def look_anew(self) -> None:
         """Make rows of the places at the last build, and what belongs to them, where the particles are."""

@@ -14,12 +14,12 @@ import numpy as np
 from numba import prange
 
 from sdph import effects
+from sdph.engine import ashore
 from sdph.engine import state as particles
 from sdph.engine.guard import DENSE, FAR, RUNAWAY, TINY, Watch
 from sdph.engine.kept import Unfit
 from sdph.engine.state import GAS, INFLOW, LIQUID, WALL
 from sdph.laws.compiled import parallel
-from sdph.methods.liquids import aboard
 from sdph.methods.liquids.totals import squared_speed
 
 FORCE = 0.25  # of sqrt(h/|a|), liquids.md, shared core
@@ -91,7 +91,7 @@ class LiquidGuard(Watch):
         self.time, sound = stepper.time, own.fastest_sound
         if not beyond(s, stepper.active, stepper.acceleration, sound * sound):
             return
-        with aboard.ashore(stepper):
+        with ashore.ashore(stepper):
             self._name(stepper, sound)
 
     def _name(self, stepper, sound: float) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from sdph.effects.around import drain, tank
-from sdph.engine import arrays, gathered
+from sdph.engine import arrays, ashore, gathered
 from sdph.engine import state as particles
 from sdph.engine.kept import Unfit
 from sdph.engine.stepped import Stepped
@@ -99,7 +99,7 @@ class Liquid(Stepped):
     def whole(self):
         stepper = self.stepper
         before = stepper.active
-        with aboard.all_ashore(stepper), gathered.whole(stepper) as chief:
+        with ashore.ashore(stepper), gathered.whole(stepper) as chief:
             if not stepper.domain.alone:
                 stepper.active = np.flatnonzero(particles.wet(stepper.state)).astype(before.dtype)
             try:
@@ -138,7 +138,7 @@ class Liquid(Stepped):
     def summary(self) -> dict[str, float]:
         with self.whole():
             own = {"liquid_particles": len(self.stepper.active), "kinetic_energy_J": kinetic_energy(self.state)}
-        own |= self.stepper.domain.summary(self.steps - self.stepper.steps_before) | aboard.told(self.stepper)
+        own |= self.stepper.domain.summary(self.steps - self.stepper.steps_before) | ashore.told(self.stepper)
         parts = [part.summary() for part in (self.stepper.void, self.stepper.heat) if part]
         return own | {name: value for part in parts for name, value in part.items()}
 

@@ -6,10 +6,10 @@ from __future__ import annotations
 import numpy as np
 
 from sdph.effects.around import tank
-from sdph.engine import arrays
+from sdph.engine import arrays, ashore
 from sdph.engine import state as particles
 from sdph.engine.walls import shapes
-from sdph.methods.liquids import aboard, walls
+from sdph.methods.liquids import walls
 
 
 def loads(stepper) -> np.ndarray:
@@ -32,7 +32,7 @@ def wall_loads(stepper, chosen=None) -> np.ndarray:
     if stepper.bodies:
         chosen = chosen[~stepper.bodies.among(chosen)]
     felt, chosen = (arrays.brought(own) for own in (walls.feel(stepper, chosen, 0.0), chosen))
-    with aboard.ashore(stepper):
+    with ashore.ashore(stepper):
         return stepper.world.sum(of_forces(stepper, chosen, felt[:, :3]))
 
 

@@ -47,6 +47,7 @@ class LiquidStepper:
     )  # fmt: skip
     # of the particles
     ROWS = ("pressure", "volume", "acceleration", "gradient", "shift", "twist", "extra", "excess")
+    SEEN = ("active", "walls", "enclosed", *ROWS)  # see sdph.engine.ashore
     FORMS = dict.fromkeys(("state", *ROWS), GROWING)
     # what the loops of a step take from neighbours and theirs, fresh, of `state` and of ROWS
     HALO = (*"xyzuvw", "mass", "density", "kind", "depth", "pressure", "volume", "gradient")
@@ -84,7 +85,7 @@ class LiquidStepper:
         self.aim(0.0)
         self.heat = None  # until it is known what there is to heat
         self.void = bubbles.of(case, self.p["bubble"], self.state, self.bodies) if self.p["bubble"] else None
-        self.landed = None  # of particles on a device, see sdph.methods.liquids.aboard
+        self.landed = None  # see sdph.engine.ashore
         self.look = None  # who is told of new forces, with the length [s] of the kick to come
         self.born = born(self.state)
         self.forces()

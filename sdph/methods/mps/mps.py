@@ -14,7 +14,7 @@ from sdph.engine.kept import GROWING
 from sdph.engine.state import LIQUID
 from sdph.engine.stepped import Stepped
 from sdph.engine.table import Table
-from sdph.methods.mps import alone, history, pieces, sheet
+from sdph.methods.mps import aboard, alone, history, pieces, sheet
 from sdph.methods.mps.method import MpsStepper
 from sdph.methods.mps.totals import MpsLedger
 
@@ -44,7 +44,7 @@ class Mps(Stepped):
     def advance(self, end: float, most: float = np.inf) -> None:
         """Go to `end` [s], or as far as `most` steps get."""
         if self.case.run.device != "cpu" and arrays.here(self.state.x):
-            ashore.board(self.stepper)
+            aboard.board(self.stepper)
         super().advance(end, most)
 
     @contextlib.contextmanager
