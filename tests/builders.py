@@ -8,6 +8,7 @@ from sdph import effects, scenes
 from sdph.case import gas_cells
 from sdph.case import read as cases
 from sdph.effects import OFF
+from sdph.effects.grains import conduction
 from sdph.engine import state as particles
 from sdph.engine.geometry import box_of
 from sdph.engine.ledger import Ledger
@@ -117,5 +118,7 @@ def conduction_heating(kernel, state, conduction_p, period=OPEN):
         np.full(len(state.x), np.nan),
     )
     rates.sum_density(kernel, state, rows, box, OFF, OFF, np.empty(len(state.x)), pull)
-    rates.conduct(kernel, state, rows, box, pull, conduction_p, np.empty(0), heating)
+    own = np.empty(len(state.x) if isinstance(conduction_p, conduction.PackedP) else 0)
+    rates.pack(conduction_p, state, own)
+    rates.conduct(kernel, state, rows, box, pull, conduction_p, own, heating)
     return state, heating
