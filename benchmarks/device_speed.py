@@ -24,8 +24,8 @@ ROUNDS, WINDOWS, SHOWN = 3, 3, 12
 LAUNCHING = "(to launch)"
 
 
-def of_kernels(stepper) -> list[str]:
-    """Lines of the time and launches by kernel of STEPS steps, the longest first."""
+def of_kernels(go, steps: int) -> list[str]:
+    """Lines of the time and launches a step, by kernel, of `go`, which takes as many steps; the longest first."""
     spent, launched, launch = defaultdict(float), defaultdict(int), card.Card._launch
 
     def timed(self, kernel, size, *arguments):
@@ -39,11 +39,11 @@ def of_kernels(stepper) -> list[str]:
 
     card.Card._launch = timed
     try:
-        step_time(stepper)
+        go()
     finally:
         card.Card._launch = launch
     order = sorted(spent, key=spent.get, reverse=True)[:SHOWN]
-    return [f"  {own:16s} {1e3 * spent[own] / STEPS:8.3f} ms, {launched[own] / STEPS:4.1f} launches" for own in order]
+    return [f"  {own:16s} {1e3 * spent[own] / steps:8.3f} ms, {launched[own] / steps:4.1f} launches" for own in order]
 
 
 def least(rounds: int, measure) -> float:
@@ -94,7 +94,10 @@ def measured(dimensions: int, count: float) -> None:
         )
     free, whole = cuda.current_context().get_memory_info()
     print(
-        f"{(whole - free) / particles:.0f} bytes of the device a particle", *of_kernels(stepper), sep="\n", flush=True
+        f"{(whole - free) / particles:.0f} bytes of the device a particle",
+        *of_kernels(steps, STEPS),
+        sep="\n",
+        flush=True,
     )
 
 

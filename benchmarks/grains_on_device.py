@@ -10,7 +10,6 @@ same; without a device the simulator would take hours.
 
 import sys
 import time
-from collections import defaultdict
 
 from coupling.embedded import EmbeddedGas
 from sdph import scenes
@@ -57,30 +56,6 @@ def mean(stepper, wait) -> float:
     return (time.perf_counter() - begun) / STEPS
 
 
-def of_kernels(stepper, wait) -> dict:
-    """Time [s] and launches by kernel of STEPS sub-steps."""
-    from sdph.engine.gpu.card import Card
-
-    spent, launched, launch = defaultdict(float), defaultdict(int), Card._launch
-
-    def timed(self, kernel, size, *arguments):
-        wait()
-        begun = time.perf_counter()
-        launch(self, kernel, size, *arguments)
-        queued = time.perf_counter()
-        wait()
-        spent[kernel.py_func.__name__] += time.perf_counter() - begun
-        spent["(to launch)"] += queued - begun
-        launched[kernel.py_func.__name__] += 1
-
-    Card._launch = timed
-    try:
-        mean(stepper, wait)
-    finally:
-        Card._launch = launch
-    return {name: (spent[name], launched[name]) for name in sorted(spent, key=spent.get, reverse=True)}
-
-
 def measured(columns: int, device: str) -> None:
     own = started(columns, device)
     stepper, count, wait = own.stepper, len(own.state.x), lambda: None
@@ -97,8 +72,10 @@ def measured(columns: int, device: str) -> None:
     anew = time.perf_counter() - begun
     print(f"{count} particles on {device}: {1e3 * least:.3f} ms a sub-step, {count / least:.3g} particle-steps/s")
     print(f"  rows made anew: {1e3 * anew:.2f} ms")
-    for name, (seconds, many) in of_kernels(stepper, wait).items() if device == "cuda" else ():
-        print(f"  {name:20s} {1e3 * seconds / STEPS:9.3f} ms a sub-step, {many / STEPS:5.1f} launches")
+    if device == "cuda":
+        from device_speed import of_kernels  # it asks for a device
+
+        print(*of_kernels(lambda: mean(stepper, wait), STEPS), sep="\n")
     own.stepper.release()
 
 

@@ -5,6 +5,7 @@ taken away here, so that what would not run on a device does not run here either
 """
 
 import os
+import shutil
 import subprocess
 import sys
 
@@ -47,6 +48,29 @@ def on_device(folder, *given: str):
     else:
         assert main(list(words)) == 0
     return folder
+
+
+def on_cpu(folder, *given: str):
+    """The folder of a run of sdph on the processor."""
+    from sdph.cli import main
+
+    assert main([*given, "--out", str(folder)]) == 0
+    return folder
+
+
+def there_and_back(folder, whole, until: str, alike) -> None:
+    """Run the words `whole`; go on to `until` from the processor on a device, and back: `alike` compares with a run
+    that went on where it was."""
+    from sdph.cli import main
+
+    cpu, cuda, later = on_cpu(folder / "cpu", *whole), on_device(folder / "cuda", *whole), ("--until", until)
+    for source, copy in ((cpu, "cpu_cuda"), (cuda, "cuda_cpu"), (cpu, "cpu_cpu")):
+        shutil.copytree(source, folder / copy)
+    on_device(folder / "cpu_cuda", "run", "--resume", str(folder / "cpu_cuda"), *later)
+    for copy in ("cuda_cpu", "cpu_cpu"):
+        assert main(["run", "--resume", str(folder / copy), *later, "--device", "cpu"]) == 0
+    for copy in ("cpu_cuda", "cuda_cpu"):
+        alike(folder / copy, folder / "cpu_cpu")
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ from numba import prange
 from sdph.laws.compiled import parallel, serial
 
 card = None  # the device, once it is begun
-SPARE = 16  # one row in so many is kept free by a Room; our choice
+SPARE = 16  # one row in so many is kept free, so that slow growth does not ask for room each time; our choice
 IN_MEMORY = np.zeros(0)  # an array that lies there, to have others beside it
 
 

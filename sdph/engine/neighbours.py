@@ -22,7 +22,6 @@ SKIN = 0.1  # of the reach; our choice: 0.2 h measured best (about 5-8 steps per
 CELLS_A_PARTICLE = 16  # memory of the cells stays below that of the rows; our choice
 MOST_CELLS = 2**20  # along an axis, so that their product is an int64
 NOBODY = np.zeros(0, np.int8)
-SPARE = 16  # one entry in so many is kept free, so that a slow compaction does not ask for room each time; our choice
 
 
 def reach_of(reach: float, skin: float) -> float:
@@ -135,7 +134,7 @@ class Neighbours:
         """Room for that many entries; that of the last time where they fit, which nobody needs any more."""
         if len(self.room) < entries or arrays.here(self.room) != arrays.here(like):
             self.room = np.empty(0, np.uint32)  # given back before more is taken
-            self.room = arrays.empty(entries + entries // SPARE, like, np.uint32)
+            self.room = arrays.empty(entries + entries // arrays.SPARE, like, np.uint32)
         return self.room
 
     def sort(self, here) -> np.ndarray:

@@ -3,7 +3,6 @@ Where there is no device numba's simulator plays one."""
 
 import json
 import os
-import shutil
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +13,7 @@ from sdph.engine.gpu import found
 from sdph.running import on_device as taken
 from tests import on_simulator
 from tests.of_ranks import particles
-from tests.on_simulator import on_device
+from tests.on_simulator import on_cpu, on_device, there_and_back
 
 SETS = {  # name -> scene, end [s] of five to fifteen steps, keys
     "front": ("dam_break", "2e-3", "resolution.spacing_mm=9.525", "domain.size_m=[0.13335, 0.13335]",
@@ -37,11 +36,6 @@ def words(name: str, *more: str) -> list[str]:
     scene, end, *keys = SETS[name]
     keys += [f"run.output_interval_s={end}", f"liquid.history_interval_s={end}"]
     return ["run", scene, "--until", end, *(word for key in keys for word in ("--set", key)), *more]
-
-
-def on_cpu(folder: Path, *given: str) -> Path:
-    assert main([*given, "--out", str(folder)]) == 0
-    return folder
 
 
 def alike(ours: Path, theirs: Path) -> None:
@@ -81,15 +75,7 @@ def test_rows_are_made_anew_on_the_device_and_particles_stand_as_on_the_processo
 
 
 def test_a_run_goes_on_from_the_processor_on_a_device_and_back(tmp_path):
-    whole, later = words("front"), ("--until", "2.6e-3")
-    cpu, cuda = on_cpu(tmp_path / "cpu", *whole), on_device(tmp_path / "cuda", *whole)
-    for source, copy in ((cpu, "cpu_cuda"), (cuda, "cuda_cpu"), (cpu, "cpu_cpu")):
-        shutil.copytree(source, tmp_path / copy)
-    on_device(tmp_path / "cpu_cuda", "run", "--resume", str(tmp_path / "cpu_cuda"), *later)
-    for copy in ("cuda_cpu", "cpu_cpu"):
-        assert main(["run", "--resume", str(tmp_path / copy), *later, "--device", "cpu"]) == 0
-    for copy in ("cpu_cuda", "cuda_cpu"):
-        alike(tmp_path / copy, tmp_path / "cpu_cpu")
+    there_and_back(tmp_path, words("front"), "2.6e-3", alike)
 
 
 @pytest.mark.skipif(bool(found.missing()), reason=f"1000 steps are too long for the simulator ({found.missing()})")

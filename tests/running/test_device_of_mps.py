@@ -3,17 +3,15 @@ pressure without its equations; what is not taken there is refused in one line. 
 one."""
 
 import json
-import shutil
 
 import numpy as np
 import pytest
-from test_device import OF_DEVICE, on_cpu, refusal
+from test_device import OF_DEVICE, refusal
 
-from sdph.cli import main
 from sdph.methods.mps.method import WORKS
 from sdph.running import on_device as taken
 from tests.of_ranks import particles
-from tests.on_simulator import on_device
+from tests.on_simulator import on_cpu, on_device, there_and_back
 
 # a nozzle of two rings, and a drop that flies out of the domain, whose end the sheet passes
 SHEET = (
@@ -80,15 +78,7 @@ def test_moving_particles_go_on_a_device_as_on_the_processor(tmp_path, name):
 
 
 def test_a_run_goes_on_from_the_processor_on_a_device_and_back(tmp_path):
-    whole, later = words("sheet", "1.5e-5"), ("--until", "2.5e-5")
-    cpu, cuda = on_cpu(tmp_path / "cpu", *whole), on_device(tmp_path / "cuda", *whole)
-    for source, copy in ((cpu, "cpu_cuda"), (cuda, "cuda_cpu"), (cpu, "cpu_cpu")):
-        shutil.copytree(source, tmp_path / copy)
-    on_device(tmp_path / "cpu_cuda", "run", "--resume", str(tmp_path / "cpu_cuda"), *later)
-    for copy in ("cuda_cpu", "cpu_cpu"):
-        assert main(["run", "--resume", str(tmp_path / copy), *later, "--device", "cpu"]) == 0
-    for copy in ("cpu_cuda", "cuda_cpu"):
-        alike(tmp_path / copy, tmp_path / "cpu_cpu")
+    there_and_back(tmp_path, words("sheet", "1.5e-5"), "2.5e-5", alike)
 
 
 @pytest.mark.parametrize(

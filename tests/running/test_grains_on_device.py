@@ -3,7 +3,6 @@ taken there is refused in one line."""
 
 import csv
 import json
-import shutil
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +12,7 @@ import pyvista
 from sdph.cli import main
 from sdph.running import on_device as taken
 from tests.of_ranks import particles
-from tests.on_simulator import on_device
+from tests.on_simulator import on_cpu, on_device, there_and_back
 
 EMBEDDED = 'coupling.gas="embedded"'
 FEW = ("resolution.neighbour_skin=0.01", "friction.onset=0.55")  # rows hold for a millimetre
@@ -40,11 +39,6 @@ def words(name: str, *more: str) -> list[str]:
     scene, end, *keys = SETS[name]
     keys += [EMBEDDED, f"run.output_interval_s={end}"]
     return ["run", scene, "--until", end, *(word for key in keys for word in ("--set", key)), *more]
-
-
-def on_cpu(folder: Path, *given: str) -> Path:
-    assert main([*given, "--out", str(folder)]) == 0
-    return folder
 
 
 def last_row(folder: Path, name: str) -> dict[str, float]:
@@ -87,15 +81,7 @@ def test_grains_go_on_a_device_as_on_the_processor(tmp_path, name):
 
 
 def test_a_run_goes_on_from_the_processor_on_a_device_and_back(tmp_path):
-    whole, later = words("bed"), ("--until", "1.5e-3")
-    cpu, cuda = on_cpu(tmp_path / "cpu", *whole), on_device(tmp_path / "cuda", *whole)
-    for source, copy in ((cpu, "cpu_cuda"), (cuda, "cuda_cpu"), (cpu, "cpu_cpu")):
-        shutil.copytree(source, tmp_path / copy)
-    on_device(tmp_path / "cpu_cuda", "run", "--resume", str(tmp_path / "cpu_cuda"), *later)
-    for copy in ("cuda_cpu", "cpu_cpu"):
-        assert main(["run", "--resume", str(tmp_path / copy), *later, "--device", "cpu"]) == 0
-    for copy in ("cpu_cuda", "cuda_cpu"):
-        alike(tmp_path / copy, tmp_path / "cpu_cpu")
+    there_and_back(tmp_path, words("bed"), "1.5e-3", alike)
 
 
 @pytest.mark.parametrize(

@@ -117,7 +117,7 @@ def refuse_to_leave(case, state, gone, time: float) -> None:
 def _open(case, side: str, axis: int, places) -> np.ndarray:
     own = case.parameters.get("walls")
     if own is None or (own.mesh and own.source == "gas"):  # patches hold grains wherever they are no outlet
-        return arrays.zeros(len(places[0]), places[0]) == 0.0
+        return arrays.ones(len(places[0]), places[0]) > 0.0
     return _outlets(case, side, axis, places)
 
 

@@ -16,6 +16,7 @@ from sdph.engine.gpu import functions, operators, products, sorting
 from sdph.engine.gpu.operators import Operable, operable
 from sdph.engine.gpu.toolkit import SIMULATED, Launcher, cuda, lies_there, made, strict
 from sdph.engine.gpu.translation import kernel_of, results
+from sdph.engine.world import BITS
 from sdph.laws.compiled import Loop
 
 # blocks and threads of a loop, whose threads take rounds in turn; of a loop that returns values, and of the threads
@@ -23,7 +24,6 @@ from sdph.laws.compiled import Loop
 LOOP = (3, 2) if SIMULATED else (2048, 128)
 PARTS = (2, 3) if SIMULATED else (256, 128)
 SUMS = (1, 2) if SIMULATED else (1, 256)
-BITS = 34  # of a summand in each of three whole numbers: 2^29 summands stay below 2^63, as in sdph.engine.world
 SMALL = 1024  # bytes of an array of the host that a loop may take along (densities by phase, sides of cells)
 
 

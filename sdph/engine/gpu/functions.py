@@ -7,23 +7,26 @@ import numpy as np
 from sdph.engine import arrays
 from sdph.engine.gpu.operators import columns, rows, stacked
 
+SUMS = {
+    "ij,ij->i": lambda a, b: rows(a * b),
+    "ij->j": lambda a: a.sum(axis=0),
+    "ij,ij->": lambda a, b: (a * b).sum(),
+    "i,ij->j": lambda a, b: (a[:, None] * b).sum(axis=0),
+    "i,ij,ij->": lambda a, b, c: (a * rows(b * c)).sum(),
+}
+
 
 def einsum(form: str, *own):
-    if form == "ij,ij->i":
-        return rows(own[0] * own[1])
-    if form == "ij->j":
-        return own[0].sum(axis=0)
-    if form == "ij,ij->":
-        return (own[0] * own[1]).sum()
-    if form == "i,ij->j":
-        return (own[0][:, None] * own[1]).sum(axis=0)
-    assert form == "i,ij,ij->", form
-    return (own[0] * rows(own[1] * own[2])).sum()
+    """Sum of products, of the forms in SUMS; TypeError of others."""
+    if form not in SUMS:
+        raise TypeError(f"einsum of {form!r} is not known of arrays of a device: {', '.join(SUMS)}")
+    return SUMS[form](*own)
 
 
 def concatenate(tables, axis: int):
-    """Tables (N, k) beside each other."""
-    assert axis == 1
+    """Tables (N, k) beside each other; TypeError where they are to be joined otherwise."""
+    if axis != 1:
+        raise TypeError("arrays of a device are joined along their last axis")
     return stacked([column for table in tables for column in columns(table)])
 
 
