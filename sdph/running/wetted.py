@@ -9,6 +9,7 @@ import math
 
 import numpy as np
 
+from sdph.effects.solids import rigid_sides
 from sdph.engine import polygons
 from sdph.engine import state as particles
 from sdph.engine.contact import between
@@ -28,7 +29,7 @@ class Wetted:
     KEPT = ("solids", "force")  # see sdph.engine.kept
 
     def __init__(self, case, ledger, shortest: float):
-        self.solids = Solids(case.only("solid"), ledger, shortest, wet=True)
+        self.solids = Solids(case.only("solid"), ledger, shortest, wet=True, sides=rigid_sides.beside(case))
         self.volume, self.density = self.stepper.weights.volume, case.solid.density
         self.mass = self.stepper.state.mass
         self.force = self.stepper.load

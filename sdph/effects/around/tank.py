@@ -169,8 +169,14 @@ def _with_outlet(own, tank, bottom: float, reach: float):
     return shapes.Joined(tank, pipe)
 
 
+def corners(case) -> tuple[tuple, tuple]:
+    """Lower and upper corner (d,) [m] of a case's box tank."""
+    own = case.parameters["tank"]
+    return own.lower or (0.0,) * case.dimensions, own.upper or case.domain.size
+
+
 def _box(case, own):
-    lower, upper = own.lower or (0.0,) * case.dimensions, own.upper or case.domain.size
+    lower, upper = corners(case)
     if any(high - low < case.resolution.spacing * (1.0 - 1e-9) for low, high in zip(lower, upper)):
         given = f"tank: from lower_m = {list(lower)} to upper_m = {list(upper)}"
         raise CaseError(f"{given} it is narrower than resolution.spacing_mm along an axis; widen it")
@@ -180,12 +186,14 @@ def _box(case, own):
 def names(case) -> list[str]:
     """Names of walls that `run.forces` may hold: sides of a box that have one, `tank` for all but the outlet pipe's,
     the parts of the case."""
-    own = case.parameters.get("tank")
-    if own is None:
-        return []
+    return [*sides(case), ALL, *case.parts] if "tank" in case.parameters else []
+
+
+def sides(case) -> list[str]:
+    """Names of the sides of a box tank that have a wall; none of other shapes."""
+    own = case.parameters["tank"]
     open_ends = _open_ends(case, own) if own.shape == "box" else set(SIDES.values())
-    closed = [side for side, (axis, end) in SIDES.items() if axis < case.dimensions and (axis, end) not in open_ends]
-    return [*closed, ALL, *case.parts]
+    return [side for side, (axis, end) in SIDES.items() if axis < case.dimensions and (axis, end) not in open_ends]
 
 
 def _open_ends(case, own) -> set[tuple[int, int]]:

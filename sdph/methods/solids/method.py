@@ -15,7 +15,7 @@ from sdph.engine.kept import Unfit
 from sdph.methods.solids import equations, start
 from sdph.methods.solids.bounds import SolidGuard
 from sdph.methods.solids.cavity import Cavity
-from sdph.methods.solids.weights import Weights
+from sdph.methods.solids.weights import Weights, keep_strain
 from sdph.schema import CaseError
 
 WORKS = ("forces", "hourglass", "viscosity", "pressure", "plastic", "cut", "gravity", "scaling")
@@ -36,12 +36,13 @@ class SolidStepper:
     # what the loops of a step take from neighbours, fresh, beside the undeformed bodies, which stay as they are
     HALO = (*"xyzuvw", "gradient", "stress", "free")
 
-    def __init__(self, case, shortest: float = 0.0, *, wet: bool = False):
+    def __init__(self, case, shortest: float = 0.0, *, wet: bool = False, sides=None):
         self.case, self.guard, self.shortest = case, SolidGuard(case), shortest
         self.wet = wet  # whether a liquid presses on the bodies
         made = start.Made(case)
         self.state, self.body, self.held = made.state, made.body, made.held
         self.p = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
+        self.p["rigid_sides"] = self.p["rigid_sides"] if sides is None else sides  # of a tank
         self.kernel = smoothing.smoothing(case.solid.kernel, case.dimensions, case.smoothing_length)
         self.material = start.material(case)
         self.plastic, self.damage = start.plastic(case), start.damage(case)
@@ -55,6 +56,7 @@ class SolidStepper:
                 raise CaseError(f"track.particles holds {number}; the case has {len(made.volume)}, counted from 1")
         self.active = np.flatnonzero(~made.held).astype(np.int32)
         self.touching = Touching(contact(case), made.body)
+        self.sides = rigid_sides.Sides(self.p["rigid_sides"], made, self.touching.contact, list(case.bodies))
         self.cavity = self._cavity(made)
         self.time, self.steps, self.limit = 0.0, 0, ""
         self.works, self.impulses = np.zeros(len(WORKS)), np.zeros((len(IMPULSES), 3))
@@ -160,9 +162,11 @@ class SolidStepper:
 
     def forces(self, dt: float) -> None:
         """Stress after a step of `dt` [s] and accelerations of where the particles are now."""
-        self._load(dt)
-        while self.damage and (broken := (self.harm >= self.damage.critical) & (self.free == 0)).any():
-            self._break(broken, dt)  # those beside a cut may fail by it
+        self._deform()
+        self._load(self.plastic, self.damage, dt)
+        self.works[WORKS.index("plastic")] += self.weights.volume @ self.amounts[:, 1]
+        if self.damage and (broken := (self.harm >= self.damage.critical) & (self.free == 0)).any():
+            self._break(broken)
         s = self.state
         equations.push(
             self.kernel, self.material, s.x, s.y, s.z, s.u, s.v, s.w, self.weights.rows, self.ref, self.gradient,
@@ -177,27 +181,31 @@ class SolidStepper:
             self.acceleration += self.pressed
         self.springs = self._touch()
         self.acting[IMPULSES.index("clamp")] = -(s.mass[self.held] @ self.acceleration[self.held])
-        self._press_on_sides()
+        energy, self.acting[IMPULSES.index("sides")] = self.sides.press(s, self.acceleration)
+        self.springs += energy
         if self.p["gravity"]:
             self.acceleration += self.p["gravity"]
             self.acting[IMPULSES.index("gravity")] = s.mass[self.active].sum() * np.array(self.p["gravity"])
 
-    def _load(self, dt: float) -> None:
+    def _deform(self) -> None:
         equations.deform(self.state.x, self.state.y, self.state.z, self.weights.rows, self.ref, self.gradient)
+
+    def _load(self, plastic, damage, dt: float) -> None:
         equations.load(
-            self.material, self.plastic, self.damage, self.ref, dt, self.gradient, self.unloaded, self.strained,
+            self.material, plastic, damage, self.ref, dt, self.gradient, self.unloaded, self.strained,
             self.hardened, self.harm, self.stress, self.kirchhoff, self.amounts,
         )  # fmt: skip
-        self.works[WORKS.index("plastic")] += self.weights.volume @ self.amounts[:, 1]
 
-    def _break(self, broken, dt: float) -> None:
-        """Cut what has failed; the energy that the links and their neighbours lose by it is told."""
-        flown, before, bound = self.works[WORKS.index("plastic")], self.elastic_energy, self.free.copy()
+    def _break(self, broken) -> None:
+        """Cut what has failed; the energy that it had is told. Without its links the neighbours tell another
+        deformation: theirs begins anew at the stress that they bear, and nothing flows by a cut."""
+        before, bound, last = self.elastic_energy, self.free.copy(), self.gradient.copy()
         self.weights.cut(broken)
         self.touching.break_off(self.state, bound, self.free)
-        self._load(dt)
-        flown = self.works[WORKS.index("plastic")] - flown
-        self.works[WORKS.index("cut")] += before - self.elastic_energy - flown
+        self._deform()
+        keep_strain(self.free, last, self.gradient, self.unloaded)
+        self._load((), (), 1.0)
+        self.works[WORKS.index("cut")] += before - self.elastic_energy
 
     def _touch(self) -> float:
         """Contact of bodies and of what has broken off; its energy [J]."""
@@ -205,19 +213,6 @@ class SolidStepper:
             return 0.0
         self.touching.update(self.state, self.free)
         return self.touching.forces(self.state, self.acceleration)
-
-    def _press_on_sides(self) -> None:
-        if not self.p["rigid_sides"]:
-            return
-        own, force = self.touching.contact, np.zeros(3)
-        axes = particles.axes(self.state)
-        for axis, sign, depth in rigid_sides.depths(self.p["rigid_sides"], axes, own.spacing):
-            pressed = np.flatnonzero(depth > 0.0)
-            push = sign * own.stiffness * depth[pressed]
-            self.acceleration[pressed, axis] += push / self.state.mass[pressed]
-            self.springs += 0.5 * own.stiffness * float((depth[pressed] ** 2).sum())
-            force[axis] += push.sum()
-        self.acting[IMPULSES.index("sides")] = force
 
     @property
     def elastic_energy(self) -> float:
@@ -236,6 +231,6 @@ def limits(stepper) -> dict[str, float]:
     case = stepper.case
     stretch = float(stepper.amounts[:, 2].min())
     found = {"waves": case.solid.courant * case.smoothing_length * stretch / start.sound(case)}
-    if stepper.springs or len(stepper.touching.pairs) or stepper.p["rigid_sides"]:
+    if stepper.springs or len(stepper.touching.pairs) or stepper.sides.near(stepper.state):
         found["contact"] = stepper.touching.contact.limit(float(stepper.state.mass.min()))
     return found | effects.limits(stepper.p, case, stepper.state)

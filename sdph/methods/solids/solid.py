@@ -17,9 +17,9 @@ class Solids(Stepped):
     matter = "solid"
     KEPT = ("windows", "stepper", "ledger")  # see sdph.engine.kept
 
-    def __init__(self, case, ledger: Path, shortest: float, *, wet: bool = False):
+    def __init__(self, case, ledger: Path, shortest: float, *, wet: bool = False, sides=None):
         self.case, self.windows = case, 0
-        self.stepper, self.ledger = SolidStepper(case, shortest, wet=wet), SolidLedger(ledger)
+        self.stepper, self.ledger = SolidStepper(case, shortest, wet=wet, sides=sides), SolidLedger(ledger)
 
     def close(self) -> None:
         self.stepper.guard.look(self.stepper)

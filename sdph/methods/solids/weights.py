@@ -6,6 +6,8 @@ so that any linear map is told exactly (Bonet & Lok 1999, Comput. Methods Appl. 
 2006, Comput. Model. Eng. Sci. 16, 53). The slope of a link that damage has cut is 0 for good. A particle whose M has so
 small a determinant after cuts that its neighbours no longer tell a deformation bears nothing from then on, but its
 links stay: were they cut too, the next would be as badly off, and a ring would come apart link by link all round.
+Those beside a cut tell another deformation without its links, though nothing has moved: their elastic strain stays as
+it was (`keep_strain`), else a cut would make energy (our choice).
 """
 
 from __future__ import annotations
@@ -21,6 +23,7 @@ from sdph.engine.rows import entry, place
 from sdph.engine.state import SOLID
 from sdph.laws.compiled import parallel
 from sdph.laws.matrices import SINGULAR
+from sdph.methods.solids.equations import carried, inverse
 
 LOOSE = 0.15  # det M below which cuts free a particle; an uncut square corner has 0.137: gel-droplet.md, section 2
 
@@ -94,6 +97,19 @@ def _cut(rows, free, slope, torn):
             if slope[e] < 0.0 and (free[i] or free[entry(rows, i, k)]):
                 slope[e] = 0.0
                 torn[i] = 1
+
+
+@parallel
+def keep_strain(free, last, gradient, unloaded):
+    """C_p^-1 (N, 6) for which the elastic strain b_e is as it was, where F (N, 9) was `last` and is `gradient` now:
+    F^-1 b_e F^-T."""
+    for i in prange(len(gradient)):
+        if free[i] == 0:
+            b = carried(last[i], unloaded[i])
+            _, back = inverse(gradient[i])
+            now = carried(back, b)
+            for k in range(6):
+                unloaded[i, k] = now[k]
 
 
 def sorted_by_cell(points, reach: float) -> np.ndarray:
