@@ -169,11 +169,13 @@ def upwards(gravity) -> tuple:
 
 
 def chosen(shots: list[Shot], field: str | None) -> str:
-    """The field to show: `field`, `CaseError` where the run has none of that name; else what the scene is about."""
-    known = sorted(set(shots[-1].named()) & style.QUANTITIES.keys())
+    """The field to show: `field`, `CaseError` where the shots have none of that name; else what the scene is about.
+    Shots with nothing in them have no fields."""
+    known = sorted({name for own in shots for name in own.named()} & style.QUANTITIES.keys())
     if field and field not in known:
-        raise CaseError(f"--field {field}: this run has {', '.join(known)}")
-    return field or _subject(shots, known)
+        there = f"this run has {', '.join(known)}" if known else "nothing is there to show then; leave it out"
+        raise CaseError(f"--field {field}: {there}")
+    return field or _subject([own for own in shots if own.named()] or shots, known)
 
 
 # metrics of a case -> what it is about

@@ -38,9 +38,9 @@ def save(drawn, png: Path) -> None:
 
 
 def sheet(taken: Shot, look: Look, scale: style.Scale | None = None, last: float | None = None, fine: int = 2):
-    """A shot drawn: sdph.show.canvas.Sheet. `scale` (None: that of the shot itself), `last` [s]: end of the run,
-    `fine`: pixels drawn along one that is shown."""
-    field = shot.chosen([taken], look.field)
+    """A shot drawn: sdph.show.canvas.Sheet. `scale` of the field that `look` names (None: that of the shot itself),
+    `last` [s]: end of the run, `fine`: pixels drawn along one that is shown."""
+    field = look.field if scale else shot.chosen([taken], look.field)
     scale = scale or style.scale(field, taken.values(field))
     room = flat if taken.axes else space
     return room.draw(taken, look, scale, field, taken.time if last is None else last, fine)
