@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import numpy as np
+
+from sdph.methods.solids import start
 from sdph.schema import CaseError
 
 NEEDS = {
@@ -26,6 +29,22 @@ def check(case) -> None:
         _check_shape(case, f"bodies.{name}", body)
         _check_flaw(f"bodies.{name}", body)
         _check_motion(f"bodies.{name}", body)
+
+
+def check_probe(case, where: str, probe) -> None:
+    """A probe of bodies alone lies in one of them, no further than a spacing from a particle."""
+    gap = min(nearest(points, probe.at)[1] for points, _ in (start.places(case, own) for own in case.bodies.values()))
+    if gap > case.resolution.spacing:
+        raise CaseError(
+            f"{where}.at_m = {list(probe.at)}: the nearest particle of a body is {gap:.3g} m away; give a place within "
+            "a body: a probe goes along with the particle that is nearest to it at the start"
+        )
+
+
+def nearest(points, at) -> tuple[int, float]:
+    """Number of the point (N, d) [m] that is nearest to a place (d,) [m], and how far away it is [m]."""
+    away = np.linalg.norm(points - np.array(at), axis=1)
+    return int(away.argmin()), float(away.min())
 
 
 def _check_shape(case, where: str, body) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from sdph.case import probed
+from sdph.case import bodies, probed
 from sdph.engine.geometry import SIDES
 from sdph.schema import CaseError
 
@@ -15,9 +15,9 @@ NEAR = 1e-3
 
 
 def probe(case, where: str, own) -> None:
-    """A probe lies in the domain, and among grains or in a liquid, and what it follows is there."""
-    if case.grains is None and case.liquid is None:
-        raise CaseError(f"[{where}] follows grains and gas, or a liquid, and the case has none; leave it out")
+    """A probe lies in the domain, and in a body where there is nothing else, and what it follows is there."""
+    if case.matters == ("solid",):
+        bodies.check_probe(case, where, own)
     inside(case, where, own.at, own.at)
     probed.check(case, where, own)
 

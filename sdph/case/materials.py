@@ -44,7 +44,13 @@ def _material(name: str, given: dict, common: dict, known) -> Grains:
         raise CaseError(f"{where} is a section; it must be a value, or name the material otherwise")
     if not name.isidentifier():
         raise CaseError(f"[{where}]: a material is a word of letters, digits and _, as its name heads columns")
-    for key in (*BED, *OF_DROPS):
+    for key in OF_DROPS:
+        if key in given:
+            raise CaseError(
+                f"{where}.{key} is of droplets, which are of one material: evaporation and vapour know no second one; "
+                f"give {key} in [grains], without [{where}] and its like, or leave it out"
+            )
+    for key in BED:
         if key in given:
             raise CaseError(f"{where}.{key} is of all grains together; give it in [grains]")
     return plausible(read(Grains, common | given, where), where)

@@ -7,18 +7,21 @@ from sdph.schema import CaseError
 
 UNITS = {  # fields -> unit at the end of the column; "" of a number without one
     "pressure": "Pa", "velocity": "m_s", "temperature": "K", "density": "kg_m3", "alpha_p": "",
-    "vapour_mass_fraction": "", "theta": "m2_s2", "diameter": "m",
+    "vapour_mass_fraction": "", "theta": "m2_s2", "diameter": "m", "displacement": "m", "equivalent_stress": "Pa",
+    "plastic_strain": "", "damage": "",
 }  # fmt: skip
+VECTORS = ("velocity", "displacement")
 OF_GAS = ("velocity", "pressure", "temperature", "density", "alpha_p")
 OF_GRAINS = ("velocity", "density", "alpha_p", "temperature", "theta", "diameter")
 OF_LIQUID = ("velocity", "pressure", "density")
+OF_SOLID = (*VECTORS, "equivalent_stress", "pressure", "density", "plastic_strain", "damage")
 
 
 def fields(case, probe) -> dict[str, tuple[str, ...]]:
     """Fields that a probe follows, by whose they are: "particles", "gas"; without a choice the temperatures of grains
-    and gas, and of a liquid its pressure and velocity."""
+    and gas, of a liquid its pressure and velocity, of bodies alone displacement and velocity."""
     known = known_to(case)
-    usual = ("temperature",) if case.grains else ("pressure", "velocity")
+    usual = ("temperature",) if case.grains else ("pressure", "velocity") if case.liquid else VECTORS[::-1]
     chosen = probe.fields or usual
     return {whose: tuple(name for name in chosen if name in own) for whose, own in known.items()}
 
@@ -26,7 +29,7 @@ def fields(case, probe) -> dict[str, tuple[str, ...]]:
 def known_to(case) -> dict[str, tuple[str, ...]]:
     """All fields that there are to follow in a case, by whose they are."""
     if not case.grains:
-        return {"particles": OF_LIQUID}
+        return {"particles": OF_LIQUID if case.liquid else OF_SOLID}
     there = {"velocity", "density", "alpha_p", *carried(case)}
     gas = (*OF_GAS, "vapour_mass_fraction") if case.vapour else OF_GAS
     return {"particles": tuple(name for name in OF_GRAINS if name in there), "gas": gas}
@@ -44,13 +47,14 @@ def columns(case, probe) -> list[str]:
         name
         for whose, own in fields(case, probe).items()
         for field in own
-        for name in (by_axis(column(whose, field), case.dimensions) if field == "velocity" else [column(whose, field)])
+        for name in (by_axis(column(whose, field), case.dimensions) if field in VECTORS else [column(whose, field)])
     ]
 
 
 def by_axis(name: str, dimensions: int) -> list[str]:
     """Columns of a vector: velocity_m_s is velocity_x_m_s, velocity_y_m_s, ..."""
-    return [name.replace("velocity_", f"velocity_{a}_") for a in "xyz"[:dimensions]]
+    field = next(own for own in VECTORS if own in name)
+    return [name.replace(f"{field}_", f"{field}_{a}_") for a in "xyz"[:dimensions]]
 
 
 def check(case, where: str, probe) -> None:

@@ -113,8 +113,14 @@ class Alone:
 
     def row(self) -> dict[str, float]:
         """Columns of history.csv."""
-        probes = history.of_liquid(self.case, self.method.points()) if self.case.probes else {}
-        return {"time_s": self.time} | self.method.row() | forces.row(self.methods) | probes | self.limiters.now
+        return {"time_s": self.time} | self.method.row() | forces.row(self.methods) | self._probes() | self.limiters.now
+
+    def _probes(self) -> dict[str, float]:
+        if not self.case.probes:
+            return {}
+        if self.matter == "solid":
+            return history.of_solid(self.case, self.stepper)
+        return history.of_liquid(self.case, self.method.points())
 
     def meshes(self) -> dict:
         """Particles for the timeline."""

@@ -1,4 +1,4 @@
-"""Rows of history.csv: probes fixed in space, and what the grains tell of themselves."""
+"""Rows of history.csv: probes fixed in space or in a body, and what the grains tell of themselves."""
 
 from __future__ import annotations
 
@@ -6,10 +6,12 @@ import numpy as np
 
 from coupling.transfer import gather
 from sdph.case import probed
+from sdph.case.bodies import nearest
 from sdph.case.sections import Probe
 from sdph.engine import state as particles
 from sdph.engine.world import ALONE
 from sdph.laws.kernels import SUPPORT
+from sdph.methods.solids import history as solids
 
 
 def row(simulation) -> dict[str, float]:
@@ -59,6 +61,18 @@ def of_liquid(case, cloud) -> dict[str, float]:
             (np.asarray(cloud.points), np.asarray(cloud["mass"])) if there else (np.zeros((0, 3)), np.zeros(0))
         )
         found = near(case, places, mass, arrays, _place(own.at))
+        columns |= {f"{name}_{key}": value for key, value in found.items()}
+    return columns
+
+
+def of_solid(case, stepper) -> dict[str, float]:
+    """Columns of all probes in bodies: of the particle that was nearest at the start."""
+    columns, here = {}, particles.positions(stepper.state)
+    told = solids.fields(stepper) | {"velocity": particles.velocities(stepper.state)}
+    told["displacement"] = here - stepper.reference
+    for name, own in case.probes.items():
+        i, _ = nearest(stepper.reference[:, : case.dimensions], own.at)
+        found = _named(case, "particles", {field: told[field][i] for field in probed.fields(case, own)["particles"]})
         columns |= {f"{name}_{key}": value for key, value in found.items()}
     return columns
 

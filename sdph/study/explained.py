@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from sdph.case import forces, usual
+from sdph.effects.solids import rigid_sides
 from sdph.study import inlets, rehearsal
 from sdph.study.explain import materials, tables
 
@@ -16,7 +17,7 @@ def explained(case, template: Path, *, allow_code: bool = False) -> dict[str, li
         parts = tables.explain(seen, rehearsal.priced(case, mesh))
         told = grains.notices if grains else []
         last = next(name for name in parts if name.startswith("warnings"))  # grains come first
-        parts[last] += [{"warning": text} for text in (*inlets.warnings(case, mesh), *usual.warnings(case), *told)]
+        parts[last] += [{"warning": text} for text in (*_of_case(case, mesh), *told)]
         parts["filled"] = materials.filled(seen, grains.filled) if grains else []
         parts["forces"] = forces.rows(seen)
     return parts
@@ -25,4 +26,9 @@ def explained(case, template: Path, *, allow_code: bool = False) -> dict[str, li
 def warned(case, template: Path, *, allow_code: bool = False, whole: bool = False) -> list[str]:
     """The warnings alone; what cannot run is refused, without `whole` but for its particles."""
     with rehearsal.rehearsed(case, template, allow_code=allow_code, whole=whole) as (seen, mesh, _):
-        return [*tables.warnings(seen), *inlets.warnings(case, mesh), *usual.warnings(case)]
+        return [*tables.warnings(seen), *_of_case(case, mesh)]
+
+
+def _of_case(case, mesh) -> list[str]:
+    """Warnings of a case with all its matters."""
+    return [*inlets.warnings(case, mesh), *usual.warnings(case), *rigid_sides.warnings(case)]

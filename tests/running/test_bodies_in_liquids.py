@@ -9,13 +9,16 @@ from test_restart import Cut, Reporter, same_run
 
 from sdph import cli, scenes
 from sdph.case import read as cases
+from sdph.effects.solids import rigid_sides
 from sdph.engine import state as particles
 from sdph.laws.solids import lame_ring
 from sdph.methods.liquids import account
+from sdph.methods.solids.method import IMPULSES, SolidStepper
 from sdph.running import driver
 from sdph.running.together import Together
 from sdph.schema import CaseError
 from sdph.show import timeline
+from sdph.study import explained
 
 WIDE, HIGH, DEEP, SPACING = 0.12, 0.12, 0.2, 0.01  # m, of a block and of the water above
 YOUNGS, SOUND = 2e5, 40.0  # Pa, m/s
@@ -34,6 +37,7 @@ COLUMN = {
         "held_lower_m": [0.0, 0.0], "held_upper_m": [WIDE, SPACING],
     }},
 }  # fmt: skip
+DOMAIN = {"size_m": [WIDE, WIDE], "gravity_m_s2": [0.0, -9.81]}
 FLAP = ("resolution.spacing_mm=12.5", "run.end_time_s=0.02", "run.output_interval_s=0.01", "solid.courant=0.2")
 
 
@@ -224,3 +228,53 @@ def test_what_the_polyline_gives_the_shell_gets(tmp_path, monkeypatch):
     assert max(liquid["momentum_drift_rel"], solid["momentum_drift_rel"]) < 1e-12
     assert run.ledger.impulses[5] == pytest.approx(-run.bodies.given[:3], abs=1e-12 * np.abs(run.bodies.given).max())
     assert abs(run.ledger.sums["numerical_work_J"]) < 0.05 * springs
+
+
+def sinking(**more):
+    """A heavy block of 4 x 4 particles that hits the floor through two layers of water."""
+    block = {"shape": "box", "lower_m": [0.04, 0.03], "upper_m": [0.08, 0.07], "velocity_m_s": [0.0, -2.0]}
+    return cases.from_table(COLUMN | {
+        "run": {"end_time_s": 0.06, "output_interval_s": 0.06},
+        "pools": {"water": {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [WIDE, 0.02]}},
+        "solid": {"density_kg_m3": 3000.0, "youngs_modulus_Pa": 2e6, "poisson_ratio": 0.3},
+        "bodies": {"block": block},
+    } | more)  # fmt: skip
+
+
+def test_walls_of_a_box_tank_hold_bodies_by_default(tmp_path):
+    run, rows = gone(sinking(), tmp_path)
+    lowest = np.array([row["solid_block_lowest_y_m"] for row in rows])
+    assert 0.0 < lowest.min() < 0.5 * SPACING  # pressed into the springs, by less than they are long
+    assert not run.warnings()
+    own = run.solids.ledger.summary()
+    assert own["momentum_drift_rel"] < 1e-12 and own["energy_missing_rel"] < 0.01
+    assert run.solids.stepper.impulses[IMPULSES.index("sides"), 1] > 0.0
+
+
+def test_sides_that_a_case_names_hold_bodies_in_place_of_the_tanks_walls(tmp_path):
+    run, _ = gone(sinking(effects=[*COLUMN["effects"], "rigid_sides"], rigid_sides={"sides": ["left"]}), tmp_path)
+    assert run.solids.stepper.state.y.max() < 0.0
+    (told,) = [line for line in run.warnings() if "outside" in line]
+    assert "16 of 16 solid particles (bodies.block) end outside of the domain, 0 of them broken off" in told
+
+
+def test_walls_stand_where_the_tank_has_them():
+    """Sides of a tank within the domain, less those that are open; a body that is clamped behind one is not pushed by
+    it; one that only reaches through is refused."""
+    case = flap()
+    assert [plane[:1] + plane[3:] for plane in rigid_sides.beside(case).planes] == [
+        ("left", 0.0), ("right", 0.3), ("bottom", 0.05),
+    ]  # fmt: skip
+    stepper = SolidStepper(case.only("solid"), sides=rigid_sides.beside(case))
+    held = [len(own) for *_, own in stepper.sides.planes]
+    assert held == [(~stepper.held).sum()] * 2 + [0]
+    loose = flap("bodies.flap.held_lower_m=[0.0,0.1]", "bodies.flap.held_upper_m=[0.3,0.15]")
+    with pytest.raises(CaseError, match=r"bodies.flap reaches through the rigid side 'bottom' at y = 0.05 m"):
+        SolidStepper(loose.only("solid"), sides=rigid_sides.beside(loose))
+
+
+def test_a_tank_whose_walls_hold_no_bodies_is_warned_of(tmp_path):
+    round_tank = {"shape": "sphere", "centre_m": [0.06, 0.06], "radius_m": 0.055, "slip": "free_slip"}
+    case = sinking(tank=round_tank, pools={"water": {"shape": "tank", "fill": 0.3}}, domain=DOMAIN)
+    assert explained.warned(case, tmp_path)[-1].startswith("tank.shape = 'sphere' holds the liquid but no bodies")
+    assert not any("no bodies" in line for line in explained.warned(sinking(), tmp_path))

@@ -1,6 +1,7 @@
 """Solids are run by the driver as liquids are: they go on bit for bit, and what bursts or makes no sense is refused."""
 
 import numpy as np
+import pandas as pd
 import pytest
 from blocks import table
 from test_restart import Cut, Reporter, same_run
@@ -8,9 +9,13 @@ from test_restart import Cut, Reporter, same_run
 from sdph import cli, scenes
 from sdph.case import read as cases
 from sdph.engine.guard import Unstable
+from sdph.laws.solids import cantilever_period
+from sdph.methods.solids.method import SolidStepper
+from sdph.methods.solids.scales import SolidScales
 from sdph.running import driver
 from sdph.schema import CaseError
 from sdph.show import timeline
+from sdph.study.explain import solids
 
 # a bar that tears while it is pulled: contact, cuts and plastic flow
 TORN = {
@@ -105,4 +110,61 @@ def test_what_cannot_be_made_is_refused(tmp_path, own, told):
 def test_explain_tells_what_the_run_obeys(capsys):
     assert cli.main(["explain", "oscillating_plate", "--set", "resolution.spacing_mm=5"]) == 0
     shown = capsys.readouterr().out
-    assert "waves" in shown and "solid particles" in shown and "narrowest body / spacing" in shown
+    assert "waves" in shown and "solid particles" in shown and "slender body / spacing" in shown
+
+
+@pytest.mark.parametrize("layers", [4, 6])
+def test_thin_bodies_bend_too_far_by_what_explain_says(layers):
+    """Period of a beam ten times as long as thick, from rest under its weight, over that of thin theory: its square is
+    by how much it bends too far; 2.7 % is what a thick beam does."""
+    high, long, held = 0.02, 0.2, 0.02
+    spacing = high / layers
+    beam = {
+        "shape": "box", "lower_m": [held - 4.0 * spacing, 0.1], "upper_m": [held + long, 0.1 + high],
+        "held_lower_m": [0.0, 0.0], "held_upper_m": [held, 1.0],
+    }  # fmt: skip
+    case = cases.from_table(table(
+        bodies={"beam": beam}, effects=["gravity"], domain={"size_m": [0.4, 0.4], "gravity_m_s2": [0.0, -9.81]},
+        resolution={"spacing_mm": 1e3 * spacing, "smoothing_ratio": 1.3}, solid={"youngs_modulus_Pa": 1e7},
+    ))  # fmt: skip
+    own, period = SolidStepper(case), cantilever_period(long, high, 1e7, 0.3, 1000.0)
+    end, time, place = own.state.x > held + long - spacing, [], []
+    while own.time < 0.85 * period:
+        own.step(1e-2 * period)
+        time.append(own.time)
+        place.append(own.state.y[end].mean())
+    bottom = np.array(place) < 0.97 * min(place) + 0.03 * place[0]
+    a, b, _ = np.polyfit(np.array(time)[bottom], np.array(place)[bottom], 2)
+    too_far = (-b / a / period) ** 2 - 1.0
+    scales = SolidScales(case)
+    assert too_far == pytest.approx(1.027 * (1.0 + solids.SOFT * (case.smoothing_length / high) ** 2) - 1.0, abs=0.04)
+    (line,) = solids.warnings(scales)
+    assert line.startswith(f"slender body / spacing = {layers}, safe from 10.1 to inf: too few layers bend too easily")
+
+
+def test_a_block_that_does_not_bend_is_not_warned_of():
+    assert not solids.warnings(SolidScales(cases.from_table(table())))
+
+
+def test_a_probe_goes_along_with_a_body(tmp_path):
+    """Displacement and velocity of a block in free flight; of stress what the fields have."""
+    flying = table(probes={"tip": {"at_m": [0.519, 0.44]}, "mid": {"at_m": [0.45, 0.44], "fields": ["equivalent_stress"]}})
+    flying["bodies"]["block"]["velocity_m_s"] = [2.0, -1.0]
+    flying["run"] = {"end_time_s": 0.02, "output_interval_s": 0.01}
+    driver.run(cases.from_table(flying), "", tmp_path / "run", None, Reporter(None))
+    last = pd.read_csv(tmp_path / "run" / "history.csv").iloc[-1]
+    found = [last[f"tip_{name}"] for name in ("displacement_x_m", "displacement_y_m", "velocity_x_m_s", "velocity_y_m_s")]
+    assert found == pytest.approx([0.04, -0.02, 2.0, -1.0], rel=1e-9)
+    assert last["mid_equivalent_stress_Pa"] == pytest.approx(0.0, abs=1.0)
+
+
+@pytest.mark.parametrize(
+    ("probe", "told"),
+    [
+        ({"at_m": [0.8, 0.8]}, "goes along with the particle that is nearest"),
+        ({"at_m": [0.45, 0.44], "fields": ["temperature"]}, "there are: damage, density, displacement"),
+    ],
+)
+def test_a_probe_beside_the_bodies_is_refused(probe, told):
+    with pytest.raises(CaseError, match=told):
+        cases.from_table(table(probes={"tip": probe}))

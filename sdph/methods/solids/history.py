@@ -58,6 +58,21 @@ def fields(stepper) -> dict[str, np.ndarray]:
     } | {f"stress_{ab}": stress[:, k] for k, ab in enumerate(AXES)}  # fmt: skip
 
 
+def outside(stepper) -> list[str]:
+    """A line where particles are outside of the domain: how many, of which bodies, and how many have broken off."""
+    case, d = stepper.case, stepper.case.dimensions
+    here = particles.positions(stepper.state)[:, :d]
+    gone = ((here < 0.0) | (here > np.array(case.domain.size))).any(axis=1)
+    if not gone.any():
+        return []
+    whose = ", ".join(f"bodies.{name}" for number, name in enumerate(case.bodies) if gone[stepper.body == number].any())
+    loose = int((gone & (stepper.free != 0)).sum())
+    return [
+        f"{int(gone.sum())} of {len(gone)} solid particles ({whose}) end outside of the domain, {loose} of them broken "
+        "off: nothing held them; enlarge domain.size_m, or name the sides that hold bodies in rigid_sides.sides"
+    ]
+
+
 def summary(stepper) -> dict[str, float]:
     """Part of summary.json."""
     return {

@@ -11,6 +11,9 @@ from sdph.engine import state as particles
 from sdph.methods.solids import start
 
 
+SLENDER = 3.0  # lengths over widths from which on a body bends rather than shears; our choice
+
+
 class SolidScales:
     """Scales of a case, SI."""
 
@@ -32,6 +35,22 @@ class SolidScales:
     def width(self) -> float:
         """Narrowest extent [m] of a body at the start; of a ring its thickness."""
         return min(_width(body) for body in self.case.bodies.values())
+
+
+    @cached_property
+    def slender(self) -> float:
+        """Narrowest extent [m] of a body that is SLENDER times as long, and so bends; inf without any."""
+        bodies = self.case.bodies.values()
+        return min((_width(body) for body in bodies if _length(body) >= SLENDER * _width(body)), default=math.inf)
+
+
+def _length(body) -> float:
+    """Longest extent [m] of a body; of a ring the way around."""
+    if body.shape == "box":
+        return max(b - a for a, b in zip(body.lower, body.upper))
+    if body.shape == "ring":
+        return math.pi * (body.radius + body.inner_radius)
+    return max(2.0 * body.radius, body.length or 0.0)
 
 
 def _width(body) -> float:

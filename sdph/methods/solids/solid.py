@@ -53,4 +53,4 @@ class Solids(Stepped):
         return history.summary(self.stepper)
 
     def warnings(self) -> list[str]:
-        return []
+        return history.outside(self.stepper)

@@ -5,6 +5,7 @@ import pytest
 from blocks import stepper
 
 from sdph.engine import state as particles
+from sdph.methods.solids import history
 from sdph.methods.solids.method import IMPULSES, WORKS
 from sdph.methods.solids.totals import SolidLedger, energy, totals
 
@@ -142,3 +143,60 @@ def test_what_is_held_stays_and_its_reaction_is_told():
     assert own.impulses[:, 1].sum() == pytest.approx(gained, rel=1e-12)
     fallen = -9.8 * own.state.mass @ (own.state.y - own.reference[:, 1])
     assert own.works[WORKS.index("gravity")] == pytest.approx(fallen, rel=1e-9)
+
+
+def test_a_cut_changes_no_stress_beside_it_and_makes_no_energy():
+    """What stands beside a cut bears what it bore, though its other links tell another deformation of a bent body; the
+    ledger has the elastic energy of what was cut, and nothing flows."""
+    own = stepper(solid=BRITTLE | {"failure": [10.0, 0.0, 0.0, 0.0, 0.0]})
+    x, y, _ = own.reference.T
+    bent = own.reference + np.stack([0.5 * (x - 0.4) * (y - 0.4), 0.8 * (x - 0.4) ** 2, 0.0 * x], axis=1)
+    for axis, column in zip(particles.axes(own.state), bent.T):
+        axis[:] = column
+    own.forces(1e-6)
+    stress, energy_of, flown = own.kirchhoff.copy(), own.weights.volume * own.amounts[:, 0], own.works.copy()
+    own.harm[40], before = 1.0, own.gradient.copy()
+    own.plastic = ()
+    own.forces(1e-6)
+    left = own.free == 0
+    assert own.free.sum() == 1 and np.abs(own.gradient - before)[left].max() > 1e-4
+    np.testing.assert_allclose(own.kirchhoff[left], stress[left], rtol=1e-9, atol=1e-9 * np.abs(stress).max())
+    taken = (own.works - flown)[[WORKS.index("cut"), WORKS.index("plastic")]]
+    assert taken == pytest.approx([energy_of[40], 0.0], rel=1e-9)
+
+
+def test_an_impact_that_breaks_a_body_makes_no_energy(tmp_path):
+    """Steel at 600 m/s on a rigid side, Johnson and Cook's failure: cuts had made a sixth of the impact's energy, and
+    damage had gone to three times D_c."""
+    steel = {
+        "density_kg_m3": 7850.0, "youngs_modulus_Pa": 2.1e11, "poisson_ratio": 0.3, "yield_stress_Pa": 7.92e8,
+        "hardening_Pa": 5.1e8, "hardening_exponent": 0.26, "rate_factor": 0.014,
+        "failure": [0.05, 3.44, -2.12, 0.002, 0.61], "critical_damage": 0.3,
+    }  # fmt: skip
+    disc = {"shape": "disc", "centre_m": [0.0052, 0.015], "radius_m": 0.005, "velocity_m_s": [-600.0, 0.0]}
+    own = stepper(
+        solid=steel, bodies={"disc": disc}, effects=["rigid_sides"], rigid_sides={"sides": ["left"]},
+        domain={"size_m": [0.03] * 2, "gravity_m_s2": [0.0] * 2},
+        resolution={"spacing_mm": 0.5, "smoothing_ratio": 1.3},
+    )  # fmt: skip
+    ledger = SolidLedger(tmp_path / "ledger.csv")
+    ledger.open(own)
+    first, cut = energy(totals(own)), []
+    while own.time < 1e-5:
+        own.step(1e-6)
+        ledger.close_window(own, 0.0)
+        cut.append(own.works[WORKS.index("cut")])
+    assert own.free.sum() > 30
+    assert np.diff(cut).min() > -1e-9 * first and cut[-1] > 0.0
+    assert own.harm.max() < 2.0 * 0.3  # by the last step before a cut at most
+    assert ledger.summary()["energy_missing_rel"] < 0.01
+    assert energy(totals(own)) < 0.7 * first
+
+
+def test_what_has_left_the_domain_is_told():
+    own = stepper(solid=BRITTLE)
+    assert history.outside(own) == []
+    own.state.x[:3] -= 1.0
+    own.free[:2] = 1
+    (line,) = history.outside(own)
+    assert line.startswith("3 of 96 solid particles (bodies.block) end outside of the domain, 2 of them broken off")
