@@ -148,12 +148,14 @@ def test_a_block_that_does_not_bend_is_not_warned_of():
 
 def test_a_probe_goes_along_with_a_body(tmp_path):
     """Displacement and velocity of a block in free flight; of stress what the fields have."""
-    flying = table(probes={"tip": {"at_m": [0.519, 0.44]}, "mid": {"at_m": [0.45, 0.44], "fields": ["equivalent_stress"]}})
+    stress = {"at_m": [0.45, 0.44], "fields": ["equivalent_stress"]}
+    flying = table(probes={"tip": {"at_m": [0.519, 0.44]}, "mid": stress})
     flying["bodies"]["block"]["velocity_m_s"] = [2.0, -1.0]
     flying["run"] = {"end_time_s": 0.02, "output_interval_s": 0.01}
     driver.run(cases.from_table(flying), "", tmp_path / "run", None, Reporter(None))
     last = pd.read_csv(tmp_path / "run" / "history.csv").iloc[-1]
-    found = [last[f"tip_{name}"] for name in ("displacement_x_m", "displacement_y_m", "velocity_x_m_s", "velocity_y_m_s")]
+    told = ("displacement_x_m", "displacement_y_m", "velocity_x_m_s", "velocity_y_m_s")
+    found = [last[f"tip_{name}"] for name in told]
     assert found == pytest.approx([0.04, -0.02, 2.0, -1.0], rel=1e-9)
     assert last["mid_equivalent_stress_Pa"] == pytest.approx(0.0, abs=1.0)
 

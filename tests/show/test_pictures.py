@@ -292,21 +292,3 @@ def test_numbers_that_stand_for_words_are_told_by_them():
     bar = sheet.figure.axes[-1]
     assert [label.get_text() for label in bar.get_yticklabels()] == ["sand", "char", "ash"]
     assert np.array_equal(bar.get_yticks(), [0.0, 1.0, 2.0]) and bar.get_ylim() == (-0.5, 2.5)
-
-
-@pytest.mark.parametrize("field", [None, "pressure"])
-def test_a_film_goes_on_where_nothing_is_left(field, tmp_path):
-    """Frames with nothing in them, last of all, are frames; a picture of that alone refuses a field in words."""
-    from imageio import v3 as imageio
-
-    from sdph.running.fields import Fields
-
-    fields = Fields(tmp_path)
-    (tmp_path / "fields").mkdir()
-    for time, there in enumerate((True, False)):
-        own = cloud(lattice(4), ident=np.arange(16), pressure=np.linspace(0.0, 5.0, 16)) if there else pyvista.PolyData()
-        fields.write(float(time), {"particles": own})
-    view.movie(tmp_path, tmp_path / "a.gif", field)
-    assert len(imageio.imread(tmp_path / "a.gif", index=None)) == 2
-    with pytest.raises(CaseError, match="--field pressure: nothing is there to show then; leave it out"):
-        view.show(tmp_path, tmp_path / "a.png", field="pressure")

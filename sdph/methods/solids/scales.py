@@ -10,7 +10,6 @@ from sdph import effects
 from sdph.engine import state as particles
 from sdph.methods.solids import start
 
-
 SLENDER = 3.0  # lengths over widths from which on a body bends rather than shears; our choice
 
 
@@ -35,7 +34,6 @@ class SolidScales:
     def width(self) -> float:
         """Narrowest extent [m] of a body at the start; of a ring its thickness."""
         return min(_width(body) for body in self.case.bodies.values())
-
 
     @cached_property
     def slender(self) -> float:

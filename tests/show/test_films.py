@@ -1,0 +1,25 @@
+"""Films of runs that end with nothing in them."""
+
+import numpy as np
+import pytest
+import pyvista
+from imageio import v3 as imageio
+from test_pictures import cloud, lattice
+
+from sdph.running.fields import Fields
+from sdph.schema import CaseError
+from sdph.show import view
+
+
+@pytest.mark.parametrize("field", [None, "pressure"])
+def test_a_film_goes_on_where_nothing_is_left(field, tmp_path):
+    """Frames with nothing in them, last of all, are frames; a picture of that alone refuses a field in words."""
+    fields = Fields(tmp_path)
+    (tmp_path / "fields").mkdir()
+    for time, there in enumerate((True, False)):
+        own = cloud(lattice(4), ident=np.arange(16), pressure=np.linspace(0.0, 5.0, 16))
+        fields.write(float(time), {"particles": own if there else pyvista.PolyData()})
+    view.movie(tmp_path, tmp_path / "a.gif", field)
+    assert len(imageio.imread(tmp_path / "a.gif", index=None)) == 2
+    with pytest.raises(CaseError, match="--field pressure: nothing is there to show then; leave it out"):
+        view.show(tmp_path, tmp_path / "a.png", field="pressure")
