@@ -277,9 +277,8 @@ def _incoming(case) -> int:
     """Particles that the nozzles bring until the end."""
     coming = 0.0
     for nozzle in case.nozzles.values():
-        lasting = max(0.0, min(nozzle.end or case.run.end_time, case.run.end_time) - nozzle.start)
         layer = nozzle.size_classes * mouth(case, nozzle) / case.resolution.spacing ** (case.dimensions - 1)
-        coming += layer * nozzle.speed * lasting / case.resolution.spacing
+        coming += layer * nozzle.speed * feed.lasting(case, nozzle) / case.resolution.spacing
     return math.ceil(coming)
 
 
