@@ -73,7 +73,7 @@ USED = ("sand", "char")
         (PLAIN, ("sand", ""), "[grains] is one material without a name; leave it out, or name it: [grains.sand]"),
         ({"sand": PLAIN, "char": {"density_kg_m3": 1.0}}, USED, "grains.char.diameter_mm is missing"),
         (PLAIN | TWO | {"sand": {"restitution": 0.5}}, USED, "grains.sand.restitution is of all grains"),
-        (PLAIN | TWO | {"sand": {"fluid": "water"}}, USED, "grains.sand.fluid is of droplets, which are of one material"),
+        (PLAIN | TWO | {"sand": {"fluid": "water"}}, USED, "fluid is of droplets, which are of one material"),
         (PLAIN | TWO | {"sand": {"densty_kg_m3": 0.5}}, USED, "did you mean grains.sand.density_kg_m3"),
         (PLAIN | TWO | {"densty_kg_m3": 2.0}, USED, "unknown key grains.densty_kg_m3"),
         (PLAIN | {"diameter_mm": {}, "char": {}}, ("char", "char"), "grains.diameter_mm is a section"),
