@@ -8,7 +8,7 @@ from test_pictures import cloud, lattice
 
 from sdph.running.fields import Fields
 from sdph.schema import CaseError
-from sdph.show import view
+from sdph.show import shot, view
 
 
 @pytest.mark.parametrize("field", [None, "pressure"])
@@ -17,8 +17,10 @@ def test_a_film_goes_on_where_nothing_is_left(field, tmp_path):
     fields = Fields(tmp_path)
     (tmp_path / "fields").mkdir()
     for time, there in enumerate((True, False)):
-        own = cloud(lattice(4), ident=np.arange(16), pressure=np.linspace(0.0, 5.0, 16))
+        own = cloud(lattice(4), ident=np.arange(16), pressure=np.linspace(0.0, 5.0, 16), velocity=np.ones((16, 3)))
         fields.write(float(time), {"particles": own if there else pyvista.PolyData()})
+    shots = shot.all_of_folder(tmp_path)
+    assert shot.chosen(shots, None) == shot.chosen(shots[:1], None) == "velocity"  # the subject of what was there
     view.movie(tmp_path, tmp_path / "a.gif", field)
     assert len(imageio.imread(tmp_path / "a.gif", index=None)) == 2
     with pytest.raises(CaseError, match="--field pressure: nothing is there to show then; leave it out"):

@@ -6,7 +6,7 @@ from blocks import stepper
 
 from sdph.engine import state as particles
 from sdph.methods.solids import history
-from sdph.methods.solids.method import IMPULSES, WORKS
+from sdph.methods.solids.method import IMPULSES, WORKS, limits
 from sdph.methods.solids.totals import SolidLedger, energy, totals
 
 BRITTLE = {
@@ -120,9 +120,11 @@ def test_a_rigid_side_takes_the_momentum_and_gives_the_energy_back():
         solid={"viscosity": 0.0, "hourglass": 0.0}, run=FINE,
     )  # fmt: skip
     first = totals(own)
+    assert own.springs == 0.0 and "contact" in limits(own)  # near enough to touch in the next step
     for _ in range(400):
         own.step(1.0)
     last = totals(own)
+    assert "contact" not in limits(own)
     assert last["momentum_y_kg_m_s"] > 0.0
     gained = last["momentum_y_kg_m_s"] - first["momentum_y_kg_m_s"]
     assert own.impulses[IMPULSES.index("sides"), 1] == pytest.approx(gained, rel=1e-12)
