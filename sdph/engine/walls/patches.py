@@ -17,15 +17,18 @@ PROBE, BENT = 0.25, 0.02  # spacings in front of a face, and how much nearer ano
 
 
 class Patches(NamedTuple):
-    """P patches: the number (P,) of the wall particle behind each, middle (P, d) [m], unit normal (P, d) out of the
-    liquid and area (P,) [m^(d-1)]; places (S, d) [m] on the surface, all alike in area, and the patch (S,) of each."""
+    """P patches: the number (P,) of the wall particle behind each and its middle (P, d) [m]; places (S, d) [m] on the
+    surface, the area (S, d) [m^(d-1)] of each along the normal out of the liquid, and the patch (S,) that it is of."""
 
     particle: np.ndarray
     middle: np.ndarray
-    normal: np.ndarray
-    area: np.ndarray
     places: np.ndarray
+    area: np.ndarray
     whose: np.ndarray
+
+    def sums(self, what: np.ndarray) -> np.ndarray:
+        """(P, n) over the places of each patch, of (S, n)."""
+        return np.stack([np.bincount(self.whose, own, len(self.particle)) for own in what.T], axis=1)
 
 
 def found(shape, points: np.ndarray, spacing: float) -> Patches:
@@ -35,10 +38,9 @@ def found(shape, points: np.ndarray, spacing: float) -> Patches:
     particle, tree = np.flatnonzero(plain), cKDTree(np.hstack((feet, spacing * normals))[plain])
     places, facing, size = _strewn(shape, spacing / FINE)
     whose = tree.query(np.hstack((places, spacing * facing)))[1]
-    area, many = np.bincount(whose, size, len(particle)), np.bincount(whose, minlength=len(particle))
-    middle = np.stack([np.bincount(whose, column, len(particle)) for column in places.T], axis=1)
-    middle /= np.maximum(many, 1)[:, None]
-    return Patches(particle, middle, normals[particle], area, places, whose)
+    own = Patches(particle, feet[particle], places, size[:, None] * facing, whose)
+    many = np.bincount(whose, minlength=len(particle))[:, None]
+    return own._replace(middle=own.sums(places) / np.maximum(many, 1))
 
 
 def _feet(shape, points, spacing: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -49,7 +51,8 @@ def _feet(shape, points, spacing: float) -> tuple[np.ndarray, np.ndarray, np.nda
     slope = np.stack(rise, axis=1) / (2.0 * STEP * spacing)
     feet = points - distance[:, None] * slope
     before = shape.distance(feet - PROBE * spacing * slope)
-    return feet, slope, np.abs(before + PROBE * spacing) < BENT * spacing
+    steep = np.abs(np.linalg.norm(slope, axis=1) - 1.0) < BENT  # elsewhere two faces are as near
+    return feet, slope, steep & (np.abs(before + PROBE * spacing) < BENT * spacing)
 
 
 def _strewn(shape, spacing: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -16,6 +16,7 @@ from scipy.spatial import cKDTree
 from sdph.effects.around import tank
 from sdph.engine import state as particles
 from sdph.engine.walls import parts, patches, shapes
+from sdph.laws.constants import TINY
 from sdph.methods.liquids import walls
 
 SINGULAR = 1e-3  # of the largest eigenvalue: no wall that is wet has a normal along it; our choice
@@ -31,38 +32,38 @@ def sides(case, places: np.ndarray) -> dict[str, np.ndarray]:
 
 
 class Surface:
-    """The surface of a tank in patches, and of named parts the share (n, P) of each patch and (n, W) of the wall
-    particles at `places` (W, d) [m]; parts that no wall is in are left out."""
+    """The surface of a tank in patches, and of named parts the area (n, P, 3) [m^(d-1)] of each patch along its normal,
+    and the share (n, W) of wall particles at `places` (W, d) [m]; parts that no wall is in are left out."""
 
     def __init__(self, case, names, places: np.ndarray):
-        spacing = case.resolution.spacing
+        spacing, deep = case.resolution.spacing, ((0, 0), (0, 3 - case.dimensions))
         own = patches.found(tank.shape_of(case), places, spacing)
         inside = {name: parts.within(case.parts[name], own.places, shapes.ROUND_OFF * spacing) for name in names}
         self.names = tuple(name for name, here in inside.items() if here.any())
-        many, nearest = len(own.particle), cKDTree(own.middle).query(places)[1]
-        number = np.maximum(np.bincount(own.whose, minlength=many), 1)
-        shares = [np.bincount(own.whose, inside[name], many) / number for name in self.names]
-        self.shares = np.array(shares).reshape(len(self.names), many)
-        self.rubbed = self.shares[:, nearest]
-        self.particle, self.area = own.particle, own.area
-        self.middle, self.normal = (np.pad(own, ((0, 0), (0, 3 - case.dimensions))) for own in (own.middle, own.normal))
+        number, area = len(self.names), np.pad(own.area, deep)
+        chosen = np.array([inside[name] for name in self.names]).reshape(number, len(own.places))
+        self.areas = np.array([own.sums(area * here[:, None]) for here in chosen]).reshape(number, -1, 3)
+        held = own.sums(np.column_stack((np.ones(len(own.places)), chosen.T)))
+        nearest = cKDTree(own.middle).query(places)[1]
+        self.rubbed = (held[:, 1:] / np.maximum(held[:, :1], 1.0)).T[:, nearest]
+        self.particle, self.middle, self.area = own.particle, np.pad(own.middle, deep), own.sums(area)
 
-    def pressed(self, stepper, at: np.ndarray, whole: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Force (P, 3) [N] that presses each patch, 0 of those of other processes, where the wall particles stand
-        `at` (W,) in a stepper, -1 for elsewhere; they are pressed by `whole` (3,) [N]."""
-        here = at[self.particle] >= 0
+    def pressed(self, stepper, at: np.ndarray, whole: np.ndarray) -> np.ndarray:
+        """(n, P, 3) [N] that presses each part by patches, 0 of those of other processes, where the wall particles
+        stand `at` (W,) in a stepper, -1 for elsewhere; all are pressed by `whole` (3,) [N]."""
+        size = np.linalg.norm(self.area, axis=1)
+        here, normal = (at[self.particle] >= 0) & (size > 0.0), self.area / np.maximum(size, TINY)[:, None]
         pressure = np.zeros(len(here))
-        pressure[here] = walls.on_surface(stepper, at[self.particle[here]], self.middle[here], self.normal[here])
-        push, normal = pressure * self.area, self.normal
-        size = np.abs(push)
-        square = np.einsum("p,pi,pj->ij", size, normal, normal)
-        missing = whole - push @ normal
-        told = stepper.world.sum(np.concatenate((square.ravel(), missing, [size.sum(), self.area[here].sum()])))
+        pressure[here] = walls.on_surface(stepper, at[self.particle[here]], self.middle[here], normal[here])
+        push, size = np.abs(pressure), size * here
+        square = np.einsum("p,pi,pj->ij", push, normal, self.area)
+        missing = whole - pressure @ self.area
+        told = stepper.world.sum(np.concatenate((square.ravel(), missing, [push @ size, size.sum()])))
         square, missing = told[:9].reshape(3, 3), told[9:12]
         change = np.linalg.pinv(square, rcond=SINGULAR, hermitian=True) @ missing
-        rest = missing - square @ change
-        weight = size / told[12] if told[12] else np.where(here, self.area, 0.0) / told[13]
-        return (push + size * (normal @ change))[:, None] * normal + weight[:, None] * rest
+        share = (push / told[12] if told[12] else here / told[13]) * np.linalg.norm(self.areas, axis=2)
+        rest = share[..., None] * (missing - square @ change)
+        return (pressure + push * (normal @ change))[:, None] * self.areas + rest
 
 
 class Parts:
@@ -89,8 +90,7 @@ class Parts:
         if self.surface:
             at = np.full(len(self.own), -1)
             at[number] = own
-            patched = self.surface.pressed(stepper, at, pressed.sum(axis=0))
-            of_parts = self.surface.shares[..., None] * patched, self.surface.rubbed[:, number, None] * rubbed
-            more = parts.gathered(self.surface.middle, of_parts[0], places, of_parts[1])
+            of_parts = self.surface.pressed(stepper, at, pressed.sum(axis=0))
+            more = parts.gathered(self.surface.middle, of_parts, places, self.surface.rubbed[:, number, None] * rubbed)
             given = np.concatenate((given, more))
         return given.ravel()

@@ -94,7 +94,7 @@ def with_blocks(path):
 
 
 def test_blocks_in_a_liquid_are_lifted_as_archimedes_says(tmp_path):
-    """Four spacings high: 5 % too much, 2 % with eight (0.1 s and 0.2 s of a run with 20 mm)."""
+    """Four spacings high: 2 % too much and too little; the sum over particles was 5 % too much."""
     mesh = {"tank": {"slip": "free_slip", "shape": "mesh", "mesh": with_blocks(tmp_path / "tank.stl")}}
     parts = {"first": {"lower_m": [0.08, 0.08, 0.12], "upper_m": [0.24, 0.24, 0.28]},
              "second": {"lower_m": [0.36, 0.08, 0.12], "upper_m": [0.56, 0.24, 0.28]}}  # fmt: skip
@@ -104,7 +104,7 @@ def test_blocks_in_a_liquid_are_lifted_as_archimedes_says(tmp_path):
     lift = [told[f"mean_{name}_liquid_pressure_force_z_N"] for name in parts]
     over = [force / (DENSITY * G * 0.16**2 * wide) for force, wide in zip(lift, (0.16, 0.2))]
     print(f"lift over the weight of the liquid displaced: {over[0]:.4f}, {over[1]:.4f}")
-    assert all(abs(value - 1.0) < 0.08 for value in over)
+    assert all(abs(value - 1.0) < 0.04 for value in over)
     np.testing.assert_allclose(on(own, "tank"), -of_ledger(own), atol=1e-10 * np.abs(of_ledger(own)).max())
 
 
@@ -160,7 +160,7 @@ def test_each_face_of_a_thin_plate_bears_the_liquid_on_its_own_side(tmp_path, ri
     over = found["one"][0] / left, found["other"][0] / -(right or np.inf), found["plate"][0] / (left - right)
     print("over hydrostatics: {:.4f}, {:.4f}, both {:.4f}".format(*over))
     assert over[0] == pytest.approx(1.0, abs=0.04) and over[2] == pytest.approx(1.0, abs=0.04)
-    assert over[1] == pytest.approx(1.0, abs=0.05) if right else found["other"][0] == 0.0
+    assert over[1] == pytest.approx(1.0, abs=0.05) if right else not found["other"].any()
     np.testing.assert_allclose(found["one"] + found["other"], found["plate"], atol=1e-3 * left)
 
 
