@@ -195,8 +195,8 @@ def test_a_row_that_is_too_short_is_not_written_past():
 
 
 def test_an_even_bed_is_even_at_a_wall_that_leans_too():
-    """A frustum twice as wide above, in rings: cells at its wall had 10 % too little of an even bed, those beside them 8 %
-    too much, as kernels end where the cells do; in a box they are folded there."""
+    """A frustum twice as wide above, in rings: cells at its wall had 10 % too little of an even bed, those beside them
+    8 % too much, as kernels end where the cells do; in a box they are folded there."""
     rings, turn, rows, spacing = 8, 24, 12, 0.005
     height, low, high = 0.12, 0.03, 0.06
     z = (np.arange(rows) + 0.5) / rows
