@@ -35,6 +35,8 @@ class Run:
     # what starts the processes of `--ranks N`, which it is told by -n N: "srun", "mpirun --hostfile hosts"; mpirun
     launcher: str = words("")
     device: str = choice("cpu", "cuda")  # where loops over particles run
+    # speed from which on a grain has gone unstable; without it ten times all that drives it by the case
+    fastest: float | None = quantity("m_s", None, above=0.0)
 
 
 @record
