@@ -26,9 +26,11 @@ from numba import prange
 from coupling import by_cell
 from sdph.engine import arrays
 from sdph.laws.compiled import inlined, parallel, serial
+from sdph.laws.constants import TINY
 from sdph.laws.kernels import SUPPORT
 
 NOTHING = np.zeros(0, np.int64)
+ROUNDS = 8  # from 18 % to 0.4 to 2 % off in cones of 8, 5 and 4 rings (measured); our choice
 
 
 class Weights(NamedTuple):
@@ -52,7 +54,8 @@ class Transfer:
     """Weights between particles and one mesh, for particles of smoothing length `smoothing` [m].
 
     `box` (d,) [m] is that of the domain, from its lower `corner` (d,) [m] or the origin; the kernel is folded at its
-    sides where the mesh fills it. Places are counted from there.
+    sides where the mesh fills it. Where it does not, walls are where cells end: V_c gets a factor by which what fills
+    the mesh evenly fills its cells evenly. Places are counted from there.
     """
 
     def __init__(self, mesh, smoothing: float, box=(), corner=()):
@@ -66,6 +69,16 @@ class Transfer:
         share = mesh.volumes * (self.smoothing / self.smoothing.max()) ** -mesh.dimensions
         self.bins = _bins((mesh.centres - self.corner)[:, : mesh.dimensions], self.smoothing, share)
         self.stride, self.bins_there = 16, None
+        if len(box) > 0 and not filled:
+            self._even(mesh)
+
+    def _even(self, mesh) -> None:
+        """Change the cells' shares until grains that stand in their centres, as many as their volumes, fill each with
+        its own volume: columns of a matrix whose rows stay 1 (Sinkhorn & Knopp 1967, Pac. J. Math. 21, 343)."""
+        for _ in range(ROUNDS):
+            filled = deposit(self.weights(mesh.centres), mesh.volumes)
+            factor = mesh.volumes / np.maximum(filled, TINY)
+            self.bins = self.bins._replace(share=self.bins.share * factor[self.bins.cell])
 
     def weights(self, positions: np.ndarray) -> Weights:
         """Weights of particles at (N, 3) positions [m]; a particle that covers no cell centre takes the nearest."""

@@ -80,6 +80,8 @@ HARMLESS = {
     "sdph/methods/liquids/shift.py:surround": "the same",
     "sdph/methods/liquids/sparse.py:*": "the same",
     "sdph/methods/liquids/walls.py:wall_force": "the same",
+    "sdph/methods/liquids/parts.py:Surface.*": "a patch of the surface without places has no area, and so no normal",
+    "coupling/transfer.py:Transfer._even": "a cell that nothing reaches has nothing to share",
     "sdph/methods/liquids/bubble.py:Void._share": "how near to the void a particle is, from 0 to 1",
     "sdph/methods/liquids/bubbles.py:Voids._outside": "the same of several",
     "sdph/methods/liquids/bubbles.py:Voids._about": "the nearest where none is near",

@@ -22,6 +22,7 @@ AXES = ("x", "y", "z")
 MESH = "mesh of particles"
 HALF = 0.5  # of a spacing between a level and the row below
 SAME = 1e-6  # of a spacing: round-off
+PLACES = 100000  # by which volumes are counted; our choice
 
 
 def bounds(region, walls, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
@@ -61,6 +62,28 @@ def volume(region, spacing: float, dimensions: int, count: int) -> float:
     if region.shape == "mesh":
         return _surface(region).volume / count
     return spacing**dimensions
+
+
+def counted(region, low, high, walls, layers: float, spacing: float) -> float:
+    """Volume [m^d] of what of a region lies between `low` and `high` (d,) [m] and in front of the walls, as `in_front`
+    means it, but up to their surface: places of a lattice that are counted."""
+    d = len(low)
+    step = (float(np.prod(high - low)) / PLACES) ** (1.0 / d)
+    counts = np.maximum(np.round((high - low) / step), 1).astype(int)
+    places = grid([a + (np.arange(n) + 0.5) * (b - a) / n for a, b, n in zip(low, high, counts)])
+    each = float(np.prod((high - low) / counts))
+    if region.shape in ALONG_AXIS:
+        places = places[_in_cone(region, places, bounds(region, walls, d)[0])]
+    elif region.shape in ROUND:
+        places = places[((places - np.array(region.centre)) ** 2).sum(axis=1) < region.radius**2]
+    elif region.shape == "mesh":
+        places = places[_surface(region).distance(places) < 0.0]
+    if walls is None or not len(places):
+        return each * len(places)
+    surface = facets.Surface(walls)
+    off = surface.distance(places)
+    behind = (off <= 0.0) & (surface.closed or region.shape == "walls" or off >= -layers * spacing)
+    return each * int((~behind).sum())
 
 
 def _surface(region):

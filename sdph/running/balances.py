@@ -21,6 +21,10 @@ BARS = {
     "numerical_work_rel": NUMERICAL,
     "energy_missing_rel": 0.01,  # of solids: gel-droplet.md, section 5, energy
 }
+# of the impulses of the gas: faces balance its momentum and cells hold it, which is the same in boxes alone, and to
+# first order in a window where mass of cells changes (docs/theory/gas.md). A run tells it, no scene is held to it; our
+# choice
+DRIFT_OF_GAS = "gas_momentum_drift_rel", 0.01
 
 
 def checks(summary: dict) -> list[dict]:
@@ -36,15 +40,21 @@ def checks(summary: dict) -> list[dict]:
 
 
 def missed(summary: dict) -> list[str]:
-    """A line for each balance of a run that is not within its bar."""
-    return [
-        f"{row['name']} = {row['value']:.2g}, a balance is good to {row['tolerance']:g}: {_remedy(row['name'])}"
-        for row in checks(summary)
-        if not row["ok"]
-    ]
+    """A line for each balance of a run that is not within its bar, and for a drift of the gas's momentum."""
+    found = [(row["name"], row["value"], row["tolerance"]) for row in checks(summary) if not row["ok"]]
+    name, bar = DRIFT_OF_GAS
+    if summary.get(name, 0.0) > bar:
+        found.append((name, summary[name], bar))
+    return [f"{name} = {value:.2g}, a balance is good to {bar:g}: {_remedy(name)}" for name, value, bar in found]
 
 
 def _remedy(name: str) -> str:
     if name.endswith("numerical_work_rel"):
         return "shorter steps (run.step_factor below 1) lower what explicit steps do"
+    if name == DRIFT_OF_GAS[0]:
+        return (
+            "the gas gained or lost that share of its impulses by numerics, in cells that are no boxes, or whose mass "
+            "changes much in a window: smaller cells (resolution.cell_mm) or shorter windows "
+            "(coupling.window_largest_s) lower it"
+        )
     return "something was made or lost; docs/results.md says what the column counts"

@@ -17,8 +17,9 @@ from sdph.engine.state import WALL
 from sdph.exchange.window import Window
 from sdph.methods.grains.grains import Grains
 from sdph.methods.liquids import bodies as immersion
-from sdph.methods.liquids.parts import shares
+from sdph.methods.liquids.parts import Parts
 from sdph.methods.liquids.start import parts_of as parts_of_liquid
+from sdph.methods.liquids.start import pipe_walls
 from sdph.methods.mps.method import MpsStepper
 from sdph.methods.solids.method import SolidStepper
 from sdph.running import inputs, metrics, vessel
@@ -83,7 +84,8 @@ def _named(case, matter: str, made) -> tuple[str, ...]:
     if case.moved_by(matter) != "liquid":
         return ()
     _, state, _ = made
-    return tuple(shares(case, particles.positions(state)[state.kind == WALL, : case.dimensions]))
+    own = range(int((state.kind != WALL).sum()), len(state.x) - pipe_walls(case))
+    return Parts(case, state, own).names
 
 
 @contextlib.contextmanager

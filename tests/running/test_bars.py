@@ -21,3 +21,10 @@ def test_a_run_tells_what_it_missed_and_what_helps():
     told = balances.missed({"mass_drift_rel": 1e-3, "numerical_work_rel": 0.177, "motion_drift_rel": 1e-15})
     assert len(told) == 2 and not any("\n" in line for line in told)
     assert "mass_drift_rel = 0.001" in told[0] and "numerical_work_rel = 0.18" in told[1] and "step_factor" in told[1]
+
+
+def test_a_drift_of_the_momentum_of_the_gas_is_told_and_not_judged():
+    assert not balances.missed({"gas_momentum_drift_rel": 0.0099, "windows": 3})
+    (line,) = balances.missed({"gas_momentum_drift_rel": 0.021})
+    assert "gas_momentum_drift_rel = 0.021, a balance is good to 0.01" in line and "resolution.cell_mm" in line
+    assert not balances.checks({"gas_momentum_drift_rel": 0.021})

@@ -6,6 +6,7 @@ import math
 import tomllib
 import types
 
+import meshio
 import numpy as np
 import pytest
 import tomli_w
@@ -158,15 +159,47 @@ ROUND = {"shape": "disc", "centre_m": [0.05, 0.1]}
         ({"height_m": 0.104}, 13.0, "particles.bed holds 12.5 kg, 4% less than volume_fraction of its volume, 13 kg"),
         (ROUND | {"radius_m": 0.012}, 0.5 * 2500.0 * math.pi * 0.012**2, "12% less"),
         (ROUND | {"radius_m": 0.016}, 0.5 * 2500.0 * math.pi * 0.016**2, "49% more"),
-        (ROUND | {"radius_m": 0.04, "height_m": 0.04}, math.nan, ""),
+        (ROUND | {"radius_m": 0.04, "height_m": 0.04}, 0.25 * 2500.0 * math.pi * 0.04**2, "3% more"),
     ],
 )
 def test_the_mass_of_a_region_is_told_beside_what_it_is_given(region, given, told):
     case, notices, masses = grains(**region), [], {}
     state = start.fill(case, (), notices, masses)
     assert masses == {"bed": state.mass.sum()}
-    assert start.meant(case, case.particles["bed"]) == pytest.approx(given, rel=1e-12, nan_ok=True)
+    counted = case.particles["bed"].shape != "box" and case.particles["bed"].height is not None
+    assert start.meant(case, case.particles["bed"]) == pytest.approx(given, rel=2e-3 if counted else 1e-12)
     assert len(notices) == bool(told) and all(told in line for line in notices)
+
+
+def lines(path, *polygons):
+    """Walls of closed lines, anticlockwise about what grains are in, clockwise about what they are not."""
+    ends, first = [], 0
+    for polygon in polygons:
+        own = first + np.arange(len(polygon))
+        ends.append(np.stack([own, np.roll(own, -1)], axis=1))
+        first += len(polygon)
+    meshio.write_points_cells(path, np.pad(np.concatenate(polygons), ((0, 0), (0, 1))), {"line": np.concatenate(ends)})
+    return str(path)
+
+
+@pytest.mark.parametrize("region", [{"shape": "walls"}, {"shape": "walls", "height_m": 0.1}, {}])
+def test_mass_that_walls_and_internals_cost_is_told(tmp_path, region):
+    """A funnel 20 mm wide below and 100 mm above, and a tube of 16 mm in it: of 10 and 5 kg 17 % and 21 % were missing
+    without a word, in a box that is cut by them the volume of both and of what grains leave free beside them."""
+    angle = -2.0 * np.pi * np.arange(32) / 32
+    tube = np.array([0.05, 0.09]) + 0.008 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    funnel = np.array([(0.04, 0.0), (0.06, 0.0), (0.1, 0.2), (0.0, 0.2)])
+    own = {"walls": {"source": "mesh", "mesh": lines(tmp_path / "walls.vtk", funnel, tube)}}
+    case, notices, masses = cases.from_table(cases.to_table(grains(**region)) | own), [], {}
+    start.fill(case, (), notices, masses)
+    up = region.get("height_m", 0.2)
+    area = up * (0.02 + 0.5 * up * 0.4) - 0.5 * 32 * 0.008**2 * np.sin(2.0 * np.pi / 32)
+    given = start.meant(case, case.particles["bed"])
+    assert given == pytest.approx(0.5 * 2500.0 * area, rel=5e-3)
+    lost = round(100.0 * (1.0 - masses["bed"] / given))
+    print(f"{masses['bed']:.4g} kg of {given:.4g} kg")
+    line = notices[-1]
+    assert lost > 3 and f"{lost}% less than volume_fraction of its volume" in line and "bed.mass_kg gives them" in line
 
 
 def test_volumes_of_shapes_in_closed_form():
@@ -178,15 +211,16 @@ def test_volumes_of_shapes_in_closed_form():
     assert found == pytest.approx({"sphere": 32.0 / 3.0, "cylinder": 12.0, "cone": 7.0, "mesh": math.nan}, nan_ok=True)
 
 
-@pytest.mark.parametrize(("axis", "meant"), [("z", 0.5 * 2500.0 * math.pi * 0.3), ("x", math.nan)])
-def test_an_upright_cylinder_is_known_up_to_its_level(axis, meant):
+@pytest.mark.parametrize(("axis", "meant"), [("z", 0.3 * math.pi), ("x", math.acos(0.7 / 1.0) - 0.7 * math.sqrt(0.51))])
+def test_a_cylinder_is_known_up_to_its_level(axis, meant):
+    """Upright, and a segment of one that lies."""
     shape = {"shape": "cylinder", "centre": (0.0, 0.0, 0.5), "radius": 1.0, "end_radius": None, "length": 1.0}
     region = types.SimpleNamespace(**shape, axis=axis, height=0.3, mass=None, volume_fraction=0.5, material="")
     bed = types.SimpleNamespace(
         dimensions=3, effects=(), parameters={"walls": None}, domain=types.SimpleNamespace(gravity=(0.0, 0.0, -9.81)),
-        of=lambda material: types.SimpleNamespace(density=2500.0),
+        of=lambda material: types.SimpleNamespace(density=2500.0), resolution=types.SimpleNamespace(spacing=0.05),
     )  # fmt: skip
-    assert start.meant(bed, region) == pytest.approx(meant, nan_ok=True)
+    assert start.meant(bed, region) == pytest.approx(0.5 * 2500.0 * meant, rel=1e-12 if axis == "z" else 5e-3)
 
 
 OTHER = {"shape": "box", "lower_m": [0.05, 0.0], "upper_m": [0.1, 0.2], "temperature_K": 300.0, "volume_fraction": 0.1}

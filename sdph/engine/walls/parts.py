@@ -12,8 +12,6 @@ import numpy as np
 
 from sdph.engine.geometry import SIDES
 
-WIDER = 0.25  # spacings by which the box of a part is wider: round-off of surfaces that its faces lie in; our choice
-
 
 def sides(points: np.ndarray, low, high) -> dict[str, np.ndarray]:
     """Share (P, 3) of each side of a box, from `low` to `high` (d,) [m], in a force on points (P, d) [m], by its
@@ -30,18 +28,16 @@ def sides(points: np.ndarray, low, high) -> dict[str, np.ndarray]:
     return found
 
 
-def within(part, places: np.ndarray, spacing: float) -> np.ndarray:
-    """Share (P, 3) of a part of a case in a force on each of `places` (P, d) [m]: all or nothing."""
-    room = WIDER * spacing
-    inside = ((places >= np.array(part.lower) - room) & (places <= np.array(part.upper) + room)).all(axis=1)
-    return np.repeat(inside[:, None], 3, axis=1) * 1.0
+def within(part, places: np.ndarray, room: float) -> np.ndarray:
+    """(P,) bool: which of `places` (P, d) [m] a part of a case holds, its box wider by `room` [m]."""
+    return ((places >= np.array(part.lower) - room) & (places <= np.array(part.upper) + room)).all(axis=1)
 
 
-def gathered(shares: np.ndarray, places: np.ndarray, pressed: np.ndarray, rubbed: np.ndarray) -> np.ndarray:
-    """(n, 3, 3) of n parts with `shares` (n, W, 3): what presses and what rubs them of forces (W, 3) [N] at `places`
-    (W, 3) [m], and the moment of both about the origin [N m]; of impulses [N s] and [N m s]."""
-    moments = np.cross(places, shares * (pressed + rubbed)).sum(axis=1)
-    return np.stack([(shares * pressed).sum(axis=1), (shares * rubbed).sum(axis=1), moments], axis=1)
+def gathered(at: np.ndarray, pressed: np.ndarray, there: np.ndarray, rubbed: np.ndarray) -> np.ndarray:
+    """(n, 3, 3) of n parts: what presses them, forces (n, P, 3) [N] `at` (P, 3) [m], what rubs them, (n, W, 3) `there`
+    (W, 3), and the moment of both about the origin [N m]; of impulses [N s] and [N m s]."""
+    moments = np.cross(at, pressed).sum(axis=1) + np.cross(there, rubbed).sum(axis=1)
+    return np.stack([pressed.sum(axis=1), rubbed.sum(axis=1), moments], axis=1)
 
 
 def told(name: str, matter: str, rubs: str, force: np.ndarray, dimensions: int) -> dict[str, float]:

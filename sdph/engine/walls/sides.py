@@ -16,6 +16,7 @@ from sdph.laws.kernels import SUPPORT
 
 LAYERS = 3  # the support of the kernel is 2 h = 3 spacings
 MESH = "mesh"  # name of all of `walls.mesh` in `run.forces`
+WIDER = 0.25  # spacings by which the box of a part is wider: round-off of surfaces that its faces lie in; our choice
 OWNED = 2  # of a dummy of the first boundary; those of a mesh that no boundary is are 1
 
 
@@ -68,8 +69,20 @@ class Boundary:
             own = [share * (_owners(case, points, side) == number)[:, None] for side, share in of_box.items()]
             return sum(own, np.repeat(self.whose[:, None] == OWNED + number, 3, axis=1) * 1.0)
         if name in case.parts:
-            return parts.within(case.parts[name], self.feet(case)[:, : case.dimensions], self.spacing)
+            return self._share_of_part(case, case.parts[name], points, of_box)
         return of_box[name] if name in of_box else np.repeat(self.of_mesh[:, None], 3, axis=1) * 1.0
+
+    def _share_of_part(self, case, part, points, of_box: dict) -> np.ndarray:
+        """The share (W, 3) of a box: of a corner what the sides have whose surface beside it lies in the box."""
+        room = WIDER * self.spacing
+        low, high = np.array(case.domain.corner), np.array(case.domain.upper)
+        whole = (parts.within(part, self.feet(case)[:, : case.dimensions], room) & self.of_mesh)[:, None] * np.ones(3)
+        for side, share in of_box.items():
+            axis, end = SIDES[side]
+            beside = np.clip(points, low + 0.5 * self.spacing, high - 0.5 * self.spacing)
+            beside[:, axis] = (low, high)[end][axis]
+            whole += share * parts.within(part, beside, room)[:, None]
+        return whole
 
     def feet(self, case) -> np.ndarray:
         """(W, 3) [m] of the surface in front of each dummy: what presses it acts there."""

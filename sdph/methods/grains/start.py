@@ -68,25 +68,33 @@ def _look_for_overlap(case, parts, notices) -> None:
 
 
 def meant(case, region) -> float:
-    """Mass [kg] that a region is given: mass_kg, or volume_fraction of its volume up to its level; nan where that is
-    not known in closed form."""
+    """Mass [kg] that a region is given: mass_kg, or volume_fraction of its volume up to its level and in front of the
+    walls' mesh; nan where that mesh is not there yet, and where a level is along no axis."""
     if region.mass is not None:
         return region.mass
-    volume, along = regions.closed_form(region, case.dimensions), np.flatnonzero(case.domain.gravity)
-    even = region.height is None or (len(along) == 1 and _of_one_width(region, along[0]))
-    if math.isnan(volume) or not even:
+    walls, along = mesh_of_walls(case), np.flatnonzero(case.domain.gravity)
+    if (region.shape == "walls" and walls is None) or (region.height is not None and len(along) != 1):
         return math.nan
-    if region.height is not None:
-        whole, filled = (
-            high - low for low, high in (regions.bounds(region, None, case.dimensions), extents(case, region))
-        )
-        volume *= filled[along[0]] / whole[along[0]]
+    low, high = extents(case, region)
+    if walls is None and (region.height is None or _of_one_width(region, along[0])):
+        volume, (lower, upper) = regions.closed_form(region, case.dimensions), regions.bounds(region, None, len(low))
+        volume *= float(np.prod((high - low) / (upper - lower)))
+    else:
+        volume = regions.counted(region, low, high, walls, _deep(case, walls), case.resolution.spacing)
+    if math.isnan(volume):  # of a mesh
+        volume = regions.volume(region, case.resolution.spacing, case.dimensions, 1)
     return region.volume_fraction * case.of(region.material).density * volume
 
 
 def _of_one_width(region, along: int) -> bool:
     """True where a region is as wide at all places along an axis."""
     return region.shape == "box" or (region.shape == "cylinder" and regions.AXES[along] == region.axis)
+
+
+def _deep(case, walls) -> float:
+    """Spacings behind an open mesh within which nothing stands; what is behind walls of the gas's own mesh is in none
+    of its cells, however far."""
+    return math.inf if walls is not None and case.parameters["walls"].source == "gas" else LAYERS
 
 
 def _off(case, masses) -> list[str]:
@@ -98,7 +106,8 @@ def _off(case, masses) -> list[str]:
             more = f"{abs(mass / given - 1.0):.0%} {'more' if mass > given else 'less'}"
             told.append(
                 f"particles.{name} holds {mass:.4g} kg, {more} than volume_fraction of its volume, {given:.4g} kg: "
-                "particles stand on a lattice, and none within walls; a smaller resolution.spacing_mm comes nearer"
+                "particles stand on a lattice, and none within walls or a quarter of a spacing before them; "
+                f"particles.{name}.mass_kg gives them all of it, a smaller resolution.spacing_mm comes nearer"
             )
     return told
 
@@ -193,9 +202,7 @@ def _reached(case, where: str, region, points, walls, each: float, notices) -> n
     spacing, there = case.resolution.spacing, len(points)
     points = regions.disordered(points, region.disorder, region.seed, spacing)
     if walls is not None:
-        # what is behind walls of the gas's own mesh is in none of its cells, however far
-        deep = math.inf if case.parameters["walls"].source == "gas" else LAYERS
-        points = points[regions.in_front(points, walls, spacing, deep)]
+        points = points[regions.in_front(points, walls, spacing, _deep(case, walls))]
         if region.shape != "walls" and len(points) < there:
             notices.append(f"{where}: {there - len(points)} of {there} particles would stand in walls and are left out")
     if not len(points):

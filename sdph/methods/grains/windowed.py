@@ -33,7 +33,8 @@ class Windowed:
         if not self.parts:
             return np.zeros((0, 3, 3))
         felt, shares = self.world.sum(self.account.felt[0]), np.array(list(self.parts.values()))
-        return parts.gathered(shares, self.boundary.feet(self.case), felt[:, :3], felt[:, 3:])
+        feet = self.boundary.feet(self.case)
+        return parts.gathered(feet, shares * felt[:, :3], feet, shares * felt[:, 3:])
 
     def release(self) -> tuple[np.ndarray, np.ndarray]:
         """End the window: way (N, 3) [m] of the particles in it, and what their theta lost to the gas (N,) [J], in the

@@ -72,6 +72,31 @@ def extrapolate(
 
 
 @fast_parallel
+def surface_pressure(
+    kernel, s, rows, box, chosen, wall_p, places, normals, gravity_p, frame_p, volume, pressure, found
+):
+    """found (P,) [Pa] at `places` (P, 3) [m] of the surface, each in front of one of the wall particles `chosen`, by
+    the liquid that its plane of normals (P, 3) has in front: Adami et al. 2012, Eq. 27, to there."""
+    for n in prange(len(chosen)):
+        i = chosen[n]
+        bx, by, bz = body(gravity_p, frame_p, s, i, True)
+        bx, by, bz = bx - wall_p.ax, by - wall_p.ay, bz - wall_p.az
+        ox, oy = s.x[i] - places[n, 0], s.y[i] - places[n, 1]
+        oz = s.z[i] - places[n, 2] if len(s.z) else 0.0
+        weight = push = 0.0
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
+            dx, dy, dz = apart(s, box, i, j)
+            value = smoothing.value(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
+            dx, dy, dz = dx - ox, dy - oy, dz - oz
+            before = dx * normals[n, 0] + dy * normals[n, 1] + dz * normals[n, 2]
+            value = value if volume[j] > 0.0 and before > 0.0 else 0.0
+            weight += value
+            push += value * (pressure[j] + s.density[j] * (bx * dx + by * dy + bz * dz))
+        found[n] = max(push / weight, wall_p.least) if weight > 0.0 else 0.0
+
+
+@fast_parallel
 def wall_force(
     kernel, s, rows, box, flow, walls, wall_p, laminar_p, damping_p, shifting_p, phases_p, gravity_p, frame_p, excess,
     gain, felt,
@@ -170,3 +195,13 @@ def feel(stepper, chosen, ahead: float):
         stepper.excess, gain, felt,
     )  # fmt: skip
     return felt
+
+
+def on_surface(stepper, chosen, places, normals):
+    """(P,) [Pa] of `surface_pressure`, of a stepper."""
+    found = arrays.zeros(len(chosen), chosen)
+    surface_pressure(
+        stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, chosen, stepper.wall, places, normals,
+        stepper.p["gravity"], stepper.frame, stepper.flow.volume, stepper.flow.pressure, found,
+    )  # fmt: skip
+    return found

@@ -18,7 +18,8 @@ INSIDE = (0.15, 0.75)  # of the bed's height: away from floor and surface
 
 def metrics(simulation) -> dict[str, float]:
     """pressure_drop_Pa from floor to top; ergun_Pa, what Ergun says of every row at the gas flux of now over the floor,
-    which slows down as the vessel widens; weight_Pa of the grains in gas over the floor; gradient_Pa_m of the pressure
+    which slows down as the vessel widens; weight_Pa of the grains in gas, each over the vessel's area where it
+    stands, which is what the gas that carries all of them falls by; gradient_Pa_m of the pressure
     inside the bed, and alpha_p there (nan where fewer than two rows lie inside); speeds [m/s] of the grains; their
     fractions."""
     case, mesh, fields = simulation.case, simulation.gas.mesh, simulation.cell_fields()
@@ -29,7 +30,9 @@ def metrics(simulation) -> dict[str, float]:
     flux = rows.mean((1.0 - fields["alpha_p"]) * (fields["velocity"] @ up))
     through = flux[0] * rows.area[0] / rows.area
     whole = float(mass.sum()) or math.nan  # of a vessel without grains what is told of them is not a number
-    height = 2.0 * float(mass @ (particles.positions(simulation.state) @ up - rows.floor)) / whole
+    place = particles.positions(simulation.state) @ up - rows.floor
+    height = 2.0 * float(mass @ place) / whole
+    around = np.interp(place, rows.place, rows.area) / mesh.depth
     inside = (rows.place > INSIDE[0] * height) & (rows.place < INSIDE[1] * height)
     seen = np.count_nonzero(inside) > 1
     speed = particles.lengths(particles.velocities(simulation.state))
@@ -38,7 +41,7 @@ def metrics(simulation) -> dict[str, float]:
         "superficial_velocity_m_s": float(flux[0]),
         "pressure_drop_Pa": floor - lid,
         "ergun_Pa": float((ergun(case, alpha_p, through) * rows.height).sum()),
-        "weight_Pa": weight(case, float(mass.sum()), float(mesh.volumes.sum()) / mesh.depth / rows.top),
+        "weight_Pa": weight(case, float((mass / around).sum())),
         "gradient_Pa_m": float(-np.polyfit(rows.place[inside], pressure[inside], 1)[0]) if seen else math.nan,
         "alpha_p_inside": float(alpha_p[inside].mean()) if seen else math.nan,
         "speed_max_m_s": float(speed.max(initial=0.0)),
@@ -56,6 +59,6 @@ def ergun(case, alpha_p, flux) -> np.ndarray:
     return np.array([exact.ergun_gradient(a, u, case.grains.diameter, gas.density, gas.viscosity) for a, u in own])
 
 
-def weight(case, mass: float, floor: float) -> float:
-    """Weight less buoyancy [Pa] of `mass` [kg] of grains in gas over a floor [m2], in two dimensions [m]."""
-    return mass * (1.0 - case.gas.density / case.grains.density) * math.hypot(*case.domain.gravity) / floor
+def weight(case, over: float) -> float:
+    """Weight less buoyancy [Pa] of grains, `over` [kg/m2] the sum of mass over area, in two dimensions [m]."""
+    return over * (1.0 - case.gas.density / case.grains.density) * math.hypot(*case.domain.gravity)

@@ -31,7 +31,7 @@ def test_a_corner_gives_each_side_what_is_along_its_normal_and_shares_its_edge()
 def test_a_part_holds_surfaces_that_lie_in_its_faces():
     part = Part(lower=(1.0, 0.0), upper=(2.0, 0.0))
     places = np.array([[1.0, 1e-9], [2.0, -1e-9], [1.5, 0.3], [0.7, 0.0]])
-    np.testing.assert_array_equal(parts.within(part, places, 1.0)[:, 0], [1.0, 1.0, 0.0, 0.0])
+    np.testing.assert_array_equal(parts.within(part, places, 0.25), [True, True, False, False])
 
 
 def test_moments_are_of_pressure_and_friction_about_the_origin():
@@ -39,7 +39,7 @@ def test_moments_are_of_pressure_and_friction_about_the_origin():
     places = np.array([[0.0, 2.0, 0.0], [3.0, 0.0, 0.0]])
     pressed = np.array([[5.0, 0.0, 0.0], [7.0, 1.0, 0.0]])
     rubbed = np.array([[0.0, 4.0, 1.0], [0.0, 2.0, 0.0]])
-    found = parts.gathered(shares, places, pressed, rubbed)
+    found = parts.gathered(places, shares * pressed, places, shares * rubbed)
     np.testing.assert_array_equal(found, [[[5.0, 1.0, 0.0], [0.0, 6.0, 1.0], [2.0, 0.0, -10.0 + 3.0 * 3.0]]])
 
 

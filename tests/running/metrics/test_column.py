@@ -116,7 +116,11 @@ def test_ergun_follows_a_vessel_that_widens():
     seen = SimpleNamespace(case=case, gas=SimpleNamespace(mesh=mesh), cell_fields=lambda: fields, state=state)
     gas, d = case.gas, case.grains.diameter
     steps = [exact.ergun_gradient(0.5, u, d, gas.density, gas.viscosity) for u in flux]
-    assert column.metrics(seen)["ergun_Pa"] == pytest.approx(np.mean(steps), rel=0.025)
+    found = column.metrics(seen)
+    assert found["ergun_Pa"] == pytest.approx(np.mean(steps), rel=0.025)
+    over = 2.0 / (low + (high - low) * 0.1)  # both grains stand 0.1 m high
+    weight = over * (1.0 - gas.density / case.grains.density) * GRAVITY
+    assert found["weight_Pa"] == pytest.approx(weight, rel=0.005)  # over the mean width it is 27 % less
 
 
 def test_a_vessel_without_grains_has_metrics(tmp_path):
