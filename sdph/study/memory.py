@@ -103,8 +103,8 @@ def _extents(case) -> tuple[float, ...]:
         return case.domain.size
     if own.shape == "box":
         return tuple(high - low for low, high in zip(own.lower or (0.0,) * case.dimensions, own.upper))
-    if own.shape == "mesh":
+    if own.shape in ("mesh", "outline"):
         bounds = tank.shape_of(case).surface().bounds
-        return tuple(high - low for low, high in zip(bounds[::2], bounds[1::2]))
+        return tuple(high - low for low, high in zip(bounds[::2], bounds[1::2]))[: case.dimensions]
     across = 2.0 * (own.radius or 0.0)
     return (*(across,) * (case.dimensions - 1), across + own.length)
