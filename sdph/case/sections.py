@@ -47,7 +47,7 @@ class Domain:
 
     size: tuple = vector("m")
     gravity: tuple = vector("m_s2")
-    lower: tuple | None = vector("m", None)  # corner of an own mesh that begins elsewhere than at the origin
+    lower: tuple | None = vector("m", None)  # lower corner, where that is not the origin
     periodic: tuple = words(())  # axes: "x", "y", "z"
 
     @property
@@ -64,6 +64,16 @@ class Domain:
     def upper(self) -> tuple[float, ...]:
         """Upper corner (d,) [m]."""
         return tuple(low + length for low, length in zip(self.corner, self.size))
+
+    @property
+    def furthest(self) -> float:
+        """Length [m] that no place of it, along any axis, nor any side of it is longer than."""
+        return max(*self.size, *map(abs, self.corner), *map(abs, self.upper))
+
+    @property
+    def arm(self) -> float:
+        """Distance [m] of its furthest corner from the origin."""
+        return math.hypot(*(max(abs(low), abs(high)) for low, high in zip(self.corner, self.upper)))
 
 
 @record

@@ -102,7 +102,7 @@ def _extents(case) -> tuple[float, ...]:
     if own is None or (own.shape == "box" and own.upper is None):
         return case.domain.size
     if own.shape == "box":
-        return tuple(high - low for low, high in zip(own.lower or (0.0,) * case.dimensions, own.upper))
+        return tuple(high - low for low, high in zip(own.lower or case.domain.corner, own.upper))
     if own.shape in ("mesh", "outline"):
         bounds = tank.shape_of(case).surface().bounds
         return tuple(high - low for low, high in zip(bounds[::2], bounds[1::2]))[: case.dimensions]

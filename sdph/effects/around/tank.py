@@ -188,7 +188,7 @@ def _with_outlet(own, tank, bottom: float, reach: float):
 
 
 def _box(case, own):
-    lower, upper = own.lower or (0.0,) * case.dimensions, own.upper or case.domain.size
+    lower, upper = own.lower or case.domain.corner, own.upper or case.domain.upper
     if any(high - low < case.resolution.spacing * (1.0 - 1e-9) for low, high in zip(lower, upper)):
         given = f"tank: from lower_m = {list(lower)} to upper_m = {list(upper)}"
         raise CaseError(f"{given} it is narrower than resolution.spacing_mm along an axis; widen it")
