@@ -80,7 +80,9 @@ def shape_of(case):
     if own.shape == "mesh" and d == 3:
         return _mesh(case, own.mesh, own.mesh_scale)
     if d == 2 and own.shape != "sphere":
-        raise CaseError(f"tank.shape = {own.shape!r} needs dimensions = 3; in 2-D there are box, sphere (a disc) and outline")
+        raise CaseError(
+            f"tank.shape = {own.shape!r} needs dimensions = 3; in 2-D there are box, sphere (a disc) and outline"
+        )
     if own.centre is None or own.radius is None or len(own.centre) != d:
         raise CaseError(f"tank: a {own.shape} needs centre_m with {d} components, and radius_m")
     centre = np.array(own.centre)
