@@ -258,6 +258,11 @@ class Case:
         on = self.liquid.periodic or (0.0,) * self.dimensions
         return tuple(length * bool(periodic) for length, periodic in zip(self.domain.size, on))
 
+    def vapour_through(self, boundary) -> float:
+        """Mass fraction of vapour in the gas that comes in through a boundary: its own, else that of the start."""
+        start = self.vapour.mass_fraction if self.vapour else 0.0
+        return start if boundary.vapour_mass_fraction is None else boundary.vapour_mass_fraction
+
     @property
     def smoothing_length(self) -> float:
         return self.resolution.smoothing_ratio * self.resolution.spacing
