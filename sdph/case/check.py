@@ -230,7 +230,13 @@ def _check_phases(case: Case) -> None:
         raise CaseError("[gas_phase] is given without [liquid]; a gas around grains goes into [gas]")
     if "drain" in case.effects:
         raise CaseError("effects holds drain, which knows one phase; leave it or [gas_phase] out")
-    if case.gas_phase.density_by == "summation" and "density_diffusion" in case.effects:
+    summed = case.gas_phase.density_by == "summation"
+    if summed and case.liquid.pressure_gradient == "corrected":
+        raise CaseError(
+            'liquid.pressure_gradient = "corrected" makes energy where gas_phase.density_by = "summation" does not take '
+            'it up; set "plain", or "continuity"'
+        )
+    if summed and "density_diffusion" in case.effects:
         raise CaseError(
             'effects holds density_diffusion, but with gas_phase.density_by = "summation" no density is advanced; '
             "leave one out"

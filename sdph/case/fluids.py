@@ -18,8 +18,6 @@ import math
 import re
 from statistics import fmean
 
-from scipy.optimize import brentq
-
 from sdph.laws import diffusion
 from sdph.laws import evaporation as law
 from sdph.laws.constants import GAS_CONSTANT
@@ -247,6 +245,8 @@ def _wet_bulb(table: dict, fluid: Fluid, pressure: float) -> float:
         exponent = density * _diffusivity(gas, fluid, film, pressure) * capacity / conductivity
         mass, heat = law.spalding_number(surface, given), capacity * (hot - T) / latent
         return exponent * math.log1p(mass) - math.log1p(heat)
+
+    from scipy.optimize import brentq
 
     low, high = freezing, min(hot, boiling * (1.0 - BELOW))
     if balance(low) >= 0.0 or high <= low:

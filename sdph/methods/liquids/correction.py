@@ -32,7 +32,7 @@ SURFACE = 0.5
 
 def of_continuity(stepper) -> tuple:
     """`excess` of a stepper where its continuity equation is corrected as its forces are, else ()."""
-    return stepper.excess if stepper.phases and not stepper.summed else ()
+    return stepper.excess if stepper.phases else ()
 
 
 @fast_parallel

@@ -10,7 +10,7 @@ from coupling.openfoam.links import PREFIX, Links
 from sdph import cli
 
 FINE = ("--set", "resolution.spacing_mm=20", "--set", "resolution.cell_mm=50", "--set", "run.output_interval_s=0.0005")
-ODD = "it's a \"run\" with\tblanks"
+ODD = 'it\'s a "run" with\tblanks'
 
 
 def sdph(*words) -> None:

@@ -221,6 +221,13 @@ def test_one_phase_is_off():
         ({"gas_phase": {"density_kg_m3": 1.0, "density_by": "summation"}}, "density_diffusion"),
         (
             {
+                "gas_phase": {"density_kg_m3": 1.0, "density_by": "summation"},
+                "liquid": BASE["liquid"] | {"pressure_gradient": "corrected"},
+            },
+            "makes energy",
+        ),
+        (
+            {
                 "pools": {
                     "a": {
                         "phase": "gas",
