@@ -13,7 +13,7 @@ Names ending in `_paper` switch the drag coefficient on Re_p, as Chen, Qiang & G
 
 import math
 
-from scipy.optimize import brentq
+import scipy
 
 from sdph.laws.compiled import law
 
@@ -217,7 +217,7 @@ def terminal_velocity(diameter, density_difference, gas_density, gas_viscosity, 
     def spare(v):
         return density_difference * gravity - schiller_naumann(0.0, v, diameter, gas_density, gas_viscosity) * v
 
-    return brentq(spare, 0.0, heaviest, xtol=1e-12 * heaviest) if heaviest > 0.0 else 0.0
+    return scipy.optimize.brentq(spare, 0.0, heaviest, xtol=1e-12 * heaviest) if heaviest > 0.0 else 0.0
 
 
 def igci_filter(width):

@@ -9,15 +9,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+import scipy
+
 from sdph.laws import evaporation
 from sdph.laws.constants import GAS_CONSTANT
 
 
 def _root(function: Callable[[float], float], low: float, high: float) -> float:
     """Find where a function changes its sign, to round-off."""
-    from scipy.optimize import brentq  # takes longer to import than a run needs to begin
-
-    return brentq(function, low, high, xtol=1e-15, rtol=1e-15)
+    return scipy.optimize.brentq(function, low, high, xtol=1e-15, rtol=1e-15)
 
 
 # --- heat ---------------------------------------------------------------------------------------------------------

@@ -7,8 +7,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from scipy.integrate import cumulative_simpson
-from scipy.optimize import brentq
+import scipy
 
 NODES = 2001  # of a meniscus, evenly spaced in its slope: 1e-9 of its height
 FLAT = 1e-9  # rad: a surface that leans less is level
@@ -46,8 +45,8 @@ def meniscus(angle: float, half: float, length: float) -> tuple[np.ndarray, np.n
 
     def along(lowest):
         height = np.sqrt(lowest**2 + 2.0 * (1.0 - np.cos(slope)))  # in l
-        return cumulative_simpson(np.cos(slope) / height, x=slope, initial=0.0), height - lowest
+        return scipy.integrate.cumulative_simpson(np.cos(slope) / height, x=slope, initial=0.0), height - lowest
 
-    lowest = math.exp(brentq(lambda log: along(math.exp(log))[0][-1] - half / length, -12.0, 12.0))
+    lowest = math.exp(scipy.optimize.brentq(lambda log: along(math.exp(log))[0][-1] - half / length, -12.0, 12.0))
     x, rise = along(lowest)
     return length * x, math.copysign(length, steepest) * rise

@@ -11,6 +11,7 @@ from sdph import cli
 from sdph.case import read as cases
 from sdph.engine.contact import Contact
 from sdph.schema import CaseError
+from sdph.study.explain import tables
 
 TABLE = {
     "title": "Grains fall into a pool",
@@ -98,6 +99,11 @@ def test_grains_fall_into_a_pool(folder, capsys):
     words = " ".join(said.split())
     assert "rest gas, grains top gas bottom grains, liquid" in words and "tank liquid low grains, liquid" in words
     assert "(GRAINS)" in said and "(LIQUID)" in said
+    with open("run/ledger.csv") as rows:
+        ruled = [float(row["window_s"]) for row in csv.DictReader(rows) if row["limit"] == "contact"]
+    parts = tables.explain(cases.load(folder / "mine" / "case.toml"))
+    limit = next(row["largest [s]"] for row in parts["limits (grains)"] if row["cause"] == "contact")
+    assert 0.5 * limit < max(ruled) <= 1.001 * limit
 
 
 def test_it_goes_on_bit_for_bit(folder, capsys):

@@ -182,6 +182,13 @@ def shrinking(s, surface: float) -> tuple[float, float]:
     return sherwood, rate * s.end / s.grains.diameter**2
 
 
+def filling(s) -> tuple[float, float]:
+    """Rate [1/s] at which the gas among the droplets fills with vapour, and the vapour that it takes, over its mass."""
+    surface = at_surface(s)
+    area = 6.0 * s.alpha_p / (1.0 - s.alpha_p) / s.grains.diameter**2  # over the volume of gas and the diameter
+    return area * shrinking(s, surface)[0] * s.case.vapour.diffusivity, surface / s.gas.density
+
+
 def to_gas(handed, case) -> dict:
     """Vapour, with the velocity and the temperature of its droplet; what torn droplets throw is among it."""
     rate = handed.loss.vapour / handed.dt
@@ -202,8 +209,7 @@ def call(scales) -> Judgement:
     sherwood, spent = shrinking(s, surface)
     warmth = s.nusselt * s.gas.conductivity * s.span
     cooling = sherwood * p.diffusivity * surface * p.latent_heat / warmth if warmth else 0.0
-    filling = 6.0 * s.alpha_p / (1.0 - s.alpha_p) * sherwood * p.diffusivity / s.grains.diameter**2  # 1/s
-    filled = 0.0 if case.coupling.one_way else -math.expm1(-filling * s.end)
+    filled = 0.0 if case.coupling.one_way else -math.expm1(-filling(s)[0] * s.end)
     return Judgement("K t/d2", spent, 0.01, SOURCE, min(1.0, max(1.0 - max(0.0, 1.0 - spent) ** 1.5, cooling, filled)))
 
 

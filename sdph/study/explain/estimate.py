@@ -59,6 +59,7 @@ ADDED_MASS_WHY = (
 )
 OWN_FIELD = 0.1  # our choice: of a force that is left out
 OWN_FIELD_WHY = "charged grains drive each other apart, which is left out; charge or number of them must be less"
+THICKENING = "the share of a cell's gas that comes as vapour, or of its oxidant that burns: an estimate"
 MEASURED = environment.CACHE / "speed.json"  # of this machine, by `sdph explain --measure`
 
 
@@ -192,19 +193,10 @@ def _windows(case, s) -> list[tuple]:
         ("window", "largest", own.window_largest, "coupling.window_largest_s"),
         ("window", "output", case.run.output_interval, "run.output_interval_s"),
     ]
-    rows += [
-        ("window", cause, value, "coupling.courant cell/U of what enters or is thrown: the first window obeys it")
-        for cause, value in opening(case).items()
-    ]
-    rows += [
-        (
-            "window",
-            f"{cause}, later",
-            value,
-            "coupling.courant cell/U of what moves once the start is over: an estimate",
-        )
-        for cause, value in pace.later(case, s).items()
-    ]
+    how = "coupling.courant cell/U of what enters or is thrown: the first window obeys it"
+    rows += [("window", cause, value, how) for cause, value in opening(case).items()]
+    how = "coupling.courant cell/U of what moves once the start is over: an estimate"
+    rows += [("window", f"{cause}, later", value, how) for cause, value in pace.later(case, s).items()]
     how = {
         "grip": "of the time in which gas that has to flow past stops grains, beyond their own drag",
         "settling": "run.accuracy of what moves, over the error of a drift by weight or field",
@@ -215,6 +207,9 @@ def _windows(case, s) -> list[tuple]:
         for name, limit in asked.items()
         if limit < math.inf
     ]
+    if thick := pace.thickening(case, s):
+        for cause, left in ((thick.cause, 1.0), (f"{thick.cause}, later", thick.steady)):
+            rows.append(("window", cause, thick.limit(left), THICKENING))
     if fed := feed.of(case, s):
         how = "the change of the heat that droplets exchange while nozzles feed them, half-way: an estimate"
         rows.append(("window", "heat exchange", fed.longest(own.window_tolerance), how))

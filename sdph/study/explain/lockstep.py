@@ -1,5 +1,5 @@
-"""Steps of a liquid with bodies in it, for estimates: both go by the shorter step of the two, and where a droplet's
-growth is hastened by the motion's time."""
+"""Steps of a liquid with others in it, for estimates: with bodies both go by the shorter step of the two, and where a
+droplet's growth is hastened by the motion's time; windows of grains bear their contact with the liquid."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from typing import NamedTuple
 
 from sdph.case.judge import scales_of
 from sdph.effects.liquids import time_scaling
+from sdph.engine.contact import between
+from sdph.methods.grains import start
 from sdph.study.explain import liquids, solids
 
 GROWN = 1.4  # D/D_0 at which a shell tears (Qiang et al. 2017; 1.35 to 1.47 in validation/gel_droplet)
@@ -30,6 +32,17 @@ def of(case) -> Shared | None:
         for row in own.limits(scales_of(case.only(matter)))
     ]
     return Shared(motion(case), min(row["largest [s]"] for row in rows))
+
+
+def contact_of(case) -> list[dict]:
+    """Limit of the windows of grains where they meet the liquid beside them (`sdph.engine.contact`), a row as of
+    `sdph.study.explain.estimate.limits`; none where there is not both."""
+    if not {"grains", "liquid"} <= set(case.matters):
+        return []
+    of_grains = start.fill(case.only("grains"), ()).mass.min(initial=math.inf)
+    longest = between(case).limit(min(of_grains, case.liquid.density * case.resolution.spacing**case.dimensions))
+    how = "of the time in which contact with the liquid stops grains, where they meet"
+    return [{"of": "window", "cause": "contact", "largest [s]": longest, "rules": "", "how": how}]
 
 
 def motion(case) -> float:

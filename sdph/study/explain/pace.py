@@ -19,9 +19,10 @@ from typing import NamedTuple
 import numpy as np
 
 from sdph import effects
+from sdph.effects.gas import evaporation, reaction
 from sdph.effects.grains import friction, granular_pressure
 from sdph.engine.clock import count_of_parts
-from sdph.exchange.window import GRIP, Window, held, settling, smallest_cell
+from sdph.exchange.window import GRIP, MOST, Window, held, settling, smallest_cell
 from sdph.methods.grains import ways
 from sdph.methods.grains.method import limits as limits_of_step
 from sdph.methods.grains.scales import SETTLED
@@ -93,7 +94,10 @@ class Driven:
         self.clock, self.steady = clock, later(case, s)
         self.fastest = s.speed if effects.moving(case) else 0.0
         self.rate, self.flow = 0.0, None  # [1/s], and heat in the last window over its length, of all there is [1/s]
-        self.feed, self.time = feed.of(case, s), 0.0
+        self.feed, self.time, self.thickening = feed.of(case, s), 0.0, thickening(case, s)
+        if self.thickening:
+            clock.obey({self.thickening.cause: self.thickening.limit(1.0)})
+            self.steady[self.thickening.cause] = self.thickening.limit(self.thickening.steady)
         if self.feed:
             clock.begin(0.0, 0.0)
         elif "heat" in case.effects and s.span and not case.coupling.one_way:
@@ -115,6 +119,8 @@ class Driven:
     def learn(self, dt: float) -> None:
         """A window of `dt` [s] is done; what is left of the heat has relaxed exponentially, or nozzles feed more."""
         courant = self.clock.courant * dt / self.steady["courant"] if "courant" in self.steady else 0.0
+        if self.thickening:
+            self.thickening.learn(self.clock, dt)
         if self.feed:
             self.clock.learn(dt, *self.feed.window(self.time, dt), courant, self.fastest)
             self.time += dt
@@ -145,6 +151,40 @@ def drifting(case, s) -> float:
     if "drag" not in case.effects or not s.patches:
         return math.inf
     return settling(case, math.hypot(*s.weight), s.drag_time, s.slip)
+
+
+class Thickening:
+    """Vapour that droplets give the gas among them, or oxidant that grains take from it: what there is relaxes towards
+    the share `most` at `rate` [1/s], while gas that flows past at the slip of the case renews it cell by cell."""
+
+    def __init__(self, case, s, cause: str, rate: float, most: float):
+        self.cause, self.most, self.rate = cause, most, rate
+        self.left = 1.0  # of the way to the most
+        self.both = rate + s.slip / smallest_cell(case)
+        self.steady = 1.0 - rate / self.both if self.both else 1.0  # what is left then
+
+    def limit(self, left: float) -> float:
+        """Longest window [s] with so much left."""
+        pace = self.rate * self.most * left
+        return MOST[self.cause] / pace if pace > 0.0 else math.inf
+
+    def learn(self, clock, dt: float) -> None:
+        """Tell a clock of a window of `dt` [s]."""
+        given = (self.left - self.steady) * -math.expm1(-self.both * dt)
+        time = self.steady * dt + (given / self.both if self.both else 0.0)
+        clock.thicken(dt, self.rate * self.most * time, self.cause)
+        self.left -= given
+
+
+def thickening(case, s) -> Thickening | None:
+    """Thickening by the densest grains of a case; None of those that change no gas."""
+    if not s.patches or case.vapour is None or case.coupling.one_way:
+        return None
+    if "evaporation" in case.effects:
+        return Thickening(case, s, "evaporation", *evaporation.filling(s))
+    if "reaction" in case.effects:
+        return Thickening(case, s, "reaction", reaction.stripping(s, max(case.temperatures)), 1.0)
+    return None
 
 
 def grip(case, s) -> float:

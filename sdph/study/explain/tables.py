@@ -36,6 +36,8 @@ def explain(case, priced=None) -> dict[str, list[dict]]:
         return _explain(case, priced)
     shared = lockstep.of(case)
     found = {matter: _explain(case.only(matter), priced, shared) for matter in case.matters}
+    for row in lockstep.contact_of(case):
+        found["grains"]["limits"].append(row)
     return {f"{part} ({matter})": rows for matter, parts in found.items() for part, rows in parts.items()}
 
 

@@ -37,6 +37,11 @@ RUNS = [
         "gas.equation_of_state='operating'", "gas.molar_mass_kg_kmol=28.96",
     ),
     ("stefan_tube", "run.end_time_s=20.0"),
+    ("stefan_tube", "run.end_time_s=0.05", "run.output_interval_s=0.05"),  # ruled by evaporation
+    (
+        "burning_char", "run.end_time_s=0.1", "run.output_interval_s=0.1", "particles.cloud.volume_fraction=0.01",
+        "coupling.window_tolerance=0.5", "coupling.courant=50.0", "reaction.heat_J_kg=0.0",
+    ),
 ]  # fmt: skip
 
 
