@@ -233,8 +233,8 @@ def _check_phases(case: Case) -> None:
     summed = case.gas_phase.density_by == "summation"
     if summed and case.liquid.pressure_gradient == "corrected":
         raise CaseError(
-            'liquid.pressure_gradient = "corrected" makes energy where gas_phase.density_by = "summation" does not take '
-            'it up; set "plain", or "continuity"'
+            'liquid.pressure_gradient = "corrected" makes energy, which gas_phase.density_by = "summation" does not '
+            'take up; set "plain", or "continuity"'
         )
     if summed and "density_diffusion" in case.effects:
         raise CaseError(
