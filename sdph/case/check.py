@@ -74,10 +74,8 @@ def _check_one(case: Case) -> None:
     if min(case.domain.size) <= 0.0:
         raise CaseError(f"domain.size_m = {list(case.domain.size)}; every length must be above 0")
     if any(case.domain.corner) and (case.solid or case.incompressible):
-        raise CaseError(
-            f"domain.lower_m = {list(case.domain.lower)} is of grains and of a liquid that sound travels in; leave it "
-            "out"
-        )
+        given = f"domain.lower_m = {list(case.domain.lower)}"
+        raise CaseError(f"{given} is of grains and of a liquid that sound travels in; leave it out")
     for name, own in (*case.parameters.items(), *((f"particles.{name}", own) for name, own in case.particles.items())):
         if getattr(own, "mesh_scale", 1.0) != 1.0 and not own.mesh:
             raise CaseError(

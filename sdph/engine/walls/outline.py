@@ -114,7 +114,7 @@ def outline(key: str, corners) -> Outline:
 
 
 def _meet(a, b, c, d) -> bool:
-    """Whether segments ab and cd have a place in common."""
+    """True where segments ab and cd have a place in common."""
     if (np.maximum(a, b) < np.minimum(c, d)).any() or (np.maximum(c, d) < np.minimum(a, b)).any():
         return False
     return _turn(a, b, c) * _turn(a, b, d) <= 0.0 and _turn(c, d, a) * _turn(c, d, b) <= 0.0

@@ -118,9 +118,7 @@ def wall_force(
                 ex, ey, ez = correction.extra(excess, j, j, p_i, (sign_j - paid) * p_j, dx, dy, dz)
                 worked += V * (ex * u + ey * v + ez * w)
                 ex, ey, ez = correction.extra(excess, j, j, p_i, sign_j * p_j, dx, dy, dz)
-                fx -= V * ex
-                fy -= V * ey
-                fz -= V * ez
+                fx, fy, fz = fx - V * ex, fy - V * ey, fz - V * ez
         felt[n, 0], felt[n, 1], felt[n, 2] = fx, fy, fz
         felt[n, 3], felt[n, 4] = worked, held
         felt[n, 5], felt[n, 6], felt[n, 7] = rx, ry, rz
