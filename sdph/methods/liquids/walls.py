@@ -74,13 +74,12 @@ def extrapolate(
 @fast_parallel
 def wall_force(
     kernel, s, rows, box, flow, walls, wall_p, laminar_p, damping_p, shifting_p, phases_p, gravity_p, frame_p, excess,
-    paid, gain, felt,
+    gain, felt,
 ):  # fmt: skip
     """felt (W, 8) by each wall particle: force (3 columns) [N], what `push` gives the liquid in front of it with the
     sign turned, power [W] that its pressure and its holding off give the liquid as it moves against the wall, with
-    the velocities that it has after a gain (N, 3) [m/s], which of a body's particle is its velocity; compression pays
-    for the liquid's own pressure, and for the correction of it where `paid` is 1, else 0. The last three columns are
-    what of the force is friction."""
+    the velocities that it has after a gain (N, 3) [m/s], of a body its own; compression pays for the liquid's own
+    pressure, of two phases for its correction too. The last three columns are what of the force is friction."""
     for n in prange(len(walls)):
         i = walls[n]
         fx = fy = fz = worked = held = rx = ry = rz = 0.0
@@ -115,7 +114,8 @@ def wall_force(
             worked += V * (p_i + (sign_j - 1.0) * p_j) * nearing
             held += V * over * nearing
             if len(excess):
-                ex, ey, ez = correction.extra(excess, j, j, p_i, (sign_j - paid) * p_j, dx, dy, dz)
+                paid = p_j if len(phases_p) else 0.0
+                ex, ey, ez = correction.extra(excess, j, j, p_i, sign_j * p_j - paid, dx, dy, dz)
                 worked += V * (ex * u + ey * v + ez * w)
                 ex, ey, ez = correction.extra(excess, j, j, p_i, sign_j * p_j, dx, dy, dz)
                 fx, fy, fz = fx - V * ex, fy - V * ey, fz - V * ez
@@ -167,6 +167,6 @@ def feel(stepper, chosen, ahead: float):
     wall_force(
         stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, stepper.flow, chosen, stepper.wall,
         stepper.viscous, p["liquid_damping"], p["shifting"], stepper.phases, p["gravity"], stepper.frame,
-        stepper.excess, 1.0 if correction.of_continuity(stepper) else 0.0, gain, felt,
+        stepper.excess, gain, felt,
     )  # fmt: skip
     return felt
