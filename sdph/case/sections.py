@@ -35,15 +35,15 @@ class Run:
     # what starts the processes of `--ranks N`, which it is told by -n N: "srun", "mpirun --hostfile hosts"; mpirun
     launcher: str = words("")
     device: str = choice("cpu", "cuda")  # where loops over particles run
+    # speed from which on a grain has gone unstable; without it ten times all that drives it by the case
+    fastest: float | None = quantity("m_s", None, above=0.0)
 
 
 @record
 class Domain:
-    """The box that holds the gas; `gravity` has as many components as the case has dimensions. With an OpenFOAM mesh of
-    one's own, `size` and `lower` are those of the box around it where the case leaves them out.
-
-    Grains that leave through a `periodic` side come in again on the other one. No gas solver does that.
-    """
+    """The box that holds gas or liquid; `gravity` has as many components as the case has dimensions. With an OpenFOAM mesh
+    of one's own, `size` and `lower` are those of the box around it where the case leaves them out. Grains that leave
+    through a `periodic` side come in again on the other one; no gas solver does that."""
 
     size: tuple = vector("m")
     gravity: tuple = vector("m_s2")
@@ -260,8 +260,8 @@ class Case:
 
     def vapour_through(self, boundary) -> float:
         """Mass fraction of vapour in the gas that comes in through a boundary: its own, else that of the start."""
-        start = self.vapour.mass_fraction if self.vapour else 0.0
-        return start if boundary.vapour_mass_fraction is None else boundary.vapour_mass_fraction
+        own, start = boundary.vapour_mass_fraction, self.vapour.mass_fraction if self.vapour else 0.0
+        return start if own is None else own
 
     @property
     def smoothing_length(self) -> float:

@@ -10,9 +10,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from sdph.case import fluids
 from sdph.case.read import to_table
+from sdph.schema import CaseError
 
 CELSIUS = "degrees Celsius"
+OTHER = 0.02  # of a number of a fluid: what differs by less is another source's, or another temperature's; our choice
 
 
 class Range(NamedTuple):
@@ -62,7 +65,7 @@ USUAL = {
 
 def warnings(case) -> list[str]:
     """A line for each value of a case that is 0 in no component and far outside of its range: what was given, the
-    range, and the unit that was likely meant."""
+    range, and the unit that was likely meant; and for numbers that are not those of a fluid that is named."""
     table, told = to_table(case), []
     for pattern, usual in USUAL.items():
         for key, value in _found(table, pattern.split(".")):
@@ -70,6 +73,38 @@ def warnings(case) -> list[str]:
             if size and not usual.least <= size <= usual.most:
                 bounds = f"{usual.least:g} to {usual.most:g} ({usual.what})"
                 told.append(f"{key} = {_shown(value)} is far from usual, {bounds}{_likely(value, usual)}")
+    return told + _overruled(table)
+
+
+def _overruled(table: dict) -> list[str]:
+    """A line for each section that names a fluid while the case gives other numbers than it has: these stand."""
+    told = []
+    for name, sections in fluids.FILLS.items():
+        fluid = table.get(name, {}).get("fluid")
+        if not fluid:
+            continue
+        bare = table | {
+            section: {key: value for key, value in table[section].items() if key not in keys}
+            for section, keys in sections.items()
+            if section in table
+        }
+        try:
+            by_name = fluids.filled(bare)
+        except CaseError:  # no library, or no such number: nothing to compare with
+            continue
+        other = [
+            f"{section}.{key} = {given:g} ({own:g})"
+            for section, keys in sections.items()
+            for key in keys
+            if isinstance(own := by_name.get(section, {}).get(key), float)
+            and isinstance(given := table.get(section, {}).get(key), float)
+            and abs(given - own) > OTHER * abs(own)
+        ]
+        if other:
+            told.append(
+                f"numbers that the case gives stand, and are not those of {name}.fluid = {fluid!r}: "
+                f"{', '.join(other)}; leave them out to have its own"
+            )
     return told
 
 

@@ -54,6 +54,7 @@ IMPULSES_OF_GAS = (
 # of the heat of both phases: of less that is exchanged 1e-8 (sdph.running.balances) is below 1e-15 of all heat, the
 # round-off of its sums, so that there is nothing to relate a drift to; our choice
 TOLD = 1e-7
+ROUND_OFF = 2.0**-52  # of a sum
 RELATED = ("heat_exchanged_J", "impulse_exchanged_kg_m_s", "work_exchanged_J", "gas_impulse_moved_kg_m_s")
 NOTHING = dict.fromkeys(AMOUNTS, 0.0) | {f"{name}_{a}_kg_m_s": 0.0 for name in VECTORS for a in "xyz"}
 
@@ -207,13 +208,13 @@ class Ledger:
         terms = [c for key, sign in change.items() for c in self._change(key, sign)]
         lost = -math.fsum((*terms, *(sign * self.sums[key] for key, sign in given.items())))
         rubbed = math.fsum(self._change("gas_viscous_work_J", 1))
-        physical = abs(self.sums["friction_J"])
+        physical, least = abs(self.sums["friction_J"]), ROUND_OFF * abs(self.last["gas_energy_J"])
         return {
             "gas_dissipation_J": lost,
-            "gas_dissipation_rel": ratio(abs(lost), physical),
+            "gas_dissipation_rel": ratio(abs(lost), physical, least),
             "gas_viscous_work_J": rubbed,
             "gas_numerical_work_J": -(lost + rubbed),
-            "gas_numerical_work_rel": ratio(abs(lost + rubbed), physical + abs(rubbed)),
+            "gas_numerical_work_rel": ratio(abs(lost + rubbed), physical + abs(rubbed), least),
         }
 
     def _gas_momentum(self) -> dict[str, float]:
@@ -266,6 +267,6 @@ def _finite(value) -> bool:
     return not isinstance(value, str) and math.isfinite(value)
 
 
-def ratio(part: float, whole: float) -> float:
-    """The part over the whole; with nothing to relate it to, the part itself."""
-    return part / whole if whole else part
+def ratio(part: float, whole: float, least: float = 0.0) -> float:
+    """The part over the whole; with nothing to relate it to, no more than `least`, the part itself."""
+    return part / whole if whole > least else part

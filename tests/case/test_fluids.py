@@ -6,7 +6,7 @@ import tomllib
 import pytest
 
 from sdph import scenes
-from sdph.case import fluids
+from sdph.case import fluids, usual
 from sdph.case import read as cases
 from sdph.laws import diffusion
 from sdph.laws.evaporation import saturation_antoine
@@ -170,3 +170,10 @@ def test_what_cannot_be_is_said_in_one_line(sections, said):
     with pytest.raises(CaseError, match=said) as error:
         cases.from_table(droplet(**sections))
     assert "\n" not in str(error.value)
+
+
+def test_numbers_that_are_not_those_of_the_fluid_are_told():
+    """They stand; the disc's gas is air."""
+    (told,) = usual.warnings(cases.load(scenes.find("disc_cluster")[1], ("gas.fluid=Helium",)))
+    assert "gas.fluid = 'Helium'" in told and "gas.density_kg_m3" in told and "leave them out" in told
+    assert usual.warnings(cases.from_table(table(gas={"fluid": "air", "temperature_K": 300.0}))) == []

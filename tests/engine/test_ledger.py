@@ -172,3 +172,12 @@ def test_a_column_of_an_effect_counts_with_its_signs(tmp_path, missing):
     assert (summary["turned_J"], summary["seen"]) == (2.0, 7.0)
     assert summary["motion_drift_J"] == pytest.approx(missing, abs=1e-9)
     assert summary["energy_drift_J"] == pytest.approx(0.0, abs=1e-6)
+
+
+@pytest.mark.parametrize(("friction", "told"), [(1e-30, 1.01e-28), (1e-6, 1.0)])
+def test_round_off_is_nothing_to_relate_work_of_the_gas_to(tmp_path, friction, told):
+    """Gas at rest that has 1e-28 J of motion was said to do a hundred times as much numerical work as its friction."""
+    ledger = run(disc(*SHORT), tmp_path).ledger
+    ledger.sums |= dict.fromkeys(("work_of_drag_J", "damping_heat_J", "vapour_motion_J"), 0.0)
+    ledger.sums["friction_J"], ledger.last["gas_kinetic_J"] = friction, 1e-28
+    assert ledger.summary()["gas_numerical_work_rel"] == pytest.approx(told)

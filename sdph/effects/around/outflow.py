@@ -107,11 +107,15 @@ def without_wall(own) -> set[tuple[int, int]]:
 def refuse_to_leave(case, state, gone, time: float) -> None:
     """CaseError where grains left, mask (N,), at `time` [s] in a case without this effect: there is no gas outside."""
     first = int(np.flatnonzero(gone)[0])
+    way = exits(case)[through(case, state)[first]]
+    cure = "add outflow"
+    if way.endswith("_side") and "walls" not in case.effects:
+        way, cure = f"{way}, where no wall holds grains without the effect walls", "add walls, or outflow,"
     place = ", ".join(f"{axis[first]:.4g}" for axis in particles.axes(state))
     raise CaseError(
-        f"{int(gone.sum())} particles have left the domain through an open side at t = {time:.6g} s, the first is "
-        f"{state.ident[first]} at ({place}) m; "
-        f"add outflow to effects = {list(case.effects)}, or enlarge domain.size_m = {list(case.domain.size)}"
+        f"{int(gone.sum())} particles have left the domain at t = {time:.6g} s, the first is {state.ident[first]} at "
+        f"({place}) m, through {way}; {cure} to effects = {list(case.effects)}, or enlarge "
+        f"domain.size_m = {list(case.domain.size)}"
     )
 
 

@@ -133,25 +133,25 @@ def rise(case) -> float:
     return abs(own.heat) / own.oxidant_ratio * richest(case) * max(1.0 / gas.heat_capacity, through_film)
 
 
-def blown(s, p) -> float:
-    """c [m^-1/2] of grains past which gas flows as fast as anywhere in the case."""
+def blown(s, p, slip: float) -> float:
+    """c [m^-1/2] of grains past which gas flows at `slip` [m/s]."""
     schmidt = evaporation.schmidt_number(s.gas.density, s.gas.viscosity, p.diffusivity)
-    return grain_loss.ventilation(s.gas.density * s.slip / s.gas.viscosity, schmidt)
+    return grain_loss.ventilation(s.gas.density * slip / s.gas.viscosity, schmidt)
 
 
-def stripping(s, temperature: float) -> float:
-    """Rate [1/s] at which grains of `temperature` [K] strip the gas among them of its oxidant."""
+def stripping(s, temperature: float, slip: float) -> float:
+    """Rate [1/s] at which grains of `temperature` [K], past which gas flows at `slip` [m/s], strip it of its oxidant
+    where they are densest."""
     p = kernel(s.case)
-    of_grains = law.gas_stripped(
-        s.alpha_p, s.grains.diameter, surface(p, temperature), blown(s, p), p.diffusivity, p.film
-    )
+    c = blown(s, p, slip)
+    of_grains = law.gas_stripped(s.alpha_p, s.grains.diameter, surface(p, temperature), c, p.diffusivity, p.film)
     return of_grains / (1.0 - s.alpha_p)
 
 
 def spent(s, temperature: float) -> float:
     """Run over the time in which a grain of `temperature` [K] burns out in the richest gas of the case."""
     p, d = kernel(s.case), s.grains.diameter
-    c = blown(s, p)
+    c = blown(s, p, s.slip)
     fall = evaporation.regression_rate(s.gas.density * richest(s.case) / p.ratio, p.diffusivity, p.grain_density)
     return fall * s.end / law.scale(d, surface(p, temperature), c, p.film)
 

@@ -32,7 +32,8 @@ class Guard(Watch):
         self.pressure = max(map(abs, pressures), default=0.0)
         blown = math.sqrt(2.0 * (max(pressures, default=0.0) - min(pressures, default=0.0)) / case.gas.density)
         agitated = math.sqrt(case.grains.granular_temperature) + scales.sound
-        self.reach = scales.jet + scales.eddies + scales.thrown + drop + blown + agitated
+        driven = scales.jet + scales.eddies + scales.rush + scales.thrown + drop + blown + agitated
+        self.reach = case.run.fastest / RUNAWAY if case.run.fastest else driven
         given = case.temperatures
         stored = min(grains.heat_capacity for grains in case.kinds)
         slack = scales.span + LATENT * max(given) + self.reach**2 / stored
@@ -97,8 +98,9 @@ class Guard(Watch):
         s = stepper.own
         ruled = f"the sub-step was ruled by {stepper.limit or 'the window'}"
         lower = f"run.step_factor (now {self.case.run.step_factor:g}; {ruled}), then {self._shorter()}"
+        fast = f"{lower}; if shorter steps come as fast, they are that fast: give run.fastest_m_s"
         speed = np.sqrt(s.u**2 + s.v**2 + (s.w**2 if len(s.w) else 0.0))
-        self.hold("speed", speed, (0.0, most, "m/s"), s, lower)
+        self.hold("speed", speed, (0.0, most, "m/s"), s, fast)
         if len(s.temperature):
             self.hold("temperature", s.temperature, (self.coldest, self.hottest, "K"), s, lower)
         self.hold("density", s.density, (0.0, math.inf, "kg/m3"), s, lower)

@@ -21,6 +21,8 @@ from sdph.methods.grains.history import Warmed, of_materials, tracked
 from sdph.methods.grains.method import Stepper
 
 CAME_IN = ("mass", "energy", "motion", "momentum")  # what a source counts
+APART = ("friction", "granular_pressure")  # effects that keep dense grains apart
+PACKED = 1.02  # of the packing limit: less is noise of single particles; our choice
 NOTHING_LEFT = {"left_kg": 0.0, "left_J": 0.0, "left_motion_J": 0.0} | vector("impulse_of_outflow", np.zeros(3))
 
 
@@ -44,6 +46,7 @@ class Grains:
         self.pushed = Pushed("grain", "friction", self.stepper.parts, case.dimensions)
         self.warmed = Warmed(self.stepper.hot)
         self.gone = None  # State of what has left in the window
+        self.packed = False  # True once it was told that they are packed beyond their limit
         self.torn = dict(micro_explosion.NOTHING_TORN)  # in the window
 
     @property
@@ -111,6 +114,7 @@ class Grains:
 
     def close(self) -> None:
         """End the window, of which the history has a row; `way` and `damped` are what `Stepper.release` tells of it."""
+        self._tell_packed()
         self.pushed.new_row()
         self.pushed.add(self.stepper.pushed(), self.time - self.begun)
         self.warmed.add(self.world.sum(self.stepper.account.gave), self.time - self.begun)
@@ -240,6 +244,20 @@ class Grains:
         """Mass [kg], enthalpy, energy of motion [J] and momentum [kg m/s] through the nozzles since the start."""
         own = self.source
         return tuple(getattr(own, name) for name in CAME_IN) if own else (0.0, 0.0, 0.0, np.zeros(3))
+
+    def _tell_packed(self) -> None:
+        """Tell once where grains are packed denser than their limit: something that keeps them apart is missing."""
+        own = self.inside
+        packed = own.density / particles.by_material(own.grain_density, self.case.grains.density)
+        densest, most = self.world.most(float(packed.max(initial=0.0))), self.case.grains.packing_limit
+        if self.packed or densest <= PACKED * most:
+            return
+        self.packed = True
+        off = [name for name in APART if name not in self.case.effects]
+        why = f"; {' and '.join(off)} would keep them apart, and effects has them not" if off else ""
+        self.notices.append(
+            f"t = {self.time:.4g} s: alpha_p is {densest:.3g}, beyond grains.packing_limit = {most:g}{why}"
+        )
 
     def _of(self, left) -> dict[str, float]:
         """Ledger columns of the grains that left."""

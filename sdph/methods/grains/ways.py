@@ -8,6 +8,7 @@ import math
 from typing import NamedTuple
 
 from sdph.effects.around.outflow import outlets_of
+from sdph.effects.gas import reaction
 from sdph.engine.geometry import PAIRS
 
 CAVITY = 4.2  # a stream past a cavity of width w fades in it as exp(-4.2 y/w): Moffatt 1964, J. Fluid Mech. 18, 1
@@ -35,17 +36,21 @@ def strength(case, boundary, patches) -> float:
 
 
 def rush(s) -> float:
-    """Speed [m/s] of gas that rushes in where grains cool it and out where they heat it; none at constant density. `s`:
-    scales.
+    """Speed [m/s] of gas that rushes in where grains cool it and out where they heat it, or burn in it; none at
+    constant density. `s`: scales.
 
     At the start it is the change of volume of the patch in the time in which its gas takes the grains' temperature, the
-    most it can be; of gas that is let in, its speed once it has that.
+    most it can be, or in which they strip it of its oxidant; of gas that is let in, its speed once it has that.
     """
     if s.gas.equation_of_state == "constant" or not s.alpha_p:
         return 0.0
     own, grains = s.gas.temperature, [patch.temperature for patch in s.patches]
     at_start = max(abs(own - each) for each in grains) / max(own, *grains) * s.length / s.still_heat_time
-    return max([at_start, *(speed * max(grains) / temperature for speed, temperature in s.fed)])
+    burnt = 0.0
+    if warmer := reaction.rise(s.case):
+        hottest = max(s.case.temperatures) + warmer
+        burnt = warmer / own * s.length * reaction.stripping(s, hottest, max(s.jet, s.thrown, s.falling, s.eddies))
+    return max([at_start, burnt, *(speed * max(grains) / temperature for speed, temperature in s.fed)])
 
 
 def spans_of(boundary) -> tuple:
@@ -73,10 +78,12 @@ def reach(s, out: bool) -> Reach:
 
 
 def settles(s, onset: float) -> bool:
-    """True where nothing but their weight moves grains, and within the run it takes them to a closed side, or a wall
-    of their own, and on to the volume fraction `onset`."""
-    lifted = s.thrown or (s.jet and not s.jet < s.minimum_fluidisation)
-    if lifted or not s.collides:
+    """True where their weight takes grains, within the run, to a closed side, or a wall of their own, and on to the
+    volume fraction `onset`; not where they are thrown, or gas lifts them. A bed on its floor comes back on itself where
+    the slowest gas that is let in under it does not carry grains away."""
+    lie_there = lie(s.case, s.patches)
+    lifted = slowest(s.case) >= s.falling if lie_there else s.jet and not s.jet < s.minimum_fluidisation
+    if s.thrown or lifted or not s.collides:
         return False
     for patch, axis, side, room, outward in _sides(s):
         within, down = enclosed(s.case), outward * s.case.domain.gravity[axis] > 0.0
@@ -129,6 +136,14 @@ def pours(case, patches) -> bool:
         for _, outlet in outlets_of(case, side)
     ]
     return min(asides, default=math.inf) == 0.0
+
+
+def poured_through(case, patches) -> float:
+    """Narrowest width [m] of the outlets that grains pour through; 0 without any."""
+    if not pours(case, patches):
+        return 0.0
+    side = PAIRS[upright(case)][int(case.domain.gravity[upright(case)] > 0.0)]
+    return min((high - low for _, own in outlets_of(case, side) for low, high in spans_of(own)), default=0.0)
 
 
 def upright(case) -> int:

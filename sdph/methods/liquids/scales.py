@@ -32,7 +32,9 @@ class LiquidScales:
 
     @cached_property
     def extents(self) -> np.ndarray:
-        """(d,) of the liquid at the start [m]."""
+        """(d,) of the liquid at the start [m]; of what nozzles let in, where there is none, that of the domain."""
+        if not self.wet.any():
+            return np.array(self.case.domain.size)
         return np.array([np.ptp(axis[self.wet]) for axis in particles.axes(self.state)]) + self.case.resolution.spacing
 
     @cached_property
@@ -42,8 +44,9 @@ class LiquidScales:
 
     @cached_property
     def thrown(self) -> float:
-        """Fastest liquid at the start [m/s]."""
-        return float(np.sqrt((particles.velocities(self.state)[self.wet] ** 2).sum(axis=1)).max(initial=0.0))
+        """Fastest liquid at the start, or out of a nozzle [m/s]."""
+        let_in = max((nozzle.speed for nozzle in self.case.nozzles.values()), default=0.0)
+        return float(particles.lengths(particles.velocities(self.state)[self.wet]).max(initial=let_in))
 
     @cached_property
     def shaken(self) -> float:

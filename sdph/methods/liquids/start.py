@@ -24,16 +24,16 @@ ROUNDS = 50  # of the inversion of Van der Waals' equation; each takes off nine 
 
 def fill(case) -> particles.State:
     """All liquid and wall particles of a case, numbered from 0, liquid first."""
-    if not case.pools:
-        raise CaseError("no liquid: give it in a section such as [pools.column]")
+    if not case.pools and "inflow" not in case.effects:
+        raise CaseError("no liquid: give it in a section such as [pools.column], or let it in by [nozzles.NAME]")
     pools = filling.pools(case)
     parts = [_pool(case, pools, number) for number in range(len(pools))]
     if "tank" in case.effects:
         parts.append(_walls(case))
-    state = parts[0]
-    for part in parts[1:]:
+    state = placed(case, np.zeros((0, case.dimensions)))
+    for part in parts:
         state = particles.join(state, part)
-    if not (state.kind == LIQUID).any():
+    if case.pools and not (state.kind == LIQUID).any():
         raise CaseError("pools hold no particle of liquid; enlarge one, or give a finer resolution.spacing_mm")
     state.ident[:] = np.arange(len(state.ident))
     return state

@@ -90,7 +90,7 @@ class LiquidLedger(Sums):
         drift = float(np.linalg.norm(self.gained() - self.impulses.sum(axis=0)))
         made = float(np.linalg.norm(self.impulses[IMPULSES.index("tension_control")]))
         return self.sums | {
-            "mass_drift_rel": abs(mass) / there,
+            "mass_drift_rel": ratio(abs(mass), there),
             "momentum_drift_rel": ratio(drift, self.scale["kg_m_s"] + inertia),
             "momentum_made_rel": ratio(made, self.scale["kg_m_s"] + inertia),
             "energy_made_J": self.made,

@@ -66,6 +66,11 @@ class Feed:
         return SAFETY * math.sqrt(2.0 * tolerance * fed / (share * self.rate)) if fed > 0.0 else math.inf
 
 
+def lasting(case, nozzle) -> float:
+    """Time [s] of a run for which a nozzle is open."""
+    return max(0.0, min(nozzle.end or case.run.end_time, case.run.end_time) - nozzle.start)
+
+
 def of(case, s) -> Feed | None:
     """The feed of a case of nozzles alone that exchanges heat both ways."""
     if not case.nozzles or case.particles or "heat" not in case.effects or case.coupling.one_way or not s.thrown:

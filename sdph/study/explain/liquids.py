@@ -7,7 +7,7 @@ import math
 from sdph import effects
 from sdph.methods.liquids.bounds import limits as limits_of_step
 from sdph.methods.liquids.liquid import SLOW
-from sdph.study.explain import estimate
+from sdph.study.explain import estimate, feed
 
 WATER = 0.0728  # N/m, of water in air at 20 C (IAPWS R1-76): for the Weber and Bond numbers of a case that gives none
 
@@ -93,12 +93,14 @@ def limits(s) -> list[dict]:
 
 def expected(s, steps: list[dict], shared=None) -> list[dict]:
     """Particles, steps, memory, wall time."""
-    count = len(s.state.x)
+    start, spacing = len(s.state.x), s.case.resolution.spacing
+    came = sum(estimate.mouth(s.case, n) * n.speed * feed.lasting(s.case, n) for n in s.case.nozzles.values())
+    count = start + (0 if "outflow" in s.case.effects else round(came / spacing**s.case.dimensions))
     end, longest = shared or (s.end, min(row["largest [s]"] for row in steps))
     number = math.ceil(end / (s.case.run.step_factor * longest))
-    wall = 1e-6 * estimate.speed().liquid * count * number
+    wall = 1e-6 * estimate.speed().liquid * 0.5 * (start + count) * number
     return [
-        {"what": "liquid particles", "value": int(s.wet.sum()), "unit": ""},
+        {"what": "liquid particles", "value": int(s.wet.sum()) + count - start, "unit": ""},
         {"what": "particles, walls included", "value": count, "unit": ""},
         {"what": "steps", "value": number, "unit": ""},
         {"what": "memory", "value": estimate.memory(s.case, count, 0) / 1e6, "unit": "MB"},

@@ -183,7 +183,7 @@ def thickening(case, s) -> Thickening | None:
     if "evaporation" in case.effects:
         return Thickening(case, s, "evaporation", *evaporation.filling(s))
     if "reaction" in case.effects:
-        return Thickening(case, s, "reaction", reaction.stripping(s, max(case.temperatures)), 1.0)
+        return Thickening(case, s, "reaction", reaction.stripping(s, max(case.temperatures), s.slip), 1.0)
     return None
 
 

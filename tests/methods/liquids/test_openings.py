@@ -10,6 +10,7 @@ from sdph.engine.state import INFLOW, LIQUID, WALL
 from sdph.methods.liquids import openings
 from sdph.running.alone import Alone
 from sdph.schema import CaseError
+from sdph.study.explain import tables
 
 RHO, U, DX = 1000.0, 2.0, 0.02
 MOUTH = {"shape": "slot", "centre_m": [0.0, 0.2], "direction": [1.0, 0.0], "width_m": 0.2, "speed_m_s": U}
@@ -84,6 +85,19 @@ def test_a_tank_is_filled_while_its_nozzle_is_open(tmp_path):
     assert told["momentum_drift_rel"] < 1e-12
     assert told["work_of_inflow_J"] > 0.0
     assert not (particles.velocities(run.state)[run.stepper.waiting] != 0.0).any()
+
+
+def test_an_empty_tank_is_filled(tmp_path):
+    """Nothing is in it at first; the estimates count what comes in."""
+    opened = MOUTH | {"end_s": 0.1, "speed_m_s": 1.0, "centre_m": [0.0, 0.3]}
+    table = FULL | {"nozzles": {"mouth": opened}, "pools": {}}
+    run = gone(tmp_path, table, 0.4)
+    told, inside = run.ledger.summary(), run.state.kind == LIQUID
+    assert told["injected_kg"] == pytest.approx(RHO * 1.0 * 0.2 * 0.1, abs=0.5001 * RHO * 0.2 * DX)
+    assert told["mass_drift_rel"] < 1e-14 and told["momentum_drift_rel"] < 1e-12
+    assert run.state.y[inside].min() > 0.0 and run.state.y[inside].mean() < 0.2
+    rows = {row["what"]: row["value"] for row in tables.explain(cases.from_table(table))["expected"]}
+    assert rows["liquid particles"] == 50
 
 
 def test_walls_are_open_at_the_mouth_alone(tmp_path):

@@ -65,3 +65,32 @@ def test_a_bed_over_a_slot_runs_out_and_collides(boundaries, runs_out):
     told = next(row["why"] for row in parts["effects"] if row["effect"] == "granular_pressure")
     assert numbers["run / collision time"] > 1.0
     assert ("= 0 (" not in told) is runs_out and ("outflow" in called_for(cases.from_table(table))) is runs_out
+
+
+@pytest.mark.parametrize(("slot", "safe"), [([0.01, 0.02], "NO"), ([0.0, 0.03], "yes")])
+def test_an_outlet_of_few_spacings_is_told(slot, safe):
+    """Slots of 5.3 and 16 particles."""
+    table = cases.parsed(scenes.find("fluidised_column")[1])
+    table["resolution"] = {"spacing_mm": 1.875, "cell_mm": 3.75}
+    table["particles"]["bed"] = BED | {"volume_fraction": 0.55, "lower_m": [0.0, 0.0]}
+    table["boundaries"] = WALLS | {"slot": outlet(side="bottom", span_m=slot)}
+    rows = tables.explain(cases.from_table(table))["ratios"]
+    assert next(row["safe"] for row in rows if row["ratio"] == "outlet / spacing") == safe
+
+
+def inlet(low, high, speed):
+    return {
+        "kind": "velocity_inlet",
+        "side": "bottom",
+        "span_m": [low, high],
+        "velocity_m_s": [0.0, speed],
+        "temperature_K": 288.0,
+    }
+
+
+@pytest.mark.parametrize(("beside", "called"), [(0.1, {"walls", "friction"}), (9.0, {"walls"})])
+def test_a_bed_comes_back_on_itself_beside_a_jet(beside, called):
+    """U_mf is 0.2 m/s; without friction such a bed packs to 0.84. Gas of 9 m/s everywhere carries all of it away."""
+    jet = {"left": inlet(0.0, 0.01, beside), "jet": inlet(0.01, 0.03, 10.0), "top": outlet(side="top")}
+    bed = BED | {"lower_m": [0.0, 0.0], "upper_m": [0.03, 0.15], "volume_fraction": 0.5}
+    assert judged(bed, WALLS | jet) - {"outflow"} == called

@@ -114,3 +114,10 @@ def test_a_hastened_droplet_is_counted_by_the_time_of_its_motion():
     way = math.sqrt(0.45**2 + (1.4**2 - 1.0) * 0.5**2) - 0.45  # mm: the shell keeps its section
     assert own - lockstep.motion(case) == pytest.approx(1e-3 * way * (10.0 - 5.0))
     assert lockstep.motion(load("tank_with_flap")) == load("tank_with_flap").run.end_time
+
+
+@pytest.mark.parametrize(("scene", "told"), [("oscillating_droplet", True), ("swirl_sheet", False)])
+def test_moving_particles_are_told_where_tension_rules(scene, told):
+    """Their drops miss every bar of tension; a sheet of We = 1000 hardly feels it."""
+    changes = ("method.name=mps",) if told else ()
+    assert any("moving particles" in text for text in tables.warnings(load(scene, *changes))) == told
