@@ -41,7 +41,7 @@ class Run:
 
 @record
 class Domain:
-    """The box that holds gas or liquid; `gravity` has as many components as the case has dimensions. With an OpenFOAM mesh
+    """Box of gas or liquid; `gravity` has as many components as the case has dimensions. With an OpenFOAM mesh
     of one's own, `size` and `lower` are those of the box around it where the case leaves them out. Grains that leave
     through a `periodic` side come in again on the other one; no gas solver does that."""
 
