@@ -100,7 +100,6 @@ REST = "water that comes to rest: slip does nothing to it then"
 PAPER = "those of the paper that it repeats (Yu & Wang 2021)"
 OWN = "the viscosity is the fluid's own"
 REASONS = {  # (scene, key) -> why it departs, and what is known of it without; numbers are of the scene's README
-    ("bubble_rise", "Courant"): "fewer steps; with 0.25 1.3 % off",
     (
         "bubble_rise",
         "pressure gradient",

@@ -99,7 +99,7 @@ def _row(case, name: str) -> dict:
         "held": inlet or (not passes and boundary.temperature is not None),
         "velocity": boundary.velocity or (0.0,) * case.dimensions,
         "temperature": boundary.temperature or case.gas.temperature,
-        "vapour": boundary.vapour_mass_fraction or 0.0, "pressure": boundary.pressure or 0.0,
+        "vapour": case.vapour_through(boundary), "pressure": boundary.pressure or 0.0,
     }  # fmt: skip
 
 

@@ -12,7 +12,7 @@ import re
 import shutil
 from pathlib import Path
 
-from coupling.openfoam import poly_mesh
+from coupling.openfoam import links, poly_mesh
 from coupling.openfoam.block_mesh import block_mesh
 from coupling.openfoam.code import Findings, refuse_code
 from coupling.openfoam.start_fields import EMPTY, start_fields
@@ -24,14 +24,13 @@ from sdph.schema import CaseError
 HEAD = "FoamFile {{ version 2.0; format ascii; class dictionary; object {name}; }}\n"
 SPATIAL = ("m", "m_s", "m_s2")  # units of what has one component per dimension
 NOT_SPATIAL = ("span",)  # lengths, but along the tangential axes
-REFUSED = " \t\"'"  # OpenFOAM's fileName takes none of these
 NAME = re.compile(r"[\w.+-]+")  # of what a case names: no more than a word of OpenFOAM
 DEPTH = 1.0  # m, of the one cell that a two-dimensional mesh is deep
 
 
 def refuse_path(folder: Path) -> None:
     """CaseError where OpenFOAM cannot work in a folder."""
-    if set(str(folder.absolute())) & set(REFUSED):
+    if not links.takes(folder.absolute()):
         raise CaseError(
             f"{folder.absolute()}: OpenFOAM takes no blanks and quotes in a path; move the run, give another --out, or "
             "--gas embedded"

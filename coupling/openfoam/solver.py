@@ -14,6 +14,7 @@ import numpy as np
 from coupling.gas import SOURCES, CheckpointError, GasError, GasState, Unfinished, known_fields, refuse_full_cells
 from coupling.openfoam import case as case_files
 from coupling.openfoam import told as told_by
+from coupling.openfoam.links import Links
 from coupling.openfoam.programs import barrier, install
 from coupling.openfoam.programs import run as programs
 from coupling.openfoam.programs.build import silent
@@ -62,21 +63,26 @@ class OpenFoamGas:
         self._process, self._connection, self._asking = None, None, False
         self._time, self._clock, self._fields = 0.0, Clock(case.run), ()
         self._heard = True  # the solver, of the last window
-        self._allow_code, self._known = allow_code, {}
-        case_files.refuse_path(self._folder)
-        if template is None:
-            self._refuse_code(Path(folder))
-        files.sweep(self._folder)
-        program = install.gas_solver(status)
-        self._turbulence = install.gas_turbulence(status) if case.gas.turbulent else None
-        if template is not None:
-            case_files.write_case(case, Path(template), self._folder, case.coupling.gas_ranks, allow_code, self._known)
-            self._make_mesh()
+        self._allow_code, self._known, self._links = allow_code, {}, Links()
         try:
-            self._launch(program)
+            self._begin(Path(folder), template)
         except BaseException:
             self.close()
             raise
+
+    def _begin(self, folder: Path, template: Path | None) -> None:
+        """Make the case of a template, or take the folder as it is, and start the solver."""
+        case_files.refuse_path(self._links.plain(self._folder))
+        if template is None:
+            self._refuse_code(folder)
+        files.sweep(self._folder)
+        program = install.gas_solver(self._status)
+        self._turbulence = install.gas_turbulence(self._status) if self._case.gas.turbulent else None
+        if template is not None:
+            options = self._case.coupling.gas_ranks, self._allow_code, self._known
+            case_files.write_case(self._case, Path(template), self._folder, *options)
+            self._make_mesh()
+        self._launch(program)
 
     def _make_mesh(self) -> None:
         if not (self._folder / "constant" / "polyMesh").exists():
@@ -89,7 +95,9 @@ class OpenFoamGas:
     def _run(self, program: str, *options: str) -> None:
         """A program of OpenFOAM, which finds no code in what the one before it has written."""
         self._refuse_code(self._folder)
-        programs.run([program, *options], self._folder, self._folder / f"log.{program}", self._environment())
+        own, log = self._links, self._folder / f"log.{program}"
+        command = [program, "-case", str(own.plain(self._folder)), *options]
+        programs.run(command, own.place(self._folder), log, self._environment())
 
     def _refuse_code(self, folder: Path) -> None:
         if not self._allow_code:
@@ -123,7 +131,8 @@ class OpenFoamGas:
 
     def _start(self, program: Path, address: str, secret: str) -> subprocess.Popen:
         ranks = self._case.coupling.gas_ranks
-        command = [str(program), "-case", str(self._folder), "-address", address, "-watch", str(os.getpid())]
+        named, address = str(self._links.plain(self._folder)), self._links.address(address)
+        command = [str(program), "-case", named, "-address", address, "-watch", str(os.getpid())]
         if self._turbulence:
             command += ["-turbulence", str(self._turbulence)]
         if ranks > 1:
@@ -132,14 +141,9 @@ class OpenFoamGas:
         environment = self._environment() | {"SDPH_SECRET": secret, "FOAM_SIGFPE": "false", "FOAM_SETNAN": "false"}
         with self._log.open("wb") as log, programs.starting(command[0]):
             return subprocess.Popen(
-                command,
-                cwd=self._folder,
-                env=environment,
-                stdin=subprocess.DEVNULL,
-                stdout=log,
-                stderr=log,
-                start_new_session=True,
-            )
+                command, cwd=self._links.place(self._folder), env=environment, stdin=subprocess.DEVNULL, stdout=log,
+                stderr=log, start_new_session=True,
+            )  # fmt: skip
 
     def start(self, alpha_g: np.ndarray | None, sources: tuple[str, ...], fields: tuple[str, ...] = ()) -> GasState:
         """See `Gas.start`."""
@@ -167,14 +171,14 @@ class OpenFoamGas:
     def checkpoint(self, folder: Path) -> None:
         """See `Gas.checkpoint`."""
         Path(folder).mkdir(parents=True, exist_ok=True)
-        self._request(Message(Kind.CHECKPOINT, {"folder": str(Path(folder).resolve())}), Kind.DONE)
+        self._request(Message(Kind.CHECKPOINT, {"folder": str(self._links.plain(folder))}), Kind.DONE)
 
     def restore(self, folder: Path, sources: tuple[str, ...] | None = None, fields: tuple[str, ...] = ()) -> GasState:
         """See `Gas.restore`."""
         self._fields = known_fields(fields)
         known = {} if sources is None else {"sources": " ".join(sources)}
         return self._ask(
-            Message(Kind.RESTORE, {"folder": str(Path(folder).resolve()), "fields": " ".join(fields)} | known)
+            Message(Kind.RESTORE, {"folder": str(self._links.plain(folder)), "fields": " ".join(fields)} | known)
         )
 
     def close(self) -> None:
@@ -186,6 +190,7 @@ class OpenFoamGas:
         if self._process is not None:
             end_group(self._process)
             self._process = None
+        self._links.close()
 
     def _say_goodbye(self) -> None:
         if self._asking:  # it has not answered yet, so that it would not hear

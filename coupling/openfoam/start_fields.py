@@ -93,7 +93,7 @@ def _velocity_inlet(case, boundary, name: str) -> dict[str, str]:
         "U": let_in(case, boundary),
         "p_rgh": GIVEN_FLUX,
         "T": fixed(boundary.temperature or case.gas.temperature),
-        "Y": fixed(boundary.vapour_mass_fraction or 0.0),
+        "Y": fixed(case.vapour_through(boundary)),
     }
 
 
@@ -111,7 +111,7 @@ def let_in(case, boundary) -> str:
 
 def _pressure_outlet(case, boundary, name: str) -> dict[str, str]:
     """Open side: gas that flows back has the given temperature and vapour, and comes in at right angles to the face."""
-    back = {"T": boundary.temperature or case.gas.temperature, "Y": boundary.vapour_mass_fraction or 0.0}
+    back = {"T": boundary.temperature or case.gas.temperature, "Y": case.vapour_through(boundary)}
     return {
         "alpha_g": ZERO_GRADIENT,
         "U": "type pressureInletOutletVelocity; value uniform (0 0 0);",

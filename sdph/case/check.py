@@ -73,8 +73,9 @@ def _check_one(case: Case) -> None:
         raise CaseError(f"{given}; every ratio must be from {1.0 / STRETCH:g} to {STRETCH:g}: 1 for equal cells")
     if min(case.domain.size) <= 0.0:
         raise CaseError(f"domain.size_m = {list(case.domain.size)}; every length must be above 0")
-    if any(case.domain.corner) and (case.liquid or case.solid or not case.grains):
-        raise CaseError(f"domain.lower_m = {list(case.domain.lower)} is of a vessel of grains; leave it out")
+    if any(case.domain.corner) and (case.solid or case.incompressible):
+        given = f"domain.lower_m = {list(case.domain.lower)}"
+        raise CaseError(f"{given} is of grains and of a liquid that sound travels in; leave it out")
     for name, own in (*case.parameters.items(), *((f"particles.{name}", own) for name, own in case.particles.items())):
         if getattr(own, "mesh_scale", 1.0) != 1.0 and not own.mesh:
             raise CaseError(
@@ -227,7 +228,13 @@ def _check_phases(case: Case) -> None:
         raise CaseError("[gas_phase] is given without [liquid]; a gas around grains goes into [gas]")
     if "drain" in case.effects:
         raise CaseError("effects holds drain, which knows one phase; leave it or [gas_phase] out")
-    if case.gas_phase.density_by == "summation" and "density_diffusion" in case.effects:
+    summed = case.gas_phase.density_by == "summation"
+    if summed and case.liquid.pressure_gradient == "corrected":
+        raise CaseError(
+            'liquid.pressure_gradient = "corrected" makes energy, which gas_phase.density_by = "summation" does not '
+            'take up; set "plain", or "continuity"'
+        )
+    if summed and "density_diffusion" in case.effects:
         raise CaseError(
             'effects holds density_diffusion, but with gas_phase.density_by = "summation" no density is advanced; '
             "leave one out"

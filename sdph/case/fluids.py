@@ -2,9 +2,11 @@
 leaves out, from CoolProp (Bell et al. 2014, Ind. Eng. Chem. Res. 53, 2498, and the sources that it names).
 
 They are constants of a run, each at one temperature and at `gas.operating_pressure_Pa`: of the gas at its own; of
-droplets at the mean of those that regions and nozzles give them; of their vapour, and of its diffusivity in the gas
-(Fuller), at that of the film, T_p + (T_g - T_p)/3 (the 1/3 rule: Hubbard, Denny & Mills 1975, Int. J. Heat Mass
-Transfer 18, 1003), all but without pressure; of [liquid] and [gas_phase] at `fluid_temperature_K`. Saturation is
+droplets at `grains.fluid_temperature_K`, the mean of those that regions and nozzles give them; of their vapour, and of
+its diffusivity in the gas (Fuller), at that of the film, T_p + (T_g - T_p)/3 (the 1/3 rule: Hubbard, Denny & Mills
+1975, Int. J. Heat Mass Transfer 18, 1003), all but without pressure; the latent heat at
+`evaporation.latent_heat_temperature_K`, that at which droplets evaporate, their wet bulb in the gas at the start; of
+[liquid] and [gas_phase] at `fluid_temperature_K`, that of the liquid's heat where it has one. Saturation is
 Antoine's through three points from the droplets' temperature to boiling. Where the gas around droplets comes by name
 too it is as in their film (`coupling.film`): else its conductivity would be that of a hotter gas than the vapour
 diffuses in. What a case gives itself stands; the resolved case has every number.
@@ -12,15 +14,18 @@ diffuses in. What a case gives itself stands; the resolved case has every number
 
 from __future__ import annotations
 
+import math
 import re
 from statistics import fmean
 
 from sdph.laws import diffusion
-from sdph.laws.evaporation import antoine_through
+from sdph.laws import evaporation as law
+from sdph.laws.constants import GAS_CONSTANT
 from sdph.schema import CaseError, unknown
 
 AROMATIC = ("Benzene", "Toluene", "EthylBenzene", "m-Xylene", "o-Xylene", "p-Xylene")
 ATMOSPHERE, ROOM = 101325.0, 293.15  # Pa, K: ISO 2533; ISO 1
+BELOW = 1e-6  # of the boiling point: so near to it no wet bulb is told from it; our choice
 THIN = 1.0  # Pa, at which a vapour is an ideal gas; our choice
 HOW = "give the numbers in their place, or another fluid"
 # key of a section -> what CoolProp calls it
@@ -28,6 +33,7 @@ OF_GAS = {"density_kg_m3": "D", "viscosity_Pa_s": "V", "conductivity_W_m_K": "L"
 OF_DROPLETS = {key: OF_GAS[key] for key in ("density_kg_m3", "heat_capacity_J_kg_K", "conductivity_W_m_K")}
 OF_VAPOUR = {key: OF_GAS[key] for key in ("heat_capacity_J_kg_K", "conductivity_W_m_K", "viscosity_Pa_s")}
 OF_PHASES = {key: OF_GAS[key] for key in ("density_kg_m3", "viscosity_Pa_s")}
+AT, AT_SURFACE = "fluid_temperature_K", "latent_heat_temperature_K"
 LINEAR = "linear"  # of the laws of evaporation, the one that takes a film, and the default
 MOLAR_MASS, TENSION, DIFFUSIVITY = "molar_mass_kg_kmol", "surface_tension_N_m", "diffusivity_m2_s"
 # section with a fluid -> sections and the keys that it fills there, where the case has that effect
@@ -99,6 +105,29 @@ def filled(table: dict) -> dict:
     return table if table is own else _with_film(own, table)
 
 
+def rows(case) -> list[dict]:
+    """Rows of `sdph explain`: each fluid that a case names, and the temperature of its numbers [K]."""
+    told = []
+    for name, own, at in (
+        ("gas", case.gas, getattr(case.gas, "temperature", None)),
+        *((name, own, getattr(own, "fluid_temperature", None)) for name, own in (
+            ("grains", case.grains), ("liquid", case.liquid), ("gas_phase", case.gas_phase)
+        )),
+    ):  # fmt: skip
+        if own is not None and own.fluid and at:
+            told.append({"fluid": own.fluid, "of": f"[{name}]", "at [K]": at})
+    boils = case.parameters.get("evaporation")
+    if boils and boils.latent_heat_temperature:
+        what = "its latent heat, at the wet bulb in the gas of the start"
+        told.append({"fluid": case.grains.fluid, "of": what, "at [K]": boils.latent_heat_temperature})
+    return told
+
+
+def told(case) -> list[str]:
+    """A line of a run for each of `rows`."""
+    return [f"fluid {row['fluid']}: {row['of']} is that of {row['at [K]']:.6g} K" for row in rows(case)]
+
+
 def _with_film(own: dict, table: dict) -> dict:
     """A filled `table` with the gas around droplets as in their film, where its conductivity and their vapour, which is
     that of the film, come by name, the law is one that takes a film, and the case `own` says nothing of it."""
@@ -137,13 +166,20 @@ def _gas(table: dict, name: str, fluid: Fluid) -> dict:
 
 
 def _phase(table: dict, name: str, fluid: Fluid) -> dict:
-    own = table[name]
-    state = {"T": _number({"fluid_temperature_K": ROOM} | own, "fluid_temperature_K", name), "P": _pressure(table)}
-    table = _with(table, name, {key: fluid.at(what, **state) for key, what in OF_PHASES.items() if key not in own})
+    own, at = table[name], {AT: _temperature_of_liquid(table)} | table[name]
+    state = {"T": _number(at, AT, name), "P": _pressure(table)}
+    numbers = {key: fluid.at(what, **state) for key, what in OF_PHASES.items() if key not in own}
+    table = _with(table, name, numbers | {AT: state["T"]})
     if name == "liquid" and "surface_tension" in table.get("effects", ()):
         tension = {"coefficient_N_m": fluid.at("I", T=state["T"], Q=0.0)}
         return _with(table, "surface_tension", {} if "coefficient_N_m" in table.get("surface_tension", {}) else tension)
     return table
+
+
+def _temperature_of_liquid(table: dict) -> float:
+    """Temperature [K] of a liquid at the start: of its heat, else of its own numbers, else ROOM."""
+    given = _section(table, "liquid_heat").get("temperature_K"), _section(table, "liquid").get(AT)
+    return next((value for value in given if value is not None), ROOM)
 
 
 def _droplets(table: dict, name: str, fluid: Fluid) -> dict:
@@ -155,33 +191,73 @@ def _droplets(table: dict, name: str, fluid: Fluid) -> dict:
         )
     own = table[name]
     numbers = {key: fluid.at(what, T=cold, P=pressure) for key, what in OF_DROPLETS.items() if key not in own}
-    table = _with(table, name, numbers | {TENSION: fluid.at("I", T=cold, Q=0.0)})
+    table = _with(table, name, numbers | {TENSION: fluid.at("I", T=cold, Q=0.0), AT: cold})
     if "evaporation" not in table.get("effects", ()):
         return table
-    own = table.get("evaporation", {})
-    numbers = {} if "latent_heat_J_kg" in own else {"latent_heat_J_kg": fluid.latent_heat(cold)}
+    own, numbers = table.get("evaporation", {}), {}
+    if "latent_heat_J_kg" not in own:
+        surface = _number({AT_SURFACE: _wet_bulb(table, fluid, pressure)} | own, AT_SURFACE, "evaporation")
+        numbers = {"latent_heat_J_kg": fluid.latent_heat(surface), AT_SURFACE: surface}
     if "saturation" not in own:
         points = cold, 0.5 * (cold + boiling), boiling
         pressures = [fluid.at("P", T=point, Q=0.0) for point in points]
-        numbers |= {"saturation": "antoine", "antoine": list(antoine_through(points, pressures))}
+        numbers |= {"saturation": "antoine", "antoine": list(law.antoine_through(points, pressures))}
     return _vapour(_with(table, "evaporation", numbers), fluid, cold, pressure)
 
 
 def _vapour(table: dict, fluid: Fluid, cold: float, pressure: float) -> dict:
     """The same with the vapour of its droplets, at the temperature of the film."""
     own, gas = table.get("vapour", {}), table.get("gas", {})
-    film = cold + (_number(gas, "temperature_K", "gas") - cold) / 3.0
+    film = _film(cold, _number(gas, "temperature_K", "gas"))
     numbers = {key: fluid.at(what, T=film, P=THIN) for key, what in OF_VAPOUR.items() if key not in own}
     if DIFFUSIVITY not in own:
-        around = Fluid(gas.get("fluid") or "Air", "gas")
-        masses = fluid.molar_mass, gas.get(MOLAR_MASS, around.molar_mass)
-        volumes = fluid.diffusion_volume(), around.diffusion_volume()
-        numbers[DIFFUSIVITY] = diffusion.fuller(film, pressure, masses, volumes)
+        numbers[DIFFUSIVITY] = _diffusivity(gas, fluid, film, pressure)
     return _with(table, "vapour", numbers | {MOLAR_MASS: fluid.molar_mass})
 
 
+def _film(droplet: float, gas: float) -> float:
+    """Temperature [K] of the gas around a droplet."""
+    return droplet + (gas - droplet) / 3.0
+
+
+def _diffusivity(gas: dict, fluid: Fluid, film: float, pressure: float) -> float:
+    """m2/s, of the vapour of a fluid in the gas at the temperature of the film [K] (Fuller)."""
+    around = Fluid(gas.get("fluid") or "Air", "gas")
+    masses = fluid.molar_mass, gas.get(MOLAR_MASS, around.molar_mass)
+    return diffusion.fuller(film, pressure, masses, (fluid.diffusion_volume(), around.diffusion_volume()))
+
+
+def _wet_bulb(table: dict, fluid: Fluid, pressure: float) -> float:
+    """Temperature [K] at which droplets of a fluid evaporate in the still gas of the start: that at which the heat
+    that they get is what evaporation takes, with Stefan flow (`exact.spalding_wet_bulb`), vapour and gas as in the
+    film; never below where the fluid freezes."""
+    gas, own = _section(table, "gas"), _section(table, "vapour")
+    hot, around = _number(gas, "temperature_K", "gas"), Fluid(gas.get("fluid") or "Air", "gas")
+    dry = gas.get(MOLAR_MASS, around.molar_mass)
+    given = own.get("mass_fraction", 0.0)
+    boiling, freezing = fluid.at("T", P=pressure, Q=0.0), fluid.library.PropsSI("Tmin", fluid.name)
+
+    def balance(T):
+        film, latent = _film(T, hot), fluid.latent_heat(T)
+        conductivity, capacity = around.at("L", T=film, P=pressure), fluid.at("C", T=film, P=THIN)
+        density = pressure * dry / (GAS_CONSTANT * film)
+        surface = law.vapour_mass_fraction(fluid.at("P", T=T, Q=0.0) / pressure, fluid.molar_mass, dry)
+        exponent = density * _diffusivity(gas, fluid, film, pressure) * capacity / conductivity
+        mass, heat = law.spalding_number(surface, given), capacity * (hot - T) / latent
+        return exponent * math.log1p(mass) - math.log1p(heat)
+
+    from scipy.optimize import brentq
+
+    low, high = freezing, min(hot, boiling * (1.0 - BELOW))
+    if balance(low) >= 0.0 or high <= low:
+        return low
+    return brentq(balance, low, high) if balance(high) > 0.0 else high
+
+
 def _of_droplets(table: dict) -> float:
-    """Mean temperature [K] that regions and nozzles give droplets."""
+    """Temperature [K] that droplets have their numbers at: the mean of what regions and nozzles give them."""
+    if AT in table["grains"]:
+        return _number(table["grains"], AT, "grains")
     given = [
         entry["temperature_K"]
         for group in ("particles", "nozzles")

@@ -59,6 +59,8 @@ class Grains:
     materials (sdph.case.materials) each has a section of its own."""
 
     fluid: str = words("")  # of droplets: fills what is left out, of evaporation and vapour too (sdph.case.fluids)
+    # that its numbers are taken at; none: the mean of what regions and nozzles give
+    fluid_temperature: float | None = quantity("K", None, above=0.0)
     density: float = quantity("kg_m3", above=0.0)
     diameter: float = quantity("mm", above=0.0)
     heat_capacity: float = quantity("J_kg_K", above=0.0)

@@ -8,8 +8,13 @@ from sdph.schema import CaseError
 
 
 def of_domain(case: Case) -> None:
-    """Periodic axes are axes of the case, and two reaches of the kernel long."""
+    """Periodic axes are axes of the case, begin at 0, and are two reaches of the kernel long."""
     axes, least = "xyz"[: case.dimensions], 4.0 * case.smoothing_length  # two reaches, or an image would be missed
+    of_liquid = case.liquid.periodic if case.liquid else ()
+    around = set(case.domain.periodic) | {axis for axis, on in zip(axes, of_liquid) if on}
+    for axis, low in zip(axes, case.domain.corner):
+        if low and axis in around:
+            raise CaseError(f"domain.lower_m = {list(case.domain.lower)}; along {axis}, which is periodic, give 0")
     for axis in case.domain.periodic:
         if axis not in axes:
             raise CaseError(f"domain.periodic holds {axis!r}; allowed: {', '.join(axes)}")

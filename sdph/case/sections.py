@@ -41,15 +41,13 @@ class Run:
 
 @record
 class Domain:
-    """The box that holds the gas; `gravity` has as many components as the case has dimensions. With an OpenFOAM mesh of
-    one's own, `size` and `lower` are those of the box around it where the case leaves them out.
-
-    Grains that leave through a `periodic` side come in again on the other one. No gas solver does that.
-    """
+    """Box of gas or liquid; `gravity` has as many components as the case has dimensions. With an OpenFOAM mesh
+    of one's own, `size` and `lower` are those of the box around it where the case leaves them out. Grains that leave
+    through a `periodic` side come in again on the other one; no gas solver does that."""
 
     size: tuple = vector("m")
     gravity: tuple = vector("m_s2")
-    lower: tuple | None = vector("m", None)  # corner of an own mesh that begins elsewhere than at the origin
+    lower: tuple | None = vector("m", None)  # lower corner, where that is not the origin
     periodic: tuple = words(())  # axes: "x", "y", "z"
 
     @property
@@ -66,6 +64,16 @@ class Domain:
     def upper(self) -> tuple[float, ...]:
         """Upper corner (d,) [m]."""
         return tuple(low + length for low, length in zip(self.corner, self.size))
+
+    @property
+    def furthest(self) -> float:
+        """Length [m] that no place of it, along any axis, nor any side of it is longer than."""
+        return max(*self.size, *map(abs, self.corner), *map(abs, self.upper))
+
+    @property
+    def arm(self) -> float:
+        """Distance [m] of its furthest corner from the origin."""
+        return math.hypot(*(max(abs(low), abs(high)) for low, high in zip(self.corner, self.upper)))
 
 
 @record
@@ -249,6 +257,11 @@ class Case:
         """Length (d,) [m] of each axis that is periodic for a liquid, else 0."""
         on = self.liquid.periodic or (0.0,) * self.dimensions
         return tuple(length * bool(periodic) for length, periodic in zip(self.domain.size, on))
+
+    def vapour_through(self, boundary) -> float:
+        """Mass fraction of vapour in the gas that comes in through a boundary: its own, else that of the start."""
+        own, start = boundary.vapour_mass_fraction, self.vapour.mass_fraction if self.vapour else 0.0
+        return start if own is None else own
 
     @property
     def smoothing_length(self) -> float:

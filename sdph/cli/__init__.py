@@ -80,6 +80,7 @@ def list_scenes(options) -> int:
 def run(options) -> int:
     from sdph import scenes
     from sdph.api import launch
+    from sdph.case import fluids
     from sdph.engine import world
     from sdph.running import driver, output, ranks, vessel
     from sdph.running.progress import Reporter
@@ -110,6 +111,8 @@ def run(options) -> int:
             template = driver.template_of(case, name, file)
             for warning in launch.looked_at(case, template, allow_code=options.allow_code):
                 reporter.status(f"warning: {warning}")
+            for line in fluids.told(case):
+                reporter.status(line)
             folder = options.out or output.free_name(Path("runs") / name)
             if several:
                 own = _handed(options, ())

@@ -63,7 +63,7 @@ class Watch:
         """Unfit where the arrays of a kept State, those `names` of effects among them, are not one row a particle each,
         or values are out of `bounds`, name -> (low, high)."""
         self._admit_rows(state, names)
-        far = FAR * max(*self.case.domain.size, *map(abs, self.case.domain.corner))
+        far = FAR * self.case.domain.furthest
         for name, (low, high) in (dict.fromkeys("xyz", (-far, far)) | bounds).items():
             worst = outside(state[name], low, high)
             if worst is not None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from sdph.case import forces, usual
+from sdph.case import fluids, forces, usual
 from sdph.effects.solids import rigid_sides
 from sdph.study import inlets, rehearsal
 from sdph.study.explain import materials, tables
@@ -19,7 +19,7 @@ def explained(case, template: Path, *, allow_code: bool = False) -> dict[str, li
         last = next(name for name in parts if name.startswith("warnings"))  # grains come first
         parts[last] += [{"warning": text} for text in (*_of_case(case, mesh), *told)]
         parts["filled"] = materials.filled(seen, grains.filled) if grains else []
-        parts["forces"] = forces.rows(seen)
+        parts["forces"], parts["fluids"] = forces.rows(seen), fluids.rows(seen)
     return parts
 
 

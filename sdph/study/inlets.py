@@ -17,13 +17,14 @@ ROUND = 0.9  # length of the mean normal from which on a patch is nearly plane; 
 
 
 def warnings(case, template: Path) -> list[str]:
-    """A line for each velocity_inlet through which gas leaves on balance, or none comes; `template` is the OpenFOAM
+    """A line for each velocity_inlet through which gas leaves on balance, or none comes, or nobody said how much
+    vapour; `template` is the OpenFOAM
     case with its mesh, if it has one of its own. On a box, inlets without a side are not judged: they lie on
     several."""
     if "grains" not in case.matters:
         return []
     mesh = poly_mesh.read(template) if (template / poly_mesh.FOLDER).is_dir() else None
-    told = []
+    told = _of_vapour(case)
     for name, boundary in case.boundaries.items():
         if boundary.kind != "velocity_inlet" or not boundary.velocity:
             continue
@@ -43,6 +44,17 @@ def warnings(case, template: Path) -> list[str]:
                 "lets no gas in; turn the velocity, or name another side"
             )
     return told
+
+
+def _of_vapour(case) -> list[str]:
+    """A line for each velocity_inlet that says nothing of the vapour that there is in the gas at the start."""
+    inside = case.vapour.mass_fraction if case.vapour else 0.0
+    return [
+        f"boundaries.{name} gives no vapour_mass_fraction: its gas has that of the gas at the start, {inside:g}; give "
+        "it, 0 for dry gas"
+        for name, own in case.boundaries.items()
+        if inside and own.kind == "velocity_inlet" and own.vapour_mass_fraction is None
+    ]
 
 
 def _outwards(mesh, name: str, boundary) -> np.ndarray:

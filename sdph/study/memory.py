@@ -102,9 +102,9 @@ def _extents(case) -> tuple[float, ...]:
     if own is None or (own.shape == "box" and own.upper is None):
         return case.domain.size
     if own.shape == "box":
-        return tuple(high - low for low, high in zip(own.lower or (0.0,) * case.dimensions, own.upper))
-    if own.shape == "mesh":
+        return tuple(high - low for low, high in zip(own.lower or case.domain.corner, own.upper))
+    if own.shape in ("mesh", "outline"):
         bounds = tank.shape_of(case).surface().bounds
-        return tuple(high - low for low, high in zip(bounds[::2], bounds[1::2]))
+        return tuple(high - low for low, high in zip(bounds[::2], bounds[1::2]))[: case.dimensions]
     across = 2.0 * (own.radius or 0.0)
     return (*(across,) * (case.dimensions - 1), across + own.length)

@@ -58,7 +58,7 @@ def _slip_wall(case, own) -> dict[str, str]:
 
 
 def _velocity_inlet(case, own) -> dict[str, str]:
-    share = own.vapour_mass_fraction or 0.0
+    share = case.vapour_through(own)
     return _wall(case, own) | {
         "U": let_in(case, own),
         "T": fixed(own.temperature or case.gas.temperature),
@@ -68,7 +68,7 @@ def _velocity_inlet(case, own) -> dict[str, str]:
 
 
 def _pressure_outlet(case, own) -> dict[str, str]:
-    share, level = own.vapour_mass_fraction or 0.0, case.gas.operating_pressure + (own.pressure or 0.0)
+    share, level = case.vapour_through(own), case.gas.operating_pressure + (own.pressure or 0.0)
     return {
         "U": "type pressureInletOutletVelocity; value $internalField;",
         "T": _back(own.temperature or case.gas.temperature),

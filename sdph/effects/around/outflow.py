@@ -77,9 +77,10 @@ def _beyond(case, state):
 def left(case, state) -> np.ndarray:
     """Mask of the liquid that is out of the domain through an open side and goes outwards."""
     gone = np.zeros(len(state.x), bool)
+    low, high = case.domain.corner, case.domain.upper
     for axis, side in open_sides(case):
         place, speed = particles.axes(state)[axis], (state.u, state.v, state.w)[axis]
-        gone |= (place > case.domain.size[axis]) & (speed >= 0.0) if side else (place < 0.0) & (speed <= 0.0)
+        gone |= (place > high[axis]) & (speed >= 0.0) if side else (place < low[axis]) & (speed <= 0.0)
     return gone & (state.kind == LIQUID)
 
 
@@ -89,11 +90,11 @@ def open_sides(case) -> list[tuple[int, int]]:
     ends = [(axis, end) for axis in range(case.dimensions) if not periodic[axis] for end in (0, 1)]
     if "tank" not in case.effects:
         return ends
-    own, size = case.parameters["tank"], case.domain.size
+    own, domain = case.parameters["tank"], (case.domain.corner, case.domain.upper)
     if own.shape != "box":
         return []
-    walls = (own.lower or (0.0,) * len(size)), (own.upper or size)
-    away = {(axis, end) for axis, end in ends if walls[end][axis] != end * size[axis]}
+    walls = own.lower or domain[0], own.upper or domain[1]
+    away = {(axis, end) for axis, end in ends if walls[end][axis] != domain[end][axis]}
     return [side for side in ends if side in away | without_wall(own)]
 
 

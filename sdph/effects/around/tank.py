@@ -13,6 +13,7 @@ from sdph.effects.effect import Effect, Judgement
 from sdph.engine import surface
 from sdph.engine.geometry import SIDES
 from sdph.engine.walls import shapes
+from sdph.engine.walls.outline import outline
 from sdph.schema import CaseError, choice, file, quantity, record, vector, words
 
 ALL = "tank"  # name of all walls of a tank in `run.forces`
@@ -23,12 +24,13 @@ class Tank:
     """`open_sides` of a box have no wall. The outlet is a pipe at the lowest point, as full at the start as the tank
     is; of a box it is in the floor, in two dimensions a slot."""
 
-    shape: str = choice("box", "sphere", "cylinder", "capsule", "mesh")
+    shape: str = choice("box", "sphere", "cylinder", "capsule", "mesh", "outline")
     lower: tuple | None = vector("m", None)  # of a box; None: the domain
     upper: tuple | None = vector("m", None)
     centre: tuple | None = vector("m", None)
     radius: float | None = quantity("m", None, above=0.0)
     length: float = quantity("m", 0.0, least=0.0)  # of the cylinder, or of the capsule's straight part
+    corners: tuple | None = vector("m", None)  # of an outline, one after the other
     mesh: str = file()
     mesh_scale: float = quantity("", 1.0, above=0.0)  # metres of a unit of `mesh`: 0.001 where it is in millimetres
     open_sides: tuple = words(())
@@ -73,10 +75,14 @@ def shape_of(case):
         _refuse_outlet(case, own)
     if own.shape == "box":
         return _with_outlet_in_floor(case, own, _box(case, own))
+    if own.shape == "outline":
+        return _outline(case, own)
     if own.shape == "mesh" and d == 3:
         return _mesh(case, own.mesh, own.mesh_scale)
     if d == 2 and own.shape != "sphere":
-        raise CaseError(f"tank.shape = {own.shape!r} needs dimensions = 3; in 2-D there are box and sphere (a disc)")
+        raise CaseError(
+            f"tank.shape = {own.shape!r} needs dimensions = 3; in 2-D there are box, sphere (a disc) and outline"
+        )
     if own.centre is None or own.radius is None or len(own.centre) != d:
         raise CaseError(f"tank: a {own.shape} needs centre_m with {d} components, and radius_m")
     centre = np.array(own.centre)
@@ -111,6 +117,20 @@ def _mesh(case, path: str, scale: float):
         raise CaseError(
             f"tank.mesh: the wall at ({where}) m is thinner than two spacings, {2e3 * spacing:g} mm, which hold liquid "
             "on both of its sides; lower resolution.spacing_mm or make the wall thicker"
+        )
+    return shape
+
+
+def _outline(case, own):
+    if case.dimensions != 2 or own.corners is None:
+        raise CaseError("tank.shape = 'outline' is of 2-D cases and needs tank.corners_m; in 3-D give a mesh")
+    shape, spacing = outline("tank.corners_m", own.corners), case.resolution.spacing
+    thin = shape.thin(spacing)
+    if len(thin):
+        where = ", ".join(f"{x:.4g}" for x in thin[0])
+        raise CaseError(
+            f"tank.corners_m: the wall at ({where}) m is thinner than two spacings, {2e3 * spacing:g} mm, which hold "
+            "liquid on both of its sides; lower resolution.spacing_mm or make the wall thicker"
         )
     return shape
 
@@ -172,7 +192,7 @@ def _with_outlet(own, tank, bottom: float, reach: float):
 def corners(case) -> tuple[tuple, tuple]:
     """Lower and upper corner (d,) [m] of a case's box tank."""
     own = case.parameters["tank"]
-    return own.lower or (0.0,) * case.dimensions, own.upper or case.domain.size
+    return own.lower or case.domain.corner, own.upper or case.domain.upper
 
 
 def _box(case, own):

@@ -28,6 +28,8 @@ SOURCE = "d2 law: Spalding 1953; Ranz & Marshall 1952"
 @record
 class Evaporation:
     latent_heat: float = quantity("J_kg", least=0.0)
+    # that a fluid's is taken at (sdph.case.fluids); none: it is given
+    latent_heat_temperature: float | None = quantity("K", None, above=0.0)
     law: str = choice(*LAWS)
     # "latched": once started it goes on below the onset (Fluent); "paper": above it only (Eq. 7)
     onset: str = choice(*ONSETS)

@@ -51,6 +51,9 @@ NOISE = 0.015
 
 def call(scales) -> Judgement:
     """Sound that nothing damps goes to and fro as noise of the pressure; a channel that starts from rest makes none."""
+    gas = scales.case.gas_phase
+    if gas and gas.density_by == "summation":  # with it the effect is refused (sdph.case.check)
+        return Judgement("densities that are advanced", 0.0, 1.0, "Hu & Adams 2006, Eq. 7: they are summed", 0.0)
     made = scales.pull[0] or scales.shaken or scales.thrown
     crossings = scales.liquid.sound_speed * scales.end / scales.length if made else 0.0
     return Judgement(

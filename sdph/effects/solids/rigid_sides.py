@@ -37,7 +37,7 @@ def kernel(case) -> RigidSidesP:
     for name in named or ("",):
         if name not in there:
             raise CaseError(f"rigid_sides.sides holds {name!r}; allowed: {', '.join(there)}")
-    return _planes(named, (0.0,) * case.dimensions, case.domain.size)
+    return _planes(named, case.domain.corner, case.domain.upper)
 
 
 def _planes(names, lower, upper) -> RigidSidesP:

@@ -16,7 +16,7 @@ import numpy as np
 
 from sdph.engine import arrays
 from sdph.engine import state as particles
-from sdph.methods.liquids import equations, loads, losses, openings, walls
+from sdph.methods.liquids import correction, equations, loads, losses, openings, walls
 
 EVERY = 32  # steps; our choice: 2 % of the time of a step
 
@@ -98,5 +98,6 @@ def _lost(stepper, ahead: float) -> tuple:
     return losses.losses(
         stepper.kernel, stepper.state, stepper.rows, stepper.neighbours.box, stepper.flow, stepper.wall,
         stepper.viscous, p["liquid_damping"], () if stepper.summed else p["density_diffusion"],
-        stepper.phases, stepper.excess, stepper.gradient, stepper.acceleration, stepper.moving, ahead,
+        stepper.phases, () if correction.of_continuity(stepper) else stepper.excess, stepper.gradient,
+        stepper.acceleration, stepper.moving, ahead,
     )  # fmt: skip

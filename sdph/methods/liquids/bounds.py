@@ -77,7 +77,7 @@ class LiquidGuard(Watch):
             for array, like in zip([kept[name]], [fresh]) if one else zip(kept[name], fresh):
                 if len(array) != (count if len(like) else 0):
                     raise Unfit(f"{name} has {len(array)} values for {count} particles")
-        far, wild = FAR * max(self.case.domain.size), FAR * self.case.fastest_sound**2 / own.kernel.h
+        far, wild = FAR * self.case.domain.furthest, FAR * self.case.fastest_sound**2 / own.kernel.h
         for name, values, most in (
             ("acceleration", kept["acceleration"], wild),
             *(("a place at the last rows", axis, far) for axis in built),

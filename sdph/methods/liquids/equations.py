@@ -192,8 +192,9 @@ def sum_up(kernel, s, rows, box, active, lattice, density):
 
 
 @fast_parallel
-def compress(kernel, s, rows, box, flow, wall_p, moving, diffusion_p, phases_p, gradient, rate):
-    """d rho/dt (N,) [kg/m3/s] = rho_i sum V_j v_ij.grad W + delta h c sum V_j psi_ij.grad W (Antuono et al. 2010)."""
+def compress(kernel, s, rows, box, flow, wall_p, moving, diffusion_p, phases_p, excess, gradient, rate):
+    """d rho/dt (N,) [kg/m3/s] = rho_i sum V_j v_ij.B_i grad W + delta h c sum V_j psi_ij.grad W (Antuono et al. 2010);
+    B_i - 1 is `excess` (sdph.methods.liquids.correction), () for B_i = 1."""
     for n in prange(len(flow.active)):
         i = flow.active[n]
         p_i, rho_i = flow.pressure[i], s.density[i]
@@ -209,7 +210,9 @@ def compress(kernel, s, rows, box, flow, wall_p, moving, diffusion_p, phases_p, 
             dw = s.w[i] - (w_j if signed > 0.0 else wall_w) if deep(box) else 0.0
             slope = smoothing.slope(kernel, math.sqrt(dx * dx + dy * dy + dz * dz))
             rho_j = phases.density(phases_p, signed, rho_i, s.density[j])
-            growth += abs(signed) * slope * phases.share(phases_p, rho_i, rho_j) * (du * dx + dv * dy + dw * dz)
+            share = phases.share(phases_p, rho_i, rho_j)
+            ex, ey, ez = correction.extra(excess, i, i, 1.0, 0.0, dx, dy, dz)
+            growth += abs(signed) * slope * share * (du * (dx + ex) + dv * (dy + ey) + dw * (dz + ez))
             if len(diffusion_p):
                 ramp = (gradient[i, 0] + gradient[j, 0]) * dx + (gradient[i, 1] + gradient[j, 1]) * dy
                 ramp += (gradient[i, 2] + gradient[j, 2]) * dz if deep(box) else 0.0

@@ -187,7 +187,7 @@ class LiquidStepper:
     def _densify(self, dt: float) -> None:
         rates.compress(
             self.kernel, self.state, self.rows, self.neighbours.box, self.flow, self.wall, self.moving,
-            self.p["density_diffusion"], self.phases, self.gradient, self.rate,
+            self.p["density_diffusion"], self.phases, correction.of_continuity(self), self.gradient, self.rate,
         )  # fmt: skip
         motion.densify(self.active, self.rate, dt, self.state.density)
 

@@ -103,8 +103,8 @@ def wall_force(
 ):  # fmt: skip
     """felt (W, 8) by each wall particle: force (3 columns) [N], what `push` gives the liquid in front of it with the
     sign turned, power [W] that its pressure and its holding off give the liquid as it moves against the wall, with
-    the velocities that it has after a gain (N, 3) [m/s], which of a body's particle is its velocity; compression pays
-    for the liquid's own pressure. The last three columns are what of the force is friction."""
+    the velocities that it has after a gain (N, 3) [m/s], of a body its own; compression pays for the liquid's own
+    pressure, of two phases for its correction too. The last three columns are what of the force is friction."""
     for n in prange(len(walls)):
         i = walls[n]
         fx = fy = fz = worked = held = rx = ry = rz = 0.0
@@ -139,11 +139,11 @@ def wall_force(
             worked += V * (p_i + (sign_j - 1.0) * p_j) * nearing
             held += V * over * nearing
             if len(excess):
-                ex, ey, ez = correction.extra(excess, j, j, p_i, sign_j * p_j, dx, dy, dz)
+                paid = p_j if len(phases_p) else 0.0
+                ex, ey, ez = correction.extra(excess, j, j, p_i, sign_j * p_j - paid, dx, dy, dz)
                 worked += V * (ex * u + ey * v + ez * w)
-                fx -= V * ex
-                fy -= V * ey
-                fz -= V * ez
+                ex, ey, ez = correction.extra(excess, j, j, p_i, sign_j * p_j, dx, dy, dz)
+                fx, fy, fz = fx - V * ex, fy - V * ey, fz - V * ez
         felt[n, 0], felt[n, 1], felt[n, 2] = fx, fy, fz
         felt[n, 3], felt[n, 4] = worked, held
         felt[n, 5], felt[n, 6], felt[n, 7] = rx, ry, rz

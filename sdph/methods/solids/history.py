@@ -62,7 +62,7 @@ def outside(stepper) -> list[str]:
     """A line where particles are outside of the domain: how many, of which bodies, and how many have broken off."""
     case, d = stepper.case, stepper.case.dimensions
     here = particles.positions(stepper.state)[:, :d]
-    gone = ((here < 0.0) | (here > np.array(case.domain.size))).any(axis=1)
+    gone = ((here < case.domain.corner) | (here > case.domain.upper)).any(axis=1)
     if not gone.any():
         return []
     whose = ", ".join(f"bodies.{name}" for number, name in enumerate(case.bodies) if gone[stepper.body == number].any())

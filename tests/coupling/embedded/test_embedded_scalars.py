@@ -1,12 +1,15 @@
 """Temperature and vapour of the embedded gas solver against exact solutions."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
-from gas_cases import OIL, gas_of, norms, orders, set_flow
+from gas_cases import OIL, gas_case, gas_of, norms, orders, set_flow
 
 from coupling.embedded import convection
+from coupling.openfoam import start_fields
+from sdph.study import inlets
 
 VAPOUR = OIL | {"diffusivity_m2_s": 2e-2}
 
@@ -126,3 +129,21 @@ def test_a_straight_profile_is_carried_exactly_over_uneven_nodes(way):
         courant = 2.0 * sub * abs(flux[f]) / (mass[f - 1] + mass[f])
         start, distance = (x[f - 1], reach[f]) if way > 0.0 else (x[f], reach[f] - gap[f])
         assert face[f] == pytest.approx(flux[f] * (3.0 + 2.0 * (start + distance * (1.0 - courant))), rel=1e-13)
+
+
+@pytest.mark.parametrize(("given", "comes"), [({}, 0.05), ({"vapour_mass_fraction": 0.0}, 0.0)])
+def test_an_inlet_that_names_no_vapour_brings_that_of_the_start(given, comes):
+    """As with its temperature; 0 is dry gas. A start that it leaves even stays so; OpenFOAM's files say the same."""
+    boundaries = channel(1.0, **given)
+    gas = gas_of((0.4, 0.1), 8, boundaries=boundaries, vapour=OIL | {"mass_fraction": 0.05})
+    case = gas_case((0.4, 0.1), 8, boundaries=boundaries, vapour=OIL | {"mass_fraction": 0.05})
+    gas.start(None, ())
+    for _ in range(200):
+        state = gas.advance(1e-2, {})
+    found = state.fields["vapour_mass_fraction"]
+    print(given, found.min(), found.max())
+    assert np.allclose(found, comes, rtol=1e-9, atol=1e-6)
+    written = start_fields.start_fields(case)["Y"]
+    assert f"in {{ type fixedValue; value uniform {comes}; }}" in written and "inletValue uniform 0.05;" in written
+    told = [line for line in inlets.warnings(case, Path("nowhere")) if "vapour_mass_fraction" in line]
+    assert len(told) == (0 if given else 1)

@@ -5,6 +5,7 @@ import threading
 import pytest
 
 from coupling.gas import GasError, Unfinished
+from coupling.openfoam.links import Links
 from coupling.openfoam.solver import OpenFoamGas
 from coupling.transport.files import FileConnection
 from coupling.transport.messages import Kind, Message
@@ -20,7 +21,7 @@ def gas(tmp_path):
     def answering(kind, text):
         gas = OpenFoamGas.__new__(OpenFoamGas)
         gas._log, gas._process, gas._fields, gas._heard = tmp_path / "log", None, (), True
-        gas._connection = FileConnection(tmp_path / "exchange")
+        gas._links, gas._connection = Links(), FileConnection(tmp_path / "exchange")
         gas._watch = lambda: lambda: True
         gas._say_goodbye = lambda: None
         solver = FileConnection(tmp_path / "exchange", "to_sdph", "to_gas")

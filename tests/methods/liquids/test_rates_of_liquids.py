@@ -54,7 +54,7 @@ def test_density_rate_is_the_sum_over_all_pairs(dimensions):
     s = own.state
     rates.compress(
         own.kernel, s, own.rows, own.neighbours.box, own.flow, own.wall, own.moving, own.p["density_diffusion"],
-        own.phases, own.gradient, own.rate,
+        own.phases, (), own.gradient, own.rate,
     )  # fmt: skip
     r, v = positions(s), velocities(s)
     wet = s.kind == LIQUID
@@ -89,7 +89,7 @@ def test_a_linear_pressure_does_not_diffuse():
         array[:] = 0.0
     rates.compress(
         own.kernel, s, own.rows, own.neighbours.box, own.flow, own.wall, own.moving, own.p["density_diffusion"],
-        own.phases, own.gradient, own.rate,
+        own.phases, (), own.gradient, own.rate,
     )  # fmt: skip
     assert np.allclose(own.gradient[own.active], [3e3, -6e3, 1.5e3], rtol=1e-9)
     assert np.abs(own.rate[own.active]).max() < 1e-9

@@ -8,6 +8,7 @@ from sdph import effects, scenes
 from sdph.case import judge
 from sdph.case import read as cases
 from sdph.methods.liquids.method import LiquidStepper
+from sdph.schema import CaseError
 from sdph.study.explain import lockstep, tables
 
 LIQUIDS = [name for name in scenes.names() if cases.load(scenes.HERE / name / "case.toml").liquid]
@@ -64,6 +65,16 @@ def test_a_missing_effect_is_told(scene, off):
     table["effects"].remove(off)
     table.pop(off, None)
     assert any(line.startswith(f"effect {off} is off") for line in judge.missing(cases.from_table(table)))
+
+
+def test_advice_on_diffusion_is_one_where_density_is_summed():
+    """With the effect the case is refused; without it nobody asks for it."""
+    summed = 'gas_phase.density_by="summation"'
+    with pytest.raises(CaseError, match="density_diffusion"):
+        load("oscillating_droplet", summed)
+    without = 'effects=["laminar_viscosity", "liquid_damping", "shifting", "surface_tension"]'
+    told = [tables.warnings(load("oscillating_droplet", *given, without)) for given in ((), (summed,))]
+    assert [any("density_diffusion" in line for line in lines) for lines in told] == [True, False]
 
 
 def test_what_a_scene_does_not_call_for_is_not_judged_missing():
