@@ -254,7 +254,7 @@ class Grains:
             return
         self.packed = True
         off = [name for name in APART if name not in self.case.effects]
-        why = f"; {' and '.join(off)} would keep them apart, and effects has them not" if off else ""
+        why = f"; {' and '.join(off)} would keep them apart: add to effects" if off else ""
         self.notices.append(
             f"t = {self.time:.4g} s: alpha_p is {densest:.3g}, beyond grains.packing_limit = {most:g}{why}"
         )
