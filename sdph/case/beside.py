@@ -8,7 +8,8 @@ from sdph.schema import CaseError
 # effects that know no bodies in a liquid, and why
 STRANGE = {
     "frame": "bodies do not move with it; baffles are part of the tank (tank.shape: outline in 2-D, mesh in 3-D)",
-    "inflow": "no body lets it through", "outflow": "no body lets it through",
+    "inflow": "no body lets it through; what stands in a channel is part of its tank (tank.shape: outline, mesh)",
+    "outflow": "no body lets it through",
     "drain": "no body lets it through", "shear_thinning": "it knows no distance behind a body's face",
     "inflation": "the liquid takes its place",
 }  # fmt: skip

@@ -91,6 +91,8 @@ def open_sides(case) -> list[tuple[int, int]]:
     if "tank" not in case.effects:
         return ends
     own, domain = case.parameters["tank"], (case.domain.corner, case.domain.upper)
+    if own.shape == "outline":  # whose sides there lie in those of the domain
+        return [side for side in ends if side in without_wall(own)]
     if own.shape != "box":
         return []
     walls = own.lower or domain[0], own.upper or domain[1]

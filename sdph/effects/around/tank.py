@@ -21,8 +21,8 @@ ALL = "tank"  # name of all walls of a tank in `run.forces`
 
 @record
 class Tank:
-    """`open_sides` of a box have no wall. The outlet is a pipe at the lowest point, as full at the start as the tank
-    is; of a box it is in the floor, in two dimensions a slot."""
+    """`open_sides` of a box, or of an outline where it has a side there, have no wall. The outlet is a pipe at the
+    lowest point, as full at the start as the tank is; of a box it is in the floor, in two dimensions a slot."""
 
     shape: str = choice("box", "sphere", "cylinder", "capsule", "mesh", "outline")
     lower: tuple | None = vector("m", None)  # of a box; None: the domain
@@ -124,7 +124,14 @@ def _mesh(case, path: str, scale: float):
 def _outline(case, own):
     if case.dimensions != 2 or own.corners is None:
         raise CaseError("tank.shape = 'outline' is of 2-D cases and needs tank.corners_m; in 3-D give a mesh")
-    shape, spacing = outline("tank.corners_m", own.corners), case.resolution.spacing
+    ends, spacing = _open_ends(case, own), case.resolution.spacing
+    open_at = [(axis, (case.domain.corner, case.domain.upper)[end][axis]) for axis, end in sorted(ends)]
+    shape = outline("tank.corners_m", own.corners, open_at)
+    if shape.open.sum() < len(open_at):
+        raise CaseError(
+            f"tank.open_sides = {list(own.open_sides)}: each needs a side of tank.corners_m that lies in that side of "
+            "the domain; move the corners there, or leave the side out"
+        )
     thin = shape.thin(spacing)
     if len(thin):
         where = ", ".join(f"{x:.4g}" for x in thin[0])
@@ -217,7 +224,7 @@ def sides(case) -> list[str]:
 
 
 def _open_ends(case, own) -> set[tuple[int, int]]:
-    """(axis, end) of the sides of a box that have no wall."""
+    """(axis, end) of the sides of a box, or of an outline in its domain, that have no wall."""
     periodic = case.liquid.periodic or (0,) * case.dimensions
     sides = [own.open_sides] if isinstance(own.open_sides, str) else own.open_sides
     for side in sides:

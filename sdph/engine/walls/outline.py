@@ -20,9 +20,10 @@ OPPOSITE, ROUND_OFF = -0.5, 1e-6
 @dataclass(frozen=True)
 class Outline:
     """Inside of a polygon with `corners` (C, 2) [m] counterclockwise, that does not cross itself; a shape as of
-    sdph.engine.walls.shapes."""
+    sdph.engine.walls.shapes. The sides after the corners that are `open` (C,) have no wall."""
 
     corners: np.ndarray
+    open: np.ndarray
 
     @functools.cached_property
     def along(self):
@@ -58,15 +59,31 @@ class Outline:
                     found.append(place(_evenly([middle for _, middle in run], length / len(middles), spacing)))
         return np.concatenate(found)
 
+    def strewn(self, spacing):
+        """Places (S, 2) [m] evenly along each side that has a wall, about a spacing apart, the normals there outwards,
+        and the length (S,) [m] of each."""
+        places, normals, each = [], [], []
+        for corner, way, out, gone in zip(self.corners, self.along, self.outwards, self.open):
+            length = math.hypot(*way)
+            count = 0 if gone else max(1, round(length / spacing))
+            places.append(corner + (np.arange(count)[:, None] + 0.5) / max(1, count) * way)
+            normals.append(np.tile(out, (count, 1)))
+            each.append(np.full(count, length / max(1, count)))
+        return np.concatenate(places), np.concatenate(normals), np.concatenate(each)
+
     def _behind(self, depth):
         """The lines `depth` behind the wall, side by side: (function of ways (N,) [m] along it to points, its
         length)."""
-        turned = np.roll(self.outwards, -1, axis=0)
-        for corner, way, out, after in zip(self.corners, self.along, self.outwards, turned):
+        turned, last = np.roll(self.outwards, -1, axis=0), np.roll(self.open, -1)
+        for corner, way, out, after, gone, ends in zip(
+            self.corners, self.along, self.outwards, turned, self.open, last
+        ):
+            if gone:
+                continue
             length = math.hypot(*way)
             yield lambda s, c=corner + depth * out, w=way / length: c + s[:, None] * w, length
             turn = math.atan2(out[0] * after[1] - out[1] * after[0], out @ after)
-            if turn > 0.0:
+            if turn > 0.0 and not ends:
                 start = math.atan2(out[1], out[0])
                 yield lambda s, c=corner + way, a=start: c + depth * _unit(a + s / depth), depth * turn
 
@@ -84,8 +101,9 @@ class Outline:
     def surface(self):
         import pyvista
 
-        points, count = np.pad(self.corners, ((0, 0), (0, 1))), len(self.corners)
-        return pyvista.PolyData(points, lines=[count + 1, *range(count), 0])
+        points, first = np.pad(self.corners, ((0, 0), (0, 1))), np.flatnonzero(~self.open)
+        lines = np.stack([np.full(len(first), 2), first, (first + 1) % len(points)], axis=1)
+        return pyvista.PolyData(points, lines=lines.ravel())
 
     def furthest(self, direction):
         return float((self.corners @ direction).max())
@@ -95,8 +113,9 @@ class Outline:
         return polygons.area(*self.corners.T)
 
 
-def outline(key: str, corners) -> Outline:
-    """The outline with these corners, however they go around; CaseError, which names the `key`, for what is none."""
+def outline(key: str, corners, open_at=()) -> Outline:
+    """The outline with these corners, however they go around, without a wall where both corners of a side lie at one of
+    the places `open_at`, (axis, [m]) each; CaseError, which names the `key`, for what is none."""
     if len(corners) < 3 or not all(isinstance(each, tuple) and len(each) == 2 for each in corners):
         raise CaseError(f"{key} = {list(corners)}; give the corners one after the other, [[x, y], ...], 3 at least")
     places = np.array(corners)
@@ -110,7 +129,10 @@ def outline(key: str, corners) -> Outline:
                 f"{key}: the side from {a.tolist()} to {b.tolist()} has no length or meets that from {c.tolist()} to "
                 f"{d.tolist()}; give corners one after the other, around the liquid, each once"
             )
-    return Outline(places)
+    gone, both = np.zeros(count, bool), np.stack([places, np.roll(places, -1, axis=0)])
+    for axis, at in open_at:
+        gone |= np.isclose(both[..., axis], at).all(axis=0)
+    return Outline(places, gone)
 
 
 def _meet(a, b, c, d) -> bool:

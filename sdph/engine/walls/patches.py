@@ -9,6 +9,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from sdph.engine.walls import facets
+from sdph.engine.walls.outline import Outline
 from sdph.engine.walls.shapes import Box, Joined, Mesh
 
 STEP = 1e-3  # spacings, to find the way to a surface by differences; our choice
@@ -61,6 +62,8 @@ def _strewn(shape, spacing: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         corners = shape.triangles.points[shape.triangles.regular_faces]
         places, normals, _ = facets.spread(corners, spacing)
         return places, normals, np.full(len(places), facets.sizes(corners).sum() / len(places))
+    if isinstance(shape, Outline):
+        return shape.strewn(spacing)
     own = shape.tank if isinstance(shape, Joined) else shape
     straight = isinstance(own, Box)
     feet, normals, plain = _feet(shape, own.shell(0.5 * spacing if straight else 0.0, spacing), spacing)

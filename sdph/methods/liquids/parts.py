@@ -42,7 +42,7 @@ class Surface:
         self.names = tuple(name for name, here in inside.items() if here.any())
         number, area = len(self.names), np.pad(own.area, deep)
         chosen = np.array([inside[name] for name in self.names]).reshape(number, len(own.places))
-        self.areas = np.array([own.sums(area * here[:, None]) for here in chosen]).reshape(number, -1, 3)
+        self.areas = np.array([own.sums(area * here[:, None]) for here in chosen]).reshape(number, len(own.particle), 3)
         held = own.sums(np.column_stack((np.ones(len(own.places)), chosen.T)))
         nearest = cKDTree(own.middle).query(places)[1]
         self.rubbed = (held[:, 1:] / np.maximum(held[:, :1], 1.0)).T[:, nearest]

@@ -8,6 +8,7 @@ from sdph.effects.around import tank
 from sdph.engine.state import LIQUID, WALL
 from sdph.engine.walls import shapes
 from sdph.engine.walls.outline import Outline, outline
+from sdph.methods.liquids import start
 from sdph.running.alone import Alone
 from sdph.schema import CaseError
 
@@ -98,3 +99,53 @@ def test_a_baffled_tank_moves_with_its_liquid():
     assert shape.distance(places).max() < 0.0 and (s.kind == WALL).any()
     assert told["momentum_drift_rel"] < 1e-12 and told["energy_made_rel"] < 0.05
     assert abs(s.mass[(s.kind == LIQUID) & (s.x < 0.5)].sum() - left) > 0.02 * left  # it went over the plate
+
+
+# a channel with a weir in it, that liquid comes into through its left wall and leaves where it is open
+WEIR = [[0.0, 0.0], [0.4, 0.0], [0.4, 0.1], [0.48, 0.1], [0.48, 0.0], [0.8, 0.0], [0.8, 0.4], [0.0, 0.4]]
+
+
+def channel(corners=WEIR, open_sides=("right", "top")) -> dict:
+    mouth = {"shape": "slot", "centre_m": [0.0, 0.1], "direction": [1.0, 0.0], "width_m": 0.2, "speed_m_s": 0.8}
+    own = table(
+        effects=["gravity", "density_diffusion", "liquid_damping", "tank", "inflow", "outflow"],
+        domain={"size_m": [0.8, 0.4], "gravity_m_s2": [0.0, -G]}, nozzles={"mouth": mouth},
+        tank={"shape": "outline", "corners_m": corners, "open_sides": list(open_sides)},
+        pools={"pond": {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.4, 0.2]}},
+        parts={"weir": {"lower_m": [0.4, 0.02], "upper_m": [0.4, 0.1]}},
+        run={"end_time_s": 1.0, "output_interval_s": 1.0, "forces": ["weir"]},
+    )  # fmt: skip
+    del own["frame"]
+    return own
+
+
+def test_an_open_side_of_an_outline_has_no_wall():
+    """But for rounded corners behind the left wall they are those of the box with the same open sides."""
+    flat = channel([[0.0, 0.0], [0.8, 0.0], [0.8, 0.4], [0.0, 0.4]])
+    box = flat | {
+        "tank": {"open_sides": ["right", "top"]},
+        "parts": {},
+        "run": {"end_time_s": 1.0, "output_interval_s": 1.0},
+    }
+    one, other = (start.fill(cases.from_table(each)) for each in (flat, box))
+    places = [
+        {(round(x, 9), round(y, 9)) for x, y, kind in zip(s.x, s.y, s.kind) if kind == WALL and max(x, y) > 0.0}
+        for s in (one, other)
+    ]
+    assert places[0] == places[1] and max(x for x, _ in places[0]) < 0.8
+
+
+def test_liquid_flows_over_a_weir():
+    run = gone(cases.from_table(channel()), 0.5)
+    told, s = run.ledger.summary(), run.state
+    assert told["injected_kg"] == pytest.approx(1000.0 * 0.8 * 0.2 * 0.5, abs=0.5001 * 1000.0 * 0.2 * SPACING)
+    assert told["left_kg"] > 1.0 and told["mass_drift_rel"] < 1e-13 and told["momentum_drift_rel"] < 1e-12
+    over = (s.kind == LIQUID) & (s.x > 0.4) & (s.x < 0.48)
+    assert over.any() and s.y[over].min() > 0.1
+    assert run.row()["weir_liquid_pressure_force_x_N"] > 0.0
+
+
+def test_an_open_side_needs_a_side_there():
+    inward = [[x - 0.02 * (x == 0.8), y] for x, y in WEIR]
+    with pytest.raises(CaseError, match=r"each needs a side of tank\.corners_m"):
+        tank.shape_of(cases.from_table(channel(inward)))
