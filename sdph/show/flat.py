@@ -15,6 +15,7 @@ from sdph.show.style import Scale, digits
 ARROWS = 24  # along the longer side; our choice
 LONG = 1.15  # of their distance: arrows as long as that stand for the fastest
 EDGE = "#a0a0a0c0"  # colour of the line around particles in a gas
+PALE = 0.3  # share of the paper in the colour of a gas around grains that lie together; our choice
 WIDE = 3.0  # spacings: lone particles and gaps that are smaller have no line around them; our choice
 FASTEST = 0.98  # quantile of the speeds that is drawn so long: a few fast ones would shrink all others; our choice
 
@@ -25,10 +26,9 @@ def draw(shot: Shot, look: Look, scale: Scale, field: str, last: float, fine: in
     low, high = shot.box[::2][[right, up]], shot.box[1::2][[right, up]]
     sheet = Sheet(*np.maximum(high - low, 1e-30), look.colours)
     grid = raster.pixels(shot, int(fine * max(sheet.own) * DPI))
-    colours, covered, light = _painted(shot, grid, field, scale, look)
+    colours, bulk, light = painted(shot, grid, field, scale, look)
     sheet.axes.imshow(colours, extent=grid.edges, origin="lower", interpolation="antialiased", aspect="auto")
-    bulk = raster.bulk(covered, (WIDE * shot.spacing) ** 2 / np.prod(grid.step))
-    if shot.gas is not None and bulk.any() and not bulk.all():  # of one colour both could not be told apart
+    if bulk.any():
         sheet.axes.contour(*_ticks(grid), bulk.astype(float), [0.5], colors=[EDGE], linewidths=0.8)
     if light.any():
         _line(sheet, grid, raster.surface(shot, grid), sampled.INSIDE)
@@ -44,14 +44,21 @@ def draw(shot: Shot, look: Look, scale: Scale, field: str, last: float, fine: in
     return sheet
 
 
-def _painted(shot: Shot, grid: Pixels, field: str, scale: Scale, look: Look) -> tuple[np.ndarray, ...]:
-    """(rows, columns, 3) colours; where particles are, and where a gas of particles."""
+def painted(shot: Shot, grid: Pixels, field: str, scale: Scale, look: Look) -> tuple[np.ndarray, ...]:
+    """(rows, columns, 3) colours; where particles lie together in a gas of cells; and where a gas of particles is.
+
+    The gas of cells is paler than grains that lie in it, or of one colour both could not be told apart; a volume
+    fraction tells by itself."""
     theme, under = look.colours, raster.gas(shot, grid, field, look.smooth)
+    paper = rgb(theme.paper)
     values, covered, light = raster.particles(shot, grid, field, look.smooth)
-    found = np.where(np.isfinite(under)[..., None], coloured(under, scale, theme), rgb(theme.paper))
+    bulk = raster.bulk(covered, (WIDE * shot.spacing) ** 2 / np.prod(grid.step))
+    bulk &= shot.gas is not None and not bulk.all()
+    found = np.where(np.isfinite(under)[..., None], coloured(under, scale, theme), paper)
+    found = found + PALE * (paper - found) if bulk.any() and field != "alpha_p" else found
     over = coloured(values, scale, theme)
-    over = np.where(light[..., None], over + raster.BLEND * (rgb(theme.paper) - over), over)
-    return np.where(covered[..., None], over, found), covered, light
+    over = np.where(light[..., None], over + raster.BLEND * (paper - over), over)
+    return np.where(covered[..., None], over, found), bulk, light
 
 
 def _line(sheet: Sheet, grid: Pixels, values, level: float) -> None:

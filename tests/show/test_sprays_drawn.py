@@ -6,7 +6,8 @@ import pyvista
 
 from sdph import scenes
 from sdph.case import read as cases
-from sdph.show import raster, shot, timeline
+from sdph.show import flat, raster, shot, style, timeline
+from sdph.show.look import Look
 
 
 def drawn(scene, alpha_p):
@@ -40,3 +41,21 @@ def test_islands_and_gaps_that_are_small_go():
     mask[15:20, 15:20] = expected[15:20, 15:20] = False  # a gap of 25
     assert np.array_equal(raster.bulk(mask, 9), expected)
     assert not raster.bulk(np.zeros((4, 4), bool), 9).any() and raster.bulk(np.ones((4, 4), bool), 9).all()
+
+
+@pytest.mark.parametrize("field", ["temperature", "alpha_p"])
+def test_gas_is_paler_than_grains_of_its_temperature(field):
+    case = cases.load(scenes.find("disc_cluster")[1])
+    spacing, density = case.resolution.spacing, 0.3 * case.grains.density
+    x, y = (ticks.ravel() for ticks in np.meshgrid(*[(np.arange(10) + 0.5) * spacing] * 2))
+    block = pyvista.PolyData(np.stack([x, y, 0.0 * x], axis=1))
+    block["mass"], block["density"] = np.full(100, density * spacing**2), np.full(100, density)
+    block["temperature"], block["alpha_p"] = np.full(100, 300.0), np.full(100, 0.3)
+    gas = pyvista.RectilinearGrid(*[np.linspace(0.0, 20.0 * spacing, 21)] * 2, np.zeros(1))
+    gas.cell_data["temperature"], gas.cell_data["alpha_p"] = np.full(400, 300.0), np.full(400, 0.3)
+    whole = shot.of_state(timeline.Instant(0.0, block, gas), case, None)
+    grid, scale = raster.pixels(whole, 200), style.scale(field, [np.array([0.0, 600.0])])
+    colours, bulk, _ = flat.painted(whole, grid, field, scale, Look())
+    assert bulk.mean() == pytest.approx(0.25, abs=0.03)
+    alike = np.abs(colours[150, 150] - colours[50, 50]).max() < 1e-9
+    assert alike == (field == "alpha_p") and colours[150, 150].min() >= colours[50, 50].min()
