@@ -37,17 +37,16 @@ class SolidScales:
 
     @cached_property
     def slender(self) -> float:
-        """Narrowest extent [m] of a body that is SLENDER times as long, and so bends; inf without any."""
-        bodies = self.case.bodies.values()
+        """Narrowest extent [m] of a body that is SLENDER times as long, and so bends; inf without any. Rings, which as
+        a rule bear a pressure by the stress around them, do not count."""
+        bodies = [body for body in self.case.bodies.values() if body.shape != "ring"]
         return min((_width(body) for body in bodies if _length(body) >= SLENDER * _width(body)), default=math.inf)
 
 
 def _length(body) -> float:
-    """Longest extent [m] of a body; of a ring the way around."""
+    """Longest extent [m] of a body that is no ring."""
     if body.shape == "box":
         return max(b - a for a, b in zip(body.lower, body.upper))
-    if body.shape == "ring":
-        return math.pi * (body.radius + body.inner_radius)
     return max(2.0 * body.radius, body.length or 0.0)
 
 
