@@ -287,7 +287,8 @@ class Exchange:
         pulled = gravity + electric_field.acceleration(field, state)
         if len(force):
             pulled = pulled + force / state.mass[:, None]
-        means = lengths(pulled), 1.0 / np.where(felt, damping, 1.0), np.maximum(lengths(own), slip), state.mass
+        with np.errstate(divide="ignore"):  # of those that are not felt
+            means = lengths(pulled), 1.0 / damping, np.maximum(lengths(own), slip), state.mass
         *means, mass = means if felt.all() else (each[felt] for each in means)
         return settling(self.case, *(self.world.average(each, mass) for each in means))
 

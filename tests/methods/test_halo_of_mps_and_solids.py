@@ -65,7 +65,7 @@ def solid_answer(extra=()):
     inside = strewn(own.state)
     for axis in particles.axes(own.state):
         axis += 0.05 * own.case.resolution.spacing * rng.standard_normal(len(axis))
-    own._load(1e-9)
+    own._load(own.plastic, own.damage, 1e-9)
     if extra is not None:
         poison(own, of_far(own, OF_SOLIDS, extra), ~inside)
     s, acceleration, aside = own.state, np.zeros((len(inside), 3)), np.zeros((2, len(inside), 3))
