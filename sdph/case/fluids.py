@@ -18,6 +18,8 @@ import math
 import re
 from statistics import fmean
 
+import scipy
+
 from sdph.laws import diffusion
 from sdph.laws import evaporation as law
 from sdph.laws.constants import GAS_CONSTANT
@@ -246,12 +248,10 @@ def _wet_bulb(table: dict, fluid: Fluid, pressure: float) -> float:
         mass, heat = law.spalding_number(surface, given), capacity * (hot - T) / latent
         return exponent * math.log1p(mass) - math.log1p(heat)
 
-    from scipy.optimize import brentq
-
     low, high = freezing, min(hot, boiling * (1.0 - BELOW))
     if balance(low) >= 0.0 or high <= low:
         return low
-    return brentq(balance, low, high) if balance(high) > 0.0 else high
+    return scipy.optimize.brentq(balance, low, high) if balance(high) > 0.0 else high
 
 
 def _of_droplets(table: dict) -> float:

@@ -17,10 +17,9 @@ ROUND = 0.9  # length of the mean normal from which on a patch is nearly plane; 
 
 
 def warnings(case, template: Path) -> list[str]:
-    """A line for each velocity_inlet through which gas leaves on balance, or none comes, or nobody said how much
-    vapour; `template` is the OpenFOAM
-    case with its mesh, if it has one of its own. On a box, inlets without a side are not judged: they lie on
-    several."""
+    """A line for each velocity_inlet through which gas leaves on balance, or none comes, or of whose vapour nothing is
+    said; `template` is the OpenFOAM case with its mesh, if it has one of its own. On a box, inlets without a side are
+    not judged: they lie on several."""
     if "grains" not in case.matters:
         return []
     mesh = poly_mesh.read(template) if (template / poly_mesh.FOLDER).is_dir() else None

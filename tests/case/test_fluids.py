@@ -38,6 +38,9 @@ def test_air_and_water_are_as_in_tables():
     assert [water.density, water.heat_capacity, water.conductivity, water.surface_tension] == pytest.approx(
         [998.21, 4184.0, 0.5985, 0.07274], rel=0.005
     )
+    own = droplet() | {"evaporation": {"law": "spalding", "latent_heat_temperature_K": 293.15}}
+    there = cases.from_table(own).parameters["evaporation"]
+    assert there.latent_heat == pytest.approx(2.4536e6, rel=0.005)
     for temperature, pressure in ((293.15, 2339.3), (313.15, 7384.9), (333.15, 19946.0), (373.124, 101325.0)):
         assert saturation_antoine(temperature, boils.antoine) == pytest.approx(pressure, rel=0.005)
 

@@ -112,12 +112,7 @@ def _mesh(case, path: str, scale: float):
     spacing = case.resolution.spacing
     changed = os.path.getmtime(path) if os.path.exists(path) else 0.0
     shape, thin = _of_file(path, changed, scale, case.domain.size, spacing)
-    if len(thin):
-        where = ", ".join(f"{x:.4g}" for x in thin[0])
-        raise CaseError(
-            f"tank.mesh: the wall at ({where}) m is thinner than two spacings, {2e3 * spacing:g} mm, which hold liquid "
-            "on both of its sides; lower resolution.spacing_mm or make the wall thicker"
-        )
+    _refuse_thin("tank.mesh", thin, spacing)
     return shape
 
 
@@ -127,19 +122,23 @@ def _outline(case, own):
     ends, spacing = _open_ends(case, own), case.resolution.spacing
     open_at = [(axis, (case.domain.corner, case.domain.upper)[end][axis]) for axis, end in sorted(ends)]
     shape = outline("tank.corners_m", own.corners, open_at)
-    if shape.open.sum() < len(open_at):
+    if not all(shape.lies_at(*at).any() for at in open_at):
         raise CaseError(
             f"tank.open_sides = {list(own.open_sides)}: each needs a side of tank.corners_m that lies in that side of "
             "the domain; move the corners there, or leave the side out"
         )
-    thin = shape.thin(spacing)
+    _refuse_thin("tank.corners_m", shape.thin(spacing), spacing)
+    return shape
+
+
+def _refuse_thin(key: str, thin, spacing: float) -> None:
+    """CaseError at the first of the places `thin` (P, d) [m] where a wall is thinner than two spacings."""
     if len(thin):
         where = ", ".join(f"{x:.4g}" for x in thin[0])
         raise CaseError(
-            f"tank.corners_m: the wall at ({where}) m is thinner than two spacings, {2e3 * spacing:g} mm, which hold "
-            "liquid on both of its sides; lower resolution.spacing_mm or make the wall thicker"
+            f"{key}: the wall at ({where}) m is thinner than two spacings, {2e3 * spacing:g} mm, which hold liquid on "
+            "both of its sides; lower resolution.spacing_mm or make the wall thicker"
         )
-    return shape
 
 
 def _refuse_outlet(case, own) -> None:

@@ -35,6 +35,11 @@ class Outline:
         """(C, 2) of length 1, at right angles to each side."""
         return np.stack([self.along[:, 1], -self.along[:, 0]], axis=1) / np.linalg.norm(self.along, axis=1)[:, None]
 
+    def lies_at(self, axis: int, place: float):
+        """(C,) bool: the sides both of whose corners lie at a place [m] of an axis."""
+        here = np.isclose(self.corners[:, axis], place)
+        return here & np.roll(here, -1)
+
     def nearest(self, points):
         """Distance [m] of points (N, 2) from the wall, and the number of the side that is nearest, (N,) each."""
         sides = []
@@ -129,10 +134,8 @@ def outline(key: str, corners, open_at=()) -> Outline:
                 f"{key}: the side from {a.tolist()} to {b.tolist()} has no length or meets that from {c.tolist()} to "
                 f"{d.tolist()}; give corners one after the other, around the liquid, each once"
             )
-    gone, both = np.zeros(count, bool), np.stack([places, np.roll(places, -1, axis=0)])
-    for axis, at in open_at:
-        gone |= np.isclose(both[..., axis], at).all(axis=0)
-    return Outline(places, gone)
+    whole = Outline(places, np.zeros(count, bool))
+    return Outline(places, np.any([whole.open, *(whole.lies_at(*at) for at in open_at)], axis=0))
 
 
 def _meet(a, b, c, d) -> bool:

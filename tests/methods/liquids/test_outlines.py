@@ -146,6 +146,8 @@ def test_liquid_flows_over_a_weir():
 
 
 def test_an_open_side_needs_a_side_there():
+    """Two sides in the one do not stand for one in the other."""
     inward = [[x - 0.02 * (x == 0.8), y] for x, y in WEIR]
+    inward[7:7] = [[0.4, 0.4]]
     with pytest.raises(CaseError, match=r"each needs a side of tank\.corners_m"):
         tank.shape_of(cases.from_table(channel(inward)))
