@@ -25,17 +25,11 @@ from sdph.methods.mps.method import MpsStepper
 from sdph.study.bench import step_time, tank
 
 SPACING, LENGTH, STEPS, ROUNDS, FIRST = 0.0666, 0.02, 6, 3, 6  # mm, m
-OWN = 1.2e5  # particles of a sheet of this SPACING
 
 
 def sheet_of(spacing: float):
     """The case of a sheet of this spacing [mm]."""
     return cases.load(scenes.HERE / "swirl_sheet" / "case.toml", (f"resolution.spacing_mm={spacing}",))
-
-
-def sheet_with(count: float) -> MpsStepper:
-    """A sheet of about so many particles; benchmarks/device_speed.py takes it to a device."""
-    return flown(sheet_of(SPACING * (OWN / count) ** (1.0 / 3.0)))
 
 
 def flown(case) -> MpsStepper:

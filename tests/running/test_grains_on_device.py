@@ -91,7 +91,7 @@ def test_a_run_goes_on_from_the_processor_on_a_device_and_back(tmp_path):
         ("radiating_grains", (), "radiation is not taken"),
         ("bubbling_bed", ('run.forces=["bottom"]',), "run.forces"),
         ("disc_cluster", (), "stay where they are"),
-        ("bed_with_tube", (), "outflow is not taken"),
+        pytest.param("bed_with_tube", (), "outflow is not taken", marks=pytest.mark.openfoam),
     ],
 )
 def test_what_is_not_taken_to_a_device_is_refused_in_one_line(capsys, tmp_path, scene, keys, why):

@@ -101,12 +101,13 @@ class LiquidLedger(Sums):
 
     def _totals(self, stepper) -> dict[str, float]:
         s, own, world = stepper.state, stepper.active, stepper.world
-        held = arrays.empty((len(own), 7), own)
+        held = arrays.empty((len(own), 6), own)
         hold(s, own, stepper.fluids, stepper.p["gravity"], held)
-        mass, *momentum, potential, kinetic, elastic = world.total(held).tolist()
+        *momentum, potential, kinetic, elastic = world.total(held).tolist()
         speed, mach = np.sqrt(world.most(np.array(fastest(s, own, stepper.fluids)))).tolist()
         self.mach = max(self.mach, mach)
-        row = {"particles": world.sum(len(own)), "mass_kg": mass} | vector("momentum", momentum)
+        row = {"particles": world.sum(len(own)), "mass_kg": world.exact(arrays.taken(s.mass, own))}
+        row |= vector("momentum", momentum)
         row |= {"kinetic_energy_J": kinetic, "elastic_energy_J": elastic, "potential_energy_J": potential}
         springs = {"contact_energy_J": stepper.bodies.springs} if stepper.bodies else {}
         return row | {"fastest_m_s": speed} | springs
@@ -151,17 +152,17 @@ def squared_speed(s, i):
 
 @parallel
 def hold(s, active, fluids, gravity_p, held):
-    """held (A, 7) by each particle: mass [kg], momentum (3 columns) [kg m/s], energy in gravity, of motion and of
-    compression [J]."""
+    """held (A, 6) by each particle: momentum (3 columns) [kg m/s], energy in gravity, of motion and of compression
+    [J]."""
     gx, gy, gz = gravity.acceleration(gravity_p)
     for n in prange(len(active)):
         i = active[n]
         mass = s.mass[i]
-        held[n, 0], held[n, 1], held[n, 2] = mass, mass * s.u[i], mass * s.v[i]
-        held[n, 3] = mass * s.w[i] if len(s.w) else 0.0
-        held[n, 4] = -mass * (s.x[i] * gx + s.y[i] * gy + (s.z[i] * gz if len(s.z) else 0.0))
-        held[n, 5] = mass * (0.5 * squared_speed(s, i))
-        held[n, 6] = mass * elastic_energy(fluids, s.kind[i], s.density[i])
+        held[n, 0], held[n, 1] = mass * s.u[i], mass * s.v[i]
+        held[n, 2] = mass * s.w[i] if len(s.w) else 0.0
+        held[n, 3] = -mass * (s.x[i] * gx + s.y[i] * gy + (s.z[i] * gz if len(s.z) else 0.0))
+        held[n, 4] = mass * (0.5 * squared_speed(s, i))
+        held[n, 5] = mass * elastic_energy(fluids, s.kind[i], s.density[i])
 
 
 @parallel_largest
