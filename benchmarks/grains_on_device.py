@@ -65,7 +65,7 @@ def measured(columns: int, device: str) -> None:
         wait = cuda.synchronize
     mean(stepper, wait)
     least = min(mean(stepper, wait) for _ in range(ROUNDS))
-    for _ in range(2):
+    for _ in range(2):  # the first time compiles
         stepper.neighbours.built = ()
         begun = time.perf_counter()
         stepper.prepare()
