@@ -208,15 +208,21 @@ def _run_options(parser) -> None:
     _code_option(parser)
     parser.add_argument(
         "--accuracy",
-        type=share,
-        metavar="E",
-        help="take the cheapest measured setting that errs by this or less, such as 2%%",
+        type=accuracy,
+        metavar="[METRIC=]E",
+        help="take the cheapest measured setting that errs by this or less, such as 2%%, in all metrics or in one",
     )
     parser.add_argument("--until", type=float, metavar="T", help="end time [s]")
     parser.add_argument(
         "--watch", action="store_true", help="keep a page of the run as it goes in its folder: watch.html"
     )
     parser.add_argument("--json", action="store_true", help="print the summary as JSON")
+
+
+def accuracy(text: str) -> tuple[str, float]:
+    """2%, or of one metric bubble_diameter_m=2%: (metric or "", share)."""
+    metric, _, found = text.rpartition("=")
+    return metric.strip(), share(found.strip())
 
 
 def share(text: str) -> float:

@@ -49,7 +49,8 @@ class Ladder:
 
     @property
     def middle(self) -> dict:
-        return self.level(self.count // 2)
+        """The level in the middle, of two the coarser one."""
+        return self.level((self.count - 1) // 2)
 
     @property
     def steps(self) -> list[float]:

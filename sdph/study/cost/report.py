@@ -29,6 +29,7 @@ def text(scene: str, rows: list[dict]) -> str:
     known = errors.converged(own, rows)
     parts += [tables.table([_limit(name, metric) for name, metric in known.items()])] if known else []
     parts.append(tables.table([answer(own, rows, limit) for limit in LIMITS]))
+    parts += [tables.table([prices(own, rows, name) for name in known])] if len(known) > 1 else []
     parts += [different] if (different := errors.model_difference(own, rows)) else []
     found = measured_rows.orders(own, rows)
     parts.append(
@@ -70,6 +71,15 @@ def answer(own, rows: list[dict], limit: float) -> dict:
         "take": take,
         "at most": best["bound"] if best else math.nan,
         "it costs [s]": best["wall_s"] if best else math.nan,
+    }
+
+
+def prices(own, rows: list[dict], metric: str) -> dict:
+    """Time [s] that each error of one metric alone costs."""
+    judged = errors.judged(own, measured_rows.of_metric(rows, metric))
+    best = {limit: measured_rows.cheapest(judged, limit) for limit in LIMITS}
+    return {"it costs [s] in one metric": metric} | {
+        f"{100 * limit:g} %": row["wall_s"] if row else math.nan for limit, row in best.items()
     }
 
 

@@ -54,6 +54,11 @@ def found(row: dict) -> dict:
     return json.loads(row["metrics"])
 
 
+def of_metric(rows: list[dict], name: str) -> list[dict]:
+    """The rows with one of their metrics alone."""
+    return [row | {"metrics": json.dumps({key: own for key, own in found(row).items() if key == name})} for row in rows]
+
+
 def orders(own: Ladder, rows: list[dict]) -> dict[str, float]:
     """Observed order of the metrics' change with each numeric knob alone, the others in the middle. Three values of the
     knob are needed, in one ratio or not: the order is that of a power law through both changes."""
@@ -82,14 +87,15 @@ def share(change: float, scale: float) -> float:
     return change / abs(scale) if scale else math.copysign(math.inf, change) if change else 0.0
 
 
-def whole(rows: list[dict]) -> list[dict]:
-    """Our own rows with all effects."""
-    return [row for row in rows if row["solver"] == OWN and row["without"] == ALL]
+def whole(rows: list[dict], solver: str = OWN) -> list[dict]:
+    """A solver's rows with all effects."""
+    return [row for row in rows if row["solver"] == solver and row["without"] == ALL]
 
 
-def cheapest(rows: list[dict], accuracy: float) -> dict | None:
+def cheapest(rows: list[dict], accuracy: float, solver: str = OWN) -> dict | None:
     """The row that takes least time among those with all effects that err by `accuracy` at most, as do all finer."""
-    return min((row for row in whole(rows) if row["bound"] <= accuracy), key=lambda row: row["wall_s"], default=None)
+    held = (row for row in whole(rows, solver) if row["bound"] <= accuracy)
+    return min(held, key=lambda row: row["wall_s"], default=None)
 
 
 def front(rows: list[dict]) -> list[dict]:

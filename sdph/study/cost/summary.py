@@ -14,13 +14,14 @@ from sdph.study.cost.rows import OWN
 
 COLUMNS = "rung", "with", "off the reference", "off the limit", "at most, with all finer", "time", "load"
 LIMITED = "metric", "limit", "off the reference", "doubt about the limit", "order"
-HEAD = ("scene (figure)", "reference", *(f"{100 * limit:g} %" for limit in LIMITS),
-        "doubt about the limit", "limit off the reference", "measured", "other solvers, same machine")  # fmt: skip
+HEAD = ("scene (figure)", "metric", *(f"{100 * limit:g} %" for limit in LIMITS), "doubt about the limit", "order",
+        "limit off the reference", "reference", "measured", "other solvers, same machine")  # fmt: skip
 
 
 def table(folder: Path) -> list[str]:
-    """Lines of the table in Markdown, a scene of `folder`/<scene>/cost.csv each."""
-    return _markdown(HEAD, [_cells(scene, *known) for scene in with_ladder() if (known := _known(folder, scene))])
+    """Lines of the table in Markdown, one for each metric of each scene of `folder`/<scene>/cost.csv."""
+    known = {scene: rows for scene in with_ladder() if (rows := _known(folder, scene))}
+    return _markdown(HEAD, [line for scene, measured in known.items() for line in _lines(scene, *measured)])
 
 
 def section(folder: Path, scene: str) -> list[str]:
@@ -57,37 +58,34 @@ def _rung(own: Ladder, row: dict) -> list[str]:
     return [where, settings, *numbers, f"{row['wall_s']:.2g} s", f"{row['load']:g}"]
 
 
-def _cells(scene: str, own: Ladder, rows: list[dict]) -> list[str]:
-    best = [measured_rows.cheapest(rows, limit) for limit in LIMITS]
-    known = errors.converged(own, rows)
-    name, worst = max(known.items(), key=lambda item: item[1].limit.doubt)
-    return [
-        f"[`{scene}`](../validation/{scene}/cost.png)",
-        own.reference,
-        *(f"{row['wall_s']:.2g} s" if row else "-" for row in best),
-        f"{percent(worst.limit.doubt)} ({name})",
-        _off(known),
-        min(str(row["measured"]) for row in rows),
-        _others(rows),
-    ]
+def _lines(scene: str, own: Ladder, rows: list[dict]) -> list[list[str]]:
+    """Cells of a scene: what each metric costs; scene, reference and date stand in its first line."""
+    about = f"[`{scene}`](../validation/{scene}/cost.png)", own.reference, min(str(row["measured"]) for row in rows)
+    found = []
+    for name, metric in errors.converged(own, rows).items():
+        judged = errors.judged(own, measured_rows.of_metric(rows, name))
+        place, reference, measured = ("", "", "") if found else about
+        _, doubt, order = metric.limit
+        converges = percent(doubt), "-" if math.isnan(order) else f"{order:.1f}", _off(metric)
+        found.append([place, name, *_prices(judged), *converges, reference, measured, _others(judged)])
+    return found
 
 
-def _off(known: dict[str, errors.Converged]) -> str:
-    """The metric that is furthest off beyond the doubt."""
-    name = max(known, key=lambda name: known[name].off)
-    if known[name].off:
-        return f"{percent(known[name].off)} ({name})"
-    return "within the doubt" if any(metric.referred for metric in known.values()) else ""
+def _prices(judged: list[dict], solver: str = OWN) -> list[str]:
+    best = (measured_rows.cheapest(judged, limit, solver) for limit in LIMITS)
+    return [f"{row['wall_s']:.2g} s" if row else "-" for row in best]
 
 
-def _others(rows: list[dict]) -> str:
-    """Solver, its cells, its errors by the same rule, and its times."""
-    parts = []
-    for solver in sorted({row["solver"] for row in rows} - {OWN}):
-        line = [row for row in rows if row["solver"] == solver]
-        shown = [f"{row['label'].partition(', ')[2]}: {percent(row['bound'])} in {row['wall_s']:.2g} s" for row in line]
-        parts.append(f"{solver} {'; '.join(shown)}")
-    return "; ".join(parts)
+def _off(metric: errors.Converged) -> str:
+    if metric.off:
+        return percent(metric.off)
+    return "within the doubt" if metric.referred else ""
+
+
+def _others(judged: list[dict]) -> str:
+    """Solver, and what the same errors cost by it."""
+    solvers = sorted({row["solver"] for row in judged} - {OWN})
+    return "; ".join(f"{solver} {', '.join(_prices(judged, solver))}" for solver in solvers)
 
 
 def percent(share: float) -> str:

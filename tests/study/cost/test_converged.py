@@ -131,13 +131,13 @@ def test_whatever_the_series_what_is_sold_holds_for_all_that_is_finer(values, ac
 
 
 def test_one_key_alone_does_not_make_good_the_errors_of_the_others():
-    """The middle errs by 0.2; a row beside it that sits on the limit has moved by 0.2 more."""
+    """The middle errs by 0.4; a row beside it that sits on the limit has moved by 0.4 more."""
     lucky = row(9.0, 1.0, 1.0, label="y", wall=1e-3)
     *_, beside = judged([1.8, 1.4, 1.2, 1.1], reference=1.0, more=[lucky])
-    assert (beside["error"], beside["bound"]) == pytest.approx((0.4, 0.5))
-    still = row(9.0, 1.21, 1.0, label="y", wall=1e-3)
+    assert (beside["error"], beside["bound"]) == pytest.approx((0.8, 0.9))
+    still = row(9.0, 1.41, 1.0, label="y", wall=1e-3)
     *_, beside = judged([1.8, 1.4, 1.2, 1.1], reference=1.0, more=[still])
-    assert (beside["error"], beside["bound"]) == pytest.approx((0.21, 0.31))
+    assert (beside["error"], beside["bound"]) == pytest.approx((0.41, 0.51))
 
 
 def test_without_an_effect_or_a_middle_nothing_is_promised():
@@ -202,7 +202,7 @@ def measured(tmp_path, monkeypatch):
 def test_accuracy_refuses_in_one_line_what_is_not_shown(measured):
     measured((831.43, 726.86, 649.24), 705.6)
     with pytest.raises(CaseError) as refused:
-        choice.settings_for("some", 0.05, lambda text: None)
+        choice.settings_for("some", ("", 0.05), lambda text: None)
     line = str(refused.value)
     assert line.startswith("some is not shown to converge to 0.05: the limit of a is in doubt by") and "\n" not in line
 
@@ -210,7 +210,7 @@ def test_accuracy_refuses_in_one_line_what_is_not_shown(measured):
 def test_accuracy_tells_a_difference_of_models(measured):
     measured((1.14, 1.12, 1.11), 1.0)
     said = []
-    assert choice.settings_for("some", 0.0301, said.append) == ("x=2.0",)
+    assert choice.settings_for("some", ("", 0.0301), said.append) == ("x=2.0",)
     assert "within 0.03 of its limit" in said[0]
     assert "of the numerics alone: a converges to +10 % off" in said[1] and "two fluids" in said[1]
 
@@ -218,7 +218,7 @@ def test_accuracy_tells_a_difference_of_models(measured):
 def test_the_table_of_all_scenes_has_what_the_rows_say(measured):
     line = summary.table(measured((1.14, 1.12, 1.11), 1.0))[-1]
     cells = [cell.strip() for cell in line.split("|")[2:-1]]
-    assert cells == ["two fluids", "0.062 s", "0.25 s", "-", "-", "1 % (a)", "10 % (a)", "2026-11-22", ""]
+    assert cells == ["a", "0.062 s", "0.25 s", "-", "-", "1 %", "1.0", "10 %", "two fluids", "2026-11-22", ""]
 
 
 def test_the_table_of_all_scenes_refuses_a_crossing(measured):

@@ -105,19 +105,45 @@ def test_accuracy_takes_what_was_measured_and_says_so(tmp_path, monkeypatch):
         settings = {"resolution.spacing_mm": spacing, "resolution.cell_mm": cell}
         climb._keep(tmp_path / "runs/cost/some/cost.csv", row("x", wall, value, 1.0, **settings))
     said = []
-    assert not any("end_time" in setting for setting in choice.settings_for("some", 0.4, said.append))
-    assert "resolution.spacing_mm=20.0" in choice.settings_for("some", 0.4, said.append)  # 0.09 and three times that
-    assert "resolution.spacing_mm=10.0" in choice.settings_for("some", 0.3, said.append)
+    assert not any("end_time" in setting for setting in choice.settings_for("some", ("", 0.4), said.append))
+    assert "resolution.spacing_mm=20.0" in choice.settings_for(
+        "some", ("", 0.4), said.append
+    )  # 0.09 and three times that
+    assert "resolution.spacing_mm=10.0" in choice.settings_for("some", ("", 0.3), said.append)
     assert "within 0.27 of its limit" in said[-1] and "4 s" in said[-1]
     with pytest.raises(CaseError, match="in doubt by 0.27"):
-        choice.settings_for("some", 0.2, said.append)
+        choice.settings_for("some", ("", 0.2), said.append)
     with pytest.raises(CaseError, match="sdph cost other"):
-        choice.settings_for("other", 0.02, said.append)
+        choice.settings_for("other", ("", 0.02), said.append)
 
 
 @pytest.mark.parametrize(("text", "seconds"), [("90", 90.0), ("90s", 90.0), ("10min", 600.0), ("2h", 7200.0)])
 def test_budget_is_read_with_its_unit(text, seconds):
     assert arguments.seconds(text) == seconds
+
+
+def test_accuracy_of_one_metric_asks_for_no_other(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(choice, "declared", lambda scene: SMALL)
+    for wall, (spacing, cell), value in ((1.0, (20.0, 50.0), 1.2), (4.0, (10.0, 25.0), 1.02)):
+        made = row("x", wall, value, 1.0, **{"resolution.spacing_mm": spacing, "resolution.cell_mm": cell})
+        made["metrics"] = json.dumps(json.loads(made["metrics"]) | {"steady": (1.0, 1.0, None)})
+        climb._keep(tmp_path / "runs/cost/some/cost.csv", made)
+    said = []
+    assert "resolution.spacing_mm=20.0" in choice.settings_for("some", ("steady", 0.01), said.append)
+    assert said[-1].startswith("--accuracy steady=0.01: ")
+    with pytest.raises(CaseError, match="ask for one metric alone: --accuracy 'steady=0.01'"):
+        choice.settings_for("some", ("", 0.01), said.append)
+    with pytest.raises(CaseError, match=r"no such metric; it has: .*steady"):
+        choice.settings_for("some", ("stead", 0.01), said.append)
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [("5%", ("", 0.05)), ("a [J]=5%", ("a [J]", 0.05)), ("front at T = 3 = 0.1", ("front at T = 3", 0.1))],
+)
+def test_accuracy_may_name_a_metric(text, found):
+    assert arguments.accuracy(text) == found
 
 
 @pytest.mark.parametrize(("text", "found"), [("2%", 0.02), ("0.02", 0.02), ("100%", 1.0)])
