@@ -1,10 +1,12 @@
 """A frame that moves with the tank: the liquid feels its acceleration, its rotation and Coriolis' force.
 
-Paper T, Eq. 15: f = -[dV0/dt + beta x r + omega x (omega x r) + 2 omega x v], r from the origin of the frame.
+Paper T, Eq. 15: f = -[dV0/dt + beta x r + omega x (omega x r) + 2 omega x v], r from the origin of the frame. Gravity
+that stays as it is in space turns in the frame: what it differs by from that of the start is felt as the frame's.
 """
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import NamedTuple
 
@@ -12,10 +14,13 @@ import numpy as np
 
 from sdph.effects.effect import Effect, Judgement
 from sdph.engine import table
+from sdph.engine.attitude import Attitude
 from sdph.engine.clock import SAME
 from sdph.laws.compiled import serial
-from sdph.schema import CaseError, file, quantity, record, refuse_implausible, vector
+from sdph.schema import CaseError, choice, file, quantity, record, refuse_implausible, vector
 
+LOOKS = 400  # instants of a run at which its motion is looked at: our choice
+INSTANT = 0.02  # rad, of the fastest turning: a step of the attitude, which errs by its fifth power; our choice
 COLUMNS = ("time_s", "ax_m_s2", "ay_m_s2", "az_m_s2", "wx_rad_s", "wy_rad_s", "wz_rad_s")
 
 
@@ -35,6 +40,7 @@ class Frame:
     table: str = file()
     start: float = quantity("s", 0.0, least=0.0)  # at rest before: time for the liquid to settle
     end: float | None = quantity("s", None, above=0.0)  # neither accelerated nor turning after
+    gravity: str = choice("space", "tank")  # keeps its direction there; "tank": as the thrust of what the tank is in
 
 
 class FrameP(NamedTuple):
@@ -51,6 +57,48 @@ class FrameP(NamedTuple):
     bz: float
 
 
+def felt(case):
+    """t -> (acceleration (3,), omega (3,), omega_dot (3,)) of the frame of a case, the acceleration less what gravity
+    has changed by in the frame since it was upright."""
+    own = case.parameters["frame"]
+    move, gravity = motion(own, case.run.end_time), np.array((*case.domain.gravity, 0.0)[:3])
+    _refuse_out_of_plane(case, move)
+    step = _instant(own)
+    if own.gravity == "tank" or "gravity" not in case.effects or not gravity.any() or not math.isfinite(step):
+        return move
+    attitude = Attitude(lambda time: move(time)[1], step)
+
+    def at(time: float):
+        acceleration, omega, rate = move(time)
+        return acceleration - (attitude.at(time).T @ gravity - gravity), omega, rate
+
+    return at
+
+
+def _instant(own: Frame) -> float:
+    """Step [s] of the attitude, by the motion alone and not by how long a run looks at it; inf where nothing turns."""
+    if own.table:
+        _, columns = table.numbers(Path(own.table), COLUMNS)
+        fastest = float(np.linalg.norm([columns[name] for name in COLUMNS[4:]], axis=0).max())
+        return min(INSTANT / fastest, float(np.diff(columns["time_s"]).min())) if fastest else math.inf
+    turning = [abs(rate) for _, rate, _, _ in own.turn]
+    fastest = max(math.hypot(*own.spin) + sum(turning), *(abs(w) for _, rate, w, _ in own.turn if rate), 0.0, 0.0)
+    return INSTANT / fastest if fastest else math.inf
+
+
+def _refuse_out_of_plane(case, move) -> None:
+    """CaseError where what has two dimensions is moved along the third, or turned about another axis than it."""
+    if case.dimensions == 3:
+        return
+    for time in np.linspace(0.0, case.run.end_time, LOOKS):
+        acceleration, omega, rate = move(time)
+        if acceleration[2] or omega[:2].any() or rate[:2].any():
+            raise CaseError(
+                f"frame: at {time:.3g} s the tank is moved along axis 2 or turned about axis 0 or 1; in two dimensions "
+                "it moves along axes 0 and 1 and turns about axis 2"
+            )
+
+
 def motion(own: Frame, until: float):
     """t -> (acceleration (3,), omega (3,), omega_dot (3,)) of the frame, gravity left out; t goes to `until` [s]."""
     if own.table:
@@ -59,7 +107,7 @@ def motion(own: Frame, until: float):
         flat = isinstance(row, tuple) and not any(isinstance(value, tuple) for value in row)
         if not flat or len(row) != 4 or row[0] not in (0, 1, 2):
             raise CaseError(
-                f"frame.shake or frame.turn holds {row}; a row is [axis 0, 1 or 2, amplitude, rad/s, phase]"
+                f"frame.shake or frame.turn holds {row}; a row is [axis 0 (x), 1 (y) or 2 (z), amplitude, rad/s, phase]"
             )
 
     def at(time: float):

@@ -54,7 +54,7 @@ class LiquidScales:
         domain."""
         if "frame" not in self.case.effects:
             return 0.0
-        move, arm = frame.motion(self.case.parameters["frame"], self.end), self.case.domain.arm
+        move, arm = frame.felt(self.case), self.case.domain.arm
         found = [move(time) for time in np.linspace(0.0, self.end, INSTANTS)]
         return max(float(np.linalg.norm(a) + arm * (omega @ omega + np.linalg.norm(rate))) for a, omega, rate in found)
 

@@ -251,7 +251,7 @@ def _wave(pool, points, amplitude: float) -> np.ndarray:
 def parts_of(case):
     """Kernel parameters by effect, particles, and motion of the frame (or None): all that a run begins with."""
     parameters = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
-    move = frame.motion(case.parameters["frame"], case.run.end_time) if parameters["frame"] else None
+    move = frame.felt(case) if parameters["frame"] else None
     return parameters, fill(case), move
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from sdph.case import read as cases
 from sdph.effects.around import frame
 from sdph.schema import CaseError
 
@@ -130,3 +131,29 @@ def test_a_harmonic_motion_is_the_derivative_of_itself():
     np.testing.assert_allclose(omega, [0.0, 0.4 * np.sin(3.7), 0.5], rtol=1e-12)
     np.testing.assert_allclose(rate, [0.0, 0.8 * np.cos(3.7), 0.0], rtol=1e-12)
     assert not any(np.any(part) for part in move(0.9))
+
+
+TANK = {
+    "dimensions": 2, "effects": ["gravity", "frame", "tank", "density_diffusion", "liquid_damping"],
+    "run": {"end_time_s": 1.0, "output_interval_s": 1.0},
+    "domain": {"size_m": [1.0, 1.0], "gravity_m_s2": [0.0, -9.81]}, "resolution": {"spacing_mm": 50.0},
+    "liquid": {"density_kg_m3": 1000.0, "sound_speed_m_s": 30.0},
+    "pools": {"water": {"shape": "tank", "fill": 0.5}},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("turns", "sideways"), [("space", 9.81 * np.sin(0.6)), ("tank", 0.0)])
+def test_gravity_pulls_to_the_lower_side_of_a_tank_that_is_tipped_over(turns, sideways):
+    """By 0.6 rad, counterclockwise: down is then to the left of the tank. The acceleration of the frame is the
+    opposite of what is felt."""
+    move = frame.felt(cases.from_table(TANK | {"frame": {"spin_rad_s": [0.0, 0.0, 1.2], "gravity": turns}}))
+    felt = np.array([0.0, -9.81, 0.0]) - move(0.5)[0]
+    np.testing.assert_allclose(felt[:2], [-sideways, -9.81 if turns == "tank" else -9.81 * np.cos(0.6)])
+
+
+@pytest.mark.parametrize(
+    "own", [{"turn": [[0, 0.1, 1.0, 0.0]]}, {"spin_rad_s": [0.0, 1.0, 0.0]}, {"shake": [[2, 0.1, 1.0, 0.0]]}]
+)
+def test_a_plane_tank_does_not_move_out_of_its_plane(own):
+    with pytest.raises(CaseError, match="in two dimensions it moves along axes 0 and 1 and turns about axis 2"):
+        frame.felt(cases.from_table(TANK | {"frame": own}))
