@@ -74,6 +74,13 @@ def warnings(s) -> list[str]:
     if s.speed > SLOW * c:
         fast = f"the liquid may reach {s.speed:.3g} m/s, {s.speed / c:.2g} of its speed of sound"
         unsafe.append(f"{fast}: raise liquid.sound_speed_m_s from {c:g} to {10.0 * s.speed:.3g}")
+    layer, tank = s.layer * s.length, s.case.parameters.get("tank")
+    if "frame" in s.case.effects and tank and tank.slip == "no_slip" and 0.0 < layer < s.case.resolution.spacing:
+        unsafe.append(
+            f"the layer that a wall drags along, sqrt(nu t) = {1e3 * layer:.3g} mm, is thinner than the spacing: friction at "
+            "walls, and how soon the liquid turns with its tank, are then the numerics', tens of times too much; "
+            "tank.slip = 'free_slip' has no friction at walls"
+        )
     if "drain" in s.case.effects and not s.case.parameters["tank"].outlet_radius:
         unsafe.append(
             "a tank without an outlet pipe gives up its lowest particles, wherever on its floor they are: pressures "

@@ -121,3 +121,13 @@ def test_moving_particles_are_told_where_tension_rules(scene, told):
     """Their drops miss every bar of tension; a sheet of We = 1000 hardly feels it."""
     changes = ("method.name=mps",) if told else ()
     assert any("moving particles" in text for text in tables.warnings(load(scene, *changes))) == told
+
+
+@pytest.mark.parametrize(
+    ("more", "told"),
+    [((), False), (("tank.slip='no_slip'",), True), (("tank.slip='no_slip'", "liquid.viscosity_Pa_s=100.0"), False)],
+)
+def test_walls_whose_layer_is_thinner_than_the_spacing_are_told_of(more, told):
+    """The shipped tanks slip for that reason."""
+    warnings = tables.warnings(load("sloshing_cassini", *more))
+    assert any("how soon the liquid turns with its tank" in line for line in warnings) == told
