@@ -54,6 +54,7 @@ PREFIX_FROM = {"m": 0.1, "s": 0.1}  # of a unit that the largest value must reac
 SHARE = 0.005  # of the values that may lie beyond each end of a range, which its bar then tells; our choice
 LONE = 2.0  # times longer must the whole range be than that of the others, or nothing is left beyond; our choice
 PLAIN = 1e5  # below this large numbers are written without an exponent
+STILL = 1e-9  # m/s: what is slower is round-off, and shown as at rest; our choice
 NARROW = 0.01  # of its values: a range so narrow is told from a round value on, its digits would not show; our choice
 
 
@@ -140,6 +141,8 @@ def _range(quantity: Quantity, field: str, arrays: list) -> tuple[float, float, 
     if not len(values):
         return 0.0, 1.0, "neither"
     least, most = float(values.min()), float(values.max())
+    if quantity.unit == "m/s" and max(abs(least), abs(most)) < STILL:
+        return 0.0, 1.0, "neither"
     low, high = (float(q) for q in np.quantile(values, (SHARE, 1.0 - SHARE)))
     if most - least <= LONE * (high - low) or high == low:
         low, high = least, most

@@ -77,9 +77,9 @@ def warnings(s) -> list[str]:
     layer, tank = s.layer * s.length, s.case.parameters.get("tank")
     if "frame" in s.case.effects and tank and tank.slip == "no_slip" and 0.0 < layer < s.case.resolution.spacing:
         unsafe.append(
-            f"the layer that a wall drags along, sqrt(nu t) = {1e3 * layer:.3g} mm, is thinner than the spacing: friction "
-            "at walls, and how soon the liquid turns with its tank, are then the numerics', tens of times too much; "
-            "tank.slip = 'free_slip' has no friction at walls"
+            f"the layer that a wall drags along, sqrt(nu t) = {1e3 * layer:.3g} mm, is thinner than the spacing: "
+            "friction at walls, and how soon the liquid turns with its tank, are then the numerics', tens of times too "
+            "much; tank.slip = 'free_slip' has no friction at walls"
         )
     if "drain" in s.case.effects and not s.case.parameters["tank"].outlet_radius:
         unsafe.append(

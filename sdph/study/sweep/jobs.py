@@ -24,7 +24,7 @@ from sdph.study.apart import FINE, ended, environment, reason
 BAD_INPUT, WENT_UNSTABLE = 2, 5  # exit codes of `sdph run`
 LASTING = (BAD_INPUT, WENT_UNSTABLE)  # failures that come again when nothing is changed
 RUNS = "runs"  # folder in that of the sweep
-NAME, HASH = 60, 8  # letters of a folder's name
+NAME, EACH, HASH = 60, 24, 8  # letters of a folder's name; of one value in it
 
 
 @dataclass(frozen=True)
@@ -62,8 +62,9 @@ def _job(target: str, file: Path, point: dict, more: tuple, flags: tuple, out: P
     except CaseError as error:
         told, refused = repr(given), str(error)
     digest = hashlib.sha256(told.encode()).hexdigest()[:HASH]
-    words = "_".join(f"{key.rpartition('.')[2]}={value}" for key, value in point.items() if value)
-    name = f"{re.sub(r'[^A-Za-z0-9.,=+-]+', '_', words)[:NAME]}-{digest}".lstrip("-.")
+    words = (f"{key.rpartition('.')[2]}={value}" for key, value in point.items() if value)
+    short = "_".join(re.sub(r"[^A-Za-z0-9.,=+-]+", "_", word)[:EACH] for word in words)
+    name = f"{short[:NAME]}-{digest}".lstrip("-.")
     folder = os.path.abspath(out / RUNS / name)
     sets = tuple(word for text in (*more, *given) for word in ("--set", text))
     return Job(point, folder, (target, "--out", folder, *sets, *flags), os.getcwd(), threads, refused)

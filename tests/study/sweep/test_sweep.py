@@ -278,3 +278,9 @@ def test_a_sweep_that_is_ended_ends_its_run(tmp_path):
     time.sleep(2.0)
     assert begun[0].stat().st_size == size
     assert list(begun[0].parent.glob("checkpoints/*"))
+
+
+def test_a_long_value_leaves_the_others_their_place_in_a_folders_name(tmp_path):
+    point = {"title": "x" * 80, "gas.temperature_K": "301"}
+    (made,) = jobs.jobs_of("disc_cluster", [point], (), (), tmp_path, 0)
+    assert "temperature_K=301" in made.name
