@@ -17,6 +17,8 @@ def advance(run, end: float):
         handed = run.timed("exchange", run.hand, end - run.time)
         failure = run.timed("gas", run.advance_gas, handed)
         if failure is None:
+            if handed.alpha_g is not None:
+                run.grains.tell_crowded(handed.alpha_g, run.gas.mesh.centres)
             return end, handed
         run.gas_state, tried = run.gas.retreat(), end - run.time
         end, run.repeated = run.time + tried / PART, run.repeated + 1

@@ -70,6 +70,20 @@ def test_grains_packed_beyond_their_limit_are_told_once(tmp_path):
     assert "0.84" in told and "packing_limit" in told and "friction and granular_pressure" in told
 
 
+def test_particles_that_lie_upon_each_other_in_a_cell_are_told_once(tmp_path):
+    """A sum over neighbours does not show it: the gas's cells do, and a run says which."""
+    table = cases.parsed(scenes.find("disc_cluster")[1])
+    table["effects"] = ["drag", "heat"]
+    run = simulation(cases.from_table(table), tmp_path)
+    run.window()
+    assert run.notices == []
+    run.state.mass[:] *= 0.9 / table["particles"]["disc"]["volume_fraction"]
+    for _ in range(2):
+        run.window()
+    (told,) = (notice for notice in run.notices if "cell" in notice)
+    assert "the gas's cell at (" in told and "alpha_p = 0.9" in told and "grain_shifting parts them" in told
+
+
 def test_grains_that_no_wall_holds_are_told_what_would(tmp_path):
     with pytest.raises(CaseError, match=r"bottom_side, where no wall holds grains.*add walls"):
         driver.run(falling(1e6), "disc", tmp_path / "run", None, QUIET)
