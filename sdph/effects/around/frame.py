@@ -80,9 +80,9 @@ def _instant(own: Frame) -> float:
     if own.table:
         _, columns = table.numbers(Path(own.table), COLUMNS)
         fastest = float(np.linalg.norm([columns[name] for name in COLUMNS[4:]], axis=0).max())
-        return min(INSTANT / fastest, float(np.diff(columns["time_s"]).min())) if fastest else math.inf
+        return min([INSTANT / fastest, float(np.diff(columns["time_s"]).min())]) if fastest else math.inf
     turning = [abs(rate) for _, rate, _, _ in own.turn]
-    fastest = max(math.hypot(*own.spin) + sum(turning), *(abs(w) for _, rate, w, _ in own.turn if rate), 0.0, 0.0)
+    fastest = max([math.hypot(*own.spin) + sum(turning), *(abs(w) for _, rate, w, _ in own.turn if rate)])
     return INSTANT / fastest if fastest else math.inf
 
 

@@ -50,7 +50,7 @@ def settings_for(scene: str, wanted: tuple[str, float], report) -> tuple[str, ..
 
 
 def priced(own: Ladder, rows: list[dict], accuracy: float) -> str:
-    """What to ask for instead: a metric that is held, if there is one."""
+    """Advice to ask for a metric that is held, if there is one."""
     for name in errors.converged(own, rows):
         if measured_rows.cheapest(errors.judged(own, measured_rows.of_metric(rows, name)), accuracy):
             return f"; or ask for one metric alone: --accuracy '{name}={accuracy:g}'"
