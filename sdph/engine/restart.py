@@ -36,7 +36,7 @@ FREE = (
     "run.device",
 )  # fmt: skip
 # in a run folder, what a run that goes on writes into
-WRITTEN = ("fields", "gas", "ledger.csv", "history.csv", "metrics.csv")
+WRITTEN = ("fields", "fields/pieces", "gas", "ledger.csv", "history.csv", "metrics.csv")
 MANIFEST, NUMBERS, ARRAYS, GAS = "manifest.json", "numbers.json", "arrays.npz", "gas"
 NAME, DRAFT = re.compile(r"[0-9]{9,18}"), re.compile(r"\.[0-9]{9,18}\.part")
 # of what is in a manifest besides sdph and format

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from sdph.engine.clock import Clock
 from sdph.engine.kept import Unfit
+from sdph.engine.world import here
 from sdph.methods.liquids.liquid import Liquid
 from sdph.methods.mps.mps import Mps
 from sdph.methods.solids.solid import Solids
@@ -120,10 +121,10 @@ class Alone:
             return {}
         if self.matter == "solid":
             return history.of_solid(self.case, self.stepper)
-        return history.of_liquid(self.case, self.method.points())
+        return history.of_liquid(self.case, self.method.points(), here())
 
     def meshes(self) -> dict:
-        """Particles for the timeline."""
+        """Particles of this process for the timeline."""
         return {"particles": self.method.points()}
 
     def walls(self):

@@ -228,9 +228,9 @@ class Flight:
 
     def _begin(self, gas, checkpoint) -> None:
         self.case = self.world.told(self.world.chief and vessel.walled(self.case, gas, self.folder))
-        written = self.folder if self.world.chief else None
-        simulation = simulation_of(self.case, gas, written and written / "ledger.csv")
-        self.simulation, self.out = simulation, Outputs(written, simulation)
+        ledger = self.folder / "ledger.csv" if self.world.chief else None
+        simulation = simulation_of(self.case, gas, ledger)
+        self.simulation, self.out = simulation, Outputs(self.folder, simulation, self.world)
         if checkpoint is None:
             forces.refuse_nowhere(self.case, simulation.methods)
             mesh = vessel.own_mesh(gas, self.folder)

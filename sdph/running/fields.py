@@ -12,6 +12,8 @@ from pathlib import Path
 import numpy as np
 
 from sdph.engine.kept import Many, Unfit, short
+from sdph.engine.world import ALONE
+from sdph.running import pieces
 from sdph.running.output import WALLS, write_text
 from sdph.schema import CaseError
 
@@ -20,29 +22,45 @@ READERS = {
     ".vtr": "vtkXMLRectilinearGridReader",
     ".vtu": "vtkXMLUnstructuredGridReader",
 }
+KNOWN = (*READERS, pieces.SUFFIX)  # endings of files of a timeline
 LAST = b"</VTKFile>"
 ENTRY = re.compile(
-    r'<DataSet timestep="[\d.e+-]+" part="\d+" file="fields/(particles|gas|liquid|solid)_\d{5,}\.(vtp|vtr|vtu)"/>'
+    r'<DataSet timestep="[\d.e+-]+" part="\d+" file="fields/(particles|gas|liquid|solid)_\d{5,}\.(vtp|vtr|vtu|pvtu)"/>'
 )
 PARTS = {"particles": 0, "gas": 1, "liquid": 2, "solid": 3}  # of a timeline
-SUFFIXES = {"vtkPolyData": "vtp", "vtkRectilinearGrid": "vtr", "vtkUnstructuredGrid": "vtu"}
+SHARED = "vtkPolyData"  # what several processes have particles in
+SUFFIXES = {SHARED: ".vtp", "vtkRectilinearGrid": ".vtr", "vtkUnstructuredGrid": ".vtu"}
 PVD = '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n<Collection>\n{}\n</Collection>\n</VTKFile>\n'
 DENSEST = 255  # times: how much LZ4 can press together at most
 
 
 def load(path: Path, arrays: tuple[str, ...] = ()):
-    """A pyvista mesh of a VTK file; `CaseError` where it is damaged, or is not empty and lacks one of `arrays`."""
+    """A pyvista mesh of a VTK file, of particles in pieces that of all of them; `CaseError` where it is damaged, or is
+    not empty and lacks one of `arrays`."""
     try:
-        if not whole(path):
-            raise ValueError("not all of it is there")
-        _check(path.read_bytes())
-        mesh = _decoded(path)
+        mesh = pieces.joined(path, _piece) if path.suffix == pieces.SUFFIX else _read(path)
         lacks = [name for name in arrays if mesh.n_points and name not in mesh.array_names]
         if lacks:
             raise ValueError(f"it has no array {lacks[0]}")
     except ValueError as error:
         raise CaseError(f"{path} is damaged or missing ({error}); run it again") from None
     return mesh
+
+
+def _piece(path: Path):
+    """Mesh of a piece, which is told of by its name where it is damaged."""
+    try:
+        return _read(path)
+    except ValueError as error:
+        raise ValueError(f"{path.name}: {error}") from None
+
+
+def _read(path: Path):
+    """Mesh of a file; ValueError where it is damaged."""
+    if not whole(path):
+        raise ValueError("not all of it is there")
+    _check(path.read_bytes())
+    return _decoded(path)
 
 
 def _decoded(path: Path):
@@ -88,9 +106,9 @@ class Fields:
 
     KEPT, FORMS = ("entries",), {"entries": Many("")}  # see sdph.engine.kept
 
-    def __init__(self, folder: Path | None):
-        """Fields into a folder; None: into none."""
-        self.folder = folder
+    def __init__(self, folder: Path, world=ALONE):
+        """Fields into a folder, to which each process of a world writes its particles and the chief all else."""
+        self.folder, self.world = folder, world
         self.entries: list[str] = []
 
     def admit(self, kept: dict) -> None:
@@ -104,26 +122,36 @@ class Fields:
         self._write_timeline()
 
     def write(self, time: float, meshes: dict) -> None:
-        """`meshes` (name -> pyvista mesh, the same names each time) at `time` [s], and the timeline up to there."""
-        if self.folder is None:
-            return
-        number = len(self.entries) // len(meshes)
-        files = {f"fields/{name}_{number:05d}.{SUFFIXES[mesh.GetClassName()]}": mesh for name, mesh in meshes.items()}
+        """`meshes` (name -> pyvista mesh, the same names each time) at `time` [s], and the timeline up to there; a
+        process that is not the chief has its particles alone."""
+        number = self.world.told(len(self.entries) // len(meshes))  # the chief has all names
+        files = {f"fields/{name}_{number:05d}{self._suffix(mesh)}": mesh for name, mesh in meshes.items()}
         for name, mesh in files.items():
-            save(mesh, self.folder / name)
+            self._save(mesh, self.folder / name)
         parts = [PARTS[name] for name in meshes]
         self.entries += [
             f'<DataSet timestep="{time:.9g}" part="{part}" file="{name}"/>' for part, name in zip(parts, files)
         ]
         self._write_timeline()
 
+    def _suffix(self, mesh) -> str:
+        kind = mesh.GetClassName()
+        return pieces.SUFFIX if self.world.number > 1 and kind == SHARED else SUFFIXES[kind]
+
+    def _save(self, mesh, path: Path) -> None:
+        if path.suffix == pieces.SUFFIX:
+            pieces.write(self.world, mesh, path, save)
+            return
+        pieces.forget(path)  # by several processes, before the run went back to a checkpoint
+        save(mesh, path)
+
     def write_walls(self, walls) -> None:
         """A pyvista surface that holds for all times; nothing where it is None."""
-        if walls is not None and self.folder:
+        if walls is not None and self.world.chief:
             save(walls, self.folder / WALLS)
 
     def _write_timeline(self) -> None:
-        if self.folder:
+        if self.world.chief:
             write_text(self.folder / "run.pvd", PVD.format("\n".join(self.entries)))
 
 

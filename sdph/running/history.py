@@ -48,8 +48,8 @@ def probe(simulation, point, fields: tuple[str, ...] = ()) -> dict[str, float]:
     return found | _named(case, "gas", {name: gather(weights, cells[name])[0] for name in chosen["gas"]})
 
 
-def of_liquid(case, cloud) -> dict[str, float]:
-    """Columns of all probes in a liquid, whose particles are a cloud of pyvista."""
+def of_liquid(case, cloud, world=ALONE) -> dict[str, float]:
+    """Columns of all probes in a liquid, of whose particles each process of a world has a cloud of pyvista."""
     columns = {}
     for name, own in case.probes.items():
         there = cloud.n_points > 0  # pyvista knows no empty arrays
@@ -60,7 +60,7 @@ def of_liquid(case, cloud) -> dict[str, float]:
         places, mass = (
             (np.asarray(cloud.points), np.asarray(cloud["mass"])) if there else (np.zeros((0, 3)), np.zeros(0))
         )
-        found = near(case, places, mass, arrays, _place(own.at))
+        found = near(case, places, mass, arrays, _place(own.at), world)
         columns |= {f"{name}_{key}": value for key, value in found.items()}
     return columns
 

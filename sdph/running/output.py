@@ -2,6 +2,7 @@
 
 case.toml inputs/ (files that the case names: sdph.running.inputs) origin.json ledger.csv history.csv metrics.csv
 run.pvd fields/particles_*.vtp fields/gas_*.vt? fields/walls.vtp (of a tank or of a surface mesh) checkpoints/
+fields/particles_*.pvtu fields/pieces/*.vtu (of particles that several processes share: sdph.running.pieces)
 gas/ (case and log); at the end summary.json, or failure.json
 """
 
@@ -31,10 +32,12 @@ from sdph.version import __version__
 MARK, ORIGIN = "case.toml", "origin.json"  # a folder with these files holds a run
 FAILURE = "failure.json"
 WALLS = "fields/walls.vtp"
+PIECES = "pieces"  # in the folder of fields, with the particles of each process
 LEFT = (  # by a run, as patterns; what else is in its folder is the user's
     "ledger.csv", "ledger_liquid.csv", "outflow.csv", "history.csv", "metrics.csv", "run.pvd", "summary.json", FAILURE,
     "compare_*.json", "last_good.*", "checkpoints", "gas", WALLS,
     "fields/particles_*.vt?", "fields/gas_*.vt?", "fields/liquid_*.vt?", "fields/part-*.vt?",
+    "fields/particles_*.pvtu", f"fields/{PIECES}/particles_*.vtu", f"fields/{PIECES}/part-*.vtu",
 )  # fmt: skip
 TEXTS = ("limit",)  # columns of the tables of a run that hold no numbers
 NAMED = ("numpy", "numba", "scipy", "pyvista")  # packages whose versions a run notes

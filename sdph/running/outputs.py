@@ -16,10 +16,11 @@ class Outputs:
     KEPT = ("fields", "history", "metrics", "first", "last", "rows")  # see sdph.engine.kept
     FORMS = {"first": ROW, "last": ROW, "rows": Many(ROW)}
 
-    def __init__(self, folder: Path | None, simulation):
-        """Outputs into a folder; None of a process that takes part in a run, and does not write."""
-        self.simulation, self.fields = simulation, Fields(folder)
-        self.history, self.metrics = (Table(folder and folder / name) for name in ("history.csv", "metrics.csv"))
+    def __init__(self, folder: Path, simulation, world):
+        """Outputs into a folder, of which the chief of a world writes all but the particles of other processes."""
+        self.simulation, self.fields = simulation, Fields(folder, world)
+        tables = (folder / name if world.chief else None for name in ("history.csv", "metrics.csv"))
+        self.history, self.metrics = (Table(file) for file in tables)
         self.first, self.last, self.rows = {}, {}, []
 
     def admit(self, kept: dict) -> None:

@@ -242,14 +242,12 @@ class Simulation:
         return own | self.beside.named(lambda method: method.row())
 
     def meshes(self) -> dict:
-        """Particles and gas for the timeline."""
-        fields = self.cell_fields()
-        with self.whole() as chief:
-            if not chief:
-                return {}
+        """Particles of this process for the timeline, and the gas at the first one."""
+        fields, found = self.cell_fields(), {"particles": self.grains.points()}
+        if self.world.chief:
             self.grid = self.grid or output.gas_grid(self.gas)
-            own = {"particles": self.grains.points(), "gas": output.with_fields(*self.grid, fields)}
-        return own | self.beside.points()
+            found["gas"] = output.with_fields(*self.grid, fields)
+        return found | self.beside.points()
 
     def walls(self):
         """Surfaces of walls for pictures (pyvista); None where there are none."""

@@ -16,6 +16,7 @@ from sdph.effects.around import nozzles
 from sdph.effects.around.streams import streams_of
 from sdph.engine import state as particles
 from sdph.engine.walls import facets
+from sdph.engine.world import here
 from sdph.methods.grains import start
 from sdph.running import inputs
 from sdph.schema import CaseError
@@ -124,7 +125,8 @@ def refuse_outside(case, cells: Cells, state) -> None:
     if cells.grid is None or not case.particles:  # regions lie in the domain
         return
     places = particles.positions(state)[:, : case.dimensions]
-    outside = places[cells.outside(places)]
+    found = here().everywhere(places[cells.outside(places)])
+    outside = found[0] if len(found) == 1 else np.unique(np.concatenate(found), axis=0)  # of all processes, each once
     for name, region in case.particles.items():
         low, high = start.extents(case, region)
         own = outside[((outside >= low) & (outside <= high)).all(axis=1)]

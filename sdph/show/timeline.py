@@ -62,7 +62,7 @@ def _instant(row: dict) -> float:
 def _inside(name: str) -> str:
     """The name of a file of fields in the run folder."""
     path = Path(name)
-    if path.is_absolute() or ".." in path.parts or path.suffix not in fields.READERS:
+    if path.is_absolute() or ".." in path.parts or path.suffix not in fields.KNOWN:
         raise ValueError(f"{name[:80]!r} is no file of fields in this folder")
     return name
 

@@ -14,7 +14,7 @@ import pytest
 from sdph.cli import main
 from sdph.engine import world
 from sdph.engine.world import World
-from sdph.running import ranks
+from sdph.running import output, ranks
 from sdph.schema import CaseError
 from tests.of_ranks import SDPH, WITH_MPI, fine, particles, run, shared_by
 
@@ -32,6 +32,15 @@ CASES = {  # name -> scene and options: what is shared of an effect at least onc
 NOT_ALIKE = ("ranks", "imbalance", "halo_share")  # in the summary, and all that is of time or a drift
 
 
+def rows_alike(found, one) -> None:
+    """Columns of the history are those of one process, shares but for a few particles that round-off decides about."""
+    for name in one.keys() - set(output.TEXTS):
+        largest = np.nanmax(np.abs(one[name]), initial=0.0)
+        bar = 0.02 if name.endswith("_share") else 1e-8 * largest + 1e-11
+        bar = max(bar, 1e-4 * largest) if name.startswith(("wall_", "pipe_")) else bar  # of now: 5e-6 was found
+        np.testing.assert_allclose(found[name], one[name], rtol=0.0, atol=bar, err_msg=name)
+
+
 def alike(found: Path, one: Path, bar: float = 1e-11) -> None:
     """Fields, history, ledger and summary are those of one process."""
     ours, theirs = particles(found), particles(one)
@@ -41,6 +50,7 @@ def alike(found: Path, one: Path, bar: float = 1e-11) -> None:
     for table in ("history.csv", "ledger.csv"):
         a, b = (list(csv.reader((folder / table).read_text().splitlines())) for folder in (found, one))
         assert len(a) == len(b) and a[0] == b[0], table
+    rows_alike(*(output.read_table(folder / "history.csv", output.TEXTS) for folder in (found, one)))
     a, b = (json.loads((folder / "summary.json").read_text()) for folder in (found, one))
     assert a.keys() == b.keys()
     for key in ("sub_steps", "particles", "mass_kg", "liquid_particles"):

@@ -21,6 +21,7 @@ from sdph.engine.geometry import apart, faster
 from sdph.engine.gradients import NO_MATRIX, NO_SUMS, added, divided, in_plane
 from sdph.engine.rows import entry, length
 from sdph.engine.state import LIQUID
+from sdph.engine.world import here
 from sdph.laws import thinning as law
 from sdph.laws.compiled import fast_parallel, parallel, serial
 from sdph.schema import CaseError, choice, quantity, record
@@ -160,9 +161,10 @@ def dt_limit(p, case, state) -> float:
 
 def tells(p, state) -> dict[str, float]:
     """Smallest and largest viscosity [Pa s], and how many particles the limits hold."""
-    own = state.viscosity[state.kind == LIQUID]
+    own, world = state.viscosity[state.kind == LIQUID], here()
     held = {"at_least_viscosity": float((own <= p.least).sum()), "at_most_viscosity": float((own >= p.most).sum())}
-    smallest, largest = float(own.min(initial=p.most)), float(own.max(initial=p.least))
+    held = world.sums(held)
+    smallest, largest = world.least(float(own.min(initial=p.most))), world.most(float(own.max(initial=p.least)))
     return {"viscosity_smallest_Pa_s": smallest, "viscosity_largest_Pa_s": largest} | held
 
 

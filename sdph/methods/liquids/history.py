@@ -14,24 +14,26 @@ from sdph.methods.liquids.loads import kinetic_energy, pipe_energy, pipe_loads, 
 
 
 def row(run) -> dict[str, float]:
-    """Columns of history.csv: sums over the whole liquid (sdph.engine.gathered)."""
-    stepper, case = run.stepper, run.case
-    wet = stepper.active
-    mass, pressure = run.state.mass[wet], stepper.pressure[wet]
-    places, velocities = particles.positions(run.state)[wet], particles.velocities(run.state)[wet]
+    """Columns of history.csv: of the whole liquid, of which each process of a world has a part."""
+    stepper, case, world = run.stepper, run.case, run.stepper.world
+    state, wet = stepper.domain.own(run.state), stepper.active
+    mass, pressure = state.mass[wet], stepper.pressure[wet]
+    places, velocities = particles.positions(state)[wet], particles.velocities(state)[wet]
+    whole, gravity = world.sum(float(mass.sum())), np.array(case.domain.gravity)
     values = {
         "time_s": run.time,
-        "mass_kg": float(mass.sum()),
-        "kinetic_energy_J": kinetic_energy(run.state),
-        "potential_energy_J": -float((mass * (places[:, : case.dimensions] @ np.array(case.domain.gravity))).sum()),
-        "fastest_m_s": float(np.sqrt((velocities**2).sum(axis=1)).max(initial=0.0)),
-        "pressure_largest_Pa": float(pressure.max(initial=0.0)),
-        "centre_pressure_Pa": _in_the_middle(places, pressure, case.resolution.spacing),
+        "mass_kg": whole,
+        "kinetic_energy_J": world.sum(kinetic_energy(state)),
+        "potential_energy_J": -world.sum(float((mass * (places[:, : case.dimensions] @ gravity)).sum())),
+        "fastest_m_s": world.most(float(np.sqrt((velocities**2).sum(axis=1)).max(initial=0.0))),
+        "pressure_largest_Pa": world.most(float(pressure.max(initial=0.0))),
+        "centre_pressure_Pa": _in_the_middle(world, places, pressure, case.resolution.spacing),
     }
     for a, name in enumerate("xyz"[: case.dimensions]):
-        values[f"centre_{name}_m"] = float((mass * places[:, a]).sum() / mass.sum()) if len(mass) else math.nan
-        values[f"momentum_{name}_kg_m_s"] = float((mass * velocities[:, a]).sum())
-        values[f"largest_{name}_m"] = float(places[:, a].max()) if len(mass) else math.nan
+        moment, furthest = world.sum(float((mass * places[:, a]).sum())), places[:, a].max(initial=-np.inf)
+        values[f"centre_{name}_m"] = moment / whole if whole else math.nan
+        values[f"momentum_{name}_kg_m_s"] = world.sum(float((mass * velocities[:, a]).sum()))
+        values[f"largest_{name}_m"] = world.most(float(furthest)) if whole else math.nan
     values |= stepper.void.row() if stepper.void else {}
     return values | columns(stepper) | _drained(run) | _told(stepper)
 
@@ -39,7 +41,7 @@ def row(run) -> dict[str, float]:
 def _told(stepper) -> dict[str, float]:
     """Columns that effects tell themselves."""
     told = [
-        row.tells(stepper.p[name], stepper.state)
+        row.tells(stepper.p[name], stepper.domain.own(stepper.state))
         for name in stepper.case.effects
         if (row := effects.REGISTRY[name]).tells
     ]
@@ -53,7 +55,7 @@ def _drained(run) -> dict[str, float]:
     return {
         "drained_kg": float(run.outlet.gone[0]),
         "commanded_kg": commanded,
-        "pipe_kinetic_energy_J": pipe_energy(run.stepper),
+        "pipe_kinetic_energy_J": run.stepper.world.sum(pipe_energy(run.stepper)),
     }
 
 
@@ -72,27 +74,29 @@ def loads(run) -> dict[str, float]:
 def columns(stepper) -> dict[str, float]:
     """Centre [m], velocity [m/s], variance of places [m2] and furthest place [m] of each phase along each axis; means
     by mass."""
-    s, values = stepper.state, {}
+    s, world, values = stepper.domain.own(stepper.state), stepper.world, {}
     if stepper.case.gas_phase is None:
         return values
     for phase, kind in (("liquid", LIQUID), ("gas", GAS)):
         own = s.kind == kind
-        if not own.any():
+        if not world.any(own.any()):
             continue
         mass, places, velocities = s.mass[own], particles.positions(s)[own], particles.velocities(s)[own]
-        centre = mass @ places / mass.sum()
+        whole = world.sum(float(mass.sum()))
+        centre = world.sum(mass @ places) / whole
         for a, axis in enumerate("xyz"[: stepper.case.dimensions]):
             values[f"{phase}_centre_{axis}_m"] = float(centre[a])
-            values[f"{phase}_velocity_{axis}_m_s"] = float(mass @ velocities[:, a] / mass.sum())
-            values[f"{phase}_spread_{axis}_m2"] = float(mass @ (places[:, a] - centre[a]) ** 2 / mass.sum())
-            values[f"{phase}_largest_{axis}_m"] = float(places[:, a].max())
-        values[f"{phase}_fastest_m_s"] = float(np.sqrt((velocities**2).sum(axis=1).max()))
+            values[f"{phase}_velocity_{axis}_m_s"] = world.sum(float(mass @ velocities[:, a])) / whole
+            values[f"{phase}_spread_{axis}_m2"] = world.sum(float(mass @ (places[:, a] - centre[a]) ** 2)) / whole
+            values[f"{phase}_largest_{axis}_m"] = world.most(float(places[:, a].max(initial=-np.inf)))
+        fastest = world.most(float((velocities**2).sum(axis=1).max(initial=0.0)))
+        values[f"{phase}_fastest_m_s"] = float(np.sqrt(fastest))
     return values
 
 
-def _in_the_middle(places, pressure, spacing: float) -> float:
+def _in_the_middle(world, places, pressure, spacing: float) -> float:
     """Mean pressure [Pa] within two spacings of the middle of the liquid; nan where there is none."""
-    near = (
-        ((places - places.mean(axis=0)) ** 2).sum(axis=1) < (2.0 * spacing) ** 2 if len(places) else np.zeros(0, bool)
-    )
-    return float(pressure[near].mean()) if near.any() else math.nan
+    count = world.sum(len(places))
+    middle = world.sum(places.sum(axis=0)) / (count or 1)
+    near = ((places - middle) ** 2).sum(axis=1) < (2.0 * spacing) ** 2
+    return world.mean(pressure[near]) if world.any(near.any()) else math.nan

@@ -109,15 +109,15 @@ class Liquid(Stepped):
 
     def row(self) -> dict[str, float]:
         loads = history.loads(self)
-        with self.whole() as chief:
-            return history.row(self) | loads if chief else {}
+        with ashore.ashore(self.stepper):
+            return history.row(self) | loads
 
     def held(self) -> dict[str, float]:
         """Shares that limiters hold now, by column of history.csv."""
         return limiters.held(self.stepper)
 
     def points(self):
-        with self.whole():
+        with ashore.ashore(self.stepper):
             return self._points()
 
     def _points(self):
