@@ -126,7 +126,7 @@ def section(cls: type):
 
 
 def words(default=REQUIRED):
-    """A text, or a list of texts; one text alone where the default is one."""
+    """A list of texts, or a text, which is a list of one; one text alone where the default is one."""
     return _declare(Kind(of=str, components=0 if isinstance(default, str) else None), default)
 
 
@@ -216,7 +216,7 @@ def _typed(value: Any, of: type, key: str, what: str) -> Any:
 def _words(value: Any, key: str) -> Any:
     if isinstance(value, list) and all(isinstance(v, str) for v in value):
         return tuple(value)
-    return _typed(value, str, key, "a text")
+    return (_typed(value, str, key, "a text"),)
 
 
 def spelled(unit: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from sdph.laws.break_up import sauter_diameter
 from sdph.schema import choice, quantity, record, section, words
 
 STANDARD_ATMOSPHERE = 101325.0  # Pa, ISO 2533
@@ -72,6 +73,11 @@ class Grains:
     # of droplets: for Weber and Bond numbers of `sdph explain`
     surface_tension: float | None = quantity("N_m", None, above=0.0)
     granular_temperature: float = quantity("m2_s2", 1e-4, least=0.0)  # at the start; the same
+
+    @property
+    def sauter_diameter(self) -> float:
+        """<d^3>/<d^2> [m] of the sizes at the start: that of grains with as much surface for their volume."""
+        return sauter_diameter(self.diameter, self.diameter_std**2)
 
     @property
     def of_particles(self) -> tuple[float, float, float]:

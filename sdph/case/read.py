@@ -192,6 +192,8 @@ def _track(table: dict) -> tuple[int, ...]:
     named = _section(_Track, table.get("track", {}), "track").particles
     if any(isinstance(number, tuple) or number != int(number) for number in named):
         raise CaseError(f"track.particles = {list(named)}; they must be whole numbers, counted from 1")
+    if any(number < 1 for number in named):
+        raise CaseError(f"track.particles = {list(named)}; numbers of particles begin at 1")
     return tuple(int(number) for number in named)
 
 

@@ -172,3 +172,12 @@ def test_missing_key_is_named(section, key):
 def test_windows_of_no_length_are_refused(value):
     """The number of windows would be no number, or one that no machine counts to."""
     assert "coupling.window_largest_s" in refusal(f"coupling.window_largest_s={value}")
+
+
+def test_one_text_is_a_list_of_one():
+    assert cases.from_table(TABLE | {"run": TABLE["run"] | {"metrics": "column"}}).run.metrics == ("column",)
+
+
+@pytest.mark.parametrize("number", [0, -1])
+def test_a_particle_that_no_run_has_is_not_followed(number):
+    assert "begin at 1" in refusal(f"track.particles=[1, {number}]")

@@ -109,16 +109,30 @@ def without_wall(own) -> set[tuple[int, int]]:
 def refuse_to_leave(case, state, gone, time: float) -> None:
     """CaseError where grains left, mask (N,), at `time` [s] in a case without this effect: there is no gas outside."""
     first = int(np.flatnonzero(gone)[0])
-    way = exits(case)[through(case, state)[first]]
-    cure = "add outflow"
+    way, cure = exits(case)[through(case, state)[first]], "outflow"
     if way.endswith("_side") and "walls" not in case.effects:
-        way, cure = f"{way}, where no wall holds grains without the effect walls", "add walls, or outflow,"
+        way, cure = f"{way}, where no wall holds grains without the effect walls", "walls, or outflow,"
+    elif way.endswith("_side") and (patches := _rest(case)):
+        way = f"{way} ({' or '.join(patches)})"
     place = ", ".join(f"{axis[first]:.4g}" for axis in particles.axes(state))
+    number = int(gone.sum())
     raise CaseError(
-        f"{int(gone.sum())} particles have left the domain at t = {time:.6g} s, the first is {state.ident[first]} at "
-        f"({place}) m, through {way}; {cure} to effects = {list(case.effects)}, or enlarge "
-        f"domain.size_m = {list(case.domain.size)}"
+        f"{number} {'particle has' if number == 1 else 'particles have'} left the domain at t = {time:.6g} s, the "
+        f"first is {state.ident[first]} at ({place}) m, through {way}; begin anew and add {cure} to effects = "
+        f"{list(case.effects)}{_larger(case)}"
     )
+
+
+def _rest(case) -> list[str]:
+    """Names of the outlets without a side: patches of a mesh, or all of a box that is left over."""
+    return [name for name, own in case.boundaries.items() if own.kind == "pressure_outlet" and not own.side]
+
+
+def _larger(case) -> str:
+    own = case.parameters.get("walls")
+    if own is not None and own.mesh and own.source == "gas":  # the domain is the box around a mesh that is given
+        return ""
+    return f"; or give a larger domain.size_m = {list(case.domain.size)}"
 
 
 def _open(case, side: str, axis: int, places) -> np.ndarray:

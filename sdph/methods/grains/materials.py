@@ -10,4 +10,4 @@ def fluidising(case) -> list[float]:
     """U_mf [m/s] of each material alone, packed as the densest patch of the case (Ergun 1952)."""
     s, gas = Scales(case), case.gas
     around = gas.density, gas.viscosity
-    return [exact.minimum_fluidisation(s.capped, g.density, s.gravity, g.diameter, *around) for g in case.kinds]
+    return [exact.minimum_fluidisation(s.capped, g.density, s.gravity, g.sauter_diameter, *around) for g in case.kinds]

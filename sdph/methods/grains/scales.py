@@ -178,12 +178,12 @@ class Scales:
 
     @cached_property
     def minimum_fluidisation(self) -> float:
-        """U_mf [m/s] of the patch by Ergun 1952; nan without grains or gravity."""
+        """U_mf [m/s] of the patch by Ergun 1952, of its Sauter diameter; nan without grains or gravity."""
         if not self.alpha_p or not self.gravity:
             return math.nan
         grains, gas = self.grains, self.gas
         return exact.minimum_fluidisation(
-            self.capped, grains.density, self.gravity, grains.diameter, gas.density, gas.viscosity
+            self.capped, grains.density, self.gravity, grains.sauter_diameter, gas.density, gas.viscosity
         )
 
     @cached_property

@@ -12,16 +12,17 @@ import numpy as np
 from sdph.case.gas_cells import CellRows, upwards
 from sdph.engine import state as particles
 from sdph.laws import exact
+from sdph.laws.break_up import sauter_diameter
 
 INSIDE = (0.15, 0.75)  # of the bed's height: away from floor and surface
 
 
 def metrics(simulation) -> dict[str, float]:
     """pressure_drop_Pa from floor to top; ergun_Pa, what Ergun says of every row at the gas flux of now over the floor,
-    which slows down as the vessel widens; weight_Pa of the grains in gas, each over the vessel's area where it
-    stands, which is what the gas that carries all of them falls by; gradient_Pa_m of the pressure
-    inside the bed, and alpha_p there (nan where fewer than two rows lie inside); speeds [m/s] of the grains; their
-    fractions."""
+    by the Sauter diameter, which slows down as the vessel widens; weight_Pa of the grains in gas, each
+    over the vessel's area where it stands, which is what the gas that carries all of them falls by; gradient_Pa_m of
+    the pressure inside the bed, and alpha_p there (nan where fewer than two rows lie inside); speeds [m/s] of the
+    grains; their fractions."""
     case, mesh, fields = simulation.case, simulation.gas.mesh, simulation.cell_fields()
     up = upwards(case, "column")
     rows, mass = CellRows(mesh, up), simulation.state.mass
@@ -40,7 +41,7 @@ def metrics(simulation) -> dict[str, float]:
     return {
         "superficial_velocity_m_s": float(flux[0]),
         "pressure_drop_Pa": floor - lid,
-        "ergun_Pa": float((ergun(case, alpha_p, through) * rows.height).sum()),
+        "ergun_Pa": float((ergun(case, alpha_p, through, sauter(simulation.state)) * rows.height).sum()),
         "weight_Pa": weight(case, float((mass / around).sum())),
         "gradient_Pa_m": float(-np.polyfit(rows.place[inside], pressure[inside], 1)[0]) if seen else math.nan,
         "alpha_p_inside": float(alpha_p[inside].mean()) if seen else math.nan,
@@ -52,11 +53,23 @@ def metrics(simulation) -> dict[str, float]:
     }
 
 
-def ergun(case, alpha_p, flux) -> np.ndarray:
-    """dP/dy [Pa/m] at each alpha_p (R,), at one flux [m/s] or that of each."""
-    gas, pairs = case.gas, np.broadcast_arrays(alpha_p, flux)
+def sauter(state) -> float:
+    """Sauter diameter [m] of all grains: their volume over that of each over its own; nan without grains."""
+    if not len(state.mass):
+        return math.nan
+    own = sauter_diameter(state.diameter, state.diameter_variance)
+    if own.min() == own.max():
+        return float(own[0])
+    volume = state.mass / particles.by_material(state.grain_density, 1.0)
+    return float(volume.sum() / (volume / own).sum())
+
+
+def ergun(case, alpha_p, flux, diameter: float = 0.0) -> np.ndarray:
+    """dP/dy [Pa/m] at each alpha_p (R,), at one flux [m/s] or that of each, of grains of a diameter [m] or, of 0, that
+    of the case."""
+    gas, pairs, d = case.gas, np.broadcast_arrays(alpha_p, flux), diameter or case.grains.sauter_diameter
     own = zip(*(column.tolist() for column in pairs))
-    return np.array([exact.ergun_gradient(a, u, case.grains.diameter, gas.density, gas.viscosity) for a, u in own])
+    return np.array([exact.ergun_gradient(a, u, d, gas.density, gas.viscosity) for a, u in own])
 
 
 def weight(case, over: float) -> float:

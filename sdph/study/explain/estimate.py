@@ -116,7 +116,7 @@ def ratios(case) -> list[dict]:
     if case.grains is None:
         return []
     h, spacing, cell = case.smoothing_length, case.resolution.spacing, case.resolution.cell
-    d = max(grains.diameter for grains in case.kinds)
+    d = max(grains.sauter_diameter for grains in case.kinds)
     extent = _extent(case)
     rows = [
         ("cell / h", cell / h, 0.25, 4.0, CELLS_WHY),

@@ -72,7 +72,7 @@ def warnings(case, scales=None) -> list[str]:
         return [text for matter in case.matters for text in warnings(case.only(matter))]
     scales = scales or judge.scales_of(case)
     own = OF.get(case.moved_by(judge.matter(case)))
-    told = own.warnings(scales) if own else [*estimate.warnings(case), *eddies.warnings(scales)]
+    told = own.warnings(scales) if own else [*estimate.warnings(case), *eddies.warnings(scales), *eddies.too_fast(case)]
     return [*judge.missing(case, scales), *told]
 
 
@@ -93,7 +93,7 @@ def numbers(s, warm: bool = True) -> list[tuple]:
         ("U/U_mf", fed, 1.0, "the fastest gas that meets grains lifts packed ones", "Ergun 1952"),
         ("U/U_mf of the slowest inlet", slowest, 1.0, "gas lifts packed grains beside a jet too", "Ergun 1952"),
         ("Biot", biot, 0.1, "grains are not of one temperature inside", "Incropera, ch. 5.1"),
-        ("Mach of the gas", s.slip / sound, 0.3, "gas is compressed by its own motion", "Anderson 2003"),
+        ("Mach of the gas", s.slip / sound, eddies.FAST, "gas is compressed by its own motion", "Anderson 2003"),
         ("1/Froude, g t/U", s.gravity * end / s.slip if s.slip else 0.0, 0.01, "gravity matters", "by its definition"),
         (
             "Knudsen of the grains, path/h",

@@ -130,3 +130,10 @@ def test_a_vessel_without_grains_has_metrics(tmp_path):
     assert (
         np.isnan(found["bed_height_m"]) and np.isnan(found["alpha_p_mean"]) and np.isfinite(found["pressure_drop_Pa"])
     )
+
+
+def test_the_diameter_of_ergun_is_the_sauter_mean_of_all_grains():
+    """Volumes 1 and 3 of grains of 1 mm with a deviation of their mean (D32 = 4 mm), and of 2 mm alike."""
+    sizes = {"diameter": np.array([1e-3, 2e-3]), "diameter_variance": np.array([1e-6, 0.0])}
+    state = SimpleNamespace(mass=np.array([2.0, 3.0]), grain_density=np.array([2.0, 1.0]), **sizes)
+    assert column.sauter(state) == pytest.approx(4.0 / (1.0 / 4e-3 + 3.0 / 2e-3), rel=1e-12)

@@ -224,3 +224,14 @@ def test_the_slowest_inlet_is_told_beside_a_jet():
     found = rows_by(tables.explain(cases.load(BED))["numbers"], "number")
     assert found["U/U_mf"]["value"] > 50.0
     assert found["U/U_mf of the slowest inlet"]["value"] == pytest.approx(0.08 / 0.086, rel=0.1)
+
+
+def test_unequal_grains_are_lifted_and_resolved_as_those_of_their_sauter_diameter():
+    """Standard deviation 1 of the mean: D32 = 4 d by hand."""
+    mean = scales("fluidised_column").grains.diameter
+    wide = scales("fluidised_column", f"grains.diameter_std_mm={mean * 1e3}")
+    alike = scales("fluidised_column", f"grains.diameter_mm={4e3 * mean}")
+    assert wide.minimum_fluidisation == pytest.approx(alike.minimum_fluidisation, rel=1e-12)
+    names = ("cell / grain", "spacing / grain")
+    told, by_hand = ({r["ratio"]: r["value"] for r in estimate.ratios(s.case)} for s in (wide, alike))
+    assert [told[n] for n in names] == pytest.approx([by_hand[n] for n in names], rel=1e-12)
