@@ -12,9 +12,11 @@ import numpy as np
 
 from sdph.case import fluids
 from sdph.case.read import to_table
+from sdph.laws.constants import GAS_CONSTANT
 from sdph.schema import CaseError
 
 CELSIUS = "degrees Celsius"
+UNLIKE = 0.1  # of the density that a gas has by its equation of state: vapour in it changes it by less; our choice
 OTHER = 0.02  # of a number of a fluid: what differs by less is another source's, or another temperature's; our choice
 
 
@@ -73,7 +75,25 @@ def warnings(case) -> list[str]:
             if size and not usual.least <= size <= usual.most:
                 bounds = f"{usual.least:g} to {usual.most:g} ({usual.what})"
                 told.append(f"{key} = {_shown(value)} is far from usual, {bounds}{_likely(value, usual)}")
-    return told + _overruled(table)
+    return (told or _unlike_its_state(case)) + _overruled(table)  # a slip explains a density too
+
+
+def _unlike_its_state(case) -> list[str]:
+    """A line where the gas's density is not that which a run computes from its pressure and temperature: numbers before
+    a run, and `ergun_Pa` and `weight_Pa` after it, go by the one that was given."""
+    gas = case.gas
+    if gas is None or gas.equation_of_state == "constant":
+        return []
+    own = gas.operating_pressure * gas.molar_mass / (GAS_CONSTANT * gas.temperature)
+    if abs(gas.density / own - 1.0) <= UNLIKE:
+        return []
+    state = (
+        f"equation_of_state = {gas.equation_of_state!r} with {gas.operating_pressure:g} Pa and {gas.temperature:g} K"
+    )
+    return [
+        f"gas.density_kg_m3 = {gas.density:g}, but the gas of the run has {own:.4g} kg/m3 ({state}): U_mf, "
+        f"Ergun's pressure and the bed's go by the first; give {own:.4g}"
+    ]
 
 
 def _overruled(table: dict) -> list[str]:

@@ -47,6 +47,14 @@ def test_a_slip_is_told_with_what_was_likely_meant(scene, override, told):
     assert line.startswith(override.partition("=")[0]) and told in line and "\n" not in line
 
 
+def test_a_density_that_the_equation_of_state_does_not_give_is_told():
+    """Nitrogen at 60 bar and the density of 1 bar."""
+    given = ("gas.equation_of_state='operating'", "gas.operating_pressure_Pa=60e5", "gas.temperature_K=300.0")
+    (line,) = usual.warnings(load("bubbling_bed", *given))
+    assert line.startswith("gas.density_kg_m3 = 1.225, but the gas of the run has 69.66 kg/m3")
+    assert usual.warnings(load("bubbling_bed", *given, "gas.density_kg_m3=69.7")) == []
+
+
 def test_materials_are_looked_at_one_by_one():
     (line,) = usual.warnings(load("segregation", "grains.large.density_kg_m3=2.5"))
     assert line.startswith("grains.large.density_kg_m3 = 2.5 ")
