@@ -9,8 +9,10 @@ fades (Eq. 14). Its speed, an outcome of the interval, is left out of what the o
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
+from sdph.effects.around import tank
 from sdph.effects.effect import Effect, Judgement
 from sdph.schema import CaseError, choice, quantity, record
 
@@ -57,6 +59,15 @@ def command(own: Drain, first: float):
         return first + share * (own.fill - first)
 
     return fill
+
+
+def speed(case) -> float:
+    """Mean speed [m/s] at which the commanded liquid goes through the outlet pipe; 0 without a pipe."""
+    own, around = case.parameters["drain"], case.parameters["tank"]
+    radius = around.outlet_radius
+    area = math.pi * radius**2 if case.dimensions == 3 else 2.0 * radius
+    drained = (filled(case) - own.fill) * tank.shape_of(case).volume
+    return drained / (own.end - own.start) / area if area else 0.0
 
 
 def call(scales) -> Judgement:

@@ -73,8 +73,23 @@ def reach(s, out: bool) -> Reach:
     for patch, axis, side, room, outward in _sides(s):
         if within or (outlets_of(s.case, side) if out else not opened(s.case, side)):
             way = towards(s, patch, axis, outward)
+            if out and room < spacing:
+                way = max([way, _slumps(s.case, patch, axis, side)])
             found.append(Reach(way, way / max(0.0 if within else room, 0.5 * spacing)))
     return max(found, key=lambda row: row.over_gap)
+
+
+def _slumps(case, patch, axis: int, side: str) -> float:
+    """Way [m] through an open side of a bed that leans on it: as far as it is high, as a column of grains that is let
+    go (Lube et al. 2005: its run-out is one to two heights); 0 aside of it, and of what no floor carries."""
+    up, tangential = upright(case), [a for a in range(case.dimensions) if a != axis]
+    if axis == up or not lie(case, [patch]):
+        return 0.0
+    asides = [
+        max((_aside(patch, a, span) for a, span in zip(tangential, spans_of(outlet))), default=0.0)
+        for _, outlet in outlets_of(case, side)
+    ]
+    return float(patch.upper[up] - patch.lower[up]) if min(asides, default=math.inf) == 0.0 else 0.0
 
 
 def settles(s, onset: float) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from sdph import effects
+from sdph.effects.around import drain
 from sdph.methods.liquids.bounds import limits as limits_of_step
 from sdph.methods.liquids.liquid import SLOW
 from sdph.study.explain import estimate, feed
@@ -80,6 +81,12 @@ def warnings(s) -> list[str]:
             f"the layer that a wall drags along, sqrt(nu t) = {1e3 * layer:.3g} mm, is thinner than the spacing: "
             "friction at walls, and how soon the liquid turns with its tank, are then the numerics', tens of times too "
             "much; tank.slip = 'free_slip' has no friction at walls"
+        )
+    if "drain" in s.case.effects and (through := drain.speed(s.case)) > SLOW * c:
+        unsafe.append(
+            f"the drain takes its liquid through the outlet at {through:.3g} m/s, {through / c:.2g} of the speed of "
+            "sound: it is torn out rather than drained; let drain.end_s be later, or the outlet wider "
+            "(tank.outlet_radius_m)"
         )
     if "drain" in s.case.effects and not s.case.parameters["tank"].outlet_radius:
         unsafe.append(

@@ -47,6 +47,19 @@ def test_what_falls_is_told(alpha_p, boundaries, gravity, called):
     assert judged(BED | {"volume_fraction": alpha_p}, boundaries, gravity) == called
 
 
+@pytest.mark.parametrize(
+    ("span", "upper", "called"),
+    [
+        ([0.0, 0.2], [0.03, 0.3], True),  # it leans on the outlet
+        ([0.35, 0.45], [0.03, 0.3], False),  # above it
+        ([0.0, 0.2], [0.02, 0.3], False),  # not on it
+    ],
+)
+def test_a_bed_that_leans_on_an_open_side_slumps_through(span, upper, called):
+    bed = BED | {"volume_fraction": 0.55, "lower_m": [0.0, 0.0], "upper_m": upper}
+    assert ("outflow" in judged(bed, WALLS | {"out": outlet(side="right", span_m=span)})) is called
+
+
 def test_walls_of_a_vessel_are_at_the_grains():
     """Of the scene of a tapered vessel with its floor open: its sides hold the grains up."""
     table = cases.parsed(scenes.find("tapered_bed")[1])

@@ -7,6 +7,7 @@ import pytest
 from sdph import effects, scenes
 from sdph.case import judge
 from sdph.case import read as cases
+from sdph.effects.around import drain, tank
 from sdph.methods.liquids.method import LiquidStepper
 from sdph.schema import CaseError
 from sdph.study.explain import lockstep, tables
@@ -131,3 +132,12 @@ def test_walls_whose_layer_is_thinner_than_the_spacing_are_told_of(more, told):
     """The shipped tanks slip for that reason."""
     warnings = tables.warnings(load("sloshing_cassini", *more))
     assert any("how soon the liquid turns with its tank" in line for line in warnings) == told
+
+
+@pytest.mark.parametrize(("end", "told"), [(240.0, False), (0.01, True)])
+def test_a_drain_that_tears_its_liquid_out_is_told_of(end, told):
+    case = load("sloshing_cassini", f"drain.end_s={end}", "drain.start_s=0.0")
+    own, radius = case.parameters["drain"], case.parameters["tank"].outlet_radius
+    drained = (drain.filled(case) - own.fill) * tank.shape_of(case).volume
+    assert drain.speed(case) * end * math.pi * radius**2 == pytest.approx(drained)
+    assert any("torn out rather than drained" in line for line in tables.warnings(case)) == told
