@@ -12,10 +12,12 @@ import numpy as np
 
 from sdph.case import fluids
 from sdph.case.read import to_table
+from sdph.effects.around import sizes
 from sdph.laws.constants import GAS_CONSTANT
 from sdph.schema import CaseError
 
 CELSIUS = "degrees Celsius"
+AGAIN = 0.8, 1.25  # of the level of the pressure: an outlet there is likely given absolute; our choice
 UNLIKE = 0.1  # of the density that a gas has by its equation of state: vapour in it changes it by less; our choice
 OTHER = 0.02  # of a number of a fluid: what differs by less is another source's, or another temperature's; our choice
 
@@ -75,7 +77,8 @@ def warnings(case) -> list[str]:
             if size and not usual.least <= size <= usual.most:
                 bounds = f"{usual.least:g} to {usual.most:g} ({usual.what})"
                 told.append(f"{key} = {_shown(value)} is far from usual, {bounds}{_likely(value, usual)}")
-    return (told or _unlike_its_state(case)) + _overruled(table)  # a slip explains a density too
+    told = told or _unlike_its_state(case)  # a slip explains a density too
+    return told + _absolute(case) + _wider_than_their_mouth(case) + _overruled(table)
 
 
 def _unlike_its_state(case) -> list[str]:
@@ -94,6 +97,31 @@ def _unlike_its_state(case) -> list[str]:
         f"gas.density_kg_m3 = {gas.density:g}, but the gas of the run has {own:.4g} kg/m3 ({state}): U_mf, "
         f"Ergun's pressure and the bed's go by the first; give {own:.4g}"
     ]
+
+
+def _absolute(case) -> list[str]:
+    """A line for each outlet whose pressure is that of the gas again: it is told over it."""
+    level = case.gas.operating_pressure if case.gas else 0.0
+    return [
+        f"boundaries.{name}.pressure_Pa = {outlet.pressure:g} comes on top of gas.operating_pressure_Pa = {level:g}; "
+        f"if it is absolute, give {outlet.pressure - level:g}"
+        for name, outlet in case.boundaries.items()
+        if outlet.pressure and AGAIN[0] * level <= outlet.pressure <= AGAIN[1] * level
+    ]
+
+
+def _wider_than_their_mouth(case) -> list[str]:
+    """A line for each nozzle whose grains do not fit through it."""
+    told = []
+    for name, nozzle in case.nozzles.items() if case.grains else ():
+        mouth = nozzle.width or 2.0 * (nozzle.radius or 0.0)
+        largest = float(sizes.of_nozzle(case, nozzle).diameter.max()) if nozzle.shape != "table" else 0.0
+        if 0.0 < mouth < largest:
+            told.append(
+                f"nozzles.{name} lets grains of {1e3 * largest:.3g} mm through a mouth of {1e3 * mouth:.3g} mm: look "
+                "at the units of its sizes"
+            )
+    return told
 
 
 def _overruled(table: dict) -> list[str]:

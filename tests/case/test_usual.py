@@ -39,6 +39,7 @@ def test_no_scene_is_warned_of(scene):
         ("spray_cone", "evaporation.latent_heat_J_kg=2257", "if kJ/kg was meant, give 2.257e+06"),
         ("spray_cone", "grains.surface_tension_N_m=72", "if mN/m was meant, give 0.072"),
         ("spray_cone", "vapour.diffusivity_m2_s=0.25", "if cm2/s was meant, give 2.5e-05"),
+        ("bubbling_bed", "boundaries.outlet.pressure_Pa=1.0e5", "if it is absolute, give -1325"),
         ("taylor_bar", "solid.youngs_modulus_Pa=5", "if GPa was meant, give 5e+09"),
     ],
 )
@@ -53,6 +54,11 @@ def test_a_density_that_the_equation_of_state_does_not_give_is_told():
     (line,) = usual.warnings(load("bubbling_bed", *given))
     assert line.startswith("gas.density_kg_m3 = 1.225, but the gas of the run has 69.66 kg/m3")
     assert usual.warnings(load("bubbling_bed", *given, "gas.density_kg_m3=69.7")) == []
+
+
+def test_drops_that_do_not_fit_through_their_mouth_are_told():
+    (line,) = usual.warnings(load("spray_cone", "nozzles.cone.diameter_mm=90"))
+    assert line.startswith("nozzles.cone lets grains of") and "look at the units of its sizes" in line
 
 
 def test_materials_are_looked_at_one_by_one():
