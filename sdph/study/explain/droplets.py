@@ -36,6 +36,8 @@ def numbers(s) -> list[tuple]:
         rows.append(("Spalding B of mass", mass, 0.1, "the vapour's own outflow slows evaporation", "Spalding 1953"))
         rows.append(("Spalding B of heat", heat_number, 0.1, OF_HEAT[own.law], "Spalding 1953"))
         rows.append(("run / evaporation time", spent, 1.0, "droplets are gone", "d2 law, Spalding 1953"))
+        dry = "those that meet a wall stay droplets: there is no film, splash or sticking"
+        rows.append(("way of droplets / gap to a wall", s.to_walls.over_gap, 1.0, dry, "geometry"))
     return rows
 
 

@@ -184,7 +184,9 @@ def test_numbers_of_droplets_by_hand():
     assert rows["Spalding B of mass"]["value"] == pytest.approx(fraction / (1.0 - fraction), rel=1e-3)
     assert "take 'spalding'" in rows["Spalding B of heat"]["meaning"]
     own = cases.load(scenes.find("spray_cone")[1])  # Spalding's law
-    assert "take" not in rows_by(tables.explain(own)["numbers"], "number")["Spalding B of heat"]["meaning"]
+    sprayed = rows_by(tables.explain(own)["numbers"], "number")
+    assert "take" not in sprayed["Spalding B of heat"]["meaning"]
+    assert "no film" in sprayed["way of droplets / gap to a wall"]["meaning"]
     assert not any(
         name.startswith("Spalding") for name in rows_by(tables.explain(cases.load(BED))["numbers"], "number")
     )
