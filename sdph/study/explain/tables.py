@@ -27,6 +27,11 @@ OF_HEAT = (
     materials.SPREAD,
 )
 
+ALIKE = (
+    "effect heat is on and all temperatures are alike: only heat that motion makes is left to exchange, and windows may "
+    "follow the gas's temperature as it swings with its pressure, many more of them than counted here"
+)
+
 
 def explain(case, priced=None) -> dict[str, list[dict]]:
     """All parts, each a list of rows (name -> value) of one table; of a case with several matters those of each.
@@ -73,7 +78,8 @@ def warnings(case, scales=None) -> list[str]:
     scales = scales or judge.scales_of(case)
     own = OF.get(case.moved_by(judge.matter(case)))
     told = own.warnings(scales) if own else [*estimate.warnings(case), *eddies.warnings(scales), *eddies.too_fast(case)]
-    return [*judge.missing(case, scales), *told]
+    alike = [ALIKE] if not own and {"heat", "drag"} <= set(case.effects) and not scales.span else []
+    return [*judge.missing(case, scales), *told, *alike]
 
 
 def numbers(s, warm: bool = True) -> list[tuple]:

@@ -237,3 +237,9 @@ def test_unequal_grains_are_lifted_and_resolved_as_those_of_their_sauter_diamete
     names = ("cell / grain", "spacing / grain")
     told, by_hand = ({r["ratio"]: r["value"] for r in estimate.ratios(s.case)} for s in (wide, alike))
     assert [told[n] for n in names] == pytest.approx([by_hand[n] for n in names], rel=1e-12)
+
+
+@pytest.mark.parametrize(("more", "told"), [((), False), (("boundaries.jet.temperature_K=288.0",), True)])
+def test_heat_of_one_temperature_is_told_of(more, told):
+    case = cases.load(BED, more)
+    assert (tables.ALIKE in tables.warnings(case)) is told
