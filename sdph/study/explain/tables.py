@@ -28,8 +28,8 @@ OF_HEAT = (
 )
 
 ALIKE = (
-    "effect heat is on and all temperatures are alike: only heat that motion makes is left to exchange, and windows may "
-    "follow the gas's temperature as it swings with its pressure, many more of them than counted here"
+    "effect heat is on and all temperatures are alike: only heat that motion makes is left to exchange, and windows "
+    "may follow the gas's temperature as it swings with its pressure, many more of them than counted here"
 )
 
 
