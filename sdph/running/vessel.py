@@ -127,13 +127,15 @@ def refuse_outside(case, cells: Cells, state) -> None:
     places = particles.positions(state)[:, : case.dimensions]
     found = here().everywhere(places[cells.outside(places)])
     outside = found[0] if len(found) == 1 else np.unique(np.concatenate(found), axis=0)  # of all processes, each once
+    own_walls = "walls" in case.effects and case.parameters["walls"].mesh
+    replaced = "; walls.mesh stands in place of the walls of the gas's mesh: it needs both" if own_walls else ""
     for name, region in case.particles.items():
         low, high = start.extents(case, region)
         own = outside[((outside >= low) & (outside <= high)).all(axis=1)]
         if len(own):
             raise CaseError(
                 f"particles.{name} holds {len(own)} particles in no cell of the gas, the first at {_told(own[0])} m; "
-                "move or shrink it, or leave what lies behind walls out by walls"
+                f"move or shrink it, or leave what lies behind walls out by walls{replaced}"
             )
 
 
