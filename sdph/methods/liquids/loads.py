@@ -31,6 +31,8 @@ def wall_loads(stepper, chosen=None) -> np.ndarray:
     chosen = stepper.walls if chosen is None else chosen
     if stepper.bodies:
         chosen = chosen[~stepper.bodies.among(chosen)]
+    s = stepper.state
+    stepper.domain.refresh(s.u, s.v, s.w)  # copies have those of before the last kick
     felt, chosen = (arrays.brought(own) for own in (walls.feel(stepper, chosen, 0.0), chosen))
     with ashore.ashore(stepper):
         return stepper.world.sum(of_forces(stepper, chosen, felt[:, :3]))
