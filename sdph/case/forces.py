@@ -20,8 +20,6 @@ def of_matter(case) -> dict[str, list[str]]:
 
 def check(case) -> None:
     """CaseError where `run.forces` holds a name that no matter of the case knows, or one twice."""
-    if isinstance(case.run.forces, str):
-        raise CaseError(f'run.forces = {case.run.forces!r}; give a list of names, such as ["{case.run.forces}"]')
     known = dict.fromkeys(name for own in of_matter(case).values() for name in own)
     for name in case.run.forces:
         if name not in known:

@@ -164,7 +164,7 @@ def history_of(simulation, column):
     [
         (disc, "run.forces=['lid']", "'lid', which is no boundary or wall of the case; it has walls$"),
         (disc, "run.forces=['walls','walls']", "name each once"),
-        (disc, "run.forces='walls'", "give a list of names"),
+        (disc, "run.forces='lid'", "'lid', which is no boundary or wall"),  # a text is a list of one
         (disc, "parts.lid={lower_m=[0.0,0.0],upper_m=[1.0,-1.0]}", "parts.lid: upper_m = .* lies below"),
         (disc, "parts.left={lower_m=[0.0,0.0],upper_m=[1.0,1.0]}", "parts.left has the name of a boundary, a side"),
         (lambda key: cases.load(TANK, (key,)), "run.forces=['walls']", "it has left, right, bottom, tank$"),
