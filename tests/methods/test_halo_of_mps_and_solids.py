@@ -14,14 +14,7 @@ from sdph.methods.mps.method import MpsStepper
 from sdph.methods.solids import equations as of_solids
 from sdph.methods.solids.method import SolidStepper
 
-OF_MPS = (
-    "number",
-    "surface",
-    "speed",
-    "pulled",
-    "energy",
-    "aside",
-)  # arrays of the particles that are no field of the state
+OF_MPS = ("number", "surface", "speed", "pulled", "energy")  # arrays of the particles that are no field of the state
 OF_SOLIDS = (
     "unloaded", "strained", "hardened", "harm", "gradient", "stress", "kirchhoff", "amounts", "acceleration",
     "steadying", "friction", "free", "broken",
@@ -52,10 +45,9 @@ def mps_answer(name, extra=()):
     pressed, borne, rubbed, change, way = np.zeros((5, count, 3))
     equations.near_surface(*around, own.surface, beside)
     if own.pool:
-        pools.diverge(*around, own.surface, divergence)
-        pools.press(*around, own.state.pressure, own.surface, own.aside, 1.0, pressed, borne)
-        pools.straighten(*around, own.surface, pressed, meeting)
-        pools.keep_apart(*around, beside, own.aside, unit, way)
+        pools.diverge(*around, beside, divergence)
+        pools.press(*around, own.state.pressure, beside, 1.0, pressed, borne)
+        pools.keep_apart(*around, beside, unit, way)
     else:
         equations.diverge(*around, divergence)
         equations.press(*around, own.state.pressure, pressed)

@@ -115,10 +115,10 @@ def near_surface(cloud, walls, s, rows, box, surface, beside):
 
 
 @parallel
-def equations_of(cloud, walls, s, links, box, number, surface, mirror, diagonal, value):
+def equations_of(cloud, walls, s, links, box, number, surface, diagonal, value):
     """Fill the matrix of (2 d/(lambda n_0)) sum (p_j - p_i) w times -lambda n_0/(2 d), along the links within r_e: a
-    particle at the surface has n_0 on the diagonal, as if what it lacks were there with p = 0, or, where `mirror` is 2
-    and not 1, with its own p and the sign turned. Walls are on the right-hand side."""
+    particle at the surface has n_0 on the diagonal, as if what it lacks were there with p = 0. Walls are on the
+    right-hand side."""
     for i in prange(len(s.x)):
         own, wall = 0.0, solid(walls, s, i)
         for k in range(links.number[i]):
@@ -128,15 +128,15 @@ def equations_of(cloud, walls, s, links, box, number, surface, mirror, diagonal,
             value[e] = w
             own += w
         missing = max(cloud.number - number[i], (1.0 - SPARSE) * cloud.number if len(walls) else 0.0)
-        held = own + mirror * missing if surface[i] == 1 else max(own, BURST * cloud.number)
+        held = own + missing if surface[i] == 1 else max(own, BURST * cloud.number)
         diagonal[i] = held * (1.0 + BURST)
 
 
-def matrix(cloud, walls, s, links, box, number, surface, mirror=1.0, room=None) -> Matrix:
+def matrix(cloud, walls, s, links, box, number, surface, room=None) -> Matrix:
     """The pressure's matrix (5), (7), of links within r_e, in work arrays of a `room`."""
     room = room or arrays.Room()
     diagonal, value = room("diagonal", len(s.x), s.x), room("value", len(links.entries), s.x)
-    equations_of(cloud, walls, s, links, box, number, surface, mirror, diagonal, value)
+    equations_of(cloud, walls, s, links, box, number, surface, diagonal, value)
     return Matrix(diagonal, links, value)
 
 

@@ -36,7 +36,7 @@ class MpsStepper:
     )  # fmt: skip
     FORMS = {"state": GROWING}
     # what loops take from neighbours, fresh, of `state` and of what `_look` finds; the pressure is solved for by all
-    HALO = (*"xyzuvw", "kind", "ident", "pressure", "surface", "aside")
+    HALO = (*"xyzuvw", "kind", "ident", "pressure", "surface")
     SEEN = ("number", "surface", "energy")  # arrays of the particles that outputs read
 
     def __init__(self, case, shortest: float = 0.0):
@@ -107,7 +107,7 @@ class MpsStepper:
         s = self.state
         motion.drift(active, s.u, s.v, s.w, dt, s.x, s.y, s.z)
         if self.pool:
-            self._keep_apart(active, dt)
+            self._keep_apart(active)
         if self.openings:
             self.openings.move(s, self.time, dt)
         self.time += dt
@@ -141,12 +141,12 @@ class MpsStepper:
         it."""
         if self.own.pressure == "weakly_compressible":
             self.clipped += compressible.pressed(self, dt)
-            return self._pushed(self.cloud.density / dt)
+            return self._pushed(self.cloud.density / dt, None)
         cloud, own, count = self.cloud, self.own, len(self.state.x)
         divergence, beside = self._work("divergence", count), self._work("beside", count, np.int8)
         equations.near_surface(*self.within, self.surface, beside)
         if self.pool:
-            pools.diverge(*self.within, self.surface, divergence)
+            pools.diverge(*self.within, beside, divergence)
         else:
             equations.diverge(*self.within, divergence)
         right, holds = self._work("right", count), own.holds(self.case)
@@ -157,10 +157,7 @@ class MpsStepper:
         )  # fmt: skip
         if self.walls:
             pools.lean(*self.within, cloud.density / dt, right)
-        if self.pool:
-            pools.straighten(*self.within, self.surface, self._pushed(cloud.density / dt), right)
-        mirror = pools.MIRROR if self.pool else 1.0
-        matrix = equations.matrix(*self.within, self.number, self.surface, mirror, self.room)
+        matrix = equations.matrix(*self.within, self.number, self.surface, self.room)
         try:
             self.iterations += linear.solve(matrix, right, self.pressure, own.tolerance, own.iterations, self.room)
         except linear.Unsolved as error:
@@ -168,24 +165,24 @@ class MpsStepper:
         if holds:
             self.clipped += alone.leave_out(self.pressure)
         self.beside = beside
-        return self._pushed(cloud.density / dt)
+        return self._pushed(cloud.density / dt, beside)
 
-    def _pushed(self, scale: float):
-        """Acceleration (N, 3) [m/s2] by the pressure that there is; scale: rho/dt."""
+    def _pushed(self, scale: float, beside):
+        """Acceleration (N, 3) [m/s2] by the pressure; scale: rho/dt."""
         s, count = self.state, len(self.state.x)
         pressed = self._work("acceleration", (count, 3))
         if not self.pool:
             equations.press(*self.within, self.pressure, pressed)
             return pressed
         borne = self._work("borne", (count, 3))
-        pools.press(*self.within, self.pressure, self.surface, self.aside, scale, pressed, borne)
+        pools.press(*self.within, self.pressure, beside, scale, pressed, borne)
         self.load = alone.summed(alone.add_load, 3, count, s, borne)
         return pressed
 
-    def _keep_apart(self, active, dt: float) -> None:
-        """Particles of a pool move to where there are few, by `shift` spacings where they go COURANT of one."""
+    def _keep_apart(self, active) -> None:
+        """Particles inside a pool move to where there are few."""
         s, way = self.state, self._work("way", (len(self.state.x), 3))
-        pools.keep_apart(*self.around, self.beside, self.aside, self.own.shift / COURANT * dt, way)
+        pools.keep_apart(*self.around, self.beside, self.own.shift * self.cloud.spacing, way)
         self.moved = math.sqrt(alone.longest(way)) / self.cloud.spacing
         motion.kick(active, way, 1.0, s.x, s.y, s.z)
 
@@ -228,9 +225,6 @@ class MpsStepper:
         equations.look(*self.around, self.number, self.surface, self.speed, near)
         self.links = linear.links_of(near, self.room)
         equations.gather(*self.around, self.links, self.links.entries)
-        if self.pool:
-            self.aside = self._work("aside", (count, 3))
-            pools.look_in(*self.within, self.surface, self.aside)
         if own := self.p["free_energy_tension"]:
             self.pulled, self.energy = self._work("pulled", (count, 3)), self._work("energy", count)
             equations.pull(self.cloud, own, *self.around[2:], self.pulled, self.energy)

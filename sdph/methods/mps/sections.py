@@ -29,7 +29,7 @@ class LiquidMethod:
     # pressure by equal and opposite forces of pairs, of sheets and drops, or inside a pool by corrected differences;
     # None: pairs where there is tension or a nozzle
     gradient: str | None = choice("pairs", "corrected", default=None)
-    shift: float = quantity("", 0.05, least=0.0, most=0.2)  # by which particles of a pool are kept apart, a step of 0.2
+    shift: float = quantity("", 0.05, least=0.0, most=0.2)  # by which particles inside a pool are kept apart, a step
     # whether a pool can hold together under a pressure below 0; None: full where there are no walls
     suction: str | None = choice("none", "full", default=None)
     # what a case of the weakly compressible method has that this one does without; filled in as it is read
