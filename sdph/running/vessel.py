@@ -122,11 +122,14 @@ def _fills(case, mesh: Path) -> bool:
 
 def refuse_outside(case, cells: Cells, state) -> None:
     """CaseError where grains of a region stand in no cell of a mesh that is no box: region, how many, and where."""
-    if cells.grid is None or not case.particles:  # regions lie in the domain
+    world = here()
+    if not world.told(cells.grid is not None) or not case.particles:  # regions lie in the domain
         return
-    places = particles.positions(state)[:, : case.dimensions]
-    found = here().everywhere(places[cells.outside(places)])
-    outside = found[0] if len(found) == 1 else np.unique(np.concatenate(found), axis=0)  # of all processes, each once
+    found = world.gather(particles.positions(state)[:, : case.dimensions])
+    if found is None:  # the chief has the mesh
+        return
+    places = found[0] if len(found) == 1 else np.unique(np.concatenate(found), axis=0)  # of all processes, each once
+    outside = places[cells.outside(places)]
     own_walls = "walls" in case.effects and case.parameters["walls"].mesh
     replaced = "; walls.mesh stands in place of the walls of the gas's mesh: it needs both" if own_walls else ""
     for name, region in case.particles.items():
