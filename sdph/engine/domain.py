@@ -28,7 +28,6 @@ class Domain:
         self.world, self.reach, self.period = world, reach, period
         self.alone = world.number == 1
         self.tree, self.pairs = None, np.zeros(0)  # cuts; neighbours of each particle (N,)
-        self.parted = False  # True where at first each process has a part of the particles, and not all
         self.sends, self.gets = {}, {}  # rows by rank: own ones that it has copies of, copies of its
         self.imbalance, self.halo = 1.0, 0.0  # pairs of the busiest over their mean; copies over own particles
         self.sent = np.zeros(2)  # messages of `refresh`, and bytes in them
@@ -36,7 +35,6 @@ class Domain:
     def _refuse_crowd(self, state) -> None:
         """CaseError where there are more processes than particles to share."""
         count = int((state.kind != WALL).sum())
-        count = self.world.sum(count) if self.parted else count
         if self.world.number > count:
             raise CaseError(f"--ranks {self.world.number}: there are {count} particles; give no more ranks than these")
 
@@ -45,26 +43,19 @@ class Domain:
         return arrays.chosen(mask if self.alone else mask & (state.copy == 0))
 
     def share(self, state):
-        """Own particles and fresh copies; at first each process has all particles, or some part of them."""
+        """Own particles and fresh copies; at first each process has all particles, and keeps its own."""
         if self.alone:
             return state
         if self.tree is None:
-            own = self._begun(state)
+            self._refuse_crowd(state)
+            self.tree = cuts.cut(self.world, _places(state), np.where(state.kind == WALL, OF_WALL, 1.0))
+            own = particles.take(state, self._here(state))
         else:
             own = _own(state)
             if self.imbalance > UNEVEN and len(self.pairs) == len(state.x):
                 self.tree = cuts.cut(self.world, _places(own), 1.0 + self.pairs[state.copy == 0])
             own = self._moved(own)
         return self._with_copies(own)
-
-    def _begun(self, state):
-        """Cut space, for the first time; the particles that are in this part of it, in the order they were made in."""
-        self._refuse_crowd(state)
-        self.tree = cuts.cut(self.world, _places(state), np.where(state.kind == WALL, OF_WALL, 1.0))
-        if not self.parted:
-            return particles.take(state, self._here(state))
-        own = self._moved(state)
-        return particles.take(own, np.argsort(own.ident, kind="stable"))
 
     def admitted(self, state):
         """The state without those of its last rows, new ones that every process has, that are others' own."""

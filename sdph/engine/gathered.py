@@ -44,7 +44,7 @@ def take_part(stepper, allocate=lambda: None) -> None:
     theirs were made at; `allocate()` makes room."""
     number, arrays, here = stepper.state.ident, _rows(stepper), particles.axes(stepper.state)
     at = dict(zip("xyz", stepper.neighbours.built))
-    stepper.neighbours.built, stepper.domain.tree, stepper.domain.parted = (), None, False
+    stepper.neighbours.built, stepper.domain.tree = (), None
     stepper.state, stepper.rows = stepper.neighbours.update(stepper.state._replace(**at))
     sorter = np.argsort(number)
     chosen = sorter[np.searchsorted(number, stepper.state.ident, sorter=sorter)]

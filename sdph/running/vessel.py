@@ -16,7 +16,6 @@ from sdph.effects.around import nozzles
 from sdph.effects.around.streams import streams_of
 from sdph.engine import state as particles
 from sdph.engine.walls import facets
-from sdph.engine.world import here
 from sdph.methods.grains import start
 from sdph.running import inputs
 from sdph.schema import CaseError
@@ -122,13 +121,9 @@ def _fills(case, mesh: Path) -> bool:
 
 def refuse_outside(case, cells: Cells, state) -> None:
     """CaseError where grains of a region stand in no cell of a mesh that is no box: region, how many, and where."""
-    world = here()
-    if not world.told(cells.grid is not None) or not case.particles:  # regions lie in the domain
+    if cells.grid is None or not case.particles:  # regions lie in the domain
         return
-    found = world.gather(particles.positions(state)[:, : case.dimensions])
-    if found is None:  # the chief has the mesh
-        return
-    places = found[0] if len(found) == 1 else np.unique(np.concatenate(found), axis=0)  # of all processes, each once
+    places = particles.positions(state)[:, : case.dimensions]
     outside = places[cells.outside(places)]
     own_walls = "walls" in case.effects and case.parameters["walls"].mesh
     replaced = "; walls.mesh stands in place of the walls of the gas's mesh: it needs both" if own_walls else ""
