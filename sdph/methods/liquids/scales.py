@@ -14,8 +14,6 @@ from sdph.engine import state as particles
 from sdph.engine.state import LIQUID
 from sdph.methods.liquids import start
 
-INSTANTS = 400  # at which the motion of the frame is looked at; our choice
-
 
 class LiquidScales:
     """Scales of a case, SI. U is the most that the liquid can reach, not what it will."""
@@ -55,7 +53,7 @@ class LiquidScales:
         if "frame" not in self.case.effects:
             return 0.0
         move, arm = frame.felt(self.case), self.case.domain.arm
-        found = [move(time) for time in np.linspace(0.0, self.end, INSTANTS)]
+        found = [move(time) for time in np.linspace(0.0, self.end, frame.LOOKS)]
         return max(float(np.linalg.norm(a) + arm * (omega @ omega + np.linalg.norm(rate))) for a, omega, rate in found)
 
     @cached_property
