@@ -28,8 +28,8 @@ ENTRY = re.compile(
     r'<DataSet timestep="[\d.e+-]+" part="\d+" file="fields/(particles|gas|liquid|solid)_\d{5,}\.(vtp|vtr|vtu|pvtu)"/>'
 )
 PARTS = {"particles": 0, "gas": 1, "liquid": 2, "solid": 3}  # of a timeline
-SHARED = "vtkPolyData"  # what several processes have particles in
-SUFFIXES = {SHARED: ".vtp", "vtkRectilinearGrid": ".vtr", "vtkUnstructuredGrid": ".vtu"}
+SHARED = "particles"  # what several processes have parts of; the gas is the chief's
+SUFFIXES = {"vtkPolyData": ".vtp", "vtkRectilinearGrid": ".vtr", "vtkUnstructuredGrid": ".vtu"}
 PVD = '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n<Collection>\n{}\n</Collection>\n</VTKFile>\n'
 DENSEST = 255  # times: how much LZ4 can press together at most
 
@@ -125,7 +125,7 @@ class Fields:
         """`meshes` (name -> pyvista mesh, the same names each time) at `time` [s], and the timeline up to there; a
         process that is not the chief has its particles alone."""
         number = self.world.told(len(self.entries) // len(meshes))  # the chief has all names
-        files = {f"fields/{name}_{number:05d}{self._suffix(mesh)}": mesh for name, mesh in meshes.items()}
+        files = {f"fields/{name}_{number:05d}{self._suffix(name, mesh)}": mesh for name, mesh in meshes.items()}
         for name, mesh in files.items():
             self._save(mesh, self.folder / name)
         parts = [PARTS[name] for name in meshes]
@@ -134,9 +134,8 @@ class Fields:
         ]
         self._write_timeline()
 
-    def _suffix(self, mesh) -> str:
-        kind = mesh.GetClassName()
-        return pieces.SUFFIX if self.world.number > 1 and kind == SHARED else SUFFIXES[kind]
+    def _suffix(self, name: str, mesh) -> str:
+        return pieces.SUFFIX if self.world.number > 1 and name == SHARED else SUFFIXES[mesh.GetClassName()]
 
     def _save(self, mesh, path: Path) -> None:
         if path.suffix == pieces.SUFFIX:

@@ -110,8 +110,8 @@ def test_ergun_follows_a_vessel_that_widens():
     flux = 0.3 * low / width
     fields = {"pressure": 0.0 * y, "alpha_p": 0.0 * y + 0.5}
     fields["velocity"] = np.stack([0.0 * y, flux / 0.5, 0.0 * y], axis=1)
-    state = particles.empty(2, (), 3)
-    state.mass[:], state.density[:], state.y[:] = 1.0, 1.0, 0.1
+    state = particles.empty(2, ("diameter", "diameter_variance"), 3)
+    state.mass[:], state.density[:], state.y[:], state.diameter[:] = 1.0, 1.0, 0.1, case.grains.diameter
     case = dataclasses.replace(case, domain=dataclasses.replace(case.domain, gravity=(0.0, -9.81, 0.0)))
     seen = SimpleNamespace(case=case, gas=SimpleNamespace(mesh=mesh), cell_fields=lambda: fields, state=state)
     gas, d = case.gas, case.grains.diameter
