@@ -32,6 +32,8 @@ HARMLESS = {
     "sdph/exchange/equations.py:temperature_span": "a scale for the length of windows",
     "sdph/exchange/exchange.py:Exchange.grip": "a limit of windows",
     "sdph/exchange/exchange.py:Exchange.settling": "a limit of windows",
+    "sdph/effects/around/drain.py:filled": "a tank is full at most: what nozzles bring beyond it runs over",
+    "sdph/effects/around/drain.py:_brought": "time until the drain opens",
     "sdph/effects/gas/radiation.py:window_limit": "a limit of windows",
     "sdph/effects/gas/reaction.py:richest": "the largest that the case gives",
     "sdph/effects/gas/reaction.py:rise": "a scale for the length of windows, and bounds past which a run is stopped",

@@ -54,6 +54,7 @@ IMPULSES_OF_GAS = (
 # of the heat of both phases: of less that is exchanged 1e-8 (sdph.running.balances) is below 1e-15 of all heat, the
 # round-off of its sums, so that there is nothing to relate a drift to; our choice
 TOLD = 1e-7
+SEEN = 1e-3  # of motion, whose sum is good to 1e-14: no drift of less work can be told to 1e-10 of it; our choice
 ROUND_OFF = 2.0**-52  # of a sum
 RELATED = ("heat_exchanged_J", "impulse_exchanged_kg_m_s", "work_exchanged_J", "gas_impulse_moved_kg_m_s")
 NOTHING = dict.fromkeys(AMOUNTS, 0.0) | {f"{name}_{a}_kg_m_s": 0.0 for name in VECTORS for a in "xyz"}
@@ -224,10 +225,15 @@ class Ledger:
         return {"gas_momentum_drift_kg_m_s": drift, "gas_momentum_drift_rel": rel}
 
     def _motion_drift(self) -> dict[str, float]:
-        """Growth of the motion and agitation of the particles beyond the work that was done on them."""
+        """Growth of the motion and agitation of the particles beyond the work that was done on them, relative to it and
+        to SEEN of the motion that there is: what flies along without work keeps its motion to round-off."""
         change = [c for kind in ("kinetic", "fluctuation") for c in self._change(f"particle_{kind}_energy_J", 1)]
         drift = abs(math.fsum((*change, *(-sign * self.sums[key] for key, sign in self.motion.items()))))
-        return {"motion_drift_J": drift, "motion_drift_rel": ratio(drift, self.sums["work_exchanged_J"])}
+        there = math.fsum(self.last[f"particle_{kind}_energy_J"] for kind in ("kinetic", "fluctuation"))
+        return {
+            "motion_drift_J": drift,
+            "motion_drift_rel": ratio(drift, self.sums["work_exchanged_J"] + SEEN * there),
+        }
 
     def _change(self, key: str, sign: int) -> tuple[float, float]:
         """Change of a column over the run, as terms of an exact sum."""

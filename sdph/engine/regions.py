@@ -43,12 +43,14 @@ def bounds(region, walls, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def closed_form(region, dimensions: int) -> float:
-    """Volume [m^d] of a box, a disc, a sphere, a cylinder or a cone; nan of other shapes."""
+    """Volume [m^d] of a box, a disc, a sphere, a ring, a cylinder or a cone; nan of other shapes."""
     if region.shape == "box":
         return math.prod(b - a for a, b in zip(region.lower, region.upper))
     if region.shape in ALONG_AXIS:
         a, b = _radii(region)
         return math.pi * region.length * (a * a + a * b + b * b) / 3.0
+    if region.shape == "ring":
+        return math.pi * (region.radius**2 - region.inner_radius**2)
     if region.shape in ROUND:
         return math.pi * region.radius**2 * (1.0 if dimensions == 2 else 4.0 / 3.0 * region.radius)
     return math.nan

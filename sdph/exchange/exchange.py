@@ -27,11 +27,10 @@ import numpy as np
 from coupling.transfer import gather
 from sdph import effects
 from sdph.effects import OFF
-from sdph.effects.around import electric_field
 from sdph.effects.gas import break_up, film, radiation, sizes, turbulent_dispersion
 from sdph.engine import arrays
 from sdph.engine.state import GRAIN, by_material, lengths
-from sdph.exchange import bursts, equations
+from sdph.exchange import bursts, equations, pulls
 from sdph.exchange.amounts import Handed, Taken, outside
 from sdph.exchange.burning import Burning
 from sdph.exchange.cells import Cells, capacity_of
@@ -84,7 +83,8 @@ class Exchange:
             pushed, eddies = turbulent_dispersion.stir(stirring, state, seen, drift, gas_state.time, dt)
             seen, against = seen.stirred(pushed), seen.own - pushed
         convection, conductance, damping, force = self._rates(state, seen)
-        loss = None
+        pulled = self.case, self.parameters, state, weights, gas_state
+        against, loss = pulls.ahead(*pulled, (damping, force), dt, against), None
         if self.losing:
             loss = self.losing.lose(state, weights, gas_state, seen, convection, conductance, dt, thrown)
         kept = state.mass - loss.mass if loss else state.mass
@@ -283,8 +283,7 @@ class Exchange:
         felt = (state.kind == GRAIN) & (damping > 0.0)
         if not self.world.any(bool(felt.any())):
             return math.inf
-        gravity, field = np.asarray(self.parameters["gravity"] or (0.0, 0.0, 0.0)), self.parameters["electric_field"]
-        pulled = gravity + electric_field.acceleration(field, state)
+        pulled = pulls.steady(self.parameters, state)
         if len(force):
             pulled = pulled + force / state.mass[:, None]
         with np.errstate(divide="ignore"):  # of those that are not felt

@@ -165,9 +165,9 @@ def settling(case, pull: float, tau: float, speed: float) -> float:
     """Longest window [s] in which grains drift right that a force pulls by `pull` [m/s2] while drag stops them within
     `tau` [s]; `speed` [m/s] of what moves there.
 
-    Drag is that of the slip at a window's start, so that grains drift by dt/(2 tau) of tau pull too fast, and at most
-    by pull dt/2 where dt is longer than tau: that is held to `run.accuracy` of the fastest of their drift, of what
-    moves, and of a smoothing length in the run, as what is slower moves nothing.
+    Drag and pull are held over a window. What the pull makes of velocity on the way there, dt/(2 tau) of tau pull and
+    at most pull dt/2, is held to `run.accuracy` of the fastest of their drift, of what moves, and of a smoothing length
+    in the run, as what is slower moves nothing.
     """
     felt = max(tau * pull, speed, case.smoothing_length / case.run.end_time)
     return 2.0 * case.run.accuracy * felt / pull if pull > 0.0 else math.inf

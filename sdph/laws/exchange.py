@@ -9,13 +9,25 @@ import math
 from sdph.laws.compiled import law
 from sdph.laws.constants import TINY
 
-SHORT = 1e-8  # relaxation times in a step below which the mean rise is its limit; our choice
+SHORT = 1e-8  # relaxation times in a step below which a function of them is its limit; our choice
 
 
 @law
 def exponential_fraction(lam):
     """f [-] = 1 - exp(-lam): exact while the gas stays as it is; accurate for tiny lam. lam >= 0 [-]."""
     return -math.expm1(-lam)
+
+
+@law
+def lead(lam):
+    """Share [-] of a step by which drag is ahead of the velocity at its start: 1/f - 1/lam, from 1/2 on to 1.
+
+    A particle that a [m/s2] pulls for dt [s] beside its drag is v' = v + f (v_g' - v) + a tau f after it, and so is one
+    that gets a dt and the drag of v + a dt (1/f - 1/lam): with it a particle that drifts drifts by a tau. lam as above.
+    """
+    if lam < SHORT:
+        return 0.5 + lam / 12.0
+    return 1.0 / exponential_fraction(lam) - 1.0 / lam
 
 
 @law

@@ -80,3 +80,13 @@ def test_conduction_on_a_lattice_is_the_laplacian():
                 pull = rho * dx * dx * kernels.cubic_spline_gradient(math.sqrt(r2), h, sigma)
                 rate += exchange.cleary_monaghan(pull, r2, 0.0, k, rho, rho) * (0.0 - 0.5 * (a * dx) ** 2)
     assert rate == pytest.approx(k / rho * lattice_divergence_factor("cubic_spline", 2, 1.5), rel=1e-12)
+
+
+@pytest.mark.parametrize("lam", [0.0, 1e-9, 1e-8, 1e-6, 1e-3, 0.7, 3.0, 50.0])
+def test_lead_makes_a_drift_of_pull_and_drag(lam):
+    """v' = v + f (v_g' - v) + a tau f, exact of dv/dt = (v_g' - v)/tau + a; half a step where drag is slight."""
+    f, pull, dt, v, gas = exchange.exponential_fraction(lam), -9.81, 0.3, 2.0, 5.0
+    found = v + f * (gas - v - exchange.lead(lam) * pull * dt) + pull * dt
+    drifted = pull * dt * (f / lam if lam else 1.0)
+    assert found == pytest.approx(v + f * (gas - v) + drifted, rel=1e-9)
+    assert lam > 1e-6 or exchange.lead(lam) == pytest.approx(0.5, abs=1e-6)

@@ -13,7 +13,9 @@ import math
 from typing import NamedTuple
 
 from sdph.effects.around import tank
+from sdph.effects.around.streams import streams_of
 from sdph.effects.effect import Effect, Judgement
+from sdph.engine import regions
 from sdph.schema import CaseError, choice, quantity, record
 
 FORMS = ("debt", "paper")
@@ -21,7 +23,7 @@ FORMS = ("debt", "paper")
 
 @record
 class Drain:
-    """The commanded fill falls evenly from that at the start to `fill` between `start` and `end`."""
+    """The commanded fill falls evenly from that at `start` to `fill` at `end`."""
 
     form: str = choice(*FORMS)
     interval: float = quantity("s", 0.01, above=0.0)  # of `paper`: in which a particle leaves, the paper's dynamic step
@@ -40,13 +42,27 @@ def kernel(case) -> DrainP:
     own, first = case.parameters["drain"], filled(case)
     command(own, first)
     if own.fill > first:
-        raise CaseError(f"drain.fill = {own.fill:g} is more than the {first:g} that the pools fill; a drain takes out")
+        raise CaseError(
+            f"drain.fill = {own.fill:g} is more than the {first:g} of the tank that pools, and nozzles until "
+            "drain.start_s, have filled; a drain takes out"
+        )
     return DrainP(FORMS.index(own.form))
 
 
 def filled(case) -> float:
-    """Share of the tank that the pools of a case fill at the start; 1 where they do not say."""
-    return next((pool.fill for pool in case.pools.values() if pool.fill), 1.0)
+    """Share of the tank that is full when the drain opens, by the pools of a case and by what nozzles have brought."""
+    room, d = tank.shape_of(case).volume, case.dimensions
+    pools = [pool for pool in case.pools.values() if pool.phase == "liquid"]
+    told = max((pool.fill for pool in pools if pool.fill), default=0.0)
+    share = told or sum(regions.closed_form(pool, d) for pool in pools) / room
+    return min(share + sum(_brought(case, nozzle) for nozzle in case.nozzles.values()) / room, 1.0)
+
+
+def _brought(case, nozzle) -> float:
+    """Volume [m^d] of liquid that a nozzle has brought when the drain opens."""
+    streams, closes = streams_of(case, nozzle), math.inf if nozzle.end is None else nozzle.end
+    rate = streams.mass / streams.pitch * float(streams.speed.sum()) / case.liquid.density
+    return rate * max(min(case.parameters["drain"].start, closes) - nozzle.start, 0.0)
 
 
 def command(own: Drain, first: float):

@@ -12,6 +12,7 @@ from sdph.schema import CaseError
 # places in a unit square that fill it evenly: Roberts 2018, after Korobov; 1/p and 1/p^2 of p^3 = p + 1
 EVEN = np.array([0.7548776662466927, 0.5698402909980532])
 SAMPLES = 16  # of the surface to a point: parts are then alike to a sixteenth or so; our choice
+ORDER = np.array([1.0, 2.0**0.5, 3.0**0.5])  # one of two facets comes first by its normal along this: our choice
 SAME = 1e-9  # of a wall's extent: corners so near are one; round-off
 ROUNDS = 8  # in which points come to the middle of their parts; 20 and 40 move none further (measured); our choice
 
@@ -67,17 +68,10 @@ class Surface:
     """Facets (F, d, d) [m] as one surface, for distances to it."""
 
     def __init__(self, corners: np.ndarray):
-        import pyvista
-
-        self.flat = corners.shape[2] == 2
-        if self.flat:  # lines become strips as wide as the surface is long: nothing is nearer to their edges
-            half = np.ptp(corners.reshape(-1, 2), axis=0).sum()
-            corners = np.pad(corners, ((0, 0), (0, 0), (0, 1)))
-            rims = [corners + np.array([0.0, 0.0, z]) for z in (half, -half)]
-            corners = np.concatenate([rims[0], rims[1][:, ::-1]], axis=1)
-        count, size = corners.shape[:2]
-        faces = np.insert(np.arange(count * size).reshape(count, size), 0, size, axis=1)
-        self.mesh = pyvista.PolyData(corners.reshape(-1, 3), faces.ravel()).triangulate().clean()
+        half = np.ptp(corners.reshape(-1, corners.shape[2]), axis=0).sum()
+        self.flat, double = corners.shape[2] == 2, _doubled(corners, half)
+        self.mesh = _drawn(corners[~double], half)
+        self.sheets = _drawn(corners[double], half)  # of no thickness: free on both sides
 
     @property
     def closed(self) -> bool:
@@ -92,10 +86,43 @@ class Surface:
 
     def distance(self, places: np.ndarray) -> np.ndarray:
         """(N,) [m] of places (N, d) from the surface, above 0 on the side of the normals."""
-        import pyvista
+        found = _distance(self.mesh, places) if self.mesh.n_cells else np.full(len(places), np.inf)
+        if not self.sheets.n_cells:
+            return found
+        return np.where(found > 0.0, np.minimum(found, np.abs(_distance(self.sheets, places))), found)
 
-        cloud = pyvista.PolyData(np.pad(places, ((0, 0), (0, 3 - places.shape[1]))))
-        return np.asarray(cloud.compute_implicit_distance(self.mesh)["implicit_distance"])
+
+def _distance(mesh, places: np.ndarray) -> np.ndarray:
+    """The same from triangles."""
+    import pyvista
+
+    cloud = pyvista.PolyData(np.pad(places, ((0, 0), (0, 3 - places.shape[1]))))
+    return np.asarray(cloud.compute_implicit_distance(mesh)["implicit_distance"])
+
+
+def _drawn(corners: np.ndarray, half: float):
+    """Triangles (pyvista) of facets; lines become strips as wide as the surface is long, twice `half` [m]: nothing is
+    nearer to their edges."""
+    import pyvista
+
+    if not len(corners):
+        return pyvista.PolyData()
+    if corners.shape[2] == 2:
+        corners = np.pad(corners, ((0, 0), (0, 0), (0, 1)))
+        rims = [corners + np.array([0.0, 0.0, z]) for z in (half, -half)]
+        corners = np.concatenate([rims[0], rims[1][:, ::-1]], axis=1)
+    count, size = corners.shape[:2]
+    faces = np.insert(np.arange(count * size).reshape(count, size), 0, size, axis=1)
+    return pyvista.PolyData(corners.reshape(-1, 3), faces.ravel()).triangulate().clean()
+
+
+def _doubled(corners: np.ndarray, half: float) -> np.ndarray:
+    """Mask (F,) of facets that one which faces the other way lies on: the two faces of a sheet of no thickness."""
+    found, ahead = np.zeros(len(corners), bool), _turned(corners) @ ORDER[: corners.shape[2]] > 0.0
+    for own, other in ((ahead, ~ahead), (~ahead, ahead)):
+        if own.any() and other.any():
+            found[own] = np.abs(_distance(_drawn(corners[other], half), corners[own].mean(axis=1))) < SAME * half
+    return found
 
 
 def _cells(path: str, dimensions: int) -> tuple[np.ndarray, np.ndarray]:

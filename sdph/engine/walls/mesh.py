@@ -14,13 +14,13 @@ import numpy as np
 import scipy
 
 from sdph.engine.rows import entry, place, shorten
+from sdph.engine.walls.facets import ORDER
 from sdph.laws.compiled import serial
 
 AROUND = 0.75  # spacings about a surface point that count as its own: points stand one spacing apart or closer
 EDGE = math.cos(math.pi / 4.0)  # of the angle between normals from which on facets meet at an edge; our choice
 FEET = 16  # of the dummies nearest to one that are asked for a facet beyond an edge; our choice
 SAME = 1e-6  # of a depth: round-off; our choice
-ORDER = np.array([1.0, 2.0**0.5, 3.0**0.5])  # by which one of two facets comes first
 
 
 def three(axes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

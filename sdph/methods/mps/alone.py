@@ -46,20 +46,20 @@ def fall(x, y, z, acceleration):
 
 
 @parallel
-def source_of(cloud, s, divergence, number, beside, surface, dt, share, holds, right, freed):
-    """right (N,): right-hand side of the pressure's equations, -lambda n_0/(2 d) times rho/dt (div u - gamma (n -
-    n_0)/n_0/dt), whose surplus counts beside the surface alone where it is one. Who waits has none; freed (N,): where
-    a surface that nothing `holds` is drawn apart, which is let go."""
+def source_of(cloud, s, number, beside, surface, dt, share, holds, source, freed):
+    """Make source (N,), div u, the right-hand side of the pressure's equations, -lambda n_0/(2 d) times rho/dt (div u -
+    gamma (n - n_0)/n_0/dt), whose surplus counts beside the surface alone where it is one. Who waits has none; freed
+    (N,): where a surface that nothing `holds` is drawn apart, which is let go."""
     factor = -cloud.spread * cloud.number / (2.0 * cloud.dimensions)
     for i in prange(len(s.x)):
         surplus = (number[i] - cloud.number) / cloud.number
         if beside[i] == 1:
             surplus = max(surplus, 0.0)
-        source = cloud.density / dt * (divergence[i] - share * surplus / dt)
+        change = cloud.density / dt * (source[i] - share * surplus / dt)
         if s.kind[i] == INFLOW:
-            source = 0.0
-        freed[i] = surface[i] == 1 and source > 0.0 and not holds
-        right[i] = 0.0 if freed[i] else factor * source
+            change = 0.0
+        freed[i] = surface[i] == 1 and change > 0.0 and not holds
+        source[i] = 0.0 if freed[i] else factor * change
 
 
 @in_order

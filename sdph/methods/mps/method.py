@@ -143,23 +143,22 @@ class MpsStepper:
             self.clipped += compressible.pressed(self, dt)
             return self._pushed(self.cloud.density / dt, None)
         cloud, own, count = self.cloud, self.own, len(self.state.x)
-        divergence, beside = self._work("divergence", count), self._work("beside", count, np.int8)
+        source, beside = self._work("source", count), self._work("beside", count, np.int8)
         equations.near_surface(*self.within, self.surface, beside)
         if self.pool:
-            pools.diverge(*self.within, beside, divergence)
+            pools.diverge(*self.within, beside, source)
         else:
-            equations.diverge(*self.within, divergence)
-        right, holds = self._work("right", count), own.holds(self.case)
-        self.freed = self._work("freed", count, np.bool_)
+            equations.diverge(*self.within, source)
+        holds, self.freed = own.holds(self.case), self._work("freed", count, np.bool_)
         alone.source_of(
-            cloud, self.state, divergence, self.number, beside, self.surface, dt, own.share_taken(self.case), holds,
-            right, self.freed,
+            cloud, self.state, self.number, beside, self.surface, dt, own.share_taken(self.case), holds, source,
+            self.freed,
         )  # fmt: skip
         if self.walls:
-            pools.lean(*self.within, cloud.density / dt, right)
+            pools.lean(*self.within, cloud.density / dt, source)
         matrix = equations.matrix(*self.within, self.number, self.surface, self.room)
         try:
-            self.iterations += linear.solve(matrix, right, self.pressure, own.tolerance, own.iterations, self.room)
+            self.iterations += linear.solve(matrix, source, self.pressure, own.tolerance, own.iterations, self.room)
         except linear.Unsolved as error:
             self.guard.unsolved(self, error)
         if holds:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from sdph import scenes
 from sdph.scenes import paths
 from sdph.schema import CaseError
 from sdph.study.cost import errors
 from sdph.study.cost import rows as measured_rows
-from sdph.study.cost.ladder import Ladder, declared, overrides
+from sdph.study.cost.ladder import Ladder, declared, overrides, with_ladder
 
 
 def measured(scene: str) -> tuple[Path, list[dict]]:
@@ -61,6 +62,15 @@ def named(wanted: tuple[str, float]) -> str:
     """The option as it was given."""
     metric, accuracy = wanted
     return f"--accuracy {metric}={accuracy:g}" if metric else f"--accuracy {accuracy:g}"
+
+
+def refuse_own(file: Path, wanted: tuple[str, float]) -> None:
+    """CaseError where a case file is not that of a scene that comes with sdph, whatever its folder is called."""
+    if scenes.HERE not in file.resolve().parents:
+        raise CaseError(
+            f"{named(wanted)}: what accuracy costs was measured of scenes as they come with sdph, and {file} is none "
+            f"of them: run one by its name ({', '.join(with_ladder())}), or --set the resolution yourself"
+        )
 
 
 def with_settings(scene: str, wanted: tuple[str, float], given: tuple[str, ...], report) -> tuple[str, ...]:

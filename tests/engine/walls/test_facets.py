@@ -85,3 +85,31 @@ def test_plane_facets_in_any_order_leave_no_gap(seed):
     turns = np.sort(np.arctan2(round_it[:, 1], round_it[:, 0]))
     gaps = np.sort(np.diff(turns, append=turns[0] + 2.0 * np.pi))
     assert gaps[-2] < 1.1 * spacing and gaps[-1] < 2.0 * spacing
+
+
+def box_with_sheet(dimensions: int) -> np.ndarray:
+    """Facets of a unit box, normals inwards, and of a sheet x = 0.5 in it, 0.2 to 0.8 of its height, from both sides;
+    in three dimensions its faces are cut along different diagonals."""
+    if dimensions == 2:
+        rim = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+        sheet = np.array([[0.5, 0.2], [0.5, 0.8]])
+        return np.concatenate([np.stack([rim, np.roll(rim, -1, axis=0)], axis=1), [sheet, sheet[::-1]]])
+    box = triangles(pyvista.Box((0.0, 1.0, 0.0, 1.0, 0.0, 1.0)))[:, ::-1]
+    a, b, c, d = np.array([[0.5, 0.2, 0.2], [0.5, 0.8, 0.2], [0.5, 0.8, 0.8], [0.5, 0.2, 0.8]])
+    return np.concatenate([box, [[a, b, c], [a, c, d], [a, d, b], [b, d, c]]])
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_both_sides_of_a_sheet_without_thickness_are_free(dimensions):
+    """A baffle of a gas's mesh has two faces in one place: what was beside it counted as behind it, and a bed had a
+    hole there."""
+    rng = np.random.default_rng(0)
+    places = rng.uniform(-0.2, 1.2, (4000, dimensions))
+    inside = ((places > 0.0) & (places < 1.0)).all(axis=1)
+    beside = np.abs(places[:, 0] - 0.5)
+    past = np.maximum(np.abs(places[:, 1:] - 0.5) - 0.3, 0.0)
+    sheet = np.hypot(beside, np.linalg.norm(past, axis=1))
+    wall = np.minimum(places, 1.0 - places).min(axis=1)
+    found = facets.Surface(box_with_sheet(dimensions)).distance(places)
+    np.testing.assert_array_equal(found > 0.0, inside)
+    np.testing.assert_allclose(found[inside], np.minimum(sheet, wall)[inside], atol=1e-6)

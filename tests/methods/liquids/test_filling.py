@@ -244,5 +244,5 @@ def test_a_drain_that_fills_is_refused():
     drain = {"fill": 0.9, "start_s": 0.0, "end_s": 1.0}
     own = table(SHAPES["sphere"], 0.1) | {"drain": drain}
     own["effects"] += ["drain"]
-    with pytest.raises(CaseError, match=r"drain\.fill = 0\.9 is more than the 0\.5 that the pools fill"):
+    with pytest.raises(CaseError, match=r"drain\.fill = 0\.9 is more than the 0\.5 of the tank that pools"):
         LiquidStepper(cases.from_table(own))

@@ -3,11 +3,13 @@
 import itertools
 import json
 import math
+import shutil
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from sdph import scenes
 from sdph.schema import CaseError
 from sdph.study.cost import choice, climb, converged, errors, ladder, report, rows, summary
 
@@ -224,3 +226,13 @@ def test_the_table_of_all_scenes_has_what_the_rows_say(measured):
 def test_the_table_of_all_scenes_refuses_a_crossing(measured):
     line = summary.table(measured((831.43, 726.86, 649.24), 705.6))[-1]
     assert [cell.strip() for cell in line.split("|")[3:7]] == ["-"] * 4
+
+
+def test_accuracy_is_of_scenes_as_they_come_and_not_of_folders_called_so(tmp_path):
+    """A case of one's own in a folder called disc_cluster was run with settings that were measured of the scene."""
+    own = tmp_path / "disc_cluster/case.toml"
+    own.parent.mkdir()
+    shutil.copy(scenes.find("disc_cluster")[1], own)
+    with pytest.raises(CaseError, match=r"--accuracy 0\.05: what accuracy costs was measured of scenes"):
+        choice.refuse_own(own, ("", 0.05))
+    choice.refuse_own(scenes.find("disc_cluster")[1], ("", 0.05))

@@ -1,0 +1,77 @@
+"""Drains of tanks that pools without a `fill`, or nozzles, have filled."""
+
+import math
+
+import pytest
+
+from sdph.case import read as cases
+from sdph.effects.around import drain
+from sdph.running import driver
+from sdph.running.progress import Reporter
+
+TANK = """
+dimensions = 2
+effects = ["gravity", "density_diffusion", "liquid_damping", "tank", "drain"{more}]
+[run]
+end_time_s = 1.0
+output_interval_s = 0.5
+[domain]
+size_m = [0.4, 0.4]
+gravity_m_s2 = [0.0, -9.81]
+[resolution]
+spacing_mm = 20.0
+[liquid]
+density_kg_m3 = 1000.0
+sound_speed_m_s = 30.0
+[tank]
+open_sides = ["top"]
+slip = "free_slip"
+[drain]
+fill = 0.05
+start_s = 0.7
+end_s = 0.9
+"""
+TAP = """
+[nozzles.tap]
+shape = "slot"
+centre_m = [0.0, 0.2]
+width_m = 0.06
+direction = [1.0, 0.0]
+speed_m_s = 0.8
+{end}
+"""
+BOX = """
+[pools.water]
+shape = "box"
+lower_m = [0.0, 0.0]
+upper_m = [{width}, 0.2]
+"""
+
+
+def case_of(folder, text: str, more: str = ""):
+    file = folder / "case.toml"
+    file.write_text(TANK.format(more=more) + text)
+    return cases.load(file)
+
+
+def test_a_tank_that_a_nozzle_fills_keeps_what_is_asked(tmp_path):
+    """It begins empty: the fill when the drain opens is what the nozzle has brought, not a whole tank."""
+    case = case_of(tmp_path, TAP.format(end="end_s = 0.5"), ', "inflow"')
+    brought = 0.06 * 0.8 * 0.5 * 1000.0
+    assert drain.filled(case) == pytest.approx(brought / 160.0, rel=1e-12)
+    summary = driver.run(case, "tap", tmp_path / "run", None, Reporter())
+    assert summary["drained_kg"] == pytest.approx(brought - 0.05 * 160.0, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "open_, seconds", [("end_s = 0.5", 0.5), ("end_s = 0.8", 0.7), ("", 0.7), ("start_s = 0.7", 0.0)]
+)
+def test_what_a_nozzle_brings_counts_until_the_drain_opens(tmp_path, open_, seconds):
+    case = case_of(tmp_path, TAP.format(end=open_) + BOX.format(width=0.1), ', "inflow"')
+    assert drain.filled(case) == pytest.approx((0.02 + 0.06 * 0.8 * seconds) / 0.16, rel=1e-12)
+
+
+def test_pools_of_any_shape_tell_how_full_the_tank_is(tmp_path):
+    disc = '[pools.drop]\nshape = "disc"\ncentre_m = [0.3, 0.3]\nradius_m = 0.08\n'
+    case = case_of(tmp_path, BOX.format(width=0.1) + disc)
+    assert drain.filled(case) == pytest.approx((0.02 + math.pi * 0.08**2) / 0.16, rel=1e-12)
