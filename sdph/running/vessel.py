@@ -138,8 +138,9 @@ def refuse_outside(case, cells: Cells, state) -> None:
 
 
 def _refuse_mouths_outside(case, cells: Cells) -> None:
-    """CaseError where a nozzle of grains has a part of its mouth outside the gas: what comes in there leaves at once,
-    or flies beside it. Streams are looked at half a spacing past the mouth."""
+    """CaseError where a nozzle has a part of its mouth outside the gas, or outside the domain without one: what comes
+    in there leaves at once, or flies beside it. Streams are looked at half a spacing past the mouth."""
+    space = "gas" if case.gas else "domain"
     for name, nozzle in case.nozzles.items():
         nozzles.check(case, name, nozzle)
         own = streams_of(case, nozzle)
@@ -147,8 +148,8 @@ def _refuse_mouths_outside(case, cells: Cells) -> None:
         beside = cells.outside(places)
         if beside.any():
             raise CaseError(
-                f"nozzles.{name}: {np.count_nonzero(beside)} of its {len(places)} streams come in outside the gas, the "
-                f"first at {_told(places[beside][0])} m; move the mouth in, make it smaller, or square to the wall "
+                f"nozzles.{name}: {np.count_nonzero(beside)} of its {len(places)} streams come in outside the {space}, "
+                f"the first at {_told(places[beside][0])} m; move the mouth in, make it smaller, or square to the wall "
                 "that it is in"
             )
 

@@ -64,6 +64,13 @@ def ratios(s) -> list[dict]:
     ]
 
 
+def pulled(s) -> float:
+    """Speed [m/s] that tension gives to a drop as wide as the narrowest of the liquid: sqrt(sigma/(rho a))."""
+    if "surface_tension" not in s.case.effects:
+        return 0.0
+    return math.sqrt(2.0 * s.case.parameters["surface_tension"].coefficient / (s.liquid.density * s.length))
+
+
 def warnings(s) -> list[str]:
     """Ratios that are not safe, and sound that is too slow."""
     unsafe = [
@@ -72,9 +79,10 @@ def warnings(s) -> list[str]:
         if r["safe"] == "NO"
     ]
     c = s.liquid.sound_speed
-    if s.speed > SLOW * c:
-        fast = f"the liquid may reach {s.speed:.3g} m/s, {s.speed / c:.2g} of its speed of sound"
-        unsafe.append(f"{fast}: raise liquid.sound_speed_m_s from {c:g} to {10.0 * s.speed:.3g}")
+    fastest = max(s.speed, pulled(s))
+    if fastest > SLOW * c:
+        fast = f"the liquid may reach {fastest:.3g} m/s, {fastest / c:.2g} of its speed of sound"
+        unsafe.append(f"{fast}: raise liquid.sound_speed_m_s from {c:g} to {10.0 * fastest:.3g}")
     layer, tank = s.layer * s.length, s.case.parameters.get("tank")
     if "frame" in s.case.effects and tank and tank.slip == "no_slip" and 0.0 < layer < s.case.resolution.spacing:
         unsafe.append(
