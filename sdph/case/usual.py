@@ -13,10 +13,11 @@ import numpy as np
 from sdph.case import fluids
 from sdph.case.read import to_table
 from sdph.effects.around import sizes
+from sdph.effects.gas import film
 from sdph.laws.constants import GAS_CONSTANT
 from sdph.schema import CaseError
 
-CELSIUS = "degrees Celsius"
+CELSIUS, CONDUCTIVITY = "degrees Celsius", "conductivity_W_m_K"
 AGAIN = 0.8, 1.25  # of the level of the pressure: an outlet there is likely given absolute; our choice
 UNLIKE = 0.1  # of the density that a gas has by its equation of state: vapour in it changes it by less; our choice
 OTHER = 0.02  # of a number of a fluid: what differs by less is another source's, or another temperature's; our choice
@@ -74,11 +75,17 @@ def warnings(case) -> list[str]:
     for pattern, usual in USUAL.items():
         for key, value in _found(table, pattern.split(".")):
             size = float(np.linalg.norm(value))
-            if size and not usual.least <= size <= usual.most:
+            if size and not usual.least < size < usual.most:
                 bounds = f"{usual.least:g} to {usual.most:g} ({usual.what})"
                 told.append(f"{key} = {_shown(value)} is far from usual, {bounds}{_likely(value, usual)}")
     told = told or _unlike_its_state(case)  # a slip explains a density too
-    return told + _absolute(case) + _wider_than_their_mouth(case) + _overruled(table)
+    return (
+        told
+        + _absolute(case)
+        + _wider_than_their_mouth(case)
+        + _hotter_than_their_film(case, table)
+        + _overruled(table)
+    )
 
 
 def _unlike_its_state(case) -> list[str]:
@@ -122,6 +129,28 @@ def _wider_than_their_mouth(case) -> list[str]:
                 "at the units of its sizes"
             )
     return told
+
+
+def _hotter_than_their_film(case, table: dict) -> list[str]:
+    """A line where drops have their vapour by name, at the film's temperature, and Spalding's law takes beside it a gas
+    by name, which is at its own."""
+    by_name = all(table.get(name, {}).get("fluid") for name in ("gas", "grains"))
+    if not by_name or "evaporation" not in case.effects or case.parameters["evaporation"].law != "spalding":
+        return []
+    coldest = min(own.temperature for own in (*case.particles.values(), *case.nozzles.values()))
+    hot, around = case.gas.temperature, film.temperature(case.gas.temperature, coldest)
+    bare = table | {"gas": {key: value for key, value in table["gas"].items() if key != CONDUCTIVITY}}
+    try:
+        named = fluids.filled(bare)["gas"][CONDUCTIVITY]
+    except CaseError:  # no library: nothing to compare with
+        return []
+    if hot - around <= OTHER * around or abs(case.gas.conductivity - named) > OTHER * named:
+        return []
+    return [
+        f"evaporation.law = 'spalding' takes the gas as [gas] has it, at {hot:g} K, and the vapour of grains.fluid is "
+        f"that of the film, {around:.4g} K: drops come out too hot and too slow; give {CONDUCTIVITY}, density_kg_m3 "
+        f"and heat_capacity_J_kg_K of [gas] at {around:.4g} K, or take law = 'linear'"
+    ]
 
 
 def _overruled(table: dict) -> list[str]:

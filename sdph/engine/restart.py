@@ -14,6 +14,7 @@ import json
 import math
 import os
 import re
+import shlex
 import shutil
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -162,6 +163,11 @@ def newest(run_folder: Path, status=lambda text: None) -> Checkpoint | None:
         except Damaged as damage:
             status(f"{folder} is passed over: {damage}")
     return None
+
+
+def told(checkpoint: Checkpoint, run_folder: Path) -> str:
+    """Place of the last checkpoint of a run, and the command that goes on from it."""
+    return f"(last checkpoint: {checkpoint.folder}; go on with: sdph run --resume {shlex.quote(str(run_folder))})"
 
 
 def prepare(run_folder: Path) -> None:

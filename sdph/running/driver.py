@@ -215,7 +215,7 @@ class Flight:
         if full:
             error.add_note(f"(No space left on the disk of {self.folder})")
         if checkpoint:
-            error.add_note(f"(last checkpoint: {checkpoint.folder}; go on with: sdph run --resume {self.folder})")
+            error.add_note(restart.told(checkpoint, self.folder))
         time_s = self.simulation.time if self.simulation else 0.0
         with contextlib.suppress(OSError):
             if isinstance(error, Unstable):

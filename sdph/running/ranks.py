@@ -156,7 +156,7 @@ def _lost(folder: Path, why: str) -> GasError:
         checkpoint = restart.newest(folder)
     output.write_json(folder / output.FAILURE, {"what": str(error), "kind": "GasError", "time_s": None})
     if checkpoint:
-        error.add_note(f"(last checkpoint: {checkpoint.folder}; go on with: sdph run --resume {folder})")
+        error.add_note(restart.told(checkpoint, folder))
     return error
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 from pathlib import Path
 
 from coupling.openfoam.comparators import droplet_cloud
@@ -38,7 +39,7 @@ def compare(folder: Path, against: str) -> list[dict]:
     if not checks:
         raise CaseError(
             f"the run ends at {run.summary['time_s']:g} s, before the first time that its reference tells of; go on "
-            f"with: sdph run --resume {folder} --until T"
+            f"with: sdph run --resume {shlex.quote(str(folder))} --until T"
         )
     output.write_json(folder / f"compare_{against}.json", {"checks": checks} | _told(run.case, against))
     return checks
