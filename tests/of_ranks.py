@@ -4,11 +4,15 @@ import os
 import shutil
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from threading import Barrier
 
 import numpy as np
 import pytest
 import pyvista
+
+from sdph.engine.world import World
 
 WITH_MPI = pytest.mark.skipif(
     shutil.which("mpirun") is None and "CI" not in os.environ, reason="there is no mpirun (apt install openmpi-bin)"
@@ -47,3 +51,43 @@ def shared_by(folder: Path) -> list[int]:
         if "--resume" in words and str(folder) in words and "python" in words[0]:
             found.append(int(entry.name))
     return found
+
+
+class Among(World):
+    """One of several threads that stand for processes."""
+
+    def __init__(self, rank: int, values: list, barrier: Barrier):
+        self.rank, self.number, self.chief, self.values, self.barrier = rank, len(values), rank == 0, values, barrier
+
+    def everywhere(self, value) -> list:
+        self.values[self.rank] = value
+        self.barrier.wait()
+        found = list(self.values)
+        self.barrier.wait()
+        return found
+
+    def told(self, value):
+        return self.everywhere(value)[0]
+
+    def gather(self, value):
+        found = self.everywhere(value)
+        return found if self.chief else None
+
+    def exchange(self, parts: list) -> list:
+        return [own[self.rank] for own in self.everywhere(parts)]
+
+    def _reduced(self, values, how: str):
+        found = getattr(np, how.lower())(np.array(self.everywhere(values)), axis=0)
+        return found if np.ndim(found) else found.item()
+
+    @classmethod
+    def several(cls, number: int) -> list["Among"]:
+        """Worlds of so many threads, by rank."""
+        values, barrier = [None] * number, Barrier(number)
+        return [cls(rank, values, barrier) for rank in range(number)]
+
+
+def together(function, given) -> list:
+    """What a function makes of each of what is given, each in a thread of its own."""
+    with ThreadPoolExecutor(len(given)) as threads:
+        return list(threads.map(function, given))

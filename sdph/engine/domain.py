@@ -28,6 +28,7 @@ class Domain:
         self.world, self.reach, self.period = world, reach, period
         self.alone = world.number == 1
         self.tree, self.pairs = None, np.zeros(0)  # cuts; neighbours of each particle (N,)
+        self.parted = False  # True where at first each process has a part of the particles, and not all
         self.sends, self.gets = {}, {}  # rows by rank: own ones that it has copies of, copies of its
         self.imbalance, self.halo = 1.0, 0.0  # pairs of the busiest over their mean; copies over own particles
         self.sent = np.zeros(2)  # messages of `refresh`, and bytes in them
@@ -35,27 +36,39 @@ class Domain:
     def _refuse_crowd(self, state) -> None:
         """CaseError where there are more processes than particles to share."""
         count = int((state.kind != WALL).sum())
+        count = self.world.sum(count) if self.parted else count
         if self.world.number > count:
             raise CaseError(f"--ranks {self.world.number}: there are {count} particles; give no more ranks than these")
+
+    def axes(self, state) -> tuple[np.ndarray, ...]:
+        """Positions by axis, of all that there are where this process has no particles, too."""
+        return particles.axes(state) if self.alone else state[: len(self.period)]
 
     def mine(self, state, mask: np.ndarray) -> np.ndarray:
         """Rows of the own particles among those of a mask (N,)."""
         return arrays.chosen(mask if self.alone else mask & (state.copy == 0))
 
     def share(self, state):
-        """Own particles and fresh copies; at first each process has all particles, and keeps its own."""
+        """Own particles and fresh copies; at first each process has all particles, or some part of them."""
         if self.alone:
             return state
         if self.tree is None:
-            self._refuse_crowd(state)
-            self.tree = cuts.cut(self.world, _places(state), np.where(state.kind == WALL, OF_WALL, 1.0))
-            own = particles.take(state, self._here(state))
+            own = self._begun(state)
         else:
             own = _own(state)
-            if self.imbalance > UNEVEN and len(self.pairs) == len(state.x):
-                self.tree = cuts.cut(self.world, _places(own), 1.0 + self.pairs[state.copy == 0])
+            if self.imbalance > UNEVEN and not self.world.any(len(self.pairs) != len(state.x)):
+                self.tree = cuts.cut(self.world, self._places(own), 1.0 + self.pairs[state.copy == 0])
             own = self._moved(own)
         return self._with_copies(own)
+
+    def _begun(self, state):
+        """Cut space, for the first time; the particles that are in this part of it, in the order they were made in."""
+        self._refuse_crowd(state)
+        self.tree = cuts.cut(self.world, self._places(state), np.where(state.kind == WALL, OF_WALL, 1.0))
+        if not self.parted:
+            return particles.take(state, self._here(state))
+        own = self._moved(state)
+        return particles.take(own, np.argsort(own.ident, kind="stable"))
 
     def admitted(self, state):
         """The state without those of its last rows, new ones that every process has, that are others' own."""
@@ -154,13 +167,16 @@ class Domain:
         found = {"ranks": self.world.number, "imbalance": self.imbalance, "halo_share": self.halo}
         return found | {"messages_per_step": float(sent[0]), "halo_bytes_per_step": float(sent[1])}
 
+    def _places(self, state) -> np.ndarray:
+        return np.stack(self.axes(state), axis=1)
+
     def _here(self, state) -> np.ndarray:
         """Mask (N,) of what is in this part of space."""
-        return cuts.owner(self.tree, _places(state)) == self.world.rank
+        return cuts.owner(self.tree, self._places(state)) == self.world.rank
 
     def _moved(self, own):
         """The particles that are in this part of space now."""
-        to = cuts.owner(self.tree, _places(own))
+        to = cuts.owner(self.tree, self._places(own))
         if not self.world.any(bool((to != self.world.rank).any())):
             return own
         parts = [particles.take(own, rows) if len(rows) else None for rows in self._by_rank(to)]
@@ -172,7 +188,7 @@ class Domain:
         return np.split(order, np.searchsorted(rank[order], np.arange(1, self.world.number)))
 
     def _with_copies(self, own):
-        places = _places(own)
+        places = self._places(own)
         own_ends = places.min(axis=0, initial=np.inf), places.max(axis=0, initial=-np.inf)
         ends, found = np.array(self.world.everywhere(own_ends)), [np.zeros(0, int)] * self.world.number
         for rank in np.flatnonzero(cuts.beside(ends, self.world.rank, self.reach, self.period)):
@@ -191,10 +207,6 @@ class Domain:
 def _own(state):
     """The particles that are no copies, without the mark."""
     return particles.take(state, state.copy == 0)._replace(copy=state.copy[:0])
-
-
-def _places(state) -> np.ndarray:
-    return np.stack(particles.axes(state), axis=1)
 
 
 def _some(parts: list) -> list:

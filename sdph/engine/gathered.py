@@ -42,13 +42,13 @@ def whole(stepper):
 def take_part(stepper, allocate=lambda: None) -> None:
     """Keep the own ones of all particles, which each process has just read, and copies, with rows of the places that
     theirs were made at; `allocate()` makes room."""
-    number, arrays, here = stepper.state.ident, _rows(stepper), particles.axes(stepper.state)
+    number, arrays, here = stepper.state.ident, _rows(stepper), stepper.domain.axes(stepper.state)
     at = dict(zip("xyz", stepper.neighbours.built))
-    stepper.neighbours.built, stepper.domain.tree = (), None
+    stepper.neighbours.built, stepper.domain.tree, stepper.domain.parted = (), None, False
     stepper.state, stepper.rows = stepper.neighbours.update(stepper.state._replace(**at))
     sorter = np.argsort(number)
     chosen = sorter[np.searchsorted(number, stepper.state.ident, sorter=sorter)]
-    for axis, now in zip(particles.axes(stepper.state), here if at else ()):
+    for axis, now in zip(stepper.domain.axes(stepper.state), here if at else ()):
         axis[:] = now[chosen]
     allocate()
     _put(stepper, [own[chosen] if len(own) else own for own in arrays])

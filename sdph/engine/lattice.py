@@ -7,16 +7,29 @@ import math
 
 import numpy as np
 
+from sdph.engine.world import ALONE
 
-def lattice(region, spacing: float, dimensions: int) -> np.ndarray:
-    """(N, dimensions) points of a square or cubic lattice in a region, cell-centred on the region's centre or
-    corner."""
+
+def grid(ticks: list[np.ndarray], world=ALONE) -> np.ndarray:
+    """Points of a tensor grid, the first axis fastest (row-major numbering of the paper); each process of a world has
+    its share of them."""
+    if world.number > 1:
+        sizes = [len(along) for along in ticks[::-1]]
+        rows = np.unravel_index(np.arange(*world.ends(math.prod(sizes))), sizes)[::-1]
+        return np.stack([along[row] for along, row in zip(ticks, rows)], axis=1)
+    mesh = np.meshgrid(*ticks[::-1], indexing="ij")[::-1]
+    return np.stack([m.ravel() for m in mesh], axis=1)
+
+
+def lattice(region, spacing: float, dimensions: int, world=ALONE) -> np.ndarray:
+    """(N, dimensions) points of a square or cubic lattice in a region, cell-centred on the region's centre or corner;
+    each process of a world has a part of them, one after the other."""
     if region.shape == "box":
         counts = [max(1, round((b - a) / spacing)) for a, b in zip(region.lower, region.upper)]
         ticks = [a + (np.arange(n) + 0.5) * (b - a) / n for a, b, n in zip(region.lower, region.upper, counts)]
-        return grid(ticks)
+        return grid(ticks, world)
     reach = math.ceil(region.radius / spacing)
-    points = grid([c + (np.arange(-reach, reach) + 0.5) * spacing for c in region.centre])
+    points = grid([c + (np.arange(-reach, reach) + 0.5) * spacing for c in region.centre], world)
     return points[((points - np.array(region.centre)) ** 2).sum(axis=1) <= region.radius**2]
 
 
@@ -45,9 +58,3 @@ def pierced(centre, outer: float, holes, spacing: float) -> tuple[np.ndarray, np
         kept &= np.hypot(*(points - np.array(hole.centre)).T) > hole.radius
     wanted = math.pi * (outer**2 - sum(hole.radius**2 for hole in holes))
     return points[kept], areas[kept] * (wanted / areas[kept].sum())
-
-
-def grid(ticks: list[np.ndarray]) -> np.ndarray:
-    """Points of a tensor grid, the first axis fastest (row-major numbering of the paper)."""
-    mesh = np.meshgrid(*ticks[::-1], indexing="ij")[::-1]
-    return np.stack([m.ravel() for m in mesh], axis=1)

@@ -42,7 +42,7 @@ class Neighbours:
             )
         self.reach, self.skin = reach, skin
         self.period = np.array([*period, OPEN][:3])
-        self.world, self.domain = world, Domain(world, halo * reach_of(reach, skin), self.period)
+        self.world, self.domain = world, Domain(world, halo * reach_of(reach, skin), np.array(period))
         self.box = OPEN_PLANE  # of the particles that rows were last made for
         self.built = ()  # positions at the last build
         self.room = np.empty(0, np.uint32)
@@ -50,17 +50,18 @@ class Neighbours:
     def update(self, state, *stale):
         """The state (reordered where the list had to be rebuilt) and its rows; copies of particles of other processes
         are as these are, in the arrays `stale` of the state at least."""
-        if not self.world.any(not self._holds(particles.axes(state))):
+        axes = self.domain.axes
+        if not self.world.any(not self._holds(axes(state))):
             self.domain.refresh(*stale)
             return state, self.rows
-        for axis, period in zip(particles.axes(state), self.period):
+        for axis, period in zip(axes(state), self.period):
             if period:
                 motion.wrap(axis, period)
         state = self.domain.share(state)
-        rows = self.domain.own_first(state, self.by_cell(particles.axes(state), solid_of(state.kind)))
+        rows = self.domain.own_first(state, self.by_cell(axes(state), solid_of(state.kind)))
         self.domain.sort(rows)
         state = particles.take(state, rows)
-        self.built = tuple(map(arrays.copy, particles.axes(state)))
+        self.built = tuple(map(arrays.copy, axes(state)))
         rows = self.relist(state.kind, state.copy)
         self.domain.weigh(state, rows.number)
         return state, rows

@@ -14,6 +14,7 @@ import numpy as np
 from sdph.engine.lattice import grid, lattice
 from sdph.engine.walls import facets, shapes
 from sdph.engine.walls.dummies import CONTACT
+from sdph.engine.world import ALONE
 from sdph.schema import CaseError
 
 ALONG_AXIS = ("cylinder", "cone")
@@ -98,21 +99,23 @@ def _radii(region) -> tuple[float, float]:
     return region.radius, region.radius if region.shape == "cylinder" else region.end_radius
 
 
-def points(region, spacing: float, dimensions: int, walls) -> np.ndarray:
-    """(N, d) [m] of the lattice in a region, whatever stands there; `walls` as in `bounds`."""
+def points(region, spacing: float, dimensions: int, walls, world=ALONE) -> np.ndarray:
+    """(N, d) [m] of the lattice in a region, whatever stands there; `walls` as in `bounds`. Each process of a world has
+    a part of them, one after the other."""
     if region.shape in ("box", *ROUND):
-        return lattice(region, spacing, dimensions)
+        return lattice(region, spacing, dimensions, world)
     low, high = bounds(region, walls, dimensions)
     if region.shape in ALONG_AXIS:
-        places = _round_grid(region, low, high, spacing)
+        places = _round_grid(region, low, high, spacing, world)
         return places[_in_cone(region, places, low)]
-    places = grid([a + (np.arange(max(1, round((b - a) / spacing))) + 0.5) * spacing for a, b in zip(low, high)])
+    ticks = [a + (np.arange(max(1, round((b - a) / spacing))) + 0.5) * spacing for a, b in zip(low, high)]
+    places = grid(ticks, world)
     if region.shape == "mesh":
         return places[_surface(region).distance(places) < 0.0]
     return places[facets.Surface(walls).distance(places) > 0.0]
 
 
-def _round_grid(region, low, high, spacing: float) -> np.ndarray:
+def _round_grid(region, low, high, spacing: float, world) -> np.ndarray:
     """Lattice over the box of a round region: fitted to its length, about its axis elsewhere."""
     ticks = []
     for axis, (a, b) in enumerate(zip(low, high)):
@@ -122,7 +125,7 @@ def _round_grid(region, low, high, spacing: float) -> np.ndarray:
         else:
             reach = math.ceil(0.5 * (b - a) / spacing)
             ticks.append(0.5 * (a + b) + (np.arange(-reach, reach) + 0.5) * spacing)
-    return grid(ticks)
+    return grid(ticks, world)
 
 
 def _in_cone(region, places, low) -> np.ndarray:
@@ -144,14 +147,16 @@ def in_front(places, walls, spacing: float, layers: int) -> np.ndarray:
     return front if surface.closed else front | (off < -layers * spacing)
 
 
-def below(where: str, region, places, up, spacing: float, each: float) -> np.ndarray:
-    """Mask (N,) of the places up to the level of a region, `each` [kg] the mass of a particle; `up` (d,)."""
+def below(where: str, region, places, up, spacing: float, each: float, world=ALONE) -> np.ndarray:
+    """Mask (N,) of the places up to the level of a region, `each` [kg] the mass of a particle; `up` (d,). Each process
+    of a world has a part of the places; of a region with a mass each has all."""
     height = places @ up
     if region.height is not None:
-        span = float(np.ptp(height)) + spacing
+        least = world.least(float(height.min(initial=math.inf)))
+        span = world.most(float(height.max(initial=-math.inf))) - least + spacing
         if region.height > span + spacing:
             raise CaseError(f"{where}.height_m = {region.height:g}; its region is {span:.4g} m high: give less")
-        return height <= height.min() + region.height - (HALF - SAME) * spacing
+        return height <= least + region.height - (HALF - SAME) * spacing
     count = max(1, round(region.mass / each))
     if count > len(places):
         most = f"{len(places) * each:.6g} kg fit at volume_fraction = {region.volume_fraction:g}"
@@ -163,8 +168,11 @@ def below(where: str, region, places, up, spacing: float, each: float) -> np.nda
     return mask
 
 
-def disordered(places, share: float, seed: int, spacing: float) -> np.ndarray:
-    """The places, each moved by up to a share of the spacing along each axis, by chance."""
+def disordered(places, share: float, seed: int, spacing: float, before: int = 0) -> np.ndarray:
+    """The places, each moved by up to a share of the spacing along each axis, by chance; there are so many `before`
+    them, which others have."""
     if not share:
         return places
-    return places + share * spacing * np.random.default_rng(seed).uniform(-1.0, 1.0, places.shape)
+    chance = np.random.default_rng(seed)
+    chance.bit_generator.advance(before * places.shape[1])
+    return places + share * spacing * chance.uniform(-1.0, 1.0, places.shape)

@@ -90,6 +90,15 @@ class World:
             left = (left - whole) * 2.0**BITS
         return told
 
+    def ends(self, count: int) -> tuple[int, int]:
+        """The first of `count` rows that is this process's, and the first after its own, where they are shared out
+        evenly in the order of the ranks."""
+        return count * self.rank // self.number, count * (self.rank + 1) // self.number
+
+    def before(self, count: int) -> int:
+        """Sum of the counts of the processes before this one."""
+        return sum(self.everywhere(count)[: self.rank])
+
     def told(self, value):
         """The value that the chief has."""
         return self.comm.bcast(value) if self.comm else value

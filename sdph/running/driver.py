@@ -235,7 +235,7 @@ class Flight:
             forces.refuse_nowhere(self.case, simulation.methods)
             mesh = vessel.own_mesh(gas, self.folder)
             vessel.refuse_beside(self.case, mesh)
-            vessel.refuse_outside(self.case, vessel.Cells(self.case, mesh), simulation.state)
+            vessel.refuse_outside(self.case, vessel.Cells(self.case, mesh), simulation.state, self.world)
             simulation.start()
             self.out.start()
             self._save()

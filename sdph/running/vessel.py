@@ -16,6 +16,7 @@ from sdph.effects.around import nozzles
 from sdph.effects.around.streams import streams_of
 from sdph.engine import state as particles
 from sdph.engine.walls import facets
+from sdph.engine.world import ALONE
 from sdph.methods.grains import start
 from sdph.running import inputs
 from sdph.schema import CaseError
@@ -119,12 +120,12 @@ def _fills(case, mesh: Path) -> bool:
     return math.isclose(own.volumes.sum(), math.prod(case.domain.size) * depth, rel_tol=SAME)
 
 
-def refuse_outside(case, cells: Cells, state) -> None:
-    """CaseError where grains of a region stand in no cell of a mesh that is no box: region, how many, and where."""
-    if cells.grid is None or not case.particles:  # regions lie in the domain
+def refuse_outside(case, cells: Cells, state, world=ALONE) -> None:
+    """CaseError, the same of each process, where grains of a region stand in no cell of a mesh that is no box: region,
+    how many, and where."""
+    if not case.particles:
         return
-    places = particles.positions(state)[:, : case.dimensions]
-    outside = places[cells.outside(places)]
+    outside = _in_no_cell(cells, state, world)
     own_walls = "walls" in case.effects and case.parameters["walls"].mesh
     replaced = "; walls.mesh stands in place of the walls of the gas's mesh: it needs both" if own_walls else ""
     for name, region in case.particles.items():
@@ -135,6 +136,20 @@ def refuse_outside(case, cells: Cells, state) -> None:
                 f"particles.{name} holds {len(own)} particles in no cell of the gas, the first at {_told(own[0])} m; "
                 f"move or shrink it, or leave what lies behind walls out by walls{replaced}"
             )
+
+
+def _in_no_cell(cells: Cells, state, world) -> np.ndarray:
+    """Places (n, d) [m] of the particles of all processes, each once and in the order of their numbers, that are in no
+    cell. The first process alone has a mesh that is no box, and looks for all; every process is told."""
+    d = cells.dimensions
+    if not world.told(cells.grid is not None):  # regions lie in the domain
+        return np.zeros((0, d))
+    parts = world.gather((state.ident, particles.positions(state)[:, :d]))
+    if parts is None:
+        return world.told(None)
+    number, places = map(np.concatenate, zip(*parts))
+    places = places[np.unique(number, return_index=True)[1]]
+    return world.told(places[cells.outside(places)])
 
 
 def _refuse_mouths_outside(case, cells: Cells) -> None:

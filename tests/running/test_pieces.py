@@ -1,43 +1,19 @@
 """Particles of several processes are written in pieces and read as one, whatever was in the folder before."""
 
 import shutil
-from concurrent.futures import ThreadPoolExecutor
-from threading import Barrier
 
 import numpy as np
 import pytest
 import pyvista
 
 from sdph.cli import main
-from sdph.engine.world import World
 from sdph.running.fields import ENTRY, Fields
 from sdph.schema import CaseError
 from sdph.show import timeline
-from tests.of_ranks import WITH_MPI, fine
+from tests.of_ranks import WITH_MPI, Among, fine, together
 
 BED = ("bubbling_bed", "--gas", "embedded", "--set", "resolution.spacing_mm=10", "--set", "resolution.cell_mm=10")
 LIQUID = ("dam_break", "--set", "resolution.spacing_mm=5.715")
-
-
-class Among(World):
-    """One of several threads that stand for processes."""
-
-    def __init__(self, rank: int, values: list, barrier: Barrier):
-        self.rank, self.number, self.chief, self.values, self.barrier = rank, len(values), rank == 0, values, barrier
-
-    def everywhere(self, value) -> list:
-        self.values[self.rank] = value
-        self.barrier.wait()
-        found = list(self.values)
-        self.barrier.wait()
-        return found
-
-    def told(self, value):
-        return self.everywhere(value)[0]
-
-    def gather(self, value):
-        found = self.everywhere(value)
-        return found if self.chief else None
 
 
 def cloud(first: int, count: int):
@@ -53,14 +29,12 @@ def cloud(first: int, count: int):
 def written(folder, counts, fields=None):
     """Fields that so many processes wrote, with so many particles each; `fields` go on where they are given."""
     (folder / "fields").mkdir(parents=True, exist_ok=True)
-    values, barrier, firsts = [None] * len(counts), Barrier(len(counts)), np.cumsum([0, *counts])
-    fields = fields or [Fields(folder, Among(rank, values, barrier)) for rank in range(len(counts))]
+    firsts, fields = np.cumsum([0, *counts]), fields or [Fields(folder, own) for own in Among.several(len(counts))]
 
     def write(rank):
         fields[rank].write(1.0 * len(fields[rank].entries), {"particles": cloud(int(firsts[rank]), counts[rank])})
 
-    with ThreadPoolExecutor(len(counts)) as processes:
-        list(processes.map(write, range(len(counts))))
+    together(write, range(len(counts)))
     return fields
 
 

@@ -9,16 +9,20 @@ import types
 import meshio
 import numpy as np
 import pytest
+import pyvista
 import tomli_w
 from test_own_meshes import round_vessel
 
 from sdph.case import read as cases
 from sdph.cli import main
 from sdph.engine import regions, table
+from sdph.engine import state as particles
+from sdph.engine.world import ALONE
 from sdph.methods.grains import start
 from sdph.running import vessel
 from sdph.schema import CaseError
 from sdph.show import timeline
+from tests.of_ranks import Among, together
 
 KINDS = ("pressure", "friction")
 INSIDE = {"shape": "walls", "mass_kg": 2.0, "volume_fraction": 0.6, "temperature_K": 350.0, "disorder": 0.1}
@@ -66,6 +70,34 @@ def bears_its_ledger(summary, ledger):
         assert sum(force) == pytest.approx(given, rel=1e-9, abs=1e-9 * sum(map(abs, force)))
     assert summary["mean_wall_grain_pressure_force_x_N"] != 0.0 != summary["mean_inlet_grain_pressure_force_z_N"]
     assert not [key for key in summary if key.startswith("mean_outlet_grain_")]
+
+
+@pytest.mark.parametrize("parted", [True, False])
+def test_processes_refuse_grains_outside_a_mesh_that_the_first_has_alone(parted):
+    """Each with a part of them, the last with none, or with all, as where nozzles let some in."""
+    case = grains()
+    whole = start.fill(case, ())
+
+    def refused(world):
+        cells = vessel.Cells(case, None)
+        if world.chief:  # a mesh from x = 2 cm to 8 cm, up to 15 cm
+            cells.grid = pyvista.ImageData(dimensions=(7, 16, 2), spacing=(0.01, 0.01, 0.02), origin=(0.02, 0.0, -0.01))
+        own = particles.take(whole, whole.ident % 2 == world.rank) if parted else whole
+        with pytest.raises(CaseError) as told:
+            vessel.refuse_outside(case, cells, own, world)
+        return str(told.value)
+
+    (alone,) = together(lambda world: refused(ALONE), [None])
+    assert alone.startswith(
+        "particles.bed holds 110 particles in no cell of the gas, the first at (0.005, 0.005) m; move"
+    )
+    assert together(refused, Among.several(3)) == [alone] * 3
+
+
+def test_processes_whose_gas_fills_the_domain_refuse_no_grains():
+    case = grains()
+    whole = start.fill(case, ())
+    assert together(lambda own: vessel.refuse_outside(case, vessel.Cells(case, None), whole, own), Among.several(2))
 
 
 @pytest.mark.openfoam

@@ -154,12 +154,18 @@ class Box:
         """The lattice points whose greatest depth behind a side is `depth`, in front of no open side."""
         layers = round(depth / spacing + 0.5)
         counts, steps = self.steps(spacing)
-        ticks = [np.arange(-layers, n + layers) for n in counts]
-        places = np.stack([m.ravel() for m in np.meshgrid(*ticks, indexing="ij")], axis=1)
+        first, *others = (np.arange(-layers, n + layers) for n in counts)
+        plane = np.stack([m.ravel() for m in np.meshgrid(*others, indexing="ij")], axis=1)
+        behind = [self._behind(row, plane, counts, layers) for row in first]  # not all at once: few of a plane are kept
+        return self.lower + (np.concatenate(behind) + 0.5) * steps
+
+    def _behind(self, row: int, plane, counts, layers: int):
+        """Numbers (n, d) of the lattice points of a plane that lie so many layers behind a side."""
+        places = np.column_stack((np.full(len(plane), row), plane))
         behind = np.maximum(-places, places - (counts - 1)).max(axis=1) == layers
         for axis, end in self.open:
             behind &= places[:, axis] < counts[axis] if end else places[:, axis] >= 0
-        return self.lower + (places[behind] + 0.5) * steps
+        return places[behind]
 
     def surface(self):
         import pyvista

@@ -8,7 +8,7 @@ from sdph import effects
 from sdph.effects.around.outflow import leaving, refuse_to_leave
 from sdph.effects.around.source import Source
 from sdph.effects.gas import micro_explosion
-from sdph.engine import arrays, ashore
+from sdph.engine import arrays, ashore, world
 from sdph.engine import state as particles
 from sdph.engine.clock import Clock
 from sdph.engine.kept import Unfit
@@ -39,10 +39,12 @@ class Grains:
         self.parameters = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
         self.notices: list[str] = []  # on how the case was filled
         self.filled: dict[str, float] = {}  # mass [kg] of each region at the start
-        state = start.fill(case, names, self.notices, self.filled)
+        own = world.ALONE if self.parameters["inflow"] else world.here()  # what nozzles give is numbered by all
+        state = start.fill(case, names, self.notices, self.filled, own)
+        self.made = own.sum(len(state.x))  # by all processes, at the start
         self.source = Source(case, names, len(state.x) + 1) if self.parameters["inflow"] else None
         self.stepper = Stepper(case, self.parameters, state, self.source, Clock(case.run).shortest)
-        self.world = self.stepper.world
+        self.world, self.stepper.domain.parted = self.stepper.world, own.number > 1
         self.time, self.windows, self.came, self.left = 0.0, 0, self._came_in(), NOTHING_LEFT
         self.pushed = Pushed("grain", "friction", self.stepper.parts, case.dimensions)
         self.warmed = Warmed(self.stepper.hot)
@@ -81,7 +83,7 @@ class Grains:
         """Unfit where particles have numbers that nobody gave."""
         if self.source:
             self.source.admit_at(kept["time"], kept["source"])
-        given = kept["source"]["next_ident"] if self.source else len(self.state.x) + 1
+        given = kept["source"]["next_ident"] if self.source else self.made + 1
         ident = kept["stepper"]["state"]["ident"]
         if ident.min(initial=1) < 1 or ident.max(initial=1) > max(1, given - 1):
             raise Unfit(f"a particle has a number that is not among 1 to {given - 1}")

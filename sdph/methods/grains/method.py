@@ -51,9 +51,10 @@ class Stepper(Conducting, Windowed):
         self.world, walled = world.here(), bool(parameters["walls"])
         # of others a process needs all that press the walls which its own see: those within two reaches
         self.neighbours = Neighbours(
-            SUPPORT * self.kernel.h, case.domain.period, case.resolution.neighbour_skin, self.world, 1.0 + walled
-        )
-        self.domain = self.neighbours.domain
+            SUPPORT * self.kernel.h, case.domain.period[: case.dimensions], case.resolution.neighbour_skin, self.world,
+            1.0 + walled,
+        )  # fmt: skip
+        self.domain, self.heaviest = self.neighbours.domain, self.world.most(float(state.mass.max(initial=0.0)))  # [kg]
         self.boundary = Boundary(case) if parameters["walls"] else None
         self.mouths = source.mouths(self.boundary.dummies) if source and self.boundary else None  # nozzle of each dummy
         self.waves, self.terms = sound.waves_of(case), sub_step.terms_of(parameters)
@@ -99,7 +100,7 @@ class Stepper(Conducting, Windowed):
         state, built = kept["state"], kept["neighbours"]["built"]
         names = effects.arrays(self.case)
         born = self.source.heaviest if self.source else 0.0
-        self.guard.admit_grains(state, names, max(self.state.mass.max(initial=0.0), born))
+        self.guard.admit_grains(state, names, max(self.heaviest, born))
         here = [state[axis] for axis in "xyz"[: self.case.dimensions]]
         if built and [len(axis) for axis in built] != [len(axis) for axis in here]:
             raise Unfit("rows of neighbours are of other particles")

@@ -5,14 +5,16 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import math
+from typing import NamedTuple
 
 import numpy as np
 from scipy.spatial import cKDTree
 
 from sdph.engine import regions
-from sdph.engine.state import OF_MATERIAL, State, axes, born, empty, join, positions
+from sdph.engine.state import OF_MATERIAL, State, axes, born, empty, join
 from sdph.engine.walls import facets
 from sdph.engine.walls.sides import LAYERS
+from sdph.engine.world import ALONE
 from sdph.schema import CaseError
 
 # particles of two regions that may be near where they touch: this share, and so many (a disc on a box); our choice
@@ -21,32 +23,42 @@ SAME = 1e-9  # of a spacing: round-off
 OFF = 0.03  # of the mass of a region, from which on it is told; our choice
 
 
-def fill(case, names, notices=None, masses=None) -> State:
-    """The particles that a case has at the start, numbered from 1 as in the paper; mass = alpha_p rho_p dx^d.
+class Places(NamedTuple):
+    """Places (n, d) [m] of the particles of a region that this process makes, how many are before them and in all, and
+    the volume of each [m^d]; `all` (N, d) where each process knows all."""
+
+    own: np.ndarray
+    before: int
+    total: int
+    volume: float
+    all: np.ndarray
+
+
+def fill(case, names, notices=None, masses=None, world=ALONE) -> State:
+    """The particles that a case has at the start, numbered from 1 as in the paper; mass = alpha_p rho_p dx^d. Each
+    process of a world makes a part of them.
 
     `notices`, a list, gets a line for each region of which something is behind walls, or whose mass is another than
     was meant; `masses`, a table, the mass of each region [kg] by its name."""
     notices, masses = [] if notices is None else notices, {} if masses is None else masses
-    parts = [_region(case, name, region, names, notices) for name, region in case.particles.items()]
-    _look_for_overlap(case, parts, notices)
-    masses |= {name: float(part.mass.sum()) for name, part in zip(case.particles, parts)}
+    places = [_places(case, name, region, notices, world) for name, region in case.particles.items()]
+    _look_for_overlap(case, places, notices)
+    parts = [_region(case, region, own, names) for region, own in zip(case.particles.values(), places)]
+    masses |= {name: world.sum(float(part.mass.sum())) for name, part in zip(case.particles, parts)}
     notices += _off(case, masses)
-    state = parts[0] if parts else empty(0, names, case.dimensions)
-    for part in parts[1:]:
-        state = join(state, part)
-    state.ident[:] = np.arange(1, len(state.ident) + 1)
+    state, first = empty(0, names, case.dimensions), 1
+    for part, own in zip(parts, places):
+        part.ident[:] = np.arange(len(part.ident)) + first + own.before
+        state, first = join(state, part) if len(state.x) else part, first + own.total
     return state
 
 
-def _look_for_overlap(case, parts, notices) -> None:
+def _look_for_overlap(case, places, notices) -> None:
     """CaseError where grains of two regions stand among each other, denser than they can be packed; a notice where they
     are of one material, and do so at less: they add up. Different materials are a mixture there."""
     spacing, limit = case.resolution.spacing, case.grains.packing_limit
     near = 0.5 * math.sqrt(case.dimensions) * spacing  # from the middle of a cell of a lattice to its corners
-    rows = [
-        (name, region, positions(part)[:, : case.dimensions])
-        for (name, region), part in zip(case.particles.items(), parts)
-    ]
+    rows = [(name, region, here.all) for (name, region), here in zip(case.particles.items(), places)]
     for (name, region, own), (other, beside, theirs) in itertools.combinations(rows, 2):
         dense, alike = region.volume_fraction + beside.volume_fraction, region.material == beside.material
         if dense <= limit and not alike:
@@ -147,25 +159,37 @@ def extents(case, region) -> tuple[np.ndarray, np.ndarray]:
     return low, high
 
 
-def _region(case, name: str, region, names, notices) -> State:
+def _places(case, name: str, region, notices, world) -> Places:
+    """`Places` of the particles of a region. Each process looks for its own alone, but for all where regions may
+    overlap, or fill up from below."""
+    apart = world if len(case.particles) == 1 and region.mass is None else ALONE
     spacing, d, walls = case.resolution.spacing, case.dimensions, mesh_of_walls(case)
     if region.shape == "walls" and walls is None:
         raise CaseError(
             f'particles.{name}.shape = "walls", and the walls are the sides of the domain: give a box, or walls.mesh, '
             "or a mesh of the gas of your own in the folder gas"
         )
-    grains = case.of(region.material)
-    points = regions.points(region, spacing, d, walls) + spacing * staggered(case, name)
+    points = regions.points(region, spacing, d, walls, apart) + spacing * staggered(case, name)
+    there = apart.sum(len(points))
+    volume = regions.volume(region, spacing, d, there) if there else 0.0
+    each = region.volume_fraction * case.of(region.material).density * volume
+    points = _reached(case, f"particles.{name}", region, points, walls, each, notices, apart)
+    if apart is world:
+        return Places(points, apart.before(len(points)), apart.sum(len(points)), volume, points)
+    first, end = world.ends(len(points))
+    return Places(points[first:end], first, len(points), volume, points)
+
+
+def _region(case, region, places: Places, names) -> State:
+    """The particles of a region that this process makes."""
+    grains, state = case.of(region.material), empty(len(places.own), names, case.dimensions)
     density = region.volume_fraction * grains.density
-    volume = regions.volume(region, spacing, d, len(points)) if len(points) else 0.0
-    points = _reached(case, f"particles.{name}", region, points, walls, density * volume, notices)
-    state = empty(len(points), names, d)
-    for axis, column in zip(axes(state), points.T):
+    for axis, column in zip(axes(state), places.own.T):
         axis[:] = column
     for array, value in zip((state.u, state.v, state.w), region.velocity or ()):
         array[:] = value
     state.density[:] = density
-    state.mass[:] = density * volume if region.mass is None else region.mass / len(points)
+    state.mass[:] = density * places.volume if region.mass is None else region.mass / places.total
     for key, value in (
         ("temperature", region.temperature),
         ("diameter", grains.diameter),
@@ -196,22 +220,22 @@ def among(case, name: str) -> list[str]:
     return found
 
 
-def _reached(case, where: str, region, points, walls, each: float, notices) -> np.ndarray:
+def _reached(case, where: str, region, points, walls, each: float, notices, world) -> np.ndarray:
     """The points of a region that grains stand on: off the lattice by chance, in front of the walls, up to its level;
     `each` [kg] the mass of a particle."""
-    spacing, there = case.resolution.spacing, len(points)
-    points = regions.disordered(points, region.disorder, region.seed, spacing)
+    spacing, there = case.resolution.spacing, world.sum(len(points))
+    points = regions.disordered(points, region.disorder, region.seed, spacing, world.before(len(points)))
     if walls is not None:
         points = points[regions.in_front(points, walls, spacing, _deep(case, walls))]
-        if region.shape != "walls" and len(points) < there:
-            notices.append(f"{where}: {there - len(points)} of {there} particles would stand in walls and are left out")
-    if not len(points):
+        if region.shape != "walls" and (left := world.sum(len(points))) < there:
+            notices.append(f"{where}: {there - left} of {there} particles would stand in walls and are left out")
+    if not world.any(len(points) > 0):
         what = f"none of its {there} places" if there else "no place"
         raise CaseError(f"{where} holds {what} in front of walls.mesh; look at its normals, or move the region")
     if region.height is not None or region.mass is not None:
         gravity = np.array(case.domain.gravity)
         up = -gravity / np.linalg.norm(gravity)
-        points = points[regions.below(where, region, points, up, spacing, each)]
-        if not len(points):
+        points = points[regions.below(where, region, points, up, spacing, each, world)]
+        if not world.any(len(points) > 0):
             raise CaseError(f"{where}.height_m = {region.height:g} is below half a spacing: give more")
     return points

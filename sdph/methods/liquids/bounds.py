@@ -37,11 +37,12 @@ class Born(NamedTuple):
     densest: float
 
 
-def born(state) -> Born:
-    """`Born` of a State of the start."""
-    liquid = state.mass[particles.wet(state)].max(initial=0.0)
-    ends = float(state.density.min()), float(state.density.max())
-    return Born(len(state.x), float(state.mass.sum()), float(state.mass.max()), float(liquid), *ends)
+def born(state, world) -> Born:
+    """`Born` of a State of the start, of which each process of a world has a part."""
+    liquid = world.most(float(state.mass[particles.wet(state)].max(initial=0.0)))
+    thinnest, densest = float(state.density.min(initial=np.inf)), float(state.density.max(initial=0.0))
+    whole, heaviest = world.sum(float(state.mass.sum())), world.most(float(state.mass.max(initial=0.0)))
+    return Born(world.sum(len(state.x)), whole, heaviest, liquid, world.least(thinnest), world.most(densest))
 
 
 class LiquidGuard(Watch):

@@ -55,27 +55,27 @@ class LiquidStepper:
     def __init__(self, case, shortest: float = 0.0, carrier: immersion.Carrier | None = None):
         self.case, self.guard, d = case, LiquidGuard(case), case.dimensions
         self.shortest = shortest  # step [s] below which the run gets nowhere
-        self.p, self.state, self.move = parts_of(case)
+        self.p, self.state, self.move = parts_of(case, own := start.world_of(case))
         self.viscous = self.p["shear_thinning"] or self.p["laminar_viscosity"]  # parameters of friction, for the loops
         self.renewing = [(row, self.p[name]) for name in case.effects if (row := effects.REGISTRY[name]).renew]
         self.kernel = smoothing.smoothing(case.liquid.kernel, d, case.smoothing_length)
         self.world = world.here()
         self.neighbours = Neighbours(reach(case), case.liquid_period, case.resolution.neighbour_skin, self.world)
         self.domain = self.neighbours.domain
-        self.fluids, self.phases = fluids(case), phases.kernel(case)
+        self.fluids, self.phases, self.domain.parted = fluids(case), phases.kernel(case), own.number > 1
         self.bodies, self.moving = immersion.Bodies(carrier, case) if carrier else None, ()
         # walls follow the liquid, those of the outlet pipe come last
-        first_of_pipe = len(self.state.x) - start.pipe_walls(case)
+        first_of_pipe = own.sum(len(self.state.x)) - start.pipe_walls(case)
         if self.bodies:
             self.state = self.bodies.immersed(case, self.state)
             first_of_pipe = self.bodies.first  # beside bodies there is no pipe
-        self.own_walls = range(int((self.state.kind != WALL).sum()), first_of_pipe)  # numbers of the tank's own
+        self.own_walls = range(own.sum(int((self.state.kind != WALL).sum())), first_of_pipe)  # of the tank's own
         self.parts = parts.Parts(case, self.state, self.own_walls) if case.run.forces else None
         self.openings = openings.Openings(case, self.state) if self.p["inflow"] or self.p["outflow"] else None
         if self.openings:
             self.state = self.openings.begin(self.state)
-        own = self.p["tank"] or (immersion.wall_of(case) if self.bodies else ())
-        self.wall = WallP(*[0.0] * 6, *own) if own else NO_WALL
+        behind = self.p["tank"] or (immersion.wall_of(case) if self.bodies else ())
+        self.wall = WallP(*[0.0] * 6, *behind) if behind else NO_WALL
         self.summed = case.gas_phase is not None and case.gas_phase.density_by == "summation"
         self.lattice = kernels.lattice_factor(case.liquid.kernel, d, case.resolution.smoothing_ratio)
         self.limit, self.steps, self.time, self.steps_before = "", 0, 0.0, 0
@@ -87,7 +87,7 @@ class LiquidStepper:
         self.void = bubbles.of(case, self.p["bubble"], self.state, self.bodies) if self.p["bubble"] else None
         self.landed = None  # see sdph.engine.ashore
         self.look = None  # who is told of new forces, with the length [s] of the kick to come
-        self.born = born(self.state)
+        self.born = born(self.state, own)
         self.forces()
         self.heat = Heat(self, self.p["liquid_heat"]) if self.p["liquid_heat"] else None
         if self.bodies:

@@ -14,6 +14,7 @@ from sdph.engine import lattice
 from sdph.engine import state as particles
 from sdph.engine.state import GAS, LIQUID, WALL
 from sdph.engine.walls import layers
+from sdph.engine.world import ALONE, here
 from sdph.laws import eos
 from sdph.laws.liquids import quadrupole, square_patch_pressure, taylor_green, wave
 from sdph.methods.liquids import filling
@@ -22,30 +23,40 @@ from sdph.schema import CaseError
 ROUNDS = 50  # of the inversion of Van der Waals' equation; each takes off nine tenths of the error or more
 
 
-def fill(case) -> particles.State:
-    """All liquid and wall particles of a case, numbered from 0, liquid first."""
+def fill(case, world=ALONE) -> particles.State:
+    """All liquid and wall particles of a case, numbered from 0, liquid first; each process of a world makes a part of
+    them."""
     if not case.pools and "inflow" not in case.effects:
         raise CaseError("no liquid: give it in a section such as [pools.column], or let it in by [nozzles.NAME]")
     pools = filling.pools(case)
-    parts = [_pool(case, pools, number) for number in range(len(pools))]
+    parts = [_pool(case, pools, number, world) for number in range(len(pools))]
     if "tank" in case.effects:
-        parts.append(_walls(case))
-    state = placed(case, np.zeros((0, case.dimensions)))
+        parts.append(_walls(case, world))
+    state, first = placed(case, np.zeros((0, case.dimensions))), 0
     for part in parts:
-        state = particles.join(state, part)
-    if case.pools and not (state.kind == LIQUID).any():
+        part.ident[:] = np.arange(len(part.ident)) + first + world.before(len(part.ident))
+        state, first = particles.join(state, part), first + world.sum(len(part.ident))
+    if case.pools and not world.any((state.kind == LIQUID).any()):
         raise CaseError("pools hold no particle of liquid; enlarge one, or give a finer resolution.spacing_mm")
-    state.ident[:] = np.arange(len(state.ident))
     return state
 
 
-def _walls(case) -> particles.State:
+def world_of(case):
+    """Processes that each make a part of the particles at the start: of nozzles, bodies, bubbles and walls with forces
+    of their own each has to know all."""
+    of_all = case.run.forces or case.solid or {"inflow", "bubble"} & {*case.effects}
+    return ALONE if of_all else here()
+
+
+def _walls(case, world) -> particles.State:
     shape, spacing = tank.shape_of(case), case.resolution.spacing
     parts = layers.wall_points(shape, spacing, tank.layers(case))
     points, volume = np.concatenate(parts), layers.volumes(shape, parts, spacing)
     if "inflow" in case.effects:
         walled = Source(case, (), 0).mouths(placed(case, points)) == 0
         points, volume = points[walled], volume[walled]
+    own = slice(*world.ends(len(points)))
+    points, volume = points[own], volume[own]
     state = placed(case, points)
     if len(state.depth):
         state.depth[:] = shape.distance(points)
@@ -71,34 +82,45 @@ def placed(case, points) -> particles.State:
     return state
 
 
-def _pool(case, pools: list, number: int) -> particles.State:
-    """The particles of pool `number`, less those that lie in the pools before it."""
-    pool, d, spacing = pools[number], case.dimensions, case.resolution.spacing
-    volume = spacing**d
+def _places(case, pool, world) -> tuple:
+    """Points (n, d) [m] of a whole pool that this process makes, and their volumes, (n,) or one [m^d]. Of a lattice it
+    makes these alone; a pool that is packed, or stands in rings, it makes as a whole first."""
+    d, spacing = case.dimensions, case.resolution.spacing
     if pool.shape == "ring":
         points, volume = lattice.rings(pool.centre, pool.inner_radius, pool.radius, spacing)
     elif "bubble" in case.effects and pool == bubble.pool_of(case):
         points, volume = lattice.pierced(pool.centre, pool.radius, bubble.holes_of(case), spacing)
+    elif pool.shape == "tank":
+        points, volume = filling.fill(case, pool), spacing**d
     else:
-        points = filling.fill(case, pool) if pool.shape == "tank" else lattice.lattice(pool, spacing, d)
-    if pool.shape == "box":  # the lattice is fitted to the box
-        volume = math.prod(b - a for a, b in zip(pool.lower, pool.upper)) / len(points)
+        points, volume = lattice.lattice(pool, spacing, d, world), spacing**d
+        if pool.shape == "box":  # the lattice is fitted to the box
+            volume = math.prod(b - a for a, b in zip(pool.lower, pool.upper)) / world.sum(len(points))
+        return points, volume
+    own = slice(*world.ends(len(points)))
+    return points[own], volume if np.isscalar(volume) else volume[own]
+
+
+def _pool(case, pools: list, number: int, world) -> particles.State:
+    """The particles of pool `number`, less those that lie in the pools before it, that this process makes."""
+    pool, d = pools[number], case.dimensions
+    points, volume = _places(case, pool, world)
     taken = []
     for name, earlier in zip(case.pools, pools[:number]):
         left = ~_holds(earlier, points)
-        taken += [] if left.all() else [name]
+        taken += [name] if world.any(not left.all()) else []
         points, volume = points[left], volume if np.isscalar(volume) else volume[left]
-    if not len(points):
+    if not world.any(len(points) > 0):
         _refuse_empty(list(case.pools)[number], taken)
-    _refuse_outside(case, list(case.pools)[number], points)
+    _refuse_outside(case, list(case.pools)[number], points, world)
     state = placed(case, points + _raised(pool, points))
     state.kind[:] = GAS if pool.phase == "gas" else LIQUID
     density = phase_of(case, pool).density
-    state.density[:] = _density(case, pool, _pressure(case, pool, pools[-1], points))
+    state.density[:] = _density(case, pool, _pressure(case, pool, pools[-1], points, world))
     # two phases fill their space from the start
     state.mass[:] = (state.density if case.gas_phase else density) * volume
     velocity = _velocity(pool, points, d)
-    _refuse_fast(case, list(case.pools)[number], velocity)
+    _refuse_fast(case, list(case.pools)[number], velocity, world)
     for array, value in zip((state.u, state.v, state.w), velocity.T):
         array[:] = value
     return state
@@ -115,21 +137,22 @@ def _refuse_empty(name: str, taken: list[str]) -> None:
     raise CaseError(f"pools.{name} holds no particle; enlarge it, or give a finer resolution.spacing_mm")
 
 
-def _refuse_outside(case, name: str, points) -> None:
+def _refuse_outside(case, name: str, points, world) -> None:
     """CaseError where particles of a pool at points (N, d) [m] would stand outside the tank: nothing holds them there,
     and no picture shows them."""
     beyond = tank.shape_of(case).distance(points) if "tank" in case.effects else np.zeros(0)
-    if outside := int((beyond > filling.SAME * case.resolution.spacing).sum()):
+    if outside := world.sum(int((beyond > filling.SAME * case.resolution.spacing).sum())):
+        count, furthest = world.sum(len(points)), world.most(float(beyond.max(initial=0.0)))
         raise CaseError(
-            f"pools.{name}: {outside} of its {len(points)} particles would stand outside the tank, up to "
-            f"{beyond.max():.3g} m from it; move the pool, or make it smaller"
+            f"pools.{name}: {outside} of its {count} particles would stand outside the tank, up to "
+            f"{furthest:.3g} m from it; move the pool, or make it smaller"
         )
 
 
-def _refuse_fast(case, name: str, velocity) -> None:
+def _refuse_fast(case, name: str, velocity, world) -> None:
     """CaseError where particles of a pool begin faster, velocity (N, d) [m/s], than the liquid's sound, if it has one:
     the guard would stop the run at once."""
-    fastest, sound = float(np.linalg.norm(velocity, axis=1).max()), case.fastest_sound
+    fastest, sound = world.most(float(np.linalg.norm(velocity, axis=1).max(initial=0.0))), case.fastest_sound
     if sound and fastest > sound:
         raise CaseError(
             f"pools.{name} begins at {fastest:.4g} m/s, faster than sound in it ({sound:g} m/s); lower its velocity, "
@@ -164,7 +187,7 @@ def _density(case, pool, pressure) -> np.ndarray:
     return density
 
 
-def _pressure(case, pool, around, points) -> np.ndarray:
+def _pressure(case, pool, around, points, world) -> np.ndarray:
     """Pressure at the start: hydrostatic below the pool's top under gravity, of a rotating patch or vortices what is
     known exactly."""
     if pool.flow == "rotation":
@@ -173,10 +196,10 @@ def _pressure(case, pool, around, points) -> np.ndarray:
         return square_patch_pressure(points - np.array(pool.lower), side, omega, case.liquid.density)
     if pool.flow == "taylor_green":
         return taylor_green(points, pool.upper[0] - pool.lower[0], pool.speed, case.liquid.density)[1]
-    return _hydrostatic(case, pool, around, points) + _laplace(case, pool)
+    return _hydrostatic(case, pool, around, points, world) + _laplace(case, pool)
 
 
-def _hydrostatic(case, pool, around, points) -> np.ndarray:
+def _hydrostatic(case, pool, around, points, world) -> np.ndarray:
     """rho g depth below the pool's top, where it has the pressure that the last pool, `around`, would have there; a
     disc or sphere has in its middle what the last pool would have there."""
     along, outside = filling.pull(case), 0.0
@@ -184,7 +207,8 @@ def _hydrostatic(case, pool, around, points) -> np.ndarray:
     top = (
         _top(pool, along)
         if pool.shape == "tank"
-        else height.min() - 0.5 * case.resolution.spacing * float(np.linalg.norm(along))
+        else world.least(float(height.min(initial=math.inf)))
+        - 0.5 * case.resolution.spacing * float(np.linalg.norm(along))
     )
     if pool is not around and along.any():
         top = float(np.array(pool.centre) @ along) if pool.shape in ("disc", "sphere") else top
@@ -248,11 +272,12 @@ def _wave(pool, points, amplitude: float) -> np.ndarray:
     return wave(points - np.array(pool.centre), pool.upper[0] - pool.lower[0], amplitude)
 
 
-def parts_of(case):
-    """Kernel parameters by effect, particles, and motion of the frame (or None): all that a run begins with."""
+def parts_of(case, world=ALONE):
+    """Kernel parameters by effect, particles that this process makes, and motion of the frame (or None): all that a run
+    begins with."""
     parameters = {row.name: effects.kernel_of(row, case) for row in effects.REGISTRY.values()}
     move = frame.felt(case) if parameters["frame"] else None
-    return parameters, fill(case), move
+    return parameters, fill(case, world), move
 
 
 def fluids(case) -> np.ndarray:
