@@ -191,7 +191,8 @@ def _subject(shots: list[Shot], known: list[str]) -> str:
     told = [TOLD_BY[name] for name in (case.run.metrics if case else ()) if TOLD_BY.get(name) in known]
     if told:
         return told[0]
-    for field, least in (("temperature", WARM), ("plastic_strain", 1e-3), ("equivalent_stress", 1.0)):
+    cold = case is not None and case.grains and "heat" not in case.effects  # grains keep theirs
+    for field, least in (("temperature", WARM), ("plastic_strain", 1e-3), ("equivalent_stress", 1.0))[bool(cold) :]:
         values = [own[np.isfinite(own)] for own in last.values(field)]
         if (spread := [own for own in values if len(own)]) and np.ptp(np.concatenate(spread)) > least:
             return field

@@ -182,8 +182,8 @@ def test_the_box_is_of_gas_and_walls_else_of_the_particles():
     [
         ("bubbling_bed", {"alpha_p": 0.6, "temperature": 288.0, "velocity": 0.0}, "alpha_p"),
         ("bubbling_bed", {"alpha_p": 0.6, "temperature": [288.0, 350.0], "velocity": 0.0}, "alpha_p"),
-        ("bed_with_tube", {"alpha_p": 0.5, "temperature": [300.0, 350.0], "velocity": 1.0}, "temperature"),
-        ("fluidised_column", {"alpha_p": 0.5, "temperature": 300.0, "velocity": 1.0}, "alpha_p"),
+        ("disc_cluster", {"alpha_p": 0.5, "temperature": [300.0, 350.0], "velocity": 1.0}, "temperature"),
+        ("fluidised_column", {"alpha_p": 0.5, "temperature": [300.0, 303.0], "velocity": 1.0}, "alpha_p"),
         ("granular_jet", {"theta": 0.2, "temperature": 288.0, "velocity": 1.0}, "theta"),
         ("evaporating_jet", {"temperature": [290.0, 350.0], "velocity": 1.0}, "temperature"),
         ("dam_break", {"pressure": 10.0, "velocity": 1.0}, "velocity"),
