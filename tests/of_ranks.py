@@ -17,6 +17,7 @@ from sdph.engine.world import World
 WITH_MPI = pytest.mark.skipif(
     shutil.which("mpirun") is None and "CI" not in os.environ, reason="there is no mpirun (apt install openmpi-bin)"
 )
+LATE = 120.0  # s after which who waits for others gives up
 SDPH = (sys.executable, "-m", "sdph.cli", "run")
 
 
@@ -83,7 +84,7 @@ class Among(World):
     @classmethod
     def several(cls, number: int) -> list["Among"]:
         """Worlds of so many threads, by rank."""
-        values, barrier = [None] * number, Barrier(number)
+        values, barrier = [None] * number, Barrier(number, timeout=LATE)
         return [cls(rank, values, barrier) for rank in range(number)]
 
 

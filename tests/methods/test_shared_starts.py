@@ -188,3 +188,17 @@ def test_a_process_without_particles_shares_space():
     assert [own[:2] for own in found] == [(4, 3), (0, 3), (2, 3)]
     ident, heights, built = found[0][2]
     assert ident == list(range(6)) and heights == state.z.tolist() and built == [6, 6, 6]
+
+
+def test_space_is_cut_anew_by_all_processes_or_by_none():
+    """One of which has lost a particle since its neighbours were counted, and the other one not."""
+    state = particles.empty(8, dimensions=3)
+    state.ident[:], state.x[:] = np.arange(8), np.arange(8)
+
+    def share(world):
+        own = Sharing(particles.take(state, np.flatnonzero(state.ident % 2 == world.rank)), world)
+        own.domain.imbalance = 2.0
+        kept = particles.take(own.state, own.state.ident > 0)
+        return own.domain.share(kept).ident.tolist()
+
+    assert together(share, Among.several(2)) == [[1, 2, 3], [4, 5, 6, 7]]

@@ -116,6 +116,20 @@ def test_a_run_goes_on_by_other_processes_or_by_one(tmp_path):
         alike(fine(cut, "--resume", cut, "--until", "0.008", ranks=after), whole)
 
 
+BALL = (
+    "bubbling_bed_3d", *EMBEDDED, "--set", "resolution.spacing_mm=10", "--set", "resolution.cell_mm=20", "--set",
+    "particles={ball={shape='sphere',centre_m=[0.05,0.05,0.02],radius_m=0.012,volume_fraction=0.5,temperature_K=300}}",
+)  # fmt: skip
+
+
+def test_grains_that_one_process_made_are_shared_and_go_on(tmp_path):
+    """Of the lattice around eight grains in space the first of three processes has a corner without any."""
+    whole = fine(tmp_path / "whole", *BALL, "--until", "0.002")
+    fine(whole, "--resume", whole, "--until", "0.004")
+    cut = fine(tmp_path / "three", *BALL, "--until", "0.002", ranks=3)
+    alike(fine(cut, "--resume", cut, "--until", "0.004", ranks=3), whole)
+
+
 def test_a_run_by_the_same_processes_repeats_bit_for_bit(tmp_path):
     first, again = (particles(fine(tmp_path / f"r{n}", *BED, "--until", "0.004", ranks=2)) for n in range(2))
     for name, values in first.items():

@@ -82,22 +82,21 @@ def test_processes_refuse_grains_outside_a_mesh_that_the_first_has_alone(parted)
         cells = vessel.Cells(case, None)
         if world.chief:  # a mesh from x = 2 cm to 8 cm, up to 15 cm
             cells.grid = pyvista.ImageData(dimensions=(7, 16, 2), spacing=(0.01, 0.01, 0.02), origin=(0.02, 0.0, -0.01))
-        own = particles.take(whole, whole.ident % 2 == world.rank) if parted else whole
+        own = particles.take(whole, whole.ident % 2 == world.rank) if parted and world.number > 1 else whole
         with pytest.raises(CaseError) as told:
             vessel.refuse_outside(case, cells, own, world)
         return str(told.value)
 
-    (alone,) = together(lambda world: refused(ALONE), [None])
-    assert alone.startswith(
-        "particles.bed holds 110 particles in no cell of the gas, the first at (0.005, 0.005) m; move"
-    )
+    alone = refused(ALONE)
+    assert alone.startswith("particles.bed holds 110 particles in no cell of the gas, the first at (0.005, 0.005) m;")
     assert together(refused, Among.several(3)) == [alone] * 3
 
 
 def test_processes_whose_gas_fills_the_domain_refuse_no_grains():
     case = grains()
     whole = start.fill(case, ())
-    assert together(lambda own: vessel.refuse_outside(case, vessel.Cells(case, None), whole, own), Among.several(2))
+    cells = vessel.Cells(case, None)
+    assert not any(together(lambda own: vessel.refuse_outside(case, cells, whole, own), Among.several(2)))
 
 
 @pytest.mark.openfoam
