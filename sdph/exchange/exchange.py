@@ -83,8 +83,8 @@ class Exchange:
             pushed, eddies = turbulent_dispersion.stir(stirring, state, seen, drift, gas_state.time, dt)
             seen, against = seen.stirred(pushed), seen.own - pushed
         convection, conductance, damping, force = self._rates(state, seen)
-        pulled = self.case, self.parameters, state, weights, gas_state
-        against, loss = pulls.ahead(*pulled, (damping, force), dt, against), None
+        against = pulls.ahead(self.case, self.parameters, state, (damping, force), dt, against)
+        loss = None
         if self.losing:
             loss = self.losing.lose(state, weights, gas_state, seen, convection, conductance, dt, thrown)
         kept = state.mass - loss.mass if loss else state.mass

@@ -3,6 +3,9 @@
 Drag over a window alone starts from the velocity at its start, and what pulls comes on top: grains would drift by
 x/(1 - exp(-x)) too fast, x the window over their drag time. It starts from the velocity that the pull makes on the way
 (sdph.laws.exchange.lead). The gas is handed the same velocity, so that it gives what the grains get.
+
+Of weight counts what the pressure of an even suspension leaves of it. The gradient of the pressure itself is the
+answer to what the gas was handed: to hand it back makes light grains unstable (measured).
 """
 
 from __future__ import annotations
@@ -10,7 +13,6 @@ from __future__ import annotations
 import numpy as np
 from numba import prange
 
-from coupling.transfer import gather
 from sdph import effects
 from sdph.effects.around import electric_field
 from sdph.engine import arrays
@@ -25,33 +27,34 @@ def steady(parameters, state) -> np.ndarray:
     return gravity + electric_field.acceleration(parameters["electric_field"], state)
 
 
-def ahead(case, parameters, state, weights, gas_state, rates, dt, against) -> np.ndarray:
+def ahead(case, parameters, state, rates, dt, against) -> np.ndarray:
     """Velocities (N, 3) [m/s] that drag starts from in a window of dt [s]: `against`, and on top what else pulls grains
     that are free to move. rates: beta/(alpha_p rho_p) (N,) [1/s] and force (N, 3) [N] that is held, no row where there
     is none. Where contacts last they carry what lies there: it does not follow its weight."""
     if not effects.moving(case):
         return against
-    friction, found, pressed = parameters["friction"], arrays.copy(against), np.zeros((0, 3))
-    if parameters["gas_pressure"]:
-        pressed = gather(weights, gas_state.fields["pressure_gradient"])
+    friction, found = parameters["friction"], arrays.copy(against)
     borne = friction.onset if friction else case.grains.packing_limit
-    _run_ahead(state, steady(parameters, state), *rates, pressed, case.grains.density, borne, dt, found)
+    carried, gravity = float(bool(parameters["gas_pressure"])), tuple(parameters["gravity"] or (0.0, 0.0, 0.0))
+    field = electric_field.acceleration(parameters["electric_field"], state)
+    own = carried, case.gas.density, case.grains.density, borne
+    _run_ahead(state, gravity, field, *rates, *own, dt, found)
     return found
 
 
 @parallel
-def _run_ahead(s, pull, damping, force, gradient, grain_density, borne, dt, against):
-    """Put that on `against`; gradient (N, 3) [Pa/m] of the gas's pressure, no row where grains do not feel it; borne:
-    volume fraction from which contacts last."""
+def _run_ahead(s, gravity, field, damping, force, carried, gas_density, grain_density, borne, dt, against):
+    """Put that on `against`; gravity (3) and field (N, 3) [m/s2]; carried: 1 where grains feel the pressure of the gas,
+    which carries 1 - alpha_g (1 - rho_g/rho_p) of an even suspension, else 0; borne: volume fraction from which
+    contacts last."""
     for i in prange(len(s.x)):
         own = s.grain_density[i] if len(s.grain_density) else grain_density
         if s.kind[i] != GRAIN or damping[i] == 0.0 or s.density[i] >= borne * own:
             continue
+        left = 1.0 - carried * (1.0 - (1.0 - s.density[i] / own) * (1.0 - gas_density / own))
         time = dt * lead(dt * damping[i])
         for a in range(3):
-            rate = pull[i, a]
+            rate = left * gravity[a] + field[i, a]
             if len(force):
                 rate += force[i, a] / s.mass[i]
-            if len(gradient):
-                rate -= gradient[i, a] / own
             against[i, a] += time * rate
