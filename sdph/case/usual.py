@@ -79,13 +79,8 @@ def warnings(case) -> list[str]:
                 bounds = f"{usual.least:g} to {usual.most:g} ({usual.what})"
                 told.append(f"{key} = {_shown(value)} is far from usual, {bounds}{_likely(value, usual)}")
     told = told or _unlike_its_state(case)  # a slip explains a density too
-    return (
-        told
-        + _absolute(case)
-        + _wider_than_their_mouth(case)
-        + _hotter_than_their_film(case, table)
-        + _overruled(table)
-    )
+    told += _absolute(case) + _wider_than_their_mouth(case)
+    return told + _hotter_than_their_film(case, table) + _overruled(table)
 
 
 def _unlike_its_state(case) -> list[str]:
@@ -137,8 +132,8 @@ def _hotter_than_their_film(case, table: dict) -> list[str]:
     by_name = all(table.get(name, {}).get("fluid") for name in ("gas", "grains"))
     if not by_name or "evaporation" not in case.effects or case.parameters["evaporation"].law != "spalding":
         return []
-    coldest = min(own.temperature for own in (*case.particles.values(), *case.nozzles.values()))
-    hot, around = case.gas.temperature, film.temperature(case.gas.temperature, coldest)
+    hot, drops = case.gas.temperature, (*case.particles.values(), *case.nozzles.values())
+    around = film.temperature(hot, min((own.temperature for own in drops), default=hot))
     bare = table | {"gas": {key: value for key, value in table["gas"].items() if key != CONDUCTIVITY}}
     try:
         named = fluids.filled(bare)["gas"][CONDUCTIVITY]

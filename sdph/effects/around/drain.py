@@ -90,7 +90,7 @@ def call(scales) -> Judgement:
     """Share of the liquid that is to leave within the run."""
     own = scales.case.parameters["drain"]
     first = filled(scales.case)
-    share = 1.0 - command(own, first)(scales.end) / first
+    share = 1.0 - command(own, first)(scales.end) / first if first else 0.0
     return Judgement("share that is drained", share, 0.01, "the command", share)
 
 

@@ -1,6 +1,8 @@
 """Drains of tanks that pools without a `fill`, or nozzles, have filled."""
 
+import dataclasses
 import math
+from types import SimpleNamespace
 
 import pytest
 
@@ -8,6 +10,7 @@ from sdph.case import read as cases
 from sdph.effects.around import drain
 from sdph.running import driver
 from sdph.running.progress import Reporter
+from sdph.schema import CaseError
 
 TANK = """
 dimensions = 2
@@ -75,3 +78,12 @@ def test_pools_of_any_shape_tell_how_full_the_tank_is(tmp_path):
     disc = '[pools.drop]\nshape = "disc"\ncentre_m = [0.3, 0.3]\nradius_m = 0.08\n'
     case = case_of(tmp_path, BOX.format(width=0.1) + disc)
     assert drain.filled(case) == pytest.approx((0.02 + math.pi * 0.08**2) / 0.16, rel=1e-12)
+
+
+def test_a_tank_that_is_empty_when_its_drain_opens_has_nothing_to_drain(tmp_path):
+    case = case_of(tmp_path, TAP.format(end="start_s = 0.8"), ', "inflow"')
+    with pytest.raises(CaseError, match=r"drain\.fill = 0\.05 is more than the 0 of the tank"):
+        drain.kernel(case)
+    own = dataclasses.replace(case.parameters["drain"], fill=0.0)
+    empty = dataclasses.replace(case, parameters=case.parameters | {"drain": own})
+    assert drain.call(SimpleNamespace(case=empty, end=1.0)).error_if_off == 0.0
