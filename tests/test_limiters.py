@@ -27,6 +27,7 @@ HARMLESS = {
     "sdph/methods/grains/bounds.py:Guard.__init__": "bounds past which a run is stopped",
     "sdph/engine/guard.py:outside": "looks for the worst value",
     "sdph/exchange/window.py:*": "length of windows",
+    "sdph/exchange/pulls.py:_run_ahead": "a share: grains are free below where they touch",
     "sdph/laws/kernels.py:cubic_spline_curvature": "support of a kernel",
     "sdph/methods/grains/equations.py:constitutive": "the largest of all",
     "sdph/exchange/equations.py:temperature_span": "a scale for the length of windows",
