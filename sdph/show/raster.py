@@ -84,9 +84,18 @@ def _nearest(shot: Shot, grid: Pixels) -> tuple[np.ndarray, np.ndarray]:
     distance, number = tree.query(grid.flat[:, shot.axes], distance_upper_bound=reach, workers=-1)
     number = seen[np.minimum(number, len(seen) - 1)].reshape(grid.shape)
     covered = distance.reshape(grid.shape) <= (ROUND + CLOSED) * sizes[number]
-    if covered.all():
-        return covered, number
-    return distance_transform_edt(covered, grid.step) > CLOSED * sizes[number], number
+    if not covered.all():
+        covered = distance_transform_edt(covered, grid.step) > CLOSED * sizes[number]
+    return covered & ~_behind(shot, grid, number), number
+
+
+def _behind(shot: Shot, grid: Pixels, number) -> np.ndarray:
+    """Mask of the pixels that lie outside the gas while particle `number` of each (rows, columns) stands in it: behind
+    a wall."""
+    if shot.gas is None or shot.walls is None:
+        return np.zeros(grid.shape, bool)
+    inside = sampled.cells_at(shot.gas, np.asarray(shot.particles.points)) >= 0
+    return inside[number] & (sampled.cells_at(shot.gas, grid.flat) < 0).reshape(grid.shape)
 
 
 def bulk(covered: np.ndarray, least: float) -> np.ndarray:

@@ -57,8 +57,7 @@ def of_particles(points, places: np.ndarray, volumes: np.ndarray, arrays: dict, 
 
 def of_cells(gas, places: np.ndarray, field: str) -> np.ndarray:
     """Values (P,) or (P, k) of the gas at `places` (P, 3) [m]: those of the cell there, nan outside."""
-    values = np.asarray(gas.cell_data[field], float)
-    numbers = _of_boxes(gas, places) if gas.GetClassName() == "vtkRectilinearGrid" else _of_any(gas, places)
+    values, numbers = np.asarray(gas.cell_data[field], float), cells_at(gas, places)
     found = values[np.maximum(numbers, 0)]
     found[numbers < 0] = np.nan
     return found
@@ -74,8 +73,13 @@ def between_cells(gas, places: np.ndarray, field: str) -> np.ndarray:
     return values
 
 
+def cells_at(gas, places: np.ndarray) -> np.ndarray:
+    """(P,) number of the cell of the gas that holds each of `places` (P, 3) [m]; -1 outside."""
+    return _of_boxes(gas, places) if gas.GetClassName() == "vtkRectilinearGrid" else _of_any(gas, places)
+
+
 def _of_boxes(gas, places) -> np.ndarray:
-    """(P,) number of the box that holds each place; -1 outside."""
+    """The number where cells are boxes."""
     number, outside, stride = np.zeros(len(places), int), np.zeros(len(places), bool), 1
     for along, ticks in zip(places.T, (np.asarray(gas.x), np.asarray(gas.y), np.asarray(gas.z))):
         if len(ticks) > 1:

@@ -1,4 +1,5 @@
-"""Thin sprays are dots, between which the gas is seen; lone particles and small gaps have no line around them."""
+"""Thin sprays are dots, between which the gas is seen; lone particles and small gaps have no line around them; none is
+drawn across a wall."""
 
 import numpy as np
 import pytest
@@ -59,3 +60,26 @@ def test_gas_is_paler_than_grains_of_its_temperature(field):
     assert bulk.mean() == pytest.approx(0.25, abs=0.03)
     alike = np.abs(colours[150, 150] - colours[50, 50]).max() < 1e-9
     assert alike == (field == "alpha_p") and colours[150, 150].min() >= colours[50, 50].min()
+
+
+def test_no_disc_crosses_the_wall_where_the_gas_ends():
+    """A particle 0.1 of its size off a wall that leans is cut there; one outside the gas is drawn whole."""
+    case = cases.load(scenes.find("disc_cluster")[1])
+    spacing, density = case.resolution.spacing, 0.6 * case.grains.density
+    corners = np.array([[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [10.0, 10.0, 0.0]]) * spacing  # the gas: below y = x
+    gas = pyvista.UnstructuredGrid({pyvista.CellType.TRIANGLE: np.array([[0, 1, 2]])}, corners)
+    wall = pyvista.PolyData(corners[[0, 2]], lines=[2, 0, 1])
+    covered = {}
+    for name, lines, off in (("cut", wall, 0.1), ("whole", None, 0.1), ("outside", wall, -0.1)):
+        place = np.array([[5.0 + off / np.sqrt(2.0), 5.0 - off / np.sqrt(2.0), 0.0]]) * spacing
+        particle = pyvista.PolyData(place)
+        particle["mass"], particle["density"] = np.array([density * spacing**2]), np.array([density])
+        particle["temperature"] = np.array([300.0])
+        whole = shot.of_state(timeline.Instant(0.0, particle, gas), case, lines)
+        grid = raster.pixels(whole, 500)
+        covered[name] = raster.particles(whole, grid, "temperature", smooth=False)[1].sum() * np.prod(grid.step)
+    radius, off = 0.55, 0.1
+    segment = radius**2 * np.arccos(off / radius) - off * np.sqrt(radius**2 - off**2)
+    assert covered["whole"] / spacing**2 == pytest.approx(np.pi * radius**2, rel=0.05)
+    assert covered["cut"] / covered["whole"] == pytest.approx(1.0 - segment / (np.pi * radius**2), abs=0.03)
+    assert covered["outside"] == pytest.approx(covered["whole"], rel=0.05)
