@@ -1,11 +1,12 @@
 """Values that are possible, and far outside of what the matter of their key ever has: slips of a unit, as a rule.
 
-They are warned of and not refused: `sdph.schema.PLAUSIBLE` refuses what no case means. Liquids have no ranges, but for
-temperatures: benchmarks of them are often given in numbers without units.
+They are warned of and not refused: `sdph.schema.PLAUSIBLE` refuses what no case means. Benchmarks of liquids and solids
+are often given in numbers without units: theirs are judged where `_in_units` says so.
 """
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -14,12 +15,14 @@ from sdph.case import fluids
 from sdph.case.read import to_table
 from sdph.effects.around import sizes
 from sdph.effects.gas import film
+from sdph.laws import size_classes
 from sdph.laws.constants import GAS_CONSTANT
 from sdph.schema import CaseError
 
 CELSIUS, CONDUCTIVITY = "degrees Celsius", "conductivity_W_m_K"
 AGAIN = 0.8, 1.25  # of the level of the pressure: an outlet there is likely given absolute; our choice
 UNLIKE = 0.1  # of the density that a gas has by its equation of state: vapour in it changes it by less; our choice
+MOSTLY = 0.5  # of the mass of drops: with more of it cut away, sizes are those of the bound; our choice
 OTHER = 0.02  # of a number of a fluid: what differs by less is another source's, or another temperature's; our choice
 
 
@@ -36,6 +39,7 @@ OF_GRAINS = Range(5.0, 25000.0, "from foam to gold", (("g/cm3", 1e3),))
 TEMPERATURE = Range(100.0, 5000.0, "from where air is about to liquefy to where all is vapour", ((CELSIUS, 273.15),))
 CAPACITY = Range(100.0, 20000.0, "from xenon to hydrogen", (("kJ/(kg K)", 1e3),))
 MOLAR = Range(2.0, 2000.0, "from hydrogen to a polymer", (("kg/mol", 1e3),))
+TENSION = Range(1e-5, 5.0, "from near the critical point to molten metal", (("mN/m", 1e-3),))
 SPEED = Range(1e-6, 3000.0, "from creep to a rocket's exhaust", (("mm/s", 1e-3),))
 # pattern of a key -> its range; * is a name. Our choice: a factor of two or more beyond what tables of matter hold
 USUAL = {
@@ -62,24 +66,54 @@ USUAL = {
     "grains.diameter_mm": Range(5e-4, 100.0, "from smoke to stones", (("m", 1e3), ("um", 1e-3))),
     "grains.*.diameter_mm": Range(5e-4, 100.0, "from smoke to stones", (("m", 1e3), ("um", 1e-3))),
     "nozzles.*.diameter_mm": Range(5e-4, 100.0, "from smoke to stones", (("m", 1e3), ("um", 1e-3))),
-    "grains.surface_tension_N_m": Range(1e-5, 5.0, "from near the critical point to molten metal", (("mN/m", 1e-3),)),
+    "grains.surface_tension_N_m": TENSION,
     "nozzles.*.speed_m_s": SPEED, "boundaries.*.velocity_m_s": SPEED, "particles.*.velocity_m_s": SPEED,
     "solid.youngs_modulus_Pa": Range(10.0, 5e12, "from jelly to diamond", (("GPa", 1e9), ("MPa", 1e6))),
 }  # fmt: skip
+EARTH = 9.7, 9.9  # m/s2, of gravity wherever there are people
+# the same of liquids and solids, in cases with units
+OF_LIQUIDS = {
+    "liquid.density_kg_m3": Range(50.0, 25000.0, "from liquid hydrogen to molten metal", (("g/cm3", 1e3),)),
+    "solid.density_kg_m3": Range(5.0, 25000.0, "from foam to gold", (("g/cm3", 1e3),)),
+    "gas_phase.density_kg_m3": Range(0.01, 25000.0, "from thin gas to molten metal", (("g/cm3", 1e3),)),
+    "surface_tension.coefficient_N_m": TENSION, "free_energy_tension.coefficient_N_m": TENSION,
+    "bubble.surface_tension_N_m": TENSION,
+}  # fmt: skip
+
+
+def _in_units(case) -> bool:
+    """True where numbers of liquids and solids are of matter: under Earth's gravity, or under none with a density that
+    is not 1. Benchmarks choose a density, or a gravity, that makes their numbers round."""
+    gravity = float(np.linalg.norm(case.domain.gravity))
+    if gravity:
+        return EARTH[0] < gravity < EARTH[1]
+    return all(own.density != 1.0 for own in (case.liquid, case.solid) if own)
+
+
+def _ranges(case) -> dict[str, Range]:
+    """Ranges by which a case is judged; what flows is as viscous by the density that it is likely meant to have."""
+    if not _in_units(case):
+        return USUAL
+    found = USUAL | OF_LIQUIDS
+    for section, least in (("liquid", 2e-6), ("gas_phase", 1e-6)):
+        if own := getattr(case, section):
+            slips = ("m2/s", own.density), ("mPa s", 1e-3), ("uPa s", 1e-6)
+            found |= {f"{section}.viscosity_Pa_s": Range(least, 1e4, "from liquid helium, or gas, to lava", slips)}
+    return found
 
 
 def warnings(case) -> list[str]:
     """A line for each value of a case that is 0 in no component and far outside of its range: what was given, the
     range, and the unit that was likely meant; and for numbers that are not those of a fluid that is named."""
     table, told = to_table(case), []
-    for pattern, usual in USUAL.items():
+    for pattern, usual in _ranges(case).items():
         for key, value in _found(table, pattern.split(".")):
             size = float(np.linalg.norm(value))
             if size and not usual.least < size < usual.most:
                 bounds = f"{usual.least:g} to {usual.most:g} ({usual.what})"
                 told.append(f"{key} = {_shown(value)} is far from usual, {bounds}{_likely(value, usual)}")
     told = told or _unlike_its_state(case)  # a slip explains a density too
-    told += _absolute(case) + _wider_than_their_mouth(case)
+    told += _absolute(case) + _wider_than_their_mouth(case) + _cut_away(case) + _never_followed(case)
     return told + _hotter_than_their_film(case, table) + _overruled(table)
 
 
@@ -124,6 +158,34 @@ def _wider_than_their_mouth(case) -> list[str]:
                 "at the units of its sizes"
             )
     return told
+
+
+def _cut_away(case) -> list[str]:
+    """A line for each nozzle whose smallest or largest drop leaves out most of the mass of Rosin & Rammler's law."""
+    told = []
+    for name, own in case.nozzles.items():
+        if own.sizes != "rosin_rammler":
+            continue
+        ends = {"least": own.least_diameter, "most": own.most_diameter or math.inf}
+        shares = size_classes.cut_away(own.size_parameter, own.size_exponent, *ends.values())
+        told += [
+            f"nozzles.{name}.{end}_diameter_mm = {1e3 * ends[end]:g} cuts {100.0 * share:.3g} % of the mass away that "
+            f"size_parameter_mm = {1e3 * own.size_parameter:g} means, and sizes are all but that bound's: look at the "
+            "units of both"
+            for end, share in zip(ends, shares)
+            if share > MOSTLY
+        ]
+    return told
+
+
+def _never_followed(case) -> list[str]:
+    """A line where particles are to be followed that are neither grains nor bodies without a liquid."""
+    if not case.track or case.grains or case.matters == ("solid",):
+        return []
+    return [
+        f"track.particles = {list(case.track)} follows nothing: grains are followed, and bodies that no liquid is "
+        "beside; give [probes.NAME] instead, or leave [track] out"
+    ]
 
 
 def _hotter_than_their_film(case, table: dict) -> list[str]:

@@ -27,6 +27,11 @@ def rosin_rammler(size: float, exponent: float, least: float, most: float, class
     return [of_means(*_means(*part, size, exponent)) for part in zip(*_cuts(low, high, classes))]
 
 
+def cut_away(size: float, exponent: float, least: float, most: float) -> tuple[float, float]:
+    """Shares of the mass of the whole distribution in drops below the smallest and above the largest [m]."""
+    return -math.expm1(-((least / size) ** exponent)), math.exp(-((most / size) ** exponent))
+
+
 def _cuts(low: float, high: float, classes: int) -> tuple[np.ndarray, np.ndarray]:
     """Begin and end of each class of equal mass, in t = (d/X)^q: the mass above t is exp(-t)."""
     begin = low - np.log1p(np.arange(classes) / classes * math.expm1(low - high))

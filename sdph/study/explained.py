@@ -14,7 +14,7 @@ def explained(case, template: Path, *, allow_code: bool = False) -> dict[str, li
     """All parts of `tables.explain`; `CaseError` where `sdph run` would end with one. Arguments as of
     `rehearsal.rehearsed`."""
     with rehearsal.rehearsed(case, template, allow_code=allow_code, whole=True) as (seen, mesh, grains):
-        parts = tables.explain(seen, rehearsal.priced(case, mesh))
+        parts = tables.explain(seen, rehearsal.priced(seen, mesh))
         told = grains.notices if grains else []
         last = next(name for name in parts if name.startswith("warnings"))  # grains come first
         parts[last] += [{"warning": text} for text in (*_of_case(case, mesh), *told)]
@@ -26,7 +26,7 @@ def explained(case, template: Path, *, allow_code: bool = False) -> dict[str, li
 def warned(case, template: Path, *, allow_code: bool = False, whole: bool = False) -> list[str]:
     """The warnings alone; what cannot run is refused, without `whole` but for its particles."""
     with rehearsal.rehearsed(case, template, allow_code=allow_code, whole=whole) as (seen, mesh, _):
-        return [*tables.warnings(seen), *_of_case(case, mesh)]
+        return [*tables.warnings(seen, priced=rehearsal.priced(seen, mesh)), *_of_case(case, mesh)]
 
 
 def _of_case(case, mesh) -> list[str]:

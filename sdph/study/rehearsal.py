@@ -8,13 +8,16 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
+
 from coupling.choice import OWN_MESH, expected
-from coupling.openfoam import poly_mesh
+from coupling.openfoam import cell_sizes, poly_mesh
 from sdph.case import forces
 from sdph.case.gas_cells import cell_edges, cells
 from sdph.engine import state as particles
 from sdph.engine.state import WALL
 from sdph.exchange.window import Window
+from sdph.methods.grains import start
 from sdph.methods.grains.grains import Grains
 from sdph.methods.liquids import bodies as immersion
 from sdph.methods.liquids.parts import Parts
@@ -40,8 +43,23 @@ def priced(case, template: Path):
     as `rehearsed` yields it."""
     if "grains" not in case.matters or expected(case.only("grains")) == "embedded":
         return None
-    own = (template / poly_mesh.FOLDER).is_dir()
-    return estimate.by_openfoam(len(poly_mesh.read(template).volumes) if own else math.prod(cells(case)))
+    if not (template / poly_mesh.FOLDER).is_dir():
+        return estimate.by_openfoam(math.prod(cells(case)))
+    mesh = poly_mesh.read(template)
+    return estimate.by_openfoam(len(mesh.volumes))._replace(edges=_edges(case.only("grains"), mesh))
+
+
+def _edges(case, mesh) -> tuple[float, float]:
+    """Shortest and longest edge [m] of the cells that hold grains at the start; where none do, medians of all: nobody
+    knows where grains will come to, and cells far off may be large."""
+    own = cell_sizes.edges(mesh, case.dimensions)
+    held = np.zeros(len(own.middles), bool)
+    for region in case.particles.values():
+        low, high = start.extents(case, region)
+        held |= ((own.middles >= low) & (own.middles <= high)).all(axis=1)
+    if not held.any():
+        return float(np.median(own.shortest)), float(np.median(own.longest))
+    return float(own.shortest[held].min()), float(own.longest[held].max())
 
 
 @contextlib.contextmanager

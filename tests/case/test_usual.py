@@ -7,6 +7,7 @@ from sdph import scenes
 from sdph.case import read as cases
 from sdph.case import usual
 from sdph.cli import main
+from sdph.methods.grains import start
 
 
 def load(scene, *overrides):
@@ -41,6 +42,14 @@ def test_no_scene_is_warned_of(scene):
         ("spray_cone", "vapour.diffusivity_m2_s=0.25", "if cm2/s was meant, give 2.5e-05"),
         ("bubbling_bed", "boundaries.outlet.pressure_Pa=1.0e5", "if it is absolute, give -1325"),
         ("taylor_bar", "solid.youngs_modulus_Pa=5", "if GPa was meant, give 5e+09"),
+        ("taylor_bar", "solid.density_kg_m3=2.7", "if g/cm3 was meant, give 2700"),
+        ("tank_with_flap", "solid.density_kg_m3=1.1", "if g/cm3 was meant, give 1100"),
+        ("dam_break", "liquid.density_kg_m3=1.0", "if g/cm3 was meant, give 1000"),
+        ("dam_break", "liquid.viscosity_Pa_s=1e-6", "if m2/s was meant, give 0.001"),
+        ("dam_break_gas", "gas_phase.density_kg_m3=0.0012", "if g/cm3 was meant, give 1.2"),
+        ("dam_break_gas", "gas_phase.viscosity_Pa_s=2e4", "if mPa s was meant, give 20"),
+        ("oscillating_droplet", "surface_tension.coefficient_N_m=72", "if mN/m was meant, give 0.072"),
+        ("swirl_sheet", "free_energy_tension.coefficient_N_m=24", "if mN/m was meant, give 0.024"),
     ],
 )
 def test_a_slip_is_told_with_what_was_likely_meant(scene, override, told):
@@ -56,6 +65,46 @@ def test_a_density_that_the_equation_of_state_does_not_give_is_told():
     assert usual.warnings(load("bubbling_bed", *given, "gas.density_kg_m3=69.7")) == []
 
 
+def test_liquids_without_units_are_not_judged():
+    """Benchmarks: a density of 1, or a gravity that makes the Froude number round."""
+    for scene, override in (("taylor_green", "liquid.viscosity_Pa_s=1e-7"), ("bubble_rise", "liquid.density_kg_m3=10")):
+        assert usual.warnings(load(scene, override)) == []
+
+
+ROSIN_RAMMLER = (
+    "nozzles.cone.sizes='rosin_rammler'", "nozzles.cone.size_exponent=2.0", "nozzles.cone.least_diameter_mm=0.05",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        (("size_parameter_mm=500", "most_diameter_mm=1.5"), "most_diameter_mm = 1.5 cuts 100 % of the mass away"),
+        (("size_parameter_mm=0.05", "most_diameter_mm=1.5"), "least_diameter_mm = 0.05 cuts 63.2 % of the mass away"),
+        (("size_parameter_mm=0.5", "most_diameter_mm=0.416"), "most_diameter_mm = 0.416 cuts 50 % of the mass"),
+        (("size_parameter_mm=0.5", "most_diameter_mm=0.417"), ""),
+        (("size_parameter_mm=0.5",), ""),
+    ],
+)
+def test_sizes_that_are_all_but_cut_off_are_told(given, told):
+    """By hand: exp(-(d/X)^2) is above the largest, half of the mass at d = X sqrt(ln 2) = 0.4163 mm."""
+    table = cases.parsed(scenes.find("spray_cone")[1])
+    for key in ("diameter_mm", "diameter_std_mm"):
+        table["nozzles"]["cone"].pop(key, None)
+    for line in (*ROSIN_RAMMLER, *(f"nozzles.cone.{one}" for one in given)):
+        key, _, value = line.partition("=")
+        table["nozzles"]["cone"][key.rpartition(".")[2]] = value.strip("'") if "'" in value else float(value)
+    found = usual.warnings(cases.from_table(table))
+    assert len(found) == bool(told) and all(f"nozzles.cone.{told}" in line for line in found)
+
+
+@pytest.mark.parametrize(("scene", "told"), [("dam_break", True), ("taylor_bar", False), ("tank_with_flap", True)])
+def test_numbers_of_particles_that_nothing_follows_are_told(scene, told):
+    table = cases.parsed(scenes.find(scene)[1]) | {"track": {"particles": [3]}}
+    found = usual.warnings(cases.from_table(table))
+    assert len(found) == told and all(line.startswith("track.particles = [3] follows nothing") for line in found)
+
+
 def test_drops_that_do_not_fit_through_their_mouth_are_told():
     (line,) = usual.warnings(load("spray_cone", "nozzles.cone.diameter_mm=90"))
     assert line.startswith("nozzles.cone lets grains of") and "look at the units of its sizes" in line
@@ -64,6 +113,24 @@ def test_drops_that_do_not_fit_through_their_mouth_are_told():
 def test_materials_are_looked_at_one_by_one():
     (line,) = usual.warnings(load("segregation", "grains.large.density_kg_m3=2.5"))
     assert line.startswith("grains.large.density_kg_m3 = 2.5 ")
+
+
+def test_explain_and_run_tell_of_grains_that_no_number_is_of(tmp_path, capsys):
+    table = cases.parsed(scenes.find("disc_cluster")[1])
+    table["run"] = {"end_time_s": 1e-4, "output_interval_s": 1e-4}
+    table["track"] = {"particles": [1, 99999]}
+    (tmp_path / "case.toml").write_text(tomli_w.dumps(table))
+    assert main(["explain", str(tmp_path), "--gas", "embedded"]) == 0
+    out = capsys.readouterr().out
+    assert "track.particles holds 99999; the case has " in out
+    assert main(["run", str(tmp_path), "--gas", "embedded", "--out", str(tmp_path / "out")]) == 0
+    assert "track.particles holds 99999; the case has " in capsys.readouterr().err
+
+
+def test_the_last_grain_and_grains_to_come_are_taken():
+    case = load("bubbling_bed", "track.particles=[7]")
+    assert start.never_there(case, 7) == [] and len(start.never_there(case, 6)) == 1
+    assert start.never_there(load("spray_cone", "track.particles=[7]"), 0) == []
 
 
 def test_explain_and_run_warn_of_it(tmp_path, capsys):

@@ -36,6 +36,19 @@ def sdph(*arguments, cwd, code=0):
     return done
 
 
+def test_python_runs_the_package_as_the_command(tmp_path):
+    """`python -m sdph`, where no script is installed."""
+    for words, code in ((["--version"], 0), (["run", "no_such_case"], 2)):
+        found = [
+            subprocess.run([sys.executable, "-m", name, *words], cwd=tmp_path, env=ENVIRONMENT, capture_output=True,
+                           text=True, timeout=240, check=False)
+            for name in ("sdph", "sdph.cli")
+        ]  # fmt: skip
+        assert [(own.returncode, own.stdout, own.stderr) for own in found[:1]] == [
+            (code, found[1].stdout, found[1].stderr)
+        ]
+
+
 @pytest.fixture
 def refused(tmp_path, monkeypatch, capsys):
     """Runs a command in this process; gives the one line that is left when it is refused and nothing is touched."""

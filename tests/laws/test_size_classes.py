@@ -73,3 +73,14 @@ def test_log_normal_keeps_number_and_surface(ratio, classes):
 
 def test_one_class_of_a_log_normal_is_itself():
     assert size_classes.log_normal(X, 0.3 * X, 1) == [(X, (0.3 * X) ** 2)]
+
+
+def test_what_bounds_cut_away_is_what_the_law_has_beyond_them():
+    """The mass above d is exp(-(d/X)^q): both ends and a quadrature of what is between add up to all of it."""
+    exponent, least, most = 2.3, 0.4 * X, 1.7 * X
+    below, above = size_classes.cut_away(X, exponent, least, most)
+    ends = math.log((least / X) ** exponent), math.log((most / X) ** exponent)
+    between = quad(lambda y: math.exp(y - math.exp(y)), *ends, epsabs=0.0, epsrel=1e-12)[0]
+    assert below + between + above == pytest.approx(1.0, rel=1e-12)
+    assert above == pytest.approx(math.exp(-(1.7**exponent)), rel=1e-14)
+    assert size_classes.cut_away(X, exponent, least, math.inf)[1] == 0.0

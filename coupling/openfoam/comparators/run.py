@@ -19,6 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
+from coupling.gas import GasError
 from coupling.openfoam import fields, poly_mesh
 from coupling.openfoam.case import DEPTH, HEAD, others, refuse_path, write_case
 from coupling.openfoam.code import refuse_code
@@ -28,6 +29,7 @@ from coupling.openfoam.comparators import (
     droplet_log,
     droplet_numbers,
     droplet_sources,
+    remedies,
     two_fluid_fields,
     two_fluid_numbers,
 )
@@ -118,8 +120,13 @@ def run_two_fluid(
     `again`: run whatever the cache has. `GasError` when OpenFOAM fails.
     """
     mesh = poly_mesh.read(start.mesh) if start and start.mesh else None
-    files = {TWO_FLUID.macros: _macros(TWO_FLUID.macros, two_fluid_numbers.macros(case, courant, mesh))}
-    return _run(TWO_FLUID, case, folder, ranks, files, progress, start, start.mesh if start else None, again)
+    numbers = two_fluid_numbers.macros(case, courant, mesh)
+    files = {TWO_FLUID.macros: _macros(TWO_FLUID.macros, numbers)}
+    try:
+        return _run(TWO_FLUID, case, folder, ranks, files, progress, start, start.mesh if start else None, again)
+    except GasError as error:
+        step = float(numbers.get("time_step") or numbers["first_time_step"])
+        raise GasError(f"{error}{remedies.remedy(str(error), mesh, step)}") from None
 
 
 def run_droplets(

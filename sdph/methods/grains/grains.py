@@ -42,6 +42,7 @@ class Grains:
         own = world.ALONE if self.parameters["inflow"] else world.here()  # what nozzles give is numbered by all
         state = start.fill(case, names, self.notices, self.filled, own)
         self.made = own.sum(len(state.x))  # by all processes, at the start
+        self.notices += start.never_there(case, self.made)
         self.source = Source(case, names, len(state.x) + 1) if self.parameters["inflow"] else None
         self.stepper = Stepper(case, self.parameters, state, self.source, Clock(case.run).shortest)
         self.world, self.stepper.domain.parted = self.stepper.world, own.number > 1

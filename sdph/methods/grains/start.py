@@ -53,6 +53,18 @@ def fill(case, names, notices=None, masses=None, world=ALONE) -> State:
     return state
 
 
+def never_there(case, made: int) -> list[str]:
+    """A line where particles are to be followed whose numbers none of those `made` at the start has, and no nozzle will
+    give."""
+    lost = [number for number in case.track if number > made]
+    if not lost or case.nozzles:
+        return []
+    return [
+        f"track.particles holds {', '.join(map(str, lost))}; the case has {made} particles, counted from 1, and no "
+        "nozzle brings more: columns of these stay nan; leave them out"
+    ]
+
+
 def _look_for_overlap(case, places, notices) -> None:
     """CaseError where grains of two regions stand among each other, denser than they can be packed; a notice where they
     are of one material, and do so at less: they add up. Different materials are a mixture there."""

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from sdph import effects
-from sdph.effects.around import frame
+from sdph.effects.around import frame, tank
 from sdph.engine import state as particles
 from sdph.engine.state import LIQUID
 from sdph.methods.liquids import start
@@ -65,11 +65,27 @@ class LiquidScales:
         return float(np.linalg.norm(gravity[~self.periodic])), float(np.linalg.norm(gravity[self.periodic]))
 
     @cached_property
+    def fall(self) -> float:
+        """Way [m] along gravity from the highest liquid at the start down to the floor of its tank, or of the domain;
+        0 without either."""
+        gravity = np.where(self.periodic, 0.0, self.case.domain.gravity)
+        if not self.wet.any() or not gravity.any():
+            return 0.0
+        down, domain = gravity / np.linalg.norm(gravity), self.case.domain
+        if "tank" in self.case.effects:
+            floor = tank.shape_of(self.case).furthest(down)
+        else:
+            floor = float(np.maximum(*(np.multiply(end, down) for end in (domain.corner, domain.upper))).sum())
+        levels = np.stack([axis[self.wet] for axis in particles.axes(self.state)], axis=1) @ down
+        return max(0.0, floor - float(levels.min()) + 0.5 * self.case.resolution.spacing)
+
+    @cached_property
     def speed(self) -> float:
-        """U [m/s]: thrown; fallen by its own height; shaken across its length; driven along a channel until friction
-        holds it."""
+        """U [m/s]: thrown; fallen by its own height, or on to the floor as far as the run lets it; shaken across its
+        length; driven along a channel until friction holds it."""
         across, along = self.pull
         fallen = math.sqrt(2.0 * across * float(self.extents[-1]))
+        fallen = max(fallen, min(across * self.end, math.sqrt(2.0 * across * self.fall)))
         driven = min(along * self.end, along * self.length**2 / (8.0 * self.viscosity) if self.viscosity else math.inf)
         swung = min(self.shaken * self.end, math.sqrt(2.0 * self.shaken * float(self.extents.max())))
         return max(self.thrown, fallen, driven, swung)

@@ -33,8 +33,8 @@ class Liquid:
 
 @record
 class GasPhase:
-    """A second phase, lighter than the liquid: p = rho_0 c^2/gamma [(rho/rho_0)^gamma - 1] + background - cohesion
-    rho^2.
+    """A second phase, a gas or another liquid, lighter or heavier: p = rho_0 c^2/gamma [(rho/rho_0)^gamma - 1] +
+    background - cohesion rho^2.
 
     `interaction`: riemann (sdph.methods.liquids.phases) or plain, p_i + p_j. `density_by`: the continuity equation, or
     a sum over neighbours, of both phases, where the two fill a closed space.

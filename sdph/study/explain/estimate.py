@@ -73,12 +73,14 @@ IN_SPACE = 2.5
 
 
 class Priced(NamedTuple):
-    """A gas solver, its cells, and its time for each window and for each cell of it [us]."""
+    """A gas solver, its cells, its time for each window and for each cell of it [us], and, of a mesh that the case
+    brings, shortest and longest edge [m] of the cells where grains stand."""
 
     name: str
     cells: int
     window: float
     cell: float
+    edges: tuple[float, float] | None = None
 
 
 def by_openfoam(cells: int) -> Priced:
@@ -110,17 +112,18 @@ def speed() -> Speed:
     return SHIPPED._replace(**kept)
 
 
-def ratios(case) -> list[dict]:
+def ratios(case, edges=None) -> list[dict]:
     """Cells, kernels, spacings and grains against each other, with the range that is safe and why; none for a
-    liquid."""
+    liquid. `edges` as of `Priced`: what is wrong where cells are too large is so in the largest of them."""
     if case.grains is None:
         return []
     h, spacing, cell = case.smoothing_length, case.resolution.spacing, case.resolution.cell
+    narrow, wide = edges or (cell, cell)
     d = max(grains.sauter_diameter for grains in case.kinds)
-    extent = _extent(case)
+    extent = scales_of(case).length
     rows = [
-        ("cell / h", cell / h, 0.25, 4.0, CELLS_WHY),
-        ("cell / grain", cell / d, 3.0, math.inf, GRAINS_WHY),
+        ("cell / h", wide / h, 0.25, 4.0, CELLS_WHY),
+        ("cell / grain", narrow / d, 3.0, math.inf, GRAINS_WHY),
         ("h / spacing", h / spacing, 1.2, 2.0, "fewer neighbours make noise, more blur"),
         ("spacing / grain", spacing / d, 1.0, math.inf, "an SPH particle stands for one grain or more"),
         ("grains' width / h", extent / h, pace.ACROSS, math.inf, "less than three kernels across is all rim"),
@@ -169,16 +172,12 @@ def blown_height(case) -> float:
     return tallest
 
 
-def _extent(case) -> float:
-    return scales_of(case).length
-
-
-def warnings(case) -> list[str]:
+def warnings(case, edges=None) -> list[str]:
     """No grains at all; cells far smaller than the particles, and the other ratios that are not safe; what it does to
     the answer."""
     return [NO_GRAINS][: not (case.particles or case.nozzles)] + [
         f"{r['ratio']} = {r['value']:.3g}, safe from {r['least']:g} to {r['most']:g}: {r['why']}"
-        for r in ratios(case)
+        for r in ratios(case, edges)
         if r["safe"] == "NO"
     ]
 

@@ -6,6 +6,8 @@ import math
 
 from sdph import effects
 from sdph.effects.around import drain
+from sdph.engine.state import LIQUID
+from sdph.methods.liquids import bodies
 from sdph.methods.liquids.bounds import limits as limits_of_step
 from sdph.methods.liquids.liquid import SLOW
 from sdph.study.explain import estimate, feed
@@ -113,16 +115,25 @@ def limits(s) -> list[dict]:
     return [{"cause": k, "largest [s]": v, "rules": "<-" if v == least else ""} for k, v in found.items()]
 
 
+def _beside(s, shared) -> tuple[int, int]:
+    """Numbers of liquid particles and of all that a run has at the start, those of its bodies among them."""
+    if shared is None:
+        return int(s.wet.sum()), len(s.state.x)
+    left = bodies.beside(s.case, s.state, shared.places)
+    return int((left.kind == LIQUID).sum()), len(left.x) + len(shared.places)
+
+
 def expected(s, steps: list[dict], shared=None) -> list[dict]:
-    """Particles, steps, memory, wall time."""
-    start, spacing = len(s.state.x), s.case.resolution.spacing
+    """Particles, steps, memory, wall time; bodies that stand in the liquid take its place."""
+    wet, start = _beside(s, shared)
+    spacing = s.case.resolution.spacing
     came = sum(estimate.mouth(s.case, n) * n.speed * feed.lasting(s.case, n) for n in s.case.nozzles.values())
     count = start + (0 if "outflow" in s.case.effects else round(came / spacing**s.case.dimensions))
-    end, longest = shared or (s.end, min(row["largest [s]"] for row in steps))
+    end, longest = shared[:2] if shared else (s.end, min(row["largest [s]"] for row in steps))
     number = math.ceil(end / (s.case.run.step_factor * longest))
     wall = 1e-6 * estimate.speed().liquid * 0.5 * (start + count) * number
     return [
-        {"what": "liquid particles", "value": int(s.wet.sum()) + count - start, "unit": ""},
+        {"what": "liquid particles", "value": wet + count - start, "unit": ""},
         {"what": "particles, walls included", "value": count, "unit": ""},
         {"what": "steps", "value": number, "unit": ""},
         {"what": "memory", "value": estimate.memory(s.case, count, 0) / 1e6, "unit": "MB"},

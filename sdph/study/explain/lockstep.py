@@ -6,8 +6,11 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from sdph.case.judge import scales_of
 from sdph.effects.liquids import time_scaling
+from sdph.engine import state as particles
 from sdph.engine.contact import between
 from sdph.methods.grains import start
 from sdph.study.explain import liquids, solids
@@ -16,22 +19,21 @@ GROWN = 1.4  # D/D_0 at which a shell tears (Qiang et al. 2017; 1.35 to 1.47 in 
 
 
 class Shared(NamedTuple):
-    """End of the run [s] by the time that steps go by, and the longest step [s], before run.step_factor."""
+    """End of the run [s] by the time that steps go by, and the longest step [s], before run.step_factor; places (M, 3)
+    [m] of the bodies' particles."""
 
     end: float
     longest: float
+    places: np.ndarray
 
 
 def of(case) -> Shared | None:
     """The steps that liquid and bodies share; None where a case has not both."""
     if not {"liquid", "solid"} <= set(case.matters):
         return None
-    rows = [
-        row
-        for matter, own in (("liquid", liquids), ("solid", solids))
-        for row in own.limits(scales_of(case.only(matter)))
-    ]
-    return Shared(motion(case), min(row["largest [s]"] for row in rows))
+    wet, bodies = (scales_of(case.only(matter)) for matter in ("liquid", "solid"))
+    rows = (*liquids.limits(wet), *solids.limits(bodies))
+    return Shared(motion(case), min(row["largest [s]"] for row in rows), particles.positions(bodies.state))
 
 
 def contact_of(case) -> list[dict]:

@@ -56,7 +56,7 @@ def _explain(case, priced, shared=None) -> dict[str, list[dict]]:
         ],
         "effects": effect_rows(case, scales),
         **found,
-        "warnings": [{"warning": text} for text in warnings(case, scales)],
+        "warnings": [{"warning": text} for text in warnings(case, scales, priced)],
     }
 
 
@@ -65,21 +65,28 @@ def _of_grains(case, scales, priced) -> dict[str, list]:
     return {
         "numbers": numbers(scales, case.warm),
         "materials": materials.rows(case),
-        "ratios": estimate.ratios(case),
+        "ratios": estimate.ratios(case, priced and priced.edges),
         "limits": limits,
         "expected": expected,
     }
 
 
-def warnings(case, scales=None) -> list[str]:
-    """Notes of `run` before it starts: effects that are missing, ratios that are not safe; `scales` of the case."""
+def warnings(case, scales=None, priced=None) -> list[str]:
+    """Notes of `run` before it starts: effects that are missing, ratios that are not safe; `scales` of the case,
+    `priced` as of `explain`."""
     if len(case.matters) > 1:
-        return [text for matter in case.matters for text in warnings(case.only(matter))]
+        return [text for matter in case.matters for text in warnings(case.only(matter), None, priced)]
     scales = scales or judge.scales_of(case)
     own = OF.get(case.moved_by(judge.matter(case)))
-    told = own.warnings(scales) if own else [*estimate.warnings(case), *eddies.warnings(scales), *eddies.too_fast(case)]
+    told = own.warnings(scales) if own else _of_gas(case, scales, priced)
     alike = [ALIKE] if not own and {"heat", "drag"} <= set(case.effects) and not scales.span else []
     return [*judge.missing(case, scales), *told, *alike]
+
+
+def _of_gas(case, scales, priced) -> list[str]:
+    """Notes on grains in a gas."""
+    edges = priced and priced.edges
+    return [*estimate.warnings(case, edges), *eddies.warnings(scales), *eddies.too_fast(case)]
 
 
 def numbers(s, warm: bool = True) -> list[tuple]:

@@ -203,6 +203,25 @@ def test_paper_and_default_let_the_column_fall_alike():
     assert fronts[1] == pytest.approx(fronts[0], abs=0.00714375)
 
 
+@pytest.mark.parametrize("interaction", ["riemann", "plain"])
+def test_the_second_phase_may_be_the_heavier_one(interaction):
+    """The same two liquids, the heavy one below: which of them is called the second phase changes nothing."""
+    heavy, light = ({"density_kg_m3": rho, "viscosity_Pa_s": mu, "exponent": 7.0} for rho, mu in ((1200, 1), (900, 2)))
+    more, wide = {"background_pressure_Pa": 100.0, "sound_speed_m_s": 20.0}, {"lower_m": [0.0, 0.0], "shape": "box"}
+    low, all_ = wide | {"upper_m": [0.5, 0.4]}, wide | {"upper_m": [0.5, 0.8]}
+    found = [
+        stepper(liquid=one | more, gas_phase=other | {"interaction": interaction}, pools=pools)
+        for one, other, pools in (
+            (heavy, light, {"low": low, "high": all_ | {"phase": "gas"}}),
+            (light, heavy, {"low": low | {"phase": "gas"}, "high": all_}),
+        )
+    ]
+    usual, turned = (own.acceleration[own.active] for own in found)
+    assert np.allclose(turned, usual, rtol=1e-9, atol=1e-9 * np.abs(usual).max())
+    usual, turned = (own.pressure[own.active] for own in found)
+    assert np.allclose(turned, usual, rtol=1e-9, atol=1e-9 * np.abs(usual).max())
+
+
 def test_one_phase_is_off():
     case = cases.from_table(
         {key: value for key, value in BASE.items() if key != "gas_phase"} | {"pools": {"water": BASE["pools"]["water"]}}

@@ -8,9 +8,11 @@ from sdph import effects, scenes
 from sdph.case import judge
 from sdph.case import read as cases
 from sdph.effects.around import drain, tank
+from sdph.engine.state import LIQUID
 from sdph.methods.liquids.method import LiquidStepper
+from sdph.running.together import Together
 from sdph.schema import CaseError
-from sdph.study.explain import lockstep, tables
+from sdph.study.explain import liquids, lockstep, tables
 
 LIQUIDS = [name for name in scenes.names() if cases.load(scenes.HERE / name / "case.toml").liquid]
 
@@ -89,6 +91,57 @@ def test_slow_sound_is_told():
         "raise liquid.sound_speed_m_s from 5 to" in line
         for line in tables.warnings(load("dam_break", "liquid.sound_speed_m_s=5"))
     )
+
+
+def expected(case):
+    return {row["what"]: row["value"] for row in liquids.explain(judge.scales_of(case))["expected"]}
+
+
+OUTLINE = [[0.0, 0.1], [0.05, 0.1], [0.05, 0.0], [0.1, 0.0], [0.1, 0.1], [0.28575, 0.1], [0.28575, 0.17], [0.0, 0.17]]
+
+
+@pytest.mark.parametrize(
+    ("more", "height"),
+    [
+        ((), 0.1143),
+        (("pools.column.lower_m=[0,0.05]", "pools.column.upper_m=[0.05715,0.1643]"), 0.1643),
+        (("pools.column.lower_m=[0,0.05]", "pools.column.upper_m=[0.05715,0.1643]", "tank.lower_m=[0,0.05]"), 0.1143),
+        (
+            (
+                "tank.shape='outline'", f"tank.corners_m={OUTLINE}", "tank.open_sides=[]",
+                "pools.column.lower_m=[0,0.1]", "pools.column.upper_m=[0.05,0.15]",
+            ),
+            0.15,
+        ),
+        (
+            (
+                "domain.gravity_m_s2=[9.81,0.0]", "pools.column.lower_m=[0,0]", "pools.column.upper_m=[0.1,0.05]",
+                "run.end_time_s=1.0",
+            ),
+            0.28575,
+        ),
+    ],
+)  # fmt: skip
+def test_liquid_falls_down_to_the_floor_of_its_tank(more, height):
+    """By hand: sqrt(2 g H) from its highest to the lowest place of the tank."""
+    speed = judge.scales_of(load("dam_break", *more)).speed
+    assert speed == pytest.approx(math.sqrt(2.0 * 9.81 * height), rel=0.02)
+
+
+def test_liquid_falls_no_longer_than_the_run():
+    high = "pools.column.lower_m=[0,0.16]", "pools.column.upper_m=[0.05,0.17]"
+    short = load("dam_break", *high, "run.end_time_s=0.1", "run.output_interval_s=0.1")
+    assert judge.scales_of(short).speed == pytest.approx(9.81 * 0.1, rel=1e-9)
+
+
+def test_bodies_take_the_place_of_the_liquid_that_is_counted(tmp_path):
+    """As many as a run begins with: the flap stands in the water."""
+    case = load("tank_with_flap", "pools.water.upper_m=[0.16,0.25]")
+    parts = tables.explain(case)
+    told = {row["what"]: row["value"] for row in parts["expected (liquid)"]}
+    state = Together(case, tmp_path / "ledger.csv").method.stepper.state
+    assert told["particles, walls included"] == len(state.x)
+    assert told["liquid particles"] == (state.kind == LIQUID).sum() < expected(case.only("liquid"))["liquid particles"]
 
 
 def test_limits_are_the_steppers_own():

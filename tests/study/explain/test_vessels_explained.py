@@ -17,8 +17,9 @@ from sdph.case import read as cases
 from sdph.cli import main
 from sdph.scenes import paths
 from sdph.schema import CaseError
-from sdph.study import closed_vessels, inlets
-from sdph.study.explain import tables
+from sdph.study import closed_vessels, inlets, rehearsal
+from sdph.study.explain import estimate, tables
+from tests.coupling.openfoam.test_cell_sizes import row
 
 BED = scenes.HERE / "bubbling_bed" / "case.toml"
 
@@ -59,6 +60,10 @@ def test_an_own_mesh_is_counted_and_priced_as_openfoams(tmp_path, capsys):
     assert rows["gas cells"]["value"] == len(poly_mesh.PolyMesh(mine / "gas").volumes) == 480
     assert rows["particles"]["value"] == pytest.approx(3483, abs=5)  # the box would hold 5292
     assert "OpenFOAM gas" in rows["wall time"]["how"]
+    key = "resolution.cell_mm=25"
+    ratios = {row["ratio"]: row["value"] for row in explained(capsys, mine, "--set", key)["ratios"]}
+    spacing = 1e-3 * tomllib.loads((mine / "case.toml").read_text())["resolution"]["spacing_mm"]
+    assert ratios["cell / h"] == pytest.approx(0.02 / ratios["h / spacing"] / spacing)  # they are 20 mm high
 
 
 @pytest.mark.openfoam
@@ -68,6 +73,37 @@ def test_a_closed_vessel_of_ones_own_is_refused(tmp_path, capsys):
     capsys.readouterr()
     assert main(["explain", str(mine), *shut]) == 2
     assert "boundaries.inlet is a velocity_inlet" in capsys.readouterr().err
+
+
+def test_cells_of_an_own_mesh_are_judged_where_grains_stand():
+    """Not by resolution.cell_mm, and by the largest: one of 20 mm among grains, one of 90 mm far above them."""
+    mesh = row([0.01, 0.02, 0.01, 0.09])
+    box = {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.035, 0.01], "volume_fraction": 0.5}
+    own = {
+        "resolution": {"spacing_mm": 4.0, "cell_mm": 5.0},
+        "domain": {"size_m": [0.13, 0.01], "gravity_m_s2": [0, -9.81]},
+    }
+    table = (
+        cases.parsed(BED)
+        | {"particles": {"bed": box | {"temperature_K": 300.0}}}
+        | own
+        | {"boundaries": {}, "probes": {}}
+    )
+    case = cases.from_table(table)
+    edges = rehearsal._edges(case, mesh)
+    assert edges == pytest.approx((0.01, 0.02))
+    told = {own["ratio"]: own["value"] for own in estimate.ratios(case, edges)}
+    assert told["cell / h"] == pytest.approx(0.02 / case.smoothing_length)
+    assert told["cell / grain"] == pytest.approx(0.01 / case.grains.sauter_diameter)
+    far = cases.from_table(table | {"resolution": {"spacing_mm": 2.0, "cell_mm": 5.0}})
+    assert not [line for line in estimate.warnings(far) if line.startswith("cell / h")]
+    priced = estimate.by_openfoam(4)._replace(edges=edges)
+    assert [line for line in tables.warnings(far, None, priced) if line.startswith("cell / h = 6.67")]
+
+
+def test_where_no_grains_stand_the_cells_in_the_middle_are_judged():
+    case = cases.from_table(cases.parsed(BED) | {"particles": {}})
+    assert rehearsal._edges(case, row([0.01, 0.02, 0.01, 0.09, 0.008])) == pytest.approx((0.01, 0.01))
 
 
 def explained(capsys, *words):

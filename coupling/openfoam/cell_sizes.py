@@ -1,0 +1,60 @@
+"""Sizes of the cells of an OpenFOAM mesh: their edges, and how much neighbours differ in width."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from coupling.openfoam.poly_mesh import PolyMesh
+from sdph.laws.constants import TINY
+
+COLLAPSED = 1e-9  # of the longest edge of a mesh: one that has shrunk to a point, as of a wedge; our choice
+
+
+class Edges(NamedTuple):
+    """Middles (C, d) [m] of the cells of a mesh, shortest and longest edge of each (C,) [m]."""
+
+    middles: np.ndarray
+    shortest: np.ndarray
+    longest: np.ndarray
+
+
+def edges(mesh: PolyMesh, dimensions: int) -> Edges:
+    """The edges of each cell; of a plane mesh those in its plane."""
+    count = np.diff(mesh.first)
+    after = np.arange(len(mesh.corners)) + 1
+    after[mesh.first[1:] - 1] = mesh.first[:-1]
+    length = np.linalg.norm((mesh.points[mesh.corners[after]] - mesh.points[mesh.corners])[:, :dimensions], axis=1)
+    none = length <= COLLAPSED * length.max()
+    face = np.repeat(np.arange(len(count)), count)
+    cells = int(mesh.owner.max()) + 1
+    shortest, longest = np.full(cells, np.inf), np.zeros(cells)
+    inner = face < len(mesh.neighbour)
+    for own, of in ((np.full(len(face), True), mesh.owner), (inner, mesh.neighbour)):
+        np.maximum.at(longest, of[face[own]], length[own])
+        np.minimum.at(shortest, of[face[own]], np.where(none, np.inf, length)[own])
+    return Edges(middles(mesh)[:, :dimensions], shortest, longest)
+
+
+def middles(mesh: PolyMesh) -> np.ndarray:
+    """(C, 3) [m] mean of the middles of each cell's faces."""
+    cells, inner = int(mesh.owner.max()) + 1, len(mesh.neighbour)
+    of, place = np.concatenate((mesh.owner, mesh.neighbour)), np.concatenate((mesh.centres, mesh.centres[:inner]))
+    sums = [np.bincount(of, axis, cells) for axis in place.T]
+    return np.stack(sums, axis=1) / np.bincount(of, minlength=cells)[:, None]
+
+
+def largest_jump(mesh: PolyMesh) -> tuple[float, np.ndarray]:
+    """Width of a cell over that of its neighbour, across the face that they share: the largest of the mesh, and where
+    (3,) [m] that face is; 1 where there is one cell."""
+    inner, centre = len(mesh.neighbour), middles(mesh)
+    if not inner:
+        return 1.0, mesh.centres[0]
+    normal = mesh.areas[:inner] / np.maximum(np.linalg.norm(mesh.areas[:inner], axis=1), TINY)[:, None]
+    widths = [
+        np.maximum(np.abs(((centre[of[:inner]] - mesh.centres[:inner]) * normal).sum(axis=1)), TINY)
+        for of in (mesh.owner, mesh.neighbour)
+    ]
+    ratio = np.maximum(widths[0] / widths[1], widths[1] / widths[0])
+    return float(ratio.max()), mesh.centres[int(ratio.argmax())]
