@@ -71,13 +71,19 @@ class CheckpointError(GasError):
 class Mesh:
     """Cells of the gas solver.
 
-    centres (C, 3) [m]; volumes (C,) [m3]; dimensions 2 or 3; depth [m] of a 2-D mesh (1 in 3-D).
+    centres (C, 3) [m]; volumes (C,) [m3]; dimensions 2 or 3; depth [m] of a 2-D mesh (1 in 3-D). `spread` is places
+    (M, 3) [m] that fill the cells evenly and the cell (M,) of each, of a mesh that does not fill its box.
     """
 
     centres: np.ndarray
     volumes: np.ndarray
     dimensions: int
     depth: float = 1.0
+    spread: tuple[np.ndarray, np.ndarray] | None = None
+
+    def fills(self, box) -> bool:
+        """True where the cells fill a box of sides (d,) [m]."""
+        return bool(np.isclose(np.prod(box) * self.depth, self.volumes.sum(), rtol=1e-9))
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,6 @@ the next, the finer as wide as h, the worst is 6 % off, 2 % where h is 0.75 of t
 
 from __future__ import annotations
 
-import itertools
 import math
 from typing import NamedTuple
 
@@ -55,31 +54,29 @@ class Transfer:
     """Weights between particles and one mesh, for particles of smoothing length `smoothing` [m].
 
     `box` (d,) [m] is that of the domain, from its lower `corner` (d,) [m] or the origin; the kernel is folded at its
-    sides where the mesh fills it. Where it does not, walls are where cells end: V_c gets a factor by which what fills
-    the mesh evenly fills its cells evenly. Places are counted from there.
+    sides where the mesh fills it. Where it does not, walls are where cells end, and the mesh says what places fill it
+    evenly: V_c gets a factor by which they fill its cells evenly. Places are counted from the corner.
     """
 
     def __init__(self, mesh, smoothing: float, box=(), corner=()):
         self.volumes = mesh.volumes
         size = (mesh.volumes / mesh.depth) ** (1.0 / mesh.dimensions)
         self.smoothing = np.maximum(smoothing, size)
-        filled = len(box) > 0 and np.isclose(np.prod(box) * mesh.depth, mesh.volumes.sum(), rtol=1e-9)
+        filled = len(box) > 0 and mesh.fills(box)
         self.sides = np.array([*box, *[np.inf] * (3 - len(box))]) if filled else np.full(3, np.inf)
         self.corner = np.array([*corner, *[0.0] * (3 - len(corner))])
         # V_c/h_c^d but for a factor that rows take over: 1/h_c^d is the part of W that r/h does not tell
         share = mesh.volumes * (self.smoothing / self.smoothing.max()) ** -mesh.dimensions
         self.bins = _bins((mesh.centres - self.corner)[:, : mesh.dimensions], self.smoothing, share)
         self.stride, self.bins_there = 16, None
-        if len(box) > 0 and not filled:
+        if mesh.spread:
             self._even(mesh)
 
     def _even(self, mesh) -> None:
-        """Change the cells' shares until grains that stand evenly in them, 2^d in each, fill each with its own volume:
-        columns of a matrix whose rows stay 1 (Sinkhorn & Knopp 1967, Pac. J. Math. 21, 343)."""
-        apart = 0.25 * (mesh.volumes / mesh.depth)[:, None] ** (1.0 / mesh.dimensions)
-        ways = np.pad(list(itertools.product((-1.0, 1.0), repeat=mesh.dimensions)), ((0, 0), (0, 3 - mesh.dimensions)))
-        places = np.concatenate([mesh.centres + apart * way for way in ways])
-        own = np.tile(mesh.volumes / len(ways), len(ways))
+        """Change the cells' shares until grains that stand evenly in them fill each with its own volume: columns of a
+        matrix whose rows stay 1 (Sinkhorn & Knopp 1967, Pac. J. Math. 21, 343)."""
+        places, cell = mesh.spread
+        own = (mesh.volumes / np.bincount(cell))[cell]
         for _ in range(ROUNDS):
             filled = deposit(self.weights(places), own)
             factor = mesh.volumes / np.maximum(filled, TINY)

@@ -1,11 +1,15 @@
-"""Sizes of the cells of an OpenFOAM mesh: their edges, and how much neighbours differ in width."""
+"""Sizes of the cells of an OpenFOAM mesh: their edges, places spread in them, how much neighbours differ in width."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
+from coupling.gas import Mesh
+from coupling.openfoam import poly_mesh
 from coupling.openfoam.poly_mesh import PolyMesh
 from sdph.laws.constants import TINY
 
@@ -43,6 +47,30 @@ def middles(mesh: PolyMesh) -> np.ndarray:
     of, place = np.concatenate((mesh.owner, mesh.neighbour)), np.concatenate((mesh.centres, mesh.centres[:inner]))
     sums = [np.bincount(of, axis, cells) for axis in place.T]
     return np.stack(sums, axis=1) / np.bincount(of, minlength=cells)[:, None]
+
+
+def spread(mesh: Mesh, case, folder: Path) -> Mesh:
+    """The mesh as a solver in `folder` tells it; with places half way from the middle of each cell to its corners where
+    it does not fill the box of the case. Of a cell that is a box these are an even lattice."""
+    if mesh.fills(case.domain.size):
+        return mesh
+    own, ranks = poly_mesh.read(folder), case.coupling.gas_ranks
+    cell, corner = _corners(own)
+    count = np.bincount(cell)
+    middle = np.stack([np.bincount(cell, axis) for axis in own.points[corner].T], axis=1) / count[:, None]
+    told = np.argsort(poly_mesh.numbers_by_rank(folder, ranks)) if ranks > 1 else np.arange(len(count))
+    places = mesh.centres[told[cell]] + 0.5 * (own.points[corner] - middle[cell])
+    places[:, mesh.dimensions :] = 0.0
+    return replace(mesh, spread=(places, told[cell]))
+
+
+def _corners(mesh: PolyMesh) -> tuple[np.ndarray, np.ndarray]:
+    """Cell and point of each corner of each cell, (M,) both."""
+    face = np.repeat(np.arange(len(mesh.first) - 1), np.diff(mesh.first))
+    inner = face < len(mesh.neighbour)
+    cell = np.concatenate((mesh.owner[face], mesh.neighbour[face[inner]]))
+    pairs = np.unique(cell * len(mesh.points) + np.concatenate((mesh.corners, mesh.corners[inner])))
+    return pairs // len(mesh.points), pairs % len(mesh.points)
 
 
 def largest_jump(mesh: PolyMesh) -> tuple[float, np.ndarray]:

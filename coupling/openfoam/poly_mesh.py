@@ -145,6 +145,11 @@ def points(case: Path) -> np.ndarray:
     return numbers.reshape(-1, 3)
 
 
+def numbers_by_rank(case: Path, ranks: int) -> np.ndarray:
+    """(C,) numbers of a mesh's cells in the order in which the processes of a case that is decomposed have them."""
+    return np.concatenate([_labels(case / f"processor{k}" / FOLDER / "cellProcAddressing") for k in range(ranks)])
+
+
 def patches(case: Path) -> dict[str, Patch]:
     """Patches of a mesh by name."""
     data = dictionary.content(case / FOLDER / "boundary")

@@ -13,6 +13,7 @@ import numpy as np
 
 from coupling.gas import SOURCES, CheckpointError, GasError, GasState, Unfinished, known_fields, refuse_full_cells
 from coupling.openfoam import case as case_files
+from coupling.openfoam import cell_sizes
 from coupling.openfoam import told as told_by
 from coupling.openfoam.links import Links
 from coupling.openfoam.programs import barrier, install
@@ -126,7 +127,7 @@ class OpenFoamGas:
     def _meet(self, told: Message) -> None:
         """Take what the solver tells of itself and its mesh."""
         self._check_properties(told)
-        self.mesh = told_by.mesh(told)
+        self.mesh = cell_sizes.spread(told_by.mesh(told), self._case, self._folder)
         self.solver = f"{told.text('solver')}, {told.text('openfoam')}, {told.number('ranks')} ranks"
 
     def _start(self, program: Path, address: str, secret: str) -> subprocess.Popen:

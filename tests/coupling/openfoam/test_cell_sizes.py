@@ -4,11 +4,17 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy.spatial import ConvexHull
 
-from coupling.gas import GasError
+from coupling.gas import GasError, Mesh
+from coupling.openfoam import cell_sizes
 from coupling.openfoam.cell_sizes import edges, largest_jump, middles
 from coupling.openfoam.comparators import remedies
 from coupling.openfoam.comparators import run as comparators
+from coupling.openfoam.solver import OpenFoamGas
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.scenes import paths
 from tests.study.test_two_fluid_in_vessels import case
 
 FPE = "twoPhaseEulerFoam was killed by SIGFPE at 0.01 s: Floating point exception (log: log)"
@@ -68,3 +74,26 @@ def test_who_compares_is_told_so(end, told, tmp_path, monkeypatch):
         comparators.run_two_fluid(case(0.0), tmp_path)
     line = str(error.value)
     assert line.startswith(end) and ("run.output_interval_s" in line) == told and "\n" not in line
+
+
+@pytest.mark.openfoam
+def test_places_spread_in_cells_are_of_these_cells_however_many_processes_tell_them(tmp_path):
+    """Half way to the corners: twice as far out they are the cell itself, in a vessel whose cells widen upwards."""
+    told = []
+    for ranks in (1, 2):
+        known = cases.load(scenes.find("tapered_bed")[1], (f"coupling.gas_ranks={ranks}",))
+        gas = OpenFoamGas(known, tmp_path / str(ranks), paths.gas_template("tapered_bed"))
+        gas.close()
+        mesh = gas.mesh
+        places, cell = mesh.spread
+        own = places[np.argsort(cell, kind="stable")].reshape(len(mesh.volumes), 8, 3)
+        np.testing.assert_allclose(own.mean(axis=1), mesh.centres * (1.0, 1.0, 0.0), atol=1e-9)
+        areas = [
+            ConvexHull(mesh.centres[c, :2] + 2.0 * (own[c, :, :2] - mesh.centres[c, :2])).volume
+            for c in range(len(own))
+        ]
+        np.testing.assert_allclose(areas, mesh.volumes / mesh.depth, rtol=1e-6)
+        told.append(own[np.lexsort(np.round(mesh.centres[:, :2], 7).T)])
+    np.testing.assert_allclose(told[1], told[0], atol=1e-9)
+    box = Mesh(np.zeros((1, 3)), np.array([np.prod(known.domain.size)]), 2)
+    assert cell_sizes.spread(box, known, tmp_path / "nowhere") is box
