@@ -57,6 +57,14 @@ def closed_form(region, dimensions: int) -> float:
     return math.nan
 
 
+def holds(region, places) -> np.ndarray:
+    """(N,) whether places (N, d) [m] lie in a box, disc, sphere or ring."""
+    if region.shape == "box":
+        return ((places >= np.array(region.lower)) & (places <= np.array(region.upper))).all(axis=1)
+    away = np.sqrt(((places - np.array(region.centre)) ** 2).sum(axis=1))
+    return (away <= region.radius) & (away >= (region.inner_radius or 0.0))
+
+
 def volume(region, spacing: float, dimensions: int, count: int) -> float:
     """[m^d] of each of the `count` points of a region: they share what is known of it, else it is that of the
     lattice."""

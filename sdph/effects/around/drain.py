@@ -40,6 +40,12 @@ class DrainP(NamedTuple):
 
 def kernel(case) -> DrainP:
     own, first = case.parameters["drain"], filled(case)
+    *across, down = case.domain.gravity
+    if any(case.domain.gravity) and not -down > max(map(abs, across)):
+        raise CaseError(
+            f"domain.gravity_m_s2 = {list(case.domain.gravity)}, but a drain takes out what lies lowest along the last "
+            "axis: gravity must point down it; turn the case, or leave the drain out"
+        )
     command(own, first)
     if own.fill > first:
         raise CaseError(

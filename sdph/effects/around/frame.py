@@ -102,6 +102,8 @@ def _refuse_out_of_plane(case, move) -> None:
 def motion(own: Frame, until: float):
     """t -> (acceleration (3,), omega (3,), omega_dot (3,)) of the frame, gravity left out; t goes to `until` [s]."""
     if own.table:
+        if own.shake or own.turn or any(own.spin):
+            raise CaseError("frame.table is the whole motion: leave shake, turn and spin_rad_s out, or the table")
         return _tabulated(own, until)
     for row in (*own.shake, *own.turn):
         flat = isinstance(row, tuple) and not any(isinstance(value, tuple) for value in row)

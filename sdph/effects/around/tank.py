@@ -14,9 +14,11 @@ from sdph.engine import surface
 from sdph.engine.geometry import SIDES
 from sdph.engine.walls import shapes
 from sdph.engine.walls.outline import outline
+from sdph.engine.world import ALONE
 from sdph.schema import CaseError, choice, file, quantity, record, vector, words
 
 ALL = "tank"  # name of all walls of a tank in `run.forces`
+ROUND_OFF = 1e-9  # of a spacing: what stands so far outside stands in the wall
 
 
 @record
@@ -77,6 +79,9 @@ def shape_of(case):
         return _with_outlet_in_floor(case, own, _box(case, own))
     if own.shape == "outline":
         return _outline(case, own)
+    if own.open_sides:
+        given = f"tank.open_sides = {list(own.open_sides)}, but tank.shape = {own.shape!r} is closed all around"
+        raise CaseError(f"{given}; only a box and an outline have open sides: leave it out, or give one of these")
     if own.shape == "mesh" and d == 3:
         return _mesh(case, own.mesh, own.mesh_scale)
     if d == 2 and own.shape != "sphere":
@@ -98,6 +103,18 @@ def shape_of(case):
         tank = shapes.Capsule(centre, own.radius, own.length if own.shape == "capsule" else 0.0)
         bottom = centre[2] - own.radius - 0.5 * tank.length
     return _with_outlet(own, tank, bottom, reach)
+
+
+def refuse_outside(case, name: str, points, world=ALONE) -> None:
+    """CaseError where particles of a pool at points (N, d) [m] would stand outside the tank: nothing holds them there,
+    and no picture shows them."""
+    beyond = shape_of(case).distance(points) if "tank" in case.effects else np.zeros(0)
+    if outside := world.sum(int((beyond > ROUND_OFF * case.resolution.spacing).sum())):
+        count, furthest = world.sum(len(points)), world.most(float(beyond.max(initial=0.0)))
+        raise CaseError(
+            f"pools.{name}: {outside} of its {count} particles would stand outside the tank, up to "
+            f"{furthest:.3g} m from it; move the pool, or make it smaller"
+        )
 
 
 @functools.lru_cache(maxsize=4)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from sdph.effects.effect import Effect, Judgement, diffusive_limit
-from sdph.schema import choice, quantity, record
+from sdph.schema import CaseError, choice, quantity, record
 
 
 @record
@@ -40,10 +40,33 @@ class LiquidHeatP(NamedTuple):
 
 def kernel(case) -> LiquidHeatP:
     own = case.parameters["liquid_heat"]
+    _check(case, own)
     return LiquidHeatP(
         own.conductivity, own.heat_capacity, own.body_conductivity or own.conductivity,
         own.body_heat_capacity or own.heat_capacity, own.temperature or 0.0, own.flux, int(own.heated == "inside"),
     )  # fmt: skip
+
+
+def _check(case, own: LiquidHeat) -> None:
+    """CaseError for what has no heat: it would be left out in silence."""
+    given = {
+        "dimensions = 3": case.dimensions == 3, "[gas_phase]": case.gas_phase is not None,
+        "liquid.periodic": case.liquid is not None and any(case.liquid.periodic or ()),
+    } | {f"the effect {name}": name in case.effects for name in ("inflow", "outflow", "drain")}  # fmt: skip
+    if here := [name for name, found in given.items() if found]:
+        raise CaseError(
+            f"the case has {' and '.join(here)}, but liquid_heat is of one liquid in two dimensions that nothing comes "
+            "to or leaves, without periodic sides; leave one out"
+        )
+    if own.temperature is None and "bubble" not in case.effects:
+        raise CaseError("liquid_heat.temperature_K is missing; only a case with a bubble has another one: give it")
+    rings = [body for body in case.bodies.values() if body.shape == "ring"]
+    round_ones = [pool for pool in case.pools.values() if pool.shape in ("disc", "ring")]
+    if own.flux and not rings and (len(round_ones) != 1 or len(case.pools) != 1):
+        raise CaseError(
+            f"liquid_heat.flux_W_m2 = {own.flux:g} goes through the rim of a body that is a ring, or of one pool that "
+            "is a disc or a ring, alone in the case; give one of these, or leave it out"
+        )
 
 
 def longest(p: LiquidHeatP, h: float, density: float, body_density: float) -> float:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from sdph.effects.effect import Effect, Judgement
 from sdph.engine import kernels as smoothing
 from sdph.laws.compiled import serial
-from sdph.schema import choice, flag, quantity, record
+from sdph.schema import CaseError, choice, flag, quantity, record
 
 CROWDING, POWER_OF = 0.2, 4  # R and n of the term that separates pairs, Monaghan 2000, J. Comput. Phys. 159, 290
 INTERIOR = 0.75  # of the smallest eigenvalue of the renormalisation matrix, Sun et al. 2017
@@ -59,6 +59,9 @@ def kernel(case) -> ShiftingP:
     """
     own, h = case.parameters["shifting"], case.smoothing_length
     liquid = float(own.phases == "both")
+    if not liquid and case.gas_phase is None:
+        given = f"shifting.phases = {own.phases!r}, but the case has no [gas_phase]"
+        raise CaseError(f"{given}; give it, or leave phases out")
     if own.form == "transport_velocity":
         return ShiftingP(
             2.0 * own.strength * case.liquid.courant * h * case.liquid.sound_speed,

@@ -44,6 +44,8 @@ def kernel(case) -> InflationP:
         rings = [name for name, other in case.bodies.items() if other.shape == "ring"]
         raise CaseError(f"inflation.body = {own.body!r}; it must be a ring: {', '.join(rings) or 'there is none'}")
     if own.by == "pressure":
+        if own.growth or own.bulk_modulus:
+            raise CaseError('inflation.growth_1_s and bulk_modulus_Pa are of inflation.by = "growth"; give that, too')
         return InflationP(own.pressure, own.rise_time, 0.0, 0.0, 2.0 * body.radius)
     if not own.growth * own.bulk_modulus:
         raise CaseError('inflation.by = "growth" needs growth_1_s and bulk_modulus_Pa above 0')

@@ -26,8 +26,8 @@ FORCE = 0.25  # of sqrt(h/|a|), liquids.md, shared core
 
 
 class Born(NamedTuple):
-    """Particles that a liquid and its walls began with, their mass, the largest one, and that of liquid [kg], and the
-    ends of their densities [kg/m3]."""
+    """Particles that a liquid and its walls began with, their mass, the largest one, and that of liquid, streams that
+    wait among it [kg], and the ends of their densities [kg/m3]."""
 
     particles: int
     mass: float
@@ -39,7 +39,7 @@ class Born(NamedTuple):
 
 def born(state, world) -> Born:
     """`Born` of a State of the start, of which each process of a world has a part."""
-    liquid = world.most(float(state.mass[particles.wet(state)].max(initial=0.0)))
+    liquid = world.most(float(state.mass[particles.wet(state) | (state.kind == INFLOW)].max(initial=0.0)))
     thinnest, densest = float(state.density.min(initial=np.inf)), float(state.density.max(initial=0.0))
     whole, heaviest = world.sum(float(state.mass.sum())), world.most(float(state.mass.max(initial=0.0)))
     return Born(world.sum(len(state.x)), whole, heaviest, liquid, world.least(thinnest), world.most(densest))

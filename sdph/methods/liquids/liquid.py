@@ -52,7 +52,7 @@ class Liquid(Stepped):
         if time != kept["ledger"]["last"]["time_s"] or not 0.0 <= kept["since"] <= time:
             raise Unfit("its time is not that of the ledger")
         if self.outlet:
-            self.outlet.admit_at(time, kept["outlet"], kept["stepper"]["state"])
+            self.outlet.admit_at(time, kept["outlet"], kept["stepper"])
 
     def push(self, acceleration) -> None:
         """Take an acceleration (N, 3) [m/s2] from outside, that holds over the next window."""

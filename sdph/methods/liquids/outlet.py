@@ -11,6 +11,7 @@ from sdph.effects.around import drain, tank
 from sdph.engine import state as particles
 from sdph.engine.kept import GROWING, Unfit
 from sdph.engine.state import WALL
+from sdph.methods.liquids.openings import IN
 from sdph.methods.liquids.totals import specific_energies
 
 ROUND_OFF = 1e-12  # of a particle's mass: less than that is nothing
@@ -50,12 +51,16 @@ class Outlet:
         self.leaving = np.zeros((0, 4))
         self.pushed = np.zeros(3)  # force [N] on what was taken, which the next kick does not give
 
-    def admit_at(self, time: float, kept: dict, state: dict) -> None:
-        """Unfit where more has gone at `time` [s] than there was, or who leaves is not among the pieces of wall."""
+    def admit_at(self, time: float, kept: dict, stepper: dict) -> None:
+        """Unfit where more has gone at `time` [s] than there was and came in, or who leaves is not among the pieces of
+        wall; `stepper` as kept."""
+        state, there = stepper["state"], self.stepper.born.mass
+        if self.stepper.p["inflow"]:
+            there += stepper["openings"]["passed"][IN, 0]
         number, _, begun, mass = kept["leaving"].T
         walls = state["ident"][state["kind"] == WALL]
         on_the_way = np.isin(number, walls) & (begun >= 0.0) & (begun <= time) & (mass > 0.0) & (mass <= self.particle)
-        if not on_the_way.all() or not 0.0 <= kept["gone"][0] <= self.stepper.born.mass:
+        if not on_the_way.all() or not 0.0 <= kept["gone"][0] <= there:
             raise Unfit("what has left through the outlet, or is about to, was never there")
 
     def command(self, fill: float) -> None:

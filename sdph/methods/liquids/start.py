@@ -16,8 +16,8 @@ from sdph.engine.state import GAS, LIQUID, WALL
 from sdph.engine.walls import layers
 from sdph.engine.world import ALONE, here
 from sdph.laws import eos
-from sdph.laws.liquids import quadrupole, square_patch_pressure, taylor_green, wave
-from sdph.methods.liquids import filling
+from sdph.laws.liquids import quadrupole, taylor_green, wave
+from sdph.methods.liquids import filling, pressures
 from sdph.schema import CaseError
 
 ROUNDS = 50  # of the inversion of Van der Waals' equation; each takes off nine tenths of the error or more
@@ -107,16 +107,16 @@ def _pool(case, pools: list, number: int, world) -> particles.State:
     points, volume = _places(case, pool, world)
     taken = []
     for name, earlier in zip(case.pools, pools[:number]):
-        left = ~_holds(earlier, points)
+        left = ~pressures.holds(earlier, points)
         taken += [name] if world.any(not left.all()) else []
         points, volume = points[left], volume if np.isscalar(volume) else volume[left]
     if not world.any(len(points) > 0):
         _refuse_empty(list(case.pools)[number], taken)
-    _refuse_outside(case, list(case.pools)[number], points, world)
+    tank.refuse_outside(case, list(case.pools)[number], points, world)
     state = placed(case, points + _raised(pool, points))
     state.kind[:] = GAS if pool.phase == "gas" else LIQUID
-    density = phase_of(case, pool).density
-    state.density[:] = _density(case, pool, _pressure(case, pool, pools[-1], points, world))
+    density = pressures.phase_of(case, pool).density
+    state.density[:] = _density(case, pool, pressures.at_start(case, pools, number, points, world))
     # two phases fill their space from the start
     state.mass[:] = (state.density if case.gas_phase else density) * volume
     velocity = _velocity(pool, points, d)
@@ -137,18 +137,6 @@ def _refuse_empty(name: str, taken: list[str]) -> None:
     raise CaseError(f"pools.{name} holds no particle; enlarge it, or give a finer resolution.spacing_mm")
 
 
-def _refuse_outside(case, name: str, points, world) -> None:
-    """CaseError where particles of a pool at points (N, d) [m] would stand outside the tank: nothing holds them there,
-    and no picture shows them."""
-    beyond = tank.shape_of(case).distance(points) if "tank" in case.effects else np.zeros(0)
-    if outside := world.sum(int((beyond > filling.SAME * case.resolution.spacing).sum())):
-        count, furthest = world.sum(len(points)), world.most(float(beyond.max(initial=0.0)))
-        raise CaseError(
-            f"pools.{name}: {outside} of its {count} particles would stand outside the tank, up to "
-            f"{furthest:.3g} m from it; move the pool, or make it smaller"
-        )
-
-
 def _refuse_fast(case, name: str, velocity, world) -> None:
     """CaseError where particles of a pool begin faster, velocity (N, d) [m/s], than the liquid's sound, if it has one:
     the guard would stop the run at once."""
@@ -160,24 +148,9 @@ def _refuse_fast(case, name: str, velocity, world) -> None:
         )
 
 
-def phase_of(case, pool):
-    """The section of a pool's phase."""
-    return case.gas_phase if pool.phase == "gas" else case.liquid
-
-
-def _holds(pool, points) -> np.ndarray:
-    """(N,) whether points lie in a pool."""
-    if pool.shape == "tank":
-        return pool.holds(points)
-    if pool.shape == "box":
-        return ((points >= np.array(pool.lower)) & (points <= np.array(pool.upper))).all(axis=1)
-    from_centre = np.sqrt(((points - np.array(pool.centre)) ** 2).sum(axis=1))
-    return (from_centre <= pool.radius) & (from_centre >= (pool.inner_radius or 0.0))
-
-
 def _density(case, pool, pressure) -> np.ndarray:
     """rho (N,) [kg/m3] at a pressure [Pa] over that at rho_0 without gravity."""
-    phase, background = phase_of(case, pool), case.liquid.background_pressure
+    phase, background = pressures.phase_of(case, pool), case.liquid.background_pressure
     sound = case.gas_phase.speed_of_sound(case.liquid) if pool.phase == "gas" else case.liquid.sound_speed
     cohesion = phase.cohesion if pool.phase == "gas" else 0.0
     total = pressure + background
@@ -185,55 +158,6 @@ def _density(case, pool, pressure) -> np.ndarray:
     for _ in range(ROUNDS if cohesion else 0):
         density = eos.tait_density(total + cohesion * density**2, phase.density, sound, phase.exponent, background)
     return density
-
-
-def _pressure(case, pool, around, points, world) -> np.ndarray:
-    """Pressure at the start: hydrostatic below the pool's top under gravity, of a rotating patch or vortices what is
-    known exactly."""
-    if pool.flow == "rotation":
-        side = pool.upper[0] - pool.lower[0]
-        omega = 2.0 * pool.speed / side
-        return square_patch_pressure(points - np.array(pool.lower), side, omega, case.liquid.density)
-    if pool.flow == "taylor_green":
-        return taylor_green(points, pool.upper[0] - pool.lower[0], pool.speed, case.liquid.density)[1]
-    return _hydrostatic(case, pool, around, points, world) + _laplace(case, pool)
-
-
-def _hydrostatic(case, pool, around, points, world) -> np.ndarray:
-    """rho g depth below the pool's top, where it has the pressure that the last pool, `around`, would have there; a
-    disc or sphere has in its middle what the last pool would have there."""
-    along, outside = filling.pull(case), 0.0
-    height = points @ along  # rises downwards [m2/s2]
-    top = (
-        _top(pool, along)
-        if pool.shape == "tank"
-        else world.least(float(height.min(initial=math.inf)))
-        - 0.5 * case.resolution.spacing * float(np.linalg.norm(along))
-    )
-    if pool is not around and along.any():
-        top = float(np.array(pool.centre) @ along) if pool.shape in ("disc", "sphere") else top
-        outside = phase_of(case, around).density * (top - _top(around, along, list(case.pools)[-1]))
-    return phase_of(case, pool).density * (height - top) + outside
-
-
-def _top(pool, along, name: str = "") -> float:
-    """g.r [m2/s2] at the highest corner of a box, or at the level up to which a tank is filled; `name` is that of the
-    last pool, which has to be one of them."""
-    if pool.shape == "tank":
-        return -pool.slab.high * float(np.linalg.norm(along))
-    if pool.shape != "box":
-        raise CaseError(
-            "pools fill in the order of the case, and the last one fills what the others leave, as a box or a tank: "
-            f"pools.{name} is a {pool.shape}; put [pools.{name}] before the others, or add a pool around it"
-        )
-    return float(np.minimum(np.array(pool.lower) * along, np.array(pool.upper) * along).sum())
-
-
-def _laplace(case, pool) -> float:
-    """Pressure of surface tension in a disc, sigma/R, or in a sphere, 2 sigma/R [Pa]."""
-    if "surface_tension" not in case.effects or pool.shape not in ("disc", "sphere"):
-        return 0.0
-    return case.parameters["surface_tension"].coefficient * (case.dimensions - 1) / pool.radius
 
 
 def _velocity(pool, points, dimensions: int) -> np.ndarray:

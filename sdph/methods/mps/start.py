@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from sdph.engine import lattice
+from sdph.effects.around import tank
+from sdph.engine import lattice, regions
 from sdph.engine import state as particles
 from sdph.engine.state import LIQUID
 from sdph.laws.liquids import quadrupole, taylor_green
@@ -18,8 +19,9 @@ def fill(case) -> particles.State:
     """All particles of the pools, numbered from 0; none where nozzles alone give liquid."""
     names = tanks.arrays(case)
     state = particles.empty(0, names, case.dimensions)
-    for name, pool in case.pools.items():
-        state = particles.join(state, _pool(case, name, pool, names))
+    for number, (name, pool) in enumerate(case.pools.items()):
+        earlier = list(case.pools.values())[:number]
+        state = particles.join(state, _pool(case, name, pool, earlier, names))
     if not len(state.x) and not case.nozzles:
         raise CaseError("no liquid: give it in a section such as [pools.drop], or let it in by [nozzles.mouth]")
     tanks.check(case)
@@ -29,12 +31,18 @@ def fill(case) -> particles.State:
     return state
 
 
-def _pool(case, name: str, pool, names) -> particles.State:
+def _pool(case, name: str, pool, earlier: list, names) -> particles.State:
+    """The particles of a pool, less those that lie in the pools before it."""
     d, spacing = case.dimensions, case.resolution.spacing
     if pool.shape in ("tank", "ring") or pool.flow not in FLOWS or pool.phase != "liquid":
         given = f"pools.{name} has shape = {pool.shape!r}, flow = {pool.flow!r}, phase = {pool.phase!r}"
         raise CaseError(f"{given}; mps takes a box, disc or sphere of one liquid, with a flow of {', '.join(FLOWS)}")
     points = lattice.lattice(pool, spacing, d)
+    for other in earlier:
+        points = points[~regions.holds(other, points)]
+    if not len(points):
+        raise CaseError(f"pools.{name} holds no particle; enlarge it, or put it before the pools that take its place")
+    tank.refuse_outside(case, name, points)
     state = particles.empty(len(points), names, d)
     for axis, column in zip(particles.axes(state), points.T):
         axis[:] = column

@@ -31,7 +31,7 @@ class Made:
         order = sorted_by_cell(points, 2.0 * case.smoothing_length)
         counts = [len(volumes) for _, volumes in placed]
         bodies = list(case.bodies.values())
-        held = np.concatenate([_held(body, points) for body, (points, _) in zip(bodies, placed)])
+        held = np.concatenate([_held(*row, points) for row, (points, _) in zip(case.bodies.items(), placed)])
         velocity = np.concatenate([_velocity(case, body, points) for body, (points, _) in zip(bodies, placed)])
         velocity[held] = 0.0
         self.body = np.repeat(np.arange(len(placed)), counts).astype(np.int32)[order]
@@ -122,10 +122,16 @@ def _round(body, spacing: float, dimensions: int) -> tuple[np.ndarray, float]:
     return points + np.array(body.centre), area * body.length
 
 
-def _held(body, points) -> np.ndarray:
+def _held(name: str, body, points) -> np.ndarray:
     if body.held_lower is None:
         return np.zeros(len(points), bool)
-    return ((points >= np.array(body.held_lower)) & (points <= np.array(body.held_upper))).all(axis=1)
+    held = ((points >= np.array(body.held_lower)) & (points <= np.array(body.held_upper))).all(axis=1)
+    if not held.any():
+        raise CaseError(
+            f"bodies.{name}: no particle lies between held_lower_m = {list(body.held_lower)} and held_upper_m = "
+            f"{list(body.held_upper)}, so that nothing holds it; its particles begin half a spacing inside its faces"
+        )
+    return held
 
 
 def _velocity(case, body, points) -> np.ndarray:

@@ -1,0 +1,61 @@
+"""Keys and sections that nothing would act on in a case are refused, in a line that says why."""
+
+import copy
+
+import pytest
+
+from sdph.case import read as cases
+from sdph.schema import CaseError
+from sdph.study.explained import warned
+
+TANK = {
+    "dimensions": 2, "effects": ["gravity", "density_diffusion", "tank"],
+    "run": {"end_time_s": 1.0, "output_interval_s": 1.0},
+    "domain": {"size_m": [1.0, 1.0], "gravity_m_s2": [0.0, -9.81]}, "resolution": {"spacing_mm": 50.0},
+    "liquid": {"density_kg_m3": 1000.0, "sound_speed_m_s": 50.0}, "tank": {"open_sides": ["top"]},
+    "pools": {"water": {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [1.0, 0.5]}},
+}  # fmt: skip
+DRAIN = {"fill": 0.1, "end_s": 0.5}
+HEAT = {"conductivity_W_m_K": 0.6, "heat_capacity_J_kg_K": 4200.0, "temperature_K": 300.0}
+HEATED = {"effects": ["density_diffusion", "liquid_heat"], "tank": None, "liquid_heat": HEAT}
+TWO = {name: {"shape": "disc", "centre_m": [x, 0.5], "radius_m": 0.2} for name, x in (("a", 0.25), ("b", 0.75))}
+RING = {"shape": "ring", "centre_m": [0.5, 0.5], "radius_m": 0.3, "inner_radius_m": 0.2}
+SOLID = {
+    "effects": [], "tank": None, "pools": None, "liquid": None,
+    "domain": {"size_m": [1.0, 1.0], "gravity_m_s2": [0.0, 0.0]},
+    "solid": {"density_kg_m3": 1000.0, "youngs_modulus_Pa": 1e6, "poisson_ratio": 0.3},
+}  # fmt: skip
+CASES = {
+    "tank.open_sides": {"tank": {"shape": "sphere", "centre_m": [0.5, 0.5], "radius_m": 0.5, "open_sides": ["top"]}},
+    "shifting.phases": {"effects": ["density_diffusion", "shifting"], "tank": None, "shifting": {"phases": "gas"}},
+    "domain.gravity_m_s2": {
+        "effects": ["gravity", "tank", "drain"], "drain": DRAIN,
+        "domain": {"size_m": [1.0, 1.0], "gravity_m_s2": [9.81, 0.0]},
+    },
+    "liquid_heat.temperature_K": HEATED | {"liquid_heat": {k: v for k, v in HEAT.items() if k != "temperature_K"}},
+    "liquid_heat.flux_W_m2 = 5": HEATED | {"liquid_heat": HEAT | {"flux_W_m2": 5.0}},
+    "liquid_heat.flux_W_m2 = 6": HEATED | {"liquid_heat": HEAT | {"flux_W_m2": 6.0}, "pools": TWO},
+    "the case has the effect drain": HEATED | {
+        "effects": ["gravity", "tank", "drain", "liquid_heat"], "drain": DRAIN, "tank": {"open_sides": ["top"]},
+    },
+    "the case has liquid.periodic": HEATED | {
+        "liquid": {"density_kg_m3": 1000.0, "sound_speed_m_s": 50.0, "periodic": [1, 0]},
+    },
+    "frame.table": {
+        "effects": ["tank", "frame"], "frame": {"table": "moves.csv", "shake": [[0, 0.1, 6.0, 0.0]]},
+    },
+    "inflation.growth_1_s": SOLID | {
+        "effects": ["inflation"], "bodies": {"ring": RING},
+        "inflation": {"body": "ring", "growth_1_s": 1.0, "bulk_modulus_Pa": 1e9},
+    },
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("told", CASES)
+def test_what_would_do_nothing_is_refused(told, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "moves.csv").write_text("time_s,ax_m_s2,ay_m_s2,az_m_s2,wx_rad_s,wy_rad_s,wz_rad_s\n0,0,0,0,0,0,0\n")
+    table = copy.deepcopy({key: value for key, value in (TANK | CASES[told]).items() if value is not None})
+    with pytest.raises(CaseError) as refused:
+        warned(cases.from_table(table), tmp_path, whole=True)
+    assert told in str(refused.value) and "\n" not in str(refused.value)
