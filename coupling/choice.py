@@ -41,7 +41,7 @@ def expected(case) -> str:
     given = case.coupling.gas
     chosen = given if given != "auto" else "openfoam" if install.find() else "embedded"
     if chosen == "embedded":
-        _refuse_embedded(case)
+        _refuse_turbulence(case)
     return chosen
 
 
@@ -57,18 +57,22 @@ def _openfoam(case, folder: Path, template: Path | None, status, allow_code: boo
     return OpenFoamGas(case, folder / "gas", template, status=status, allow_code=allow_code)
 
 
-def _refuse_embedded(case) -> None:
-    """CaseError for what the embedded gas has not."""
+def refuse_elsewhere(case) -> None:
+    """CaseError where the domain does not begin where the embedded gas does."""
     if any(case.domain.corner):
         given = f"domain.lower_m = {list(case.domain.lower)}, but the embedded gas begins at the origin"
         raise CaseError(f"{given}; leave it out, and count all places from there")
+
+
+def _refuse_turbulence(case) -> None:
     if case.gas.turbulent:
         given = f'gas.turbulence.model = "{case.gas.turbulence.model}", but the embedded gas is laminar'
         raise CaseError(f"{given}; give --gas openfoam (sdph openfoam setup --install gets it), or leave it out")
 
 
 def _embedded(case):
-    _refuse_embedded(case)
+    _refuse_turbulence(case)
+    refuse_elsewhere(case)
     from coupling.embedded import EmbeddedGas
 
     return EmbeddedGas(case)

@@ -59,11 +59,12 @@ def side(case, where: str, boundary) -> None:
         return
     if boundary.side is None:
         raise CaseError(f"{where}.span_m is given without a side; add it, or remove the span")
-    lengths = [length for axis, length in enumerate(case.domain.size) if axis != SIDES[boundary.side][0]]
-    for (low, high), length in zip(_pairs(where, boundary.span, len(lengths)), lengths):
-        if low < -SAME * length or high > length * (1.0 + SAME):
+    ends = list(zip(case.domain.corner, case.domain.upper))
+    del ends[SIDES[boundary.side][0]]
+    for (low, high), (first, last) in zip(_pairs(where, boundary.span, len(ends)), ends):
+        if low < first - SAME * (last - first) or high > last + SAME * (last - first):
             raise CaseError(
-                f"{where}.span_m goes from {low:g} to {high:g} m; the box goes from 0 to {length:g} m there"
+                f"{where}.span_m goes from {low:g} to {high:g} m; the box goes from {first:g} to {last:g} m there"
             )
 
 

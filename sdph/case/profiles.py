@@ -15,7 +15,8 @@ from sdph.schema import CaseError
 def extent(case, boundary) -> tuple[int, float, float]:
     """Axis along the side of a plane case, and from where to where [m] the boundary goes on it."""
     along = 1 - SIDES[boundary.side][0]
-    return along, *(boundary.span or (0.0, case.domain.size[along]))
+    span = boundary.span or (0.0, case.domain.size[along])
+    return along, *(span[0] if isinstance(span[0], tuple) else span)
 
 
 def over_mean(case, boundary, places) -> np.ndarray:

@@ -32,9 +32,9 @@ def init_case(options) -> int:
 
     name, file = scenes.find(options.scene)
     inputs.check(vessel.load(file))
-    own, folder = file.parent / "gas", output.create(options.folder, ())
+    folder = output.create(options.folder, ())
     inputs.copy_case(file, folder)
-    output.copy_template(own if own.is_dir() else paths.gas_template(name), folder / "gas")
+    output.copy_template(inputs.beside(file) or paths.gas_template(name), folder / "gas")
     print(f"{folder}/case.toml and {folder}/gas are yours to edit; run them with: sdph run {folder}")
     if options.slurm:
         output.write_text(folder / JOB, SCRIPT)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import os
 from pathlib import Path
 
 import numpy as np
@@ -40,7 +41,7 @@ def made(case, folder: Path, run, resume, reporter):
         target = folder / inputs.place(f"nozzles.{inputs.safe(name)}.table", Path(TABLE))
         found = _drops(done / inputs.DROPS)
         _write(recorded, found, target)
-        nozzles[name] = dataclasses.replace(nozzle, table=str(target.absolute()))
+        nozzles[name] = dataclasses.replace(nozzle, table=os.path.abspath(target))
         within = math.fsum(found["inner_J"][found["time_s"] > nozzle.table_from])
         rows += [{"nozzle": name} | row for row in handed_over(case, nozzles[name], within)]
     if rows:

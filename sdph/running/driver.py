@@ -79,9 +79,8 @@ def stepping(case, name: str, folder: Path, gas_folder: Path | None, reporter, *
 
 
 def template_of(case, name: str, file: Path | None = None) -> Path:
-    """The OpenFOAM case of a case: the folder gas beside its `file`, else the template of its scene, or of `name`."""
-    own = file and file.parent / "gas"
-    return own if own and own.is_dir() else paths.gas_template(case.scene or name)
+    """The OpenFOAM case of a case: what comes with its `file`, else the template of its scene, or of `name`."""
+    return (file and inputs.beside(file)) or paths.gas_template(case.scene or name)
 
 
 def resume(folder: Path, overrides: tuple[str, ...], reporter, *, allow_code: bool = False) -> dict:

@@ -174,6 +174,13 @@ def gas_of(folder: Path) -> Path:
     return folder / FOLDER / "gas"
 
 
+def beside(file: Path) -> Path | None:
+    """The OpenFOAM case that comes with a case file: the folder gas beside it, or of a run what its gas began with, not
+    as it was left; None where there is none."""
+    own = gas_of(file.parent) if (file.parent / output.ORIGIN).is_file() else file.parent / "gas"
+    return own if own.is_dir() else None
+
+
 def keep_gas(template: Path, folder: Path, allow_code: bool) -> None:
     """Copy the OpenFOAM case of the gas into a run folder. What it links to would be copied too: code is looked for
     before."""

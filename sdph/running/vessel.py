@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import os
 from pathlib import Path
 
 import numpy as np
@@ -26,15 +27,17 @@ SAME = 1e-6  # of a volume: as far as text files of a mesh tell it
 
 
 def walled(case, gas, folder: Path):
-    """The case with walls.mesh made of the patches of `gas`, where it asks for them and OpenFOAM's mesh is its own; the
-    sides of a generated mesh are known without."""
+    """The case with walls.mesh made of the patches of `gas`, where it asks for them and OpenFOAM's mesh is its own, or
+    with boundaries on the sides of the domain, where these are the walls; of a generated mesh all is known without."""
     mesh = own_mesh(gas, folder)
     if mesh is None:
         return case
     _refuse_unknown(case, patches.types(mesh))
     own = case.parameters.get("walls")
-    if own is None or own.source == "mesh" or own.mesh:
+    if own is None or (own.mesh and own.source == "gas"):
         return case
+    if own.source == "mesh" or own.mesh:
+        return dataclasses.replace(case, boundaries=_on_sides(case, poly_mesh.read(mesh)))
     facets_of = _refused_none(patches.holding(mesh, case.boundaries, case.dimensions))
     path = folder / inputs.place("walls.mesh", Path(FILE))
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -54,7 +57,7 @@ def _refused_none(found: tuple) -> tuple:
 
 def _with(case, path: Path):
     """The case with the walls of a mesh that was made of its patches."""
-    made = dataclasses.replace(case.parameters["walls"], source="gas", mesh=str(path.absolute()))
+    made = dataclasses.replace(case.parameters["walls"], source="gas", mesh=os.path.abspath(path))
     found = dataclasses.replace(case, parameters=case.parameters | {"walls": made})
     forces.check(found)
     return found

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from coupling.choice import OWN_MESH, expected
+from coupling.choice import OWN_MESH, expected, refuse_elsewhere
 from coupling.openfoam import cell_sizes, poly_mesh
 from sdph.case import forces
 from sdph.case.gas_cells import cell_edges, cells
@@ -140,6 +140,7 @@ def _embedded(case, template: Path) -> None:
             else ", and OpenFOAM was not found; get it with: sdph openfoam setup --install"
         )
         raise CaseError(f"{own} is a mesh that only OpenFOAM reads{why}")
+    refuse_elsewhere(case)
     from coupling.embedded.box import Box
     from coupling.embedded.grid import build_grid
 

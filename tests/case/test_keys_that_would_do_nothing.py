@@ -1,9 +1,11 @@
 """Keys and sections that nothing would act on in a case are refused, in a line that says why."""
 
 import copy
+import dataclasses
 
 import pytest
 
+from sdph import scenes
 from sdph.case import read as cases
 from sdph.schema import CaseError
 from sdph.study.explained import warned
@@ -49,6 +51,14 @@ CASES = {
         "inflation": {"body": "ring", "growth_1_s": 1.0, "bulk_modulus_Pa": 1e9},
     },
 }  # fmt: skip
+
+
+def test_the_embedded_gas_begins_at_the_origin(tmp_path):
+    """Its cells would stand beside the grains."""
+    case = cases.load(scenes.find("disc_cluster")[1], ('coupling.gas="embedded"',))
+    moved = dataclasses.replace(case, domain=dataclasses.replace(case.domain, lower=(-0.1, 0.0)))
+    with pytest.raises(CaseError, match=r"domain.lower_m = \[-0.1, 0.0\], but the embedded gas begins at the origin"):
+        warned(moved, tmp_path)
 
 
 @pytest.mark.parametrize("told", CASES)

@@ -12,6 +12,7 @@ from coupling.embedded.grid import build_grid
 from coupling.openfoam import start_fields
 from coupling.openfoam.case import write_case
 from sdph import scenes
+from sdph.case import profiles
 from sdph.case import read as cases
 from sdph.case.gas_cells import cell_edges
 from sdph.scenes import paths
@@ -99,3 +100,12 @@ def test_on_a_mesh_of_ones_own_it_is_refused(tmp_path):
 def test_in_space_it_is_refused():
     with pytest.raises(CaseError, match="two dimensions"):
         box_case((0.1, 0.1, 0.1), CELL, boundaries=channel(velocity_m_s=[0.0, 1.0, 0.0]))
+
+
+def test_a_span_in_brackets_of_its_own_is_the_same():
+    """One pair, or a list of one pair, as in 3-D."""
+    inlet = {"kind": "velocity_inlet", "side": "bottom", "velocity_m_s": [0.0, MEAN], "profile": "parabolic"}
+    inlet |= {"temperature_K": 300.0}
+    for span in ([0.1, 0.4], [[0.1, 0.4]]):
+        own = box_case((0.5, 0.5), 0.05, boundaries={"inlet": inlet | {"span_m": span}})
+        assert profiles.extent(own, own.boundaries["inlet"]) == (0, 0.1, 0.4)

@@ -2,6 +2,7 @@
 
 import json
 import shutil
+from pathlib import Path
 
 import meshio
 import numpy as np
@@ -15,7 +16,7 @@ from sdph import cli
 from sdph.case import read as cases
 from sdph.engine.walls import sides
 from sdph.methods.grains import start
-from sdph.running import driver
+from sdph.running import driver, inputs, vessel
 from sdph.schema import CaseError
 
 AIR = {
@@ -228,3 +229,23 @@ def test_a_scaled_surface_is_where_it_would_be_in_metres(tmp_path):
     )  # three layers behind, 5 to 25 mm: normals are outwards
     with pytest.raises(CaseError, match="walls.mesh_scale = 0.001, and walls names no mesh"):
         cases.from_table(GRAINS | {"walls": {"mesh_scale": 1e-3}})
+
+
+def test_the_gas_of_a_run_folder_is_that_which_it_began_with(tmp_path):
+    """Not as the run left it: its mesh and its fields would stand whatever is set anew."""
+    run = tmp_path / "run"
+    (run / "gas").mkdir(parents=True)
+    (run / "case.toml").touch()
+    assert inputs.beside(run / "case.toml") == run / "gas"  # a case of somebody's own
+    (run / "origin.json").touch()
+    assert inputs.beside(run / "case.toml") is None  # that of the scene
+    inputs.gas_of(run).mkdir(parents=True)
+    assert inputs.beside(run / "case.toml") == inputs.gas_of(run)
+
+
+def test_walls_of_patches_are_named_without_detours(tmp_path, monkeypatch):
+    """A run folder given as ../run would not know its own copy again."""
+    (tmp_path / "here").mkdir()
+    monkeypatch.chdir(tmp_path / "here")
+    case = cases.load(write_case(tmp_path / "mine", GRAINS) / "case.toml")
+    assert vessel._with(case, Path("../run/walls.vtp")).parameters["walls"].mesh == str(tmp_path / "run" / "walls.vtp")

@@ -129,24 +129,32 @@ def _rest(case) -> list[str]:
 
 
 def _larger(case) -> str:
-    own = case.parameters.get("walls")
-    if own is not None and own.mesh and own.source == "gas":  # the domain is the box around a mesh that is given
+    if _of_patches(case):  # the domain is the box around a mesh that is given
         return ""
     return f"; or give a larger domain.size_m = {list(case.domain.size)}"
 
 
-def _open(case, side: str, axis: int, places) -> np.ndarray:
+def _of_patches(case) -> bool:
     own = case.parameters.get("walls")
-    if own is None or (own.mesh and own.source == "gas"):  # patches hold grains wherever they are no outlet
+    return own is not None and bool(own.mesh) and own.source == "gas"
+
+
+def _open(case, side: str, axis: int, places) -> np.ndarray:
+    if case.parameters.get("walls") is None or _of_patches(case):  # patches hold grains wherever they are no outlet
         return arrays.ones(len(places[0]), places[0]) > 0.0
     return _outlets(case, side, axis, places)
 
 
 def _outlets(case, side: str, axis: int, places) -> np.ndarray:
-    found = arrays.zeros(len(places[0]), places[0], np.bool_)
-    for _, outlet in outlets_of(case, side):
-        found |= _within(outlet, axis, places)
-    return found
+    """Mask (N,) of what is beyond an outlet: one that names the side, or in a box one that has what no other names."""
+    found, named = (arrays.zeros(len(places[0]), places[0], np.bool_) for _ in range(2))
+    for own in case.boundaries.values():
+        if own.side == side:
+            here = _within(own, axis, places)
+            named |= here
+            found |= here & (own.kind == "pressure_outlet")
+    first = next((own for own in case.boundaries.values() if own.side is None), None)
+    return found | ~named if first and first.kind == "pressure_outlet" and not _of_patches(case) else found
 
 
 def outlets_of(case, side: str) -> list:

@@ -178,7 +178,8 @@ class Source:
         found, wide = np.zeros(len(places), np.int64), cell_radius(self.pitch, self.case.dimensions)
         for k, own in enumerate(self.streams):
             along, aside = self._beyond(k, places)
-            rows = np.flatnonzero((along <= 0.0) & (aside <= self.reach[k]))
+            near = (along <= 0.0) & (along >= -DEPTH * self.case.smoothing_length)  # a wall further back has no mouth
+            rows = np.flatnonzero(near & (aside <= self.reach[k]))
             apart, _ = self.trees[k].query(places[rows] - along[rows, None] * own.axis)
             found[rows[apart <= wide]] = k + 1
         return found

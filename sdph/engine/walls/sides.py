@@ -161,9 +161,9 @@ def _box(case) -> np.ndarray:
     ).reshape(-1, d, 2)
     table[:, 7] = (outside & ~slips)[keep].any(axis=(1, 2))  # in a corner the side that grips rules
     for side, behind in zip(SIDES, outside.reshape(len(points), 2 * d).T):
-        for boundary in case.boundaries.values():
+        for number, boundary in enumerate(case.boundaries.values()):
             if boundary.kind == "wall" and boundary.side == side and boundary.velocity:
-                slides = behind & _within(points, SIDES[side][0], boundary.span)
+                slides = behind & (_owners(case, points, side) == number)
                 table[slides[keep] & single, 8 : 8 + d] = boundary.velocity[:d]  # corners are at rest
     return table
 

@@ -25,23 +25,24 @@ def metrics(simulation) -> dict[str, float]:
     grains; their fractions."""
     case, mesh, fields = simulation.case, simulation.gas.mesh, simulation.cell_fields()
     up = upwards(case, "column")
-    rows, mass = CellRows(mesh, up), simulation.state.mass
+    rows, state = CellRows(mesh, up), simulation.grains.inside
+    mass = state.mass
     pressure, alpha_p = rows.mean(fields["pressure"]), rows.mean(fields["alpha_p"])
     floor, lid = rows.at_ends(pressure)
     flux = rows.mean((1.0 - fields["alpha_p"]) * (fields["velocity"] @ up))
     through = flux[0] * rows.area[0] / rows.area
     whole = float(mass.sum()) or math.nan  # of a vessel without grains what is told of them is not a number
-    place = particles.positions(simulation.state) @ up - rows.floor
+    place = particles.positions(state) @ up - rows.floor
     height = 2.0 * float(mass @ place) / whole
     around = np.interp(place, rows.place, rows.area) / mesh.depth
     inside = (rows.place > INSIDE[0] * height) & (rows.place < INSIDE[1] * height)
     seen = np.count_nonzero(inside) > 1
-    speed = particles.lengths(particles.velocities(simulation.state))
-    fraction = simulation.state.density / case.grains.density
+    speed = particles.lengths(particles.velocities(state))
+    fraction = state.density / case.grains.density
     return {
         "superficial_velocity_m_s": float(flux[0]),
         "pressure_drop_Pa": floor - lid,
-        "ergun_Pa": float((ergun(case, alpha_p, through, sauter(simulation.state)) * rows.height).sum()),
+        "ergun_Pa": float((ergun(case, alpha_p, through, sauter(state)) * rows.height).sum()),
         "weight_Pa": weight(case, float((mass / around).sum())),
         "gradient_Pa_m": float(-np.polyfit(rows.place[inside], pressure[inside], 1)[0]) if seen else math.nan,
         "alpha_p_inside": float(alpha_p[inside].mean()) if seen else math.nan,

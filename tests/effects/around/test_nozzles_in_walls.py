@@ -83,3 +83,14 @@ def test_grains_that_will_have_left_take_no_room(tmp_path):
     share, y = shares["pressure_outlet"]
     assert np.array_equal(share == 0.0, y < 0.04) and 0 < (share == 0.0).sum() < len(y)
     assert (shares["wall"][0] == 1.0).all()
+
+
+def test_a_lance_inside_leaves_the_wall_behind_it_whole(tmp_path):
+    """A mouth in the middle of the box opens no wall in line with it; one in the wall opens its own."""
+    counts = {}
+    for name, height in (("lance", 0.5), ("in the wall", 0.0)):
+        nozzle = slot([0.5, height], [0.0, 1.0], width_m=0.2)
+        (tmp_path / name).mkdir()
+        done = begun(case({"up": nozzle}, 2, effects=EFFECTS, boundaries=CLOSED), tmp_path / name)
+        counts[name] = int((done.grains.stepper.mouths > 0).sum())
+    assert counts["lance"] == 0 and counts["in the wall"] > 0

@@ -1,5 +1,6 @@
 """What grains left through: outlets by their names, sides as such, each with the sizes of what went there."""
 
+import numpy as np
 import pytest
 from builders import simulation
 from test_inflow import SLOT, case, recorded
@@ -57,3 +58,15 @@ def test_what_comes_in_beside_the_domain_has_not_left(tmp_path):
     inside = done.state.kind == GRAIN
     assert inside.sum() > 10 and done.outlet.summary().get("outflow_count", 0.0) == 0.0
     assert done.ledger.sums["injected_kg"] == pytest.approx(done.state.mass[inside].sum(), rel=1e-12)
+
+
+def test_an_outlet_that_is_all_that_is_left_over_lets_grains_go():
+    """Walls by their sides, and an outlet without one: what is beyond the right side is gone, beyond the floor not."""
+    walls = {f"{side}_wall": {"kind": "wall", "side": side} for side in ("left", "bottom", "top")}
+    rest = {"rest": {name: value for name, value in OUTLET.items() if name != "side"}}
+    for boundaries, free in ((walls | rest, True), (walls, False)):
+        box = case(SLOT, boundaries=boundaries, effects=["inflow", "outflow", "drag", "walls"])
+        for axis, (side, across) in enumerate((("right", 0), ("bottom", 1))):
+            place = [np.array([0.5]), np.array([0.5]), np.zeros(1)]
+            place[across][:] = 1.2 if axis == 0 else -0.2
+            assert outflow._open(box, side, across, place[:2])[0] == (free and side == "right")
