@@ -74,7 +74,7 @@ HARMLESS = {
     "sdph/methods/liquids/filling.py:Slab.beyond": "geometry: distances",
     "sdph/methods/liquids/filling.py:fill": "geometry: distances",
     "sdph/methods/liquids/filling.py:lattice": "geometry: extents",
-    "sdph/methods/liquids/start.py:_top": "geometry: the higher corner",
+    "sdph/methods/liquids/pressures.py:_top": "geometry: the higher corner",
     "sdph/methods/liquids/wetting.py:filled": "share of a cell inside a plane",
     "sdph/methods/liquids/wetting.py:opposite": "chooses walls by the sign of the volume",
     "sdph/methods/liquids/losses.py:losses": "the same as `compress`",

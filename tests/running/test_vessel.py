@@ -62,20 +62,6 @@ def test_a_round_vessel_is_filled_to_a_mass_and_its_patches_hold_it(tmp_path, ca
     assert len(start.fill(again, ()).x) == cloud.n_points
 
 
-@pytest.mark.openfoam
-def test_sides_of_the_domain_as_walls_let_grains_out_where_the_outlet_is(tmp_path, capsys):
-    """Patches have no side in the case: the first one named was taken for all sides."""
-    box = {"shape": "box", "lower_m": [0.05, 0.05, 0.0], "upper_m": [0.15, 0.15, 0.05], "volume_fraction": 0.3}
-    own = filled(tmp_path / "own", box | {"temperature_K": 300.0}, walls={"source": "mesh"})
-    assert main(["run", str(own), "--gas", "openfoam", "--out", str(tmp_path / "out")]) == 0, capsys.readouterr().err
-    kept = cases.load(tmp_path / "out" / "case.toml").boundaries
-    assert {name: boundary.side for name, boundary in kept.items()} == {
-        "inlet": "bottom",
-        "outlet": "top",
-        "wall": None,
-    }
-
-
 def bears_its_ledger(summary, ledger):
     """Patches bear together what the ledger has; the outlet, which lets grains through, has no force of theirs."""
     for a in "xyz":

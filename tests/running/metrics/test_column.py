@@ -113,7 +113,9 @@ def test_ergun_follows_a_vessel_that_widens():
     state = particles.empty(2, ("diameter", "diameter_variance"), 3)
     state.mass[:], state.density[:], state.y[:], state.diameter[:] = 1.0, 1.0, 0.1, case.grains.diameter
     case = dataclasses.replace(case, domain=dataclasses.replace(case.domain, gravity=(0.0, -9.81, 0.0)))
-    seen = SimpleNamespace(case=case, gas=SimpleNamespace(mesh=mesh), cell_fields=lambda: fields, state=state)
+    seen = SimpleNamespace(
+        case=case, gas=SimpleNamespace(mesh=mesh), cell_fields=lambda: fields, grains=SimpleNamespace(inside=state)
+    )
     gas, d = case.gas, case.grains.diameter
     steps = [exact.ergun_gradient(0.5, u, d, gas.density, gas.viscosity) for u in flux]
     found = column.metrics(seen)
