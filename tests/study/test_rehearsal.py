@@ -151,7 +151,7 @@ def test_a_template_that_cannot_be_run_is_refused_by_both(refused, tmp_path):  #
     ("scene", "told"),
     [
         ("water_under_air", "[pools.air] before it takes all of its place; put [pools.water] before [pools.air]"),
-        ("bubble_rise", "pools.bubble is a disc; put [pools.bubble] before the others"),
+        ("bubble_rise", "[pools.water] before it takes all of its place; put [pools.bubble] before [pools.water]"),
     ],
 )
 def test_pools_in_the_wrong_order_are_told_which_comes_first(refused, tmp_path, scene, told):  # noqa: F811

@@ -79,15 +79,15 @@ def shape_of(case):
         return _with_outlet_in_floor(case, own, _box(case, own))
     if own.shape == "outline":
         return _outline(case, own)
-    if own.open_sides:
-        given = f"tank.open_sides = {list(own.open_sides)}, but tank.shape = {own.shape!r} is closed all around"
-        raise CaseError(f"{given}; only a box and an outline have open sides: leave it out, or give one of these")
-    if own.shape == "mesh" and d == 3:
-        return _mesh(case, own.mesh, own.mesh_scale)
     if d == 2 and own.shape != "sphere":
         raise CaseError(
             f"tank.shape = {own.shape!r} needs dimensions = 3; in 2-D there are box, sphere (a disc) and outline"
         )
+    if own.open_sides:
+        given = f"tank.open_sides = {list(own.open_sides)}, but tank.shape = {own.shape!r} is closed all around"
+        raise CaseError(f"{given}; only a box and an outline have open sides: leave it out, or give one of these")
+    if own.shape == "mesh":
+        return _mesh(case, own.mesh, own.mesh_scale)
     if own.centre is None or own.radius is None or len(own.centre) != d:
         raise CaseError(f"tank: a {own.shape} needs centre_m with {d} components, and radius_m")
     centre = np.array(own.centre)
