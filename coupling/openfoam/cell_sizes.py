@@ -26,12 +26,9 @@ class Edges(NamedTuple):
 
 def edges(mesh: PolyMesh, dimensions: int) -> Edges:
     """The edges of each cell; of a plane mesh those in its plane."""
-    count = np.diff(mesh.first)
-    after = np.arange(len(mesh.corners)) + 1
-    after[mesh.first[1:] - 1] = mesh.first[:-1]
+    face, after = poly_mesh.around(mesh.first)
     length = np.linalg.norm((mesh.points[mesh.corners[after]] - mesh.points[mesh.corners])[:, :dimensions], axis=1)
     none = length <= COLLAPSED * length.max()
-    face = np.repeat(np.arange(len(count)), count)
     cells = int(mesh.owner.max()) + 1
     shortest, longest = np.full(cells, np.inf), np.zeros(cells)
     inner = face < len(mesh.neighbour)
@@ -66,7 +63,7 @@ def spread(mesh: Mesh, case, folder: Path) -> Mesh:
 
 def _corners(mesh: PolyMesh) -> tuple[np.ndarray, np.ndarray]:
     """Cell and point of each corner of each cell, (M,) both."""
-    face = np.repeat(np.arange(len(mesh.first) - 1), np.diff(mesh.first))
+    face, _ = poly_mesh.around(mesh.first)
     inner = face < len(mesh.neighbour)
     cell = np.concatenate((mesh.owner[face], mesh.neighbour[face[inner]]))
     pairs = np.unique(cell * len(mesh.points) + np.concatenate((mesh.corners, mesh.corners[inner])))

@@ -44,11 +44,8 @@ class PolyMesh:
 
     def _areas(self) -> tuple[np.ndarray, np.ndarray]:
         """Area vectors (F, 3) [m2] and middles (F, 3) [m] of the faces, by a fan from the mean of their corners."""
-        count = np.diff(self.first)
-        middle = np.add.reduceat(self.points[self.corners], self.first[:-1]) / count[:, None]
-        face = np.repeat(np.arange(len(count)), count)
-        after = np.arange(len(self.corners)) + 1
-        after[self.first[1:] - 1] = self.first[:-1]
+        face, after = around(self.first)
+        middle = np.add.reduceat(self.points[self.corners], self.first[:-1]) / np.diff(self.first)[:, None]
         a, b, m = self.points[self.corners], self.points[self.corners[after]], middle[face]
         triangles = 0.5 * np.cross(a - m, b - m)
         size = np.linalg.norm(triangles, axis=1)
@@ -88,6 +85,14 @@ class PolyMesh:
                 span = tuple(zip(own.min(axis=0).tolist(), own.max(axis=0).tolist()))
                 found[name] = side, None if len(names) == 1 else span if len(span) > 1 else span[0]
         return found
+
+
+def around(first: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Face of each corner of all faces, and number of the corner that comes next around it, (K,) both; `first` as of a
+    PolyMesh."""
+    after = np.arange(first[-1]) + 1
+    after[first[1:] - 1] = first[:-1]
+    return np.repeat(np.arange(len(first) - 1), np.diff(first)), after
 
 
 def read(case: Path) -> PolyMesh:

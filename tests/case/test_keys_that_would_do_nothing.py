@@ -43,6 +43,12 @@ CASES = {
     "the case has liquid.periodic": HEATED | {
         "liquid": {"density_kg_m3": 1000.0, "sound_speed_m_s": 50.0, "periodic": [1, 0]},
     },
+    "bodies.plate: no particle lies between held_lower_m": SOLID | {
+        "bodies": {"plate": {
+            "shape": "box", "lower_m": [0.2, 0.2], "upper_m": [0.8, 0.4], "held_lower_m": [0.0, 0.0],
+            "held_upper_m": [0.21, 1.0],
+        }},
+    },
     "frame.table": {
         "effects": ["tank", "frame"], "frame": {"table": "moves.csv", "shake": [[0, 0.1, 6.0, 0.0]]},
     },

@@ -34,7 +34,7 @@ def kernel(case) -> OutflowP:
 
 def leaving(case, state, foreseen: bool = False) -> np.ndarray:
     """Mask of the grains that are out of the domain through an open side and go outwards. `foreseen` places are those
-    of grains that no wall has turned back yet: only outlets with a side count then."""
+    of grains that no wall has turned back yet: only outlets count then, of a mesh those with a side."""
     gone, places = arrays.zeros(len(state.x), state.x, np.bool_), particles.axes(state)
     for side, axis, out in _beyond(case, state):
         gone |= out & (_outlets if foreseen else _open)(case, side, axis, places)

@@ -4,11 +4,14 @@ import dataclasses
 import math
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from sdph.case import read as cases
 from sdph.effects.around import drain
+from sdph.engine.kept import Unfit
 from sdph.running import driver
+from sdph.running.alone import Alone
 from sdph.running.progress import Reporter
 from sdph.schema import CaseError
 
@@ -87,3 +90,24 @@ def test_a_tank_that_is_empty_when_its_drain_opens_has_nothing_to_drain(tmp_path
     own = dataclasses.replace(case.parameters["drain"], fill=0.0)
     empty = dataclasses.replace(case, parameters=case.parameters | {"drain": own})
     assert drain.call(SimpleNamespace(case=empty, end=1.0)).error_if_off == 0.0
+
+
+def test_a_tank_that_a_nozzle_fills_is_drained_in_whole_particles_too(tmp_path):
+    """It begins empty, so that no pool says how heavy a particle is."""
+    case = case_of(tmp_path, TAP.format(end=""), ', "inflow"')
+    own = dataclasses.replace(case.parameters["drain"], form="paper", fill=0.0)
+    case = dataclasses.replace(case, parameters=case.parameters | {"drain": own})
+    summary = driver.run(case, "tap", tmp_path / "run", None, Reporter())
+    assert summary["drained_kg"] == pytest.approx(0.06 * 0.8 * 0.7 * 1000.0, abs=0.5001 * 0.4)
+
+
+def test_what_a_nozzle_brought_may_have_left_when_a_run_goes_on(tmp_path):
+    """More than stood there at the start, walls included."""
+    outlet = Alone(case_of(tmp_path, TAP.format(end=""), ', "inflow"'), tmp_path / "ledger.csv").method.outlet
+    kept = {"leaving": np.zeros((0, 4)), "gone": np.array([outlet.stepper.born.mass + 50.0])}
+    came = np.zeros((2, 5))
+    stepper = {"state": {"ident": np.zeros(0), "kind": np.zeros(0)}, "openings": {"passed": came}}
+    with pytest.raises(Unfit, match="was never there"):
+        outlet.admit_at(1.0, kept, stepper)
+    came[0, 0] = 100.0
+    outlet.admit_at(1.0, kept, stepper)

@@ -45,6 +45,19 @@ def test_water_at_rest_has_the_pressure_of_its_depth_and_nothing_moves_inside():
     assert stepper.load[1] == pytest.approx(-weight, rel=0.05) and abs(stepper.load[0]) < 1e-6 * weight
 
 
+def test_pools_that_overlap_share_no_place():
+    """The first has it, as of the other method; what would stand in a wall is refused."""
+    other = {"shape": "box", "lower_m": [0.3, 0.0], "upper_m": [0.6, 1.0]}
+    water = tank({"pools": {"drop": {"upper_m": [0.4, 0.8]}, "other": other}})
+    places = particles.positions(water.state)[water.state.kind == LIQUID]
+    assert len(np.unique(np.round(places / UNIT, 3), axis=0)) == len(places) == 8 * 16 + 6 * 20 - 2 * 16
+    with pytest.raises(CaseError, match=r"pools.other: 16 of its 64 particles would stand outside the tank"):
+        outside = other | {"lower_m": [0.4, 0.0], "upper_m": [0.65, 0.8]}
+        tank({"pools": {"drop": {"upper_m": [0.4, 0.8]}, "other": outside}})
+    with pytest.raises(CaseError, match=r"pools.other holds no particle"):
+        tank({"pools": {"other": other | {"upper_m": [0.6, 0.8]}}})
+
+
 @pytest.mark.parametrize("shaken", [False, True])
 def test_the_gradient_is_exact_for_linear_pressure_beside_walls(shaken):
     """With u* = dt g + dt a, what walls put against u* is the gradient itself: nothing is left of it."""
