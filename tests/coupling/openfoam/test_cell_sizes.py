@@ -1,5 +1,6 @@
 """Edges of cells, jumps from one to the next, and what a two-fluid solver that breaks down on them is told."""
 
+import shutil
 from types import SimpleNamespace
 
 import numpy as np
@@ -8,6 +9,7 @@ from scipy.spatial import ConvexHull
 
 from coupling.gas import GasError, Mesh
 from coupling.openfoam import cell_sizes
+from coupling.openfoam.case import HEAD
 from coupling.openfoam.cell_sizes import edges, largest_jump, middles
 from coupling.openfoam.comparators import remedies
 from coupling.openfoam.comparators import run as comparators
@@ -79,10 +81,13 @@ def test_who_compares_is_told_so(end, told, tmp_path, monkeypatch):
 @pytest.mark.openfoam
 def test_places_spread_in_cells_are_of_these_cells_however_many_processes_tell_them(tmp_path):
     """Half way to the corners: twice as far out they are the cell itself, in a vessel whose cells widen upwards."""
-    told = []
+    told, template = [], tmp_path / "template"
+    shutil.copytree(paths.gas_template("tapered_bed"), template)
+    cut = "numberOfSubdomains 2; method simple; simpleCoeffs { n (2 1 1); delta 0.001; }"  # across the order of cells
+    (template / "system" / "decomposeParDict").write_text(HEAD.format(name="decomposeParDict") + cut)
     for ranks in (1, 2):
         known = cases.load(scenes.find("tapered_bed")[1], (f"coupling.gas_ranks={ranks}",))
-        gas = OpenFoamGas(known, tmp_path / str(ranks), paths.gas_template("tapered_bed"))
+        gas = OpenFoamGas(known, tmp_path / str(ranks), template)
         gas.close()
         mesh = gas.mesh
         places, cell = mesh.spread
