@@ -51,7 +51,7 @@ def test_pools_that_overlap_share_no_place():
     water = tank({"pools": {"drop": {"upper_m": [0.4, 0.8]}, "other": other}})
     places = particles.positions(water.state)[water.state.kind == LIQUID]
     assert len(np.unique(np.round(places / UNIT, 3), axis=0)) == len(places) == 8 * 16 + 6 * 20 - 2 * 16
-    with pytest.raises(CaseError, match=r"pools.other: 16 of its 64 particles would stand outside the tank"):
+    with pytest.raises(CaseError, match=r"pools.other: 16 of its 80 particles would stand outside the tank"):
         outside = other | {"lower_m": [0.4, 0.0], "upper_m": [0.65, 0.8]}
         tank({"pools": {"drop": {"upper_m": [0.4, 0.8]}, "other": outside}})
     with pytest.raises(CaseError, match=r"pools.other holds no particle"):
