@@ -39,6 +39,25 @@ def box(*args, **kwargs):
     return cases.from_table(table(*args, **kwargs))
 
 
+def bed_of_patches(path, size, names):
+    """Grains in a vessel whose walls are the facets of a file: a wall, then outlets, by these names."""
+    wall, *outlets = names.split()
+    kinds = {name: {"kind": "pressure_outlet", "pressure_Pa": 0.0, "temperature_K": 300.0} for name in outlets}
+    kinds |= {wall: {"kind": "wall"}}
+    courant = {"courant": 0.2}
+    walls = {"source": "gas", "mesh": path}
+    return box(
+        ["walls", "outflow"],
+        size,
+        0.3,
+        (),
+        boundaries={name: kinds[name] for name in names.split()},
+        walls=walls,
+        coupling=courant,
+        fill=(0.02, 0.02),
+    )
+
+
 def several(effects, particles, grains, **more):
     """A box of grains of several materials: these regions, not the one that fills it."""
     given = table(list(effects), grains=grains, **more)

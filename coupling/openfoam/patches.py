@@ -1,4 +1,4 @@
-"""Patches of an OpenFOAM mesh that hold grains back, as facets with their normals into the vessel."""
+"""Patches of an OpenFOAM mesh as facets with their normals into the vessel: what holds grains back, and outlets."""
 
 from __future__ import annotations
 
@@ -9,10 +9,12 @@ from pathlib import Path
 import numpy as np
 
 from coupling.gas import GasError
+from sdph.engine.walls.facets import Facets
 from sdph.schema import CaseError
 
 FLAT = "empty"  # type of the two sides of a plane mesh
-HOLDING = ("wall", "slip_wall", "velocity_inlet")  # kinds of boundaries that let no grains through, as sides of a box
+WALL, OUTLET = "wall", "pressure_outlet"
+KINDS = (WALL, "slip_wall", "velocity_inlet", OUTLET)  # of boundaries; all but the last hold grains, as sides of a box
 PATCH = re.compile(r"([\w.+:-]+)\s*\{[^{}]*?\btype\s+(\w+)\s*;")
 
 
@@ -45,25 +47,27 @@ def cells(folder: Path, dimensions: int, ranks: int = 1):
     return grid
 
 
-def holding(folder: Path, boundaries: dict, dimensions: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Corners (F, d, d) [m] of the facets of patches that hold grains back, whether these slip on them (F,), and the
-    number (F,) of the boundary that each is of, -1 where `boundaries` has none of its name.
-
-    A patch that `boundaries` (name -> its section of the case) names holds them unless it is a pressure outlet, others
-    where OpenFOAM calls them a wall. `folder` is a case with case.foam and a mesh.
-    """
+def facets(folder: Path, boundaries: dict, dimensions: int) -> Facets:
+    """Facets of the patches that hold grains back, and of outlets. A patch that `boundaries` (name -> its section of
+    the case) names holds them unless it is a pressure outlet, others where OpenFOAM calls them a wall. `folder` is a
+    case with case.foam and a mesh."""
     reader = mesh_reader(folder)
     reader.enable_all_patch_arrays()
     patches = reader.read()["boundary"]
-    corners, slips, owners = [np.zeros((0, dimensions, dimensions))], [np.zeros(0, bool)], [np.zeros(0, int)]
+    found = [_facets(np.zeros((0, dimensions, dimensions)), WALL, -1)]
     for name, kind in types(folder).items():
         kind = boundaries[name].kind if name in boundaries and kind != FLAT else kind
-        if kind not in HOLDING or name not in patches.keys() or not patches[name].n_cells:  # noqa: SIM118  (MultiBlock)
+        if kind not in KINDS or name not in patches.keys() or not patches[name].n_cells:  # noqa: SIM118  (MultiBlock)
             continue
-        corners.append(_lines(name, patches[name]) if dimensions == 2 else _triangles(patches[name]))
-        slips.append(np.full(len(corners[-1]), kind == "slip_wall"))
-        owners.append(np.full(len(corners[-1]), _number(name, boundaries)))
-    return np.concatenate(corners), np.concatenate(slips), np.concatenate(owners)
+        corners = _lines(name, patches[name]) if dimensions == 2 else _triangles(patches[name])
+        found.append(_facets(corners, kind, _number(name, boundaries)))
+    return Facets(*map(np.concatenate, zip(*found)))
+
+
+def _facets(corners, kind: str, owner: int) -> Facets:
+    """Facets of a patch of a kind, that of the boundary with a number."""
+    like = np.full(len(corners), kind)
+    return Facets(corners, like == "slip_wall", like == OUTLET, np.full(len(corners), owner))
 
 
 def _number(name: str, boundaries: dict) -> int:
@@ -71,14 +75,14 @@ def _number(name: str, boundaries: dict) -> int:
     return list(boundaries).index(name) if name in boundaries else -1
 
 
-def of_mesh(mesh, boundaries: dict, dimensions: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def of_mesh(mesh, boundaries: dict, dimensions: int) -> Facets:
     """The same of a `PolyMesh`, before there is a case to be read: faces as fans about their first corner, of a plane
     mesh the edges that lie at its lower side."""
-    corners, slips, owners = [np.zeros((0, dimensions, dimensions))], [], []
+    every = [_facets(np.zeros((0, dimensions, dimensions)), WALL, -1)]
     low = mesh.points[:, 2].min() + 0.5 * np.ptp(mesh.points[:, 2])
     for name, patch in mesh.patches.items():
         kind = boundaries[name].kind if name in boundaries and patch.kind != FLAT else patch.kind
-        for k in range(patch.faces.start, patch.faces.stop) if kind in HOLDING else ():
+        for k in range(patch.faces.start, patch.faces.stop) if kind in KINDS else ():
             face = mesh.points[mesh.corners[mesh.first[k] : mesh.first[k + 1]]]
             if dimensions == 3:
                 found = [(face[0], face[i + 1], face[i]) for i in range(1, len(face) - 1)]
@@ -90,10 +94,8 @@ def of_mesh(mesh, boundaries: dict, dimensions: int) -> tuple[np.ndarray, np.nda
                         f"patch {name} of the gas's mesh is {patch.kind} and lies in the plane of a case in two "
                         f"dimensions; give front and back of a mesh of one layer the type {FLAT}, or set dimensions = 3"
                     )
-            corners.append(np.array(found))
-            slips += [kind == "slip_wall"] * len(found)
-            owners += [_number(name, boundaries)] * len(found)
-    return np.concatenate(corners), np.array(slips, bool), np.array(owners, int)
+            every.append(_facets(np.array(found), kind, _number(name, boundaries)))
+    return Facets(*map(np.concatenate, zip(*every)))
 
 
 def _triangles(patch) -> np.ndarray:

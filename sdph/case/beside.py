@@ -28,6 +28,11 @@ def check(case) -> None:
         time_scaling.check(case)
     if len(case.matters) < 2:
         return
+    if case.incompressible:
+        raise CaseError(
+            'method.name = "mps" moves a liquid alone; beside grains or bodies it is weakly compressible: leave '
+            "[method] out, and give liquid.sound_speed_m_s"
+        )
     if case.domain.periodic or any(case.liquid.periodic or ()):
         which = "grains" if case.grains else "bodies"
         mend = "leave domain.periodic and liquid.periodic out"

@@ -32,11 +32,13 @@ def columns_of_history(case) -> None:
 
 
 def flow(case, where: str, pool) -> None:
-    """A pool has the shape and the case the dimensions that a flow at the start is known for."""
+    """A pool has the shape and the case the dimensions that a flow at the start is known for, and a flow its speed."""
     if pool.flow in OF_BOX and pool.shape != "box":
         raise CaseError(f"{where}.flow = {pool.flow!r} is that of a box; shape = {pool.shape!r}")
     if pool.flow in OF_PLANE and case.dimensions != 2:
         raise CaseError(f"{where}.flow = {pool.flow!r} is known in two dimensions; dimensions = {case.dimensions}")
+    if pool.speed and pool.flow == "uniform":
+        raise CaseError(f"{where}.speed_m_s = {pool.speed:g} is that of a flow; set flow, or give velocity_m_s")
 
 
 def check(case: Case) -> None:
@@ -135,8 +137,8 @@ def _check_method(case: Case) -> None:
         )
     if case.gas_phase:
         raise CaseError('method.name = "mps" moves one liquid: leave [gas_phase] and pools of gas out')
-    if any(case.liquid.periodic or ()) and case.nozzles:
-        raise CaseError('method.name = "mps" has no periodic axes beside nozzles: leave liquid.periodic out')
+    if any(case.liquid.periodic or ()) and (case.nozzles or "outflow" in case.effects):
+        raise CaseError('method.name = "mps" has no periodic axes beside nozzles or outflow: leave liquid.periodic out')
 
 
 def _check_components(case: Case) -> None:
@@ -208,6 +210,8 @@ def _check_place(case: Case, where: str, part) -> None:
     for key in needs:
         if getattr(part, key) is None:
             raise CaseError(f"{where}.{key}_m is missing; a {part.shape} needs {' and '.join(f'{n}_m' for n in needs)}")
+    if getattr(part, "fill", None) is not None:
+        raise CaseError(f'{where}.fill = {part.fill:g} is that of the tank; set shape = "tank", or leave it out')
     size = _narrowest(where, part)
     if case.resolution.spacing > size * (1.0 + SAME):
         spacing = f"resolution.spacing_mm = {case.resolution.spacing * 1e3:g}"
@@ -226,6 +230,8 @@ def _check_phases(case: Case) -> None:
         return _check_one_phase(case)
     if case.liquid is None:
         raise CaseError("[gas_phase] is given without [liquid]; a gas around grains goes into [gas]")
+    if not any(pool.phase == "gas" for pool in case.pools.values()):
+        raise CaseError('[gas_phase] is given, but no pool has phase = "gas"; give one, or leave [gas_phase] out')
     if "drain" in case.effects:
         raise CaseError("effects holds drain, which knows one phase; leave it or [gas_phase] out")
     summed = case.gas_phase.density_by == "summation"

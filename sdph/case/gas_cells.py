@@ -41,14 +41,23 @@ def nearest_edge(edges: np.ndarray, place: float, key: str) -> int:
     return nearest
 
 
-def layers(along: np.ndarray, apart: float | None = None) -> np.ndarray:
+def layers(along: np.ndarray, apart: float) -> np.ndarray:
     """(C,) number of the layer of cells that each centre lies in; `along` (C,) [m] are the centres along an axis, which
-    part layers where none lies for `apart` [m], round-off by default."""
+    part layers where none lies for `apart` [m]."""
     order = np.argsort(along, kind="stable")
-    gap = SAME * np.ptp(along) if apart is None else apart
     number = np.empty(len(along), dtype=np.int64)
-    number[order] = np.concatenate(([0], np.cumsum(np.diff(along[order]) > gap)))
+    number[order] = np.concatenate(([0], np.cumsum(np.diff(along[order]) > apart)))
     return number
+
+
+def round_off(centres) -> float:
+    """Distance [m] up to which centres (C, d) [m] of a mesh are at one place along an axis: by its largest extent."""
+    return SAME * float(np.ptp(centres, axis=0).max())
+
+
+def by_axis(centres) -> list[np.ndarray]:
+    """d arrays (C,): the layer of cells that each centre (C, d) [m] lies in along each axis."""
+    return [layers(along, round_off(centres)) for along in centres.T]
 
 
 def upwards(case, metric: str) -> np.ndarray:
@@ -98,7 +107,7 @@ def _rows(along, mesh) -> np.ndarray:
     none, a slab as thick as a cell is wide."""
     extent = np.ptp(along)
     size = (mesh.volumes.mean() / mesh.depth) ** (1.0 / mesh.dimensions)
-    for apart, fewest in ((None, 0.0), (THIN * size, THIN * extent / size)):
+    for apart, fewest in ((round_off(mesh.centres), 0.0), (THIN * size, THIN * extent / size)):
         own = layers(along, apart)
         if own.max() >= fewest and own.max() * THIN * size <= extent and _even(own, along, mesh.volumes):
             return own

@@ -37,7 +37,10 @@ FREE = (
     "run.device",
 )  # fmt: skip
 # in a run folder, what a run that goes on writes into
-WRITTEN = ("fields", "fields/pieces", "gas", "ledger.csv", "history.csv", "metrics.csv")
+WRITTEN = (
+    "fields", "fields/pieces", "gas", "ledger.csv", "ledger_liquid.csv", "ledger_solid.csv", "history.csv",
+    "metrics.csv", "outflow.csv", "droplets.csv",
+)  # fmt: skip
 MANIFEST, NUMBERS, ARRAYS, GAS = "manifest.json", "numbers.json", "arrays.npz", "gas"
 NAME, DRAFT = re.compile(r"[0-9]{9,18}"), re.compile(r"\.[0-9]{9,18}\.part")
 # of what is in a manifest besides sdph and format

@@ -82,12 +82,21 @@ def near(case, places, mass, arrays: dict, here, world=ALONE) -> dict[str, float
     (1, 3): sum m (1 - r/R)^2 f over sum m (1 - r/R)^2 within R, the reach of the kernel, those of all processes of a
     world; nan if none are near."""
     reach = SUPPORT * case.smoothing_length
-    r = particles.lengths(places - here)
+    r = particles.lengths(nearest_image(places - here, case.liquid_period if case.liquid else case.domain.period))
     close = np.flatnonzero(r < reach)
     weight = mass[close] * (1.0 - r[close] / reach) ** 2
     total = world.sum(float(weight.sum())) or np.nan
     means = {name: world.sum((weight * values[close].T).sum(axis=-1)) / total for name, values in arrays.items()}
     return _named(case, "particles", means)
+
+
+def nearest_image(apart, period) -> np.ndarray:
+    """Distances (N, 3) [m] from a point, through periodic sides where that is nearer; period (d,) [m], 0 of none."""
+    found = apart.copy()
+    for axis, length in enumerate(period):
+        if length:
+            found[:, axis] -= length * np.round(apart[:, axis] / length)
+    return found
 
 
 def _named(case, whose: str, values: dict) -> dict[str, float]:

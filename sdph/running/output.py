@@ -24,7 +24,7 @@ from pathlib import Path
 import numpy as np
 
 from coupling.openfoam import patches
-from sdph.case.gas_cells import SAME, layers
+from sdph.case.gas_cells import SAME, by_axis
 from sdph.engine.table import Found, TooLarge, column, read_cells
 from sdph.schema import CaseError
 from sdph.version import __version__
@@ -34,9 +34,9 @@ FAILURE = "failure.json"
 WALLS = "fields/walls.vtp"
 PIECES = "pieces"  # in the folder of fields, with the particles of each process
 LEFT = (  # by a run, as patterns; what else is in its folder is the user's
-    "ledger.csv", "ledger_liquid.csv", "outflow.csv", "history.csv", "metrics.csv", "run.pvd", "summary.json", FAILURE,
-    "compare_*.json", "last_good.*", "checkpoints", "gas", WALLS,
-    "fields/particles_*.vt?", "fields/gas_*.vt?", "fields/liquid_*.vt?", "fields/part-*.vt?",
+    "ledger.csv", "ledger_liquid.csv", "ledger_solid.csv", "droplets.csv", "outflow.csv", "history.csv", "metrics.csv",
+    "run.pvd", "summary.json", FAILURE, "compare_*.json", "last_good.*", "checkpoints", "gas", WALLS,
+    "fields/particles_*.vt?", "fields/gas_*.vt?", "fields/liquid_*.vt?", "fields/solid_*.vt?", "fields/part-*.vt?",
     "fields/particles_*.pvtu", f"fields/{PIECES}/particles_*.vtu", f"fields/{PIECES}/part-*.vtu",
 )  # fmt: skip
 TEXTS = ("limit",)  # columns of the tables of a run that hold no numbers
@@ -197,22 +197,32 @@ def gas_grid(gas):
     import pyvista
 
     centres = gas.mesh.centres[:, : gas.mesh.dimensions]
-    places = [layers(along) for along in centres.T]
+    places = by_axis(centres)
     if np.prod([p.max() + 1 for p in places]) == len(centres):
-        ticks = [np.bincount(p, along) / np.bincount(p) for p, along in zip(places, centres.T)]
-        edges = [_edges(t, np.bincount(p, gas.mesh.volumes)) for t, p in zip(ticks, places)] + [np.zeros(1)] * (
-            3 - len(ticks)
-        )
-        return pyvista.RectilinearGrid(*edges), np.lexsort(places)
+        edges = _edges(centres, places, gas.mesh)
+        return pyvista.RectilinearGrid(*edges, *[np.zeros(1)] * (3 - len(edges))), np.lexsort(places)
     return _polyhedra(gas)
 
 
-def _edges(ticks: np.ndarray, layers: np.ndarray) -> np.ndarray:
-    """Cell faces along an axis, from the centres of the layers of cells there and their volumes."""
-    if len(ticks) == 1:
-        return np.array([0.0, 2.0 * ticks[0]])
-    widths = layers * ((ticks[-1] - ticks[0]) / (layers.sum() - 0.5 * (layers[0] + layers[-1])))
-    first = ticks[0] - 0.5 * widths[0]
+def _edges(centres, places, mesh) -> list[np.ndarray]:
+    """Cell faces along each axis, from the centres (C, d) [m] of the cells, the layers that they lie in, and their
+    volumes; axes that the mesh is one cell deep along share what volume the others leave, evenly."""
+    layer = [np.bincount(p, mesh.volumes) for p in places]
+    ticks = [np.bincount(p, along) / np.bincount(p) for p, along in zip(places, centres.T)]
+    widths = [_widths(*pair) if len(pair[0]) > 1 else None for pair in zip(ticks, layer)]
+    known = math.prod(own.sum() for own in widths if own is not None) * mesh.depth
+    deep = (mesh.volumes.sum() / known) ** (1.0 / max(sum(own is None for own in widths), 1))
+    return [_from(tick[0], np.array([deep]) if own is None else own) for tick, own in zip(ticks, widths)]
+
+
+def _widths(ticks, layers) -> np.ndarray:
+    """Widths of layers of cells with their middles at `ticks`, by their volumes."""
+    return layers * ((ticks[-1] - ticks[0]) / (layers.sum() - 0.5 * (layers[0] + layers[-1])))
+
+
+def _from(middle: float, widths) -> np.ndarray:
+    """Faces of layers of cells, the first with its middle there; round-off of 0 is 0."""
+    first = middle - 0.5 * widths[0]
     return np.concatenate(([0.0], np.cumsum(widths))) + (first if abs(first) > SAME * widths[0] else 0.0)
 
 

@@ -26,7 +26,11 @@ class DrivenTank:
     def __init__(self, case):
         if case.liquid is None or "tank" not in case.effects:
             raise CaseError("a Tank needs a case with a [liquid] section and the effect tank")
+        if case.incompressible:
+            raise CaseError('a Tank is moved by weakly compressible SPH: leave method.name = "mps" out')
         case = case.only("liquid")
+        if case.nozzles or "outflow" in case.effects:
+            raise CaseError("a Tank is closed but for its drain: leave nozzles, inflow and outflow out")
         self.stepper = LiquidStepper(case)
         self.outlet = Outlet(self.stepper)
         self.time, self.wall_load = 0.0, np.zeros(6)

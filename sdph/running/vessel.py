@@ -38,16 +38,16 @@ def walled(case, gas, folder: Path):
         return case
     if own.source == "mesh" or own.mesh:
         return dataclasses.replace(case, boundaries=_on_sides(case, poly_mesh.read(mesh)))
-    facets_of = _refused_none(patches.holding(mesh, case.boundaries, case.dimensions))
+    found = _refused_none(patches.facets(mesh, case.boundaries, case.dimensions))
     path = folder / inputs.place("walls.mesh", Path(FILE))
     path.parent.mkdir(parents=True, exist_ok=True)
-    facets.save(path, *facets_of)
+    facets.save(path, found)
     return _with(case, path)
 
 
-def _refused_none(found: tuple) -> tuple:
-    """Facets that were found; CaseError where there are none."""
-    if not len(found[0]):
+def _refused_none(found: facets.Facets) -> facets.Facets:
+    """Facets that were found; CaseError where none of them holds grains."""
+    if found.open.all():
         raise CaseError(
             'walls.source = "gas", and no patch of its mesh holds grains back: call some of type wall, name them in '
             '[boundaries], give walls.mesh, or set walls.source = "mesh" for the sides of the domain'
@@ -206,7 +206,7 @@ def foreseen(case, template: Path, folder: Path):
     case = dataclasses.replace(case, boundaries=_on_sides(case, mesh))
     if own is None or own.source == "mesh" or own.mesh:
         return case
-    facets.save(folder / FILE, *_refused_none(patches.of_mesh(mesh, case.boundaries, case.dimensions)))
+    facets.save(folder / FILE, _refused_none(patches.of_mesh(mesh, case.boundaries, case.dimensions)))
     return _with(case, folder / FILE)
 
 

@@ -14,7 +14,7 @@ from sdph.engine.walls import facets
 from sdph.engine.walls.sides import LAYERS
 from sdph.methods.grains.start import extents, mesh_of_walls
 from sdph.schema import CaseError
-from sdph.study.explain import estimate
+from sdph.study.explain import estimate, feed
 
 MEMINFO, CGROUP = Path("/proc/meminfo"), Path("/sys/fs/cgroup/memory.max")
 POINT = 200.0  # bytes of a lattice point that is looked at: place, distances, copies; our choice
@@ -72,9 +72,9 @@ def _around(case, region) -> float:
 
 
 def _waiting(case, nozzle) -> float:
-    """Particles upstream of a nozzle, made for the longest window there can be."""
-    depth = DEPTH * case.smoothing_length + nozzle.speed * case.coupling.window_largest
-    return nozzle.size_classes * estimate.mouth(case, nozzle) * depth / case.resolution.spacing**case.dimensions
+    """Particles upstream of a nozzle, those of grains made for the longest window there can be."""
+    depth = DEPTH * case.smoothing_length + (nozzle.speed * case.coupling.window_largest if case.grains else 0.0)
+    return feed.layer(case, nozzle) * depth / case.resolution.spacing
 
 
 def _looked_at(case) -> float:

@@ -51,7 +51,7 @@ def rows(case, number: int) -> list[dict]:
     owner = cuts.owner(cuts.cut(ALONE, places, np.where(solid, OF_WALL, 1.0), range(number)), places)
     own, copies = np.bincount(owner, minlength=number), _copies(places, owner, number, far, period)
     wet = np.bincount(owner, ~solid, minlength=number)
-    if not len(places):  # all come in through nozzles later
+    if not wet.any():  # all come in through nozzles later
         return [
             {"what": "ranks", "value": number, "unit": ""},
             {"what": "particles at the start", "value": 0, "unit": ""},

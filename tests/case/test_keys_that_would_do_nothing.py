@@ -10,17 +10,19 @@ from sdph.case import read as cases
 from sdph.schema import CaseError
 from sdph.study.explained import warned
 
+WATER = {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [1.0, 0.5]}
 TANK = {
     "dimensions": 2, "effects": ["gravity", "density_diffusion", "tank"],
     "run": {"end_time_s": 1.0, "output_interval_s": 1.0},
     "domain": {"size_m": [1.0, 1.0], "gravity_m_s2": [0.0, -9.81]}, "resolution": {"spacing_mm": 50.0},
     "liquid": {"density_kg_m3": 1000.0, "sound_speed_m_s": 50.0}, "tank": {"open_sides": ["top"]},
-    "pools": {"water": {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [1.0, 0.5]}},
+    "pools": {"water": WATER},
 }  # fmt: skip
 DRAIN = {"fill": 0.1, "end_s": 0.5}
 HEAT = {"conductivity_W_m_K": 0.6, "heat_capacity_J_kg_K": 4200.0, "temperature_K": 300.0}
 HEATED = {"effects": ["density_diffusion", "liquid_heat"], "tank": None, "liquid_heat": HEAT}
 TWO = {name: {"shape": "disc", "centre_m": [x, 0.5], "radius_m": 0.2} for name, x in (("a", 0.25), ("b", 0.75))}
+DRAINED = {"effects": ["gravity", "tank", "drain"], "drain": DRAIN}
 RING = {"shape": "ring", "centre_m": [0.5, 0.5], "radius_m": 0.3, "inner_radius_m": 0.2}
 SOLID = {
     "effects": [], "tank": None, "pools": None, "liquid": None,
@@ -51,6 +53,38 @@ CASES = {
     },
     "frame.table": {
         "effects": ["tank", "frame"], "frame": {"table": "moves.csv", "shake": [[0, 0.1, 6.0, 0.0]]},
+    },
+    "bodies.one and bodies.two overlap, 20 pairs": SOLID | {
+        "bodies": {
+            "one": {"shape": "box", "lower_m": [0.2, 0.2], "upper_m": [0.5, 0.4]},
+            "two": {"shape": "box", "lower_m": [0.25, 0.2], "upper_m": [0.6, 0.4]},
+        },
+    },
+    "frame turns the domain across an axis that is periodic": {
+        "effects": ["frame"], "tank": None, "frame": {"spin_rad_s": [0.0, 0.0, 1.0]},
+        "liquid": {"density_kg_m3": 1000.0, "sound_speed_m_s": 50.0, "periodic": [1, 0]},
+    },
+    "pools.water.speed_m_s = 2 is that of a flow": {"pools": {"water": WATER | {"speed_m_s": 2.0}}},
+    "pools.water.fill = 0.5 is that of the tank": {"pools": {"water": WATER | {"fill": 0.5}}},
+    'no pool has phase = "gas"': {"gas_phase": {"density_kg_m3": 1.2, "sound_speed_m_s": 100.0}},
+    "pools.a and pools.b overlap": DRAINED | {
+        "pools": {name: TWO[name] | {"radius_m": 0.3} for name in "ab"},
+    },
+    "pools.water and pools.a do not tell how full the tank is": DRAINED | {
+        "pools": {"water": {"shape": "tank", "fill": 0.2}, "a": TWO["a"]},
+    },
+    "bubbles are in a case of one pool; pools hold ring, far": {
+        "effects": ["bubble"], "tank": None, "bubble": {"centre_m": [0.5, 0.5]},
+        "pools": {"ring": RING, "far": WATER | {"lower_m": [0.0, 0.0], "upper_m": [0.1, 0.1]}},
+    },
+    'method.name = "mps" moves a liquid alone': {
+        "effects": ["gravity", "tank"], "method": {"name": "mps"},
+        "solid": {"density_kg_m3": 1000.0, "youngs_modulus_Pa": 1e6, "poisson_ratio": 0.3},
+        "bodies": {"flap": {"shape": "box", "lower_m": [0.4, 0.5], "upper_m": [0.6, 0.8]}},
+    },
+    "no periodic axes beside nozzles or outflow": {
+        "effects": ["outflow"], "tank": None, "method": {"name": "mps"},
+        "liquid": {"density_kg_m3": 1000.0, "periodic": [1, 0]},
     },
     "inflation.growth_1_s": SOLID | {
         "effects": ["inflation"], "bodies": {"ring": RING},

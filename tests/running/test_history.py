@@ -76,6 +76,18 @@ def test_a_probe_in_a_liquid_tells_pressure_and_velocity():
     assert history.of_liquid(case, pyvista.PolyData()).keys() == row.keys()
 
 
+def test_a_probe_at_a_periodic_side_sees_both_sides():
+    """Of what is odd about the side the mean is 0; one half of it alone has none such."""
+    case = cases.load(scenes.HERE / "taylor_green" / "case.toml", ("probes.side.at_m=[0.0,0.5]",))
+    ticks = np.arange(0.005, 1.0, 0.01)
+    places = np.stack(np.meshgrid(ticks, ticks, [0.0], indexing="ij"), axis=-1).reshape(-1, 3)
+    cloud = pyvista.PolyData(places)
+    odd = np.sin(2.0 * np.pi * places[:, 0])
+    cloud["mass"], cloud["pressure"], cloud["velocity"] = np.ones(len(places)), odd, odd[:, None] * np.ones(3)
+    row = history.of_liquid(case, cloud)
+    assert abs(row["side_pressure_Pa"]) < 1e-12
+
+
 def test_the_history_of_a_liquid_has_its_probes(tmp_path):
     case = cases.load(
         scenes.HERE / "dam_break" / "case.toml", ("resolution.spacing_mm=5.715", "probes.wet.at_m=[0.03,0.05]")

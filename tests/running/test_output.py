@@ -1,11 +1,13 @@
 """The run folder: refused or made whole, and read back as it was written."""
 
+import dataclasses
 import json
 import os
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from builders import disc, polar_mesh, run, simulation
+from builders import disc, polar_mesh, run, simulation, tensor_mesh
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -162,6 +164,34 @@ def test_mesh_that_is_no_tensor_grid_is_not_drawn_as_one():
 
     with pytest.raises(AttributeError, match="case_folder"):  # it goes on to the OpenFOAM case of the solver
         output.gas_grid(Wedge())
+
+
+@pytest.mark.parametrize(
+    ("low", "deep"), [((0.0, 0.0, 0.0), 0.01), ((0.25, -0.1, 1.0), 0.1), ((0.02, 0.0, -0.05), 0.1)]
+)
+def test_a_slab_is_drawn_where_it_is(low, deep):
+    """One cell deep along z, centres with the round-off that OpenFOAM's own have."""
+    edges = [
+        start + length * np.linspace(0.0, 1.0, count + 1)
+        for start, length, count in zip(low, (0.06, 0.09, deep), (12, 15, 1))
+    ]
+    mesh = tensor_mesh(*edges)
+    noise = 1e-16 * np.random.default_rng(3).standard_normal(mesh.centres.shape)
+    rough = dataclasses.replace(mesh, centres=mesh.centres + noise)
+    grid, order = output.gas_grid(SimpleNamespace(mesh=rough))
+    ends = [value for start, length in zip(low, (0.06, 0.09, deep)) for value in (start, start + length)]
+    np.testing.assert_allclose(grid.bounds, ends, atol=1e-12)
+    np.testing.assert_allclose(grid.cell_centers().points, mesh.centres[order], atol=1e-12)
+
+
+def test_a_run_that_begins_again_keeps_none_of_its_tables(tmp_path):
+    """Rows of a run that was cut before its first checkpoint would stand before its new ones."""
+    names = ("ledger_solid.csv", "ledger_liquid.csv", "droplets.csv", "outflow.csv", "fields/solid_0000.vtu")
+    (tmp_path / "fields").mkdir()
+    for name in (*names, "mine.csv"):
+        (tmp_path / name).write_text("time_s\n0.0\n")
+    output.clear(tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["fields", "mine.csv"]
 
 
 @pytest.fixture

@@ -9,13 +9,14 @@ fades (Eq. 14). Its speed, an outcome of the interval, is left out of what the o
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import NamedTuple
 
 from sdph.effects.around import tank
 from sdph.effects.around.streams import streams_of
 from sdph.effects.effect import Effect, Judgement
-from sdph.engine import regions
+from sdph.engine import lattice, regions
 from sdph.schema import CaseError, choice, quantity, record
 
 FORMS = ("debt", "paper")
@@ -58,10 +59,24 @@ def kernel(case) -> DrainP:
 def filled(case) -> float:
     """Share of the tank that is full when the drain opens, by the pools of a case and by what nozzles have brought."""
     room, d = tank.shape_of(case).volume, case.dimensions
-    pools = [pool for pool in case.pools.values() if pool.phase == "liquid"]
-    told = max((pool.fill for pool in pools if pool.fill), default=0.0)
-    share = told or sum(regions.closed_form(pool, d) for pool in pools) / room
+    _refuse_unknown_fill(case)
+    pools = case.pools.values()
+    share = sum(pool.fill if pool.shape == "tank" else regions.closed_form(pool, d) / room for pool in pools)
     return min(share + sum(_brought(case, nozzle) for nozzle in case.nozzles.values()) / room, 1.0)
+
+
+def _refuse_unknown_fill(case) -> None:
+    """CaseError where the pools of a case do not tell how full its tank is: they overlap, or stand beside its own."""
+    for one, other in itertools.combinations(case.pools, 2):
+        here, there = case.pools[one], case.pools[other]
+        if "tank" in (here.shape, there.shape):
+            raise CaseError(
+                f"effects holds drain, and pools.{one} and pools.{other} do not tell how full the tank is: give one "
+                'pool of shape "tank", or boxes, discs and spheres'
+            )
+        places = lattice.lattice(there, case.resolution.spacing, case.dimensions)
+        if regions.holds(here, places).any():
+            raise CaseError(f"effects holds drain, and pools.{one} and pools.{other} overlap: cut one of them short")
 
 
 def _brought(case, nozzle) -> float:

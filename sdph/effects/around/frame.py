@@ -63,6 +63,7 @@ def felt(case):
     own = case.parameters["frame"]
     move, gravity = motion(own, case.run.end_time), np.array((*case.domain.gravity, 0.0)[:3])
     _refuse_out_of_plane(case, move)
+    _refuse_periodic(case, move)
     step = _instant(own)
     if own.gravity == "tank" or "gravity" not in case.effects or not gravity.any() or not math.isfinite(step):
         return move
@@ -97,6 +98,16 @@ def _refuse_out_of_plane(case, move) -> None:
                 f"frame: at {time:.3g} s the tank is moved along axis 2 or turned about axis 0 or 1; in two dimensions "
                 "it moves along axes 0 and 1 and turns about axis 2"
             )
+
+
+def _refuse_periodic(case, move) -> None:
+    """CaseError where a domain is turned across an axis that is periodic: what is far out is pulled otherwise there
+    than at the side that it goes on at."""
+    around = np.array([*case.liquid_period, 0.0][:3]) > 0.0
+    for time in np.linspace(0.0, case.run.end_time, LOOKS) if around.any() else ():
+        _, *turns = move(time)
+        if any(np.delete(turn, axis).any() for axis in np.flatnonzero(around) for turn in turns):
+            raise CaseError("frame turns the domain across an axis that is periodic: leave liquid.periodic out there")
 
 
 def motion(own: Frame, until: float):

@@ -11,6 +11,8 @@ from sdph.engine import arrays
 from sdph.engine import state as particles
 from sdph.engine.geometry import PAIRS, SIDES
 from sdph.engine.state import GRAIN, LIQUID
+from sdph.engine.walls import openings
+from sdph.laws.kernels import SUPPORT
 from sdph.schema import CaseError, record
 
 
@@ -33,17 +35,19 @@ def kernel(case) -> OutflowP:
 
 
 def leaving(case, state, foreseen: bool = False) -> np.ndarray:
-    """Mask of the grains that are out of the domain through an open side and go outwards. `foreseen` places are those
-    of grains that no wall has turned back yet: only outlets count then, of a mesh those with a side."""
-    gone, places = arrays.zeros(len(state.x), state.x, np.bool_), particles.axes(state)
+    """Mask of the grains that are out of the domain through an open side, or behind an outlet of the mesh of the gas,
+    and go outwards. `foreseen` places are those of grains that no wall has turned back yet: only outlets count then."""
+    gone, places = behind(case, state) >= 0, particles.axes(state)
     for side, axis, out in _beyond(case, state):
         gone |= out & (_outlets if foreseen else _open)(case, side, axis, places)
     return gone & (state.kind == GRAIN)
 
 
 def exits(case) -> list[str]:
-    """Names of what grains can leave through: pressure outlets on sides, then sides as such, `left_side` and so on."""
-    outlets = [name for name, own in case.boundaries.items() if own.kind == "pressure_outlet" and own.side]
+    """Names of what grains can leave through: pressure outlets, in a box those on sides, then sides as such,
+    `left_side` and so on."""
+    every = [name for name, own in case.boundaries.items() if own.kind == "pressure_outlet"]
+    outlets = [name for name in every if case.boundaries[name].side or _of_patches(case)]
     return outlets + [f"{side}_side" for pair in PAIRS[: case.dimensions] for side in pair]
 
 
@@ -56,7 +60,21 @@ def through(case, state) -> np.ndarray:
     for side, axis, out in _beyond(case, state):
         for name, outlet in outlets_of(case, side):
             found[out & _within(outlet, axis, places)] = names.index(name)
+    number = {k: names.index(name) for k, name in enumerate(case.boundaries) if name in names}
+    patch = behind(case, state)
+    for k in np.unique(patch[patch >= 0]):
+        found[patch == k] = number[int(k)]
     return found
+
+
+def behind(case, state):
+    """(N,) number of the boundary of the gas's mesh, an outlet, that each particle is behind and goes on away from, no
+    further than a window takes it; -1 of the others."""
+    if not len(state.x) or not _of_patches(case):
+        return arrays.zeros(len(state.x), state.x, np.int64) - 1
+    found = openings.read(case.parameters["walls"].mesh, case.dimensions)
+    moved = case.coupling.courant * case.resolution.cell  # by a window
+    return openings.behind(found, state, moved + SUPPORT * case.smoothing_length)
 
 
 def _beyond(case, state):

@@ -54,8 +54,10 @@ class Hole(NamedTuple):
 
 
 def pool_of(case):
-    """The pool around the bubbles of a case."""
+    """The pool around the bubbles of a case, its only one: all liquid is taken to be around them."""
     own = case.parameters["bubble"]
+    if len(case.pools) > 1:
+        raise CaseError(f"bubbles are in a case of one pool; pools hold {', '.join(case.pools)}: leave the others out")
     if own.centres or own.radii:
         return _disc_of(case, own)
     for pool in case.pools.values():
@@ -68,8 +70,8 @@ def _disc_of(case, own):
     if own.centre is not None:
         raise CaseError("bubble.centre_m and bubble.centres_m: give one of them")
     discs = [pool for pool in case.pools.values() if pool.shape == "disc"]
-    if len(discs) != 1:
-        raise CaseError(f'bubble.centres_m: they are of one pool of shape "disc"; pools hold {len(discs)} of them')
+    if not discs:
+        raise CaseError('bubble.centres_m: they are of a pool of shape "disc", and there is none')
     return discs[0]
 
 

@@ -3,6 +3,8 @@ one spacing apart whatever the facets are."""
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 import scipy
 
@@ -17,49 +19,69 @@ SAME = 1e-9  # of a wall's extent: corners so near are one; round-off
 ROUNDS = 8  # in which points come to the middle of their parts; 20 and 40 move none further (measured); our choice
 
 
+class Facets(NamedTuple):
+    """Facets of walls, and of openings among them: corners (F, d, d) [m], normals into the vessel, to the left of a
+    line or by the right hand; whether grains slip on each or leave through it (F,); and the number (F,) of the boundary
+    of the case whose patch it is of, -1 where of none."""
+
+    corners: np.ndarray
+    slip: np.ndarray
+    open: np.ndarray
+    owner: np.ndarray
+
+    def those(self, chosen) -> Facets:
+        """The facets of a mask (F,)."""
+        return Facets(*(own[chosen] for own in self))
+
+
 def read(path: str, dimensions: int, scale: float = 1.0) -> np.ndarray:
-    """Corners (F, d, d) [m] of the facets of a surface mesh whose unit is `scale` [m], those without a size left out;
-    normals are to the left of a line or by the right hand."""
-    places, facets = _cells(path, dimensions)
-    corners = scale * places[facets][:, :, :dimensions]
-    return corners[sizes(corners) > 0.0]
+    """Corners (F, d, d) [m] of the facets of a surface mesh that hold grains, whose unit is `scale` [m]."""
+    return walls(path, dimensions, scale).corners
 
 
-def slips(path: str, dimensions: int) -> np.ndarray:
-    """(F,) whether grains slip on each facet of `read`: cells with a value `slip` that is not 0."""
-    return _given(path, dimensions, "slip", 0) != 0
+def walls(path: str, dimensions: int, scale: float = 1.0) -> Facets:
+    """The facets of a surface mesh that hold grains; its unit is `scale` [m]."""
+    found = every(path, dimensions, scale)
+    return found.those(~found.open)
 
 
-def owners(path: str, dimensions: int) -> np.ndarray:
-    """(F,) number of the boundary of the case whose patch each facet of `read` is of; -1 where of none."""
-    return _given(path, dimensions, "boundary", -1)
+def every(path: str, dimensions: int, scale: float = 1.0) -> Facets:
+    """All facets of a surface mesh, those without a size left out; cells may have values `slip`, `open` and `boundary`
+    that are those of `Facets`."""
+    places, cells = _cells(path, dimensions)
+    corners = scale * places[cells][:, :, :dimensions]
+    slip, open_, owner = (
+        _given(path, dimensions, name, otherwise) for name, otherwise in (("slip", 0), ("open", 0), ("boundary", -1))
+    )
+    return Facets(corners, slip != 0, open_ != 0, owner).those(sizes(corners) > 0.0)
 
 
 def _given(path: str, dimensions: int, name: str, otherwise: int) -> np.ndarray:
     """(F,) values of a name that the cells of a mesh have."""
     mesh, kind = _mesh(path, dimensions)
-    given = mesh.cell_data_dict.get(name, {}).get(kind, np.full(len(mesh.cells_dict[kind]), otherwise))
-    places, facets = _cells(path, dimensions)
-    return np.asarray(given)[sizes(places[facets][:, :, :dimensions]) > 0.0]
+    return np.asarray(mesh.cell_data_dict.get(name, {}).get(kind, np.full(len(mesh.cells_dict[kind]), otherwise)))
 
 
-def save(path, corners: np.ndarray, slip: np.ndarray, owner: np.ndarray) -> None:
-    """Facets (F, d, d) [m] as a surface mesh in VTK's format, with `slip` (F,) of `slips`, `owner` (F,) of `owners`."""
+def save(path, found: Facets) -> None:
+    """Facets as a surface mesh in VTK's format."""
     import meshio
 
-    count, d = corners.shape[:2]
-    points = np.pad(corners.reshape(-1, d), ((0, 0), (0, 3 - d)))
+    count, d = found.corners.shape[:2]
+    points = np.pad(found.corners.reshape(-1, d), ((0, 0), (0, 3 - d)))
     cells = np.arange(count * d).reshape(count, d)
     kind = "line" if d == 2 else "triangle"
-    data = {"slip": [slip.astype(np.int32)], "boundary": [owner.astype(np.int32)]}
-    meshio.write_points_cells(path, points, {kind: cells}, cell_data=data)
+    data = {"slip": found.slip, "open": found.open, "boundary": found.owner}
+    meshio.write_points_cells(
+        path, points, {kind: cells}, cell_data={name: [own.astype(np.int32)] for name, own in data.items()}
+    )
 
 
 def drawn(path: str, dimensions: int, scale: float = 1.0):
-    """A surface mesh of walls as pyvista has it; its unit is `scale` [m]."""
+    """A surface mesh of walls as pyvista has it, of what holds grains; its unit is `scale` [m]."""
     import pyvista
 
     places, facets = _cells(path, dimensions)
+    facets = facets[_given(path, dimensions, "open", 0) == 0]
     places, cells = scale * places, np.insert(facets, 0, facets.shape[1], axis=1).ravel()
     return pyvista.PolyData(places, lines=cells) if dimensions == 2 else pyvista.PolyData(places, faces=cells)
 

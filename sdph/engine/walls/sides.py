@@ -121,8 +121,8 @@ def dummies(case) -> np.ndarray:
     own, d = case.parameters["walls"], case.dimensions
     found = [] if _vessel(own) else [np.pad(_box(case), ((0, 0), (0, 1)))]
     if own.mesh:
-        corners, slip = facets.read(own.mesh, d, own.mesh_scale), facets.slips(own.mesh, d)
-        whose = OWNED + facets.owners(own.mesh, d) if _vessel(own) else np.full(len(slip), 1)
+        corners, slip, _, owner = facets.walls(own.mesh, d, own.mesh_scale)
+        whose = OWNED + owner if _vessel(own) else np.full(len(slip), 1)
         found += [
             _behind_facets(corners[slip == slips], whose[slip == slips], case, slips)
             for slips in (False, True)
@@ -213,4 +213,8 @@ def _behind_facets(corners: np.ndarray, whose: np.ndarray, case, slips: bool) ->
     table[:, -1] = np.tile(whose[facet], LAYERS)
     table[:, :d] = np.tile(points, (LAYERS, 1)) - depth[:, None] * normal
     table[:, 3 : 3 + d], table[:, 6], table[:, 7] = normal, depth, 0.0 if slips else 1.0
+    for number, boundary in enumerate(case.boundaries.values()):
+        if boundary.kind == "wall" and boundary.velocity:  # it slides along each of its facets
+            own, velocity = table[:, -1] == OWNED + number, np.array(boundary.velocity[:d])
+            table[own, 8 : 8 + d] = velocity - (normal[own] @ velocity)[:, None] * normal[own]
     return table

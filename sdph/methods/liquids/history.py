@@ -19,7 +19,7 @@ def row(run) -> dict[str, float]:
     state, wet = stepper.domain.own(run.state), stepper.active
     mass, pressure = state.mass[wet], stepper.pressure[wet]
     places, velocities = particles.positions(state)[wet], particles.velocities(state)[wet]
-    whole, gravity = world.sum(float(mass.sum())), np.array(case.domain.gravity)
+    whole, gravity = world.sum(float(mass.sum())), np.array(case.domain.gravity) * ("gravity" in case.effects)
     values = {
         "time_s": run.time,
         "mass_kg": whole,

@@ -80,11 +80,19 @@ class LiquidScales:
         return max(0.0, floor - float(levels.min()) + 0.5 * self.case.resolution.spacing)
 
     @cached_property
+    def height(self) -> float:
+        """Extent [m] along gravity, along the last axis where there is none."""
+        gravity = np.where(self.periodic, 0.0, self.case.domain.gravity)
+        if not gravity.any():
+            return float(self.extents[-1])
+        return float(np.abs(gravity) @ self.extents / np.linalg.norm(gravity))
+
+    @cached_property
     def speed(self) -> float:
         """U [m/s]: thrown; fallen by its own height, or on to the floor as far as the run lets it; shaken across its
         length; driven along a channel until friction holds it."""
         across, along = self.pull
-        fallen = math.sqrt(2.0 * across * float(self.extents[-1]))
+        fallen = math.sqrt(2.0 * across * self.height)
         fallen = max(fallen, min(across * self.end, math.sqrt(2.0 * across * self.fall)))
         driven = min(along * self.end, along * self.length**2 / (8.0 * self.viscosity) if self.viscosity else math.inf)
         swung = min(self.shaken * self.end, math.sqrt(2.0 * self.shaken * float(self.extents.max())))

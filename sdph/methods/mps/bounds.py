@@ -17,14 +17,14 @@ class MpsGuard(Watch):
     @property
     def fast(self) -> float:
         """Speed [m/s] that no particle reaches: RUNAWAY times nozzles, pools, a fall through the domain and what
-        tension gives one particle, taken together."""
+        tension gives one particle, taken together; infinite where there is none of these."""
         case = self.case
         driven = [n.speed * math.hypot(1.0, n.swirl) for n in case.nozzles.values()]
         driven += [math.hypot(pool.speed, *(pool.velocity or ())) for pool in case.pools.values()]
         driven.append(math.sqrt(2.0 * math.hypot(*case.domain.gravity) * max(case.domain.size)))
         if own := case.parameters.get("free_energy_tension"):
             driven.append(math.sqrt(2.0 * own.coefficient / (case.liquid.density * case.resolution.spacing)))
-        return RUNAWAY * sum(driven)
+        return RUNAWAY * sum(driven) or math.inf  # nothing drives it: round-off alone moves it
 
     def admit_mps(self, state: dict) -> None:
         """`admit` of moving particles."""

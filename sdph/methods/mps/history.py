@@ -24,7 +24,7 @@ def row(run) -> dict[str, float]:
         "left": stepper.openings.left if stepper.openings else 0,
     }  # fmt: skip
     for a, name in enumerate(axes):
-        values[f"largest_{name}_m"] = float(places[:, a].max(initial=0.0))
+        values[f"largest_{name}_m"] = float(places[:, a].max()) if len(places) else math.nan
         values[f"momentum_{name}_kg_m_s"] = float(s.mass @ particles.velocities(s)[:, a])
         values |= _spread(name, s.mass, places[:, a])
     return values | (_loads(run) if stepper.walls else {})

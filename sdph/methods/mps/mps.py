@@ -97,7 +97,9 @@ class Mps(Stepped):
             cloud["pressure"] = self.stepper.gauge[inside]
             for name in ("ident", "kind", "mass", "density"):
                 cloud[name] = getattr(self.state, name)[inside]
-            cloud["piece"] = pieces.labels(cloud.points, self.case.method.piece * self.case.resolution.spacing)
+            cloud["piece"] = pieces.labels(
+                cloud.points, self.case.method.piece * self.case.resolution.spacing, self.case.liquid_period
+            )
         return cloud
 
     def walls(self):

@@ -115,8 +115,9 @@ def ends(case, share: float) -> tuple[tuple, tuple]:
     length or more; infinite where no side is open."""
     found = [-math.inf] * 3, [math.inf] * 3
     for axis, end in open_sides(case):
-        size = case.domain.size[axis]
-        found[end][axis] = (1.0 + share) * size if end else -share * size - math.ulp(0.0)
+        low, high = case.domain.corner[axis], case.domain.upper[axis]
+        past = share * (high - low)
+        found[end][axis] = high + past if end else math.nextafter(low - past, -math.inf)
     return tuple(map(tuple, found))
 
 

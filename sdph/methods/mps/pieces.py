@@ -8,24 +8,26 @@ from numba import prange
 from sdph.engine import arrays
 from sdph.engine import state as particles
 from sdph.engine.cells import solid_of
+from sdph.engine.geometry import OPEN
 from sdph.engine.neighbours import Neighbours
 from sdph.engine.rows import entry
 from sdph.laws.compiled import parallel
 from sdph.laws.sheets import diameter_of
 
 
-def labels(places, distance: float) -> np.ndarray:
-    """Number (N,) of the piece of each place (N, 3) [m]: two are of one where they are nearer than `distance` [m]."""
-    return np.unique(joined(tuple(map(np.ascontiguousarray, places.T)), distance), return_inverse=True)[1]
+def labels(places, distance: float, period=(OPEN, OPEN, OPEN)) -> np.ndarray:
+    """Number (N,) of the piece of each place (N, 3) [m]: two are of one where they are nearer than `distance` [m],
+    through a periodic side too."""
+    return np.unique(joined(tuple(map(np.ascontiguousarray, places.T)), distance, period), return_inverse=True)[1]
 
 
-def joined(axes, distance: float):
+def joined(axes, distance: float, period=(OPEN, OPEN, OPEN)):
     """The least row (N,) of the piece of each place, arrays (N,) [m] by axis.
 
     Each takes the least that it knows of its neighbours, and so does the row that it had taken before; then all take
     what that row has, until nothing changes (Shiloach & Vishkin 1982, J. Algorithms 3, 57).
     """
-    count, near = len(axes[0]), Neighbours(distance, skin=0.0)
+    count, near = len(axes[0]), Neighbours(distance, period, skin=0.0)
     kind = arrays.zeros(count, axes[0], np.int8)
     order = near.by_cell(axes, solid_of(kind))
     near.built = tuple(arrays.taken(axis, order) for axis in axes)

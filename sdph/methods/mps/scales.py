@@ -20,7 +20,7 @@ class MpsScales:
 
     def __init__(self, case):
         self.case, self.liquid, self.end = case, case.liquid, case.run.end_time
-        self.gravity = math.hypot(*case.domain.gravity)
+        self.gravity = math.hypot(*case.domain.gravity) if "gravity" in case.effects else 0.0
         self.viscosity = self.liquid.viscosity / self.liquid.density  # kinematic [m2/s]
         self.layer = math.sqrt(self.viscosity * self.end)  # depth that the friction of walls reaches [m]
         self.pull = (self.gravity, 0.0)  # across walls and along periodic axes [m/s2]
@@ -34,7 +34,11 @@ class MpsScales:
     @cached_property
     def length(self) -> float:
         """Narrowest extent [m] of nozzles and pools."""
-        found = [n.radius - (n.inner_radius or 0.0) for n in self.case.nozzles.values() if n.radius]
+        found = [
+            n.radius - n.inner_radius if n.inner_radius else 2.0 * n.radius
+            for n in self.case.nozzles.values()
+            if n.radius
+        ]
         found += [n.width for n in self.case.nozzles.values() if n.width]
         for pool in self.case.pools.values():
             sides = [b - a for a, b in zip(pool.lower, pool.upper)] if pool.shape == "box" else [2.0 * pool.radius]

@@ -17,8 +17,9 @@ PIXEL, MIDDLE, HALF, SMOOTHED = 2.0, 0.8, 0.5, 3  # l0; of the width; of the lig
 
 
 def nozzle_of(case):
-    """The annular nozzle of a case; None where there is none."""
-    return next((n for n in case.nozzles.values() if n.shape == "annulus"), None)
+    """The annular nozzle of a case, whose sheet is all its liquid; None where there is none, or another nozzle."""
+    found = list(case.nozzles.values())
+    return found[0] if len(found) == 1 and found[0].shape == "annulus" else None
 
 
 def about_axis(case, places) -> np.ndarray:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
+from scipy.spatial import KDTree
 
 from sdph.engine import lattice
 from sdph.engine import state as particles
@@ -27,6 +29,7 @@ class Made:
         for name, (own, _) in zip(case.bodies, placed):
             if not len(own):
                 raise CaseError(f"bodies.{name} holds no particle; enlarge it, or give a finer resolution.spacing_mm")
+        _refuse_overlap(case, [points for points, _ in placed])
         points = np.concatenate([points for points, _ in placed])
         order = sorted_by_cell(points, 2.0 * case.smoothing_length)
         counts = [len(volumes) for _, volumes in placed]
@@ -49,6 +52,15 @@ class Made:
         state.kind[:], state.density[:] = SOLID, case.solid.density
         state.mass[:] = case.solid.density * self.volume
         return state
+
+
+def _refuse_overlap(case, placed: list) -> None:
+    """CaseError where particles of two bodies are nearer than half a spacing."""
+    trees = {name: KDTree(points) for name, points in zip(case.bodies, placed)}
+    for one, other in itertools.combinations(trees, 2):
+        found = trees[one].count_neighbors(trees[other], 0.5 * case.resolution.spacing)
+        if found:
+            raise CaseError(f"bodies.{one} and bodies.{other} overlap, {found} pairs of particles do: move them apart")
 
 
 def places(case, body) -> tuple[np.ndarray, np.ndarray]:

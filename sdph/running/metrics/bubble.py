@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from coupling.gas import Mesh
-from sdph.case.gas_cells import SAME, CellRows, layers
+from sdph.case.gas_cells import SAME, CellRows, by_axis
 from sdph.schema import CaseError
 
 VOID = 0.15  # alpha_p below which a cell belongs to a bubble (issue: state it; Kuipers et al. 1991)
@@ -45,9 +45,10 @@ def metrics(centres, volumes, alpha_p, gas_temperature, pressure, up=UP) -> dict
 def through_depth(depth: float, centres, volumes, *fields, up=UP) -> tuple:
     """Centres, volumes and fields of a plane mesh 1 m deep: those of a slab, `depth` [m] along z, averaged through
     it."""
-    place = layers(centres[:, 1]) * len(centres) + layers(centres[:, 0])
+    across, along, through = by_axis(centres)
+    place = along * len(centres) + across
     _, first, column, deep = np.unique(place, return_index=True, return_inverse=True, return_counts=True)
-    if deep.min() != layers(centres[:, 2]).max() + 1 or abs(up[2]) > SAME:
+    if deep.min() != through.max() + 1 or abs(up[2]) > SAME:
         plane = "in 2-D, or a slab with cells in columns along z and gravity across them"
         raise CaseError(f"run.metrics holds bubble, which is of a plane bed: {plane}; leave it out")
     whole = np.bincount(column, volumes)
@@ -63,7 +64,7 @@ def detachment(times, rows: list[dict]) -> float:
 
 def rows_of(centres) -> tuple[np.ndarray, tuple[int, int]]:
     """Order of the cells row by row from the floor, and (rows, columns)."""
-    x, y = layers(centres[:, 0]), layers(centres[:, 1])
+    x, y = by_axis(centres[:, :2])
     return np.lexsort((x, y)), (int(y.max()) + 1, int(x.max()) + 1)
 
 

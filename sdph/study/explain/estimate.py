@@ -276,17 +276,8 @@ def _incoming(case) -> int:
     """Particles that the nozzles bring until the end."""
     coming = 0.0
     for nozzle in case.nozzles.values():
-        layer = nozzle.size_classes * mouth(case, nozzle) / case.resolution.spacing ** (case.dimensions - 1)
-        coming += layer * nozzle.speed * feed.lasting(case, nozzle) / case.resolution.spacing
+        coming += feed.layer(case, nozzle) * nozzle.speed * feed.lasting(case, nozzle) / case.resolution.spacing
     return math.ceil(coming)
-
-
-def mouth(case, nozzle) -> float:
-    """[m] or [m2] that a nozzle is wide."""
-    radius = nozzle.radius or 0.0
-    if nozzle.shape == "slot":
-        return math.prod((nozzle.width or 0.0, nozzle.length or 0.0)[: case.dimensions - 1])
-    return 2.0 * radius if case.dimensions == 2 else math.pi * (radius**2 - (nozzle.inner_radius or 0.0) ** 2)
 
 
 def memory(case, count: int, cells: int) -> float:

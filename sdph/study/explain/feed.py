@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import math
 
+from sdph.effects.around import sizes
 from sdph.exchange.window import SAFETY, smallest_cell
 
 
@@ -69,6 +70,20 @@ class Feed:
 def lasting(case, nozzle) -> float:
     """Time [s] of a run for which a nozzle is open."""
     return max(0.0, min(nozzle.end or case.run.end_time, case.run.end_time) - nozzle.start)
+
+
+def layer(case, nozzle) -> float:
+    """Particles that a nozzle is wide."""
+    places = mouth(case, nozzle) / case.resolution.spacing ** (case.dimensions - 1)
+    return len(sizes.of_nozzle(case, nozzle).share) * places
+
+
+def mouth(case, nozzle) -> float:
+    """[m] or [m2] that a nozzle is wide."""
+    radius = nozzle.radius or 0.0
+    if nozzle.shape == "slot":
+        return math.prod((nozzle.width or 0.0, nozzle.length or 0.0)[: case.dimensions - 1])
+    return 2.0 * radius if case.dimensions == 2 else math.pi * (radius**2 - (nozzle.inner_radius or 0.0) ** 2)
 
 
 def of(case, s) -> Feed | None:

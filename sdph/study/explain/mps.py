@@ -6,7 +6,7 @@ import math
 
 from sdph import effects
 from sdph.methods.mps.method import limits as limits_of_step
-from sdph.study.explain import estimate
+from sdph.study.explain import estimate, feed
 from sdph.study.explain.liquids import WATER
 
 LAYERS = 3.0  # across a film: with two every particle is at a surface; swirl-sheet.md, section 2, 5
@@ -83,8 +83,8 @@ def relative_motion(s) -> float:
 
 def expected(s, steps: list[dict]) -> list[dict]:
     """Particles, steps, memory, wall time."""
-    waiting = sum(estimate.mouth(s.case, n) for n in s.case.nozzles.values())
-    fed = sum(estimate.mouth(s.case, n) * _way(s, n) for n in s.case.nozzles.values()) / s.case.resolution.spacing
+    waiting = sum(feed.mouth(s.case, n) for n in s.case.nozzles.values())
+    fed = sum(feed.mouth(s.case, n) * _way(s, n) for n in s.case.nozzles.values()) / s.case.resolution.spacing
     fed /= s.case.resolution.spacing ** (s.case.dimensions - 1)
     count = len(s.state.x) + fed + 4.0 * waiting / s.case.resolution.spacing ** (s.case.dimensions - 1)
     longest = min((row["largest [s]"] for row in steps), default=s.end)
@@ -100,4 +100,7 @@ def expected(s, steps: list[dict]) -> list[dict]:
 
 def _way(s, nozzle) -> float:
     """Way [m] that a stream goes, to the end of the run or of the domain."""
-    return min(nozzle.speed * s.end, max(s.case.domain.size) if "outflow" in s.case.effects else math.inf)
+    return min(
+        nozzle.speed * feed.lasting(s.case, nozzle),
+        max(s.case.domain.size) if "outflow" in s.case.effects else math.inf,
+    )

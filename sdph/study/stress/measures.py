@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from sdph.engine import state as particles
+from sdph.engine.geometry import PAIRS
 
 
 class Extremes:
@@ -89,10 +90,9 @@ class Measures(Extremes):
         if "walls" not in self.case.effects:
             return 0
         out = np.zeros(len(s.x), bool)
-        for axis, ends, size in zip(
-            particles.axes(s), (("left", "right"), ("bottom", "top"), ("back", "front")), self.case.domain.size
-        ):
-            for side, beyond in zip(ends, (axis < 0.0, axis > size)):
+        own = self.case.domain
+        for axis, ends, low, high, period in zip(particles.axes(s), PAIRS, own.corner, own.upper, own.period):
+            for side, beyond in zip(ends, (axis < low, axis > high) if not period else ()):
                 if not any(b.side == side and b.kind == "pressure_outlet" for b in self.case.boundaries.values()):
                     out |= beyond
         return int(out.sum())

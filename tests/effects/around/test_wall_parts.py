@@ -112,7 +112,8 @@ def test_of_two_tubes_each_has_its_own_force_and_one_that_nothing_touches_none(t
 def test_facets_of_a_patch_are_those_of_its_boundary(tmp_path):
     """The mesh of a vessel, as it is kept in a run: floor, side and side, the second boundary of no facet of it."""
     corners = np.array([[[0.0, 0.0], [0.03, 0.0]], [[0.03, 0.0], [0.03, 0.03]], [[0.0, 0.03], [0.0, 0.0]]])
-    facets.save(tmp_path / "patches.vtk", corners, np.zeros(3, bool), np.array([0, 2, -1]))
+    of = facets.Facets(corners, np.zeros(3, bool), np.zeros(3, bool), np.array([0, 2, -1]))
+    facets.save(tmp_path / "patches.vtk", of)
     walls = {"walls": {"source": "gas", "mesh": str(tmp_path / "patches.vtk")}}
     held = {"floor": {"kind": "wall"}, "lid": {"kind": "wall"}, "side": {"kind": "wall"}}
     simulation = started(bed((0.03, 0.03), ["floor", "lid", "side"], boundaries=held, **walls), tmp_path)

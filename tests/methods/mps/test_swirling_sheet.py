@@ -1,6 +1,7 @@
 """A swirling sheet: what the annulus gives, pieces that leave, going on from a checkpoint."""
 
 import csv
+import dataclasses
 import math
 
 import numpy as np
@@ -9,12 +10,14 @@ import pytest
 from sdph import scenes
 from sdph.case import read as cases
 from sdph.engine.state import INFLOW, LIQUID
-from sdph.methods.mps import pieces, sheet
+from sdph.methods.mps import openings, pieces, sheet
 from sdph.methods.mps.method import MpsStepper
+from sdph.methods.mps.scales import scales_of
 from sdph.running import driver
 from sdph.running.progress import Reporter
 from sdph.schema import CaseError
-from sdph.study import compare
+from sdph.study import compare, memory
+from sdph.study.explain import mps as explained
 
 FILE = scenes.HERE / "swirl_sheet" / "case.toml"
 SHORT = (
@@ -35,6 +38,47 @@ def sheet_of(*overrides):
 def ran(folder, *overrides):
     driver.run(sheet_of(*overrides), "swirl_sheet", folder, None, Reporter())
     return compare.open_run(folder)
+
+
+def test_of_two_nozzles_no_sheet_is_measured():
+    """Half angle and break-up length are about one axis."""
+    own = sheet_of()
+    assert sheet.nozzle_of(own) is own.nozzles["mouth"]
+    assert sheet.nozzle_of(dataclasses.replace(own, nozzles=own.nozzles | {"other": own.nozzles["mouth"]})) is None
+
+
+def test_what_is_out_is_so_of_a_domain_that_begins_elsewhere():
+    own = sheet_of()
+    low, high = openings.ends(own, 0.0)
+    moved = dataclasses.replace(own.domain, lower=(1.0, 1.0, 1.0))
+    for ends, there in zip((low, high), openings.ends(dataclasses.replace(own, domain=moved), 0.0)):
+        np.testing.assert_allclose(np.array(there), np.array(ends) + 1.0)
+
+
+@pytest.mark.parametrize(("end", "share"), [(None, 1.0), (3e-5, 0.1)])
+def test_explain_counts_what_an_open_nozzle_gives(end, share):
+    own = sheet_of("domain.size_m=[0.02,0.02,0.3]", *(() if end is None else (f"nozzles.mouth.end_s={end}",)))
+    whole = estimate_of(sheet_of("domain.size_m=[0.02,0.02,0.3]"))
+    assert whole > 1000.0 and estimate_of(own) == pytest.approx(share * whole, rel=0.02)
+
+
+def estimate_of(own) -> float:
+    """Particles at the end less those that wait."""
+    scales = scales_of(own)
+    rows = {row["what"]: row["value"] for row in explained.expected(scales, explained.limits(scales))}
+    closed = dataclasses.replace(own.nozzles["mouth"], start=1.0)
+    none = scales_of(dataclasses.replace(own, nozzles={"mouth": closed}))
+    without = {row["what"]: row["value"] for row in explained.expected(none, [])}
+    return rows["particles at the end"] - without["particles at the end"]
+
+
+def test_what_waits_of_a_liquid_takes_no_memory_of_a_window():
+    """Its streams are filled without looking ahead."""
+    own = sheet_of()
+    nozzle = own.nozzles["mouth"]
+    waits = memory._waiting(own, nozzle)
+    still = memory._waiting(own, dataclasses.replace(nozzle, speed=1e-9))
+    assert waits == pytest.approx(still) and waits > 0.0
 
 
 @pytest.fixture(scope="module")
@@ -109,6 +153,9 @@ def test_pieces_hang_together_by_their_distance():
     assert pieces.labels(places, 1.5).tolist() == [0, 0, 0, 1, 1]
     assert pieces.labels(places, 1.2).tolist() == [0, 0, 0, 1, 2]
     assert pieces.labels(np.zeros((0, 3)), 1.2).tolist() == []
+    across = np.array([[0.1, 0.0, 0.0], [9.8, 0.0, 0.0], [5.0, 0.0, 0.0]])
+    assert pieces.labels(across, 1.0).tolist() == [0, 1, 2]
+    assert pieces.labels(across, 1.0, (10.0, 0.0, 0.0)).tolist() == [0, 0, 1]
 
 
 def test_sizes_of_drops():

@@ -89,6 +89,15 @@ def test_two_voids_that_touch_at_a_corner_are_two():
     assert {frozenset(pair) for pair in found.tolist()} == expected
 
 
+def test_a_slab_one_cell_deep_is_no_wall_of_round_off():
+    """OpenFOAM's centres of such cells differ in their last digit along z."""
+    centres, *rest = bed((0.25, 0.3), 0.1, depth=1)
+    rough = centres + 1e-17 * np.random.default_rng(2).standard_normal(centres.shape)
+    assert bubble.metrics(*bubble.through_depth(CELL, rough, *rest)) == pytest.approx(
+        bubble.metrics(*bubble.through_depth(CELL, centres, *rest)), rel=1e-12
+    )
+
+
 def test_up_is_not_always_y():
     upright = bubble.metrics(*bed((0.25, 0.3), 0.1))
     centres, *rest = bed((0.25, 0.3), 0.1)

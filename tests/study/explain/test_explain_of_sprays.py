@@ -40,3 +40,5 @@ def test_classes_of_sizes_are_particles_each():
     one, five = (case_of("spray_cone", wide, f"nozzles.{name}.size_classes={number}") for number in (1, 5))
     counts = [estimate.expected(case, judge.scales_of(case))[0]["value"] for case in (one, five)]
     assert counts[1] == pytest.approx(5.0 * counts[0], rel=0.01)
+    given = case_of("spray_cone", f"nozzles.{name}.sizes=given", f"nozzles.{name}.diameters_mm=[0.05,0.06,0.07]")
+    assert estimate.expected(given, judge.scales_of(given))[0]["value"] == pytest.approx(3.0 * counts[0], rel=0.01)
