@@ -86,7 +86,8 @@ def shaken(folder: Path, top: float, count: int, steps: int) -> Shaken:
     path = str(folder / f"{top:g}.vtk")
     surface = vessel(top)
     corners = np.asarray(surface.points)[surface.regular_faces]
-    facets.save(path, corners, np.zeros(len(corners), bool), np.full(len(corners), -1))
+    no = np.zeros(len(corners), bool)
+    facets.save(path, facets.Facets(corners, no, no, np.full(len(corners), -1)))
     case = case_of(path, count)
     grains, wall = Grains(case), facets.Surface(corners)
     grains.start()
