@@ -12,7 +12,7 @@ import re
 import shutil
 from pathlib import Path
 
-from coupling.openfoam import links, poly_mesh
+from coupling.openfoam import dictionary, links, poly_mesh
 from coupling.openfoam.block_mesh import block_mesh
 from coupling.openfoam.code import Findings, refuse_code
 from coupling.openfoam.start_fields import EMPTY, start_fields
@@ -25,6 +25,11 @@ HEAD = "FoamFile {{ version 2.0; format ascii; class dictionary; object {name}; 
 SPATIAL = ("m", "m_s", "m_s2")  # units of what has one component per dimension
 NOT_SPATIAL = ("span",)  # lengths, but along the tangential axes
 NAME = re.compile(r"[\w.+-]+")  # of what a case names: no more than a word of OpenFOAM
+SYMMETRY = 'give it the type patch in constant/polyMesh/boundary and kind = "slip_wall"'
+AROUND = "mesh the whole vessel, or a slab of it"
+CONSTRAINED = {"symmetry": SYMMETRY, "symmetryPlane": SYMMETRY} | dict.fromkeys(
+    ("wedge", "cyclic", "cyclicAMI"), AROUND
+)
 DEPTH = 1.0  # m, of the one cell that a two-dimensional mesh is deep
 
 
@@ -68,6 +73,18 @@ def write_case(
         write_block_mesh(case, folder)
     if ranks > 1:
         write_decomposition(case, folder, ranks)
+
+
+def refuse_unread(template: Path) -> None:
+    """CaseError where a case asks for what sdphGasFoam does not do: sources of its own, functions during the run."""
+    for folder in ("constant", "system"):
+        if dictionary.content(template / folder / "fvOptions") is not None:
+            raise CaseError(f"{template / folder}/fvOptions: sdphGasFoam has no sources of its own; leave it out")
+    if dictionary.read(template / "system" / "controlDict").get("functions"):
+        raise CaseError(
+            f"{template}/system/controlDict: sdphGasFoam calls no functions; leave them out, and give [probes.NAME], "
+            "run.metrics or run.forces in case.toml"
+        )
 
 
 def write_macros(case, folder: Path) -> None:
@@ -137,6 +154,12 @@ def others(case, folder: Path) -> dict[str, str] | None:
     if not (folder / poly_mesh.FOLDER).is_dir():
         return None
     known = poly_mesh.patches(folder)
+    for name, patch in known.items():
+        if patch.kind in CONSTRAINED:
+            raise CaseError(
+                f"patch {name} of the mesh of the gas is {patch.kind}, which sdphGasFoam has not: "
+                f"{CONSTRAINED[patch.kind]}"
+            )
     for name in case.boundaries:
         if name not in known:
             raise CaseError(f"boundaries.{name} is no patch of the mesh of the gas; it has {', '.join(known)}")

@@ -27,8 +27,7 @@ from sdph.engine.clock import Clock
 from sdph.engine.reading import one_line
 from sdph.schema import CaseError
 
-START_TIME = 120.0  # s that the solver may take to read its case
-STEP_TIME = 3600.0  # s that one step may take
+ANSWER_TIME = 3600.0  # s that a solver that lives may take to read its case, or for one step
 QUIET = 2.0  # s of waiting after which the user is told what is waited for
 END_TIME = 5.0  # s that the solver may take to end by itself
 
@@ -80,6 +79,7 @@ class OpenFoamGas:
         program = install.gas_solver(self._status)
         self._turbulence = install.gas_turbulence(self._status) if self._case.gas.turbulent else None
         if template is not None:
+            case_files.refuse_unread(Path(template))
             options = self._case.coupling.gas_ranks, self._allow_code, self._known
             case_files.write_case(self._case, Path(template), self._folder, *options)
             self._make_mesh()
@@ -114,19 +114,19 @@ class OpenFoamGas:
         server = SERVERS[self._case.coupling.transport](secret, self._folder)
         try:
             self._process = self._start(program, server.address, secret)
-            self._connection, first = self._guard(lambda alive: server.accept(START_TIME, alive), "to start")
+            self._connection, first = self._guard(lambda alive: server.accept(ANSWER_TIME, alive), "to start")
         finally:
             server.close()
         self._expect(first, Kind.HELLO)
         told = self._expect(
-            self._guard(lambda alive: self._connection.receive(START_TIME, alive), "to start"), Kind.MESH
+            self._guard(lambda alive: self._connection.receive(ANSWER_TIME, alive), "to start"), Kind.MESH
         )
         self._guard(lambda alive: self._meet(told), "to start")
         self._connection.limit = message_limit(len(self.mesh.volumes))
 
     def _meet(self, told: Message) -> None:
         """Take what the solver tells of itself and its mesh."""
-        self._check_properties(told)
+        told_by.check(told, self._case)
         self.mesh = cell_sizes.spread(told_by.mesh(told), self._case, self._folder)
         self.solver = f"{told.text('solver')}, {told.text('openfoam')}, {told.number('ranks')} ranks"
 
@@ -152,7 +152,14 @@ class OpenFoamGas:
         values = {"sources": " ".join(sources), "fields": " ".join(fields)}
         if alpha_g is not None:
             values["alpha_g"] = np.asarray(alpha_g, float)
-        return self._ask(Message(Kind.START, values, {"alpha_g": "1"}))
+        state = self._ask(Message(Kind.START, values, {"alpha_g": "1"}))
+        if state.time:
+            self.close()
+            raise CaseError(
+                f"{self._folder}: the gas begins at {state.time:g} s; give startFrom startTime and startTime 0 in "
+                "system/controlDict, and its start fields in 0"
+            )
+        return state
 
     def advance(self, dt: float, sources: dict[str, np.ndarray]) -> GasState:
         """See `Gas.advance`."""
@@ -199,7 +206,7 @@ class OpenFoamGas:
         try:
             self._connection.send(Message(Kind.CLOSE))
             self._process.wait(END_TIME)
-        except (ConnectionError, MessageError, subprocess.TimeoutExpired):
+        except (OSError, MessageError, subprocess.TimeoutExpired):
             pass  # it is ended by force next
 
     def _ask(self, message: Message) -> GasState:
@@ -218,7 +225,7 @@ class OpenFoamGas:
         def exchange(alive):
             self._asking = True
             self._connection.send(message)
-            answer = self._connection.receive(STEP_TIME, alive)
+            answer = self._connection.receive(ANSWER_TIME, alive)
             self._asking = False
             return answer
 
@@ -269,31 +276,3 @@ class OpenFoamGas:
             else f"{message.kind.name} where {kind.name} was expected"
         )
         raise refused(f"sdphGasFoam says: {one_line(said)} (log: {self._log})")
-
-    def _check_properties(self, told: Message) -> None:
-        """The particles and the gas must mean the same gas."""
-        if told.number("dimensions") != self._case.dimensions:
-            raise CaseError(
-                f"the mesh has {told.number('dimensions')} dimensions; case.toml says dimensions = "
-                f"{self._case.dimensions}"
-            )
-        for name in told.values:
-            section, _, key = name.partition("_")
-            if section not in ("gas", "vapour"):
-                continue
-            ours = _ours(self._case, section, key)
-            value = told[name] if isinstance(told[name], str) else told.number(name)
-            if ours != value:
-                raise CaseError(
-                    f"constant/gasProperties has {name} = {value}; case.toml has {ours}: make them the same"
-                )
-
-
-def _ours(case, section: str, key: str):
-    """Value of a case that the solver tells under `section`_`key`; None where the case has none."""
-    own = getattr(case, section)
-    if key == "turbulence_model":
-        return own.turbulence.model if own.turbulence else "laminar"
-    if key.startswith("turbulence_"):
-        own, key = own.turbulence, key.removeprefix("turbulence_")
-    return getattr(own, key, None)

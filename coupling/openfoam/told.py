@@ -6,6 +6,7 @@ import dataclasses
 
 from coupling.gas import FIELDS, IMPULSES, ON_REQUEST, Budget, GasState, Mesh
 from coupling.transport.messages import Message
+from sdph.schema import CaseError
 
 
 def mesh(told: Message) -> Mesh:
@@ -14,6 +15,34 @@ def mesh(told: Message) -> Mesh:
     return Mesh(
         centres, told.array("volumes", len(centres)), int(told.number("dimensions")), float(told.number("depth"))
     )
+
+
+def check(told: Message, case) -> None:
+    """CaseError where the particles and the gas do not mean the same gas."""
+    if told.number("dimensions") != case.dimensions:
+        raise CaseError(
+            f"the mesh has {told.number('dimensions')} dimensions; case.toml says dimensions = {case.dimensions}"
+        )
+    for name in told.values:
+        section, _, key = name.partition("_")
+        if section not in ("gas", "vapour", "domain"):
+            continue
+        ours = _ours(case, section, key)
+        value = told[name] if isinstance(told[name], str) else told.number(name)
+        if ours != value:
+            raise CaseError(f"constant/gasProperties has {name} = {value}; case.toml has {ours}: make them the same")
+
+
+def _ours(case, section: str, key: str):
+    """Value of a case that the solver tells under `section`_`key`; None where the case has none."""
+    own = getattr(case, section)
+    if section == "domain":  # gravity_x, gravity_y, gravity_z
+        return (*own.gravity, 0.0)["xyz".index(key[-1])]
+    if key == "turbulence_model":
+        return own.turbulence.model if own.turbulence else "laminar"
+    if key.startswith("turbulence_"):
+        own, key = own.turbulence, key.removeprefix("turbulence_")
+    return getattr(own, key, None)
 
 
 def state(message: Message, cells: int, vapour: bool, asked: tuple[str, ...] = ()) -> GasState:

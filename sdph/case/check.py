@@ -93,6 +93,8 @@ def _check_one(case: Case) -> None:
             _check_place(case, f"pools.{name}", pool)
             periods.of_pool(case, f"pools.{name}", pool)
         flow(case, f"pools.{name}", pool)
+    if case.gas_phase and not any(pool.phase == "gas" for pool in case.pools.values()):
+        raise CaseError('[gas_phase] is given, but no pool has phase = "gas"; give one, or leave [gas_phase] out')
     if case.solid:
         bodies.check(case)
     for name, boundary in case.boundaries.items():
@@ -230,8 +232,6 @@ def _check_phases(case: Case) -> None:
         return _check_one_phase(case)
     if case.liquid is None:
         raise CaseError("[gas_phase] is given without [liquid]; a gas around grains goes into [gas]")
-    if not any(pool.phase == "gas" for pool in case.pools.values()):
-        raise CaseError('[gas_phase] is given, but no pool has phase = "gas"; give one, or leave [gas_phase] out')
     if "drain" in case.effects:
         raise CaseError("effects holds drain, which knows one phase; leave it or [gas_phase] out")
     summed = case.gas_phase.density_by == "summation"

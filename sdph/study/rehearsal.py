@@ -118,11 +118,12 @@ def _looked_at(case, template: Path, allow_code: bool) -> Iterator[Path]:
         closed_vessels.refuse_filling(grains, template)
         yield template
         return
-    from coupling.openfoam.case import write_case
+    from coupling.openfoam.case import refuse_unread, write_case
     from coupling.openfoam.meshed import meshed
     from coupling.openfoam.programs.installation import require
 
     require()
+    refuse_unread(template)
     with meshed(grains, template, allow_code) as mesh, tempfile.TemporaryDirectory(prefix="sdph-explain-") as folder:
         made = Path(folder) / "gas"
         write_case(grains, mesh, made, case.coupling.gas_ranks, allow_code)

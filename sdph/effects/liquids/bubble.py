@@ -71,7 +71,7 @@ def _disc_of(case, own):
         raise CaseError("bubble.centre_m and bubble.centres_m: give one of them")
     discs = [pool for pool in case.pools.values() if pool.shape == "disc"]
     if not discs:
-        raise CaseError('bubble.centres_m: they are of a pool of shape "disc", and there is none')
+        raise CaseError('bubble.centres_m: they are of one pool of shape "disc", and there is none')
     return discs[0]
 
 
