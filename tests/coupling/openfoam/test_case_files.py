@@ -105,6 +105,18 @@ def test_a_folder_that_is_no_case_is_refused(tmp_path):
         case_files.write_case(box_case((0.1, 0.1), 0.01), tmp_path, tmp_path / "out")
 
 
+@pytest.mark.parametrize(("kind", "says"), [("symmetryPlane", "slip_wall"), ("wedge", "whole vessel, or a slab")])
+def test_patches_that_the_gas_has_not_are_refused(tmp_path, kind, says):
+    """Whatever the case says of them: the line tells what to make of them."""
+    folder = tmp_path / "constant" / "polyMesh"
+    folder.mkdir(parents=True)
+    patch = f"{{ type {kind}; nFaces 4; startFace 0; }}"
+    (folder / "boundary").write_text(f"FoamFile {{ class polyBoundaryMesh; }}\n1 ( middle {patch} )\n")
+    case = box_case((0.1, 0.1), 0.01, boundaries={"middle": {"kind": "slip_wall"}})
+    with pytest.raises(CaseError, match=f"patch middle of the mesh of the gas is {kind}.*{says}"):
+        case_files.others(case, tmp_path)
+
+
 def test_own_files_of_a_template_win(tmp_path):
     shutil.copytree(TEMPLATE, tmp_path / "template")
     for own in ("system/blockMeshDict", "0/T"):

@@ -110,6 +110,21 @@ def test_a_checkpoint_goes_on_bit_for_bit(tmp_path, ranks, equation):
         assert all(same(a, b) for a, b in zip(expected, busy(gas, 4, begin=4)))
 
 
+def test_a_checkpoint_of_many_patches_is_read_again(tmp_path):
+    """A mesh from snappyHexMesh may well have forty."""
+    spans = {
+        f"tile_{k}": {"kind": "wall", "side": "top", "span_m": [k / 200.0, (k + 1) / 200.0]} for k in range(40)
+    } | WALLS
+    options = ((0.2, 0.02), 0.005)
+    with box(tmp_path / "a", *options, boundaries=spans) as gas:
+        gas.start(None, ("heat",))
+        gas.checkpoint(tmp_path / "checkpoint")
+        expected = gas.advance(1e-3, {"heat": np.full(len(gas.mesh.volumes), 1e5)})
+    with box(tmp_path / "b", *options, boundaries=spans) as gas:
+        gas.restore(tmp_path / "checkpoint")
+        assert same(expected, gas.advance(1e-3, {"heat": np.full(len(gas.mesh.volumes), 1e5)}))
+
+
 def test_a_checkpoint_of_other_ranks_is_refused(tmp_path):
     with box(tmp_path / "a", (0.1, 0.06), 0.005) as gas:
         gas.start(None, ())

@@ -5,6 +5,8 @@ import pytest
 from gas_boxes import AIR, box, total
 from gas_columns import CP, OPEN, RHO, gas_volume
 
+from coupling.gas import Unfinished
+
 pytestmark = pytest.mark.openfoam
 COLUMN = {
     "below": {"kind": "velocity_inlet", "side": "bottom", "velocity_m_s": [0.0, 0.2]},
@@ -220,3 +222,37 @@ def test_heated_gas_of_an_open_box_expands(tmp_path):
     assert state.budget.mass - start.budget.mass == pytest.approx(state.budget.mass_in, rel=1e-10)
     gained = state.budget.energy - start.budget.energy - state.budget.energy_in - state.budget.pressure_work
     assert gained == pytest.approx(1e5 * 0.02 * gas_volume(gas), rel=1e-9)
+
+
+FILLED = {"in": {"kind": "velocity_inlet", "side": "left", "velocity_m_s": [0.1, 0.0]}, "walls": {"kind": "wall"}}
+
+
+@pytest.mark.parametrize("boundaries", [{"walls": {"kind": "wall"}}, FILLED])
+def test_a_closed_box_of_ideal_gas_has_one_pressure(tmp_path, boundaries):
+    """Heated, or filled: every cell has the pressure of what is in it, and no cell is given more than the others."""
+    molar, dt, steps = 28.96, 1e-3, 20
+    with box(
+        tmp_path, (0.1, 0.1), 0.005, boundaries=boundaries, equation_of_state="ideal", molar_mass_kg_kmol=molar
+    ) as gas:
+        n = len(gas.mesh.volumes)
+        start = gas.start(None, ("heat",))
+        for _ in range(steps):
+            state = gas.advance(dt, {"heat": np.full(n, 2e5 if boundaries is not FILLED else 0.0)})
+    fields, volume = state.fields, gas.mesh.volumes.sum()
+    absolute = fields["density"] * 8314.462618 / molar * fields["temperature"]
+    risen = (state.budget.mass * 8314.462618 / molar / volume) * fields["temperature"].mean() - 101325.0
+    assert fields["pressure"] == pytest.approx(absolute - 101325.0, rel=1e-3)
+    assert fields["pressure"] == pytest.approx(risen, rel=1e-2) and risen > 800.0
+    assert state.budget.held["gas_mass_left_rel"] < 1e-7
+    if boundaries is not FILLED:
+        assert np.abs(fields["velocity"]).max() < 1e-6
+        assert fields["density"] == pytest.approx(start.budget.mass / volume, rel=1e-7)
+
+
+def test_heat_that_is_not_found_is_told(tmp_path):
+    """So good a conductor takes more sweeps than the case allows."""
+    with box(tmp_path, (0.1, 0.1), 0.005, conductivity_W_m_K=1e4) as gas:
+        gas.start(None, ("heat",))
+        spot = np.hypot(*(gas.mesh.centres[:, :2] - 0.02).T) < 0.01
+        with pytest.raises(Unfinished, match="T has not converged: .* of it is left after 50 sweeps, 1e-09 is allowed"):
+            gas.advance(1e-2, {"heat": 1e8 * spot})
