@@ -54,6 +54,12 @@ def _of_tables(case) -> None:
 
 def _of_bodies(case) -> None:
     """A liquid with bodies in it has one phase, and no effect that knows no bodies."""
+    vents = "bubble" in case.effects and case.parameters["bubble"].content == "vapour" and case.solid.failure
+    if vents and "time_scaling" not in case.effects:
+        raise CaseError(
+            "a shell that fails lets its vapour out, and time_scaling looks for the tear: add it to effects, or leave "
+            "solid.failure out"
+        )
     if case.gas_phase:
         raise CaseError("bodies touch a liquid of one phase: leave [gas_phase] out, or [solid]")
     for name in case.effects:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 
 from sdph.methods.solids import start
@@ -12,6 +14,11 @@ NEEDS = {
     "ring": ("centre_m", "radius_m", "inner_radius_m"), "cylinder": ("centre_m", "radius_m", "length_m"),
 }  # fmt: skip
 DIMENSIONS = {"disc": 2, "ring": 2, "cylinder": 3}
+# key of [solid] -> those that act on nothing without it
+IDLE = {
+    "yield_stress": ("hardening", "rate_factor", "temperature_share"),
+    "failure": ("critical_damage", "damage_begins_at"),
+}  # fmt: skip
 CONSTANTS = 5  # of failure: D1 to D5
 
 
@@ -25,10 +32,22 @@ def check(case) -> None:
         raise CaseError(f"solid.failure = {list(own.failure)}; it must be the five numbers D1 to D5")
     if own.failure and own.yield_stress is None:
         raise CaseError("solid.failure is of plastic strain; give solid.yield_stress_Pa, or leave it out")
+    _refuse_idle(own)
     for name, body in case.bodies.items():
         _check_shape(case, f"bodies.{name}", body)
         _check_flaw(f"bodies.{name}", body)
         _check_motion(f"bodies.{name}", body)
+
+
+def _refuse_idle(own) -> None:
+    """CaseError of a key that nothing acts on without another one."""
+    defaults = {field.name: field.default for field in dataclasses.fields(own)}
+    for need, keys in IDLE.items():
+        given = [key for key in keys if getattr(own, key) != defaults[key]]
+        if given and not getattr(own, need):
+            raise CaseError(
+                f"[solid] gives {given[0]}, which acts on nothing without {need}; give that, or leave it out"
+            )
 
 
 def check_probe(case, where: str, probe) -> None:

@@ -20,6 +20,7 @@ def taken_over(table: dict) -> dict:
     tension = "surface_tension" in on and "free_energy_tension" not in on
     left = [name for name in on if name in NUMERICAL or (name == "surface_tension" and tension)]
     left += [f"pools.{name}" for name in gas] + ["gas_phase"] * ("gas_phase" in table)
+    left += ["liquid.periodic"] * bool(gas and table.get("liquid", {}).get("periodic"))
     if not left:
         return table
     tensed = table.get("surface_tension", {})

@@ -236,6 +236,7 @@ def view_run(options) -> int:
         _refuse(options, ("png", "movie"), "--web serves a page and writes no file")
         web.serve(options.run, options.time, look)
     elif options.movie:
+        _refuse(options, ("png", "time"), "--movie is of all instants, and writes no picture")
         view.movie(options.run, options.movie, look=look)
     else:
         view.show(options.run, options.png, options.time, look=look)

@@ -16,6 +16,9 @@ def stress_cases(options) -> int:
     """Run the hard cases, their map or the faults of `sdph stress`."""
     if options.json and (options.map or options.faults is not None):
         raise CaseError("--json is of the hard cases; --map and --faults print their own tables: leave it out")
+    whole = "--map" if options.map else "--faults" if options.faults is not None else ""
+    if whole and (options.case or options.fast):
+        raise CaseError(f"{whole} is not of single hard cases: leave {', '.join(options.case) or '--fast'} out")
     if options.faults is not None:
         from sdph.study.stress import faults
 

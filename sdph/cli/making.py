@@ -12,7 +12,7 @@ SCRIPT = """#!/bin/sh
 #SBATCH --time=12:00:00
 # A job that was cut goes on from its last checkpoint when it is sent again.
 export NUMBA_NUM_THREADS=$SLURM_CPUS_PER_TASK
-if [ -d run/checkpoints ]; then
+if [ -f run/origin.json ]; then
     sdph run --resume run --ranks $SLURM_NTASKS
 else
     sdph run case.toml --out run --ranks $SLURM_NTASKS --set run.launcher="srun --mpi=pmix"
@@ -36,10 +36,17 @@ def init_case(options) -> int:
     inputs.copy_case(file, folder)
     output.copy_template(inputs.beside(file) or paths.gas_template(name), folder / "gas")
     print(f"{folder}/case.toml and {folder}/gas are yours to edit; run them with: sdph run {folder}")
-    if options.slurm:
-        output.write_text(folder / JOB, SCRIPT)
-        print(f"{folder}/{JOB} is for SLURM: sbatch {JOB}, from {folder}")
+    _job(options)
     return 0
+
+
+def _job(options) -> None:
+    """Write the job for SLURM where one is asked for."""
+    from sdph.running import output
+
+    if options.slurm:
+        output.write_text(options.folder / JOB, SCRIPT)
+        print(f"{options.folder}/{JOB} is for SLURM: sbatch {JOB}, from {options.folder}")
 
 
 def _adopted(options) -> int:
@@ -51,4 +58,5 @@ def _adopted(options) -> int:
         print(f"note: {note}")
     made = options.folder
     print(f"{made}/case.toml and {made}/gas are yours to edit; see what it calls for: sdph explain {made}")
+    _job(options)
     return 0

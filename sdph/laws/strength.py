@@ -123,5 +123,7 @@ def failure_strain(damage, triaxiality, rate, reference):
 @law
 def damage_growth(damage, p, dp, failure):
     """dD [-] = D_c dp/(p_f - p_d) where p is beyond p_d, else 0. Gel-droplet paper, Eq. 12: failure is at p = p_f
-    whatever D_c is."""
-    return damage.critical * dp / (failure - damage.begin) if p > damage.begin else 0.0
+    whatever D_c is, and at once where p_f is no more than p_d."""
+    if p <= damage.begin or dp <= 0.0:
+        return 0.0
+    return damage.critical * dp / (failure - damage.begin) if failure > damage.begin else damage.critical

@@ -25,12 +25,11 @@ from sdph import effects
 from sdph.case import read as cases
 from sdph.engine import contact, restart, world
 from sdph.engine import device as environment
-from sdph.engine import state as particles
 from sdph.engine.guard import Unstable
 from sdph.engine.kept import Maybe, Unfit
 from sdph.engine.ledger import Ledger
 from sdph.methods.liquids.liquid import Liquid
-from sdph.running import balances, chain, compiling, forces, hastened, inputs, metrics, on_device, output, ranks, vessel
+from sdph.running import balances, chain, compiling, forces, hastened, inputs, on_device, output, ranks, vessel
 from sdph.running.interruption import Stopped, listening
 from sdph.running.outputs import Outputs
 from sdph.running.simulation import Simulation
@@ -159,6 +158,7 @@ class Flight:
         self.simulation, self.elapsed = None, 0.0  # wall time [s] of the parts of the run before this one
         self.first = None  # wall time [s] to the end of the first window
         self.saved_time, self.saved_window = time.monotonic(), 0
+        self.saving = 0.0  # wall time [s] of the last checkpoint
 
     @property
     def spent(self) -> float:
@@ -174,11 +174,13 @@ class Flight:
         self._begin(gas, checkpoint)
         if self.world.chief:
             output.write_text(self.folder / output.MARK, cases.dumps(inputs.seen_from(self.case, self.folder)))
-            (self.folder / output.FAILURE).unlink(missing_ok=True)
+            output.forget(self.folder, self.simulation.clock.over(self.simulation.time))
         self.goes = wish.patient = True
         with contextlib.closing(self.out):
             while not self.simulation.clock.over(self.simulation.time):
+                begun = time.monotonic()
                 self._window()
+                wish.allow(time.monotonic() - begun + self.saving)
                 yield from self._shown()
                 asked = self.world.most(wish.number or 0) or None  # one is asked to stop: all are
                 if asked or self._due():
@@ -186,7 +188,7 @@ class Flight:
                 wish.number = asked
                 wish.obey()
             self._save()
-        summary = _summary(self.simulation, self.out) | {"start_to_first_window_s": self.first, "wall_s": self.spent}
+        summary = self.out.summary() | {"start_to_first_window_s": self.first, "wall_s": self.spent}
         if self.world.chief:
             output.write_summary(self.folder, summary)
         for warning in (*environment.warnings(), *self.simulation.warnings(), *balances.missed(summary)):
@@ -280,20 +282,11 @@ class Flight:
         return self.world.told(late) or self.simulation.windows - self.saved_window >= windows
 
     def _save(self) -> None:
+        begun = time.monotonic()
         table, now = cases.to_table(inputs.seen_from(self.case, self.folder)), self.simulation
         with now.whole() as chief:
             if chief:
                 restart.write(self.folder, now.windows, now.time, table, self, now.gas)
         self.world.told(None)  # all wait until it is there
         self.saved_time, self.saved_window = time.monotonic(), self.simulation.windows
-
-
-def _summary(simulation, out: Outputs) -> dict:
-    """summary.json, less the wall time of the whole."""
-    with simulation.whole():
-        case, count = simulation.case, particles.count(simulation.state)
-    summary = {"title": case.title, "time_s": simulation.time, "particles": count, "windows": simulation.windows}
-    summary |= simulation.summary(out) | metrics.summary(case, out.rows) | simulation.ledger.summary()
-    summary |= {f"wall_{part}_s": spent for part, spent in simulation.wall.items()}
-    summary |= {f"{part}_ms_per_window": 1e3 * spent / simulation.windows for part, spent in simulation.wall.items()}
-    return summary | {"particle_steps_per_s": count * simulation.stepper.steps / simulation.wall["particles"]}
+        self.saving = self.saved_time - begun

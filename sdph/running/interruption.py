@@ -10,9 +10,9 @@ from contextlib import contextmanager
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 # of llvmlite, called by LLVM while a kernel is compiled: what is raised in it is lost
 CALLBACK = "_raw_object_cache_notify"
-# s that a window and its checkpoint may still take once the run was asked to stop: a gas that hangs takes for ever; our
-# choice
-PATIENCE = 3.0
+# s that a window and its checkpoint may still take once the run was asked to stop, and the shares of those before them:
+# a gas that hangs takes for ever; our choice
+PATIENCE, SHARES = 3.0, 2.0
 LATER = 0.05  # s until a signal that came there is sent again; our choice
 
 
@@ -26,21 +26,27 @@ class Stopped(KeyboardInterrupt):
 
 class Wish:
     """Request to stop the run. While it is `patient` the first signal only sets `number`; else, the second time, and
-    where nobody has obeyed for `PATIENCE`, it raises `Stopped` at once."""
+    where nobody has obeyed for `patience` [s], it raises `Stopped` at once."""
 
     def __init__(self):
         self.number, self.patient, self.timer = None, False, None
+        self.patience = PATIENCE
 
     def __call__(self, number: int, frame) -> None:
         number = signal.SIGTERM if number == signal.SIGUSR1 else number  # as several processes are asked to stop
         if self.number is None and self.patient:
-            self.number, self.timer = number, threading.Timer(PATIENCE, os.kill, (os.getpid(), number))
+            self.number, self.timer = number, threading.Timer(self.patience, os.kill, (os.getpid(), number))
             self.timer.daemon = True
             self.timer.start()
         elif _called_from(CALLBACK, frame):
             threading.Timer(LATER, os.kill, (os.getpid(), number)).start()
         else:
             raise Stopped(number)
+
+    def allow(self, spent: float) -> None:
+        """Let the next window and its checkpoint take some `spent` [s] too; the one that was waited for has ended."""
+        self.rest()
+        self.patience = PATIENCE + SHARES * spent
 
     def obey(self) -> None:
         """Raise `Stopped` where it was asked for."""

@@ -33,9 +33,10 @@ MARK, ORIGIN = "case.toml", "origin.json"  # a folder with these files holds a r
 FAILURE = "failure.json"
 WALLS = "fields/walls.vtp"
 PIECES = "pieces"  # in the folder of fields, with the particles of each process
+ENDED = ("summary.json", "compare_*.json")
 LEFT = (  # by a run, as patterns; what else is in its folder is the user's
     "ledger.csv", "ledger_liquid.csv", "ledger_solid.csv", "droplets.csv", "outflow.csv", "history.csv", "metrics.csv",
-    "run.pvd", "summary.json", FAILURE, "compare_*.json", "last_good.*", "checkpoints", "gas", WALLS,
+    "run.pvd", FAILURE, *ENDED, "last_good.*", "checkpoints", "gas", WALLS,
     "fields/particles_*.vt?", "fields/gas_*.vt?", "fields/liquid_*.vt?", "fields/solid_*.vt?", "fields/part-*.vt?",
     "fields/particles_*.pvtu", f"fields/{PIECES}/particles_*.vtu", f"fields/{PIECES}/part-*.vtu",
 )  # fmt: skip
@@ -78,6 +79,13 @@ def clear(folder: Path) -> None:
     for path in (path for pattern in LEFT for path in folder.glob(pattern)):
         shutil.rmtree(path) if path.is_dir() and not path.is_symlink() else path.unlink()
     (folder / "fields").mkdir(exist_ok=True)
+
+
+def forget(folder: Path, over: bool) -> None:
+    """Remove what tells how a run ended before it goes on; where it is `over` only that it failed."""
+    for pattern in (FAILURE,) if over else (FAILURE, *ENDED):
+        for path in folder.glob(pattern):
+            path.unlink()
 
 
 def free_name(base: Path) -> Path:

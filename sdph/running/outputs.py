@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from sdph.engine import state as particles
 from sdph.engine.kept import ROW, Many, Unfit
 from sdph.engine.table import Table
 from sdph.running import metrics
@@ -54,3 +55,14 @@ class Outputs:
         self.fields.write(self.simulation.time, self.simulation.meshes())
         self.rows.append(metrics.row(self.simulation))
         self.metrics.write(self.rows[-1])
+
+    def summary(self) -> dict:
+        """summary.json, less the wall time of the whole."""
+        now = self.simulation
+        with now.whole():
+            case, count = now.case, particles.count(now.state)
+        found = {"title": case.title, "time_s": now.time, "particles": count, "windows": now.windows}
+        found |= now.summary(self) | metrics.summary(case, self.rows) | now.ledger.summary()
+        found |= {f"wall_{part}_s": spent for part, spent in now.wall.items()}
+        found |= {f"{part}_ms_per_window": 1e3 * spent / now.windows for part, spent in now.wall.items()}
+        return found | {"particle_steps_per_s": count * now.stepper.steps / now.wall["particles"]}

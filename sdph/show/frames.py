@@ -30,7 +30,9 @@ def viewer(folder: Path, case) -> str:
     shots = [shot.of_folder(folder, time) for time in chosen]
     turn = _turn(shots[-1])
     names = [name for name in MAP if any(name in own.named() for own in shots)]
-    low, high = np.sort(turn @ shots[-1].box.reshape(3, 2), axis=1).T
+    boxes = np.stack([own.box.reshape(3, 2) for own in shots])
+    whole = np.stack([boxes[:, :, 0].min(axis=0), boxes[:, :, 1].max(axis=0)], axis=1)
+    low, high = np.sort(turn @ whole, axis=1).T
     data = {
         "dimensions": 2 if shots[-1].axes else 3, "lower": list(low), "upper": list(high),
         "names": ["xyz"[int(np.argmax(np.abs(row)))] for row in turn],

@@ -29,6 +29,14 @@ SOLID = {
     "domain": {"size_m": [1.0, 1.0], "gravity_m_s2": [0.0, 0.0]},
     "solid": {"density_kg_m3": 1000.0, "youngs_modulus_Pa": 1e6, "poisson_ratio": 0.3},
 }  # fmt: skip
+
+
+def plate(**solid):
+    """A plate of this solid."""
+    body = {"shape": "box", "lower_m": [0.2, 0.2], "upper_m": [0.8, 0.4]}
+    return SOLID | {"solid": SOLID["solid"] | solid, "bodies": {"plate": body}}
+
+
 CASES = {
     "tank.open_sides": {"tank": {"shape": "sphere", "centre_m": [0.5, 0.5], "radius_m": 0.5, "open_sides": ["top"]}},
     "shifting.phases": {"effects": ["density_diffusion", "shifting"], "tank": None, "shifting": {"phases": "gas"}},
@@ -86,6 +94,10 @@ CASES = {
         "effects": ["outflow"], "tank": None, "method": {"name": "mps"},
         "liquid": {"density_kg_m3": 1000.0, "periodic": [1, 0]},
     },
+    "[solid] gives hardening, which acts on nothing without yield_stress": plate(hardening_Pa=1e5),
+    "[solid] gives critical_damage, which acts on nothing without failure": plate(
+        critical_damage=0.5, yield_stress_Pa=1e5
+    ),
     "inflation.growth_1_s": SOLID | {
         "effects": ["inflation"], "bodies": {"ring": RING},
         "inflation": {"body": "ring", "growth_1_s": 1.0, "bulk_modulus_Pa": 1e9},

@@ -227,6 +227,8 @@ def test_wrong_usage_is_code_2_and_one_line(capsys, arguments):
     ("run", "dam_break", "--gas", "embedded"),
     ("run", "disc_cluster", "--gas", "embedded", "--np", "2"),
     ("run", "--resume", "nowhere", "--out", "x"),
+    ("view", "nowhere", "--movie", "a.gif", "--png", "b.png"),
+    ("view", "nowhere", "--movie", "a.gif", "--time", "1"),
     ("run", "disc_cluster", "--accuracy", "2%", "--set", "resolution.cell_mm=20"),
     ("run", "disc_cluster", "--set", "particles.disc.volume_fraction=0.9"),
     ("run", "bubbling_bed", "--gas", "embedded", "--set", "resolution.cell_mm=40", "--set", "resolution.spacing_mm=20",

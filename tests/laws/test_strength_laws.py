@@ -112,3 +112,12 @@ def test_cantilever():
     assert solids.cantilever(0.0) == pytest.approx(0.0, abs=1e-15)
     slope = (solids.cantilever(1e-6) - solids.cantilever(0.0)) / 1e-6
     assert slope == pytest.approx(0.0, abs=1e-5)
+
+
+@pytest.mark.parametrize("failure", [0.1, 0.2, -0.3])
+def test_damage_never_goes_backwards(failure):
+    """Where the strain at failure is no more than that at which damage begins, what is beyond that fails at once."""
+    damage = strength.Damage(failure, 0.0, 0.0, 0.0, 1.0, 0.5, 0.2)
+    assert strength.damage_growth(damage, 0.15, 0.01, failure) == 0.0
+    assert strength.damage_growth(damage, 0.25, 0.01, failure) == 0.5
+    assert strength.damage_growth(damage, 0.25, 0.0, failure) == 0.0

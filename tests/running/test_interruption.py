@@ -31,6 +31,19 @@ def test_whoever_does_not_obey_is_stopped_all_the_same(monkeypatch):
         time.sleep(30.0)
 
 
+def test_a_long_window_may_end(monkeypatch):
+    """As long as those before it, twice: a polite stop loses nothing of a run whose windows take minutes."""
+    monkeypatch.setattr(interruption, "PATIENCE", 0.1)
+    with listening() as wish:
+        wish.patient = True
+        wish.allow(0.5)
+        os.kill(os.getpid(), signal.SIGTERM)
+        begun = time.monotonic()
+        with pytest.raises(Stopped):
+            time.sleep(30.0)
+        assert 1.0 < time.monotonic() - begun < 10.0
+
+
 def test_whoever_obeys_hears_no_more(monkeypatch):
     monkeypatch.setattr(interruption, "PATIENCE", 0.2)
     heard = []

@@ -2,6 +2,7 @@
 
 import json
 import math
+import tomllib
 
 import numpy as np
 import pytest
@@ -14,8 +15,12 @@ from sdph.engine import polygons, restart
 from sdph.methods.solids import start
 from sdph.running import driver, tear
 from sdph.schema import CaseError
+from sdph.study.gel_droplet import checks
 
 FILE = scenes.HERE / "gel_droplet" / "case.toml"
+
+
+POST = "bodies.post={shape='box', lower_m=[1e-4,1e-4], upper_m=[3e-4,3e-4]}"
 
 
 def load(*more):
@@ -109,6 +114,9 @@ def test_the_widest_way_out_is_as_wide_as_the_gap():
         (("effects=['density_diffusion','bubble','gravity','time_scaling','liquid_heat']",), "gravity is not scaled"),
         (("bodies={}",), "one body"),
         (("effects=['density_diffusion','liquid_heat','time_scaling']",), "bubble"),
+        (("bubble.flux_W_m2=1e4",), "flux_W_m2 = 10000; time_scaling scales a bubble"),
+        (('bubble.content="gas"',), 'bubble.content = "gas"'),
+        ((POST,), "give that alone"),
     ],
 )
 def test_what_is_no_droplet_is_refused_in_one_line(tmp_path, change, told):
@@ -117,6 +125,26 @@ def test_what_is_no_droplet_is_refused_in_one_line(tmp_path, change, told):
     with pytest.raises(CaseError, match=told) as error:
         of(load(*change), tmp_path / "ledger.csv")
     assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("name", "told"), [("liquid_heat", "nothing heats the droplet"), ("time_scaling", "looks for the tear")]
+)
+def test_effects_that_belong_together_are_asked_for(name, told):
+    table = tomllib.loads(FILE.read_text())
+    table["effects"].remove(name)
+    del table[name]
+    with pytest.raises(CaseError, match=told):
+        cases.from_table(table)
+
+
+def test_the_reduced_model_is_of_the_fuel_of_the_run_and_tells_nothing_of_another_shell():
+    ours = checks.reduced(load("bubble.molar_mass_kg_kmol=100.0", "bubble.flux_W_m2=0.0", "liquid_heat.flux_W_m2=1e6"))
+    assert ours.model.own.vapour.molar_mass == 100.0
+    assert ours.model.own.vapour.antoine == load().parameters["bubble"].antoine
+    for key in ("liquid_heat.body_heat_capacity_J_kg_K=500", "solid.density_kg_m3=900", "solid.damage_begins_at=0.1"):
+        with pytest.raises(CaseError, match=f"knows no {key.partition('=')[0]}"):
+            checks.reduced(load(key))
 
 
 HURRIED = (

@@ -77,5 +77,5 @@ def refuse_above_critical(fuel: Fuel, pressure: float, key: str) -> None:
     if pressure >= fuel.critical_pressure:
         raise CaseError(
             f"{key} = {pressure:g}; the fuel's critical pressure is {fuel.critical_pressure:g} Pa: above it nothing "
-            "boils and no bubble grows; give a lower one"
+            "boils and no bubble grows; give a lower pressure, or a weaker shell"
         )

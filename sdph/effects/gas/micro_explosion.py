@@ -85,7 +85,9 @@ def kernel(case) -> MicroExplosionP:
     material = grains.density, grains.heat_capacity, grains.conductivity, fuel.latent_heat
     around = gel_droplet.Around(swelling.SPHERE, pressure, grains.surface_tension, *gel.moduli(own))
     boiling = real_gas.saturation_temperature(vapour, pressure)
-    return MicroExplosionP(Own(*ratios, *material, boiling), vapour, gel.plastic(own), gel.damage(own), around)
+    made = MicroExplosionP(Own(*ratios, *material, boiling), vapour, gel.plastic(own), gel.damage(own), around)
+    gel.refuse_above_critical(fuel, tearing_pressure(made), "gas.operating_pressure_Pa with what the shell bears")
+    return made
 
 
 def fuel_of(case) -> gel.Fuel:
@@ -218,19 +220,24 @@ def window_limit(p, case, state) -> float:
     growing = (state.bubble_void > 0.0) & (state.received > 0.0)
     if not growing.any():
         return NO_LIMIT
-    first, *_ = swelling.radii(p.own.bubble, p.own.shell, case.grains.diameter)
-    rise = tearing_temperature(p) - swelling.nucleus(p.vapour, p.around, first)
+    first, *_ = swelling.radii(p.own.bubble, p.own.shell, float(state.diameter[growing].min()))
+    curved = cavities.capillary_pressure(p.around.tension, first, swelling.SPHERE)
+    torn = real_gas.saturation_temperature(p.vapour, tearing_pressure(p) + curved)
+    rise = torn - swelling.nucleus(p.vapour, p.around, first)
     warming = state.received[growing] / (state.mass[growing] * p.own.heat_capacity)  # K/s
     return PART * rise / float(warming.max())
 
 
 def tearing_temperature(p) -> float:
-    """Temperature [K] of a bubble under the pressure that a shell bears as it flows: k sigma_y ln(ro/ri)."""
+    """Temperature [K] of a bubble that a shell bears as it flows."""
+    return real_gas.saturation_temperature(p.vapour, tearing_pressure(p))
+
+
+def tearing_pressure(p) -> float:
+    """Pressure [Pa] in a bubble that a shell bears as it flows, less surface tension's: p + k sigma_y ln(ro/ri)."""
     _, inner, outer = swelling.radii(p.own.bubble, p.own.shell, 1.0)
     flow = strength.flow_stress(p.plastic, 0.0, RATE, 0.0)
-    return real_gas.saturation_temperature(
-        p.vapour, p.around.ambient + shells.layer_pressure(flow, inner, outer, swelling.SPHERE)
-    )
+    return p.around.ambient + shells.layer_pressure(flow, inner, outer, swelling.SPHERE)
 
 
 def call(scales) -> Judgement:

@@ -53,7 +53,7 @@ def stir(p, state, seen, drift, time: float, dt: float) -> tuple[np.ndarray, np.
         if len(getattr(state, name)):
             before[:, axis] = getattr(state, name)
     after, mean = np.zeros_like(before), np.zeros_like(before)
-    when = np.array([time]).view(np.uint64)[0] ^ np.uint64(p.seed)
+    when = np.array([time]).view(np.uint64)[0] ^ np.uint64(p.seed % 2**64)
     fields = (seen.fields[name] for name in EFFECT.fields)
     axes = 3 if len(state.eddy_z) else 2
     _stir(p, state.ident, state.diameter, drift, seen.density, *fields, when, dt, axes, before, after, mean)

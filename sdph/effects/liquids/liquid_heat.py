@@ -22,7 +22,7 @@ class LiquidHeat:
     body_heat_capacity: float | None = quantity("J_kg_K", None, above=0.0)  # the same
     temperature: float | None = quantity("K", None, above=0.0)  # at the start; None: that of the bubble
     flux: float = quantity("W_m2", 0.0, least=0.0)
-    heated: str = choice("rim", "inside")  # the outermost circle alone, or all by their mass
+    heated: str = choice("rim", "inside")  # the outermost circle alone, or all by their heat capacity
 
 
 class LiquidHeatP(NamedTuple):
@@ -58,8 +58,9 @@ def _check(case, own: LiquidHeat) -> None:
             f"the case has {' and '.join(here)}, but liquid_heat is of one liquid in two dimensions that nothing comes "
             "to or leaves, without periodic sides; leave one out"
         )
-    if own.temperature is None and "bubble" not in case.effects:
-        raise CaseError("liquid_heat.temperature_K is missing; only a case with a bubble has another one: give it")
+    boils = "bubble" in case.effects and case.parameters["bubble"].content == "vapour"
+    if own.temperature is None and not boils:
+        raise CaseError("liquid_heat.temperature_K is missing; only a bubble of vapour has another one: give it")
     rings = [body for body in case.bodies.values() if body.shape == "ring"]
     round_ones = [pool for pool in case.pools.values() if pool.shape in ("disc", "ring")]
     if own.flux and not rings and (len(round_ones) != 1 or len(case.pools) != 1):

@@ -53,7 +53,7 @@ def joined(one: Opened, other: Opened) -> Opened:
 
 def drawn(ident, seed: int) -> np.ndarray:
     """(N,) of [0, 1), one for each number of a particle and a seed: SplitMix64 (Steele, Lea & Flood 2014)."""
-    z = (np.asarray(ident).astype(np.uint64) + np.uint64(seed << 40)) * np.uint64(0x9E3779B97F4A7C15)
+    z = (np.asarray(ident).astype(np.uint64) + np.uint64((seed << 40) % 2**64)) * np.uint64(0x9E3779B97F4A7C15)
     z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
     z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
     return ((z ^ (z >> np.uint64(31))) >> np.uint64(11)).astype(float) * 2.0**-53

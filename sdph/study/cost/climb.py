@@ -127,7 +127,12 @@ def _others(scene: str, own: Ladder, file: Path, rows: list[dict], report) -> li
 
 
 def _keep(file: Path, row: dict) -> dict:
+    """Append a row; a table whose columns are others, of another ladder, stays as it is."""
     file.parent.mkdir(parents=True, exist_ok=True)
+    if file.is_file() and (head := file.read_text(encoding="utf-8").partition("\n")[0]) != ",".join(row):
+        raise CaseError(
+            f"{file} has the columns {head}, and the ladder {','.join(row)}: move it away and measure again"
+        )
     with open(file, "a", newline="", encoding="utf-8") as opened:
         writer = csv.DictWriter(opened, row.keys(), lineterminator="\n")
         if file.stat().st_size == 0:

@@ -86,6 +86,12 @@ def mouth(case, nozzle) -> float:
     return 2.0 * radius if case.dimensions == 2 else math.pi * (radius**2 - (nozzle.inner_radius or 0.0) ** 2)
 
 
+def way(case, nozzle) -> float:
+    """Way [m] that a stream goes, to the end of the run or of the domain."""
+    through = max(case.domain.size) if "outflow" in case.effects else math.inf
+    return min(nozzle.speed * lasting(case, nozzle), through)
+
+
 def of(case, s) -> Feed | None:
     """The feed of a case of nozzles alone that exchanges heat both ways."""
     if not case.nozzles or case.particles or "heat" not in case.effects or case.coupling.one_way or not s.thrown:

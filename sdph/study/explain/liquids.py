@@ -127,8 +127,8 @@ def expected(s, steps: list[dict], shared=None) -> list[dict]:
     """Particles, steps, memory, wall time; bodies that stand in the liquid take its place."""
     wet, start = _beside(s, shared)
     spacing = s.case.resolution.spacing
-    came = sum(feed.mouth(s.case, n) * n.speed * feed.lasting(s.case, n) for n in s.case.nozzles.values())
-    count = start + (0 if "outflow" in s.case.effects else round(came / spacing**s.case.dimensions))
+    came = sum(feed.mouth(s.case, n) * feed.way(s.case, n) for n in s.case.nozzles.values())
+    count = start + (0 if "outflow" in s.case.effects and wet else round(came / spacing**s.case.dimensions))
     end, longest = shared[:2] if shared else (s.end, min(row["largest [s]"] for row in steps))
     number = math.ceil(end / (s.case.run.step_factor * longest))
     wall = 1e-6 * estimate.speed().liquid * 0.5 * (start + count) * number

@@ -84,7 +84,7 @@ def relative_motion(s) -> float:
 def expected(s, steps: list[dict]) -> list[dict]:
     """Particles, steps, memory, wall time."""
     waiting = sum(feed.mouth(s.case, n) for n in s.case.nozzles.values())
-    fed = sum(feed.mouth(s.case, n) * _way(s, n) for n in s.case.nozzles.values()) / s.case.resolution.spacing
+    fed = sum(feed.mouth(s.case, n) * feed.way(s.case, n) for n in s.case.nozzles.values()) / s.case.resolution.spacing
     fed /= s.case.resolution.spacing ** (s.case.dimensions - 1)
     count = len(s.state.x) + fed + 4.0 * waiting / s.case.resolution.spacing ** (s.case.dimensions - 1)
     longest = min((row["largest [s]"] for row in steps), default=s.end)
@@ -96,11 +96,3 @@ def expected(s, steps: list[dict]) -> list[dict]:
         {"what": "memory", "value": estimate.memory(s.case, count, 0) / 1e6, "unit": "MB"},
         {"what": "wall time", "value": wall, "unit": f"s (measured on {estimate.speed().measured})"},
     ]
-
-
-def _way(s, nozzle) -> float:
-    """Way [m] that a stream goes, to the end of the run or of the domain."""
-    return min(
-        nozzle.speed * feed.lasting(s.case, nozzle),
-        max(s.case.domain.size) if "outflow" in s.case.effects else math.inf,
-    )

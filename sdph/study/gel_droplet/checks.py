@@ -7,6 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from sdph import schema
+from sdph.effects.gas import gel
+from sdph.schema import CaseError
 from sdph.study.compare import check
 from sdph.study.gel_droplet import sections
 from sdph.study.gel_droplet.course import Course
@@ -19,8 +22,9 @@ HEAT, MASS, ENERGY, INERTIA = 1e-10, 1e-12, 0.01, 0.02
 def reduced(case) -> Course:
     """Course of the reduced model of a case with its largest bubble alone; its spot is as much thinner as the shell's
     flaw."""
+    _refuse_other(case)
     own, shell, heat = case.solid, case.bodies["shell"], case.parameters["liquid_heat"]
-    bubble, fuel = case.parameters["bubble"], "vapour."
+    bubble = case.parameters["bubble"]
     radius = max(bubble.radii, default=case.pools["gel"].inner_radius)
     given = {
         "droplet.diameter_mm": 2e3 * shell.radius,
@@ -33,11 +37,28 @@ def reduced(case) -> Course:
         "shell.reference_rate_1_s": own.reference_rate, "shell.critical_damage": own.critical_damage,
         "shell.flaw": shell.flaw, "gel.density_kg_m3": case.liquid.density,
         "gel.heat_capacity_J_kg_K": heat.heat_capacity, "gel.conductivity_W_m_K": heat.conductivity,
-        fuel + "latent_heat_J_kg": bubble.latent_heat,
+    } | {f"vapour.{key}": getattr(bubble, at) for key, (at, _) in schema.fields(gel.Fuel).items()}  # fmt: skip
+    given |= {"heating.place": heat.heated, "shell.failure": own.failure[:4]}
+    return Course(sections.load(None, tuple(f"{key}={_word(value)}" for key, value in given.items())))
+
+
+def _word(value) -> str:
+    """A value as an override has it."""
+    return f'"{value}"' if isinstance(value, str) else repr(list(value) if isinstance(value, tuple) else value)
+
+
+def _refuse_other(case) -> None:
+    """CaseError where the reduced model has not what is in a case."""
+    own, heat = case.solid, case.parameters["liquid_heat"]
+    there = {
+        "solid.density_kg_m3, another than the gel's": own.density != case.liquid.density,
+        "liquid_heat.body_heat_capacity_J_kg_K": heat.body_heat_capacity not in (None, heat.heat_capacity),
+        "liquid_heat.body_conductivity_W_m_K": heat.body_conductivity not in (None, heat.conductivity),
+        "solid.damage_begins_at": own.damage_begins_at > 0.0, "solid.temperature_share": own.temperature_share > 0.0,
     }  # fmt: skip
-    words = [f'heating.place="{heat.heated}"', f'vapour.equation_of_state="{bubble.equation_of_state}"']
-    words += [f"shell.failure={list(own.failure[:4])}"]
-    return Course(sections.load(None, (*(f"{key}={value!r}" for key, value in given.items()), *words)))
+    for key, found in there.items():
+        if found:
+            raise CaseError(f"the reduced model of gel droplets knows no {key}; it tells nothing of this run")
 
 
 def grown(history) -> slice:

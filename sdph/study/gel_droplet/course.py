@@ -9,6 +9,7 @@ import numpy as np
 
 from sdph.laws import real_gas, strength
 from sdph.running import output
+from sdph.schema import CaseError
 from sdph.study.gel_droplet.model import Model
 from sdph.study.gel_droplet.sections import Droplet
 
@@ -25,11 +26,22 @@ class Course:
         self.model = Model(own)
         rows = [self.model.row()]
         grow(self.model, rows)
+        _refuse_above_critical(own, rows)
         self.tear = len(rows) - 1 if self.model.torn else None
         if self.model.torn:
             vent(self.model, rows)
         self.history = {name: np.array([row[name] for row in rows]) for name in rows[0]}
         self.summary = summary(self)
+
+
+def _refuse_above_critical(own: Droplet, rows: list) -> None:
+    """CaseError where a bubble gets hotter than a liquid can be."""
+    hottest, critical = max(row["bubble_K"] for row in rows), own.vapour.critical_temperature
+    if hottest >= critical:
+        raise CaseError(
+            f"the bubble gets to {hottest:.4g} K before the shell tears, and the fuel's critical temperature is "
+            f"{critical:g} K: give a lower droplet.ambient_pressure_Pa, or a weaker shell"
+        )
 
 
 def grow(model: Model, rows: list) -> None:

@@ -38,9 +38,9 @@ class Extremes:
         return extremes | whole | self.last | {"lost_through_walls": float(self.lost)}
 
     def _take(self, name: str, values) -> None:
-        if len(values):
-            self.high[name] = max(self.high.get(name, -math.inf), float(np.max(values)))
-            self.low[name] = min(self.low.get(name, math.inf), float(np.min(values)))
+        if len(values):  # what is no number stays none, and meets no bound
+            self.high[name] = float(np.maximum(self.high.get(name, -math.inf), np.max(values)))
+            self.low[name] = float(np.minimum(self.low.get(name, math.inf), np.min(values)))
 
 
 class Measures(Extremes):

@@ -117,7 +117,10 @@ def chosen(names: list[str], fast: bool) -> list[Hard]:
         if name not in every:
             raise CaseError(unknown(name, every).replace("unknown key", "no hard case called", 1))
     found = [load(every[name]) for name in names or every]
-    return [hard for hard in found if hard.fast or not fast]
+    kept = [hard for hard in found if hard.fast or not fast]
+    if not kept:
+        raise CaseError(f"--fast: none of {', '.join(names)} is fast; leave --fast out, or name others")
+    return kept
 
 
 def case_of(hard: Hard, *changes: dict) -> cases.Case:

@@ -108,9 +108,10 @@ def _axis(key: str, values: list) -> Axis | None:
 
 
 def refuse_unknown(found: list[dict], keys: list[str], metrics: list[str]) -> None:
-    """CaseError where a metric is no number of each summary that there is so far."""
+    """CaseError where a metric is a number of none of the summaries that there are so far: what is told only where
+    something happened stands in some."""
     good = [row for row in found if row["exit_code"] == FINE]
-    known = [key for key in found[0] if key not in (*HEAD, *keys) and all(_number(row[key]) for row in good)]
+    known = [key for key in found[0] if key not in (*HEAD, *keys) and any(_number(row[key]) for row in good)]
     for metric in metrics if good else []:
         if metric not in known:
             told = unknown(metric, known).replace("unknown key", "no number of the summaries called", 1)

@@ -173,6 +173,15 @@ def test_windows_follow_bubbles_that_grow(tmp_path):
     assert found == pytest.approx(0.05 * rise * 5000.0 * s.mass[0] / 7.0, rel=0.05)  # but for surface tension
 
 
+@pytest.mark.parametrize(("yields", "diameter"), [(2e4, 0.02), (5e3, 0.05)])
+def test_a_soft_shell_asks_for_no_window_below_0(tmp_path, yields, diameter):
+    """A small bubble boils hotter than such a shell bears, and tears it hotter still: both feel surface tension."""
+    soft = {"micro_explosion": {"yield_stress_Pa": yields}, "grains": {"diameter_mm": diameter}}
+    run = started(bursting_case(**soft), tmp_path)
+    run.state.bubble_void[:], run.state.received[:] = 1e-14, 7.0
+    assert effects.window_limits(run.parameters, run.case, run.state)["micro_explosion"] > 0.0
+
+
 def test_a_run_goes_on_bit_for_bit_with_bubbles_that_grow(tmp_path):
     """Stopped when the bubbles are there and nothing has torn."""
     whole, part = bursting_case(end=0.0175, alpha_p=1e-7), bursting_case(end=0.0125, alpha_p=1e-7)
@@ -190,6 +199,7 @@ def test_a_run_goes_on_bit_for_bit_with_bubbles_that_grow(tmp_path):
 @pytest.mark.parametrize(("more", "said"), [
     ({"evaporation": {"saturation": "constant", "saturation_pressure_Pa": 1e3}}, "a bubble needs 'antoine'"),
     ({"gas": {"operating_pressure_Pa": 2e6}}, "above it nothing boils"),
+    ({"gas": {"operating_pressure_Pa": 1.7e6}}, "with what the shell bears = 1.9.*above it nothing boils"),
     ({"micro_explosion": {"bubble_ratio": 0.9, "shell_ratio": 0.2}}, "less bubble or less shell"),
     ({"micro_explosion": {"thrown_share": 1.5}}, "thrown_share"),
 ])  # fmt: skip

@@ -205,3 +205,10 @@ def test_a_rim_limits_the_step():
 def test_one_site_for_each_square_of_the_spacing():
     stepper = film("perforation", sections=PIERCED)
     assert stepper.p["perforation"].share == pytest.approx(SPACING**3 / (1.25 * THICK * 1e-3**2), rel=1e-12)
+
+
+@pytest.mark.parametrize("seed", [0, 20261128, 2**64 + 1])
+def test_any_seed_draws(seed):
+    """A date is above 2^24."""
+    found = holes.drawn(np.arange(1000), seed)
+    assert 0.4 < found.mean() < 0.6 and found.min() >= 0.0 and found.max() < 1.0

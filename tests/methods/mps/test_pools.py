@@ -127,7 +127,7 @@ def test_a_patch_that_turns_has_the_pressure_of_colicchio_and_keeps_its_momentum
     ("dam_break", ("density_diffusion", "liquid_damping")),
     ("square_patch", ("density_diffusion", "shifting")),
     ("oscillating_droplet", ("density_diffusion", "liquid_damping", "shifting", "surface_tension", "pools.air",
-                             "gas_phase")),
+                             "gas_phase", "liquid.periodic")),
 ])  # fmt: skip
 def test_a_scene_of_the_other_method_is_taken_over_and_tells_what_is_left_out(scene, left):
     own = cases.load(scenes.HERE / scene / "case.toml", ("method.name=mps",))

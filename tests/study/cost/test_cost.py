@@ -192,3 +192,12 @@ def test_what_is_nothing_in_one_of_two_rows_has_changed_wholly():
         made["metrics"] = made["metrics"].replace("2.0]", "null]")
     assert rows.distance(nothing, some) == rows.distance(some, nothing) == 1.0
     assert rows.distance(nothing, nothing) == 0.0
+
+
+def test_rows_of_another_ladder_do_not_go_below_a_head_that_is_not_theirs(tmp_path):
+    file = tmp_path / "cost.csv"
+    climb._keep(file, row(x=1.0))
+    before = file.read_text()
+    with pytest.raises(CaseError, match="move it away and measure again"):
+        climb._keep(file, row(x=1.0, y=2.0))
+    assert file.read_text() == before and len(rows.read(file)) == 1

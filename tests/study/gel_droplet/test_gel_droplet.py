@@ -125,6 +125,7 @@ def test_pressures_are_told_to_be_gauge(tmp_path, capsys):
         ("droplet.dimensions=4", "2 (a cylinder) or 3"),
         ("droplet.bubble_diameter_mm=0.95", "inside the shell there are 0.9 mm"),
         ("droplet.ambient_pressure_Pa=1e7", "above it nothing boils"),
+        ("droplet.ambient_pressure_Pa=1.7e6", "K before the shell tears, and the fuel's critical temperature is 658.1"),
         ("droplet.shell_thickness_um=600", "give a smaller bubble or a thinner shell"),
     ],
 )

@@ -1,5 +1,7 @@
 """Hard cases (the fast ones), and that a run which goes unstable is caught in time and leaves what is needed."""
 
+import math
+
 import numpy as np
 import pytest
 from builders import disc, simulation
@@ -12,6 +14,7 @@ from sdph.running import through_gas
 from sdph.schema import CaseError
 from sdph.study.explain import estimate
 from sdph.study.stress import suite
+from sdph.study.stress.measures import Extremes
 
 FAST = [hard.name for hard in suite.chosen([], True)]
 PAST_LIMIT = (
@@ -130,3 +133,23 @@ def test_an_unstable_run_leaves_its_last_good_state(tmp_path, monkeypatch, capsy
         assert np.isfinite(last["temperature"]).all() and len(last["x"]) > 300
         assert last["temperature"].min() > 280.0
     assert (tmp_path / "burst" / "last_good.png").stat().st_size > 10_000
+
+
+def test_what_is_no_number_meets_no_bound():
+    """max(-inf, nan) of Python is -inf, which would be below every bound."""
+    taken = Extremes(None)
+    for values in ([1.0], [math.nan], [2.0]):
+        taken._take("momentum_drift_rel", np.array(values))
+    assert math.isnan(taken.high["momentum_drift_rel"]) and math.isnan(taken.low["momentum_drift_rel"])
+
+
+def test_names_of_which_none_is_fast_are_refused():
+    slow = next(file.stem for file in suite.files() if not suite.load(file).fast)
+    with pytest.raises(CaseError, match=f"none of {slow} is fast"):
+        suite.chosen([slow], True)
+
+
+@pytest.mark.parametrize("options", [["--map", "thin_wall"], ["--map", "--fast"], ["--faults", "1", "thin_wall"]])
+def test_what_map_and_faults_take_no_notice_of_is_refused(options, capsys):
+    assert cli.main(["stress", *options]) == 2
+    assert "is not of single hard cases" in capsys.readouterr().err
