@@ -211,3 +211,14 @@ def test_damaged_fields_are_told(drawn, harm):
         file.unlink()
     with pytest.raises(CaseError, match=f"{file.name} is damaged|is damaged .*{file.name}"):
         view.show(drawn, drawn / "a.png")
+
+
+def test_what_tells_of_an_end_goes_when_a_run_goes_on(tmp_path):
+    """A run that is killed on its way is not the one that ended earlier."""
+    names = ("summary.json", "compare_exact.json", output.FAILURE)
+    for over in (True, False):
+        for name in (*names, "mine.json"):
+            (tmp_path / name).write_text("{}")
+        output.forget(tmp_path, over)
+        left = {path.name for path in tmp_path.iterdir()}
+        assert left == ({"mine.json", *names[:2]} if over else {"mine.json"})

@@ -1,5 +1,9 @@
 """Films of runs that end with nothing in them."""
 
+import json
+import re
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 import pyvista
@@ -8,7 +12,7 @@ from test_pictures import cloud, lattice
 
 from sdph.running.fields import Fields
 from sdph.schema import CaseError
-from sdph.show import shot, view
+from sdph.show import frames, shot, view
 
 
 @pytest.mark.parametrize("field", [None, "pressure"])
@@ -25,3 +29,17 @@ def test_a_film_goes_on_where_nothing_is_left(field, tmp_path):
     assert len(imageio.imread(tmp_path / "a.gif", index=None)) == 2
     with pytest.raises(CaseError, match="--field pressure: nothing is there to show then; leave it out"):
         view.show(tmp_path, tmp_path / "a.png", field="pressure")
+
+
+def test_the_window_of_the_viewer_holds_all_instants(tmp_path):
+    """Also those at which all was elsewhere than in the end: it goes ten widths to the right."""
+    (tmp_path / "fields").mkdir()
+    fields = Fields(tmp_path)
+    for time in (0.0, 1.0):
+        own = cloud(lattice(4) + np.array([40.0 * time, 0.0]), ident=np.arange(16), velocity=np.ones((16, 3)))
+        fields.write(time, {"particles": own})
+    boxes = [own.box.reshape(3, 2) for own in shot.all_of_folder(tmp_path)]
+    page = frames.viewer(tmp_path, SimpleNamespace(resolution=SimpleNamespace(cell=1.0, spacing=1.0)))
+    told = json.loads(re.search(r'\{"dimensions".*\}', page)[0].replace("<\\/", "</"))
+    assert told["lower"][0] == pytest.approx(min(box[0, 0] for box in boxes))
+    assert told["upper"][0] == pytest.approx(max(box[0, 1] for box in boxes))

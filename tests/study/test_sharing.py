@@ -51,3 +51,4 @@ def test_a_script_for_slurm_stands_beside_the_case(tmp_path):
     assert subprocess.run(["sh", "-n", str(tmp_path / "case/job.sh")], check=False).returncode == 0
     script = (tmp_path / "case/job.sh").read_text()
     assert "--ranks $SLURM_NTASKS" in script and "--resume run" in script and 'run.launcher="srun' in script
+    assert "if [ -f run/origin.json ]" in script  # of a job that was cut before its first checkpoint too

@@ -41,6 +41,18 @@ def test_numbers_of_the_dam():
     assert own["Mach"] == pytest.approx(speed / 21.2, rel=0.01)
 
 
+def test_what_nozzles_bring_is_counted_where_it_leaves_again():
+    """Without a pool: what fits into the way through the domain, and no more."""
+    own = load("free_overfall")
+    table = cases.to_table(own)
+    del table["pools"]
+    alone = cases.from_table(table)
+    told = {row["what"]: row["value"] for row in tables.explain(alone)["expected"]}
+    (nozzle,) = alone.nozzles.values()
+    most = nozzle.width * max(alone.domain.size) / alone.resolution.spacing**2
+    assert 0.2 * most < told["liquid particles"] <= 1.01 * most
+
+
 @pytest.mark.parametrize("scene", LIQUIDS)
 def test_shipped_scenes_have_all_that_they_call_for(scene):
     case = load(scene)
