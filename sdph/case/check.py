@@ -88,13 +88,7 @@ def _check_one(case: Case) -> None:
     if any(isinstance(t, tuple) or t <= 0.0 for t in case.run.report_at):
         raise CaseError(f"run.report_at_s = {list(case.run.report_at)}; it must be a list of times above 0")
     _check_outputs(case)
-    for name, pool in case.pools.items():
-        if pool.shape != "tank":
-            _check_place(case, f"pools.{name}", pool)
-            periods.of_pool(case, f"pools.{name}", pool)
-        flow(case, f"pools.{name}", pool)
-    if case.gas_phase and not any(pool.phase == "gas" for pool in case.pools.values()):
-        raise CaseError('[gas_phase] is given, but no pool has phase = "gas"; give one, or leave [gas_phase] out')
+    _check_pools(case)
     if case.solid:
         bodies.check(case)
     for name, boundary in case.boundaries.items():
@@ -108,6 +102,17 @@ def _check_one(case: Case) -> None:
     for name, nozzle in case.nozzles.items():
         mouth(case, f"nozzles.{name}", nozzle)
     columns_of_history(case)
+
+
+def _check_pools(case: Case) -> None:
+    """Pools have what their shapes and flows need; a second phase has one."""
+    for name, pool in case.pools.items():
+        if pool.shape != "tank":
+            _check_place(case, f"pools.{name}", pool)
+            periods.of_pool(case, f"pools.{name}", pool)
+        flow(case, f"pools.{name}", pool)
+    if case.gas_phase and not any(pool.phase == "gas" for pool in case.pools.values()):
+        raise CaseError('[gas_phase] is given, but no pool has phase = "gas"; give one, or leave [gas_phase] out')
 
 
 def _check_method(case: Case) -> None:
