@@ -6,7 +6,7 @@ from pathlib import Path
 
 from sdph.case import fluids, forces, usual
 from sdph.effects.solids import rigid_sides
-from sdph.study import inlets, rehearsal
+from sdph.study import gas_keys, inlets, rehearsal
 from sdph.study.explain import materials, tables
 
 
@@ -31,4 +31,4 @@ def warned(case, template: Path, *, allow_code: bool = False, whole: bool = Fals
 
 def _of_case(case, mesh) -> list[str]:
     """Warnings of a case with all its matters."""
-    return [*inlets.warnings(case, mesh), *usual.warnings(case), *rigid_sides.warnings(case)]
+    return [*gas_keys.warnings(case), *inlets.warnings(case, mesh), *usual.warnings(case), *rigid_sides.warnings(case)]
