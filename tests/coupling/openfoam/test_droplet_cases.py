@@ -120,6 +120,13 @@ def test_every_boundary_says_what_it_asks():
     assert "tube { type fixedValue; value uniform (0.0 0.0 0.0); }" in start_fields(case(), {"tube": "wall"})["U"]
 
 
+def test_the_gas_begins_as_moist_as_that_of_the_run():
+    """Evaporation is driven by what the gas lacks to saturation: a dry one would be another case."""
+    fields = start_fields(case(vapour={"mass_fraction": 0.01}))
+    assert "internalField uniform 0.01;" in fields["C10H22"] and "internalField uniform 0.99;" in fields["air"]
+    assert "internalField uniform 0.0;" in start_fields(case())["C10H22"]
+
+
 TOP = table()["nozzles"]["top"]
 WIND = {name: part for name, part in table()["boundaries"].items() if name != "out"}
 
