@@ -6,6 +6,7 @@ from math import cos, pi, sin
 
 import numpy as np
 import pytest
+import tomli_w
 
 from coupling.gas import GasError
 from coupling.openfoam import poly_mesh
@@ -201,6 +202,26 @@ def test_a_turned_vessel_has_the_same_spray(tmp_path, shelf):
     speeds = [np.linalg.norm(fields["gas_velocity"], axis=1) for fields in (upright, turned)]
     assert speeds[0].max() > 0.6 and np.abs(speeds[1] - speeds[0]).max() < 0.02 * speeds[0].max()
     assert turned["gas_temperature"] == pytest.approx(upright["gas_temperature"], abs=0.5)
+
+
+@pytest.mark.openfoam
+def test_a_spray_with_walls_in_a_vessel_runs_beside_openfoam_s_droplets(tmp_path, shelf, capsys):
+    """Its run writes the patches of the gas into its case.toml as a mesh of walls."""
+    own, folder = tmp_path / "own", tmp_path / "run"
+    assert main(["init", "spray_cone", str(own)]) == 0
+    shutil.copytree(meshed(tmp_path / "gas", pi / 6.0) / poly_mesh.FOLDER, own / "gas" / poly_mesh.FOLDER)
+    told = cases.to_table(dataclasses.replace(vessel(pi / 6.0), scene=""))
+    told["effects"], told["walls"] = [*told["effects"], "walls"], {"restitution": 0.0}
+    del told["domain"]["lower_m"], told["domain"]["size_m"]
+    for side in told["boundaries"].values():
+        side.pop("side", None)
+    (own / "case.toml").write_text(tomli_w.dumps(told), encoding="utf-8")
+    assert main(["run", str(own), "--gas", "openfoam", "--out", str(folder)]) == 0, capsys.readouterr().err
+    assert cases.load(folder / "case.toml").parameters["walls"].source == "gas"
+    capsys.readouterr()
+    assert main(["compare", str(folder), "--against", "dpm"]) in (0, 1), capsys.readouterr().err
+    assert "liquid that came in" in capsys.readouterr().out
+    assert "walls { type rebound;" in (folder / "dpm/constant/sdphCloud").read_text(encoding="utf-8")
 
 
 @pytest.mark.openfoam
