@@ -6,10 +6,12 @@ from math import cos, pi, sin
 
 import numpy as np
 import pytest
+import pyvista
 import tomli_w
 
 from coupling.gas import GasError
 from coupling.openfoam import poly_mesh
+from coupling.openfoam.comparators import droplet_cloud
 from coupling.openfoam.comparators import run as comparators
 from coupling.openfoam.comparators.droplet_sources import Drops
 from coupling.openfoam.comparators.reference import Reference
@@ -74,14 +76,43 @@ def test_what_differs_is_seen(own, seen):
     assert failed(own, side()) == seen
 
 
+def gone(**more) -> Side:
+    """A side that has no droplets any more."""
+    return side(air(**{name: getattr(air(), name)[:0] for name in ("place", "mass", "speed", "temperature")}), **more)
+
+
 def test_what_a_case_has_not_is_not_asked():
     """Without evaporation no pressure of saturation and no vapour, without droplets nothing of them."""
     cold = case(effects=["inflow", "drag", "gravity"])
     names = [row["name"].split()[0] for row in droplets.checks(cold, [WAY], side(), side())]
     assert names == ["liquid", "front", "speed", "D32"]
-    gone = side(air(**{name: getattr(air(), name)[:0] for name in ("place", "mass", "speed", "temperature")}))
-    names = [row["name"].split()[0] for row in droplets.checks(case(), [WAY], gone, side())]
-    assert not {"front", "droplets", "speed", "D32"} & set(names)
+    names = [row["name"].split()[0] for row in droplets.checks(case(), [WAY], gone(), gone())]
+    assert not {"front", "droplets", "speed", "D32"} & set(names) and len(names) == 6
+
+
+def test_what_one_side_alone_has_is_wrong():
+    """All droplets of the run have evaporated or left, and OpenFOAM's fly, or the other way round."""
+    dry = [air(gas=air().gas | {"vapour_mass_fraction": np.zeros(2)})]
+    of_droplets = {"front", "droplets", "speed", "D32"}
+    assert failed(gone(), side()) == failed(side(), gone()) == of_droplets
+    assert failed(side(*dry), side()) == failed(side(), side(*dry)) == {"largest", "temperature"}
+    rows = {row["name"].split()[0]: row for row in droplets.checks(case(), [WAY], gone(), side())}
+    assert all(np.isnan(rows[name]["value"]) and np.isfinite(rows[name]["reference"]) for name in of_droplets)
+
+
+def test_sizes_are_those_of_the_particles_where_no_metric_tells_of_them():
+    """A run has the metric D32 where sizes change or differ; where they do not, each particle is of equal drops."""
+    points = pyvista.PolyData(np.zeros((2, 3)))
+    points["mass"], points["velocity"] = np.array([1.0, 3.0]), np.zeros((2, 3))
+    own = case(effects=["inflow", "drag", "gravity"])
+    assert np.isnan(droplets._particles(own, points, None, {}).sauter)
+    points["diameter"] = np.array([1e-4, 2e-4])
+    assert droplets._particles(own, points, None, {}).sauter == pytest.approx(4.0 / (1e4 + 1.5e4))
+    assert droplets._particles(own, points, 3e-4, {}).sauter == 3e-4
+    flown = case(effects=["inflow", "gravity"])
+    names = [row["name"].split()[0] for row in droplets.checks(flown, [WAY], side(), side())]
+    assert "D32" not in names and any("D32 is left out" in line for line in droplet_cloud.unlike(flown))
+    assert not any("D32" in line for line in droplet_cloud.unlike(own))
 
 
 def test_ways_are_those_of_the_nozzles_or_of_what_is_there():

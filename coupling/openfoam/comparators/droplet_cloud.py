@@ -8,6 +8,7 @@ from coupling.openfoam.comparators.droplet_numbers import GAS_LAWS
 from coupling.openfoam.comparators.droplet_sources import Injector
 from sdph.case.sections import Case
 from sdph.effects.around import sizes
+from sdph.methods.grains.history import carried
 from sdph.schema import CaseError
 
 CONTACT = ("granular_pressure", "granular_viscosity", "granular_temperature", "friction", "conduction")
@@ -91,6 +92,8 @@ def unlike(case: Case) -> list[str]:
             f"OpenFOAM's small and large droplets of {', '.join(mixed)} part in flight, those of the run fly together "
             f"in one particle of each class, unless there are more of these (size_classes={droplet_sources.PARTS})"
         )
+    if not sized(case):
+        lines.append("D32 is left out: no effect of the run follows the sizes of its droplets")
     if not {"outflow", "walls"} & set(case.effects):
         lines.append("OpenFOAM's droplets leave at every side, those of the run fly on outside of the gas (outflow)")
     if "gas_pressure" in case.effects:
@@ -98,6 +101,11 @@ def unlike(case: Case) -> list[str]:
     if touching := [name for name in CONTACT if name in case.effects]:
         lines.append(f"OpenFOAM's droplets pass through each other, those of the run have {', '.join(touching)}")
     return lines
+
+
+def sized(case: Case) -> bool:
+    """Tell whether the droplets of the run have sizes of their own."""
+    return "diameter" in carried(case)
 
 
 def _of_closures(case: Case) -> list[str]:

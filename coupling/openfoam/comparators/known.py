@@ -6,6 +6,18 @@ from __future__ import annotations
 from sdph.case.sections import Case
 from sdph.schema import CaseError
 
+ROUND_OFF = 1e-9  # of the time between outputs
+
+
+def refuse_no_output(case: Case) -> None:
+    """CaseError where a case ends before its first output: OpenFOAM would write nothing."""
+    end, interval = case.run.end_time, case.run.output_interval
+    if end < interval * (1.0 - ROUND_OFF):
+        raise CaseError(
+            f"run.end_time_s = {end:g} lies before the first output (run.output_interval_s = {interval:g}), and a "
+            "reference of OpenFOAM writes none at its end: give a shorter interval to compare"
+        )
+
 
 def refuse(case: Case, effects: frozenset[str], reference: str) -> None:
     """CaseError, of one line, where a case has what is known to no reference, or an effect that is not among
