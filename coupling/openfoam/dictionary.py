@@ -150,9 +150,18 @@ def _looked_up(text: str, found: dict, outer: tuple):
 
 
 def number(entry) -> float | None:
-    """The last number of an entry, such as `nu [0 2 -1 0 0 0 0] 1e-05` or `uniform 300`; None where there is none."""
+    """The last number of an entry, such as `nu [0 2 -1 0 0 0 0] 1e-05` or `uniform 300`, of an uneven field the mean;
+    None where there is none."""
+    if uneven(entry):
+        values = entry[-1] if isinstance(entry[-1], list) else []
+        return sum(values) / len(values) if values and all(isinstance(value, float) for value in values) else None
     found = [value for value in entry if isinstance(value, float)] if isinstance(entry, list) else []
     return found[-1] if found and UNKNOWN not in entry else None
+
+
+def uneven(entry) -> bool:
+    """Tell whether an entry is a field, value by value."""
+    return isinstance(entry, list) and "nonuniform" in entry
 
 
 def vector(entry) -> list[float] | None:

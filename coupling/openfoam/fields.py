@@ -10,12 +10,14 @@ from pathlib import Path
 
 import numpy as np
 
+from coupling.gas import GasError
+
 COMPONENTS = {"scalar": 1, "vector": 3}
 _UNIFORM = re.compile(rb"internalField\s+uniform\s+([^;]+);")
 _LIST = re.compile(rb"internalField\s+nonuniform\s+List<(\w+)>\s*(\d+)\s*\(")
 
 
-class FieldError(ValueError):
+class FieldError(GasError):
     """A field file that cannot be read: which, and why."""
 
 
@@ -86,7 +88,7 @@ def read_parcels(path: Path) -> np.ndarray:
         raise FieldError(f"{path} holds no ASCII list of parcels")
     count = int(found.group(1))
     if found.group(2) == b"{":  # one value for all: 3{0.5}
-        return np.tile(_numbers(text[found.end() : text.index(b"}", found.end())]), (count, 1)).squeeze(-1)
+        return _spread(_numbers(text[found.end() : text.index(b"}", found.end())]), count)
     values = _numbers(text[found.end() : text.rindex(b")")])
     return values if values.size == count else values.reshape(count, -1)
 

@@ -16,6 +16,9 @@ from sdph.scenes import paths
 from sdph.schema import CaseError
 from sdph.show import timeline
 
+SAME = 1e-6  # of the time between outputs: times nearer to each other are the same
+DIGITS = 1e-7  # of a time: those that OpenFOAM's folders and run.pvd are written with
+
 
 @dataclass(frozen=True)
 class Finished:
@@ -61,6 +64,23 @@ def _table(file: Path) -> dict[str, np.ndarray]:
     if not len(times) or not (np.diff(times) >= 0.0).all():
         raise CaseError(f"{file} is damaged ({'its times fall' if len(times) else 'it has no row'}); run it again")
     return columns
+
+
+def too_short(run: Finished) -> bool:
+    """Tell whether a run ends before the first time that a reference of OpenFOAM writes at."""
+    return run.summary["time_s"] < run.case.run.output_interval * (1.0 - SAME)
+
+
+def times_of_both(run: Finished, reference) -> list[float]:
+    """Times [s] at which a run and a reference of OpenFOAM have fields; CaseError where there is none."""
+    own, interval = np.array(timeline.read(run.folder).time_values), run.case.run.output_interval
+    found = [t for t in sorted(reference.fields) if np.abs(own - t).min() <= SAME * interval + DIGITS * t]
+    if not found:
+        raise CaseError(
+            f"{run.folder} has fields at none of the times of its reference, every {interval:g} s "
+            "(run.output_interval_s, which was another before --resume): run it anew with one interval"
+        )
+    return found
 
 
 def check(name: str, value: float, reference: float, tolerance: float, relative: bool = False) -> dict:

@@ -21,7 +21,7 @@ from sdph.effects.around.streams import layers_of, streams_of, unit
 from sdph.engine.state import GRAIN
 from sdph.schema import CaseError
 from sdph.study import cuts
-from sdph.study.compare import check
+from sdph.study.compare import check, times_of_both, too_short
 
 STEP = 0.1  # Courant number of the droplets; with twice of it the limit of the evaporated mass (docs/howto/spray.md)
 EVAPORATED, FRONT, SPEED, SIZE, RICHEST = 0.15, 0.05, 0.10, 0.05, 0.20  # relative
@@ -68,15 +68,15 @@ def dpm(run) -> list[dict]:
     first = run.fields(0.0)
     if first.gas is None:
         raise CaseError(f"{run.folder} has no gas; OpenFOAM's droplets are compared with droplets in a gas")
+    if too_short(run):
+        return []
     drops, box = _start(run.case, first.particles), first.gas.GetClassName() == "vtkRectilinearGrid"
     mesh = None if box else run.folder / "gas"
     reference, coarse = (
         run_droplets(run.case, run.folder / name, drops, courant=courant, mesh=mesh)
         for name, courant in (("dpm", STEP), ("dpm_coarse", 2.0 * STEP))
     )
-    times = [t for t in sorted(reference.fields) if t <= run.summary["time_s"] * (1.0 + 1e-9)]
-    if not times:
-        return []
+    times = times_of_both(run, reference)
     own, other = _own(run, drops, times, reference), _other(run.case, times, reference, coarse)
     picture(run, times, own, other)
     return checks(run.case, ways(run.case, drops), own, other)
@@ -123,11 +123,11 @@ def checks(case, along: list[Way], own: Side, other: Side) -> list[dict]:
         name = f"largest error of OpenFOAM's pressure of saturation, {fit.low:.0f} to {fit.high:.0f} K"
         found.append(check(name, fit.error, 0.0, droplet_liquid.LARGEST))
         found.append(check("evaporated mass [kg]", own.evaporated, other.evaporated, EVAPORATED, True))
-    if all(len(side.air[-1].mass) for side in (own, other)):
-        for way in along:
-            name = f"front of {AHEAD:.0%} of the droplets, along ({', '.join(f'{a:.3g}' for a in way.direction)}) [m]"
-            found.append(check(name, *(front(side.air[-1], way) for side in (own, other)), FRONT, True))
-    return found + _of_droplets(case, own, other) + _of_gas(case, own, other)
+    for way in along:
+        name = f"front of {AHEAD:.0%} of the droplets, along ({', '.join(f'{a:.3g}' for a in way.direction)}) [m]"
+        found.append(check(name, *(front(side.air[-1], way) for side in (own, other)), FRONT, True))
+    found += _of_droplets(case, own, other) + _of_gas(case, own, other)
+    return [row for row in found if not np.isnan([row["value"], row["reference"]]).all()]  # neither has any
 
 
 def half_layer(case) -> float:
@@ -137,7 +137,9 @@ def half_layer(case) -> float:
 
 
 def front(air: Air, way: Way) -> float:
-    """Place [m] along a way that AHEAD of the mass has not passed, particles as points."""
+    """Place [m] along a way that AHEAD of the mass has not passed, particles as points; nan without any."""
+    if not len(air.mass):
+        return np.nan
     along = (air.place - way.origin) @ way.direction
     order = np.argsort(along)
     mass = air.mass[order]
@@ -152,9 +154,10 @@ def _of_droplets(case, own: Side, other: Side) -> list[dict]:
         found.append(check("droplets in the air, mean [K]", *values, WARMTH * _between(case, values)))
     values = [_mean(side, lambda air: np.average(air.speed, weights=air.mass)) for side in (own, other)]
     found.append(check("speed of the droplets in the air, mean [m/s]", *values, SPEED, True))
-    values = [_mean(side, lambda air: air.sauter) for side in (own, other)]
-    found.append(check("D32 of the droplets in the air [m]", *values, SIZE, True))
-    return [row for row in found if np.isfinite([row["value"], row["reference"]]).all()]
+    if droplet_cloud.sized(case):
+        values = [_mean(side, lambda air: air.sauter) for side in (own, other)]
+        found.append(check("D32 of the droplets in the air [m]", *values, SIZE, True))
+    return found
 
 
 def _mean(side: Side, what) -> float:
@@ -178,7 +181,8 @@ def _of_gas(case, own: Side, other: Side) -> list[dict]:
         return found
     values = [np.mean([air.gas["vapour_mass_fraction"].max() for air in side.air]) for side in (own, other)]
     found.append(check("largest mass fraction of vapour in a cell", *values, RICHEST, True))
-    if "heat" in case.effects and all(np.isfinite(values := [_among_vapour(side) for side in (own, other)])):
+    if "heat" in case.effects:
+        values = [_among_vapour(side) for side in (own, other)]
         name = "temperature of the gas where the vapour is, mean by its mass [K]"
         found.append(check(name, *values, WARMTH * _between(case, values)))
     return found
@@ -209,17 +213,20 @@ def _own(run, drops: Drops, times: list[float], reference) -> Side:
             1
         ]
         cells = {name: np.asarray(gas[name])[same] for name in FIELDS if name in gas.array_names}
-        sauter = metrics["D32_m"][np.argmin(np.abs(metrics["time_s"] - t))] if "D32_m" in metrics else np.nan
-        air.append(_particles(run.case, particles, float(sauter), cells))
+        sauter = metrics["D32_m"][np.argmin(np.abs(metrics["time_s"] - t))] if "D32_m" in metrics else None
+        air.append(_particles(run.case, particles, sauter, cells))
     return Side(float(came), float(ledger["evaporated_kg"][rows].sum()), air, reference.volumes)
 
 
-def _particles(case, particles, sauter: float, cells: dict) -> Air:
-    """The run's droplets at a time."""
+def _particles(case, particles, sauter: float | None, cells: dict) -> Air:
+    """The run's droplets at a time; where no `sauter` [m] was told all of a particle are alike."""
     if not particles.n_points:
         return Air(np.zeros((0, case.dimensions)), *(np.zeros(0),) * 3, np.nan, cells)
     place, speed = np.asarray(particles.points)[:, : case.dimensions], np.linalg.norm(particles["velocity"], axis=1)
-    return Air(place, np.asarray(particles["mass"]), speed, _temperature(case, particles), sauter, cells)
+    mass = np.asarray(particles["mass"])
+    if sauter is None and "diameter" in particles.array_names:
+        sauter = mass.sum() / (mass / particles["diameter"]).sum()
+    return Air(place, mass, speed, _temperature(case, particles), np.nan if sauter is None else float(sauter), cells)
 
 
 def _other(case, times: list[float], reference, coarse) -> Side:

@@ -18,7 +18,7 @@ from coupling.openfoam.comparators.run import run_two_fluid
 from coupling.openfoam.comparators.start import Start
 from sdph.schema import CaseError
 from sdph.study import cuts
-from sdph.study.compare import check
+from sdph.study.compare import check, times_of_both, too_short
 
 BAR, PLACE, MASS, APART = 0.10, 0.05, 0.01, 0.20  # relative; APART: of the grains, how many stand in other cells
 SHOWN = 4  # times of the figure
@@ -44,10 +44,12 @@ def tfm(run) -> list[dict]:
     two_fluid_numbers.macros(run.case)  # refuses what two fluids lack before anything is read
     if not first.particles.n_points:
         raise CaseError(f"{run.folder} has no grains at its start; two fluids begin with some")
+    if too_short(run):
+        return []
     box = first.gas.GetClassName() == "vtkRectilinearGrid"
     start = replace(_start(run.case, first), mesh=None if box else run.folder / "gas")
     reference = run_two_fluid(run.case, run.folder / "tfm", start=start)
-    times = [t for t in sorted(reference.fields) if t <= run.summary["time_s"] * (1.0 + 1e-9)]
+    times = times_of_both(run, reference)
     own, other = _own(run, times, reference), _other(run.case, times, start, reference)
     picture(run, times, own, other)
     return checks(run.case, [k for k, t in enumerate(times) if t >= 0.5 * times[-1]], own, other)

@@ -6,9 +6,12 @@ from math import cos, pi, sin
 
 import numpy as np
 import pytest
+import pyvista
+import tomli_w
 
 from coupling.gas import GasError
 from coupling.openfoam import poly_mesh
+from coupling.openfoam.comparators import droplet_cloud
 from coupling.openfoam.comparators import run as comparators
 from coupling.openfoam.comparators.droplet_sources import Drops
 from coupling.openfoam.comparators.reference import Reference
@@ -73,14 +76,43 @@ def test_what_differs_is_seen(own, seen):
     assert failed(own, side()) == seen
 
 
+def gone(**more) -> Side:
+    """A side that has no droplets any more."""
+    return side(air(**{name: getattr(air(), name)[:0] for name in ("place", "mass", "speed", "temperature")}), **more)
+
+
 def test_what_a_case_has_not_is_not_asked():
     """Without evaporation no pressure of saturation and no vapour, without droplets nothing of them."""
     cold = case(effects=["inflow", "drag", "gravity"])
     names = [row["name"].split()[0] for row in droplets.checks(cold, [WAY], side(), side())]
     assert names == ["liquid", "front", "speed", "D32"]
-    gone = side(air(**{name: getattr(air(), name)[:0] for name in ("place", "mass", "speed", "temperature")}))
-    names = [row["name"].split()[0] for row in droplets.checks(case(), [WAY], gone, side())]
-    assert not {"front", "droplets", "speed", "D32"} & set(names)
+    names = [row["name"].split()[0] for row in droplets.checks(case(), [WAY], gone(), gone())]
+    assert not {"front", "droplets", "speed", "D32"} & set(names) and len(names) == 6
+
+
+def test_what_one_side_alone_has_is_wrong():
+    """All droplets of the run have evaporated or left, and OpenFOAM's fly, or the other way round."""
+    dry = [air(gas=air().gas | {"vapour_mass_fraction": np.zeros(2)})]
+    of_droplets = {"front", "droplets", "speed", "D32"}
+    assert failed(gone(), side()) == failed(side(), gone()) == of_droplets
+    assert failed(side(*dry), side()) == failed(side(), side(*dry)) == {"largest", "temperature"}
+    rows = {row["name"].split()[0]: row for row in droplets.checks(case(), [WAY], gone(), side())}
+    assert all(np.isnan(rows[name]["value"]) and np.isfinite(rows[name]["reference"]) for name in of_droplets)
+
+
+def test_sizes_are_those_of_the_particles_where_no_metric_tells_of_them():
+    """A run has the metric D32 where sizes change or differ; where they do not, each particle is of equal drops."""
+    points = pyvista.PolyData(np.zeros((2, 3)))
+    points["mass"], points["velocity"] = np.array([1.0, 3.0]), np.zeros((2, 3))
+    own = case(effects=["inflow", "drag", "gravity"])
+    assert np.isnan(droplets._particles(own, points, None, {}).sauter)
+    points["diameter"] = np.array([1e-4, 2e-4])
+    assert droplets._particles(own, points, None, {}).sauter == pytest.approx(4.0 / (1e4 + 1.5e4))
+    assert droplets._particles(own, points, 3e-4, {}).sauter == 3e-4
+    flown = case(effects=["inflow", "gravity"])
+    names = [row["name"].split()[0] for row in droplets.checks(flown, [WAY], side(), side())]
+    assert "D32" not in names and any("D32 is left out" in line for line in droplet_cloud.unlike(flown))
+    assert not any("D32" in line for line in droplet_cloud.unlike(own))
 
 
 def test_ways_are_those_of_the_nozzles_or_of_what_is_there():
@@ -201,6 +233,26 @@ def test_a_turned_vessel_has_the_same_spray(tmp_path, shelf):
     speeds = [np.linalg.norm(fields["gas_velocity"], axis=1) for fields in (upright, turned)]
     assert speeds[0].max() > 0.6 and np.abs(speeds[1] - speeds[0]).max() < 0.02 * speeds[0].max()
     assert turned["gas_temperature"] == pytest.approx(upright["gas_temperature"], abs=0.5)
+
+
+@pytest.mark.openfoam
+def test_a_spray_with_walls_in_a_vessel_runs_beside_openfoam_s_droplets(tmp_path, shelf, capsys):
+    """Its run writes the patches of the gas into its case.toml as a mesh of walls."""
+    own, folder = tmp_path / "own", tmp_path / "run"
+    assert main(["init", "spray_cone", str(own)]) == 0
+    shutil.copytree(meshed(tmp_path / "gas", pi / 6.0) / poly_mesh.FOLDER, own / "gas" / poly_mesh.FOLDER)
+    told = cases.to_table(dataclasses.replace(vessel(pi / 6.0), scene=""))
+    told["effects"], told["walls"] = [*told["effects"], "walls"], {"restitution": 0.0}
+    del told["domain"]["lower_m"], told["domain"]["size_m"]
+    for side in told["boundaries"].values():
+        side.pop("side", None)
+    (own / "case.toml").write_text(tomli_w.dumps(told), encoding="utf-8")
+    assert main(["run", str(own), "--gas", "openfoam", "--out", str(folder)]) == 0, capsys.readouterr().err
+    assert cases.load(folder / "case.toml").parameters["walls"].source == "gas"
+    capsys.readouterr()
+    assert main(["compare", str(folder), "--against", "dpm"]) in (0, 1), capsys.readouterr().err
+    assert "liquid that came in" in capsys.readouterr().out
+    assert "walls { type rebound;" in (folder / "dpm/constant/sdphCloud").read_text(encoding="utf-8")
 
 
 @pytest.mark.openfoam

@@ -7,10 +7,12 @@ import numpy as np
 import pytest
 
 from coupling.openfoam import fields
+from coupling.openfoam.comparators import known, two_fluid_numbers
 from coupling.openfoam.comparators import run as comparators
 from coupling.openfoam.comparators.start import Start
 from coupling.openfoam.comparators.two_fluid_fields import start_fields
 from coupling.openfoam.comparators.two_fluid_numbers import macros
+from sdph import effects, scenes
 from sdph.case import read as cases
 from sdph.cli import main
 from sdph.laws.friction import sticking_specularity
@@ -124,11 +126,41 @@ def test_every_boundary_says_what_it_asks():
         ({"drag": {"law": "beetstra"}}, "drag.law = 'beetstra'; the two-fluid reference has: gidaspow"),
         ({"gas": table()["gas"] | {"turbulence": {"model": "WALE"}}}, "the two-fluid reference is laminar"),
         ({"effects": [*EFFECTS, "lift"]}, "effects holds lift; the two-fluid reference has none"),
+        ({"effects": [*EFFECTS, "wall_heat"]}, "effects holds wall_heat; the two-fluid reference has none"),
+        ({"coupling": {"film": True}}, "coupling.film = true; the two-fluid reference"),
+        ({"walls": {"mesh": "funnel.stl"}}, "walls.mesh holds grains where the gas has no patch"),
     ],
 )
 def test_what_two_fluids_lack_is_said(change, said):
     with pytest.raises(CaseError, match=said):
         macros(case(**change))
+
+
+def test_walls_that_are_the_patches_of_the_gas_are_known():
+    """As a run of a vessel writes them into its case.toml."""
+    assert macros(case(walls={"mesh": "patches.vtk", "source": "gas"})) == macros(case())
+
+
+def test_what_nobody_looked_at_is_refused():
+    own = case()
+    for name in (*effects.REGISTRY, "new"):
+        asked = dataclasses.replace(own, effects=(*own.effects, name))
+        if name in two_fluid_numbers.KNOWN:
+            known.refuse(asked, two_fluid_numbers.KNOWN, "it")
+            continue
+        with pytest.raises(CaseError, match=f"^effects holds {name}; it has none"):
+            known.refuse(asked, two_fluid_numbers.KNOWN, "it")
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        "bed_with_tube", "bubbling_bed", "bubbling_bed_3d", "cylindrical_bed", "disc_cluster", "fluidised_column",
+        "granular_jet", "tapered_bed",
+    ],
+)  # fmt: skip
+def test_scenes_that_have_two_fluids_are_not_refused(scene):
+    assert macros(cases.load(scenes.find(scene)[1]))["friction_margin"]
 
 
 @pytest.mark.parametrize(

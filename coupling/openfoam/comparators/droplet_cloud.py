@@ -3,17 +3,20 @@ evaporation; and `unlike`, what a case has that this cloud has not."""
 
 from __future__ import annotations
 
-from coupling.openfoam.comparators import droplet_sources
+from coupling.openfoam.comparators import droplet_sources, known
 from coupling.openfoam.comparators.droplet_numbers import GAS_LAWS
 from coupling.openfoam.comparators.droplet_sources import Injector
 from sdph.case.sections import Case
 from sdph.effects.around import sizes
+from sdph.methods.grains.history import carried
 from sdph.schema import CaseError
 
-ALIEN = {  # effects that change what droplets do, and that the reference lacks
-    "lift", "radiation", "electric_field", "frame", "break_up", "micro_explosion", "turbulent_dispersion",
-}  # fmt: skip
 CONTACT = ("granular_pressure", "granular_viscosity", "granular_temperature", "friction", "conduction")
+# effects that the cloud has too, those that `unlike` tells of, and what is of particles as a method
+KNOWN = frozenset((
+    "inflow", "outflow", "gravity", "drag", "heat", "evaporation", "walls", *CONTACT,
+    "gas_pressure", "artificial_viscosity", "grain_shifting",
+))  # fmt: skip
 SHAPES = ("slot", "disc", "cone")
 
 
@@ -50,26 +53,21 @@ def refuse(case: Case) -> None:
         raise CaseError(
             "effects holds neither evaporation nor inflow: its grains are no droplets; compare them --against tfm"
         )
-    if alien := sorted(ALIEN & set(case.effects)):
-        raise CaseError(f"effects holds {', '.join(alien)}; the droplet reference has none: leave it out to compare")
+    known.refuse(case, KNOWN, "the droplet reference")
     _refuse_gas(case)
     for name, nozzle in case.nozzles.items():
         if nozzle.shape not in SHAPES:
             raise CaseError(f"nozzles.{name}.shape = {nozzle.shape!r}; the droplet reference has {', '.join(SHAPES)}")
         if nozzle.rates:
             raise CaseError(f"nozzles.{name}.rates; the droplet reference has one rate: give rate_kg_s to compare")
-    if "drag" in case.effects and case.parameters["drag"].filter != "none":
-        raise CaseError('drag.filter = "igci"; the droplet reference has none: leave it out to compare')
-    if "walls" in case.effects and case.parameters["walls"].mesh:
-        raise CaseError("walls.mesh holds droplets where the gas has no patch, and the droplet reference knows patches")
 
 
 def _refuse_gas(case: Case) -> None:
     """CaseError where the gas of the reference would be another."""
     gas = case.gas
-    known, outlets = ", ".join(GAS_LAWS), [b for b in case.boundaries.values() if b.kind == "pressure_outlet"]
+    laws, outlets = ", ".join(GAS_LAWS), [b for b in case.boundaries.values() if b.kind == "pressure_outlet"]
     found = {
-        f"gas.equation_of_state = {gas.equation_of_state!r}; the droplet reference has: {known}":
+        f"gas.equation_of_state = {gas.equation_of_state!r}; the droplet reference has: {laws}":
             gas.equation_of_state not in GAS_LAWS,
         "gas.turbulence: the droplet reference is laminar": gas.turbulent,
         "domain.periodic: droplets come in again there, and in the droplet reference they do not": case.domain.periodic,
@@ -94,11 +92,20 @@ def unlike(case: Case) -> list[str]:
             f"OpenFOAM's small and large droplets of {', '.join(mixed)} part in flight, those of the run fly together "
             f"in one particle of each class, unless there are more of these (size_classes={droplet_sources.PARTS})"
         )
+    if not sized(case):
+        lines.append("D32 is left out: no effect of the run follows the sizes of its droplets")
     if not {"outflow", "walls"} & set(case.effects):
         lines.append("OpenFOAM's droplets leave at every side, those of the run fly on outside of the gas (outflow)")
+    if "gas_pressure" in case.effects:
+        lines.append("OpenFOAM's droplets do not feel the gradient of the gas's pressure, those of the run do")
     if touching := [name for name in CONTACT if name in case.effects]:
         lines.append(f"OpenFOAM's droplets pass through each other, those of the run have {', '.join(touching)}")
     return lines
+
+
+def sized(case: Case) -> bool:
+    """Tell whether the droplets of the run have sizes of their own."""
+    return "diameter" in carried(case)
 
 
 def _of_closures(case: Case) -> list[str]:

@@ -28,8 +28,9 @@ def start_fields(case, others: dict[str, str] | None = None) -> dict[str, str]:
     that is made."""
     if others is None:
         others = {"frontAndBack": EMPTY} if case.dimensions == 2 else {}
-    level = repr(case.gas.operating_pressure)
-    inside = {"U": "(0 0 0)", "T": repr(case.gas.temperature), "p": level, "p_rgh": level, CARRIER: "1", VAPOUR: "0"}
+    level, share = repr(case.gas.operating_pressure), case.vapour.mass_fraction if case.vapour else 0.0
+    inside = {"U": "(0 0 0)", "T": repr(case.gas.temperature), "p": level, "p_rgh": level}
+    inside |= {CARRIER: repr(1.0 - share), VAPOUR: repr(share)}
     return {name: _field(case, name, inside[name], others) for name in FIELDS}
 
 

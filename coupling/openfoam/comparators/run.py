@@ -29,6 +29,7 @@ from coupling.openfoam.comparators import (
     droplet_log,
     droplet_numbers,
     droplet_sources,
+    known,
     remedies,
     two_fluid_fields,
     two_fluid_numbers,
@@ -180,6 +181,7 @@ def _run(
     start: Start | None = None, mesh: Path | None = None, again: bool = False,
 ) -> Reference:  # fmt: skip
     refuse_path(folder)
+    known.refuse_no_output(case)
     environment = _environment()
     _clear(folder)
     made = start is not None or solver is DROPLETS  # from the files that all cases share

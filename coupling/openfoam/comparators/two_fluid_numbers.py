@@ -9,6 +9,7 @@ import math
 
 import numpy as np
 
+from coupling.openfoam.comparators import known
 from coupling.openfoam.poly_mesh import PolyMesh
 from sdph.case.sections import Case
 from sdph.laws import constants, exact
@@ -30,6 +31,10 @@ HEAT_MODELS = {
 DRAG_MODELS = {  # drag.law -> OpenFOAM's model
     "gidaspow": "blendedGidaspow", "gidaspow_switch": "GidaspowErgunWenYu", "ergun": "Ergun", "wen_yu": "WenYu",
 }  # fmt: skip
+KNOWN = frozenset((  # effects that two fluids have too, or that are of particles as a method
+    "drag", "gas_pressure", "gravity", "granular_pressure", "friction", "granular_viscosity", "granular_temperature",
+    "walls", "heat", "conduction", "outflow", "artificial_viscosity", "grain_shifting",
+))  # fmt: skip
 NO_DRAG = "none"  # of a scene whose template has no drag
 
 
@@ -63,15 +68,11 @@ def _refuse_what_has_no_reference(case: Case) -> None:
     """CaseError where the two fluids of OpenFOAM lack what a case has."""
     if "drag" in case.effects and (law := case.parameters["drag"].law) not in DRAG_MODELS:
         raise CaseError(f"drag.law = {law!r}; the two-fluid reference has: {', '.join(DRAG_MODELS)}")
-    if "drag" in case.effects and case.parameters["drag"].filter != "none":
-        raise CaseError('drag.filter = "igci"; the two-fluid reference has none: leave it out to compare')
     if case.gas.turbulent:
         raise CaseError(f"gas.turbulence.model = {case.gas.turbulence.model!r}; the two-fluid reference is laminar")
-    alien = sorted(
-        {"evaporation", "inflow", "lift", "radiation", "electric_field", "frame", "break_up"} & set(case.effects)
-    )
-    if alien:
-        raise CaseError(f"effects holds {', '.join(alien)}; the two-fluid reference has none: leave it out to compare")
+    if case.coupling.film:
+        raise CaseError("coupling.film = true; the two-fluid reference takes the gas as it is: leave it out to compare")
+    known.refuse(case, KNOWN, "the two-fluid reference")
 
 
 def _heat_exchange(case: Case) -> dict[str, str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from coupling.openfoam.dictionary import number, vector
+from coupling.openfoam.dictionary import vector
 from coupling.openfoam.foreign.files import Files
 from coupling.openfoam.poly_mesh import PolyMesh
 
@@ -75,10 +75,17 @@ def _chosen(box, gravity, notes: list[str]) -> dict:
     return entries | {"volume_fraction": LOOSE}
 
 
-def temperature(files: Files, otherwise: float) -> float:
-    """[K] of the grains at the start."""
-    own = files.first(f"{files.start}/T.{files.grains}") if files.grains else {}
-    return number(own.get("internalField")) or otherwise
+def temperature(files: Files, mesh: PolyMesh, otherwise: float, notes: list[str]) -> float:
+    """[K] of the grains at the start, the mean by their mass where it is uneven."""
+    volumes = mesh.volumes
+    own, alpha = (files.values(f"{name}.{files.grains}", len(volumes)) for name in ("T", "alpha"))
+    if not files.grains or own is None or len(own) != len(volumes):
+        return otherwise
+    if not np.ptp(own):
+        return float(own[0])
+    notes.append(f"particles.bed: T.{files.grains} is uneven at the start: temperature_K is its mean by mass")
+    there = alpha is not None and len(alpha) == len(volumes) and alpha.max() > FEW
+    return float(np.average(own, weights=alpha * volumes if there else volumes))
 
 
 def _rounded(corner) -> list[float]:

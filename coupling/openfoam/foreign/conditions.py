@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from coupling.openfoam.dictionary import number, of_patch, vector, word
+from coupling.openfoam.dictionary import number, of_patch, uneven, vector, word
 from coupling.openfoam.foreign import properties
 from coupling.openfoam.foreign.files import Files
 from coupling.openfoam.poly_mesh import PolyMesh
@@ -62,8 +62,9 @@ def _condition(files: Files, mesh: PolyMesh, name: str, own: dict, alpha_p: floa
     if kind in STICK:
         return Condition({"kind": "wall"}, STILL.format(kind) if kind == "movingWallVelocity" else "")
     if kind in FREE and word(own["p"].get("type")) in HELD:
-        value = number(own["p"].get("p0") or own["p"].get("p") or own["p"].get("value") or own["p"].get("uniformValue"))
-        return Condition({"kind": "pressure_outlet", "pressure_Pa": (value or 0.0) * properties.level(files)["factor"]})
+        value, note = _read("p", next(filter(None, map(own["p"].get, ("p0", "p", "value", "uniformValue"))), None))
+        pressure = None if value is None else value * properties.level(files)["factor"]
+        return Condition({"kind": "pressure_outlet", "pressure_Pa": pressure}, note)
     area, normal = mesh.outwards(name)
     speed = _given(files, own["U"], area, normal)
     if speed is None:
@@ -78,7 +79,7 @@ def _condition(files: Files, mesh: PolyMesh, name: str, own: dict, alpha_p: floa
         return Condition({"kind": "wall"}, STILL.format(told))
     if through > 0.0:
         what = "gas leaves here at a given speed, which is not known: taken as pressure_outlet"
-        return Condition({"kind": "pressure_outlet", "pressure_Pa": 0.0}, what)
+        return Condition({"kind": "pressure_outlet", "pressure_Pa": None}, what)
     rounded = [float(f"{component + 0.0:.9g}") if abs(component) > ASIDE else 0.0 for component in velocity]
     return Condition({"kind": "velocity_inlet", "velocity_m_s": rounded[:dimensions]}, note)
 
@@ -113,29 +114,37 @@ def _open_share(kind: str, alpha: dict | None, alpha_p: float) -> tuple[float, s
 def _unknown(patch: str, kind: str, pressure: str) -> Condition:
     """A choice to make: a wall where the mesh says so, an outlet where the pressure is held, else closed."""
     entries = (
-        {"kind": "pressure_outlet", "pressure_Pa": 0.0} if pressure in HELD and patch != "wall" else {"kind": "wall"}
+        {"kind": "pressure_outlet", "pressure_Pa": None} if pressure in HELD and patch != "wall" else {"kind": "wall"}
     )
     what = f"U is {kind or 'not given'}, p {pressure or 'not given'}"
     return Condition(entries, f"{what}, which is not known: taken as {entries['kind']}; choose wall, slip_wall, "
                      "velocity_inlet (with velocity_m_s) or pressure_outlet")  # fmt: skip
 
 
+def _read(name: str, entry) -> tuple[float | None, str]:
+    """The value of a field at a patch, and what is told of it."""
+    value = number(entry)
+    told = "is uneven there: its mean is taken" if uneven(entry) else ""
+    told = "is not known there: choose it" if value is None else told
+    return value, told and f"{name} {told}"
+
+
 def _with_temperature(found: Condition, own: dict) -> Condition:
     """The condition with the temperature that T gives there."""
     kind = word(own["T"].get("type"))
-    value = number(own["T"].get("value")) if kind == "fixedValue" else number(own["T"].get("inletValue"))
-    if value and kind in ("fixedValue", "inletOutlet") and found.entries["kind"] != "slip_wall":
-        return found._replace(entries=found.entries | {"temperature_K": value})
-    return found
+    if kind not in ("fixedValue", "inletOutlet") or found.entries["kind"] == "slip_wall":
+        return found
+    value, note = _read("T", own["T"].get("value" if kind == "fixedValue" else "inletValue"))
+    entries = {"temperature_K": value} if value else {}
+    return found._replace(entries=found.entries | entries, note="; ".join(filter(None, (found.note, note))))
 
 
 def _relative(found: dict[str, Condition]) -> dict[str, Condition]:
-    """Pressures over the least of all outlets: the gas is told differences."""
-    given = [own.entries["pressure_Pa"] for own in found.values() if "pressure_Pa" in own.entries]
-    least = min(given, default=0.0)
+    """Pressures over the least of all outlets: the gas is told differences; the least where one is not known."""
+    given = {name: own.entries["pressure_Pa"] for name, own in found.items() if "pressure_Pa" in own.entries}
+    least = min((value for value in given.values() if value is not None), default=0.0)
+    over = {name: 0.0 if value is None else value - least for name, value in given.items()}
     return {
-        name: own._replace(entries=own.entries | {"pressure_Pa": own.entries["pressure_Pa"] - least})
-        if "pressure_Pa" in own.entries
-        else own
+        name: own._replace(entries=own.entries | {"pressure_Pa": over[name]}) if name in over else own
         for name, own in found.items()
     }

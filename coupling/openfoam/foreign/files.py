@@ -41,6 +41,11 @@ class Files:
         own = [f"{name}.{self.phase}" for name in names] if self.phase else []
         return self.first(*(f"{self.start}/{name}" for name in (*own, *names)))
 
+    def inside(self, *names: str) -> np.ndarray | None:
+        """Values inside of the first of some fields that is there, as `field` looks for it; one where all are alike."""
+        own = [f"{name}.{self.phase}" for name in names] if self.phase else []
+        return next((found for name in (*own, *names) if (found := self.values(name, 1)) is not None), None)
+
     def of_phase(self, phase: str) -> dict:
         """Properties of a phase, or of the one there is."""
         names = ("thermophysicalProperties", "physicalProperties", "transportProperties")

@@ -45,7 +45,7 @@ def look(folder: Path) -> Found:
     gravity, grains = properties.gravity(files, dimensions, notes), properties.grains(files, notes)
     gas = properties.gas(files, notes)
     region = bed.bed(files, mesh, (low, high), gravity, grains, notes)
-    region["temperature_K"] = bed.temperature(files, gas["temperature_K"])
+    region["temperature_K"] = bed.temperature(files, mesh, gas["temperature_K"], notes)
     properties.turbulence(files, notes)
     found = conditions.conditions(files, mesh, dimensions, region["volume_fraction"])
     depth = 1.0 if dimensions == 3 else float(np.ptp(mesh.points[:, 2]))

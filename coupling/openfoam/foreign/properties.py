@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from coupling.openfoam.dictionary import number, vector, word
 from coupling.openfoam.foreign.files import Files, density
 from sdph.laws.constants import GAS_CONSTANT
@@ -32,7 +34,10 @@ def gas(files: Files, notes: list[str]) -> dict:
     mixture = own.get("mixture", own)
     part = {name: mixture.get(name, {}) for name in ("specie", "thermodynamics", "transport")}
     mass, cp = number(part["specie"].get("molWeight")), number(part["thermodynamics"].get("Cp"))
-    found = {"temperature_K": number(files.field("T").get("internalField")), "heat_capacity_J_kg_K": cp}
+    inside = files.inside("T")
+    found = {"temperature_K": None if inside is None else float(inside.mean()), "heat_capacity_J_kg_K": cp}
+    if inside is not None and np.ptp(inside):
+        notes.append("gas: T is uneven at the start: temperature_K is the mean of its cells")
     if cp is None and (cv := number(part["thermodynamics"].get("Cv"))):
         found["heat_capacity_J_kg_K"] = cv + GAS_CONSTANT / (mass or MOLAR_MASS)
     found["density_kg_m3"] = density(own) or number(mixture.get("rho"))
@@ -52,7 +57,7 @@ def gas(files: Files, notes: list[str]) -> dict:
     )
     if whole["equation_of_state"] == "operating":
         whole |= {"molar_mass_kg_kmol": mass or MOLAR_MASS, "operating_pressure_Pa": level(files)["operating"]}
-        notes.append("gas: perfectGas is taken as ideal gas at the operating pressure (no sound waves)")
+        notes.append("gas: perfectGas is taken as ideal gas at the operating pressure, the mean of p (no sound waves)")
     elif state not in ("", "rhoConst", "perfectGas"):
         notes.append(f"gas: {state} is not known; density_kg_m3 is constant")
     return whole
@@ -137,9 +142,10 @@ def times(files: Files, notes: list[str]) -> tuple[float, float]:
 def level(files: Files) -> dict[str, float]:
     """`operating` [Pa], the absolute pressure of the case where it is one, and `factor` that makes its pressures Pa."""
     field = files.field("p_rgh") or files.field("p")
-    inside, exponents = number(field.get("internalField")), (field.get("dimensions") or [()])[0]
+    inside, exponents = files.inside("p_rgh", "p"), (field.get("dimensions") or [()])[0]
+    mean = 0.0 if inside is None else float(inside.mean())
     kinematic = tuple(exponents)[:3] == KINEMATIC
-    return {"operating": inside if inside and inside > ABSOLUTE else 101325.0,
+    return {"operating": mean if mean > ABSOLUTE else 101325.0,
             "factor": (density(files.of_phase(files.phase)) or AIR["density_kg_m3"]) if kinematic else 1.0}  # fmt: skip
 
 

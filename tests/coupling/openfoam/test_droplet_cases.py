@@ -1,5 +1,6 @@
 """A case of droplets as OpenFOAM's: what comes in, what patches do, pressure of saturation, what is refused."""
 
+import dataclasses
 from math import cos, exp, log, pi, radians
 
 import numpy as np
@@ -9,6 +10,8 @@ from coupling.openfoam.comparators import droplet_cloud, droplet_liquid, droplet
 from coupling.openfoam.comparators.droplet_fields import start_fields
 from coupling.openfoam.comparators.droplet_sources import Drops
 from coupling.openfoam.comparators.reference import Reference
+from sdph import scenes
+from sdph.case import read as cases
 from sdph.schema import CaseError
 from tests.coupling.openfoam.spray_cases import EFFECTS, case, table
 
@@ -120,6 +123,13 @@ def test_every_boundary_says_what_it_asks():
     assert "tube { type fixedValue; value uniform (0.0 0.0 0.0); }" in start_fields(case(), {"tube": "wall"})["U"]
 
 
+def test_the_gas_begins_as_moist_as_that_of_the_run():
+    """Evaporation is driven by what the gas lacks to saturation: a dry one would be another case."""
+    fields = start_fields(case(vapour={"mass_fraction": 0.01}))
+    assert "internalField uniform 0.01;" in fields["C10H22"] and "internalField uniform 0.99;" in fields["air"]
+    assert "internalField uniform 0.0;" in start_fields(case())["C10H22"]
+
+
 TOP = table()["nozzles"]["top"]
 WIND = {name: part for name, part in table()["boundaries"].items() if name != "out"}
 
@@ -129,6 +139,8 @@ WIND = {name: part for name, part in table()["boundaries"].items() if name != "o
     [
         ({"effects": ["drag", "heat", "gravity"]}, "neither evaporation nor inflow: its grains are no droplets"),
         ({"effects": [*EFFECTS, "lift"]}, "effects holds lift; the droplet reference has none"),
+        ({"effects": [*EFFECTS, "walls", "wall_heat"]}, "effects holds wall_heat; the droplet reference has none"),
+        ({"effects": [*EFFECTS, "walls"], "walls": {"mesh": "funnel.stl"}}, "walls.mesh holds grains where the gas"),
         ({"effects": [n for n in EFFECTS if n != "gravity"]}, "gravity in domain, none in effects"),
         ({"gas": {"equation_of_state": "ideal"}}, "equation_of_state = 'ideal'; the droplet reference has: constant"),
         ({"gas": {"turbulence": {"model": "WALE"}}}, "the droplet reference is laminar"),
@@ -147,6 +159,22 @@ def test_what_the_droplet_reference_lacks_is_said(change, said):
     assert "\n" not in str(refused.value)
 
 
+def test_walls_that_are_the_patches_of_the_gas_are_known():
+    """As a run of a vessel writes them into its case.toml."""
+    droplet_cloud.refuse(case(effects=[*EFFECTS, "walls"], walls={"mesh": "patches.vtk", "source": "gas"}))
+
+
+@pytest.mark.parametrize("scene", ["evaporating_jet", "spray_cone", "stefan_tube"])
+def test_scenes_that_have_droplets_of_openfoam_are_not_refused(scene):
+    droplet_cloud.refuse(cases.load(scenes.find(scene)[1]))
+
+
+def test_what_nobody_looked_at_is_refused():
+    for name in ("reaction", "grain_drag", "new"):
+        with pytest.raises(CaseError, match=f"^effects holds {name}; the droplet reference has none"):
+            droplet_cloud.refuse(dataclasses.replace(case(), effects=(*EFFECTS, name)))
+
+
 def test_a_mouth_outside_of_the_gas_is_refused():
     with pytest.raises(CaseError, match="nozzles.top: a part of its mouth is outside of the gas"):
         droplet_sources.injectors(case(nozzles={"top": TOP | {"centre_m": [0.01, 0.4]}}), NONE, 1e-3)
@@ -159,10 +187,14 @@ def test_what_is_not_alike_is_told():
     alike = {"coupling": {"voidage": False, "film": True}, "nozzles": {"top": TOP | {"diameter_std_mm": 0.0}}}
     assert len(droplet_cloud.unlike(case(**alike))) == 2  # the room of the droplets, how vapour spreads
     kept = [name for name in EFFECTS if name != "outflow"]
-    other = {"drag": {"law": "gidaspow"}, "heat": {"law": "gunn"}, "effects": [*kept, "granular_pressure"]}
+    other = {
+        "drag": {"law": "gidaspow"},
+        "heat": {"law": "gunn"},
+        "effects": [*kept, "granular_pressure", "gas_pressure"],
+    }
     evaporation = {"law": "spalding", "onset": "latched", "onset_temperature_K": 310.0}
     told = "\n".join(droplet_cloud.unlike(case(**other, evaporation=evaporation)))
-    for word in ("gidaspow", "gunn", "spalding", "onset", "granular_pressure", "(outflow)"):
+    for word in ("gidaspow", "gunn", "spalding", "onset", "granular_pressure", "gradient", "(outflow)"):
         assert word in told
 
 

@@ -1,0 +1,31 @@
+"""What a reference of OpenFOAM knows of a case. The rest is refused by name, and so is an effect that nobody looked
+at yet."""
+
+from __future__ import annotations
+
+from sdph.case.sections import Case
+from sdph.schema import CaseError
+
+ROUND_OFF = 1e-9  # of the time between outputs
+
+
+def refuse_no_output(case: Case) -> None:
+    """CaseError where a case ends before its first output: OpenFOAM would write nothing."""
+    end, interval = case.run.end_time, case.run.output_interval
+    if end < interval * (1.0 - ROUND_OFF):
+        raise CaseError(
+            f"run.end_time_s = {end:g} lies before the first output (run.output_interval_s = {interval:g}), and a "
+            "reference of OpenFOAM writes none at its end: give a shorter interval to compare"
+        )
+
+
+def refuse(case: Case, effects: frozenset[str], reference: str) -> None:
+    """CaseError, of one line, where a case has what is known to no reference, or an effect that is not among
+    `effects`, which `reference` knows."""
+    if alien := sorted(set(case.effects) - effects):
+        raise CaseError(f"effects holds {', '.join(alien)}; {reference} has none: leave it out to compare")
+    if "drag" in case.effects and case.parameters["drag"].filter != "none":
+        raise CaseError(f'drag.filter = "igci"; {reference} has none: leave it out to compare')
+    own = case.parameters["walls"] if "walls" in case.effects else None
+    if own and own.mesh and own.source != "gas":  # else it is made of the patches of the gas
+        raise CaseError(f"walls.mesh holds grains where the gas has no patch, and {reference} knows patches")
