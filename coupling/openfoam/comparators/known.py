@@ -1,5 +1,5 @@
-"""What a reference of OpenFOAM knows of a case. The rest is refused by name, and so is an effect that nobody looked
-at yet."""
+"""Effects and keys of a case that a reference of OpenFOAM knows. The rest is refused by name, and so is an effect that
+nobody looked at yet."""
 
 from __future__ import annotations
 
