@@ -96,6 +96,8 @@ def _check_flaw(where: str, body) -> None:
 def _check_motion(where: str, body) -> None:
     if (body.held_lower is None) != (body.held_upper is None):
         raise CaseError(f"{where}: give held_lower_m and held_upper_m, or neither")
+    if body.speed and body.motion == "uniform":
+        raise CaseError(f'{where}.speed_m_s = {body.speed:g} is of motion = "cantilever"; give velocity_m_s')
     held = body.shape == "box" and body.held_upper is not None and body.lower[0] <= body.held_upper[0] < body.upper[0]
     if body.motion == "cantilever" and not held:
         raise CaseError(f'{where}.motion = "cantilever" is of a box that is held on its left: give held_upper_m')

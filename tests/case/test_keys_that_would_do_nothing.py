@@ -24,6 +24,7 @@ HEATED = {"effects": ["density_diffusion", "liquid_heat"], "tank": None, "liquid
 TWO = {name: {"shape": "disc", "centre_m": [x, 0.5], "radius_m": 0.2} for name, x in (("a", 0.25), ("b", 0.75))}
 DRAINED = {"effects": ["gravity", "tank", "drain"], "drain": DRAIN}
 RING = {"shape": "ring", "centre_m": [0.5, 0.5], "radius_m": 0.3, "inner_radius_m": 0.2}
+BODY = {"shape": "box", "lower_m": [0.2, 0.2], "upper_m": [0.8, 0.4]}
 SOLID = {
     "effects": [], "tank": None, "pools": None, "liquid": None,
     "domain": {"size_m": [1.0, 1.0], "gravity_m_s2": [0.0, 0.0]},
@@ -33,8 +34,7 @@ SOLID = {
 
 def plate(**solid):
     """A plate of this solid."""
-    body = {"shape": "box", "lower_m": [0.2, 0.2], "upper_m": [0.8, 0.4]}
-    return SOLID | {"solid": SOLID["solid"] | solid, "bodies": {"plate": body}}
+    return SOLID | {"solid": SOLID["solid"] | solid, "bodies": {"plate": BODY}}
 
 
 CASES = {
@@ -98,6 +98,14 @@ CASES = {
     "[solid] gives critical_damage, which acts on nothing without failure": plate(
         critical_damage=0.5, yield_stress_Pa=1e5
     ),
+    "inflation.pressure_Pa = 0 loads nothing": SOLID | {
+        "effects": ["inflation"], "bodies": {"ring": RING}, "inflation": {"body": "ring"},
+    },
+    'bubble.flux_W_m2 is of a bubble of vapour, and bubble.content = "gas"': {
+        "effects": ["bubble"], "tank": None, "bubble": {"centre_m": [0.5, 0.5], "flux_W_m2": 1e4},
+        "pools": {"ring": RING},
+    },
+    "bodies.plate.speed_m_s = 2 is of motion": plate() | {"bodies": {"plate": BODY | {"speed_m_s": 2.0}}},
     "inflation.growth_1_s": SOLID | {
         "effects": ["inflation"], "bodies": {"ring": RING},
         "inflation": {"body": "ring", "growth_1_s": 1.0, "bulk_modulus_Pa": 1e9},

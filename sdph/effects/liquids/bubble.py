@@ -106,9 +106,13 @@ def kernel(case) -> BubbleP:
     if case.dimensions != 2 or case.gas_phase:
         raise CaseError("a bubble is that of a liquid of one phase in two dimensions: leave it out of effects")
     holes_of(case)
-    if own.content == "vapour":
+    boils = own.content == "vapour"
+    if own.excess if boils else own.flux:
+        given, of = ("excess_Pa", "gas") if boils else ("flux_W_m2", "vapour")
+        raise CaseError(f'bubble.{given} is of a bubble of {of}, and bubble.content = "{own.content}"; leave it out')
+    if boils:
         gel.refuse_above_critical(own, own.around, "bubble.around_Pa")
-    vapour = gel.vapour(own) if own.content == "vapour" else ()
+    vapour = gel.vapour(own) if boils else ()
     return BubbleP(own.around, own.excess, own.exponent, own.surface_tension, own.flux, vapour)
 
 

@@ -46,6 +46,8 @@ def kernel(case) -> InflationP:
     if own.by == "pressure":
         if own.growth or own.bulk_modulus:
             raise CaseError('inflation.growth_1_s and bulk_modulus_Pa are of inflation.by = "growth"; give that, too')
+        if not own.pressure:
+            raise CaseError('inflation.pressure_Pa = 0 loads nothing; give one, or by = "growth"')
         return InflationP(own.pressure, own.rise_time, 0.0, 0.0, 2.0 * body.radius)
     if not own.growth * own.bulk_modulus:
         raise CaseError('inflation.by = "growth" needs growth_1_s and bulk_modulus_Pa above 0')
