@@ -1,5 +1,4 @@
-"""What a reference of OpenFOAM knows of a case. The rest is refused by name, and so is an effect that nobody looked
-at yet."""
+"""Refusals of what a reference of OpenFOAM does not know of a case, by name; an effect that nobody looked at is one."""
 
 from __future__ import annotations
 
