@@ -79,9 +79,9 @@ class OpenFoamGas:
         program = install.gas_solver(self._status)
         self._turbulence = install.gas_turbulence(self._status) if self._case.gas.turbulent else None
         if template is not None:
-            case_files.refuse_unread(Path(template))
             options = self._case.coupling.gas_ranks, self._allow_code, self._known
             case_files.write_case(self._case, Path(template), self._folder, *options)
+            case_files.refuse_unread(Path(template))
             self._make_mesh()
         self._launch(program)
 

@@ -123,10 +123,10 @@ def _looked_at(case, template: Path, allow_code: bool) -> Iterator[Path]:
     from coupling.openfoam.programs.installation import require
 
     require()
-    refuse_unread(template)
     with meshed(grains, template, allow_code) as mesh, tempfile.TemporaryDirectory(prefix="sdph-explain-") as folder:
         made = Path(folder) / "gas"
         write_case(grains, mesh, made, case.coupling.gas_ranks, allow_code)
+        refuse_unread(template)  # no code is in it
         closed_vessels.refuse_filling(grains, mesh)
         (made / "case.foam").touch()  # as a run has it, for who reads its mesh
         yield made if (made / poly_mesh.FOLDER).is_dir() else mesh
