@@ -110,6 +110,9 @@ def test_walls_are_open_at_the_mouth_alone(tmp_path):
     assert (kind == LIQUID).sum() == 20 * 20
 
 
+AIR = {"phase": "gas", "shape": "tank", "fill": 1.0}
+
+
 @pytest.mark.parametrize(
     ("given", "told"),
     [
@@ -117,7 +120,7 @@ def test_walls_are_open_at_the_mouth_alone(tmp_path):
         ({"nozzles": {"mouth": MOUTH | {"volume_fraction": 0.5}}}, "volume_fraction is of grains"),
         ({"nozzles": {}}, "needs a nozzle"),
         ({"effects": [*FULL["effects"], "outflow"], "tank": {}}, "open_sides"),
-        ({"gas_phase": {"density_kg_m3": 1.0}}, "one phase"),
+        ({"gas_phase": {"density_kg_m3": 1.0}, "pools": FULL["pools"] | {"air": AIR}}, "one phase"),
     ],
 )
 def test_what_cannot_be_is_refused(tmp_path, given, told):
