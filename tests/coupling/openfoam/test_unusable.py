@@ -106,7 +106,8 @@ def test_a_program_that_is_missing_is_named(tmp_path, tools, capsys):
 
 
 def test_a_comparator_that_aborts(tmp_path, monkeypatch, capsys):
-    assert main([*SHORT[:2], "--until", "1e-3", "--gas", "embedded", "--out", str(tmp_path / "run")]) == 0
+    often = ("--set", "run.output_interval_s=0.001")
+    assert main([*SHORT[:2], *often, "--until", "1e-3", "--gas", "embedded", "--out", str(tmp_path / "run")]) == 0
     said(capsys)
     (tmp_path / "bin").mkdir()
     (tmp_path / "bin" / "twoPhaseEulerFoam").touch()
