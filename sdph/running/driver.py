@@ -177,12 +177,11 @@ class Flight:
             output.forget(self.folder, self.simulation.clock.over(self.simulation.time))
         self.goes = wish.patient = True
         with contextlib.closing(self.out):
-            usual = False  # the first window compiles
             while not self.simulation.clock.over(self.simulation.time):
                 begun = time.monotonic()
                 self._window()
-                wish.allow(usual * (time.monotonic() - begun + self.saving))
-                usual = True
+                if gas is None:  # one that hangs is not waited for
+                    wish.allow(time.monotonic() - begun + self.saving)
                 yield from self._shown()
                 asked = self.world.most(wish.number or 0) or None  # one is asked to stop: all are
                 if asked or self._due():
