@@ -157,7 +157,7 @@ def others(case, folder: Path) -> dict[str, str] | None:
     for name, patch in known.items():
         if patch.kind in CONSTRAINED:
             raise CaseError(
-                f"patch {name} of the mesh of the gas is {patch.kind}, which sdphGasFoam has not: "
+                f"patch {name} of the mesh of the gas is {patch.kind}, which sdphGasFoam does not know: "
                 f"{CONSTRAINED[patch.kind]}"
             )
     for name in case.boundaries:

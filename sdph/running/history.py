@@ -9,6 +9,7 @@ from sdph.case import probed
 from sdph.case.bodies import nearest
 from sdph.case.sections import Probe
 from sdph.engine import state as particles
+from sdph.engine.geometry import OPEN, box_of, nearest_image
 from sdph.engine.world import ALONE
 from sdph.laws.kernels import SUPPORT
 from sdph.methods.solids import history as solids
@@ -82,21 +83,13 @@ def near(case, places, mass, arrays: dict, here, world=ALONE) -> dict[str, float
     (1, 3): sum m (1 - r/R)^2 f over sum m (1 - r/R)^2 within R, the reach of the kernel, those of all processes of a
     world; nan if none are near."""
     reach = SUPPORT * case.smoothing_length
-    r = particles.lengths(nearest_image(places - here, case.liquid_period if case.liquid else case.domain.period))
+    box = box_of((*(case.liquid_period if case.liquid else case.domain.period), OPEN)[:3], 3)
+    r = particles.lengths(np.stack(nearest_image.py_func(box, *(places - here).T), axis=1))
     close = np.flatnonzero(r < reach)
     weight = mass[close] * (1.0 - r[close] / reach) ** 2
     total = world.sum(float(weight.sum())) or np.nan
     means = {name: world.sum((weight * values[close].T).sum(axis=-1)) / total for name, values in arrays.items()}
     return _named(case, "particles", means)
-
-
-def nearest_image(apart, period) -> np.ndarray:
-    """Distances (N, 3) [m] from a point, through periodic sides where that is nearer; period (d,) [m], 0 of none."""
-    found = apart.copy()
-    for axis, length in enumerate(period):
-        if length:
-            found[:, axis] -= length * np.round(apart[:, axis] / length)
-    return found
 
 
 def _named(case, whose: str, values: dict) -> dict[str, float]:

@@ -96,6 +96,13 @@ def test_the_history_of_a_liquid_has_its_probes(tmp_path):
     assert {"wet_pressure_Pa", "wet_velocity_x_m_s", "kinetic_energy_J"} <= alone.row().keys()
 
 
+@pytest.mark.parametrize(("effects", "energy"), [("['tank','gravity']", True), ("['tank']", False)])
+def test_a_liquid_that_no_gravity_pulls_has_no_energy_of_place(tmp_path, effects, energy):
+    """domain.gravity_m_s2 may be given for what is up alone; the ledger has no work of it then."""
+    case = cases.load(scenes.HERE / "dam_break" / "case.toml", ("resolution.spacing_mm=5.715", f"effects={effects}"))
+    assert (Alone(case, tmp_path / "ledger.csv").row()["potential_energy_J"] != 0.0) is energy
+
+
 def test_every_row_has_the_same_columns(tmp_path):
     """Of a jet too whose first grains are still to come."""
     case = cases.load(

@@ -7,12 +7,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from sdph import scenes
 from sdph.case import read as cases
 from sdph.effects.around import tank as tank_effect
 from sdph.engine import state as particles
 from sdph.engine.state import LIQUID
 from sdph.methods.liquids import start
 from sdph.running.tank import DrivenTank
+from sdph.schema import CaseError
 
 GRAVITY = np.array([0.0, 0.0, -9.8])
 TABLE = {
@@ -158,3 +160,12 @@ def test_gravity_of_a_case_weighs_what_is_in_the_tank():
     gravity = np.array([1.0, 0.5, -9.8])
     np.testing.assert_allclose(own._weight()[:3], mass.sum() * gravity, rtol=1e-12)
     np.testing.assert_allclose(own._weight()[3:], np.cross(place, mass[:, None] * gravity).sum(axis=0), rtol=1e-12)
+
+
+@pytest.mark.parametrize(("scene", "more", "told"), [
+    ("dam_break", ("method.name=mps",), "moved by weakly compressible SPH"),
+    ("free_overfall", (), "closed but for its drain"),
+])  # fmt: skip
+def test_a_tank_that_it_could_not_balance_is_refused(scene, more, told):
+    with pytest.raises(CaseError, match=told):
+        DrivenTank(cases.load(scenes.HERE / scene / "case.toml", more))

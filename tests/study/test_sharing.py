@@ -52,3 +52,11 @@ def test_a_script_for_slurm_stands_beside_the_case(tmp_path):
     script = (tmp_path / "case/job.sh").read_text()
     assert "--ranks $SLURM_NTASKS" in script and "--resume run" in script and 'run.launcher="srun' in script
     assert "if [ -f run/origin.json ]" in script  # of a job that was cut before its first checkpoint too
+
+
+def test_a_tank_that_nozzles_alone_fill_has_no_shares_yet():
+    """Walls are there at the start, and no liquid that processes could share."""
+    table = cases.to_table(cases.load(scenes.HERE / "free_overfall" / "case.toml"))
+    del table["pools"]
+    found = {row["what"]: row["value"] for row in sharing.rows(cases.from_table(table), 2)}
+    assert found == {"ranks": 2, "particles at the start": 0}

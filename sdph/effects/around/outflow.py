@@ -60,10 +60,10 @@ def through(case, state) -> np.ndarray:
     for side, axis, out in _beyond(case, state):
         for name, outlet in outlets_of(case, side):
             found[out & _within(outlet, axis, places)] = names.index(name)
-    number = {k: names.index(name) for k, name in enumerate(case.boundaries) if name in names}
     patch = behind(case, state)
-    for k in np.unique(patch[patch >= 0]):
-        found[patch == k] = number[int(k)]
+    for number, name in enumerate(case.boundaries):
+        if name in names:
+            found[patch == number] = names.index(name)
     return found
 
 

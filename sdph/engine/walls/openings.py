@@ -57,24 +57,21 @@ def _read(path: str, dimensions: int, changed: int) -> Openings:
 def behind(found: Openings, state, deep: float):
     """(N,) number of the boundary whose facet each particle is behind, at most `deep` [m], and goes on away from; -1 of
     none."""
-    number = arrays.empty(len(state.x), state.x, np.int64)
-    look(state, found, deep, number)
-    return number
+    owner = arrays.empty(len(state.x), state.x, np.int64)
+    look(state, found, deep, owner)
+    return owner
 
 
 @parallel
-def look(s, found, deep, number):
-    """number (N,) of `behind`; how many are behind one."""
-    out = 0.0
+def look(s, found, deep, owner):
+    """owner (N,): the numbers of `behind`."""
     for i in prange(len(s.x)):
         z, w = (s.z[i], s.w[i]) if len(s.z) else (0.0, 0.0)
         place, velocity = (s.x[i], s.y[i], z), (s.u[i], s.v[i], w)
-        number[i] = -1
+        owner[i] = -1
         for b in range(len(found.owner)):
             if near(found.box[b], place, deep) and through(found.planes, found.facets[b], place, velocity, deep):
-                number[i] = found.owner[b]
-        out += 1.0 if number[i] >= 0 else 0.0
-    return out
+                owner[i] = found.owner[b]
 
 
 @inlined
@@ -86,10 +83,10 @@ def near(box, place, deep):
 
 
 @inlined
-def through(planes, facets, place, velocity, deep):
-    """True where a place (3) [m] is behind one of the facets from the first to before the last, at most `deep` [m], and
-    its velocity (3) leads away."""
-    for f in range(facets[0], facets[1]):
+def through(planes, ends, place, velocity, deep):
+    """True where a place (3) [m] is behind one of the facets from the first to before the second of `ends`, at most
+    `deep` [m], and its velocity (3) leads away."""
+    for f in range(ends[0], ends[1]):
         n = planes[f, 0]
         height = n[0] * place[0] + n[1] * place[1] + n[2] * place[2] - n[3]
         if height < 0.0 and height >= -deep and n[0] * velocity[0] + n[1] * velocity[1] + n[2] * velocity[2] <= 0.0:

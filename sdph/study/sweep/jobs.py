@@ -72,9 +72,9 @@ def _job(target: str, file: Path, point: dict, more: tuple, flags: tuple, out: P
 
 def _read(case, file: Path) -> list[str]:
     """Digests of the files that a case reads, and of those of the OpenFOAM case beside it."""
-    beside = file.parent / "gas"
-    found = [*map(Path, inputs.named(case).values()), *(path for path in sorted(beside.rglob("*")) if path.is_file())]
-    return [hashlib.sha256(path.read_bytes()).hexdigest() for path in found]
+    beside = inputs.beside(file)
+    found = [*map(Path, inputs.named(case).values()), *(sorted(beside.rglob("*")) if beside else ())]
+    return [hashlib.sha256(path.read_bytes()).hexdigest() for path in found if path.is_file()]
 
 
 def standing(job: Job, before: dict[str, dict], again: bool) -> dict | None:

@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+from types import SimpleNamespace
 from typing import NamedTuple
 
 import numpy as np
@@ -11,7 +12,9 @@ from moving import SPACING, case, started
 from sdph.engine import state as particles
 from sdph.laws import moving_particles
 from sdph.methods.mps import compressible, equations
+from sdph.methods.mps.bounds import MpsGuard
 from sdph.methods.mps.method import MpsStepper
+from sdph.methods.mps.scales import MpsScales
 from sdph.schema import CaseError
 
 
@@ -184,3 +187,25 @@ def test_steps_hold_sound(tmp_path):
     sound = compressible.sound_speed(run.case, run.stepper.p["free_energy_tension"])
     assert run.stepper.next_step(1.0) == pytest.approx(0.5 * SPACING / sound, rel=1e-3)
     assert run.stepper.limit == "sound"
+
+
+def test_numbers_of_a_case_know_no_gravity_that_is_off_and_a_jet_by_its_diameter():
+    own = case(sections={"domain": {"gravity_m_s2": [0.0, 0.0, -9.81]}})
+    assert MpsScales(own).speed == 0.0 and MpsScales(dataclasses.replace(own, effects=("gravity",))).speed > 0.0
+    jet = SimpleNamespace(radius=1e-4, inner_radius=None, width=None)
+    ring = SimpleNamespace(radius=1e-4, inner_radius=8e-5, width=None)
+    lengths = [MpsScales(dataclasses.replace(own, nozzles={"mouth": nozzle})).length for nozzle in (jet, ring)]
+    assert lengths == pytest.approx([2e-4, 2e-5])
+
+
+def test_what_nothing_drives_is_not_stopped_by_round_off():
+    still = case(("laminar_viscosity",))
+    assert MpsGuard(still).fast == math.inf
+    assert MpsGuard(case()).fast < math.inf
+
+
+def test_the_furthest_place_may_be_below_0(tmp_path):
+    run = started(tmp_path, case())
+    run.state.x[:] -= 1.0
+    assert run.row()["largest_x_m"] == pytest.approx(float(run.state.x.max()))
+    assert run.row()["largest_x_m"] < 0.0

@@ -140,6 +140,13 @@ def test_liquid_falls_down_to_the_floor_of_its_tank(more, height):
     assert speed == pytest.approx(math.sqrt(2.0 * 9.81 * height), rel=0.02)
 
 
+def test_liquid_falls_by_its_height_along_gravity():
+    """One that lies on its side, twice as wide as it is high, in a run too short to fall to a floor."""
+    lying = "pools.column.lower_m=[0,0]", "pools.column.upper_m=[0.1,0.05]", "domain.gravity_m_s2=[9.81,0.0]"
+    short = load("dam_break", *lying, "run.end_time_s=0.001", "run.output_interval_s=0.001")
+    assert judge.scales_of(short).speed == pytest.approx(math.sqrt(2.0 * 9.81 * 0.1), rel=0.02)
+
+
 def test_liquid_falls_no_longer_than_the_run():
     high = "pools.column.lower_m=[0,0.16]", "pools.column.upper_m=[0.05,0.17]"
     short = load("dam_break", *high, "run.end_time_s=0.1", "run.output_interval_s=0.1")

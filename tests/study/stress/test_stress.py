@@ -1,10 +1,12 @@
 """Hard cases (the fast ones), and that a run which goes unstable is caught in time and leaves what is needed."""
 
+import dataclasses
 import math
 
 import numpy as np
 import pytest
-from builders import disc, simulation
+from builders import cloud, disc, simulation
+from grain_boxes import box
 
 from coupling.gas import GasError
 from sdph import cli
@@ -14,7 +16,7 @@ from sdph.running import through_gas
 from sdph.schema import CaseError
 from sdph.study.explain import estimate
 from sdph.study.stress import suite
-from sdph.study.stress.measures import Extremes
+from sdph.study.stress.measures import Extremes, Measures
 
 FAST = [hard.name for hard in suite.chosen([], True)]
 PAST_LIMIT = (
@@ -153,3 +155,14 @@ def test_names_of_which_none_is_fast_are_refused():
 def test_what_map_and_faults_take_no_notice_of_is_refused(options, capsys):
     assert cli.main(["stress", *options]) == 2
     assert "is not of single hard cases" in capsys.readouterr().err
+
+
+def test_who_is_outside_is_so_of_a_domain_that_begins_elsewhere():
+    """A wall lies where the domain ends, not at 0 and its size; through a periodic side nobody gets out."""
+    sides = {"walls": {"kind": "wall"}}
+    for periodic, out in (((), 2), (("x",), 0)):
+        case = box(["walls"], (0.06, 0.06), 0.3, periodic, boundaries=sides, fill=(0.06, 0.06))
+        domain = dataclasses.replace(case.domain, lower=(-0.03, 0.0)) if not periodic else case.domain
+        low, high = domain.corner[0], domain.upper[0]
+        state = cloud(np.array([[low - 0.01, 0.03], [low + 0.01, 0.03], [high - 0.01, 0.03], [high + 0.01, 0.03]]))
+        assert Measures(dataclasses.replace(case, domain=domain))._outside(state) == out
