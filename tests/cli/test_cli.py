@@ -227,8 +227,6 @@ def test_wrong_usage_is_code_2_and_one_line(capsys, arguments):
     ("run", "dam_break", "--gas", "embedded"),
     ("run", "disc_cluster", "--gas", "embedded", "--np", "2"),
     ("run", "--resume", "nowhere", "--out", "x"),
-    ("view", "nowhere", "--movie", "a.gif", "--png", "b.png"),
-    ("view", "nowhere", "--movie", "a.gif", "--time", "1"),
     ("run", "disc_cluster", "--accuracy", "2%", "--set", "resolution.cell_mm=20"),
     ("run", "disc_cluster", "--set", "particles.disc.volume_fraction=0.9"),
     ("run", "bubbling_bed", "--gas", "embedded", "--set", "resolution.cell_mm=40", "--set", "resolution.spacing_mm=20",
@@ -236,6 +234,11 @@ def test_wrong_usage_is_code_2_and_one_line(capsys, arguments):
 ])  # fmt: skip
 def test_what_would_do_nothing_or_cannot_be_is_refused_and_leaves_no_folder(refused, arguments):
     refused(*arguments)
+
+
+def test_a_film_takes_no_picture_and_no_time(refused):
+    for more in (("--png", "b.png"), ("--time", "1")):
+        assert "--movie is of all instants" in refused("view", "nowhere", "--movie", "a.gif", *more)
 
 
 def test_run_leaves_a_whole_folder_and_is_not_run_over(tmp_path, refused):

@@ -164,5 +164,6 @@ def test_who_is_outside_is_so_of_a_domain_that_begins_elsewhere():
         case = box(["walls"], (0.06, 0.06), 0.3, periodic, boundaries=sides, fill=(0.06, 0.06))
         domain = dataclasses.replace(case.domain, lower=(-0.03, 0.0)) if not periodic else case.domain
         low, high = domain.corner[0], domain.upper[0]
-        state = cloud(np.array([[low - 0.01, 0.03], [low + 0.01, 0.03], [high - 0.01, 0.03], [high + 0.01, 0.03]]))
+        x = [low - 0.01, low + 0.01, low + 0.02, high - 0.01, high + 0.01]
+        state = cloud(np.stack([x, np.full(5, 0.03)], axis=1))
         assert Measures(dataclasses.replace(case, domain=domain))._outside(state) == out
