@@ -186,8 +186,7 @@ class Flight:
                 asked = self.world.most(wish.number or 0) or None  # one is asked to stop: all are
                 if asked or self._due():
                     self._save()
-                wish.number = asked
-                wish.obey()
+                wish.obey(asked)
             self._save()
         summary = self.out.summary() | {"start_to_first_window_s": self.first, "wall_s": self.spent}
         if self.world.chief:

@@ -48,10 +48,10 @@ class Wish:
         self.rest()
         self.patience = PATIENCE + SHARES * spent
 
-    def obey(self) -> None:
-        """Raise `Stopped` where it was asked for."""
-        if self.number is not None:
-            raise Stopped(self.number)
+    def obey(self, asked: int | None) -> None:
+        """Raise `Stopped` where all processes heard of the signal `asked`; one that came since then is obeyed next."""
+        if asked:
+            raise Stopped(asked)
 
     def rest(self) -> None:
         """Send nothing any more."""

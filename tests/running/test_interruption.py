@@ -5,9 +5,11 @@ import signal
 import time
 
 import pytest
+from test_restart import load
 
-from sdph.running import interruption
+from sdph.running import driver, interruption
 from sdph.running.interruption import Stopped, listening
+from sdph.running.progress import Reporter
 
 
 def test_impatient_it_stops_at_once_and_patient_it_waits():
@@ -19,7 +21,7 @@ def test_impatient_it_stops_at_once_and_patient_it_waits():
         os.kill(os.getpid(), signal.SIGTERM)
         assert wish.number == signal.SIGTERM
         with pytest.raises(Stopped):
-            wish.obey()
+            wish.obey(wish.number)
 
 
 def test_whoever_does_not_obey_is_stopped_all_the_same(monkeypatch):
@@ -54,6 +56,23 @@ def test_whoever_obeys_hears_no_more(monkeypatch):
     time.sleep(0.5)
     signal.signal(signal.SIGTERM, before)
     assert not heard
+
+
+def test_a_signal_while_a_checkpoint_is_written_is_not_lost(tmp_path, monkeypatch):
+    """The run ends with the window after it."""
+    save, saved = driver.Flight._save, []
+
+    def asked_meanwhile(flight):
+        save(flight)
+        saved.append(flight.simulation.windows)
+        if len(saved) == 2:
+            os.kill(os.getpid(), signal.SIGTERM)
+
+    monkeypatch.setattr(driver.Flight, "_save", asked_meanwhile)
+    case = load("disc_cluster", "embedded", "run.checkpoint_windows=1")
+    with pytest.raises(Stopped):
+        driver.run(case, "disc_cluster", tmp_path / "run", None, Reporter(quiet=True))
+    assert saved == [0, 1, 2]
 
 
 def test_where_it_would_be_lost_it_comes_again():
