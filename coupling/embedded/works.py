@@ -86,7 +86,19 @@ def viscous_work(box: Box, old: Flow, flow: Flow, rubbed: np.ndarray) -> float:
 def through_motion(box: Box, old: Flow, flow: Flow, dt: float) -> tuple[float, float]:
     """Kinetic energy that came in through the boundary in a window of dt [s], and the work of gravity in it [J]."""
     cells, faces, after, gravity = box.grid.cells, box.faces, inside(box, flow), box.gravity
-    squared = after[faces.axis, faces.face] ** 2
-    came = -dt * float((box.outward(flow.flux) * 0.5 * squared).sum())
+    outward = box.outward(flow.flux)
+    squared = after[faces.axis, faces.face] ** 2 + _along(box, after, outward < 0.0)
+    came = -dt * float((outward * 0.5 * squared).sum())
     mean = 0.5 * (inside(box, old) + after)
     return came, dt * float(flow.mass[cells] @ on_both_faces(box, lambda a, face: gravity[a] * mean[a, face]))
+
+
+def _along(box: Box, velocity: np.ndarray, enters: np.ndarray) -> np.ndarray:
+    """(B,) [m2/s2] square of the velocity along each boundary face that gas takes through it: that of the boundary
+    where it `enters` through one that clings, else that of the cell."""
+    faces, found = box.faces, np.zeros(len(box.faces.cell))
+    for b, step in enumerate(box.grid.strides):
+        own = 0.5 * (velocity[b, faces.cell] ** 2 + velocity[b, faces.cell + step] ** 2)
+        given = np.where(enters & faces.clings, faces.velocity[:, b] ** 2, own)
+        found += np.where(faces.axis == b, 0.0, given)
+    return found

@@ -98,9 +98,14 @@ def moving(case) -> bool:
 
 
 def limits(parameters, case, state) -> dict[str, float]:
-    """Longest sub-step [s] that each effect that is on bears with the particles as they are, where there is one."""
-    found = {name: REGISTRY[name].dt_limit(parameters[name], case, state) for name in case.effects}
-    return {name: limit for name, limit in found.items() if limit != NO_LIMIT}
+    """Longest sub-step [s] that each effect that is on bears with the particles as they are; NO_LIMIT where there is
+    none, so that processes that share a run tell of the same ones."""
+    return {name: REGISTRY[name].dt_limit(parameters[name], case, state) for name in case.effects}
+
+
+def finite(limits: dict[str, float]) -> dict[str, float]:
+    """Limits without those that are none."""
+    return {name: limit for name, limit in limits.items() if limit != NO_LIMIT}
 
 
 def arrays(case) -> set[str]:

@@ -92,8 +92,8 @@ def diffusive_limit(h: float, diffusivity: float) -> float:
 
 
 class Live:
-    """A state as limits are asked of it in a run: `most` has the largest diffusivities [m2/s], by effect, that a loop
-    has found there already."""
+    """A state as limits are asked of it: `most` has the largest diffusivities [m2/s], or paces [m/s], by effect, that
+    are known of it already."""
 
     def __init__(self, state, most: dict[str, float]):
         self.state, self.most = state, most
@@ -103,7 +103,7 @@ class Live:
 
 
 def found(state, name: str) -> float | None:
-    """Largest diffusivity [m2/s] of an effect that is known of a state already."""
+    """Largest diffusivity [m2/s], or pace [m/s], of an effect that is known of a state already."""
     return state.most.get(name) if isinstance(state, Live) else None
 
 

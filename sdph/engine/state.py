@@ -59,6 +59,8 @@ class State(NamedTuple):
     eddy_y: np.ndarray
     eddy_z: np.ndarray
     wall_age: np.ndarray
+    begun_temperature: np.ndarray
+    warming: np.ndarray
     received: np.ndarray
     exchanged: np.ndarray
     viscosity: np.ndarray
@@ -129,6 +131,8 @@ FIELDS = {
     "weber": ("1", "Weber number of the radius in the last window"),
     **{f"eddy_{a}": ("1", "velocity of the eddy that it is in, over the mean fluctuation") for a in "xyz"},
     "wall_age": ("s", "time that it has been beside a wall that heats it; 0 elsewhere"),
+    "begun_temperature": ("K", "temperature when the window began, of a gel droplet"),
+    "warming": ("K/s", "rate of its temperature in the last window but for what its bubble took"),
     "received": ("W", "heat from the gas in the last window"),
     "exchanged": ("1", "1 if it was in the gas in the last window"),
     "viscosity": ("Pa s", "viscosity of a liquid where it is not the same everywhere"),

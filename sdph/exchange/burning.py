@@ -35,7 +35,7 @@ class Burning:
         self.case, self.p, self.sizes_p, self.cells = case, p, sizes_p, cells
         self.richest = reaction.richest(case)
 
-    def lose(self, state, weights, gas_state, seen, convection, conductance, dt, thrown) -> Loss:
+    def lose(self, state, weights, gas_state, seen, beside, convection, conductance, dt, thrown) -> Loss:
         """Burn-off in a window; the heat conductance (N,) [W/K] becomes the mean over it, as of grains that shrink."""
         count = len(state.x)
         slow, stripped = np.empty(count), np.empty(count)

@@ -32,15 +32,17 @@ CLOSE, TRIES = 1e-12, 60
 class Balance(NamedTuple):
     """Linearised balance of heat of a particle in a window of dt [s].
 
-    Driving force `now` [kg/m3] and its slope [kg/m3/K] with the particle's temperature [K]; that of the gas;
-    conductance to it [W/K], of which vapour may hold back the part `hindered`; heat capacity [J/K]; heat that
-    evaporation takes [W m3/kg], and z of `sdph.laws.evaporation.heat_share` [m3/kg], both over the force.
+    Driving force `now` [kg/m3] and its slope [kg/m3/K] with the particle's temperature [K]; that of the gas; heat [W]
+    that comes beside what the gas gives; conductance to the gas [W/K], of which vapour may hold back the part
+    `hindered`; heat capacity [J/K]; heat that evaporation takes [W m3/kg], and z of `sdph.laws.evaporation.heat_share`
+    [m3/kg], both over the force.
     """
 
     now: float
     slope: float
     temperature: float
     gas_temperature: float
+    beside: float
     conductance: float
     hindered: float
     capacity: float
@@ -84,27 +86,31 @@ def is_sealed(s, i):
 
 
 @serial
-def active_time(p, s, i, conductance, gas_temperature, dt):
-    """Time [s] of the window in which particle i evaporates: from when it reaches the onset, as it warms up."""
+def active_time(p, s, i, conductance, gas_temperature, beside, dt):
+    """Time [s] of the window in which particle i evaporates: from when it reaches the onset, as it warms up; beside [W]
+    comes to it beside what the gas gives."""
     if is_sealed(s, i):
         return 0.0
     if s.temperature[i] >= p.onset_temperature or (p.onset == 0 and s.evaporating[i] > 0.0):
         return dt
-    if gas_temperature <= p.onset_temperature or conductance == 0.0:
-        return 0.0
     capacity = s.mass[i] * p.grain_heat_capacity
-    missing = (gas_temperature - s.temperature[i]) / (gas_temperature - p.onset_temperature)
+    if conductance == 0.0:
+        return max(0.0, dt - capacity / beside * (p.onset_temperature - s.temperature[i])) if beside > 0.0 else 0.0
+    goal = gas_temperature + beside / conductance
+    if goal <= p.onset_temperature:
+        return 0.0
+    missing = (goal - s.temperature[i]) / (goal - p.onset_temperature)
     return max(0.0, dt - capacity / conductance * math.log(missing))
 
 
 @parallel
-def survey(p, sizes_p, s, slip, gas_density, gas_temperature, dt, conductance, flow, surface):
+def survey(p, sizes_p, s, slip, gas_density, gas_temperature, beside, dt, conductance, flow, surface):
     """Look, before the losses, at gas [m3/s] that the particle exchanges vapour with, averaged over the window, and
     vapour at its surface [kmol/m3]; conductance (N,) [W/K] of heat."""
     for i in prange(len(s.x)):
         flow[i] = surface[i] = 0.0
         if s.kind[i] == GRAIN:
-            time = active_time(p, s, i, conductance[i], gas_temperature[i], dt)
+            time = active_time(p, s, i, conductance[i], gas_temperature[i], beside[i], dt)
             flow[i] = transfer(p, sizes_p, s, i, ventilation(p, slip[i], gas_density[i])) * time / dt
             surface[i] = saturated(p, s.temperature[i], gas_temperature[i])
 
@@ -118,6 +124,7 @@ def losses(
     gas_density,
     gas_temperature,
     concentration,
+    beside,
     dt,
     convection,
     conductance,
@@ -135,11 +142,13 @@ def losses(
     """
     for i in prange(len(s.x)):
         loss[i] = still[i] = moving[i] = refused[i] = rest[i] = 0.0
-        time = active_time(p, s, i, conductance[i], gas_temperature[i], dt) if s.kind[i] == GRAIN else 0.0
+        if s.kind[i] != GRAIN:
+            continue
+        time = active_time(p, s, i, conductance[i], gas_temperature[i], beside[i], dt)
         if time > 0.0:
             c = ventilation(p, slip[i], gas_density[i])
             rate = transfer(p, sizes_p, s, i, c)
-            around = gas_density[i], gas_temperature[i], concentration[i]
+            around = gas_density[i], gas_temperature[i], concentration[i], beside[i]
             balance = balance_of(p, sizes_p, s, i, rate, c, around, time, dt, convection[i], conductance[i])
             force = window_force(p, balance)
             refused[i] = max(0.0, -force) * rate * time
@@ -158,7 +167,7 @@ def rates(p, sizes_p, s, slip, gas_density, gas_temperature, concentration, rate
     """rate (N,) [kg/s] at which each particle evaporates now."""
     for i in prange(len(s.x)):
         rate[i] = 0.0
-        if s.kind[i] == GRAIN and active_time(p, s, i, 0.0, gas_temperature[i], 1.0) > 0.0:
+        if s.kind[i] == GRAIN and active_time(p, s, i, 0.0, gas_temperature[i], 0.0, 1.0) > 0.0:
             force = driving_force(p, s.temperature[i], concentration[i], gas_temperature[i], gas_density[i])
             rate[i] = max(0.0, force) * transfer(p, sizes_p, s, i, ventilation(p, slip[i], gas_density[i]))
 
@@ -173,8 +182,8 @@ def shrinkage(loss, unshrunk):
 @serial
 def balance_of(p, sizes_p, s, i, rate, c, around, time, dt, convection, conductance):
     """Balance of heat of particle i, which evaporates for `time` of dt [s]; `around`: density [kg/m3], temperature [K]
-    and vapour [kmol/m3] of the gas."""
-    gas_density, gas_temperature, concentration = around
+    and vapour [kmol/m3] of the gas, and what comes beside it [W]."""
+    gas_density, gas_temperature, concentration, beside = around
     temperature = s.temperature[i]
     now = driving_force(p, temperature, concentration, gas_temperature, gas_density)
     slope = max(0.0, slope_of(p, temperature, concentration, gas_temperature, gas_density, now))
@@ -186,7 +195,7 @@ def balance_of(p, sizes_p, s, i, rate, c, around, time, dt, convection, conducta
     hindered = convection * share * (time / dt)
     blowing = p.blowing * rate / convection if convection > 0.0 else 0.0
     return Balance(
-        now, slope, temperature, gas_temperature, conductance * share, hindered, capacity, latent, blowing, dt
+        now, slope, temperature, gas_temperature, beside, conductance * share, hindered, capacity, latent, blowing, dt
     )
 
 
@@ -227,9 +236,13 @@ def force_by(p, balance, without):
     """Driving force [kg/m3] at the mean temperature of the window if vapour holds back the share `without`."""
     b = balance
     warmth = b.conductance - b.hindered * without
-    power = warmth * (b.gas_temperature - b.temperature) - b.latent * max(0.0, b.now)
+    power = warmth * (b.gas_temperature - b.temperature) + b.beside - b.latent * max(0.0, b.now)
     force = b.now + b.slope * mean_rise(power, warmth + b.latent * b.slope, b.capacity, b.dt)
-    held = boiling_force(p, b.temperature, b.gas_temperature, warmth, b.capacity, b.latent, force, b.dt)
+    if b.latent == 0.0 or p.boiling_temperature == math.inf:
+        return force
+    held = law.boiling_force(
+        b.temperature, b.gas_temperature, b.beside, p.boiling_temperature, warmth, b.capacity, b.latent, force, b.dt
+    )
     return max(force, held)
 
 
@@ -247,14 +260,6 @@ def held(p, s, gas_density, gas_temperature, concentration, flat, boiling):
         now = driving_force(p, s.temperature[i], concentration[i], gas_temperature[i], gas_density[i])
         flat[i] = slope_of(p, s.temperature[i], concentration[i], gas_temperature[i], gas_density[i], now) < 0.0
         boiling[i] = past_boiling(p, s.temperature[i]) and not is_sealed(s, i)
-
-
-@serial
-def boiling_force(p, temperature, gas_temperature, warmth, capacity, latent, force, dt):
-    """Driving force [kg/m3] that holds the end of the window at the boiling temperature; `force` if it stays below."""
-    if latent == 0.0 or gas_temperature <= p.boiling_temperature:
-        return force
-    return law.boiling_force(temperature, gas_temperature, p.boiling_temperature, warmth, capacity, latent, force, dt)
 
 
 @parallel

@@ -86,7 +86,9 @@ class Exchange:
         against = pulls.ahead(self.case, self.parameters, state, (damping, force), dt, against)
         loss = None
         if self.losing:
-            loss = self.losing.lose(state, weights, gas_state, seen, convection, conductance, dt, thrown)
+            rise = self._radiated(state, state.temperature, dt) - state.temperature
+            beside = rise * state.mass * capacity_of(self.case, state) / dt  # W
+            loss = self.losing.lose(state, weights, gas_state, seen, beside, convection, conductance, dt, thrown)
         kept = state.mass - loss.mass if loss else state.mass
         power = self.losing.power(loss, dt) if loss else OFF
         gone = kept == 0.0 if loss and len(force) else np.zeros(len(force), bool)

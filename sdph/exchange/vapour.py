@@ -43,10 +43,10 @@ class Vapour:
     def __init__(self, case, p, sizes_p, cells):
         self.case, self.p, self.sizes_p, self.cells = case, p, sizes_p, cells
 
-    def lose(self, state, weights, gas_state, seen, convection, conductance, dt, thrown) -> Loss:
-        """Evaporation in a window; the heat conductance (N,) [W/K], of which convection (N,) is the part that flowing
-        vapour hinders, becomes the mean over it. The state is that after
-        torn droplets have `thrown` their vapour, where there are any.
+    def lose(self, state, weights, gas_state, seen, beside, convection, conductance, dt, thrown) -> Loss:
+        """Evaporation in a window in which `beside` (N,) [W] comes beside what the gas gives; the heat conductance (N,)
+        [W/K], of which convection (N,) is the part that flowing vapour hinders, becomes the mean over it. The state is
+        that after torn droplets have `thrown` their vapour, where there are any.
 
         Vapour and temperature in each cell are taken as they would be at the window's end if no flow carried them: fast
         exchange saturates a cell, or cools it to the droplets, and does not overshoot.
@@ -56,7 +56,7 @@ class Vapour:
         if not self.case.coupling.one_way:
             seen = self._cooled(state, weights, gas_state, seen, conductance * dt)
         around = seen.slip, self.density(state, seen), seen.temperature
-        droplet_loss.survey(p, self.sizes_p, state, *around, dt, conductance, flow, surface)
+        droplet_loss.survey(p, self.sizes_p, state, *around, beside, dt, conductance, flow, surface)
         concentration = gather(weights, vapour_concentration(p, gas_state))
         if not self.case.coupling.one_way:
             evaporating = surface > concentration
@@ -73,6 +73,7 @@ class Vapour:
             state,
             *around,
             concentration,
+            beside,
             dt,
             convection,
             conductance,

@@ -169,18 +169,20 @@ def regression_rate(driving_force, diffusivity, density):
 
 @law
 def boiling_force(
-    temperature, gas_temperature, boiling_temperature, conductance, capacity, latent_power, driving_force, dt
+    temperature, gas_temperature, beside, boiling_temperature, conductance, capacity, latent_power, driving_force, dt
 ):
     """F [kg/m3] that holds the end of dt [s] at the boiling temperature [K]; `driving_force` if it stays below.
 
-    A drop of `capacity` [J/K] takes conductance (T_g - T) [W] and gives latent_power F; latent_power [W m3/kg].
+    A drop of `capacity` [J/K] takes conductance (T_g - T) + beside [W] and gives latent_power F; latent_power
+    [W m3/kg].
     """
     if conductance * dt <= SHORT * capacity:
-        excess = conductance * (gas_temperature - temperature) + capacity / dt * (temperature - boiling_temperature)
-        return max(driving_force, excess / latent_power)
+        stored = capacity / dt * (temperature - boiling_temperature)
+        return max(driving_force, (conductance * (gas_temperature - temperature) + beside + stored) / latent_power)
     fraction = -math.expm1(-conductance * dt / capacity)
     cooling = latent_power * max(0.0, driving_force) / conductance
-    end = temperature + (gas_temperature - temperature - cooling) * fraction
+    pull = gas_temperature - temperature + beside / conductance
+    end = temperature + (pull - cooling) * fraction
     if end <= boiling_temperature:
         return driving_force
-    return conductance / latent_power * (gas_temperature - temperature - (boiling_temperature - temperature) / fraction)
+    return conductance / latent_power * (pull - (boiling_temperature - temperature) / fraction)

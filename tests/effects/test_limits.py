@@ -1,5 +1,6 @@
 """Every effect that is on is asked for its limit before every sub-step, obeyed and named; `explain` tells the same."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -13,7 +14,9 @@ from test_radiation_effect import radiating
 from coupling.embedded import EmbeddedGas
 from sdph import effects, scenes
 from sdph.case import read as cases
+from sdph.engine import state as particles
 from sdph.methods.grains.grains import Grains
+from sdph.methods.grains.method import limits
 from sdph.methods.liquids.method import LiquidStepper
 from sdph.methods.mps.method import MpsStepper
 from sdph.methods.solids.method import SolidStepper
@@ -128,6 +131,17 @@ def stepper_of(case, folder):
 def test_every_effect_is_among_those_asked():
     assert effects.REGISTRY.keys() == {name for _, name in PAIRS}
     assert {name for name, row in effects.REGISTRY.items() if row.window_limit} == WINDOWS.keys()
+
+
+def test_processes_tell_of_the_same_limits():
+    """One without a particle left has no field to bear, and tells of it all the same: they are reduced in order."""
+    case = load("bubbling_bed", "electric_field")
+    own = Grains(case)
+    own.start()
+    with_all, none = own.stepper.own, particles.take(own.stepper.own, np.zeros(len(own.stepper.own.x), bool))
+    found = [limits(case, own.parameters, s, pace, {}) for s, pace in ((with_all, 1.0), (none, 0.0))]
+    assert [*found[0]] == [*found[1]] and found[1]["electric_field"] == found[1]["sound"] == math.inf
+    assert [*effects.finite(found[0])] != [*effects.finite(found[1])]
 
 
 @pytest.mark.parametrize(("scene", "name"), PAIRS)

@@ -96,12 +96,17 @@ def test_rates_of_mass_and_diameter_belong_together(d, force, rho, c):
     assert evaporation.regression_rate(-force, 3.79e-6, rho) == 0.0
 
 
-@given(gas=st.floats(500.0, 2000.0), start=st.floats(300.0, 440.0), relaxations=st.floats(0.01, 20.0))
-def test_at_boiling_a_drop_takes_what_ends_the_step_there(gas, start, relaxations):
-    """m c dT/dt = h (T_g - T) - latent F, solved in closed form, ends at 447 K; short of it nothing changes."""
+@given(
+    gas=st.floats(300.0, 2000.0), start=st.floats(300.0, 460.0), relaxations=st.floats(0.01, 20.0),
+    beside=st.sampled_from([0.0, 0.7, -0.1]),
+)  # fmt: skip
+def test_at_boiling_a_drop_takes_what_ends_the_step_there(gas, start, relaxations, beside):
+    """m c dT/dt = h (T_g - T) + beside - latent F, solved in closed form, ends at 447 K, in gas colder than that too;
+    short of it nothing changes."""
     capacity, conductance, latent = 2e-3, 5e-3, 3.0
     dt = relaxations * capacity / conductance
-    force = evaporation.boiling_force(start, gas, 447.0, conductance, capacity, latent, 0.0, dt)
+    force = evaporation.boiling_force(start, gas, beside, 447.0, conductance, capacity, latent, 0.0, dt)
+    gas += beside / conductance
     held = gas - latent * force / conductance
     end = held + (start - held) * math.exp(-relaxations)
     free = gas + (start - gas) * math.exp(-relaxations)
@@ -112,7 +117,7 @@ def test_at_boiling_a_drop_takes_what_ends_the_step_there(gas, start, relaxation
 @pytest.mark.parametrize("relaxations", [0.0, 1e-12, 0.9e-8, 1.1e-8])
 def test_a_drop_above_boiling_comes_down_to_it_in_a_step_without_heat_too(relaxations):
     """Heat over latent heat, C (T - T_b) and what little comes in, on both sides of where the law takes its limit."""
-    force = evaporation.boiling_force(460.0, 1000.0, 447.0, relaxations * 2e-3 / 0.5, 2e-3, 3.0, 1e-3, 0.5)
+    force = evaporation.boiling_force(460.0, 1000.0, 0.0, 447.0, relaxations * 2e-3 / 0.5, 2e-3, 3.0, 1e-3, 0.5)
     assert force == pytest.approx(2e-3 * (13.0 + relaxations * 540.0) / (3.0 * 0.5), rel=1e-7)
 
 

@@ -123,12 +123,13 @@ def _refuse(case, own: MicroExplosion) -> None:
 
 @parallel
 def advance(own, vapour, plastic, damage, around, s, dt, torn, made):
-    """All through dt [s] of the heat that they received in it: droplets that tear (N,) and droplets made of them (N,).
+    """All through dt [s] of the heat that came to them in it: droplets that tear (N,) and droplets made of them (N,).
 
     `temperature` is that of the window's end as if no bubble took heat.
     """
     for i in prange(len(s.x)):
         torn[i] = made[i] = 0.0
+        s.warming[i] = (s.temperature[i] - s.begun_temperature[i]) / dt
         if s.kind[i] == GRAIN and s.sealed[i] > 0.0 and s.throwing[i] == 0.0:
             wall = grow(own, vapour, plastic, damage, around, s, i, dt)
             if wall > 0.0:
@@ -159,7 +160,7 @@ def grow(own, v, plastic, damage, around, s, i, dt):
     gel = own.density, own.heat_capacity, own.conductivity
     d = swelling.droplet(v, around, own.bubble, own.shell, diameter, *gel, own.flaw)
     number = s.mass[i] * own.heat_capacity / d.capacity
-    power = s.received[i] / number
+    power = s.warming[i] * d.capacity
     left = begin(v, around, s, i, d, power, dt) if s.bubble_void[i] == 0.0 else dt
     if left == 0.0:
         return 0.0
@@ -216,16 +217,17 @@ def swollen(p, state, dt) -> dict[str, float]:
 
 
 def window_limit(p, case, state) -> float:
-    """A part of the time in which a bubble grows to the tear, by the heat of now; no limit where none grows."""
-    growing = (state.bubble_void > 0.0) & (state.received > 0.0)
-    if not growing.any():
+    """A part of the time in which a bubble grows to the tear, by the heat of now, and as long again as a droplet takes
+    to boil; no limit where none warms."""
+    warms = (state.sealed > 0.0) & (state.warming > 0.0)
+    if not warms.any():
         return NO_LIMIT
-    first, *_ = swelling.radii(p.own.bubble, p.own.shell, float(state.diameter[growing].min()))
+    first, *_ = swelling.radii(p.own.bubble, p.own.shell, float(state.diameter[warms].min()))
     curved = cavities.capillary_pressure(p.around.tension, first, swelling.SPHERE)
     torn = real_gas.saturation_temperature(p.vapour, tearing_pressure(p) + curved)
-    rise = torn - swelling.nucleus(p.vapour, p.around, first)
-    warming = state.received[growing] / (state.mass[growing] * p.own.heat_capacity)  # K/s
-    return PART * rise / float(warming.max())
+    boiling = swelling.nucleus(p.vapour, p.around, first)
+    missing = np.maximum(0.0, boiling - state.temperature) * (state.bubble_void == 0.0)  # K
+    return float(((missing + PART * (torn - boiling))[warms] / state.warming[warms]).min())
 
 
 def tearing_temperature(p) -> float:
@@ -260,7 +262,7 @@ EFFECT = Effect(
     parameters=MicroExplosion,
     kernel=kernel,
     arrays=(
-        "temperature", "diameter", "diameter_variance", "received", "exchanged", "born_mass", "born_diameter",
+        "temperature", "begun_temperature", "warming", "diameter", "diameter_variance", "born_mass", "born_diameter",
         "born_variance", "sealed", "throwing", "bubble_void", "bubble_temperature", "bubble_heat", *SHELL, *SPOT,
         "spot_hoop",
     ),

@@ -5,10 +5,14 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from sdph.effects import limiter
-from sdph.effects.effect import Effect, Judgement
+from sdph.effects.effect import NO_LIMIT, Effect, Judgement, found
 from sdph.laws import viscosity
 from sdph.laws.compiled import serial
 from sdph.schema import quantity, record
+
+# of h/(alpha c + beta mu): waves on a lattice decay at up to twice the inverse, so that no step turns them round; our
+# choice (tests/methods/grains/test_artificial_viscosity.py)
+STEP = 0.5
 
 
 @record
@@ -20,11 +24,12 @@ class ArtificialViscosity:
 class ArtificialP(NamedTuple):
     alpha: float
     beta: float
+    h: float  # m
 
 
 def kernel(case) -> ArtificialP:
     own = case.parameters["artificial_viscosity"]
-    return ArtificialP(own.alpha, own.beta)
+    return ArtificialP(own.alpha, own.beta, case.smoothing_length)
 
 
 @serial
@@ -33,6 +38,12 @@ def pair(p, h, approach, r_squared, c_i, c_j, rho_i, rho_j):
     if len(p) == 0:
         return 0.0
     return viscosity.monaghan(approach, r_squared, h, 0.5 * (c_i + c_j), 0.5 * (rho_i + rho_j), p.alpha, p.beta)
+
+
+def dt_limit(p, case, state) -> float:
+    """Sub-step limit [s] of grains whose pace, at least c + 2 v [m/s], is known."""
+    pace = found(state, EFFECT.name)
+    return STEP * p.h / (max(p.alpha, p.beta) * pace) if pace and (p.alpha or p.beta) else NO_LIMIT
 
 
 def call(scales) -> Judgement:
@@ -50,6 +61,7 @@ EFFECT = Effect(
     parameters=ArtificialViscosity,
     kernel=kernel,
     moves=True,
+    dt_limit=dt_limit,
     held=limiter.softened,
     call=call,
 )

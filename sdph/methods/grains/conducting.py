@@ -15,7 +15,7 @@ class Conducting:
         """Grains at rest through a window of `dt` [s]: conduction, and heat from the gas spread evenly."""
         left = dt
         while left > 0.0:
-            step = left / self._parts(left, self.state)
+            step = left / self._parts(left)
             self._warm(step * self._conducted() + step / dt * self.state.warmth / self.state.mass)
             self.steps += 1
             self.guard.sub_step(self)

@@ -10,9 +10,9 @@ import math
 import numpy as np
 
 from sdph import effects
-from sdph.effects import OFF
+from sdph.effects import OFF, finite
 from sdph.effects.around import wall_contact
-from sdph.effects.effect import Live
+from sdph.effects.effect import NO_LIMIT, Live
 from sdph.effects.grains import friction, grain_shifting
 from sdph.engine import arrays, gathered, world
 from sdph.engine import state as particles
@@ -180,11 +180,11 @@ class Stepper(Conducting, Windowed):
         """The next sub-step [s]: what is left of the window, in equal parts."""
         pace, momentum, agitation = self.world.most(np.array(self._constitute())).tolist()
         known = {"granular_viscosity": momentum, "granular_temperature": agitation}
-        return left / self._parts(left, Live(self.own, known), pace)
+        return left / self._parts(left, pace, known)
 
-    def _parts(self, left: float, state, pace: float = 0.0) -> int:
+    def _parts(self, left: float, pace: float = 0.0, known: dict | None = None) -> int:
         """Number of equal sub-steps for `left` [s], none longer than the shortest limit times run.step_factor."""
-        found = self.world.leasts(limits(self.case, self.parameters, state, pace))
+        found = finite(self.world.leasts(limits(self.case, self.parameters, self.own, pace, known or {})))
         self.limit = min(found, key=found.get, default="")
         self.length = self.case.run.step_factor * found.get(self.limit, math.inf)
         return count_of_parts(
@@ -267,7 +267,9 @@ def bounds_of(case) -> tuple[float, ...]:
     return *of_one, max(grains.density for grains in case.kinds), max(grains.diameter for grains in case.kinds)
 
 
-def limits(case, parameters, state, pace: float) -> dict[str, float]:
-    """Longest sub-steps [s] by cause: what each effect bears, and sound of `pace` [m/s] (sdph.methods.grains.sound)."""
-    of_sound = {"sound": sound.limit(case.smoothing_length, pace)} if pace else {}
-    return of_sound | effects.limits(parameters, case, state)
+def limits(case, parameters, state, pace: float, known: dict[str, float]) -> dict[str, float]:
+    """Longest sub-steps [s] by cause, infinite where nothing limits: what each effect bears, and sound of `pace` [m/s]
+    (sdph.methods.grains.sound); `known` of `sdph.effects.effect.Live`."""
+    of_sound = {"sound": sound.limit(case.smoothing_length, pace) if pace else NO_LIMIT}
+    live = Live(state, known | {"artificial_viscosity": pace})
+    return of_sound | effects.limits(parameters, case, live)

@@ -125,7 +125,8 @@ def beyond(s, active, acceleration, most):
 
 
 def limits(case, parameters, state, speed: float, acceleration: float) -> dict[str, float]:
-    """Longest steps [s] by cause: sound of the fastest particle [m/s], force on the most pushed [m/s2], each effect."""
+    """Longest steps [s] by cause: sound of the fastest particle [m/s], force on the most pushed [m/s2], each effect,
+    infinite where it does not limit."""
     h = case.smoothing_length
     own = {"sound": case.liquid.courant * h / (case.fastest_sound + speed)}
     if acceleration:

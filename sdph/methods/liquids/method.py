@@ -150,7 +150,7 @@ class LiquidStepper:
         found = limits(self.case, self.p, self.state, math.sqrt(speed), math.sqrt(force))
         if self.bodies:
             found |= self.bodies.limits(self.state)
-        found = self.world.leasts(found)
+        found = effects.finite(self.world.leasts(found))
         self.limit = min(found, key=found.get)
         longest = self.case.run.step_factor * found[self.limit]
         return left / count_of_parts(

@@ -266,4 +266,4 @@ def limits(case, parameters, state, relative: float) -> dict[str, float]:
         own["sound"] = compressible.COURANT * unit / sound
     if case.method.of_pools(case) and (speed := alone.fastest(state)):
         own["motion"] = COURANT * unit / math.sqrt(speed)
-    return own | effects.limits(parameters, case, state)
+    return own | effects.finite(effects.limits(parameters, case, state))

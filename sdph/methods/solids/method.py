@@ -233,4 +233,4 @@ def limits(stepper) -> dict[str, float]:
     found = {"waves": case.solid.courant * case.smoothing_length * stretch / start.sound(case)}
     if stepper.springs or len(stepper.touching.pairs) or stepper.sides.near(stepper.state):
         found["contact"] = stepper.touching.contact.limit(float(stepper.state.mass.min()))
-    return found | effects.limits(stepper.p, case, stepper.state)
+    return found | effects.finite(effects.limits(stepper.p, case, stepper.state))

@@ -110,7 +110,7 @@ def warnings(s) -> list[str]:
 def limits(s) -> list[dict]:
     """Largest step [s] by cause, before run.step_factor."""
     parameters = {name: effects.kernel_of(effects.REGISTRY[name], s.case) for name in s.case.effects}
-    found = limits_of_step(s.case, parameters, s.state, s.speed, sum(s.pull) + s.shaken)
+    found = effects.finite(limits_of_step(s.case, parameters, s.state, s.speed, sum(s.pull) + s.shaken))
     least = min(found.values())
     return [{"cause": k, "largest [s]": v, "rules": "<-" if v == least else ""} for k, v in found.items()]
 

@@ -201,7 +201,7 @@ def sub_steps(case, s, state, come_down: bool = True) -> dict[str, float]:
     """Longest sub-steps [s] by cause, before run.step_factor, once grains have `come_down` or before
     (`coming_down`)."""
     pace = fastest(case, s, come_down) if effects.moving(case) else 0.0
-    return limits_of_step(case, parameters(case), state, pace)
+    return effects.finite(limits_of_step(case, parameters(case), state, pace, {}))
 
 
 def fastest(case, s, come_down: bool) -> float:

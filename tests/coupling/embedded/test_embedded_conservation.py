@@ -5,9 +5,10 @@ import re
 
 import numpy as np
 import pytest
-from gas_cases import OIL, SIDES, gas_case, gas_of
+from gas_cases import OIL, SIDES, gas_case, gas_of, set_flow
 
 from coupling.embedded import EmbeddedGas
+from coupling.embedded.works import through_motion
 from coupling.gas import SOURCES, Gas, GasError, Unfinished
 from sdph.case.read import CaseError
 
@@ -276,3 +277,24 @@ def test_a_window_that_is_refused_leaves_the_gas_where_it_was():
     with pytest.raises(Unfinished, match="over-packed"):
         gas.advance(1e-3, {"alpha_g": np.full(64, -0.1)})
     assert gas.retreat() is now
+
+
+def test_motion_along_a_boundary_comes_in_and_leaves_with_the_gas():
+    """Of an inlet that blows at an angle, and of gas that turns on its way out: m' u^2/2 with both of its parts."""
+    boundaries = {
+        "feed": {"kind": "velocity_inlet", "side": "bottom", "velocity_m_s": [1.0, 5.0]},
+        "out": {"kind": "pressure_outlet", "side": "top"},
+        "sides": {"kind": "slip_wall"},
+    }
+    gas = gas_of((0.4, 0.4), 4, boundaries=boundaries)
+    gas.start(None, (), ())
+    set_flow(gas, velocity=lambda a, x, y: 5.0 + 0.0 * x if a else 30.0 * x)
+    came, _ = through_motion(gas.box, gas.flow, gas.flow, 0.01)
+    faces, outward = gas.box.faces, gas.box.outward(gas.flow.flux)
+    top = (faces.axis == 1) & (faces.sign > 0.0)
+    middle = faces.middle[top, 0]
+    ends = [np.where(edge < 0.39, 30.0 * edge, 0.0) for edge in (middle - 0.05, middle + 0.05)]
+    leaves = outward[top] @ (0.5 * 25.0 + 0.25 * (ends[0] ** 2 + ends[1] ** 2))
+    enters = -outward[outward < 0.0].sum() * 0.5 * 26.0
+    assert came == pytest.approx(0.01 * (enters - leaves), rel=1e-12)
+    gas.close()

@@ -56,8 +56,8 @@ def table(*on, end=END, alpha_p=1e-6, std=0.0, **more):
     return found
 
 
-def bursting_case(**more):
-    return cases.from_table(table("micro_explosion", **more))
+def bursting_case(on=(), **more):
+    return cases.from_table(table("micro_explosion", *on, **more))
 
 
 def started(case, folder):
@@ -162,15 +162,39 @@ def test_a_torn_droplet_that_is_cold_throws_nothing_and_is_open(tmp_path):
 
 
 def test_windows_follow_bubbles_that_grow(tmp_path):
-    """None without a bubble; with one a twentieth of the time in which it comes from boiling to tearing."""
+    """None without heat; with a bubble a twentieth of the time in which it comes from boiling to tearing, before it as
+    long again as it takes to boil."""
     run = started(bursting_case(), tmp_path)
     limits = effects.window_limits(run.parameters, run.case, run.state)
     assert limits["micro_explosion"] == math.inf
     p, s = run.parameters["micro_explosion"], run.state
-    s.bubble_void[:], s.received[:] = 1e-14, 7.0
+    s.bubble_void[:], s.warming[:] = 1e-14, 7.0
     found = effects.window_limits(run.parameters, run.case, run.state)["micro_explosion"]
     rise = micro_explosion.tearing_temperature(p) - p.own.boiling
-    assert found == pytest.approx(0.05 * rise * 5000.0 * s.mass[0] / 7.0, rel=0.05)  # but for surface tension
+    assert found == pytest.approx(0.05 * rise / 7.0, rel=0.05)  # but for surface tension
+    s.bubble_void[:] = 0.0
+    first = effects.window_limits(run.parameters, run.case, run.state)["micro_explosion"]
+    assert first - found == pytest.approx((p.own.boiling - 300.0) / 7.0, rel=0.02)  # the same
+
+
+def test_heat_of_radiation_swells_a_bubble_too(tmp_path):
+    """In gas too cold to boil anything, a shell tears by the heat of its surroundings; windows follow it, and give the
+    time of the tear."""
+    times = []
+    for window in (WINDOW, 0.25 * WINDOW):
+        hot = bursting_case(
+            on=("radiation",), gas={"temperature_K": 300.0},
+            radiation={"emissivity": 1.0, "surroundings_temperature_K": 3000.0},
+            coupling={"window_largest_s": window}, end=0.08,
+        )  # fmt: skip
+        folder = tmp_path / str(window)
+        folder.mkdir()
+        run = started(hot, folder)
+        while run.ledger.sums["torn_droplets"] == 0.0 and run.time < hot.run.end_time:
+            run.window()
+        assert run.clock.limit == "micro_explosion"
+        times.append(run.time)
+    assert times[0] == pytest.approx(times[1], rel=0.01) and times[0] < 0.08
 
 
 @pytest.mark.parametrize(("yields", "diameter"), [(2e4, 0.02), (5e3, 0.05)])
@@ -178,7 +202,7 @@ def test_a_soft_shell_asks_for_no_window_below_0(tmp_path, yields, diameter):
     """A small bubble boils hotter than such a shell bears, and tears it hotter still: both feel surface tension."""
     soft = {"micro_explosion": {"yield_stress_Pa": yields}, "grains": {"diameter_mm": diameter}}
     run = started(bursting_case(**soft), tmp_path)
-    run.state.bubble_void[:], run.state.received[:] = 1e-14, 7.0
+    run.state.bubble_void[:], run.state.warming[:] = 1e-14, 7.0
     assert effects.window_limits(run.parameters, run.case, run.state)["micro_explosion"] > 0.0
 
 
