@@ -203,7 +203,7 @@ def _run_options(parser) -> None:
     parser.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: openfoam where it is)")
     parser.add_argument("--transport", choices=("socket", "file"), help="how fields travel to OpenFOAM")
     parser.add_argument("--np", type=int, help="MPI ranks of the gas solver")
-    parser.add_argument("--ranks", type=count, metavar="N", help="processes that share the particles (liquids)")
+    parser.add_argument("--ranks", type=count, metavar="N", help="processes that share the particles")
     parser.add_argument("--device", choices=("cpu", "cuda"), help="where loops over particles run (default: cpu)")
     _code_option(parser)
     parser.add_argument(

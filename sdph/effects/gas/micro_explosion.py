@@ -129,7 +129,6 @@ def advance(own, vapour, plastic, damage, around, s, dt, torn, made):
     """
     for i in prange(len(s.x)):
         torn[i] = made[i] = 0.0
-        s.warming[i] = (s.temperature[i] - s.begun_temperature[i]) / dt
         if s.kind[i] == GRAIN and s.sealed[i] > 0.0 and s.throwing[i] == 0.0:
             wall = grow(own, vapour, plastic, damage, around, s, i, dt)
             if wall > 0.0:
@@ -212,6 +211,7 @@ def swollen(p, state, dt) -> dict[str, float]:
     """Grow the bubbles of the particles through a window of dt [s]; ledger columns of what tears: droplets, and
     droplets made of them."""
     torn, made = np.empty(len(state.x)), np.empty(len(state.x))
+    state.warming[:] = (state.temperature - state.begun_temperature) / dt
     advance(*p, state, dt, torn, made)
     return {"torn_droplets": float(torn.sum()), "made_droplets": float(made.sum())}
 
