@@ -65,7 +65,7 @@ def table(made: dict, misses: bool) -> str:
     """When a record was made, and its checks."""
     checks = [check for check in made["checks"] if not check["ok"] or not (misses or "balances: " in check["name"])]
     missed = sum(not check["ok"] for check in made["checks"])
-    about = f"Recorded {made['date']} (commit {made['commit']}, gas {made['gas']}): {missed} of {len(made['checks'])} miss"
+    about = f"Recorded {made['date']} (commit {made['commit']}, gas {made['gas']}): {missed} of {len(made['checks'])} checks miss"
     left_out = "those that hold are not shown" if misses else "balances that hold are not shown"
     return "\n".join([f"{about}, {left_out}.", "", HEAD, *(row(check, made["scene"]) for check in checks), ""])
 
