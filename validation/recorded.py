@@ -6,7 +6,8 @@ Between `<!-- recorded: SCENE -->` and the mark of its end stands a table of the
 that hold; with `<!-- recorded: SCENE, misses -->` one of those that miss. A number in a text is followed by where it is
 from, a record and the end of a check's name, and keeps its digits: `0.1018<!-- bubbling_bed: centroid at 0.20 s [m] -->`.
 What is not the check's value is named behind a semicolon: `reference`, `bar`, `difference` or `off` (in %), and a factor
-(`; reference x 1000`). In the place of a check stand counts: `held` of those that were `judged`, and `reported` ones.
+(`; reference x 1000`). In the place of a check stand counts: `held` of those that were `judged`, and `reported` ones. In
+the place of a number `**missed**` or `held` is the check's verdict.
 """
 
 from __future__ import annotations
@@ -22,8 +23,9 @@ RECORDS = ROOT / "validation" / "record"
 HEAD = "| check | measured | reference | bar | |\n|--|--|--|--|--|"
 END = "<!-- end of what is recorded -->"
 TABLE = re.compile(rf"(?P<mark><!-- recorded: (?P<scene>\w+)(?P<misses>, misses)? -->\n).*?{END}", re.DOTALL)
+MISSED, HELD = "**missed**", "held"
 NUMBER = re.compile(
-    r"(?P<told>[-+]?\d+(?:\.\d+)?(?:e-?\d+)?)"
+    rf"(?P<told>[-+]?\d+(?:\.\d+)?(?:e-?\d+)?|{re.escape(MISSED)}|{HELD})"
     r"(?P<mark><!-- (?P<scene>\w+): (?P<check>[^;]+?)(?:; (?P<which>[a-z]+)(?: x (?P<factor>[\d.e-]+))?)? -->)"
 )
 NUMBERS = {
@@ -73,9 +75,16 @@ def table(made: dict, misses: bool) -> str:
 def row(check: dict, scene: str) -> str:
     """A line of a table."""
     name = check["name"].removeprefix(f"{scene}, ").removeprefix("exact: ").replace("|", "\\|")
-    numbers = (check["value"], check["reference"], check["tolerance"])
-    cells = ("" if number is None else f"{number:.5g}" for number in numbers)
-    return f"| {name} | {' | '.join(cells)} | {'' if check['ok'] else '**missed**'} |"
+    cells = (_short(check["value"], 5), _short(check["reference"], 5), _short(check["tolerance"], 3))
+    return f"| {name} | {' | '.join(cells)} | {'' if check['ok'] else MISSED} |"
+
+
+def _short(number: float | None, digits: int) -> str:
+    """A number in a table; nothing where there is none."""
+    if number is None:
+        return ""
+    text = f"{number:.{digits}g}"
+    return f"{number:.0f}" if "e+" in text else text
 
 
 def _number(match: re.Match) -> str:
@@ -85,6 +94,8 @@ def _number(match: re.Match) -> str:
     found = [check for check in checks if check["name"].endswith(name)]
     if len(found) != 1:
         raise ValueError(f"{match['scene']}: {len(found)} checks end with {name!r}: {[c['name'] for c in found][:3]}")
+    if match["told"] in (MISSED, HELD):
+        return (HELD if found[0]["ok"] else MISSED) + match["mark"]
     signed = match["told"][0] == "+" or (match["told"][0] == "-" and which in ("difference", "off"))
     return alike(NUMBERS[which](found[0]) * float(match["factor"] or 1.0), match["told"], signed) + match["mark"]
 

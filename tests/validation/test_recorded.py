@@ -57,6 +57,11 @@ def test_a_table_has_misses_and_no_balance_that_holds(of_one):
     assert of_one.filled(made) == made
 
 
+def test_large_numbers_of_a_table_stand_as_they_are(recorded):
+    check = {"name": "p [Pa]", "value": 151_234.5678, "reference": 1.5e5, "tolerance": 7512.3, "ok": True}
+    assert recorded.row(check, "one") == "| p [Pa] | 151235 | 150000 | 7512 |  |"
+
+
 def test_a_table_of_misses_has_no_others(of_one):
     made = of_one.filled(f"<!-- recorded: one, misses -->\n{of_one.END}\n")
     assert made.count("**missed**") == 2 and "sum m" not in made
@@ -67,7 +72,8 @@ def test_a_table_of_misses_has_no_others(of_one):
     [("9.9", "width [m]; value x 1000", "12.2"), ("10.0", "exact: width [m]; reference x 1000", "10.0"),
      ("+43", "width [m]; off", "+22"), ("-62.1", "width [m]; off", "+21.6"), ("0.00", "width [m]; bar", "0.00"),
      ("0.001", "width [m]; difference", "0.002"), ("3e-12", "|v|", "1e-11"), ("9.99e-9", "|v|", "1.25e-11"),
-     ("7", "held", "1"), ("7", "judged", "3"), ("7", "reported", "1")],
+     ("7", "held", "1"), ("7", "judged", "3"), ("7", "reported", "1"),
+     ("held", "width [m]", "**missed**"), ("**missed**", "mass", "held"), ("held", "mass", "held")],
 )  # fmt: skip
 def test_a_number_is_that_of_its_check_to_the_digits_told(told, where, right, of_one):
     assert of_one.filled(f"is {told}<!-- one: {where} --> g") == f"is {right}<!-- one: {where} --> g"
