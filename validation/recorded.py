@@ -4,10 +4,10 @@
 
 Between `<!-- recorded: SCENE -->` and the mark of its end stands a table of the checks of that record, without balances
 that hold; with `<!-- recorded: SCENE, misses -->` one of those that miss. A number in a text is followed by where it is
-from, a record and the end of a check's name, and keeps its digits: `0.1018<!-- bubbling_bed: centroid at 0.20 s [m] -->`.
-What is not the check's value is named behind a semicolon: `reference`, `bar`, `difference` or `off` (in %), and a factor
-(`; reference x 1000`). In the place of a check stand counts: `held` of those that were `judged`, and `reported` ones. In
-the place of a number `**missed**` or `held` is the check's verdict.
+from, a record and the end of a check's name: `0.102<!-- bubbling_bed: centroid at 0.20 s [m] -->`. It keeps its digits.
+What is not the check's value is named behind a semicolon, `reference`, `bar`, `difference` or `off` (in %), and a
+factor: `; reference x 1000`. In the place of a check may stand a count, `held` of those that were `judged` or
+`reported`; in the place of a number the check's verdict, `**missed**` or `held`.
 """
 
 from __future__ import annotations
@@ -67,9 +67,11 @@ def table(made: dict, misses: bool) -> str:
     """When a record was made, and its checks."""
     checks = [check for check in made["checks"] if not check["ok"] or not (misses or "balances: " in check["name"])]
     missed = sum(not check["ok"] for check in made["checks"])
-    about = f"Recorded {made['date']} (commit {made['commit']}, gas {made['gas']}): {missed} of {len(made['checks'])} checks miss"
-    left_out = "those that hold are not shown" if misses else "balances that hold are not shown"
-    return "\n".join([f"{about}, {left_out}.", "", HEAD, *(row(check, made["scene"]) for check in checks), ""])
+    made_by = f"Recorded {made['date']} (commit {made['commit']}, gas {made['gas']})"
+    about = (
+        f"{missed} of {len(made['checks'])} checks miss, {'those' if misses else 'balances'} that hold are not shown"
+    )
+    return "\n".join([f"{made_by}: {about}.", "", HEAD, *(row(check, made["scene"]) for check in checks), ""])
 
 
 def row(check: dict, scene: str) -> str:
