@@ -64,13 +64,12 @@ def filled(text: str) -> str:
 
 
 def table(made: dict, misses: bool) -> str:
-    """When a record was made, and its checks."""
+    """A line that says when a record was made, and a table of its checks."""
     checks = [check for check in made["checks"] if not check["ok"] or not (misses or "balances: " in check["name"])]
     missed = sum(not check["ok"] for check in made["checks"])
     made_by = f"Recorded {made['date']} (commit {made['commit']}, gas {made['gas']})"
-    about = (
-        f"{missed} of {len(made['checks'])} checks miss, {'those' if misses else 'balances'} that hold are not shown"
-    )
+    left_out = "those" if misses else "balances"
+    about = f"{len(made['checks'])} checks, {missed} missed; {left_out} that hold are not shown"
     return "\n".join([f"{made_by}: {about}.", "", HEAD, *(row(check, made["scene"]) for check in checks), ""])
 
 

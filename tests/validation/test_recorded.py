@@ -51,7 +51,7 @@ def test_a_table_has_misses_and_no_balance_that_holds(of_one):
     text = f"before\n<!-- recorded: one -->\nold\n{of_one.END}\nafter\n"
     made = of_one.filled(text)
     assert made.startswith("before\n<!-- recorded: one -->\n") and made.endswith(f"\n{of_one.END}\nafter\n")
-    assert "Recorded 2026-11-28 (commit abc, gas embedded): 2 of 4 checks miss" in made
+    assert "Recorded 2026-11-28 (commit abc, gas embedded): 4 checks, 2 missed; " in made
     assert (
         "| balances: loss | 0.3 | 0 | 0.02 | **missed** |\n| width [m] | 0.012164 | 0.01 | 0.001 | **missed** |" in made
     )
