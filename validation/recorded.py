@@ -22,7 +22,9 @@ ROOT = Path(__file__).parents[1]
 RECORDS = ROOT / "validation" / "record"
 HEAD = "| check | measured | reference | bar | |\n|--|--|--|--|--|"
 END = "<!-- end of what is recorded -->"
-TABLE = re.compile(rf"(?P<mark><!-- recorded: (?P<scene>\w+)(?P<misses>, misses)? -->\n).*?{END}", re.DOTALL)
+TABLE = re.compile(
+    rf"(?P<mark><!-- recorded: (?P<scene>\w+)(?P<misses>, misses)? -->\n)(?:(?!<!-- recorded).)*?{END}", re.DOTALL
+)
 MISSED, HELD = "**missed**", "held"
 NUMBER = re.compile(
     rf"(?P<told>[-+]?\d+(?:\.\d+)?(?:e-?\d+)?|{re.escape(MISSED)}|{HELD})"

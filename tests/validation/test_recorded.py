@@ -1,6 +1,7 @@
 """Numbers that READMEs and the page of what is measured tell are those of validation/record."""
 
 import importlib.util
+import re
 
 import pytest
 
@@ -36,6 +37,13 @@ def test_pages_tell_what_is_recorded(recorded):
     """Else: python validation/recorded.py"""
     for file, text in recorded.pages().items():
         assert file.read_text(encoding="utf-8") == text, file
+
+
+def test_no_mark_is_overlooked(recorded):
+    """One that stands apart from its number, or that has no end, would leave what is there as it is."""
+    for file, text in recorded.pages().items():
+        seen = {match["mark"].strip() for own in (recorded.TABLE, recorded.NUMBER) for match in own.finditer(text)}
+        assert set(re.findall(r"<!-- \w+: .*?-->", text)) - seen == set(), file
 
 
 @pytest.mark.parametrize("scene", RECORDS)
