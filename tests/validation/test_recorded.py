@@ -72,6 +72,11 @@ def test_large_numbers_of_a_table_stand_as_they_are(recorded):
     assert recorded.row(check, "one") == "| p [Pa] | 151235 | 150000 | 7512 |  |"
 
 
+def test_a_table_without_an_end_takes_nothing_of_what_follows(of_one):
+    text = f"<!-- recorded: one -->\nwords\n<!-- recorded: one, misses -->\n{of_one.END}\n"
+    assert of_one.filled(text).startswith("<!-- recorded: one -->\nwords\n<!-- recorded: one, misses -->\nRecorded")
+
+
 def test_a_table_of_misses_has_no_others(of_one):
     made = of_one.filled(f"<!-- recorded: one, misses -->\n{of_one.END}\n")
     assert made.count("**missed**") == 2 and "sum m" not in made
