@@ -5,8 +5,8 @@
 Between `<!-- recorded: SCENE -->` and the mark of its end stands a table of the checks of that record, without balances
 that hold; with `<!-- recorded: SCENE, misses -->` one of those that miss. A number in a text is followed by where it is
 from, a record and the end of a check's name: `0.102<!-- bubbling_bed: centroid at 0.20 s [m] -->`. It keeps its digits.
-What is not the check's value is named behind a semicolon, `reference`, `bar`, `difference` or `off` (in %), and a
-factor: `; reference x 1000`. In the place of a check may stand a count, `held` of those that were `judged` or
+What is not the check's value is named behind a semicolon, `reference`, `bar`, `difference`, `ratio` or `off` (in
+%), and a factor: `; reference x 1000`. In the place of a check may stand a count, `held` of those that were `judged` or
 `reported`; in the place of a number the check's verdict, `**missed**` or `held`.
 """
 
@@ -35,6 +35,7 @@ NUMBERS = {
     "reference": lambda check: check["reference"],
     "bar": lambda check: check["tolerance"],
     "difference": lambda check: check["value"] - check["reference"],
+    "ratio": lambda check: check["value"] / check["reference"],
     "off": lambda check: 100.0 * (check["value"] / check["reference"] - 1.0),
 }
 COUNTS = {

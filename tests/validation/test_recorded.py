@@ -86,7 +86,8 @@ def test_a_table_of_misses_has_no_others(of_one):
     ("told", "where", "right"),
     [("9.9", "width [m]; value x 1000", "12.2"), ("10.0", "exact: width [m]; reference x 1000", "10.0"),
      ("+43", "width [m]; off", "+22"), ("-62.1", "width [m]; off", "+21.6"), ("0.00", "width [m]; bar", "0.00"),
-     ("0.001", "width [m]; difference", "0.002"), ("3e-12", "|v|", "1e-11"), ("9.99e-9", "|v|", "1.25e-11"),
+     ("0.001", "width [m]; difference", "0.002"),
+     ("1.00", "width [m]; ratio", "1.22"), ("3e-12", "|v|", "1e-11"), ("9.99e-9", "|v|", "1.25e-11"),
      ("7", "held", "1"), ("7", "judged", "3"), ("7", "reported", "1"),
      ("held", "width [m]", "**missed**"), ("**missed**", "mass", "held"), ("held", "mass", "held")],
 )  # fmt: skip
