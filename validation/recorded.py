@@ -3,11 +3,12 @@
     python validation/recorded.py
 
 Between `<!-- recorded: SCENE -->` and the mark of its end stands a table of the checks of that record, without balances
-that hold; with `<!-- recorded: SCENE, misses -->` one of those that miss. A number in a text is followed by where it is
-from, a record and the end of a check's name: `0.102<!-- bubbling_bed: centroid at 0.20 s [m] -->`. It keeps its digits.
-What is not the check's value is named behind a semicolon, `reference`, `bar`, `difference`, `ratio` or `off` (in
-%), and a factor: `; reference x 1000`. In the place of a check may stand a count, `held` of those that were `judged` or
-`reported`; in the place of a number the check's verdict, `**missed**` or `held`.
+that hold; with `<!-- recorded: SCENE, misses -->` one of those that miss, or a line where none does. A number in a text
+is followed by where it is from, a record and the end of a check's name, and keeps its digits:
+`0.102<!-- bubbling_bed: centroid at 0.20 s [m] -->`. What is not the check's value is named behind a semicolon,
+`reference`, `bar`, `difference`, `ratio` or `off` (in %), and a factor: `; reference x 1000`. In the place of a check
+may stand a count, `held` of those that were `judged` or `reported`; in the place of a number the check's verdict,
+`**missed**` or `held`.
 """
 
 from __future__ import annotations
@@ -47,11 +48,8 @@ COUNTS = {
 
 @cache
 def own(scene: str) -> dict:
-    """The record of a scene or study."""
-    found = record.read(RECORDS, scene)
-    if found is None:
-        raise ValueError(f"validation/record has no {scene}.json")
-    return found
+    """The record of a scene or study; one without checks where there is none."""
+    return record.read(RECORDS, scene) or {"scene": scene, "checks": []}
 
 
 def pages() -> dict[Path, str]:
@@ -68,12 +66,15 @@ def filled(text: str) -> str:
 
 def table(made: dict, misses: bool) -> str:
     """A line that says when a record was made, and a table of its checks."""
+    if not made["checks"]:
+        return f"Not recorded: `sdph validate {made['scene']} --record validation/record` does it.\n"
     checks = [check for check in made["checks"] if not check["ok"] or not (misses or "balances: " in check["name"])]
     missed = sum(not check["ok"] for check in made["checks"])
     made_by = f"Recorded {made['date']} (commit {made['commit']}, gas {made['gas']})"
     left_out = "those" if misses else "balances"
     about = f"{len(made['checks'])} checks, {missed} missed; {left_out} that hold are not shown"
-    return "\n".join([f"{made_by}: {about}.", "", HEAD, *(row(check, made["scene"]) for check in checks), ""])
+    rows = ["", HEAD, *(row(check, made["scene"]) for check in checks)] if checks else []
+    return "\n".join([f"{made_by}: {about}.", *rows, ""])
 
 
 def row(check: dict, scene: str) -> str:

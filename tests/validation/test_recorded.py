@@ -6,7 +6,7 @@ import re
 import pytest
 
 from sdph.scenes import paths
-from sdph.study import record
+from sdph.study import record, validate
 
 FOLDER = paths.PACKAGE.parent / "validation"
 RECORDS = sorted(path.stem for path in (FOLDER / "record").glob("*.json"))
@@ -44,6 +44,13 @@ def test_no_mark_is_overlooked(recorded):
     for file, text in recorded.pages().items():
         seen = {match["mark"].strip() for own in (recorded.TABLE, recorded.NUMBER) for match in own.finditer(text)}
         assert set(re.findall(r"<!-- \w+: .*?-->", text)) - seen == set(), file
+
+
+@pytest.mark.parametrize("scene", validate.validated())
+def test_every_readme_of_a_validation_has_a_table(scene):
+    """`<!-- recorded: SCENE -->` or `<!-- recorded: SCENE, misses -->`, so that no miss to come can hide."""
+    page = FOLDER / scene / "README.md"
+    assert not page.is_file() or f"<!-- recorded: {scene}" in page.read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("scene", RECORDS)
@@ -102,5 +109,13 @@ def test_a_number_of_no_check_or_of_two_is_refused(where, count, of_one):
 
 
 def test_without_a_record_there_is_no_number(recorded):
-    with pytest.raises(ValueError, match=r"validation/record has no nowhere\.json"):
-        recorded.filled("1<!-- nowhere: held -->")
+    with pytest.raises(ValueError, match="nowhere: 0 checks end with 'width'"):
+        recorded.filled("1<!-- nowhere: width -->")
+    made = recorded.filled(f"<!-- recorded: nowhere, misses -->\n{recorded.END}")
+    assert "Not recorded: `sdph validate nowhere --record" in made and "check |" not in made
+
+
+def test_a_table_without_misses_is_one_line(of_one, monkeypatch):
+    monkeypatch.setattr(of_one, "own", lambda scene: MADE | {"checks": CHECKS[:1]})
+    assert "1 checks, 0 missed" in of_one.filled(f"<!-- recorded: one, misses -->\n{of_one.END}")
+    assert "check |" not in of_one.filled(f"<!-- recorded: one, misses -->\n{of_one.END}")
