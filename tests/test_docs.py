@@ -130,6 +130,42 @@ def test_dashboard_tells_misses_first_and_who_has_no_record(monkeypatch):
     assert every.index("| exact: off |") < every.index("| exact: fine |")
 
 
+def test_dashboard_tells_what_a_validation_runs_and_its_record_lacks(monkeypatch):
+    monkeypatch.syspath_prepend(str(DOCS))
+    dashboard = importlib.import_module("making.dashboard")
+    assert {study: tuple(parts) for study, parts in dashboard.PARTS.items()} == {
+        study: tuple(validate.part(study).NAMES) for study in validate.STUDIES
+    }
+
+    def recorded(scene, *names):
+        checks = [compare.check(name, 1.0, 1.0, 0.1) for name in names]
+        return {"scene": scene, "date": "", "version": "", "commit": "", "gas": "", "checks": checks}
+
+    found = {
+        "thick_ring": recorded("thick_ring", "four layers, exact: a", "flowing, exact: a"),
+        "granular_piles": recorded("granular_piles", "column a = 1: b", "slot of 40 mm: c"),
+        "dam_break": recorded("dam_break", "dam_break, exact: d"),
+    }
+    monkeypatch.setattr(dashboard, "records", lambda: found)
+    monkeypatch.setattr(dashboard, "validated", lambda: list(found))
+    told = dashboard.whole().partition("## Without a record")[2].partition("## Every check")[0]
+    assert "[thick_ring](scenes/thick_ring.md): eight layers.\n" in told
+    assert "[granular_piles](studies/granular_piles.md): slopes.\n" in told and "dam_break" not in told
+    assert dashboard.of_scene("thick_ring").endswith("Not recorded: eight layers.")
+    assert "Not recorded" not in dashboard.of_scene("dam_break")
+
+
+def test_words_of_parts_are_those_of_their_checks(monkeypatch):
+    """Else a part that is on record would be told as not recorded, or one by the checks of another."""
+    monkeypatch.syspath_prepend(str(DOCS))
+    dashboard = importlib.import_module("making.dashboard")
+    for study, parts in dashboard.PARTS.items():
+        for part, words in parts.items():
+            assert words in (ROOT / "validation" / study / f"{part}.py").read_text(encoding="utf-8"), (study, part)
+        for check in dashboard.records()[study]["checks"]:
+            assert sum(words in check["name"] for words in parts.values()) <= 1, check["name"]
+
+
 def test_dashboard_has_a_line_for_each_experiment_and_no_check_in_two(monkeypatch):
     monkeypatch.syspath_prepend(str(DOCS))
     dashboard = importlib.import_module("making.dashboard")

@@ -9,8 +9,30 @@ from functools import cache
 
 from making.docstrings import escaped
 from sdph.scenes import paths
-from sdph.study import record, validate
+from sdph.study import compare, record, validate
 
+# study -> its parts -> what names of a part's checks have in them and those of no other part
+PARTS = {
+    "experiments": {
+        "packed_bed": "friction", "minimum_fluidisation": "U_mf", "liquid_fluidisation": "index n",
+        "water_drops": "drop's", "heptane_drops": "heptane", "humid_drops": "water drop",
+        "micro_drops": "micrometric drop", "bed_transfer": "transfer in a bed", "heated_bed": "packed steel",
+        "hot_tube": "hot tube", "bed_pressure": "bed of beads", "bed_profiles": "bed of seeds",
+    },
+    "kinetic_theory": {
+        "cooling": "Haff", "diffusion": "wave of", "shear": "over the closure [", "flows": "Couette",
+        "slopes": "slope of",
+    },
+    "granular_piles": {"columns": "column", "slopes": "slope", "hopper": "slot"},
+    "spray_plug": {"plug": "SDPH"},
+    "gel_droplet_reduced": {
+        "course": "work on the shell", "rings": " ring at", "changes": "flux x2", "claims": "sonic",
+    },
+    "moving_particles": {"films": "pull over", "drops": "drop, ", "threads": "thread", "holes": "hole"},
+    "two_methods": {"pools": "by mps"},
+    "own_vessel": {"flows": "packed bed", "orders": "order of", "dummies": "nearest two", "leaks": "shaken"},
+    "gas_turbulence": {"frozen": "frozen flow", "channel": "of a channel"},
+}  # fmt: skip
 HEAD = "| check | value | reference | off by | tolerance | verdict |\n|--|--|--|--|--|--|"
 
 
@@ -34,7 +56,20 @@ def of_scene(name: str) -> str:
     own = records().get(name)
     if own is None:
         return f"No record yet: `sdph validate {name} --record validation/record` makes one."
-    return _told(own)
+    return _told(own) + "".join(f"\n\nNot recorded: {lacking}." for lacking in [_listed(name, own)] if lacking)
+
+
+def lacking(name: str, own: dict) -> list[str]:
+    """Variants of a scene, or parts of a study, that `sdph validate` runs and a record has no check of."""
+    names = [check["name"] for check in own["checks"]]
+    if name in PARTS:
+        return [part for part, words in PARTS[name].items() if not any(words in check for check in names)]
+    variants = getattr(compare.scene_module(name), "VARIANTS", (name,))
+    return [variant for variant in variants if not any(check.startswith(f"{variant}, ") for check in names)]
+
+
+def _listed(name: str, own: dict) -> str:
+    return "; ".join(lacking(name, own))
 
 
 def whole() -> str:
@@ -43,13 +78,16 @@ def whole() -> str:
     misses = [check for own in found.values() for check in _missed(own)]
     missing = [name for name in validated() if name not in found]
     count = sum(len(own["checks"]) for own in found.values())
+    short = {name: listed for name, own in found.items() if (listed := _listed(name, own))}
     parts = [
         f"{len(found)} of {len(found) + len(missing)} scenes and studies have a record, with {count} checks, of which "
-        f"{len(misses)} miss their tolerance.",
+        f"{len(misses)} miss their tolerance. What `sdph validate` runs and no record has is told "
+        "[below](#without-a-record).",
         "## Against what others measured", measured(found),
         "## Misses", _table(misses) if misses else "None.",
         "## Scenes and studies", _overview(found),
         "## Without a record", ", ".join(_title(name) for name in missing) + "." if missing else "None.",
+        *(f"Not recorded of {_title(name)}: {listed}." for name, listed in short.items()),
         "## Every check", *(f"### {name}\n\n{_told(own)}" for name, own in found.items()),
     ]  # fmt: skip
     return "\n\n".join(parts) + "\n"

@@ -1,0 +1,121 @@
+"""Numbers that READMEs and the page of what is measured tell are those of validation/record."""
+
+import importlib.util
+import re
+
+import pytest
+
+from sdph.scenes import paths
+from sdph.study import record, validate
+
+FOLDER = paths.PACKAGE.parent / "validation"
+RECORDS = sorted(path.stem for path in (FOLDER / "record").glob("*.json"))
+MADE = {"scene": "one", "date": "2026-11-28", "version": "0.1.0", "commit": "abc", "gas": "embedded"}
+CHECKS = [
+    {"name": "one, balances: mass", "value": 0.0, "reference": 0.0, "tolerance": 1e-10, "ok": True},
+    {"name": "one, balances: loss", "value": 0.3, "reference": 0.0, "tolerance": 0.02, "ok": False},
+    {"name": "one, exact: width [m]", "value": 0.012164, "reference": 0.01, "tolerance": 1e-3, "ok": False},
+    {"name": "one, exact: sum m |v|", "value": 1.25e-11, "reference": 1.0, "tolerance": None, "ok": True},
+]
+
+
+@pytest.fixture(scope="module")
+def recorded():
+    spec = importlib.util.spec_from_file_location("recorded", FOLDER / "recorded.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture
+def of_one(recorded, monkeypatch):
+    monkeypatch.setattr(recorded, "own", lambda scene: {"one": MADE | {"checks": CHECKS}}[scene])
+    return recorded
+
+
+def test_pages_tell_what_is_recorded(recorded):
+    """Else: python validation/recorded.py"""
+    for file, text in recorded.pages().items():
+        assert file.read_text(encoding="utf-8") == text, file
+
+
+def test_no_mark_is_overlooked(recorded):
+    """One that stands apart from its number, or that has no end, would leave what is there as it is."""
+    for file, text in recorded.pages().items():
+        seen = {match["mark"].strip() for own in (recorded.TABLE, recorded.NUMBER) for match in own.finditer(text)}
+        assert set(re.findall(r"<!-- \w+: .*?-->", text)) - seen == set(), file
+
+
+@pytest.mark.parametrize("scene", validate.validated())
+def test_every_readme_of_a_validation_has_a_table(scene):
+    """`<!-- recorded: SCENE -->` or `<!-- recorded: SCENE, misses -->`, so that no miss to come can hide."""
+    page = FOLDER / scene / "README.md"
+    assert not page.is_file() or f"<!-- recorded: {scene}" in page.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("scene", RECORDS)
+def test_every_miss_stands_in_the_readme_of_its_scene(scene, recorded):
+    """A table of all checks, or `<!-- recorded: SCENE, misses -->`."""
+    page = FOLDER / scene / "README.md"
+    text = page.read_text(encoding="utf-8") if page.is_file() else ""
+    missed = [check for check in record.read(FOLDER / "record", scene)["checks"] if not check["ok"]]
+    assert [check["name"] for check in missed if recorded.row(check, scene) not in text] == []
+
+
+def test_a_table_has_misses_and_no_balance_that_holds(of_one):
+    text = f"before\n<!-- recorded: one -->\nold\n{of_one.END}\nafter\n"
+    made = of_one.filled(text)
+    assert made.startswith("before\n<!-- recorded: one -->\n") and made.endswith(f"\n{of_one.END}\nafter\n")
+    assert "Recorded 2026-11-28 (commit abc, gas embedded): 4 checks, 2 missed; " in made
+    assert (
+        "| balances: loss | 0.3 | 0 | 0.02 | **missed** |\n| width [m] | 0.012164 | 0.01 | 0.001 | **missed** |" in made
+    )
+    assert "| sum m \\|v\\| | 1.25e-11 | 1 |  |  |" in made and "balances: mass" not in made and "\nold\n" not in made
+    assert of_one.filled(made) == made
+
+
+def test_large_numbers_of_a_table_stand_as_they_are(recorded):
+    check = {"name": "p [Pa]", "value": 151_234.5678, "reference": 1.5e5, "tolerance": 7512.3, "ok": True}
+    assert recorded.row(check, "one") == "| p [Pa] | 151235 | 150000 | 7512 |  |"
+
+
+def test_a_table_without_an_end_takes_nothing_of_what_follows(of_one):
+    text = f"<!-- recorded: one -->\nwords\n<!-- recorded: one, misses -->\n{of_one.END}\n"
+    assert of_one.filled(text).startswith("<!-- recorded: one -->\nwords\n<!-- recorded: one, misses -->\nRecorded")
+
+
+def test_a_table_of_misses_has_no_others(of_one):
+    made = of_one.filled(f"<!-- recorded: one, misses -->\n{of_one.END}\n")
+    assert made.count("**missed**") == 2 and "sum m" not in made
+
+
+@pytest.mark.parametrize(
+    ("told", "where", "right"),
+    [("9.9", "width [m]; value x 1000", "12.2"), ("10.0", "exact: width [m]; reference x 1000", "10.0"),
+     ("+43", "width [m]; off", "+22"), ("-62.1", "width [m]; off", "+21.6"), ("0.00", "width [m]; bar", "0.00"),
+     ("0.001", "width [m]; difference", "0.002"),
+     ("1.00", "width [m]; ratio", "1.22"), ("3e-12", "|v|", "1e-11"), ("9.99e-9", "|v|", "1.25e-11"),
+     ("7", "held", "1"), ("7", "judged", "3"), ("7", "reported", "1"),
+     ("held", "width [m]", "**missed**"), ("**missed**", "mass", "held"), ("held", "mass", "held")],
+)  # fmt: skip
+def test_a_number_is_that_of_its_check_to_the_digits_told(told, where, right, of_one):
+    assert of_one.filled(f"is {told}<!-- one: {where} --> g") == f"is {right}<!-- one: {where} --> g"
+
+
+@pytest.mark.parametrize(("where", "count"), [("height [m]", 0), ("s", 2)])
+def test_a_number_of_no_check_or_of_two_is_refused(where, count, of_one):
+    with pytest.raises(ValueError, match=f"one: {count} checks end with"):
+        of_one.filled(f"1<!-- one: {where} -->")
+
+
+def test_without_a_record_there_is_no_number(recorded):
+    with pytest.raises(ValueError, match="nowhere: 0 checks end with 'width'"):
+        recorded.filled("1<!-- nowhere: width -->")
+    made = recorded.filled(f"<!-- recorded: nowhere, misses -->\n{recorded.END}")
+    assert "Not recorded: `sdph validate nowhere --record" in made and "check |" not in made
+
+
+def test_a_table_without_misses_is_one_line(of_one, monkeypatch):
+    monkeypatch.setattr(of_one, "own", lambda scene: MADE | {"checks": CHECKS[:1]})
+    assert "1 checks, 0 missed" in of_one.filled(f"<!-- recorded: one, misses -->\n{of_one.END}")
+    assert "check |" not in of_one.filled(f"<!-- recorded: one, misses -->\n{of_one.END}")
