@@ -158,5 +158,5 @@ def strain(stepper, dt):
     own, terms = stepper, stepper.terms
     sub_step.strain_grains(
         own.kernel, own.state, own.rows, own.neighbours.box, own.scratch, terms.shears, terms.friction, terms.viscous,
-        *own._walls(), own.work, dt,
+        terms.temperature, *own._walls(), own.work, dt,
     )  # fmt: skip

@@ -97,6 +97,8 @@ HARMLESS = {
     "sdph/effects/around/streams.py:_rings": "counts of points",
     "sdph/engine/arrays.py:positive": "the same, of whole arrays",
     "sdph/effects/grains/artificial_viscosity.py:dt_limit": "the larger of its two numbers",
+    "sdph/effects/gas/reaction.py:window_limit": "no division by 0",
+    "sdph/exchange/window.py:Window.obey": "the shorter of two limits",
     "sdph/effects/gas/micro_explosion.py:window_limit": "what is missing to boiling, none once it boils",
     "sdph/engine/gpu/sorting.py:*": "the largest of all, ends of runs, and the same",
     "sdph/engine/gpu/assembled.py:occupancy": "threads that there are",

@@ -7,6 +7,7 @@ the bed as a whole (BED) stands in `[grains]` alone.
 from __future__ import annotations
 
 from sdph.case.matter import Grains
+from sdph.effects.around.sizes import OF_LAW
 from sdph.schema import CaseError, fields, plausible, read, unknown, write
 
 BED = ("restitution", "packing_limit", "granular_temperature_m2_s2")  # one for all, as friction and drag are
@@ -71,13 +72,20 @@ def check(case) -> None:
     for group, parts in (("particles", case.particles), ("nozzles", case.nozzles)):
         for name, part in parts.items():
             _check_name(case, f"{group}.{name}", part.material)
+    filtered = "drag" in case.effects and case.parameters["drag"].filter != "none"
+    for name, nozzle in case.nozzles.items() if filtered else ():
+        if own := [key for key in OF_LAW if getattr(nozzle, key)]:
+            raise CaseError(
+                f"drag.filter goes by the speed at which grains of one size fall, and nozzles.{name} has its own ("
+                f"{', '.join(own)}): leave one of the two out"
+            )
     if not case.mixed:
         return
     several = f"the grains are of several materials ({', '.join(case.materials)})"
     for name, why in STRANGE.items():
         if name in case.effects:
             raise CaseError(f"effects holds {name}, and {several}: {why}; leave it out, or all materials but one")
-    if "drag" in case.effects and case.parameters["drag"].filter != "none":
+    if filtered:
         raise CaseError(f"drag.filter goes by the speed at which one material falls, and {several}: leave it out")
     for key in OF_DROPS:
         if write(case.grains).get(key):

@@ -128,6 +128,11 @@ class Boundary:
     pressure: float | None = quantity("Pa", None)
 
     @property
+    def lets_in(self) -> bool:
+        """True where gas comes in by a given velocity; a wall may have one too, with which it slides."""
+        return self.kind == "velocity_inlet" and bool(self.velocity)
+
+    @property
     def fastest(self) -> float:
         """Largest speed [m/s] of the gas that comes in, or of the wall."""
         return PEAK[self.profile] * math.hypot(*(self.velocity or ()))
@@ -271,12 +276,8 @@ class Case:
     def temperatures(self) -> list[float]:
         """All that the case gives [K]: of the gas, particles, nozzles, boundaries, parts, and `temperatures` of
         sections of effects."""
-        given = [
-            self.gas.temperature,
-            *(part.temperature for part in (*self.particles.values(), *self.nozzles.values()) if part.temperature),
-        ]
-        walls = (*self.boundaries.values(), *self.parts.values())
-        given += [wall.temperature for wall in walls if wall.temperature]
+        parts = *self.particles.values(), *self.nozzles.values(), *self.boundaries.values(), *self.parts.values()
+        given = [self.gas.temperature, *(part.temperature for part in parts if part.temperature)]
         return given + [one for own in self.parameters.values() for one in getattr(own, "temperatures", ())]
 
     @property

@@ -28,6 +28,12 @@ def capped(p, state) -> dict[str, float]:
     }
 
 
+def unenclosed(method) -> dict[str, float]:
+    """Share of the particles that neighbours do not enclose, so that viscosity, of agitation and of contacts, is of
+    Morris' form."""
+    return {"unenclosed_share": share(method.state, method.scratch.strain[2] == 0.0)}
+
+
 def softened(p, method) -> dict[str, float]:
     """The part that r^2 + 0.01 h^2 in place of r^2 takes off the pairs in the gas (sdph.engine.softening)."""
     s = method.state

@@ -21,6 +21,7 @@ from sdph.engine import state as particles
 from sdph.engine.state import GRAIN
 from sdph.exchange.amounts import Handed, Loss, Taken
 from sdph.exchange.droplets import FINISHED
+from sdph.exchange.equations import Seen
 from sdph.laws import burn_off
 from sdph.laws import evaporation as law
 from sdph.laws.compiled import parallel, serial
@@ -61,7 +62,7 @@ class Burning:
 
     def _taken(self, state, weights, stripped) -> np.ndarray:
         """Gas that grains strip (N,) [m3/s], over that of the cells (C,) [1/s]."""
-        return self.cells.density(weights, stripped) / self.cells.room(weights, state.mass * (state.kind == GRAIN))
+        return self.cells.density(weights, stripped) / self.cells.gas(weights, state.mass * (state.kind == GRAIN))
 
     def _terms(self, weights, there, stripped, temperature, velocity) -> dict:
         """Sources by volume of the cells: the oxidant that leaves, the products that come with the temperature of the
@@ -78,14 +79,23 @@ class Burning:
         """Heat (N,) [W] that the reaction gives the grains, held over the window."""
         return self.p.heat_to_grains / dt * loss.mass
 
-    def held_at_start(self, state, weights, gas_state) -> dict[str, float]:
-        """Nothing holds it."""
+    def begin(self, state, weights, gas_state) -> dict[str, float]:
+        """Nothing holds it; the state gets the rate at which its heat warms grains now."""
+        stripped = self._stripped(state, Seen(weights, gas_state, state))
+        there = gas_state.fields["density"] * gas_state.fields["vapour_mass_fraction"]
+        heat = self.p.heat_to_grains / self.p.ratio * stripped * gather(weights, there)
+        state.warming[:] = heat / (state.mass * self.p.grain_heat_capacity)
         return {}
+
+    def _stripped(self, state, seen) -> np.ndarray:
+        """Gas (N,) [m3/s] that grains strip of its oxidant now."""
+        slow, stripped = np.empty(len(state.x)), np.empty(len(state.x))
+        survey(self.p, self.sizes_p, state, seen.slip, seen.density, slow, stripped)
+        return stripped
 
     def pace(self, state, weights, gas_state, seen) -> float:
         """Take, at the start, `share` of a second."""
-        slow, stripped = np.empty(len(state.x)), np.empty(len(state.x))
-        survey(self.p, self.sizes_p, state, seen.slip, seen.density, slow, stripped)
+        stripped = self._stripped(state, seen)
         there = gas_state.fields["vapour_mass_fraction"] / self.richest if self.richest else 0.0
         return float((there * self._taken(state, weights, stripped)).max(initial=0.0))
 
@@ -93,7 +103,7 @@ class Burning:
         """Oxidant that a window took from a cell, over what the richest gas of the case holds there; the largest."""
         if not self.richest or self.case.coupling.one_way:
             return 0.0
-        whole = self.cells.room(handed.weights, handed.mass) * gas_state.fields["density"] * self.richest
+        whole = self.cells.gas(handed.weights, handed.mass) * gas_state.fields["density"] * self.richest
         return float((-handed.terms["vapour", self.name] * handed.dt / whole).max(initial=0.0))
 
     def taken(self, taken: Taken, handed: Handed) -> Taken:

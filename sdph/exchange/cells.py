@@ -10,10 +10,12 @@ from sdph.engine.state import by_material
 
 
 class Cells:
-    """Volumes (C,) [m3, or m2 per metre of depth] of the cells, and what particles are in them."""
+    """Volumes (C,) [m3, or m2 per metre of depth] of the cells, and what particles are in them; `voidage`: the gas
+    knows of their volume."""
 
-    def __init__(self, mesh, grain_density: float):
+    def __init__(self, mesh, grain_density: float, voidage: bool = True):
         self.volumes, self.grain_density, self.world = mesh.volumes / mesh.depth, grain_density, world.here()
+        self.voidage = voidage
 
     def sums(self, weights, amounts) -> np.ndarray:
         """Extensive amounts (N,) or (N, m) of the particles, those of other processes too, in the cells."""
@@ -23,6 +25,10 @@ class Cells:
         """Gas volume fraction of the cells with grains of `mass` (N,) [kg] in them; `densities` (N,) [kg/m3] of their
         materials, where there are several."""
         return 1.0 - self.sums(weights, mass / (densities if len(densities) else self.grain_density)) / self.volumes
+
+    def gas(self, weights, mass, densities=()) -> np.ndarray:
+        """The same as the gas has it: all of a cell where it knows nothing of the volume of grains."""
+        return self.room(weights, mass, densities) if self.voidage else np.ones(len(self.volumes))
 
     def density(self, weights, amounts) -> np.ndarray:
         """Extensive amounts (N,) or (N, m) of the particles per volume of the cells."""

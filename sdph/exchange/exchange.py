@@ -50,7 +50,7 @@ class Exchange:
         self.case = case
         self.parameters = parameters
         self.sizes_p, self.film_p = sizes.kernel(case), film.kernel(case)
-        self.cells = Cells(mesh, case.grains.density)
+        self.cells = Cells(mesh, case.grains.density, case.coupling.voidage)
         self.volumes, self.world = self.cells.volumes, self.cells.world
         made = (kind(case, parameters[kind.name], self.sizes_p, self.cells) for kind in LOSING if parameters[kind.name])
         self.losing = next(made, None)
@@ -79,7 +79,8 @@ class Exchange:
         seen, stirring = Seen(weights, gas_state, state, self.fields), self.parameters["turbulent_dispersion"]
         against, eddies = seen.own, None
         if stirring:
-            drift = lengths(seen.apart + seen.own - self.cells.around(weights, state.mass, seen.own))
+            inside = state.mass * (state.kind == GRAIN)
+            drift = lengths(seen.apart + seen.own - self.cells.around(weights, inside, seen.own))
             pushed, eddies = turbulent_dispersion.stir(stirring, state, seen, drift, gas_state.time, dt)
             seen, against = seen.stirred(pushed), seen.own - pushed
         convection, conductance, damping, force = self._rates(state, seen)
@@ -178,16 +179,15 @@ class Exchange:
         full, resistance = self._resistance(state, weights, gas_state)
         return float(temperature_span(self.case) * (self.volumes[full] / resistance).sum())
 
-    def held(self, state, weights, gas_state) -> dict[str, float]:
+    def begin(self, state, weights, gas_state) -> dict[str, float]:
         """Columns of `Handed.held` at the start."""
-        own = self.losing.held_at_start(state, weights, gas_state) if self.losing else {}
-        return outside(weights) | own
+        return outside(weights) | (self.losing.begin(state, weights, gas_state) if self.losing else {})
 
     def _resistance(self, state, weights, gas_state) -> tuple[np.ndarray, np.ndarray]:
         """Mask of the cells with grains, and 1/C_p + 1/C_g of these [m3 K/J]."""
         content = self.cells.density(weights, state.mass * (state.kind == GRAIN) * capacity_of(self.case, state))
         gas = (
-            self.cells.room(weights, state.mass * (state.kind == GRAIN), state.grain_density)
+            self.cells.gas(weights, state.mass * (state.kind == GRAIN), state.grain_density)
             * gas_state.fields["density"]
             * self.case.gas.heat_capacity
         )

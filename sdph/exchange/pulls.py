@@ -42,24 +42,26 @@ def ahead(case, parameters, state, rates, dt, against) -> np.ndarray:
         return against
     friction, found = parameters["friction"], arrays.copy(against)
     borne = friction.onset if friction else case.grains.packing_limit
-    carried, gravity = float(bool(parameters["gas_pressure"])), tuple(parameters["gravity"] or (0.0, 0.0, 0.0))
+    gravity, own = tuple(parameters["gravity"] or (0.0, 0.0, 0.0)), case.coupling
+    carried = float(bool(parameters["gas_pressure"])), float(own.voidage and not own.one_way)
     field = electric_field.acceleration(parameters["electric_field"], state)
-    own = carried, case.gas.density, case.grains.density, borne
+    own = *carried, case.gas.density, case.grains.density, borne
     _run_ahead(state, gravity, field, *rates, *own, dt, found)
     return found
 
 
 @parallel
-def _run_ahead(s, gravity, field, damping, force, carried, gas_density, grain_density, borne, dt, against):
+def _run_ahead(s, gravity, field, damping, force, carried, knows, gas_density, grain_density, borne, dt, against):
     """Put that on `against`; gravity (3) and field (N, 3) [m/s2]; carried: 1 where grains feel the pressure of the gas,
-    which carries 1 - alpha_g (1 - rho_g/rho_p) of an even suspension, else 0; borne: volume fraction from which
+    which carries 1 - alpha_g (1 - rho_g/rho_p) of an even suspension, else 0; knows: 1 where the gas knows of their
+    volume, else 0; borne: volume fraction from which
     contacts last."""
     for i in prange(len(s.x)):
         own = s.grain_density[i] if len(s.grain_density) else grain_density
         free = (1.0 - s.density[i] / (borne * own)) / LOOSENING
         if s.kind[i] != GRAIN or damping[i] == 0.0 or free <= 0.0:
             continue
-        left = 1.0 - carried * (1.0 - (1.0 - s.density[i] / own) * (1.0 - gas_density / own))
+        left = 1.0 - carried * (1.0 - (1.0 - knows * s.density[i] / own) * (1.0 - gas_density / own))
         time = dt * lead(dt * damping[i]) * (free if free < 1.0 else 1.0)
         for a in range(3):
             rate = left * gravity[a] + field[i, a]

@@ -100,7 +100,7 @@ class Vapour:
         droplet_loss.held(self.p, state, seen.density, seen.temperature, concentration, flat, boiling)
         return {"flat_rate_share": share(state, flat), "boiling_held_share": share(state, boiling)}
 
-    def held_at_start(self, state, weights, gas_state) -> dict[str, float]:
+    def begin(self, state, weights, gas_state) -> dict[str, float]:
         """The same before the first window."""
         return self.held(
             state, Seen(weights, gas_state, state), gather(weights, vapour_concentration(self.p, gas_state))
@@ -113,14 +113,14 @@ class Vapour:
     def _relaxed(self, state, weights, gas_state, exchanged, surface) -> np.ndarray:
         """Vapour around the particles [kmol/m3] once they have exchanged so much gas (N,) [m3] with the cells."""
         deposited = self.cells.sums(weights, np.stack((exchanged, exchanged * surface), axis=1))
-        room = self.cells.room(weights, state.mass * (state.kind == GRAIN)) * self.cells.volumes
+        room = self.cells.gas(weights, state.mass * (state.kind == GRAIN)) * self.cells.volumes
         cells = vapour_concentration(self.p, gas_state)
         return gather(weights, (room * cells + deposited[:, 1]) / (room + deposited[:, 0]))
 
     def _cooled(self, state, weights, gas_state, seen, exchanged) -> Seen:
         """The gas as the particles see it once they have exchanged so much heat (N,) [J/K] with the cells."""
         deposited = self.cells.sums(weights, np.stack((exchanged, exchanged * state.temperature), axis=1))
-        gas = gas_state.fields["density"] * self.cells.room(weights, state.mass * (state.kind == GRAIN))
+        gas = gas_state.fields["density"] * self.cells.gas(weights, state.mass * (state.kind == GRAIN))
         capacity = gas * self.cells.volumes * self.case.gas.heat_capacity
         cells = (capacity * gas_state.fields["temperature"] + deposited[:, 1]) / (capacity + deposited[:, 0])
         found = copy.copy(seen)
@@ -133,12 +133,12 @@ class Vapour:
         concentration = gather(weights, vapour_concentration(p, gas_state))
         around = seen.slip, self.density(state, seen), seen.temperature
         droplet_loss.rates(p, self.sizes_p, state, *around, concentration, rate)
-        room = self.cells.room(weights, state.mass * (state.kind == GRAIN))
+        room = self.cells.gas(weights, state.mass * (state.kind == GRAIN))
         return float((self.cells.density(weights, rate) / (room * gas_state.fields["density"])).max(initial=0.0))
 
     def share(self, handed: Handed, gas_state) -> float:
         """Vapour that a window brought into a cell, over the gas in it; the largest of all cells."""
-        room = self.cells.room(handed.weights, handed.mass)
+        room = self.cells.gas(handed.weights, handed.mass)
         return float(
             (handed.terms["vapour", "evaporation"] * handed.dt / (room * gas_state.fields["density"])).max(initial=0.0)
         )

@@ -137,8 +137,10 @@ class Window(Clock):
         self.limits["grip"] = GRIP / grip if grip > 0.0 else math.inf
 
     def obey(self, limits: dict[str, float]) -> None:
-        """Take note of the longest windows [s] that are borne now, by what bears them; inf where any is."""
-        self.limits |= limits
+        """Take note of the longest windows [s] that are borne now, by what bears them; inf where any is. What is one of
+        MOST obeys what `thicken` was told of too."""
+        both = {cause: min(limits[cause], self.limits.get(cause, math.inf)) for cause in MOST.keys() & limits.keys()}
+        self.limits |= limits | both
 
     @property
     def idle(self) -> bool:

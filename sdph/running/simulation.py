@@ -107,11 +107,11 @@ class Simulation:
         one_way = self.case.coupling.one_way
         alpha_g = None if one_way or not self.case.coupling.voidage else self._alpha_g()
         self.gas_state = self.gas.start(alpha_g, () if one_way else self.exchange.sources, self.exchange.fields)
-        self._obey_effects()
         self._begin_exchange()
         self.ledger.open(self._totals(), self.gas_state.budget)
         self.pressed = self._forces(None, 0.0)
-        held = self.exchange.held(self.state, self.weights, self.gas_state)
+        held = self.exchange.begin(self.state, self.weights, self.gas_state)
+        self._obey_effects()
         self._hear(held | self.gas_state.budget.held)
         self.beside.start()
         self.clock.obey({"contact": self.beside.limit(self.state)})

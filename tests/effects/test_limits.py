@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from builders import simulation
+from char_boxes import char
 from grain_boxes import Row
 from test_break_up_effect import drops
 from test_micro_explosion_effect import bursting_case
@@ -78,6 +79,7 @@ WINDOWS = {
     "radiation": (lambda: radiating(300.0, windows=1), EmbeddedGas),
     "micro_explosion": (bursting_case, EmbeddedGas),
     "break_up": (drops, Row),
+    "reaction": (lambda: char(("reaction", "heat")), EmbeddedGas),
 }
 STEPPERS = {"liquid": LiquidStepper, "mps": MpsStepper, "solid": SolidStepper}
 TINY = 1e-9  # s, far below all other limits

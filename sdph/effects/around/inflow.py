@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from sdph.effects.around import sizes
 from sdph.effects.around.nozzles import check
 from sdph.effects.around.source import ARRAYS
 from sdph.effects.around.streams import Patch, streams_of, unit
@@ -28,7 +29,8 @@ def _patch(case, nozzle) -> Patch:
     half = 0.5 * (nozzle.width or 2.0 * (nozzle.radius or 0.0))
     velocity = tuple(nozzle.speed * a for a in unit(nozzle.direction))
     lower, upper = (tuple(c + sign * half for c in nozzle.centre) for sign in (-1.0, 1.0))
-    return Patch(streams_of(case, nozzle).alpha_p, nozzle.temperature, velocity, lower, upper, nozzle.half_angle)
+    alpha_p, diameter = streams_of(case, nozzle).alpha_p, sizes.own_diameter(case, nozzle)
+    return Patch(alpha_p, nozzle.temperature, velocity, lower, upper, nozzle.half_angle, diameter)
 
 
 class InflowP(NamedTuple):

@@ -7,11 +7,13 @@ and large ones part in flight. Mass, surface and number of the drops are those o
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from sdph.laws import size_classes
+from sdph.laws.break_up import sauter_diameter
 from sdph.schema import CaseError
 
 LAWS = ("log_normal", "rosin_rammler", "given")
@@ -42,6 +44,22 @@ def of_nozzle(case, nozzle) -> Sizes:
         return Sizes(shares / shares.sum(), d, np.zeros(len(d)))
     diameter, variance = np.array(_classes(case.of(nozzle.material), nozzle)).T
     return Sizes(np.full(len(diameter), 1.0 / len(diameter)), diameter, variance)
+
+
+def own_diameter(case, nozzle) -> float | None:
+    """Sauter mean [m] of what a nozzle with sizes of its own gives; a table of drops counts as its grains."""
+    if nozzle.shape == "table" or not any(getattr(nozzle, key) for key in OF_LAW):
+        return None
+    own = of_nozzle(case, nozzle)
+    return float(1.0 / (own.share / sauter_diameter(own.diameter, own.variance)).sum())
+
+
+def of_densest(case, patches):
+    """The case as if all its grains were of the diameter that the densest of the `patches` has of its own."""
+    densest = max(patches, key=lambda patch: patch.alpha_p, default=None)
+    if densest is None or densest.diameter is None or case.mixed:
+        return case
+    return replace(case, grains=replace(case.grains, diameter=densest.diameter, diameter_std=0.0))
 
 
 def _classes(grains, nozzle) -> list[tuple[float, float]]:

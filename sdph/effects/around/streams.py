@@ -192,7 +192,8 @@ def without(gone, rows):
 @dataclass(frozen=True)
 class Patch:
     """Grains that are there at the start, or come in: volume fraction, temperature, velocity, corners of their box;
-    angle [rad] that their paths spread up to on each side."""
+    angle [rad] that their paths spread up to on each side; Sauter mean diameter [m] where it is not that of the
+    grains."""
 
     alpha_p: float
     temperature: float
@@ -200,3 +201,4 @@ class Patch:
     lower: tuple
     upper: tuple
     half_angle: float = 0.0
+    diameter: float | None = None

@@ -211,7 +211,6 @@ def swollen(p, state, dt) -> dict[str, float]:
     """Grow the bubbles of the particles through a window of dt [s]; ledger columns of what tears: droplets, and
     droplets made of them."""
     torn, made = np.empty(len(state.x)), np.empty(len(state.x))
-    state.warming[:] = (state.temperature - state.begun_temperature) / dt
     advance(*p, state, dt, torn, made)
     return {"torn_droplets": float(torn.sum()), "made_droplets": float(made.sum())}
 

@@ -11,16 +11,20 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from sdph.effects.effect import Effect, Judgement
+import numpy as np
+
+from sdph.effects.effect import NO_LIMIT, Effect, Judgement
 from sdph.effects.gas import sizes
 from sdph.engine.ledger import Column
 from sdph.laws import burn_off as law
 from sdph.laws import evaporation, grain_loss
 from sdph.laws.compiled import serial
+from sdph.laws.constants import TINY
 from sdph.schema import CaseError, flag, quantity, record
 
 # effects that it does not go with, and why
 STRANGE = {"evaporation": "[vapour] is one species, given off or used up", "break_up": "grains that burn are solid"}
+PART = 0.1  # of k_s, most that it changes by in a window; our choice
 SPENT, SOURCE = "run / burn-out time", "Levenspiel 1999, ch. 25"
 
 
@@ -133,6 +137,15 @@ def rise(case) -> float:
     return abs(own.heat) / own.oxidant_ratio * richest(case) * max(1.0 / gas.heat_capacity, through_film)
 
 
+def window_limit(p, case, state) -> float:
+    """Time [s] in which the grain whose reaction runs away fastest, or dies out, changes its k_s by PART, by the
+    warming of the last window: the exchange holds k_s over a window."""
+    sensitive = p.activation_temperature * np.abs(state.warming)
+    if not sensitive.any():
+        return NO_LIMIT
+    return PART * float((state.temperature**2 / np.maximum(sensitive, TINY)).min())
+
+
 def blown(s, p, slip: float) -> float:
     """c [m^-1/2] of grains past which gas flows at `slip` [m/s]."""
     schmidt = evaporation.schmidt_number(s.gas.density, s.gas.viscosity, p.diffusivity)
@@ -170,10 +183,11 @@ EFFECT = Effect(
     parameters=Reaction,
     kernel=kernel,
     arrays=(
-        "temperature", "diameter", "diameter_variance", "born_mass", "born_diameter", "born_variance", "lost_still",
-        "lost_moving", "lost_kinetic",
+        "temperature", "begun_temperature", "warming", "diameter", "diameter_variance", "born_mass", "born_diameter",
+        "born_variance", "lost_still", "lost_moving", "lost_kinetic",
     ),
     sources=("alpha_g", "vapour", "carrier", "momentum", "heat"),
+    window_limit=window_limit,
     columns=(Column("reaction_heat_J", heat=1),),
     sums=("reacted_kg", "finished_kg", "reaction_heat_J", "capacity_heat_J"),
     call=call,

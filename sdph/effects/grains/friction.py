@@ -151,8 +151,9 @@ def power(tau, D):
 
 def held(p, method) -> dict[str, float]:
     """Shares of the particles beyond the packing at which the pressure goes on along its tangent, and of those whose
-    contacts do not yield, so that their viscosity is the most that the last step bore."""
-    s, found = method.state, limiter.capped(p, method.state)
+    contacts do not yield, so that their viscosity is the most that the last step bore; and of those that neighbours do
+    not enclose."""
+    s, found = method.state, limiter.capped(p, method.state) | limiter.unenclosed(method)
     stiff = arrays.zeros(len(s.x), s.x, np.bool_)
     if method.step:
         density = s.density * (p.lightest / by_material(s.grain_density, p.grain_density))

@@ -70,8 +70,8 @@ def largest(p, density, theta, diameter):
 
 def held(p, method) -> dict[str, float]:
     """Shares of the particles whose free path is at its limit, with the mean part of the kinetic viscosity that this
-    takes away, and of those that neighbours do not enclose, so that their viscosity is of Morris' form."""
-    s, found = method.state, {"unenclosed_share": limiter.share(method.state, method.scratch.strain[2] == 0.0)}
+    takes away, and of those that neighbours do not enclose."""
+    s, found = method.state, limiter.unenclosed(method)
     return found | limiter.streaming(p, s, granular.STREAMING_MOMENTUM, "viscosity") | limiter.capped(p, s)
 
 

@@ -111,11 +111,12 @@ class Grains:
             self.stepper.prepare()
 
     def advance(self, end: float) -> None:
-        own = self.parameters["micro_explosion"]
-        if own:
+        if len(self.state.warming):
             self.state.begun_temperature[:] = self.state.temperature
         (self.stepper.move if self.moves else self.stepper.conduct)(end - self.time)
-        if own:
+        if len(self.state.warming):
+            self.state.warming[:] = (self.state.temperature - self.state.begun_temperature) / (end - self.time)
+        if own := self.parameters["micro_explosion"]:
             self.torn = micro_explosion.swollen(own, self.state, end - self.time)
         self.time, self.windows = end, self.windows + 1
 

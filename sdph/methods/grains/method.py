@@ -11,7 +11,7 @@ import numpy as np
 
 from sdph import effects
 from sdph.effects import OFF, finite
-from sdph.effects.around import wall_contact
+from sdph.effects.around import sizes, wall_contact
 from sdph.effects.effect import NO_LIMIT, Live
 from sdph.effects.grains import friction, grain_shifting
 from sdph.engine import arrays, gathered, world
@@ -264,7 +264,9 @@ def bounds_of(case) -> tuple[float, ...]:
     of_one = case.grains.density, case.grains.packing_limit
     if not case.mixed:
         return of_one
-    return *of_one, max(grains.density for grains in case.kinds), max(grains.diameter for grains in case.kinds)
+    diameters = [grains.diameter for grains in case.kinds]
+    diameters += [float(sizes.of_nozzle(case, nozzle).diameter.max()) for nozzle in case.nozzles.values()]
+    return *of_one, max(grains.density for grains in case.kinds), max(diameters)
 
 
 def limits(case, parameters, state, pace: float, known: dict[str, float]) -> dict[str, float]:

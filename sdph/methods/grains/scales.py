@@ -13,6 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from sdph import effects
+from sdph.effects.around import sizes
 from sdph.effects.around.streams import Patch
 from sdph.effects.gas import drag as of_drag
 from sdph.effects.gas import reaction
@@ -24,19 +25,19 @@ from sdph.methods.grains import start, ways
 SHEAR = 0.5  # sqrt(I2D) over the rate of a simple shear: D_xy is half of it
 DILUTE = 1e-3  # alpha_p below which grains do not meet often enough to matter, Elghobashi 1994
 THIN = 0.1  # free path over h above which grains are no fluid; a continuum up to that Knudsen number (Bird 1994, ch. 1)
-SETTLED = 0.95  # of the onset of lasting contacts, from which on grains lie on each other; our choice
 
 
 class Scales:
     """Scales of a case. SI; see the properties for meaning. Of several materials they are those of the first."""
 
     def __init__(self, case):
-        self.case, self.gas, self.grains = case, case.gas, case.grains
-        self.end = case.run.end_time
+        self.gas, self.end = case.gas, case.run.end_time
         self.patches = [_patch(case, name, region) for name, region in case.particles.items()]
         self.patches += [
             patch for own in case.parameters.values() if hasattr(own, "patches") for patch in own.patches(case)
         ]
+        self.case = sizes.of_densest(case, self.patches)
+        self.grains = self.case.grains
         self.gravity = math.hypot(*case.domain.gravity)
         own = case.parameters.get("electric_field")
         self.field = own.acceleration(case.grains) if own else np.zeros(case.dimensions)  # of grains in it [m/s2]
@@ -56,7 +57,7 @@ class Scales:
     @cached_property
     def fed(self) -> list[tuple[float, float]]:
         """Speed [m/s] of gas that enters, as fast as it still is where it meets grains, and its temperature [K]."""
-        found = [b for b in self.case.boundaries.values() if b.velocity]
+        found = [b for b in self.case.boundaries.values() if b.lets_in]
         speeds = [b.fastest * ways.strength(self.case, b, self.patches) for b in found]
         return [(speed, b.temperature or self.gas.temperature) for speed, b in zip(speeds, found)]
 
@@ -159,8 +160,13 @@ class Scales:
 
     @cached_property
     def speed(self) -> float:
-        """Speed that the grains reach within the run [m/s]: thrown, blown along or falling; 0 in a bed at rest."""
-        return 0.0 if self.resting else max(self.thrown, self.blown, self.falling if self.patches else 0.0)
+        """Speed that the grains reach within the run [m/s]: thrown, blown along, falling or on a wall that slides; 0 in
+        a bed at rest."""
+        return (
+            0.0
+            if self.resting
+            else max(self.thrown, self.blown, ways.belt(self.case), self.falling if self.patches else 0.0)
+        )
 
     @cached_property
     def blown(self) -> float:
@@ -189,11 +195,7 @@ class Scales:
     @cached_property
     def resting(self) -> bool:
         """True where grains lie packed on a floor without an opening, and the gas that is let in cannot lift them."""
-        own = self.case.parameters.get("friction")
-        onset = own.onset if own else self.grains.packing_limit
-        packed = self.alpha_p >= SETTLED * onset and not self.thrown and self.weight @ self.case.domain.gravity > 0.0
-        held = ways.lie(self.case, self.patches) and not ways.pours(self.case, self.patches)
-        return packed and held and self.jet < self.minimum_fluidisation
+        return ways.rests(self)
 
     @cached_property
     def rim(self) -> float:
@@ -206,7 +208,7 @@ class Scales:
     @cached_property
     def shear_length(self) -> float:
         """Over which the motion of grains changes [m]: their narrowest extent, or the width of a jet that is let in."""
-        widths = [high - low for b in self.case.boundaries.values() if b.velocity for low, high in ways.spans_of(b)]
+        widths = [high - low for b in self.case.boundaries.values() if b.lets_in for low, high in ways.spans_of(b)]
         return max(min([self.length, *widths]), self.case.smoothing_length)
 
     @cached_property

@@ -79,7 +79,19 @@ def advance(
     heated: as `wall_heat.exchange` takes it; steps: its length and that of its window [s].
     """
     strain_grains(
-        kernel, s, rows, box, scratch, terms.shears, terms.friction, terms.viscous, walls_p, wall, work, steps[0]
+        kernel,
+        s,
+        rows,
+        box,
+        scratch,
+        terms.shears,
+        terms.friction,
+        terms.viscous,
+        terms.temperature,
+        walls_p,
+        wall,
+        work,
+        steps[0],
     )
     push(kernel, s, s, rows, box, scratch, terms, walls_p, wall, facing, unheld, work, gravity, steps[0], sums)
     stiffen(terms.slip, kernel, s, rows, box, scratch, work, steps[0])
@@ -92,7 +104,8 @@ def advance_own(domain, own, given: tuple) -> None:
     strained by, and what brakes them."""
     kernel, s, rows, box, scratch, terms, walls_p, wall, facing, unheld, heated, work, gravity, steps, *rest = given
     (heat_capacity, sums), dt, walled = rest, steps[0], (walls_p, wall)
-    strain_grains(kernel, s, rows, box, scratch, terms.shears, terms.friction, terms.viscous, *walled, work, dt)
+    rubs = terms.shears, terms.friction, terms.viscous, terms.temperature
+    strain_grains(kernel, s, rows, box, scratch, *rubs, *walled, work, dt)
     domain.refresh(scratch.bearing)
     push(kernel, s, own, rows, box, scratch, terms, *walled, facing, unheld, work, gravity, dt, sums)
     if terms.slip:
@@ -134,12 +147,12 @@ def settle(kernel, s, own, box, scratch, terms, heated, work, steps, heat_capaci
 
 
 @in_turn
-def strain_grains(kernel, s, rows, box, scratch, shears, friction_p, viscous_p, walls_p, wall, work, dt):
+def strain_grains(kernel, s, rows, box, scratch, shears, friction_p, viscous_p, temperature_p, walls_p, wall, work, dt):
     """Shear of the grains, where somebody asks for it; where there is friction contacts are strained over dt [s]."""
     if len(shears):
         contacts.shear(
-            kernel, s, rows, box, scratch, walls_p, wall, friction_p, viscous_p, dt, work.contact, scratch.traction,
-            scratch.rubbing, scratch.bearing, scratch.works, scratch.strain,
+            kernel, s, rows, box, scratch, walls_p, wall, friction_p, viscous_p, temperature_p, dt, work.contact,
+            scratch.traction, scratch.rubbing, scratch.bearing, scratch.works, scratch.strain,
         )  # fmt: skip
         if len(friction_p):
             strained(s, work.contact)
@@ -190,7 +203,17 @@ def loops(
     if len(terms.shears):
         found["shear"] = (
             contacts.shear,
-            (*head, walls_p, wall, terms.friction, terms.viscous, steps[0], work.contact, *scratch.shearing),
+            (
+                *head,
+                walls_p,
+                wall,
+                terms.friction,
+                terms.viscous,
+                terms.temperature,
+                steps[0],
+                work.contact,
+                *scratch.shearing,
+            ),
         )
     if len(walls_p):
         found["extrapolate"] = (

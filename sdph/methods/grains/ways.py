@@ -12,6 +12,7 @@ from sdph.effects.gas import reaction
 from sdph.engine.geometry import PAIRS
 
 CAVITY = 4.2  # a stream past a cavity of width w fades in it as exp(-4.2 y/w): Moffatt 1964, J. Fluid Mech. 18, 1
+SETTLED = 0.95  # of the onset of lasting contacts, from which on grains lie on each other; our choice
 FADED = 1e-3  # of an inlet's speed, below which gas is at rest; our choice
 
 
@@ -128,7 +129,22 @@ def slowest(case) -> float:
     """Slowest gas [m/s] of those that are let in, as far as it goes against gravity; 0 where none does."""
     up = upright(case)
     against = -math.copysign(1.0, case.domain.gravity[up])
-    return max(0.0, min((b.velocity[up] * against for b in case.boundaries.values() if b.velocity), default=0.0))
+    return max(0.0, min((b.velocity[up] * against for b in case.boundaries.values() if b.lets_in), default=0.0))
+
+
+def belt(case) -> float:
+    """Largest speed [m/s] of the walls that slide along under grains."""
+    slides = [b.fastest for b in case.boundaries.values() if b.velocity and not b.lets_in]
+    return max(slides, default=0.0) if "walls" in case.effects else 0.0
+
+
+def rests(s) -> bool:
+    """True where grains lie packed on a floor without an opening, and neither gas nor a wall that slides moves them."""
+    own = s.case.parameters.get("friction")
+    onset = own.onset if own else s.grains.packing_limit
+    packed = s.alpha_p >= SETTLED * onset and not s.thrown and s.weight @ s.case.domain.gravity > 0.0
+    held = lie(s.case, s.patches) and not pours(s.case, s.patches) and not belt(s.case)
+    return packed and held and s.jet < s.minimum_fluidisation
 
 
 def lie(case, patches) -> bool:
@@ -187,5 +203,5 @@ def towards(s, patch, axis: int, outward: float) -> float:
 def _blows(case, axis: int, outward: float) -> bool:
     """True where gas that is let in may blow grains that way: a stream through a whole side goes straight on, one
     through part of it turns anywhere."""
-    fed = [b for b in case.boundaries.values() if b.velocity and any(b.velocity)]
+    fed = [b for b in case.boundaries.values() if b.lets_in and any(b.velocity)]
     return any(b.span is not None or b.side is None or outward * b.velocity[axis] > 0.0 for b in fed)

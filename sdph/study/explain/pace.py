@@ -25,7 +25,6 @@ from sdph.engine.clock import count_of_parts
 from sdph.exchange.window import GRIP, MOST, Window, held, settling, smallest_cell
 from sdph.methods.grains import ways
 from sdph.methods.grains.method import limits as limits_of_step
-from sdph.methods.grains.scales import SETTLED
 from sdph.methods.grains.sound import swing, waves_of
 from sdph.study.explain import feed
 
@@ -227,7 +226,7 @@ def stiffness(case, s, lasting: bool = True) -> tuple[float, float]:
     squared = pressed = 0.0
     if lasting and "friction" in case.effects:
         p, alpha_p = friction.kernel(case), s.alpha_p
-        if alpha_p >= SETTLED * p.onset or bubbles(case, s):
+        if alpha_p >= ways.SETTLED * p.onset or bubbles(case, s):
             alpha_p = max(alpha_p, packed_by(p, carried(case, s)))
         pressure, slope = friction.pressure(p, alpha_p)
         squared = friction.sound_squared(p, slope)

@@ -8,7 +8,7 @@ from char_boxes import BOTH, CHAR, DENSITY, DIAMETER, GAS, HEAT, OXIDANT, RATE, 
 from scipy.integrate import solve_ivp
 
 from sdph.case import read as cases
-from sdph.effects.gas import sizes
+from sdph.effects.gas import reaction, sizes
 from sdph.schema import CaseError
 
 
@@ -52,8 +52,9 @@ def test_surface_and_film_in_series(tmp_path, slip):
     np.testing.assert_allclose(run.state.diameter, expected, rtol=2e-6)
 
 
-def test_the_order_in_the_window_is_the_first_where_temperatures_change(tmp_path):
+def test_the_order_in_the_window_is_the_first_where_temperatures_change(tmp_path, monkeypatch):
     """A grain that warms as it burns, five times as fast at the end, against its two equations integrated apart."""
+    monkeypatch.setattr(reaction, "PART", math.inf)  # windows as given
     end, given = 0.4, {"rate_m_s": 150.0, "activation_temperature_K": 8000.0, "heat_J_kg": HEAT}
 
     def both(t, y):
@@ -72,6 +73,30 @@ def test_the_order_in_the_window_is_the_first_where_temperatures_change(tmp_path
     print("loss of diameter in 20, 40, 80 windows, off by", off)
     assert abs(off[2]) < 0.02
     assert off[0] / off[1] == pytest.approx(2.0, rel=0.15) and off[1] / off[2] == pytest.approx(2.0, rel=0.1)
+
+
+@pytest.mark.parametrize("change", [1.0, -1.0])
+def test_a_window_changes_the_rate_by_a_tenth_at_most(tmp_path, change):
+    """T_a dT/T^2, by the warming or cooling of the window before; none where k_s does not ask for the temperature."""
+    given = {"rate_m_s": 150.0, "activation_temperature_K": 8000.0, "heat_J_kg": HEAT}
+    run = started(char(BOTH, reaction=given), tmp_path)
+    s, p = run.state, run.parameters["reaction"]
+    k = 1.0 / (math.exp(8000.0 / 1100.0) / 150.0 + DIAMETER / (2.0 * D))
+    heating = 6.0 / (DIAMETER * DENSITY * CHAR) * HEAT * k * GAS * OXIDANT / RATIO  # K/s, at the start
+    assert run.clock.limits["reaction"] == pytest.approx(0.1 * 1100.0**2 / (8000.0 * heating))
+    s.warming[:] = change * 5000.0
+    assert reaction.window_limit(p, run.case, s) == pytest.approx(0.1 * 1100.0**2 / (8000.0 * 5000.0))
+    assert reaction.window_limit(p._replace(activation_temperature=0.0), run.case, s) == math.inf
+
+
+def test_a_run_away_is_followed_whatever_the_largest_window(tmp_path):
+    """Grains that light up in 40 windows and in 4 are as large at the end, to 2 % of what they lost."""
+    given, left = {"rate_m_s": 150.0, "activation_temperature_K": 8000.0, "heat_J_kg": HEAT}, []
+    for count in (4, 40):
+        (tmp_path / str(count)).mkdir()
+        run = finished(char(BOTH, end=0.4, windows=count, reaction=given), tmp_path / str(count))
+        left.append(run.state.diameter[0])
+    assert DIAMETER - left[0] == pytest.approx(DIAMETER - left[1], rel=0.02)
 
 
 def test_a_grain_warms_until_the_film_takes_the_heat_off(tmp_path):

@@ -71,7 +71,8 @@ def test_grains_past_the_cap_of_packing(name):
 def test_grains_that_neighbours_do_not_enclose():
     own = grains([0.6] * 4, 1e-4, upstream=(3,))
     own.scratch.strain[2, 1:] = 0.0
-    assert held("granular_viscosity", own)["unenclosed_share"] == pytest.approx(2.0 / 3.0)
+    for name in ("granular_viscosity", "friction"):
+        assert held(name, own)["unenclosed_share"] == pytest.approx(2.0 / 3.0)
 
 
 def test_no_grains_are_no_share():

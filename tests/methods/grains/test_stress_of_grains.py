@@ -16,22 +16,25 @@ from sdph.methods.grains import contacts, stress
 from sdph.methods.grains import equations as rates
 
 H, MASS, MU, BULK = 1.5, 1.0, 1.08, 1.43  # spacings of 1; dense grains have BULK/MU = 1.32
-VISCOUS = (1.0,)  # parameters of an effect that is on
+ON = (1.0,)  # parameters of an effect that is on
 
 
 class Felt(NamedTuple):
-    """Places, velocities and forces (N, d), power of viscosity (N,), 1 where enclosed, density (N,), enclosed (N,)."""
+    """Places, velocities and forces (N, d), power of viscosity that feeds theta and that heats (N,), density (N,), 1
+    where enclosed (N,)."""
 
     place: np.ndarray
     velocity: np.ndarray
     force: np.ndarray
     power: np.ndarray
+    heat: np.ndarray
     density: np.ndarray
     enclosed: np.ndarray
 
 
-def felt(place, velocity, period=OPEN, mu=MU, bulk=BULK) -> Felt:
-    """Of particles at `place` that move with `velocity` (N, d), by viscosity alone."""
+def felt(place, velocity, period=OPEN, mu=MU, bulk=BULK, theta=ON) -> Felt:
+    """Of particles at `place` that move with `velocity` (N, d), by viscosity alone; `theta` is OFF where there is
+    none."""
     dims = place.shape[1]
     given = cloud(place, mass=MASS)
     for name, values in zip("uvw", velocity.T):
@@ -43,17 +46,23 @@ def felt(place, velocity, period=OPEN, mu=MU, bulk=BULK) -> Felt:
     rates.sum_density(kernel, state, rows, box, OFF, OFF, state.density, own.pull)
     own.shear[:], own.bulk[:] = mu, bulk
     contacts.shear(
-        kernel, state, rows, box, own, OFF, OFF, OFF, VISCOUS, 1.0, np.empty((5, 0)), *own.shearing
+        kernel, state, rows, box, own, OFF, OFF, OFF, ON, theta, 1.0, np.empty((5, 0)), *own.shearing
     )  # fmt: skip
-    acceleration, agitation = np.empty((count, 3)), np.empty(count)
+    acceleration, agitation, heating = np.empty((count, 3)), np.empty(count), np.empty(count)
     rates.rates(
-        kernel, state, rows, box, own, VISCOUS, OFF, OFF, OFF, OFF, OFF, OFF, acceleration, np.zeros((count, 7)),
-        agitation, np.empty(count),
+        kernel, state, rows, box, own, ON, OFF, OFF, OFF, OFF, OFF, OFF, acceleration, np.zeros((count, 7)),
+        agitation, heating,
     )  # fmt: skip
     places, speeds = (np.stack([getattr(state, a) for a in names[:dims]], axis=1) for names in ("xyz", "uvw"))
     mass = state.mass[:, None]
     return Felt(
-        places, speeds, mass * acceleration[:, :dims], state.mass * agitation, state.density.copy(), own.strain[2]
+        places,
+        speeds,
+        mass * acceleration[:, :dims],
+        state.mass * agitation,
+        state.mass * heating,
+        state.density.copy(),
+        own.strain[2],
     )
 
 
@@ -136,3 +145,12 @@ def test_lone_particles_are_braked_as_morris_has_it():
     moving = own.velocity[:, 1] == 1.0
     assert not own.enclosed.any() and stress.ENCLOSED > 0.0
     assert own.force[moving, 1] == pytest.approx(2.0 * MU * pull / own.density[moving] ** 2)
+
+
+def test_what_viscosity_takes_heats_where_nothing_is_agitated():
+    """Of all grains, at the edges too, where its form is another: no power is lost."""
+    place = lattice((7, 7), 0.2)
+    velocity = place @ flows(2)[3].T
+    feeds, heats = felt(place, velocity), felt(place, velocity, theta=OFF)
+    assert (feeds.power > 0.0).all() and not feeds.heat.any() and not heats.power.any()
+    np.testing.assert_allclose(heats.heat, feeds.power, rtol=1e-14)
