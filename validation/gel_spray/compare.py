@@ -49,7 +49,7 @@ def exact(run) -> list[dict]:
     at = int(np.argmax(own.diameter < 0.9 * own.diameter[0]))
     done = int(np.argmax(own.sealed == 0.0))
     if not 0 < at < done:
-        return []
+        return [check("the tracked droplet tears, and throws until it is sealed no more", 0, 1, 0)]
     particle = micro_explosion.kernel(run.case)
     tear = torn(run.case, particle, own)
     first = own.time[0]
