@@ -226,6 +226,21 @@ def references(module):
     return getattr(module, "VARIANTS", dict(enumerate(whole))).values()
 
 
+@pytest.mark.parametrize(("sag", "evaporated", "missed"), [
+    (0.05, 1e-6, []), (0.0, 1e-6, ["sag [m] at 0.05 s, more than none"]),
+    (0.05, 0.0, ["share of the liquid that evaporated, more than none"]),
+])  # fmt: skip
+def test_a_jet_that_does_not_fall_or_evaporate_has_missed(monkeypatch, sag, evaporated, missed):
+    """At the last time; before, the head may be where it was."""
+    with_outputs(monkeypatch, [0.0, 0.05])
+    told_of = {"front_m": 0.48, "sag_m": 0.2 * sag, "core_temperature_K": 294.0, "vapour_mass_fraction_max": 0.01}
+    metrics = {name: np.full(2, value) for name, value in told_of.items()} | {"time_s": np.array([0.0, 0.05])}
+    summary = {"evaporated_kg": evaporated, "injected_kg": 1.0}
+    run = told("evaporating_jet", 0.05, summary=summary, metrics=metrics)
+    checks = compare.scene_module("evaporating_jet").exact(run)
+    assert [check["name"] for check in checks if not check["ok"]] == missed and len(checks) == 7
+
+
 def test_no_check_of_the_jet_stands_in_the_record_twice():
     """`dpm` ends with the checks of `exact`."""
     assert all({"exact", "dpm"} - set(own) for _, own in references(compare.scene_module("evaporating_jet")))

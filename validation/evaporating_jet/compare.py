@@ -89,7 +89,7 @@ def alike(case) -> bool:
 
 
 def bounds(run, times) -> list[dict]:
-    """sdph-notes 4.3: free flight and fall, onset, saturation, mass."""
+    """sdph-notes 4.3: free flight and fall, onset, saturation, mass; that there is fall and evaporation at all."""
     nozzle, own, gravity = (
         run.case.nozzles["jet"],
         run.case.parameters["evaporation"],
@@ -109,8 +109,9 @@ def bounds(run, times) -> list[dict]:
                 saturated(run.case),
             )
         )
-    share = run.summary["evaporated_kg"] / run.summary["injected_kg"]
-    return [*checks, at_most("share of the liquid that evaporated", share, 0.0025)]
+    share, what = run.summary["evaporated_kg"] / run.summary["injected_kg"], "share of the liquid that evaporated"
+    checks += [some(f"sag [m] at {t:g} s", run.metric("sag_m", t)) for t in times[-1:]]
+    return [*checks, at_most(what, share, 0.0025), some(what, share)]
 
 
 def saturated(case) -> float:
@@ -122,6 +123,11 @@ def saturated(case) -> float:
 def at_most(name: str, value: float, bound: float) -> dict:
     """A check that only counts above the bound."""
     return check(f"{name}, at most {bound:.4g}", max(value, bound), bound, 0.0) | {"value": float(value)}
+
+
+def some(name: str, value: float) -> dict:
+    """A check that a value is above 0."""
+    return check(f"{name}, more than none", value, 0.0, 0.0) | {"ok": bool(value > 0.0)}
 
 
 def evaporated(run, time: float) -> float:
