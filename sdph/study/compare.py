@@ -67,7 +67,7 @@ class Finished:
         return k
 
     def reached(self, times: Iterable[float]) -> list[float]:
-        """Those of `times` [s] that the run reaches; a line on standard error names the others."""
+        """Times [s] among `times` that the run reaches; a line on standard error names the others."""
         end = self.summary["time_s"] * (1.0 + DIGITS)
         later = ", ".join(f"{t:g}" for t in times if t > end)
         if later:
@@ -75,7 +75,7 @@ class Finished:
         return [t for t in times if t <= end]
 
     def outputs(self, times: Iterable[float]) -> list[float]:
-        """The same, where each has an output; CaseError where one has none."""
+        """Times [s] as of `reached`, each of an output; CaseError where there is none."""
         own, found = timeline.read(self.folder).time_values, self.reached(times)
         for time in found:
             self.output_at(own, time)
@@ -101,7 +101,7 @@ def _table(file: Path) -> dict[str, np.ndarray]:
 
 
 def _same(time: float, interval: float) -> float:
-    """How far [s] from `time` [s] an output is still at that time."""
+    """Distance [s] from `time` [s] within which an output is at that time."""
     return SAME * interval + DIGITS * abs(time)
 
 
