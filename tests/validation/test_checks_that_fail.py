@@ -192,6 +192,20 @@ def test_a_droplet_that_is_lost_has_not_evaporated(monkeypatch, evaporated, ok):
     assert found["ok"] == ok and found["value"] == pytest.approx(1.0 - evaporated, abs=1e-12)
 
 
+@pytest.mark.parametrize(("ratio", "parted", "ok"), [
+    (1.4, 0.2, [True, True]), (1.02, 0.2, [False, True]), (1.4, 0.015, [True, False]),
+])  # fmt: skip
+def test_beads_that_part_by_less_than_chance_have_not_parted(ratio, parted, ok):
+    """At the start heights differ by 3 % and the index is -0.02, as beads lie at random."""
+    time, ones = np.array([0.0, 1.0, 9.0]), np.ones(3)
+    table = {"time_s": time, "mixing_index": 0.8 * ones, "segregation": np.array([-0.02, 0.0, parted])}
+    table |= {"height_large_m": ones, "height_small_m": np.array([0.97, 1.0, ratio])}
+    history = {f"material_{name}_kg": ones for name in ("small", "large")}
+    run = told("segregation", 10.0, history=history, metrics=table)
+    rows = compare.scene_module("segregation").paper(run)
+    assert [row["ok"] for row in rows[:2]] == ok and all(row["ok"] for row in rows[2:])
+
+
 @pytest.mark.parametrize(("missing", "ok"), [(0, True), (1, False)])
 def test_a_place_for_one_more_particle_is_a_void(missing, ok):
     """A lattice of 100 x 60, complete, and without the particle 3050 and by 2 % wider there; air 2 % less dense."""
