@@ -62,10 +62,26 @@ def validate_scene(options) -> int:
     overrides = tuple(options.set) + ((f'coupling.gas="{options.gas}"',) if options.gas else ())
     with contextlib.closing(Reporter(line=not options.json)) as reporter:
         checks = validate.validate(options.scene, overrides, reporter, options.out and options.out / options.scene)
+    if not options.set:
+        checks += _vanished(options, checks)
     if options.record:
         record.write(options.record, options.scene, checks, options.gas)
     _tell(checks, options.json)
     return FINE if all(check["ok"] for check in checks) else CHECK_FAILED
+
+
+def _vanished(options, checks: list[dict]) -> list[dict]:
+    """Failed checks for those of the scene's record that this run lacks, and a line that says what to do."""
+    from sdph.study import validate
+
+    found = validate.vanished(options.scene, checks, options.record)
+    if found:
+        print(
+            f"sdph: {options.scene} lacks {len(found)} checks that its record has (nan in the table); where they were "
+            "meant to go, delete them from the record",
+            file=sys.stderr,
+        )
+    return found
 
 
 def _words(name: str, options) -> tuple[str, ...]:

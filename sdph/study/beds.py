@@ -61,7 +61,7 @@ def inside(run, distance) -> dict:
     """Farthest that a particle stands beyond the walls at any output [m]; `distance` (N, 3) -> (N,) [m] is positive
     inside."""
     places = [np.asarray(run.fields(time)[1].points, float) for time in run.metrics["time_s"]]
-    worst = max(float(-distance(own).min()) for own in places)
+    worst = np.max([-distance(own).min() for own in places])  # nan where one is
     return _below("farthest that a particle stands beyond a wall [m]", worst, OUT * run.case.resolution.spacing)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import sys
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -44,8 +45,41 @@ class Finished:
         return _table(self.folder / "metrics.csv")
 
     def fields(self, time: float):
-        """(time, particles, gas) nearest to `time` [s]."""
-        return timeline.state_at(timeline.read(self.folder), time)
+        """(time, particles, gas) of the output at `time` [s]; CaseError where there is none."""
+        own = timeline.read(self.folder)
+        self.output_at(own.time_values, time)
+        return timeline.state_at(own, time)
+
+    def metric(self, column: str, time: float) -> float:
+        """A column of metrics.csv at the output at `time` [s]; CaseError where there is none."""
+        table = self.metrics
+        return float(table[column][self.output_at(table["time_s"], time)])
+
+    def output_at(self, times, time: float) -> int:
+        """Number of the output at `time` [s] among those at `times`; CaseError where none is at that time."""
+        apart, interval = np.abs(np.asarray(times) - time), self.case.run.output_interval
+        k = int(apart.argmin())
+        if apart[k] > _same(time, interval):
+            raise CaseError(
+                f"{self.folder} has no output at {time:g} s, where it is compared; the nearest is at {times[k]:g} s: "
+                f"run it anew with run.output_interval_s (here {interval:g}) such that {time:g} s is a multiple of it"
+            )
+        return k
+
+    def reached(self, times: Iterable[float]) -> list[float]:
+        """Times [s] among `times` that the run reaches; a line on standard error names the others."""
+        end = self.summary["time_s"] * (1.0 + DIGITS)
+        later = ", ".join(f"{t:g}" for t in times if t > end)
+        if later:
+            print(f"sdph: {self.folder} ends at {self.summary['time_s']:g} s: no check at {later} s", file=sys.stderr)
+        return [t for t in times if t <= end]
+
+    def outputs(self, times: Iterable[float]) -> list[float]:
+        """Times [s] as of `reached`, each of an output; CaseError where there is none."""
+        own, found = timeline.read(self.folder).time_values, self.reached(times)
+        for time in found:
+            self.output_at(own, time)
+        return found
 
 
 def open_run(folder: Path) -> Finished:
@@ -66,6 +100,11 @@ def _table(file: Path) -> dict[str, np.ndarray]:
     return columns
 
 
+def _same(time: float, interval: float) -> float:
+    """Distance [s] from `time` [s] within which an output is at that time."""
+    return SAME * interval + DIGITS * abs(time)
+
+
 def too_short(run: Finished) -> bool:
     """Tell whether a run ends before the first time that a reference of OpenFOAM writes at."""
     return run.summary["time_s"] < run.case.run.output_interval * (1.0 - SAME)
@@ -74,7 +113,7 @@ def too_short(run: Finished) -> bool:
 def times_of_both(run: Finished, reference) -> list[float]:
     """Times [s] at which a run and a reference of OpenFOAM have fields; CaseError where there is none."""
     own, interval = np.array(timeline.read(run.folder).time_values), run.case.run.output_interval
-    found = [t for t in sorted(reference.fields) if np.abs(own - t).min() <= SAME * interval + DIGITS * t]
+    found = [t for t in sorted(reference.fields) if np.abs(own - t).min() <= _same(t, interval)]
     if not found:
         raise CaseError(
             f"{run.folder} has fields at none of the times of its reference, every {interval:g} s "

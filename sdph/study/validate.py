@@ -13,9 +13,11 @@ module for each part of it, which STUDY.PART runs alone; those named in LONG are
 from __future__ import annotations
 
 import importlib.util
+import math
 import re
 import sys
 import tempfile
+from collections import Counter
 from pathlib import Path
 
 from sdph import scenes
@@ -23,7 +25,7 @@ from sdph.case import read as cases
 from sdph.running import balances, driver
 from sdph.scenes import paths
 from sdph.schema import CaseError
-from sdph.study import compare
+from sdph.study import compare, record
 
 REFERENCES = ("exact", "paper", "tfm", "dpm")
 EXPERIMENTS = "experiments"
@@ -55,10 +57,31 @@ def validate(scene: str, overrides: tuple[str, ...], reporter, folder: Path | No
         run = compare.open_run(own_folder)
         checks += [check | {"name": f"{name}, balances: {check['name']}"} for check in balances.checks(run.summary)]
         for reference in references:
-            checks += [
-                check | {"name": f"{name}, {reference}: {check['name']}"} for check in getattr(module, reference)(run)
-            ]
+            found = some(getattr(module, reference)(run), "gives a check")
+            checks += [check | {"name": f"{name}, {reference}: {check['name']}"} for check in found]
     return checks
+
+
+def some(checks: list[dict], name: str) -> list[dict]:
+    """The checks; where there are none, a failed one of that name: what tells nothing holds nothing."""
+    return checks or [compare.check(name, 0.0, 1.0, 0.0)]
+
+
+def vanished(scene: str, checks: list[dict], folder: Path | None) -> list[dict]:
+    """Failed checks, their values nan, for the names in the record of a scene that `checks` has not; the record in
+    `folder`, or else the one that came along. None for a part of a study: a record is of all of it."""
+    kept = (folder and record.read(folder, scene)) or record.read(paths.data("validation") / "record", scene)
+    left, gone = Counter(check["name"] for check in checks), []
+    for check in kept["checks"] if kept else ():
+        left[check["name"]] -= 1
+        if left[check["name"]] < 0:
+            gone.append(check | _numbers(check) | {"value": math.nan, "ok": False})
+    return gone
+
+
+def _numbers(check: dict) -> dict:
+    """Reference and tolerance of a recorded check; JSON knows no nan."""
+    return {key: math.nan if check[key] is None else check[key] for key in ("reference", "tolerance")}
 
 
 def _parts(study: str, name: str, overrides: tuple[str, ...], reporter, folder: Path) -> list[dict]:
@@ -72,7 +95,16 @@ def _parts(study: str, name: str, overrides: tuple[str, ...], reporter, folder: 
         raise CaseError(f"{study}.{name}: {study} has no such part; it has: {', '.join(known)}")
     folder.mkdir(parents=True, exist_ok=True)
     own = [part(study, name) for name in ([name] if name else names)]
-    return [check for module in own for check in module.checks(folder, overrides, reporter)]
+    return [
+        check
+        for module in own
+        for check in some(module.checks(folder, overrides, reporter), f"{_name(module)}: gives a check")
+    ]
+
+
+def _name(module) -> str:
+    """Name of a part of a study."""
+    return module.__name__.rpartition(".")[2]
 
 
 def part(study: str, name: str = ""):

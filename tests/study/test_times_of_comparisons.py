@@ -1,7 +1,9 @@
 """Times of a run and of its reference of OpenFOAM: those that both have, and one line where there is none."""
 
+from pathlib import Path
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from coupling.openfoam.comparators import run as comparators
@@ -56,3 +58,34 @@ def test_a_case_without_an_output_is_refused_before_openfoam_runs(tmp_path):
         with pytest.raises(CaseError, match=r"run.end_time_s = 0.0005 lies before the first output"):
             run(own(run=short), tmp_path / "short")
     assert not (tmp_path / "short").exists()
+
+
+def of_outputs(monkeypatch, times, interval=0.5, end=None):
+    """A run of liquid with fields and metrics at some times, or until `end` [s]."""
+    case = SimpleNamespace(run=SimpleNamespace(output_interval=interval))
+    own = SimpleNamespace(time_values=list(times))
+    monkeypatch.setattr(compare.timeline, "read", lambda folder: own)
+    monkeypatch.setattr(compare.timeline, "state_at", lambda own, time: ("fields", time))
+    table = {"time_s": np.array(times), "front_m": 10.0 * np.array(times)}
+    monkeypatch.setattr(compare.Finished, "metrics", property(lambda run: table))
+    return compare.Finished(Path("run"), case, {"time_s": max(times) if end is None else end}, {})
+
+
+def test_no_output_stands_in_for_one_at_another_time(monkeypatch):
+    """Where a run has fields every 0.5 s, none at 0.3 s is made of that of 0.5 s, by whatever way it is asked for."""
+    run = of_outputs(monkeypatch, [0.0, 0.5, 1.0])
+    assert run.fields(0.5) == ("fields", 0.5) and run.metric("front_m", 1.0) == 10.0 and run.outputs([0.5]) == [0.5]
+    assert run.fields(0.5 + 2e-8) and run.metric("front_m", 0.5 - 2e-8) == 5.0  # digits of files
+    line = "run has no output at 0.3 s, where it is compared; the nearest is at 0.5 s: run it anew with "
+    for asked in (run.fields, lambda t: run.metric("front_m", t), lambda t: run.outputs([0.5, t])):
+        with pytest.raises(CaseError, match=f"^{line}run.output_interval_s ") as refused:
+            asked(0.3)
+        assert "\n" not in str(refused.value)
+
+
+def test_times_that_a_run_does_not_reach_are_told(monkeypatch, capsys):
+    run = of_outputs(monkeypatch, [0.0, 0.5, 1.0], end=0.9999999999)
+    assert run.reached([0.5, 1.0]) == run.outputs([0.5, 1.0]) == [0.5, 1.0]  # an end in the digits of a clock
+    assert capsys.readouterr().err == ""
+    assert run.outputs([0.5, 2.0, 10.0]) == [0.5]
+    assert capsys.readouterr().err == "sdph: run ends at 1 s: no check at 2, 10 s\n"

@@ -30,10 +30,12 @@ def fronts(run, column: str = "largest_x_m") -> dict[float, tuple[float, float, 
     """T -> x/a of the run, middle of the measured, half their spread."""
     case, pool = run.case, run.case.pools["column"]
     width, g = pool.upper[0] - pool.lower[0], -case.domain.gravity[1]
-    T = run.history["time_s"] * np.sqrt(2.0 * g / width) + OFFSET
+    pace = np.sqrt(2.0 * g / width)
+    T = run.history["time_s"] * pace + OFFSET
     Z = (run.history[column] + 0.5 * case.resolution.spacing) / width
     found = {}
-    for at in (t for t in TIMES if t <= T[-1]):
+    moments = {(at - OFFSET) / pace: at for at in TIMES}
+    for at in (moments[time] for time in run.reached(moments)):
         known = [np.interp(at, *rows.T) for rows in measured().values() if rows[0, 0] <= at <= rows[-1, 0]]
         middle, spread = 0.5 * (min(known) + max(known)), 0.5 * (max(known) - min(known))
         found[at] = float(np.interp(at, T, Z)), middle, spread

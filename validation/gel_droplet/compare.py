@@ -19,32 +19,27 @@ def exact(run) -> list[dict]:
 
 
 def course(run) -> list[dict]:
-    """D/D0 and pressure in time, and when D/D0 is reached, up to the tear."""
+    """D/D0 and pressure in time, and when D/D0 is reached, up to the tear of the model; nan behind that of the run. A
+    run that does not tear, which `tear` tells, is held to as far as it goes."""
     model, rows = reduced(run.case).history, grown(run.history)
     time, ratio = run.history["time_s"][rows], run.history["diameter_ratio"][rows]
-    pressure = run.history["bubble_pressure_Pa"][rows]
-    last = min(time[-1], model["time_s"][np.argmax(model["diameter_ratio"])])
+    own, torn = {"diameter_ratio": ratio, "pressure_Pa": run.history["bubble_pressure_Pa"][rows]}, run.summary["torn"]
+    end, largest = model["time_s"][np.argmax(model["diameter_ratio"])], model["diameter_ratio"].max()
+    last = min(time[-1], end)
+    other = run.case.parameters["liquid_heat"].flux != 1.42e5  # another droplet: as shares
     found = []
-    for t in AT:
-        t = t * last / AT[-1] if run.case.parameters["liquid_heat"].flux != 1.42e5 else t  # another droplet: as shares
-        if t > last:
-            continue
-        own, other = (np.interp(t, model["time_s"], model[name]) for name in ("diameter_ratio", "pressure_Pa"))
-        found += [
-            check(f"D/D0 at {t:.4g} s", np.interp(t, time, ratio), own, RATIO, True),
-            check(
-                f"pressure at {t:.4g} s [Pa]",
-                np.interp(t, time, pressure),
-                other,
-                PRESSURE,
-                True,
-            ),
-        ]
-    for r in REACHED:
-        if r < min(ratio.max(), model["diameter_ratio"].max()):
-            ours, theirs = (float(np.interp(r, np.maximum.accumulate(a), b)) for a, b in (
-                (ratio, time), (model["diameter_ratio"], model["time_s"])))  # fmt: skip
-            found.append(check(f"time of D/D0 = {r:g} [s]", ours, theirs, TIME, True))
+    for t in (min(t * last / AT[-1], last) if other else t for t in AT):
+        if t <= (end if torn else last):
+            of_model = {name: np.interp(t, model["time_s"], model[name]) for name in own}
+            of_run = {name: np.interp(t, time, values, right=np.nan) for name, values in own.items()}
+            found += [
+                check(f"D/D0 at {t:.4g} s", *(of["diameter_ratio"] for of in (of_run, of_model)), RATIO, True),
+                check(f"pressure at {t:.4g} s [Pa]", *(of["pressure_Pa"] for of in (of_run, of_model)), PRESSURE, True),
+            ]
+    for r in (r for r in REACHED if r < (largest if torn else min(ratio.max(), largest))):
+        ours, theirs = (float(np.interp(r, np.maximum.accumulate(a), b, right=np.nan)) for a, b in (
+            (ratio, time), (model["diameter_ratio"], model["time_s"])))  # fmt: skip
+        found.append(check(f"time of D/D0 = {r:g} [s]", ours, theirs, TIME, True))
     return found
 
 

@@ -46,10 +46,9 @@ class Tear(NamedTuple):
 def exact(run) -> list[dict]:
     """Tear, vapour and sizes of the tracked particle; what the whole spray did, without a bar."""
     own = tracked(run)
-    at = int(np.argmax(own.diameter < 0.9 * own.diameter[0]))
-    done = int(np.argmax(own.sealed == 0.0))
+    at, done = (_first(rows) for rows in (own.diameter < 0.9 * own.diameter[:1], own.sealed == 0.0))
     if not 0 < at < done:
-        return []
+        return [check("the tracked droplet tears, and throws until nothing is left to throw", 0, 1, 0)]
     particle = micro_explosion.kernel(run.case)
     tear = torn(run.case, particle, own)
     first = own.time[0]
@@ -71,6 +70,11 @@ def exact(run) -> list[dict]:
               run.summary["evaporated_kg"] / run.summary["injected_kg"],
               run.summary["thrown_kg"] / run.summary["injected_kg"], math.inf),
     ]  # fmt: skip
+
+
+def _first(rows) -> int:
+    """The first of the rows that holds; 0 where none does."""
+    return int(np.argmax(np.append(rows, False)))
 
 
 def tracked(run) -> Tracked:

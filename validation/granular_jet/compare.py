@@ -7,10 +7,8 @@ from __future__ import annotations
 
 import dataclasses
 
-import numpy as np
-
 from sdph.running.metrics import agitation
-from sdph.study.compare import check
+from sdph.study.compare import check, times_of_both
 
 from . import figures
 
@@ -26,21 +24,22 @@ def tfm(run) -> list[dict]:
     """Rise of the grains, their energy of motion and of agitation, against twoPhaseEulerFoam."""
     from coupling.openfoam.comparators.run import run_two_fluid
 
+    asked = run.outputs(TIMES)
     fine = dataclasses.replace(run.case.resolution, cell=CELL)
     case = dataclasses.replace(run.case, resolution=fine)
     reference = run_two_fluid(case, run.folder / "tfm", courant=COURANT)
-    times = [t for t in sorted(reference.fields) if t <= run.summary["time_s"] * (1.0 + 1e-9)]
+    times = times_of_both(run, reference)
     start = run.case.domain.size[1] / 2
     own = [with_rise(_of_particles(run, t), start) for t in times]
     other = [with_rise(of_cells(case, reference, t), start) for t in times]
     figures.histories(run, times, own, other)
-    figures.fields(run, reference, [t for t in TIMES if t <= times[-1]])
+    figures.fields(run, reference, asked)
     names = {"rise_m": "rise of the grains [m]", "motion_J": "motion [J]", "agitation_J": "agitation [J]"}
     return [
         check(f"{names[key]} at {time:.2f} s", own[k][key], other[k][key], BAR, True)
         for key in names
-        for time in TIMES
-        if (k := int(np.argmin(np.abs(np.array(times) - time)))) and abs(times[k] - time) < 1e-9
+        for time in asked
+        for k in (run.output_at(times, time),)
     ]
 
 
@@ -51,7 +50,7 @@ def with_rise(row: dict, start: float) -> dict:
 
 def _of_particles(run, time: float) -> dict:
     rows = run.metrics
-    k = int(np.argmin(np.abs(rows["time_s"] - time)))
+    k = run.output_at(rows["time_s"], time)
     return {name: float(column[k]) for name, column in rows.items()}
 
 

@@ -16,7 +16,7 @@ def errors(run) -> dict[float, float]:
     case = run.case
     nu, height = case.liquid.viscosity / case.liquid.density, case.domain.size[1]
     found = {}
-    for time in (t for t in TIMES if t <= run.summary["time_s"]):
+    for time in run.outputs(TIMES):
         _, liquid, _ = run.fields(time)
         u = liquids.poiseuille(liquid.points[:, 1], time, height, case.domain.gravity[0], nu)
         found[time] = np.sqrt(np.mean((liquid["velocity"][:, 0] - u) ** 2)) / u.max()

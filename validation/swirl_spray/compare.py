@@ -12,6 +12,7 @@ CLOSED = 1e-12  # of what the drops have: swirl-sheet.md, section 9
 
 
 def exact(run) -> list[dict]:
+    """Checks of what was handed over, as the run reckoned it (`sdph.running.chain`), of mass and evaporation."""
     own, name = run.summary, next(iter(run.case.nozzles))
     with open(run.folder / HANDOVER, newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from sdph.laws import solids
@@ -59,16 +57,9 @@ def exact(run) -> list[dict]:
     water = run.case.pools["water"]
     weight = -run.case.domain.gravity[1] * run.case.liquid.density
     pushed = 0.5 * weight * (water.upper[1] - water.lower[1]) ** 2
-    given = abs(run.summary["work_of_contact_J"] + run.summary["solid_work_of_pressure_J"])
     drifts = max(run.summary["momentum_drift_rel"], run.summary["solid_momentum_drift_rel"])
     return [
         check("deflection of the tip over that of bending and shear", rest(run) / exact_rest(run), 1.0, MOST),
         check("force on the flap over rho g d^2/2", force(run) / pushed, 1.0, FORCE),
         check("momentum of water or flap that nobody gave", drifts, 0.0, 1e-12),
-        check(
-            "work that the water gave over what the flap got, less 1",
-            given / math.fabs(run.summary["solid_work_of_pressure_J"]),
-            0.0,
-            1e-12,
-        ),
     ]
