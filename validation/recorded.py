@@ -14,6 +14,7 @@ may stand a count, `held` of those that were `judged` or `reported`; in the plac
 from __future__ import annotations
 
 import re
+import sys
 from functools import cache
 from pathlib import Path
 
@@ -52,10 +53,14 @@ def own(scene: str) -> dict:
     return record.read(RECORDS, scene) or {"scene": scene, "checks": []}
 
 
+def files() -> list[Path]:
+    """Pages that tell what is recorded."""
+    return [ROOT / "README.md", ROOT / "docs" / "measured.md", *sorted(ROOT.glob("validation/*/README.md"))]
+
+
 def pages() -> dict[Path, str]:
     """Each page and what it should be."""
-    files = [ROOT / "README.md", ROOT / "docs" / "measured.md", *sorted(ROOT.glob("validation/*/README.md"))]
-    return {file: filled(file.read_text(encoding="utf-8")) for file in files}
+    return {file: filled(file.read_text(encoding="utf-8")) for file in files()}
 
 
 def filled(text: str) -> str:
@@ -113,8 +118,15 @@ def alike(number: float, told: str, signed: bool) -> str:
 
 
 def main() -> None:
-    for file, text in pages().items():
-        file.write_text(text, encoding="utf-8")
+    """Writes all pages but those with a mark of no check, or of two, and ends with a line for each of these."""
+    wrong = []
+    for file in files():
+        try:
+            file.write_text(filled(file.read_text(encoding="utf-8")), encoding="utf-8")
+        except ValueError as error:
+            wrong.append(f"{file}: {error}")
+    if wrong:
+        sys.exit("\n".join(wrong))
 
 
 if __name__ == "__main__":

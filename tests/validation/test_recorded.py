@@ -108,6 +108,19 @@ def test_a_number_of_no_check_or_of_two_is_refused(where, count, of_one):
         of_one.filled(f"1<!-- one: {where} -->")
 
 
+def test_a_page_with_a_mark_of_no_check_is_told_and_the_others_are_written(of_one, monkeypatch, tmp_path):
+    texts = {"a.md": "1<!-- one: depth -->", "b.md": "1.0<!-- one: width [m] -->", "c.md": "2<!-- one: height -->"}
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text)
+    monkeypatch.setattr(of_one, "files", lambda: [tmp_path / name for name in texts])
+    with pytest.raises(SystemExit) as ended:
+        of_one.main()
+    told = str(ended.value).splitlines()
+    assert ["a.md: one: 0 checks" in told[0], "c.md: one: 0 checks" in told[1], len(told)] == [True, True, 2]
+    written = {name: (tmp_path / name).read_text() for name in texts}
+    assert written == texts | {"b.md": "0.0<!-- one: width [m] -->"}
+
+
 def test_without_a_record_there_is_no_number(recorded):
     with pytest.raises(ValueError, match="nowhere: 0 checks end with 'width'"):
         recorded.filled("1<!-- nowhere: width -->")
