@@ -1,6 +1,7 @@
 """Windows in which grains that a steady force pulls drift as fast as drag lets them, and limits that end."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -50,16 +51,19 @@ def test_dust_in_a_wind_settles_at_its_speed(tmp_path):
     assert -done.state.v.mean() == pytest.approx(G * TAU, rel=1e-9)
 
 
-def test_what_contacts_carry_does_not_follow_its_weight(tmp_path):
+@pytest.mark.parametrize("knows", [True, False])
+def test_what_contacts_carry_does_not_follow_its_weight(tmp_path, knows):
     """Drag of packed grains starts from their own velocity; of free ones from what pulls them: weight, less what the
-    pressure of the gas carries of an even suspension, and what is held; in between no step lets round-off decide."""
+    pressure of the gas carries, of an even suspension where the gas knows of it, and what is held; in between no step
+    lets round-off decide."""
     run = started(case := falling(on=("drag", "gravity", "gas_pressure", "friction")), tmp_path, still(case))
     s, count, onset = run.state, len(run.state.x), run.parameters["friction"].onset
+    case = replace(case, coupling=replace(case.coupling, one_way=not knows))
     rates, ones = (np.full(count, 1e9), np.tile((0.0, 0.0, 2.0 * s.mass[0]), (count, 1))), np.ones((count, 3))
     for alpha_p, share in ((0.2, 1.0), (onset, 0.0), (onset * (1.0 - 0.5 * pulls.LOOSENING), 0.5), (0.99 * onset, 0.1)):
         s.density[:] = alpha_p * DENSITY
         found = pulls.ahead(case, run.parameters, s, rates, 1.0, ones)
-        pull = 0.0, -(1.0 - alpha_p) * G * (1.0 - case.gas.density / DENSITY), 2.0
+        pull = 0.0, -(1.0 - alpha_p * knows) * G * (1.0 - case.gas.density / DENSITY), 2.0
         np.testing.assert_allclose(found - 1.0, np.tile(share * np.array(pull), (count, 1)), rtol=1e-6)
 
 

@@ -83,12 +83,13 @@ def deviator(G):
 
 @fast_parallel
 def shear(
-    kernel, s, rows, box, scratch, walls_p, wall, friction_p, viscous_p, temperature_p, dt,
+    kernel, s, rows, box, scratch, walls_p, wall, friction_p, agitation_p, dt,
     contact, traction, rubbing, bearing, works, strain,
 ):  # fmt: skip
     """Shear of velocities as they are (see `equations.Scratch`); contact (5, N) [Pa]: stress of contacts of the state
-    once they are strained over dt [s]. What viscosity takes from the motion feeds theta, or heats where there is
-    none."""
+    once they are strained over dt [s]; agitation_p: parameters of viscosity and of theta. What viscosity takes from the
+    motion feeds theta, or heats where there is none."""
+    viscous_p, temperature_p = agitation_p
     for i in prange(len(s.x)):
         N, M, square = moments(kernel, s, rows, box, scratch.pull, i)
         beside = walls.near(walls_p, kernel, box, wall, s, i)

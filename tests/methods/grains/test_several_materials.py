@@ -12,6 +12,7 @@ from sdph.engine import state as particles
 from sdph.laws import exchange, granular, kernels
 from sdph.laws import grain_drag as law
 from sdph.methods.grains import mixture
+from sdph.methods.grains.method import bounds_of
 
 # all that acts between grains and on them, but drag between materials, which tells materials apart that are alike
 ALL = (
@@ -237,3 +238,14 @@ def test_conduction_of_a_pair_of_two_materials():
     assert unlike == pytest.approx(-4.0 * 3.0 / 3.6e5 * 0.6 * 2.0 / 2.6 * 1e-4 / 1.01e-4, rel=1e-12)
     alike = exchange.cleary_monaghan_unlike(-3.0, 1e-4, 1e-6, 0.3 * 2.0, 0.4 * 2.0, 900.0 * 1200.0)
     assert alike == pytest.approx(exchange.cleary_monaghan(-3.0, 1e-4, 1e-6, 2.0, 3000.0, 1050.0), rel=1e-12)
+
+
+def test_a_limit_of_several_materials_knows_the_grains_of_nozzles():
+    """The widest of all, whatever [grains] says: the viscosity of theirs is as much larger."""
+    nozzle = {
+        "centre_m": [0.03, 0.05], "direction": [0.0, -1.0], "width_m": 0.01, "rate_kg_s": 0.1, "speed_m_s": 1.0,
+        "temperature_K": 300.0, "material": "char", "diameter_mm": 4.0,
+    }  # fmt: skip
+    parts = {"bed": WHOLE | {"material": "sand", "volume_fraction": 0.2}}
+    case = several(("inflow",), parts, {"sand": {}, "char": CHAR}, nozzles={"feed": nozzle})
+    assert bounds_of(case)[2:] == (DENSITY, 4e-3)

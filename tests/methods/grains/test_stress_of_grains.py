@@ -46,7 +46,7 @@ def felt(place, velocity, period=OPEN, mu=MU, bulk=BULK, theta=ON) -> Felt:
     rates.sum_density(kernel, state, rows, box, OFF, OFF, state.density, own.pull)
     own.shear[:], own.bulk[:] = mu, bulk
     contacts.shear(
-        kernel, state, rows, box, own, OFF, OFF, OFF, ON, theta, 1.0, np.empty((5, 0)), *own.shearing
+        kernel, state, rows, box, own, OFF, OFF, OFF, (ON, theta), 1.0, np.empty((5, 0)), *own.shearing
     )  # fmt: skip
     acceleration, agitation, heating = np.empty((count, 3)), np.empty(count), np.empty(count)
     rates.rates(

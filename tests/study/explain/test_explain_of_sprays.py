@@ -5,6 +5,7 @@ import pytest
 from sdph import scenes
 from sdph.case import judge
 from sdph.case import read as cases
+from sdph.schema import CaseError
 from sdph.study.explain import estimate
 
 
@@ -42,3 +43,33 @@ def test_classes_of_sizes_are_particles_each():
     assert counts[1] == pytest.approx(5.0 * counts[0], rel=0.01)
     given = case_of("spray_cone", f"nozzles.{name}.sizes=given", f"nozzles.{name}.diameters_mm=[0.05,0.06,0.07]")
     assert estimate.expected(given, judge.scales_of(given))[0]["value"] == pytest.approx(3.0 * counts[0], rel=0.01)
+
+
+def test_drops_of_a_nozzle_count_with_the_size_that_it_gives():
+    """As if [grains] had it: for break-up, drag and heat; of several sizes their Sauter mean."""
+    (name,) = case_of("spray_cone").nozzles
+    own = f"nozzles.{name}.sizes=given"
+    coarse = judge.scales_of(case_of("spray_cone", own, f"nozzles.{name}.diameters_mm=[0.4]"))
+    plain = judge.scales_of(case_of("spray_cone", "grains.diameter_mm=0.4", "grains.diameter_std_mm=0"))
+    assert (coarse.drag_time, coarse.heat_time, coarse.falling) == (plain.drag_time, plain.heat_time, plain.falling)
+    two = case_of("spray_cone", own, f"nozzles.{name}.diameters_mm=[0.2,0.8]", f"nozzles.{name}.shares=[1.0,3.0]")
+    assert judge.scales_of(two).grains.diameter == pytest.approx(1.0 / (0.25 / 2e-4 + 0.75 / 8e-4))
+
+
+def test_a_filter_of_drag_refuses_sizes_of_a_nozzle(tmp_path):
+    (name,) = case_of("spray_cone").nozzles
+    with pytest.raises(CaseError, match=f"nozzles.{name} has its own .diameter.: leave one of the two out"):
+        case_of("spray_cone", "drag.filter=igci", f"nozzles.{name}.diameter_mm=0.4")
+
+
+def test_a_belt_is_no_gas_that_is_let_in():
+    """A floor that slides under a packed bed: it does not rest, shears, and nothing is blown."""
+    floor = ("boundaries.jet", "boundaries.distributor")
+    still, belt = (
+        judge.scales_of(case_of(
+            "bubbling_bed", *(f"{name}.kind=wall" for name in floor),
+            *(f"{name}.velocity_m_s=[{speed},0]" for name in floor), "particles.bed.volume_fraction=0.6",
+        ))
+        for speed in (0, 5)
+    )  # fmt: skip
+    assert belt.jet == 0.0 == still.speed and belt.speed == 5.0 and still.resting and not belt.resting
