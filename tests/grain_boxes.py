@@ -157,6 +157,6 @@ def strain(stepper, dt):
     """Shear of the grains as they move, over `dt` [s], as a sub-step takes it."""
     own, terms = stepper, stepper.terms
     sub_step.strain_grains(
-        own.kernel, own.state, own.rows, own.neighbours.box, own.scratch, terms.shears, terms.friction,
-        (terms.viscous, terms.temperature), *own._walls(), own.work, dt,
+        own.kernel, own.state, own.rows, own.neighbours.box, own.scratch, terms.shears, terms.friction, terms.viscous,
+        *own._walls(), own.work, dt,
     )  # fmt: skip

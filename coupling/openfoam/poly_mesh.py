@@ -21,6 +21,7 @@ ROUND_OFF = 1e-9  # of the size of a mesh: a corner nearer to the origin is ther
 HEADER = re.compile(rb"FoamFile\s*\{.*?\}", re.DOTALL)
 COMMENT = re.compile(rb"//[^\n]*|/\*.*?\*/", re.DOTALL)
 START = re.compile(rb"\s*(\d+)\s*\(")
+ALIKE = re.compile(rb"\s*(\d+)\s*\{\s*(\d+)\s*\}")  # a list of one value
 
 
 class Patch(NamedTuple):
@@ -198,6 +199,8 @@ def _start(path: Path, data: bytes, place: int) -> tuple[int, int]:
 
 def _labels(path: Path) -> np.ndarray:
     data, binary = _content(path)
+    if alike := ALIKE.match(data):  # of a mesh of one cell
+        return np.full(int(alike.group(1)), int(alike.group(2)), np.int64)
     count, place = _start(path, data, 0)
     text = b"" if binary else data[place : data.rindex(b")")]
     own = np.frombuffer(data, np.int32, count, place) if binary else np.array(text.split(), np.int64)

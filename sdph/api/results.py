@@ -6,6 +6,7 @@ Units stand in the names of columns; arrays of fields are in SI. docs/results.md
 from __future__ import annotations
 
 import os
+import warnings
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -132,10 +133,10 @@ class Run:
         return sampling.averages(self.folder, start, end, step)
 
     def compare(self, against: str) -> pandas.DataFrame:
-        """Checks against `tfm`, `dpm` or `exact`: name, value, reference, tolerance, ok."""
+        """Checks against `tfm`, `dpm` or `exact`: name, value, reference, tolerance, ok; warns of times that lack."""
         import pandas
 
-        return pandas.DataFrame(comparison.compare(self.folder, against))
+        return pandas.DataFrame(comparison.compare(self.folder, against, warnings.warn))
 
     def __repr__(self) -> str:
         return f"<sdph.Run {self.folder}: {'finished' if self.finished else 'not finished'}>"

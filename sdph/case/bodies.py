@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 
 import numpy as np
 
 from sdph.methods.solids import start
-from sdph.schema import CaseError
+from sdph.schema import CaseError, fields
 
 NEEDS = {
     "box": ("lower_m", "upper_m"), "disc": ("centre_m", "radius_m"),
@@ -16,10 +17,19 @@ NEEDS = {
 DIMENSIONS = {"disc": 2, "ring": 2, "cylinder": 3}
 # key of [solid] -> those that act on nothing without it
 IDLE = {
-    "yield_stress": ("hardening", "rate_factor", "temperature_share"),
+    "yield_stress_Pa": (
+        "hardening_Pa", "hardening_exponent", "rate_factor", "temperature_share", "softening_exponent",
+    ),
     "failure": ("critical_damage", "damage_begins_at"),
 }  # fmt: skip
+PLACES = {key for needs in NEEDS.values() for key in needs}
 CONSTANTS = 5  # of failure: D1 to D5
+
+
+def given(own) -> list[str]:
+    """TOML keys of a section that have another value than their default."""
+    defaults = {field.name: field.default for field in dataclasses.fields(own)}
+    return [key for key, (name, _) in fields(type(own)).items() if getattr(own, name) != defaults[name]]
 
 
 def check(case) -> None:
@@ -41,12 +51,12 @@ def check(case) -> None:
 
 def _refuse_idle(own) -> None:
     """CaseError of a key that nothing acts on without another one."""
-    defaults = {field.name: field.default for field in dataclasses.fields(own)}
+    there = given(own)
     for need, keys in IDLE.items():
-        given = [key for key in keys if getattr(own, key) != defaults[key]]
-        if given and not getattr(own, need):
+        idle = [key for key in keys if key in there]
+        if idle and need not in there:
             raise CaseError(
-                f"[solid] gives {given[0]}, which acts on nothing without {need}; give that, or leave it out"
+                f"[solid] gives {idle[0]}, which acts on nothing without {need}; give that, or leave it out"
             )
 
 
@@ -70,6 +80,10 @@ def _check_shape(case, where: str, body) -> None:
     for key in NEEDS[body.shape]:
         if getattr(body, key.removesuffix("_m")) is None:
             raise CaseError(f"{where}.{key} is missing; a {body.shape} needs {', '.join(NEEDS[body.shape])}")
+    if others := [key for key in given(body) if key in PLACES - {*NEEDS[body.shape]}]:
+        raise CaseError(
+            f"{where}.{others[0]} is of no {body.shape}, which has {', '.join(NEEDS[body.shape])}: leave it out"
+        )
     wanted = DIMENSIONS.get(body.shape, case.dimensions)
     if case.dimensions != wanted:
         raise CaseError(f"{where}.shape = {body.shape!r} is of {wanted} dimensions; dimensions = {case.dimensions}")
@@ -91,6 +105,10 @@ def _check_shape(case, where: str, body) -> None:
 def _check_flaw(where: str, body) -> None:
     if body.flaw and body.shape != "ring":
         raise CaseError(f'{where}.flaw is that of a body of shape "ring"; shape = {body.shape!r}: leave it out')
+    if body.flaw_at and not body.flaw:
+        raise CaseError(
+            f"{where}.flaw_at_deg = {math.degrees(body.flaw_at):g}, and there is no flaw; give it, or leave it out"
+        )
 
 
 def _check_motion(where: str, body) -> None:

@@ -126,6 +126,8 @@ def _check_method(case: Case) -> None:
             raise CaseError(
                 "liquid.sound_speed_m_s is missing; a weakly compressible liquid needs it, ten times its speed"
             )
+        if case.method and (idle := [key for key in bodies.given(case.method) if key != "left_out"]):
+            raise CaseError(f'method.{idle[0]} is of moving particles; set method.name = "mps", or leave it out')
         for name in ("free_energy_tension", "perforation", "suction"):
             if name in case.effects:
                 raise CaseError(f'effects holds {name}, which is of moving particles; set method.name = "mps"')

@@ -8,6 +8,8 @@ second phase that is a gas is left out, and tension is that of the free energy. 
 from __future__ import annotations
 
 NUMERICAL = ("density_diffusion", "liquid_damping", "shifting", "xsph")
+# keys of [liquid] that the equation of state or a kernel has
+OF_SOUND = ("sound_speed_m_s", "exponent", "background_pressure_Pa", "kernel", "pressure_gradient", "courant")
 DROPS = {"reach": 3.1}, {"reach": 4.1}  # r_e, r_t in two dimensions: swirl-sheet.md, section 3
 
 
@@ -20,6 +22,8 @@ def taken_over(table: dict) -> dict:
     tension = "surface_tension" in on and "free_energy_tension" not in on
     left = [name for name in on if name in NUMERICAL or (name == "surface_tension" and tension)]
     left += [f"pools.{name}" for name in gas] + ["gas_phase"] * ("gas_phase" in table)
+    liquid = table.get("liquid")
+    left += [f"liquid.{key}" for key in OF_SOUND if isinstance(liquid, dict) and key in liquid]
     left += ["liquid.periodic"] * bool(gas and table.get("liquid", {}).get("periodic"))
     if not left:
         return table

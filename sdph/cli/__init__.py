@@ -204,7 +204,7 @@ def compare_run(options) -> int:
     from sdph.running import output
     from sdph.study import against, compare
 
-    checks = against.compare(options.run, options.against)
+    checks = against.compare(options.run, options.against, _say)
     unlike = against.unlike(options.run, options.against)
     if options.json:
         print(output.strict_json({"checks": checks, "unlike": unlike}))

@@ -26,7 +26,7 @@ class Page:
     def show(self, simulation, line: str) -> None:
         """The state of now and `line`, if it is time; always at the end."""
         begun = time.perf_counter()
-        if begun < self.due and simulation.time < simulation.case.run.end_time:
+        if begun < self.due and not simulation.clock.over(simulation.time):
             return
         draft = self.folder / f".{PICTURE}"
         _draw(simulation, draft)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shlex
+from collections.abc import Callable
 from pathlib import Path
 
 from coupling.openfoam.comparators import droplet_cloud
@@ -13,8 +14,9 @@ from sdph.study import droplets, two_fluid
 from sdph.study.compare import open_run, scene_module
 
 
-def compare(folder: Path, against: str) -> list[dict]:
-    """The checks of a run against `tfm`, `dpm` or `exact`, the scene's own first; the figure goes to the run folder."""
+def compare(folder: Path, against: str, say: Callable[[str], None]) -> list[dict]:
+    """The checks of a run against `tfm`, `dpm` or `exact`, the scene's own first; the figure goes to the run folder,
+    and what it lacks is said."""
     run = open_run(folder)
     if run.case.mixed and against != "exact":
         raise CaseError(
@@ -41,6 +43,8 @@ def compare(folder: Path, against: str) -> list[dict]:
             f"the run ends at {run.summary['time_s']:g} s, before the first time that its reference tells of; go on "
             f"with: sdph run --resume {shlex.quote(str(folder))} --until T"
         )
+    for notice in run.notices:
+        say(notice)
     output.write_json(folder / f"compare_{against}.json", {"checks": checks} | _told(run.case, against))
     return checks
 

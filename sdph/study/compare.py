@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib.util
 import sys
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -23,12 +23,13 @@ DIGITS = 1e-7  # of a time: those that OpenFOAM's folders and run.pvd are writte
 
 @dataclass(frozen=True)
 class Finished:
-    """A finished run: its case, summary and history (name -> column)."""
+    """A finished run: its case, summary and history (name -> column); `notices` are for who reads its checks."""
 
     folder: Path
     case: cases.Case
     summary: dict
     history: dict[str, np.ndarray]
+    notices: list[str] = field(default_factory=list)
 
     def at(self, column: str, time: float) -> float:
         """A column of the history at `time` [s], linear between windows."""
@@ -67,11 +68,11 @@ class Finished:
         return k
 
     def reached(self, times: Iterable[float]) -> list[float]:
-        """Times [s] among `times` that the run reaches; a line on standard error names the others."""
+        """Times [s] among `times` that the run reaches; a notice names the others."""
         end = self.summary["time_s"] * (1.0 + DIGITS)
         later = ", ".join(f"{t:g}" for t in times if t > end)
         if later:
-            print(f"sdph: {self.folder} ends at {self.summary['time_s']:g} s: no check at {later} s", file=sys.stderr)
+            self.notices.append(f"{self.folder} ends at {self.summary['time_s']:g} s: no check at {later} s")
         return [t for t in times if t <= end]
 
     def outputs(self, times: Iterable[float]) -> list[float]:

@@ -59,6 +59,8 @@ def validate(scene: str, overrides: tuple[str, ...], reporter, folder: Path | No
         for reference in references:
             found = some(getattr(module, reference)(run), "gives a check")
             checks += [check | {"name": f"{name}, {reference}: {check['name']}"} for check in found]
+        for notice in run.notices:
+            reporter.status(notice)
     return checks
 
 

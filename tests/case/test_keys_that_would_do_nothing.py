@@ -94,7 +94,11 @@ CASES = {
         "effects": ["outflow"], "tank": None, "method": {"name": "mps"},
         "liquid": {"density_kg_m3": 1000.0, "periodic": [1, 0]},
     },
-    "[solid] gives hardening, which acts on nothing without yield_stress": plate(hardening_Pa=1e5),
+    "[solid] gives hardening_Pa, which acts on nothing without yield_stress_Pa": plate(hardening_Pa=1e5),
+    "[solid] gives softening_exponent, which acts on nothing": plate(softening_exponent=2.0),
+    "bodies.plate.radius_m is of no box": plate() | {"bodies": {"plate": BODY | {"radius_m": 0.1}}},
+    "bodies.ring.flaw_at_deg = 90, and there is no flaw": SOLID | {"bodies": {"ring": RING | {"flaw_at_deg": 90.0}}},
+    "method.reach is of moving particles": {"method": {"reach": 3.1}},
     "[solid] gives critical_damage, which acts on nothing without failure": plate(
         critical_damage=0.5, yield_stress_Pa=1e5
     ),
@@ -129,3 +133,11 @@ def test_what_would_do_nothing_is_refused(told, tmp_path, monkeypatch):
     with pytest.raises(CaseError) as refused:
         warned(cases.from_table(table), tmp_path, whole=True)
     assert told in str(refused.value) and "\n" not in str(refused.value)
+
+
+def test_a_run_by_moving_particles_tells_what_it_does_without():
+    """Keys of an equation of state and of a kernel, in a case that was written for the other method."""
+    table = copy.deepcopy(TANK) | {"method": {"name": "mps"}}
+    table["liquid"]["exponent"] = 1.0
+    case = cases.from_table(table)
+    assert case.method.left_out == ("density_diffusion", "liquid.sound_speed_m_s", "liquid.exponent")

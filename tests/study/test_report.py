@@ -3,6 +3,7 @@ browser."""
 
 import html
 import json
+import math
 import re
 import shutil
 import subprocess
@@ -124,6 +125,23 @@ def test_key_numbers_have_three_digits_and_a_unit(value, unit, text):
 @pytest.mark.parametrize(("value", "place"), [(0.0, 0.0), (1e-20, 0.0), (1e-17, 0.0), (1.0, 100.0), (5.0, 100.0)])
 def test_balances_lie_on_a_track_from_round_off_to_all(value, place):
     assert bars._place(value) == pytest.approx(place)
+
+
+def test_runs_whose_folders_are_called_alike_have_names_that_differ(tmp_path):
+    def at(*places):
+        runs = [shown.Shown(tmp_path / place, None, {}, {}, {}) for place in places]
+        return [run.name for run in shown.told_apart(runs)]
+
+    assert at("a/run", "b/run") == ["a/run", "b/run"] and at("a/run") == ["run"]
+    assert at("x/a/run", "y/a/run", "z") == ["x/a/run", "y/a/run", f"{tmp_path.parent.name}/{tmp_path.name}/z"]
+    assert at("run", "run") == ["run", "run"]
+
+
+def test_a_balance_that_is_no_number_is_drawn_as_missed(tmp_path):
+    """All along the track, in red: the figure has what the verdict counts."""
+    run = shown.Shown(tmp_path, None, {"energy_drift_rel": math.nan, "mass_drift_rel": 1e-16}, {}, {})
+    text = bars.closures([run])
+    assert "nan: missed" in text and text.count(bars.BAD) == 1
 
 
 def test_limiters_have_a_section_of_their_own(runs):

@@ -42,7 +42,7 @@ def told(scene: str, end: float, overrides=(), summary=None, history=None, cloud
     """A run of a scene to `end` [s]."""
     case = cases.load(scenes.find(scene)[1], tuple(overrides))
     summary = {"time_s": end} | (summary or {})
-    return Told(Path("run"), case, summary, history or {}, clouds or {}, tables)
+    return Told(Path("run"), case, summary, history or {}, clouds=clouds or {}, tables=tables)
 
 
 def with_outputs(monkeypatch, times) -> None:

@@ -23,16 +23,19 @@ class GranularViscosity:
 
 
 class ViscosityP(NamedTuple):
-    """Restitution [-], packing limit [-], grain density [kg/m3], smoothing length [m]."""
+    """Restitution [-], packing limit [-], grain density [kg/m3], smoothing length [m]; 1 where there is a theta that it
+    feeds, else 0."""
 
     restitution: float
     packing: float
     grain_density: float
     h: float
+    feeds: float
 
 
 def kernel(case) -> ViscosityP:
-    return ViscosityP(case.grains.restitution, case.grains.packing_limit, case.grains.density, case.smoothing_length)
+    grains, feeds = case.grains, float("granular_temperature" in case.effects)
+    return ViscosityP(grains.restitution, grains.packing_limit, grains.density, case.smoothing_length, feeds)
 
 
 @serial
@@ -46,6 +49,12 @@ def viscosities(p, alpha_p, theta, diameter, g0):
     share = granular.streaming_share(a, e, g0, diameter, granular.STREAMING_MOMENTUM, p.h)
     shear = granular.gidaspow_viscosity(a, theta, e, g0, rho, diameter, share)
     return shear, granular.lun_bulk_viscosity(a, theta, e, g0, rho, diameter)
+
+
+@serial
+def fed(p, lost):
+    """Part of what viscosity takes from the motion [W/kg] that feeds theta: all, where there is one; the rest heats."""
+    return p.feeds * lost if len(p) else 0.0
 
 
 @serial

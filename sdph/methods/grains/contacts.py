@@ -10,7 +10,7 @@ from __future__ import annotations
 from numba import prange
 
 from sdph.effects.around import walls
-from sdph.effects.grains import friction, granular_temperature
+from sdph.effects.grains import friction, granular_viscosity
 from sdph.engine.geometry import apart, deep, faster
 from sdph.engine.rows import entry, length, place
 from sdph.laws.compiled import fast_parallel, inlined
@@ -83,13 +83,11 @@ def deviator(G):
 
 @fast_parallel
 def shear(
-    kernel, s, rows, box, scratch, walls_p, wall, friction_p, agitation_p, dt,
+    kernel, s, rows, box, scratch, walls_p, wall, friction_p, viscous_p, dt,
     contact, traction, rubbing, bearing, works, strain,
 ):  # fmt: skip
     """Shear of velocities as they are (see `equations.Scratch`); contact (5, N) [Pa]: stress of contacts of the state
-    once they are strained over dt [s]; agitation_p: parameters of viscosity and of theta. What viscosity takes from the
-    motion feeds theta, or heats where there is none."""
-    viscous_p, temperature_p = agitation_p
+    once they are strained over dt [s]."""
     for i in prange(len(s.x)):
         N, M, square = moments(kernel, s, rows, box, scratch.pull, i)
         beside = walls.near(walls_p, kernel, box, wall, s, i)
@@ -118,6 +116,7 @@ def shear(
                 A, sheared, squeezed = stress.viscous(N, M, square, total, scratch.bulk[i])
             stress.bear(bearing, i, box, per * per * mixture.heft_squared(kernel, s, i), total, A, tau)
             lost = scratch.shear[i] * sheared + scratch.bulk[i] * squeezed
-            works[0, i] = granular_temperature.fed(temperature_p, lost) * per
-            warm += mu * sheared + (lost - granular_temperature.fed(temperature_p, lost))
+            fed = granular_viscosity.fed(viscous_p, lost)
+            works[0, i] = fed * per
+            warm += mu * sheared + (lost - fed)
         works[1, i] = warm * per

@@ -78,8 +78,9 @@ def advance(
 
     heated: as `wall_heat.exchange` takes it; steps: its length and that of its window [s].
     """
-    rubs = terms.shears, terms.friction, (terms.viscous, terms.temperature)
-    strain_grains(kernel, s, rows, box, scratch, *rubs, walls_p, wall, work, steps[0])
+    strain_grains(
+        kernel, s, rows, box, scratch, terms.shears, terms.friction, terms.viscous, walls_p, wall, work, steps[0]
+    )
     push(kernel, s, s, rows, box, scratch, terms, walls_p, wall, facing, unheld, work, gravity, steps[0], sums)
     stiffen(terms.slip, kernel, s, rows, box, scratch, work, steps[0])
     slip(terms.slip, terms.temperature, kernel, s, s, rows, box, scratch, work, steps[0], sums.slowed)
@@ -91,8 +92,7 @@ def advance_own(domain, own, given: tuple) -> None:
     strained by, and what brakes them."""
     kernel, s, rows, box, scratch, terms, walls_p, wall, facing, unheld, heated, work, gravity, steps, *rest = given
     (heat_capacity, sums), dt, walled = rest, steps[0], (walls_p, wall)
-    rubs = terms.shears, terms.friction, (terms.viscous, terms.temperature)
-    strain_grains(kernel, s, rows, box, scratch, *rubs, *walled, work, dt)
+    strain_grains(kernel, s, rows, box, scratch, terms.shears, terms.friction, terms.viscous, *walled, work, dt)
     domain.refresh(scratch.bearing)
     push(kernel, s, own, rows, box, scratch, terms, *walled, facing, unheld, work, gravity, dt, sums)
     if terms.slip:
@@ -134,12 +134,12 @@ def settle(kernel, s, own, box, scratch, terms, heated, work, steps, heat_capaci
 
 
 @in_turn
-def strain_grains(kernel, s, rows, box, scratch, shears, friction_p, agitation_p, walls_p, wall, work, dt):
+def strain_grains(kernel, s, rows, box, scratch, shears, friction_p, viscous_p, walls_p, wall, work, dt):
     """Shear of the grains, where somebody asks for it; where there is friction contacts are strained over dt [s]."""
     if len(shears):
         contacts.shear(
-            kernel, s, rows, box, scratch, walls_p, wall, friction_p, agitation_p, dt, work.contact,
-            scratch.traction, scratch.rubbing, scratch.bearing, scratch.works, scratch.strain,
+            kernel, s, rows, box, scratch, walls_p, wall, friction_p, viscous_p, dt, work.contact, scratch.traction,
+            scratch.rubbing, scratch.bearing, scratch.works, scratch.strain,
         )  # fmt: skip
         if len(friction_p):
             strained(s, work.contact)
@@ -188,10 +188,9 @@ def loops(
     head = kernel, s, rows, box, scratch
     found = {}
     if len(terms.shears):
-        agitation = terms.viscous, terms.temperature
         found["shear"] = (
             contacts.shear,
-            (*head, walls_p, wall, terms.friction, agitation, steps[0], work.contact, *scratch.shearing),
+            (*head, walls_p, wall, terms.friction, terms.viscous, steps[0], work.contact, *scratch.shearing),
         )
     if len(walls_p):
         found["extrapolate"] = (

@@ -52,12 +52,14 @@ class Converged(NamedTuple):
 
 
 def levels(own: Ladder, rows: list[dict], solver: str = OWN) -> tuple[list[float], list[dict]]:
-    """Steps and rows of a solver's levels that were measured, coarse to fine; another solver's steps are halved."""
-    if solver != OWN:
-        line = [row for row in rows if row["solver"] == solver]
-        return [0.5**n for n in range(len(line))], line
+    """Steps and rows of a solver's levels that were measured to their end, coarse to fine; another solver's steps are
+    halved."""
+    theirs = [row for row in rows if row["solver"] == solver]
     wanted = [(own.level(n), own.steps[n]) for n in range(own.count)]
-    line = [(step, row) for settings, step in wanted for row in rows if has(row, settings) and row["solver"] == OWN]
+    line = [(step, row) for settings, step in wanted for row in theirs if has(row, settings)]
+    if solver != OWN:
+        line = [(0.5**n, row) for n, row in enumerate(theirs)]
+    line = [(step, row) for step, row in line if found(row)]
     return [step for step, _ in line], [row for _, row in line]
 
 

@@ -64,7 +64,7 @@ def _deviations(rows: list[dict]) -> str:
 
 def closures(runs: list[Shown]) -> str:
     """All balances in one figure: what is missing, on a logarithmic track, and the most that is allowed."""
-    tables = [{one["name"]: one for one in balances.checks(_numbers(run.summary))} for run in runs]
+    tables = [{one["name"]: one for one in balances.checks(_numbers(run.summary, lost=True))} for run in runs]
     names = list(dict.fromkeys(name for own in tables for name in own))
     if not names:
         return ""
@@ -73,7 +73,8 @@ def closures(runs: list[Shown]) -> str:
         for i, (run, own) in enumerate(zip(runs, tables)):
             if name in own:
                 value, bar = abs(own[name]["value"]), own[name]["tolerance"]
-                spans = [Span(0.0, _place(bar), BAND), Span(0.0, _place(value), COLOURS[i % len(COLOURS)])]
+                colour = COLOURS[i % len(COLOURS)] if math.isfinite(value) else BAD
+                spans = [Span(0.0, _place(bar), BAND), Span(0.0, _place(value), colour)]
                 label = spoken(name)[0] + (f", {run.name}" if len(runs) > 1 else "")
                 body += row(
                     label, spans, f"{value:.1g}, may be {bar:.0e}" if own[name]["ok"] else f"{value:.2g}: missed"
@@ -84,16 +85,19 @@ def closures(runs: list[Shown]) -> str:
 
 
 def _place(value: float) -> float:
-    """Place [%] of a number on the logarithmic track."""
+    """Place [%] of a number on the logarithmic track; its end of what is none."""
+    if not math.isfinite(value):
+        return 100.0
     return 100.0 * (1.0 - min(max(math.log10(value) if value else LEAST, LEAST), 0.0) / LEAST)
 
 
-def _number(value) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+def _number(value, lost: bool = False) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and (lost or math.isfinite(value))
 
 
-def _numbers(summary: dict) -> dict:
-    return {key: value for key, value in summary.items() if _number(value)}
+def _numbers(summary: dict, lost: bool = False) -> dict:
+    """Numbers of a summary; those that are nan or infinite too where `lost`."""
+    return {key: value for key, value in summary.items() if _number(value, lost)}
 
 
 def times(runs: list[Shown]) -> str:

@@ -14,7 +14,7 @@ from sdph.scenes import paths
 from sdph.schema import CaseError, flat
 from sdph.show import frames
 from sdph.study.report import bars, curves, glance
-from sdph.study.report.shown import Shown, folded, opened, picture, section, side_by_side, table
+from sdph.study.report.shown import Shown, folded, opened, picture, section, side_by_side, table, told_apart
 
 PAGE = (
     '<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, '
@@ -31,7 +31,7 @@ def write(folders: list[Path], target: Path) -> Path:
     """The report of one or several runs; `target` is a new file, or one that is written over."""
     if target.exists() and not target.is_file():  # a folder, or a device, which would be replaced
         raise CaseError(f"{target} is no file that a report could be written to; give another --out")
-    runs = [opened(Path(folder)) for folder in folders]
+    runs = told_apart([opened(Path(folder)) for folder in folders])
     title = " and ".join(dict.fromkeys(run.case.title or run.name for run in runs))
     parts = [f"<h1>{html.escape(title)}</h1>", glance.shown(runs), curves.curves(runs), bars.checks(runs)]
     parts += [_views(runs), _pictures(runs), bars.closures(runs), bars.times(runs), _results(runs), _limiters(runs)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 import html
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -25,10 +25,11 @@ class Shown:
     summary: dict
     failure: dict
     origin: dict
+    parts: int = 1  # of its folder's path, as many as tell it from other runs
 
     @property
     def name(self) -> str:
-        return self.folder.name
+        return "/".join(self.folder.resolve().parts[-self.parts :])
 
     @cached_property
     def history(self) -> dict[str, np.ndarray]:
@@ -49,6 +50,16 @@ class Shown:
             checks = json_of(path, {"checks": list})["checks"]
             found[path.stem.removeprefix("compare_")] = [check for check in checks if isinstance(check, dict)]
         return found
+
+
+def told_apart(runs: list[Shown]) -> list[Shown]:
+    """The same with names that differ, where their folders do."""
+    folders = {run.folder.resolve() for run in runs}
+    for parts in range(1, max(len(folder.parts) for folder in folders)):
+        named = [replace(run, parts=parts) for run in runs]
+        if len({run.name for run in named}) == len(folders):
+            return named
+    return runs
 
 
 def opened(folder: Path) -> Shown:

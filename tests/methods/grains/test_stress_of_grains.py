@@ -9,6 +9,7 @@ from builders import OPEN, cloud
 
 from sdph.effects import OFF
 from sdph.effects.effect import DIFFUSIVE
+from sdph.effects.grains.granular_viscosity import ViscosityP
 from sdph.engine.geometry import box_of
 from sdph.engine.neighbours import Neighbours
 from sdph.laws import kernels
@@ -16,7 +17,6 @@ from sdph.methods.grains import contacts, stress
 from sdph.methods.grains import equations as rates
 
 H, MASS, MU, BULK = 1.5, 1.0, 1.08, 1.43  # spacings of 1; dense grains have BULK/MU = 1.32
-ON = (1.0,)  # parameters of an effect that is on
 
 
 class Felt(NamedTuple):
@@ -32,9 +32,8 @@ class Felt(NamedTuple):
     enclosed: np.ndarray
 
 
-def felt(place, velocity, period=OPEN, mu=MU, bulk=BULK, theta=ON) -> Felt:
-    """Of particles at `place` that move with `velocity` (N, d), by viscosity alone; `theta` is OFF where there is
-    none."""
+def felt(place, velocity, period=OPEN, mu=MU, bulk=BULK, feeds=1.0) -> Felt:
+    """Of particles at `place` that move with `velocity` (N, d), by viscosity alone, which `feeds` a theta or not."""
     dims = place.shape[1]
     given = cloud(place, mass=MASS)
     for name, values in zip("uvw", velocity.T):
@@ -45,25 +44,21 @@ def felt(place, velocity, period=OPEN, mu=MU, bulk=BULK, theta=ON) -> Felt:
     own = rates.scratch(count, len(rows.entries), False, dims == 3)
     rates.sum_density(kernel, state, rows, box, OFF, OFF, state.density, own.pull)
     own.shear[:], own.bulk[:] = mu, bulk
+    viscous = ViscosityP(0.9, 0.63, 1.0, H, feeds)
     contacts.shear(
-        kernel, state, rows, box, own, OFF, OFF, OFF, (ON, theta), 1.0, np.empty((5, 0)), *own.shearing
+        kernel, state, rows, box, own, OFF, OFF, OFF, viscous, 1.0, np.empty((5, 0)), *own.shearing
     )  # fmt: skip
     acceleration, agitation, heating = np.empty((count, 3)), np.empty(count), np.empty(count)
     rates.rates(
-        kernel, state, rows, box, own, ON, OFF, OFF, OFF, OFF, OFF, OFF, acceleration, np.zeros((count, 7)),
+        kernel, state, rows, box, own, viscous, OFF, OFF, OFF, OFF, OFF, OFF, acceleration, np.zeros((count, 7)),
         agitation, heating,
     )  # fmt: skip
     places, speeds = (np.stack([getattr(state, a) for a in names[:dims]], axis=1) for names in ("xyz", "uvw"))
     mass = state.mass[:, None]
     return Felt(
-        places,
-        speeds,
-        mass * acceleration[:, :dims],
-        state.mass * agitation,
-        state.mass * heating,
-        state.density.copy(),
-        own.strain[2],
-    )
+        places, speeds, mass * acceleration[:, :dims], state.mass * agitation, state.mass * heating,
+        state.density.copy(), own.strain[2],
+    )  # fmt: skip
 
 
 def lattice(sides, strain=0.0):
@@ -151,6 +146,6 @@ def test_what_viscosity_takes_heats_where_nothing_is_agitated():
     """Of all grains, at the edges too, where its form is another: no power is lost."""
     place = lattice((7, 7), 0.2)
     velocity = place @ flows(2)[3].T
-    feeds, heats = felt(place, velocity), felt(place, velocity, theta=OFF)
+    feeds, heats = felt(place, velocity), felt(place, velocity, feeds=0.0)
     assert (feeds.power > 0.0).all() and not feeds.heat.any() and not heats.power.any()
     np.testing.assert_allclose(heats.heat, feeds.power, rtol=1e-14)

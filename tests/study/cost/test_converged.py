@@ -236,3 +236,11 @@ def test_accuracy_is_of_scenes_as_they_come_and_not_of_folders_called_so(tmp_pat
     with pytest.raises(CaseError, match=r"--accuracy 0\.05: what accuracy costs was measured of scenes"):
         choice.refuse_own(own, ("", 0.05))
     choice.refuse_own(scenes.find("disc_cluster")[1], ("", 0.05))
+
+
+def test_a_level_that_was_stopped_leaves_those_that_were_measured():
+    """It has no metrics; the others' limit is as without it."""
+    made = [row(x, 5.0 + x) for x in STEPS[1:]]
+    stopped = row(STEPS[0], 0.0) | {"metrics": "{}"}
+    assert errors.converged(own(), [stopped, *made]) == errors.converged(own(), made) != {}
+    assert errors.judged(own(), [stopped, *made])[0]["error"] == math.inf
