@@ -7,9 +7,17 @@ second phase that is a gas is left out, and tension is that of the free energy. 
 
 from __future__ import annotations
 
+import dataclasses
+
+from sdph.methods.liquids.sections import Liquid
+from sdph.schema import fields
+
 NUMERICAL = ("density_diffusion", "liquid_damping", "shifting", "xsph")
-# keys of [liquid] that the equation of state or a kernel has
-OF_SOUND = ("sound_speed_m_s", "exponent", "background_pressure_Pa", "kernel", "pressure_gradient", "courant")
+# keys of [liquid] that the equation of state or a kernel has, and their defaults
+OF_SOUND = {
+    key: field.default for key, field in zip(fields(Liquid), dataclasses.fields(Liquid))
+    if key in ("sound_speed_m_s", "exponent", "background_pressure_Pa", "kernel", "pressure_gradient", "courant")
+}  # fmt: skip
 DROPS = {"reach": 3.1}, {"reach": 4.1}  # r_e, r_t in two dimensions: swirl-sheet.md, section 3
 
 
@@ -22,8 +30,8 @@ def taken_over(table: dict) -> dict:
     tension = "surface_tension" in on and "free_energy_tension" not in on
     left = [name for name in on if name in NUMERICAL or (name == "surface_tension" and tension)]
     left += [f"pools.{name}" for name in gas] + ["gas_phase"] * ("gas_phase" in table)
-    liquid = table.get("liquid")
-    left += [f"liquid.{key}" for key in OF_SOUND if isinstance(liquid, dict) and key in liquid]
+    idle = _of_sound(table.get("liquid"))
+    left += [f"liquid.{key}" for key in idle]
     left += ["liquid.periodic"] * bool(gas and table.get("liquid", {}).get("periodic"))
     if not left:
         return table
@@ -33,8 +41,16 @@ def taken_over(table: dict) -> dict:
     table["method"] = method | {"left_out": left}
     if gas:
         table["pools"] = {name: pool for name, pool in table["pools"].items() if name not in gas}
-        table["liquid"] = {key: value for key, value in table["liquid"].items() if key != "periodic"}
+        idle = [*idle, "periodic"]
+    if idle:
+        table["liquid"] = {key: value for key, value in table["liquid"].items() if key not in idle}
     return _with_tension(table, tensed) if tension else table
+
+
+def _of_sound(liquid) -> list[str]:
+    """Keys of [liquid] that OF_SOUND has, given with another value than their default."""
+    given = liquid if isinstance(liquid, dict) else {}
+    return [key for key, default in OF_SOUND.items() if key in given and given[key] != default]
 
 
 def _with_tension(table: dict, given) -> dict:

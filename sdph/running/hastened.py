@@ -84,6 +84,7 @@ class Hastened(Together):
         if self.tear.time is not None:
             if self.pace != 1.0:
                 self._hasten(1.0)
+            if self.clock.end != self.tear.time + self.p.after_tear:
                 self._follow()
             return
         self.most["pressure_max_Pa"] = max(self.most["pressure_max_Pa"], self.stepper.void.pressure)

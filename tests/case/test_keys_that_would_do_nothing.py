@@ -94,6 +94,29 @@ CASES = {
         "effects": ["outflow"], "tank": None, "method": {"name": "mps"},
         "liquid": {"density_kg_m3": 1000.0, "periodic": [1, 0]},
     },
+    "outflow takes a liquid of one phase out, and there is [gas_phase]": {
+        "effects": ["gravity", "density_diffusion", "tank", "outflow"],
+        "gas_phase": {"density_kg_m3": 1.2, "sound_speed_m_s": 100.0},
+        "pools": {"water": WATER, "air": WATER | {"lower_m": [0.0, 0.5], "upper_m": [1.0, 1.0], "phase": "gas"}},
+    },
+    "effects holds bubble and outflow": {
+        "effects": ["bubble", "outflow"], "tank": None, "bubble": {"centre_m": [0.5, 0.5]}, "pools": {"ring": RING},
+    },
+    "tank.shape = 'sphere' is closed, and liquid.periodic = [1.0, 0.0] goes on beyond it": {
+        "tank": {"shape": "sphere", "centre_m": [0.5, 0.5], "radius_m": 0.5},
+        "liquid": {"density_kg_m3": 1000.0, "sound_speed_m_s": 50.0, "periodic": [1, 0]},
+        "pools": {"water": {"shape": "tank", "fill": 0.5}},
+    },
+    "pools.water.flow = 'rotation' is known in a square, and the pool is 1 x 0.5 m": {
+        "pools": {"water": WATER | {"flow": "rotation", "speed_m_s": 1.0}},
+    },
+    "pools.ring.shape = 'ring' is of two dimensions": {
+        "dimensions": 3, "domain": {"size_m": 3 * [1.0], "gravity_m_s2": [0.0, 0.0, -9.81]},
+        "pools": {"ring": RING | {"centre_m": 3 * [0.5]}},
+    },
+    "tank.outlet_centre_m = [(0.5,)]": {
+        "tank": {"outlet_radius_m": 0.1, "outlet_length_m": 0.1, "outlet_centre_m": [[0.5]]},
+    },
     "[solid] gives hardening_Pa, which acts on nothing without yield_stress_Pa": plate(hardening_Pa=1e5),
     "[solid] gives softening_exponent, which acts on nothing": plate(softening_exponent=2.0),
     "bodies.plate.radius_m is of no box": plate() | {"bodies": {"plate": BODY | {"radius_m": 0.1}}},

@@ -14,6 +14,7 @@ from sdph.effects.liquids import time_scaling
 from sdph.engine import polygons, restart
 from sdph.methods.solids import start
 from sdph.running import driver, tear
+from sdph.running.hastened import Hastened
 from sdph.schema import CaseError
 from sdph.study.gel_droplet import checks
 
@@ -48,6 +49,19 @@ def test_pace_holds_the_wall_at_its_cap():
     assert time_scaling.pace(p, 0.4, 0.0, 1000.0) == pytest.approx(500.0)
     assert time_scaling.pace(p, -0.4, 0.0, 1000.0) == pytest.approx(500.0)
     assert time_scaling.pace(p, 400.0, 0.0, 1000.0) == 1.0
+
+
+@pytest.mark.parametrize("pace", [1.0, 8.0])
+def test_a_tear_is_followed_whatever_the_pace(tmp_path, pace):
+    """Its rows and its end are there where time was as it is too."""
+    run = Hastened(load("resolution.spacing_mm=0.025"), tmp_path / "ledger.csv")
+    run._hasten(pace)
+    run.tear.time = 1e-3
+    run._learn(1e-7)
+    assert run.clock.end == 1e-3 + run.p.after_tear and run.pace == 1.0
+    rows = len(run.clock.landmarks)
+    run._learn(1e-7)
+    assert len(run.clock.landmarks) == rows > 40
 
 
 def test_pace_holds_what_a_closing_bubble_throws():

@@ -31,6 +31,8 @@ class OutflowP(NamedTuple):
 def kernel(case) -> OutflowP:
     if not case.grains and not open_sides(case):
         raise CaseError("outflow: walls of the tank are all around; name a side in tank.open_sides, or leave it out")
+    if case.gas_phase is not None:
+        raise CaseError("outflow takes a liquid of one phase out, and there is [gas_phase]; leave one of the two out")
     return OutflowP(int("walls" in case.effects))
 
 

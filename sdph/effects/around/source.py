@@ -19,7 +19,7 @@ from sdph.effects.around import rates, sizes
 from sdph.effects.around.drops import Replays
 from sdph.effects.around.streams import (
     ROUND_OFF,
-    cell_radius,
+    in_mouth,
     layers_of,
     matter_of,
     streams_of,
@@ -175,13 +175,12 @@ class Source:
         """Number, from 1, of the nozzle in whose mouth or upstream of it each dummy of the walls (W,) stands; 0:
         none."""
         places = np.stack((dummies.x, dummies.y, dummies.z)[: self.case.dimensions], axis=1)
-        found, wide = np.zeros(len(places), np.int64), cell_radius(self.pitch, self.case.dimensions)
-        for k, own in enumerate(self.streams):
-            along, aside = self._beyond(k, places)
-            near = (along <= 0.0) & (along >= -DEPTH * self.case.smoothing_length)  # a wall further back has no mouth
-            rows = np.flatnonzero(near & (aside <= self.reach[k]))
-            apart, _ = self.trees[k].query(places[rows] - along[rows, None] * own.axis)
-            found[rows[apart <= wide]] = k + 1
+        found = np.zeros(len(places), np.int64)
+        for k, nozzle in enumerate(self.nozzles):
+            if len(self.streams[k].mouth):  # a table's drops come from nowhere
+                along, _ = self._beyond(k, places)
+                near = (along <= 0.0) & (along >= -DEPTH * self.case.smoothing_length)  # one further back has no mouth
+                found[near & in_mouth(nozzle, places - self.centre[k])] = k + 1
         return found
 
     def open(self, state, mouths, rows) -> None:

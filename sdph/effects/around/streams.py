@@ -100,8 +100,7 @@ def _mouth(case, nozzle, axis) -> tuple[np.ndarray, float, float]:
     """Offsets (S, d) [m] of the streams from the centre, area of the mouth [m2 or m], distance of its rim [m]."""
     spacing, tangents = case.resolution.spacing, _tangents(nozzle, axis)
     if nozzle.shape == "slot" or case.dimensions == 2:
-        sizes = (nozzle.width, nozzle.length) if nozzle.shape == "slot" else (2.0 * nozzle.radius,)
-        sizes = sizes[: len(tangents)]
+        sizes = _sizes(nozzle, len(tangents))
         ticks = [_ticks(size, spacing) for size in sizes]
         grid = np.stack([m.ravel() for m in np.meshgrid(*ticks, indexing="ij")], axis=1)
         return grid @ np.stack(tangents), math.prod(sizes), 0.5 * sizes[0]
@@ -172,9 +171,20 @@ def _ticks(size: float, spacing: float) -> np.ndarray:
     return size * ((np.arange(count) + 0.5) / count - 0.5)
 
 
-def cell_radius(pitch: float, dimensions: int) -> float:
-    """Radius [m] of a stream's part of the mouth: in space that of a circle as large as a cell of the lattice."""
-    return 0.5 * pitch * (1.0 + ROUND_OFF) if dimensions == 2 else pitch / math.sqrt(math.pi)
+def in_mouth(nozzle, offsets) -> np.ndarray:
+    """Tell which offsets (n, d) [m] from the centre lie, along the axis, in the mouth of a nozzle with streams."""
+    axis, wide = unit(nozzle.direction), 1.0 + ROUND_OFF
+    tangents = _tangents(nozzle, axis)
+    across = offsets @ np.stack(tangents, axis=1)
+    if nozzle.shape == "slot" or len(axis) == 2:
+        return (np.abs(across) <= 0.5 * wide * np.array(_sizes(nozzle, len(tangents)))).all(axis=1)
+    aside = np.linalg.norm(across, axis=1)
+    return (aside <= nozzle.radius * wide) & (aside * wide >= (nozzle.inner_radius or 0.0))
+
+
+def _sizes(nozzle, count: int) -> tuple[float, ...]:
+    """Extents [m] of a slot, or of a disc in the plane, along the first so many tangents."""
+    return ((nozzle.width, nozzle.length) if nozzle.shape == "slot" else (2.0 * nozzle.radius,))[:count]
 
 
 @serial

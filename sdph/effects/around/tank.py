@@ -73,6 +73,9 @@ def acts(case, stick: float, least: float) -> TankP:
 def shape_of(case):
     """The shape (sdph.engine.walls.shapes) of a case's tank."""
     own, d = case.parameters["tank"], case.dimensions
+    if case.liquid and any(case.liquid_period) and own.shape not in ("box", "outline"):
+        given = f"tank.shape = {own.shape!r} is closed, and liquid.periodic = {list(case.liquid.periodic)} goes on"
+        raise CaseError(f"{given} beyond it: give a box or an outline, or leave liquid.periodic out")
     if own.outlet_radius:
         _refuse_outlet(case, own)
     if own.shape == "box":
@@ -181,7 +184,7 @@ def _with_outlet_in_floor(case, own, box):
         return box
     across, d, radius = slice(0, case.dimensions - 1), case.dimensions, own.outlet_radius
     middle = 0.5 * (box.lower + box.upper)[across] if own.outlet_centre is None else np.array(own.outlet_centre)
-    if len(middle) != d - 1:
+    if middle.shape != (d - 1,):
         raise CaseError(
             f"tank.outlet_centre_m = {list(own.outlet_centre)}; it is a place in the floor: give {d - 1} numbers"
         )

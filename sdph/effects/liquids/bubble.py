@@ -105,6 +105,11 @@ def kernel(case) -> BubbleP:
     own = case.parameters["bubble"]
     if case.dimensions != 2 or case.gas_phase:
         raise CaseError("a bubble is that of a liquid of one phase in two dimensions: leave it out of effects")
+    if moving := [name for name in ("inflow", "outflow", "drain") if name in case.effects]:
+        raise CaseError(
+            f"effects holds bubble and {moving[0]}: a bubble is what the liquid of the start leaves free, and nothing "
+            "may come to that or leave; leave one of the two out"
+        )
     holes_of(case)
     boils = own.content == "vapour"
     if own.excess if boils else own.flux:

@@ -30,7 +30,7 @@ class TimeScaling:
     wall_speed_cap: float = quantity("m_s", 0.2, above=0.0)
     largest: float = quantity("", 1000.0, least=1.0)
     averaging: float = quantity("us", 2.0, above=0.0)  # of the motion: the wall's speed is a mean; longer lags behind
-    after_tear: float = quantity("ms", 0.2, least=0.0)  # the run ends so long after the first cut
+    after_tear: float = quantity("ms", 0.2, above=0.0)  # the run ends so long after the first cut
 
 
 class TimeScalingP(NamedTuple):

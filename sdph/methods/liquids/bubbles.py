@@ -30,6 +30,7 @@ class Part(Content):
     # see sdph.engine.kept
     KEPT = (
         "area", "pressure", "mass", "temperature", "heat", "warmed", "owed", "vented", "rim", "missed", "held",
+        "first",
     )  # fmt: skip
 
     def __init__(self, p, hole):

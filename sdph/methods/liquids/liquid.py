@@ -147,4 +147,5 @@ class Liquid(Stepped):
         reached = f"particles reached {mach:.2g} of their speed of sound"
         compressed = f"{reached} and were compressed by about {100.0 * mach**2:.0f} %"
         wanted = f"raise liquid.sound_speed_m_s from {c:g} to {10.0 * mach * c:.3g}"
-        return [f"{compressed}: {wanted}"] if mach > SLOW else []
+        found = [f"{compressed}: {wanted}"] if mach > SLOW else []
+        return found + (self.stepper.openings.warnings() if self.stepper.openings else [])

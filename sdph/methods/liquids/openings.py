@@ -12,6 +12,7 @@ import math
 
 import numpy as np
 from numba import prange
+from scipy.spatial import cKDTree
 
 from sdph import effects
 from sdph.effects.around import outflow
@@ -30,11 +31,12 @@ from sdph.methods.liquids.totals import specific_energies
 
 IN, OUT = 0, 1
 FREE = (0.0, 0.0, 0.0)
+NEAREST = 0.75  # spacings: liquid that stands nearer to what waits stands in its place; our choice
 
 
 class Openings:
-    """Nozzles and open sides of a stepper; `passed` (2, 5): mass [kg], momentum (3) [kg m/s] and energy [J] that came
-    in, and that left, since the start."""
+    """Nozzles and open sides of a stepper; `displaced`: particles of pools that gave way to streams; `passed` (2, 5):
+    mass [kg], momentum (3) [kg m/s] and energy [J] that came in, and that left, since the start."""
 
     KEPT = ("source", "passed")  # see sdph.engine.kept
 
@@ -42,18 +44,33 @@ class Openings:
         names = effects.arrays(case)
         self.case, self.passed = case, np.zeros((2, 5))
         self.source = Source(case, names, len(state.x)) if "inflow" in case.effects else None
-        self.leave = "outflow" in case.effects
+        self.leave, self.displaced = "outflow" in case.effects, 0
 
     def begin(self, state):
         """The state with the streams that wait at the start; those of nozzles that open later stand still."""
         if not self.source:
             return state
-        state = self.source.fill(state, 0.0, 0.0)
+        state = self._apart(self.source.fill(state, 0.0, 0.0))
         closed = np.flatnonzero(state.kind == INFLOW)
         closed = closed[self.source.start[state.nozzle[closed] - 1] > 0.0]
         for speed in (state.u, state.v, state.w)[: self.case.dimensions]:
             speed[closed] = 0.0
         return state
+
+    def warnings(self) -> list[str]:
+        """A line on liquid that a stream took the place of."""
+        stood = "stood where streams wait upstream of their nozzles, and were left out"
+        return [f"{self.displaced} particles of pools {stood}"] * bool(self.displaced)
+
+    def _apart(self, state):
+        """The state without the liquid in whose place a stream waits."""
+        places, waits = particles.positions(state), state.kind == INFLOW
+        if not waits.any():
+            return state
+        away, _ = cKDTree(places[waits]).query(places, distance_upper_bound=NEAREST * self.case.resolution.spacing)
+        displaced = (state.kind == LIQUID) & np.isfinite(away)
+        self.displaced = int(displaced.sum())
+        return particles.take(state, ~displaced)
 
     def move(self, state, time: float, dt: float) -> None:
         """Take the streams that wait from `time` [s] on by `dt` [s]."""

@@ -36,44 +36,47 @@ def _hydrostatic(case, pools: list, number: int, points, world) -> np.ndarray:
         top = world.least(float(height.min(initial=math.inf))) - 0.5 * spacing * float(np.linalg.norm(along))
     if not along.any():
         return phase_of(case, pool).density * (height - top)
-    if _on(pools, number, along, spacing) is not None and pool.shape in ("disc", "sphere"):
+    if pool.shape in ("disc", "sphere") and len(_on(pools, number, np.array(pool.centre)[None])):
         top = float(np.array(pool.centre) @ along)
-    return phase_of(case, pool).density * (height - top) + _outside(case, pools, number, top, along)
+    return phase_of(case, pool).density * (height - top) + _outside(case, pools, number, top, along, points)
 
 
-def _outside(case, pools: list, number: int, top: float, along) -> float:
-    """Pressure [Pa] at the height `top` [m2/s2] of what lies on a pool: hydrostatic too, up to a free surface."""
-    on = _on(pools, number, along, case.resolution.spacing)
-    if on is None:
-        return 0.0
-    own = _top(pools[on], along, list(case.pools)[on])
-    return phase_of(case, pools[on]).density * (top - own) + _outside(case, pools, on, own, along)
+def _outside(case, pools: list, number: int, top: float, along, points) -> np.ndarray:
+    """Pressure (N,) [Pa] at the height `top` [m2/s2] of what lies on a pool over each of its points (N, d) [m], or
+    around the centre of one that is round: hydrostatic too, up to a free surface."""
+    found = np.zeros(len(points))
+    for other, held in _on(pools, number, _above(case, pools[number], top, along, points)):
+        own = _top(pools[other], along, list(case.pools)[other])
+        upon = _outside(case, pools, other, own, along, points[held])
+        found[held] = phase_of(case, pools[other]).density * (top - own) + upon
+    return found
 
 
-def _on(pools: list, number: int, along, spacing: float) -> int | None:
-    """Number of the pool that lies on a pool, or around the centre of one that is round: those after it, and those
-    before it that are boxes or fill a tank; round ones before it lie in it."""
-    pool, up = pools[number], -along / np.linalg.norm(along)
+def _on(pools: list, number: int, places) -> list[tuple[int, np.ndarray]]:
+    """Numbers of the pools that hold places (N, d) [m] over a pool, each with the mask of the places that it is the
+    first to hold: those after it, and those before it that are boxes or fill a tank; round ones before it lie in it."""
+    pool, left, found = pools[number], np.ones(len(places), bool), []
     for other, own in enumerate(pools):
         if other == number or (other < number and own.shape not in ("box", "tank")):
             continue
         if pool.shape == "tank" and own.shape == "tank":
-            held = own.slab.low <= pool.slab.high < own.slab.high
-        elif pool.shape == "tank":
-            held = own.shape == "box" and -_top(own, along) > pool.slab.high * np.linalg.norm(along)
+            held = left & (own.slab.low <= pool.slab.high < own.slab.high)
         else:
-            held = holds(own, _above(pool, up, 0.5 * spacing)[None])[0]
-        if held:
-            return other
-    return None
+            held = left & holds(own, places)
+        if held.any():
+            found.append((other, held))
+            left &= ~held
+    return found
 
 
-def _above(pool, up, step: float) -> np.ndarray:
-    """A place (d,) [m] that far above the middle of the top of a box; the centre of what is round."""
-    if pool.shape != "box":
-        return np.array(pool.centre)
-    low, high = np.array(pool.lower), np.array(pool.upper)
-    return 0.5 * (low + high) + up * (0.5 * float(np.abs(up) @ (high - low)) + step)
+def _above(case, pool, top: float, along, points) -> np.ndarray:
+    """Places (N, d) [m] half a spacing over the height `top` [m2/s2], above points (N, d) [m] of a pool; the centre of
+    what is round, for each."""
+    if pool.shape in ("disc", "sphere", "ring"):
+        return np.tile(np.array(pool.centre), (len(points), 1))
+    gravity = float(np.linalg.norm(along))
+    way = (points @ along - top) / gravity + 0.5 * case.resolution.spacing
+    return points - way[:, None] * along / gravity
 
 
 def _top(pool, along, name: str = "") -> float:

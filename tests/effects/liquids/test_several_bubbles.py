@@ -122,6 +122,19 @@ def test_a_bubble_smaller_than_a_particle_is_closed(tmp_path):
     assert max(told["mass_drift_rel"], told["momentum_drift_rel"], told["heat_drift_rel"]) < 1e-11
 
 
+def test_merged_bubbles_of_gas_go_on_with_the_gas_of_both():
+    """A checkpoint keeps what each began with, as one has that of two."""
+    gas = PAIR | {"content": "gas", "excess_Pa": 1e3, "around_Pa": 1e5}
+    case = case_of(END, DISC, **gas)
+    void = Alone(case, None).method.stepper.void
+    one, other = void.parts
+    void._merge(one, other)
+    kept, fresh = {name: getattr(one, name) for name in one.KEPT}, Alone(case, None).method.stepper.void.parts[0]
+    for name, value in kept.items():
+        setattr(fresh, name, value)
+    assert fresh.first == one.first > fresh.area
+
+
 def test_bubbles_that_meet_are_one_with_all_their_mass_and_heat(tmp_path):
     near = PAIR | {"centres_m": [[MIDDLE, MIDDLE - 1.01e-4], [MIDDLE, MIDDLE + 1.01e-4]]}
     run = Alone(case_of(END, DISC, "liquid_heat", **near), tmp_path / "ledger.csv")

@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
 from sdph import scenes
 from sdph.case import read as cases
 from sdph.engine import state as particles
 from sdph.engine.state import INFLOW, LIQUID, WALL
-from sdph.methods.liquids import openings
+from sdph.methods.liquids import openings, start
 from sdph.running.alone import Alone
 from sdph.schema import CaseError
 from sdph.study.explain import tables
@@ -139,3 +140,41 @@ def test_liquid_leaves_where_no_wall_stands(size, floor, sides):
         (f"domain.size_m=[{size}, 0.5]", f"tank.lower_m=[0.0, {floor}]", f"tank.upper_m=[{min(size, 1.0)}, 0.5]"),
     )
     assert set(outflow.open_sides(case)) == sides
+
+
+def test_a_stream_that_waits_in_a_pool_has_its_place_for_itself():
+    """A lance under water: no two particles stand on each other, the pool gives way, and the run tells it."""
+    lance = MOUTH | {"centre_m": [0.2, 0.2], "direction": [0.0, -1.0], "width_m": 0.08}
+    table = FULL | {"nozzles": {"mouth": lance}}
+    run = Alone(cases.from_table(table), None)
+    s = run.method.stepper.state
+    waits = s.kind == INFLOW
+    places = np.column_stack([s.x, s.y])
+    away, _ = cKDTree(places[waits]).query(places[~waits])
+    assert away.min() >= 0.75 * DX
+    (told,) = run.method.warnings()
+    assert told.startswith(f"{run.method.stepper.openings.displaced} particles of pools stood where streams wait")
+    assert run.method.stepper.openings.displaced >= waits.sum() / 2
+
+
+@pytest.mark.parametrize("spacings", [20, 21])
+@pytest.mark.parametrize("mouth", [
+    {"shape": "slot", "width_m": 0.06, "length_m": 0.06}, {"shape": "disc", "radius_m": 0.03},
+])  # fmt: skip
+def test_no_wall_stands_in_a_mouth_wherever_its_lattice_lies(spacings, mouth):
+    """In space the wall's particles may stand on the corners between streams."""
+    size = 0.01 * spacings
+    roof = MOUTH | {"centre_m": [size / 2, size / 2, size], "direction": [0.0, 0.0, -1.0]} | mouth
+    if "radius_m" in mouth:
+        del roof["width_m"]
+    table = FULL | {
+        "dimensions": 3, "domain": {"size_m": 3 * [size], "gravity_m_s2": [0.0, 0.0, -9.81]}, "tank": {},
+        "resolution": {"spacing_mm": 10.0}, "nozzles": {"mouth": roof},
+        "pools": {"water": {"shape": "box", "lower_m": [0.0, 0.0, 0.0], "upper_m": [size, size, 0.05]}},
+    }  # fmt: skip
+    s = start.fill(cases.from_table(table))
+    over = (s.kind == WALL) & (s.z > size)
+    across = np.column_stack([s.x, s.y])[over] - size / 2
+    wide = 0.03 * (1.0 + 1e-6)
+    in_mouth = (np.abs(across) <= wide).all(axis=1) if "width_m" in mouth else np.hypot(*across.T) <= wide
+    assert over.sum() > 300 and not in_mouth.any()

@@ -73,3 +73,24 @@ def test_a_drop_within_a_pool_has_in_its_middle_what_the_pool_has_there():
 def test_what_lies_under_a_drop_cannot_be_known():
     with pytest.raises(CaseError, match="pools.b lies on or around another pool"):
         over({"a": disc([1.0, 2.0]), "b": disc([1.0, 2.0], 0.5)})
+
+
+@pytest.mark.parametrize("shape", ["box", "outline"])
+def test_a_column_presses_on_the_bed_below_it_alone(shape):
+    """A dam break over a wet bed: the bed's surface beside the column is free, in whatever tank; so it is under a
+    block that hangs in the air."""
+    corners = {"corners_m": [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]]} if shape == "outline" else {}
+    case = cases.from_table({
+        "dimensions": 2, "effects": ["gravity", "density_diffusion", "tank"],
+        "run": {"end_time_s": 1.0, "output_interval_s": 1.0},
+        "domain": {"size_m": [4.0, 3.0], "gravity_m_s2": [0.0, -G]}, "tank": {"shape": shape} | corners,
+        "resolution": {"spacing_mm": 1e3 * DX}, "liquid": {"density_kg_m3": RHO, "sound_speed_m_s": SOUND},
+        "pools": {"column": box([0.0, 0.6], [1.0, 1.6]), "block": box([3.0, 1.2], [3.5, 1.5]),
+                  "bed": {"shape": "tank", "fill": 0.2}},
+    })  # fmt: skip
+    state = start.fill(case)
+    pressure = eos.tait_pressure(state.density / RHO, RHO * SOUND**2 / case.liquid.exponent, case.liquid.exponent, 0.0)
+    bed = (state.kind == LIQUID) & (state.y < 0.6)
+    level = 0.6 - state.y[bed]
+    expected = RHO * G * (level + np.where(state.x[bed] < 1.0, 1.0, 0.0))
+    np.testing.assert_allclose(pressure[bed], expected, rtol=1e-6)
