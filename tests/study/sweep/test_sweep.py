@@ -1,5 +1,6 @@
 """`sdph sweep`: points, runs that are done once, failures that are told, the table and its figure."""
 
+import contextlib
 import csv
 import json
 import math
@@ -10,6 +11,7 @@ import time
 import types
 from concurrent.futures import ThreadPoolExecutor, as_completed
 
+import numpy as np
 import pytest
 
 from sdph import cli
@@ -192,6 +194,46 @@ def test_a_figure_over_vectors(tmp_path):
     found += [{"run": "b", "exit_code": 5, "reason": "", "k.v": [0, 4], "lost_J": ""}]
     path = table.draw(found, ["k.v"], ["lost_J"], table.Axis("k.v", True, 1), tmp_path / "sweep.png")
     assert path.stat().st_size > 5000
+
+
+def test_a_run_without_the_number_is_a_cross_and_no_value():
+    """What has none leaves a gap in the line; a text among numbers had made labels of all, in order of appearance."""
+    from matplotlib import pyplot
+
+    found = [{"run": "a", **FINE, "k.x": x, "rupture_s": told} for x, told in ((3, 0.3), (1, 0.75), (2, ""))]
+    _, axis = pyplot.subplots()
+    table._panel(axis, found, "rupture_s", table.Axis("k.x"), [])
+    line, crosses = axis.lines
+    np.testing.assert_array_equal(line.get_ydata(), [0.75, math.nan, 0.3])
+    assert (list(line.get_xdata()), list(crosses.get_xdata())) == ([1, 2, 3], [2])
+    assert [text.get_text() for text in axis.get_legend().get_texts()][-1] == "has none"
+    pyplot.close()
+
+
+@pytest.mark.parametrize(("left", "told"), [(1, False), (0, True)])
+def test_a_number_that_may_still_come_is_waited_for(left, told):
+    """The first run did not tear: another one may."""
+    rows = [{"run": "a", **FINE, "k.x": 1, "time_s": 2.0}]
+    with pytest.raises(CaseError, match="called rupture_time_s") if told else contextlib.nullcontext():
+        table.refuse_unknown(rows, ["k.x"], ["rupture_time_s"], left)
+
+
+def test_a_sweep_goes_on_after_a_run_without_the_number(tmp_path, monkeypatch, capsys):
+    """It is told when all runs are done, and a later call with more values goes on as well."""
+
+    def done(own):
+        folder = tmp_path / "runs" / own.name
+        folder.mkdir(parents=True)
+        torn = own.point["resolution.spacing_mm"] == "25"
+        (folder / "summary.json").write_text('{"time_s": 1.0, "rupture_s": 0.5}' if torn else '{"time_s": 1.0}')
+        return {**FINE, "took_s": 0.0}
+
+    monkeypatch.setattr(jobs, "done", done)
+    command = ["sweep", "disc_cluster", "--gas", "embedded", "--out", str(tmp_path), "--plot", "rupture_s", "--set"]
+    assert cli.main([*command, "resolution.spacing_mm=20,22"]) == 2
+    assert "no number of the summaries called rupture_s" in capsys.readouterr().err.splitlines()[-1]
+    assert cli.main([*command, "resolution.spacing_mm=20,22,25"]) == 0
+    assert [row["rupture_s"] for row in rows_of(tmp_path)] == ["", "", "0.5"]
 
 
 class Client:
