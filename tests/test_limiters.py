@@ -108,7 +108,7 @@ HARMLESS = {
     "sdph/methods/mps/alone.py:add_*": "indices of a sum's parts",
     "sdph/methods/mps/alone.py:*est": "the largest of all",
     "sdph/methods/mps/pieces.py:hook": "the least number of a row",
-    "sdph/methods/mps/method.py:MpsStepper.__init__": "the widest reach",
+    "sdph/methods/mps/sections.py:LiquidMethod.sees": "the widest reach",
     "sdph/methods/mps/mps.py:Mps._summary": "means of a run without a step",
     "sdph/methods/mps/holes.py:Holes._waves": "room for numbers of particles",
     "sdph/effects/liquids/perforation.py:way": "judges for `sdph explain`; no run takes anything from it",

@@ -27,7 +27,9 @@ def of_domain(case: Case) -> None:
 
 
 def _of_liquid(case: Case) -> None:
-    given, least = case.liquid.periodic, 4.1 * case.smoothing_length  # two reaches of the neighbour rows
+    reach = case.method.sees(case) * case.resolution.spacing if case.incompressible else 2.0 * case.smoothing_length
+    least = 2.05 * reach  # two reaches of the neighbour rows
+    given = case.liquid.periodic
     if given and (len(given) != case.dimensions or any(on not in (0.0, 1.0) for on in given)):
         raise CaseError(
             f"liquid.periodic = {list(given)}; it must be {case.dimensions} numbers, 1 along periodic axes and 0 "

@@ -59,9 +59,10 @@ def _drops(told: Path) -> dict[str, np.ndarray]:
 
 def _write(recorded, found: dict[str, np.ndarray], target: Path) -> None:
     """The drops that a run told of, about the axis of its nozzle."""
-    place = sheet.about_axis(recorded, np.stack([found[name] for name in drops.PLACE], axis=1))
-    middle = sheet.about_axis(recorded, np.zeros((1, 3)))
-    velocity = sheet.about_axis(recorded, np.stack([found[name] for name in drops.VELOCITY], axis=1)) - middle
+    (nozzle,) = recorded.nozzles.values()
+    place = sheet.about_axis(nozzle, np.stack([found[name] for name in drops.PLACE], axis=1))
+    middle = sheet.about_axis(nozzle, np.zeros((1, 3)))
+    velocity = sheet.about_axis(nozzle, np.stack([found[name] for name in drops.VELOCITY], axis=1)) - middle
     turned = found | dict(zip(drops.PLACE, place.T)) | dict(zip(drops.VELOCITY, velocity.T))
     target.parent.mkdir(parents=True, exist_ok=True)
     output.write_rows(

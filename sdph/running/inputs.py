@@ -89,6 +89,9 @@ def recorded(where: str, nozzle):
     case = cases.load(file, nozzle.record_set)
     if not case.incompressible or "outflow" not in case.effects or not case.nozzles:
         raise CaseError(f'{given} tells of no drops: it must have method.name = "mps", a nozzle and outflow')
+    if len(case.nozzles) > 1 or case.dimensions == 2:
+        has = f"nozzles, {len(case.nozzles)}, in {case.dimensions} dimensions"
+        raise CaseError(f"{given} has {has}; drops are told about the axis of one in space: name a case of such")
     return case, done
 
 

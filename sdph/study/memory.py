@@ -9,7 +9,7 @@ import numpy as np
 
 from sdph.case import gas_cells
 from sdph.effects.around import tank
-from sdph.effects.around.source import DEPTH
+from sdph.effects.around.source import depth_of
 from sdph.engine.walls import facets
 from sdph.engine.walls.sides import LAYERS
 from sdph.methods.grains.start import extents, mesh_of_walls
@@ -73,7 +73,7 @@ def _around(case, region) -> float:
 
 def _waiting(case, nozzle) -> float:
     """Particles upstream of a nozzle, those of grains made for the longest window there can be."""
-    depth = DEPTH * case.smoothing_length + (nozzle.speed * case.coupling.window_largest if case.grains else 0.0)
+    depth = depth_of(case) + (nozzle.speed * case.coupling.window_largest if case.grains else 0.0)
     return feed.layer(case, nozzle) * depth / case.resolution.spacing
 
 

@@ -7,7 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from sdph.effects.liquids.free_energy_tension import FreeEnergyTension
 from sdph.laws import moving_particles, sheets
+from sdph.schema import fields
 
 # numbers from ../shared/data/swirl_reference.json: closed forms and differential equations in double precision
 VALUES = json.loads((Path(__file__).parents[1] / "data" / "swirl_reference.json").read_text())["values"]
@@ -57,6 +59,16 @@ def test_as_many_values_are_tested_as_there_are():
 def test_a_resting_film_is_pulled_by_less_or_more_than_two_sigma(reach, dimensions, pull):
     """Numbers of swirl-sheet.md, section 5."""
     assert moving_particles.film_pull(reach, dimensions) == pytest.approx(pull, abs=6e-4)
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_at_all_reaches_that_a_case_may_have_tension_pulls(dimensions):
+    """C above 0, a film that is pulled together by about 2 sigma, and a lattice that holds together."""
+    _, kind = fields(FreeEnergyTension)["reach"]
+    for reach in np.linspace(kind.least, kind.most, 40).tolist():
+        assert moving_particles.tension_coefficient(reach, dimensions) > 0.0
+        assert 0.6 < moving_particles.film_pull(reach, dimensions) < 1.2
+        assert moving_particles.cohesion_pressure(reach, dimensions) < 0.0
 
 
 @pytest.mark.parametrize("r", np.linspace(0.3, 3.0, 10))

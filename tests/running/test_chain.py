@@ -1,12 +1,16 @@
 """A run whose nozzle records another run: the sheet first, then the spray of its drops."""
 
 import csv
+import tomllib
 from pathlib import Path
 
+import numpy as np
 import pytest
+import tomli_w
 
 from sdph import scenes
 from sdph.case import read as cases
+from sdph.effects.around import drops
 from sdph.running import chain, driver, inputs
 from sdph.running.progress import Reporter
 from sdph.schema import CaseError
@@ -47,11 +51,11 @@ def test_a_case_that_is_named_is_run_first(sheet, tmp_path):
     for row in rows(tmp_path / "run" / chain.HANDOVER):
         assert abs(float(row["difference_rel"])) < 1e-12, row
     # mass through the plane and along the axis, as the sheet told of it
-    drops = rows(tmp_path / "run" / "inputs" / "nozzles.mouth.table" / "drops.csv")
+    made = rows(tmp_path / "run" / "inputs" / "nozzles.mouth.table" / "drops.csv")
     told = rows(alone)
-    assert sum(float(r["mass_kg"]) for r in drops) == pytest.approx(sum(float(r["mass_kg"]) for r in told), rel=1e-14)
-    assert float(drops[0]["z_m"]) == pytest.approx(float(told[0]["z_m"]), rel=1e-12)
-    assert float(drops[0]["velocity_z_m_s"]) == pytest.approx(float(told[0]["velocity_z_m_s"]), rel=1e-12)
+    assert sum(float(r["mass_kg"]) for r in made) == pytest.approx(sum(float(r["mass_kg"]) for r in told), rel=1e-14)
+    assert float(made[0]["z_m"]) == pytest.approx(float(told[0]["z_m"]), rel=1e-12)
+    assert float(made[0]["velocity_z_m_s"]) == pytest.approx(float(told[0]["velocity_z_m_s"]), rel=1e-12)
 
 
 def test_a_run_that_is_named_is_taken_as_it_is(sheet, tmp_path):
@@ -79,6 +83,57 @@ def test_what_was_cut_while_it_recorded_goes_on(sheet, tmp_path, monkeypatch):
     monkeypatch.setattr(driver.Flight, "go", begun)
     summary = driver.resume(tmp_path / "run", (), Reporter())
     assert summary["injected_kg"] > 0.0
+
+
+def disc(folder, more=""):
+    """A case of a jet from a round hole along x, and `more` of its text."""
+    text = (scenes.HERE / "swirl_sheet" / "case.toml").read_text(encoding="utf-8")
+    for before, after in (
+        ('shape = "annulus"', 'shape = "disc"'), ("inner_radius_m = 0.0013\n", ""), ("swirl = 1.0", ""),
+        ("direction = [0.0, 0.0, 1.0]", "direction = [1.0, 0.0, 0.0]"),
+    ):  # fmt: skip
+        assert before in text
+        text = text.replace(before, after)
+    folder.mkdir()
+    (folder / "case.toml").write_text(text + more, encoding="utf-8")
+    return folder / "case.toml"
+
+
+def test_drops_of_a_jet_are_told_about_its_axis(tmp_path):
+    """Of a nozzle of any shape: 2 mm along the axis and 1 mm aside, at 20 and 3 m/s."""
+    recorded, _ = inputs.recorded("nozzles.mouth", spray(disc(tmp_path / "jet")).nozzles["mouth"])
+    told = dict.fromkeys(drops.COLUMNS, 1e-9) | {
+        "x_m": 0.032, "y_m": 0.031, "z_m": 0.0, "velocity_x_m_s": 20.0, "velocity_y_m_s": 3.0, "velocity_z_m_s": 0.0,
+    }  # fmt: skip
+    chain._write(recorded, {name: np.array([value]) for name, value in told.items()}, tmp_path / "made" / "drops.csv")
+    (row,) = rows(tmp_path / "made" / "drops.csv")
+    assert float(row["z_m"]) == pytest.approx(2e-3) and float(row["velocity_z_m_s"]) == pytest.approx(20.0)
+    assert np.hypot(float(row["x_m"]), float(row["y_m"])) == pytest.approx(1e-3)
+    assert np.hypot(float(row["velocity_x_m_s"]), float(row["velocity_y_m_s"])) == pytest.approx(3.0)
+
+
+def test_drops_of_a_plane_are_none(tmp_path):
+    table = tomllib.loads(disc(tmp_path / "jet").read_text(encoding="utf-8"))
+    table["dimensions"] = 2
+    table["domain"] = {"size_m": [0.06, 0.06], "gravity_m_s2": [0.0, 0.0]}
+    slot = {"shape": "slot", "centre_m": [0.0, 0.03], "direction": [1.0, 0.0], "width_m": 0.003, "speed_m_s": 20.0}
+    table["nozzles"] = {"mouth": slot}
+    (tmp_path / "jet" / "case.toml").write_text(tomli_w.dumps(table), encoding="utf-8")
+    with pytest.raises(CaseError, match="has nozzles, 1, in 2 dimensions"):
+        inputs.check(spray(tmp_path / "jet" / "case.toml"))
+
+
+def test_two_nozzles_have_no_axis(tmp_path):
+    second = """
+[nozzles.other]
+shape = "disc"
+centre_m = [0.03, 0.01, 0.0]
+direction = [0.0, 0.0, 1.0]
+radius_m = 0.0015
+speed_m_s = 20.0
+"""
+    with pytest.raises(CaseError, match="has nozzles, 2, in 3 dimensions; drops are told about the axis of one"):
+        inputs.check(spray(disc(tmp_path / "jets", second)))
 
 
 @pytest.mark.parametrize(

@@ -189,14 +189,14 @@ def _straight(case, end: float) -> _Sheet:
         for table in alone.tables():
             table.close()
     inside = alone.state.kind == LIQUID
-    found = sheet.about_axis(case, particles.positions(alone.state)[inside]).view(_Sheet)
+    found = sheet.about_axis(sheet.nozzle_of(case), particles.positions(alone.state)[inside]).view(_Sheet)
     found.speed = float(particles.lengths(particles.velocities(alone.state)[inside]).mean())
     return found
 
 
 def _places(run, time: float) -> np.ndarray:
     _, cloud, _ = run.fields(time)
-    return sheet.about_axis(run.case, np.asarray(cloud.points, float))
+    return sheet.about_axis(sheet.nozzle_of(run.case), np.asarray(cloud.points, float))
 
 
 def _angle(places, length: float) -> float:

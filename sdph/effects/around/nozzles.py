@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 
 from sdph.effects.around import rates, sizes
 from sdph.effects.around.streams import ROUND_OFF, Streams, layers_of, streams_of
-from sdph.schema import CaseError, choice, file, quantity, record, vector, whole, words
+from sdph.schema import CaseError, choice, fields, file, quantity, record, vector, whole, words
 
+ONLY = {  # key -> shapes that have it, beside what _check_annulus, _check_table and half_angle refuse
+    "width": ("slot",), "length": ("slot",), "radius": ("disc", "cone", "annulus", "table"),
+    "profile": ("slot", "disc", "cone"), "seed": ("annulus", "table"), "record_set": ("table",),
+    "table_from": ("table",), "diameter": ("slot", "disc", "cone"), "diameter_std": ("slot", "disc", "cone"),
+}  # fmt: skip
 OF_GRAINS = ("temperature", "volume_fraction", "rate", "material", *sizes.OF_LAW)
 
 
@@ -55,6 +62,9 @@ class Nozzle:
     end: float | None = quantity("s", None, above=0.0)
 
 
+DEFAULTS = {field.name: field.default for field in dataclasses.fields(Nozzle)}
+
+
 def check(case, name: str, nozzle: Nozzle) -> None:
     where = f"nozzles.{name}"
     (_check_grains if case.grains else _check_liquid)(case, where, nozzle)
@@ -74,6 +84,7 @@ def check(case, name: str, nozzle: Nozzle) -> None:
             raise CaseError(f"{where}.{key}_m is missing; a {nozzle.shape} in {case.dimensions} dimensions needs it")
     _check_annulus(case, where, nozzle)
     _check_table(case, where, nozzle)
+    _refuse_idle(where, nozzle)
     if nozzle.half_angle and nozzle.shape != "cone":
         raise CaseError(f"{where}.half_angle_deg is of a cone; shape = {nozzle.shape!r}")
     if not np.linalg.norm(nozzle.direction) > 0.0:
@@ -115,6 +126,16 @@ def _check_table(case, where: str, nozzle: Nozzle) -> None:
         raise CaseError(f"{where}.table is missing; name a CSV file of drops, or a record to make one from")
 
 
+def _refuse_idle(where: str, nozzle: Nozzle) -> None:
+    """CaseError of a key that does nothing for the nozzle's shape."""
+    for key, (name, _) in fields(Nozzle).items():
+        shapes = ONLY.get(name, (nozzle.shape,))
+        if nozzle.shape not in shapes and getattr(nozzle, name) != DEFAULTS[name]:
+            raise CaseError(f"{where}.{key} is of {', '.join(shapes)}; shape = {nozzle.shape!r}: leave it out")
+    if nozzle.record_set and not nozzle.record:
+        raise CaseError(f"{where}.record_set is of a record, and there is none: leave it out, or name one")
+
+
 def _check_grains(case, where: str, nozzle: Nozzle) -> None:
     if (nozzle.volume_fraction is not None) + (nozzle.rate is not None) + bool(nozzle.rates) != 1:
         raise CaseError(f"{where}: give either volume_fraction or rate_kg_s, or rates")
@@ -133,12 +154,12 @@ def _check_liquid(case, where: str, nozzle: Nozzle) -> None:
 
 def _check_times(case, where: str, nozzle: Nozzle, streams: Streams) -> None:
     """CaseError where a nozzle closes before it opens, or before it gives a layer of particles."""
-    if nozzle.end is None or nozzle.shape == "table":
+    if nozzle.end is None:
         return
     given = f"{where} is open from start_s = {nozzle.start:g} to end_s = {nozzle.end:g}"
     if nozzle.end <= nozzle.start:
         raise CaseError(f"{given}; its end must come after its start")
-    if not layers_of(nozzle, streams).any():
+    if nozzle.shape != "table" and not layers_of(nozzle, streams).any():
         way = (nozzle.end - nozzle.start) * streams.speed.max()
         least = f"less than half of resolution.spacing_mm = {case.resolution.spacing * 1e3:g}"
         raise CaseError(f"{given}: its grains go {way * 1e3:.3g} mm, {least}; open it longer or take a finer spacing")

@@ -32,6 +32,7 @@ from sdph.engine.kept import Unfit
 from sdph.engine.state import GRAIN, INFLOW, LIQUID
 
 DEPTH = 4.0  # smoothing lengths of particles upstream: the density of those that the first grain sees is whole too
+BEHIND = 1.0  # l0 behind what the first of moving particles sees; swirl-sheet.md, section 2, 10
 ARRAYS = ("nozzle", "entering")
 
 
@@ -135,7 +136,7 @@ class Source:
     def _wanted(self, time: float, dt: float) -> np.ndarray:
         """(S,) layers that the streams make for the window from `time` of `dt` [s]."""
         gone = self.gone(time)
-        depth = DEPTH * self.case.smoothing_length + self.speed * dt
+        depth = depth_of(self.case) + self.speed * dt
         wanted = np.floor((depth + gone) / self.pitch - 0.5 + ROUND_OFF).astype(np.int64) + 1
         return np.maximum(0, np.minimum(wanted, self.most) if self.case.grains else wanted)
 
@@ -179,8 +180,9 @@ class Source:
         for k, nozzle in enumerate(self.nozzles):
             if len(self.streams[k].mouth):  # a table's drops come from nowhere
                 along, _ = self._beyond(k, places)
-                near = (along <= 0.0) & (along >= -DEPTH * self.case.smoothing_length)  # one further back has no mouth
+                near = (along <= 0.0) & (along >= -depth_of(self.case))  # a wall further back has no mouth
                 found[near & in_mouth(nozzle, places - self.centre[k])] = k + 1
+        return found
         return found
 
     def open(self, state, mouths, rows) -> None:
@@ -264,6 +266,13 @@ class Source:
         if self.nozzles[k].shape == "annulus":
             return swirling(self.nozzles[k], self.streams[k], places)
         return self.streams[k].velocity[self.trees[k].query(places)[1]]
+
+
+def depth_of(case) -> float:
+    """Depth [m] of what waits upstream of a nozzle."""
+    if case.incompressible:
+        return (case.method.sees(case) + BEHIND) * case.resolution.spacing
+    return DEPTH * case.smoothing_length
 
 
 def _places(state, rows, after: float = 0.0) -> np.ndarray:

@@ -22,9 +22,9 @@ CAPILLARY = 0.25  # of sqrt(rho l0^3/(2 pi sigma)), swirl-sheet.md, section 2, 1
 @record
 class FreeEnergyTension:
     coefficient: float = quantity("N_m", least=0.0)
-    reach: float = quantity(
-        "", 3.1, above=1.5, most=6.0
-    )  # r_t in spacings: 3.1, or 4.1 with weaker traces of a lattice
+    # r_t in spacings: 3.1, or 4.1 with weaker traces of a lattice; nearer than 3 the few pairs pull by less, and below
+    # 2.27 a film is pushed apart (sdph.laws.moving_particles.film_pull)
+    reach: float = quantity("", 3.1, least=3.0, most=6.0)
 
 
 class FreeTensionP(NamedTuple):

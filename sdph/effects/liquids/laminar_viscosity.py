@@ -44,7 +44,8 @@ def kernel(case) -> LaminarP | LaminarOfTwoP:
 def dt_limit(p, case, state) -> float:
     phases = [case.liquid, case.gas_phase] if case.gas_phase else [case.liquid]
     nu = max(phase.viscosity / phase.density for phase in phases)
-    return diffusive_limit(case.smoothing_length, nu)
+    # moving particles have no smoothing length: equations.rub bears 0.49 l0^2/nu
+    return diffusive_limit(case.resolution.spacing if case.incompressible else case.smoothing_length, nu)
 
 
 @serial

@@ -43,6 +43,11 @@ def kernel(case) -> InflationP:
     if body is None or body.shape != "ring":
         rings = [name for name, other in case.bodies.items() if other.shape == "ring"]
         raise CaseError(f"inflation.body = {own.body!r}; it must be a ring: {', '.join(rings) or 'there is none'}")
+    if case.solid.failure:
+        raise CaseError(
+            "inflation goes on pressing on what is left of a ring that has torn: leave solid.failure out, or fill the "
+            "ring with a liquid that has a bubble of vapour (effects bubble and time_scaling)"
+        )
     if own.by == "pressure":
         if own.growth or own.bulk_modulus:
             raise CaseError('inflation.growth_1_s and bulk_modulus_Pa are of inflation.by = "growth"; give that, too')

@@ -91,7 +91,7 @@ class Holes:
             torn, spacing = self._waves(s, dt)
             sites = sites | torn
         self._open(s, np.flatnonzero(sites & liquid), spacing, stepper.time)
-        return self._pushed(s, liquid, stepper.time + dt)
+        return self._pushed(s, liquid, stepper.time, dt)
 
     def _round(self, places) -> np.ndarray:
         """Places (N, 3) [m] that have gone round the periodic axes."""
@@ -164,22 +164,22 @@ class Holes:
         off[:, on] -= self.period[on] * np.round(off[:, on] / self.period[on])
         return off
 
-    def _within(self, s, time: float):
-        """Holes (n,) that are there, among all, and particles (n,) within their circles at `time` [s], pair by pair;
-        middles (M, 3) [m] of all."""
+    def _within(self, s, time: float, ahead: float = 0.0):
+        """Holes (n,) that are there, among all, and particles (n,) within their circles, pair by pair; middles (M, 3)
+        [m] of all. Middles are those of `time` [s], as the particles are, and circles those of `ahead` [s] later: whom
+        a rim passes in a step is pushed from its begin on."""
         own, age = self.opened, time - self.opened.born
         middle = own.middle + age[:, None] * own.velocity
         live = np.flatnonzero(np.isin(own.site, s.ident))
-        lists = self.tree.query_ball_point(
-            self._round(middle[live].copy()), own.radius[live] + own.speed[live] * age[live], return_sorted=True
-        )
+        radius = own.radius[live] + own.speed[live] * (age[live] + ahead)
+        lists = self.tree.query_ball_point(self._round(middle[live].copy()), radius, return_sorted=True)
         number = [len(each) for each in lists]
         return np.repeat(live, number), np.array([i for each in lists for i in each], np.int64), middle
 
-    def _pushed(self, s, liquid, time: float) -> np.ndarray:
-        """Change (N, 3) [m/s] of what is within one circle and slower than its rim."""
+    def _pushed(self, s, liquid, time: float, ahead: float = 0.0) -> np.ndarray:
+        """Change (N, 3) [m/s] of what is within one circle and slower than its rim; times as of `_within`."""
         change = np.zeros((len(s.x), 3))
-        hole, i, middle = self._within(s, time)
+        hole, i, middle = self._within(s, time, ahead)
         alone = (np.bincount(i, minlength=len(s.x))[i] == 1) & liquid[i]
         hole, i = hole[alone], i[alone]
         normal = self.opened.normal[hole]

@@ -50,9 +50,7 @@ class MpsStepper:
         if self.openings:
             self.state = self.openings.begin(self.state)
         self.holes = Holes(case, self.p) if self.p["perforation"] or self.p["suction"] else None
-        pulled = self.p["free_energy_tension"]
-        reach = max(self.cloud.reach, pulled.reach if pulled else 0.0, self.own.piece * unit)
-        self.neighbours = Neighbours(reach, case.liquid_period, case.resolution.neighbour_skin)
+        self.neighbours = Neighbours(self.own.sees(case) * unit, case.liquid_period, case.resolution.neighbour_skin)
         self.room, self.landed = arrays.Room(), None  # see sdph.engine.ashore
         self.time, self.steps, self.steps_before, self.limit = 0.0, 0, 0, ""
         self.works, self.impulses = np.zeros(len(WORKS)), np.zeros((2, 3))  # of gravity, of what waits

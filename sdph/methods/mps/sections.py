@@ -41,6 +41,11 @@ class LiquidMethod:
             return "free_energy_tension" not in case.effects and not case.nozzles
         return self.gradient == "corrected"
 
+    def sees(self, case) -> float:
+        """Distance [l0] up to which particles act on each other."""
+        pulled = "free_energy_tension" in case.effects
+        return max(self.reach, self.piece, case.parameters["free_energy_tension"].reach if pulled else 0.0)
+
     def share_taken(self, case) -> float:
         """gamma."""
         return (0.01 if self.of_pools(case) else 0.05) if self.compression is None else self.compression

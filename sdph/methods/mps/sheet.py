@@ -22,9 +22,8 @@ def nozzle_of(case):
     return found[0] if len(found) == 1 and found[0].shape == "annulus" else None
 
 
-def about_axis(case, places) -> np.ndarray:
-    """(N, 3) places with z along the nozzle's axis, from the middle of its mouth."""
-    nozzle = nozzle_of(case)
+def about_axis(nozzle, places) -> np.ndarray:
+    """(N, 3) places with z along the axis of a nozzle, from the middle of its mouth."""
     axis = np.asarray(nozzle.direction, float) / np.linalg.norm(nozzle.direction)
     first = np.eye(3)[np.argmin(np.abs(axis))]
     first = first - (first @ axis) * axis
@@ -60,7 +59,9 @@ def half_angle_of_outline(places, length: float, spacing: float) -> float:
 
 
 def half_angle_of_meridian(z, r, length: float) -> float:
-    """The same of a curve r (n,) at z (n,) [m]."""
+    """The same of a curve r (n,) at z (n,) [m]; nan of no length."""
+    if length <= 0.0:
+        return math.nan
     ends = np.linspace(RANGE[0] * length, RANGE[1] * length, 400)
     return float(np.arctan(np.polyfit(ends, np.interp(ends, z, r), 1)[0]))
 
@@ -108,14 +109,14 @@ def ballistic(case, length: float) -> np.ndarray:
     layer = np.repeat(np.arange(layers), len(own.mouth))
     places, velocities = turned(nozzle, own, stream, layer, np.zeros(len(layer)))
     way = (layer + 0.5) * own.pitch / nozzle.speed
-    return about_axis(case, places + way[:, None] * velocities)
+    return about_axis(nozzle, places + way[:, None] * velocities)
 
 
 def told(case, places) -> dict[str, float]:
     """Summary of a sheet: half angle beside that of straight flight over the same range, break-up length along the
     path beside that of particles that fly straight, by the same rule."""
     nozzle, spacing = nozzle_of(case), case.resolution.spacing
-    seen = about_axis(case, places)
+    seen = about_axis(nozzle, places)
     seen = seen[seen[:, 2] > 0.0]
     length = min(reach(seen), case.domain.size[int(np.argmax(np.abs(nozzle.direction)))])
     z = np.linspace(0.0, max(length, spacing), 400)
@@ -133,5 +134,6 @@ def told(case, places) -> dict[str, float]:
 def torn(case, middles) -> dict[str, float]:
     """Summary of holes: mean way [m] along the path from the mouth to where they opened, middles (M, 3) [m]; nan of
     none."""
-    found = slant(nozzle_of(case)) * about_axis(case, middles)[:, 2]
+    nozzle = nozzle_of(case)
+    found = slant(nozzle) * about_axis(nozzle, middles)[:, 2]
     return {"holes_way_m": float(found.mean()) if len(found) else math.nan}

@@ -133,5 +133,11 @@ def check(case) -> None:
         return
     if case.nozzles or "outflow" in case.effects:
         raise CaseError('method.name = "mps" takes a tank or nozzles and open sides, not both: leave one of them out')
+    if not case.method.of_pools(case):
+        why = "free_energy_tension" if case.method.gradient is None else 'method.gradient = "pairs"'
+        raise CaseError(
+            f"{why} lets the pressure act by forces of pairs, and by these a wall of a tank pushes with half: give "
+            'method.gradient = "corrected", by which liquid wets all walls, or leave the tension or the tank out'
+        )
     if case.parameters["tank"].outlet_radius:
         raise CaseError('tank.outlet_radius_m is given; with method.name = "mps" a tank has no outlet: leave it out')

@@ -25,7 +25,9 @@ from sdph.laws.compiled import parallel
 from sdph.laws.matrices import SINGULAR
 from sdph.methods.solids.equations import carried, inverse
 
-LOOSE = 0.15  # det M below which cuts free a particle; an uncut square corner has 0.137: gel-droplet.md, section 2
+# det M below which cuts free a particle, by dimensions: an uncut corner of a square has 0.137 (gel-droplet.md, section
+# 2), of a cube 0.021, its edge 0.081
+LOOSE = {2: 0.15, 3: 0.023}
 
 
 class Weights:
@@ -126,4 +128,4 @@ def inverses(moments, dimensions: int, free) -> tuple[np.ndarray, np.ndarray]:
     kept = (free == 0) & (np.abs(determinant) > SINGULAR)
     found = np.zeros_like(matrices)
     found[kept] = np.linalg.inv(matrices[kept])
-    return found.reshape(-1, 9), determinant < LOOSE
+    return found.reshape(-1, 9), determinant < LOOSE[dimensions]

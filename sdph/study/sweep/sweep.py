@@ -47,12 +47,12 @@ def sweep(wish: Wish, say: Callable[[str], None]) -> list[dict]:
     keys, metrics = list(points[0]), list(wish.metrics)
     found = table.write(wish.out, all_jobs, outcomes)
     if found:
-        table.refuse_unknown(found, keys, metrics)
+        table.refuse_unknown(found, keys, metrics, len(left))
     for job, outcome in pool.outcomes(left, runs.done, wish.workers, wish.scheduler):
         outcomes[job.name] = outcome
         found = table.write(wish.out, all_jobs, outcomes)
         say(f"{len(outcomes)}/{len(all_jobs)} {job.name}: {outcome['reason'] or 'fine'}, {outcome['took_s']:.0f} s")
-        table.refuse_unknown(found, keys, metrics)
+        table.refuse_unknown(found, keys, metrics, len(all_jobs) - len(outcomes))
     if axis:
         say(f"{table.draw(found, keys, metrics, axis, wish.out / table.FIGURE)}")
     return found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import math
 from pathlib import Path
 from typing import NamedTuple
@@ -14,6 +15,7 @@ from sdph.study.sweep.jobs import FINE, Job
 FILE, FIGURE = "sweep.csv", "sweep.png"
 HEAD = ("run", "exit_code", "reason")
 WIDTH, HEIGHT = 6.4, 3.6  # of a panel [inches]
+SLIP = 0.9  # likeness from which on a word is another one misspelt; our choice
 
 
 def rows(jobs: list[Job], outcomes: dict[str, dict]) -> list[dict]:
@@ -107,13 +109,13 @@ def _axis(key: str, values: list) -> Axis | None:
     return Axis(key, True, varied[0] if len(varied) == 1 else None)
 
 
-def refuse_unknown(found: list[dict], keys: list[str], metrics: list[str]) -> None:
-    """CaseError where a metric is a number of none of the summaries that there are so far: what is told only where
-    something happened stands in some."""
+def refuse_unknown(found: list[dict], keys: list[str], metrics: list[str], left: int = 0) -> None:
+    """CaseError where a metric is a number of none of the summaries; while runs are `left`, only where it is a known
+    one misspelt: what is told only where something happened may stand in a summary that is still to come."""
     good = [row for row in found if row["exit_code"] == FINE]
     known = [key for key in found[0] if key not in (*HEAD, *keys) and any(_number(row[key]) for row in good)]
     for metric in metrics if good else []:
-        if metric not in known:
+        if metric not in known and (not left or difflib.get_close_matches(metric, known, 1, SLIP)):
             told = unknown(metric, known).replace("unknown key", "no number of the summaries called", 1)
             raise CaseError(f"--plot: {told}")
 
@@ -127,7 +129,8 @@ def _number(value) -> bool:
 
 
 def draw(found: list[dict], keys: list[str], metrics: list[str], over: Axis, path: Path) -> Path:
-    """Each metric over a key, a line for each set of the other keys; runs that failed are crosses on the axis."""
+    """Each metric over a key, a line for each set of the other keys; runs that failed, and those that have no such
+    number, are crosses on the axis."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -150,15 +153,16 @@ def _panel(axis, found: list[dict], metric: str, over: Axis, others: list[str]) 
     for at, row in placed:
         if row["exit_code"] == FINE:
             label = ", ".join(f"{key} = {row[key]}" for key in others)
-            lines.setdefault(label, []).append((at, row[metric]))
+            lines.setdefault(label, []).append((at, row[metric] if _number(row[metric]) else math.nan))
     for label, places in sorted(lines.items()):
         axis.plot(*zip(*sorted(places)), "o-", label=label, markersize=4)
     failed = [at for at, row in placed if row["exit_code"] != FINE]
-    if failed:
-        axis.plot(
-            failed, [0.03] * len(failed), "x", color="tab:red", transform=axis.get_xaxis_transform(), label="failed"
-        )
+    none = [at for at, row in placed if row["exit_code"] == FINE and not _number(row[metric])]
+    for label, places, colour in (("failed", failed, "tab:red"), ("has none", none, "tab:gray")):
+        if places:
+            low = [0.03] * len(places)
+            axis.plot(places, low, "x", color=colour, transform=axis.get_xaxis_transform(), label=label)
     axis.set_xlabel(over.label)
     axis.set_ylabel(metric)
-    if failed or others:
+    if failed or none or others:
         axis.legend(fontsize="small")

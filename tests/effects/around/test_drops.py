@@ -197,6 +197,12 @@ def test_a_drop_without_mass_is_told(tmp_path):
         ({"table": ""}, "table is missing"),
         ({"rate_kg_s": None, "volume_fraction": 0.1}, "at rate_kg_s"),
         ({"shape": "disc"}, "table and record are of shape = 'table'"),
+        ({"start_s": 0.01, "end_s": 0.005}, "its end must come after its start"),
+        ({"diameter_mm": 0.2}, "diameter_mm is of slot, disc, cone; shape = 'table': leave it out"),
+        ({"diameter_std_mm": 0.1}, "diameter_std_mm is of slot, disc, cone"),
+        ({"profile": "parabolic"}, "profile is of slot, disc, cone"),
+        ({"width_m": 0.1}, "width_m is of slot"),
+        ({"record_set": ["run.end_time_s=1.0"]}, "record_set is of a record, and there is none"),
         ({"table_from_s": 0.0, "effects": "granular_viscosity"}, "heavy ones throw light ones away"),
     ],
 )

@@ -213,6 +213,10 @@ def test_what_waits_and_comes_in_closes_the_balances_of_motion(tmp_path):
     ({"width_m": None}, "width_m is missing"),
     ({"half_angle_deg": 10.0}, "half_angle_deg is of a cone"),
     ({"direction": [1.0, 0.0, 0.0]}, "components"),
+    ({"radius_m": 0.1}, "radius_m is of disc, cone, annulus, table; shape = 'slot': leave it out"),
+    ({"table_from_s": 0.1}, "table_from_s is of table"),
+    ({"record_set": ["run.end_time_s=1.0"]}, "record_set is of table"),
+    ({"seed": 3}, "seed is of annulus, table"),
 ])  # fmt: skip
 def test_a_nozzle_that_cannot_be_says_so(tmp_path, change, words):
     nozzle = {key: value for key, value in (SLOT | change).items() if value is not None}

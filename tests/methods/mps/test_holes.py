@@ -33,12 +33,14 @@ def film(*effects, sections=None, velocity=(0.0, 0.0, 0.0), layers=LAYERS):
     return MpsStepper(case((*ON, *effects), own | (sections or {})))
 
 
-def perforated(most=1, **own):
-    """A stepper of a resting film of which the seed makes `most` particles sites, after the step in which they open."""
+def perforated(most=1, velocity=(0.0, 0.0, 0.0), **own):
+    """A stepper of a film, at rest or not, of which the seed makes `most` particles sites, after the step in which they
+    open."""
     ident = np.arange(LAYERS * WIDE**2)
     share = SPACING**3 / (1.25 * THICK * 1e-3**2)
     seed = next(n for n in range(10000) if (holes.drawn(ident, n) < share).sum() == most)
-    stepper = film("perforation", sections={"perforation": PIERCED["perforation"] | {"seed": seed} | own})
+    sections = {"perforation": PIERCED["perforation"] | {"seed": seed} | own}
+    stepper = film("perforation", sections=sections, velocity=velocity)
     stepper.step(1e-6)
     return stepper
 
@@ -103,6 +105,22 @@ def test_a_hole_opens_where_a_film_is_thin_and_nothing_is_lost():
     assert s.mass.sum() == mass and len(stepper.holes.opened.site) == 1
     np.testing.assert_allclose(s.mass @ particles.velocities(s), 0.0, atol=1e-12 * mass * u)
     assert stepper.works[-1] > 0.0
+
+
+def test_a_hole_flies_with_its_film():
+    """At 28 m/s along the film, and through where it is periodic, particles go where they go of one at rest."""
+    found = []
+    for velocity in ((0.0, 0.0, 0.0), (28.0, 0.0, 0.0)):
+        stepper = perforated(velocity=velocity)
+        for _ in range(25):
+            stepper.step(2e-6)
+        s = stepper.state
+        assert stepper.time == pytest.approx(5.1e-5) and stepper.works[-1] > 0.0
+        places = particles.positions(s)[np.argsort(s.ident)] - stepper.time * np.array(velocity)
+        found.append(places)
+    apart = found[1] - found[0]
+    apart[:, 0] -= WIDE * SPACING * np.round(apart[:, 0] / (WIDE * SPACING))
+    assert np.abs(apart).max() < 1e-6 * SPACING
 
 
 def test_a_thick_film_stays_whole():

@@ -13,7 +13,7 @@ from sdph.engine import state as particles
 from sdph.laws import moving_particles
 from sdph.methods.mps import compressible, equations
 from sdph.methods.mps.bounds import MpsGuard
-from sdph.methods.mps.method import MpsStepper
+from sdph.methods.mps.method import MpsStepper, limits
 from sdph.methods.mps.scales import MpsScales
 from sdph.schema import CaseError
 
@@ -136,11 +136,34 @@ def test_two_that_meet_lose_what_they_approach_by(tmp_path):
     (("frame",), {}, 'effects holds frame; with method.name = "mps" there are gravity'),
     ((), {"method": {"name": "weakly_compressible"}}, "liquid.sound_speed_m_s is missing"),
     ((), {"method": {"reach": 9.0}}, "method.reach"),
+    (("free_energy_tension",), {"free_energy_tension": {"reach": 2.1}}, "free_energy_tension.reach = 2.1; it must be"),
     ((), {"method": {"pressure": "weakly_compressible"}}, "of sheets and drops that free_energy_tension holds"),
 ])  # fmt: skip
 def test_what_does_not_fit_is_told_in_one_line(effects, sections, told):
     with pytest.raises(CaseError, match=told.replace("(", r"\(")):
         case(effects, sections)
+
+
+@pytest.mark.parametrize("ratio", [1.0, 3.0])
+def test_the_step_of_viscosity_is_of_spacings(ratio):
+    """0.125 l0^2/nu; no kernel smooths."""
+    stepper = MpsStepper(case(("laminar_viscosity",), {"resolution": {"smoothing_ratio": ratio}}))
+    found = limits(stepper.case, stepper.p, stepper.state, 0.0)["laminar_viscosity"]
+    assert found == pytest.approx(0.125 * SPACING**2 * 780.0 / 2.4e-3, rel=1e-12)
+
+
+@pytest.mark.parametrize(("wide", "reach", "fits"), [(6.1, 3.1, False), (6.4, 3.1, True), (6.4, 4.1, False)])
+def test_a_periodic_box_is_two_reaches_of_tension_wide(wide, reach, fits):
+    sections = {
+        "domain": {"size_m": [wide * SPACING, 8e-3, 8e-3]}, "liquid": {"periodic": [1.0, 0.0, 0.0]},
+        "free_energy_tension": {"reach": reach},
+        "pools": {"drop": {"centre_m": [0.5 * wide * SPACING, 4e-3, 4e-3], "radius_m": 2e-4}},
+    }  # fmt: skip
+    if fits:
+        MpsStepper(case(("free_energy_tension",), sections))
+        return
+    with pytest.raises(CaseError, match=r"domain.size_m is below .* along x, which is periodic"):
+        case(("free_energy_tension",), sections)
 
 
 def test_steps_follow_the_motion_between_neighbours(tmp_path):

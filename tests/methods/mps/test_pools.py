@@ -163,6 +163,9 @@ def test_a_dam_break_closes_its_ledger_and_goes_on_to_the_last_bit(tmp_path, cap
     ({"tank": {"outlet_radius_m": 0.1, "shape": "sphere", "centre_m": [0.3, 0.6], "radius_m": 0.3}}, "outlet"),
     ({"pools": {"drop": {"flow": "wave"}}}, "with a flow of uniform, rotation"),
     ({"effects": ["gravity", "tank", "outflow"]}, "not both"),
+    ({"effects": ["gravity", "tank", "free_energy_tension"], "free_energy_tension": {"coefficient_N_m": 0.07}},
+     "free_energy_tension lets the pressure act by forces of pairs"),
+    ({"method": {"gradient": "pairs"}}, 'method.gradient = "pairs" lets the pressure act by forces of pairs'),
 ])  # fmt: skip
 def test_what_a_pool_cannot_be_is_told_in_one_line(sections, told):
     with pytest.raises(CaseError, match=told):

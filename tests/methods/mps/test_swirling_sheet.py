@@ -9,6 +9,7 @@ import pytest
 
 from sdph import scenes
 from sdph.case import read as cases
+from sdph.effects.around.source import Source
 from sdph.engine.state import INFLOW, LIQUID
 from sdph.methods.mps import openings, pieces, sheet
 from sdph.methods.mps.method import MpsStepper
@@ -53,6 +54,19 @@ def test_what_is_out_is_so_of_a_domain_that_begins_elsewhere():
     moved = dataclasses.replace(own.domain, lower=(1.0, 1.0, 1.0))
     for ends, there in zip((low, high), openings.ends(dataclasses.replace(own, domain=moved), 0.0)):
         np.testing.assert_allclose(np.array(there), np.array(ends) + 1.0)
+
+
+def test_a_sheet_that_has_not_come_out_has_no_angle_and_no_length():
+    told = sheet.told(sheet_of(), np.tile([1e-2, 1e-2, -1e-4], (3, 1)))
+    assert len(told) == 5 and all(map(math.isnan, told.values()))
+
+
+@pytest.mark.parametrize(("reach", "ratio", "layers"), [(3.1, 1.0, 4), (3.1, 3.0, 4), (4.1, 1.0, 5), (6.0, 1.0, 7)])
+def test_what_waits_is_as_deep_as_tension_reaches_and_a_layer_more(reach, ratio, layers):
+    """Whatever the smoothing ratio."""
+    own = sheet_of(f"free_energy_tension.reach={reach}", f"resolution.smoothing_ratio={ratio}")
+    source = Source(own, set(), 0)
+    assert set(source._wanted(0.0, 0.0).tolist()) == {layers}
 
 
 @pytest.mark.parametrize(("end", "share"), [(None, 1.0), (3e-5, 0.1)])
@@ -110,7 +124,7 @@ def test_pieces_that_left_are_told_of_and_add_up(short):
 def test_what_the_annulus_gives_has_its_speed_and_swirl(short):
     _, cloud, _ = short.fields(3e-4)
     case = short.case
-    seen = sheet.about_axis(case, np.asarray(cloud.points, float))
+    seen = sheet.about_axis(case.nozzles["mouth"], np.asarray(cloud.points, float))
     young = seen[:, 2] < 5e-4
     velocity = np.asarray(cloud["velocity"])[young]
     r = np.hypot(*seen[young, :2].T)

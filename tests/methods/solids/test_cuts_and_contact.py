@@ -65,6 +65,21 @@ def test_a_particle_with_too_few_links_is_freed():
     assert not own.weights.free[int(np.argmax(own.state.x + own.state.y))]
 
 
+def test_in_space_an_edge_that_loses_a_neighbour_bears_on():
+    """One of 30 links or so: only a corner is as badly off as that."""
+    own = stepper(3, solid=BRITTLE)
+    x, y, _ = (np.round((axis - axis.min()) / 0.01).astype(int) for axis in own.reference.T)
+    edge = (x == 0) & (y == 0)
+    failed = np.flatnonzero(edge)[np.argsort(own.reference[edge, 2])[2]]
+    own.weights.cut(np.arange(len(x)) == failed)
+    torn = (own.weights.torn != 0) & edge
+    assert torn.sum() >= 4 and own.weights.free[failed]
+    corners = np.abs(own.reference - own.reference.mean(axis=0)).sum(axis=1) > 0.0
+    corners &= (x == 0) & (y == 0) & (np.abs(own.reference[:, 2] - own.reference[:, 2].mean()) > 0.0249)
+    loose = np.flatnonzero(own.weights.free)
+    assert set(loose) <= {failed, *np.flatnonzero(corners)}
+
+
 def test_what_breaks_off_is_not_thrown_by_contact():
     """Neighbours that stand nearer than a spacing when they part do not push, but do so once they come nearer."""
     own = stepper(solid=BRITTLE)

@@ -8,13 +8,15 @@ from blocks import moved, stepper
 
 from sdph.effects.solids import inflation
 from sdph.engine import state as particles
+from sdph.schema import CaseError
 
 RING = {"shape": "ring", "centre_m": [0.5, 0.5], "radius_m": 0.25, "inner_radius_m": 0.2}
 
 
-def ring(**own):
+def ring(solid=None, **own):
     return stepper(
-        bodies={"ring": RING}, effects=["inflation"], inflation={"body": "ring", "pressure_Pa": 10.0} | own,
+        solid=solid, bodies={"ring": RING}, effects=["inflation"],
+        inflation={"body": "ring", "pressure_Pa": 10.0} | own,
         resolution={"spacing_mm": 12.5, "smoothing_ratio": 1.3},
     )  # fmt: skip
 
@@ -56,6 +58,13 @@ def test_a_liquid_presses_where_the_cavity_is_smaller_than_wanted():
     risen = p._replace(rise_time=0.1)
     early, late = (inflation.pressure(risen, t, 0.1, 0.1) for t in (0.0999999, 0.1000001))
     assert early == pytest.approx(late, rel=1e-4)
+
+
+def test_a_ring_that_may_fail_is_not_inflated():
+    """The pressure knows no tear."""
+    brittle = {"yield_stress_Pa": 1e4, "failure": [0.1, 0.0, 0.0, 0.0, 0.0]}
+    with pytest.raises(CaseError, match="inflation goes on pressing on what is left of a ring that has torn"):
+        ring(solid=brittle)
 
 
 def test_diameter():

@@ -2,7 +2,6 @@
 
 import csv
 import json
-import math
 import signal
 import subprocess
 import sys
@@ -15,7 +14,7 @@ import pytest
 from sdph import cli
 from sdph.schema import CaseError
 from sdph.study import pool
-from sdph.study.sweep import jobs, plan, table
+from sdph.study.sweep import jobs, plan
 
 SMALL = ("--set", "resolution.cell_mm=50", "--gas", "embedded", "--until", "0.001")
 FINE = {"exit_code": 0, "reason": ""}
@@ -128,70 +127,6 @@ def test_a_run_that_was_cut_goes_on_and_one_that_fails_says_why(tmp_path, monkey
         (folder / name).write_text("")
     jobs.done(own)
     assert given[-1] == ["run", "--resume", str(folder)]
-
-
-def points_of(*values):
-    return [jobs.Job(dict(zip(("k.name", "k.v", "k.x"), row)), "", (), "") for row in values]
-
-
-def test_the_axis_of_the_figure_is_what_varies():
-    """A number before vectors, of these the component that varies, or their length."""
-    both = points_of(("p", "[1,0]", "1"), ("q", "[1,-2]", "2"))
-    assert table.axis(both, None) == table.Axis("k.x")
-    assert table.axis(both, "k.v") == table.Axis("k.v", True, 1)
-    turned = table.axis(points_of(("p", "[3,4]", "1"), ("p", "[6,8]", "1")), None)
-    assert turned.label == "length of k.v" and turned.place({"k.v": [3, 4]}) == 5.0
-    assert turned.place({"k.v": ""}) is None
-    for over, said in (("k.y", "no varied key called k.y"), ("k.name", "does not take several numbers")):
-        with pytest.raises(CaseError, match=said):
-            table.axis(both, over)
-    with pytest.raises(CaseError, match=r"no key takes several numbers in this sweep, k.name, k.v, k.x"):
-        table.axis(points_of(("p", "[1]", "1"), ("q", "['a',2]", "1")), None)
-
-
-def test_metrics_are_numbers_of_some_summary():
-    rows = [{"run": "a", **FINE, "k.x": 1, "lost_J": 2.0}, {"run": "b", "exit_code": 5, "reason": "", "k.x": 2}]
-    rows[1]["lost_J"] = ""
-    table.refuse_unknown(rows, ["k.x"], ["lost_J"])
-    rows[1]["exit_code"] = 0
-    table.refuse_unknown(rows, ["k.x"], ["lost_J"])  # it is told only where something was lost
-    rows[1]["exit_code"] = 5
-    with pytest.raises(CaseError, match="did you mean lost_J"):
-        table.refuse_unknown(rows, ["k.x"], ["lost"])
-    table.refuse_unknown(rows[1:], ["k.x"], ["lost"])  # no run is fine: they are told, and the metric is not known
-
-
-@pytest.mark.parametrize(
-    ("options", "runs", "said"),
-    [
-        (("heat.closure=geometric,paper", "--plot", "time_s"), 0, "no key takes several numbers"),
-        (("heat.closure=geometric,paper", "--plot", "time_s", "--over", "heat.closure"), 0, "does not take several"),
-        (("resolution.spacing_mm=20,25", "--plot", "time_s", "--over", "cell"), 0, "no varied key called cell"),
-        (("resolution.spacing_mm=20,25", "--plot", "tim_s"), 1, "did you mean time_s"),
-    ],
-)
-def test_a_figure_that_cannot_be_is_refused_as_soon_as_it_is_known(tmp_path, monkeypatch, capsys, options, runs, said):
-    done = []
-
-    def process(own):
-        done.append(own)
-        folder = tmp_path / "out" / "runs" / own.name
-        folder.mkdir(parents=True)
-        (folder / "summary.json").write_text('{"time_s": 1.0}')
-        return {**FINE, "took_s": 0.0}
-
-    monkeypatch.setattr(jobs, "done", process)
-    command = ["sweep", "disc_cluster", "--gas", "embedded", "--out", str(tmp_path / "out"), "--set", *options]
-    for _ in range(2):  # a second call knows it before it goes on
-        assert cli.main(command) == 2
-        assert said in capsys.readouterr().err.splitlines()[-1] and len(done) == runs
-
-
-def test_a_figure_over_vectors(tmp_path):
-    found = [{"run": "a", **FINE, "k.v": [0, x], "lost_J": math.nan if x == 2 else x} for x in (1, 2, 3)]
-    found += [{"run": "b", "exit_code": 5, "reason": "", "k.v": [0, 4], "lost_J": ""}]
-    path = table.draw(found, ["k.v"], ["lost_J"], table.Axis("k.v", True, 1), tmp_path / "sweep.png")
-    assert path.stat().st_size > 5000
 
 
 class Client:
