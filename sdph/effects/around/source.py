@@ -183,7 +183,6 @@ class Source:
                 near = (along <= 0.0) & (along >= -depth_of(self.case))  # a wall further back has no mouth
                 found[near & in_mouth(nozzle, places - self.centre[k])] = k + 1
         return found
-        return found
 
     def open(self, state, mouths, rows) -> None:
         """Take the dummies in mouths that give something now out of the rows of particles; `mouths` (W,) as above."""
