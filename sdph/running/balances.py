@@ -13,7 +13,7 @@ BARS = {
     "heat_drift_rel": ROUND_OFF,  # of a liquid and bodies in it
     "motion_drift_rel": ROUND_OFF,
     "momentum_drift_rel": ROUND_OFF,
-    "momentum_made_rel": NUMERICAL,  # of liquids: control of tension pushes both particles of a pair the same way
+    "momentum_made_rel": NUMERICAL,  # of liquids: control of tension, corrected differences of moving particles
     "exchange_mass_mismatch_rel": ROUND_OFF,
     "exchange_energy_mismatch_rel": ROUND_OFF,
     "exchange_momentum_mismatch_rel": ROUND_OFF,

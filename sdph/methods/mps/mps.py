@@ -31,7 +31,8 @@ class Mps(Stepped):
 
     def __init__(self, case, ledger: Path | None, shortest: float):
         self.case, self.windows = case, 0
-        self.stepper, self.ledger = MpsStepper(case, shortest), MpsLedger(ledger)
+        self.stepper = MpsStepper(case, shortest)
+        self.ledger = MpsLedger(ledger, not {"tank", "inflow"} & set(case.effects))
         self.drops = Table(ledger and ledger.with_name("droplets.csv"))  # pieces that have left
         self.diameters, self.counts = np.zeros(0), np.zeros(0)  # [m] and particles of each
         # of the liquid by all but gravity at the last row [kg m/s], and its time [s]

@@ -28,8 +28,9 @@ class MpsLedger(Sums):
     KEPT = (*Sums.KEPT, "works", "impulses", "passed", "momentum", "moved")  # see sdph.engine.kept
     AMOUNTS = AMOUNTS
 
-    def __init__(self, path: Path | None):
+    def __init__(self, path: Path | None, alone: bool = False):
         super().__init__(path)
+        self.alone = alone  # whether particles act on nothing but each other: neither walls nor what waits upstream
         # of the stepper, at the last row
         self.works, self.impulses, self.passed = np.zeros(len(WORKS)), np.zeros((2, 3)), np.zeros((2, 5))
         self.momentum = np.zeros(3)  # impulses since the start, and momentum in less that out [kg m/s]
@@ -65,11 +66,18 @@ class MpsLedger(Sums):
         whole = first["mass_kg"] + sums["injected_kg"]
         turned = math.sqrt(2.0 * whole * (first["kinetic_energy_J"] + sums["injected_J"] + abs(works)))
         scale = first["kinetic_energy_J"] + sums["injected_J"] + sum(abs(sums[f"work_of_{n}_J"]) for n in WORKS)
-        return sums | {
-            "mass_drift_rel": ratio(abs(mass), whole),
-            "momentum_drift_rel": ratio(float(np.linalg.norm(self.gained() - self.momentum)), self.moved + turned),
-            "energy_drift_rel": ratio(abs(energy), scale),
-        }
+        # forces of pairs have no sum; corrected differences of pressure have one
+        made = float(np.linalg.norm(self.impulses[1]))
+        found = {"momentum_made_rel": ratio(made, self.moved + turned)} if self.alone else {}
+        return (
+            sums
+            | found
+            | {
+                "mass_drift_rel": ratio(abs(mass), whole),
+                "momentum_drift_rel": ratio(float(np.linalg.norm(self.gained() - self.momentum)), self.moved + turned),
+                "energy_drift_rel": ratio(abs(energy), scale),
+            }
+        )
 
 
 def _passed(stepper) -> np.ndarray:

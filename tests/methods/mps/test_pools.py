@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from moving import case, joined
+from moving import case, joined, started
 
 from sdph import scenes
 from sdph.case import read as cases
@@ -10,6 +10,7 @@ from sdph.engine import state as particles
 from sdph.engine.state import LIQUID, WALL
 from sdph.methods.mps import pools
 from sdph.methods.mps.method import MpsStepper
+from sdph.methods.mps.totals import MpsLedger
 from sdph.running import driver
 from sdph.running.progress import Reporter
 from sdph.schema import CaseError
@@ -170,6 +171,34 @@ def test_a_dam_break_closes_its_ledger_and_goes_on_to_the_last_bit(tmp_path, cap
 def test_what_a_pool_cannot_be_is_told_in_one_line(sections, told):
     with pytest.raises(CaseError, match=told):
         MpsStepper(case(tuple(sections.get("effects", TANK["effects"])), joined(TANK, sections), 2))
+
+
+@pytest.mark.parametrize("gradient", ["pairs", "corrected"])
+def test_momentum_that_a_pool_alone_makes_is_told(tmp_path, gradient):
+    """Forces of pairs have no sum, corrected differences have one: the change of what nothing outside acts on."""
+    block = {"shape": "box", "centre_m": None, "radius_m": None, "lower_m": [2e-3, 2e-3], "upper_m": [4e-3, 3e-3]}
+    run = started(tmp_path, case((), {"method": {"gradient": gradient}, "pools": {"drop": block}}, 2))
+    s = run.state
+    s.u[:], s.v[:] = 40.0 * (s.y - 2e-3) + 3e5 * (s.x - 2e-3) ** 2, -60.0 * (s.x - 2e-3)
+    before = s.mass @ particles.velocities(s)
+    ledger = MpsLedger(None, True)
+    ledger.open(run.stepper)
+    for _ in range(20):
+        run.stepper.step(1e-5)
+    ledger.close_window(run.stepper, run.stepper.time)
+    s = run.state
+    change, scale = np.linalg.norm(s.mass @ particles.velocities(s) - before), np.linalg.norm(before)
+    told = ledger.summary()["momentum_made_rel"]
+    assert (told > 1e-6 and change > 1e-6 * scale) if gradient == "corrected" else told < 1e-13
+    assert np.linalg.norm(ledger.impulses[1]) == pytest.approx(change, rel=1e-6, abs=1e-12 * scale)
+
+
+@pytest.mark.parametrize(("effects", "alone"), [((), True), (("gravity",), True), (("gravity", "tank"), False)])
+def test_only_of_liquid_that_nothing_holds_it_is_told(tmp_path, effects, alone):
+    sections = joined(TANK, {"effects": list(effects)} | ({"tank": None} if alone else {}))
+    run = started(tmp_path, case(effects, sections, 2))
+    run.window()
+    assert ("momentum_made_rel" in run.method.ledger.summary()) == alone
 
 
 def test_periodic_liquid_sees_itself_across():
