@@ -37,10 +37,6 @@ def flow(case, where: str, pool) -> None:
         raise CaseError(f"{where}.flow = {pool.flow!r} is that of a box; shape = {pool.shape!r}")
     if pool.flow in OF_PLANE and case.dimensions != 2:
         raise CaseError(f"{where}.flow = {pool.flow!r} is known in two dimensions; dimensions = {case.dimensions}")
-    wide, high = (b - a for a, b in zip((pool.lower or (0, 0))[:2], (pool.upper or (1, 1))[:2]))
-    if pool.flow == "rotation" and abs(wide - high) > SAME * wide:
-        told = f"{where}.flow = 'rotation' is known in a square, and the pool is {wide:g} x {high:g} m"
-        raise CaseError(f"{told}; give equal sides")
     if pool.speed and pool.flow == "uniform":
         raise CaseError(f"{where}.speed_m_s = {pool.speed:g} is that of a flow; set flow, or give velocity_m_s")
 

@@ -107,9 +107,6 @@ CASES = {
         "liquid": {"density_kg_m3": 1000.0, "sound_speed_m_s": 50.0, "periodic": [1, 0]},
         "pools": {"water": {"shape": "tank", "fill": 0.5}},
     },
-    "pools.water.flow = 'rotation' is known in a square, and the pool is 1 x 0.5 m": {
-        "pools": {"water": WATER | {"flow": "rotation", "speed_m_s": 1.0}},
-    },
     "pools.ring.shape = 'ring' is of two dimensions": {
         "dimensions": 3, "domain": {"size_m": 3 * [1.0], "gravity_m_s2": [0.0, 0.0, -9.81]},
         "pools": {"ring": RING | {"centre_m": 3 * [0.5]}},

@@ -136,8 +136,7 @@ class Mps(Stepped):
         ends = "were cut off the sheet one domain's length beyond its end: enlarge domain.size_m"
         left = ", ".join(self.case.method.left_out)
         told = f"left out, as moving particles do without it or cannot have it: {left}"
-        found = [told] * bool(left) + [f"{cut} particles {ends}"] * bool(cut)
-        return found + (self.stepper.openings.warnings() if self.stepper.openings else [])
+        return [told] * bool(left) + [f"{cut} particles {ends}"] * bool(cut)
 
     def inside(self):
         """State of the liquid."""
