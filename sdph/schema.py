@@ -132,19 +132,20 @@ def words(default=REQUIRED):
 
 def fields(cls: type) -> dict[str, tuple[str, Kind]]:
     """TOML key -> (attribute, kind) of a dataclass declared with this module."""
-    return {
-        f.metadata["kind"].key(f.name): (f.name, f.metadata["kind"])
-        for f in dataclasses.fields(cls)
-        if "kind" in f.metadata
-    }
+    own = [f for f in dataclasses.fields(cls) if "kind" in f.metadata]
+    return {f.metadata["kind"].key(f.name): (f.name, f.metadata["kind"]) for f in own}
+
+
+def defaults(cls: type) -> dict[str, Any]:
+    """TOML key -> default, in SI units, of the same."""
+    return {key: cls.__dataclass_fields__[name].default for key, (name, _) in fields(cls).items()}
 
 
 def read(cls: type, table: dict, where: str):
     """A dataclass from a TOML table; `where` is the section's name, for messages."""
     if not isinstance(table, dict):
         raise CaseError(f"{where} is {table!r}; it must be a section, [{where}]")
-    known = fields(cls)
-    values = {}
+    known, values = fields(cls), {}
     for key, value in table.items():
         if key not in known:
             raise CaseError(unknown(f"{where}.{key}" if where else key, known, where))

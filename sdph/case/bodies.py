@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 
 import numpy as np
 
 from sdph.methods.solids import start
-from sdph.schema import CaseError, fields
+from sdph.schema import CaseError, defaults, fields
 
 NEEDS = {
     "box": ("lower_m", "upper_m"), "disc": ("centre_m", "radius_m"),
@@ -28,8 +27,8 @@ CONSTANTS = 5  # of failure: D1 to D5
 
 def given(own) -> list[str]:
     """TOML keys of a section that have another value than their default."""
-    defaults = {field.name: field.default for field in dataclasses.fields(own)}
-    return [key for key, (name, _) in fields(type(own)).items() if getattr(own, name) != defaults[name]]
+    plain = defaults(type(own))
+    return [key for key, (name, _) in fields(type(own)).items() if getattr(own, name) != plain[key]]
 
 
 def check(case) -> None:

@@ -7,15 +7,13 @@ second phase that is a gas is left out, and tension is that of the free energy. 
 
 from __future__ import annotations
 
-import dataclasses
-
 from sdph.methods.liquids.sections import Liquid
-from sdph.schema import fields
+from sdph.schema import defaults
 
 NUMERICAL = ("density_diffusion", "liquid_damping", "shifting", "xsph")
 # keys of [liquid] that the equation of state or a kernel has, and their defaults
 OF_SOUND = {
-    key: field.default for key, field in zip(fields(Liquid), dataclasses.fields(Liquid))
+    key: default for key, default in defaults(Liquid).items()
     if key in ("sound_speed_m_s", "exponent", "background_pressure_Pa", "kernel", "pressure_gradient", "courant")
 }  # fmt: skip
 DROPS = {"reach": 3.1}, {"reach": 4.1}  # r_e, r_t in two dimensions: swirl-sheet.md, section 3

@@ -1,27 +1,22 @@
 """The gallery: every scene has an entry that can be run, and its pictures are small."""
 
-import importlib.util
 import tomllib
 
 import numpy as np
 import pytest
 from PIL import Image
+from scripts import FOLDER, script
 
 from sdph import scenes
 from sdph.case import read as cases
 from sdph.cli.arguments import parser
-from sdph.scenes import paths
 
-FOLDER = paths.PACKAGE.parent / "validation"
 ENTRIES = tomllib.loads((FOLDER / "gallery.toml").read_text())
 
 
 @pytest.fixture(scope="module")
 def gallery():
-    spec = importlib.util.spec_from_file_location("gallery", FOLDER / "gallery.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return script("gallery")
 
 
 def test_every_scene_has_a_picture():

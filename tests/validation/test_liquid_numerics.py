@@ -1,22 +1,17 @@
 """Numerics of liquids: a scene that departs from the set has a row with its reason, none is idle, the page is made."""
 
-import importlib.util
 import math
 
 import pytest
+from scripts import script
 
 from sdph import scenes
 from sdph.case import read as cases
-from sdph.scenes import paths
 
 
 @pytest.fixture(scope="module")
 def numerics():
-    file = paths.PACKAGE.parent / "validation" / "liquid_numerics.py"
-    spec = importlib.util.spec_from_file_location("liquid_numerics", file)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return script("liquid_numerics")
 
 
 def test_every_departure_has_its_reason(numerics):

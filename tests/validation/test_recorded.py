@@ -1,14 +1,12 @@
 """Numbers that READMEs and the page of what is measured tell are those of validation/record."""
 
-import importlib.util
 import re
 
 import pytest
+from scripts import FOLDER, script
 
-from sdph.scenes import paths
 from sdph.study import record, validate
 
-FOLDER = paths.PACKAGE.parent / "validation"
 RECORDS = sorted(path.stem for path in (FOLDER / "record").glob("*.json"))
 MADE = {"scene": "one", "date": "2026-11-28", "version": "0.1.0", "commit": "abc", "gas": "embedded"}
 CHECKS = [
@@ -21,10 +19,7 @@ CHECKS = [
 
 @pytest.fixture(scope="module")
 def recorded():
-    spec = importlib.util.spec_from_file_location("recorded", FOLDER / "recorded.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return script("recorded")
 
 
 @pytest.fixture

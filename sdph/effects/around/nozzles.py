@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
-
 import numpy as np
 
 from sdph.effects.around import rates, sizes
 from sdph.effects.around.streams import ROUND_OFF, Streams, layers_of, streams_of
-from sdph.schema import CaseError, choice, fields, file, quantity, record, vector, whole, words
+from sdph.schema import CaseError, choice, defaults, fields, file, quantity, record, vector, whole, words
 
 ONLY = {  # key -> shapes that have it, beside what _check_annulus, _check_table and half_angle refuse
     "width": ("slot",), "length": ("slot",), "radius": ("disc", "cone", "annulus", "table"),
@@ -62,7 +60,7 @@ class Nozzle:
     end: float | None = quantity("s", None, above=0.0)
 
 
-DEFAULTS = {field.name: field.default for field in dataclasses.fields(Nozzle)}
+DEFAULTS = defaults(Nozzle)
 
 
 def check(case, name: str, nozzle: Nozzle) -> None:
@@ -130,7 +128,7 @@ def _refuse_idle(where: str, nozzle: Nozzle) -> None:
     """CaseError of a key that does nothing for the nozzle's shape."""
     for key, (name, _) in fields(Nozzle).items():
         shapes = ONLY.get(name, (nozzle.shape,))
-        if nozzle.shape not in shapes and getattr(nozzle, name) != DEFAULTS[name]:
+        if nozzle.shape not in shapes and getattr(nozzle, name) != DEFAULTS[key]:
             raise CaseError(f"{where}.{key} is of {', '.join(shapes)}; shape = {nozzle.shape!r}: leave it out")
     if nozzle.record_set and not nozzle.record:
         raise CaseError(f"{where}.record_set is of a record, and there is none: leave it out, or name one")

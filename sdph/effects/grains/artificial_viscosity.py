@@ -11,7 +11,7 @@ from sdph.laws.compiled import serial
 from sdph.schema import quantity, record
 
 # of h/(alpha c + beta mu): waves on a lattice decay at up to twice the inverse, so that no step turns them round; our
-# choice (tests/methods/grains/test_artificial_viscosity.py)
+# choice (tests/effects/grains/test_artificial_viscosity.py)
 STEP = 0.5
 
 

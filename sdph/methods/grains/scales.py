@@ -162,11 +162,8 @@ class Scales:
     def speed(self) -> float:
         """Speed that the grains reach within the run [m/s]: thrown, blown along, falling or on a wall that slides; 0 in
         a bed at rest."""
-        return (
-            0.0
-            if self.resting
-            else max(self.thrown, self.blown, ways.belt(self.case), self.falling if self.patches else 0.0)
-        )
+        reached = self.thrown, self.blown, ways.belt(self.case), self.falling if self.patches else 0.0
+        return 0.0 if self.resting else max(reached)
 
     @cached_property
     def blown(self) -> float:

@@ -1,18 +1,10 @@
 """The table of what accuracy costs, and the page of the estimates, are what their scripts make."""
 
-import importlib.util
-
 import pytest
+from scripts import script
 
 from sdph.scenes import paths
 from sdph.study.cost import ladder, report, rows
-
-
-def script(name):
-    spec = importlib.util.spec_from_file_location(name, paths.data("validation") / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def test_pages_are_what_the_rows_say():
