@@ -19,7 +19,7 @@ def run_of(monkeypatch, **references):
     module = SimpleNamespace(**{name: lambda run, found=found: found for name, found in references.items()})
     monkeypatch.setattr(validate.compare, "scene_module", lambda scene: module)
     monkeypatch.setattr(validate.driver, "run", lambda *given: None)
-    monkeypatch.setattr(validate.compare, "open_run", lambda folder: SimpleNamespace(summary={}))
+    monkeypatch.setattr(validate.compare, "open_run", lambda folder: SimpleNamespace(summary={}, notices=[]))
 
 
 def verdicts(checks) -> dict:
