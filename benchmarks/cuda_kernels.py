@@ -63,7 +63,9 @@ def of_grains(case) -> None:
     own.begin()
     centres = np.array(np.meshgrid(*map(middles, cell_edges(case)), indexing="ij")).reshape(case.dimensions, -1).T
     centres = np.pad(centres, ((0, 0), (0, 3 - case.dimensions)))
-    mesh = SimpleNamespace(centres=centres, volumes=np.ones(len(centres)), depth=1.0, dimensions=case.dimensions)
+    mesh = SimpleNamespace(
+        centres=centres, volumes=np.ones(len(centres)), depth=1.0, dimensions=case.dimensions, spread=None
+    )  # fmt: skip
     fields = {name: np.ones(len(centres)) for name in ("density", "temperature")} | {"velocity": np.zeros_like(centres)}
     gas = SimpleNamespace(fields=fields | {"power": np.zeros(len(centres))}, time=0.0)
     exchange = Exchange(case, mesh, own.parameters)

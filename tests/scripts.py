@@ -1,15 +1,16 @@
-"""Scripts of validation/, as modules."""
+"""Scripts of validation/ and benchmarks/, as modules."""
 
 import importlib.util
 
 from sdph.scenes import paths
 
-FOLDER = paths.PACKAGE.parent / "validation"
+ROOT = paths.PACKAGE.parent
+FOLDER = ROOT / "validation"
 
 
-def script(name: str):
-    """validation/<name>.py."""
-    spec = importlib.util.spec_from_file_location(name, FOLDER / f"{name}.py")
+def script(name: str, folder: str = "validation"):
+    """<folder>/<name>.py."""
+    spec = importlib.util.spec_from_file_location(name, ROOT / folder / f"{name}.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module

@@ -143,7 +143,18 @@ def _told(own: dict) -> str:
     """When a record was made, and its checks."""
     made = f"Measured {own['date']}, sdph {own['version']}, commit {own['commit'] or 'unknown'}, gas: {own['gas']}."
     short = [check | {"name": check["name"].removeprefix(f"{own['scene']}, ")} for check in own["checks"]]
-    return f"{made}\n\n{_table(short)}"
+    return f"{made}\n\n{_table(short)}\n\n{_limiters(own)}"
+
+
+def _limiters(own: dict) -> str:
+    """Limiters that acted in the runs of a record, the largest share or size of each."""
+    if "limiters" not in own:
+        return "Which limiters acted is not on record."
+    runs = [
+        f"{name}: " + (", ".join(f"`{column}` {value:.2g}" for column, value in acted.items()) or "none")
+        for name, acted in own["limiters"].items()
+    ]
+    return f"[Limiters](../limiters.md) that acted, the largest of the run: {'; '.join(runs)}." if runs else ""
 
 
 def _table(checks: Iterable[dict]) -> str:

@@ -35,6 +35,7 @@ OF_GAS = {"density_kg_m3": "D", "viscosity_Pa_s": "V", "conductivity_W_m_K": "L"
 OF_DROPLETS = {key: OF_GAS[key] for key in ("density_kg_m3", "heat_capacity_J_kg_K", "conductivity_W_m_K")}
 OF_VAPOUR = {key: OF_GAS[key] for key in ("heat_capacity_J_kg_K", "conductivity_W_m_K", "viscosity_Pa_s")}
 OF_PHASES = {key: OF_GAS[key] for key in ("density_kg_m3", "viscosity_Pa_s")}
+OF_HEAT = {key: OF_GAS[key] for key in ("conductivity_W_m_K", "heat_capacity_J_kg_K")}
 AT, AT_SURFACE = "fluid_temperature_K", "latent_heat_temperature_K"
 LINEAR = "linear"  # of the laws of evaporation, the one that takes a film, and the default
 MOLAR_MASS, TENSION, DIFFUSIVITY = "molar_mass_kg_kmol", "surface_tension_N_m", "diffusivity_m2_s"
@@ -46,7 +47,9 @@ FILLS = {
         "evaporation": ("latent_heat_J_kg", "saturation"),
         "vapour": (*OF_VAPOUR, MOLAR_MASS, DIFFUSIVITY),
     },
-    "liquid": {"liquid": tuple(OF_PHASES), "surface_tension": ("coefficient_N_m",)},
+    "liquid": {
+        "liquid": tuple(OF_PHASES), "surface_tension": ("coefficient_N_m",), "liquid_heat": tuple(OF_HEAT),
+    },
     "gas_phase": {"gas_phase": tuple(OF_PHASES)},
 }  # fmt: skip
 
@@ -172,9 +175,15 @@ def _phase(table: dict, name: str, fluid: Fluid) -> dict:
     state = {"T": _number(at, AT, name), "P": _pressure(table)}
     numbers = {key: fluid.at(what, **state) for key, what in OF_PHASES.items() if key not in own}
     table = _with(table, name, numbers | {AT: state["T"]})
-    if name == "liquid" and "surface_tension" in table.get("effects", ()):
-        tension = {"coefficient_N_m": fluid.at("I", T=state["T"], Q=0.0)}
-        return _with(table, "surface_tension", {} if "coefficient_N_m" in table.get("surface_tension", {}) else tension)
+    along = (
+        ("surface_tension", {"coefficient_N_m": "I"}, {"T": state["T"], "Q": 0.0}),
+        ("liquid_heat", OF_HEAT, state),
+    )
+    for effect, keys, at in along if name == "liquid" else ():
+        if effect in table.get("effects", ()):
+            given = _section(table, effect)
+            own = {key: fluid.at(what, **at) for key, what in keys.items() if key not in given}
+            table = _with(table, effect, own)
     return table
 
 

@@ -61,11 +61,12 @@ def validate_scene(options) -> int:
         raise CaseError("--workers and --scheduler part the scenes among them; leave them out for one scene")
     overrides = tuple(options.set) + ((f'coupling.gas="{options.gas}"',) if options.gas else ())
     with contextlib.closing(Reporter(line=not options.json)) as reporter:
-        checks = validate.validate(options.scene, overrides, reporter, options.out and options.out / options.scene)
+        acted, folder = {}, options.out and options.out / options.scene
+        checks = validate.validate(options.scene, overrides, reporter, folder, acted)
     if not options.set:
         checks += _vanished(options, checks)
     if options.record:
-        record.write(options.record, options.scene, checks, options.gas)
+        record.write(options.record, options.scene, checks, options.gas, acted)
     _tell(checks, options.json)
     return FINE if all(check["ok"] for check in checks) else CHECK_FAILED
 

@@ -162,10 +162,8 @@ class Ledger:
         return (
             sums
             | drifts
-            | {
-                "exchange_energy_mismatch_rel": ratio(self.heat_mismatch, self.sums["heat_exchanged_J"]),
-                "exchange_momentum_mismatch_rel": ratio(self.impulse_mismatch, self.sums["impulse_exchanged_kg_m_s"]),
-            }
+            | both("exchange_energy_mismatch", "J", self.heat_mismatch, self.sums["heat_exchanged_J"])
+            | both("exchange_momentum_mismatch", "kg_m_s", self.impulse_mismatch, self.sums["impulse_exchanged_kg_m_s"])
             | self._energy_drift()
             | self._gas_motion()
             | self._gas_momentum()
@@ -179,18 +177,18 @@ class Ledger:
         gas = self._change("gas_mass_kg", 1) + self._change("gas_mass_in_kg", -1)
         away = self.sums["evaporated_kg"] + self.sums["reacted_kg"]
         lost = away if self.case.coupling.one_way else 0.0  # the gas feels nothing of it
-        return {
-            "mass_drift_rel": ratio(abs(math.fsum((*particles, *gas, lost))), whole + self.first["gas_mass_kg"]),
-            "particle_mass_drift_rel": ratio(abs(math.fsum((*particles, away))), whole),
-        }
+        drift, of_particles = (abs(math.fsum(terms)) for terms in ((*particles, *gas, lost), (*particles, away)))
+        there = whole + self.first["gas_mass_kg"]
+        return both("mass_drift", "kg", drift, there) | both("particle_mass_drift", "kg", of_particles, whole)
 
     def _species_drift(self) -> dict[str, float]:
         """Growth of the vapour in the gas beyond what came in, and evaporated or was used up."""
         vapour = self._change("gas_vapour_kg", 1) + self._change("gas_vapour_in_kg", -1)
         drift = abs(math.fsum((*vapour, -self.sums["vapour_to_gas_kg"])))
         whole = self.sums["evaporated_kg"] + self.sums["reacted_kg"]
-        mismatch = ratio(self.mass_mismatch, whole)
-        return {"species_drift_rel": ratio(drift, whole), "exchange_mass_mismatch_rel": mismatch}
+        return both("species_drift", "kg", drift, whole) | both(
+            "exchange_mass_mismatch", "kg", self.mass_mismatch, whole
+        )
 
     def _energy_drift(self) -> dict[str, float]:
         """Growth of the heat of both phases beyond what came in and was made; relative to all that was exchanged, came
@@ -230,8 +228,7 @@ class Ledger:
     def _gas_momentum(self) -> dict[str, float]:
         """Momentum of the gas that no impulse gave it: what is numerical."""
         drift = math.hypot(*vector_of(self.last, "gas_numerical_impulse"))
-        rel = ratio(drift, self.sums["gas_impulse_moved_kg_m_s"])
-        return {"gas_momentum_drift_kg_m_s": drift, "gas_momentum_drift_rel": rel}
+        return both("gas_momentum_drift", "kg_m_s", drift, self.sums["gas_impulse_moved_kg_m_s"])
 
     def _motion_drift(self) -> dict[str, float]:
         """Growth of the motion and agitation of the particles beyond the work that was done on them, relative to it and
@@ -239,10 +236,7 @@ class Ledger:
         change = [c for kind in ("kinetic", "fluctuation") for c in self._change(f"particle_{kind}_energy_J", 1)]
         drift = abs(math.fsum((*change, *(-sign * self.sums[key] for key, sign in self.motion.items()))))
         there = math.fsum(self.last[f"particle_{kind}_energy_J"] for kind in ("kinetic", "fluctuation"))
-        return {
-            "motion_drift_J": drift,
-            "motion_drift_rel": ratio(drift, self.sums["work_exchanged_J"] + SEEN * there),
-        }
+        return both("motion_drift", "J", drift, self.sums["work_exchanged_J"] + SEEN * there)
 
     def _change(self, key: str, sign: int) -> tuple[float, float]:
         """Change of a column over the run, as terms of an exact sum."""
@@ -285,3 +279,8 @@ def _finite(value) -> bool:
 def ratio(part: float, whole: float, least: float = 0.0) -> float:
     """The part over the whole; with nothing to relate it to, no more than `least`, the part itself."""
     return part / whole if whole > least else part
+
+
+def both(name: str, unit: str, part: float, whole: float) -> dict[str, float]:
+    """Keys of a drift: itself, and over the whole (`ratio`)."""
+    return {f"{name}_{unit}": part, f"{name}_rel": ratio(part, whole)}

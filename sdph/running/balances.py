@@ -27,16 +27,22 @@ BARS = {
 DRIFT_OF_GAS = "gas_momentum_drift_rel", 0.01
 
 
+def work_of_gas(summary: dict) -> dict:
+    """The check that what is numerical in the motion of the gas is little of its physical dissipation."""
+    return _check("gas_numerical_work_rel", summary, NUMERICAL)
+
+
 def checks(summary: dict) -> list[dict]:
     """The balances that `summary` tells, as `sdph compare` has checks: the bar is the tolerance about 0."""
     # of a droplet in a shell it is of the motion, by explicit steps: gel-droplet.md, section 5
     own = {"energy_drift_rel": BARS["energy_missing_rel"]} if "heat_to_bubble_J" in summary else {}
     bars = BARS | own | {f"solid_{name}": bar for name, bar in BARS.items()}  # of bodies in a liquid
-    return [
-        {"name": name, "value": summary[name], "reference": 0.0, "tolerance": bar, "ok": abs(summary[name]) <= bar}
-        for name, bar in bars.items()
-        if name in summary
-    ]
+    return [_check(name, summary, bar) for name, bar in bars.items() if name in summary]
+
+
+def _check(name: str, summary: dict, bar: float) -> dict:
+    value = summary[name]
+    return {"name": name, "value": value, "reference": 0.0, "tolerance": bar, "ok": abs(value) <= bar}
 
 
 def missed(summary: dict) -> list[str]:

@@ -24,3 +24,9 @@ class Limiters:
     def summary(self) -> dict[str, float]:
         """Its part of summary.json."""
         return {f"{LARGEST}{column}": value for column, value in self.largest.items()}
+
+
+def acted(summary: dict) -> dict[str, float]:
+    """The largest of the run of each limiter that acted in it, by column of history.csv."""
+    told = {key.removeprefix(LARGEST): value for key, value in summary.items() if key.startswith(LARGEST)}
+    return {column: value for column, value in told.items() if value}

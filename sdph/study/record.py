@@ -11,12 +11,13 @@ from sdph.scenes import paths
 from sdph.version import __version__
 
 
-def write(folder: Path, scene: str, checks: list[dict], gas: str | None) -> Path:
-    """Write `folder`/<scene>.json; `gas` is the solver that was asked for, None where none was."""
+def write(folder: Path, scene: str, checks: list[dict], gas: str | None, acted: dict | None = None) -> Path:
+    """Write `folder`/<scene>.json; `gas` is the solver that was asked for, None where none was, `acted` the limiters
+    that acted in each run (sdph.running.limiters)."""
     folder.mkdir(parents=True, exist_ok=True)
     today = datetime.datetime.now(datetime.UTC).date().isoformat()
     own = {"scene": scene, "date": today, "version": __version__, "commit": commit(), "gas": gas or "as found"}
-    output.write_json(folder / f"{scene}.json", own | {"checks": checks})
+    output.write_json(folder / f"{scene}.json", own | {"limiters": acted or {}, "checks": checks})
     return folder / f"{scene}.json"
 
 

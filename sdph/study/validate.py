@@ -22,7 +22,7 @@ from pathlib import Path
 
 from sdph import scenes
 from sdph.case import read as cases
-from sdph.running import balances, driver
+from sdph.running import balances, driver, limiters
 from sdph.scenes import paths
 from sdph.schema import CaseError
 from sdph.study import compare, record
@@ -37,14 +37,15 @@ STUDIES = {
 }  # fmt: skip
 
 
-def validate(scene: str, overrides: tuple[str, ...], reporter, folder: Path | None = None) -> list[dict]:
-    """The checks of a scene and its variants, each run anew under `folder` (None: one that goes when done)."""
+def validate(scene: str, overrides: tuple[str, ...], reporter, folder: Path | None = None, acted=None) -> list[dict]:
+    """The checks of a scene and its variants, each run anew under `folder` (None: one that goes when done); a dict
+    `acted` takes the limiters that acted in each run, by its name."""
     module, (study, _, name) = compare.scene_module(scene), scene.partition(".")
     if module is None and study not in STUDIES:
         raise CaseError(f"{scene} has no validation; those that have: {', '.join(validated())}")
     if folder is None:
         with tempfile.TemporaryDirectory(prefix="sdph-validate-") as temporary:
-            return validate(scene, overrides, reporter, Path(temporary))
+            return validate(scene, overrides, reporter, Path(temporary), acted)
     if study in STUDIES:
         return _parts(study, name, overrides, reporter, folder)
     whole = {scene: ((), [name for name in REFERENCES if hasattr(module, name)])}
@@ -55,6 +56,8 @@ def validate(scene: str, overrides: tuple[str, ...], reporter, folder: Path | No
         own_folder = folder / re.sub(r"[^\w.-]+", "-", name)
         driver.run(case, scene, own_folder, None, reporter)
         run = compare.open_run(own_folder)
+        if acted is not None:
+            acted[name] = limiters.acted(run.summary)
         checks += [check | {"name": f"{name}, balances: {check['name']}"} for check in balances.checks(run.summary)]
         for reference in references:
             found = some(getattr(module, reference)(run), "gives a check")

@@ -160,6 +160,18 @@ def test_a_liquid_takes_density_viscosity_and_tension():
     assert case.parameters["surface_tension"].coefficient == pytest.approx(0.07198, rel=0.005)
 
 
+def test_a_liquid_takes_what_its_heat_needs():
+    """Of water at 298.15 K by IAPWS; what the case gives stands."""
+    own = table("dam_break")
+    own["effects"].append("liquid_heat")
+    own["liquid"]["fluid"] = "Water"
+    own["liquid_heat"] = {"temperature_K": 298.15}
+    heat = cases.from_table(own).parameters["liquid_heat"]
+    assert (heat.conductivity, heat.heat_capacity) == pytest.approx((0.6065, 4181.0), rel=2e-3)
+    own["liquid_heat"]["conductivity_W_m_K"] = 0.5
+    assert cases.from_table(own).parameters["liquid_heat"].conductivity == 0.5
+
+
 @pytest.mark.parametrize(
     ("sections", "said"),
     [

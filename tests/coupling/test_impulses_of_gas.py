@@ -160,18 +160,39 @@ def test_embedded_gas_keeps_its_momentum(stretch):
     assert rel < 1e-8
 
 
-@BOTH
-def test_numerical_impulse_is_of_first_order(tmp_path, solver):
-    """Grains that move: at most 2 % of what moves the gas, and less with cells and windows halved together."""
+@pytest.mark.parametrize(
+    "solver, moves",
+    [("embedded", 1)] + [pytest.param("openfoam", moves, marks=pytest.mark.openfoam) for moves in (0, 1)],
+)
+def test_numerical_impulse_is_of_first_order(tmp_path, solver, moves):
+    """Grains that move, and grains that rest in cells that get their velocity from faces: at most 2 % of what moves the
+    gas, and less with cells and windows halved together."""
     found = []
     for parts in (1, 2, 4):
         (tmp_path / str(parts)).mkdir()
         with running(solver, tmp_path / str(parts), (0.1, 0.1), 0.01 / parts, **THICK) as gas:
-            found.append(stirred(gas, 2e-3 / parts, 20 * parts, 1))
+            found.append(stirred(gas, 2e-3 / parts, 20 * parts, moves))
     orders = [math.log2(a / b) for a, b in itertools.pairwise(found)]
     print(f"{solver}: numerical {', '.join(f'{rel:.1e}' for rel in found)} of what moved the gas, orders {orders}")
     assert found[-1] < 0.02
     assert min(orders) > 0.7
+
+
+@pytest.mark.openfoam
+def test_what_splitting_leaves_falls_with_outer_iterations(tmp_path):
+    """By which the velocity would still change, over the fastest; one iteration is not the last."""
+    left = {}
+    for outers in (1, 2, 4):
+        (tmp_path / str(outers)).mkdir()
+        with box(tmp_path / str(outers), (0.1, 0.1), 0.005, outers=outers, **THICK) as gas:
+            blob = 0.5 * np.exp(-((gas.mesh.centres[:, :2] - 0.05) ** 2).sum(axis=1) / 0.015**2)
+            drag = {"momentum_coefficient": 300.0 * blob, "momentum": 300.0 * blob[:, None] * [0.5, 0.2, 0.0]}
+            gas.start(1.0 - blob, ("alpha_g", *drag))
+            for _ in range(3):
+                state = gas.advance(4e-3, drag | {"alpha_g": 1.0 - blob})
+            left[outers] = state.budget.held["gas_splitting_rel"]
+    print(f"splitting leaves {left}")
+    assert 0.05 > left[1] > 3.0 * left[2] > 9.0 * left[4] > 0.0
 
 
 @BOTH

@@ -12,7 +12,7 @@ CHANNEL = {
     "out": {"kind": "pressure_outlet", "side": "right", "pressure_Pa": 0.0},
 } | SLIP  # fmt: skip
 EMBEDDED = {"gas_box_rel", "gas_mass_left_rel"}  # columns of each solver
-OPENFOAM = EMBEDDED | {"gas_cut_rel", "gas_misfit_kg_m_s", "gas_pressure_unsettled_rel"}
+OPENFOAM = EMBEDDED | {"gas_cut_rel", "gas_misfit_kg_m_s", "gas_pressure_unsettled_rel", "gas_splitting_rel"}
 
 
 @BOTH

@@ -13,6 +13,7 @@ from scipy.spatial import cKDTree
 
 from coupling.gas import Mesh
 from sdph.case.gas_cells import CellRows
+from sdph.running.balances import work_of_gas
 from sdph.running.metrics import bubble
 from sdph.schema import CaseError
 from sdph.show import timeline
@@ -52,7 +53,8 @@ def tfm(run) -> list[dict]:
     own, other = [_own(run, t) for t in times], [_other(reference, t) for t in times]
     figures.metrics(run, times, own, other)
     figures.fields(run, reference, [t for t in SHOWN if t <= times[-1]])
-    return [*_checks(times, own, other), *_bubble_checks(growing, times, own, other), *_finer(run, growing, times, own)]
+    found = [*_checks(times, own, other), *_bubble_checks(growing, times, own, other)]
+    return [*found, *_finer(run, growing, times, own), work_of_gas(run.summary)]
 
 
 def _finer(run, growing, times, own) -> list[dict]:

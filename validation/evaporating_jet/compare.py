@@ -12,6 +12,7 @@ import math
 import numpy as np
 
 from coupling.openfoam.comparators.droplet_numbers import COURANT
+from sdph.running.balances import work_of_gas
 from sdph.study.compare import check
 
 MASS = 0.15  # of the evaporated mass in the limit of the droplet solver's step (issues 4 and 19)
@@ -111,7 +112,7 @@ def bounds(run, times) -> list[dict]:
         )
     share, what = run.summary["evaporated_kg"] / run.summary["injected_kg"], "share of the liquid that evaporated"
     checks += [some(f"sag [m] at {t:g} s", run.metric("sag_m", t)) for t in times[-1:]]
-    return [*checks, at_most(what, share, 0.0025), some(what, share)]
+    return [*checks, at_most(what, share, 0.0025), some(what, share), work_of_gas(run.summary)]
 
 
 def saturated(case) -> float:

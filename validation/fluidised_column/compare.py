@@ -16,6 +16,7 @@ from coupling.embedded import EmbeddedGas
 from sdph import effects
 from sdph.engine.ledger import Ledger
 from sdph.laws import exact as laws
+from sdph.running.balances import work_of_gas
 from sdph.running.metrics import column
 from sdph.running.simulation import Simulation
 from sdph.study.compare import check
@@ -43,6 +44,7 @@ def resting(run) -> list[dict]:
         check(
             "pressure drop at rest [Pa], Ergun", late["pressure_drop_Pa"].mean(), late["ergun_Pa"].mean(), PACKED, True
         ),
+        work_of_gas(run.summary),
     ]
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import dataclasses
 
+from sdph.running.balances import work_of_gas
 from sdph.running.metrics import agitation
 from sdph.study.compare import check, times_of_both
 
@@ -40,7 +41,7 @@ def tfm(run) -> list[dict]:
         for key in names
         for time in asked
         for k in (run.output_at(times, time),)
-    ]
+    ] + [work_of_gas(run.summary)]
 
 
 def with_rise(row: dict, start: float) -> dict:

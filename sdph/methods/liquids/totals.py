@@ -23,7 +23,7 @@ from numba import prange
 from sdph.effects.around import gravity
 from sdph.engine import arrays
 from sdph.engine import state as particles
-from sdph.engine.ledger import ratio, vector
+from sdph.engine.ledger import both, ratio, vector
 from sdph.engine.sums import Sums
 from sdph.laws.compiled import parallel, parallel_largest, serial
 from sdph.methods.liquids.losses import CAUSES
@@ -90,8 +90,8 @@ class LiquidLedger(Sums):
         drift = float(np.linalg.norm(self.gained() - self.impulses.sum(axis=0)))
         made = float(np.linalg.norm(self.impulses[IMPULSES.index("tension_control")]))
         return self.sums | {
-            "mass_drift_rel": ratio(abs(mass), there),
-            "momentum_drift_rel": ratio(drift, self.scale["kg_m_s"] + inertia),
+            **both("mass_drift", "kg", abs(mass), there),
+            **both("momentum_drift", "kg_m_s", drift, self.scale["kg_m_s"] + inertia),
             "momentum_made_rel": ratio(made, self.scale["kg_m_s"] + inertia),
             "energy_made_J": self.made,
             "energy_made_rel": ratio(self.made, self.moved),

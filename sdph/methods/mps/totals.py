@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from sdph.engine.ledger import ratio, vector
+from sdph.engine.ledger import both, ratio, vector
 from sdph.engine.sums import Sums
 from sdph.methods.mps import alone
 from sdph.methods.mps.method import WORKS
@@ -67,16 +67,14 @@ class MpsLedger(Sums):
         turned = math.sqrt(2.0 * whole * (first["kinetic_energy_J"] + sums["injected_J"] + abs(works)))
         scale = first["kinetic_energy_J"] + sums["injected_J"] + sum(abs(sums[f"work_of_{n}_J"]) for n in WORKS)
         # forces of pairs have no sum; corrected differences of pressure have one
-        made = float(np.linalg.norm(self.impulses[1]))
+        made, drift = (float(np.linalg.norm(own)) for own in (self.impulses[1], self.gained() - self.momentum))
         found = {"momentum_made_rel": ratio(made, self.moved + turned)} if self.alone else {}
         return (
             sums
             | found
-            | {
-                "mass_drift_rel": ratio(abs(mass), whole),
-                "momentum_drift_rel": ratio(float(np.linalg.norm(self.gained() - self.momentum)), self.moved + turned),
-                "energy_drift_rel": ratio(abs(energy), scale),
-            }
+            | both("mass_drift", "kg", abs(mass), whole)
+            | both("momentum_drift", "kg_m_s", drift, self.moved + turned)
+            | both("energy_drift", "J", abs(energy), scale)
         )
 
 

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from sdph.engine import state as particles
-from sdph.engine.ledger import ratio, vector
+from sdph.engine.ledger import both, ratio, vector
 from sdph.engine.sums import Sums
 from sdph.methods.solids.method import IMPULSES, WORKS
 
@@ -67,8 +67,8 @@ class SolidLedger(Sums):
         inertia = math.sqrt(2.0 * first["mass_kg"] * (self.scale + self.most))
         whole = self.scale + energy(first)
         return self.sums | {
-            "mass_drift_rel": abs(last["mass_kg"] - first["mass_kg"]) / first["mass_kg"],
-            "momentum_drift_rel": ratio(drift, self.moved + inertia),
+            **both("mass_drift", "kg", abs(last["mass_kg"] - first["mass_kg"]), first["mass_kg"]),
+            **both("momentum_drift", "kg_m_s", drift, self.moved + inertia),
             "energy_missing_rel": ratio(abs(self.sums["numerical_work_J"]), whole),
         }
 

@@ -35,19 +35,23 @@ def box_case(
     return from_table(table | ({"vapour": vapour} if vapour else {}))
 
 
-def template(folder):
-    """A case for sdphGasFoam without start fields and mesh, in `folder`/template."""
+def template(folder, outers=None):
+    """A case for sdphGasFoam without start fields and mesh, in `folder`/template; of so many `outers` in a step, or of
+    as many as it has by itself."""
     for part in ("constant", "system"):
         (folder / "template" / part).mkdir(parents=True, exist_ok=True)
         for path in (TEMPLATE / part).iterdir():
             (folder / "template" / part / path.name).write_bytes(path.read_bytes())
+    if outers:
+        with open(folder / "template" / "system" / "fvSolution", "a", encoding="utf-8") as file:
+            file.write(f"\nPIMPLE {{ nOuterCorrectors {outers}; }}\n")
     return folder / "template"
 
 
 @contextlib.contextmanager
-def box(folder, *args, **kwargs):
-    """A running gas solver on a case of `box_case`."""
-    gas = OpenFoamGas(box_case(*args, **kwargs), folder / "gas", template(folder))
+def box(folder, *args, outers=None, **kwargs):
+    """A running gas solver on a case of `box_case`; `outers` as `template` has them."""
+    gas = OpenFoamGas(box_case(*args, **kwargs), folder / "gas", template(folder, outers))
     try:
         yield gas
     finally:
