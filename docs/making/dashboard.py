@@ -56,7 +56,7 @@ def of_scene(name: str) -> str:
     own = records().get(name)
     if own is None:
         return f"No record yet: `sdph validate {name} --record validation/record` makes one."
-    return _told(own) + "".join(f"\n\nNot recorded: {lacking}." for lacking in [_listed(name, own)] if lacking)
+    return f"{_told(own)}\n\n{_limiters(own)}" + "".join(f"\n\nNot recorded: {lacking}." for lacking in [_listed(name, own)] if lacking)
 
 
 def lacking(name: str, own: dict) -> list[str]:
@@ -143,7 +143,7 @@ def _told(own: dict) -> str:
     """When a record was made, and its checks."""
     made = f"Measured {own['date']}, sdph {own['version']}, commit {own['commit'] or 'unknown'}, gas: {own['gas']}."
     short = [check | {"name": check["name"].removeprefix(f"{own['scene']}, ")} for check in own["checks"]]
-    return f"{made}\n\n{_table(short)}\n\n{_limiters(own)}"
+    return f"{made}\n\n{_table(short)}"
 
 
 def _limiters(own: dict) -> str:

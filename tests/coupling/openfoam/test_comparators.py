@@ -142,6 +142,37 @@ def test_bed_keeps_its_grains_and_lets_the_jet_in(tmp_path):
     assert 290.0 < last(run)["gas_temperature"].max() <= 350.01
 
 
+def test_slip_alone_gives_two_fluids_no_agitation(tmp_path):
+    """The theory of sdph has no source of theta by slip, which the solver has: `noSlipSource` takes it out. What slips
+    evenly then only calms down."""
+    case = bed(0.3, jet=1.0, distributor=1.0, end=2e-3)
+    run = comparators.run_two_fluid(case, tmp_path / "run")
+    inside = (np.abs(run.centres[:, 0] - 0.1) < 0.06) & (np.abs(run.centres[:, 1] - 0.1) < 0.04)
+    theta = last(run)["granular_temperature"][inside] / case.grains.granular_temperature
+    slip = np.abs(last(run)["gas_velocity"] - last(run)["particle_velocity"])[inside, 1]
+    print(f"theta over that of the start {theta.min():.3g} to {theta.max():.3g}, slip at least {slip.min():.2g} m/s")
+    assert slip.min() > 0.5 and 0.0 < theta.max() < 1.0
+
+
+def test_viscosity_of_grains_conducts_no_heat_in_two_fluids(tmp_path, monkeypatch):
+    """Hot grains on cold ones, so agitated that nu is some 1e-4 m2/s: the solver takes it for a conductivity of eddies,
+    which `noEddyHeat` takes out. What is left, k/(rho c) = 7e-7 m2/s, is little."""
+    own = cases.to_table(bed(0.3, jet=0.01, distributor=0.01, end=1e-2, outputs=20))
+    own["domain"]["gravity_m_s2"] = [0.0, 0.0]  # or what falls is warm
+    own["effects"].remove("gravity")
+    own["grains"] |= {"diameter_mm": 3.0, "granular_temperature_m2_s2": 0.01, "conductivity_W_m_K": 5.0}
+    made = shutil.copytree(comparators.template(cases.from_table(own), "tfm"), tmp_path / "template")
+    hot = "boxToCell { box (-1 0.1 -1) (1 1 1); fieldValues (volScalarFieldValue T.particles 350); }"
+    fields = made / "system" / "setFieldsDict"
+    fields.write_text(fields.read_text().replace("regions\n(", f"regions\n({hot}"))
+    monkeypatch.setattr(comparators, "template", lambda case, kind: made)
+    run = comparators.run_two_fluid(cases.from_table(own), tmp_path / "run")
+    beside = np.isclose(run.centres[:, 1], 0.095) & (np.abs(run.centres[:, 0] - 0.1) < 0.08)
+    warmed = last(run)["particle_temperature"][beside] - 288.0
+    print(f"warmed by {warmed.min():.3g} to {warmed.max():.3g} K")
+    assert np.abs(warmed).max() < 0.05
+
+
 @pytest.mark.parametrize(
     ("law", "alpha_p"),
     [
