@@ -3,8 +3,6 @@ sides they are on."""
 
 from __future__ import annotations
 
-import numpy as np
-
 from sdph.engine.walls import facets
 from sdph.schema import CaseError
 
@@ -39,6 +37,6 @@ def _open(key: str, rims: list) -> str:
     )
     many = f"{len(rims)} places, the smallest" if len(rims) > RIMS else "the places"
     return (
-        f"{key} is open at {many} about {own}: grains pass there; close what is no mouth of the vessel and no edge of a "
-        "plate"
+        f"{key} is open at {many} about {own}: grains pass there; close what is no mouth of the vessel and no edge of "
+        "a plate"
     )
