@@ -7,11 +7,21 @@ import math
 from sdph.scenes import paths
 
 ROOT = paths.PACKAGE.parent
-COMPILED = {"law", "serial", "inlined", "fast_inlined", "parallel", "fast_parallel"}  # decorators
 METHODS_OF_TUPLES = {"index", "count"}
 MOST = 16  # arguments of a compiled function: of more nobody knows which is which
 FILES = [file for package in ("sdph", "coupling") for file in sorted((ROOT / package).rglob("*.py"))]
 TREES = {file.relative_to(ROOT): ast.parse(file.read_text(encoding="utf-8")) for file in FILES}
+
+
+def decorators() -> set[str]:
+    """Names of all decorators of compiled functions, from the file that makes them."""
+    tree = TREES[(paths.PACKAGE / "laws" / "compiled.py").relative_to(ROOT)]
+    made = [own for own in tree.body if isinstance(own, ast.Assign) and isinstance(own.value, ast.Call)]
+    made = [own for own in made if ast.unparse(own.value.func) in ("_within", "_over_particles")]
+    return {name.id for own in made for name in own.targets}
+
+
+COMPILED = decorators()
 
 
 def named(decorator) -> str:
@@ -60,6 +70,12 @@ def taken(function) -> int:
     """Number of arguments."""
     own = function.args
     return len(own.posonlyargs) + len(own.args) + len(own.kwonlyargs)
+
+
+def test_every_decorator_of_compiled_functions_is_looked_for():
+    used = {named(one) for tree in TREES.values() for own in compiled(tree) for one in own.decorator_list}
+    assert used >= COMPILED and len(COMPILED) == 10
+    assert {"parallel_largest", "inner", "in_turn", "in_order"} <= COMPILED
 
 
 def test_words_are_found():

@@ -13,10 +13,9 @@ from typing import NamedTuple
 
 from sdph.effects.effect import NO_LIMIT, Effect, Judgement
 from sdph.laws import moving_particles
+from sdph.laws.constants import CAPILLARY
 from sdph.laws.sheets import taylor_culick
 from sdph.schema import quantity, record
-
-CAPILLARY = 0.25  # of sqrt(rho l0^3/(2 pi sigma)), swirl-sheet.md, section 2, 12
 
 
 @record

@@ -11,10 +11,8 @@ import math
 from typing import NamedTuple
 
 from sdph.effects.effect import Effect, Judgement
-from sdph.laws.constants import TINY
+from sdph.laws.constants import CAPILLARY, TINY
 from sdph.schema import CaseError, quantity, record
-
-CAPILLARY = 0.25  # of sqrt(rho h^3/(2 pi sigma)), liquids.md, shared core; rho is the mean of both phases
 
 
 @record
@@ -57,6 +55,7 @@ def kernel(case) -> TensionP | WettingP:
 
 
 def dt_limit(p, case, state) -> float:
+    """Capillary step [s] of waves one h long, of the mean density of both phases."""
     rho = 0.5 * (case.liquid.density + case.gas_phase.density)
     return CAPILLARY * math.sqrt(rho * case.smoothing_length**3 / (2.0 * math.pi * p.coefficient))
 

@@ -98,13 +98,33 @@ class Surface:
     @property
     def closed(self) -> bool:
         """True where no side of a facet is free; of lines, where each end meets another."""
+        return not len(self._free())
+
+    def rims(self) -> list[tuple[np.ndarray, float]]:
+        """Middle (d,) [m] and length [m] of each row of free sides that hang together, the shortest first; of lines
+        each free end, its length 0."""
+        free = self._free()
+        if not len(free):
+            return []
+        if self.flat:
+            return [(end, 0.0) for end in free.mean(axis=1)[:, :2]]
+        own = np.unique(free.reshape(-1, 3), axis=0, return_inverse=True)[1].reshape(-1, 2)
+        links = scipy.sparse.coo_matrix((np.ones(len(own)), own.T), shape=(own.max() + 1,) * 2)
+        row = scipy.sparse.csgraph.connected_components(links, directed=False)[1][own[:, 0]]
+        length = np.linalg.norm(free[:, 1] - free[:, 0], axis=1)
+        found = [(free[row == n].mean(axis=(0, 1)), float(length[row == n].sum())) for n in range(row.max() + 1)]
+        return sorted(found, key=lambda rim: rim[1])
+
+    def _free(self) -> np.ndarray:
+        """Sides (E, 2, 3) [m] that one triangle alone has; of strips, those at the ends of lines: their rims are free
+        too."""
+        if not self.mesh.n_cells:
+            return np.zeros((0, 2, 3))
         ends = self.mesh.extract_feature_edges(
             boundary_edges=True, feature_edges=False, manifold_edges=False, non_manifold_edges=False
         )
-        if not self.flat:
-            return ends.n_cells == 0
-        free = ends.points[ends.lines.reshape(-1, 3)[:, 1:]]
-        return not (np.ptp(free[:, :, 2], axis=1) > 0.0).any()  # the rims of the strips are free too
+        free = np.asarray(ends.points, float)[ends.lines.reshape(-1, 3)[:, 1:]]
+        return free[np.ptp(free[:, :, 2], axis=1) > 0.0] if self.flat else free
 
     def distance(self, places: np.ndarray) -> np.ndarray:
         """(N,) [m] of places (N, d) from the surface, above 0 on the side of the normals."""
@@ -169,6 +189,14 @@ def _mesh(path: str, dimensions: int):
 def sizes(corners: np.ndarray) -> np.ndarray:
     """Lengths or areas (F,) [m^(d-1)] of facets (F, d, d)."""
     return np.linalg.norm(_turned(corners), axis=1) * (1.0 if corners.shape[2] == 2 else 0.5)
+
+
+def enclosed(corners: np.ndarray) -> float:
+    """Area or volume [m^d] that facets (F, d, d) with normals inwards enclose, below 0 where they point outwards; of an
+    open surface, as if its rims were drawn together at the middle of its corners."""
+    d = corners.shape[2]
+    away = corners.mean(axis=1) - corners.reshape(-1, d).mean(axis=0)
+    return -float(np.einsum("ij,ij->", away, _turned(corners))) / (d if d == 2 else 2 * d)
 
 
 def normals(corners: np.ndarray) -> np.ndarray:

@@ -15,6 +15,7 @@ from sdph.engine.state import OF_MATERIAL, State, axes, born, empty, join
 from sdph.engine.walls import facets
 from sdph.engine.walls.sides import LAYERS
 from sdph.engine.world import ALONE
+from sdph.methods.grains import vessels
 from sdph.schema import CaseError
 
 # particles of two regions that may be near where they touch: this share, and so many (a disc on a box); our choice
@@ -39,8 +40,9 @@ def fill(case, names, notices=None, masses=None, world=ALONE) -> State:
     process of a world makes a part of them.
 
     `notices`, a list, gets a line for each region of which something is behind walls, or whose mass is another than
-    was meant; `masses`, a table, the mass of each region [kg] by its name."""
+    was meant, and of walls that are open; `masses`, a table, the mass of each region [kg] by its name."""
     notices, masses = [] if notices is None else notices, {} if masses is None else masses
+    notices += vessels.checked(case)
     places = [_places(case, name, region, notices, world) for name, region in case.particles.items()]
     _look_for_overlap(case, places, notices)
     parts = [_region(case, region, own, names) for region, own in zip(case.particles.values(), places)]
