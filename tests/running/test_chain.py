@@ -35,6 +35,12 @@ def spray(record, *more):
     return cases.load(scenes.HERE / "swirl_spray" / "case.toml", (*SPRAY, *own, *more))
 
 
+def told_of(run, quantity):
+    """The row of handover.csv of a quantity."""
+    (row,) = [row for row in rows(run / chain.HANDOVER) if row["quantity"] == quantity]
+    return row
+
+
 def rows(file):
     with open(file, newline="", encoding="utf-8") as told:
         return list(csv.DictReader(told))
@@ -50,6 +56,12 @@ def test_a_case_that_is_named_is_run_first(sheet, tmp_path):
     assert summary["injected_kg"] > 0.0 and abs(summary["energy_drift_rel"]) < 1e-10
     for row in rows(tmp_path / "run" / chain.HANDOVER):
         assert abs(float(row["difference_rel"])) < 1e-12, row
+    surface, sizes, energy = (
+        told_of(tmp_path / "run", name) for name in ("surface_m2", "diameters_m", "energy_of_surface_J")
+    )
+    assert float(energy["drops"]) == pytest.approx(0.024 * float(surface["drops"]), rel=1e-14)
+    assert float(sizes["drops"]) == pytest.approx(sum(float(row["diameter_m"]) for row in rows(alone)), rel=1e-12)
+    assert float(sizes["lost"]) == pytest.approx(float(sizes["drops"]) - float(sizes["particles"]), rel=1e-9)
     # mass through the plane and along the axis, as the sheet told of it
     made = rows(tmp_path / "run" / "inputs" / "nozzles.mouth.table" / "drops.csv")
     told = rows(alone)
