@@ -30,7 +30,7 @@ def _of_paper(run) -> bool:
 
 
 def claims(run) -> list[dict]:
-    """What the paper claims and a run of particles alone does not judge (gel-droplet.md, section 6), by the droplet
+    """Checks of claims of the paper that a run alone does not judge (gel-droplet.md, section 6), by the droplet
     without particles."""
     own, of = validate.part("gel_droplet_reduced", "claims"), validate.part("gel_droplet_reduced", "runs").course
     found = [row | {"name": f"claim, without particles: {row['name']}"} for row in own.checks(run.folder)]

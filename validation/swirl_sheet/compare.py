@@ -142,7 +142,7 @@ def _reported(run) -> list[dict]:
 
 
 def _of_nozzles(nozzle, angle: float) -> list[dict]:
-    """What a mouth and a half angle [deg] would be of an inviscid nozzle, which is not computed: no bar."""
+    """Mouth and half angle [deg] beside those of an inviscid nozzle, which is not computed: no bar."""
     core, along = (nozzle.inner_radius / nozzle.radius) ** 2, math.cos(math.radians(angle)) ** 2
     as_wide = (1.0 - along) / (1.0 + along)  # air core of the nozzle whose cone is as wide
     told = [

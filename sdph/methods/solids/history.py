@@ -70,7 +70,8 @@ def hoop_stress(stepper, stress) -> np.ndarray:
         if body.shape not in ROUND or not own.any():
             continue
         away = places[own] - mass[own] @ places[own] / mass[own].sum()
-        x, y = (away / np.maximum(np.hypot(*away.T), np.finfo(float).tiny)[:, None]).T
+        r = np.hypot(*away.T)[:, None]
+        x, y = np.divide(away, r, out=np.zeros_like(away), where=r > 0.0).T
         xx, yy, _, xy = stress[own, :4].T
         found[own] = xx * y**2 + yy * x**2 - 2.0 * xy * x * y
     return found

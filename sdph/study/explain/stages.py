@@ -1,4 +1,4 @@
-"""Which effects act as a gel droplet grows, necks and has torn, and by which number: gel-droplet.md, section 2.
+"""Effects that act as a gel droplet grows, necks and has torn, and by which number: gel-droplet.md, section 2.
 
 The numbers are those of the droplet without particles at the end of each stage. Growth is up to the largest pressure,
 the most that the shell bears; necking from there to the tear. What a run does is said as it is, and where it is not
