@@ -245,9 +245,7 @@ def test_a_gel_droplet_is_told_what_acts_as_it_grows_necks_and_has_torn():
     assert "stages" in tables.explain(case) and "stages" not in tables.explain(load("thick_ring"))
 
 
-@pytest.mark.parametrize(
-    "given", ["bodies.shell.flaw=0.0", "solid.temperature_share=0.1", "solid.damage_begins_at=0.01"]
-)
+@pytest.mark.parametrize("given", ["solid.temperature_share=0.1", "solid.damage_begins_at=0.01"])
 def test_stages_say_why_there_are_none(given):
     (row,) = stages.rows(load("gel_droplet", given))
     assert row["effect"] == "none" and row["why"]
