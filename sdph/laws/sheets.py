@@ -91,6 +91,25 @@ def rayleigh_plateau(k):
     return math.sqrt(k * (1.0 - k * k) * scipy.special.iv(1, k) / scipy.special.iv(0, k))
 
 
+def discharge_coefficient(core):
+    """Flow over that of the whole mouth at sqrt(2 dp/rho) [-] of an inviscid pressure-swirl nozzle at its most:
+    sqrt((1 - X)^3/(1 + X)), X = core [-] the air core's share of the mouth's area, 0 to 1.
+
+    Abramovich 1944; Taylor 1948, Proc. 7th Int. Congr. Appl. Mech. 2, 280.
+    """
+    return np.sqrt((1.0 - core) ** 3 / (1.0 + core))
+
+
+def geometric_characteristic(core):
+    """A [-] of the nozzle whose air core has the share X of its mouth: sqrt(2) X/(1 - X)^1.5. Abramovich 1944."""
+    return math.sqrt(2.0) * core / (1.0 - core) ** 1.5
+
+
+def inviscid_half_angle(core):
+    """Half angle [rad] of its cone: cos^2 = (1 - X)/(1 + X). Rizk & Lefebvre 1985, J. Propul. Power 1, 193."""
+    return np.arccos(np.sqrt((1.0 - core) / (1.0 + core)))
+
+
 def diameter_of(volume, dimensions: int):
     """Diameter [m] of a sphere, or of a disc in two dimensions, of a volume [m^d]."""
     return (6.0 / math.pi * volume) ** (1.0 / 3.0) if dimensions == 3 else (4.0 / math.pi * volume) ** 0.5

@@ -21,6 +21,7 @@ from sdph.running import inputs, output
 from sdph.schema import CaseError
 
 TABLE, HANDOVER = "drops.csv", "handover.csv"
+DIAMETERS = "diameters_m"  # the sum of d, which no particles keep
 
 
 def made(case, folder: Path, run, resume, reporter):
@@ -43,7 +44,9 @@ def made(case, folder: Path, run, resume, reporter):
         _write(recorded, found, target)
         nozzles[name] = dataclasses.replace(nozzle, table=os.path.abspath(target))
         within = math.fsum(found["inner_J"][found["time_s"] > nozzle.table_from])
-        rows += [{"nozzle": name} | row for row in handed_over(case, nozzles[name], within)]
+        tension = recorded.parameters.get("free_energy_tension")
+        sigma = tension.coefficient if tension else 0.0
+        rows += [{"nozzle": name} | row for row in handed_over(case, nozzles[name], within, sigma)]
     if rows:
         output.write_rows(folder / HANDOVER, rows)
     return dataclasses.replace(case, nozzles=nozzles)
@@ -70,25 +73,31 @@ def _write(recorded, found: dict[str, np.ndarray], target: Path) -> None:
     )
 
 
-def handed_over(case, nozzle, within: float) -> list[dict]:
+def handed_over(case, nozzle, within: float, sigma: float = 0.0) -> list[dict]:
     """Rows of quantity, sum over the drops, sum over the particles that they become before they are scaled, what is
     lost by design, and the rest over the sum of sizes.
 
-    Lost is motion within: `within` [J] the drops, and of drops within a particle against its mean.
+    Lost is motion within: `within` [J] the drops, and of drops within a particle against its mean; and all by which the
+    sum of diameters differs: sizes whose number, surface and mass are right have another (swirl-sheet.md, 9). With a
+    surface tension `sigma` [N/m] the energy of the surface of spheres is a row too.
     """
     replay = drops.Replay(case, nozzle)
     own, parcels = replay.drops, replay.parcels
     mass, q = parcels.mass / replay.scale, 1.0 + parcels.variance / parcels.diameter**2
     number = mass / (math.pi / 6.0 * case.grains.density * parcels.diameter**3 * q**3)
     rows = {"mass_kg": (own.mass, mass), "number": (np.ones(len(own.mass)), number)}
-    rows["surface_m2"] = (math.pi * own.diameter**2, math.pi * number * parcels.diameter**2 * q)
+    surface = rows["surface_m2"] = (math.pi * own.diameter**2, math.pi * number * parcels.diameter**2 * q)
+    diameters = rows[DIAMETERS] = (own.diameter, number * parcels.diameter)
     rows |= {
         f"momentum_{axis}_kg_m_s": (own.mass * before, mass * after)
         for axis, before, after in zip("xyz", own.velocity.T, parcels.velocity.T)
     }
     motion = [0.5 * m * (v**2).sum(axis=1) for m, v in ((own.mass, own.velocity), (mass, parcels.velocity))]
     rows["energy_of_motion_J"] = (np.append(motion[0], within), motion[1])
+    if sigma:
+        rows["energy_of_surface_J"] = tuple(sigma * part for part in surface)
     lost = {"energy_of_motion_J": math.fsum(1.5 * mass * parcels.theta) + within}
+    lost[DIAMETERS] = math.fsum([*diameters[0], *(-diameters[1])])
     return [_row(name, *parts, lost.get(name, 0.0)) for name, parts in rows.items()]
 
 

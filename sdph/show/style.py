@@ -35,6 +35,7 @@ QUANTITIES = {
     "body": Quantity("body", "1"),
     "free": Quantity("torn off", "1"),
     "equivalent_stress": Quantity("equivalent stress", "Pa", "plasma"),
+    "hoop_stress": Quantity("hoop stress", "Pa", "RdBu_r"),
     "plastic_strain": Quantity("plastic strain", "1"),
     "damage": Quantity("damage", "1", "warm"),
     **{f"stress_{ab}": Quantity(f"stress {ab}", "Pa", "RdBu_r") for ab in ("xx", "yy", "zz", "xy", "yz", "zx")},

@@ -26,6 +26,9 @@ KNOWN = {
     "distance_where_thickness": lambda i: sheets.distance_of_thickness(i["h_m"], i["r0_m"], i["h0_m"], i["alpha"]),
     "rayleigh_plateau_k": lambda i: sheets.rayleigh_plateau(i["k"]),
     "piece_diameter": lambda i: sheets.diameter_of(i["particles"] * i["l0_m"] ** 3, 3),
+    "discharge_coefficient": lambda i: sheets.discharge_coefficient(i["X"]),
+    "geometric_characteristic": lambda i: sheets.geometric_characteristic(i["X"]),
+    "half_angle_inviscid": lambda i: math.degrees(sheets.inviscid_half_angle(i["X"])),
     "han_length": lambda i: sheets.han_length(
         i["rho_kg_m3"], i["sigma_N_m"], i["h_m"], math.radians(i["half_angle_deg"]), i["rho_gas_kg_m3"], i["U_m_s"]
     ),
@@ -50,7 +53,7 @@ def test_value(begin, value):
 
 
 def test_as_many_values_are_tested_as_there_are():
-    assert len(CASES) == 45
+    assert len(CASES) == 54
 
 
 @pytest.mark.parametrize(

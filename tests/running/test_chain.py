@@ -1,6 +1,7 @@
 """A run whose nozzle records another run: the sheet first, then the spray of its drops."""
 
 import csv
+import dataclasses
 import tomllib
 from pathlib import Path
 
@@ -56,6 +57,24 @@ def test_a_case_that_is_named_is_run_first(sheet, tmp_path):
     assert sum(float(r["mass_kg"]) for r in made) == pytest.approx(sum(float(r["mass_kg"]) for r in told), rel=1e-14)
     assert float(made[0]["z_m"]) == pytest.approx(float(told[0]["z_m"]), rel=1e-12)
     assert float(made[0]["velocity_z_m_s"]) == pytest.approx(float(told[0]["velocity_z_m_s"]), rel=1e-12)
+
+
+def test_diameters_and_energy_of_the_surface_are_told_of(tmp_path):
+    """Drops of 100 and 200 um in one particle: the sum of d is told as lost; energy sigma times surface."""
+    size = np.array([1e-4, 2e-4])
+    own = spray("swirl_sheet")
+    mass = own.grains.density * np.pi / 6.0 * size**3
+    lines = [",".join(drops.COLUMNS)]
+    lines += [
+        f"{1e-6 * (k + 1)},1e-3,1e-3,0,1,2,20,{m!r},{d!r}" for k, (m, d) in enumerate(zip(mass.tolist(), size.tolist()))
+    ]
+    (tmp_path / "drops.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    nozzle = dataclasses.replace(own.nozzles["mouth"], table=str(tmp_path / "drops.csv"))
+    told = {row["quantity"]: row for row in chain.handed_over(own, nozzle, 0.0, 0.024)}
+    assert told["diameters_m"]["drops"] == pytest.approx(3e-4, rel=1e-12)
+    assert abs(told["diameters_m"]["lost"]) > 1e-7 and abs(told["diameters_m"]["difference_rel"]) < 1e-12
+    assert told["energy_of_surface_J"]["particles"] == pytest.approx(0.024 * np.pi * 5e-8, rel=1e-9)
+    assert "energy_of_surface_J" not in {row["quantity"] for row in chain.handed_over(own, nozzle, 0.0)}
 
 
 def test_a_run_that_is_named_is_taken_as_it_is(sheet, tmp_path):

@@ -137,7 +137,22 @@ def _reported(run) -> list[dict]:
     han = sheets.han_length(case.liquid.density, sigma, width, math.radians(HAN_ANGLE), HAN_GAS, nozzle.speed)
     rows = [("break-up length, reported beside straight flight's [m]", own["break_up_length_ballistic_m"])]
     rows.append(("break-up length, reported beside Han's [m]", han))
-    return [check(name, own["break_up_length_m"], reference, math.inf) for name, reference in rows]
+    lengths = [check(name, own["break_up_length_m"], reference, math.inf) for name, reference in rows]
+    return [*lengths, *_of_nozzles(nozzle, own["half_angle_deg"])]
+
+
+def _of_nozzles(nozzle, angle: float) -> list[dict]:
+    """Mouth and half angle [deg] beside those of an inviscid nozzle, which is not computed: no bar."""
+    core, along = (nozzle.inner_radius / nozzle.radius) ** 2, math.cos(math.radians(angle)) ** 2
+    as_wide = (1.0 - along) / (1.0 + along)  # air core of the nozzle whose cone is as wide
+    told = [
+        ("half angle, inviscid nozzle of this air core [deg]", angle, math.degrees(sheets.inviscid_half_angle(core))),
+        ("flow over the mouth's at the whole speed", (1.0 - core) / sheet.slant(nozzle),
+         float(sheets.discharge_coefficient(core))),
+        ("geometric characteristic of a cone as wide", sheets.geometric_characteristic(as_wide),
+         sheets.geometric_characteristic(core)),
+    ]  # fmt: skip
+    return [check(f"reported beside an inviscid nozzle: {name}", *values, math.inf) for name, *values in told]
 
 
 def suction(run) -> list[dict]:

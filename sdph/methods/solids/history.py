@@ -6,6 +6,7 @@ import numpy as np
 
 from sdph.engine import state as particles
 
+ROUND = ("ring", "cylinder")  # shapes of bodies that have a hoop stress
 AXES = ("xx", "yy", "zz", "xy", "yz", "zx")
 
 
@@ -47,15 +48,33 @@ def _of_body(stepper, name: str, own) -> dict[str, float]:
 
 
 def fields(stepper) -> dict[str, np.ndarray]:
-    """Name -> values (N,) of the particles: Cauchy's stress, pressure, equivalent stress [Pa], density [kg/m3]."""
+    """Name -> values (N,) of the particles: Cauchy's stress, pressure, equivalent stress [Pa], density [kg/m3]; where a
+    body is a ring or a cylinder the hoop stress too."""
     jacobian = np.linalg.det(stepper.gradient.reshape(-1, 3, 3))
     stress = stepper.kirchhoff / jacobian[:, None]
     mean = stress[:, :3].mean(axis=1)
     spread = ((stress[:, :3] - mean[:, None]) ** 2).sum(axis=1) + 2.0 * (stress[:, 3:] ** 2).sum(axis=1)
-    return {
+    hoop = any(body.shape in ROUND for body in stepper.case.bodies.values())
+    return ({"hoop_stress": hoop_stress(stepper, stress)} if hoop else {}) | {
         "pressure": -mean, "equivalent_stress": np.sqrt(1.5 * spread), "density": stepper.state.density / jacobian,
         "plastic_strain": stepper.strained, "damage": stepper.harm, "body": stepper.body, "free": stepper.free,
     } | {f"stress_{ab}": stress[:, k] for k, ab in enumerate(AXES)}  # fmt: skip
+
+
+def hoop_stress(stepper, stress) -> np.ndarray:
+    """Stress [Pa] (N,) around the middle of each ring or cylinder as it lies now, across the line from there to the
+    particle in the plane of the first two axes, of stresses (N, 6); 0 in other bodies and in what has broken off."""
+    found, places, mass = np.zeros(len(stress)), particles.positions(stepper.state)[:, :2], stepper.state.mass
+    for number, body in enumerate(stepper.case.bodies.values()):
+        own = (stepper.body == number) & (stepper.free == 0)
+        if body.shape not in ROUND or not own.any():
+            continue
+        away = places[own] - mass[own] @ places[own] / mass[own].sum()
+        r = np.hypot(*away.T)[:, None]
+        x, y = np.divide(away, r, out=np.zeros_like(away), where=r > 0.0).T
+        xx, yy, _, xy = stress[own, :4].T
+        found[own] = xx * y**2 + yy * x**2 - 2.0 * xy * x * y
+    return found
 
 
 def outside(stepper) -> list[str]:

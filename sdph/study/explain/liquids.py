@@ -26,12 +26,8 @@ def numbers(s) -> list[tuple]:
     """(name, value, threshold, what lies above it, source)."""
     own, (across, _) = s.liquid, s.pull
     froude = s.speed / math.sqrt((across + s.shaken) * s.length) if across + s.shaken else math.inf
-    tension = s.case.parameters.get("surface_tension")
-    sigma = tension.coefficient if tension and hasattr(tension, "coefficient") else WATER
+    sigma, where = _tension(s.case)
     weber, bond = s.capillary(sigma)
-    where = (
-        "by its definition" if sigma is not WATER else "by its definition; surface tension of water, for want of one"
-    )
     cell = s.speed * s.case.smoothing_length / s.viscosity if s.viscosity else math.inf
     reynolds = s.speed * s.length / s.viscosity if s.viscosity else math.inf
     mach, crossings = s.speed / own.sound_speed, own.sound_speed * s.end / s.length
@@ -51,6 +47,16 @@ def numbers(s) -> list[tuple]:
         ratio = own.density / s.case.gas_phase.density
         rows.append(("density ratio", ratio, 1.0, "the gas yields to the liquid", "by its definition"))
     return rows
+
+
+def _tension(case) -> tuple[float, str]:
+    """Surface tension [N/m] of a case, of its bubble where it has no other, or that of water, and where it is from."""
+    own, bubble = (case.parameters.get(name) for name in ("surface_tension", "bubble"))
+    if own and hasattr(own, "coefficient"):
+        return own.coefficient, "by its definition"
+    if bubble and bubble.surface_tension:
+        return bubble.surface_tension, "by its definition; bubble.surface_tension_N_m"
+    return WATER, "by its definition; surface tension of water, for want of one"
 
 
 def ratios(s) -> list[dict]:

@@ -10,7 +10,7 @@ from sdph.effects.grains import conduction
 from sdph.laws.constants import ADIABATIC, GAS_CONSTANT
 from sdph.methods.grains import start, ways
 from sdph.methods.grains.scales import THIN
-from sdph.study.explain import droplets, eddies, estimate, liquids, lockstep, materials, mps, solids
+from sdph.study.explain import droplets, eddies, estimate, liquids, lockstep, materials, mps, solids, stages
 
 OF = {
     "liquid": liquids,
@@ -43,7 +43,8 @@ def explain(case, priced=None) -> dict[str, list[dict]]:
     found = {matter: _explain(case.only(matter), priced, shared) for matter in case.matters}
     for row in lockstep.contact_of(case):
         found["grains"]["limits"].append(row)
-    return {f"{part} ({matter})": rows for matter, parts in found.items() for part, rows in parts.items()}
+    told = {f"{part} ({matter})": rows for matter, parts in found.items() for part, rows in parts.items()}
+    return told | ({"stages": stages.rows(case)} if "time_scaling" in case.effects else {})
 
 
 def _explain(case, priced, shared=None) -> dict[str, list[dict]]:
