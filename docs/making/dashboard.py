@@ -56,7 +56,9 @@ def of_scene(name: str) -> str:
     own = records().get(name)
     if own is None:
         return f"No record yet: `sdph validate {name} --record validation/record` makes one."
-    return f"{_told(own)}\n\n{_limiters(own)}" + "".join(f"\n\nNot recorded: {lacking}." for lacking in [_listed(name, own)] if lacking)
+    return f"{_told(own)}\n\n{_limiters(own)}" + "".join(
+        f"\n\nNot recorded: {lacking}." for lacking in [_listed(name, own)] if lacking
+    )
 
 
 def lacking(name: str, own: dict) -> list[str]:
