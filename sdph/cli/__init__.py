@@ -202,9 +202,11 @@ def cost_of_accuracy(options) -> int:
 
 def compare_run(options) -> int:
     from sdph.running import output
+    from sdph.running.interruption import listening
     from sdph.study import against, compare
 
-    checks = against.compare(options.run, options.against, _say)
+    with listening():  # a signal ends OpenFOAM's programs too
+        checks = against.compare(options.run, options.against, _say)
     unlike = against.unlike(options.run, options.against)
     if options.json:
         print(output.strict_json({"checks": checks, "unlike": unlike}))

@@ -162,6 +162,11 @@ class Table:
     def write(self, row: dict) -> None:
         if not self.columns:
             self.name(tuple(row))
+        if strange := sorted(set(row) - set(self.columns)):
+            raise CaseError(
+                f"{self.file.name} has no column {strange[0]}: another build of sdph began it; run anew, or go on with "
+                "that build"
+            )
         csv.DictWriter(self.file, self.columns).writerow(row)
 
     def flush(self) -> None:

@@ -182,7 +182,7 @@ def _run(
 ) -> Reference:  # fmt: skip
     refuse_path(folder)
     known.refuse_no_output(case)
-    environment = _environment()
+    environment = _environment(solver)
     _clear(folder)
     made = start is not None or solver is DROPLETS  # from the files that all cases share
     _write(solver, case, folder, ranks, SHARED[solver.kind] if made else template(case, solver.kind), mesh)
@@ -190,7 +190,8 @@ def _run(
         (folder / "constant" / name).write_text(text, encoding="utf-8")
     begun = start.digest if start else digest_of_mesh(mesh)
     program = str(solver.off_boxes()) if mesh else solver.name  # stock is right on boxes alone
-    kept = shelf() / f"{key(folder, f'{program} {_made_with()} {begun}')}.npz"
+    made_with = [program, install.require().package, *(path.name for path in _libraries(solver)), begun]
+    kept = shelf() / f"{key(folder, ' '.join(made_with))}.npz"
     if kept.exists() and not again:
         return load(kept)
     for tool in () if mesh else ("blockMesh",) if start else solver.prepare:
@@ -246,26 +247,25 @@ def shelf() -> Path:
 
 def template(case: Case, kind: str) -> Path:
     """The folder of OpenFOAM files of a case's scene, of a kind."""
-    folder = TEMPLATES / case.scene / kind
-    if not case.scene or not folder.is_dir():
+    if not case.scene or not (folder := TEMPLATES / case.scene / kind).is_dir():
         raise CaseError(f"scene = {case.scene!r} has no OpenFOAM reference of kind {kind!r}")
     return folder
 
 
 def _macros(name: str, values: dict[str, str]) -> str:
-    """Text of a file of macros."""
     return HEAD.format(name=name) + "".join(f"{key} {value};\n" for key, value in values.items())
 
 
-def _environment() -> dict[str, str]:
-    """Environment of OpenFOAM's programs, in which they find the closures library."""
+def _environment(solver: Solver) -> dict[str, str]:
+    """Environment of OpenFOAM's programs, in which a solver finds its libraries."""
     variables = barrier.environment(libraries=True)
-    places = [str(install.two_fluid_closures().parent), *filter(None, [variables.get("LD_LIBRARY_PATH")])]
-    return variables | {"LD_LIBRARY_PATH": os.pathsep.join(places)}
+    places = [*map(str, _libraries(solver)), *filter(None, [variables.get("LD_LIBRARY_PATH")])]
+    return variables | ({"LD_LIBRARY_PATH": os.pathsep.join(places)} if places else {})
 
 
-def _made_with() -> str:
-    return f"{install.require().package} {install.two_fluid_closures().parent.name}"
+def _libraries(solver: Solver) -> list[Path]:
+    """Folders of the libraries of ours that a solver loads: two fluids our closures, droplets none."""
+    return [] if solver is DROPLETS else [install.two_fluid_closures().parent]
 
 
 def _read(solver: Solver, folder: Path, environment: dict[str, str], wall: float) -> Reference:

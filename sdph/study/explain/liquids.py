@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from sdph import effects
 from sdph.effects.around import drain
 from sdph.engine.state import LIQUID
@@ -104,6 +106,13 @@ def warnings(s) -> list[str]:
             "sound: it is torn out rather than drained; let drain.end_s be later, or the outlet wider "
             "(tank.outlet_radius_m)"
         )
+    if "drain" in s.case.effects and drain.speed(s.case) > (falls := _falls(s)) > 0.0:
+        unsafe.append(
+            f"the drain takes its liquid through the outlet at {drain.speed(s.case):.3g} m/s; by its weight it leaves "
+            f"at {falls:.3g} m/s at most in the end (Torricelli). It is pulled out by command, the pipe runs dry, and "
+            "pressures at the outlet are not those of a drain; let drain.end_s be later, or the outlet wider "
+            "(tank.outlet_radius_m)"
+        )
     if "drain" in s.case.effects and not s.case.parameters["tank"].outlet_radius:
         unsafe.append(
             "a tank without an outlet pipe gives up its lowest particles, wherever on its floor they are: pressures "
@@ -111,6 +120,17 @@ def warnings(s) -> list[str]:
             "tank.mesh with a pipe at its lowest point, closed at the end"
         )
     return unsafe
+
+
+def _falls(s) -> float:
+    """Speed [m/s] at which liquid leaves the outlet pipe by its weight when the drain ends, sqrt(2 g z), z the depth
+    left, as in a tank with upright sides, and the pipe; 0 where a frame moves, whose forces are others."""
+    case, wet = s.case, s.state.kind == LIQUID
+    if "frame" in case.effects or "gravity" not in case.effects or not wet.any():
+        return 0.0
+    up = (s.state.x, s.state.y, s.state.z)[case.dimensions - 1][wet]
+    left = (np.ptp(up) + case.resolution.spacing) * case.parameters["drain"].fill / drain.filled(case)
+    return math.sqrt(2.0 * math.hypot(*case.domain.gravity) * (left + case.parameters["tank"].outlet_length))
 
 
 def limits(s) -> list[dict]:

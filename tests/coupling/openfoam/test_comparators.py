@@ -165,7 +165,9 @@ def test_drag_of_the_closures_library_is_the_law(tmp_path, law, alpha_p):
     assert slope - 1.225 * 9.81 == pytest.approx(beta * slip / (1.0 - there), rel=5e-3)
 
 
-def test_droplets_come_in_evaporate_and_nothing_is_lost(tmp_path):
+def test_droplets_come_in_evaporate_and_nothing_is_lost(tmp_path, monkeypatch):
+    """They need nothing of what two fluids need."""
+    monkeypatch.setattr(install, "two_fluid_closures", lambda: pytest.fail("two fluids' library, of droplets"))
     case = cases.from_table({
         "title": "jet", "scene": "evaporating_jet", "dimensions": 2,
         "effects": ["inflow", "outflow", "drag", "gravity", "heat", "evaporation"],

@@ -215,6 +215,23 @@ def test_a_drain_that_tears_its_liquid_out_is_told_of(end, told):
     assert any("torn out rather than drained" in line for line in tables.warnings(case)) == told
 
 
+@pytest.mark.parametrize(("end", "told"), [(4.0, False), (1.8, True)])
+def test_a_drain_faster_than_liquid_falls_is_told_of(end, told):
+    """0.135 m2 through 40 mm within 3.5 or 1.3 s: 0.96 and 2.6 m/s, of sqrt(2 g (0.03 + 0.08 m)) = 1.47."""
+    case = cases.from_table({
+        "dimensions": 2, "effects": ["gravity", "density_diffusion", "liquid_damping", "tank", "drain"],
+        "run": {"end_time_s": 4.5, "output_interval_s": 0.5},
+        "domain": {"size_m": [0.5, 0.6], "gravity_m_s2": [0.0, -9.81]}, "resolution": {"spacing_mm": 10.0},
+        "liquid": {"density_kg_m3": 1000.0, "sound_speed_m_s": 25.0},
+        "tank": {"open_sides": ["top"], "outlet_radius_m": 0.02, "outlet_length_m": 0.08},
+        "drain": {"fill": 0.05, "start_s": 0.5, "end_s": end},
+        "pools": {"water": {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.5, 0.3]}},
+    })  # fmt: skip
+    (found,) = [line for line in tables.warnings(case) if "Torricelli" in line] or [""]
+    assert bool(found) == told
+    assert not told or ("2.6 m/s" in found and "1.47 m/s" in found)
+
+
 def test_a_bubble_has_the_surface_tension_that_its_case_gives():
     """0.025 N/m of the gel droplet, not that of water: twice the Weber number of 0.05 N/m."""
 
