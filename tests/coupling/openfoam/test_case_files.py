@@ -117,6 +117,14 @@ def test_patches_that_the_gas_has_not_are_refused(tmp_path, kind, says):
         case_files.others(case, tmp_path)
 
 
+def test_gas_templates_have_the_same_schemes_and_solvers():
+    """But for its mesh a scene's gas is that of all: what is right off boxes is in each of them."""
+    found = [folder for folder in sorted(TEMPLATE.parents[1].glob("*/gas")) if folder != TEMPLATE]
+    assert len(found) >= 3
+    for file in (path.relative_to(TEMPLATE) for path in TEMPLATE.rglob("*") if path.is_file()):
+        assert [folder for folder in found if (folder / file).read_bytes() != (TEMPLATE / file).read_bytes()] == []
+
+
 def test_own_files_of_a_template_win(tmp_path):
     shutil.copytree(TEMPLATE, tmp_path / "template")
     for own in ("system/blockMeshDict", "0/T"):
