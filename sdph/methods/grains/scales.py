@@ -105,8 +105,7 @@ class Scales:
     @cached_property
     def still_heat_time(self) -> float:
         """Time [s] in which still gas among grains takes their temperature."""
-        nusselt = heat.gunn(1.0 - self.alpha_p, 0.0, self.prandtl)
-        eps = 6.0 * nusselt * self.gas.conductivity / self.grains.diameter**2
+        eps = 6.0 * self.nusselt_at(0.0) * self.gas.conductivity / self.grains.diameter**2
         return self.grains.density * self.grains.heat_capacity / eps / self.heat_loading
 
     def damping(self, alpha_p: float, slip: float) -> float:
@@ -137,7 +136,11 @@ class Scales:
 
     @cached_property
     def nusselt(self) -> float:
-        return heat.gunn(1.0 - self.alpha_p, self.reynolds, self.prandtl)
+        return self.nusselt_at(self.reynolds)
+
+    def nusselt_at(self, reynolds: float) -> float:
+        own = self.case.parameters.get("heat")  # Gunn's where no heat is exchanged
+        return getattr(heat, own.law if own else "gunn")(1.0 - self.alpha_p, reynolds, self.prandtl)
 
     @cached_property
     def heat_time(self) -> float:

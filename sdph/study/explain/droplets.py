@@ -6,6 +6,7 @@ import math
 
 from sdph.effects.gas import evaporation
 from sdph.laws import evaporation as law
+from sdph.laws import heat
 from sdph.laws.constants import GAS_CONSTANT
 
 # law of evaporation -> what B of heat above its threshold means
@@ -13,6 +14,8 @@ OF_HEAT = {
     "linear": "vapour would hold back heat, which law = 'linear' leaves out; take 'spalding'",
     "spalding": "vapour holds back some of the heat on its way",
 }
+# vapour goes by Ranz & Marshall's Sherwood number whatever the law of heat is
+WARM = "more heat than fits to the vapour: the wet bulb is too hot; heat.law = 'ranz_marshall' for few droplets"
 
 
 def numbers(s) -> list[tuple]:
@@ -35,6 +38,9 @@ def numbers(s) -> list[tuple]:
         (mass, heat_number, spent), own = spalding(s), s.case.parameters["evaporation"]
         rows.append(("Spalding B of mass", mass, 0.1, "the vapour's own outflow slows evaporation", "Spalding 1953"))
         rows.append(("Spalding B of heat", heat_number, 0.1, OF_HEAT[own.law], "Spalding 1953"))
+        if "heat" in s.case.parameters:
+            ratio = s.nusselt / heat.ranz_marshall(1.0 - s.alpha_p, s.reynolds, s.prandtl)
+            rows.append(("Nusselt / Ranz & Marshall's", ratio, 1.1, WARM, "Ranz & Marshall 1952"))
         rows.append(("run / evaporation time", spent, 1.0, "droplets are gone", "d2 law, Spalding 1953"))
         dry = "those that meet a wall stay droplets: there is no film, splash or sticking"
         rows.append(("way of droplets / gap to a wall", s.to_walls.over_gap, 1.0, dry, "geometry"))

@@ -183,9 +183,11 @@ def test_numbers_of_droplets_by_hand():
     fraction = 1329.0 / 101325.0 * 142.284 / (1329.0 / 101325.0 * 142.284 + (1.0 - 1329.0 / 101325.0) * 28.96)
     assert rows["Spalding B of mass"]["value"] == pytest.approx(fraction / (1.0 - fraction), rel=1e-3)
     assert "take 'spalding'" in rows["Spalding B of heat"]["meaning"]
+    assert rows["Nusselt / Ranz & Marshall's"]["value"] > 1.1  # Gunn's, among droplets of 60 %
     own = cases.load(scenes.find("spray_cone")[1])  # Spalding's law
     sprayed = rows_by(tables.explain(own)["numbers"], "number")
     assert "take" not in sprayed["Spalding B of heat"]["meaning"]
+    assert sprayed["Nusselt / Ranz & Marshall's"]["value"] == 1.0
     assert "no film" in sprayed["way of droplets / gap to a wall"]["meaning"]
     assert not any(
         name.startswith("Spalding") for name in rows_by(tables.explain(cases.load(BED))["numbers"], "number")
