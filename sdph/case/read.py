@@ -140,7 +140,7 @@ def place(table: dict, key: str, told: str) -> tuple[dict, str]:
 
 def from_table(table: dict) -> Case:
     """The case of a parsed TOML table."""
-    table = fluids.filled(moving.taken_over(table))
+    table = fluids.filled(_decided(moving.taken_over(table)))
     head = {"title", "scene", "dimensions", "effects", "coupling", "vapour", "track", *METHODS}
     for key in table:
         if key not in head | SECTIONS.keys() | GROUPS.keys() | effects.REGISTRY.keys():
@@ -225,8 +225,6 @@ def _refuse_names(on: list[str]) -> None:
 
 def _effects(table: dict) -> tuple[str, ...]:
     on = table.get("effects", [])
-    if on == "auto":
-        return _automatic(table)
     if not isinstance(on, list) or not all(isinstance(name, str) for name in on):
         raise CaseError(f"effects = {on!r}; it must be a list of names out of {', '.join(sorted(effects.REGISTRY))}")
     _refuse_names(on)
@@ -237,9 +235,20 @@ def _effects(table: dict) -> tuple[str, ...]:
     return tuple(on)
 
 
+def _decided(table: dict) -> dict:
+    """The table of a case with the effects that it calls for in the place of "auto", and no section of another."""
+    if table.get("effects") != "auto":
+        return table
+    on = _automatic(table)
+    return {key: own for key, own in table.items() if key not in effects.REGISTRY or key in on} | {"effects": [*on]}
+
+
 def _automatic(table: dict) -> tuple[str, ...]:
-    """The effects that a case calls for, and those that cannot judge themselves but have a section."""
-    given = [name for name in effects.REGISTRY if name in table]
+    """The effects that a case calls for, and those that cannot judge themselves but have a section. Droplets of a fluid
+    that is named can evaporate: it has all that evaporation asks for."""
+    grains = table.get("grains")
+    boils = ("evaporation",) if isinstance(grains, dict) and grains.get("fluid") else ()
+    given = [name for name in effects.REGISTRY if name in table or name in boils]
     bare = table | {"effects": given}
     if isinstance(table.get("run"), dict):  # walls that forces are asked of may not be there yet
         bare |= {"run": {key: value for key, value in table["run"].items() if key != "forces"}}

@@ -45,6 +45,18 @@ def test_air_and_water_are_as_in_tables():
         assert saturation_antoine(temperature, boils.antoine) == pytest.approx(pressure, rel=0.005)
 
 
+def test_droplets_by_name_evaporate_where_effects_are_chosen():
+    """In hot dry air for 10 s, with or without a section that says how."""
+    hot = {"gas": {"fluid": "air", "temperature_K": 450.0}, "run": {"end_time_s": 10.0, "output_interval_s": 1.0}}
+    for section in ({}, {"evaporation": {"law": "linear"}}):
+        own = droplet(**hot) | {"effects": "auto"}
+        del own["evaporation"]
+        case = cases.from_table(own | section)
+        assert {"heat", "evaporation"} <= set(case.effects)
+        assert case.parameters["evaporation"].latent_heat == pytest.approx(2.41e6, rel=0.02)
+        assert cases.from_table(cases.to_table(case)) == case
+
+
 @pytest.mark.parametrize(
     ("gas", "vapour", "latent"),
     [(24.9, 0.0, 2.4827e6), (115.0, 0.0, 2.4165e6), (221.0, 0.0, 2.3770e6), (30.0, 0.01325, 2.4488e6)],
