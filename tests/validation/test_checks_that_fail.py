@@ -75,7 +75,9 @@ def test_the_jet_is_held_to_at_the_first_time_too(monkeypatch):
     monkeypatch.setattr(jet.figures, "histories", lambda *given: None)
     monkeypatch.setattr(jet.figures, "fields", lambda *given: None)
     metrics = {name: np.full(5, value) for name, value in row.items()} | {"time_s": np.array([0.0, *times])}
-    checks = jet.tfm(told("granular_jet", 0.2, ["run.output_interval_s=0.05"], metrics=metrics))
+    summary = {"gas_numerical_work_rel": 0.01}
+    *checks, work = jet.tfm(told("granular_jet", 0.2, ["run.output_interval_s=0.05"], summary=summary, metrics=metrics))
+    assert work["ok"] and work["tolerance"] == 0.02
     assert [check["name"][-6:] for check in checks] == 3 * ["0.05 s", "0.10 s", "0.15 s", "0.20 s"]
     assert all(check["ok"] for check in checks)
 
@@ -249,10 +251,10 @@ def test_a_jet_that_does_not_fall_or_evaporate_has_missed(monkeypatch, sag, evap
     with_outputs(monkeypatch, [0.0, 0.05])
     told_of = {"front_m": 0.48, "sag_m": 0.2 * sag, "core_temperature_K": 294.0, "vapour_mass_fraction_max": 0.01}
     metrics = {name: np.full(2, value) for name, value in told_of.items()} | {"time_s": np.array([0.0, 0.05])}
-    summary = {"evaporated_kg": evaporated, "injected_kg": 1.0}
+    summary = {"evaporated_kg": evaporated, "injected_kg": 1.0, "gas_numerical_work_rel": 0.0}
     run = told("evaporating_jet", 0.05, summary=summary, metrics=metrics)
     checks = compare.scene_module("evaporating_jet").exact(run)
-    assert [check["name"] for check in checks if not check["ok"]] == missed and len(checks) == 7
+    assert [check["name"] for check in checks if not check["ok"]] == missed and len(checks) == 8
 
 
 def test_no_check_of_the_jet_stands_in_the_record_twice():
