@@ -7,7 +7,8 @@ import math
 import numpy as np
 
 from sdph import effects
-from sdph.effects.around import drain
+from sdph.case import fluids
+from sdph.effects.around import drain, tank
 from sdph.engine.state import LIQUID
 from sdph.methods.liquids import bodies
 from sdph.methods.liquids.bounds import limits as limits_of_step
@@ -15,6 +16,7 @@ from sdph.methods.liquids.liquid import SLOW
 from sdph.study.explain import estimate, feed
 
 WATER = 0.0728  # N/m, of water in air at 20 C (IAPWS R1-76): for the Weber and Bond numbers of a case that gives none
+DAMPED = "what damps waves is the program's artificial viscosity, and not the liquid's"
 
 
 def explain(s, shared=None) -> dict[str, list]:
@@ -45,6 +47,11 @@ def numbers(s) -> list[tuple]:
         ("boundary layer, sqrt(nu t)/L", s.layer, 0.01, "walls slow the liquid", "Schlichting 1979, ch. 5"),
         ("crossings of sound, c t/L", crossings, 1.0, "noise has time to go to and fro", "Marrone et al. 2011"),
     ]
+    damping = s.case.parameters.get("liquid_damping")
+    if damping and damping.model == "linear":
+        viscosity = damping.alpha * s.case.smoothing_length * own.sound_speed / (2.0 * (s.case.dimensions + 2.0))
+        ratio = viscosity * own.density / own.viscosity if own.viscosity else math.inf
+        rows.append(("viscosity of damping / the liquid's", ratio, 1.0, DAMPED, "Monaghan 2005, Rep. Prog. Phys. 68"))
     if s.case.gas_phase:
         ratio = own.density / s.case.gas_phase.density
         rows.append(("density ratio", ratio, 1.0, "the gas yields to the liquid", "by its definition"))
@@ -58,6 +65,9 @@ def _tension(case) -> tuple[float, str]:
         return own.coefficient, "by its definition"
     if bubble and bubble.surface_tension:
         return bubble.surface_tension, "by its definition; bubble.surface_tension_N_m"
+    if case.liquid.fluid and case.liquid.fluid_temperature:
+        named = fluids.Fluid(case.liquid.fluid, "liquid")
+        return named.at("I", T=case.liquid.fluid_temperature, Q=0.0), f"by its definition; of {case.liquid.fluid}"
     return WATER, "by its definition; surface tension of water, for want of one"
 
 
@@ -93,8 +103,13 @@ def warnings(s) -> list[str]:
     if fastest > SLOW * c:
         fast = f"the liquid may reach {fastest:.3g} m/s, {fastest / c:.2g} of its speed of sound"
         unsafe.append(f"{fast}: raise liquid.sound_speed_m_s from {c:g} to {10.0 * fastest:.3g}")
-    layer, tank = s.layer * s.length, s.case.parameters.get("tank")
-    if "frame" in s.case.effects and tank and tank.slip == "no_slip" and 0.0 < layer < s.case.resolution.spacing:
+    layer, around = s.layer * s.length, s.case.parameters.get("tank")
+    if around and around.shape == "box" and around.outlet_radius and _above(s, tank.corners(s.case)[0][-1]):
+        unsafe.append(
+            "the outlet pipe begins empty: liquid falls into it at the start, drain or no drain; give a pool "
+            'shape = "tank", which fills the pipe too'
+        )
+    if "frame" in s.case.effects and around and around.slip == "no_slip" and 0.0 < layer < s.case.resolution.spacing:
         unsafe.append(
             f"the layer that a wall drags along, sqrt(nu t) = {1e3 * layer:.3g} mm, is thinner than the spacing: "
             "friction at walls, and how soon the liquid turns with its tank, are then the numerics', tens of times too "
@@ -120,6 +135,12 @@ def warnings(s) -> list[str]:
             "tank.mesh with a pipe at its lowest point, closed at the end"
         )
     return unsafe
+
+
+def _above(s, floor: float) -> bool:
+    """True where there is liquid, and all of it above a floor [m]."""
+    up = (s.state.x, s.state.y, s.state.z)[s.case.dimensions - 1][s.state.kind == LIQUID]
+    return len(up) > 0 and up.min() > floor
 
 
 def _falls(s) -> float:
