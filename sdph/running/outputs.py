@@ -48,13 +48,18 @@ class Outputs:
             self._write()
 
     def close(self) -> None:
-        for table in (self.history, self.metrics, *self.simulation.tables()):
+        for table in self._tables():
             table.close()
+
+    def _tables(self) -> tuple:
+        return self.history, self.metrics, *self.simulation.tables()
 
     def _write(self) -> None:
         self.fields.write(self.simulation.time, self.simulation.meshes())
         self.rows.append(metrics.row(self.simulation))
         self.metrics.write(self.rows[-1])
+        for table in self._tables():  # who looks at a run that goes on sees all up to its last output
+            table.flush()
 
     def summary(self) -> dict:
         """summary.json, less the wall time of the whole."""

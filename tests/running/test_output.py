@@ -1,5 +1,6 @@
 """The run folder: refused or made whole, and read back as it was written."""
 
+import contextlib
 import dataclasses
 import json
 import os
@@ -12,8 +13,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sdph.engine.table import Table
-from sdph.running import output
+from sdph.running import driver, output
 from sdph.running.fields import Fields
+from sdph.running.outputs import Outputs
+from sdph.running.progress import Reporter
 from sdph.schema import CaseError
 from sdph.show import timeline, view
 
@@ -182,6 +185,21 @@ def test_a_slab_is_drawn_where_it_is(low, deep):
     ends = [value for start, length in zip(low, (0.06, 0.09, deep)) for value in (start, start + length)]
     np.testing.assert_allclose(grid.bounds, ends, atol=1e-12)
     np.testing.assert_allclose(grid.cell_centers().points, mesh.centres[order], atol=1e-12)
+
+
+def test_a_run_that_goes_on_has_its_rows_on_the_disk_up_to_the_last_output(tmp_path, monkeypatch):
+    written, found = Outputs._write, []
+
+    def looked_at(outputs):
+        written(outputs)
+        names = ("metrics.csv", "history.csv", "ledger.csv")
+        found.append([len((tmp_path / "run" / name).read_text().splitlines()) - 1 for name in names])
+
+    monkeypatch.setattr(Outputs, "_write", looked_at)
+    with contextlib.closing(Reporter(line=False)) as reporter:
+        driver.run(disc(*SHORT), "disc_cluster", tmp_path / "run", None, reporter)
+    assert [rows[0] for rows in found] == list(range(1, len(found) + 1)) and len(found) > 1
+    assert all(history >= 1 and ledger >= 1 for _, history, ledger in found)
 
 
 def test_a_run_that_begins_again_keeps_none_of_its_tables(tmp_path):
