@@ -13,7 +13,7 @@ from pathlib import Path
 from sdph.study.explain import tables
 from sdph.study.stress import suite
 
-CAREFUL = 5.0  # times: a limit that could be more than that larger is too careful (issue)
+CAREFUL = 2.0  # times: a limit that could be more than that larger is too careful (issue 18)
 
 
 @dataclass(frozen=True)
