@@ -65,8 +65,19 @@ def test_index_of_laws_that_are_known():
 def test_an_index_outside_its_bar_is_told(tmp_path, monkeypatch, off, ok):
     liquid = validate.part(validate.EXPERIMENTS, "liquid_fluidisation")
     known = {row["Re"]: row["n0"] for row in liquid.measured.table("richardson_zaki_1954")}
-    monkeypatch.setattr(liquid, "index", lambda law, Re: known[Re] + off)
-    assert verdicts(liquid.checks(tmp_path)) == [ok] * 8
+    monkeypatch.setattr(liquid, "index", lambda law, Re: known.get(Re, 0.0) + off)
+    assert verdicts(liquid._without_walls(tmp_path)) == [ok] * 8
+
+
+@pytest.mark.parametrize(("off", "ok"), [(0.0, True), (0.14, True), (0.16, False), (-0.16, False)])
+def test_an_index_of_a_bed_outside_its_bar_is_told(monkeypatch, off, ok):
+    """Beds of one sphere in tubes of two widths have one Reynolds number: here each has one of its own."""
+    liquid = validate.part(validate.EXPERIMENTS, "liquid_fluidisation")
+    rows = liquid.measured.table("richardson_zaki_beds_1954")
+    assert len(rows) == 29
+    numbers = iter(np.tile(rows["n"] + off, 4))
+    monkeypatch.setattr(liquid, "index", lambda law, Re: next(numbers))
+    assert verdicts(liquid._of_beds()) == [ok] * 8
 
 
 def balance(row, water) -> tuple[float, float]:
@@ -155,7 +166,7 @@ def test_what_was_measured_is_not_overridden(tmp_path, capsys):
 def test_one_part_of_a_study_is_run_alone(tmp_path):
     """Laws alone, its figure; what is run by its name only is known too."""
     checks = validate.validate("experiments.liquid_fluidisation", (), QUIET, tmp_path)
-    assert {check["name"].partition(",")[0] for check in checks} == {"index n"}
+    assert {check["name"].partition(",")[0] for check in checks} == {"index n", "index n of beds"}
     assert [path.name for path in tmp_path.iterdir()] == ["liquid_fluidisation.png"]
     with pytest.raises(CaseError, match=r"experiments.nothing: experiments has no such part; it has: .*drop_spread"):
         validate.validate("experiments.nothing", (), QUIET, tmp_path)

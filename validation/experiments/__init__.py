@@ -37,7 +37,8 @@ MEASURED = {
     "experiments": {
         "friction": ("Ergun 1952", "friction of packed beds", "runs"),
         "U_mf": ("Geldart 1973", "minimum fluidisation of powders", "laws"),
-        "index n": ("Richardson & Zaki 1954", "index of liquid fluidisation", "laws"),
+        "index n,": ("Richardson & Zaki 1954", "index of liquid fluidisation", "laws"),
+        "index n of beds": ("Richardson & Zaki 1954", "index of liquid fluidisation, bed by bed", "laws"),
         "drop's rate": ("Ranz & Marshall 1952", "rate of evaporation of water drops", "runs"),
         "drop's temperature": ("Ranz & Marshall 1952", "wet bulb of water drops", "runs"),
         "heptane": ("Nomura et al. 1996", "d^2 of heptane drops in hot nitrogen", "runs"),

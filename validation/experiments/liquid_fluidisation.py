@@ -39,7 +39,24 @@ def index(law, reynolds: float) -> float:
 
 
 def checks(folder: Path, overrides=(), reporter=None) -> list[dict]:
-    """Checks of each law over all Reynolds numbers."""
+    """Checks of each law over all Reynolds numbers: n without walls (table VI), and of each bed (tables III, IV)."""
+    return [*_without_walls(folder), *_of_beds()]
+
+
+def _of_beds() -> list[dict]:
+    """Checks against the 29 beds, each at the Reynolds number of its own lone sphere; their tubes are in what was
+    measured."""
+    rows = measured.table("richardson_zaki_beds_1954")
+    labels = [f"{row['particle']} in {row['liquid']}, D = {1e3 * row['D_m']:.0f} mm" for row in rows]
+    return [
+        row
+        for name in LAWS
+        for ours in [np.array([index(getattr(drag, name), Re) for Re in rows["Re0"]])]
+        for row in measured.differences(f"index n of beds, {name}", ours, rows["n"], labels, BAR)
+    ]
+
+
+def _without_walls(folder: Path) -> list[dict]:
     rows = measured.table("richardson_zaki_1954")
     ours = {name: np.array([index(getattr(drag, name), Re) for Re in rows["Re"]]) for name in LAWS}
     with measured.figure(folder / "liquid_fluidisation.png", "Re of the lone sphere [-]", "n [-]") as axes:
