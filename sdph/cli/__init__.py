@@ -185,9 +185,10 @@ def _say(text: str) -> None:
 
 
 def cost_of_accuracy(options) -> int:
+    from sdph import scenes
     from sdph.study.cost import climb, errors, ladder, report
 
-    folder = options.out or Path("runs/cost") / options.scene
+    folder = options.out or Path("runs/cost") / scenes.find(options.scene)[0]
     found = errors.judged(
         ladder.declared(options.scene),
         climb.climb(

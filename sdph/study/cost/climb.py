@@ -15,10 +15,11 @@ from pathlib import Path
 
 from coupling.gas import GasError
 from coupling.openfoam.programs import install
+from sdph import scenes
 from sdph.engine.guard import Unstable
 from sdph.running import driver
 from sdph.running.progress import Reporter
-from sdph.schema import CaseError
+from sdph.schema import CaseError, unknown
 from sdph.study import compare
 from sdph.study.cost import rows as measured_rows
 from sdph.study.cost.ladder import ALL, Ladder, case_of, declared, rungs
@@ -74,7 +75,8 @@ def measure(scene: str, own: Ladder, settings: dict, repeats: int) -> dict:
 
 
 def _run(case, scene: str, folder: Path) -> dict:
-    return driver.run(case, scene, folder, None, Reporter(quiet=True))
+    name, file = scenes.find(scene)
+    return driver.run(case, name, folder, driver.template_of(case, name, file), Reporter(quiet=True))
 
 
 def _machine(repeats: int) -> dict:
@@ -93,6 +95,10 @@ def metrics(scene: str, own: Ladder, folder: Path, without: str) -> dict:
     run = compare.open_run(folder)
     if not own.metrics:
         return compare.scene_module(scene).metrics(run)
+    if without == ALL and (lacking := [name for name in own.metrics if name not in run.summary]):
+        raise CaseError(
+            f"{scene}: metrics of its ladder: {unknown(lacking[0], run.summary)}; it is not in summary.json"
+        )
     made = run.summary if without == ALL else defaultdict(float, run.summary)
     return {name: (made[name], None, None) for name in own.metrics}
 

@@ -1,4 +1,5 @@
-"""The settings that a scene is measured with. validation/<scene>/cost.toml declares them:
+"""The settings that a scene is measured with. validation/<scene>/cost.toml declares them, or for a case of one's own a
+cost.toml beside its case.toml, of which [knobs] and metrics are enough:
 
     reference = "..."   what the metrics' shares are taken from; errors are distances from the limit of the
                         ladder itself (`sdph.study.cost.converged`)
@@ -18,14 +19,18 @@ of half the size.
 
 from __future__ import annotations
 
+import difflib
 import tomllib
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
+from pathlib import Path
 
 from sdph import scenes
 from sdph.case import read as cases
+from sdph.running import vessel
 from sdph.scenes import paths
-from sdph.schema import CaseError, flat
+from sdph.schema import CaseError, flat, unknown
 
+LEVELS = 3  # of a ladder of one's own: an order takes three
 ALL = "-"  # in the column `without`: no effect is left out
 
 
@@ -33,8 +38,8 @@ ALL = "-"  # in the column `without`: no effect is left out
 class Ladder:
     """Settings of validation/<scene>/cost.toml; `usual`: what the scene has for the keys of `alone`."""
 
-    reference: str
     knobs: dict
+    reference: str = "Richardson's limit of the ladder"
     settings: list = field(default_factory=list)
     excerpt: list = field(default_factory=list)
     drop: list = field(default_factory=list)
@@ -72,15 +77,44 @@ class Ladder:
 
 
 def declared(scene: str) -> Ladder:
-    """The ladder that a scene declares."""
-    file = paths.data("validation") / scene / "cost.toml"
-    if scene not in scenes.names() or not file.is_file():
+    """The ladder of a scene, or of a case of one's own by its folder or file."""
+    name, case = scenes.find(scene)
+    shipped = scenes.HERE in case.resolve().parents
+    file = (paths.data("validation") / name if shipped else case.parent) / "cost.toml"
+    if not file.is_file():
         raise CaseError(
-            f"{scene} declares no ladder (validation/{scene}/cost.toml); scenes that do: {', '.join(with_ladder())}"
+            f'{scene} declares no ladder; give {file} with [knobs], such as "resolution.spacing_mm" = [20.0, 14.1, '
+            f"10.0], and metrics, a list of keys of summary.json; scenes that have one: {', '.join(with_ladder())}"
         )
-    table = tomllib.loads(file.read_text(encoding="utf-8"))
-    resolved = flat(cases.to_table(cases.load(scenes.find(scene)[1], tuple(table.get("settings", ())))))
+    table = _read(file) if shipped else _checked(_read(file), file)
+    resolved = flat(cases.to_table(vessel.load(case, tuple(table.get("settings", ())))))
+    strange = [key for key in (*table["knobs"], *table.get("alone", ())) if key not in resolved]
+    if strange:
+        near = difflib.get_close_matches(strange[0], resolved, n=1)
+        hint = f"; did you mean {near[0]}?" if near else ""
+        raise CaseError(f"{file}: the case has no key {strange[0]}{hint}")
     return Ladder(**table, usual={key: resolved[key] for key in table.get("alone", ())})
+
+
+def _read(file: Path) -> dict:
+    try:
+        return tomllib.loads(file.read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise CaseError(f"{file}: {error}") from None
+
+
+def _checked(table: dict, file: Path) -> dict:
+    """The table of a ladder of one's own, with all that one has."""
+    known = {own.name for own in fields(Ladder)} - {"usual"}
+    for key in table.keys() - known:
+        raise CaseError(f"{file}: {unknown(key, known)}")
+    knobs, metrics = table.get("knobs"), table.get("metrics")
+    levels = list(knobs.values()) if isinstance(knobs, dict) else []
+    if not levels or not all(isinstance(own, list) and len(own) == len(levels[0]) >= LEVELS for own in levels):
+        raise CaseError(f"{file}: [knobs] must hold lists of one length, of {LEVELS} values or more, coarse to fine")
+    if not isinstance(metrics, list) or not metrics or not all(isinstance(own, str) for own in metrics):
+        raise CaseError(f"{file}: metrics must be a list of keys of summary.json, what errors are told of")
+    return table
 
 
 def with_ladder() -> list[str]:
@@ -105,7 +139,7 @@ def overrides(settings: dict) -> tuple[str, ...]:
 def case_of(scene: str, own: Ladder, settings: dict, *more: str) -> cases.Case:
     """The case of a rung."""
     table = cases.to_table(
-        cases.load(scenes.find(scene)[1], (*own.settings, *own.excerpt, *overrides(settings), *more))
+        vessel.load(scenes.find(scene)[1], (*own.settings, *own.excerpt, *overrides(settings), *more))
     )
     if settings["without"] != ALL:
         table["effects"] = [name for name in table["effects"] if name != settings["without"]]

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from sdph import scenes
 from sdph.case import judge
-from sdph.case import read as cases
 from sdph.laws.constants import TINY
+from sdph.running import vessel
 from sdph.study.cost import errors
 from sdph.study.cost import rows as measured_rows
 from sdph.study.cost.ladder import ALL, declared
@@ -86,7 +86,7 @@ def prices(own, rows: list[dict], metric: str) -> dict:
 def without(scene: str, rows: list[dict]) -> list[dict]:
     """Measured change of the metrics when an effect is left out, beside its estimate."""
     own = declared(scene)
-    judged = judge.judgements(cases.load(scenes.find(scene)[1], (*own.settings, *own.excerpt)))
+    judged = judge.judgements(vessel.load(scenes.find(scene)[1], (*own.settings, *own.excerpt)))
     middle = next((row for row in rows if measured_rows.has(row, own.middle)), None)
     found = []
     for row in rows if middle else ():
