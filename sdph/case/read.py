@@ -6,6 +6,7 @@ unknown key, a bad value or a section of an effect that is off is a `CaseError`.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 import tomllib
@@ -239,16 +240,32 @@ def _decided(table: dict) -> dict:
     """The table of a case with the effects that it calls for in the place of "auto", and no section of another."""
     if table.get("effects") != "auto":
         return table
-    on = _automatic(table)
+    return _with_effects(table, _automatic(table))
+
+
+def _with_effects(table: dict, on: tuple[str, ...]) -> dict:
     return {key: own for key, own in table.items() if key not in effects.REGISTRY or key in on} | {"effects": [*on]}
 
 
 def _automatic(table: dict) -> tuple[str, ...]:
     """The effects that a case calls for, and those that cannot judge themselves but have a section. Droplets of a fluid
-    that is named can evaporate: it has all that evaporation asks for."""
+    that is named can evaporate, by heat from the gas: it has all that evaporation asks for, unless the case has what
+    evaporation does not go with."""
     grains = table.get("grains")
-    boils = ("evaporation",) if isinstance(grains, dict) and grains.get("fluid") else ()
-    given = [name for name in effects.REGISTRY if name in table or name in boils]
+    if isinstance(grains, dict) and isinstance(grains.get("fluid"), str) and grains["fluid"]:
+        with contextlib.suppress(CaseError):
+            on = _called(table, ("evaporation",))
+            on += ("heat",) * ("evaporation" in on and "heat" not in on)
+            case = from_table(_with_effects(table, on))
+            for name in case.effects:
+                effects.kernel_of(effects.REGISTRY[name], case)
+            return on
+    return _called(table, ())
+
+
+def _called(table: dict, more: tuple[str, ...]) -> tuple[str, ...]:
+    """The effects that a case calls for among all that have a section or need none, and `more`."""
+    given = [name for name in effects.REGISTRY if name in table or name in more]
     bare = table | {"effects": given}
     if isinstance(table.get("run"), dict):  # walls that forces are asked of may not be there yet
         bare |= {"run": {key: value for key, value in table["run"].items() if key != "forces"}}

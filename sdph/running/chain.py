@@ -105,5 +105,5 @@ def _row(name: str, before, after, lost: float) -> dict:
     left = math.fsum([*before, -lost, *(-after)])
     return {
         "quantity": name, "drops": math.fsum(before), "particles": math.fsum(after), "lost": lost,
-        "difference_rel": left / math.fsum(abs(before)),
+        "difference_rel": left / math.fsum(abs(before)),  # of what closes by definition, of diameters, round-off
     }  # fmt: skip

@@ -167,7 +167,7 @@ class Hastened(Together):
         missing = liquid.sums["numerical_work_J"] + solid.sums["numerical_work_J"]
         given = abs(liquid.sums["work_of_bubble_J"])
         return {
-            "mass_drift_rel": abs(gel + void.mass + void.vented - void.owed - first) / first,
+            "whole_mass_drift_rel": abs(gel + void.mass + void.vented - void.owed - first) / first,
             "energy_drift_rel": abs(missing) / given if given else 0.0,
         }
 

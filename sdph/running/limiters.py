@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from sdph.engine.kept import Named
 
+RESIDUALS = ("gas_splitting_rel",)  # told beside limiters, of what a step leaves; nothing is held
 LARGEST = "largest_"  # how keys of the summary begin
 
 
@@ -29,4 +30,4 @@ class Limiters:
 def acted(summary: dict) -> dict[str, float]:
     """The largest of the run of each limiter that acted in it, by column of history.csv."""
     told = {key.removeprefix(LARGEST): value for key, value in summary.items() if key.startswith(LARGEST)}
-    return {column: value for column, value in told.items() if value}
+    return {column: value for column, value in told.items() if value and column not in RESIDUALS}

@@ -5,7 +5,7 @@ import tomllib
 
 import pytest
 
-from sdph import scenes
+from sdph import effects, scenes
 from sdph.case import fluids, usual
 from sdph.case import read as cases
 from sdph.laws import diffusion
@@ -55,6 +55,24 @@ def test_droplets_by_name_evaporate_where_effects_are_chosen():
         assert {"heat", "evaporation"} <= set(case.effects)
         assert case.parameters["evaporation"].latent_heat == pytest.approx(2.41e6, rel=0.02)
         assert cases.from_table(cases.to_table(case)) == case
+
+
+def test_evaporation_that_is_chosen_has_what_it_needs(monkeypatch):
+    """At equal temperatures heat is of no account by itself, and the wet bulb takes it; a case that has what does not
+    go with evaporation, or a fluid of which something is not known, is as it was."""
+    level = {"gas": {"fluid": "air", "temperature_K": 293.15}, "run": {"end_time_s": 10.0, "output_interval_s": 1.0}}
+    own = droplet(**level) | {"effects": "auto"}
+    del own["evaporation"]
+    case = cases.from_table(own)
+    assert {"heat", "evaporation"} <= set(case.effects)
+    for name in case.effects:
+        effects.kernel_of(effects.REGISTRY[name], case)
+
+    def unknown(fluid):
+        raise CaseError("no diffusion volume")
+
+    monkeypatch.setattr(fluids.Fluid, "diffusion_volume", unknown)
+    assert "evaporation" not in cases.from_table(own).effects
 
 
 @pytest.mark.parametrize(

@@ -54,7 +54,7 @@ def tfm(run) -> list[dict]:
     figures.metrics(run, times, own, other)
     figures.fields(run, reference, [t for t in SHOWN if t <= times[-1]])
     found = [*_checks(times, own, other), *_bubble_checks(growing, times, own, other)]
-    return [*found, *_finer(run, growing, times, own), work_of_gas(run.summary)]
+    return [*found, *_finer(run, growing, times, own), *work_of_gas(run.summary)]
 
 
 def _finer(run, growing, times, own) -> list[dict]:

@@ -112,7 +112,7 @@ def bounds(run, times) -> list[dict]:
         )
     share, what = run.summary["evaporated_kg"] / run.summary["injected_kg"], "share of the liquid that evaporated"
     checks += [some(f"sag [m] at {t:g} s", run.metric("sag_m", t)) for t in times[-1:]]
-    return [*checks, at_most(what, share, 0.0025), some(what, share), work_of_gas(run.summary)]
+    return [*checks, at_most(what, share, 0.0025), some(what, share), *work_of_gas(run.summary)]
 
 
 def saturated(case) -> float:

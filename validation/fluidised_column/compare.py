@@ -44,7 +44,7 @@ def resting(run) -> list[dict]:
         check(
             "pressure drop at rest [Pa], Ergun", late["pressure_drop_Pa"].mean(), late["ergun_Pa"].mean(), PACKED, True
         ),
-        work_of_gas(run.summary),
+        *work_of_gas(run.summary),
     ]
 
 

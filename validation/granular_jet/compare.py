@@ -41,7 +41,7 @@ def tfm(run) -> list[dict]:
         for key in names
         for time in asked
         for k in (run.output_at(times, time),)
-    ] + [work_of_gas(run.summary)]
+    ] + work_of_gas(run.summary)
 
 
 def with_rise(row: dict, start: float) -> dict:

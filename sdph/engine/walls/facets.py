@@ -102,7 +102,7 @@ class Surface:
 
     def rims(self) -> list[tuple[np.ndarray, float]]:
         """Middle (d,) [m] and length [m] of each row of free sides that hang together, the shortest first; of lines
-        each free end, its length 0."""
+        each free end, its length 0, as they stand in the file."""
         free = self._free()
         if not len(free):
             return []

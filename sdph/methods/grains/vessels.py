@@ -16,7 +16,7 @@ def checked(case) -> list[str]:
     if own is None or not own.mesh or own.source == "gas":
         return []
     key, corners = f"walls.mesh = {own.mesh!r}", facets.read(own.mesh, case.dimensions, own.mesh_scale)
-    rims = facets.Surface(corners).rims()
+    rims = [rim for rim in facets.Surface(corners).rims() if not _in_a_side(case, rim[0])]
     inside_out = [name for name, region in case.particles.items() if region.shape == "walls"]
     inside_out = inside_out if facets.enclosed(corners) < 0.0 else []
     if inside_out and not rims:
@@ -27,6 +27,15 @@ def checked(case) -> list[str]:
     told = [_open(key, rims)] if rims else []
     turned = f"{key} is inside out: its normals point out of what it encloses, and must point towards the grains"
     return told + [f'particles.{name}.shape = "walls", and {turned}' for name in inside_out]
+
+
+def _in_a_side(case, middle) -> bool:
+    """True of the middle (d,) [m] of a rim that lies in a side of the domain, which is a wall too."""
+    near = 1e-6 * max(case.domain.size)
+    return any(
+        min(abs(at - low), abs(at - high)) <= near
+        for at, low, high in zip(middle, case.domain.corner, case.domain.upper)
+    )
 
 
 def _open(key: str, rims: list) -> str:

@@ -18,7 +18,7 @@ OF_HEAT = {
 WARM = "more heat than fits to the vapour: the wet bulb is too hot; heat.law = 'ranz_marshall' for few droplets"
 
 
-def numbers(s) -> list[tuple]:
+def numbers(s, heated: bool) -> list[tuple]:
     """Rows, as in `sdph.study.explain.tables.numbers`, of what has a surface tension, and of what evaporates."""
     rows, grains, gas = [], s.grains, s.gas
     if grains.surface_tension:
@@ -38,7 +38,7 @@ def numbers(s) -> list[tuple]:
         (mass, heat_number, spent), own = spalding(s), s.case.parameters["evaporation"]
         rows.append(("Spalding B of mass", mass, 0.1, "the vapour's own outflow slows evaporation", "Spalding 1953"))
         rows.append(("Spalding B of heat", heat_number, 0.1, OF_HEAT[own.law], "Spalding 1953"))
-        if "heat" in s.case.parameters:
+        if heated:
             ratio = s.nusselt / heat.ranz_marshall(1.0 - s.alpha_p, s.reynolds, s.prandtl)
             rows.append(("Nusselt / Ranz & Marshall's", ratio, 1.1, WARM, "Ranz & Marshall 1952"))
         rows.append(("run / evaporation time", spent, 1.0, "droplets are gone", "d2 law, Spalding 1953"))

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
-
-import numpy as np
 
 from sdph import effects
 from sdph.case import fluids
@@ -13,6 +12,7 @@ from sdph.engine.state import LIQUID
 from sdph.methods.liquids import bodies
 from sdph.methods.liquids.bounds import limits as limits_of_step
 from sdph.methods.liquids.liquid import SLOW
+from sdph.schema import CaseError
 from sdph.study.explain import estimate, feed
 
 WATER = 0.0728  # N/m, of water in air at 20 C (IAPWS R1-76): for the Weber and Bond numbers of a case that gives none
@@ -48,7 +48,7 @@ def numbers(s) -> list[tuple]:
         ("crossings of sound, c t/L", crossings, 1.0, "noise has time to go to and fro", "Marrone et al. 2011"),
     ]
     damping = s.case.parameters.get("liquid_damping")
-    if damping and damping.model == "linear":
+    if "liquid_damping" in s.case.effects and damping.model == "linear":
         viscosity = damping.alpha * s.case.smoothing_length * own.sound_speed / (2.0 * (s.case.dimensions + 2.0))
         ratio = viscosity * own.density / own.viscosity if own.viscosity else math.inf
         rows.append(("viscosity of damping / the liquid's", ratio, 1.0, DAMPED, "Monaghan 2005, Rep. Prog. Phys. 68"))
@@ -66,8 +66,9 @@ def _tension(case) -> tuple[float, str]:
     if bubble and bubble.surface_tension:
         return bubble.surface_tension, "by its definition; bubble.surface_tension_N_m"
     if case.liquid.fluid and case.liquid.fluid_temperature:
-        named = fluids.Fluid(case.liquid.fluid, "liquid")
-        return named.at("I", T=case.liquid.fluid_temperature, Q=0.0), f"by its definition; of {case.liquid.fluid}"
+        with contextlib.suppress(CaseError):  # no library, or no surface at that temperature
+            named = fluids.Fluid(case.liquid.fluid, "liquid")
+            return named.at("I", T=case.liquid.fluid_temperature, Q=0.0), f"by its definition; of {case.liquid.fluid}"
     return WATER, "by its definition; surface tension of water, for want of one"
 
 
@@ -104,7 +105,7 @@ def warnings(s) -> list[str]:
         fast = f"the liquid may reach {fastest:.3g} m/s, {fastest / c:.2g} of its speed of sound"
         unsafe.append(f"{fast}: raise liquid.sound_speed_m_s from {c:g} to {10.0 * fastest:.3g}")
     layer, around = s.layer * s.length, s.case.parameters.get("tank")
-    if around and around.shape == "box" and around.outlet_radius and _above(s, tank.corners(s.case)[0][-1]):
+    if around and around.shape == "box" and around.outlet_radius and s.pull[0] + s.shaken and _pipe_empty(s):
         unsafe.append(
             "the outlet pipe begins empty: liquid falls into it at the start, drain or no drain; give a pool "
             'shape = "tank", which fills the pipe too'
@@ -137,21 +138,29 @@ def warnings(s) -> list[str]:
     return unsafe
 
 
-def _above(s, floor: float) -> bool:
-    """True where there is liquid, and all of it above a floor [m]."""
+def _over_floor(s):
+    """Heights (W,) [m] of the liquid over the floor of a box tank; below 0 in its outlet pipe."""
     up = (s.state.x, s.state.y, s.state.z)[s.case.dimensions - 1][s.state.kind == LIQUID]
-    return len(up) > 0 and up.min() > floor
+    return up - tank.corners(s.case)[0][-1]
+
+
+def _pipe_empty(s) -> bool:
+    """True where there is liquid, and all of it above the floor."""
+    up = _over_floor(s)
+    return len(up) > 0 and up.min() > 0.0
 
 
 def _falls(s) -> float:
-    """Speed [m/s] at which liquid leaves the outlet pipe by its weight when the drain ends, sqrt(2 g z), z the depth
-    left, as in a tank with upright sides, and the pipe; 0 where a frame moves, whose forces are others."""
-    case, wet = s.case, s.state.kind == LIQUID
-    if "frame" in case.effects or "gravity" not in case.effects or not wet.any():
+    """Speed [m/s] at which liquid leaves the outlet pipe of a box by its weight when the drain ends, sqrt(2 g z), z the
+    depth left and the pipe; 0 where a frame moves, whose forces are others, and where nozzles fill the tank before."""
+    case, around = s.case, s.case.parameters["tank"]
+    if "frame" in case.effects or "gravity" not in case.effects or case.nozzles or around.shape != "box":
         return 0.0
-    up = (s.state.x, s.state.y, s.state.z)[case.dimensions - 1][wet]
-    left = (np.ptp(up) + case.resolution.spacing) * case.parameters["drain"].fill / drain.filled(case)
-    return math.sqrt(2.0 * math.hypot(*case.domain.gravity) * (left + case.parameters["tank"].outlet_length))
+    up = _over_floor(s)
+    if not len(up):
+        return 0.0
+    left = (up.max() + 0.5 * case.resolution.spacing) * case.parameters["drain"].fill / drain.filled(case)
+    return math.sqrt(2.0 * math.hypot(*case.domain.gravity) * (left + around.outlet_length))
 
 
 def limits(s) -> list[dict]:

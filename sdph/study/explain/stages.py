@@ -21,8 +21,12 @@ SOFTER, CAPILLARY = 0.03, 0.01  # T*^m, sigma/(R p) from which they matter: gel-
 def rows(case) -> list[dict]:
     """Rows of the table of a case with time scaling, its largest bubble alone; one row that says why where the reduced
     model has no such droplet."""
-    if case.solid.yield_stress is None or not case.solid.failure or "gel" not in case.pools:
-        return [{"effect": "none", "why": "no pool named gel in a shell that yields and fails: nothing necks"}]
+    if (
+        case.solid.yield_stress is None
+        or not case.solid.failure
+        or not ({"gel"} <= case.pools.keys() and {"shell"} <= case.bodies.keys())
+    ):
+        return [{"effect": "none", "why": "no pool gel in a body shell that yields and fails: nothing necks"}]
     try:
         course = checks.reduced(case)
     except CaseError as error:
@@ -69,7 +73,7 @@ def _of_motion(case, course, at: list[dict], top: int) -> list[tuple]:
     h, radius = course.history, case.bodies["shell"].radius
     walls = [
         radius * (h["diameter_ratio"][row] - h["diameter_ratio"][row - 1]) / (h["time_s"][row] - h["time_s"][row - 1])
-        for row in (top, course.tear)
+        for row in (max(top, 1), course.tear)
     ]
     tense = "on, in the bubble's pressure" if sigma else "off"
     return [
@@ -77,6 +81,6 @@ def _of_motion(case, course, at: list[dict], top: int) -> list[tuple]:
          "after the tear none is built (the specification: on)"),
         ("vapour as particles", ("off",) * 3, "none", [math.nan] * 2, math.nan, "not built: a tear vents 0-D bubbles"),
         ("time scaling", ("on", "on, capped", "off"), "S = min(largest, v_cap/(wall's speed))",
-         [min(p.largest, max(1.0, p.cap / abs(wall))) for wall in walls], 1.0,
+         [min(p.largest, max(1.0, p.cap / abs(wall))) if wall else p.largest for wall in walls], 1.0,
          "1 from the first cut on; what inertia takes of the pressure the run tells: inertial_pressure_largest_rel"),
     ]  # fmt: skip

@@ -64,7 +64,7 @@ def _explain(case, priced, shared=None) -> dict[str, list[dict]]:
 def _of_grains(case, scales, priced) -> dict[str, list]:
     limits, expected = estimate.limits(case, scales), estimate.expected(case, scales, priced)
     return {
-        "numbers": numbers(scales, case.warm),
+        "numbers": numbers(scales, case.warm, "heat" in case.effects),
         "materials": materials.rows(case),
         "ratios": estimate.ratios(case, priced and priced.edges),
         "limits": limits,
@@ -90,9 +90,9 @@ def _of_gas(case, scales, priced) -> list[str]:
     return [*estimate.warnings(case, edges), *eddies.warnings(scales), *eddies.too_fast(case)]
 
 
-def numbers(s, warm: bool = True) -> list[tuple]:
+def numbers(s, warm: bool = True, heated: bool = True) -> list[tuple]:
     """(name, value, threshold, what lies above the threshold, source) of the numbers that decide; those of heat only
-    where the case is `warm`."""
+    where the case is `warm`, that of the gas where it is `heated`."""
     grains, gas, end = s.grains, s.gas, s.end
     biot = s.nusselt * gas.conductivity / (6.0 * grains.conductivity) if grains.conductivity else math.inf
     archimedes = gas.density * (grains.density - gas.density) * s.gravity * grains.diameter**3 / gas.viscosity**2
@@ -133,7 +133,7 @@ def numbers(s, warm: bool = True) -> list[tuple]:
         ("run / collision time", end / s.collision_time, 1.0, "every grain has collided", "Gidaspow 1994"),
     ]
     rows += materials.touching(s)
-    return [row for row in rows if warm or row[0] not in OF_HEAT] + droplets.numbers(s)
+    return [row for row in rows if warm or row[0] not in OF_HEAT] + droplets.numbers(s, heated)
 
 
 def effect_rows(case, scales=None) -> list[dict]:

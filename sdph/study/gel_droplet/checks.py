@@ -90,7 +90,7 @@ def closure(run) -> list[dict]:
     told, scaled = run.summary, (("inertia", "inertial"), ("viscosity", "viscous"))
     return [
         check("heat made, of what came in", told["heat_drift_rel"], 0.0, HEAT),
-        check("mass of gel and vapour made", told["mass_drift_rel"], 0.0, MASS),
+        check("mass of gel and vapour made", told["whole_mass_drift_rel"], 0.0, MASS),
         check("energy that nobody gave, of the bubble's work", told["energy_drift_rel"], 0.0, ENERGY),
         *(
             check(

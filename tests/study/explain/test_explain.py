@@ -188,6 +188,8 @@ def test_numbers_of_droplets_by_hand():
     sprayed = rows_by(tables.explain(own)["numbers"], "number")
     assert "take" not in sprayed["Spalding B of heat"]["meaning"]
     assert sprayed["Nusselt / Ranz & Marshall's"]["value"] == 1.0
+    cold = tables.explain(cases.load(scenes.find("stefan_tube")[1]))["numbers"]  # no heat from the gas
+    assert "Nusselt / Ranz & Marshall's" not in rows_by(cold, "number")
     assert "no film" in sprayed["way of droplets / gap to a wall"]["meaning"]
     assert not any(
         name.startswith("Spalding") for name in rows_by(tables.explain(cases.load(BED))["numbers"], "number")

@@ -215,52 +215,6 @@ def test_a_drain_that_tears_its_liquid_out_is_told_of(end, told):
     assert any("torn out rather than drained" in line for line in tables.warnings(case)) == told
 
 
-def drained(end=4.0, **sections):
-    """Water 0.3 m deep over a slot of 40 mm in the floor, 0.135 m2 of which a drain takes from 0.5 s on."""
-    return cases.from_table({
-        "dimensions": 2, "effects": ["gravity", "density_diffusion", "liquid_damping", "tank", "drain"],
-        "run": {"end_time_s": 4.5, "output_interval_s": 0.5},
-        "domain": {"size_m": [0.5, 0.6], "gravity_m_s2": [0.0, -9.81]}, "resolution": {"spacing_mm": 10.0},
-        "liquid": {"density_kg_m3": 1000.0, "sound_speed_m_s": 25.0, "viscosity_Pa_s": 1e-3},
-        "tank": {"open_sides": ["top"], "outlet_radius_m": 0.02, "outlet_length_m": 0.08},
-        "drain": {"fill": 0.05, "start_s": 0.5, "end_s": end},
-        "pools": {"water": {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.5, 0.3]}},
-    } | sections)  # fmt: skip
-
-
-@pytest.mark.parametrize(("end", "told"), [(4.0, False), (1.8, True)])
-def test_a_drain_faster_than_liquid_falls_is_told_of(end, told):
-    """Within 3.5 or 1.3 s: 0.96 and 2.6 m/s, of sqrt(2 g (0.03 + 0.08 m)) = 1.47."""
-    (found,) = [line for line in tables.warnings(drained(end)) if "Torricelli" in line] or [""]
-    assert bool(found) == told
-    assert not told or ("2.6 m/s" in found and "1.47 m/s" in found)
-
-
-def test_an_outlet_pipe_without_liquid_is_told_of():
-    full = {"water": {"shape": "tank", "fill": 0.5}}
-    found = [
-        any("pipe begins empty" in line for line in tables.warnings(drained(**own))) for own in ({}, {"pools": full})
-    ]
-    assert found == [True, False]
-
-
-def test_viscosity_of_damping_is_told():
-    """alpha c h/8 = 0.02 25 m/s 15 mm/8 = 9.4e-4 m2/s in the plane (Monaghan 2005), of 1e-6 of water."""
-    rows = {row["number"]: row["value"] for row in tables.explain(drained())["numbers"]}
-    ratio = 0.02 * 25.0 * drained().smoothing_length / 8.0 / 1e-6
-    assert rows["viscosity of damping / the liquid's"] == pytest.approx(ratio, rel=1e-12)
-
-
-def test_weber_and_bond_have_the_tension_of_a_liquid_by_name():
-    """Hydrogen that boils at 20.3 K has 1.9 mN/m (Leachman et al. 2009), a fortieth of water's."""
-    own = {"density_kg_m3": 70.8, "sound_speed_m_s": 25.0, "viscosity_Pa_s": 1.3e-5}
-    bond = []
-    for more in ({}, {"fluid": "ParaHydrogen", "fluid_temperature_K": 20.3}):
-        rows = {row["number"]: row["value"] for row in tables.explain(drained(liquid=own | more))["numbers"]}
-        bond.append(rows["Bond, rho g L2/sigma"])
-    assert bond[1] / bond[0] == pytest.approx(0.0728 / 1.93e-3, rel=0.05)
-
-
 def test_a_bubble_has_the_surface_tension_that_its_case_gives():
     """0.025 N/m of the gel droplet, not that of water: twice the Weber number of 0.05 N/m."""
 

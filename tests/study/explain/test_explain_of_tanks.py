@@ -1,0 +1,80 @@
+"""`sdph explain` of tanks that are drained: outlet, damping, tension."""
+
+import math
+
+import pytest
+
+from sdph.case import read as cases
+from sdph.study.explain import tables
+
+
+def drained(end=4.0, **sections):
+    """Water 0.3 m deep over a slot of 40 mm in the floor, 0.135 m2 of which a drain takes from 0.5 s on."""
+    return cases.from_table({
+        "dimensions": 2, "effects": ["gravity", "density_diffusion", "liquid_damping", "tank", "drain"],
+        "run": {"end_time_s": 4.5, "output_interval_s": 0.5},
+        "domain": {"size_m": [0.5, 0.6], "gravity_m_s2": [0.0, -9.81]}, "resolution": {"spacing_mm": 10.0},
+        "liquid": {"density_kg_m3": 1000.0, "sound_speed_m_s": 25.0, "viscosity_Pa_s": 1e-3},
+        "tank": {"open_sides": ["top"], "outlet_radius_m": 0.02, "outlet_length_m": 0.08},
+        "drain": {"fill": 0.05, "start_s": 0.5, "end_s": end},
+        "pools": {"water": {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.5, 0.3]}},
+    } | sections)  # fmt: skip
+
+
+@pytest.mark.parametrize(("end", "told"), [(4.0, False), (1.8, True)])
+def test_a_drain_faster_than_liquid_falls_is_told_of(end, told):
+    """Within 3.5 or 1.3 s: 0.96 and 2.6 m/s, of sqrt(2 g (0.03 + 0.08 m)) = 1.47."""
+    (found,) = [line for line in tables.warnings(drained(end)) if "Torricelli" in line] or [""]
+    assert bool(found) == told
+    assert not told or ("2.6 m/s" in found and "1.47 m/s" in found)
+
+
+def test_an_outlet_pipe_without_liquid_is_told_of():
+    full = {"water": {"shape": "tank", "fill": 0.5}}
+    found = [
+        any("pipe begins empty" in line for line in tables.warnings(drained(**own))) for own in ({}, {"pools": full})
+    ]
+    assert found == [True, False]
+
+
+def test_viscosity_of_damping_is_told():
+    """alpha c h/8 = 0.02 25 m/s 15 mm/8 = 9.4e-4 m2/s in the plane (Monaghan 2005), of 1e-6 of water."""
+    rows = {row["number"]: row["value"] for row in tables.explain(drained())["numbers"]}
+    ratio = 0.02 * 25.0 * drained().smoothing_length / 8.0 / 1e-6
+    assert rows["viscosity of damping / the liquid's"] == pytest.approx(ratio, rel=1e-12)
+
+
+def test_damping_that_is_off_is_not_told_of():
+    rows = {
+        row["number"]
+        for row in tables.explain(drained(effects=["gravity", "density_diffusion", "tank", "drain"]))["numbers"]
+    }
+    assert not any("damping" in name for name in rows)
+
+
+def test_a_full_pipe_is_counted_once():
+    """The level is that over the floor: 0.45 left of 0.5, over a pipe of 0.3 m, sqrt(2 g 0.57 m) = 3.34 m/s."""
+    pipe = {"open_sides": ["top"], "outlet_radius_m": 0.02, "outlet_length_m": 0.3}
+    drain = {"fill": 0.45, "start_s": 0.5, "end_s": 0.6}
+    case = drained(tank=pipe, drain=drain, pools={"water": {"shape": "tank", "fill": 0.5}})
+    (found,) = [line for line in tables.warnings(case) if "Torricelli" in line]
+    told = float(found.split(" m/s at most")[0].rsplit(" ", 1)[1])
+    assert told == pytest.approx(math.sqrt(2.0 * 9.81 * 0.57), rel=0.02)
+
+
+def test_a_liquid_without_a_known_surface_is_that_of_water_there():
+    """Above its critical point a fluid has none; explain goes on."""
+    own = {"density_kg_m3": 70.8, "sound_speed_m_s": 25.0, "viscosity_Pa_s": 1.3e-5}
+    own |= {"fluid": "ParaHydrogen", "fluid_temperature_K": 300.0}
+    rows = {row["number"]: row for row in tables.explain(drained(liquid=own))["numbers"]}
+    assert "surface tension of water" in str(rows["Bond, rho g L2/sigma"])
+
+
+def test_weber_and_bond_have_the_tension_of_a_liquid_by_name():
+    """Hydrogen that boils at 20.3 K has 1.9 mN/m (Leachman et al. 2009), a fortieth of water's."""
+    own = {"density_kg_m3": 70.8, "sound_speed_m_s": 25.0, "viscosity_Pa_s": 1.3e-5}
+    bond = []
+    for more in ({}, {"fluid": "ParaHydrogen", "fluid_temperature_K": 20.3}):
+        rows = {row["number"]: row["value"] for row in tables.explain(drained(liquid=own | more))["numbers"]}
+        bond.append(rows["Bond, rho g L2/sigma"])
+    assert bond[1] / bond[0] == pytest.approx(0.0728 / 1.93e-3, rel=0.05)
