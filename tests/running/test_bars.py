@@ -13,6 +13,15 @@ def test_a_balance_past_its_bar_fails(name):
         assert found == {"name": name, "value": value, "reference": 0.0, "tolerance": bar, "ok": ok}
 
 
+def test_numerical_work_of_the_gas_is_held_to_two_percent_where_there_is_any():
+    """A gas that feels nothing of the grains has no such column."""
+    assert balances.work_of_gas({"windows": 3}) == []
+    assert [balances.work_of_gas({"gas_numerical_work_rel": value})[0]["ok"] for value in (0.019, 0.021)] == [
+        True,
+        False,
+    ]
+
+
 def test_a_balance_that_is_no_number_fails():
     assert not balances.checks({"mass_drift_rel": float("nan")})[0]["ok"]
 

@@ -180,3 +180,4 @@ def test_resumed_run_in_mid_neck_is_the_uninterrupted_one_bit_for_bit(tmp_path):
     rows = np.genfromtxt(tmp_path / "whole" / "history.csv", delimiter=",", names=True)
     assert rows["solid_damage_largest"][-3] > 0.0 and rows["time_scale"][-3] < 1000.0
     assert whole["heat_drift_rel"] < 1e-10 and whole["mass_drift_rel"] < 1e-12
+    assert whole["whole_mass_drift_rel"] < 1e-10  # the vapour in the bubble with it

@@ -16,7 +16,7 @@ def checked(case) -> list[str]:
     if own is None or not own.mesh or own.source == "gas":
         return []
     key, corners = f"walls.mesh = {own.mesh!r}", facets.read(own.mesh, case.dimensions, own.mesh_scale)
-    rims = [rim for rim in facets.Surface(corners).rims() if not _in_a_side(case, rim[0])]
+    rims = facets.Surface(corners).rims()
     inside_out = [name for name, region in case.particles.items() if region.shape == "walls"]
     inside_out = inside_out if facets.enclosed(corners) < 0.0 else []
     if inside_out and not rims:
@@ -24,7 +24,8 @@ def checked(case) -> list[str]:
             f'particles.{inside_out[0]}.shape = "walls", and {key} is closed and inside out: its normals point out of '
             "it, and the grains would stand around it; normals must point towards the grains, so flip them"
         )
-    told = [_open(key, rims)] if rims else []
+    gaps = [rim for rim in rims if not _in_a_side(case, rim[0])]
+    told = [_open(key, gaps)] if gaps else []
     turned = f"{key} is inside out: its normals point out of what it encloses, and must point towards the grains"
     return told + [f'particles.{name}.shape = "walls", and {turned}' for name in inside_out]
 

@@ -118,6 +118,10 @@ def test_a_plate_and_a_polygon_in_two_dimensions(tmp_path):
     meshio.write_points_cells(tmp_path / "out.vtk", places, [("line", ends[:, ::-1])])
     plate = told(tmp_path / "plate.vtk", 2, **box)[0][0]
     assert "open at the places about (0.05, 0.1) m; (0.25, 0.1) m" in plate
+    to_side = np.array([(0.0, 0.1, 0.0), (0.1, 0.1, 0.0)])
+    meshio.write_points_cells(tmp_path / "baffle.vtk", to_side, [("line", ends[:1])])
+    (baffle,) = [line for line in told(tmp_path / "baffle.vtk", 2, **box)[0] if "is open" in line]
+    assert "open at the places about (0.1, 0.1) m:" in baffle  # its other end is in a side of the domain
     assert not [line for line in told(tmp_path / "in.vtk", 2)[0] if "open" in line]
     with pytest.raises(CaseError, match="closed and inside out"):
         told(tmp_path / "out.vtk", 2)
