@@ -116,6 +116,17 @@ def test_a_gel_droplet_that_tears_too_soon_has_missed(monkeypatch):
     ]  # fmt: skip
 
 
+@pytest.mark.parametrize(("power", "ok"), [(20, True), (2, False)])
+def test_a_gel_droplet_that_grows_at_another_pace_has_missed(power, ok):
+    """0.35 (t/0.75 s)^20 has D/D0 = 1.05 after 0.91 of the time (0.89 within 5 %), the square after 0.38; other shells
+    by the droplet without particles."""
+    gel, time = compare.scene_module("gel_droplet"), np.linspace(0.0, 0.75, 751)
+    own = {"time_s": time, "diameter_ratio": 1.0 + 0.35 * (time / 0.75) ** power, "solid_free_particles": 0.0 * time}
+    summary = {"torn": 1.0, "rupture_time_s": 0.75}
+    *shells, pace = gel.claims(told("gel_droplet", 0.75, summary=summary, history=own))
+    assert pace["ok"] == ok and len(shells) == 2 and all(check["ok"] for check in shells)
+
+
 def test_char_is_held_to_a_column_of_its_own_ends():
     char = compare.scene_module("burning_char")
     run = told("burning_char", 16.002, ["run.end_time_s=16.002"], history={"time_s": np.array([0.0, 16.0])})
