@@ -134,7 +134,7 @@ def test_dashboard_tells_what_a_validation_runs_and_its_record_lacks(monkeypatch
     monkeypatch.syspath_prepend(str(DOCS))
     dashboard = importlib.import_module("making.dashboard")
     assert {study: tuple(parts) for study, parts in dashboard.PARTS.items()} == {
-        study: tuple(validate.part(study).NAMES) for study in validate.STUDIES
+        study: (*validate.part(study).NAMES, *getattr(validate.part(study), "LONG", ())) for study in validate.STUDIES
     }
 
     def recorded(scene, *names):

@@ -3,6 +3,8 @@ sides they are on."""
 
 from __future__ import annotations
 
+import math
+
 from sdph.engine.walls import facets
 from sdph.schema import CaseError
 
@@ -32,11 +34,9 @@ def checked(case) -> list[str]:
 
 def _in_a_side(case, middle) -> bool:
     """True of the middle (d,) [m] of a rim that lies in a side of the domain, which is a wall too."""
-    near = 1e-6 * max(case.domain.size)
-    return any(
-        min(abs(at - low), abs(at - high)) <= near
-        for at, low, high in zip(middle, case.domain.corner, case.domain.upper)
-    )
+    near = 1e-6 * math.hypot(*case.domain.size)
+    sides = zip(middle, case.domain.corner, case.domain.upper)
+    return any(abs(at - side) <= near for at, *both in sides for side in both)
 
 
 def _open(key: str, rims: list) -> str:
