@@ -10,7 +10,7 @@ VACUUM_PERMITTIVITY = 8.8541878128e-12  # F/m, eps_0 (CODATA 2018)
 # -, closures are evaluated at most this far below close packing (1/(1-(a/a_max)^(1/3)) has a pole there)
 PACKING_MARGIN = 0.01
 SOFTENING = 0.01  # -, eta^2/h^2 in r^2 + eta^2, keeps coincident pairs finite (Monaghan 1992; Cleary & Monaghan 1999)
-# -, of sqrt(rho l^3/(2 pi sigma)), the time of a capillary wave of length l: Adami, Hu & Adams 2010
+# -, of sqrt(rho l^3/(2 pi sigma)), the time of a capillary wave of length l: Adami, Hu & Adams 2010, JCP 229, 5011
 CAPILLARY = 0.25
 
 # Friction of grains: Johnson & Jackson 1987, with the constants of OpenFOAM's tutorials (Johnson-Jackson model)

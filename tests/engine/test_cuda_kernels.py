@@ -1,15 +1,13 @@
 """Kernels of scenes compile for a device that is not there, in registers and without spills; effects that are off
 vanish from them."""
 
-import importlib.util
 import itertools
 import re
 
 import numpy as np
 import pytest
 from numba import typeof
-
-from sdph.scenes import paths
+from scripts import script
 
 pytest.importorskip("numba_cuda", reason="needs numba-cuda and nvidia-cuda-nvcc: pip install 'sdph[cuda]'")
 
@@ -20,11 +18,7 @@ from sdph.methods.mps import annulus
 if assembled.assembler() is None:
     pytest.skip("needs ptxas: pip install nvidia-cuda-nvcc", allow_module_level=True)
 
-specification = importlib.util.spec_from_file_location(
-    "cuda_kernels", paths.PACKAGE.parent / "benchmarks/cuda_kernels.py"
-)
-kernels = importlib.util.module_from_spec(specification)
-specification.loader.exec_module(kernels)
+kernels = script("cuda_kernels", "benchmarks")
 
 MOST_OF_GRAINS = 168  # of a thread: 384 threads of a multiprocessor; `rates` in space takes 160
 MOST = 128  # registers of a thread: 512 threads of a multiprocessor; the issue's bar for `push`
