@@ -160,7 +160,7 @@ def test_what_nobody_looked_at_is_refused():
     ],
 )  # fmt: skip
 def test_scenes_that_have_two_fluids_are_not_refused(scene):
-    assert macros(cases.load(scenes.find(scene)[1]))["friction_margin"]
+    assert macros(cases.load(scenes.find(scene)[1]))["packing_margin"]
 
 
 @pytest.mark.parametrize(

@@ -90,7 +90,7 @@ def _heat_exchange(case: Case) -> dict[str, str]:
 
 
 def _friction(case: Case) -> dict[str, str]:
-    margin = {"friction_margin": repr(constants.PACKING_MARGIN)}
+    margin = {"packing_margin": repr(constants.PACKING_MARGIN)}
     if "friction" not in case.effects:
         packed = repr(case.grains.packing_limit)
         return margin | {"friction_angle_degrees": "0", "friction_begins": packed, "friction_strength": "0"}

@@ -14,11 +14,11 @@ from sdph.laws import granular
 
 pytestmark = pytest.mark.openfoam
 
-THETA, STEEPNESS, STEP = 0.2, 1.0, 1e-9  # m2/s2, m/s2, s: theta decays by 1e-7 in it
+THETA, STEEPNESS, STEP = 0.2, 1.0, 1e-9  # m2/s2, m/s2, s
 
 
-def agitated(folder, monkeypatch):
-    """A case of grains at rest, agitated by THETA + STEEPNESS y between open sides, two steps of STEP long."""
+def agitated(folder, monkeypatch, alpha_p):
+    """A case of grains at rest that fill `alpha_p`, agitated by THETA + STEEPNESS y between open sides, two steps of STEP long."""
     made = shutil.copytree(comparators.template(cases.load(scenes.find("granular_jet")[1]), "tfm"), folder)
     monkeypatch.setattr(comparators, "template", lambda case, kind: made)
     sides = {"floor": -STEEPNESS, "lid": STEEPNESS}
@@ -35,7 +35,7 @@ def agitated(folder, monkeypatch):
     rows = " ".join(repr(THETA + STEEPNESS * 0.01 * (j + 0.5)) for j in range(10) for _ in range(4))
     for name, old, new in (
         ("0/Theta.particles", "uniform $grains_granular_temperature", f"nonuniform List<scalar> 40({rows})"),
-        ("0/alpha.particles", "internalField   uniform 0", "internalField   uniform 0.2"),
+        ("0/alpha.particles", "internalField   uniform 0", f"internalField   uniform {alpha_p}"),
         ("system/controlDict", "$time_step", repr(STEP)),
     ):
         text = (made / name).read_text()
@@ -51,7 +51,7 @@ def agitated(folder, monkeypatch):
         "resolution": {"spacing_mm": 5.0, "cell_mm": 10.0},
         "gas": AIR, "grains": SAND | {"diameter_mm": 3.0, "granular_temperature_m2_s2": THETA},
         "particles": {"stream": {
-            "shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.04, 0.1], "volume_fraction": 0.2,
+            "shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.04, 0.1], "volume_fraction": alpha_p,
             "temperature_K": 288.0,
         }},
         "boundaries": {
@@ -60,18 +60,20 @@ def agitated(folder, monkeypatch):
     })  # fmt: skip
 
 
-def test_a_gradient_of_agitation_pushes_grains_by_that_of_their_pressure(tmp_path, monkeypatch):
+@pytest.mark.parametrize("alpha_p, decays", [(0.2, 1e-7), (0.625, 3e-5)])
+def test_a_gradient_of_agitation_pushes_grains_by_that_of_their_pressure(tmp_path, monkeypatch, alpha_p, decays):
     """rho alpha du/dt = -(dp_s/dtheta) grad(theta) at even alpha_p: `agitationGradient` of the closures library. From
-    the second step on: the solver has no g0 in the first."""
-    case = agitated(tmp_path / "template", monkeypatch)
+    the second step on: the solver has no g0 in the first. At 0.625 of 0.63 g0 is held at 0.62 (3.2 times less), as
+    ours: `cappedSinclairJackson`. Theta `decays` by so much meanwhile."""
+    case = agitated(tmp_path / "template", monkeypatch, alpha_p)
     run = comparators.run_two_fluid(case, tmp_path / "run")
     first, second = (run.fields[t]["particle_velocity"] for t in sorted(t for t in run.fields if t > 0.0))
-    e, g0 = case.grains.restitution, granular.sinclair_jackson(0.2, case.grains.packing_limit)
-    slope = granular.lun_pressure(0.2, 1.0, e, g0, 3060.0)
-    pushed = 0.2 * 3060.0 * (second - first) / STEP
+    e, g0 = case.grains.restitution, granular.crowding(alpha_p, case.grains.packing_limit)
+    slope = granular.lun_pressure(alpha_p, 1.0, e, g0, 3060.0)
+    pushed = alpha_p * 3060.0 * (second - first) / STEP
     assert len(pushed) == 40
-    np.testing.assert_allclose(pushed[:, 1], -slope * STEEPNESS, rtol=1e-6)
-    assert np.abs(pushed[:, 0]).max() < 1e-6 * slope * STEEPNESS
+    np.testing.assert_allclose(pushed[:, 1], -slope * STEEPNESS, rtol=10.0 * decays)
+    assert np.abs(pushed[:, 0]).max() < 10.0 * decays * slope * STEEPNESS
 
 
 def test_slip_alone_gives_two_fluids_no_agitation(tmp_path):
