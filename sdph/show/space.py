@@ -6,7 +6,7 @@ import numpy as np
 
 from sdph.engine.state import LIQUID
 from sdph.running.metrics import bubble
-from sdph.show import eye, sampled
+from sdph.show import eye, surfaces
 from sdph.show.canvas import DPI, Sheet
 from sdph.show.eye import Eye
 from sdph.show.look import Look, coloured, rgb
@@ -15,10 +15,6 @@ from sdph.show.style import Scale
 
 AROUND = 0.1  # of the box, for numbers along its edges
 CLEAR = 0.18  # opacity of vessels; our choice
-FINE = 0.5  # of the spacing: step of the grid on which a surface is found; our choice
-MOST = 2e7  # points of that grid: half a minute and a GB; our choice
-SMOOTHED = 60  # rounds of Taubin's smoothing of a surface, that takes the bumps of the particles; our choice
-LONELY = 4  # particles with fewer neighbours within two spacings have no surface and are drawn as balls; our choice
 BALL = 0.62  # radius over edge: a ball of the volume of the cube, so that neighbours just overlap
 DISC = 0.71  # the same of flat ones: half a diagonal, so that a lattice has no gaps
 DENSE = 0.3  # volume fraction from which grains hide what is behind them: the front half is left out; our choice
@@ -84,13 +80,11 @@ def fill(plotter, shot: Shot, look: Look, scale: Scale, field: str, view: Eye | 
         _gas(plotter, shot, look, scale, field, view)
     kinds = _kinds(shot)
     liquid = kinds == LIQUID
-    if shot.dimensions == 3 and liquid.any() and _affordable(shot, liquid):
-        lone = _lonely(shot, liquid)
-        _liquid(plotter, shot, liquid & ~lone, scale, field, theme)
-        _balls(plotter, shot, lone, scale, field, theme)
-    else:
-        liquid[:] = False
-    _balls(plotter, shot, ~liquid & ~shot.light() & _in_sight(shot, view), scale, field, theme)
+    balls = ~shot.light() & _in_sight(shot, view)
+    if shot.dimensions == 3 and liquid.any():
+        balls &= ~liquid
+        balls |= _liquid(plotter, shot, liquid, scale, field, theme)
+    _balls(plotter, shot, balls, scale, field, theme)
     if look.vectors:
         _arrows(plotter, shot, theme)
 
@@ -143,57 +137,11 @@ def _add(plotter, mesh, data, field: str, scale, theme, **look) -> None:
     plotter.add_mesh(mesh, scalars="colour", rgb=True, **look)
 
 
-def _lonely(shot: Shot, liquid: np.ndarray) -> np.ndarray:
-    """Mask (N,) of the liquid particles that make no surface."""
-    from scipy.spatial import cKDTree
-
-    places = np.asarray(shot.particles.points)[liquid]
-    near = cKDTree(places).query_ball_point(places, 2.0 * shot.spacing, return_length=True, workers=-1) - 1
-    found = np.zeros(len(liquid), bool)
-    found[np.flatnonzero(liquid)[near < LONELY]] = True
-    return found
-
-
-def _affordable(shot: Shot, liquid: np.ndarray) -> bool:
-    """True where the grid for the surface has no more than MOST points; a thin sheet in a wide room has balls."""
-    wide = np.ptp(np.asarray(shot.particles.points)[liquid], axis=0) + 4.0 * shot.spacing
-    return float(np.prod(wide / (FINE * shot.spacing))) <= MOST
-
-
-def surface(shot: Shot, liquid: np.ndarray, field: str):
-    """Surface of the liquid particles (mask) with the field's values: sum of volume and kernel = 1/2, smoothed."""
-    places, volumes = np.asarray(shot.particles.points)[liquid], shot.sizes()[liquid] ** 3
-    bounds = np.stack((places.min(axis=0), places.max(axis=0)), axis=1).ravel() + 2 * shot.spacing * np.tile([-1, 1], 3)
-    grid, data = sampled.grid(bounds, FINE * shot.spacing), shot.particles.point_data
-    arrays = {field: numbers(data[field])[liquid]} if field in data else {}
-    values, share = sampled.of_particles(grid, places, volumes, arrays, sampled.REACH * shot.spacing, 3)
-    grid["share"] = share
-    found = grid.contour([sampled.INSIDE], scalars="share", method="flying_edges")
-    if not found.n_points:
-        return found
-    found = found.smooth_taubin(n_iter=SMOOTHED, pass_band=0.05).compute_normals()
-    from scipy.ndimage import map_coordinates
-
-    at = ((found.points - grid.origin) / grid.spacing).T
-    for name, own in values.items():
-        found[name] = map_coordinates(_spread(own, grid.dimensions), at, order=1, mode="nearest")
-    return found
-
-
-def _spread(values, shape) -> np.ndarray:
-    """Values on a grid as a cube, those that are none taken from the nearest that is."""
-    from scipy.ndimage import distance_transform_edt
-
-    cube = np.asarray(values).reshape(shape, order="F")
-    if not np.isnan(cube).any() or np.isnan(cube).all():
-        return cube
-    nearest = distance_transform_edt(np.isnan(cube), return_distances=False, return_indices=True)
-    return cube[tuple(nearest)]
-
-
-def _liquid(plotter, shot: Shot, liquid, scale, field: str, theme) -> None:
-    if liquid.any() and (found := surface(shot, liquid, field)).n_points:
-        _add(plotter, found, found.point_data, field, scale, theme, smooth_shading=True, **LIT)
+def _liquid(plotter, shot: Shot, liquid, scale, field: str, theme) -> np.ndarray:
+    """The surface of the liquid (mask); mask (N,) of the particles that it does not stand for."""
+    found, shown = surfaces.of_liquid(shot, liquid, field)
+    _add(plotter, found, found.point_data, field, scale, theme, smooth_shading="Normals" in found.point_data, **LIT)
+    return liquid & ~shown
 
 
 def _balls(plotter, shot: Shot, drawn, scale, field: str, theme) -> None:

@@ -137,27 +137,10 @@ def test_cells_are_found_where_they_are():
     assert between == pytest.approx([10.5], abs=1e-6)
 
 
-def test_the_surface_in_space_holds_the_liquid_and_has_its_values():
-    places = lattice(16, 3)
-    ball = places[np.linalg.norm(places - 0.8, axis=1) < 0.7]
-    round_drop = taken(cloud(ball, pressure=ball[:, 2]))
-    found = space.surface(round_drop, np.ones(len(ball), bool), "pressure")
-    assert found.volume == pytest.approx(len(ball) * SPACING**3, rel=0.05)
-    assert np.linalg.norm(found.points - 0.8, axis=1) == pytest.approx(0.7, abs=0.06)
-    assert np.asarray(found["pressure"]) == pytest.approx(found.points[:, 2], abs=0.08)
-
-
 def test_the_far_side_of_a_vessel_is_drawn_whatever_its_normals():
     outwards = pyvista.Cylinder(resolution=20)
     assert space._near_side(outwards) == "front"
     assert space._near_side(outwards.flip_faces()) == "back"
-
-
-def test_a_thin_sheet_in_a_wide_room_is_drawn_as_balls():
-    """The grid for its surface would not fit into memory."""
-    wide = taken(cloud(np.array([[0.0, 0.0, 0.0], [60.0, 60.0, 20.0]])))
-    assert not space._affordable(wide, np.ones(2, bool))
-    assert space._affordable(taken(cloud(lattice(16, 3))), np.ones(16**3, bool))
 
 
 @pytest.mark.parametrize(("edges", "axes"), [((5, 9, 1), (0, 1)), ((1, 9, 5), (1, 2)), ((5, 9, 8), None)])

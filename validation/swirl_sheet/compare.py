@@ -17,6 +17,7 @@ from sdph.methods.mps import sheet
 from sdph.methods.mps.mps import RESOLVED
 from sdph.running.alone import Alone
 from sdph.running.inputs import DROPS
+from sdph.show import shot, surfaces
 from sdph.study.compare import check
 
 WAY = 0.012  # m along the axis, when the run without tension is looked at: the sheet has not torn
@@ -112,22 +113,41 @@ def _figure(run) -> None:
 
 
 def _views(run) -> None:
-    """The sheet in the end: from aside, in a section through its axis one spacing to each side, from the front."""
+    """The sheet in the end as a surface, from aside and from the front, and in a section through its axis one spacing
+    to each side; what belongs to no surface as points."""
     import matplotlib
 
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    places = 1e3 * _places(run, run.summary["time_s"])
-    unit = 1e3 * run.case.resolution.spacing
-    cut = np.abs(places[:, 1]) < unit
+    shown = shot.of_folder(run.folder)
+    film, covered = surfaces.of_film(shown, np.ones(shown.particles.n_points, bool), "")
+    places = 1e3 * np.asarray(shown.particles.points)
+    cut = np.abs(places[:, 1] - places[:, 1].mean()) < 1e3 * run.case.resolution.spacing
     figure, axes = pyplot.subplots(1, 3, figsize=(15, 5.4), constrained_layout=True)
-    seen = (places[:, 2], places[:, 0]), (places[cut, 2], places[cut, 0]), (places[:, 1], places[:, 0])
-    for own, (a, b), title in zip(axes, seen, ("from aside", "section through the axis", "from the front")):
-        own.plot(a, b, "k.", markersize=0.6, alpha=0.5 if len(a) > 1e4 else 1.0)
-        own.set(aspect="equal", title=title, xlabel="mm", ylabel="mm")
+    views = (
+        ("from aside", 2, 0, ~covered),
+        ("section through the axis", 2, 0, cut),
+        ("from the front", 1, 0, ~covered),
+    )
+    for own, (title, right, up, points) in zip(axes, views):
+        own.plot(places[points, right], places[points, up], ".", color="0.4", markersize=0.8)
+        own.set(aspect="equal", title=title, xlabel=f"{'xyz'[right]} [mm]", ylabel=f"{'xyz'[up]} [mm]")
+        if points is not cut:
+            _drawn(own, film, right, up)
     figure.savefig(run.folder / "views.png", dpi=110)
     pyplot.close(figure)
+
+
+def _drawn(axes, film, right: int, up: int) -> None:
+    """Triangles seen along the third axis, the nearest last, darker where they stand across it."""
+    from matplotlib import colormaps
+    from matplotlib.collections import PolyCollection
+
+    across, corners = 3 - right - up, 1e3 * film.points[film.regular_faces]
+    order = np.argsort(corners[:, :, across].mean(axis=1))
+    colours = colormaps["Blues"](0.95 - 0.5 * np.abs(film.face_normals[order, across]))
+    axes.add_collection(PolyCollection(corners[order][:, :, [right, up]], facecolors=colours, zorder=3))
 
 
 def _reported(run) -> list[dict]:

@@ -18,7 +18,8 @@ THETA, STEEPNESS, STEP = 0.2, 1.0, 1e-9  # m2/s2, m/s2, s
 
 
 def agitated(folder, monkeypatch, alpha_p):
-    """A case of grains at rest that fill `alpha_p`, agitated by THETA + STEEPNESS y between open sides, two steps of STEP long."""
+    """A case of grains at rest that fill `alpha_p`, agitated by THETA + STEEPNESS y between open sides, two steps of
+    STEP long."""
     made = shutil.copytree(comparators.template(cases.load(scenes.find("granular_jet")[1]), "tfm"), folder)
     monkeypatch.setattr(comparators, "template", lambda case, kind: made)
     sides = {"floor": -STEEPNESS, "lid": STEEPNESS}
