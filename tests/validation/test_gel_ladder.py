@@ -71,7 +71,7 @@ def test_what_is_told_of_a_cavity(name, start, other):
 
 
 def test_a_disordered_ring_with_damage_bears_the_pressure_of_the_other_model(tmp_path):
-    """Two layers of particles are 2 % high; rate alone makes half of the pressure."""
+    """Two layers of particles are 2 % high when even; the rate makes more than half of the pressure."""
     thick = compare.scene_module("thick_ring")
     own = (*thick.VARIANTS["with damage, 10 % disorder"][0], "resolution.spacing_mm=0.025", "run.end_time_s=2.9e-4")
     case = cases.load(scenes.HERE / "thick_ring" / "case.toml", own)
