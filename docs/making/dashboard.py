@@ -33,6 +33,7 @@ PARTS = {
     "two_methods": {"pools": "by mps"},
     "own_vessel": {"flows": "packed bed", "orders": "order of", "dummies": "nearest two", "leaks": "shaken"},
     "gas_turbulence": {"frozen": "frozen flow", "channel": "of a channel"},
+    "gel_ladder": {"beam": "beam of", "cavity": "swing of a cavity"},
 }  # fmt: skip
 HEAD = "| check | value | reference | off by | tolerance | verdict |\n|--|--|--|--|--|--|"
 

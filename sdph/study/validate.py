@@ -6,8 +6,8 @@ and no scene stands for is under `experiments`, the kinetic theory of grains und
 that heap up and flow out under `granular_piles`, a plug of spray under `spray_plug`, a gel droplet without particles
 under `gel_droplet_reduced`, free bodies of moving particles under `moving_particles`, pools by them and by the weakly
 compressible method under `two_methods`, vessels of any mesh under `own_vessel`, turbulence of the gas under
-`gas_turbulence`: each is a folder of validation/ with a
-module for each part of it, which STUDY.PART runs alone; those named in LONG are run so only.
+`gas_turbulence`, a beam and a cavity of the gel droplet's ladder under `gel_ladder`: each is a folder of
+validation/ with a module for each part of it, which STUDY.PART runs alone; those named in LONG are run so only.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ EXPERIMENTS = "experiments"
 STUDIES = {
     EXPERIMENTS: ("coupling.",), "kinetic_theory": (), "granular_piles": (), "spray_plug": (),
     "gel_droplet_reduced": (), "moving_particles": (), "two_methods": (), "own_vessel": (),
-    "gas_turbulence": (),
+    "gas_turbulence": (), "gel_ladder": (),
 }  # fmt: skip
 
 

@@ -2,7 +2,8 @@
 ring grows steadily.
 
 The liquid has a bulk modulus: p = K (A_wanted/A - 1), A_wanted = A_0 + pi/4 (D^2 - D_0^2), as if the ring kept its
-volume; dD/dt rises to g D_0. Beyond its largest pressure a ring can be driven so, and not by a pressure that is given.
+volume; dD/dt rises to g D_0. Beyond its largest pressure a ring can be driven so, and not by a pressure that is given;
+the run ends where such a ring tears (sdph.methods.solids.bounds).
 """
 
 from __future__ import annotations
@@ -43,10 +44,11 @@ def kernel(case) -> InflationP:
     if body is None or body.shape != "ring":
         rings = [name for name, other in case.bodies.items() if other.shape == "ring"]
         raise CaseError(f"inflation.body = {own.body!r}; it must be a ring: {', '.join(rings) or 'there is none'}")
-    if case.solid.failure:
+    if case.solid.failure and own.by == "pressure":
         raise CaseError(
-            "inflation goes on pressing on what is left of a ring that has torn: leave solid.failure out, or fill the "
-            "ring with a liquid that has a bubble of vapour (effects bubble and time_scaling)"
+            "inflation by a pressure goes on pressing on what is left of a ring that has torn: leave solid.failure "
+            'out, drive the ring (inflation.by = "growth"), or fill it with a liquid that has a bubble of vapour '
+            "(effects bubble and time_scaling)"
         )
     if own.by == "pressure":
         if own.growth or own.bulk_modulus:

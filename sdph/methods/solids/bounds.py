@@ -7,7 +7,7 @@ import sys
 import numpy as np
 
 from sdph.engine import state as particles
-from sdph.engine.guard import RUNAWAY, TINY, Watch
+from sdph.engine.guard import RUNAWAY, TINY, Unstable, Watch
 from sdph.engine.kept import Unfit
 from sdph.engine.state import SOLID
 from sdph.methods.solids import start
@@ -36,3 +36,15 @@ class SolidGuard(Watch):
         self.hold("speed", speed, (0.0, sound, "m/s"), s, lower)
         size = particles.lengths(stepper.acceleration)
         self.hold("acceleration", size, (0.0, sys.float_info.max, "m/s2"), s, lower)
+        if stepper.cavity and stepper.free.any():
+            self._torn(stepper)
+
+    def _torn(self, stepper) -> None:
+        """Unstable, of a ring that is inflated: what fills it would have run out."""
+        ratio = stepper.cavity.diameter_ratio(stepper.state, stepper.reference)
+        raise Unstable(
+            f"bodies.{self.case.parameters['inflation'].body} tore at t = {self.time:.6g} s, at D/D0 = {ratio:.4g}: "
+            "inflation knows no tear; end the run before (run.end_time_s), or fill the ring with a liquid that has a "
+            "bubble of vapour (effects bubble and time_scaling)",
+            self.last,
+        )

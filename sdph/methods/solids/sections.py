@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from sdph.engine.kernels import NAMES
-from sdph.schema import choice, quantity, record, vector
+from sdph.schema import choice, quantity, record, vector, whole
 
 
 @record
@@ -37,7 +37,8 @@ class Body:
     (centre, radius, length, along the last axis). What lies in the held box does not move.
 
     `motion`: uniform, or cantilever: a box held on its left begins with the first mode of a thin plate, whose free end
-    moves up with `speed`. A ring may have a flaw: over an angle it is thinner, from outside.
+    moves up with `speed`. A ring may have a flaw: over an angle it is thinner, from outside. `disorder`: the particles
+    stand off their lattice or circles by up to so many spacings along each axis, at random, undeformed as they stand.
     """
 
     shape: str = choice("box", "disc", "ring", "cylinder")
@@ -55,3 +56,5 @@ class Body:
     flaw: float = quantity("", 0.0, least=0.0, most=0.99)  # of a ring: share of the thickness that is missing
     flaw_at: float = quantity("deg", 0.0, least=0.0, most=360.0)  # middle of the thin part, from the first axis
     flaw_half_width: float = quantity("deg", 6.0, above=0.0, most=180.0, tiny=True)
+    disorder: float = quantity("", 0.0, least=0.0, most=0.25)  # as of regions of grains
+    seed: int = whole(0, least=0)  # of that chance

@@ -10,6 +10,7 @@ from scipy.spatial import KDTree
 
 from sdph.engine import lattice
 from sdph.engine import state as particles
+from sdph.engine.regions import disordered
 from sdph.engine.state import SOLID
 from sdph.laws import strength
 from sdph.laws.solids import cantilever
@@ -65,7 +66,12 @@ def _refuse_overlap(case, placed: list) -> None:
 
 def places(case, body) -> tuple[np.ndarray, np.ndarray]:
     """Points (N, d) [m] of a body and their volumes (N,) [m^d], which fill it."""
-    spacing, d = case.resolution.spacing, case.dimensions
+    points, volumes = _even(body, case.resolution.spacing, case.dimensions)
+    return disordered(points, body.disorder, body.seed, case.resolution.spacing), volumes
+
+
+def _even(body, spacing: float, d: int) -> tuple[np.ndarray, np.ndarray]:
+    """The same without disorder."""
     if body.shape == "ring":
         return flawed(body, *rings(body.centre, body.inner_radius, body.radius, spacing))
     if body.shape == "box":

@@ -8,6 +8,7 @@ from blocks import moved, stepper
 
 from sdph.effects.solids import inflation
 from sdph.engine import state as particles
+from sdph.engine.guard import Unstable
 from sdph.schema import CaseError
 
 RING = {"shape": "ring", "centre_m": [0.5, 0.5], "radius_m": 0.25, "inner_radius_m": 0.2}
@@ -60,11 +61,41 @@ def test_a_liquid_presses_where_the_cavity_is_smaller_than_wanted():
     assert early == pytest.approx(late, rel=1e-4)
 
 
-def test_a_ring_that_may_fail_is_not_inflated():
+BRITTLE = {"yield_stress_Pa": 1e4, "failure": [0.01, 0.0, 0.0, 0.0, 0.0]}
+
+
+def test_a_ring_that_may_fail_is_not_inflated_by_a_pressure():
     """The pressure knows no tear."""
-    brittle = {"yield_stress_Pa": 1e4, "failure": [0.1, 0.0, 0.0, 0.0, 0.0]}
-    with pytest.raises(CaseError, match="inflation goes on pressing on what is left of a ring that has torn"):
-        ring(solid=brittle)
+    with pytest.raises(CaseError, match="goes on pressing on what is left of a ring that has torn"):
+        ring(solid=BRITTLE)
+
+
+def test_a_driven_ring_ends_where_it_tears():
+    own = ring(solid=BRITTLE, by="growth", growth_1_s=5.0, bulk_modulus_Pa=1e6, pressure_Pa=0.0)
+    own.guard.begin(Begun(own))
+    while not own.free.any() and own.time < 0.02:
+        own.guard.look(own)
+        own.step(1.0)
+    with pytest.raises(Unstable, match=r"bodies\.ring tore at t = .* D/D0 = 1\.0.*inflation knows no tear"):
+        own.guard.look(own)
+
+
+class Begun:
+    """A run as a guard sees it at the beginning of a window."""
+
+    def __init__(self, own):
+        self.state, self.time, self.windows = own.state, own.time, 0
+
+
+def test_disorder_moves_places_by_no_more_than_its_share_and_no_volume():
+    even, off = ring(), stepper(
+        bodies={"ring": RING | {"disorder": 0.1, "seed": 3}}, resolution={"spacing_mm": 12.5, "smoothing_ratio": 1.3}
+    )  # fmt: skip
+    order, other = np.argsort(even.state.ident), np.argsort(off.state.ident)
+    moved_by = np.abs(off.reference[other, :2] - even.reference[order, :2]) / 0.0125
+    assert 0.099 < moved_by.max() <= 0.1 + 1e-12 and moved_by.mean() == pytest.approx(0.05, rel=0.05)
+    np.testing.assert_array_equal(off.state.mass[other], even.state.mass[order])
+    assert np.abs(off.acceleration).max() < 1e-9 * 1e6 / (1000.0 * 0.0125)  # undeformed as they stand
 
 
 def test_diameter():
