@@ -13,6 +13,7 @@ import numpy as np
 from sdph.engine import arrays, cuts
 from sdph.engine import state as particles
 from sdph.engine.state import WALL
+from sdph.engine.world import ALONE
 from sdph.schema import CaseError
 
 UNEVEN = 1.1  # pairs of the busiest process over their mean, from which on space is cut anew; our choice
@@ -88,6 +89,10 @@ class Domain:
         """The own particles of a state that stands so: what is written there, is written in the state."""
         return state if not len(state.copy) else particles.first(state, int(np.count_nonzero(state.copy == 0)))
 
+    def mine_of(self, array: np.ndarray) -> np.ndarray:
+        """The rows of own particles among those of an array (N, ...), a view."""
+        return array if self.alone else array[: len(array) - sum(map(len, self.gets.values()))]
+
     def sort(self, order: np.ndarray) -> None:
         """Take note that row n is now what was row order[n]."""
         if self.alone:
@@ -136,7 +141,7 @@ class Domain:
             inbox[rank] = np.empty(sum(len(rows) * (array.size // len(array)) for array in arrays))
             sent.append(comm.Irecv(inbox[rank], rank))
         for rank, rows in self.sends.items():
-            values = np.concatenate([array[rows].ravel() for array in arrays])
+            values = np.concatenate([array[rows].ravel() for array in arrays], dtype=np.float64)  # whole numbers too
             sent.append(comm.Isend(values, rank))
             self.sent += 1, values.nbytes
         type(sent[0]).Waitall(sent)
@@ -202,6 +207,9 @@ class Domain:
                 count += len(part.x)
         mark = (np.arange(count) >= len(own.x)).astype(np.int8)
         return _joined([own, *_some(copies)])._replace(copy=mark)
+
+
+WHOLE = Domain(ALONE, 0.0, ())  # of one process
 
 
 def _own(state):

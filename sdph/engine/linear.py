@@ -13,11 +13,12 @@ import numpy as np
 from numba import prange
 
 from sdph.engine import arrays
+from sdph.engine.domain import WHOLE
 from sdph.engine.rows import Rows, laid, place
 from sdph.laws.compiled import parallel
 
 PART = 4096  # of a sum; our choice
-WHOLE, LEFT, MOVED, WEIGHT, PLACES = 0, 1, 2, 3, 5  # among the sums of `solve`: squares of right-hand side and residual
+ALL, LEFT, MOVED, WEIGHT, PLACES = 0, 1, 2, 3, 5  # among the sums of `solve`: squares of right-hand side and residual
 
 
 class Matrix(NamedTuple):
@@ -38,30 +39,32 @@ class Unsolved(RuntimeError):
     """Conjugate gradients that have not come to their tolerance."""
 
 
-def solve(matrix: Matrix, right, x, tolerance: float, most: int, room=None) -> int:
+def solve(matrix: Matrix, right, x, tolerance: float, most: int, room=None, domain=WHOLE) -> int:
     """Put the solution into x (N,), which is the first guess, until |right - A x| <= tolerance |right|; iterations.
 
     Conjugate gradients with the diagonal before them: Hestenes & Stiefel 1952, J. Res. Nat. Bur. Stand. 49, 409.
     `Unsolved` after `most` of them. Work arrays are from a `room`. On a device five numbers an iteration come to the
-    host, as |right - A x|^2 is among them.
+    host, as |right - A x|^2 is among them. Processes of a `domain` have the rows of own particles each: x is given with
+    fresh copies, and comes back without; the way along which all go is told of in every iteration, sums are of all.
     """
     room = room or arrays.Room()
     residual, smooth, along, moved = (room(name, len(x), x) for name in ("residual", "smooth", "along", "moved"))
     sums = arrays.zeros(PLACES, x)
     multiply(*matrix, x, moved)
     begin(matrix.diagonal, right, moved, residual, smooth, along)
-    add(right, (right,), sums, (WHOLE,))
-    add(residual, (residual, smooth), sums, (LEFT, WEIGHT))
-    whole = math.sqrt(arrays.brought(sums)[WHOLE])
+    add(right, (right,), sums, (ALL,), domain)
+    add(residual, (residual, smooth), sums, (LEFT, WEIGHT), domain)
+    whole = math.sqrt(arrays.brought(sums)[ALL])
     if _length(sums) <= tolerance * whole:
         return 0
     for number in range(1, most + 1):
         now = WEIGHT + (number + 1) % 2  # the weights of this iteration and of the next one stand there in turn
         then = 2 * WEIGHT + 1 - now
+        domain.refresh(along)
         multiply(*matrix, along, moved)
-        add(along, (moved,), sums, (MOVED,))
+        add(along, (moved,), sums, (MOVED,), domain)
         go(matrix.diagonal, sums, now, along, moved, x, residual, smooth)
-        add(residual, (residual, smooth), sums, (LEFT, then))
+        add(residual, (residual, smooth), sums, (LEFT, then), domain)
         if _length(sums) <= tolerance * whole:
             return number
         turn(sums, now, then, smooth, along)
@@ -112,13 +115,14 @@ def turn(sums, now, then, smooth, along):
         along[i] = along[i] * factor + smooth[i]
 
 
-def add(a, others: tuple, sums, places: tuple) -> None:
-    """Sums of a b for each b of others, at their places among sums, in one order on any number of threads."""
+def add(a, others: tuple, sums, places: tuple, domain=WHOLE) -> None:
+    """Sums of a b for each b of others, at their places among sums, in one order on any number of threads; over the own
+    particles of all processes of a domain."""
     if not arrays.here(a):
         arrays.card.dots(a, others, sums, places)
         return
-    for b, at in zip(others, places):
-        sums[at] = dot(a, b)
+    own = np.array([dot(*map(domain.mine_of, (a, b))) for b in others])
+    sums[list(places)] = domain.world.sum(own)
 
 
 def dot(a, b) -> float:

@@ -42,7 +42,10 @@ OF_GRAINS = (
     "gravity", "heat", "inflow", "lift", "micro_explosion", "outflow", "radiation", "reaction", "turbulent_dispersion",
     "wall_heat", "walls",
 )  # fmt: skip
-SHARED = {"liquid": OF_LIQUIDS, "grains": OF_GRAINS}
+OF_MPS = (
+    "free_energy_tension", "gravity", "inflow", "laminar_viscosity", "outflow", "perforation", "suction", "tank",
+)  # fmt: skip
+SHARED = {"liquid": OF_LIQUIDS, "mps": OF_MPS, "grains": OF_GRAINS}
 PR_SET_PDEATHSIG = 1  # linux/prctl.h
 KNOWN = range(6)  # codes that a process ends with of itself
 RULE = "-" * 20  # about what mpirun has to say

@@ -15,8 +15,9 @@ from sdph.laws.kernels import SUPPORT
 from sdph.methods.grains import start
 from sdph.methods.liquids.method import reach
 from sdph.methods.liquids.start import parts_of
+from sdph.methods.mps import start as pools
 from sdph.running import ranks
-from sdph.study.explain import estimate
+from sdph.study.explain import estimate, mps
 
 # work of a copy over that of a particle, and time [s] of a step for messages: both from two runs on two ranks of one
 # machine (benchmarks/README.md)
@@ -36,6 +37,9 @@ def _copies(places, owner, number: int, far: float, period) -> np.ndarray:
 def _of(case) -> tuple:
     """State at the start, distance [m] within which copies are made, period (d,) [m], us of a particle's step."""
     speed, skin = estimate.speed(), case.resolution.neighbour_skin
+    if case.incompressible:
+        far = reach_of(case.method.sees(case) * case.resolution.spacing, skin)
+        return pools.fill(case), far, case.liquid_period, mps.ROWS * speed.liquid
     if case.liquid:
         return parts_of(case)[1], reach_of(reach(case), skin), case.liquid_period, speed.liquid
     far = reach_of(SUPPORT * case.smoothing_length, skin) * (1.0 + ("walls" in case.effects))

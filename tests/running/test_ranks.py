@@ -1,6 +1,5 @@
 """A liquid that several processes share goes as by one process, ends as by one, and a process that dies is told of."""
 
-import csv
 import json
 import os
 import signal
@@ -14,9 +13,9 @@ import pytest
 from sdph.cli import main
 from sdph.engine import world
 from sdph.engine.world import World
-from sdph.running import output, ranks
+from sdph.running import ranks
 from sdph.schema import CaseError
-from tests.of_ranks import SDPH, WITH_MPI, fine, particles, run, shared_by
+from tests.of_ranks import SDPH, WITH_MPI, alike, fine, particles, run, shared_by
 
 pytestmark = WITH_MPI
 COARSE = ("--set", "resolution.spacing_mm=5.715", "--until", "0.02")
@@ -29,35 +28,6 @@ CASES = {  # name -> scene and options: what is shared of an effect at least onc
     "nozzle, open side": (3, "channel_bore", "--until", "0.02"),
     "drain, frame, in space": (2, "sloshing_cassini", "--until", "0.02"),
 }  # fmt: skip
-NOT_ALIKE = ("ranks", "imbalance", "halo_share")  # in the summary, and all that is of time or a drift
-
-
-def rows_alike(found, one) -> None:
-    """Columns of the history are those of one process, shares but for a few particles that round-off decides on."""
-    for name in one.keys() - set(output.TEXTS):
-        largest = np.nanmax(np.abs(one[name]), initial=0.0)
-        bar = 0.02 if name.endswith("_share") else 1e-8 * largest + 1e-11
-        bar = max(bar, 1e-4 * largest) if name.startswith(("wall_", "pipe_")) else bar  # of now: 5e-6 was found
-        np.testing.assert_allclose(found[name], one[name], rtol=0.0, atol=bar, err_msg=name)
-
-
-def alike(found: Path, one: Path, bar: float = 1e-11) -> None:
-    """Fields, history, ledger and summary are those of one process."""
-    ours, theirs = particles(found), particles(one)
-    np.testing.assert_array_equal(ours["ident"], theirs["ident"])
-    for name, values in theirs.items():
-        assert np.abs(ours[name] - values).max() <= bar * max(np.abs(values).max(), 1e-300), name
-    for table in ("history.csv", "ledger.csv"):
-        a, b = (list(csv.reader((folder / table).read_text().splitlines())) for folder in (found, one))
-        assert len(a) == len(b) and a[0] == b[0], table
-    rows_alike(*(output.read_table(folder / "history.csv", output.TEXTS) for folder in (found, one)))
-    a, b = (json.loads((folder / "summary.json").read_text()) for folder in (found, one))
-    assert a.keys() == b.keys()
-    for key in ("sub_steps", "particles", "mass_kg", "liquid_particles"):
-        assert a.get(key) == b.get(key), key
-    for key in ("work_of_gravity_J", "kinetic_energy_J", "dissipated_J", "drained_kg", "injected_kg", "left_kg"):
-        assert a[key] == pytest.approx(b[key], rel=1e-9, abs=1e-15), key
-    assert a["mass_drift_rel"] < 1e-12 and a["momentum_drift_rel"] < 1e-12
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -159,7 +129,7 @@ def test_others_wait_once_for_what_the_first_has_to_say(monkeypatch):
     [
         (("swirl_spray", "--ranks", "2"), "records a run"),
         (("bed_with_tube", "--ranks", "2", "--watch"), "a page is of one process"),
-        (("swirl_sheet", "--ranks", "2"), "only grains in a gas or a liquid alone are shared"),
+        (("gel_droplet", "--ranks", "2"), "only grains in a gas or a liquid alone are shared"),
         (("dam_break", "--ranks", "0"), "a whole number, at least 1"),
         (("dam_break", "--ranks", "100000"), "room for"),
         (("dam_break", "--ranks", "2", "--set", "run.launcher=no_such_launcher"), "there is no no_such_launcher"),

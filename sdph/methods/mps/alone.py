@@ -17,11 +17,12 @@ from sdph.laws.compiled import in_order, parallel, parallel_largest
 PART = 32  # particles of a part of a sum; our choice
 
 
-def summed(loop, columns: int, count: int, *arguments):
-    """Sums (columns,), in memory, of what a loop puts into parts (P, columns) of `count` particles."""
+def summed(world, loop, columns: int, count: int, *arguments):
+    """Sums (columns,), in memory, of what a loop puts into parts (P, columns) of `count` particles, over all processes
+    of a world."""
     part = arrays.empty(((count + PART - 1) // PART, columns), arguments[0].x)
     loop(*arguments, part)
-    return arrays.total(part)
+    return world.total(part)
 
 
 def of_kind(s, kind: int):

@@ -43,12 +43,15 @@ def even(cloud, walls, s, rows, box, rate):
 def pressed(stepper, dt: float) -> float:
     """Move the density of a stepper's state by `dt` [s] with its velocities, and set its pressure; returns the sum of
     what was below 0 and left out [Pa]."""
-    s, cloud = stepper.state, stepper.cloud
+    s, cloud, domain = stepper.state, stepper.cloud, stepper.domain
     c = sound_speed(stepper.case, stepper.p["free_energy_tension"])
     divergence, evened = (stepper.room(name, len(s.x), s.x) for name in ("divergence", "evened"))
     diverge(*stepper.within, divergence)
     even(*stepper.within, evened)
-    return c * c * condense(cloud, s, divergence, evened, c, dt, stepper.own.holds(stepper.case))
+    rates = map(domain.mine_of, (divergence, evened))
+    found = condense(cloud, domain.own(s), *rates, c, dt, stepper.own.holds(stepper.case))
+    domain.refresh(s.density, s.pressure)
+    return c * c * stepper.world.sum(found)
 
 
 @in_order

@@ -11,6 +11,7 @@ Circles do not stretch with the sheet.
 
 from __future__ import annotations
 
+import functools
 from typing import NamedTuple
 
 import numpy as np
@@ -18,7 +19,7 @@ import scipy
 
 from sdph.engine import state as particles
 from sdph.engine.kept import GROWING, Unfit
-from sdph.engine.state import LIQUID
+from sdph.engine.world import ALONE
 from sdph.laws import sheets
 from sdph.methods.mps import films
 
@@ -61,12 +62,13 @@ def drawn(ident, seed: int) -> np.ndarray:
 
 class Holes:
     """Holes of a stepper, by `perforation` and by `suction`; `growth` (n,): ln(eta/eta_0) of each number of a
-    particle."""
+    particle. Both are known to all processes of a world."""
 
     KEPT, FORMS = ("opened", "growth"), {"opened": GROWING, "growth": GROWING}  # see sdph.engine.kept
 
-    def __init__(self, case, p):
-        self.case, self.perforation, self.suction = case, p["perforation"], p["suction"]
+    def __init__(self, case, p, world=ALONE):
+        self.world, self.case = world, case
+        self.perforation, self.suction = p["perforation"], p["suction"]
         self.reach, self.unit = p["free_energy_tension"].reach, case.resolution.spacing
         self.sigma = case.parameters["free_energy_tension"].coefficient
         self.period = np.array(case.liquid_period)
@@ -79,16 +81,17 @@ class Holes:
 
     def advance(self, stepper, dt: float) -> np.ndarray:
         """Change (N, 3) of the velocities [m/s] in a step of `dt` [s], the next one; sites open first."""
+        stepper.tell_velocities()
         s, count = stepper.state, len(stepper.state.x)
         self.thickness = np.empty(count)
         films.see(self.reach, self.unit**3, s, stepper.rows, stepper.neighbours.box, self.thickness)
         self.tree = scipy.spatial.cKDTree(self._round(particles.positions(s)), boxsize=self.period)
-        liquid = s.kind == LIQUID
-        sites, spacing = np.zeros(count, bool), np.zeros(count)
+        sites, liquid, spacing = np.zeros(count, bool), np.zeros(count, bool), np.zeros(count)
+        liquid[stepper.active] = True
         if self.perforation:
-            sites = self._thin(s)
+            sites = self._thin(s, liquid)
         if self.suction:
-            torn, spacing = self._waves(s, dt)
+            torn, spacing = self._waves(s, liquid, dt)
             sites = sites | torn
         self._open(s, np.flatnonzero(sites & liquid), spacing, stepper.time)
         return self._pushed(s, liquid, stepper.time, dt)
@@ -99,10 +102,11 @@ class Holes:
         places[:, on] = np.mod(places[:, on], self.period[on])
         return places
 
-    def _thin(self, s) -> np.ndarray:
-        """Mask (N,) of the sites that have not opened, where the sheet is thin and goes on all round."""
+    def _thin(self, s, liquid) -> np.ndarray:
+        """Mask (N,) of the sites among own `liquid` (N,) that have not opened, where the sheet is thin and goes on all
+        round."""
         own, places = self.perforation, particles.positions(s)
-        found = (drawn(s.ident, own.seed) < own.share) & (self.thickness < own.thickness) & (s.kind == LIQUID)
+        found = (drawn(s.ident, own.seed) < own.share) & (self.thickness < own.thickness) & liquid
         found &= ~np.isin(s.ident, self.opened.site)
         for i in np.flatnonzero(found):
             off, axes = self._axes(places, i)
@@ -120,16 +124,17 @@ class Holes:
         off = self._image(places[self._near(places, i)] - places[i])
         return off, np.linalg.eigh(off.T @ off)[1]
 
-    def _waves(self, s, dt: float) -> tuple[np.ndarray, np.ndarray]:
+    def _waves(self, s, liquid, dt: float) -> tuple[np.ndarray, np.ndarray]:
         """Mask (N,) of the particles where waves tear the sheet now, of which one for each square of the spacing (N,)
-        [m] opens a hole; spacing is 0 where it is the wave's length and not the least that particles show."""
+        [m] opens a hole; spacing is 0 where it is the wave's length and not the least that particles show. Waves grow
+        where own `liquid` (N,) is."""
         own, rate, wave = self.suction, np.empty(len(s.x)), np.empty(len(s.x))
         films.swell(own, s, self.thickness, rate, wave)
-        rate[s.kind != LIQUID] = 0.0
-        if (more := int(s.ident.max(initial=-1)) + 1 - len(self.growth)) > 0:
+        if (more := self.world.most(int(s.ident.max(initial=-1))) + 1 - len(self.growth)) > 0:
             self.growth = np.append(self.growth, np.zeros(max(more, len(self.growth) // 2)))
-        before = self.growth[s.ident]
-        self.growth[s.ident] = before + dt * rate
+        before, gained = self.growth[s.ident], np.zeros(len(self.growth))
+        gained[s.ident[liquid]] = dt * rate[liquid]
+        self.growth = self.growth + self.world.sum(gained)
         passed = (before < sheets.TORN) & (self.growth[s.ident] >= sheets.TORN)
         spacing = self.spaced(wave)
         share = self.unit**3 / (self.thickness * spacing**2)
@@ -151,12 +156,16 @@ class Holes:
                 axes = self._axes(places, i)[1]
                 middle = places[i] + BESIDE * self.unit * axes[:, 2]
                 found.append((i, particles.velocities(s)[near].mean(axis=0), middle, axes[:, 0]))
+        if not self.world.any(bool(found)):
+            return
+        more = nothing()
         if found:
             i, velocity, middle, normal = (np.array(column) for column in zip(*found))
             h = self.thickness[i]
             speed = np.array([sheets.taylor_culick(self.sigma, self.case.liquid.density, each) for each in h])
             more = s.ident[i].astype(float), np.full(len(i), time), speed, 0.5 * h, middle, velocity, normal
-            self.opened = joined(self.opened, Opened(*more, (held[i] > 0.0).astype(float)))
+            more = Opened(*more, (held[i] > 0.0).astype(float))
+        self.opened = functools.reduce(joined, self.world.everywhere(more), self.opened)
 
     def _image(self, off) -> np.ndarray:
         """Separations (n, 3) [m] to the nearest images."""
@@ -170,7 +179,7 @@ class Holes:
         a rim passes in a step is pushed from its begin on."""
         own, age = self.opened, time - self.opened.born
         middle = own.middle + age[:, None] * own.velocity
-        live = np.flatnonzero(np.isin(own.site, s.ident))
+        live = np.flatnonzero(self.world.most(np.isin(own.site, s.ident).astype(np.int8)))
         radius = own.radius[live] + own.speed[live] * (age[live] + ahead)
         lists = self.tree.query_ball_point(self._round(middle[live].copy()), radius, return_sorted=True)
         number = [len(each) for each in lists]
@@ -191,17 +200,17 @@ class Holes:
         rim = self.opened.speed[hole]
         slow = (speed < rim) & (speed > -IN * rim)
         hole, i, kick = hole[slow], i[slow], ((rim - speed)[:, None] * outward)[slow]
-        change[i] = kick - _mean(hole, s.mass[i], kick)
+        change[i] = kick - self._mean(hole, s.mass[i], kick)
         return change
+
+    def _mean(self, hole, mass, kick):
+        """(n, 3) the mean, by mass, of the kicks of each one's hole (n,), of all processes; kick (n, 3) of own
+        particles."""
+        weights, number = (mass, *(mass * column for column in kick.T)), len(self.opened.site)
+        whole, *sums = self.world.sum(np.stack([np.bincount(hole, own, number) for own in weights]))
+        return np.stack([column[hole] for column in sums], axis=1) / whole[hole][:, None]
 
     def told(self) -> dict[str, float]:
         """Summary: holes, and the share of them whose spacing is the least that particles show and not the wave's."""
         number = len(self.opened.site)
         return {"holes": number, "hole_spacing_held_share": float(self.opened.held.mean()) if number else 0.0}
-
-
-def _mean(hole, mass, kick) -> np.ndarray:
-    """(n, 3) the mean, by mass, of the kicks (n, 3) of each one's hole (n,)."""
-    _, own = np.unique(hole, return_inverse=True)
-    whole = np.bincount(own, weights=mass)
-    return np.stack([np.bincount(own, weights=mass * column) / whole for column in kick.T], axis=1)[own]

@@ -7,12 +7,13 @@ import math
 import numpy as np
 
 from sdph import effects
-from sdph.engine import arrays, linear, motion
+from sdph.engine import arrays, gathered, linear, motion, world
 from sdph.engine import state as particles
 from sdph.engine.clock import count_of_parts
 from sdph.engine.kept import GROWING
 from sdph.engine.neighbours import Neighbours
 from sdph.engine.state import LIQUID
+from sdph.engine.world import ALONE
 from sdph.laws import moving_particles
 from sdph.methods.mps import alone, compressible, equations, pools, start, tanks
 from sdph.methods.mps.bounds import MpsGuard
@@ -38,6 +39,7 @@ class MpsStepper:
     # what loops take from neighbours, fresh, of `state` and of what `_look` finds; the pressure is solved for by all
     HALO = (*"xyzuvw", "kind", "ident", "pressure", "surface")
     SEEN = ("number", "surface", "energy")  # arrays of the particles that outputs read
+    ROWS = ()  # all that goes on from one step to the next is in the state
 
     def __init__(self, case, shortest: float = 0.0):
         self.case, self.own, self.guard, self.shortest = case, case.method, MpsGuard(case), shortest
@@ -46,11 +48,14 @@ class MpsStepper:
         self.pool = case.method.of_pools(case)
         self.state = start.fill(case)
         self.walls = tanks.walls_of(case, self.state)
-        self.openings = Openings(case, self.state) if self.p["inflow"] or self.p["outflow"] else None
+        self.world = world.here()
+        self.openings = Openings(case, self.state, self.world) if self.p["inflow"] or self.p["outflow"] else None
         if self.openings:
             self.state = self.openings.begin(self.state)
-        self.holes = Holes(case, self.p) if self.p["perforation"] or self.p["suction"] else None
-        self.neighbours = Neighbours(self.own.sees(case) * unit, case.liquid_period, case.resolution.neighbour_skin)
+        self.holes = Holes(case, self.p, self.world) if self.p["perforation"] or self.p["suction"] else None
+        sees, skin = self.own.sees(case) * unit, case.resolution.neighbour_skin
+        self.neighbours = Neighbours(sees, case.liquid_period, skin, self.world)
+        self.domain = self.neighbours.domain
         self.room, self.landed = arrays.Room(), None  # see sdph.engine.ashore
         self.time, self.steps, self.steps_before, self.limit = 0.0, 0, 0, ""
         self.works, self.impulses = np.zeros(len(WORKS)), np.zeros((2, 3))  # of gravity, of what waits
@@ -60,13 +65,16 @@ class MpsStepper:
         self.freed = np.zeros(0, bool)  # where the surface was drawn apart in the last step
         self.moved = 0.0  # longest way [l0] by which particles were kept apart in the last step
         self._rebuild()
-        if self.walls and not (self.surface == 1).any():
+        if self.walls and not self.world.any((self.domain.mine_of(self.surface) == 1).any()):
             raise CaseError("no particle is at a free surface, and mps gives a closed vessel no pressure: fill it less")
 
     def revive(self) -> None:
-        """Make anew what a checkpoint does not hold, once it was put back."""
+        """Make anew what a checkpoint does not hold, once it was put back; it holds the particles of all processes."""
         self.steps_before = self.steps
-        self.rows = self.neighbours.relist(self.state.kind)
+        if self.domain.alone:
+            self.rows = self.neighbours.relist(self.state.kind)
+        else:
+            gathered.take_part(self)
         self._look()
 
     def admit(self, kept: dict) -> None:
@@ -75,8 +83,8 @@ class MpsStepper:
 
     @property
     def active(self):
-        """Numbers of the particles that move by the equations."""
-        return alone.of_kind(self.state, LIQUID)
+        """Rows of the own particles that move by the equations."""
+        return alone.of_kind(self.domain.own(self.state), LIQUID)
 
     @property
     def pressure(self):
@@ -98,7 +106,9 @@ class MpsStepper:
         dt, active = self.next_step(most), self.active
         for name, acceleration in self._acting():
             self._kick(name, acceleration, dt, active)
+        self.tell_velocities()
         self._kick("pressure", self._pressed(dt), dt, active)
+        self.tell_velocities()
         self._collide(active)
         if self.holes:
             self._kick("holes", self.holes.advance(self, dt), 1.0, active)
@@ -107,13 +117,17 @@ class MpsStepper:
         if self.pool:
             self._keep_apart(active)
         if self.openings:
-            self.openings.move(s, self.time, dt)
+            self.openings.move(self.domain.own(s), self.time, dt)
         self.time += dt
         self.steps += 1
         if self.openings:
             self.openings.renew(self)
         self._rebuild()
         return dt
+
+    def tell_velocities(self) -> None:
+        """Have the velocities of copies as they are now."""
+        self.domain.refresh(self.state.u, self.state.v, self.state.w)
 
     def _acting(self):
         """(cause, acceleration (N, 3) [m/s2]) of all that acts but the pressure, with the velocities as they are."""
@@ -156,11 +170,14 @@ class MpsStepper:
             pools.lean(*self.within, cloud.density / dt, source)
         matrix = equations.matrix(*self.within, self.number, self.surface, self.room)
         try:
-            self.iterations += linear.solve(matrix, source, self.pressure, own.tolerance, own.iterations, self.room)
+            self.iterations += linear.solve(
+                matrix, source, self.pressure, own.tolerance, own.iterations, self.room, self.domain
+            )
         except linear.Unsolved as error:
             self.guard.unsolved(self, error)
         if holds:
-            self.clipped += alone.leave_out(self.pressure)
+            self.clipped += self.world.sum(alone.leave_out(self.domain.mine_of(self.pressure)))
+        self.domain.refresh(self.pressure)
         self.beside = beside
         return self._pushed(cloud.density / dt, beside)
 
@@ -173,19 +190,21 @@ class MpsStepper:
             return pressed
         borne = self._work("borne", (count, 3))
         pools.press(*self.within, self.pressure, beside, scale, pressed, borne)
-        self.load = alone.summed(alone.add_load, 3, count, s, borne)
+        own = self.domain.own(s)
+        self.load = alone.summed(self.world, alone.add_load, 3, len(own.x), own, self.domain.mine_of(borne))
         return pressed
 
     def _keep_apart(self, active) -> None:
         """Particles inside a pool move to where there are few."""
         s, way = self.state, self._work("way", (len(self.state.x), 3))
+        self.domain.refresh(s.x, s.y, s.z)
         pools.keep_apart(*self.around, self.beside, self.own.shift * self.cloud.spacing, way)
-        self.moved = math.sqrt(alone.longest(way)) / self.cloud.spacing
+        self.moved = math.sqrt(self.world.most(alone.longest(way))) / self.cloud.spacing
         motion.kick(active, way, 1.0, s.x, s.y, s.z)
 
     def _kick(self, name: str, acceleration, dt: float, active) -> None:
         s = self.state
-        work, *impulse = alone.summed(alone.add_kick, 4, len(active), s, active, acceleration, dt)
+        work, *impulse = alone.summed(self.world, alone.add_kick, 4, len(active), s, active, acceleration, dt)
         self.works[WORKS.index(name)] += work
         self.impulses[0 if name == "gravity" else 1] += impulse
         motion.kick(active, acceleration, dt, s.u, s.v, s.w)
@@ -194,7 +213,9 @@ class MpsStepper:
         """Pairs nearer than they lie lose what they approach by."""
         s, own, count = self.state, self.own, len(self.state.x)
         distance, meeting = own.collision * self.cloud.spacing, self._work("meeting", count)
-        if equations.meet(self.walls, s, self.links, self.neighbours.box, distance, meeting):
+        found = equations.meet(self.walls, s, self.links, self.neighbours.box, distance, meeting)
+        if self.world.any(found):
+            self.domain.refresh(meeting)
             change = self._work("acceleration", (count, 3))
             equations.collide(
                 self.walls, s, self.links, self.neighbours.box, distance, own.restitution, meeting, change
@@ -203,16 +224,21 @@ class MpsStepper:
 
     def next_step(self, left: float) -> float:
         """Length [s] of the next step: `left` in equal parts no longer than the shortest limit; `limit` names it."""
-        found = limits(self.case, self.p, self.state, arrays.ends(self.speed)[1])
+        relative = self.world.most(arrays.ends(self.speed)[1])
+        found = limits(self.case, self.p, self.state, relative, self.world)
         self.limit = min(found, key=found.get, default="")
         longest = self.case.run.step_factor * found.get(self.limit, math.inf)
         return left / count_of_parts(
             left, longest, self.shortest, f"the step's limit {self.limit!r} (times run.step_factor)"
         )
 
+    def share(self) -> None:
+        """Rows of where the particles are now, and copies as they are."""
+        self.state, self.rows = self.neighbours.update(self.state, *self.state[:6], self.state.kind)
+
     def _rebuild(self) -> None:
-        """Rows of where the particles are now, and what is seen from there."""
-        self.state, self.rows = self.neighbours.update(self.state)
+        """The same, and what is seen from there."""
+        self.share()
         self._look()
 
     def _look(self) -> None:
@@ -220,6 +246,7 @@ class MpsStepper:
         self.number, self.speed = self._work("number", count), self._work("speed", count)
         self.surface, near = self._work("surface", count, np.int8), self._work("near", count, np.int32)
         equations.look(*self.around, self.number, self.surface, self.speed, near)
+        self.domain.refresh(self.surface)
         self.links = linear.links_of(near, self.room)
         equations.gather(*self.around, self.links, self.links.entries)
         if own := self.p["free_energy_tension"]:
@@ -235,13 +262,13 @@ class MpsStepper:
         return self.pressure + (own.cohesion if own else 0.0) * (self.surface == 0)
 
     def take(self, keep) -> None:
-        """Take out the particles that are not kept (N,); the next rows are made anew."""
-        self.replace(particles.take(self.state, keep))
+        """Take out the own particles that are not kept (N,); the next rows are made anew."""
+        self.replace(particles.take(self.domain.own(self.state), keep))
 
     def replace(self, state) -> None:
         """Go on with another state; the next rows are made anew."""
         if state is not self.state:
-            self.state, self.neighbours.built = state, ()
+            self.state, self.neighbours.built = self.domain.admitted(state), ()
 
 
 def cloud(case) -> equations.Cloud:
@@ -253,8 +280,9 @@ def cloud(case) -> equations.Cloud:
     )
 
 
-def limits(case, parameters, state, relative: float) -> dict[str, float]:
-    """Longest steps [s] by cause: neighbours that move to each other by `relative` [m/s], each effect."""
+def limits(case, parameters, state, relative: float, own_world=ALONE) -> dict[str, float]:
+    """Longest steps [s] by cause, of all processes of a world: neighbours that move to each other by `relative` [m/s],
+    each effect."""
     unit, gravity = case.resolution.spacing, math.hypot(*case.domain.gravity) if "gravity" in case.effects else 0.0
     own = {"relative motion": RELATIVE * unit / relative} if relative else {}
     if gravity:
@@ -262,6 +290,6 @@ def limits(case, parameters, state, relative: float) -> dict[str, float]:
     if case.method.pressure == "weakly_compressible":
         sound = compressible.sound_speed(case, parameters["free_energy_tension"])
         own["sound"] = compressible.COURANT * unit / sound
-    if case.method.of_pools(case) and (speed := alone.fastest(state)):
+    if case.method.of_pools(case) and (speed := own_world.most(alone.fastest(state))):
         own["motion"] = COURANT * unit / math.sqrt(speed)
-    return own | effects.finite(effects.limits(parameters, case, state))
+    return own | effects.finite(own_world.leasts(effects.limits(parameters, case, state)))

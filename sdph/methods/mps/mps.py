@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from sdph.effects.around import tank
-from sdph.engine import arrays, ashore
+from sdph.engine import arrays, ashore, gathered
 from sdph.engine import state as particles
 from sdph.engine.kept import GROWING
 from sdph.engine.state import LIQUID
@@ -50,8 +50,8 @@ class Mps(Stepped):
 
     @contextlib.contextmanager
     def whole(self):
-        with ashore.ashore(self.stepper):
-            yield True
+        with ashore.ashore(self.stepper), gathered.whole(self.stepper) as chief:
+            yield chief
 
     def close(self) -> None:
         self.stepper.guard.look(self.stepper)
@@ -70,14 +70,16 @@ class Mps(Stepped):
 
     def row(self) -> dict[str, float]:
         """Columns of history.csv."""
-        with self.whole():
+        with ashore.ashore(self.stepper):
             return history.row(self)
 
     def held(self) -> dict[str, float]:
         """Share of the particles whose pressure would be below 0, where none is, now; of pools those at the surface
         that are drawn apart and not held, and the longest way by which particles were kept apart [l0]."""
         stepper = self.stepper
-        many, bare, freed = alone.shares(self.state, stepper.freed)
+        domain = stepper.domain
+        found = alone.shares(domain.own(self.state), domain.mine_of(stepper.freed))
+        many, bare, freed = map(float, stepper.world.sum(np.array(found)))
         found = {"pressure_at_least_share": bare / many if stepper.own.holds(self.case) and many else 0.0}
         if stepper.pool:
             found["surface_freed_share"] = freed / (many or 1.0)
@@ -85,22 +87,23 @@ class Mps(Stepped):
         return found
 
     def points(self):
-        with self.whole():
+        with ashore.ashore(self.stepper):
             return self._points()
 
     def _points(self):
         import pyvista
 
-        inside = self.state.kind == LIQUID
-        cloud = pyvista.PolyData(particles.positions(self.state)[inside])
-        if inside.any():  # pyvista knows no empty arrays
-            cloud["velocity"] = particles.velocities(self.state)[inside]
-            cloud["pressure"] = self.stepper.gauge[inside]
+        domain, apart = self.stepper.domain, self.case.method.piece * self.case.resolution.spacing
+        rows = np.flatnonzero(self.state.kind == LIQUID)  # of copies too
+        piece, _ = pieces.labels(domain, self.state, rows, apart, self.case.liquid_period)
+        own = self.stepper.active
+        cloud = pyvista.PolyData(particles.positions(self.state)[own])
+        if len(own):  # pyvista knows no empty arrays
+            cloud["velocity"] = particles.velocities(self.state)[own]
+            cloud["pressure"] = self.stepper.gauge[own]
             for name in ("ident", "kind", "mass", "density"):
-                cloud[name] = getattr(self.state, name)[inside]
-            cloud["piece"] = pieces.labels(
-                cloud.points, self.case.method.piece * self.case.resolution.spacing, self.case.liquid_period
-            )
+                cloud[name] = getattr(self.state, name)[own]
+            cloud["piece"] = piece[: len(own)]
         return cloud
 
     def walls(self):
@@ -109,7 +112,8 @@ class Mps(Stepped):
     def summary(self) -> dict[str, float]:
         with self.whole():
             found = self._summary()
-        return found | ashore.told(self.stepper)
+        shared = self.stepper.domain.summary(self.steps - self.stepper.steps_before)
+        return found | shared | ashore.told(self.stepper)
 
     def _summary(self) -> dict[str, float]:
         opening = self.stepper.openings
@@ -139,5 +143,5 @@ class Mps(Stepped):
         return [told] * bool(left) + [f"{cut} particles {ends}"] * bool(cut)
 
     def inside(self):
-        """State of the liquid."""
-        return particles.take(self.state, self.state.kind == LIQUID)
+        """State of the liquid, of which each process has a part."""
+        return particles.take(self.state, self.stepper.active)

@@ -6,6 +6,7 @@ What hangs on it further than a domain's length beyond the end is cut off, and c
 
 from __future__ import annotations
 
+import functools
 import math
 
 import numpy as np
@@ -16,6 +17,7 @@ from sdph.effects.around.source import Source
 from sdph.engine import arrays
 from sdph.engine import state as particles
 from sdph.engine.state import INFLOW, LIQUID
+from sdph.engine.world import ALONE
 from sdph.laws.compiled import parallel
 from sdph.methods.mps import alone, annulus, pieces, tanks
 
@@ -28,8 +30,9 @@ class Openings:
 
     KEPT = ("source", "passed", "left", "cut")  # see sdph.engine.kept
 
-    def __init__(self, case, state):
+    def __init__(self, case, state, world=ALONE):
         names = tanks.arrays(case)
+        self.world = world
         self.case, self.passed, self.left, self.cut = case, np.zeros((2, 5)), 0, 0
         self.source = Source(case, names, len(state.x)) if "inflow" in case.effects else None
         self.leave = "outflow" in case.effects
@@ -65,44 +68,60 @@ class Openings:
     def renew(self, stepper) -> None:
         """Let go of what is through its mouth, fill up the streams, take out what has left."""
         if self.source:
+            s = stepper.domain.own(stepper.state)
             for own in self.annuli.values():
-                self._pass(IN, annulus.let_go(own, stepper.state))
+                self._pass(IN, annulus.let_go(own, s))
             if len(self.annuli) < len(self.source.nozzles):
-                waiting = np.flatnonzero(stepper.state.kind == INFLOW)
-                self.source.release(stepper.state)
-                released = waiting[stepper.state.kind[waiting] == LIQUID]
-                self._count(IN, particles.take(stepper.state, released))
+                waiting = np.flatnonzero(s.kind == INFLOW)
+                self.source.release(s)
+                released = waiting[s.kind[waiting] == LIQUID]
+                self._count(IN, particles.take(s, released))
             stepper.replace(self.source.fill(stepper.state, stepper.time, 0.0))
         if self.leave:
             self._let_out(stepper)
 
     def _let_out(self, stepper) -> None:
         s, case = stepper.state, self.case
-        out, far, gone, lost, kept = (arrays.empty(len(s.x), s.x, np.bool_) for _ in range(5))
-        if not beyond(s, *ends(case, 0.0), out):
+        out = arrays.empty(len(s.x), s.x, np.bool_)
+        if not self.world.any(beyond(s, *ends(case, 0.0), out)):
             return
+        label, number = self._pieces(stepper)
+        s = stepper.domain.own(stepper.state)
+        out, far, gone, lost, kept = (arrays.empty(len(s.x), s.x, np.bool_) for _ in range(5))
+        beyond(s, *ends(case, 0.0), out)
         beyond(s, *ends(case, 1.0), far)
-        label = pieces.joined(particles.axes(s), stepper.own.piece * case.resolution.spacing)
         outside, waiting = (arrays.taken(label, rows) for rows in (arrays.chosen(out), alone.of_kind(s, INFLOW)))
-        many = [arrays.starts(own, len(s.x)) for own in (label, outside, waiting)]
-        whole, cut = map(int, leave(label, *many, far, gone, lost, kept))
+        many = [self.world.sum(arrays.starts(own, number)) for own in (label, outside, waiting)]
+        whole, cut = map(int, self.world.sum(np.array(leave(label, *many, far, gone, lost, kept))))
         self.cut += cut
         if whole:
-            self._tell(stepper, label, arrays.chosen(gone))
+            self._tell(stepper, s, label, arrays.chosen(gone))
         if whole or cut:
             self._count(OUT, particles.brought(particles.take(s, arrays.chosen(lost))))
             stepper.take(arrays.chosen(kept))
 
-    def _tell(self, stepper, label, rows) -> None:
-        """Rows of the pieces that leave, of particles (n,)."""
-        taken = particles.brought(particles.take(stepper.state, rows))
-        found = pieces.of(taken, arrays.brought(arrays.taken(label, rows)), self.case)
+    def _pieces(self, stepper) -> tuple:
+        """Number (N,) of the piece of each own particle, and how many numbers there may be."""
+        distance = stepper.own.piece * self.case.resolution.spacing
+        if stepper.domain.alone:  # on a device too
+            return pieces.joined(particles.axes(stepper.state), distance), len(stepper.state.x)
+        stepper.share()
+        s = stepper.state
+        label, number = pieces.labels(stepper.domain, s, np.arange(len(s.x)), distance)
+        return stepper.domain.mine_of(label), number
+
+    def _tell(self, stepper, s, label, rows) -> None:
+        """Rows of the pieces that leave, of own particles (n,) of a state, of all processes."""
+        taken = particles.brought(particles.take(s, rows))
+        parts = self.world.everywhere((taken, arrays.brought(arrays.taken(label, rows))))
+        states, labels = zip(*parts)
+        found = pieces.of(functools.reduce(particles.join, states), np.concatenate(labels), self.case)
         self.told += [{"time_s": stepper.time} | row for row in found]
         self.left += len(found)
 
     def _pass(self, way: int, sums) -> None:
-        """Add mass, momentum and energy of what passed."""
-        self.passed[way] += sums
+        """Add mass, momentum and energy of what passed, in all processes."""
+        self.passed[way] += self.world.sum(np.array(sums))
 
     def _count(self, way: int, state) -> None:
         velocity = particles.velocities(state)

@@ -15,10 +15,20 @@ from sdph.laws.compiled import parallel
 from sdph.laws.sheets import diameter_of
 
 
-def labels(places, distance: float, period=(OPEN, OPEN, OPEN)) -> np.ndarray:
-    """Number (N,) of the piece of each place (N, 3) [m]: two are of one where they are nearer than `distance` [m],
-    through a periodic side too."""
-    return np.unique(joined(tuple(map(np.ascontiguousarray, places.T)), distance, period), return_inverse=True)[1]
+def labels(domain, state, rows, distance: float, period=(OPEN, OPEN, OPEN)) -> tuple[np.ndarray, int]:
+    """Number (n,) of the piece of each of the particles in `rows` (n,), own ones and copies, and how many pieces there
+    are: two are of one where they are nearer than `distance` [m], through a periodic side too. Pieces of all processes
+    of a domain are counted by the least number that a particle of them has."""
+    local = joined(tuple(axis[rows] for axis in domain.axes(state)), distance, period)
+    label, changed = state.ident.copy(), True
+    while changed:  # the least that a process knows of a piece goes on to those that have another part of it
+        before, least = label[rows], label[rows]
+        np.minimum.at(least, local, before)
+        label[rows] = least[local]
+        domain.refresh(label)
+        changed = domain.world.any(bool((label[rows] != before).any()))
+    names = np.unique(np.concatenate(domain.world.everywhere(np.unique(label[rows]))))
+    return np.searchsorted(names, label[rows]), len(names)
 
 
 def joined(axes, distance: float, period=(OPEN, OPEN, OPEN)):

@@ -84,7 +84,8 @@ def _passed(stepper) -> np.ndarray:
 
 def totals(stepper) -> dict[str, float]:
     """Columns of the liquid that there is now, upstream of nozzles left out."""
-    s = stepper.state
-    many, mass, *momentum, motion, bound = map(float, alone.summed(alone.add_all, 7, len(s.x), s, stepper.energy))
+    s, energy = stepper.domain.own(stepper.state), stepper.domain.mine_of(stepper.energy)
+    found = alone.summed(stepper.world, alone.add_all, 7, len(s.x), s, energy)
+    many, mass, *momentum, motion, bound = map(float, found)
     row = {"particles": int(many), "mass_kg": mass} | vector("momentum", momentum)
     return row | {"kinetic_energy_J": motion, "cohesion_energy_J": bound}

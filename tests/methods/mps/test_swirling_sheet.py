@@ -10,6 +10,8 @@ import pytest
 from sdph import scenes
 from sdph.case import read as cases
 from sdph.effects.around.source import Source
+from sdph.engine import state as particles
+from sdph.engine.domain import WHOLE
 from sdph.engine.state import INFLOW, LIQUID
 from sdph.methods.mps import openings, pieces, sheet
 from sdph.methods.mps.method import MpsStepper
@@ -162,14 +164,25 @@ def test_it_goes_on_from_a_checkpoint_to_the_last_bit(tmp_path, holes):
     assert whole.summary["momentum_drift_rel"] < 1e-12 and whole.summary["energy_drift_rel"] < 1e-12
 
 
+def labels(places, distance, *period, ident=None) -> list[int]:
+    """Piece of each of the particles at these places."""
+    state = particles.empty(len(places), dimensions=3)
+    state.x[:], state.y[:], state.z[:] = places.T
+    state.ident[:] = np.arange(len(places)) if ident is None else ident
+    found, number = pieces.labels(WHOLE, state, np.arange(len(places)), distance, *period)
+    assert number == len(set(found.tolist()))
+    return found.tolist()
+
+
 def test_pieces_hang_together_by_their_distance():
     places = np.array([[0.0, 0, 0], [1.0, 0, 0], [2.0, 0, 0], [5.0, 0, 0], [6.4, 0, 0]])
-    assert pieces.labels(places, 1.5).tolist() == [0, 0, 0, 1, 1]
-    assert pieces.labels(places, 1.2).tolist() == [0, 0, 0, 1, 2]
-    assert pieces.labels(np.zeros((0, 3)), 1.2).tolist() == []
+    assert labels(places, 1.5) == [0, 0, 0, 1, 1]
+    assert labels(places, 1.2) == [0, 0, 0, 1, 2]
+    assert labels(np.zeros((0, 3)), 1.2) == []
     across = np.array([[0.1, 0.0, 0.0], [9.8, 0.0, 0.0], [5.0, 0.0, 0.0]])
-    assert pieces.labels(across, 1.0).tolist() == [0, 1, 2]
-    assert pieces.labels(across, 1.0, (10.0, 0.0, 0.0)).tolist() == [0, 0, 1]
+    assert labels(across, 1.0) == [0, 1, 2]
+    assert labels(across, 1.0, (10.0, 0.0, 0.0)) == [0, 0, 1]
+    assert labels(places[::-1], 1.5, ident=[9, 8, 2, 1, 5]) == [1, 1, 0, 0, 0]
 
 
 def test_sizes_of_drops():
