@@ -11,17 +11,18 @@ from sdph.show.shot import Shot, numbers
 
 FINE = 0.5  # of the spacing: step of the grid on which a surface is found; our choice
 MOST = 2e7  # points of that grid: half a minute and a GB; our choice
-MANY = 300_000  # particles between which triangles are found: ten seconds; our choice
+MANY = 300_000  # particles between which triangles are found (66 000 took 2 s on 28 November 2026); our choice
 SMOOTHED = 60  # rounds of Taubin's smoothing of a surface, that takes the bumps of the particles; our choice
 LONELY = 4  # particles with fewer neighbours within two spacings have no surface and are drawn as balls; our choice
-REACH = 1.8  # spacings within which two particles are one piece: `method.piece` of the scenes
+REACH = 1.8  # spacings within which particles share a triangle: those of one piece by the default of `method.piece`
+ALIKE = 1e-3  # of a spacing: particles nearer than that are one point of triangles; our choice
 
 
 def of_liquid(shot: Shot, liquid: np.ndarray, field: str):
     """(mesh, mask (N,) of the particles that it stands for) of the liquid particles (mask), with the field's values."""
     if affordable(shot, liquid):
         return of_bulk(shot, liquid, field)
-    return of_film(shot, liquid, field) if liquid.sum() <= MANY else _nothing(liquid)
+    return of_film(shot, liquid, field)
 
 
 def _nothing(liquid):
@@ -49,7 +50,7 @@ def of_bulk(shot: Shot, liquid: np.ndarray, field: str):
     grid["share"] = share
     found = grid.contour([sampled.INSIDE], scalars="share", method="flying_edges")
     if not found.n_points:
-        return found, shown
+        return _nothing(liquid)
     found = found.smooth_taubin(n_iter=SMOOTHED, pass_band=0.05).compute_normals()
     from scipy.ndimage import map_coordinates
 
@@ -67,7 +68,11 @@ def of_film(shot: Shot, liquid: np.ndarray, field: str):
     own, data = np.flatnonzero(liquid), shot.particles.point_data
     cloud = pyvista.PolyData(np.asarray(shot.particles.points)[own])
     cloud["own"] = own
-    shape = cloud.delaunay_3d(alpha=REACH * shot.spacing / math.sqrt(3.0))
+    if not 4 <= len(own) <= MANY:  # less is no tetrahedron
+        return _nothing(liquid)
+    shape = cloud.delaunay_3d(alpha=REACH * shot.spacing / math.sqrt(3.0), tol=ALIKE * shot.spacing / cloud.length)
+    if not shape.n_cells:
+        return _nothing(liquid)
     shown = np.zeros(len(liquid), bool)
     for kind, corners in shape.cells_dict.items():
         if kind in (pyvista.CellType.TRIANGLE, pyvista.CellType.TETRA):

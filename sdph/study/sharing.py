@@ -64,11 +64,13 @@ def rows(case, number: int) -> list[dict]:
     step = 1e-6 * each * len(places)  # of one process [s]
     efficiency = 1.0 / (uneven * (1.0 + COPY * halo) + TALK * number / step)
     largest = own.max() + copies.max()
-    return [
+    found = [
         {"what": "ranks", "value": number, "unit": ""},
         {"what": "particles of a rank, walls included, at most", "value": int(own.max()), "unit": ""},
         {"what": "copies of others', over own particles", "value": halo, "unit": ""},
         {"what": "fullest rank over the mean, walls left out", "value": uneven, "unit": ""},
         {"what": "memory of a rank", "value": estimate.memory(case, largest, 0) / 1e6, "unit": "MB"},
-        {"what": "expected efficiency, one thread a rank", "value": efficiency, "unit": ""},
     ]
+    if not case.incompressible:  # what messages of an equation for the pressure cost was not measured
+        found.append({"what": "expected efficiency, one thread a rank", "value": efficiency, "unit": ""})
+    return found

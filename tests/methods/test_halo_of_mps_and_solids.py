@@ -9,7 +9,7 @@ from test_halo import poison, strewn
 from test_pools import TANK, tank
 
 from sdph.engine import state as particles
-from sdph.methods.mps import equations, pools
+from sdph.methods.mps import compressible, equations, pools
 from sdph.methods.mps.method import MpsStepper
 from sdph.methods.solids import equations as of_solids
 from sdph.methods.solids.method import SolidStepper
@@ -32,16 +32,18 @@ def of_far(own, arrays, extra):
 
 
 def mps_answer(name, extra=()):
-    """All that loops make of the own particles: surface, divergence, matrix, accelerations, collisions, ways."""
+    """All that loops make of the own particles: surface, divergence, matrix, accelerations, collisions, ways, and how
+    uneven the density is."""
     own = POOLS[name]()
     inside, rng = strewn(own.state), np.random.default_rng(1)
     own.state.pressure[:] = rng.random(len(inside))
+    own.state.density[:] *= 1.0 + 0.01 * rng.random(len(inside))
     own._look()
     if extra is not None:
         poison(own, of_far(own, OF_MPS, extra), ~inside)
         own.surface[own.surface > 1] = 1  # a surface where none is
     count, around, unit = len(inside), own.around, own.cloud.spacing
-    beside, divergence, meeting = np.zeros(count, np.int8), np.zeros(count), np.zeros(count)
+    beside, (divergence, meeting, uneven) = np.zeros(count, np.int8), np.zeros((3, count))
     pressed, borne, rubbed, change, way = np.zeros((5, count, 3))
     equations.near_surface(*around, own.surface, beside)
     if own.pool:
@@ -52,10 +54,24 @@ def mps_answer(name, extra=()):
         equations.diverge(*around, divergence)
         equations.press(*around, own.state.pressure, pressed)
     equations.rub(*around, 1.0, rubbed)
+    compressible.even(*around, uneven)
     equations.meet(own.walls, own.state, own.rows, own.neighbours.box, unit, meeting)
     equations.collide(own.walls, own.state, own.rows, own.neighbours.box, unit, 0.5, np.maximum(meeting, 1.0), change)
     own._look()
-    found = beside, divergence, own.number, own.surface, own.speed, pressed, borne, rubbed, change, way, own.pulled
+    found = (
+        beside,
+        divergence,
+        uneven,
+        own.number,
+        own.surface,
+        own.speed,
+        pressed,
+        borne,
+        rubbed,
+        change,
+        way,
+        own.pulled,
+    )
     return np.column_stack(found)[inside & (own.state.mass > 0.0)]
 
 

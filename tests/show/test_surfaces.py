@@ -37,6 +37,22 @@ def test_a_thin_sheet_in_a_wide_room_is_drawn_as_triangles(monkeypatch):
     assert not found.n_points and not shown.any()
 
 
+def test_particles_that_have_come_near_in_a_wide_room_are_none_the_less_shown():
+    """VTK leaves out what is nearer than a thousandth of the room, which is more than a spacing here."""
+    places = np.column_stack((lattice(12, 2), np.zeros(144)))
+    places[::2] += 0.3 * SPACING * np.array([1.0, 0.0, 0.0])
+    sheet = np.vstack([places, places + np.array([90.0, 90.0, 20.0])])
+    sheet += np.random.default_rng(1).normal(0.0, 0.05 * SPACING, sheet.shape)
+    assert surfaces.of_film(taken(cloud(sheet)), np.ones(len(sheet), bool), "")[1].all()
+
+
+@pytest.mark.parametrize("count", [2, 4])
+def test_particles_far_apart_have_no_surface(count):
+    far = np.array([[0.0, 0.0, 0.0], [60.0, 60.0, 20.0], [30.0, 0.0, 20.0], [0.0, 30.0, 5.0]])[:count]
+    found, shown = surfaces.of_liquid(taken(cloud(far)), np.ones(count, bool), "")
+    assert not found.n_cells and not shown.any()
+
+
 def test_a_tear_of_three_spacings_stays_open():
     places = lattice(20, 2)
     sheet = np.column_stack((places, np.zeros(len(places))))[np.abs(places[:, 0] - 1.0) > 1.1 * SPACING]

@@ -120,10 +120,11 @@ def _views(run) -> None:
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    shown = shot.of_folder(run.folder)
+    shown, nozzle = shot.of_folder(run.folder), sheet.nozzle_of(run.case)
     film, covered = surfaces.of_film(shown, np.ones(shown.particles.n_points, bool), "")
-    places = 1e3 * np.asarray(shown.particles.points)
-    cut = np.abs(places[:, 1] - places[:, 1].mean()) < 1e3 * run.case.resolution.spacing
+    places = 1e3 * sheet.about_axis(nozzle, np.asarray(shown.particles.points, float))
+    film.points = 1e3 * sheet.about_axis(nozzle, np.asarray(film.points, float))
+    cut = np.abs(places[:, 1]) < 1e3 * run.case.resolution.spacing
     figure, axes = pyplot.subplots(1, 3, figsize=(15, 5.4), constrained_layout=True)
     views = (
         ("from aside", 2, 0, ~covered),
@@ -133,7 +134,7 @@ def _views(run) -> None:
     for own, (title, right, up, points) in zip(axes, views):
         own.plot(places[points, right], places[points, up], ".", color="0.4", markersize=0.8)
         own.set(aspect="equal", title=title, xlabel=f"{'xyz'[right]} [mm]", ylabel=f"{'xyz'[up]} [mm]")
-        if points is not cut:
+        if points is not cut and film.n_cells:
             _drawn(own, film, right, up)
     figure.savefig(run.folder / "views.png", dpi=110)
     pyplot.close(figure)
@@ -144,7 +145,7 @@ def _drawn(axes, film, right: int, up: int) -> None:
     from matplotlib import colormaps
     from matplotlib.collections import PolyCollection
 
-    across, corners = 3 - right - up, 1e3 * film.points[film.regular_faces]
+    across, corners = 3 - right - up, film.points[film.regular_faces]
     order = np.argsort(corners[:, :, across].mean(axis=1))
     colours = colormaps["Blues"](0.95 - 0.5 * np.abs(film.face_normals[order, across]))
     axes.add_collection(PolyCollection(corners[order][:, :, [right, up]], facecolors=colours, zorder=3))

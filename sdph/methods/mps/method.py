@@ -37,7 +37,7 @@ class MpsStepper:
     )  # fmt: skip
     FORMS = {"state": GROWING}
     # what loops take from neighbours, fresh, of `state` and of what `_look` finds; the pressure is solved for by all
-    HALO = (*"xyzuvw", "kind", "ident", "pressure", "surface")
+    HALO = (*"xyzuvw", "kind", "ident", "pressure", "density", "surface")
     SEEN = ("number", "surface", "energy")  # arrays of the particles that outputs read
     ROWS = ()  # all that goes on from one step to the next is in the state
 

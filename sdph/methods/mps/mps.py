@@ -77,8 +77,7 @@ class Mps(Stepped):
         """Share of the particles whose pressure would be below 0, where none is, now; of pools those at the surface
         that are drawn apart and not held, and the longest way by which particles were kept apart [l0]."""
         stepper = self.stepper
-        domain = stepper.domain
-        found = alone.shares(domain.own(self.state), domain.mine_of(stepper.freed))
+        found = alone.shares(stepper.domain.own(self.state), stepper.freed)  # copies are never freed
         many, bare, freed = map(float, stepper.world.sum(np.array(found)))
         found = {"pressure_at_least_share": bare / many if stepper.own.holds(self.case) and many else 0.0}
         if stepper.pool:

@@ -36,14 +36,17 @@ class SolidGuard(Watch):
         self.hold("speed", speed, (0.0, sound, "m/s"), s, lower)
         size = particles.lengths(stepper.acceleration)
         self.hold("acceleration", size, (0.0, sys.float_info.max, "m/s2"), s, lower)
-        if stepper.cavity and stepper.free.any():
-            self._torn(stepper)
+        if stepper.cavity:
+            self._look_for_tears(stepper)
 
-    def _torn(self, stepper) -> None:
-        """Unstable, of a ring that is inflated: what fills it would have run out."""
+    def _look_for_tears(self, stepper) -> None:
+        """Unstable where a ring that is inflated has torn: what fills it would have run out."""
+        name = self.case.parameters["inflation"].body
+        if not stepper.free[stepper.body == list(self.case.bodies).index(name)].any():
+            return
         ratio = stepper.cavity.diameter_ratio(stepper.state, stepper.reference)
         raise Unstable(
-            f"bodies.{self.case.parameters['inflation'].body} tore at t = {self.time:.6g} s, at D/D0 = {ratio:.4g}: "
+            f"bodies.{name} tore at t = {self.time:.6g} s, at D/D0 = {ratio:.4g}: "
             "inflation knows no tear; end the run before (run.end_time_s), or fill the ring with a liquid that has a "
             "bubble of vapour (effects bubble and time_scaling)",
             self.last,

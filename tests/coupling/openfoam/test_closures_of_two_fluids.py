@@ -64,8 +64,9 @@ def agitated(folder, monkeypatch, alpha_p):
 @pytest.mark.parametrize("alpha_p, decays", [(0.2, 1e-7), (0.625, 3e-5)])
 def test_a_gradient_of_agitation_pushes_grains_by_that_of_their_pressure(tmp_path, monkeypatch, alpha_p, decays):
     """rho alpha du/dt = -(dp_s/dtheta) grad(theta) at even alpha_p: `agitationGradient` of the closures library. From
-    the second step on: the solver has no g0 in the first. At 0.625 of 0.63 g0 is held at 0.62 (3.2 times less), as
-    ours: `cappedSinclairJackson`. Theta `decays` by so much meanwhile."""
+    the second step on: the solver has no g0 in the first. At 0.625 of 0.63 g0 is held at its value for 0.62, half of
+    its own, as ours is: `cappedSinclairJackson`, which the onset of friction does not ask. Theta
+    `decays` by so much meanwhile."""
     case = agitated(tmp_path / "template", monkeypatch, alpha_p)
     run = comparators.run_two_fluid(case, tmp_path / "run")
     first, second = (run.fields[t]["particle_velocity"] for t in sorted(t for t in run.fields if t > 0.0))
