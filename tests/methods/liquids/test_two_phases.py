@@ -148,21 +148,6 @@ def test_xsph_moves_each_phase_with_its_own_and_as_a_whole_not_at_all():
         assert abs(s.mass @ np.where(s.kind == kind, own.extra[1], 0.0)) < 1e-12 * s.mass.sum()
 
 
-def test_water_under_air_stays_at_rest():
-    """The scene for a third of its time, when what its start stirred up has settled."""
-    own = LiquidStepper(cases.load(scenes.find("water_under_air")[1]))
-    s, speed = own.state, np.sqrt(9.81 * 0.5)
-    heights = {kind: s.y[s.kind == kind].mean() for kind in (LIQUID, GAS)}
-    while own.time < 3.0:
-        own.step(3.0 - own.time)
-    s = own.state
-    assert np.hypot(s.u, s.v)[s.kind == LIQUID].max() < 1e-3 * speed
-    assert np.hypot(s.u, s.v)[s.kind == GAS].max() < 1e-2 * speed
-    for kind in (LIQUID, GAS):
-        assert s.y[s.kind == kind].mean() == pytest.approx(heights[kind], abs=1e-3 * 0.5)
-    assert s.y[s.kind == GAS].min() - s.y[s.kind == LIQUID].max() > 0.8 * own.case.resolution.spacing
-
-
 def test_summed_density_of_a_lattice_is_that_of_rest():
     own = stepper(
         shaken=False,
