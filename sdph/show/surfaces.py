@@ -20,15 +20,7 @@ ALIKE = 1e-3  # of a spacing: particles nearer than that are one point of triang
 
 def of_liquid(shot: Shot, liquid: np.ndarray, field: str):
     """(mesh, mask (N,) of the particles that it stands for) of the liquid particles (mask), with the field's values."""
-    if affordable(shot, liquid):
-        return of_bulk(shot, liquid, field)
-    return of_film(shot, liquid, field)
-
-
-def _nothing(liquid):
-    import pyvista
-
-    return pyvista.PolyData(), np.zeros_like(liquid)
+    return (of_bulk if affordable(shot, liquid) else of_film)(shot, liquid, field)
 
 
 def affordable(shot: Shot, liquid: np.ndarray) -> bool:
@@ -82,6 +74,13 @@ def of_film(shot: Shot, liquid: np.ndarray, field: str):
     if field in data:
         found[field] = numbers(data[field])[outside["own"]]
     return found, shown
+
+
+def _nothing(liquid: np.ndarray):
+    """No surface, which stands for no particle."""
+    import pyvista
+
+    return pyvista.PolyData(), np.zeros_like(liquid)
 
 
 def _lonely(shot: Shot, liquid: np.ndarray) -> np.ndarray:

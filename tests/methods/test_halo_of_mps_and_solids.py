@@ -58,20 +58,8 @@ def mps_answer(name, extra=()):
     equations.meet(own.walls, own.state, own.rows, own.neighbours.box, unit, meeting)
     equations.collide(own.walls, own.state, own.rows, own.neighbours.box, unit, 0.5, np.maximum(meeting, 1.0), change)
     own._look()
-    found = (
-        beside,
-        divergence,
-        uneven,
-        own.number,
-        own.surface,
-        own.speed,
-        pressed,
-        borne,
-        rubbed,
-        change,
-        way,
-        own.pulled,
-    )
+    seen = own.number, own.surface, own.speed, own.pulled
+    found = beside, divergence, uneven, *seen, pressed, borne, rubbed, change, way
     return np.column_stack(found)[inside & (own.state.mass > 0.0)]
 
 

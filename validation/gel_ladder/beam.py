@@ -99,10 +99,9 @@ def towards(spacings, values) -> tuple[float, float]:
     """Order p of the error, and limit, of values at three spacings: value = limit + c spacing^p; nan where there is no
     such p between 0.1 and 8."""
     a, b, c = spacings
-    share = (values[0] - values[1]) / (values[1] - values[2])
 
     def off(p: float) -> float:
-        return (a**p - b**p) / (b**p - c**p) - share
+        return (a**p - b**p) * (values[1] - values[2]) - (b**p - c**p) * (values[0] - values[1])
 
     if off(0.1) * off(8.0) > 0.0:
         return math.nan, math.nan

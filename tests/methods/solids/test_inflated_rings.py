@@ -80,6 +80,20 @@ def test_a_driven_ring_ends_where_it_tears():
         own.guard.look(own)
 
 
+def test_what_another_body_loses_does_not_end_a_driven_ring():
+    own = stepper(
+        solid=BRITTLE, bodies={"block": {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.1, 0.1]}, "ring": RING},
+        effects=["inflation"], inflation={"body": "ring", "by": "growth", "growth_1_s": 5.0, "bulk_modulus_Pa": 1e6},
+        resolution={"spacing_mm": 12.5, "smoothing_ratio": 1.3},
+    )  # fmt: skip
+    own.guard.begin(Begun(own))
+    own.free[np.flatnonzero(own.body == 0)[0]] = 1
+    own.guard.look(own)
+    own.free[np.flatnonzero(own.body == 1)[0]] = 1
+    with pytest.raises(Unstable, match=r"bodies\.ring tore"):
+        own.guard.look(own)
+
+
 class Begun:
     """A run as a guard sees it at the beginning of a window."""
 
