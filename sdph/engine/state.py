@@ -3,11 +3,14 @@
 Positions and velocities are separate arrays per axis. `z` and `w` have length zero in two dimensions, and every
 array of an effect that is off has length zero: kernels decide by type or length, never by a flag per particle.
 In two dimensions masses are per metre of depth [kg/m].
+
+Compiled loops take the whole tuple, and each array in it costs a cold start of the bed a second. So states are of five
+classes (`CLASSES`): each holds what its particles can have, and a loop that names another array does not compile.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections import namedtuple
 
 import numpy as np
 
@@ -15,83 +18,6 @@ from sdph.engine import arrays
 
 # values of `kind`, of all methods alike; INFLOW: still upstream of its nozzle. Files hold them: they stay as they are
 GRAIN, WALL, LIQUID, GAS, INFLOW, SOLID = range(6)
-
-
-class State(NamedTuple):
-    """All that a particle carries; see `FIELDS` for units."""
-
-    x: np.ndarray
-    y: np.ndarray
-    z: np.ndarray
-    u: np.ndarray
-    v: np.ndarray
-    w: np.ndarray
-    mass: np.ndarray
-    density: np.ndarray
-    ident: np.ndarray
-    kind: np.ndarray
-    nozzle: np.ndarray
-    entering: np.ndarray
-    temperature: np.ndarray
-    diameter: np.ndarray
-    diameter_variance: np.ndarray
-    material: np.ndarray
-    grain_density: np.ndarray
-    grain_capacity: np.ndarray
-    grain_conductivity: np.ndarray
-    theta: np.ndarray
-    contact_xx: np.ndarray
-    contact_yy: np.ndarray
-    contact_xy: np.ndarray
-    contact_yz: np.ndarray
-    contact_zx: np.ndarray
-    evaporating: np.ndarray
-    born_mass: np.ndarray
-    born_diameter: np.ndarray
-    born_variance: np.ndarray
-    lost_still: np.ndarray
-    lost_moving: np.ndarray
-    lost_kinetic: np.ndarray
-    deformation: np.ndarray
-    deformation_rate: np.ndarray
-    weber: np.ndarray
-    eddy_x: np.ndarray
-    eddy_y: np.ndarray
-    eddy_z: np.ndarray
-    wall_age: np.ndarray
-    begun_temperature: np.ndarray
-    warming: np.ndarray
-    received: np.ndarray
-    exchanged: np.ndarray
-    viscosity: np.ndarray
-    depth: np.ndarray
-    enclosure: np.ndarray
-    pressure: np.ndarray
-    sealed: np.ndarray
-    throwing: np.ndarray
-    bubble_void: np.ndarray
-    bubble_temperature: np.ndarray
-    bubble_heat: np.ndarray
-    shell_flow: np.ndarray
-    shell_hard: np.ndarray
-    shell_harm: np.ndarray
-    shell_swell: np.ndarray
-    spot_flow: np.ndarray
-    spot_hard: np.ndarray
-    spot_harm: np.ndarray
-    spot_swell: np.ndarray
-    spot_hoop: np.ndarray
-    warmth: np.ndarray
-    push_x: np.ndarray
-    push_y: np.ndarray
-    push_z: np.ndarray
-    damping: np.ndarray
-    damped: np.ndarray
-    way_x: np.ndarray
-    way_y: np.ndarray
-    way_z: np.ndarray
-    row: np.ndarray
-    copy: np.ndarray
 
 
 # there within a window alone
@@ -174,14 +100,66 @@ INTEGERS = {
 }
 
 
-def empty(count: int, names=ALWAYS, dimensions: int = 2) -> State:
-    """A state of `count` particles, zero everywhere; arrays not among `names` have length zero."""
+# arrays that not every state holds, by who has them; `CLASSES` join them
+OF_LIQUIDS = ("viscosity", "depth", "enclosure", "pressure")
+OF_GRAINS = (
+    "diameter", "diameter_variance", *OF_MATERIAL, "theta", "contact_xx", "contact_yy", "contact_xy", "contact_yz",
+    "contact_zx", "wall_age", "begun_temperature", "warming", "received", "exchanged", "warmth", "damping", "damped",
+    "way_x", "way_y", "way_z", "row",
+)  # fmt: skip
+OF_DROPLETS = (
+    "evaporating", "born_mass", "born_diameter", "born_variance", "lost_still", "lost_moving", "lost_kinetic",
+    "deformation", "deformation_rate", "weber", "eddy_x", "eddy_y", "eddy_z", "sealed", "throwing",
+)  # fmt: skip
+OF_GEL = (
+    "bubble_void", "bubble_temperature", "bubble_heat", "shell_flow", "shell_hard", "shell_harm", "shell_swell",
+    "spot_flow", "spot_hard", "spot_harm", "spot_swell", "spot_hoop",
+)  # fmt: skip
+NONE = {name: np.zeros(0, INTEGERS.get(name, np.float64)) for name in FIELDS}
+
+
+class State:
+    """All that particles carry, see `FIELDS` for units; an array that its class does not hold has length zero."""
+
+    __slots__ = ()
+
+    def __getattr__(self, name: str) -> np.ndarray:
+        if name in FIELDS:
+            return NONE[name]
+        raise AttributeError(f"a state has no {name}")
+
+
+def _class(name: str, doc: str, *without: str) -> type[State]:
+    held = namedtuple(name, [field for field in FIELDS if field not in without])
+    return type(name, (held, State), {"__slots__": (), "__module__": __name__, "__doc__": doc})
+
+
+Plain = _class("Plain", "What particles of any kind carry.", *OF_LIQUIDS, *OF_GRAINS, *OF_DROPLETS, *OF_GEL)
+Liquid = _class("Liquid", "The same, and what liquids carry.", *OF_GRAINS, *OF_DROPLETS, *OF_GEL)
+Grains = _class("Grains", "What grains carry that stay as they are.", *OF_LIQUIDS, *OF_DROPLETS, *OF_GEL)
+Droplets = _class("Droplets", "What grains carry that shrink, break up or are thrown about.", *OF_LIQUIDS, *OF_GEL)
+Whole = _class("Whole", "All there is.")
+CLASSES = Plain, Liquid, Grains, Droplets, Whole
+
+
+def class_of(names) -> type[State]:
+    """The narrowest class that holds arrays of these `names`."""
+    names = set(names)
+    return next(held for held in CLASSES if names.issubset(held._fields))
+
+
+def empty(count: int, names=ALWAYS, dimensions: int = 2, least: type[State] = Plain) -> State:
+    """A state of `count` particles, zero everywhere, of a class that holds what `least` holds; arrays not among `names`
+    have length zero."""
     present = {*ALWAYS, *names, "z", "w"} - (set() if dimensions == 3 else IN_SPACE)
-    return State(*(np.zeros(count if name in present else 0, INTEGERS.get(name, np.float64)) for name in State._fields))
+    held = class_of({*least._fields, *names})
+    return held(*(np.zeros(count if name in present else 0, INTEGERS.get(name, np.float64)) for name in held._fields))
 
 
 def _map(function, *states: State) -> State:
-    return State(*(function(*same) if any(len(a) for a in same) else same[0] for same in zip(*states)))
+    held = class_of(name for state in states for name in state._fields)
+    same = ([getattr(state, name) for state in states] for name in held._fields)
+    return held(*(function(*arrays) if any(len(a) for a in arrays) else arrays[0] for arrays in same))
 
 
 def take(state: State, rows: np.ndarray) -> State:
@@ -192,7 +170,7 @@ def take(state: State, rows: np.ndarray) -> State:
 
 def first(state: State, count: int) -> State:
     """The first `count` particles: a view, so that what is written there is written in the state."""
-    return State(*(array[:count] for array in state))
+    return state._make(array[:count] for array in state)
 
 
 def join(first: State, second: State) -> State:
@@ -202,7 +180,7 @@ def join(first: State, second: State) -> State:
 
 def brought(state: State) -> State:
     """The same in memory."""
-    return State(*map(arrays.brought, state))
+    return state._make(map(arrays.brought, state))
 
 
 def axes(state: State) -> tuple[np.ndarray, ...]:
@@ -266,9 +244,11 @@ def wet(state: State) -> np.ndarray:
 
 
 def forced(state: State, warmth, push, damping) -> State:
-    """The same under what holds over a window: warmth (N,) [J], push (N, 3) [m/s2], damping (N,) [1/s]."""
+    """The same under what holds over a window: push (N, 3) [m/s2], and of grains warmth (N,) [J] and damping (N,)
+    [1/s]."""
     x, y, z = arrays.columns(push)
-    return state._replace(warmth=warmth, push_x=x, push_y=y, push_z=z if len(state.z) else z[:0], damping=damping)
+    state = state._replace(push_x=x, push_y=y, push_z=z if len(state.z) else z[:0])
+    return state._replace(warmth=warmth, damping=damping) if len(warmth) else state
 
 
 def followed(state: State) -> State:
@@ -280,7 +260,7 @@ def followed(state: State) -> State:
 
 def released(state: State) -> State:
     """The same with nothing held over a window."""
-    kinds = {name: INTEGERS.get(name, np.float64) for name in HELD}
+    kinds = {name: INTEGERS.get(name, np.float64) for name in HELD if name in state._fields}
     return state._replace(**{name: arrays.zeros(0, state.x, kind) for name, kind in kinds.items()})
 
 

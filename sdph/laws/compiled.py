@@ -2,7 +2,7 @@
 (a loop that compiled functions call), `in_turn` (loops one after the other); all are cached on disk, with IEEE division
 (1/0 is inf, as in numpy); `fast_` ones may sum in any order.
 
-numba spends two thirds of a cold start on what nobody needs, because a State has about eighty arrays: a way in from
+numba spends two thirds of a cold start on what nobody needs, because a State has dozens of arrays: a way in from
 Python for functions that only loops call, and copies of the whole State that LLVM takes to pieces one by one. Neither
 is made here: the first start of a bed compiles for 70 s instead of 140 (benchmarks/README.md).
 """

@@ -103,7 +103,7 @@ def marked(rng, count, dimensions):
     """A cloud whose every array is a function of ident, so that a mix-up shows."""
     state = particles.empty(
         count,
-        particles.State._fields if dimensions == 3 else ("temperature", "diameter", "diameter_variance", "theta"),
+        particles.FIELDS if dimensions == 3 else ("temperature", "diameter", "diameter_variance", "theta"),
         dimensions,
     )
     for array in state:

@@ -151,4 +151,22 @@ def test_positions_and_velocities_are_three_columns(dimensions):
 
 
 def test_every_array_has_a_unit():
-    assert set(particles.FIELDS) == set(particles.State._fields)
+    assert tuple(particles.FIELDS) == particles.Whole._fields
+
+
+@pytest.mark.parametrize("held", particles.CLASSES)
+def test_a_state_holds_what_its_class_says_and_nothing_of_the_rest(held):
+    state = particles.empty(3, held._fields, 3)
+    assert type(state) is held
+    assert {name for name in particles.FIELDS if len(getattr(state, name))} == set(held._fields)
+    other = [name for name in particles.FIELDS if name not in held._fields]
+    assert all(getattr(state, name).dtype == particles.INTEGERS.get(name, float) for name in other)
+    with pytest.raises(AttributeError, match="a state has no colour"):
+        _ = state.colour
+
+
+def test_states_of_two_classes_are_joined_in_the_narrowest_that_holds_both():
+    liquid, plain = particles.empty(2, ("viscosity",)), particles.empty(0)
+    assert type(particles.join(plain, liquid)) is type(particles.join(liquid, plain)) is particles.Liquid
+    assert type(particles.empty(0, (), least=particles.Grains)) is particles.Grains
+    assert type(particles.join(liquid, particles.empty(0, ("theta",)))) is particles.Whole

@@ -60,7 +60,7 @@ def liquid_answer(name, extra=()):
     inside, count = strewn(own.state), len(own.state.x)
     own.forces()
     if extra is not None:
-        left = [field for field in (*particles.State._fields, *own.ROWS) if field not in own.HALO]
+        left = [field for field in (*particles.FIELDS, *own.ROWS) if field not in own.HALO]
         poison(own, (*left, *extra), ~inside)
     own._densify(1e-6)
     rate = own.rate.copy()

@@ -28,7 +28,7 @@ POOLS = {
 
 def of_far(own, arrays, extra):
     """What nobody may take from others: all that no HALO names, and `extra`."""
-    return *(name for name in (*particles.State._fields, *arrays) if name not in own.HALO), *extra
+    return *(name for name in (*particles.FIELDS, *arrays) if name not in own.HALO), *extra
 
 
 def mps_answer(name, extra=()):

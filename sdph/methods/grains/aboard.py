@@ -6,7 +6,6 @@ On the device are state, rows, walls and what loops leave to each other; cells a
 from __future__ import annotations
 
 from sdph.engine import arrays
-from sdph.engine.state import State
 
 
 def board(stepper) -> None:
@@ -17,7 +16,7 @@ def board(stepper) -> None:
     from sdph.engine.gpu import card  # what it takes costs a run of the processor 0.4 s
 
     there, near = card.begun(), stepper.neighbours
-    stepper.state = State(*map(there.send, stepper.state))
+    stepper.state = stepper.state._make(map(there.send, stepper.state))
     if stepper.boundary:
         own = stepper.boundary.dummies
         stepper.boundary.dummies = type(own)(*map(there.send, own))

@@ -11,7 +11,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from sdph.engine import regions
-from sdph.engine.state import OF_MATERIAL, State, axes, born, empty, join
+from sdph.engine.state import OF_MATERIAL, Grains, State, axes, born, empty, join
 from sdph.engine.walls import facets
 from sdph.engine.walls.sides import LAYERS
 from sdph.engine.world import ALONE
@@ -48,7 +48,7 @@ def fill(case, names, notices=None, masses=None, world=ALONE) -> State:
     parts = [_region(case, region, own, names) for region, own in zip(case.particles.values(), places)]
     masses |= {name: world.sum(float(part.mass.sum())) for name, part in zip(case.particles, parts)}
     notices += _off(case, masses)
-    state, first = empty(0, names, case.dimensions), 1
+    state, first = empty(0, names, case.dimensions, Grains), 1
     for part, own in zip(parts, places):
         part.ident[:] = np.arange(len(part.ident)) + first + own.before
         state, first = join(state, part) if len(state.x) else part, first + own.total

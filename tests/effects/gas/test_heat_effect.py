@@ -57,7 +57,7 @@ def test_registry_rows_are_whole():
     case = disc()
     for name, row in effects.REGISTRY.items():
         assert row.name == name and row.summary
-        assert set(row.arrays) <= set(particles.State._fields)
+        assert set(row.arrays) <= set(particles.FIELDS)
         assert effects.kernel_of(row, case) == OFF or name in case.effects
 
 
