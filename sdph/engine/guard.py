@@ -51,9 +51,9 @@ class Watch:
 
     def _admit_rows(self, state: dict, names) -> None:
         """Unfit where the arrays are not one row a particle each, or two particles have one number."""
-        count = len(state["x"])
-        for name, like in particles.empty(1, names, self.case.dimensions)._asdict().items():
-            own, due = len(state[name]), count * len(like)
+        count, like = len(state["x"]), particles.empty(1, names, self.case.dimensions)
+        for name in state:
+            own, due = len(state[name]), count * len(getattr(like, name))
             if own != due:
                 raise Unfit(f"{name} has {own} values where {due} belong to {count} particles")
         if len(np.unique(state["ident"])) < count:
@@ -65,7 +65,7 @@ class Watch:
         self._admit_rows(state, names)
         far = FAR * self.case.domain.furthest
         for name, (low, high) in (dict.fromkeys("xyz", (-far, far)) | bounds).items():
-            worst = outside(state[name], low, high)
+            worst = outside(state.get(name, ()), low, high)
             if worst is not None:
                 which = f"{name} of particle {state['ident'][worst]} is {state[name][worst]:.3g}"
                 raise Unfit(f"{which}; this case allows {low:.3g} to {high:.3g}")
