@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time as clock
 from pathlib import Path
 
 from sdph.engine.clock import Clock
@@ -11,7 +10,7 @@ from sdph.engine.world import here
 from sdph.methods.liquids.liquid import Liquid
 from sdph.methods.mps.mps import Mps
 from sdph.methods.solids.solid import Solids
-from sdph.running import forces, history
+from sdph.running import compiling, forces, history
 from sdph.running.limiters import Limiters
 
 SAMPLES = 10  # rows of history.csv for each output of fields, where the case says nothing
@@ -35,7 +34,7 @@ class Alone:
         self.method = self._make(ledger)
         self.limiters = Limiters()
         self.limiters.hear(self.method.held())
-        self.windows, self.wall, self.notices = 0, {"particles": 0.0}, []
+        self.windows, self.wall, self.notices = 0, {"particles": 0.0, "compiling": 0.0}, []
 
     def _make(self, ledger: Path | None):
         """The method of the case."""
@@ -98,14 +97,12 @@ class Alone:
 
     def window(self) -> None:
         """Some steps, to the next row of the history at most."""
-        begun = clock.perf_counter()
         if self.at_row:
             self.method.new_row()
-        self._advance()
+        compiling.timed(self.wall, "particles", self._advance)
         self.limiters.hear(self.method.held())
         self.windows += 1
         self.clock.limit = self.method.limit
-        self.wall["particles"] += clock.perf_counter() - begun
 
     def _advance(self) -> None:
         self.method.begin()

@@ -1,9 +1,10 @@
-"""Tells once that kernels are compiled, which keeps the first run of a case waiting in silence."""
+"""Tells once that kernels are compiled, which keeps the first run of a case waiting in silence; and for how long."""
 
 from __future__ import annotations
 
 import contextlib
 import threading
+import time
 from collections.abc import Callable, Iterator
 
 from numba.core import event
@@ -33,6 +34,37 @@ class Listener(event.Listener):
     def _tell(self) -> None:
         self.told = True
         self.tell(TEXT)
+
+
+class Watch(event.Listener):
+    """Time [s] that this process has compiled for."""
+
+    def __init__(self):
+        self.depth, self.begun, self.spent = 0, 0.0, 0.0
+
+    def on_start(self, event) -> None:
+        self.depth += 1
+        if self.depth == 1:
+            self.begun = time.perf_counter()
+
+    def on_end(self, event) -> None:
+        self.depth -= 1
+        if self.depth == 0:
+            self.spent += time.perf_counter() - self.begun
+
+
+WATCH = Watch()
+event.register("numba:compile", WATCH)
+
+
+def timed(wall: dict[str, float], part: str, function, *arguments):
+    """Result of a function; its wall time [s] counts for a part of `wall`, and for "compiling" what kernels took."""
+    begun, before = time.perf_counter(), WATCH.spent
+    result = function(*arguments)
+    compiled = WATCH.spent - before
+    wall[part] += time.perf_counter() - begun - compiled
+    wall["compiling"] += compiled
+    return result
 
 
 @contextlib.contextmanager

@@ -69,5 +69,6 @@ class Outputs:
         found = {"title": case.title, "time_s": now.time, "particles": count, "windows": now.windows}
         found |= now.summary(self) | metrics.summary(case, self.rows) | now.ledger.summary()
         found |= {f"wall_{part}_s": spent for part, spent in now.wall.items()}
-        found |= {f"{part}_ms_per_window": 1e3 * spent / now.windows for part, spent in now.wall.items()}
+        parts = {part: spent for part, spent in now.wall.items() if part != "compiling"}
+        found |= {f"{part}_ms_per_window": 1e3 * spent / now.windows for part, spent in parts.items()}
         return found | {"particle_steps_per_s": count * now.stepper.steps / now.wall["particles"]}

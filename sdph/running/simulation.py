@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import time as clock
 
 import numpy as np
 
@@ -18,7 +17,7 @@ from sdph.exchange import vapour
 from sdph.exchange.exchange import Exchange
 from sdph.exchange.window import Window, learned
 from sdph.methods.grains.grains import Grains
-from sdph.running import forces, history, outlet, output, through_gas
+from sdph.running import compiling, forces, history, outlet, output, through_gas
 from sdph.running.beside import Beside
 from sdph.running.limiters import Limiters
 from sdph.running.work import Pushes
@@ -44,7 +43,7 @@ class Simulation:
         self._weights_now, self.pressed = None, {}  # forces of the gas on boundaries in the last window
         self.beside, self.limiters = Beside(), Limiters()  # other methods; what limiters hold
         self.outlet = outlet.beside(case, ledger.table)
-        self.wall = {"particles": 0.0, "exchange": 0.0, "gas": 0.0}
+        self.wall = dict.fromkeys(("particles", "exchange", "gas", "compiling"), 0.0)
 
     @staticmethod
     def time_of(kept: dict) -> float:
@@ -289,7 +288,4 @@ class Simulation:
 
     def timed(self, part: str, function, *arguments):
         """Result of a function; its wall time [s] counts for a part of `wall`."""
-        start = clock.perf_counter()
-        result = function(*arguments)
-        self.wall[part] += clock.perf_counter() - start
-        return result
+        return compiling.timed(self.wall, part, function, *arguments)

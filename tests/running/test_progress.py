@@ -96,6 +96,21 @@ def test_compiling_is_told_once_and_only_where_it_takes_time(tmp_path, monkeypat
     assert not heard
 
 
+def test_what_kernels_took_to_compile_is_no_time_of_a_part(monkeypatch):
+    """By a clock that goes a second each time that it is looked at; callees that compile within callers count once."""
+    now = iter(range(100))
+    monkeypatch.setattr(compiling, "time", SimpleNamespace(perf_counter=lambda: float(next(now))))
+
+    def work(value):
+        with event.trigger_event("numba:compile"), event.trigger_event("numba:compile"):
+            next(now)
+        return value
+
+    wall = {"particles": 1.0, "compiling": 2.0}
+    assert compiling.timed(wall, "particles", work, 7) == 7
+    assert wall == {"particles": 1.0 + 4.0 - 2.0, "compiling": 2.0 + 2.0}
+
+
 def test_a_run_says_that_it_compiles_beside_its_json(tmp_path, monkeypatch, capsys):
     begin = Simulation.start
 

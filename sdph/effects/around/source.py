@@ -120,7 +120,8 @@ class Source:
         return particles.join(state, self._streamed(stream, layer, points, velocity))
 
     def _streamed(self, stream, layer, points, velocity):
-        """Particles (n,) of streams (n,) and their layers (n,): each with the size and the mass of its own."""
+        """Particles of streams (n,) and their layers (n,), each with the size and the mass of its own; none of
+        layers in which a nozzle pauses."""
         made, thickness = self.make(self.of[stream], points, velocity), np.ones(len(stream))
         for k, nozzle in enumerate(self.nozzles):
             if nozzle.rates:
@@ -131,7 +132,7 @@ class Source:
         for name, values in (("diameter", self.size.diameter), ("diameter_variance", self.size.variance)):
             if len(getattr(made, name)):
                 getattr(made, name)[:] = values[stream]
-        return particles.born(made)
+        return particles.born(particles.take(made, thickness > ROUND_OFF))
 
     def _wanted(self, time: float, dt: float) -> np.ndarray:
         """(S,) layers that the streams make for the window from `time` of `dt` [s]."""
