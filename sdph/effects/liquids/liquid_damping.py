@@ -48,11 +48,13 @@ def kernel(case) -> LinearP | RiemannP:
 
 
 def dt_limit(p, case, state) -> float:
-    """Step limit [s] of the linear form, by the lighter phase; that of Riemann's solver is bounded by sound."""
+    """Step limit [s] of the linear form, of a light particle among heavy ones: they pull at it by the harmonic mean of
+    their densities; Riemann's solver is bounded by sound."""
     if isinstance(p, RiemannP) or not p.strength:
         return NO_LIMIT
-    lightest = min(phase.density for phase in (case.liquid, case.gas_phase) if phase)
-    return STEP * case.smoothing_length**2 * lightest / p.strength
+    own = [phase.density for phase in (case.liquid, case.gas_phase) if phase]
+    among = 2.0 * max(own) / (max(own) + min(own))  # sdph.methods.liquids.phases.harmonic, over the lighter density
+    return STEP * case.smoothing_length**2 * case.liquid.density / (among * p.strength)
 
 
 @serial
