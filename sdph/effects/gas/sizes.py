@@ -28,8 +28,15 @@ FAR = 12.0  # standard deviations below the median where an untouched distributi
 NARROW = 1e-6  # least standard deviation of ln d: equal grains among unequal ones
 
 
+class Steady(NamedTuple):
+    """Share of each grain that stays: all."""
+
+    share: float = 1.0
+
+
 class Sizes(NamedTuple):
-    """1 where evaporation is on, else 0; 1.0 but for a reaction without a film around the grains."""
+    """Of grains that shrink: 1 where they evaporate, 0 where they burn; 1.0 but for a reaction without a film around
+    them."""
 
     shrinking: int
     film: float
@@ -49,14 +56,18 @@ class Birth(NamedTuple):
     top: float
 
 
-def kernel(case):
+def kernel(case) -> tuple | Steady | Sizes:
     """The sizes for kernels; OFF where all grains are alike."""
     products = case.parameters.get("break_up")
     differ = "micro_explosion" in case.effects or (products is not None and products.products != "equal")
     differ = differ or any(grains.diameter_std > 0.0 for grains in case.kinds)
     differ = differ or any(spread(nozzle) for nozzle in case.nozzles.values())
+    if not differ:
+        return OFF
+    if not {"evaporation", "reaction"}.intersection(case.effects):
+        return Steady()
     own = case.parameters.get("reaction")
-    return Sizes(int("evaporation" in case.effects), float(own is None or own.film)) if differ else OFF
+    return Sizes(int("evaporation" in case.effects), float(own is None or own.film))
 
 
 @serial
@@ -72,7 +83,7 @@ def birth(p, s, i):
     """Quantities that give the size classes of particle i."""
     if len(p) == 0:
         return Birth(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    if len(s.lost_still) == 0:
+    if len(p) == 1:
         return birth_of(s.diameter[i], s.diameter_variance[i], 0.0, 0.0)
     if len(s.lost_kinetic):
         lost = s.lost_still[i], s.lost_moving[i], s.lost_kinetic[i]

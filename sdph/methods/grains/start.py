@@ -51,7 +51,7 @@ def fill(case, names, notices=None, masses=None, world=ALONE) -> State:
     state, first = empty(0, names, case.dimensions, Grains), 1
     for part, own in zip(parts, places):
         part.ident[:] = np.arange(len(part.ident)) + first + own.before
-        state, first = join(state, part) if len(state.x) else part, first + own.total
+        state, first = join(state, part), first + own.total
     return state
 
 
