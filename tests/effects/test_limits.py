@@ -37,13 +37,14 @@ COARSE = {
     "taylor_bar": ("resolution.spacing_mm=1.6",),
     "gel_droplet": ("resolution.spacing_mm=0.025",),
     "gel_spray": (),
+    "burning_char": (),
 }
 # effect of no such scene -> one that can have it, what stands there in its place, and its keys
 WITH = {
     "grain_shifting": ("bubbling_bed", "", ()),
     "lift": ("bubbling_bed", "", ("lift.law='saffman_mei'",)),
     "turbulent_dispersion": (
-        "bubbling_bed", "",
+        "evaporating_jet", "",
         ("gas.turbulence.model='kEpsilon'", "gas.turbulence.k_m2_s2=1", "gas.turbulence.mixing_length_m=0.01"),
     ),
     "electric_field": (
@@ -54,12 +55,6 @@ WITH = {
     ),
     "radiation": (
         "bubbling_bed", "", ("radiation.emissivity=0.8", "radiation.surroundings_temperature_K=300"),
-    ),
-    "reaction": (
-        "bubbling_bed", "",
-        ("vapour={molar_mass_kg_kmol=32,diffusivity_m2_s=2e-4,heat_capacity_J_kg_K=1e3,conductivity_W_m_K=0.07,"
-         "viscosity_Pa_s=4e-5,mass_fraction=0.2}",
-         "reaction.oxidant_ratio=2.667", "reaction.rate_m_s=0.1", "reaction.heat_J_kg=0"),
     ),
     "break_up": (
         "evaporating_jet", "",
