@@ -60,7 +60,7 @@ def run(case, folder, cells=None, gas=StillGas) -> Simulation:
 def cloud(points: np.ndarray, mass=1.0, temperature=300.0, density=1000.0):
     """A state with particles at `points` (N, 2 or 3) [m]."""
     points = np.asarray(points, float)
-    state = particles.empty(len(points), ("temperature",), points.shape[1])
+    state = particles.empty(len(points), ("temperature",), points.shape[1], particles.Grains)
     for axis, column in zip(particles.axes(state), points.T):
         axis[:] = column
     for name, value in (("mass", mass), ("temperature", temperature), ("density", density)):

@@ -35,8 +35,7 @@ class Steady(NamedTuple):
 
 
 class Sizes(NamedTuple):
-    """Of grains that shrink: 1 where they evaporate, 0 where they burn; 1.0 but for a reaction without a film around
-    them."""
+    """Shrinking grains: 1 where they evaporate, 0 where they burn; 1.0 but for a reaction without a film."""
 
     shrinking: int
     film: float
