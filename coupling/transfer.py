@@ -25,6 +25,7 @@ from numba import prange
 
 from coupling import by_cell
 from sdph.engine import arrays
+from sdph.laws.by_reference import by_reference
 from sdph.laws.compiled import inlined, parallel, serial
 from sdph.laws.constants import TINY
 from sdph.laws.kernels import SUPPORT
@@ -33,6 +34,7 @@ NOTHING = np.zeros(0, np.int64)
 ROUNDS = 8  # from 18 % to 0.4 to 2 % off in cones of 8, 5 and 4 rings (measured); our choice
 
 
+@by_reference
 class Weights(NamedTuple):
     """Weights of N particles: row k is cells[k, :number[k]] with weight[k, :number[k]]; of `total` cells.
 
@@ -134,6 +136,7 @@ def _columns(field):
     return np.ascontiguousarray(field).reshape(shape) if arrays.here(field) else field.reshape(shape)
 
 
+@by_reference
 class Bins(NamedTuple):
     """Cells sorted into square bins of side `size`, each with its centre, 1/h^2 of its smoothing length (h `widest` of
     all), `share` (its volume over the volume that its kernel is wide), number."""

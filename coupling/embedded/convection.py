@@ -8,11 +8,13 @@ from typing import NamedTuple
 import numpy as np
 
 from coupling.embedded.linear import fill
+from sdph.laws.by_reference import by_reference
 from sdph.laws.compiled import serial
 
 TURNOVER = 0.5  # of a cell's mass in one sub-step: up to here the scheme is bounded
 
 
+@by_reference
 class Nodes(NamedTuple):
     """Nodes of a field: rows of them and of the faces between them (see `Grid`); `shift` is 0 for cells, and for the
     velocity along an axis that axis' stride: a control volume then takes half of each neighbour's fluxes; `active`

@@ -13,9 +13,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from sdph.laws.by_reference import by_reference
+
 PAD = 3
 
 
+@by_reference
 class Geometry(NamedTuple):
     """volume (S,) [m3]; width, area, gap, reach (d, S): cell width [m], face area [m2], distance [m] between the
     two values on either side of a face (a ghost's lies on the boundary), and that from the lower one to the face."""

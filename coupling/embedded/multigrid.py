@@ -16,12 +16,14 @@ from numba.cpython.unsafe.tuple import tuple_setitem
 
 from coupling.embedded.grid import build_grid, indices
 from coupling.embedded.linear import ITERATIONS, coupled, iterate, worst
+from sdph.laws.by_reference import by_reference
 from sdph.laws.compiled import serial
 
 ELONGATED = 1.5  # an axis waits while its cells are this much longer than the shortest; our choice
 TWO, BLACK, RED = np.uint64(2), np.uint64(1), np.uint64(0)
 
 
+@by_reference
 class Levels(NamedTuple):
     """Packed levels: level l owns [first[l], first[l + 1]) of each packed array and rows[row_first[l]: ...].
 

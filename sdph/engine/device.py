@@ -55,12 +55,12 @@ def _has_avx512() -> bool:
 
 
 def sources(*, of_kernels: bool = False) -> str:
-    """Hash of all our source files, or of those that hold a kernel or a law."""
+    """Hash of all our source files, or of those that hold a kernel, a law, or what these take by reference."""
     package = Path(__file__).parents[1]
     digest = hashlib.sha256()
     for folder in (package, package.parent / "coupling"):
         for file in sorted(folder.rglob("*.py")):
             source = file.read_bytes()
-            if not of_kernels or any(mark in source for mark in (b"laws.compiled", b"CPUDispatcher")):
+            if not of_kernels or any(mark in source for mark in (b"laws.compiled", b"CPUDispatcher", b"by_reference")):
                 digest.update(source)
     return digest.hexdigest()[:16]

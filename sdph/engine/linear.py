@@ -15,12 +15,14 @@ from numba import prange
 from sdph.engine import arrays
 from sdph.engine.domain import WHOLE
 from sdph.engine.rows import Rows, laid, place
+from sdph.laws.by_reference import by_reference
 from sdph.laws.compiled import parallel
 
 PART = 4096  # of a sum; our choice
 ALL, LEFT, MOVED, WEIGHT, PLACES = 0, 1, 2, 3, 5  # among the sums of `solve`: squares of right-hand side and residual
 
 
+@by_reference
 class Matrix(NamedTuple):
     """diagonal (N,), links whose entries are columns (sdph.engine.rows), and along these entries the values (E,)."""
 

@@ -15,12 +15,14 @@ from numba import prange
 from sdph.engine import arrays
 from sdph.engine.cells import span, turned
 from sdph.engine.geometry import nearest_image
+from sdph.laws.by_reference import by_reference
 from sdph.laws.compiled import inlined, parallel, serial
 
 LANES = 4  # doubles of a vector register of 256 bit, as wide as pays on today's x86
 ABREAST = 32  # rows side by side: threads of a warp, which go through theirs together
 
 
+@by_reference
 class Rows(NamedTuple):
     """Neighbours of particle i: `number[i]` of the `entries` from `start[i]` on, then i itself, once at least, up to a
     multiple of LANES."""

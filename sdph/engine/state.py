@@ -16,6 +16,7 @@ from collections import namedtuple
 import numpy as np
 
 from sdph.engine import arrays
+from sdph.laws.by_reference import by_reference
 
 # values of `kind`, of all methods alike; INFLOW: still upstream of its nozzle. Files hold them: they stay as they are
 GRAIN, WALL, LIQUID, GAS, INFLOW, SOLID = range(6)
@@ -131,7 +132,7 @@ class State:
 
 def _class(name: str, doc: str, *without: str) -> type[State]:
     held = namedtuple(name, [field for field in FIELDS if field not in without])
-    return type(name, (held, State), {"__slots__": (), "__module__": __name__, "__doc__": doc})
+    return by_reference(type(name, (held, State), {"__slots__": (), "__module__": __name__, "__doc__": doc}))
 
 
 Plain = _class("Plain", "What particles of any kind carry.", *OF_LIQUIDS, *OF_GRAINS, *OF_DROPLETS, *OF_GEL)

@@ -13,6 +13,7 @@ from sdph.effects.gas import drag, film, heat, lift, radiation, reaction
 from sdph.engine import state as particles
 from sdph.engine.state import GRAIN
 from sdph.laws import evaporation
+from sdph.laws.by_reference import by_reference
 from sdph.laws.compiled import parallel
 from sdph.laws.exchange import exponential_fraction
 
@@ -21,6 +22,7 @@ from sdph.laws.exchange import exponential_fraction
 LEAST_SPAN = 10.0
 
 
+@by_reference
 class Around(NamedTuple):
     """The gas around N particles: its velocity from theirs (N, 3), slip [m/s], density [kg/m3], temperature [K]; and
     what effects ask for besides, no row where none does: vorticity (N, 3) [1/s]."""

@@ -2,18 +2,15 @@
 (a loop that compiled functions call), `in_turn` (loops one after the other); all are cached on disk, with IEEE division
 (1/0 is inf, as in numpy); `fast_` ones may sum in any order.
 
-numba spends two thirds of a cold start on what nobody needs, because a State has dozens of arrays: a way in from
-Python for functions that only loops call, and copies of the whole State that LLVM takes to pieces one by one. Neither
-is made here: the first start of a bed compiles for 70 s instead of 140 (benchmarks/README.md).
+Functions that only loops call get no way in from Python, and a State goes to all of them as one pointer
+(sdph.laws.by_reference): what else makes a cold start long (benchmarks/README.md).
 """
 
 from __future__ import annotations
 
 import types
 
-from llvmlite import binding
 from numba import njit
-from numba.core.codegen import CPUCodeLibrary
 from numba.core.registry import CPUDispatcher
 
 # Sums may be reordered and vectorised: 2.3 times as fast. nan and inf keep their meaning, so that a run that bursts is
@@ -94,25 +91,6 @@ def _over_particles(largest=False, parallel=True, **options):
     return decorate
 
 
-def _combine_first() -> None:
-    """Have LLVM read the fields of a struct one by one before it splits the struct.
-
-    Else it splits every copy of a State into its 600 numbers: 2.6 s for the function around one loop, 0.17 s so.
-    """
-    optimise = CPUCodeLibrary._optimize_functions
-
-    def combined(library, module) -> None:
-        passes = binding.create_new_function_pass_manager()
-        passes.add_instruction_combine_pass()
-        for function in module.functions:
-            if not function.is_declaration:
-                passes.run(function, library._codegen._pass_builder())
-        optimise(library, module)
-
-    CPUCodeLibrary._optimize_functions = combined
-
-
-_combine_first()
 law = serial = _within(**COMMON)
 # What stands in every loop over pairs, or takes the whole state, is part of the loop: a call costs more than what it
 # computes. LLVM takes such functions in by itself only when a loop comes from the cache: the process that compiles

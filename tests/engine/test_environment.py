@@ -131,6 +131,19 @@ def test_an_edited_law_gets_kernels_of_its_own(monkeypatch, tmp_path):
     assert environment.sources(of_kernels=True) != before
 
 
+def test_an_edit_of_what_loops_take_by_reference_is_another_cache(tmp_path, monkeypatch):
+    """Kernels know where each member lies by its number."""
+    package = tmp_path / "sdph"
+    (package / "engine").mkdir(parents=True)
+    monkeypatch.setattr(environment, "__file__", str(package / "engine" / "device.py"))
+    group = "from typing import NamedTuple\n\nfrom sdph.laws.by_reference import by_reference\n\n\n@by_reference\n"
+    found = set()
+    for members in ("x: float\n    y: float", "y: float\n    x: float"):
+        (package / "group.py").write_text(f"{group}class Group(NamedTuple):\n    {members}\n")
+        found.add(environment.sources(of_kernels=True))
+    assert len(found) == 2
+
+
 def test_numba_imported_first_caches_by_the_sources_too():
     told = (
         "import numba, sdph; from sdph.engine import device as environment; "

@@ -12,6 +12,7 @@ from sdph.engine import arrays
 from sdph.engine.geometry import deep, nearest_image
 from sdph.engine.neighbours import SKIN
 from sdph.engine.rows import Rows, entry
+from sdph.laws.by_reference import by_reference
 from sdph.laws.compiled import inlined, parallel
 
 CONTACT = 0.25  # spacings between a particle and the surface at which they touch; our choice, half of the start's
@@ -38,7 +39,7 @@ class Dummies(NamedTuple):
 
 
 OF_ROWS = (*Rows._fields, "every", "pressure", "velocity")
-Wall = NamedTuple("Wall", [(name, np.ndarray) for name in (*Dummies._fields, *OF_ROWS)])
+Wall = by_reference(NamedTuple("Wall", [(name, np.ndarray) for name in (*Dummies._fields, *OF_ROWS)]))
 Wall.__doc__ = """Dummies as loops take them, in one flat group: their fields, the rows of the particles that see them,
 how many of a row count and how many contact asks (N,), pressure (W,) [Pa] and velocity (W, 3) [m/s] that they have from
 the grains in front."""

@@ -12,6 +12,7 @@ from sdph.engine.neighbours import Neighbours
 from sdph.engine.rows import Rows
 from sdph.engine.walls.dummies import turned
 from sdph.engine.walls.sides import lattice
+from sdph.laws.by_reference import by_reference
 from sdph.laws.kernels import SUPPORT
 from sdph.schema import CaseError
 
@@ -31,7 +32,7 @@ class Faces(NamedTuple):
     temperature: np.ndarray
 
 
-Seen = NamedTuple("Seen", [(name, np.ndarray) for name in (*Faces._fields, *Rows._fields)])
+Seen = by_reference(NamedTuple("Seen", [(name, np.ndarray) for name in (*Faces._fields, *Rows._fields)]))
 Seen.__doc__ = """Faces as loops take them, in one flat group: their fields, and the rows of the particles that see
 them."""
 

@@ -17,6 +17,7 @@ from sdph.effects.around import wall_heat
 from sdph.effects.grains import granular_temperature
 from sdph.engine.ledger import vector
 from sdph.engine.state import INFLOW
+from sdph.laws.by_reference import by_reference
 from sdph.laws.compiled import in_turn, inner
 
 # of `Account.impulses` and `Account.works`, and their places there
@@ -34,6 +35,7 @@ BACK_PUT = ("contact_way_m", "contact_lift_J")  # by contact with walls: ways of
 SLOWED = ("grain_drag_J",)  # of motion by drag between materials; agitation_J or mechanical_heat_J have it too
 
 
+@by_reference
 class Account(NamedTuple):
     """Sums since the window began; felt holds what pushes and what rubs each dummy of the walls, (W, 6) [kg m/s], where
     somebody asks, else nothing; gave (F, 2) what faces of walls gave (sdph.effects.around.wall_heat)."""

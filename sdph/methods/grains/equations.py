@@ -28,6 +28,7 @@ from sdph.engine.arrays import IN_MEMORY
 from sdph.engine.geometry import apart, faster, squared
 from sdph.engine.rows import entry, length, place
 from sdph.laws import granular, kernels
+from sdph.laws.by_reference import by_reference
 from sdph.laws.compiled import fast_inlined, fast_parallel, inlined, inner, parallel, parallel_largest
 from sdph.methods.grains import mixture, stress
 from sdph.methods.grains.mixture import Kernel, MixedKernel
@@ -42,6 +43,7 @@ def kernel_of(case) -> Kernel | MixedKernel:
     return MixedKernel(*smooth, case.grains.density) if case.mixed else Kernel(*smooth)
 
 
+@by_reference
 class Scratch(NamedTuple):
     """Values that one loop of a sub-step leaves to the next, in one flat group.
 

@@ -13,6 +13,7 @@ from sdph.effects.around import wall_heat, wall_parts, walls
 from sdph.effects.grains import friction, grain_drag, granular_temperature
 from sdph.engine import arrays
 from sdph.engine.arrays import IN_MEMORY
+from sdph.laws.by_reference import by_reference
 from sdph.laws.compiled import in_turn, inner
 from sdph.methods.grains import account, contacts, equations
 
@@ -40,6 +41,7 @@ def terms_of(parameters) -> Terms:
     return Terms(viscous, rubs, parameters["artificial_viscosity"], theta, *beside, shears, heated)
 
 
+@by_reference
 class Work(NamedTuple):
     """Arrays that a sub-step leaves to nobody: acceleration (N, 3) [m/s2] and of_walls (N, 7) as `account.kick` takes
     them, agitation and heating (N,) [W/kg], contact (5, N) [Pa]; theta (N,) after it and what went by bounds,

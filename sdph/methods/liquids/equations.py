@@ -18,6 +18,7 @@ from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import apart, deep, faster
 from sdph.engine.rows import entry, length
 from sdph.engine.state import GAS, INFLOW, LIQUID, WALL
+from sdph.laws.by_reference import by_reference
 from sdph.laws.compiled import fast_inlined, fast_parallel, parallel, serial
 from sdph.laws.constants import TINY
 from sdph.laws.eos import tait_pressure
@@ -26,6 +27,7 @@ from sdph.methods.liquids import correction, phases
 from sdph.methods.liquids.forces import body, held_off, velocity
 
 
+@by_reference
 class Flow(NamedTuple):
     """Values that one loop of a step leaves to the next, in one flat group: indices of the particles that move (A,),
     pressure (N,) [Pa], volume (N,) [m^d], negative for walls, and smallest eigenvalue of the renormalisation matrix

@@ -16,6 +16,7 @@ from sdph.engine.geometry import apart, deep, faster
 from sdph.engine.linear import Matrix
 from sdph.engine.rows import entry, place
 from sdph.laws import moving_particles
+from sdph.laws.by_reference import by_reference
 from sdph.laws.compiled import inlined, parallel
 from sdph.methods.mps.tanks import grip, solid
 
@@ -25,6 +26,7 @@ SPARSE, THIN, ASIDE, FEW = 0.85, 0.97, 0.2, 2
 BURST = 1e-6  # of the diagonal, so that a piece without a surface has a pressure; swirl-sheet.md, 5
 
 
+@by_reference
 class Cloud(NamedTuple):
     """Spacing l0 and reach r_e [m], n_0 [-], lambda [m2], dimensions, density [kg/m3]."""
 

@@ -16,6 +16,7 @@ from numba import prange
 from sdph.engine import kernels as smoothing
 from sdph.engine.rows import place
 from sdph.laws import strength
+from sdph.laws.by_reference import by_reference
 from sdph.laws.compiled import fast_parallel, parallel, serial
 from sdph.laws.matrices import principal
 
@@ -32,6 +33,7 @@ class Material(NamedTuple):
     hourglass: float
 
 
+@by_reference
 class Reference(NamedTuple):
     """Undeformed bodies: places X, Y, Z (N,) [m], volume (N,) [m^d], slope along the rows [1/m^(d+2)], 0 or negative,
     L (N, 9), and 1 of particles that bear nothing (N,)."""
