@@ -84,7 +84,7 @@ class Hastened(Together):
         if self.tear.time is not None:
             if self.pace != 1.0:
                 self._hasten(1.0)
-            if self.clock.end != self.tear.time + self.p.after_tear:
+            if self.clock.end != self._end():
                 self._follow()
             return
         self.most["pressure_max_Pa"] = max(self.most["pressure_max_Pa"], self.stepper.void.pressure)
@@ -115,10 +115,15 @@ class Hastened(Together):
         self.bodies.hasten(pace, kick)
         self.pace, self.speed = pace, self.speed * kick
 
+    def _end(self) -> float:
+        """Time [s] of the end: a while after the tear, or when the run was to end before that."""
+        return min(self.tear.time + self.p.after_tear, self.case.run.end_time)
+
     def _follow(self) -> None:
         """Rows and outputs from the tear on, and the end."""
-        clock, tear, last = self.clock, self.tear.time, self.p.after_tear
-        clock.end = tear + last
+        clock, tear = self.clock, self.tear.time
+        clock.end = self._end()
+        last = clock.end - tear
         ways = tear + last * np.arange(1, ROWS + 1) / ROWS
         shows = tear + last * np.arange(1, OUTPUTS + 1) / OUTPUTS
         clock.outputs = np.union1d(clock.outputs[clock.outputs <= tear], shows)

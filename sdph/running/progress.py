@@ -42,8 +42,10 @@ class Reporter:
         if not self.bar:
             self.status(self._line(simulation, now))
             return
-        task = self.bar.task_ids[0] if self.bar.task_ids else self.bar.add_task("", total=simulation.case.run.end_time)
-        self.bar.update(task, completed=simulation.time, description=self._line(simulation, now))
+        task = self.bar.task_ids[0] if self.bar.task_ids else self.bar.add_task("")
+        self.bar.update(
+            task, total=simulation.clock.end, completed=simulation.time, description=self._line(simulation, now)
+        )
 
     def close(self) -> None:
         if self.bar:
@@ -63,7 +65,7 @@ class Reporter:
         worst, name = max((value, key.removesuffix("_rel")) for key, value in closure.items())
         parts.append(f"closure {worst:.0e} ({name})")
         if simulation.time > at:
-            left = (simulation.case.run.end_time - simulation.time) / (simulation.time - at)
+            left = (simulation.clock.end - simulation.time) / (simulation.time - at)
             parts.append(f"{(now - began) * left:.0f} s left")
         return ", ".join(parts)
 

@@ -64,6 +64,13 @@ def test_a_tear_is_followed_whatever_the_pace(tmp_path, pace):
     assert len(run.clock.landmarks) == rows > 40
 
 
+def test_a_run_that_is_to_end_soon_after_its_tear_ends_there(tmp_path):
+    run = Hastened(load("resolution.spacing_mm=0.025", "run.end_time_s=1.1e-3"), tmp_path / "ledger.csv")
+    run.tear.time = 1e-3
+    run._learn(1e-7)
+    assert run.clock.end == 1.1e-3 < 1e-3 + run.p.after_tear and run.clock.landmarks.max() == pytest.approx(1.1e-3)
+
+
 def test_pace_holds_what_a_closing_bubble_throws():
     p = time_scaling.TimeScalingP(0.2, 1000.0, 25e-6, 2e-4)
     assert time_scaling.pace(p, 0.1, 0.4, 1000.0) == pytest.approx(250.0)

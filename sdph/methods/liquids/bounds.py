@@ -52,8 +52,9 @@ class LiquidGuard(Watch):
         """`admit` of a liquid and its walls that began so; `kinds` that there are, and the number of the particle that
         was made last."""
         fast = RUNAWAY * self.case.fastest_sound
+        condenses = self.case.parameters.get("bubble")  # vapour of all others may become one particle's
         bounds = dict.fromkeys("uvw", (-fast, fast)) | {
-            "mass": (TINY, born.heaviest),
+            "mass": (TINY, born.mass if condenses else born.heaviest),
             "ident": (0, number_of_last),
         }
         self.admit(
