@@ -4,9 +4,8 @@ Positions and velocities are separate arrays per axis. `z` and `w` have length z
 array of an effect that is off has length zero: kernels decide by type or length, never by a flag per particle.
 In two dimensions masses are per metre of depth [kg/m].
 
-Compiled loops take the whole tuple, and each array in it costs a cold start of the bed two seconds
-(benchmarks/README.md). So states are of five classes (`CLASSES`): each holds what its particles can have, and a loop
-that names another array does not compile.
+Compiled loops take the whole tuple, by reference. States are of five classes (`CLASSES`): each holds what its particles
+can have, and a loop that names another array does not compile.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """The equations of the particles: loops over neighbours, one signed term per line.
 
 Each term belongs to an effect (`sdph/effects/`) and takes that effect's parameters first; with `OFF` the compiler
-drops it. Sums are local and written once. Outputs are arguments of their own: numba drops writes to arrays of a
-tuple inside a prange without a word.
+drops it. Sums are local and written once. Outputs are arguments of their own.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Wall particles stand among the others. `volume` is negative for them, which tells them apart without a branch; their
 `pressure` and velocity are extrapolated from the liquid in front (sdph.methods.liquids.walls).
-Outputs are arguments of their own: numba drops writes to arrays of a tuple inside a prange without a word.
+Outputs are arguments of their own.
 """
 
 from __future__ import annotations

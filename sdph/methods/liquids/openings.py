@@ -116,8 +116,8 @@ def meet(
 ):  # fmt: skip
     """Pressure [Pa], and what follows from it, of the particles that wait: that of the liquid in front, 0 without any.
 
-    liquid (5,): column of the liquid in `sdph.methods.liquids.start.fluids`; density (N,) is s.density once more: a
-    prange keeps no writes to arrays of a tuple. The gradient of pressure is that of liquid that is not accelerated.
+    liquid (5,): column of the liquid in `sdph.methods.liquids.start.fluids`; density (N,) is s.density once more, as
+    an output. The gradient of pressure is that of liquid that is not accelerated.
     """
     for n in prange(len(waiting)):
         i = waiting[n]

@@ -109,7 +109,7 @@ def displace(p, fluids, s, active, shift, gradient, twist, compliance, dt, x, y,
 
     Velocity and density are taken along their gradients, so that moving a particle does not move the field; compliance
     (K,) is d rho/dp [s2/m2] by kind. Returns the energy [J] of motion and compression that this takes; x ... density
-    are those of s once more: a prange keeps no writes to arrays of a tuple.
+    are those of s once more, as outputs.
     """
     lost = 0.0
     for n in prange(len(active)):

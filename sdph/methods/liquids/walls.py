@@ -45,7 +45,7 @@ def extrapolate(
 ):
     """Pressure and velocity of wall particles: Adami et al. 2012, Eq. 23 and 27; without liquid near, pressure is 0.
 
-    wall_u, wall_v, wall_w are s.u, s.v, s.w once more: a prange keeps no writes to arrays of a tuple.
+    wall_u, wall_v, wall_w are s.u, s.v, s.w once more, as outputs.
     """
     for n in prange(len(walls)):
         i = walls[n]

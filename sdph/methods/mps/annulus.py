@@ -52,7 +52,7 @@ def across(own, x, y, z):
 @parallel
 def turn(own, s, way, dt, x, y, z, u, v, w):
     """Take those that wait `way` [m] along the axis in `dt` [s], on helices; velocities are what they went by. x to w
-    are arrays of the state: numba takes a loop that writes into those of a tuple for one that does nothing."""
+    are those of s once more, as outputs."""
     for i in prange(len(s.x)):
         if s.kind[i] != INFLOW or s.nozzle[i] != own.number:
             continue

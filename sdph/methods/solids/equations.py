@@ -2,7 +2,7 @@
 
 Rows stay as they are for good (sdph.methods.solids.weights). Tensors are rows of an array, (N, 9)
 xx, xy, xz, yx, ... zz; symmetric ones (N, 6) xx, yy, zz, xy, yz, zx. Two dimensions are plane strain.
-Outputs are arguments of their own: numba drops writes to arrays of a tuple inside a prange without a word.
+Outputs are arguments of their own.
 """
 
 from __future__ import annotations

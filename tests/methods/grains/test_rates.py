@@ -188,7 +188,7 @@ def test_effect_set_is_the_loop_written_by_hand(on):
 
 
 def test_every_output_is_written():
-    """Numba drops writes to an array inside a tuple in a prange without a word; nan that stays would show it."""
+    """Nan that stays would show one that is not."""
     state = random_cloud(np.random.default_rng(8), 50, 2)
     for found in (
         summed_density(rates.Kernel(H, SIGMA[2]), state),
