@@ -116,7 +116,8 @@ def refuse_outside(case, name: str, points, world=ALONE) -> None:
         count, furthest = world.sum(len(points)), world.most(float(beyond.max(initial=0.0)))
         raise CaseError(
             f"pools.{name}: {outside} of its {count} particles would stand outside the tank, up to "
-            f"{furthest:.3g} m from it; move the pool, or make it smaller"
+            f"{furthest:.3g} m from it; move the pool, make it smaller, or fill the tank around what stands in it: "
+            f'pools.{name}.shape = "tank" with fill'
         )
 
 
