@@ -32,6 +32,10 @@ class Reference(types.Type):
         self.held, self.parts = held, parts
         super().__init__(f"reference to {held.__module__}.{held.__qualname__}({', '.join(map(str, parts))})")
 
+    @property
+    def key(self):
+        return self.held, self.parts
+
 
 def by_reference(held: type) -> type:
     """Decorator: compiled functions take named tuples of the class `held` by reference."""
@@ -74,7 +78,8 @@ def _member(context, builder, kind, pointer, name):
 
 
 def _read(builder, place):
-    """Read what stands there, number by number. LLVM may take each to stay the same, and so read it before a loop."""
+    """Read what stands there, number by number. LLVM may take each to stay the same, and so read it before a loop; that
+    holds as numba never takes a function into its way in from Python, which writes."""
     kind = place.type.pointee
     if isinstance(kind, ir.LiteralStructType | ir.ArrayType):
         found = ir.Constant(kind, ir.Undefined)

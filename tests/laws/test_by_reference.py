@@ -1,5 +1,6 @@
 """Tuples that compiled functions take by reference: read as they are, held no longer than the call."""
 
+import re
 import sys
 from typing import NamedTuple
 
@@ -110,6 +111,31 @@ def test_a_member_of_another_kind_is_another_function():
     whole = own._replace(tags=np.arange(5))
     assert numba.typeof(whole) != numba.typeof(own)
     assert _sums(whole, np.zeros(5)) == expected(whole).sum()
+
+
+def test_two_classes_of_one_name_are_two_types():
+    """Of the second the fields stand the other way round."""
+    first, second = (by_reference(NamedTuple("Pair", [(name, float) for name in names])) for names in ("ab", "ba"))
+
+    @numba.njit
+    def a(own):
+        return own.a
+
+    assert (a(first(a=1.0, b=2.0)), a(second(a=1.0, b=2.0))) == (1.0, 1.0)
+
+
+def test_the_way_in_writes_and_reads_nothing():
+    """LLVM takes what a function reads to stay the same: one that writes it too would read what is not yet there."""
+
+    @numba.njit(forceinline=True)
+    def read(own, i):
+        return own.x[i] * own.size
+
+    assert read(group(), 1) == 1.0
+    functions = re.split(r"\n(?=define )", next(iter(read.inspect_llvm().values())))[1:]
+    ways_in = [text for text in functions if "cpython" in text.partition("{")[0]]
+    assert ways_in and not any("!invariant.load" in text for text in ways_in)
+    assert any("!invariant.load" in text for text in functions)
 
 
 def test_tuples_of_arrays_on_a_device_stay_tuples():
