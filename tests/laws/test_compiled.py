@@ -1,11 +1,10 @@
-"""How functions are compiled: no way in from Python that Python does not use, structs read field by field."""
+"""How functions are compiled: no way in from Python that Python does not use."""
 
 from typing import NamedTuple
 
 import numba
 import numpy as np
 import pytest
-from llvmlite import binding
 
 from sdph.laws import compiled
 
@@ -37,10 +36,3 @@ def test_options_reach_the_way_in_from_python():
     small, big = compiled.law(lambda x: 1.0 / x), compiled.fast_inlined(lambda x: x + 1.0)
     assert small(0.0) == np.inf  # IEEE division, or it raises
     assert big(1.0) == 2.0 and big._entry.targetoptions["fastmath"] == compiled.FAST
-
-
-def test_structs_are_read_field_by_field_before_they_are_split(monkeypatch, pair):
-    made, make = [], binding.create_new_function_pass_manager
-    monkeypatch.setattr(binding, "create_new_function_pass_manager", lambda: made.append(1) or make())
-    own = compiled.serial(lambda pair: pair.first[0] + pair.second[0])
-    assert own(pair) == 5.0 and made
