@@ -38,7 +38,7 @@ class Hastened(Together):
         self.inertia = self.inertia_most = 0.0  # pressure [Pa] that inertia takes, and the most over the bubble's
         self.viscous = self.viscous_most = 0.0  # the same of the gel's viscosity
         self.most = {"diameter_ratio_max": 1.0, "pressure_max_Pa": 0.0}
-        self.tear = Tear(self)
+        self.tear, self.followed = Tear(self), False
         self.first, self.vapour = self._rim(), self.stepper.void.mass  # at the start
         self.radius = self._inner()
 
@@ -84,7 +84,7 @@ class Hastened(Together):
         if self.tear.time is not None:
             if self.pace != 1.0:
                 self._hasten(1.0)
-            if self.clock.end != self._end():
+            if not self.followed:
                 self._follow()
             return
         self.most["pressure_max_Pa"] = max(self.most["pressure_max_Pa"], self.stepper.void.pressure)
@@ -115,14 +115,10 @@ class Hastened(Together):
         self.bodies.hasten(pace, kick)
         self.pace, self.speed = pace, self.speed * kick
 
-    def _end(self) -> float:
-        """Time [s] of the end: a while after the tear, or when the run was to end before that."""
-        return min(self.tear.time + self.p.after_tear, self.case.run.end_time)
-
     def _follow(self) -> None:
-        """Rows and outputs from the tear on, and the end."""
-        clock, tear = self.clock, self.tear.time
-        clock.end = self._end()
+        """Rows and outputs from the tear on, and the end: a while after it, or when the run was to end before that."""
+        clock, tear, self.followed = self.clock, self.tear.time, True
+        clock.end = min(tear + self.p.after_tear, self.case.run.end_time)
         last = clock.end - tear
         ways = tear + last * np.arange(1, ROWS + 1) / ROWS
         shows = tear + last * np.arange(1, OUTPUTS + 1) / OUTPUTS

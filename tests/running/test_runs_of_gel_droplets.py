@@ -69,6 +69,7 @@ def test_a_run_that_is_to_end_soon_after_its_tear_ends_there(tmp_path):
     run.tear.time = 1e-3
     run._learn(1e-7)
     assert run.clock.end == 1.1e-3 < 1e-3 + run.p.after_tear and run.clock.landmarks.max() == pytest.approx(1.1e-3)
+    assert len(run.clock.landmarks) > 40
 
 
 def test_pace_holds_what_a_closing_bubble_throws():
