@@ -15,7 +15,7 @@ import numpy as np
 import scipy
 
 from sdph.engine import state as particles
-from sdph.engine.kept import GROWING, Unfit
+from sdph.engine.kept import GROWING, Maybe, Unfit
 from sdph.laws.compiled import serial
 
 STEADY = 0.2  # of sqrt(m/k), the time of the spring: longest that its force may be held; our choice
@@ -68,8 +68,8 @@ class Touching:
     broken off against all. Two that are nearer than a spacing when one of them breaks off push from that distance on:
     else the tear would throw them."""
 
-    KEPT = ("near", "rest")  # see sdph.engine.kept
-    FORMS = {"near": GROWING, "rest": GROWING}
+    KEPT = ("near", "rest", "built")  # see sdph.engine.kept
+    FORMS = {"near": GROWING, "rest": GROWING, "built": Maybe(np.zeros((0, 3)))}
 
     def __init__(self, contact: Contact, body):
         self.contact, self.body = contact, body
@@ -80,12 +80,13 @@ class Touching:
         """Unfit where distances are not one a pair, or pairs stand in no order."""
         if len(kept["near"]) != len(kept["rest"]) or (np.diff(kept["near"]) <= 0).any():
             raise Unfit("distances of what has broken off are not one a pair")
+        if kept["built"] is not None and len(kept["built"]) != len(self.body):
+            raise Unfit("pairs that may touch are of other particles")
 
     def break_off(self, state, before, free) -> None:
         """Remember the distances of those that are nearer than a spacing and are loose now, but were not `before`."""
-        pairs = self._within(state, self.contact.spacing)
+        pairs = _within(here := particles.positions(state), self.contact.spacing)
         pairs = pairs[self._loose(pairs, free) & ~self._loose(pairs, before)]
-        here = particles.positions(state)
         keys = np.concatenate([self.near, self._keys(pairs)])
         rest = np.concatenate([self.rest, particles.lengths(here[pairs[:, 0]] - here[pairs[:, 1]])])
         order = np.argsort(keys)
@@ -100,7 +101,13 @@ class Touching:
             if far < (0.5 * SKIN * self.contact.spacing) ** 2:
                 return
         self.built = here
-        pairs = self._within(state, (1.0 + SKIN) * self.contact.spacing)
+        self.find(free)
+
+    def find(self, free) -> None:
+        """Make the pairs of where particles were at the last look, if there was one."""
+        if self.built is None:
+            return
+        pairs = _within(self.built, (1.0 + SKIN) * self.contact.spacing)
         pairs = pairs[self._loose(pairs, free)]
         self.pairs = pairs[np.lexsort(pairs.T)]  # in one order, whenever they were found
         self.lengths = np.full(len(pairs), self.contact.spacing)
@@ -111,10 +118,6 @@ class Touching:
         """Add to accelerations (N, 3) [m/s2]; the energy [J] of the springs."""
         return _press(self.contact.stiffness, state, self.pairs, self.lengths, acceleration)
 
-    def _within(self, state, reach: float) -> np.ndarray:
-        """Pairs (M, 2) nearer than `reach` [m]."""
-        return scipy.spatial.cKDTree(particles.positions(state)).query_pairs(reach, output_type="ndarray")
-
     def _loose(self, pairs, free) -> np.ndarray:
         first, second = pairs.T
         return (self.body[first] != self.body[second]) | (free[first] != 0) | (free[second] != 0)
@@ -122,6 +125,11 @@ class Touching:
     def _keys(self, pairs) -> np.ndarray:
         """One number for each pair."""
         return pairs[:, 0] * len(self.body) + pairs[:, 1]
+
+
+def _within(places, reach: float) -> np.ndarray:
+    """Pairs (M, 2) of `places` (N, 3) nearer than `reach` [m]."""
+    return scipy.spatial.cKDTree(places).query_pairs(reach, output_type="ndarray")
 
 
 @serial

@@ -105,7 +105,7 @@ class Stepper(Conducting, Windowed):
         if built and [len(axis) for axis in built] != [len(axis) for axis in here]:
             raise Unfit("rows of neighbours are of other particles")
         apart = sum((a - b) ** 2 for a, b in zip(here, built)) if built else np.zeros(0)
-        if not apart.max(initial=0.0) < (self.neighbours.skin * self.neighbours.reach) ** 2:
+        if not apart.max(initial=0.0) <= (self.neighbours.skin * self.neighbours.reach) ** 2:
             raise Unfit("rows of neighbours were made for other places of the particles")
 
     def replace(self, state) -> None:
@@ -125,6 +125,8 @@ class Stepper(Conducting, Windowed):
         before = self.neighbours.built
         self.state, _ = self.neighbours.update(self.state, *self._arrays(changed))
         if before is not self.neighbours.built:
+            if self.source:
+                self.source.look(self.state)
             self._look_around()
         self._sum(self.state.density)
         self.domain.refresh(self.state.density)
@@ -142,7 +144,7 @@ class Stepper(Conducting, Windowed):
         if self.boundary:
             rows = self.boundary.rows(built)
             if self.source:
-                self.source.open(self.state, self.mouths, rows)
+                self.source.open(self.mouths, rows)
             self.boundary.part(self.rows, rows, built)
             self.wall, self.facing = self.boundary.seen(rows, built)
             if not self.domain.alone:

@@ -87,7 +87,7 @@ class SolidStepper:
         own.free[:], own.broken[:] = self.free, self.broken
         own.cut(np.zeros(len(self.free), bool))
         self.free, self.broken = own.free, own.broken
-        self.touching.built = None
+        self.touching.find(self.free)
 
     def admit(self, kept: dict) -> None:
         """Unfit where the particles cannot be of this case."""

@@ -94,3 +94,16 @@ def test_a_lance_inside_leaves_the_wall_behind_it_whole(tmp_path):
         done = begun(case({"up": nozzle}, 2, effects=EFFECTS, boundaries=CLOSED), tmp_path / name)
         counts[name] = int((done.grains.stepper.mouths > 0).sum())
     assert counts["lance"] == 0 and counts["in the wall"] > 0
+
+
+def test_rows_made_anew_have_the_mouths_open_that_they_had(tmp_path):
+    """After the last particle of a nozzle is through, its mouth stays open while the rows hold, resumed or not."""
+    closing = slot([0.5, 0.0], [0.0, 1.0], width_m=0.2, end_s=0.05)
+    short = {"gas": "embedded", "window_largest_s": 2e-4}
+    done = begun(case({"below": closing}, effects=EFFECTS, boundaries=CLOSED, coupling=short), tmp_path)
+    shut = 0
+    while done.time < 0.06 and shut < 2:
+        done.window()
+        shut += done.grains.source.giving.any() and not (done.state.kind == INFLOW).any()
+        done.grains.stepper.revive()  # Unfit where the density of the particles is another
+    assert shut

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from blocks import stepper
 
+from sdph.engine import kept
 from sdph.engine import state as particles
 from sdph.methods.solids import history
 from sdph.methods.solids.method import IMPULSES, WORKS, limits
@@ -223,3 +224,19 @@ def test_contact_limits_steps_from_half_a_spacing_before_a_side(gap, near):
     block = {"shape": "box", "lower_m": [0.4, gap], "upper_m": [0.46, gap + 0.06]}
     own = stepper(bodies={"block": block}, effects=["rigid_sides"], rigid_sides={"sides": ["bottom"]})
     assert own.springs == 0.0 and ("contact" in limits(own)) == near
+
+
+def test_a_body_taken_up_again_has_the_pairs_that_may_touch_that_it_had():
+    """The limit of the first step asks for them before forces do; they are of the places of the last look."""
+    own, again = pulled(), pulled()
+    while not len(own.touching.pairs) and own.steps < 1600:
+        own.step(1.0)
+    saved = {}
+    packed = kept.pack(own, saved)
+    again.state, values = own.state, kept.unpack(packed, saved)
+    kept.check(again, values, "body")
+    kept.put(again, values)
+    assert len(own.touching.pairs)
+    np.testing.assert_array_equal(again.touching.pairs, own.touching.pairs)
+    np.testing.assert_array_equal(again.touching.lengths, own.touching.lengths)
+    assert limits(again) == limits(own)
