@@ -17,7 +17,7 @@ COLOURS = 24  # of a map; between them the viewer goes straight
 LEVELS = 65535  # of a number on its way into the page
 MAP = (  # arrays that are shown, by their name in the output
     "temperature", "velocity", "alpha_p", "pressure", "density", "vapour_mass_fraction", "theta", "diameter",
-    "material", "equivalent_stress", "plastic_strain", "damage",
+    "material", "equivalent_stress", "hoop_stress", "plastic_strain", "damage", "piece",
 )  # fmt: skip
 
 

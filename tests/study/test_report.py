@@ -79,6 +79,13 @@ def test_runs_stand_side_by_side_in_one_file(runs):
     assert f"{summary['centre_temperature_K']:.6g}</td>" in text
 
 
+def test_a_droplet_that_grows_tells_its_size_and_pressure_first():
+    """Other columns of a gel droplet are many, and panels beyond the ninth are folded."""
+    kinds = ["mass_kg", "force_x_N", "particle_7_x_m", "bubble_pressure_Pa", "bubble_2_pressure_Pa", "diameter_ratio"]
+    run = SimpleNamespace(metrics={}, case=SimpleNamespace(probes={}))
+    assert sorted(kinds, key=lambda kind: curves._rank(kind, [run])) == [*kinds[3:], "force_x_N", "mass_kg", kinds[2]]
+
+
 def test_it_begins_with_what_the_run_shows(runs):
     """Picture, three numbers and verdicts come before anything else, and a miss is told as one."""
     checks = [

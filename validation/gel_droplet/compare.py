@@ -9,7 +9,7 @@ from sdph.study import validate
 from sdph.study.compare import check
 from sdph.study.gel_droplet.checks import TIME, at_tear, closure, grown, place, reduced, size
 
-RATIO, PRESSURE = 0.01, 0.05  # issue 20
+RATIO, PRESSURE, MEAN_PRESSURE = 0.01, 0.05, 0.02  # issue 20
 AT = (0.3, 0.4, 0.5, 0.6, 0.65, 0.7, 0.73, 0.741)  # s of the base case: the specification's table
 REACHED = (1.02, 1.1, 1.2, 1.3)
 PAPER_RATIO, PAPER_TIME, PAPER_PRESSURE, PAPER = 1.4, 0.75, 1.5e5, 0.05  # Qiang et al. 2017, and our bar
@@ -72,7 +72,14 @@ def course(run) -> list[dict]:
         ours, theirs = (float(np.interp(r, np.maximum.accumulate(a), b, right=np.nan)) for a, b in (
             (ratio, time), (model["diameter_ratio"], model["time_s"])))  # fmt: skip
         found.append(check(f"time of D/D0 = {r:g} [s]", ours, theirs, TIME, True))
-    return found
+    means = (_mean(t, p, last) for t, p in ((time, own["pressure_Pa"]), (model["time_s"], model["pressure_Pa"])))
+    return [*found, check("pressure, mean over the growth [Pa]", *means, MEAN_PRESSURE, True)]
+
+
+def _mean(time, values, end: float) -> float:
+    """Mean over time of `values` (N,) at `time` (N,) [s] from the first to `end` [s]."""
+    within = np.unique([*time[time < end], end])
+    return float(np.trapezoid(np.interp(within, time, values), within) / (end - within[0]))
 
 
 def tear(run) -> list[dict]:

@@ -12,6 +12,9 @@ from sdph.study.report.shown import Shown, folded, picture, section, spoken
 
 PANEL = (4.2, 2.6)  # inches of one curve
 MOST = 9  # panels that are open; the rest is folded
+GROWTH = re.compile(  # of bubbles, gel droplets and inflated bodies
+    r"diameter_ratio$|(bubble(_\d+)?|cavity)_(pressure_Pa|area_m2|diameter_m)$|tear_width_m$"
+)
 SIZES = re.compile(r"(outflow_)?(D\d\d|Dv\d\d)_m$")
 AXES = re.compile(r"_[xyz](?=_)|_[uvw](?=_m_s)|_(min|max|largest|lowest|highest)(?=_)")
 STYLES = ("-", "--", ":", "-.")
@@ -49,13 +52,16 @@ def _kind(column: str) -> str:
     return AXES.sub("", column)
 
 
-def _rank(kind: str, runs: list[Shown]) -> tuple:
-    """Sizes and metrics, then probes, forces, and particles that are followed last."""
+def _rank(kind: str, runs: list[Shown]) -> int:
+    """Sizes, metrics and what a bubble grows by, then probes, forces, and particles that are followed last."""
     known = {_kind(column) for run in runs for column in run.metrics}
     probes = tuple(f"{name}_" for run in runs for name in run.case.probes)
     followed = kind.startswith("particle_") and kind[9:10].isdigit()
-    place = 0 if kind in known else 1 if probes and kind.startswith(probes) else 2 if "force" in kind else 3
-    return (4 if followed else place,)
+    if kind in known or GROWTH.match(kind):
+        return 0
+    if probes and kind.startswith(probes):
+        return 1
+    return 2 if "force" in kind else 4 if followed else 3
 
 
 def _panel(runs: list[Shown], columns: list[str]) -> str:

@@ -14,6 +14,7 @@ from sdph.study.report.shown import Shown, measured, picture, section, spoken
 NUMBERS = 3
 PIXELS = 100  # an inch, of the picture: 800 on its longer side
 TOLD = (  # keys of summaries in the order in which they are worth telling; others follow in theirs
+    "rupture_diameter_ratio", "rupture_time_s", "pressure_max_Pa",
     "detachment_time_s", "bubble_diameter_m", "bed_height_m", "pressure_drop_Pa", "front_m", "D32_m", "outflow_D32_m",
     "sauter_diameter_m", "torn_droplets", "evaporated_kg", "vapour_mass_fraction_max", "half_angle_deg", "droplets",
     "plastic_strain_largest", "damage_largest", "free_particles", "heat_exchanged_J", "speed_max_m_s",
