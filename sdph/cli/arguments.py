@@ -161,7 +161,10 @@ def _view(commands) -> None:
     view.add_argument("run", type=Path)
     view.add_argument("--png", type=Path, help="write a picture, .png, .svg or .pdf, instead of opening a window")
     view.add_argument("--time", type=float, metavar="T", help="time [s] (default: the last)")
-    view.add_argument("--field", help="what colours the particles and cells (default: what the scene is about)")
+    view.add_argument(
+        "--field",
+        help="what colours particles, cells (default: what the scene is about); A,B in 2-D: B of what has it, else A",
+    )
     view.add_argument("--movie", type=Path, help="write all times as a .gif or .mp4 instead of opening a window")
     view.add_argument("--web", action="store_true", help="serve a page with time, fields and a cut on this machine")
     view.add_argument("--theme", choices=("light", "dark"), default="light", help="colours of the paper and the ink")

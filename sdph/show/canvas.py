@@ -11,7 +11,8 @@ from sdph.show.style import Scale, Theme
 
 LONGEST, LEAST = 7.0, 0.35  # inches of the longer side of what is shown, and of the shorter one at least
 NARROWEST = 4.2  # inches of the whole sheet: a slender column has a title all the same
-LEFT, RIGHT, BELOW, ABOVE = 0.75, 1.25, 0.6, 0.62  # inches around it
+LEFT, RIGHT, BELOW, ABOVE = 0.75, 1.25, 0.6, 0.62  # inches around it; RIGHT with one bar
+LOW = 0.75  # inches of a bar below it
 LETTER = 0.078  # inches that a letter of the title takes
 DPI = 150
 WIDE = 1.7  # width over height from which the bar lies below; our choice
@@ -21,15 +22,15 @@ TICKS = [1.0, 2.0, 2.5, 5.0, 10.0]  # round steps
 class Sheet:
     """A figure with room for a picture `wide` by `high` [m, or pixels: only the ratio counts]."""
 
-    def __init__(self, wide: float, high: float, theme: Theme, bar: bool = True):
+    def __init__(self, wide: float, high: float, theme: Theme, bars: int = 1):
         from matplotlib import figure
         from matplotlib.backends import backend_agg
 
         self.theme, self.flat = theme, wide > WIDE * high
         scale = LONGEST / max(wide, high)
         own = np.maximum([wide * scale, high * scale], LEAST)
-        right = RIGHT if bar and not self.flat else 0.3
-        below = BELOW + (0.75 if bar and self.flat else 0.0)
+        right = RIGHT * bars if bars and not self.flat else 0.3
+        below = BELOW + (LOW * bars if self.flat else 0.0)
         size = np.array([max(NARROWEST, LEFT + own[0] + right), below + own[1] + ABOVE])
         size = np.round(size * DPI / 2.0) * 2.0 / DPI  # even numbers of pixels: movies want them
         self.size, self.own, self.corner = size, own, np.array([LEFT, below])
@@ -68,15 +69,16 @@ class Sheet:
         self.axes.set_xlim(low[0], high[0])
         self.axes.set_ylim(low[1], high[1])
 
-    def bar(self, scale: Scale, words: tuple[str, ...] = ()) -> None:
-        """Bar of a scale: beside the picture, or below one that is wide; of numbers that stand for `words`, from 0 on,
-        a field of its own each."""
+    def bar(self, scale: Scale, words: tuple[str, ...] = (), number: int = 0) -> None:
+        """Bar of a scale: beside the picture, or below one that is wide, after `number` others; of numbers that stand
+        for `words`, from 0 on, a field of its own each."""
         from matplotlib import cm, colors, ticker
 
         if self.flat:
-            place = np.array([self.corner[0] + 0.15 * self.own[0], 0.42, 0.7 * self.own[0], 0.14])
+            place = np.array([self.corner[0] + 0.15 * self.own[0], 0.42 + LOW * number, 0.7 * self.own[0], 0.14])
         else:
-            place = np.array([self.corner[0] + self.own[0] + 0.18, self.corner[1], 0.17, self.own[1]])
+            right = self.corner[0] + self.own[0] + 0.18 + RIGHT * number
+            place = np.array([right, self.corner[1], 0.17, self.own[1]])
         inset = self.figure.add_axes(place / np.tile(self.size, 2))
         shades, norm = style.map_of(scale.map), colors.Normalize(scale.low, scale.high)
         if words:

@@ -20,13 +20,18 @@ WIDE = 3.0  # spacings: lone particles and gaps that are smaller have no line ar
 FASTEST = 0.98  # quantile of the speeds that is drawn so long: a few fast ones would shrink all others; our choice
 
 
-def draw(shot: Shot, look: Look, scale: Scale, field: str, last: float, fine: int = 2) -> Sheet:
-    """The sheet of a shot; `last` [s] is the time of the run's end, `fine` the pixels drawn along one that is shown."""
+def draw(shot: Shot, look: Look, scales: dict[str, Scale], last: float, fine: int = 2) -> Sheet:
+    """The sheet of a shot, one scale by its field, or a second one of particles that have that; `last` [s] is the time
+    of the run's end, `fine` the pixels drawn along one that is shown."""
     right, up = shot.axes
     low, high = shot.box[::2][[right, up]], shot.box[1::2][[right, up]]
-    sheet = Sheet(*np.maximum(high - low, 1e-30), look.colours)
+    sheet = Sheet(*np.maximum(high - low, 1e-30), look.colours, bars=len(scales))
     grid = raster.pixels(shot, int(fine * max(sheet.own) * DPI))
+    (field, scale), *over = scales.items()
     colours, bulk, light = painted(shot, grid, field, scale, look)
+    for name, own in over:
+        values = raster.particles(shot, grid, name, smooth=False)[0]
+        colours = np.where(np.isfinite(values)[..., None], coloured(values, own, look.colours), colours)
     sheet.axes.imshow(colours, extent=grid.edges, origin="lower", interpolation="antialiased", aspect="auto")
     if bulk.any():
         sheet.axes.contour(*_ticks(grid), bulk.astype(float), [0.5], colors=[EDGE], linewidths=0.8)
@@ -40,7 +45,8 @@ def draw(shot: Shot, look: Look, scale: Scale, field: str, last: float, fine: in
         _arrows(sheet, shot)
     sheet.head(shot.title, shot.time, last)
     sheet.rule(low, high, ("xyz"[right], "xyz"[up]))
-    sheet.bar(scale, shot.words(field))
+    for place, (name, own) in enumerate(scales.items()):
+        sheet.bar(own, shot.words(name), place)
     return sheet
 
 

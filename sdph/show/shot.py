@@ -51,11 +51,20 @@ class Shot:
         """Fields that can be shown."""
         return sorted({*self.particles.point_data, *(self.gas.cell_data if self.gas is not None else ())})
 
-    def values(self, field: str) -> list[np.ndarray]:
-        """Values of the field on particles and gas, where they have it; of vectors their length."""
-        own = [(self.particles, self.particles.point_data)]
-        own += [(self.gas, self.gas.cell_data)] if self.gas is not None else []
-        return [numbers(data[field]) for _, data in own if field in data]
+    def values(self, field: str, over: str = "") -> list[np.ndarray]:
+        """Values of the field on particles, those that have the field `over` left out, and on gas, where they have it;
+        of vectors their length."""
+        found, own = [], self.particles.point_data
+        if field in own:
+            found.append(numbers(own[field])[~self.has(over)])
+        if self.gas is not None and field in self.gas.cell_data:
+            found.append(numbers(self.gas.cell_data[field]))
+        return found
+
+    def has(self, field: str) -> np.ndarray:
+        """(N,) mask of the particles that have a field."""
+        own, count = self.particles.point_data, self.particles.n_points
+        return np.isfinite(numbers(own[field])) if field in own else np.zeros(count, bool)
 
     def words(self, field: str) -> tuple[str, ...]:
         """Names that the numbers of a field stand for, from 0 on; none of others."""
@@ -176,6 +185,20 @@ def chosen(shots: list[Shot], field: str | None) -> str:
         there = f"this run has {', '.join(known)}" if known else "nothing is there to show then; leave it out"
         raise CaseError(f"--field {field}: {there}")
     return field or _subject([own for own in shots if own.named()] or shots, known)
+
+
+def all_chosen(shots: list[Shot], field: str | None) -> tuple[str, ...]:
+    """The fields to show: the one `chosen`, or two of "A,B": B of the particles that have it, as those of a shell have
+    damage, A of all else."""
+    if not field or "," not in field:
+        return (chosen(shots, field),)
+    names = field.split(",")
+    if len(names) > 2 or any(own.axes is None for own in shots):
+        raise CaseError(f"--field {field}: two fields at most, and those in pictures of two dimensions; name one")
+    first, over = (chosen(shots, name.strip()) for name in names)
+    if not any(len(part) for own in shots for part in own.values(first, over)):
+        raise CaseError(f"--field {field}: all that has {first} has {over} too; name the other first, or one")
+    return first, over
 
 
 # metrics of a case -> what it is about

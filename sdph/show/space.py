@@ -21,8 +21,9 @@ DENSE = 0.3  # volume fraction from which grains hide what is behind them: the f
 LIT = {"ambient": 0.35, "diffuse": 0.7, "specular": 0.25, "specular_power": 20}
 
 
-def draw(shot: Shot, look: Look, scale: Scale, field: str, last: float, fine: int = 2) -> Sheet:
-    """The sheet of a shot in space; `fine` as in sdph.show.flat."""
+def draw(shot: Shot, look: Look, scales: dict[str, Scale], last: float, fine: int = 2) -> Sheet:
+    """The sheet of a shot in space, of one field; `fine` as in sdph.show.flat."""
+    ((field, scale),) = scales.items()
     view = eye.on(shot)
     room = AROUND * max(view.high - view.low)
     low, high = view.low - room, view.high + room

@@ -42,6 +42,7 @@ QUANTITIES = {
 }
 PARTS = {"pale": ("magma_r", 0.0, 0.82), "warm": ("inferno", 0.08, 1.0)}  # maps of matplotlib without their black end
 SIGNED = "RdBu_r"  # the map of quantities whose sign matters: white is 0
+SECOND = "viridis"  # of a second quantity in a picture, like no other map here
 AWAY = 0.5  # of the largest: values that are all above it are shown in their own range, others from 0; our choice
 FROM_ZERO = ("velocity", "alpha_p", "vapour_mass_fraction", "theta", "equivalent_stress", "plastic_strain", "damage")
 PREFIXES = {  # unit -> (factor, unit) from large to small: the first that the largest value reaches is taken

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
-
 from sdph.schema import CaseError
 from sdph.show import flat, shot, space, style
 from sdph.show.look import Look
@@ -37,13 +35,24 @@ def save(drawn, png: Path) -> None:
         raise CaseError(f"--png {png} cannot be written: {error}") from None
 
 
-def sheet(taken: Shot, look: Look, scale: style.Scale | None = None, last: float | None = None, fine: int = 2):
-    """A shot drawn: sdph.show.canvas.Sheet. `scale` of the field that `look` names (None: that of the shot itself),
-    `last` [s]: end of the run, `fine`: pixels drawn along one that is shown."""
-    field = look.field if scale else shot.chosen([taken], look.field)
-    scale = scale or style.scale(field, taken.values(field))
+def sheet(
+    taken: Shot, look: Look, scales: dict[str, style.Scale] | None = None, last: float | None = None, fine: int = 2
+):
+    """A shot drawn: sdph.show.canvas.Sheet. `scales` by field (None: of what `look` names, by the shot itself), `last`
+    [s]: end of the run, `fine`: pixels drawn along one that is shown."""
+    scales = scales or _scales([taken], look)
     room = flat if taken.axes else space
-    return room.draw(taken, look, scale, field, taken.time if last is None else last, fine)
+    return room.draw(taken, look, scales, taken.time if last is None else last, fine)
+
+
+def _scales(shots: list[Shot], look: Look) -> dict[str, style.Scale]:
+    """Scale of each field that `look` names, of all shots; a second one has a map of its own."""
+    first, *over = shot.all_chosen(shots, look.field)
+    found = {first: style.scale(first, [own for taken in shots for own in taken.values(first, *over)])}
+    for name in over:
+        own = style.scale(name, [own for taken in shots for own in taken.values(name)])
+        found[name] = own if own.map == style.SIGNED else own._replace(map=style.SECOND)
+    return found
 
 
 def movie(folder: Path, target: Path, field: str | None = None, look: Look | None = None) -> None:
@@ -53,10 +62,8 @@ def movie(folder: Path, target: Path, field: str | None = None, look: Look | Non
     if target.suffix not in MOVIES:
         raise CaseError(f"--movie {target}: its name must end with {' or '.join(MOVIES)}")
     shots, look = shot.all_of_folder(folder), look or Look(field)
-    field = shot.chosen(shots, look.field)
-    scale = style.scale(field, [np.ravel(own) for taken in shots for own in taken.values(field)])
-    look = Look(field, look.theme, look.smooth, look.outline, look.vectors)
-    pictures = [sheet(taken, look, scale, shots[-1].time, fine=1).image() for taken in shots]
+    scales = _scales(shots, look)
+    pictures = [sheet(taken, look, scales, shots[-1].time, fine=1).image() for taken in shots]
     try:
         imageio.imwrite(target, pictures, **MOVIES[target.suffix])
     except OSError as error:

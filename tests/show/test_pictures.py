@@ -230,7 +230,7 @@ def test_pictures_with_all_that_was_asked_for(more, tmp_path):
 def test_an_outline_is_where_a_bubble_ends():
     gas = cells("alpha_p", lambda x: 0.6 * (x[:, 1] > 1.0))
     own = taken(pyvista.PolyData(), gas)
-    drawn = flat.draw(own, Look(outline=True), style.scale("alpha_p", own.values("alpha_p")), "alpha_p", 1.0)
+    drawn = flat.draw(own, Look(outline=True), {"alpha_p": style.scale("alpha_p", own.values("alpha_p"))}, 1.0)
     height = np.concatenate([path.vertices[:, 1] for path in drawn.axes.collections[-1].get_paths()])
     assert height == pytest.approx(1.0 - 0.25 * (0.5 - 0.15 / 0.6) * 2 / 2, abs=0.07)
 
