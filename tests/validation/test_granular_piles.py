@@ -1,6 +1,7 @@
 """Short form of `sdph validate granular_piles`: one run of each, and checks that fail where ours is off."""
 
 import math
+from contextlib import contextmanager
 from types import SimpleNamespace
 
 import numpy as np
@@ -84,6 +85,35 @@ def test_a_rate_outside_its_bar_is_told(tmp_path, monkeypatch, factor, ok):
     hopper = study("hopper")
     monkeypatch.setattr(hopper, "rate", lambda slot, spacing: factor * hopper.beverloo(slot))
     assert verdicts(hopper.checks(tmp_path)) == [ok] * 6
+    assert (tmp_path / "hopper.png").stat().st_size < 200_000
+
+
+def test_what_the_figure_of_slots_shows_is_the_law_and_every_rate(tmp_path, monkeypatch):
+    """Line and band by the law at its own places, points by width at each spacing, the coarse ones lower."""
+    hopper, drawn = study("hopper"), []
+    monkeypatch.setattr(hopper, "rate", lambda slot, spacing: (1.0 - 40.0 * spacing) * hopper.beverloo(slot))
+    monkeypatch.setattr(hopper.measured, "figure", lambda *_: shown(drawn))
+    hopper.checks(tmp_path)
+    (axes,) = drawn
+    law, coarse, fine = axes.lines
+    assert law.get_ydata() == pytest.approx([hopper.beverloo(1e-3 * D) for D in law.get_xdata()], rel=1e-12)
+    for line, share in ((coarse, 0.8), (fine, 0.9)):
+        assert line.get_xdata() == pytest.approx([40.0, 60.0, 80.0], rel=1e-12)
+        assert line.get_ydata() == pytest.approx([share * hopper.beverloo(D) for D in hopper.SLOTS], rel=1e-12)
+    (band,) = axes.collections
+    edges = band.get_paths()[0].vertices
+    widest = edges[edges[:, 0] == edges[:, 0].max()][:, 1]
+    law_there = hopper.beverloo(1e-3 * edges[:, 0].max())
+    assert (widest.min(), widest.max()) == pytest.approx((0.9 * law_there, 1.1 * law_there), rel=1e-12)
+
+
+@contextmanager
+def shown(kept: list):
+    """Axes that are kept, of no file."""
+    from matplotlib.figure import Figure
+
+    kept.append(Figure().subplots())
+    yield kept[0]
 
 
 def test_grains_that_rub_are_smooth_ones_of_less_restitution():

@@ -11,9 +11,14 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+import numpy as np
+
 from sdph.study.compare import check
+from sdph.study.validate import part
 
 from . import alone
+
+measured = part("experiments", "measured")
 
 C, K = 0.58, 1.4  # -, Beverloo et al. 1961
 SLOTS, SPACINGS = (0.04, 0.06, 0.08), (5e-3, 2.5e-3)  # m: 40 to 80 grains, 8 to 32 particles
@@ -25,10 +30,11 @@ BAR = 0.10  # issue 18
 
 
 def checks(folder: Path, *_, slots=SLOTS, spacings=SPACINGS) -> list[dict]:
+    rates = {(D, dx): rate(D, dx) for D in slots for dx in spacings}
+    _figure(folder / "hopper.png", rates)
     return [
-        check(f"slot of {1e3 * D:g} mm, {1e3 * dx:g} mm: rate [kg/s/m]", rate(D, dx), beverloo(D), BAR, True)
-        for D in slots
-        for dx in spacings
+        check(f"slot of {1e3 * D:g} mm, {1e3 * dx:g} mm: rate [kg/s/m]", found, beverloo(D), BAR, True)
+        for (D, dx), found in rates.items()
     ]
 
 
@@ -61,3 +67,17 @@ def filled(slot: float, spacing: float):
     sides = {"axis": {"kind": "slip_wall", "side": "left"}, "exit": exit, "rest": {"kind": "wall"}}
     domain = (size[0], size[1] + 4.0 * spacing)
     return alone.Alone(alone.case(domain, ((0.0, 0.0), size), spacing, boundaries=sides))
+
+
+def _figure(file: Path, rates: dict[tuple[float, float], float]) -> None:
+    """Rates [kg/s/m] by slot and spacing [m], over the width of the slot, beside the law and its bar."""
+    slots, law = np.linspace(0.75 * SLOTS[0], 1.1 * SLOTS[-1]), np.vectorize(beverloo)
+    with measured.figure(file, "D [mm]", "W [kg/s/m]") as axes:
+        axes.fill_between(
+            1e3 * slots, (1 - BAR) * law(slots), (1 + BAR) * law(slots), color="0.88", label=f"+-{100.0 * BAR:g} %"
+        )
+        axes.plot(1e3 * slots, law(slots), "k-", lw=1, label="Beverloo et al. 1961, in a plane")
+        for dx, mark in zip(sorted({dx for _, dx in rates}, reverse=True), "os^v"):
+            own = {D: found for (D, spacing), found in rates.items() if spacing == dx}
+            places = 1e3 * np.array(list(own))
+            axes.plot(places, list(own.values()), mark, mfc="none", label=f"SDPH, {1e3 * dx:g} mm")
