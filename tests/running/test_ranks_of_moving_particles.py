@@ -41,6 +41,8 @@ def test_shared_moving_particles_go_as_one_process_takes_them(tmp_path, name):
         assert ours["work_of_collisions_J"] < -1e-5
     if "pieces" in name:
         assert ours["droplets"] > 5 and ours["cut_particles"] > 100 and ours["holes"] > 100
+        assert ours["instants"] == theirs["instants"] > 5
+        assert ours["half_angle_mean_deg"] == pytest.approx(theirs["half_angle_mean_deg"], rel=1e-9)
 
 
 @pytest.mark.parametrize(("first", "then"), [(2, 1), (1, 2)])

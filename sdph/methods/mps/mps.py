@@ -15,6 +15,7 @@ from sdph.engine.state import LIQUID
 from sdph.engine.stepped import Stepped
 from sdph.engine.table import Table
 from sdph.methods.mps import aboard, alone, history, pieces, sheet
+from sdph.methods.mps.instants import Instants
 from sdph.methods.mps.method import MpsStepper
 from sdph.methods.mps.totals import MpsLedger
 
@@ -26,7 +27,7 @@ class Mps(Stepped):
 
     matter = "liquid"
     # see sdph.engine.kept
-    KEPT = ("windows", "stepper", "ledger", "drops", "diameters", "counts", "impulse", "since")
+    KEPT = ("windows", "stepper", "ledger", "drops", "diameters", "counts", "impulse", "since", "instants")
     FORMS = {"diameters": GROWING, "counts": GROWING}
 
     def __init__(self, case, ledger: Path | None, shortest: float):
@@ -37,6 +38,7 @@ class Mps(Stepped):
         self.diameters, self.counts = np.zeros(0), np.zeros(0)  # [m] and particles of each
         # of the liquid by all but gravity at the last row [kg m/s], and its time [s]
         self.impulse, self.since = np.zeros(3), 0.0
+        self.instants = Instants(case)
 
     def tables(self) -> list:
         """Files that grow by rows."""
@@ -65,8 +67,9 @@ class Mps(Stepped):
             told.clear()
 
     def new_row(self) -> None:
-        """Begin the mean of the load on the tank anew: the history has a row of now."""
+        """Begin the mean of the load on the tank anew, and measure the sheet: the history has a row of now."""
         self.impulse, self.since = self.stepper.impulses[1].copy(), self.time
+        self.instants.look(self)
 
     def row(self) -> dict[str, float]:
         """Columns of history.csv."""
@@ -127,7 +130,7 @@ class Mps(Stepped):
             found |= {"droplets": opening.left, "droplets_resolved": int(whole.sum()), "cut_particles": opening.cut}
             found |= pieces.sizes(self.diameters, whole)
         if sheet.nozzle_of(self.case):
-            found |= sheet.told(self.case, particles.positions(self.inside()))
+            found |= sheet.told(self.case, particles.positions(self.inside())) | self.instants.told(self)
         if holes := self.stepper.holes:
             found |= holes.told()
             if sheet.nozzle_of(self.case):

@@ -16,7 +16,9 @@ TENSION_WHY = (
     "Weber = {weber:.3g}: tension moves this liquid, and moving particles have {off:.0%} too little of it in drops, "
     "which ring and rest wrongly; leave out [method] and take surface_tension, or expect that"
 )
-ROWS = 2.5  # times a step of a weakly compressible liquid: the bar of issue 21, for want of a measured one
+# Of a particle and step over that of a liquid in estimate.SHIPPED, 1 us: 2.52 us of a sheet that has filled its domain
+# (benchmarks/README.md, "Moving particles"). The 1.3 there is over a particle of liquid in three dimensions, 1.94 us.
+ROWS = 2.5
 
 
 def explain(s) -> dict[str, list]:

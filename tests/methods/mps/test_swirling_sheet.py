@@ -60,7 +60,7 @@ def test_what_is_out_is_so_of_a_domain_that_begins_elsewhere():
 
 def test_a_sheet_that_has_not_come_out_has_no_angle_and_no_length():
     told = sheet.told(sheet_of(), np.tile([1e-2, 1e-2, -1e-4], (3, 1)))
-    assert len(told) == 5 and all(map(math.isnan, told.values()))
+    assert len(told) == 13 and all(map(math.isnan, told.values()))
 
 
 @pytest.mark.parametrize(("reach", "ratio", "layers"), [(3.1, 1.0, 4), (3.1, 3.0, 4), (4.1, 1.0, 5), (6.0, 1.0, 7)])
@@ -159,6 +159,9 @@ def test_it_goes_on_from_a_checkpoint_to_the_last_bit(tmp_path, holes):
         one, two = (np.asarray(run.fields(3.5e-4)[1].points if name == "x" else run.fields(3.5e-4)[1][name])
                     for run in (a, b))  # fmt: skip
         np.testing.assert_array_equal(one, two)
+    names = [name for name in whole.summary if "_mean" in name or "_deviation" in name or name == "instants"]
+    assert {name: a.summary[name] for name in names} == {name: whole.summary[name] for name in names}
+    assert whole.summary["instants"] == 7 and whole.summary["half_angle_deviation_deg"] > 0.0
     assert whole.summary["time_s"] == 3.5e-4 and a.summary.get("holes") == b.summary.get("holes")
     assert (whole.summary.get("holes", 0) > 20) == bool(holes)
     assert whole.summary["momentum_drift_rel"] < 1e-12 and whole.summary["energy_drift_rel"] < 1e-12
