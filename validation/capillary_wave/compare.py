@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
+import csv
+import math
+from pathlib import Path
+
 import numpy as np
 
 from sdph.engine.state import LIQUID
 from sdph.laws import liquids
 from sdph.study.compare import check
 
+TABLE = Path(__file__).parent / "prosperetti.csv"
+LAPLACE = 0.0182571749236**-2  # -: sigma rho L/mu^2 of the table (its head), 3000.08
+HIGH = 0.01  # -: height at the start over the length, of the table (its head)
 HEIGHT = 0.03  # of the height at the start, root mean square: issue 19; 2 % at 32 cells a wave is good for grids
+EVERY = 12  # rows of the table of which one is drawn; our choice
 
 
 def heights(run) -> tuple[np.ndarray, np.ndarray]:
@@ -25,15 +33,34 @@ def heights(run) -> tuple[np.ndarray, np.ndarray]:
     return times, np.array(found)
 
 
-def misses(run) -> np.ndarray:
-    """Misses of the height, over that at the start."""
-    case, (times, found) = run.case, heights(run)
-    pool, start = case.pools["lower"], case.pools["lower"].displacement
-    expected = liquids.capillary_wave(
+def solution(case, times) -> np.ndarray:
+    """Height (T,) over that at the start by Prosperetti at times (T,) [s]."""
+    pool = case.pools["lower"]
+    return liquids.capillary_wave(
         times, pool.upper[0] - pool.lower[0], case.parameters["surface_tension"].coefficient, case.liquid.density,
         case.gas_phase.density, case.liquid.viscosity / case.liquid.density,
     )  # fmt: skip
-    return found / start - expected
+
+
+def table(case) -> tuple[np.ndarray, np.ndarray]:
+    """(times [s], heights over that at the start, without their sign) of prosperetti.csv for the liquids of a case;
+    none where they are not those of the table."""
+    pool, tension = case.pools["lower"], case.parameters["surface_tension"].coefficient
+    length, density, viscosity = pool.upper[0] - pool.lower[0], case.liquid.density, case.liquid.viscosity
+    laplace = tension * density * length / viscosity**2
+    alike = (case.gas_phase.density, case.gas_phase.viscosity) == (density, viscosity)
+    if not alike or not math.isclose(laplace, LAPLACE, rel_tol=1e-6):
+        return np.zeros(0), np.zeros(0)
+    with open(TABLE, encoding="utf-8") as file:
+        _, *rows = csv.reader(line for line in file if not line.startswith("#"))
+    phase, height = np.array(rows, dtype=float).T
+    return phase / math.sqrt(tension * (2.0 * math.pi / length) ** 3 / (2.0 * density)), height / HIGH
+
+
+def misses(run) -> np.ndarray:
+    """Misses of the height, over that at the start."""
+    times, found = heights(run)
+    return found / run.case.pools["lower"].displacement - solution(run.case, times)
 
 
 def metrics(run) -> dict:
@@ -42,5 +69,29 @@ def metrics(run) -> dict:
 
 
 def exact(run) -> list[dict]:
-    missed = misses(run)
+    times, found = heights(run)
+    ours = found / run.case.pools["lower"].displacement
+    _figure(run, times, ours)
+    missed = ours - solution(run.case, times)
     return [check("height over that at the start, root mean square", np.sqrt(np.mean(missed**2)), 0.0, HEIGHT)]
+
+
+def _figure(run, times, ours) -> None:
+    """Height against time into the run's folder: the run, the solution, the table with the solution's sign."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    drawn, axes = pyplot.subplots(figsize=(6.5, 4.0), constrained_layout=True)
+    fine, (told, height) = np.linspace(0.0, run.summary["time_s"], 500), table(run.case)
+    shown = np.flatnonzero(told <= run.summary["time_s"])[::EVERY]
+    axes.plot(fine, solution(run.case, fine), "k-", lw=1, label="Prosperetti 1981")
+    if len(shown):
+        signed = np.copysign(height[shown], solution(run.case, told[shown]))
+        axes.plot(told[shown], signed, "kx", ms=4, label="his, as tabulated by Popinet & Zaleski 1999")
+    axes.plot(times, ours, "C3o-", ms=3, lw=1, label="SDPH")
+    axes.set(xlabel="t [s]", ylabel="height over that at the start [-]")
+    axes.legend(fontsize=8)
+    drawn.savefig(run.folder / "wave.png", dpi=90)
+    pyplot.close(drawn)

@@ -30,6 +30,16 @@ def seen(run) -> wetting.Segment:
     return wetting.Segment(height, wetting.segment(angle, size).base, spread)
 
 
+def metrics(run) -> dict:
+    """Values for `sdph cost`: (value, reference, scale)."""
+    found = seen(run)
+    wanted = wetting.segment(run.case.parameters["surface_tension"].contact_angle, area(run.case))
+    return {
+        "height": (found.height, wanted.height, wanted.height),
+        "width of the base": (found.base, wanted.base, wanted.base),
+    }
+
+
 def exact(run) -> list[dict]:
     own, found = run.case.parameters["surface_tension"], seen(run)
     known = wetting.segment(own.contact_angle, area(run.case))

@@ -41,6 +41,12 @@ def seen(run) -> float:
     return known(run.case, brentq(lambda angle: known(run.case, angle)[0] - found, LEAST, MOST))[1]
 
 
+def metrics(run) -> dict:
+    """Values for `sdph cost`: (value, reference, scale)."""
+    wanted = known(run.case, run.case.parameters["surface_tension"].contact_angle)[1]
+    return {"height at the wall over the middle": (seen(run), wanted, wanted)}
+
+
 def exact(run) -> list[dict]:
     case, own = run.case, run.case.parameters["surface_tension"]
     bar = RISE * known(case, math.radians(60.0))[1]  # of a level surface too

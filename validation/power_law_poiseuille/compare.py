@@ -21,6 +21,12 @@ def errors(run) -> tuple[float, float]:
     return float(off.max()), float(np.sqrt(np.mean(off**2)))
 
 
+def metrics(run) -> dict:
+    """Values for `sdph cost`: (value, reference, scale)."""
+    largest, mean = errors(run)
+    return {"velocity, largest error": (largest, 0.0, 1.0), "velocity, L2": (mean, 0.0, 1.0)}
+
+
 def exact(run) -> list[dict]:
     largest, mean = errors(run)
     return [
