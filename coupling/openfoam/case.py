@@ -12,10 +12,12 @@ import re
 import shutil
 from pathlib import Path
 
+import numpy as np
+
 from coupling.openfoam import dictionary, links, poly_mesh
 from coupling.openfoam.block_mesh import block_mesh
 from coupling.openfoam.code import Findings, refuse_code
-from coupling.openfoam.start_fields import EMPTY, start_fields
+from coupling.openfoam.start_fields import CYCLIC, EMPTY, start_fields
 from coupling.openfoam.turbulence import write_properties
 from sdph.case import profiles
 from sdph.case.gas_cells import cells
@@ -27,10 +29,9 @@ NOT_SPATIAL = ("span",)  # lengths, but along the tangential axes
 NAME = re.compile(r"[\w.+-]+")  # of what a case names: no more than a word of OpenFOAM
 SYMMETRY = 'give it the type patch in constant/polyMesh/boundary and kind = "slip_wall"'
 AROUND = "mesh the whole vessel, or a slab of it"
-CONSTRAINED = {"symmetry": SYMMETRY, "symmetryPlane": SYMMETRY} | dict.fromkeys(
-    ("wedge", "cyclic", "cyclicAMI"), AROUND
-)
+CONSTRAINED = {"symmetry": SYMMETRY, "symmetryPlane": SYMMETRY} | dict.fromkeys(("wedge", "cyclicAMI"), AROUND)
 DEPTH = 1.0  # m, of the one cell that a two-dimensional mesh is deep
+FACING = 1e-6  # of their area: what the faces of cyclic patches may differ by from their partners'; digits of a mesh
 
 
 def refuse_path(folder: Path) -> None:
@@ -163,13 +164,35 @@ def others(case, folder: Path) -> dict[str, str] | None:
     for name in case.boundaries:
         if name not in known:
             raise CaseError(f"boundaries.{name} is no patch of the mesh of the gas; it has {', '.join(known)}")
+    around = [name for name, patch in known.items() if patch.kind == CYCLIC]
+    if around:
+        refuse_around(case, around, poly_mesh.read(folder))
     return _walls({name: patch for name, patch in known.items() if name not in case.boundaries})
+
+
+def refuse_around(case, around: list[str], mesh: poly_mesh.PolyMesh) -> None:
+    """CaseError where gas cannot go round by the cyclic patches `around` of a mesh: what is in it or pulls at it does
+    not, or they are not opposite each other."""
+    what = f"the mesh of the gas has cyclic patches ({', '.join(around)})"
+    if case.particles or case.nozzles:
+        raise CaseError(f"{what}, and particles do not go round with the gas: leave them out, or {AROUND}")
+    for name in around:
+        if name in case.boundaries:
+            raise CaseError(f"patch {name} of the mesh of the gas is cyclic: leave boundaries.{name} out")
+    areas = {name: mesh.areas[mesh.patches[name].faces] for name in around}
+    size = sum(float(np.abs(own).sum()) for own in areas.values())
+    if np.abs(sum(own.sum(axis=0) for own in areas.values())).max() > FACING * size:
+        raise CaseError(f"{what} that are not opposite each other: gas goes round straight ahead alone; {AROUND}")
+    gravity = np.array([*case.domain.gravity, 0.0][:3])
+    if any(np.abs(own @ gravity).max(initial=0.0) > FACING * np.abs(own).max() * np.linalg.norm(gravity)
+           for own in areas.values()):  # fmt: skip
+        raise CaseError(f"{what}, and domain.gravity_m_s2 is along them, which would have no end: set it across them")
 
 
 def _walls(others: dict) -> dict[str, str]:
     """Name -> type of patches that the case does not name; CaseError where one is no wall."""
     for name, patch in others.items():
-        if patch.kind not in ("wall", EMPTY) and patch.faces.stop > patch.faces.start:
+        if patch.kind not in ("wall", EMPTY, CYCLIC) and patch.faces.stop > patch.faces.start:
             raise CaseError(
                 f"patch {name} of the mesh of the gas (type {patch.kind}) stands not in [boundaries]; give "
                 f"[boundaries.{name}] with its kind, as sdphGasFoam needs its fields"

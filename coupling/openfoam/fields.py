@@ -12,7 +12,7 @@ import numpy as np
 
 from coupling.gas import GasError
 
-COMPONENTS = {"scalar": 1, "vector": 3}
+COMPONENTS = {"scalar": 1, "vector": 3, "symmTensor": 6}
 _UNIFORM = re.compile(rb"internalField\s+uniform\s+([^;]+);")
 _LIST = re.compile(rb"internalField\s+nonuniform\s+List<(\w+)>\s*(\d+)\s*\(")
 
@@ -32,14 +32,15 @@ def _is_number(name: str) -> bool:
 
 
 def read(path: Path, cells: int) -> np.ndarray:
-    """The internal field of a file: (C,) of a scalar, (C, 3) of a vector; a uniform value is spread over the cells."""
+    """The internal field of a file: (C,) of a scalar, (C, 3) of a vector, (C, 6) of a symmTensor, as xx, xy, xz, yy,
+    yz and zz; a uniform value is spread over the cells."""
     text = Path(path).read_bytes()
     uniform = _UNIFORM.search(text)
     if uniform:
         return _spread(_numbers(uniform.group(1)), cells)
     found = _LIST.search(text)
     if not found or found.group(1).decode() not in COMPONENTS:
-        raise FieldError(f"{path} holds no internal field of scalars or vectors")
+        raise FieldError(f"{path} holds no internal field of scalars, vectors or symmetric tensors")
     components, count = COMPONENTS[found.group(1).decode()], int(found.group(2))
     if count != cells:
         raise FieldError(f"{path} holds {count} values for a mesh of {cells} cells")

@@ -23,6 +23,7 @@ FIELDS = {
 HEAD = "FoamFile {{ version 2.0; format ascii; class {cls}; object {name}; }}\n"
 ZERO_GRADIENT = "type zeroGradient;"
 EMPTY = "empty"  # type of the sides of a plane mesh
+CYCLIC = "cyclic"  # type of patches through which gas comes in again on the other side
 STILL = Boundary(kind="wall")
 GIVEN_FLUX = "type fixedFluxPressure; value uniform 0;"
 
@@ -51,7 +52,7 @@ def _turbulent(case, name: str, inside: str, others: dict[str, str]) -> str:
 
 
 def _of_others(others: dict[str, str], still: str) -> dict[str, str]:
-    return {patch: f"type {EMPTY};" if kind == EMPTY else still for patch, kind in others.items()}
+    return {patch: f"type {kind};" if kind in (EMPTY, CYCLIC) else still for patch, kind in others.items()}
 
 
 def _text(name: str, kind: tuple[str, str], inside: str, conditions: dict[str, str]) -> str:

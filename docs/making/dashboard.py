@@ -25,14 +25,14 @@ PARTS = {
         "slopes": "slope of",
     },
     "granular_piles": {"columns": "column", "slopes": "slope", "hopper": "slot"},
-    "spray_plug": {"plug": "SDPH"},
+    "spray_plug": {"plug": "film", "spreading": "onset"},
     "gel_droplet_reduced": {
         "course": "work on the shell", "rings": " ring at", "changes": "flux x2", "claims": "sonic",
     },
     "moving_particles": {"films": "pull over", "drops": "drop, ", "threads": "thread", "holes": "hole"},
     "two_methods": {"pools": "by mps"},
     "own_vessel": {"flows": "packed bed", "orders": "order of", "dummies": "nearest two", "leaks": "shaken"},
-    "gas_turbulence": {"frozen": "frozen flow", "channel": "of a channel"},
+    "gas_turbulence": {"frozen": "frozen flow", "channel": "of a channel", "eddies": "of eddies"},
     "gel_ladder": {"beam": "beam of", "cavity": "swing of a cavity"},
 }  # fmt: skip
 HEAD = "| check | value | reference | off by | tolerance | verdict |\n|--|--|--|--|--|--|"

@@ -2,6 +2,7 @@
 
 frozen     the same eddy viscosity of the same velocity, which stands still
 channel    a channel that turbulent gas flows through, at Re_tau = 395
+eddies     means of a channel with cyclic ends and the eddies of WALE, beside direct simulation at Re_tau = 178
 """
 
-NAMES = ("frozen", "channel")
+NAMES = ("frozen", "channel", "eddies")

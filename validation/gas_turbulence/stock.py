@@ -6,10 +6,12 @@ import contextlib
 import re
 import shutil
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 from coupling.openfoam import fields
+from coupling.openfoam.programs import install
 from coupling.openfoam.programs import run as programs
 from coupling.openfoam.solver import OpenFoamGas
 from coupling.openfoam.start_fields import start_fields
@@ -66,17 +68,34 @@ def case(size, cell: float, boundaries: dict, turbulence: dict, viscosity: float
     })  # fmt: skip
 
 
+class Mesh(NamedTuple):
+    """A mesh of one's own: its blockMeshDict less the head, type of the patches that the case does not name, and the
+    scheme of the convection of momentum on it."""
+
+    blocks: str
+    others: dict[str, str]
+    convection: str
+
+
 @contextlib.contextmanager
-def started(own, folder: Path, start: dict | None = None, control: str = FREE):
+def started(own, folder: Path, start: dict | None = None, control: str = FREE, mesh: Mesh | None = None):
     """The gas of a case, in `folder`/gas; `start` (field -> numbers in cells) replaces start fields of the case."""
     template = folder / "template"
     shutil.copytree(paths.data("openfoam_case_templates") / "disc_cluster" / "gas", template)
+    if mesh:
+        blocks = HEAD.format(name="blockMeshDict") + mesh.blocks
+        (template / "system" / "blockMeshDict").write_text(blocks, encoding="utf-8")
+        schemes = template / "system" / "fvSchemes"
+        text = schemes.read_text(encoding="utf-8").replace("Gauss linearUpwind grad(U)", mesh.convection)
+        schemes.write_text(text, encoding="utf-8")
     numbers = template / "system" / "fvSolution"
     text = numbers.read_text(encoding="utf-8").replace("tolerance       1e-10;", "tolerance       1e-15;")
     numbers.write_text(f"{text[: text.index('PIMPLE')]}PIMPLE {{ {control} }}\n", encoding="utf-8")
     (template / "0").mkdir()
     for name, values in (start or {}).items():
-        (template / "0" / name).write_text(_holding(start_fields(own)[name], values), encoding="utf-8")
+        (template / "0" / name).write_text(
+            _holding(start_fields(own, mesh and mesh.others)[name], values), encoding="utf-8"
+        )
     gas = OpenFoamGas(own, folder / "gas", template)
     try:
         yield gas
@@ -99,8 +118,11 @@ def remembered(gas, folder: Path, names: tuple[str, ...] = OWN) -> dict[str, np.
     return {name: np.asarray(values[name]) for name in names if name in values}
 
 
-def pimple(gas, own, folder: Path, dt: float, steps: int, control: str = FREE) -> dict[str, np.ndarray]:
-    """Fields of pimpleFoam after `steps` of `dt` [s] from the start of a gas of a case."""
+def pimple(
+    gas, own, folder: Path, dt: float, steps: int, control: str = FREE, more: dict[str, str] | None = None
+) -> dict[str, np.ndarray]:
+    """Fields of pimpleFoam after `steps` of `dt` [s] from the start of a gas of a case; `more` are texts of files that
+    it has besides or instead."""
     for name in ("constant/polyMesh", "0"):
         shutil.copytree(gas.case_folder / name, folder / name)
     shutil.copy(gas.case_folder / "constant/turbulenceProperties", folder / "constant")
@@ -112,11 +134,11 @@ def pimple(gas, own, folder: Path, dt: float, steps: int, control: str = FREE) -
         "system/controlDict": CONTROL.format(end=dt * steps, dt=dt, steps=steps),
         "system/fvSchemes": SCHEMES,
         "system/fvSolution": f"{SOLVERS}PIMPLE {{ {control} }}\n",
-    }
+    } | (more or {})
     for name, text in texts.items():
         (folder / name).parent.mkdir(exist_ok=True)
         (folder / name).write_text(HEAD.format(name=name.partition("/")[2]) + text)
-    programs.run(["pimpleFoam"], folder, folder / "log.pimpleFoam")
+    programs.run(["pimpleFoam"], folder, folder / "log.pimpleFoam", install.environment())
     last = fields.times(folder)[-1][1]
     return {name: fields.read(last / name, len(gas.mesh.volumes)) for name in OWN if (last / name).exists()}
 

@@ -21,6 +21,9 @@ def test_fields_are_read_in_each_form(tmp_path):
     for form, body in bodies.items():
         file.write_bytes(HEADS[form] + body)
         assert np.array_equal(fields.read(file, 2), values)
+    stress = b"internalField nonuniform List<symmTensor> 1((1 2 3 4 5 6));\n"
+    file.write_bytes(HEADS["ascii"] + stress)
+    assert np.array_equal(fields.read(file, 1), [[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]])
     file.write_bytes(HEADS["ascii"] + b"internalField uniform 2.5;\n")
     assert np.array_equal(fields.read(file, 3), [2.5, 2.5, 2.5])
     file.write_bytes(HEADS["ascii"] + b"internalField uniform (1 2 3);\n")
