@@ -113,6 +113,7 @@ HARMLESS = {
     "sdph/methods/mps/holes.py:Holes._waves": "room for numbers of particles",
     "sdph/effects/liquids/perforation.py:way": "judges for `sdph explain`; no run takes anything from it",
     "sdph/methods/mps/sheet.py:*": "counts of pixels, and a length to draw a curve over",
+    "sdph/methods/mps/instants.py:*": "counts of pixels and of instants",
     "sdph/methods/solids/start.py:*": "counts of points",
     "sdph/methods/solids/equations.py:least_stretch": "the largest of all",
     "sdph/methods/solids/totals.py:SolidLedger._write": "the largest so far",

@@ -31,7 +31,7 @@ SYMMETRY = 'give it the type patch in constant/polyMesh/boundary and kind = "sli
 AROUND = "mesh the whole vessel, or a slab of it"
 CONSTRAINED = {"symmetry": SYMMETRY, "symmetryPlane": SYMMETRY} | dict.fromkeys(("wedge", "cyclicAMI"), AROUND)
 DEPTH = 1.0  # m, of the one cell that a two-dimensional mesh is deep
-FACING = 1e-6  # of their area: what the faces of cyclic patches may differ by from their partners'; digits of a mesh
+FACING = 1e-6  # of their area: what faces of cyclic patches and those opposite may differ by; digits of a mesh
 
 
 def refuse_path(folder: Path) -> None:
@@ -164,35 +164,44 @@ def others(case, folder: Path) -> dict[str, str] | None:
     for name in case.boundaries:
         if name not in known:
             raise CaseError(f"boundaries.{name} is no patch of the mesh of the gas; it has {', '.join(known)}")
-    around = [name for name, patch in known.items() if patch.kind == CYCLIC]
+    around = {name: patch.other for name, patch in known.items() if patch.kind == CYCLIC and _has_faces(patch)}
     if around:
         refuse_around(case, around, poly_mesh.read(folder))
     return _walls({name: patch for name, patch in known.items() if name not in case.boundaries})
 
 
-def refuse_around(case, around: list[str], mesh: poly_mesh.PolyMesh) -> None:
-    """CaseError where gas cannot go round by the cyclic patches `around` of a mesh: what is in it or pulls at it does
-    not, or they are not opposite each other."""
+def refuse_around(case, around: dict[str, str], mesh: poly_mesh.PolyMesh) -> None:
+    """CaseError where gas cannot go round by the cyclic patches of a mesh, each with the one on its other side: what is
+    in it or pulls at it does not, or they are not opposite each other."""
     what = f"the mesh of the gas has cyclic patches ({', '.join(around)})"
     if case.particles or case.nozzles:
         raise CaseError(f"{what}, and particles do not go round with the gas: leave them out, or {AROUND}")
-    for name in around:
+    gravity = np.array([*case.domain.gravity, 0.0][:3])
+    for name, other in around.items():
         if name in case.boundaries:
             raise CaseError(f"patch {name} of the mesh of the gas is cyclic: leave boundaries.{name} out")
-    areas = {name: mesh.areas[mesh.patches[name].faces] for name in around}
-    size = sum(float(np.abs(own).sum()) for own in areas.values())
-    if np.abs(sum(own.sum(axis=0) for own in areas.values())).max() > FACING * size:
-        raise CaseError(f"{what} that are not opposite each other: gas goes round straight ahead alone; {AROUND}")
-    gravity = np.array([*case.domain.gravity, 0.0][:3])
-    if any(np.abs(own @ gravity).max(initial=0.0) > FACING * np.abs(own).max() * np.linalg.norm(gravity)
-           for own in areas.values()):  # fmt: skip
-        raise CaseError(f"{what}, and domain.gravity_m_s2 is along them, which would have no end: set it across them")
+        here, there = (
+            mesh.areas[mesh.patches[side].faces] if side in around else np.zeros((0, 3)) for side in (name, other)
+        )
+        if len(here) != len(there) or np.abs(here + there).max() > FACING * np.abs(here).max():
+            raise CaseError(
+                f"{what}, {name} and {other} not opposite each other: gas goes round straight ahead alone; {AROUND}"
+            )
+        way = np.subtract(*(mesh.centres[mesh.patches[side].faces].mean(axis=0) for side in (other, name)))
+        if abs(way @ gravity) > FACING * np.linalg.norm(way) * np.linalg.norm(gravity):
+            raise CaseError(
+                f"{what}, and domain.gravity_m_s2 is along them, which would have no end: set it across them"
+            )
+
+
+def _has_faces(patch: poly_mesh.Patch) -> bool:
+    return patch.faces.stop > patch.faces.start
 
 
 def _walls(others: dict) -> dict[str, str]:
     """Name -> type of patches that the case does not name; CaseError where one is no wall."""
     for name, patch in others.items():
-        if patch.kind not in ("wall", EMPTY, CYCLIC) and patch.faces.stop > patch.faces.start:
+        if patch.kind not in ("wall", EMPTY, CYCLIC) and _has_faces(patch):
             raise CaseError(
                 f"patch {name} of the mesh of the gas (type {patch.kind}) stands not in [boundaries]; give "
                 f"[boundaries.{name}] with its kind, as sdphGasFoam needs its fields"

@@ -1,6 +1,6 @@
 """Reads what an OpenFOAM run wrote, ASCII or binary, serial or reconstructed: cell fields, the mesh's cells, probes.
 
-Only what the comparisons need: internal fields of scalars and vectors, 64-bit floats, little-endian.
+Only what the comparisons need: internal fields of scalars, vectors and symmetric tensors, 64-bit floats, little-endian.
 """
 
 from __future__ import annotations

@@ -25,10 +25,11 @@ ALIKE = re.compile(rb"\s*(\d+)\s*\{\s*(\d+)\s*\}")  # a list of one value
 
 
 class Patch(NamedTuple):
-    """A patch: its type, and the faces that it has."""
+    """A patch: its type, the faces that it has, and the patch on the other side of one that is cyclic."""
 
     kind: str
     faces: slice
+    other: str = ""
 
 
 class PolyMesh:
@@ -165,7 +166,7 @@ def patches(case: Path) -> dict[str, Patch]:
         entries = dict(re.findall(r"(\w+)\s+([^\s;]+)[^;]*;", body))
         try:
             start, count = int(entries["startFace"]), int(entries["nFaces"])
-            found[name] = Patch(entries["type"], slice(start, start + count))
+            found[name] = Patch(entries["type"], slice(start, start + count), entries.get("neighbourPatch", ""))
         except (KeyError, ValueError):
             raise _damaged(case / FOLDER / "boundary") from None
     return found

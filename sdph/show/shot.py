@@ -196,8 +196,8 @@ def all_chosen(shots: list[Shot], field: str | None) -> tuple[str, ...]:
     if len(names) > 2 or any(own.axes is None for own in shots):
         raise CaseError(f"--field {field}: two fields at most, and those in pictures of two dimensions; name one")
     first, over = (chosen(shots, name.strip()) for name in names)
-    if not any(len(part) for own in shots for part in own.values(first, over)):
-        raise CaseError(f"--field {field}: all that has {first} has {over} too; name the other first, or one")
+    if not any(np.isfinite(part).any() for own in shots for part in own.values(first, over)):
+        raise CaseError(f"--field {field}: all that has {first} has {over} too; name another first, or one")
     return first, over
 
 

@@ -186,9 +186,11 @@ class Source:
                 found[near & in_mouth(nozzle, places - self.centre[k])] = k + 1
         return found
 
-    def look(self, state) -> None:
-        """See which nozzles have particles that wait as rows are made: their mouths are open while the rows hold."""
-        self.giving = np.isin(np.arange(len(self.nozzles) + 1), state.nozzle[state.kind == INFLOW])
+    def look(self, state, world) -> None:
+        """See which nozzles have particles that wait, of any process, as rows are made: their mouths are open while the
+        rows hold."""
+        own = np.isin(np.arange(len(self.nozzles) + 1), state.nozzle[state.kind == INFLOW])
+        self.giving = world.most(own.astype(float)) > 0.0
 
     def open(self, mouths, rows) -> None:
         """Take the dummies in mouths that are open out of the rows of particles; `mouths` (W,) as above."""

@@ -126,7 +126,7 @@ class Stepper(Conducting, Windowed):
         self.state, _ = self.neighbours.update(self.state, *self._arrays(changed))
         if before is not self.neighbours.built:
             if self.source:
-                self.source.look(self.state)
+                self.source.look(self.state, self.world)
             self._look_around()
         self._sum(self.state.density)
         self.domain.refresh(self.state.density)

@@ -77,9 +77,9 @@ def test_processes_share_a_mesh_that_goes_round(tmp_path):
     assert np.abs(alone - both).max() < 1e-9 * np.abs(alone).max()
 
 
-def one_cell(folder, right=(1.0, 1.0)):
-    """constant/polyMesh of one cell whose sides left and right are cyclic; its right side is at x = `right` [m] below
-    and above."""
+def one_cell(folder, right=(1.0, 1.0), sides=SIDES, around=("left", "right")):
+    """constant/polyMesh of one cell whose sides `around` are cyclic; its right side is at x = `right` [m] below and
+    above."""
     points = [(x * right[y], y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
     place = folder / "constant/polyMesh"
     place.mkdir(parents=True)
@@ -89,8 +89,9 @@ def one_cell(folder, right=(1.0, 1.0)):
         "owner": ["0"] * 6,
         "neighbour": [],
     }
-    rows = [f"{name} {{ {kind_of(other if name in ('left', 'right') else None)} nFaces 1; startFace {number}; }}"
-            for name, (number, other) in SIDES.items()]  # fmt: skip
+    rows = [f"{name} {{ {kind_of(other if name in around else None)} nFaces 1; startFace {number}; }}"
+            for name, (number, other) in sides.items()]  # fmt: skip
+    rows.append("none { type cyclic; neighbourPatch left; nFaces 0; startFace 6; }")
     for name, own in (lists | {"boundary": rows}).items():
         head = own_meshes.HEAD.format(cls="list", name=name)
         (place / name).write_text(f"{head}{len(own)}\n(\n{chr(10).join(own)}\n)\n")
@@ -99,7 +100,7 @@ def one_cell(folder, right=(1.0, 1.0)):
 
 def test_cyclic_patches_need_no_boundary_of_the_case(tmp_path):
     found = case_files.others(box_case([1.0] * 3, 1.0, boundaries=WALLS, gravity=(0.0, -9.81, 0.0)), one_cell(tmp_path))
-    assert found == {"front": "wall", "back": "wall", "left": "cyclic", "right": "cyclic"}
+    assert found == {"front": "wall", "back": "wall", "left": "cyclic", "right": "cyclic", "none": "cyclic"}
     made = case_files.start_fields(box_case([1.0] * 3, 1.0, boundaries=WALLS), found)
     assert all("left { type cyclic; }" in text for text in made.values())
 
@@ -113,6 +114,14 @@ def test_what_does_not_go_round_is_refused(tmp_path, given, right, says):
     with pytest.raises(CaseError, match=says) as told:
         case_files.others(box_case([1.0] * 3, 1.0, **({"boundaries": WALLS} | given)), one_cell(tmp_path, right))
     assert "\n" not in str(told.value)
+
+
+def test_sides_that_turn_the_gas_are_refused(tmp_path):
+    """Left to the floor and right to the lid: areas of all four together are nothing, as those of two pairs ahead."""
+    pairs = ("left", "floor", "right", "lid")
+    turned = SIDES | {name: (SIDES[name][0], pairs[k ^ 1]) for k, name in enumerate(pairs)}
+    with pytest.raises(CaseError, match="left and floor not opposite each other"):
+        case_files.others(box_case([1.0] * 3, 1.0, boundaries={}), one_cell(tmp_path, sides=turned, around=pairs))
 
 
 @pytest.mark.parametrize("group", ["particles", "nozzles"])

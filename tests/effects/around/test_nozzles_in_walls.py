@@ -1,6 +1,7 @@
 """Nozzles in the walls that hold the grains: a mouth lets its stream through, and is a wall while nothing comes."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -107,3 +108,14 @@ def test_rows_made_anew_have_the_mouths_open_that_they_had(tmp_path):
         shut += done.grains.source.giving.any() and not (done.state.kind == INFLOW).any()
         done.grains.stepper.revive()  # Unfit where the density of the particles is another
     assert shut
+
+
+def test_a_mouth_is_open_where_particles_of_another_process_wait(tmp_path):
+    """Rows of a checkpoint are made anew by all processes with what the first one knows."""
+    both = {"below": slot([0.5, 0.0], [0.0, 1.0]), "left": slot([0.0, 0.5], [1.0, 0.0])}
+    done = begun(case(both, effects=EFFECTS, boundaries=CLOSED), tmp_path)
+    own, world = done.grains.source, SimpleNamespace(most=lambda here: np.maximum(here, [0.0, 0.0, 1.0]))
+    done.window()
+    done.state.kind[done.state.nozzle == 2] = GRAIN
+    own.look(done.state, world)
+    assert own.giving.tolist() == [False, True, True]
