@@ -74,10 +74,11 @@ def table(made: dict, misses: bool) -> str:
     if not made["checks"]:
         return f"Not recorded: `sdph validate {made['scene']} --record validation/record` does it.\n"
     checks = [check for check in made["checks"] if not check["ok"] or not (misses or "balances: " in check["name"])]
-    missed = sum(not check["ok"] for check in made["checks"])
+    missed, reported = (sum(map(of, made["checks"])) for of in (lambda check: not check["ok"], COUNTS["reported"]))
     made_by = f"Recorded {made['date']} (commit {made['commit']}, gas {made['gas']})"
     left_out = "those" if misses else "balances"
-    about = f"{len(made['checks'])} checks, {missed} missed; {left_out} that hold are not shown"
+    told = f"{reported} only reported; " if reported else ""
+    about = f"{len(made['checks'])} checks, {missed} missed; {told}{left_out} that hold are not shown"
     rows = ["", HEAD, *(row(check, made["scene"]) for check in checks)] if checks else []
     return "\n".join([f"{made_by}: {about}.", *rows, ""])
 

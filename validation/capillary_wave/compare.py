@@ -20,8 +20,8 @@ EVERY = 12  # rows of the table of which one is drawn; our choice
 
 
 def heights(run) -> tuple[np.ndarray, np.ndarray]:
-    """(times [s], heights [m]): 2/L sum V cos(k x) of the lower liquid is the amplitude of its surface, as the rest
-    of it is even."""
+    """(times [s], heights over that at the start): 2/L sum V cos(k x) of the lower liquid is the amplitude of its
+    surface, as the rest of it is even."""
     case, found = run.case, []
     pool, times = case.pools["lower"], np.arange(0.0, run.summary["time_s"], case.run.output_interval)
     length = pool.upper[0] - pool.lower[0]
@@ -30,7 +30,7 @@ def heights(run) -> tuple[np.ndarray, np.ndarray]:
         own = points["kind"] == LIQUID
         phase = 2.0 * np.pi * (points.points[own, 0] - pool.centre[0]) / length
         found.append(2.0 / length * (points["mass"][own] * np.cos(phase)).sum() / case.liquid.density)
-    return times, np.array(found)
+    return times, np.array(found) / pool.displacement
 
 
 def solution(case, times) -> np.ndarray:
@@ -57,23 +57,20 @@ def table(case) -> tuple[np.ndarray, np.ndarray]:
     return phase / math.sqrt(tension * (2.0 * math.pi / length) ** 3 / (2.0 * density)), height / HIGH
 
 
-def misses(run) -> np.ndarray:
-    """Misses of the height, over that at the start."""
-    times, found = heights(run)
-    return found / run.case.pools["lower"].displacement - solution(run.case, times)
+def off(run, times, ours) -> float:
+    """Root mean square by which heights (T,) over that at the start are off at times (T,) [s]."""
+    return float(np.sqrt(np.mean((ours - solution(run.case, times)) ** 2)))
 
 
 def metrics(run) -> dict:
     """Values for `sdph cost`: (value, reference, scale)."""
-    return {"height": (float(np.sqrt(np.mean(misses(run) ** 2))), 0.0, 1.0)}
+    return {"height": (off(run, *heights(run)), 0.0, 1.0)}
 
 
 def exact(run) -> list[dict]:
-    times, found = heights(run)
-    ours = found / run.case.pools["lower"].displacement
-    _figure(run, times, ours)
-    missed = ours - solution(run.case, times)
-    return [check("height over that at the start, root mean square", np.sqrt(np.mean(missed**2)), 0.0, HEIGHT)]
+    own = heights(run)
+    _figure(run, *own)
+    return [check("height over that at the start, root mean square", off(run, *own), 0.0, HEIGHT)]
 
 
 def _figure(run, times, ours) -> None:

@@ -121,7 +121,9 @@ def _figures(run, known, ours, pressures) -> None:
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    drawn, axes = pyplot.subplots(8, 1, figsize=(6.5, 14.0), sharex=True, constrained_layout=True)
+    drawn, axes = pyplot.subplots(
+        len(PLACES) + len(SENSORS), 1, figsize=(6.5, 14.0), sharex=True, constrained_layout=True
+    )
     for one, name in zip(axes, PLACES):
         one.plot(known["t_s"], known[name], "k-", lw=1, label="measured")
         one.plot(ours["t_s"], ours[name], "C3o-", ms=2, lw=1, label="SDPH")

@@ -171,7 +171,7 @@ def theirs(gas, own, folder: Path, settled: float, until: float) -> Moments:
     control = stock.CONTROL.format(end=until, dt=STEP, steps=round(period / STEP)) + AVERAGES % (period + 0.25 * STEP)
     stock.pimple(gas, own, folder, STEP, steps, more={
         "system/controlDict": control, "constant/fvOptions": HELD % (BULK * FRICTION - FRAME),
-        "system/fvSchemes": stock.SCHEMES.replace("Gauss linearUpwind grad(U)", CENTRAL),
+        "system/fvSchemes": stock.convecting(stock.SCHEMES, CENTRAL),
         "system/fvSolution": stock.SOLVERS.replace("1e-15", "1e-9") + SOLUTION,
     })  # fmt: skip
     count, found = len(gas.mesh.volumes), []

@@ -21,6 +21,7 @@ from sdph.scenes import paths
 
 DENSITY, VISCOSITY = 1.2, 1.8e-5  # kg/m3, Pa s: air, rounded
 OWN = ("U", "k", "epsilon", "omega", "nut")
+UPWIND = "Gauss linearUpwind grad(U)"  # scheme of the convection of momentum, in the template and below
 HEAD = "FoamFile {{ version 2.0; format ascii; class dictionary; object {name}; }}\n"
 # schemes of the template, under the names that the stock solver gives to terms
 SCHEMES = """ddtSchemes { default Euler; }
@@ -77,6 +78,13 @@ class Mesh(NamedTuple):
     convection: str
 
 
+def convecting(schemes: str, scheme: str) -> str:
+    """Text of fvSchemes with another scheme of the convection of momentum; ValueError where it has not that of ours."""
+    if UPWIND not in schemes:
+        raise ValueError(f"fvSchemes does not have {UPWIND}")
+    return schemes.replace(UPWIND, scheme)
+
+
 @contextlib.contextmanager
 def started(own, folder: Path, start: dict | None = None, control: str = FREE, mesh: Mesh | None = None):
     """The gas of a case, in `folder`/gas; `start` (field -> numbers in cells) replaces start fields of the case."""
@@ -86,8 +94,7 @@ def started(own, folder: Path, start: dict | None = None, control: str = FREE, m
         blocks = HEAD.format(name="blockMeshDict") + mesh.blocks
         (template / "system" / "blockMeshDict").write_text(blocks, encoding="utf-8")
         schemes = template / "system" / "fvSchemes"
-        text = schemes.read_text(encoding="utf-8").replace("Gauss linearUpwind grad(U)", mesh.convection)
-        schemes.write_text(text, encoding="utf-8")
+        schemes.write_text(convecting(schemes.read_text(encoding="utf-8"), mesh.convection), encoding="utf-8")
     numbers = template / "system" / "fvSolution"
     text = numbers.read_text(encoding="utf-8").replace("tolerance       1e-10;", "tolerance       1e-15;")
     numbers.write_text(f"{text[: text.index('PIMPLE')]}PIMPLE {{ {control} }}\n", encoding="utf-8")

@@ -43,7 +43,7 @@ class Source:
     Several sizes (sdph.effects.around.sizes) are as many streams at one place.
     """
 
-    KEPT = ("layers", "replays", "next_ident", "mass", "energy", "motion", "momentum", "giving")  # see sdph.engine.kept
+    KEPT = ("layers", "replays", "next_ident", "mass", "energy", "motion", "momentum")  # see sdph.engine.kept
 
     def __init__(self, case, names, first_ident: int):
         self.case, self.names, self.pitch = case, {*names, *ARRAYS}, case.resolution.spacing
@@ -77,7 +77,6 @@ class Source:
         self.layers, self.next_ident = np.zeros(len(self.of), np.int64), first_ident
         self.mass, self.energy, self.motion = 0.0, 0.0, 0.0  # through the mouths [kg], heat and motion [J]
         self.momentum = np.zeros(3)  # [kg m/s]
-        self.giving = np.zeros(len(self.nozzles) + 1, bool)  # which mouths are open, nozzles from 1; see `look`
 
     @property
     def heaviest(self) -> float:
@@ -186,16 +185,14 @@ class Source:
                 found[near & in_mouth(nozzle, places - self.centre[k])] = k + 1
         return found
 
-    def look(self, state, world) -> None:
-        """See which nozzles have particles that wait, of any process, as rows are made: their mouths are open while the
-        rows hold."""
+    def giving(self, state, world) -> np.ndarray:
+        """(nozzles + 1,) mask of the nozzles, from 1, that have particles that wait, of any process."""
         own = np.isin(np.arange(len(self.nozzles) + 1), state.nozzle[state.kind == INFLOW])
-        self.giving = world.most(own.astype(float)) > 0.0
+        return world.most(own.astype(float)) > 0.0
 
     def open(self, mouths, rows) -> None:
-        """Take the dummies in mouths that are open out of the rows of particles; `mouths` (W,) as above."""
-        if self.giving.any():
-            without(self.giving[mouths], rows)
+        """Take the dummies that stand in open mouths (W,) out of the rows of particles."""
+        without(mouths, rows)
 
     def inside(self, state, after: float = 0.0) -> np.ndarray:
         """Share of each particle (N,) that will be through its mouth when `after` [s] has gone.

@@ -35,7 +35,8 @@ SAME_DENSITY = 1e-6  # of a density: what is summed twice differs by round-off a
 class Stepper(Conducting, Windowed):
     """State of the particles, and how it goes forward."""
 
-    KEPT, FORMS = ("state", "neighbours", "steps", "contacts", "limit"), {"state": GROWING}  # see sdph.engine.kept
+    KEPT = ("state", "neighbours", "giving", "steps", "contacts", "limit")  # see sdph.engine.kept
+    FORMS = {"state": GROWING}
     # arrays of a row a particle that a checkpoint holds beside the state (sdph.engine.gathered), and that others read
     ROWS = SEEN = ()
     # what a sub-step takes from neighbours and theirs, fresh, of `state`: all else of a particle is its own affair
@@ -57,6 +58,7 @@ class Stepper(Conducting, Windowed):
         self.domain, self.heaviest = self.neighbours.domain, self.world.most(float(state.mass.max(initial=0.0)))  # [kg]
         self.boundary = Boundary(case) if parameters["walls"] else None
         self.mouths = source.mouths(self.boundary.dummies) if source and self.boundary else None  # nozzle of each dummy
+        self.giving = np.zeros(len(case.nozzles) + 1, bool)  # nozzles, from 1: open while the rows hold
         self.waves, self.terms = sound.waves_of(case), sub_step.terms_of(parameters)
         self.gravity = np.array(parameters["gravity"] or (0.0, 0.0, 0.0))
         self.steps, self.contacts, self.limit = 0, 0, ""
@@ -126,7 +128,7 @@ class Stepper(Conducting, Windowed):
         self.state, _ = self.neighbours.update(self.state, *self._arrays(changed))
         if before is not self.neighbours.built:
             if self.source:
-                self.source.look(self.state, self.world)
+                self.giving = self.source.giving(self.state, self.world)
             self._look_around()
         self._sum(self.state.density)
         self.domain.refresh(self.state.density)
@@ -143,8 +145,8 @@ class Stepper(Conducting, Windowed):
         arrays.fill(self.work.of_walls, 0.0)  # loops write the rows of those that see a wall
         if self.boundary:
             rows = self.boundary.rows(built)
-            if self.source:
-                self.source.open(self.mouths, rows)
+            if self.giving.any():
+                self.source.open(self.giving[self.mouths], rows)
             self.boundary.part(self.rows, rows, built)
             self.wall, self.facing = self.boundary.seen(rows, built)
             if not self.domain.alone:

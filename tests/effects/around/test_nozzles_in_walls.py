@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from test_many_nozzles import begun, case, slot
 
+from sdph.engine import kept
 from sdph.engine import state as particles
 from sdph.engine.state import GRAIN, INFLOW
 
@@ -105,7 +106,7 @@ def test_rows_made_anew_have_the_mouths_open_that_they_had(tmp_path):
     shut = 0
     while done.time < 0.06 and shut < 2:
         done.window()
-        shut += done.grains.source.giving.any() and not (done.state.kind == INFLOW).any()
+        shut += done.grains.stepper.giving.any() and not (done.state.kind == INFLOW).any()
         done.grains.stepper.revive()  # Unfit where the density of the particles is another
     assert shut
 
@@ -117,5 +118,15 @@ def test_a_mouth_is_open_where_particles_of_another_process_wait(tmp_path):
     own, world = done.grains.source, SimpleNamespace(most=lambda here: np.maximum(here, [0.0, 0.0, 1.0]))
     done.window()
     done.state.kind[done.state.nozzle == 2] = GRAIN
-    own.look(done.state, world)
-    assert own.giving.tolist() == [False, True, True]
+    assert own.giving(done.state, world).tolist() == [False, True, True]
+
+
+def test_what_a_checkpoint_holds_goes_on_while_mouths_are_open(tmp_path):
+    chosen = case({"below": slot([0.5, 0.0], [0.0, 1.0], width_m=0.2)}, effects=EFFECTS, boundaries=CLOSED)
+    for name in ("a", "b"):
+        (tmp_path / name).mkdir()
+    done, fresh, saved = until(begun(chosen, tmp_path / "a"), 0.02), begun(chosen, tmp_path / "b"), {}
+    fresh.grains.stepper.giving[:] = False  # as of a run that is resumed, which has not begun by itself
+    packed = kept.pack(done.grains, saved)
+    kept.put(fresh.grains, kept.unpack(packed, saved))  # Unfit where the density of the particles is another
+    assert fresh.grains.stepper.giving.tolist() == [False, True]
