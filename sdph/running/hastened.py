@@ -54,8 +54,9 @@ class Hastened(Together):
     def revive(self) -> None:
         """Set S as it was, and rows after a tear, once a checkpoint was put back."""
         self.bodies.hasten(self.pace, 1.0)
-        self.radius = self._inner()
-        if self.tear.time is not None:
+        if self.tear.time is None:
+            self.radius = self._inner()
+        else:
             self._follow()
 
     def start(self) -> None:
@@ -70,23 +71,23 @@ class Hastened(Together):
         self.method.advance(end, STRIDE)
         passed = self.method.time - begun
         self.now = landmark if self.method.time == end else self.now + self.pace * passed
-        self.tear.look(self.now, self.pace * passed)
+        self.tear.look(self.now)
         self.method.close()
         self.bodies.close(self.method.time, self.method.limit)
         self._learn(passed)
 
     def _learn(self, passed: float) -> None:
-        """Speed of the wall, and S for the next window."""
-        radius = self._inner()
-        share, old = -math.expm1(-passed / self.p.averaging), self.speed
-        self.speed += share * ((radius - self.radius) / passed - self.speed)
-        self.radius = radius
+        """Speed of the wall, and S for the next window; from a tear on there is no wall."""
         if self.tear.time is not None:
             if self.pace != 1.0:
                 self._hasten(1.0)
             if not self.followed:
                 self._follow()
             return
+        radius = self._inner()
+        share, old = -math.expm1(-passed / self.p.averaging), self.speed
+        self.speed += share * ((radius - self.radius) / passed - self.speed)
+        self.radius = radius
         self.most["pressure_max_Pa"] = max(self.most["pressure_max_Pa"], self.stepper.void.pressure)
         self.most["diameter_ratio_max"] = max(self.most["diameter_ratio_max"], self.diameter_ratio())
         self._weigh(old, passed)

@@ -10,7 +10,6 @@ import math
 import numpy as np
 
 from sdph.effects.solids import rigid_sides
-from sdph.engine import polygons
 from sdph.engine import state as particles
 from sdph.engine.contact import between
 from sdph.engine.kept import Unfit
@@ -74,11 +73,6 @@ class Wetted:
         own, here = self.shell.links, self.places()[:, :2]
         first, second = (here[ends] for ends in own[~self.loose()[own].any(axis=1)].T)
         return np.concatenate([first + share * (second - first) for share in (0.25, 0.5, 0.75)])
-
-    def inside(self, points, state, wet) -> np.ndarray:
-        if not self.torn:
-            return wet
-        return wet & polygons.holds(points[:, 0], points[:, 1], state.x, state.y)
 
     @property
     def torn(self) -> bool:

@@ -13,7 +13,7 @@ from sdph.case import read as cases
 from sdph.effects.liquids import time_scaling
 from sdph.engine import polygons, restart
 from sdph.methods.solids import start
-from sdph.running import driver, tear
+from sdph.running import driver
 from sdph.running.hastened import Hastened
 from sdph.schema import CaseError
 from sdph.study.gel_droplet import checks
@@ -111,20 +111,6 @@ def test_polygon_knows_what_it_holds():
     assert (polygons.holds(x, y, r * 0.6, r * 0.8) == (r < 1.0)).all()
 
 
-def test_the_widest_way_out_is_as_wide_as_the_gap():
-    cell, radius, gap = 0.01, 1.0, 0.2
-    x, y = (axis.ravel() for axis in np.meshgrid(*2 * [np.arange(-150, 150) * cell], indexing="ij"))
-    r, wide = np.hypot(x, y), []
-    for opening in (0.0, gap):
-        wall = (np.abs(r - radius) < 0.02) & ~((x > 0.0) & (np.abs(y) < 0.5 * opening))
-        room = tear.room_of(np.stack([x, y], axis=1)[wall], np.array([-1.6, -1.6]), (320, 320), cell)
-        turn = 2.0 * math.pi * np.arange(100) / 100
-        lining = np.stack([np.cos(turn), np.sin(turn)], axis=1)
-        wide.append(tear.widest(room, lining, np.array([-1.6, -1.6]), cell))
-    assert wide[0] == 0.0
-    assert wide[1] == pytest.approx(gap - 2.0 * cell, abs=3.0 * cell)
-
-
 @pytest.mark.parametrize(
     ("change", "told"),
     [
@@ -189,3 +175,21 @@ def test_resumed_run_in_mid_neck_is_the_uninterrupted_one_bit_for_bit(tmp_path):
     assert rows["solid_damage_largest"][-3] > 0.0 and rows["time_scale"][-3] < 1000.0
     assert whole["heat_drift_rel"] < 1e-10 and whole["mass_drift_rel"] < 1e-12
     assert whole["whole_mass_drift_rel"] < 1e-10  # the vapour in the bubble with it
+
+
+def test_a_torn_droplet_goes_on_bit_for_bit(tmp_path):
+    """A weak shell, cut as soon as it yields: the void is flooded, vapour goes out, and both go on as they were."""
+    weak = "solid.failure=[1e-4,1e-3,-0.054,0.0,0.0]", "bodies.shell.flaw=0.3", "liquid_heat.flux_W_m2=1.1e7"
+    quick = load(*HURRIED, *weak, "time_scaling.after_tear_ms=0.045")
+    whole = driver.run(quick, "gel_droplet", tmp_path / "whole", None, Reporter(None))
+    assert whole["torn"] and whole["rupture_time_s"] < whole["vent_opened_s"] < whole["bubble_gone_s"]
+    with pytest.raises(Cut):
+        driver.run(quick, "gel_droplet", tmp_path / "cut", None, Reporter(whole["windows"] - 25))
+    kept = json.loads((restart.newest(tmp_path / "cut").folder / "numbers.json").read_text())["simulation"]
+    assert kept["tear"]["opened"] is not None and kept["tear"]["gone"] is None
+    driver.resume(tmp_path / "cut", (), Reporter())
+    same_run(tmp_path / "whole", tmp_path / "cut")
+    assert whole["whole_mass_drift_rel"] < 1e-12
+    rows = np.genfromtxt(tmp_path / "whole" / "history.csv", delimiter=",", names=True)
+    out = rows["tear_width_m"] > 0.0
+    assert (np.diff(rows["vented_kg"]) >= 0.0).all() and out.any() and rows["bubble_pressure_Pa"][-1] == 0.0

@@ -66,8 +66,12 @@ class Carrier(Protocol):
     def lining(self) -> tuple[np.ndarray, float]:
         """Points (N, 2) [m] of the shell's innermost circle that have not broken off, and their area [m2]."""
 
-    def inside(self, points, state, wet) -> np.ndarray:
-        """(N,) which of the `wet` particles of a liquid are in the shell, whose lining has those points (M, 2)."""
+    def links(self) -> np.ndarray:
+        """Points (N, 2) [m] along the links of the shell's lining, which close a stretched one."""
+
+    @property
+    def torn(self) -> bool:
+        """Tell whether a particle of the bodies has broken off."""
 
     def loose(self) -> np.ndarray:
         """(M,) bool: what has broken off, which the liquid no longer meets."""

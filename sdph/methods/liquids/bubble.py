@@ -2,7 +2,8 @@
 
 Void: area within the outermost ring of the liquid, and half of that ring, less the area of the liquid, m/rho of all; in
 a shell (`Carrier.shell`) within the shell's innermost ring, less half of that. What the polygon of the ring misses at
-the start is taken off for good, so that the first void is that of the case.
+the start is taken off for good, so that the first void is that of the case. In a torn shell it is flooded once a window
+(sdph.methods.liquids.pores), from the area on that it has then.
 Pressure: -2 p_b is added to p_i + p_j of all pairs of the liquid nearer to the void than to the rim; in a shell a share
 of it, which falls to 0 within two reaches of the kernel. The sum of V_j grad W vanishes inside, which leaves p_b on the
 void's face alone. What is given back is not equal and opposite pair by pair: `impulse_of_bubble_*` says what the sum
@@ -21,10 +22,11 @@ from sdph.engine import kernels as smoothing
 from sdph.engine import polygons
 from sdph.engine import state as particles
 from sdph.engine.geometry import apart
+from sdph.engine.kept import Maybe
 from sdph.engine.rows import entry, length
 from sdph.laws import cavities
 from sdph.laws.compiled import fast_parallel
-from sdph.methods.liquids import totals
+from sdph.methods.liquids import pores, totals
 from sdph.methods.liquids.content import Content
 
 SAME = 1e-6  # of a radius: round-off
@@ -53,11 +55,17 @@ class Void(Content):
         "rim",
         "missed",
         "corners",
+        "held",
+        "torn",
+        "short",
+        "width",
     )
+    FORMS = {"short": Maybe(0.0)}
 
     def __init__(self, case, p, state, bodies=None):
         self.p, pool = p, bubble.pool_of(case)
         self.carrier = bodies.carrier if bodies and bodies.carrier.shell else None
+        self.spacing, self.torn = case.resolution.spacing, False
         x, y = state.x - pool.centre[0], state.y - pool.centre[1]
         r = np.where(particles.wet(state), np.hypot(x, y), 0.0)
         ring = np.flatnonzero((r > r.max() * (1.0 - SAME)) & (r > 0.0))
@@ -75,17 +83,37 @@ class Void(Content):
 
     def press(self, stepper) -> None:
         """Add to the accelerations of a stepper; what was added is its `inflating` (N, 3) [m/s2]."""
-        s = stepper.state
-        corners, measured = self.corners, self._measure(s)
-        if self.corners != corners:  # some broke off: another polygon, the same void
-            self.missed = measured - self.area
-        self._facing(stepper, self._outside(stepper, measured - self.missed))
+        self._facing(stepper, self._outside(stepper))
         stepper.acceleration += stepper.inflating
 
-    def _outside(self, stepper, area: float) -> np.ndarray:
-        """(N,) [Pa] that is taken off pairs of particles, now that the void is `area` [m2]."""
-        self.swell(area, stepper.guard)
-        return self.pressure * self._share(stepper.state, 2.0 * stepper.kernel.h)
+    def open(self, stepper) -> None:
+        """Flood, before a window, what a torn shell still holds, and find its way out."""
+        shell, wet = self.carrier, particles.positions(stepper.state)[stepper.active, :2]
+        if not (shell and shell.torn):
+            return
+        self.torn = True
+        points = np.concatenate([wet, shell.places()[~shell.loose(), :2], shell.links()])
+        self._flood(stepper, pores.find(points, self.spacing))
+
+    def _flood(self, stepper, grid: pores.Grid) -> None:
+        if self.held:
+            self.look(grid)
+            Content.flood(self)
+
+    def _outside(self, stepper) -> np.ndarray:
+        """(N,) [Pa] that is taken off pairs of particles."""
+        s, reach = stepper.state, 2.0 * stepper.kernel.h
+        if not self.held:
+            return np.zeros(len(s.x))
+        self.swell(self.area if self.torn else self._whole(s), stepper.guard)
+        return self.pressure * (share_of(self.depth(s), reach) if self.torn else self._share(s, reach))
+
+    def _whole(self, state) -> float:
+        """Void [m2] of the particles as they are."""
+        corners, measured = self.corners, self._measure(state)
+        if self.corners != corners:  # some broke off: another polygon, the same void
+            self.missed = measured - self.area
+        return measured - self.missed
 
     def _facing(self, stepper, outside) -> None:
         s = stepper.state
@@ -127,8 +155,7 @@ class Void(Content):
         if self.carrier:
             points, own = self.carrier.lining()
             self.rim, self.corners = points.mean(axis=0), len(points)
-            self.within = self.carrier.inside(points, state, wet)
-            return polygons.area(*points.T) - 0.5 * own - float(volume[self.within].sum())
+            return polygons.area(*points.T) - 0.5 * own - float(volume[wet].sum())
         place = np.empty(int(state.ident.max()) + 1, np.int64)
         place[state.ident] = np.arange(len(state.ident))
         rim = place[self.loop]
@@ -145,19 +172,14 @@ class Void(Content):
         """
         if not self.carrier:
             return self.near(state).astype(float)
-        if not self.within.any():  # it has all left a shell that tore
-            return np.zeros(len(state.x))
-        r, turn = self._polar(state.x, state.y)
-        share = 2.0 - (r - face_radius(r, turn, self.within)) / reach
-        return np.where(self.within, np.clip(share, 0.0, 1.0), 0.0)
-
-    def _polar(self, x, y) -> tuple[np.ndarray, np.ndarray]:
-        """Distance (N,) [m] and angle [rad] from the middle of the rim."""
-        x, y = x - self.rim[0], y - self.rim[1]
-        return np.hypot(x, y), np.arctan2(y, x)
+        wet = particles.wet(state)
+        return np.where(wet, share_of(behind(state, self.rim, wet), reach), 0.0)
 
     def near(self, state) -> np.ndarray:
-        """(N,) whether particles are nearer to the void than to the rim: a round one in the rim's middle."""
+        """(N,) whether particles are nearer to the void than to the rim: a round one in the rim's middle; in a torn
+        shell than to the air."""
+        if self.torn:
+            return np.isfinite(self.depth(state)) & self.held
         r = np.hypot(state.x - self.rim[0], state.y - self.rim[1])
         reach = math.sqrt((self.area + float((state.mass / state.density)[particles.wet(state)].sum())) / math.pi)
         return r < 0.5 * (self.radius + reach)
@@ -173,6 +195,19 @@ class Void(Content):
     def summary(self) -> dict[str, float]:
         """Add nothing to summary.json: it is all in the last row."""
         return {}
+
+
+def share_of(depth, reach: float) -> np.ndarray:
+    """(N,) share of the pressure at depths (N,) [m] behind the void's face."""
+    return np.clip(2.0 - depth / reach, 0.0, 1.0)
+
+
+def behind(state, middle, wet) -> np.ndarray:
+    """(N,) distance [m] from the face of a void about a middle (2,) [m], along the ray of each particle; faces are
+    those of the `wet`."""
+    x, y = state.x - middle[0], state.y - middle[1]
+    r, turn = np.hypot(x, y), np.arctan2(y, x)
+    return r - face_radius(r, turn, wet)
 
 
 def face_radius(r, turn, within) -> np.ndarray:

@@ -15,9 +15,10 @@ import numpy as np
 
 from sdph.effects.liquids import bubble as effect
 from sdph.engine import state as particles
+from sdph.engine.kept import Maybe
 from sdph.laws import cavities
-from sdph.methods.liquids import rooms
-from sdph.methods.liquids.bubble import Void, face_radius
+from sdph.methods.liquids import pores, rooms
+from sdph.methods.liquids.bubble import Void, behind, share_of
 from sdph.methods.liquids.content import Content
 
 FACE_WITHIN = 4.0  # spacings behind the nearest particle of a ray, in which a face may lie; our choice
@@ -30,12 +31,17 @@ class Part(Content):
     # see sdph.engine.kept
     KEPT = (
         "area", "pressure", "mass", "temperature", "heat", "warmed", "owed", "vented", "rim", "missed", "held",
-        "first",
+        "first", "short", "width",
     )  # fmt: skip
+    FORMS = {"short": Maybe(0.0)}
 
     def __init__(self, p, hole):
-        self.rim, self.missed, self.held = np.array(hole.centre), 0.0, True
+        self.rim, self.missed = np.array(hole.centre), 0.0
         self.fill(p, cavities.void(hole.radius, 2))
+
+    def holds(self, other) -> bool:
+        """Tell whether the place of another is in this void, when both were looked for in one grid."""
+        return self.pore is not None and bool(self.pore.depth[self.grid.at(*other.rim)] <= 0.0)
 
     def end(self) -> None:
         """Be gone."""
@@ -46,12 +52,12 @@ class Voids(Void):
     """Bubbles; area, mass and so on are those of all that are left, pressure and temperature their means."""
 
     # see sdph.engine.kept
-    KEPT = ("area", "passed", "rim", "missed", "corners", "named", "merged", "closed", "condensed")
+    KEPT = ("area", "passed", "rim", "missed", "corners", "named", "merged", "closed", "condensed", "torn")
 
     def _begin(self, case, state) -> float:
         self.named = {str(n): Part(self.p, hole) for n, hole in enumerate(effect.holes_of(case), 1)}
         self.parts = list(self.named.values())
-        self.spacing, self.merged, self.closed, self.condensed = case.resolution.spacing, 0, 0, 0.0
+        self.merged, self.closed, self.condensed = 0, 0, 0.0
         self.area = sum(part.area for part in self.parts)
         found = self._rooms(state)
         for number, part in enumerate(self.parts):
@@ -70,14 +76,18 @@ class Voids(Void):
         return sum(getattr(part, name) for part in self.parts)
 
     def _mean(self, name: str) -> float:
-        """Mean of those left by their void."""
-        return sum(part.area * getattr(part, name) for part in self.left) / sum(part.area for part in self.left)
+        """Mean of those left by their void, of all where none is."""
+        held = self.left or self.parts
+        values, areas = ([getattr(part, each) for part in held] for each in (name, "area"))
+        return float(np.average(values, weights=areas if self.left else None))
 
     mass = property(lambda self: self._sum("mass"))
     heat = property(lambda self: self._sum("heat"))
     warmed = property(lambda self: self._sum("warmed"))
     owed = property(lambda self: self._sum("owed"))
     vented = property(lambda self: self._sum("vented"))
+    held = property(lambda self: bool(self.left))
+    width = property(lambda self: max((part.width for part in self.left), default=0.0))
     pressure = property(lambda self: self._mean("pressure"))
     temperature = property(lambda self: self._mean("temperature"))
 
@@ -90,19 +100,34 @@ class Voids(Void):
             volume = np.append(volume, self.carrier.volume[kept])
         return rooms.find(points, volume, self.spacing)
 
-    def _outside(self, stepper, area: float) -> np.ndarray:
-        self.area = area
-        self._tell_apart(stepper, self._rooms(stepper.state))
+    def _outside(self, stepper) -> np.ndarray:
+        s, reach = stepper.state, 2.0 * stepper.kernel.h
+        if not self.torn:
+            self.area = self._whole(s)
+            self._tell_apart(stepper, self._rooms(s))
         for part in self.left:
             part.swell(part.area, stepper.guard)
-        s, reach = stepper.state, 2.0 * stepper.kernel.h
-        depth, nearest = self._depths(s, self.within if self.carrier else particles.wet(s))
+        depth, nearest = self._depths(s)
         pressure = np.array([part.pressure for part in self.parts])
-        return pressure[nearest] * np.clip(2.0 - depth / reach, 0.0, 1.0)
+        return pressure[nearest] * share_of(depth, reach)
+
+    def _flood(self, stepper, grid: pores.Grid) -> None:
+        found = []
+        for part in sorted(self.left, key=lambda part: -part.area):
+            part.look(grid)
+            one = next((other for other in found if other.holds(part)), None)
+            if one is None:
+                found.append(part)
+            else:
+                self._merge(one, part)
+                one.short = None
+        for part in found:
+            part.flood()
+        self.area = self._sum("area")
 
     def _tell_apart(self, stepper, found: rooms.Rooms) -> None:
         """Give each its share of the area; merge those in one room, close those that have none, or no particle's."""
-        whose, wanted, open_to_air = {}, {}, self.carrier and self.carrier.torn
+        whose, wanted = {}, {}
         for part in sorted(self.left, key=lambda part: -part.area):
             room = rooms.of(found, part.rim, part.radius)
             if room in whose:
@@ -110,9 +135,9 @@ class Voids(Void):
             elif room and part.area > self.spacing**2:
                 whose[room], (size, part.rim) = part, rooms.measure(found, room)
                 wanted[id(part)] = math.pi * (math.sqrt(size / math.pi) + part.missed) ** 2
-            elif not open_to_air and len(self.left) > 1:
+            elif len(self.left) > 1:
                 self._close(stepper, part)
-            else:  # its void is one with the air: as it was
+            else:  # what the grid no longer sees: as it was
                 wanted[id(part)] = part.area
         whole = sum(wanted[id(part)] for part in self.left)
         for part in self.left:
@@ -152,27 +177,26 @@ class Voids(Void):
         near = s.mass[own] * (far <= max(ABOUT * self.spacing, far.min()))
         return near / near.sum()
 
-    def _depths(self, state, within) -> tuple[np.ndarray, np.ndarray]:
-        """(N,) how far [m] particles lie behind the nearest face of a bubble, infinite of those not `within`; number
-        of that bubble."""
-        depth = np.full((len(self.parts), len(state.x)), np.inf)
-        if within.any():
+    def _depths(self, state) -> tuple[np.ndarray, np.ndarray]:
+        """(N,) how far [m] particles of liquid lie behind the nearest face of a bubble, infinite of others; number of
+        that bubble."""
+        depth, wet = np.full((len(self.parts), len(state.x)), np.inf), particles.wet(state)
+        if wet.any():
             for number, part in enumerate(self.parts):
                 if part.held:
-                    x, y = state.x - part.rim[0], state.y - part.rim[1]
-                    r, turn = np.hypot(x, y), np.arctan2(y, x)
-                    depth[number] = np.where(within, r - face_radius(r, turn, within), np.inf)
+                    far = part.depth(state) if self.torn else behind(state, part.rim, wet)
+                    depth[number] = np.where(wet, far, np.inf)
         nearest = depth.argmin(axis=0)
         return depth[nearest, np.arange(len(state.x))], nearest
 
     def _facing_each(self, stepper):
         """Each that is left, and (N,) [1/m] how much of its face each particle has."""
         facing = self.face(stepper)
-        _, nearest = self._depths(stepper.state, particles.wet(stepper.state))
+        _, nearest = self._depths(stepper.state)
         return [(part, np.where(nearest == self.parts.index(part), facing, 0.0)) for part in self.left]
 
     def near(self, state) -> np.ndarray:
-        depth, _ = self._depths(state, particles.wet(state))
+        depth, _ = self._depths(state)
         return depth < FACE_WITHIN * self.spacing
 
     def boil(self, stepper, dt: float) -> None:
@@ -184,7 +208,7 @@ class Voids(Void):
                 self.take(stepper, own, lost)
 
     def take_up(self, stepper, conductance, dt: float) -> tuple[np.ndarray, np.ndarray]:
-        _, nearest = self._depths(stepper.state, particles.wet(stepper.state))
+        _, nearest = self._depths(stepper.state)
         heat, lost = np.zeros_like(conductance), np.zeros_like(conductance)
         for number, part in enumerate(self.parts):
             if part.held:
@@ -193,9 +217,9 @@ class Voids(Void):
                 heat, lost = heat + gave, lost + boiled
         return heat, lost
 
-    def vent(self, dt: float, width: float) -> None:
-        """Let vapour out of the largest, to which the widest way leads."""
-        max(self.left, key=lambda part: part.area).vent(dt, width)
+    def vent(self, dt: float) -> None:
+        for part in self.left:
+            part.vent(dt)
 
     def row(self) -> dict[str, float]:
         told = super().row() | {"bubbles_left": len(self.left)}

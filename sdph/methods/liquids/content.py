@@ -7,22 +7,27 @@ import math
 import numpy as np
 
 from sdph.laws import cavities, real_gas
+from sdph.methods.liquids import pores
 
 COLDEST, HOTTEST = (
     0.5,
     0.999,
 )  # of the critical temperature: beyond, a vapour's bubble is no longer followed; our choice
+ABOUT = 2.0  # spacings that the roomiest place of a void moves by at most in a window; our choice
 LOWER = "bubble.flux_W_m2 or run.step_factor"
 
 
 class Content:
     """Void [m2], pressure over that around [Pa], mass [kg/m] and temperature [K] of vapour, heat that it got and with
     which it warmed [J/m], mass that it still owes the liquid, and that went out through a tear; `rim`: a place (2,)
-    [m] by which it is told."""
+    [m] by which it is told; whether it is still there (`held`).
+
+    Of a torn shell: width [m] of the way out, and `short`: radius [m] that flooding falls short by, None before it."""
 
     def fill(self, p, first: float) -> None:
         """Begin with a void [m2]."""
-        self.p, self.first, self.area = p, first, first
+        self.p, self.first, self.area, self.held = p, first, first, True
+        self.short, self.width = None, 0.0
         self.pressure, self.mass, self.temperature = p.excess, 0.0, 0.0
         self.heat = self.warmed = self.owed = self.vented = 0.0
         if p.vapour:
@@ -80,12 +85,47 @@ class Content:
         mass, self.owed = self.owed, 0.0
         return share * (mass / share.sum())
 
-    def vent(self, dt: float, width: float) -> None:
-        """Let vapour out for dt [s] through a way that is `width` [m] wide."""
+    def look(self, grid: pores.Grid) -> None:
+        """Look for the void in a torn shell, about where it was: `pore`, None where all there is filled."""
+        self.grid, radius = grid, self.radius if self.short is None else ABOUT * grid.cell / pores.FINE
+        deep = pores.start(grid, self.rim, radius)
+        self.pore = None if deep is None else pores.pore(grid, deep)
+
+    def flood(self) -> None:
+        """Take the void that was found, or what it was where none was. One that is open and has no more pressure than
+        the air is one with it, as air comes in at once, and so is one that has shrunk to nothing (our choice)."""
+        if self.pore is None:
+            self.width = 0.0
+            return
+        wide = math.sqrt(self.pore.area / math.pi)
+        self.short = self.radius - wide if self.short is None else self.short
+        self.rim, self.width, radius = self.pore.rim, self.pore.width, wide + self.short
+        self.area = cavities.void(radius, 2)
+        if self.pore.lost or radius <= 0.0 or (self.width and self.pressure <= 0.0):
+            self.let_go()
+
+    def depth(self, state) -> np.ndarray:
+        """(N,) how far [m] particles lie behind the face of a flooded void, infinite of those nearer to the air."""
+        if self.pore is None:
+            return np.full(len(state.x), np.inf)
+        cells = self.grid.at(state.x, state.y)
+        depth, beyond = self.pore.depth[cells], self.pore.beyond[cells]
+        return np.where(depth < beyond, depth, np.inf)
+
+    def let_go(self) -> None:
+        """Be one with the air: what is left of the vapour is out."""
+        self.vented, self.mass = self.vented + self.mass, 0.0
+        self.held, self.area, self.pressure = False, 0.0, 0.0
+
+    def vent(self, dt: float) -> None:
+        """Let vapour out for dt [s] through the way out."""
         v = self.p.vapour
-        inside = self.pressure + self.p.around
-        flux = cavities.vent_flux(inside, self.temperature, self.p.around, v.molar_mass, v.heat_ratio)
-        lost = float(flux) * width * dt
+        if not (v and self.held and self.width):
+            return
+        flux = cavities.vent_flux(
+            self.pressure + self.p.around, self.temperature, self.p.around, v.molar_mass, v.heat_ratio
+        )
+        lost = float(flux) * self.width * dt
         self.mass, self.vented = self.mass - lost, self.vented + lost
 
     def _capillary(self) -> float:

@@ -63,12 +63,16 @@ class Liquid(Stepped):
         """Go to `end` [s], or as far as `most` steps get."""
         if self.case.run.device != "cpu" and arrays.here(self.state.x):
             aboard.board(self.stepper)
+        if self.stepper.void:
+            self.stepper.void.open(self.stepper)
         self.tally, done = Tally(self), 0
         while self.time != end and done < most:
             self.tally.step(end)
             done += 1
         if self.stepper.heat:
             self.stepper.heat.advance(self.pace * (self.time - self.begun))
+        if self.stepper.void:
+            self.stepper.void.vent(self.pace * (self.time - self.begun))
         self.windows += 1
 
     def close(self) -> None:

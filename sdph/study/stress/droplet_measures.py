@@ -7,7 +7,7 @@ from sdph.study.stress.liquid_measures import LiquidMeasures
 # of the summary, where it has them
 TOLD = (
     "torn", "tear_angle_deg", "rupture_diameter_ratio", "diameter_ratio_max", "bubbles_left", "bubbles_merged",
-    "bubbles_closed", "mass_drift_rel", "heat_drift_rel", "energy_drift_rel",
+    "bubbles_closed", "mass_drift_rel", "heat_drift_rel", "energy_drift_rel", "whole_mass_drift_rel",
 )  # fmt: skip
 
 
