@@ -4,6 +4,8 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from sdph.laws import matrices, solids, strength
 
@@ -65,6 +67,20 @@ def test_radial_return_ends_on_the_flow_stress(trial, r, harm):
     left = jacobian * strength.flow_stress(plastic(), r + (1.0 - harm) * dp, (1.0 - harm) * dp / dt, harm)
     assert dp > 0.0
     assert trial - 3.0 * G * dp == pytest.approx(left, rel=1e-10)
+
+
+@given(
+    hardening=st.sampled_from([0.0, 8.07e5, 1e9]), exponent=st.floats(0.2, 1.5),
+    factor=st.sampled_from([0.0, 0.01, 0.2]), past=st.floats(-8.0, 1.0), r=st.sampled_from([0.0, 1e-9, 1e-3, 0.5]),
+    harm=st.floats(0.0, 0.9), step=st.floats(-9.0, 0.0),
+)  # fmt: skip
+def test_radial_return_comes_to_its_end_for_any_metal(hardening, exponent, factor, past, r, harm, step):
+    """Steps of 1 ns to 1 s, stresses a hundred-millionth to ten times past yield."""
+    metal = plastic()._replace(hardening=hardening, exponent=exponent, rate_factor=factor)
+    dt, trial = 10.0**step, strength.flow_stress(metal, r, 0.0, harm) * (1.0 + 10.0**past)
+    dp = strength.plastic_strain(metal, trial, G, 1.0, r, harm, dt)
+    left = strength.flow_stress(metal, r + (1.0 - harm) * dp, (1.0 - harm) * dp / dt, harm)
+    assert dp > 0.0 and abs(trial - 3.0 * G * dp - left) <= 2e-13 * trial
 
 
 def test_below_yield_nothing_flows():
