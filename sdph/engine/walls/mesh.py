@@ -94,15 +94,12 @@ def count_once(dummies, nearer, places, rows):
 
 @serial
 def part(dummies, of_mesh, spacing, places, wall_rows, rows):
-    """Take the neighbours out of the particles' rows that stand on the other side of a mesh."""
+    """Take the neighbours out of the particles' rows that stand on the other side of a thin wall."""
     for i in range(len(places[0])):
         kept = 0
         for k in range(rows.number[i]):
             j = entry(rows, i, k)
-            if not (
-                parted(dummies, of_mesh, spacing, places, wall_rows, i, j)
-                or parted(dummies, of_mesh, spacing, places, wall_rows, j, i)
-            ):
+            if not parted(dummies, of_mesh, spacing, places, wall_rows, i, j):
                 rows.entries[place(rows, i, kept)] = j
                 kept += 1
         shorten(rows, i, kept)
@@ -110,19 +107,62 @@ def part(dummies, of_mesh, spacing, places, wall_rows, rows):
 
 @serial
 def parted(dummies, of_mesh, spacing, places, wall_rows, i, j):
-    """True where the way from i, in front of a surface, to j, behind it, goes through one of its points."""
+    """True where the way between two particles goes in through one face of a wall and out through another that is
+    turned against it. Round a blunt edge they meet: what lies between them there is the wall's own, and to part them
+    would leave a gap in the sums of both, which closes at once when one of them has come round."""
+    a = crossed(dummies, of_mesh, spacing, places, wall_rows, i, j)
+    b = crossed(dummies, of_mesh, spacing, places, wall_rows, j, i)
+    if a < 0 and b < 0:
+        return False
+    if a < 0:
+        a = before(dummies, of_mesh, spacing, places, wall_rows, i)
+    if b < 0:
+        b = before(dummies, of_mesh, spacing, places, wall_rows, j)
+    if a < 0 or b < 0:
+        return True
+    facing = dummies.normal_x[a] * dummies.normal_x[b] + dummies.normal_y[a] * dummies.normal_y[b]
+    return facing + dummies.normal_z[a] * dummies.normal_z[b] < -EDGE
+
+
+@serial
+def crossed(dummies, of_mesh, spacing, places, wall_rows, i, j):
+    """The surface point, by its dummy, that the way from i, in front of it, to j, behind it, goes through; -1: none."""
     x, y, z = places
+    found, nearest = -1, (AROUND * spacing) ** 2
     for k in range(wall_rows.number[i]):
         w = entry(wall_rows, i, k)
         if not of_mesh[w] or dummies.depth[w] > spacing:  # the first layer alone: it stands for the surface
             continue
-        before, behind = height(dummies, w, x[i], y[i], z[i]), height(dummies, w, x[j], y[j], z[j])
-        if before <= 0.0 or behind >= 0.0:
+        over, behind = height(dummies, w, x[i], y[i], z[i]), height(dummies, w, x[j], y[j], z[j])
+        if over <= 0.0 or behind >= 0.0:
             continue
-        share, depth = before / (before - behind), dummies.depth[w]
-        dx = x[i] + share * (x[j] - x[i]) - dummies.x[w] - depth * dummies.normal_x[w]
-        dy = y[i] + share * (y[j] - y[i]) - dummies.y[w] - depth * dummies.normal_y[w]
-        dz = z[i] + share * (z[j] - z[i]) - dummies.z[w] - depth * dummies.normal_z[w]
-        if dx * dx + dy * dy + dz * dz <= (AROUND * spacing) ** 2:
-            return True
-    return False
+        share = over / (over - behind)
+        way = x[i] + share * (x[j] - x[i]), y[i] + share * (y[j] - y[i]), z[i] + share * (z[j] - z[i])
+        off = aside(dummies, w, way[0], way[1], way[2])
+        if off <= nearest:
+            found, nearest = w, off
+    return found
+
+
+@serial
+def before(dummies, of_mesh, spacing, places, wall_rows, i):
+    """The nearest surface point, by its dummy, that particle i is in front of; -1: it sees none."""
+    x, y, z = places
+    found, nearest = -1, math.inf
+    for k in range(wall_rows.number[i]):
+        w = entry(wall_rows, i, k)
+        if of_mesh[w] and dummies.depth[w] <= spacing and height(dummies, w, x[i], y[i], z[i]) > 0.0:
+            off = aside(dummies, w, x[i], y[i], z[i])
+            if off < nearest:
+                found, nearest = w, off
+    return found
+
+
+@serial
+def aside(dummies, w, x, y, z):
+    """Square of the distance [m2] of a place from the surface point of dummy w."""
+    depth = dummies.depth[w]
+    dx = x - dummies.x[w] - depth * dummies.normal_x[w]
+    dy = y - dummies.y[w] - depth * dummies.normal_y[w]
+    dz = z - dummies.z[w] - depth * dummies.normal_z[w]
+    return dx * dx + dy * dy + dz * dz
