@@ -68,7 +68,7 @@ def contact(p, wall, box, s, gravity, felt):
         before = touched
         if len(s.entering) > 0 and s.entering[i] > 0:
             continue
-        for k in range(wall.every[i]):
+        for k in range(wall.before[i], wall.every[i]):
             w = entry(wall, i, k)
             dx, dy, dz = offset(box, wall, w, s, i)
             nx, ny, nz = wall.normal_x[w], wall.normal_y[w], wall.normal_z[w]

@@ -38,17 +38,17 @@ class Dummies(NamedTuple):
     slide_z: np.ndarray
 
 
-OF_ROWS = (*Rows._fields, "every", "pressure", "velocity")
+OF_ROWS = (*Rows._fields, "before", "every", "pressure", "velocity")
 Wall = by_reference(NamedTuple("Wall", [(name, np.ndarray) for name in (*Dummies._fields, *OF_ROWS)]))
 Wall.__doc__ = """Dummies as loops take them, in one flat group: their fields, the rows of the particles that see them,
-how many of a row count and how many contact asks (N,), pressure (W,) [Pa] and velocity (W, 3) [m/s] that they have from
-the grains in front."""
+how many of a row are before those that contact asks, and where these end (N,), pressure (W,) [Pa] and velocity (W, 3)
+[m/s] that they have from the grains in front."""
 
 
-def seen(dummies: Dummies, rows, every) -> Wall:
-    """Dummies of which particles see those in `rows`, and touch `every` (N,) of them."""
+def seen(dummies: Dummies, rows, before, every) -> Wall:
+    """Dummies of which particles see those in `rows`, and touch those from `before` to `every` (N,)."""
     count = len(dummies.x)
-    return Wall(*dummies, *rows, every, *(arrays.zeros(shape, dummies.x) for shape in (count, (count, 3))))
+    return Wall(*dummies, *rows, before, every, *(arrays.zeros(shape, dummies.x) for shape in (count, (count, 3))))
 
 
 def plain(rows) -> Rows:

@@ -9,6 +9,7 @@ Contact has put every particle in front of its surface by then, a quarter of a s
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 import scipy
@@ -35,10 +36,20 @@ def height(dummies, w, x, y, z):
     return along + (z - dummies.z[w]) * dummies.normal_z[w] - dummies.depth[w]
 
 
-def nearer_facets(dummies, of_mesh) -> np.ndarray:
-    """(W, 4) normal, and depth [m] behind it, of the facet beyond an edge that a dummy of a mesh is nearer to than to
-    its own; 0 where there is none. Of two that are as near, one owns the dummies of both."""
-    found = np.zeros((len(dummies.x), 4))
+class Beyond(NamedTuple):
+    """The facet beyond an edge that a dummy of a mesh is behind too: normal, and depth [m] behind it (W, 4), 0 where
+    there is none; whether the dummy is nearer to it than to its own (W,), and whether the edge is blunt (W,): a facet
+    that is turned against its own is the other face of a thin wall."""
+
+    facet: np.ndarray
+    nearer: np.ndarray
+    blunt: np.ndarray
+
+
+def beyond_edges(dummies, of_mesh) -> Beyond:
+    """Facets beyond edges of all dummies. Of two that are as near, one owns the dummies of both."""
+    found, count = np.zeros((len(dummies.x), 4)), len(dummies.x)
+    nearer, blunt = np.zeros(count, bool), np.zeros(count, bool)
     own = np.flatnonzero(of_mesh)
     places = np.stack((dummies.x, dummies.y, dummies.z), axis=1)[own]
     normals = np.stack((dummies.normal_x, dummies.normal_y, dummies.normal_z), axis=1)[own]
@@ -47,49 +58,68 @@ def nearer_facets(dummies, of_mesh) -> np.ndarray:
     feet = places[first] + depths[first, None] * normals[first]
     nearest = scipy.spatial.cKDTree(feet).query(places, range(1, min(FEET, len(feet)) + 1))[1]
     depth = np.einsum("ijk,ijk->ij", feet[nearest] - places[:, None], normals[first][nearest])
-    beyond = (np.einsum("ijk,ik->ij", normals[first][nearest], normals) < EDGE) & (depth > 0.0)
+    turned = np.einsum("ijk,ik->ij", normals[first][nearest], normals)
+    beyond = (turned < EDGE) & (depth > 0.0)
     one = np.arange(len(own)), beyond.argmax(axis=1)
-    normal, depth = normals[first][nearest][one], depth[one]
+    normal, depth, there = normals[first][nearest][one], depth[one], beyond[one]
     as_near = np.abs(depth - depths) < SAME * depths
-    chosen = beyond[one] & np.where(as_near, normal @ ORDER > normals @ ORDER, depth < depths)
-    found[own[chosen]] = np.column_stack((normal, depth))[chosen]
-    return found
+    found[own[there]] = np.column_stack((normal, depth))[there]
+    nearer[own] = there & np.where(as_near, normal @ ORDER > normals @ ORDER, depth < depths)
+    blunt[own] = there & (turned[one] >= -EDGE)
+    return Beyond(found, nearer, blunt)
 
 
 @serial
-def keep_in_front(dummies, of_mesh, places, rows):
-    """Take the dummies of a mesh out of the rows of particles that stand behind its surface."""
+def over(dummies, facet, w, x, y, z):
+    """Height [m] of a place over the facet beyond an edge of dummy w."""
+    along = (x - dummies.x[w]) * facet[w, 0] + (y - dummies.y[w]) * facet[w, 1]
+    return along + (z - dummies.z[w]) * facet[w, 2] - facet[w, 3]
+
+
+@serial
+def keep_in_front(dummies, of_mesh, beyond, places, rows):
+    """Take the dummies of a mesh out of the rows of particles that stand behind its surface, but for those of a solid
+    whose other face, beyond a blunt edge, they are in front of."""
     x, y, z = places
     for i in range(len(x)):
         kept = 0
         for k in range(rows.number[i]):
             w = entry(rows, i, k)
-            if not of_mesh[w] or height(dummies, w, x[i], y[i], z[i]) > 0.0:
+            if (
+                not of_mesh[w]
+                or height(dummies, w, x[i], y[i], z[i]) > 0.0
+                or (beyond.blunt[w] and not beyond.nearer[w] and over(dummies, beyond.facet, w, x[i], y[i], z[i]) > 0.0)
+            ):
                 rows.entries[place(rows, i, kept)] = w
                 kept += 1
         rows.number[i] = kept
 
 
 @serial
-def count_once(dummies, nearer, places, rows):
-    """Put behind the end of a particle's row the dummies that are nearer to another facet that it is in front of, whose
-    own dummies stand there (`nearer_facets`): sums count what lies behind an edge once, contact asks for all of them.
-    Returns how many all are (N,)."""
+def count_once(dummies, of_mesh, beyond, places, rows):
+    """Order rows: first dummies that particles see round a blunt edge, then those in front of whose face they are, and
+    behind the end those of the latter that are nearer to another face, whose own dummies stand there. So sums count
+    what lies behind an edge once, by the same dummies from both sides of it, and contact asks for the last two.
+    Returns how many each row has before those in front, and how many all are (N,)."""
     x, y, z = places
-    every = rows.number.copy()
+    before, every = np.zeros(len(x), rows.number.dtype), rows.number.copy()
     for i in range(len(x)):
         k = 0
         while k < rows.number[i]:
-            w = entry(rows, i, k)
-            over = (x[i] - dummies.x[w]) * nearer[w, 0] + (y[i] - dummies.y[w]) * nearer[w, 1]
-            over += (z[i] - dummies.z[w]) * nearer[w, 2] - nearer[w, 3]
-            if over > 0.0:
+            here = place(rows, i, k)
+            w = rows.entries[here]
+            if of_mesh[w] and height(dummies, w, x[i], y[i], z[i]) <= 0.0:
+                other = place(rows, i, before[i])
+                before[i] += 1
+                k += 1
+            elif beyond.nearer[w] and (beyond.blunt[w] or over(dummies, beyond.facet, w, x[i], y[i], z[i]) > 0.0):
                 rows.number[i] -= 1
-                last = place(rows, i, rows.number[i])
-                rows.entries[place(rows, i, k)], rows.entries[last] = rows.entries[last], w
+                other = place(rows, i, rows.number[i])
             else:
                 k += 1
-    return every
+                continue
+            rows.entries[here], rows.entries[other] = rows.entries[other], w
+    return before, every
 
 
 @serial

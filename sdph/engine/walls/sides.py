@@ -32,21 +32,22 @@ class Boundary:
         self.dummies = Dummies(*(np.ascontiguousarray(column) for column in table[order, :-2].T))
         self.area, self.whose = table[order, -2], table[order, -1].astype(int)
         self.of_mesh = self.whose > 0
-        self.nearer = sides.nearer_facets(self.dummies, self.of_mesh) if self.of_mesh.any() else None
+        self.beyond = sides.beyond_edges(self.dummies, self.of_mesh) if self.of_mesh.any() else None
 
     def rows(self, state_axes):
         """Dummies near each particle; valid as long as the particles' own rows."""
         rows = plain(self.search.seen_from(_axes(self.dummies, len(state_axes)), state_axes))
         if self.of_mesh.any():
-            sides.keep_in_front(self.dummies, self.of_mesh, sides.three(state_axes), rows)
+            sides.keep_in_front(self.dummies, self.of_mesh, self.beyond, sides.three(state_axes), rows)
         return rows
 
     def seen(self, rows, state_axes) -> tuple[Wall, Rows]:
         """Dummies for loops, and the rows of the particles that each of them has in front."""
-        every = rows.number
+        before, every = np.zeros_like(rows.number), rows.number
         if self.of_mesh.any():
-            every = sides.count_once(self.dummies, self.nearer, sides.three(state_axes), rows)
-        return seen(self.dummies, rows, every), turned(rows, len(self.dummies.x))
+            places = sides.three(state_axes)
+            before, every = sides.count_once(self.dummies, self.of_mesh, self.beyond, places, rows)
+        return seen(self.dummies, rows, before, every), turned(rows, len(self.dummies.x))
 
     def part(self, rows, wall_rows, state_axes) -> None:
         """Take the pairs out of the particles' rows that a mesh lies between."""
