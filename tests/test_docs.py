@@ -145,15 +145,15 @@ def test_dashboard_tells_what_a_validation_runs_and_its_record_lacks(monkeypatch
     found = {
         "thick_ring": recorded("thick_ring", *(f"{name}, exact: a" for name in rings if name != "eight layers")),
         "granular_piles": recorded("granular_piles", "column a = 1: b", "slot of 40 mm: c"),
-        "dam_break": recorded("dam_break", "dam_break, exact: d"),
+        "taylor_green": recorded("taylor_green", "taylor_green, exact: d"),
     }
     monkeypatch.setattr(dashboard, "records", lambda: found)
     monkeypatch.setattr(dashboard, "validated", lambda: list(found))
     told = dashboard.whole().partition("## Without a record")[2].partition("## Every check")[0]
     assert "[thick_ring](scenes/thick_ring.md): eight layers.\n" in told
-    assert "[granular_piles](studies/granular_piles.md): slopes.\n" in told and "dam_break" not in told
+    assert "[granular_piles](studies/granular_piles.md): slopes.\n" in told and "taylor_green" not in told
     assert dashboard.of_scene("thick_ring").endswith("Not recorded: eight layers.")
-    assert "Not recorded" not in dashboard.of_scene("dam_break")
+    assert "Not recorded" not in dashboard.of_scene("taylor_green")
 
 
 def test_words_of_parts_are_those_of_their_checks(monkeypatch):

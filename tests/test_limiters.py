@@ -87,6 +87,7 @@ HARMLESS = {
     "sdph/methods/liquids/parts.py:Surface.*": "a patch of the surface without places has no area, and so no normal",
     "coupling/transfer.py:Transfer._even": "a cell that nothing reaches has nothing to share",
     "sdph/methods/liquids/bubble.py:share_of": "how near to the void a particle is, from 0 to 1",
+    "sdph/methods/liquids/surface.py:border": "volumes of wall particles carry a sign that marks them",
     "sdph/methods/liquids/pores.py:Grid.at": "what left the grid since it was made is in the air, as its edge is",
     "sdph/methods/liquids/bubbles.py:Voids._about": "the nearest where none is near",
     "sdph/methods/liquids/rooms.py:find": "how empty a cell is, from 0 to 1",

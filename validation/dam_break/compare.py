@@ -18,6 +18,7 @@ OFFSET = 0.175  # of T = t sqrt(2 g/a), see front.csv
 SOURCES = (("mm_a1.125in", "mm_a2.25in", "mm_lethe"), ("koshizuka_oka_exp",))
 TIMES = (1.25, 1.5, 2.0, 2.5, 3.0)  # of T
 MARGIN = 0.02  # of Z: what the points were read off with
+VARIANTS = {"dam_break": ((), ["exact"]), "free slip": (("tank.slip='free_slip'",), ["exact"])}
 
 
 def measured() -> list[list[np.ndarray]]:

@@ -7,7 +7,11 @@ from sdph.study.compare import scene_module
 
 from . import box
 
-VARIANTS = {"dam_break_3d": ((), ["exact"]), "against a box": (box.OVERRIDES, ["spheric"])}
+VARIANTS = {
+    "dam_break_3d": ((), ["exact"]),
+    "no slip": (("tank.slip='no_slip'",), ["exact"]),
+    "against a box": (box.OVERRIDES, ["spheric"]),
+}
 
 
 def metrics(run) -> dict:

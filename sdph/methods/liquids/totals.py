@@ -9,6 +9,10 @@ open sides take their share. Dissipation is the sum of its causes (LOSSES), each
 explicit steps and the continuity equation make of both is `numerical_work_J`. A scheme that makes energy shows in
 `energy_made_J`. Potential energy is that in gravity, which is the same everywhere; the work of gravity is beside it, as
 shifting lifts too.
+
+What surface tension gives, the surface loses: its energy is `surface_energy_J` (sdph.methods.liquids.surface), and work
+that no surface was lost for is `numerical_tension_J`. Motion, compression and surface together grow by all other works
+and by that, less what is dissipated.
 Two-dimensional amounts are per metre of depth.
 """
 
@@ -26,6 +30,7 @@ from sdph.engine import state as particles
 from sdph.engine.ledger import both, ratio, vector
 from sdph.engine.sums import Sums
 from sdph.laws.compiled import parallel, parallel_largest, serial
+from sdph.methods.liquids import surface
 from sdph.methods.liquids.losses import CAUSES
 
 IMPULSES = (
@@ -38,7 +43,7 @@ WORKS = (
 )  # fmt: skip
 LOSSES = (*CAUSES, "tension_control_J", "held_off_J", "shifting_J")
 PASSED = ("drained_kg", "drained_J", "injected_kg", "injected_J", "left_kg", "left_J", "boiled_kg", "boiled_J")
-AMOUNTS = (*PASSED, *WORKS, *LOSSES, "dissipated_J", "numerical_work_J")
+AMOUNTS = (*PASSED, *WORKS, *LOSSES, "dissipated_J", "numerical_work_J", "numerical_tension_J")
 
 
 class LiquidLedger(Sums):
@@ -50,7 +55,8 @@ class LiquidLedger(Sums):
     def __init__(self, path: Path | None):
         super().__init__(path)
         self.impulses = np.zeros((len(IMPULSES), 3))  # since the start [kg m/s]
-        self.scale = {"kg_m_s": 0.0, "J": 0.0}  # impulses, and energy that could fall and work that was done
+        # impulses; energy that could fall and work that was done; work of surface tension to and fro
+        self.scale = {"kg_m_s": 0.0, "J": 0.0, "tension_J": 0.0}
         # most energy [J] that there was, of motion, and beyond what came in
         self.most = self.moved = self.made = 0.0
         self.mach = 0.0  # largest speed over the speed of sound
@@ -67,10 +73,13 @@ class LiquidLedger(Sums):
         amounts = amounts | {"dissipated_J": math.fsum(amounts[name] for name in LOSSES)}
         given = self._given(amounts) - amounts["dissipated_J"]
         amounts["numerical_work_J"] = _energy(now) - _energy(self.last) - given
+        lost = self.last.get("surface_energy_J", 0.0) - now.get("surface_energy_J", 0.0)
+        amounts["numerical_tension_J"] = amounts["work_of_surface_tension_J"] - lost
         self.add(amounts)
         self.impulses += np.array([impulses[name] for name in IMPULSES])
         self.scale["kg_m_s"] += sum(float(np.linalg.norm(value)) for value in impulses.values())
         self.scale["J"] += sum(abs(amounts[name]) for name in WORKS)
+        self.scale["tension_J"] += abs(amounts["work_of_surface_tension_J"])
         self._write(stepper, dt, now, impulses, amounts)
         self.made = max(self.made, _energy(now) - _energy(self.first) - self._given(self.sums))
 
@@ -89,15 +98,26 @@ class LiquidLedger(Sums):
         mass = self.last["mass_kg"] - self.first["mass_kg"] - came
         drift = float(np.linalg.norm(self.gained() - self.impulses.sum(axis=0)))
         made = float(np.linalg.norm(self.impulses[IMPULSES.index("tension_control")]))
-        return self.sums | {
-            **both("mass_drift", "kg", abs(mass), there),
-            **both("momentum_drift", "kg_m_s", drift, self.scale["kg_m_s"] + inertia),
-            "momentum_made_rel": ratio(made, self.scale["kg_m_s"] + inertia),
-            "energy_made_J": self.made,
-            "energy_made_rel": ratio(self.made, self.moved),
-            "numerical_work_rel": ratio(abs(self.sums["numerical_work_J"]), abs(self.sums["dissipated_J"])),
-            "fastest_over_sound": self.mach,
-        }
+        return (
+            self.sums
+            | {
+                **both("mass_drift", "kg", abs(mass), there),
+                **both("momentum_drift", "kg_m_s", drift, self.scale["kg_m_s"] + inertia),
+                "momentum_made_rel": ratio(made, self.scale["kg_m_s"] + inertia),
+                "energy_made_J": self.made,
+                "energy_made_rel": ratio(self.made, self.moved),
+                "numerical_work_rel": ratio(abs(self.sums["numerical_work_J"]), abs(self.sums["dissipated_J"])),
+                "fastest_over_sound": self.mach,
+            }
+            | self._of_surface()
+        )
+
+    def _of_surface(self) -> dict[str, float]:
+        """Numerical part of the work of surface tension, over that work to and fro; nothing without a surface."""
+        if "surface_energy_J" not in self.last:
+            return {}
+        made = abs(self.sums["numerical_tension_J"])
+        return {"numerical_tension_rel": ratio(made, self.scale["tension_J"])}
 
     def _totals(self, stepper) -> dict[str, float]:
         s, own, world = stepper.state, stepper.active, stepper.world
@@ -110,7 +130,8 @@ class LiquidLedger(Sums):
         row |= vector("momentum", momentum)
         row |= {"kinetic_energy_J": kinetic, "elastic_energy_J": elastic, "potential_energy_J": potential}
         springs = {"contact_energy_J": stepper.bodies.springs} if stepper.bodies else {}
-        return row | {"fastest_m_s": speed} | springs
+        tense = {"surface_energy_J": surface.energy(stepper)} if stepper.p["surface_tension"] else {}
+        return row | tense | {"fastest_m_s": speed} | springs
 
     def _write(self, stepper, dt: float, totals: dict, impulses: dict, amounts: dict) -> None:
         row = {"time_s": stepper.time, "window_s": dt, "limit": stepper.limit} | totals
