@@ -6,13 +6,13 @@ A fixed value holds on the boundary itself: the ghost carries it, half a cell fr
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
 from coupling.embedded.grid import Grid, indices
-from sdph.case import profiles
+from sdph.case import inlets, profiles
 from sdph.case.gas_cells import nearest_edge
 from sdph.engine.geometry import SIDES
 from sdph.schema import CaseError
@@ -56,6 +56,15 @@ def boundary_faces(case, grid: Grid) -> Faces:
     return Faces(**{name: np.concatenate([part[name] for part in parts]) for name in parts[0]})
 
 
+def blown(case, faces: Faces, begin: float, end: float) -> Faces:
+    """The faces with the velocities of inlets that change in time as they are in the mean from `begin` to `end` [s]."""
+    velocity = faces.velocity.copy()
+    for number, boundary in enumerate(case.boundaries.values()):
+        if boundary.velocities:
+            velocity[faces.owner == number] = inlets.mean(boundary, begin, end)
+    return replace(faces, velocity=velocity)
+
+
 def _side(case, grid: Grid, axis: int, upper: int) -> dict[str, np.ndarray]:
     """The fields of `Faces` on one side."""
     first = [0] * grid.dimensions
@@ -89,15 +98,15 @@ def _row(case, name: str) -> dict:
         raise CaseError(f"boundaries.{name}.kind = {boundary.kind!r}; the embedded gas solver knows {', '.join(KINDS)}")
     passes, clings = KINDS[boundary.kind]
     inlet = boundary.kind == "velocity_inlet"
-    if inlet and boundary.velocity is None:
-        raise CaseError(f"boundaries.{name}.velocity_m_s is missing; a velocity_inlet needs it")
+    if inlet and boundary.strongest is None:
+        raise CaseError(f"boundaries.{name}.velocity_m_s is missing; a velocity_inlet needs it, or velocities")
     if boundary.vapour_mass_fraction and case.vapour is None:
         key = f"boundaries.{name}.vapour_mass_fraction"
         raise CaseError(f"{key} is given, but the case has no [vapour]; add it or remove the key")
     return {
         "open": passes, "clings": clings, "inlet": inlet,
         "held": inlet or (not passes and boundary.temperature is not None),
-        "velocity": boundary.velocity or (0.0,) * case.dimensions,
+        "velocity": inlets.at(boundary, 0.0) if boundary.strongest else (0.0,) * case.dimensions,
         "temperature": boundary.temperature or case.gas.temperature,
         "vapour": case.vapour_through(boundary), "pressure": boundary.pressure or 0.0,
     }  # fmt: skip

@@ -29,6 +29,13 @@ class Box:
         self.vapour = case.vapour
         self.everywhere = np.zeros(grid.size, dtype=bool)
         self.everywhere[grid.cells] = True
+        self.case, self.unsteady = case, any(boundary.velocities for boundary in case.boundaries.values())
+
+    def blow(self, begin: float, end: float) -> bool:
+        """Give the inlets their mean velocities from `begin` to `end` [s]; True where any changes in time."""
+        if self.unsteady:
+            self.faces = boundaries.blown(self.case, self.faces, begin, end)
+        return self.unsteady
 
     @property
     def closed(self) -> bool:

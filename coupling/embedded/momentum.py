@@ -120,13 +120,18 @@ class Momentum:
         self.box = box
         grid, faces = box.grid, box.faces
         self.active = active_nodes(grid, faces)
-        self.ghosts = [component_ghosts(grid, faces, a) for a in range(grid.dimensions)]
+        self.blow()
         self.nodes = [
             Nodes(grid.wide, grid.wide, step, active, *component_spacing(grid, a))
             for a, (step, active) in enumerate(zip(grid.wide[2], self.active))
         ]
         self.hold = on_faces(grid, faces, faces.clings * 1.0, 1.0)
         self.rims = [rims_of(grid, faces, a, active) for a, active in enumerate(self.active)]
+
+    def blow(self) -> None:
+        """Take note of the velocities that the boundaries have now."""
+        grid, faces = self.box.grid, self.box.faces
+        self.ghosts = [component_ghosts(grid, faces, a) for a in range(grid.dimensions)]
 
     def predict(self, old: Flow, window: Window, mass: np.ndarray, fraction: np.ndarray):
         """Velocity (d, S) under the old pressure, the diagonal D (d, S) [kg] of its equation, the largest residual,

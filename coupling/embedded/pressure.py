@@ -83,11 +83,23 @@ class Pressure:
         self.levels = build_levels(grid)
         self.work = np.zeros((grid.dimensions, self.levels.first[-1])), *np.zeros((3, self.levels.first[-1]))
         self.density = box.properties.density(faces.temperature, faces.vapour)  # of what flows in
+        self.blow()
+
+    def blow(self) -> None:
+        """Take note of the velocities that the boundaries have now."""
+        faces, grid = self.box.faces, self.box.grid
         normal = faces.velocity[np.arange(len(faces.face)), faces.axis]
         # m3/s outward
         self.inlet = np.where(faces.inlet, normal * faces.sign * grid.geometry.area[faces.axis, faces.face], 0.0)
         self.standing = grid.zeros(grid.dimensions)
         self.standing[faces.axis, faces.face] = np.where(faces.inlet, normal, 0.0)
+
+    def let_in(self, velocity: np.ndarray) -> np.ndarray:
+        """Velocity (d, S) [m/s] of faces with that of the inlets as it is now."""
+        faces, found = self.box.faces, velocity.copy()
+        own = faces.axis[faces.inlet], faces.face[faces.inlet]
+        found[own] = self.standing[own]
+        return found
 
     def at_start(self) -> np.ndarray:
         """(S,) pressure of the gas of the case at rest; on the boundary it is in the ghosts, and in openings it

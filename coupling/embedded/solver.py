@@ -9,11 +9,12 @@ Low-Mach equations of a gas of volume fraction alpha on a Cartesian staggered gr
                                                   + alpha u.grad p
 
 First order in time, second in space. Convection is explicit, in as many sub-steps as the window needs, the rest
-implicit: accuracy alone limits a window. Mass, vapour and heat of a cell are what the fluxes brought, so totals
-close to round-off; Gamma is vapour Gamma_v and the rest of the gas, and vapour that is used up is gone before any flows
-on. Laminar. A gas of `constant` density is a low-Mach ideal gas: h = cp T, so that the pressure works
-on it (Eq. 30 of the closure sheet): with the heat of drag, q, a throttled gas keeps its temperature. Of Dp/Dt the
-rate dp/dt is left out: without sound the pressure is as high for an instant as any sudden motion asks for.
+implicit: accuracy alone limits a window. Mass, vapour and heat of a cell are what the fluxes brought, so totals close
+to round-off; Gamma is vapour Gamma_v and the rest of the gas, and vapour that is used up is gone before any flows on.
+Where the velocity of an inlet changes in time, gas comes in at its mean in the window. Laminar. A gas of `constant`
+density is a low-Mach ideal gas: h = cp T, so that the pressure works on it (Eq. 30 of the closure sheet): with the
+heat of drag, q, a throttled gas keeps its temperature. Of Dp/Dt the rate dp/dt is left out: without sound the pressure
+is as high for an instant as any sudden motion asks for.
 
 Velocity is carried by the mass fluxes of the window before and takes no mass along: even velocity stays even. Where
 no mass of a cell changes in a window, momentum is then kept to the tolerance of continuity, on graded cells too; where
@@ -88,7 +89,7 @@ class EmbeddedGas:
         """Advance one window: mass to be reached, momentum predictor, pressure projection, transport of scalars."""
         self._check(dt, sources)
         self.before = self.flow, self.state
-        old = new = self.flow
+        old = new = self._blown(dt)
         window = window_of(self.box, old, dt, sources)
         for _ in range(PASSES if self.box.properties.varies else 1):
             aim = self.pressure.aim(old, window, new.temperature, new.fraction())
@@ -111,6 +112,15 @@ class EmbeddedGas:
         full = dataclasses.replace(found.budget, **told)
         self.state = dataclasses.replace(found, budget=full)
         return self.state
+
+    def _blown(self, dt: float) -> Flow:
+        """The flow at the start of a window of `dt` [s], its inlets with their velocities in the mean of it."""
+        flow = self.flow
+        if not self.box.blow(flow.time, flow.time + dt):
+            return flow
+        self.momentum.blow()
+        self.pressure.blow()
+        return dataclasses.replace(flow, velocity=self.pressure.let_in(flow.velocity))
 
     def retreat(self) -> GasState:
         """Go back to where the last window began: no window changes the arrays of the one before."""
@@ -152,6 +162,7 @@ class EmbeddedGas:
         """Do nothing: the solver has no process of its own."""
 
     def _state(self) -> GasState:
+        self.box.blow(self.flow.time, self.flow.time)
         fields = cell_fields(self.box, self.flow, self.fields)
         return GasState(self.flow.time, fields, budget(self.box, self.flow, fields))
 

@@ -171,6 +171,19 @@ def vector(entry) -> list[float] | None:
     return [float(value) for value in found[-1]] if whole else None
 
 
+def table(entry) -> list[tuple[float, list[float]]] | None:
+    """Times and vectors of a Function1, `table ((0 (0 0 0)) (1 (0 0 1)))` or a dictionary with such `values`; None of
+    what is no table of vectors, or goes on otherwise than as it ends."""
+    bounds = entry.get("outOfBounds") if isinstance(entry, dict) else None
+    own = [*entry.get("type", []), *entry.get("values", [])] if isinstance(entry, dict) else entry
+    if not isinstance(own, list) or len(own) != 2 or own[0] != "table" or not isinstance(own[1], list):
+        return None
+    if bounds not in (None, ["clamp"]) or not all(isinstance(row, list) and len(row) == 2 for row in own[1]):
+        return None
+    rows = [(time, vector([velocity])) for time, velocity in own[1]]
+    return rows if all(isinstance(time, float) and velocity for time, velocity in rows) else None
+
+
 def word(entry) -> str:
     """The first word of an entry; empty where there is none."""
     return next((value for value in entry if isinstance(value, str)), "") if isinstance(entry, list) else ""

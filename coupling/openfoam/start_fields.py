@@ -87,8 +87,8 @@ def _slip_wall(case, boundary, name: str) -> dict[str, str]:
 
 def _velocity_inlet(case, boundary, name: str) -> dict[str, str]:
     """The velocity is the superficial one: nothing but gas goes through the faces, alpha_g = 1."""
-    if boundary.velocity is None:
-        raise CaseError(f"boundaries.{name}.velocity_m_s is missing; a velocity_inlet needs it")
+    if boundary.strongest is None:
+        raise CaseError(f"boundaries.{name}.velocity_m_s is missing; a velocity_inlet needs it, or velocities")
     return {
         "alpha_g": fixed(1),
         "U": let_in(case, boundary),
@@ -99,8 +99,11 @@ def _velocity_inlet(case, boundary, name: str) -> dict[str, str]:
 
 
 def let_in(case, boundary) -> str:
-    """Velocity of the gas that comes in: the same everywhere, or `sdph.case.profiles.over_mean` times the mean, as a
-    polynomial of the way along the side."""
+    """Velocity of the gas that comes in: the same everywhere, at all times or by a table of them, or
+    `sdph.case.profiles.over_mean` times the mean, as a polynomial of the way along the side."""
+    if boundary.velocities:
+        rows = " ".join(f"({time!r} {vector(case, velocity)})" for time, *velocity in boundary.velocities)
+        return f"type uniformFixedValue; uniformValue table ({rows});"
     if boundary.profile == "uniform":
         return fixed(vector(case, boundary.velocity))
     axis, low, high = profiles.extent(case, boundary)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 
 from sdph import effects, scenes
-from sdph.case import beside, bodies, forces, materials, periods, probed, profiles, regions, turbulent
+from sdph.case import beside, bodies, forces, inlets, materials, periods, probed, profiles, regions, turbulent
 from sdph.case.extents import SAME, inside, mouth, probe, side
 from sdph.case.sections import Case, Part, Region
 from sdph.methods.liquids.sections import Pool
@@ -94,6 +94,7 @@ def _check_one(case: Case) -> None:
     for name, boundary in case.boundaries.items():
         side(case, f"boundaries.{name}", boundary)
     profiles.check(case)
+    inlets.check(case)
     for name, region in case.particles.items():
         _check_region(case, name, region)
     forces.check_parts(case)

@@ -70,12 +70,13 @@ class Fluid:
             raise CaseError(f"{where}.fluid: {unknown(name, known).replace('unknown key', 'no fluid', 1)}") from None
         self.molar_mass = 1e3 * library.PropsSI("M", self.name)  # kg/kmol
 
-    def at(self, what: str, **state: float) -> float:
-        """A property [SI] at T [K] and P [Pa], or on the line of boiling at one of them and Q = 0 or 1."""
+    def at(self, what: str, of: str = "", **state: float) -> float:
+        """A property [SI] at T [K] and P [Pa], or on the line of boiling at one of them and Q = 0 or 1; `of` says where
+        T comes from."""
         low, high = (self.library.PropsSI(end, self.name) for end in ("Tmin", "Tmax"))
         if not low <= state.get("T", low) <= high:
             raise CaseError(
-                f"{self.where}.fluid: {self.name} at {state['T']:g} K; known from {low:g} to {high:g} K; {HOW}"
+                f"{self.where}.fluid: {self.name} at {state['T']:g} K{of}; known from {low:g} to {high:g} K; {HOW}"
             )
         pairs = [part for pair in state.items() for part in pair]
         try:
@@ -219,16 +220,22 @@ def _droplets(table: dict, name: str, fluid: Fluid) -> dict:
 def _vapour(table: dict, fluid: Fluid, cold: float, pressure: float) -> dict:
     """The same with the vapour of its droplets, at the temperature of the film."""
     own, gas = table.get("vapour", {}), table.get("gas", {})
-    film = _film(cold, _number(gas, "temperature_K", "gas"))
-    numbers = {key: fluid.at(what, T=film, P=THIN) for key, what in OF_VAPOUR.items() if key not in own}
+    hot = _number(gas, "temperature_K", "gas")
+    numbers = {key: _in_film(fluid, what, cold, hot) for key, what in OF_VAPOUR.items() if key not in own}
     if DIFFUSIVITY not in own:
-        numbers[DIFFUSIVITY] = _diffusivity(gas, fluid, film, pressure)
+        numbers[DIFFUSIVITY] = _diffusivity(gas, fluid, _film(cold, hot), pressure)
     return _with(table, "vapour", numbers | {MOLAR_MASS: fluid.molar_mass})
 
 
 def _film(droplet: float, gas: float) -> float:
     """Temperature [K] of the gas around a droplet."""
     return droplet + (gas - droplet) / 3.0
+
+
+def _in_film(fluid: Fluid, what: str, droplet: float, gas: float) -> float:
+    """A property [SI] of the vapour of a fluid in the film."""
+    of = f", in the film around a droplet of {droplet:g} K in gas.temperature_K = {gas:g}"
+    return fluid.at(what, of, T=_film(droplet, gas), P=THIN)
 
 
 def _diffusivity(gas: dict, fluid: Fluid, film: float, pressure: float) -> float:
@@ -250,7 +257,7 @@ def _wet_bulb(table: dict, fluid: Fluid, pressure: float) -> float:
 
     def balance(T):
         film, latent = _film(T, hot), fluid.latent_heat(T)
-        conductivity, capacity = around.at("L", T=film, P=pressure), fluid.at("C", T=film, P=THIN)
+        conductivity, capacity = around.at("L", T=film, P=pressure), _in_film(fluid, "C", T, hot)
         density = pressure * dry / (GAS_CONSTANT * film)
         surface = law.vapour_mass_fraction(fluid.at("P", T=T, Q=0.0) / pressure, fluid.molar_mass, dry)
         exponent = density * _diffusivity(gas, fluid, film, pressure) * capacity / conductivity

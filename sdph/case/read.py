@@ -141,11 +141,12 @@ def place(table: dict, key: str, told: str) -> tuple[dict, str]:
 
 def from_table(table: dict) -> Case:
     """The case of a parsed TOML table."""
-    table = fluids.filled(_decided(moving.taken_over(table)))
     head = {"title", "scene", "dimensions", "effects", "coupling", "vapour", "track", *METHODS}
+    known = head | SECTIONS.keys() | GROUPS.keys() | effects.REGISTRY.keys()
     for key in table:
-        if key not in head | SECTIONS.keys() | GROUPS.keys() | effects.REGISTRY.keys():
-            raise CaseError(unknown(key, head | SECTIONS.keys() | GROUPS.keys() | effects.REGISTRY.keys()))
+        if key not in known:
+            raise CaseError(unknown(key, known))
+    table = fluids.filled(_decided(moving.taken_over(table)))
     spared = {"gas", "grains"} if table.keys() & {"liquid", "solid"} else set()
     given = {name: cls for name, cls in SECTIONS.items() if name not in spared - table.keys()}
     kinds = materials.materials(table)

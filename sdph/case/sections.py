@@ -5,10 +5,10 @@ from __future__ import annotations
 import dataclasses
 import math
 
+from sdph.case.boundary import Boundary
 from sdph.case.matter import GasProperties, Grains, Vapour
 from sdph.effects import REGISTRY
 from sdph.effects.around.nozzles import Nozzle
-from sdph.engine.geometry import SIDES
 from sdph.engine.neighbours import SKIN
 from sdph.methods.liquids.sections import GasPhase, Liquid, Pool
 from sdph.methods.mps.sections import LiquidMethod
@@ -17,7 +17,6 @@ from sdph.schema import choice, file, flag, quantity, record, vector, whole, wor
 
 OPENINGS = ("inflow", "outflow")  # effects that act on the grains alone where grains and a liquid are side by side
 HEATING = {"heat", "conduction", "radiation", "evaporation", "micro_explosion", "reaction", "wall_heat"}
-PEAK = {"uniform": 1.0, "parabolic": 1.5}  # profile of an inlet -> its largest velocity over the mean
 
 
 @record
@@ -112,30 +111,6 @@ class Region:
     disorder: float = quantity("", 0.0, least=0.0, most=0.25)
     seed: int = whole(0, least=0)  # of that chance
     material: str = words("")  # of its grains, where there are several
-
-
-@record
-class Boundary:
-    """A patch of the gas mesh: a side (or part of it: `span`), or without a side all that is left over."""
-
-    kind: str = choice("wall", "slip_wall", "velocity_inlet", "pressure_outlet")
-    side: str | None = choice(*SIDES, default=None)
-    span: tuple | None = vector("m", None)
-    velocity: tuple | None = vector("m_s", None)  # of the gas that comes in, or with which a wall slides along itself
-    profile: str = choice(*PEAK)  # of that gas along its side (sdph.case.profiles); `velocity` is its mean
-    temperature: float | None = quantity("K", None, above=0.0)
-    vapour_mass_fraction: float | None = quantity("", None, least=0.0, most=1.0)
-    pressure: float | None = quantity("Pa", None)
-
-    @property
-    def lets_in(self) -> bool:
-        """True where gas comes in by a given velocity; a wall may have one too, with which it slides."""
-        return self.kind == "velocity_inlet" and bool(self.velocity)
-
-    @property
-    def fastest(self) -> float:
-        """Largest speed [m/s] of the gas that comes in, or of the wall."""
-        return PEAK[self.profile] * math.hypot(*(self.velocity or ()))
 
 
 @record

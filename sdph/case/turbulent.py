@@ -39,8 +39,8 @@ def fastest_inlet(case) -> float:
 
 
 def speed(boundary) -> float:
-    """Size [m/s] of the velocity of a boundary."""
-    return sum(component**2 for component in boundary.velocity or ()) ** 0.5
+    """Largest size [m/s] of the velocity of a boundary."""
+    return sum(component**2 for component in boundary.strongest or ()) ** 0.5
 
 
 def brought(case, inlet=None) -> dict[str, float]:

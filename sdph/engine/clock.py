@@ -17,7 +17,8 @@ class Stalled(RuntimeError):
 
 
 class Clock:
-    """Landmarks of a run [s]: outputs of fields, rows of the history every `rows` [s], `run.report_at`, the end.
+    """Landmarks of a run [s]: outputs of fields, rows of the history every `rows` [s], `run.report_at`, times at which
+    something else `turns`, the end.
 
     A landmark within round-off of now is now. `shortest` [s] is the least that a window or step may be long; `limit`
     names what ruled the last one.
@@ -25,12 +26,13 @@ class Clock:
 
     KEPT = ("limit",)  # see sdph.engine.restart
 
-    def __init__(self, run, rows: float | None = None):
+    def __init__(self, run, rows: float | None = None, turns=()):
         self.limit, self.end = "", run.end_time
         self.outputs = every(run.output_interval, run.end_time)
         self.shortest = SAME * float(np.diff(self.outputs, prepend=0.0).max())
         regular = every(rows, run.end_time) if rows else ()
-        self.landmarks = with_others(self.outputs, (*regular, *run.report_at), self.shortest)
+        others = *regular, *run.report_at, *(time for time in turns if time > self.shortest)
+        self.landmarks = with_others(self.outputs, others, self.shortest)
 
     def next(self, time: float) -> float:
         """The next landmark [s]."""

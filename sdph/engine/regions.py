@@ -146,12 +146,13 @@ def _in_cone(region, places, low) -> np.ndarray:
     return np.hypot(*off.T) <= start + share * (end - start)
 
 
-def in_front(places, walls, spacing: float, layers: int) -> np.ndarray:
-    """Mask (N,) of the places that stand in front of facets (F, d, d) [m] of walls, no nearer than contact holds
-    grains, or so far behind an open one that it is none to them: its dummies are `layers` spacings deep."""
+def in_front(places, walls, spacing: float, layers: float, near: float = CONTACT) -> np.ndarray:
+    """Mask (N,) of the places that stand in front of facets (F, d, d) [m] of walls, no nearer than `near` spacings
+    (usual: than contact holds grains), or so far behind an open one that it is none to them: its dummies are `layers`
+    spacings deep."""
     surface = facets.Surface(walls)
     off = surface.distance(places)
-    front = off >= (CONTACT - SAME) * spacing
+    front = off >= (near - SAME) * spacing
     return front if surface.closed else front | (off < -layers * spacing)
 
 

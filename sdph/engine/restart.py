@@ -41,6 +41,7 @@ WRITTEN = (
     "fields", "fields/pieces", "gas", "ledger.csv", "ledger_liquid.csv", "ledger_solid.csv", "history.csv",
     "metrics.csv", "outflow.csv", "droplets.csv",
 )  # fmt: skip
+LONGEST = 120  # letters of a list that is told in full; our choice
 MANIFEST, NUMBERS, ARRAYS, GAS = "manifest.json", "numbers.json", "arrays.npz", "gas"
 NAME, DRAFT = re.compile(r"[0-9]{9,18}"), re.compile(r"\.[0-9]{9,18}\.part")
 # of what is in a manifest besides sdph and format
@@ -118,7 +119,11 @@ class Checkpoint:
 
 
 def _told(table: dict, key: str) -> str:
-    return short(table[key]) if key in table else "not given"
+    """A value of a case for a line; of a list all of it where that is short."""
+    if key not in table:
+        return "not given"
+    whole = isinstance(table[key], list) and len(text := ascii(table[key])) <= LONGEST
+    return text if whole else short(table[key])
 
 
 def write(run_folder: Path, number: int, time: float, case_table: dict, thing, gas) -> Path:

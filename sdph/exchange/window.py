@@ -12,6 +12,7 @@ import math
 import numpy as np
 
 from sdph import effects
+from sdph.case import inlets
 from sdph.case.gas_cells import cell_edges
 from sdph.effects.around.streams import streams_of
 from sdph.engine.clock import Clock
@@ -101,8 +102,8 @@ class Window(Clock):
     KEPT, FORMS = ("limits", "control", "limit"), {"limits": Named(POSITIVE)}  # see sdph.engine.kept
 
     def __init__(self, case):
-        super().__init__(case.run)
-        self.courant, self.cell = case.coupling.courant, smallest_cell(case)
+        super().__init__(case.run, turns=inlets.times(case))
+        self.case, self.courant, self.cell = case, case.coupling.courant, smallest_cell(case)
         self.limits = {"largest": case.coupling.window_largest} | opening(case)
         self.control = Control(case.coupling.window_tolerance)
 
@@ -118,10 +119,18 @@ class Window(Clock):
 
     def choose(self, time: float) -> float:
         """The time [s] at which the next window ends."""
+        self._foresee(time)
         self.limit = min(self.limits, key=self.limits.get)
         return self.part(
             time, self.limits[self.limit], f"the window's limit {self.limit!r} ({KEYS.get(self.limit, 'an effect')})"
         )
+
+    def _foresee(self, time: float) -> None:
+        """Take note of gas that an inlet lets in faster up to the next landmark than at `time` [s]."""
+        speed = inlets.quickened(self.case, time, self.next(time)) / (1.0 - packed(self.case))
+        if speed:
+            limit = self.courant * self.cell / speed
+            self.limits["courant"] = min(limit, self.limits.get("courant", math.inf))
 
     def longest(self) -> float:
         """No window that `choose` picks next is longer [s]."""
@@ -180,11 +189,15 @@ def smallest_cell(case) -> float:
     return min(float(np.diff(edges).min()) for edges in cell_edges(case))
 
 
+def packed(case) -> float:
+    """Largest volume fraction of grains at the start."""
+    return max((region.volume_fraction for region in case.particles.values()), default=0.0)
+
+
 def opening(case) -> dict[str, float]:
     """Limits [s] of the first window from the speeds that the case gives: gas that is let in, as fast as it is between
     the grains, and grains that are thrown at the start or by a nozzle. Later windows are told what moves how fast."""
-    packed = max((region.volume_fraction for region in case.particles.values()), default=0.0)
-    let_in = max((b.fastest for b in case.boundaries.values()), default=0.0) / (1.0 - packed)
+    let_in = max((b.fastest for b in case.boundaries.values()), default=0.0) / (1.0 - packed(case))
     thrown = (
         [math.hypot(*region.velocity) for region in case.particles.values() if region.velocity]
         if effects.moving(case)

@@ -16,6 +16,7 @@ import json
 import math
 import os
 import platform
+import shlex
 import shutil
 import sys
 from contextlib import contextmanager
@@ -52,7 +53,10 @@ def create(folder: Path, inside: tuple[str, ...] = ("fields",)) -> Path:
     """A new folder with folders `inside`; one that holds anything is refused and left as it is."""
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         what = "holds another run or case" if (folder / MARK).exists() else "is not an empty folder"
-        raise CaseError(f"{folder} {what}; give a new one")
+        more = ""
+        if (folder / MARK).is_file() and (folder / ORIGIN).is_file():
+            more = f", or go on with that run: sdph run --resume {shlex.quote(str(folder))}, with --until T for longer"
+        raise CaseError(f"{folder} {what}; give a new one{more}")
     try:
         for name in ("", *inside):
             (folder / name).mkdir(parents=True, exist_ok=True)

@@ -90,7 +90,7 @@ class Cells:
     def __init__(self, case, mesh: Path | None):
         self.domain, self.dimensions = case.domain, case.dimensions
         self.grid = None
-        if mesh and not _fills(case, mesh):
+        if mesh and not fills(case, mesh):
             self.grid = patches.cells(mesh, case.dimensions)
 
     def outside(self, places) -> np.ndarray:
@@ -116,7 +116,7 @@ def _refuse_other_size(case, mesh: Path) -> None:
         )
 
 
-def _fills(case, mesh: Path) -> bool:
+def fills(case, mesh: Path) -> bool:
     """True where a mesh is the whole box of the domain."""
     own = poly_mesh.read(mesh)
     depth = float(np.ptp(own.points[:, 2])) if case.dimensions == 2 else 1.0
@@ -129,8 +129,9 @@ def refuse_outside(case, cells: Cells, state, world=ALONE) -> None:
     if not case.particles:
         return
     outside = _in_no_cell(cells, state, world)
-    own_walls = "walls" in case.effects and case.parameters["walls"].mesh
-    replaced = "; walls.mesh stands in place of the walls of the gas's mesh: it needs both" if own_walls else ""
+    own = case.parameters["walls"] if "walls" in case.effects else None
+    given = own and own.mesh and own.source != "gas"
+    replaced = "; walls.mesh stands in place of the walls of the gas's mesh: it needs both" if given else ""
     for name, region in case.particles.items():
         low, high = start.extents(case, region)
         own = outside[((outside >= low) & (outside <= high)).all(axis=1)]
@@ -156,20 +157,27 @@ def _in_no_cell(cells: Cells, state, world) -> np.ndarray:
 
 
 def _refuse_mouths_outside(case, cells: Cells) -> None:
-    """CaseError where a nozzle has a part of its mouth outside the gas, or outside the domain without one: what comes
-    in there leaves at once, or flies beside it. Streams are looked at half a spacing past the mouth."""
-    space = "gas" if case.gas else "domain"
+    """CaseError where a nozzle has a part of its mouth where nothing can come in. Streams are looked at half a spacing
+    past the mouth."""
     for name, nozzle in case.nozzles.items():
         nozzles.check(case, name, nozzle)
         own = streams_of(case, nozzle)
         places = own.mouth + 0.5 * case.resolution.spacing * own.axis
-        beside = cells.outside(places)
-        if beside.any():
+        lost, where = _lost(case, cells, places)
+        if lost.any():
             raise CaseError(
-                f"nozzles.{name}: {np.count_nonzero(beside)} of its {len(places)} streams come in outside the {space}, "
-                f"the first at {_told(places[beside][0])} m; move the mouth in, make it smaller, or square to the wall "
-                "that it is in"
+                f"nozzles.{name}: {np.count_nonzero(lost)} of its {len(places)} streams come in {where}, the first at "
+                f"{_told(places[lost][0])} m; move the mouth in, make it smaller, or square to the wall that it is in"
             )
+
+
+def _lost(case, cells: Cells, places) -> tuple[np.ndarray, str]:
+    """Mask of places (N, d) [m] outside the gas, or outside the domain without one, where what comes in leaves at once
+    or flies beside it, and where that is; else of those within walls.mesh, which would throw it out."""
+    outside = cells.outside(places)
+    if outside.any():
+        return outside, "outside the gas" if case.gas else "outside the domain"
+    return start.within_walls(case, places), "within walls.mesh"
 
 
 def _told(place) -> str:

@@ -178,9 +178,10 @@ def upwards(gravity) -> tuple:
 
 
 def chosen(shots: list[Shot], field: str | None) -> str:
-    """The field to show: `field`, `CaseError` where the shots have none of that name; else what the scene is about.
-    Shots with nothing in them have no fields."""
+    """The field to show: `field`, or that whose label it is (speed); `CaseError` where the shots have none of that
+    name; else what the scene is about. Shots with nothing in them have no fields."""
     known = sorted({name for own in shots for name in own.named()} & style.QUANTITIES.keys())
+    field = next((name for name in known if style.QUANTITIES[name].label == field), field)
     if field and field not in known:
         there = f"this run has {', '.join(known)}" if known else "nothing is there to show then; leave it out"
         raise CaseError(f"--field {field}: {there}")

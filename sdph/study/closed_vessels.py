@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from coupling.openfoam import poly_mesh
+from sdph.case import inlets
 from sdph.case.gas_cells import cell_edges
 from sdph.schema import CaseError
 
@@ -20,14 +21,21 @@ def refuse_filling(case, template: Path) -> None:
     if case.gas.equation_of_state != "constant" or "pressure_outlet" in kinds or "velocity_inlet" not in kinds:
         return
     own = (template / poly_mesh.FOLDER).is_dir()
-    flows = _of_patches(case, template) if own else _of_box(case)
-    if abs(flows.sum()) > SAME * np.abs(flows).sum():
-        name = next(name for name, boundary in case.boundaries.items() if boundary.kind == "velocity_inlet")
-        raise CaseError(
-            f"boundaries.{name} is a velocity_inlet, and {flows.sum():.3g} m{case.dimensions}/s of gas of constant "
-            "density come in that find no way out; make a boundary a pressure_outlet, or set "
-            'gas.equation_of_state = "ideal"'
-        )
+    for time in inlets.times(case) or [0.0]:
+        now = inlets.held(case, time)
+        _refuse_unbalanced(case, _of_patches(now, template) if own else _of_box(now))
+
+
+def _refuse_unbalanced(case, flows: np.ndarray) -> None:
+    """CaseError where flows into the gas do not balance."""
+    if abs(flows.sum()) <= SAME * np.abs(flows).sum():
+        return
+    name = next(name for name, boundary in case.boundaries.items() if boundary.kind == "velocity_inlet")
+    raise CaseError(
+        f"boundaries.{name} is a velocity_inlet, and {flows.sum():.3g} m{case.dimensions}/s of gas of constant "
+        "density come in that find no way out; make a boundary a pressure_outlet, or set "
+        'gas.equation_of_state = "ideal"'
+    )
 
 
 def _of_patches(case, template: Path) -> np.ndarray:

@@ -31,4 +31,5 @@ def warned(case, template: Path, *, allow_code: bool = False, whole: bool = Fals
 
 def _of_case(case, mesh) -> list[str]:
     """Warnings of a case with all its matters."""
-    return [*gas_keys.warnings(case), *inlets.warnings(case, mesh), *usual.warnings(case), *rigid_sides.warnings(case)]
+    of_gas = [*gas_keys.warnings(case), *gas_keys.unseen(case, mesh), *inlets.warnings(case, mesh)]
+    return [*of_gas, *usual.warnings(case), *rigid_sides.warnings(case)]

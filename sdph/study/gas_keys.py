@@ -1,9 +1,14 @@
-"""Keys of [coupling] that the gas solver of a case does not read."""
+"""Keys that the gas solver of a case does not read."""
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from coupling.choice import expected
+from coupling.openfoam import poly_mesh
 from sdph.case.sections import Coupling
+from sdph.methods.grains import start
+from sdph.running import vessel
 from sdph.schema import fields
 
 OF = {"openfoam": ("gas_ranks", "transport"), "embedded": ("gas_tolerance",)}  # solver -> keys that it alone reads
@@ -19,4 +24,18 @@ def warnings(case) -> list[str]:
         f"coupling.{key} = {getattr(case.coupling, at)} is of the {other} gas, and the gas is {chosen}: it does nothing"
         for key, (at, _) in fields(Coupling).items()
         if at in OF[other] and getattr(case.coupling, at) != getattr(usual, at)
+    ]
+
+
+def unseen(case, template: Path) -> list[str]:
+    """A line where grains that the gas drags or presses have a `walls.mesh`, and the gas fills the domain, so that it
+    goes through; `template` is the OpenFOAM case with its mesh, if it has one of its own."""
+    walls = "grains" in case.matters and start.mesh_of_walls(case) is not None
+    if not walls or not {"drag", "gas_pressure"} & set(case.effects):
+        return []
+    if (template / poly_mesh.FOLDER).is_dir() and not vessel.fills(case, template):
+        return []
+    return [
+        f"walls.mesh = {case.parameters['walls'].mesh!r} holds the grains alone: the gas fills the domain and goes "
+        "through it; where it has to go around, give the gas an OpenFOAM mesh of the vessel (docs/howto/vessel.md)"
     ]

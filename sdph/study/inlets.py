@@ -25,11 +25,12 @@ def warnings(case, template: Path) -> list[str]:
     mesh = poly_mesh.read(template) if (template / poly_mesh.FOLDER).is_dir() else None
     told = _of_vapour(case)
     for name, boundary in case.boundaries.items():
-        if boundary.kind != "velocity_inlet" or not boundary.velocity:
+        if not boundary.lets_in:
             continue
-        velocity = np.array([*boundary.velocity, 0.0][:3])
+        velocity = np.array([*boundary.strongest, 0.0][:3])
         normal = _outwards(mesh, name, boundary)
-        outwards, given = velocity @ normal, f"velocity_m_s = {list(boundary.velocity)}"
+        key = "the fastest of velocities" if boundary.velocities else "velocity_m_s"
+        outwards, given = velocity @ normal, f"{key} = {list(boundary.strongest)}"
         plane = float(np.linalg.norm(normal)) > ROUND  # else it goes round, and a mean says nothing
         facing = ", ".join(f"{part:.2g}" for part in normal[: case.dimensions])
         if outwards > ASIDE * float(np.linalg.norm(velocity)):

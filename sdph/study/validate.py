@@ -24,7 +24,7 @@ from sdph import scenes
 from sdph.case import read as cases
 from sdph.running import balances, driver, limiters
 from sdph.scenes import paths
-from sdph.schema import CaseError
+from sdph.schema import CaseError, unknown
 from sdph.study import compare, record
 
 REFERENCES = ("exact", "paper", "tfm", "dpm")
@@ -42,7 +42,8 @@ def validate(scene: str, overrides: tuple[str, ...], reporter, folder: Path | No
     `acted` takes the limiters that acted in each run, by its name."""
     module, (study, _, name) = compare.scene_module(scene), scene.partition(".")
     if module is None and study not in STUDIES:
-        raise CaseError(f"{scene} has no validation; those that have: {', '.join(validated())}")
+        found = unknown(scene, validated()).replace(f"unknown key {scene}", f"{scene} has no validation", 1)
+        raise CaseError(found.replace("known here", "those that have", 1))
     if folder is None:
         with tempfile.TemporaryDirectory(prefix="sdph-validate-") as temporary:
             return validate(scene, overrides, reporter, Path(temporary), acted)

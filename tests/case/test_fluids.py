@@ -209,12 +209,20 @@ def test_a_liquid_takes_what_its_heat_needs():
         ({"gas": {"fluid": "air"}}, "gas.temperature_K = None"),
         ({"gas": {"fluid": "air", "temperature_K": 1e5}}, "Air at 100000 K; known from"),
         ({"grains": {"fluid": "propane", "diameter_mm": 1.0}}, "boils at 231.*; make them colder"),
+        ({"gas": {"fluid": "air", "temperature_K": 77.0}}, "around a droplet of 273.16 K in gas.temperature_K = 77"),
     ],
 )
 def test_what_cannot_be_is_said_in_one_line(sections, said):
     with pytest.raises(CaseError, match=said) as error:
         cases.from_table(droplet(**sections))
     assert "\n" not in str(error.value)
+
+
+def test_a_misspelt_section_is_told_before_what_lacks_it():
+    own = droplet()
+    own["particle"] = own.pop("particles")
+    with pytest.raises(CaseError, match="unknown key particle; did you mean particles?"):
+        cases.from_table(own)
 
 
 def test_numbers_that_are_not_those_of_the_fluid_are_told():

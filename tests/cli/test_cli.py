@@ -117,6 +117,7 @@ def test_list_names_every_scene(tmp_path):
         (("view", "nowhere", "--png", "a.png"), ("nowhere", "run.pvd")),
         (("init", "no_such_scene", "folder"), ("no_such_scene",)),
         (("stress", "--map", "--json"), ("--json", "--map")),
+        (("validate", "taylor_gren"), ("taylor_gren has no validation", "did you mean taylor_green?")),
     ],
 )
 def test_bad_input_is_one_line_and_code_2(refused, arguments, told):

@@ -48,6 +48,15 @@ def test_folder_in_use_is_refused_and_left_as_it_is(tmp_path, name, told):
     assert snapshot(tmp_path) == before
 
 
+def test_a_run_in_the_way_is_gone_on_with(tmp_path):
+    """As a command that is given again means, as a rule."""
+    own = output.create(tmp_path / "a run")
+    (own / output.MARK).write_text("mine")
+    output.write_origin(own)
+    with pytest.raises(CaseError, match="go on with that run: sdph run --resume '.*a run', with --until"):
+        output.create(own)
+
+
 def test_file_in_the_way_is_refused(tmp_path):
     file = tmp_path / "file"
     file.write_text("mine")

@@ -16,3 +16,12 @@ def test_sides_of_the_domain_as_walls_let_grains_out_where_the_outlet_is(tmp_pat
     kept = cases.load(tmp_path / "out" / "case.toml").boundaries
     sides = {name: boundary.side for name, boundary in kept.items()}
     assert sides == {"inlet": "back", "outlet": "front", "wall": None}
+
+
+@pytest.mark.openfoam
+def test_a_region_outside_the_vessel_blames_no_mesh_that_the_case_has_not(tmp_path, capsys):
+    corner = {"shape": "box", "lower_m": [0.0, 0.0, 0.0], "upper_m": [0.01, 0.01, 0.05], "volume_fraction": 0.6}
+    own = filled(tmp_path / "own", corner | {"temperature_K": 350.0})
+    assert main(["explain", str(own), "--gas", "openfoam"]) == 2
+    said = capsys.readouterr().err.splitlines()[-1]
+    assert "in front of the walls of the gas's mesh" in said and "walls.mesh" not in said

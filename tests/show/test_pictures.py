@@ -181,7 +181,7 @@ def test_a_picture_is_of_what_its_scene_is_about(scene, arrays, subject):
     full["velocity"] = np.column_stack((full["velocity"], np.zeros((9, 2))))
     own = replace(taken(cloud(lattice(3), **full)), case=cases.load(scenes.HERE / scene / "case.toml"))
     assert shot.chosen([own], None) == subject
-    assert shot.chosen([own], "density") == "density"
+    assert shot.chosen([own], "density") == "density" and shot.chosen([own], "speed") == "velocity"
     with pytest.raises(CaseError, match="--field colour: this run has .*density"):
         shot.chosen([own], "colour")
 

@@ -121,8 +121,8 @@ def _point(place, z: float) -> str:
 def _time_steps(case: Case, courant: float, cell: float) -> dict[str, str]:
     """`first_time_step` and `time_steps`, a table of steps against time, for a case that rests; else `time_step`: of
     the fastest that comes in or is there at the start, or of what falls through the domain."""
-    given = (*case.boundaries.values(), *case.particles.values())
-    speeds = [speed for one in given if one.velocity and (speed := math.hypot(*one.velocity))]
+    given = [*(one.strongest for one in case.boundaries.values()), *(one.velocity for one in case.particles.values())]
+    speeds = [speed for velocity in given if velocity and (speed := math.hypot(*velocity))]
     if fall := sum(abs(g) * size for g, size in zip(case.domain.gravity, case.domain.size)):
         speeds.append(math.sqrt(2.0 * fall))
     if speeds:

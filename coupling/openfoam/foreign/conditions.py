@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import NamedTuple
 
-from coupling.openfoam.dictionary import number, of_patch, uneven, vector, word
+from coupling.openfoam.dictionary import number, of_patch, table, uneven, vector, word
 from coupling.openfoam.foreign import properties
 from coupling.openfoam.foreign.files import Files
 from coupling.openfoam.poly_mesh import PolyMesh
@@ -66,6 +67,8 @@ def _condition(files: Files, mesh: PolyMesh, name: str, own: dict, alpha_p: floa
         pressure = None if value is None else value * properties.level(files)["factor"]
         return Condition({"kind": "pressure_outlet", "pressure_Pa": pressure}, note)
     area, normal = mesh.outwards(name)
+    if kind == "uniformFixedValue" and (rows := table(own["U"].get("uniformValue"))) is not None:
+        return _in_time(rows, normal, own, alpha_p, dimensions) or _unknown(patch, kind, word(own["p"].get("type")))
     speed = _given(files, own["U"], area, normal)
     if speed is None:
         return _unknown(patch, kind, word(own["p"].get("type")))
@@ -80,15 +83,31 @@ def _condition(files: Files, mesh: PolyMesh, name: str, own: dict, alpha_p: floa
     if through > 0.0:
         what = "gas leaves here at a given speed, which is not known: taken as pressure_outlet"
         return Condition({"kind": "pressure_outlet", "pressure_Pa": None}, what)
-    rounded = [float(f"{component + 0.0:.9g}") if abs(component) > ASIDE else 0.0 for component in velocity]
-    return Condition({"kind": "velocity_inlet", "velocity_m_s": rounded[:dimensions]}, note)
+    return Condition({"kind": "velocity_inlet", "velocity_m_s": _rounded(velocity)[:dimensions]}, note)
+
+
+def _rounded(velocity: list[float]) -> list[float]:
+    return [float(f"{component + 0.0:.9g}") if abs(component) > ASIDE else 0.0 for component in velocity]
+
+
+def _in_time(rows, normal, own: dict, alpha_p: float, dimensions: int) -> Condition | None:
+    """Inlet of a table of times [s] and velocities [m/s]; None where it is more than that: fewer than two rows, times
+    below 0 or that do not rise, an end that is not held, gas that never comes in or leaves at times."""
+    share, note = _open_share("uniformFixedValue", own.get("alpha"), alpha_p)
+    times, inwards = [time for time, _ in rows], [-sum(v * n for v, n in zip(speed, normal)) for _, speed in rows]
+    rising = all(now > before for before, now in pairwise(times))
+    held = own["U"].get("outOfBounds", ["clamp"]) == ["clamp"]
+    if len(rows) < 2 or times[0] < 0.0 or not (rising and held) or min(inwards) < 0.0 or max(inwards) <= ASIDE:
+        return None
+    told = [[time, *_rounded([share * part for part in speed])[:dimensions]] for time, speed in rows]
+    return Condition({"kind": "velocity_inlet", "velocities": told}, note)
 
 
 def _given(files: Files, own: dict, area: float, normal) -> list[float] | None:
     """Velocity (3,) [m/s] that an entry of U gives; None where it is not known."""
     kind = word(own.get("type"))
     if kind in ("fixedValue", "uniformFixedValue", "interstitialInletVelocity", "surfaceNormalFixedValue"):
-        for key in ("inletVelocity", "uniformValue", "value"):
+        for key in ("uniformValue",) if kind == "uniformFixedValue" else ("inletVelocity", "uniformValue", "value"):
             if key in own and (found := vector(own[key])):
                 return found
         along = number(own.get("refValue"))

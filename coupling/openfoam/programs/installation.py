@@ -35,11 +35,13 @@ class Installation:
         return (self.project / "wmake" / "wmake").exists()
 
     def environment(self) -> dict[str, str]:
-        """Environment variables for its programs."""
+        """Environment variables for its programs, less $PWD: OpenFOAM takes no blanks in that, and where it is not
+        set asks the system for the folder that the program was started in (links.py)."""
         if self.bashrc is not None:
             found = dict(_sourced(self.bashrc))
         else:
             found = dict(os.environ) | {"WM_PROJECT_DIR": str(self.project)}
+        found.pop("PWD", None)
         if world.here().number == 1:
             return found
         return {name: value for name, value in found.items() if not OF_RANK.match(name)}

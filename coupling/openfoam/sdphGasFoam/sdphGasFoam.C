@@ -77,6 +77,25 @@ void start(const wire::Message& message, GasSolver& solver, const Exchange& exch
     solver.start(exchange.alpha(message, message.has("alpha_g"), solver.alpha.primitiveField()));
 }
 
+// While it lives the clock stands in the middle of its step, so that what changes linearly in time at a boundary has its
+// mean there: what comes in by a table is the integral of it (sdph/case/inlets.py)
+class Halfway
+{
+    Time& time_;
+    const scalar end_;
+
+public:
+
+    explicit Halfway(Time& time) : time_(time), end_(time.value())
+    {
+        time_.setTime(end_ - 0.5*time_.deltaTValue(), time_.timeIndex());
+    }
+
+    Halfway(const Halfway&) = delete;
+
+    ~Halfway() { time_.setTime(end_, time_.timeIndex()); }
+};
+
 wire::Message advance(const wire::Message& message, GasSolver& solver, const Exchange& exchange, Time& time)
 {
     const scalar dt = message.number("dt");
@@ -94,7 +113,11 @@ wire::Message advance(const wire::Message& message, GasSolver& solver, const Exc
     compat::setDeltaT(time, dt);
     ++time;
     Info<< "Time = " << time.value() << " s, dt = " << dt << " s" << endl;
-    try { solver.advance(alphaEnd); }
+    try
+    {
+        const Halfway halfway(time);
+        solver.advance(alphaEnd);
+    }
     catch (const NotFinite& why) { return Exchange::unfinished(why.what()); }
     const wire::Message state(exchange.state(solver));
     bool fine = state.kind == wire::STATE;

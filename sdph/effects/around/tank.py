@@ -168,7 +168,7 @@ def _refuse_outlet(case, own) -> None:
     if own.shape == "mesh":
         raise CaseError(f"{given}; a mesh has its pipe in its file, closed at the end: give 0 here")
     if case.dimensions == 2 and not box:
-        raise CaseError(f"{given}; in two dimensions a box has an outlet, a disc has none: give 0")
+        raise CaseError(f"{given}; in 2-D a box has an outlet, a disc none, an outline by tank.corners_m alone: give 0")
     if not box and own.outlet_radius >= (own.radius or math.inf):
         raise CaseError(f"{given}; an outlet is narrower than its tank, {own.radius:g} m")
     if own.outlet_radius < 0.5 * case.resolution.spacing:

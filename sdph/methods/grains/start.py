@@ -106,7 +106,7 @@ def meant(case, region) -> float:
         volume, (lower, upper) = regions.closed_form(region, case.dimensions), regions.bounds(region, None, len(low))
         volume *= float(np.prod((high - low) / (upper - lower)))
     else:
-        volume = regions.counted(region, low, high, walls, _deep(case, walls), case.resolution.spacing)
+        volume = regions.counted(region, low, high, walls, deep(case), case.resolution.spacing)
     if math.isnan(volume):  # of a mesh
         volume = regions.volume(region, case.resolution.spacing, case.dimensions, 1)
     return region.volume_fraction * case.of(region.material).density * volume
@@ -117,10 +117,18 @@ def _of_one_width(region, along: int) -> bool:
     return region.shape == "box" or (region.shape == "cylinder" and regions.AXES[along] == region.axis)
 
 
-def _deep(case, walls) -> float:
+def deep(case) -> float:
     """Spacings behind an open mesh within which nothing stands; what is behind walls of the gas's own mesh is in none
     of its cells, however far."""
-    return math.inf if walls is not None and case.parameters["walls"].source == "gas" else LAYERS
+    return math.inf if "walls" in case.effects and case.parameters["walls"].source == "gas" else LAYERS
+
+
+def within_walls(case, places) -> np.ndarray:
+    """(N,) whether places (N, d) [m] lie within a walls.mesh that the gas goes through: none behind the gas's own."""
+    walls = mesh_of_walls(case)
+    if walls is None or deep(case) == math.inf:
+        return np.zeros(len(places), bool)
+    return ~regions.in_front(places, walls, case.resolution.spacing, deep(case), near=0.0)
 
 
 def _off(case, masses) -> list[str]:
@@ -240,12 +248,14 @@ def _reached(case, where: str, region, points, walls, each: float, notices, worl
     spacing, there = case.resolution.spacing, world.sum(len(points))
     points = regions.disordered(points, region.disorder, region.seed, spacing, world.before(len(points)))
     if walls is not None:
-        points = points[regions.in_front(points, walls, spacing, _deep(case, walls))]
+        points = points[regions.in_front(points, walls, spacing, deep(case))]
         if region.shape != "walls" and (left := world.sum(len(points))) < there:
             notices.append(f"{where}: {there - left} of {there} particles would stand in walls and are left out")
     if not world.any(len(points) > 0):
         what = f"none of its {there} places" if there else "no place"
-        raise CaseError(f"{where} holds {what} in front of walls.mesh; look at its normals, or move the region")
+        mesh = "walls.mesh; look at its normals, or move the region"
+        vessel = "the walls of the gas's mesh: it lies outside of that, or behind them; move the region"
+        raise CaseError(f"{where} holds {what} in front of {mesh if deep(case) < math.inf else vessel}")
     if region.height is not None or region.mass is not None:
         gravity = np.array(case.domain.gravity)
         up = -gravity / np.linalg.norm(gravity)

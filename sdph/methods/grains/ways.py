@@ -125,11 +125,14 @@ def enclosed(case) -> bool:
     return any(region.shape == "walls" for region in case.particles.values()) or bool(own and own.mesh)
 
 
-def slowest(case) -> float:
-    """Slowest gas [m/s] of those that are let in, as far as it goes against gravity; 0 where none does."""
+def slowest(case, pick=max) -> float:
+    """Slowest gas [m/s] of those that are let in, as far as it goes against gravity; 0 where none does. Of gas whose
+    velocity changes in time the `pick` of its rows."""
     up = upright(case)
     against = -math.copysign(1.0, case.domain.gravity[up])
-    return max(0.0, min((b.velocity[up] * against for b in case.boundaries.values() if b.lets_in), default=0.0))
+    fed = [b for b in case.boundaries.values() if b.lets_in]
+    given = [[row[1:] for row in b.velocities] if b.velocities else [b.velocity] for b in fed]
+    return max(0.0, min((pick(row[up] * against for row in rows) for rows in given), default=0.0))
 
 
 def belt(case) -> float:
@@ -203,5 +206,5 @@ def towards(s, patch, axis: int, outward: float) -> float:
 def _blows(case, axis: int, outward: float) -> bool:
     """True where gas that is let in may blow grains that way: a stream through a whole side goes straight on, one
     through part of it turns anywhere."""
-    fed = [b for b in case.boundaries.values() if b.lets_in and any(b.velocity)]
-    return any(b.span is not None or b.side is None or outward * b.velocity[axis] > 0.0 for b in fed)
+    fed = [b for b in case.boundaries.values() if b.lets_in and any(b.strongest)]
+    return any(b.span is not None or b.side is None or outward * b.strongest[axis] > 0.0 for b in fed)

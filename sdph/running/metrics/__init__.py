@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from sdph.case.gas_cells import upwards
 from sdph.engine.state import by_material
+from sdph.methods.grains import start
 from sdph.running import sizing
 from sdph.running.metrics import agitation, bubble, bursts, column, jet, segregation
 from sdph.schema import CaseError
@@ -18,9 +19,10 @@ def bed(simulation) -> dict[str, float]:
     """The bubble (sdph.running.metrics.bubble), and the densest particle."""
     mesh, fields, up = simulation.gas.mesh, simulation.cell_fields(), upwards(simulation.case, "bubble")
     cells = (mesh.centres, mesh.volumes / mesh.depth, fields["alpha_p"], fields["temperature"], fields["pressure"])
+    cells += (start.within_walls(simulation.case, mesh.centres[:, : simulation.case.dimensions]).astype(float),)
     if mesh.dimensions == 3:
         cells = bubble.through_depth(simulation.case.domain.size[2], *cells, up=up)
-    row = bubble.metrics(*cells, up)
+    row = bubble.metrics(*cells[:-1], up, cells[-1])
     return row | {"alpha_p_max": float(fractions(simulation.case, simulation.grains.inside).max(initial=0.0))}
 
 

@@ -18,15 +18,16 @@ UP = (0.0, 1.0, 0.0)  # of a bed whose gravity is not told: along y
 SURFACE = 0.3  # alpha_p, mean over the width, at the top of the bed: half of a packed bed's
 
 
-def metrics(centres, volumes, alpha_p, gas_temperature, pressure, up=UP) -> dict[str, float]:
+def metrics(centres, volumes, alpha_p, gas_temperature, pressure, up=UP, walled=0.0) -> dict[str, float]:
     """Keys of one instant; centres (C, 3) [m], volumes (C,) [m3] and fields (C,) of a plane mesh 1 m deep, of any
     cells.
 
-    Heights are over the floor, along `up` (3,); neck_width_m is the least width of the bubble below its widest row;
+    `walled` (C,) is the share of a cell within walls that the gas goes through: that is no bubble. Heights are over the
+    floor, along `up` (3,); neck_width_m is the least width of the bubble below its widest row;
     attached is 1 while it touches the floor.
     """
     rows = CellRows(Mesh(centres, volumes, 2), up)
-    own = largest_void(centres, rows, alpha_p)
+    own = largest_void(centres, rows, alpha_p + walled)
     width = np.bincount(rows.own, own * volumes) / rows.height
     total, profile = float(volumes[own].sum()), rows.mean(pressure)
     return {

@@ -159,7 +159,7 @@ def blown_height(case) -> float:
     Of grains given by mass it is that of as much in a box around their region.
     """
     g = np.array(case.domain.gravity)
-    if "drag" not in case.effects or not any(b.lets_in and g @ b.velocity < 0.0 for b in case.boundaries.values()):
+    if "drag" not in case.effects or not any(b.lets_in and g @ b.strongest < 0.0 for b in case.boundaries.values()):
         return 0.0
     tallest = 0.0
     for region in case.particles.values():

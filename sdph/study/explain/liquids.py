@@ -5,6 +5,8 @@ from __future__ import annotations
 import contextlib
 import math
 
+import numpy as np
+
 from sdph import effects
 from sdph.case import fluids
 from sdph.effects.around import drain, tank
@@ -16,6 +18,14 @@ from sdph.schema import CaseError
 from sdph.study.explain import estimate, feed
 
 WATER = 0.0728  # N/m, of water in air at 20 C (IAPWS R1-76): for the Weber and Bond numbers of a case that gives none
+SAME = 1e-6  # of a spacing: round-off of corners
+PIPES = {  # shape of a tank -> how it gets an outlet pipe; other shapes: PIPE
+    "mesh": "give tank.mesh a pipe at its lowest point, closed at the end, unless it has one",
+    "outline": "draw a pipe into tank.corners_m: a notch down from the floor, closed at the end",
+}
+PIPE = (
+    "give tank.outlet_radius_m and outlet_length_m, or a tank.mesh with a pipe at its lowest point, closed at the end"
+)
 DAMPED = "what damps waves is the program's artificial viscosity, and not the liquid's"
 
 
@@ -129,13 +139,21 @@ def warnings(s) -> list[str]:
             "pressures at the outlet are not those of a drain; let drain.end_s be later, or the outlet wider "
             "(tank.outlet_radius_m)"
         )
-    if "drain" in s.case.effects and not s.case.parameters["tank"].outlet_radius:
+    if "drain" in s.case.effects and not around.outlet_radius and not _ends_in_pipe(s.case, around):
         unsafe.append(
             "a tank without an outlet pipe gives up its lowest particles, wherever on its floor they are: pressures "
-            "and loads meanwhile are not those of a drain; give tank.outlet_radius_m and outlet_length_m, or a "
-            "tank.mesh with a pipe at its lowest point, closed at the end"
+            f"and loads meanwhile are not those of a drain; {PIPES.get(around.shape, PIPE)}"
         )
     return unsafe
+
+
+def _ends_in_pipe(case, around) -> bool:
+    """True of an outline that is level at its lowest, over less than half of its mean width (our choice)."""
+    if around.shape != "outline":
+        return False
+    corners = np.array(around.corners)
+    lowest = corners[corners[:, 1] <= corners[:, 1].min() + SAME * case.resolution.spacing]
+    return 0.0 < np.ptp(lowest[:, 0]) < 0.5 * tank.shape_of(case).volume / np.ptp(corners[:, 1])
 
 
 def _over_floor(s):

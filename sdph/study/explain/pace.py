@@ -256,8 +256,9 @@ def height(case, s) -> float:
 def lifted(case, s) -> float:
     """Share of the weight that gas carries which is let in against gravity: U/U_mf of the slowest inlet, as a jet
     beside it lifts what lies before it only; Ergun's law is all but linear there. Nothing of it for good where gas
-    passes in bubbles: grains that one has left behind come down on each other with all their weight."""
-    return 0.0 if bubbles(case, s) else min(1.0, ways.slowest(case) / s.minimum_fluidisation)
+    passes in bubbles: grains that one has left behind come down on each other with all their weight, as all do where
+    it is shut off."""
+    return 0.0 if bubbles(case, s) else min(1.0, ways.slowest(case, min) / s.minimum_fluidisation)
 
 
 def bubbles(case, s) -> bool:

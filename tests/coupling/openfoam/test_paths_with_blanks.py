@@ -22,10 +22,13 @@ def left() -> set[Path]:
 
 
 @pytest.mark.parametrize("transport", ["socket", "file"])
-def test_a_run_begins_goes_on_and_is_moved_under_any_path(tmp_path, transport):
-    """The run that was stopped, moved from one such path to another and gone on with is the one that was not."""
+def test_a_run_begins_goes_on_and_is_moved_under_any_path(tmp_path, monkeypatch, transport):
+    """The run that was stopped, moved from one such path to another and gone on with is the one that was not; from a
+    working directory of such a name, as a shell tells of it."""
     before, odd, whole = left(), tmp_path / ODD, tmp_path / "whole"
     odd.mkdir()
+    monkeypatch.chdir(odd)
+    monkeypatch.setenv("PWD", str(odd))
     begun = ("run", "disc_cluster", "--gas", "openfoam", "--transport", transport, *FINE)
     sdph(*begun, "--until", 0.001, "--out", odd / "part")
     (odd / "part").rename(odd / "moved here")

@@ -31,6 +31,15 @@ def test_a_round_bubble_is_measured():
     assert found["pressure_drop_Pa"] == pytest.approx(9e3 * (SIZE[1] - CELL))
 
 
+def test_a_block_that_the_gas_goes_through_is_no_bubble():
+    """Nor a part of one: the void beside it is measured."""
+    cells, block = bed((0.25, 0.3), 0.1), bed((0.25, 0.2), 0.06)[2] == 0.0
+    block &= cells[0][:, 1] < 0.6
+    assert bubble.metrics(*bed((0.25, 0.2), 0.06), walled=block * 1.0)["bubble_area_m2"] == 0.0
+    left = bubble.metrics(*cells, walled=block * 1.0)["bubble_area_m2"]
+    assert left == pytest.approx(float(cells[1] @ ((cells[2] == 0.0) & (cells[0][:, 1] < 0.6) & ~block)))
+
+
 def test_the_freeboard_is_no_bubble():
     assert bubble.metrics(*bed((0.25, 0.3), 0.0))["bubble_area_m2"] == 0.0
     assert bubble.metrics(*bed((0.25, 0.6), 0.1))["bubble_area_m2"] == 0.0  # it has burst

@@ -5,6 +5,7 @@ import math
 import pytest
 
 from sdph.case import read as cases
+from sdph.schema import CaseError
 from sdph.study.explain import tables
 
 
@@ -50,6 +51,22 @@ def test_damping_that_is_off_is_not_told_of():
         for row in tables.explain(drained(effects=["gravity", "density_diffusion", "tank", "drain"]))["numbers"]
     }
     assert not any("damping" in name for name in rows)
+
+
+def outline(*below, **more):
+    """A tank as wide as `drained` by corners, with those `below` its floor."""
+    tank = {"shape": "outline", "corners_m": [[0.0, 0.1], *below, [0.5, 0.1], [0.5, 0.6], [0.0, 0.6]]}
+    return drained(tank=tank | more, pools={"water": {"shape": "tank", "fill": 0.5}})
+
+
+def test_a_drain_of_an_outline_is_its_pipe():
+    """Drawn by its corners: the others' keys are not named, and where there is one it is seen."""
+    pipe = ([0.23, 0.1], [0.23, 0.0], [0.27, 0.0], [0.27, 0.1])
+    (line,) = [line for line in tables.warnings(outline()) if "without an outlet pipe" in line]
+    assert "tank.corners_m" in line and "outlet_radius_m" not in line
+    assert not [line for line in tables.warnings(outline(*pipe)) if "outlet pipe" in line]
+    with pytest.raises(CaseError, match="an outline by tank.corners_m alone: give 0"):
+        tables.warnings(outline(outlet_radius_m=0.02, outlet_length_m=0.1))
 
 
 def test_a_full_pipe_is_counted_once():
