@@ -17,7 +17,7 @@ def nearer(p, wall, box, s, found):
     """Mark (N,) the particles that are nearer than contact to a wall that grips; see `grip` of the walls."""
     for i in prange(len(found)):
         found[i] = False
-        for k in range(wall.number[i]):
+        for k in range(wall.before[i], wall.number[i]):
             w = entry(wall, i, k)
             dx, dy, dz = offset(box, wall, w, s, i)
             y = dx * wall.normal_x[w] + dy * wall.normal_y[w] + dz * wall.normal_z[w] - wall.depth[w]

@@ -65,7 +65,8 @@ def beyond_edges(dummies, of_mesh) -> Beyond:
     as_near = np.abs(depth - depths) < SAME * depths
     found[own[there]] = np.column_stack((normal, depth))[there]
     nearer[own] = there & np.where(as_near, normal @ ORDER > normals @ ORDER, depth < depths)
-    blunt[own] = there & (turned[one] >= -EDGE)
+    if not dummies.normal_z.any():  # at a corner of a solid in space three faces meet, and one alone is known here
+        blunt[own] = there & (turned[one] >= -EDGE)
     return Beyond(found, nearer, blunt)
 
 

@@ -179,7 +179,7 @@ class Void(Content):
         """(N,) whether particles are nearer to the void than to the rim: a round one in the rim's middle; in a torn
         shell than to the air."""
         if self.torn:
-            return np.isfinite(self.depth(state)) & self.held
+            return np.isfinite(self.depth(state)) if self.held else np.zeros(len(state.x), bool)
         r = np.hypot(state.x - self.rim[0], state.y - self.rim[1])
         reach = math.sqrt((self.area + float((state.mass / state.density)[particles.wet(state)].sum())) / math.pi)
         return r < 0.5 * (self.radius + reach)

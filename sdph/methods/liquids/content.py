@@ -115,7 +115,7 @@ class Content:
     def let_go(self) -> None:
         """Be one with the air: what is left of the vapour is out."""
         self.vented, self.mass = self.vented + self.mass, 0.0
-        self.held, self.area, self.pressure = False, 0.0, 0.0
+        self.held, self.area, self.pressure, self.width = False, 0.0, 0.0, 0.0
 
     def vent(self, dt: float) -> None:
         """Let vapour out for dt [s] through the way out."""
