@@ -146,9 +146,9 @@ def parted(dummies, of_mesh, spacing, places, wall_rows, i, j):
     if a < 0 and b < 0:
         return False
     if a < 0:
-        a = before(dummies, of_mesh, spacing, places, wall_rows, i)
+        a = nearest_point(dummies, of_mesh, spacing, places, wall_rows, i)
     if b < 0:
-        b = before(dummies, of_mesh, spacing, places, wall_rows, j)
+        b = nearest_point(dummies, of_mesh, spacing, places, wall_rows, j)
     if a < 0 or b < 0:
         return True
     facing = dummies.normal_x[a] * dummies.normal_x[b] + dummies.normal_y[a] * dummies.normal_y[b]
@@ -176,7 +176,7 @@ def crossed(dummies, of_mesh, spacing, places, wall_rows, i, j):
 
 
 @serial
-def before(dummies, of_mesh, spacing, places, wall_rows, i):
+def nearest_point(dummies, of_mesh, spacing, places, wall_rows, i):
     """The nearest surface point, by its dummy, that particle i is in front of; -1: it sees none."""
     x, y, z = places
     found, nearest = -1, math.inf

@@ -88,17 +88,17 @@ class Void(Content):
 
     def open(self, stepper) -> None:
         """Flood, before a window, what a torn shell still holds, and find its way out."""
-        shell, wet = self.carrier, particles.positions(stepper.state)[stepper.active, :2]
+        shell = self.carrier
         if not (shell and shell.torn):
             return
-        self.torn = True
+        self.torn, wet = True, particles.positions(stepper.state)[stepper.active, :2]
         points = np.concatenate([wet, shell.places()[~shell.loose(), :2], shell.links()])
         self._flood(stepper, pores.find(points, self.spacing))
 
     def _flood(self, stepper, grid: pores.Grid) -> None:
         if self.held:
             self.look(grid)
-            Content.flood(self)
+            self.flood()
 
     def _outside(self, stepper) -> np.ndarray:
         """(N,) [Pa] that is taken off pairs of particles."""
