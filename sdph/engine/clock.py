@@ -9,6 +9,7 @@ import numpy as np
 SAME = 1e-9  # of the longest time between outputs: moments nearer to each other differ by round-off only; our choice
 # of a multiple of an interval: 12 x 0.05 is 0.6 then, as whoever wrote the end time meant it; a float holds as many
 DIGITS = 15
+SAMPLES = 10  # rows of history.csv for each output of fields, where a liquid or solid says nothing; our choice
 WHOLE = 1.0 - 1e-9  # of a limit: a part that is longer than it by round-off is allowed
 
 
@@ -44,6 +45,11 @@ class Clock:
         parts = count_of_parts(landmark - time, longest, self.shortest, cause)
         return landmark if parts == 1 else time + (landmark - time) / parts
 
+    def parts(self, longest: float, end: float) -> int:
+        """Number of all parts, no longer than `longest` [s], from the start to an `end` [s]."""
+        gaps = np.diff([0.0, *self.landmarks[self.landmarks < end - self.shortest], end])
+        return sum(count_of_parts(gap, longest, 0.0, "the step") for gap in gaps)
+
     def over(self, time: float) -> bool:
         """Tell whether the end is reached."""
         return time > self.end - self.shortest
@@ -58,6 +64,12 @@ class Clock:
 
     def _among(self, moments: np.ndarray, time: float) -> bool:
         return bool(np.abs(moments - time).min() <= self.shortest)
+
+
+def alone(case) -> Clock:
+    """The clock of a case without a gas, which stops at each row of its history."""
+    rows = getattr(case, case.matters[0]).history_interval
+    return Clock(case.run, rows or case.run.output_interval / SAMPLES)
 
 
 def count_of_parts(length: float, longest: float, shortest: float, cause: str) -> int:

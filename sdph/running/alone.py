@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from sdph.engine.clock import Clock
+from sdph.engine import clock
 from sdph.engine.kept import Unfit
 from sdph.engine.world import here
 from sdph.methods.liquids.liquid import Liquid
@@ -13,7 +13,6 @@ from sdph.methods.solids.solid import Solids
 from sdph.running import compiling, forces, history
 from sdph.running.limiters import Limiters
 
-SAMPLES = 10  # rows of history.csv for each output of fields, where the case says nothing
 STRIDE = 20  # steps in a window at most: one that goes unstable is caught within these (our choice)
 
 
@@ -29,8 +28,7 @@ class Alone:
     def __init__(self, case, ledger: Path | None):
         self.case = case
         self.matter = case.matters[0]
-        interval = getattr(case, self.matter).history_interval
-        self.clock = Clock(case.run, interval or case.run.output_interval / SAMPLES)
+        self.clock = clock.alone(case)
         self.method = self._make(ledger)
         self.limiters = Limiters()
         self.limiters.hear(self.method.held())

@@ -70,6 +70,21 @@ def test_what_leaves_is_what_is_commanded(form):
     assert np.isfinite(own.stepper.state.density).all()
 
 
+@pytest.mark.parametrize("form", ["debt", "paper"])
+def test_a_command_of_many_takes_the_lowest_with_forces_made_anew_once(form):
+    own, made = tank(form), []
+    stepper, particle = own.stepper, own.outlet.particle
+    own.advance(0.01, -GRAVITY, fill=0.5)
+    forces, s = stepper.forces, stepper.state
+    stepper.forces = lambda: made.append(1) or forces()
+    order = np.argsort(s.z[stepper.active], kind="stable")
+    lowest = s.ident[stepper.active][order]
+    own.outlet.command(0.5 - 7.4 * particle / stepper.capacity)
+    liquid = stepper.state.ident[stepper.state.kind == LIQUID]
+    assert not np.isin(lowest[:7], liquid).any() and np.isin(lowest[7:], liquid).all() and len(made) == 1
+    assert own.outlet.gone[0] == pytest.approx((7.0 if form == "paper" else 7.4) * particle, rel=1e-12)
+
+
 def test_a_tank_drains_to_the_last_particle():
     """It held 26 particles for a fill of 26.2: the command ends where the liquid does."""
     shape = {"shape": "sphere", "centre_m": [0.0, 0.0, 0.0], "radius_m": 0.5}

@@ -77,7 +77,7 @@ def surface(case, boundary) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndar
     own, d = boundary.dummies, case.dimensions
     places, steps = np.stack(own[:3], axis=1), np.array(lattice(case)[1])
     mesh = np.flatnonzero(boundary.area > 0.0)
-    feet = boundary.feet(case)[mesh]
+    feet = boundary.feet[mesh]
     parts = [(np.column_stack((feet, np.stack(own[3:6], axis=1)[mesh], boundary.area[mesh])), mesh, 0, True)]
     low, high = np.array(case.domain.corner), np.array(case.domain.upper)
     depth = np.stack((low - places[:, :d], places[:, :d] - high))  # (end, W, d)

@@ -228,16 +228,14 @@ def spread(corners: np.ndarray, spacing: float) -> tuple[np.ndarray, np.ndarray,
         points = corners[own, 0] + share[:, None] * (corners[own, 1] - corners[own, 0])
         return points, normals(corners)[own], order[own]
     places, facing, own = _strewn(corners, ends, size, SAMPLES * count)
-    points, normal, nearest = _evened(places, facing, count, spacing)
+    points, normal, nearest = _evened(places, facing, spacing)
     return points, normal, own[nearest]
 
 
 def chained(corners: np.ndarray) -> np.ndarray:
     """Order (F,) of the facets (F, 2, 2) of a plane wall: each begins where the one before ends, where one does. In any
     other points of neighbours may be two facets apart, and grains slip through."""
-    ends = corners.reshape(-1, 2)
-    near = SAME * np.ptp(ends, axis=0).max()
-    point = np.unique(np.round(ends / near), axis=0, return_inverse=True)[1].reshape(-1, 2)
+    point = numbered(corners)
     follower = dict(zip(point[:, 0].tolist(), range(len(point))))  # of a point: the facet that begins there
     first = np.flatnonzero(~np.isin(point[:, 0], point[:, 1]))
     order: dict[int, None] = {}
@@ -249,30 +247,48 @@ def chained(corners: np.ndarray) -> np.ndarray:
     return np.array(list(order))
 
 
+def numbered(corners: np.ndarray) -> np.ndarray:
+    """Numbers (F, d) of the points that corners of facets (F, d, d) are: those so near that they are one have one."""
+    ends = corners.reshape(-1, corners.shape[2])
+    near = SAME * np.ptp(ends, axis=0).max()
+    return np.unique(np.round(ends / near), axis=0, return_inverse=True)[1].reshape(corners.shape[:2])
+
+
 def _strewn(corners, ends, size, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Places (N, 3) that lie on triangles in proportion to their areas, `ends` their sums, the normals there, and on
     which triangle each is."""
     own = np.minimum(np.searchsorted(ends, (np.arange(count) + 0.5) * (ends[-1] / count), side="right"), len(size) - 1)
-    a, b = np.modf(np.arange(1, count + 1)[:, None] * EVEN)[0].T
+    a, b = np.modf((passes(count)[:, None] + 1) * EVEN)[0].T
     a, b = np.where(a + b > 1.0, (1.0 - a, 1.0 - b), (a, b))
     edges = corners[own, 1:] - corners[own, :1]
     return corners[own, 0] + a[:, None] * edges[:, 0] + b[:, None] * edges[:, 1], normals(corners)[own], own
 
 
-def _evened(places, facing, count: int, spacing: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Points (P, 3) of `count` parts of a surface that are alike in area, their normals, and the nearest sample.
+def passes(count: int) -> np.ndarray:
+    """Order (count,) in which samples take the members of an even sequence: each SAMPLES-th, where parts begin, takes
+    those that follow each other, so that parts begin evenly too."""
+    number = np.arange(count)
+    return number // SAMPLES + number % SAMPLES * -(-count // SAMPLES)
 
-    The parts are those of the samples that are nearest to each point, which moves to their middle (Lloyd 1982, IEEE
-    Trans. Inf. Theory 28, 129). Normals count as lengths, so that no part goes round an edge or through a plate.
-    """
-    samples = np.hstack((places, spacing * facing))
+
+def _evened(places, facing, spacing: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Points (P, 3) of parts of a surface that are alike in area, their normals, and the nearest sample.
+    Normals count as lengths, so that no part goes round an edge or through a plate."""
+    points, nearest = middles(np.hstack((places, spacing * facing)))
+    normal = facing[nearest]
+    off = np.einsum("ij,ij->i", points[:, :3] - places[nearest], normal)
+    return points[:, :3] - off[:, None] * normal, normal, nearest
+
+
+def middles(samples: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Middles (P, k) of parts that are alike in size, SAMPLES of them each, of what samples (N, k) fill evenly, and the
+    sample that is nearest to each middle. The parts are those of the samples that are nearest to each point, which
+    moves to their middle (Lloyd 1982, IEEE Trans. Inf. Theory 28, 129)."""
     points = samples[SAMPLES // 2 :: SAMPLES].copy()
+    count = len(points)
     for _ in range(ROUNDS):
         own = scipy.spatial.cKDTree(points).query(samples)[1]
         number = np.bincount(own, minlength=count)
         sums = np.stack([np.bincount(own, column, minlength=count) for column in samples.T], axis=1)
         points = np.where(number[:, None] > 0, sums / np.maximum(number, 1)[:, None], points)
-    nearest = scipy.spatial.cKDTree(samples).query(points)[1]
-    normal = facing[nearest]
-    off = np.einsum("ij,ij->i", points[:, :3] - places[nearest], normal)
-    return points[:, :3] - off[:, None] * normal, normal, nearest
+    return points, scipy.spatial.cKDTree(samples).query(points)[1]

@@ -37,37 +37,41 @@ def height(dummies, w, x, y, z):
 
 
 class Beyond(NamedTuple):
-    """The facet beyond an edge that a dummy of a mesh is behind too: normal, and depth [m] behind it (W, 4), 0 where
-    there is none; whether the dummy is nearer to it than to its own (W,), and whether the edge is blunt (W,): a facet
-    that is turned against its own is the other face of a thin wall."""
+    """Facets beyond the edges of a mesh. Of a dummy behind a facet that beyond an edge which it is behind too:
+    normal, and depth [m] behind it (W, 4), 0 where there is none; whether the dummy is nearer to it than to its own
+    (W,), and whether the edge is blunt (W,): a facet that is turned against its own is the other face of a thin wall.
+    Whether it stands in a corner instead (W,), its nearest place of the surface (W, 3) [m], and the normals (W, 3, 3)
+    of the facets that meet there."""
 
     facet: np.ndarray
     nearer: np.ndarray
     blunt: np.ndarray
+    corner: np.ndarray
+    feet: np.ndarray
+    facing: np.ndarray
 
 
-def beyond_edges(dummies, of_mesh) -> Beyond:
-    """Facets beyond edges of all dummies. Of two that are as near, one owns the dummies of both."""
+def beyond(dummies, first, of_mesh, feet, facing) -> Beyond:
+    """The same of all dummies, `first` (W,) those of a mesh's first layer, `feet` and `facing` as in Beyond. Of two
+    facets that are as near, one owns the dummies of both."""
     found, count = np.zeros((len(dummies.x), 4)), len(dummies.x)
-    nearer, blunt = np.zeros(count, bool), np.zeros(count, bool)
-    own = np.flatnonzero(of_mesh)
+    nearer, blunt, corner = np.zeros(count, bool), np.zeros(count, bool), facing.any(axis=(1, 2))
+    own = np.flatnonzero(of_mesh & ~corner)
     places = np.stack((dummies.x, dummies.y, dummies.z), axis=1)[own]
-    normals = np.stack((dummies.normal_x, dummies.normal_y, dummies.normal_z), axis=1)[own]
-    depths = dummies.depth[own]
-    first = depths <= depths.min(initial=np.inf) * (1.0 + SAME)
-    feet = places[first] + depths[first, None] * normals[first]
-    nearest = scipy.spatial.cKDTree(feet).query(places, range(1, min(FEET, len(feet)) + 1))[1]
-    depth = np.einsum("ijk,ijk->ij", feet[nearest] - places[:, None], normals[first][nearest])
-    turned = np.einsum("ijk,ik->ij", normals[first][nearest], normals)
-    beyond = (turned < EDGE) & (depth > 0.0)
-    one = np.arange(len(own)), beyond.argmax(axis=1)
-    normal, depth, there = normals[first][nearest][one], depth[one], beyond[one]
+    every = np.stack((dummies.normal_x, dummies.normal_y, dummies.normal_z), axis=1)
+    normals, depths, ahead = every[own], dummies.depth[own], every[first]
+    nearest = scipy.spatial.cKDTree(feet[first]).query(places, range(1, min(FEET, first.sum()) + 1))[1]
+    depth = np.einsum("ijk,ijk->ij", feet[first][nearest] - places[:, None], ahead[nearest])
+    turned = np.einsum("ijk,ik->ij", ahead[nearest], normals)
+    there = (turned < EDGE) & (depth > 0.0)
+    one = np.arange(len(own)), there.argmax(axis=1)
+    normal, depth, there = ahead[nearest][one], depth[one], there[one]
     as_near = np.abs(depth - depths) < SAME * depths
     found[own[there]] = np.column_stack((normal, depth))[there]
     nearer[own] = there & np.where(as_near, normal @ ORDER > normals @ ORDER, depth < depths)
     if not dummies.normal_z.any():  # at a corner of a solid in space three faces meet, and one alone is known here
         blunt[own] = there & (turned[one] >= -EDGE)
-    return Beyond(found, nearer, blunt)
+    return Beyond(found, nearer, blunt, corner, feet, facing)
 
 
 @serial
@@ -78,9 +82,23 @@ def over(dummies, facet, w, x, y, z):
 
 
 @serial
+def within(beyond, w, x, y, z):
+    """True where a place is in front of all facets that meet at the corner where dummy w stands."""
+    dx, dy, dz = x - beyond.feet[w, 0], y - beyond.feet[w, 1], z - beyond.feet[w, 2]
+    facing = beyond.facing[w]
+    return ahead(facing[0], dx, dy, dz) and ahead(facing[1], dx, dy, dz) and ahead(facing[2], dx, dy, dz)
+
+
+@serial
+def ahead(normal, dx, dy, dz):
+    """True where a way goes to the side of a normal."""
+    return dx * normal[0] + dy * normal[1] + dz * normal[2] > 0.0
+
+
+@serial
 def keep_in_front(dummies, of_mesh, beyond, places, rows):
-    """Take the dummies of a mesh out of the rows of particles that stand behind its surface, but for those of a solid
-    whose other face, beyond a blunt edge, they are in front of."""
+    """Take the dummies of a mesh out of the rows of particles that stand behind its surface, or not in the corner where
+    they stand, but for those of a solid whose other face, beyond a blunt edge, the particles are in front of."""
     x, y, z = places
     for i in range(len(x)):
         kept = 0
@@ -88,6 +106,7 @@ def keep_in_front(dummies, of_mesh, beyond, places, rows):
             w = entry(rows, i, k)
             if (
                 not of_mesh[w]
+                or (beyond.corner[w] and within(beyond, w, x[i], y[i], z[i]))
                 or height(dummies, w, x[i], y[i], z[i]) > 0.0
                 or (beyond.blunt[w] and not beyond.nearer[w] and over(dummies, beyond.facet, w, x[i], y[i], z[i]) > 0.0)
             ):
@@ -98,9 +117,10 @@ def keep_in_front(dummies, of_mesh, beyond, places, rows):
 
 @serial
 def count_once(dummies, of_mesh, beyond, places, rows):
-    """Order rows: first dummies that particles see round a blunt edge, then those in front of whose face they are, and
-    behind the end those of the latter that are nearer to another face, whose own dummies stand there. So sums count
-    what lies behind an edge once, by the same dummies from both sides of it, and contact asks for the last two.
+    """Order rows: first dummies in corners and those that particles see round a blunt edge, then those in front of
+    whose face they are, and behind the end those of the latter that are nearer to another face, whose own dummies stand
+    there. So sums count what lies behind an edge once, by the same dummies from both sides of it, and contact asks for
+    the last two.
     Returns how many each row has before those in front, and how many all are (N,)."""
     x, y, z = places
     before, every = np.zeros(len(x), rows.number.dtype), rows.number.copy()

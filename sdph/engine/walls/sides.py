@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import itertools
+from typing import NamedTuple
 
 import numpy as np
 
 from sdph.engine.geometry import SIDES
 from sdph.engine.neighbours import Neighbours
 from sdph.engine.rows import Rows
+from sdph.engine.walls import corners as corners_of_mesh
 from sdph.engine.walls import facets, parts
 from sdph.engine.walls import mesh as sides
 from sdph.engine.walls.dummies import BESIDE, Dummies, Wall, plain, seen, turned
@@ -27,12 +29,15 @@ class Boundary:
         own = case.resolution.neighbour_skin
         skin = max(own, BESIDE - 1.0 + 0.5 * own)  # who is beside a wall is listed, until particles' rows are made anew
         self.search = Neighbours(SUPPORT * case.smoothing_length, case.domain.period, skin)
-        table, self.spacing = dummies(case), case.resolution.spacing
-        order = self.search.sort(tuple(np.ascontiguousarray(column) for column in table[:, : case.dimensions].T))
-        self.dummies = Dummies(*(np.ascontiguousarray(column) for column in table[order, :-2].T))
-        self.area, self.whose = table[order, -2], table[order, -1].astype(int)
+        placed, self.spacing = dummies(case), case.resolution.spacing
+        places = placed.table[:, : case.dimensions].T
+        order = self.search.sort(tuple(np.ascontiguousarray(column) for column in places))
+        table, self.area, self.whose, self.feet, facing = (own[order] for own in placed)
+        self.dummies = Dummies(*(np.ascontiguousarray(column) for column in table.T))
         self.of_mesh = self.whose > 0
-        self.beyond = sides.beyond_edges(self.dummies, self.of_mesh) if self.of_mesh.any() else None
+        self.beyond = (
+            sides.beyond(self.dummies, self.area > 0.0, self.of_mesh, self.feet, facing) if self.of_mesh.any() else None
+        )
 
     def rows(self, state_axes):
         """Dummies near each particle; valid as long as the particles' own rows."""
@@ -77,21 +82,13 @@ class Boundary:
         """The share (W, 3) of a box: of a corner what the sides have whose surface beside it lies in the box."""
         room = WIDER * self.spacing
         low, high = np.array(case.domain.corner), np.array(case.domain.upper)
-        whole = (parts.within(part, self.feet(case)[:, : case.dimensions], room) & self.of_mesh)[:, None] * np.ones(3)
+        whole = (parts.within(part, self.feet[:, : case.dimensions], room) & self.of_mesh)[:, None] * np.ones(3)
         for side, share in of_box.items():
             axis, end = SIDES[side]
             beside = np.clip(points, low + 0.5 * self.spacing, high - 0.5 * self.spacing)
             beside[:, axis] = (low, high)[end][axis]
             whole += share * parts.within(part, beside, room)[:, None]
         return whole
-
-    def feet(self, case) -> np.ndarray:
-        """(W, 3) [m] of the surface in front of each dummy: what presses it acts there."""
-        own, d = self.dummies, case.dimensions
-        places, normals = np.stack(own[:3], axis=1), np.stack(own[3:6], axis=1)
-        of_box = places.copy()
-        of_box[:, :d] = np.clip(places[:, :d], case.domain.corner, case.domain.upper)  # corners have no normal
-        return np.where(self.of_mesh[:, None], places + own.depth[:, None] * normals, of_box)
 
 
 def names(case) -> list[str]:
@@ -116,20 +113,33 @@ def _axes(dummies: Dummies, dimensions: int):
     return (dummies.x, dummies.y, dummies.z)[:dimensions]
 
 
-def dummies(case) -> np.ndarray:
-    """(W, 13) columns of `Dummies` of all dummies of a case; area [m^(d-1)] of a mesh in front, of its first layer;
-    0 for those of the domain's sides, 1 for those of a mesh, OWNED and more for those of a boundary's patch."""
-    own, d = case.parameters["walls"], case.dimensions
-    found = [] if _vessel(own) else [np.pad(_box(case), ((0, 0), (0, 1)))]
+class Placed(NamedTuple):
+    """Dummies of a case: columns (W, 11) of `Dummies`; area (W,) [m^(d-1)] of a mesh in front, of its first layer, else
+    0; whose (W,) they are: 0 of the domain's sides, 1 of a mesh, OWNED and more of a boundary's patch; place (W, 3) [m]
+    of the surface in front, where what presses them acts; and of those in a corner of a mesh the normals (W, 3, 3) of
+    the facets that meet there, else 0."""
+
+    table: np.ndarray
+    area: np.ndarray
+    whose: np.ndarray
+    feet: np.ndarray
+    facing: np.ndarray
+
+
+def dummies(case) -> Placed:
+    """All dummies of a case."""
+    own = case.parameters["walls"]
+    found = [] if _vessel(own) else [_box(case)]
     if own.mesh:
-        corners, slip, _, owner = facets.walls(own.mesh, d, own.mesh_scale)
+        corners, slip, _, owner = facets.walls(own.mesh, case.dimensions, own.mesh_scale)
         whose = OWNED + owner if _vessel(own) else np.full(len(slip), 1)
         found += [
             _behind_facets(corners[slip == slips], whose[slip == slips], case, slips)
             for slips in (False, True)
             if (slip == slips).any()
         ]
-    return np.concatenate(found)
+        found.append(_beyond_facets(corners, whose, slip, case))
+    return Placed(*(np.concatenate(own) for own in zip(*found)))
 
 
 def lattice(case) -> tuple[list[int], list[float]]:
@@ -138,7 +148,7 @@ def lattice(case) -> tuple[list[int], list[float]]:
     return counts, [length / n for length, n in zip(case.domain.size, counts)]
 
 
-def _box(case) -> np.ndarray:
+def _box(case) -> Placed:
     """Lattice points outside the box that lie behind a closed side, at most LAYERS deep."""
     d = case.dimensions
     counts, steps = lattice(case)
@@ -152,8 +162,8 @@ def _box(case) -> np.ndarray:
         -1, d, 2
     )
     keep = outside.any(axis=(1, 2)) & (~outside | closed).all(axis=(1, 2))
-    table = np.zeros((int(keep.sum()), len(Dummies._fields) + 1))  # the area is that of faces (sdph.engine.walls.faces)
-    table[:, :d] = points[keep]
+    table, feet = np.zeros((int(keep.sum()), len(Dummies._fields))), np.zeros((int(keep.sum()), 3))
+    table[:, :d], feet[:, :d] = points[keep], np.clip(points[keep], low, high)
     single = outside[keep].sum(axis=(1, 2)) == 1
     table[:, 3 : 3 + d] = np.where(single[:, None], outside[keep, :, 0] * 1.0 - outside[keep, :, 1] * 1.0, 0.0)
     table[:, 6] = depth[keep].max(axis=1)
@@ -166,7 +176,8 @@ def _box(case) -> np.ndarray:
             if boundary.kind == "wall" and boundary.side == side and boundary.velocity:
                 slides = behind & (_owners(case, points, side) == number)
                 table[slides[keep] & single, 8 : 8 + d] = boundary.velocity[:d]  # corners are at rest
-    return table
+    none = np.zeros(len(table))  # the area is that of faces (sdph.engine.walls.faces)
+    return Placed(table, none, none.astype(int), feet, np.zeros((len(table), 3, 3)))
 
 
 def _closed(case, points, side: str) -> np.ndarray:
@@ -203,19 +214,39 @@ def _within(points, axis: int, span) -> np.ndarray:
     )
 
 
-def _behind_facets(corners: np.ndarray, whose: np.ndarray, case, slips: bool) -> np.ndarray:
+def _behind_facets(corners: np.ndarray, whose: np.ndarray, case, slips: bool) -> Placed:
     """Dummies in LAYERS behind facets (F, d, d) [m], which let grains slip or not, and whose (F,) each is."""
-    spacing, d = case.resolution.spacing, case.dimensions
+    spacing = case.resolution.spacing
     points, normals, facet = facets.spread(corners, spacing)
     depth = (np.repeat(np.arange(LAYERS), len(points)) + 0.5) * spacing
-    normal = np.tile(normals, (LAYERS, 1))
-    table = np.zeros((len(depth), len(Dummies._fields) + 2))
-    table[: len(points), -2] = facets.sizes(corners).sum() / len(points)
-    table[:, -1] = np.tile(whose[facet], LAYERS)
-    table[:, :d] = np.tile(points, (LAYERS, 1)) - depth[:, None] * normal
-    table[:, 3 : 3 + d], table[:, 6], table[:, 7] = normal, depth, 0.0 if slips else 1.0
+    feet, normal, owner = np.tile(points, (LAYERS, 1)), np.tile(normals, (LAYERS, 1)), np.tile(whose[facet], LAYERS)
+    found = _placed(feet - depth[:, None] * normal, normal, depth, not slips, owner, feet)
+    found.area[: len(points)] = facets.sizes(corners).sum() / len(points)
     for number, boundary in enumerate(case.boundaries.values()):
         if boundary.kind == "wall" and boundary.velocity:  # it slides along each of its facets
-            own, velocity = table[:, -1] == OWNED + number, np.array(boundary.velocity[:d])
-            table[own, 8 : 8 + d] = velocity - (normal[own] @ velocity)[:, None] * normal[own]
-    return table
+            own, velocity = owner == OWNED + number, np.array(boundary.velocity[: case.dimensions])
+            along = velocity - (normal[own] @ velocity)[:, None] * normal[own]
+            found.table[own, 8 : 8 + case.dimensions] = along
+    return found
+
+
+def _beyond_facets(corners: np.ndarray, whose: np.ndarray, slip: np.ndarray, case) -> Placed:
+    """Dummies beyond edges and corners of facets: with a normal, that to the surface, where facets go on almost as one,
+    and without in a corner, as those of a box."""
+    spacing = case.resolution.spacing
+    places, feet, of = corners_of_mesh.spread(corners, spacing, LAYERS * spacing)
+    facing = np.zeros((len(of), 3, 3))
+    facing[:, :, : case.dimensions] = facets.normals(corners)[of]
+    sharp = np.einsum("ijk,ilk->ijl", facing, facing).min(axis=(1, 2)) < sides.EDGE
+    depth = np.linalg.norm(feet - places, axis=1)
+    normal = np.where(sharp[:, None], 0.0, (feet - places) / depth[:, None])
+    found = _placed(places, normal, depth, ~slip[of].all(axis=1), whose[of[:, 0]], feet)
+    return found._replace(facing=np.where(sharp[:, None, None], facing, 0.0))
+
+
+def _placed(places, normal, depth, grips, owner, feet) -> Placed:
+    """Dummies of a mesh at rest, in the dimensions of the case."""
+    d, count = places.shape[1], len(places)
+    table, own = np.zeros((count, len(Dummies._fields))), np.zeros((count, 3))
+    table[:, :d], table[:, 3 : 3 + d], table[:, 6], table[:, 7], own[:, :d] = places, normal, depth, grips, feet
+    return Placed(table, np.zeros(count), owner, own, np.zeros((count, 3, 3)))

@@ -33,7 +33,7 @@ class Windowed:
         if not self.parts:
             return np.zeros((0, 3, 3))
         felt, shares = self.world.sum(self.account.felt[0]), np.array(list(self.parts.values()))
-        feet = self.boundary.feet(self.case)
+        feet = self.boundary.feet
         return parts.gathered(feet, shares * felt[:, :3], feet, shares * felt[:, 3:])
 
     def release(self) -> tuple[np.ndarray, np.ndarray]:

@@ -71,46 +71,61 @@ class Outlet:
         if self.form == "paper":
             owed = self.particle * np.floor(owed / self.particle + 0.5)
         # a tank of whole particles may hold half a one less
-        while owed > ROUND_OFF * self.particle and (lowest := self._lowest()) is not None:
-            owed -= self._take(lowest, owed)
+        while owed > ROUND_OFF * self.particle and (lowest := self._lowest(owed)):
+            left = owed - np.cumsum([one.mass for one in lowest])
+            whole = lowest[: np.count_nonzero(left >= -ROUND_OFF * self.particle)]
+            if not whole:
+                self._take_from(lowest[0], owed)
+                break
+            self._take(whole)
+            owed = left[len(whole) - 1]
 
-    def _lowest(self) -> Lowest | None:
-        """The lowest particle, which one process has; None where there is none."""
+    def _lowest(self, owed: float) -> list[Lowest]:
+        """The lowest particles, from the bottom up, until they hold a mass `owed` [kg], wherever they are."""
         st, s = self.stepper, self.stepper.state
-        heights, found = particles.axes(s)[-1][st.active], None
-        if len(heights):
-            i = st.active[np.argmin(heights)]
-            energy = float(sum(specific_energies(st, [i]))[0])
-            moves = particles.positions(s)[i], particles.velocities(s)[i], st.acceleration[i].copy()
-            found = Lowest(float(heights.min()), int(s.ident[i]), float(s.mass[i]), energy, *moves)
-        return min((one for one in st.world.everywhere(found) if one), key=lambda one: one[:2], default=None)
+        heights = particles.axes(s)[-1][st.active]
+        order = np.argsort(heights, kind="stable")
+        own = st.active[order[: 1 + np.searchsorted(np.cumsum(s.mass[st.active][order]), owed)]]
+        rows = zip(
+            particles.axes(s)[-1][own].tolist(), s.ident[own].tolist(), s.mass[own].tolist(),
+            sum(specific_energies(st, own)).tolist(), particles.positions(s)[own], particles.velocities(s)[own],
+            st.acceleration[own].copy(),
+        )  # fmt: skip
+        found = sorted(
+            (one for part in st.world.everywhere([Lowest(*row) for row in rows]) for one in part),
+            key=lambda one: one[:2],
+        )
+        return found[: 1 + int(np.searchsorted(np.cumsum([one.mass for one in found]), owed))]
 
-    def _take(self, lowest: Lowest, owed: float) -> float:
-        """Mass [kg] taken out of the lowest particle, `owed` at most."""
-        taken, st = min(owed, lowest.mass), self.stepper
+    def _take(self, whole: list[Lowest]) -> None:
+        """Takes particles out, all that they are; neighbours and forces are made anew once for all of them."""
+        for one in whole:
+            self._count(one, one.mass)
+        if self.form == "paper":
+            self._release(whole)
+        else:
+            self._remove(self._rows([one.ident for one in whole]))
+
+    def _take_from(self, lowest: Lowest, owed: float) -> None:
+        """Takes a mass [kg] out of a particle that has more."""
+        self._count(lowest, owed)
+        self.stepper.state.mass[self._rows([lowest.ident])] -= owed
+        self.pushed = self.pushed + owed * lowest.acceleration
+
+    def _count(self, lowest: Lowest, taken: float) -> None:
         self.place, moment = lowest.place, np.cross(lowest.place, lowest.velocity)
         self.gone += taken * np.concatenate(([1.0], lowest.velocity, moment, [lowest.energy]))
-        if lowest.mass - taken > ROUND_OFF * self.particle:
-            st.state.mass[self._rows(lowest.ident)] -= taken
-            self.pushed = self.pushed + taken * lowest.acceleration
-            return taken
-        if self.form == "paper":
-            self._release(lowest)
-        else:
-            self._remove(self._rows(lowest.ident))
-        self.pushed = np.zeros(3)
-        return taken
 
-    def _rows(self, ident: int) -> np.ndarray:
-        """Row of a particle, or of its copy; none in processes that have neither."""
-        return np.flatnonzero(self.stepper.state.ident == ident)
+    def _rows(self, idents) -> np.ndarray:
+        """Rows of particles, or of their copies; none in processes that have neither."""
+        return np.flatnonzero(np.isin(self.stepper.state.ident, idents))
 
-    def _release(self, lowest: Lowest) -> None:
-        """The lowest particle goes out as a piece of wall, whose push fades."""
-        way = lowest.height - self.end
-        self.leaving = np.vstack((self.leaving, (lowest.ident, way, self.stepper.time, lowest.mass)))
+    def _release(self, whole: list[Lowest]) -> None:
+        """Particles go out as pieces of wall, whose push fades."""
+        gone = [(one.ident, one.height - self.end, self.stepper.time, one.mass) for one in whole]
+        self.leaving = np.vstack((self.leaving, gone))
         kind = self.stepper.state.kind.copy()
-        kind[self._rows(lowest.ident)] = WALL
+        kind[self._rows([one.ident for one in whole])] = WALL
         self.stepper.replace(self.stepper.state._replace(kind=kind))
         self.stepper.forces()
 
@@ -118,14 +133,14 @@ class Outlet:
         """Moves what leaves to the outlet's end at an even speed; its volume goes with xi of what is left of the
         way."""
         st = self.stepper
-        for row in self.leaving:
-            number, way, begun, mass = row
-            rows, left = self._rows(int(number)), 1.0 - (st.time - begun) / self.interval
-            if left <= 0.0 or way <= 0.0:
-                self._remove(rows)
-                self.leaving = self.leaving[self.leaving[:, 0] != number]
-                continue
-            particles.axes(st.state)[-1][rows], st.state.mass[rows] = self.end + left * way, mass * fading(left)
+        left = 1.0 - (st.time - self.leaving[:, 2]) / self.interval if len(self.leaving) else np.zeros(0)
+        done = (left <= 0.0) | (self.leaving[:, 1] <= 0.0)
+        if done.any():
+            self._remove(self._rows(self.leaving[done, 0]))
+            self.leaving, left = self.leaving[~done], left[~done]
+        for (number, way, _, mass), share in zip(self.leaving, left):
+            rows = self._rows([number])
+            particles.axes(st.state)[-1][rows], st.state.mass[rows] = self.end + share * way, mass * fading(share)
             st.volume[rows] = -st.state.mass[rows] / st.state.density[rows]
 
     def _remove(self, rows) -> None:

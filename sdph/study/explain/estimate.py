@@ -15,6 +15,7 @@ from sdph.case.judge import scales_of
 from sdph.effects.gas.drag import filter_width
 from sdph.engine import device as environment
 from sdph.engine import state as particles
+from sdph.engine.clock import Clock, alone
 from sdph.exchange.window import ANSWER, opening
 from sdph.laws import kernels
 from sdph.methods.grains import start, ways
@@ -212,7 +213,7 @@ def _windows(case, s) -> list[tuple]:
         for name, limit in asked.items()
         if limit < math.inf
     ]
-    if thick := pace.thickening(case, s):
+    if thick := pace.thickening(case):
         for cause, left in ((thick.cause, 1.0), (f"{thick.cause}, later", thick.steady)):
             rows.append(("window", cause, thick.limit(left), THICKENING))
     if fed := feed.of(case, s):
@@ -252,8 +253,8 @@ def expected(case, s, priced: Priced | None = None) -> list[dict]:
     in_space = IN_SPACE if case.dimensions == 3 else 1.0
     priced = priced or Priced("embedded gas", math.prod(gas_cells.cells(case)), own.window, own.cell * in_space)
     start, cells = len(_state(case).x), priced.cells
-    end = start + _incoming(case)
-    count = (start + end) // 2
+    most, mean = feed.incoming(case)
+    end, count = start + most, start + mean
     windows, steps = pace.expected(case, s, _state(case))
     particle = 1e-6 * count * steps * (own.moving if effects.moving(case) else own.resting)
     particle *= in_space
@@ -272,12 +273,10 @@ def expected(case, s, priced: Priced | None = None) -> list[dict]:
     ]  # fmt: skip
 
 
-def _incoming(case) -> int:
-    """Particles that the nozzles bring until the end."""
-    coming = 0.0
-    for nozzle in case.nozzles.values():
-        coming += feed.layer(case, nozzle) * nozzle.speed * feed.lasting(case, nozzle) / case.resolution.spacing
-    return math.ceil(coming)
+def steps(case, end: float, longest: float) -> int:
+    """Steps to an `end` [s] of liquids or solids that bear `longest` [s], before run.step_factor."""
+    clock = Clock(case.run) if case.grains else alone(case)  # beside a gas rows of the history are its windows'
+    return clock.parts(case.run.step_factor * longest, end)
 
 
 def memory(case, count: int, cells: int) -> float:

@@ -17,17 +17,20 @@ are estimates: the rates are those of the speed at the mouth, and how gas and dr
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
-from sdph.effects.around import sizes
+from sdph.effects.around import rates, sizes
+from sdph.effects.around.streams import streams_of
 from sdph.exchange.window import SAFETY, smallest_cell
+from sdph.methods.grains.scales import scales_of
 
 
 class Feed:
-    """Feed of the nozzles of a case with scales `s`, in units of the heat of a second of it."""
+    """Feed of the nozzle of a case that has one, with scales `s`, in units of the heat of a second of it."""
 
     def __init__(self, case, s):
-        fastest = max(case.nozzles.values(), key=lambda nozzle: nozzle.speed)
-        angle = math.tan(fastest.half_angle)
+        (nozzle,) = case.nozzles.values()
+        angle = math.tan(nozzle.half_angle)
         way = min(s.thrown * s.coasting, *case.domain.size)
         thinned = (s.length / (s.length + way * angle)) ** (case.dimensions - 1)
         reach = 2.0 * case.smoothing_length + smallest_cell(case)
@@ -36,10 +39,8 @@ class Feed:
         thick = 2.0 * max(s.thrown * s.gas_drag_time, case.smoothing_length)
         self.rim = 0.0 if angle else renewed * min(1.0, thick / s.length)  # [1/s]
         # a particle is in the gas once the middle of its layer is past the mouth
-        self.start = min(
-            nozzle.start + 0.5 * case.resolution.spacing / nozzle.speed for nozzle in case.nozzles.values()
-        )
-        self.end = max(nozzle.end or case.run.end_time for nozzle in case.nozzles.values())
+        self.start = nozzle.start + 0.5 * case.resolution.spacing / nozzle.speed
+        self.end = nozzle.end or case.run.end_time
         self.windows = 0  # that exchanged any
 
     def stake(self, time: float) -> float:
@@ -67,6 +68,65 @@ class Feed:
         return SAFETY * math.sqrt(2.0 * tolerance * fed / (share * self.rate)) if fed > 0.0 else math.inf
 
 
+class Feeds:
+    """Feeds of the nozzles of a case, each by its share of the heat [W] that all bring to exchange: droplets of one may
+    be far finer than those of another."""
+
+    def __init__(self, case):
+        own = [(one, scales_of(one)) for one in apart(case)]
+        self.feeds = [Feed(one, s) for one, s in own]
+        heat = [brought(one) * s.span for one, s in own]
+        self.shares = [part / sum(heat) for part in heat]
+
+    def stake(self, time: float) -> float:
+        """As that of a feed."""
+        return sum(share * one.stake(time) for share, one in zip(self.shares, self.feeds))
+
+    def window(self, time: float, dt: float) -> tuple[float, float]:
+        """As that of a feed."""
+        found = [one.window(time, dt) for one in self.feeds]
+        return tuple(sum(share * own[n] for share, own in zip(self.shares, found)) for n in (0, 1))
+
+    def under_way(self, least: float, tolerance: float) -> bool:
+        """As that of a feed."""
+        return all(one.under_way(least, tolerance) for share, one in zip(self.shares, self.feeds) if share)
+
+    def longest(self, tolerance: float) -> float:
+        """As that of a feed."""
+        return min(one.longest(tolerance) for share, one in zip(self.shares, self.feeds) if share)
+
+
+def apart(case) -> list:
+    """The case with each of its nozzles alone, and with its regions alone where it has some."""
+    found = [replace(case, nozzles={name: own}, particles={}) for name, own in case.nozzles.items()]
+    return found + ([replace(case, nozzles={})] if case.particles else [])
+
+
+def brought(case) -> float:
+    """Heat capacity [W/K] that the nozzle of a case that has one brings, at its largest rate."""
+    (nozzle,) = case.nozzles.values()
+    streams = streams_of(case, nozzle)
+    rate = rates.largest(nozzle) or streams.mass / streams.pitch * float(streams.speed.sum())
+    return rate * case.of(nozzle.material).heat_capacity
+
+
+def incoming(case) -> tuple[int, float]:
+    """Particles that nozzles bring and that are there at once, at most, and on average over the run: those go that have
+    gone through the domain, at their mean speed."""
+    most, mean, end = 0.0, 0.0, case.run.end_time
+    for one in apart(case)[: len(case.nozzles)]:
+        (nozzle,), s = one.nozzles.values(), scales_of(one)
+        pace = layer(one, nozzle) * nozzle.speed / one.resolution.spacing  # particles in a second
+        speed = s.thrown * s.coasting / end + s.falling + s.blown
+        stay = max(one.domain.size) / speed if "outflow" in one.effects and speed > 0.0 else math.inf
+        first, last = nozzle.start, nozzle.start + lasting(one, nozzle)
+        leaves = min(last, max(first, end - stay))  # who comes later is still there at the end
+        most += pace * min(stay, lasting(one, nozzle))
+        there = (leaves - first) * stay if leaves > first else 0.0
+        mean += pace * (there + 0.5 * ((end - leaves) ** 2 - (end - last) ** 2)) / end
+    return math.ceil(most), mean
+
+
 def lasting(case, nozzle) -> float:
     """Time [s] of a run for which a nozzle is open."""
     return max(0.0, min(nozzle.end or case.run.end_time, case.run.end_time) - nozzle.start)
@@ -92,8 +152,8 @@ def way(case, nozzle) -> float:
     return min(nozzle.speed * lasting(case, nozzle), through)
 
 
-def of(case, s) -> Feed | None:
+def of(case, s) -> Feeds | None:
     """The feed of a case of nozzles alone that exchanges heat both ways."""
     if not case.nozzles or case.particles or "heat" not in case.effects or case.coupling.one_way or not s.thrown:
         return None
-    return Feed(case, s) if s.span else None
+    return Feeds(case) if s.span else None

@@ -90,7 +90,7 @@ def expected(s, steps: list[dict]) -> list[dict]:
     fed /= s.case.resolution.spacing ** (s.case.dimensions - 1)
     count = len(s.state.x) + fed + 4.0 * waiting / s.case.resolution.spacing ** (s.case.dimensions - 1)
     longest = min((row["largest [s]"] for row in steps), default=s.end)
-    number = math.ceil(s.end / (s.case.run.step_factor * longest))
+    number = estimate.steps(s.case, s.end, longest)
     wall = 1e-6 * ROWS * estimate.speed().liquid * count * number
     return [
         {"what": "particles at the end", "value": int(count), "unit": ""},

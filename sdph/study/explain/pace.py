@@ -25,6 +25,7 @@ from sdph.engine.clock import count_of_parts
 from sdph.exchange.window import GRIP, MOST, Window, held, settling, smallest_cell
 from sdph.methods.grains import ways
 from sdph.methods.grains.method import limits as limits_of_step
+from sdph.methods.grains.scales import scales_of
 from sdph.methods.grains.sound import swing, waves_of
 from sdph.study.explain import feed
 
@@ -93,7 +94,7 @@ class Driven:
         self.clock, self.steady = clock, later(case, s)
         self.fastest = s.speed if effects.moving(case) else 0.0
         self.rate, self.flow = 0.0, None  # [1/s], and heat in the last window over its length, of all there is [1/s]
-        self.feed, self.time, self.thickening = feed.of(case, s), 0.0, thickening(case, s)
+        self.feed, self.time, self.thickening = feed.of(case, s), 0.0, thickening(case)
         if self.thickening:
             clock.obey({self.thickening.cause: self.thickening.limit(1.0)})
             self.steady[self.thickening.cause] = self.thickening.limit(self.thickening.steady)
@@ -175,8 +176,15 @@ class Thickening:
         self.left -= given
 
 
-def thickening(case, s) -> Thickening | None:
-    """Thickening by the densest grains of a case; None of those that change no gas."""
+def thickening(case) -> Thickening | None:
+    """Thickening by those grains of a case that ask for the shortest window, each nozzle's apart; None of those that
+    change no gas."""
+    found = [_thickening(one, scales_of(one)) for one in feed.apart(case)]
+    return min((own for own in found if own), key=lambda own: own.limit(1.0), default=None)
+
+
+def _thickening(case, s) -> Thickening | None:
+    """Thickening by the densest grains of a case; None as above."""
     if not s.patches or case.vapour is None or case.coupling.one_way:
         return None
     if "evaporation" in case.effects:

@@ -76,7 +76,7 @@ def expected(s, steps: list[dict], shared=None) -> list[dict]:
     """Particles, steps, memory, wall time, as long as nothing is squeezed: a stretch below 1 shortens the step."""
     count = len(s.state.x)
     end, longest = shared[:2] if shared else (s.end, min(row["largest [s]"] for row in steps))
-    number = math.ceil(end / (s.case.run.step_factor * longest))
+    number = estimate.steps(s.case, end, longest)
     wall = 1e-6 * estimate.speed().solid * count * number
     return [
         {"what": "solid particles", "value": count, "unit": ""},

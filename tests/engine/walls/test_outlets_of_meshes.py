@@ -80,7 +80,7 @@ def test_a_belt_of_a_vessel_slides_along_its_facets(tmp_path):
     path = l_shape(tmp_path / "patches.vtk")
     case = bed_of_patches(path, (HIGH, HIGH), "walls chute lid")
     belt = dataclasses.replace(case.boundaries["walls"], side="bottom", velocity=(0.5, 0.0))
-    table = sides.dummies(dataclasses.replace(case, boundaries=case.boundaries | {"walls": belt}))
+    table = sides.dummies(dataclasses.replace(case, boundaries=case.boundaries | {"walls": belt})).table
     across = np.abs(table[:, 4]) == 1.0  # floor and step; the others stand along y
     assert across.any() and (table[across, 8] == 0.5).all() and not table[~across, 8].any() and not table[:, 9].any()
     assert len(table) >= 3 * (2.0 * HIGH + HIGH) / SPACING - 9

@@ -1,12 +1,14 @@
 """Sprays are told neither of walls that they do not reach nor of shocks where droplets pass through each other."""
 
+import dataclasses
+
 import pytest
 
 from sdph import scenes
 from sdph.case import judge
 from sdph.case import read as cases
 from sdph.schema import CaseError
-from sdph.study.explain import estimate
+from sdph.study.explain import estimate, feed, pace
 
 
 def case_of(scene, *more):
@@ -43,6 +45,28 @@ def test_classes_of_sizes_are_particles_each():
     assert counts[1] == pytest.approx(5.0 * counts[0], rel=0.01)
     given = case_of("spray_cone", f"nozzles.{name}.sizes=given", f"nozzles.{name}.diameters_mm=[0.05,0.06,0.07]")
     assert estimate.expected(given, judge.scales_of(given))[0]["value"] == pytest.approx(3.0 * counts[0], rel=0.01)
+
+
+def test_droplets_that_have_gone_through_are_not_there_any_more():
+    """A spray that goes on falls out of its box: so many are there at once, however long it runs."""
+    counts = [
+        feed.incoming(case_of("spray_cone", "grains.diameter_std_mm=0", f"run.end_time_s={end}"))
+        for end in (0.01, 3.0, 30.0)
+    ]
+    (most, mean), (later, there), (latest, always) = counts
+    assert mean == pytest.approx(0.5 * most, rel=0.01)  # none has gone through yet
+    assert later < 300 * most and latest == pytest.approx(later, rel=0.2) and there < later
+    assert always == pytest.approx(latest, rel=0.05)
+
+
+def test_nozzles_are_asked_apart_for_what_evaporation_bears():
+    """Fine droplets ask for shorter windows than coarse ones that fly denser: the shortest of all nozzles."""
+    fine = case_of("spray_cone", "grains.diameter_mm=0.03", "grains.diameter_std_mm=0")
+    (name,) = fine.nozzles
+    second = dataclasses.replace(fine.nozzles[name], rate=0.1, diameter=3e-4, diameter_std=0.0)
+    both = dataclasses.replace(fine, nozzles=fine.nozzles | {"coarse": second})
+    limits = [pace.thickening(case).limit(1.0) for case in (fine, both)]
+    assert limits[1] == limits[0]
 
 
 def test_drops_of_a_nozzle_count_with_the_size_that_it_gives():

@@ -17,6 +17,13 @@ from sdph.study.explain import pace, tables
 
 WITHIN = 0.3
 EMBEDDED = "coupling.gas='embedded'"
+COARSE = (  # a second nozzle, of droplets ten times as wide
+    "nozzles.coarse.shape='cone'", "nozzles.coarse.centre_m=[0.08,0.15,0.5]", "nozzles.coarse.direction=[0,0,-1]",
+    "nozzles.coarse.radius_m=0.02", "nozzles.coarse.half_angle_deg=20", "nozzles.coarse.temperature_K=300",
+    "nozzles.coarse.speed_m_s=5", "nozzles.coarse.rate_kg_s=0.01", "nozzles.coarse.diameter_mm=0.3",
+    "nozzles.coarse.diameter_std_mm=0",
+)  # fmt: skip
+FINE = "grains.diameter_mm=0.03", "grains.diameter_std_mm=0.01", "resolution.cell_mm=40"
 RUNS = [
     ("disc_cluster", "coupling.window_tolerance=1e-2", "resolution.spacing_mm=10", "resolution.cell_mm=25"),
     ("disc_cluster", "coupling.window_tolerance=1.0", "resolution.spacing_mm=10", "resolution.cell_mm=25"),
@@ -32,6 +39,7 @@ RUNS = [
     ("spray_cone", "resolution.spacing_mm=16", "resolution.cell_mm=40", "coupling.window_tolerance=4e-3"),
     ("spray_cone", "run.end_time_s=0.02", "gas.temperature_K=900", "nozzles.cone.rate_kg_s=0.1"),
     ("spray_cone", "run.end_time_s=0.01", "resolution.cell_mm=8"),
+    ("spray_cone", "run.end_time_s=0.03", "resolution.spacing_mm=16", *FINE, *COARSE),
     (
         "evaporating_jet", "run.end_time_s=0.05", "coupling.window_largest_s=1e-3",
         "gas.equation_of_state='operating'", "gas.molar_mass_kg_kmol=28.96",
