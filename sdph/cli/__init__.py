@@ -170,7 +170,7 @@ def explain_case(options) -> int:
         if options.measure:
             from sdph.study.explain import effect_costs
 
-            parts["cost of effects, bubbling bed"] = effect_costs.table(_say)
+            parts["measured on this machine"] = effect_costs.measured(case, _say)
         parts |= explained.explained(case, template, allow_code=options.allow_code)
         if options.ranks:
             from sdph.study import sharing

@@ -39,7 +39,9 @@ def parser() -> argparse.ArgumentParser:
     explain.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: as `run` has it)")
     explain.add_argument("--ranks", type=count, metavar="N", help="how so many processes would share the particles")
     explain.add_argument(
-        "--measure", action="store_true", help="measure what each effect costs on this machine; minutes the first time"
+        "--measure",
+        action="store_true",
+        help="measure what each effect of grains costs on this machine, or a step of a case without a gas; minutes",
     )
     warm = _command(commands, "warm", "compile the kernels of cases now, so that their first run need not")
     warm.add_argument("target", nargs="*", help="scenes, case folders or case files (default: all scenes)")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -37,20 +38,24 @@ class Listener(event.Listener):
 
 
 class Watch(event.Listener):
-    """Time [s] that this process has compiled for."""
+    """Time [s] that this process has compiled for. Meanwhile Python looks for no garbage: numba makes many objects that
+    live until it is done, and to look through them takes a tenth of a cold start and more (benchmarks/README.md)."""
 
     def __init__(self):
-        self.depth, self.begun, self.spent = 0, 0.0, 0.0
+        self.depth, self.begun, self.spent, self.collects = 0, 0.0, 0.0, True
 
     def on_start(self, event) -> None:
         self.depth += 1
         if self.depth == 1:
-            self.begun = time.perf_counter()
+            self.begun, self.collects = time.perf_counter(), gc.isenabled()
+            gc.disable()
 
     def on_end(self, event) -> None:
         self.depth -= 1
         if self.depth == 0:
             self.spent += time.perf_counter() - self.begun
+            if self.collects:
+                gc.enable()
 
 
 WATCH = Watch()

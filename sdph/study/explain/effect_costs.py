@@ -1,7 +1,7 @@
-"""Cost of each effect on this machine, in microseconds per particle and sub-step: a case with it, less the same
-without.
+"""Cost of each effect of grains on this machine, in microseconds per particle and sub-step: a case with it, less the
+same without; of a case without a gas the time of its own particles.
 
-Only grains that move: particle side and exchange, no gas solver. Times are the least of several, taken in turns.
+Of grains particle side and exchange, no gas solver. Times are the least of several, taken in turns.
 """
 
 from __future__ import annotations
@@ -16,10 +16,12 @@ from coupling.gas import NOTHING, Budget, Mesh
 from sdph import scenes
 from sdph.case import gas_cells
 from sdph.case import read as cases
+from sdph.running.alone import Alone
 from sdph.running.simulation import Simulation
-from sdph.study.explain import estimate
+from sdph.study.explain import estimate, mps
 
 ROUNDS = 7  # the least of so many counts
+WINDOWS = 4  # of a case without a gas, of some 20 steps each; the first compiles
 BED = ("resolution.spacing_mm=10", "resolution.cell_mm=20")
 
 
@@ -80,6 +82,33 @@ def step(simulation, dt: float) -> float:
     return time.perf_counter() - started
 
 
+def measured(case, report=print) -> list[dict]:
+    """Rows of what concerns a case, of which `sdph explain` keeps the times."""
+    return table(report) if case.grains or len(case.matters) > 1 else alone(case, report)
+
+
+def alone(case, report=print) -> list[dict]:
+    """Time [us] of a particle and step of a case without a gas, of its first steps."""
+    run, found = Alone(case, None), []
+    run.start()
+    for _ in range(WINDOWS):
+        if run.clock.over(run.time):
+            break
+        steps, before = run.stepper.steps, run.wall["particles"]
+        run.window()
+        spent = run.wall["particles"] - before  # without compiling
+        found.append(1e6 * spent / max(1, run.stepper.steps - steps) / len(run.state.x))
+    name = case.moved_by(run.matter)
+    report(f"{name}: {min(found):.3f} us")
+    keep(**({"solid": min(found)} if name == "solid" else {"liquid": min(found) / _of_liquid(case, name)}))
+    return [{"method": name, "particle and step [us]": min(found)}]
+
+
+def _of_liquid(case, method: str) -> float:
+    """Time of a particle of a liquid and a step over the one that `Speed` has."""
+    return mps.ROWS if method == "mps" else estimate.of_liquid(case) / estimate.speed().liquid
+
+
 def table(report=print) -> list[dict]:
     """Effect -> microseconds per particle and sub-step; keeps the time of the whole for `sdph explain`."""
     whole = cases.load(scenes.HERE / "bubbling_bed" / "case.toml", BED)
@@ -93,7 +122,8 @@ def table(report=print) -> list[dict]:
             | _leaves(on, off)
         )
         report(f"{name}: {best_on - best_off:.3f} us")
-    keep(min(row["with all [us]"] for row in rows))
+    ratio = min(row["with all [us]"] for row in rows) / estimate.SHIPPED.moving  # the rest in the shipped proportion
+    keep(**{key: value * ratio for key, value in estimate.SHIPPED._asdict().items() if key != "measured"})
     return rows
 
 
@@ -111,9 +141,8 @@ def _leaves(on, off) -> dict:
     return {"arrays only it needs": " ".join(arrays) or "-", "sources only it sends": " ".join(sources) or "-"}
 
 
-def keep(moving: float) -> None:
-    """Remember the speed of this machine for the estimates of `sdph explain`; the rest in the shipped proportion."""
-    ratio = moving / estimate.SHIPPED.moving
-    shipped = estimate.SHIPPED._asdict() | {"measured": f"this machine, {time.strftime('%Y-%m-%d')}"}
+def keep(**times) -> None:
+    """Remember times [us] of this machine for the estimates of `sdph explain`."""
+    known = estimate.speed()._asdict() | times | {"measured": f"this machine, {time.strftime('%Y-%m-%d')}"}
     estimate.MEASURED.parent.mkdir(parents=True, exist_ok=True)
-    estimate.MEASURED.write_text(json.dumps({k: v if isinstance(v, str) else v * ratio for k, v in shipped.items()}))
+    estimate.MEASURED.write_text(json.dumps(known))

@@ -113,6 +113,11 @@ def speed() -> Speed:
     return SHIPPED._replace(**kept)
 
 
+def of_liquid(case) -> float:
+    """Time [us] of a particle of a liquid and a step."""
+    return speed().liquid * (IN_SPACE if case.dimensions == 3 else 1.0)
+
+
 def ratios(case, edges=None) -> list[dict]:
     """Cells, kernels, spacings and grains against each other, with the range that is safe and why; none for a
     liquid. `edges` as of `Priced`: what is wrong where cells are too large is so in the largest of them."""

@@ -19,6 +19,8 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
+import numpy as np
+
 from sdph.effects.around import rates, sizes
 from sdph.effects.around.streams import streams_of
 from sdph.exchange.window import SAFETY, smallest_cell
@@ -40,11 +42,14 @@ class Feed:
         self.rim = 0.0 if angle else renewed * min(1.0, thick / s.length)  # [1/s]
         # a particle is in the gas once the middle of its layer is past the mouth
         self.start = nozzle.start + 0.5 * case.resolution.spacing / nozzle.speed
-        self.end = nozzle.end or case.run.end_time
+        self.end, self.rates = nozzle.end or case.run.end_time, nozzle.rates
         self.windows = 0  # that exchanged any
 
     def stake(self, time: float) -> float:
-        """Heat to exchange at a time [s]."""
+        """Heat to exchange at a time [s]; of a rate against time, in units of a second of its largest."""
+        if self.rates:
+            passed = rates.passed(self.rates, np.array([min(time, self.end)]))[0]
+            return max(0.0, float(passed)) / max(rate for _, rate in self.rates)
         return max(0.0, min(time, self.end) - self.start)
 
     def window(self, time: float, dt: float) -> tuple[float, float]:
@@ -63,7 +68,7 @@ class Feed:
 
     def longest(self, tolerance: float) -> float:
         """Window [s] that the heat allows half-way."""
-        fed = 0.5 * (self.end - self.start)
+        fed = 0.5 * self.stake(self.end)
         share = -math.expm1(-self.rate * fed) + self.rim * fed
         return SAFETY * math.sqrt(2.0 * tolerance * fed / (share * self.rate)) if fed > 0.0 else math.inf
 

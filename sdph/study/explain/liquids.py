@@ -215,7 +215,7 @@ def expected(s, steps: list[dict], shared=None) -> list[dict]:
     end, longest = shared[:2] if shared else (s.end, min(row["largest [s]"] for row in steps))
     number = estimate.steps(s.case, end, longest)
     paid = number + REMOVING * min(number, _drained(s.case) / spacing**s.case.dimensions)
-    wall = 1e-6 * estimate.speed().liquid * 0.5 * (start + count) * paid
+    wall = 1e-6 * estimate.of_liquid(s.case) * 0.5 * (start + count) * paid
     return [
         {"what": "liquid particles", "value": wet + count - start, "unit": ""},
         {"what": "particles, walls included", "value": count, "unit": ""},

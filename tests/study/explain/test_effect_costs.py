@@ -8,7 +8,7 @@ from sdph import effects, scenes
 from sdph.case import read as cases
 from sdph.exchange.exchange import Exchange
 from sdph.methods.grains import start
-from sdph.study.explain import effect_costs
+from sdph.study.explain import effect_costs, estimate
 
 BED = cases.load(scenes.HERE / "bubbling_bed" / "case.toml", effect_costs.BED)
 
@@ -41,3 +41,14 @@ def test_a_sub_step_is_timed_and_moves_the_grains():
     assert effect_costs.step(simulation, 1e-3) > 0.0
     assert simulation.stepper.steps == before + 1
     assert simulation.state.v == pytest.approx(-9.81e-3)
+
+
+def test_a_liquid_is_measured_by_its_own_steps(tmp_path, monkeypatch):
+    """What is kept makes the estimate of the case that it was measured on."""
+    monkeypatch.setattr(estimate, "MEASURED", tmp_path / "speed.json")
+    case = cases.load(scenes.HERE / "hydrostatic_tank" / "case.toml", ("resolution.spacing_mm=50",))
+    before = estimate.speed()
+    (row,) = effect_costs.measured(case, lambda line: None)
+    assert row["method"] == "liquid" and estimate.of_liquid(case) == pytest.approx(row["particle and step [us]"])
+    kept = estimate.speed()
+    assert kept.moving == before.moving and kept.measured.startswith("this machine")
