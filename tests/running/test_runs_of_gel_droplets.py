@@ -119,6 +119,7 @@ def test_polygon_knows_what_it_holds():
         (("bubble.centre_m=[1.6e-3,1.5e-3]",), 'pool of shape "ring"'),
         (("bubble.centre_m=[9.0,9.0]",), 'pool of shape "ring"'),
         (("bodies.shell.shape='disc'",), 'one body of shape "ring"'),
+        (("pools.gel.radius_m=6e-4",), "liquid would stand outside its shell"),
         (("effects=['density_diffusion','bubble','gravity','time_scaling','liquid_heat']",), "gravity is not scaled"),
         (("bodies={}",), "one body"),
         (("effects=['density_diffusion','liquid_heat','time_scaling']",), "bubble"),

@@ -170,3 +170,23 @@ def test_a_probe_goes_along_with_a_body(tmp_path):
 def test_a_probe_beside_the_bodies_is_refused(probe, told):
     with pytest.raises(CaseError, match=told):
         cases.from_table(table(probes={"tip": probe}))
+
+
+# rho g L = 2000 kg/m3 x 9.81 m/s2 x 0.01 m = 196 Pa
+HEAVY = (
+    "solid.youngs_modulus_Pa=70", "solid.density_kg_m3=2000", "effects=['gravity']", "domain.gravity_m_s2=[0,-9.81]",
+    "bodies.left.velocity_m_s=[0,0]", "bodies.right.velocity_m_s=[0,0]",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ((), None),
+        (("bodies.left.velocity_m_s=[9000,0]",), "sound in them at"),
+        (HEAVY, "it collapses"),
+    ],
+)
+def test_bodies_that_a_run_would_be_stopped_for_are_told(change, told):
+    lines = solids.warnings(SolidScales(cases.load(scenes.HERE / "colliding_rings" / "case.toml", change)))
+    assert [told in line for line in lines if "sound" in line or "collapses" in line] == [True] * bool(told)

@@ -101,6 +101,21 @@ def _check_hole(case, pool, before: list[Hole], hole: Hole) -> None:
             raise CaseError(f"{told} overlaps the one at {list(other.centre)}: give one bubble, or move them apart")
 
 
+def check_shell(case) -> None:
+    """CaseError of a pool that goes through the shell around its bubbles."""
+    pool = pool_of(case)
+    for name, body in case.bodies.items():
+        if body.shape != "ring":
+            continue
+        reach = math.dist(pool.centre, body.centre) + pool.radius
+        if reach > body.radius * (1.0 + SAME):
+            raise CaseError(
+                f"the pool around the bubbles reaches {reach:g} m from the middle of bodies.{name}, whose radius_m is "
+                f"{body.radius:g}: liquid would stand outside its shell; give it the shell's inner_radius_m, "
+                f"{body.inner_radius:g}, as its radius_m"
+            )
+
+
 def kernel(case) -> BubbleP:
     own = case.parameters["bubble"]
     if case.dimensions != 2 or case.gas_phase:

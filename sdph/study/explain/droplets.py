@@ -47,6 +47,21 @@ def numbers(s, heated: bool) -> list[tuple]:
     return rows
 
 
+def boiling(case) -> list[str]:
+    """A line for each region and nozzle whose droplets are hotter than they boil at."""
+    if "evaporation" not in case.effects or case.vapour is None:
+        return []
+    p, around = evaporation.kernel(case), case.gas.operating_pressure
+    given = [("particles", own) for own in case.particles.items()] + [("nozzles", own) for own in case.nozzles.items()]
+    return [
+        f"{section}.{name}.temperature_K = {own.temperature:g}: droplets would boil, their vapour pressure there is "
+        f"{evaporation.saturation_pressure(p, own.temperature):.3g} Pa in gas of {around:g} Pa, and here they only "
+        "evaporate; lower it, or raise gas.operating_pressure_Pa"
+        for section, (name, own) in given
+        if evaporation.saturation_pressure(p, own.temperature) > around
+    ]
+
+
 def spalding(s) -> tuple[float, float, float]:
     """B of mass (Y_s - Y)/(1 - Y_s) in gas without vapour, B of heat c_pv (T - T_s)/L, and the run over the evaporation
     time."""

@@ -12,6 +12,7 @@ import numpy as np
 from sdph import effects
 from sdph.case import gas_cells
 from sdph.case.judge import scales_of
+from sdph.effects.around import sizes
 from sdph.effects.gas.drag import filter_width
 from sdph.engine import device as environment
 from sdph.engine import state as particles
@@ -51,6 +52,7 @@ NO_GRAINS = (
     "the case has no grains, neither at the start nor later: gas flows alone; give [particles.NAME] or [nozzles.NAME], "
     "unless that is meant"
 )
+LOOSE = "coupling.window_tolerance = {given:g}: all heat that there is to exchange may be wrong; give a small share"
 GRAINS_WHY = (
     "drag and heat laws are means over many grains; in smaller cells a grain meets gas that it has slowed or "
     "cooled itself, and both come out too small"
@@ -125,7 +127,8 @@ def ratios(case, edges=None) -> list[dict]:
         return []
     h, spacing, cell = case.smoothing_length, case.resolution.spacing, case.resolution.cell
     narrow, wide = edges or (cell, cell)
-    d = max(grains.sauter_diameter for grains in case.kinds)
+    own = (sizes.own_diameter(case, nozzle) for nozzle in case.nozzles.values())
+    d = max([grains.sauter_diameter for grains in case.kinds] + [diameter for diameter in own if diameter])
     extent = scales_of(case).length
     rows = [
         ("cell / h", wide / h, 0.25, 4.0, CELLS_WHY),
@@ -181,7 +184,9 @@ def blown_height(case) -> float:
 def warnings(case, edges=None) -> list[str]:
     """No grains at all; cells far smaller than the particles, and the other ratios that are not safe; what it does to
     the answer."""
-    return [NO_GRAINS][: not (case.particles or case.nozzles)] + [
+    given, warm = case.coupling.window_tolerance, "heat" in case.effects
+    told = [NO_GRAINS] * (not (case.particles or case.nozzles)) + [LOOSE.format(given=given)] * (warm and given >= 1.0)
+    return told + [
         f"{r['ratio']} = {r['value']:.3g}, safe from {r['least']:g} to {r['most']:g}: {r['why']}"
         for r in ratios(case, edges)
         if r["safe"] == "NO"

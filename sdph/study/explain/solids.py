@@ -57,8 +57,19 @@ def ratios(s) -> list[dict]:
 
 
 def warnings(s) -> list[str]:
-    """Ratios that are not safe."""
-    return [
+    """Bodies that the guard or their weight will soon end, and ratios that are not safe."""
+    told, own = [], s.solid
+    if s.thrown >= s.sound:
+        told.append(
+            f"bodies fly at {s.thrown:.3g} m/s, and sound in them at {s.sound:.3g} m/s: a run is stopped where a "
+            "particle outruns it; lower their velocity_m_s, or raise solid.youngs_modulus_Pa"
+        )
+    if (sag := own.density * s.gravity * s.width / own.youngs_modulus) > 1.0:
+        told.append(
+            f"a body's own weight is {sag:.3g} times what squeezes it to nothing (rho g L/E): it collapses; raise "
+            f"solid.youngs_modulus_Pa (now {own.youngs_modulus:g})"
+        )
+    return told + [
         f"{r['ratio']} = {r['value']:.3g}, safe from {r['least']:.3g} to {r['most']:g}: {r['why']}"
         for r in ratios(s)
         if r["safe"] == "NO"

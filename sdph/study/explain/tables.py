@@ -87,7 +87,8 @@ def warnings(case, scales=None, priced=None) -> list[str]:
 def _of_gas(case, scales, priced) -> list[str]:
     """Notes on grains in a gas."""
     edges = priced and priced.edges
-    return [*estimate.warnings(case, edges), *eddies.warnings(scales), *eddies.too_fast(case)]
+    own = *eddies.warnings(scales), *eddies.too_fast(case), *droplets.boiling(case)
+    return [*estimate.warnings(case, edges), *own]
 
 
 def numbers(s, warm: bool = True, heated: bool = True) -> list[tuple]:

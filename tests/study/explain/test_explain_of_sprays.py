@@ -8,7 +8,7 @@ from sdph import scenes
 from sdph.case import judge
 from sdph.case import read as cases
 from sdph.schema import CaseError
-from sdph.study.explain import estimate, feed, pace
+from sdph.study.explain import estimate, feed, pace, tables
 
 
 def case_of(scene, *more):
@@ -97,3 +97,22 @@ def test_a_belt_is_no_gas_that_is_let_in():
         for speed in (0, 5)
     )  # fmt: skip
     assert belt.jet == 0.0 == still.speed and belt.speed == 5.0 and still.resting and not belt.resting
+
+
+def test_droplets_that_would_boil_and_windows_without_a_bar_are_told():
+    """Water at 420 K has 4.1 bar of vapour; at 370 K, below 373 K, 0.9 bar."""
+    (name,) = case_of("spray_cone").nozzles
+    found = {}
+    for temperature in (370, 420):
+        told = tables.warnings(case_of("spray_cone", f"nozzles.{name}.temperature_K={temperature}"))
+        found[temperature] = [text for text in told if "would boil" in text]
+    assert not found[370] and len(found[420]) == 1 and "4.1e+05 Pa in gas of 101325 Pa" in found[420][0]
+    assert any(
+        "window_tolerance = 2" in text for text in tables.warnings(case_of("spray_cone", "coupling.window_tolerance=2"))
+    )
+
+
+def test_particles_are_judged_by_the_largest_drops_that_any_nozzle_gives():
+    (name,) = case_of("spray_cone").nozzles
+    case = case_of("spray_cone", f"nozzles.{name}.diameter_mm=40", f"nozzles.{name}.diameter_std_mm=0")
+    assert any(text.startswith("spacing / grain = 0.2") for text in estimate.warnings(case))
