@@ -63,7 +63,7 @@ def _remedy(name: str) -> str:
     if name == DRIFT_OF_GAS[0]:
         return (
             "the gas gained or lost that share of its impulses by numerics: as an inlet sets it off at once (most is "
-            "in the first rows of ledger.csv then), in cells that are no boxes, or whose mass changes much in a window; "
+            "in the first rows of ledger.csv then), in cells that are no boxes, or whose mass changes in a window; "
             "smaller cells (resolution.cell_mm) or shorter windows (coupling.window_largest_s) lower it"
         )
     return "something was made or lost; docs/results.md says what the column counts"
