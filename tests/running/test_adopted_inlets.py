@@ -47,6 +47,7 @@ class Mesh:
         (f"uniformValue table {TABLE}; value uniform (0 0 9);", ROWS),
         (f"uniformValue {{ type table; values {TABLE}; }}", ROWS),
         (f"uniformValue {{ type table; values {TABLE}; outOfBounds clamp; }}", ROWS),
+        ("uniformValue table ((0 (0 0 -1e-12)) (0.5 (0 0 0.25)) (2 (0 0 0.1)));", ROWS),
         (f"uniformValue {{ type table; values {TABLE}; outOfBounds repeat; }}", None),
         (f"uniformValue table {TABLE}; outOfBounds repeat;", None),
         ("uniformValue sine; value uniform (0 0 9);", None),

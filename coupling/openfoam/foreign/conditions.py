@@ -97,7 +97,7 @@ def _in_time(rows, normal, own: dict, alpha_p: float, dimensions: int) -> Condit
     times, inwards = [time for time, _ in rows], [-sum(v * n for v, n in zip(speed, normal)) for _, speed in rows]
     rising = all(now > before for before, now in pairwise(times))
     held = own["U"].get("outOfBounds", ["clamp"]) == ["clamp"]
-    if len(rows) < 2 or times[0] < 0.0 or not (rising and held) or min(inwards) < 0.0 or max(inwards) <= ASIDE:
+    if len(rows) < 2 or times[0] < 0.0 or not (rising and held) or min(inwards) < -ASIDE or max(inwards) <= ASIDE:
         return None
     told = [[time, *_rounded([share * part for part in speed])[:dimensions]] for time, speed in rows]
     return Condition({"kind": "velocity_inlet", "velocities": told}, note)
