@@ -40,6 +40,10 @@ class Beyond(NamedTuple):
     foot: np.ndarray
     facets: np.ndarray
 
+    def those(self, rows) -> Beyond:
+        """The samples of these rows."""
+        return Beyond(*(own[np.asarray(rows, int)] for own in self))
+
 
 def spread(corners: np.ndarray, spacing: float, reach: float) -> Beyond:
     """Points beyond the edges and corners of facets (F, d, d) [m], nearer than `reach` [m]: one for each spacing^d."""
@@ -49,12 +53,18 @@ def spread(corners: np.ndarray, spacing: float, reach: float) -> Beyond:
     if corners.shape[2] == 3:
         parts.append(_beyond_corners(corners, normal, point, ridges, spacing, reach))
     found = Beyond(*(np.concatenate(own) for own in zip(*parts)))
-    away = np.linalg.norm(found.place - found.foot, axis=1)
-    if len(away):  # another facet, nearer, has dummies there
-        off = facets.Surface(corners).distance(found.place)
-        found = Beyond(*(own[(off > 0.0) | (-off > (1.0 - NEARER) * away)] for own in found))
+    surface = facets.Surface(corners)
+    found = found.those(_alone(found, surface))
     middle, nearest = facets.middles(found.place)
-    return Beyond(middle, found.foot[nearest], found.facets[nearest])
+    return Beyond(middle, surface.nearest(middle), found.facets[nearest]) if len(middle) else found.those([])
+
+
+def _alone(found: Beyond, surface) -> np.ndarray:
+    """Rows of samples that are not nearer to another facet, whose own points stand there."""
+    if not len(found.place):
+        return np.zeros(0, int)
+    off, away = surface.distance(found.place), np.linalg.norm(found.place - found.foot, axis=1)
+    return np.flatnonzero((off > 0.0) | (-off > (1.0 - NEARER) * away))
 
 
 def _ridges(corners, normal, point) -> Ridges:

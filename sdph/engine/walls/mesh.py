@@ -51,9 +51,10 @@ class Beyond(NamedTuple):
     facing: np.ndarray
 
 
-def beyond(dummies, first, of_mesh, feet, facing) -> Beyond:
+def beyond(dummies, first, of_mesh, feet, facing, spacing: float) -> Beyond:
     """The same of all dummies, `first` (W,) those of a mesh's first layer, `feet` and `facing` as in Beyond. Of two
-    facets that are as near, one owns the dummies of both."""
+    facets that are as near, one owns the dummies of both. Round a hollow no dummy is behind two: each stands aside of
+    what faces it."""
     found, count = np.zeros((len(dummies.x), 4)), len(dummies.x)
     nearer, blunt, corner = np.zeros(count, bool), np.zeros(count, bool), facing.any(axis=(1, 2))
     own = np.flatnonzero(of_mesh & ~corner)
@@ -61,9 +62,11 @@ def beyond(dummies, first, of_mesh, feet, facing) -> Beyond:
     every = np.stack((dummies.normal_x, dummies.normal_y, dummies.normal_z), axis=1)
     normals, depths, ahead = every[own], dummies.depth[own], every[first]
     nearest = scipy.spatial.cKDTree(feet[first]).query(places, range(1, min(FEET, first.sum()) + 1))[1]
-    depth = np.einsum("ijk,ijk->ij", feet[first][nearest] - places[:, None], ahead[nearest])
+    way = feet[first][nearest] - places[:, None]
+    depth = np.einsum("ijk,ijk->ij", way, ahead[nearest])
     turned = np.einsum("ijk,ik->ij", ahead[nearest], normals)
-    there = (turned < EDGE) & (depth > 0.0)
+    behind = (way**2).sum(axis=2) - depth**2 <= (AROUND * spacing) ** 2
+    there = (turned < EDGE) & (depth > 0.0) & behind
     one = np.arange(len(own)), there.argmax(axis=1)
     normal, depth, there = ahead[nearest][one], depth[one], there[one]
     as_near = np.abs(depth - depths) < SAME * depths

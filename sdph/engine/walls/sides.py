@@ -35,9 +35,9 @@ class Boundary:
         table, self.area, self.whose, self.feet, facing = (own[order] for own in placed)
         self.dummies = Dummies(*(np.ascontiguousarray(column) for column in table.T))
         self.of_mesh = self.whose > 0
-        self.beyond = (
-            sides.beyond(self.dummies, self.area > 0.0, self.of_mesh, self.feet, facing) if self.of_mesh.any() else None
-        )
+        if self.of_mesh.any():
+            first = self.area > 0.0
+            self.beyond = sides.beyond(self.dummies, first, self.of_mesh, self.feet, facing, self.spacing)
 
     def rows(self, state_axes):
         """Dummies near each particle; valid as long as the particles' own rows."""

@@ -12,6 +12,7 @@ from scipy.integrate import quad
 from scipy.spatial import cKDTree
 
 from sdph.engine.walls import corners, facets
+from sdph.laws import kernels
 
 REACH = 3.0 * SPACING
 R, H = 0.03, 0.08
@@ -53,7 +54,7 @@ def test_there_are_as_many_as_there_is_room(surface, volume):
     assert len(found.place) == pytest.approx(volume / SPACING**3, rel=0.02)
     if volume:
         off = facets.Surface(surface).distance(found.place)
-        assert -off == pytest.approx(np.linalg.norm(found.place - found.foot, axis=1), abs=0.2 * SPACING)
+        assert -off == pytest.approx(np.linalg.norm(found.place - found.foot, axis=1), abs=1e-3 * SPACING)
         assert cKDTree(found.place).query(found.place, 2)[0][:, 1].min() > 0.5 * SPACING
 
 
@@ -142,3 +143,20 @@ def test_what_presses_a_corner_acts_on_the_surface(tmp_path):
     assert corner.sum() == 28 and not np.stack(boundary.dummies[3:6])[:, corner].any()
     feet = boundary.feet[corner, :2]
     assert np.isin(np.round(feet, 9), [low, high]).all()
+
+
+def test_a_narrow_round_vessel_is_full_all_around(tmp_path):
+    """Of the kernel of a grain 0.4 spacings from the wall of a pipe 2.5 spacings wide 39.5 % lie in the wall, by
+    quadrature; without what stands in the hollow of its facets 33 %. Layers of a flat wall give 2.8 % too little."""
+    radius, turn = 2.5 * SPACING, 2.0 * np.pi * np.arange(64) / 64
+    pipe = lines(0.08 + radius * np.column_stack((np.cos(turn), np.sin(turn))))
+    stepper = in_a_vessel(tmp_path, pipe, ([0.07, 0.07], [0.09, 0.09]))
+    h, place = stepper.case.smoothing_length, turn + 0.01
+    axes = tuple(0.08 + (radius - 0.4 * SPACING) * own for own in (np.cos(place), np.sin(place)))
+    wall, _ = stepper.boundary.seen(stepper.boundary.rows(axes), axes)
+    sums = [
+        sum(kernels.cubic_spline(np.hypot(x - wall.x[w], y - wall.y[w]), h, kernels.normalisation("cubic_spline", 2, h))
+            for w in wall.entries[wall.start[i] :][: wall.number[i]]) * SPACING**2
+        for i, (x, y) in enumerate(zip(*axes))
+    ]  # fmt: skip
+    assert np.mean(sums) == pytest.approx(0.395, rel=0.05)
