@@ -230,22 +230,21 @@ def _number(value: Any, key: str, kind: Kind) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise CaseError(f"{key} = {value!r}; it must be a number in {unit}, without the unit")
     if not abs(value) <= sys.float_info.max:  # nan, inf, and whole numbers too long for a float
-        raise CaseError(f"{key} = {str(value)[:40]}; it must be a finite number in {unit}")
+        raise CaseError(f"{key} = {str(value)[:40]}; it must be a finite number in {unit}{_allowed(kind, ', ')}")
     return float(value)
 
 
 def _bounded(kind: Kind, value: float, key: str) -> float:
     if not (value > kind.above and kind.least <= value <= kind.most):
-        low = (
-            f"above {kind.above:g}"
-            if kind.above > -math.inf
-            else f"at least {kind.least:g}"
-            if kind.least > -math.inf
-            else ""
-        )
-        high = f"at most {kind.most:g}" if kind.most < math.inf else ""
-        raise CaseError(f"{key} = {str(value)[:40]}; it must be {' and '.join(filter(None, (low, high)))}")
+        raise CaseError(f"{key} = {str(value)[:40]}; it must be {_allowed(kind)}")
     return value
+
+
+def _allowed(kind: Kind, first: str = "") -> str:
+    """The bounds of a number in words, after `first`; empty where it has none."""
+    low = ("above", kind.above) if kind.above > -math.inf else ("at least", kind.least)
+    bounds = [f"{word} {bound:g}" for word, bound in (low, ("at most", kind.most)) if math.isfinite(bound)]
+    return first * bool(bounds) + " and ".join(bounds)
 
 
 def plausible(record: Any, where: str):

@@ -34,13 +34,23 @@ DEPTH = 1.0  # m, of the one cell that a two-dimensional mesh is deep
 FACING = 1e-6  # of their area: what faces of cyclic patches and those opposite may differ by; digits of a mesh
 
 
-def refuse_path(folder: Path) -> None:
-    """CaseError where OpenFOAM cannot work in a folder."""
+def refuse_path(folder: Path, remedy: str = "move the run, give another --out, or --gas embedded") -> None:
+    """CaseError where OpenFOAM cannot work in a folder; `remedy`: what to do, usually of who runs a case."""
     if not links.takes(folder.absolute()):
-        raise CaseError(
-            f"{folder.absolute()}: OpenFOAM takes no blanks and quotes in a path; move the run, give another --out, or "
-            "--gas embedded"
-        )
+        raise CaseError(f"{folder.absolute()}: OpenFOAM takes no blanks and quotes in a path; {remedy}")
+
+
+def refuse_names(case, remedy: str = "rename it, or give --gas embedded") -> None:
+    """The same where it cannot name the boundaries of a case."""
+    for name in case.boundaries:
+        if not NAME.fullmatch(name):
+            raise CaseError(f"boundaries.{name!r}: OpenFOAM takes letters, digits and _ . + - in a name; {remedy}")
+
+
+def refuse_reference(case, folder: Path) -> None:
+    """The same of a reference in `folder` that a run is compared with: it has no other gas."""
+    refuse_path(folder, "the reference is a run of OpenFOAM there: move the run to a path without them")
+    refuse_names(case, "the reference is a run of OpenFOAM: rename it and run the case anew")
 
 
 def write_case(
@@ -57,10 +67,7 @@ def write_case(
             f"{template} is no OpenFOAM case: it has no system/controlDict; the folder gas of `sdph init disc_cluster "
             "DIR` has all but your mesh"
         )
-    for name in case.boundaries:
-        if not NAME.fullmatch(name):
-            what = f"boundaries.{name!r}: OpenFOAM takes letters, digits and _ . + - in a name"
-            raise CaseError(f"{what}; rename it, or give --gas embedded")
+    refuse_names(case)
     if not allow_code:
         refuse_code(template, known)
     shutil.copytree(template, folder, dirs_exist_ok=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sdph.effects.liquids import bubble, time_scaling
+from sdph.effects.liquids import time_scaling
 from sdph.schema import CaseError
 
 # effects that know no bodies in a liquid, and why
@@ -54,8 +54,6 @@ def _of_tables(case) -> None:
 
 def _of_bodies(case) -> None:
     """A liquid with bodies in it has one phase, and no effect that knows no bodies."""
-    if "bubble" in case.effects:
-        bubble.check_shell(case)
     vents = "bubble" in case.effects and case.parameters["bubble"].content == "vapour" and case.solid.failure
     if vents and "time_scaling" not in case.effects:
         raise CaseError(

@@ -89,6 +89,11 @@ def _check_shape(case, where: str, body) -> None:
     lower, upper = extents(body)
     if body.shape == "ring" and body.inner_radius >= body.radius:
         raise CaseError(f"{where}.inner_radius_m = {body.inner_radius:g} must be below radius_m = {body.radius:g}")
+    if any(b <= a for a, b in zip(lower, upper)):  # of a box: others have lengths above 0
+        raise CaseError(
+            f"{where}: upper_m = {list(upper)} must lie above lower_m = {list(lower)} along every axis: swap what does "
+            "not, or make it wider"
+        )
     wide = body.radius - body.inner_radius if body.shape == "ring" else min(b - a for a, b in zip(lower, upper))
     if wide < case.resolution.spacing * (1.0 - 1e-9):
         spacing = f"resolution.spacing_mm = {case.resolution.spacing * 1e3:g}"

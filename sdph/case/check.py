@@ -8,8 +8,10 @@ from sdph import effects, scenes
 from sdph.case import beside, bodies, forces, inlets, materials, periods, probed, profiles, regions, turbulent
 from sdph.case.extents import SAME, inside, mouth, probe, side
 from sdph.case.sections import Case, Part, Region
+from sdph.effects.liquids import bubble
 from sdph.methods.liquids.sections import Pool
 from sdph.methods.mps.scales import KNOWN
+from sdph.methods.mps.start import refuse
 from sdph.methods.solids.sections import Body
 from sdph.schema import CaseError, fields, unknown
 
@@ -55,6 +57,8 @@ def check(case: Case) -> None:
             raise CaseError(f"effects holds {name}, which does not act on {what}; leave it out")
     for matter in case.matters:
         _check_one(case.only(matter))
+    if "bubble" in case.effects:
+        bubble.check_shell(case)
 
 
 def _check_one(case: Case) -> None:
@@ -77,7 +81,8 @@ def _check_one(case: Case) -> None:
         raise CaseError(f"domain.size_m = {list(case.domain.size)}; every length must be above 0")
     if any(case.domain.corner) and (case.solid or case.incompressible):
         given = f"domain.lower_m = {list(case.domain.lower)}"
-        raise CaseError(f"{given} is of grains and of a liquid that sound travels in; leave it out")
+        known = 'grains and of a liquid that sound travels in, not of solids nor of method.name = "mps"'
+        raise CaseError(f"{given} is of {known}; leave it out")
     for name, own in (*case.parameters.items(), *((f"particles.{name}", own) for name, own in case.particles.items())):
         if getattr(own, "mesh_scale", 1.0) != 1.0 and not own.mesh:
             raise CaseError(
@@ -149,6 +154,7 @@ def _check_method(case: Case) -> None:
         raise CaseError('method.name = "mps" moves one liquid: leave [gas_phase] and pools of gas out')
     if any(case.liquid.periodic or ()) and (case.nozzles or "outflow" in case.effects):
         raise CaseError('method.name = "mps" has no periodic axes beside nozzles or outflow: leave liquid.periodic out')
+    refuse(case)
 
 
 def _check_components(case: Case) -> None:

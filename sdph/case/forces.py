@@ -21,6 +21,11 @@ def of_matter(case) -> dict[str, list[str]]:
 def check(case) -> None:
     """CaseError where `run.forces` holds a name that no matter of the case knows, or one twice."""
     known = dict.fromkeys(name for own in of_matter(case).values() for name in own)
+    if case.run.forces and case.incompressible:
+        raise CaseError(
+            f'run.forces = {list(case.run.forces)}; with method.name = "mps" history.csv has the force on the whole '
+            "tank alone (mean_force_x_N and the like): leave run.forces out"
+        )
     for name in case.run.forces:
         if name not in known:
             allowed = ", ".join(known) or "no boundary, and no wall that has a name: leave it out"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import errno
-import json
 import os
 import signal
 import sys
@@ -146,7 +145,7 @@ def _overrides(options) -> tuple[str, ...]:
         "run.end_time_s": options.until,
         "run.device": options.device,
     }
-    return tuple(f"{key}={json.dumps(value)}" for key, value in given.items() if value is not None)
+    return tuple(f"{key}={value!r}" for key, value in given.items() if value is not None)  # as TOML has them, nan too
 
 
 def _table(summary: dict) -> str:

@@ -76,13 +76,19 @@ class Watch:
         worst = outside(values, *bounds[:2])
         if worst is not None:
             self.stop(
-                name, f"particle {state.ident[worst]}", particles.positions(state)[worst], values[worst], bounds, lower
+                name,
+                f"particle {state.ident[worst]}",
+                particles.positions(state)[worst],
+                values[worst],
+                bounds,
+                f"lower {lower}",
             )
 
-    def stop(self, name, which, place, value, bounds, lower: str) -> None:
+    def stop(self, name, which, place, value, bounds, remedy: str) -> None:
+        """Unstable: a value at a place (3,) [m] is out of bounds; `remedy`: what to do."""
         found = self._told(name, which, place, value, bounds)
         raise Unstable(
-            f"the run went unstable at t = {self.time:.6g} s, in window {self.window + 1}: {found}; lower {lower}",
+            f"the run went unstable at t = {self.time:.6g} s, in window {self.window + 1}: {found}; {remedy}",
             {name: arrays.brought(a) if name != "time" else a for name, a in self.last.items()},
         )
 

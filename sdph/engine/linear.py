@@ -41,13 +41,18 @@ class Unsolved(RuntimeError):
     """Conjugate gradients that have not come to their tolerance."""
 
 
+class Undefined(Unsolved):
+    """Equations, or a first guess, with an infinity or what is no number among them."""
+
+
 def solve(matrix: Matrix, right, x, tolerance: float, most: int, room=None, domain=WHOLE) -> int:
     """Put the solution into x (N,), which is the first guess, until |right - A x| <= tolerance |right|; iterations.
 
     Conjugate gradients with the diagonal before them: Hestenes & Stiefel 1952, J. Res. Nat. Bur. Stand. 49, 409.
-    `Unsolved` after `most` of them. Work arrays are from a `room`. On a device five numbers an iteration come to the
-    host, as |right - A x|^2 is among them. Processes of a `domain` have the rows of own particles each: x is given with
-    fresh copies, and comes back without; the way along which all go is told of in every iteration, sums are of all.
+    `Unsolved` after `most` of them, `Undefined` as soon as a sum is no number. Work arrays are from a `room`. On a
+    device five numbers an iteration come to the host, as |right - A x|^2 is among them. Processes of a `domain` have
+    the rows of own particles each: x is given with fresh copies, and comes back without; the way along which all go is
+    told of in every iteration, sums are of all.
     """
     room = room or arrays.Room()
     residual, smooth, along, moved = (room(name, len(x), x) for name in ("residual", "smooth", "along", "moved"))
@@ -57,7 +62,7 @@ def solve(matrix: Matrix, right, x, tolerance: float, most: int, room=None, doma
     add(right, (right,), sums, (ALL,), domain)
     add(residual, (residual, smooth), sums, (LEFT, WEIGHT), domain)
     whole = math.sqrt(arrays.brought(sums)[ALL])
-    if _length(sums) <= tolerance * whole:
+    if _length(sums, 0) <= tolerance * whole:
         return 0
     for number in range(1, most + 1):
         now = WEIGHT + (number + 1) % 2  # the weights of this iteration and of the next one stand there in turn
@@ -67,16 +72,19 @@ def solve(matrix: Matrix, right, x, tolerance: float, most: int, room=None, doma
         add(along, (moved,), sums, (MOVED,), domain)
         go(matrix.diagonal, sums, now, along, moved, x, residual, smooth)
         add(residual, (residual, smooth), sums, (LEFT, then), domain)
-        if _length(sums) <= tolerance * whole:
+        if (left := _length(sums, number)) <= tolerance * whole:
             return number
         turn(sums, now, then, smooth, along)
-    left = _length(sums) / whole
+    left /= whole
     raise Unsolved(f"{most} iterations left a residual of {left:.3g} of the right-hand side, above {tolerance:g}")
 
 
-def _length(sums) -> float:
-    """|right - A x|."""
-    return math.sqrt(arrays.brought(sums)[LEFT])
+def _length(sums, number: int) -> float:
+    """|right - A x| after a `number` of iterations; `Undefined` where it is none, or infinite."""
+    found = math.sqrt(arrays.brought(sums)[LEFT])
+    if not math.isfinite(found):
+        raise Undefined(f"after {number} iterations |right - A x| is {found:g}")
+    return found
 
 
 @parallel

@@ -80,7 +80,8 @@ def test_particles_are_followed_and_must_be_there(tmp_path):
         ({"solid": {"failure": [0.1]}}, "five numbers"),
         ({"solid": {"failure": [0.1] * 5}}, "yield_stress_Pa"),
         ({"bodies": {"a": {"shape": "ring", "centre_m": [0.5, 0.5], "radius_m": 0.1}}}, "inner_radius_m"),
-        ({"bodies": {"a": {"shape": "box", "lower_m": [0.4, 0.4], "upper_m": [0.3, 0.5]}}}, "is wide"),
+        ({"bodies": {"a": {"shape": "box", "lower_m": [0.4, 0.4], "upper_m": [0.3, 0.5]}}}, "must lie above"),
+        ({"bodies": {"a": {"shape": "box", "lower_m": [0.4, 0.4], "upper_m": [0.4001, 0.5]}}}, "is wide"),
         ({"bodies": {"a": {"shape": "box", "lower_m": [0.9, 0.4], "upper_m": [1.1, 0.5]}}}, "out of the domain"),
         ({"bodies": {"a": {"shape": "disc", "centre_m": [0.5, 0.5], "radius_m": 0.1, "motion": "cantilever"}}}, "held"),
         ({"dimensions": 3, "bodies": {"a": {"shape": "disc", "centre_m": [0.5] * 3, "radius_m": 0.1}}}, "dimensions"),
@@ -99,6 +100,7 @@ def test_what_makes_no_sense_is_refused(change, told):
     [
         ({"effects": ["inflation"], "inflation": {"body": "block"}}, "must be a ring"),
         ({"effects": ["rigid_sides"], "rigid_sides": {"sides": ["front"]}}, "allowed"),
+        ({"effects": ["rigid_sides"], "rigid_sides": {"sides": []}}, "empty list; it holds sides out of left, right"),
         ({"bodies": {"a": {"shape": "box", "lower_m": [0.4, 0.4], "upper_m": [0.6, 0.411]}}}, "too few neighbours"),
     ],
 )

@@ -21,7 +21,7 @@ import numpy as np
 
 from coupling.gas import GasError
 from coupling.openfoam import fields, poly_mesh
-from coupling.openfoam.case import DEPTH, HEAD, others, refuse_path, write_case
+from coupling.openfoam.case import DEPTH, HEAD, others, refuse_reference, write_case
 from coupling.openfoam.code import refuse_code
 from coupling.openfoam.comparators import (
     droplet_cloud,
@@ -180,7 +180,7 @@ def _run(
     solver: Solver, case: Case, folder: Path, ranks: int, files: dict[str, str], progress: Progress | None,
     start: Start | None = None, mesh: Path | None = None, again: bool = False,
 ) -> Reference:  # fmt: skip
-    refuse_path(folder)
+    refuse_reference(case, folder)
     known.refuse_no_output(case)
     environment = _environment(solver)
     _clear(folder)

@@ -112,6 +112,8 @@ def _refuse_periodic(case, move) -> None:
 
 def motion(own: Frame, until: float):
     """t -> (acceleration (3,), omega (3,), omega_dot (3,)) of the frame, gravity left out; t goes to `until` [s]."""
+    if own.end is not None and own.end <= own.start:
+        raise CaseError(f"frame.end_s = {own.end:g} must come after frame.start_s = {own.start:g}")
     if own.table:
         if own.shake or own.turn or any(own.spin):
             raise CaseError("frame.table is the whole motion: leave shake, turn and spin_rad_s out, or the table")

@@ -114,10 +114,10 @@ def refuse_outside(case, name: str, points, world=ALONE) -> None:
     beyond = shape_of(case).distance(points) if "tank" in case.effects else np.zeros(0)
     if outside := world.sum(int((beyond > ROUND_OFF * case.resolution.spacing).sum())):
         count, furthest = world.sum(len(points)), world.most(float(beyond.max(initial=0.0)))
+        around = f', or fill the tank around what stands in it: pools.{name}.shape = "tank" with fill'
         raise CaseError(
             f"pools.{name}: {outside} of its {count} particles would stand outside the tank, up to "
-            f"{furthest:.3g} m from it; move the pool, make it smaller, or fill the tank around what stands in it: "
-            f'pools.{name}.shape = "tank" with fill'
+            f"{furthest:.3g} m from it; move the pool, or make it smaller{'' if case.incompressible else around}"
         )
 
 
@@ -224,8 +224,10 @@ def corners(case) -> tuple[tuple, tuple]:
 
 def _box(case, own):
     lower, upper = corners(case)
+    given = f"tank: from lower_m = {list(lower)} to upper_m = {list(upper)}"
+    if any(high <= low for low, high in zip(lower, upper)):
+        raise CaseError(f"{given}; upper_m must lie above lower_m along every axis, as one of the domain does")
     if any(high - low < case.resolution.spacing * (1.0 - 1e-9) for low, high in zip(lower, upper)):
-        given = f"tank: from lower_m = {list(lower)} to upper_m = {list(upper)}"
         raise CaseError(f"{given} it is narrower than resolution.spacing_mm along an axis; widen it")
     return shapes.Box(np.array(lower), np.array(upper), tuple(_open_ends(case, own)))
 

@@ -59,7 +59,6 @@ class WallsP(NamedTuple):
     restitution: float
     contact: float
     spacing: float
-    volume: float
     penalty: float
     paper: int
     packing: float
@@ -74,7 +73,7 @@ def kernel(case) -> WallsP:
     penalty = own.penalty * math.sqrt(gravity / case.smoothing_length)
     return WallsP(
         *specularity(own, case.grains.restitution), own.restitution, CONTACT * spacing, spacing,
-        spacing**case.dimensions, penalty, MODELS.index(own.model), case.grains.packing_limit, case.grains.density,
+        penalty, MODELS.index(own.model), case.grains.packing_limit, case.grains.density,
         *coulomb(case, own),
     )  # fmt: skip
 
@@ -106,8 +105,9 @@ def closure(p, box, wall, s, i, kernel):
         return 1.0
     share = 1.0
     for k in range(wall.number[i]):
-        r = distance(box, wall, entry(wall, i, k), s, i)
-        share -= p.volume * kernels.cubic_spline(r, kernel.h, kernel.sigma)
+        w = entry(wall, i, k)
+        r = distance(box, wall, w, s, i)
+        share -= wall.volume[w] * kernels.cubic_spline(r, kernel.h, kernel.sigma)
     return share
 
 
@@ -130,7 +130,7 @@ def gradient(p, kernel, box, wall, s, i):
         w = entry(wall, i, k)
         dx, dy, dz = offset(box, wall, w, s, i)
         r = math.sqrt(dx * dx + dy * dy + dz * dz)
-        g = -2.0 * p.volume * kernels.cubic_spline_gradient(r, kernel.h, kernel.sigma)
+        g = -2.0 * wall.volume[w] * kernels.cubic_spline_gradient(r, kernel.h, kernel.sigma)
         du, dv, dw = held(p, wall, w, *against(wall, w, box, s, i))
         dx, dy, dz = normal_part(wall, w, dx, dy, dz)
         xx += g * du * dx
@@ -191,7 +191,7 @@ def penalty(p, kernel, box, wall, w, s, i, r):
     penalty rho."""
     vz = s.w[i] if deep(box) else 0.0
     approach = s.u[i] * wall.normal_x[w] + s.v[i] * wall.normal_y[w] + vz * wall.normal_z[w]
-    push = -p.penalty * 2.0 * kernel.h * min(approach, 0.0) / r * p.volume
+    push = -p.penalty * 2.0 * kernel.h * min(approach, 0.0) / r * wall.volume[w]
     return push * kernels.cubic_spline(r, kernel.h, kernel.sigma)
 
 
@@ -207,14 +207,14 @@ def pair(p, kernel, box, wall, w, s, i, rho, theta, stress, friction_p):
         px, py, pz = push * wall.normal_x[w], push * wall.normal_y[w], push * wall.normal_z[w]
     else:
         gradient = kernels.cubic_spline_gradient(r, kernel.h, kernel.sigma)
-        push = -p.volume / s.density[i] * (stress.pressure[i] + wall.pressure[w]) * gradient
+        push = -wall.volume[w] / s.density[i] * (stress.pressure[i] + wall.pressure[w]) * gradient
         # mirrored velocity 2 v_wall - <v>: v_i + <v> - 2 v_wall; Morris' form of the viscous force
         nx, ny, nz = wall.normal_x[w], wall.normal_y[w], wall.normal_z[w]
         away = dx * nx + dy * ny + dz * nz
         du, dv, dw = against(wall, w, box, s, i)
         speed = slip(nx, ny, nz, du, dv, dw)
         gripped = 2.0 * grip(p, wall.stick[w], away - wall.depth[w], s.density[i], rho, theta, stress.shear[i], speed)
-        stick = gripped * p.volume / s.density[i] * stress.shear[i] * gradient
+        stick = gripped * wall.volume[w] / s.density[i] * stress.shear[i] * gradient
         fx = stick * (du + wall.velocity[w, 0] - wall.slide_x[w])
         fy = stick * (dv + wall.velocity[w, 1] - wall.slide_y[w])
         fz = stick * (dw + wall.velocity[w, 2] - wall.slide_z[w])
@@ -222,7 +222,7 @@ def pair(p, kernel, box, wall, w, s, i, rho, theta, stress, friction_p):
         # pressure acts along the normal: a row of dummies is no row of teeth, a corner pushes nobody (`normal_part`)
         px, py, pz = push * away * nx, push * away * ny, push * away * nz
         if len(friction_p):
-            rub = 2.0 * p.volume * s.density[i] * gradient
+            rub = 2.0 * wall.volume[w] * s.density[i] * gradient
             rx, ry, rz = rubbing(p, wall, w, stress.traction, i, dx, dy, dz)
             fx, fy, fz = fx + rub * rx, fy + rub * ry, fz + rub * rz
     return px, py, pz, fx, fy, fz, power

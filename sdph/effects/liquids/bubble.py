@@ -102,13 +102,13 @@ def _check_hole(case, pool, before: list[Hole], hole: Hole) -> None:
 
 
 def check_shell(case) -> None:
-    """CaseError of a pool that goes through the shell around its bubbles."""
+    """CaseError of a pool that goes through the shell around its bubbles; both have their lengths."""
     pool = pool_of(case)
-    for name, body in case.bodies.items():
-        if body.shape != "ring":
-            continue
-        reach = math.dist(pool.centre, body.centre) + pool.radius
-        if reach > body.radius * (1.0 + SAME):
+    rings = {name: body for name, body in case.bodies.items() if body.shape == "ring"}
+    for name, body in rings.items():
+        apart = math.dist(pool.centre, body.centre)
+        reach = apart + pool.radius
+        if apart < body.radius and reach > body.radius * (1.0 + SAME):
             raise CaseError(
                 f"the pool around the bubbles reaches {reach:g} m from the middle of bodies.{name}, whose radius_m is "
                 f"{body.radius:g}: liquid would stand outside its shell; give it the shell's inner_radius_m, "

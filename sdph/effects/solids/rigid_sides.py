@@ -34,7 +34,12 @@ class RigidSidesP(NamedTuple):
 def kernel(case) -> RigidSidesP:
     own, there = case.parameters["rigid_sides"], list(SIDES)[: 2 * case.dimensions]
     named = (own.sides,) if isinstance(own.sides, str) else own.sides
-    for name in named or ("",):
+    if not named:
+        raise CaseError(
+            f"rigid_sides.sides is an empty list; it holds sides out of {', '.join(there)}: name some, or leave "
+            "rigid_sides out of effects"
+        )
+    for name in named:
         if name not in there:
             raise CaseError(f"rigid_sides.sides holds {name!r}; allowed: {', '.join(there)}")
     return _planes(named, case.domain.corner, case.domain.upper)

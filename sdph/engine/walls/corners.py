@@ -1,9 +1,10 @@
-"""Points beyond the edges and corners where walls of a mesh meet, behind no facet: one spacing apart, as those behind
-facets are.
+"""Points beyond the hollow edges and corners where walls of a mesh meet, behind no facet: one spacing apart, as those
+behind facets are; and what layers behind a round wall are longer or shorter than the wall itself.
 
 They fill the part of space whose nearest point of the surface lies on that edge or corner (its normal cone): a wedge
 beyond an edge, from the normal of one facet to that of the other, and beyond a corner what lies between the wedges of
-its edges. A vessel of many small facets has a narrow one at each.
+its edges. A round wall of small facets has a narrow one at each, too narrow for points of their own: a share of those
+behind the facets. About a tube what lies behind two facets is taken from them.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import scipy
 
 from sdph.engine.walls import facets
 
+SHARP = math.pi / 4.0  # rad of turn from which on facets meet at an edge, and below go on as a round wall; our choice
 FLAT = 1e-3  # rad between facets that go on as one: 0.004 of a spacing is lacking three layers behind; our choice
 NEARER = 1e-3  # of a distance from the surface: that of a mesh from VTK is as exact; our choice
 
@@ -33,12 +35,14 @@ class Ridges(NamedTuple):
 
 
 class Beyond(NamedTuple):
-    """Samples of what lies beyond edges and corners: place and its nearest point of the surface (N, d) [m], and three
-    facets (N, 3) that meet there, one of them twice at an edge."""
+    """Samples of what lies beyond edges and corners: place and its nearest point of the surface (N, d) [m], three
+    facets (N, 3) that meet there, one of them twice at an edge, and the part (N,) of a spacing^d that each is, below 0
+    where two facets count it."""
 
     place: np.ndarray
     foot: np.ndarray
     facets: np.ndarray
+    part: np.ndarray
 
     def those(self, rows) -> Beyond:
         """The samples of these rows."""
@@ -46,17 +50,28 @@ class Beyond(NamedTuple):
 
 
 def spread(corners: np.ndarray, spacing: float, reach: float) -> Beyond:
-    """Points beyond the edges and corners of facets (F, d, d) [m], nearer than `reach` [m]: one for each spacing^d."""
+    """Points beyond the sharp edges and corners of facets (F, d, d) [m], nearer than `reach` [m]: one for each
+    spacing^d."""
+    found = _samples(corners, spacing, reach, True)
+    found = found.those(_alone(found, facets.Surface(corners)))
+    middle, nearest = facets.middles(found.place)
+    return Beyond(middle, found.foot[nearest], found.facets[nearest], np.ones(len(middle)))
+
+
+def rounded(corners: np.ndarray, spacing: float, reach: float) -> Beyond:
+    """Samples of what layers behind the round parts of facets (F, d, d) [m] have more or less than the wall, nearer
+    than `reach` [m]."""
+    return _samples(corners, spacing, reach, False)
+
+
+def _samples(corners: np.ndarray, spacing: float, reach: float, sharp: bool) -> Beyond:
+    """Samples beyond edges and corners that are sharp, or of those that are not."""
     normal, point = facets.normals(corners), facets.numbered(corners)
     ridges = _ridges(corners, normal, point)
-    parts = [_beyond_edges(ridges, normal, spacing, reach)]
+    parts = [_beyond_edges(ridges, normal, spacing, reach, sharp)]
     if corners.shape[2] == 3:
-        parts.append(_beyond_corners(corners, normal, point, ridges, spacing, reach))
-    found = Beyond(*(np.concatenate(own) for own in zip(*parts)))
-    surface = facets.Surface(corners)
-    found = found.those(_alone(found, surface))
-    middle, nearest = facets.middles(found.place)
-    return Beyond(middle, surface.nearest(middle), found.facets[nearest]) if len(middle) else found.those([])
+        parts.append(_beyond_corners(corners, normal, point, ridges, spacing, reach, sharp))
+    return Beyond(*(np.concatenate(own) for own in zip(*parts)))
 
 
 def _alone(found: Beyond, surface) -> np.ndarray:
@@ -105,25 +120,25 @@ def _met(key, ahead) -> tuple[np.ndarray, np.ndarray]:
     return one, back[np.repeat(begin, end - begin) + rank]
 
 
-def _beyond_edges(ridges: Ridges, normal, spacing: float, reach: float) -> Beyond:
-    """Samples of the wedges beyond hollow edges."""
-    d = normal.shape[1]
-    own = Ridges(*(column[ridges.turn > FLAT] for column in ridges))
+def _beyond_edges(ridges: Ridges, normal, spacing: float, reach: float, sharp: bool) -> Beyond:
+    """Samples of the wedges beyond edges, hollow ones where they are sharp."""
+    d, size = normal.shape[1], np.abs(ridges.turn)
+    own = Ridges(*(column[ridges.turn > SHARP if sharp else (size > FLAT) & (size <= SHARP)] for column in ridges))
     length = np.linalg.norm(own.edge[:, -1] - own.edge[:, 0], axis=1) if d == 3 else np.ones(len(own.turn))
-    of, share = _drawn(0.5 * reach**2 * own.turn * length / spacing**d, d)
+    of, share = _drawn(0.5 * reach**2 * np.abs(own.turn) * length / spacing**d, d)
     one, other = own.facets[of].T
     turn = (own.turn[of] * share[:, 0])[:, None]
     away = reach * np.sqrt(share[:, 1:2]) * (np.cos(turn) * normal[one] + np.sin(turn) * own.along[of])
     foot = own.edge[of, 0] + share[:, -1:] * (own.edge[of, -1] - own.edge[of, 0])
-    return Beyond(foot - away, foot, np.stack((one, other, other), axis=1))
+    return Beyond(foot - away, foot, np.stack((one, other, other), axis=1), np.sign(own.turn[of]) / facets.SAMPLES)
 
 
-def _beyond_corners(corners, normal, point, ridges: Ridges, spacing: float, reach: float) -> Beyond:
-    """Samples of what lies beyond hollow corners, triangle by triangle of the sphere of directions: each from the
+def _beyond_corners(corners, normal, point, ridges: Ridges, spacing: float, reach: float, sharp: bool) -> Beyond:
+    """Samples of what lies beyond corners, triangle by triangle of the sphere of directions: each from the
     middle of the normals that meet there to two of them that are next to each other."""
     place = np.zeros((point.max() + 1, 3))
     place[point] = corners
-    own, facet = _meeting(normal, point, ridges)
+    own, facet = _meeting(normal, point, _whole(point, ridges) & _alike(ridges, len(place), sharp))
     middle = np.zeros_like(place)
     np.add.at(middle, own, normal[facet])
     middle = middle[own]
@@ -144,22 +159,36 @@ def _beyond_corners(corners, normal, point, ridges: Ridges, spacing: float, reac
     way = (1.0 - side) * middle[of] + side * ((1.0 - along) * a[of] + along * b[of])
     away = reach * np.cbrt(share[:, 2:]) * way / np.linalg.norm(way, axis=1)[:, None]
     foot = place[own[of]]
-    return Beyond(foot - away, foot, facet[np.stack((of, second[of], second[second[of]]), axis=1)])
+    there = facet[np.stack((of, second[of], second[second[of]]), axis=1)]
+    return Beyond(foot - away, foot, there, np.full(len(of), 1.0 / facets.SAMPLES))
 
 
-def _meeting(normal, point, ridges: Ridges) -> tuple[np.ndarray, np.ndarray]:
-    """Hollow corners, and the facets that meet there: one row for each of them and each normal, in order of corners.
-    Left out are those where a facet ends, and where an edge points at the grains."""
-    of_facet, known = np.repeat(np.arange(len(point)), 3), point.ravel()
-    size = len(point) and point.max() + 1
+def _whole(point, ridges: Ridges) -> np.ndarray:
+    """Mask (P,) of the corners at which no facet ends."""
     sides = np.unique(np.sort(np.stack((point, np.roll(point, -1, axis=1)), axis=2).reshape(-1, 2), axis=1), axis=0)
-    whole = np.bincount(sides.ravel(), minlength=size) == np.bincount(ridges.ends.ravel(), minlength=size)
-    hollow = whole & (np.bincount(ridges.ends[ridges.turn < -FLAT].ravel(), minlength=size) == 0)
-    known, of_facet = known[hollow[known]], of_facet[hollow[known]]
+    size = point.max() + 1
+    return np.bincount(sides.ravel(), minlength=size) == np.bincount(ridges.ends.ravel(), minlength=size)
+
+
+def _alike(ridges: Ridges, size: int, sharp: bool) -> np.ndarray:
+    """Mask (P,) of hollow corners with a sharp edge, or of those without one that are hollow or stand out all around:
+    a saddle has next to nothing beyond it."""
+    hollow, out, steep = (
+        np.bincount(ridges.ends[mask].ravel(), minlength=size) > 0
+        for mask in (ridges.turn > FLAT, ridges.turn < -FLAT, np.abs(ridges.turn) > SHARP)
+    )
+    return steep & ~out if sharp else ~steep & ~(hollow & out)
+
+
+def _meeting(normal, point, chosen) -> tuple[np.ndarray, np.ndarray]:
+    """Corners `chosen` (P,), and the facets that meet there: one row for each of them and each normal, in order of
+    corners."""
+    of_facet, known = np.repeat(np.arange(len(point)), 3), point.ravel()
+    known, of_facet = known[chosen[known]], of_facet[chosen[known]]
     rows = np.column_stack((known, np.round(normal[of_facet] / FLAT)))
     _, first = np.unique(rows, axis=0, return_index=True)
     known, of_facet = known[first], of_facet[first]
-    several = np.bincount(known, minlength=size)[known] >= 3
+    several = np.bincount(known, minlength=len(chosen))[known] >= 3
     return known[several], of_facet[several]
 
 
@@ -178,5 +207,5 @@ def _drawn(volumes, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
     count = round(facets.SAMPLES * ends[-1]) if len(ends) else 0
     of = np.searchsorted(ends, (np.arange(count) + 0.5) * (ends[-1] / count), side="right") if count else []
     order = facets.passes(count)
-    even = scipy.stats.qmc.Halton(dimensions, scramble=False).random(order.max(initial=-1) + 1)[order]
+    even = scipy.stats.qmc.Halton(dimensions, scramble=False).random(order.max(initial=-1) + 2)[order + 1]  # 0 is first
     return np.minimum(np.array(of, int), max(len(ends) - 1, 0)), even

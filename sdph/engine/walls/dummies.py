@@ -23,7 +23,7 @@ BESIDE = 1.0 + SKIN
 
 class Dummies(NamedTuple):
     """W dummies: place [m], unit normal (0 in corners, where two walls meet), depth behind the surface [m], 0 where
-    the surface lets grains slip and else 1, velocity of the surface along itself [m/s]."""
+    the surface lets grains slip and else 1, velocity of the surface along itself [m/s], volume [m^d]."""
 
     x: np.ndarray
     y: np.ndarray
@@ -36,6 +36,7 @@ class Dummies(NamedTuple):
     slide_x: np.ndarray
     slide_y: np.ndarray
     slide_z: np.ndarray
+    volume: np.ndarray
 
 
 OF_ROWS = (*Rows._fields, "before", "every", "pressure", "velocity")

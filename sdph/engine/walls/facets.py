@@ -133,12 +133,6 @@ class Surface:
             return found
         return np.where(found > 0.0, np.minimum(found, np.abs(_distance(self.sheets, places))), found)
 
-    def nearest(self, places: np.ndarray) -> np.ndarray:
-        """(N, d) [m] of the surface that is nearest to places (N, d)."""
-        own = np.pad(places, ((0, 0), (0, 3 - places.shape[1])))
-        found = (self.mesh if self.mesh.n_cells else self.sheets).find_closest_cell(own, return_closest_point=True)[1]
-        return np.asarray(found)[:, : places.shape[1]]
-
 
 def _distance(mesh, places: np.ndarray) -> np.ndarray:
     """The same from triangles."""

@@ -15,11 +15,12 @@ import numpy as np
 import scipy
 
 from sdph.engine.rows import entry, place, shorten
+from sdph.engine.walls.corners import SHARP
 from sdph.engine.walls.facets import ORDER
 from sdph.laws.compiled import serial
 
 AROUND = 0.75  # spacings about a surface point that count as its own: points stand one spacing apart or closer
-EDGE = math.cos(math.pi / 4.0)  # of the angle between normals from which on facets meet at an edge; our choice
+EDGE = math.cos(SHARP)
 FEET = 16  # of the dummies nearest to one that are asked for a facet beyond an edge; our choice
 SAME = 1e-6  # of a depth: round-off; our choice
 
@@ -51,13 +52,13 @@ class Beyond(NamedTuple):
     facing: np.ndarray
 
 
-def beyond(dummies, first, of_mesh, feet, facing, spacing: float) -> Beyond:
-    """The same of all dummies, `first` (W,) those of a mesh's first layer, `feet` and `facing` as in Beyond. Of two
-    facets that are as near, one owns the dummies of both. Round a hollow no dummy is behind two: each stands aside of
-    what faces it."""
+def beyond(dummies, first, plain, feet, facing, spacing: float) -> Beyond:
+    """The same of all dummies, `first` (W,) those of a mesh's first layer, `plain` (W,) those of a mesh behind a flat
+    wall, as about a round one volumes are counted once already; `feet` and `facing` as in Beyond. Of two facets that
+    are as near, one owns the dummies of both. Round a hollow none is behind two: each stands aside of what faces it."""
     found, count = np.zeros((len(dummies.x), 4)), len(dummies.x)
     nearer, blunt, corner = np.zeros(count, bool), np.zeros(count, bool), facing.any(axis=(1, 2))
-    own = np.flatnonzero(of_mesh & ~corner)
+    own = np.flatnonzero(plain & ~corner)
     places = np.stack((dummies.x, dummies.y, dummies.z), axis=1)[own]
     every = np.stack((dummies.normal_x, dummies.normal_y, dummies.normal_z), axis=1)
     normals, depths, ahead = every[own], dummies.depth[own], every[first]

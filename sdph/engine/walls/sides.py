@@ -6,6 +6,7 @@ import itertools
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 
 from sdph.engine.geometry import SIDES
 from sdph.engine.neighbours import Neighbours
@@ -36,8 +37,8 @@ class Boundary:
         self.dummies = Dummies(*(np.ascontiguousarray(column) for column in table.T))
         self.of_mesh = self.whose > 0
         if self.of_mesh.any():
-            first = self.area > 0.0
-            self.beyond = sides.beyond(self.dummies, first, self.of_mesh, self.feet, facing, self.spacing)
+            first, plain = self.area > 0.0, self.of_mesh & (self.dummies.volume == self.spacing**case.dimensions)
+            self.beyond = sides.beyond(self.dummies, first, plain, self.feet, facing, self.spacing)
 
     def rows(self, state_axes):
         """Dummies near each particle; valid as long as the particles' own rows."""
@@ -114,7 +115,7 @@ def _axes(dummies: Dummies, dimensions: int):
 
 
 class Placed(NamedTuple):
-    """Dummies of a case: columns (W, 11) of `Dummies`; area (W,) [m^(d-1)] of a mesh in front, of its first layer, else
+    """Dummies of a case: columns (W, 12) of `Dummies`; area (W,) [m^(d-1)] of a mesh in front, of its first layer, else
     0; whose (W,) they are: 0 of the domain's sides, 1 of a mesh, OWNED and more of a boundary's patch; place (W, 3) [m]
     of the surface in front, where what presses them acts; and of those in a corner of a mesh the normals (W, 3, 3) of
     the facets that meet there, else 0."""
@@ -133,12 +134,13 @@ def dummies(case) -> Placed:
     if own.mesh:
         corners, slip, _, owner = facets.walls(own.mesh, case.dimensions, own.mesh_scale)
         whose = OWNED + owner if _vessel(own) else np.full(len(slip), 1)
-        found += [
+        behind = [
             _behind_facets(corners[slip == slips], whose[slip == slips], case, slips)
             for slips in (False, True)
             if (slip == slips).any()
         ]
-        found.append(_beyond_facets(corners, whose, slip, case))
+        if behind:
+            found += [_stretched(behind, corners, case), _beyond_facets(corners, whose, slip, case)]
     return Placed(*(np.concatenate(own) for own in zip(*found)))
 
 
@@ -164,6 +166,7 @@ def _box(case) -> Placed:
     keep = outside.any(axis=(1, 2)) & (~outside | closed).all(axis=(1, 2))
     table, feet = np.zeros((int(keep.sum()), len(Dummies._fields))), np.zeros((int(keep.sum()), 3))
     table[:, :d], feet[:, :d] = points[keep], np.clip(points[keep], low, high)
+    table[:, -1] = case.resolution.spacing**d
     single = outside[keep].sum(axis=(1, 2)) == 1
     table[:, 3 : 3 + d] = np.where(single[:, None], outside[keep, :, 0] * 1.0 - outside[keep, :, 1] * 1.0, 0.0)
     table[:, 6] = depth[keep].max(axis=1)
@@ -220,7 +223,7 @@ def _behind_facets(corners: np.ndarray, whose: np.ndarray, case, slips: bool) ->
     points, normals, facet = facets.spread(corners, spacing)
     depth = (np.repeat(np.arange(LAYERS), len(points)) + 0.5) * spacing
     feet, normal, owner = np.tile(points, (LAYERS, 1)), np.tile(normals, (LAYERS, 1)), np.tile(whose[facet], LAYERS)
-    found = _placed(feet - depth[:, None] * normal, normal, depth, not slips, owner, feet)
+    found = _placed(feet - depth[:, None] * normal, normal, depth, not slips, owner, feet, spacing)
     found.area[: len(points)] = facets.sizes(corners).sum() / len(points)
     for number, boundary in enumerate(case.boundaries.values()):
         if boundary.kind == "wall" and boundary.velocity:  # it slides along each of its facets
@@ -231,22 +234,40 @@ def _behind_facets(corners: np.ndarray, whose: np.ndarray, case, slips: bool) ->
 
 
 def _beyond_facets(corners: np.ndarray, whose: np.ndarray, slip: np.ndarray, case) -> Placed:
-    """Dummies beyond edges and corners of facets: with a normal, that to the surface, where facets go on almost as one,
-    and without in a corner, as those of a box."""
+    """Dummies beyond edges and corners of facets, without a normal, as in those of a box."""
     spacing = case.resolution.spacing
-    places, feet, of = corners_of_mesh.spread(corners, spacing, LAYERS * spacing)
+    places, feet, of, _ = corners_of_mesh.spread(corners, spacing, LAYERS * spacing)
     facing = np.zeros((len(of), 3, 3))
     facing[:, :, : case.dimensions] = facets.normals(corners)[of]
-    sharp = np.einsum("ijk,ilk->ijl", facing, facing).min(axis=(1, 2)) < sides.EDGE
-    depth = np.linalg.norm(feet - places, axis=1)
-    normal = np.where(sharp[:, None], 0.0, (feet - places) / depth[:, None])
-    found = _placed(places, normal, depth, ~slip[of].all(axis=1), whose[of[:, 0]], feet)
-    return found._replace(facing=np.where(sharp[:, None, None], facing, 0.0))
+    depth, none = np.linalg.norm(feet - places, axis=1), np.zeros_like(places)
+    found = _placed(places, none, depth, ~slip[of].all(axis=1), whose[of[:, 0]], feet, spacing)
+    return found._replace(facing=facing)
 
 
-def _placed(places, normal, depth, grips, owner, feet) -> Placed:
-    """Dummies of a mesh at rest, in the dimensions of the case."""
+def _stretched(behind: list[Placed], corners: np.ndarray, case) -> Placed:
+    """Dummies behind facets with the volume that is theirs behind a round wall: more in the wall of a pipe, less in a
+    tube, nothing where others fill all of their room."""
+    found, spacing, d = Placed(*(np.concatenate(own) for own in zip(*behind))), case.resolution.spacing, case.dimensions
+    places, feet, _, part = corners_of_mesh.rounded(corners, spacing, LAYERS * spacing)
+    if not len(part):
+        return found
+    away = np.linalg.norm(feet - places, axis=1)
+    own, other = (
+        np.column_stack((place, spacing * normal, LAYERS * spacing * (depth // spacing)))  # layer by layer
+        for place, normal, depth in (
+            (found.table[:, :d], found.table[:, 3 : 3 + d], found.table[:, 6]),
+            (places, (feet - places) / away[:, None], away),
+        )
+    )
+    share = 1.0 + np.bincount(scipy.spatial.cKDTree(own).query(other)[1], part, len(own))
+    found.table[:, -1] *= np.where(share > 0.0, share, 0.0)
+    return found
+
+
+def _placed(places, normal, depth, grips, owner, feet, spacing: float) -> Placed:
+    """Dummies of a mesh at rest, in the dimensions of the case, each of spacing^d."""
     d, count = places.shape[1], len(places)
     table, own = np.zeros((count, len(Dummies._fields))), np.zeros((count, 3))
+    table[:, -1] = spacing**d
     table[:, :d], table[:, 3 : 3 + d], table[:, 6], table[:, 7], own[:, :d] = places, normal, depth, grips, feet
     return Placed(table, np.zeros(count), owner, own, np.zeros((count, 3, 3)))

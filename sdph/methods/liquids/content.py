@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from sdph.effects.gas import gel
 from sdph.laws import cavities, real_gas
 from sdph.methods.liquids import pores
 
@@ -14,7 +15,21 @@ COLDEST, HOTTEST = (
     0.999,
 )  # of the critical temperature: beyond, a vapour's bubble is no longer followed; our choice
 ABOUT = 2.0  # spacings that the roomiest place of a void moves by at most in a window; our choice
-LOWER = "bubble.flux_W_m2 or run.step_factor"
+
+
+def remedy(case) -> str:
+    """The keys to change where a bubble of a case is out of bounds: lower what feeds it, or warm what is too cold."""
+    own, heat = case.parameters["bubble"], case.parameters.get("liquid_heat")
+    fed = {"bubble.flux_W_m2": own.flux, "bubble.excess_Pa": own.excess > 0.0}
+    if heat and own.content == "vapour":
+        boiling = float(real_gas.saturation_temperature(gel.vapour(own), own.around))
+        if heat.temperature and heat.temperature < boiling:
+            cold = f"in a liquid of liquid_heat.temperature_K = {heat.temperature:g} vapour condenses"
+            return (
+                f"{cold}: raise that to {boiling:.4g} K, where it boils at bubble.around_Pa, or lower run.step_factor"
+            )
+        fed |= {"liquid_heat.flux_W_m2": heat.flux, "liquid_heat.temperature_K": heat.temperature}
+    return f"lower {' or '.join([*(key for key, on in fed.items() if on), 'run.step_factor'])}"
 
 
 class Content:
@@ -47,7 +62,7 @@ class Content:
         """Take another void [m2], and the pressure that goes with it."""
         self.area = area
         if not area > 0.0:
-            guard.stop("void", "the bubble", np.zeros(3), area, (0.0, math.inf, "m2"), LOWER)
+            guard.stop("void", "the bubble", np.zeros(3), area, (0.0, math.inf, "m2"), remedy(guard.case))
         self.pressure = self._content(guard) - self.p.around - self._capillary()
 
     def soak(self, conductance, temperature, dt: float) -> tuple[np.ndarray, np.ndarray]:
@@ -141,7 +156,9 @@ class Content:
         density = self.mass / self.area
         if not self.thinnest < density < self.densest:
             allowed = (self.thinnest, self.densest, "kg/m3")
-            guard.stop("density of the vapour", "the bubble", np.append(self.rim, 0.0), density, allowed, LOWER)
+            guard.stop(
+                "density of the vapour", "the bubble", np.append(self.rim, 0.0), density, allowed, remedy(guard.case)
+            )
         self.temperature = float(cavities.temperature_of(v, density, self.coldest, self.hottest))
         warmed = self.mass * v.heat_capacity * (self.temperature - before)
         self.mass, self.owed = self.mass - warmed / v.latent_heat, self.owed - warmed / v.latent_heat

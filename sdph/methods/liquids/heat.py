@@ -20,12 +20,16 @@ import scipy
 from sdph.effects.liquids import liquid_heat
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import apart
+from sdph.engine.ledger import ratio
 from sdph.laws import exchange
 from sdph.laws.compiled import serial
 from sdph.laws.constants import SOFTENING
 
 FACE = 0.5  # of h: how far the liquid that faces a void lies behind its face, in the mean; our choice
 SAME = 1e-9  # of a limit: round-off
+# of the heat m c T of all: of less that is exchanged 1e-10 (sdph.running.balances) is below 1e-15 of all heat, the
+# round-off of its sums, so that there is nothing to relate a drift to (as in sdph.engine.ledger); our choice
+TOLD = 1e-5
 
 
 class Heat:
@@ -137,11 +141,13 @@ class Heat:
         return float(self.capacity @ (self.stepper.state.temperature - self.origin))
 
     def summary(self) -> dict[str, float]:
-        """Heat [J] in, to the bubble, with what boiled; what is missing over what came in."""
-        missing = self.came - self.sensible() - self.taken - self.carried
+        """Heat [J] in, to the bubble, with what boiled; what is missing, and that over what came in and went to the
+        bubble (`ledger.ratio`), where that is more than TOLD of all heat."""
+        missing = abs(self.came - self.sensible() - self.taken - self.carried)
+        least = TOLD * float(self.capacity @ self.stepper.state.temperature)
         return {
             "heat_in_J": self.came, "heat_to_bubble_J": self.taken, "heat_boiled_off_J": self.carried,
-            "heat_drift_rel": abs(missing) / (abs(self.came) + abs(self.taken) or 1.0),
+            "heat_drift_J": missing, "heat_drift_rel": ratio(missing, abs(self.came) + abs(self.taken), least),
         }  # fmt: skip
 
     def row(self) -> dict[str, float]:

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
+from sdph.engine import arrays, linear
 from sdph.engine import state as particles
 from sdph.engine.guard import RUNAWAY, TINY, Unstable, Watch
 from sdph.engine.kept import Unfit
@@ -44,8 +47,25 @@ class MpsGuard(Watch):
         lower = f"run.step_factor (now {self.case.run.step_factor:g}; the step was ruled by {stepper.limit})"
         self.hold("speed", particles.lengths(particles.velocities(s)), (0.0, self.fast, "m/s"), s, lower)
 
-    def unsolved(self, stepper, error) -> None:
-        """Stop a run whose pressure has not come to its tolerance."""
+    def unsolved(self, stepper, error, *terms) -> None:
+        """Stop a run whose pressure has not come to its tolerance, or whose equations hold what is no number among the
+        `terms` (N,) of its particles."""
         own = self.case.method
         mend = f"raise method.iterations (now {own.iterations}) or method.tolerance (now {own.tolerance:g})"
+        if isinstance(error, linear.Undefined):
+            mend = (
+                f"{self._undefined(stepper, terms)}; more iterations do not help: look at the walls and pools there, "
+                f"or lower run.step_factor (now {self.case.run.step_factor:g})"
+            )
         raise Unstable(f"the pressure was not found at t = {stepper.time:.6g} s: {error}; {mend}", self.last)
+
+    def _undefined(self, stepper, terms) -> str:
+        """Name the particles whose equations, pressure, place or velocity are no numbers."""
+        s = particles.brought(stepper.state)
+        values = *map(arrays.brought, terms), s.pressure, *particles.positions(s).T, *particles.velocities(s).T
+        bad = np.flatnonzero(~np.isfinite(values).all(axis=0))
+        if not len(bad):
+            return "every equation holds numbers, but their sums do not"
+        at = ", ".join(f"{a:.4g}" for a in particles.positions(s)[bad[0]][: self.case.dimensions])
+        first = f"the first is particle {s.ident[bad[0]]} at ({at}) m"
+        return f"equations of {len(bad)} particles hold what is no number, {first}"

@@ -174,7 +174,7 @@ class MpsStepper:
                 matrix, source, self.pressure, own.tolerance, own.iterations, self.room, self.domain
             )
         except linear.Unsolved as error:
-            self.guard.unsolved(self, error)
+            self.guard.unsolved(self, error, source, matrix.diagonal)
         if holds:
             self.clipped += self.world.sum(alone.leave_out(self.domain.mine_of(self.pressure)))
         self.domain.refresh(self.pressure)

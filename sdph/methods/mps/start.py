@@ -17,13 +17,12 @@ FLOWS = ("uniform", "rotation", "taylor_green", "quadrupole")
 
 def fill(case) -> particles.State:
     """All particles of the pools, numbered from 0; none where nozzles alone give liquid."""
+    refuse(case)
     names = tanks.arrays(case)
     state = particles.empty(0, names, case.dimensions)
     for number, (name, pool) in enumerate(case.pools.items()):
         earlier = list(case.pools.values())[:number]
         state = particles.join(state, _pool(case, name, pool, earlier, names))
-    if not len(state.x) and not case.nozzles:
-        raise CaseError("no liquid: give it in a section such as [pools.drop], or let it in by [nozzles.mouth]")
     tanks.check(case)
     if "tank" in case.effects:
         state = particles.join(state, tanks.stand(case))
@@ -31,12 +30,21 @@ def fill(case) -> particles.State:
     return state
 
 
+def refuse(case) -> None:
+    """CaseError where there is no liquid, or a pool is none that moving particles can be."""
+    if not case.pools and not case.nozzles:
+        raise CaseError("no liquid: give it in a section such as [pools.drop], or let it in by [nozzles.mouth]")
+    for name, pool in case.pools.items():
+        if pool.shape in ("tank", "ring") or pool.flow not in FLOWS or pool.phase != "liquid":
+            given = f"pools.{name} has shape = {pool.shape!r}, flow = {pool.flow!r}, phase = {pool.phase!r}"
+            raise CaseError(
+                f"{given}; mps takes a box, disc or sphere of one liquid, with a flow of {', '.join(FLOWS)}"
+            )
+
+
 def _pool(case, name: str, pool, earlier: list, names) -> particles.State:
     """The particles of a pool, less those that lie in the pools before it."""
     d, spacing = case.dimensions, case.resolution.spacing
-    if pool.shape in ("tank", "ring") or pool.flow not in FLOWS or pool.phase != "liquid":
-        given = f"pools.{name} has shape = {pool.shape!r}, flow = {pool.flow!r}, phase = {pool.phase!r}"
-        raise CaseError(f"{given}; mps takes a box, disc or sphere of one liquid, with a flow of {', '.join(FLOWS)}")
     points = lattice.lattice(pool, spacing, d)
     for other in earlier:
         points = points[~regions.holds(other, points)]

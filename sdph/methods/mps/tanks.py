@@ -21,6 +21,9 @@ from sdph.laws.compiled import inlined
 from sdph.schema import CaseError
 
 NUDGE = 1e-3  # of a spacing: of the differences that the normal is made of; our choice
+# length of a normal by such differences below which two faces lie back to back there, each as near: 1 before one face,
+# 0.7 behind an edge of 90 degrees, 0.5 where two faces look away from each other by 120; our choice
+BACK_TO_BACK = 0.5
 
 
 class WallsP(NamedTuple):
@@ -109,7 +112,7 @@ def walls_of(case, state):
 
 
 def blocks(case, places) -> np.ndarray:
-    """(W, 3, 3) P: n n^T of the normal n; 0 in the edges of a box.
+    """(W, 3, 3) P: n n^T of the normal n, of either face amid a plate, as both have the same; 0 in the edges of a box.
 
     Along a wall pressures above and below i cancel; in an edge the one of them that is left would be too much.
     """
@@ -118,13 +121,30 @@ def blocks(case, places) -> np.ndarray:
         behind = (places < shape.lower) | (places > shape.upper)
         found[:, range(d), range(d)] = behind & (behind.sum(axis=1) == 1)[:, None]
         return found
-    step = NUDGE * case.resolution.spacing
-    normal = np.stack(
-        [shape.distance(places + step * e) - shape.distance(places - step * e) for e in np.eye(d)], axis=1
-    )
-    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    normal = normals(shape, places, NUDGE * case.resolution.spacing)
     found[:, :d, :d] = normal[:, :, None] * normal[:, None, :]
     return found
+
+
+def normals(shape, places, step: float) -> np.ndarray:
+    """(W, d) of length 1, at right angles to the nearest face of a shape, by differences over `step` [m].
+
+    Amid a plate, as far from one face as from the other, differences cancel: there the normal is that of a place two
+    steps aside, along the axis that leads best to one of the faces.
+    """
+    slopes = _slopes(shape, places, step)
+    amid = np.linalg.norm(slopes, axis=1) < BACK_TO_BACK
+    if amid.any():
+        beside = np.stack([_slopes(shape, places[amid] + 2.0 * step * e, step) for e in np.eye(places.shape[1])])
+        best = np.linalg.norm(beside, axis=2).argmax(axis=0)
+        slopes[amid] = beside[best, np.arange(len(best))]
+    return slopes / np.linalg.norm(slopes, axis=1, keepdims=True)
+
+
+def _slopes(shape, places, step: float) -> np.ndarray:
+    """(W, d) slopes of the distance from a shape, by differences over two steps [m]."""
+    ends = [(shape.distance(places + step * e), shape.distance(places - step * e)) for e in np.eye(places.shape[1])]
+    return np.stack([upper - lower for upper, lower in ends], axis=1) / (2.0 * step)
 
 
 def check(case) -> None:

@@ -48,17 +48,16 @@ def numbers(s, heated: bool) -> list[tuple]:
 
 
 def boiling(case) -> list[str]:
-    """A line for each region and nozzle whose droplets are hotter than they boil at."""
-    if "evaporation" not in case.effects or case.vapour is None:
+    """A line for each region and nozzle whose droplets are hotter than they boil at; gel is sealed by its shell."""
+    if "evaporation" not in case.effects or case.vapour is None or "micro_explosion" in case.effects:
         return []
-    p, around = evaporation.kernel(case), case.gas.operating_pressure
+    boils = evaporation.kernel(case).boiling_temperature
     given = [("particles", own) for own in case.particles.items()] + [("nozzles", own) for own in case.nozzles.items()]
     return [
-        f"{section}.{name}.temperature_K = {own.temperature:g}: droplets would boil, their vapour pressure there is "
-        f"{evaporation.saturation_pressure(p, own.temperature):.3g} Pa in gas of {around:g} Pa, and here they only "
-        "evaporate; lower it, or raise gas.operating_pressure_Pa"
+        f"{section}.{name}.temperature_K = {own.temperature:g}: droplets boil from {boils:.5g} K on, so that what they "
+        "have beyond that goes off in the first windows; lower it, unless that is meant"
         for section, (name, own) in given
-        if evaporation.saturation_pressure(p, own.temperature) > around
+        if own.temperature > boils
     ]
 
 

@@ -83,8 +83,11 @@ def step(simulation, dt: float) -> float:
 
 
 def measured(case, report=print) -> list[dict]:
-    """Rows of what concerns a case, of which `sdph explain` keeps the times."""
-    return table(report) if case.grains or len(case.matters) > 1 else alone(case, report)
+    """Rows of what concerns a case, of which `sdph explain` keeps the times: of grains, or of each other matter by
+    itself."""
+    if case.grains:
+        return table(report)
+    return [row for matter in case.matters for row in alone(case.only(matter), report)]
 
 
 def alone(case, report=print) -> list[dict]:
@@ -123,7 +126,7 @@ def table(report=print) -> list[dict]:
         )
         report(f"{name}: {best_on - best_off:.3f} us")
     ratio = min(row["with all [us]"] for row in rows) / estimate.SHIPPED.moving  # the rest in the shipped proportion
-    keep(**{key: value * ratio for key, value in estimate.SHIPPED._asdict().items() if key != "measured"})
+    keep(**{key: getattr(estimate.SHIPPED, key) * ratio for key in ("moving", "resting", "cell", "window")})
     return rows
 
 

@@ -16,7 +16,7 @@ from sdph.effects.around import sizes
 from sdph.effects.gas.drag import filter_width
 from sdph.engine import device as environment
 from sdph.engine import state as particles
-from sdph.engine.clock import Clock, alone
+from sdph.engine.clock import alone
 from sdph.exchange.window import ANSWER, opening
 from sdph.laws import kernels
 from sdph.methods.grains import start, ways
@@ -285,8 +285,7 @@ def expected(case, s, priced: Priced | None = None) -> list[dict]:
 
 def steps(case, end: float, longest: float) -> int:
     """Steps to an `end` [s] of liquids or solids that bear `longest` [s], before run.step_factor."""
-    clock = Clock(case.run) if case.grains else alone(case)  # beside a gas rows of the history are its windows'
-    return clock.parts(case.run.step_factor * longest, end)
+    return alone(case).parts(case.run.step_factor * longest, end)
 
 
 def memory(case, count: int, cells: int) -> float:

@@ -48,8 +48,8 @@ class Feed:
     def stake(self, time: float) -> float:
         """Heat to exchange at a time [s]; of a rate against time, in units of a second of its largest."""
         if self.rates:
-            passed = rates.passed(self.rates, np.array([min(time, self.end)]))[0]
-            return max(0.0, float(passed)) / max(rate for _, rate in self.rates)
+            before, passed = rates.passed(self.rates, np.array([self.start, min(time, self.end)]))
+            return max(0.0, float(passed - before)) / max(rate for _, rate in self.rates)
         return max(0.0, min(time, self.end) - self.start)
 
     def window(self, time: float, dt: float) -> tuple[float, float]:

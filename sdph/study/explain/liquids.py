@@ -21,13 +21,14 @@ WATER = 0.0728  # N/m, of water in air at 20 C (IAPWS R1-76): for the Weber and 
 SAME = 1e-6  # of a spacing: round-off of corners
 # of a step: neighbours and forces made anew where a drain has taken particles; measured, 9943 in a cylinder on its side
 REMOVING = 2.3
-PIPES = {  # shape of a tank -> how it gets an outlet pipe; other shapes: PIPE
-    "mesh": "give tank.mesh a pipe at its lowest point, closed at the end, unless it has one",
-    "outline": "draw a pipe into tank.corners_m: a notch down from the floor, closed at the end",
+KEYS_OF_PIPE = "give tank.outlet_radius_m and outlet_length_m"
+PIPES = {  # shape of a tank, in two dimensions or three -> how it gets an outlet pipe; others: PIPE
+    ("mesh", 3): "give tank.mesh a pipe at its lowest point, closed at the end, unless it has one",
+    ("outline", 2): "draw a pipe into tank.corners_m: a notch down from the floor, closed at the end",
+    ("sphere", 2): 'a disc has none: give tank.shape = "outline" and draw disc and pipe by tank.corners_m',
+    ("box", 2): KEYS_OF_PIPE,
 }
-PIPE = (
-    "give tank.outlet_radius_m and outlet_length_m, or a tank.mesh with a pipe at its lowest point, closed at the end"
-)
+PIPE = f"{KEYS_OF_PIPE}, or a tank.mesh with a pipe at its lowest point, closed at the end"
 DAMPED = "what damps waves is the program's artificial viscosity, and not the liquid's"
 
 
@@ -144,7 +145,7 @@ def warnings(s) -> list[str]:
     if "drain" in s.case.effects and not around.outlet_radius and not _ends_in_pipe(s.case, around):
         unsafe.append(
             "a tank without an outlet pipe gives up its lowest particles, wherever on its floor they are: pressures "
-            f"and loads meanwhile are not those of a drain; {PIPES.get(around.shape, PIPE)}"
+            f"and loads meanwhile are not those of a drain; {PIPES.get((around.shape, s.case.dimensions), PIPE)}"
         )
     return unsafe
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from sdph import effects
+from sdph.methods.mps.method import COURANT
 from sdph.methods.mps.method import limits as limits_of_step
 from sdph.study.explain import estimate, feed
 from sdph.study.explain.liquids import WATER
@@ -69,9 +70,12 @@ def warnings(s) -> list[str]:
 
 
 def limits(s) -> list[dict]:
-    """Largest step [s] by cause, before run.step_factor; neighbours in a turning sheet part by U l0/r."""
+    """Largest step [s] by cause, before run.step_factor; neighbours in a turning sheet part by U l0/r, and liquid of a
+    pool moves as fast as it comes to fall."""
     parameters = {name: effects.kernel_of(effects.REGISTRY[name], s.case) for name in s.case.effects}
     found = limits_of_step(s.case, parameters, s.state, relative_motion(s))
+    if s.case.method.of_pools(s.case) and s.reached:
+        found["motion"] = COURANT * s.case.resolution.spacing / s.reached
     least = min(found.values(), default=math.inf)
     return [{"cause": k, "largest [s]": v, "rules": "<-" if v == least else ""} for k, v in found.items()]
 

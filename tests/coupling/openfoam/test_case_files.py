@@ -77,6 +77,15 @@ def test_a_boundary_that_openfoam_could_not_call_so_is_refused(tmp_path):
         case_files.write_case(case, TEMPLATE, tmp_path / "out")
 
 
+@pytest.mark.parametrize(("folder", "wall"), [("a run/tfm", "wall"), ("run/tfm", "a wall")])
+def test_what_a_reference_cannot_take_names_no_option_of_other_commands(tmp_path, folder, wall):
+    """`sdph compare` has neither --out nor --gas."""
+    case = box_case((0.1, 0.1), 0.01, boundaries={wall: {"kind": "wall"}})
+    with pytest.raises(CaseError, match="OpenFOAM takes .*; the reference is a run of OpenFOAM") as caught:
+        case_files.refuse_reference(case, tmp_path / folder)
+    assert "--" not in str(caught.value)
+
+
 @pytest.mark.parametrize("entry", [
     '#calc "1+1"', "#codeStream { code #{ #}; }", "type coded;", "type codedFixedValue;", "type systemCall;",
     'libs ("libx.so");',

@@ -102,6 +102,17 @@ def test_the_frame_is_at_rest_before_its_table_and_after_its_end(tmp_path):
     np.testing.assert_allclose(move(2.75)[0], [2.0, 0.0, 0.0])
 
 
+@pytest.mark.parametrize("end", [1.0, 2.0])
+@pytest.mark.parametrize("moved", ["shake", "table"])
+def test_a_frame_that_ends_before_it_starts_is_refused(tmp_path, moved, end):
+    """As a drain is: the tank would never move."""
+    file = tmp_path / "motion.csv"
+    file.write_text(table(*ROWS))
+    own = {"shake": ((0, 0.02, 5.0, 0.3),)} if moved == "shake" else {"table": str(file)}
+    with pytest.raises(CaseError, match=rf"frame\.end_s = {end:g} must come after frame\.start_s = 2"):
+        frame.motion(frame.Frame(start=2.0, end=end, **own), 1.0)
+
+
 def test_a_table_that_ends_before_the_run_is_refused(tmp_path):
     with pytest.raises(CaseError, match=r"ends at 3 s and the run at 3\.5 s; add rows.*frame\.end_s"):
         motion(tmp_path, table(*ROWS), until=3.5, start=2.0)

@@ -1,5 +1,6 @@
 """Several bubbles in a liquid: told apart, grown alike, merged, closed with their mass and heat, restarted."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -8,9 +9,11 @@ from test_restart import Cut, Reporter, same_run
 
 from sdph.case import read as cases
 from sdph.effects.gas import gel
+from sdph.effects.liquids import liquid_heat
+from sdph.engine.guard import Unstable
 from sdph.laws import real_gas
-from sdph.methods.liquids import rooms
-from sdph.running import driver
+from sdph.methods.liquids import content, rooms
+from sdph.running import balances, driver
 from sdph.running.alone import Alone
 from sdph.schema import CaseError
 
@@ -155,6 +158,56 @@ def test_resumed_run_is_the_uninterrupted_one_bit_for_bit(tmp_path):
         driver.run(case, "", tmp_path / "cut", None, Reporter(whole["windows"] // 2 + 1))
     driver.resume(tmp_path / "cut", (), Reporter())
     same_run(tmp_path / "whole", tmp_path / "cut")
+
+
+def heated(end: float, **heat):
+    """A case of one bubble in gel of such [liquid_heat]."""
+    case = case_of(end, RING, "liquid_heat", centre_m=[MIDDLE, MIDDLE])
+    own = liquid_heat.LiquidHeat(conductivity=0.5, heat_capacity=5000.0, **heat)
+    return dataclasses.replace(case, parameters=case.parameters | {"liquid_heat": own})
+
+
+def test_where_next_to_no_heat_is_exchanged_its_drift_is_judged_by_itself(tmp_path):
+    """0.03 mJ go to and fro at 0.4 K from boiling, of 2.6 kJ: round-off is 2e-10 of that, and nothing is lost."""
+    stepper = gone(heated(4e-6, temperature=489.0), tmp_path).method.stepper
+    told = stepper.heat.summary()
+    assert 0.0 < abs(told["heat_to_bubble_J"]) < 1e-4 and told["heat_drift_rel"] == told["heat_drift_J"] < 1e-13
+    stepper.heat.came += 1e-9  # J, out of nothing
+    assert balances.missed(stepper.heat.summary())
+
+
+def test_a_drift_of_heat_is_related_to_what_was_exchanged(tmp_path):
+    heat = gone(case_of(END, DISC, "liquid_heat", **PAIR), tmp_path).method.stepper.heat
+    heat.taken += 1e-6  # J
+    told = heat.summary()
+    exchanged = told["heat_in_J"] + told["heat_to_bubble_J"]
+    assert exchanged > 0.1 and told["heat_drift_rel"] == pytest.approx(told["heat_drift_J"] / exchanged, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("heat", "told"),
+    [
+        ({"temperature": 300.0}, "raise that to 489.4 K, where it boils"),
+        ({"temperature": 640.0}, "lower liquid_heat.temperature_K or run.step_factor"),
+        ({"flux": 1e6}, "lower liquid_heat.flux_W_m2 or run.step_factor"),
+        ({}, "lower run.step_factor"),
+    ],
+)
+def test_a_bubble_out_of_bounds_names_keys_of_what_is_on(heat, told):
+    assert content.remedy(heated(END, **heat)).partition(": ")[2 * ("raise" in told)].startswith(told)
+
+
+def test_a_bubble_that_nothing_but_its_wall_heats_names_its_own_flux():
+    assert content.remedy(case_of(END, DISC, **PAIR, flux_W_m2=1e5)) == "lower bubble.flux_W_m2 or run.step_factor"
+
+
+def test_a_bubble_that_condenses_ends_with_what_to_do(tmp_path):
+    run = Alone(heated(1e-5, temperature=300.0), tmp_path / "ledger.csv")
+    run.start()
+    void = run.method.stepper.void
+    void.mass *= 1e-3  # as if all but that had condensed
+    with pytest.raises(Unstable, match=r"density of the vapour .*; in a liquid of liquid_heat\.temperature_K = 300"):
+        run.window()
 
 
 @pytest.mark.parametrize(

