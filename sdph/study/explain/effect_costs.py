@@ -22,6 +22,7 @@ from sdph.study.explain import estimate, mps
 
 ROUNDS = 7  # the least of so many counts
 WINDOWS = 4  # of a case without a gas, of some 20 steps each; the first compiles
+FEW = 1000  # particles, of fewer the time of a step hangs on their number little: not kept for other cases; our choice
 BED = ("resolution.spacing_mm=10", "resolution.cell_mm=20")
 
 
@@ -91,7 +92,7 @@ def measured(case, report=print) -> list[dict]:
 
 
 def alone(case, report=print) -> list[dict]:
-    """Time [us] of a particle and step of a case without a gas, of its first steps."""
+    """Time [us] of a particle and step of a case without a gas, of its first steps; kept unless they are FEW."""
     run, found = Alone(case, None), []
     run.start()
     for _ in range(WINDOWS):
@@ -103,7 +104,8 @@ def alone(case, report=print) -> list[dict]:
         found.append(1e6 * spent / max(1, run.stepper.steps - steps) / len(run.state.x))
     name = case.moved_by(run.matter)
     report(f"{name}: {min(found):.3f} us")
-    keep(**({"solid": min(found)} if name == "solid" else {"liquid": min(found) / _of_liquid(case, name)}))
+    if len(run.state.x) >= FEW:
+        keep(**({"solid": min(found)} if name == "solid" else {"liquid": min(found) / _of_liquid(case, name)}))
     return [{"method": name, "particle and step [us]": min(found)}]
 
 
