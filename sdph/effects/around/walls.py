@@ -51,7 +51,7 @@ class Walls:
 
 class WallsP(NamedTuple):
     """Specularity (-1: no slip) and what it changes by as grains slide, restitution, contact distance and spacing [m],
-    volume of a dummy [m^d], penalty [1/s], 1 for the paper's force, packing limit, grain density [kg/m3], Coulomb's
+    penalty [1/s], 1 for the paper's force, packing limit, grain density [kg/m3], Coulomb's
     coefficient of a contact and the share of the traction of contacts that a wall that grips takes [-]."""
 
     specularity: float

@@ -17,7 +17,9 @@ import scipy
 
 from sdph.engine.walls import facets
 
-SHARP = math.pi / 4.0  # rad of turn from which on facets meet at an edge, and below go on as a round wall; our choice
+# rad of turn from which on facets meet at an edge, and below go on as a round wall; a little beyond the 45 degrees of
+# octagons and chamfers, whose edges are then all alike; our choice
+SHARP = math.radians(46.0)
 FLAT = 1e-3  # rad between facets that go on as one: 0.004 of a spacing is lacking three layers behind; our choice
 NEARER = 1e-3  # of a distance from the surface: that of a mesh from VTK is as exact; our choice
 
@@ -62,6 +64,17 @@ def rounded(corners: np.ndarray, spacing: float, reach: float) -> Beyond:
     """Samples of what layers behind the round parts of facets (F, d, d) [m] have more or less than the wall, nearer
     than `reach` [m]."""
     return _samples(corners, spacing, reach, False)
+
+
+def outwards(corners: np.ndarray, spacing: float) -> np.ndarray:
+    """Places (N, d) [m], a spacing apart or less, along the sharp edges of facets (F, d, d) [m] that point at the
+    grains."""
+    ridges = _ridges(corners, facets.normals(corners), facets.numbered(corners))
+    edge = ridges.edge[ridges.turn < -SHARP]
+    count = 1 + np.ceil(np.linalg.norm(edge[:, -1] - edge[:, 0], axis=1) / spacing).astype(int)
+    of = np.repeat(np.arange(len(edge)), count)
+    share = (np.arange(len(of)) - (np.cumsum(count) - count)[of]) / np.where(count > 1, count - 1, 1)[of]
+    return edge[of, 0] + share[:, None] * (edge[of, -1] - edge[of, 0])
 
 
 def _samples(corners: np.ndarray, spacing: float, reach: float, sharp: bool) -> Beyond:
@@ -138,7 +151,7 @@ def _beyond_corners(corners, normal, point, ridges: Ridges, spacing: float, reac
     middle of the normals that meet there to two of them that are next to each other."""
     place = np.zeros((point.max() + 1, 3))
     place[point] = corners
-    own, facet = _meeting(normal, point, _whole(point, ridges) & _alike(ridges, len(place), sharp))
+    own, facet = _meeting(normal, point, _whole(point, ridges) & _alike(normal, point, ridges, sharp))
     middle = np.zeros_like(place)
     np.add.at(middle, own, normal[facet])
     middle = middle[own]
@@ -170,13 +183,19 @@ def _whole(point, ridges: Ridges) -> np.ndarray:
     return np.bincount(sides.ravel(), minlength=size) == np.bincount(ridges.ends.ravel(), minlength=size)
 
 
-def _alike(ridges: Ridges, size: int, sharp: bool) -> np.ndarray:
-    """Mask (P,) of hollow corners with a sharp edge, or of those without one that are hollow or stand out all around:
-    a saddle has next to nothing beyond it."""
+def _alike(normal, point, ridges: Ridges, sharp: bool) -> np.ndarray:
+    """Mask (P,) of hollow corners with a sharp edge, or pointed as the tip of a cone; or of the others that are hollow
+    or stand out all around: a saddle has next to nothing beyond it."""
+    size = point.max() + 1
     hollow, out, steep = (
         np.bincount(ridges.ends[mask].ravel(), minlength=size) > 0
         for mask in (ridges.turn > FLAT, ridges.turn < -FLAT, np.abs(ridges.turn) > SHARP)
     )
+    middle = np.zeros((size, 3))
+    np.add.at(middle, point.ravel(), np.repeat(normal, 3, axis=0))
+    along, length = np.einsum("ijk,ik->ij", middle[point], normal), np.linalg.norm(middle[point], axis=2)
+    pointed = np.bincount(point[along < math.cos(0.5 * SHARP) * length], minlength=size) > 0
+    steep |= pointed & hollow & ~out
     return steep & ~out if sharp else ~steep & ~(hollow & out)
 
 

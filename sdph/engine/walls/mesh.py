@@ -54,8 +54,9 @@ class Beyond(NamedTuple):
 
 def beyond(dummies, first, plain, feet, facing, spacing: float) -> Beyond:
     """The same of all dummies, `first` (W,) those of a mesh's first layer, `plain` (W,) those of a mesh behind a flat
-    wall, as about a round one volumes are counted once already; `feet` and `facing` as in Beyond. Of two facets that
-    are as near, one owns the dummies of both. Round a hollow none is behind two: each stands aside of what faces it."""
+    wall or near an edge, as about a round one volumes are counted once already; `feet` and `facing` as in Beyond. Of
+    two facets that are as near, one owns the dummies of both. Round a hollow none is behind two: each stands aside of
+    what faces it."""
     found, count = np.zeros((len(dummies.x), 4)), len(dummies.x)
     nearer, blunt, corner = np.zeros(count, bool), np.zeros(count, bool), facing.any(axis=(1, 2))
     own = np.flatnonzero(plain & ~corner)
@@ -73,9 +74,23 @@ def beyond(dummies, first, plain, feet, facing, spacing: float) -> Beyond:
     as_near = np.abs(depth - depths) < SAME * depths
     found[own[there]] = np.column_stack((normal, depth))[there]
     nearer[own] = there & np.where(as_near, normal @ ORDER > normals @ ORDER, depth < depths)
+    nearer &= ~_alone(np.stack((dummies.x, dummies.y, dummies.z), axis=1), nearer, AROUND * spacing)
     if not dummies.normal_z.any():  # at a corner of a solid in space three faces meet, and one alone is known here
         blunt[own] = there & (turned[one] >= -EDGE)
     return Beyond(found, nearer, blunt, corner, feet, facing)
+
+
+def _alone(places, left, reach: float) -> np.ndarray:
+    """Mask (W,) of those of the dummies `left` out (W,) in whose place no other one stands within `reach` [m]: two
+    faces may leave a place to each other, and then the first of them keeps it."""
+    alone = np.zeros(len(left), bool)
+    if not left.any() or left.all():
+        return alone
+    empty = np.flatnonzero(left)
+    empty = empty[scipy.spatial.cKDTree(places[~left]).query(places[empty])[0] > reach]
+    for n, near in zip(empty, scipy.spatial.cKDTree(places[empty]).query_ball_point(places[empty], reach)):
+        alone[n] = not alone[empty[near]].any()
+    return alone
 
 
 @serial

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -33,11 +34,11 @@ class Boundary:
         placed, self.spacing = dummies(case), case.resolution.spacing
         places = placed.table[:, : case.dimensions].T
         order = self.search.sort(tuple(np.ascontiguousarray(column) for column in places))
-        table, self.area, self.whose, self.feet, facing = (own[order] for own in placed)
+        table, self.area, self.whose, self.feet, facing, curved = (own[order] for own in placed)
         self.dummies = Dummies(*(np.ascontiguousarray(column) for column in table.T))
         self.of_mesh = self.whose > 0
         if self.of_mesh.any():
-            first, plain = self.area > 0.0, self.of_mesh & (self.dummies.volume == self.spacing**case.dimensions)
+            first, plain = self.area > 0.0, self.of_mesh & ~curved
             self.beyond = sides.beyond(self.dummies, first, plain, self.feet, facing, self.spacing)
 
     def rows(self, state_axes):
@@ -117,14 +118,15 @@ def _axes(dummies: Dummies, dimensions: int):
 class Placed(NamedTuple):
     """Dummies of a case: columns (W, 12) of `Dummies`; area (W,) [m^(d-1)] of a mesh in front, of its first layer, else
     0; whose (W,) they are: 0 of the domain's sides, 1 of a mesh, OWNED and more of a boundary's patch; place (W, 3) [m]
-    of the surface in front, where what presses them acts; and of those in a corner of a mesh the normals (W, 3, 3) of
-    the facets that meet there, else 0."""
+    of the surface in front, where what presses them acts; of those in a corner of a mesh the normals (W, 3, 3) of the
+    facets that meet there, else 0; and which (W,) are behind a round wall, away from edges that point at the grains."""
 
     table: np.ndarray
     area: np.ndarray
     whose: np.ndarray
     feet: np.ndarray
     facing: np.ndarray
+    curved: np.ndarray
 
 
 def dummies(case) -> Placed:
@@ -180,7 +182,7 @@ def _box(case) -> Placed:
                 slides = behind & (_owners(case, points, side) == number)
                 table[slides[keep] & single, 8 : 8 + d] = boundary.velocity[:d]  # corners are at rest
     none = np.zeros(len(table))  # the area is that of faces (sdph.engine.walls.faces)
-    return Placed(table, none, none.astype(int), feet, np.zeros((len(table), 3, 3)))
+    return Placed(table, none, none.astype(int), feet, np.zeros((len(table), 3, 3)), none > 0.0)
 
 
 def _closed(case, points, side: str) -> np.ndarray:
@@ -259,8 +261,13 @@ def _stretched(behind: list[Placed], corners: np.ndarray, case) -> Placed:
             (places, (feet - places) / away[:, None], away),
         )
     )
-    share = 1.0 + np.bincount(scipy.spatial.cKDTree(own).query(other)[1], part, len(own))
+    nearest = scipy.spatial.cKDTree(own).query(other)[1]
+    share = 1.0 + np.bincount(nearest, part, len(own))
     found.table[:, -1] *= np.where(share > 0.0, share, 0.0)
+    found.curved[nearest] = True
+    if len(edges := corners_of_mesh.outwards(corners, spacing)):
+        near = math.sqrt(2.0) * LAYERS * spacing  # what lies behind both faces of an edge
+        found.curved[scipy.spatial.cKDTree(edges).query(found.table[:, :d])[0] < near] = False
     return found
 
 
@@ -270,4 +277,4 @@ def _placed(places, normal, depth, grips, owner, feet, spacing: float) -> Placed
     table, own = np.zeros((count, len(Dummies._fields))), np.zeros((count, 3))
     table[:, -1] = spacing**d
     table[:, :d], table[:, 3 : 3 + d], table[:, 6], table[:, 7], own[:, :d] = places, normal, depth, grips, feet
-    return Placed(table, np.zeros(count), owner, own, np.zeros((count, 3, 3)))
+    return Placed(table, np.zeros(count), owner, own, np.zeros((count, 3, 3)), np.zeros(count, bool))

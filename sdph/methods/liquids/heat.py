@@ -20,7 +20,6 @@ import scipy
 from sdph.effects.liquids import liquid_heat
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import apart
-from sdph.engine.ledger import ratio
 from sdph.laws import exchange
 from sdph.laws.compiled import serial
 from sdph.laws.constants import SOFTENING
@@ -142,12 +141,12 @@ class Heat:
 
     def summary(self) -> dict[str, float]:
         """Heat [J] in, to the bubble, with what boiled; what is missing, and that over what came in and went to the
-        bubble (`ledger.ratio`), where that is more than TOLD of all heat."""
+        bubble, or over TOLD of all heat where that is more."""
         missing = abs(self.came - self.sensible() - self.taken - self.carried)
-        least = TOLD * float(self.capacity @ self.stepper.state.temperature)
+        moved, least = abs(self.came) + abs(self.taken), TOLD * float(self.capacity @ self.stepper.state.temperature)
         return {
             "heat_in_J": self.came, "heat_to_bubble_J": self.taken, "heat_boiled_off_J": self.carried,
-            "heat_drift_J": missing, "heat_drift_rel": ratio(missing, abs(self.came) + abs(self.taken), least),
+            "heat_drift_J": missing, "heat_drift_rel": missing / (moved if moved > least else least),
         }  # fmt: skip
 
     def row(self) -> dict[str, float]:

@@ -96,6 +96,8 @@ class MpsScales:
         low, high = (np.array([sign * shape.furthest(sign * e) for e in axes]) for sign in (-1.0, 1.0))
         places = low + (high - low) * qmc.Halton(len(axes), scramble=False).random(LOOKS)
         inside = np.sort((places @ down)[shape.distance(places) < 0.0])[::-1]
+        if not len(inside):  # a tank so narrow in its box that no place hit it
+            return float((places @ down).max())
         share = count * self.case.resolution.spacing ** len(axes) / float(np.prod(high - low))
         return float(inside[min(round(share * LOOKS), len(inside) - 1)])
 

@@ -167,12 +167,12 @@ def heated(end: float, **heat):
     return dataclasses.replace(case, parameters=case.parameters | {"liquid_heat": own})
 
 
-def test_where_next_to_no_heat_is_exchanged_its_drift_is_judged_by_itself(tmp_path):
+def test_where_next_to_no_heat_is_exchanged_its_drift_is_related_to_a_share_of_all(tmp_path):
     """0.03 mJ go to and fro at 0.4 K from boiling, of 2.6 kJ: round-off is 2e-10 of that, and nothing is lost."""
     stepper = gone(heated(4e-6, temperature=489.0), tmp_path).method.stepper
     told = stepper.heat.summary()
-    assert 0.0 < abs(told["heat_to_bubble_J"]) < 1e-4 and told["heat_drift_rel"] == told["heat_drift_J"] < 1e-13
-    stepper.heat.came += 1e-9  # J, out of nothing
+    assert 0.0 < abs(told["heat_to_bubble_J"]) < 1e-4 and told["heat_drift_rel"] < 1e-11
+    stepper.heat.came += 1e-5  # J, out of nothing
     assert balances.missed(stepper.heat.summary())
 
 

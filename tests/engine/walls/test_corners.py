@@ -184,3 +184,38 @@ def test_round_walls_fill_what_lies_in_them(tmp_path, radius, outside, lies):
             sum(wall.volume[w] * kernels.cubic_spline(np.hypot(x - wall.x[w], y - wall.y[w]), h, sigma) for w in seen)
         )
     assert np.mean(sums) == pytest.approx(lies, rel=0.04)
+
+
+def test_a_round_wall_that_ends_at_an_edge_counts_once(tmp_path):
+    """Solid half discs of radii about 6 spacings, chord upwards: of grains 0.4 spacings off a corner either way, and
+    before chord and arc beside it. Where dummies stand by the edge is chance: means of nine discs."""
+    turn, off = np.pi * np.arange(41) / 40, 0.4 * SPACING
+    arc = np.column_stack((-np.cos(turn), -np.sin(turn)))[::-1]  # from right to left below: the solid on the right hand
+    ticks = (np.arange(-60, 60) + 0.5) * 3.0 * SPACING / 60.0
+    across, up = (part.ravel() for part in np.meshgrid(ticks, ticks))
+    found, lies = np.zeros((2, 9, 3))
+    for n, radius in enumerate(SPACING * np.linspace(5.6, 6.4, 9)):
+        stepper = in_a_vessel(tmp_path, lines(0.08 + radius * arc), ([0.0, 0.13], [0.01, 0.14]))
+        places = 0.08 + np.array([(radius + off, off), (radius - off, off), (radius + off, -off)])
+        axes, h = tuple(np.ascontiguousarray(places.T)), stepper.case.smoothing_length
+        sigma = kernels.normalisation("cubic_spline", 2, h)
+        weight = (
+            np.array([kernels.cubic_spline(r, h, sigma) for r in np.hypot(across, up)]) * (ticks[1] - ticks[0]) ** 2
+        )
+        wall, _ = stepper.boundary.seen(stepper.boundary.rows(axes), axes)
+        for i, (x, y) in enumerate(places):
+            lies[n, i] = weight[(np.hypot(x + across - 0.08, y + up - 0.08) < radius) & (y + up < 0.08)].sum()
+            found[n, i] = sum(
+                wall.volume[w] * kernels.cubic_spline(np.hypot(x - wall.x[w], y - wall.y[w]), h, sigma)
+                for w in wall.entries[wall.start[i] :][: wall.number[i]]
+            )
+    assert found.mean(axis=0) == pytest.approx(lies.mean(axis=0), rel=0.1)
+
+
+def test_the_tip_of_a_cone_has_points_of_its_own():
+    """Its edges turn by little each, its corner by much."""
+    tip = triangles(pyvista.Cone(height=H, radius=H, direction=(0, 0, 1), resolution=48))
+    top = tip[:, :, 2].max()
+    found = corners.spread(tip, SPACING, REACH)
+    beyond = (found.foot[:, 2] == top).sum()
+    assert beyond == pytest.approx(2.0 * np.pi * (1.0 - np.sin(np.pi / 4.0)) * 9.0, rel=0.15)  # its normal cone, R^3/3
