@@ -55,6 +55,7 @@ HARMLESS = {
     "sdph/engine/ledger.py:Ledger._energy_drift": "what a drift is related to, for the summary alone",
     "sdph/methods/liquids/totals.py:LiquidLedger.*": "the largest so far",
     "sdph/methods/liquids/totals.py:fastest": "the largest of all",
+    "sdph/methods/liquids/heat.py:Heat.summary": "what a drift is related to, the larger of two",
     "sdph/engine/walls/*": "geometry: distances, counts of points",
     "sdph/engine/polyline.py:*": "geometry: the nearest place of a segment",
     "sdph/engine/lattice.py:*": "counts of points",
