@@ -1,6 +1,7 @@
 """What a run says of itself while it goes: the line, the page, and what is refused or stopped because it would get
 nowhere."""
 
+import gc
 import json
 import re
 import sys
@@ -74,6 +75,13 @@ def test_a_case_without_heat_shows_no_residual_of_it(tmp_path):
         page = SimpleNamespace(show=lambda simulation, line: shown.append(line))
         driver.run(case, "disc_cluster", tmp_path / name, None, Reporter(quiet=True, page=page))
     assert "(heat)" in shown[0] and "residual" in shown[-1] and "(heat)" not in shown[-1]
+
+
+def test_no_garbage_is_looked_for_while_kernels_compile():
+    before = gc.isenabled()
+    with event.trigger_event("numba:compile"), event.trigger_event("numba:compile"):
+        assert not gc.isenabled()
+    assert before and gc.isenabled()
 
 
 def test_compiling_is_told_once_and_only_where_it_takes_time(tmp_path, monkeypatch):

@@ -84,20 +84,20 @@ class Feeds:
         self.shares = [part / sum(heat) for part in heat]
 
     def stake(self, time: float) -> float:
-        """As that of a feed."""
+        """Heat to exchange at a time [s], of all feeds by their shares."""
         return sum(share * one.stake(time) for share, one in zip(self.shares, self.feeds))
 
     def window(self, time: float, dt: float) -> tuple[float, float]:
-        """As that of a feed."""
+        """Heat that a window of `dt` [s] from a time [s] exchanges, and change of its rate, of all by their shares."""
         found = [one.window(time, dt) for one in self.feeds]
         return tuple(sum(share * own[n] for share, own in zip(self.shares, found)) for n in (0, 1))
 
     def under_way(self, least: float, tolerance: float) -> bool:
-        """As that of a feed."""
+        """True once every feed that brings heat is under way (`Feed.under_way`)."""
         return all(one.under_way(least, tolerance) for share, one in zip(self.shares, self.feeds) if share)
 
     def longest(self, tolerance: float) -> float:
-        """As that of a feed."""
+        """Window [s] that the heat of the quickest feed allows half-way."""
         return min(one.longest(tolerance) for share, one in zip(self.shares, self.feeds) if share)
 
 

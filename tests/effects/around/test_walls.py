@@ -226,7 +226,7 @@ def test_a_span_of_another_boundary_on_a_side_that_slides_rests():
     lid = {"lid": {"kind": "wall", "side": "top", "velocity_m_s": [1.0, 0.0]}}
     plate = {"plate": {"kind": "wall", "side": "top", "span_m": [0.02, 0.04]}, "rest": {"kind": "wall"}}
     own = box(["granular_pressure", "walls"], (0.06, HEIGHT), ALPHA_P, periodic=(), boundaries=lid | plate)
-    table = sides._box(own)
+    table = sides._box(own).table
     above = (table[:, 1] > HEIGHT) & (table[:, 0] > 0.0) & (table[:, 0] < 0.06)
     behind = (table[:, 0] > 0.02) & (table[:, 0] < 0.04)
     assert (above & behind).any() and (above & ~behind).any()

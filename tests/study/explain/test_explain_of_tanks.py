@@ -1,12 +1,13 @@
 """`sdph explain` of tanks that are drained: outlet, damping, tension."""
 
+import dataclasses
 import math
 
 import pytest
 
 from sdph.case import read as cases
 from sdph.schema import CaseError
-from sdph.study.explain import tables
+from sdph.study.explain import liquids, tables
 
 
 def drained(end=4.0, **sections):
@@ -28,6 +29,30 @@ def test_a_drain_faster_than_liquid_falls_is_told_of(end, told):
     (found,) = [line for line in tables.warnings(drained(end)) if "Torricelli" in line] or [""]
     assert bool(found) == told
     assert not told or ("2.6 m/s" in found and "1.47 m/s" in found)
+
+
+def told_of(what, case):
+    (row,) = [row for row in tables.explain(case)["expected"] if row["what"] == what]
+    return row["value"]
+
+
+def test_rows_of_the_history_cut_steps():
+    """A row each 10 us, far shorter than a step: one step to each of the 450 000."""
+    fine = dataclasses.replace(drained().liquid, history_interval=1e-5)
+    assert told_of("steps", dataclasses.replace(drained(), liquid=fine)) == 450_000
+    assert told_of("steps", drained()) < 100_000
+
+
+def test_a_drain_costs_the_steps_in_which_it_takes_particles():
+    """0.135 m2 of particles of 1 cm2, one to a step at most; 2.3 steps' time each."""
+    case = drained()
+    closed = dataclasses.replace(
+        case,
+        effects=tuple(name for name in case.effects if name != "drain"),
+        parameters={name: own for name, own in case.parameters.items() if name != "drain"},
+    )
+    times = [told_of("wall time", own) / told_of("steps", own) for own in (case, closed)]
+    assert times[0] / times[1] == pytest.approx(1.0 + liquids.REMOVING * 1348.0 / told_of("steps", case), rel=1e-3)
 
 
 def test_an_outlet_pipe_without_liquid_is_told_of():
