@@ -1,5 +1,5 @@
-"""What all tests share: hypothesis without deadlines, how long fuzz tests are, and what becomes of tests that need
-OpenFOAM where it is not."""
+"""What all tests share: hypothesis without deadlines, how long fuzz tests are, one thread where workers share cores,
+failures named as they come, and what becomes of tests that need OpenFOAM where it is not."""
 
 import os
 import sys
@@ -17,11 +17,30 @@ settings.load_profile("sdph")
 # its own.
 sys.path += sorted(str(folder) for folder in Path(__file__).parent.rglob("*/") if folder.name != "__pycache__")
 
+# Workers side by side have a core each; what threads do is the matter of tests/running/test_threads.py.
+if "PYTEST_XDIST_WORKER" in os.environ:
+    os.environ.setdefault("NUMBA_NUM_THREADS", "1")
+
 LONG = int(os.environ.get("SDPH_LONG", "1"))  # times as many examples of the fuzz tests
 
 
 def pytest_configure(config):
     config.addinivalue_line("markers", "openfoam: needs OpenFOAM; skipped without it, but fails in CI (CI=true)")
+    if "PYTEST_XDIST_WORKER" not in os.environ:
+        config.pluginmanager.register(Failures(config))
+
+
+class Failures:
+    """Names a test that fails at once: a job that is ended before its time would not come to tell."""
+
+    def __init__(self, config):
+        self.config = config
+
+    @pytest.hookimpl(trylast=True)
+    def pytest_runtest_logreport(self, report):
+        terminal = self.config.pluginmanager.get_plugin("terminalreporter")
+        if report.failed and terminal:
+            terminal.write_line(f"\nFAILED {report.nodeid} ({report.when}): {str(report.longrepr)[-2000:]}")
 
 
 @pytest.hookimpl(tryfirst=True)  # before fixtures that would start a solver

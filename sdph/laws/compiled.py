@@ -2,16 +2,16 @@
 (a loop that compiled functions call), `in_turn` (loops one after the other); all are cached on disk, with IEEE division
 (1/0 is inf, as in numpy); `fast_` ones may sum in any order.
 
-Functions that only loops call get no way in from Python, and a State goes to all of them as one pointer
-(sdph.laws.by_reference): what else makes a cold start long (benchmarks/README.md).
+Functions that only loops call get no way in from Python, a State goes to all of them as one pointer
+(sdph.laws.by_reference), and a process of one thread compiles loops without threads: what else makes a cold start long
+(benchmarks/README.md).
 """
 
 from __future__ import annotations
 
 import types
 
-from numba import njit
-from numba.core.registry import CPUDispatcher
+from sdph.laws.cached import ALONE, Cached
 
 # Sums may be reordered and vectorised: 2.3 times as fast. nan and inf keep their meaning, so that a run that bursts is
 # noticed.
@@ -19,20 +19,16 @@ FAST = {"reassoc", "nsz", "arcp", "contract", "afn"}
 COMMON = {"error_model": "numpy", "no_cfunc_wrapper": True}
 
 
-class Compiled(CPUDispatcher):
+class Compiled(Cached):
     """A compiled function whose way in from Python is compiled apart, when Python first calls it."""
 
     _entry = None
 
     def __call__(self, *arguments, **named):
         if self._entry is None:
-            self._entry = njit(cache=True, **self._options())(self._twin())
+            options = {name: value for name, value in self.targetoptions.items() if name != "no_cpython_wrapper"}
+            self._entry = _made(Cached, self._twin(), options)
         return self._entry(*arguments, **named)
-
-    def _options(self) -> dict:
-        return {
-            name: value for name, value in self.targetoptions.items() if name not in ("nopython", "no_cpython_wrapper")
-        }
 
     def _twin(self):
         """The same function by another name: numba's cache knows functions by their names."""
@@ -42,18 +38,23 @@ class Compiled(CPUDispatcher):
         return twin
 
 
+def _made(kind, function, options: dict):
+    """A function as numba compiles it, kept on disk."""
+    made = kind(function, targetoptions=options)
+    made.enable_caching()
+    return made
+
+
 def _within(kind=Compiled, **options):
     """Decorator: a function that other compiled ones call, and Python too."""
 
     def decorate(function) -> Compiled:
-        made = kind(function, targetoptions=dict(options, nopython=True, no_cpython_wrapper=True))
-        made.enable_caching()
-        return made
+        return _made(kind, function, dict(options, nopython=True, no_cpython_wrapper=True))
 
     return decorate
 
 
-class Loop(CPUDispatcher):
+class Loop(Cached):
     """A compiled loop over particles. `elsewhere`, where it is set, is called instead with the loop and what it takes:
     of arrays that lie on a device (sdph.engine.gpu) the device runs it."""
 
@@ -63,7 +64,7 @@ class Loop(CPUDispatcher):
     def __call__(self, *arguments):
         return self.here(*arguments) if Loop.elsewhere is None else Loop.elsewhere(self, arguments)
 
-    here = CPUDispatcher.__call__
+    here = Cached.__call__
 
 
 class Inner(Loop, Compiled):
@@ -81,11 +82,11 @@ class InTurn(Compiled):
 
 def _over_particles(largest=False, parallel=True, **options):
     """Decorator: a loop whose rounds threads share; with `parallel` False those of a device alone."""
+    shared = parallel and not ALONE
 
     def decorate(function) -> Loop:
-        made = Loop(function, targetoptions=dict(COMMON, **options, nopython=True, parallel=parallel))
+        made = _made(Loop, function, dict(COMMON, **options, nopython=True, parallel=shared))
         made.largest = largest
-        made.enable_caching()
         return made
 
     return decorate

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import contextlib
-import gc
 import threading
 import time
 from collections.abc import Callable, Iterator
 
 from numba.core import event
+
+from sdph.laws.cached import WATCH
 
 PATIENCE = 2.0  # s of compiling of which nobody need hear; our choice
 TEXT = "compiling kernels, about a minute the first time that a case has these effects"
@@ -35,31 +36,6 @@ class Listener(event.Listener):
     def _tell(self) -> None:
         self.told = True
         self.tell(TEXT)
-
-
-class Watch(event.Listener):
-    """Time [s] that this process has compiled for. Meanwhile Python looks for no garbage: numba makes many objects that
-    live until it is done, and to look through them takes a tenth of a cold start and more (benchmarks/README.md)."""
-
-    def __init__(self):
-        self.depth, self.begun, self.spent, self.collects = 0, 0.0, 0.0, True
-
-    def on_start(self, event) -> None:
-        self.depth += 1
-        if self.depth == 1:
-            self.begun, self.collects = time.perf_counter(), gc.isenabled()
-            gc.disable()
-
-    def on_end(self, event) -> None:
-        self.depth -= 1
-        if self.depth == 0:
-            self.spent += time.perf_counter() - self.begun
-            if self.collects:
-                gc.enable()
-
-
-WATCH = Watch()
-event.register("numba:compile", WATCH)
 
 
 def timed(wall: dict[str, float], part: str, function, *arguments):

@@ -1,0 +1,33 @@
+"""Two threads share the loops of a run and find what one finds."""
+
+import os
+
+import numpy as np
+import pytest
+from of_ranks import particles, run
+
+# One of each method: the scene, its end [s], coarse.
+RUNS = {
+    "grains": (
+        "bubbling_bed", "--until", "2e-3", "--gas", "embedded",
+        "--set", "resolution.spacing_mm=10",
+    ),
+    "liquids": ("dam_break", "--until", "4e-3", "--set", "resolution.spacing_mm=5.715"),
+    "moving particles": ("swirl_sheet", "--until", "6e-5"),
+    "solids": ("colliding_rings", "--until", "2e-5", "--set", "resolution.spacing_mm=2.5"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("method", RUNS)
+def test_two_threads_find_what_one_finds(method, tmp_path):
+    found = []
+    for threads in ("1", "2"):
+        folder = tmp_path / threads
+        done = run(*RUNS[method], "--out", folder, env=os.environ | {"NUMBA_NUM_THREADS": threads})
+        assert done.returncode == 0, done.stderr
+        found.append(particles(folder))
+    one, two = found
+    assert len(one["ident"]) > 50
+    for name in one:
+        largest = np.max(np.abs(one[name]))
+        np.testing.assert_allclose(two[name], one[name], rtol=0.0, atol=1e-9 * largest, err_msg=name)
