@@ -7,6 +7,7 @@ import os
 import sys
 from pathlib import Path
 
+OF_KERNELS = (b"laws.compiled", b"laws.cached", b"CPUDispatcher", b"by_reference")  # in sources that kernels depend on
 CACHE = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "sdph"
 
 
@@ -61,6 +62,6 @@ def sources(*, of_kernels: bool = False) -> str:
     for folder in (package, package.parent / "coupling"):
         for file in sorted(folder.rglob("*.py")):
             source = file.read_bytes()
-            if not of_kernels or any(mark in source for mark in (b"laws.compiled", b"CPUDispatcher", b"by_reference")):
+            if not of_kernels or any(mark in source for mark in OF_KERNELS):
                 digest.update(source)
     return digest.hexdigest()[:16]

@@ -48,10 +48,18 @@ event.register("numba:compile", WATCH)
 
 
 class Cache(FunctionCache):
-    """Keeps what processes of one thread compile apart from what others do."""
+    """Keeps what processes of one thread compile apart from what others do, and loses none of what several keep."""
+
+    def __init__(self, function):
+        super().__init__(function)
+        self.name = f"{function.__module__}.{function.__qualname__}"
 
     def _index_key(self, signature, codegen):
         return *super()._index_key(signature, codegen), ALONE
+
+    def save_overload(self, signature, data):
+        with _in_turn(self.name):  # the list of a function's kernels is read, made longer and written
+            super().save_overload(signature, data)
 
 
 class Cached(CPUDispatcher):
@@ -62,7 +70,7 @@ class Cached(CPUDispatcher):
         self._cache = Cache(self.py_func)
 
     def compile(self, signature):
-        with global_compiler_lock, _in_turn(f"{self.py_func.__module__}.{self.py_func.__qualname__}"):
+        with global_compiler_lock, _in_turn(f"{self._cache.name} {signature} {ALONE}"):
             return super().compile(signature)
 
 
@@ -73,7 +81,11 @@ def _in_turn(name: str) -> Iterator[None]:
     place = int.from_bytes(hashlib.sha256(name.encode()).digest()[:7])  # of a byte that stands for the name
     try:
         lock = _lock(config.CACHE_DIR)
-        fcntl.lockf(lock, fcntl.LOCK_EX, 1, place)
+        try:
+            fcntl.lockf(lock, fcntl.LOCK_EX | fcntl.LOCK_NB, 1, place)
+        except BlockingIOError:  # to wait for what another compiles is to compile, for who tells of it and counts it
+            with event.trigger_event("numba:compile"):
+                fcntl.lockf(lock, fcntl.LOCK_EX, 1, place)
     except OSError:  # of file systems without locks: each compiles for itself
         yield
         return

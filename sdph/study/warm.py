@@ -12,6 +12,7 @@ from collections.abc import Callable
 from sdph.study import pool
 from sdph.study.apart import FINE, Command, environment, reason
 
+AS_LATER = 0  # threads, as many as a run by itself has: those of one thread are other kernels (sdph.laws.cached)
 MOMENT = 1e-6  # s, a run so short that it takes one window: it calls each kernel that a longer one calls; our choice
 
 
@@ -19,7 +20,7 @@ def warm(targets: list[str], gas: str | None, who: tuple[int | None, str | None]
     """Exit code of the first case that cannot be run, FINE without one; `who` as in `sdph.study.pool`, `say` hears how
     each went."""
     words = ("--gas", gas) if gas else ()
-    jobs = [Command(target, ("run", target, *words), os.getcwd(), pool.threads_each(who[0])) for target in targets]
+    jobs = [Command(target, ("run", target, *words), os.getcwd(), AS_LATER) for target in targets]
     worst = FINE
     for number, (job, outcome) in enumerate(pool.outcomes(jobs, warmed, *who), 1):
         say(f"{number}/{len(jobs)} {job.name}: {outcome['reason'] or 'is warm'}, {outcome['took_s']:.0f} s")

@@ -222,7 +222,7 @@ def test_a_scaled_surface_is_where_it_would_be_in_metres(tmp_path):
     )
     ball(own / "ball.stl", 100.0)
     behind = sides.dummies(cases.load(own / "case.toml"))
-    of_ball = behind.table[behind.whose > 0]
+    of_ball = behind.table[behind.whose[:, 0] > 0]
     off = np.linalg.norm(of_ball[:, :3] - 0.1, axis=1)
     assert (
         len(of_ball) and off.min() > 0.07 and off.max() < 0.1

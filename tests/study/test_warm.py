@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 from sdph.cli import main
+from sdph.study import pool, warm
 
 
 def kernels(folder: Path) -> set[str]:
@@ -25,6 +26,15 @@ def test_a_run_after_it_compiles_nothing(tmp_path):
     out = tmp_path / "run"
     assert sdph("run", "colliding_rings", "--until", "2e-4", "--out", out, cache=tmp_path / "cache").returncode == 0
     assert len(compiled) > 5 and kernels(tmp_path / "cache") == compiled
+
+
+def test_workers_compile_for_runs_of_all_threads(monkeypatch):
+    """Those of one thread, as a worker of several has, are other kernels."""
+    given = []
+    monkeypatch.delenv("NUMBA_NUM_THREADS", raising=False)
+    monkeypatch.setattr(pool, "outcomes", lambda jobs, *_: given.extend(jobs) or ())
+    assert warm.warm(["disc_cluster"], None, (os.cpu_count(), None), print) == 0
+    assert [warm.environment(job.threads).get("NUMBA_NUM_THREADS") for job in given] == [None]
 
 
 def test_who_cannot_be_run_is_told(tmp_path, capsys):

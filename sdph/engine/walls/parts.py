@@ -1,7 +1,8 @@
 """Named parts of walls: which share of the force on each of their particles is theirs, and what has pushed them.
 
 A corner of a box is a part of the sides that meet there: each has of its force what is along its own normal, and an
-equal share of what is along the edge. So all sides together have all of it, once.
+equal share of what is along the edge. In a corner of a mesh each facet has a share by the squares of its normal. So
+all of them together have all of the force, once.
 """
 
 from __future__ import annotations
@@ -26,6 +27,19 @@ def sides(points: np.ndarray, low, high) -> dict[str, np.ndarray]:
         share[:, axis] = 1.0
         found[side] = share * outside[:, axis, end, None]
     return found
+
+
+def of_facets(own: np.ndarray, facing: np.ndarray) -> np.ndarray:
+    """Share (P, 3), by components, in a force on points of those of their three facets that are `own` (P, 3): by the
+    squares of their normals `facing` (P, 3, 3), the last of which is that of the second again at an edge; alike where
+    none has such a component, and where there is no corner and all are 0."""
+    counts = np.ones((len(facing), 3, 1))
+    counts[(facing[:, 1] == facing[:, 2]).all(axis=1), 2] = 0.0
+    square = counts * facing**2
+    whole = square.sum(axis=1, keepdims=True)
+    alike = np.repeat(counts / counts.sum(axis=1, keepdims=True), 3, axis=2)
+    weight = np.divide(square, whole, out=alike, where=whole > 1e-12)  # of 1; round-off
+    return np.einsum("ij,ijk->ik", own, weight)
 
 
 def within(part, places: np.ndarray, room: float) -> np.ndarray:

@@ -34,12 +34,12 @@ class Boundary:
         placed, self.spacing = dummies(case), case.resolution.spacing
         places = placed.table[:, : case.dimensions].T
         order = self.search.sort(tuple(np.ascontiguousarray(column) for column in places))
-        table, self.area, self.whose, self.feet, facing, curved = (own[order] for own in placed)
+        table, self.area, self.whose, self.feet, self.facing, curved = (own[order] for own in placed)
         self.dummies = Dummies(*(np.ascontiguousarray(column) for column in table.T))
-        self.of_mesh = self.whose > 0
+        self.of_mesh = self.whose[:, 0] > 0
         if self.of_mesh.any():
             first, plain = self.area > 0.0, self.of_mesh & ~curved
-            self.beyond = sides.beyond(self.dummies, first, plain, self.feet, facing, self.spacing)
+            self.beyond = sides.beyond(self.dummies, first, plain, self.feet, self.facing, self.spacing)
 
     def rows(self, state_axes):
         """Dummies near each particle; valid as long as the particles' own rows."""
@@ -75,7 +75,7 @@ class Boundary:
         if name in case.boundaries:
             number = list(case.boundaries).index(name)
             own = [share * (_owners(case, points, side) == number)[:, None] for side, share in of_box.items()]
-            return sum(own, np.repeat(self.whose[:, None] == OWNED + number, 3, axis=1) * 1.0)
+            return sum(own, parts.of_facets(self.whose == OWNED + number, self.facing))
         if name in case.parts:
             return self._share_of_part(case, case.parts[name], points, of_box)
         return of_box[name] if name in of_box else np.repeat(self.of_mesh[:, None], 3, axis=1) * 1.0
@@ -117,9 +117,10 @@ def _axes(dummies: Dummies, dimensions: int):
 
 class Placed(NamedTuple):
     """Dummies of a case: columns (W, 12) of `Dummies`; area (W,) [m^(d-1)] of a mesh in front, of its first layer, else
-    0; whose (W,) they are: 0 of the domain's sides, 1 of a mesh, OWNED and more of a boundary's patch; place (W, 3) [m]
-    of the surface in front, where what presses them acts; of those in a corner of a mesh the normals (W, 3, 3) of the
-    facets that meet there, else 0; and which (W,) are behind a round wall, away from edges that point at the grains."""
+    0; whose (W, 3) they are: 0 of the domain's sides, 1 of a mesh, OWNED and more of a boundary's patch, in a corner of
+    a mesh each of the facets that meet there; place (W, 3) [m] of the surface in front, where what presses them acts;
+    of those in such a corner the normals (W, 3, 3) of the facets, else 0; and which (W,) are behind a round wall, away
+    from edges that point at the grains."""
 
     table: np.ndarray
     area: np.ndarray
@@ -182,7 +183,7 @@ def _box(case) -> Placed:
                 slides = behind & (_owners(case, points, side) == number)
                 table[slides[keep] & single, 8 : 8 + d] = boundary.velocity[:d]  # corners are at rest
     none = np.zeros(len(table))  # the area is that of faces (sdph.engine.walls.faces)
-    return Placed(table, none, none.astype(int), feet, np.zeros((len(table), 3, 3)), none > 0.0)
+    return Placed(table, none, np.zeros((len(table), 3), int), feet, np.zeros((len(table), 3, 3)), none > 0.0)
 
 
 def _closed(case, points, side: str) -> np.ndarray:
@@ -243,7 +244,7 @@ def _beyond_facets(corners: np.ndarray, whose: np.ndarray, slip: np.ndarray, cas
     facing[:, :, : case.dimensions] = facets.normals(corners)[of]
     depth, none = np.linalg.norm(feet - places, axis=1), np.zeros_like(places)
     found = _placed(places, none, depth, ~slip[of].all(axis=1), whose[of[:, 0]], feet, spacing)
-    return found._replace(facing=facing)
+    return found._replace(facing=facing, whose=whose[of])
 
 
 def _stretched(behind: list[Placed], corners: np.ndarray, case) -> Placed:
@@ -277,4 +278,5 @@ def _placed(places, normal, depth, grips, owner, feet, spacing: float) -> Placed
     table, own = np.zeros((count, len(Dummies._fields))), np.zeros((count, 3))
     table[:, -1] = spacing**d
     table[:, :d], table[:, 3 : 3 + d], table[:, 6], table[:, 7], own[:, :d] = places, normal, depth, grips, feet
-    return Placed(table, np.zeros(count), owner, own, np.zeros((count, 3, 3)), np.zeros(count, bool))
+    whose = np.repeat(owner[:, None], 3, axis=1)
+    return Placed(table, np.zeros(count), whose, own, np.zeros((count, 3, 3)), np.zeros(count, bool))

@@ -28,6 +28,16 @@ def test_a_corner_gives_each_side_what_is_along_its_normal_and_shares_its_edge()
     assert not any(shares[side].any() for side in ("right", "top", "back", "front"))
 
 
+def test_in_a_corner_of_a_mesh_each_facet_has_what_is_along_its_normal():
+    east, north, up = np.eye(3)
+    low = np.array([0.6, 0.8, 0.0])
+    facing = np.array([[east, north, north], [east, north, up], [low, east, east], np.zeros((3, 3))])
+    one, other = (parts.of_facets(np.array(own, bool), facing) for own in (
+        [[1, 0, 0], [1, 0, 0], [1, 0, 0], [1, 1, 1]], [[0, 1, 1], [0, 1, 1], [0, 1, 1], [0, 0, 0]]))  # fmt: skip
+    np.testing.assert_allclose(one, [[1.0, 0.0, 0.5], [1.0, 0.0, 0.0], [0.36 / 1.36, 1.0, 0.5], [1.0] * 3], rtol=1e-15)
+    np.testing.assert_allclose(one + other, 1.0, rtol=1e-15)
+
+
 def test_a_part_holds_surfaces_that_lie_in_its_faces():
     part = Part(lower=(1.0, 0.0), upper=(2.0, 0.0))
     places = np.array([[1.0, 1e-9], [2.0, -1e-9], [1.5, 0.3], [0.7, 0.0]])
