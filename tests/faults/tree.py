@@ -34,6 +34,7 @@ class Tree:
     def environment(self, cache: Path) -> dict[str, str]:
         """Of a process in the copy."""
         own = {"PYTHONPATH": str(self.root), "NUMBA_CACHE_DIR": str(cache), "PYTHONDONTWRITEBYTECODE": "1"}
+        own |= {"PYTEST_ADDOPTS": ""}  # may name what the copy lacks
         return os.environ | own
 
     def plant(self, fault: Fault) -> None:
