@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from faults import cpp_sites, draw, python_sites, record
+from faults import cpp_sites, draw, python_sites, record, trial
 from faults.fault import KINDS
 from faults.rooms import ROOMS, seen_by
 from faults.tree import Tree
@@ -92,6 +92,16 @@ def test_kernels_that_hold_a_fault_are_compiled_anew(tmp_path):
     assert (tree.root / fault.file).read_bytes() == fault.planted(before[0])
     tree.restore(fault)
     assert before == ((tree.root / fault.file).read_bytes(), (tree.root / fault.file).stat().st_mtime_ns)
+
+
+def test_a_trial_ends_where_pytest_itself_does_not_run(tmp_path, monkeypatch):
+    """It named the same test for ever."""
+    monkeypatch.setattr(trial, "Tree", lambda *_: None)
+    own = Laboratory(ROOT, tmp_path, 1.0)
+    monkeypatch.setattr(own, "_seen", lambda fault: (CAUGHT, "tests/a.py::b"))
+    monkeypatch.setattr(own, "_sound", lambda test: False)
+    with pytest.raises(RuntimeError, match="tests/a.py::b fails without a fault too"):
+        own.trial(None)
 
 
 @pytest.mark.parametrize("room", ["laws", "ledger", "messages"])

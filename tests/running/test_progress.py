@@ -17,6 +17,7 @@ from test_restart import load
 
 from sdph import cli
 from sdph.case import read as cases
+from sdph.laws import cached
 from sdph.methods.grains.bounds import COLLAPSE
 from sdph.methods.grains.method import Stepper
 from sdph.running import compiling, driver
@@ -107,7 +108,8 @@ def test_compiling_is_told_once_and_only_where_it_takes_time(tmp_path, monkeypat
 def test_what_kernels_took_to_compile_is_no_time_of_a_part(monkeypatch):
     """By a clock that goes a second each time that it is looked at; callees that compile within callers count once."""
     now = iter(range(100))
-    monkeypatch.setattr(compiling, "time", SimpleNamespace(perf_counter=lambda: float(next(now))))
+    for own in (cached, compiling):
+        monkeypatch.setattr(own, "time", SimpleNamespace(perf_counter=lambda: float(next(now))))
 
     def work(value):
         with event.trigger_event("numba:compile"), event.trigger_event("numba:compile"):
