@@ -19,7 +19,7 @@ gallery: setup
 	$(VENV)/bin/python validation/gallery.py
 
 test: setup lint
-	$(VENV)/bin/python -m pytest -n auto --maxprocesses 4 --dist loadfile
+	$(VENV)/bin/python -m pytest -n auto --maxprocesses 4 --dist loadfile --no-loadscope-reorder
 
 docs: $(VENV)/installed
 	$(VENV)/bin/python -m sphinx -W --keep-going -q -E docs docs/site

@@ -21,6 +21,12 @@ sys.path += sorted(str(folder) for folder in Path(__file__).parent.rglob("*/") i
 if "PYTEST_XDIST_WORKER" in os.environ:
     os.environ.setdefault("NUMBA_NUM_THREADS", "1")
 
+# Files of several minutes each begin first, so that workers end together.
+FIRST = (
+    "test_short_forms", "test_ranks_of_grains", "test_threads", "test_ranks", "test_grains_on_device", "test_device_of_mps",
+    "test_ranks_of_moving_particles", "test_limits",
+)  # fmt: skip
+
 LONG = int(os.environ.get("SDPH_LONG", "1"))  # times as many examples of the fuzz tests
 
 
@@ -28,6 +34,11 @@ def pytest_configure(config):
     config.addinivalue_line("markers", "openfoam: needs OpenFOAM; skipped without it, but fails in CI (CI=true)")
     if "PYTEST_XDIST_WORKER" not in os.environ:
         config.pluginmanager.register(Failures(config))
+
+
+def pytest_collection_modifyitems(items):
+    order = {name: number for number, name in enumerate(FIRST)}
+    items.sort(key=lambda item: order.get(item.path.stem, len(order)))
 
 
 class Failures:

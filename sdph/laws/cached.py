@@ -15,7 +15,7 @@ from pathlib import Path
 
 from numba import config
 from numba.core import event
-from numba.core.caching import FunctionCache
+from numba.core.caching import FunctionCache, NullCache
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.registry import CPUDispatcher
 
@@ -66,10 +66,9 @@ class Cached(CPUDispatcher):
     """A compiled function that is kept on disk. Of processes that begin together, ranks or workers, one compiles it and
     the others wait and load what it made."""
 
-    def enable_caching(self):
-        self._cache = Cache(self.py_func)
-
     def compile(self, signature):
+        if isinstance(self._cache, NullCache):  # asked for late: a process compiles few of the functions that it knows
+            self._cache = Cache(self.py_func)
         with global_compiler_lock, _in_turn(f"{self._cache.name} {signature} {ALONE}"):
             return super().compile(signature)
 

@@ -27,7 +27,7 @@ class Compiled(Cached):
     def __call__(self, *arguments, **named):
         if self._entry is None:
             options = {name: value for name, value in self.targetoptions.items() if name != "no_cpython_wrapper"}
-            self._entry = _made(Cached, self._twin(), options)
+            self._entry = Cached(self._twin(), targetoptions=options)
         return self._entry(*arguments, **named)
 
     def _twin(self):
@@ -38,18 +38,11 @@ class Compiled(Cached):
         return twin
 
 
-def _made(kind, function, options: dict):
-    """A function as numba compiles it, kept on disk."""
-    made = kind(function, targetoptions=options)
-    made.enable_caching()
-    return made
-
-
 def _within(kind=Compiled, **options):
     """Decorator: a function that other compiled ones call, and Python too."""
 
     def decorate(function) -> Compiled:
-        return _made(kind, function, dict(options, nopython=True, no_cpython_wrapper=True))
+        return kind(function, targetoptions=dict(options, nopython=True, no_cpython_wrapper=True))
 
     return decorate
 
@@ -85,7 +78,7 @@ def _over_particles(largest=False, parallel=True, **options):
     shared = parallel and not ALONE
 
     def decorate(function) -> Loop:
-        made = _made(Loop, function, dict(COMMON, **options, nopython=True, parallel=shared))
+        made = Loop(function, targetoptions=dict(COMMON, **options, nopython=True, parallel=shared))
         made.largest = largest
         return made
 

@@ -58,5 +58,9 @@ def test_kernels_of_one_thread_lie_apart(double, monkeypatch):
     keys = set()
     for alone in (True, False):
         monkeypatch.setattr(cached, "ALONE", alone)
-        keys.add(double._cache._index_key(("float64",), cached.CPUDispatcher.targetdescr.target_context.codegen()))
+        keys.add(
+            cached.Cache(double.py_func)._index_key(
+                ("float64",), cached.CPUDispatcher.targetdescr.target_context.codegen()
+            )
+        )
     assert len(keys) == 2
