@@ -23,8 +23,8 @@ if "PYTEST_XDIST_WORKER" in os.environ:
 
 # Files of several minutes each begin first, so that workers end together.
 FIRST = (
-    "test_short_forms", "test_ranks_of_grains", "test_threads", "test_ranks", "test_grains_on_device", "test_device_of_mps",
-    "test_ranks_of_moving_particles", "test_limits",
+    "test_short_forms", "test_ranks_of_grains", "test_threads", "test_ranks", "test_grains_on_device",
+    "test_device_of_mps", "test_ranks_of_moving_particles", "test_limits",
 )  # fmt: skip
 
 LONG = int(os.environ.get("SDPH_LONG", "1"))  # times as many examples of the fuzz tests
