@@ -10,12 +10,11 @@ import pytest
 from sdph.laws import cached, compiled
 
 TWO = """
-from sdph.laws.compiled import law, serial
 import one
 print(one.outer(1.0), *(sum(own.stats.cache_misses.values()) for own in (one.inner, one.outer, one.outer._entry)))
 """
 ONE = """
-from sdph.laws.compiled import law, serial
+from sdph.laws.compiled import law
 
 @law
 def inner(x):
@@ -55,12 +54,17 @@ def test_where_nothing_can_be_locked_each_compiles(double, monkeypatch, tmp_path
 
 
 def test_kernels_of_one_thread_lie_apart(double, monkeypatch):
-    keys = set()
+    keys, own = set(), cached.Cache(double.py_func)
     for alone in (True, False):
         monkeypatch.setattr(cached, "ALONE", alone)
-        keys.add(
-            cached.Cache(double.py_func)._index_key(
-                ("float64",), cached.CPUDispatcher.targetdescr.target_context.codegen()
-            )
-        )
+        keys.add(own._index_key(("float64",), double.targetctx.codegen()))
     assert len(keys) == 2
+
+
+def test_the_list_of_kernels_is_written_by_one_process_at_a_time(double, monkeypatch):
+    """Whatever the types: two that add to it at once would lose one of them."""
+    held, before = [], cached._in_turn
+    monkeypatch.setattr(cached, "_in_turn", lambda name: held.append(name) or before(name))
+    double(3.0)
+    called, saved = held
+    assert called.startswith(f"{saved} (float64,)")

@@ -30,9 +30,9 @@ def sides(points: np.ndarray, low, high) -> dict[str, np.ndarray]:
 
 
 def of_facets(own: np.ndarray, facing: np.ndarray) -> np.ndarray:
-    """Share (P, 3), by components, in a force on points of those of their three facets that are `own` (P, 3): by the
-    squares of their normals `facing` (P, 3, 3), the last of which is that of the second again at an edge; alike where
-    none has such a component, and where there is no corner and all are 0."""
+    """Share (P, 3), by components, in a force on points P of those of their three facets that are `own` (P, 3).
+    Facets share by the squares of their normals `facing` (P, 3, 3), and alike where none has that component. At an edge
+    the third facet is the second again and counts once; away from corners all normals are 0."""
     counts = np.ones((len(facing), 3, 1))
     counts[(facing[:, 1] == facing[:, 2]).all(axis=1), 2] = 0.0
     square = counts * facing**2
