@@ -259,9 +259,8 @@ def _strewn(corners, ends, size, count: int) -> tuple[np.ndarray, np.ndarray, np
     which triangle each is."""
     own = np.minimum(np.searchsorted(ends, (np.arange(count) + 0.5) * (ends[-1] / count), side="right"), len(size) - 1)
     a, b = np.modf((passes(count)[:, None] + 1) * EVEN)[0].T
-    a = np.sqrt(
-        a
-    )  # alike in area (Turk 1990, Graphics Gems, 24); to fold the square lays half of the sequence on the rest
+    # alike in area (Turk 1990, Graphics Gems, 24); folding the square would lay half of the sequence on the other half
+    a = np.sqrt(a)
     edges = corners[own, 1:] - corners[own, :1]
     places = corners[own, 0] + (a * (1.0 - b))[:, None] * edges[:, 0] + (a * b)[:, None] * edges[:, 1]
     return places, normals(corners)[own], own
