@@ -38,7 +38,9 @@ def pytest_configure(config):
         config.pluginmanager.register(Failures(config))
 
 
-def pytest_collection_modifyitems(items):
+def pytest_collection_modifyitems(config, items):
+    if not hasattr(config, "workerinput"):  # a trial of a fault begins with what is likeliest to see it
+        return
     order = {name: number for number, name in enumerate(FIRST)} | {LAST: len(FIRST) + 1}
     items.sort(key=lambda item: order.get(item.path.stem, len(FIRST)))
 
