@@ -116,7 +116,7 @@ def test_some_processes_make_no_grains(name):
 FEW_OF_LIQUID = {
     "column": ("dam_break", {"pools.column.upper_m": [0.03, 0.02], "resolution.spacing_mm": 10.0}),
     "in space": ("dam_break_3d", {"resolution.spacing_mm": 14.0}),
-    "tank": ("sloshing_sphere", {"resolution.spacing_mm": 100.0}),
+    "tank": ("sloshing_sphere", {"resolution.spacing_mm": 150.0}),
     "drop": ("oscillating_droplet", {"resolution.spacing_mm": 0.5}),
 }
 

@@ -269,7 +269,7 @@ def test_the_curves_of_a_report_bear_the_name_of_their_run(whole, tmp_path):
     assert names and set(names) == {"with"}
 
 
-@pytest.mark.parametrize("name", ["$\\frac{$", "$x$", "_hidden", "a b", "<b>&", "ä" * 60])
+@pytest.mark.parametrize("name", ["$\\frac{$ <b>&", "_$x$ b", "ä" * 60])
 def test_a_run_folder_may_have_any_name(whole, tmp_path, monkeypatch, capfd, name):
     monkeypatch.chdir(tmp_path)
     shutil.copytree(whole, tmp_path / name)

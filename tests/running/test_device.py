@@ -1,6 +1,7 @@
 """A liquid whose particles are on a device goes as on the processor; what is not taken there is refused in one line.
 Where there is no device numba's simulator plays one."""
 
+import functools
 import json
 import os
 from pathlib import Path
@@ -54,24 +55,33 @@ def alike(ours: Path, theirs: Path) -> None:
     assert all(a[key] == b[key] for key in shares)
 
 
+@pytest.fixture(scope="module")
+def pair(tmp_path_factory):
+    """Folders of a run on a device and of the same on the processor, made once."""
+
+    @functools.cache
+    def made(name: str) -> tuple[Path, Path]:
+        folder = tmp_path_factory.mktemp("pair")
+        return on_device(folder / "cuda", *words(name)), on_cpu(folder / "cpu", *words(name))
+
+    return made
+
+
 @pytest.mark.parametrize("name", SETS)
-def test_a_liquid_goes_on_a_device_as_on_the_processor(tmp_path, name):
-    alike(on_device(tmp_path / "cuda", *words(name)), on_cpu(tmp_path / "cpu", *words(name)))
-    told = json.loads((tmp_path / "cuda/summary.json").read_text())
+def test_a_liquid_goes_on_a_device_as_on_the_processor(pair, name):
+    alike(*pair(name))
+    told = json.loads((pair(name)[0] / "summary.json").read_text())
     assert 10.0 < told["launches_per_step"] < 200.0 and min(told[key] for key in OF_DEVICE) > 0.0
 
 
-def test_rows_are_made_anew_on_the_device_and_particles_stand_as_on_the_processor(tmp_path):
+def test_rows_are_made_anew_on_the_device_and_particles_stand_as_on_the_processor(pair):
     """The front runs as far as rows hold more than once; files have the particles in the order of the run."""
     import pyvista
 
-    last = [
-        pyvista.read(sorted(folder.glob("fields/particles_*"))[-1])["ident"]
-        for folder in (on_device(tmp_path / "cuda", *words("front")), on_cpu(tmp_path / "cpu", *words("front")))
-    ]
-    assert last[0].tolist() == last[1].tolist() != sorted(last[1])
-    first = pyvista.read(sorted((tmp_path / "cpu").glob("fields/particles_*"))[0])["ident"]
-    assert first.tolist() != last[1].tolist()
+    found = [[pyvista.read(file)["ident"].tolist() for file in sorted(folder.glob("fields/particles_*"))]
+             for folder in pair("front")]  # fmt: skip
+    assert found[0][-1] == found[1][-1] != sorted(found[1][-1])
+    assert found[1][0] != found[1][-1]
 
 
 def test_a_run_goes_on_from_the_processor_on_a_device_and_back(tmp_path):

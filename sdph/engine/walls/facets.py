@@ -215,36 +215,47 @@ def _turned(corners: np.ndarray) -> np.ndarray:
 
 def spread(corners: np.ndarray, spacing: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Points (P, d) [m] on facets (F, d, d), the normals (P, d) there, and which facet each is on (P,): one for each
-    spacing^(d-1) of all facets together, whatever size each of them has."""
-    order = chained(corners) if corners.shape[2] == 2 else np.arange(len(corners))
-    corners = corners[order]
+    spacing^(d-1) of all facets together, whatever size each of them has; evenly along each chain of plane ones."""
     size = sizes(corners)
-    ends = np.cumsum(size)
-    count = max(1, round(ends[-1] / spacing ** (corners.shape[2] - 1)))
-    along = (np.arange(count) + 0.5) * (ends[-1] / count)
-    own = np.minimum(np.searchsorted(ends, along, side="right"), len(size) - 1)
     if corners.shape[2] == 2:
-        share = (along - ends[own] + size[own]) / size[own]
-        points = corners[own, 0] + share[:, None] * (corners[own, 1] - corners[own, 0])
-        return points, normals(corners)[own], order[own]
-    places, facing, own = _strewn(corners, ends, size, SAMPLES * count)
+        own, share = _along(chains(corners), size / spacing)
+        return corners[own, 0] + share[:, None] * (corners[own, 1] - corners[own, 0]), normals(corners)[own], own
+    ends = np.cumsum(size)
+    places, facing, own = _strewn(corners, ends, size, SAMPLES * max(1, round(ends[-1] / spacing**2)))
     points, normal, nearest = _evened(places, facing, spacing)
     return points, normal, own[nearest]
 
 
-def chained(corners: np.ndarray) -> np.ndarray:
-    """Order (F,) of the facets (F, 2, 2) of a plane wall: each begins where the one before ends, where one does. In any
-    other points of neighbours may be two facets apart, and grains slip through."""
+def _along(found: list[np.ndarray], size: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Which facet of chains each point is on, and at what share of its length; `size` (F,) of facets in spacings."""
+    parts, passed, there = [], 0.0, 0
+    for number, chain in enumerate(found):
+        ends = np.cumsum(size[chain])
+        passed += ends[-1]
+        count = max(round(passed), number == len(found) - 1 and not there) - there  # of short ones too, all in all
+        at = (np.arange(count) + 0.5) * (ends[-1] / max(count, 1))
+        own = np.minimum(np.searchsorted(ends, at, side="right"), len(chain) - 1)
+        parts.append((chain[own], 1.0 - (ends[own] - at) / size[chain[own]]))
+        there += count
+    return tuple(np.concatenate(columns) for columns in zip(*parts))
+
+
+def chains(corners: np.ndarray) -> list[np.ndarray]:
+    """Facets (F, 2, 2) of a plane wall in chains, by number: each begins where the one before ends. In any other order
+    points of neighbours may be two facets apart, and grains slip through."""
     point = numbered(corners)
     follower = dict(zip(point[:, 0].tolist(), range(len(point))))  # of a point: the facet that begins there
     first = np.flatnonzero(~np.isin(point[:, 0], point[:, 1]))
-    order: dict[int, None] = {}
+    found, known = [], set()
     for begin in (*first.tolist(), *range(len(point))):
-        facet = begin
-        while facet is not None and facet not in order:
-            order[facet] = None
+        chain, facet = [], begin
+        while facet is not None and facet not in known:
+            known.add(facet)
+            chain.append(facet)
             facet = follower.get(int(point[facet, 1]))
-    return np.array(list(order))
+        if chain:
+            found.append(np.array(chain))
+    return found
 
 
 def numbered(corners: np.ndarray) -> np.ndarray:

@@ -73,7 +73,7 @@ def test_facets_without_a_size_are_left_out(tmp_path):
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_plane_facets_in_any_order_leave_no_gap(seed):
     """A round tube and a wall whose facets come shuffled, each 1.3 spacings long: points stand one spacing apart along
-    them, two at most where a wall begins. In the order of the file gaps are up to two facets."""
+    them, also where they close. In the order of the file gaps are up to two facets."""
     turn = np.linspace(0.0, 2.0 * np.pi, 25)
     rings = [np.array([np.cos(turn), np.sin(turn)]).T, np.array([np.linspace(-2.0, 2.0, 17), np.full(17, -3.0)]).T]
     corners = np.concatenate([np.stack([ends[:-1], ends[1:]], axis=1) for ends in rings])
@@ -84,7 +84,7 @@ def test_plane_facets_in_any_order_leave_no_gap(seed):
     round_it = points[np.hypot(*points.T) < 1.5]
     turns = np.sort(np.arctan2(round_it[:, 1], round_it[:, 0]))
     gaps = np.sort(np.diff(turns, append=turns[0] + 2.0 * np.pi))
-    assert gaps[-2] < 1.1 * spacing and gaps[-1] < 2.0 * spacing
+    assert gaps[-1] < 1.1 * spacing
 
 
 def box_with_sheet(dimensions: int) -> np.ndarray:
