@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
-from sdph.engine.walls import facets
+from sdph.engine.walls import facets, surface_points
 
 # rad of turn from which on facets meet at an edge, and below go on as a round wall; a little beyond the 45 degrees of
 # octagons and chamfers, whose edges are then all alike; our choice
@@ -56,7 +56,7 @@ def spread(corners: np.ndarray, spacing: float, reach: float) -> Beyond:
     spacing^d."""
     found = _samples(corners, spacing, reach, True)
     found = found.those(_alone(found, facets.Surface(corners)))
-    middle, nearest = facets.middles(found.place)
+    middle, nearest = surface_points.middles(found.place)
     return Beyond(middle, found.foot[nearest], found.facets[nearest], np.ones(len(middle)))
 
 

@@ -9,14 +9,11 @@ import numpy as np
 import scipy
 
 from sdph.engine import surface
+from sdph.engine.walls.surface_points import EVEN, SAMPLES, evened, passes
 from sdph.schema import CaseError
 
-# places in a unit square that fill it evenly: Roberts 2018, after Korobov; 1/p and 1/p^2 of p^3 = p + 1
-EVEN = np.array([0.7548776662466927, 0.5698402909980532])
-SAMPLES = 16  # of the surface to a point: parts are then alike to a sixteenth or so; our choice
 ORDER = np.array([1.0, 2.0**0.5, 3.0**0.5])  # one of two facets comes first by its normal along this: our choice
 SAME = 1e-9  # of a wall's extent: corners so near are one; round-off
-ROUNDS = 8  # in which points come to the middle of their parts; 20 and 40 move none further (measured); our choice
 
 
 class Facets(NamedTuple):
@@ -222,7 +219,7 @@ def spread(corners: np.ndarray, spacing: float) -> tuple[np.ndarray, np.ndarray,
         return corners[own, 0] + share[:, None] * (corners[own, 1] - corners[own, 0]), normals(corners)[own], own
     ends = np.cumsum(size)
     places, facing, own = _strewn(corners, ends, size, SAMPLES * max(1, round(ends[-1] / spacing**2)))
-    points, normal, nearest = _evened(places, facing, spacing)
+    points, normal, nearest = evened(places, facing, spacing)
     return points, normal, own[nearest]
 
 
@@ -275,33 +272,3 @@ def _strewn(corners, ends, size, count: int) -> tuple[np.ndarray, np.ndarray, np
     edges = corners[own, 1:] - corners[own, :1]
     places = corners[own, 0] + (a * (1.0 - b))[:, None] * edges[:, 0] + (a * b)[:, None] * edges[:, 1]
     return places, normals(corners)[own], own
-
-
-def passes(count: int) -> np.ndarray:
-    """Order (count,) in which samples take the members of an even sequence: each SAMPLES-th, where parts begin, takes
-    those that follow each other, so that parts begin evenly too."""
-    number = np.arange(count)
-    return number // SAMPLES + number % SAMPLES * -(-count // SAMPLES)
-
-
-def _evened(places, facing, spacing: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Points (P, 3) of parts of a surface that are alike in area, their normals, and the nearest sample.
-    Normals count as lengths, so that no part goes round an edge or through a plate."""
-    points, nearest = middles(np.hstack((places, spacing * facing)))
-    normal = facing[nearest]
-    off = np.einsum("ij,ij->i", points[:, :3] - places[nearest], normal)
-    return points[:, :3] - off[:, None] * normal, normal, nearest
-
-
-def middles(samples: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Middles (P, k) of parts that are alike in size, SAMPLES of them each, of what samples (N, k) fill evenly, and the
-    sample that is nearest to each middle. The parts are those of the samples that are nearest to each point, which
-    moves to their middle (Lloyd 1982, IEEE Trans. Inf. Theory 28, 129)."""
-    points = samples[SAMPLES // 2 :: SAMPLES].copy()
-    count = len(points)
-    for _ in range(ROUNDS):
-        own = scipy.spatial.cKDTree(points).query(samples)[1]
-        number = np.bincount(own, minlength=count)
-        sums = np.stack([np.bincount(own, column, minlength=count) for column in samples.T], axis=1)
-        points = np.where(number[:, None] > 0, sums / np.maximum(number, 1)[:, None], points)
-    return points, scipy.spatial.cKDTree(samples).query(points)[1]

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from sdph.engine.lattice import grid
 from sdph.engine.surface import read
 from sdph.engine.walls import facets, surface_points
 from sdph.engine.walls.surface_points import arc, disc, line, rings
@@ -24,6 +25,7 @@ UP = (0.0, 0.0, 1.0)  # axis of a round tank in space
 # cosine of facets that look away from each other, by 120 degrees or more; share of a spacing that STL rounds off: our
 # choice
 OPPOSITE, ROUND_OFF = -0.5, 1e-3
+FINER = 3  # than the spacing is what a layer is measured by; odd, so that a lattice behind a plane stays; our choice
 SAME_PLACE = 1e-9  # of a depth: what is nearer to a surface is on it, and has no way from it; our choice
 
 
@@ -223,21 +225,28 @@ class Mesh:
         return np.asarray(pyvista.PolyData(points).compute_implicit_distance(self.triangles)["implicit_distance"])
 
     def shell(self, depth, spacing):
-        """Lattice points between half a spacing less and half a spacing more than `depth` outside, moved onto it,
-        evened out."""
+        """Lattice points between half a spacing less and half a spacing more than `depth` outside, moved onto it, and
+        there to the middle of what is nearest to each, by a lattice of FINER to a spacing; where a plate is too thin
+        for `depth` they stay between its faces."""
         bounds, around = np.array(self.triangles.bounds).reshape(3, 2), depth + spacing
-        ticks = [np.arange(low - around, high + around, spacing) for low, high in bounds]
-        points = np.stack([m.ravel() for m in np.meshgrid(*ticks, indexing="ij")], axis=1)
-        points = points[np.abs(self.distance(points) - depth) <= 0.5 * spacing]
-        return surface_points.even_out(self._onto(points, depth), spacing, lambda moved: self._onto(moved, depth))
+        points = grid([np.arange(low - around, high + around, spacing) for low, high in bounds])
+        off = np.abs(self.distance(points) - depth) / spacing
+        ticks = ((np.arange(FINER) + 0.5) / FINER - 0.5) * spacing
+        samples = (points[off <= 0.5 + math.sqrt(0.75)][:, None] + grid([ticks] * 3)).reshape(-1, 3)
+        samples = samples[np.abs(self.distance(samples) - depth) <= 0.5 * spacing]
+        own, among = (self._onto(places, depth) for places in (points[off <= 0.5], samples))
+        return self._onto(surface_points.middles(among, own)[0], depth)
 
     def _onto(self, points, depth):
-        """Points moved to where they are `depth` outside; those on the surface along its normal."""
+        """Points moved to where they are `depth` outside, those on the surface along its normal; but those stay that
+        would come nearer to another side."""
         cells, closest = self.triangles.find_closest_cell(points, return_closest_point=True)
         away, distance = points - closest, self.distance(points)
         on = np.abs(distance) <= SAME_PLACE * depth
         away[on], distance[on] = self.triangles.face_normals[cells[on]], 1.0
-        return closest + away * (depth / distance)[:, None]
+        moved = closest + away * (depth / distance)[:, None]
+        there = np.abs(self.distance(moved) - depth) < ROUND_OFF * depth
+        return np.where(there[:, None], moved, points)
 
     def thin(self, spacing):
         """Places (P, 3) [m] of the surface behind which it comes back within two spacings: a plate between two rooms is

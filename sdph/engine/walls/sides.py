@@ -227,8 +227,10 @@ def _behind_facets(corners: np.ndarray, whose: np.ndarray, case, slips: bool) ->
     depth = (np.repeat(np.arange(LAYERS), len(points)) + 0.5) * spacing
     feet, normal, owner = np.tile(points, (LAYERS, 1)), np.tile(normals, (LAYERS, 1)), np.tile(whose[facet], LAYERS)
     found = _placed(feet - depth[:, None] * normal, normal, depth, not slips, owner, feet, spacing)
-    size = np.bincount(whose, facets.sizes(corners)) / np.maximum(np.bincount(whose[facet], minlength=whose.max() + 1), 1)
-    found.area[: len(points)] = size[whose[facet]]  # of a patch all that is its own
+    whole, here = np.bincount(whose, facets.sizes(corners)), np.bincount(whose[facet])
+    found.area[: len(points)] = (whole[: len(here)] / np.maximum(here, 1))[
+        whose[facet]
+    ]  # of a patch all that is its own
     for number, boundary in enumerate(case.boundaries.values()):
         if boundary.kind == "wall" and boundary.velocity:  # it slides along each of its facets
             own, velocity = owner == OWNED + number, np.array(boundary.velocity[: case.dimensions])
