@@ -3,9 +3,9 @@
 It is the sum that the ledger has (sdph.methods.liquids.account). A side of a box has what its particles feel (by
 sdph.engine.walls.parts.sides). A part has the pressure on its own surface, and of friction what the particles behind it
 feel: in corners, and in plates that are wet on both sides, whose particle it is does not say which face bears the load.
-By as little as the pressure on all patches of the surface has to change for it (least squares, weighed by what presses
-each), the sum over all of them is what presses all wall particles. What an outlet pipe, bodies and particles that
-became walls feel is in the ledger alone.
+By as little as the pressure on all patches of the surface has to change for it, all by one share first (least squares,
+weighed by what presses each), the sum over all of them is what presses all wall particles. What an outlet pipe, bodies
+and particles that became walls feel is in the ledger alone.
 """
 
 from __future__ import annotations
@@ -20,6 +20,9 @@ from sdph.laws.constants import TINY
 from sdph.methods.liquids import walls
 
 SINGULAR = 1e-3  # of the largest eigenvalue: no wall that is wet has a normal along it; our choice
+# times as much as by their directions, pressures change by one share everywhere: liquid stands a little further than
+# half a spacing from every wall, so that their sum is too large by what the gap would hold; our choice
+EVENLY = 10.0
 
 
 def sides(case, places: np.ndarray) -> dict[str, np.ndarray]:
@@ -57,13 +60,13 @@ class Surface:
         pressure[here] = walls.on_surface(stepper, at[self.particle[here]], self.middle[here], normal[here])
         push, size = np.abs(pressure), size * here
         square = np.einsum("p,pi,pj->ij", push, normal, self.area)
-        missing = whole - pressure @ self.area
-        told = stepper.world.sum(np.concatenate((square.ravel(), missing, [push @ size, size.sum()])))
-        square, missing = told[:9].reshape(3, 3), told[9:12]
-        change = np.linalg.pinv(square, rcond=SINGULAR, hermitian=True) @ missing
-        share = (push / told[12] if told[12] else here / told[13]) * np.linalg.norm(self.areas, axis=2)
-        rest = share[..., None] * (missing - square @ change)
-        return (pressure + push * (normal @ change))[:, None] * self.areas + rest
+        even, missing = push @ self.area, whole - pressure @ self.area
+        told = stepper.world.sum(np.concatenate((square.ravel(), even, missing, [push @ size, size.sum()])))
+        by, missing = np.column_stack((told[:9].reshape(3, 3), EVENLY * told[9:12])), told[12:15]
+        change = np.linalg.pinv(by, rcond=SINGULAR / EVENLY) @ missing
+        share = (push / told[15] if told[15] else here / told[16]) * np.linalg.norm(self.areas, axis=2)
+        rest = share[..., None] * (missing - by @ change)
+        return (pressure + push * (normal @ change[:3] + EVENLY * change[3]))[:, None] * self.areas + rest
 
 
 class Parts:
