@@ -11,6 +11,7 @@ from coupling.openfoam import dictionary, foreign
 from coupling.openfoam.foreign.conditions import SYMMETRIES
 from coupling.openfoam.poly_mesh import FOLDER
 from sdph import effects
+from sdph.engine.walls.faces import KINDS
 from sdph.running import output
 from sdph.scenes import paths
 
@@ -27,12 +28,21 @@ def adopt(source: Path, folder: Path) -> list[str]:
     """Make `folder`/case.toml and `folder`/gas of the OpenFOAM case `source`; what could not be taken over, a line
     each."""
     found = foreign.look(source)
+    found.notes.extend(_of_hot_walls(found))
     output.create(folder, ())
     output.copy_template(paths.gas_template(""), folder / "gas")
     _copy_mesh(source, folder / "gas")
     output.write_text(folder / output.MARK, text(found, source))
     told = [f"boundaries.{name}: {own.note}" for name, own in found.boundaries.items() if own.note]
     return [*found.notes, *told]
+
+
+def _of_hot_walls(found) -> list[str]:
+    """A note where walls have a temperature: no effect of these cases brings it to the grains."""
+    given = {name: own.entries for name, own in found.boundaries.items()}
+    hot = [name for name, own in given.items() if own["kind"] in KINDS and "temperature_K" in own]
+    told = f"{', '.join(hot)}: the gas feels the temperature of these walls, grains with wall_heat in effects alone"
+    return [told] if hot else []
 
 
 def _copy_mesh(source: Path, gas: Path) -> None:

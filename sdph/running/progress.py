@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import time
 
@@ -28,7 +29,10 @@ class Reporter:
         if self.bar:
             self.bar.console.print(text)
         elif not self.quiet:
-            print(text, file=sys.stderr, flush=True)
+            try:
+                print(text, file=sys.stderr, flush=True)
+            except BrokenPipeError:  # whoever read it has read enough; the run goes on
+                os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stderr.fileno())
 
     def progress(self, simulation) -> None:
         """Show the state of a run after a window."""

@@ -3,7 +3,9 @@ nowhere."""
 
 import gc
 import json
+import os
 import re
+import subprocess
 import sys
 import time
 from types import SimpleNamespace
@@ -67,6 +69,17 @@ def changed(case, effects=None, temperature_K=None):
         if temperature_K and "temperature_K" in own:
             own["temperature_K"] = temperature_K
     return cases.from_table(table)
+
+
+def test_a_run_goes_on_when_nobody_reads_what_it_says(tmp_path):
+    """`2>&1 | head`: it ended, and told of a full disc."""
+    command = [sys.executable, "-m", "sdph.cli", "run", "disc_cluster", *SMALL, "--out", "run"]
+    reader, writer = os.pipe()
+    os.close(reader)
+    with os.fdopen(writer) as nobody:
+        done = subprocess.run(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=nobody, timeout=240)
+    assert done.returncode == 0 and (tmp_path / "run/summary.json").is_file()
+    assert not (tmp_path / "run/failure.json").exists()
 
 
 def test_a_case_without_heat_shows_no_residual_of_it(tmp_path):

@@ -23,7 +23,8 @@ def remedy(told: str, mesh: PolyMesh | None, step: float) -> str:
             where = ", ".join(f"{x:.4g}" for x in place)
             return (
                 f"; cells of the mesh jump in width by {ratio:.3g} at ({where}) m, where two fluids see a bed too "
-                f"dense: let neighbours differ by {JUMP:g} at most, by even or graded blocks"
+                f"dense: let neighbours differ by {JUMP:g} at most, by even or graded blocks, or begin with less "
+                "volume_fraction"
             )
     return (
         f"; its step of {step:.3g} s may be too long: run the case anew with run.output_interval_s of {0.5 * step:.2g} "

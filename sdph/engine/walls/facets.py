@@ -224,7 +224,8 @@ def spread(corners: np.ndarray, spacing: float) -> tuple[np.ndarray, np.ndarray,
 
 
 def _along(found: list[np.ndarray], size: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Which facet of chains each point is on, and at what share of its length; `size` (F,) of facets in spacings."""
+    """Number of the facet of chains that each point is on, and the share of its length before it; `size` (F,) of facets
+    in spacings."""
     parts, passed, there = [], 0.0, 0
     for number, chain in enumerate(found):
         ends = np.cumsum(size[chain])

@@ -32,9 +32,9 @@ def drum(path, thick: float) -> shapes.Mesh:
 
 @pytest.mark.parametrize("thick", [0.0, 2.0, 3.0, 4.0])
 def test_wall_particles_leave_no_hole_behind_the_surface(tmp_path, thick):
-    """The nearest wall particle to places 0.3 to 0.6 spacings behind the surface: 0.70 spacings away behind a drum, as in
-    a square lattice, 0.77 to 0.80 in a ring. Evened out by their density they went to its edges, 1.1, and liquid came
-    through."""
+    """The nearest wall particle to places 0.3 to 0.6 spacings behind the surface: 0.70 spacings away behind a drum, as
+    in a square lattice, 0.77 to 0.80 in a ring. Evened out by their density they went to its edges, 1.1, and liquid
+    came through."""
     tank = drum(tmp_path / "drum.stl", thick * SPACING)
     points, _ = layers.wall_points(tank, SPACING, 3)
     fine = np.arange(-0.04, 0.04, 0.1 * SPACING)
