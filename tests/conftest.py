@@ -21,7 +21,7 @@ sys.path += sorted(str(folder) for folder in Path(__file__).parent.rglob("*/") i
 if "PYTEST_XDIST_WORKER" in os.environ:
     os.environ.setdefault("NUMBA_NUM_THREADS", "1")
 
-# Files of several minutes each begin first, so that workers end together.
+# Files of several minutes each begin first, so that workers end together; without workers files keep their order.
 FIRST = (
     "test_short_forms", "test_ranks_of_grains", "test_threads", "test_ranks", "test_grains_on_device",
     "test_device_of_mps", "test_ranks_of_moving_particles", "test_limits",

@@ -48,6 +48,7 @@ def particles(folder: Path):
 def assert_same_bits(first: Path, again: Path) -> None:
     """Particles and tables of two runs by the same processes."""
     ours, theirs = particles(first), particles(again)
+    assert ours.keys() == theirs.keys()
     for name, values in ours.items():
         np.testing.assert_array_equal(theirs[name], values)
     for table in ("history.csv", "ledger.csv"):

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 import time
 
@@ -32,7 +31,7 @@ class Reporter:
             try:
                 print(text, file=sys.stderr, flush=True)
             except BrokenPipeError:  # whoever read it has read enough; the run goes on
-                os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stderr.fileno())
+                self.quiet = True
 
     def progress(self, simulation) -> None:
         """Show the state of a run after a window."""

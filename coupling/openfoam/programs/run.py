@@ -58,9 +58,8 @@ def _watch(
 ) -> None:
     with log.open("wb") as out, starting(command[0]):
         process = subprocess.Popen(
-            command, cwd=folder, env=environment | {"PWD": str(folder)}, stdout=out, stderr=subprocess.STDOUT,
-            start_new_session=True,
-        )  # fmt: skip
+            command, cwd=folder, env=environment, stdout=out, stderr=subprocess.STDOUT, start_new_session=True
+        )
     try:
         while process.poll() is None:
             time.sleep(LOOK)

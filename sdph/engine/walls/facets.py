@@ -230,7 +230,8 @@ def _along(found: list[np.ndarray], size: np.ndarray) -> tuple[np.ndarray, np.nd
     for number, chain in enumerate(found):
         ends = np.cumsum(size[chain])
         passed += ends[-1]
-        count = max(round(passed), number == len(found) - 1 and not there) - there  # of short ones too, all in all
+        last = number == len(found) - 1
+        count = max(round(passed), 1 if last and not there else 0) - there  # short chains together have their points
         at = (np.arange(count) + 0.5) * (ends[-1] / max(count, 1))
         own = np.minimum(np.searchsorted(ends, at, side="right"), len(chain) - 1)
         parts.append((chain[own], 1.0 - (ends[own] - at) / size[chain[own]]))

@@ -22,13 +22,11 @@ from sdph.engine.walls.surface_points import arc, disc, line, rings
 from sdph.schema import CaseError
 
 UP = (0.0, 0.0, 1.0)  # axis of a round tank in space
-# cosine of facets that look away from each other, by 120 degrees or more; share of a spacing that STL rounds off: our
-# choice
+# cosine of facets that look away from each other, by 120 degrees or more; share of a spacing, or of a depth, that STL
+# rounds off: our choice
 OPPOSITE, ROUND_OFF = -0.5, 1e-3
 FINER = 3  # than the spacing is what a layer is measured by; odd, so that a lattice behind a plane stays; our choice
 SAME_PLACE = 1e-9  # of a depth: what is nearer to a surface is on it, and has no way from it; our choice
-INSIDE_OUT = "is inside out: its normals point into it; they must point out of it, so flip them"
-NESTED = "holds a closed part within another: normals of a body in a tank must point into the body, so flip those"
 
 
 @dataclass(frozen=True)
@@ -214,16 +212,11 @@ class Mesh:
         if surface.n_open_edges:
             raise CaseError(f"{self.key} = {self.path!r} has {surface.n_open_edges} open edges; it must be closed")
         a, b, c = np.moveaxis(np.asarray(surface.points, float)[surface.faces.reshape(-1, 4)[:, 1:]], 1, 0)
-        part = surface.connectivity().cell_data["RegionId"]
-        volumes = np.bincount(part, np.einsum("ij,ij->i", a, np.cross(b, c)))  # six times those of closed parts
-        low, high = (np.array([limit(a[part == n], axis=0) for n in range(len(volumes))]) for limit in (np.min, np.max))
-        largest = np.abs(volumes).argmax()
-        near = SAME_PLACE * np.ptp(points)
-        within = ((low >= low[largest] - near) & (high <= high[largest] + near)).all(axis=1)
-        within[largest] = False
-        for wrong, told in ((volumes.sum() < 0.0, INSIDE_OUT), ((within & (volumes > 0.0)).any(), NESTED)):
-            if wrong:
-                raise CaseError(f"{self.key} = {self.path!r} {told}")
+        if np.einsum("ij,ij->", a, np.cross(b, c)) < 0.0:  # six times the volume
+            raise CaseError(
+                f"{self.key} = {self.path!r} is inside out: its normals point into it; they must point out of it, so "
+                "flip them"
+            )
         return surface
 
     def distance(self, points):

@@ -228,9 +228,9 @@ def _behind_facets(corners: np.ndarray, whose: np.ndarray, case, slips: bool) ->
     feet, normal, owner = np.tile(points, (LAYERS, 1)), np.tile(normals, (LAYERS, 1)), np.tile(whose[facet], LAYERS)
     found = _placed(feet - depth[:, None] * normal, normal, depth, not slips, owner, feet, spacing)
     whole, here = np.bincount(whose, facets.sizes(corners)), np.bincount(whose[facet])
-    found.area[: len(points)] = (whole[: len(here)] / np.maximum(here, 1))[
-        whose[facet]
-    ]  # of a patch all that is its own
+    share = (whole[: len(here)] / np.maximum(here, 1))[whose[facet]]
+    # all that is a patch's; what patches too small for a point have is everybody's
+    found.area[: len(points)] = share * (whole.sum() / share.sum())
     for number, boundary in enumerate(case.boundaries.values()):
         if boundary.kind == "wall" and boundary.velocity:  # it slides along each of its facets
             own, velocity = owner == OWNED + number, np.array(boundary.velocity[: case.dimensions])

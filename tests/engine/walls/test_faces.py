@@ -5,6 +5,7 @@ import pytest
 from grain_boxes import box
 from test_wall_parts import tubes
 
+from sdph.engine.walls import facets, sides
 from sdph.engine.walls.faces import Heated, temperatures
 from sdph.engine.walls.sides import Boundary
 from sdph.schema import CaseError
@@ -73,3 +74,18 @@ def test_two_temperatures_of_one_wall_are_refused():
     part = {"strip": {"lower_m": [0.0, 0.0], "upper_m": [0.01, 0.0], "temperature_K": 350.0}}
     with pytest.raises(CaseError, match="floor and strip have a temperature each, and share a wall; leave one out"):
         heated(boundaries={"floor": wall("bottom"), "rest": {"kind": "wall"}}, parts=part)
+
+
+def test_patches_have_the_area_that_is_their_own():
+    """Two tubes alike, 11.6 spacings round, have 12 and 11 points; a facet too small for one is not lost."""
+    turn, case = 2.0 * np.pi * np.arange(25) / 24, box(EFFECTS, size=(0.12, 0.06), periodic=())
+    ring = 11.6 * case.resolution.spacing / (2.0 * np.pi) * np.stack((np.cos(turn), np.sin(turn)), axis=1)
+    tube = np.stack((ring[:-1], ring[1:]), axis=1)
+    tiny = 0.1 * case.resolution.spacing * np.array([[[0.0, 0.0], [1.0, 0.0]]])
+    whose = np.repeat([2, 3, 4], [24, 24, 1])
+    corners = np.concatenate((tube + 0.02, tube + 0.05, tiny))
+    found = sides._behind_facets(corners, whose, case, False)
+    own = [found.area[found.whose[:, 0] == n] for n in (2, 3, 4)]
+    assert [np.count_nonzero(area) for area in own] == [12, 11, 0]
+    assert own[0].sum() == pytest.approx(own[1].sum(), rel=1e-12)
+    assert found.area.sum() == pytest.approx(facets.sizes(corners).sum(), rel=1e-12)
