@@ -22,8 +22,7 @@ ENERGY = 10.0 / 3.0  # K: of the energy of all modes over that of the lowest one
 CRITICAL_WEBER = SPRING * SHIFT / FORCE / 2.0  # 6, of the radius: 2 y_e = 1
 BISECTIONS = 60  # of an interval: what is left of it is round-off
 # of the products' Sauter mean diameter, with number by r exp(-r/mean): number mean and variance of the log-normal that
-# has their number, surface and mass (chi-squared, O'Rourke & Amsden 1987)
-# (in Python: nothing is compiled where it is only imported)
+# has their number, surface and mass (chi-squared, O'Rourke & Amsden 1987); by Python, as an import compiles nothing
 CHI_MEAN, CHI_VARIANCE = of_moments.py_func(2.0 / 9.0, 6.0 / 27.0)
 
 

@@ -38,11 +38,11 @@ def adopt(source: Path, folder: Path) -> list[str]:
 
 
 def _of_hot_walls(found) -> list[str]:
-    """A note where walls have a temperature: no effect of these cases brings it to the grains."""
+    """A note where walls have a temperature: cases are made without the effect that brings it to the grains."""
     given = {name: own.entries for name, own in found.boundaries.items()}
     hot = [name for name, own in given.items() if own["kind"] in KINDS and "temperature_K" in own]
-    told = f"{', '.join(hot)}: the gas feels the temperature of these walls, grains with wall_heat in effects alone"
-    return [told] if hot else []
+    told = "the gas feels the temperature of these walls, grains with wall_heat in effects alone"
+    return [f"boundaries {', '.join(hot)}: {told}"] if hot else []
 
 
 def _copy_mesh(source: Path, gas: Path) -> None:

@@ -182,6 +182,22 @@ def test_a_wall_that_moves_stands_still_and_is_told_of(tmp_path, capsys, conditi
     assert line.startswith("note: boundaries.wall") and told in line and "gas/0" in line
 
 
+@openfoam
+def test_of_hot_walls_is_told_that_grains_do_not_feel_them(tmp_path, capsys):
+    source = foam_cases.fluidised_bed(tmp_path / "foam", own_meshes.cylinder(0.05, 0.2, 4, 10), BLOWN, UP)
+    heat = source / "0" / "T.air"
+    text = heat.read_text()
+    assert text.count("wall { type zeroGradient; }") == 1
+    heat.write_text(text.replace("wall { type zeroGradient; }", "wall { type fixedValue; value uniform 400; }"))
+    table = adopted(source, tmp_path / "mine")
+    assert table["boundaries"]["wall"]["temperature_K"] == 400.0 and "wall_heat" not in table["effects"]
+    (line,) = [line for line in capsys.readouterr().out.splitlines() if "wall_heat" in line]
+    assert (
+        line.startswith("note: boundaries wall: the gas feels")
+        and line[6:] in (tmp_path / "mine/case.toml").read_text()
+    )
+
+
 def refused(capsys, *given) -> str:
     assert main(["init", *map(str, given)]) == 2
     error = capsys.readouterr().err

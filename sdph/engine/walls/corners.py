@@ -15,7 +15,8 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
-from sdph.engine.walls import facets, surface_points
+from sdph.engine.walls import facets
+from sdph.engine.walls.surface_points import SAMPLES, middles, passes
 
 # rad of turn from which on facets meet at an edge, and below go on as a round wall; a little beyond the 45 degrees of
 # octagons and chamfers, whose edges are then all alike; our choice
@@ -56,7 +57,7 @@ def spread(corners: np.ndarray, spacing: float, reach: float) -> Beyond:
     spacing^d."""
     found = _samples(corners, spacing, reach, True)
     found = found.those(_alone(found, facets.Surface(corners)))
-    middle, nearest = surface_points.middles(found.place)
+    middle, nearest = middles(found.place)
     return Beyond(middle, found.foot[nearest], found.facets[nearest], np.ones(len(middle)))
 
 
@@ -143,7 +144,7 @@ def _beyond_edges(ridges: Ridges, normal, spacing: float, reach: float, sharp: b
     turn = (own.turn[of] * share[:, 0])[:, None]
     away = reach * np.sqrt(share[:, 1:2]) * (np.cos(turn) * normal[one] + np.sin(turn) * own.along[of])
     foot = own.edge[of, 0] + share[:, -1:] * (own.edge[of, -1] - own.edge[of, 0])
-    return Beyond(foot - away, foot, np.stack((one, other, other), axis=1), np.sign(own.turn[of]) / facets.SAMPLES)
+    return Beyond(foot - away, foot, np.stack((one, other, other), axis=1), np.sign(own.turn[of]) / SAMPLES)
 
 
 def _beyond_corners(corners, normal, point, ridges: Ridges, spacing: float, reach: float, sharp: bool) -> Beyond:
@@ -173,7 +174,7 @@ def _beyond_corners(corners, normal, point, ridges: Ridges, spacing: float, reac
     away = reach * np.cbrt(share[:, 2:]) * way / np.linalg.norm(way, axis=1)[:, None]
     foot = place[own[of]]
     there = facet[np.stack((of, second[of], second[second[of]]), axis=1)]
-    return Beyond(foot - away, foot, there, np.full(len(of), 1.0 / facets.SAMPLES))
+    return Beyond(foot - away, foot, there, np.full(len(of), 1.0 / SAMPLES))
 
 
 def _whole(point, ridges: Ridges) -> np.ndarray:
@@ -223,8 +224,8 @@ def _drawn(volumes, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
     """Parts, of these volumes (P,) in spacings^d, that samples (N,) are of, and evenly spread shares (N, d) in [0, 1)
     of each: SAMPLES to a spacing^d of all together."""
     ends = np.cumsum(volumes)
-    count = round(facets.SAMPLES * ends[-1]) if len(ends) else 0
+    count = round(SAMPLES * ends[-1]) if len(ends) else 0
     of = np.searchsorted(ends, (np.arange(count) + 0.5) * (ends[-1] / count), side="right") if count else []
-    order = facets.passes(count)
+    order = passes(count)
     even = scipy.stats.qmc.Halton(dimensions, scramble=False).random(order.max(initial=-1) + 2)[order + 1]  # 0 is first
     return np.minimum(np.array(of, int), max(len(ends) - 1, 0)), even

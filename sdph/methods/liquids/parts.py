@@ -3,9 +3,9 @@
 It is the sum that the ledger has (sdph.methods.liquids.account). A side of a box has what its particles feel (by
 sdph.engine.walls.parts.sides). A part has the pressure on its own surface, and of friction what the particles behind it
 feel: in corners, and in plates that are wet on both sides, whose particle it is does not say which face bears the load.
-By as little as the pressure on all patches of the surface has to change for it, all by one share first (least squares,
-weighed by what presses each), the sum over all of them is what presses all wall particles. What an outlet pipe, bodies
-and particles that became walls feel is in the ledger alone.
+By as little as the pressure on all patches of the surface has to change for it, rather by one share everywhere (least
+squares, weighed by what presses each), the sum over all of them is what presses all wall particles. What an outlet
+pipe, bodies and particles that became walls feel is in the ledger alone.
 """
 
 from __future__ import annotations
@@ -19,9 +19,10 @@ from sdph.engine.walls import parts, patches, shapes
 from sdph.laws.constants import TINY
 from sdph.methods.liquids import walls
 
-SINGULAR = 1e-3  # of the largest eigenvalue: no wall that is wet has a normal along it; our choice
+SINGULAR = 1e-3  # of the largest of what loads do: no wall that is wet has a normal along it; our choice
 # times as much as by their directions, pressures change by one share everywhere: liquid stands a little further than
-# half a spacing from every wall, so that their sum is too large by what the gap would hold; our choice
+# half a spacing from every wall, so that their sum is too large by what the gap would hold; our choice (blocks are
+# lifted to 4 % by 3 and 30 too)
 EVENLY = 10.0
 
 
