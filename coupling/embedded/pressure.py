@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from coupling.embedded.boundaries import resting_pressure
-from coupling.embedded.box import Box, Flow, Window
+from coupling.embedded.box import Box, Flow, Window, window_of
 from coupling.embedded.linear import not_converged
 from coupling.embedded.multigrid import build_levels, solve_pressure
 from coupling.gas import Unfinished
@@ -111,6 +111,19 @@ class Pressure:
         pressure = box.grid.padded(inside)
         pressure[box.faces.ghost] = outside
         return pressure
+
+    def at_once(self, rest: Flow) -> Flow:
+        """The flow into which inlets set gas at `rest` at once: what of a window is left as it gets short, the impulse
+        of the pressure alone. A closed box has none: its gas cannot give way at once."""
+        if self.box.closed or not self.inlet.any():
+            return rest
+        grid, fastest = self.box.grid, np.abs(self.standing).max()
+        crossed = min(width[grid.cells].min() for width in grid.geometry.width) / fastest  # any time gives the same
+        mass = np.array([0.5 * (rest.mass + np.roll(rest.mass, step)) for step in grid.strides])
+        aim = Aim(rest.mass, 1.0, self.inlet * self.density)
+        nothing = window_of(self.box, rest, crossed, {})
+        flow, _ = self.project(rest, nothing, aim, rest.velocity, np.where(self.active, mass, 1.0))
+        return replace(rest, velocity=flow.velocity, flux=flow.flux)
 
     def aim(self, old: Flow, window: Window, temperature: np.ndarray, fraction: np.ndarray) -> Aim:
         """Mass by the equation of state; in a closed box times the one factor that leaves its total right."""

@@ -70,7 +70,8 @@ class EmbeddedGas:
         self.mesh = Mesh(centres, grid.geometry.volume[grid.cells], grid.dimensions)
 
     def start(self, alpha_g: np.ndarray | None, sources: tuple[str, ...], fields: tuple[str, ...] = ()) -> GasState:
-        """Gas at rest at the temperature of the case, with the vapour of its start."""
+        """Gas at the temperature of the case, with the vapour of its start, at rest but for what inlets set moving at
+        once."""
         self.sources, self.fields = _known(sources, self.box), known_fields(fields)
         box, grid = self.box, self.box.grid
         alpha = grid.extended(grid.padded(np.ones(len(grid.cells)) if alpha_g is None else alpha_g))
@@ -81,7 +82,7 @@ class EmbeddedGas:
         pressure = self.pressure.at_start()
         velocity = self.pressure.standing.copy()
         moving = velocity, grid.zeros(grid.dimensions), np.zeros((len(IMPULSES), 3)), np.zeros((len(box.names), 3, 3))
-        self.flow = Flow(0.0, alpha, mass, fraction * mass, temperature, pressure, *moving)
+        self.flow = self.pressure.at_once(Flow(0.0, alpha, mass, fraction * mass, temperature, pressure, *moving))
         self.state = self._state()
         return self.state
 

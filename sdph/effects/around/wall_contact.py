@@ -11,6 +11,8 @@ from sdph.engine.rows import entry
 from sdph.engine.walls.dummies import offset
 from sdph.laws.compiled import in_turn, inlined, inner
 
+FLAT = 1e-6  # of a spacing: by less a wall does not bend, round-off; our choice
+
 
 @inlined
 def rubbed(p, wall, w, box, s, i, back):
@@ -38,6 +40,37 @@ def tell(felt, w, mass, px, py, pz, rx, ry, rz):
         felt[0][w, 5] -= mass * rz
 
 
+@inlined
+def beside(wall, box, s, i):
+    """The dummy, of those that contact asks, whose place of the surface is nearest to particle i."""
+    found, least = -1, math.inf
+    for k in range(wall.before[i], wall.every[i]):
+        w = entry(wall, i, k)
+        dx, dy, dz = over_surface(wall, box, s, i, w)
+        square = dx * dx + dy * dy + dz * dz
+        if square < least and wall.normal_x[w] ** 2 + wall.normal_y[w] ** 2 + wall.normal_z[w] ** 2 > 0.0:
+            found, least = w, square
+    return found
+
+
+@inlined
+def over_surface(wall, box, s, i, w):
+    """Way (3 components) [m] to particle i from the place of the surface that dummy w stands behind."""
+    dx, dy, dz = offset(box, wall, w, s, i)
+    depth = wall.depth[w]
+    return dx - depth * wall.normal_x[w], dy - depth * wall.normal_y[w], dz - depth * wall.normal_z[w]
+
+
+@inlined
+def passed(p, wall, box, s, i, w, nearest):
+    """True where the place of the surface that is `nearest` to particle i lies behind the plane of dummy w: the wall
+    bends away between the two, round a tube or an edge, and the plane goes on through the grains."""
+    dx, dy, dz = over_surface(wall, box, s, i, w)
+    ex, ey, ez = over_surface(wall, box, s, i, nearest)
+    along = (dx - ex) * wall.normal_x[w] + (dy - ey) * wall.normal_y[w] + (dz - ez) * wall.normal_z[w]
+    return along < -FLAT * p.spacing
+
+
 @in_turn
 def stop(p, wall, box, s, gravity, impulse, work, back_put, felt):
     """Stops particles that came closer than `contact` to a surface; returns how many did.
@@ -60,12 +93,13 @@ def contact(p, wall, box, s, gravity, felt):
     """Contact of each particle with the dummies that it sees; what `stop` adds up, and how many were stopped.
 
     The place is put back to the contact distance, the normal velocity reversed with the restitution, and that along the
-    wall taken away, by `rubs` times as much at most. Those that come through a nozzle pass. gravity (3,) [m/s2]; where
-    felt is not empty it adds to felt[0] (W, 6) [kg m/s] what pushes and what rubs each dummy.
+    wall taken away, by `rubs` times as much at most. Those that come through a nozzle pass, and a surface that has bent
+    away before it is beside the particle does not count (`passed`). gravity (3,) [m/s2]; where felt is not empty it adds
+    to felt[0] (W, 6) [kg m/s] what pushes and what rubs each dummy.
     """
     ix = iy = iz = work = way = lift = touched = 0.0
     for i in prange(len(s.x)):
-        before = touched
+        before, nearest = touched, -1
         if len(s.entering) > 0 and s.entering[i] > 0:
             continue
         for k in range(wall.before[i], wall.every[i]):
@@ -76,6 +110,10 @@ def contact(p, wall, box, s, gravity, felt):
             aside = dx * dx + dy * dy + dz * dz - height * height
             inside = p.contact - (height - wall.depth[w])
             if inside <= 0.0 or aside > p.spacing * p.spacing or nx * nx + ny * ny + nz * nz == 0.0:
+                continue
+            if nearest < 0:
+                nearest = beside(wall, box, s, i)
+            if passed(p, wall, box, s, i, w, nearest):
                 continue
             s.x[i] += inside * nx
             s.y[i] += inside * ny

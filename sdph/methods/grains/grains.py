@@ -90,8 +90,9 @@ class Grains:
             raise Unfit(f"a particle has a number that is not among 1 to {given - 1}")
 
     def start(self) -> None:
-        """Let in what the nozzles give at first."""
+        """Let in what the nozzles give at first, and make room between grains and walls."""
         self.renew(self.case.coupling.window_largest)
+        self.stepper.stand_off()
         self.stepper.tell()
 
     def begin(self) -> None:

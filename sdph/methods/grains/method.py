@@ -240,11 +240,21 @@ class Stepper(Conducting, Windowed):
         if self.source:
             self.source.release(s)
         if self.boundary:
-            own = self.account
-            self.touched += int(wall_contact.stop(
-                *self._walls(), self.neighbours.box, s, self.gravity, own.impulses[account.WALLS],
-                own.works[account.BY_WALLS :], own.back_put, own.felt,
-            ))  # fmt: skip
+            self.touched += self._stop(self.account)
+
+    def _stop(self, own) -> int:
+        """Stop particles at walls, which goes into the account `own`; how many."""
+        return int(wall_contact.stop(
+            *self._walls(), self.neighbours.box, self.own, self.gravity, own.impulses[account.WALLS],
+            own.works[account.BY_WALLS :], own.back_put, own.felt,
+        ))  # fmt: skip
+
+    def stand_off(self) -> None:
+        """Put the particles of a start where contact with walls holds them, before the gas knows of their places: beside
+        a round body some stand nearer than that."""
+        if self.boundary and self.world.any(self._stop(self._opened()) > 0):
+            self.neighbours.built = ()
+            self.prepare()
 
     def _shift(self, dt: float) -> None:
         s = self.state
