@@ -7,11 +7,13 @@ import shlex
 from collections.abc import Callable
 from pathlib import Path
 
-from coupling.openfoam.comparators import droplet_cloud
+from coupling.openfoam.comparators import droplet_cloud, two_fluid_numbers
 from sdph.running import output
 from sdph.schema import CaseError
 from sdph.study import droplets, two_fluid
 from sdph.study.compare import open_run, scene_module
+
+LACKS = {"tfm": two_fluid.lacks, "dpm": droplet_cloud.lacks}
 
 
 def compare(folder: Path, against: str, say: Callable[[str], None]) -> list[dict]:
@@ -47,6 +49,20 @@ def compare(folder: Path, against: str, say: Callable[[str], None]) -> list[dict
         say(notice)
     output.write_json(folder / f"compare_{against}.json", {"checks": checks} | _told(run.case, against))
     return checks
+
+
+def offered(case) -> list[dict]:
+    """Rows of `explain`: references that a case can be compared with, and what they lack of it where it cannot."""
+    module, shared, rows = scene_module(case.scene), _shared(case), []
+    for name in ("exact", "tfm", "dpm"):
+        if hasattr(module, name):  # of the scene as it is
+            lacking = two_fluid_numbers.lacks(case) if name == "tfm" else []
+        elif name in shared and (name == "tfm" or {"evaporation", "inflow"} & set(case.effects)):
+            lacking = LACKS[name](case)
+        else:
+            continue
+        rows.append({"compare --against": name, "possible": "no" if lacking else "yes", "lacks": ";  ".join(lacking)})
+    return rows
 
 
 def _shared(case) -> dict:

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial import cKDTree
 
-from coupling.openfoam.comparators import droplet_cloud, droplet_liquid
+from coupling.openfoam.comparators import droplet_cloud, droplet_liquid, known
 from coupling.openfoam.comparators.droplet_sources import Drops
 from coupling.openfoam.comparators.run import run_droplets
 from sdph.effects.around.streams import layers_of, streams_of, unit
@@ -64,7 +64,7 @@ class Side(NamedTuple):
 
 def dpm(run) -> list[dict]:
     """Checks of a run against OpenFOAM's droplets, and `compare_dpm.png`."""
-    droplet_cloud.refuse(run.case)
+    known.refuse(droplet_cloud.lacks(run.case))
     first = run.fields(0.0)
     if first.gas is None:
         raise CaseError(f"{run.folder} has no gas; OpenFOAM's droplets are compared with droplets in a gas")

@@ -13,9 +13,10 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial import cKDTree
 
-from coupling.openfoam.comparators import two_fluid_numbers
+from coupling.openfoam.comparators import known, two_fluid_fields, two_fluid_numbers
 from coupling.openfoam.comparators.run import run_two_fluid
 from coupling.openfoam.comparators.start import Start
+from sdph.case import judge
 from sdph.schema import CaseError
 from sdph.study import cuts
 from sdph.study.compare import check, times_of_both, too_short
@@ -36,12 +37,17 @@ class Cells(NamedTuple):
     warmth: np.ndarray
 
 
+def lacks(case) -> list[str]:
+    """What two fluids lack of a case, a line each."""
+    return [*two_fluid_numbers.lacks(case), *two_fluid_fields.lacks(case)]
+
+
 def tfm(run) -> list[dict]:
     """Checks of a run against two fluids, and `compare_tfm.png`."""
     first = run.fields(0.0)
     if first.gas is None:
         raise CaseError(f"{run.folder} has no gas; two fluids are compared with grains in a gas")
-    two_fluid_numbers.macros(run.case)  # refuses what two fluids lack before anything is read
+    known.refuse(lacks(run.case))
     if not first.particles.n_points:
         raise CaseError(f"{run.folder} has no grains at its start; two fluids begin with some")
     if too_short(run):
@@ -61,7 +67,7 @@ def checks(case, late: list[int], own: Cells, other: Cells) -> list[dict]:
     found = [check("mass of the grains [kg]", *(weight.sum() for weight in weights), MASS, True)]
     if any(case.domain.gravity):
         found += _along_gravity(case, late, own, other, weights)
-    if "heat" in case.effects:
+    if "heat" in case.effects and judge.scales_of(case).span:  # of one temperature there is the heat of motion alone
         warmer = [cells.warmth[late].mean() for cells in (own, other)]
         found.append(check("grains warmer than at the start, mean [K]", *warmer, BAR, True))
     apart = np.abs(weights[0] - weights[1]).sum() / (2.0 * weights[0].sum())

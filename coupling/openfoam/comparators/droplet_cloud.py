@@ -9,7 +9,6 @@ from coupling.openfoam.comparators.droplet_sources import Injector
 from sdph.case.sections import Case
 from sdph.effects.around import sizes
 from sdph.methods.grains.history import carried
-from sdph.schema import CaseError
 
 CONTACT = ("granular_pressure", "granular_viscosity", "granular_temperature", "friction", "conduction")
 # effects that the cloud has too, those that `unlike` tells of, and what is of particles as a method
@@ -45,25 +44,23 @@ def _meeting(case: Case, patch: str) -> str:
     return f"type rebound; e {case.parameters['walls'].restitution!r}; mu 0;"
 
 
-def refuse(case: Case) -> None:
-    """CaseError, of one line, where the droplets of OpenFOAM would run another case."""
+def lacks(case: Case) -> list[str]:
+    """What the droplets of OpenFOAM lack of a case, a line each."""
     if case.matters != ("grains",):
-        raise CaseError(f"its matter is {' and '.join(case.matters)}; the droplet reference has droplets in a gas")
+        return [f"its matter is {' and '.join(case.matters)}; the droplet reference has droplets in a gas"]
     if not {"evaporation", "inflow"} & set(case.effects):
-        raise CaseError(
-            "effects holds neither evaporation nor inflow: its grains are no droplets; compare them --against tfm"
-        )
-    known.refuse(case, KNOWN, "the droplet reference")
-    _refuse_gas(case)
+        return ["effects holds neither evaporation nor inflow: its grains are no droplets; compare them --against tfm"]
+    found = [*known.lacks(case, KNOWN, "the droplet reference"), *_of_gas(case)]
     for name, nozzle in case.nozzles.items():
         if nozzle.shape not in SHAPES:
-            raise CaseError(f"nozzles.{name}.shape = {nozzle.shape!r}; the droplet reference has {', '.join(SHAPES)}")
+            found.append(f"nozzles.{name}.shape = {nozzle.shape!r}; the droplet reference has {', '.join(SHAPES)}")
         if nozzle.rates:
-            raise CaseError(f"nozzles.{name}.rates; the droplet reference has one rate: give rate_kg_s to compare")
+            found.append(f"nozzles.{name}.rates; the droplet reference has one rate: give rate_kg_s to compare")
+    return found
 
 
-def _refuse_gas(case: Case) -> None:
-    """CaseError where the gas of the reference would be another."""
+def _of_gas(case: Case) -> list[str]:
+    """The same of its gas: that of the reference would be another."""
     gas = case.gas
     laws, outlets = ", ".join(GAS_LAWS), [b for b in case.boundaries.values() if b.kind == "pressure_outlet"]
     found = {
@@ -76,9 +73,7 @@ def _refuse_gas(case: Case) -> None:
         "no boundary is a pressure_outlet: the gas of the droplet reference has a density that no pressure changes, "
         "and vapour needs a way out": not outlets,
     }  # fmt: skip
-    for said, there in found.items():
-        if there:
-            raise CaseError(said)
+    return [said for said, there in found.items() if there]
 
 
 def unlike(case: Case) -> list[str]:

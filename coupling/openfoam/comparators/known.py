@@ -19,13 +19,21 @@ def refuse_no_output(case: Case) -> None:
         )
 
 
-def refuse(case: Case, effects: frozenset[str], reference: str) -> None:
-    """CaseError, of one line, where a case has what is known to no reference, or an effect that is not among
-    `effects`, which `reference` knows."""
+def lacks(case: Case, effects: frozenset[str], reference: str) -> list[str]:
+    """What a case has that is known to no reference, and effects that are not among `effects`, which `reference`
+    knows; a line each."""
+    found = []
     if alien := sorted(set(case.effects) - effects):
-        raise CaseError(f"effects holds {', '.join(alien)}; {reference} has none: leave it out to compare")
+        found.append(f"effects holds {', '.join(alien)}; {reference} has none: leave it out to compare")
     if "drag" in case.effects and case.parameters["drag"].filter != "none":
-        raise CaseError(f'drag.filter = "igci"; {reference} has none: leave it out to compare')
+        found.append(f'drag.filter = "igci"; {reference} has none: leave it out to compare')
     own = case.parameters["walls"] if "walls" in case.effects else None
     if own and own.mesh and own.source != "gas":  # else it is made of the patches of the gas
-        raise CaseError(f"walls.mesh holds grains where the gas has no patch, and {reference} knows patches")
+        found.append(f"walls.mesh holds grains where the gas has no patch, and {reference} knows patches")
+    return found
+
+
+def refuse(lacking: list[str]) -> None:
+    """CaseError, of one line, where a reference is lacking anything."""
+    if lacking:
+        raise CaseError(";  ".join(lacking))

@@ -144,7 +144,7 @@ def run_droplets(
     mesh is taken, without it that of the case's box. Serial: parcels enter on one rank. Masses of a plane case are by
     the metre. `CaseError` where the case has what the reference lacks, `GasError` when OpenFOAM fails.
     """
-    droplet_cloud.refuse(case)
+    known.refuse(droplet_cloud.lacks(case))
     drops = droplet_sources.none(case.dimensions) if drops is None else drops
     own, depth = poly_mesh.read(mesh) if mesh else None, DEPTH
     if own and case.dimensions == 2:

@@ -13,10 +13,10 @@ from pathlib import Path
 import numpy as np
 
 from coupling.openfoam import fields
+from coupling.openfoam.comparators import known
 from coupling.openfoam.comparators.start import Start
 from coupling.openfoam.start_fields import EMPTY, HEAD, STILL, ZERO_GRADIENT, fixed, let_in, vector
 from sdph.effects.around import wall_grip
-from sdph.schema import CaseError
 
 # field -> (class, dimensions)
 FIELDS = {
@@ -42,7 +42,7 @@ def start_fields(case, others: dict[str, str] | None = None) -> dict[str, str]:
     that the case does not name; with None those of the mesh that is made."""
     if others is None:
         others = {"frontAndBack": EMPTY} if case.dimensions == 2 else {}
-    _refuse_what_differs(case)
+    known.refuse(lacks(case))
     given = [region.temperature for region in case.particles.values() if region.temperature is not None]
     inside = {
         "T.gas": repr(case.gas.temperature), "T.particles": repr(given[0] if given else case.gas.temperature),
@@ -52,8 +52,8 @@ def start_fields(case, others: dict[str, str] | None = None) -> dict[str, str]:
     return {name: _field(case, name, inside.get(name, "0"), others) for name in FIELDS}
 
 
-def _refuse_what_differs(case) -> None:
-    """CaseError where the template that all cases share would run another case."""
+def lacks(case) -> list[str]:
+    """What the template that all cases share lacks of a case: it would run another one."""
     asked = {
         "effects without drag": "drag" not in case.effects,
         "gravity in domain, none in effects": any(case.domain.gravity) and "gravity" not in case.effects,
@@ -62,8 +62,7 @@ def _refuse_what_differs(case) -> None:
         "coupling.voidage = false": not case.coupling.voidage,
     }
     found = [what for what, there in asked.items() if there]
-    if found:
-        raise CaseError(f"{', '.join(found)}: the two-fluid reference has drag, gravity, one size, and both ways")
+    return [f"{', '.join(found)}: the two-fluid reference has drag, gravity, one size, and both ways"] if found else []
 
 
 def tell_start(folder: Path, start: Start) -> None:

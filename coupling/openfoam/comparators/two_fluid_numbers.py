@@ -14,7 +14,6 @@ from coupling.openfoam.poly_mesh import PolyMesh
 from sdph.case.sections import Case
 from sdph.laws import constants, exact
 from sdph.laws import heat as heat_law
-from sdph.schema import CaseError
 
 OUTSIDE = 1.0  # m; how far selections reach past the domain, so that round-off at its faces decides nothing
 COURANT = 0.75  # largest of inlets and of grains at the start in the two-fluid run; stable with 3 outer iterations
@@ -41,11 +40,7 @@ NO_DRAG = "none"  # of a scene whose template has no drag
 def macros(case: Case, courant: float = COURANT, mesh: PolyMesh | None = None) -> dict[str, str]:
     """Macros of the two-fluid templates: name -> text; `mesh` is one of the case's own."""
     gas, grains = case.gas, case.grains
-    if gas.equation_of_state != "constant":
-        raise CaseError(
-            f"gas.equation_of_state = {gas.equation_of_state!r}; the two-fluid reference is laid out for 'constant'"
-        )
-    _refuse_what_has_no_reference(case)
+    known.refuse(lacks(case))
     return {
         "gas_prandtl": repr(heat_law.prandtl_number(gas.viscosity, gas.heat_capacity, gas.conductivity)),
         "gas_enthalpy": repr(gas.heat_capacity * gas.temperature),
@@ -64,25 +59,29 @@ def _switch(on: bool) -> str:
     return "yes" if on else "no"
 
 
-def _refuse_what_has_no_reference(case: Case) -> None:
-    """CaseError where the two fluids of OpenFOAM lack what a case has."""
+def lacks(case: Case) -> list[str]:
+    """What the two fluids of OpenFOAM lack of a case, a line each."""
+    found, gas = [], case.gas
+    if gas.equation_of_state != "constant":
+        found.append(f"gas.equation_of_state = {gas.equation_of_state!r}; the two-fluid reference has 'constant'")
     if "drag" in case.effects and (law := case.parameters["drag"].law) not in DRAG_MODELS:
-        raise CaseError(f"drag.law = {law!r}; the two-fluid reference has: {', '.join(DRAG_MODELS)}")
-    if case.gas.turbulent:
-        raise CaseError(f"gas.turbulence.model = {case.gas.turbulence.model!r}; the two-fluid reference is laminar")
+        found.append(f"drag.law = {law!r}; the two-fluid reference has: {', '.join(DRAG_MODELS)}")
+    if gas.turbulent:
+        found.append(f"gas.turbulence.model = {gas.turbulence.model!r}; the two-fluid reference is laminar")
     if case.coupling.film:
-        raise CaseError("coupling.film = true; the two-fluid reference takes the gas as it is: leave it out to compare")
-    known.refuse(case, KNOWN, "the two-fluid reference")
+        found.append("coupling.film = true; the two-fluid reference takes the gas as it is: leave it out to compare")
+    heat = case.parameters["heat"] if "heat" in case.effects else None
+    if heat and heat.law == "ranz_marshall" and heat.closure == "paper":
+        found.append(
+            "heat.law = 'ranz_marshall' with heat.closure = 'paper'; OpenFOAM's has no alpha_g: give 'geometric'"
+        )
+    return [*found, *known.lacks(case, KNOWN, "the two-fluid reference")]
 
 
 def _heat_exchange(case: Case) -> dict[str, str]:
     if "heat" not in case.effects:
         return {"heat_transfer": "((particles in gas) { type RanzMarshall; })"}  # asked for; it moves no grains
     heat = case.parameters["heat"]
-    if heat.law == "ranz_marshall" and heat.closure == "paper":
-        raise CaseError(
-            "heat.law = 'ranz_marshall' with heat.closure = 'paper'; OpenFOAM's has no alpha_g: give 'geometric'"
-        )
     model, reynolds = HEAT_MODELS[heat.law]
     own = {"heat_model": model, "heat_reynolds": reynolds, "heat_alpha_gas": _switch(heat.closure == "paper")}
     words = f"type {model}; reynolds {reynolds}; alphaGas {own['heat_alpha_gas']};"  # the last two of gunn alone

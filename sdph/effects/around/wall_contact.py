@@ -93,9 +93,9 @@ def contact(p, wall, box, s, gravity, felt):
     """Contact of each particle with the dummies that it sees; what `stop` adds up, and how many were stopped.
 
     The place is put back to the contact distance, the normal velocity reversed with the restitution, and that along the
-    wall taken away, by `rubs` times as much at most. Those that come through a nozzle pass, and a surface that has bent
-    away before it is beside the particle does not count (`passed`). gravity (3,) [m/s2]; where felt is not empty it adds
-    to felt[0] (W, 6) [kg m/s] what pushes and what rubs each dummy.
+    wall taken away, by `rubs` times as much at most. Those that come through a nozzle pass; what bends away before the
+    particle does not count (`passed`). gravity (3,) [m/s2]; where felt is not empty, felt[0] (W, 6) [kg m/s] gets what
+    pushes and what rubs each dummy.
     """
     ix = iy = iz = work = way = lift = touched = 0.0
     for i in prange(len(s.x)):

@@ -250,8 +250,8 @@ class Stepper(Conducting, Windowed):
         ))  # fmt: skip
 
     def stand_off(self) -> None:
-        """Put the particles of a start where contact with walls holds them, before the gas knows of their places: beside
-        a round body some stand nearer than that."""
+        """Put the particles of a start where contact with walls holds them, before the gas knows of their places: some
+        stand nearer beside round bodies."""
         if self.boundary and self.world.any(self._stop(self._opened()) > 0):
             self.neighbours.built = ()
             self.prepare()

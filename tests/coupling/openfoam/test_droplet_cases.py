@@ -6,7 +6,13 @@ from math import cos, exp, log, pi, radians
 import numpy as np
 import pytest
 
-from coupling.openfoam.comparators import droplet_cloud, droplet_liquid, droplet_log, droplet_numbers, droplet_sources
+from coupling.openfoam.comparators import (
+    droplet_cloud,
+    droplet_liquid,
+    droplet_log,
+    droplet_numbers,
+    droplet_sources,
+)
 from coupling.openfoam.comparators.droplet_fields import start_fields
 from coupling.openfoam.comparators.droplet_sources import Drops
 from coupling.openfoam.comparators.reference import Reference
@@ -154,25 +160,25 @@ WIND = {name: part for name, part in table()["boundaries"].items() if name != "o
     ],
 )
 def test_what_the_droplet_reference_lacks_is_said(change, said):
-    with pytest.raises(CaseError, match=said) as refused:
-        droplet_cloud.refuse(case(**change))
-    assert "\n" not in str(refused.value)
+    (lacking,) = droplet_cloud.lacks(case(**change))
+    assert said in lacking and "\n" not in lacking
 
 
 def test_walls_that_are_the_patches_of_the_gas_are_known():
     """As a run of a vessel writes them into its case.toml."""
-    droplet_cloud.refuse(case(effects=[*EFFECTS, "walls"], walls={"mesh": "patches.vtk", "source": "gas"}))
+    walls = {"mesh": "patches.vtk", "source": "gas"}
+    assert not droplet_cloud.lacks(case(effects=[*EFFECTS, "walls"], walls=walls))
 
 
 @pytest.mark.parametrize("scene", ["evaporating_jet", "spray_cone", "stefan_tube"])
 def test_scenes_that_have_droplets_of_openfoam_are_not_refused(scene):
-    droplet_cloud.refuse(cases.load(scenes.find(scene)[1]))
+    assert not droplet_cloud.lacks(cases.load(scenes.find(scene)[1]))
 
 
 def test_what_nobody_looked_at_is_refused():
     for name in ("reaction", "grain_drag", "new"):
-        with pytest.raises(CaseError, match=f"^effects holds {name}; the droplet reference has none"):
-            droplet_cloud.refuse(dataclasses.replace(case(), effects=(*EFFECTS, name)))
+        (lacking,) = droplet_cloud.lacks(dataclasses.replace(case(), effects=(*EFFECTS, name)))
+        assert lacking.startswith(f"effects holds {name}; the droplet reference has none")
 
 
 def test_a_mouth_outside_of_the_gas_is_refused():
