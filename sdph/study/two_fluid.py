@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial import cKDTree
 
+from coupling.openfoam import poly_mesh
 from coupling.openfoam.comparators import known, two_fluid_fields, two_fluid_numbers
 from coupling.openfoam.comparators.run import run_two_fluid
 from coupling.openfoam.comparators.start import Start
@@ -54,7 +55,7 @@ def tfm(run) -> list[dict]:
         return []
     box = first.gas.GetClassName() == "vtkRectilinearGrid"
     start = replace(_start(run.case, first), mesh=None if box else run.folder / "gas")
-    reference = run_two_fluid(run.case, run.folder / "tfm", start=start)
+    reference = _by_the_metre(run_two_fluid(run.case, run.folder / "tfm", start=start), run.case, start)
     times = times_of_both(run, reference)
     own, other = _own(run, times, reference), _other(run.case, times, start, reference)
     picture(run, times, own, other)
@@ -64,7 +65,8 @@ def tfm(run) -> list[dict]:
 def checks(case, late: list[int], own: Cells, other: Cells) -> list[dict]:
     """Checks of means over the times `late`."""
     weights = [cells.volumes * cells.alpha_p[late].mean(axis=0) * case.grains.density for cells in (own, other)]
-    found = [check("mass of the grains [kg]", *(weight.sum() for weight in weights), MASS, True)]
+    unit = "kg/m" if case.dimensions == 2 else "kg"
+    found = [check(f"mass of the grains [{unit}]", *(weight.sum() for weight in weights), MASS, True)]
     if any(case.domain.gravity):
         found += _along_gravity(case, late, own, other, weights)
     if "heat" in case.effects and judge.scales_of(case).span:  # of one temperature there is the heat of motion alone
@@ -72,6 +74,13 @@ def checks(case, late: list[int], own: Cells, other: Cells) -> list[dict]:
         found.append(check("grains warmer than at the start, mean [K]", *warmer, BAR, True))
     apart = np.abs(weights[0] - weights[1]).sum() / (2.0 * weights[0].sum())
     return [*found, check("grains that stand in other cells, share", apart, 0.0, APART)]
+
+
+def _by_the_metre(reference, case, start: Start):
+    """The reference with the volumes of a plane mesh, of any depth, by the metre."""
+    if case.dimensions == 3 or start.mesh is None:
+        return reference
+    return replace(reference, volumes=reference.volumes / np.ptp(poly_mesh.read(start.mesh).points[:, 2]))
 
 
 def _along_gravity(case, late, own: Cells, other: Cells, weights) -> list[dict]:

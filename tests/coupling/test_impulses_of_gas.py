@@ -164,9 +164,11 @@ def test_embedded_gas_keeps_its_momentum(stretch):
     "solver, moves",
     [("embedded", 1)] + [pytest.param("openfoam", moves, marks=pytest.mark.openfoam) for moves in (0, 1)],
 )
-def test_numerical_impulse_is_of_first_order(tmp_path, solver, moves):
-    """Grains that move, and grains that rest in cells that get their velocity from faces: at most 2 % of what moves the
-    gas, and less with cells and windows halved together."""
+def test_numerical_impulse_falls_with_cells_and_windows(tmp_path, solver, moves):
+    """Grains that move, and grains that rest in cells that get their velocity from faces: at most 0.05 % of what moves
+    the gas, and less with cells and windows halved together. In OpenFOAM it is 1e-4 of that and falls by 0.3 to 0.7 of
+    an order, as the lid's first windows have a shear that no cell resolves; before inlets set the gas moving before the
+    first window it was 1.7e-2, of first order, all of it from there."""
     found = []
     for parts in (1, 2, 4):
         (tmp_path / str(parts)).mkdir()
@@ -174,8 +176,8 @@ def test_numerical_impulse_is_of_first_order(tmp_path, solver, moves):
             found.append(stirred(gas, 2e-3 / parts, 20 * parts, moves))
     orders = [math.log2(a / b) for a, b in itertools.pairwise(found)]
     print(f"{solver}: numerical {', '.join(f'{rel:.1e}' for rel in found)} of what moved the gas, orders {orders}")
-    assert found[-1] < 0.02
-    assert min(orders) > 0.7
+    assert max(found) < 5e-4
+    assert min(orders) > (0.7 if solver == "embedded" else 0.0)
 
 
 @pytest.mark.openfoam

@@ -47,6 +47,21 @@ def test_fields_that_are_uneven_at_the_start_give_their_means(tmp_path, capsys):
         assert word in told
 
 
+@pytest.mark.parametrize(("given", "said"), [
+    ({"inlet": "type zeroGradient;"}, False), ({"outlet": "type zeroGradient;"}, True), (None, False),
+])  # fmt: skip
+def test_a_patch_that_the_temperature_forgot_is_told(tmp_path, capsys, given, said):
+    """A field T without an entry for the patch; without any T the gas has one temperature."""
+    cube = tetrahedra(tmp_path / "cube")
+    boundary = cube / "constant/polyMesh/boundary"
+    boundary.write_text(boundary.read_text().replace("all", "inlet"))
+    foam_cases.put_field(cube, "U", "uniform (0 0 0)", {"inlet": "type fixedValue; value uniform (0 0 1);"})
+    if given:
+        foam_cases.put_field(cube, "T", "uniform 300", given)
+    adopted(cube, tmp_path / "mine")
+    assert ("T is not given there" in capsys.readouterr().out) == said
+
+
 def test_an_outlet_whose_pressure_is_not_known_has_the_least_of_all():
     """Not zero, which lies an atmosphere below that of others."""
     given = {"a": 1.2e5, "b": None, "c": 1.0e5}

@@ -32,6 +32,11 @@ STILL = (
     "its wall moves in the OpenFOAM case (U is {}), and stands still here, for gas and grains: leave it if that does "
     "not matter; to have it move the gas alone, bring your 0/U in gas/0; else this is no case for sdph"
 )
+AS_AT_THE_START = {  # kind -> what is told where T has no entry for a patch
+    "velocity_inlet": "T is not given there: gas comes in as warm as that of the start; choose temperature_K",
+    "pressure_outlet": "T is not given there: gas that comes back is as warm as that of the start",
+    "wall": "T is not given there: no heat goes through it",
+}
 
 
 class Condition(NamedTuple):
@@ -51,7 +56,7 @@ def conditions(files: Files, mesh: PolyMesh, dimensions: int, alpha_p: float) ->
         if patch.kind == PLANE or patch.faces.start == patch.faces.stop:
             continue
         own = {key: of_patch(field.get("boundaryField", {}), name) for key, field in fields.items()}
-        found[name] = _with_temperature(_condition(files, mesh, name, own, alpha_p, dimensions), own)
+        found[name] = _with_temperature(_condition(files, mesh, name, own, alpha_p, dimensions), own, bool(fields["T"]))
     return _relative(found)
 
 
@@ -148,9 +153,11 @@ def _read(name: str, entry) -> tuple[float | None, str]:
     return value, told and f"{name} {told}"
 
 
-def _with_temperature(found: Condition, own: dict) -> Condition:
-    """The condition with the temperature that T gives there."""
+def _with_temperature(found: Condition, own: dict, told: bool) -> Condition:
+    """The condition with the temperature that T gives there; `told`: there is a T."""
     kind = word(own["T"].get("type"))
+    if told and not kind and found.entries["kind"] in AS_AT_THE_START:
+        return found._replace(note="; ".join(filter(None, (found.note, AS_AT_THE_START[found.entries["kind"]]))))
     if kind not in ("fixedValue", "inletOutlet") or found.entries["kind"] == "slip_wall":
         return found
     value, note = _read("T", own["T"].get("value" if kind == "fixedValue" else "inletValue"))

@@ -17,7 +17,7 @@ import numpy as np
 
 from sdph.engine.lattice import grid
 from sdph.engine.surface import read
-from sdph.engine.walls import facets, surface_points
+from sdph.engine.walls import facets, nested, surface_points
 from sdph.engine.walls.surface_points import arc, disc, line, rings
 from sdph.schema import CaseError
 
@@ -211,12 +211,7 @@ class Mesh:
         surface = pyvista.PolyData(points, np.insert(faces, 0, 3, axis=1).ravel()).clean()
         if surface.n_open_edges:
             raise CaseError(f"{self.key} = {self.path!r} has {surface.n_open_edges} open edges; it must be closed")
-        a, b, c = np.moveaxis(np.asarray(surface.points, float)[surface.faces.reshape(-1, 4)[:, 1:]], 1, 0)
-        if np.einsum("ij,ij->", a, np.cross(b, c)) < 0.0:  # six times the volume
-            raise CaseError(
-                f"{self.key} = {self.path!r} is inside out: its normals point into it; they must point out of it, so "
-                "flip them"
-            )
+        nested.refuse_turned(surface, f"{self.key} = {self.path!r}")
         return surface
 
     def distance(self, points):

@@ -1,0 +1,63 @@
+"""Parts of a tank's mesh that lie in each other: their normals point out of what is inside, by turns."""
+
+import itertools
+
+import meshio
+import numpy as np
+import pytest
+import pyvista
+
+from sdph.engine.walls import nested, shapes
+from sdph.schema import CaseError
+
+
+def balls(path, *given):
+    """A mesh of balls, each by its radius [m], x of its middle [m] and whether its normals point outwards."""
+    points, triangles, first = [], [], 0
+    for radius, x, outwards in given:
+        ball = pyvista.Icosphere(radius=radius, center=(x, 0.0, 0.0), nsub=2)
+        faces = ball.regular_faces if outwards else ball.regular_faces[:, ::-1]
+        points, triangles, first = [*points, ball.points], [*triangles, faces + first], first + ball.n_points
+    meshio.write_points_cells(path, np.concatenate(points), [("triangle", np.concatenate(triangles))])
+    return shapes.Mesh(str(path))
+
+
+OUT, IN = True, False
+TANK, BODY, HOLE, BESIDE = (1.0, 0.0), (0.4, 0.2), (0.1, 0.3), (0.2, -0.6)
+
+
+@pytest.mark.parametrize("given", [
+    [(*TANK, OUT)], [(*TANK, OUT), (*BODY, IN)], [(*BODY, IN), (*TANK, OUT), (*BESIDE, IN)],
+    [(*TANK, OUT), (*BODY, IN), (*HOLE, OUT)], [(*TANK, OUT), (1.0, 3.0, OUT)],
+])  # fmt: skip
+def test_bodies_in_a_tank_and_rooms_in_bodies_are_known(tmp_path, given):
+    tank = balls(tmp_path / "tank.stl", *given)
+    exact = sum((1.0 if outwards else -1.0) * radius**3 for radius, _, outwards in given)
+    assert tank.volume == pytest.approx(4.0 / 3.0 * np.pi * exact, rel=0.05)
+
+
+@pytest.mark.parametrize(("given", "said"), [
+    ([(*TANK, IN)], "is inside out"),
+    ([(*TANK, OUT), (*BODY, OUT)], r"320 triangles about \(0.2, .*\) m lies within another"),
+    ([(*TANK, OUT), (*BODY, IN), (*BESIDE, OUT)], r"about \(-0.6, .*\) m lies within another"),
+    ([(*TANK, IN), (*BODY, OUT)], "is inside out"),
+])  # fmt: skip
+def test_a_part_that_is_turned_is_refused(tmp_path, given, said):
+    with pytest.raises(CaseError, match=said) as refused:
+        balls(tmp_path / "tank.stl", *given).triangles  # noqa: B018 - read now
+    assert "\n" not in str(refused.value)
+
+
+def test_parts_are_told_in_any_order(tmp_path):
+    given = [(*TANK, OUT), (*BODY, OUT), (*HOLE, OUT)]
+    for order in itertools.permutations(given):
+        mesh = meshio.read(balls_only(tmp_path / "tank.stl", *order))
+        faces = np.insert(mesh.cells_dict["triangle"], 0, 3, axis=1).ravel()
+        found = sorted(nested.parts(pyvista.PolyData(mesh.points, faces).clean()), key=lambda part: part.middle[0])
+        assert [part.within for part in found] == [False, True, False]
+        assert [part.wrong for part in found] == [False, True, False]
+
+
+def balls_only(path, *given):
+    balls(path, *given)
+    return path
