@@ -7,7 +7,7 @@ from pathlib import Path
 from sdph.case import fluids, forces, usual
 from sdph.effects.solids import rigid_sides
 from sdph.study import against, gas_keys, inlets, rehearsal
-from sdph.study.explain import materials, tables
+from sdph.study.explain import materials, tables, vessel
 
 
 def explained(case, template: Path, *, allow_code: bool = False) -> dict[str, list[dict]]:
@@ -19,6 +19,7 @@ def explained(case, template: Path, *, allow_code: bool = False) -> dict[str, li
         last = next(name for name in parts if name.startswith("warnings"))  # grains come first
         parts[last] += [{"warning": text} for text in (*_of_case(case, mesh), *told)]
         parts["filled"] = materials.filled(seen, grains.filled) if grains else []
+        parts["tank"] = vessel.rows(seen)
         parts["forces"], parts["fluids"] = forces.rows(seen), fluids.rows(seen)
         parts["comparisons"] = against.offered(seen)
     return parts

@@ -39,7 +39,7 @@ class Cells(NamedTuple):
 
 
 def lacks(case) -> list[str]:
-    """What two fluids lack of a case, a line each."""
+    """Lines on what two fluids lack of a case."""
     return [*two_fluid_numbers.lacks(case), *two_fluid_fields.lacks(case)]
 
 

@@ -45,7 +45,7 @@ def _meeting(case: Case, patch: str) -> str:
 
 
 def lacks(case: Case) -> list[str]:
-    """What the droplets of OpenFOAM lack of a case, a line each."""
+    """Lines on what the droplets of OpenFOAM lack of a case."""
     if case.matters != ("grains",):
         return [f"its matter is {' and '.join(case.matters)}; the droplet reference has droplets in a gas"]
     if not {"evaporation", "inflow"} & set(case.effects):

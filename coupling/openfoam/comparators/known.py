@@ -20,8 +20,8 @@ def refuse_no_output(case: Case) -> None:
 
 
 def lacks(case: Case, effects: frozenset[str], reference: str) -> list[str]:
-    """What a case has that is known to no reference, and effects that are not among `effects`, which `reference`
-    knows; a line each."""
+    """Lines on what a case has that is known to no reference, and on effects that are not among `effects`, which
+    `reference` knows."""
     found = []
     if alien := sorted(set(case.effects) - effects):
         found.append(f"effects holds {', '.join(alien)}; {reference} has none: leave it out to compare")

@@ -53,7 +53,7 @@ def start_fields(case, others: dict[str, str] | None = None) -> dict[str, str]:
 
 
 def lacks(case) -> list[str]:
-    """What the template that all cases share lacks of a case: it would run another one."""
+    """Lines on what the template that all cases share lacks of a case: it would run another one."""
     asked = {
         "effects without drag": "drag" not in case.effects,
         "gravity in domain, none in effects": any(case.domain.gravity) and "gravity" not in case.effects,

@@ -60,7 +60,7 @@ def _switch(on: bool) -> str:
 
 
 def lacks(case: Case) -> list[str]:
-    """What the two fluids of OpenFOAM lack of a case, a line each."""
+    """Lines on what the two fluids of OpenFOAM lack of a case."""
     found, gas = [], case.gas
     if gas.equation_of_state != "constant":
         found.append(f"gas.equation_of_state = {gas.equation_of_state!r}; the two-fluid reference has 'constant'")

@@ -20,7 +20,7 @@ class Part(NamedTuple):
 
 
 def parts(surface) -> list[Part]:
-    """Those of a surface (pyvista) of triangles without open edges."""
+    """Parts of a surface (pyvista) of triangles without open edges."""
     numbered = surface.connectivity("all")
     number = np.asarray(numbered.cell_data["RegionId"])
     own = [numbered.extract_cells(number == n).extract_surface(algorithm=None) for n in range(number.max() + 1)]

@@ -11,7 +11,7 @@ from __future__ import annotations
 import functools
 import itertools
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -197,6 +197,8 @@ class Mesh:
     path: str
     key: str = "tank.mesh"  # of the case, for messages
     scale: float = 1.0
+    # shells by depth and spacing: a run asks for them to fill the tank, and again for its walls
+    shells: dict = field(default_factory=dict, init=False, compare=False, repr=False)
 
     @functools.cached_property
     def triangles(self):
@@ -223,20 +225,29 @@ class Mesh:
         """Lattice points between half a spacing less and half a spacing more than `depth` outside, moved onto it, and
         there to the middle of what is nearest to each, by a lattice of FINER to a spacing; where a plate is too thin
         for `depth` they stay between its faces."""
+        if (depth, spacing) not in self.shells:
+            self.shells[depth, spacing] = self._shell(depth, spacing)
+        return self.shells[depth, spacing].copy()
+
+    def _shell(self, depth, spacing):
         bounds, around = np.array(self.triangles.bounds).reshape(3, 2), depth + spacing
         points = grid([np.arange(low - around, high + around, spacing) for low, high in bounds])
-        off = np.abs(self.distance(points) - depth) / spacing
+        distance = self.distance(points)
+        off = np.abs(distance - depth) / spacing
         ticks = ((np.arange(FINER) + 0.5) / FINER - 0.5) * spacing
         samples = (points[off <= 0.5 + math.sqrt(0.75)][:, None] + grid([ticks] * 3)).reshape(-1, 3)
-        samples = samples[np.abs(self.distance(samples) - depth) <= 0.5 * spacing]
-        own, among = (self._onto(places, depth) for places in (points[off <= 0.5], samples))
-        return self._onto(surface_points.middles(among, own)[0], depth)
+        away = self.distance(samples)
+        near = np.abs(away - depth) <= 0.5 * spacing
+        own = self._onto(points[off <= 0.5], distance[off <= 0.5], depth)
+        among = self._onto(samples[near], away[near], depth)
+        middles = surface_points.middles(among, own)[0]
+        return self._onto(middles, self.distance(middles), depth)
 
-    def _onto(self, points, depth):
-        """Points moved to where they are `depth` outside, those on the surface along its normal; but those stay that
-        would come nearer to another side."""
+    def _onto(self, points, distance, depth):
+        """Points at a distance (N,) [m] moved to where they are `depth` outside, those on the surface along its normal;
+        but those stay that would come nearer to another side."""
         cells, closest = self.triangles.find_closest_cell(points, return_closest_point=True)
-        away, distance = points - closest, self.distance(points)
+        away, distance = points - closest, distance.copy()
         on = np.abs(distance) <= SAME_PLACE * depth
         away[on], distance[on] = self.triangles.face_normals[cells[on]], 1.0
         moved = closest + away * (depth / distance)[:, None]

@@ -78,18 +78,23 @@ def _filled(case, name: str, pool, below: float):
             f"pools.{name}.fill = {pool.fill:g}; the pools before it fill the tank up to {below:g}: give it more, or "
             "name it first"
         )
-    shape, along = tank.shape_of(case), pull(case)
+    shape, up = tank.shape_of(case), upwards(case)
     inside = shape.tank if isinstance(shape, shapes.Joined) else shape
     if (pool.fill - below) * inside.volume < 0.5 * case.resolution.spacing**case.dimensions:
         raise CaseError(
             f"pools: fill = {pool.fill:g} is less than half a particle of the tank; fill it more, or give a smaller "
             "spacing_mm"
         )
-    up = -along / np.linalg.norm(along) if along.any() else np.eye(case.dimensions)[-1]
     low, high = levels(inside, up, (below, pool.fill), case.resolution.spacing)
     if inside is shape and isinstance(inside, shapes.Box) and np.abs(up).max() == 1.0:
         return _as_box(inside, pool, up, low, high)
     return Filled(**vars(pool), inside=inside, slab=Slab(up, low if below else -math.inf, high, below, pool.fill))
+
+
+def upwards(case) -> np.ndarray:
+    """(d,) unit vector against `pull`; along the last axis where there is none."""
+    along = pull(case)
+    return -along / np.linalg.norm(along) if along.any() else np.eye(case.dimensions)[-1]
 
 
 def pull(case) -> np.ndarray:

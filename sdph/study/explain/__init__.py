@@ -7,6 +7,7 @@ lockstep       steps of a liquid with bodies in it
 droplets       numbers of droplets
 liquids        those of a liquid
 solids         those of solids
+vessel         volume of a tank, and of what fills it
 stages         effects of a gel droplet that grows, necks and has torn
 tables         all of it as tables
 effect_costs   time of each effect on this machine
