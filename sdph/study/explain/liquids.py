@@ -11,7 +11,7 @@ from sdph import effects
 from sdph.case import fluids
 from sdph.effects.around import drain, tank
 from sdph.engine.state import LIQUID
-from sdph.methods.liquids import bodies
+from sdph.methods.liquids import bodies, filling
 from sdph.methods.liquids.bounds import limits as limits_of_step
 from sdph.methods.liquids.liquid import SLOW
 from sdph.schema import CaseError
@@ -151,12 +151,25 @@ def warnings(s) -> list[str]:
 
 
 def _ends_in_pipe(case, around) -> bool:
-    """True of an outline that is level at its lowest, over less than half of its mean width (our choice)."""
+    """True of an outline or a mesh that is level at its lowest, over less than half of its mean width or area (our
+    choice)."""
+    if around.shape == "mesh":
+        return _mesh_ends_in_pipe(case)
     if around.shape != "outline":
         return False
     corners = np.array(around.corners)
     lowest = corners[corners[:, 1] <= corners[:, 1].min() + SAME * case.resolution.spacing]
     return 0.0 < np.ptp(lowest[:, 0]) < 0.5 * tank.shape_of(case).volume / np.ptp(corners[:, 1])
+
+
+def _mesh_ends_in_pipe(case) -> bool:
+    """The same of a mesh; a facet of a round floor, smaller than a particle, is none."""
+    shape, up = tank.shape_of(case), filling.upwards(case)
+    facets = np.asarray(shape.triangles.points, float)[shape.triangles.regular_faces]
+    heights, spacing = facets @ up, case.resolution.spacing
+    level = facets[heights.max(axis=1) <= heights.min() + SAME * spacing]
+    area = 0.5 * np.linalg.norm(np.cross(level[:, 1] - level[:, 0], level[:, 2] - level[:, 0]), axis=1).sum()
+    return spacing**2 <= area < 0.5 * shape.volume / np.ptp(heights)
 
 
 def _over_floor(s):

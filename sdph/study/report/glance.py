@@ -55,7 +55,8 @@ def state(run: Shown) -> str:
     """The way it ended."""
     if run.failure:
         what, when = html.escape(run.failure["what"]), run.failure["time_s"]
-        return f'<span class="failed">failed at t = {when:.6g} s: {what}</span>'
+        how = "ended" if run.failure.get("kind") == "Stopped" else "failed"  # who asked it to stop stands in `what`
+        return f'<span class="failed">{how} at t = {when:.6g} s: {what}</span>'
     if run.summary:
         return f"finished at t = {run.summary['time_s']:.6g} s, after {run.summary.get('wall_s', math.nan):.3g} s"
     return (

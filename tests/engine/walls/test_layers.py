@@ -1,33 +1,22 @@
 """Wall particles behind a mesh: in a plate that the mesh folds round too there is no hole that liquid comes through."""
 
-import meshio
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
+from tank_meshes import turned_mesh
 
 from sdph.engine.lattice import grid
-from sdph.engine.walls import facets, layers, shapes
+from sdph.engine.walls import layers, shapes
 
 SPACING, RADIUS, INNER, HEIGHT = 0.015, 0.15, 0.12, 0.3  # m
-SIDES = 48
 
 
 def drum(path, thick: float) -> shapes.Mesh:
     """A drum with a ring at half its height, `thick` [m], that its surface goes round; no ring where that is 0."""
     low, high = 0.5 * (HEIGHT - thick), 0.5 * (HEIGHT + thick)
     ring = [(RADIUS, low), (INNER, low), (INNER, high), (RADIUS, high)] if thick else []
-    profile = np.array([(0.0, 0.0), (RADIUS, 0.0), *ring, (RADIUS, HEIGHT), (0.0, HEIGHT)])
-    turn = 2.0 * np.pi * np.arange(SIDES) / SIDES
-    rings = profile[:, :1, None] * np.stack((np.cos(turn), np.sin(turn)))[None]  # (P, 2, S)
-    corners = np.concatenate((rings, np.broadcast_to(profile[:, 1:, None], (len(profile), 1, SIDES))), axis=1)
-    corners = corners.transpose(0, 2, 1)  # (P, S, 3)
-    after = np.roll(corners, -1, axis=1)
-    a, b, c, d = corners[:-1], after[:-1], after[1:], corners[1:]
-    triangles = np.concatenate([np.stack(three, axis=2).reshape(-1, 3, 3) for three in ((a, b, c), (a, c, d))])
-    triangles = triangles[facets.sizes(triangles) > 1e-12]  # on the axis some have none
-    meshio.write_points_cells(
-        path, triangles.reshape(-1, 3), [("triangle", np.arange(3 * len(triangles)).reshape(-1, 3))]
-    )
+    profile = [(0.0, 0.0), (RADIUS, 0.0), *ring, (RADIUS, HEIGHT), (0.0, HEIGHT)]
+    turned_mesh(path, profile)
     return shapes.Mesh(str(path))
 
 

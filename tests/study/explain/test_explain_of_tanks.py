@@ -3,7 +3,9 @@
 import dataclasses
 import math
 
+import numpy as np
 import pytest
+from tank_meshes import turned_mesh
 
 from sdph.case import read as cases
 from sdph.schema import CaseError
@@ -92,6 +94,26 @@ def test_a_drain_of_an_outline_is_its_pipe():
     assert not [line for line in tables.warnings(outline(*pipe)) if "outlet pipe" in line]
     with pytest.raises(CaseError, match="an outline by tank.corners_m alone: give 0"):
         tables.warnings(outline(outlet_radius_m=0.02, outlet_length_m=0.1))
+
+
+ROUND = [(0.4 * math.sin(t), 0.5 - 0.4 * math.cos(t)) for t in np.linspace(0.0, 0.5 * math.pi, 13)]
+LID = [(0.4, 0.8), (0.0, 0.8)]
+
+
+@pytest.mark.parametrize(("floor", "pipe"), [
+    (ROUND, False),
+    ([(0.0, 0.02), (0.06, 0.02), (0.06, ROUND[2][1]), *ROUND[3:]], True),
+    ([(0.0, 0.1), (0.4, 0.1)], False),
+])  # fmt: skip
+def test_a_drain_of_a_mesh_is_its_pipe_where_it_is_level_and_narrow(tmp_path, floor, pipe):
+    """A round floor, one with a pipe 0.12 m wide in it, and a flat one."""
+    mesh = turned_mesh(tmp_path / "tank.stl", [*floor, *LID])
+    case = drained(
+        dimensions=3, domain={"size_m": [1.0, 1.0, 1.0], "lower_m": [-0.5, -0.5, 0.0], "gravity_m_s2": [0, 0, -9.81]},
+        resolution={"spacing_mm": 30.0}, tank={"shape": "mesh", "mesh": str(mesh)},
+        pools={"water": {"shape": "tank", "fill": 0.5}},
+    )  # fmt: skip
+    assert liquids._ends_in_pipe(case, case.parameters["tank"]) == pipe
 
 
 def hint(**tank):
