@@ -37,8 +37,8 @@ def refuse_too_large(case) -> None:
         raise CaseError(
             f"the case has about {count:.3g} particles and {cells:.3g} gas cells in a domain of "
             f"{' x '.join(f'{size:g}' for size in case.domain.size)} m and needs about "
-            f"{needed / 1e9:.3g} GB of memory; {free / 1e9:.3g} GB are free here: raise resolution.spacing_mm or resolution.cell_mm, or take a larger "
-            "machine"
+            f"{needed / 1e9:.3g} GB of memory; {free / 1e9:.3g} GB are free here: raise resolution.spacing_mm or "
+            "resolution.cell_mm, or take a larger machine"
         )
 
 
