@@ -58,8 +58,9 @@ class Reporter:
         """Time, window and what rules it, particles, residual, closure of the ledger, time left."""
         began, at = self.begun
         ledger, gas = simulation.ledger, simulation.gas and simulation.gas_state.budget.residuals
-        parts = [f"t = {simulation.time:.4g} s", f"dt = {ledger.last['window_s']:.2e} s ({simulation.clock.limit})"]
-        parts.append(f"{particles.count(simulation.state)} particles")
+        parts = [f"t = {simulation.time:.4g} s", f"window {ledger.last['window_s']:.2e} s ({simulation.clock.limit})"]
+        state = simulation.state
+        parts.append(f"{particles.count(state) - int((state.kind == particles.WALL).sum())} particles")
         if gas and not simulation.case.warm:
             gas = {name: left for name, left in gas.items() if name not in OF_HEAT}
         if gas:

@@ -28,6 +28,7 @@ from sdph.case import read as cases
 from sdph.engine import device, restart, world
 from sdph.running import inputs, on_device, output
 from sdph.running.interruption import SIGNALS
+from sdph.running.progress import Reporter
 from sdph.schema import CaseError
 from sdph.version import __version__
 
@@ -141,14 +142,14 @@ def _end_with_us() -> None:
 
 def _passed_on(lines) -> list[str]:
     """Pass on what processes say; what their launcher says, between lines of dashes, is returned."""
-    told, within = [], False
+    told, within, reporter = [], False, Reporter(line=False)
     for line in lines:
         if line.startswith(RULE):
             within = not within
         elif within:
             told.append(line.strip())
         elif not line.startswith("mpirun: "):
-            print(line, end="", file=sys.stderr, flush=True)
+            reporter.status(line.rstrip("\n"))
     return told
 
 

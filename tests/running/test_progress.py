@@ -1,6 +1,7 @@
 """What a run says of itself while it goes: the line, the page, and what is refused or stopped because it would get
 nowhere."""
 
+import contextlib
 import gc
 import json
 import os
@@ -22,7 +23,7 @@ from sdph.case import read as cases
 from sdph.laws import cached
 from sdph.methods.grains.bounds import COLLAPSE
 from sdph.methods.grains.method import Stepper
-from sdph.running import compiling, driver
+from sdph.running import compiling, driver, ranks
 from sdph.running.progress import Reporter
 from sdph.running.simulation import Simulation
 from sdph.schema import CaseError
@@ -44,7 +45,7 @@ class Terminal(list):
 
 
 LINE = re.compile(
-    r"t = 0\.0004 s, dt = \d.*e-\d\d s \(.+\), 80 particles, residual \d.*\(\w+\), closure \d.* \(\w+\), 0 s left"
+    r"t = 0\.0004 s, window \d.*e-\d\d s \(.+\), 80 particles, residual \d.*\(\w+\), closure \d.* \(\w+\), 0 s left"
 )
 
 
@@ -80,6 +81,17 @@ def test_a_run_goes_on_when_nobody_reads_what_it_says(tmp_path):
         done = subprocess.run(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=nobody, timeout=240)
     assert done.returncode == 0 and (tmp_path / "run/summary.json").is_file()
     assert not (tmp_path / "run/failure.json").exists()
+
+
+def test_what_ranks_say_is_passed_on_until_nobody_reads(monkeypatch):
+    reader, writer = os.pipe()
+    os.close(reader)
+    nobody = os.fdopen(writer, "w")
+    monkeypatch.setattr(sys, "stderr", nobody)
+    assert ranks._passed_on(["a line\n", f"{ranks.RULE}\n", "why\n", f"{ranks.RULE}\n", "another\n"]) == ["why"]
+    monkeypatch.undo()
+    with contextlib.suppress(BrokenPipeError):
+        nobody.close()
 
 
 def test_a_case_without_heat_shows_no_residual_of_it(tmp_path):
