@@ -66,6 +66,8 @@ def particles(shot: Shot, grid: Pixels, field: str, smooth: bool) -> tuple[np.nd
     found = np.where(near, (values if len(values) else np.zeros(1))[np.maximum(numbered, 0)], np.nan)
     if smooth:
         found, near = _smooth(shot, grid, values, found, near)
+        near &= ~_behind(shot, grid, numbered)
+        found = np.where(near, found, np.nan)
     return found, near, light
 
 

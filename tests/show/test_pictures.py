@@ -125,6 +125,23 @@ def test_a_smooth_field_is_the_field_up_to_the_surface():
     assert covered.sum() * np.prod(grid.step) == pytest.approx(1.2**2, rel=0.03)
 
 
+@pytest.mark.parametrize("smooth", [False, True])
+def test_no_grains_are_drawn_where_a_body_in_the_gas_stands(smooth):
+    """A body as wide as two grains, out of which the mesh of the gas is cut."""
+    places, half = lattice(10), SPACING
+    aside = np.abs(places - 0.5).max(axis=1)
+    ticks = np.arange(0.0, 1.01, 0.5 * SPACING)
+    whole = pyvista.RectilinearGrid(ticks, ticks, np.zeros(1))
+    gas = whole.extract_cells(np.abs(whole.cell_centers().points[:, :2] - 0.5).max(axis=1) > half)
+    walls = pyvista.Box((0.5 - half, 0.5 + half, 0.5 - half, 0.5 + half, 0.0, 0.0))
+    around = taken(cloud(places[aside > half], pressure=places[aside > half, 0]), gas, walls)
+    grid = raster.pixels(around, 500)
+    values, covered, _ = raster.particles(around, grid, "pressure", smooth=smooth)
+    body = np.abs(grid.places[..., :2] - 0.5).max(axis=-1) < 0.95 * half
+    assert not covered[body].any() and np.isnan(values[body]).all()
+    assert covered[np.abs(grid.places[..., :2] - 0.5).max(axis=-1) > 1.3 * half].mean() > 0.95
+
+
 def test_cells_are_found_where_they_are():
     gas = cells(function=lambda x: x[:, 0] + 10.0 * x[:, 1])
     centres = gas.cell_centers().points
