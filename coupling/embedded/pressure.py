@@ -114,15 +114,24 @@ class Pressure:
 
     def at_once(self, rest: Flow) -> Flow:
         """The flow into which inlets set gas at `rest` at once: what of a window is left as it gets short, the impulse
-        of the pressure alone. A closed box has none: its gas cannot give way at once."""
+        of the pressure alone. What comes in takes its room, whatever its density. A closed box has no such flow: its
+        gas cannot give way at once; nor does one without room, of which the first window tells."""
         if self.box.closed or not self.inlet.any():
             return rest
         grid, fastest = self.box.grid, np.abs(self.standing).max()
         crossed = min(width[grid.cells].min() for width in grid.geometry.width) / fastest  # any time gives the same
         mass = np.array([0.5 * (rest.mass + np.roll(rest.mass, step)) for step in grid.strides])
-        aim = Aim(rest.mass, 1.0, self.inlet * self.density)
-        nothing = window_of(self.box, rest, crossed, {})
-        flow, _ = self.project(rest, nothing, aim, rest.velocity, np.where(self.active, mass, 1.0))
+        faces, room = self.box.faces, (rest.alpha * grid.geometry.volume)[grid.cells]
+        inside = rest.mass[grid.cells].sum() / room.sum()  # the density of the gas, the same everywhere
+        aim = Aim(rest.mass, 1.0, self.inlet * inside)
+        try:
+            nothing = window_of(self.box, rest, crossed, {})
+            flow, _ = self.project(rest, nothing, aim, rest.velocity, np.where(self.active, mass, 1.0))
+        except Unfinished:
+            return rest
+        own = faces.axis[faces.inlet], faces.face[faces.inlet]
+        flow.flux[own] = (faces.sign * self.inlet * self.density)[faces.inlet]
+        self._carry_beyond(flow.flux)
         return replace(rest, velocity=flow.velocity, flux=flow.flux)
 
     def aim(self, old: Flow, window: Window, temperature: np.ndarray, fraction: np.ndarray) -> Aim:

@@ -20,11 +20,6 @@ def compare(folder: Path, against: str, say: Callable[[str], None]) -> list[dict
     """The checks of a run against `tfm`, `dpm` or `exact`, the scene's own first; the figure goes to the run folder,
     and what it lacks is said."""
     run = open_run(folder)
-    if run.case.mixed and against != "exact":
-        raise CaseError(
-            f"--against {against}: its grains are of one material, and those of {folder} of several "
-            f"({', '.join(run.case.materials)}); compare a run of one"
-        )
     module = scene_module(run.case.scene)
     shared = _shared(run.case)
     function = getattr(module, against, shared.get(against))

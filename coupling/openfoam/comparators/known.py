@@ -23,6 +23,9 @@ def lacks(case: Case, effects: frozenset[str], reference: str) -> list[str]:
     """Lines on what a case has that is known to no reference, and on effects that are not among `effects`, which
     `reference` knows."""
     found = []
+    if case.mixed:
+        several = ", ".join(case.materials)
+        found.append(f"grains are of several materials ({several}); {reference} has grains of one material")
     if alien := sorted(set(case.effects) - effects):
         found.append(f"effects holds {', '.join(alien)}; {reference} has none: leave it out to compare")
     if "drag" in case.effects and case.parameters["drag"].filter != "none":

@@ -63,12 +63,15 @@ def over_surface(wall, box, s, i, w):
 
 @inlined
 def passed(p, wall, box, s, i, w, nearest):
-    """True where the place of the surface that is `nearest` to particle i lies behind the plane of dummy w: the wall
-    bends away between the two, round a tube or an edge, and the plane goes on through the grains."""
+    """True where the place of the surface that is `nearest` to particle i lies behind the plane of dummy w, and that of
+    w behind the plane there: the wall bends away between the two, round a tube or an edge, and the plane goes on
+    through the grains. Where two walls cross, as a block's side and the floor below it, one lies before the other."""
     dx, dy, dz = over_surface(wall, box, s, i, w)
     ex, ey, ez = over_surface(wall, box, s, i, nearest)
-    along = (dx - ex) * wall.normal_x[w] + (dy - ey) * wall.normal_y[w] + (dz - ez) * wall.normal_z[w]
-    return along < -FLAT * p.spacing
+    dx, dy, dz = dx - ex, dy - ey, dz - ez  # from the place of w to the nearest
+    over = dx * wall.normal_x[w] + dy * wall.normal_y[w] + dz * wall.normal_z[w]
+    back = dx * wall.normal_x[nearest] + dy * wall.normal_y[nearest] + dz * wall.normal_z[nearest]
+    return over < -FLAT * p.spacing and back > FLAT * p.spacing
 
 
 @in_turn

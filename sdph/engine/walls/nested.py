@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 
 from sdph.schema import CaseError
 
@@ -21,40 +22,57 @@ class Part(NamedTuple):
 
 def parts(surface) -> list[Part]:
     """Parts of a surface (pyvista) of triangles without open edges."""
-    numbered = surface.connectivity("all")
-    number = np.asarray(numbered.cell_data["RegionId"])
-    own = [numbered.extract_cells(number == n).extract_surface(algorithm=None) for n in range(number.max() + 1)]
+    points, triangles = np.asarray(surface.points, float), surface.faces.reshape(-1, 4)[:, 1:]
+    links = scipy.sparse.coo_matrix((np.ones(triangles.size), (triangles.ravel(), np.repeat(triangles[:, 0], 3))),
+                                    shape=(len(points),) * 2)  # fmt: skip
+    number = scipy.sparse.csgraph.connected_components(links, directed=False)[1][triangles[:, 0]]
+    own = [points[triangles[number == n]] for n in np.unique(number)]  # (F, 3, 3) each
     outwards = [_volume(part) > 0.0 for part in own]
-    found = []
-    for n, part in enumerate(own):
-        around = sum(_holds(other, outwards[m], part) for m, other in enumerate(own) if m != n)
-        within = around % 2 == 1
-        found.append(Part(np.array(part.center), part.n_cells, within, outwards[n] == within))
-    return found
+    around = np.zeros(len(own), int)  # rooms that each lies in
+    for part, out in zip(own, outwards):
+        others = [n for n, other in enumerate(own) if other is not part and _may_hold(part, other)]
+        around[others] += _holds(part, out, [own[n] for n in others]) if others else 0
+    middles = [0.5 * (part.min(axis=(0, 1)) + part.max(axis=(0, 1))) for part in own]
+    within = around % 2 == 1
+    return [Part(*row) for row in zip(middles, map(len, own), within.tolist(), (np.array(outwards) == within).tolist())]
 
 
 def refuse_turned(surface, where: str) -> None:
     """CaseError where a part of the surface `where` is turned the wrong way."""
-    for part in sorted(parts(surface), key=lambda part: part.within):
+    found = sorted(parts(surface), key=lambda part: part.within)
+    for part in found:
+        place = ", ".join(f"{x:.4g}" for x in part.middle)
+        named = f"{where}: a part of {part.triangles} triangles about ({place}) m"
         if part.wrong and not part.within:
             raise CaseError(
-                f"{where} is inside out: its normals point into it; they must point out of it, so flip them"
+                f"{where if len(found) == 1 else named} is inside out: its normals point into it; they must point out "
+                "of it, so flip them"
             )
         if part.wrong:
-            place = ", ".join(f"{x:.4g}" for x in part.middle)
             raise CaseError(
-                f"{where}: a part of {part.triangles} triangles about ({place}) m lies within another, and its normals "
-                "point out of it: it is a body there, and they must point into it; flip those of that part"
+                f"{named} lies within another, and its normals point out of it: it is a body there, and they must "
+                "point into it; flip those of that part"
             )
 
 
-def _volume(part) -> float:
-    """Six times the volume [m3] that a part encloses, below 0 where its normals point inwards."""
-    a, b, c = np.moveaxis(np.asarray(part.points, float)[part.regular_faces], 1, 0)
+def _volume(corners) -> float:
+    """Six times the volume [m3] that triangles (F, 3, 3) enclose, below 0 where their normals point inwards."""
+    a, b, c = np.moveaxis(corners, 1, 0)
     return float(np.einsum("ij,ij->", a, np.cross(b, c)))
 
 
-def _holds(part, outwards: bool, other) -> bool:
-    """True where a part is around another one."""
-    off = other.extract_points([0], include_cells=False).compute_implicit_distance(part)["implicit_distance"][0]
-    return bool((off < 0.0) == outwards)
+def _may_hold(part, other) -> bool:
+    """True where the middle of a triangle of the other lies in the box around a part."""
+    places = other.mean(axis=1)
+    return bool(((places > part.min(axis=(0, 1))) & (places < part.max(axis=(0, 1)))).all(axis=1).any())
+
+
+def _holds(part, outwards: bool, others) -> list[bool]:
+    """Whether a part is around each of the others; where they touch, by the place that is furthest from its surface."""
+    import pyvista
+
+    surface = pyvista.PolyData.from_regular_faces(part.reshape(-1, 3), np.arange(3 * len(part)).reshape(-1, 3)).clean()
+    places = [other.mean(axis=1) for other in others]
+    off = pyvista.PolyData(np.concatenate(places)).compute_implicit_distance(surface)["implicit_distance"]
+    split = np.split(np.asarray(off), np.cumsum([len(own) for own in places])[:-1])
+    return [bool((own[np.abs(own).argmax()] < 0.0) == outwards) for own in split]

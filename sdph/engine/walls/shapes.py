@@ -208,8 +208,8 @@ class Mesh:
         mesh = read(self.path, self.key)
         if "triangle" not in mesh.cells_dict:
             raise CaseError(f"{self.key} = {self.path!r} holds no triangles; a closed surface is made of them")
-        faces = mesh.cells_dict["triangle"]
-        points = self.scale * np.asarray(mesh.points, float)
+        points, faces = self.scale * np.asarray(mesh.points, float), mesh.cells_dict["triangle"]
+        faces = faces[facets.sizes(points[faces]) > 0.0]
         surface = pyvista.PolyData(points, np.insert(faces, 0, 3, axis=1).ravel()).clean()
         if surface.n_open_edges:
             raise CaseError(f"{self.key} = {self.path!r} has {surface.n_open_edges} open edges; it must be closed")

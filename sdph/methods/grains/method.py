@@ -29,6 +29,9 @@ from sdph.methods.grains.bounds import Guard
 from sdph.methods.grains.conducting import Conducting
 from sdph.methods.grains.windowed import Windowed
 
+# rounds in which grains of a start are put where contact holds them: between walls that are near to each other there is
+# no such place; our choice
+STAND_OFF = 10
 SAME_DENSITY = 1e-6  # of a density: what is summed twice differs by round-off at most; our choice
 
 
@@ -250,9 +253,15 @@ class Stepper(Conducting, Windowed):
         ))  # fmt: skip
 
     def stand_off(self) -> None:
-        """Put the particles of a start where contact with walls holds them, before the gas knows of their places: some
-        stand nearer beside round bodies."""
-        if self.boundary and self.world.any(self._stop(self._opened()) > 0):
+        """Put the particles of a start, as fast as they are, where contact with walls holds them, before the gas knows
+        of their places: beside round bodies some stand nearer."""
+        for _ in range(STAND_OFF if self.boundary else 0):
+            speeds = [own.copy() for own in (self.own.u, self.own.v, self.own.w)]
+            touched = self._stop(self._opened())
+            for own, given in zip((self.own.u, self.own.v, self.own.w), speeds):
+                own[:] = given
+            if not self.world.any(touched > 0):
+                return
             self.neighbours.built = ()
             self.prepare()
 

@@ -9,7 +9,7 @@ from sdph.methods.liquids import filling
 
 def rows(case) -> list[dict]:
     """A row for the tank without its outlet pipe, and one for each pool of the shape tank: volume, mass, and how high
-    its surface lies along gravity's axis; by the metre in two dimensions."""
+    its surface lies, counted upwards; by the metre in two dimensions."""
     if "tank" not in case.effects:
         return []
     own = case.only("liquid") if len(case.matters) > 1 else case
@@ -24,4 +24,4 @@ def rows(case) -> list[dict]:
         found.append((f"pools.{name}", held, phase.density * held, float(level)))
         below = pool.fill
     volume, mass = ("volume [m3]", "mass [kg]") if spatial else ("area [m2]", "mass [kg/m]")
-    return [dict(zip(("of", volume, mass, "surface at [m]"), row)) for row in found]
+    return [dict(zip(("of", volume, mass, "surface, upwards [m]"), row)) for row in found]

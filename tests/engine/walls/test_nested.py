@@ -38,14 +38,42 @@ def test_bodies_in_a_tank_and_rooms_in_bodies_are_known(tmp_path, given):
 
 @pytest.mark.parametrize(("given", "said"), [
     ([(*TANK, IN)], "is inside out"),
+    ([(*TANK, IN), (*BODY, OUT)], r"about \(.*\) m is inside out"),
     ([(*TANK, OUT), (*BODY, OUT)], r"320 triangles about \(0.2, .*\) m lies within another"),
     ([(*TANK, OUT), (*BODY, IN), (*BESIDE, OUT)], r"about \(-0.6, .*\) m lies within another"),
-    ([(*TANK, IN), (*BODY, OUT)], "is inside out"),
 ])  # fmt: skip
 def test_a_part_that_is_turned_is_refused(tmp_path, given, said):
     with pytest.raises(CaseError, match=said) as refused:
         balls(tmp_path / "tank.stl", *given).triangles  # noqa: B018 - read now
     assert "\n" not in str(refused.value)
+
+
+BLOCK = pyvista.Box((0.3, 0.5, 0.3, 0.5, 0.0, 0.3)).triangulate()  # on the floor of a tank
+WALL_TO_WALL = pyvista.Box((0.3, 0.5, 0.0, 1.0, 0.4, 0.5)).triangulate()
+
+
+@pytest.mark.parametrize("body", [BLOCK, WALL_TO_WALL])
+def test_a_body_that_touches_the_walls_of_its_tank_is_one(tmp_path, body):
+    room = pyvista.Box((0.0, 1.0, 0.0, 1.0, 0.0, 1.0)).triangulate()
+    for turned in (True, False):
+        faces = body.regular_faces[:, ::-1] if turned else body.regular_faces
+        points = np.concatenate([room.points, body.points])
+        triangles = np.concatenate([room.regular_faces, faces + room.n_points])
+        path = tmp_path / f"{turned}.stl"
+        meshio.write_points_cells(path, points, [("triangle", triangles)])
+        if turned:
+            assert shapes.Mesh(str(path)).volume == pytest.approx(1.0 - body.volume, rel=1e-5)
+        else:
+            with pytest.raises(CaseError, match="lies within another"):
+                shapes.Mesh(str(path)).triangles  # noqa: B018
+
+
+def test_triangles_without_a_size_are_no_part(tmp_path):
+    path, ball = tmp_path / "tank.stl", pyvista.Icosphere(nsub=2)
+    points = np.concatenate([ball.points, [(2.0, 0.0, 0.0), (3.0, 0.0, 0.0), (4.0, 0.0, 0.0)]])
+    triangles = np.concatenate([ball.regular_faces, [[ball.n_points, ball.n_points + 1, ball.n_points + 2]]])
+    meshio.write_points_cells(path, points, [("triangle", triangles)])
+    assert shapes.Mesh(str(path)).volume == pytest.approx(ball.volume, rel=1e-5)
 
 
 def test_parts_are_told_in_any_order(tmp_path):

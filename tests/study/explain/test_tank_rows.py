@@ -21,7 +21,7 @@ def test_a_sphere_filled_to_a_part():
     assert tank["volume [m3]"] == pytest.approx(4.0 / 3.0 * math.pi * radius**3)
     assert pool["volume [m3]"] == pytest.approx(0.15 * tank["volume [m3]"], rel=1e-3)
     assert pool["mass [kg]"] == pytest.approx(case.liquid.density * pool["volume [m3]"])
-    high = pool["surface at [m]"] - middle + radius
+    high = pool["surface, upwards [m]"] - middle + radius
     cap = math.pi * high**2 * (3.0 * radius - high) / 3.0
     assert cap == pytest.approx(pool["volume [m3]"], rel=0.01)
 
