@@ -150,7 +150,7 @@ WIND = {name: part for name, part in table()["boundaries"].items() if name != "o
         ({"effects": [n for n in EFFECTS if n != "gravity"]}, "gravity in domain, none in effects"),
         ({"gas": {"equation_of_state": "ideal"}}, "equation_of_state = 'ideal'; the droplet reference has: constant"),
         ({"gas": {"turbulence": {"model": "WALE"}}}, "the droplet reference is laminar"),
-        ({"drag": {"filter": "igci"}}, "drag.filter"),
+        ({"drag": {"filter": "igci"}, "nozzles": {"top": TOP | {"diameter_std_mm": 0.0}}}, "drag.filter"),
         (
             {"nozzles": {"top": {k: v for k, v in TOP.items() if k != "rate_kg_s"} | {"rates": [[0, 1], [1, 2]]}}},
             "nozzles.top.rates; the droplet reference has one rate",
