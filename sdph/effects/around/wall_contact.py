@@ -102,7 +102,7 @@ def contact(p, wall, box, s, gravity, felt):
     """
     ix = iy = iz = work = way = lift = touched = 0.0
     for i in prange(len(s.x)):
-        before, nearest = touched, -1
+        before, nearest, sought = touched, -1, True
         if len(s.entering) > 0 and s.entering[i] > 0:
             continue
         for k in range(wall.before[i], wall.every[i]):
@@ -114,8 +114,8 @@ def contact(p, wall, box, s, gravity, felt):
             inside = p.contact - (height - wall.depth[w])
             if inside <= 0.0 or aside > p.spacing * p.spacing or nx * nx + ny * ny + nz * nz == 0.0:
                 continue
-            if nearest < 0:
-                nearest = beside(wall, box, s, i)
+            if sought:
+                nearest, sought = beside(wall, box, s, i), False
             if passed(p, wall, box, s, i, w, nearest):
                 continue
             s.x[i] += inside * nx

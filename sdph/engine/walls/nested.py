@@ -68,7 +68,7 @@ def _may_hold(part, other) -> bool:
 
 
 def _holds(part, outwards: bool, others) -> list[bool]:
-    """Whether a part is around each of the others; where they touch, by the place that is furthest from its surface."""
+    """True for each of the others that a part is around; where they touch, by the place furthest from its surface."""
     import pyvista
 
     surface = pyvista.PolyData.from_regular_faces(part.reshape(-1, 3), np.arange(3 * len(part)).reshape(-1, 3)).clean()
