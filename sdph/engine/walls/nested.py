@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
+from sdph.engine.walls import facets
 from sdph.schema import CaseError
 
 
@@ -27,7 +28,7 @@ def parts(surface) -> list[Part]:
                                     shape=(len(points),) * 2)  # fmt: skip
     number = scipy.sparse.csgraph.connected_components(links, directed=False)[1][triangles[:, 0]]
     own = [points[triangles[number == n]] for n in np.unique(number)]  # (F, 3, 3) each
-    outwards = [_volume(part) > 0.0 for part in own]
+    outwards = [facets.enclosed(part) < 0.0 for part in own]
     around = np.zeros(len(own), int)  # rooms that each lies in
     for part, out in zip(own, outwards):
         others = [n for n, other in enumerate(own) if other is not part and _may_hold(part, other)]
@@ -53,12 +54,6 @@ def refuse_turned(surface, where: str) -> None:
                 f"{named} lies within another, and its normals point out of it: it is a body there, and they must "
                 "point into it; flip those of that part"
             )
-
-
-def _volume(corners) -> float:
-    """Six times the volume [m3] that triangles (F, 3, 3) enclose, below 0 where their normals point inwards."""
-    a, b, c = np.moveaxis(corners, 1, 0)
-    return float(np.einsum("ij,ij->", a, np.cross(b, c)))
 
 
 def _may_hold(part, other) -> bool:
