@@ -8,6 +8,7 @@ import numpy as np
 from sdph.laws.compiled import serial
 
 ITERATIONS = 500  # of a solver; our choice: far above what any case of ours needed
+NOTHING = float(np.finfo(float).tiny / np.finfo(float).eps)  # a field below this has residuals without digits
 
 
 def not_converged(name: str, time: float, residual: float) -> str:
@@ -50,8 +51,8 @@ def worst(nodes, r, scale):
 
 @serial
 def iterate(nodes, conductance, diagonal, rho, first, x, r, z, p, q):
-    """One step of preconditioned conjugate gradients on x (S,), z (S,) being about A^-1 r, 0 on nodes that are given;
-    returns r.z."""
+    """One step of preconditioned conjugate gradients on x (S,), z (S,) being about A^-1 r, times any number, 0 on
+    nodes that are given; returns r.z."""
     rows, run, steps = nodes
     new, curvature = 0.0, 0.0
     for row in rows:
@@ -113,17 +114,18 @@ def solve_implicit(wide, active, conductance, diagonal, source, x, tolerance):
     conductance (d, S) and diagonal (S,) in the same unit, source (S,) in that times x. Returns what every face let
     through upwards, K (x*_lower - x*_upper), (d, S), and the largest residual over D relative to the largest |x|.
     The last act writes x = (source + sum K (x*_nb - x*))/D, x* being the iterate: what neighbours give each other
-    then cancels to round-off whatever the tolerance, and so does what D x exchanges with particles.
+    then cancels to round-off whatever the tolerance, and so does what D x exchanges with particles. Products of
+    residuals are taken over the largest |x|: a field that has died away to 1e-160 would have squares that are 0.
     """
     inverse, r, z, p, q = np.zeros_like(x), np.zeros_like(x), np.zeros_like(x), np.zeros_like(x), np.zeros_like(x)
     through, scale, rho = np.zeros_like(conductance), np.where(active, diagonal, np.inf), 0.0
-    largest = _begin(wide, active, conductance, diagonal, source, x, inverse, r)
+    largest = _begin(wide, active, conductance, diagonal, source, x, inverse, r) + NOTHING
     error = worst(wide, r, scale)
     for iteration in range(ITERATIONS):
         if not error > tolerance * largest:
             break
-        z[:] = inverse * r
+        z[:] = inverse * r / largest
         rho = iterate(wide, conductance, diagonal, rho, iteration == 0, x, r, z, p, q)
         error = worst(wide, r, scale)
     _settle(wide, active, conductance, diagonal, source, x, through)
-    return through, error / largest if largest > 0.0 else 0.0
+    return through, error / largest

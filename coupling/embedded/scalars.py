@@ -44,6 +44,8 @@ class Scalars:
         """`flow` with its new vapour and temperature, its Courant number and the residuals."""
         box, grid = self.box, self.box.grid
         carried = flow.mass - window.dt * window.mass  # all but what is new
+        if not np.isfinite(carried[grid.cells]).all():
+            raise Unfinished("the flow of the gas is not finite; shorten the window")
         if not carried[grid.cells].min() > 0.0:
             raise Unfinished("what one window gives to the gas fills a cell all by itself; shorten the window")
         parts, courant = substeps(grid.inner, flow.flux, old.mass, carried, window.dt)

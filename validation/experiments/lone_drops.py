@@ -66,7 +66,7 @@ def given(drop: Drop, law: str, longer: float = 1.0) -> list[str]:
         f"run.output_interval_s={end!r}",
         f"gas={{{gas}}}",
         f"grains={{fluid={drop.liquid!r}, diameter_mm={1e3 * drop.diameter!r}}}",
-        "vapour={}",
+        f"vapour={{mass_fraction={drop.humidity!r}}}",
         f"evaporation={{law={law!r}}}",
         f"particles.droplet.temperature_K={drop.cold!r}",
         *(_stream(drop) if drop.speed else ()),
@@ -79,7 +79,7 @@ def _at(pressure: float) -> dict[str, float]:
 
 def _stream(drop: Drop) -> list[str]:
     """The gas blows past: it comes in from the left."""
-    state = f"temperature_K={drop.hot!r}, vapour_mass_fraction={drop.humidity!r}"
+    state = f"temperature_K={drop.hot!r}"
     return [
         "coupling.courant=1e6",  # the stream is even: no window has to follow it
         "boundaries.walls.kind='slip_wall'",

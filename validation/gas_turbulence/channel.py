@@ -41,9 +41,10 @@ class Profiles(NamedTuple):
 
 
 def profiles(model: str, folder: Path, steps: int = STEPS, long: float = LONG) -> Profiles:
-    """A model's channel by both solvers."""
+    """A model's channel by both solvers, from gas that moves as it comes in."""
     own = stock.case((long, HALF), CELL, BOUNDARIES, {"model": model} | TURBULENCE, VISCOSITY)
-    with stock.started(own, folder) as gas:
+    count = round(long / CELL) * round(HALF / CELL)
+    with stock.started(own, folder, {"U": np.tile([SPEED, 0.0, 0.0], (count, 1))}) as gas:
         gas.start(None, ())
         for _ in range(steps - 1):
             before = gas.advance(STEP, {})
